@@ -1,0 +1,72 @@
+// Scene → screen triangles: transform, cull, clip, project, snap, shade. The only place where floats become fixed
+// point.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "raster/screen_triangle.h"
+#include "scene/scene.h"
+
+namespace edgewise {
+
+enum class Cull { none, back, front, both };
+std::span<const Cull> cull_modes();
+std::string_view name_of(Cull cull);  // "none", "back", "front", "both"
+
+enum class Payload {
+  colour,  // 0xAABBGGRR
+  id       // index of the source triangle in submission order; the pieces of a clipped triangle share one
+};
+
+struct FrontendOptions {
+  int width = 1920, height = 1080;  // px, 1 … contract::kMaxImageSide
+  Cull cull = Cull::back;           // front is clockwise on the y-down screen
+  bool shade = true;                // scenes only: colour times max(n·l, 0.15)
+  Payload payload = Payload::colour;
+  int threads = 1;
+};
+
+// Where each triangle went. `triangles` = whole_mesh + not_finite + outside + not_in_front + (those that went on);
+// those that went on become `pieces`, and pieces = culled + zero_area + emitted.
+struct FrontendStats {
+  std::uint64_t meshes = 0;          // instances submitted
+  std::uint64_t meshes_culled = 0;   // instances outside the frustum as a whole
+  std::uint64_t triangles = 0;       // submitted
+  std::uint64_t whole_mesh = 0;      // dropped with their mesh
+  std::uint64_t not_finite = 0;      // dropped: a vertex is NaN or infinite, or became so
+  std::uint64_t outside = 0;         // dropped: wholly beyond one side of the view volume
+  std::uint64_t not_in_front = 0;    // dropped: w ≤ 0 is left after clipping
+  std::uint64_t clipped_near = 0;    // cut by the near plane (not dropped)
+  std::uint64_t clipped_far = 0;     // cut by the far plane
+  std::uint64_t clipped_guard = 0;   // cut by the guard band
+  std::uint64_t pieces = 0;          // triangles after clipping
+  std::uint64_t culled = 0;          // dropped for their facing
+  std::uint64_t zero_area = 0;       // dropped: no area after snapping
+  std::uint64_t emitted = 0;
+
+  FrontendStats& operator+=(const FrontendStats& other);
+};
+
+// Keeps its memory between frames; one object must not work on two threads at once.
+class Frontend {
+ public:
+  Frontend();
+  ~Frontend();
+  Frontend(Frontend&&) noexcept;
+  Frontend& operator=(Frontend&&) noexcept;
+
+  // The visible triangles in submission order, valid until the next call. Throws std::invalid_argument for a camera
+  // or a size out of range, or a triangle that names a vertex its mesh lacks.
+  std::span<const ScreenTriangle> run(const Drawable& drawable, const FrontendOptions& options);
+  const FrontendStats& stats() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace edgewise

@@ -1,0 +1,54 @@
+// The interface that all backends share, and their registry.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "raster/framebuffer.h"
+#include "raster/screen_triangle.h"
+#include "raster/simd_target.h"
+
+namespace edgewise {
+
+inline constexpr int kMaxThreads = 256;
+
+// How to draw. No choice here changes a bit of the picture.
+struct Execution {
+  int threads = 1;                        // 1 … kMaxThreads
+  int tile_size = 64;                     // px; 16, 32 or 64; only tiled backends look at it
+  SimdTarget target = SimdTarget::best;
+};
+
+// A backend keeps its scratch memory between frames, so one object must not draw on two threads at once; two objects
+// may.
+class Backend {
+ public:
+  virtual ~Backend() = default;
+
+  // Draws a whole frame: every pixel of `frame` is written, with `background` and contract::kDepthClear where no
+  // triangle wins. Throws std::invalid_argument for an impossible frame or execution (before a pixel is touched),
+  // std::bad_alloc for lack of memory. Thousands of frames into the same view allocate only in the first.
+  void draw(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
+            const Execution& execution);
+
+ private:
+  // `execution.target` is resolved, all arguments are checked.
+  virtual void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
+                            const Execution& execution) = 0;
+};
+
+struct BackendInfo {
+  std::string_view name;  // the one key in command line, tests, results and charts
+  std::string_view idea;  // one line
+  std::unique_ptr<Backend> (*make)();
+};
+
+// All backends, the reference first.
+std::span<const BackendInfo> backends();
+
+// Throws std::invalid_argument, with the nearest known name, for an unknown one.
+const BackendInfo& find_backend(std::string_view name);
+
+}  // namespace edgewise

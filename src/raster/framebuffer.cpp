@@ -1,0 +1,34 @@
+#include "raster/framebuffer.h"
+
+#include <stdexcept>
+#include <string>
+
+#include "raster/contract.h"
+
+namespace edgewise {
+
+namespace {
+constexpr int kPixelsPerLine = 16;  // 64 bytes of 32-bit pixels
+
+int checked_side(int side) {
+  if (side < 1 || side > contract::kMaxImageSide)
+    throw std::invalid_argument("image side " + std::to_string(side) + " is outside 1 to " +
+                                std::to_string(contract::kMaxImageSide));
+  return side;
+}
+}  // namespace
+
+Framebuffer::Framebuffer(int width, int height)
+    : width_(checked_side(width)),
+      height_(checked_side(height)),
+      stride_((width + kPixelsPerLine - 1) / kPixelsPerLine * kPixelsPerLine),
+      depth_(allocate()),
+      payload_(allocate()) {}
+
+Framebuffer::Plane Framebuffer::allocate() const {
+  const auto pixels = static_cast<std::size_t>(stride_) * static_cast<std::size_t>(height_);
+  return Plane(static_cast<std::uint32_t*>(
+      ::operator new[](pixels * sizeof(std::uint32_t), std::align_val_t{kAlignment})));
+}
+
+}  // namespace edgewise

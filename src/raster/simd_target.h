@@ -1,0 +1,20 @@
+// The SIMD targets that kernels are compiled for, chosen at run time.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace edgewise {
+
+enum class SimdTarget { scalar, sse4, avx2, avx512, best };
+
+// The targets this machine can run, slowest first; `best` stands for the last of them.
+std::span<const SimdTarget> supported_targets();
+
+// "scalar", "sse4", "avx2", "avx512" or "best".
+std::string_view name_of(SimdTarget target);
+
+// `best` becomes the last supported target. Throws std::invalid_argument for one that this machine cannot run.
+SimdTarget resolve(SimdTarget target);
+
+}  // namespace edgewise

@@ -1,0 +1,36 @@
+// The built-in scenes. All are deterministic: the same name, size, time and scale give the same bits everywhere.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "scene/scene.h"
+
+namespace edgewise {
+
+struct SceneRequest {
+  int width = 1920, height = 1080;  // px
+  float time = 0.0f;                // s, for scenes that turn
+  double scale = 1.0;               // streams only: factor on the number of triangles, > 0
+};
+
+struct SceneInfo {
+  std::string_view name;
+  std::string_view idea;  // one line
+  bool stream;            // true: a TriangleStream, to be drawn without culling or shading
+  Drawable (*make)(const SceneRequest&);
+};
+
+std::span<const SceneInfo> builtin_scenes();
+
+// Throws std::invalid_argument, with the nearest known name, for an unknown one.
+const SceneInfo& find_scene(std::string_view name);
+
+// A stream of `count` triangles of `area_px` square pixels each, at random places over the image, overlapping at its
+// borders, at random depths. `aspect` is length over width of a sliver; 0 draws from all shapes.
+TriangleStream random_stream(const SceneRequest& request, std::size_t count, double area_px, double aspect,
+                             std::uint64_t seed);
+
+}  // namespace edgewise

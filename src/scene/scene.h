@@ -1,0 +1,74 @@
+// What can be drawn: meshes seen by a camera under a light, or a stream of triangles already on the screen.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace edgewise {
+
+// World space is right-handed with y up: x right, z towards a camera of yaw 0 and pitch 0, which looks along -z.
+// Colours are 0xAABBGGRR (red in the lowest byte). Angles are radians, lengths are world units.
+
+constexpr std::uint32_t rgb(std::uint32_t r, std::uint32_t g, std::uint32_t b) {
+  return 0xFF000000u | b << 16 | g << 8 | r;
+}
+
+struct Mesh {
+  std::vector<glm::vec3> positions;
+  std::vector<glm::uvec3> triangles;   // clockwise seen from outside is front
+  std::vector<std::uint32_t> colours;  // one a triangle
+};
+
+// A mesh in the world: scaled, then rotated about an axis through its origin, then moved.
+struct Instance {
+  std::size_t mesh = 0;  // index into Scene::meshes
+  glm::vec3 scale{1.0f};
+  glm::vec3 axis{0.0f, 1.0f, 0.0f};  // need not be normalised
+  float angle = 0.0f;
+  glm::vec3 translation{0.0f};
+};
+
+struct Camera {
+  glm::vec3 position{0.0f};
+  float yaw = 0.0f;    // about +y; positive turns left
+  float pitch = 0.0f;  // positive looks up
+  float fov_y = 1.0f;  // vertical field of view, in (0, pi)
+  float near_z = 0.1f;  // distances along the view direction, 0 < near_z < far_z
+  float far_z = 100.0f;
+
+  // Turns the camera towards a point; one at the camera's own position changes nothing.
+  void look_at(glm::vec3 target);
+};
+
+struct Scene {
+  std::vector<Mesh> meshes;
+  std::vector<Instance> instances;
+  Camera camera;
+  glm::vec3 to_light{0.3f, 0.8f, 0.5f};  // direction towards the light; need not be normalised
+};
+
+// One triangle of a stream: x and y in pixels (y down), z in [0, 1], smaller is nearer.
+struct StreamTriangle {
+  glm::vec3 vertex[3];
+  std::uint32_t colour;
+};
+static_assert(sizeof(StreamTriangle) == 40);
+
+struct TriangleStream {
+  int width = 0, height = 0;  // px, the image it was made for
+  std::vector<StreamTriangle> triangles;
+};
+
+using Drawable = std::variant<Scene, TriangleStream>;
+
+// Moves the scene's meshes together so that their bounding box is centred on the origin and its longest side is 2.
+// Vertices that are not finite don't count.
+void fit(Scene& scene);
+
+// The same for one instance's placement in the world.
+glm::mat4 model_matrix(const Instance& instance);
+
+}  // namespace edgewise
