@@ -1,0 +1,16 @@
+// The brute-force oracle: what the contract says, computed slowly and apart from every backend's code.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "raster/framebuffer.h"
+#include "raster/screen_triangle.h"
+
+namespace edgewise::lab {
+
+// Draws by exact 128-bit arithmetic, each pixel against each triangle. Shares no arithmetic with raster/contract.h.
+// Cost: pixels times triangles; meant for images of some 100 px a side.
+void draw_oracle(std::span<const ScreenTriangle> triangles, Framebuffer& frame, std::uint32_t background);
+
+}  // namespace edgewise::lab
