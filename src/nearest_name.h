@@ -8,6 +8,7 @@
 namespace edgewise {
 
 // "unknown KIND 'NAME'; did you mean 'NEAREST'? (known: …)", the nearest by edit distance.
-std::string unknown_name(std::string_view kind, std::string_view name, std::span<const std::string_view> known);
+std::string unknown_name(std::string_view kind, std::string_view name,
+                         std::span<const std::string_view> known);
 
 }  // namespace edgewise

@@ -1,5 +1,5 @@
-// Scene → screen triangles: transform, cull, clip, project, snap, shade. The only place where floats become fixed
-// point.
+// Scene → screen triangles: transform, cull, clip, project, snap, shade. The only place where floats become
+// fixed point.
 #pragma once
 
 #include <cstdint>
@@ -30,22 +30,22 @@ struct FrontendOptions {
   int threads = 1;
 };
 
-// Where each triangle went. `triangles` = whole_mesh + not_finite + outside + not_in_front + (those that went on);
-// those that went on become `pieces`, and pieces = culled + zero_area + emitted.
+// Where each triangle went. `triangles` = whole_mesh + not_finite + outside + not_in_front + (those that went
+// on); those that went on become `pieces`, and pieces = culled + zero_area + emitted.
 struct FrontendStats {
-  std::uint64_t meshes = 0;          // instances submitted
-  std::uint64_t meshes_culled = 0;   // instances outside the frustum as a whole
-  std::uint64_t triangles = 0;       // submitted
-  std::uint64_t whole_mesh = 0;      // dropped with their mesh
-  std::uint64_t not_finite = 0;      // dropped: a vertex is NaN or infinite, or became so
-  std::uint64_t outside = 0;         // dropped: wholly beyond one side of the view volume
-  std::uint64_t not_in_front = 0;    // dropped: w ≤ 0 is left after clipping
-  std::uint64_t clipped_near = 0;    // cut by the near plane (not dropped)
-  std::uint64_t clipped_far = 0;     // cut by the far plane
-  std::uint64_t clipped_guard = 0;   // cut by the guard band
-  std::uint64_t pieces = 0;          // triangles after clipping
-  std::uint64_t culled = 0;          // dropped for their facing
-  std::uint64_t zero_area = 0;       // dropped: no area after snapping
+  std::uint64_t meshes = 0;         // instances submitted
+  std::uint64_t meshes_culled = 0;  // instances outside the frustum as a whole
+  std::uint64_t triangles = 0;      // submitted
+  std::uint64_t whole_mesh = 0;     // dropped with their mesh
+  std::uint64_t not_finite = 0;     // dropped: a vertex is NaN or infinite, or became so
+  std::uint64_t outside = 0;        // dropped: wholly beyond one side of the view volume
+  std::uint64_t not_in_front = 0;   // dropped: w ≤ 0 is left after clipping
+  std::uint64_t clipped_near = 0;   // cut by the near plane (not dropped)
+  std::uint64_t clipped_far = 0;    // cut by the far plane
+  std::uint64_t clipped_guard = 0;  // cut by the guard band
+  std::uint64_t pieces = 0;         // triangles after clipping
+  std::uint64_t culled = 0;         // dropped for their facing
+  std::uint64_t zero_area = 0;      // dropped: no area after snapping
   std::uint64_t emitted = 0;
 
   FrontendStats& operator+=(const FrontendStats& other);
@@ -59,8 +59,8 @@ class Frontend {
   Frontend(Frontend&&) noexcept;
   Frontend& operator=(Frontend&&) noexcept;
 
-  // The visible triangles in submission order, valid until the next call. Throws std::invalid_argument for a camera
-  // or a size out of range, or a triangle that names a vertex its mesh lacks.
+  // The visible triangles in submission order, valid until the next call. Throws std::invalid_argument for a
+  // camera or a size out of range, or a triangle that names a vertex its mesh lacks.
   std::span<const ScreenTriangle> run(const Drawable& drawable, const FrontendOptions& options);
   const FrontendStats& stats() const;
 

@@ -13,30 +13,32 @@
 namespace edgewise {
 
 inline constexpr int kMaxThreads = 256;
+inline constexpr std::size_t kMaxTriangles = std::size_t{1} << 30;  // a frame
 
 // How to draw. No choice here changes a bit of the picture.
 struct Execution {
-  int threads = 1;                        // 1 … kMaxThreads
-  int tile_size = 64;                     // px; 16, 32 or 64; only tiled backends look at it
+  int threads = 1;     // 1 … kMaxThreads
+  int tile_size = 64;  // px; 16, 32 or 64; only tiled backends look at it
   SimdTarget target = SimdTarget::best;
 };
 
-// A backend keeps its scratch memory between frames, so one object must not draw on two threads at once; two objects
-// may.
+// A backend keeps its scratch memory between frames, so one object must not draw on two threads at once; two
+// objects may.
 class Backend {
  public:
   virtual ~Backend() = default;
 
-  // Draws a whole frame: every pixel of `frame` is written, with `background` and contract::kDepthClear where no
-  // triangle wins. Throws std::invalid_argument for an impossible frame or execution (before a pixel is touched),
-  // std::bad_alloc for lack of memory. Thousands of frames into the same view allocate only in the first.
+  // Draws a whole frame: every pixel of `frame` is written, with `background` and contract::kDepthClear where
+  // no triangle wins. Throws std::invalid_argument for an impossible frame or execution (before a pixel is
+  // touched), std::bad_alloc for lack of memory. Thousands of frames into the same view allocate only in the
+  // first.
   void draw(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
             const Execution& execution);
 
  private:
   // `execution.target` is resolved, all arguments are checked.
-  virtual void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
-                            const Execution& execution) = 0;
+  virtual void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame,
+                            std::uint32_t background, const Execution& execution) = 0;
 };
 
 struct BackendInfo {

@@ -1,10 +1,12 @@
 // The numeric contract. Every rule stands here once, with its derivation; other files cite it by number.
 //
-// The idea: everything a backend computes is integer arithmetic, which stays associative even when it wraps, so a
-// backend may step, tile, vectorise or thread as it likes and still write the same bits. Floats end in the front end.
+// The idea: everything a backend computes is integer arithmetic, which stays associative even when it wraps,
+// so a backend may step, tile, vectorise or thread as it likes and still write the same bits. Floats end in
+// the front end.
 //
 // Sources: fill rule, snapping and sample positions follow the D3D11.3 functional specification, section 3.4
-// (rasterization rules); edge functions are those of Pineda, "A Parallel Algorithm for Polygon Rasterization", 1988.
+// (rasterization rules); edge functions are those of Pineda, "A Parallel Algorithm for Polygon
+// Rasterization", 1988.
 #pragma once
 
 #include <algorithm>
@@ -19,8 +21,8 @@ __extension__ using int128 = __int128;
 // Rule 1, screen space. y points down, pixel (0, 0) is top left, and a pixel is sampled at its centre only:
 // pixel p has its sample at sub-unit 256 p + 128.
 //
-// Rule 2, snapping. x and y are rounded half to even to 1/256 px before anything looks at them. Facing, coverage
-// and depth see snapped positions only.
+// Rule 2, snapping. x and y are rounded half to even to 1/256 px before anything looks at them. Facing,
+// coverage and depth see snapped positions only.
 inline constexpr int kSubBits = 8;
 inline constexpr std::int32_t kSub = 1 << kSubBits;
 inline constexpr std::int32_t kHalf = kSub / 2;
@@ -29,17 +31,19 @@ constexpr std::int32_t sample_sub(std::int32_t pixel) {
   return pixel * kSub + kHalf;
 }
 
-// Rule 3, guard band. |x|, |y| <= 2^22 sub-units (16384 px). The front end clips what lies beyond, so a difference
-// of coordinates fits 24 signed bits, and the largest image is one whose every sample lies inside the band.
+// Rule 3, guard band. |x|, |y| <= 2^22 sub-units (16384 px). The front end clips what lies beyond, so a
+// difference of coordinates fits 24 signed bits, and the largest image is one whose every sample lies inside
+// the band.
 inline constexpr std::int32_t kGuardSub = 1 << 22;
 inline constexpr std::int32_t kMaxImageSide = kGuardSub / kSub;
 static_assert(kMaxImageSide == 16384 && sample_sub(kMaxImageSide - 1) < kGuardSub);
 
 // Rule 4, edge function and fill rule. For the edge from p to q of a triangle of positive area
 //   E(s) = a (s.x - p.x) + b (s.y - p.y),  a = p.y - q.y,  b = q.x - p.x
-// is >= 0 on the inner side. A sample exactly on an edge belongs to the triangle only if that edge is a left edge
-// (a > 0) or a top edge (a = 0, b > 0); on any other edge a bias of -1 turns E = 0 into "outside". So the inside test
-// is E + bias >= 0 for all three edges. Width: |a|, |b| <= 2^23 and |s - p| <= 2^23, hence |E| <= 2^47.
+// is >= 0 on the inner side. A sample exactly on an edge belongs to the triangle only if that edge is a left
+// edge (a > 0) or a top edge (a = 0, b > 0); on any other edge a bias of -1 turns E = 0 into "outside". So
+// the inside test is E + bias >= 0 for all three edges. Width: |a|, |b| <= 2^23 and |s - p| <= 2^23, hence
+// |E| <= 2^47.
 struct Edge {
   std::int32_t a, b;
   std::int64_t c;  // bias - a p.x - b p.y
@@ -57,22 +61,23 @@ constexpr bool is_top_left(std::int32_t a, std::int32_t b) {
 }
 
 // Rule 5, tile shortcut. Steps from sample to sample are multiples of 256, and floor((E + 256 k) / 256) =
-// floor(E / 256) + k: the biased value may be shifted right by 8 once and stepped by a and b afterwards, and its sign
-// still decides as the full value does. Bias first, then shift. In a tile of up to 64 x 64 pixels that the edge
-// crosses, the shifted value stays within 64 (|a| + |b|) <= 2^30 of zero: int32 lanes suffice.
+// floor(E / 256) + k: the biased value may be shifted right by 8 once and stepped by a and b afterwards, and
+// its sign still decides as the full value does. Bias first, then shift. In a tile of up to 64 x 64 pixels
+// that the edge crosses, the shifted value stays within 64 (|a| + |b|) <= 2^30 of zero: int32 lanes suffice.
 inline constexpr int kMaxTile = 64;
 static_assert(std::int64_t{kMaxTile} * 2 * (2 * kGuardSub) <= std::int64_t{1} << 30);
 
-// Rule 6, depth. Vertices carry z in [kDepthHead, kDepthHead + kDepthRange]; the front end maps depth 0 and 1 to the
-// ends, half to even. Over a triangle depth is the plane through the vertices, in fixed point with wrap-around:
+// Rule 6, depth. Vertices carry z in [kDepthHead, kDepthHead + kDepthRange]; the front end maps depth 0 and 1
+// to the ends, half to even. Over a triangle depth is the plane through the vertices, in fixed point with
+// wrap-around:
 //   gx, gy   = floor(2^16 dz/dpx), floor(2^16 dz/dpy)           per pixel step, 16 fraction bits, mod 2^64
 //   base     = floor(plane at the first sample of the pixel's 64 x 64 cell + 1/2)           mod 2^32
 //   z(x, y)  = base + (x mod 64) zx + (y mod 64) zy,  zx = floor(gx / 2^16 + 1/2)           mod 2^32
-// The plane is anchored at the topmost, then leftmost vertex, so rotating or flipping the vertices changes no bit.
-// Error at a sample inside the triangle: gx, gy are off by less than 2^-16 each over at most 2^15 px, base rounds by
-// 1/2, and 63 steps on both axes are off by at most 1/2 + 2^-16 each: under 2 (1/2) + 1/2 + 126 (1/2 + 2^-16) < 65.
-// A head-room of 128 units at both ends of the 31 bits therefore keeps every drawn depth from wrapping, and keeps it
-// below kDepthClear, so the background never wins.
+// The plane is anchored at the topmost, then leftmost vertex, so rotating or flipping the vertices changes no
+// bit. Error at a sample inside the triangle: gx, gy are off by less than 2^-16 each over at most 2^15 px,
+// base rounds by 1/2, and 63 steps on both axes are off by at most 1/2 + 2^-16 each: under 2 (1/2) + 1/2 +
+// 126 (1/2 + 2^-16) < 65. A head-room of 128 units at both ends of the 31 bits therefore keeps every drawn
+// depth from wrapping, and keeps it below kDepthClear, so the background never wins.
 inline constexpr int kDepthCell = 64;
 inline constexpr std::uint32_t kDepthHead = 128;
 inline constexpr std::uint32_t kDepthClear = 0x7FFFFFFF;
@@ -81,9 +86,9 @@ inline constexpr std::uint32_t kDepthError = 65;
 static_assert(kDepthHead > kDepthError && kDepthCell == kMaxTile);
 
 struct DepthPlane {
-  std::uint64_t gx, gy;   // 48.16 fixed point per pixel, wrapped
-  std::uint64_t origin;   // 2^24 (plane at pixel (0, 0) + 1/2), wrapped
-  std::uint32_t zx, zy;   // gx, gy rounded to whole units
+  std::uint64_t gx, gy;  // 48.16 fixed point per pixel, wrapped
+  std::uint64_t origin;  // 2^24 (plane at pixel (0, 0) + 1/2), wrapped
+  std::uint32_t zx, zy;  // gx, gy rounded to whole units
 
   // Depth at the first pixel of a cell; both coordinates are multiples of kDepthCell.
   constexpr std::uint32_t base(std::int32_t cell_px, std::int32_t cell_py) const {
@@ -97,9 +102,10 @@ struct DepthPlane {
   }
 };
 
-// floor(2^24 n / area) mod 2^64, for |n| <= 2^54 and 0 < area <= 2^46 (both are twice the area of a triangle inside
-// a box, which is at most the box). A double quotient is within one unit of the truth while it stays below 2^51; the
-// remainder, whose true size is a few areas, corrects it exactly even though it is computed modulo 2^64.
+// floor(2^24 n / area) mod 2^64, for |n| <= 2^54 and 0 < area <= 2^46 (both are twice the area of a triangle
+// inside a box, which is at most the box). A double quotient is within one unit of the truth while it stays
+// below 2^51; the remainder, whose true size is a few areas, corrects it exactly even though it is computed
+// modulo 2^64.
 inline std::uint64_t gradient(std::int64_t n, std::int64_t area) {
   const double quotient = static_cast<double>(n) * 16777216.0 / static_cast<double>(area);
   if (quotient > -0x1p51 && quotient < 0x1p51) {
@@ -120,8 +126,8 @@ inline std::uint64_t gradient(std::int64_t n, std::int64_t area) {
 //
 // Rule 8, payload. The 32 bits of the winner are copied; a backend never looks at them.
 //
-// Rule 9, no contraction. Everything is built with -ffp-contract=off, so that the front end's floats (and the double
-// estimate above) do not depend on the machine either.
+// Rule 9, no contraction. Everything is built with -ffp-contract=off, so that the front end's floats (and the
+// double estimate above) do not depend on the machine either.
 
 // Twice the signed area in sub-units squared; positive is clockwise on the y-down screen, which is the front.
 constexpr std::int64_t signed_area(const ScreenTriangle& t) {
@@ -129,8 +135,8 @@ constexpr std::int64_t signed_area(const ScreenTriangle& t) {
          std::int64_t{t.y_sub[1] - t.y_sub[0]} * (t.x_sub[2] - t.x_sub[0]);
 }
 
-// The pixels whose samples lie in the triangle's bounding box, clipped to an image; half open. The box's right and
-// lower sides are excluded: the fill rule (4) never gives a sample there to this triangle.
+// The pixels whose samples lie in the triangle's bounding box, clipped to an image; half open. The box's
+// right and lower sides are excluded: the fill rule (4) never gives a sample there to this triangle.
 struct PixelBox {
   std::int32_t x0, y0, x1, y1;
   constexpr bool empty() const { return x0 >= x1 || y0 >= y1; }
@@ -145,45 +151,44 @@ constexpr PixelBox pixel_box(const ScreenTriangle& t, std::int32_t width, std::i
           std::min(first(max_y), height)};
 }
 
-// A triangle turned to positive area, with what backends ask of it.
-struct Setup {
-  Edge edge[3];  // edge i runs from vertex i to vertex i + 1
-  DepthPlane depth;
-};
-
-// False, and nothing set, for zero area.
-inline bool make_setup(const ScreenTriangle& t, Setup& out) {
-  const std::int64_t signed2 = signed_area(t);
-  if (signed2 == 0) return false;
-  const int order[3] = {0, signed2 > 0 ? 1 : 2, signed2 > 0 ? 2 : 1};
-  const std::int64_t area = signed2 > 0 ? signed2 : -signed2;
-
+// A triangle turned to positive area.
+struct Oriented {
   std::int32_t x[3], y[3];
   std::int64_t z[3];
-  for (int i = 0; i < 3; ++i) {
-    x[i] = t.x_sub[order[i]];
-    y[i] = t.y_sub[order[i]];
-    z[i] = t.z[order[i]];
-  }
-  for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3;
-    const std::int32_t a = y[i] - y[j], b = x[j] - x[i];
-    out.edge[i] = {a, b, (is_top_left(a, b) ? 0 : -1) - std::int64_t{a} * x[i] - std::int64_t{b} * y[i]};
-  }
+  std::int64_t area;  // > 0, or 0: draw nothing
+};
 
-  const std::int64_t dz1 = z[1] - z[0], dz2 = z[2] - z[0];
-  DepthPlane& d = out.depth;
-  d.gx = gradient(dz1 * (y[2] - y[0]) - dz2 * (y[1] - y[0]), area);
-  d.gy = gradient(dz2 * (x[1] - x[0]) - dz1 * (x[2] - x[0]), area);
+constexpr Oriented orient(const ScreenTriangle& t) {
+  const std::int64_t area = signed_area(t);
+  const int second = area >= 0 ? 1 : 2, third = 3 - second;
+  return {{t.x_sub[0], t.x_sub[second], t.x_sub[third]},
+          {t.y_sub[0], t.y_sub[second], t.y_sub[third]},
+          {t.z[0], t.z[second], t.z[third]},
+          area >= 0 ? area : -area};
+}
+
+// The edge from vertex i to the next one (rule 4).
+constexpr Edge make_edge(const Oriented& t, int i) {
+  const int j = i == 2 ? 0 : i + 1;
+  const std::int32_t a = t.y[i] - t.y[j], b = t.x[j] - t.x[i];
+  return {a, b, (is_top_left(a, b) ? 0 : -1) - std::int64_t{a} * t.x[i] - std::int64_t{b} * t.y[i]};
+}
+
+// The depth plane (rule 6) of a triangle whose area is not zero.
+inline DepthPlane make_depth(const Oriented& t) {
+  const std::int64_t dz1 = t.z[1] - t.z[0], dz2 = t.z[2] - t.z[0];
+  DepthPlane d;
+  d.gx = gradient(dz1 * (t.y[2] - t.y[0]) - dz2 * (t.y[1] - t.y[0]), t.area);
+  d.gy = gradient(dz2 * (t.x[1] - t.x[0]) - dz1 * (t.x[2] - t.x[0]), t.area);
   d.zx = static_cast<std::uint32_t>((d.gx + 0x8000) >> 16);
   d.zy = static_cast<std::uint32_t>((d.gy + 0x8000) >> 16);
   int top = 0;
   for (int i = 1; i < 3; ++i)
-    if (y[i] < y[top] || (y[i] == y[top] && x[i] < x[top])) top = i;
-  d.origin = (static_cast<std::uint64_t>(z[top]) << 24) + (std::uint64_t{1} << 23) +
-             d.gx * static_cast<std::uint64_t>(std::int64_t{kHalf} - x[top]) +
-             d.gy * static_cast<std::uint64_t>(std::int64_t{kHalf} - y[top]);
-  return true;
+    if (t.y[i] < t.y[top] || (t.y[i] == t.y[top] && t.x[i] < t.x[top])) top = i;
+  d.origin = (static_cast<std::uint64_t>(t.z[top]) << 24) + (std::uint64_t{1} << 23) +
+             d.gx * static_cast<std::uint64_t>(std::int64_t{kHalf} - t.x[top]) +
+             d.gy * static_cast<std::uint64_t>(std::int64_t{kHalf} - t.y[top]);
+  return d;
 }
 
 }  // namespace edgewise::contract

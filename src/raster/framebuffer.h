@@ -8,8 +8,9 @@
 
 namespace edgewise {
 
-// Where a backend draws. Row y starts at depth + y * stride and payload + y * stride; stride is in pixels, at least
-// width. The memory belongs to the caller and must outlive the draw; pixels beyond width are never written.
+// Where a backend draws. Row y starts at depth + y * stride and payload + y * stride; stride is in pixels, at
+// least width. The memory belongs to the caller and must outlive the draw; pixels beyond width are never
+// written.
 struct FrameView {
   std::uint32_t* depth;    // contract depth units (rule 6); kDepthClear where nothing was drawn
   std::uint32_t* payload;  // the winner's payload, or the background
@@ -20,7 +21,8 @@ struct FrameView {
 // Owns a frame. Rows start on 64-byte boundaries, so that a backend can stream whole cache lines.
 class Framebuffer {
  public:
-  // Throws std::invalid_argument for a side outside 1 … contract::kMaxImageSide, std::bad_alloc for lack of memory.
+  // Throws std::invalid_argument for a side outside 1 … contract::kMaxImageSide, std::bad_alloc for lack of
+  // memory.
   Framebuffer(int width, int height);
 
   FrameView view() { return {depth_.get(), payload_.get(), width_, height_, stride_}; }

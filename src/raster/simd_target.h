@@ -14,7 +14,8 @@ std::span<const SimdTarget> supported_targets();
 // "scalar", "sse4", "avx2", "avx512" or "best".
 std::string_view name_of(SimdTarget target);
 
-// `best` becomes the last supported target. Throws std::invalid_argument for one that this machine cannot run.
+// `best` becomes the last supported target. Throws std::invalid_argument for one that this machine cannot
+// run.
 SimdTarget resolve(SimdTarget target);
 
 }  // namespace edgewise

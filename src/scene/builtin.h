@@ -1,4 +1,5 @@
-// The built-in scenes. All are deterministic: the same name, size, time and scale give the same bits everywhere.
+// The built-in scenes. All are deterministic: the same name, size, time and scale give the same bits
+// everywhere.
 #pragma once
 
 #include <cstddef>
@@ -28,8 +29,8 @@ std::span<const SceneInfo> builtin_scenes();
 // Throws std::invalid_argument, with the nearest known name, for an unknown one.
 const SceneInfo& find_scene(std::string_view name);
 
-// A stream of `count` triangles of `area_px` square pixels each, at random places over the image, overlapping at its
-// borders, at random depths. `aspect` is length over width of a sliver; 0 draws from all shapes.
+// A stream of `count` triangles of `area_px` square pixels each, at random places over the image, overlapping
+// at its borders, at random depths. `aspect` is length over width of a sliver; 0 draws from all shapes.
 TriangleStream random_stream(const SceneRequest& request, std::size_t count, double area_px, double aspect,
                              std::uint64_t seed);
 

@@ -9,8 +9,8 @@
 
 namespace edgewise {
 
-// World space is right-handed with y up: x right, z towards a camera of yaw 0 and pitch 0, which looks along -z.
-// Colours are 0xAABBGGRR (red in the lowest byte). Angles are radians, lengths are world units.
+// World space is right-handed with y up: x right, z towards a camera of yaw 0 and pitch 0, which looks along
+// -z. Colours are 0xAABBGGRR (red in the lowest byte). Angles are radians, lengths are world units.
 
 constexpr std::uint32_t rgb(std::uint32_t r, std::uint32_t g, std::uint32_t b) {
   return 0xFF000000u | b << 16 | g << 8 | r;
@@ -33,9 +33,9 @@ struct Instance {
 
 struct Camera {
   glm::vec3 position{0.0f};
-  float yaw = 0.0f;    // about +y; positive turns left
-  float pitch = 0.0f;  // positive looks up
-  float fov_y = 1.0f;  // vertical field of view, in (0, pi)
+  float yaw = 0.0f;     // about +y; positive turns left
+  float pitch = 0.0f;   // positive looks up
+  float fov_y = 1.0f;   // vertical field of view, in (0, pi)
   float near_z = 0.1f;  // distances along the view direction, 0 < near_z < far_z
   float far_z = 100.0f;
 
@@ -64,9 +64,13 @@ struct TriangleStream {
 
 using Drawable = std::variant<Scene, TriangleStream>;
 
-// Moves the scene's meshes together so that their bounding box is centred on the origin and its longest side is 2.
-// Vertices that are not finite don't count.
+// Moves the scene's meshes together so that their bounding box is centred on the origin and its longest side
+// is 2. Vertices that are not finite don't count.
 void fit(Scene& scene);
+
+// Puts the camera where it sees all finite vertices from the front, a little to the right and above, with a
+// vertical field of view of 45 degrees. The image should be at least as wide as high.
+void frame_camera(Scene& scene);
 
 // The same for one instance's placement in the world.
 glm::mat4 model_matrix(const Instance& instance);

@@ -1,0 +1,74 @@
+#include "frontend/clip.h"
+
+#include <cmath>
+#include <utility>
+
+#include "raster/contract.h"
+
+namespace edgewise {
+
+namespace {
+
+constexpr float kGuardPx = static_cast<float>(contract::kMaxImageSide);
+
+// Distance to a plane times something positive; inside is >= 0.
+float distance(const ClipVertex& v, std::uint16_t plane) {
+  switch (plane) {
+    case kNear:
+      return v.z;
+    case kFar:
+      return v.w - v.z;
+    case kGuardLeft:
+      return v.x + kGuardPx * v.w;
+    case kGuardRight:
+      return kGuardPx * v.w - v.x;
+    case kGuardTop:
+      return v.y + kGuardPx * v.w;
+    default:
+      return kGuardPx * v.w - v.y;
+  }
+}
+
+ClipVertex cut(const ClipVertex& inside, const ClipVertex& outside, float inside_distance,
+               float outside_distance) {
+  const float t = inside_distance / (inside_distance - outside_distance);
+  return {inside.x + t * (outside.x - inside.x), inside.y + t * (outside.y - inside.y),
+          inside.z + t * (outside.z - inside.z), inside.w + t * (outside.w - inside.w)};
+}
+
+}  // namespace
+
+std::uint16_t outside_of(const ClipVertex& v, float width_px, float height_px) {
+  if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z) || !std::isfinite(v.w))
+    return kNotFinite;
+  unsigned sides = 0;
+  for (const auto plane : {kNear, kFar, kGuardLeft, kGuardRight, kGuardTop, kGuardBottom})
+    if (!(distance(v, plane) >= 0.0f)) sides |= plane;
+  if (v.x < 0.0f) sides |= kLeft;
+  if (v.x > width_px * v.w) sides |= kRight;
+  if (v.y < 0.0f) sides |= kTop;
+  if (v.y > height_px * v.w) sides |= kBottom;
+  return static_cast<std::uint16_t>(sides);
+}
+
+std::span<const ClipVertex> Clipper::clip(const ClipVertex (&triangle)[3], std::uint16_t planes) {
+  std::size_t count = 3;
+  for (std::size_t i = 0; i < 3; ++i) from_[i] = triangle[i];
+  for (const auto plane : {kNear, kFar, kGuardLeft, kGuardRight, kGuardTop, kGuardBottom}) {
+    if ((planes & plane) == 0) continue;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const ClipVertex &a = from_[i], &b = from_[i + 1 == count ? 0 : i + 1];
+      const float da = distance(a, plane), db = distance(b, plane);
+      const bool a_inside = da >= 0.0f, b_inside = db >= 0.0f;
+      if (a_inside) to_[kept++] = a;
+      if (a_inside != b_inside) to_[kept++] = a_inside ? cut(a, b, da, db) : cut(b, a, db, da);
+    }
+    std::swap(from_, to_);
+    count = kept;
+    if (count == 0) break;
+  }
+  return {from_.data(), count};
+}
+
+}  // namespace edgewise

@@ -1,0 +1,50 @@
+// Drawing in horizontal bands, for backends that work row by row: alone, one band is the whole image; on
+// threads, the triangles are binned to bands of kBandRows, which are drawn in parallel.
+#pragma once
+
+#include <algorithm>
+#include <span>
+
+#include "raster/backend.h"
+#include "raster/bins.h"
+#include "raster/contract.h"
+#include "raster/parallel.h"
+
+namespace edgewise {
+
+struct RowRange {
+  int begin, end;
+};
+
+inline void clear_rows(FrameView frame, RowRange rows, std::uint32_t background) {
+  for (int y = rows.begin; y < rows.end; ++y) {
+    std::fill_n(frame.depth + y * frame.stride, frame.width, contract::kDepthClear);
+    std::fill_n(frame.payload + y * frame.stride, frame.width, background);
+  }
+}
+
+// Clears the frame and calls draw(triangle, rows) for every triangle that can touch a band, in submission
+// order.
+template <typename Draw>
+void draw_in_bands(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
+                   int threads, Bins& bins, Draw&& draw) {
+  if (threads == 1) {
+    const RowRange all{0, frame.height};
+    clear_rows(frame, all, background);
+    for (const auto& triangle : triangles) draw(triangle, all);
+    return;
+  }
+  constexpr int kBandRowsLog2 = 5, kWholeWidthLog2 = 14;
+  static_assert(1 << kWholeWidthLog2 == contract::kMaxImageSide);
+  const Bins::Grid grid{frame.width, frame.height, kWholeWidthLog2, kBandRowsLog2};
+  bins.build(triangles, grid, threads);
+  parallel_for(threads, grid.rows(), [&](int band) {
+    const RowRange rows{band << kBandRowsLog2, std::min((band + 1) << kBandRowsLog2, frame.height)};
+    clear_rows(frame, rows, background);
+    bins.for_each_run(band, [&](std::span<const std::uint32_t> run) {
+      for (const std::uint32_t index : run) draw(triangles[index], rows);
+    });
+  });
+}
+
+}  // namespace edgewise

@@ -1,0 +1,86 @@
+#include "raster/bins.h"
+
+#include <algorithm>
+
+#include "raster/contract.h"
+#include "raster/parallel.h"
+
+namespace edgewise {
+
+using namespace contract;
+
+void Bins::Chunk::reset(std::size_t cells) {
+  first.assign(cells, kNone);
+  cursor.assign(cells, kNone);
+  used = 0;
+}
+
+void Bins::Chunk::push(std::size_t cell, std::uint32_t index) {
+  std::uint32_t slot = cursor[cell];
+  if (slot % kBlock == kRun) {  // a full block, or none yet (kNone ends in the same bits)
+    const std::uint32_t block = used;
+    used += kBlock;
+    if (slots.size() < used) slots.resize(std::max<std::size_t>(used, slots.size() * 2));
+    (slot == kNone ? first[cell] : slots[slot]) = block;
+    slot = block;
+  }
+  slots[slot] = index;
+  cursor[cell] = slot + 1;
+}
+
+void Bins::bin(const ScreenTriangle& triangle, std::uint32_t index, const Grid& grid, Chunk& chunk) {
+  const PixelBox box = pixel_box(triangle, grid.width, grid.height);
+  if (box.empty()) return;
+  const int column0 = box.x0 >> grid.cell_w_log2, column1 = (box.x1 - 1) >> grid.cell_w_log2;
+  const int row0 = box.y0 >> grid.cell_h_log2, row1 = (box.y1 - 1) >> grid.cell_h_log2;
+  const int columns = grid.columns();
+  const auto cell_at = [&](int column, int row) { return static_cast<std::size_t>(row * columns + column); };
+
+  // One or two cells: the tile's own test is as cheap as one here.
+  if (column1 - column0 + row1 - row0 <= 1) {
+    for (int row = row0; row <= row1; ++row)
+      for (int column = column0; column <= column1; ++column) chunk.push(cell_at(column, row), index);
+    return;
+  }
+  const Oriented oriented = orient(triangle);
+  if (oriented.area == 0) return;
+
+  // An edge rejects a cell if even the sample where it is largest is outside. That corner's value steps
+  // linearly.
+  const std::int32_t cell_w = 1 << grid.cell_w_log2, cell_h = 1 << grid.cell_h_log2;
+  std::int64_t row_value[3], step_x[3], step_y[3];
+  for (int i = 0; i < 3; ++i) {
+    const Edge edge = make_edge(oriented, i);
+    row_value[i] = edge.at(column0 * cell_w + (edge.a > 0 ? cell_w - 1 : 0),
+                           row0 * cell_h + (edge.b > 0 ? cell_h - 1 : 0));
+    step_x[i] = std::int64_t{edge.a} * kSub * cell_w;
+    step_y[i] = std::int64_t{edge.b} * kSub * cell_h;
+  }
+  for (int row = row0; row <= row1; ++row) {
+    std::int64_t value[3] = {row_value[0], row_value[1], row_value[2]};
+    for (int column = column0; column <= column1; ++column) {
+      if ((value[0] | value[1] | value[2]) >= 0) chunk.push(cell_at(column, row), index);
+      for (int i = 0; i < 3; ++i) value[i] += step_x[i];
+    }
+    for (int i = 0; i < 3; ++i) row_value[i] += step_y[i];
+  }
+}
+
+void Bins::build(std::span<const ScreenTriangle> triangles, const Grid& grid, int threads) {
+  constexpr std::size_t kLeastChunk = 4096;  // triangles; below, a chunk's bookkeeping outweighs its work
+  constexpr std::size_t kChunksPerThread = 4;
+  const std::size_t most = threads == 1 ? 1 : kChunksPerThread * static_cast<std::size_t>(threads);
+  used_chunks_ = std::clamp<std::size_t>(triangles.size() / kLeastChunk, 1, most);
+  if (chunks_.size() < used_chunks_) chunks_.resize(used_chunks_);
+
+  parallel_for(threads, static_cast<int>(used_chunks_), [&](int i) {
+    const auto c = static_cast<std::size_t>(i);
+    Chunk& chunk = chunks_[c];
+    chunk.reset(static_cast<std::size_t>(grid.cells()));
+    const std::size_t begin = triangles.size() * c / used_chunks_;
+    const std::size_t end = triangles.size() * (c + 1) / used_chunks_;
+    for (std::size_t t = begin; t < end; ++t) bin(triangles[t], static_cast<std::uint32_t>(t), grid, chunk);
+  });
+}
+
+}  // namespace edgewise

@@ -1,0 +1,14 @@
+// From a function that foreach_target compiled once per SIMD target to the one for a given target.
+#pragma once
+
+#include <hwy/highway.h>
+
+#include "raster/simd_target.h"
+
+// The kernel for a resolved target. Use where HWY_ONCE holds, in the namespace that encloses HWY_NAMESPACE.
+// Where a target was not compiled in, supported_targets() doesn't list it either.
+#define EDGEWISE_KERNEL(function, target)                                 \
+  ((target) == ::edgewise::SimdTarget::avx512 ? HWY_CHOOSE_AVX3(function) \
+   : (target) == ::edgewise::SimdTarget::avx2 ? HWY_CHOOSE_AVX2(function) \
+   : (target) == ::edgewise::SimdTarget::sse4 ? HWY_CHOOSE_SSE4(function) \
+                                              : HWY_CHOOSE_FALLBACK(function))

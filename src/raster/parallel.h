@@ -1,0 +1,27 @@
+// The one door to oneTBB.
+#pragma once
+
+#include <memory>
+#include <type_traits>
+
+namespace edgewise {
+
+namespace detail {
+void parallel_for(int threads, int count, void (*call)(void*, int), void* context);
+}
+
+// Calls body(0) … body(count - 1), each once, on up to `threads` threads, and returns when all are done.
+// Calls with different arguments must not touch the same memory. An exception thrown by one is rethrown here.
+template <typename Body>
+void parallel_for(int threads, int count, Body&& body) {
+  if (threads <= 1 || count <= 1) {
+    for (int i = 0; i < count; ++i) body(i);
+    return;
+  }
+  using Plain = std::remove_reference_t<Body>;
+  detail::parallel_for(
+      threads, count, [](void* context, int i) { (*static_cast<Plain*>(context))(i); },
+      const_cast<void*>(static_cast<const void*>(std::addressof(body))));
+}
+
+}  // namespace edgewise

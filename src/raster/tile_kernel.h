@@ -1,0 +1,27 @@
+// Draws one tile of the image, in a buffer that stays in the L1 cache. See tile_kernel.cpp for the ideas.
+#pragma once
+
+#include <cstdint>
+
+#include "raster/bins.h"
+#include "raster/framebuffer.h"
+#include "raster/simd_target.h"
+
+namespace edgewise {
+
+struct TileJob {
+  const ScreenTriangle* triangles;
+  const Bins* bins;
+  int cell;       // which of the bins
+  int x0, y0;     // px, the tile's first pixel; multiples of the tile's size
+  int size_log2;  // px; at most 6
+  FrameView frame;
+  std::uint32_t background;
+};
+
+using TileKernel = void (*)(const TileJob&);
+
+// `target` must be resolved.
+TileKernel tile_kernel(SimdTarget target);
+
+}  // namespace edgewise

@@ -1,0 +1,47 @@
+#include "scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <limits>
+
+namespace edgewise {
+
+void Camera::look_at(glm::vec3 target) {
+  const glm::dvec3 d = glm::dvec3(target) - glm::dvec3(position);
+  if (d == glm::dvec3(0.0)) return;
+  yaw = static_cast<float>(std::atan2(-d.x, -d.z));
+  pitch = static_cast<float>(std::atan2(d.y, std::hypot(d.x, d.z)));
+}
+
+glm::mat4 model_matrix(const Instance& instance) {
+  glm::dmat4 m = glm::translate(glm::dmat4(1.0), glm::dvec3(instance.translation));
+  const glm::dvec3 axis(instance.axis);
+  if (instance.angle != 0.0f && axis != glm::dvec3(0.0))
+    m = glm::rotate(m, static_cast<double>(instance.angle), glm::normalize(axis));
+  return glm::mat4(glm::scale(m, glm::dvec3(instance.scale)));
+}
+
+void fit(Scene& scene) {
+  glm::vec3 low(std::numeric_limits<float>::infinity()), high(-low);
+  for (const auto& instance : scene.instances) {
+    const glm::mat4 model = model_matrix(instance);
+    for (const auto& position : scene.meshes.at(instance.mesh).positions) {
+      const glm::vec3 p(model * glm::vec4(position, 1.0f));
+      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) continue;
+      low = glm::min(low, p);
+      high = glm::max(high, p);
+    }
+  }
+  const glm::vec3 size = high - low;
+  const float longest = std::max({size.x, size.y, size.z});
+  if (!(longest > 0.0f) || !std::isfinite(longest)) return;
+  const float factor = 2.0f / longest;
+  const glm::vec3 centre = low + 0.5f * size;
+  for (auto& instance : scene.instances) {
+    instance.scale *= factor;
+    instance.translation = (instance.translation - centre) * factor;
+  }
+}
+
+}  // namespace edgewise
