@@ -109,7 +109,8 @@ HWY_INLINE bool set_up(const TileJob& job, const ScreenTriangle& triangle, TileT
   for (int i = 0; i < 3; ++i) {
     const Edge edge = make_edge(t, i);
     const std::int64_t first = edge.at(job.x0 + left, job.y0 + top);
-    const std::int64_t across = edge.a * kSub * last_x, down = edge.b * kSub * last_y;
+    const std::int64_t across = std::int64_t{edge.a} * kSub * last_x,
+                       down = std::int64_t{edge.b} * kSub * last_y;
     if (first + std::max<std::int64_t>(across, 0) + std::max<std::int64_t>(down, 0) < 0) return false;
     if (first + std::min<std::int64_t>(across, 0) + std::min<std::int64_t>(down, 0) >= 0)
       out.edge[i] = {0, 0, 0};

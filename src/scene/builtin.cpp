@@ -191,7 +191,7 @@ Drawable terrain(const SceneRequest& request) {
                      rgb(30, 40, 30), grain);
       }));
   scene.instances.push_back({});
-  scene.camera.position = {0.0f, height(0.0f, 0.0f) + 0.25f, 0.0f};
+  scene.camera.position = {0.0f, height(0.0f, 0.0f) + 0.06f, 0.0f};
   scene.camera.yaw = 0.7f + 0.2f * request.time;
   scene.camera.pitch = -0.12f;
   return scene;

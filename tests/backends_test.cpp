@@ -1,0 +1,185 @@
+// Every backend in the registry, under every execution, against the brute-force oracle.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <filesystem>
+#include <set>
+#include <stdexcept>
+
+#include "lab/oracle.h"
+#include "support.h"
+
+namespace edgewise {
+namespace {
+
+using namespace contract;
+using testing::adversarial;
+using testing::kBackground;
+
+class EveryBackend : public ::testing::TestWithParam<std::string_view> {
+ protected:
+  std::unique_ptr<Backend> backend_ = find_backend(GetParam()).make();
+
+  void expect_oracle(std::span<const ScreenTriangle> triangles, int width, int height,
+                     const std::string& what) {
+    Framebuffer expected(width, height), actual(width, height);
+    lab::draw_oracle(triangles, expected, kBackground);
+    for (const auto& execution : testing::executions()) {
+      backend_->draw(triangles, actual.view(), kBackground, execution);
+      testing::expect_same(expected, actual, what + ", " + testing::describe(execution));
+    }
+  }
+};
+
+TEST_P(EveryBackend, DrawsTheOraclesPictureForEveryFamily) {
+  for (const auto family : testing::kFamilies)
+    for (const int count : {1, 7, 200})
+      expect_oracle(adversarial(family, count, 97, 71, static_cast<std::uint64_t>(count)), 97, 71,
+                    std::string(family));
+}
+
+TEST_P(EveryBackend, DrawsTheOraclesPictureAtEverySize) {
+  for (const auto& [width, height] : {std::pair{1, 1},
+                                      {1, 64},
+                                      {64, 1},
+                                      {3, 5},
+                                      {16, 16},
+                                      {17, 15},
+                                      {63, 65},
+                                      {64, 64},
+                                      {129, 33},
+                                      {200, 130}})
+    for (const auto family : {"subpixel", "huge", "tiny"})
+      expect_oracle(adversarial(family, 40, width, height, 11), width, height,
+                    std::to_string(width) + "x" + std::to_string(height));
+}
+
+TEST_P(EveryBackend, DrawsTheOraclesPictureWhenTrianglesFillManyChunks) {
+  // More than one bin chunk and bin block, in a small image so that the oracle can follow.
+  auto triangles = adversarial("tiny", 12'000, 40, 40, 3);
+  const auto big = adversarial("subpixel", 20, 40, 40, 4);
+  triangles.insert(triangles.begin() + 6'000, big.begin(), big.end());
+  expect_oracle(triangles, 40, 40, "many chunks");
+}
+
+TEST_P(EveryBackend, ReachesTheFarCornerOfTheLargestImage) {
+  for (const auto& [width, height] : {std::pair{kMaxImageSide, 3}, {3, kMaxImageSide}})
+    expect_oracle(adversarial("subpixel", 6, width, height, 2), width, height, "largest side");
+}
+
+TEST_P(EveryBackend, DrawsNothingButBackgroundWithoutTriangles) {
+  expect_oracle({}, 70, 70, "no triangles");
+}
+
+TEST_P(EveryBackend, KeepsTheEarlierTriangleAtATie) {
+  const ScreenTriangle first{{0, 40 * 256, 0}, {0, 0, 40 * 256}, {5000, 5000, 5000}, 1};
+  ScreenTriangle second = first;
+  second.payload = 2;
+  const ScreenTriangle both[] = {first, second};
+  Framebuffer frame(32, 32);
+  for (const auto& execution : testing::executions()) {
+    backend_->draw(both, frame.view(), 0, execution);
+    EXPECT_EQ(frame.payload_row(3)[3], 1u) << testing::describe(execution);
+  }
+}
+
+TEST_P(EveryBackend, DrawsTheSameHoweverTheVerticesAreRotatedOrWound) {
+  for (const auto family : testing::kFamilies) {
+    const auto triangles = adversarial(family, 60, 90, 70, 21);
+    Framebuffer expected(90, 70), actual(90, 70);
+    backend_->draw(triangles, expected.view(), kBackground, {});
+    for (const auto order : {std::array{1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}}) {
+      auto turned = triangles;
+      for (std::size_t i = 0; i < turned.size(); ++i)
+        for (std::size_t k = 0; k < 3; ++k) {
+          const auto from = static_cast<std::size_t>(order[k]);
+          turned[i].x_sub[k] = triangles[i].x_sub[from];
+          turned[i].y_sub[k] = triangles[i].y_sub[from];
+          turned[i].z[k] = triangles[i].z[from];
+        }
+      backend_->draw(turned, actual.view(), kBackground, {});
+      testing::expect_same(expected, actual, std::string(family));
+    }
+  }
+}
+
+TEST_P(EveryBackend, WritesEveryPixelOfACallersFrameAndNothingBesideIt) {
+  constexpr int kWidth = 75, kHeight = 66;
+  constexpr std::uint32_t kCanary = 0xDEADBEEF;
+  const auto triangles = adversarial("subpixel", 50, kWidth, kHeight, 9);
+  Framebuffer expected(kWidth, kHeight);
+  lab::draw_oracle(triangles, expected, kBackground);
+  // Odd strides and starts defeat aligned stores; a multiple of four invites them.
+  for (const auto& [stride, offset] :
+       {std::pair{kWidth, 0}, {kWidth + 2, 1}, {kWidth + 5, 0}, {kWidth + 5, 3}}) {
+    for (const auto& execution : testing::executions()) {
+      const auto size = static_cast<std::size_t>(stride * (kHeight + 2) + 8);
+      std::vector<std::uint32_t> depth(size, kCanary), payload(size, kCanary);
+      const std::ptrdiff_t start = stride + offset;
+      backend_->draw(triangles, {depth.data() + start, payload.data() + start, kWidth, kHeight, stride},
+                     kBackground, execution);
+      for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(size); ++i) {
+        const std::ptrdiff_t x = (i - start) % stride, y = (i - start) / stride;
+        const bool in_frame = i >= start && x < kWidth && y < kHeight;
+        const auto at = static_cast<std::size_t>(i);
+        ASSERT_EQ(depth[at], in_frame ? expected.depth_row(static_cast<int>(y))[x] : kCanary)
+            << testing::describe(execution);
+        ASSERT_EQ(payload[at], in_frame ? expected.payload_row(static_cast<int>(y))[x] : kCanary)
+            << testing::describe(execution);
+      }
+    }
+  }
+}
+
+TEST_P(EveryBackend, RefusesWhatItCannotDraw) {
+  Framebuffer frame(8, 8);
+  const auto draw = [&](FrameView view, Execution execution) { backend_->draw({}, view, 0, execution); };
+  const FrameView good = frame.view();
+  const auto with = [&](auto change) {
+    FrameView view = good;
+    change(view);
+    return view;
+  };
+  EXPECT_THROW(draw(good, {.threads = 0}), std::invalid_argument);
+  EXPECT_THROW(draw(good, {.threads = kMaxThreads + 1}), std::invalid_argument);
+  EXPECT_THROW(draw(good, {.tile_size = 48}), std::invalid_argument);
+  EXPECT_THROW(draw(with([](auto& v) { v.width = 0; }), {}), std::invalid_argument);
+  EXPECT_THROW(draw(with([](auto& v) { v.height = kMaxImageSide + 1; }), {}), std::invalid_argument);
+  EXPECT_THROW(draw(with([](auto& v) { v.stride = 7; }), {}), std::invalid_argument);
+  EXPECT_THROW(draw(with([](auto& v) { v.depth = nullptr; }), {}), std::invalid_argument);
+  EXPECT_NO_THROW(draw(good, {}));
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, EveryBackend, ::testing::ValuesIn(testing::backend_names()),
+                         [](const auto& param) { return testing::test_name(param); });
+
+TEST(Registry, HoldsEveryFileInTheBackendsFolderAndNothingElse) {
+  std::set<std::string> files, names;
+  for (const auto& entry : std::filesystem::directory_iterator(EDGEWISE_SOURCE_DIR "/src/raster/backends"))
+    files.insert(entry.path().stem());
+  for (const auto& b : backends()) names.emplace(b.name);
+  EXPECT_EQ(files, names);
+}
+
+TEST(Registry, SuggestsTheNearestName) {
+  try {
+    find_backend("scanlien");
+    FAIL() << "an unknown backend was found";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("did you mean 'scanline'?"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Registry, HasTheThreeExactBackends) {
+  for (const auto name : {"naive", "tiled", "scanline"}) EXPECT_EQ(find_backend(name).name, name);
+}
+
+TEST(Framebuffer, RefusesSidesThatTheContractCannotHold) {
+  for (const int side : {-1, 0, kMaxImageSide + 1, 1'000'000}) {
+    EXPECT_THROW(Framebuffer(side, 4), std::invalid_argument);
+    EXPECT_THROW(Framebuffer(4, side), std::invalid_argument);
+  }
+}
+
+}  // namespace
+}  // namespace edgewise

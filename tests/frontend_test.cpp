@@ -1,0 +1,293 @@
+// The front end: what it drops, what it cuts, and what it hands on.
+#include "frontend/frontend.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+
+#include "frontend/fixed.h"
+#include "lab/measure.h"
+#include "scene/builtin.h"
+#include "support.h"
+
+namespace edgewise {
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInf = std::numeric_limits<float>::infinity();
+
+// A mesh of loose triangles, seen by a camera at the origin that looks along -z through a 90 degree field of
+// view.
+Scene loose(const std::vector<glm::vec3>& positions) {
+  Scene scene;
+  Mesh mesh;
+  mesh.positions = positions;
+  for (unsigned i = 0; i + 2 < positions.size(); i += 3) {
+    mesh.triangles.emplace_back(i, i + 1, i + 2);
+    mesh.colours.push_back(rgb(200, 100, 50));
+  }
+  scene.meshes.push_back(std::move(mesh));
+  scene.instances.push_back({});
+  scene.camera.fov_y = 1.57079633f;
+  scene.to_light = {0.0f, 0.0f, 1.0f};
+  return scene;
+}
+
+// Clockwise seen from the camera.
+const std::vector<glm::vec3> kFront = {{-1, -1, -3}, {-1, 1, -3}, {1, -1, -3}};
+const std::vector<glm::vec3> kBack = {{-1, -1, -3}, {1, -1, -3}, {-1, 1, -3}};
+
+struct Result {
+  std::vector<ScreenTriangle> triangles;
+  FrontendStats stats;
+};
+Result run(const Drawable& drawable,
+           FrontendOptions options = {.width = 100, .height = 100, .cull = Cull::none}) {
+  Frontend frontend;
+  const auto span = frontend.run(drawable, options);
+  return {{span.begin(), span.end()}, frontend.stats()};
+}
+FrontendOptions with_cull(Cull cull) {
+  return {.width = 100, .height = 100, .cull = cull};
+}
+
+void expect_accounts_balance(const FrontendStats& s) {
+  EXPECT_EQ(s.pieces, s.culled + s.zero_area + s.emitted);
+  EXPECT_LE(s.whole_mesh + s.not_finite + s.outside + s.not_in_front, s.triangles);
+}
+
+TEST(Snap, RoundsHalfToEvenAndClampsToTheGuardBand) {
+  EXPECT_EQ(snap(0.5f / 256), 0);
+  EXPECT_EQ(snap(1.5f / 256), 2);
+  EXPECT_EQ(snap(2.5f / 256), 2);
+  EXPECT_EQ(snap(-0.5f / 256), 0);
+  EXPECT_EQ(snap(-1.5f / 256), -2);
+  EXPECT_EQ(snap(100.25f), 25664);
+  EXPECT_EQ(snap(16384.0f), contract::kGuardSub);
+  EXPECT_EQ(snap(1e30f), contract::kGuardSub);
+  EXPECT_EQ(snap(-1e30f), -contract::kGuardSub);
+}
+
+TEST(Snap, AgreesWithTheStandardLibraryEverywhere) {
+  Random random(1);
+  for (int i = 0; i < 1'000'000; ++i) {
+    const float px = random.uniform(-16384.0f, 16384.0f);
+    ASSERT_EQ(snap(px), static_cast<std::int32_t>(std::nearbyint(static_cast<double>(px) * 256.0))) << px;
+  }
+}
+
+TEST(QuantizeDepth, SpansTheContractsRange) {
+  EXPECT_EQ(quantize_depth(0.0f), contract::kDepthHead);
+  EXPECT_EQ(quantize_depth(1.0f), contract::kDepthHead + contract::kDepthRange);
+  EXPECT_EQ(quantize_depth(-3.0f), quantize_depth(0.0f));
+  EXPECT_EQ(quantize_depth(7.0f), quantize_depth(1.0f));
+  EXPECT_EQ(quantize_depth(0.5f),
+            contract::kDepthHead + static_cast<std::uint32_t>(std::nearbyint(contract::kDepthRange * 0.5)));
+}
+
+TEST(Frontend, CullsByTheWindingOnTheScreen) {
+  EXPECT_EQ(run(loose(kFront), with_cull(Cull::back)).stats.emitted, 1u);
+  EXPECT_EQ(run(loose(kFront), with_cull(Cull::front)).stats.culled, 1u);
+  EXPECT_EQ(run(loose(kBack), with_cull(Cull::back)).stats.culled, 1u);
+  EXPECT_EQ(run(loose(kBack), with_cull(Cull::front)).stats.emitted, 1u);
+  for (const auto& side : {kFront, kBack}) {
+    EXPECT_EQ(run(loose(side), with_cull(Cull::none)).stats.emitted, 1u);
+    EXPECT_EQ(run(loose(side), with_cull(Cull::both)).stats.emitted, 0u);
+  }
+}
+
+TEST(Frontend, ProjectsToTheExpectedPixels) {
+  const auto result = run(loose(kFront));
+  ASSERT_EQ(result.triangles.size(), 1u);
+  const ScreenTriangle& t = result.triangles[0];
+  // At distance 3 under 90 degrees, 1 unit is a third of half the image.
+  EXPECT_NEAR(t.x_sub[0], (50.0 - 50.0 / 3.0) * 256, 1);
+  EXPECT_NEAR(t.y_sub[0], (50.0 + 50.0 / 3.0) * 256, 1);
+  EXPECT_NEAR(t.y_sub[1], (50.0 - 50.0 / 3.0) * 256, 1);
+}
+
+TEST(Frontend, DropsNanAndInfiniteVerticesAndCountsThem) {
+  for (const float bad : {kNan, kInf, -kInf})
+    for (int vertex = 0; vertex < 3; ++vertex)
+      for (int axis = 0; axis < 3; ++axis) {
+        auto positions = kFront;
+        positions.insert(positions.end(), kBack.begin(), kBack.end());
+        positions[static_cast<std::size_t>(vertex)][axis] = bad;
+        const auto result = run(loose(positions));
+        EXPECT_EQ(result.stats.not_finite, 1u);
+        EXPECT_EQ(result.stats.emitted, 1u) << "the good triangle stays";
+        TriangleStream stream{100, 100, {{{{1, 1, 0.5f}, {50, 1, 0.5f}, {1, 50, 0.5f}}, 7}}};
+        stream.triangles[0].vertex[vertex][axis] = bad;
+        EXPECT_EQ(run(stream).stats.not_finite, 1u);
+      }
+}
+
+TEST(Frontend, CutsWhatCrossesTheNearPlaneAndNeverProjectsWhatIsBehind) {
+  // A floor triangle from in front of the eye to behind it.
+  const auto result = run(loose({{-1, -1, -5}, {1, -1, -5}, {0, -1, 5}}));
+  EXPECT_EQ(result.stats.clipped_near, 1u);
+  EXPECT_EQ(result.stats.emitted, 2u) << "one vertex is cut off, which leaves a quad";
+  for (const auto& t : result.triangles)
+    for (int i = 0; i < 3; ++i) EXPECT_GE(t.y_sub[i], 50 * 256) << "the floor stays below the horizon";
+  expect_accounts_balance(result.stats);
+  EXPECT_EQ(run(loose({{-1, -1, 5}, {1, -1, 5}, {0, 1, 5}})).stats.emitted, 0u) << "wholly behind";
+}
+
+TEST(Frontend, CutsAtTheFarPlane) {
+  Scene scene = loose({{-1, -1, -5}, {1, -1, -5}, {0, 0, -500}});
+  const auto result = run(scene);
+  EXPECT_EQ(result.stats.clipped_far, 1u);
+  for (const auto& t : result.triangles)
+    for (const auto z : t.z) EXPECT_LE(z, contract::kDepthHead + contract::kDepthRange);
+}
+
+TEST(Frontend, EveryTriangleStaysWithinTheContract) {
+  Random random(5);
+  std::vector<glm::vec3> positions;
+  for (int i = 0; i < 30'000; ++i) {
+    const float reach = std::pow(10.0f, random.uniform(-3.0f, 6.0f));
+    positions.emplace_back(random.uniform(-reach, reach), random.uniform(-reach, reach),
+                           random.uniform(-reach, reach));
+  }
+  Scene scene = loose(positions);
+  scene.camera.near_z = 1e-4f;
+  scene.camera.far_z = 1e7f;
+  const auto result = run(scene);
+  expect_accounts_balance(result.stats);
+  EXPECT_GT(result.stats.clipped_guard, 0u);
+  EXPECT_GT(result.stats.clipped_near, 0u);
+  for (const auto& t : result.triangles)
+    for (int i = 0; i < 3; ++i) {
+      ASSERT_LE(std::abs(t.x_sub[i]), contract::kGuardSub);
+      ASSERT_LE(std::abs(t.y_sub[i]), contract::kGuardSub);
+      ASSERT_GE(t.z[i], contract::kDepthHead);
+      ASSERT_LE(t.z[i], contract::kDepthHead + contract::kDepthRange);
+    }
+}
+
+TEST(Frontend, HugeFiniteCoordinatesAreSurvived) {
+  for (const float huge : {1e20f, 1e37f, 3e38f}) {
+    const auto result = run(loose({{-huge, -huge, -huge}, {huge, -huge, -1}, {0, huge, -huge}}));
+    expect_accounts_balance(result.stats);
+    const TriangleStream stream{100, 100, {{{{-huge, 0, 0.5f}, {huge, -huge, 0.5f}, {0, huge, 0.5f}}, 7}}};
+    for (const auto& t : run(stream).triangles)
+      for (int i = 0; i < 3; ++i) ASSERT_LE(std::abs(t.x_sub[i]), contract::kGuardSub);
+  }
+}
+
+// A floor of many triangles that runs under and behind the camera, crossing the near plane and all sides.
+TEST(Frontend, ACutPlaneIsWatertight) {
+  Random random(9);
+  constexpr int kSide = 12;
+  Mesh mesh;
+  for (int j = 0; j <= kSide; ++j)
+    for (int i = 0; i <= kSide; ++i)
+      mesh.positions.emplace_back((static_cast<float>(i) - 6 + random.uniform(-0.2f, 0.2f)) * 3000.0f, -0.4f,
+                                  (static_cast<float>(j) - 6 + random.uniform(-0.2f, 0.2f)) * 3000.0f);
+  for (unsigned j = 0; j < kSide; ++j)
+    for (unsigned i = 0; i < kSide; ++i) {
+      const unsigned v = j * (kSide + 1) + i, below = v + kSide + 1;
+      mesh.triangles.emplace_back(v, v + 1, below);
+      mesh.triangles.emplace_back(v + 1, below + 1, below);
+    }
+  mesh.colours.assign(mesh.triangles.size(), 1);
+  Scene scene;
+  scene.meshes.push_back(mesh);
+  scene.instances.push_back({});
+  scene.camera.pitch = -1.0f;
+  scene.camera.far_z = 1e6f;
+  for (int step = 0; step < 12; ++step) {
+    scene.camera.yaw = static_cast<float>(step) * 0.53f;
+    const auto result = run(scene, {.width = 160, .height = 120, .cull = Cull::none});
+    EXPECT_GT(result.stats.clipped_near + result.stats.clipped_guard, 0u);
+    const auto hits = lab::count_hits(*find_backend("scanline").make(), result.triangles, 160, 120, {});
+    EXPECT_EQ(std::count(hits.begin(), hits.end(), 1u), 160 * 120) << "yaw step " << step;
+  }
+}
+
+TEST(Frontend, DropsWholeMeshesOutsideTheView) {
+  Scene scene = loose(kFront);
+  scene.instances.push_back({.translation = {100, 0, 0}});
+  scene.instances.push_back({.translation = {0, 0, 50}});
+  const auto result = run(scene);
+  EXPECT_EQ(result.stats.meshes, 3u);
+  EXPECT_EQ(result.stats.meshes_culled, 2u);
+  EXPECT_EQ(result.stats.whole_mesh, 2u);
+  EXPECT_EQ(result.stats.emitted, 1u);
+}
+
+TEST(Frontend, IdsAreSourceTrianglesInSubmissionOrder) {
+  Scene scene = loose(kFront);
+  scene.instances.push_back({.translation = {100, 0, 0}});   // id 1, not visible
+  scene.instances.push_back({.translation = {0.5f, 0, 0}});  // id 2
+  FrontendOptions options{.width = 100, .height = 100, .cull = Cull::none, .payload = Payload::id};
+  const auto result = run(scene, options);
+  ASSERT_EQ(result.triangles.size(), 2u);
+  EXPECT_EQ(result.triangles[0].payload, 0u);
+  EXPECT_EQ(result.triangles[1].payload, 2u);
+  for (const auto& piece : run(loose({{-1, -1, -5}, {1, -1, -5}, {0, -1, 5}}), options).triangles)
+    EXPECT_EQ(piece.payload, 0u);
+}
+
+TEST(Frontend, ShadesByTheLightWithAFloor) {
+  Scene scene = loose(kFront);
+  const auto red = [&](glm::vec3 to_light) {
+    scene.to_light = to_light;
+    return run(scene).triangles.at(0).payload & 255;
+  };
+  EXPECT_EQ(red({0, 0, 1}), 200u) << "light from the camera's side";
+  EXPECT_EQ(red({0, 0, -1}), 30u) << "max(n.l, 0.15)";
+  EXPECT_EQ(red({0, 3, 4}), 160u) << "n.l = 0.8, whatever the length";
+  FrontendOptions flat{.width = 100, .height = 100, .cull = Cull::none, .shade = false};
+  EXPECT_EQ(run(scene, flat).triangles.at(0).payload, rgb(200, 100, 50));
+}
+
+TEST(Frontend, ShadingFollowsRotationAndMirroring) {
+  Scene scene = loose(kFront);
+  scene.instances[0].scale = {-1, 1, 1};  // mirrored: the winding turns, and with it the side that is lit
+  const auto result = run(scene);
+  EXPECT_EQ(result.triangles.at(0).payload & 255, 30u);
+  EXPECT_LT(contract::signed_area(result.triangles.at(0)), 0);
+}
+
+TEST(Frontend, GivesTheSameTrianglesOnEveryThreadCount) {
+  for (const auto name : {"terrain", "torus-knot", "micro"}) {
+    const SceneInfo& info = find_scene(name);
+    const Drawable drawable = info.make({.width = 300, .height = 200, .scale = 0.05});
+    FrontendOptions options{.width = 300, .height = 200, .cull = Cull::none, .shade = !info.stream};
+    const auto one = run(drawable, options);
+    for (const int threads : {2, 5}) {
+      options.threads = threads;
+      const auto many = run(drawable, options);
+      ASSERT_EQ(one.triangles.size(), many.triangles.size());
+      EXPECT_EQ(std::memcmp(one.triangles.data(), many.triangles.data(),
+                            one.triangles.size() * sizeof(ScreenTriangle)),
+                0);
+      EXPECT_EQ(std::memcmp(&one.stats, &many.stats, sizeof one.stats), 0);
+    }
+  }
+}
+
+TEST(Frontend, RefusesImpossibleInput) {
+  const auto expect_refused = [](auto change) {
+    Scene scene = loose(kFront);
+    FrontendOptions options{.width = 64, .height = 64};
+    change(scene, options);
+    EXPECT_THROW(run(scene, options), std::invalid_argument);
+  };
+  expect_refused([](Scene&, FrontendOptions& o) { o.width = 0; });
+  expect_refused([](Scene&, FrontendOptions& o) { o.height = 16385; });
+  expect_refused([](Scene& s, FrontendOptions&) { s.camera.fov_y = 0.0f; });
+  expect_refused([](Scene& s, FrontendOptions&) { s.camera.near_z = 0.0f; });
+  expect_refused([](Scene& s, FrontendOptions&) { s.camera.far_z = s.camera.near_z; });
+  expect_refused([](Scene& s, FrontendOptions&) { s.camera.position.x = kNan; });
+  expect_refused([](Scene& s, FrontendOptions&) { s.instances[0].mesh = 1; });
+  expect_refused([](Scene& s, FrontendOptions&) { s.meshes[0].triangles[0].z = 3; });
+  expect_refused([](Scene& s, FrontendOptions&) { s.meshes[0].colours.clear(); });
+}
+
+}  // namespace
+}  // namespace edgewise

@@ -1,0 +1,202 @@
+// The built-in scenes are what they claim to be.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <numeric>
+#include <set>
+#include <stdexcept>
+
+#include "frontend/frontend.h"
+#include "lab/measure.h"
+#include "scene/builtin.h"
+#include "support.h"
+
+namespace edgewise {
+namespace {
+
+const TriangleStream& stream_of(const Drawable& drawable) {
+  return std::get<TriangleStream>(drawable);
+}
+
+std::vector<std::string_view> scene_names(bool stream) {
+  std::vector<std::string_view> names;
+  for (const auto& s : builtin_scenes())
+    if (s.stream == stream) names.push_back(s.name);
+  return names;
+}
+
+double area_px(const StreamTriangle& t) {
+  const glm::dvec3 a(t.vertex[0]), b(t.vertex[1]), c(t.vertex[2]);
+  return std::abs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)) / 2.0;
+}
+
+TEST(Scenes, StreamsHaveTheCountsAndAreasOfThePeersComparison) {
+  const struct {
+    const char* name;
+    std::size_t count;
+    double area;
+  } kExpected[] = {{"large", 1'000, 45'000},
+                   {"medium", 50'000, 400},
+                   {"small", 1'000'000, 10},
+                   {"micro", 2'000'000, 1},
+                   {"sliver", 100'000, 125}};
+  for (const auto& e : kExpected) {
+    const Drawable drawable = find_scene(e.name).make({});
+    const auto& triangles = stream_of(drawable).triangles;
+    EXPECT_EQ(triangles.size(), e.count) << e.name;
+    for (std::size_t i = 0; i < triangles.size(); i += triangles.size() / 97)
+      EXPECT_NEAR(area_px(triangles[i]), e.area, e.area * 0.05) << e.name;
+  }
+}
+
+TEST(Scenes, SliversAreLongAndHalfAPixelWide) {
+  const Drawable drawable = find_scene("sliver").make({.scale = 0.01});
+  for (const auto& t : stream_of(drawable).triangles) {
+    const auto longest = std::max({glm::distance(glm::vec2(t.vertex[0]), glm::vec2(t.vertex[1])),
+                                   glm::distance(glm::vec2(t.vertex[1]), glm::vec2(t.vertex[2])),
+                                   glm::distance(glm::vec2(t.vertex[2]), glm::vec2(t.vertex[0]))});
+    EXPECT_GT(longest, 400.0f);
+    EXPECT_LT(2.0 * area_px(t) / longest, 0.7);
+  }
+}
+
+TEST(Scenes, ScaleChangesTheCountOfStreams) {
+  for (const auto name : scene_names(true)) {
+    const auto count = [&](double scale) {
+      return static_cast<double>(stream_of(find_scene(name).make({.scale = scale})).triangles.size());
+    };
+    EXPECT_NEAR(count(0.25) / count(1.0), 0.25, 0.03) << name;
+  }
+}
+
+TEST(Scenes, RefuseAbsurdScales) {
+  for (const double scale : {0.0, -1.0, std::nan(""), 1e9})
+    for (const auto name : {"micro", "grid4"})
+      EXPECT_THROW(find_scene(name).make({.scale = scale}), std::invalid_argument);
+}
+
+TEST(Scenes, EveryNameMakesTheSameSceneTwice) {
+  for (const auto& info : builtin_scenes()) {
+    const SceneRequest request{.width = 200, .height = 150, .time = 0.5f, .scale = 0.01};
+    FrontendOptions options{.width = 200, .height = 150, .cull = Cull::none};
+    Frontend a, b;
+    const auto first = a.run(info.make(request), options), second = b.run(info.make(request), options);
+    ASSERT_GT(first.size(), 0u) << info.name;
+    ASSERT_EQ(first.size(), second.size()) << info.name;
+    EXPECT_EQ(std::memcmp(first.data(), second.data(), first.size_bytes()), 0) << info.name;
+  }
+}
+
+TEST(Scenes, TheCubeHasEightVerticesAndTwelveTrianglesOfTwelveColoursAndTurns) {
+  const auto scene = std::get<Scene>(find_scene("cube").make({}));
+  ASSERT_EQ(scene.meshes.size(), 1u);
+  EXPECT_EQ(scene.meshes[0].positions.size(), 8u);
+  EXPECT_EQ(scene.meshes[0].triangles.size(), 12u);
+  EXPECT_EQ(std::set<std::uint32_t>(scene.meshes[0].colours.begin(), scene.meshes[0].colours.end()).size(),
+            12u);
+  EXPECT_NE(std::get<Scene>(find_scene("cube").make({.time = 1.0f})).instances[0].angle,
+            scene.instances[0].angle);
+}
+
+// Signed volume: positive where triangles are counter-clockwise from outside, so ours is negative.
+TEST(Scenes, ClosedMeshesShowTheirFrontOutside) {
+  for (const auto name : {"cube", "sphere", "torus-knot"}) {
+    const auto scene = std::get<Scene>(find_scene(name).make({}));
+    double volume = 0;
+    for (const auto& mesh : scene.meshes)
+      for (const auto& t : mesh.triangles) {
+        const glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
+        volume += glm::dot(a, glm::cross(b, c)) / 6.0;
+      }
+    EXPECT_LT(volume, -1.0) << name;
+  }
+}
+
+// Every edge is used once in each direction, by position, since sheets repeat the vertices of their seams.
+TEST(Scenes, ClosedMeshesHaveNoSeam) {
+  for (const auto name : {"cube", "sphere", "torus-knot"}) {
+    const auto scene = std::get<Scene>(find_scene(name).make({}));
+    std::map<std::array<float, 6>, int> edges;
+    for (const auto& mesh : scene.meshes)
+      for (const auto& t : mesh.triangles)
+        for (int i = 0; i < 3; ++i) {
+          const glm::vec3 p = mesh.positions[t[i]], q = mesh.positions[t[(i + 1) % 3]];
+          ++edges[{p.x, p.y, p.z, q.x, q.y, q.z}];
+          --edges[{q.x, q.y, q.z, p.x, p.y, p.z}];
+        }
+    EXPECT_EQ(std::count_if(edges.begin(), edges.end(), [](const auto& e) { return e.second != 0; }), 0)
+        << name;
+  }
+}
+
+TEST(Scenes, TerrainSurroundsTheCameraAndCrossesTheNearPlane) {
+  Frontend frontend;
+  frontend.run(find_scene("terrain").make({}), {});
+  const FrontendStats& s = frontend.stats();
+  EXPECT_EQ(s.triangles, 524'288u);
+  EXPECT_GT(s.clipped_near, 0u);
+  EXPECT_GT(s.outside, s.triangles / 2);
+  EXPECT_GT(s.emitted, 10'000u);
+}
+
+class Grids : public ::testing::TestWithParam<std::string_view> {};
+
+TEST_P(Grids, CoverEveryPixelExactlyOnceByEveryBackend) {
+  for (const auto& [width, height] : {std::pair{331, 203}, {64, 64}, {5, 7}}) {
+    const Drawable drawable = find_scene(GetParam()).make({.width = width, .height = height});
+    Frontend frontend;
+    const auto triangles = frontend.run(drawable, {.width = width, .height = height, .cull = Cull::none});
+    for (const auto& info : backends()) {
+      const auto hits = lab::count_hits(*info.make(), triangles, width, height, {.threads = 2});
+      EXPECT_EQ(std::count(hits.begin(), hits.end(), 1u), width * height) << info.name;
+    }
+    EXPECT_EQ(lab::covered_pixels(triangles, width, height), static_cast<std::uint64_t>(width * height));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(BuiltIn, Grids, ::testing::Values("grid4", "grid64"),
+                         [](const auto& param) { return testing::test_name(param); });
+
+TEST(Measure, CoveredPixelsIsTheSumOfTheHits) {
+  for (const auto family : testing::kFamilies) {
+    const auto triangles = testing::adversarial(family, 40, 60, 50, 17);
+    const auto hits = lab::count_hits(*find_backend("naive").make(), triangles, 60, 50, {});
+    EXPECT_EQ(lab::covered_pixels(triangles, 60, 50),
+              std::accumulate(hits.begin(), hits.end(), std::uint64_t{0}))
+        << family;
+  }
+}
+
+TEST(Camera, LooksAtItsTarget) {
+  for (const glm::vec3 target : {glm::vec3(1, 2, -8), {-4, 0, 3}, {0, 5, 0.01f}, {2, -7, 2}}) {
+    Scene scene = std::get<Scene>(find_scene("cube").make({}));
+    scene.camera.position = {0.5f, -0.25f, 1.0f};
+    scene.camera.look_at(target);
+    scene.instances[0] = {.scale = glm::vec3(1e-3f), .translation = target};
+    Frontend frontend;
+    const auto triangles = frontend.run(scene, {.width = 100, .height = 100, .cull = Cull::none});
+    ASSERT_FALSE(triangles.empty());
+    EXPECT_NEAR(triangles[0].x_sub[0], 50 * 256, 40);
+    EXPECT_NEAR(triangles[0].y_sub[0], 50 * 256, 40);
+  }
+}
+
+TEST(Fit, CentresAndScalesTheLongestSideToTwo) {
+  Scene scene = std::get<Scene>(find_scene("torus-knot").make({}));
+  scene.instances[0].scale = {3, 5, 0.5f};
+  scene.instances[0].translation = {100, -20, 7};
+  fit(scene);
+  glm::vec3 low(1e9f), high(-1e9f);
+  const glm::mat4 model = model_matrix(scene.instances[0]);
+  for (const auto& p : scene.meshes[0].positions) {
+    low = glm::min(low, glm::vec3(model * glm::vec4(p, 1)));
+    high = glm::max(high, glm::vec3(model * glm::vec4(p, 1)));
+  }
+  EXPECT_NEAR(glm::length(low + high), 0.0f, 1e-4f);
+  EXPECT_NEAR(std::max({high.x - low.x, high.y - low.y, high.z - low.z}), 2.0f, 1e-4f);
+}
+
+}  // namespace
+}  // namespace edgewise

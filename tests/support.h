@@ -1,0 +1,110 @@
+// What several tests share: adversarial triangles, all ways to execute, and pictures to compare.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lab/measure.h"
+#include "raster/backend.h"
+#include "raster/contract.h"
+#include "scene/random.h"
+
+namespace edgewise::testing {
+
+inline constexpr std::uint32_t kBackground = 0xABCD1234;
+
+// Families of triangles that are hard for a rasterizer.
+inline constexpr std::string_view kFamilies[] = {"lattice",     "pixel-centres", "subpixel", "slivers",
+                                                 "huge",        "guardband",     "tiny",     "degenerate",
+                                                 "equal-depth", "steep"};
+
+inline std::vector<ScreenTriangle> adversarial(std::string_view family, int count, int width, int height,
+                                               std::uint64_t seed) {
+  using namespace contract;
+  Random random(seed);
+  const auto between = [&](std::int64_t low, std::int64_t high) {
+    return static_cast<std::int32_t>(
+        low + static_cast<std::int64_t>(random.below(static_cast<std::uint64_t>(high - low + 1))));
+  };
+  const auto depth = [&] {
+    return kDepthHead + static_cast<std::uint32_t>(random.below(kDepthRange + 1ull));
+  };
+  std::vector<ScreenTriangle> triangles(static_cast<std::size_t>(count));
+  std::uint32_t id = 0;
+  for (auto& t : triangles) {
+    const std::int32_t cx = between(0, width * kSub), cy = between(0, height * kSub);
+    for (int i = 0; i < 3; ++i) {
+      std::int32_t x = between(-10 * kSub, (width + 10) * kSub),
+                   y = between(-10 * kSub, (height + 10) * kSub);
+      std::uint32_t z = depth();
+      if (family == "lattice") x = x / kSub * kSub, y = y / kSub * kSub;
+      if (family == "pixel-centres") x = sample_sub(x / kSub), y = sample_sub(y / kSub);
+      if (family == "slivers" && i > 0) {
+        x = i == 1 ? x : t.x_sub[1] + between(-3, 3);
+        y = i == 1 ? y : t.y_sub[1] + between(-3, 3);
+      }
+      if (family == "huge") x = between(-kGuardSub, kGuardSub), y = between(-kGuardSub, kGuardSub);
+      if (family == "guardband") x = between(0, 1) ? kGuardSub : -kGuardSub, y = between(0, 2) == 0 ? y : x;
+      if (family == "tiny") x = cx + between(-300, 300), y = cy + between(-300, 300);
+      if (family == "degenerate" && i == 2) {
+        const int copy = between(0, 2);  // a point, a repeated vertex, or three in a row
+        x = copy == 2 ? 2 * t.x_sub[1] - t.x_sub[0] : t.x_sub[copy];
+        y = copy == 2 ? 2 * t.y_sub[1] - t.y_sub[0] : t.y_sub[copy];
+      }
+      if (family == "equal-depth") z = kDepthHead + 1000;
+      if (family == "steep") {
+        x = cx + between(-400, 400), y = cy + between(-400, 400);
+        z = between(0, 1) ? kDepthHead : kDepthHead + kDepthRange;
+      }
+      t.x_sub[i] = std::clamp(x, -kGuardSub, kGuardSub);
+      t.y_sub[i] = std::clamp(y, -kGuardSub, kGuardSub);
+      t.z[i] = z;
+    }
+    t.payload = id++;
+  }
+  return triangles;
+}
+
+// Every SIMD target with one thread, and several thread counts and all tile sizes with the best target.
+inline std::vector<Execution> executions() {
+  std::vector<Execution> list;
+  for (const auto target : supported_targets()) list.push_back({1, 64, target});
+  for (const int threads : {2, 3, 8}) list.push_back({threads, 64, SimdTarget::best});
+  for (const auto target : supported_targets())
+    for (const int tile : {16, 32}) list.push_back({2, tile, target});
+  return list;
+}
+
+inline std::string describe(const Execution& e) {
+  return std::to_string(e.threads) + " threads, tile " + std::to_string(e.tile_size) + ", " +
+         std::string(name_of(e.target));
+}
+
+inline void expect_same(const Framebuffer& expected, const Framebuffer& actual, const std::string& what) {
+  const auto difference = lab::compare(expected, actual);
+  if (difference.pixels == 0) return;
+  const int x = difference.first_x, y = difference.first_y;
+  ADD_FAILURE() << what << ": " << difference.pixels << " pixels differ, first (" << x << ", " << y
+                << "): depth " << expected.depth_row(y)[x] << " and " << actual.depth_row(y)[x]
+                << ", payload " << expected.payload_row(y)[x] << " and " << actual.payload_row(y)[x];
+}
+
+inline std::vector<std::string_view> backend_names() {
+  std::vector<std::string_view> names;
+  for (const auto& b : backends()) names.push_back(b.name);
+  return names;
+}
+
+// For parameterised tests: names may hold letters, digits and underscores only.
+template <typename Info>
+std::string test_name(const Info& info) {
+  std::string name(info.param);
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
+}  // namespace edgewise::testing
