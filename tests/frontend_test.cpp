@@ -271,6 +271,27 @@ TEST(Frontend, GivesTheSameTrianglesOnEveryThreadCount) {
   }
 }
 
+TEST(Frontend, UnsnappedTrianglesAreWhereTheSnappedOnesWereRoundedFrom) {
+  for (const auto name : {"terrain", "small"}) {
+    const Drawable drawable = find_scene(name).make({.width = 300, .height = 200, .scale = 0.01});
+    Frontend frontend;
+    FrontendOptions options{.width = 300, .height = 200, .cull = Cull::none, .keep_unsnapped = true};
+    const auto triangles = frontend.run(drawable, options);
+    const auto unsnapped = frontend.unsnapped();
+    ASSERT_EQ(triangles.size(), unsnapped.size());
+    EXPECT_EQ(frontend.stats().zero_area, 0u) << "those without area are kept for judging";
+    for (std::size_t i = 0; i < triangles.size(); ++i)
+      for (int k = 0; k < 3; ++k) {
+        ASSERT_EQ(snap(unsnapped[i].x_px[k]), triangles[i].x_sub[k]);
+        ASSERT_EQ(snap(unsnapped[i].y_px[k]), triangles[i].y_sub[k]);
+        ASSERT_EQ(quantize_depth(unsnapped[i].z01[k]), triangles[i].z[k]);
+      }
+    options.keep_unsnapped = false;
+    frontend.run(drawable, options);
+    EXPECT_TRUE(frontend.unsnapped().empty());
+  }
+}
+
 TEST(Frontend, RefusesImpossibleInput) {
   const auto expect_refused = [](auto change) {
     Scene scene = loose(kFront);

@@ -39,9 +39,20 @@ Snapped project(const ClipVertex& v) {
   return {snap(v.x * inverse_w), snap(v.y * inverse_w), quantize_depth(v.z * inverse_w)};
 }
 
+UnsnappedTriangle unsnapped_triangle(const ClipVertex& a, const ClipVertex& b, const ClipVertex& c) {
+  const float wa = 1.0f / a.w, wb = 1.0f / b.w, wc = 1.0f / c.w;
+  return {{a.x * wa, b.x * wb, c.x * wc}, {a.y * wa, b.y * wb, c.y * wc}, {a.z * wa, b.z * wb, c.z * wc}};
+}
+
+struct Corner {
+  const ClipVertex& clip;
+  Snapped screen;
+};
+
 // One run's visible triangles and what became of the others.
 struct Output {
   std::vector<ScreenTriangle> triangles;
+  std::vector<UnsnappedTriangle> unsnapped;
   FrontendStats stats;
 };
 
@@ -83,18 +94,21 @@ class Assembler {
     Snapped previous = project(polygon[1]);
     for (std::size_t i = 2; i < polygon.size(); ++i) {
       const Snapped next = project(polygon[i]);
-      emit(first, previous, next, payload);
+      emit({polygon[0], first}, {polygon[i - 1], previous}, {polygon[i], next}, payload);
       previous = next;
     }
   }
 
   template <typename PayloadOf>
-  void emit(const Snapped& a, const Snapped& b, const Snapped& c, PayloadOf&& payload) {
+  void emit(const Corner& a, const Corner& b, const Corner& c, PayloadOf&& payload) {
     FrontendStats& stats = out_.stats;
     ++stats.pieces;
-    ScreenTriangle t{{a.x_sub, b.x_sub, c.x_sub}, {a.y_sub, b.y_sub, c.y_sub}, {a.z, b.z, c.z}, 0};
+    ScreenTriangle t{{a.screen.x_sub, b.screen.x_sub, c.screen.x_sub},
+                     {a.screen.y_sub, b.screen.y_sub, c.screen.y_sub},
+                     {a.screen.z, b.screen.z, c.screen.z},
+                     0};
     const std::int64_t area = contract::signed_area(t);
-    if (area == 0) {
+    if (area == 0 && !options_.keep_unsnapped) {
       ++stats.zero_area;
     } else if (options_.cull == Cull::both || (options_.cull == Cull::front && area > 0) ||
                (options_.cull == Cull::back && area < 0)) {
@@ -103,6 +117,7 @@ class Assembler {
       ++stats.emitted;
       t.payload = payload();
       out_.triangles.push_back(t);
+      if (options_.keep_unsnapped) out_.unsnapped.push_back(unsnapped_triangle(a.clip, b.clip, c.clip));
     }
   }
 
@@ -217,6 +232,7 @@ struct Frontend::State {
   std::vector<Output> outputs;  // one a run, in submission order; the first used_outputs are this frame's
   std::size_t used_outputs = 0;
   std::vector<ScreenTriangle> screen;
+  std::vector<UnsnappedTriangle> unsnapped;
   FrontendStats stats;
   FrontendOptions options;
 
@@ -230,6 +246,7 @@ struct Frontend::State {
       const auto r = static_cast<std::size_t>(i);
       Output& out = outputs[first + r];
       out.triangles.clear();
+      out.unsnapped.clear();
       out.stats = {};
       body(r * kRun, std::min(count, (r + 1) * kRun), out);
     });
@@ -292,7 +309,7 @@ struct Frontend::State {
         };
         const auto sides = static_cast<std::uint16_t>((a.outside | b.outside | c.outside) & kMustClip);
         if (sides == 0)
-          assembler.emit(a.screen, b.screen, c.screen, payload);
+          assembler.emit({a.clip, a.screen}, {b.clip, b.screen}, {c.clip, c.screen}, payload);
         else
           assembler.clip({a.clip, b.clip, c.clip}, sides, payload);
       }
@@ -342,7 +359,7 @@ struct Frontend::State {
         };
         const auto sides = static_cast<std::uint16_t>((outside[0] | outside[1] | outside[2]) & kMustClip);
         if (sides == 0)
-          assembler.emit(project(v[0]), project(v[1]), project(v[2]), payload);
+          assembler.emit({v[0], project(v[0])}, {v[1], project(v[1])}, {v[2], project(v[2])}, payload);
         else
           assembler.clip(v, sides, payload);
       }
@@ -356,10 +373,12 @@ struct Frontend::State {
       stats += outputs[i].stats;
     }
     screen.resize(start.back());
+    unsnapped.resize(options.keep_unsnapped ? start.back() : 0);
     parallel_for(options.threads, static_cast<int>(used_outputs), [&](int i) {
-      const auto& from = outputs[static_cast<std::size_t>(i)].triangles;
-      std::copy(from.begin(), from.end(),
-                screen.begin() + static_cast<std::ptrdiff_t>(start[static_cast<std::size_t>(i)]));
+      const Output& from = outputs[static_cast<std::size_t>(i)];
+      const auto at = static_cast<std::ptrdiff_t>(start[static_cast<std::size_t>(i)]);
+      std::copy(from.triangles.begin(), from.triangles.end(), screen.begin() + at);
+      std::copy(from.unsnapped.begin(), from.unsnapped.end(), unsnapped.begin() + at);
     });
   }
 };
@@ -388,6 +407,10 @@ std::span<const ScreenTriangle> Frontend::run(const Drawable& drawable, const Fr
 
 const FrontendStats& Frontend::stats() const {
   return state_->stats;
+}
+
+std::span<const UnsnappedTriangle> Frontend::unsnapped() const {
+  return state_->unsnapped;
 }
 
 }  // namespace edgewise

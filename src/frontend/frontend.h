@@ -28,6 +28,13 @@ struct FrontendOptions {
   bool shade = true;                // scenes only: colour times max(n·l, 0.15)
   Payload payload = Payload::colour;
   int threads = 1;
+  // For judging: remember where each triangle lay before it was snapped, and keep those that lost their area by it.
+  bool keep_unsnapped = false;
+};
+
+// A screen triangle's vertices as they were before snapping: pixels, and depth in [0, 1].
+struct UnsnappedTriangle {
+  float x_px[3], y_px[3], z01[3];
 };
 
 // Where each triangle went. `triangles` = whole_mesh + not_finite + outside + not_in_front + (those that went
@@ -63,6 +70,8 @@ class Frontend {
   // camera or a size out of range, or a triangle that names a vertex its mesh lacks.
   std::span<const ScreenTriangle> run(const Drawable& drawable, const FrontendOptions& options);
   const FrontendStats& stats() const;
+  // One for each triangle that run() returned, if keep_unsnapped was set; else none.
+  std::span<const UnsnappedTriangle> unsnapped() const;
 
  private:
   struct State;
