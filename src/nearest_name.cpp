@@ -34,8 +34,11 @@ std::string unknown_name(std::string_view kind, std::string_view name,
   });
   if (nearest != known.end()) text += "; did you mean '" + std::string(*nearest) + "'?";
   text += " (known:";
-  for (const auto k : known) text += " " + std::string(k);
-  return text + ")";
+  for (const auto k : known) {
+    text += ' ';
+    text += k;
+  }
+  return text += ')';
 }
 
 }  // namespace edgewise

@@ -6,8 +6,8 @@
 
 namespace edgewise {
 
-// Writes to a temporary file beside `path` and renames it on commit(). Without commit(), and on SIGINT, SIGTERM or
-// SIGHUP, the temporary file is removed and an older file under the final name stays as it was.
+// Writes to a temporary file beside `path` and renames it on commit(). Without commit(), and on SIGINT,
+// SIGTERM or SIGHUP, the temporary file is removed and an older file under the final name stays as it was.
 class AtomicFile {
  public:
   // Throws std::runtime_error, naming the file and the reason, if the folder cannot be written.
@@ -25,5 +25,9 @@ class AtomicFile {
   std::ofstream stream_;
   int slot_ = -1;  // in the list that the signal handler reads
 };
+
+// Removes the temporary files of all AtomicFiles. Async-signal-safe, for a program with signal handlers of
+// its own.
+void remove_unfinished_files();
 
 }  // namespace edgewise

@@ -23,8 +23,8 @@ struct DepthMap {
 Image to_image(const Framebuffer& frame);
 DepthMap to_depth_map(const Framebuffer& frame);  // contract depth units → [0, 1]
 
-// Writes .png or .ppm (P6), by the extension. A file appears under its final name only when it is whole. All of the
-// functions below throw std::runtime_error, naming the file and the reason.
+// Writes .png or .ppm (P6), by the extension. A file appears under its final name only when it is whole. All
+// of the functions below throw std::runtime_error, naming the file and the reason.
 void write_image(const std::filesystem::path& path, const Image& image);
 Image read_image(const std::filesystem::path& path);
 
@@ -36,10 +36,10 @@ DepthMap read_pfm(const std::filesystem::path& path);
 bool is_image_path(const std::filesystem::path& path);
 
 struct Difference {
-  std::uint64_t count = 0;   // pixels that differ
-  double largest = 0.0;      // largest difference of a channel (0 … 255) or of a depth
+  std::uint64_t count = 0;  // pixels that differ
+  double largest = 0.0;     // largest difference of a channel (0 … 255) or of a depth
   int first_x = -1, first_y = -1;
-  Image picture;             // grey where equal, red where not, brighter for a larger difference
+  Image picture;  // grey where equal, red where not, brighter for a larger difference
 };
 
 // Both throw std::invalid_argument if the sizes differ.

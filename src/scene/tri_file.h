@@ -1,5 +1,5 @@
-// Triangle streams on disk (.tri), little endian: "TRI1", uint32 width, height, count, then per triangle nine float32
-// (x, y, z of three vertices) and a uint32 colour.
+// Triangle streams on disk (.tri), little endian: "TRI1", uint32 width, height, count, then per triangle nine
+// float32 (x, y, z of three vertices) and a uint32 colour.
 #pragma once
 
 #include <filesystem>
@@ -9,9 +9,9 @@
 
 namespace edgewise {
 
-// Throws std::runtime_error, naming the file and what is wrong with it, for a file that is missing, truncated, too
-// long for its count, of another format, or of a size outside 1 … contract::kMaxImageSide. Vertices of any value,
-// NaN included, are read as they are: the front end judges them.
+// Throws std::runtime_error, naming the file and what is wrong with it, for a file that is missing,
+// truncated, too long for its count, of another format, or of a size outside 1 … contract::kMaxImageSide.
+// Vertices of any value, NaN included, are read as they are: the front end judges them.
 TriangleStream read_tri(const std::filesystem::path& path);
 
 void write_tri(std::ostream& out, const TriangleStream& stream);

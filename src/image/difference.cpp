@@ -1,0 +1,111 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "image/image.h"
+#include "raster/contract.h"
+#include "scene/scene.h"
+
+namespace edgewise {
+
+namespace {
+
+// Equal pixels keep a third of their brightness, so that even the faintest red, which has half, stands out.
+constexpr std::uint32_t kBrightestGrey = 85;
+constexpr double kFaintestRed = 128.0;
+
+std::string size_text(int width, int height) {
+  return std::to_string(width) + "x" + std::to_string(height);
+}
+
+// `delta(i)` is the difference at a pixel, `grey(i)` its brightness when equal, at most kBrightestGrey.
+template <typename Delta, typename Grey>
+Difference compare(int width, int height, const Delta& delta, const Grey& grey) {
+  Difference result;
+  const auto columns = static_cast<std::size_t>(width), pixels = columns * static_cast<std::size_t>(height);
+  double largest_finite = 0.0;
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const double d = delta(i);
+    if (d == 0.0) continue;
+    if (result.count++ == 0) {
+      result.first_x = static_cast<int>(i % columns);
+      result.first_y = static_cast<int>(i / columns);
+    }
+    result.largest = std::max(result.largest, d);
+    if (std::isfinite(d)) largest_finite = std::max(largest_finite, d);
+  }
+
+  result.picture = {width, height, std::vector<std::uint32_t>(pixels)};
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const double d = delta(i), share = std::isfinite(d) ? d / largest_finite : 1.0;
+    const std::uint32_t g = d == 0.0 ? grey(i) : 0;
+    result.picture.pixels[i] =
+        d == 0.0 ? rgb(g, g, g)
+                 : rgb(static_cast<std::uint32_t>(kFaintestRed + (255.0 - kFaintestRed) * share), 0, 0);
+  }
+  return result;
+}
+
+template <typename Picture>
+void require_same_size(const Picture& a, const Picture& b) {
+  if (a.width != b.width || a.height != b.height)
+    throw std::invalid_argument("sizes differ: " + size_text(a.width, a.height) + " and " +
+                                size_text(b.width, b.height));
+}
+
+double channel_delta(std::uint32_t a, std::uint32_t b) {
+  int largest = 0;
+  for (int shift = 0; shift < 24; shift += 8)
+    largest =
+        std::max(largest, std::abs(static_cast<int>(a >> shift & 255) - static_cast<int>(b >> shift & 255)));
+  return largest;
+}
+
+double depth_delta(float a, float b) {
+  if (a == b || (std::isnan(a) && std::isnan(b))) return 0.0;
+  const double delta = std::fabs(static_cast<double>(a) - b);
+  return std::isnan(delta) ? std::numeric_limits<double>::infinity() : delta;
+}
+
+}  // namespace
+
+Difference difference(const Image& a, const Image& b) {
+  require_same_size(a, b);
+  return compare(
+      a.width, a.height, [&](std::size_t i) { return channel_delta(a.pixels[i], b.pixels[i]); },
+      [&](std::size_t i) {
+        const std::uint32_t p = a.pixels[i], sum = (p & 255) + (p >> 8 & 255) + (p >> 16 & 255);
+        return sum * kBrightestGrey / (3 * 255);
+      });
+}
+
+Difference difference(const DepthMap& a, const DepthMap& b) {
+  require_same_size(a, b);
+  return compare(
+      a.width, a.height, [&](std::size_t i) { return depth_delta(a.depth01[i], b.depth01[i]); },
+      [&](std::size_t i) {
+        const float depth = a.depth01[i];
+        const float nearness = depth >= 0.0f && depth <= 1.0f ? 1.0f - depth : 0.0f;
+        return static_cast<std::uint32_t>(nearness * static_cast<float>(kBrightestGrey));
+      });
+}
+
+Image enlarge(const Image& image, int factor) {
+  if (factor < 1 || image.width > contract::kMaxImageSide / factor ||
+      image.height > contract::kMaxImageSide / factor)
+    throw std::invalid_argument("an image of " + size_text(image.width, image.height) +
+                                " cannot be enlarged by " + std::to_string(factor));
+  Image large{image.width * factor, image.height * factor, {}};
+  large.pixels.reserve(static_cast<std::size_t>(large.width) * static_cast<std::size_t>(large.height));
+  for (int y = 0; y < large.height; ++y)
+    for (int x = 0; x < large.width; ++x)
+      large.pixels.push_back(
+          image.pixels[static_cast<std::size_t>(y / factor) * static_cast<std::size_t>(image.width) +
+                       static_cast<std::size_t>(x / factor)]);
+  return large;
+}
+
+}  // namespace edgewise

@@ -1,0 +1,86 @@
+#include "image/netpbm.h"
+
+#include <charconv>
+
+#include "raster/contract.h"
+
+namespace edgewise::netpbm {
+
+namespace {
+
+// Longer than any honest word, and short enough to quote.
+constexpr std::size_t kMaxWord = 32;
+
+bool is_blank(int c) {
+  return c == ' ' || (c >= '\t' && c <= '\r');
+}
+
+}  // namespace
+
+Size checked_size(const std::filesystem::path& path, std::uint64_t width, std::uint64_t height) {
+  const auto is_side = [](std::uint64_t px) {
+    return px >= 1 && px <= std::uint64_t{contract::kMaxImageSide};
+  };
+  if (!is_side(width) || !is_side(height))
+    throw file_error(path, "image size " + std::to_string(width) + "x" + std::to_string(height) +
+                               " is outside 1 to " + std::to_string(contract::kMaxImageSide));
+  return {static_cast<int>(width), static_cast<int>(height)};
+}
+
+void check_pixels(const std::filesystem::path& path, int width, int height, std::size_t pixels) {
+  if (width < 1 || width > contract::kMaxImageSide || height < 1 || height > contract::kMaxImageSide ||
+      Size{width, height}.pixels() != pixels)
+    throw file_error(path, "cannot be written: " + std::to_string(pixels) +
+                               " pixels don't make an image of " + std::to_string(width) + "x" +
+                               std::to_string(height));
+}
+
+Reader::Reader(const std::filesystem::path& path, std::string_view magic)
+    : path_(path), file_(open_input(path)) {
+  std::string start(magic.size(), '\0');
+  file_.stream.read(start.data(), static_cast<std::streamsize>(start.size()));
+  if (start != magic || !is_blank(file_.stream.peek()))
+    throw file_error(path_, "does not start with " + std::string(magic));
+}
+
+std::string Reader::word() {
+  std::istream& in = file_.stream;
+  while (is_blank(in.peek()) || in.peek() == '#')
+    if (in.get() == '#')
+      for (int c = in.get(); c != '\n' && in;) c = in.get();
+  std::string word;
+  while (word.size() < kMaxWord && in.peek() > ' ' && in.peek() <= '~')
+    word.push_back(static_cast<char>(in.get()));
+  if (word.empty() || !is_blank(in.peek())) throw file_error(path_, "malformed or truncated header");
+  return word;
+}
+
+std::uint64_t Reader::integer() {
+  const std::string text = word();
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size())
+    throw file_error(path_, "malformed header: '" + text + "' is not a size");
+  return value;
+}
+
+Size Reader::size() {
+  const std::uint64_t width = integer(), height = integer();
+  return checked_size(path_, width, height);
+}
+
+void Reader::check_rest(std::uint64_t bytes) {
+  file_.stream.get();
+  const auto position = static_cast<std::uint64_t>(file_.stream.tellg());
+  const std::uint64_t rest = file_.size - position;
+  if (rest < bytes)
+    throw file_error(path_, "truncated: header promises " + std::to_string(bytes) + " bytes, " +
+                                std::to_string(rest) + " follow");
+}
+
+void Reader::read(void* samples, std::size_t bytes) {
+  if (!file_.stream.read(static_cast<char*>(samples), static_cast<std::streamsize>(bytes)))
+    throw file_error(path_, "cannot be read to its end");
+}
+
+}  // namespace edgewise::netpbm

@@ -1,0 +1,62 @@
+// PFM, as Debevec's HDRShop defined it: "Pf", width, height, a scale whose sign tells the byte order
+// (negative is little endian), then float rows, the bottom one first. The scale's size is a unit of light and
+// is ignored.
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <string>
+
+#include "image/atomic_file.h"
+#include "image/image.h"
+#include "image/netpbm.h"
+
+namespace edgewise {
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little);
+
+float swap_bytes(float value) {
+  return std::bit_cast<float>(__builtin_bswap32(std::bit_cast<std::uint32_t>(value)));
+}
+
+double read_scale(const std::filesystem::path& path, netpbm::Reader& reader) {
+  const std::string text = reader.word();
+  double scale = 0.0;
+  const auto [end, error] =
+      std::from_chars(text.data() + text.starts_with('+'), text.data() + text.size(), scale);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(scale) || scale == 0.0)
+    throw file_error(path, "malformed header: '" + text + "' is not a scale");
+  return scale;
+}
+
+}  // namespace
+
+void write_pfm(const std::filesystem::path& path, const DepthMap& map) {
+  netpbm::check_pixels(path, map.width, map.height, map.depth01.size());
+  AtomicFile file(path);
+  file.stream() << "Pf\n" << map.width << ' ' << map.height << "\n-1.0\n";
+  const auto row = static_cast<std::size_t>(map.width);
+  for (int y = map.height - 1; y >= 0; --y)
+    file.stream().write(reinterpret_cast<const char*>(map.depth01.data() + static_cast<std::size_t>(y) * row),
+                        static_cast<std::streamsize>(row * sizeof(float)));
+  file.commit();
+}
+
+DepthMap read_pfm(const std::filesystem::path& path) {
+  netpbm::Reader reader(path, "Pf");
+  const netpbm::Size size = reader.size();
+  const double scale = read_scale(path, reader);
+
+  DepthMap map{size.width, size.height, reader.samples<float>(size.pixels())};
+  if (scale > 0.0) std::transform(map.depth01.begin(), map.depth01.end(), map.depth01.begin(), swap_bytes);
+  for (int top = 0, bottom = map.height - 1; top < bottom; ++top, --bottom) {
+    const auto row = [&](int y) { return map.depth01.begin() + std::ptrdiff_t{y} * map.width; };
+    std::swap_ranges(row(top), row(top + 1), row(bottom));
+  }
+  return map;
+}
+
+}  // namespace edgewise

@@ -1,0 +1,212 @@
+// tinyobjloader never complains: it reads what is no number as 0, drops what it cannot use, and takes any
+// index. So each `v` and `f` line is checked first, with its line number, and only those lines are handed on.
+// Its callback interface is used because the other one cuts polygons at 255 corners and triangulates them
+// wrongly (see polygon.cpp).
+#include "scene/obj_file.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "input_file.h"
+#include "scene/polygon.h"
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wsign-conversion"
+#pragma GCC diagnostic ignored "-Wshadow"
+#define TINYOBJLOADER_IMPLEMENTATION
+#include <tiny_obj_loader.h>
+#pragma GCC diagnostic pop
+
+namespace edgewise {
+
+namespace {
+
+constexpr std::uint32_t kGrey = rgb(200, 200, 200);
+constexpr std::string_view kBlank = " \t\v\f";
+
+std::string at_line(std::size_t line, const std::string& reason) {
+  return "line " + std::to_string(line) + ": " + reason;
+}
+
+// Takes the next word off the front of a line; empty at its end.
+std::string_view next_word(std::string_view& line) {
+  line.remove_prefix(std::min(line.find_first_not_of(kBlank), line.size()));
+  const std::string_view word = line.substr(0, line.find_first_of(kBlank));
+  line.remove_prefix(word.size());
+  return word;
+}
+
+// What a message quotes of the file: short, and nothing a terminal would obey.
+std::string quoted(std::string_view word) {
+  std::string text(word.substr(0, 32));
+  for (char& c : text)
+    if (c < ' ' || c > '~') c = '?';
+  return "'" + text + (word.size() > 32 ? "...'" : "'");
+}
+
+template <typename Number>
+bool parse_prefix(std::string_view& word, Number& value) {
+  if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  word.remove_prefix(static_cast<std::size_t>(end - word.data()));
+  return error == std::errc();
+}
+
+void check_vertex(std::string_view rest, std::size_t line) {
+  for (int i = 0; i < 3; ++i) {
+    const std::string_view word = next_word(rest);
+    if (word.empty()) throw std::invalid_argument(at_line(line, "a vertex needs three coordinates"));
+    std::string_view left = word;
+    double value = 0.0;
+    if (!parse_prefix(left, value) || !left.empty() ||
+        !(std::fabs(value) <= std::numeric_limits<float>::max()))
+      throw std::invalid_argument(at_line(line, quoted(word) + " is not a finite coordinate"));
+  }
+}
+
+// A corner is V, V/T, V//N or V/T/N; only V matters here.
+void check_face(std::string_view rest, std::size_t line) {
+  int corners = 0;
+  for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest), ++corners) {
+    std::string_view left = word;
+    int index = 0;
+    if (!parse_prefix(left, index) || !(left.empty() || left[0] == '/') ||
+        left.find_first_not_of("/+-0123456789") != left.npos)
+      throw std::invalid_argument(at_line(line, quoted(word) + " is not a vertex index"));
+    if (index == 0) throw std::invalid_argument(at_line(line, "vertex index 0 (indices start at 1)"));
+  }
+  if (corners < 3) throw std::invalid_argument(at_line(line, "a face needs three corners or more"));
+}
+
+// The file's vertices and faces, checked as far as single lines allow it.
+struct Geometry {
+  std::string text;                     // one line each
+  std::vector<std::size_t> face_lines;  // the line in the file of each face
+
+  void add(std::string_view line, std::size_t number) {
+    line = line.substr(0, line.find('#'));
+    std::string_view rest = line;
+    const std::string_view keyword = next_word(rest);
+    if (keyword == "v") {
+      check_vertex(rest, number);
+    } else if (keyword == "f") {
+      check_face(rest, number);
+      face_lines.push_back(number);
+    } else {
+      return;
+    }
+    text.append(keyword).append(rest).push_back('\n');
+  }
+};
+
+Geometry read_geometry(std::string_view text) {
+  // Catches UTF-16 too, which has a zero byte in every ASCII character.
+  if (text.find('\0') != text.npos) throw std::invalid_argument("is not a text file");
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+
+  Geometry geometry;
+  geometry.text.reserve(text.size());
+  std::string joined;  // lines that a backslash continued
+  for (std::size_t number = 1, first = 1; !text.empty(); ++number) {
+    const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
+    std::string_view line = text.substr(0, end);
+    text.remove_prefix(end);
+    if (!text.empty()) text.remove_prefix(text.starts_with("\r\n") ? 2 : 1);
+    const bool continues = line.ends_with('\\');
+    if (continues) line.remove_suffix(1);
+    if (continues || !joined.empty()) line = joined.append(line).append(" ");
+    if (continues && !text.empty()) continue;
+    geometry.add(line, first);
+    joined.clear();
+    first = number + 1;
+  }
+  return geometry;
+}
+
+// Filled by tinyobjloader's callbacks.
+struct Builder {
+  std::vector<glm::vec3> positions;
+  std::vector<std::int64_t>
+      corners;  // zero-based; not yet known to be in range, since a vertex may follow its face
+  std::vector<std::size_t> face_ends{0};
+
+  static void vertex(void* self, float x, float y, float z, float) {
+    static_cast<Builder*>(self)->positions.emplace_back(x, y, z);
+  }
+  static void face(void* self, tinyobj::index_t* indices, int count) {
+    auto& builder = *static_cast<Builder*>(self);
+    const auto vertices_so_far = static_cast<std::int64_t>(builder.positions.size());
+    for (int i = 0; i < count; ++i) {
+      const std::int64_t index = indices[i].vertex_index;
+      builder.corners.push_back(index > 0 ? index - 1 : vertices_so_far + index);
+    }
+    builder.face_ends.push_back(builder.corners.size());
+  }
+};
+
+Mesh make_mesh(Builder built, const std::vector<std::size_t>& face_lines) {
+  Mesh mesh;
+  std::vector<std::uint32_t> polygon;
+  for (std::size_t face = 0; face < face_lines.size(); ++face) {
+    polygon.clear();
+    for (std::size_t i = built.face_ends[face]; i < built.face_ends[face + 1]; ++i) {
+      const std::int64_t corner = built.corners[i];
+      if (corner < 0 || corner >= static_cast<std::int64_t>(built.positions.size()))
+        throw std::invalid_argument(at_line(face_lines[face], "a face names vertex " +
+                                                                  std::to_string(corner + 1) + " of " +
+                                                                  std::to_string(built.positions.size())));
+      polygon.push_back(static_cast<std::uint32_t>(corner));
+    }
+    try {
+      triangulate(built.positions, polygon, mesh.triangles);
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument(at_line(face_lines[face], error.what()));
+    }
+  }
+  for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
+  mesh.positions = std::move(built.positions);
+  mesh.colours.assign(mesh.triangles.size(), kGrey);
+  return mesh;
+}
+
+Mesh parse_obj(std::string_view text) {
+  Geometry geometry = read_geometry(text);
+  if (geometry.face_lines.empty()) throw std::invalid_argument("has no faces");
+
+  tinyobj::callback_t callbacks;
+  callbacks.vertex_cb = Builder::vertex;
+  callbacks.index_cb = Builder::face;
+  Builder built;
+  std::istringstream lines(std::move(geometry.text));
+  tinyobj::LoadObjWithCallback(lines, callbacks, &built);
+  return make_mesh(std::move(built), geometry.face_lines);
+}
+
+}  // namespace
+
+Scene read_obj(const std::filesystem::path& path) {
+  InputFile file = open_input(path);
+  std::string text(file.size, '\0');
+  if (!file.stream.read(text.data(), static_cast<std::streamsize>(text.size())))
+    throw file_error(path, "cannot be read to its end");
+
+  Scene scene;
+  try {
+    scene.meshes.push_back(parse_obj(text));
+  } catch (const std::invalid_argument& error) {
+    throw file_error(path, error.what());
+  }
+  scene.instances.emplace_back();
+  frame_camera(scene);
+  return scene;
+}
+
+}  // namespace edgewise

@@ -1,0 +1,159 @@
+// Ear clipping (Meisters, "Polygons have ears", 1975; as in Eberly, "Triangulation by ear clipping"): a
+// corner is cut off when its triangle holds no concave corner of what remains. Cutting changes only its two
+// neighbours, so a corner once found blocked is not tested again until a neighbour goes. Concave corners are
+// searched in a list sorted along the longer axis, which keeps large round polygons near n log n.
+//
+// It stands here because tinyobjloader 2.0.0rc10 decides concavity by a corner's place relative to the
+// origin, splits concave quads on the outside, and loses the rest of a polygon it cannot finish.
+#include "scene/polygon.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+namespace edgewise {
+
+namespace {
+
+// Visits to corners; about two seconds.
+constexpr std::uint64_t kMaxWork = 1'000'000'000;
+
+// Newell's method: twice the area vector. It needs no convex corner to start from.
+glm::dvec3 area_vector(std::span<const glm::vec3> positions, std::span<const std::uint32_t> polygon) {
+  glm::dvec3 sum(0.0);
+  const glm::dvec3 origin(positions[polygon[0]]);
+  for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
+    sum += glm::cross(glm::dvec3(positions[polygon[i]]) - origin,
+                      glm::dvec3(positions[polygon[i + 1]]) - origin);
+  return sum;
+}
+
+// The polygon seen along the axis that its normal is closest to, turned counter-clockwise.
+std::vector<glm::dvec2> flatten(std::span<const glm::vec3> positions,
+                                std::span<const std::uint32_t> polygon) {
+  const glm::dvec3 normal = area_vector(positions, polygon), size = glm::abs(normal);
+  const int axis = size.x > size.y && size.x > size.z ? 0 : size.y > size.z ? 1 : 2;
+  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+  const double turn = normal[axis] < 0.0 ? -1.0 : 1.0;
+  std::vector<glm::dvec2> points;
+  points.reserve(polygon.size());
+  for (const std::uint32_t i : polygon) points.emplace_back(positions[i][u], turn * positions[i][v]);
+  return points;
+}
+
+double turn_at(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
+  return (b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x);
+}
+
+class EarClipper {
+ public:
+  explicit EarClipper(std::vector<glm::dvec2> points) : points_(std::move(points)) {
+    const auto n = static_cast<std::uint32_t>(points_.size());
+    state_.assign(n, State::unknown);
+    for (std::uint32_t i = 0; i < n; ++i) {
+      previous_.push_back(i == 0 ? n - 1 : i - 1);
+      next_.push_back(i + 1 == n ? 0 : i + 1);
+    }
+    sort_concave();
+  }
+
+  // Calls emit(a, b, c) for every triangle, with positions in the polygon.
+  template <typename Emit>
+  void run(const Emit& emit) {
+    auto remaining = static_cast<std::uint32_t>(points_.size());
+    std::uint32_t corner = 1, passed = 0;
+    while (remaining > 3) {
+      if (passed < remaining && !is_ear(corner)) {
+        corner = next_[corner];
+        ++passed;
+        spend(1);
+        continue;
+      }
+      // A full round without an ear: the polygon crosses itself or is flat, and any corner is as good.
+      emit(previous_[corner], corner, next_[corner]);
+      remove(corner);
+      --remaining;
+      passed = 0;
+      // Skipping a corner gives compact triangles where clipping on would make a fan of slivers.
+      corner = next_[next_[corner]];
+    }
+    emit(previous_[corner], corner, next_[corner]);
+  }
+
+ private:
+  enum class State : std::uint8_t { unknown, blocked, removed };
+
+  bool is_concave(std::uint32_t i) const {
+    return turn_at(points_[previous_[i]], points_[i], points_[next_[i]]) <= 0.0;
+  }
+
+  void sort_concave() {
+    const auto [left, right] =
+        std::minmax_element(points_.begin(), points_.end(), [](auto a, auto b) { return a.x < b.x; });
+    const auto [low, high] =
+        std::minmax_element(points_.begin(), points_.end(), [](auto a, auto b) { return a.y < b.y; });
+    axis_ = right->x - left->x >= high->y - low->y ? 0 : 1;
+    for (std::uint32_t i = 0; i < points_.size(); ++i)
+      if (is_concave(i)) concave_.push_back(i);
+    std::sort(concave_.begin(), concave_.end(),
+              [this](std::uint32_t i, std::uint32_t j) { return points_[i][axis_] < points_[j][axis_]; });
+  }
+
+  bool is_ear(std::uint32_t i) {
+    if (state_[i] == State::blocked) return false;
+    if (!is_concave(i) && is_empty(points_[previous_[i]], points_[i], points_[next_[i]])) return true;
+    state_[i] = State::blocked;
+    return false;
+  }
+
+  // No concave corner lies in the triangle or on its sides. Corners in the same place as one of the
+  // triangle's don't count: a bridge to a hole passes every point twice.
+  bool is_empty(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
+    const auto [low, high] = std::minmax({a[axis_], b[axis_], c[axis_]});
+    auto i = std::lower_bound(concave_.begin(), concave_.end(), low,
+                              [this](std::uint32_t j, double value) { return points_[j][axis_] < value; });
+    for (; i != concave_.end() && points_[*i][axis_] <= high; ++i) {
+      spend(1);
+      const glm::dvec2 p = points_[*i];
+      if (state_[*i] == State::removed || p == a || p == b || p == c) continue;
+      if (turn_at(a, b, p) >= 0.0 && turn_at(b, c, p) >= 0.0 && turn_at(c, a, p) >= 0.0 && is_concave(*i))
+        return false;
+    }
+    return true;
+  }
+
+  void remove(std::uint32_t i) {
+    state_[i] = State::removed;
+    next_[previous_[i]] = next_[i];
+    previous_[next_[i]] = previous_[i];
+    state_[previous_[i]] = state_[next_[i]] = State::unknown;
+  }
+
+  void spend(std::uint64_t work) {
+    work_ += work;
+    if (work_ > kMaxWork) throw std::invalid_argument("a polygon has too many concave corners");
+  }
+
+  std::vector<glm::dvec2> points_;
+  std::vector<std::uint32_t> previous_, next_, concave_;
+  std::vector<State> state_;
+  int axis_ = 0;
+  std::uint64_t work_ = 0;
+};
+
+}  // namespace
+
+void triangulate(std::span<const glm::vec3> positions, std::span<const std::uint32_t> polygon,
+                 std::vector<glm::uvec3>& triangles) {
+  const auto emit = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    triangles.emplace_back(polygon[a], polygon[b], polygon[c]);
+  };
+  if (polygon.size() == 3)
+    emit(0, 1, 2);
+  else
+    EarClipper(flatten(positions, polygon)).run(emit);
+}
+
+}  // namespace edgewise

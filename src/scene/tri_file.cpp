@@ -1,0 +1,82 @@
+// The file's bytes are the vector's bytes, so both directions are one bulk copy.
+#include "scene/tri_file.h"
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <limits>
+#include <ostream>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+
+#include "input_file.h"
+#include "raster/contract.h"
+
+namespace edgewise {
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little && std::is_trivially_copyable_v<StreamTriangle>);
+
+constexpr std::uint32_t kMagic = 'T' | 'R' << 8 | 'I' << 16 | '1' << 24;
+using Header = std::array<std::uint32_t, 4>;  // magic, width, height, count
+
+bool is_side(std::uint32_t px) {
+  return px >= 1 && px <= std::uint32_t{contract::kMaxImageSide};
+}
+
+std::string count_text(std::uint64_t count, const char* noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+Header read_header(const std::filesystem::path& path, InputFile& file) {
+  Header header{};
+  file.stream.read(reinterpret_cast<char*>(header.data()), sizeof header);
+  if (file.stream.gcount() >= 4 && header[0] != kMagic)
+    throw file_error(path, "is not a triangle stream (it does not start with TRI1)");
+  if (!file.stream)
+    throw file_error(path, "truncated: the header has 16 bytes, the file " + std::to_string(file.size));
+  if (!is_side(header[1]) || !is_side(header[2]))
+    throw file_error(path, "image size " + std::to_string(header[1]) + "x" + std::to_string(header[2]) +
+                               " is outside 1 to " + std::to_string(contract::kMaxImageSide));
+  return header;
+}
+
+}  // namespace
+
+TriangleStream read_tri(const std::filesystem::path& path) {
+  InputFile file = open_input(path);
+  const auto [magic, width, height, count] = read_header(path, file);
+
+  const std::uint64_t promised = std::uint64_t{count} * sizeof(StreamTriangle);
+  const std::uint64_t follow = file.size - sizeof(Header);
+  if (follow != promised)
+    throw file_error(path, (follow < promised ? "truncated" : "too long") +
+                               std::string(": header promises ") + count_text(count, "triangle") + " (" +
+                               count_text(promised, "byte") + "), " + count_text(follow, "byte") +
+                               (follow == 1 ? " follows" : " follow"));
+
+  TriangleStream stream{static_cast<int>(width), static_cast<int>(height), {}};
+  stream.triangles.resize(count);
+  if (!file.stream.read(reinterpret_cast<char*>(stream.triangles.data()),
+                        static_cast<std::streamsize>(promised)))
+    throw file_error(path, "cannot be read to its end");
+  return stream;
+}
+
+void write_tri(std::ostream& out, const TriangleStream& stream) {
+  const auto width = static_cast<std::uint32_t>(stream.width),
+             height = static_cast<std::uint32_t>(stream.height);
+  if (!is_side(width) || !is_side(height))
+    throw std::invalid_argument("a stream's image size is out of range");
+  if (stream.triangles.size() > std::numeric_limits<std::uint32_t>::max())
+    throw std::invalid_argument("a .tri file holds at most 4294967295 triangles");
+
+  const Header header{kMagic, width, height, static_cast<std::uint32_t>(stream.triangles.size())};
+  out.write(reinterpret_cast<const char*>(header.data()), sizeof header);
+  out.write(reinterpret_cast<const char*>(stream.triangles.data()),
+            static_cast<std::streamsize>(stream.triangles.size() * sizeof(StreamTriangle)));
+}
+
+}  // namespace edgewise

@@ -1,0 +1,360 @@
+// Mesh and stream files: what is read is what was meant, and what is malformed gets one clear line.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <sstream>
+
+#include "frontend/frontend.h"
+#include "message_of.h"
+#include "scene/obj_file.h"
+#include "scene/polygon.h"
+#include "scene/tri_file.h"
+#include "temp_dir.h"
+
+namespace edgewise {
+namespace {
+
+std::string le32(std::uint32_t value) {
+  std::string bytes(4, '\0');
+  std::memcpy(bytes.data(), &value, 4);
+  return bytes;
+}
+
+std::string tri_header(std::uint32_t width, std::uint32_t height, std::uint32_t count) {
+  return "TRI1" + le32(width) + le32(height) + le32(count);
+}
+
+std::string tri_text(const TriangleStream& stream) {
+  std::ostringstream out;
+  write_tri(out, stream);
+  return out.str();
+}
+
+Mesh read_mesh(const std::string& text) {
+  const TempDir dir;
+  return read_obj(dir.write("mesh.obj", text)).meshes.at(0);
+}
+
+// ---- .tri
+
+TEST(TriFile, RoundTripKeepsEveryBit) {
+  const float inf = std::numeric_limits<float>::infinity();
+  TriangleStream stream{1920, 1080, {}};
+  stream.triangles.push_back(
+      {{{0.5f, 1.25f, 0.0f}, {-1e30f, 1e-40f, 1.0f}, {-0.0f, 3.0f, 0.3f}}, 0x80FF1234u});
+  stream.triangles.push_back({{{std::nanf("7"), inf, -inf}, {-std::nanf(""), 2, 3}, {4, 5, 6}}, 0xFFFFFFFFu});
+  const TempDir dir;
+  const TriangleStream back = read_tri(dir.write("a.tri", tri_text(stream)));
+  EXPECT_EQ(back.width, 1920);
+  EXPECT_EQ(back.height, 1080);
+  ASSERT_EQ(back.triangles.size(), stream.triangles.size());
+  EXPECT_EQ(std::memcmp(back.triangles.data(), stream.triangles.data(), 80), 0);
+}
+
+TEST(TriFile, LayoutIsAsDocumented) {
+  const TriangleStream stream{3, 2, {{{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}}, rgb(1, 2, 3)}}};
+  std::string expected = tri_header(3, 2, 1);
+  for (int i = 1; i <= 9; ++i) expected += le32(std::bit_cast<std::uint32_t>(static_cast<float>(i)));
+  EXPECT_EQ(tri_text(stream), expected + "\x01\x02\x03\xFF");
+}
+
+TEST(TriFile, NoTrianglesIsAValidStream) {
+  const TempDir dir;
+  EXPECT_TRUE(read_tri(dir.write("a.tri", tri_header(1, 16384, 0))).triangles.empty());
+}
+
+struct BadFile {
+  const char* name;
+  std::string content, message;  // the message contains this
+};
+
+class BadTri : public testing::TestWithParam<BadFile> {};
+
+TEST_P(BadTri, IsRefusedWithTheReason) {
+  const TempDir dir;
+  const auto path = dir.write("bad.tri", GetParam().content);
+  EXPECT_EQ(message_of([&] { read_tri(path); }), path.string() + ": " + GetParam().message);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Files, BadTri,
+    testing::Values(
+        BadFile{"Empty", "", "truncated: the header has 16 bytes, the file 0"},
+        BadFile{"HeaderCut", "TRI1abcdefgh", "truncated: the header has 16 bytes, the file 12"},
+        BadFile{"OtherFormat", "solid cube of some other format",
+                "is not a triangle stream (it does not start with TRI1)"},
+        BadFile{"WidthZero", tri_header(0, 1, 0), "image size 0x1 is outside 1 to 16384"},
+        BadFile{"HeightAbsurd", tri_header(1, 0xFFFFFFFF, 0),
+                "image size 1x4294967295 is outside 1 to 16384"},
+        BadFile{"Truncated", tri_header(8, 8, 10) + std::string(123, 'x'),
+                "truncated: header promises 10 triangles (400 bytes), 123 bytes follow"},
+        BadFile{"CountLiesBeyond32Bits", tri_header(8, 8, 0xFFFFFFFF) + std::string(24, 'x'),
+                "truncated: header promises 4294967295 triangles (171798691800 bytes), 24 bytes follow"},
+        BadFile{"TooLong", tri_header(8, 8, 1) + std::string(41, 'x'),
+                "too long: header promises 1 triangle (40 bytes), 41 bytes follow"}),
+    [](const auto& p) { return std::string(p.param.name); });
+
+TEST(TriFile, WhatIsNoFileIsRefused) {
+  const TempDir dir;
+  EXPECT_EQ(message_of([&] { read_tri(dir.path()); }), dir.path().string() + ": is a directory");
+  EXPECT_NE(message_of([&] { read_tri(dir.path() / "none.tri"); }).find("No such file"), std::string::npos);
+  EXPECT_EQ(message_of([&] { read_tri("/dev/zero"); }), "/dev/zero: is not a regular file");
+}
+
+// ---- OBJ
+
+TEST(ObjFile, WindingIsReversed) {
+  const Mesh mesh = read_mesh("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  ASSERT_EQ(mesh.triangles.size(), 1u);
+  EXPECT_EQ(mesh.triangles[0], glm::uvec3(0, 2, 1));
+  EXPECT_EQ(mesh.colours, std::vector<std::uint32_t>{rgb(200, 200, 200)});
+}
+
+struct GoodObj {
+  const char* name;
+  std::string text;
+};
+
+class SameTriangle : public testing::TestWithParam<GoodObj> {};
+
+// Every way to write the triangle (1,2,3) (4,5,6) (7,8,10).
+TEST_P(SameTriangle, IsReadAlike) {
+  const Mesh mesh = read_mesh(GetParam().text);
+  ASSERT_EQ(mesh.triangles.size(), 1u);
+  const glm::uvec3 t = mesh.triangles[0];
+  EXPECT_EQ(mesh.positions.at(t.x), glm::vec3(1, 2, 3));
+  EXPECT_EQ(mesh.positions.at(t.y), glm::vec3(7, 8, 10));
+  EXPECT_EQ(mesh.positions.at(t.z), glm::vec3(4, 5, 6));
+}
+
+const std::string kCorners = "v 1 2 3\nv 4 5 6\nv 7 8 10\n";
+
+INSTANTIATE_TEST_SUITE_P(
+    Files, SameTriangle,
+    testing::Values(GoodObj{"Plain", kCorners + "f 1 2 3"},
+                    GoodObj{"NegativeIndices", kCorners + "f -3 -2 -1\n"},
+                    GoodObj{"NegativeIndicesCountFromTheFace", kCorners + "f -3 -2 -1\nv 9 9 9\n"},
+                    GoodObj{"FaceBeforeItsVertices", "f 1 2 3\n" + kCorners},
+                    GoodObj{"TextureAndNormal", kCorners + "vt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1\n"},
+                    GoodObj{"NormalOnly", kCorners + "f 1//1 2//1 3//1\n"},
+                    GoodObj{"TextureOnly", kCorners + "f 1/1 2/1 3/1\n"},
+                    GoodObj{"WindowsLineEnds", "v 1 2 3\r\nv 4 5 6\r\nv 7 8 10\r\nf 1 2 3\r\n"},
+                    GoodObj{"OldMacLineEnds", "v 1 2 3\rv 4 5 6\rv 7 8 10\rf 1 2 3\r"},
+                    GoodObj{"ByteOrderMark", "\xEF\xBB\xBF" + kCorners + "f 1 2 3\n"},
+                    GoodObj{"NumberFormats", "v +1 2. .3e1\nv 4e0 5.0 60E-1\nv 7 8 1.e1\nf +1 2 3\n"},
+                    GoodObj{"BlanksTabsComments",
+                            "# x\n\n  v\t1  2 3 # y\nv 4 5 6\nv 7 8 10\n\tf 1\t2 3  # z\n"},
+                    GoodObj{"ContinuedLines", "v 1 \\\n2 3\nv 4 5 6\r\nv 7 8 \\\r\n 10\nf 1 2 \\\n\\\n3"},
+                    GoodObj{"WeightsAndColours", "v 1 2 3 1\nv 4 5 6 0.5\nv 7 8 10 1 0 0\nf 1 2 3\n"},
+                    GoodObj{"OtherStatements",
+                            "mtllib none.mtl\no a\ng b c\nusemtl d\ns off\nvp 1\nl 1 2\np 1\nt x "
+                            "99999999999/99999999999/9\n" +
+                                kCorners + "f 1 2 3\ncurv 0 1\n"}),
+    [](const auto& p) { return std::string(p.param.name); });
+
+class BadObj : public testing::TestWithParam<BadFile> {};
+
+TEST_P(BadObj, IsRefusedWithTheReason) {
+  const TempDir dir;
+  const auto path = dir.write("bad.obj", GetParam().content);
+  EXPECT_EQ(message_of([&] { read_obj(path); }), path.string() + ": " + GetParam().message);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Files, BadObj,
+    testing::Values(
+        BadFile{"Empty", "", "has no faces"}, BadFile{"NoFaces", kCorners, "has no faces"},
+        BadFile{"OnlyText", "hello\nworld\n", "has no faces"},
+        BadFile{"Binary",
+                std::string("\x7F"
+                            "ELF\0\1\2f 1 2 3\n",
+                            16),
+                "is not a text file"},
+        BadFile{"Utf16",
+                std::string("\xFF\xFEv\0 \0"
+                            "1\0",
+                            8),
+                "is not a text file"},
+        BadFile{"IndexTooLarge", kCorners + "\nf 1 2 4\n", "line 5: a face names vertex 4 of 3"},
+        BadFile{"IndexTooNegative", kCorners + "f 1 2 -4\n", "line 4: a face names vertex 0 of 3"},
+        BadFile{"IndexZero", kCorners + "f 1 2 0\n", "line 4: vertex index 0 (indices start at 1)"},
+        BadFile{"IndexBeyond32Bits", kCorners + "f 1 2 99999999999\n",
+                "line 4: '99999999999' is not a vertex index"},
+        BadFile{"IndexIsText", kCorners + "f 1 2 x\n", "line 4: 'x' is not a vertex index"},
+        BadFile{"IndexIsFraction", kCorners + "f 1 2 3.0\n", "line 4: '3.0' is not a vertex index"},
+        BadFile{"IndexHasTail", kCorners + "f 1 2 3/\x1B[31m\n", "line 4: '3/?[31m' is not a vertex index"},
+        BadFile{"TwoCorners", kCorners + "f 1 2\n", "line 4: a face needs three corners or more"},
+        BadFile{"NoCorners", kCorners + "f\n", "line 4: a face needs three corners or more"},
+        BadFile{"TwoCoordinates", "v 1 2\n", "line 1: a vertex needs three coordinates"},
+        BadFile{"CoordinateIsText", "v 1 2 x\n", "line 1: 'x' is not a finite coordinate"},
+        BadFile{"CoordinateHasTail", "v 1 2 3,5\n", "line 1: '3,5' is not a finite coordinate"},
+        BadFile{"CoordinateNan", "v 1 nan 2\n", "line 1: 'nan' is not a finite coordinate"},
+        BadFile{"CoordinateInfinite", "v 1 -inf 2\n", "line 1: '-inf' is not a finite coordinate"},
+        BadFile{"CoordinateOverflows", "v 1 1e39 2\n", "line 1: '1e39' is not a finite coordinate"},
+        BadFile{"LineAfterWindowsLineEnds", "v 1 2 3\r\n\r\nv 1 2 \\\r\n x\r\n",
+                "line 3: 'x' is not a finite coordinate"}),
+    [](const auto& p) { return std::string(p.param.name); });
+
+TEST(ObjFile, WhatIsNoFileIsRefused) {
+  const TempDir dir;
+  EXPECT_EQ(message_of([&] { read_obj(dir.path()); }), dir.path().string() + ": is a directory");
+  EXPECT_NE(message_of([&] { read_obj(dir.path() / "none.obj"); }).find("No such file"), std::string::npos);
+}
+
+// The front end can tell what the camera sees: nothing may be outside or cut.
+TEST(ObjFile, TheCameraSeesTheWholeMeshFromItsFront) {
+  for (const char* place : {"0 0 0", "500 -20 3", "-0.001 0 0"}) {
+    std::istringstream words(place);
+    double x = 0, y = 0, z = 0;
+    words >> x >> y >> z;
+    const double side = x < 0 ? 1e-4 : 10;
+    std::ostringstream text;
+    for (int i = 0; i < 8; ++i)
+      text << "v " << x + side * (i & 1) << ' ' << y + side * (i >> 1 & 1) << ' ' << z + side * (i >> 2)
+           << '\n';
+    text << "f 5 6 8 7\nf 2 1 3 4\nf 6 2 4 8\nf 1 5 7 3\nf 7 8 4 3\nf 1 2 6 5\n";
+    const TempDir dir;
+    FrontendOptions options;
+    options.width = options.height = 500;
+    Frontend frontend;
+    frontend.run(read_obj(dir.write("box.obj", text.str())), options);
+    const FrontendStats& stats = frontend.stats();
+    EXPECT_EQ(stats.triangles, 12u) << place;
+    EXPECT_EQ(stats.whole_mesh + stats.outside + stats.not_in_front, 0u) << place;
+    EXPECT_EQ(stats.clipped_near + stats.clipped_far + stats.clipped_guard, 0u) << place;
+    EXPECT_EQ(stats.emitted, 6u) << place << ": the front, right and upper faces";
+  }
+}
+
+// ---- Polygons
+
+using Polygon = std::vector<glm::dvec2>;
+
+double twice_area(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+// The triangles all turn as the polygon does and their areas add up to its own: they fill it once.
+void expect_filled(const Polygon& polygon, const std::string& what) {
+  double area = 0.0;
+  for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
+    area += twice_area(polygon[0], polygon[i], polygon[i + 1]);
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<glm::vec3> positions;
+    std::vector<std::uint32_t> indices;
+    for (const glm::dvec2 p : polygon) {
+      const double place[3] = {p.x, p.y, 3.0};
+      positions.emplace_back(place[axis % 3], place[(axis + 1) % 3], place[(axis + 2) % 3]);
+      indices.push_back(static_cast<std::uint32_t>(indices.size()));
+    }
+    std::vector<glm::uvec3> triangles;
+    triangulate(positions, indices, triangles);
+    EXPECT_EQ(triangles.size(), polygon.size() - 2) << what;
+    double sum = 0.0, smallest = 0.0;
+    for (const glm::uvec3 t : triangles) {
+      const double part = twice_area(polygon[t.x], polygon[t.y], polygon[t.z]) * (area < 0 ? -1 : 1);
+      sum += part;
+      smallest = std::min(smallest, part);
+    }
+    EXPECT_GE(smallest, -1e-6 * std::fabs(area)) << what;
+    EXPECT_NEAR(sum, std::fabs(area), 1e-5 * std::fabs(area)) << what;
+  }
+}
+
+void expect_filled_both_ways(Polygon polygon, const std::string& what) {
+  for (std::size_t turn = 0; turn < std::min<std::size_t>(polygon.size(), 12); ++turn) {
+    std::rotate(polygon.begin(), polygon.begin() + 1, polygon.end());
+    expect_filled(polygon, what);
+    std::reverse(polygon.begin(), polygon.end());
+    expect_filled(polygon, what + " reversed");
+  }
+}
+
+TEST(Polygon, ConcaveShapesAreFilledOnceWhereverTheyLie) {
+  for (const glm::dvec2 at : {glm::dvec2(0, 0), glm::dvec2(100, 50), glm::dvec2(-30, 7)}) {
+    const auto moved = [&](Polygon polygon) {
+      for (glm::dvec2& p : polygon) p += at;
+      return polygon;
+    };
+    expect_filled_both_ways(moved({{0, 0}, {4, 0}, {4, 4}, {0, 4}}), "square");
+    expect_filled_both_ways(moved({{0, 0}, {10, 1}, {0, 2}, {9, 1}}), "dart");
+    expect_filled_both_ways(moved({{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 4}, {0, 4}}), "L");
+    expect_filled_both_ways(moved({{0, 0}, {2, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 2}}), "square with midpoints");
+    expect_filled_both_ways(
+        moved({{0, 0}, {9, 0}, {9, 9}, {0, 9}, {0, 0}, {3, 3}, {3, 6}, {6, 6}, {6, 3}, {3, 3}}),
+        "square with a bridged hole");
+    expect_filled_both_ways(moved({{0, 0},
+                                   {7, 0},
+                                   {7, 5},
+                                   {6, 5},
+                                   {6, 1},
+                                   {5, 1},
+                                   {5, 5},
+                                   {4, 5},
+                                   {4, 1},
+                                   {3, 1},
+                                   {3, 5},
+                                   {2, 5},
+                                   {2, 1},
+                                   {1, 1},
+                                   {1, 5},
+                                   {0, 5}}),
+                            "comb");
+  }
+}
+
+TEST(Polygon, RandomStarsAreFilledOnce) {
+  std::mt19937 random(1);
+  for (int trial = 0; trial < 200; ++trial) {
+    Polygon star;
+    const std::size_t corners = 4 + random() % 40;
+    for (std::size_t i = 0; i < corners; ++i) {
+      const double angle = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(corners);
+      const double radius = 1.0 + static_cast<double>(random() % 1000) / 100.0;
+      star.push_back(glm::dvec2(std::cos(angle), std::sin(angle)) * radius);
+    }
+    expect_filled(star, "star " + std::to_string(trial));
+  }
+}
+
+TEST(Polygon, WithoutAreaOrCrossingItselfStillGetsItsTriangles) {
+  const std::vector<glm::vec3> positions = {{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}, {2, 2, 0}, {3, 3, 0}};
+  for (const std::vector<std::uint32_t>& polygon :
+       {std::vector<std::uint32_t>{0, 1, 2, 3}, {0, 1, 4, 5}, {0, 0, 0, 0, 0}, {0, 2, 2, 1, 0, 3}}) {
+    std::vector<glm::uvec3> triangles;
+    triangulate(positions, polygon, triangles);
+    EXPECT_EQ(triangles.size(), polygon.size() - 2);
+  }
+}
+
+TEST(Polygon, OnesOfManyCornersAreNoTrouble) {
+  Polygon circle, comb{{20000, -1}, {0, -1}};
+  for (int i = 0; i < 100000; ++i) {
+    const double angle = 2 * std::numbers::pi * i / 100000;
+    circle.emplace_back(std::cos(angle), std::sin(angle));
+  }
+  for (int i = 0; i < 20000; ++i) comb.emplace_back(i, i % 2);
+  expect_filled(circle, "circle");
+  expect_filled(comb, "comb");
+}
+
+TEST(Polygon, AHopelessOneIsRefusedInsteadOfHanging) {
+  std::vector<glm::vec3> positions;
+  std::vector<std::uint32_t> polygon;
+  std::mt19937 random(1);
+  for (std::uint32_t i = 0; i < 200000; ++i) {
+    positions.emplace_back(random() % 4096, random() % 4096, 0);
+    polygon.push_back(i);
+  }
+  std::vector<glm::uvec3> triangles;
+  EXPECT_THROW(triangulate(positions, polygon, triangles), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace edgewise
