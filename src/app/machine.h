@@ -6,11 +6,12 @@
 
 namespace edgewise::app {
 
-// CPU model, features, cores, caches, memory, kernel, compiler and flags, build type, commit (read from the source
-// tree's git at run time, "-dirty" appended), package versions, SIMD targets. No host name.
+// CPU model, features, cores, caches, memory, kernel, compiler and flags, build type, commit (read from the
+// source tree's git at run time, "-dirty" appended), package versions, SIMD targets. No host name.
 nlohmann::json machine_description();
 
-// The folder below results/ for this machine, for example "amd-epyc-2-cores": CPU model and core count, lower case.
+// The folder below results/ for this machine, for example "amd-epyc-2-cores": CPU model and core count, lower
+// case.
 std::string machine_name();
 
 }  // namespace edgewise::app

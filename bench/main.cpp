@@ -1,0 +1,248 @@
+// The benchmark: every row is drawn once and compared bit for bit, then all rows are timed in interleaved
+// repetitions, so that a busy moment of the machine does not fall on one row alone.
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <thread>
+
+#include "app/machine.h"
+#include "app/options.h"
+#include "app/progress.h"
+#include "image/atomic_file.h"
+#include "reporter.h"
+#include "stage.h"
+
+namespace edgewise::bench {
+
+namespace {
+
+// How long a row may take. Noise comes in bursts, so many short repetitions tell more than a few long ones.
+struct Effort {
+  int repetitions;
+  double repetition_s;  // at least, unless one iteration takes longer
+  double slow_row_s;    // all repetitions together, for rows whose single iteration takes longer
+};
+constexpr Effort kFull{5, 0.025, 0.6}, kQuick{3, 0.015, 0.3};
+
+struct Flags {
+  SuiteOptions suite;
+  std::string out;                     // --benchmark_out
+  std::vector<std::string> benchmark;  // what is left for Google Benchmark
+  bool own_repetitions = true, own_iterations = true;
+};
+
+// None if only help was asked for.
+std::optional<Flags> parse_flags(int argc, char** argv) {
+  Flags flags;
+  std::optional<app::Size> size;
+  CLI::App parser{"Times the front end and every backend, after comparing their pictures.", "edgewise_bench"};
+  parser.allow_extras();
+  parser
+      .add_option("--scene", flags.suite.scenes,
+                  "Only this scene, a name or an .obj or .tri file (repeatable)")
+      ->allow_extra_args(false)
+      ->type_name("NAME|FILE");
+  parser.add_flag("--fit", flags.suite.fit, "Centre a --scene's mesh and scale its longest side to 2");
+  parser.add_flag("--quick", flags.suite.quick, "Fewer rows and repetitions, streams of a tenth");
+  app::add_size(parser, size, "Image size (1920x1080; a .tri file has its own)");
+  std::string format;
+  parser.add_option("--benchmark_out", flags.out, "Write the results there, complete or not at all")
+      ->type_name("FILE");
+  parser.add_option("--benchmark_out_format", format, "json only")->check(CLI::IsMember({"json"}));
+  parser.footer(
+      "Google Benchmark's other flags work too, among them --benchmark_filter=REGEX, "
+      "--benchmark_list_tests,\n"
+      "--benchmark_repetitions=N, --benchmark_min_time=SECONDS and --benchmark_format=console|json|csv.\n"
+      "Exit status: 0 done, 1 a row drew other pixels, 2 bad input.");
+  try {
+    parser.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    std::cout << parser.help();
+    return std::nullopt;
+  }
+
+  if (size) {
+    flags.suite.width = size->width;
+    flags.suite.height = size->height;
+    flags.suite.size_asked = true;
+  }
+  flags.benchmark = parser.remaining();
+  for (const auto& flag : flags.benchmark) {
+    if (flag.starts_with("--benchmark_repetitions")) flags.own_repetitions = false;
+    if (flag.starts_with("--benchmark_min_time")) flags.own_iterations = false;
+  }
+  return flags;
+}
+
+// Hands Google Benchmark its flags behind our defaults, so that the user's win.
+void initialize_benchmark(const Flags& flags) {
+  // Static, since it keeps a pointer to the program's name.
+  static std::vector<std::string> words{"edgewise_bench", "--benchmark_enable_random_interleaving=true",
+                                        "--benchmark_counters_tabular=true"};
+  words.insert(words.end(), flags.benchmark.begin(), flags.benchmark.end());
+  std::vector<char*> argv;
+  for (auto& word : words) argv.push_back(word.data());
+  int argc = static_cast<int>(argv.size());
+  benchmark::Initialize(&argc, argv.data());
+  if (argc > 1) throw std::invalid_argument(fmt::format("unknown flag '{}'; --help lists all", argv[1]));
+}
+
+class Mute final : public benchmark::BenchmarkReporter {
+  bool ReportContext(const Context&) override { return true; }
+  void ReportRuns(const std::vector<Run>&) override {}
+};
+
+// The rows that --benchmark_filter lets through, in the suite's order. Google Benchmark itself is asked, with
+// rows that do nothing. It says so where none matches (none are returned then), and where it is to list them
+// it does (an empty list).
+std::optional<std::vector<Row>> select(std::vector<Row> suite) {
+  std::vector<char> wanted(suite.size(), 0);
+  for (std::size_t i = 0; i < suite.size(); ++i)
+    benchmark::RegisterBenchmark(suite[i].name.c_str(), [&wanted, i](benchmark::State& state) {
+      wanted[i] = 1;
+      state.SkipWithError("only selected");
+    });
+  Mute mute;
+  if (benchmark::RunSpecifiedBenchmarks(&mute) == 0) return std::nullopt;
+  benchmark::ClearRegisteredBenchmarks();
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < suite.size(); ++i)
+    if (wanted[i]) rows.push_back(std::move(suite[i]));
+  return rows;
+}
+
+// Workload by workload, so that only one reference picture is held at a time.
+void compare_all(std::vector<Row>& rows, Stage& stage) {
+  app::Progress progress;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    progress.show(static_cast<double>(i) / static_cast<double>(rows.size()), "comparing " + rows[i].name);
+    Workload& workload = *rows[i].workload;
+    const auto needs_scene = [&](const Row& row) {
+      return row.workload.get() == &workload && row.timed != Timed::raster;
+    };
+    workload.prepare(std::any_of(rows.begin(), rows.end(), needs_scene));
+    stage.compare(rows[i]);
+    if (i + 1 == rows.size() || rows[i + 1].workload != rows[i].workload) workload.drop_reference();
+  }
+}
+
+// Beside a draw of seconds the front end's milliseconds are lost in the noise.
+void leave_out_slow_frames(std::vector<Row>& rows) {
+  std::erase_if(rows, [&](const Row& row) {
+    const bool slow = row.timed == Timed::frame && row.once_s > kTooSlowToRepeat_s;
+    if (slow) std::cerr << "Left out for its length: " << row.name << '\n';
+    return slow;
+  });
+}
+
+void time_row(benchmark::State& state, const Row& row, Stage& stage) {
+  if (!row.error.empty()) return state.SkipWithError(row.error.c_str());
+  if (row.once_s > kTooSlowToRepeat_s) {
+    for (auto _ : state) state.SetIterationTime(row.once_s);
+  } else {
+    // The caches were another row's; a long draw warms its own.
+    if (row.once_s < kFull.repetition_s) stage.work(row);
+    for (auto _ : state) stage.work(row);
+  }
+  const Workload& workload = *row.workload;
+  auto& counters = state.counters;
+  counters["width"] = workload.width();
+  counters["height"] = workload.height();
+  counters["triangles"] =
+      static_cast<double>(row.timed == Timed::raster ? workload.triangles().size() : workload.submitted());
+  if (row.timed == Timed::frontend) return;
+  const auto covered_px = static_cast<double>(workload.covered_px());
+  counters["covered_px"] = covered_px;
+  counters["overdraw"] = covered_px / (static_cast<double>(workload.width()) * workload.height());
+}
+
+void register_rows(const std::vector<Row>& rows, Stage& stage, const Flags& flags, app::Progress& progress) {
+  const Effort effort = flags.suite.quick ? kQuick : kFull;
+  auto calls = std::make_shared<std::size_t>(0);
+  for (const Row& row : rows) {
+    auto* registered = benchmark::RegisterBenchmark(
+        row.name.c_str(),
+        [&row, &stage, &progress, calls,
+         total = rows.size() * static_cast<std::size_t>(effort.repetitions)](benchmark::State& state) {
+          progress.show(std::min(1.0, static_cast<double>((*calls)++) / static_cast<double>(total)),
+                        "timing " + row.name);
+          time_row(state, row, stage);
+        });
+    registered->Unit(benchmark::kMillisecond);
+    const bool slow = row.once_s > kTooSlowToRepeat_s;
+    if (slow)
+      registered->UseManualTime();
+    else
+      registered->UseRealTime();
+    const double once_s = std::max(row.once_s, 1e-6);
+    if (flags.own_iterations || slow)
+      registered->Iterations(slow ? 1
+                                  : std::max<std::int64_t>(1, std::llround(effort.repetition_s / once_s)));
+    if (flags.own_repetitions || slow)
+      registered->Repetitions(
+          slow ? 1 : std::clamp(static_cast<int>(effort.slow_row_s / once_s), 1, effort.repetitions));
+  }
+}
+
+void add_context(const Flags& flags) {
+  const auto machine = app::machine_description();
+  benchmark::AddCustomContext("machine", app::machine_name());
+  for (const char* key : {"build_type", "commit"})
+    if (machine.contains(key) && machine[key].is_string())
+      benchmark::AddCustomContext(key, machine[key].get<std::string>());
+  benchmark::AddCustomContext("simd_target", std::string(name_of(resolve(SimdTarget::best))));
+  benchmark::AddCustomContext("suite", flags.suite.quick            ? "quick"
+                                       : flags.suite.scenes.empty() ? "full"
+                                                                    : "scenes");
+  std::string names;
+  for (const auto& backend : backends()) names += (names.empty() ? "" : " ") + std::string(backend.name);
+  benchmark::AddCustomContext("backends", names);
+}
+
+int run(int argc, char** argv) {
+  const auto parsed = parse_flags(argc, argv);
+  if (!parsed) return 0;
+  const Flags& flags = *parsed;
+  initialize_benchmark(flags);
+  std::optional<AtomicFile> out;
+  if (!flags.out.empty()) out.emplace(flags.out);
+  auto selected = select(make_suite(flags.suite));
+  if (!selected) return 2;
+  if (selected->empty()) return 0;
+  std::vector<Row>& rows = *selected;
+
+  Stage stage;
+  compare_all(rows, stage);
+  if (flags.suite.scenes.empty()) leave_out_slow_frames(rows);
+  add_context(flags);
+  std::vector<std::string> names;
+  for (const auto& row : rows) names.push_back(row.name);
+  Reporter reporter(names);
+  {
+    app::Progress progress;
+    register_rows(rows, stage, flags, progress);
+    benchmark::RunSpecifiedBenchmarks(&reporter, ".");
+  }
+  if (out) {
+    out->stream() << reporter.json();
+    out->commit();
+  }
+  return std::any_of(rows.begin(), rows.end(), [](const Row& row) { return !row.error.empty(); }) ? 1 : 0;
+}
+
+}  // namespace
+
+}  // namespace edgewise::bench
+
+int main(int argc, char** argv) {
+  try {
+    return edgewise::bench::run(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << "edgewise_bench: " << error.what() << '\n';
+    return 2;
+  }
+}

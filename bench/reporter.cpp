@@ -1,0 +1,83 @@
+#include "reporter.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+namespace edgewise::bench {
+
+namespace {
+
+bool is_median(const benchmark::BenchmarkReporter::Run& run) {
+  return run.aggregate_name == "median";
+}
+
+void derive_rates(benchmark::BenchmarkReporter::Run& run) {
+  const double s = run.GetAdjustedRealTime() / benchmark::GetTimeUnitMultiplier(run.time_unit);
+  if (s <= 0.0) return;
+  auto& counters = run.counters;
+  counters["Mtri/s"] = counters["triangles"].value / s * 1e-6;
+  const auto covered = counters.find("covered_px");
+  if (covered == counters.end() || covered->second.value == 0.0) return;
+  const double covered_px = covered->second.value;
+  counters["covered_Gpx/s"] = covered_px / s * 1e-9;
+  counters["ns_per_covered_px"] = s * 1e9 / covered_px;
+}
+
+}  // namespace
+
+Reporter::Reporter(std::vector<std::string> names_in_order)
+    : names_(std::move(names_in_order)), console_(benchmark::CreateDefaultDisplayReporter()) {
+  json_.SetOutputStream(&json_text_);
+}
+
+bool Reporter::ReportContext(const Context& context) {
+  Context plain = context;
+  plain.name_field_width = 10;
+  for (const auto& name : names_) plain.name_field_width = std::max(plain.name_field_width, name.size());
+  const bool go_on = console_->ReportContext(plain) && json_.ReportContext(plain);
+  std::cerr << "Note: a warning that the library was built as DEBUG concerns Debian's libbenchmark, which "
+               "only takes "
+               "the time, not the timed code.\n";
+  return go_on;
+}
+
+void Reporter::ReportRuns(const std::vector<Run>& runs) {
+  for (Run run : runs) {
+    // Mean and deviation can be had from the repetitions; the median is what charts and tables show.
+    if (run.run_type == Run::RT_Aggregate && !is_median(run)) continue;
+    run.run_name = {run.run_name.function_name, "", "", "", "", "", "", ""};
+    if (!run.error_occurred) derive_rates(run);
+    runs_[run.run_name.function_name].push_back(std::move(run));
+  }
+}
+
+void Reporter::Finalize() {
+  for (const auto& name : names_) {
+    const auto& runs = runs_[name];
+    std::vector<Run> shown;
+    std::copy_if(runs.begin(), runs.end(), std::back_inserter(shown), is_median);
+    if (shown.empty() && !runs.empty()) shown.push_back(runs.front());
+    if (!shown.empty()) console_->ReportRuns(shown);
+    if (!runs.empty()) json_.ReportRuns(runs);
+  }
+  console_->Finalize();
+  json_.Finalize();
+}
+
+std::string Reporter::json() const {
+  auto result = nlohmann::ordered_json::parse(json_text_.str());
+  auto& context = result["context"];
+  context.erase("host_name");
+  context["executable"] = std::filesystem::path(context.value("executable", "")).filename().string();
+  std::string text = "{\n\"context\": " + context.dump(2) + ",\n\"benchmarks\": [";
+  const char* separator = "\n";
+  for (const auto& row : result["benchmarks"]) {
+    text += separator + row.dump();
+    separator = ",\n";
+  }
+  return text + "\n]\n}\n";
+}
+
+}  // namespace edgewise::bench

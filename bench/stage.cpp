@@ -1,0 +1,61 @@
+#include "stage.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+
+#include "lab/measure.h"
+
+namespace edgewise::bench {
+
+Backend& Stage::backend(const Row& row) {
+  auto& made = backends_[row.backend];
+  if (!made) made = row.backend->make();
+  return *made;
+}
+
+Framebuffer& Stage::frame(const Row& row) {
+  const int width = row.workload->width(), height = row.workload->height();
+  return frames_.try_emplace({width, height}, width, height).first->second;
+}
+
+void Stage::work(const Row& row) {
+  const Workload& workload = *row.workload;
+  auto triangles = workload.triangles();
+  if (row.timed != Timed::raster)
+    triangles = frontend_.run(workload.drawable(), workload.frontend_options(row.execution.threads));
+  if (row.timed != Timed::frontend)
+    backend(row).draw(triangles, frame(row).view(), kBackground, row.execution);
+}
+
+double Stage::timed_work_s(const Row& row) {
+  const auto begin = std::chrono::steady_clock::now();
+  work(row);
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+void Stage::compare(Row& row) {
+  row.once_s = timed_work_s(row);
+  if (row.timed == Timed::frontend) {
+    const auto expected = row.workload->triangles();
+    const auto found =
+        frontend_.run(row.workload->drawable(), row.workload->frontend_options(row.execution.threads));
+    if (found.size() != expected.size() ||
+        std::memcmp(found.data(), expected.data(), expected.size_bytes()) != 0)
+      row.error = fmt::format("emits other triangles than on 1 thread ({} instead of {})", found.size(),
+                              expected.size());
+  } else {
+    const auto difference = lab::compare(row.workload->reference(), frame(row));
+    if (difference.pixels != 0)
+      row.error =
+          fmt::format("{} pixels differ from {} on 1 thread, the first at ({}, {})", difference.pixels,
+                      backends().front().name, difference.first_x, difference.first_y);
+  }
+  // The first draw allocates; later ones tell how long a row really takes, the shorter the more of them.
+  for (const double limit_s : {kTooSlowToRepeat_s, 0.1, 0.1})
+    if (row.once_s < limit_s) row.once_s = std::min(row.once_s, timed_work_s(row));
+}
+
+}  // namespace edgewise::bench

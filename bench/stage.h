@@ -1,0 +1,34 @@
+// Where rows are compared and timed: the frames and the backends that rows share.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "suite.h"
+
+namespace edgewise::bench {
+
+// A row whose one draw takes longer is not drawn again: the compared draw is the timed one.
+inline constexpr double kTooSlowToRepeat_s = 1.5;
+
+class Stage {
+ public:
+  // Draws the row once, compares every bit with the reference, and sets the row's once_s, and its error if
+  // they differ. Needs the workload prepared.
+  void compare(Row& row);
+
+  // Does once what the row times.
+  void work(const Row& row);
+
+ private:
+  Backend& backend(const Row& row);
+  Framebuffer& frame(const Row& row);
+  double timed_work_s(const Row& row);
+
+  std::map<const BackendInfo*, std::unique_ptr<Backend>> backends_;
+  std::map<std::pair<int, int>, Framebuffer> frames_;
+  Frontend frontend_;
+};
+
+}  // namespace edgewise::bench

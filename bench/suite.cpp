@@ -1,0 +1,189 @@
+#include "suite.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace edgewise::bench {
+
+namespace {
+
+constexpr int kThreads[] = {1, 2};
+constexpr int kSweepThreads = 2;
+
+constexpr double kCountArea_px = 30;
+constexpr const char* kSizeScene = "torus-knot";
+
+using WorkloadPtr = std::shared_ptr<Workload>;
+
+// A quick run draws a tenth of each stream.
+SceneRequest request(const SuiteOptions& options, int width, int height) {
+  SceneRequest r;
+  r.width = width;
+  r.height = height;
+  r.scale = options.quick ? 0.1 : 1.0;
+  return r;
+}
+
+app::Source random_source(const SuiteOptions& options, std::size_t count, double area_px) {
+  SceneRequest r;
+  r.width = options.width;
+  r.height = options.height;
+  return {"random", random_stream(r, count, area_px, 0.0, 1), true};
+}
+
+// Large triangles lose much of their area at the image's borders, so their number is corrected by what the
+// first attempt covers.
+app::Source area_source(const SuiteOptions& options, double area_px) {
+  const double wanted_px = options.quick ? 4e6 : 10e6;
+  const auto at_least_a_few = [](double count) {
+    return static_cast<std::size_t>(std::max(4.0, std::round(count)));
+  };
+  const std::size_t count = at_least_a_few(wanted_px / area_px);
+  if (area_px < 1e3) return random_source(options, count, area_px);
+  Workload attempt(options.width, options.height, Cull::none,
+                   [&] { return random_source(options, count, area_px); });
+  attempt.prepare(false);
+  const double covered_px = std::max(1.0, static_cast<double>(attempt.covered_px()));
+  return random_source(options, at_least_a_few(static_cast<double>(count) * wanted_px / covered_px), area_px);
+}
+
+class Suite {
+ public:
+  explicit Suite(const SuiteOptions& options) : options_(options) {}
+
+  void add_scene(const WorkloadPtr& workload, const std::string& name) {
+    for (const int threads : kThreads) add_frontend(workload, name, threads);
+    for (const auto& backend : backends())
+      for (const int threads : kThreads) {
+        add(workload, Timed::raster, backend, name, threads);
+        add(workload, Timed::frame, backend, name, threads);
+      }
+  }
+
+  void add_area_sweep() {
+    const std::vector<double> areas_px =
+        options_.quick ? std::vector<double>{1, 10, 100, 1e3, 1e4, 1e5, 1e6}
+                       : std::vector<double>{1, 3, 10, 30, 100, 300, 1e3, 3e3, 1e4, 3e4, 1e5, 3e5, 1e6};
+    for (const double area_px : areas_px) {
+      const auto workload =
+          make_workload([options = options_, area_px] { return area_source(options, area_px); });
+      for (const auto& backend : backends())
+        for (const int threads : kThreads)
+          add(workload, Timed::raster, backend, fmt::format("area:{:.0f}", area_px), threads);
+    }
+  }
+
+  void add_count_sweep() {
+    for (const std::size_t count :
+         {100u, 300u, 1'000u, 3'000u, 10'000u, 30'000u, 100'000u, 300'000u, 1'000'000u}) {
+      if (options_.quick && count > 100'000) continue;
+      const auto workload =
+          make_workload([options = options_, count] { return random_source(options, count, kCountArea_px); });
+      for (const auto& backend : backends())
+        add(workload, Timed::raster, backend, fmt::format("count:{}", count), kSweepThreads);
+    }
+  }
+
+  void add_size_sweep() {
+    for (int side = 256; side <= (options_.quick ? 2048 : 8192); side *= 2) {
+      const auto workload = scene_workload(kSizeScene, side, side, Cull::back);
+      for (const auto& backend : backends())
+        add(workload, Timed::raster, backend, fmt::format("{}/size:{}x{}", kSizeScene, side, side),
+            kSweepThreads);
+    }
+  }
+
+  // Whole frames, since culling costs the front end what it saves the backend.
+  void add_cull_sweep() {
+    for (const std::string scene : {"cube", "cubes", "sphere", "torus-knot"})
+      for (const Cull cull : {Cull::none, Cull::back}) {
+        const auto workload = scene_workload(scene, options_.width, options_.height, cull);
+        for (const auto& backend : backends())
+          add(workload, Timed::frame, backend, fmt::format("{}/cull:{}", scene, name_of(cull)),
+              kSweepThreads);
+      }
+  }
+
+  // One thread, so that nothing but the target changes.
+  void add_target_sweep() {
+    for (const std::string scene : {"torus-knot", "large", "medium", "grid4"}) {
+      const auto workload = scene_workload(scene, options_.width, options_.height, Cull::back);
+      for (const auto& backend : backends())
+        for (const SimdTarget target : supported_targets())
+          add(workload, Timed::raster, backend, fmt::format("{}/target:{}", scene, name_of(target)), 1,
+              target);
+    }
+  }
+
+  WorkloadPtr make_workload(std::function<app::Source()> load) const {
+    return std::make_shared<Workload>(options_.width, options_.height, Cull::back, std::move(load));
+  }
+
+  WorkloadPtr scene_workload(const std::string& scene, int width, int height, Cull cull) const {
+    const SceneRequest wanted = request(options_, width, height);
+    return std::make_shared<Workload>(width, height, cull,
+                                      [scene, wanted] { return app::load_source(scene, wanted, false); });
+  }
+
+  std::vector<Row> take() { return std::move(rows_); }
+
+ private:
+  void add(const WorkloadPtr& workload, Timed timed, const BackendInfo& backend, const std::string& what,
+           int threads, SimdTarget target = SimdTarget::best) {
+    const char* with = timed == Timed::frame ? "+frontend" : "";
+    Row row;
+    row.name = fmt::format("{}{}/{}/threads:{}", backend.name, with, what, threads);
+    row.workload = workload;
+    row.timed = timed;
+    row.backend = &backend;
+    row.execution.threads = threads;
+    row.execution.target = target;
+    rows_.push_back(std::move(row));
+  }
+
+  void add_frontend(const WorkloadPtr& workload, const std::string& scene, int threads) {
+    Row row;
+    row.name = fmt::format("frontend/{}/threads:{}", scene, threads);
+    row.workload = workload;
+    row.timed = Timed::frontend;
+    row.execution.threads = threads;
+    rows_.push_back(std::move(row));
+  }
+
+  const SuiteOptions& options_;
+  std::vector<Row> rows_;
+};
+
+}  // namespace
+
+std::vector<Row> make_suite(const SuiteOptions& options) {
+  Suite suite(options);
+  if (options.scenes.empty()) {
+    for (const auto& scene : builtin_scenes())
+      suite.add_scene(
+          suite.scene_workload(std::string(scene.name), options.width, options.height, Cull::back),
+          std::string(scene.name));
+    suite.add_area_sweep();
+    suite.add_count_sweep();
+    suite.add_size_sweep();
+    suite.add_cull_sweep();
+    suite.add_target_sweep();
+    return suite.take();
+  }
+  for (const auto& scene : options.scenes) {
+    // Loaded at once: a bad file must be known before anything is timed.
+    const app::Source source =
+        app::load_source(scene, request(options, options.width, options.height), options.fit);
+    const auto* stream = std::get_if<TriangleStream>(&source.drawable);
+    const bool own_size = stream && !options.size_asked;
+    suite.add_scene(std::make_shared<Workload>(own_size ? stream->width : options.width,
+                                               own_size ? stream->height : options.height, Cull::back,
+                                               [source] { return source; }),
+                    source.name);
+  }
+  return suite.take();
+}
+
+}  // namespace edgewise::bench

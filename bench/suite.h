@@ -1,0 +1,39 @@
+// Which rows there are: scenes × backends × threads, and the sweeps. Nothing is loaded or drawn here.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "workload.h"
+
+namespace edgewise::bench {
+
+enum class Timed {
+  raster,    // the draw of prepared screen triangles, clear included
+  frontend,  // scene to screen triangles
+  frame      // both
+};
+
+struct Row {
+  std::string name;  // WHO/what/key:value…/threads:N, WHO being BACKEND, frontend or BACKEND+frontend
+  std::shared_ptr<Workload> workload;
+  Timed timed = Timed::raster;
+  const BackendInfo* backend = nullptr;  // null for front end rows
+  Execution execution;
+  double once_s = 0.0;  // what it took when it was compared
+  std::string error;    // why it must not be timed
+};
+
+struct SuiteOptions {
+  bool quick = false;
+  int width = 1920, height = 1080;  // px
+  bool size_asked = false;          // else a .tri file is drawn at the size it was made for
+  std::vector<std::string> scenes;  // names or files; empty: the whole suite
+  bool fit = false;                 // for meshes in `scenes`
+};
+
+// Throws what load_source throws for a name or file that cannot be used.
+std::vector<Row> make_suite(const SuiteOptions& options);
+
+}  // namespace edgewise::bench

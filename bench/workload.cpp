@@ -1,0 +1,43 @@
+#include "workload.h"
+
+#include "lab/measure.h"
+
+namespace edgewise::bench {
+
+Workload::Workload(int width, int height, Cull mesh_cull, std::function<app::Source()> load)
+    : width_(width), height_(height), mesh_cull_(mesh_cull), load_(std::move(load)) {}
+
+FrontendOptions Workload::frontend_options(int threads) const {
+  FrontendOptions options;
+  options.width = width_;
+  options.height = height_;
+  options.cull = stream_ ? Cull::none : mesh_cull_;
+  options.shade = !stream_;
+  options.threads = threads;
+  return options;
+}
+
+void Workload::prepare(bool keep_scene) {
+  if (prepared_) return;
+  source_ = load_();
+  stream_ = source_->stream;
+  Frontend frontend;
+  const auto emitted = frontend.run(source_->drawable, frontend_options(1));
+  triangles_.assign(emitted.begin(), emitted.end());
+  submitted_ = frontend.stats().triangles;
+  covered_px_ = lab::covered_pixels(triangles_, width_, height_);
+  if (!keep_scene) source_.reset();
+  prepared_ = true;
+}
+
+const Framebuffer& Workload::reference() {
+  if (!reference_) {
+    reference_.emplace(width_, height_);
+    Execution execution;
+    execution.target = supported_targets().front();
+    backends().front().make()->draw(triangles_, reference_->view(), kBackground, execution);
+  }
+  return *reference_;
+}
+
+}  // namespace edgewise::bench

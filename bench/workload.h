@@ -1,0 +1,53 @@
+// What is drawn by a row of the benchmark: one scene at one size and culling mode, loaded when a row first
+// needs it.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/source.h"
+#include "frontend/frontend.h"
+#include "raster/backend.h"
+
+namespace edgewise::bench {
+
+inline constexpr std::uint32_t kBackground = 0xFF000000u;
+
+class Workload {
+ public:
+  // Meshes are drawn with `mesh_cull` and shading, streams with neither.
+  Workload(int width, int height, Cull mesh_cull, std::function<app::Source()> load);
+
+  // Loads the scene, runs the front end and counts the covered pixels; only the first call does anything.
+  // Rows that time the front end need the scene itself afterwards, others let its memory go.
+  void prepare(bool keep_scene);
+
+  // The picture that every row must reproduce: first backend of the registry, one thread, slowest SIMD
+  // target.
+  const Framebuffer& reference();
+  void drop_reference() { reference_.reset(); }
+
+  FrontendOptions frontend_options(int threads) const;
+  const Drawable& drawable() const { return source_->drawable; }
+  std::span<const ScreenTriangle> triangles() const { return triangles_; }
+  std::uint64_t submitted() const { return submitted_; }    // triangles that go into the front end
+  std::uint64_t covered_px() const { return covered_px_; }  // each pixel as often as triangles cover it
+  int width() const { return width_; }
+  int height() const { return height_; }
+
+ private:
+  int width_, height_;
+  Cull mesh_cull_;
+  std::function<app::Source()> load_;
+  std::optional<app::Source> source_;
+  bool stream_ = false, prepared_ = false;
+  std::vector<ScreenTriangle> triangles_;
+  std::uint64_t submitted_ = 0, covered_px_ = 0;
+  std::optional<Framebuffer> reference_;
+};
+
+}  // namespace edgewise::bench

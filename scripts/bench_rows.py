@@ -1,0 +1,137 @@
+"""Reads what a run left in results/MACHINE: bench.json (Google Benchmark's format), machine.json, verify.json.
+
+A row's name is WHO/what/key:value…/threads:N, WHO being a backend, "frontend" or BACKEND+frontend.
+"""
+import json
+import statistics
+import sys
+from dataclasses import dataclass, field
+from pathlib import Path
+
+MS = {"ns": 1e-6, "us": 1e-3, "ms": 1.0, "s": 1e3}
+
+
+class BadInput(Exception):
+    """One line for the user."""
+
+
+@dataclass
+class Row:
+    name: str
+    backend: str  # empty for the front end alone
+    frontend: bool
+    scene: str  # empty for sweeps over random triangles
+    keys: dict
+    times_ms: list = field(default_factory=list)
+    counters: dict = field(default_factory=dict)
+    error: str = ""
+
+    @property
+    def median_ms(self):
+        return statistics.median(self.times_ms)
+
+    @property
+    def low_ms(self):
+        return min(self.times_ms)
+
+    @property
+    def high_ms(self):
+        return max(self.times_ms)
+
+    def quarter_ms(self, quarter):
+        """First and third bound the middle half of the repetitions."""
+        ordered = sorted(self.times_ms)
+        return ordered[round((len(ordered) - 1) * quarter / 4)]
+
+    @property
+    def threads(self):
+        return int(self.keys.get("threads", "1"))
+
+
+def parse_name(name):
+    who, *rest = name.split("/")
+    pairs = [part.partition(":") for part in rest]
+    keys = {key: value for key, colon, value in pairs if colon}
+    scene = "/".join(key for key, colon, _ in pairs if not colon)
+    backend, plus, _ = who.partition("+")
+    return Row(name, "" if who == "frontend" else backend, bool(plus) or who == "frontend", scene, keys)
+
+
+@dataclass
+class Bench:
+    context: dict
+    rows: dict  # by name
+
+    @property
+    def backends(self):
+        named = self.context.get("backends", "").split()
+        return named or list(dict.fromkeys(r.backend for r in self.rows.values() if r.backend))
+
+    def find(self, name):
+        """The row if it was timed, else None."""
+        row = self.rows.get(name)
+        return row if row and row.times_ms else None
+
+    def sweep(self, key):
+        """The timed rows that have this key."""
+        return [r for r in self.rows.values() if key in r.keys and r.times_ms]
+
+    @property
+    def scenes(self):
+        """Those of the main table, in the suite's order."""
+        plain = (r.scene for r in self.rows.values() if r.scene and set(r.keys) == {"threads"})
+        return list(dict.fromkeys(plain))
+
+
+def read_json(path):
+    try:
+        with open(path, encoding="utf-8") as file:
+            return json.load(file)
+    except OSError as error:
+        raise BadInput(f"{path}: {error.strerror}") from None
+    except ValueError as error:
+        raise BadInput(f"{path}: not JSON: {error}") from None
+
+
+def read_bench(folder_or_file):
+    path = Path(folder_or_file)
+    if path.is_dir():
+        path = path / "bench.json"
+    data = read_json(path)
+    if not isinstance(data, dict) or not isinstance(data.get("benchmarks"), list):
+        raise BadInput(f"{path}: not a Google Benchmark result")
+    rows = {}
+    try:
+        for entry in data["benchmarks"]:
+            if entry.get("run_type") == "aggregate":
+                continue
+            name = entry.get("run_name", entry["name"])
+            row = rows.setdefault(name, parse_name(name))
+            if entry.get("error_occurred"):
+                row.error = entry.get("error_message", "error")
+                continue
+            row.times_ms.append(entry["real_time"] * MS[entry["time_unit"]])
+            row.counters = {key: value for key, value in entry.items() if isinstance(value, float)}
+    except (KeyError, TypeError, AttributeError) as error:
+        raise BadInput(f"{path}: not a Google Benchmark result: {error}") from None
+    return Bench(data.get("context", {}), rows)
+
+
+def describe_machine(machine):
+    """One line under every figure and table."""
+    cores = machine.get("cores", "?")
+    return (f"{machine.get('cpu_model', 'unknown CPU')}, {cores} core{'' if cores == 1 else 's'}, "
+            f"{machine.get('simd_best', 'unknown SIMD')}, {machine.get('memory_gib', '?')} GiB; "
+            f"{machine.get('os', 'unknown system')}; {machine.get('compiler', 'unknown compiler')}, "
+            f"{machine.get('build_type', 'unknown build')}; commit {machine.get('commit', 'unknown')}")
+
+
+def main_guard(main):
+    """Runs main(); bad input becomes one line and exit status 2."""
+    try:
+        sys.exit(main())
+    except BadInput as error:
+        print(f"{Path(sys.argv[0]).stem}: {error}", file=sys.stderr)
+        sys.exit(2)
+    except BrokenPipeError:
+        sys.exit(141)

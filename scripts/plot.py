@@ -1,0 +1,32 @@
+"""Draws the charts of a results folder (bench.json beside its machine.json) as SVG and PNG."""
+import argparse
+from pathlib import Path
+
+from bench_rows import BadInput, describe_machine, main_guard, read_bench, read_json
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="plot", description=__doc__, epilog="Exit status: 0 drawn, 2 bad input.")
+    parser.add_argument("results", type=Path, metavar="RESULTS", help="folder with bench.json and machine.json")
+    parser.add_argument("--out", type=Path, metavar="DIR", help="where the charts go (RESULTS/charts)")
+    options = parser.parse_args()
+    if not options.results.is_dir():
+        raise BadInput(f"{options.results}: no such folder")
+    bench = read_bench(options.results)
+    caption = describe_machine(read_json(options.results / "machine.json"))
+    folder = options.out or options.results / "charts"
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise BadInput(f"{folder}: {error.strerror}") from None
+
+    import plot_scenes
+    import plot_sweeps
+    drawn = [name for chart in (*plot_sweeps.CHARTS, *plot_scenes.CHARTS) if (name := chart(bench, folder, caption))]
+    if not drawn:
+        raise BadInput(f"{options.results}: no row that a chart shows")
+    print(f"{len(drawn)} charts in {folder}: {' '.join(drawn)}")
+    return 0
+
+
+main_guard(main)

@@ -1,0 +1,135 @@
+"""Charts by scene: time, and what threads, SIMD and culling gain."""
+from plot_style import FAINT, INK, Look, headline, log_axis, plt, save
+
+
+def scene_time(bench, folder, caption):
+    """One line a scene, one place a backend: hollow 1 thread, filled 2."""
+    look = Look(bench.backends)
+    scenes = bench.scenes
+    if not scenes:
+        return None
+    figure, axes = plt.subplots(figsize=(10.0, 1.6 + 0.52 * len(scenes)))
+    step = 0.72 / max(1, len(bench.backends))
+    for line, scene in enumerate(scenes):
+        if line % 2:
+            axes.axhspan(line - 0.5, line + 0.5, color="#f6f8fa", zorder=0)
+        for place, backend in enumerate(bench.backends):
+            y = line + (place - (len(bench.backends) - 1) / 2) * step
+            rows = [row for threads in (1, 2) if (row := bench.find(f"{backend}/{scene}/threads:{threads}"))]
+            axes.plot([row.median_ms for row in rows], [y] * len(rows), color=look.colour(backend), linewidth=1.6)
+            for row in rows:
+                axes.plot([row.low_ms, row.high_ms], [y, y], color=look.colour(backend), linewidth=5, alpha=0.2,
+                          solid_capstyle="butt")
+                filled = row.threads > 1
+                axes.plot([row.median_ms], [y], marker=look.marker(backend), markersize=6.5, linestyle="",
+                          color=look.colour(backend), markerfacecolor=look.colour(backend) if filled else "white",
+                          markeredgewidth=1.5)
+    axes.set_xscale("log")
+    log_axis(axes.xaxis)
+    axes.set_yticks(range(len(scenes)), scenes)
+    axes.tick_params(axis="y", length=0)
+    axes.set_ylim(len(scenes) - 0.5, -0.5)
+    axes.grid(axis="y", visible=False)
+    axes.set_xlabel("ms a frame, backend alone, clear included")
+    height = figure.get_figheight()
+    top = headline(figure, "Time per scene", "Screen triangles to finished picture; lower is better. "
+                   "Hollow: 1 thread, filled: 2. Light bar: fastest to slowest repetition.")
+    look.legend(figure, top - 0.02 / height)
+    figure.subplots_adjust(left=0.1, right=0.975, bottom=0.78 / height, top=top - 0.42 / height)
+    save(figure, folder, "scenes", caption)
+    return "scenes"
+
+
+def dots(axes, look, groups, value_of):
+    """A dot a backend for each group, in lines from top to bottom."""
+    step = 0.6 / max(1, len(look.backends))
+    for line, group in enumerate(groups):
+        if line % 2:
+            axes.axhspan(line - 0.5, line + 0.5, color="#f6f8fa", zorder=0)
+        for place, backend in enumerate(look.backends):
+            value = value_of(group, backend)
+            if value is None:
+                continue
+            y = line + (place - (len(look.backends) - 1) / 2) * step
+            axes.plot([1, value], [y, y], color=look.colour(backend), linewidth=2.2)
+            axes.plot([value], [y], marker=look.marker(backend), color=look.colour(backend), markersize=6.5)
+    axes.axvline(1, color=FAINT, linewidth=1.0)
+    axes.set_yticks(range(len(groups)), groups)
+    axes.tick_params(axis="y", length=0)
+    axes.set_ylim(len(groups) - 0.5, -0.5)
+    axes.grid(axis="y", visible=False)
+    axes.xaxis.set_major_formatter(lambda value, _: f"{value:g}×")
+
+
+def gain(before, after):
+    return before.median_ms / after.median_ms if before and after else None
+
+
+def gain_chart(bench, folder, caption, name, groups, value_of, title, subtitle, label):
+    if not any(value_of(group, backend) for group in groups for backend in bench.backends):
+        return None
+    look = Look(bench.backends)
+    figure, axes = plt.subplots(figsize=(10.0, 2.0 + 0.4 * len(groups)))
+    dots(axes, look, groups, value_of)
+    axes.set_xlabel(label)
+    height = figure.get_figheight()
+    top = headline(figure, title, subtitle)
+    look.legend(figure, top - 0.02 / height)
+    figure.subplots_adjust(left=0.1, right=0.975, bottom=0.78 / height, top=top - 0.42 / height)
+    save(figure, folder, name, caption)
+    return name
+
+
+def threads(bench, folder, caption):
+    def value_of(scene, backend):
+        return gain(*(bench.find(f"{backend}/{scene}/threads:{n}") for n in (1, 2)))
+
+    return gain_chart(bench, folder, caption, "threads", bench.scenes, value_of, "What the second thread gains",
+                      "Time on 1 thread over time on 2, backend alone; 2× is ideal.", "speed-up")
+
+
+def culling(bench, folder, caption):
+    rows = bench.sweep("cull")
+    by_mode = {(row.scene, row.backend, row.keys["cull"]): row for row in rows}
+    scenes = list(dict.fromkeys(row.scene for row in rows))
+
+    def value_of(scene, backend):
+        return gain(by_mode.get((scene, backend, "none")), by_mode.get((scene, backend, "back")))
+
+    return gain_chart(bench, folder, caption, "culling", scenes, value_of, "What culling gains",
+                      "Whole frames of closed meshes, front end included: time without culling over time with back "
+                      "faces culled.", "speed-up")
+
+
+def simd(bench, folder, caption):
+    """Small multiples: speed-up over the slowest target, target by target."""
+    look = Look(bench.backends)
+    rows = bench.sweep("target")
+    scenes = list(dict.fromkeys(row.scene for row in rows))
+    targets = list(dict.fromkeys(row.keys["target"] for row in rows))
+    if not scenes or len(targets) < 2:
+        return None
+    by_key = {(row.scene, row.backend, row.keys["target"]): row for row in rows}
+    figure, panels = plt.subplots(1, len(scenes), sharey=True, squeeze=False, figsize=(10.0, 4.2))
+    for axes, scene in zip(panels[0], scenes):
+        for backend in bench.backends:
+            gains = [gain(by_key.get((scene, backend, targets[0])), by_key.get((scene, backend, t))) for t in targets]
+            places = [i for i, g in enumerate(gains) if g is not None]
+            axes.plot(places, [gains[i] for i in places], color=look.colour(backend), marker=look.marker(backend),
+                      markeredgecolor="white", markeredgewidth=0.6)
+        axes.axhline(1, color=FAINT, linewidth=1.0, zorder=1)
+        axes.set_xticks(range(len(targets)), targets, fontsize=9)
+        axes.set_xlim(-0.3, len(targets) - 0.7)
+        axes.set_title(scene, color=INK)
+        axes.yaxis.set_major_formatter(lambda value, _: f"{value:g}×")
+    panels[0][0].set_ylim(bottom=0)
+    height = figure.get_figheight()
+    top = headline(figure, "What SIMD gains", f"Time with {targets[0]} kernels over time with each target's, backend "
+                   "alone, 1 thread; higher is better.")
+    look.legend(figure, top - 0.02 / height)
+    figure.subplots_adjust(left=0.06, right=0.985, bottom=0.6 / height, top=top - 0.72 / height, wspace=0.12)
+    save(figure, folder, "simd", caption)
+    return "simd"
+
+
+CHARTS = (scene_time, threads, simd, culling)

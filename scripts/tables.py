@@ -1,0 +1,71 @@
+"""The tables made from results: as Markdown for the README, as plain text for the terminal."""
+
+THREADS = (1, 2)
+
+
+def milliseconds(row):
+    if row is None:
+        return "–"
+    ms = row.median_ms
+    return f"{ms:.3f}" if ms < 1 else f"{ms:.2f}" if ms < 10 else f"{ms:.1f}" if ms < 100 else f"{ms:,.0f}"
+
+
+def fastest(bench, scene):
+    """The fastest backend of a scene, and how many times longer the best of the others takes."""
+    best = {}
+    for backend in bench.backends:
+        times = [row.median_ms for n in THREADS if (row := bench.find(f"{backend}/{scene}/threads:{n}"))]
+        if times:
+            best[backend] = min(times)
+    if len(best) < 2:
+        return "–"
+    first, second = sorted(best, key=best.get)[:2]
+    return f"{first}, {best[second] / best[first]:.2f}×"
+
+
+def scene_facts(bench, scene):
+    """Triangles submitted, and overdraw."""
+    front = bench.find(f"frontend/{scene}/threads:1")
+    raster = next((row for b in bench.backends if (row := bench.find(f"{b}/{scene}/threads:1"))), None)
+    triangles = f"{front.counters['triangles']:,.0f}" if front else "–"
+    overdraw = f"{raster.counters['overdraw']:.2f}" if raster else "–"
+    return triangles, overdraw
+
+
+def scene_table(bench):
+    """Header and lines: one line a scene."""
+    header = ["scene", "triangles", "overdraw", *(f"{b}, {n}" for b in bench.backends for n in THREADS), "fastest"]
+    lines = []
+    for scene in bench.scenes:
+        times = [milliseconds(bench.find(f"{b}/{scene}/threads:{n}")) for b in bench.backends for n in THREADS]
+        lines.append([scene, *scene_facts(bench, scene), *times, fastest(bench, scene)])
+    return header, lines
+
+
+def markdown(header, lines):
+    text = ["| " + " | ".join(header) + " |", "|---|" + "--:|" * (len(header) - 2) + "---|"]
+    text += ["| " + " | ".join(line) + " |" for line in lines]
+    return "\n".join(text)
+
+
+def plain(header, lines):
+    widths = [max(len(line[i]) for line in [header, *lines]) for i in range(len(header))]
+    last = len(header) - 1
+
+    def aligned(line):
+        return "  ".join(cell.ljust(w) if i in (0, last) else cell.rjust(w)
+                         for i, (cell, w) in enumerate(zip(line, widths))).rstrip()
+
+    return "\n".join(map(aligned, [header, *lines]))
+
+
+def verify_sentence(verify):
+    scenes = verify["scenes"]
+    frames = sum(scene["configurations"] for scene in scenes)
+    oracle = sum(scene.get("oracle", {}).get("configurations", 0) for scene in scenes)
+    differing = sum(scene["differing_pixels"] + scene.get("oracle", {}).get("differing_pixels", 0) for scene in scenes)
+    backends = ", ".join(verify["backends"])
+    return (f"{frames:,} frames of {len(scenes)} scenes were compared bit for bit, in depth and payload, across {backends}, "
+            f"thread counts, tile sizes, SIMD targets and culling modes, and {oracle:,} small ones with a "
+            f"brute-force oracle: "
+            + ("**no bit differs**." if differing == 0 else f"**{differing:,} pixels differ**."))

@@ -1,0 +1,81 @@
+// `edgewise capture`: what the front end hands to a backend, as a .tri stream.
+#include "app/capture.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "app/commands.h"
+#include "app/console.h"
+#include "app/describe.h"
+#include "app/options.h"
+#include "image/atomic_file.h"
+#include "raster/contract.h"
+#include "scene/tri_file.h"
+
+namespace edgewise::app {
+
+TriangleStream to_stream(std::span<const ScreenTriangle> triangles, int width, int height) {
+  const auto pixels = [](std::int32_t sub) { return static_cast<float>(sub) / contract::kSub; };
+  const auto depth01 = [](std::uint32_t z) {
+    return static_cast<float>((static_cast<double>(z) - contract::kDepthHead) /
+                              double{contract::kDepthRange});
+  };
+  TriangleStream stream{width, height, {}};
+  stream.triangles.reserve(triangles.size());
+  for (const ScreenTriangle& t : triangles) {
+    StreamTriangle& out = stream.triangles.emplace_back();
+    for (int i = 0; i < 3; ++i) out.vertex[i] = {pixels(t.x_sub[i]), pixels(t.y_sub[i]), depth01(t.z[i])};
+    out.colour = t.payload;
+  }
+  return stream;
+}
+
+namespace {
+
+struct CaptureOptions {
+  std::string scene, output;
+  SceneOptions options;
+};
+
+int capture(const CaptureOptions& o) {
+  if (std::filesystem::path(o.output).extension() != ".tri")
+    throw std::invalid_argument("--output " + o.output + ": the name must end in .tri");
+  const Shot shot = load_shot(o.scene, o.options, o.options.time.value_or(0.0));
+  Frontend frontend;
+  const auto triangles = frontend.run(shot.source.drawable, shot.frontend);
+
+  AtomicFile file(o.output);
+  write_tri(file.stream(), to_stream(triangles, shot.frontend.width, shot.frontend.height));
+  file.commit();
+  print(fmt::format("{} ({}x{}): {}\n  -> {}\n", shot.source.name, shot.frontend.width, shot.frontend.height,
+                    stats_text(frontend.stats()), o.output));
+  return kDone;
+}
+
+constexpr const char* kFooter = R"(Examples:
+  edgewise capture terrain --size 1920x1080 -o terrain.tri
+  edgewise render terrain.tri -o terrain.png           (the same picture, bit for bit)
+  edgewise verify terrain.tri
+
+The stream holds what is left after transforming, clipping, culling and shading. The format, little
+endian: "TRI1", uint32 width, height, count; then for each triangle nine float32 (x, y, z of three
+vertices: pixels, y down, z in [0, 1], smaller is nearer) and a uint32 colour, R in the lowest byte.)";
+
+}  // namespace
+
+void add_capture(CLI::App& program, Action& action) {
+  CLI::App& command = *program.add_subcommand("capture", "Write a scene's screen triangles as a .tri stream");
+  const auto o = std::make_shared<CaptureOptions>();
+  command.add_option("SCENE", o->scene, "A scene of `edgewise list`, or an .obj or .tri file")->required();
+  command.add_option("-o,--output", o->output, "The stream, .tri")->required()->type_name("FILE");
+  o->options.add_to(command);
+  command.footer(kFooter);
+  command.callback([o, &action] { action = [o] { return capture(*o); }; });
+}
+
+}  // namespace edgewise::app

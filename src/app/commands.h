@@ -1,0 +1,24 @@
+// The subcommands, one file each. Adding one declares its options and, once the command line names it, sets
+// `action`.
+#pragma once
+
+#include <functional>
+
+namespace CLI {
+class App;
+}
+
+namespace edgewise::app {
+
+inline constexpr int kDone = 0, kDiffers = 1, kFailed = 2;  // exit statuses
+
+using Action = std::function<int()>;  // returns the exit status
+
+void add_list(CLI::App& program, Action& action);
+void add_render(CLI::App& program, Action& action);
+void add_verify(CLI::App& program, Action& action);
+void add_diff(CLI::App& program, Action& action);
+void add_capture(CLI::App& program, Action& action);
+void add_machine(CLI::App& program, Action& action);
+
+}  // namespace edgewise::app

@@ -1,0 +1,28 @@
+// Where pictures go when one name has to serve several scenes or frames.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace edgewise::app {
+
+// `pattern` is a file, a name that contains "{scene}", or a folder (one that exists, or that ends in a slash
+// and is made when needed), in which files are named after their scenes with `extension`. With more than one
+// frame, "-0001" and so on stands before the extension. Throws std::invalid_argument if several scenes would
+// write the same file.
+class OutputPaths {
+ public:
+  OutputPaths(const std::string& option, const std::string& pattern, const std::string& extension,
+              const std::vector<std::string>& scenes, int frames);
+
+  std::filesystem::path path(const std::string& scene, int frame) const;
+  void make_folder() const;  // throws std::runtime_error where it cannot
+
+ private:
+  std::filesystem::path pattern_;
+  int frames_;
+  bool own_folder_ = false;
+};
+
+}  // namespace edgewise::app

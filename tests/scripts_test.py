@@ -1,0 +1,153 @@
+"""The scripts that read results, on a tiny result made here."""
+import importlib.util
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+SCRIPTS = ROOT / "scripts"
+MACHINE = {"cpu_model": "Test CPU", "cores": 2, "simd_best": "avx2", "memory_gib": 4, "os": "Test OS",
+           "compiler": "GCC 1", "build_type": "Release", "commit": "abc"}
+VERIFY = {"backends": ["slow", "fast"],
+          "scenes": [{"configurations": 8, "differing_pixels": 0, "oracle": {"configurations": 2, "differing_pixels": 0}}]}
+COUNTERS = {"triangles": 12.0, "covered_px": 1e6, "overdraw": 0.5, "width": 1920.0, "height": 1080.0}
+
+
+def entries(name, times_ms, **counters):
+    return [{"name": name, "run_name": name, "run_type": "iteration", "real_time": t, "time_unit": "ms",
+             **COUNTERS, **counters} for t in times_ms]
+
+
+def bench(slow=(10.0, 10.2, 10.1), fast=(2.0, 2.1, 2.2)):
+    rows = entries("frontend/cube/threads:1", [0.5])
+    for backend, times in (("slow", slow), ("fast", fast)):
+        for threads in (1, 2):
+            rows += entries(f"{backend}/cube/threads:{threads}", [t / threads for t in times])
+            for area, factor in ((1, 0.1 if backend == "slow" else 1), (100, 1), (10000, 1)):
+                rows += entries(f"{backend}/area:{area}/threads:{threads}", [t * factor for t in times])
+        rows += entries(f"{backend}/cube/size:256x256/threads:2", times)
+        rows += entries(f"{backend}/cube/size:512x512/threads:2", [4 * t for t in times])
+        rows += entries(f"{backend}/count:100/threads:2", times) + entries(f"{backend}/count:1000/threads:2", times)
+        for mode, factor in (("none", 2), ("back", 1)):
+            rows += entries(f"{backend}+frontend/cube/cull:{mode}/threads:2", [t * factor for t in times])
+        for target, factor in (("scalar", 4), ("avx2", 1)):
+            rows += entries(f"{backend}/cube/target:{target}/threads:1", [t * factor for t in times])
+    return {"context": {"backends": "slow fast", "machine": "test"}, "benchmarks": rows}
+
+
+def run(script, *arguments):
+    return subprocess.run([SCRIPTS / script, *map(str, arguments)], capture_output=True, text=True, check=False)
+
+
+class ScriptsTest(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+        self.results = self.write("results", bench())
+
+    def write(self, name, benchmark):
+        folder = self.folder / name
+        folder.mkdir()
+        for file, data in (("bench", benchmark), ("machine", MACHINE), ("verify", VERIFY)):
+            (folder / f"{file}.json").write_text(json.dumps(data))
+        return folder
+
+    def fails(self, result, *words):
+        self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
+        self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+        for word in words:
+            self.assertIn(word, result.stderr)
+
+    def test_compare_names_what_changed_and_only_that(self):
+        after = self.write("after", bench(fast=(3.0, 3.1, 3.2), slow=(10.1, 9.9, 10.3)))
+        result = run("compare", self.results, after / "bench.json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        slower = result.stdout.split("\nSlower\n")[1]
+        self.assertIn("fast/cube/threads:1 ", slower)
+        self.assertIn("× 1.476", slower)
+        self.assertNotIn("slow/", slower)
+        self.assertIn(" 0 faster", result.stdout)
+
+    def test_compare_sets_other_work_apart(self):
+        data = bench()
+        for row in data["benchmarks"]:
+            if row["name"] == "fast/cube/threads:1":
+                row["triangles"] = 13.0
+                row["real_time"] *= 2
+        result = run("compare", self.results, self.write("other", data))
+        self.assertIn("0 slower", result.stdout)
+        self.assertIn("fast/cube/threads:1", result.stdout.split("other triangles")[1])
+
+    def test_bad_input_gets_one_line(self):
+        broken = self.folder / "broken.json"
+        broken.write_text("{")
+        self.fails(run("compare", self.results, self.folder / "none"), "none", "No such file")
+        self.fails(run("compare", self.results, broken), "broken.json", "not JSON")
+        broken.write_text('{"benchmarks": [{"name": "x"}]}')
+        self.fails(run("compare", self.results, broken), "Google Benchmark")
+        self.fails(run("summary", self.folder), "bench.json")
+
+    def test_readme_is_filled_then_up_to_date_then_stale(self):
+        readme = self.folder / "README.md"
+        readme.write_text("Hand-written.\n<!-- results: results -->\n<!-- generated:table -->\n<!-- /generated -->\n"
+                          "<!-- generated:verify -->\nold\n<!-- /generated -->\n")
+        self.assertEqual(run("readme", "--check", "--file", readme).returncode, 1)
+        self.assertEqual(run("readme", "--file", readme).returncode, 0)
+        text = readme.read_text()
+        self.assertIn("| cube | 12 | 0.50 | 10.1 | 5.05 | 2.10 | 1.05 | fast, 4.81× |", text)
+        self.assertIn("Hand-written.", text)
+        self.assertIn("no bit differs", text)
+        self.assertNotIn("old", text)
+        self.assertEqual(run("readme", "--check", "--file", readme).returncode, 0)
+        readme.write_text(text.replace("10.1", "10.0"))
+        self.assertEqual(run("readme", "--check", "--file", readme).returncode, 1)
+
+    def test_plot_draws_the_same_bytes_twice(self):
+        first, second = run("plot", self.results), run("plot", self.results, "--out", self.folder / "again")
+        if "apt-get install python3-matplotlib" in first.stderr:
+            self.skipTest("no matplotlib")
+        self.assertEqual(first.returncode, 0, first.stderr)
+        self.assertEqual(second.returncode, 0, second.stderr)
+        drawn = sorted(p.name for p in (self.results / "charts").iterdir())
+        charts = ("area", "cost", "culling", "scenes", "simd", "threads")
+        self.assertEqual(drawn, sorted(f"{c}.{suffix}" for c in charts for suffix in ("png", "svg")))
+        for name in drawn:
+            self.assertEqual((self.results / "charts" / name).read_bytes(), (self.folder / "again" / name).read_bytes())
+
+
+class CrossingsTest(unittest.TestCase):
+    """plot_sweeps.crossings() on curves whose crossing is known."""
+
+    @classmethod
+    def setUpClass(cls):
+        if importlib.util.find_spec("matplotlib") is None:
+            raise unittest.SkipTest("no matplotlib")
+        sys.path.insert(0, str(SCRIPTS))
+        from bench_rows import Row
+        from plot_sweeps import crossings
+        cls.row, cls.crossings = Row, staticmethod(crossings)
+
+    def curve(self, *repetitions):
+        return [(10.0 ** i, self.row("", "", False, "", {}, list(times)), 1.0) for i, times in enumerate(repetitions)]
+
+    def test_straight_lines_cross_where_they_should(self):
+        falling = self.curve([1000.0], [100.0], [10.0], [1.0])
+        level = self.curve([30.0], [30.0], [30.0], [30.0])
+        [(x, y)] = self.crossings(falling, level)
+        self.assertAlmostEqual(x, 1000 / 30, places=6)
+        self.assertAlmostEqual(y, 30.0, places=6)
+
+    def test_noise_is_no_crossing(self):
+        noisy = self.curve([8.0, 10.5, 12.0], [8.0, 9.5, 12.0], [8.0, 10.5, 12.0])
+        level = self.curve([8.5, 10.0, 11.5], [8.5, 10.0, 11.5], [8.5, 10.0, 11.5])
+        self.assertEqual(list(self.crossings(noisy, level)), [])
+
+
+if __name__ == "__main__":
+    os.environ["PYTHONDONTWRITEBYTECODE"] = "1"
+    unittest.main()
