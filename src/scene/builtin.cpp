@@ -90,7 +90,7 @@ Drawable cubes(const SceneRequest& request) {
          .angle = 0.9f * n + turn,
          .translation = {-2.7f + 0.9f * n, 0.3f * static_cast<float>(i % 2), -0.35f * n}});
   }
-  scene.camera = camera_at({0.6f, 1.8f, 5.0f}, {0.0f, 0.0f, -0.8f});
+  scene.camera = camera_at({-0.6f, 1.7f, 3.8f}, {-0.35f, 0.1f, -0.9f});
   return scene;
 }
 
@@ -134,11 +134,15 @@ Drawable torus_knot(const SceneRequest& request) {
   scene.meshes.push_back(sheet(
       kAlong, kAround,
       [&](float u, float v) {
+        // The frame leans on the torus's normal, to which the curve is always perpendicular.
         constexpr float kStep = 1e-2f;
         // The seam's vertices must be the same bits on both sides.
         const float t = u == 1.0f ? 0.0f : u * 2.0f * kPi, angle = v == 1.0f ? 0.0f : v * 2.0f * kPi;
         const glm::vec3 centre = curve(t), tangent = glm::normalize(curve(t + kStep) - curve(t - kStep));
-        const glm::vec3 side = glm::normalize(glm::cross(tangent, centre)), up = glm::cross(side, tangent);
+        const float outward = std::cos(3.0f * t);
+        const glm::vec3 normal(outward * std::cos(2.0f * t), outward * std::sin(2.0f * t),
+                               std::sin(3.0f * t));
+        const glm::vec3 side = glm::normalize(glm::cross(tangent, normal)), up = glm::cross(side, tangent);
         return centre + kTube * (std::cos(angle) * side - std::sin(angle) * up);
       },
       [&](float u, float) {
