@@ -22,11 +22,11 @@ namespace {
 
 // How long a row may take. Noise comes in bursts, so many short repetitions tell more than a few long ones.
 struct Effort {
-  int repetitions;
-  double repetition_s;  // at least, unless one iteration takes longer
-  double slow_row_s;    // all repetitions together, for rows whose single iteration takes longer
+  int repetitions, at_least;  // at_least for rows of a backend alone: charts judge the noise by them
+  double repetition_s;        // at least, unless one iteration takes longer
+  double slow_row_s;          // beyond this, all repetitions together, they become fewer
 };
-constexpr Effort kFull{5, 0.025, 0.6}, kQuick{3, 0.015, 0.3};
+constexpr Effort kFull{5, 3, 0.025, 0.6}, kQuick{3, 2, 0.015, 0.3};
 
 struct Flags {
   SuiteOptions suite;
@@ -179,12 +179,13 @@ void register_rows(const std::vector<Row>& rows, Stage& stage, const Flags& flag
     else
       registered->UseRealTime();
     const double once_s = std::max(row.once_s, 1e-6);
+    const int at_least = row.timed == Timed::raster ? effort.at_least : 1;
     if (flags.own_iterations || slow)
       registered->Iterations(slow ? 1
                                   : std::max<std::int64_t>(1, std::llround(effort.repetition_s / once_s)));
     if (flags.own_repetitions || slow)
       registered->Repetitions(
-          slow ? 1 : std::clamp(static_cast<int>(effort.slow_row_s / once_s), 1, effort.repetitions));
+          slow ? 1 : std::clamp(static_cast<int>(effort.slow_row_s / once_s), at_least, effort.repetitions));
   }
 }
 

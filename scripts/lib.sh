@@ -50,7 +50,7 @@ set_up() {
 
 # build TARGETS…: a Release build below build/; only what changed is compiled.
 build() {
-  local -a configure=(-S "$root" -B "$build")
+  local -a configure=(-S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release)
   if [[ ! -f $build/CMakeCache.txt ]] && command -v ninja >/dev/null; then configure+=(-G Ninja); fi
   if [[ -n ${CI:-} ]]; then configure+=(-DEDGEWISE_WERROR=ON); fi
   cmake "${configure[@]}" >/dev/null || die "CMake could not configure the build; see above"

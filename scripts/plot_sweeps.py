@@ -23,7 +23,8 @@ def crossings(first, second):
     shared = [(x, row, by_x[x], scale) for x, row, scale in first if x in by_x]
     logs = [(math.log(x), math.log(a.median_ms * scale), math.log(b.median_ms * scale)) for x, a, b, scale in shared]
     for index, (_, a, b, _) in enumerate(shared):
-        side = (a.quarter_ms(1) > b.quarter_ms(3)) - (a.quarter_ms(3) < b.quarter_ms(1))
+        repeated = min(len(a.times_ms), len(b.times_ms)) > 1
+        side = repeated * ((a.quarter_ms(1) > b.quarter_ms(3)) - (a.quarter_ms(3) < b.quarter_ms(1)))
         if side and decided and side != decided[0]:
             for (x0, a0, b0), (x1, a1, b1) in reversed(list(zip(logs[decided[1]:index], logs[decided[1] + 1:index + 1]))):
                 before, after = a0 - b0, a1 - b1
@@ -68,12 +69,12 @@ def free_place(axes, at, size, taken):
     left, bottom, right, top = (72 * v for v in bounds.extents)
     best = None
     for distance in (34, 48, 64, 84, 110):
-        for degrees in (60, 30, 75, 10, 100, -20, -60, 130, -100, -130):
+        for degrees in (60, 30, 75, 10, 100, -20, -60, 130, -100, -130, -150, -165):
             x = at[0] + distance * math.cos(math.radians(degrees)) - (size[0] if abs(degrees) > 90 else 0)
             y = at[1] + distance * math.sin(math.radians(degrees)) - size[1] / 2
             outside = x < left + 2 or y < bottom + 2 or x + size[0] > right or y + size[1] > top
             covered = sum(x - 4 < px < x + size[0] + 4 and y - 4 < py < y + size[1] + 4 for px, py in taken)
-            score = covered + 100 * outside + distance / 50
+            score = covered + 100 * outside + distance / 15
             if best is None or score < best[0]:
                 best = score, x, y
     return best[1:]

@@ -136,8 +136,8 @@ class CrossingsTest(unittest.TestCase):
         return [(10.0 ** i, self.row("", "", False, "", {}, list(times)), 1.0) for i, times in enumerate(repetitions)]
 
     def test_straight_lines_cross_where_they_should(self):
-        falling = self.curve([1000.0], [100.0], [10.0], [1.0])
-        level = self.curve([30.0], [30.0], [30.0], [30.0])
+        falling = self.curve(*[[time] * 3 for time in (1000.0, 100.0, 10.0, 1.0)])
+        level = self.curve(*[[30.0] * 3] * 4)
         [(x, y)] = self.crossings(falling, level)
         self.assertAlmostEqual(x, 1000 / 30, places=6)
         self.assertAlmostEqual(y, 30.0, places=6)
@@ -146,6 +146,9 @@ class CrossingsTest(unittest.TestCase):
         noisy = self.curve([8.0, 10.5, 12.0], [8.0, 9.5, 12.0], [8.0, 10.5, 12.0])
         level = self.curve([8.5, 10.0, 11.5], [8.5, 10.0, 11.5], [8.5, 10.0, 11.5])
         self.assertEqual(list(self.crossings(noisy, level)), [])
+
+    def test_one_draw_decides_nothing(self):
+        self.assertEqual(list(self.crossings(self.curve([9.0], [1.0]), self.curve([3.0], [3.0]))), [])
 
 
 if __name__ == "__main__":

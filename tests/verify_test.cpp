@@ -6,11 +6,13 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <memory>
 
 #include "app/capture.h"
 #include "app/verify_report.h"
 #include "image/image.h"
+#include "raster/contract.h"
 #include "scene/tri_file.h"
 #include "temp_dir.h"
 
@@ -165,7 +167,8 @@ TEST(Verify, KeepsAFindingWhosePicturesCannotBeWritten) {
 TEST(Verify, TableFitsItsTerminal) {
   SceneVerdict verdict{};
   verdict.scene = "a-scene-with-a-very-long-name";
-  verdict.width = verdict.height = 16384;
+  verdict.width = 1920;
+  verdict.height = 1080;
   verdict.triangles = verdict.emitted = 99'999'999;
   verdict.configurations = verdict.differing_pixels = 999'999;
   verdict.oracle_differences = 99'999;
@@ -181,6 +184,17 @@ bool same(const ScreenTriangle& a, const ScreenTriangle& b) {
          std::equal(a.z, a.z + 3, b.z) && a.payload == b.payload;
 }
 
+// Those that can reach a pixel. The front end tells that a triangle is outside before snapping in a scene and
+// after it in a stream, so some that draw nothing may be in one list only.
+std::vector<ScreenTriangle> visible(std::span<const ScreenTriangle> triangles,
+                                    const FrontendOptions& options) {
+  std::vector<ScreenTriangle> all;
+  std::copy_if(triangles.begin(), triangles.end(), std::back_inserter(all), [&](const ScreenTriangle& t) {
+    return !contract::pixel_box(t, options.width, options.height).empty();
+  });
+  return all;
+}
+
 class Capture : public ::testing::TestWithParam<std::string_view> {};
 
 TEST_P(Capture, ReplaysToTheSameScreenTriangles) {
@@ -191,14 +205,16 @@ TEST_P(Capture, ReplaysToTheSameScreenTriangles) {
   for (const Cull cull : cull_modes()) {
     FrontendOptions options{request.width, request.height, cull, !scene.stream, Payload::colour, 1};
     Frontend first, second;
-    const auto captured = first.run(scene.make(request), options);
+    const Drawable drawable = scene.make(request);
+    const auto screen = first.run(drawable, options);
     {
       std::ofstream out(path, std::ios::binary);
-      write_tri(out, to_stream(captured, request.width, request.height));
+      write_tri(out, to_stream(screen, request.width, request.height));
     }
+    const auto captured = visible(screen, options);
     options.cull = Cull::none;
     options.shade = false;
-    const auto replayed = second.run(read_tri(path), options);
+    const auto replayed = visible(second.run(read_tri(path), options), options);
     ASSERT_EQ(captured.size(), replayed.size());
     EXPECT_TRUE(std::equal(captured.begin(), captured.end(), replayed.begin(), same)) << name_of(cull);
   }

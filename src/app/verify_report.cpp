@@ -8,7 +8,7 @@ namespace edgewise::app {
 
 namespace {
 
-constexpr std::size_t kNameWidth = 13;
+constexpr std::size_t kNameWidth = 12;
 
 std::string shortened(const std::string& name) {
   return name.size() <= kNameWidth ? name : name.substr(0, kNameWidth - 2) + "..";

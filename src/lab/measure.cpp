@@ -27,15 +27,15 @@ FrameDifference compare(const Framebuffer& a, const Framebuffer& b) {
   return result;
 }
 
-std::vector<std::uint32_t> count_hits(Backend& backend, std::span<const ScreenTriangle> triangles, int width,
-                                      int height, const Execution& execution) {
+std::vector<std::vector<std::uint32_t>> disjoint_groups(std::span<const ScreenTriangle> triangles, int width,
+                                                        int height) {
   // Each triangle goes to the first group in which its box is still free: one past the latest group used
   // there.
-  const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  std::vector<std::uint32_t> next_group(pixels, 0);
-  std::vector<std::vector<ScreenTriangle>> groups;
-  for (const auto& triangle : triangles) {
-    const PixelBox box = pixel_box(triangle, width, height);
+  std::vector<std::uint32_t> next_group(static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
+                                        0);
+  std::vector<std::vector<std::uint32_t>> groups;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const PixelBox box = pixel_box(triangles[i], width, height);
     if (box.empty()) continue;
     std::uint32_t group = 0;
     const auto row_at = [&](int y) { return next_group.begin() + std::ptrdiff_t{y} * width; };
@@ -43,13 +43,20 @@ std::vector<std::uint32_t> count_hits(Backend& backend, std::span<const ScreenTr
       group = std::max(group, *std::max_element(row_at(y) + box.x0, row_at(y) + box.x1));
     for (int y = box.y0; y < box.y1; ++y) std::fill(row_at(y) + box.x0, row_at(y) + box.x1, group + 1);
     if (groups.size() <= group) groups.resize(group + 1);
-    groups[group].push_back(triangle);
+    groups[group].push_back(static_cast<std::uint32_t>(i));
   }
+  return groups;
+}
 
-  std::vector<std::uint32_t> hits(pixels, 0);
+std::vector<std::uint32_t> count_hits(Backend& backend, std::span<const ScreenTriangle> triangles, int width,
+                                      int height, const Execution& execution) {
+  std::vector<std::uint32_t> hits(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0);
   Framebuffer frame(width, height);
-  for (const auto& group : groups) {
-    backend.draw(group, frame.view(), 0, execution);
+  std::vector<ScreenTriangle> members;
+  for (const auto& group : disjoint_groups(triangles, width, height)) {
+    members.clear();
+    for (const std::uint32_t i : group) members.push_back(triangles[i]);
+    backend.draw(members, frame.view(), 0, execution);
     for (int y = 0; y < height; ++y) {
       const std::uint32_t* depth = frame.depth_row(y);
       std::uint32_t* row = &hits[static_cast<std::size_t>(y) * static_cast<std::size_t>(width)];

@@ -16,9 +16,13 @@ struct FrameDifference {
 // Both frames must have the same size.
 FrameDifference compare(const Framebuffer& a, const Framebuffer& b);
 
-// How many triangles a backend draws at each pixel, row by row. The triangles are drawn in groups whose
-// members' bounding boxes don't meet, so that every hit shows; fine for grids, slow for scenes of deep
-// overlap.
+// Puts triangles into groups whose members' bounding boxes don't meet, so that every pixel drawn for each of
+// them shows when a group is drawn alone; indices, without those that touch no sample. Few groups for grids,
+// many for scenes of deep overlap.
+std::vector<std::vector<std::uint32_t>> disjoint_groups(std::span<const ScreenTriangle> triangles, int width,
+                                                        int height);
+
+// How many triangles a backend draws at each pixel, row by row, found group by group.
 std::vector<std::uint32_t> count_hits(Backend& backend, std::span<const ScreenTriangle> triangles, int width,
                                       int height, const Execution& execution);
 

@@ -1,0 +1,22 @@
+// Ours: the front end as it is. Near and far planes are clipped in homogeneous space, and so is what lies
+// beyond the guard band; the screen's edges are left to the backend, which never leaves the image.
+#include "lab/clipping_methods/pipeline.h"
+
+namespace edgewise::lab {
+
+extern const ClippingMethod clipping_near_guard;
+const ClippingMethod clipping_near_guard{
+    {"near_guard", "ours: near and far planes and guard band, in homogeneous space", "frontend/clip.h",
+     "every difference lies within 1/64 px of where it would be none", true},
+    [](const ClippingScene& scene, ClippingFrame& frame) {
+      FrontendOptions options;
+      options.width = scene.size.width;
+      options.height = scene.size.height;
+      options.cull = scene.cull_back ? Cull::back : Cull::none;
+      options.payload = Payload::id;
+      frame.backend->draw(frame.frontend.run(scene.scene, options), frame.picture.view(), Owners::kNobody,
+                          {});
+    },
+    0};
+
+}  // namespace edgewise::lab

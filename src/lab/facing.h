@@ -1,0 +1,86 @@
+// Which faces look at the eye: the tests that engines use to drop the others, against the exact sign of the
+// projected area. Positions are exact as given; the truth is rational.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "lab/method.h"
+
+namespace edgewise::lab {
+
+// right, down and forward form a right-handed frame. A point p is seen at
+//   size / 2 + focal_px (right·(p - eye), down·(p - eye)) / w,
+// where w is forward·(p - eye) under perspective and 1 under an orthographic camera. Vertices must have w >
+// 0.
+struct FacingView {
+  bool perspective = true;
+  glm::vec3 eye{0.0f}, right{1.0f, 0.0f, 0.0f}, down{0.0f, 1.0f, 0.0f}, forward{0.0f, 0.0f, 1.0f};
+  float focal_px = 128.0f;
+  Size size{256, 256};
+};
+
+// A planar polygon; front is clockwise on the y-down screen. Methods look at its first three vertices, as the
+// trainer does.
+struct Face {
+  std::uint32_t first, count;  // into FacingScene::positions; count >= 3
+};
+
+struct FacingScene {
+  FacingView view;
+  std::vector<glm::vec3> positions;
+  std::vector<Face> faces;
+};
+
+// What is known exactly of a face, rounded to double only now: how near it is to being seen edge-on.
+struct FaceFacts {
+  bool owns_pixel;       // a sample lies in the exact, unsnapped projection
+  bool front;            // the whole polygon
+  bool first_three_lie;  // the first three vertices turn the other way than the polygon (they are a reflex
+                         // corner)
+  double sine;         // of the angle between the face's plane and the ray to its first three vertices' mean
+  double tilt_sine;    // of the angle between that ray (from the eye, whatever the camera) and forward
+  double object_sine;  // of the angle between that ray and the one to the mean of all positions
+  double width_px;     // least height of the first three vertices on the screen
+  // How rounding a position is magnified in a normal times a ray: the product of the first two sides over the
+  // area they span, at least 1, times what is lost by measuring from an origin that lies elsewhere than the
+  // eye.
+  double magnification;
+  double rounding_px;  // bound on the error of projecting these vertices in float
+};
+std::vector<FaceFacts> facing_facts(const FacingScene& scene);
+
+struct FacingMethod {
+  MethodInfo info;
+  // The timed part: front[i] = 1 if face i is kept, else 0. `front` has one entry a face.
+  void (*classify)(const FacingScene& scene, std::span<std::uint8_t> front);
+  // The promise: false if the method can't be wrong about the sign of the first three vertices.
+  bool (*may_err)(const FaceFacts& face, const FacingView& view);
+};
+
+// Ours first.
+std::span<const FacingMethod> facing_methods();
+
+struct FacingScore {
+  std::uint64_t faces = 0;          // that own a pixel
+  std::uint64_t misclassified = 0;  // of those, against the exact sign
+  std::uint64_t disagreements = 0;  // with the first method (ours), of all faces
+  std::uint64_t broken = 0;         // misclassified though the promise says that it can't be
+};
+FacingScore score(const FacingMethod& method, const FacingScene& scene, std::span<const FaceFacts> facts);
+
+// The smallest scenes.
+struct FacingCase {
+  std::string_view name, idea;
+  FacingScene (*make)();
+};
+std::span<const FacingCase> facing_cases();
+
+// Small faces of random directions around the ray that is tilted by `tilt` radians against forward.
+FacingScene tilted_faces(double tilt, bool perspective, std::size_t count, std::uint64_t seed);
+// Triangles that are almost edge-on, along lines through pixel centres.
+FacingScene edge_on_faces(bool perspective, std::size_t count, std::uint64_t seed);
+
+}  // namespace edgewise::lab

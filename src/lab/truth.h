@@ -1,0 +1,119 @@
+// The two truths that methods are judged by, exact and by brute force: the rule itself, sample by sample.
+//   SnappedTruth: on the snapped grid, by 128-bit integers. What is wrong against it is arithmetic.
+//   FloatTruth:   on the positions as they were before snapping, by doubles with an error bound, and by GMP's
+//                 rationals where those cannot tell. What is wrong against it is arithmetic and snapping.
+// They share no arithmetic with raster/contract.h or with any backend.
+#pragma once
+
+#include <gmpxx.h>
+
+#include <compare>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "frontend/frontend.h"
+#include "lab/ball.h"
+#include "lab/method.h"
+#include "raster/screen_triangle.h"
+
+namespace edgewise::lab {
+
+// The part of the pixel plane that is looked at. Images begin at (0, 0); a window elsewhere shows what
+// happens far from the origin.
+struct Window {
+  int width, height;  // px
+  int x0 = 0, y0 = 0;
+
+  int x1() const { return x0 + width; }
+  int y1() const { return y0 + height; }
+};
+
+// Pixels [x0, x1) of a row, drawn for one triangle.
+struct Run {
+  std::uint32_t triangle;  // index
+  std::int32_t y, x0, x1;
+  auto operator<=>(const Run&) const = default;
+};
+
+// A sample strictly inside is covered; one on an edge is covered if the triangle lies below that edge (a top
+// edge) or to the right of it (a left edge).
+class FillRule {
+ public:
+  // `facing` is the sign of cross(v0, v1, v2) below: 1 is clockwise on the y-down screen.
+  template <typename Y>
+  FillRule(const Y (&y)[3], int facing) : facing_(facing) {
+    for (int i = 0; i < 3; ++i) {
+      const Y &from = y[i], &to = y[(i + 1) % 3], &third = y[(i + 2) % 3];
+      // A clockwise triangle lies to the right of an edge that runs upwards.
+      lean_[i] = from == to ? 0 : from > to ? facing : -facing;
+      owns_ties_[i] = lean_[i] > 0 || (lean_[i] == 0 && third > from);
+    }
+  }
+  int facing() const { return facing_; }
+  // On which side of an edge the triangle lies: 1 right, -1 left, 0 above or below one that is horizontal.
+  int lean(int edge) const { return lean_[edge]; }
+  // `side` is the sign of cross(from, to, sample).
+  bool accepts(int edge, int side) const { return side == 0 ? owns_ties_[edge] : side == facing_; }
+
+ private:
+  int facing_, lean_[3];
+  bool owns_ties_[3];
+};
+
+// Both truths answer the same questions. Edge i runs from vertex i to the next one; a pixel's sample is its
+// centre.
+class SnappedTruth {
+ public:
+  explicit SnappedTruth(const ScreenTriangle& triangle);
+  int facing() const { return rule_.facing(); }  // 1 front (clockwise), -1 back, 0 without area
+  bool covers(int px, int py) const;
+  bool accepts(int edge, int px, int py) const;
+  // In contract units (rule 6), on the exact plane. Needs area.
+  mpq_class depth(int px, int py) const;
+  Ball depth_estimate(int px, int py) const;
+
+  const FillRule& rule() const { return rule_; }
+  double x_px(int vertex) const { return triangle_.x_sub[vertex] / 256.0; }
+  double y_px(int vertex) const { return triangle_.y_sub[vertex] / 256.0; }
+
+ private:
+  ScreenTriangle triangle_;
+  FillRule rule_;
+};
+
+class FloatTruth {
+ public:
+  // Coordinates and depths must be finite.
+  explicit FloatTruth(const UnsnappedTriangle& triangle);
+  int facing() const { return rule_.facing(); }
+  bool covers(int px, int py) const;
+  bool accepts(int edge, int px, int py) const;
+  // In [0, 1] like the vertices' own.
+  mpq_class depth(int px, int py) const;
+  Ball depth_estimate(int px, int py) const;
+
+  const FillRule& rule() const { return rule_; }
+  double x_px(int vertex) const { return double{triangle_.x_px[vertex]}; }
+  double y_px(int vertex) const { return double{triangle_.y_px[vertex]}; }
+
+ private:
+  UnsnappedTriangle triangle_;
+  FillRule rule_;
+};
+
+// All covered pixels, sorted by triangle and row; a triangle has at most one run in a row.
+std::vector<Run> covered_runs(std::span<const ScreenTriangle> triangles, Window window, int threads);
+std::vector<Run> covered_runs(std::span<const FloatTriangle> triangles, Window window, int threads);
+
+// Who owns each pixel, row by row: the nearest triangle, the earlier one at a tie, all by exact comparison.
+struct Owners {
+  static constexpr std::uint32_t kNobody = 0xFFFFFFFF;
+  Window window;
+  std::vector<std::uint32_t> triangle;  // index, or kNobody
+  std::vector<double> depth;            // of the owner, within 2^-40 of its size; infinity where nobody
+};
+Owners exact_owners(std::span<const ScreenTriangle> triangles, Window window, int threads);
+Owners exact_owners(std::span<const FloatTriangle> triangles, Window window, int threads);
+
+}  // namespace edgewise::lab

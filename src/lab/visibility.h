@@ -1,0 +1,92 @@
+// Who owns a pixel: the painter's orders and the depth buffers, measured against the true view-space planes.
+//
+// Every method draws the same snapped triangles with the same exact coverage (rules 2 and 4), so that what
+// differs is visibility alone. The truth is rational: 1 / view_z is linear on the screen, the vertices'
+// coordinates and distances are exact, and the nearest plane wins; a tie keeps the earlier triangle.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "lab/method.h"
+#include "lab/truth.h"
+#include "raster/screen_triangle.h"
+#include "scene/scene.h"
+
+namespace edgewise::lab {
+
+inline constexpr std::uint32_t kNobody = Owners::kNobody;
+
+struct VisibilityTriangle {
+  ScreenTriangle screen;  // z: the contract's depth (rule 6) of view_z
+  double view_z[3];       // distance along the view direction, near … far
+};
+
+struct VisibilityScene {
+  int width, height;  // px
+  double near_z, far_z;
+  std::vector<VisibilityTriangle> triangles;
+};
+
+// What a method draws into; keeps its memory between draws. A method uses the one depth buffer of its format.
+struct VisibilityFrame {
+  std::vector<std::uint32_t> owner;  // row by row: index of the triangle, or kNobody
+  std::vector<std::uint16_t> depth16;
+  std::vector<std::uint32_t> depth32;
+  std::vector<float> depth_float;
+  std::vector<std::uint32_t> order;  // the painter's
+};
+
+// Depths are compared in "depth01": 0 at the near plane, 1 at the far plane, linear on the screen.
+struct VisibilityMethod {
+  MethodInfo info;
+  // The timed part: clear, cover, decide.
+  void (*draw)(const VisibilityScene& scene, VisibilityFrame& frame);
+
+  // Only where a depth is kept, else null: the depth01 that the frame holds at a pixel; the format's step
+  // there; and the promise: how far a triangle's depth01 may be from the truth.
+  long double (*stored01)(const VisibilityFrame& frame, std::size_t pixel);
+  long double (*ulp01)(long double depth01);
+  double (*bound01)(const VisibilityTriangle& triangle, const VisibilityScene& scene);
+};
+
+std::span<const VisibilityMethod> visibility_methods();
+
+// The exact owner of each pixel, row by row.
+std::vector<std::uint32_t> true_owners(const VisibilityScene& scene);
+
+// The depth01 of a triangle's plane at a pixel, to 60 bits or more.
+long double true_depth01(const VisibilityScene& scene, std::uint32_t triangle, int x, int y);
+
+struct VisibilityScore {
+  std::uint64_t covered = 0;      // pixels that a triangle covers, in truth
+  std::uint64_t wrong_owner = 0;  // pixels with another owner than the true one
+  // Of the depths kept, each against the plane of the triangle that the method says it belongs to:
+  std::uint64_t out_of_range = 0;  // pixels outside that triangle's own depths by more than 2^-16
+  double max_ulp = 0, rms_ulp = 0;
+  // Promises broken: a pixel owned by a triangle that does not cover it, a depth beyond bound01, or a wrong
+  // owner whose true depth is farther from the right one's than both bounds allow.
+  std::uint64_t broken = 0;
+};
+VisibilityScore score(const VisibilityMethod& method, const VisibilityScene& scene,
+                      std::span<const std::uint32_t> owners);
+
+// The smallest scenes.
+struct VisibilityCase {
+  std::string_view name, idea;
+  VisibilityScene (*make)();
+};
+std::span<const VisibilityCase> visibility_cases();
+
+// Sweeps. Two quads, the farther submitted first, `separation` apart, tilted about `distance`.
+VisibilityScene two_planes(double distance, double separation, double near_z, double far_z);
+// Thin triangles in many directions, from distance 10 to 50 across their width; aspect is length over
+// (horizontal) width, at most 2^17: thinner ones have no area.
+VisibilityScene slivers(double aspect);
+// What a front end made of a scene, with Payload::id or not; needs keep_unsnapped.
+VisibilityScene visibility_scene(std::span<const ScreenTriangle> triangles,
+                                 std::span<const UnsnappedTriangle> unsnapped, const Camera& camera,
+                                 Size size);
+
+}  // namespace edgewise::lab

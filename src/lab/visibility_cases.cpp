@@ -1,0 +1,167 @@
+// The smallest scenes on which visibility methods fail, and the sweeps that say where they start to.
+#include "lab/visibility.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/glm.hpp>
+#include <numeric>
+#include <stdexcept>
+
+#include "raster/contract.h"
+
+namespace edgewise::lab {
+
+namespace {
+
+std::uint32_t contract_depth(double view_z, double near_z, double far_z) {
+  const double depth01 = far_z / (far_z - near_z) * (1 - near_z / view_z);
+  return contract::kDepthHead + static_cast<std::uint32_t>(std::nearbyint(depth01 * contract::kDepthRange));
+}
+
+// View space: x to the right, y down, z away from the eye, which sees the image's height as 1 at distance 1.
+class Builder {
+ public:
+  Builder(Size size, double near_z, double far_z) : scene_{size.width, size.height, near_z, far_z, {}} {}
+
+  Builder& triangle(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
+    VisibilityTriangle t{};
+    const glm::dvec3 corners[3] = {a, b, c};
+    for (int i = 0; i < 3; ++i) {
+      const auto snap = [](double px) {
+        return static_cast<std::int32_t>(std::nearbyint(px * contract::kSub));
+      };
+      const glm::dvec3 p = corners[i];
+      t.screen.x_sub[i] = snap(scene_.width / 2.0 + scene_.height * p.x / p.z);
+      t.screen.y_sub[i] = snap(scene_.height / 2.0 + scene_.height * p.y / p.z);
+      t.screen.z[i] = contract_depth(p.z, scene_.near_z, scene_.far_z);
+      t.view_z[i] = p.z;
+    }
+    t.screen.payload = static_cast<std::uint32_t>(scene_.triangles.size());
+    scene_.triangles.push_back(t);
+    return *this;
+  }
+  Builder& quad(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c, glm::dvec3 d) {
+    return triangle(a, b, c).triangle(a, c, d);
+  }
+  VisibilityScene take() { return std::move(scene_); }
+
+ private:
+  VisibilityScene scene_;
+};
+
+constexpr Size kSize{128, 96};
+
+VisibilityScene floor_under_box() {
+  return Builder(kSize, 0.5, 200)
+      .quad({-40, 20, 1}, {40, 20, 1}, {40, 20, 100}, {-40, 20, 100})
+      .quad({18, 0, 60}, {38, 0, 60}, {38, 20, 60}, {18, 20, 60})
+      .take();
+}
+
+// Each bar starts near the eye, over the end of the one before it.
+VisibilityScene bars_in_a_cycle() {
+  Builder builder(kSize, 0.5, 10);
+  const auto at = [](double degrees, double radius, double z) {
+    const double angle = degrees * 0.017453292519943295;
+    return glm::dvec3(radius * std::cos(angle) * z, radius * std::sin(angle) * z, z);
+  };
+  for (const double turn : {0.0, 120.0, 240.0})
+    builder.triangle(at(turn - 25, 0.42, 2), at(turn - 10, 0.46, 2), at(turn + 125, 0.48, 4));
+  return builder.take();
+}
+
+VisibilityScene interpenetrating() {
+  return Builder(kSize, 0.5, 10)
+      .triangle({-0.8, -0.7, 2}, {1.6, 0, 4}, {-0.8, 0.7, 2})
+      .triangle({0.8, -0.7, 2}, {-1.6, 0, 4}, {0.8, 0.7, 2})
+      .take();
+}
+
+VisibilityScene back_to_front() {
+  Builder builder(kSize, 0.5, 100);
+  for (const double z : {64.0, 32.0, 16.0, 8.0})
+    builder.triangle({-0.4 * z, -0.3 * z, z * 1.2}, {0.1 * z, 0.35 * z, z}, {0.3 * z, -0.2 * z, z * 1.1});
+  return builder.take();
+}
+
+VisibilityScene front_to_back() {
+  VisibilityScene scene = back_to_front();
+  std::reverse(scene.triangles.begin(), scene.triangles.end());
+  return scene;
+}
+
+constexpr std::array kCases = {
+    VisibilityCase{"back_to_front", "apart in depth and submitted back to front: everyone is right",
+                   back_to_front},
+    VisibilityCase{"front_to_back", "the same, submitted front to back", front_to_back},
+    VisibilityCase{"floor_under_box", "a floor from z = 1 to 100 under a box at z = 60", floor_under_box},
+    VisibilityCase{"bars_in_a_cycle", "three bars, each over the end of the one before it", bars_in_a_cycle},
+    VisibilityCase{"interpenetrating", "two triangles through one another", interpenetrating},
+    VisibilityCase{"planes_1_apart", "two planes 1 apart at z = 100, near 0.1",
+                   [] { return two_planes(100, 1, 0.1, 1000); }},
+    VisibilityCase{"planes_3e-3_apart", "two planes 0.003 apart at z = 100, near 0.1",
+                   [] { return two_planes(100, 3e-3, 0.1, 1000); }},
+    VisibilityCase{"planes_1e-5_apart", "two planes 0.00001 apart at z = 100, near 0.1",
+                   [] { return two_planes(100, 1e-5, 0.1, 1000); }},
+    VisibilityCase{"slivers", "triangles 20,000 times as long as wide", [] { return slivers(20000); }},
+};
+
+}  // namespace
+
+std::span<const VisibilityCase> visibility_cases() {
+  return kCases;
+}
+
+VisibilityScene two_planes(double distance, double separation, double near_z, double far_z) {
+  Builder builder(kSize, near_z, far_z);
+  for (const double nearer : {0.0, separation}) {
+    const double left = 0.9 * distance - nearer, right = 1.1 * distance - nearer;
+    const auto at = [](double x, double y, double z) { return glm::dvec3(x * z, y * z, z); };
+    builder.quad(at(-0.6, -0.45, left), at(0.6, -0.45, right), at(0.6, 0.45, right), at(-0.6, 0.45, left));
+  }
+  return builder.take();
+}
+
+VisibilityScene slivers(double aspect) {
+  using namespace contract;
+  constexpr int kSide = 1024, kReach = 500;  // px
+  const double near_z = 0.5, far_z = 100;
+  VisibilityScene scene{kSide, kSide, near_z, far_z, {}};
+  for (int dx = -4; dx <= 4; ++dx)
+    for (int dy = 1; dy <= 4; ++dy) {
+      if (std::gcd(dx, dy) != 1) continue;
+      // A left edge through samples, so that slivers of any width cover some.
+      const int steps = kReach / std::max(std::abs(dx), dy);
+      const double width_sub = std::hypot(dx, dy) * steps * kSub / aspect;
+      const std::int32_t x = sample_sub(kSide / 2 + steps * dx), y = sample_sub(kSide / 2 + steps * dy);
+      const auto third = x + std::max(1, static_cast<std::int32_t>(std::min(width_sub, kGuardSub / 2.0)));
+      VisibilityTriangle t{{{sample_sub(kSide / 2), x, third}, {sample_sub(kSide / 2), y, y}, {}, 0},
+                           {10, 10, 50}};
+      for (int i = 0; i < 3; ++i) t.screen.z[i] = contract_depth(t.view_z[i], near_z, far_z);
+      scene.triangles.push_back(t);
+    }
+  return scene;
+}
+
+VisibilityScene visibility_scene(std::span<const ScreenTriangle> triangles,
+                                 std::span<const UnsnappedTriangle> unsnapped, const Camera& camera,
+                                 Size size) {
+  if (triangles.size() != unsnapped.size()) throw std::invalid_argument("keep_unsnapped was not set");
+  const double near_z = camera.near_z, far_z = camera.far_z;
+  VisibilityScene scene{size.width, size.height, near_z, far_z, {}};
+  scene.triangles.reserve(triangles.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    VisibilityTriangle t{triangles[i], {}};
+    for (int k = 0; k < 3; ++k) {
+      const double depth01 = std::clamp(static_cast<double>(unsnapped[i].z01[k]), 0.0, 1.0);
+      t.view_z[k] = near_z * far_z / (far_z - depth01 * (far_z - near_z));
+      // Anew, since the distance that depth01 gives back is rounded.
+      t.screen.z[k] = contract_depth(t.view_z[k], near_z, far_z);
+    }
+    scene.triangles.push_back(t);
+  }
+  return scene;
+}
+
+}  // namespace edgewise::lab

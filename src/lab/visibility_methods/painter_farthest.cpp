@@ -1,0 +1,20 @@
+// The painter's algorithm by the farthest vertex.
+#include "lab/visibility_methods/painter.h"
+
+namespace edgewise::lab {
+
+extern const VisibilityMethod visibility_painter_farthest;
+const VisibilityMethod visibility_painter_farthest{
+    {"painter_farthest", "farthest vertex first, later ones overwrite",
+     "Newell, Newell and Sancha 1972, their first sort only",
+     "right where any two triangles that meet on the screen have depth ranges apart", false},
+    [](const VisibilityScene& scene, VisibilityFrame& frame) {
+      draw_painter(scene, frame, [](const VisibilityTriangle& t) {
+        return std::max(std::max(t.view_z[0], t.view_z[1]), t.view_z[2]);
+      });
+    },
+    nullptr,
+    nullptr,
+    nullptr};
+
+}  // namespace edgewise::lab
