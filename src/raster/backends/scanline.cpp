@@ -71,20 +71,39 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using Lanes = hn::ScalableTag<std::int32_t>;
 
-// Tests and writes `count` (at most a vector of) pixels; z is the depth of the first lane onwards.
+// Tests and writes a vector of pixels; z is the depth of the first lane onwards.
 template <class V>
-HWY_INLINE void fill_vector(V z, V payload, std::int32_t* depth_at, std::int32_t* payload_at,
-                            std::size_t count) {
+HWY_INLINE void fill_vector(V z, V payload, std::int32_t* depth_at, std::int32_t* payload_at) {
   const Lanes d;
-  if (count >= hn::Lanes(d)) {
-    const auto nearer = hn::Lt(z, hn::LoadU(d, depth_at));
+  const auto old_z = hn::LoadU(d, depth_at);
+  const auto nearer = hn::Lt(z, old_z);
+  if constexpr (hn::MaxLanes(d) == 16) {
     hn::BlendedStore(z, nearer, d, depth_at);
     hn::BlendedStore(payload, nearer, d, payload_at);
-  } else {
+  } else {  // masked stores are slow here, or emulated lane by lane
+    hn::StoreU(hn::IfThenElse(nearer, z, old_z), d, depth_at);
+    hn::StoreU(hn::IfThenElse(nearer, payload, hn::LoadU(d, payload_at)), d, payload_at);
+  }
+}
+
+// The same for the `count` pixels left at a span's end, fewer than a vector: what lies behind is not touched.
+template <class V>
+HWY_INLINE void fill_rest(V z, V payload, std::int32_t* depth_at, std::int32_t* payload_at,
+                          std::size_t count) {
+  const Lanes d;
+  if constexpr (hn::MaxLanes(d) >= 8) {
     const auto in_span = hn::FirstN(d, count);
     const auto nearer = hn::And(in_span, hn::Lt(z, hn::MaskedLoad(in_span, d, depth_at)));
     hn::BlendedStore(z, nearer, d, depth_at);
     hn::BlendedStore(payload, nearer, d, payload_at);
+  } else {  // without masked loads in the hardware, Highway 1.0.3 reads the whole vector, and aligned
+    alignas(16) std::int32_t lanes[hn::MaxLanes(d)];
+    hn::Store(z, d, lanes);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (lanes[i] >= depth_at[i]) continue;
+      depth_at[i] = lanes[i];
+      payload_at[i] = hn::GetLane(payload);
+    }
   }
 }
 
@@ -103,10 +122,11 @@ HWY_INLINE void fill_span(FrameView frame, const DepthPlane& plane, std::uint32_
   for (int x = begin; x < end;) {
     const int cell_end = std::min(end, (x / kDepthCell + 1) * kDepthCell);
     auto z = hn::Add(hn::Set(d, static_cast<std::int32_t>(plane.at(x, y))), lane_z);
-    for (; x < cell_end; x += lanes) {
-      fill_vector(z, colour, depth + x, payloads + x, static_cast<std::size_t>(cell_end - x));
+    for (; x + lanes <= cell_end; x += lanes) {
+      fill_vector(z, colour, depth + x, payloads + x);
       z = hn::Add(z, step);
     }
+    if (x < cell_end) fill_rest(z, colour, depth + x, payloads + x, static_cast<std::size_t>(cell_end - x));
     x = cell_end;
   }
 }
