@@ -1,13 +1,18 @@
-// What the tests of truths and of coverage methods share: float triangles that are hard to judge.
+// What the tests of truths and of coverage methods share: float triangles that are hard to judge, and
+// pictures together with their truths.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <memory>
 #include <string_view>
 #include <vector>
 
 #include "lab/coverage.h"
+#include "lab/coverage_cases.h"
+#include "lab/coverage_score.h"
 #include "support.h"
 
 namespace edgewise::testing {
@@ -70,6 +75,41 @@ inline std::vector<lab::FloatTriangle> as_floats(std::span<const ScreenTriangle>
     floats[i].payload = triangles[i].payload;
   }
   return floats;
+}
+
+// Triangles in both forms, and both truths.
+struct Picture {
+  Picture(std::vector<lab::FloatTriangle> triangles, lab::Window w)
+      : floats(std::move(triangles)),
+        grid(lab::snapped(floats)),
+        input{floats, grid},
+        window(w),
+        by_grid(lab::snapped_coverage(input, w, 2)),
+        by_floats(lab::float_coverage(input, w, 2)) {}
+  Picture(const Picture&) = delete;
+
+  std::vector<lab::FloatTriangle> floats;
+  std::vector<ScreenTriangle> grid;
+  lab::CoverageInput input;
+  lab::Window window;
+  lab::CoverageTruth by_grid, by_floats;
+};
+
+inline const Picture& picture_of(std::string_view name) {
+  static std::map<std::string_view, std::unique_ptr<Picture>> pictures;
+  auto& slot = pictures[name];
+  if (!slot) {
+    const lab::CoverageCase& c = lab::find_coverage_case(name);
+    slot = std::make_unique<Picture>(c.make(), lab::Window{c.size.width, c.size.height});
+  }
+  return *slot;
+}
+
+inline lab::CoverageScore against_grid(std::string_view method, const Picture& picture) {
+  return lab::score_coverage(picture.by_grid, lab::find_coverage_method(method), picture.input);
+}
+inline lab::CoverageScore against_floats(std::string_view method, const Picture& picture) {
+  return lab::score_coverage(picture.by_floats, lab::find_coverage_method(method), picture.input);
 }
 
 }  // namespace edgewise::testing

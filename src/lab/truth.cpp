@@ -131,6 +131,20 @@ FloatTruth truth_of(const FloatTriangle& t) {
   return FloatTruth(t.at);
 }
 
+// Cheaper than the truth itself: whether the triangle reaches these rows.
+template <typename Y>
+bool reaches_rows(const Y (&y)[3], double units_a_px, Window rows) {
+  const auto [low, high] = std::minmax({y[0], y[1], y[2]});
+  return static_cast<double>(high) >= rows.y0 * units_a_px &&
+         static_cast<double>(low) <= rows.y1() * units_a_px;
+}
+bool reaches_rows(const ScreenTriangle& t, Window rows) {
+  return reaches_rows(t.y_sub, 256.0, rows);
+}
+bool reaches_rows(const FloatTriangle& t, Window rows) {
+  return reaches_rows(t.at.y_px, 1.0, rows);
+}
+
 template <typename Triangle>
 std::vector<Run> all_runs(std::span<const Triangle> triangles, Window window, int threads) {
   constexpr std::size_t kChunk = 1024;
@@ -177,6 +191,7 @@ class OwnerFinder {
   void find(Window band) {
     std::vector<Ball> nearest(pixels(band), Ball(0.0));
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
+      if (!reaches_rows(triangles_[i], band)) continue;
       const auto truth = truth_of(triangles_[i]);
       for_each_run(truth, band, [&](int y, int begin, int end) {
         for (int x = begin; x < end; ++x) {
