@@ -245,6 +245,25 @@ TEST(Frontend, ShadesByTheLightWithAFloor) {
   EXPECT_EQ(run(scene, flat).triangles.at(0).payload, rgb(200, 100, 50));
 }
 
+TEST(Frontend, ShadesMeshesOfEverySizeAlike) {
+  for (const float size : {1e-12f, 1e-6f, 1.0f, 1e6f, 1e12f}) {
+    auto positions = kFront;
+    for (auto& p : positions) p *= size;
+    Scene scene = loose(positions);
+    scene.to_light = {0, 3, 4};
+    scene.camera.near_z = 0.1f * size;
+    scene.camera.far_z = 100.0f * size;
+    EXPECT_EQ(run(scene).triangles.at(0).payload & 255, 160u) << size;
+  }
+}
+
+TEST(Frontend, DrawsATriangleWhoseCornersLieAtTheEdgeOfFloat) {
+  constexpr float kFar = 3e38f;
+  const TriangleStream stream{100, 100, {{{{-kFar, -kFar, 0.5f}, {kFar, -kFar, 0.5f}, {50, kFar, 0.5f}}, 7}}};
+  const auto result = run(stream);
+  EXPECT_EQ(lab::covered_pixels(result.triangles, 100, 100), 100u * 100u);
+}
+
 TEST(Frontend, ShadingFollowsRotationAndMirroring) {
   Scene scene = loose(kFront);
   scene.instances[0].scale = {-1, 1, 1};  // mirrored: the winding turns, and with it the side that is lit

@@ -9,31 +9,37 @@ namespace edgewise {
 
 namespace {
 
-constexpr float kGuardPx = static_cast<float>(contract::kMaxImageSide);
+constexpr double kGuardPx = contract::kMaxImageSide;
 
-// Distance to a plane times something positive; inside is >= 0.
-float distance(const ClipVertex& v, std::uint16_t plane) {
+// Distance to a plane times something positive; inside is >= 0. In double, so that no finite vertex
+// overflows.
+double distance(const ClipVertex& v, std::uint16_t plane) {
+  const double guard = kGuardPx * v.w;
   switch (plane) {
     case kNear:
       return v.z;
     case kFar:
-      return v.w - v.z;
+      return double{v.w} - v.z;
     case kGuardLeft:
-      return v.x + kGuardPx * v.w;
+      return v.x + guard;
     case kGuardRight:
-      return kGuardPx * v.w - v.x;
+      return guard - v.x;
     case kGuardTop:
-      return v.y + kGuardPx * v.w;
+      return v.y + guard;
     default:
-      return kGuardPx * v.w - v.y;
+      return guard - v.y;
   }
 }
 
-ClipVertex cut(const ClipVertex& inside, const ClipVertex& outside, float inside_distance,
-               float outside_distance) {
-  const float t = inside_distance / (inside_distance - outside_distance);
-  return {inside.x + t * (outside.x - inside.x), inside.y + t * (outside.y - inside.y),
-          inside.z + t * (outside.z - inside.z), inside.w + t * (outside.w - inside.w)};
+// In double: the difference of two finite floats may overflow, and the cut should lie on the edge.
+ClipVertex cut(const ClipVertex& inside, const ClipVertex& outside, double inside_distance,
+               double outside_distance) {
+  const double t = inside_distance / (inside_distance - outside_distance);
+  const auto between = [&](float from, float to) {
+    return static_cast<float>(double{from} + t * (double{to} - double{from}));
+  };
+  return {between(inside.x, outside.x), between(inside.y, outside.y), between(inside.z, outside.z),
+          between(inside.w, outside.w)};
 }
 
 }  // namespace
@@ -43,7 +49,7 @@ std::uint16_t outside_of(const ClipVertex& v, float width_px, float height_px) {
     return kNotFinite;
   unsigned sides = 0;
   for (const auto plane : {kNear, kFar, kGuardLeft, kGuardRight, kGuardTop, kGuardBottom})
-    if (!(distance(v, plane) >= 0.0f)) sides |= plane;
+    if (distance(v, plane) < 0.0) sides |= plane;
   if (v.x < 0.0f) sides |= kLeft;
   if (v.x > width_px * v.w) sides |= kRight;
   if (v.y < 0.0f) sides |= kTop;
@@ -59,8 +65,8 @@ std::span<const ClipVertex> Clipper::clip(const ClipVertex (&triangle)[3], std::
     std::size_t kept = 0;
     for (std::size_t i = 0; i < count; ++i) {
       const ClipVertex &a = from_[i], &b = from_[i + 1 == count ? 0 : i + 1];
-      const float da = distance(a, plane), db = distance(b, plane);
-      const bool a_inside = da >= 0.0f, b_inside = db >= 0.0f;
+      const double da = distance(a, plane), db = distance(b, plane);
+      const bool a_inside = da >= 0.0, b_inside = db >= 0.0;
       if (a_inside) to_[kept++] = a;
       if (a_inside != b_inside) to_[kept++] = a_inside ? cut(a, b, da, db) : cut(b, a, db, da);
     }

@@ -170,16 +170,19 @@ ClipVertex transform(const glm::mat4& m, glm::vec3 p) {
 // scale, and turns them with the winding where a scale mirrors.
 class Shade {
  public:
-  Shade(const glm::mat4& model, glm::vec3 to_light)
-      : cofactor_(glm::cross(glm::vec3(model[1]), glm::vec3(model[2])),
-                  glm::cross(glm::vec3(model[2]), glm::vec3(model[0])),
-                  glm::cross(glm::vec3(model[0]), glm::vec3(model[1]))),
+  Shade(const glm::dmat4& model, glm::dvec3 to_light)
+      : cofactor_(glm::cross(glm::dvec3(model[1]), glm::dvec3(model[2])),
+                  glm::cross(glm::dvec3(model[2]), glm::dvec3(model[0])),
+                  glm::cross(glm::dvec3(model[0]), glm::dvec3(model[1]))),
         to_light_(glm::normalize(to_light)) {}
 
   std::uint32_t operator()(glm::vec3 a, glm::vec3 b, glm::vec3 c, std::uint32_t colour) const {
     constexpr float kFloor = 0.15f;
-    const glm::vec3 normal = cofactor_ * glm::cross(c - a, b - a);
-    const float lambert = glm::dot(normal, to_light_) / std::sqrt(glm::dot(normal, normal));
+    // In double, since squares of squares of a mesh's size leave the range of float.
+    const glm::dvec3 normal =
+        cofactor_ * glm::cross(glm::dvec3(c) - glm::dvec3(a), glm::dvec3(b) - glm::dvec3(a));
+    const auto lambert =
+        static_cast<float>(glm::dot(normal, to_light_) / std::sqrt(glm::dot(normal, normal)));
     const float light = lambert > kFloor ? std::min(lambert, 1.0f) : kFloor;
     const auto channel = [&](int shift) {
       return static_cast<std::uint32_t>(static_cast<float>(colour >> shift & 255) * light + 0.5f);
@@ -188,8 +191,8 @@ class Shade {
   }
 
  private:
-  glm::mat3 cofactor_;
-  glm::vec3 to_light_;
+  glm::dmat3 cofactor_;
+  glm::dvec3 to_light_;
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "raster/bins.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "raster/contract.h"
 #include "raster/parallel.h"
@@ -18,6 +19,8 @@ void Bins::Chunk::reset(std::size_t cells) {
 void Bins::Chunk::push(std::size_t cell, std::uint32_t index) {
   std::uint32_t slot = cursor[cell];
   if (slot % kBlock == kRun) {  // a full block, or none yet (kNone ends in the same bits)
+    if (used > kNone - kBlock)
+      throw std::length_error("too many triangles over too many tiles for one frame");
     const std::uint32_t block = used;
     used += kBlock;
     if (slots.size() < used) slots.resize(std::max<std::size_t>(used, slots.size() * 2));
@@ -69,14 +72,17 @@ void Bins::bin(const ScreenTriangle& triangle, std::uint32_t index, const Grid& 
 void Bins::build(std::span<const ScreenTriangle> triangles, const Grid& grid, int threads) {
   constexpr std::size_t kLeastChunk = 4096;  // triangles; below, a chunk's bookkeeping outweighs its work
   constexpr std::size_t kChunksPerThread = 4;
+  constexpr std::size_t kMaxHeads = std::size_t{1} << 24;  // list heads of all chunks together: 128 MB
+  const auto cells = static_cast<std::size_t>(grid.cells());
   const std::size_t most = threads == 1 ? 1 : kChunksPerThread * static_cast<std::size_t>(threads);
-  used_chunks_ = std::clamp<std::size_t>(triangles.size() / kLeastChunk, 1, most);
+  const std::size_t affordable = std::max<std::size_t>(1, kMaxHeads / cells);
+  used_chunks_ = std::clamp<std::size_t>(triangles.size() / kLeastChunk, 1, std::min(most, affordable));
   if (chunks_.size() < used_chunks_) chunks_.resize(used_chunks_);
 
   parallel_for(threads, static_cast<int>(used_chunks_), [&](int i) {
     const auto c = static_cast<std::size_t>(i);
     Chunk& chunk = chunks_[c];
-    chunk.reset(static_cast<std::size_t>(grid.cells()));
+    chunk.reset(cells);
     const std::size_t begin = triangles.size() * c / used_chunks_;
     const std::size_t end = triangles.size() * (c + 1) / used_chunks_;
     for (std::size_t t = begin; t < end; ++t) bin(triangles[t], static_cast<std::uint32_t>(t), grid, chunk);

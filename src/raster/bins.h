@@ -24,8 +24,8 @@ class Bins {
     int cells() const { return columns() * rows(); }
   };
 
-  // Replaces what was binned before. A triangle without area, or with no sample in its bounding box, lands
-  // nowhere.
+  // Replaces what was binned before. A triangle with no sample in its bounding box lands nowhere; one without
+  // area may land in a cell or two. Throws std::length_error when a chunk's lists pass 2^32 entries.
   void build(std::span<const ScreenTriangle> triangles, const Grid& grid, int threads);
 
   // visit(indices) for consecutive runs of a cell's triangle indices, in submission order.
