@@ -7,10 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
-#include <thread>
+#include <new>
 
+#include "app/console.h"
 #include "app/machine.h"
 #include "app/options.h"
+#include "app/process.h"
 #include "app/progress.h"
 #include "image/atomic_file.h"
 #include "reporter.h"
@@ -235,15 +237,28 @@ int run(int argc, char** argv) {
   return std::any_of(rows.begin(), rows.end(), [](const Row& row) { return !row.error.empty(); }) ? 1 : 0;
 }
 
+int failed(std::string_view why) {
+  app::print_error(why, "edgewise_bench");
+  return 2;
+}
+
+int guarded(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    return failed("out of memory");
+  } catch (const std::exception& error) {
+    return failed(error.what());
+  }
+}
+
 }  // namespace
 
 }  // namespace edgewise::bench
 
 int main(int argc, char** argv) {
-  try {
-    return edgewise::bench::run(argc, argv);
-  } catch (const std::exception& error) {
-    std::cerr << "edgewise_bench: " << error.what() << '\n';
-    return 2;
-  }
+  edgewise::app::prepare_process();
+  const int status = edgewise::bench::guarded(argc, argv);
+  if (std::cout.flush() || status == 2) return status;
+  return edgewise::bench::failed("cannot write to standard output");
 }

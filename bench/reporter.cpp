@@ -5,6 +5,8 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "app/json_text.h"
+
 namespace edgewise::bench {
 
 namespace {
@@ -71,10 +73,10 @@ std::string Reporter::json() const {
   auto& context = result["context"];
   context.erase("host_name");
   context["executable"] = std::filesystem::path(context.value("executable", "")).filename().string();
-  std::string text = "{\n\"context\": " + context.dump(2) + ",\n\"benchmarks\": [";
+  std::string text = "{\n\"context\": " + app::json_text(context, 2) + ",\n\"benchmarks\": [";
   const char* separator = "\n";
   for (const auto& row : result["benchmarks"]) {
-    text += separator + row.dump();
+    text += separator + app::json_text(row);
     separator = ",\n";
   }
   return text + "\n]\n}\n";

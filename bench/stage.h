@@ -27,6 +27,8 @@ class Stage {
   double timed_work_s(const Row& row);
 
   std::map<const BackendInfo*, std::unique_ptr<Backend>> backends_;
+  // One for each size, to the end: interleaved repetitions come back to all of them, and a fresh frame would
+  // put its page faults into a row's time.
   std::map<std::pair<int, int>, Framebuffer> frames_;
   Frontend frontend_;
 };

@@ -4,6 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <stdexcept>
+
+#include "app/printable.h"
 
 namespace edgewise::bench {
 
@@ -47,6 +51,13 @@ app::Source area_source(const SuiteOptions& options, double area_px) {
   attempt.prepare(false);
   const double covered_px = std::max(1.0, static_cast<double>(attempt.covered_px()));
   return random_source(options, at_least_a_few(static_cast<double>(count) * wanted_px / covered_px), area_px);
+}
+
+// What stands for a source in row names, where ':' is a mark of theirs (as '/' is, which no name has).
+std::string name_in_rows(const app::Source& source) {
+  std::string name = app::printable(source.name);
+  std::replace(name.begin(), name.end(), ':', '_');
+  return name;
 }
 
 class Suite {
@@ -172,16 +183,21 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
     suite.add_target_sweep();
     return suite.take();
   }
+  std::map<std::string, std::string> taken;  // name in rows, source
   for (const auto& scene : options.scenes) {
     // Loaded at once: a bad file must be known before anything is timed.
     const app::Source source =
         app::load_source(scene, request(options, options.width, options.height), options.fit);
+    const std::string name = name_in_rows(source);
+    if (const auto [other, is_new] = taken.emplace(name, scene); !is_new)
+      throw std::invalid_argument(
+          fmt::format("--scene {} and --scene {} would both be named '{}'", other->second, scene, name));
     const auto* stream = std::get_if<TriangleStream>(&source.drawable);
     const bool own_size = stream && !options.size_asked;
     suite.add_scene(std::make_shared<Workload>(own_size ? stream->width : options.width,
                                                own_size ? stream->height : options.height, Cull::back,
                                                [source] { return source; }),
-                    source.name);
+                    name);
   }
   return suite.take();
 }

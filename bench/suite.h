@@ -33,7 +33,8 @@ struct SuiteOptions {
   bool fit = false;                 // for meshes in `scenes`
 };
 
-// Throws what load_source throws for a name or file that cannot be used.
+// Throws what load_source throws for a name or file that cannot be used, and std::invalid_argument for two
+// whose rows would bear the same names.
 std::vector<Row> make_suite(const SuiteOptions& options);
 
 }  // namespace edgewise::bench

@@ -151,12 +151,23 @@ INSTANTIATE_TEST_SUITE_P(
                     GoodObj{"BlanksTabsComments",
                             "# x\n\n  v\t1  2 3 # y\nv 4 5 6\nv 7 8 10\n\tf 1\t2 3  # z\n"},
                     GoodObj{"ContinuedLines", "v 1 \\\n2 3\nv 4 5 6\r\nv 7 8 \\\r\n 10\nf 1 2 \\\n\\\n3"},
+                    GoodObj{"ACommentIsNotContinued", "v 1 2 3 # C:\\\n# D:\\\nv 4 5 6\nv 7 8 10\nf 1 2 3\n"},
                     GoodObj{"WeightsAndColours", "v 1 2 3 1\nv 4 5 6 0.5\nv 7 8 10 1 0 0\nf 1 2 3\n"},
                     GoodObj{"OtherStatements",
                             "mtllib none.mtl\no a\ng b c\nusemtl d\ns off\nvp 1\nl 1 2\np 1\nt x "
                             "99999999999/99999999999/9\n" +
                                 kCorners + "f 1 2 3\ncurv 0 1\n"}),
     [](const auto& p) { return std::string(p.param.name); });
+
+// Of numbers that are awkward, the nearest float; 0 for what is smaller than any.
+TEST(ObjFile, AwkwardNumbersAreReadExactly) {
+  const std::string zeros(400, '0');
+  const Mesh mesh = read_mesh("v 1e-400 -1e-99999 0e400\nv 1" + zeros + "e-400 0." + zeros +
+                              "1 1e-45\nv 0.1 16777217 -3.4028235e38\nf 1 2 3\n");
+  EXPECT_EQ(mesh.positions.at(0), glm::vec3(0, 0, 0));
+  EXPECT_EQ(mesh.positions.at(1), glm::vec3(1, 0, 1e-45f));
+  EXPECT_EQ(mesh.positions.at(2), glm::vec3(0.1f, 16777216, -3.4028235e38f));
+}
 
 class BadObj : public testing::TestWithParam<BadFile> {};
 
@@ -188,6 +199,13 @@ INSTANTIATE_TEST_SUITE_P(
                 "line 4: '99999999999' is not a vertex index"},
         BadFile{"IndexIsText", kCorners + "f 1 2 x\n", "line 4: 'x' is not a vertex index"},
         BadFile{"IndexIsFraction", kCorners + "f 1 2 3.0\n", "line 4: '3.0' is not a vertex index"},
+        BadFile{"IndexHasThreeSlashes", kCorners + "f 1 2 3/1/1/1\n",
+                "line 4: '3/1/1/1' is not a vertex index"},
+        BadFile{"VerticalTabAfterKeyword", kCorners + "f\v1 2 3\n", "line 4: control character in 'f?1'"},
+        BadFile{"VerticalTabBetweenCorners", kCorners + "f 1\v2\v3\n",
+                "line 4: '1?2?3' is not a vertex index"},
+        BadFile{"FormFeedAmongCorners", kCorners + "f 1 2 \f3\n", "line 4: '?3' is not a vertex index"},
+        BadFile{"VerticalTabBetweenCoordinates", "v 1\v2 3 4\n", "line 1: '1?2' is not a finite coordinate"},
         BadFile{"IndexHasTail", kCorners + "f 1 2 3/\x1B[31m\n", "line 4: '3/?[31m' is not a vertex index"},
         BadFile{"TwoCorners", kCorners + "f 1 2\n", "line 4: a face needs three corners or more"},
         BadFile{"NoCorners", kCorners + "f\n", "line 4: a face needs three corners or more"},
@@ -197,6 +215,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"CoordinateNan", "v 1 nan 2\n", "line 1: 'nan' is not a finite coordinate"},
         BadFile{"CoordinateInfinite", "v 1 -inf 2\n", "line 1: '-inf' is not a finite coordinate"},
         BadFile{"CoordinateOverflows", "v 1 1e39 2\n", "line 1: '1e39' is not a finite coordinate"},
+        BadFile{"CoordinateOverflowsDouble", "v 1 -1e400 2\n", "line 1: '-1e400' is not a finite coordinate"},
         BadFile{"LineAfterWindowsLineEnds", "v 1 2 3\r\n\r\nv 1 2 \\\r\n x\r\n",
                 "line 3: 'x' is not a finite coordinate"}),
     [](const auto& p) { return std::string(p.param.name); });

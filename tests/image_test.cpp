@@ -348,7 +348,13 @@ TEST(AtomicFile, AFullDiskIsReported) {
               write_pfm("/dev/full", {1, 1, {0.0f}});
             }),
             "/dev/full: cannot be written: No space left on device");
-  EXPECT_NE(message_of([] { write_pfm("/dev/full", {600, 600, std::vector<float>(360000)}); }), "");
+  // Fails while it is written, not when it is closed; and by way of a link.
+  const TempDir dir;
+  fs::create_symlink("/dev/full", dir.path() / "a.pfm");
+  EXPECT_EQ(message_of([&] {
+              write_pfm(dir.path() / "a.pfm", {600, 600, std::vector<float>(360000)});
+            }),
+            (dir.path() / "a.pfm").string() + ": cannot be written: No space left on device");
 }
 
 class Signalled : public testing::TestWithParam<int> {};
@@ -358,7 +364,7 @@ TEST_P(Signalled, LeavesOnlyTheOldFileAndDiesOfTheSignal) {
   const fs::path path = dir.write("a", "old");
   const pid_t child = fork();
   if (child == 0) {
-    for (const int signal_number : {SIGINT, SIGTERM, SIGHUP}) signal(signal_number, SIG_DFL);
+    for (const int signal_number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) signal(signal_number, SIG_DFL);
     AtomicFile file(path);
     file.stream() << "new" << std::flush;
     raise(GetParam());
@@ -372,7 +378,7 @@ TEST_P(Signalled, LeavesOnlyTheOldFileAndDiesOfTheSignal) {
   EXPECT_EQ(dir.count(), 1u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Signals, Signalled, testing::Values(SIGINT, SIGTERM, SIGHUP),
+INSTANTIATE_TEST_SUITE_P(Signals, Signalled, testing::Values(SIGINT, SIGTERM, SIGHUP, SIGQUIT),
                          [](const auto& p) { return std::string(sigabbrev_np(p.param)); });
 
 }  // namespace

@@ -1,16 +1,11 @@
 // The program as a user meets it: exit statuses, one line for each failure, whole files or none.
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <set>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "image/image.h"
@@ -118,6 +113,8 @@ INSTANTIATE_TEST_SUITE_P(
                       BadInput{"render large --fov 50 -o DIR/a.png", "no camera"},                       //
                       BadInput{"render cube sphere -o DIR/a.png", "{scene}"},                            //
                       BadInput{"render cube ./cube.obj -o DIR/", "no such file"},                        //
+                      BadInput{"render grid4 cube --scale 2 -o DIR/", "--scale"},                        //
+                      BadInput{"render cube IN/index.obj -o DIR/", "index.obj"},                         //
                       BadInput{"render cube cube -o DIR/", "two scenes"},                                //
                       BadInput{"render cube -o DIR/a.jpg", ".png or .ppm"},                              //
                       BadInput{"render cube -o DIR/a.png --depth DIR/a.png", ".pfm"},                    //
@@ -289,6 +286,34 @@ TEST_F(ProgramRenders, AStreamCroppedNotScaled) {
   EXPECT_EQ(part.pixels[31 + 64 * 32] & 0xFFFFFFu, 0u);
 }
 
+TEST_F(ProgramRenders, WhateverTheCaseOfItsExtension) {
+  ASSERT_EQ(
+      edgewise_with("render cube --size 40x30 -o " + path("a.PNG") + " --depth " + path("a.PFM")).status, 0);
+  EXPECT_EQ(edgewise_with("diff " + path("a.PNG") + " " + path("a.PNG")).status, 0);
+  EXPECT_EQ(edgewise_with("diff " + path("a.PFM") + " " + path("a.PFM")).status, 0);
+  ASSERT_EQ(edgewise_with("capture cube --size 40x30 -o " + path("a.TRI")).status, 0);
+  const auto json = nlohmann::json::parse(edgewise_with("verify --json - " + path("a.TRI")).out);
+  EXPECT_EQ(json.at("scenes")[0].at("width"), 40);
+}
+
+TEST_F(ProgramRenders, AFileOfAnyNameAndSaysNothingThatATerminalObeys) {
+  const std::string name = path("x\x1b[31m\xff\xc3\xa9.tri");
+  ASSERT_EQ(edgewise_with("capture grid4 --size 40x30 -o " + path("a.tri")).status, 0);
+  std::filesystem::rename(path("a.tri"), name);
+  const auto json = nlohmann::json::parse(edgewise_with("render --json '" + name + "' -o " + path("")).out);
+  EXPECT_EQ(json.at("scene"), "x\x1b[31m\xef\xbf\xbd\xc3\xa9");
+  EXPECT_EQ(
+      nlohmann::json::parse(edgewise_with("verify --json - '" + name + "'").out).at("scenes")[0].at("scene"),
+      json.at("scene"));
+  for (const std::string& command : {"render -o " + path("") + " ", std::string("verify ")}) {
+    const Outcome outcome = edgewise_with(command + "'" + name + "'");
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("x?[31m?\xc3\xa9"), std::string::npos) << outcome.out;
+    EXPECT_EQ(outcome.out.find('\x1b'), std::string::npos);
+  }
+  EXPECT_EQ(edgewise_with("diff '" + name + "' a").err.find('\x1b'), std::string::npos);
+}
+
 TEST_F(ProgramRenders, WhatDiffTellsApart) {
   ASSERT_EQ(
       edgewise_with("render cube --size 64x64 -o " + path("a.png") + " --depth " + path("a.pfm")).status, 0);
@@ -324,28 +349,6 @@ TEST_F(ProgramRenders, AVerdictAsJson) {
     EXPECT_EQ(wrong, 0) << backend;
   EXPECT_EQ(json.at("scenes")[1].at("pixels_not_hit_once").size(), backends().size());
   EXPECT_FALSE(std::filesystem::exists(path("out")));
-}
-
-TEST_F(ProgramRenders, NothingHalfWrittenAfterCtrlC) {
-  const std::string json = path("verify.json");
-  const pid_t child = fork();
-  ASSERT_GE(child, 0);
-  if (child == 0) {
-    if (freopen("/dev/null", "w", stdout) != nullptr)
-      execl(EDGEWISE_PROGRAM, "edgewise", "verify", "--full", "--json", json.c_str(), nullptr);
-    _exit(99);
-  }
-  // The temporary file shows that the work has begun.
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-  while (folder_.count() == 0 && std::chrono::steady_clock::now() < deadline)
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  ASSERT_EQ(folder_.count(), 1u);
-  kill(child, SIGINT);
-  int status = 0;
-  ASSERT_EQ(waitpid(child, &status, 0), child);
-  ASSERT_TRUE(WIFEXITED(status));
-  EXPECT_EQ(WEXITSTATUS(status), 130);
-  EXPECT_EQ(folder_.count(), 0u);
 }
 
 }  // namespace

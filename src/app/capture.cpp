@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -13,6 +12,8 @@
 #include "app/console.h"
 #include "app/describe.h"
 #include "app/options.h"
+#include "app/printable.h"
+#include "file_extension.h"
 #include "image/atomic_file.h"
 #include "raster/contract.h"
 #include "scene/tri_file.h"
@@ -43,7 +44,7 @@ struct CaptureOptions {
 };
 
 int capture(const CaptureOptions& o) {
-  if (std::filesystem::path(o.output).extension() != ".tri")
+  if (extension_of(o.output) != ".tri")
     throw std::invalid_argument("--output " + o.output + ": the name must end in .tri");
   const Shot shot = load_shot(o.scene, o.options, o.options.time.value_or(0.0));
   Frontend frontend;
@@ -52,8 +53,8 @@ int capture(const CaptureOptions& o) {
   AtomicFile file(o.output);
   write_tri(file.stream(), to_stream(triangles, shot.frontend.width, shot.frontend.height));
   file.commit();
-  print(fmt::format("{} ({}x{}): {}\n  -> {}\n", shot.source.name, shot.frontend.width, shot.frontend.height,
-                    stats_text(frontend.stats()), o.output));
+  print(fmt::format("{} ({}x{}): {}\n  -> {}\n", printable(shot.source.name), shot.frontend.width,
+                    shot.frontend.height, stats_text(frontend.stats()), printable(o.output)));
   return kDone;
 }
 

@@ -3,9 +3,10 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include <cctype>
 #include <cstdio>
 #include <string>
+
+#include "app/printable.h"
 
 namespace edgewise::app {
 
@@ -17,17 +18,14 @@ bool stdout_is_whole() {
   return std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
 }
 
-void print_error(std::string_view message) {
-  std::string line = "edgewise: ";
-  // A file name may hold anything; the message stays one line whatever it quotes.
-  for (const char c : message) line += std::iscntrl(static_cast<unsigned char>(c)) ? ' ' : c;
-  line += '\n';
+void print_error(std::string_view message, std::string_view program) {
+  const std::string line = std::string(program) + ": " + printable(message, ' ') + '\n';
   std::fwrite(line.data(), 1, line.size(), stderr);
 }
 
-int terminal_width() {
+int terminal_width(int descriptor) {
   winsize size{};
-  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
+  if (ioctl(descriptor, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
   return 80;
 }
 

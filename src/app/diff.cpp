@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -10,6 +9,8 @@
 
 #include "app/commands.h"
 #include "app/console.h"
+#include "app/json_text.h"
+#include "file_extension.h"
 #include "image/image.h"
 
 namespace edgewise::app {
@@ -22,7 +23,7 @@ struct DiffOptions {
 };
 
 bool is_depth_path(const std::string& path) {
-  return std::filesystem::path(path).extension() == ".pfm";
+  return extension_of(path) == ".pfm";
 }
 
 void check_kind(const std::string& path) {
@@ -55,7 +56,7 @@ int diff(const DiffOptions& o) {
     nlohmann::json json{
         {"pixels", pixels}, {"differing", d.count}, {"largest", d.largest}, {"first", nullptr}};
     if (d.count > 0) json["first"] = {d.first_x, d.first_y};
-    print(json.dump() + "\n");
+    print(json_text(json) + "\n");
   } else if (d.count == 0) {
     print(fmt::format("equal: {} pixels\n", pixels));
   } else {
@@ -68,6 +69,8 @@ int diff(const DiffOptions& o) {
 constexpr const char* kFooter = R"(Examples:
   edgewise diff a.png b.ppm
   edgewise diff a.pfm b.pfm -o where.png     (grey where equal, red where not)
+
+Pictures are compared as 8-bit RGB: PNGs of 16 bits are read as 8-bit ones, and alpha is ignored.
 
 Exit status: 0 equal, 1 different, 2 cannot be compared.)";
 

@@ -8,6 +8,7 @@
 
 #include "app/commands.h"
 #include "app/console.h"
+#include "app/json_text.h"
 #include "frontend/frontend.h"
 #include "raster/backend.h"
 #include "scene/builtin.h"
@@ -74,7 +75,7 @@ void add_list(CLI::App& program, Action& action) {
   command.add_flag("--json", *json, "Print JSON");
   command.callback([json, &action] {
     action = [json] {
-      print(*json ? as_json().dump(2) + "\n" : as_text());
+      print(*json ? json_text(as_json(), 2) + "\n" : as_text());
       return kDone;
     };
   });

@@ -21,6 +21,7 @@
 
 #include "app/commands.h"
 #include "app/console.h"
+#include "app/json_text.h"
 #include "raster/simd_target.h"
 
 namespace edgewise::app {
@@ -131,7 +132,7 @@ std::string compiler() {
 
 // Results are written while they are measured, so changes below results/ don't make the tree dirty.
 std::string commit() {
-  const std::string git = "git -C " + quoted_for_shell(EDGEWISE_SOURCE_DIR) + " ";
+  const std::string git = "git --no-optional-locks -C " + quoted_for_shell(EDGEWISE_SOURCE_DIR) + " ";
   const auto hash = output_of(git + "rev-parse --short=12 HEAD");
   if (!hash || hash->empty()) return kUnknown;
   const auto changes = output_of(git + "status --porcelain -- ':/' ':(top,exclude)results'");
@@ -195,7 +196,7 @@ void add_machine(CLI::App& program, Action& action) {
   command.add_flag("--name", *name_only, "Print only the name of its folder below results/");
   command.callback([name_only, &action] {
     action = [name_only] {
-      print((*name_only ? machine_name() : machine_description().dump(2)) + "\n");
+      print((*name_only ? machine_name() : json_text(machine_description(), 2)) + "\n");
       return kDone;
     };
   });

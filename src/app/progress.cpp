@@ -8,11 +8,15 @@
 #include <cstdio>
 #include <string>
 
+#include "app/console.h"
+#include "app/printable.h"
+
 namespace edgewise::app {
 
 namespace {
 
-constexpr int kBarWidth = 24, kLabelWidth = 24;  // fits 60 columns
+constexpr int kBarWidth = 24;
+constexpr int kBesideBar = 8;  // columns: brackets, blanks, "100%"
 constexpr std::string_view kErase = "\r\033[K";
 volatile std::sig_atomic_t on_screen = 0;
 
@@ -29,9 +33,13 @@ void Progress::show(double fraction, std::string_view label) {
   const int percent = static_cast<int>(100.0 * std::clamp(fraction, 0.0, 1.0));
   if (percent == shown_percent_) return;
   shown_percent_ = percent;
-  const auto filled = static_cast<std::size_t>(percent * kBarWidth / 100);
-  const std::string line = fmt::format("{}[{:<{}}] {:3}% {:.{}}", kErase, std::string(filled, '#'), kBarWidth,
-                                       percent, label, kLabelWidth);
+  // The last column stays free: some terminals wrap as soon as it is filled.
+  const int room = terminal_width(STDERR_FILENO) - 1;
+  const int bar = std::clamp(room - kBesideBar, 0, kBarWidth);
+  const auto label_room = static_cast<std::size_t>(std::max(0, room - kBesideBar - bar));
+  const auto filled = static_cast<std::size_t>(percent * bar / 100);
+  const std::string line = fmt::format("{}[{:<{}}] {:3}% {}", kErase, std::string(filled, '#'), bar, percent,
+                                       printable_within(label, label_room));
   on_screen = 1;
   std::fwrite(line.data(), 1, line.size(), stderr);
   std::fflush(stderr);
@@ -43,6 +51,13 @@ void Progress::erase() {
   std::fflush(stderr);
   on_screen = 0;
   shown_percent_ = -1;
+}
+
+std::string TimeLeft::label(double fraction, std::string_view label) const {
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
+  if (spent.count() < 1.0 || fraction < 0.01) return std::string(label);
+  const auto left_s = static_cast<int>(spent.count() * (1.0 - fraction) / fraction + 0.5);
+  return fmt::format("{}:{:02} left, {}", left_s / 60, left_s % 60, label);
 }
 
 void erase_progress_on_signal() {

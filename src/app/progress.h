@@ -1,6 +1,8 @@
 // A progress bar: one line on stderr, redrawn in place, only where stderr is a terminal.
 #pragma once
 
+#include <chrono>
+#include <string>
 #include <string_view>
 
 namespace edgewise::app {
@@ -18,6 +20,16 @@ class Progress {
  private:
   bool terminal_;
   int shown_percent_ = -1;
+};
+
+// Says how long work will still take, from how long it has taken so far.
+class TimeLeft {
+ public:
+  // "2:05 left, LABEL"; LABEL alone until the guess is worth something.
+  std::string label(double fraction, std::string_view label) const;
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 // For the signal handler: erases a bar if one is on the screen. Async-signal-safe.

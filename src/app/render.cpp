@@ -15,10 +15,13 @@
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/describe.h"
+#include "app/json_text.h"
 #include "app/options.h"
 #include "app/output_path.h"
 #include "app/pictures.h"
+#include "app/printable.h"
 #include "app/progress.h"
+#include "file_extension.h"
 #include "lab/measure.h"
 #include "nearest_name.h"
 
@@ -67,8 +70,7 @@ What parse_what(const std::string& text) {
 }
 
 std::string extension_for(const std::string& option, const std::string& path, bool depth) {
-  const std::string extension = std::filesystem::path(path).extension().string();
-  const bool known = depth ? extension == ".pfm" : is_image_path(path);
+  const bool known = depth ? extension_of(path) == ".pfm" : is_image_path(path);
   const bool folder = path.ends_with('/') || std::filesystem::is_directory(path);
   if (!known && !folder)
     throw std::invalid_argument(
@@ -96,16 +98,25 @@ class Renderer {
   }
 
   void run() {
+    if (options_.scenes.size() > 1) rehearse();
     if (images_) images_->make_folder();
     if (depths_) depths_->make_folder();
     for (const std::string& scene : options_.scenes) render_frames(scene);
   }
 
  private:
+  // So that what is wrong with the last scene is known before the first picture is written.
+  void rehearse() {
+    for (const std::string& scene : options_.scenes) {
+      const Shot shot = load_shot(scene, options_.scene, options_.scene.time.value_or(0.0));
+      frontend_.run(shot.source.drawable, shot.frontend);
+    }
+  }
+
   void render_frames(const std::string& scene) {
     std::optional<Shot> shot;
     for (int frame = 1; frame <= options_.frames; ++frame) {
-      if (options_.frames > 1) progress_.show(double(frame - 1) / options_.frames, source_name(scene));
+      if (options_.frames > 1) show_progress(source_name(scene), frame, 0.0);
       const double time = options_.scene.time.value_or(0.0) + (frame - 1) / options_.fps.value_or(30.0);
       // Files don't move, and reading them again would take most of the time.
       if (!shot || shot->source.built_in != nullptr) shot = load_shot(scene, options_.scene, time);
@@ -113,6 +124,10 @@ class Renderer {
       shot->frontend.threads = options_.execution.execution.threads;
       report(render(*shot, time, frame));
     }
+  }
+
+  void show_progress(const std::string& scene, int frame, double frame_fraction) {
+    progress_.show((frame - 1 + frame_fraction) / options_.frames, scene);
   }
 
   Picture render(const Shot& shot, double time, int frame) {
@@ -133,7 +148,9 @@ class Renderer {
       write_pfm(picture.files.back(), to_depth_map(*frame_));
     }
     if (options_.what == What::hits) {
-      const auto hits = lab::count_hits(*backend_, triangles, width, height, execution);
+      const auto hits = lab::count_hits(*backend_, triangles, width, height, execution, [&](double fraction) {
+        show_progress(shot.source.name, frame, fraction);
+      });
       for (const std::uint32_t n : hits) ++picture.hits[std::min(n, 3u)];
       if (images_) write_picture(picture, frame, picture_of_hits(hits, width, height));
     } else if (images_) {
@@ -149,7 +166,7 @@ class Renderer {
 
   void report(const Picture& picture) {
     progress_.erase();
-    print(options_.json ? as_json(picture).dump() + "\n" : as_text(picture));
+    print(options_.json ? json_text(as_json(picture)) + "\n" : as_text(picture));
   }
 
   nlohmann::json as_json(const Picture& p) const {
@@ -172,13 +189,13 @@ class Renderer {
   }
 
   std::string as_text(const Picture& p) const {
-    std::string text = fmt::format("{} ({}x{}, {}): {}\n", p.scene, p.frontend.width, p.frontend.height,
-                                   info_.name, stats_text(p.stats));
+    std::string text = fmt::format("{} ({}x{}, {}): {}\n", printable(p.scene), p.frontend.width,
+                                   p.frontend.height, info_.name, stats_text(p.stats));
     if (options_.what == What::hits)
       text += fmt::format("  pixels hit: 0 times {}, once {}, twice {}, 3 times or more {}\n", p.hits[0],
                           p.hits[1], p.hits[2], p.hits[3]);
     return text + fmt::format("  front end {:.2f} ms, draw {:.2f} ms -> {}\n", p.frontend_ms, p.draw_ms,
-                              fmt::join(p.files, ", "));
+                              printable(fmt::format("{}", fmt::join(p.files, ", "))));
   }
 
   const RenderOptions& options_;

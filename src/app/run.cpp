@@ -1,9 +1,6 @@
 #include "app/run.h"
 
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
-#include <csignal>
 #include <exception>
 #include <new>
 #include <sstream>
@@ -13,8 +10,7 @@
 
 #include "app/commands.h"
 #include "app/console.h"
-#include "app/progress.h"
-#include "image/atomic_file.h"
+#include "app/process.h"
 #include "nearest_name.h"
 
 namespace edgewise::app {
@@ -28,18 +24,6 @@ constexpr const char* kFooter = R"(Try:
   edgewise COMMAND --help                options and examples
 
 Exit status: 0 done, 1 a difference was found, 2 bad input or failure, 130 after Ctrl-C.)";
-
-extern "C" void stop(int signal) {
-  remove_unfinished_files();
-  erase_progress_on_signal();
-  _exit(128 + signal);
-}
-
-void set_signals() {
-  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe shows as a failed write to stdout
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
-    if (std::signal(signal, stop) == SIG_IGN) std::signal(signal, SIG_IGN);  // under nohup
-}
 
 // CLI11 would only say that the word was not expected.
 void check_command(const CLI::App& program, std::string_view word) {
@@ -60,6 +44,8 @@ int parse_and_run(int argc, char** argv) {
   add_list(program, action);
   add_render(program, action);
   add_verify(program, action);
+  add_accuracy(program, action);
+  add_stability(program, action);
   add_diff(program, action);
   add_capture(program, action);
   add_machine(program, action);
@@ -92,7 +78,7 @@ int guarded(int argc, char** argv) {
 }  // namespace
 
 int run(int argc, char** argv) {
-  set_signals();
+  prepare_process();
   const int status = guarded(argc, argv);
   if (stdout_is_whole() || status == kFailed) return status;
   print_error("cannot write to standard output");

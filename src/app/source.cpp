@@ -1,24 +1,16 @@
 #include "app/source.h"
 
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <stdexcept>
 #include <system_error>
 
+#include "file_extension.h"
 #include "scene/obj_file.h"
 #include "scene/tri_file.h"
 
 namespace edgewise::app {
 
 namespace {
-
-std::string extension_of(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
 
 Source load_built_in(const std::string& name, const SceneRequest& request, bool fit_mesh) {
   const SceneInfo& info = find_scene(name);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cstring>
 #include <memory>
 
 #include "app/pictures.h"
@@ -37,15 +36,6 @@ std::vector<Execution> executions(const VerifyPlan& plan) {
     for (const int tile : {16, 32}) all.push_back({threads, tile, resolve(SimdTarget::best)});
   }
   return all;
-}
-
-// So that a pixel which a backend forgets to write shows.
-void poison(Framebuffer& frame) {
-  const FrameView view = frame.view();
-  const auto bytes =
-      static_cast<std::size_t>(view.stride) * static_cast<std::size_t>(view.height) * sizeof(*view.depth);
-  std::memset(view.depth, 0xA5, bytes);
-  std::memset(view.payload, 0xA5, bytes);
 }
 
 PixelValue value_at(const Framebuffer& frame, std::string_view drawn_by, int x, int y) {
@@ -85,7 +75,7 @@ class SceneCheck {
         shot.frontend.payload = payload;
         const auto triangles = frontend_.run(shot.source.drawable, shot.frontend);
         if (payload == Payload::colour) count(frontend_.stats());
-        poison(expected);
+        lab::poison(expected);
         backends_[0]->draw(triangles, expected.view(), background_of(payload), kPlainest);
         const Judgement judgement{plan_.backends[0].name, shot.frontend, triangles, expected};
         compare_all(judgement);
@@ -149,7 +139,7 @@ class SceneCheck {
   }
 
   void draw(const Judgement& j, std::size_t backend, const Execution& execution) {
-    poison(*candidate_);
+    lab::poison(*candidate_);
     backends_[backend]->draw(j.triangles, candidate_->view(), background_of(j.frontend.payload), execution);
   }
 

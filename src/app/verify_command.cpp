@@ -10,6 +10,7 @@
 
 #include "app/commands.h"
 #include "app/console.h"
+#include "app/json_text.h"
 #include "app/progress.h"
 #include "app/verify.h"
 #include "app/verify_report.h"
@@ -51,10 +52,13 @@ int verify_command(VerifyOptions& o) {
   });
   show(summary(report, plan));
 
-  if (json_on_stdout) print(report_json(report, plan).dump(2) + "\n");
-  if (file) {
-    file->stream() << report_json(report, plan).dump(2) << '\n';
-    file->commit();
+  if (json_on_stdout || file) {
+    const std::string text = json_text(report_json(report, plan), 2) + '\n';
+    if (json_on_stdout) print(text);
+    if (file) {
+      file->stream() << text;
+      file->commit();
+    }
   }
   return report.ok() ? kDone : kDiffers;
 }

@@ -3,16 +3,13 @@
 #include <fmt/format.h>
 
 #include "app/machine.h"
+#include "app/printable.h"
 
 namespace edgewise::app {
 
 namespace {
 
 constexpr std::size_t kNameWidth = 12;
-
-std::string shortened(const std::string& name) {
-  return name.size() <= kNameWidth ? name : name.substr(0, kNameWidth - 2) + "..";
-}
 
 std::string describe(const Execution& e) {
   return fmt::format("{} thread{}, {}, tile {}", e.threads, e.threads == 1 ? "" : "s",
@@ -30,8 +27,8 @@ std::string explain(const Mismatch& m) {
   text += fmt::format("    the first is x {}, y {}, where depth and payload are\n", m.x, m.y);
   for (const PixelValue& v : m.values)
     text += fmt::format("      {:<24} {:#010x} {:#010x}\n", v.drawn_by, v.depth, v.payload);
-  for (const std::string& file : m.files) text += fmt::format("    {}\n", file);
-  if (!m.file_error.empty()) text += fmt::format("    pictures are missing: {}\n", m.file_error);
+  for (const std::string& file : m.files) text += fmt::format("    {}\n", printable(file));
+  if (!m.file_error.empty()) text += fmt::format("    pictures are missing: {}\n", printable(m.file_error));
   return text;
 }
 
@@ -87,11 +84,13 @@ std::string VerifyTable::header() const {
 std::string VerifyTable::line(const SceneVerdict& v) const {
   const char* verdict = v.ok() ? "ok" : "DIFFERS";
   if (!wide_)
-    return fmt::format("{:<{}} {:>9} {:>8} {:>7} {:>7} {}\n", shortened(v.scene), kNameWidth, v.triangles,
-                       v.configurations, v.differing_pixels, v.oracle_differences, verdict);
-  return fmt::format("{:<{}} {:>9} {:>9} {:>9} {:>8} {:>6} {:>6} {:>5.1f} {}\n", shortened(v.scene),
-                     kNameWidth, fmt::format("{}x{}", v.width, v.height), v.triangles, v.emitted,
-                     v.configurations, v.differing_pixels, v.oracle_differences, v.seconds, verdict);
+    return fmt::format("{:<{}} {:>9} {:>8} {:>7} {:>7} {}\n", printable_within(v.scene, kNameWidth),
+                       kNameWidth, v.triangles, v.configurations, v.differing_pixels, v.oracle_differences,
+                       verdict);
+  return fmt::format("{:<{}} {:>9} {:>9} {:>9} {:>8} {:>6} {:>6} {:>5.1f} {}\n",
+                     printable_within(v.scene, kNameWidth), kNameWidth,
+                     fmt::format("{}x{}", v.width, v.height), v.triangles, v.emitted, v.configurations,
+                     v.differing_pixels, v.oracle_differences, v.seconds, verdict);
 }
 
 std::string explain(const SceneVerdict& verdict) {
@@ -111,7 +110,7 @@ std::string summary(const VerifyReport& report, const VerifyPlan& plan) {
     configurations += v.configurations;
     oracle += v.oracle_configurations;
     differing_scenes += v.ok() ? 0 : 1;
-    if (!v.hits.empty() && v.ok()) once += (once.empty() ? "" : ", ") + v.scene;
+    if (!v.hits.empty() && v.ok()) once += (once.empty() ? "" : ", ") + printable(v.scene);
   }
   std::string names;
   for (const BackendInfo& backend : plan.backends)

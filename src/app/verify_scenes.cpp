@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "file_extension.h"
+
 namespace edgewise::app {
 
 namespace {
@@ -76,7 +78,7 @@ Shot shot_for_comparison(const VerifyPlan& plan, const std::string& name) {
   const Size size = plan.size.value_or(plan.full ? kFullSize : kQuickSize);
   if (stream != nullptr && !plan.full && !name.starts_with("grid"))  // a grid's count goes with the image
     return load_thinned(plan, name, size, kQuickScale, kEnoughTriangles);
-  const bool own_size = !plan.size && std::filesystem::path(name).extension() == ".tri";
+  const bool own_size = !plan.size && extension_of(name) == ".tri";
   return load(plan, name, own_size ? std::nullopt : std::optional(size), std::nullopt);
 }
 

@@ -38,7 +38,7 @@ extern "C" void remove_temporaries(int signal_number) {
 }
 
 void install_handlers() {
-  for (const int signal_number : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int signal_number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) {
     struct sigaction action {};
     // A signal that is ignored (nohup) or handled by somebody else stays so.
     if (sigaction(signal_number, nullptr, &action) != 0 || action.sa_handler != SIG_DFL) continue;
@@ -73,8 +73,8 @@ bool is_written_straight(const fs::path& path, const fs::file_status& status) {
          (fs::exists(status) && !fs::is_regular_file(status));
 }
 
-std::runtime_error write_error(const fs::path& path) {
-  return file_error(path, errno != 0 ? std::string("cannot be written: ") + std::strerror(errno)
+std::runtime_error write_error(const fs::path& path, int error = errno) {
+  return file_error(path, error != 0 ? std::string("cannot be written: ") + std::strerror(error)
                                      : std::string("cannot be written"));
 }
 
@@ -85,6 +85,31 @@ void remove_unfinished_files() {
     if (slot.state.load() == SlotState::live) unlink(slot.path);
 }
 
+void FileBuffer::note(bool failed) {
+  if (failed && error_ == 0) error_ = errno;
+}
+
+std::streamsize FileBuffer::xsputn(const char* text, std::streamsize size) {
+  errno = 0;
+  const std::streamsize written = std::filebuf::xsputn(text, size);
+  note(written != size);
+  return written;
+}
+
+FileBuffer::int_type FileBuffer::overflow(int_type c) {
+  errno = 0;
+  const int_type result = std::filebuf::overflow(c);
+  note(traits_type::eq_int_type(result, traits_type::eof()));
+  return result;
+}
+
+int FileBuffer::sync() {
+  errno = 0;
+  const int result = std::filebuf::sync();
+  note(result != 0);
+  return result;
+}
+
 AtomicFile::AtomicFile(const fs::path& path) : path_(path) {
   std::error_code error;
   const fs::file_status status = fs::status(path_, error);
@@ -92,8 +117,7 @@ AtomicFile::AtomicFile(const fs::path& path) : path_(path) {
   if (fs::is_directory(status)) throw file_error(path, "is a directory");
   if (is_written_straight(path_, status)) {
     errno = 0;
-    stream_.open(path_, std::ios::binary);
-    if (!stream_) throw write_error(path_);
+    if (buffer_.open(path_, std::ios::out | std::ios::binary) == nullptr) throw write_error(path_);
     return;
   }
 
@@ -120,21 +144,26 @@ AtomicFile::AtomicFile(const fs::path& path) : path_(path) {
     throw write_error(path);
   }
   close(descriptor);
+  if (buffer_.open(temporary_, std::ios::out | std::ios::binary) == nullptr) {
+    const int reason = errno;
+    unlink(temporary_.c_str());
+    release_slot(slot_);
+    throw write_error(path, reason);
+  }
   if (fs::exists(status)) fs::permissions(temporary_, status.permissions(), error);
-  stream_.open(temporary_, std::ios::binary);
 }
 
 AtomicFile::~AtomicFile() {
   if (slot_ < 0) return;
-  stream_.close();
+  buffer_.close();
   unlink(temporary_.c_str());
   release_slot(slot_);
 }
 
 void AtomicFile::commit() {
   errno = 0;
-  stream_.close();
-  if (!stream_) throw write_error(path_);
+  const bool closed = buffer_.close() != nullptr;
+  if (!closed || !stream_) throw write_error(path_, buffer_.error() != 0 ? buffer_.error() : errno);
   if (slot_ < 0) return;
   if (std::rename(temporary_.c_str(), path_.c_str()) != 0) throw write_error(path_);
   release_slot(slot_);

@@ -3,11 +3,27 @@
 
 #include <filesystem>
 #include <fstream>
+#include <ostream>
 
 namespace edgewise {
 
+// Streams don't tell why they fail; this keeps the reason.
+class FileBuffer final : public std::filebuf {
+ public:
+  int error() const { return error_; }  // errno of the first failure; 0 if none is known
+
+ private:
+  std::streamsize xsputn(const char* text, std::streamsize size) override;
+  int_type overflow(int_type c) override;
+  int sync() override;
+  void note(bool failed);
+
+  int error_ = 0;
+};
+
 // Writes to a temporary file beside `path` and renames it on commit(). Without commit(), and on SIGINT,
-// SIGTERM or SIGHUP, the temporary file is removed and an older file under the final name stays as it was.
+// SIGTERM, SIGHUP or SIGQUIT, the temporary file is removed and an older file under the final name stays as
+// it was.
 class AtomicFile {
  public:
   // Throws std::runtime_error, naming the file and the reason, if the folder cannot be written.
@@ -22,7 +38,8 @@ class AtomicFile {
 
  private:
   std::filesystem::path path_, temporary_;
-  std::ofstream stream_;
+  FileBuffer buffer_;
+  std::ostream stream_{&buffer_};
   int slot_ = -1;  // in the list that the signal handler reads
 };
 

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <bit>
-#include <cctype>
 #include <memory>
 #include <stdexcept>
 #include <string>
 
+#include "file_extension.h"
 #include "image/atomic_file.h"
 #include "image/netpbm.h"
 #include "input_file.h"
@@ -23,13 +23,6 @@ namespace fs = std::filesystem;
 
 // The bytes R, G, B, A of libpng are the integer 0xAABBGGRR.
 static_assert(std::endian::native == std::endian::little);
-
-std::string extension_of(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
 
 struct PngImage : png_image {
   PngImage() : png_image{} { version = PNG_IMAGE_VERSION; }

@@ -10,6 +10,14 @@ namespace edgewise::lab {
 
 using namespace contract;
 
+void poison(Framebuffer& frame) {
+  const FrameView view = frame.view();
+  const auto bytes =
+      static_cast<std::size_t>(view.stride) * static_cast<std::size_t>(view.height) * sizeof(*view.depth);
+  std::memset(view.depth, 0xA5, bytes);
+  std::memset(view.payload, 0xA5, bytes);
+}
+
 FrameDifference compare(const Framebuffer& a, const Framebuffer& b) {
   if (a.width() != b.width() || a.height() != b.height())
     throw std::invalid_argument("frames of different sizes cannot be compared");
@@ -49,11 +57,15 @@ std::vector<std::vector<std::uint32_t>> disjoint_groups(std::span<const ScreenTr
 }
 
 std::vector<std::uint32_t> count_hits(Backend& backend, std::span<const ScreenTriangle> triangles, int width,
-                                      int height, const Execution& execution) {
+                                      int height, const Execution& execution,
+                                      const std::function<void(double)>& on_progress) {
   std::vector<std::uint32_t> hits(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0);
   Framebuffer frame(width, height);
   std::vector<ScreenTriangle> members;
-  for (const auto& group : disjoint_groups(triangles, width, height)) {
+  const auto groups = disjoint_groups(triangles, width, height);
+  std::size_t done = 0;
+  for (const auto& group : groups) {
+    if (on_progress) on_progress(static_cast<double>(done++) / static_cast<double>(groups.size()));
     members.clear();
     for (const std::uint32_t i : group) members.push_back(triangles[i]);
     backend.draw(members, frame.view(), 0, execution);

@@ -2,12 +2,17 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
 #include "raster/backend.h"
 
 namespace edgewise::lab {
+
+// Fills both planes with what no backend draws. To be done before a draw that is judged: a pixel that the
+// backend forgets to write then shows, and no earlier picture passes for its own.
+void poison(Framebuffer& frame);
 
 struct FrameDifference {
   std::uint64_t pixels = 0;  // pixels whose depth or payload differ
@@ -22,9 +27,11 @@ FrameDifference compare(const Framebuffer& a, const Framebuffer& b);
 std::vector<std::vector<std::uint32_t>> disjoint_groups(std::span<const ScreenTriangle> triangles, int width,
                                                         int height);
 
-// How many triangles a backend draws at each pixel, row by row, found group by group.
+// How many triangles a backend draws at each pixel, row by row, found group by group. Each group is a draw of
+// the whole frame, so deep overlap takes long; `on_progress` is called with the fraction done.
 std::vector<std::uint32_t> count_hits(Backend& backend, std::span<const ScreenTriangle> triangles, int width,
-                                      int height, const Execution& execution);
+                                      int height, const Execution& execution,
+                                      const std::function<void(double)>& on_progress = {});
 
 // Pixels covered, each as often as triangles cover it (the sum of the hit counts), by one exact division a
 // row and edge. Divided by the image's pixels this is the overdraw.

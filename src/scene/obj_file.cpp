@@ -1,12 +1,15 @@
 // tinyobjloader never complains: it reads what is no number as 0, drops what it cannot use, and takes any
-// index. So each `v` and `f` line is checked first, with its line number, and only those lines are handed on.
+// index. So each `v` and `f` line is checked first, with its line number, and only what was checked is handed
+// on, written plainly: positions and vertex indices.
 // Its callback interface is used because the other one cuts polygons at 255 corners and triangulates them
 // wrongly (see polygon.cpp).
 #include "scene/obj_file.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
@@ -30,7 +33,7 @@ namespace edgewise {
 namespace {
 
 constexpr std::uint32_t kGrey = rgb(200, 200, 200);
-constexpr std::string_view kBlank = " \t\v\f";
+constexpr std::string_view kBlank = " \t";
 
 std::string at_line(std::size_t line, const std::string& reason) {
   return "line " + std::to_string(line) + ": " + reason;
@@ -52,38 +55,45 @@ std::string quoted(std::string_view word) {
   return "'" + text + (word.size() > 32 ? "...'" : "'");
 }
 
-template <typename Number>
-bool parse_prefix(std::string_view& word, Number& value) {
-  if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  word.remove_prefix(static_cast<std::size_t>(end - word.data()));
-  return error == std::errc();
+// from_chars leaves out a leading plus.
+std::string_view without_plus(std::string_view word) {
+  return word.starts_with('+') && !word.starts_with("+-") ? word.substr(1) : word;
 }
 
-void check_vertex(std::string_view rest, std::size_t line) {
-  for (int i = 0; i < 3; ++i) {
-    const std::string_view word = next_word(rest);
-    if (word.empty()) throw std::invalid_argument(at_line(line, "a vertex needs three coordinates"));
-    std::string_view left = word;
-    double value = 0.0;
-    if (!parse_prefix(left, value) || !left.empty() ||
-        !(std::fabs(value) <= std::numeric_limits<float>::max()))
-      throw std::invalid_argument(at_line(line, quoted(word) + " is not a finite coordinate"));
-  }
+bool is_control(char c) {
+  return static_cast<unsigned char>(c) < ' ' || c == '\x7F';
+}
+
+// NaN where the word is no number.
+double parse_number(std::string_view word) {
+  word = without_plus(word);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (end != word.data() + word.size() || error == std::errc::invalid_argument)
+    return std::numeric_limits<double>::quiet_NaN();
+  // from_chars does not tell too small from too large.
+  if (error == std::errc::result_out_of_range) return std::strtod(std::string(word).c_str(), nullptr);
+  return value;
+}
+
+float parse_coordinate(std::string_view word, std::size_t line) {
+  const auto value = static_cast<float>(parse_number(word));
+  if (!std::isfinite(value))
+    throw std::invalid_argument(at_line(line, quoted(word) + " is not a finite coordinate"));
+  return value;
 }
 
 // A corner is V, V/T, V//N or V/T/N; only V matters here.
-void check_face(std::string_view rest, std::size_t line) {
-  int corners = 0;
-  for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest), ++corners) {
-    std::string_view left = word;
-    int index = 0;
-    if (!parse_prefix(left, index) || !(left.empty() || left[0] == '/') ||
-        left.find_first_not_of("/+-0123456789") != left.npos)
-      throw std::invalid_argument(at_line(line, quoted(word) + " is not a vertex index"));
-    if (index == 0) throw std::invalid_argument(at_line(line, "vertex index 0 (indices start at 1)"));
-  }
-  if (corners < 3) throw std::invalid_argument(at_line(line, "a face needs three corners or more"));
+int parse_corner(std::string_view word, std::size_t line) {
+  const std::string_view text = without_plus(word);
+  int index = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
+  const std::string_view rest = text.substr(static_cast<std::size_t>(end - text.data()));
+  if (error != std::errc() || !(rest.empty() || rest[0] == '/') ||
+      rest.find_first_not_of("/+-0123456789") != rest.npos || std::count(rest.begin(), rest.end(), '/') > 2)
+    throw std::invalid_argument(at_line(line, quoted(word) + " is not a vertex index"));
+  if (index == 0) throw std::invalid_argument(at_line(line, "vertex index 0 (indices start at 1)"));
+  return index;
 }
 
 // The file's vertices and faces, checked as far as single lines allow it.
@@ -93,17 +103,41 @@ struct Geometry {
 
   void add(std::string_view line, std::size_t number) {
     line = line.substr(0, line.find('#'));
-    std::string_view rest = line;
-    const std::string_view keyword = next_word(rest);
-    if (keyword == "v") {
-      check_vertex(rest, number);
-    } else if (keyword == "f") {
-      check_face(rest, number);
-      face_lines.push_back(number);
-    } else {
-      return;
+    const std::string_view keyword = next_word(line);
+    if (std::any_of(keyword.begin(), keyword.end(), is_control))
+      throw std::invalid_argument(at_line(number, "control character in " + quoted(keyword)));
+    if (keyword == "v")
+      add_vertex(line, number);
+    else if (keyword == "f")
+      add_face(line, number);
+  }
+
+ private:
+  void add_vertex(std::string_view rest, std::size_t line) {
+    text += 'v';
+    for (int i = 0; i < 3; ++i) {
+      const std::string_view word = next_word(rest);
+      if (word.empty()) throw std::invalid_argument(at_line(line, "a vertex needs three coordinates"));
+      append(parse_coordinate(word, line));
     }
-    text.append(keyword).append(rest).push_back('\n');
+    text += '\n';
+  }
+
+  void add_face(std::string_view rest, std::size_t line) {
+    int corners = 0;
+    text += 'f';
+    for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest), ++corners)
+      append(parse_corner(word, line));
+    if (corners < 3) throw std::invalid_argument(at_line(line, "a face needs three corners or more"));
+    text += '\n';
+    face_lines.push_back(line);
+  }
+
+  template <typename Number>
+  void append(Number number) {
+    std::array<char, 32> digits;
+    const auto result = std::to_chars(digits.data(), digits.data() + digits.size(), number);
+    text.append(1, ' ').append(digits.data(), result.ptr);
   }
 };
 
@@ -120,7 +154,7 @@ Geometry read_geometry(std::string_view text) {
     std::string_view line = text.substr(0, end);
     text.remove_prefix(end);
     if (!text.empty()) text.remove_prefix(text.starts_with("\r\n") ? 2 : 1);
-    const bool continues = line.ends_with('\\');
+    const bool continues = line.ends_with('\\') && line.find('#') == line.npos;
     if (continues) line.remove_suffix(1);
     if (continues || !joined.empty()) line = joined.append(line).append(" ");
     if (continues && !text.empty()) continue;

@@ -1,0 +1,37 @@
+#include "app/process.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+
+#include "app/progress.h"
+#include "image/atomic_file.h"
+
+namespace edgewise::app {
+
+namespace {
+
+extern "C" void stop(int signal) {
+  remove_unfinished_files();
+  erase_progress_on_signal();
+  _exit(128 + signal);
+}
+
+// open() takes the lowest free number, which is the closed stream's own.
+void occupy_closed_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(stream, F_GETFD) < 0 && errno == EBADF && open("/dev/null", O_RDONLY) != stream) _exit(2);
+}
+
+}  // namespace
+
+void prepare_process() {
+  occupy_closed_streams();
+  for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT})
+    if (std::signal(signal, stop) == SIG_IGN) std::signal(signal, SIG_IGN);
+}
+
+}  // namespace edgewise::app
