@@ -1,0 +1,92 @@
+// `edgewise stability` as a user meets it.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <string>
+#include <thread>
+
+#include "app/stability_report.h"
+#include "lab/sweeps.h"
+#include "run_program.h"
+#include "temp_dir.h"
+
+namespace edgewise::app {
+namespace {
+
+using testing::Outcome;
+
+Outcome stability(const std::string& arguments) {
+  return testing::run_program(EDGEWISE_PROGRAM, "stability " + arguments);
+}
+
+TEST(StabilityCommand, RejectsBadInputWithOneLine) {
+  for (const auto& [arguments, said] : {std::pair{"lgs", "did you mean 'legs'"},
+                                        {"cycle lgs --list", "did you mean 'legs'"},
+                                        {"cycle --threads 0", "1 to 256"},
+                                        {"cycle --json /nowhere/a.json", "/nowhere"}}) {
+    const Outcome outcome = stability(arguments);
+    EXPECT_EQ(outcome.status, 2) << arguments;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_NE(outcome.err.find(said), std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.out, "") << arguments;
+  }
+}
+
+TEST(StabilityCommand, ListsAllSweeps) {
+  const Outcome outcome = stability("--list");
+  EXPECT_EQ(outcome.status, 0);
+  for (const lab::Sweep& sweep : lab::sweeps())
+    EXPECT_NE(outcome.out.find(std::string(sweep.name) + ' '), std::string::npos) << sweep.name;
+}
+
+TEST(StabilityCommand, WritesTheSameAsTableAndAsJson) {
+  const TempDir folder;
+  const std::string path = (folder.path() / "stability.json").string();
+  const Outcome table = stability("cycle legs --quick --json '" + path + "'");
+  ASSERT_EQ(table.status, 0) << table.err;
+  EXPECT_EQ(table.err, "") << "no progress bar where there is no terminal";
+  EXPECT_LT(table.out.find("cycle (visibility)"), table.out.find("legs (coverage)"));
+  EXPECT_TRUE(std::regex_search(table.out, std::regex("\nfixed_8_int32 +182 "))) << table.out;
+  // Three over the 768 crossings of the smallest legs.
+  EXPECT_TRUE(std::regex_search(table.out, std::regex("\nfixed_8 +never +< 3\\.9e\\+03 +0/17\n")))
+      << table.out;
+
+  const auto json = nlohmann::json::parse(file_content(path));
+  EXPECT_TRUE(json.at("machine").is_object());
+  EXPECT_EQ(json.at("quick"), true);
+  ASSERT_EQ(json.at("sweeps").size(), 2u);
+  EXPECT_EQ(json["sweeps"][1], sweep_json(run_sweep(lab::find_sweep("legs"), true, 1, [] {})));
+  EXPECT_EQ(nlohmann::json::parse(stability("cycle legs --quick --json -").out).at("sweeps"), json["sweeps"]);
+}
+
+TEST(StabilityCommand, LeavesNothingAfterCtrlC) {
+  const TempDir folder;
+  const std::string path = (folder.path() / "stability.json").string();
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    if (freopen("/dev/null", "w", stdout) != nullptr)
+      execl(EDGEWISE_PROGRAM, "edgewise", "stability", "--json", path.c_str(), nullptr);
+    _exit(99);
+  }
+  // The temporary file shows that the work has begun.
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  while (folder.count() == 0 && std::chrono::steady_clock::now() < deadline)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  EXPECT_EQ(folder.count(), 1u);
+  kill(child, SIGINT);
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 130);
+  EXPECT_EQ(folder.count(), 0u);
+}
+
+}  // namespace
+}  // namespace edgewise::app
