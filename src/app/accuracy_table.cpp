@@ -1,0 +1,208 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/accuracy_report.h"
+
+namespace edgewise::app {
+
+namespace {
+
+// Three digits, or a whole number.
+std::string digits(double v) {
+  if (v == 0.0) return "0";
+  if (v >= 99.5) return fmt::format("{:.0f}", v);
+  return v >= 0.001 ? fmt::format("{:.3g}", v) : fmt::format("{:.0e}", v);
+}
+
+std::string rate(std::uint64_t errors, std::uint64_t trials) {
+  if (trials == 0) return "-";
+  const double bound = 1e6 * lab::rate_bound(trials);
+  if (errors == 0) return bound < 10 ? fmt::format("0 (<{:.2g})", bound) : fmt::format("0 (<{:.0f})", bound);
+  return digits(lab::per_million(errors, trials));
+}
+
+// A family's scenes, method by method.
+class FamilyTable {
+ public:
+  FamilyTable(const AccuracyReport& report, Family family, bool smallest) {
+    for (const SceneResult& scene : report.scenes) {
+      if (scene.family != family || scene.smallest != smallest) continue;
+      scenes_.push_back(&scene);
+      trials_ += scene.trials();
+      const bool timed = !scene.methods.empty() && !scene.methods.front().speed.empty();
+      if (timed && timed_ == nullptr) timed_ = &scene;
+    }
+  }
+  bool timed() const { return timed_ != nullptr; }
+  bool empty() const { return scenes_.empty(); }
+  std::uint64_t trials() const { return trials_; }
+  std::size_t methods() const { return scenes_.front()->methods.size(); }
+  const std::string& name(std::size_t method) const { return scenes_.front()->methods[method].name; }
+
+  template <typename S>
+  std::uint64_t sum(std::size_t method, std::uint64_t S::*count) const {
+    std::uint64_t total = 0;
+    for (const SceneResult* scene : scenes_) total += std::get<S>(scene->methods[method].score).*count;
+    return total;
+  }
+  template <typename S>
+  double largest(std::size_t method, double S::*value) const {
+    double found = 0.0;
+    for (const SceneResult* scene : scenes_)
+      found = std::max(found, std::get<S>(scene->methods[method].score).*value);
+    return found;
+  }
+  // Against one truth, over all scenes.
+  lab::CoverageScore coverage(std::size_t method, lab::CoverageScore CoverageScores::*truth) const {
+    lab::CoverageScore total;
+    for (const SceneResult* scene : scenes_) {
+      const lab::CoverageScore& s = std::get<CoverageScores>(scene->methods[method].score).*truth;
+      total.missing += s.missing, total.extra += s.extra;
+      total.gaps += s.gaps, total.double_hits += s.double_hits;
+    }
+    return total;
+  }
+  // The last column: on one thread, on the first scene that was timed; else the scene with the most errors.
+  std::string last(std::size_t method) const {
+    if (timed_ == nullptr) return most_wrong_on(method);
+    const bool facing = timed_->family == Family::facing;
+    const auto count = static_cast<double>(facing ? timed_->triangles : timed_->covered);
+    return count > 0 ? digits(1e6 * timed_->methods[method].speed.front().median_ms / count) : "-";
+  }
+  std::string title(std::string_view what, std::string_view trials) const {
+    const SceneResult& first = *scenes_.front();
+    std::string text =
+        fmt::format("\n{}: {}, {} {} in {} {}scene{}\n", name_of(first.family), what, trials_, trials,
+                    scenes_.size(), first.smallest ? "small " : "", scenes_.size() == 1 ? "" : "s");
+    if (timed_ != nullptr)
+      text += fmt::format("ns: on one thread, {}x{} {}\n", timed_->width, timed_->height, timed_->name);
+    return text;
+  }
+  // What the last column holds.
+  std::string last_title(std::string_view ns) const {
+    return std::string(timed_ != nullptr ? ns : "most wrong on");
+  }
+
+ private:
+  static std::uint64_t errors(const Score& score) {
+    struct Visit {
+      std::uint64_t operator()(const CoverageScores& s) const { return s.floats.errors(); }
+      std::uint64_t operator()(const lab::VisibilityScore& s) const { return s.wrong_owner; }
+      std::uint64_t operator()(const lab::FacingScore& s) const { return s.misclassified; }
+      std::uint64_t operator()(const lab::ClippingScore& s) const { return s.wrong(); }
+    };
+    return std::visit(Visit{}, score);
+  }
+  std::string most_wrong_on(std::size_t method) const {
+    const SceneResult* worst = nullptr;
+    double most = 0.0;
+    for (const SceneResult* scene : scenes_) {
+      const double rate = lab::per_million(errors(scene->methods[method].score), scene->trials());
+      if (rate > most) most = rate, worst = scene;
+    }
+    constexpr std::size_t kWidth = 17;
+    return worst == nullptr ? "-" : worst->name.substr(0, kWidth);
+  }
+
+  std::vector<const SceneResult*> scenes_;
+  const SceneResult* timed_ = nullptr;
+  std::uint64_t trials_ = 0;
+};
+
+// The last column is wide where it holds a name.
+int last_width(const FamilyTable& t) {
+  return t.timed() ? 8 : 18;
+}
+
+std::string coverage_table(const FamilyTable& t) {
+  std::string text = t.title("errors per 10^6 edge crossings", "crossings");
+  text += fmt::format("{:<17}{:>29}{:>28}\n", "", "against snapped positions", "against those before");
+  constexpr const char* kLine = "{:<17}{:>11}{:>9}{:>9}{:>11}{:>8}{:>9}{}\n";
+  text += fmt::format(kLine, "method", "errors", "gaps", "doubles", "errors", "gaps", "doubles",
+                      t.timed() ? " ns/px" : "");
+  for (std::size_t i = 0; i < t.methods(); ++i) {
+    const auto snapped = t.coverage(i, &CoverageScores::snapped),
+               floats = t.coverage(i, &CoverageScores::floats);
+    text += fmt::format(kLine, t.name(i), rate(snapped.errors(), t.trials()), snapped.gaps,
+                        snapped.double_hits, rate(floats.errors(), t.trials()), floats.gaps,
+                        floats.double_hits, t.timed() ? fmt::format("{:>6}", t.last(i)) : "");
+  }
+  return text;
+}
+
+std::string visibility_table(const FamilyTable& t) {
+  using S = lab::VisibilityScore;
+  std::string text = t.title("wrong owners per 10^6 pixels", "pixels");
+  constexpr const char* kLine = "{:<17}{:>12}{:>9}{:>13}{:>10}{:>{}}\n";
+  text += fmt::format(kLine, "method", "per 10^6", "wrong", "out of range", "max ulp", t.last_title("ns/px"),
+                      last_width(t));
+  for (std::size_t i = 0; i < t.methods(); ++i) {
+    const std::uint64_t wrong = t.sum(i, &S::wrong_owner);
+    text += fmt::format(kLine, t.name(i), rate(wrong, t.trials()), wrong, t.sum(i, &S::out_of_range),
+                        digits(t.largest(i, &S::max_ulp)), t.last(i), last_width(t));
+  }
+  return text;
+}
+
+std::string facing_table(const FamilyTable& t) {
+  using S = lab::FacingScore;
+  std::string text = t.title("misjudged per 10^6 faces that own a pixel", "faces");
+  constexpr const char* kLine = "{:<20}{:>12}{:>11}{:>14}{:>{}}\n";
+  text += fmt::format(kLine, "method", "per 10^6", "misjudged", "unlike first", t.last_title("ns/face"),
+                      last_width(t));
+  for (std::size_t i = 0; i < t.methods(); ++i) {
+    const std::uint64_t wrong = t.sum(i, &S::misclassified);
+    text += fmt::format(kLine, t.name(i), rate(wrong, t.trials()), wrong, t.sum(i, &S::disagreements),
+                        t.last(i), last_width(t));
+  }
+  return text;
+}
+
+std::string clipping_table(const FamilyTable& t) {
+  using S = lab::ClippingScore;
+  std::string text = t.title("wrong per 10^6 pixels", "pixels");
+  constexpr const char* kLine = "{:<15}{:>10}{:>8}{:>6}{:>6}{:>6}{:>6}{:>5}{:>{}}\n";
+  text += fmt::format(kLine, "method", "per 10^6", "missing", "extra", "owner", "depth", "hair", "NaN",
+                      t.last_title("ns/px"), last_width(t));
+  for (std::size_t i = 0; i < t.methods(); ++i) {
+    const std::uint64_t missing = t.sum(i, &S::missing), extra = t.sum(i, &S::extra),
+                        owner = t.sum(i, &S::wrong_owner), depth = t.sum(i, &S::wrong_depth);
+    text += fmt::format(kLine, t.name(i), rate(missing + extra + owner + depth, t.trials()), missing, extra,
+                        owner, depth, t.sum(i, &S::hairline), t.sum(i, &S::not_a_number), t.last(i),
+                        last_width(t));
+  }
+  return text;
+}
+
+// Gaps and double hits against the positions before snapping; in the last column, all that is wrong against
+// the snapped ones.
+std::string cube_table(const CubeResult& cube) {
+  std::string text = fmt::format("\nthe turning cube: wrong pixels a frame, {} frames of {}x{}\n",
+                                 cube.frames, cube.width, cube.height);
+  text += fmt::format("{:<17}{:>25}{:>27}{:>11}\n", "", "gaps", "double hits", "snapped");
+  constexpr const char* kLine = "{:<17}{:>8}{:>7}{:>10}{:>10}{:>7}{:>10}{:>11}\n";
+  text += fmt::format(kLine, "method", "median", "worst", "total", "median", "worst", "total", "total");
+  for (const CubeMethodResult& m : cube.methods)
+    text += fmt::format(kLine, m.name, m.floats.gaps.median, m.floats.gaps.worst, m.floats.gaps.total,
+                        m.floats.double_hits.median, m.floats.double_hits.worst, m.floats.double_hits.total,
+                        m.snapped.missing.total + m.snapped.extra.total);
+  return text;
+}
+
+}  // namespace
+
+std::string accuracy_tables(const AccuracyReport& report) {
+  constexpr std::string (*kTables[])(const FamilyTable&) = {coverage_table, visibility_table, facing_table,
+                                                            clipping_table};
+  std::string text;
+  for (const Family family : kFamilies)
+    for (const bool smallest : {false, true})
+      if (const FamilyTable table(report, family, smallest); !table.empty())
+        text += kTables[static_cast<std::size_t>(family)](table);
+  if (report.turning_cube) text += cube_table(*report.turning_cube);
+  return text.substr(text.starts_with('\n') ? 1 : 0);
+}
+
+}  // namespace edgewise::app

@@ -1,0 +1,278 @@
+// `edgewise accuracy` as a user meets it: the schema, the figures that FAILURES.md foretells, clean failures.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <thread>
+
+#include "app/accuracy.h"
+#include "app/accuracy_report.h"
+#include "app/accuracy_scenes.h"
+#include "image/image.h"
+#include "lab/coverage_cases.h"
+#include "run_program.h"
+#include "scene/builtin.h"
+#include "temp_dir.h"
+
+namespace edgewise::app {
+namespace {
+
+using nlohmann::json;
+using testing::Outcome;
+
+Outcome accuracy(const std::string& arguments) {
+  return testing::run_program(EDGEWISE_PROGRAM, "accuracy " + arguments);
+}
+
+json json_of(const std::string& arguments) {
+  const Outcome outcome = accuracy(arguments + " --json -");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  return json::parse(outcome.out);
+}
+
+const json& named(const json& list, std::string_view name) {
+  return *std::find_if(list.begin(), list.end(), [&](const json& entry) { return entry.at("name") == name; });
+}
+
+void expect_keys(const json& object, std::initializer_list<const char*> keys) {
+  for (const char* key : keys) EXPECT_TRUE(object.contains(key)) << key << " in " << object;
+}
+
+TEST(Accuracy, CountsTheDrtkQuadAndTheLatticeSquareAsForetold) {
+  const json report = json_of("drtk_quad lattice_square --no-speed");
+  const auto count = [&](const char* scene, const char* method, const char* what) {
+    return named(named(report.at("scenes"), scene).at("methods"), method).at("float").at(what).get<int>();
+  };
+  EXPECT_EQ(count("drtk_quad", "float_le", "double_hits"), 6);
+  EXPECT_EQ(count("drtk_quad", "float_le", "gaps"), 0);
+  EXPECT_EQ(count("drtk_quad", "float_lt", "gaps"), 6);
+  EXPECT_EQ(count("drtk_quad", "float_lt", "double_hits"), 0);
+  EXPECT_EQ(count("drtk_quad", "float_top_left", "errors"), 0);
+  EXPECT_EQ(count("lattice_square", "float_le", "double_hits"), 64);
+  EXPECT_EQ(count("lattice_square", "float_lt", "gaps"), 64);
+}
+
+TEST(Accuracy, WritesTheAgreedKeys) {
+  const json report = json_of("drtk_quad bars_in_a_cycle box_beside_the_axis in_view turning-cube --quick");
+  expect_keys(report, {"machine", "quick", "methods", "scenes", "turning_cube"});
+  EXPECT_EQ(report.at("quick"), true);
+  EXPECT_TRUE(report.at("machine").contains("cpu_model"));
+  std::set<std::string> families;
+  for (const json& method : report.at("methods")) {
+    expect_keys(method, {"family", "name", "idea", "source", "promise", "exact"});
+    families.insert(method.at("family"));
+  }
+  EXPECT_EQ(families, (std::set<std::string>{"coverage", "visibility", "facing", "clipping"}));
+
+  ASSERT_EQ(report.at("scenes").size(), 4u);
+  for (const json& scene : report.at("scenes")) {
+    expect_keys(scene, {"name", "family", "idea", "width", "height", "triangles", "covered", "methods"});
+    const std::string family = scene.at("family");
+    const json& first = scene.at("methods").at(0);
+    if (family == "coverage") {
+      EXPECT_TRUE(scene.contains("crossings"));
+      for (const char* truth : {"snapped", "float"}) {
+        expect_keys(first.at(truth),
+                    {"missing", "extra", "gaps", "double_hits", "out_of_bounds", "out_of_box", "worst_px",
+                     "errors", "errors_per_million", "bound_per_million"});
+        const json& wrong = named(scene.at("methods"), "float_le").at("float");
+        EXPECT_GT(wrong.at("errors_per_million"), 0);
+        EXPECT_FALSE(wrong.contains("bound_per_million"));
+      }
+    } else {
+      expect_keys(first.at("score"), {"errors_per_million"});
+    }
+  }
+  const json& scenes = report.at("scenes");
+  expect_keys(named(scenes, "bars_in_a_cycle").at("methods").at(0).at("score"),
+              {"wrong_owner", "out_of_range", "max_ulp", "rms_ulp", "bound_per_million"});
+  expect_keys(named(scenes, "box_beside_the_axis").at("methods").at(0).at("score"),
+              {"misclassified", "disagreements"});
+  expect_keys(named(scenes, "in_view").at("methods").at(0).at("score"),
+              {"missing", "extra", "wrong_owner", "wrong_depth", "hairline", "differs_from_ours",
+               "not_a_number", "out_of_range"});
+
+  const json& cube = report.at("turning_cube");
+  EXPECT_EQ(cube.at("frames"), 120);
+  for (const json& method : cube.at("methods"))
+    for (const char* count : {"gaps", "double_hits", "missing", "extra"})
+      expect_keys(method.at(count), {"median", "worst", "total"});
+}
+
+TEST(Accuracy, TheZNormalTestAloneMisjudgesTheBox) {
+  const json report = json_of("box_beside_the_axis");
+  for (const json& method : report.at("scenes").at(0).at("methods"))
+    EXPECT_EQ(method.at("score").at("misclassified"), method.at("name") == "normal_z" ? 1 : 0) << method;
+}
+
+TEST(Accuracy, ExactMethodsScoreZeroAgainstTheSnappedTruth) {
+  const json report = json_of(
+      "cube cubes grid64 drtk_quad t_junction double_tie turning-cube --quick --no-speed "
+      "--family coverage");
+  std::set<std::string> exact;
+  for (const json& method : report.at("methods"))
+    if (method.at("exact")) exact.insert(method.at("name"));
+  EXPECT_GE(exact.size(), 3u);
+  std::set<int> cracks;
+  for (const json& scene : report.at("scenes"))
+    for (const std::string& name : exact) {
+      const json& method = named(scene.at("methods"), name);
+      EXPECT_EQ(method.at("snapped").at("errors"), 0) << scene.at("name") << ' ' << name;
+      EXPECT_EQ(method.at("snapped").at("out_of_bounds"), 0) << scene.at("name") << ' ' << name;
+      if (scene.at("name") == "t_junction") cracks.insert(method.at("float").at("gaps").get<int>());
+    }
+  EXPECT_EQ(cracks.size(), 1u);
+  EXPECT_GT(*cracks.begin(), 0);
+  for (const std::string& name : exact) {
+    const json& counts = named(report.at("turning_cube").at("methods"), name).at("snapped");
+    EXPECT_EQ(counts.at("missing").at("total"), 0) << name;
+    EXPECT_EQ(counts.at("extra").at("total"), 0) << name;
+  }
+}
+
+TEST(Accuracy, TimesExactMethodsOnOneAndTwoThreads) {
+  const TempDir folder;
+  const std::string path = (folder.path() / "mine.tri").string();
+  ASSERT_EQ(testing::run_program(EDGEWISE_PROGRAM, "capture cube --size 64x48 -o " + path).status, 0);
+  const json report = json_of(path + " --quick");
+  const json& scene = named(report.at("scenes"), "mine");
+  EXPECT_EQ(scene.at("width"), 64);
+  for (const json& entry : report.at("methods")) {
+    if (entry.at("family") != "coverage") continue;
+    const std::string name = entry.at("name");
+    const json& speed = named(scene.at("methods"), name).at("speed");
+    ASSERT_EQ(speed.size(), lab::find_coverage_method(name).threaded ? 2u : 1u) << name;
+    for (const json& one : speed) {
+      EXPECT_GT(one.at("ns_per_covered_pixel"), 0);
+      EXPECT_GT(one.at("mtri_per_s"), 0);
+      EXPECT_LE(one.at("ms").at("min"), one.at("ms").at("median"));
+      EXPECT_LE(one.at("ms").at("median"), one.at("ms").at("max"));
+      EXPECT_GT(one.at("ms").at("repetitions"), 1);
+    }
+  }
+}
+
+TEST(Accuracy, KeepsToTheMethodsAndTheFamilyAskedFor) {
+  const json report = json_of("cube --quick --no-speed --method float_le,painter_mean --method float_lt");
+  ASSERT_EQ(report.at("methods").size(), 3u);
+  ASSERT_EQ(report.at("scenes").size(), 2u);
+  EXPECT_EQ(report.at("scenes")[0].at("methods").size(), 2u);
+  EXPECT_EQ(report.at("scenes")[1].at("methods").at(0).at("name"), "painter_mean");
+  EXPECT_EQ(json_of("cube --quick --no-speed --family visibility").at("scenes").size(), 1u);
+}
+
+TEST(Accuracy, RejectsWithOneLineAndStatus2) {
+  const TempDir folder;
+  const std::string json_file = (folder.path() / "a.json").string();
+  const struct {
+    const char *arguments, *said;
+  } kBad[] = {{"drtk_squad", "did you mean 'drtk_quad'"},
+              {"turning-cub", "did you mean 'turning-cube'"},
+              {"drtk_quad --method float_less", "did you mean 'float_le'"},
+              {"drtk_quad --method painter_mean", "nothing to do"},
+              {"drtk_quad --family coverag", "did you mean 'coverage'"},
+              {"drtk_quad --family facing", "nothing to do"},
+              {"--family facing --method float_le", "unknown method"},
+              {"none.obj", "no such file"},
+              {"drtk_quad --pictures /dev/null/x", "not a folder"}};
+  for (const auto& bad : kBad) {
+    const Outcome outcome = accuracy(std::string(bad.arguments) + " --json " + json_file);
+    EXPECT_EQ(outcome.status, 2) << bad.arguments;
+    EXPECT_NE(outcome.err.find(bad.said), std::string::npos) << bad.arguments << ": " << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_EQ(folder.count(), 0u) << bad.arguments;
+  }
+}
+
+TEST(Accuracy, LeavesNothingAfterCtrlC) {
+  const TempDir folder;
+  const std::string json_file = (folder.path() / "a.json").string(),
+                    pictures = (folder.path() / "pictures").string();
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    if (freopen("/dev/null", "w", stdout) != nullptr)
+      execl(EDGEWISE_PROGRAM, "edgewise", "accuracy", "--json", json_file.c_str(), "--pictures",
+            pictures.c_str(), nullptr);
+    _exit(99);
+  }
+  // The temporary file shows that the work has begun.
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  while (folder.count() == 0 && std::chrono::steady_clock::now() < deadline)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  ASSERT_EQ(folder.count(), 1u);
+  kill(child, SIGINT);
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 130);
+  EXPECT_EQ(folder.count(), 0u);
+}
+
+TEST(Accuracy, TablesFitEightyColumns) {
+  AccuracyPlan plan;
+  plan.scenes = {"cube", "legs_182", "planes_1e-5_apart", "edge_on", "floor_behind_eye", "turning-cube"};
+  plan.quick = true;
+  plan.speed = false;
+  std::string text = accuracy_tables(measure_accuracy(plan));
+  EXPECT_NE(text.find("0 (<"), std::string::npos);
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    EXPECT_LE(end, 80u) << text.substr(0, end);
+    text.erase(0, end + 1);
+  }
+}
+
+// The colours that README and --help name.
+constexpr std::uint32_t kVermilion = rgb(213, 94, 0), kBlue = rgb(0, 114, 178);
+
+TEST(Accuracy, PicturesShowEachErrorInItsColour) {
+  const TempDir folder;
+  const std::string pictures = (folder.path() / "errors").string();
+  ASSERT_EQ(accuracy("drtk_quad --no-speed --pictures " + pictures).status, 0);
+  const auto pixels_of_colour = [&](const char* method, std::uint32_t colour) {
+    const Image image = read_image(pictures + "/coverage-drtk_quad-" + method + ".png");
+    return std::count_if(image.pixels.begin(), image.pixels.end(),
+                         [&](std::uint32_t pixel) { return (pixel & 0xFFFFFF) == (colour & 0xFFFFFF); });
+  };
+  const auto twice = pixels_of_colour("float_le", kBlue), gaps = pixels_of_colour("float_lt", kVermilion);
+  EXPECT_GT(twice, 6 * 32 * 32);  // six of 64 x 64, less edges and samples
+  EXPECT_EQ(twice, gaps);
+  EXPECT_EQ(pixels_of_colour("float_le", kVermilion), 0);
+  EXPECT_EQ(pixels_of_colour("float_lt", kBlue), 0);
+  EXPECT_FALSE(std::filesystem::exists(pictures + "/coverage-drtk_quad-float_top_left.png"));
+}
+
+TEST(Accuracy, PicturesCanBeMadeForEveryFamily) {
+  AccuracyPlan plan;
+  plan.scenes = {"t_junction", "interpenetrating", "box_beside_the_axis", "floor_behind_eye"};
+  plan.pictures = true;
+  std::set<std::string> families;
+  for (const Closeup& closeup : measure_accuracy(plan).closeups) {
+    families.insert(closeup.name.substr(0, closeup.name.find('-')));
+    EXPECT_TRUE(std::any_of(closeup.marks.begin(), closeup.marks.end(), [](Mark mark) {
+      return mark != Mark::none;
+    })) << closeup.name;
+    const Image image = draw(closeup);
+    EXPECT_LE(std::max(image.width, image.height), 1000) << closeup.name;
+    EXPECT_GE(std::max(image.width, image.height), 200) << closeup.name;
+  }
+  EXPECT_EQ(families.size(), kFamilies.size());
+}
+
+TEST(Accuracy, MeshesLoseTheirBackFacesByTheExactSign) {
+  const lab::Size size{200, 150};
+  const CoverageScene scene = coverage_scene(find_scene("cube").make({size.width, size.height}), size);
+  ASSERT_EQ(scene.floats.size(), scene.snapped.size());
+  EXPECT_EQ(scene.floats.size(), 6u);
+  for (const lab::FloatTriangle& triangle : scene.floats) EXPECT_EQ(lab::FloatTruth(triangle.at).facing(), 1);
+}
+
+}  // namespace
+}  // namespace edgewise::app
