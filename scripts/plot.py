@@ -1,7 +1,8 @@
-"""Draws the charts of a results folder (bench.json beside its machine.json) as SVG and PNG."""
+"""Draws the charts of a results folder as SVG and PNG: bench.json beside machine.json; accuracy and stability.json."""
 import argparse
 from pathlib import Path
 
+from accuracy_rows import read_accuracy, read_stability
 from bench_rows import BadInput, describe_machine, main_guard, read_bench, read_json
 
 
@@ -13,6 +14,7 @@ def main():
     if not options.results.is_dir():
         raise BadInput(f"{options.results}: no such folder")
     bench = read_bench(options.results)
+    accuracy, sweeps = read_accuracy(options.results), read_stability(options.results)
     caption = describe_machine(read_json(options.results / "machine.json"))
     folder = options.out or options.results / "charts"
     try:
@@ -20,9 +22,12 @@ def main():
     except OSError as error:
         raise BadInput(f"{folder}: {error.strerror}") from None
 
+    import plot_accuracy
     import plot_scenes
+    import plot_stability
     import plot_sweeps
     drawn = [name for chart in (*plot_sweeps.CHARTS, *plot_scenes.CHARTS) if (name := chart(bench, folder, caption))]
+    drawn += [*plot_accuracy.draw(accuracy, folder, caption), *plot_stability.draw(sweeps, accuracy, folder, caption)]
     if not drawn:
         raise BadInput(f"{options.results}: no row that a chart shows")
     print(f"{len(drawn)} charts in {folder}: {' '.join(drawn)}")

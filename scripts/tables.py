@@ -42,8 +42,8 @@ def scene_table(bench):
     return header, lines
 
 
-def markdown(header, lines):
-    text = ["| " + " | ".join(header) + " |", "|---|" + "--:|" * (len(header) - 2) + "---|"]
+def markdown(header, lines, alignment=None):
+    text = ["| " + " | ".join(header) + " |", alignment or "|---|" + "--:|" * (len(header) - 2) + "---|"]
     text += ["| " + " | ".join(line) + " |" for line in lines]
     return "\n".join(text)
 

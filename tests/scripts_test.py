@@ -39,6 +39,41 @@ def bench(slow=(10.0, 10.2, 10.1), fast=(2.0, 2.1, 2.2)):
     return {"context": {"backends": "slow fast", "machine": "test"}, "benchmarks": rows}
 
 
+def accuracy():
+    """Two methods a family, the second inexact, on a scene that is timed and on one that is not."""
+    def judged(wrong, crossings):
+        score = {"errors_per_million": 1e6 * wrong / crossings}
+        return score if wrong else {**score, "bound_per_million": 3e6 / crossings}
+
+    def measured(family, method, wrong, cost_ns):
+        cost = "ns_per_face" if family == "facing" else "ns_per_covered_pixel"
+        speed = [{"threads": threads, cost: cost_ns / threads} for threads in ((1, 2) if wrong == 0 else (1,))]
+        score = judged(wrong, 1000)
+        scores = {"float": score, "snapped": score} if family == "coverage" else {"score": score}
+        return {"name": method, **scores, **({"speed": speed} if cost_ns else {})}
+
+    families = ("coverage", "visibility", "facing", "clipping")
+    return {"machine": MACHINE, "quick": False,
+            "methods": [{"family": family, "name": name, "source": source, "promise": "as told", "exact": exact}
+                        for family in families
+                        for name, source, exact in (("ours", "src/raster", True), ("float_le", "a book", False))],
+            "scenes": [{"name": scene, "family": family, "covered": 1000, "crossings": 1000,
+                        "methods": [measured(family, "ours", 0, 2.0 * timed), measured(family, "float_le", 5, 1.5 * timed)]}
+                       for family in families for scene, timed in (("knot", 1), ("small", 0))],
+            "turning_cube": {"frames": 9, "methods": [
+                {"name": name, "gaps": {"median": most // 2, "worst": most}, "double_hits": {"median": 0, "worst": most}}
+                for name, most in (("ours", 0), ("float_le", 8))]}}
+
+
+def stability():
+    curves = [{"method": "ours", "exact": True, "points": [[1, 0], [0.1, 0]], "trials": [50, 50], "starts_to_fail": None},
+              {"method": "float_le", "exact": False, "points": [[1, 0], [0.1, 7]], "trials": [50, 50],
+               "starts_to_fail": 0.1}]
+    return {"machine": MACHINE, "quick": False, "sweeps": [
+        {"name": "nearer", "family": "visibility", "idea": "ever nearer", "x": {"name": "gap", "unit": "px", "log": True},
+         "y": {"name": "wrong", "log": True}, "curves": curves}]}
+
+
 def run(script, *arguments):
     return subprocess.run([SCRIPTS / script, *map(str, arguments)], capture_output=True, text=True, check=False)
 
@@ -56,6 +91,10 @@ class ScriptsTest(unittest.TestCase):
         for file, data in (("bench", benchmark), ("machine", MACHINE), ("verify", VERIFY)):
             (folder / f"{file}.json").write_text(json.dumps(data))
         return folder
+
+    def add_laboratory(self, laboratory=None):
+        (self.results / "accuracy.json").write_text(json.dumps(laboratory or accuracy()))
+        (self.results / "stability.json").write_text(json.dumps(stability()))
 
     def fails(self, result, *words):
         self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
@@ -107,14 +146,44 @@ class ScriptsTest(unittest.TestCase):
         readme.write_text(text.replace("10.1", "10.0"))
         self.assertEqual(run("readme", "--check", "--file", readme).returncode, 1)
 
+    def test_laboratory_fills_the_readme_and_the_summary(self):
+        self.add_laboratory()
+        readme = self.folder / "README.md"
+        blocks = "".join(f"<!-- generated:{name} -->\n<!-- /generated -->\n" for name in ("methods", "lessons", "fails"))
+        readme.write_text("<!-- results: results -->\n" + blocks)
+        result = run("readme", "--file", readme)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        text = readme.read_text()
+        self.assertIn("| **ours** | src/raster | as told | 0 (<3,000) | 0 of 2 |", text)
+        self.assertIn("| float_le | a book | as told | 5,000 | 2 of 2 |", text)
+        self.assertIn("`ours` (2 ns per covered pixel, 0 wrong per 10⁶) is our fastest", text)
+        self.assertIn("`float_le` (1.5 ns per covered pixel, 5,000 wrong per 10⁶) the fastest of the others.", text)
+        self.assertIn("`ours` errs in 0, `float_le` errs in 2", text)
+        self.assertIn("| nearer | gap | **0.1 px** float_le | ours |", text)
+        self.assertEqual(run("readme", "--check", "--file", readme).returncode, 0)
+        self.assertIn("ours draw no wrong pixel in 2 scenes", run("summary", self.results).stdout)
+
+    def test_malformed_laboratory_gets_one_line(self):
+        data = accuracy()
+        del data["scenes"][0]["methods"][1]["float"]
+        self.add_laboratory(data)
+        self.fails(run("plot", self.results), "accuracy.json", "edgewise accuracy", "'float'")
+        self.fails(run("summary", self.results), "accuracy.json", "edgewise accuracy")
+        self.add_laboratory()
+        (self.results / "stability.json").write_text('{"sweeps": [3]}')
+        self.fails(run("plot", self.results), "stability.json", "edgewise stability")
+
     def test_plot_draws_the_same_bytes_twice(self):
+        self.add_laboratory()
         first, second = run("plot", self.results), run("plot", self.results, "--out", self.folder / "again")
         if "apt-get install python3-matplotlib" in first.stderr:
             self.skipTest("no matplotlib")
         self.assertEqual(first.returncode, 0, first.stderr)
         self.assertEqual(second.returncode, 0, second.stderr)
         drawn = sorted(p.name for p in (self.results / "charts").iterdir())
-        charts = ("area", "cost", "culling", "scenes", "simd", "threads")
+        charts = ["area", "cost", "culling", "scenes", "simd", "threads", "stability-nearer", "turning-cube",
+                  *(f"{kind}-{family}" for kind in ("accuracy", "errors")
+                    for family in ("coverage", "visibility", "facing", "clipping"))]
         self.assertEqual(drawn, sorted(f"{c}.{suffix}" for c in charts for suffix in ("png", "svg")))
         for name in drawn:
             self.assertEqual((self.results / "charts" / name).read_bytes(), (self.folder / "again" / name).read_bytes())
@@ -149,6 +218,23 @@ class CrossingsTest(unittest.TestCase):
 
     def test_one_draw_decides_nothing(self):
         self.assertEqual(list(self.crossings(self.curve([9.0], [1.0]), self.curve([3.0], [3.0]))), [])
+
+
+class LabelsTest(unittest.TestCase):
+    """plot_labels.place(): labels of a crowd stand apart, inside, and off the points."""
+
+    def test_labels_of_a_crowd_stand_apart(self):
+        if importlib.util.find_spec("matplotlib") is None:
+            raise unittest.SkipTest("no matplotlib")
+        sys.path.insert(0, str(SCRIPTS))
+        from plot_labels import Box, place
+        points = [(200.0 + 6 * (i % 3), 150.0 + 5 * (i // 3)) for i in range(9)] + [(398.0, 1.0)]
+        bounds = Box(0, 0, 400, 300)
+        boxes = [box for box, _ in place(points, [(60.0, 10.0)] * len(points), bounds, [])]
+        for i, box in enumerate(boxes):
+            self.assertAlmostEqual(box.overlap(bounds), 600.0)
+            self.assertFalse([p for p in points if box.holds(*p)])
+            self.assertEqual([box.overlap(other) for other in boxes[:i]], [0.0] * i)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,169 @@
+"""Reads what `edgewise accuracy` and `edgewise stability` left in results/MACHINE: accuracy.json, stability.json."""
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from bench_rows import BadInput, read_json
+
+
+@dataclass(frozen=True)
+class Family:
+    """How a family's figures are said."""
+    name: str
+    errors: str  # what is counted, and in 10⁶ of what
+    trials: str  # the key of a scene's number of these
+    cost: str
+    kinds: dict = field(default_factory=dict)  # kind of method: how its methods' names begin
+
+    def kind(self, method):
+        if method.exact:
+            return "exact"
+        return next((kind for kind, starts in self.kinds.items() if method.name.startswith(starts)), "other")
+
+
+FAMILIES = {family.name: family for family in (
+    Family("coverage", "wrong pixels per 10⁶ edge crossings", "crossings", "ns per covered pixel",
+           {"floating point": ("float", "double"), "fixed point": ("fixed", "whole"), "scanline DDA": ("dda",)}),
+    Family("visibility", "pixels with the wrong owner, per 10⁶ covered", "covered", "ns per covered pixel",
+           {"drawing in order": ("painter", "submission"),
+            "depth buffer": ("contract", "float", "reversed", "unorm")}),
+    Family("facing", "misjudged faces per 10⁶ that own a pixel", "covered", "ns per face",
+           {"signed area": ("float_area",), "normal": ("normal",)}),
+    Family("clipping", "wrong pixels per 10⁶ covered", "covered", "ns per covered pixel"),
+)}
+
+
+@dataclass(frozen=True)
+class Method:
+    name: str
+    source: str
+    promise: str
+    exact: bool
+
+    @property
+    def ours(self):
+        return self.source.startswith(("src/", "raster/", "frontend/"))
+
+
+@dataclass(frozen=True)
+class Measured:
+    """One method on one scene."""
+    method: Method
+    rate: float  # errors per 10⁶
+    bound: float | None  # where none was seen: below this, per 10⁶, with 95 % confidence
+    snapped_rate: float | None  # the same against the snapped truth; coverage only
+    costs_ns: dict  # by threads; empty where the scene is not timed
+
+
+@dataclass(frozen=True)
+class Scene:
+    name: str
+    family: str
+    trials: int
+    measured: tuple
+
+    @property
+    def timed(self):
+        return any(m.costs_ns for m in self.measured)
+
+
+@dataclass(frozen=True)
+class Accuracy:
+    machine: dict
+    quick: bool
+    methods: dict  # by family, in the registry's order
+    scenes: tuple
+    cube: dict | None  # {"frames", "methods": [(Method, {"gaps": (median, worst), "double_hits": …})]}
+
+    def of(self, family):
+        return [scene for scene in self.scenes if scene.family == family]
+
+    def timed_charts(self, family):
+        """(name of the chart, scene) of each scene that speed was measured on; the first is the family's main one."""
+        timed = [scene for scene in self.of(family) if scene.timed]
+        return [(f"accuracy-{family}" + ("" if scene is timed[0] else f"-{scene.name}"), scene) for scene in timed]
+
+
+@dataclass(frozen=True)
+class Curve:
+    method: str
+    exact: bool
+    points: tuple
+    trials: tuple  # at each point
+    starts_to_fail: float | None
+
+
+@dataclass(frozen=True)
+class Sweep:
+    name: str
+    family: str
+    idea: str
+    x: dict
+    y: dict
+    curves: tuple
+
+
+def parse_measured(entry, family, method):
+    scores = [entry["float"], entry["snapped"]] if family == "coverage" else [entry["score"]]
+    cost = "ns_per_face" if family == "facing" else "ns_per_covered_pixel"
+    costs = {int(speed["threads"]): float(speed[cost]) for speed in entry.get("speed") or () if cost in speed}
+    bound = scores[0].get("bound_per_million")
+    return Measured(method, float(scores[0]["errors_per_million"]), None if bound is None else float(bound),
+                    float(scores[1]["errors_per_million"]) if len(scores) > 1 else None, costs)
+
+
+def parse_cube(data, methods):
+    cube = data.get("turning_cube")
+    if not cube:
+        return None
+    rows = [(methods["coverage", entry["name"]],
+             {key: (float(entry[key]["median"]), float(entry[key]["worst"])) for key in ("gaps", "double_hits")})
+            for entry in cube["methods"]]
+    return {"frames": int(cube["frames"]), "methods": rows}
+
+
+def parse_accuracy(data):
+    methods = {(m["family"], m["name"]): Method(m["name"], m["source"], m["promise"], bool(m["exact"]))
+               for m in data["methods"]}
+    scenes = []
+    for scene in data["scenes"]:
+        family = FAMILIES[scene["family"]]
+        scenes.append(Scene(scene["name"], family.name, int(scene[family.trials]),
+                            tuple(parse_measured(entry, family.name, methods[family.name, entry["name"]])
+                                  for entry in scene["methods"])))
+    by_family = {name: [method for (family, _), method in methods.items() if family == name] for name in FAMILIES}
+    return Accuracy(data["machine"], bool(data["quick"]), by_family, tuple(scenes), parse_cube(data, methods))
+
+
+def parse_curve(entry):
+    points = tuple((float(x), float(y)) for x, y in entry["points"])
+    trials = tuple(int(n) for n in entry["trials"])
+    fails = entry["starts_to_fail"]
+    return Curve(entry["method"], bool(entry["exact"]), points, trials, None if fails is None else float(fails))
+
+
+def parse_stability(data):
+    axes = ("name", "log")
+    return tuple(Sweep(sweep["name"], FAMILIES[sweep["family"]].name, sweep["idea"],
+                       {"unit": sweep["x"].get("unit", ""), **{key: sweep["x"][key] for key in axes}},
+                       {key: sweep["y"][key] for key in axes}, tuple(map(parse_curve, sweep["curves"])))
+                 for sweep in data["sweeps"])
+
+
+def parsed(path, parse, what):
+    data = read_json(path)
+    try:
+        return parse(data)
+    except (KeyError, TypeError, ValueError, AttributeError) as error:
+        raise BadInput(f"{path}: not {what}: {type(error).__name__} {error}") from None
+
+
+def read_accuracy(folder):
+    """None where accuracy was not measured."""
+    path = Path(folder) / "accuracy.json"
+    return parsed(path, parse_accuracy, "what 'edgewise accuracy' writes") if path.exists() else None
+
+
+def read_stability(folder):
+    """No sweeps where stability was not tested."""
+    path = Path(folder) / "stability.json"
+    return parsed(path, parse_stability, "what 'edgewise stability' writes") if path.exists() else ()

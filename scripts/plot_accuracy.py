@@ -1,0 +1,199 @@
+"""The charts of accuracy: errors against speed, family by family, and the turning cube."""
+import math
+
+from accuracy_rows import FAMILIES
+from plot_kinds import BAND, Kinds, ZeroAxis
+from plot_labels import Label, label_points
+from plot_style import FAINT, INK, headline, plt, save, short
+
+
+def front_line(points, right, top):
+    """A step line along the points that no other beats in both coordinates, from the top edge to the right one.
+    points: (x, y, x where it is drawn)."""
+    best = []
+    for x, y, drawn_x in sorted(points):
+        if not best or y < best[-1][1]:
+            best.append((drawn_x, y))
+    line = [(best[0][0], top), best[0]]
+    for x, y in best[1:]:
+        line += [(x, line[-1][1]), (x, y)]
+    return [*line, (right, line[-1][1])]
+
+
+def cost_axis(axes, costs):
+    """A log axis with round numbers. Returns its upper end."""
+    low, high = min(costs) / 1.3, max(costs) * 1.3
+    steps = (1, 2, 5) if high / low > 12 else (1, 1.5, 2, 3, 4, 5, 7)
+    ticks = [step * 10.0 ** k for k in range(math.floor(math.log10(low)), math.ceil(math.log10(high))) for step in steps]
+    axes.set_yscale("log")
+    axes.set_yticks([tick for tick in ticks if low <= tick <= high])
+    axes.set_yticks([], minor=True)
+    axes.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
+    axes.set_ylim(low, high)
+    return high
+
+
+def side_by_side(measured, scale):
+    """Where each method stands. Those with several thread counts are lines: where they would hide one another, they
+    step aside."""
+    places = [scale.at(m.rate) for m in measured]
+    step = 0.011 * (scale.limit - scale.start)
+    lines = [i for i, m in enumerate(measured) if len(m.costs_ns) > 1]
+    for x in sorted({places[i] for i in lines}):
+        same = [i for i in lines if places[i] == x]
+        for k, i in enumerate(same):
+            places[i] = x + (k - (len(same) - 1) / 2) * step
+    return places
+
+
+def draw_points(axes, scene, kinds):
+    """Returns labels for label_points(), and the line that they are to keep off."""
+    measured = [m for m in scene.measured if m.costs_ns]
+    scale = ZeroAxis([m.rate for m in measured])
+    bounds = [m.bound for m in measured if m.bound is not None]
+    scale.apply_x(axes, f"0\n(<{float(f'{max(bounds):.2g}'):g})" if bounds else "0")
+    top = cost_axis(axes, [cost for m in measured for cost in m.costs_ns.values()])
+    places = side_by_side(measured, scale)
+    singles = [(scale.at(m.rate), m.costs_ns[1], x) for m, x in zip(measured, places) if 1 in m.costs_ns]
+    front = front_line(singles, scale.limit, top) if singles else []
+    if front:
+        axes.plot(*zip(*front), **FRONT, zorder=1.5)
+    labels = []
+    for m, x in zip(measured, places):
+        colour, marker = kinds.of(m.method)
+        ladder = sorted(m.costs_ns.items())
+        axes.plot([x] * len(ladder), [cost for _, cost in ladder], color=colour, linewidth=1.0, zorder=2)
+        for threads, cost in ladder:
+            face, edge = ("white", colour) if m.snapped_rate else (colour, "white")
+            axes.plot([x], [cost], marker=marker, linestyle="", zorder=3, markersize=8 if threads == 1 else 6,
+                      markerfacecolor=face, markeredgecolor=edge, markeredgewidth=1.5 if m.snapped_rate else 0.8)
+            labels.append(Label(x, cost, m.method.name, bold=m.method.ours) if threads == 1 else
+                          Label(x, cost, f"{m.method.name}, {threads} threads", FAINT, 8))
+    return labels, front
+
+
+FRONT = {"color": INK, "linewidth": 1.2, "linestyle": (0, (4, 2))}
+TRIALS = {"coverage": "edge crossings", "visibility": "covered pixels", "facing": "faces that own a pixel",
+          "clipping": "covered pixels"}
+SUBTITLES = {
+    "coverage": "Further left: fewer errors; further down: faster. Judged by exact arithmetic on the positions before "
+                "any snapping: who snaps to\n1/256 px pays for it here, and in return can draw every shared edge exactly "
+                "once. Filled: no pixel is wrong given the snapped positions.",
+    "visibility": "Further left: fewer errors; further down: faster. Who owns a pixel, judged by exact planes; all draw "
+                  "with the same exact coverage.",
+    "facing": "Further left: fewer errors; further down: faster. Which faces look at the eye, judged by the exact sign of "
+              "the projected area.",
+    "clipping": "Further left: fewer errors; further down: faster. Judged by rays that need no clipping; differences "
+                "within 1/64 px of an edge do not count.",
+}
+
+
+def speed_chart(scene, name, folder, caption):
+    family = FAMILIES[scene.family]
+    kinds = Kinds(family)
+    subtitle = SUBTITLES[family.name]
+    above, below = 1.2 + 0.2 * subtitle.count("\n"), 1.0
+    figure, axes = plt.subplots(figsize=(10.4, above + below + (4.7 if family.name == "coverage" else 3.6)))
+    height = figure.get_figheight()
+    top = headline(figure, f"{family.name.capitalize()}: speed against accuracy", subtitle)
+    figure.subplots_adjust(left=0.07, right=0.985, bottom=below / height, top=1 - above / height)
+    labels, front = draw_points(axes, scene, kinds)
+    axes.set_ylabel(family.cost)
+    axes.set_xlabel(family.errors)
+    axes.set_title(f"{scene.name}, {short(scene.trials)} {TRIALS[family.name]}", fontsize=10)
+    label_points(axes, labels, [front])
+    extra = [plt.Line2D([], [], **FRONT, label="best on one thread")]
+    if any(m.snapped_rate for m in scene.measured):
+        extra.append(plt.Line2D([], [], color=FAINT, marker="o", markerfacecolor="white", markeredgewidth=1.4,
+                                linestyle="", markersize=7, label="hollow: errs even then"))
+    kinds.legend(figure, top, [m.method for m in scene.measured], extra)
+    notes = ["Bold: ours. 0: no error seen; in brackets the bound 3/N below which the rate is with 95 % confidence."]
+    if any(len(m.costs_ns) > 1 for m in scene.measured):
+        notes.append("Thin lines join a method's thread counts, side by side where they would hide one another.")
+    save(figure, folder, name, " ".join(notes) + "\n" + caption)
+    return name
+
+
+def turning_cube(accuracy, folder, caption):
+    """Gaps and double hits a frame: a line from the median frame to the worst."""
+    if not accuracy.cube or not accuracy.cube["methods"]:
+        return None
+    kinds = Kinds(FAMILIES["coverage"])
+    rows = accuracy.cube["methods"]
+    figure, panels = plt.subplots(1, 2, sharey=True, figsize=(10.4, 1.9 + 0.26 * len(rows)))
+    for axes, key, title in zip(panels, ("gaps", "double_hits"), ("Gaps", "Double hits")):
+        scale = ZeroAxis([value for _, found in rows for value in found[key]])
+        scale.apply_x(axes)
+        for line, (method, found) in enumerate(rows):
+            colour, marker = kinds.of(method)
+            median, worst = (scale.at(value) for value in found[key])
+            axes.plot([median, worst], [line, line], color=colour, linewidth=1.6)
+            axes.plot([worst], [line], marker=marker, color=colour, markersize=7, markerfacecolor="white",
+                      markeredgewidth=1.5)
+            axes.plot([median], [line], marker=marker, color=colour, markersize=5)
+        axes.set_title(title)
+        axes.set_xlabel("pixels a frame")
+        axes.set_yticks(range(len(rows)), [method.name for method, _ in rows])
+        axes.tick_params(axis="y", length=0)
+        axes.set_ylim(len(rows) - 0.5, -0.5)
+    height = figure.get_figheight()
+    headline(figure, "The turning cube", f"{accuracy.cube['frames']:,} frames of the tutorials' cube, against exact "
+             "arithmetic on the positions before any snapping. Filled: the median frame; hollow: the worst.")
+    figure.subplots_adjust(left=0.15, right=0.985, bottom=0.9 / height, top=1 - 0.95 / height, wspace=0.06)
+    note = "Snapping moves the outline as well: a pixel that it loses there counts as a gap."
+    save(figure, folder, "turning-cube", f"{note}\n{caption}")
+    return "turning-cube"
+
+
+def cell_text(rate):
+    return "0" if rate == 0 else "<1" if rate < 1 else short(float(f"{rate:.2g}"))
+
+
+def all_scenes(accuracy, family, folder, caption):
+    """Every method on every scene: the rate as a number, and as a shade."""
+    scenes, methods = accuracy.of(family.name), accuracy.methods[family.name]
+    if not scenes or not methods:
+        return None
+    rates = {(scene.name, m.method.name): m.rate for scene in scenes for m in scene.measured}
+    above = 1.5 if len(methods) > 8 else 1.05
+    figure, axes = plt.subplots(figsize=(10.4, above + 0.35 + 0.27 * len(scenes)))
+    shades = plt.get_cmap("YlOrBr")
+    for line, scene in enumerate(scenes):
+        for place, method in enumerate(methods):
+            rate = rates.get((scene.name, method.name))
+            if rate is None:
+                continue
+            shade = min(1.0, math.log10(1 + rate) / 6) if rate else 0.0
+            axes.add_patch(plt.Rectangle((place - 0.48, line - 0.46), 0.96, 0.92, linewidth=0,
+                                         facecolor=shades(0.08 + 0.8 * shade) if rate else BAND))
+            axes.text(place, line, cell_text(rate), ha="center", va="center", fontsize=7.5 if len(methods) > 12 else 8.5,
+                      color="white" if shade > 0.75 else INK)
+    axes.set_xlim(-0.5, len(methods) - 0.5)
+    axes.set_ylim(len(scenes) - 0.5, -0.5)
+    axes.set_yticks(range(len(scenes)), [scene.name for scene in scenes], fontsize=9)
+    axes.xaxis.tick_top()
+    axes.set_xticks(range(len(methods)), [method.name for method in methods], fontsize=9)
+    many = len(methods) > 8
+    for tick, method in zip(axes.get_xticklabels(), methods):
+        tick.set(fontweight="bold" if method.ours else "normal", rotation_mode="anchor", rotation=30 if many else 0,
+                 ha="left" if many else "center")
+    axes.tick_params(length=0)
+    axes.grid(visible=False)
+    for spine in axes.spines.values():
+        spine.set_visible(False)
+    height = figure.get_figheight()
+    headline(figure, f"{family.name.capitalize()}: where each method errs",
+             f"{family.errors[0].upper()}{family.errors[1:]}, scene by scene. Bold: ours.")
+    figure.subplots_adjust(left=0.16, right=0.945, bottom=0.35 / height, top=1 - above / height)
+    save(figure, folder, f"errors-{family.name}", caption)
+    return f"errors-{family.name}"
+
+
+def draw(accuracy, folder, caption):
+    """The names of the charts drawn."""
+    if accuracy is None:
+        return []
+    scenes = [all_scenes(accuracy, family, folder, caption) for family in FAMILIES.values()]
+    timed = [found for family in FAMILIES for found in accuracy.timed_charts(family)]
+    charts = [speed_chart(scene, name, folder, caption) for name, scene in timed]
+    return [name for name in (*charts, *scenes, turning_cube(accuracy, folder, caption)) if name]
