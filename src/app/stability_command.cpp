@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "app/commands.h"
-#include "app/json_text.h"
 #include "app/console.h"
+#include "app/json_text.h"
 #include "app/options.h"
 #include "app/progress.h"
 #include "app/stability_report.h"

@@ -21,7 +21,7 @@ namespace {
 constexpr Cull kCullModes[] = {Cull::none, Cull::back, Cull::front, Cull::both};
 
 // Work is cut into runs of this many vertices or triangles, whatever the thread count.
-constexpr std::size_t kRun = 8192;
+constexpr std::size_t kRun = 2048;
 
 struct Snapped {
   std::int32_t x_sub, y_sub;

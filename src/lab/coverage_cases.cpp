@@ -73,6 +73,22 @@ Triangles mesh() {
   return float_triangles(jittered_grid({.width = 1920, .height = 1080}, 24.0, 7));
 }
 
+// Where both truths agree, so that what is wrong is arithmetic and the fill rule alone. Every fourth vertex
+// lies on a sample, as it does in tile maps and user interfaces.
+Triangles mesh_on_grid() {
+  auto stream = jittered_grid({.width = 1920, .height = 1080}, 24.0, 7);
+  const auto on_grid = [](float v) { return std::nearbyint(v * 256.0f) / 256.0f; };
+  const auto on_sample = [](float v) { return std::floor(v) + 0.5f; };
+  for (auto& t : stream.triangles)
+    for (auto& v : t.vertex) {
+      const bool inner = v.x > 0 && v.y > 0 && v.x < 1920 && v.y < 1080;
+      const bool fourth = static_cast<int>(v.x + v.y) % 4 == 0;
+      v.x = inner && fourth ? on_sample(v.x) : on_grid(v.x);
+      v.y = inner && fourth ? on_sample(v.y) : on_grid(v.y);
+    }
+  return float_triangles(stream);
+}
+
 Triangles tall_slivers() {
   const Point top{31.3f, 0.0f}, bottom{33.1f, 1080.0f};
   return numbered({{top, bottom, {29.9f, 541.7f}}, {top, {34.2f, 533.1f}, bottom}});
@@ -120,6 +136,10 @@ std::span<const CoverageCase> coverage_cases() {
                    "long edges in all directions: floats round them differently from both ends",
                    {1920, 1080},
                    fan},
+      CoverageCase{"mesh_on_grid",
+                   "a mesh on the 1/256 px grid, a quarter of its vertices on samples",
+                   {1920, 1080},
+                   mesh_on_grid},
       CoverageCase{"mesh", "an unsnapped mesh that covers every pixel once", {1920, 1080}, mesh},
       CoverageCase{"tall_slivers",
                    "two slivers that share an edge of 1080 px: drift from row to row",
