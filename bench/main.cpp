@@ -28,7 +28,7 @@ struct Effort {
   double repetition_s;        // at least, unless one iteration takes longer
   double slow_row_s;          // beyond this, all repetitions together, they become fewer
 };
-constexpr Effort kFull{5, 3, 0.018, 0.5}, kQuick{3, 2, 0.015, 0.3};
+constexpr Effort kFull{5, 3, 0.012, 0.35}, kQuick{3, 2, 0.015, 0.3};
 
 struct Flags {
   SuiteOptions suite;

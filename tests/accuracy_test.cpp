@@ -263,7 +263,7 @@ TEST(Accuracy, PicturesCanBeMadeForEveryFamily) {
     EXPECT_LE(std::max(image.width, image.height), 1000) << closeup.name;
     EXPECT_GE(std::max(image.width, image.height), 200) << closeup.name;
   }
-  EXPECT_EQ(families.size(), kFamilies.size());
+  EXPECT_EQ(families.size(), lab::kFamilies.size());
 }
 
 TEST(Accuracy, MeshesLoseTheirBackFacesByTheExactSign) {

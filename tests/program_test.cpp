@@ -158,7 +158,8 @@ TEST(Program, SaysWhenMemoryIsShort) {
 }
 
 TEST(Program, HelpsOnEveryCommand) {
-  for (const char* command : {"", "list", "render", "verify", "diff", "capture", "machine"}) {
+  for (const char* command :
+       {"", "list", "render", "verify", "accuracy", "stability", "diff", "capture", "machine"}) {
     const Outcome outcome = edgewise_with(std::string(command) + " --help");
     EXPECT_EQ(outcome.status, 0) << command;
     EXPECT_NE(outcome.out.find("edgewise"), std::string::npos) << command;

@@ -11,8 +11,6 @@ namespace edgewise::app {
 
 namespace {
 
-constexpr std::array<std::string_view, 4> kFamilyNames{"coverage", "visibility", "facing", "clipping"};
-
 template <typename Methods, typename Chosen>
 void choose(const AccuracyPlan& plan, Family family, const Methods& all, Chosen& chosen) {
   if (plan.family && *plan.family != family) return;
@@ -94,16 +92,6 @@ class Run {
 };
 
 }  // namespace
-
-std::string_view name_of(Family family) {
-  return kFamilyNames[static_cast<std::size_t>(family)];
-}
-
-Family find_family(std::string_view name) {
-  for (const Family family : kFamilies)
-    if (name_of(family) == name) return family;
-  throw std::invalid_argument(unknown_name("family", name, kFamilyNames));
-}
 
 std::size_t ChosenMethods::count(Family family) const {
   const std::size_t counts[] = {coverage.size(), visibility.size(), facing.size(), clipping.size()};

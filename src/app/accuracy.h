@@ -1,7 +1,6 @@
 // How wrong is each method, and how fast? Every method of every family on every scene, against the truth.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -14,15 +13,12 @@
 #include "lab/clipping.h"
 #include "lab/coverage_score.h"
 #include "lab/facing.h"
+#include "lab/family.h"
 #include "lab/visibility.h"
 
 namespace edgewise::app {
 
-enum class Family { coverage, visibility, facing, clipping };
-inline constexpr std::array kFamilies{Family::coverage, Family::visibility, Family::facing, Family::clipping};
-std::string_view name_of(Family family);
-// Throws std::invalid_argument, with the nearest known name, for an unknown one.
-Family find_family(std::string_view name);
+using lab::Family;
 
 struct AccuracyPlan {
   std::vector<std::string> scenes;   // names or paths; none: all that are built in

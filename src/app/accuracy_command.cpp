@@ -29,7 +29,7 @@ struct AccuracyOptions {
 
 int accuracy_command(AccuracyOptions& o) {
   AccuracyPlan& plan = o.plan;
-  if (!o.family.empty()) plan.family = find_family(o.family);
+  if (!o.family.empty()) plan.family = lab::find_family(o.family);
   plan.speed = !o.no_speed;
   plan.pictures = !o.pictures.empty();
   plan.threads = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMaxThreads);

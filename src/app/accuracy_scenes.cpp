@@ -30,7 +30,7 @@ constexpr Share kShares[] = {
     {"small", kFullHd, kUsual, 0.4, 0.05, Timed::never, 5, 0.5},
     {"micro", kFullHd, kUsual, 0.4, 0.05, Timed::never, 3, 0.5},
     {"large", kFullHd, kUsual, 1, 0.1, Timed::never, 1.6, 0.3},
-    {"sliver", kFullHd, kUsual, 0.05, 0.02, Timed::never, 6, 1},
+    {"sliver", kFullHd, kUsual, 0.03, 0.02, Timed::never, 3, 1},
 };
 constexpr Share kUsualShare{"", kFullHd, kUsual, 1, 1, Timed::never, 1, 0.3};
 
@@ -130,8 +130,8 @@ class Catalogue {
       add(Family::clipping, c.name, c.idea, Timed::never, true, 0.2, c.make);
     const bool quick = plan_.quick;
     add(Family::clipping, "around_the_eye", "triangles on all sides, across the near and the far plane",
-        Timed::always, false, quick ? 2.0 : 16.0, [quick] {
-          return quick ? around_the_eye(1000, {128, 96}) : around_the_eye(3000, {160, 120});
+        Timed::always, false, quick ? 2.0 : 5.0, [quick] {
+          return quick ? around_the_eye(1000, {128, 96}) : around_the_eye(2000, {144, 108});
         });
     // Family by family, so that a table can be read from top to bottom.
     std::stable_sort(list_.begin(), list_.end(),

@@ -197,7 +197,7 @@ std::string accuracy_tables(const AccuracyReport& report) {
   constexpr std::string (*kTables[])(const FamilyTable&) = {coverage_table, visibility_table, facing_table,
                                                             clipping_table};
   std::string text;
-  for (const Family family : kFamilies)
+  for (const Family family : lab::kFamilies)
     for (const bool smallest : {false, true})
       if (const FamilyTable table(report, family, smallest); !table.empty())
         text += kTables[static_cast<std::size_t>(family)](table);

@@ -7,10 +7,6 @@
 #include <mutex>
 #include <stdexcept>
 
-#include "lab/clipping.h"
-#include "lab/coverage.h"
-#include "lab/facing.h"
-#include "lab/visibility.h"
 #include "nearest_name.h"
 #include "raster/parallel.h"
 
@@ -36,49 +32,10 @@ namespace edgewise::lab {
 #define EDGEWISE_DECLARE(name) Sweep make_sweep_##name();
 EDGEWISE_SWEEPS(EDGEWISE_DECLARE)
 
-namespace {
-
-template <typename Methods>
-std::vector<MethodInfo> infos(const Methods& methods) {
-  std::vector<MethodInfo> list;
-  for (const auto& method : methods) list.push_back(method.info);
-  return list;
-}
-
-}  // namespace
-
 Tally& Tally::operator+=(const Tally& other) {
   errors += other.errors;
   trials += other.trials;
   return *this;
-}
-
-std::string_view name_of(Family family) {
-  switch (family) {
-    case Family::coverage:
-      return "coverage";
-    case Family::visibility:
-      return "visibility";
-    case Family::facing:
-      return "facing";
-    case Family::clipping:
-      return "clipping";
-  }
-  throw std::invalid_argument("not a family");
-}
-
-std::vector<MethodInfo> methods_of(Family family) {
-  switch (family) {
-    case Family::coverage:
-      return infos(coverage_methods());
-    case Family::visibility:
-      return infos(visibility_methods());
-    case Family::facing:
-      return infos(facing_methods());
-    case Family::clipping:
-      return infos(clipping_methods());
-  }
-  throw std::invalid_argument("not a family");
 }
 
 std::span<const Sweep> sweeps() {

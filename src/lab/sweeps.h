@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "lab/method.h"
+#include "lab/family.h"
 
 namespace edgewise::lab {
 
@@ -29,10 +29,6 @@ struct Measured {
   // method fails where it makes more errors than that.
   std::uint64_t by_snapping = 0;
 };
-
-enum class Family { coverage, visibility, facing, clipping };
-std::string_view name_of(Family family);
-std::vector<MethodInfo> methods_of(Family family);
 
 struct XAxis {
   std::string_view name, unit;

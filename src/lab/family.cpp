@@ -1,0 +1,51 @@
+#include "lab/family.h"
+
+#include <stdexcept>
+
+#include "lab/clipping.h"
+#include "lab/coverage.h"
+#include "lab/facing.h"
+#include "lab/visibility.h"
+#include "nearest_name.h"
+
+namespace edgewise::lab {
+
+namespace {
+
+constexpr std::array<std::string_view, kFamilies.size()> kNames{"coverage", "visibility", "facing",
+                                                                "clipping"};
+
+template <typename Methods>
+std::vector<MethodInfo> infos(const Methods& methods) {
+  std::vector<MethodInfo> list;
+  for (const auto& method : methods) list.push_back(method.info);
+  return list;
+}
+
+}  // namespace
+
+std::string_view name_of(Family family) {
+  return kNames[static_cast<std::size_t>(family)];
+}
+
+Family find_family(std::string_view name) {
+  for (const Family family : kFamilies)
+    if (name_of(family) == name) return family;
+  throw std::invalid_argument(unknown_name("family", name, kNames));
+}
+
+std::vector<MethodInfo> methods_of(Family family) {
+  switch (family) {
+    case Family::coverage:
+      return infos(coverage_methods());
+    case Family::visibility:
+      return infos(visibility_methods());
+    case Family::facing:
+      return infos(facing_methods());
+    case Family::clipping:
+      return infos(clipping_methods());
+  }
+  throw std::invalid_argument("not a family");
+}
+
+}  // namespace edgewise::lab
