@@ -72,7 +72,8 @@ class Accuracy:
     quick: bool
     methods: dict  # by family, in the registry's order
     scenes: tuple
-    cube: dict | None  # {"frames", "methods": [(Method, {"gaps": (median, worst), "double_hits": …})]}
+    cube: dict | None  # {"frames", "methods": [(Method, {"gaps": (median, worst), "double_hits": …,
+    # "snapped": the same against the snapped truth})]}
 
     def of(self, family):
         return [scene for scene in self.scenes if scene.family == family]
@@ -115,8 +116,10 @@ def parse_cube(data, methods):
     cube = data.get("turning_cube")
     if not cube:
         return None
-    rows = [(methods["coverage", entry["name"]],
-             {key: (float(entry[key]["median"]), float(entry[key]["worst"])) for key in ("gaps", "double_hits")})
+    def worst_of(entry):
+        return {key: (float(entry[key]["median"]), float(entry[key]["worst"])) for key in ("gaps", "double_hits")}
+
+    rows = [(methods["coverage", entry["name"]], {**worst_of(entry), "snapped": worst_of(entry["snapped"])})
             for entry in cube["methods"]]
     return {"frames": int(cube["frames"]), "methods": rows}
 

@@ -86,11 +86,17 @@ def family_sentence(accuracy, family):
 def cube_sentence(accuracy):
     if not accuracy.cube:
         return ""
-    rows = [(method.name, found["gaps"][1] + found["double_hits"][1]) for method, found in accuracy.cube["methods"]]
-    clean = [name for name, worst in rows if worst == 0]
-    name, worst = max(rows, key=lambda row: row[1])
-    return (f"In {accuracy.cube['frames']:,} frames of the turning cube {listed(clean) or 'no method'} left no gap and "
-            f"hit no pixel twice; `{name}` did {worst:,.0f} times in one frame or less.")
+    def worst(found):
+        return [found[key][1] for key in ("gaps", "double_hits")]
+
+    rows = [(method.name, found) for method, found in accuracy.cube["methods"]]
+    clean = [name for name, found in rows if worst(found["snapped"]) == [0, 0]]
+    name, found = max(rows, key=lambda row: sum(worst(row[1])))
+    gaps, doubles = worst(found)
+    return (f"In {accuracy.cube['frames']:,} frames of the turning cube, given the snapped positions, "
+            f"{listed(clean) or 'no method'} left no gap and hit no pixel twice. Against the positions before snapping "
+            f"`{name}` is the worst, with up to {gaps:,.0f} gaps and up to {doubles:,.0f} double hits in a frame; there a "
+            "pixel that snapping takes from the outline counts as a gap too.")
 
 
 def accuracy_sentences(accuracy):
@@ -116,7 +122,7 @@ def method_tables(accuracy):
 
 
 def fails_table(sweeps):
-    """One line a sweep: who fails first, and from where."""
+    """One line a sweep: who errs more than snapping does by itself, and from where."""
     lines = []
     for sweep in sweeps:
         places = {x: i for i, (x, _) in enumerate(sweep.curves[0].points)} if sweep.curves else {}
@@ -128,6 +134,7 @@ def fails_table(sweeps):
             by_place.setdefault(curve.starts_to_fail, []).append(curve.method)
         unit = f" {sweep.x['unit']}" if sweep.x["unit"] else ""
         lines.append([sweep.name, sweep.x["name"],
-                      "; ".join(f"**{number(x)}{unit}** {', '.join(names)}" for x, names in by_place.items()) or "–",
+                      "; ".join(f"**{number(x)}{unit if places.get(x) else f'{unit}, the first place,'}** {', '.join(names)}"
+                                for x, names in by_place.items()) or "–",
                       ", ".join(never) or "–"])
-    return markdown(["sweep", "along", "fails from", "never fails"], lines, "|---|---|---|---|")
+    return markdown(["sweep", "along", "fails from", "errs no more than snapping does"], lines, "|---|---|---|---|")

@@ -77,8 +77,8 @@ TRIALS = {"coverage": "edge crossings", "visibility": "covered pixels", "facing"
           "clipping": "covered pixels"}
 SUBTITLES = {
     "coverage": "Further left: fewer errors; further down: faster. Judged by exact arithmetic on the positions before "
-                "any snapping: who snaps to\n1/256 px pays for it here, and in return can draw every shared edge exactly "
-                "once. Filled: no pixel is wrong given the snapped positions.",
+                "any snapping, which costs those who\nsnap something wherever vertices lie off their grid. Filled: no "
+                "pixel is wrong given the snapped positions. Ours use the widest SIMD.",
     "visibility": "Further left: fewer errors; further down: faster. Who owns a pixel, judged by exact planes; all draw "
                   "with the same exact coverage.",
     "facing": "Further left: fewer errors; further down: faster. Which faces look at the eye, judged by the exact sign of "

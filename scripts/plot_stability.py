@@ -100,7 +100,7 @@ def place_of_failure(curve):
 
 def failing(curve, unit):
     if curve.starts_to_fail is None:
-        return "never fails"
+        return "no more than snapping"
     return f"from {tidy(curve.starts_to_fail)}{' ' + unit if unit else ''}"
 
 

@@ -7,7 +7,7 @@ namespace edgewise::lab {
 extern const ClippingMethod clipping_near_guard;
 const ClippingMethod clipping_near_guard{
     {"near_guard", "ours: near and far planes and guard band, in homogeneous space", "frontend/clip.h",
-     "every difference lies within 1/64 px of where it would be none", true},
+     "from near planes of 0.001 on, every difference lies within 1/64 px of where it would be none", true},
     [](const ClippingScene& scene, ClippingFrame& frame) {
       FrontendOptions options;
       options.width = scene.size.width;
