@@ -40,17 +40,18 @@ app::Source random_source(const SuiteOptions& options, std::size_t count, double
 // Large triangles lose much of their area at the image's borders, so their number is corrected by what the
 // first attempt covers.
 app::Source area_source(const SuiteOptions& options, double area_px) {
-  const double wanted_px = options.quick ? 4e6 : 10e6;
+  constexpr double kWanted_px = 4e6;
   const auto at_least_a_few = [](double count) {
     return static_cast<std::size_t>(std::max(4.0, std::round(count)));
   };
-  const std::size_t count = at_least_a_few(wanted_px / area_px);
+  const std::size_t count = at_least_a_few(kWanted_px / area_px);
   if (area_px < 1e3) return random_source(options, count, area_px);
   Workload attempt(options.width, options.height, Cull::none,
                    [&] { return random_source(options, count, area_px); });
   attempt.prepare(false);
   const double covered_px = std::max(1.0, static_cast<double>(attempt.covered_px()));
-  return random_source(options, at_least_a_few(static_cast<double>(count) * wanted_px / covered_px), area_px);
+  return random_source(options, at_least_a_few(static_cast<double>(count) * kWanted_px / covered_px),
+                       area_px);
 }
 
 // What stands for a source in row names, where ':' is a mark of theirs (as '/' is, which no name has).
