@@ -28,7 +28,8 @@ struct FrontendOptions {
   bool shade = true;                // scenes only: colour times max(n·l, 0.15)
   Payload payload = Payload::colour;
   int threads = 1;
-  // For judging: remember where each triangle lay before it was snapped, and keep those that lost their area by it.
+  // For judging: remember where each triangle lay before it was snapped, and keep those that lost their area
+  // by it.
   bool keep_unsnapped = false;
 };
 

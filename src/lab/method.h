@@ -1,4 +1,5 @@
-// What the laboratory says of every method, whatever its family: the methods people really use, and ours among them.
+// What the laboratory says of every method, whatever its family: the methods people really use, and ours
+// among them.
 #pragma once
 
 #include <cstdint>
