@@ -34,4 +34,19 @@ void fill_rows(int begin, int end, Edge& long_edge, Edge& short_edge, bool middl
   }
 }
 
+// Fills rows [begin, end): the long edge on one side, the two short ones, which meet at row `split`, on the
+// other.
+template <class Edge, class Triangle, class Plot>
+void walk_dda(const Triangle& t, int begin, int split, int end, bool middle_is_right, Window w, Plot& plot) {
+  Edge long_edge(t.top.x, t.top.y, t.bottom.x, t.bottom.y, begin);
+  if (begin < split) {
+    Edge short_edge(t.top.x, t.top.y, t.middle.x, t.middle.y, begin);
+    fill_rows(begin, split, long_edge, short_edge, middle_is_right, w, plot);
+  }
+  if (split < end) {
+    Edge short_edge(t.middle.x, t.middle.y, t.bottom.x, t.bottom.y, split);
+    fill_rows(split, end, long_edge, short_edge, middle_is_right, w, plot);
+  }
+}
+
 }  // namespace edgewise::lab

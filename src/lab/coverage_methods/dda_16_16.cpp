@@ -42,7 +42,8 @@ struct Dda1616 {
     const auto vertex = [&](int i) {
       return DdaTriangle<std::int32_t>::Vertex{fixed(t.x_px[i]), fixed(t.y_px[i])};
     };
-    const auto [top, middle, bottom] = DdaTriangle<std::int32_t>(vertex(0), vertex(1), vertex(2));
+    const DdaTriangle<std::int32_t> sorted(vertex(0), vertex(1), vertex(2));
+    const auto& [top, middle, bottom] = sorted;
     const auto row_at = [&](std::int32_t y) { return std::clamp(first_at(y), w.y0, w.y1()); };
     const int begin = row_at(top.y), split = row_at(middle.y), end = row_at(bottom.y);
     const auto product = [](std::int64_t a, std::int64_t b) {
@@ -53,15 +54,7 @@ struct Dda1616 {
                                   product(std::int64_t{middle.y} - top.y, std::int64_t{bottom.x} - top.x));
     if (begin >= end || side == 0) return;
     plot.begin();
-    FixedEdge long_edge(top.x, top.y, bottom.x, bottom.y, begin);
-    if (begin < split) {
-      FixedEdge short_edge(top.x, top.y, middle.x, middle.y, begin);
-      fill_rows(begin, split, long_edge, short_edge, side > 0, w, plot);
-    }
-    if (split < end) {
-      FixedEdge short_edge(middle.x, middle.y, bottom.x, bottom.y, split);
-      fill_rows(split, end, long_edge, short_edge, side > 0, w, plot);
-    }
+    walk_dda<FixedEdge>(sorted, begin, split, end, side > 0, w, plot);
   }
 };
 

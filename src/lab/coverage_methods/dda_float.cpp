@@ -27,22 +27,14 @@ class FloatEdge {
 struct DdaFloat {
   template <class Plot>
   static void cover(const UnsnappedTriangle& t, Window w, Plot& plot) {
-    const auto [top, middle, bottom] =
-        DdaTriangle<float>({t.x_px[0], t.y_px[0]}, {t.x_px[1], t.y_px[1]}, {t.x_px[2], t.y_px[2]});
+    const DdaTriangle<float> sorted({t.x_px[0], t.y_px[0]}, {t.x_px[1], t.y_px[1]}, {t.x_px[2], t.y_px[2]});
+    const auto& [top, middle, bottom] = sorted;
     const auto row_at = [&](float y) { return std::clamp(ceil_int(y - 0.5f), w.y0, w.y1()); };
     const int begin = row_at(top.y), split = row_at(middle.y), end = row_at(bottom.y);
     const float side = (middle.x - top.x) * (bottom.y - top.y) - (middle.y - top.y) * (bottom.x - top.x);
     if (begin >= end || side == 0.0f) return;
     plot.begin();
-    FloatEdge long_edge(top.x, top.y, bottom.x, bottom.y, begin);
-    if (begin < split) {
-      FloatEdge short_edge(top.x, top.y, middle.x, middle.y, begin);
-      fill_rows(begin, split, long_edge, short_edge, side > 0.0f, w, plot);
-    }
-    if (split < end) {
-      FloatEdge short_edge(middle.x, middle.y, bottom.x, bottom.y, split);
-      fill_rows(split, end, long_edge, short_edge, side > 0.0f, w, plot);
-    }
+    walk_dda<FloatEdge>(sorted, begin, split, end, side > 0.0f, w, plot);
   }
 };
 
