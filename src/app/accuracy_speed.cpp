@@ -8,7 +8,9 @@ namespace edgewise::app {
 
 namespace {
 
-double run_ms(const TimedDraw& timed, int times) {
+// Of draws that follow one of the same method.
+double warm_ms(const TimedDraw& timed, int times) {
+  timed.draw();
   const auto start = std::chrono::steady_clock::now();
   for (int i = 0; i < times; ++i) timed.draw();
   const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
@@ -22,13 +24,11 @@ std::vector<Speed> time_in_turns(const std::vector<TimedDraw>& draws, bool quick
   const double least_ms = quick ? 2.0 : 5.0;  // of a repetition: far above the clock's grain
   std::vector<std::vector<double>> ms(draws.size());
   std::vector<int> times;
-  for (const TimedDraw& timed : draws) {
-    timed.draw();
+  for (const TimedDraw& timed : draws)
     times.push_back(
-        std::clamp(static_cast<int>(std::ceil(least_ms / std::max(run_ms(timed, 1), 1e-3))), 1, 1000));
-  }
+        std::clamp(static_cast<int>(std::ceil(least_ms / std::max(warm_ms(timed, 1), 1e-3))), 1, 1000));
   for (int repetition = 0; repetition < repetitions; ++repetition)
-    for (std::size_t i = 0; i < draws.size(); ++i) ms[i].push_back(run_ms(draws[i], times[i]));
+    for (std::size_t i = 0; i < draws.size(); ++i) ms[i].push_back(warm_ms(draws[i], times[i]));
 
   std::vector<Speed> speeds;
   for (std::size_t i = 0; i < draws.size(); ++i) {
