@@ -1,6 +1,7 @@
 """Reads what `edgewise accuracy` and `edgewise stability` left in results/MACHINE: accuracy.json, stability.json."""
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import NamedTuple
 
 from bench_rows import BadInput, read_json
 
@@ -13,22 +14,28 @@ class Family:
     trials: str  # the key of a scene's number of these
     cost: str
     kinds: dict = field(default_factory=dict)  # kind of method: how its methods' names begin
+    beyond: str = ""  # why there can be more than 10⁶ errors in 10⁶
+
+    def beyond_note(self, rates):
+        return f". {self.beyond}" if any(rate > 1e6 for rate in rates) else ""
 
     def kind(self, method):
-        if method.exact:
-            return "exact"
+        if method.ours:
+            return "ours"
         return next((kind for kind, starts in self.kinds.items() if method.name.startswith(starts)), "other")
 
 
 FAMILIES = {family.name: family for family in (
     Family("coverage", "wrong pixels per 10⁶ edge crossings", "crossings", "ns per covered pixel",
-           {"floating point": ("float", "double"), "fixed point": ("fixed", "whole"), "scanline DDA": ("dda",)}),
+           {"floating point": ("float", "double"), "fixed point": ("fixed", "whole"), "scanline DDA": ("dda",)},
+           "More than 10⁶: one crossing can cost many pixels, most where a triangle fills its bounding box"),
     Family("visibility", "pixels with the wrong owner, per 10⁶ covered", "covered", "ns per covered pixel",
            {"drawing in order": ("painter", "submission"),
-            "depth buffer": ("contract", "float", "reversed", "unorm")}),
+            "depth buffer": ("float", "reversed", "unorm")}),
     Family("facing", "misjudged faces per 10⁶ that own a pixel", "covered", "ns per face",
            {"signed area": ("float_area",), "normal": ("normal",)}),
-    Family("clipping", "wrong pixels per 10⁶ covered", "covered", "ns per covered pixel"),
+    Family("clipping", "wrong pixels per 10⁶ covered", "covered", "ns per covered pixel",
+           beyond="More than 10⁶: what is drawn where nothing is to be drawn counts as well"),
 )}
 
 
@@ -44,6 +51,17 @@ class Method:
         return self.source.startswith(("src/", "raster/", "frontend/"))
 
 
+class Cost(NamedTuple):
+    """Of one repetition after the other: the median, the fastest and the slowest."""
+    ns: float
+    low: float
+    high: float
+
+    def overlaps(self, other):
+        """Whether the order of the two is not settled."""
+        return self.low <= other.high and other.low <= self.high
+
+
 @dataclass(frozen=True)
 class Measured:
     """One method on one scene."""
@@ -51,19 +69,25 @@ class Measured:
     rate: float  # errors per 10⁶
     bound: float | None  # where none was seen: below this, per 10⁶, with 95 % confidence
     snapped_rate: float | None  # the same against the snapped truth; coverage only
-    costs_ns: dict  # by threads; empty where the scene is not timed
+    costs: dict  # by threads; empty where the scene is not timed
 
 
 @dataclass(frozen=True)
 class Scene:
     name: str
     family: str
+    idea: str
     trials: int
     measured: tuple
 
     @property
     def timed(self):
-        return any(m.costs_ns for m in self.measured)
+        return any(m.costs for m in self.measured)
+
+    @property
+    def single(self):
+        """What was timed on one thread."""
+        return [m for m in self.measured if 1 in m.costs]
 
 
 @dataclass(frozen=True)
@@ -77,6 +101,10 @@ class Accuracy:
 
     def of(self, family):
         return [scene for scene in self.scenes if scene.family == family]
+
+    def main_charts(self, family):
+        """The first of them; of coverage two, since the first scene's vertices lie where they suit who snaps."""
+        return self.timed_charts(family)[:2 if family == "coverage" else 1]
 
     def timed_charts(self, family):
         """(name of the chart, scene) of each scene that speed was measured on; the first is the family's main one."""
@@ -101,12 +129,19 @@ class Sweep:
     x: dict
     y: dict
     curves: tuple
+    by_snapping: tuple  # at each place: what rounding to 1/256 px costs by itself
+
+
+def parse_cost(speed, key):
+    ns, ms = float(speed[key]), speed["ms"]
+    median = float(ms["median"])
+    return Cost(ns, ns * float(ms["min"]) / median, ns * float(ms["max"]) / median)
 
 
 def parse_measured(entry, family, method):
     scores = [entry["float"], entry["snapped"]] if family == "coverage" else [entry["score"]]
     cost = "ns_per_face" if family == "facing" else "ns_per_covered_pixel"
-    costs = {int(speed["threads"]): float(speed[cost]) for speed in entry.get("speed") or () if cost in speed}
+    costs = {int(speed["threads"]): parse_cost(speed, cost) for speed in entry.get("speed") or () if cost in speed}
     bound = scores[0].get("bound_per_million")
     return Measured(method, float(scores[0]["errors_per_million"]), None if bound is None else float(bound),
                     float(scores[1]["errors_per_million"]) if len(scores) > 1 else None, costs)
@@ -130,7 +165,7 @@ def parse_accuracy(data):
     scenes = []
     for scene in data["scenes"]:
         family = FAMILIES[scene["family"]]
-        scenes.append(Scene(scene["name"], family.name, int(scene[family.trials]),
+        scenes.append(Scene(scene["name"], family.name, scene["idea"], int(scene[family.trials]),
                             tuple(parse_measured(entry, family.name, methods[family.name, entry["name"]])
                                   for entry in scene["methods"])))
     by_family = {name: [method for (family, _), method in methods.items() if family == name] for name in FAMILIES}
@@ -148,7 +183,8 @@ def parse_stability(data):
     axes = ("name", "log")
     return tuple(Sweep(sweep["name"], FAMILIES[sweep["family"]].name, sweep["idea"],
                        {"unit": sweep["x"].get("unit", ""), **{key: sweep["x"][key] for key in axes}},
-                       {key: sweep["y"][key] for key in axes}, tuple(map(parse_curve, sweep["curves"])))
+                       {key: sweep["y"][key] for key in axes}, tuple(map(parse_curve, sweep["curves"])),
+                       tuple(float(y) for _, y in sweep["by_snapping"]))
                  for sweep in data["sweeps"])
 
 

@@ -4,7 +4,8 @@ import math
 from accuracy_rows import FAMILIES
 from plot_kinds import BAND, Kinds, ZeroAxis
 from plot_labels import Label, label_points
-from plot_style import FAINT, INK, headline, plt, save, short
+from plot_style import FAINT, INK, headline, plt, save
+from tables import short
 
 
 def front_line(points, right, top):
@@ -34,44 +35,66 @@ def cost_axis(axes, costs):
 
 
 def side_by_side(measured, scale):
-    """Where each method stands. Those with several thread counts are lines: where they would hide one another, they
-    step aside."""
+    """Where each method stands: those whose whiskers would hide one another step aside."""
     places = [scale.at(m.rate) for m in measured]
     step = 0.011 * (scale.limit - scale.start)
-    lines = [i for i, m in enumerate(measured) if len(m.costs_ns) > 1]
-    for x in sorted({places[i] for i in lines}):
-        same = [i for i in lines if places[i] == x]
-        for k, i in enumerate(same):
-            places[i] = x + (k - (len(same) - 1) / 2) * step
+    reach = [(min(c.low for c in m.costs.values()), max(c.high for c in m.costs.values())) for m in measured]
+    for x in sorted(set(places)):
+        lanes = []  # of methods, none of whose whiskers meet
+        for i in [i for i, place in enumerate(places) if place == x]:
+            free = next((lane for lane in lanes
+                         if all(reach[i][1] < reach[j][0] or reach[j][1] < reach[i][0] for j in lane)), None)
+            lanes.append([i]) if free is None else free.append(i)
+        for k, lane in enumerate(lanes):
+            for i in lane:
+                places[i] = x + (k - (len(lanes) - 1) / 2) * step
     return places
 
 
+def unsettled(measured):
+    """Those of which the spread does not tell whether some other beats them in both errors and speed."""
+    found = []
+    for m in measured:
+        rivals = [other.costs[1] for other in measured if other is not m and other.rate <= m.rate]
+        beaten = any(rival.high < m.costs[1].low for rival in rivals)
+        if not beaten and any(rival.overlaps(m.costs[1]) for rival in rivals):
+            found.append(m)
+    return found
+
+
 def draw_points(axes, scene, kinds):
-    """Returns labels for label_points(), and the line that they are to keep off."""
-    measured = [m for m in scene.measured if m.costs_ns]
+    """Returns labels for label_points(), the lines that they are to keep off, and whether a point is unsettled."""
+    measured = [m for m in scene.measured if m.costs]
     scale = ZeroAxis([m.rate for m in measured])
     bounds = [m.bound for m in measured if m.bound is not None]
     scale.apply_x(axes, f"0\n(<{float(f'{max(bounds):.2g}'):g})" if bounds else "0")
-    top = cost_axis(axes, [cost for m in measured for cost in m.costs_ns.values()])
+    top = cost_axis(axes, [cost for m in measured for c in m.costs.values() for cost in (c.low, c.high)])
     places = side_by_side(measured, scale)
-    singles = [(scale.at(m.rate), m.costs_ns[1], x) for m, x in zip(measured, places) if 1 in m.costs_ns]
-    front = front_line(singles, scale.limit, top) if singles else []
-    if front:
-        axes.plot(*zip(*front), **FRONT, zorder=1.5)
-    labels = []
+    singles = [(scale.at(m.rate), m.costs[1].ns, x) for m, x in zip(measured, places) if 1 in m.costs]
+    lines = [front_line(singles, scale.limit, top)] if singles else []
+    for line in lines:
+        axes.plot(*zip(*line), **FRONT, zorder=1.5)
+    labels, open_question = [], unsettled(scene.single)
     for m, x in zip(measured, places):
         colour, marker = kinds.of(m.method)
-        ladder = sorted(m.costs_ns.items())
-        axes.plot([x] * len(ladder), [cost for _, cost in ladder], color=colour, linewidth=1.0, zorder=2)
+        ladder = sorted(m.costs.items())
+        axes.plot([x] * len(ladder), [cost.ns for _, cost in ladder], color=colour, linewidth=1.0, zorder=2)
+        if m in open_question:
+            axes.plot([x], [m.costs[1].ns], **RING, zorder=2.8)
         for threads, cost in ladder:
+            lines.append([(x, cost.low), (x, cost.high)])
+            axes.plot(*zip(*lines[-1]), color=colour, **WHISKER, zorder=1.8)
             face, edge = ("white", colour) if m.snapped_rate else (colour, "white")
-            axes.plot([x], [cost], marker=marker, linestyle="", zorder=3, markersize=8 if threads == 1 else 6,
+            axes.plot([x], [cost.ns], marker=marker, linestyle="", zorder=3, markersize=8 if threads == 1 else 6,
                       markerfacecolor=face, markeredgecolor=edge, markeredgewidth=1.5 if m.snapped_rate else 0.8)
-            labels.append(Label(x, cost, m.method.name, bold=m.method.ours) if threads == 1 else
-                          Label(x, cost, f"{m.method.name}, {threads} threads", FAINT, 8))
-    return labels, front
+            labels.append(Label(x, cost.ns, m.method.name, bold=m.method.ours) if threads == 1 else
+                          Label(x, cost.ns, f"{m.method.name}, {threads} threads", FAINT, 8))
+    return labels, lines, bool(open_question)
 
 
+WHISKER = {"linewidth": 4.0, "alpha": 0.35, "solid_capstyle": "butt"}
+RING = {"marker": "o", "markersize": 13, "markerfacecolor": "none", "markeredgecolor": INK, "markeredgewidth": 0.9,
+        "linestyle": ""}
 FRONT = {"color": INK, "linewidth": 1.2, "linestyle": (0, (4, 2))}
 TRIALS = {"coverage": "edge crossings", "visibility": "covered pixels", "facing": "faces that own a pixel",
           "clipping": "covered pixels"}
@@ -92,24 +115,29 @@ def speed_chart(scene, name, folder, caption):
     family = FAMILIES[scene.family]
     kinds = Kinds(family)
     subtitle = SUBTITLES[family.name]
-    above, below = 1.2 + 0.2 * subtitle.count("\n"), 1.0
+    above, below = 1.4 + 0.2 * subtitle.count("\n"), 1.12
     figure, axes = plt.subplots(figsize=(10.4, above + below + (4.7 if family.name == "coverage" else 3.6)))
     height = figure.get_figheight()
     top = headline(figure, f"{family.name.capitalize()}: speed against accuracy", subtitle)
     figure.subplots_adjust(left=0.07, right=0.985, bottom=below / height, top=1 - above / height)
-    labels, front = draw_points(axes, scene, kinds)
+    labels, lines, open_question = draw_points(axes, scene, kinds)
     axes.set_ylabel(family.cost)
     axes.set_xlabel(family.errors)
-    axes.set_title(f"{scene.name}, {short(scene.trials)} {TRIALS[family.name]}", fontsize=10)
-    label_points(axes, labels, [front])
-    extra = [plt.Line2D([], [], **FRONT, label="best on one thread")]
+    axes.set_title(f"{scene.name}: {scene.idea}; {short(scene.trials)} {TRIALS[family.name]}", fontsize=10)
+    label_points(axes, labels, lines)
+    extra = [plt.Line2D([], [], **FRONT, label="best on one thread"),
+             plt.Line2D([], [], color=FAINT, **WHISKER, label="fastest to slowest")]
+    if open_question:
+        extra.append(plt.Line2D([], [], **RING, label="ringed: ranges overlap, not settled"))
     if any(m.snapped_rate for m in scene.measured):
         extra.append(plt.Line2D([], [], color=FAINT, marker="o", markerfacecolor="white", markeredgewidth=1.4,
                                 linestyle="", markersize=7, label="hollow: errs even then"))
     kinds.legend(figure, top, [m.method for m in scene.measured], extra)
-    notes = ["Bold: ours. 0: no error seen; in brackets the bound 3/N below which the rate is with 95 % confidence."]
-    if any(len(m.costs_ns) > 1 for m in scene.measured):
-        notes.append("Thin lines join a method's thread counts, side by side where they would hide one another.")
+    notes = ["0: no error seen; in brackets the bound 3/N below which the rate is with 95 % confidence."]
+    if any(len(m.costs) > 1 for m in scene.measured):
+        notes.append("Thin lines join a method's thread counts.")
+    beyond = family.beyond_note(m.rate for m in scene.measured)
+    notes.append(f"Points step aside where they would hide one another{beyond}.".replace(". ", ".\n"))
     save(figure, folder, name, " ".join(notes) + "\n" + caption)
     return name
 
@@ -156,7 +184,7 @@ def all_scenes(accuracy, family, folder, caption):
         return None
     rates = {(scene.name, m.method.name): m.rate for scene in scenes for m in scene.measured}
     above = 1.5 if len(methods) > 8 else 1.05
-    figure, axes = plt.subplots(figsize=(10.4, above + 0.35 + 0.27 * len(scenes)))
+    figure, axes = plt.subplots(figsize=(10.4, above + 0.45 + 0.27 * len(scenes)))
     shades = plt.get_cmap("YlOrBr")
     for line, scene in enumerate(scenes):
         for place, method in enumerate(methods):
@@ -181,11 +209,12 @@ def all_scenes(accuracy, family, folder, caption):
     axes.grid(visible=False)
     for spine in axes.spines.values():
         spine.set_visible(False)
+    note = family.beyond_note(rates.values())
     height = figure.get_figheight()
     headline(figure, f"{family.name.capitalize()}: where each method errs",
              f"{family.errors[0].upper()}{family.errors[1:]}, scene by scene. Bold: ours.")
-    figure.subplots_adjust(left=0.16, right=0.945, bottom=0.35 / height, top=1 - above / height)
-    save(figure, folder, f"errors-{family.name}", caption)
+    figure.subplots_adjust(left=0.16, right=0.945, bottom=0.45 / height, top=1 - above / height)
+    save(figure, folder, f"errors-{family.name}", f"{note[2:]}.\n{caption}" if note else caption)
     return f"errors-{family.name}"
 
 

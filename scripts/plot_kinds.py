@@ -1,9 +1,10 @@
 """What the charts of accuracy and of stability share: a look for each kind of method, and log axes that show 0."""
 import math
 
-from plot_style import PALETTE, plt, short
+from plot_style import PALETTE, plt
+from tables import short
 
-EXACT, OTHER = PALETTE[0], PALETTE[3]
+OURS, OTHER = PALETTE[0], PALETTE[3]
 KIND_COLOURS, KIND_MARKERS = (PALETTE[1], PALETTE[2], PALETTE[4]), ("s", "^", "D")
 BAND = "#eef4ee"
 
@@ -13,20 +14,22 @@ class Kinds:
 
     def __init__(self, family):
         self.family = family
-        self.looks = {"exact": (EXACT, "o"), "other": (OTHER, "v")}
+        self.looks = {"ours": (OURS, "o"), "other": (OTHER, "v")}
         self.looks.update({kind: look for kind, *look in zip(family.kinds, KIND_COLOURS, KIND_MARKERS)})
 
     def of(self, method):
         return self.looks[self.family.kind(method)]
 
-    def legend(self, figure, y, methods, extra=()):
+    def legend(self, figure, y, methods, extra):
+        """Kinds of methods, and below them what else marks a point."""
         present = {self.family.kind(method) for method in methods}
-        names = {"exact": "exact once snapped", "other": "others"}
+        names = {"ours": "ours (bold)", "other": "others"}
         handles = [plt.Line2D([], [], color=colour, marker=marker, linestyle="", markersize=7, label=names.get(kind, kind))
                    for kind, (colour, marker) in sorted(self.looks.items(), key=lambda item: item[0] == "other")
                    if kind in present]
-        figure.legend(handles=[*handles, *extra], loc="upper left", bbox_to_anchor=(0.005, y), ncol=7, frameon=False,
-                      handletextpad=0.3, columnspacing=1.3, fontsize=9.5)
+        for line, row in enumerate((handles, extra)):
+            figure.legend(handles=row, loc="upper left", bbox_to_anchor=(0.005, y - 0.2 * line / figure.get_figheight()),
+                          ncol=len(row), frameon=False, handletextpad=0.4, columnspacing=1.3, fontsize=9.5)
 
 
 class ZeroAxis:

@@ -1,7 +1,8 @@
 """Charts of stability: a figure a sweep, a curve a method, from easy on the left to hard on the right."""
 from accuracy_rows import FAMILIES, Method
 from plot_kinds import Kinds, ZeroAxis
-from plot_style import FAINT, INK, headline, plt, save, short
+from plot_style import FAINT, INK, headline, plt, save
+from tables import short
 
 STYLES = ("-", (0, (5, 1.5)), (0, (1.5, 1.2)), (0, (5, 1.5, 1, 1.5)), (0, (8, 2)), (0, (3, 1, 1, 1, 1, 1)))
 
@@ -98,10 +99,10 @@ def place_of_failure(curve):
     return next((i for i, (x, _) in enumerate(curve.points) if x == curve.starts_to_fail), len(curve.points))
 
 
-def failing(curve, unit):
+def failing(curve, sweep):
     if curve.starts_to_fail is None:
-        return "no more than snapping"
-    return f"from {tidy(curve.starts_to_fail)}{' ' + unit if unit else ''}"
+        return "no more than snapping" if max(sweep.by_snapping) > 0 else "nowhere"
+    return f"from {tidy(curve.starts_to_fail)} {sweep.x['unit']}".rstrip()
 
 
 def draw_curves(axes, groups, kinds, y_scale):
@@ -123,11 +124,11 @@ def draw_curves(axes, groups, kinds, y_scale):
     return looks
 
 
-def label_curves(axes, groups, looks, y_scale, unit):
+def label_curves(axes, groups, looks, y_scale, sweep):
     """Names to the right of where the curves end, each with a sample of its line."""
     low, high = axes.get_ylim()
     height_in = axes.figure.get_figheight() * axes.get_position().height
-    texts = [(*names_of(members), failing(curve, unit)) for members, curve in groups]
+    texts = [(*names_of(members), failing(curve, sweep)) for members, curve in groups]
     heights = [(0.05 + 0.142 * sum(map(line_count, text))) / height_in for text in texts]
     ties = [-place_of_failure(curve) for _, curve in groups]  # who fails first stands at the top
     wanted = [(y_scale.at(curve.points[-1][1]) - low) / (high - low) for _, curve in groups]
@@ -168,11 +169,11 @@ def sweep_chart(sweep, methods, folder, caption):
     figure.subplots_adjust(left=0.08, right=0.66, bottom=0.85 / height, top=1 - 0.85 / height)
     y_scale = set_axis(axes, sweep)
     looks = draw_curves(axes, groups, kinds, y_scale)
-    label_curves(axes, groups, looks, y_scale, sweep.x["unit"])
+    label_curves(axes, groups, looks, y_scale, sweep)
     unit = f", {sweep.x['unit']}" if sweep.x["unit"] else ""
     axes.set_xlabel(f"{sweep.x['name']}{unit}")
     axes.set_ylabel(sweep.y["name"].replace("10^6", "10⁶"))
-    more = ", which is to err more than rounding to 1/256 px does by itself" if sweep.family == "coverage" else ""
+    more = ", which is to err more than rounding to 1/256 px does by itself" if max(sweep.by_snapping) > 0 else ""
     note = f"Bold: ours. Hollow marks: where a method starts to fail{more}.{trials_note(sweep)}"
     save(figure, folder, f"stability-{sweep.name}", f"{note}\n{caption}")
     return f"stability-{sweep.name}"

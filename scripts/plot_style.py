@@ -9,6 +9,8 @@ import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.colors import to_hex, to_rgb  # noqa: E402
 from matplotlib.ticker import FuncFormatter, NullFormatter  # noqa: E402
 
+from tables import short  # noqa: E402
+
 # Okabe and Ito, "Color Universal Design", 2008; given out in the registry's order.
 PALETTE = ["#0072B2", "#E69F00", "#009E73", "#D55E00", "#CC79A7", "#56B4E9", "#000000"]
 MARKERS = ["o", "s", "^", "D", "v", "P", "X"]
@@ -55,14 +57,6 @@ def headline(figure, title, subtitle, y=1.0):
     figure.text(0.012, y - 0.12 / height_in, title, fontsize=14, fontweight="bold", va="top")
     figure.text(0.012, y - 0.43 / height_in, subtitle, fontsize=10, color=FAINT, va="top")
     return y - (0.55 + 0.2 * subtitle.count("\n")) / height_in
-
-
-def short(value, _=None):
-    """1000 → 1k, 1e6 → 1M; small numbers as they are."""
-    for limit, unit in ((1e9, "G"), (1e6, "M"), (1e3, "k")):
-        if abs(value) >= limit * 0.9995:
-            return f"{value / limit:.3g}{unit}"
-    return f"{value:.3g}"
 
 
 def log_axis(axis):

@@ -3,6 +3,18 @@
 THREADS = (1, 2)
 
 
+def short(value, _=None):
+    """1000 → 1k, 1e6 → 1M; small numbers as they are."""
+    for limit, unit in ((1e9, "G"), (1e6, "M"), (1e3, "k")):
+        if abs(value) >= limit * 0.9995:
+            return f"{value / limit:.3g}{unit}"
+    return f"{value:.3g}"
+
+
+def number(value):
+    return f"{float(f'{value:.3g}'):,.10g}"
+
+
 def milliseconds(row):
     if row is None:
         return "–"

@@ -39,15 +39,17 @@ def bench(slow=(10.0, 10.2, 10.1), fast=(2.0, 2.1, 2.2)):
     return {"context": {"backends": "slow fast", "machine": "test"}, "benchmarks": rows}
 
 
-def accuracy():
-    """Two methods a family, the second inexact, on a scene that is timed and on one that is not."""
+def accuracy(spread=0.1):
+    """Two methods a family, the second inexact, on a scene that is timed and on one that is not. `spread`: of 2, what
+    the slowest repetition takes longer than the median."""
     def judged(wrong, crossings):
         score = {"errors_per_million": 1e6 * wrong / crossings}
         return score if wrong else {**score, "bound_per_million": 3e6 / crossings}
 
     def measured(family, method, wrong, cost_ns):
         cost = "ns_per_face" if family == "facing" else "ns_per_covered_pixel"
-        speed = [{"threads": threads, cost: cost_ns / threads} for threads in ((1, 2) if wrong == 0 else (1,))]
+        speed = [{"threads": threads, cost: cost_ns / threads, "ms": {"median": 2.0, "min": 1.9, "max": 2.0 + spread}}
+                 for threads in ((1, 2) if wrong == 0 else (1,))]
         score = judged(wrong, 1000)
         scores = {"float": score, "snapped": score} if family == "coverage" else {"score": score}
         return {"name": method, **scores, **({"speed": speed} if cost_ns else {})}
@@ -57,7 +59,7 @@ def accuracy():
             "methods": [{"family": family, "name": name, "source": source, "promise": "as told", "exact": exact}
                         for family in families
                         for name, source, exact in (("ours", "src/raster", True), ("float_le", "a book", False))],
-            "scenes": [{"name": scene, "family": family, "covered": 1000, "crossings": 1000,
+            "scenes": [{"name": scene, "family": family, "idea": "many faces", "covered": 1000, "crossings": 1000,
                         "methods": [measured(family, "ours", 0, 2.0 * timed), measured(family, "float_le", 5, 1.5 * timed)]}
                        for family in families for scene, timed in (("knot", 1), ("small", 0))],
             "turning_cube": {"frames": 9, "methods": [
@@ -74,7 +76,7 @@ def stability():
               {"method": "float_le", "exact": False, "points": [[1, 0], [0.1, 7]], "trials": [50, 50],
                "starts_to_fail": 0.1}]
     return {"machine": MACHINE, "quick": False, "sweeps": [
-        {"name": "nearer", "family": "visibility", "idea": "ever nearer", "x": {"name": "gap", "unit": "px", "log": True},
+        {"name": "nearer", "family": "visibility", "by_snapping": [[1, 0], [0.1, 0]], "idea": "ever nearer", "x": {"name": "gap", "unit": "px", "log": True},
          "y": {"name": "wrong", "log": True}, "curves": curves}]}
 
 
@@ -158,14 +160,22 @@ class ScriptsTest(unittest.TestCase):
         result = run("readme", "--file", readme)
         self.assertEqual(result.returncode, 0, result.stderr)
         text = readme.read_text()
-        self.assertIn("| **ours** | src/raster | as told | 0 (<3,000) | 0 of 2 |", text)
-        self.assertIn("| float_le | a book | as told | 5,000 | 2 of 2 |", text)
+        self.assertIn("| **ours** | src/raster | as told | 0 (<3,000) | 0 | 0 of 2 |", text)
+        self.assertIn("| float_le | a book | as told | 5,000 | 5,000 | 2 of 2 |", text)
         self.assertIn("`ours` (2 ns per covered pixel, 0 wrong per 10⁶) is our fastest", text)
-        self.assertIn("`float_le` (1.5 ns per covered pixel, 5,000 wrong per 10⁶) the fastest of the others.", text)
-        self.assertIn("`ours` errs in 0, `float_le` errs in 2", text)
-        self.assertIn("| nearer | gap | **0.1 px** float_le | ours |", text)
+        self.assertIn("`float_le` (1.5 ns per covered pixel, 5,000 wrong per 10⁶) the fastest of the others; "
+                      "`float_le` takes 0.75 times as long as `ours`.", text)
+        self.assertIn("2 scenes taken together): `ours` errs least, 0 (in 0); `float_le` errs most, 5,000 (in 2).", text)
+        self.assertIn("| method | nearer, px |\n|---|--:|\n| **ours** | 0 |\n| float_le | **0.1**: 7 |", text)
         self.assertEqual(run("readme", "--check", "--file", readme).returncode, 0)
         self.assertIn("ours draw no wrong pixel in 2 scenes", run("summary", self.results).stdout)
+
+    def test_a_spread_that_overlaps_settles_nothing(self):
+        self.add_laboratory(accuracy(spread=1.0))
+        readme = self.folder / "README.md"
+        readme.write_text("<!-- results: results -->\n<!-- generated:lessons -->\n<!-- /generated -->\n")
+        self.assertEqual(run("readme", "--file", readme).returncode, 0)
+        self.assertIn("the fastest of the others; which of the two is faster is not settled.", readme.read_text())
 
     def test_malformed_laboratory_gets_one_line(self):
         data = accuracy()
@@ -222,6 +232,42 @@ class CrossingsTest(unittest.TestCase):
 
     def test_one_draw_decides_nothing(self):
         self.assertEqual(list(self.crossings(self.curve([9.0], [1.0]), self.curve([3.0], [3.0]))), [])
+
+
+class UnsettledTest(unittest.TestCase):
+    """plot_accuracy.unsettled(): of which points the spread leaves open whether they are on the front."""
+
+    def test_only_who_overlaps_a_rival_that_errs_no_more(self):
+        if importlib.util.find_spec("matplotlib") is None:
+            raise unittest.SkipTest("no matplotlib")
+        sys.path.insert(0, str(SCRIPTS))
+        from accuracy_rows import Cost, Measured, Method
+        from plot_accuracy import unsettled
+
+        def at(name, rate, *cost):
+            return Measured(Method(name, "", "", False), rate, None, None, {1: Cost(*cost)})
+
+        right, level = at("right", 0, 3.0, 2.9, 3.2), at("level", 10, 2.9, 2.8, 3.0)
+        fast, beaten = at("fast", 20, 1.0, 0.9, 1.1), at("beaten", 30, 2.0, 1.9, 2.9)
+        self.assertEqual(unsettled([right, level, fast, beaten]), [level])
+        self.assertEqual(unsettled([fast, beaten]), [])
+
+
+class TenfoldTest(unittest.TestCase):
+    """accuracy_tables.fails_cell(): where a method that always fails becomes ten times worse."""
+
+    def test_cells(self):
+        sys.path.insert(0, str(SCRIPTS))
+        from accuracy_rows import Curve
+        from accuracy_tables import fails_cell
+
+        def cell(start, *ys):
+            return fails_cell(Curve("m", False, tuple((2.0 ** i, y) for i, y in enumerate(ys)), (1,) * len(ys), start))
+
+        self.assertEqual(cell(None, 0, 3), "3")
+        self.assertEqual(cell(2.0, 0, 5000), "**2**: 5k")
+        self.assertEqual(cell(1.0, 3, 29), "**first**: 29")
+        self.assertEqual(cell(1.0, 3, 29, 30), "**first**, ×10 at **4**: 30")
 
 
 class LabelsTest(unittest.TestCase):
