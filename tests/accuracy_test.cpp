@@ -1,15 +1,10 @@
 // `edgewise accuracy` as a user meets it: the schema, the figures that FAILURES.md foretells, clean failures.
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
-#include <thread>
 
 #include "app/accuracy.h"
 #include "app/accuracy_report.h"
@@ -194,25 +189,8 @@ TEST(Accuracy, LeavesNothingAfterCtrlC) {
   const TempDir folder;
   const std::string json_file = (folder.path() / "a.json").string(),
                     pictures = (folder.path() / "pictures").string();
-  const pid_t child = fork();
-  ASSERT_GE(child, 0);
-  if (child == 0) {
-    if (freopen("/dev/null", "w", stdout) != nullptr)
-      execl(EDGEWISE_PROGRAM, "edgewise", "accuracy", "--json", json_file.c_str(), "--pictures",
-            pictures.c_str(), nullptr);
-    _exit(99);
-  }
-  // The temporary file shows that the work has begun.
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-  while (folder.count() == 0 && std::chrono::steady_clock::now() < deadline)
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  ASSERT_EQ(folder.count(), 1u);
-  kill(child, SIGINT);
-  int status = 0;
-  ASSERT_EQ(waitpid(child, &status, 0), child);
-  ASSERT_TRUE(WIFEXITED(status));
-  EXPECT_EQ(WEXITSTATUS(status), 130);
-  EXPECT_EQ(folder.count(), 0u);
+  testing::expect_nothing_after_ctrl_c(EDGEWISE_PROGRAM,
+                                       {"accuracy", "--json", json_file, "--pictures", pictures}, folder);
 }
 
 TEST(Accuracy, TablesFitEightyColumns) {

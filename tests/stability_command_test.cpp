@@ -1,15 +1,10 @@
 // `edgewise stability` as a user meets it.
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <string>
-#include <thread>
 
 #include "app/stability_report.h"
 #include "lab/sweeps.h"
@@ -68,24 +63,7 @@ TEST(StabilityCommand, WritesTheSameAsTableAndAsJson) {
 TEST(StabilityCommand, LeavesNothingAfterCtrlC) {
   const TempDir folder;
   const std::string path = (folder.path() / "stability.json").string();
-  const pid_t child = fork();
-  ASSERT_GE(child, 0);
-  if (child == 0) {
-    if (freopen("/dev/null", "w", stdout) != nullptr)
-      execl(EDGEWISE_PROGRAM, "edgewise", "stability", "--json", path.c_str(), nullptr);
-    _exit(99);
-  }
-  // The temporary file shows that the work has begun.
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-  while (folder.count() == 0 && std::chrono::steady_clock::now() < deadline)
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  EXPECT_EQ(folder.count(), 1u);
-  kill(child, SIGINT);
-  int status = 0;
-  ASSERT_EQ(waitpid(child, &status, 0), child);
-  ASSERT_TRUE(WIFEXITED(status));
-  EXPECT_EQ(WEXITSTATUS(status), 130);
-  EXPECT_EQ(folder.count(), 0u);
+  testing::expect_nothing_after_ctrl_c(EDGEWISE_PROGRAM, {"stability", "--json", path}, folder);
 }
 
 }  // namespace
