@@ -49,7 +49,7 @@ def accuracy():
         cost = "ns_per_face" if family == "facing" else "ns_per_covered_pixel"
         speed = [{"threads": threads, cost: cost_ns / threads} for threads in ((1, 2) if wrong == 0 else (1,))]
         score = judged(wrong, 1000)
-        scores = {"float": score, "snapped": score} if family == "coverage" else {"score": score}
+        scores = {"score": score} if family == "clipping" else {"float": score, "snapped": score}
         return {"name": method, **scores, **({"speed": speed} if cost_ns else {})}
 
     families = ("coverage", "visibility", "facing", "clipping")

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "frontend/fixed.h"
 #include "raster/contract.h"
 
 namespace edgewise::lab {
@@ -28,12 +29,11 @@ class Builder {
     VisibilityTriangle t{};
     const glm::dvec3 corners[3] = {a, b, c};
     for (int i = 0; i < 3; ++i) {
-      const auto snap = [](double px) {
-        return static_cast<std::int32_t>(std::nearbyint(px * contract::kSub));
-      };
       const glm::dvec3 p = corners[i];
-      t.screen.x_sub[i] = snap(scene_.width / 2.0 + scene_.height * p.x / p.z);
-      t.screen.y_sub[i] = snap(scene_.height / 2.0 + scene_.height * p.y / p.z);
+      t.x_px[i] = static_cast<float>(scene_.width / 2.0 + scene_.height * p.x / p.z);
+      t.y_px[i] = static_cast<float>(scene_.height / 2.0 + scene_.height * p.y / p.z);
+      t.screen.x_sub[i] = snap(t.x_px[i]);
+      t.screen.y_sub[i] = snap(t.y_px[i]);
       t.screen.z[i] = contract_depth(p.z, scene_.near_z, scene_.far_z);
       t.view_z[i] = p.z;
     }
@@ -136,9 +136,13 @@ VisibilityScene slivers(double aspect) {
       const double width_sub = std::hypot(dx, dy) * steps * kSub / aspect;
       const std::int32_t x = sample_sub(kSide / 2 + steps * dx), y = sample_sub(kSide / 2 + steps * dy);
       const auto third = x + std::max(1, static_cast<std::int32_t>(std::min(width_sub, kGuardSub / 2.0)));
-      VisibilityTriangle t{{{sample_sub(kSide / 2), x, third}, {sample_sub(kSide / 2), y, y}, {}, 0},
-                           {10, 10, 50}};
-      for (int i = 0; i < 3; ++i) t.screen.z[i] = contract_depth(t.view_z[i], near_z, far_z);
+      VisibilityTriangle t{
+          {{sample_sub(kSide / 2), x, third}, {sample_sub(kSide / 2), y, y}, {}, 0}, {}, {}, {10, 10, 50}};
+      for (int i = 0; i < 3; ++i) {
+        t.screen.z[i] = contract_depth(t.view_z[i], near_z, far_z);
+        t.x_px[i] = static_cast<float>(t.screen.x_sub[i]) / kSub;
+        t.y_px[i] = static_cast<float>(t.screen.y_sub[i]) / kSub;
+      }
       scene.triangles.push_back(t);
     }
   return scene;
@@ -152,8 +156,10 @@ VisibilityScene visibility_scene(std::span<const ScreenTriangle> triangles,
   VisibilityScene scene{size.width, size.height, near_z, far_z, {}};
   scene.triangles.reserve(triangles.size());
   for (std::size_t i = 0; i < triangles.size(); ++i) {
-    VisibilityTriangle t{triangles[i], {}};
+    VisibilityTriangle t{triangles[i], {}, {}, {}};
     for (int k = 0; k < 3; ++k) {
+      t.x_px[k] = unsnapped[i].x_px[k];
+      t.y_px[k] = unsnapped[i].y_px[k];
       const double depth01 = std::clamp(static_cast<double>(unsnapped[i].z01[k]), 0.0, 1.0);
       t.view_z[k] = near_z * far_z / (far_z - depth01 * (far_z - near_z));
       // Anew, since the distance that depth01 gives back is rounded.
