@@ -128,7 +128,7 @@ void judge(const lab::FacingScene& scene, const Bench& bench, SceneResult& resul
 
 void judge(const lab::ClippingScene& scene, const Bench& bench, SceneResult& result) {
   const auto& methods = bench.methods.clipping;
-  const auto truth = lab::clipping_truth(scene);
+  const auto truth = lab::clipping_truth(scene, bench.plan.threads);
   result.width = scene.size.width;
   result.height = scene.size.height;
   result.triangles = scene.mesh().triangles.size();

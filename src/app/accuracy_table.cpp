@@ -178,7 +178,7 @@ std::string facing_table(const FamilyTable& t) {
 std::string clipping_table(const FamilyTable& t) {
   using S = lab::ClippingScore;
   std::string text = t.title("wrong per 10^6 pixels", "pixels");
-  constexpr const char* kLine = "{:<15}{:>10}{:>8}{:>6}{:>6}{:>6}{:>6}{:>5}{:>{}}\n";
+  constexpr const char* kLine = "{:<15}{:>9}{:>8}{:>7}{:>7}{:>7}{:>5}{:>4}{:>{}}\n";
   text += fmt::format(kLine, "method", "per 10^6", "missing", "extra", "owner", "depth", "hair", "NaN",
                       t.last_title("ns/px"), last_width(t));
   for (std::size_t i = 0; i < t.methods(); ++i) {
