@@ -106,6 +106,15 @@ TEST(Visibility, DepthFormatsSeparateWhatTheFormulaSays) {
   }
 }
 
+// So that no method is flattered: half of the picture is submitted the wrong way round.
+TEST(Visibility, TwoPlanesFavourNoOrderOfSubmission) {
+  for (const double separation : {1.0, 1e-5}) {
+    const VisibilityScene scene = two_planes(100, separation, 0.1, 1000);
+    const auto s = judge("submission_order", scene);
+    EXPECT_EQ(2 * s.wrong_owner, s.covered) << separation;
+  }
+}
+
 TEST(Visibility, FloatPlanesLeaveASliversDepthAndOursDoesNot) {
   const VisibilityScene scene = make_case("slivers");
   EXPECT_EQ(judge("contract31", scene).out_of_range, 0u);

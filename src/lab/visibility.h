@@ -90,7 +90,8 @@ struct VisibilityCase {
 };
 std::span<const VisibilityCase> visibility_cases();
 
-// Sweeps. Two quads, the farther submitted first, `separation` apart, tilted about `distance`.
+// Sweeps. Two planes `separation` apart, tilted about `distance`: in the upper half of the view the farther
+// one is submitted first, in the lower half the nearer one, so that no order of submission is favoured.
 VisibilityScene two_planes(double distance, double separation, double near_z, double far_z);
 // Thin triangles in many directions, from distance 10 to 50 across their width; aspect is length over
 // (horizontal) width, at most 2^17: thinner ones have no area.

@@ -115,11 +115,13 @@ std::span<const VisibilityCase> visibility_cases() {
 
 VisibilityScene two_planes(double distance, double separation, double near_z, double far_z) {
   Builder builder(kSize, near_z, far_z);
-  for (const double nearer : {0.0, separation}) {
+  const auto quad = [&](double nearer, double top, double bottom) {
     const double left = 0.9 * distance - nearer, right = 1.1 * distance - nearer;
     const auto at = [](double x, double y, double z) { return glm::dvec3(x * z, y * z, z); };
-    builder.quad(at(-0.6, -0.45, left), at(0.6, -0.45, right), at(0.6, 0.45, right), at(-0.6, 0.45, left));
-  }
+    builder.quad(at(-0.6, top, left), at(0.6, top, right), at(0.6, bottom, right), at(-0.6, bottom, left));
+  };
+  for (const double nearer : {0.0, separation}) quad(nearer, -0.45, 0);
+  for (const double nearer : {separation, 0.0}) quad(nearer, 0, 0.45);
   return builder.take();
 }
 
