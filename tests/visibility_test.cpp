@@ -89,6 +89,30 @@ TEST(Visibility, MeanDepthPutsTheFloorOverTheBox) {
   EXPECT_EQ(judge("contract31", scene).wrong_owner, 0u);
 }
 
+// FAILURES.md, 8, as it is meant: painters sort polygons, by all their corners, and paint them whole.
+TEST(Visibility, PaintersSortPolygonsByAllTheirCorners) {
+  const auto wrong_pixels = [](std::string_view name, const VisibilityScene& scene) {
+    return judge(name, scene).wrong_owner;
+  };
+  const VisibilityScene pentagon = make_case("pentagon_under_wall");
+  ASSERT_EQ(pentagon.faces.size(), 2u);
+  EXPECT_EQ(pentagon.faces[0].count, 3u);
+  // 46 is nearer than 50, so the pentagon is painted last: over all of the wall that stands before it.
+  EXPECT_GT(wrong_pixels("painter_mean", pentagon), 100u);
+  EXPECT_EQ(wrong_pixels("painter_farthest", pentagon), 0u);
+  VisibilityScene pieces = pentagon;
+  pieces.faces = {{0, 1}, {1, 1}, {2, 1}, {3, 1}, {4, 1}};
+  EXPECT_LT(wrong_pixels("painter_mean", pieces), wrong_pixels("painter_mean", pentagon) / 2);
+
+  const VisibilityScene bent = make_case("bent_quad");
+  for (const auto name : {"painter_mean", "painter_farthest"})
+    EXPECT_GT(wrong_pixels(name, bent), 500u) << name << ": one key for two planes";
+  for (const auto name : {"contract31", "unorm24"}) {
+    EXPECT_EQ(wrong_pixels(name, bent), 0u) << name;
+    EXPECT_EQ(wrong_pixels(name, pentagon), 0u) << name;
+  }
+}
+
 // FAILURES.md, 11: near 0.1 at z = 100 separates z^2 / (near 2^bits), .006 with 24 bits and 1.5 with 16. The
 // planes reach from z = 90 to 110.
 TEST(Visibility, DepthFormatsSeparateWhatTheFormulaSays) {

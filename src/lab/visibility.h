@@ -26,10 +26,16 @@ struct VisibilityTriangle {
   double view_z[3];        // distance along the view direction, near … far
 };
 
+// A polygon, as a fan of triangles that share their first vertex; of the next one on, only the third is new.
+struct VisibilityFace {
+  std::uint32_t first, count;  // into VisibilityScene::triangles; count >= 1
+};
+
 struct VisibilityScene {
   int width, height;  // px
   double near_z, far_z;
   std::vector<VisibilityTriangle> triangles;
+  std::vector<VisibilityFace> faces;  // all triangles, in order: painters sort these
 };
 
 // What a method draws into; keeps its memory between draws. A method uses the one depth buffer of its format.
@@ -38,7 +44,8 @@ struct VisibilityFrame {
   std::vector<std::uint16_t> depth16;
   std::vector<std::uint32_t> depth32;
   std::vector<float> depth_float;
-  std::vector<std::uint32_t> order;  // the painter's
+  std::vector<double> key;           // the painter's, a face's
+  std::vector<std::uint32_t> order;  // the painter's, of faces
 };
 
 // Depths are compared in "depth01": 0 at the near plane, 1 at the far plane, linear on the screen.
