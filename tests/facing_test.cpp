@@ -117,6 +117,60 @@ TEST(Facing, TheProjectedAreaHasTheSignOfTheSideTheEyeIsOn) {
   }
 }
 
+// An object that spreads over the view has no one direction.
+TEST(Facing, OneRayForTheWholeObjectIsWrongUnderEitherCamera) {
+  for (const bool perspective : {true, false}) {
+    const auto s = judge("normal_dot_object", tilted_faces(0.5, perspective, 2000, 7));
+    EXPECT_GT(20 * s.misclassified, s.faces) << (perspective ? "perspective" : "orthographic");
+  }
+  EXPECT_EQ(judge("normal_dot_object", tilted_faces(0, true, 2000, 7)).misclassified, 0u) << "all on one ray";
+}
+
+// Quads, pentagons and more: convex and planar ones are judged by any three vertices; of the others, all that
+// methods get wrong beyond what they get wrong of triangles are those whose first three lie.
+TEST(Facing, PolygonsAreJudgedByTheirFirstThreeVertices) {
+  for (const auto shape : {Shape::regular, Shape::irregular, Shape::bent}) {
+    const FacingScene scene = polygons(shape, 2000, 8);
+    const auto facts = facing_facts(scene);
+    std::uint64_t lying = 0, quads_lying = 0;
+    for (std::size_t i = 0; i < facts.size(); ++i)
+      if (facts[i].floats.owns_pixel && facts[i].floats.first_three_lie) {
+        ++lying;
+        quads_lying += scene.faces[i].count == 4;
+        EXPECT_GT(scene.faces[i].count, 3u);
+      }
+    if (shape == Shape::regular) {
+      EXPECT_EQ(lying, 0u);
+    } else {
+      EXPECT_GT(lying, 30u);
+      EXPECT_GT(quads_lying, 0u);
+    }
+    for (const auto& m : facing_methods()) {
+      const auto s = score(m, scene, facts);
+      EXPECT_EQ(s.broken, 0u) << m.info.name;
+      if (m.info.name == "normal_z" || m.info.name == "normal_dot_object") continue;  // err by the tilt
+      EXPECT_NEAR(static_cast<double>(s.floats.misclassified), static_cast<double>(lying), 2) << m.info.name;
+      EXPECT_LE(s.floats.by_first_three, lying) << m.info.name;
+    }
+  }
+}
+
+// Its first three vertices are one of its two triangles; the other one, larger on the screen, looks the other
+// way.
+TEST(Facing, AQuadThatIsNotPlanarMayTurnTheOtherWay) {
+  FacingScene scene;
+  scene.positions = {{-1, 0, 4}, {0, 0.5f, 4}, {1, 0, 4}, {0, 1, 6}};
+  scene.faces = {{0, 4}};
+  const auto facts = facing_facts(scene);
+  EXPECT_TRUE(facts[0].floats.first_three_lie);
+  EXPECT_TRUE(facts[0].snapped.first_three_lie);
+  for (const auto& m : facing_methods()) {
+    const auto s = score(m, scene, facts);
+    EXPECT_EQ(s.floats.by_first_three, 1u) << m.info.name;
+    EXPECT_EQ(s.snapped.by_first_three, 1u) << m.info.name;
+  }
+}
+
 TEST(Facing, NoMethodSurvivesAPolygonWhoseSecondVertexIsItsNotch) {
   const FacingScene scene = make_case("notch_second");
   for (const auto& m : facing_methods())

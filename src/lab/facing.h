@@ -24,8 +24,8 @@ struct FacingView {
   Size size{256, 256};
 };
 
-// A planar polygon; front is clockwise on the y-down screen. Methods look at its first three vertices, as the
-// trainer does.
+// A polygon, planar or not; front is the sign of its whole projected area, clockwise on the y-down screen.
+// Methods look at its first three vertices, as the trainer does.
 struct Face {
   std::uint32_t first, count;  // into FacingScene::positions; count >= 3
 };
@@ -102,8 +102,14 @@ struct FacingCase {
 };
 std::span<const FacingCase> facing_cases();
 
-// Small faces of random directions around the ray that is tilted by `tilt` radians against forward.
+// Small faces of random directions, spread over an arc of half a turn about the axis: the ray to each is
+// tilted by `tilt` radians, below 90 degrees, while the ray to the mean of all is one that hardly any of them
+// has.
 FacingScene tilted_faces(double tilt, bool perspective, std::size_t count, std::uint64_t seed);
+// Polygons of three to seven vertices all over the view, in random directions. Regular ones are convex; of
+// the others corners may be reflex, and the bent ones are not planar.
+enum class Shape { regular, irregular, bent };
+FacingScene polygons(Shape shape, std::size_t count, std::uint64_t seed);
 // Triangles that are almost edge-on, along lines through pixel centres.
 FacingScene edge_on_faces(bool perspective, std::size_t count, std::uint64_t seed);
 
