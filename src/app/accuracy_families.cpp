@@ -140,7 +140,10 @@ void judge(const lab::ClippingScene& scene, const Bench& bench, SceneResult& res
   time_all(methods, bench, result, [&](const lab::ClippingMethod& method) { method.draw(scene, frame); });
   picture_all(
       methods, bench, result,
-      [](const Score& score) { return std::get<lab::ClippingScore>(score).wrong() != 0; },
+      [](const Score& score) {  // of depths alone there is nothing to see
+        const auto& s = std::get<lab::ClippingScore>(score);
+        return s.missing + s.extra + s.wrong_owner != 0;
+      },
       [&](const lab::ClippingMethod& method) {
         method.draw(scene, frame);
         std::vector<std::uint32_t> said;
