@@ -13,6 +13,7 @@ class Family:
     errors: str  # what is counted, and in 10⁶ of what
     trials: str  # the key of a scene's number of these
     cost: str
+    truths: tuple = ("score",)  # what errors are counted against; where there are two, then the other
     kinds: dict = field(default_factory=dict)  # kind of method: how its methods' names begin
     beyond: str = ""  # why there can be more than 10⁶ errors in 10⁶
 
@@ -27,12 +28,15 @@ class Family:
 
 FAMILIES = {family.name: family for family in (
     Family("coverage", "wrong pixels per 10⁶ edge crossings", "crossings", "ns per covered pixel",
+           ("float", "snapped"),
            {"floating point": ("float", "double"), "fixed point": ("fixed", "whole"), "scanline DDA": ("dda",)},
            "More than 10⁶: one crossing can cost many pixels, most where a triangle fills its bounding box"),
     Family("visibility", "pixels with the wrong owner, per 10⁶ covered", "covered", "ns per covered pixel",
+           ("snapped",),  # the other adds to each method what snapping costs: all draw the same snapped triangles
            {"drawing in order": ("painter", "submission"),
             "depth buffer": ("float", "reversed", "unorm")}),
     Family("facing", "misjudged faces per 10⁶ that own a pixel", "covered", "ns per face",
+           ("float", "snapped"),
            {"signed area": ("float_area",), "normal": ("normal",)}),
     Family("clipping", "wrong pixels per 10⁶ covered", "covered", "ns per covered pixel",
            beyond="More than 10⁶: what is drawn where nothing is to be drawn counts as well"),
@@ -68,7 +72,7 @@ class Measured:
     method: Method
     rate: float  # errors per 10⁶
     bound: float | None  # where none was seen: below this, per 10⁶, with 95 % confidence
-    snapped_rate: float | None  # the same against the snapped truth; coverage only
+    snapped_rate: float | None  # the same against the snapped truth; coverage and facing only
     costs: dict  # by threads; empty where the scene is not timed
 
 
@@ -139,7 +143,7 @@ def parse_cost(speed, key):
 
 
 def parse_measured(entry, family, method):
-    scores = [entry["float"], entry["snapped"]] if family == "coverage" else [entry["score"]]
+    scores = [entry[truth] for truth in FAMILIES[family].truths]
     cost = "ns_per_face" if family == "facing" else "ns_per_covered_pixel"
     costs = {int(speed["threads"]): parse_cost(speed, cost) for speed in entry.get("speed") or () if cost in speed}
     bound = scores[0].get("bound_per_million")

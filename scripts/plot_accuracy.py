@@ -102,10 +102,10 @@ SUBTITLES = {
     "coverage": "Further left: fewer errors; further down: faster. Judged by exact arithmetic on the positions before "
                 "any snapping, which costs those who\nsnap something wherever vertices lie off their grid. Filled: no "
                 "pixel is wrong given the snapped positions. Ours use the widest SIMD.",
-    "visibility": "Further left: fewer errors; further down: faster. Who owns a pixel, judged by exact planes; all draw "
-                  "with the same exact coverage.",
+    "visibility": "Further left: fewer errors; further down: faster. Who owns a pixel, judged by exact planes on the "
+                  "snapped positions; all draw\nwith the same exact coverage of these.",
     "facing": "Further left: fewer errors; further down: faster. Which faces look at the eye, judged by the exact sign of "
-              "the projected area.",
+              "the projected area\nbefore any snapping. Filled: no face is misjudged given the snapped positions.",
     "clipping": "Further left: fewer errors; further down: faster. Judged by rays that need no clipping; differences "
                 "within 1/64 px of an edge do not count.",
 }

@@ -51,7 +51,7 @@ def accuracy(spread=0.1):
         speed = [{"threads": threads, cost: cost_ns / threads, "ms": {"median": 2.0, "min": 1.9, "max": 2.0 + spread}}
                  for threads in ((1, 2) if wrong == 0 else (1,))]
         score = judged(wrong, 1000)
-        scores = {"float": score, "snapped": score} if family == "coverage" else {"score": score}
+        scores = {"score": score} if family == "clipping" else {"float": score, "snapped": score}
         return {"name": method, **scores, **({"speed": speed} if cost_ns else {})}
 
     families = ("coverage", "visibility", "facing", "clipping")

@@ -220,6 +220,7 @@ TEST(VisibilitySweeps, FewerBitsFailAtLargerSeparations) {
     EXPECT_GT(start("unorm16"), 50 * start("unorm24")) << name;
     EXPECT_GT(start("unorm24"), 10 * start("reversed_z")) << name;
     EXPECT_GT(start("unorm24"), 10 * start("contract31")) << name;
+    EXPECT_EQ(start("submission_order"), separation.sweep->places.front()) << name;
   }
   // z^2 / (near 2^bits) lies between two planes that can be told apart: 1.5 and 0.006.
   const SweepResult separation = swept("separation_at_100");

@@ -37,8 +37,8 @@ bool broken(const MethodResult& method) {
     bool operator()(const CoverageScores& s) const {
       return exact && (s.snapped.errors() != 0 || s.snapped.out_of_bounds != 0);
     }
-    bool operator()(const lab::VisibilityScore& s) const { return s.broken != 0; }
-    bool operator()(const lab::FacingScore& s) const { return s.broken != 0; }
+    bool operator()(const lab::VisibilityScores& s) const { return s.broken != 0; }
+    bool operator()(const lab::FacingScores& s) const { return s.broken != 0; }
     bool operator()(const lab::ClippingScore& s) const { return s.broken != 0; }
   };
   return std::visit(Visit{method.exact}, method.score);

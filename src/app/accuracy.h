@@ -35,7 +35,7 @@ struct AccuracyPlan {
 struct CoverageScores {
   lab::CoverageScore snapped, floats;  // against each truth
 };
-using Score = std::variant<CoverageScores, lab::VisibilityScore, lab::FacingScore, lab::ClippingScore>;
+using Score = std::variant<CoverageScores, lab::VisibilityScores, lab::FacingScores, lab::ClippingScore>;
 
 struct Speed {
   int threads;
@@ -57,7 +57,7 @@ struct SceneResult {
   int width, height;
   std::uint64_t triangles = 0;  // facing: polygons
   // Coverage: pairs of triangle and pixel; visibility and clipping: pixels; facing: faces that own a pixel.
-  // All in truth.
+  // All in truth; in that of the snapped positions where there are two, but facing's before snapping.
   std::uint64_t covered = 0;
   std::uint64_t crossings = 0;  // coverage only: edges with rows or columns of samples
   std::vector<MethodResult> methods;

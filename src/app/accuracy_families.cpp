@@ -1,4 +1,4 @@
-// Visibility, facing and clipping: what draws a picture or sorts faces, against the one truth of its family.
+// Visibility, facing and clipping: what draws a picture or sorts faces, against the truths of its family.
 #include <algorithm>
 
 #include "app/accuracy_score.h"
@@ -56,24 +56,21 @@ std::uint64_t owned(const std::vector<std::uint32_t>& owners) {
       std::count_if(owners.begin(), owners.end(), [](std::uint32_t id) { return id != lab::kNobody; }));
 }
 
-// The faces' exact facts, on several threads: each takes a share of the faces of the same positions.
+// The faces' exact facts, on several threads.
 std::vector<lab::FaceFacts> facts_of(const lab::FacingScene& scene, const Bench& bench) {
   constexpr std::size_t kShare = 2000;
   const std::size_t shares = (scene.faces.size() + kShare - 1) / kShare;
-  std::vector<std::vector<lab::FaceFacts>> parts(shares);
+  const lab::FacingTruth truth(scene);
+  std::vector<lab::FaceFacts> all(scene.faces.size());
   std::mutex mutex;
   std::size_t done = 0;
   parallel_for(bench.plan.threads, static_cast<int>(shares), [&](int n) {
-    const auto i = static_cast<std::size_t>(n);
-    lab::FacingScene part{scene.view, scene.positions, {}};
-    const auto first = scene.faces.begin() + static_cast<std::ptrdiff_t>(i * kShare);
-    part.faces.assign(first, i + 1 == shares ? scene.faces.end() : first + kShare);
-    parts[i] = lab::facing_facts(part);
+    const auto first = static_cast<std::size_t>(n) * kShare;
+    for (std::size_t i = first; i < std::min(first + kShare, all.size()); ++i)
+      all[i] = truth.facts(scene.faces[i]);
     const std::lock_guard lock(mutex);
     bench.progress(0.9 * static_cast<double>(++done) / static_cast<double>(shares));
   });
-  std::vector<lab::FaceFacts> all;
-  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
   return all;
 }
 
@@ -85,17 +82,17 @@ void judge(const lab::VisibilityScene& scene, const Bench& bench, SceneResult& r
   result.width = scene.width;
   result.height = scene.height;
   result.triangles = scene.triangles.size();
-  result.covered = owned(owners);
+  result.covered = owned(owners.snapped);
   score_all(methods, bench, result,
             [&](const lab::VisibilityMethod& method) { return lab::score(method, scene, owners); });
   lab::VisibilityFrame frame;
   time_all(methods, bench, result, [&](const lab::VisibilityMethod& method) { method.draw(scene, frame); });
   picture_all(
       methods, bench, result,
-      [](const Score& score) { return std::get<lab::VisibilityScore>(score).wrong_owner != 0; },
+      [](const Score& score) { return std::get<lab::VisibilityScores>(score).snapped.wrong_owner != 0; },
       [&](const lab::VisibilityMethod& method) {
         method.draw(scene, frame);
-        MarkedPicture picture = mark_owners(owners, frame.owner, {scene.width, scene.height});
+        MarkedPicture picture = mark_owners(owners.snapped, frame.owner, {scene.width, scene.height});
         for (const lab::VisibilityTriangle& t : scene.triangles)
           for (int i = 0; i < 3; ++i) {
             const int j = (i + 1) % 3;
@@ -113,7 +110,7 @@ void judge(const lab::FacingScene& scene, const Bench& bench, SceneResult& resul
   result.height = scene.view.size.height;
   result.triangles = scene.faces.size();
   result.covered = static_cast<std::uint64_t>(
-      std::count_if(facts.begin(), facts.end(), [](const lab::FaceFacts& f) { return f.owns_pixel; }));
+      std::count_if(facts.begin(), facts.end(), [](const lab::FaceFacts& f) { return f.floats.owns_pixel; }));
   score_all(methods, bench, result,
             [&](const lab::FacingMethod& method) { return lab::score(method, scene, facts); });
   std::vector<std::uint8_t> front(scene.faces.size());
@@ -122,7 +119,7 @@ void judge(const lab::FacingScene& scene, const Bench& bench, SceneResult& resul
   if (scene.faces.size() > kFew) return;
   picture_all(
       methods, bench, result,
-      [](const Score& score) { return std::get<lab::FacingScore>(score).misclassified != 0; },
+      [](const Score& score) { return std::get<lab::FacingScores>(score).floats.misclassified != 0; },
       [&](const lab::FacingMethod& method) {
         method.classify(scene, front);
         return mark_faces(scene, facts, front);
@@ -131,7 +128,7 @@ void judge(const lab::FacingScene& scene, const Bench& bench, SceneResult& resul
 
 void judge(const lab::ClippingScene& scene, const Bench& bench, SceneResult& result) {
   const auto& methods = bench.methods.clipping;
-  const auto truth = lab::clipping_truth(scene);
+  const auto truth = lab::clipping_truth(scene, bench.plan.threads);
   result.width = scene.size.width;
   result.height = scene.size.height;
   result.triangles = scene.mesh().triangles.size();
@@ -143,7 +140,10 @@ void judge(const lab::ClippingScene& scene, const Bench& bench, SceneResult& res
   time_all(methods, bench, result, [&](const lab::ClippingMethod& method) { method.draw(scene, frame); });
   picture_all(
       methods, bench, result,
-      [](const Score& score) { return std::get<lab::ClippingScore>(score).wrong() != 0; },
+      [](const Score& score) {  // of depths alone there is nothing to see
+        const auto& s = std::get<lab::ClippingScore>(score);
+        return s.missing + s.extra + s.wrong_owner != 0;
+      },
       [&](const lab::ClippingMethod& method) {
         method.draw(scene, frame);
         std::vector<std::uint32_t> said;

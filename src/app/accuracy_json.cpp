@@ -29,6 +29,22 @@ json score_json(const lab::CoverageScore& s, std::uint64_t crossings) {
   return score;
 }
 
+json score_json(const lab::VisibilityScore& s) {
+  json score{{"covered", s.covered},
+             {"wrong_owner", s.wrong_owner},
+             {"out_of_range", s.out_of_range},
+             {"max_ulp", s.max_ulp},
+             {"rms_ulp", s.rms_ulp}};
+  add_rate(score, s.wrong_owner, s.covered);
+  return score;
+}
+
+json score_json(const lab::FacingScore& s) {
+  json score{{"faces", s.faces}, {"misclassified", s.misclassified}, {"by_first_three", s.by_first_three}};
+  add_rate(score, s.misclassified, s.faces);
+  return score;
+}
+
 struct AddScore {
   json& method;
   const SceneResult& scene;
@@ -37,24 +53,25 @@ struct AddScore {
     method["snapped"] = score_json(s.snapped, scene.crossings);
     method["float"] = score_json(s.floats, scene.crossings);
   }
-  void operator()(const lab::VisibilityScore& s) const {
-    json& score = method["score"] = {{"wrong_owner", s.wrong_owner},
-                                     {"out_of_range", s.out_of_range},
-                                     {"max_ulp", s.max_ulp},
-                                     {"rms_ulp", s.rms_ulp},
-                                     {"broken", s.broken}};
-    add_rate(score, s.wrong_owner, scene.covered);
+  void operator()(const lab::VisibilityScores& s) const {
+    method["snapped"] = score_json(s.snapped);
+    method["snapped"]["near_ties"] = s.near_ties;
+    method["float"] = score_json(s.floats);
+    method["broken"] = s.broken;
   }
-  void operator()(const lab::FacingScore& s) const {
-    json& score = method["score"] = {
-        {"misclassified", s.misclassified}, {"disagreements", s.disagreements}, {"broken", s.broken}};
-    add_rate(score, s.misclassified, scene.covered);
+  void operator()(const lab::FacingScores& s) const {
+    method["snapped"] = score_json(s.snapped);
+    method["float"] = score_json(s.floats);
+    method["disagreements"] = s.disagreements;
+    method["broken"] = s.broken;
   }
   void operator()(const lab::ClippingScore& s) const {
     json& score = method["score"] = {{"missing", s.missing},
                                      {"extra", s.extra},
                                      {"wrong_owner", s.wrong_owner},
+                                     {"near_ties", s.near_ties},
                                      {"wrong_depth", s.wrong_depth},
+                                     {"worst_distance", s.worst_distance},
                                      {"hairline", s.hairline},
                                      {"differs_from_ours", s.differs_from_ours},
                                      {"not_a_number", s.not_a_number},

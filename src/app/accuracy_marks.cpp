@@ -105,15 +105,15 @@ MarkedPicture mark_faces(const lab::FacingScene& scene, std::span<const lab::Fac
       const glm::dvec2 a = polygon[k], b = polygon[(k + 1) % polygon.size()];
       picture.lines.push_back({a.x, a.y, b.x, b.y});
     }
-    const bool keep = kept[i] != 0;
-    if (!facts[i].owns_pixel || (!facts[i].front && !keep)) continue;
+    const bool keep = kept[i] != 0, front = facts[i].floats.front;
+    if (!facts[i].floats.owns_pixel || (!front && !keep)) continue;
     for (int y = 0; y < window.height; ++y)
       for (int x = 0; x < window.width; ++x) {
         if (!contains(polygon, x + 0.5, y + 0.5)) continue;
         const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(window.width) +
                                   static_cast<std::size_t>(x);
-        if (facts[i].front) picture.owner[pixel] = i;
-        if (facts[i].front != keep) picture.marks[pixel] = keep ? Mark::extra : Mark::gap;
+        if (front) picture.owner[pixel] = i;
+        if (front != keep) picture.marks[pixel] = keep ? Mark::extra : Mark::gap;
       }
   }
   return picture;

@@ -47,14 +47,25 @@ class FamilyTable {
     for (const SceneResult* scene : scenes_) total += std::get<S>(scene->methods[method].score).*count;
     return total;
   }
-  template <typename S>
-  double largest(std::size_t method, double S::*value) const {
-    double found = 0.0;
-    for (const SceneResult* scene : scenes_)
-      found = std::max(found, std::get<S>(scene->methods[method].score).*value);
-    return found;
-  }
   // Against one truth, over all scenes.
+  lab::VisibilityScore visibility(std::size_t method,
+                                  lab::VisibilityScore lab::VisibilityScores::*truth) const {
+    lab::VisibilityScore total;
+    for (const SceneResult* scene : scenes_) {
+      const lab::VisibilityScore& s = std::get<lab::VisibilityScores>(scene->methods[method].score).*truth;
+      total.covered += s.covered, total.wrong_owner += s.wrong_owner, total.out_of_range += s.out_of_range;
+      total.max_ulp = std::max(total.max_ulp, s.max_ulp);
+    }
+    return total;
+  }
+  lab::FacingScore facing(std::size_t method, lab::FacingScore lab::FacingScores::*truth) const {
+    lab::FacingScore total;
+    for (const SceneResult* scene : scenes_) {
+      const lab::FacingScore& s = std::get<lab::FacingScores>(scene->methods[method].score).*truth;
+      total.faces += s.faces, total.misclassified += s.misclassified;
+    }
+    return total;
+  }
   lab::CoverageScore coverage(std::size_t method, lab::CoverageScore CoverageScores::*truth) const {
     lab::CoverageScore total;
     for (const SceneResult* scene : scenes_) {
@@ -89,8 +100,8 @@ class FamilyTable {
   static std::uint64_t errors(const Score& score) {
     struct Visit {
       std::uint64_t operator()(const CoverageScores& s) const { return s.floats.errors(); }
-      std::uint64_t operator()(const lab::VisibilityScore& s) const { return s.wrong_owner; }
-      std::uint64_t operator()(const lab::FacingScore& s) const { return s.misclassified; }
+      std::uint64_t operator()(const lab::VisibilityScores& s) const { return s.snapped.wrong_owner; }
+      std::uint64_t operator()(const lab::FacingScores& s) const { return s.floats.misclassified; }
       std::uint64_t operator()(const lab::ClippingScore& s) const { return s.wrong(); }
     };
     return std::visit(Visit{}, score);
@@ -133,29 +144,33 @@ std::string coverage_table(const FamilyTable& t) {
 }
 
 std::string visibility_table(const FamilyTable& t) {
-  using S = lab::VisibilityScore;
+  using S = lab::VisibilityScores;
   std::string text = t.title("wrong owners per 10^6 pixels", "pixels");
-  constexpr const char* kLine = "{:<17}{:>12}{:>9}{:>13}{:>10}{:>{}}\n";
-  text += fmt::format(kLine, "method", "per 10^6", "wrong", "out of range", "max ulp", t.last_title("ns/px"),
+  text += fmt::format("{:<17}{:>25}{:>19}\n", "", "against snapped positions", "those before");
+  constexpr const char* kLine = "{:<17}{:>10}{:>7}{:>8}{:>11}{:>8}{:>{}}\n";
+  text += fmt::format(kLine, "method", "per 10^6", "beyond", "ulp", "per 10^6", "ulp", t.last_title("ns/px"),
                       last_width(t));
   for (std::size_t i = 0; i < t.methods(); ++i) {
-    const std::uint64_t wrong = t.sum(i, &S::wrong_owner);
-    text += fmt::format(kLine, t.name(i), rate(wrong, t.trials()), wrong, t.sum(i, &S::out_of_range),
-                        digits(t.largest(i, &S::max_ulp)), t.last(i), last_width(t));
+    const auto snapped = t.visibility(i, &S::snapped), floats = t.visibility(i, &S::floats);
+    text += fmt::format(kLine, t.name(i), rate(snapped.wrong_owner, snapped.covered), snapped.out_of_range,
+                        digits(snapped.max_ulp), rate(floats.wrong_owner, floats.covered),
+                        digits(floats.max_ulp), t.last(i), last_width(t));
   }
-  return text;
+  return text + "beyond: pixels outside the depths of their own triangle\n";
 }
 
 std::string facing_table(const FamilyTable& t) {
-  using S = lab::FacingScore;
+  using S = lab::FacingScores;
   std::string text = t.title("misjudged per 10^6 faces that own a pixel", "faces");
-  constexpr const char* kLine = "{:<20}{:>12}{:>11}{:>14}{:>{}}\n";
-  text += fmt::format(kLine, "method", "per 10^6", "misjudged", "unlike first", t.last_title("ns/face"),
-                      last_width(t));
+  text += fmt::format("{:<20}{:>19}{:>19}\n", "", "against snapped", "those before");
+  constexpr const char* kLine = "{:<20}{:>11}{:>8}{:>11}{:>8}{:>{}}\n";
+  text += fmt::format(kLine, "method", "per 10^6", "faces", "per 10^6", "faces", t.last_title("ns/face"),
+                      last_width(t) + 2);
   for (std::size_t i = 0; i < t.methods(); ++i) {
-    const std::uint64_t wrong = t.sum(i, &S::misclassified);
-    text += fmt::format(kLine, t.name(i), rate(wrong, t.trials()), wrong, t.sum(i, &S::disagreements),
-                        t.last(i), last_width(t));
+    const auto snapped = t.facing(i, &S::snapped), floats = t.facing(i, &S::floats);
+    text += fmt::format(kLine, t.name(i), rate(snapped.misclassified, snapped.faces), snapped.misclassified,
+                        rate(floats.misclassified, floats.faces), floats.misclassified, t.last(i),
+                        last_width(t) + 2);
   }
   return text;
 }
@@ -163,7 +178,7 @@ std::string facing_table(const FamilyTable& t) {
 std::string clipping_table(const FamilyTable& t) {
   using S = lab::ClippingScore;
   std::string text = t.title("wrong per 10^6 pixels", "pixels");
-  constexpr const char* kLine = "{:<15}{:>10}{:>8}{:>6}{:>6}{:>6}{:>6}{:>5}{:>{}}\n";
+  constexpr const char* kLine = "{:<15}{:>9}{:>8}{:>7}{:>7}{:>7}{:>5}{:>4}{:>{}}\n";
   text += fmt::format(kLine, "method", "per 10^6", "missing", "extra", "owner", "depth", "hair", "NaN",
                       t.last_title("ns/px"), last_width(t));
   for (std::size_t i = 0; i < t.methods(); ++i) {

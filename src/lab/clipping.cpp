@@ -1,20 +1,20 @@
-// The registry of clipping methods, the truth without clipping, and the score. A method is a file in
+// The registry of clipping methods, and the score. A method is a file in
 // clipping_methods/ that defines clipping_NAME, and a line here.
 #include "lab/clipping.h"
-
-#include <gmpxx.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "lab/clipping_methods/pipeline.h"
+#include "lab/clipping_truth.h"
 #include "lab/truth.h"
 
 #define EDGEWISE_CLIPPING_METHODS(X) \
   X(near_guard)                      \
   X(near_too_near)                   \
   X(screen_edges)                    \
+  X(screen_linear)                   \
   X(discard_behind)                  \
   X(none)
 
@@ -34,108 +34,6 @@ ClippingFrame::ClippingFrame(Size size)
 
 namespace {
 
-int sign(const Ball& v) {
-  return v.sign();
-}
-int sign(const mpq_class& v) {
-  return sgn(v);
-}
-
-// A triangle's homogeneous edge functions in whatever arithmetic T is: Ball, whose sign 0 means "cannot
-// tell", or rationals.
-template <typename T>
-class Homogeneous {
- public:
-  Homogeneous(const ClippingScene& scene, glm::uvec3 t)
-      : Homogeneous(scene, vertex(scene, t.x), vertex(scene, t.y), vertex(scene, t.z)) {}
-  int facing() const { return sign(det_); }
-
-  // 1 if the ray through a point of the screen hits the triangle between near and far, -1 if not. The edge
-  // functions are det times barycentric coordinates over w, so their sum is det / w, and w > 0 comes for
-  // free.
-  int hit(double x_px, double y_px) const {
-    const int front = facing();
-    if (front == 0) return 0;
-    int all = 1;
-    T sum(0.0);
-    const auto require = [&](const T& v) { all = std::min(all, sign(v) * front); };
-    for (const auto& e : edge_) {
-      const T value = T(e[0] * T(x_px)) + T(e[1] * T(y_px)) + e[2];
-      require(value);
-      sum = sum + value;
-    }
-    require(det_ - near_ * sum);
-    require(far_ * sum - det_);
-    return all;
-  }
-  // 1 / w of the triangle's plane.
-  T nearness(double x_px, double y_px) const {
-    T sum(0.0);
-    for (const auto& e : edge_) sum = sum + T(e[0] * T(x_px)) + T(e[1] * T(y_px)) + e[2];
-    return T(sum / det_);
-  }
-
- private:
-  using Row = std::array<T, 3>;
-  Homogeneous(const ClippingScene& scene, const Row& a, const Row& b, const Row& c)
-      : edge_{cross(b, c), cross(c, a), cross(a, b)},
-        det_(a[0] * edge_[0][0] + a[1] * edge_[0][1] + a[2] * edge_[0][2]),
-        near_(scene.scene.camera.near_z),
-        far_(scene.scene.camera.far_z) {}
-
-  // Pixels times w, and w.
-  static Row vertex(const ClippingScene& scene, unsigned index) {
-    const glm::dvec3 v(scene.mesh().positions[index]);
-    const T focal(focal_px(scene)), w(-v.z);
-    return {T(focal * T(v.x) + T(scene.size.width / 2.0) * w),
-            T(T(scene.size.height / 2.0) * w - focal * T(v.y)), w};
-  }
-  static Row cross(const Row& a, const Row& b) {
-    return {T(a[1] * b[2] - a[2] * b[1]), T(a[2] * b[0] - a[0] * b[2]), T(a[0] * b[1] - a[1] * b[0])};
-  }
-
-  std::array<Row, 3> edge_;
-  T det_, near_, far_;
-};
-
-class Truth {
- public:
-  explicit Truth(const ClippingScene& scene) : scene_(scene) {
-    for (const auto& t : scene.mesh().triangles) {
-      estimates_.emplace_back(scene, t);
-      exact_.emplace_back(scene, t);
-    }
-  }
-  std::uint32_t owner_at(double x_px, double y_px) const {
-    std::uint32_t owner = Owners::kNobody;
-    for (std::uint32_t i = 0; i < exact_.size(); ++i)
-      if (hit(i, x_px, y_px) && (owner == Owners::kNobody || nearer(i, owner, x_px, y_px))) owner = i;
-    return owner;
-  }
-  double depth01(std::uint32_t triangle, double x_px, double y_px) const {
-    const double near_z = scene_.scene.camera.near_z, far_z = scene_.scene.camera.far_z;
-    const Ball estimate = estimates_[triangle].nearness(x_px, y_px);
-    const double nearness =
-        estimate.error * near_z < 0x1p-40 ? estimate.value : exact_[triangle].nearness(x_px, y_px).get_d();
-    return far_z / (far_z - near_z) * (1 - near_z * nearness);
-  }
-
- private:
-  bool hit(std::uint32_t i, double x_px, double y_px) const {
-    if (scene_.cull_back && exact_[i].facing() < 0) return false;
-    const int guess = estimates_[i].hit(x_px, y_px);
-    // A point exactly on an edge counts: which side it belongs to is a hairline matter.
-    return guess != 0 ? guess > 0 : exact_[i].facing() != 0 && exact_[i].hit(x_px, y_px) >= 0;
-  }
-  bool nearer(std::uint32_t a, std::uint32_t b, double x_px, double y_px) const {
-    const int guess = sign(estimates_[a].nearness(x_px, y_px) - estimates_[b].nearness(x_px, y_px));
-    return guess != 0 ? guess > 0 : exact_[a].nearness(x_px, y_px) > exact_[b].nearness(x_px, y_px);
-  }
-  const ClippingScene& scene_;
-  std::vector<Homogeneous<Ball>> estimates_;
-  std::vector<Homogeneous<mpq_class>> exact_;
-};
-
 // Calls visit(x, y) for the sample and eight places around it, until it returns true; false if it never does.
 template <typename Visit>
 bool around(int px, int py, Visit&& visit) {
@@ -147,68 +45,114 @@ bool around(int px, int py, Visit&& visit) {
   return false;
 }
 
-bool depth_fits(const Truth& truth, std::uint32_t owner, int x, int y, std::uint32_t stored) {
-  const double depth01 = (static_cast<double>(stored) - contract::kDepthHead) / contract::kDepthRange;
-  double low = 2, high = -1;
-  around(x, y, [&](double x_px, double y_px) {
-    const double here = truth.depth01(owner, x_px, y_px);
-    low = std::min(low, here), high = std::max(high, here);
-    return false;
-  });
-  return depth01 >= low - 0x1p-20 && depth01 <= high + 0x1p-20;
+// How far out both ends of an edge lie, if it may cross the screen: where a rounding of one moves it. An edge
+// with one end at hand is held by that end.
+double reach_px(const ClipVertex& a, const ClipVertex& b, Size size) {
+  const auto beyond = [&](double ax, double bx, int limit) {
+    return (ax < 0 && bx < 0) || (ax > limit * double{a.w} && bx > limit * double{b.w});
+  };
+  if (beyond(a.x, b.x, size.width) || beyond(a.y, b.y, size.height)) return 0;
+  const auto far_out = [&](const ClipVertex& v) {
+    return std::max(std::abs(double{v.x} / v.w - size.width / 2.0),
+                    std::abs(double{v.y} / v.w - size.height / 2.0));
+  };
+  return std::min(far_out(a), far_out(b));
 }
 
 bool promises(const ClippingMethod& method, const ClippingScene& scene) {
   const ToClip to_clip(scene);
-  return std::none_of(scene.mesh().positions.begin(), scene.mesh().positions.end(), [&](const auto& p) {
-    const auto sides =
-        outside_of(to_clip(p), static_cast<float>(scene.size.width), static_cast<float>(scene.size.height));
-    return (sides & method.fails_on) != 0;
+  const auto width = static_cast<float>(scene.size.width), height = static_cast<float>(scene.size.height);
+  Clipper clipper;
+  return std::all_of(scene.mesh().triangles.begin(), scene.mesh().triangles.end(), [&](glm::uvec3 t) {
+    const auto& p = scene.mesh().positions;
+    const ClipVertex vertices[3] = {to_clip(p[t.x]), to_clip(p[t.y]), to_clip(p[t.z])};
+    unsigned sides = 0;
+    for (const ClipVertex& v : vertices)
+      sides |= outside_of(v, width, height) & unsigned{kNear | kFar | kNotFinite};
+    const auto polygon = clipper.clip(vertices, kNear | kFar);
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      sides |= outside_of(polygon[i], width, height);
+      if (reach_px(polygon[i], polygon[(i + 1) % polygon.size()], scene.size) > method.reach_px) return false;
+    }
+    return (sides & method.fails_on) == 0;
   });
 }
 
-}  // namespace
-
-ClippingTruth clipping_truth(const ClippingScene& scene) {
-  const Truth truth(scene);
-  ClippingTruth result;
-  for (int y = 0; y < scene.size.height; ++y)
-    for (int x = 0; x < scene.size.width; ++x) result.owner.push_back(truth.owner_at(x + 0.5, y + 0.5));
-  return result;
+// A place's error, of the distance that a depth stands for.
+double distance_error(const ClippingScene& scene, std::uint32_t triangle, double stored01, double true01) {
+  const double near_z = scene.scene.camera.near_z, far_z = scene.scene.camera.far_z;
+  const glm::uvec3 t = scene.mesh().triangles[triangle];
+  const auto w = [&](unsigned i) { return std::clamp(-double{scene.mesh().positions[i].z}, near_z, far_z); };
+  const auto [nearest, farthest] = std::minmax({w(t.x), w(t.y), w(t.z)});
+  if (farthest - nearest < 0.01 * farthest) return 0;
+  const auto distance = [&](double depth01) { return near_z * far_z / (far_z - depth01 * (far_z - near_z)); };
+  return std::abs(distance(stored01) - distance(true01)) / (farthest - nearest);
 }
 
-ClippingScore score(const ClippingMethod& method, const ClippingScene& scene, const ClippingTruth& owners) {
+// What a method's picture is worth, pixel by pixel.
+class Scorer {
+ public:
+  Scorer(const ClippingScene& scene, const ClippingTruth& truth) : scene_(scene), oracle_(*truth.oracle) {}
+
+  void add(int x, int y, std::uint32_t said, std::uint32_t truth, double stored01) {
+    if (truth != Owners::kNobody) ++score.covered;
+    if (said == truth) {
+      if (said != Owners::kNobody) add_depth(x, y, said, stored01);
+    } else if (around(x, y,
+                      [&](double x_px, double y_px) { return oracle_.shows(said, truth, x_px, y_px); })) {
+      ++score.hairline;
+    } else if (said == Owners::kNobody) {
+      ++score.missing;
+    } else if (truth == Owners::kNobody) {
+      ++score.extra;
+    } else {
+      ++score.wrong_owner;
+      const auto depth01 = [&](std::uint32_t id) { return oracle_.depth01(id, x + 0.5, y + 0.5); };
+      if (oracle_.covers(said, x + 0.5, y + 0.5) && std::abs(depth01(said) - depth01(truth)) <= kNearTie01)
+        ++score.near_ties;
+    }
+  }
+
+  ClippingScore score;
+
+ private:
+  void add_depth(int x, int y, std::uint32_t owner, double stored01) {
+    double low = 2, high = -1;
+    around(x, y, [&](double x_px, double y_px) {
+      const double here = oracle_.depth01(owner, x_px, y_px);
+      low = std::min(low, here), high = std::max(high, here);
+      return false;
+    });
+    if (stored01 < low - 0x1p-20 || stored01 > high + 0x1p-20) ++score.wrong_depth;
+    const double nearest_place = std::clamp(stored01, low, high);
+    score.worst_distance =
+        std::max(score.worst_distance, distance_error(scene_, owner, stored01, nearest_place));
+  }
+
+  const ClippingScene& scene_;
+  const ClippingOracle& oracle_;
+};
+
+}  // namespace
+
+ClippingScore score(const ClippingMethod& method, const ClippingScene& scene, const ClippingTruth& truth) {
   ClippingFrame frame(scene.size), ours(scene.size);
   method.draw(scene, frame);
   clipping_methods().front().draw(scene, ours);
-  const Truth exact(scene);
-  ClippingScore score;
+  Scorer scorer(scene, truth);
+  auto owner = truth.owner.begin();
+  for (int y = 0; y < scene.size.height; ++y)
+    for (int x = 0; x < scene.size.width; ++x, ++owner) {
+      const std::uint32_t said = frame.picture.payload_row(y)[x];
+      if (said != ours.picture.payload_row(y)[x]) ++scorer.score.differs_from_ours;
+      const double stored = static_cast<double>(frame.picture.depth_row(y)[x]) - contract::kDepthHead;
+      scorer.add(x, y, said, *owner, stored / contract::kDepthRange);
+    }
+  ClippingScore& score = scorer.score;
   score.not_a_number = frame.not_a_number;
   score.out_of_range = frame.out_of_range;
-  auto truth = owners.owner.begin();
-  for (int y = 0; y < scene.size.height; ++y)
-    for (int x = 0; x < scene.size.width; ++x, ++truth) {
-      const std::uint32_t said = frame.picture.payload_row(y)[x];
-      if (*truth != Owners::kNobody) ++score.covered;
-      if (said != ours.picture.payload_row(y)[x]) ++score.differs_from_ours;
-      if (said == *truth) {
-        if (said != Owners::kNobody && !depth_fits(exact, said, x, y, frame.picture.depth_row(y)[x]))
-          ++score.wrong_depth;
-      } else if (around(x, y, [&](double x_px, double y_px) { return exact.owner_at(x_px, y_px) == said; })) {
-        ++score.hairline;
-      } else if (said == Owners::kNobody) {
-        ++score.missing;
-      } else {
-        ++(*truth == Owners::kNobody ? score.extra : score.wrong_owner);
-      }
-    }
-  if (promises(method, scene)) score.broken = score.wrong();
+  if (promises(method, scene)) score.broken = score.wrong() - score.near_ties;
   return score;
-}
-
-double linear_attribute_error(double w0, double w1, double fraction) {
-  const double perspective = fraction / w1 / ((1 - fraction) / w0 + fraction / w1);
-  return std::abs(fraction - perspective);
 }
 
 }  // namespace edgewise::lab

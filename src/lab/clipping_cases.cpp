@@ -73,6 +73,39 @@ ClippingScene over_the_screens_edges() {
   return s;
 }
 
+// Where on the screen, how far away.
+struct Place {
+  double x_px, y_px, w;
+};
+
+glm::vec3 unproject(const ClippingScene& s, Place p) {
+  const double scale = p.w / s.size.height;  // what view() sees at distance 1
+  return glm::vec3(
+      glm::dvec3((p.x_px - s.size.width / 2.0) * scale, (s.size.height / 2.0 - p.y_px) * scale, -p.w));
+}
+
+// FAILURES.md, 9: thin triangles that leave the screen far on both sides and cross a row of samples on it,
+// all on the grid of 1/256 px. Cut at the screen's edges and snapped again, they cross elsewhere or never.
+ClippingScene along_the_rows() {
+  ClippingScene s = view(0.1f);
+  s.size = {128, 128};  // so that the places are floats
+  for (int i = 0; i < 15; ++i) {
+    const double row = 8.5 + 8 * i, reach = 8192, rise = (i + 2) / 256.0, crossing = 64;
+    add(s, {unproject(s, {crossing - reach, row - rise, 2}), unproject(s, {crossing + reach, row + rise, 2}),
+            unproject(s, {crossing + reach, row + rise + 6, 2})});
+  }
+  return s;
+}
+
+// FAILURES.md, 9: w runs from 1 to 10, and half of it, on the screen, lies outside.
+ClippingScene road_from_the_side() {
+  ClippingScene s = view(0.1f);
+  s.size = {128, 96};
+  add(s, {unproject(s, {-100, 10, 1}), unproject(s, {100, 40, 10}), unproject(s, {100, 56, 10}),
+          unproject(s, {-100, 86, 1})});
+  return s;
+}
+
 ClippingScene beyond_the_guard_band() {
   ClippingScene s = view(0.1f);
   add(s, {{-300.0f, -90.0f, -0.3f}, {0.5f, 1.0f, -4.0f}, {400.0f, 10.0f, -0.4f}});
@@ -93,6 +126,11 @@ constexpr std::array kCases = {
     ClippingCase{"vertex_at_eye_plane", "vertices with w = 0", vertex_at_eye_plane},
     ClippingCase{"quads_before_near", "quads at .03 and .06 before a near plane at 0.1", quads_before_near},
     ClippingCase{"over_the_screens_edges", "150 triangles across the screen's edges", over_the_screens_edges},
+    ClippingCase{"along_the_rows", "long edges nearly along rows of samples, far out on both sides",
+                 along_the_rows},
+    ClippingCase{"road_from_the_side", "a road from w = 1, beside the screen, to w = 10", road_from_the_side},
+    ClippingCase{"far_slivers", "thin triangles that reach 240,000 px out on both sides",
+                 [] { return far_slivers(240'000, 100); }},
     ClippingCase{"beyond_the_guard_band", "vertices beyond 16384 px", beyond_the_guard_band},
     ClippingCase{"beyond_far", "a triangle through the far plane", beyond_far},
 };
@@ -122,6 +160,24 @@ ClippingScene outside_direction(int direction, bool reversed) {
     add(s, {a, b, out});
   else
     add(s, {b, a, out});
+  return s;
+}
+
+ClippingScene far_slivers(double reach_px, int count) {
+  ClippingScene s = view(0.1f);
+  s.size = {128, 96};
+  Random random(8);
+  for (int i = 0; i < count; ++i) {
+    const glm::dvec2 along(random.direction()), across(-along.y, along.x);
+    const glm::dvec2 middle(random.uniform(0, 128), random.uniform(0, 96));
+    const double width_px = random.uniform(4, 12);
+    const auto at = [&](double along_px, double across_px) {
+      const glm::dvec2 p = middle + along_px * along + across_px * across;
+      return unproject(s, {p.x, p.y, random.uniform(0.5f, 2.0f)});
+    };
+    const glm::vec3 a = at(-reach_px, 0), b = at(reach_px, 0), c = at(reach_px, width_px);
+    add(s, {a, b, c});
+  }
   return s;
 }
 

@@ -8,6 +8,9 @@
 #include <array>
 #include <cmath>
 
+#include "frontend/fixed.h"
+#include "lab/facing_methods/project.h"
+
 #define EDGEWISE_FACING_METHODS(X) \
   X(snapped_area)                  \
   X(float_area)                    \
@@ -30,12 +33,17 @@ std::span<const FacingMethod> facing_methods() {
 
 namespace {
 
+// Pixels, or sub-units once snapped.
 struct Point {
-  mpq_class x, y;  // px
+  mpq_class x, y;
+};
+struct SnappedPoint {
+  std::int64_t x, y;  // within the guard band, so that products of two differences fit
 };
 
-mpq_class cross(const Point& o, const Point& a, const Point& b) {
-  return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
+template <typename P>
+auto cross(const P& o, const P& a, const P& b) {
+  return decltype(a.x)((a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x));
 }
 
 class Projector {
@@ -66,24 +74,62 @@ int first_pixel(const mpq_class& px, int limit) {
   if (up <= 0) return 0;
   return up >= limit ? limit : static_cast<int>(up.get_si());
 }
+int first_pixel(std::int64_t sub, int limit) {
+  const std::int64_t up = (sub - contract::kHalf + contract::kSub - 1) >> contract::kSubBits;
+  return static_cast<int>(std::clamp<std::int64_t>(up, 0, limit));
+}
+
+mpq_class sample(const Point&, int pixel) {
+  return mpq_class(2 * pixel + 1, 2);
+}
+std::int64_t sample(const SnappedPoint&, int pixel) {
+  return contract::sample_sub(pixel);
+}
+
+// Where the edge from a to b, which is not horizontal, crosses a height; for pixels, all that counts of a
+// fraction of a sub-unit is that it is one.
+mpq_class crossing(const Point& a, const Point& b, const mpq_class& y) {
+  return a.x + (y - a.y) * (b.x - a.x) / (b.y - a.y);
+}
+std::int64_t crossing(const SnappedPoint& a, const SnappedPoint& b, std::int64_t y) {
+  const std::int64_t n = (y - a.y) * (b.x - a.x), d = b.y - a.y;
+  return a.x + n / d + (n % d != 0 && (n < 0) == (d < 0) ? 1 : 0);
+}
 
 // Even-odd rule along each row of samples; what lies between two crossings, the first included, is inside.
-bool owns_pixel(std::span<const Point> polygon, Size size) {
-  mpq_class top = polygon[0].y, bottom = polygon[0].y;
-  for (const Point& p : polygon) top = std::min(top, p.y), bottom = std::max(bottom, p.y);
+template <typename P>
+bool owns_pixel(std::span<const P> polygon, Size size) {
+  auto top = polygon[0].y, bottom = polygon[0].y;
+  for (const P& p : polygon) top = std::min(top, p.y), bottom = std::max(bottom, p.y);
+  std::vector<int> crossings;
   for (int y = first_pixel(top, size.height); y < first_pixel(bottom, size.height); ++y) {
-    const mpq_class sample = mpq_class(2 * y + 1, 2);
-    std::vector<mpq_class> crossings;
+    const auto height = sample(polygon[0], y);
+    crossings.clear();
     for (std::size_t i = 0; i < polygon.size(); ++i) {
-      const Point &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-      if ((a.y <= sample) != (b.y <= sample))
-        crossings.emplace_back(a.x + (sample - a.y) * (b.x - a.x) / (b.y - a.y));
+      const P &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+      if ((a.y <= height) != (b.y <= height))
+        crossings.push_back(first_pixel(crossing(a, b, height), size.width));
     }
     std::sort(crossings.begin(), crossings.end());
     for (std::size_t i = 0; i + 1 < crossings.size(); i += 2)
-      if (first_pixel(crossings[i], size.width) < first_pixel(crossings[i + 1], size.width)) return true;
+      if (crossings[i] < crossings[i + 1]) return true;
   }
   return false;
+}
+
+int sign(const mpq_class& v) {
+  return sgn(v);
+}
+int sign(std::int64_t v) {
+  return (v > 0) - (v < 0);
+}
+
+template <typename P>
+FaceSide side_of(std::span<const P> polygon, Size size) {
+  auto area = cross(polygon[0], polygon[1], polygon[2]);
+  const int first_three = sign(area);
+  for (std::size_t i = 3; i < polygon.size(); ++i) area += cross(polygon[0], polygon[i - 1], polygon[i]);
+  return {sign(area) != 0 && owns_pixel(polygon, size), sign(area) > 0, first_three != sign(area)};
 }
 
 // The signs are exact; these are measures of how close it was, for which long double does: 2^-64 against
@@ -107,7 +153,7 @@ void measure_rays(FaceFacts& facts, std::span<const glm::vec3> v, Real3 object, 
 }
 
 void measure_screen(FaceFacts& facts, std::span<const glm::vec3> v, std::span<const Point> p,
-                    const mpq_class& area, const FacingView& view) {
+                    const FacingView& view) {
   double longest = 0, reach = 0, extent = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const mpq_class dx = p[i].x - p[(i + 1) % 3].x, dy = p[i].y - p[(i + 1) % 3].y;
@@ -117,7 +163,7 @@ void measure_screen(FaceFacts& facts, std::span<const glm::vec3> v, std::span<co
     reach = std::max(reach, glm::length(ray) / w);
     extent = std::max({extent, std::abs(p[i].x.get_d()), std::abs(p[i].y.get_d())});
   }
-  facts.width_px = std::abs(area.get_d()) / longest;
+  facts.width_px = std::abs(cross(p[0], p[1], p[2]).get_d()) / longest;
   // Three roundings a dot product, one a quotient, one a sum; each relative to the longest vector that takes
   // part.
   facts.rounding_px =
@@ -127,44 +173,59 @@ void measure_screen(FaceFacts& facts, std::span<const glm::vec3> v, std::span<co
 
 }  // namespace
 
-std::vector<FaceFacts> facing_facts(const FacingScene& scene) {
-  const Projector project(scene.view);
-  std::vector<FaceFacts> all;
-  std::vector<Point> polygon;
-  Real3 object(0.0L);
-  for (const auto& p : scene.positions) object += Real3(p) / static_cast<long double>(scene.positions.size());
-  for (const Face& face : scene.faces) {
-    const auto vertices = std::span(scene.positions).subspan(face.first, face.count);
-    polygon.clear();
-    for (const auto& p : vertices) polygon.push_back(project(p));
-    mpq_class area;
-    for (std::size_t i = 2; i < polygon.size(); ++i) area += cross(polygon[0], polygon[i - 1], polygon[i]);
-    const mpq_class first_three = cross(polygon[0], polygon[1], polygon[2]);
-    FaceFacts facts{};
-    facts.owns_pixel = sgn(area) != 0 && owns_pixel(polygon, scene.view.size);
-    facts.front = sgn(area) > 0;
-    facts.first_three_lie = sgn(first_three) != sgn(area);
-    measure_rays(facts, vertices, object, scene.view);
-    measure_screen(facts, vertices, polygon, first_three, scene.view);
-    all.push_back(facts);
+FacingTruth::FacingTruth(const FacingScene& scene) : scene_(scene), object_(0.0L) {
+  for (const auto& p : scene.positions)
+    object_ += Real3(p) / static_cast<long double>(scene.positions.size());
+}
+
+FaceFacts FacingTruth::facts(const Face& face) const {
+  const FacingView& view = scene_.view;
+  const auto vertices = std::span(scene_.positions).subspan(face.first, face.count);
+  const Projector exactly(view);
+  const FloatProjector in_float(view);
+  std::vector<Point> floats;
+  std::vector<SnappedPoint> snapped;
+  for (const auto& p : vertices) {
+    floats.push_back(exactly(p));
+    const glm::vec2 px = in_float(p);
+    snapped.push_back({snap(px.x), snap(px.y)});
   }
+  FaceFacts facts{};
+  facts.snapped = side_of<SnappedPoint>(snapped, view.size);
+  facts.floats = side_of<Point>(floats, view.size);
+  measure_rays(facts, vertices, object_, view);
+  measure_screen(facts, vertices, floats, view);
+  return facts;
+}
+
+std::vector<FaceFacts> facing_facts(const FacingScene& scene) {
+  const FacingTruth truth(scene);
+  std::vector<FaceFacts> all;
+  for (const Face& face : scene.faces) all.push_back(truth.facts(face));
   return all;
 }
 
-FacingScore score(const FacingMethod& method, const FacingScene& scene, std::span<const FaceFacts> facts) {
+FacingScores score(const FacingMethod& method, const FacingScene& scene, std::span<const FaceFacts> facts) {
   std::vector<std::uint8_t> said(scene.faces.size()), ours(said.size());
   method.classify(scene, said);
   facing_methods().front().classify(scene, ours);
-  FacingScore score;
+  FacingScores scores;
   for (std::size_t i = 0; i < facts.size(); ++i) {
-    if (said[i] != ours[i]) ++score.disagreements;
-    if (!facts[i].owns_pixel) continue;
-    ++score.faces;
-    if ((said[i] != 0) == facts[i].front) continue;
-    ++score.misclassified;
-    if (!facts[i].first_three_lie && !method.may_err(facts[i], scene.view)) ++score.broken;
+    if (said[i] != ours[i]) ++scores.disagreements;
+    const auto add = [&](FacingScore& score, const FaceSide& side, bool may_err) {
+      if (!side.owns_pixel) return;
+      ++score.faces;
+      if ((said[i] != 0) == side.front) return;
+      ++score.misclassified;
+      if (side.first_three_lie)
+        ++score.by_first_three;
+      else if (!may_err)
+        ++scores.broken;
+    };
+    add(scores.snapped, facts[i].snapped, !method.info.exact);
+    add(scores.floats, facts[i].floats, method.may_err(facts[i], scene.view));
   }
-  return score;
+  return scores;
 }
 
 }  // namespace edgewise::lab

@@ -1,5 +1,7 @@
 // Which faces look at the eye: the tests that engines use to drop the others, against the exact sign of the
-// projected area. Positions are exact as given; the truth is rational.
+// projected area, in two truths. One takes the positions as given and projects them by rationals; the other
+// takes what a rasterizer draws, the positions that the front end would hand it, projected in float and
+// snapped, as exact from there on.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +24,8 @@ struct FacingView {
   Size size{256, 256};
 };
 
-// A planar polygon; front is clockwise on the y-down screen. Methods look at its first three vertices, as the
-// trainer does.
+// A polygon, planar or not; front is the sign of its whole projected area, clockwise on the y-down screen.
+// Methods look at its first three vertices, as the trainer does.
 struct Face {
   std::uint32_t first, count;  // into FacingScene::positions; count >= 3
 };
@@ -34,12 +36,18 @@ struct FacingScene {
   std::vector<Face> faces;
 };
 
-// What is known exactly of a face, rounded to double only now: how near it is to being seen edge-on.
-struct FaceFacts {
-  bool owns_pixel;       // a sample lies in the exact, unsnapped projection
+// In one truth.
+struct FaceSide {
+  bool owns_pixel;       // a sample lies in the projection
   bool front;            // the whole polygon
   bool first_three_lie;  // the first three vertices turn the other way than the polygon (they are a reflex
-                         // corner)
+                         // corner, say)
+};
+
+// What is known exactly of a face, rounded to double only now: how near it is to being seen edge-on.
+struct FaceFacts {
+  FaceSide snapped, floats;
+  // All before snapping:
   double sine;         // of the angle between the face's plane and the ray to its first three vertices' mean
   double tilt_sine;    // of the angle between that ray (from the eye, whatever the camera) and forward
   double object_sine;  // of the angle between that ray and the one to the mean of all positions
@@ -49,6 +57,15 @@ struct FaceFacts {
   // eye.
   double magnification;
   double rounding_px;  // bound on the error of projecting these vertices in float
+};
+class FacingTruth {
+ public:
+  explicit FacingTruth(const FacingScene& scene);  // which must outlive it
+  FaceFacts facts(const Face& face) const;
+
+ private:
+  const FacingScene& scene_;
+  glm::tvec3<long double> object_;  // the mean of all positions
 };
 std::vector<FaceFacts> facing_facts(const FacingScene& scene);
 
@@ -63,13 +80,20 @@ struct FacingMethod {
 // Ours first.
 std::span<const FacingMethod> facing_methods();
 
+// Against one truth.
 struct FacingScore {
-  std::uint64_t faces = 0;          // that own a pixel
-  std::uint64_t misclassified = 0;  // of those, against the exact sign
-  std::uint64_t disagreements = 0;  // with the first method (ours), of all faces
-  std::uint64_t broken = 0;         // misclassified though the promise says that it can't be
+  std::uint64_t faces = 0;           // that own a pixel
+  std::uint64_t misclassified = 0;   // of those
+  std::uint64_t by_first_three = 0;  // of those, faces whose first three vertices lie: nobody could know
 };
-FacingScore score(const FacingMethod& method, const FacingScene& scene, std::span<const FaceFacts> facts);
+struct FacingScores {
+  FacingScore snapped, floats;
+  std::uint64_t disagreements = 0;  // with the first method (ours), of all faces
+  // Promises broken, where the first three vertices don't lie: misclassified before snapping though may_err
+  // says that it can't be, or snapped by an exact method.
+  std::uint64_t broken = 0;
+};
+FacingScores score(const FacingMethod& method, const FacingScene& scene, std::span<const FaceFacts> facts);
 
 // The smallest scenes.
 struct FacingCase {
@@ -78,8 +102,14 @@ struct FacingCase {
 };
 std::span<const FacingCase> facing_cases();
 
-// Small faces of random directions around the ray that is tilted by `tilt` radians against forward.
+// Small faces of random directions, spread over an arc of half a turn about the axis: the ray to each is
+// tilted by `tilt` radians, below 90 degrees, while the ray to the mean of all is one that hardly any of them
+// has.
 FacingScene tilted_faces(double tilt, bool perspective, std::size_t count, std::uint64_t seed);
+// Polygons of three to seven vertices all over the view, in random directions. Regular ones are convex; of
+// the others corners may be reflex, and the bent ones are not planar.
+enum class Shape { regular, irregular, bent };
+FacingScene polygons(Shape shape, std::size_t count, std::uint64_t seed);
 // Triangles that are almost edge-on, along lines through pixel centres.
 FacingScene edge_on_faces(bool perspective, std::size_t count, std::uint64_t seed);
 

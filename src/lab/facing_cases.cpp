@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "scene/random.h"
 
@@ -59,6 +60,12 @@ constexpr std::array kCases = {
                [] { return edge_on_faces(true, 2000, 2); }},
     FacingCase{"edge_on_orthographic", "the same under an orthographic camera",
                [] { return edge_on_faces(false, 2000, 2); }},
+    FacingCase{"polygons", "regular polygons all over the view",
+               [] { return polygons(Shape::regular, 500, 5); }},
+    FacingCase{"irregular_polygons", "polygons with reflex corners, now and then the second one",
+               [] { return polygons(Shape::irregular, 500, 6); }},
+    FacingCase{"bent_polygons", "polygons that are not planar: three vertices may lie",
+               [] { return polygons(Shape::bent, 500, 7); }},
     FacingCase{"notch_second", "a concave polygon whose second vertex is its notch: three vertices lie",
                notch_second},
 };
@@ -71,6 +78,13 @@ glm::vec3 unit_vector(Random& random) {
   }
 }
 
+// Two unit vectors at a right angle.
+std::pair<glm::vec3, glm::vec3> random_plane(Random& random) {
+  const glm::vec3 normal = unit_vector(random);
+  const glm::vec3 u = glm::normalize(glm::cross(normal, unit_vector(random)));
+  return {u, glm::cross(normal, u)};
+}
+
 }  // namespace
 
 std::span<const FacingCase> facing_cases() {
@@ -79,20 +93,44 @@ std::span<const FacingCase> facing_cases() {
 
 FacingScene tilted_faces(double tilt, bool perspective, std::size_t count, std::uint64_t seed) {
   FacingScene scene;
-  scene.view.perspective = perspective;
-  // The camera turns away from the ray, so that the ray can have any tilt below 90 degrees and stay in the
-  // picture.
+  FacingView& view = scene.view;
+  view.perspective = perspective;
   const auto sine = static_cast<float>(std::sin(tilt)), cosine = static_cast<float>(std::cos(tilt));
-  constexpr float kDistance = 8.0f, kRadius = 1.0f;
-  const glm::vec3 centre = kDistance * glm::vec3(sine, 0.0f, cosine);
-  scene.view.focal_px = perspective ? 128.0f * cosine : 16.0f;
-  scene.view.size = {1 + static_cast<int>(2 * (128 * sine + 64)), 256};
+  constexpr float kRadius = 1.0f;
+  // So that the arc has the same place on the screen whatever the tilt's tangent.
+  view.focal_px = perspective ? 128.0f * cosine : 14.0f;
+  const int side = 1 + static_cast<int>(2 * (128 * sine + 64));
+  view.size = {side, side};
   Random random(seed);
   for (std::size_t i = 0; i < count; ++i) {
-    const glm::vec3 normal = unit_vector(random);
-    const glm::vec3 u = glm::normalize(glm::cross(normal, unit_vector(random))), v = glm::cross(normal, u);
+    // A half turn about (1, 0) in the picture.
+    glm::vec2 around = random.direction();
+    around.x = std::abs(around.x);
+    const glm::vec3 centre = random.uniform(8.0f, 10.0f) * glm::vec3(sine * around, cosine);
+    const auto [u, v] = random_plane(random);
     add(scene, {centre + kRadius * u, centre + kRadius * (-0.5f * u + 0.866f * v),
                 centre + kRadius * (-0.5f * u - 0.866f * v)});
+  }
+  return scene;
+}
+
+FacingScene polygons(Shape shape, std::size_t count, std::uint64_t seed) {
+  constexpr float kDistance = 6.0f, kTurn = 6.2831853f;
+  FacingScene scene;
+  Random random(seed);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto corners = static_cast<std::uint32_t>(3 + i % 5);
+    const glm::vec3 centre(random.uniform(-5.0f, 5.0f), random.uniform(-5.0f, 5.0f), kDistance);
+    const auto [u, v] = random_plane(random);
+    const glm::vec3 normal = glm::cross(u, v);
+    scene.faces.push_back({static_cast<std::uint32_t>(scene.positions.size()), corners});
+    for (std::uint32_t k = 0; k < corners; ++k) {
+      const float astray = shape == Shape::regular ? 0.0f : random.uniform(-0.4f, 0.4f);
+      const float radius = shape == Shape::regular ? 1.0f : random.uniform(0.25f, 1.0f);
+      const float lift = shape == Shape::bent ? random.uniform(-0.5f, 0.5f) : 0.0f;
+      const float turn = kTurn * (static_cast<float>(k) + astray) / static_cast<float>(corners);
+      scene.positions.push_back(centre + radius * (std::cos(turn) * u + std::sin(turn) * v) + lift * normal);
+    }
   }
   return scene;
 }

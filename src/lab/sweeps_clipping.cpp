@@ -51,7 +51,7 @@ Measured measure_vertex_w(double w, bool) {
 Sweep make_sweep_near_plane() {
   return {"near_plane",
           Family::clipping,
-          "a floor that passes under the eye, and a wall at 10",
+          "a floor under the eye, through a wall at 10: float depths run out of steps",
           {"near plane's distance", "", true},
           kWrongPixels,
           0.2,

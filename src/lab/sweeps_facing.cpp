@@ -22,7 +22,7 @@ Measured measure_scene(const FacingScene& scene) {
   const auto facts = facing_facts(scene);
   Measured result(methods.size());
   for (std::size_t i = 0; i < methods.size(); ++i) {
-    const FacingScore s = score(methods[i], scene, facts);
+    const FacingScore s = score(methods[i], scene, facts).floats;
     result.methods[i] = {s.misclassified, s.faces};
   }
   return result;

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "lab/truth.h"
+#include "raster/contract.h"
 
 #define EDGEWISE_VISIBILITY_METHODS(X) \
   X(contract31)                        \
@@ -33,116 +34,59 @@ std::span<const VisibilityMethod> visibility_methods() {
 
 namespace {
 
-// A triangle's weights at a sample: the doubled areas opposite the vertices, all of one sign inside.
+// A triangle's plane in one truth, in whatever arithmetic T is.
 class Plane {
  public:
-  explicit Plane(const VisibilityTriangle& t) : triangle_(t) {}
-
-  void look_at(int px, int py) {
-    const std::int64_t sx = std::int64_t{px} * 256 + 128, sy = std::int64_t{py} * 256 + 128;
-    const auto &x = triangle_.screen.x_sub, &y = triangle_.screen.y_sub;
+  Plane(const VisibilityTriangle& t, bool snapped) {
     for (int i = 0; i < 3; ++i) {
-      const int p = (i + 1) % 3, q = (i + 2) % 3;
-      weight_[i] = (x[q] - x[p]) * (sy - y[p]) - (y[q] - y[p]) * (sx - x[p]);
+      x_[i] = snapped ? t.screen.x_sub[i] / double{contract::kSub} : double{t.x_px[i]};
+      y_[i] = snapped ? t.screen.y_sub[i] / double{contract::kSub} : double{t.y_px[i]};
+      z_[i] = t.view_z[i];
     }
   }
-  // 1 / distance. Inside the triangle no two terms have opposite signs, so nothing cancels and the relative
-  // error is a few roundings.
-  template <typename Real>
-  Real nearness() const {
-    Real sum = 0;
-    for (int i = 0; i < 3; ++i) sum += static_cast<Real>(weight_[i]) / static_cast<Real>(triangle_.view_z[i]);
-    return sum / static_cast<Real>(weight_[0] + weight_[1] + weight_[2]);
-  }
-  mpq_class exact_nearness() const {
-    mpq_class sum;
-    for (int i = 0; i < 3; ++i) sum += mpq_class(weight_[i]) / mpq_class(triangle_.view_z[i]);
-    return sum / mpq_class(weight_[0] + weight_[1] + weight_[2]);
+  // 1 / distance: the vertices', weighted by the areas opposite to them. Inside the triangle no two terms
+  // have opposite signs, so nothing cancels.
+  template <typename T>
+  T nearness(int px, int py) const {
+    const T x(px + 0.5), y(py + 0.5);
+    T sum(0.0), weights(0.0);
+    for (int i = 0; i < 3; ++i) {
+      const int p = (i + 1) % 3, q = (i + 2) % 3;
+      const T weight =
+          T(T(T(x_[q]) - T(x_[p])) * T(y - T(y_[p]))) - T(T(T(y_[q]) - T(y_[p])) * T(x - T(x_[p])));
+      sum = T(sum + weight / T(z_[i]));
+      weights = T(weights + weight);
+    }
+    return T(sum / weights);
   }
 
  private:
-  VisibilityTriangle triangle_;
-  std::int64_t weight_[3] = {};
+  double x_[3], y_[3], z_[3];
 };
-
-// Whether `a` is strictly nearer than `b`, where both last looked; doubles decide unless they are too close.
-bool nearer(const Plane& a, double a_nearness, const Plane& b, double b_nearness) {
-  if (std::abs(a_nearness - b_nearness) > 1e-14 * b_nearness) return a_nearness > b_nearness;
-  return a.exact_nearness() > b.exact_nearness();
-}
 
 long double depth01_of(long double nearness, const VisibilityScene& s) {
   const long double near_z = s.near_z, far_z = s.far_z;
   return far_z / (far_z - near_z) * (1.0L - near_z * nearness);
 }
 
-// The depths that methods keep, against the planes of the triangles they say they belong to.
-class DepthErrors {
- public:
-  DepthErrors(const VisibilityMethod& method, const VisibilityScene& scene)
-      : method_(method), scene_(scene) {}
-
-  // False if the promise is broken.
-  bool add(const VisibilityFrame& frame, std::size_t pixel, std::uint32_t owner, long double truth) {
-    const long double stored = method_.stored01(frame, pixel), ulp = method_.ulp01(truth);
-    const long double error = std::abs(stored - truth), steps = error / ulp;
-    max_ = std::max(max_, steps);
-    squares_ += steps * steps;
-    ++count_;
-    const auto& triangle = scene_.triangles[owner];
-    const auto [nearest, farthest] =
-        std::minmax({triangle.view_z[0], triangle.view_z[1], triangle.view_z[2]});
-    const long double low = depth01_of(1.0L / nearest, scene_), high = depth01_of(1.0L / farthest, scene_);
-    if (stored < low - 0x1p-16L || stored > high + 0x1p-16L) ++out_of_range_;
-    return error <= method_.bound01(triangle, scene_);
-  }
-  void report(VisibilityScore& score) const {
-    score.out_of_range = out_of_range_;
-    score.max_ulp = static_cast<double>(max_);
-    if (count_ > 0)
-      score.rms_ulp = static_cast<double>(std::sqrt(squares_ / static_cast<long double>(count_)));
-  }
-
- private:
-  const VisibilityMethod& method_;
-  const VisibilityScene& scene_;
-  long double max_ = 0, squares_ = 0;
-  std::uint64_t count_ = 0, out_of_range_ = 0;
-};
-
-// Whether the two owners' true depths are so close that the method's promise lets it choose either. Where the
-// method shows the background, that is a depth of 1.
-bool may_confuse(const VisibilityMethod& method, const VisibilityScene& scene, std::uint32_t said,
-                 std::uint32_t truth, int x, int y) {
-  const auto bound = [&](std::uint32_t id) {
-    return id == kNobody ? 0.0 : method.bound01(scene.triangles[id], scene);
-  };
-  const auto depth = [&](std::uint32_t id) { return id == kNobody ? 1.0L : true_depth01(scene, id, x, y); };
-  return std::abs(depth(said) - depth(truth)) <= bound(said) + bound(truth);
+std::size_t pixel_at(const VisibilityScene& scene, int x, int y) {
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(scene.width) + static_cast<std::size_t>(x);
 }
 
-}  // namespace
-
-std::vector<std::uint32_t> true_owners(const VisibilityScene& scene) {
-  const auto width = static_cast<std::size_t>(scene.width);
-  std::vector<std::uint32_t> owners(width * static_cast<std::size_t>(scene.height), kNobody);
-  std::vector<double> nearness(owners.size(), 0.0);
+std::vector<std::uint32_t> owners_of(const VisibilityScene& scene, std::span<const Run> runs, bool snapped) {
   std::vector<Plane> planes;
-  std::vector<ScreenTriangle> screen;
-  for (const auto& triangle : scene.triangles) {
-    planes.emplace_back(triangle);
-    screen.push_back(triangle.screen);
-  }
-  for (const Run& run : covered_runs(screen, {scene.width, scene.height}, 1))
+  for (const auto& triangle : scene.triangles) planes.emplace_back(triangle, snapped);
+  const auto pixels = static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height);
+  std::vector<std::uint32_t> owners(pixels, kNobody);
+  std::vector<Ball> nearness(pixels, Ball(0.0));
+  for (const Run& run : runs)
     for (int x = run.x0; x < run.x1; ++x) {
-      const std::size_t pixel = static_cast<std::size_t>(run.y) * width + static_cast<std::size_t>(x);
-      Plane& plane = planes[run.triangle];
-      plane.look_at(x, run.y);
-      const auto mine = plane.nearness<double>();
+      const std::size_t pixel = pixel_at(scene, x, run.y);
+      const Ball mine = planes[run.triangle].nearness<Ball>(x, run.y);
       if (owners[pixel] != kNobody) {
-        Plane& other = planes[owners[pixel]];
-        other.look_at(x, run.y);
-        if (!nearer(plane, mine, other, nearness[pixel])) continue;
+        const auto exact = [&](std::uint32_t id) { return planes[id].nearness<mpq_class>(x, run.y); };
+        const int sign = (mine - nearness[pixel]).sign();
+        if (sign < 0 || (sign == 0 && exact(run.triangle) <= exact(owners[pixel]))) continue;
       }
       owners[pixel] = run.triangle;
       nearness[pixel] = mine;
@@ -150,37 +94,126 @@ std::vector<std::uint32_t> true_owners(const VisibilityScene& scene) {
   return owners;
 }
 
-long double true_depth01(const VisibilityScene& scene, std::uint32_t triangle, int x, int y) {
-  Plane plane(scene.triangles[triangle]);
-  plane.look_at(x, y);
-  return depth01_of(plane.nearness<long double>(), scene);
+// A method's picture against one truth.
+class Judge {
+ public:
+  Judge(const VisibilityMethod& method, const VisibilityScene& scene, bool snapped)
+      : method_(method), scene_(scene), snapped_(snapped) {}
+
+  bool covers(std::uint32_t id, int x, int y) const {
+    const VisibilityTriangle& t = scene_.triangles[id];
+    if (snapped_) return SnappedTruth(t.screen).covers(x, y);
+    return FloatTruth({{t.x_px[0], t.x_px[1], t.x_px[2]}, {t.y_px[0], t.y_px[1], t.y_px[2]}, {}})
+        .covers(x, y);
+  }
+  // The background's is 1. To 60 bits or more on snapped positions.
+  long double depth01(std::uint32_t id, int x, int y) const {
+    if (id == kNobody) return 1.0L;
+    return depth01_of(Plane(scene_.triangles[id], snapped_).nearness<long double>(x, y), scene_);
+  }
+  // Returns the error of the depth that is kept, in depth01.
+  long double add_depth(const VisibilityFrame& frame, std::uint32_t owner, int x, int y) {
+    const long double truth = depth01(owner, x, y), stored = method_.stored01(frame, pixel_at(scene_, x, y));
+    const long double error = std::abs(stored - truth), steps = error / method_.ulp01(truth);
+    max_ = std::max(max_, steps);
+    squares_ += steps * steps;
+    ++count_;
+    const auto& z = scene_.triangles[owner].view_z;
+    const auto [nearest, farthest] = std::minmax({z[0], z[1], z[2]});
+    const long double low = depth01_of(1.0L / nearest, scene_), high = depth01_of(1.0L / farthest, scene_);
+    if (stored < low - 0x1p-16L || stored > high + 0x1p-16L) ++score_.out_of_range;
+    return error;
+  }
+  void add_owner(std::uint32_t said, std::uint32_t truth) {
+    if (truth != kNobody) ++score_.covered;
+    if (said != truth) ++score_.wrong_owner;
+  }
+  VisibilityScore report() {
+    score_.max_ulp = static_cast<double>(max_);
+    if (count_ > 0)
+      score_.rms_ulp = static_cast<double>(std::sqrt(squares_ / static_cast<long double>(count_)));
+    return score_;
+  }
+
+ private:
+  const VisibilityMethod& method_;
+  const VisibilityScene& scene_;
+  bool snapped_;
+  VisibilityScore score_;
+  long double max_ = 0, squares_ = 0;
+  std::uint64_t count_ = 0;
+};
+
+// Both truths at once, since a picture need be drawn only once.
+class Scorer {
+ public:
+  Scorer(const VisibilityMethod& method, const VisibilityScene& scene)
+      : method_(method), scene_(scene), snapped_(method, scene, true), floats_(method, scene, false) {
+    method.draw(scene, frame_);
+  }
+  void add(int x, int y, const TrueOwners& owners) {
+    const std::size_t pixel = pixel_at(scene_, x, y);
+    const std::uint32_t said = frame_.owner[pixel];
+    add_float(said, owners.floats[pixel], x, y);
+    if (!keeps_promise(said, owners.snapped[pixel], x, y)) ++scores_.broken;
+  }
+  VisibilityScores report() {
+    scores_.snapped = snapped_.report();
+    scores_.floats = floats_.report();
+    return scores_;
+  }
+
+ private:
+  bool keeps_depth() const { return method_.stored01 != nullptr; }
+  double bound01(std::uint32_t id) const {
+    return id == kNobody ? 0.0 : method_.bound01(scene_.triangles[id], scene_);
+  }
+
+  void add_float(std::uint32_t said, std::uint32_t truth, int x, int y) {
+    floats_.add_owner(said, truth);
+    if (said == kNobody || !keeps_depth()) return;
+    if (said == truth || floats_.covers(said, x, y)) floats_.add_depth(frame_, said, x, y);
+  }
+  bool keeps_promise(std::uint32_t said, std::uint32_t truth, int x, int y) {
+    snapped_.add_owner(said, truth);
+    if (said != kNobody && said != truth && !snapped_.covers(said, x, y)) return false;
+    if (!keeps_depth()) return said != kNobody || truth == kNobody;
+    const bool right_depth = said == kNobody || snapped_.add_depth(frame_, said, x, y) <= bound01(said);
+    if (said == truth) return right_depth;
+    // Where a method shows the background, it says that the depth is 1.
+    const long double apart = std::abs(snapped_.depth01(said, x, y) - snapped_.depth01(truth, x, y));
+    if (apart > bound01(said) + bound01(truth)) return false;
+    ++scores_.near_ties;
+    return right_depth;
+  }
+
+  const VisibilityMethod& method_;
+  const VisibilityScene& scene_;
+  VisibilityFrame frame_;
+  Judge snapped_, floats_;
+  VisibilityScores scores_;
+};
+
+}  // namespace
+
+TrueOwners true_owners(const VisibilityScene& scene) {
+  std::vector<ScreenTriangle> screen;
+  std::vector<FloatTriangle> floats;
+  for (const VisibilityTriangle& t : scene.triangles) {
+    screen.push_back(t.screen);
+    floats.push_back({{{t.x_px[0], t.x_px[1], t.x_px[2]}, {t.y_px[0], t.y_px[1], t.y_px[2]}, {}}, 0});
+  }
+  const Window window{scene.width, scene.height};
+  return {owners_of(scene, covered_runs(screen, window, 1), true),
+          owners_of(scene, covered_runs(floats, window, 1), false)};
 }
 
-VisibilityScore score(const VisibilityMethod& method, const VisibilityScene& scene,
-                      std::span<const std::uint32_t> owners) {
-  VisibilityFrame frame;
-  method.draw(scene, frame);
-  VisibilityScore score;
-  DepthErrors errors(method, scene);
+VisibilityScores score(const VisibilityMethod& method, const VisibilityScene& scene,
+                       const TrueOwners& owners) {
+  Scorer scorer(method, scene);
   for (int y = 0; y < scene.height; ++y)
-    for (int x = 0; x < scene.width; ++x) {
-      const std::size_t pixel =
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(scene.width) + static_cast<std::size_t>(x);
-      const std::uint32_t said = frame.owner[pixel], truth = owners[pixel];
-      const bool keeps_depth = method.stored01 != nullptr;
-      bool broken = said == kNobody ? truth != kNobody && !keeps_depth
-                                    : !SnappedTruth(scene.triangles[said].screen).covers(x, y);
-      if (truth != kNobody) ++score.covered;
-      if (said != truth) ++score.wrong_owner;
-      if (keeps_depth) {
-        if (said != kNobody && !errors.add(frame, pixel, said, true_depth01(scene, said, x, y)))
-          broken = true;
-        if (said != truth && !may_confuse(method, scene, said, truth, x, y)) broken = true;
-      }
-      if (broken) ++score.broken;
-    }
-  errors.report(score);
-  return score;
+    for (int x = 0; x < scene.width; ++x) scorer.add(x, y, owners);
+  return scorer.report();
 }
 
 }  // namespace edgewise::lab

@@ -1,8 +1,10 @@
 // Who owns a pixel: the painter's orders and the depth buffers, measured against the true view-space planes.
 //
 // Every method draws the same snapped triangles with the same exact coverage (rules 2 and 4), so that what
-// differs is visibility alone. The truth is rational: 1 / view_z is linear on the screen, the vertices'
-// coordinates and distances are exact, and the nearest plane wins; a tie keeps the earlier triangle.
+// differs is visibility alone. There are two truths, on the snapped positions and on those before snapping.
+// Both are rational: 1 / view_z is linear on the screen, the vertices' coordinates and distances are exact,
+// and the nearest plane wins; a tie keeps the earlier triangle. Neither rounds a distance as exact_owners()
+// does (lab/truth.h), since how depth is rounded is what the methods differ in.
 #pragma once
 
 #include <cstdint>
@@ -19,14 +21,21 @@ namespace edgewise::lab {
 inline constexpr std::uint32_t kNobody = Owners::kNobody;
 
 struct VisibilityTriangle {
-  ScreenTriangle screen;  // z: the contract's depth (rule 6) of view_z
-  double view_z[3];       // distance along the view direction, near … far
+  ScreenTriangle screen;   // z: the contract's depth (rule 6) of view_z
+  float x_px[3], y_px[3];  // before snapping
+  double view_z[3];        // distance along the view direction, near … far
+};
+
+// A polygon, as a fan of triangles that share their first vertex; of the next one on, only the third is new.
+struct VisibilityFace {
+  std::uint32_t first, count;  // into VisibilityScene::triangles; count >= 1
 };
 
 struct VisibilityScene {
   int width, height;  // px
   double near_z, far_z;
   std::vector<VisibilityTriangle> triangles;
+  std::vector<VisibilityFace> faces;  // all triangles, in order: painters sort these
 };
 
 // What a method draws into; keeps its memory between draws. A method uses the one depth buffer of its format.
@@ -35,7 +44,8 @@ struct VisibilityFrame {
   std::vector<std::uint16_t> depth16;
   std::vector<std::uint32_t> depth32;
   std::vector<float> depth_float;
-  std::vector<std::uint32_t> order;  // the painter's
+  std::vector<double> key;           // the painter's, a face's
+  std::vector<std::uint32_t> order;  // the painter's, of faces
 };
 
 // Depths are compared in "depth01": 0 at the near plane, 1 at the far plane, linear on the screen.
@@ -53,24 +63,32 @@ struct VisibilityMethod {
 
 std::span<const VisibilityMethod> visibility_methods();
 
-// The exact owner of each pixel, row by row.
-std::vector<std::uint32_t> true_owners(const VisibilityScene& scene);
+// The exact owner of each pixel, row by row, in both truths.
+struct TrueOwners {
+  std::vector<std::uint32_t> snapped, floats;
+};
+TrueOwners true_owners(const VisibilityScene& scene);
 
-// The depth01 of a triangle's plane at a pixel, to 60 bits or more.
-long double true_depth01(const VisibilityScene& scene, std::uint32_t triangle, int x, int y);
-
+// Against one truth.
 struct VisibilityScore {
   std::uint64_t covered = 0;      // pixels that a triangle covers, in truth
   std::uint64_t wrong_owner = 0;  // pixels with another owner than the true one
-  // Of the depths kept, each against the plane of the triangle that the method says it belongs to:
+  // Of the depths kept, each against the plane of the triangle that the method says it belongs to, where that
+  // triangle covers the pixel in truth:
   std::uint64_t out_of_range = 0;  // pixels outside that triangle's own depths by more than 2^-16
   double max_ulp = 0, rms_ulp = 0;
+};
+struct VisibilityScores {
+  VisibilityScore snapped, floats;
+  // Methods know the snapped positions only, and so do their promises. Of the wrong owners against that
+  // truth, those whose depth lies no farther from the right one's than both triangles' bounds:
+  std::uint64_t near_ties = 0;
   // Promises broken: a pixel owned by a triangle that does not cover it, a depth beyond bound01, or a wrong
-  // owner whose true depth is farther from the right one's than both bounds allow.
+  // owner that is no near tie though depths are kept.
   std::uint64_t broken = 0;
 };
-VisibilityScore score(const VisibilityMethod& method, const VisibilityScene& scene,
-                      std::span<const std::uint32_t> owners);
+VisibilityScores score(const VisibilityMethod& method, const VisibilityScene& scene,
+                       const TrueOwners& owners);
 
 // The smallest scenes.
 struct VisibilityCase {
@@ -79,7 +97,8 @@ struct VisibilityCase {
 };
 std::span<const VisibilityCase> visibility_cases();
 
-// Sweeps. Two quads, the farther submitted first, `separation` apart, tilted about `distance`.
+// Sweeps. Two planes `separation` apart, tilted about `distance`: in the upper half of the view the farther
+// one is submitted first, in the lower half the nearer one, so that no order of submission is favoured.
 VisibilityScene two_planes(double distance, double separation, double near_z, double far_z);
 // Thin triangles in many directions, from distance 10 to 50 across their width; aspect is length over
 // (horizontal) width, at most 2^17: thinner ones have no area.

@@ -5,9 +5,11 @@
 #include <array>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <initializer_list>
 #include <numeric>
 #include <stdexcept>
 
+#include "frontend/fixed.h"
 #include "raster/contract.h"
 
 namespace edgewise::lab {
@@ -22,31 +24,36 @@ std::uint32_t contract_depth(double view_z, double near_z, double far_z) {
 // View space: x to the right, y down, z away from the eye, which sees the image's height as 1 at distance 1.
 class Builder {
  public:
-  Builder(Size size, double near_z, double far_z) : scene_{size.width, size.height, near_z, far_z, {}} {}
+  Builder(Size size, double near_z, double far_z) : scene_{size.width, size.height, near_z, far_z, {}, {}} {}
 
-  Builder& triangle(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
+  // At least three corners.
+  Builder& polygon(std::initializer_list<glm::dvec3> corners) {
+    const auto* const v = corners.begin();
+    const auto pieces = static_cast<std::uint32_t>(corners.size() - 2);
+    scene_.faces.push_back({static_cast<std::uint32_t>(scene_.triangles.size()), pieces});
+    for (std::uint32_t i = 0; i < pieces; ++i) add({v[0], v[i + 1], v[i + 2]});
+    return *this;
+  }
+  Builder& triangle(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) { return polygon({a, b, c}); }
+  Builder& quad(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c, glm::dvec3 d) { return polygon({a, b, c, d}); }
+  VisibilityScene take() { return std::move(scene_); }
+
+ private:
+  void add(const glm::dvec3 (&corners)[3]) {
     VisibilityTriangle t{};
-    const glm::dvec3 corners[3] = {a, b, c};
     for (int i = 0; i < 3; ++i) {
-      const auto snap = [](double px) {
-        return static_cast<std::int32_t>(std::nearbyint(px * contract::kSub));
-      };
       const glm::dvec3 p = corners[i];
-      t.screen.x_sub[i] = snap(scene_.width / 2.0 + scene_.height * p.x / p.z);
-      t.screen.y_sub[i] = snap(scene_.height / 2.0 + scene_.height * p.y / p.z);
+      t.x_px[i] = static_cast<float>(scene_.width / 2.0 + scene_.height * p.x / p.z);
+      t.y_px[i] = static_cast<float>(scene_.height / 2.0 + scene_.height * p.y / p.z);
+      t.screen.x_sub[i] = snap(t.x_px[i]);
+      t.screen.y_sub[i] = snap(t.y_px[i]);
       t.screen.z[i] = contract_depth(p.z, scene_.near_z, scene_.far_z);
       t.view_z[i] = p.z;
     }
     t.screen.payload = static_cast<std::uint32_t>(scene_.triangles.size());
     scene_.triangles.push_back(t);
-    return *this;
   }
-  Builder& quad(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c, glm::dvec3 d) {
-    return triangle(a, b, c).triangle(a, c, d);
-  }
-  VisibilityScene take() { return std::move(scene_); }
 
- private:
   VisibilityScene scene_;
 };
 
@@ -60,6 +67,23 @@ VisibilityScene floor_under_box() {
 }
 
 // Each bar starts near the eye, over the end of the one before it.
+// A floor of five corners, 46 away in the mean, under a wall at 50. By its triangles the floor's far part
+// would be painted first.
+VisibilityScene pentagon_under_wall() {
+  return Builder(kSize, 0.5, 200)
+      .polygon({{0, 8, 10}, {-20, 8, 30}, {-30, 8, 80}, {30, 8, 80}, {20, 8, 30}})
+      .quad({-12, -6, 50}, {12, -6, 50}, {12, 8, 50}, {-12, 8, 50})
+      .take();
+}
+
+// A quad that is no plane, three corners of it before a second one and the fourth far behind it.
+VisibilityScene bent_quad() {
+  return Builder(kSize, 0.5, 200)
+      .quad({-8, -6, 20}, {8, -6, 20}, {24, 18, 60}, {-8, 6, 20})
+      .quad({-6, -5, 28}, {6, -5, 28}, {6, 5, 28}, {-6, 5, 28})
+      .take();
+}
+
 VisibilityScene bars_in_a_cycle() {
   Builder builder(kSize, 0.5, 10);
   const auto at = [](double degrees, double radius, double z) {
@@ -86,7 +110,7 @@ VisibilityScene back_to_front() {
 }
 
 VisibilityScene front_to_back() {
-  VisibilityScene scene = back_to_front();
+  VisibilityScene scene = back_to_front();  // of triangles, so that the faces stay as they are
   std::reverse(scene.triangles.begin(), scene.triangles.end());
   return scene;
 }
@@ -96,6 +120,9 @@ constexpr std::array kCases = {
                    back_to_front},
     VisibilityCase{"front_to_back", "the same, submitted front to back", front_to_back},
     VisibilityCase{"floor_under_box", "a floor from z = 1 to 100 under a box at z = 60", floor_under_box},
+    VisibilityCase{"pentagon_under_wall", "a pentagon, nearer than a wall in the mean of its corners alone",
+                   pentagon_under_wall},
+    VisibilityCase{"bent_quad", "a quad that is not planar, with one corner behind another quad", bent_quad},
     VisibilityCase{"bars_in_a_cycle", "three bars, each over the end of the one before it", bars_in_a_cycle},
     VisibilityCase{"interpenetrating", "two triangles through one another", interpenetrating},
     VisibilityCase{"planes_1_apart", "two planes 1 apart at z = 100, near 0.1",
@@ -115,11 +142,13 @@ std::span<const VisibilityCase> visibility_cases() {
 
 VisibilityScene two_planes(double distance, double separation, double near_z, double far_z) {
   Builder builder(kSize, near_z, far_z);
-  for (const double nearer : {0.0, separation}) {
+  const auto quad = [&](double nearer, double top, double bottom) {
     const double left = 0.9 * distance - nearer, right = 1.1 * distance - nearer;
     const auto at = [](double x, double y, double z) { return glm::dvec3(x * z, y * z, z); };
-    builder.quad(at(-0.6, -0.45, left), at(0.6, -0.45, right), at(0.6, 0.45, right), at(-0.6, 0.45, left));
-  }
+    builder.quad(at(-0.6, top, left), at(0.6, top, right), at(0.6, bottom, right), at(-0.6, bottom, left));
+  };
+  for (const double nearer : {0.0, separation}) quad(nearer, -0.45, 0);
+  for (const double nearer : {separation, 0.0}) quad(nearer, 0, 0.45);
   return builder.take();
 }
 
@@ -127,7 +156,7 @@ VisibilityScene slivers(double aspect) {
   using namespace contract;
   constexpr int kSide = 1024, kReach = 500;  // px
   const double near_z = 0.5, far_z = 100;
-  VisibilityScene scene{kSide, kSide, near_z, far_z, {}};
+  VisibilityScene scene{kSide, kSide, near_z, far_z, {}, {}};
   for (int dx = -4; dx <= 4; ++dx)
     for (int dy = 1; dy <= 4; ++dy) {
       if (std::gcd(dx, dy) != 1) continue;
@@ -136,9 +165,14 @@ VisibilityScene slivers(double aspect) {
       const double width_sub = std::hypot(dx, dy) * steps * kSub / aspect;
       const std::int32_t x = sample_sub(kSide / 2 + steps * dx), y = sample_sub(kSide / 2 + steps * dy);
       const auto third = x + std::max(1, static_cast<std::int32_t>(std::min(width_sub, kGuardSub / 2.0)));
-      VisibilityTriangle t{{{sample_sub(kSide / 2), x, third}, {sample_sub(kSide / 2), y, y}, {}, 0},
-                           {10, 10, 50}};
-      for (int i = 0; i < 3; ++i) t.screen.z[i] = contract_depth(t.view_z[i], near_z, far_z);
+      VisibilityTriangle t{
+          {{sample_sub(kSide / 2), x, third}, {sample_sub(kSide / 2), y, y}, {}, 0}, {}, {}, {10, 10, 50}};
+      for (int i = 0; i < 3; ++i) {
+        t.screen.z[i] = contract_depth(t.view_z[i], near_z, far_z);
+        t.x_px[i] = static_cast<float>(t.screen.x_sub[i]) / kSub;
+        t.y_px[i] = static_cast<float>(t.screen.y_sub[i]) / kSub;
+      }
+      scene.faces.push_back({static_cast<std::uint32_t>(scene.triangles.size()), 1});
       scene.triangles.push_back(t);
     }
   return scene;
@@ -149,16 +183,19 @@ VisibilityScene visibility_scene(std::span<const ScreenTriangle> triangles,
                                  Size size) {
   if (triangles.size() != unsnapped.size()) throw std::invalid_argument("keep_unsnapped was not set");
   const double near_z = camera.near_z, far_z = camera.far_z;
-  VisibilityScene scene{size.width, size.height, near_z, far_z, {}};
+  VisibilityScene scene{size.width, size.height, near_z, far_z, {}, {}};
   scene.triangles.reserve(triangles.size());
   for (std::size_t i = 0; i < triangles.size(); ++i) {
-    VisibilityTriangle t{triangles[i], {}};
+    VisibilityTriangle t{triangles[i], {}, {}, {}};
     for (int k = 0; k < 3; ++k) {
+      t.x_px[k] = unsnapped[i].x_px[k];
+      t.y_px[k] = unsnapped[i].y_px[k];
       const double depth01 = std::clamp(static_cast<double>(unsnapped[i].z01[k]), 0.0, 1.0);
       t.view_z[k] = near_z * far_z / (far_z - depth01 * (far_z - near_z));
       // Anew, since the distance that depth01 gives back is rounded.
       t.screen.z[k] = contract_depth(t.view_z[k], near_z, far_z);
     }
+    scene.faces.push_back({static_cast<std::uint32_t>(i), 1});
     scene.triangles.push_back(t);
   }
   return scene;

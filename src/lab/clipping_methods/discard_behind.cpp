@@ -15,6 +15,7 @@ const ClippingMethod clipping_discard_behind{
         emit(frame.clipper.clip(triangle, *sides & (kFar | kGuard)), payload, scene.cull_back, frame);
       });
     },
-    kNear};
+    kNear,
+    kReachPx};
 
 }  // namespace edgewise::lab

@@ -24,6 +24,7 @@ const ClippingMethod clipping_near_too_near{
         }
       });
     },
-    kNear};
+    kNear,
+    kReachPx};
 
 }  // namespace edgewise::lab

@@ -12,6 +12,7 @@ const ClippingMethod clipping_none{
         emit(std::span<const ClipVertex>(triangle), payload, scene.cull_back, frame);
       });
     },
-    kNear | kFar | kGuard};
+    kNear | kFar | kGuard,
+    kReachPx};
 
 }  // namespace edgewise::lab

@@ -19,16 +19,29 @@ inline void clear_owners(const VisibilityScene& scene, VisibilityFrame& frame) {
   frame.owner.assign(static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height), kNobody);
 }
 
-// Farthest first by key(triangle); equal keys in submission order.
+// Calls add(z) for the distance of each vertex of a face.
+template <typename Add>
+void for_each_distance(const VisibilityScene& scene, const VisibilityFace& face, Add&& add) {
+  const VisibilityTriangle* const fan = scene.triangles.data() + face.first;
+  add(fan[0].view_z[0]);
+  add(fan[0].view_z[1]);
+  for (std::uint32_t i = 0; i < face.count; ++i) add(fan[i].view_z[2]);
+}
+
+// Farthest first by key(face); equal keys in submission order.
 template <typename Key>
 void draw_painter(const VisibilityScene& scene, VisibilityFrame& frame, Key&& key) {
   clear_owners(scene, frame);
-  frame.order.resize(scene.triangles.size());
+  frame.key.resize(scene.faces.size());
+  std::transform(scene.faces.begin(), scene.faces.end(), frame.key.begin(), key);
+  frame.order.resize(scene.faces.size());
   std::iota(frame.order.begin(), frame.order.end(), 0u);
-  std::stable_sort(frame.order.begin(), frame.order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return key(scene.triangles[a]) > key(scene.triangles[b]);
-  });
-  for (const std::uint32_t id : frame.order) paint(scene, frame, id);
+  std::stable_sort(frame.order.begin(), frame.order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return frame.key[a] > frame.key[b]; });
+  for (const std::uint32_t id : frame.order) {
+    const VisibilityFace face = scene.faces[id];
+    for (std::uint32_t i = 0; i < face.count; ++i) paint(scene, frame, face.first + i);
+  }
 }
 
 }  // namespace edgewise::lab

@@ -7,10 +7,12 @@ extern const VisibilityMethod visibility_painter_farthest;
 const VisibilityMethod visibility_painter_farthest{
     {"painter_farthest", "farthest vertex first, later ones overwrite",
      "Newell, Newell and Sancha 1972, their first sort only",
-     "right where any two triangles that meet on the screen have depth ranges apart", false},
+     "right where any two polygons that meet on the screen have depth ranges apart", false},
     [](const VisibilityScene& scene, VisibilityFrame& frame) {
-      draw_painter(scene, frame, [](const VisibilityTriangle& t) {
-        return std::max(std::max(t.view_z[0], t.view_z[1]), t.view_z[2]);
+      draw_painter(scene, frame, [&](const VisibilityFace& face) {
+        double farthest = 0;
+        for_each_distance(scene, face, [&](double z) { farthest = std::max(farthest, z); });
+        return farthest;
       });
     },
     nullptr,

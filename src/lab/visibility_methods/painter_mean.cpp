@@ -6,10 +6,13 @@ namespace edgewise::lab {
 extern const VisibilityMethod visibility_painter_mean;
 const VisibilityMethod visibility_painter_mean{
     {"painter_mean", "farthest mean distance first, later ones overwrite", "p5.js engine",
-     "right where any two triangles that meet on the screen have depth ranges apart", false},
+     "right where any two polygons that meet on the screen have depth ranges apart", false},
     [](const VisibilityScene& scene, VisibilityFrame& frame) {
-      draw_painter(scene, frame,
-                   [](const VisibilityTriangle& t) { return t.view_z[0] + t.view_z[1] + t.view_z[2]; });
+      draw_painter(scene, frame, [&](const VisibilityFace& face) {
+        double sum = 0;
+        for_each_distance(scene, face, [&](double z) { sum += z; });
+        return sum / (face.count + 2);
+      });
     },
     nullptr,
     nullptr,
