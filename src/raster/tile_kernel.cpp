@@ -27,6 +27,7 @@
 #include "raster/contract.h"
 #include "raster/kernel_table.h"
 #include "raster/tile_kernel.h"
+#include "raster/tile_setup-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace edgewise {
@@ -37,7 +38,6 @@ using namespace contract;
 using D = hn::CappedTag<std::int32_t, 16>;
 using V = hn::Vec<D>;
 constexpr int kLanes = static_cast<int>(hn::MaxLanes(D{}));
-constexpr int kBlock = 4;  // px a side
 constexpr int kBlockPixels = 16;
 constexpr int kVectors = kBlockPixels / kLanes;  // in a block
 constexpr int kMaxBlocks = kMaxTile / kBlock;    // a side of a tile
@@ -54,15 +54,6 @@ struct Tile {
   alignas(64) std::int32_t farthest[kMaxBlocks * kMaxBlocks];  // no pixel of the block is farther
 };
 
-// A linear function of the pixel's place in the tile, in wrapping int32: a shifted edge value or a depth.
-struct Linear {
-  std::int32_t x, y;    // step a pixel
-  std::int32_t origin;  // at the tile's first pixel
-};
-
-constexpr std::int32_t wrap(std::uint32_t v) {
-  return static_cast<std::int32_t>(v);
-}
 constexpr std::int32_t wrap_add(std::int32_t a, std::int32_t b) {
   return wrap(static_cast<std::uint32_t>(a) + static_cast<std::uint32_t>(b));
 }
@@ -81,58 +72,21 @@ struct BlockOffsets {
   }
 };
 
-// What a triangle means to one tile.
+// What a triangle means to one tile: an entry of a batch.
 struct TileTriangle {
-  Linear edge[3];  // inside where all are >= 0
-  Linear depth;
-  Linear nearest;  // a bound for hierarchical depth: no pixel of the triangle is nearer (see below)
+  HWY_INLINE TileTriangle(const Batch& batch, int k)
+      : edge{batch.edge[0][k], batch.edge[1][k], batch.edge[2][k]},
+        depth(batch.depth[k]),
+        nearest(batch.nearest[k]),
+        payload(batch.payload[k]),
+        bx0(batch.bx0[k]),
+        by0(batch.by0[k]),
+        bx1(batch.bx1[k]),
+        by1(batch.by1[k]) {}
+  Linear edge[3], depth, nearest;
   std::int32_t payload;
-  int bx0, by0, bx1, by1;  // blocks it may touch, inclusive
+  int bx0, by0, bx1, by1;
 };
-
-// False if the triangle touches no pixel of the tile.
-HWY_INLINE bool set_up(const TileJob& job, const ScreenTriangle& triangle, TileTriangle& out) {
-  const int size = 1 << job.size_log2;
-  const PixelBox box = pixel_box(triangle, job.frame.width, job.frame.height);
-  const int x0 = std::max(box.x0 - job.x0, 0), x1 = std::min(box.x1 - job.x0, size);
-  const int y0 = std::max(box.y0 - job.y0, 0), y1 = std::min(box.y1 - job.y0, size);
-  if (x0 >= x1 || y0 >= y1) return false;
-  const Oriented t = orient(triangle);
-  if (t.area == 0) return false;
-  out.bx0 = x0 / kBlock, out.bx1 = (x1 - 1) / kBlock;
-  out.by0 = y0 / kBlock, out.by1 = (y1 - 1) / kBlock;
-
-  // The box in whole blocks, so that an edge that accepts it accepts every lane that will be tested.
-  const int left = out.bx0 * kBlock, top = out.by0 * kBlock;
-  const std::int64_t last_x = (out.bx1 - out.bx0 + 1) * kBlock - 1,
-                     last_y = (out.by1 - out.by0 + 1) * kBlock - 1;
-  for (int i = 0; i < 3; ++i) {
-    const Edge edge = make_edge(t, i);
-    const std::int64_t first = edge.at(job.x0 + left, job.y0 + top);
-    const std::int64_t across = std::int64_t{edge.a} * kSub * last_x,
-                       down = std::int64_t{edge.b} * kSub * last_y;
-    if (first + std::max<std::int64_t>(across, 0) + std::max<std::int64_t>(down, 0) < 0) return false;
-    if (first + std::min<std::int64_t>(across, 0) + std::min<std::int64_t>(down, 0) >= 0)
-      out.edge[i] = {0, 0, 0};
-    else
-      out.edge[i] = {edge.a, edge.b,
-                     static_cast<std::int32_t>((first >> kSubBits) - std::int64_t{edge.a} * left -
-                                               std::int64_t{edge.b} * top)};
-  }
-
-  const DepthPlane plane = make_depth(t);
-  out.depth = {wrap(plane.zx), wrap(plane.zy), wrap(plane.at(job.x0, job.y0))};
-  out.payload = wrap(triangle.payload);
-  // Below 2^24 a step, the plane over a tile stays within 2^31 of the triangle's depths, so a wrapped value
-  // is negative and passes as near: the bound may be the plane itself. Steeper planes fall back to the
-  // nearest vertex.
-  constexpr std::int32_t kSteep = 1 << 24;
-  const bool flat =
-      std::max(std::abs(std::int64_t{out.depth.x}), std::abs(std::int64_t{out.depth.y})) < kSteep;
-  const std::int64_t nearest = std::min({t.z[0], t.z[1], t.z[2]}) - kDepthError;
-  out.nearest = flat ? out.depth : Linear{0, 0, static_cast<std::int32_t>(nearest)};
-  return true;
-}
 
 // Smallest and largest of a linear function over a block, relative to the block's first pixel.
 constexpr std::int32_t block_min(const Linear& f) {
@@ -294,21 +248,23 @@ void draw_tile(const TileJob& job) {
   fill(tile.payload, size * size, job.background);
   fill(tile.farthest, kMaxBlocks * kMaxBlocks, kDepthClear);
 
+  // The records lie anywhere: each run's are asked for while the run before it is drawn.
+  Batch batch;
+  std::span<const std::uint32_t> asked_for;
+  const auto draw_run = [&](std::span<const std::uint32_t> run) {
+    for (std::uint32_t left = set_up(job, run, batch); left != 0; left &= left - 1)
+      Painter(tile, TileTriangle(batch, std::countr_zero(left)), blocks_per_row).draw();
+  };
   job.bins->for_each_run(job.cell, [&](std::span<const std::uint32_t> run) {
-    // The records lie anywhere; ask for them before they are needed.
-    constexpr std::size_t kAhead = 6;
-    const auto prefetch = [&](std::size_t i) {
-      const auto* record = reinterpret_cast<const char*>(job.triangles + run[i]);
+    for (const std::uint32_t index : run) {
+      const auto* record = reinterpret_cast<const char*>(job.triangles + index);
       hwy::Prefetch(record);
       hwy::Prefetch(record + sizeof(ScreenTriangle) - 1);
-    };
-    for (std::size_t i = 0; i < std::min(kAhead, run.size()); ++i) prefetch(i);
-    for (std::size_t i = 0; i < run.size(); ++i) {
-      if (i + kAhead < run.size()) prefetch(i + kAhead);
-      TileTriangle triangle;
-      if (set_up(job, job.triangles[run[i]], triangle)) Painter(tile, triangle, blocks_per_row).draw();
     }
+    if (!asked_for.empty()) draw_run(asked_for);
+    asked_for = run;
   });
+  if (!asked_for.empty()) draw_run(asked_for);
   write_out(job, tile.depth, job.frame.depth);
   write_out(job, tile.payload, job.frame.payload);
   hwy::FlushStream();

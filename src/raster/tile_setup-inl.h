@@ -1,0 +1,335 @@
+// Setting up triangles for one tile, a vector of triangles at a time.
+//
+// A 64-bit lane belongs to a triangle. What fits 32 bits (rule 3) lives in the lane's lower half, so that one
+// instruction multiplies two of them to a 64-bit product; edge values and depth gradients are those products.
+// The gradient's division is done in doubles and corrected by its remainder, as contract::gradient() does;
+// lanes whose quotient is too large for that are done again by the contract's own functions, one by one.
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <span>
+
+#include "raster/contract.h"
+#include "raster/tile_kernel.h"
+
+// Included once a SIMD target.
+#if defined(EDGEWISE_TILE_SETUP_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef EDGEWISE_TILE_SETUP_INL_H
+#undef EDGEWISE_TILE_SETUP_INL_H
+#else
+#define EDGEWISE_TILE_SETUP_INL_H
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace edgewise {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+using namespace contract;
+
+constexpr int kBlock = 4;  // px a side; the kernel draws and rejects in such blocks
+
+constexpr std::int32_t wrap(std::uint32_t v) {
+  return static_cast<std::int32_t>(v);
+}
+
+// A linear function of the pixel's place in the tile, in wrapping int32: a shifted edge value or a depth.
+struct Linear {
+  std::int32_t x, y;    // step a pixel
+  std::int32_t origin;  // at the tile's first pixel
+};
+
+// What a batch of triangles means to one tile.
+struct Batch {
+  static constexpr int kSize = 32;
+  struct Linears {
+    std::int32_t x[kSize], y[kSize], origin[kSize];
+    Linear operator[](int k) const { return {x[k], y[k], origin[k]}; }
+    void set(int k, const Linear& f) { x[k] = f.x, y[k] = f.y, origin[k] = f.origin; }
+  };
+  alignas(64) Linears edge[3];  // inside where all are >= 0
+  Linears depth;
+  Linears nearest;  // a bound for hierarchical depth: no pixel of the triangle is nearer
+  std::int32_t payload[kSize];
+  std::int32_t bx0[kSize], by0[kSize], bx1[kSize], by1[kSize];  // blocks that it may touch, inclusive
+};
+
+// A plane whose steps are smaller than this stays, over a tile, within 2^31 of the triangle's depths, so a
+// wrapped value is negative and passes as near: the bound may be the plane itself. A steeper one falls back
+// to the nearest vertex.
+constexpr std::int32_t kSteep = 1 << 24;
+
+// The plain form: what set_up() below does for many, done for one. False if no pixel of the tile is touched.
+inline bool set_up_one(const TileJob& job, const ScreenTriangle& triangle, Batch& out, int k) {
+  const int size = 1 << job.size_log2;
+  const PixelBox box = pixel_box(triangle, job.frame.width, job.frame.height);
+  const int x0 = std::max(box.x0 - job.x0, 0), x1 = std::min(box.x1 - job.x0, size);
+  const int y0 = std::max(box.y0 - job.y0, 0), y1 = std::min(box.y1 - job.y0, size);
+  if (x0 >= x1 || y0 >= y1) return false;
+  const Oriented t = orient(triangle);
+  if (t.area == 0) return false;
+  const int bx0 = x0 / kBlock, bx1 = (x1 - 1) / kBlock, by0 = y0 / kBlock, by1 = (y1 - 1) / kBlock;
+
+  // The box in whole blocks, so that an edge that accepts it accepts every lane that will be tested.
+  const int left = bx0 * kBlock, top = by0 * kBlock;
+  const std::int64_t last_x = (bx1 - bx0 + 1) * kBlock - 1, last_y = (by1 - by0 + 1) * kBlock - 1;
+  for (int i = 0; i < 3; ++i) {
+    const Edge edge = make_edge(t, i);
+    const std::int64_t first = edge.at(job.x0 + left, job.y0 + top);
+    const std::int64_t across = std::int64_t{edge.a} * kSub * last_x,
+                       down = std::int64_t{edge.b} * kSub * last_y;
+    if (first + std::max<std::int64_t>(across, 0) + std::max<std::int64_t>(down, 0) < 0) return false;
+    const bool accepts = first + std::min<std::int64_t>(across, 0) + std::min<std::int64_t>(down, 0) >= 0;
+    const std::int64_t origin =
+        (first >> kSubBits) - std::int64_t{edge.a} * left - std::int64_t{edge.b} * top;
+    out.edge[i].set(
+        k, accepts ? Linear{0, 0, 0} : Linear{edge.a, edge.b, wrap(static_cast<std::uint32_t>(origin))});
+  }
+  const DepthPlane plane = make_depth(t);
+  const Linear depth{wrap(plane.zx), wrap(plane.zy), wrap(plane.at(job.x0, job.y0))};
+  out.depth.set(k, depth);
+  const bool flat = std::max(std::abs(std::int64_t{depth.x}), std::abs(std::int64_t{depth.y})) < kSteep;
+  const std::int64_t nearest = std::min({t.z[0], t.z[1], t.z[2]}) - kDepthError;
+  out.nearest.set(k, flat ? depth : Linear{0, 0, static_cast<std::int32_t>(nearest)});
+  out.payload[k] = wrap(triangle.payload);
+  out.bx0[k] = bx0, out.by0[k] = by0, out.bx1[k] = bx1, out.by1[k] = by1;
+  return true;
+}
+
+#if HWY_TARGET != HWY_SCALAR
+
+// Names of lanes. I32 vectors have two for each triangle, of which the lower one counts.
+using D64 = hn::CappedTag<std::int64_t, 8>;
+using U64 = hn::RebindToUnsigned<D64>;
+using F64 = hn::RebindToFloat<D64>;
+using D32 = hn::Repartition<std::int32_t, D64>;
+using Low32 = hn::Rebind<std::uint32_t, D64>;
+using V64 = hn::Vec<D64>;
+using V32 = hn::Vec<D32>;
+
+HWY_INLINE V32 lower(V64 v) {
+  return hn::BitCast(D32{}, v);
+}
+HWY_INLINE V32 upper(V64 v) {
+  return hn::BitCast(D32{}, hn::ShiftRight<32>(hn::BitCast(U64{}, v)));
+}
+HWY_INLINE V64 as64(V32 v) {
+  return hn::BitCast(D64{}, v);
+}
+template <int kBits>
+HWY_INLINE V64 shift_right(V64 v) {
+  return hn::BitCast(D64{}, hn::ShiftRight<kBits>(hn::BitCast(U64{}, v)));
+}
+HWY_INLINE V32 set32(std::int32_t v) {
+  return hn::Set(D32{}, v);
+}
+HWY_INLINE V64 product(V32 a, V32 b) {
+  return hn::MulEven(a, b);
+}
+// g d mod 2^64. With g = low + 2^32 high, low signed: high is g's upper half, rounded.
+HWY_INLINE V64 product(V64 g, V32 d) {
+  const V32 high = upper(hn::Add(g, hn::Set(D64{}, std::int64_t{1} << 31)));
+  return hn::Add(product(lower(g), d), hn::ShiftLeft<32>(product(high, d)));
+}
+// g n mod 2^64, for n >= 0.
+HWY_INLINE V64 product(V64 g, V64 n) {
+  const hn::Repartition<std::uint32_t, D64> u32;
+  const auto gl = hn::BitCast(u32, g), gh = hn::BitCast(u32, upper(g)), nl = hn::BitCast(u32, n),
+             nh = hn::BitCast(u32, upper(n));
+  const auto cross = hn::Add(hn::MulEven(gl, nh), hn::MulEven(gh, nl));
+  return hn::BitCast(D64{}, hn::Add(hn::MulEven(gl, nl), hn::ShiftLeft<32>(cross)));
+}
+// -v where `flip` is -1, v where it is 0.
+HWY_INLINE V32 flipped(V32 v, V32 flip) {
+  return hn::Sub(hn::Xor(v, flip), flip);
+}
+HWY_INLINE V64 flipped(V64 v, V64 flip) {
+  return hn::Sub(hn::Xor(v, flip), flip);
+}
+HWY_INLINE void store(V64 v, std::int32_t* at) {
+  const Low32 d;
+  hn::StoreU(hn::TruncateTo(d, hn::BitCast(U64{}, v)), d, reinterpret_cast<std::uint32_t*>(at));
+}
+HWY_INLINE void store(V32 v, std::int32_t* at) {
+  store(as64(v), at);
+}
+
+struct Gradient {
+  V64 g;                // floor(2^24 n / area)
+  hn::Mask<D64> exact;  // where that holds
+};
+// Rule 6. The double quotient q is within 3 2^-53 |q| < 1/4 of the truth and rounds to an integer within 1/2,
+// so the floor is that integer or the one below it; the remainder's sign tells which.
+HWY_INLINE Gradient gradient(V64 n, V64 area, hn::Vec<F64> scaled_inverse) {
+  const F64 df;
+  const D64 d;
+  const auto q = hn::Mul(hn::ConvertTo(df, n), scaled_inverse);
+  const auto rounder = hn::Set(df, 0x1.8p52);  // its unit is 1: adding it rounds
+  const V64 g = hn::Sub(hn::BitCast(d, hn::Add(q, rounder)), hn::BitCast(d, rounder));
+  const V64 rest = hn::Sub(hn::ShiftLeft<24>(n), product(g, area));
+  return {hn::Sub(g, shift_right<63>(rest)), hn::RebindMask(d, hn::Lt(hn::Abs(q), hn::Set(df, 0x1p49)))};
+}
+
+struct Depth {
+  V64 zx, zy, origin;  // their lower halves count
+  hn::Mask<D64> exact;
+};
+// `flip` is -1 where the winding has been turned round, so that `area` is positive.
+HWY_INLINE Depth set_up_depth(const TileJob& job, const V32 (&x)[3], const V32 (&y)[3], const V32 (&z)[3],
+                              V64 area, V64 flip) {
+  const D64 d;
+  const F64 df;
+  const V32 dz1 = hn::Sub(z[1], z[0]), dz2 = hn::Sub(z[2], z[0]);
+  const V32 dx1 = hn::Sub(x[1], x[0]), dx2 = hn::Sub(x[2], x[0]);
+  const V32 dy1 = hn::Sub(y[1], y[0]), dy2 = hn::Sub(y[2], y[0]);
+  const V64 nx = flipped(hn::Sub(product(dz1, dy2), product(dz2, dy1)), flip);
+  const V64 ny = flipped(hn::Sub(product(dz2, dx1), product(dz1, dx2)), flip);
+  const auto scaled_inverse = hn::Div(hn::Set(df, 0x1p24), hn::ConvertTo(df, area));
+  const Gradient gx = gradient(nx, area, scaled_inverse), gy = gradient(ny, area, scaled_inverse);
+
+  // The anchor: the topmost, then leftmost vertex.
+  V32 top_x = x[0], top_y = y[0], top_z = z[0];
+  for (int i = 1; i < 3; ++i) {
+    const auto above = hn::Or(hn::Lt(y[i], top_y), hn::And(hn::Eq(y[i], top_y), hn::Lt(x[i], top_x)));
+    top_x = hn::IfThenElse(above, x[i], top_x);
+    top_y = hn::IfThenElse(above, y[i], top_y);
+    top_z = hn::IfThenElse(above, z[i], top_z);
+  }
+  const int in_cell_x = job.x0 % kDepthCell, in_cell_y = job.y0 % kDepthCell;
+  const V32 from_x = hn::Sub(set32(sample_sub(job.x0 - in_cell_x)), top_x);
+  const V32 from_y = hn::Sub(set32(sample_sub(job.y0 - in_cell_y)), top_y);
+  const V64 anchor = shift_right<8>(hn::ShiftLeft<32>(as64(top_z)));  // 2^24 z, whatever the upper half
+  const V64 half = hn::Set(d, std::int64_t{1} << 23);
+  const V64 base =
+      shift_right<24>(hn::Add(hn::Add(anchor, half), hn::Add(product(gx.g, from_x), product(gy.g, from_y))));
+  const V64 round = hn::Set(d, 0x8000);
+  const V64 zx = shift_right<16>(hn::Add(gx.g, round)), zy = shift_right<16>(hn::Add(gy.g, round));
+  const V64 origin =
+      hn::Add(base, hn::Add(product(lower(zx), set32(in_cell_x)), product(lower(zy), set32(in_cell_y))));
+  return {zx, zy, origin, hn::And(gx.exact, gy.exact)};
+}
+
+// Sets up the triangles triangles[run[i]]; bit i of the result is set if that one touches the tile. Reads
+// run[] up to the next multiple of a vector's lanes, so it must be padded with valid indices.
+HWY_INLINE std::uint32_t set_up_vector(const TileJob& job, const std::uint32_t* run, Batch& out, int k) {
+  const D64 d;
+  const V64 index = hn::BitCast(d, hn::PromoteTo(U64{}, hn::LoadU(Low32{}, run + k)));
+  static_assert(sizeof(ScreenTriangle) == (1 << 5) + (1 << 3));
+  const V64 offset = hn::Add(hn::ShiftLeft<5>(index), hn::ShiftLeft<3>(index));
+  // The record as five pairs of 32-bit fields, in the order of ScreenTriangle.
+  V64 pair[5];
+  for (int i = 0; i < 5; ++i)
+    pair[i] = hn::GatherOffset(d, reinterpret_cast<const std::int64_t*>(job.triangles) + i, offset);
+  const V32 x[3] = {lower(pair[0]), upper(pair[0]), lower(pair[1])};
+  const V32 y[3] = {upper(pair[1]), lower(pair[2]), upper(pair[2])};
+  const V32 z[3] = {lower(pair[3]), upper(pair[3]), lower(pair[4])};
+
+  // The box of samples, in the tile.
+  const auto first_sample = [](V32 c) { return hn::ShiftRight<kSubBits>(hn::Add(c, set32(kHalf - 1))); };
+  const auto low = [&](const V32(&c)[3], int origin) {
+    const V32 least = hn::Min(hn::Min(c[0], c[1]), c[2]);
+    return hn::Max(hn::Sub(first_sample(least), set32(origin)), hn::Zero(D32{}));
+  };
+  const auto high = [&](const V32(&c)[3], int origin, int end) {
+    const V32 most = hn::Max(hn::Max(c[0], c[1]), c[2]);
+    return hn::Min(hn::Sub(first_sample(most), set32(origin)), set32(end));
+  };
+  const int size = 1 << job.size_log2;
+  const V32 x0 = low(x, job.x0), x1 = high(x, job.x0, std::min(size, job.frame.width - job.x0));
+  const V32 y0 = low(y, job.y0), y1 = high(y, job.y0, std::min(size, job.frame.height - job.y0));
+  const auto filled = hn::And(hn::Lt(x0, x1), hn::Lt(y0, y1));
+  static_assert(kBlock == 1 << 2);
+  const V32 one = set32(1);
+  const V32 bx0 = hn::ShiftRight<2>(x0), bx1 = hn::ShiftRight<2>(hn::Sub(x1, one));
+  const V32 by0 = hn::ShiftRight<2>(y0), by1 = hn::ShiftRight<2>(hn::Sub(y1, one));
+  const V32 left = hn::ShiftLeft<2>(bx0), top = hn::ShiftLeft<2>(by0);
+  const auto last = [&](V32 b0, V32 b1) {
+    return hn::Sub(hn::ShiftLeft<2>(hn::Add(hn::Sub(b1, b0), one)), one);
+  };
+  const V32 last_x = last(bx0, bx1), last_y = last(by0, by1);
+  const auto sample = [](V32 px, int origin) {
+    return hn::Add(hn::ShiftLeft<kSubBits>(px), set32(sample_sub(origin)));
+  };
+  const V32 sample_x = sample(left, job.x0), sample_y = sample(top, job.y0);
+
+  const V64 zero = hn::Zero(d);
+  const V64 area = hn::Sub(product(hn::Sub(x[1], x[0]), hn::Sub(y[2], y[0])),
+                           product(hn::Sub(y[1], y[0]), hn::Sub(x[2], x[0])));
+  const V64 flip = hn::VecFromMask(d, hn::Lt(area, zero));
+  // Lanes whose sign bit is set touch nothing.
+  V64 dead = hn::Or(hn::ShiftLeft<32>(as64(hn::VecFromMask(D32{}, hn::Not(filled)))),
+                    hn::VecFromMask(d, hn::Eq(area, zero)));
+
+  for (int i = 0; i < 3; ++i) {
+    const int j = i == 2 ? 0 : i + 1;
+    const V32 a = flipped(hn::Sub(y[i], y[j]), lower(flip)), b = flipped(hn::Sub(x[j], x[i]), lower(flip));
+    const V32 zero32 = hn::Zero(D32{});
+    const auto top_left = hn::Or(hn::Gt(a, zero32), hn::And(hn::Eq(a, zero32), hn::Gt(b, zero32)));
+    const V64 bias = hn::AndNot(as64(hn::VecFromMask(D32{}, top_left)), hn::Set(d, 1));
+    const V64 first =
+        hn::Sub(hn::Add(product(a, hn::Sub(sample_x, x[i])), product(b, hn::Sub(sample_y, y[i]))), bias);
+    // From the first sample to where the edge value is largest, and by how much it falls from there.
+    const V64 rise = hn::Add(product(hn::Max(a, zero32), last_x), product(hn::Max(b, zero32), last_y));
+    const V64 most = hn::Add(first, hn::ShiftLeft<kSubBits>(rise));
+    const V64 across = hn::Add(product(a, last_x), product(b, last_y));
+    const V64 least = hn::Add(first, hn::ShiftLeft<kSubBits>(hn::Sub(across, rise)));
+    dead = hn::Or(dead, most);
+    const auto crossed = hn::Lt(least, zero);
+    const V64 origin = hn::Sub(shift_right<kSubBits>(first), hn::Add(product(a, left), product(b, top)));
+    store(hn::IfThenElseZero(crossed, as64(a)), out.edge[i].x + k);
+    store(hn::IfThenElseZero(crossed, as64(b)), out.edge[i].y + k);
+    store(hn::IfThenElseZero(crossed, origin), out.edge[i].origin + k);
+  }
+
+  const Depth depth = set_up_depth(job, x, y, z, flipped(area, flip), flip);
+  store(depth.zx, out.depth.x + k);
+  store(depth.zy, out.depth.y + k);
+  store(depth.origin, out.depth.origin + k);
+  const auto gentle = [](V32 v) { return hn::And(hn::Lt(v, set32(kSteep)), hn::Gt(v, set32(-kSteep))); };
+  const V64 flat = as64(hn::VecFromMask(D32{}, hn::And(gentle(lower(depth.zx)), gentle(lower(depth.zy)))));
+  const V32 vertex = hn::Sub(hn::Min(hn::Min(z[0], z[1]), z[2]), set32(kDepthError));
+  store(hn::And(flat, depth.zx), out.nearest.x + k);
+  store(hn::And(flat, depth.zy), out.nearest.y + k);
+  store(hn::Or(hn::And(flat, depth.origin), hn::AndNot(flat, as64(vertex))), out.nearest.origin + k);
+  store(upper(pair[4]), out.payload + k);
+  store(bx0, out.bx0 + k), store(bx1, out.bx1 + k);
+  store(by0, out.by0 + k), store(by1, out.by1 + k);
+
+  const auto bits = [&](hn::Mask<D64> mask) {
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(d, mask, bytes);
+    return std::uint32_t{bytes[0]};
+  };
+  std::uint32_t alive = bits(hn::Not(hn::Lt(dead, zero)));
+  for (std::uint32_t left_over = alive & ~bits(depth.exact); left_over != 0; left_over &= left_over - 1) {
+    const int lane = std::countr_zero(left_over);
+    set_up_one(job, job.triangles[run[k + lane]], out, k + lane);
+  }
+  return alive;
+}
+
+#endif
+
+// Sets up triangles[run[i]] for all i; bit i of the result tells whether that one may touch the tile.
+inline std::uint32_t set_up(const TileJob& job, std::span<const std::uint32_t> run, Batch& out) {
+  std::uint32_t alive = 0;
+  const int count = static_cast<int>(run.size());
+#if HWY_TARGET == HWY_SCALAR
+  for (int k = 0; k < count; ++k)
+    alive |= std::uint32_t{set_up_one(job, job.triangles[run[static_cast<std::size_t>(k)]], out, k)} << k;
+  return alive;
+#else
+  std::uint32_t padded[Batch::kSize];
+  for (int k = 0; k < Batch::kSize; ++k) padded[k] = run[static_cast<std::size_t>(std::min(k, count - 1))];
+  constexpr int kLanes = static_cast<int>(hn::MaxLanes(D64{}));
+  for (int k = 0; k < count; k += kLanes) alive |= set_up_vector(job, padded, out, k) << k;
+  return alive & static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1);
+#endif
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace edgewise
+HWY_AFTER_NAMESPACE();
+
+#endif
