@@ -54,48 +54,6 @@ struct Tile {
   alignas(64) std::int32_t farthest[kMaxBlocks * kMaxBlocks];  // no pixel of the block is farther
 };
 
-constexpr std::int32_t wrap_add(std::int32_t a, std::int32_t b) {
-  return wrap(static_cast<std::uint32_t>(a) + static_cast<std::uint32_t>(b));
-}
-constexpr std::int32_t wrap_mul_add(std::int32_t a, int n, std::int32_t b) {
-  return wrap_add(wrap(static_cast<std::uint32_t>(a) * static_cast<std::uint32_t>(n)), b);
-}
-
-// A linear function's values over one block, relative to its first pixel.
-struct BlockOffsets {
-  V v[kVectors];
-  HWY_INLINE explicit BlockOffsets(const Linear& f) {
-    const D d;
-    for (int i = 0; i < kVectors; ++i)
-      v[i] = hn::Add(hn::Mul(hn::Load(d, kLaneX + i * kLanes), hn::Set(d, f.x)),
-                     hn::Mul(hn::Load(d, kLaneY + i * kLanes), hn::Set(d, f.y)));
-  }
-};
-
-// What a triangle means to one tile: an entry of a batch.
-struct TileTriangle {
-  HWY_INLINE TileTriangle(const Batch& batch, int k)
-      : edge{batch.edge[0][k], batch.edge[1][k], batch.edge[2][k]},
-        depth(batch.depth[k]),
-        nearest(batch.nearest[k]),
-        payload(batch.payload[k]),
-        bx0(batch.bx0[k]),
-        by0(batch.by0[k]),
-        bx1(batch.bx1[k]),
-        by1(batch.by1[k]) {}
-  Linear edge[3], depth, nearest;
-  std::int32_t payload;
-  int bx0, by0, bx1, by1;
-};
-
-// Smallest and largest of a linear function over a block, relative to the block's first pixel.
-constexpr std::int32_t block_min(const Linear& f) {
-  return std::min(f.x, 0) * (kBlock - 1) + std::min(f.y, 0) * (kBlock - 1);
-}
-constexpr std::int32_t block_max(const Linear& f) {
-  return std::max(f.x, 0) * (kBlock - 1) + std::max(f.y, 0) * (kBlock - 1);
-}
-
 HWY_INLINE std::uint32_t mask_bits(hn::Mask<D> mask) {
   std::uint8_t bytes[8] = {};
   hn::StoreMaskBits(D{}, mask, bytes);
@@ -104,107 +62,97 @@ HWY_INLINE std::uint32_t mask_bits(hn::Mask<D> mask) {
   return bits;
 }
 
-struct BlockRow {
-  std::uint32_t touched, inside;  // a bit for each block of the row
+// Values of a linear function at the first pixels of a row of blocks.
+struct RowValues {
+  static constexpr int kParts = kMaxBlocks / kLanes;
+  V v[kParts], step;
+  HWY_INLINE RowValues(const std::int32_t* x, const std::int32_t* y, const std::int32_t* first) {
+    const D d;
+    const V block_x = hn::ShiftLeft<2>(hn::Set(d, *x)), start = hn::Set(d, *first);
+    for (int p = 0; p < kParts; ++p)
+      v[p] = hn::Add(start, hn::Mul(hn::Load(d, kColumn + p * kLanes), block_x));
+    step = hn::ShiftLeft<2>(hn::Set(d, *y));
+  }
+  HWY_INLINE void next_row() {
+    for (V& part : v) part = hn::Add(part, step);
+  }
 };
 
-// Which blocks of a row hold pixels that may be drawn, and which of these lie wholly inside the triangle.
-HWY_INLINE BlockRow sift(const Tile& tile, const TileTriangle& t, int by, int blocks_per_row) {
-  const D d;
-  const auto zero = hn::Zero(d);
-  BlockRow row{0, 0};
-  for (int first = 0; first < kMaxBlocks; first += kLanes) {
-    const auto column = hn::Load(d, kColumn + first);
-    const auto at_blocks = [&](const Linear& f, std::int32_t offset) {
-      return hn::Add(hn::Set(d, wrap_add(wrap_mul_add(f.y, by * kBlock, f.origin), offset)),
-                     hn::Mul(column, hn::Set(d, wrap_mul_add(f.x, kBlock, 0))));
-    };
-    auto most = zero, least = zero;
-    for (const Linear& edge : t.edge) {
-      const std::int32_t span = block_max(edge) - block_min(edge);
-      const auto high = at_blocks(edge, block_max(edge));
-      most = hn::Or(most, high);
-      least = hn::Or(least, hn::Sub(high, hn::Set(d, span)));
-    }
-    const auto nearest = at_blocks(t.nearest, block_min(t.nearest));
-    const auto in_front = hn::Lt(nearest, hn::LoadU(d, tile.farthest + by * blocks_per_row + first));
-    const auto touched = hn::AndNot(hn::Lt(most, zero), in_front);
-    row.touched |= mask_bits(touched) << first;
-    row.inside |= mask_bits(hn::AndNot(hn::Lt(least, zero), touched)) << first;
+// Values of a linear function over one block, relative to its first pixel.
+struct BlockOffsets {
+  V v[kVectors];
+  HWY_INLINE BlockOffsets(const Batch::Linear& f, int k) {
+    const D d;
+    for (int i = 0; i < kVectors; ++i)
+      v[i] = hn::Add(hn::Mul(hn::Load(d, kLaneX + i * kLanes), hn::Set(d, f.x[k])),
+                     hn::Mul(hn::Load(d, kLaneY + i * kLanes), hn::Set(d, f.y[k])));
   }
-  return row;
-}
+};
 
-class Painter {
- public:
-  HWY_INLINE Painter(Tile& tile, const TileTriangle& t, int blocks_per_row)
-      : tile_(tile),
-        t_(t),
-        blocks_per_row_(blocks_per_row),
-        depth_(t.depth),
-        edges_{BlockOffsets(t.edge[0]), BlockOffsets(t.edge[1]), BlockOffsets(t.edge[2])} {}
+// Draws entry k of the batch.
+HWY_INLINE void paint(Tile& tile, const Batch& batch, int k, int blocks_per_row) {
+  const D d;
+  const V zero = hn::Zero(d);
+  const auto row_values = [&](const Batch::Linear& f) { return RowValues(f.x + k, f.y + k, f.first + k); };
+  RowValues edge[3] = {row_values(batch.edge[0]), row_values(batch.edge[1]), row_values(batch.edge[2])};
+  RowValues depth = row_values(batch.depth);
+  RowValues nearest(batch.nearest.x + k, batch.nearest.y + k, batch.nearest.first + k);
+  const BlockOffsets edge_in[3] = {{batch.edge[0], k}, {batch.edge[1], k}, {batch.edge[2], k}};
+  const BlockOffsets depth_in(batch.depth, k);
+  const V payload = hn::Set(d, batch.payload[k]);
+  const std::uint32_t columns = (2u << batch.bx1[k]) - (1u << batch.bx0[k]);
+  constexpr int kParts = RowValues::kParts;
 
-  HWY_INLINE void draw() {
-    // A box of at most 2 x 2 blocks is tested directly; sifting would cost as much.
-    const bool small = t_.bx1 - t_.bx0 <= 1 && t_.by1 - t_.by0 <= 1;
-    const std::uint32_t columns = (2u << t_.bx1) - (1u << t_.bx0);
-    for (int by = t_.by0; by <= t_.by1; ++by) {
-      const BlockRow row = small ? BlockRow{columns, 0} : sift(tile_, t_, by, blocks_per_row_);
-      for (std::uint32_t left = row.touched & columns; left != 0; left &= left - 1) {
-        const int bx = std::countr_zero(left);
-        if (row.inside >> bx & 1)
-          fill_inside(bx, by);
-        else
-          fill_crossed(bx, by);
+  for (int by = batch.by0[k]; by <= batch.by1[k]; ++by) {
+    // Sift the row of blocks: which may be touched, and which of these lie wholly inside?
+    alignas(64) std::int32_t at_edge[3][kMaxBlocks], at_depth[kMaxBlocks];
+    std::int32_t* farthest = tile.farthest + by * blocks_per_row;
+    std::uint32_t touched = 0, inside = 0;
+    for (int p = 0; p < kParts; ++p) {
+      V most = zero, least = zero;
+      for (int i = 0; i < 3; ++i) {
+        const V high = hn::Add(edge[i].v[p], hn::Set(d, batch.edge[i].rise[k]));
+        most = hn::Or(most, high);
+        least = hn::Or(least, hn::Sub(high, hn::Set(d, batch.edge[i].span[k])));
+        hn::Store(edge[i].v[p], d, at_edge[i] + p * kLanes);
+      }
+      hn::Store(depth.v[p], d, at_depth + p * kLanes);
+      const V old_farthest = hn::LoadU(d, farthest + p * kLanes);
+      const auto in_front = hn::Lt(nearest.v[p], old_farthest);
+      touched |= mask_bits(hn::AndNot(hn::Lt(most, zero), in_front)) << (p * kLanes);
+      inside |= mask_bits(hn::Not(hn::Lt(least, zero))) << (p * kLanes);
+    }
+    touched &= columns;
+    inside &= touched;
+
+    const std::size_t row = static_cast<std::size_t>(by * blocks_per_row);
+    for (std::uint32_t left = touched; left != 0; left &= left - 1) {
+      const int bx = std::countr_zero(left);
+      const std::size_t block = (row + static_cast<std::size_t>(bx)) * kBlockPixels;
+      for (int i = 0; i < kVectors; ++i) {
+        const std::size_t at = block + static_cast<std::size_t>(i * kLanes);
+        const auto value = [&](const std::int32_t* at_block, const BlockOffsets& in) {
+          return hn::Add(hn::Set(d, at_block[bx]), in.v[i]);
+        };
+        const V outside = hn::Or(hn::Or(value(at_edge[0], edge_in[0]), value(at_edge[1], edge_in[1])),
+                                 value(at_edge[2], edge_in[2]));
+        const V z = value(at_depth, depth_in), old_z = hn::Load(d, tile.depth + at);
+        const auto wins = hn::AndNot(hn::Lt(outside, zero), hn::Lt(z, old_z));
+        hn::Store(hn::IfThenElse(wins, z, old_z), d, tile.depth + at);
+        hn::Store(hn::IfThenElse(wins, payload, hn::Load(d, tile.payload + at)), d, tile.payload + at);
       }
     }
-  }
-
- private:
-  HWY_INLINE static V value(const Linear& f, const BlockOffsets& offsets, int bx, int by, int i) {
-    return hn::Add(hn::Set(D{}, wrap_mul_add(f.x, bx * kBlock, wrap_mul_add(f.y, by * kBlock, f.origin))),
-                   offsets.v[i]);
-  }
-  HWY_INLINE void write(hn::Mask<D> nearer, V z, V old_z, std::size_t at) {
-    const D d;
-    const auto payload = hn::Set(d, t_.payload);
-    hn::Store(hn::IfThenElse(nearer, z, old_z), d, tile_.depth + at);
-    hn::Store(hn::IfThenElse(nearer, payload, hn::Load(d, tile_.payload + at)), d, tile_.payload + at);
-  }
-
-  HWY_INLINE void fill_inside(int bx, int by) {
-    const D d;
-    const auto block = static_cast<std::size_t>(by * blocks_per_row_ + bx);
-    for (int i = 0; i < kVectors; ++i) {
-      const std::size_t at = block * kBlockPixels + static_cast<std::size_t>(i * kLanes);
-      const V z = value(t_.depth, depth_, bx, by, i), old_z = hn::Load(d, tile_.depth + at);
-      write(hn::Lt(z, old_z), z, old_z, at);
+    // No pixel of a block that lies inside is farther now than the triangle's own farthest.
+    for (std::uint32_t left = inside; left != 0; left &= left - 1) {
+      const int bx = std::countr_zero(left);
+      farthest[bx] = std::min(farthest[bx], wrap(static_cast<std::uint32_t>(at_depth[bx]) +
+                                                 static_cast<std::uint32_t>(batch.depth.rise[k])));
     }
-    const std::int32_t farthest =
-        wrap_mul_add(t_.depth.x, bx * kBlock, wrap_mul_add(t_.depth.y, by * kBlock, t_.depth.origin)) +
-        block_max(t_.depth);
-    tile_.farthest[block] = std::min(tile_.farthest[block], farthest);
+    for (RowValues& e : edge) e.next_row();
+    depth.next_row();
+    nearest.next_row();
   }
-
-  HWY_INLINE void fill_crossed(int bx, int by) {
-    const D d;
-    const auto block = static_cast<std::size_t>(by * blocks_per_row_ + bx);
-    for (int i = 0; i < kVectors; ++i) {
-      const std::size_t at = block * kBlockPixels + static_cast<std::size_t>(i * kLanes);
-      const V outside =
-          hn::Or(hn::Or(value(t_.edge[0], edges_[0], bx, by, i), value(t_.edge[1], edges_[1], bx, by, i)),
-                 value(t_.edge[2], edges_[2], bx, by, i));
-      const V z = value(t_.depth, depth_, bx, by, i), old_z = hn::Load(d, tile_.depth + at);
-      write(hn::AndNot(hn::Lt(outside, hn::Zero(d)), hn::Lt(z, old_z)), z, old_z, at);
-    }
-  }
-
-  Tile& tile_;
-  const TileTriangle& t_;
-  const int blocks_per_row_;
-  const BlockOffsets depth_;
-  const BlockOffsets edges_[3];
-};
+}
 
 // Blocks back to rows, past the caches where the frame's alignment allows it.
 void write_out(const TileJob& job, const std::int32_t* blocks, std::uint32_t* plane) {
@@ -253,7 +201,7 @@ void draw_tile(const TileJob& job) {
   std::span<const std::uint32_t> asked_for;
   const auto draw_run = [&](std::span<const std::uint32_t> run) {
     for (std::uint32_t left = set_up(job, run, batch); left != 0; left &= left - 1)
-      Painter(tile, TileTriangle(batch, std::countr_zero(left)), blocks_per_row).draw();
+      paint(tile, batch, std::countr_zero(left), blocks_per_row);
   };
   job.bins->for_each_run(job.cell, [&](std::span<const std::uint32_t> run) {
     for (const std::uint32_t index : run) {

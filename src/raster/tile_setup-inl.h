@@ -34,23 +34,20 @@ constexpr std::int32_t wrap(std::uint32_t v) {
   return static_cast<std::int32_t>(v);
 }
 
-// A linear function of the pixel's place in the tile, in wrapping int32: a shifted edge value or a depth.
-struct Linear {
-  std::int32_t x, y;    // step a pixel
-  std::int32_t origin;  // at the tile's first pixel
-};
-
-// What a batch of triangles means to one tile.
-struct Batch {
+// What a batch of triangles means to one tile. Edges and depth are linear functions of the pixel's place, in
+// wrapping int32: an edge is shifted (rule 5), and a pixel is inside where all three are >= 0.
+struct alignas(64) Batch {
   static constexpr int kSize = 32;
-  struct Linears {
-    std::int32_t x[kSize], y[kSize], origin[kSize];
-    Linear operator[](int k) const { return {x[k], y[k], origin[k]}; }
-    void set(int k, const Linear& f) { x[k] = f.x, y[k] = f.y, origin[k] = f.origin; }
-  };
-  alignas(64) Linears edge[3];  // inside where all are >= 0
-  Linears depth;
-  Linears nearest;  // a bound for hierarchical depth: no pixel of the triangle is nearer
+  struct Linear {
+    std::int32_t x[kSize], y[kSize];  // step a pixel
+    std::int32_t first[kSize];        // at the first pixel of the row of blocks by0
+    std::int32_t rise[kSize];         // from a block's first pixel to where it is largest in the block
+    std::int32_t span[kSize];         // from where it is smallest to where it is largest
+  } edge[3], depth;
+  // A bound for hierarchical depth: no pixel of a block is nearer than this linear function of its place.
+  struct Bound {
+    std::int32_t x[kSize], y[kSize], first[kSize];
+  } nearest;
   std::int32_t payload[kSize];
   std::int32_t bx0[kSize], by0[kSize], bx1[kSize], by1[kSize];  // blocks that it may touch, inclusive
 };
@@ -59,6 +56,13 @@ struct Batch {
 // wrapped value is negative and passes as near: the bound may be the plane itself. A steeper one falls back
 // to the nearest vertex.
 constexpr std::int32_t kSteep = 1 << 24;
+
+inline void set(Batch::Linear& f, int k, std::int32_t x, std::int32_t y, std::int32_t first) {
+  const auto up = [](std::int32_t step) { return step > 0 ? static_cast<std::uint32_t>(step) : 0u; };
+  const auto down = [](std::int32_t step) { return step < 0 ? 0u - static_cast<std::uint32_t>(step) : 0u; };
+  const std::uint32_t rise = (kBlock - 1) * (up(x) + up(y)), fall = (kBlock - 1) * (down(x) + down(y));
+  f.x[k] = x, f.y[k] = y, f.first[k] = first, f.rise[k] = wrap(rise), f.span[k] = wrap(rise + fall);
+}
 
 // The plain form: what set_up() below does for many, done for one. False if no pixel of the tile is touched.
 inline bool set_up_one(const TileJob& job, const ScreenTriangle& triangle, Batch& out, int k) {
@@ -81,17 +85,19 @@ inline bool set_up_one(const TileJob& job, const ScreenTriangle& triangle, Batch
                        down = std::int64_t{edge.b} * kSub * last_y;
     if (first + std::max<std::int64_t>(across, 0) + std::max<std::int64_t>(down, 0) < 0) return false;
     const bool accepts = first + std::min<std::int64_t>(across, 0) + std::min<std::int64_t>(down, 0) >= 0;
-    const std::int64_t origin =
-        (first >> kSubBits) - std::int64_t{edge.a} * left - std::int64_t{edge.b} * top;
-    out.edge[i].set(
-        k, accepts ? Linear{0, 0, 0} : Linear{edge.a, edge.b, wrap(static_cast<std::uint32_t>(origin))});
+    const std::int64_t at_row = (first >> kSubBits) - std::int64_t{edge.a} * left;
+    accepts ? set(out.edge[i], k, 0, 0, 0)
+            : set(out.edge[i], k, edge.a, edge.b, wrap(static_cast<std::uint32_t>(at_row)));
   }
   const DepthPlane plane = make_depth(t);
-  const Linear depth{wrap(plane.zx), wrap(plane.zy), wrap(plane.at(job.x0, job.y0))};
-  out.depth.set(k, depth);
-  const bool flat = std::max(std::abs(std::int64_t{depth.x}), std::abs(std::int64_t{depth.y})) < kSteep;
+  const std::int32_t zx = wrap(plane.zx), zy = wrap(plane.zy), z = wrap(plane.at(job.x0, job.y0 + top));
+  set(out.depth, k, zx, zy, z);
+  const bool flat = std::max(std::abs(std::int64_t{zx}), std::abs(std::int64_t{zy})) < kSteep;
   const std::int64_t nearest = std::min({t.z[0], t.z[1], t.z[2]}) - kDepthError;
-  out.nearest.set(k, flat ? depth : Linear{0, 0, static_cast<std::int32_t>(nearest)});
+  out.nearest.x[k] = flat ? zx : 0;
+  out.nearest.y[k] = flat ? zy : 0;
+  out.nearest.first[k] =
+      flat ? z + out.depth.rise[k] - out.depth.span[k] : static_cast<std::int32_t>(nearest);
   out.payload[k] = wrap(triangle.payload);
   out.bx0[k] = bx0, out.by0[k] = by0, out.bx1[k] = bx1, out.by1[k] = by1;
   return true;
@@ -155,6 +161,17 @@ HWY_INLINE void store(V32 v, std::int32_t* at) {
   store(as64(v), at);
 }
 
+HWY_INLINE V32 thrice(V32 v) {
+  static_assert(kBlock - 1 == 3);
+  return hn::Add(v, hn::Add(v, v));
+}
+HWY_INLINE void store(Batch::Linear& f, int k, V32 x, V32 y, V32 first) {
+  const V32 zero = hn::Zero(D32{});
+  store(x, f.x + k), store(y, f.y + k), store(first, f.first + k);
+  store(thrice(hn::Add(hn::Max(x, zero), hn::Max(y, zero))), f.rise + k);
+  store(thrice(hn::Add(hn::Abs(x), hn::Abs(y))), f.span + k);
+}
+
 struct Gradient {
   V64 g;                // floor(2^24 n / area)
   hn::Mask<D64> exact;  // where that holds
@@ -171,43 +188,54 @@ HWY_INLINE Gradient gradient(V64 n, V64 area, hn::Vec<F64> scaled_inverse) {
   return {hn::Sub(g, shift_right<63>(rest)), hn::RebindMask(d, hn::Lt(hn::Abs(q), hn::Set(df, 0x1p49)))};
 }
 
-struct Depth {
-  V64 zx, zy, origin;  // their lower halves count
-  hn::Mask<D64> exact;
+struct Vertices {
+  const V32 (&x)[3], (&y)[3], (&z)[3];
+  V32 top;   // px in the tile: the first row of the triangle's blocks
+  V64 area;  // > 0
+  V64 flip;  // -1 where the winding has been turned round for that
 };
-// `flip` is -1 where the winding has been turned round, so that `area` is positive.
-HWY_INLINE Depth set_up_depth(const TileJob& job, const V32 (&x)[3], const V32 (&y)[3], const V32 (&z)[3],
-                              V64 area, V64 flip) {
+// Returns where the depths are exact.
+HWY_INLINE hn::Mask<D64> set_up_depth(const TileJob& job, const Vertices& t, Batch& out, int k) {
   const D64 d;
   const F64 df;
-  const V32 dz1 = hn::Sub(z[1], z[0]), dz2 = hn::Sub(z[2], z[0]);
-  const V32 dx1 = hn::Sub(x[1], x[0]), dx2 = hn::Sub(x[2], x[0]);
-  const V32 dy1 = hn::Sub(y[1], y[0]), dy2 = hn::Sub(y[2], y[0]);
-  const V64 nx = flipped(hn::Sub(product(dz1, dy2), product(dz2, dy1)), flip);
-  const V64 ny = flipped(hn::Sub(product(dz2, dx1), product(dz1, dx2)), flip);
-  const auto scaled_inverse = hn::Div(hn::Set(df, 0x1p24), hn::ConvertTo(df, area));
-  const Gradient gx = gradient(nx, area, scaled_inverse), gy = gradient(ny, area, scaled_inverse);
+  const V32 dz1 = hn::Sub(t.z[1], t.z[0]), dz2 = hn::Sub(t.z[2], t.z[0]);
+  const V32 dx1 = hn::Sub(t.x[1], t.x[0]), dx2 = hn::Sub(t.x[2], t.x[0]);
+  const V32 dy1 = hn::Sub(t.y[1], t.y[0]), dy2 = hn::Sub(t.y[2], t.y[0]);
+  const V64 nx = flipped(hn::Sub(product(dz1, dy2), product(dz2, dy1)), t.flip);
+  const V64 ny = flipped(hn::Sub(product(dz2, dx1), product(dz1, dx2)), t.flip);
+  const auto scaled_inverse = hn::Div(hn::Set(df, 0x1p24), hn::ConvertTo(df, t.area));
+  const Gradient gx = gradient(nx, t.area, scaled_inverse), gy = gradient(ny, t.area, scaled_inverse);
 
   // The anchor: the topmost, then leftmost vertex.
-  V32 top_x = x[0], top_y = y[0], top_z = z[0];
+  V32 x = t.x[0], y = t.y[0], z = t.z[0];
   for (int i = 1; i < 3; ++i) {
-    const auto above = hn::Or(hn::Lt(y[i], top_y), hn::And(hn::Eq(y[i], top_y), hn::Lt(x[i], top_x)));
-    top_x = hn::IfThenElse(above, x[i], top_x);
-    top_y = hn::IfThenElse(above, y[i], top_y);
-    top_z = hn::IfThenElse(above, z[i], top_z);
+    const auto above = hn::Or(hn::Lt(t.y[i], y), hn::And(hn::Eq(t.y[i], y), hn::Lt(t.x[i], x)));
+    x = hn::IfThenElse(above, t.x[i], x);
+    y = hn::IfThenElse(above, t.y[i], y);
+    z = hn::IfThenElse(above, t.z[i], z);
   }
   const int in_cell_x = job.x0 % kDepthCell, in_cell_y = job.y0 % kDepthCell;
-  const V32 from_x = hn::Sub(set32(sample_sub(job.x0 - in_cell_x)), top_x);
-  const V32 from_y = hn::Sub(set32(sample_sub(job.y0 - in_cell_y)), top_y);
-  const V64 anchor = shift_right<8>(hn::ShiftLeft<32>(as64(top_z)));  // 2^24 z, whatever the upper half
-  const V64 half = hn::Set(d, std::int64_t{1} << 23);
+  const V32 from_x = hn::Sub(set32(sample_sub(job.x0 - in_cell_x)), x);
+  const V32 from_y = hn::Sub(set32(sample_sub(job.y0 - in_cell_y)), y);
+  const V64 anchor = shift_right<8>(hn::ShiftLeft<32>(as64(z)));  // 2^24 z, whatever the upper half
+  const V64 half = hn::Set(d, std::int64_t{1} << 23), round = hn::Set(d, 0x8000);
   const V64 base =
       shift_right<24>(hn::Add(hn::Add(anchor, half), hn::Add(product(gx.g, from_x), product(gy.g, from_y))));
-  const V64 round = hn::Set(d, 0x8000);
-  const V64 zx = shift_right<16>(hn::Add(gx.g, round)), zy = shift_right<16>(hn::Add(gy.g, round));
-  const V64 origin =
-      hn::Add(base, hn::Add(product(lower(zx), set32(in_cell_x)), product(lower(zy), set32(in_cell_y))));
-  return {zx, zy, origin, hn::And(gx.exact, gy.exact)};
+  const V32 zx = lower(shift_right<16>(hn::Add(gx.g, round))),
+            zy = lower(shift_right<16>(hn::Add(gy.g, round)));
+  const V32 first = lower(
+      hn::Add(base, hn::Add(product(zx, set32(in_cell_x)), product(zy, hn::Add(t.top, set32(in_cell_y))))));
+  store(out.depth, k, zx, zy, first);
+
+  const auto gentle = [](V32 v) { return hn::And(hn::Lt(v, set32(kSteep)), hn::Gt(v, set32(-kSteep))); };
+  const auto flat = hn::And(gentle(zx), gentle(zy));
+  const V32 least =
+      hn::Add(first, thrice(hn::Add(hn::Min(zx, hn::Zero(D32{})), hn::Min(zy, hn::Zero(D32{})))));
+  const V32 vertex = hn::Sub(hn::Min(hn::Min(t.z[0], t.z[1]), t.z[2]), set32(kDepthError));
+  store(hn::IfThenElseZero(flat, zx), out.nearest.x + k);
+  store(hn::IfThenElseZero(flat, zy), out.nearest.y + k);
+  store(hn::IfThenElse(flat, least, vertex), out.nearest.first + k);
+  return hn::And(gx.exact, gy.exact);
 }
 
 // Sets up the triangles triangles[run[i]]; bit i of the result is set if that one touches the tile. Reads
@@ -276,22 +304,12 @@ HWY_INLINE std::uint32_t set_up_vector(const TileJob& job, const std::uint32_t* 
     const V64 least = hn::Add(first, hn::ShiftLeft<kSubBits>(hn::Sub(across, rise)));
     dead = hn::Or(dead, most);
     const auto crossed = hn::Lt(least, zero);
-    const V64 origin = hn::Sub(shift_right<kSubBits>(first), hn::Add(product(a, left), product(b, top)));
-    store(hn::IfThenElseZero(crossed, as64(a)), out.edge[i].x + k);
-    store(hn::IfThenElseZero(crossed, as64(b)), out.edge[i].y + k);
-    store(hn::IfThenElseZero(crossed, origin), out.edge[i].origin + k);
+    const V64 at_row = hn::Sub(shift_right<kSubBits>(first), product(a, left));
+    const auto unless_accepted = [&](V64 v) { return lower(hn::IfThenElseZero(crossed, v)); };
+    store(out.edge[i], k, unless_accepted(as64(a)), unless_accepted(as64(b)), unless_accepted(at_row));
   }
 
-  const Depth depth = set_up_depth(job, x, y, z, flipped(area, flip), flip);
-  store(depth.zx, out.depth.x + k);
-  store(depth.zy, out.depth.y + k);
-  store(depth.origin, out.depth.origin + k);
-  const auto gentle = [](V32 v) { return hn::And(hn::Lt(v, set32(kSteep)), hn::Gt(v, set32(-kSteep))); };
-  const V64 flat = as64(hn::VecFromMask(D32{}, hn::And(gentle(lower(depth.zx)), gentle(lower(depth.zy)))));
-  const V32 vertex = hn::Sub(hn::Min(hn::Min(z[0], z[1]), z[2]), set32(kDepthError));
-  store(hn::And(flat, depth.zx), out.nearest.x + k);
-  store(hn::And(flat, depth.zy), out.nearest.y + k);
-  store(hn::Or(hn::And(flat, depth.origin), hn::AndNot(flat, as64(vertex))), out.nearest.origin + k);
+  const auto exact = set_up_depth(job, {x, y, z, top, flipped(area, flip), flip}, out, k);
   store(upper(pair[4]), out.payload + k);
   store(bx0, out.bx0 + k), store(bx1, out.bx1 + k);
   store(by0, out.by0 + k), store(by1, out.by1 + k);
@@ -302,7 +320,7 @@ HWY_INLINE std::uint32_t set_up_vector(const TileJob& job, const std::uint32_t* 
     return std::uint32_t{bytes[0]};
   };
   std::uint32_t alive = bits(hn::Not(hn::Lt(dead, zero)));
-  for (std::uint32_t left_over = alive & ~bits(depth.exact); left_over != 0; left_over &= left_over - 1) {
+  for (std::uint32_t left_over = alive & ~bits(exact); left_over != 0; left_over &= left_over - 1) {
     const int lane = std::countr_zero(left_over);
     set_up_one(job, job.triangles[run[k + lane]], out, k + lane);
   }
