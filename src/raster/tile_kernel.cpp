@@ -100,14 +100,14 @@ HWY_INLINE void paint(Tile& tile, const Batch& batch, int k, int blocks_per_row)
   const BlockOffsets edge_in[3] = {{batch.edge[0], k}, {batch.edge[1], k}, {batch.edge[2], k}};
   const BlockOffsets depth_in(batch.depth, k);
   const V payload = hn::Set(d, batch.payload[k]);
-  const std::uint32_t columns = (2u << batch.bx1[k]) - (1u << batch.bx0[k]);
+  const V first_column = hn::Set(d, batch.bx0[k]), last_column = hn::Set(d, batch.bx1[k]);
   constexpr int kParts = RowValues::kParts;
 
   for (int by = batch.by0[k]; by <= batch.by1[k]; ++by) {
     // Sift the row of blocks: which may be touched, and which of these lie wholly inside?
     alignas(64) std::int32_t at_edge[3][kMaxBlocks], at_depth[kMaxBlocks];
     std::int32_t* farthest = tile.farthest + by * blocks_per_row;
-    std::uint32_t touched = 0, inside = 0;
+    std::uint32_t touched = 0;
     for (int p = 0; p < kParts; ++p) {
       V most = zero, least = zero;
       for (int i = 0; i < 3; ++i) {
@@ -117,14 +117,17 @@ HWY_INLINE void paint(Tile& tile, const Batch& batch, int k, int blocks_per_row)
         hn::Store(edge[i].v[p], d, at_edge[i] + p * kLanes);
       }
       hn::Store(depth.v[p], d, at_depth + p * kLanes);
+      const V column = hn::Load(d, kColumn + p * kLanes);
+      const auto beside = hn::Or(hn::Lt(column, first_column), hn::Gt(column, last_column));
       const V old_farthest = hn::LoadU(d, farthest + p * kLanes);
-      const auto in_front = hn::Lt(nearest.v[p], old_farthest);
-      touched |= mask_bits(hn::AndNot(hn::Lt(most, zero), in_front)) << (p * kLanes);
-      inside |= mask_bits(hn::Not(hn::Lt(least, zero))) << (p * kLanes);
+      const auto hidden = hn::Not(hn::Lt(nearest.v[p], old_farthest));
+      touched |= mask_bits(hn::Not(hn::Or(hn::Or(beside, hidden), hn::Lt(most, zero)))) << (p * kLanes);
+      // No pixel of a block that lies inside is farther, from now on, than the triangle's own farthest.
+      const V own_farthest = hn::Add(depth.v[p], hn::Set(d, batch.depth.rise[k]));
+      const auto crossed = hn::Or(beside, hn::Lt(least, zero));
+      hn::StoreU(hn::IfThenElse(crossed, old_farthest, hn::Min(old_farthest, own_farthest)), d,
+                 farthest + p * kLanes);
     }
-    touched &= columns;
-    inside &= touched;
-
     const std::size_t row = static_cast<std::size_t>(by * blocks_per_row);
     for (std::uint32_t left = touched; left != 0; left &= left - 1) {
       const int bx = std::countr_zero(left);
@@ -141,12 +144,6 @@ HWY_INLINE void paint(Tile& tile, const Batch& batch, int k, int blocks_per_row)
         hn::Store(hn::IfThenElse(wins, z, old_z), d, tile.depth + at);
         hn::Store(hn::IfThenElse(wins, payload, hn::Load(d, tile.payload + at)), d, tile.payload + at);
       }
-    }
-    // No pixel of a block that lies inside is farther now than the triangle's own farthest.
-    for (std::uint32_t left = inside; left != 0; left &= left - 1) {
-      const int bx = std::countr_zero(left);
-      farthest[bx] = std::min(farthest[bx], wrap(static_cast<std::uint32_t>(at_depth[bx]) +
-                                                 static_cast<std::uint32_t>(batch.depth.rise[k])));
     }
     for (RowValues& e : edge) e.next_row();
     depth.next_row();

@@ -1,9 +1,8 @@
 // Setting up triangles for one tile, a vector of triangles at a time.
 //
-// A 64-bit lane belongs to a triangle. What fits 32 bits (rule 3) lives in the lane's lower half, so that one
-// instruction multiplies two of them to a 64-bit product; edge values and depth gradients are those products.
-// The gradient's division is done in doubles and corrected by its remainder, as contract::gradient() does;
-// lanes whose quotient is too large for that are done again by the contract's own functions, one by one.
+// Edge values and depth gradients are sums of 32 x 32 -> 64 bit products (triangle_lanes-inl.h). The
+// gradient's division is done in doubles and corrected by its remainder, as contract::gradient() does; lanes
+// whose quotient is too large for that are done again by the contract's own functions, one by one.
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -13,6 +12,7 @@
 
 #include "raster/contract.h"
 #include "raster/tile_kernel.h"
+#include "raster/triangle_lanes-inl.h"
 
 // Included once a SIMD target.
 #if defined(EDGEWISE_TILE_SETUP_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -105,39 +105,6 @@ inline bool set_up_one(const TileJob& job, const ScreenTriangle& triangle, Batch
 
 #if HWY_TARGET != HWY_SCALAR
 
-// Names of lanes. I32 vectors have two for each triangle, of which the lower one counts.
-using D64 = hn::CappedTag<std::int64_t, 8>;
-using U64 = hn::RebindToUnsigned<D64>;
-using F64 = hn::RebindToFloat<D64>;
-using D32 = hn::Repartition<std::int32_t, D64>;
-using Low32 = hn::Rebind<std::uint32_t, D64>;
-using V64 = hn::Vec<D64>;
-using V32 = hn::Vec<D32>;
-
-HWY_INLINE V32 lower(V64 v) {
-  return hn::BitCast(D32{}, v);
-}
-HWY_INLINE V32 upper(V64 v) {
-  return hn::BitCast(D32{}, hn::ShiftRight<32>(hn::BitCast(U64{}, v)));
-}
-HWY_INLINE V64 as64(V32 v) {
-  return hn::BitCast(D64{}, v);
-}
-template <int kBits>
-HWY_INLINE V64 shift_right(V64 v) {
-  return hn::BitCast(D64{}, hn::ShiftRight<kBits>(hn::BitCast(U64{}, v)));
-}
-HWY_INLINE V32 set32(std::int32_t v) {
-  return hn::Set(D32{}, v);
-}
-HWY_INLINE V64 product(V32 a, V32 b) {
-  return hn::MulEven(a, b);
-}
-// g d mod 2^64. With g = low + 2^32 high, low signed: high is g's upper half, rounded.
-HWY_INLINE V64 product(V64 g, V32 d) {
-  const V32 high = upper(hn::Add(g, hn::Set(D64{}, std::int64_t{1} << 31)));
-  return hn::Add(product(lower(g), d), hn::ShiftLeft<32>(product(high, d)));
-}
 // g n mod 2^64, for n >= 0.
 HWY_INLINE V64 product(V64 g, V64 n) {
   const hn::Repartition<std::uint32_t, D64> u32;
@@ -146,21 +113,6 @@ HWY_INLINE V64 product(V64 g, V64 n) {
   const auto cross = hn::Add(hn::MulEven(gl, nh), hn::MulEven(gh, nl));
   return hn::BitCast(D64{}, hn::Add(hn::MulEven(gl, nl), hn::ShiftLeft<32>(cross)));
 }
-// -v where `flip` is -1, v where it is 0.
-HWY_INLINE V32 flipped(V32 v, V32 flip) {
-  return hn::Sub(hn::Xor(v, flip), flip);
-}
-HWY_INLINE V64 flipped(V64 v, V64 flip) {
-  return hn::Sub(hn::Xor(v, flip), flip);
-}
-HWY_INLINE void store(V64 v, std::int32_t* at) {
-  const Low32 d;
-  hn::StoreU(hn::TruncateTo(d, hn::BitCast(U64{}, v)), d, reinterpret_cast<std::uint32_t*>(at));
-}
-HWY_INLINE void store(V32 v, std::int32_t* at) {
-  store(as64(v), at);
-}
-
 HWY_INLINE V32 thrice(V32 v) {
   static_assert(kBlock - 1 == 3);
   return hn::Add(v, hn::Add(v, v));
@@ -243,29 +195,11 @@ HWY_INLINE hn::Mask<D64> set_up_depth(const TileJob& job, const Vertices& t, Bat
 HWY_INLINE std::uint32_t set_up_vector(const TileJob& job, const std::uint32_t* run, Batch& out, int k) {
   const D64 d;
   const V64 index = hn::BitCast(d, hn::PromoteTo(U64{}, hn::LoadU(Low32{}, run + k)));
-  static_assert(sizeof(ScreenTriangle) == (1 << 5) + (1 << 3));
-  const V64 offset = hn::Add(hn::ShiftLeft<5>(index), hn::ShiftLeft<3>(index));
-  // The record as five pairs of 32-bit fields, in the order of ScreenTriangle.
-  V64 pair[5];
-  for (int i = 0; i < 5; ++i)
-    pair[i] = hn::GatherOffset(d, reinterpret_cast<const std::int64_t*>(job.triangles) + i, offset);
-  const V32 x[3] = {lower(pair[0]), upper(pair[0]), lower(pair[1])};
-  const V32 y[3] = {upper(pair[1]), lower(pair[2]), upper(pair[2])};
-  const V32 z[3] = {lower(pair[3]), upper(pair[3]), lower(pair[4])};
+  const auto [x, y, z, payload] = load(job.triangles, record_offset(index));
 
-  // The box of samples, in the tile.
-  const auto first_sample = [](V32 c) { return hn::ShiftRight<kSubBits>(hn::Add(c, set32(kHalf - 1))); };
-  const auto low = [&](const V32(&c)[3], int origin) {
-    const V32 least = hn::Min(hn::Min(c[0], c[1]), c[2]);
-    return hn::Max(hn::Sub(first_sample(least), set32(origin)), hn::Zero(D32{}));
-  };
-  const auto high = [&](const V32(&c)[3], int origin, int end) {
-    const V32 most = hn::Max(hn::Max(c[0], c[1]), c[2]);
-    return hn::Min(hn::Sub(first_sample(most), set32(origin)), set32(end));
-  };
   const int size = 1 << job.size_log2;
-  const V32 x0 = low(x, job.x0), x1 = high(x, job.x0, std::min(size, job.frame.width - job.x0));
-  const V32 y0 = low(y, job.y0), y1 = high(y, job.y0, std::min(size, job.frame.height - job.y0));
+  const auto [x0, x1] = sample_range(x, job.x0, std::min(size, job.frame.width - job.x0));
+  const auto [y0, y1] = sample_range(y, job.y0, std::min(size, job.frame.height - job.y0));
   const auto filled = hn::And(hn::Lt(x0, x1), hn::Lt(y0, y1));
   static_assert(kBlock == 1 << 2);
   const V32 one = set32(1);
@@ -310,17 +244,12 @@ HWY_INLINE std::uint32_t set_up_vector(const TileJob& job, const std::uint32_t* 
   }
 
   const auto exact = set_up_depth(job, {x, y, z, top, flipped(area, flip), flip}, out, k);
-  store(upper(pair[4]), out.payload + k);
+  store(payload, out.payload + k);
   store(bx0, out.bx0 + k), store(bx1, out.bx1 + k);
   store(by0, out.by0 + k), store(by1, out.by1 + k);
 
-  const auto bits = [&](hn::Mask<D64> mask) {
-    std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(d, mask, bytes);
-    return std::uint32_t{bytes[0]};
-  };
-  std::uint32_t alive = bits(hn::Not(hn::Lt(dead, zero)));
-  for (std::uint32_t left_over = alive & ~bits(exact); left_over != 0; left_over &= left_over - 1) {
+  std::uint32_t alive = mask_bits(hn::Not(hn::Lt(dead, zero)));
+  for (std::uint32_t left_over = alive & ~mask_bits(exact); left_over != 0; left_over &= left_over - 1) {
     const int lane = std::countr_zero(left_over);
     set_up_one(job, job.triangles[run[k + lane]], out, k + lane);
   }
