@@ -41,17 +41,20 @@ constexpr int kLanes = static_cast<int>(hn::MaxLanes(D{}));
 constexpr int kBlockPixels = 16;
 constexpr int kVectors = kBlockPixels / kLanes;  // in a block
 constexpr int kMaxBlocks = kMaxTile / kBlock;    // a side of a tile
-static_assert(kMaxBlocks == 16, "a row of blocks is sifted in 16 lanes");
+constexpr int kBlocksAtOnce = 16;  // are sifted together, which as many lanes as they have pixels
+static_assert(kBlocksAtOnce == kMaxBlocks && kBlocksAtOnce == kBlockPixels);
 
 alignas(64) constexpr std::int32_t kLaneX[kBlockPixels] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
 alignas(64) constexpr std::int32_t kLaneY[kBlockPixels] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
-alignas(64) constexpr std::int32_t kColumn[kMaxBlocks] = {0, 1, 2,  3,  4,  5,  6,  7,
-                                                          8, 9, 10, 11, 12, 13, 14, 15};
+alignas(64) constexpr std::int32_t kZeros[kBlocksAtOnce] = {};
+alignas(64) constexpr std::int32_t kIota[kBlocksAtOnce] = {0, 1, 2,  3,  4,  5,  6,  7,
+                                                           8, 9, 10, 11, 12, 13, 14, 15};
 
 struct Tile {
   alignas(64) std::int32_t depth[kMaxTile * kMaxTile];  // block by block, 16 pixels each
   alignas(64) std::int32_t payload[kMaxTile * kMaxTile];
-  alignas(64) std::int32_t farthest[kMaxBlocks * kMaxBlocks];  // no pixel of the block is farther
+  alignas(
+      64) std::int32_t farthest[kMaxBlocks * kMaxBlocks + kBlocksAtOnce];  // no pixel of the block is farther
 };
 
 HWY_INLINE std::uint32_t mask_bits(hn::Mask<D> mask) {
@@ -62,80 +65,99 @@ HWY_INLINE std::uint32_t mask_bits(hn::Mask<D> mask) {
   return bits;
 }
 
-// Values of a linear function at the first pixels of a row of blocks.
-struct RowValues {
-  static constexpr int kParts = kMaxBlocks / kLanes;
-  V v[kParts], step;
-  HWY_INLINE RowValues(const std::int32_t* x, const std::int32_t* y, const std::int32_t* first) {
+// Values of a linear function over one block, relative to its first pixel.
+struct BlockOffsets {
+  V v[kVectors];
+  HWY_INLINE BlockOffsets(const std::int32_t* x, const std::int32_t* y) {
     const D d;
-    const V block_x = hn::ShiftLeft<2>(hn::Set(d, *x)), start = hn::Set(d, *first);
-    for (int p = 0; p < kParts; ++p)
-      v[p] = hn::Add(start, hn::Mul(hn::Load(d, kColumn + p * kLanes), block_x));
-    step = hn::ShiftLeft<2>(hn::Set(d, *y));
+    for (int i = 0; i < kVectors; ++i)
+      v[i] = hn::Add(hn::Mul(hn::Load(d, kLaneX + i * kLanes), hn::Set(d, *x)),
+                     hn::Mul(hn::Load(d, kLaneY + i * kLanes), hn::Set(d, *y)));
   }
-  HWY_INLINE void next_row() {
+};
+
+// How sixteen blocks lie that are sifted together: a row suits wide triangles, a square small and tall ones.
+struct Row {
+  static constexpr int kColumns = 16, kRows = 1;
+  static constexpr const std::int32_t *kX = kIota, *kY = kZeros;
+};
+struct Square {
+  static constexpr int kColumns = 4, kRows = 4;
+  static constexpr const std::int32_t *kX = kLaneX, *kY = kLaneY;
+};
+
+// Values of a linear function at the first pixels of sixteen blocks.
+template <class Shape>
+struct BlockValues {
+  V v[kVectors], step;
+  HWY_INLINE BlockValues(const std::int32_t* x, const std::int32_t* y, const std::int32_t* first) {
+    const D d;
+    const V block_x = hn::ShiftLeft<2>(hn::Set(d, *x)), block_y = hn::ShiftLeft<2>(hn::Set(d, *y));
+    for (int p = 0; p < kVectors; ++p) {
+      v[p] = hn::Add(hn::Set(d, *first), hn::Mul(hn::Load(d, Shape::kX + p * kLanes), block_x));
+      if constexpr (Shape::kRows > 1)
+        v[p] = hn::Add(v[p], hn::Mul(hn::Load(d, Shape::kY + p * kLanes), block_y));
+    }
+    step = hn::ShiftLeft<std::countr_zero(static_cast<unsigned>(Shape::kRows))>(block_y);
+  }
+  HWY_INLINE void next() {
     for (V& part : v) part = hn::Add(part, step);
   }
 };
 
-// Values of a linear function over one block, relative to its first pixel.
-struct BlockOffsets {
-  V v[kVectors];
-  HWY_INLINE BlockOffsets(const Batch::Linear& f, int k) {
-    const D d;
-    for (int i = 0; i < kVectors; ++i)
-      v[i] = hn::Add(hn::Mul(hn::Load(d, kLaneX + i * kLanes), hn::Set(d, f.x[k])),
-                     hn::Mul(hn::Load(d, kLaneY + i * kLanes), hn::Set(d, f.y[k])));
-  }
-};
-
-// Draws entry k of the batch.
+// Draws entry k of the batch, whose box is at most Shape::kColumns blocks wide.
+template <class Shape>
 HWY_INLINE void paint(Tile& tile, const Batch& batch, int k, int blocks_per_row) {
   const D d;
   const V zero = hn::Zero(d);
-  const auto row_values = [&](const Batch::Linear& f) { return RowValues(f.x + k, f.y + k, f.first + k); };
-  RowValues edge[3] = {row_values(batch.edge[0]), row_values(batch.edge[1]), row_values(batch.edge[2])};
-  RowValues depth = row_values(batch.depth);
-  RowValues nearest(batch.nearest.x + k, batch.nearest.y + k, batch.nearest.first + k);
-  const BlockOffsets edge_in[3] = {{batch.edge[0], k}, {batch.edge[1], k}, {batch.edge[2], k}};
-  const BlockOffsets depth_in(batch.depth, k);
+  const auto values = [&](const auto& f) { return BlockValues<Shape>(f.x + k, f.y + k, f.first + k); };
+  const auto offsets = [&](const auto& f) { return BlockOffsets(f.x + k, f.y + k); };
+  BlockValues<Shape> edge[3] = {values(batch.edge[0]), values(batch.edge[1]), values(batch.edge[2])};
+  BlockValues<Shape> depth = values(batch.depth), nearest = values(batch.nearest);
+  const BlockOffsets edge_in[3] = {offsets(batch.edge[0]), offsets(batch.edge[1]), offsets(batch.edge[2])};
+  const BlockOffsets depth_in = offsets(batch.depth);
   const V payload = hn::Set(d, batch.payload[k]);
-  const V first_column = hn::Set(d, batch.bx0[k]), last_column = hn::Set(d, batch.bx1[k]);
-  constexpr int kParts = RowValues::kParts;
+  const V last_column = hn::Set(d, batch.bx1[k] - batch.bx0[k]);
 
-  for (int by = batch.by0[k]; by <= batch.by1[k]; ++by) {
-    // Sift the row of blocks: which may be touched, and which of these lie wholly inside?
-    alignas(64) std::int32_t at_edge[3][kMaxBlocks], at_depth[kMaxBlocks];
-    std::int32_t* farthest = tile.farthest + by * blocks_per_row;
+  for (int by = batch.by0[k]; by <= batch.by1[k]; by += Shape::kRows) {
+    alignas(64) std::int32_t at_edge[3][kBlocksAtOnce], at_depth[kBlocksAtOnce];
+    const int corner = by * blocks_per_row + batch.bx0[k];
+    std::int32_t* farthest = tile.farthest + corner;
+    const V last_row = hn::Set(d, batch.by1[k] - by);
+    // Which of the blocks may be touched?
     std::uint32_t touched = 0;
-    for (int p = 0; p < kParts; ++p) {
+    for (int p = 0; p < kVectors; ++p) {
+      const int lane = p * kLanes;
       V most = zero, least = zero;
       for (int i = 0; i < 3; ++i) {
         const V high = hn::Add(edge[i].v[p], hn::Set(d, batch.edge[i].rise[k]));
         most = hn::Or(most, high);
         least = hn::Or(least, hn::Sub(high, hn::Set(d, batch.edge[i].span[k])));
-        hn::Store(edge[i].v[p], d, at_edge[i] + p * kLanes);
+        hn::Store(edge[i].v[p], d, at_edge[i] + lane);
       }
-      hn::Store(depth.v[p], d, at_depth + p * kLanes);
-      const V column = hn::Load(d, kColumn + p * kLanes);
-      const auto beside = hn::Or(hn::Lt(column, first_column), hn::Gt(column, last_column));
-      const V old_farthest = hn::LoadU(d, farthest + p * kLanes);
-      const auto hidden = hn::Not(hn::Lt(nearest.v[p], old_farthest));
-      touched |= mask_bits(hn::Not(hn::Or(hn::Or(beside, hidden), hn::Lt(most, zero)))) << (p * kLanes);
-      // No pixel of a block that lies inside is farther, from now on, than the triangle's own farthest.
-      const V own_farthest = hn::Add(depth.v[p], hn::Set(d, batch.depth.rise[k]));
-      const auto crossed = hn::Or(beside, hn::Lt(least, zero));
-      hn::StoreU(hn::IfThenElse(crossed, old_farthest, hn::Min(old_farthest, own_farthest)), d,
-                 farthest + p * kLanes);
+      hn::Store(depth.v[p], d, at_depth + lane);
+      auto passed_over = hn::Or(hn::Gt(hn::Load(d, Shape::kX + lane), last_column), hn::Lt(most, zero));
+      if constexpr (Shape::kRows > 1) {
+        passed_over = hn::Or(passed_over, hn::Gt(hn::Load(d, Shape::kY + lane), last_row));
+      } else {
+        // Hierarchical depth. No pixel of a block that lies inside is farther, from now on, than the
+        // triangle's own farthest there.
+        const V old_farthest = hn::LoadU(d, farthest + lane);
+        const V own_farthest = hn::Add(depth.v[p], hn::Set(d, batch.depth.rise[k]));
+        const auto crossed = hn::Or(passed_over, hn::Lt(least, zero));
+        hn::StoreU(hn::IfThenElse(crossed, old_farthest, hn::Min(old_farthest, own_farthest)), d,
+                   farthest + lane);
+        passed_over = hn::Or(passed_over, hn::Not(hn::Lt(nearest.v[p], old_farthest)));
+      }
+      touched |= mask_bits(hn::Not(passed_over)) << lane;
     }
-    const std::size_t row = static_cast<std::size_t>(by * blocks_per_row);
     for (std::uint32_t left = touched; left != 0; left &= left - 1) {
-      const int bx = std::countr_zero(left);
-      const std::size_t block = (row + static_cast<std::size_t>(bx)) * kBlockPixels;
+      const int n = std::countr_zero(left);
+      const int block = corner + n / Shape::kColumns * blocks_per_row + n % Shape::kColumns;
       for (int i = 0; i < kVectors; ++i) {
-        const std::size_t at = block + static_cast<std::size_t>(i * kLanes);
+        const auto at = static_cast<std::size_t>(block * kBlockPixels + i * kLanes);
         const auto value = [&](const std::int32_t* at_block, const BlockOffsets& in) {
-          return hn::Add(hn::Set(d, at_block[bx]), in.v[i]);
+          return hn::Add(hn::Set(d, at_block[n]), in.v[i]);
         };
         const V outside = hn::Or(hn::Or(value(at_edge[0], edge_in[0]), value(at_edge[1], edge_in[1])),
                                  value(at_edge[2], edge_in[2]));
@@ -145,9 +167,9 @@ HWY_INLINE void paint(Tile& tile, const Batch& batch, int k, int blocks_per_row)
         hn::Store(hn::IfThenElse(wins, payload, hn::Load(d, tile.payload + at)), d, tile.payload + at);
       }
     }
-    for (RowValues& e : edge) e.next_row();
-    depth.next_row();
-    nearest.next_row();
+    for (auto& e : edge) e.next();
+    depth.next();
+    nearest.next();
   }
 }
 
@@ -191,14 +213,19 @@ void draw_tile(const TileJob& job) {
   };
   fill(tile.depth, size * size, kDepthClear);
   fill(tile.payload, size * size, job.background);
-  fill(tile.farthest, kMaxBlocks * kMaxBlocks, kDepthClear);
+  fill(tile.farthest, kMaxBlocks * kMaxBlocks + kBlocksAtOnce, kDepthClear);
 
   // The records lie anywhere: each run's are asked for while the run before it is drawn.
   Batch batch;
   std::span<const std::uint32_t> asked_for;
   const auto draw_run = [&](std::span<const std::uint32_t> run) {
-    for (std::uint32_t left = set_up(job, run, batch); left != 0; left &= left - 1)
-      paint(tile, batch, std::countr_zero(left), blocks_per_row);
+    for (std::uint32_t left = set_up(job, run, batch); left != 0; left &= left - 1) {
+      const int k = std::countr_zero(left);
+      if (std::max(batch.bx1[k] - batch.bx0[k], batch.by1[k] - batch.by0[k]) < Square::kRows)
+        paint<Square>(tile, batch, k, blocks_per_row);
+      else
+        paint<Row>(tile, batch, k, blocks_per_row);
+    }
   };
   job.bins->for_each_run(job.cell, [&](std::span<const std::uint32_t> run) {
     for (const std::uint32_t index : run) {

@@ -40,7 +40,7 @@ struct alignas(64) Batch {
   static constexpr int kSize = 32;
   struct Linear {
     std::int32_t x[kSize], y[kSize];  // step a pixel
-    std::int32_t first[kSize];        // at the first pixel of the row of blocks by0
+    std::int32_t first[kSize];        // at the first pixel of block (bx0, by0)
     std::int32_t rise[kSize];         // from a block's first pixel to where it is largest in the block
     std::int32_t span[kSize];         // from where it is smallest to where it is largest
   } edge[3], depth;
@@ -85,12 +85,12 @@ inline bool set_up_one(const TileJob& job, const ScreenTriangle& triangle, Batch
                        down = std::int64_t{edge.b} * kSub * last_y;
     if (first + std::max<std::int64_t>(across, 0) + std::max<std::int64_t>(down, 0) < 0) return false;
     const bool accepts = first + std::min<std::int64_t>(across, 0) + std::min<std::int64_t>(down, 0) >= 0;
-    const std::int64_t at_row = (first >> kSubBits) - std::int64_t{edge.a} * left;
     accepts ? set(out.edge[i], k, 0, 0, 0)
-            : set(out.edge[i], k, edge.a, edge.b, wrap(static_cast<std::uint32_t>(at_row)));
+            : set(out.edge[i], k, edge.a, edge.b, wrap(static_cast<std::uint32_t>(first >> kSubBits)));
   }
   const DepthPlane plane = make_depth(t);
-  const std::int32_t zx = wrap(plane.zx), zy = wrap(plane.zy), z = wrap(plane.at(job.x0, job.y0 + top));
+  const std::int32_t zx = wrap(plane.zx), zy = wrap(plane.zy),
+                     z = wrap(plane.at(job.x0 + left, job.y0 + top));
   set(out.depth, k, zx, zy, z);
   const bool flat = std::max(std::abs(std::int64_t{zx}), std::abs(std::int64_t{zy})) < kSteep;
   const std::int64_t nearest = std::min({t.z[0], t.z[1], t.z[2]}) - kDepthError;
@@ -142,9 +142,9 @@ HWY_INLINE Gradient gradient(V64 n, V64 area, hn::Vec<F64> scaled_inverse) {
 
 struct Vertices {
   const V32 (&x)[3], (&y)[3], (&z)[3];
-  V32 top;   // px in the tile: the first row of the triangle's blocks
-  V64 area;  // > 0
-  V64 flip;  // -1 where the winding has been turned round for that
+  V32 left, top;  // px in the tile: where the triangle's blocks begin
+  V64 area;       // > 0
+  V64 flip;       // -1 where the winding has been turned round for that
 };
 // Returns where the depths are exact.
 HWY_INLINE hn::Mask<D64> set_up_depth(const TileJob& job, const Vertices& t, Batch& out, int k) {
@@ -175,8 +175,8 @@ HWY_INLINE hn::Mask<D64> set_up_depth(const TileJob& job, const Vertices& t, Bat
       shift_right<24>(hn::Add(hn::Add(anchor, half), hn::Add(product(gx.g, from_x), product(gy.g, from_y))));
   const V32 zx = lower(shift_right<16>(hn::Add(gx.g, round))),
             zy = lower(shift_right<16>(hn::Add(gy.g, round)));
-  const V32 first = lower(
-      hn::Add(base, hn::Add(product(zx, set32(in_cell_x)), product(zy, hn::Add(t.top, set32(in_cell_y))))));
+  const V32 first = lower(hn::Add(base, hn::Add(product(zx, hn::Add(t.left, set32(in_cell_x))),
+                                                product(zy, hn::Add(t.top, set32(in_cell_y))))));
   store(out.depth, k, zx, zy, first);
 
   const auto gentle = [](V32 v) { return hn::And(hn::Lt(v, set32(kSteep)), hn::Gt(v, set32(-kSteep))); };
@@ -238,12 +238,12 @@ HWY_INLINE std::uint32_t set_up_vector(const TileJob& job, const std::uint32_t* 
     const V64 least = hn::Add(first, hn::ShiftLeft<kSubBits>(hn::Sub(across, rise)));
     dead = hn::Or(dead, most);
     const auto crossed = hn::Lt(least, zero);
-    const V64 at_row = hn::Sub(shift_right<kSubBits>(first), product(a, left));
     const auto unless_accepted = [&](V64 v) { return lower(hn::IfThenElseZero(crossed, v)); };
-    store(out.edge[i], k, unless_accepted(as64(a)), unless_accepted(as64(b)), unless_accepted(at_row));
+    store(out.edge[i], k, unless_accepted(as64(a)), unless_accepted(as64(b)),
+          unless_accepted(shift_right<kSubBits>(first)));
   }
 
-  const auto exact = set_up_depth(job, {x, y, z, top, flipped(area, flip), flip}, out, k);
+  const auto exact = set_up_depth(job, {x, y, z, left, top, flipped(area, flip), flip}, out, k);
   store(payload, out.payload + k);
   store(bx0, out.bx0 + k), store(bx1, out.bx1 + k);
   store(by0, out.by0 + k), store(by1, out.by1 + k);
