@@ -46,7 +46,15 @@ static_assert(kBlocksAtOnce == kMaxBlocks && kBlocksAtOnce == kBlockPixels);
 
 alignas(64) constexpr std::int32_t kLaneX[kBlockPixels] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
 alignas(64) constexpr std::int32_t kLaneY[kBlockPixels] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
-alignas(64) constexpr std::int32_t kZeros[kBlocksAtOnce] = {};
+// Where a square of blocks has its members, in the tile, from its first; and which members they are.
+alignas(64) constexpr auto kSquareNames = [] {
+  struct {
+    std::int32_t v[kBlocksAtOnce];
+    constexpr const std::int32_t* operator+(int i) const { return v + i; }
+  } names{};
+  for (int i = 0; i < kBlocksAtOnce; ++i) names.v[i] = (i / 4 * kMaxBlocks + i % 4) << 16 | i;
+  return names;
+}();
 alignas(64) constexpr std::int32_t kIota[kBlocksAtOnce] = {0, 1, 2,  3,  4,  5,  6,  7,
                                                            8, 9, 10, 11, 12, 13, 14, 15};
 
@@ -65,66 +73,126 @@ HWY_INLINE std::uint32_t mask_bits(hn::Mask<D> mask) {
   return bits;
 }
 
-// Values of a linear function over one block, relative to its first pixel.
-struct BlockOffsets {
+// Values of a linear function over sixteen pixels, or the same over sixteen blocks.
+struct Sixteen {
   V v[kVectors];
-  HWY_INLINE BlockOffsets(const std::int32_t* x, const std::int32_t* y) {
-    const D d;
-    for (int i = 0; i < kVectors; ++i)
-      v[i] = hn::Add(hn::Mul(hn::Load(d, kLaneX + i * kLanes), hn::Set(d, *x)),
-                     hn::Mul(hn::Load(d, kLaneY + i * kLanes), hn::Set(d, *y)));
-  }
 };
+// Over one block, relative to its first pixel.
+HWY_INLINE Sixteen over_block(const std::int32_t* x, const std::int32_t* y) {
+  const D d;
+  Sixteen out;
+  for (int i = 0; i < kVectors; ++i)
+    out.v[i] = hn::Add(hn::Mul(hn::Load(d, kLaneX + i * kLanes), hn::Set(d, *x)),
+                       hn::Mul(hn::Load(d, kLaneY + i * kLanes), hn::Set(d, *y)));
+  return out;
+}
 
-// How sixteen blocks lie that are sifted together: a row suits wide triangles, a square small and tall ones.
-struct Row {
-  static constexpr int kColumns = 16, kRows = 1;
-  static constexpr const std::int32_t *kX = kIota, *kY = kZeros;
-};
-struct Square {
-  static constexpr int kColumns = 4, kRows = 4;
-  static constexpr const std::int32_t *kX = kLaneX, *kY = kLaneY;
-};
+// Tests and writes a vector of a block's pixels.
+HWY_INLINE void write(Tile& tile, int at, V outside, V z, V payload) {
+  const D d;
+  const V old_z = hn::Load(d, tile.depth + at);
+  const auto wins = hn::AndNot(hn::Lt(outside, hn::Zero(d)), hn::Lt(z, old_z));
+  hn::Store(hn::IfThenElse(wins, z, old_z), d, tile.depth + at);
+  hn::Store(hn::IfThenElse(wins, payload, hn::Load(d, tile.payload + at)), d, tile.payload + at);
+}
 
-// Values of a linear function at the first pixels of sixteen blocks.
-template <class Shape>
-struct BlockValues {
-  V v[kVectors], step;
-  HWY_INLINE BlockValues(const std::int32_t* x, const std::int32_t* y, const std::int32_t* first) {
+// Small triangles, whose boxes are at most 4 x 4 blocks. All blocks of one are sifted at once, and those it
+// touches wait in a list that holds many triangles': how many each has is hard for a branch predictor to
+// guess, and the loop over the list need not.
+class SmallTriangles {
+ public:
+  static constexpr int kSide = 4;  // blocks
+  explicit SmallTriangles(Tile& tile) : tile_(tile) {}
+
+  HWY_INLINE void add(const Batch& batch, int k) {
     const D d;
-    const V block_x = hn::ShiftLeft<2>(hn::Set(d, *x)), block_y = hn::ShiftLeft<2>(hn::Set(d, *y));
+    if (used_ == kSlots) draw();
+    const int slot = used_++ * kBlockPixels;
+    const V bx = hn::Set(d, batch.bx1[k] - batch.bx0[k]), by = hn::Set(d, batch.by1[k] - batch.by0[k]);
+    const Sixteen in[4] = {over_block(batch.edge[0].x + k, batch.edge[0].y + k),
+                           over_block(batch.edge[1].x + k, batch.edge[1].y + k),
+                           over_block(batch.edge[2].x + k, batch.edge[2].y + k),
+                           over_block(batch.depth.x + k, batch.depth.y + k)};
+    const V name = hn::Set(d, (batch.by0[k] * kMaxBlocks + batch.bx0[k]) << 16 | slot);
     for (int p = 0; p < kVectors; ++p) {
-      v[p] = hn::Add(hn::Set(d, *first), hn::Mul(hn::Load(d, Shape::kX + p * kLanes), block_x));
-      if constexpr (Shape::kRows > 1)
-        v[p] = hn::Add(v[p], hn::Mul(hn::Load(d, Shape::kY + p * kLanes), block_y));
+      const int lane = p * kLanes;
+      V most = hn::Zero(d);
+      // Blocks lie in the square as pixels lie in a block, four times as far apart.
+      const auto at_block = [&](int i, const std::int32_t* first) {
+        const V at = hn::Add(hn::Set(d, *first), hn::ShiftLeft<2>(in[i].v[p]));
+        hn::Store(in[i].v[p], d, in_block_[i] + slot + lane);
+        hn::Store(at, d, at_block_[i] + slot + lane);
+        return at;
+      };
+      for (int i = 0; i < 3; ++i)
+        most = hn::Or(most, hn::Add(at_block(i, batch.edge[i].first + k), hn::Set(d, batch.edge[i].rise[k])));
+      at_block(3, batch.depth.first + k);
+      const auto beside =
+          hn::Or(hn::Gt(hn::Load(d, kLaneX + lane), bx), hn::Gt(hn::Load(d, kLaneY + lane), by));
+      const auto touched = hn::Not(hn::Or(beside, hn::Lt(most, hn::Zero(d))));
+      const V names = hn::Add(name, hn::Load(d, kSquareNames + lane));
+      hn::StoreU(hn::Compress(names, touched), d, list_ + length_);
+      length_ += static_cast<int>(hn::CountTrue(d, touched));
     }
-    step = hn::ShiftLeft<std::countr_zero(static_cast<unsigned>(Shape::kRows))>(block_y);
+    payload_[slot / kBlockPixels] = batch.payload[k];
   }
-  HWY_INLINE void next() {
-    for (V& part : v) part = hn::Add(part, step);
+
+  HWY_INLINE void draw() {
+    const D d;
+    for (int n = 0; n < length_; ++n) {
+      const int block = list_[n] >> 16, place = list_[n] & 0xFFFF, slot = place / kBlockPixels;
+      for (int p = 0; p < kVectors; ++p) {
+        const auto value = [&](int i) {
+          return hn::Add(hn::Set(d, at_block_[i][place]),
+                         hn::Load(d, in_block_[i] + slot * kBlockPixels + p * kLanes));
+        };
+        write(tile_, block * kBlockPixels + p * kLanes, hn::Or(hn::Or(value(0), value(1)), value(2)),
+              value(3), hn::Set(d, payload_[slot]));
+      }
+    }
+    used_ = length_ = 0;
   }
+
+ private:
+  static constexpr int kSlots = 8;
+  Tile& tile_;
+  int used_ = 0, length_ = 0;
+  alignas(64) std::int32_t at_block_[4][kSlots * kBlocksAtOnce], in_block_[4][kSlots * kBlockPixels];
+  std::int32_t payload_[kSlots];
+  std::int32_t
+      list_[(kSlots + 1) * kBlocksAtOnce];  // block << 16 | slot * 16 + the block's place in the square
 };
 
-// Draws entry k of the batch, whose box is at most Shape::kColumns blocks wide.
-template <class Shape>
-HWY_INLINE void paint(Tile& tile, const Batch& batch, int k, int blocks_per_row) {
+// Draws entry k of the batch a row of blocks at a time: which are touched, not hidden, is found for all of
+// them at once.
+HWY_INLINE void draw_rows(Tile& tile, const Batch& batch, int k) {
   const D d;
   const V zero = hn::Zero(d);
-  const auto values = [&](const auto& f) { return BlockValues<Shape>(f.x + k, f.y + k, f.first + k); };
-  const auto offsets = [&](const auto& f) { return BlockOffsets(f.x + k, f.y + k); };
-  BlockValues<Shape> edge[3] = {values(batch.edge[0]), values(batch.edge[1]), values(batch.edge[2])};
-  BlockValues<Shape> depth = values(batch.depth), nearest = values(batch.nearest);
-  const BlockOffsets edge_in[3] = {offsets(batch.edge[0]), offsets(batch.edge[1]), offsets(batch.edge[2])};
-  const BlockOffsets depth_in = offsets(batch.depth);
+  struct Row {
+    V v[kVectors], step;
+    HWY_INLINE Row(const std::int32_t* x, const std::int32_t* y, const std::int32_t* first) {
+      const D di;
+      for (int p = 0; p < kVectors; ++p)
+        v[p] = hn::Add(hn::Set(di, *first),
+                       hn::Mul(hn::Load(di, kIota + p * kLanes), hn::ShiftLeft<2>(hn::Set(di, *x))));
+      step = hn::ShiftLeft<2>(hn::Set(di, *y));
+    }
+    HWY_INLINE void next() {
+      for (V& part : v) part = hn::Add(part, step);
+    }
+  };
+  const auto row = [&](const auto& f) { return Row(f.x + k, f.y + k, f.first + k); };
+  Row edge[3] = {row(batch.edge[0]), row(batch.edge[1]), row(batch.edge[2])};
+  Row depth = row(batch.depth), nearest = row(batch.nearest);
+  const auto in_block = [&](const auto& f) { return over_block(f.x + k, f.y + k); };
+  const Sixteen edge_in[3] = {in_block(batch.edge[0]), in_block(batch.edge[1]), in_block(batch.edge[2])};
+  const Sixteen depth_in = in_block(batch.depth);
   const V payload = hn::Set(d, batch.payload[k]);
   const V last_column = hn::Set(d, batch.bx1[k] - batch.bx0[k]);
 
-  for (int by = batch.by0[k]; by <= batch.by1[k]; by += Shape::kRows) {
+  for (int by = batch.by0[k]; by <= batch.by1[k]; ++by) {
     alignas(64) std::int32_t at_edge[3][kBlocksAtOnce], at_depth[kBlocksAtOnce];
-    const int corner = by * blocks_per_row + batch.bx0[k];
-    std::int32_t* farthest = tile.farthest + corner;
-    const V last_row = hn::Set(d, batch.by1[k] - by);
-    // Which of the blocks may be touched?
+    const int corner = by * kMaxBlocks + batch.bx0[k];
     std::uint32_t touched = 0;
     for (int p = 0; p < kVectors; ++p) {
       const int lane = p * kLanes;
@@ -136,38 +204,28 @@ HWY_INLINE void paint(Tile& tile, const Batch& batch, int k, int blocks_per_row)
         hn::Store(edge[i].v[p], d, at_edge[i] + lane);
       }
       hn::Store(depth.v[p], d, at_depth + lane);
-      auto passed_over = hn::Or(hn::Gt(hn::Load(d, Shape::kX + lane), last_column), hn::Lt(most, zero));
-      if constexpr (Shape::kRows > 1) {
-        passed_over = hn::Or(passed_over, hn::Gt(hn::Load(d, Shape::kY + lane), last_row));
-      } else {
-        // Hierarchical depth. No pixel of a block that lies inside is farther, from now on, than the
-        // triangle's own farthest there.
-        const V old_farthest = hn::LoadU(d, farthest + lane);
-        const V own_farthest = hn::Add(depth.v[p], hn::Set(d, batch.depth.rise[k]));
-        const auto crossed = hn::Or(passed_over, hn::Lt(least, zero));
-        hn::StoreU(hn::IfThenElse(crossed, old_farthest, hn::Min(old_farthest, own_farthest)), d,
-                   farthest + lane);
-        passed_over = hn::Or(passed_over, hn::Not(hn::Lt(nearest.v[p], old_farthest)));
-      }
-      touched |= mask_bits(hn::Not(passed_over)) << lane;
+      const auto outside = hn::Or(hn::Gt(hn::Load(d, kIota + lane), last_column), hn::Lt(most, zero));
+      // No pixel of a block that lies inside is farther, from now on, than the triangle's own farthest there.
+      std::int32_t* farthest = tile.farthest + corner + lane;
+      const V old_farthest = hn::LoadU(d, farthest);
+      const V own_farthest = hn::Add(depth.v[p], hn::Set(d, batch.depth.rise[k]));
+      const auto crossed = hn::Or(outside, hn::Lt(least, zero));
+      hn::StoreU(hn::IfThenElse(crossed, old_farthest, hn::Min(old_farthest, own_farthest)), d, farthest);
+      const auto seen = hn::AndNot(outside, hn::Lt(nearest.v[p], old_farthest));
+      touched |= mask_bits(seen) << lane;
     }
     for (std::uint32_t left = touched; left != 0; left &= left - 1) {
       const int n = std::countr_zero(left);
-      const int block = corner + n / Shape::kColumns * blocks_per_row + n % Shape::kColumns;
-      for (int i = 0; i < kVectors; ++i) {
-        const auto at = static_cast<std::size_t>(block * kBlockPixels + i * kLanes);
-        const auto value = [&](const std::int32_t* at_block, const BlockOffsets& in) {
-          return hn::Add(hn::Set(d, at_block[n]), in.v[i]);
+      for (int p = 0; p < kVectors; ++p) {
+        const auto value = [&](const std::int32_t* at_block, const Sixteen& in) {
+          return hn::Add(hn::Set(d, at_block[n]), in.v[p]);
         };
         const V outside = hn::Or(hn::Or(value(at_edge[0], edge_in[0]), value(at_edge[1], edge_in[1])),
                                  value(at_edge[2], edge_in[2]));
-        const V z = value(at_depth, depth_in), old_z = hn::Load(d, tile.depth + at);
-        const auto wins = hn::AndNot(hn::Lt(outside, zero), hn::Lt(z, old_z));
-        hn::Store(hn::IfThenElse(wins, z, old_z), d, tile.depth + at);
-        hn::Store(hn::IfThenElse(wins, payload, hn::Load(d, tile.payload + at)), d, tile.payload + at);
+        write(tile, (corner + n) * kBlockPixels + p * kLanes, outside, value(at_depth, depth_in), payload);
       }
     }
-    for (auto& e : edge) e.next();
+    for (Row& e : edge) e.next();
     depth.next();
     nearest.next();
   }
@@ -175,14 +233,13 @@ HWY_INLINE void paint(Tile& tile, const Batch& batch, int k, int blocks_per_row)
 
 // Blocks back to rows, past the caches where the frame's alignment allows it.
 void write_out(const TileJob& job, const std::int32_t* blocks, std::uint32_t* plane) {
-  const int blocks_per_row = (1 << job.size_log2) / kBlock;
   const int width = std::min(1 << job.size_log2, job.frame.width - job.x0);
   const int height = std::min(1 << job.size_log2, job.frame.height - job.y0);
 #if HWY_TARGET != HWY_SCALAR
   const bool streams = reinterpret_cast<std::uintptr_t>(plane) % 16 == 0 && job.frame.stride % kBlock == 0;
 #endif
   for (int y = 0; y < height; ++y) {
-    const std::int32_t* from = blocks + (y / kBlock * blocks_per_row) * kBlockPixels + y % kBlock * kBlock;
+    const std::int32_t* from = blocks + y / kBlock * kMaxBlocks * kBlockPixels + y % kBlock * kBlock;
     auto* to = reinterpret_cast<std::int32_t*>(plane + (job.y0 + y) * job.frame.stride + job.x0);
     int x = 0;
 #if HWY_TARGET != HWY_SCALAR
@@ -206,25 +263,30 @@ HWY_INLINE void clear_upper_halves() {
 
 void draw_tile(const TileJob& job) {
   const D d;
-  const int size = 1 << job.size_log2, blocks_per_row = size / kBlock;
+  const int size = 1 << job.size_log2;
   Tile tile;
   const auto fill = [&](std::int32_t* at, int count, std::uint32_t value) {
     for (int i = 0; i < count; i += kLanes) hn::Store(hn::Set(d, wrap(value)), d, at + i);
   };
-  fill(tile.depth, size * size, kDepthClear);
-  fill(tile.payload, size * size, job.background);
+  for (int y = 0; y < size; y += kBlock) {
+    fill(tile.depth + y * kMaxTile, size * kBlock, kDepthClear);
+    fill(tile.payload + y * kMaxTile, size * kBlock, job.background);
+  }
   fill(tile.farthest, kMaxBlocks * kMaxBlocks + kBlocksAtOnce, kDepthClear);
 
   // The records lie anywhere: each run's are asked for while the run before it is drawn.
   Batch batch;
+  SmallTriangles small(tile);
   std::span<const std::uint32_t> asked_for;
   const auto draw_run = [&](std::span<const std::uint32_t> run) {
     for (std::uint32_t left = set_up(job, run, batch); left != 0; left &= left - 1) {
       const int k = std::countr_zero(left);
-      if (std::max(batch.bx1[k] - batch.bx0[k], batch.by1[k] - batch.by0[k]) < Square::kRows)
-        paint<Square>(tile, batch, k, blocks_per_row);
-      else
-        paint<Row>(tile, batch, k, blocks_per_row);
+      if (std::max(batch.bx1[k] - batch.bx0[k], batch.by1[k] - batch.by0[k]) < SmallTriangles::kSide) {
+        small.add(batch, k);
+      } else {
+        small.draw();
+        draw_rows(tile, batch, k);
+      }
     }
   };
   job.bins->for_each_run(job.cell, [&](std::span<const std::uint32_t> run) {
@@ -237,6 +299,7 @@ void draw_tile(const TileJob& job) {
     asked_for = run;
   });
   if (!asked_for.empty()) draw_run(asked_for);
+  small.draw();
   write_out(job, tile.depth, job.frame.depth);
   write_out(job, tile.payload, job.frame.payload);
   hwy::FlushStream();
