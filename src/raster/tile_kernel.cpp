@@ -154,7 +154,7 @@ class SmallTriangles {
   }
 
  private:
-  static constexpr int kSlots = 8;
+  static constexpr int kSlots = 16;
   Tile& tile_;
   int used_ = 0, length_ = 0;
   alignas(64) std::int32_t at_block_[4][kSlots * kBlocksAtOnce], in_block_[4][kSlots * kBlockPixels];
