@@ -190,10 +190,13 @@ HWY_INLINE void draw_rows(Tile& tile, const Batch& batch, int k) {
   const V payload = hn::Set(d, batch.payload[k]);
   const V last_column = hn::Set(d, batch.bx1[k] - batch.bx0[k]);
 
-  for (int by = batch.by0[k]; by <= batch.by1[k]; ++by) {
-    alignas(64) std::int32_t at_edge[3][kBlocksAtOnce], at_depth[kBlocksAtOnce];
-    const int corner = by * kMaxBlocks + batch.bx0[k];
-    std::uint32_t touched = 0;
+  // Values at the first pixels of blocks, and the blocks that are touched, by their places after the first.
+  alignas(64) std::int32_t at_edge[3][kMaxBlocks * kMaxBlocks], at_depth[kMaxBlocks * kMaxBlocks];
+  std::int32_t touched[kMaxBlocks * kMaxBlocks + kLanes];
+  int length = 0;
+  const int corner = batch.by0[k] * kMaxBlocks + batch.bx0[k];
+  const int end = (batch.by1[k] - batch.by0[k] + 1) * kMaxBlocks;
+  for (int start = 0; start < end; start += kMaxBlocks) {
     for (int p = 0; p < kVectors; ++p) {
       const int lane = p * kLanes;
       V most = zero, least = zero;
@@ -201,33 +204,35 @@ HWY_INLINE void draw_rows(Tile& tile, const Batch& batch, int k) {
         const V high = hn::Add(edge[i].v[p], hn::Set(d, batch.edge[i].rise[k]));
         most = hn::Or(most, high);
         least = hn::Or(least, hn::Sub(high, hn::Set(d, batch.edge[i].span[k])));
-        hn::Store(edge[i].v[p], d, at_edge[i] + lane);
+        hn::Store(edge[i].v[p], d, at_edge[i] + start + lane);
       }
-      hn::Store(depth.v[p], d, at_depth + lane);
-      const auto outside = hn::Or(hn::Gt(hn::Load(d, kIota + lane), last_column), hn::Lt(most, zero));
+      hn::Store(depth.v[p], d, at_depth + start + lane);
+      const V column = hn::Load(d, kIota + lane);
+      const auto outside = hn::Or(hn::Gt(column, last_column), hn::Lt(most, zero));
       // No pixel of a block that lies inside is farther, from now on, than the triangle's own farthest there.
-      std::int32_t* farthest = tile.farthest + corner + lane;
+      std::int32_t* farthest = tile.farthest + corner + start + lane;
       const V old_farthest = hn::LoadU(d, farthest);
       const V own_farthest = hn::Add(depth.v[p], hn::Set(d, batch.depth.rise[k]));
       const auto crossed = hn::Or(outside, hn::Lt(least, zero));
       hn::StoreU(hn::IfThenElse(crossed, old_farthest, hn::Min(old_farthest, own_farthest)), d, farthest);
       const auto seen = hn::AndNot(outside, hn::Lt(nearest.v[p], old_farthest));
-      touched |= mask_bits(seen) << lane;
-    }
-    for (std::uint32_t left = touched; left != 0; left &= left - 1) {
-      const int n = std::countr_zero(left);
-      for (int p = 0; p < kVectors; ++p) {
-        const auto value = [&](const std::int32_t* at_block, const Sixteen& in) {
-          return hn::Add(hn::Set(d, at_block[n]), in.v[p]);
-        };
-        const V outside = hn::Or(hn::Or(value(at_edge[0], edge_in[0]), value(at_edge[1], edge_in[1])),
-                                 value(at_edge[2], edge_in[2]));
-        write(tile, (corner + n) * kBlockPixels + p * kLanes, outside, value(at_depth, depth_in), payload);
-      }
+      hn::StoreU(hn::Compress(hn::Add(column, hn::Set(d, start)), seen), d, touched + length);
+      length += static_cast<int>(hn::CountTrue(d, seen));
     }
     for (Row& e : edge) e.next();
     depth.next();
     nearest.next();
+  }
+  for (int n = 0; n < length; ++n) {
+    const int block = touched[n];
+    for (int p = 0; p < kVectors; ++p) {
+      const auto value = [&](const std::int32_t* at_block, const Sixteen& in) {
+        return hn::Add(hn::Set(d, at_block[block]), in.v[p]);
+      };
+      const V outside = hn::Or(hn::Or(value(at_edge[0], edge_in[0]), value(at_edge[1], edge_in[1])),
+                               value(at_edge[2], edge_in[2]));
+      write(tile, (corner + block) * kBlockPixels + p * kLanes, outside, value(at_depth, depth_in), payload);
+    }
   }
 }
 
