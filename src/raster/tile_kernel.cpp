@@ -73,6 +73,42 @@ HWY_INLINE std::uint32_t mask_bits(hn::Mask<D> mask) {
   return bits;
 }
 
+#if HWY_TARGET == HWY_SSE4 || HWY_TARGET == HWY_AVX2
+// For each mask, the lanes that it selects, and then any. Highway 1.0.3 has the same table in Compress(), but
+// GCC copies it to the stack at every call.
+constexpr auto kSelected = [] {
+  struct {
+    std::uint8_t lane[1 << kLanes][kLanes];
+  } table{};
+  for (int mask = 0; mask < 1 << kLanes; ++mask) {
+    int count = 0;
+    for (int lane = 0; lane < kLanes; ++lane)
+      if (mask >> lane & 1) table.lane[mask][count++] = static_cast<std::uint8_t>(lane);
+  }
+  return table;
+}();
+HWY_INLINE V selected_first(V v, hn::Mask<D> mask) {
+  const D d;
+  const hn::Rebind<std::uint8_t, D> d8;
+  const auto lanes = hn::PromoteTo(d, hn::LoadU(d8, kSelected.lane[mask_bits(mask)]));
+  return hn::TableLookupLanes(v, hn::IndicesFromVec(d, lanes));
+}
+#else
+HWY_INLINE V selected_first(V v, hn::Mask<D> mask) {
+  return hn::Compress(v, mask);
+}
+#endif
+
+// A list that a vector's selected lanes are appended to; it needs kLanes to spare.
+struct List {
+  std::int32_t* at;
+  int length = 0;
+  HWY_INLINE void append(V v, hn::Mask<D> mask) {
+    hn::StoreU(selected_first(v, mask), D{}, at + length);
+    length += static_cast<int>(hn::CountTrue(D{}, mask));
+  }
+};
+
 // Values of a linear function over sixteen pixels, or the same over sixteen blocks.
 struct Sixteen {
   V v[kVectors];
@@ -131,16 +167,15 @@ class SmallTriangles {
           hn::Or(hn::Gt(hn::Load(d, kLaneX + lane), bx), hn::Gt(hn::Load(d, kLaneY + lane), by));
       const auto touched = hn::Not(hn::Or(beside, hn::Lt(most, hn::Zero(d))));
       const V names = hn::Add(name, hn::Load(d, kSquareNames + lane));
-      hn::StoreU(hn::Compress(names, touched), d, list_ + length_);
-      length_ += static_cast<int>(hn::CountTrue(d, touched));
+      list_.append(names, touched);
     }
     payload_[slot / kBlockPixels] = batch.payload[k];
   }
 
   HWY_INLINE void draw() {
     const D d;
-    for (int n = 0; n < length_; ++n) {
-      const int block = list_[n] >> 16, place = list_[n] & 0xFFFF, slot = place / kBlockPixels;
+    for (int n = 0; n < list_.length; ++n) {
+      const int block = list_.at[n] >> 16, place = list_.at[n] & 0xFFFF, slot = place / kBlockPixels;
       for (int p = 0; p < kVectors; ++p) {
         const auto value = [&](int i) {
           return hn::Add(hn::Set(d, at_block_[i][place]),
@@ -150,17 +185,18 @@ class SmallTriangles {
               value(3), hn::Set(d, payload_[slot]));
       }
     }
-    used_ = length_ = 0;
+    used_ = list_.length = 0;
   }
 
  private:
   static constexpr int kSlots = 16;
   Tile& tile_;
-  int used_ = 0, length_ = 0;
+  int used_ = 0;
   alignas(64) std::int32_t at_block_[4][kSlots * kBlocksAtOnce], in_block_[4][kSlots * kBlockPixels];
   std::int32_t payload_[kSlots];
-  std::int32_t
-      list_[(kSlots + 1) * kBlocksAtOnce];  // block << 16 | slot * 16 + the block's place in the square
+  // block << 16 | slot * 16 + the block's place in the square
+  std::int32_t touched_[(kSlots + 1) * kBlocksAtOnce];
+  List list_{touched_};
 };
 
 // Draws entry k of the batch a row of blocks at a time: which are touched, not hidden, is found for all of
@@ -193,7 +229,7 @@ HWY_INLINE void draw_rows(Tile& tile, const Batch& batch, int k) {
   // Values at the first pixels of blocks, and the blocks that are touched, by their places after the first.
   alignas(64) std::int32_t at_edge[3][kMaxBlocks * kMaxBlocks], at_depth[kMaxBlocks * kMaxBlocks];
   std::int32_t touched[kMaxBlocks * kMaxBlocks + kLanes];
-  int length = 0;
+  List list{touched};
   const int corner = batch.by0[k] * kMaxBlocks + batch.bx0[k];
   const int end = (batch.by1[k] - batch.by0[k] + 1) * kMaxBlocks;
   for (int start = 0; start < end; start += kMaxBlocks) {
@@ -216,14 +252,13 @@ HWY_INLINE void draw_rows(Tile& tile, const Batch& batch, int k) {
       const auto crossed = hn::Or(outside, hn::Lt(least, zero));
       hn::StoreU(hn::IfThenElse(crossed, old_farthest, hn::Min(old_farthest, own_farthest)), d, farthest);
       const auto seen = hn::AndNot(outside, hn::Lt(nearest.v[p], old_farthest));
-      hn::StoreU(hn::Compress(hn::Add(column, hn::Set(d, start)), seen), d, touched + length);
-      length += static_cast<int>(hn::CountTrue(d, seen));
+      list.append(hn::Add(column, hn::Set(d, start)), seen);
     }
     for (Row& e : edge) e.next();
     depth.next();
     nearest.next();
   }
-  for (int n = 0; n < length; ++n) {
+  for (int n = 0; n < list.length; ++n) {
     const int block = touched[n];
     for (int p = 0; p < kVectors; ++p) {
       const auto value = [&](const std::int32_t* at_block, const Sixteen& in) {
