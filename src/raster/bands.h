@@ -27,8 +27,8 @@ inline void clear_rows(FrameView frame, RowRange rows, std::uint32_t background)
 // order.
 template <typename Draw>
 void draw_in_bands(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
-                   int threads, Bins& bins, Draw&& draw) {
-  if (threads == 1) {
+                   const Execution& execution, Bins& bins, Draw&& draw) {
+  if (execution.threads == 1) {
     const RowRange all{0, frame.height};
     clear_rows(frame, all, background);
     for (const auto& triangle : triangles) draw(triangle, all);
@@ -36,9 +36,9 @@ void draw_in_bands(std::span<const ScreenTriangle> triangles, FrameView frame, s
   }
   constexpr int kBandRowsLog2 = 5, kWholeWidthLog2 = 14;
   static_assert(1 << kWholeWidthLog2 == contract::kMaxImageSide);
-  const Bins::Grid grid{frame.width, frame.height, kWholeWidthLog2, kBandRowsLog2};
-  bins.build(triangles, grid, threads);
-  parallel_for(threads, grid.rows(), [&](int band) {
+  const CellGrid grid{frame.width, frame.height, kWholeWidthLog2, kBandRowsLog2};
+  bins.build(triangles, grid, execution.threads, execution.target);
+  parallel_for(execution.threads, grid.rows(), [&](int band) {
     const RowRange rows{band << kBandRowsLog2, std::min((band + 1) << kBandRowsLog2, frame.height)};
     clear_rows(frame, rows, background);
     bins.for_each_run(band, [&](std::span<const std::uint32_t> run) {

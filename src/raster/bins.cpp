@@ -1,6 +1,7 @@
 #include "raster/bins.h"
 
 #include <algorithm>
+#include <bit>
 #include <stdexcept>
 
 #include "raster/contract.h"
@@ -31,18 +32,16 @@ void Bins::Chunk::push(std::size_t cell, std::uint32_t index) {
   cursor[cell] = slot + 1;
 }
 
-void Bins::bin(const ScreenTriangle& triangle, std::uint32_t index, const Grid& grid, Chunk& chunk) {
-  const PixelBox box = pixel_box(triangle, grid.width, grid.height);
-  if (box.empty()) return;
-  const int column0 = box.x0 >> grid.cell_w_log2, column1 = (box.x1 - 1) >> grid.cell_w_log2;
-  const int row0 = box.y0 >> grid.cell_h_log2, row1 = (box.y1 - 1) >> grid.cell_h_log2;
+void Bins::bin(const ScreenTriangle& triangle, std::uint32_t index, const CellBox& box, const CellGrid& grid,
+               Chunk& chunk) {
+  const int column0 = box.column0, column1 = box.column1, row0 = box.row0, row1 = box.row1;
   const int columns = grid.columns();
   const auto cell_at = [&](int column, int row) { return static_cast<std::size_t>(row * columns + column); };
 
   // One or two cells: the tile's own test is as cheap as one here.
   if (column1 - column0 + row1 - row0 <= 1) {
-    for (int row = row0; row <= row1; ++row)
-      for (int column = column0; column <= column1; ++column) chunk.push(cell_at(column, row), index);
+    chunk.push(cell_at(column0, row0), index);
+    if (column1 - column0 + row1 - row0 == 1) chunk.push(cell_at(column1, row1), index);
     return;
   }
   const Oriented oriented = orient(triangle);
@@ -69,7 +68,8 @@ void Bins::bin(const ScreenTriangle& triangle, std::uint32_t index, const Grid& 
   }
 }
 
-void Bins::build(std::span<const ScreenTriangle> triangles, const Grid& grid, int threads) {
+void Bins::build(std::span<const ScreenTriangle> triangles, const CellGrid& grid, int threads,
+                 SimdTarget target) {
   constexpr std::size_t kLeastChunk = 4096;  // triangles; below, a chunk's bookkeeping outweighs its work
   constexpr std::size_t kChunksPerThread = 4;
   constexpr std::size_t kMaxHeads = std::size_t{1} << 24;  // list heads of all chunks together: 128 MB
@@ -79,13 +79,21 @@ void Bins::build(std::span<const ScreenTriangle> triangles, const Grid& grid, in
   used_chunks_ = std::clamp<std::size_t>(triangles.size() / kLeastChunk, 1, std::min(most, affordable));
   if (chunks_.size() < used_chunks_) chunks_.resize(used_chunks_);
 
+  const CellBoxKernel find_boxes = cell_box_kernel(target);
   parallel_for(threads, static_cast<int>(used_chunks_), [&](int i) {
     const auto c = static_cast<std::size_t>(i);
     Chunk& chunk = chunks_[c];
     chunk.reset(cells);
     const std::size_t begin = triangles.size() * c / used_chunks_;
     const std::size_t end = triangles.size() * (c + 1) / used_chunks_;
-    for (std::size_t t = begin; t < end; ++t) bin(triangles[t], static_cast<std::uint32_t>(t), grid, chunk);
+    CellBox boxes[kBoxesAtOnce];
+    for (std::size_t first = begin; first < end; first += kBoxesAtOnce) {
+      const auto some = triangles.subspan(first, std::min<std::size_t>(kBoxesAtOnce, end - first));
+      for (std::uint64_t left = find_boxes(some, grid, boxes); left != 0; left &= left - 1) {
+        const auto k = static_cast<std::size_t>(std::countr_zero(left));
+        bin(some[k], static_cast<std::uint32_t>(first + k), boxes[k], grid, chunk);
+      }
+    }
   });
 }
 

@@ -10,23 +10,17 @@
 #include <span>
 #include <vector>
 
+#include "raster/cell_boxes.h"
 #include "raster/screen_triangle.h"
+#include "raster/simd_target.h"
 
 namespace edgewise {
 
 class Bins {
  public:
-  struct Grid {
-    int width, height;             // px, the image
-    int cell_w_log2, cell_h_log2;  // px
-    int columns() const { return (width + (1 << cell_w_log2) - 1) >> cell_w_log2; }
-    int rows() const { return (height + (1 << cell_h_log2) - 1) >> cell_h_log2; }
-    int cells() const { return columns() * rows(); }
-  };
-
   // Replaces what was binned before. A triangle with no sample in its bounding box lands nowhere; one without
   // area may land in a cell or two. Throws std::length_error when a chunk's lists pass 2^32 entries.
-  void build(std::span<const ScreenTriangle> triangles, const Grid& grid, int threads);
+  void build(std::span<const ScreenTriangle> triangles, const CellGrid& grid, int threads, SimdTarget target);
 
   // visit(indices) for consecutive runs of a cell's triangle indices, in submission order.
   template <typename Visit>
@@ -58,7 +52,8 @@ class Bins {
     void push(std::size_t cell, std::uint32_t index);
   };
 
-  static void bin(const ScreenTriangle& triangle, std::uint32_t index, const Grid& grid, Chunk& chunk);
+  static void bin(const ScreenTriangle& triangle, std::uint32_t index, const CellBox& box,
+                  const CellGrid& grid, Chunk& chunk);
 
   std::vector<Chunk> chunks_;
   std::size_t used_chunks_ = 0;

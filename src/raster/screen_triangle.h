@@ -7,7 +7,7 @@ namespace edgewise {
 
 // Vertices in either winding; see contract.h for the ranges (rules 2, 3 and 6), which the front end
 // guarantees and every backend relies on. A triangle of zero area draws nothing.
-struct ScreenTriangle {
+struct alignas(8) ScreenTriangle {
   std::int32_t x_sub[3];  // 1/256 px, x to the right
   std::int32_t y_sub[3];  // 1/256 px, y down
   std::uint32_t z[3];     // contract depth units (rule 6); smaller is nearer

@@ -27,6 +27,7 @@
 #include "raster/contract.h"
 #include "raster/kernel_table.h"
 #include "raster/tile_kernel.h"
+#include "raster/tile_setup-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace edgewise {
@@ -37,110 +38,32 @@ using namespace contract;
 using D = hn::CappedTag<std::int32_t, 16>;
 using V = hn::Vec<D>;
 constexpr int kLanes = static_cast<int>(hn::MaxLanes(D{}));
-constexpr int kBlock = 4;  // px a side
 constexpr int kBlockPixels = 16;
 constexpr int kVectors = kBlockPixels / kLanes;  // in a block
 constexpr int kMaxBlocks = kMaxTile / kBlock;    // a side of a tile
-static_assert(kMaxBlocks == 16, "a row of blocks is sifted in 16 lanes");
+constexpr int kBlocksAtOnce = 16;  // are sifted together, which as many lanes as they have pixels
+static_assert(kBlocksAtOnce == kMaxBlocks && kBlocksAtOnce == kBlockPixels);
 
 alignas(64) constexpr std::int32_t kLaneX[kBlockPixels] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
 alignas(64) constexpr std::int32_t kLaneY[kBlockPixels] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
-alignas(64) constexpr std::int32_t kColumn[kMaxBlocks] = {0, 1, 2,  3,  4,  5,  6,  7,
-                                                          8, 9, 10, 11, 12, 13, 14, 15};
+// Where a square of blocks has its members, in the tile, from its first; and which members they are.
+alignas(64) constexpr auto kSquareNames = [] {
+  struct {
+    std::int32_t v[kBlocksAtOnce];
+    constexpr const std::int32_t* operator+(int i) const { return v + i; }
+  } names{};
+  for (int i = 0; i < kBlocksAtOnce; ++i) names.v[i] = (i / 4 * kMaxBlocks + i % 4) << 16 | i;
+  return names;
+}();
+alignas(64) constexpr std::int32_t kIota[kBlocksAtOnce] = {0, 1, 2,  3,  4,  5,  6,  7,
+                                                           8, 9, 10, 11, 12, 13, 14, 15};
 
 struct Tile {
   alignas(64) std::int32_t depth[kMaxTile * kMaxTile];  // block by block, 16 pixels each
   alignas(64) std::int32_t payload[kMaxTile * kMaxTile];
-  alignas(64) std::int32_t farthest[kMaxBlocks * kMaxBlocks];  // no pixel of the block is farther
+  alignas(
+      64) std::int32_t farthest[kMaxBlocks * kMaxBlocks + kBlocksAtOnce];  // no pixel of the block is farther
 };
-
-// A linear function of the pixel's place in the tile, in wrapping int32: a shifted edge value or a depth.
-struct Linear {
-  std::int32_t x, y;    // step a pixel
-  std::int32_t origin;  // at the tile's first pixel
-};
-
-constexpr std::int32_t wrap(std::uint32_t v) {
-  return static_cast<std::int32_t>(v);
-}
-constexpr std::int32_t wrap_add(std::int32_t a, std::int32_t b) {
-  return wrap(static_cast<std::uint32_t>(a) + static_cast<std::uint32_t>(b));
-}
-constexpr std::int32_t wrap_mul_add(std::int32_t a, int n, std::int32_t b) {
-  return wrap_add(wrap(static_cast<std::uint32_t>(a) * static_cast<std::uint32_t>(n)), b);
-}
-
-// A linear function's values over one block, relative to its first pixel.
-struct BlockOffsets {
-  V v[kVectors];
-  HWY_INLINE explicit BlockOffsets(const Linear& f) {
-    const D d;
-    for (int i = 0; i < kVectors; ++i)
-      v[i] = hn::Add(hn::Mul(hn::Load(d, kLaneX + i * kLanes), hn::Set(d, f.x)),
-                     hn::Mul(hn::Load(d, kLaneY + i * kLanes), hn::Set(d, f.y)));
-  }
-};
-
-// What a triangle means to one tile.
-struct TileTriangle {
-  Linear edge[3];  // inside where all are >= 0
-  Linear depth;
-  Linear nearest;  // a bound for hierarchical depth: no pixel of the triangle is nearer (see below)
-  std::int32_t payload;
-  int bx0, by0, bx1, by1;  // blocks it may touch, inclusive
-};
-
-// False if the triangle touches no pixel of the tile.
-HWY_INLINE bool set_up(const TileJob& job, const ScreenTriangle& triangle, TileTriangle& out) {
-  const int size = 1 << job.size_log2;
-  const PixelBox box = pixel_box(triangle, job.frame.width, job.frame.height);
-  const int x0 = std::max(box.x0 - job.x0, 0), x1 = std::min(box.x1 - job.x0, size);
-  const int y0 = std::max(box.y0 - job.y0, 0), y1 = std::min(box.y1 - job.y0, size);
-  if (x0 >= x1 || y0 >= y1) return false;
-  const Oriented t = orient(triangle);
-  if (t.area == 0) return false;
-  out.bx0 = x0 / kBlock, out.bx1 = (x1 - 1) / kBlock;
-  out.by0 = y0 / kBlock, out.by1 = (y1 - 1) / kBlock;
-
-  // The box in whole blocks, so that an edge that accepts it accepts every lane that will be tested.
-  const int left = out.bx0 * kBlock, top = out.by0 * kBlock;
-  const std::int64_t last_x = (out.bx1 - out.bx0 + 1) * kBlock - 1,
-                     last_y = (out.by1 - out.by0 + 1) * kBlock - 1;
-  for (int i = 0; i < 3; ++i) {
-    const Edge edge = make_edge(t, i);
-    const std::int64_t first = edge.at(job.x0 + left, job.y0 + top);
-    const std::int64_t across = std::int64_t{edge.a} * kSub * last_x,
-                       down = std::int64_t{edge.b} * kSub * last_y;
-    if (first + std::max<std::int64_t>(across, 0) + std::max<std::int64_t>(down, 0) < 0) return false;
-    if (first + std::min<std::int64_t>(across, 0) + std::min<std::int64_t>(down, 0) >= 0)
-      out.edge[i] = {0, 0, 0};
-    else
-      out.edge[i] = {edge.a, edge.b,
-                     static_cast<std::int32_t>((first >> kSubBits) - std::int64_t{edge.a} * left -
-                                               std::int64_t{edge.b} * top)};
-  }
-
-  const DepthPlane plane = make_depth(t);
-  out.depth = {wrap(plane.zx), wrap(plane.zy), wrap(plane.at(job.x0, job.y0))};
-  out.payload = wrap(triangle.payload);
-  // Below 2^24 a step, the plane over a tile stays within 2^31 of the triangle's depths, so a wrapped value
-  // is negative and passes as near: the bound may be the plane itself. Steeper planes fall back to the
-  // nearest vertex.
-  constexpr std::int32_t kSteep = 1 << 24;
-  const bool flat =
-      std::max(std::abs(std::int64_t{out.depth.x}), std::abs(std::int64_t{out.depth.y})) < kSteep;
-  const std::int64_t nearest = std::min({t.z[0], t.z[1], t.z[2]}) - kDepthError;
-  out.nearest = flat ? out.depth : Linear{0, 0, static_cast<std::int32_t>(nearest)};
-  return true;
-}
-
-// Smallest and largest of a linear function over a block, relative to the block's first pixel.
-constexpr std::int32_t block_min(const Linear& f) {
-  return std::min(f.x, 0) * (kBlock - 1) + std::min(f.y, 0) * (kBlock - 1);
-}
-constexpr std::int32_t block_max(const Linear& f) {
-  return std::max(f.x, 0) * (kBlock - 1) + std::max(f.y, 0) * (kBlock - 1);
-}
 
 HWY_INLINE std::uint32_t mask_bits(hn::Mask<D> mask) {
   std::uint8_t bytes[8] = {};
@@ -150,118 +73,213 @@ HWY_INLINE std::uint32_t mask_bits(hn::Mask<D> mask) {
   return bits;
 }
 
-struct BlockRow {
-  std::uint32_t touched, inside;  // a bit for each block of the row
+#if HWY_TARGET == HWY_SSE4 || HWY_TARGET == HWY_AVX2
+// For each mask, the lanes that it selects, and then any. Highway 1.0.3 has the same table in Compress(), but
+// GCC copies it to the stack at every call.
+constexpr auto kSelected = [] {
+  struct {
+    std::uint8_t lane[1 << kLanes][kLanes];
+  } table{};
+  for (int mask = 0; mask < 1 << kLanes; ++mask) {
+    int count = 0;
+    for (int lane = 0; lane < kLanes; ++lane)
+      if (mask >> lane & 1) table.lane[mask][count++] = static_cast<std::uint8_t>(lane);
+  }
+  return table;
+}();
+HWY_INLINE V selected_first(V v, hn::Mask<D> mask) {
+  const D d;
+  const hn::Rebind<std::uint8_t, D> d8;
+  const auto lanes = hn::PromoteTo(d, hn::LoadU(d8, kSelected.lane[mask_bits(mask)]));
+  return hn::TableLookupLanes(v, hn::IndicesFromVec(d, lanes));
+}
+#else
+HWY_INLINE V selected_first(V v, hn::Mask<D> mask) {
+  return hn::Compress(v, mask);
+}
+#endif
+
+// A list that a vector's selected lanes are appended to; it needs kLanes to spare.
+struct List {
+  std::int32_t* at;
+  int length = 0;
+  HWY_INLINE void append(V v, hn::Mask<D> mask) {
+    hn::StoreU(selected_first(v, mask), D{}, at + length);
+    length += static_cast<int>(hn::CountTrue(D{}, mask));
+  }
 };
 
-// Which blocks of a row hold pixels that may be drawn, and which of these lie wholly inside the triangle.
-HWY_INLINE BlockRow sift(const Tile& tile, const TileTriangle& t, int by, int blocks_per_row) {
+// Values of a linear function over sixteen pixels, or the same over sixteen blocks.
+struct Sixteen {
+  V v[kVectors];
+};
+// Over one block, relative to its first pixel.
+HWY_INLINE Sixteen over_block(const std::int32_t* x, const std::int32_t* y) {
   const D d;
-  const auto zero = hn::Zero(d);
-  BlockRow row{0, 0};
-  for (int first = 0; first < kMaxBlocks; first += kLanes) {
-    const auto column = hn::Load(d, kColumn + first);
-    const auto at_blocks = [&](const Linear& f, std::int32_t offset) {
-      return hn::Add(hn::Set(d, wrap_add(wrap_mul_add(f.y, by * kBlock, f.origin), offset)),
-                     hn::Mul(column, hn::Set(d, wrap_mul_add(f.x, kBlock, 0))));
-    };
-    auto most = zero, least = zero;
-    for (const Linear& edge : t.edge) {
-      const std::int32_t span = block_max(edge) - block_min(edge);
-      const auto high = at_blocks(edge, block_max(edge));
-      most = hn::Or(most, high);
-      least = hn::Or(least, hn::Sub(high, hn::Set(d, span)));
-    }
-    const auto nearest = at_blocks(t.nearest, block_min(t.nearest));
-    const auto in_front = hn::Lt(nearest, hn::LoadU(d, tile.farthest + by * blocks_per_row + first));
-    const auto touched = hn::AndNot(hn::Lt(most, zero), in_front);
-    row.touched |= mask_bits(touched) << first;
-    row.inside |= mask_bits(hn::AndNot(hn::Lt(least, zero), touched)) << first;
-  }
-  return row;
+  Sixteen out;
+  for (int i = 0; i < kVectors; ++i)
+    out.v[i] = hn::Add(hn::Mul(hn::Load(d, kLaneX + i * kLanes), hn::Set(d, *x)),
+                       hn::Mul(hn::Load(d, kLaneY + i * kLanes), hn::Set(d, *y)));
+  return out;
 }
 
-class Painter {
+// Tests and writes a vector of a block's pixels.
+HWY_INLINE void write(Tile& tile, int at, V outside, V z, V payload) {
+  const D d;
+  const V old_z = hn::Load(d, tile.depth + at);
+  const auto wins = hn::AndNot(hn::Lt(outside, hn::Zero(d)), hn::Lt(z, old_z));
+  hn::Store(hn::IfThenElse(wins, z, old_z), d, tile.depth + at);
+  hn::Store(hn::IfThenElse(wins, payload, hn::Load(d, tile.payload + at)), d, tile.payload + at);
+}
+
+// Small triangles, whose boxes are at most 4 x 4 blocks. All blocks of one are sifted at once, and those it
+// touches wait in a list that holds many triangles': how many each has is hard for a branch predictor to
+// guess, and the loop over the list need not.
+class SmallTriangles {
  public:
-  HWY_INLINE Painter(Tile& tile, const TileTriangle& t, int blocks_per_row)
-      : tile_(tile),
-        t_(t),
-        blocks_per_row_(blocks_per_row),
-        depth_(t.depth),
-        edges_{BlockOffsets(t.edge[0]), BlockOffsets(t.edge[1]), BlockOffsets(t.edge[2])} {}
+  static constexpr int kSide = 4;  // blocks
+  explicit SmallTriangles(Tile& tile) : tile_(tile) {}
+
+  HWY_INLINE void add(const Batch& batch, int k) {
+    const D d;
+    if (used_ == kSlots) draw();
+    const int slot = used_++ * kBlockPixels;
+    const V bx = hn::Set(d, batch.bx1[k] - batch.bx0[k]), by = hn::Set(d, batch.by1[k] - batch.by0[k]);
+    const Sixteen in[4] = {over_block(batch.edge[0].x + k, batch.edge[0].y + k),
+                           over_block(batch.edge[1].x + k, batch.edge[1].y + k),
+                           over_block(batch.edge[2].x + k, batch.edge[2].y + k),
+                           over_block(batch.depth.x + k, batch.depth.y + k)};
+    const V name = hn::Set(d, (batch.by0[k] * kMaxBlocks + batch.bx0[k]) << 16 | slot);
+    for (int p = 0; p < kVectors; ++p) {
+      const int lane = p * kLanes;
+      V most = hn::Zero(d);
+      // Blocks lie in the square as pixels lie in a block, four times as far apart.
+      const auto at_block = [&](int i, const std::int32_t* first) {
+        const V at = hn::Add(hn::Set(d, *first), hn::ShiftLeft<2>(in[i].v[p]));
+        hn::Store(in[i].v[p], d, in_block_[i] + slot + lane);
+        hn::Store(at, d, at_block_[i] + slot + lane);
+        return at;
+      };
+      for (int i = 0; i < 3; ++i)
+        most = hn::Or(most, hn::Add(at_block(i, batch.edge[i].first + k), hn::Set(d, batch.edge[i].rise[k])));
+      at_block(3, batch.depth.first + k);
+      const auto beside =
+          hn::Or(hn::Gt(hn::Load(d, kLaneX + lane), bx), hn::Gt(hn::Load(d, kLaneY + lane), by));
+      const auto touched = hn::Not(hn::Or(beside, hn::Lt(most, hn::Zero(d))));
+      const V names = hn::Add(name, hn::Load(d, kSquareNames + lane));
+      list_.append(names, touched);
+    }
+    payload_[slot / kBlockPixels] = batch.payload[k];
+  }
 
   HWY_INLINE void draw() {
-    // A box of at most 2 x 2 blocks is tested directly; sifting would cost as much.
-    const bool small = t_.bx1 - t_.bx0 <= 1 && t_.by1 - t_.by0 <= 1;
-    const std::uint32_t columns = (2u << t_.bx1) - (1u << t_.bx0);
-    for (int by = t_.by0; by <= t_.by1; ++by) {
-      const BlockRow row = small ? BlockRow{columns, 0} : sift(tile_, t_, by, blocks_per_row_);
-      for (std::uint32_t left = row.touched & columns; left != 0; left &= left - 1) {
-        const int bx = std::countr_zero(left);
-        if (row.inside >> bx & 1)
-          fill_inside(bx, by);
-        else
-          fill_crossed(bx, by);
+    const D d;
+    for (int n = 0; n < list_.length; ++n) {
+      const int block = list_.at[n] >> 16, place = list_.at[n] & 0xFFFF, slot = place / kBlockPixels;
+      for (int p = 0; p < kVectors; ++p) {
+        const auto value = [&](int i) {
+          return hn::Add(hn::Set(d, at_block_[i][place]),
+                         hn::Load(d, in_block_[i] + slot * kBlockPixels + p * kLanes));
+        };
+        write(tile_, block * kBlockPixels + p * kLanes, hn::Or(hn::Or(value(0), value(1)), value(2)),
+              value(3), hn::Set(d, payload_[slot]));
       }
     }
+    used_ = list_.length = 0;
   }
 
  private:
-  HWY_INLINE static V value(const Linear& f, const BlockOffsets& offsets, int bx, int by, int i) {
-    return hn::Add(hn::Set(D{}, wrap_mul_add(f.x, bx * kBlock, wrap_mul_add(f.y, by * kBlock, f.origin))),
-                   offsets.v[i]);
-  }
-  HWY_INLINE void write(hn::Mask<D> nearer, V z, V old_z, std::size_t at) {
-    const D d;
-    const auto payload = hn::Set(d, t_.payload);
-    hn::Store(hn::IfThenElse(nearer, z, old_z), d, tile_.depth + at);
-    hn::Store(hn::IfThenElse(nearer, payload, hn::Load(d, tile_.payload + at)), d, tile_.payload + at);
-  }
-
-  HWY_INLINE void fill_inside(int bx, int by) {
-    const D d;
-    const auto block = static_cast<std::size_t>(by * blocks_per_row_ + bx);
-    for (int i = 0; i < kVectors; ++i) {
-      const std::size_t at = block * kBlockPixels + static_cast<std::size_t>(i * kLanes);
-      const V z = value(t_.depth, depth_, bx, by, i), old_z = hn::Load(d, tile_.depth + at);
-      write(hn::Lt(z, old_z), z, old_z, at);
-    }
-    const std::int32_t farthest =
-        wrap_mul_add(t_.depth.x, bx * kBlock, wrap_mul_add(t_.depth.y, by * kBlock, t_.depth.origin)) +
-        block_max(t_.depth);
-    tile_.farthest[block] = std::min(tile_.farthest[block], farthest);
-  }
-
-  HWY_INLINE void fill_crossed(int bx, int by) {
-    const D d;
-    const auto block = static_cast<std::size_t>(by * blocks_per_row_ + bx);
-    for (int i = 0; i < kVectors; ++i) {
-      const std::size_t at = block * kBlockPixels + static_cast<std::size_t>(i * kLanes);
-      const V outside =
-          hn::Or(hn::Or(value(t_.edge[0], edges_[0], bx, by, i), value(t_.edge[1], edges_[1], bx, by, i)),
-                 value(t_.edge[2], edges_[2], bx, by, i));
-      const V z = value(t_.depth, depth_, bx, by, i), old_z = hn::Load(d, tile_.depth + at);
-      write(hn::AndNot(hn::Lt(outside, hn::Zero(d)), hn::Lt(z, old_z)), z, old_z, at);
-    }
-  }
-
+  static constexpr int kSlots = 16;
   Tile& tile_;
-  const TileTriangle& t_;
-  const int blocks_per_row_;
-  const BlockOffsets depth_;
-  const BlockOffsets edges_[3];
+  int used_ = 0;
+  alignas(64) std::int32_t at_block_[4][kSlots * kBlocksAtOnce], in_block_[4][kSlots * kBlockPixels];
+  std::int32_t payload_[kSlots];
+  // block << 16 | slot * 16 + the block's place in the square
+  std::int32_t touched_[(kSlots + 1) * kBlocksAtOnce];
+  List list_{touched_};
 };
+
+// Draws entry k of the batch a row of blocks at a time: which are touched, not hidden, is found for all of
+// them at once.
+HWY_INLINE void draw_rows(Tile& tile, const Batch& batch, int k) {
+  const D d;
+  const V zero = hn::Zero(d);
+  struct Row {
+    V v[kVectors], step;
+    HWY_INLINE Row(const std::int32_t* x, const std::int32_t* y, const std::int32_t* first) {
+      const D di;
+      for (int p = 0; p < kVectors; ++p)
+        v[p] = hn::Add(hn::Set(di, *first),
+                       hn::Mul(hn::Load(di, kIota + p * kLanes), hn::ShiftLeft<2>(hn::Set(di, *x))));
+      step = hn::ShiftLeft<2>(hn::Set(di, *y));
+    }
+    HWY_INLINE void next() {
+      for (V& part : v) part = hn::Add(part, step);
+    }
+  };
+  const auto row = [&](const auto& f) { return Row(f.x + k, f.y + k, f.first + k); };
+  Row edge[3] = {row(batch.edge[0]), row(batch.edge[1]), row(batch.edge[2])};
+  Row depth = row(batch.depth), nearest = row(batch.nearest);
+  const auto in_block = [&](const auto& f) { return over_block(f.x + k, f.y + k); };
+  const Sixteen edge_in[3] = {in_block(batch.edge[0]), in_block(batch.edge[1]), in_block(batch.edge[2])};
+  const Sixteen depth_in = in_block(batch.depth);
+  const V payload = hn::Set(d, batch.payload[k]);
+  const V last_column = hn::Set(d, batch.bx1[k] - batch.bx0[k]);
+
+  // Values at the first pixels of blocks, and the blocks that are touched, by their places after the first.
+  alignas(64) std::int32_t at_edge[3][kMaxBlocks * kMaxBlocks], at_depth[kMaxBlocks * kMaxBlocks];
+  std::int32_t touched[kMaxBlocks * kMaxBlocks + kLanes];
+  List list{touched};
+  const int corner = batch.by0[k] * kMaxBlocks + batch.bx0[k];
+  const int end = (batch.by1[k] - batch.by0[k] + 1) * kMaxBlocks;
+  for (int start = 0; start < end; start += kMaxBlocks) {
+    for (int p = 0; p < kVectors; ++p) {
+      const int lane = p * kLanes;
+      V most = zero, least = zero;
+      for (int i = 0; i < 3; ++i) {
+        const V high = hn::Add(edge[i].v[p], hn::Set(d, batch.edge[i].rise[k]));
+        most = hn::Or(most, high);
+        least = hn::Or(least, hn::Sub(high, hn::Set(d, batch.edge[i].span[k])));
+        hn::Store(edge[i].v[p], d, at_edge[i] + start + lane);
+      }
+      hn::Store(depth.v[p], d, at_depth + start + lane);
+      const V column = hn::Load(d, kIota + lane);
+      const auto outside = hn::Or(hn::Gt(column, last_column), hn::Lt(most, zero));
+      // No pixel of a block that lies inside is farther, from now on, than the triangle's own farthest there.
+      std::int32_t* farthest = tile.farthest + corner + start + lane;
+      const V old_farthest = hn::LoadU(d, farthest);
+      const V own_farthest = hn::Add(depth.v[p], hn::Set(d, batch.depth.rise[k]));
+      const auto crossed = hn::Or(outside, hn::Lt(least, zero));
+      hn::StoreU(hn::IfThenElse(crossed, old_farthest, hn::Min(old_farthest, own_farthest)), d, farthest);
+      const auto seen = hn::AndNot(outside, hn::Lt(nearest.v[p], old_farthest));
+      list.append(hn::Add(column, hn::Set(d, start)), seen);
+    }
+    for (Row& e : edge) e.next();
+    depth.next();
+    nearest.next();
+  }
+  for (int n = 0; n < list.length; ++n) {
+    const int block = touched[n];
+    for (int p = 0; p < kVectors; ++p) {
+      const auto value = [&](const std::int32_t* at_block, const Sixteen& in) {
+        return hn::Add(hn::Set(d, at_block[block]), in.v[p]);
+      };
+      const V outside = hn::Or(hn::Or(value(at_edge[0], edge_in[0]), value(at_edge[1], edge_in[1])),
+                               value(at_edge[2], edge_in[2]));
+      write(tile, (corner + block) * kBlockPixels + p * kLanes, outside, value(at_depth, depth_in), payload);
+    }
+  }
+}
 
 // Blocks back to rows, past the caches where the frame's alignment allows it.
 void write_out(const TileJob& job, const std::int32_t* blocks, std::uint32_t* plane) {
-  const int blocks_per_row = (1 << job.size_log2) / kBlock;
   const int width = std::min(1 << job.size_log2, job.frame.width - job.x0);
   const int height = std::min(1 << job.size_log2, job.frame.height - job.y0);
 #if HWY_TARGET != HWY_SCALAR
   const bool streams = reinterpret_cast<std::uintptr_t>(plane) % 16 == 0 && job.frame.stride % kBlock == 0;
 #endif
   for (int y = 0; y < height; ++y) {
-    const std::int32_t* from = blocks + (y / kBlock * blocks_per_row) * kBlockPixels + y % kBlock * kBlock;
+    const std::int32_t* from = blocks + y / kBlock * kMaxBlocks * kBlockPixels + y % kBlock * kBlock;
     auto* to = reinterpret_cast<std::int32_t*>(plane + (job.y0 + y) * job.frame.stride + job.x0);
     int x = 0;
 #if HWY_TARGET != HWY_SCALAR
@@ -285,30 +303,43 @@ HWY_INLINE void clear_upper_halves() {
 
 void draw_tile(const TileJob& job) {
   const D d;
-  const int size = 1 << job.size_log2, blocks_per_row = size / kBlock;
+  const int size = 1 << job.size_log2;
   Tile tile;
   const auto fill = [&](std::int32_t* at, int count, std::uint32_t value) {
     for (int i = 0; i < count; i += kLanes) hn::Store(hn::Set(d, wrap(value)), d, at + i);
   };
-  fill(tile.depth, size * size, kDepthClear);
-  fill(tile.payload, size * size, job.background);
-  fill(tile.farthest, kMaxBlocks * kMaxBlocks, kDepthClear);
+  for (int y = 0; y < size; y += kBlock) {
+    fill(tile.depth + y * kMaxTile, size * kBlock, kDepthClear);
+    fill(tile.payload + y * kMaxTile, size * kBlock, job.background);
+  }
+  fill(tile.farthest, kMaxBlocks * kMaxBlocks + kBlocksAtOnce, kDepthClear);
 
+  // The records lie anywhere: each run's are asked for while the run before it is drawn.
+  Batch batch;
+  SmallTriangles small(tile);
+  std::span<const std::uint32_t> asked_for;
+  const auto draw_run = [&](std::span<const std::uint32_t> run) {
+    for (std::uint32_t left = set_up(job, run, batch); left != 0; left &= left - 1) {
+      const int k = std::countr_zero(left);
+      if (std::max(batch.bx1[k] - batch.bx0[k], batch.by1[k] - batch.by0[k]) < SmallTriangles::kSide) {
+        small.add(batch, k);
+      } else {
+        small.draw();
+        draw_rows(tile, batch, k);
+      }
+    }
+  };
   job.bins->for_each_run(job.cell, [&](std::span<const std::uint32_t> run) {
-    // The records lie anywhere; ask for them before they are needed.
-    constexpr std::size_t kAhead = 6;
-    const auto prefetch = [&](std::size_t i) {
-      const auto* record = reinterpret_cast<const char*>(job.triangles + run[i]);
+    for (const std::uint32_t index : run) {
+      const auto* record = reinterpret_cast<const char*>(job.triangles + index);
       hwy::Prefetch(record);
       hwy::Prefetch(record + sizeof(ScreenTriangle) - 1);
-    };
-    for (std::size_t i = 0; i < std::min(kAhead, run.size()); ++i) prefetch(i);
-    for (std::size_t i = 0; i < run.size(); ++i) {
-      if (i + kAhead < run.size()) prefetch(i + kAhead);
-      TileTriangle triangle;
-      if (set_up(job, job.triangles[run[i]], triangle)) Painter(tile, triangle, blocks_per_row).draw();
     }
+    if (!asked_for.empty()) draw_run(asked_for);
+    asked_for = run;
   });
+  if (!asked_for.empty()) draw_run(asked_for);
+  small.draw();
   write_out(job, tile.depth, job.frame.depth);
   write_out(job, tile.payload, job.frame.payload);
   hwy::FlushStream();

@@ -31,7 +31,7 @@ void draw_triangle(const ScreenTriangle& triangle, RowRange rows, FrameView fram
 class Naive final : public Backend {
   void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
                     const Execution& execution) override {
-    draw_in_bands(triangles, frame, background, execution.threads, bins_,
+    draw_in_bands(triangles, frame, background, execution, bins_,
                   [&](const ScreenTriangle& t, RowRange rows) { draw_triangle(t, rows, frame); });
   }
   Bins bins_;

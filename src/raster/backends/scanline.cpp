@@ -181,7 +181,7 @@ class Scanline final : public Backend {
   void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
                     const Execution& execution) override {
     const auto draw_triangle = EDGEWISE_KERNEL(draw_triangle, execution.target);
-    draw_in_bands(triangles, frame, background, execution.threads, bins_,
+    draw_in_bands(triangles, frame, background, execution, bins_,
                   [&](const ScreenTriangle& t, RowRange rows) { draw_triangle(t, rows, frame); });
   }
   Bins bins_;

@@ -16,8 +16,8 @@ class Tiled final : public Backend {
   void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
                     const Execution& execution) override {
     const int size_log2 = std::countr_zero(static_cast<unsigned>(execution.tile_size));
-    const Bins::Grid grid{frame.width, frame.height, size_log2, size_log2};
-    bins_.build(triangles, grid, execution.threads);
+    const CellGrid grid{frame.width, frame.height, size_log2, size_log2};
+    bins_.build(triangles, grid, execution.threads, execution.target);
     const TileKernel draw_tile = tile_kernel(execution.target);
     const int columns = grid.columns();
     parallel_for(execution.threads, grid.cells(), [&](int cell) {

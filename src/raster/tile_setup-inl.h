@@ -1,0 +1,282 @@
+// Setting up triangles for one tile, a vector of triangles at a time.
+//
+// Edge values and depth gradients are sums of 32 x 32 -> 64 bit products (triangle_lanes-inl.h). The
+// gradient's division is done in doubles and corrected by its remainder, as contract::gradient() does; lanes
+// whose quotient is too large for that are done again by the contract's own functions, one by one.
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <span>
+
+#include "raster/contract.h"
+#include "raster/tile_kernel.h"
+#include "raster/triangle_lanes-inl.h"
+
+// Included once a SIMD target.
+#if defined(EDGEWISE_TILE_SETUP_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef EDGEWISE_TILE_SETUP_INL_H
+#undef EDGEWISE_TILE_SETUP_INL_H
+#else
+#define EDGEWISE_TILE_SETUP_INL_H
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace edgewise {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+using namespace contract;
+
+constexpr int kBlock = 4;  // px a side; the kernel draws and rejects in such blocks
+
+constexpr std::int32_t wrap(std::uint32_t v) {
+  return static_cast<std::int32_t>(v);
+}
+
+// What a batch of triangles means to one tile. Edges and depth are linear functions of the pixel's place, in
+// wrapping int32: an edge is shifted (rule 5), and a pixel is inside where all three are >= 0.
+struct alignas(64) Batch {
+  static constexpr int kSize = 32;
+  struct Linear {
+    std::int32_t x[kSize], y[kSize];  // step a pixel
+    std::int32_t first[kSize];        // at the first pixel of block (bx0, by0)
+    std::int32_t rise[kSize];         // from a block's first pixel to where it is largest in the block
+    std::int32_t span[kSize];         // from where it is smallest to where it is largest
+  } edge[3], depth;
+  // A bound for hierarchical depth: no pixel of a block is nearer than this linear function of its place.
+  struct Bound {
+    std::int32_t x[kSize], y[kSize], first[kSize];
+  } nearest;
+  std::int32_t payload[kSize];
+  std::int32_t bx0[kSize], by0[kSize], bx1[kSize], by1[kSize];  // blocks that it may touch, inclusive
+};
+
+// A plane whose steps are smaller than this stays, over a tile, within 2^31 of the triangle's depths, so a
+// wrapped value is negative and passes as near: the bound may be the plane itself. A steeper one falls back
+// to the nearest vertex.
+constexpr std::int32_t kSteep = 1 << 24;
+
+inline void set(Batch::Linear& f, int k, std::int32_t x, std::int32_t y, std::int32_t first) {
+  const auto up = [](std::int32_t step) { return step > 0 ? static_cast<std::uint32_t>(step) : 0u; };
+  const auto down = [](std::int32_t step) { return step < 0 ? 0u - static_cast<std::uint32_t>(step) : 0u; };
+  const std::uint32_t rise = (kBlock - 1) * (up(x) + up(y)), fall = (kBlock - 1) * (down(x) + down(y));
+  f.x[k] = x, f.y[k] = y, f.first[k] = first, f.rise[k] = wrap(rise), f.span[k] = wrap(rise + fall);
+}
+
+// The plain form: what set_up() below does for many, done for one. False if no pixel of the tile is touched.
+inline bool set_up_one(const TileJob& job, const ScreenTriangle& triangle, Batch& out, int k) {
+  const int size = 1 << job.size_log2;
+  const PixelBox box = pixel_box(triangle, job.frame.width, job.frame.height);
+  const int x0 = std::max(box.x0 - job.x0, 0), x1 = std::min(box.x1 - job.x0, size);
+  const int y0 = std::max(box.y0 - job.y0, 0), y1 = std::min(box.y1 - job.y0, size);
+  if (x0 >= x1 || y0 >= y1) return false;
+  const Oriented t = orient(triangle);
+  if (t.area == 0) return false;
+  const int bx0 = x0 / kBlock, bx1 = (x1 - 1) / kBlock, by0 = y0 / kBlock, by1 = (y1 - 1) / kBlock;
+
+  // The box in whole blocks, so that an edge that accepts it accepts every lane that will be tested.
+  const int left = bx0 * kBlock, top = by0 * kBlock;
+  const std::int64_t last_x = (bx1 - bx0 + 1) * kBlock - 1, last_y = (by1 - by0 + 1) * kBlock - 1;
+  for (int i = 0; i < 3; ++i) {
+    const Edge edge = make_edge(t, i);
+    const std::int64_t first = edge.at(job.x0 + left, job.y0 + top);
+    const std::int64_t across = std::int64_t{edge.a} * kSub * last_x,
+                       down = std::int64_t{edge.b} * kSub * last_y;
+    if (first + std::max<std::int64_t>(across, 0) + std::max<std::int64_t>(down, 0) < 0) return false;
+    const bool accepts = first + std::min<std::int64_t>(across, 0) + std::min<std::int64_t>(down, 0) >= 0;
+    accepts ? set(out.edge[i], k, 0, 0, 0)
+            : set(out.edge[i], k, edge.a, edge.b, wrap(static_cast<std::uint32_t>(first >> kSubBits)));
+  }
+  const DepthPlane plane = make_depth(t);
+  const std::int32_t zx = wrap(plane.zx), zy = wrap(plane.zy),
+                     z = wrap(plane.at(job.x0 + left, job.y0 + top));
+  set(out.depth, k, zx, zy, z);
+  const bool flat = std::max(std::abs(std::int64_t{zx}), std::abs(std::int64_t{zy})) < kSteep;
+  const std::int64_t nearest = std::min({t.z[0], t.z[1], t.z[2]}) - kDepthError;
+  out.nearest.x[k] = flat ? zx : 0;
+  out.nearest.y[k] = flat ? zy : 0;
+  out.nearest.first[k] =
+      flat ? z + out.depth.rise[k] - out.depth.span[k] : static_cast<std::int32_t>(nearest);
+  out.payload[k] = wrap(triangle.payload);
+  out.bx0[k] = bx0, out.by0[k] = by0, out.bx1[k] = bx1, out.by1[k] = by1;
+  return true;
+}
+
+#if HWY_TARGET != HWY_SCALAR
+
+// g n mod 2^64, for n >= 0.
+HWY_INLINE V64 product(V64 g, V64 n) {
+  const hn::Repartition<std::uint32_t, D64> u32;
+  const auto gl = hn::BitCast(u32, g), gh = hn::BitCast(u32, upper(g)), nl = hn::BitCast(u32, n),
+             nh = hn::BitCast(u32, upper(n));
+  const auto cross = hn::Add(hn::MulEven(gl, nh), hn::MulEven(gh, nl));
+  return hn::BitCast(D64{}, hn::Add(hn::MulEven(gl, nl), hn::ShiftLeft<32>(cross)));
+}
+HWY_INLINE V32 thrice(V32 v) {
+  static_assert(kBlock - 1 == 3);
+  return hn::Add(v, hn::Add(v, v));
+}
+HWY_INLINE void store(Batch::Linear& f, int k, V32 x, V32 y, V32 first) {
+  const V32 zero = hn::Zero(D32{});
+  store(x, f.x + k), store(y, f.y + k), store(first, f.first + k);
+  store(thrice(hn::Add(hn::Max(x, zero), hn::Max(y, zero))), f.rise + k);
+  store(thrice(hn::Add(hn::Abs(x), hn::Abs(y))), f.span + k);
+}
+
+struct Gradient {
+  V64 g;                // floor(2^24 n / area)
+  hn::Mask<D64> exact;  // where that holds
+};
+// Rule 6. The double quotient q is within 3 2^-53 |q| < 1/4 of the truth and rounds to an integer within 1/2,
+// so the floor is that integer or the one below it; the remainder's sign tells which.
+HWY_INLINE Gradient gradient(V64 n, V64 area, hn::Vec<F64> scaled_inverse) {
+  const F64 df;
+  const D64 d;
+  const auto q = hn::Mul(hn::ConvertTo(df, n), scaled_inverse);
+  const auto rounder = hn::Set(df, 0x1.8p52);  // its unit is 1: adding it rounds
+  const V64 g = hn::Sub(hn::BitCast(d, hn::Add(q, rounder)), hn::BitCast(d, rounder));
+  const V64 rest = hn::Sub(hn::ShiftLeft<24>(n), product(g, area));
+  return {hn::Sub(g, shift_right<63>(rest)), hn::RebindMask(d, hn::Lt(hn::Abs(q), hn::Set(df, 0x1p49)))};
+}
+
+struct Vertices {
+  const V32 (&x)[3], (&y)[3], (&z)[3];
+  V32 left, top;  // px in the tile: where the triangle's blocks begin
+  V64 area;       // > 0
+  V64 flip;       // -1 where the winding has been turned round for that
+};
+// Returns where the depths are exact.
+HWY_INLINE hn::Mask<D64> set_up_depth(const TileJob& job, const Vertices& t, Batch& out, int k) {
+  const D64 d;
+  const F64 df;
+  const V32 dz1 = hn::Sub(t.z[1], t.z[0]), dz2 = hn::Sub(t.z[2], t.z[0]);
+  const V32 dx1 = hn::Sub(t.x[1], t.x[0]), dx2 = hn::Sub(t.x[2], t.x[0]);
+  const V32 dy1 = hn::Sub(t.y[1], t.y[0]), dy2 = hn::Sub(t.y[2], t.y[0]);
+  const V64 nx = flipped(hn::Sub(product(dz1, dy2), product(dz2, dy1)), t.flip);
+  const V64 ny = flipped(hn::Sub(product(dz2, dx1), product(dz1, dx2)), t.flip);
+  const auto scaled_inverse = hn::Div(hn::Set(df, 0x1p24), hn::ConvertTo(df, t.area));
+  const Gradient gx = gradient(nx, t.area, scaled_inverse), gy = gradient(ny, t.area, scaled_inverse);
+
+  // The anchor: the topmost, then leftmost vertex.
+  V32 x = t.x[0], y = t.y[0], z = t.z[0];
+  for (int i = 1; i < 3; ++i) {
+    const auto above = hn::Or(hn::Lt(t.y[i], y), hn::And(hn::Eq(t.y[i], y), hn::Lt(t.x[i], x)));
+    x = hn::IfThenElse(above, t.x[i], x);
+    y = hn::IfThenElse(above, t.y[i], y);
+    z = hn::IfThenElse(above, t.z[i], z);
+  }
+  const int in_cell_x = job.x0 % kDepthCell, in_cell_y = job.y0 % kDepthCell;
+  const V32 from_x = hn::Sub(set32(sample_sub(job.x0 - in_cell_x)), x);
+  const V32 from_y = hn::Sub(set32(sample_sub(job.y0 - in_cell_y)), y);
+  const V64 anchor = shift_right<8>(hn::ShiftLeft<32>(as64(z)));  // 2^24 z, whatever the upper half
+  const V64 half = hn::Set(d, std::int64_t{1} << 23), round = hn::Set(d, 0x8000);
+  const V64 base =
+      shift_right<24>(hn::Add(hn::Add(anchor, half), hn::Add(product(gx.g, from_x), product(gy.g, from_y))));
+  const V32 zx = lower(shift_right<16>(hn::Add(gx.g, round))),
+            zy = lower(shift_right<16>(hn::Add(gy.g, round)));
+  const V32 first = lower(hn::Add(base, hn::Add(product(zx, hn::Add(t.left, set32(in_cell_x))),
+                                                product(zy, hn::Add(t.top, set32(in_cell_y))))));
+  store(out.depth, k, zx, zy, first);
+
+  const auto gentle = [](V32 v) { return hn::And(hn::Lt(v, set32(kSteep)), hn::Gt(v, set32(-kSteep))); };
+  const auto flat = hn::And(gentle(zx), gentle(zy));
+  const V32 least =
+      hn::Add(first, thrice(hn::Add(hn::Min(zx, hn::Zero(D32{})), hn::Min(zy, hn::Zero(D32{})))));
+  const V32 vertex = hn::Sub(hn::Min(hn::Min(t.z[0], t.z[1]), t.z[2]), set32(kDepthError));
+  store(hn::IfThenElseZero(flat, zx), out.nearest.x + k);
+  store(hn::IfThenElseZero(flat, zy), out.nearest.y + k);
+  store(hn::IfThenElse(flat, least, vertex), out.nearest.first + k);
+  return hn::And(gx.exact, gy.exact);
+}
+
+// Sets up the triangles triangles[run[i]]; bit i of the result is set if that one touches the tile. Reads
+// run[] up to the next multiple of a vector's lanes, so it must be padded with valid indices.
+HWY_INLINE std::uint32_t set_up_vector(const TileJob& job, const std::uint32_t* run, Batch& out, int k) {
+  const D64 d;
+  const V64 index = hn::BitCast(d, hn::PromoteTo(U64{}, hn::LoadU(Low32{}, run + k)));
+  const auto [x, y, z, payload] = load(job.triangles, record_offset(index));
+
+  const int size = 1 << job.size_log2;
+  const auto [x0, x1] = sample_range(x, job.x0, std::min(size, job.frame.width - job.x0));
+  const auto [y0, y1] = sample_range(y, job.y0, std::min(size, job.frame.height - job.y0));
+  const auto filled = hn::And(hn::Lt(x0, x1), hn::Lt(y0, y1));
+  static_assert(kBlock == 1 << 2);
+  const V32 one = set32(1);
+  const V32 bx0 = hn::ShiftRight<2>(x0), bx1 = hn::ShiftRight<2>(hn::Sub(x1, one));
+  const V32 by0 = hn::ShiftRight<2>(y0), by1 = hn::ShiftRight<2>(hn::Sub(y1, one));
+  const V32 left = hn::ShiftLeft<2>(bx0), top = hn::ShiftLeft<2>(by0);
+  const auto last = [&](V32 b0, V32 b1) {
+    return hn::Sub(hn::ShiftLeft<2>(hn::Add(hn::Sub(b1, b0), one)), one);
+  };
+  const V32 last_x = last(bx0, bx1), last_y = last(by0, by1);
+  const auto sample = [](V32 px, int origin) {
+    return hn::Add(hn::ShiftLeft<kSubBits>(px), set32(sample_sub(origin)));
+  };
+  const V32 sample_x = sample(left, job.x0), sample_y = sample(top, job.y0);
+
+  const V64 zero = hn::Zero(d);
+  const V64 area = hn::Sub(product(hn::Sub(x[1], x[0]), hn::Sub(y[2], y[0])),
+                           product(hn::Sub(y[1], y[0]), hn::Sub(x[2], x[0])));
+  const V64 flip = hn::VecFromMask(d, hn::Lt(area, zero));
+  // Lanes whose sign bit is set touch nothing.
+  V64 dead = hn::Or(hn::ShiftLeft<32>(as64(hn::VecFromMask(D32{}, hn::Not(filled)))),
+                    hn::VecFromMask(d, hn::Eq(area, zero)));
+
+  for (int i = 0; i < 3; ++i) {
+    const int j = i == 2 ? 0 : i + 1;
+    const V32 a = flipped(hn::Sub(y[i], y[j]), lower(flip)), b = flipped(hn::Sub(x[j], x[i]), lower(flip));
+    const V32 zero32 = hn::Zero(D32{});
+    const auto top_left = hn::Or(hn::Gt(a, zero32), hn::And(hn::Eq(a, zero32), hn::Gt(b, zero32)));
+    const V64 bias = hn::AndNot(as64(hn::VecFromMask(D32{}, top_left)), hn::Set(d, 1));
+    const V64 first =
+        hn::Sub(hn::Add(product(a, hn::Sub(sample_x, x[i])), product(b, hn::Sub(sample_y, y[i]))), bias);
+    // From the first sample to where the edge value is largest, and by how much it falls from there.
+    const V64 rise = hn::Add(product(hn::Max(a, zero32), last_x), product(hn::Max(b, zero32), last_y));
+    const V64 most = hn::Add(first, hn::ShiftLeft<kSubBits>(rise));
+    const V64 across = hn::Add(product(a, last_x), product(b, last_y));
+    const V64 least = hn::Add(first, hn::ShiftLeft<kSubBits>(hn::Sub(across, rise)));
+    dead = hn::Or(dead, most);
+    const auto crossed = hn::Lt(least, zero);
+    const auto unless_accepted = [&](V64 v) { return lower(hn::IfThenElseZero(crossed, v)); };
+    store(out.edge[i], k, unless_accepted(as64(a)), unless_accepted(as64(b)),
+          unless_accepted(shift_right<kSubBits>(first)));
+  }
+
+  const auto exact = set_up_depth(job, {x, y, z, left, top, flipped(area, flip), flip}, out, k);
+  store(payload, out.payload + k);
+  store(bx0, out.bx0 + k), store(bx1, out.bx1 + k);
+  store(by0, out.by0 + k), store(by1, out.by1 + k);
+
+  std::uint32_t alive = mask_bits(hn::Not(hn::Lt(dead, zero)));
+  for (std::uint32_t left_over = alive & ~mask_bits(exact); left_over != 0; left_over &= left_over - 1) {
+    const int lane = std::countr_zero(left_over);
+    set_up_one(job, job.triangles[run[k + lane]], out, k + lane);
+  }
+  return alive;
+}
+
+#endif
+
+// Sets up triangles[run[i]] for all i; bit i of the result tells whether that one may touch the tile.
+inline std::uint32_t set_up(const TileJob& job, std::span<const std::uint32_t> run, Batch& out) {
+  std::uint32_t alive = 0;
+  const int count = static_cast<int>(run.size());
+#if HWY_TARGET == HWY_SCALAR
+  for (int k = 0; k < count; ++k)
+    alive |= std::uint32_t{set_up_one(job, job.triangles[run[static_cast<std::size_t>(k)]], out, k)} << k;
+  return alive;
+#else
+  std::uint32_t padded[Batch::kSize];
+  for (int k = 0; k < Batch::kSize; ++k) padded[k] = run[static_cast<std::size_t>(std::min(k, count - 1))];
+  constexpr int kLanes = static_cast<int>(hn::MaxLanes(D64{}));
+  for (int k = 0; k < count; k += kLanes) alive |= set_up_vector(job, padded, out, k) << k;
+  return alive & static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1);
+#endif
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace edgewise
+HWY_AFTER_NAMESPACE();
+
+#endif
