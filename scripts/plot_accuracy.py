@@ -140,7 +140,7 @@ def turning_cube(accuracy, folder, caption):
     headline(figure, "The turning cube", f"{accuracy.cube['frames']:,} frames of the tutorials' cube, against exact "
              "arithmetic on the positions before any snapping. Filled: the median frame; hollow: the worst.")
     figure.subplots_adjust(left=0.15, right=0.985, bottom=0.9 / height, top=1 - 0.95 / height, wspace=0.06)
-    note = "Snapping moves the outline as well: a pixel that it loses there counts as a gap."
+    note = "A gap is a crack between neighbours: a pixel that is lost where a method moved the outline does not count."
     save(figure, folder, "turning-cube", f"{note}\n{caption}")
     return "turning-cube"
 

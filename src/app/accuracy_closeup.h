@@ -17,9 +17,10 @@ namespace edgewise::app {
 // vision (Okabe and Ito, "Color universal design", 2008).
 enum class Mark : std::uint8_t {
   none,
-  gap,      // vermilion: nothing is drawn where something must be
+  gap,      // vermilion: nothing is drawn between neighbours; of owners: where something must be
   twice,    // blue: drawn twice where once is right; of owners: the wrong one shows
-  missing,  // yellow: a triangle lacks a pixel that another one covers; of depths: the wrong one
+  missing,  // yellow: a triangle lacks a pixel on the outline, or one that another covers; of depths: the
+            // wrong one
   extra,    // purple: drawn where nothing must be, or beside the triangle
 };
 
@@ -43,7 +44,7 @@ struct MarkedPicture {
   std::vector<Line> lines;
 };
 MarkedPicture mark_coverage(const lab::CoverageTruth& truth, std::vector<lab::Run> runs,
-                            std::span<const lab::FloatTriangle> triangles);
+                            std::span<const lab::FloatTriangle> triangles, double reach_px);
 MarkedPicture mark_owners(std::span<const std::uint32_t> truth, std::span<const std::uint32_t> said,
                           lab::Window window);
 // Faces that look at the eye, over those that were kept or dropped by mistake.

@@ -61,13 +61,13 @@ void judge(const CoverageScene& scene, const Bench& bench, SceneResult& result) 
     const lab::CoverageMethod& method = *methods[i];
     std::vector<lab::Run> runs;
     method.runs(input, scene.window(), runs);
-    CoverageScores scores{lab::score_coverage(snapped, runs, scene.floats),
-                          lab::score_coverage(floats, runs, scene.floats)};
+    CoverageScores scores{lab::score_coverage(snapped, runs, scene.floats, method.promise.reach_px),
+                          lab::score_coverage(floats, runs, scene.floats, method.promise.reach_px)};
     result.methods[i] = {std::string(method.info.name), method.info.exact, scores, {}};
     const bool same_as_another = method.info.exact && i > 0 && methods[i - 1]->info.exact;
     if (bench.plan.pictures && bench.scene.smallest && scores.floats.errors() != 0 && !same_as_another)
       closeups[i] = closeup(closeup_name(Family::coverage, bench.scene.name, method.info.name),
-                            mark_coverage(floats, std::move(runs), scene.floats));
+                            mark_coverage(floats, std::move(runs), scene.floats, method.promise.reach_px));
     const std::lock_guard lock(mutex);
     bench.progress(static_cast<double>(++done) / static_cast<double>(methods.size() + 1));
   });

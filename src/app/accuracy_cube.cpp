@@ -52,7 +52,7 @@ Closeup worst_frame(const lab::CoverageMethod& method, const Scores& scores) {
   std::vector<lab::Run> runs;
   method.runs(scene.input(), scene.window(), runs);
   return closeup(closeup_name(Family::coverage, kTurningCube, method.info.name),
-                 mark_coverage(truth, std::move(runs), scene.floats));
+                 mark_coverage(truth, std::move(runs), scene.floats, method.promise.reach_px));
 }
 
 }  // namespace
@@ -69,11 +69,12 @@ CubeResult judge_turning_cube(const AccuracyPlan& plan, const ChosenMethods& met
       const auto snapped = lab::snapped_coverage(scene.input(), scene.window(), 1),
                  floats = lab::float_coverage(scene.input(), scene.window(), 1);
       for (std::size_t i = 0; i < methods.coverage.size(); ++i) {
+        const lab::CoverageMethod& method = *methods.coverage[i];
         std::vector<lab::Run> runs;
-        methods.coverage[i]->runs(scene.input(), scene.window(), runs);
+        method.runs(scene.input(), scene.window(), runs);
         scores[i][static_cast<std::size_t>(frame)] = {
-            lab::score_coverage(snapped, runs, scene.floats),
-            lab::score_coverage(floats, std::move(runs), scene.floats)};
+            lab::score_coverage(snapped, runs, scene.floats, method.promise.reach_px),
+            lab::score_coverage(floats, std::move(runs), scene.floats, method.promise.reach_px)};
       }
     }
     const std::lock_guard lock(mutex);
