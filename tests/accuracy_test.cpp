@@ -16,6 +16,7 @@
 #include "app/accuracy_scenes.h"
 #include "image/image.h"
 #include "lab/coverage_cases.h"
+#include "raster/contract.h"
 #include "run_program.h"
 #include "scene/builtin.h"
 #include "temp_dir.h"
@@ -80,7 +81,8 @@ TEST(Accuracy, WritesTheAgreedKeys) {
       for (const char* truth : {"snapped", "float"}) {
         expect_keys(first.at(truth),
                     {"missing", "extra", "gaps", "double_hits", "out_of_bounds", "out_of_box", "worst_px",
-                     "errors", "errors_per_million", "bound_per_million"});
+                     "errors", "errors_per_million", "bound_per_million", "wrong_owners"});
+        expect_keys(first.at("depth"), {"max_ulp", "rms_ulp"});
         const json& wrong = named(scene.at("methods"), "float_le").at("float");
         EXPECT_GT(wrong.at("errors_per_million"), 0);
         EXPECT_FALSE(wrong.contains("bound_per_million"));
@@ -125,6 +127,10 @@ TEST(Accuracy, ExactMethodsScoreZeroAgainstTheSnappedTruth) {
       const json& method = named(scene.at("methods"), name);
       EXPECT_EQ(method.at("snapped").at("errors"), 0) << scene.at("name") << ' ' << name;
       EXPECT_EQ(method.at("snapped").at("out_of_bounds"), 0) << scene.at("name") << ' ' << name;
+      if (lab::find_coverage_method(name).contract_depth) {
+        EXPECT_EQ(method.at("snapped").at("wrong_owners"), 0) << scene.at("name") << ' ' << name;
+        EXPECT_LT(method.at("depth").at("max_ulp"), contract::kDepthError) << scene.at("name") << ' ' << name;
+      }
       if (scene.at("name") == "t_junction") cracks.insert(method.at("float").at("gaps").get<int>());
     }
   EXPECT_EQ(cracks.size(), 1u);
@@ -249,6 +255,38 @@ TEST(Accuracy, PicturesShowEachErrorInItsColour) {
   EXPECT_EQ(pixels_of_colour("float_le", kVermilion), 0);
   EXPECT_EQ(pixels_of_colour("float_lt", kBlue), 0);
   EXPECT_FALSE(std::filesystem::exists(pictures + "/coverage-drtk_quad-float_top_left.png"));
+}
+
+TEST(Accuracy, PicturesOfMethodsThatDrawAlikeAreMadeOnce) {
+  AccuracyPlan plan;
+  plan.scenes = {"t_junction", "t_junction_split"};
+  plan.pictures = true;
+  plan.family = Family::coverage;
+  std::vector<std::string> names;
+  for (const Closeup& closeup : measure_accuracy(plan).closeups) names.push_back(closeup.name);
+  const auto made = [&](const char* name) { return std::count(names.begin(), names.end(), name); };
+  for (const std::string scene : {"coverage-t_junction-", "coverage-t_junction_split-"}) {
+    EXPECT_EQ(made((scene + "scanline").c_str()), 1) << "a scene of its own, a picture of its own";
+    for (const char* same : {"naive", "tiled", "fixed_8"}) EXPECT_EQ(made((scene + same).c_str()), 0) << same;
+  }
+}
+
+// The crack is vermilion; where it is closed, pixels change hands, and another triangle covers them.
+TEST(Accuracy, PicturesShowTheTJunctionsCrackAndThatSplittingClosesIt) {
+  AccuracyPlan plan;
+  plan.scenes = {"t_junction", "t_junction_split"};
+  plan.methods = {"scanline"};
+  plan.pictures = true;
+  const auto report = measure_accuracy(plan);
+  ASSERT_EQ(report.closeups.size(), 2u);
+  const auto count = [&](std::size_t scene, Mark mark) {
+    const auto& marks = report.closeups[scene].marks;
+    return std::count(marks.begin(), marks.end(), mark);
+  };
+  EXPECT_GT(count(0, Mark::gap), 40);
+  EXPECT_EQ(count(1, Mark::gap), 0);
+  EXPECT_EQ(count(1, Mark::missing), count(0, Mark::gap));
+  EXPECT_EQ(count(1, Mark::extra), 0);
 }
 
 TEST(Accuracy, PicturesCanBeMadeForEveryFamily) {

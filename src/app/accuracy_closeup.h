@@ -26,6 +26,7 @@ enum class Mark : std::uint8_t {
 
 struct Line {
   double x0, y0, x1, y1;  // px
+  bool operator==(const Line&) const = default;
 };
 
 struct Closeup {
@@ -53,6 +54,9 @@ MarkedPicture mark_faces(const lab::FacingScene& scene, std::span<const lab::Fac
 
 // The part where the most is wrong.
 Closeup closeup(const std::string& name, const MarkedPicture& picture);
+
+// Appends a close-up unless one from `first` on shows the same: methods that draw alike need one picture.
+void add_unless_known(Closeup closeup, std::vector<Closeup>& closeups, std::size_t first);
 
 Image draw(const Closeup& closeup);
 // Throws std::runtime_error where no folder could be made or written to; makes none yet.

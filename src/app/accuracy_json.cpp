@@ -36,6 +36,9 @@ struct AddScore {
   void operator()(const CoverageScores& s) const {
     method["snapped"] = score_json(s.snapped, scene.crossings);
     method["float"] = score_json(s.floats, scene.crossings);
+    method["snapped"]["wrong_owners"] = s.owners.wrong_snapped;
+    method["float"]["wrong_owners"] = s.owners.wrong_floats;
+    method["depth"] = {{"max_ulp", s.owners.max_ulp}, {"rms_ulp", s.owners.rms_ulp}};
   }
   void operator()(const lab::VisibilityScore& s) const {
     json& score = method["score"] = {{"wrong_owner", s.wrong_owner},

@@ -89,6 +89,7 @@ CoverageMethod make_from(const BackendInfo& backend) {
           [&backend](const CoverageInput& input, Window window, std::vector<Run>& runs) {
             backend_runs(*backend.make(), input.snapped, window, runs);
           },
+          true,
           true};
 }
 
