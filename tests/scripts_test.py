@@ -42,7 +42,7 @@ def bench(slow=(10.0, 10.2, 10.1), fast=(2.0, 2.1, 2.2)):
 def accuracy():
     """Two methods a family, the second inexact, on a scene that is timed and on one that is not."""
     def judged(wrong, crossings):
-        score = {"errors_per_million": 1e6 * wrong / crossings}
+        score = {"errors_per_million": 1e6 * wrong / crossings, "gaps": wrong}
         return score if wrong else {**score, "bound_per_million": 3e6 / crossings}
 
     def measured(family, method, wrong, cost_ns):

@@ -69,8 +69,7 @@ MarkedPicture mark_coverage(const lab::CoverageTruth& truth, std::vector<lab::Ru
   lab::for_each_difference(truth.runs, runs, [&](const lab::Run& run, bool missing) {
     each_pixel(run, [&](std::size_t pixel) {
       Mark& mark = picture.marks[pixel];
-      if (missing && mark == Mark::none) mark = Mark::missing;
-      if (!missing) mark = Mark::extra;
+      if (missing || mark == Mark::none) mark = missing ? Mark::missing : Mark::extra;
     });
   });
   for (const std::size_t i : lab::gaps(truth, hits, triangles, reach_px)) picture.marks[i] = Mark::gap;
