@@ -128,6 +128,7 @@ TEST(Accuracy, ExactMethodsScoreZeroAgainstTheSnappedTruth) {
       EXPECT_EQ(method.at("snapped").at("errors"), 0) << scene.at("name") << ' ' << name;
       EXPECT_EQ(method.at("snapped").at("out_of_bounds"), 0) << scene.at("name") << ' ' << name;
       if (lab::find_coverage_method(name).contract_depth) {
+        EXPECT_EQ(method.at("snapped").at("unexplained_owners"), 0) << scene.at("name") << ' ' << name;
         EXPECT_EQ(method.at("snapped").at("wrong_owners"), 0) << scene.at("name") << ' ' << name;
         EXPECT_LT(method.at("depth").at("max_ulp"), contract::kDepthError) << scene.at("name") << ' ' << name;
       }
