@@ -43,7 +43,7 @@ def accuracy(spread=0.1):
     """Two methods a family, the second inexact, on a scene that is timed and on one that is not. `spread`: of 2, what
     the slowest repetition takes longer than the median."""
     def judged(wrong, crossings):
-        score = {"errors_per_million": 1e6 * wrong / crossings}
+        score = {"errors_per_million": 1e6 * wrong / crossings, "gaps": wrong}
         return score if wrong else {**score, "bound_per_million": 3e6 / crossings}
 
     def measured(family, method, wrong, cost_ns):
