@@ -9,9 +9,10 @@ namespace edgewise::app {
 
 namespace {
 
-// Three digits, or a whole number.
+// Three digits, or a whole number that fits the narrowest column.
 std::string digits(double v) {
   if (v == 0.0) return "0";
+  if (v >= 9'999'999.5) return fmt::format("{:.1e}", v);
   if (v >= 99.5) return fmt::format("{:.0f}", v);
   return v >= 0.001 ? fmt::format("{:.3g}", v) : fmt::format("{:.0e}", v);
 }
