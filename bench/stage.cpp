@@ -22,6 +22,7 @@ Framebuffer& Stage::frame(const Row& row) {
 }
 
 void Stage::work(const Row& row) {
+  if (row.peer != nullptr) return peers_.work(row);
   const Workload& workload = *row.workload;
   auto triangles = workload.triangles();
   if (row.timed != Timed::raster)
@@ -37,6 +38,11 @@ double Stage::timed_work_s(const Row& row) {
 }
 
 void Stage::compare(Row& row) {
+  if (row.peer != nullptr) {
+    peers_.compare(row);
+    row.once_s = timed_work_s(row);
+    return;
+  }
   // It still holds the picture of the row before, which is the right one.
   if (row.timed != Timed::frontend) lab::poison(frame(row));
   row.once_s = timed_work_s(row);

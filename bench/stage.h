@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "peer_stage.h"
 #include "suite.h"
 
 namespace edgewise::bench {
@@ -31,6 +32,7 @@ class Stage {
   // put its page faults into a row's time.
   std::map<std::pair<int, int>, Framebuffer> frames_;
   Frontend frontend_;
+  PeerStage peers_;
 };
 
 }  // namespace edgewise::bench
