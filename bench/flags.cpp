@@ -55,7 +55,7 @@ std::optional<Flags> parse_flags(int argc, char** argv) {
   flags.suite.peers = !no_peers;
   if (flags.need_peers && bench::peers().empty())
     throw std::invalid_argument(
-        "--peers: none was built, since EGL was not found (scripts/run --peers installs it)");
+        "--peers: none was built, since EGL or OpenGL was not found (scripts/run --peers installs them)");
   flags.benchmark = parser.remaining();
   for (const auto& flag : flags.benchmark) {
     if (flag.starts_with("--benchmark_repetitions")) flags.own_repetitions = false;

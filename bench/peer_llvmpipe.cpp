@@ -7,7 +7,9 @@
 // nothing but the near plane clips.
 #define GL_GLEXT_PROTOTYPES
 #include <GL/glcorearb.h>
+#include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <stdexcept>
 #include <utility>
@@ -99,14 +101,12 @@ struct Mesh {
   glm::mat4 to_clip;
 };
 
-GLuint buffer_of(GLuint buffer, const void* data, std::size_t bytes) {
-  glNamedBufferStorage(buffer, static_cast<GLsizeiptr>(bytes), data, 0);
-  return buffer;
-}
-
 template <typename T>
 GLuint buffer_of(GLuint buffer, const std::vector<T>& data) {
-  return buffer_of(buffer, data.data(), data.size() * sizeof(T));
+  // OpenGL refuses an empty one, and a scene may have no triangle in view.
+  const std::size_t bytes = std::max<std::size_t>(data.size() * sizeof(T), 1);
+  glNamedBufferStorage(buffer, static_cast<GLsizeiptr>(bytes), data.empty() ? nullptr : data.data(), 0);
+  return buffer;
 }
 
 Mesh load_mesh(const PeerMesh& given) {
@@ -149,7 +149,8 @@ class Frame final : public PeerFrame {
     target_ = at->second;
     for (const PeerMesh& mesh : scene.meshes) meshes_.push_back(load_mesh(mesh));
     glFinish();
-    if (glGetError() != GL_NO_ERROR) throw std::runtime_error("llvmpipe: out of memory");
+    if (const GLenum error = glGetError(); error != GL_NO_ERROR)
+      throw std::runtime_error(fmt::format("llvmpipe: OpenGL error {:#x} where a scene is loaded", error));
   }
 
   ~Frame() override {
