@@ -23,6 +23,7 @@ class Stage {
   void work(const Row& row);
 
  private:
+  void compare_ours(Row& row);
   Backend& backend(const Row& row);
   Framebuffer& frame(const Row& row);
   double timed_work_s(const Row& row);
