@@ -22,6 +22,7 @@ Framebuffer& Stage::frame(const Row& row) {
 }
 
 void Stage::work(const Row& row) {
+  if (row.peer != nullptr) return peers_.work(row);
   const Workload& workload = *row.workload;
   auto triangles = workload.triangles();
   if (row.timed != Timed::raster)
@@ -36,7 +37,7 @@ double Stage::timed_work_s(const Row& row) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-void Stage::compare(Row& row) {
+void Stage::compare_ours(Row& row) {
   // It still holds the picture of the row before, which is the right one.
   if (row.timed != Timed::frontend) lab::poison(frame(row));
   row.once_s = timed_work_s(row);
@@ -54,6 +55,15 @@ void Stage::compare(Row& row) {
       row.error =
           fmt::format("{} pixels differ from {} on 1 thread, the first at ({}, {})", difference.pixels,
                       backends().front().name, difference.first_x, difference.first_y);
+  }
+}
+
+void Stage::compare(Row& row) {
+  if (row.peer != nullptr) {
+    peers_.compare(row);
+    row.once_s = timed_work_s(row);
+  } else {
+    compare_ours(row);
   }
   // The first draw allocates; later ones tell how long a row really takes, the shorter the more of them.
   for (const double limit_s : {kTooSlowToRepeat_s, 0.1, 0.1})
