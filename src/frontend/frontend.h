@@ -6,9 +6,9 @@
 #include <memory>
 #include <span>
 #include <string_view>
-#include <vector>
 
 #include "raster/screen_triangle.h"
+#include "raster/simd_target.h"
 #include "scene/scene.h"
 
 namespace edgewise {
@@ -31,6 +31,7 @@ struct FrontendOptions {
   // For judging: remember where each triangle lay before it was snapped, and keep those that lost their area
   // by it.
   bool keep_unsnapped = false;
+  SimdTarget target = SimdTarget::best;
 };
 
 // A screen triangle's vertices as they were before snapping: pixels, and depth in [0, 1].
@@ -68,7 +69,8 @@ class Frontend {
   Frontend& operator=(Frontend&&) noexcept;
 
   // The visible triangles in submission order, valid until the next call. Throws std::invalid_argument for a
-  // camera or a size out of range, or a triangle that names a vertex its mesh lacks.
+  // camera or a size out of range, a triangle that names a vertex its mesh lacks, or a SIMD target that this
+  // machine cannot run.
   std::span<const ScreenTriangle> run(const Drawable& drawable, const FrontendOptions& options);
   const FrontendStats& stats() const;
   // One for each triangle that run() returned, if keep_unsnapped was set; else none.
