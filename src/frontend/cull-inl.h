@@ -9,6 +9,8 @@
 #define EDGEWISE_FRONTEND_CULL
 #endif
 
+#include <cstring>
+
 #include "frontend/jobs.h"
 #include "frontend/lanes-inl.h"
 
@@ -51,15 +53,24 @@ HWY_INLINE void cull_and_append(const TriangleVectors& t, MI outside, Cull cull,
   out.stats.emitted += kept;
   if (kept == 0) return;
 
+  // A lane that is dropped gets the place of the next one that is kept, which overwrites it. Highway's
+  // Compress() would do, but copies a table of 1 KB to the stack on AVX2.
+  std::uint8_t bits[8];
+  hn::StoreMaskBits(d, keep, bits);
+  std::uint32_t kept_lanes = 0;
+  std::memcpy(&kept_lanes, bits, (kLanes + 7) / 8);
+  ScreenTriangle* place[kLanes];
+  ScreenTriangle* next = out.triangles.data() + out.count;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    place[lane] = next;
+    next += kept_lanes >> lane & 1;
+  }
   const auto word = [&](std::size_t first) {
-    return [to = reinterpret_cast<std::int32_t*>(out.triangles.data() + out.count) + first](
-               std::size_t lane) { return to + lane * (sizeof(ScreenTriangle) / sizeof(std::int32_t)); };
+    return [&place, first](std::size_t lane) { return reinterpret_cast<std::int32_t*>(place[lane]) + first; };
   };
-  const auto packed = [&](VI v) HWY_ATTR { return hn::Compress(v, keep); };
-  const VI y1 = packed(t.y[1]), y2 = packed(t.y[2]), z0 = packed(t.z[0]), z1 = packed(t.z[1]);
-  store_words({{packed(t.x[0]), packed(t.x[1]), packed(t.x[2]), packed(t.y[0])}}, word(0));
-  store_words({{y1, y2, z0, z1}}, word(4));
-  store_words({{z0, z1, packed(t.z[2]), packed(t.payload)}}, word(6));  // ten words: two are written twice
+  store_words({{t.x[0], t.x[1], t.x[2], t.y[0]}}, word(0));
+  store_words({{t.y[1], t.y[2], t.z[0], t.z[1]}}, word(4));
+  store_words({{t.z[0], t.z[1], t.z[2], t.payload}}, word(6));  // ten words: two are written twice
   out.count += kept;
 }
 

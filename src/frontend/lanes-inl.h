@@ -90,23 +90,28 @@ HWY_INLINE Words load_words(At&& at) {
 }
 
 template <class V, typename At>
-HWY_INLINE void store_blocks(V v, At&& at) {
+HWY_INLINE void store_records(V first, V second, V third, V fourth, At&& at) {
   using D = hn::DFromV<V>;
   if constexpr (hn::MaxLanes(D{}) == 4) {
-    hn::StoreU(v, D{}, at(0));
+    hn::StoreU(first, D{}, at(0));
+    hn::StoreU(second, D{}, at(1));
+    hn::StoreU(third, D{}, at(2));
+    hn::StoreU(fourth, D{}, at(3));
   } else {
     const hn::Half<D> half;
     constexpr std::size_t kUpper = hn::MaxLanes(D{}) / 2;
-    store_blocks(hn::LowerHalf(half, v), at);
-    store_blocks(hn::UpperHalf(half, v), [&](std::size_t lane) { return at(lane + kUpper); });
+    store_records(hn::LowerHalf(half, first), hn::LowerHalf(half, second), hn::LowerHalf(half, third),
+                  hn::LowerHalf(half, fourth), at);
+    store_records(hn::UpperHalf(half, first), hn::UpperHalf(half, second), hn::UpperHalf(half, third),
+                  hn::UpperHalf(half, fourth), [&](std::size_t lane) { return at(lane + kUpper); });
   }
 }
 
+// In the order of the lanes: where two of them share a place, the later one stays.
 template <typename At>
 HWY_INLINE void store_words(const Words& words, At&& at) {
   const Words records = transpose(words);
-  for (std::size_t first = 0; first < 4; ++first)
-    store_blocks(records.word[first], [&](std::size_t lane) { return at(lane + first); });
+  store_records(records.word[0], records.word[1], records.word[2], records.word[3], at);
 }
 
 // f() of the arguments in double, rounded or truncated to D's type.
