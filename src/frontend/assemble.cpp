@@ -25,9 +25,7 @@ HWY_INLINE bool assemble_vector(const MeshJob& job, std::size_t first, RunOutput
   const DI d;
   const std::uint32_t* index = &job.mesh.triangles[first].x;
   const auto corner = [&](std::size_t k) HWY_ATTR {
-    return load_words([&](std::size_t lane) {
-      return reinterpret_cast<const std::int32_t*>(job.vertices + index[lane * 3 + k]);
-    });
+    return load_words([&](std::size_t lane) { return job.vertices + index[lane * 3 + k]; });
   };
   const Words a = corner(0), b = corner(1), c = corner(2);
   const VI common = hn::And(a.word[3], hn::And(b.word[3], c.word[3]));

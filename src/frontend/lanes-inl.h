@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #include "frontend/fixed.h"
 
@@ -36,7 +37,9 @@ struct Words {
 template <typename At>
 HWY_INLINE Words load_words(At&& at) {
   const DI d;
-  return {{hn::LoadU(d, at(0)), hn::LoadU(d, at(0) + 1), hn::LoadU(d, at(0) + 2), hn::LoadU(d, at(0) + 3)}};
+  std::int32_t word[4];
+  std::memcpy(word, at(0), sizeof word);  // they may be floats
+  return {{hn::Set(d, word[0]), hn::Set(d, word[1]), hn::Set(d, word[2]), hn::Set(d, word[3])}};
 }
 
 template <typename At>
@@ -57,7 +60,7 @@ HWY_INLINE hn::Vec<D> in_double(D d, F&& f, V... v) {
 template <class D, typename At>
 HWY_INLINE hn::Vec<D> load_blocks(D d, At&& at) {
   if constexpr (hn::MaxLanes(D{}) == 4) {
-    return hn::LoadU(d, at(0));
+    return hn::LoadU(d, reinterpret_cast<const std::int32_t*>(at(0)));
   } else {
     const hn::Half<D> half;
     constexpr std::size_t kUpper = hn::MaxLanes(D{}) / 2;
@@ -79,7 +82,7 @@ HWY_INLINE Words transpose(const Words& w) {
            hn::BitCast(d, hn::InterleaveUpper(pairs, high01, high23))}};
 }
 
-// at(lane) is where the lane's four words lie.
+// at(lane) points to the four words of a lane, of any 32-bit type.
 template <typename At>
 HWY_INLINE Words load_words(At&& at) {
   const DI d;

@@ -9,7 +9,6 @@
 #include "frontend/lanes-inl.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include "frontend/shade.h"
 #include "raster/kernel_table.h"
@@ -71,16 +70,14 @@ HWY_INLINE VI lit(VI colour, VF cosine) {
 class Positions {
  public:
   explicit Positions(const Mesh& mesh) : all_(mesh.positions.data()), last_(mesh.positions.size() - 1) {
-    std::memcpy(padded_, all_ + last_, sizeof(glm::vec3));
+    std::copy_n(&all_[last_].x, 3, padded_);
   }
-  const std::int32_t* operator[](std::uint32_t vertex) const {
-    return vertex == last_ ? padded_ : reinterpret_cast<const std::int32_t*>(all_ + vertex);
-  }
+  const float* operator[](std::uint32_t vertex) const { return vertex == last_ ? padded_ : &all_[vertex].x; }
 
  private:
   const glm::vec3* all_;
   std::size_t last_;
-  std::int32_t padded_[4] = {};
+  float padded_[4] = {};
 };
 
 HWY_INLINE VF cosines(const ShadeJob& job, const Positions& positions,

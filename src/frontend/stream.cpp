@@ -34,8 +34,9 @@ struct StreamVectors {
 
 HWY_INLINE StreamVectors load(const StreamTriangle* triangles) {
   const auto words = [&](std::size_t first) HWY_ATTR {
-    return load_words(
-        [&](std::size_t lane) { return reinterpret_cast<const std::int32_t*>(triangles + lane) + first; });
+    return load_words([&](std::size_t lane) {
+      return reinterpret_cast<const char*>(triangles + lane) + first * sizeof(float);
+    });
   };
   const auto real = [](VI v) HWY_ATTR { return hn::BitCast(DF{}, v); };
   const Words a = words(0), b = words(4), c = words(6);  // ten words: two are read twice
