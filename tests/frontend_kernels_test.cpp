@@ -10,6 +10,7 @@
 
 #include "frontend/frontend.h"
 #include "frontend/jobs.h"
+#include "frontend/transform.h"
 #include "raster/contract.h"
 #include "scene/builtin.h"
 #include "scene/random.h"
@@ -144,6 +145,57 @@ TEST(FrontendKernels, TheWildOnesMeetEveryFate) {
     for (const auto count :
          {s.not_finite, s.outside, s.clipped_near, s.clipped_far, s.clipped_guard, s.culled, s.zero_area})
       EXPECT_GT(count, 0u);
+}
+
+// Coordinates on every border of the view volume when w is the given one, and next to it.
+std::vector<float> borders(float w, float side_px) {
+  std::vector<float> values{0.0f, -0.0f, 1e-45f, 3e38f, -3e38f, kNan, kInf, -kInf};
+  for (const float border : {w, side_px * w, 16384.0f * w, -16384.0f * w, 0.5f * side_px * w})
+    for (const float value : {border, std::nextafter(border, kInf), std::nextafter(border, -kInf)})
+      values.push_back(value);
+  return values;
+}
+
+TEST(FrontendKernels, VerticesOnEveryBorderAreJudgedAsOneByOne) {
+  constexpr int kWidth = 640, kHeight = 480;
+  const FrontendOptions options{.width = kWidth, .height = kHeight};
+  for (const float w : {1.0f, 0.7f, 0.0f, -0.0f, -1.0f, 1e-45f, 1e-38f, 3e38f, kNan, kInf}) {
+    Mesh mesh;
+    for (const float x : borders(w, kWidth))
+      for (const float y : borders(w, kHeight))
+        for (const float z : borders(w, 2.0f)) mesh.positions.emplace_back(x, y, z);
+    std::vector<Vertex> vertices(mesh.positions.size());
+    MeshJob job{options, mesh, glm::mat4(1.0f), vertices.data()};
+    job.to_screen[3][3] = w;
+    for (const SimdTarget target : supported_targets()) {
+      transform_kernel(target)(job, 0, vertices.size());
+      for (std::size_t i = 0; i < vertices.size(); ++i) {
+        const Vertex expected = make_vertex(transform(job.to_screen, mesh.positions[i]), kWidth, kHeight);
+        ASSERT_EQ(vertices[i].outside, expected.outside) << name_of(target) << ", w = " << w << ", " << i;
+        if ((expected.outside & (kMustClip | kNotFinite)) != 0) continue;
+        ASSERT_EQ(std::memcmp(&vertices[i], &expected, sizeof expected), 0) << name_of(target) << ", " << i;
+      }
+    }
+  }
+}
+
+TEST(FrontendKernels, StreamsOnEveryBorderAreAlike) {
+  constexpr int kWidth = 640, kHeight = 480;
+  Random random(3);
+  const auto one_of = [&](float side_px) {
+    const auto values = borders(1.0f, side_px);
+    return values[random.below(values.size())];
+  };
+  TriangleStream stream{kWidth, kHeight, {}};
+  for (int i = 0; i < 40'000; ++i) {
+    StreamTriangle t{};
+    // Half of them have all vertices on one vertical or horizontal line.
+    const glm::vec2 line(one_of(kWidth), one_of(kHeight));
+    for (auto& v : t.vertex)
+      v = {i % 4 == 0 ? line.x : one_of(kWidth), i % 4 == 1 ? line.y : one_of(kHeight), random.below(2)};
+    stream.triangles.push_back(t);
+  }
+  expect_all_alike(stream, {.width = kWidth, .height = kHeight, .cull = Cull::none});
 }
 
 // Runs of every length around a vector and a run: nothing is lost, doubled or moved at the seams.
