@@ -10,7 +10,6 @@
 
 #include "frontend/assemble.h"
 #include "frontend/in_order.h"
-#include "frontend/one_by_one.h"
 #include "frontend/shade.h"
 #include "frontend/stream.h"
 #include "frontend/transform.h"
