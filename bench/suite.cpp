@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "app/printable.h"
+#include "ladder.h"
 
 namespace edgewise::bench {
 
@@ -70,8 +71,17 @@ class Suite {
     for (const auto& backend : backends())
       for (const int threads : kThreads) {
         add(workload, Timed::raster, backend, name, threads);
+        rows_.back().wants_floor = backend.name == kLadderBackend;
         add(workload, Timed::frame, backend, name, threads);
       }
+  }
+
+  // Beside the scene's own rows, which are its ends: one reference picture serves them all.
+  void add_ladder(const WorkloadPtr& workload, const std::string& scene) {
+    if (!in_ladder(scene)) return;
+    for (const Rung& rung : ladder())
+      add(workload, Timed::raster, find_backend(kLadderBackend), fmt::format("{}/rung:{}", scene, rung.name),
+          rung.execution);
   }
 
   void add_area_sweep() {
@@ -144,14 +154,21 @@ class Suite {
  private:
   void add(const WorkloadPtr& workload, Timed timed, const BackendInfo& backend, const std::string& what,
            int threads, SimdTarget target = SimdTarget::best) {
+    Execution execution;
+    execution.threads = threads;
+    execution.target = target;
+    add(workload, timed, backend, what, execution);
+  }
+
+  void add(const WorkloadPtr& workload, Timed timed, const BackendInfo& backend, const std::string& what,
+           const Execution& execution) {
     const char* with = timed == Timed::frame ? "+frontend" : "";
     Row row;
-    row.name = fmt::format("{}{}/{}/threads:{}", backend.name, with, what, threads);
+    row.name = fmt::format("{}{}/{}/threads:{}", backend.name, with, what, execution.threads);
     row.workload = workload;
     row.timed = timed;
     row.backend = &backend;
-    row.execution.threads = threads;
-    row.execution.target = target;
+    row.execution = execution;
     rows_.push_back(std::move(row));
   }
 
@@ -173,10 +190,12 @@ class Suite {
 std::vector<Row> make_suite(const SuiteOptions& options) {
   Suite suite(options);
   if (options.scenes.empty()) {
-    for (const auto& scene : builtin_scenes())
-      suite.add_scene(
-          suite.scene_workload(std::string(scene.name), options.width, options.height, Cull::back),
-          std::string(scene.name));
+    for (const auto& scene : builtin_scenes()) {
+      const std::string name(scene.name);
+      const auto workload = suite.scene_workload(name, options.width, options.height, Cull::back);
+      suite.add_scene(workload, name);
+      suite.add_ladder(workload, name);
+    }
     suite.add_area_sweep();
     suite.add_count_sweep();
     suite.add_size_sweep();

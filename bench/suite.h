@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,10 @@ struct Row {
   Timed timed = Timed::raster;
   const BackendInfo* backend = nullptr;  // null for front end rows
   Execution execution;
-  double once_s = 0.0;  // what it took when it was compared
-  std::string error;    // why it must not be timed
+  bool wants_floor = false;
+  double once_s = 0.0;         // what it took when it was compared
+  std::optional<Floor> floor;  // if wanted
+  std::string error;           // why it must not be timed
 };
 
 struct SuiteOptions {
