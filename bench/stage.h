@@ -16,7 +16,7 @@ inline constexpr double kTooSlowToRepeat_s = 1.5;
 class Stage {
  public:
   // Draws the row once, compares every bit with the reference, and sets the row's once_s, and its error if
-  // they differ. Needs the workload prepared.
+  // they differ, and the floor under it where that is wanted. Needs the workload prepared.
   void compare(Row& row);
 
   // Does once what the row times.
@@ -34,6 +34,7 @@ class Stage {
   std::map<std::pair<int, int>, Framebuffer> frames_;
   Frontend frontend_;
   PeerStage peers_;
+  Limit limit_;
 };
 
 }  // namespace edgewise::bench

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,9 @@ struct Row {
   const BackendInfo* backend = nullptr;  // null for front end rows and peers
   const PeerInfo* peer = nullptr;
   Execution execution;
+  bool wants_floor = false;
   double once_s = 0.0;          // what it took when it was compared
+  std::optional<Floor> floor;   // if wanted
   std::uint64_t near_ties = 0;  // peers: pixels where another triangle is as near up to rounding
   std::string error;            // why it must not be timed
 };
