@@ -23,10 +23,11 @@ def main():
         raise BadInput(f"{folder}: {error.strerror}") from None
 
     import plot_accuracy
+    import plot_ladder
     import plot_scenes
     import plot_stability
     import plot_sweeps
-    drawn = [name for chart in (*plot_sweeps.CHARTS, *plot_scenes.CHARTS) if (name := chart(bench, folder, caption))]
+    drawn = [name for chart in (*plot_sweeps.CHARTS, *plot_scenes.CHARTS, *plot_ladder.CHARTS) if (name := chart(bench, folder, caption))]
     drawn += [*plot_accuracy.draw(accuracy, folder, caption), *plot_stability.draw(sweeps, accuracy, folder, caption)]
     if not drawn:
         raise BadInput(f"{options.results}: no row that a chart shows")
