@@ -23,6 +23,7 @@ struct Row {
   const BackendInfo* backend = nullptr;  // null for front end rows
   Execution execution;
   bool wants_floor = false;
+  bool rung = false;           // of the ladder
   double once_s = 0.0;         // what it took when it was compared
   std::optional<Floor> floor;  // if wanted
   std::string error;           // why it must not be timed
