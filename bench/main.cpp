@@ -24,9 +24,10 @@ namespace {
 
 // How long a row may take. Noise comes in bursts, so many short repetitions tell more than a few long ones.
 struct Effort {
-  int repetitions, at_least;  // at_least for rows of a backend alone: charts judge the noise by them
-  double repetition_s;        // at least, unless one iteration takes longer
-  double slow_row_s;          // beyond this, all repetitions together, they become fewer
+  // at_least for rows of a backend alone: charts judge the noise by them. Slow rungs are steps far above it.
+  int repetitions, at_least;
+  double repetition_s;  // at least, unless one iteration takes longer
+  double slow_row_s;    // beyond this, all repetitions together, they become fewer
 };
 constexpr Effort kFull{5, 3, 0.012, 0.35}, kQuick{3, 2, 0.015, 0.3};
 
@@ -160,7 +161,7 @@ void register_rows(const std::vector<Row>& rows, Stage& stage, const Flags& flag
     else
       registered->UseRealTime();
     const double once_s = std::max(row.once_s, 1e-6);
-    const int at_least = row.timed == Timed::raster ? effort.at_least : 1;
+    const int at_least = row.timed == Timed::raster && !row.rung ? effort.at_least : 1;
     if (flags.own_iterations || slow)
       registered->Iterations(slow ? 1
                                   : std::max<std::int64_t>(1, std::llround(effort.repetition_s / once_s)));

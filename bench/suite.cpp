@@ -85,9 +85,11 @@ class Suite {
   // Beside the scene's own rows, which are its ends: one reference picture serves them all.
   void add_ladder(const WorkloadPtr& workload, const std::string& scene) {
     if (!in_ladder(scene)) return;
-    for (const Rung& rung : ladder())
+    for (const Rung& rung : ladder()) {
       add(workload, Timed::raster, find_backend(kLadderBackend), fmt::format("{}/rung:{}", scene, rung.name),
           rung.execution);
+      rows_.back().rung = true;
+    }
   }
 
   void add_area_sweep() {

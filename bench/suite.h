@@ -26,6 +26,7 @@ struct Row {
   const PeerInfo* peer = nullptr;
   Execution execution;
   bool wants_floor = false;
+  bool rung = false;            // of the ladder
   double once_s = 0.0;          // what it took when it was compared
   std::optional<Floor> floor;   // if wanted
   std::uint64_t near_ties = 0;  // peers: pixels where another triangle is as near up to rounding

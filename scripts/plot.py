@@ -23,11 +23,13 @@ def main():
         raise BadInput(f"{folder}: {error.strerror}") from None
 
     import plot_accuracy
+    import plot_ladder
     import plot_peers
     import plot_scenes
     import plot_stability
     import plot_sweeps
-    drawn = [name for chart in (*plot_sweeps.CHARTS, *plot_scenes.CHARTS) if (name := chart(bench, folder, caption))]
+    charts = (*plot_sweeps.CHARTS, *plot_scenes.CHARTS, *plot_ladder.CHARTS)
+    drawn = [name for chart in charts if (name := chart(bench, folder, caption))]
     drawn += plot_peers.against(bench, folder, caption)
     drawn += [*plot_accuracy.draw(accuracy, folder, caption), *plot_stability.draw(sweeps, accuracy, folder, caption)]
     if not drawn:

@@ -4,7 +4,10 @@
 #include <set>
 #include <string>
 
+#include "ladder.h"
+#include "limit.h"
 #include "message_of.h"
+#include "raster/contract.h"
 #include "stage.h"
 #include "suite.h"
 #include "temp_dir.h"
@@ -74,6 +77,103 @@ TEST(BenchSuite, NamesRowsSoThatTheirPartsCanBeTold) {
 TEST(BenchSuite, NamesAllRowsDifferently) {
   std::set<std::string> names;
   for (const Row& row : make_suite({})) EXPECT_TRUE(names.insert(row.name).second) << row.name;
+}
+
+TEST(BenchLadder, AddsOneIdeaARungAndEndsOneBelowTheDefault) {
+  const auto rungs = ladder();
+  const auto count = supported_targets().size();
+  ASSERT_EQ(rungs.size(), count + 3);
+  for (std::size_t i = 0; i < rungs.size(); ++i) {
+    const Execution& execution = rungs[i].execution;
+    EXPECT_EQ(execution.threads, 1);
+    EXPECT_EQ(execution.target, i < count ? supported_targets()[i] : SimdTarget::best);
+    EXPECT_EQ(execution.ideas.vector_setup, i >= count);
+    EXPECT_EQ(execution.ideas.prefetch, i >= count + 1);
+    EXPECT_EQ(execution.ideas.hierarchical_depth, i >= count + 2);
+    EXPECT_EQ(execution.ideas.write_out, WriteOut::through_caches);
+  }
+}
+
+TEST(BenchLadder, StandsBesideTheRowsThatAreItsEnds) {
+  std::set<std::string> names;
+  std::size_t floors = 0;
+  for (const Row& row : make_suite({})) {
+    names.insert(row.name);
+    floors += row.wants_floor;
+  }
+  for (const SceneInfo& scene : builtin_scenes())
+    for (const Rung& rung : ladder())
+      EXPECT_EQ(names.count("tiled/" + std::string(scene.name) + "/rung:" + rung.name + "/threads:1"),
+                in_ladder(scene.name) ? 1u : 0u);
+  EXPECT_TRUE(names.count("naive/large/threads:1") && names.count("tiled/large/threads:2"));
+  EXPECT_EQ(floors, 2 * builtin_scenes().size());
+}
+
+// Its right angle in the image's upper left corner.
+ScreenTriangle right_triangle(int legs_px, std::uint32_t z) {
+  return {{0, legs_px * 256, 0}, {0, 0, legs_px * 256}, {z, z, z}, 0};
+}
+
+TEST(BenchLimit, CountsEachBlockOnceForEachTriangleThatWinsAPixelOfIt) {
+  // Legs of 8 px cover blocks (0,0), (1,0) and (0,1), legs of 12 px six blocks.
+  const ScreenTriangle near_small = right_triangle(8, 5000), far_large = right_triangle(12, 6000);
+  const ScreenTriangle order[2][2] = {{near_small, far_large}, {far_large, near_small}};
+  const BlockCounts near_first = count_blocks(order[0], 16, 16), far_first = count_blocks(order[1], 16, 16);
+  EXPECT_EQ(near_first.covered, 9u);
+  EXPECT_EQ(far_first.covered, 9u);
+  // Block (0,0) of the far one lies behind the near one in every pixel; in (1,0) and (0,1) it looks out.
+  EXPECT_EQ(near_first.won, 8u);
+  EXPECT_EQ(far_first.won, 9u);
+}
+
+TEST(BenchLimit, CountsWhatTheReferenceDraws) {
+  // One triangle a draw, so that blocks that are not background are those it won.
+  SceneRequest request;
+  request.width = 173;
+  request.height = 91;
+  const Drawable stream = random_stream(request, 20, 900.0, 0.0, 5);
+  Frontend frontend;
+  for (const ScreenTriangle& triangle : frontend.run(stream, {})) {
+    Framebuffer frame(request.width, request.height);
+    backends().front().make()->draw({&triangle, 1}, frame.view(), 0, {});
+    std::set<std::pair<int, int>> blocks;
+    for (int y = 0; y < request.height; ++y)
+      for (int x = 0; x < request.width; ++x)
+        if (frame.depth_row(y)[x] != contract::kDepthClear) blocks.insert({x / 4, y / 4});
+    const BlockCounts counts = count_blocks({&triangle, 1}, request.width, request.height);
+    EXPECT_EQ(counts.won, blocks.size());
+    EXPECT_EQ(counts.covered, blocks.size());
+  }
+}
+
+TEST(BenchLimit, IsASumOfMeasuredPartsAndGrowsWithTheBlocks) {
+  const std::vector<ScreenTriangle> triangles(1000, right_triangle(8, 5000));
+  Framebuffer frame(64, 64);
+  Limit limit;
+  const Floor few = limit.under(triangles, {1000, 1000}, frame, 1);
+  const Floor many = limit.under(triangles, {2000, 2000}, frame, 1);
+  EXPECT_GT(few.read_s, 0.0);
+  EXPECT_GT(few.write_s, 0.0);
+  EXPECT_DOUBLE_EQ(many.blocks_s, 2 * few.blocks_s);
+  EXPECT_DOUBLE_EQ(many.write_s, few.write_s);
+  EXPECT_DOUBLE_EQ(few.total_s(), few.read_s + few.blocks_s + few.write_s);
+}
+
+TEST(BenchStage, FindsTheFloorOnlyWhereItIsWanted) {
+  const auto workload = std::make_shared<Workload>(96, 64, Cull::back, [] {
+    return app::load_source("cube", {96, 64, 0.0f, 1.0}, false);
+  });
+  workload->prepare(false);
+  Stage stage;
+  Row with = row_of(backends()[0], workload), without = with;
+  with.wants_floor = true;
+  stage.compare(with);
+  stage.compare(without);
+  ASSERT_TRUE(with.floor.has_value());
+  EXPECT_EQ(with.floor->blocks.won, workload->blocks().won);
+  EXPECT_GT(with.floor->blocks_s, 0.0);
+  EXPECT_FALSE(without.floor.has_value());
+  EXPECT_EQ(with.error, "");
 }
 
 }  // namespace

@@ -26,7 +26,8 @@ def bench(slow=(10.0, 10.2, 10.1), fast=(2.0, 2.1, 2.2)):
     rows = entries("frontend/cube/threads:1", [0.5])
     for backend, times in (("slow", slow), ("fast", fast)):
         for threads in (1, 2):
-            rows += entries(f"{backend}/cube/threads:{threads}", [t / threads for t in times])
+            floor = {"floor_ms": 1.4 / threads} if backend == "fast" else {}
+            rows += entries(f"{backend}/cube/threads:{threads}", [t / threads for t in times], **floor)
             for area, factor in ((1, 0.1 if backend == "slow" else 1), (100, 1), (10000, 1)):
                 rows += entries(f"{backend}/area:{area}/threads:{threads}", [t * factor for t in times])
         rows += entries(f"{backend}/cube/size:256x256/threads:2", times)
@@ -34,6 +35,10 @@ def bench(slow=(10.0, 10.2, 10.1), fast=(2.0, 2.1, 2.2)):
         rows += entries(f"{backend}/count:100/threads:2", times) + entries(f"{backend}/count:1000/threads:2", times)
         for mode, factor in (("none", 2), ("back", 1)):
             rows += entries(f"{backend}+frontend/cube/cull:{mode}/threads:2", [t * factor for t in times])
+        if backend == "fast":
+            rows += entries("naive/cube/threads:1", [9 * t for t in times])
+            for rung, factor in (("tiles", 4), ("avx2", 2)):
+                rows += entries(f"fast/cube/rung:{rung}/threads:1", [t * factor for t in times])
         for target, factor in (("scalar", 4), ("avx2", 1)):
             rows += entries(f"{backend}/cube/target:{target}/threads:1", [t * factor for t in times])
     return {"context": {"backends": "slow fast", "machine": "test"}, "benchmarks": rows}
@@ -157,7 +162,7 @@ class ScriptsTest(unittest.TestCase):
         self.assertEqual(run("readme", "--check", "--file", readme).returncode, 1)
         self.assertEqual(run("readme", "--file", readme).returncode, 0)
         text = readme.read_text()
-        self.assertIn("| cube | 12 | 0.50 | 10.1 | 5.05 | 2.10 | 1.05 | fast, 4.81× |", text)
+        self.assertIn("| cube | 12 | 0.50 | 10.1 | 5.05 | 2.10 | 1.05 | 1.50, 1.50 | fast, 4.81× |", text)
         self.assertIn("Hand-written.", text)
         self.assertIn("no bit differs", text)
         self.assertNotIn("old", text)
@@ -259,12 +264,39 @@ class ScriptsTest(unittest.TestCase):
         self.assertEqual(first.returncode, 0, first.stderr)
         self.assertEqual(second.returncode, 0, second.stderr)
         drawn = sorted(p.name for p in (self.results / "charts").iterdir())
-        charts = ["area", "cost", "culling", "scenes", "simd", "threads", "stability-nearer", "turning-cube",
+        charts = ["area", "cost", "culling", "ladder", "scenes", "simd", "threads", "stability-nearer", "turning-cube",
                   *(f"{kind}-{family}" for kind in ("accuracy", "errors")
                     for family in ("coverage", "visibility", "facing", "clipping"))]
         self.assertEqual(drawn, sorted(f"{c}.{suffix}" for c in charts for suffix in ("png", "svg")))
         for name in drawn:
             self.assertEqual((self.results / "charts" / name).read_bytes(), (self.folder / "again" / name).read_bytes())
+
+
+class LadderTest(unittest.TestCase):
+    """plot_ladder.steps(): from the plainest backend over the rungs to the last row."""
+
+    @classmethod
+    def setUpClass(cls):
+        if importlib.util.find_spec("matplotlib") is None:
+            raise unittest.SkipTest("no matplotlib")
+        sys.path.insert(0, str(SCRIPTS))
+
+    def test_rungs_stand_between_the_suites_own_rows(self):
+        from bench_rows import Bench, parse_name
+        from plot_ladder import steps
+        rows = {}
+        for name, times in (("naive/cube/threads:1", [9.0]), ("fast/cube/threads:1", [2.0]), ("fast/cube/threads:2", [1.0]),
+                            ("fast/cube/rung:tiles/threads:1", [8.0]), ("fast/knot/rung:tiles/threads:1", [5.0]),
+                            ("fast/cube/rung:avx2/threads:1", [4.0])):
+            rows[name] = parse_name(name)
+            rows[name].times_ms = times
+        self.assertEqual([row.median_ms for _, row in steps(Bench({}, rows), "cube")], [9.0, 8.0, 4.0, 2.0, 1.0])
+
+    def test_a_colour_claims_only_what_repetitions_settle(self):
+        from bench_rows import Row
+        from plot_ladder import GAIN, LOSS, NEITHER, colour_of
+        slow, between, fast = (Row("", "", False, "", {}, list(times)) for times in ((4.0, 5.0), (2.5, 4.5), (1.0, 2.0)))
+        self.assertEqual([colour_of(slow, fast), colour_of(fast, slow), colour_of(slow, between)], [GAIN, LOSS, NEITHER])
 
 
 class CrossingsTest(unittest.TestCase):

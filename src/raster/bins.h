@@ -24,6 +24,12 @@ class Bins {
   void build(std::span<const ScreenTriangle> triangles, const CellGrid& grid, int threads, SimdTarget target,
              const TiledIdeas& ideas = {});
 
+  bool empty(int cell) const {
+    for (std::size_t i = 0; i < used_chunks_; ++i)
+      if (chunks_[i].first[static_cast<std::size_t>(cell)] != kNone) return false;
+    return true;
+  }
+
   // visit(indices) for consecutive runs of a cell's triangle indices, in submission order.
   template <typename Visit>
   void for_each_run(int cell, Visit&& visit) const {

@@ -110,49 +110,82 @@ HWY_INLINE void write(Tile& tile, int at, V outside, V z, V payload) {
   hn::Store(hn::IfThenElse(wins, payload, hn::Load(d, tile.payload + at)), d, tile.payload + at);
 }
 
+// Where a tile lies in a plane of the frame.
+struct Place {
+  std::int32_t* at;
+  std::ptrdiff_t stride;
+  int width, height;  // px
+  bool past_caches;   // wanted, and the frame's alignment allows it
+
+  Place(const TileJob& job, std::uint32_t* plane)
+      : at(reinterpret_cast<std::int32_t*>(plane + job.y0 * job.frame.stride + job.x0)),
+        stride(job.frame.stride),
+        width(std::min(1 << job.size_log2, job.frame.width - job.x0)),
+        height(std::min(1 << job.size_log2, job.frame.height - job.y0)),
+        past_caches(job.ideas.write_out == WriteOut::past_caches &&
+                    reinterpret_cast<std::uintptr_t>(plane) % sizeof(V) == 0 && stride % kLanes == 0) {}
+
+  HWY_INLINE void store(V v, int x, int y) const {
+    const D d;
+    std::int32_t* to = at + y * stride + x;
+    past_caches ? hn::Stream(v, d, to) : hn::StoreU(v, d, to);
+  }
+};
+
 #if HWY_TARGET != HWY_SCALAR
-// A vector of a pixel row, from the blocks that it crosses.
-HWY_INLINE V across_blocks(const std::int32_t* from) {
+constexpr int kBlocksAcross = kLanes / kBlock;  // as many as fill a vector of a pixel row
+
+// The four pixel rows of neighbouring blocks.
+HWY_INLINE void rows_of_blocks(const std::int32_t* from, V (&row)[kBlock]) {
   const D d;
-  const hn::Full128<std::int32_t> quarter;
-  const auto part = [&](int block) { return hn::Load(quarter, from + block * kBlockPixels); };
 #if HWY_TARGET == HWY_SSE4
-  return part(0);
+  for (int y = 0; y < kBlock; ++y) row[y] = hn::Load(d, from + y * kBlock);
 #elif HWY_TARGET == HWY_AVX2
-  return hn::Combine(d, part(1), part(0));
+  for (int y = 0; y < kBlock; y += 2) {
+    const V left = hn::Load(d, from + y * kBlock), right = hn::Load(d, from + kBlockPixels + y * kBlock);
+    row[y] = hn::ConcatLowerLower(d, right, left);
+    row[y + 1] = hn::ConcatUpperUpper(d, right, left);
+  }
 #else
-  const hn::Half<D> half;
-  return hn::Combine(d, hn::Combine(half, part(3), part(2)), hn::Combine(half, part(1), part(0)));
+  V block[4];
+  for (int i = 0; i < 4; ++i) block[i] = hn::Load(d, from + i * kBlockPixels);
+  const auto two_rows = [&](V even, V odd, V* out) {  // two rows each of blocks 0 and 2, and of 1 and 3
+    out[0] = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(odd), even);
+    out[1] = hn::OddEvenBlocks(odd, hn::SwapAdjacentBlocks(even));
+  };
+  two_rows(hn::ConcatLowerLower(d, block[2], block[0]), hn::ConcatLowerLower(d, block[3], block[1]), row);
+  two_rows(hn::ConcatUpperUpper(d, block[2], block[0]), hn::ConcatUpperUpper(d, block[3], block[1]), row + 2);
 #endif
 }
 #endif
 
-// Blocks back to rows, past the caches where that is wanted and the frame's alignment allows it.
-inline void write_out(const TileJob& job, const std::int32_t* blocks, std::uint32_t* plane) {
-  const int width = std::min(1 << job.size_log2, job.frame.width - job.x0);
-  const int height = std::min(1 << job.size_log2, job.frame.height - job.y0);
-#if HWY_TARGET != HWY_SCALAR
-  const D d;
-  const bool streams = job.ideas.write_out == WriteOut::past_caches &&
-                       reinterpret_cast<std::uintptr_t>(plane) % sizeof(V) == 0 &&
-                       job.frame.stride % kLanes == 0;
-#endif
-  for (int y = 0; y < height; ++y) {
-    const std::int32_t* from = blocks + y / kBlock * kMaxBlocks * kBlockPixels + y % kBlock * kBlock;
-    auto* to = reinterpret_cast<std::int32_t*>(plane + (job.y0 + y) * job.frame.stride + job.x0);
+// Blocks back to rows.
+inline void write_out(const Place& to, const std::int32_t* blocks) {
+  for (int y0 = 0; y0 < to.height; y0 += kBlock, blocks += kMaxBlocks * kBlockPixels) {
+    const int rows = std::min(kBlock, to.height - y0);
+    const std::int32_t* from = blocks;
     int x = 0;
 #if HWY_TARGET != HWY_SCALAR
-    const auto each_vector = [&](const auto& store) {
-      for (; x + kLanes <= width; x += kLanes, from += kLanes / kBlock * kBlockPixels)
-        store(across_blocks(from), to + x);
-    };
-    if (streams)
-      each_vector([&](V v, std::int32_t* at) { hn::Stream(v, d, at); });
-    else
-      each_vector([&](V v, std::int32_t* at) { hn::StoreU(v, d, at); });
+    for (; x + kLanes <= to.width; x += kLanes, from += kBlocksAcross * kBlockPixels) {
+      V row[kBlock];
+      rows_of_blocks(from, row);
+      for (int y = 0; y < rows; ++y) to.store(row[y], x, y0 + y);
+    }
 #endif
-    for (; x < width; x += kBlock, from += kBlockPixels)
-      std::memcpy(to + x, from, sizeof(std::int32_t) * static_cast<std::size_t>(std::min(kBlock, width - x)));
+    for (; x < to.width; x += kBlock, from += kBlockPixels)
+      for (int y = 0; y < rows; ++y)
+        std::memcpy(to.at + (y0 + y) * to.stride + x, from + y * kBlock,
+                    sizeof(std::int32_t) * static_cast<std::size_t>(std::min(kBlock, to.width - x)));
+  }
+}
+
+// What write_out() would do for a tile that holds `value` everywhere.
+inline void write_value(const Place& to, std::int32_t value) {
+  const V v = hn::Set(D{}, value);
+  for (int y = 0; y < to.height; ++y) {
+    int x = 0;
+    for (; x + kLanes <= to.width; x += kLanes) to.store(v, x, y);
+    std::fill(to.at + y * to.stride + x, to.at + y * to.stride + to.width, value);
   }
 }
 

@@ -55,6 +55,13 @@ HWY_INLINE void ask_for(const TileJob& job, std::span<const std::uint32_t> run) 
 }
 
 void draw_tile(const TileJob& job) {
+  const Place depth(job, job.frame.depth), payload(job, job.frame.payload);
+  if (job.bins->empty(job.cell)) {
+    write_value(depth, wrap(kDepthClear));
+    write_value(payload, wrap(job.background));
+    hwy::FlushStream();
+    return clear_upper_halves();
+  }
   const D d;
   const int size = 1 << job.size_log2;
   Tile tile;
@@ -92,8 +99,8 @@ void draw_tile(const TileJob& job) {
   });
   if (!asked_for.empty()) draw_run(asked_for);
   small.draw();
-  write_out(job, tile.depth, job.frame.depth);
-  write_out(job, tile.payload, job.frame.payload);
+  write_out(depth, tile.depth);
+  write_out(payload, tile.payload);
   hwy::FlushStream();
   clear_upper_halves();
 }

@@ -1,0 +1,87 @@
+"""The ladder: what each idea is worth on each scene, one added at a time, and how far the floor still is."""
+import math
+
+from plot_style import FAINT, INK, PALETTE, headline, log_axis, plt, save
+from tables import milliseconds
+
+START = "naive"
+NAMES = {"vector-setup": "+ set-up in vectors", "prefetch": "+ prefetch",
+         "hierarchical-depth": "+ hierarchical depth", "tiles": "tiles, edges stepped"}
+GAIN, LOSS, NEITHER = PALETTE[0], PALETTE[3], "#8c959f"
+COLUMNS = 3
+
+
+def steps(bench, scene):
+    """[(label, row)] from the plainest to the last: rows of the suite at both ends, rungs between them."""
+    rungs = [row for row in bench.sweep("rung") if row.scene == scene]
+    backend = rungs[0].backend
+    named = [(f"{START}, 1 thread", bench.find(f"{START}/{scene}/threads:1"))]
+    named += [(NAMES.get(row.keys["rung"], f"… in {row.keys['rung']}"), row) for row in rungs]
+    named += [("+ write-out by size", bench.find(f"{backend}/{scene}/threads:1")),
+              ("+ second thread", bench.find(f"{backend}/{scene}/threads:2"))]
+    return [(label, row) for label, row in named if row]
+
+
+def colour_of(before, after):
+    """Whether one idea more made a difference: where the middle halves of the repetitions overlap, none is claimed."""
+    if after.quarter_ms(3) < before.quarter_ms(1):
+        return GAIN
+    return LOSS if after.quarter_ms(1) > before.quarter_ms(3) else NEITHER
+
+
+def panel(axes, scene, named):
+    times = [row.median_ms for _, row in named]
+    places = range(len(named))
+    axes.plot(times, places, color="#d0d7de", linewidth=1.4, zorder=2)
+    for place, (time, (_, row)) in enumerate(zip(times, named)):
+        gain = times[place - 1] / time if place else 1.0
+        colour = colour_of(named[place - 1][1], row) if place else INK
+        axes.plot([time], [place], marker="o", markersize=5.5, color=colour, zorder=3)
+        text = f"{gain:.2f}×" if place else f"{milliseconds(row)} ms"
+        axes.annotate(text, (time, place), xytext=(7, 0), textcoords="offset points", va="center", fontsize=8,
+                      color=colour)
+    for place, (_, row) in zip(places, named):
+        floor = row.counters.get("floor_ms")
+        if floor:
+            axes.plot([floor, times[place]], [place, place], color=PALETTE[2], linewidth=1.0, linestyle=":", zorder=1)
+            axes.plot([floor], [place], marker="|", markersize=11, markeredgewidth=2.2, color=PALETTE[2], zorder=3)
+    axes.set_title(scene, color=INK, fontweight="bold", pad=3)
+    axes.grid(axis="y", visible=False)
+    axes.tick_params(axis="y", length=0, labelsize=9)
+    axes.tick_params(axis="x", labelsize=9)
+
+
+def ladder(bench, folder, caption):
+    scenes = list(dict.fromkeys(row.scene for row in bench.sweep("rung")))
+    if not scenes:
+        return None
+    named = {scene: steps(bench, scene) for scene in scenes}
+    labels = max(([label for label, _ in steps_] for steps_ in named.values()), key=len)
+    lines = math.ceil(len(scenes) / COLUMNS)
+    figure, grid = plt.subplots(lines, COLUMNS, sharex=True, sharey=True, squeeze=False,
+                                figsize=(11.5, 1.3 + lines * (0.55 + 0.2 * len(labels))))
+    panels = list(grid.flat)
+    for axes, scene in zip(panels, scenes):
+        panel(axes, scene, named[scene])
+    for axes in panels[len(scenes):]:
+        axes.set_visible(False)
+    panels[0].set_xscale("log")
+    log_axis(panels[0].xaxis)
+    times = [row.median_ms for steps_ in named.values() for _, row in steps_]
+    floors = [floor for steps_ in named.values() for _, row in steps_ if (floor := row.counters.get("floor_ms"))]
+    panels[0].set_xlim(min(times + floors) / 1.6, max(times) * 8)
+    panels[0].set_yticks(range(len(labels)), labels)
+    panels[0].set_ylim(len(labels) - 0.4, -0.6)
+    for axes in grid[-1]:
+        axes.set_xlabel("ms a frame", fontsize=9.5)
+    height = figure.get_figheight()
+    top = headline(figure, "What each idea is worth", "Line by line one idea more, on one thread up to the last; figures say "
+                   "how many times faster than the line above.\nBlue: faster; vermilion: slower; grey: not "
+                   "settled. Green: the floor, as the README explains it.")
+    figure.subplots_adjust(left=0.135, right=0.985, bottom=0.72 / height, top=top - 0.3 / height, wspace=0.06,
+                           hspace=0.55 / (0.2 * len(labels)))
+    save(figure, folder, "ladder", caption)
+    return "ladder"
+
+
+CHARTS = (ladder,)
