@@ -1,0 +1,250 @@
+// The scanline kernel.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "raster/scanline_kernel.cpp"
+#include <hwy/cache_control.h>
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+
+#include "raster/contract.h"
+#include "raster/kernel_table.h"
+#include "raster/scanline_kernel.h"
+#include "raster/scanline_setup-inl.h"
+#include "raster/scanline_walk.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace edgewise {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+using namespace contract;
+
+namespace {  // the other kernel has a Tile, too
+
+using D = hn::CappedTag<std::int32_t, 16>;
+using V = hn::Vec<D>;
+constexpr int kLanes = static_cast<int>(hn::MaxLanes(D{}));
+
+struct Tile {
+  alignas(64) std::int32_t depth[kMaxTile * kMaxTile];  // row by row
+  alignas(64) std::int32_t payload[kMaxTile * kMaxTile];
+};
+
+#if HWY_TARGET != HWY_SCALAR
+
+constexpr int kRows = static_cast<int>(hn::MaxLanes(D64{}));  // a lane is a row
+constexpr int kRowsLog2 = std::countr_zero(static_cast<unsigned>(kRows));
+
+// The selected 64-bit lanes, and then any. Highway 1.0.3 can do that, but with a table that GCC copies to the
+// stack at every call, except for 32-bit lanes under AVX-512.
+#if HWY_TARGET <= HWY_AVX3
+HWY_INLINE V64 selected_first(V64 v, hn::Mask<D64> mask) {
+  const V32 both_halves = hn::DupOdd(lower(hn::VecFromMask(D64{}, mask)));
+  return as64(hn::Compress(lower(v), hn::MaskFromVec(both_halves)));
+}
+#else
+constexpr auto kSelected = [] {
+  struct {
+    std::uint8_t half[1 << kRows][2 * kRows];
+  } table{};
+  for (int mask = 0; mask < 1 << kRows; ++mask) {
+    int count = 0;
+    for (int lane = 0; lane < kRows; ++lane)
+      if (mask >> lane & 1)
+        for (const int half : {2 * lane, 2 * lane + 1}) table.half[mask][count++] = static_cast<std::uint8_t>(half);
+  }
+  return table;
+}();
+HWY_INLINE V64 selected_first(V64 v, hn::Mask<D64> mask) {
+  const D32 d;
+  const hn::Rebind<std::uint8_t, D32> d8;
+  const V32 halves = hn::PromoteTo(d, hn::LoadU(d8, kSelected.half[mask_bits(mask)]));
+  return as64(hn::TableLookupLanes(lower(v), hn::IndicesFromVec(d, halves)));
+}
+#endif
+
+// The spans of many triangles, cut into vectors of pixels. How many rows a triangle has, and how many vectors
+// a span, is hard for a branch predictor to guess, and the loop over the list need not.
+class SpanList {
+ public:
+  explicit SpanList(Tile& tile) : tile_(tile) {}
+
+  // Appends the spans of entry k, a vector of rows at a time. A lane is a row.
+  HWY_INLINE void add(const SpanBatch& batch, int k) {
+    const D64 d;
+    const D32 d32;
+    if (length_ > kCapacity - kMostVectors) draw();
+    const V64 lane = hn::Iota(d, 0);
+    const V32 lane_upper = lower(hn::ShiftLeft<32>(lane));
+    V64 at[3], stride[3];
+    V32 is_left[3], is_right[3];
+    for (int i = 0; i < 3; ++i) {
+      const auto& line = batch.line[i];
+      const V64 step = hn::Set(d, line.step[k]);
+      at[i] = hn::Add(hn::Set(d, line.at[k]), product(step, lower(lane)));
+      stride[i] = hn::ShiftLeft<kRowsLog2>(step);
+      is_left[i] = set32(line.is_left[k]), is_right[i] = set32(line.is_right[k]);
+    }
+    V32 row = hn::Add(set32(batch.y0[k]), lane_upper);
+    const V32 zy = set32(batch.depth.y[k]), row_end = set32(batch.y1[k]), size = set32(kMaxTile);
+    V32 z = hn::Add(set32(batch.depth.first[k]), hn::Mul(zy, lane_upper));
+    const std::int32_t zx = batch.depth.x[k];
+    hn::Store(hn::Mul(hn::Iota(D{}, 0), hn::Set(D{}, zx)), D{}, in_vector_ + k * kLanes);
+    payload_[k] = batch.payload[k];
+
+    for (int rows = batch.y1[k] - batch.y0[k];;) {
+      V32 begin = hn::Zero(d32), end = size;
+      for (int i = 0; i < 3; ++i) {
+        const V32 pixel = hn::ShiftRight<kUnitBits - 32>(lower(at[i]));
+        begin = hn::Max(begin, hn::And(pixel, is_left[i]));
+        end = hn::Min(end, hn::IfVecThenElse(is_right[i], pixel, size));
+      }
+      end = hn::IfThenElseZero(hn::Lt(row, row_end), end);
+      const V32 length = hn::Sub(end, begin), row_place = hn::Add(hn::ShiftLeft<6>(row), set32(k << 16));
+      for (int x = batch.x0[k] & -kLanes; x < batch.x1[k]; x += kLanes) {
+        const V32 inside = hn::Sub(hn::Min(end, set32(x + kLanes)), hn::Max(begin, set32(x)));
+        const auto filled = hn::Gt(as64(inside), hn::Set(d, 0xFFFFFFFF));
+        const V32 place = hn::Add(row_place, set32(x)), from = hn::Sub(begin, set32(x));
+        const V32 z_here = hn::Add(z, set32(x * zx));
+        append(place, z_here, where_, filled);
+        append(from, length, extent_, filled);
+        length_ += std::popcount(mask_bits(filled));
+      }
+      if ((rows -= kRows) <= 0) break;
+      for (int i = 0; i < 3; ++i) at[i] = hn::Add(at[i], stride[i]);
+      row = hn::Add(row, set32(kRows));
+      z = hn::Add(z, hn::ShiftLeft<kRowsLog2>(zy));
+    }
+  }
+
+  HWY_INLINE void draw() {
+    const D d;
+    const hn::RebindToUnsigned<D> du;
+    for (int n = 0; n < length_; ++n) {
+      const int at = where_[2 * n] & 0xFFFF, k = where_[2 * n] >> 16;
+      const V from = hn::Sub(hn::Iota(d, 0), hn::Set(d, extent_[2 * n]));
+      const auto length = hn::Set(du, static_cast<std::uint32_t>(extent_[2 * n + 1]));
+      const V z = hn::Add(hn::Load(d, in_vector_ + k * kLanes), hn::Set(d, where_[2 * n + 1]));
+      const V old_z = hn::Load(d, tile_.depth + at);
+      const auto inside = hn::RebindMask(d, hn::Lt(hn::BitCast(du, from), length));
+      const auto wins = hn::And(inside, hn::Lt(z, old_z));
+      hn::Store(hn::IfThenElse(wins, z, old_z), d, tile_.depth + at);
+      hn::Store(hn::IfThenElse(wins, hn::Set(d, payload_[k]), hn::Load(d, tile_.payload + at)), d,
+                tile_.payload + at);
+    }
+    length_ = 0;
+  }
+
+ private:
+  static constexpr int kMostVectors = kMaxTile * kMaxTile / kLanes;  // of one triangle
+  static constexpr int kCapacity = 2 * kMostVectors;
+
+  // Pairs of the upper halves, `first` below.
+  HWY_INLINE void append(V32 first, V32 second, std::int32_t* list, hn::Mask<D64> mask) {
+    const D64 d;
+    const V64 pair = as64(hn::OddEven(second, upper(as64(first))));
+    hn::StoreU(selected_first(pair, mask), d, reinterpret_cast<std::int64_t*>(list) + length_);
+  }
+
+  Tile& tile_;
+  int length_ = 0;
+  // For each vector: its place in the tile | triangle << 16, and the depth at its first pixel; the first
+  // pixel of the span, counted from there, and the span's length.
+  alignas(64) std::int32_t where_[2 * (kCapacity + kRows)], extent_[2 * (kCapacity + kRows)];
+  alignas(64) std::int32_t in_vector_[SpanBatch::kSize * kLanes];  // depth from a vector's first pixel
+  std::int32_t payload_[SpanBatch::kSize];
+};
+
+void draw_run(const TileJob& job, std::span<const std::uint32_t> run, Tile& tile, SpanList& list) {
+  SpanBatch batch;
+  const Alive alive = set_up(job, run, batch);
+  for (std::uint32_t left = alive.all; left != 0; left &= left - 1) {
+    const int k = std::countr_zero(left);
+    if (alive.plain >> k & 1) {
+      list.draw();
+      walk_triangle(job, job.triangles[run[static_cast<std::size_t>(k)]], tile.depth, tile.payload);
+    } else {
+      list.add(batch, k);
+    }
+  }
+  list.draw();
+}
+
+#endif
+
+// Past the caches where the frame's alignment allows it.
+void write_out(const TileJob& job, const std::int32_t* rows, std::uint32_t* plane) {
+  const D d;
+  const int width = std::min(kMaxTile, job.frame.width - job.x0);
+  const int height = std::min(kMaxTile, job.frame.height - job.y0);
+  constexpr std::size_t kVectorBytes = sizeof(std::int32_t) * kLanes;
+  const bool streams = reinterpret_cast<std::uintptr_t>(plane) % kVectorBytes == 0 && job.frame.stride % kLanes == 0;
+  for (int y = 0; y < height; ++y) {
+    const std::int32_t* from = rows + y * kMaxTile;
+    auto* to = reinterpret_cast<std::int32_t*>(plane + (job.y0 + y) * job.frame.stride + job.x0);
+    int x = 0;
+    if (streams)
+      for (; x + kLanes <= width; x += kLanes) hn::Stream(hn::Load(d, from + x), d, to + x);
+    std::memcpy(to + x, from + x, sizeof(std::int32_t) * static_cast<std::size_t>(width - x));
+  }
+}
+
+// As in tile_kernel.cpp.
+HWY_INLINE void clear_upper_halves() {
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2  // the better the target, the lower its number
+  _mm256_zeroupper();
+#endif
+}
+
+}  // namespace
+
+void draw_tile_in_spans(const TileJob& job) {
+  Tile tile;
+  std::fill_n(tile.depth, kMaxTile * kMaxTile, static_cast<std::int32_t>(kDepthClear));
+  std::fill_n(tile.payload, kMaxTile * kMaxTile, static_cast<std::int32_t>(job.background));
+
+  // The records lie anywhere: each run's are asked for while the run before it is drawn.
+  std::span<const std::uint32_t> asked_for;
+#if HWY_TARGET == HWY_SCALAR
+  const auto draw = [&] {
+    for (const std::uint32_t index : asked_for)
+      walk_triangle(job, job.triangles[index], tile.depth, tile.payload);
+  };
+#else
+  SpanList list(tile);
+  const auto draw = [&] {
+    if (!asked_for.empty()) draw_run(job, asked_for, tile, list);
+  };
+#endif
+  job.bins->for_each_run(job.cell, [&](std::span<const std::uint32_t> run) {
+    for (const std::uint32_t index : run) {
+      const auto* record = reinterpret_cast<const char*>(job.triangles + index);
+      hwy::Prefetch(record);
+      hwy::Prefetch(record + sizeof(ScreenTriangle) - 1);
+    }
+    draw();
+    asked_for = run;
+  });
+  draw();
+  write_out(job, tile.depth, job.frame.depth);
+  write_out(job, tile.payload, job.frame.payload);
+  hwy::FlushStream();
+  clear_upper_halves();
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace edgewise
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace edgewise {
+
+TileKernel scanline_kernel(SimdTarget target) {
+  return EDGEWISE_KERNEL(draw_tile_in_spans, target);
+}
+
+}  // namespace edgewise
+#endif
