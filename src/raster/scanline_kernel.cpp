@@ -28,14 +28,17 @@ using D = hn::CappedTag<std::int32_t, 16>;
 using V = hn::Vec<D>;
 constexpr int kLanes = static_cast<int>(hn::MaxLanes(D{}));
 
+constexpr int kRows = static_cast<int>(hn::MaxLanes(hn::CappedTag<std::int64_t, 8>{}));  // set up together
+constexpr int kBlock = 16;  // px of kRows rows, which hierarchical depth rejects together
+
 struct Tile {
   alignas(64) std::int32_t depth[kMaxTile * kMaxTile];  // row by row
   alignas(64) std::int32_t payload[kMaxTile * kMaxTile];
+  std::int32_t farthest[kMaxTile / kRows][kMaxTile / kBlock];  // no pixel of the block is farther
 };
 
 #if HWY_TARGET != HWY_SCALAR
 
-constexpr int kRows = static_cast<int>(hn::MaxLanes(D64{}));  // a lane is a row
 constexpr int kRowsLog2 = std::countr_zero(static_cast<unsigned>(kRows));
 
 // The selected 64-bit lanes, and then any. Highway 1.0.3 can do that, but with a table that GCC copies to the
@@ -66,82 +69,166 @@ HWY_INLINE V64 selected_first(V64 v, hn::Mask<D64> mask) {
 }
 #endif
 
-// The spans of many triangles, cut into vectors of pixels. How many rows a triangle has, and how many vectors
-// a span, is hard for a branch predictor to guess, and the loop over the list need not.
+// Where the spans of entry k begin and end, kRows rows at a time: a lane is a row, in its upper half.
+class RowLanes {
+ public:
+  HWY_INLINE RowLanes(const SpanBatch& batch, int k, int first_row)
+      : zy_(set32(batch.depth.y[k])), first_row_(set32(batch.y0[k])), rows_(set32(batch.y1[k] - batch.y0[k])) {
+    const D64 d;
+    const V64 lane = hn::Add(hn::Iota(d, 0), hn::Set(d, first_row - batch.y0[k]));
+    for (int i = 0; i < 3; ++i) {
+      const auto& line = batch.line[i];
+      const V64 step = hn::Set(d, line.step[k]);
+      at_[i] = hn::Add(hn::Set(d, line.at[k]), product(step, lower(lane)));
+      stride_[i] = hn::ShiftLeft<kRowsLog2>(step);
+      is_left_[i] = set32(line.is_left[k]), is_right_[i] = set32(line.is_right[k]);
+    }
+    const V32 from_first = lower(hn::ShiftLeft<32>(lane));
+    row = hn::Add(first_row_, from_first);
+    z = hn::Add(set32(batch.depth.first[k]), hn::Mul(zy_, from_first));
+    find_ends();
+  }
+  HWY_INLINE void next() {
+    for (int i = 0; i < 3; ++i) at_[i] = hn::Add(at_[i], stride_[i]);
+    row = hn::Add(row, set32(kRows));
+    z = hn::Add(z, hn::ShiftLeft<kRowsLog2>(zy_));
+    find_ends();
+  }
+  V32 row, z;      // in the tile; at the row's first pixel
+  V32 begin, end;  // in the tile; end = 0 for rows that are not the triangle's
+
+ private:
+  HWY_INLINE void find_ends() {
+    const V32 size = set32(kMaxTile);
+    begin = hn::Zero(D32{}), end = size;
+    for (int i = 0; i < 3; ++i) {
+      const V32 pixel = hn::ShiftRight<kUnitBits - 32>(lower(at_[i]));
+      begin = hn::Max(begin, hn::And(pixel, is_left_[i]));
+      end = hn::Min(end, hn::IfVecThenElse(is_right_[i], pixel, size));
+    }
+    const V32 from_first = hn::Sub(row, first_row_);
+    end = hn::IfThenElseZero(hn::And(hn::Gt(from_first, set32(-1)), hn::Lt(from_first, rows_)), end);
+  }
+  V64 at_[3], stride_[3];
+  V32 is_left_[3], is_right_[3], zy_, first_row_, rows_;
+};
+
+// The spans of many triangles. How many rows a triangle has is hard for a branch predictor to guess, and the
+// loop over the list need not.
 class SpanList {
  public:
   explicit SpanList(Tile& tile) : tile_(tile) {}
 
-  // Appends the spans of entry k, a vector of rows at a time. A lane is a row.
   HWY_INLINE void add(const SpanBatch& batch, int k) {
-    const D64 d;
-    const D32 d32;
-    if (length_ > kCapacity - kMostVectors) draw();
-    const V64 lane = hn::Iota(d, 0);
-    const V32 lane_upper = lower(hn::ShiftLeft<32>(lane));
-    V64 at[3], stride[3];
-    V32 is_left[3], is_right[3];
-    for (int i = 0; i < 3; ++i) {
-      const auto& line = batch.line[i];
-      const V64 step = hn::Set(d, line.step[k]);
-      at[i] = hn::Add(hn::Set(d, line.at[k]), product(step, lower(lane)));
-      stride[i] = hn::ShiftLeft<kRowsLog2>(step);
-      is_left[i] = set32(line.is_left[k]), is_right[i] = set32(line.is_right[k]);
-    }
-    V32 row = hn::Add(set32(batch.y0[k]), lane_upper);
-    const V32 zy = set32(batch.depth.y[k]), row_end = set32(batch.y1[k]), size = set32(kMaxTile);
-    V32 z = hn::Add(set32(batch.depth.first[k]), hn::Mul(zy, lane_upper));
-    const std::int32_t zx = batch.depth.x[k];
-    hn::Store(hn::Mul(hn::Iota(D{}, 0), hn::Set(D{}, zx)), D{}, in_vector_ + k * kLanes);
+    if (length_ > kCapacity - kMostSpans) draw();
+    const D d;
+    const V zx = hn::Set(d, batch.depth.x[k]);
+    hn::Store(hn::Mul(hn::Iota(d, 0), zx), d, in_vector_ + k * kLanes);
+    hn::Store(hn::Mul(hn::Set(d, kLanes), zx), d, step_ + k * kLanes);
     payload_[k] = batch.payload[k];
-
-    for (int rows = batch.y1[k] - batch.y0[k];;) {
-      V32 begin = hn::Zero(d32), end = size;
-      for (int i = 0; i < 3; ++i) {
-        const V32 pixel = hn::ShiftRight<kUnitBits - 32>(lower(at[i]));
-        begin = hn::Max(begin, hn::And(pixel, is_left[i]));
-        end = hn::Min(end, hn::IfVecThenElse(is_right[i], pixel, size));
-      }
-      end = hn::IfThenElseZero(hn::Lt(row, row_end), end);
-      const V32 length = hn::Sub(end, begin), row_place = hn::Add(hn::ShiftLeft<6>(row), set32(k << 16));
-      for (int x = batch.x0[k] & -kLanes; x < batch.x1[k]; x += kLanes) {
-        const V32 inside = hn::Sub(hn::Min(end, set32(x + kLanes)), hn::Max(begin, set32(x)));
-        const auto filled = hn::Gt(as64(inside), hn::Set(d, 0xFFFFFFFF));
-        const V32 place = hn::Add(row_place, set32(x)), from = hn::Sub(begin, set32(x));
-        const V32 z_here = hn::Add(z, set32(x * zx));
-        append(place, z_here, where_, filled);
-        append(from, length, extent_, filled);
-        length_ += std::popcount(mask_bits(filled));
-      }
-      if ((rows -= kRows) <= 0) break;
-      for (int i = 0; i < 3; ++i) at[i] = hn::Add(at[i], stride[i]);
-      row = hn::Add(row, set32(kRows));
-      z = hn::Add(z, hn::ShiftLeft<kRowsLog2>(zy));
-    }
+    if (batch.x1[k] - batch.x0[k] > kNarrow)
+      add_wide(batch, k);
+    else
+      add_narrow(batch, k);
   }
 
   HWY_INLINE void draw() {
     const D d;
     const hn::RebindToUnsigned<D> du;
     for (int n = 0; n < length_; ++n) {
-      const int at = where_[2 * n] & 0xFFFF, k = where_[2 * n] >> 16;
-      const V from = hn::Sub(hn::Iota(d, 0), hn::Set(d, extent_[2 * n]));
+      const int k = where_[2 * n] >> 16;
+      int at = where_[2 * n] & 0xFFFF, left = extent_[2 * n] + extent_[2 * n + 1];
+      V from = hn::Sub(hn::Iota(d, 0), hn::Set(d, extent_[2 * n]));
+      V z = hn::Add(hn::Load(d, in_vector_ + k * kLanes), hn::Set(d, where_[2 * n + 1]));
       const auto length = hn::Set(du, static_cast<std::uint32_t>(extent_[2 * n + 1]));
-      const V z = hn::Add(hn::Load(d, in_vector_ + k * kLanes), hn::Set(d, where_[2 * n + 1]));
-      const V old_z = hn::Load(d, tile_.depth + at);
-      const auto inside = hn::RebindMask(d, hn::Lt(hn::BitCast(du, from), length));
-      const auto wins = hn::And(inside, hn::Lt(z, old_z));
-      hn::Store(hn::IfThenElse(wins, z, old_z), d, tile_.depth + at);
-      hn::Store(hn::IfThenElse(wins, hn::Set(d, payload_[k]), hn::Load(d, tile_.payload + at)), d,
-                tile_.payload + at);
+      for (;;) {
+        const V old_z = hn::Load(d, tile_.depth + at);
+        const auto inside = hn::RebindMask(d, hn::Lt(hn::BitCast(du, from), length));
+        const auto wins = hn::And(inside, hn::Lt(z, old_z));
+        hn::Store(hn::IfThenElse(wins, z, old_z), d, tile_.depth + at);
+        hn::Store(hn::IfThenElse(wins, hn::Set(d, payload_[k]), hn::Load(d, tile_.payload + at)), d,
+                  tile_.payload + at);
+        if ((left -= kLanes) <= 0) break;
+        at += kLanes;
+        from = hn::Add(from, hn::Set(d, kLanes));
+        z = hn::Add(z, hn::Load(d, step_ + k * kLanes));
+      }
     }
     length_ = 0;
   }
 
  private:
-  static constexpr int kMostVectors = kMaxTile * kMaxTile / kLanes;  // of one triangle
-  static constexpr int kCapacity = 2 * kMostVectors;
+  static constexpr int kNarrow = 2 * kLanes;           // px; wider boxes hold long spans
+  static constexpr int kMostSpans = 3 * kMaxTile;      // of one triangle, or what narrow ones are cut into
+  static constexpr int kCapacity = 2 * kMostSpans;
 
+  // Spans are cut into vectors: how many a span needs is hard to guess, too.
+  HWY_INLINE void add_narrow(const SpanBatch& batch, int k) {
+    RowLanes rows(batch, k, batch.y0[k]);
+    for (int y = batch.y0[k];;) {
+      for (int x = batch.x0[k] & -kLanes; x < batch.x1[k]; x += kLanes)
+        append(batch, k, rows, hn::Max(rows.begin, set32(x)), hn::Min(rows.end, set32(x + kLanes)));
+      if ((y += kRows) >= batch.y1[k]) break;
+      rows.next();
+    }
+  }
+
+  // Where all rows' spans overlap, blocks are drawn at once, after those before.
+  HWY_INLINE void add_wide(const SpanBatch& batch, int k) {
+    const D32 d32;
+    draw();
+    const int first_row = batch.y0[k] & -kRows;
+    RowLanes rows(batch, k, first_row);
+    for (int y = first_row;;) {
+      const auto odd = [](V32 v) { return hn::DupOdd(v); };
+      const int begin = hn::GetLane(hn::MaxOfLanes(d32, odd(rows.begin))) + kBlock - 1 & -kBlock;
+      const int end = hn::GetLane(hn::MinOfLanes(d32, odd(rows.end))) & -kBlock;
+      if (begin < end) {
+        append(batch, k, rows, rows.begin, set32(begin));
+        append(batch, k, rows, set32(end), rows.end);
+        const auto z = hn::GetLane(upper(as64(rows.z)));
+        for (int x = begin; x < end; x += kBlock) draw_block(batch, k, x, y, z + x * batch.depth.x[k]);
+      } else {
+        append(batch, k, rows, rows.begin, rows.end);
+      }
+      if ((y += kRows) >= batch.y1[k]) break;
+      rows.next();
+    }
+  }
+
+  // All pixels of a block are the triangle's; z is the depth at the first.
+  HWY_INLINE void draw_block(const SpanBatch& batch, int k, int x, int y, std::int32_t z) {
+    const D d;
+    const std::int32_t zx = batch.depth.x[k], zy = batch.depth.y[k];
+    std::int32_t& farthest = tile_.farthest[y / kRows][x / kBlock];
+    if (z + std::min(0, zx * (kBlock - 1)) + std::min(0, zy * (kRows - 1)) >= farthest) return;
+    V far = hn::Zero(d);
+    const V payload = hn::Set(d, batch.payload[k]);
+    for (int p = 0; p < kBlock; p += kLanes) {
+      V z_here = hn::Add(hn::Set(d, z + p * zx), hn::Load(d, in_vector_ + k * kLanes));
+      for (int r = 0; r < kRows; ++r) {
+        const int at = (y + r) * kMaxTile + x + p;
+        const V old_z = hn::Load(d, tile_.depth + at), new_z = hn::Min(z_here, old_z);
+        const auto wins = hn::Lt(z_here, old_z);
+        hn::Store(new_z, d, tile_.depth + at);
+        hn::Store(hn::IfThenElse(wins, payload, hn::Load(d, tile_.payload + at)), d, tile_.payload + at);
+        far = hn::Max(far, new_z);
+        z_here = hn::Add(z_here, hn::Set(d, zy));
+      }
+    }
+    farthest = hn::GetLane(hn::MaxOfLanes(d, far));
+  }
+
+  // Appends the rows' spans [begin, end) that are not empty.
+  HWY_INLINE void append(const SpanBatch& batch, int k, const RowLanes& rows, V32 begin, V32 end) {
+    const D64 d;
+    const V32 length = hn::Sub(end, begin), x = hn::And(begin, set32(-kLanes));
+    const auto filled = hn::Gt(as64(length), hn::Set(d, 0xFFFFFFFF));
+    const V32 place = hn::Add(hn::Add(hn::ShiftLeft<6>(rows.row), x), set32(k << 16));
+    append(place, hn::Add(rows.z, hn::Mul(x, set32(batch.depth.x[k]))), where_, filled);
+    append(hn::Sub(begin, x), length, extent_, filled);
+    length_ += std::popcount(mask_bits(filled));
+  }
   // Pairs of the upper halves, `first` below.
   HWY_INLINE void append(V32 first, V32 second, std::int32_t* list, hn::Mask<D64> mask) {
     const D64 d;
@@ -154,7 +241,7 @@ class SpanList {
   // For each vector: its place in the tile | triangle << 16, and the depth at its first pixel; the first
   // pixel of the span, counted from there, and the span's length.
   alignas(64) std::int32_t where_[2 * (kCapacity + kRows)], extent_[2 * (kCapacity + kRows)];
-  alignas(64) std::int32_t in_vector_[SpanBatch::kSize * kLanes];  // depth from a vector's first pixel
+  alignas(64) std::int32_t in_vector_[SpanBatch::kSize * kLanes], step_[SpanBatch::kSize * kLanes];  // depth from a vector's first pixel
   std::int32_t payload_[SpanBatch::kSize];
 };
 
@@ -204,6 +291,7 @@ HWY_INLINE void clear_upper_halves() {
 void draw_tile_in_spans(const TileJob& job) {
   Tile tile;
   std::fill_n(tile.depth, kMaxTile * kMaxTile, static_cast<std::int32_t>(kDepthClear));
+  std::fill_n(&tile.farthest[0][0], sizeof tile.farthest / sizeof(std::int32_t), static_cast<std::int32_t>(kDepthClear));
   std::fill_n(tile.payload, kMaxTile * kMaxTile, static_cast<std::int32_t>(job.background));
 
   // The records lie anywhere: each run's are asked for while the run before it is drawn.
