@@ -135,19 +135,20 @@ class SpanList {
   HWY_INLINE void draw() {
     const D d;
     const hn::RebindToUnsigned<D> du;
-    for (int n = 0; n < length_; ++n) {
+    std::int32_t *const depth = tile_.depth, *const payload = tile_.payload;  // stores cannot change these
+    const int end = length_;
+    for (int n = 0; n < end; ++n) {
       const int k = where_[2 * n] >> 16;
       int at = where_[2 * n] & 0xFFFF, left = extent_[2 * n] + extent_[2 * n + 1];
       V from = hn::Sub(hn::Iota(d, 0), hn::Set(d, extent_[2 * n]));
       V z = hn::Add(hn::Load(d, in_vector_ + k * kLanes), hn::Set(d, where_[2 * n + 1]));
       const auto length = hn::Set(du, static_cast<std::uint32_t>(extent_[2 * n + 1]));
       for (;;) {
-        const V old_z = hn::Load(d, tile_.depth + at);
+        const V old_z = hn::Load(d, depth + at);
         const auto inside = hn::RebindMask(d, hn::Lt(hn::BitCast(du, from), length));
         const auto wins = hn::And(inside, hn::Lt(z, old_z));
-        hn::Store(hn::IfThenElse(wins, z, old_z), d, tile_.depth + at);
-        hn::Store(hn::IfThenElse(wins, hn::Set(d, payload_[k]), hn::Load(d, tile_.payload + at)), d,
-                  tile_.payload + at);
+        hn::Store(hn::IfThenElse(wins, z, old_z), d, depth + at);
+        hn::Store(hn::IfThenElse(wins, hn::Set(d, payload_[k]), hn::Load(d, payload + at)), d, payload + at);
         if ((left -= kLanes) <= 0) break;
         at += kLanes;
         from = hn::Add(from, hn::Set(d, kLanes));
@@ -158,8 +159,8 @@ class SpanList {
   }
 
  private:
-  static constexpr int kNarrow = 2 * kLanes;           // px; wider boxes hold long spans
-  static constexpr int kMostSpans = 3 * kMaxTile;      // of one triangle, or what narrow ones are cut into
+  static constexpr int kNarrow = 3 * kLanes;           // px; wider boxes hold long spans
+  static constexpr int kMostSpans = kMaxTile * kMaxTile / kLanes;  // of one triangle
   static constexpr int kCapacity = 2 * kMostSpans;
 
   // Spans are cut into vectors: how many a span needs is hard to guess, too.
@@ -180,12 +181,12 @@ class SpanList {
     const int first_row = batch.y0[k] & -kRows;
     RowLanes rows(batch, k, first_row);
     for (int y = first_row;;) {
-      const auto odd = [](V32 v) { return hn::DupOdd(v); };
-      const int begin = hn::GetLane(hn::MaxOfLanes(d32, odd(rows.begin))) + kBlock - 1 & -kBlock;
-      const int end = hn::GetLane(hn::MinOfLanes(d32, odd(rows.end))) & -kBlock;
+      const int last_begin = hn::GetLane(hn::MaxOfLanes(d32, hn::DupOdd(rows.begin)));
+      const int first_end = hn::GetLane(hn::MinOfLanes(d32, hn::DupOdd(rows.end)));
+      const int begin = (last_begin + kBlock - 1) & -kBlock, end = first_end & -kBlock;
       if (begin < end) {
-        append(batch, k, rows, rows.begin, set32(begin));
-        append(batch, k, rows, set32(end), rows.end);
+        if (last_begin > 0) append(batch, k, rows, rows.begin, set32(begin));
+        if (first_end < kMaxTile) append(batch, k, rows, set32(end), rows.end);
         const auto z = hn::GetLane(upper(as64(rows.z)));
         for (int x = begin; x < end; x += kBlock) draw_block(batch, k, x, y, z + x * batch.depth.x[k]);
       } else {
