@@ -6,17 +6,18 @@
 // lie in the triangle's box: half open in both directions, which is the top-left rule (4). Where an edge has
 // ended, its line goes on outside the triangle, so no row needs to know which edges cross it.
 //
-// A fraction is enough to walk an edge exactly, if it has enough bits. v is a multiple of 1 / (256 |dy|), so
-// of at least 2^-31 px; in units of 2^-43 px that is 2^12 units. If a sum u of start and steps is off by less
-// than 1300 units, then floor(u + 1 - 2^11 units) is the ceiling of v: u + 1 - 2^11 is above v + 1 - 2^12,
-// and below v + 1. Doubles are good enough for that:
-// - Steps a row below 2^12 px = 2^55 units are off by 2^-52 of that and 1 for rounding, below 9.1; over 63
-//   rows, below 575.
-// - A start within 2^18 + 2^15 px of the tile's first pixel (2^61.2 units) is off by 2^-52 of that: below
-//   650. A line that starts farther away does not get back to the tile in 63 rows, and stays outside when it
-//   is clamped to 2^18 + 2^17 px.
-// - Start, steps and the 2^15 px from the edge's vertex to the tile add up to less than 2^20 px = 2^63 units.
-// An edge flatter than that crosses 8 rows at the most; its triangle is set up by integers with a remainder.
+// Binary fractions walk an edge exactly, if they have enough bits. v is a multiple of 1 / (256 |dy|) >= 2^-31
+// px, or 2^12 units of 2^-43 px. Let u be the sum of a start and some steps, less than 1300 units away from
+// v. Then w = u + 1 px - 2^11 units lies between v + 1 px - 2^12 units and v + 1 px, and floor(w) is the
+// ceiling of v. Doubles are good enough for that:
+// - Steps a row below 2^12 px = 2^55 units are off by 2^-52 of that, and 1 for rounding: over 63 rows, below
+//   575 units.
+// - A start within 2^18 + 2^15 px (2^61.2 units) of the edge's vertex is off by 2^-52 of that: below 650. A
+//   line that starts farther away does not come back to the tile in 63 rows, and does not when its start is
+//   clamped to 2^18 + 2^17 px either.
+// - Start, steps and the at most 2^15 px from vertex to tile sum up to less than 2^20 px = 2^63 units.
+// An edge flatter than 2^12 px a row crosses 8 rows at the most. Its triangle is walked by integers with a
+// remainder (scanline_walk.h), and so is one whose depth gradient a double cannot hold.
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -45,16 +46,15 @@ using namespace contract;
 
 #if HWY_TARGET != HWY_SCALAR
 
-constexpr int kUnitBits = 43;                                // a unit is 2^-43 px
+constexpr int kUnitBits = 43;                               // a unit is 2^-43 px
 constexpr double kSteepest = 0x1p55, kFarthest = 0x1.8p61;  // units a row, units
-
 
 // To units, from doubles of units; within 1.
 HWY_INLINE V64 to_units(hn::Vec<F64> v) {
   const D64 d;
 #if HWY_TARGET <= HWY_AVX3
   return hn::ConvertTo(d, v);
-#else  // that is slow here; the upper and the lower 32 bits can be rounded by adding 1.5 2^52, whose unit is 1
+#else  // that is slow here, so round the upper and the lower 32 bits by adding a number whose unit is 1
   const F64 df;
   const auto rounder = hn::Set(df, 0x1.8p52);
   const auto bits = [&](hn::Vec<F64> sum) { return hn::Sub(hn::BitCast(d, sum), hn::BitCast(d, rounder)); };
@@ -63,6 +63,7 @@ HWY_INLINE V64 to_units(hn::Vec<F64> v) {
   return hn::Add(hn::ShiftLeft<32>(bits(high)), bits(hn::Add(rest, rounder)));
 #endif
 }
+
 // The line of an edge, row after row.
 struct LineLanes {
   V64 at;                 // in units, rounded so that floor() tells the pixel
@@ -149,7 +150,8 @@ HWY_INLINE Alive set_up_vector(const TileJob& job, const std::uint32_t* run, Spa
 inline Alive set_up(const TileJob& job, std::span<const std::uint32_t> run, SpanBatch& out) {
   const int count = static_cast<int>(run.size());
   std::uint32_t padded[SpanBatch::kSize];
-  for (int k = 0; k < SpanBatch::kSize; ++k) padded[k] = run[static_cast<std::size_t>(std::min(k, count - 1))];
+  for (int k = 0; k < SpanBatch::kSize; ++k)
+    padded[k] = run[static_cast<std::size_t>(std::min(k, count - 1))];
   Alive alive{0, 0};
   for (int k = 0; k < count; k += static_cast<int>(hn::MaxLanes(D64{}))) {
     const Alive some = set_up_vector(job, padded, out, k);
