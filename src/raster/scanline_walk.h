@@ -34,10 +34,9 @@ class EdgeWalk {
   void next_row() {
     pixel_ += pixel_step_;
     rest_ += rest_step_;
-    if (rest_ >= denominator_) {
-      rest_ -= denominator_;
-      ++pixel_;
-    }
+    const std::int64_t carry = rest_ >= denominator_;  // too hard to predict for a branch
+    rest_ -= denominator_ & -carry;
+    pixel_ += carry;
   }
 
  private:
@@ -82,14 +81,14 @@ inline void walk_triangle(const TileJob& job, const ScreenTriangle& triangle, st
   if (rights == 1) right[1] = right[0];
 
   const DepthPlane plane = make_depth(t);
-  for (int y = first; y <= last; ++y) {
+  std::uint32_t z = plane.at(job.x0, first);  // the tile is one depth cell
+  for (int y = first; y <= last; ++y, z += plane.zy) {
     const auto in_tile = [&](std::int64_t px) {
       return static_cast<int>(std::clamp<std::int64_t>(px - job.x0, 0, kMaxTile));
     };
     const int row = (y - job.y0) * kMaxTile;
     fill_span(depth + row, payload + row, in_tile(std::max(left[0].pixel(), left[1].pixel())),
-              in_tile(std::min(right[0].pixel(), right[1].pixel())), plane.at(job.x0, y), plane.zx,
-              triangle.payload);
+              in_tile(std::min(right[0].pixel(), right[1].pixel())), z, plane.zx, triangle.payload);
     left[0].next_row(), left[1].next_row(), right[0].next_row(), right[1].next_row();
   }
 }
