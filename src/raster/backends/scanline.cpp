@@ -1,6 +1,6 @@
 // The reference: walk the triangle's boundaries row by row and fill the spans between them. What surrounds
-// that is what `tiled` has (binning to tiles, tiles on threads), so the two differ in how they find a
-// triangle's pixels, and in nothing else. Drawing lives in scanline_kernel.cpp.
+// that is what `tiled` has (binning to tiles, tiles on threads), so the two differ in how they find and fill
+// a triangle's pixels. Drawing lives in scanline_kernel.cpp.
 #include <bit>
 
 #include "raster/backend.h"
