@@ -3,8 +3,10 @@
 
 #include <array>
 #include <filesystem>
+#include <numeric>
 #include <set>
 #include <stdexcept>
+#include <tuple>
 
 #include "lab/oracle.h"
 #include "support.h"
@@ -65,6 +67,64 @@ TEST_P(EveryBackend, DrawsTheOraclesPictureWhenTrianglesFillManyChunks) {
 TEST_P(EveryBackend, ReachesTheFarCornerOfTheLargestImage) {
   for (const auto& [width, height] : {std::pair{kMaxImageSide, 3}, {3, kMaxImageSide}})
     expect_oracle(adversarial("subpixel", 6, width, height, 2), width, height, "largest side");
+}
+
+// a^-1 mod m, for coprime a and m.
+std::int64_t inverse(std::int64_t a, std::int64_t m) {
+  std::int64_t r0 = m, r1 = a % m, t0 = 0, t1 = 1;
+  while (r1 != 0) {
+    const std::int64_t q = r0 / r1;
+    std::tie(r0, r1) = std::pair(r1, r0 - q * r1);
+    std::tie(t0, t1) = std::pair(t1, t0 - q * t1);
+  }
+  return (t0 + m) % m;
+}
+
+TEST_P(EveryBackend, TellsTheLeastDistanceBetweenTheTallestEdgesAndASample) {
+  // An edge crosses the height of sample (x, y) at x + rest / (256 dy) px: from vertex p, n sub-units above,
+  // by (p.x - sample_x) dy + n dx = rest.
+  constexpr int kWidth = 80, kHeight = 70;
+  std::vector<ScreenTriangle> triangles;
+  std::uint32_t id = 0;
+  for (const std::int32_t dy : {2 * kGuardSub - 101, kGuardSub + 1, 131'071, 8'191})
+    for (const int y : {0, 33, 69})
+      for (const std::int64_t rest : {-1, 0, 1})
+        for (const int third_x : {-kGuardSub, kGuardSub}) {
+          const std::int32_t sample_x = sample_sub(y * 7 % kWidth), top = -dy / 2;
+          std::int64_t n = sample_sub(y) - top;
+          while (std::gcd(n, std::int64_t{dy}) != 1) ++n;  // puts p higher
+          std::int64_t dx = (rest + dy) * inverse(n, dy) % dy;
+          if (dx > dy / 2) dx -= dy;
+          const std::int64_t px = sample_x + (rest - n * dx) / dy, py = sample_sub(y) - n;
+          ASSERT_EQ((px - sample_x) * dy + n * dx, rest);
+          const auto i32 = [](std::int64_t v) { return static_cast<std::int32_t>(v); };
+          triangles.push_back(
+              {{i32(px), i32(px + dx), third_x}, {i32(py), i32(py + dy), 1000}, {5000, 6000 + id, 7000}, id});
+          ++id;
+        }
+  for (const auto& t : triangles) expect_oracle(std::span(&t, 1), kWidth, kHeight, std::to_string(t.payload));
+}
+
+TEST_P(EveryBackend, DrawsEdgesThatAreAlmostHorizontal) {
+  // About as flat as 1 in 4096, where scanline turns to another way, and flatter.
+  Random random(5);
+  std::vector<ScreenTriangle> triangles;
+  for (std::uint32_t id = 0; id < 400; ++id) {
+    const auto between = [&](std::int32_t low, std::int32_t high) {
+      return low + static_cast<std::int32_t>(random.below(static_cast<std::uint64_t>(high - low + 1)));
+    };
+    const std::int32_t x = between(-2000, 2000), y = between(0, 70 * kSub), dy = between(1, 600);
+    const std::int32_t dx = std::min(between(4090, 4102) * dy, kGuardSub);
+    triangles.push_back({{x, x + dx, between(0, 100 * kSub)},
+                         {y, y + (id % 2 == 0 ? dy : -dy), y + between(-900, 900)},
+                         {kDepthHead + id * 1000, kDepthHead + 90'000, kDepthHead + 400'000 - id * 1000},
+                         id});
+    if (id % 3 == 0)
+      for (auto& x_sub : triangles.back().x_sub) x_sub = 90 * kSub - x_sub;
+  }
+  for (auto& t : triangles)
+    for (auto& x_sub : t.x_sub) x_sub = std::clamp(x_sub, -kGuardSub, kGuardSub);
+  expect_oracle(triangles, 90, 70, "almost horizontal");
 }
 
 TEST_P(EveryBackend, DrawsNothingButBackgroundWithoutTriangles) {

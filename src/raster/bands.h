@@ -1,4 +1,4 @@
-// Drawing in horizontal bands, for backends that work row by row: alone, one band is the whole image; on
+// Drawing in horizontal bands, for a backend without tiles: alone, one band is the whole image; on
 // threads, the triangles are binned to bands of kBandRows, which are drawn in parallel.
 #pragma once
 

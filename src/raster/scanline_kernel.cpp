@@ -1,0 +1,150 @@
+// The scanline kernel.
+//
+// 1. Triangles are set up a vector at a time (scanline_setup-inl.h), their spans are found a vector of rows
+// at
+//    a time (scanline_rows-inl.h) and filled a vector of pixels at a time (scanline_list-inl.h).
+// 2. Rows end at the sides of a tile. Rows as long as the image would need fewer set-ups, but a band of them
+//    does not fit the L1 cache, where a tile's 32 KB do. The tile is written out once, past the caches, and
+//    lies in one cell of the depth grid (rule 6), so a span has one plane.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "raster/scanline_kernel.cpp"
+#include <hwy/cache_control.h>
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+
+#include "raster/contract.h"
+#include "raster/kernel_table.h"
+#include "raster/scanline_kernel.h"
+#include "raster/scanline_list-inl.h"
+#include "raster/scanline_walk.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace edgewise {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+using namespace contract;
+
+namespace {
+
+// Draws triangles into a tile, in the order of its calls.
+#if HWY_TARGET == HWY_SCALAR
+
+class TilePainter {
+ public:
+  explicit TilePainter(const TileJob& job) : job_(job) {
+    std::fill_n(depth_, kMaxTile * kMaxTile, static_cast<std::int32_t>(kDepthClear));
+    std::fill_n(payload_, kMaxTile * kMaxTile, static_cast<std::int32_t>(job.background));
+  }
+  void draw(std::span<const std::uint32_t> run) {
+    for (const std::uint32_t index : run) walk_triangle(job_, job_.triangles[index], depth_, payload_);
+  }
+  const std::int32_t* depth() const { return depth_; }
+  const std::int32_t* payload() const { return payload_; }
+
+ private:
+  const TileJob& job_;
+  std::int32_t depth_[kMaxTile * kMaxTile], payload_[kMaxTile * kMaxTile];
+};
+
+#else
+
+class TilePainter {
+ public:
+  explicit TilePainter(const TileJob& job) : job_(job) {
+    std::fill_n(tile_.depth, std::size(tile_.depth), static_cast<std::int32_t>(kDepthClear));
+    std::fill_n(tile_.payload, std::size(tile_.payload), static_cast<std::int32_t>(job.background));
+    for (auto& blocks : tile_.farthest)
+      std::fill_n(blocks, std::size(blocks), static_cast<std::int32_t>(kDepthClear));
+  }
+  void draw(std::span<const std::uint32_t> run) {
+    if (run.empty()) return;
+    const Alive alive = set_up(job_, run, batch_);
+    for (std::uint32_t left = alive.all; left != 0; left &= left - 1) {
+      const int k = std::countr_zero(left);
+      if (alive.plain >> k & 1) {
+        list_.draw();
+        walk_triangle(job_, job_.triangles[run[static_cast<std::size_t>(k)]], tile_.depth, tile_.payload);
+      } else {
+        list_.add(batch_, k);
+      }
+    }
+    list_.draw();
+  }
+  const std::int32_t* depth() const { return tile_.depth; }
+  const std::int32_t* payload() const { return tile_.payload; }
+
+ private:
+  const TileJob& job_;
+  SpanTile tile_;
+  SpanList list_{tile_};
+  SpanBatch batch_;
+};
+
+#endif
+
+// Past the caches where the frame's alignment allows it.
+void write_rows(const TileJob& job, const std::int32_t* rows, std::uint32_t* plane) {
+  const hn::CappedTag<std::int32_t, 16> d;
+  constexpr int kStep = static_cast<int>(hn::MaxLanes(d));
+  const int width = std::min(kMaxTile, job.frame.width - job.x0);
+  const int height = std::min(kMaxTile, job.frame.height - job.y0);
+  const bool streams = reinterpret_cast<std::uintptr_t>(plane) % (sizeof(std::int32_t) * kStep) == 0 &&
+                       job.frame.stride % kStep == 0;
+  for (int y = 0; y < height; ++y) {
+    const std::int32_t* from = rows + y * kMaxTile;
+    auto* to = reinterpret_cast<std::int32_t*>(plane + (job.y0 + y) * job.frame.stride + job.x0);
+    int x = 0;
+    if (streams)
+      for (; x + kStep <= width; x += kStep) hn::Stream(hn::Load(d, from + x), d, to + x);
+    std::memcpy(to + x, from + x, sizeof(std::int32_t) * static_cast<std::size_t>(width - x));
+  }
+}
+
+// The caller's code is SSE, and writes to registers whose upper halves are in use merge; GCC 12 may forget
+// this instruction (tile_kernel.cpp).
+HWY_INLINE void clear_upper_halves_of_registers() {
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2  // the better the target, the lower its number
+  _mm256_zeroupper();
+#endif
+}
+
+}  // namespace
+
+void draw_tile_in_spans(const TileJob& job) {
+  TilePainter painter(job);
+  // The records lie anywhere: each run's are asked for while the run before it is drawn.
+  std::span<const std::uint32_t> asked_for;
+  job.bins->for_each_run(job.cell, [&](std::span<const std::uint32_t> run) {
+    for (const std::uint32_t index : run) {
+      const auto* record = reinterpret_cast<const char*>(job.triangles + index);
+      hwy::Prefetch(record);
+      hwy::Prefetch(record + sizeof(ScreenTriangle) - 1);
+    }
+    painter.draw(asked_for);
+    asked_for = run;
+  });
+  painter.draw(asked_for);
+  write_rows(job, painter.depth(), job.frame.depth);
+  write_rows(job, painter.payload(), job.frame.payload);
+  hwy::FlushStream();
+  clear_upper_halves_of_registers();
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace edgewise
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace edgewise {
+
+TileKernel scanline_kernel(SimdTarget target) {
+  return EDGEWISE_KERNEL(draw_tile_in_spans, target);
+}
+
+}  // namespace edgewise
+#endif
