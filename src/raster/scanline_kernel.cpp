@@ -4,7 +4,7 @@
 // at
 //    a time (scanline_rows-inl.h) and filled a vector of pixels at a time (scanline_list-inl.h).
 // 2. Rows end at the sides of a tile. Rows as long as the image would need fewer set-ups, but a band of them
-//    does not fit the L1 cache, where a tile's 32 KB do. The tile is written out once, past the caches, and
+//    does not fit the L1 cache, where a tile's 32 KB do. The tile is written out once, and
 //    lies in one cell of the depth grid (rule 6), so a span has one plane.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raster/scanline_kernel.cpp"
@@ -87,35 +87,24 @@ class TilePainter {
 
 #endif
 
-// Past the caches where the frame's alignment allows it.
-void write_rows(const TileJob& job, const std::int32_t* rows, std::uint32_t* plane) {
-  const hn::CappedTag<std::int32_t, 16> d;
-  constexpr int kStep = static_cast<int>(hn::MaxLanes(d));
-  const int width = std::min(kMaxTile, job.frame.width - job.x0);
-  const int height = std::min(kMaxTile, job.frame.height - job.y0);
-  const bool streams = reinterpret_cast<std::uintptr_t>(plane) % (sizeof(std::int32_t) * kStep) == 0 &&
-                       job.frame.stride % kStep == 0;
-  for (int y = 0; y < height; ++y) {
-    const std::int32_t* from = rows + y * kMaxTile;
-    auto* to = reinterpret_cast<std::int32_t*>(plane + (job.y0 + y) * job.frame.stride + job.x0);
+void write_rows(const Place& to, const std::int32_t* rows) {
+  for (int y = 0; y < to.height; ++y, rows += kMaxTile) {
     int x = 0;
-    if (streams)
-      for (; x + kStep <= width; x += kStep) hn::Stream(hn::Load(d, from + x), d, to + x);
-    std::memcpy(to + x, from + x, sizeof(std::int32_t) * static_cast<std::size_t>(width - x));
+    for (; x + kLanes <= to.width; x += kLanes) to.store(hn::Load(D{}, rows + x), x, y);
+    std::copy(rows + x, rows + to.width, to.at + y * to.stride + x);
   }
-}
-
-// The caller's code is SSE, and writes to registers whose upper halves are in use merge; GCC 12 may forget
-// this instruction (tile_kernel.cpp).
-HWY_INLINE void clear_upper_halves_of_registers() {
-#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2  // the better the target, the lower its number
-  _mm256_zeroupper();
-#endif
 }
 
 }  // namespace
 
 void draw_tile_in_spans(const TileJob& job) {
+  const Place depth(job, job.frame.depth), payload(job, job.frame.payload);
+  if (job.bins->empty(job.cell)) {
+    write_value(depth, static_cast<std::int32_t>(kDepthClear));
+    write_value(payload, static_cast<std::int32_t>(job.background));
+    hwy::FlushStream();
+    return clear_upper_halves();
+  }
   TilePainter painter(job);
   // The records lie anywhere: each run's are asked for while the run before it is drawn.
   std::span<const std::uint32_t> asked_for;
@@ -129,10 +118,10 @@ void draw_tile_in_spans(const TileJob& job) {
     asked_for = run;
   });
   painter.draw(asked_for);
-  write_rows(job, painter.depth(), job.frame.depth);
-  write_rows(job, painter.payload(), job.frame.payload);
+  write_rows(depth, painter.depth());
+  write_rows(payload, painter.payload());
   hwy::FlushStream();
-  clear_upper_halves_of_registers();
+  clear_upper_halves();
 }
 
 }  // namespace HWY_NAMESPACE

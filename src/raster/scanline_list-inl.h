@@ -14,6 +14,7 @@
 
 #include "raster/contract.h"
 #include "raster/scanline_rows-inl.h"
+#include "raster/tile_place-inl.h"
 
 // Included once a SIMD target.
 #if defined(EDGEWISE_SCANLINE_LIST_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -31,9 +32,6 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace contract;
 
-using D = hn::CappedTag<std::int32_t, 16>;
-using V = hn::Vec<D>;
-constexpr int kLanes = static_cast<int>(hn::MaxLanes(D{}));
 constexpr int kBlock = 16;  // px, of kRows rows
 
 struct SpanTile {

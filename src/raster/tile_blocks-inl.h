@@ -8,6 +8,7 @@
 
 #include "raster/contract.h"
 #include "raster/tile_kernel.h"
+#include "raster/tile_place-inl.h"
 #include "raster/tile_setup-inl.h"
 
 // Included once a SIMD target.
@@ -24,9 +25,6 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace contract;
 
-using D = hn::CappedTag<std::int32_t, 16>;
-using V = hn::Vec<D>;
-constexpr int kLanes = static_cast<int>(hn::MaxLanes(D{}));
 constexpr int kBlockPixels = 16;
 constexpr int kVectors = kBlockPixels / kLanes;  // in a block
 constexpr int kMaxBlocks = kMaxTile / kBlock;    // a side of a tile
@@ -110,28 +108,6 @@ HWY_INLINE void write(Tile& tile, int at, V outside, V z, V payload) {
   hn::Store(hn::IfThenElse(wins, payload, hn::Load(d, tile.payload + at)), d, tile.payload + at);
 }
 
-// Where a tile lies in a plane of the frame.
-struct Place {
-  std::int32_t* at;
-  std::ptrdiff_t stride;
-  int width, height;  // px
-  bool past_caches;   // wanted, and the frame's alignment allows it
-
-  Place(const TileJob& job, std::uint32_t* plane)
-      : at(reinterpret_cast<std::int32_t*>(plane + job.y0 * job.frame.stride + job.x0)),
-        stride(job.frame.stride),
-        width(std::min(1 << job.size_log2, job.frame.width - job.x0)),
-        height(std::min(1 << job.size_log2, job.frame.height - job.y0)),
-        past_caches(job.ideas.write_out == WriteOut::past_caches &&
-                    reinterpret_cast<std::uintptr_t>(plane) % sizeof(V) == 0 && stride % kLanes == 0) {}
-
-  HWY_INLINE void store(V v, int x, int y) const {
-    const D d;
-    std::int32_t* to = at + y * stride + x;
-    past_caches ? hn::Stream(v, d, to) : hn::StoreU(v, d, to);
-  }
-};
-
 #if HWY_TARGET != HWY_SCALAR
 constexpr int kBlocksAcross = kLanes / kBlock;  // as many as fill a vector of a pixel row
 
@@ -176,16 +152,6 @@ inline void write_out(const Place& to, const std::int32_t* blocks) {
       for (int y = 0; y < rows; ++y)
         std::memcpy(to.at + (y0 + y) * to.stride + x, from + y * kBlock,
                     sizeof(std::int32_t) * static_cast<std::size_t>(std::min(kBlock, to.width - x)));
-  }
-}
-
-// What write_out() would do for a tile that holds `value` everywhere.
-inline void write_value(const Place& to, std::int32_t value) {
-  const V v = hn::Set(D{}, value);
-  for (int y = 0; y < to.height; ++y) {
-    int x = 0;
-    for (; x + kLanes <= to.width; x += kLanes) to.store(v, x, y);
-    std::fill(to.at + y * to.stride + x, to.at + y * to.stride + to.width, value);
   }
 }
 

@@ -37,15 +37,6 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace contract;
 
-// Where a tile has no triangle, GCC 12 forgets this instruction between the clear and the return. The
-// caller's code is SSE, and writes to registers whose upper halves are in use merge: it would run at half
-// speed, until the next context switch.
-HWY_INLINE void clear_upper_halves() {
-#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2  // the better the target, the lower its number
-  _mm256_zeroupper();
-#endif
-}
-
 HWY_INLINE void ask_for(const TileJob& job, std::span<const std::uint32_t> run) {
   for (const std::uint32_t index : run) {
     const auto* record = reinterpret_cast<const char*>(job.triangles + index);

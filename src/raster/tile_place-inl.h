@@ -1,0 +1,71 @@
+// How a tile of pixels goes to the frame: through the caches or past them (tiled_ideas.h).
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <cstdint>
+
+#include "raster/tile_kernel.h"
+
+// Included once a SIMD target.
+#if defined(EDGEWISE_TILE_PLACE_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef EDGEWISE_TILE_PLACE_INL_H
+#undef EDGEWISE_TILE_PLACE_INL_H
+#else
+#define EDGEWISE_TILE_PLACE_INL_H
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace edgewise {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D = hn::CappedTag<std::int32_t, 16>;
+using V = hn::Vec<D>;
+constexpr int kLanes = static_cast<int>(hn::MaxLanes(D{}));
+
+// Where a tile lies in a plane of the frame.
+struct Place {
+  std::int32_t* at;
+  std::ptrdiff_t stride;
+  int width, height;  // px
+  bool past_caches;   // wanted, and the frame's alignment allows it
+
+  Place(const TileJob& job, std::uint32_t* plane)
+      : at(reinterpret_cast<std::int32_t*>(plane + job.y0 * job.frame.stride + job.x0)),
+        stride(job.frame.stride),
+        width(std::min(1 << job.size_log2, job.frame.width - job.x0)),
+        height(std::min(1 << job.size_log2, job.frame.height - job.y0)),
+        past_caches(job.ideas.write_out == WriteOut::past_caches &&
+                    reinterpret_cast<std::uintptr_t>(plane) % sizeof(V) == 0 && stride % kLanes == 0) {}
+
+  HWY_INLINE void store(V v, int x, int y) const {
+    const D d;
+    std::int32_t* to = at + y * stride + x;
+    past_caches ? hn::Stream(v, d, to) : hn::StoreU(v, d, to);
+  }
+};
+
+// For a tile that holds `value` everywhere.
+inline void write_value(const Place& to, std::int32_t value) {
+  const V v = hn::Set(D{}, value);
+  for (int y = 0; y < to.height; ++y) {
+    int x = 0;
+    for (; x + kLanes <= to.width; x += kLanes) to.store(v, x, y);
+    std::fill(to.at + y * to.stride + x, to.at + y * to.stride + to.width, value);
+  }
+}
+
+// Where a tile has no triangle, GCC 12 forgets this instruction between the clear and the return. The
+// caller's code is SSE, and writes to registers whose upper halves are in use merge: it would run at half
+// speed, until the next context switch.
+HWY_INLINE void clear_upper_halves() {
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2  // the better the target, the lower its number
+  _mm256_zeroupper();
+#endif
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace edgewise
+HWY_AFTER_NAMESPACE();
+
+#endif
