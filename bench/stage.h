@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "scaling.h"
 #include "suite.h"
 
 namespace edgewise::bench {
@@ -21,6 +22,9 @@ class Stage {
   // Does once what the row times.
   void work(const Row& row);
 
+  // Draws the row once, task by task, to be scheduled on its cores.
+  FrameWork record(const Row& row);
+
  private:
   Backend& backend(const Row& row);
   Framebuffer& frame(const Row& row);
@@ -31,6 +35,7 @@ class Stage {
   // put its page faults into a row's time.
   std::map<std::pair<int, int>, Framebuffer> frames_;
   Frontend frontend_;
+  FrameRecorder recorder_;
 };
 
 }  // namespace edgewise::bench

@@ -21,8 +21,10 @@ struct Row {
   Timed timed = Timed::raster;
   const BackendInfo* backend = nullptr;  // null for front end rows
   Execution execution;
-  double once_s = 0.0;  // what it took when it was compared
-  std::string error;    // why it must not be timed
+  int cores = 0;          // if set, not timed but scheduled on so many; execution.threads is the same
+  double peak_bytes = 0;  // of a first frame; 0 where it was not measured
+  double once_s = 0.0;    // what it took when it was compared
+  std::string error;      // why it must not be timed
 };
 
 struct SuiteOptions {
