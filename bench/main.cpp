@@ -31,7 +31,6 @@ struct Effort {
   double slow_row_s;          // beyond this, all repetitions together, they become fewer
 };
 constexpr Effort kFull{5, 3, 0.012, 0.35}, kQuick{3, 2, 0.015, 0.3};
-constexpr double kScheduledShare = 10;  // a scheduled row is one of many for its scene, and gets so much less
 
 constexpr int kPeakThreads = 2;  // memory is measured once a scene and backend
 
@@ -124,7 +123,7 @@ std::optional<std::vector<Row>> select(std::vector<Row> suite) {
 
 // Whether a frame takes long, and longer than another backend's: its future on more cores decides nothing.
 bool is_beaten(const Row& row, const std::vector<Row>& rows) {
-  constexpr double kLong_s = 0.1;
+  constexpr double kLong_s = 0.03;
   double own_s = 0.0, best_s = std::numeric_limits<double>::infinity();
   for (const Row& other : rows) {
     if (other.workload != row.workload || other.timed != Timed::frame || other.cores > 0 ||
@@ -166,13 +165,10 @@ void leave_out_slow_frames(std::vector<Row>& rows) {
   });
 }
 
-void schedule_row(benchmark::State& state, const Row& row, Stage& stage) {
+void schedule_row(benchmark::State& state, const Row& row) {
   static const double barrier_s = measured_barrier_s();
-  FrameWork frame;
-  for (auto _ : state) {
-    frame = stage.record(row);
-    state.SetIterationTime(frame.time_s(row.cores, barrier_s));
-  }
+  const FrameWork& frame = row.recorded;
+  for (auto _ : state) state.SetIterationTime(frame.time_s(row.cores, barrier_s));
   const PathPart longest = frame.longest_part();
   state.SetLabel(longest.name);
   state.counters["longest_ms"] = longest.time_s * 1e3;
@@ -184,8 +180,7 @@ void schedule_row(benchmark::State& state, const Row& row, Stage& stage) {
 void time_row(benchmark::State& state, const Row& row, Stage& stage) {
   if (!row.error.empty()) return state.SkipWithError(row.error.c_str());
   if (row.cores > 0) {
-    if (row.once_s < kFull.repetition_s) stage.record(row);  // as below
-    schedule_row(state, row, stage);
+    schedule_row(state, row);
   } else if (row.once_s > kTooSlowToRepeat_s) {
     for (auto _ : state) state.SetIterationTime(row.once_s);
   } else {
@@ -219,20 +214,20 @@ void register_rows(const std::vector<Row>& rows, Stage& stage, const Flags& flag
           time_row(state, row, stage);
         });
     registered->Unit(benchmark::kMillisecond);
-    const bool slow = row.once_s > kTooSlowToRepeat_s;
-    if (slow || row.cores > 0)
+    // Such a row's time stands before it would be taken.
+    const bool known = row.once_s > kTooSlowToRepeat_s || row.cores > 0;
+    if (known)
       registered->UseManualTime();
     else
       registered->UseRealTime();
     const double once_s = std::max(row.once_s, 1e-6);
     const int at_least = row.timed == Timed::raster ? effort.at_least : 1;
-    const double slow_row_s = row.cores > 0 ? effort.slow_row_s / kScheduledShare : effort.slow_row_s;
-    if (flags.own_iterations || slow || row.cores > 0)
-      registered->Iterations(
-          slow || row.cores > 0 ? 1 : std::max<std::int64_t>(1, std::llround(effort.repetition_s / once_s)));
-    if (flags.own_repetitions || slow)
+    if (flags.own_iterations || known)
+      registered->Iterations(known ? 1
+                                   : std::max<std::int64_t>(1, std::llround(effort.repetition_s / once_s)));
+    if (flags.own_repetitions || known)
       registered->Repetitions(
-          slow ? 1 : std::clamp(static_cast<int>(slow_row_s / once_s), at_least, effort.repetitions));
+          known ? 1 : std::clamp(static_cast<int>(effort.slow_row_s / once_s), at_least, effort.repetitions));
   }
 }
 

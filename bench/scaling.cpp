@@ -1,6 +1,9 @@
 #include "scaling.h"
 
+#include <time.h>
+
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <numeric>
 #include <string_view>
@@ -31,6 +34,12 @@ double handed_out_s(const std::vector<double>& tasks_s, int cores) {
   return longest(free_at_s);
 }
 
+double own_s() {
+  timespec time;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
 }  // namespace
 
 double FrameWork::work_s() const {
@@ -57,6 +66,23 @@ PathPart FrameWork::longest_part() const {
   return {found->first, found->second};
 }
 
+void FrameWork::take_least(const FrameWork& other) {
+  const auto same_cut = [](const Section& a, const Section& b) {
+    return a.name == b.name && a.tasks_s.size() == b.tasks_s.size();
+  };
+  if (!std::equal(sections.begin(), sections.end(), other.sections.begin(), other.sections.end(), same_cut)) {
+    *this = other;
+    return;
+  }
+  const auto lessen = [](double& mine, double its) { mine = std::min(mine, its); };
+  for (std::size_t i = 0; i < sections.size(); ++i) {
+    lessen(sections[i].before_s, other.sections[i].before_s);
+    for (std::size_t task = 0; task < sections[i].tasks_s.size(); ++task)
+      lessen(sections[i].tasks_s[task], other.sections[i].tasks_s[task]);
+  }
+  lessen(after_s, other.after_s);
+}
+
 double FrameWork::time_s(int cores, double barrier_s) const {
   double total_s = after_s;
   for (const Section& section : sections) {
@@ -72,25 +98,29 @@ std::string section_name(std::string_view function, std::string_view file) {
   return std::string(name) + " in " + std::string(file.substr(file.find_last_of('/') + 1));
 }
 
-void FrameRecorder::start() {
-  frame_ = {};
-  last_ = std::chrono::steady_clock::now();
-}
-
 FrameWork FrameRecorder::finish() {
   frame_.after_s = lap_s();
   return std::move(frame_);
 }
 
+// The thread's own clock is a system call, so it is read between laps.
+void FrameRecorder::start_lap() {
+  own_s_at_lap_ = own_s();
+  lap_began_ = std::chrono::steady_clock::now();
+}
+
 double FrameRecorder::lap_s() {
   const auto now = std::chrono::steady_clock::now();
-  return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
+  const double lap_s =
+      std::min(std::chrono::duration<double>(now - lap_began_).count(), own_s() - own_s_at_lap_);
+  start_lap();
+  return lap_s;
 }
 
 void FrameRecorder::section_begins(const std::source_location& where) {
   const double before_s = lap_s();
   frame_.sections.push_back({section_name(where.function_name(), where.file_name()), before_s, {}});
-  last_ = std::chrono::steady_clock::now();
+  start_lap();
 }
 
 void FrameRecorder::task_ends() {
@@ -98,16 +128,23 @@ void FrameRecorder::task_ends() {
 }
 
 void FrameRecorder::section_ends() {
-  lap_s();
+  start_lap();
 }
 
 double measured_barrier_s() {
-  constexpr int kTimes = 301;
+  constexpr double kTask_s = 20e-6;
+  constexpr int kTimes = 101;
+  const auto now_s = [] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  };
   std::vector<double> times_s;
   for (int i = 0; i < kTimes; ++i) {
-    const auto begin = std::chrono::steady_clock::now();
-    parallel_for(2, 2, [](int) {});
-    times_s.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+    const double begin_s = now_s();
+    parallel_for(2, 2, [&](int) {
+      for (const double task_began_s = now_s(); now_s() < task_began_s + kTask_s;) {
+      }
+    });
+    times_s.push_back(now_s() - begin_s - kTask_s);
   }
   std::nth_element(times_s.begin(), times_s.begin() + kTimes / 2, times_s.end());
   return times_s[kTimes / 2];

@@ -36,6 +36,10 @@ struct FrameWork {
   double path_s() const;  // the critical path: what is left with a core for each task
   PathPart longest_part() const;
 
+  // Each piece as short as in the shorter of two recordings of one frame: what interrupts a core falls on
+  // another piece each time. Recordings of other sections or tasks are taken as they are.
+  void take_least(const FrameWork& other);
+
   // On so many cores, if starting and ending a section costs barrier_s where there is more than one.
   double time_s(int cores, double barrier_s) const;
 };
@@ -43,10 +47,10 @@ struct FrameWork {
 // "void a::b::draw(int) [with T = int]" in "/x/raster/bins.cpp" becomes "draw in bins.cpp".
 std::string section_name(std::string_view function, std::string_view file);
 
-// Records the frame that is drawn between start() and finish().
+// Records the frame that is drawn from its making to finish().
 class FrameRecorder final : public ParallelObserver {
  public:
-  void start();
+  FrameRecorder() { start_lap(); }
   FrameWork finish();
 
   void section_begins(const std::source_location& where) override;
@@ -54,13 +58,16 @@ class FrameRecorder final : public ParallelObserver {
   void section_ends() override;
 
  private:
-  double lap_s();  // since the last lap
+  double lap_s();  // since the last lap ended: the time, or this thread's own if others took some of it
+  void start_lap();
 
   FrameWork frame_;
-  std::chrono::steady_clock::time_point last_;
+  std::chrono::steady_clock::time_point lap_began_;
+  double own_s_at_lap_ = 0.0;
 };
 
-// What an empty section costs on two threads of this machine; the median of many.
+// What a section of two short tasks takes longer, on two threads of this machine, than one of them: starting
+// and waiting. The median of many; a task's length if the second core is taken.
 double measured_barrier_s();
 
 }  // namespace edgewise::bench

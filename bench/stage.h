@@ -5,7 +5,6 @@
 #include <memory>
 #include <utility>
 
-#include "scaling.h"
 #include "suite.h"
 
 namespace edgewise::bench {
@@ -16,26 +15,23 @@ inline constexpr double kTooSlowToRepeat_s = 1.5;
 class Stage {
  public:
   // Draws the row once, compares every bit with the reference, and sets the row's once_s, and its error if
-  // they differ. Needs the workload prepared.
+  // they differ; records its tasks, if it is to be scheduled. Needs the workload prepared.
   void compare(Row& row);
 
   // Does once what the row times.
   void work(const Row& row);
 
-  // Draws the row once, task by task, to be scheduled on its cores.
-  FrameWork record(const Row& row);
-
  private:
   Backend& backend(const Row& row);
   Framebuffer& frame(const Row& row);
   double timed_work_s(const Row& row);
+  double recorded_work_s(Row& row);
 
   std::map<const BackendInfo*, std::unique_ptr<Backend>> backends_;
   // One for each size, to the end: interleaved repetitions come back to all of them, and a fresh frame would
   // put its page faults into a row's time.
   std::map<std::pair<int, int>, Framebuffer> frames_;
   Frontend frontend_;
-  FrameRecorder recorder_;
 };
 
 }  // namespace edgewise::bench

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "scaling.h"
 #include "workload.h"
 
 namespace edgewise::bench {
@@ -22,6 +23,7 @@ struct Row {
   const BackendInfo* backend = nullptr;  // null for front end rows
   Execution execution;
   int cores = 0;          // if set, not timed but scheduled on so many; execution.threads is the same
+  FrameWork recorded;     // what is scheduled then
   double peak_bytes = 0;  // of a first frame; 0 where it was not measured
   double once_s = 0.0;    // what it took when it was compared
   std::string error;      // why it must not be timed

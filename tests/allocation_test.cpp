@@ -1,0 +1,102 @@
+// Memory is kept from frame to frame: after the first, nothing is allocated.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+#include <vector>
+
+#include "frontend/frontend.h"
+#include "scene/builtin.h"
+#include "support.h"
+
+namespace {
+std::atomic<std::size_t> allocations{0};
+
+void* counted(std::size_t bytes, std::size_t alignment) {
+  allocations.fetch_add(1, std::memory_order_relaxed);
+  const std::size_t whole = (std::max<std::size_t>(bytes, 1) + alignment - 1) / alignment * alignment;
+  if (void* memory = std::aligned_alloc(alignment, whole)) return memory;
+  throw std::bad_alloc();
+}
+}  // namespace
+
+// The forms that the others are made of.
+void* operator new(std::size_t bytes) {
+  return counted(bytes, alignof(std::max_align_t));
+}
+void* operator new(std::size_t bytes, std::align_val_t alignment) {
+  return counted(bytes, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::align_val_t) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+  std::free(memory);
+}
+
+namespace edgewise {
+namespace {
+
+template <typename Work>
+std::size_t allocations_in(Work&& work) {
+  const std::size_t before = allocations;
+  work();
+  return allocations - before;
+}
+
+class Allocations : public ::testing::TestWithParam<std::string_view> {};
+
+TEST_P(Allocations, OfABackendEndWithTheFirstFrame) {
+  constexpr int kWidth = 320, kHeight = 200;
+  const auto backend = find_backend(GetParam()).make();
+  Framebuffer frame(kWidth, kHeight);
+  for (const int threads : {1, 2, 8})
+    for (const auto family : {"tiny", "subpixel"}) {
+      const auto triangles = testing::adversarial(family, 9'000, kWidth, kHeight, 7);
+      const auto draw = [&] {
+        backend->draw(triangles, frame.view(), testing::kBackground, {.threads = threads});
+      };
+      draw();
+      EXPECT_EQ(allocations_in([&] {
+                  for (int i = 0; i < 20; ++i) draw();
+                }),
+                0u)
+          << family << ", " << threads << " threads";
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, Allocations, ::testing::ValuesIn(testing::backend_names()),
+                         [](const auto& param) { return testing::test_name(param); });
+
+TEST(FrontendAllocations, EndWithTheFirstFrame) {
+  for (const auto name : {"torus-knot", "cubes", "grid4"}) {
+    const Drawable scene = find_scene(name).make({640, 360, 0.0f, 0.1});
+    for (const int threads : {1, 2, 8}) {
+      Frontend frontend;
+      FrontendOptions options;
+      options.width = 640, options.height = 360, options.threads = threads;
+      frontend.run(scene, options);
+      EXPECT_EQ(allocations_in([&] {
+                  for (int i = 0; i < 10; ++i) frontend.run(scene, options);
+                }),
+                0u)
+          << name << ", " << threads << " threads";
+    }
+  }
+}
+
+TEST(AllocationCount, SeesAllocations) {
+  EXPECT_GE(allocations_in([] { std::vector<int>(1000).swap(*std::make_unique<std::vector<int>>()); }), 1u);
+}
+
+}  // namespace
+}  // namespace edgewise
