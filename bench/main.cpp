@@ -3,7 +3,6 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -12,11 +11,12 @@
 
 #include "app/console.h"
 #include "app/machine.h"
-#include "app/options.h"
 #include "app/process.h"
 #include "app/progress.h"
+#include "flags.h"
 #include "image/atomic_file.h"
 #include "memory.h"
+#include "ratios.h"
 #include "reporter.h"
 #include "stage.h"
 
@@ -32,56 +32,10 @@ struct Effort {
 };
 constexpr Effort kFull{5, 3, 0.012, 0.35}, kQuick{3, 2, 0.015, 0.3};
 
-constexpr int kPeakThreads = 2;  // memory is measured once a scene and backend
-
-struct Flags {
-  SuiteOptions suite;
-  std::string out;                     // --benchmark_out
-  std::vector<std::string> benchmark;  // what is left for Google Benchmark
-  bool own_repetitions = true, own_iterations = true;
-};
-
-// None if only help was asked for.
-std::optional<Flags> parse_flags(int argc, char** argv) {
-  Flags flags;
-  std::optional<app::Size> size;
-  CLI::App parser{"Times the front end and every backend, after comparing their pictures.", "edgewise_bench"};
-  parser.allow_extras();
-  parser
-      .add_option("--scene", flags.suite.scenes,
-                  "Only this scene, a name or an .obj or .tri file (repeatable)")
-      ->allow_extra_args(false)
-      ->type_name("NAME|FILE");
-  parser.add_flag("--fit", flags.suite.fit, "Centre a --scene's mesh and scale its longest side to 2");
-  parser.add_flag("--quick", flags.suite.quick, "Fewer rows and repetitions, streams of a tenth");
-  app::add_size(parser, size, "Image size (1920x1080; a .tri file has its own)");
-  std::string format;
-  parser.add_option("--benchmark_out", flags.out, "Write the results there, complete or not at all")
-      ->type_name("FILE");
-  parser.add_option("--benchmark_out_format", format, "json only")->check(CLI::IsMember({"json"}));
-  parser.footer(
-      "Google Benchmark's other flags work too, among them --benchmark_filter=REGEX, "
-      "--benchmark_list_tests,\n"
-      "--benchmark_repetitions=N, --benchmark_min_time=SECONDS and --benchmark_format=console|json|csv.\n"
-      "Exit status: 0 done, 1 a row drew other pixels, 2 bad input.");
-  try {
-    parser.parse(argc, argv);
-  } catch (const CLI::CallForHelp&) {
-    std::cout << parser.help();
-    return std::nullopt;
-  }
-
-  if (size) {
-    flags.suite.width = size->width;
-    flags.suite.height = size->height;
-    flags.suite.size_asked = true;
-  }
-  flags.benchmark = parser.remaining();
-  for (const auto& flag : flags.benchmark) {
-    if (flag.starts_with("--benchmark_repetitions")) flags.own_repetitions = false;
-    if (flag.starts_with("--benchmark_min_time")) flags.own_iterations = false;
-  }
-  return flags;
+// Memory is measured once a scene and backend.
+bool needs_peak(const Row& row) {
+  return row.timed == Timed::frame && row.backend != nullptr && row.cores == 0 &&
+         row.execution.threads == 2 && row.once_s < kTooSlowToRepeat_s;
 }
 
 // Hands Google Benchmark its flags behind our defaults, so that the user's win.
@@ -126,13 +80,28 @@ bool is_beaten(const Row& row, const std::vector<Row>& rows) {
   constexpr double kLong_s = 0.03;
   double own_s = 0.0, best_s = std::numeric_limits<double>::infinity();
   for (const Row& other : rows) {
-    if (other.workload != row.workload || other.timed != Timed::frame || other.cores > 0 ||
-        other.execution.threads != 1)
+    if (other.workload != row.workload || other.timed != Timed::frame || other.peer != nullptr ||
+        other.cores > 0 || other.execution.threads != 1)
       continue;
     best_s = std::min(best_s, other.once_s);
     if (other.backend == row.backend) own_s = other.once_s;
   }
   return own_s > std::max(kLong_s, best_s);
+}
+
+// A peer may have been built and still not start here, where its driver is missing.
+void leave_out_missing_peers(std::vector<Row>& rows, bool need_peers) {
+  for (const PeerInfo& peer : peers()) {
+    const auto is_its = [&](const Row& row) { return row.peer == &peer; };
+    if (std::none_of(rows.begin(), rows.end(), is_its)) continue;
+    try {
+      benchmark::AddCustomContext(std::string(peer.name), peer.version());
+    } catch (const std::runtime_error& error) {
+      if (need_peers) throw;
+      std::cerr << "Left out: " << error.what() << '\n';
+      std::erase_if(rows, is_its);
+    }
+  }
 }
 
 // Workload by workload, so that only one reference picture is held at a time.
@@ -149,9 +118,7 @@ void compare_all(std::vector<Row>& rows, Stage& stage) {
       rows[i].once_s = std::numeric_limits<double>::infinity();
     else
       stage.compare(rows[i]);
-    if (rows[i].timed == Timed::frame && rows[i].execution.threads == kPeakThreads && rows[i].cores == 0 &&
-        rows[i].once_s < kTooSlowToRepeat_s)
-      rows[i].peak_bytes = peak_bytes(rows[i]).value_or(0.0);
+    if (needs_peak(rows[i])) rows[i].peak_bytes = peak_bytes(rows[i]).value_or(0.0);
     if (i + 1 == rows.size() || rows[i + 1].workload != rows[i].workload) workload.drop_reference();
   }
 }
@@ -199,6 +166,9 @@ void time_row(benchmark::State& state, const Row& row, Stage& stage) {
   const auto covered_px = static_cast<double>(workload.covered_px());
   counters["covered_px"] = covered_px;
   counters["overdraw"] = covered_px / (static_cast<double>(workload.width()) * workload.height());
+  if (row.peer == nullptr) return;
+  counters["near_ties"] = static_cast<double>(row.near_ties);
+  state.SetLabel(row.peer->version());
 }
 
 void register_rows(const std::vector<Row>& rows, Stage& stage, const Flags& flags, app::Progress& progress) {
@@ -231,6 +201,13 @@ void register_rows(const std::vector<Row>& rows, Stage& stage, const Flags& flag
   }
 }
 
+template <typename Info>
+std::string names_of(std::span<const Info> infos) {
+  std::vector<std::string_view> names;
+  for (const Info& info : infos) names.push_back(info.name);
+  return fmt::format("{}", fmt::join(names, " "));
+}
+
 void add_context(const Flags& flags) {
   const auto machine = app::machine_description();
   benchmark::AddCustomContext("machine", app::machine_name());
@@ -241,9 +218,8 @@ void add_context(const Flags& flags) {
   benchmark::AddCustomContext("suite", flags.suite.quick            ? "quick"
                                        : flags.suite.scenes.empty() ? "full"
                                                                     : "scenes");
-  std::string names;
-  for (const auto& backend : backends()) names += (names.empty() ? "" : " ") + std::string(backend.name);
-  benchmark::AddCustomContext("backends", names);
+  benchmark::AddCustomContext("backends", names_of(backends()));
+  benchmark::AddCustomContext("peers", names_of(peers()));
 }
 
 int run(int argc, char** argv) {
@@ -258,6 +234,8 @@ int run(int argc, char** argv) {
   if (selected->empty()) return 0;
   std::vector<Row>& rows = *selected;
 
+  leave_out_missing_peers(rows, flags.need_peers);
+  if (rows.empty()) return 2;
   Stage stage;
   compare_all(rows, stage);
   if (flags.suite.scenes.empty()) leave_out_slow_frames(rows);
@@ -274,6 +252,7 @@ int run(int argc, char** argv) {
     out->stream() << reporter.json();
     out->commit();
   }
+  if (flags.readable) std::cout << ratio_table(rows, reporter.median_ms());
   return std::any_of(rows.begin(), rows.end(), [](const Row& row) { return !row.error.empty(); }) ? 1 : 0;
 }
 

@@ -68,6 +68,20 @@ void Reporter::Finalize() {
   json_.Finalize();
 }
 
+std::map<std::string, double> Reporter::median_ms() const {
+  std::map<std::string, double> medians;
+  for (const auto& [name, runs] : runs_) {
+    std::vector<double> times_ms;
+    for (const Run& run : runs)
+      if (run.run_type == Run::RT_Iteration && !run.error_occurred)
+        times_ms.push_back(run.GetAdjustedRealTime() * 1e3 / benchmark::GetTimeUnitMultiplier(run.time_unit));
+    if (times_ms.empty()) continue;
+    std::sort(times_ms.begin(), times_ms.end());
+    medians[name] = (times_ms[(times_ms.size() - 1) / 2] + times_ms[times_ms.size() / 2]) / 2.0;
+  }
+  return medians;
+}
+
 std::string Reporter::json() const {
   auto result = nlohmann::ordered_json::parse(json_text_.str());
   auto& context = result["context"];

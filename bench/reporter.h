@@ -20,6 +20,8 @@ class Reporter final : public benchmark::BenchmarkReporter {
   void ReportRuns(const std::vector<Run>& runs) override;
   void Finalize() override;
 
+  // After Finalize(): of the rows that were timed, by name.
+  std::map<std::string, double> median_ms() const;
   // After Finalize(): the JSON, one line a row.
   std::string json() const;
 

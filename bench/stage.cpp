@@ -22,6 +22,7 @@ Framebuffer& Stage::frame(const Row& row) {
 }
 
 void Stage::work(const Row& row) {
+  if (row.peer != nullptr) return peers_.work(row);
   const Workload& workload = *row.workload;
   auto triangles = workload.triangles();
   if (row.timed != Timed::raster)
@@ -47,7 +48,7 @@ double Stage::recorded_work_s(Row& row) {
   return found.work_s();
 }
 
-void Stage::compare(Row& row) {
+void Stage::compare_ours(Row& row) {
   // It still holds the picture of the row before, which is the right one.
   if (row.timed != Timed::frontend) lab::poison(frame(row));
   row.once_s = row.cores > 0 ? recorded_work_s(row) : timed_work_s(row);
@@ -65,6 +66,15 @@ void Stage::compare(Row& row) {
       row.error =
           fmt::format("{} pixels differ from {} on 1 thread, the first at ({}, {})", difference.pixels,
                       backends().front().name, difference.first_x, difference.first_y);
+  }
+}
+
+void Stage::compare(Row& row) {
+  if (row.peer != nullptr) {
+    peers_.compare(row);
+    row.once_s = timed_work_s(row);
+  } else {
+    compare_ours(row);
   }
   if (row.cores > 0) {
     row.recorded = {};  // the first draw's page faults are not the frame's

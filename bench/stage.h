@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "peer_stage.h"
 #include "suite.h"
 
 namespace edgewise::bench {
@@ -22,6 +23,7 @@ class Stage {
   void work(const Row& row);
 
  private:
+  void compare_ours(Row& row);
   Backend& backend(const Row& row);
   Framebuffer& frame(const Row& row);
   double timed_work_s(const Row& row);
@@ -32,6 +34,7 @@ class Stage {
   // put its page faults into a row's time.
   std::map<std::pair<int, int>, Framebuffer> frames_;
   Frontend frontend_;
+  PeerStage peers_;
 };
 
 }  // namespace edgewise::bench

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "app/printable.h"
+#include "crowd.h"
 #include "growth.h"
 
 namespace edgewise::bench {
@@ -59,7 +60,8 @@ class Suite {
  public:
   explicit Suite(const SuiteOptions& options) : options_(options) {}
 
-  void add_scene(const WorkloadPtr& workload, const std::string& name) {
+  // A peer's vertices are its own, so it draws a mesh as a whole frame, and a stream as a backend does.
+  void add_scene(const WorkloadPtr& workload, const std::string& name, bool stream) {
     for (const int threads : kThreads) add_frontend(workload, name, threads);
     for (const auto& backend : backends())
       for (const int threads : kThreads) {
@@ -67,6 +69,10 @@ class Suite {
         add(workload, Timed::frame, backend, name, threads);
       }
     if (options_.scenes.empty()) add_scheduled(workload, name);
+    if (!options_.peers) return;
+    for (const auto& peer : peers())
+      for (const int threads : kThreads)
+        add_peer(workload, stream ? Timed::raster : Timed::frame, peer, name, threads);
   }
 
   void add_area_sweep() {
@@ -152,6 +158,18 @@ class Suite {
       }
   }
 
+  void add_peer(const WorkloadPtr& workload, Timed timed, const PeerInfo& peer, const std::string& scene,
+                int threads) {
+    const char* with = timed == Timed::frame ? "+frontend" : "";
+    Row row;
+    row.name = fmt::format("{}{}/{}/threads:{}", peer.name, with, scene, threads);
+    row.workload = workload;
+    row.timed = timed;
+    row.peer = &peer;
+    row.execution.threads = threads;
+    rows_.push_back(std::move(row));
+  }
+
   void add_frontend(const WorkloadPtr& workload, const std::string& scene, int threads) {
     Row row;
     row.name = fmt::format("frontend/{}/threads:{}", scene, threads);
@@ -169,20 +187,8 @@ class Suite {
 
 std::vector<Row> make_suite(const SuiteOptions& options) {
   Suite suite(options);
-  if (options.scenes.empty()) {
-    for (const auto& scene : builtin_scenes())
-      suite.add_scene(
-          suite.scene_workload(std::string(scene.name), options.width, options.height, Cull::back),
-          std::string(scene.name));
-    suite.add_area_sweep();
-    suite.add_growth();
-    suite.add_tiny();
-    suite.add_cull_sweep();
-    suite.add_target_sweep();
-    return suite.take();
-  }
   std::map<std::string, std::string> taken;  // name in rows, source
-  for (const auto& scene : options.scenes) {
+  const auto add_named = [&](const std::string& scene) {
     // Loaded at once: a bad file must be known before anything is timed.
     const app::Source source =
         app::load_source(scene, request(options, options.width, options.height), options.fit);
@@ -195,8 +201,27 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
     suite.add_scene(std::make_shared<Workload>(own_size ? stream->width : options.width,
                                                own_size ? stream->height : options.height, Cull::back,
                                                [source] { return source; }),
-                    name);
+                    name, source.stream);
+  };
+  for (const auto& scene : options.scenes) add_named(scene);
+  if (!options.scenes.empty()) return suite.take();
+
+  for (const auto& scene : builtin_scenes()) {
+    const std::string name(scene.name);
+    taken.emplace(name, name);
+    suite.add_scene(suite.scene_workload(name, options.width, options.height, Cull::back), name,
+                    scene.stream);
   }
+  taken.emplace(kCrowdName, kCrowdName);
+  suite.add_scene(
+      suite.make_workload([r = request(options, options.width, options.height)] { return crowd(r); }),
+      kCrowdName, false);
+  for (const auto& scene : options.more_scenes) add_named(scene);
+  suite.add_area_sweep();
+  suite.add_growth();
+  suite.add_tiny();
+  suite.add_cull_sweep();
+  suite.add_target_sweep();
   return suite.take();
 }
 

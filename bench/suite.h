@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "peer.h"
 #include "scaling.h"
 #include "workload.h"
 
@@ -17,24 +18,29 @@ enum class Timed {
 };
 
 struct Row {
-  std::string name;  // WHO/what/key:value…/threads:N, WHO being BACKEND, frontend or BACKEND+frontend
+  // WHO/what/key:value…/threads:N, WHO being BACKEND, frontend or BACKEND+frontend, and a peer a BACKEND
+  std::string name;
   std::shared_ptr<Workload> workload;
   Timed timed = Timed::raster;
-  const BackendInfo* backend = nullptr;  // null for front end rows
+  const BackendInfo* backend = nullptr;  // null for front end rows and peers
+  const PeerInfo* peer = nullptr;
   Execution execution;
-  int cores = 0;          // if set, not timed but scheduled on so many; execution.threads is the same
-  FrameWork recorded;     // what is scheduled then
-  double peak_bytes = 0;  // of a first frame; 0 where it was not measured
-  double once_s = 0.0;    // what it took when it was compared
-  std::string error;      // why it must not be timed
+  int cores = 0;                // if set, not timed but scheduled on so many; execution.threads is the same
+  FrameWork recorded;           // what is scheduled then
+  double peak_bytes = 0;        // of a first frame; 0 where it was not measured
+  double once_s = 0.0;          // what it took when it was compared
+  std::uint64_t near_ties = 0;  // peers: pixels where another triangle is as near up to rounding
+  std::string error;            // why it must not be timed
 };
 
 struct SuiteOptions {
   bool quick = false;
-  int width = 1920, height = 1080;  // px
-  bool size_asked = false;          // else a .tri file is drawn at the size it was made for
-  std::vector<std::string> scenes;  // names or files; empty: the whole suite
-  bool fit = false;                 // for meshes in `scenes`
+  int width = 1920, height = 1080;       // px
+  bool size_asked = false;               // else a .tri file is drawn at the size it was made for
+  std::vector<std::string> scenes;       // names or files; empty: the whole suite
+  std::vector<std::string> more_scenes;  // beside the whole suite
+  bool fit = false;                      // for meshes in `scenes` and `more_scenes`
+  bool peers = true;                     // those that were built
 };
 
 // Throws what load_source throws for a name or file that cannot be used, and std::invalid_argument for two

@@ -100,8 +100,7 @@ def cube_sentence(accuracy):
     gaps, doubles = worst(found)
     return (f"In {accuracy.cube['frames']:,} frames of the turning cube, given the snapped positions, "
             f"{listed(clean) or 'no method'} left no gap and hit no pixel twice. Against the positions before snapping "
-            f"`{name}` is the worst, with up to {gaps:,.0f} gaps and up to {doubles:,.0f} double hits in a frame; there a "
-            "pixel that snapping takes from the outline counts as a gap too.")
+            f"`{name}` is the worst, with up to {gaps:,.0f} gaps and up to {doubles:,.0f} double hits in a frame.")
 
 
 def accuracy_sentences(accuracy):

@@ -74,6 +74,7 @@ class Measured:
     bound: float | None  # where none was seen: below this, per 10⁶, with 95 % confidence
     snapped_rate: float | None  # the same against the snapped truth; coverage and facing only
     costs: dict  # by threads; empty where the scene is not timed
+    gaps: int | None = None  # pixels; coverage only
 
 
 @dataclass(frozen=True)
@@ -148,7 +149,8 @@ def parse_measured(entry, family, method):
     costs = {int(speed["threads"]): parse_cost(speed, cost) for speed in entry.get("speed") or () if cost in speed}
     bound = scores[0].get("bound_per_million")
     return Measured(method, float(scores[0]["errors_per_million"]), None if bound is None else float(bound),
-                    float(scores[1]["errors_per_million"]) if len(scores) > 1 else None, costs)
+                    float(scores[1]["errors_per_million"]) if len(scores) > 1 else None, costs,
+                    int(scores[0]["gaps"]) if family == "coverage" else None)
 
 
 def parse_cube(data, methods):

@@ -1,6 +1,7 @@
 """Reads what a run left in results/MACHINE: bench.json (Google Benchmark's format), machine.json, verify.json.
 
-A row's name is WHO/what/key:value…/threads:N, WHO being a backend, "frontend" or BACKEND+frontend.
+A row's name is WHO/what/key:value…/threads:N, WHO being a backend, "frontend" or BACKEND+frontend; peers, the
+rasterizers of other projects, stand in a backend's place.
 """
 import json
 import statistics
@@ -67,6 +68,10 @@ class Bench:
     def backends(self):
         named = self.context.get("backends", "").split()
         return named or list(dict.fromkeys(r.backend for r in self.rows.values() if r.backend))
+
+    @property
+    def peers(self):
+        return self.context.get("peers", "").split()
 
     def find(self, name):
         """The row if it was timed, else None."""

@@ -16,23 +16,25 @@ step() {
   printf '[%d, %d s] %s\n' "$step_number" "$SECONDS" "$*"
 }
 
+# Of the lists in scripts/ that are named; packages.txt is what everything needs.
 missing_packages() {
   local package status
   while read -r package; do
     status=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)
     [[ $status == installed ]] || echo "$package"
-  done <"$root/scripts/packages.txt"
+  done < <(cd "$root/scripts" && cat "$@")
 }
 
-# set_up install|list: brings in what is missing, or only says how to.
+# set_up install|list [LIST…]: brings in what is missing, of packages.txt and further lists, or only says how to.
 set_up() {
+  local -a lists=(packages.txt "${@:2}")
   if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
     echo "No apt-get here. These Debian packages, or their like, must be installed:"
-    echo "  $(paste -sd' ' "$root/scripts/packages.txt")"
+    echo "  $(cd "$root/scripts" && cat "${lists[@]}" | paste -sd' ')"
     return
   fi
   local -a missing as_root=()
-  mapfile -t missing < <(missing_packages)
+  mapfile -t missing < <(missing_packages "${lists[@]}")
   [[ ${#missing[@]} -gt 0 ]] || return 0
   [[ $EUID -eq 0 ]] || as_root=(sudo)
   if [[ $1 == list ]]; then

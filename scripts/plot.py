@@ -25,6 +25,7 @@ def main():
 
     import plot_accuracy
     import plot_growth
+    import plot_peers
     import plot_scaling
     import plot_scenes
     import plot_stability
@@ -32,6 +33,7 @@ def main():
     drawn = [name for chart in (*plot_sweeps.CHARTS, *plot_scenes.CHARTS) if (name := chart(bench, folder, caption))]
     drawn += [name for name in (plot_growth.growth(bench, machine, folder, caption),
                                 plot_scaling.scaling(bench, folder, caption)) if name]
+    drawn += plot_peers.against(bench, folder, caption)
     drawn += [*plot_accuracy.draw(accuracy, folder, caption), *plot_stability.draw(sweeps, accuracy, folder, caption)]
     if not drawn:
         raise BadInput(f"{options.results}: no row that a chart shows")

@@ -168,7 +168,7 @@ def turning_cube(accuracy, folder, caption):
     headline(figure, "The turning cube", f"{accuracy.cube['frames']:,} frames of the tutorials' cube, against exact "
              "arithmetic on the positions before any snapping. Filled: the median frame; hollow: the worst.")
     figure.subplots_adjust(left=0.15, right=0.985, bottom=0.9 / height, top=1 - 0.95 / height, wspace=0.06)
-    note = "Snapping moves the outline as well: a pixel that it loses there counts as a gap."
+    note = "A gap is a crack between neighbours: a pixel that is lost where a method moved the outline does not count."
     save(figure, folder, "turning-cube", f"{note}\n{caption}")
     return "turning-cube"
 
@@ -177,28 +177,46 @@ def cell_text(rate):
     return "0" if rate == 0 else "<1" if rate < 1 else short(float(f"{rate:.2g}"))
 
 
+CRACKS = {"t_junction": "its gaps, in pixels", "t_junction_split": "its gaps once split"}
+
+
+def chart_rows(scenes):
+    """(label, what stands there, how dark) of each row, the last two by method. A T-junction's rate says how many
+    pixels change hands; that splitting its edge closes the crack, only its gaps say."""
+    rows = []
+    for scene in scenes:
+        rates = {m.method.name: m.rate for m in scene.measured}
+        rows.append((scene.name, {name: cell_text(rate) for name, rate in rates.items()}, rates))
+        if scene.name in CRACKS and all(m.gaps is not None for m in scene.measured):
+            gaps = {m.method.name: m.gaps for m in scene.measured}
+            rows.append((CRACKS[scene.name], {name: short(count) for name, count in gaps.items()},
+                         {m.method.name: 1e6 * m.gaps / scene.trials for m in scene.measured}))
+    return rows
+
+
 def all_scenes(accuracy, family, folder, caption):
     """Every method on every scene: the rate as a number, and as a shade."""
-    scenes, methods = accuracy.of(family.name), accuracy.methods[family.name]
+    scenes, methods = chart_rows(accuracy.of(family.name)), accuracy.methods[family.name]
     if not scenes or not methods:
         return None
-    rates = {(scene.name, m.method.name): m.rate for scene in scenes for m in scene.measured}
     above = 1.5 if len(methods) > 8 else 1.05
     figure, axes = plt.subplots(figsize=(10.4, above + 0.45 + 0.27 * len(scenes)))
     shades = plt.get_cmap("YlOrBr")
-    for line, scene in enumerate(scenes):
+    for line, (_, texts, rates) in enumerate(scenes):
         for place, method in enumerate(methods):
-            rate = rates.get((scene.name, method.name))
+            rate = rates.get(method.name)
             if rate is None:
                 continue
             shade = min(1.0, math.log10(1 + rate) / 6) if rate else 0.0
             axes.add_patch(plt.Rectangle((place - 0.48, line - 0.46), 0.96, 0.92, linewidth=0,
                                          facecolor=shades(0.08 + 0.8 * shade) if rate else BAND))
-            axes.text(place, line, cell_text(rate), ha="center", va="center", fontsize=7.5 if len(methods) > 12 else 8.5,
+            axes.text(place, line, texts[method.name], ha="center", va="center", fontsize=7.5 if len(methods) > 12 else 8.5,
                       color="white" if shade > 0.75 else INK)
     axes.set_xlim(-0.5, len(methods) - 0.5)
     axes.set_ylim(len(scenes) - 0.5, -0.5)
-    axes.set_yticks(range(len(scenes)), [scene.name for scene in scenes], fontsize=9)
+    axes.set_yticks(range(len(scenes)), [label for label, _, _ in scenes], fontsize=9)
+    for tick, (label, _, _) in zip(axes.get_yticklabels(), scenes):
+        tick.set_fontstyle("italic" if label in CRACKS.values() else "normal")
     axes.xaxis.tick_top()
     axes.set_xticks(range(len(methods)), [method.name for method in methods], fontsize=9)
     many = len(methods) > 8
@@ -209,10 +227,11 @@ def all_scenes(accuracy, family, folder, caption):
     axes.grid(visible=False)
     for spine in axes.spines.values():
         spine.set_visible(False)
-    note = family.beyond_note(rates.values())
+    note = family.beyond_note(rate for _, _, rates in scenes for rate in rates.values())
     height = figure.get_figheight()
     headline(figure, f"{family.name.capitalize()}: where each method errs",
-             f"{family.errors[0].upper()}{family.errors[1:]}, scene by scene. Bold: ours.")
+             f"{family.errors[0].upper()}{family.errors[1:]}, scene by scene. Bold: ours."
+             + (" Italics: the crack's pixels." if any(label in CRACKS.values() for label, _, _ in scenes) else ""))
     figure.subplots_adjust(left=0.16, right=0.945, bottom=0.45 / height, top=1 - above / height)
     save(figure, folder, f"errors-{family.name}", f"{note[2:]}.\n{caption}" if note else caption)
     return f"errors-{family.name}"

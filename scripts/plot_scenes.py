@@ -2,6 +2,11 @@
 from plot_style import FAINT, INK, Look, headline, log_axis, plt, save
 
 
+def room_for(names):
+    """Left margin, in figure fractions, for the names of lines."""
+    return 0.1 + 0.0085 * max(0, max(map(len, names)) - 10)
+
+
 def scene_time(bench, folder, caption):
     """One line a scene, one place a backend: hollow 1 thread, filled 2."""
     look = Look(bench.backends)
@@ -35,7 +40,7 @@ def scene_time(bench, folder, caption):
     top = headline(figure, "Time per scene", "Screen triangles to finished picture; lower is better. "
                    "Hollow: 1 thread, filled: 2. Light bar: fastest to slowest repetition.")
     look.legend(figure, top - 0.02 / height)
-    figure.subplots_adjust(left=0.1, right=0.975, bottom=0.78 / height, top=top - 0.42 / height)
+    figure.subplots_adjust(left=room_for(scenes), right=0.975, bottom=0.78 / height, top=top - 0.42 / height)
     save(figure, folder, "scenes", caption)
     return "scenes"
 
@@ -75,7 +80,7 @@ def gain_chart(bench, folder, caption, name, groups, value_of, title, subtitle, 
     height = figure.get_figheight()
     top = headline(figure, title, subtitle)
     look.legend(figure, top - 0.02 / height)
-    figure.subplots_adjust(left=0.1, right=0.975, bottom=0.78 / height, top=top - 0.42 / height)
+    figure.subplots_adjust(left=room_for(groups), right=0.975, bottom=0.78 / height, top=top - 0.42 / height)
     save(figure, folder, name, caption)
     return name
 

@@ -9,8 +9,8 @@
 #include "app/accuracy.h"
 #include "app/accuracy_report.h"
 #include "app/accuracy_scenes.h"
-#include "image/image.h"
 #include "lab/coverage_cases.h"
+#include "raster/contract.h"
 #include "run_program.h"
 #include "scene/builtin.h"
 #include "temp_dir.h"
@@ -75,7 +75,8 @@ TEST(Accuracy, WritesTheAgreedKeys) {
       for (const char* truth : {"snapped", "float"}) {
         expect_keys(first.at(truth),
                     {"missing", "extra", "gaps", "double_hits", "out_of_bounds", "out_of_box", "worst_px",
-                     "errors", "errors_per_million", "bound_per_million"});
+                     "errors", "errors_per_million", "bound_per_million", "wrong_owners"});
+        expect_keys(first.at("depth"), {"max_ulp", "rms_ulp"});
         const json& wrong = named(scene.at("methods"), "float_le").at("float");
         EXPECT_GT(wrong.at("errors_per_million"), 0);
         EXPECT_FALSE(wrong.contains("bound_per_million"));
@@ -128,14 +129,21 @@ TEST(Accuracy, ExactMethodsScoreZeroAgainstTheSnappedTruth) {
       const json& method = named(scene.at("methods"), name);
       EXPECT_EQ(method.at("snapped").at("errors"), 0) << scene.at("name") << ' ' << name;
       EXPECT_EQ(method.at("snapped").at("out_of_bounds"), 0) << scene.at("name") << ' ' << name;
+      if (lab::find_coverage_method(name).contract_depth) {
+        EXPECT_EQ(method.at("snapped").at("unexplained_owners"), 0) << scene.at("name") << ' ' << name;
+        EXPECT_EQ(method.at("snapped").at("wrong_owners"), 0) << scene.at("name") << ' ' << name;
+        EXPECT_LT(method.at("depth").at("max_ulp"), contract::kDepthError) << scene.at("name") << ' ' << name;
+      }
       if (scene.at("name") == "t_junction") cracks.insert(method.at("float").at("gaps").get<int>());
     }
   EXPECT_EQ(cracks.size(), 1u);
   EXPECT_GT(*cracks.begin(), 0);
   for (const std::string& name : exact) {
-    const json& counts = named(report.at("turning_cube").at("methods"), name).at("snapped");
-    EXPECT_EQ(counts.at("missing").at("total"), 0) << name;
-    EXPECT_EQ(counts.at("extra").at("total"), 0) << name;
+    const json& counts = named(report.at("turning_cube").at("methods"), name);
+    EXPECT_EQ(counts.at("snapped").at("missing").at("total"), 0) << name;
+    EXPECT_EQ(counts.at("snapped").at("extra").at("total"), 0) << name;
+    EXPECT_GT(counts.at("missing").at("total"), 0) << name << ": snapping moves the outline";
+    EXPECT_EQ(counts.at("gaps").at("total"), 0) << name << ": and opens no crack";
   }
 }
 
@@ -213,43 +221,6 @@ TEST(Accuracy, TablesFitEightyColumns) {
     EXPECT_LE(end, 80u) << text.substr(0, end);
     text.erase(0, end + 1);
   }
-}
-
-// The colours that README and --help name.
-constexpr std::uint32_t kVermilion = rgb(213, 94, 0), kBlue = rgb(0, 114, 178);
-
-TEST(Accuracy, PicturesShowEachErrorInItsColour) {
-  const TempDir folder;
-  const std::string pictures = (folder.path() / "errors").string();
-  ASSERT_EQ(accuracy("drtk_quad --no-speed --pictures " + pictures).status, 0);
-  const auto pixels_of_colour = [&](const char* method, std::uint32_t colour) {
-    const Image image = read_image(pictures + "/coverage-drtk_quad-" + method + ".png");
-    return std::count_if(image.pixels.begin(), image.pixels.end(),
-                         [&](std::uint32_t pixel) { return (pixel & 0xFFFFFF) == (colour & 0xFFFFFF); });
-  };
-  const auto twice = pixels_of_colour("float_le", kBlue), gaps = pixels_of_colour("float_lt", kVermilion);
-  EXPECT_GT(twice, 6 * 32 * 32);  // six of 64 x 64, less edges and samples
-  EXPECT_EQ(twice, gaps);
-  EXPECT_EQ(pixels_of_colour("float_le", kVermilion), 0);
-  EXPECT_EQ(pixels_of_colour("float_lt", kBlue), 0);
-  EXPECT_FALSE(std::filesystem::exists(pictures + "/coverage-drtk_quad-float_top_left.png"));
-}
-
-TEST(Accuracy, PicturesCanBeMadeForEveryFamily) {
-  AccuracyPlan plan;
-  plan.scenes = {"t_junction", "interpenetrating", "box_beside_the_axis", "floor_behind_eye"};
-  plan.pictures = true;
-  std::set<std::string> families;
-  for (const Closeup& closeup : measure_accuracy(plan).closeups) {
-    families.insert(closeup.name.substr(0, closeup.name.find('-')));
-    EXPECT_TRUE(std::any_of(closeup.marks.begin(), closeup.marks.end(), [](Mark mark) {
-      return mark != Mark::none;
-    })) << closeup.name;
-    const Image image = draw(closeup);
-    EXPECT_LE(std::max(image.width, image.height), 1000) << closeup.name;
-    EXPECT_GE(std::max(image.width, image.height), 200) << closeup.name;
-  }
-  EXPECT_EQ(families.size(), lab::kFamilies.size());
 }
 
 TEST(Accuracy, MeshesLoseTheirBackFacesByTheExactSign) {

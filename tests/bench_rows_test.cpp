@@ -68,7 +68,7 @@ TEST(BenchSuite, NamesRowsSoThatTheirPartsCanBeTold) {
     EXPECT_TRUE(names.insert(row.name).second) << row.name;
     EXPECT_NE(row.name.find("/threads_1\?\?/threads:"), std::string::npos) << row.name;
   }
-  EXPECT_EQ(names.size(), 2 + 4 * backends().size());
+  EXPECT_EQ(names.size(), 2 + 4 * backends().size() + 2 * peers().size());
 }
 
 TEST(BenchSuite, NamesAllRowsDifferently) {

@@ -61,6 +61,18 @@ TEST(CoverageCases, LegsOf182PixelsWrap32Bits) {
   EXPECT_EQ(against_grid("fixed_8_int32", legs).missing, legs.by_grid.covered);
 }
 
+// Of pictures so large, a few rows at the top, where the legs are widest.
+TEST(CoverageCases, LegsOf2897PixelsWrap32BitsWithFourSubpixelBits) {
+  const auto legs = [](float px) {
+    return std::vector<FloatTriangle>{{{{0, px, 0}, {0, 0, px}, {0.5f, 0.5f, 0.5f}}, 1}};
+  };
+  const Window rows{2900, 8};
+  const Picture holds(legs(2896), rows), wraps(legs(2897), rows);
+  EXPECT_EQ(against_grid("fixed_4_int32", holds).errors(), 0u);
+  EXPECT_EQ(against_grid("fixed_4_int32", wraps).missing, wraps.by_grid.covered);
+  EXPECT_EQ(against_grid("fixed_4", wraps).errors(), 0u);
+}
+
 TEST(CoverageCases, ATJunctionCracksAlikeInAllExactBackends) {
   const Picture &cracked = picture_of("t_junction"), &split = picture_of("t_junction_split");
   for (const auto& backend : backends()) {

@@ -84,8 +84,8 @@ TEST_P(EveryCoverageMethod, DiffersFromTheTruthSomewhereUnlessItIsExact) {
     const Picture& picture = picture_of(c.name);
     std::vector<lab::Run> runs;
     method_.runs(picture.input, picture.window, runs);
-    off_grid_truth += score_coverage(picture.by_grid, runs, picture.floats).errors();
-    off_float_truth += score_coverage(picture.by_floats, runs, picture.floats).errors();
+    off_grid_truth += score_coverage(picture.by_grid, runs, picture.floats, 0.0).errors();
+    off_float_truth += score_coverage(picture.by_floats, runs, picture.floats, 0.0).errors();
   }
   EXPECT_EQ(off_grid_truth == 0, method_.info.exact);
   EXPECT_GT(off_float_truth, 0u);
@@ -95,11 +95,12 @@ TEST_P(EveryCoverageMethod, IsWrongBySnappingAloneIfItIsExact) {
   if (!method_.info.exact) return;
   const auto expect_exact = [&](const Picture& picture, std::string_view what) {
     CoverageScore perfect{.triangles = picture.floats.size(), .covered = picture.by_grid.covered};
+    const double reach = method_.promise.reach_px;
     std::vector<lab::Run> runs;
     method_.runs(picture.input, picture.window, runs);
-    EXPECT_EQ(score_coverage(picture.by_grid, runs, picture.floats), perfect) << what;
-    EXPECT_EQ(score_coverage(picture.by_floats, runs, picture.floats),
-              score_coverage(picture.by_floats, picture.by_grid.runs, picture.floats))
+    EXPECT_EQ(score_coverage(picture.by_grid, runs, picture.floats, reach), perfect) << what;
+    EXPECT_EQ(score_coverage(picture.by_floats, runs, picture.floats, reach),
+              score_coverage(picture.by_floats, picture.by_grid.runs, picture.floats, reach))
         << what;
   };
   for (const auto& c : coverage_cases()) expect_exact(picture_of(c.name), c.name);

@@ -17,8 +17,8 @@ class Score : public ::testing::Test {
   const Picture picture_{{{{{11.0f, 17.1f, 11.0f}, {21.0f, 21.0f, 27.1f}, {0, 0, 0}}, 1},
                           {{{11.0f, 11.0f, 12.1f}, {23.0f, 24.0f, 23.0f}, {0, 0, 0}}, 2}},
                          {5, 5, 10, 20}};
-  CoverageScore score(std::vector<lab::Run> runs) {
-    return score_coverage(picture_.by_floats, std::move(runs), picture_.floats);
+  CoverageScore score(std::vector<lab::Run> runs, double reach_px = 0.1) {
+    return score_coverage(picture_.by_floats, std::move(runs), picture_.floats, reach_px);
   }
 };
 
@@ -35,6 +35,8 @@ TEST_F(Score, CountsEachErrorByItself) {
   runs[0].x1 = 13;
   EXPECT_EQ(score(runs).missing, 3u);
   EXPECT_EQ(score(runs).gaps, 2u);
+  EXPECT_EQ(score(runs, 0.6).gaps, 0u) << "half a pixel from the outline, which may move by more";
+  EXPECT_EQ(score(runs, 0.6).missing, 3u);
   runs.push_back({1, 21, 13, 15});
   EXPECT_EQ(score(runs).gaps, 0u) << "the wrong triangle, but drawn";
   EXPECT_EQ(score(runs).extra, 2u);
@@ -51,6 +53,32 @@ TEST_F(Score, CountsEachErrorByItself) {
   EXPECT_EQ(score(runs).out_of_bounds, 7u);
   EXPECT_EQ(score(runs).extra, 5u);
   EXPECT_NEAR(score(runs).worst_px, 14.5 - 12.1, 1e-5);
+}
+
+// A square whose corners, and whose diagonal, lie on samples: what "<" rejects on the diagonal is a crack,
+// what it rejects on the outline is not.
+TEST(Gaps, LieBetweenNeighboursAndNotOnTheOutline) {
+  const Picture square{{{{{1.5f, 5.5f, 5.5f}, {1.5f, 1.5f, 5.5f}, {0, 0, 0}}, 1},
+                        {{{1.5f, 5.5f, 1.5f}, {1.5f, 5.5f, 5.5f}, {0, 0, 0}}, 2}},
+                       {8, 8}};
+  ASSERT_EQ(square.by_floats.covered, 16u);
+  const CoverageScore rejects_all = testing::against_floats("float_lt", square);
+  EXPECT_EQ(rejects_all.gaps, 3u);
+  EXPECT_EQ(rejects_all.missing, 3u + 7u) << "the diagonal, the top edge and the left one";
+  EXPECT_EQ(testing::against_floats("float_top_left", square).errors(), 0u);
+}
+
+// The right edge is less than half a unit right of a column of samples; snapping puts it on them.
+TEST(Gaps, AreNotWhatAWatertightMethodLosesOnTheOutline) {
+  const float right = 4.5f + 1.0f / 1024;
+  const Picture square{
+      {{{{1, right, right}, {1, 1, 5}, {0, 0, 0}}, 1}, {{{1, right, 1}, {1, 5, 5}, {0, 0, 0}}, 2}}, {8, 8}};
+  for (const CoverageMethod& method : coverage_methods()) {
+    if (!method.info.exact) continue;
+    const CoverageScore score = score_coverage(square.by_floats, method, square.input);
+    EXPECT_EQ(score.missing, 4u) << method.info.name;
+    EXPECT_EQ(score.gaps, 0u) << method.info.name;
+  }
 }
 
 TEST(Crossings, AreSampleRowsOrColumnsWhicheverIsMore) {

@@ -43,7 +43,7 @@ def accuracy(spread=0.1):
     """Two methods a family, the second inexact, on a scene that is timed and on one that is not. `spread`: of 2, what
     the slowest repetition takes longer than the median."""
     def judged(wrong, crossings):
-        score = {"errors_per_million": 1e6 * wrong / crossings}
+        score = {"errors_per_million": 1e6 * wrong / crossings, "gaps": wrong}
         return score if wrong else {**score, "bound_per_million": 3e6 / crossings}
 
     def measured(family, method, wrong, cost_ns):
@@ -78,6 +78,19 @@ def stability():
     return {"machine": MACHINE, "quick": False, "sweeps": [
         {"name": "nearer", "family": "visibility", "by_snapping": [[1, 0], [0.1, 0]], "idea": "ever nearer", "x": {"name": "gap", "unit": "px", "log": True},
          "y": {"name": "wrong", "log": True}, "curves": curves}]}
+
+
+def bench_with_peer():
+    """`ext` takes 8 times as long as the fastest of ours from screen triangles, 4 times from meshes."""
+    data = bench()
+    data["context"].update(peers="ext", ext="Ext 1.2")
+    for threads in (1, 2):
+        for backend, ms in (("slow", 12.0), ("fast", 3.0)):
+            data["benchmarks"] += entries(f"{backend}+frontend/knot/threads:{threads}", [ms / threads] * 3)
+            data["benchmarks"] += entries(f"{backend}/knot/threads:{threads}", [ms / 2 / threads] * 3)
+        data["benchmarks"] += entries(f"ext/cube/threads:{threads}", [16.8 / threads] * 3, near_ties=7.0)
+        data["benchmarks"] += entries(f"ext+frontend/knot/threads:{threads}", [12.0 / threads] * 3, near_ties=0.0)
+    return data
 
 
 def run(script, *arguments):
@@ -151,6 +164,57 @@ class ScriptsTest(unittest.TestCase):
         self.assertEqual(run("readme", "--check", "--file", readme).returncode, 0)
         readme.write_text(text.replace("10.1", "10.0"))
         self.assertEqual(run("readme", "--check", "--file", readme).returncode, 1)
+
+    def test_peers_get_ratios_where_they_were_timed(self):
+        readme = self.folder / "README.md"
+        blocks = "".join(f"<!-- generated:{name} -->\n<!-- /generated -->\n" for name in ("table", "peers", "peer_charts"))
+        readme.write_text("<!-- results: results -->\n" + blocks)
+        self.assertEqual(run("readme", "--file", readme).returncode, 0)
+        self.assertIn("scripts/run --peers", readme.read_text())
+        self.assertNotIn("ext", readme.read_text())
+        (self.results / "bench.json").write_text(json.dumps(bench_with_peer()))
+        self.assertEqual(run("readme", "--file", readme).returncode, 0)
+        text = readme.read_text()
+        self.assertIn("| cube | 12 | 0.50 | 10.1 | 5.05 | 2.10 | 1.05 | fast, 4.81× | 8.00× |", text)
+        self.assertIn("ext (Ext 1.2):", text)
+        self.assertIn("| cube | 12 | 16.8 | 8.40 | 2.10 | 1.05 | 8.00× | 8.00× | 7 | fast | screen triangles |", text)
+        self.assertIn("| knot | – | 12.0 | 6.00 | 3.00 | 1.50 | 4.00× | 4.00× | 0 | fast | mesh |", text)
+        self.assertIn("charts/against-ext.svg", text)
+        self.assertRegex(run("summary", self.results).stdout, r"cube .* 8\.00×\n")
+
+    def test_compare_tells_the_ratios_against_peers(self):
+        before = self.write("before", bench_with_peer())
+        data = bench_with_peer()
+        for row in data["benchmarks"]:
+            if row["name"] == "fast/cube/threads:1":
+                row["real_time"] /= 2
+        result = run("compare", before, self.write("after", data))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertRegex(result.stdout, r"ext/cube, 1 thread +8\.00× \(fast\) → +16\.0× \(fast\)\n")
+        self.assertIn("– →", run("compare", self.results, before).stdout)
+        self.assertNotIn("How many times", run("compare", self.results, self.results).stdout)
+
+    def test_peers_get_a_chart(self):
+        if importlib.util.find_spec("matplotlib") is None:
+            self.skipTest("no matplotlib")
+        (self.results / "bench.json").write_text(json.dumps(bench_with_peer()))
+        self.assertEqual(run("plot", self.results).returncode, 0)
+        self.assertTrue((self.results / "charts" / "against-ext.svg").exists())
+
+    def test_missing_packages_of_a_further_list_are_named(self):
+        tools = self.folder / "tools"
+        tools.mkdir()
+        for tool, body in (("apt-get", "exit 9"), ("dpkg-query", '[[ ${*: -1} != libegl-dev ]] && echo -n installed; exit 0')):
+            (tools / tool).write_text(f"#!/bin/bash\n{body}\n")
+            (tools / tool).chmod(0o755)
+        def missing(*lists):
+            return subprocess.run(["bash", "-c", f". {SCRIPTS}/lib.sh; set_up list {' '.join(lists)}"], text=True, check=False,
+                                  capture_output=True, env={**os.environ, "PATH": f"{tools}:{os.environ['PATH']}"})
+
+        self.assertEqual(missing().returncode, 0)
+        result = missing("packages-peers.txt")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("Missing packages: libegl-dev\n", result.stderr)
 
     def test_laboratory_fills_the_readme_and_the_summary(self):
         self.add_laboratory()

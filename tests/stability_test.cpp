@@ -175,6 +175,9 @@ TEST(CoverageSweeps, LegsOf182PixelsAreTheFirstThatWrap32Bits) {
   const SweepResult legs = swept("legs");
   EXPECT_EQ(Found(legs, "fixed_8_int32").start(), 182);
   EXPECT_EQ(Found(legs, "fixed_8_int32").at(181).errors, 0u);
+  EXPECT_EQ(Found(legs, "fixed_4_int32").start(), 2897);
+  EXPECT_EQ(Found(legs, "fixed_4_int32").at(2896).errors, 0u);
+  EXPECT_EQ(Found(legs, "fixed_4").start(), std::nullopt);
   EXPECT_EQ(Found(legs, "fixed_8").start(), std::nullopt);
   EXPECT_EQ(Found(legs, "double_top_left").start(), std::nullopt);
   EXPECT_EQ(Found(legs, "float_le").start(), 64) << "ties on the diagonal";

@@ -30,12 +30,13 @@ void check_method_names(const AccuracyPlan& plan) {
       throw std::invalid_argument(unknown_name("method", name, known));
 }
 
-// The exact backends' score against the snapped truth, and promises that hold on every scene.
+// The exact methods' score against the snapped truth, and promises that hold on every scene.
 bool broken(const MethodResult& method) {
   struct Visit {
     bool exact;
     bool operator()(const CoverageScores& s) const {
-      return exact && (s.snapped.errors() != 0 || s.snapped.out_of_bounds != 0);
+      return s.owners.unexplained != 0 ||
+             (exact && (s.snapped.errors() != 0 || s.snapped.out_of_bounds != 0));
     }
     bool operator()(const lab::VisibilityScores& s) const { return s.broken != 0; }
     bool operator()(const lab::FacingScores& s) const { return s.broken != 0; }

@@ -11,6 +11,7 @@
 
 #include "app/accuracy_closeup.h"
 #include "lab/clipping.h"
+#include "lab/coverage_owners.h"
 #include "lab/coverage_score.h"
 #include "lab/facing.h"
 #include "lab/family.h"
@@ -34,6 +35,7 @@ struct AccuracyPlan {
 
 struct CoverageScores {
   lab::CoverageScore snapped, floats;  // against each truth
+  lab::OwnerScore owners;
 };
 using Score = std::variant<CoverageScores, lab::VisibilityScores, lab::FacingScores, lab::ClippingScore>;
 

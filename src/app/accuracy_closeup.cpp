@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <system_error>
+#include <tuple>
 
 namespace edgewise::app {
 
@@ -180,6 +181,15 @@ Closeup closeup(const std::string& name, const MarkedPicture& picture) {
   std::copy_if(picture.lines.begin(), picture.lines.end(), std::back_inserter(result.lines),
                [&](const Line& line) { return near(line, part); });
   return result;
+}
+
+void add_unless_known(Closeup closeup, std::vector<Closeup>& closeups, std::size_t first) {
+  const auto shows = [](const Closeup& c) {
+    return std::tie(c.part.x0, c.part.y0, c.part.width, c.part.height, c.owner, c.marks, c.lines);
+  };
+  const auto known = closeups.begin() + static_cast<std::ptrdiff_t>(first);
+  if (std::none_of(known, closeups.end(), [&](const Closeup& c) { return shows(c) == shows(closeup); }))
+    closeups.push_back(std::move(closeup));
 }
 
 Image draw(const Closeup& closeup) {

@@ -17,14 +17,16 @@ namespace edgewise::app {
 // vision (Okabe and Ito, "Color universal design", 2008).
 enum class Mark : std::uint8_t {
   none,
-  gap,      // vermilion: nothing is drawn where something must be
+  gap,      // vermilion: nothing is drawn between neighbours; of owners: where something must be
   twice,    // blue: drawn twice where once is right; of owners: the wrong one shows
-  missing,  // yellow: a triangle lacks a pixel that another one covers; of depths: the wrong one
+  missing,  // yellow: a triangle lacks a pixel on the outline, or one that another covers; of depths: the
+            // wrong one
   extra,    // purple: drawn where nothing must be, or beside the triangle
 };
 
 struct Line {
   double x0, y0, x1, y1;  // px
+  bool operator==(const Line&) const = default;
 };
 
 struct Closeup {
@@ -43,7 +45,7 @@ struct MarkedPicture {
   std::vector<Line> lines;
 };
 MarkedPicture mark_coverage(const lab::CoverageTruth& truth, std::vector<lab::Run> runs,
-                            std::span<const lab::FloatTriangle> triangles);
+                            std::span<const lab::FloatTriangle> triangles, double reach_px);
 MarkedPicture mark_owners(std::span<const std::uint32_t> truth, std::span<const std::uint32_t> said,
                           lab::Window window);
 // Faces that look at the eye, over those that were kept or dropped by mistake.
@@ -52,6 +54,9 @@ MarkedPicture mark_faces(const lab::FacingScene& scene, std::span<const lab::Fac
 
 // The part where the most is wrong.
 Closeup closeup(const std::string& name, const MarkedPicture& picture);
+
+// Appends a close-up unless one from `first` on shows the same: methods that draw alike need one picture.
+void add_unless_known(Closeup closeup, std::vector<Closeup>& closeups, std::size_t first);
 
 Image draw(const Closeup& closeup);
 // Throws std::runtime_error where no folder could be made or written to; makes none yet.

@@ -70,13 +70,13 @@ constexpr const char* kFooter = R"(Examples:
   edgewise accuracy turning-cube drtk_quad --method float_le --method float_lt
 
 Families: coverage, visibility, facing, clipping. The first three are judged twice: on the snapped positions,
-where the exact methods must score 0, and on the positions before snapping. Errors are counted per 10^6 crossings of
-an edge with a row or column of samples, per 10^6 pixels or per 10^6 faces; where none was seen, the rate is
-below the bound in brackets with 95 % confidence.
+where the exact methods must score 0, and on the positions before snapping; so are the owners of pixels. Errors
+are counted per 10^6 crossings of an edge with a row or column of samples, per 10^6 pixels or per 10^6 faces;
+where none was seen, the rate is below the bound in brackets with 95 % confidence.
 
-Pictures, FAMILY-SCENE-METHOD.png: vermilion: nothing was drawn where something must be (a gap); blue: drawn
-twice, or by the wrong triangle; yellow: a triangle lacks a pixel that another one covers; purple: drawn where
-nothing must be.)";
+Pictures, FAMILY-SCENE-METHOD.png: vermilion: nothing was drawn where something must be (of coverage: a gap, a
+crack between neighbours); blue: drawn twice, or by the wrong triangle; yellow: a triangle lacks a pixel that
+another one covers, or one on the outline; purple: drawn where nothing must be.)";
 
 }  // namespace
 

@@ -56,23 +56,25 @@ void judge(const CoverageScene& scene, const Bench& bench, SceneResult& result) 
   std::vector<Closeup> closeups(methods.size());
   std::mutex mutex;
   std::size_t done = 0;
+  const lab::OwnerJudge owners(input, scene.size, bench.plan.threads);
   parallel_for(bench.plan.threads, static_cast<int>(methods.size()), [&](int n) {
     const auto i = static_cast<std::size_t>(n);
     const lab::CoverageMethod& method = *methods[i];
     std::vector<lab::Run> runs;
     method.runs(input, scene.window(), runs);
-    CoverageScores scores{lab::score_coverage(snapped, runs, scene.floats),
-                          lab::score_coverage(floats, runs, scene.floats)};
+    CoverageScores scores{lab::score_coverage(snapped, runs, scene.floats, method.promise.reach_px),
+                          lab::score_coverage(floats, runs, scene.floats, method.promise.reach_px),
+                          owners.score(method)};
     result.methods[i] = {std::string(method.info.name), method.info.exact, scores, {}};
-    const bool same_as_another = method.info.exact && i > 0 && methods[i - 1]->info.exact;
-    if (bench.plan.pictures && bench.scene.smallest && scores.floats.errors() != 0 && !same_as_another)
+    if (bench.plan.pictures && bench.scene.smallest && scores.floats.errors() != 0)
       closeups[i] = closeup(closeup_name(Family::coverage, bench.scene.name, method.info.name),
-                            mark_coverage(floats, std::move(runs), scene.floats));
+                            mark_coverage(floats, std::move(runs), scene.floats, method.promise.reach_px));
     const std::lock_guard lock(mutex);
     bench.progress(static_cast<double>(++done) / static_cast<double>(methods.size() + 1));
   });
+  const std::size_t first = bench.closeups.size();
   for (Closeup& c : closeups)
-    if (!c.name.empty()) bench.closeups.push_back(std::move(c));
+    if (!c.name.empty()) add_unless_known(std::move(c), bench.closeups, first);
   if (bench.scene.timed) time_methods(scene, bench, result);
 }
 

@@ -52,7 +52,7 @@ Closeup worst_frame(const lab::CoverageMethod& method, const Scores& scores) {
   std::vector<lab::Run> runs;
   method.runs(scene.input(), scene.window(), runs);
   return closeup(closeup_name(Family::coverage, kTurningCube, method.info.name),
-                 mark_coverage(truth, std::move(runs), scene.floats));
+                 mark_coverage(truth, std::move(runs), scene.floats, method.promise.reach_px));
 }
 
 }  // namespace
@@ -69,17 +69,20 @@ CubeResult judge_turning_cube(const AccuracyPlan& plan, const ChosenMethods& met
       const auto snapped = lab::snapped_coverage(scene.input(), scene.window(), 1),
                  floats = lab::float_coverage(scene.input(), scene.window(), 1);
       for (std::size_t i = 0; i < methods.coverage.size(); ++i) {
+        const lab::CoverageMethod& method = *methods.coverage[i];
         std::vector<lab::Run> runs;
-        methods.coverage[i]->runs(scene.input(), scene.window(), runs);
+        method.runs(scene.input(), scene.window(), runs);
         scores[i][static_cast<std::size_t>(frame)] = {
-            lab::score_coverage(snapped, runs, scene.floats),
-            lab::score_coverage(floats, std::move(runs), scene.floats)};
+            lab::score_coverage(snapped, runs, scene.floats, method.promise.reach_px),
+            lab::score_coverage(floats, std::move(runs), scene.floats, method.promise.reach_px),
+            {}};
       }
     }
     const std::lock_guard lock(mutex);
     progress(static_cast<double>(done += kShare) / frames);
   });
 
+  const std::size_t first_closeup = closeups.size();
   CubeResult result{frames, kTurningCubeSize.width, kTurningCubeSize.height, {}};
   for (std::size_t i = 0; i < methods.coverage.size(); ++i) {
     const lab::CoverageMethod& method = *methods.coverage[i];
@@ -87,9 +90,8 @@ CubeResult judge_turning_cube(const AccuracyPlan& plan, const ChosenMethods& met
                               summary(scores[i], &CoverageScores::snapped),
                               summary(scores[i], &CoverageScores::floats)});
     const CubeCounts& counts = result.methods.back().floats;
-    const bool same_as_another = method.info.exact && i > 0 && methods.coverage[i - 1]->info.exact;
-    if (plan.pictures && !same_as_another && counts.gaps.total + counts.double_hits.total != 0)
-      closeups.push_back(worst_frame(method, scores[i]));
+    if (plan.pictures && counts.gaps.total + counts.double_hits.total != 0)
+      add_unless_known(worst_frame(method, scores[i]), closeups, first_closeup);
   }
   return result;
 }

@@ -52,6 +52,11 @@ struct AddScore {
   void operator()(const CoverageScores& s) const {
     method["snapped"] = score_json(s.snapped, scene.crossings);
     method["float"] = score_json(s.floats, scene.crossings);
+    method["snapped"]["wrong_owners"] = s.owners.wrong_snapped;
+    method["float"]["wrong_owners"] = s.owners.wrong_floats;
+    if (lab::find_coverage_method(method["name"].get<std::string>()).contract_depth)
+      method["snapped"]["unexplained_owners"] = s.owners.unexplained;
+    method["depth"] = {{"max_ulp", s.owners.max_ulp}, {"rms_ulp", s.owners.rms_ulp}};
   }
   void operator()(const lab::VisibilityScores& s) const {
     method["snapped"] = score_json(s.snapped);

@@ -47,7 +47,7 @@ bool contains(const Polygon& polygon, double x, double y) {
 }  // namespace
 
 MarkedPicture mark_coverage(const lab::CoverageTruth& truth, std::vector<lab::Run> runs,
-                            std::span<const lab::FloatTriangle> triangles) {
+                            std::span<const lab::FloatTriangle> triangles, double reach_px) {
   const lab::Window w = truth.window;
   MarkedPicture picture{w,
                         std::vector<std::uint32_t>(pixels_of(w), lab::Owners::kNobody),
@@ -69,14 +69,12 @@ MarkedPicture mark_coverage(const lab::CoverageTruth& truth, std::vector<lab::Ru
   lab::for_each_difference(truth.runs, runs, [&](const lab::Run& run, bool missing) {
     each_pixel(run, [&](std::size_t pixel) {
       Mark& mark = picture.marks[pixel];
-      if (missing && mark == Mark::none) mark = Mark::missing;
-      if (!missing) mark = Mark::extra;
+      if (missing || mark == Mark::none) mark = missing ? Mark::missing : Mark::extra;
     });
   });
-  for (std::size_t i = 0; i < hits.size(); ++i) {
-    if (truth.hits[i] == 1 && hits[i] == 0) picture.marks[i] = Mark::gap;
+  for (const std::size_t i : lab::gaps(truth, hits, triangles, reach_px)) picture.marks[i] = Mark::gap;
+  for (std::size_t i = 0; i < hits.size(); ++i)
     if (truth.hits[i] <= 1 && hits[i] >= 2) picture.marks[i] = Mark::twice;
-  }
   add_edges(triangles, picture.lines);
   return picture;
 }

@@ -9,9 +9,10 @@ namespace edgewise::app {
 
 namespace {
 
-// Three digits, or a whole number.
+// Three digits, or a whole number that fits the narrowest column.
 std::string digits(double v) {
   if (v == 0.0) return "0";
+  if (v >= 9'999'999.5) return fmt::format("{:.1e}", v);
   if (v >= 99.5) return fmt::format("{:.0f}", v);
   return v >= 0.001 ? fmt::format("{:.3g}", v) : fmt::format("{:.0e}", v);
 }
@@ -75,6 +76,21 @@ class FamilyTable {
     }
     return total;
   }
+  lab::OwnerScore owners(std::size_t method) const {
+    lab::OwnerScore worst;
+    for (const SceneResult* scene : scenes_) {
+      const lab::OwnerScore& s = std::get<CoverageScores>(scene->methods[method].score).owners;
+      worst.wrong_snapped += s.wrong_snapped, worst.wrong_floats += s.wrong_floats;
+      worst.max_ulp = std::max(worst.max_ulp, s.max_ulp), worst.rms_ulp = std::max(worst.rms_ulp, s.rms_ulp);
+    }
+    return worst;
+  }
+  const SceneResult* scene(std::string_view name) const {
+    const auto found =
+        std::find_if(scenes_.begin(), scenes_.end(), [&](const SceneResult* s) { return s->name == name; });
+    return found == scenes_.end() ? nullptr : *found;
+  }
+  std::size_t scenes() const { return scenes_.size(); }
   // The last column: on one thread, on the first scene that was timed; else the scene with the most errors.
   std::string last(std::size_t method) const {
     if (timed_ == nullptr) return most_wrong_on(method);
@@ -127,6 +143,31 @@ int last_width(const FamilyTable& t) {
   return t.timed() ? 8 : 18;
 }
 
+// What shows of all that; and, where it was judged, what splitting an edge does for a T-junction.
+std::string owner_table(const FamilyTable& t) {
+  const SceneResult *junction = t.scene("t_junction"), *split = t.scene("t_junction_split");
+  const bool cracks = junction != nullptr && split != nullptr;
+  std::string text = fmt::format(
+      "\ncoverage: pixels with the wrong owner, and the worst depths, in {} scene{}\n"
+      "last place of a depth: 2^-31 of the range for backends, a float's for others\n",
+      t.scenes(), t.scenes() == 1 ? "" : "s");
+  constexpr const char *kLine = "{:<17}{:>10}{:>10}{:>12}{:>9}", *kCracks = "{:>12}{:>8}";
+  const auto add = [&](const std::string& line, const auto& of_junction, const auto& of_split) {
+    text += line + (cracks ? fmt::format(kCracks, of_junction, of_split) : "") + '\n';
+  };
+  add(fmt::format(kLine, "", "wrong", "wrong", "depth: max", "RMS"), "T-junction:", "split:");
+  add(fmt::format(kLine, "method", "snapped", "before", "last places", "places"), "gaps", "gaps");
+  const auto gaps = [&](const SceneResult* scene, std::size_t method) {
+    return scene == nullptr ? 0 : std::get<CoverageScores>(scene->methods[method].score).floats.gaps;
+  };
+  for (std::size_t i = 0; i < t.methods(); ++i) {
+    const lab::OwnerScore s = t.owners(i);
+    add(fmt::format(kLine, t.name(i), s.wrong_snapped, s.wrong_floats, digits(s.max_ulp), digits(s.rms_ulp)),
+        gaps(junction, i), gaps(split, i));
+  }
+  return text;
+}
+
 std::string coverage_table(const FamilyTable& t) {
   std::string text = t.title("errors per 10^6 edge crossings", "crossings");
   text += fmt::format("{:<17}{:>29}{:>28}\n", "", "against snapped positions", "against those before");
@@ -140,7 +181,7 @@ std::string coverage_table(const FamilyTable& t) {
                         snapped.double_hits, rate(floats.errors(), t.trials()), floats.gaps,
                         floats.double_hits, t.timed() ? fmt::format("{:>6}", t.last(i)) : "");
   }
-  return text;
+  return text + owner_table(t);
 }
 
 std::string visibility_table(const FamilyTable& t) {

@@ -145,22 +145,6 @@ void check(const Mesh& mesh) {
                                 std::to_string(mesh.colours.size()) + " colours");
 }
 
-// World → pixels and depth, both times w.
-glm::dmat4 screen_matrix(const Camera& camera, int width, int height) {
-  const double half_w = width / 2.0, half_h = height / 2.0;
-  glm::dmat4 viewport(1.0);
-  viewport[0][0] = half_w;
-  viewport[1][1] = -half_h;
-  viewport[3][0] = half_w;
-  viewport[3][1] = half_h;
-  const glm::dmat4 projection = glm::perspectiveRH_ZO(
-      double{camera.fov_y}, static_cast<double>(width) / height, double{camera.near_z}, double{camera.far_z});
-  glm::dmat4 view = glm::rotate(glm::dmat4(1.0), -double{camera.pitch}, glm::dvec3(1, 0, 0));
-  view = glm::rotate(view, -double{camera.yaw}, glm::dvec3(0, 1, 0));
-  view = glm::translate(view, -glm::dvec3(camera.position));
-  return viewport * projection * view;
-}
-
 ClipVertex transform(const glm::mat4& m, glm::vec3 p) {
   const auto row = [&](int r) { return m[0][r] * p.x + m[1][r] * p.y + m[2][r] * p.z + m[3][r]; };
   return {row(0), row(1), row(2), row(3)};
@@ -196,6 +180,21 @@ class Shade {
 };
 
 }  // namespace
+
+glm::dmat4 screen_matrix(const Camera& camera, int width, int height) {
+  const double half_w = width / 2.0, half_h = height / 2.0;
+  glm::dmat4 viewport(1.0);
+  viewport[0][0] = half_w;
+  viewport[1][1] = -half_h;
+  viewport[3][0] = half_w;
+  viewport[3][1] = half_h;
+  const glm::dmat4 projection = glm::perspectiveRH_ZO(
+      double{camera.fov_y}, static_cast<double>(width) / height, double{camera.near_z}, double{camera.far_z});
+  glm::dmat4 view = glm::rotate(glm::dmat4(1.0), -double{camera.pitch}, glm::dvec3(1, 0, 0));
+  view = glm::rotate(view, -double{camera.yaw}, glm::dvec3(0, 1, 0));
+  view = glm::translate(view, -glm::dvec3(camera.position));
+  return viewport * projection * view;
+}
 
 std::span<const Cull> cull_modes() {
   return kCullModes;

@@ -33,6 +33,9 @@ struct FrontendOptions {
   bool keep_unsnapped = false;
 };
 
+// World → pixels and depth in [0, 1], all times w.
+glm::dmat4 screen_matrix(const Camera& camera, int width, int height);
+
 // A screen triangle's vertices as they were before snapping: pixels, and depth in [0, 1].
 struct UnsnappedTriangle {
   float x_px[3], y_px[3], z01[3];

@@ -19,6 +19,7 @@
   X(double_top_left)                 \
   X(whole_pixel)                     \
   X(fixed_4)                         \
+  X(fixed_4_int32)                   \
   X(fixed_8)                         \
   X(fixed_8_int32)                   \
   X(fixed_12)                        \
@@ -88,6 +89,7 @@ CoverageMethod make_from(const BackendInfo& backend) {
           [&backend](const CoverageInput& input, Window window, std::vector<Run>& runs) {
             backend_runs(*backend.make(), input.snapped, window, runs);
           },
+          true,
           true};
 }
 

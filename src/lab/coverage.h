@@ -59,7 +59,8 @@ struct CoverageMethod {
   // The pixels that draw() visits, of each triangle, before the depth test; appended in any order. The same
   // code finds them.
   std::function<void(const CoverageInput&, Window, std::vector<Run>&)> runs;
-  bool threaded = false;  // draw looks at `threads`
+  bool threaded = false;        // draw looks at `threads`
+  bool contract_depth = false;  // draw leaves depths in the frame, in units of rule 6
 };
 
 // The backends first.

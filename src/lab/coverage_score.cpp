@@ -149,14 +149,12 @@ double ErrorDistance::at(int px, int py) const {
 }
 
 CoverageScore score_coverage(const CoverageTruth& truth, std::vector<Run> runs,
-                             std::span<const FloatTriangle> triangles) {
+                             std::span<const FloatTriangle> triangles, double reach_px) {
   CoverageScore score{.triangles = triangles.size(), .covered = truth.covered};
   score.out_of_bounds = cut(runs, truth.window);
   const auto hits = hits_of(runs, truth.window);
-  for (std::size_t i = 0; i < hits.size(); ++i) {
-    score.gaps += truth.hits[i] == 1 && hits[i] == 0;
-    score.double_hits += truth.hits[i] <= 1 && hits[i] >= 2;
-  }
+  score.gaps = gaps(truth, hits, triangles, reach_px).size();
+  for (std::size_t i = 0; i < hits.size(); ++i) score.double_hits += truth.hits[i] <= 1 && hits[i] >= 2;
   if (!std::is_sorted(runs.begin(), runs.end())) std::sort(runs.begin(), runs.end());
   for_each_difference(truth.runs, joined(std::move(runs)), [&](const Run& run, bool missing) {
     (missing ? score.missing : score.extra) += length(run);
@@ -173,7 +171,7 @@ CoverageScore score_coverage(const CoverageTruth& truth, const CoverageMethod& m
                              const CoverageInput& input) {
   std::vector<Run> runs;
   method.runs(input, truth.window, runs);
-  return score_coverage(truth, std::move(runs), input.floats);
+  return score_coverage(truth, std::move(runs), input.floats, method.promise.reach_px);
 }
 
 }  // namespace edgewise::lab

@@ -28,7 +28,7 @@ std::uint64_t edge_crossings(std::span<const FloatTriangle> triangles, Window wi
 struct CoverageScore {
   std::uint64_t triangles = 0, covered = 0;  // covered: (triangle, pixel) pairs, in truth
   std::uint64_t missing = 0, extra = 0;      // such pairs in truth only, by the method only
-  std::uint64_t gaps = 0;         // pixels that one triangle covers in truth, and that are never drawn
+  std::uint64_t gaps = 0;                    // cracks between neighbours; see gaps()
   std::uint64_t double_hits = 0;  // pixels that at most one covers in truth, and that are drawn twice or more
   std::uint64_t out_of_bounds = 0;  // pixels drawn outside the window; counted here only
   std::uint64_t out_of_box = 0;     // extra pairs whose pixel does not touch the triangle's bounding box
@@ -38,9 +38,10 @@ struct CoverageScore {
   std::uint64_t errors() const { return missing + extra; }
   bool operator==(const CoverageScore&) const = default;
 };
-// `runs` need not be sorted; a pixel drawn twice for one triangle is one pair, but two hits.
+// `runs` need not be sorted; a pixel drawn twice for one triangle is one pair, but two hits. `reach_px`: see
+// gaps().
 CoverageScore score_coverage(const CoverageTruth& truth, std::vector<Run> runs,
-                             std::span<const FloatTriangle> triangles);
+                             std::span<const FloatTriangle> triangles, double reach_px);
 CoverageScore score_coverage(const CoverageTruth& truth, const CoverageMethod& method,
                              const CoverageInput& input);
 
@@ -52,6 +53,13 @@ constexpr double per_million(std::uint64_t count, std::uint64_t crossings) {
 // sorted.
 void for_each_difference(std::span<const Run> truth, std::span<const Run> drawn,
                          const std::function<void(const Run&, bool missing)>& on_run);
+
+// A gap is a pixel that one triangle covers in truth and nobody draws, though its sample lies farther inside
+// the union of the triangles than `reach_px`, by which the method may move an edge: so a pixel that is lost
+// where an outline moved is missing, and no gap. Watertight methods leave none where neighbours share
+// vertices. Indices into `hits`.
+std::vector<std::size_t> gaps(const CoverageTruth& truth, std::span<const std::uint32_t> hits,
+                              std::span<const FloatTriangle> triangles, double reach_px);
 
 // Hits at each pixel of the window, row by row; for pictures of errors. What lies outside is left out.
 std::vector<std::uint32_t> hits_of(std::span<const Run> runs, Window window);

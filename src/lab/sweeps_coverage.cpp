@@ -24,7 +24,7 @@ void add_picture(Measured& sums, const std::vector<FloatTriangle>& triangles, Wi
   const auto methods = coverage_methods();
   for (std::size_t i = 0; i < methods.size(); ++i)
     sums.methods[i] += {score_coverage(truth, methods[i], input).errors(), crossings};
-  sums.by_snapping += score_coverage(truth, covered_runs(grid, window, 1), triangles).errors();
+  sums.by_snapping += score_coverage(truth, covered_runs(grid, window, 1), triangles, 0.0).errors();
 }
 
 float on_grid(double px, int places) {

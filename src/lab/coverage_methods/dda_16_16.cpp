@@ -65,7 +65,7 @@ CoverageMethod make_coverage_dda_16_16() {
   // A slope is off by less than 2^-16 px a row, over up to 4096 rows, and the vertices by half of that.
   return make_coverage_method<Dda1616>(
       {"dda_16_16", "scanline, x of an edge accumulated in 16.16 fixed point",
-       "Hecker, \"Perspective Texture Mapping\", 1995",
+       "Byggmastar, \"Fast affine texture mapping II\", 1997",
        "wrong only within 0.063 px of an edge; no gaps; wraps past 32767 px", false},
       {.reach_px = 0.063, .no_gaps = true});
 }

@@ -45,7 +45,7 @@ CoverageMethod make_coverage_dda_float() {
   // Up to 4096 steps, each off by half an ulp of a number below 4096, 2^-13 px; and little for the first row.
   return make_coverage_method<DdaFloat>(
       {"dda_float", "scanline, x of an edge accumulated in float from row to row",
-       "Hecker, \"Perspective Texture Mapping\", 1995, in floats",
+       "Hecker, \"Perspective Texture Mapping\", part I, 1995",
        "wrong only within 0.51 px of an edge; no gaps", false},
       {.reach_px = 0.51, .no_gaps = true});
 }

@@ -1,9 +1,15 @@
-// Edge functions evaluated anew at each pixel of the bounding box, in floats or doubles (Pineda, "A Parallel
+// Edge functions evaluated anew at each sample that is asked about, in floats or doubles (Pineda, "A Parallel
 // Algorithm for Polygon Rasterization", 1988). The methods differ in which samples on an edge they accept.
+//
+// A row's accepted samples are one interval, whatever the rounding: as x grows, s.x - x does not fall, nor
+// does its rounded value, since rounding keeps order; times a, rounded, it does not fall or does not rise, by
+// the sign of a; what is added is the same all along the row, and the sum is rounded. So each edge function
+// is monotone along a row as computed, and exceeds its threshold from some sample on, or up to some sample.
 #pragma once
 
 #include <limits>
 
+#include "lab/coverage_methods/row_spans.h"
 #include "lab/coverage_plot.h"
 
 namespace edgewise::lab {
@@ -14,19 +20,24 @@ struct RealEdge {
   Real threshold;   // inside: E > threshold
 
   Real at(Real sx, Real sy) const { return a * (sx - x) + b * (sy - y); }
+
+  struct Row {
+    Real a, x, down, threshold;
+    bool accepts(int px) const { return a * (static_cast<Real>(px) + Real{0.5f} - x) + down > threshold; }
+  };
+  Row row(int py) const { return {a, x, b * (static_cast<Real>(py) + Real{0.5f} - y), threshold}; }
+  bool faces_right() const { return a >= 0; }
 };
 
 // The largest number below zero as threshold makes ">" a ">=".
 template <typename Real>
 inline constexpr Real kAcceptZero = -std::numeric_limits<Real>::denorm_min();
 
-struct RealBox {
-  int x0, y0, x1, y1;
-};
-
-inline RealBox real_box(const UnsnappedTriangle& t, Window w) {
-  const auto [min_x, max_x] = std::minmax({t.x_px[0], t.x_px[1], t.x_px[2]});
-  const auto [min_y, max_y] = std::minmax({t.y_px[0], t.y_px[1], t.y_px[2]});
+inline PixelRows real_box(const UnsnappedTriangle& t, Window w) {
+  // Two by two, which compiles to instructions that do not branch; a list does not.
+  const auto least = [](const float(&v)[3]) { return std::min(std::min(v[0], v[1]), v[2]); };
+  const auto most = [](const float(&v)[3]) { return std::max(std::max(v[0], v[1]), v[2]); };
+  const float min_x = least(t.x_px), max_x = most(t.x_px), min_y = least(t.y_px), max_y = most(t.y_px);
   return {std::max(ceil_int(min_x - 0.5f), w.x0), std::max(ceil_int(min_y - 0.5f), w.y0),
           std::min(floor_int(max_x - 0.5f) + 1, w.x1()), std::min(floor_int(max_y - 0.5f) + 1, w.y1())};
 }
@@ -50,21 +61,29 @@ void with_edges(const UnsnappedTriangle& t, Body&& body) {
 }
 
 // "&" rather than "&&": one branch to mispredict, not three.
+template <typename Real, class Plot>
+void test_every_pixel(const RealEdge<Real> (&edges)[3], const PixelRows& box, Plot& plot) {
+  const RealEdge<Real> e0 = edges[0], e1 = edges[1], e2 = edges[2];
+  for (int y = box.y0; y < box.y1; ++y) {
+    const auto row0 = e0.row(y), row1 = e1.row(y), row2 = e2.row(y);
+    for (int x = box.x0; x < box.x1; ++x)
+      if (row0.accepts(x) & row1.accepts(x) & row2.accepts(x)) plot.pixel(x, y);
+  }
+}
+
+// A box no wider than this is sooner tested pixel by pixel.
+inline constexpr int kNarrowForReals_px = 6;
+
 template <typename Real, class Threshold, class Plot>
 void cover_directly(const UnsnappedTriangle& t, Window window, Plot& plot) {
-  const RealBox box = real_box(t, window);
+  const PixelRows box = real_box(t, window);
   if (box.x0 >= box.x1 || box.y0 >= box.y1) return;
   with_edges<Real, Threshold>(t, [&](const RealEdge<Real>(&edges)[3]) {
     plot.begin();
-    const RealEdge<Real> e0 = edges[0], e1 = edges[1], e2 = edges[2];
-    for (int y = box.y0; y < box.y1; ++y) {
-      const Real sy = static_cast<Real>(y) + Real{0.5f};
-      for (int x = box.x0; x < box.x1; ++x) {
-        const Real sx = static_cast<Real>(x) + Real{0.5f};
-        if ((e0.at(sx, sy) > e0.threshold) & (e1.at(sx, sy) > e1.threshold) & (e2.at(sx, sy) > e2.threshold))
-          plot.pixel(x, y);
-      }
-    }
+    if (box.x1 - box.x0 <= kNarrowForReals_px)
+      test_every_pixel(edges, box, plot);
+    else
+      fill_between(edges, box, plot);
   });
 }
 

@@ -1,5 +1,9 @@
 // Float edge functions stepped by additions from the corner of the bounding box, as integers are stepped:
 // every step rounds, and the errors pile up along rows and columns.
+//
+// A row's accepted samples are one interval all the same: adding a number that is not negative and rounding
+// never gives less than before, since rounding keeps order, and correspondingly for negative ones. Where it
+// begins must be reached step by step.
 #include "lab/coverage_methods/float_edges.h"
 
 namespace edgewise::lab {
@@ -9,7 +13,7 @@ namespace {
 struct FloatIncremental {
   template <class Plot>
   static void cover(const UnsnappedTriangle& t, Window window, Plot& plot) {
-    const RealBox box = real_box(t, window);
+    const PixelRows box = real_box(t, window);
     if (box.x0 >= box.x1 || box.y0 >= box.y1) return;
     with_edges<float, TopLeft>(t, [&](const RealEdge<float>(&edges)[3]) {
       plot.begin();
@@ -18,10 +22,17 @@ struct FloatIncremental {
       float row0 = e0.at(sx, sy), row1 = e1.at(sx, sy), row2 = e2.at(sx, sy);
       for (int y = box.y0; y < box.y1; ++y) {
         float v0 = row0, v1 = row1, v2 = row2;
-        for (int x = box.x0; x < box.x1; ++x) {
-          if ((v0 > e0.threshold) & (v1 > e1.threshold) & (v2 > e2.threshold)) plot.pixel(x, y);
-          v0 += e0.a, v1 += e1.a, v2 += e2.a;
-        }
+        int x = box.x0;
+        const auto walk_while = [&](bool inside) {
+          while (x < box.x1 && ((v0 > e0.threshold) & (v1 > e1.threshold) & (v2 > e2.threshold)) == inside) {
+            v0 += e0.a, v1 += e1.a, v2 += e2.a;
+            ++x;
+          }
+        };
+        walk_while(false);
+        const int begin = x;
+        walk_while(true);
+        plot.span(y, begin, x);
         row0 += e0.b, row1 += e1.b, row2 += e2.b;
       }
     });

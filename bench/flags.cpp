@@ -1,0 +1,68 @@
+#include "flags.h"
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <stdexcept>
+
+#include "app/options.h"
+
+namespace edgewise::bench {
+
+std::optional<Flags> parse_flags(int argc, char** argv) {
+  Flags flags;
+  std::optional<app::Size> size;
+  CLI::App parser{"Times the front end and every backend, after comparing their pictures.", "edgewise_bench"};
+  parser.allow_extras();
+  parser
+      .add_option("--scene", flags.suite.scenes,
+                  "Only this scene, a name or an .obj or .tri file (repeatable)")
+      ->allow_extra_args(false)
+      ->type_name("NAME|FILE");
+  parser
+      .add_option("--add-scene", flags.suite.more_scenes, "The whole suite, and this scene too (repeatable)")
+      ->allow_extra_args(false)
+      ->excludes("--scene")
+      ->type_name("FILE");
+  parser.add_flag("--fit", flags.suite.fit, "Centre a mesh from a file and scale its longest side to 2");
+  bool no_peers = false;
+  auto* peers_flag =
+      parser.add_flag("--peers", flags.need_peers,
+                      "Fail where a rasterizer of another project is missing (else it is left out)");
+  parser.add_flag("--no-peers", no_peers, "Leave them out")->excludes(peers_flag);
+  parser.add_flag("--quick", flags.suite.quick, "Fewer rows and repetitions, streams of a tenth");
+  app::add_size(parser, size, "Image size (1920x1080; a .tri file has its own)");
+  std::string format;
+  parser.add_option("--benchmark_out", flags.out, "Write the results there, complete or not at all")
+      ->type_name("FILE");
+  parser.add_option("--benchmark_out_format", format, "json only")->check(CLI::IsMember({"json"}));
+  parser.footer(
+      "Google Benchmark's other flags work too, among them --benchmark_filter=REGEX, "
+      "--benchmark_list_tests,\n"
+      "--benchmark_repetitions=N, --benchmark_min_time=SECONDS and --benchmark_format=console|json|csv.\n"
+      "Exit status: 0 done, 1 a row drew other pixels, 2 bad input.");
+  try {
+    parser.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    std::cout << parser.help();
+    return std::nullopt;
+  }
+
+  if (size) {
+    flags.suite.width = size->width;
+    flags.suite.height = size->height;
+    flags.suite.size_asked = true;
+  }
+  flags.suite.peers = !no_peers;
+  if (flags.need_peers && bench::peers().empty())
+    throw std::invalid_argument(
+        "--peers: none was built, since EGL or OpenGL was not found (scripts/run --peers installs them)");
+  flags.benchmark = parser.remaining();
+  for (const auto& flag : flags.benchmark) {
+    if (flag.starts_with("--benchmark_repetitions")) flags.own_repetitions = false;
+    if (flag.starts_with("--benchmark_min_time")) flags.own_iterations = false;
+    if (flag.starts_with("--benchmark_format")) flags.readable = flag.ends_with("=console");
+  }
+  return flags;
+}
+
+}  // namespace edgewise::bench
