@@ -1,5 +1,6 @@
 #include "peer_scene.h"
 
+#include "frontend/view.h"
 #include "raster/contract.h"
 
 namespace edgewise::bench {

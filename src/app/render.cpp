@@ -122,6 +122,7 @@ class Renderer {
       if (!shot || shot->source.built_in != nullptr) shot = load_shot(scene, options_.scene, time);
       shot->frontend.payload = options_.what == What::id ? Payload::id : Payload::colour;
       shot->frontend.threads = options_.execution.execution.threads;
+      shot->frontend.target = options_.execution.execution.target;
       report(render(*shot, time, frame));
     }
   }

@@ -6,9 +6,9 @@
 #include <memory>
 #include <span>
 #include <string_view>
-#include <vector>
 
 #include "raster/screen_triangle.h"
+#include "raster/simd_target.h"
 #include "scene/scene.h"
 
 namespace edgewise {
@@ -31,10 +31,8 @@ struct FrontendOptions {
   // For judging: remember where each triangle lay before it was snapped, and keep those that lost their area
   // by it.
   bool keep_unsnapped = false;
+  SimdTarget target = SimdTarget::best;
 };
-
-// World → pixels and depth in [0, 1], all times w.
-glm::dmat4 screen_matrix(const Camera& camera, int width, int height);
 
 // A screen triangle's vertices as they were before snapping: pixels, and depth in [0, 1].
 struct UnsnappedTriangle {
@@ -62,7 +60,9 @@ struct FrontendStats {
   FrontendStats& operator+=(const FrontendStats& other);
 };
 
-// Keeps its memory between frames; one object must not work on two threads at once.
+// Keeps its memory between frames, and allocates none after the first of a kind: 16 bytes a vertex of the
+// largest mesh, 40 a visible triangle, and less than 1 MB a thread. One object must not work on two threads
+// at once.
 class Frontend {
  public:
   Frontend();
@@ -71,7 +71,8 @@ class Frontend {
   Frontend& operator=(Frontend&&) noexcept;
 
   // The visible triangles in submission order, valid until the next call. Throws std::invalid_argument for a
-  // camera or a size out of range, or a triangle that names a vertex its mesh lacks.
+  // camera or a size out of range, a triangle that names a vertex its mesh lacks, or a SIMD target that this
+  // machine cannot run.
   std::span<const ScreenTriangle> run(const Drawable& drawable, const FrontendOptions& options);
   const FrontendStats& stats() const;
   // One for each triangle that run() returned, if keep_unsnapped was set; else none.

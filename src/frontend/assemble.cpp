@@ -1,0 +1,81 @@
+// A vector of triangles at a time: three vertices each are fetched and transposed, tested against the sides
+// of the view, and culled by the sign of their area. If one of them has to be clipped or holds a NaN, the
+// whole vector goes one by one.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "frontend/assemble.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+// After Highway, which they need.
+#include "frontend/cull-inl.h"
+#include "frontend/lanes-inl.h"
+
+#include <algorithm>
+
+#include "frontend/assemble.h"
+#include "frontend/one_by_one.h"
+#include "raster/kernel_table.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace edgewise {
+namespace HWY_NAMESPACE {
+
+// False if the triangles must go one by one.
+HWY_INLINE bool assemble_vector(const MeshJob& job, std::size_t first, RunOutput& out) {
+  if (job.options.keep_unsnapped) return false;
+  const DI d;
+  const std::uint32_t* index = &job.mesh.triangles[first].x;
+  const auto corner = [&](std::size_t k) HWY_ATTR {
+    return load_words([&](std::size_t lane) { return job.vertices + index[lane * 3 + k]; });
+  };
+  const Words a = corner(0), b = corner(1), c = corner(2);
+  const VI common = hn::And(a.word[3], hn::And(b.word[3], c.word[3]));
+  const MI outside = hn::Ne(hn::And(common, hn::Set(d, kInvisible)), hn::Zero(d));
+  const VI any = hn::Or(a.word[3], hn::Or(b.word[3], c.word[3]));
+  const MI special = hn::Ne(hn::And(any, hn::Set(d, kMustClip | kNotFinite)), hn::Zero(d));
+  if (!hn::AllFalse(d, hn::AndNot(outside, special))) return false;
+  cull_and_append({{a.word[0], b.word[0], c.word[0]},
+                   {a.word[1], b.word[1], c.word[1]},
+                   {a.word[2], b.word[2], c.word[2]},
+                   hn::Iota(d, static_cast<std::int32_t>(first))},
+                  outside, job.options.cull, out);
+  return true;
+}
+
+bool vertices_exist(const Mesh& mesh, std::size_t begin, std::size_t end) {
+  const hn::RebindToUnsigned<DI> d;
+  const std::uint32_t* index = &mesh.triangles[begin].x;
+  const std::size_t count = 3 * (end - begin);
+  auto largest = hn::Zero(d);
+  std::size_t i = 0;
+  for (; i + kLanes <= count; i += kLanes) largest = hn::Max(largest, hn::LoadU(d, index + i));
+  std::uint32_t lanes[kLanes];
+  hn::StoreU(largest, d, lanes);
+  for (; i < count; ++i) lanes[0] = std::max(lanes[0], index[i]);
+  return *std::max_element(lanes, lanes + kLanes) < mesh.positions.size();
+}
+
+bool assemble(const MeshJob& job, std::size_t begin, std::size_t end, RunOutput& out) {
+  if (!vertices_exist(job.mesh, begin, end)) return false;
+  const auto one_by_one = [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) add_one(job, i, out);
+  };
+  std::size_t i = begin;
+  for (; i + kLanes <= end; i += kLanes)
+    if (!assemble_vector(job, i, out)) one_by_one(i, i + kLanes);
+  one_by_one(i, end);
+  return true;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace edgewise
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace edgewise {
+
+AssembleKernel assemble_kernel(SimdTarget target) {
+  return EDGEWISE_KERNEL(assemble, target);
+}
+
+}  // namespace edgewise
+#endif

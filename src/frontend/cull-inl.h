@@ -1,0 +1,81 @@
+// The end of every kernel that makes triangles: those without area and those that face the wrong way are
+// dropped, and the rest is appended to a run's output. Shared by assemble.cpp and stream.cpp.
+//
+// Compiled once a SIMD target, like lanes-inl.h.
+#if defined(EDGEWISE_FRONTEND_CULL) == defined(HWY_TARGET_TOGGLE)
+#ifdef EDGEWISE_FRONTEND_CULL
+#undef EDGEWISE_FRONTEND_CULL
+#else
+#define EDGEWISE_FRONTEND_CULL
+#endif
+
+#include <cstring>
+
+#include "frontend/jobs.h"
+#include "frontend/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace edgewise {
+namespace HWY_NAMESPACE {
+
+using MI = hn::Mask<DI>;
+
+struct TriangleVectors {
+  VI x[3], y[3], z[3], payload;
+};
+
+// Negative, zero or positive, as the signed area is. Exact: a product of differences has at most 46 bits.
+HWY_INLINE VI area_sign(const TriangleVectors& t) {
+  const auto sign = [](auto dx1, auto dy1, auto dx2, auto dy2) HWY_ATTR {
+    const hn::DFromV<decltype(dx1)> d;
+    const auto area = hn::Sub(hn::Mul(dx1, dy2), hn::Mul(dy1, dx2));
+    return hn::Min(hn::Max(area, hn::Set(d, -1.0)), hn::Set(d, 1.0));
+  };
+  return in_double(DI{}, sign, hn::Sub(t.x[1], t.x[0]), hn::Sub(t.y[1], t.y[0]), hn::Sub(t.x[2], t.x[0]),
+                   hn::Sub(t.y[2], t.y[0]));
+}
+
+// Appends triangles that need no clipping, in order; `outside` are those beyond one side of the view.
+HWY_INLINE void cull_and_append(const TriangleVectors& t, MI outside, Cull cull, RunOutput& out) {
+  const DI d;
+  const VI sign = area_sign(t);
+  const VI front = hn::Set(d, cull == Cull::none || cull == Cull::back ? 1 : 2);
+  const VI back = hn::Set(d, cull == Cull::none || cull == Cull::front ? -1 : 2);
+  const MI faces = hn::Or(hn::Eq(sign, front), hn::Eq(sign, back));
+  const MI keep = hn::AndNot(outside, faces);
+  const MI zero = hn::AndNot(outside, hn::Eq(sign, hn::Zero(d)));
+  const std::size_t kept = hn::CountTrue(d, keep), flat = hn::CountTrue(d, zero);
+  const std::size_t pieces = kLanes - hn::CountTrue(d, outside);
+  out.stats.outside += kLanes - pieces;
+  out.stats.pieces += pieces;
+  out.stats.zero_area += flat;
+  out.stats.culled += pieces - flat - kept;
+  out.stats.emitted += kept;
+  if (kept == 0) return;
+
+  // A lane that is dropped gets the place of the next one that is kept, which overwrites it. Highway's
+  // Compress() would do, but copies a table of 1 KB to the stack on AVX2.
+  std::uint8_t bits[8];
+  hn::StoreMaskBits(d, keep, bits);
+  std::uint32_t kept_lanes = 0;
+  std::memcpy(&kept_lanes, bits, (kLanes + 7) / 8);
+  ScreenTriangle* place[kLanes];
+  ScreenTriangle* next = out.triangles.data() + out.count;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    place[lane] = next;
+    next += kept_lanes >> lane & 1;
+  }
+  const auto word = [&](std::size_t first) {
+    return [&place, first](std::size_t lane) { return reinterpret_cast<std::int32_t*>(place[lane]) + first; };
+  };
+  store_words({{t.x[0], t.x[1], t.x[2], t.y[0]}}, word(0));
+  store_words({{t.y[1], t.y[2], t.z[0], t.z[1]}}, word(4));
+  store_words({{t.z[0], t.z[1], t.z[2], t.payload}}, word(6));  // ten words: two are written twice
+  out.count += kept;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace edgewise
+HWY_AFTER_NAMESPACE();
+
+#endif

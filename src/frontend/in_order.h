@@ -1,0 +1,72 @@
+// Runs of triangles in parallel, their output in order, without a second pass over it. Runs are handed out in
+// order, each worker fills a buffer of its own, and when all runs before it know how long they are, a run
+// knows its place, lets the next one know, and is copied there.
+//
+// The lowest run that is under way waits for nobody, so the others will get their turn.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "frontend/jobs.h"
+#include "raster/parallel.h"
+
+namespace edgewise {
+
+class InOrder {
+ public:
+  void start_frame(int threads, bool with_unsnapped) {
+    threads_ = threads;
+    total_ = 0;
+    if (outputs_.size() < static_cast<std::size_t>(threads))
+      outputs_.resize(static_cast<std::size_t>(threads));
+    for (RunOutput& out : outputs_) {
+      out.reserve(with_unsnapped);
+      out.stats = {};
+    }
+  }
+
+  // Calls make(begin, end, output) for the runs of 0 … count - 1, which fills an empty output, and
+  // place(output, at) where `at` triangles come before it. Neither may throw.
+  template <typename Make, typename Place>
+  void for_each_run(std::size_t count, Make&& make, Place&& place) {
+    const std::size_t runs = (count + kRun - 1) / kRun;
+    const int workers = count < kWorthThreads ? 1 : threads_;
+    std::atomic<std::size_t> next{0};
+    std::atomic<std::uint32_t> turn{0};
+    parallel_for(workers, workers, [&](int worker) {
+      RunOutput& out = outputs_[static_cast<std::size_t>(worker)];
+      for (std::size_t run; (run = next.fetch_add(1, std::memory_order_relaxed)) < runs;) {
+        out.count = 0;
+        make(run * kRun, std::min(count, (run + 1) * kRun), out);
+        wait_until(turn, static_cast<std::uint32_t>(run));
+        const std::size_t at = total_;
+        total_ += out.count;
+        turn.store(static_cast<std::uint32_t>(run + 1), std::memory_order_release);
+        turn.notify_all();
+        place(out, at);
+      }
+    });
+  }
+
+  std::size_t total() const { return total_; }  // triangles since the frame's start
+  FrontendStats stats() const {
+    FrontendStats sum;
+    for (const RunOutput& out : outputs_) sum += out.stats;
+    return sum;
+  }
+
+ private:
+  static void wait_until(const std::atomic<std::uint32_t>& turn, std::uint32_t run) {
+    for (std::uint32_t now; (now = turn.load(std::memory_order_acquire)) != run;)
+      turn.wait(now, std::memory_order_acquire);
+  }
+
+  int threads_ = 1;
+  std::size_t total_ = 0;
+  std::vector<RunOutput> outputs_;  // one a worker
+};
+
+}  // namespace edgewise

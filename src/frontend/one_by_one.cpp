@@ -1,0 +1,114 @@
+#include "frontend/one_by_one.h"
+
+#include <algorithm>
+
+#include "frontend/transform.h"
+#include "raster/contract.h"
+
+namespace edgewise {
+
+namespace {
+
+UnsnappedTriangle unsnapped_triangle(const ClipVertex& a, const ClipVertex& b, const ClipVertex& c) {
+  const float wa = 1.0f / a.w, wb = 1.0f / b.w, wc = 1.0f / c.w;
+  return {{a.x * wa, b.x * wb, c.x * wc}, {a.y * wa, b.y * wb, c.y * wc}, {a.z * wa, b.z * wb, c.z * wc}};
+}
+
+// True if the triangle is dropped for where its vertices lie.
+bool drop(const Vertex& a, const Vertex& b, const Vertex& c, FrontendStats& stats) {
+  if ((a.outside | b.outside | c.outside) & kNotFinite) {
+    ++stats.not_finite;
+    return true;
+  }
+  if (a.outside & b.outside & c.outside & kInvisible) {
+    ++stats.outside;
+    return true;
+  }
+  return false;
+}
+
+bool faces_away(std::int64_t area, Cull cull) {
+  return cull == Cull::both || (cull == Cull::front && area > 0) || (cull == Cull::back && area < 0);
+}
+
+// unsnapped() is called only where it is kept.
+template <typename Unsnapped>
+void emit(const Vertex& a, const Vertex& b, const Vertex& c, std::uint32_t payload,
+          const FrontendOptions& options, RunOutput& out, Unsnapped&& unsnapped) {
+  FrontendStats& stats = out.stats;
+  ++stats.pieces;
+  const ScreenTriangle t{{a.x_sub, b.x_sub, c.x_sub}, {a.y_sub, b.y_sub, c.y_sub}, {a.z, b.z, c.z}, payload};
+  const std::int64_t area = contract::signed_area(t);
+  if (area == 0 && !options.keep_unsnapped) {
+    ++stats.zero_area;
+  } else if (faces_away(area, options.cull)) {
+    ++stats.culled;
+  } else {
+    ++stats.emitted;
+    if (options.keep_unsnapped) out.unsnapped.data()[out.count] = unsnapped();
+    out.triangles.data()[out.count++] = t;
+  }
+}
+
+void clip(const ClipVertex (&triangle)[3], std::uint32_t sides, std::uint32_t payload,
+          const FrontendOptions& options, RunOutput& out) {
+  FrontendStats& stats = out.stats;
+  if (sides & kNear) ++stats.clipped_near;
+  if (sides & kFar) ++stats.clipped_far;
+  if (sides & kGuard) ++stats.clipped_guard;
+  Clipper clipper;
+  const auto polygon = clipper.clip(triangle, static_cast<std::uint16_t>(sides));
+  if (polygon.size() < 3) {
+    ++stats.outside;
+    return;
+  }
+  if (!std::all_of(polygon.begin(), polygon.end(), can_project)) {
+    ++stats.not_in_front;
+    return;
+  }
+  const Vertex first = project(polygon[0]);
+  Vertex previous = project(polygon[1]);
+  for (std::size_t i = 2; i < polygon.size(); ++i) {
+    const Vertex next = project(polygon[i]);
+    emit(first, previous, next, payload, options, out,
+         [&] { return unsnapped_triangle(polygon[0], polygon[i - 1], polygon[i]); });
+    previous = next;
+  }
+}
+
+// clip_of(k) is corner k before the division.
+template <typename ClipOf>
+void add(const Vertex& a, const Vertex& b, const Vertex& c, std::uint32_t payload,
+         const FrontendOptions& options, RunOutput& out, ClipOf&& clip_of) {
+  if (drop(a, b, c, out.stats)) return;
+  const std::uint32_t sides = (a.outside | b.outside | c.outside) & kMustClip;
+  if (sides == 0)
+    emit(a, b, c, payload, options, out,
+         [&] { return unsnapped_triangle(clip_of(0), clip_of(1), clip_of(2)); });
+  else
+    clip({clip_of(0), clip_of(1), clip_of(2)}, sides, payload, options, out);
+}
+
+}  // namespace
+
+void add_one(const MeshJob& job, std::size_t triangle, RunOutput& out) {
+  const glm::uvec3 t = job.mesh.triangles[triangle];
+  const auto clip_of = [&](int k) { return transform(job.to_screen, job.mesh.positions[t[k]]); };
+  add(job.vertices[t.x], job.vertices[t.y], job.vertices[t.z], static_cast<std::uint32_t>(triangle),
+      job.options, out, clip_of);
+}
+
+void add_one(const StreamJob& job, std::size_t triangle, RunOutput& out) {
+  const StreamTriangle& t = job.stream.triangles[triangle];
+  const auto width = static_cast<float>(job.options.width), height = static_cast<float>(job.options.height);
+  const auto clip_of = [&](int k) {
+    const glm::vec3 v = t.vertex[k];
+    return ClipVertex{v.x, v.y, v.z, 1.0f};
+  };
+  const auto vertex = [&](int k) { return make_vertex(clip_of(k), width, height); };
+  const bool ids = job.options.payload == Payload::id;
+  add(vertex(0), vertex(1), vertex(2), ids ? static_cast<std::uint32_t>(triangle) : t.colour, job.options,
+      out, clip_of);
+}
+
+}  // namespace edgewise

@@ -1,0 +1,138 @@
+// Lambert's law with the tutorials' floor. Transforming by the cofactor matrix keeps normals right under any
+// scale, and turns them with the winding where a scale mirrors. In double, since squares of squares of a
+// mesh's size leave the range of float.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "frontend/shade.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+// After Highway, which it needs.
+#include "frontend/lanes-inl.h"
+
+#include <algorithm>
+
+#include "frontend/shade.h"
+#include "raster/kernel_table.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace edgewise {
+namespace HWY_NAMESPACE {
+
+// The sums below are glm's cross(), dot() and matrix product, in their order.
+template <class V>
+struct Vec3 {
+  V x, y, z;
+};
+
+template <class V>
+HWY_INLINE V dot(const Vec3<V>& a, const Vec3<V>& b) {
+  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
+}
+
+template <class V>
+HWY_INLINE Vec3<V> cross(const Vec3<V>& a, const Vec3<V>& b) {
+  const auto minor = [](V p, V q, V r, V s) HWY_ATTR { return hn::Sub(hn::Mul(p, q), hn::Mul(r, s)); };
+  return {minor(a.y, b.z, b.y, a.z), minor(a.z, b.x, b.z, a.x), minor(a.x, b.y, b.x, a.y)};
+}
+
+// The cosine between normal and light; NaN where there is no normal.
+template <class V>
+HWY_INLINE V lambert(const ShadeJob& job, const Vec3<V>& a, const Vec3<V>& b, const Vec3<V>& c) {
+  const hn::DFromV<V> d;
+  const auto minus = [](const Vec3<V>& p, const Vec3<V>& q) HWY_ATTR {
+    return Vec3<V>{hn::Sub(p.x, q.x), hn::Sub(p.y, q.y), hn::Sub(p.z, q.z)};
+  };
+  const Vec3<V> across = cross(minus(c, a), minus(b, a));
+  const auto row = [&](int r) HWY_ATTR {
+    const auto& m = job.cofactor;
+    return dot(Vec3<V>{hn::Set(d, m[0][r]), hn::Set(d, m[1][r]), hn::Set(d, m[2][r])}, across);
+  };
+  const Vec3<V> normal{row(0), row(1), row(2)};
+  const Vec3<V> light{hn::Set(d, job.to_light.x), hn::Set(d, job.to_light.y), hn::Set(d, job.to_light.z)};
+  return hn::Div(dot(normal, light), hn::Sqrt(dot(normal, normal)));
+}
+
+HWY_INLINE VI lit(VI colour, VF cosine) {
+  const DF d;
+  const VF floor = hn::Set(d, 0.15f);
+  const VF light =
+      hn::IfThenElse(hn::Gt(cosine, floor), hn::Min(cosine, hn::Set(d, 1.0f)), floor);  // also for NaN
+  const auto channel = [&](VI c) HWY_ATTR {
+    const VF value = hn::ConvertTo(d, hn::And(c, hn::Set(DI{}, 255)));
+    return hn::ConvertTo(DI{}, hn::Add(hn::Mul(value, light), hn::Set(d, 0.5f)));
+  };
+  const VI red = channel(colour), green = channel(hn::ShiftRight<8>(colour)),
+           blue = channel(hn::ShiftRight<16>(colour));
+  const VI alpha = hn::Set(DI{}, static_cast<std::int32_t>(0xFF000000u));
+  return hn::Or(hn::Or(red, hn::ShiftLeft<8>(green)), hn::Or(hn::ShiftLeft<16>(blue), alpha));
+}
+
+// Four words are read at each position, but nothing lies behind the last.
+class Positions {
+ public:
+  explicit Positions(const Mesh& mesh) : all_(mesh.positions.data()), last_(mesh.positions.size() - 1) {
+    std::copy_n(&all_[last_].x, 3, padded_);
+  }
+  const float* operator[](std::uint32_t vertex) const { return vertex == last_ ? padded_ : &all_[vertex].x; }
+
+ private:
+  const glm::vec3* all_;
+  std::size_t last_;
+  float padded_[4] = {};
+};
+
+HWY_INLINE VF cosines(const ShadeJob& job, const Positions& positions,
+                      const glm::uvec3* const (&corners)[kLanes]) {
+  const auto corner = [&](int k) HWY_ATTR {
+    return load_words([&](std::size_t lane) { return positions[(*corners[lane])[k]]; });
+  };
+  const auto real = [](VI v) HWY_ATTR { return hn::BitCast(DF{}, v); };
+  const Words a = corner(0), b = corner(1), c = corner(2);
+  return in_double(
+      DF{},
+      [&](auto ax, auto ay, auto az, auto bx, auto by, auto bz, auto cx, auto cy, auto cz) HWY_ATTR {
+        using V = decltype(ax);
+        return lambert(job, Vec3<V>{ax, ay, az}, Vec3<V>{bx, by, bz}, Vec3<V>{cx, cy, cz});
+      },
+      real(a.word[0]), real(a.word[1]), real(a.word[2]), real(b.word[0]), real(b.word[1]), real(b.word[2]),
+      real(c.word[0]), real(c.word[1]), real(c.word[2]));
+}
+
+void shade(const ShadeJob& job, RunOutput& run) {
+  const DI d;
+  const Positions positions(job.mesh);
+  ScreenTriangle* triangles = run.triangles.data();
+  for (std::size_t i = 0; i < run.count; i += kLanes) {
+    const std::size_t count = std::min(kLanes, run.count - i);
+    const glm::uvec3* corners[kLanes];
+    std::uint32_t colours[kLanes];
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const std::uint32_t source = triangles[i + std::min(lane, count - 1)].payload;
+      corners[lane] = &job.mesh.triangles[source];
+      colours[lane] = job.mesh.colours[source];
+    }
+    const VI colour = hn::LoadU(d, reinterpret_cast<const std::int32_t*>(colours));
+    hn::StoreU(lit(colour, cosines(job, positions, corners)), d, reinterpret_cast<std::int32_t*>(colours));
+    for (std::size_t lane = 0; lane < count; ++lane) triangles[i + lane].payload = colours[lane];
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace edgewise
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace edgewise {
+
+ShadeJob::ShadeJob(const Mesh& seen, const glm::dmat4& model, glm::dvec3 towards)
+    : mesh(seen),
+      cofactor(glm::cross(glm::dvec3(model[1]), glm::dvec3(model[2])),
+               glm::cross(glm::dvec3(model[2]), glm::dvec3(model[0])),
+               glm::cross(glm::dvec3(model[0]), glm::dvec3(model[1]))),
+      to_light(glm::normalize(towards)) {}
+
+ShadeKernel shade_kernel(SimdTarget target) {
+  return EDGEWISE_KERNEL(shade, target);
+}
+
+}  // namespace edgewise
+#endif

@@ -1,0 +1,25 @@
+// Flat shading of visible triangles. See shade.cpp.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "frontend/jobs.h"
+#include "raster/simd_target.h"
+
+namespace edgewise {
+
+struct ShadeJob {
+  ShadeJob(const Mesh& mesh, const glm::dmat4& model, glm::dvec3 to_light);
+
+  const Mesh& mesh;
+  glm::dmat3 cofactor;
+  glm::dvec3 to_light;  // normalised
+};
+
+// Replaces the payload of a run's triangles, their index in the mesh, by their colour in the light.
+using ShadeKernel = void (*)(const ShadeJob& job, RunOutput& run);
+
+// `target` must be resolved.
+ShadeKernel shade_kernel(SimdTarget target);
+
+}  // namespace edgewise

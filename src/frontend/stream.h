@@ -1,0 +1,15 @@
+// Triangles of a stream, whose positions are pixels already. See stream.cpp.
+#pragma once
+
+#include "frontend/jobs.h"
+#include "raster/simd_target.h"
+
+namespace edgewise {
+
+// Appends what is visible of triangles begin … end - 1 to the output, with its payload.
+using StreamKernel = void (*)(const StreamJob& job, std::size_t begin, std::size_t end, RunOutput& out);
+
+// `target` must be resolved.
+StreamKernel stream_kernel(SimdTarget target);
+
+}  // namespace edgewise

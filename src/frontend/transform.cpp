@@ -1,0 +1,109 @@
+// Vertices by the vector: a column of each coordinate, and no branch. Where a vertex is not finite or needs
+// clipping, its screen position is computed all the same and means nothing.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "frontend/transform.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+// After Highway, which it needs.
+#include "frontend/lanes-inl.h"
+
+#include <algorithm>
+
+#include "frontend/transform.h"
+#include "raster/kernel_table.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace edgewise {
+namespace HWY_NAMESPACE {
+
+struct ClipVectors {
+  VF x, y, z, w;
+};
+
+HWY_INLINE ClipVectors transform(const glm::mat4& m, VF x, VF y, VF z) {
+  const DF d;
+  const auto row = [&](int r) HWY_ATTR {
+    const VF xy = hn::Add(hn::Mul(hn::Set(d, m[0][r]), x), hn::Mul(hn::Set(d, m[1][r]), y));
+    return hn::Add(hn::Add(xy, hn::Mul(hn::Set(d, m[2][r]), z)), hn::Set(d, m[3][r]));
+  };
+  return {row(0), row(1), row(2), row(3)};
+}
+
+// outside_of() of clip.h. Float is exact here, too: 16384 w is, and where it overflows it compares as it
+// should.
+HWY_INLINE VI outside_of(const ClipVectors& v, float width_px, float height_px) {
+  const DF df;
+  const DI di;
+  VI sides = hn::Zero(di);
+  const auto mark = [&](auto beyond, Outside side) HWY_ATTR {
+    sides = hn::Or(sides, hn::IfThenElseZero(hn::RebindMask(di, beyond), hn::Set(di, side)));
+  };
+  const VF zero = hn::Zero(df);
+  const VF guard = hn::Mul(v.w, hn::Set(df, static_cast<float>(contract::kMaxImageSide)));
+  mark(hn::Lt(v.z, zero), kNear);
+  mark(hn::Gt(v.z, v.w), kFar);
+  mark(hn::Lt(v.x, hn::Neg(guard)), kGuardLeft);
+  mark(hn::Gt(v.x, guard), kGuardRight);
+  mark(hn::Lt(v.y, hn::Neg(guard)), kGuardTop);
+  mark(hn::Gt(v.y, guard), kGuardBottom);
+  mark(hn::Lt(v.x, zero), kLeft);
+  mark(hn::Gt(v.x, hn::Mul(hn::Set(df, width_px), v.w)), kRight);
+  mark(hn::Lt(v.y, zero), kTop);
+  mark(hn::Gt(v.y, hn::Mul(hn::Set(df, height_px), v.w)), kBottom);
+  const auto finite =
+      hn::And(hn::And(hn::IsFinite(v.x), hn::IsFinite(v.y)), hn::And(hn::IsFinite(v.z), hn::IsFinite(v.w)));
+  return hn::IfThenElse(hn::RebindMask(di, finite), sides, hn::Set(di, kNotFinite));
+}
+
+// A whole vector of vertices. Returns the sides beyond which each lies, all of them where it is not finite.
+HWY_INLINE VI transform_vector(const MeshJob& job, const float* positions, Vertex* out) {
+  const DF df;
+  const DI di;
+  VF x, y, z;
+  hn::LoadInterleaved3(df, positions, x, y, z);
+  const ClipVectors v = transform(job.to_screen, x, y, z);
+  VI outside = outside_of(v, static_cast<float>(job.options.width), static_cast<float>(job.options.height));
+  const VF inverse_w = hn::Div(hn::Set(df, 1.0f), v.w);
+  const auto projectable = hn::And(hn::Gt(v.w, hn::Zero(df)), hn::IsFinite(inverse_w));
+  const auto inside = hn::Eq(hn::And(outside, hn::Set(di, kMustClip | kNotFinite)), hn::Zero(di));
+  const auto judged_by_clipper = hn::AndNot(hn::RebindMask(di, projectable), inside);
+  outside = hn::Or(outside, hn::IfThenElseZero(judged_by_clipper, hn::Set(di, kNear)));
+  hn::StoreInterleaved4(snap(hn::Mul(v.x, inverse_w)), snap(hn::Mul(v.y, inverse_w)),
+                        quantize_depth(hn::Mul(v.z, inverse_w)), outside, di,
+                        reinterpret_cast<std::int32_t*>(out));
+  return hn::IfThenElse(hn::Eq(outside, hn::Set(di, kNotFinite)), hn::Set(di, -1), outside);
+}
+
+std::uint32_t transform_vertices(const MeshJob& job, std::size_t begin, std::size_t end) {
+  const DI d;
+  const glm::vec3* positions = job.mesh.positions.data();
+  VI common = hn::Set(d, -1);
+  std::size_t i = begin;
+  for (; i + kLanes <= end; i += kLanes)
+    common = hn::And(common, transform_vector(job, &positions[i].x, job.vertices + i));
+  if (i < end) {
+    glm::vec3 padded[kLanes];
+    Vertex vertices[kLanes];
+    for (std::size_t lane = 0; lane < kLanes; ++lane) padded[lane] = positions[std::min(i + lane, end - 1)];
+    common = hn::And(common, transform_vector(job, &padded[0].x, vertices));
+    std::copy_n(vertices, end - i, job.vertices + i);
+  }
+  std::int32_t lanes[kLanes];
+  hn::StoreU(common, d, lanes);
+  for (const std::int32_t lane : lanes) lanes[0] &= lane;
+  return static_cast<std::uint32_t>(lanes[0]);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace edgewise
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace edgewise {
+
+TransformKernel transform_kernel(SimdTarget target) {
+  return EDGEWISE_KERNEL(transform_vertices, target);
+}
+
+}  // namespace edgewise
+#endif
