@@ -11,7 +11,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 SCRIPTS = ROOT / "scripts"
 MACHINE = {"cpu_model": "Test CPU", "cores": 2, "simd_best": "avx2", "memory_gib": 4, "os": "Test OS",
-           "compiler": "GCC 1", "build_type": "Release", "commit": "abc"}
+           "compiler": "GCC 1", "build_type": "Release", "commit": "abc", "caches": {"L2": "1024K", "L3": "32768K"}}
 VERIFY = {"backends": ["slow", "fast"],
           "scenes": [{"configurations": 8, "differing_pixels": 0, "oracle": {"configurations": 2, "differing_pixels": 0}}]}
 COUNTERS = {"triangles": 12.0, "covered_px": 1e6, "overdraw": 0.5, "width": 1920.0, "height": 1080.0}
@@ -31,7 +31,15 @@ def bench(slow=(10.0, 10.2, 10.1), fast=(2.0, 2.1, 2.2)):
                 rows += entries(f"{backend}/area:{area}/threads:{threads}", [t * factor for t in times])
         rows += entries(f"{backend}/cube/size:256x256/threads:2", times)
         rows += entries(f"{backend}/cube/size:512x512/threads:2", [4 * t for t in times])
-        rows += entries(f"{backend}/count:100/threads:2", times) + entries(f"{backend}/count:1000/threads:2", times)
+        for count, factor in ((100, 1), (1000, 1), (10000, 10)):
+            rows += entries(f"{backend}/count:{count}/threads:2", [t * factor for t in times])
+        for threads in (1, 2):
+            rows += entries(f"{backend}+frontend/cube/threads:{threads}", [t / threads for t in times], peak_bytes=20e6)
+            rows += entries(f"{backend}/cube/tiny:256x256/threads:{threads}", [t * 2e-3 for t in times])
+        for cores in (1, 2, 4):
+            rows += entries(f"{backend}+frontend/cube/cores:{cores}/threads:{cores}", [times[0] / min(cores, 3)],
+                            label="the longest task of build in bins.cpp", work_ms=times[0], path_ms=times[0] / 3,
+                            longest_ms=times[0] / 6, barrier_ms=2e-3)
         for mode, factor in (("none", 2), ("back", 1)):
             rows += entries(f"{backend}+frontend/cube/cull:{mode}/threads:2", [t * factor for t in times])
         for target, factor in (("scalar", 4), ("avx2", 1)):
@@ -216,6 +224,34 @@ class ScriptsTest(unittest.TestCase):
         self.assertEqual(result.returncode, 2)
         self.assertIn("Missing packages: libegl-dev\n", result.stderr)
 
+    def test_growth_more_cores_and_memory_fill_the_readme(self):
+        readme = self.folder / "README.md"
+        names = ("growth", "scaling", "small_draws", "memory")
+        readme.write_text("<!-- results: results -->\n"
+                          + "".join(f"<!-- generated:{name} -->\n<!-- /generated -->\n" for name in names))
+        result = run("readme", "--file", readme)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        text = readme.read_text()
+        self.assertIn("`fast` **less than linear** from 100 to 1k (0.00), linear from 1k to 10k (1.00)", text)
+        self.assertIn("`fast` linear from 256² to 512² (1.00)", text)
+        self.assertIn("the L3 of 32 MiB holds a frame of 2048² px or the records of 840k triangles", text)
+        self.assertIn("| cube | fast | 2.00 | 0.667 | 2.00× | 2× | 3× | the longest task of build in bins.cpp: 50% of the "
+                      "path |", text)
+        self.assertIn("charged 2 µs", text)
+        self.assertIn("at 1920 × 1080: `slow` 20.2 µs on one thread, 20.2 on two (+10.1 against half)", text)
+        self.assertIn("9.6 bytes a pixel", text)
+        self.assertIn("no scene takes more than 60%", text)
+
+    def test_readme_says_so_where_rows_are_missing(self):
+        data = bench()
+        data["benchmarks"] = entries("fast/cube/threads:1", [1.0])
+        self.write("few", data)
+        readme = self.folder / "README.md"
+        readme.write_text("<!-- results: few -->\n<!-- generated:growth -->\n<!-- /generated -->\n"
+                          "<!-- generated:scaling -->\n<!-- /generated -->\n")
+        self.assertEqual(run("readme", "--file", readme).returncode, 0)
+        self.assertEqual(readme.read_text().count("hold none of the rows"), 2)
+
     def test_laboratory_fills_the_readme_and_the_summary(self):
         self.add_laboratory()
         readme = self.folder / "README.md"
@@ -259,7 +295,7 @@ class ScriptsTest(unittest.TestCase):
         self.assertEqual(first.returncode, 0, first.stderr)
         self.assertEqual(second.returncode, 0, second.stderr)
         drawn = sorted(p.name for p in (self.results / "charts").iterdir())
-        charts = ["area", "cost", "culling", "scenes", "simd", "threads", "stability-nearer", "turning-cube",
+        charts = ["area", "culling", "growth", "scaling", "scenes", "simd", "threads", "stability-nearer", "turning-cube",
                   *(f"{kind}-{family}" for kind in ("accuracy", "errors")
                     for family in ("coverage", "visibility", "facing", "clipping"))]
         self.assertEqual(drawn, sorted(f"{c}.{suffix}" for c in charts for suffix in ("png", "svg")))
@@ -296,6 +332,24 @@ class CrossingsTest(unittest.TestCase):
 
     def test_one_draw_decides_nothing(self):
         self.assertEqual(list(self.crossings(self.curve([9.0], [1.0]), self.curve([3.0], [3.0]))), [])
+
+
+class GrowthTest(unittest.TestCase):
+    """growth.steps(): where noise leaves open how cost grows, nothing is claimed."""
+
+    def test_kinds(self):
+        sys.path.insert(0, str(SCRIPTS))
+        from bench_rows import Row
+        from growth import QUANTITIES, runs, steps
+
+        def kinds(*repetitions):
+            rows = [Row("", "", False, "", {"count": str(10 ** i)}, list(times)) for i, times in enumerate(repetitions)]
+            return [(run[0].kind, len(run)) for run in runs(steps(QUANTITIES[0], rows))]
+
+        self.assertEqual(kinds([1.0] * 3, [2.0] * 3, [4.0] * 3, [40.0] * 3), [("less than linear", 2), ("linear", 1)])
+        self.assertEqual(kinds([1.0] * 3, [20.0] * 3), [("more than linear", 1)])
+        self.assertEqual(kinds([1.0, 1.0, 3.0], [8.0, 20.0, 30.0]), [("not settled", 1)])
+        self.assertEqual(kinds([1.0], [20.0]), [("not settled", 1)], "one draw decides nothing")
 
 
 class UnsettledTest(unittest.TestCase):
