@@ -35,7 +35,7 @@ constexpr Effort kFull{5, 3, 0.012, 0.35}, kQuick{3, 2, 0.015, 0.3};
 // Memory is measured once a scene and backend.
 bool needs_peak(const Row& row) {
   return row.timed == Timed::frame && row.backend != nullptr && row.cores == 0 &&
-         row.execution.threads == 2 && row.once_s < kTooSlowToRepeat_s;
+         row.execution.threads == 2 && row.once_s < row.repeat_below_s;
 }
 
 // Hands Google Benchmark its flags behind our defaults, so that the user's win.
@@ -148,7 +148,7 @@ void time_row(benchmark::State& state, const Row& row, Stage& stage) {
   if (!row.error.empty()) return state.SkipWithError(row.error.c_str());
   if (row.cores > 0) {
     schedule_row(state, row);
-  } else if (row.once_s > kTooSlowToRepeat_s) {
+  } else if (row.once_s > row.repeat_below_s) {
     for (auto _ : state) state.SetIterationTime(row.once_s);
   } else {
     // The caches were another row's; a long draw warms its own.
@@ -185,7 +185,7 @@ void register_rows(const std::vector<Row>& rows, Stage& stage, const Flags& flag
         });
     registered->Unit(benchmark::kMillisecond);
     // Such a row's time stands before it would be taken.
-    const bool known = row.once_s > kTooSlowToRepeat_s || row.cores > 0;
+    const bool known = row.once_s > row.repeat_below_s || row.cores > 0;
     if (known)
       registered->UseManualTime();
     else

@@ -77,13 +77,12 @@ void Stage::compare(Row& row) {
     compare_ours(row);
   }
   if (row.cores > 0) {
-    row.recorded = {};  // the first draw's page faults are not the frame's
-    for (const double limit_s : {kTooSlowToRepeat_s, kTooSlowToRepeat_s, 0.03})
+    for (const double limit_s : {row.repeat_below_s, 0.02})
       if (row.once_s < limit_s) row.once_s = recorded_work_s(row);
     return;
   }
   // The first draw allocates; later ones tell how long a row really takes, the shorter the more of them.
-  for (const double limit_s : {kTooSlowToRepeat_s, 0.1, 0.1})
+  for (const double limit_s : {row.repeat_below_s, 0.1, 0.1})
     if (row.once_s < limit_s) row.once_s = std::min(row.once_s, timed_work_s(row));
 }
 

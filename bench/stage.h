@@ -10,9 +10,6 @@
 
 namespace edgewise::bench {
 
-// A row whose one draw takes longer is not drawn again: the compared draw is the timed one.
-inline constexpr double kTooSlowToRepeat_s = 1.5;
-
 class Stage {
  public:
   // Draws the row once, compares every bit with the reference, and sets the row's once_s, and its error if

@@ -88,9 +88,13 @@ class Suite {
     }
   }
 
+  // The last steps take some backends a second, where one draw tells enough.
   void add_growth() {
     for (const auto& [what, workload] : growth_steps(options_.width, options_.height, options_.quick))
-      for (const auto& backend : backends()) add(workload, Timed::raster, backend, what, kSweepThreads);
+      for (const auto& backend : backends()) {
+        add(workload, Timed::raster, backend, what, kSweepThreads);
+        rows_.back().repeat_below_s = 0.6;
+      }
   }
 
   // So little work that starting a thread shows.

@@ -17,6 +17,9 @@ enum class Timed {
   frame      // both
 };
 
+// A row whose one draw takes longer is not drawn again: the compared draw is the timed one.
+inline constexpr double kTooSlowToRepeat_s = 1.5;
+
 struct Row {
   // WHO/what/key:value…/threads:N, WHO being BACKEND, frontend or BACKEND+frontend, and a peer a BACKEND
   std::string name;
@@ -25,6 +28,7 @@ struct Row {
   const BackendInfo* backend = nullptr;  // null for front end rows and peers
   const PeerInfo* peer = nullptr;
   Execution execution;
+  double repeat_below_s = kTooSlowToRepeat_s;
   int cores = 0;                // if set, not timed but scheduled on so many; execution.threads is the same
   FrameWork recorded;           // what is scheduled then
   double peak_bytes = 0;        // of a first frame; 0 where it was not measured

@@ -89,8 +89,8 @@ def memory_sentence(bench):
     def share(row):
         return row.counters["peak_bytes"] / (100 * row.counters["triangles"] + 16 * pixels(row))
 
-    fewest, most = (pick(rows, key=lambda row: (row.counters["triangles"], row.counters["peak_bytes"]))
-                    for pick in (min, max))
+    fewest = min(rows, key=lambda row: (row.counters["triangles"], -row.counters["peak_bytes"]))
+    most = max(rows, key=lambda row: (row.counters["triangles"], row.counters["peak_bytes"]))
     a_pixel = fewest.counters["peak_bytes"] / pixels(fewest)
     a_triangle = (most.counters["peak_bytes"] - a_pixel * pixels(most)) / most.counters["triangles"]
     worst = max(rows, key=share)
