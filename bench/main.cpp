@@ -144,6 +144,16 @@ void schedule_row(benchmark::State& state, const Row& row) {
   state.counters["barrier_ms"] = barrier_s * 1e3;
 }
 
+void add_floor(benchmark::UserCounters& counters, const Floor& floor) {
+  constexpr double kMs = 1e3;
+  counters["covered_blocks"] = static_cast<double>(floor.blocks.covered);
+  counters["won_blocks"] = static_cast<double>(floor.blocks.won);
+  counters["floor_read_ms"] = floor.read_s * kMs;
+  counters["floor_blocks_ms"] = floor.blocks_s * kMs;
+  counters["floor_write_ms"] = floor.write_s * kMs;
+  counters["floor_ms"] = floor.total_s() * kMs;
+}
+
 void time_row(benchmark::State& state, const Row& row, Stage& stage) {
   if (!row.error.empty()) return state.SkipWithError(row.error.c_str());
   if (row.cores > 0) {
@@ -166,6 +176,7 @@ void time_row(benchmark::State& state, const Row& row, Stage& stage) {
   const auto covered_px = static_cast<double>(workload.covered_px());
   counters["covered_px"] = covered_px;
   counters["overdraw"] = covered_px / (static_cast<double>(workload.width()) * workload.height());
+  if (row.floor) add_floor(counters, *row.floor);
   if (row.peer == nullptr) return;
   counters["near_ties"] = static_cast<double>(row.near_ties);
   state.SetLabel(row.peer->version());

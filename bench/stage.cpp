@@ -84,6 +84,9 @@ void Stage::compare(Row& row) {
   // The first draw allocates; later ones tell how long a row really takes, the shorter the more of them.
   for (const double limit_s : {row.repeat_below_s, 0.1, 0.1})
     if (row.once_s < limit_s) row.once_s = std::min(row.once_s, timed_work_s(row));
+  if (row.wants_floor)
+    row.floor =
+        limit_.under(row.workload->triangles(), row.workload->blocks(), frame(row), row.execution.threads);
 }
 
 }  // namespace edgewise::bench

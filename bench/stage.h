@@ -13,7 +13,8 @@ namespace edgewise::bench {
 class Stage {
  public:
   // Draws the row once, compares every bit with the reference, and sets the row's once_s, and its error if
-  // they differ; records its tasks, if it is to be scheduled. Needs the workload prepared.
+  // they differ, and the floor under it where that is wanted; records its tasks, if it is to be scheduled.
+  // Needs the workload prepared.
   void compare(Row& row);
 
   // Does once what the row times.
@@ -32,6 +33,7 @@ class Stage {
   std::map<std::pair<int, int>, Framebuffer> frames_;
   Frontend frontend_;
   PeerStage peers_;
+  Limit limit_;
 };
 
 }  // namespace edgewise::bench

@@ -10,6 +10,7 @@
 #include "app/printable.h"
 #include "crowd.h"
 #include "growth.h"
+#include "ladder.h"
 
 namespace edgewise::bench {
 
@@ -66,6 +67,7 @@ class Suite {
     for (const auto& backend : backends())
       for (const int threads : kThreads) {
         add(workload, Timed::raster, backend, name, threads);
+        rows_.back().wants_floor = backend.name == kLadderBackend;
         add(workload, Timed::frame, backend, name, threads);
       }
     if (options_.scenes.empty()) add_scheduled(workload, name);
@@ -73,6 +75,14 @@ class Suite {
     for (const auto& peer : peers())
       for (const int threads : kThreads)
         add_peer(workload, stream ? Timed::raster : Timed::frame, peer, name, threads);
+  }
+
+  // Beside the scene's own rows, which are its ends: one reference picture serves them all.
+  void add_ladder(const WorkloadPtr& workload, const std::string& scene) {
+    if (!in_ladder(scene)) return;
+    for (const Rung& rung : ladder())
+      add(workload, Timed::raster, find_backend(kLadderBackend), fmt::format("{}/rung:{}", scene, rung.name),
+          rung.execution);
   }
 
   void add_area_sweep() {
@@ -143,14 +153,21 @@ class Suite {
  private:
   void add(const WorkloadPtr& workload, Timed timed, const BackendInfo& backend, const std::string& what,
            int threads, SimdTarget target = SimdTarget::best) {
+    Execution execution;
+    execution.threads = threads;
+    execution.target = target;
+    add(workload, timed, backend, what, execution);
+  }
+
+  void add(const WorkloadPtr& workload, Timed timed, const BackendInfo& backend, const std::string& what,
+           const Execution& execution) {
     const char* with = timed == Timed::frame ? "+frontend" : "";
     Row row;
-    row.name = fmt::format("{}{}/{}/threads:{}", backend.name, with, what, threads);
+    row.name = fmt::format("{}{}/{}/threads:{}", backend.name, with, what, execution.threads);
     row.workload = workload;
     row.timed = timed;
     row.backend = &backend;
-    row.execution.threads = threads;
-    row.execution.target = target;
+    row.execution = execution;
     rows_.push_back(std::move(row));
   }
 
@@ -213,8 +230,9 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
   for (const auto& scene : builtin_scenes()) {
     const std::string name(scene.name);
     taken.emplace(name, name);
-    suite.add_scene(suite.scene_workload(name, options.width, options.height, Cull::back), name,
-                    scene.stream);
+    const auto workload = suite.scene_workload(name, options.width, options.height, Cull::back);
+    suite.add_scene(workload, name, scene.stream);
+    suite.add_ladder(workload, name);
   }
   taken.emplace(kCrowdName, kCrowdName);
   suite.add_scene(

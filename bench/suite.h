@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,10 +30,12 @@ struct Row {
   const PeerInfo* peer = nullptr;
   Execution execution;
   double repeat_below_s = kTooSlowToRepeat_s;
-  int cores = 0;                // if set, not timed but scheduled on so many; execution.threads is the same
-  FrameWork recorded;           // what is scheduled then
-  double peak_bytes = 0;        // of a first frame; 0 where it was not measured
+  int cores = 0;          // if set, not timed but scheduled on so many; execution.threads is the same
+  FrameWork recorded;     // what is scheduled then
+  double peak_bytes = 0;  // of a first frame; 0 where it was not measured
+  bool wants_floor = false;
   double once_s = 0.0;          // what it took when it was compared
+  std::optional<Floor> floor;   // if wanted
   std::uint64_t near_ties = 0;  // peers: pixels where another triangle is as near up to rounding
   std::string error;            // why it must not be timed
 };

@@ -30,6 +30,11 @@ void Workload::prepare(bool keep_scene) {
   prepared_ = true;
 }
 
+const BlockCounts& Workload::blocks() {
+  if (!blocks_) blocks_ = count_blocks(triangles_, width_, height_);
+  return *blocks_;
+}
+
 const Framebuffer& Workload::reference() {
   if (!reference_) {
     reference_.emplace(width_, height_);

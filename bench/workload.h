@@ -11,6 +11,7 @@
 
 #include "app/source.h"
 #include "frontend/frontend.h"
+#include "limit.h"
 #include "raster/backend.h"
 
 namespace edgewise::bench {
@@ -31,6 +32,9 @@ class Workload {
   const Framebuffer& reference();
   void drop_reference() { reference_.reset(); }
 
+  // Counted when first asked for.
+  const BlockCounts& blocks();
+
   FrontendOptions frontend_options(int threads) const;
   const Drawable& drawable() const { return source_->drawable; }
   std::span<const ScreenTriangle> triangles() const { return triangles_; }
@@ -47,6 +51,7 @@ class Workload {
   bool stream_ = false, prepared_ = false;
   std::vector<ScreenTriangle> triangles_;
   std::uint64_t submitted_ = 0, covered_px_ = 0;
+  std::optional<BlockCounts> blocks_;
   std::optional<Framebuffer> reference_;
 };
 

@@ -69,19 +69,22 @@ inline std::vector<ScreenTriangle> adversarial(std::string_view family, int coun
   return triangles;
 }
 
-// Every SIMD target with one thread, and several thread counts and all tile sizes with the best target.
+// Every SIMD target with one thread, all tile sizes, and ideas left out; several thread counts with the best
+// one.
 inline std::vector<Execution> executions() {
   std::vector<Execution> list;
   for (const auto target : supported_targets()) list.push_back({1, 64, target});
   for (const int threads : {2, 3, 8}) list.push_back({threads, 64, SimdTarget::best});
   for (const auto target : supported_targets())
     for (const int tile : {16, 32}) list.push_back({2, tile, target});
+  for (const auto target : supported_targets())
+    for (const auto& ideas : kTiledVariants) list.push_back({1, 64, target, ideas});
   return list;
 }
 
 inline std::string describe(const Execution& e) {
   return std::to_string(e.threads) + " threads, tile " + std::to_string(e.tile_size) + ", " +
-         std::string(name_of(e.target));
+         std::string(name_of(e.target)) + ", " + edgewise::describe(e.ideas);
 }
 
 inline void expect_same(const Framebuffer& expected, const Framebuffer& actual, const std::string& what) {

@@ -27,14 +27,16 @@ struct Judgement {
 constexpr Execution kMostSeams{3, 16, SimdTarget::best};
 constexpr Execution kPlainest{1, 64, SimdTarget::scalar};
 
-// Other tile sizes run on the best target, other targets with the usual tile: the product would mostly repeat
-// itself, since only tiled backends look at either.
+// Other tile sizes run on the best target, other targets with the usual tile, and ideas are left out on one
+// thread count: the product would mostly repeat itself, since only tiled backends look at either.
 std::vector<Execution> executions(const VerifyPlan& plan) {
   std::vector<Execution> all;
   for (const int threads : plan.threads) {
     for (const SimdTarget target : supported_targets()) all.push_back({threads, 64, target});
     for (const int tile : {16, 32}) all.push_back({threads, tile, resolve(SimdTarget::best)});
   }
+  for (const TiledIdeas& ideas : kTiledVariants)
+    all.push_back({plan.threads.front(), 64, resolve(SimdTarget::best), ideas});
   return all;
 }
 

@@ -12,8 +12,9 @@ namespace {
 constexpr std::size_t kNameWidth = 12;
 
 std::string describe(const Execution& e) {
-  return fmt::format("{} thread{}, {}, tile {}", e.threads, e.threads == 1 ? "" : "s",
-                     name_of(resolve(e.target)), e.tile_size);
+  const std::string ideas = edgewise::describe(e.ideas);
+  return fmt::format("{} thread{}, {}, tile {}{}{}", e.threads, e.threads == 1 ? "" : "s",
+                     name_of(resolve(e.target)), e.tile_size, ideas.empty() ? "" : ", ", ideas);
 }
 
 std::string_view name_of_payload(Payload payload) {
@@ -38,6 +39,7 @@ nlohmann::json mismatch_json(const Mismatch& m) {
                       {"threads", m.execution.threads},
                       {"tile_size", m.execution.tile_size},
                       {"simd_target", name_of(resolve(m.execution.target))},
+                      {"ideas", edgewise::describe(m.execution.ideas)},
                       {"cull", name_of(m.cull)},
                       {"payload", name_of_payload(m.payload)},
                       {"width", m.width},

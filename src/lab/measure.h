@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "raster/backend.h"
+#include "raster/contract.h"
 
 namespace edgewise::lab {
 
@@ -32,6 +33,13 @@ std::vector<std::vector<std::uint32_t>> disjoint_groups(std::span<const ScreenTr
 std::vector<std::uint32_t> count_hits(Backend& backend, std::span<const ScreenTriangle> triangles, int width,
                                       int height, const Execution& execution,
                                       const std::function<void(double)>& on_progress = {});
+
+// The pixels of a row of its box that a triangle covers, [first, end). One exact division
+// an edge.
+struct RowSpan {
+  int first, end;
+};
+RowSpan covered_in_row(const contract::Edge (&edges)[3], const contract::PixelBox& box, int y);
 
 // Pixels covered, each as often as triangles cover it (the sum of the hit counts), by one exact division a
 // row and edge. Divided by the image's pixels this is the overdraw.

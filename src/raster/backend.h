@@ -9,6 +9,7 @@
 #include "raster/framebuffer.h"
 #include "raster/screen_triangle.h"
 #include "raster/simd_target.h"
+#include "raster/tiled_ideas.h"
 
 namespace edgewise {
 
@@ -20,6 +21,7 @@ struct Execution {
   int threads = 1;     // 1 … kMaxThreads
   int tile_size = 64;  // px; 16, 32 or 64; only tiled backends look at it
   SimdTarget target = SimdTarget::best;
+  TiledIdeas ideas{};  // all on; only the tiled backend looks at them
 };
 
 // A backend keeps its scratch memory between frames, so one object must not draw on two threads at once; two

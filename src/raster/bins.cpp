@@ -69,9 +69,9 @@ void Bins::bin(const ScreenTriangle& triangle, std::uint32_t index, const CellBo
 }
 
 void Bins::build(std::span<const ScreenTriangle> triangles, const CellGrid& grid, int threads,
-                 SimdTarget target) {
-  // Triangles. A chunk's bookkeeping costs about as much as binning a dozen small ones; and a few hundred
-  // that are large are worth sharing.
+                 SimdTarget target, const TiledIdeas& ideas) {
+  // Triangles. A thousand large ones are worth sharing; but the shorter a cell's lists, the emptier the
+  // vectors of who draws it.
   constexpr std::size_t kLeastChunk = 500;
   constexpr std::size_t kChunksPerThread = 4;
   constexpr std::size_t kMaxHeads = std::size_t{1} << 24;  // list heads of all chunks together: 128 MB
@@ -81,7 +81,7 @@ void Bins::build(std::span<const ScreenTriangle> triangles, const CellGrid& grid
   used_chunks_ = std::clamp<std::size_t>(triangles.size() / kLeastChunk, 1, std::min(most, affordable));
   if (chunks_.size() < used_chunks_) chunks_.resize(used_chunks_);
 
-  const CellBoxKernel find_boxes = cell_box_kernel(target);
+  const CellBoxKernel find_boxes = cell_box_kernel(ideas.vector_setup ? target : SimdTarget::scalar);
   parallel_for(threads, static_cast<int>(used_chunks_), [&](int i) {
     const auto c = static_cast<std::size_t>(i);
     Chunk& chunk = chunks_[c];
@@ -91,7 +91,7 @@ void Bins::build(std::span<const ScreenTriangle> triangles, const CellGrid& grid
     CellBox boxes[kBoxesAtOnce];
     for (std::size_t first = begin; first < end; first += kBoxesAtOnce) {
       const auto some = triangles.subspan(first, std::min<std::size_t>(kBoxesAtOnce, end - first));
-      for (std::uint64_t left = find_boxes(some, grid, boxes); left != 0; left &= left - 1) {
+      for (std::uint64_t left = find_boxes(some, grid, ideas.prefetch, boxes); left != 0; left &= left - 1) {
         const auto k = static_cast<std::size_t>(std::countr_zero(left));
         bin(some[k], static_cast<std::uint32_t>(first + k), boxes[k], grid, chunk);
       }

@@ -13,6 +13,7 @@
 #include "raster/cell_boxes.h"
 #include "raster/screen_triangle.h"
 #include "raster/simd_target.h"
+#include "raster/tiled_ideas.h"
 
 namespace edgewise {
 
@@ -20,7 +21,8 @@ class Bins {
  public:
   // Replaces what was binned before. A triangle with no sample in its bounding box lands nowhere; one without
   // area may land in a cell or two. Throws std::length_error when a chunk's lists pass 2^32 entries.
-  void build(std::span<const ScreenTriangle> triangles, const CellGrid& grid, int threads, SimdTarget target);
+  void build(std::span<const ScreenTriangle> triangles, const CellGrid& grid, int threads, SimdTarget target,
+             const TiledIdeas& ideas = {});
 
   // visit(indices) for consecutive runs of a cell's triangle indices, in submission order.
   template <typename Visit>

@@ -16,7 +16,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET == HWY_SCALAR
 
-std::uint64_t cell_boxes(std::span<const ScreenTriangle> triangles, const CellGrid& grid, CellBox* out) {
+std::uint64_t cell_boxes(std::span<const ScreenTriangle> triangles, const CellGrid& grid, bool,
+                         CellBox* out) {
   std::uint64_t filled = 0;
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const auto box = contract::pixel_box(triangles[i], grid.width, grid.height);
@@ -31,7 +32,8 @@ std::uint64_t cell_boxes(std::span<const ScreenTriangle> triangles, const CellGr
 
 #else
 
-std::uint64_t cell_boxes(std::span<const ScreenTriangle> triangles, const CellGrid& grid, CellBox* out) {
+std::uint64_t cell_boxes(std::span<const ScreenTriangle> triangles, const CellGrid& grid, bool prefetch,
+                         CellBox* out) {
   const D64 d;
   constexpr int kLanes = static_cast<int>(hn::MaxLanes(d));
   const V64 last = hn::Set(d, static_cast<std::int64_t>(triangles.size()) - 1);
@@ -41,7 +43,8 @@ std::uint64_t cell_boxes(std::span<const ScreenTriangle> triangles, const CellGr
   for (int k = 0; k < count; k += kLanes) {
     // Gathers don't teach the hardware's prefetchers what a stream this is.
     const char* ahead = reinterpret_cast<const char*>(triangles.data() + k) + kAhead;
-    for (std::size_t i = 0; i < kLanes * sizeof(ScreenTriangle); i += 64) hwy::Prefetch(ahead + i);
+    if (prefetch)
+      for (std::size_t i = 0; i < kLanes * sizeof(ScreenTriangle); i += 64) hwy::Prefetch(ahead + i);
     const V64 index = hn::Min(hn::Add(hn::Iota(d, 0), hn::Set(d, k)), last);
     const TriangleLanes t = load(triangles.data(), record_offset(index));
     const auto [x0, x1] = sample_range(t.x, 0, grid.width);

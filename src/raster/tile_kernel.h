@@ -6,6 +6,7 @@
 #include "raster/bins.h"
 #include "raster/framebuffer.h"
 #include "raster/simd_target.h"
+#include "raster/tiled_ideas.h"
 
 namespace edgewise {
 
@@ -17,6 +18,7 @@ struct TileJob {
   int size_log2;  // px; at most 6
   FrameView frame;
   std::uint32_t background;
+  TiledIdeas ideas;  // write_out decided
 };
 
 using TileKernel = void (*)(const TileJob&);

@@ -49,6 +49,7 @@ struct alignas(64) Batch {
     std::int32_t x[kSize], y[kSize], first[kSize];
   } nearest;
   std::int32_t payload[kSize];
+  std::int32_t twice_area_px[kSize];
   std::int32_t bx0[kSize], by0[kSize], bx1[kSize], by1[kSize];  // blocks that it may touch, inclusive
 };
 
@@ -99,6 +100,7 @@ inline bool set_up_one(const TileJob& job, const ScreenTriangle& triangle, Batch
   out.nearest.first[k] =
       flat ? z + out.depth.rise[k] - out.depth.span[k] : static_cast<std::int32_t>(nearest);
   out.payload[k] = wrap(triangle.payload);
+  out.twice_area_px[k] = static_cast<std::int32_t>(t.area >> 2 * kSubBits);
   out.bx0[k] = bx0, out.by0[k] = by0, out.bx1[k] = bx1, out.by1[k] = by1;
   return true;
 }
@@ -243,7 +245,9 @@ HWY_INLINE std::uint32_t set_up_vector(const TileJob& job, const std::uint32_t* 
           unless_accepted(shift_right<kSubBits>(first)));
   }
 
-  const auto exact = set_up_depth(job, {x, y, z, left, top, flipped(area, flip), flip}, out, k);
+  const V64 positive_area = flipped(area, flip);
+  store(shift_right<2 * kSubBits>(positive_area), out.twice_area_px + k);
+  const auto exact = set_up_depth(job, {x, y, z, left, top, positive_area, flip}, out, k);
   store(payload, out.payload + k);
   store(bx0, out.bx0 + k), store(bx1, out.bx1 + k);
   store(by0, out.by0 + k), store(by1, out.by1 + k);
@@ -262,17 +266,19 @@ HWY_INLINE std::uint32_t set_up_vector(const TileJob& job, const std::uint32_t* 
 inline std::uint32_t set_up(const TileJob& job, std::span<const std::uint32_t> run, Batch& out) {
   std::uint32_t alive = 0;
   const int count = static_cast<int>(run.size());
-#if HWY_TARGET == HWY_SCALAR
-  for (int k = 0; k < count; ++k)
-    alive |= std::uint32_t{set_up_one(job, job.triangles[run[static_cast<std::size_t>(k)]], out, k)} << k;
-  return alive;
-#else
+  if (HWY_TARGET == HWY_SCALAR || !job.ideas.vector_setup) {
+    for (int k = 0; k < count; ++k)
+      alive |= std::uint32_t{set_up_one(job, job.triangles[run[static_cast<std::size_t>(k)]], out, k)} << k;
+    return alive;
+  }
+#if HWY_TARGET != HWY_SCALAR
   std::uint32_t padded[Batch::kSize];
   for (int k = 0; k < Batch::kSize; ++k) padded[k] = run[static_cast<std::size_t>(std::min(k, count - 1))];
   constexpr int kLanes = static_cast<int>(hn::MaxLanes(D64{}));
   for (int k = 0; k < count; k += kLanes) alive |= set_up_vector(job, padded, out, k) << k;
-  return alive & static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1);
+  alive &= static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1);
 #endif
+  return alive;
 }
 
 }  // namespace HWY_NAMESPACE

@@ -1,0 +1,26 @@
+// The ladder: one backend with its ideas added one by one, so that a reader sees what each is worth. It
+// begins at the reference backend and ends at the backend's own rows, which the suite has already.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "raster/backend.h"
+
+namespace edgewise::bench {
+
+inline constexpr std::string_view kLadderBackend = "tiled";
+
+struct Rung {
+  std::string name;  // in row names, after "rung:"
+  Execution execution;
+};
+
+// On one thread, each with one idea more than the one before; the last lacks the choice of how to write out.
+std::vector<Rung> ladder();
+
+// Whether the ladder is climbed in a scene: those of one kind each.
+bool in_ladder(std::string_view scene);
+
+}  // namespace edgewise::bench

@@ -1,0 +1,46 @@
+// The floor under a frame's time on this machine: what anyone must spend who draws the triangles in their
+// order, were everything else free. It is the sum of
+//   - reading each triangle's record once,
+//   - testing and writing each block of 4 x 4 pixels once for each triangle that wins a pixel of it, out of
+//   the
+//     L1 cache and with vectors of the best target,
+//   - writing depth and payload of the frame once, through the caches or past them, whichever is faster,
+// each measured here, warm, on as many threads. A triangle's hidden blocks are free: hierarchical depth may
+// drop them by the thousand.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <tuple>
+
+#include "raster/framebuffer.h"
+#include "raster/screen_triangle.h"
+
+namespace edgewise::bench {
+
+struct BlockCounts {
+  std::uint64_t covered = 0;  // pairs of a block and a triangle that covers a pixel of it
+  std::uint64_t won = 0;      // those where it is, at its turn, nearer than all before it in a pixel
+};
+BlockCounts count_blocks(std::span<const ScreenTriangle> triangles, int width, int height);
+
+struct Floor {
+  BlockCounts blocks;
+  double read_s = 0, blocks_s = 0, write_s = 0;
+  double total_s() const { return read_s + blocks_s + write_s; }
+};
+
+// Measures, and remembers what other frames need too.
+class Limit {
+ public:
+  // `frame` is overwritten.
+  Floor under(std::span<const ScreenTriangle> triangles, const BlockCounts& blocks, Framebuffer& frame,
+              int threads);
+
+ private:
+  std::map<int, double> block_s_;                        // by threads
+  std::map<std::tuple<int, int, int>, double> write_s_;  // by size and threads
+};
+
+}  // namespace edgewise::bench

@@ -1,0 +1,25 @@
+// What the floor is made of, in vectors of the best SIMD target. See limit.h.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace edgewise::bench {
+
+// Sums `count` integers, so that all are read.
+std::uint64_t read_all(const std::uint64_t* from, std::size_t count);
+
+// `to` is aligned to 64 bytes, `count` a multiple of 16.
+void fill_all(std::uint32_t* to, std::size_t count, std::uint32_t value, bool past_caches);
+
+// Blocks of a tile of 64 x 64 pixels, and all that a triangle needs to be drawn to them.
+struct L1Tile {
+  static constexpr int kBlocks = 256, kBlockPixels = 16;
+  alignas(64) std::int32_t depth[kBlocks * kBlockPixels], payload[kBlocks * kBlockPixels];
+  alignas(64) std::int32_t in_block[4][kBlockPixels];  // three edges and depth, relative to the first pixel
+  std::int32_t at_block[4][kBlocks];                   // at the first pixel
+};
+// Tests and writes every block once.
+void draw_blocks(L1Tile& tile, std::int32_t payload);
+
+}  // namespace edgewise::bench

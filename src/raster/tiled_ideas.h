@@ -1,0 +1,36 @@
+// Ideas of the tiled backend that can be switched off, to see what each is worth.
+#pragma once
+
+#include <array>
+#include <string>
+
+namespace edgewise {
+
+// How tiles go to the frame, where the target has vectors. Stores past the caches (non-temporal) save reading
+// what they overwrite, and leave the caches to the triangles; but a frame that stays in the last cache from
+// one draw to the next is written, and read by whoever shows it, faster there.
+enum class WriteOut {
+  through_caches,
+  past_caches,
+  by_size  // past the caches where frame and triangles don't fit half of the last one
+};
+
+struct TiledIdeas {
+  bool vector_setup = true;        // boxes and triangles a vector at a time, where the target has vectors
+  bool prefetch = true;            // records are asked for before they are needed
+  bool hierarchical_depth = true;  // blocks are dropped that lie behind all that they show
+  WriteOut write_out = WriteOut::by_size;
+};
+
+// What differs from the default, as "no prefetch, …"; empty where nothing does.
+std::string describe(const TiledIdeas& ideas);
+
+// Each idea left out, the write-out both ways, and all left out: what a test must compare.
+constexpr std::array<TiledIdeas, 6> kTiledVariants{{{.vector_setup = false},
+                                                    {.prefetch = false},
+                                                    {.hierarchical_depth = false},
+                                                    {.write_out = WriteOut::through_caches},
+                                                    {.write_out = WriteOut::past_caches},
+                                                    {false, false, false, WriteOut::through_caches}}};
+
+}  // namespace edgewise
