@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <limits>
 #include <new>
 
 #include "app/console.h"
@@ -14,6 +15,7 @@
 #include "app/progress.h"
 #include "flags.h"
 #include "image/atomic_file.h"
+#include "memory.h"
 #include "ratios.h"
 #include "reporter.h"
 #include "stage.h"
@@ -30,6 +32,12 @@ struct Effort {
   double slow_row_s;    // beyond this, all repetitions together, they become fewer
 };
 constexpr Effort kFull{5, 3, 0.012, 0.35}, kQuick{3, 2, 0.015, 0.3};
+
+// Memory is measured once a scene and backend.
+bool needs_peak(const Row& row) {
+  return row.timed == Timed::frame && row.backend != nullptr && row.cores == 0 &&
+         row.execution.threads == 2 && row.once_s < row.repeat_below_s;
+}
 
 // Hands Google Benchmark its flags behind our defaults, so that the user's win.
 void initialize_benchmark(const Flags& flags) {
@@ -68,6 +76,20 @@ std::optional<std::vector<Row>> select(std::vector<Row> suite) {
   return rows;
 }
 
+// Whether a frame takes long, and longer than another backend's: its future on more cores decides nothing.
+bool is_beaten(const Row& row, const std::vector<Row>& rows) {
+  constexpr double kLong_s = 0.03;
+  double own_s = 0.0, best_s = std::numeric_limits<double>::infinity();
+  for (const Row& other : rows) {
+    if (other.workload != row.workload || other.timed != Timed::frame || other.peer != nullptr ||
+        other.cores > 0 || other.execution.threads != 1)
+      continue;
+    best_s = std::min(best_s, other.once_s);
+    if (other.backend == row.backend) own_s = other.once_s;
+  }
+  return own_s > std::max(kLong_s, best_s);
+}
+
 // A peer may have been built and still not start here, where its driver is missing.
 void leave_out_missing_peers(std::vector<Row>& rows, bool need_peers) {
   for (const PeerInfo& peer : peers()) {
@@ -93,7 +115,11 @@ void compare_all(std::vector<Row>& rows, Stage& stage) {
       return row.workload.get() == &workload && row.timed != Timed::raster;
     };
     workload.prepare(std::any_of(rows.begin(), rows.end(), needs_scene));
-    stage.compare(rows[i]);
+    if (rows[i].cores > 0 && is_beaten(rows[i], rows))
+      rows[i].once_s = std::numeric_limits<double>::infinity();
+    else
+      stage.compare(rows[i]);
+    if (needs_peak(rows[i])) rows[i].peak_bytes = peak_bytes(rows[i]).value_or(0.0);
     if (i + 1 == rows.size() || rows[i + 1].workload != rows[i].workload) workload.drop_reference();
   }
 }
@@ -102,9 +128,21 @@ void compare_all(std::vector<Row>& rows, Stage& stage) {
 void leave_out_slow_frames(std::vector<Row>& rows) {
   std::erase_if(rows, [&](const Row& row) {
     const bool slow = row.timed == Timed::frame && row.once_s > kTooSlowToRepeat_s;
-    if (slow) std::cerr << "Left out for its length: " << row.name << '\n';
+    if (slow && row.cores <= 1) std::cerr << "Left out for its length: " << row.name << '\n';
     return slow;
   });
+}
+
+void schedule_row(benchmark::State& state, const Row& row) {
+  static const double barrier_s = measured_barrier_s();
+  const FrameWork& frame = row.recorded;
+  for (auto _ : state) state.SetIterationTime(frame.time_s(row.cores, barrier_s));
+  const PathPart longest = frame.longest_part();
+  state.SetLabel(longest.name);
+  state.counters["longest_ms"] = longest.time_s * 1e3;
+  state.counters["work_ms"] = frame.work_s() * 1e3;
+  state.counters["path_ms"] = frame.path_s() * 1e3;
+  state.counters["barrier_ms"] = barrier_s * 1e3;
 }
 
 void add_floor(benchmark::UserCounters& counters, const Floor& floor) {
@@ -119,7 +157,9 @@ void add_floor(benchmark::UserCounters& counters, const Floor& floor) {
 
 void time_row(benchmark::State& state, const Row& row, Stage& stage) {
   if (!row.error.empty()) return state.SkipWithError(row.error.c_str());
-  if (row.once_s > kTooSlowToRepeat_s) {
+  if (row.cores > 0) {
+    schedule_row(state, row);
+  } else if (row.once_s > row.repeat_below_s) {
     for (auto _ : state) state.SetIterationTime(row.once_s);
   } else {
     // The caches were another row's; a long draw warms its own.
@@ -132,6 +172,7 @@ void time_row(benchmark::State& state, const Row& row, Stage& stage) {
   counters["height"] = workload.height();
   counters["triangles"] =
       static_cast<double>(row.timed == Timed::raster ? workload.triangles().size() : workload.submitted());
+  if (row.peak_bytes > 0.0) counters["peak_bytes"] = row.peak_bytes;
   if (row.timed == Timed::frontend) return;
   const auto covered_px = static_cast<double>(workload.covered_px());
   counters["covered_px"] = covered_px;
@@ -155,19 +196,20 @@ void register_rows(const std::vector<Row>& rows, Stage& stage, const Flags& flag
           time_row(state, row, stage);
         });
     registered->Unit(benchmark::kMillisecond);
-    const bool slow = row.once_s > kTooSlowToRepeat_s;
-    if (slow)
+    // Such a row's time stands before it would be taken.
+    const bool known = row.once_s > row.repeat_below_s || row.cores > 0;
+    if (known)
       registered->UseManualTime();
     else
       registered->UseRealTime();
     const double once_s = std::max(row.once_s, 1e-6);
     const int at_least = row.timed == Timed::raster && !row.rung ? effort.at_least : 1;
-    if (flags.own_iterations || slow)
-      registered->Iterations(slow ? 1
-                                  : std::max<std::int64_t>(1, std::llround(effort.repetition_s / once_s)));
-    if (flags.own_repetitions || slow)
+    if (flags.own_iterations || known)
+      registered->Iterations(known ? 1
+                                   : std::max<std::int64_t>(1, std::llround(effort.repetition_s / once_s)));
+    if (flags.own_repetitions || known)
       registered->Repetitions(
-          slow ? 1 : std::clamp(static_cast<int>(effort.slow_row_s / once_s), at_least, effort.repetitions));
+          known ? 1 : std::clamp(static_cast<int>(effort.slow_row_s / once_s), at_least, effort.repetitions));
   }
 }
 

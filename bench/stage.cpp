@@ -37,10 +37,21 @@ double Stage::timed_work_s(const Row& row) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
+double Stage::recorded_work_s(Row& row) {
+  FrameRecorder recorder;
+  {
+    const ObserveParallel scope(recorder);
+    work(row);
+  }
+  const FrameWork found = recorder.finish();
+  row.recorded.take_least(found);
+  return found.work_s();
+}
+
 void Stage::compare_ours(Row& row) {
   // It still holds the picture of the row before, which is the right one.
   if (row.timed != Timed::frontend) lab::poison(frame(row));
-  row.once_s = timed_work_s(row);
+  row.once_s = row.cores > 0 ? recorded_work_s(row) : timed_work_s(row);
   if (row.timed == Timed::frontend) {
     const auto expected = row.workload->triangles();
     const auto found =
@@ -65,8 +76,13 @@ void Stage::compare(Row& row) {
   } else {
     compare_ours(row);
   }
+  if (row.cores > 0) {
+    for (const double limit_s : {row.repeat_below_s, 0.02})
+      if (row.once_s < limit_s) row.once_s = recorded_work_s(row);
+    return;
+  }
   // The first draw allocates; later ones tell how long a row really takes, the shorter the more of them.
-  for (const double limit_s : {kTooSlowToRepeat_s, 0.1, 0.1})
+  for (const double limit_s : {row.repeat_below_s, 0.1, 0.1})
     if (row.once_s < limit_s) row.once_s = std::min(row.once_s, timed_work_s(row));
   if (row.wants_floor)
     row.floor =

@@ -10,13 +10,11 @@
 
 namespace edgewise::bench {
 
-// A row whose one draw takes longer is not drawn again: the compared draw is the timed one.
-inline constexpr double kTooSlowToRepeat_s = 1.5;
-
 class Stage {
  public:
   // Draws the row once, compares every bit with the reference, and sets the row's once_s, and its error if
-  // they differ, and the floor under it where that is wanted. Needs the workload prepared.
+  // they differ, and the floor under it where that is wanted; records its tasks, if it is to be scheduled.
+  // Needs the workload prepared.
   void compare(Row& row);
 
   // Does once what the row times.
@@ -27,6 +25,7 @@ class Stage {
   Backend& backend(const Row& row);
   Framebuffer& frame(const Row& row);
   double timed_work_s(const Row& row);
+  double recorded_work_s(Row& row);
 
   std::map<const BackendInfo*, std::unique_ptr<Backend>> backends_;
   // One for each size, to the end: interleaved repetitions come back to all of them, and a fresh frame would

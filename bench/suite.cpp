@@ -9,6 +9,7 @@
 
 #include "app/printable.h"
 #include "crowd.h"
+#include "growth.h"
 #include "ladder.h"
 
 namespace edgewise::bench {
@@ -18,8 +19,8 @@ namespace {
 constexpr int kThreads[] = {1, 2};
 constexpr int kSweepThreads = 2;
 
-constexpr double kCountArea_px = 30;
-constexpr const char* kSizeScene = "torus-knot";
+// Beyond what any desktop has, to see where a frame stops to profit.
+constexpr int kScheduledCores[] = {1, 2, 4, 8, 16, 32, 64, 128};
 
 using WorkloadPtr = std::shared_ptr<Workload>;
 
@@ -32,13 +33,6 @@ SceneRequest request(const SuiteOptions& options, int width, int height) {
   return r;
 }
 
-app::Source random_source(const SuiteOptions& options, std::size_t count, double area_px) {
-  SceneRequest r;
-  r.width = options.width;
-  r.height = options.height;
-  return {"random", random_stream(r, count, area_px, 0.0, 1), true};
-}
-
 // Large triangles lose much of their area at the image's borders, so their number is corrected by what the
 // first attempt covers.
 app::Source area_source(const SuiteOptions& options, double area_px) {
@@ -47,13 +41,13 @@ app::Source area_source(const SuiteOptions& options, double area_px) {
     return static_cast<std::size_t>(std::max(4.0, std::round(count)));
   };
   const std::size_t count = at_least_a_few(kWanted_px / area_px);
-  if (area_px < 1e3) return random_source(options, count, area_px);
+  if (area_px < 1e3) return random_source(options.width, options.height, count, area_px);
   Workload attempt(options.width, options.height, Cull::none,
-                   [&] { return random_source(options, count, area_px); });
+                   [&] { return random_source(options.width, options.height, count, area_px); });
   attempt.prepare(false);
   const double covered_px = std::max(1.0, static_cast<double>(attempt.covered_px()));
-  return random_source(options, at_least_a_few(static_cast<double>(count) * kWanted_px / covered_px),
-                       area_px);
+  return random_source(options.width, options.height,
+                       at_least_a_few(static_cast<double>(count) * kWanted_px / covered_px), area_px);
 }
 
 // What stands for a source in row names, where ':' is a mark of theirs (as '/' is, which no name has).
@@ -76,6 +70,7 @@ class Suite {
         rows_.back().wants_floor = backend.name == kLadderBackend;
         add(workload, Timed::frame, backend, name, threads);
       }
+    if (options_.scenes.empty()) add_scheduled(workload, name);
     if (!options_.peers) return;
     for (const auto& peer : peers())
       for (const int threads : kThreads)
@@ -105,24 +100,22 @@ class Suite {
     }
   }
 
-  void add_count_sweep() {
-    for (const std::size_t count :
-         {100u, 300u, 1'000u, 3'000u, 10'000u, 30'000u, 100'000u, 300'000u, 1'000'000u}) {
-      if (options_.quick && count > 100'000) continue;
-      const auto workload =
-          make_workload([options = options_, count] { return random_source(options, count, kCountArea_px); });
-      for (const auto& backend : backends())
-        add(workload, Timed::raster, backend, fmt::format("count:{}", count), kSweepThreads);
-    }
+  // The last steps take some backends a second, where one draw tells enough.
+  void add_growth() {
+    for (const auto& [what, workload] : growth_steps(options_.width, options_.height, options_.quick))
+      for (const auto& backend : backends()) {
+        add(workload, Timed::raster, backend, what, kSweepThreads);
+        rows_.back().repeat_below_s = 0.6;
+      }
   }
 
-  void add_size_sweep() {
-    for (int side = 256; side <= (options_.quick ? 2048 : 8192); side *= 2) {
-      const auto workload = scene_workload(kSizeScene, side, side, Cull::back);
-      for (const auto& backend : backends())
-        add(workload, Timed::raster, backend, fmt::format("{}/size:{}x{}", kSizeScene, side, side),
-            kSweepThreads);
-    }
+  // So little work that starting a thread shows.
+  void add_tiny() {
+    constexpr int kSide_px = 256;
+    const auto workload = scene_workload("cube", kSide_px, kSide_px, Cull::back);
+    for (const auto& backend : backends())
+      for (const int threads : kThreads)
+        add(workload, Timed::raster, backend, fmt::format("cube/tiny:{}x{}", kSide_px, kSide_px), threads);
   }
 
   // Whole frames, since culling costs the front end what it saves the backend.
@@ -178,6 +171,14 @@ class Suite {
     row.backend = &backend;
     row.execution = execution;
     rows_.push_back(std::move(row));
+  }
+
+  void add_scheduled(const WorkloadPtr& workload, const std::string& name) {
+    for (const auto& backend : backends())
+      for (const int cores : kScheduledCores) {
+        add(workload, Timed::frame, backend, fmt::format("{}/cores:{}", name, cores), 1);
+        rows_.back().cores = rows_.back().execution.threads = cores;
+      }
   }
 
   void add_peer(const WorkloadPtr& workload, Timed timed, const PeerInfo& peer, const std::string& scene,
@@ -241,8 +242,8 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
       kCrowdName, false);
   for (const auto& scene : options.more_scenes) add_named(scene);
   suite.add_area_sweep();
-  suite.add_count_sweep();
-  suite.add_size_sweep();
+  suite.add_growth();
+  suite.add_tiny();
   suite.add_cull_sweep();
   suite.add_target_sweep();
   return suite.take();

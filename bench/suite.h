@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "peer.h"
+#include "scaling.h"
 #include "workload.h"
 
 namespace edgewise::bench {
@@ -17,6 +18,9 @@ enum class Timed {
   frame      // both
 };
 
+// A row whose one draw takes longer is not drawn again: the compared draw is the timed one.
+inline constexpr double kTooSlowToRepeat_s = 1.5;
+
 struct Row {
   // WHO/what/key:value…/threads:N, WHO being BACKEND, frontend or BACKEND+frontend, and a peer a BACKEND
   std::string name;
@@ -25,6 +29,10 @@ struct Row {
   const BackendInfo* backend = nullptr;  // null for front end rows and peers
   const PeerInfo* peer = nullptr;
   Execution execution;
+  double repeat_below_s = kTooSlowToRepeat_s;
+  int cores = 0;          // if set, not timed but scheduled on so many; execution.threads is the same
+  FrameWork recorded;     // what is scheduled then
+  double peak_bytes = 0;  // of a first frame; 0 where it was not measured
   bool wants_floor = false;
   bool rung = false;            // of the ladder
   double once_s = 0.0;          // what it took when it was compared

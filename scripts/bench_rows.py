@@ -26,6 +26,7 @@ class Row:
     times_ms: list = field(default_factory=list)
     counters: dict = field(default_factory=dict)
     error: str = ""
+    label: str = ""
 
     @property
     def median_ms(self):
@@ -116,6 +117,7 @@ def read_bench(folder_or_file):
                 row.error = entry.get("error_message", "error")
                 continue
             row.times_ms.append(entry["real_time"] * MS[entry["time_unit"]])
+            row.label = entry.get("label", "")
             row.counters = {key: value for key, value in entry.items() if isinstance(value, float)}
     except (KeyError, TypeError, AttributeError) as error:
         raise BadInput(f"{path}: not a Google Benchmark result: {error}") from None

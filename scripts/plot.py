@@ -15,7 +15,8 @@ def main():
         raise BadInput(f"{options.results}: no such folder")
     bench = read_bench(options.results)
     accuracy, sweeps = read_accuracy(options.results), read_stability(options.results)
-    caption = describe_machine(read_json(options.results / "machine.json"))
+    machine = read_json(options.results / "machine.json")
+    caption = describe_machine(machine)
     folder = options.out or options.results / "charts"
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -23,13 +24,17 @@ def main():
         raise BadInput(f"{folder}: {error.strerror}") from None
 
     import plot_accuracy
+    import plot_growth
     import plot_ladder
     import plot_peers
+    import plot_scaling
     import plot_scenes
     import plot_stability
     import plot_sweeps
     charts = (*plot_sweeps.CHARTS, *plot_scenes.CHARTS, *plot_ladder.CHARTS)
     drawn = [name for chart in charts if (name := chart(bench, folder, caption))]
+    drawn += [name for name in (plot_growth.growth(bench, machine, folder, caption),
+                                plot_scaling.scaling(bench, folder, caption)) if name]
     drawn += plot_peers.against(bench, folder, caption)
     drawn += [*plot_accuracy.draw(accuracy, folder, caption), *plot_stability.draw(sweeps, accuracy, folder, caption)]
     if not drawn:

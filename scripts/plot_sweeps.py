@@ -1,4 +1,4 @@
-"""Charts along one quantity: triangle area, triangle count, image size."""
+"""What a covered pixel costs along the triangles' area, and what other charts of curves draw with."""
 import math
 
 from plot_style import INK, Look, headline, log_axis, plt, save, spread_labels
@@ -130,35 +130,4 @@ def area(bench, folder, caption):
     return "area"
 
 
-def cost(bench, folder, caption):
-    look = Look(bench.backends)
-    sizes, counts = bench.sweep("size"), bench.sweep("count")
-    if not sizes or not counts:
-        return None
-    figure, (left, right) = plt.subplots(1, 2, figsize=(10.8, 4.9))
-
-    def pixels(row):
-        width, height = row.keys["size"].split("x")
-        return int(width) * int(height)
-
-    by_size = curves(bench, "size", sizes[0].threads, pixels)
-    by_count = curves(bench, "count", counts[0].threads, lambda row: int(row.keys["count"]))
-    for axes, points in ((left, by_size), (right, by_count)):
-        draw_curves(axes, points, look)
-        label_ends(axes, points, look)
-        axes.set_ylabel("ms")
-    sides = sorted({(pixels(row), row.keys["size"].split("x")[0]) for row in sizes})
-    left.set_xticks([px for px, _ in sides], [f"{side}²" for _, side in sides])
-    left.set_title(f"Image size ({sizes[0].scene})")
-    left.tick_params(axis="x", which="minor", length=0)
-    left.set_xlabel("image, pixels")
-    right.set_title("Number of triangles (30 px each)")
-    right.set_xlabel("triangles")
-    top = headline(figure, "What more pixels and more triangles cost",
-                   f"Backend alone, clear included, {sizes[0].threads} threads; lower is better.")
-    figure.subplots_adjust(left=0.065, right=0.925, bottom=0.15, top=top - 0.06, wspace=0.36)
-    save(figure, folder, "cost", caption)
-    return "cost"
-
-
-CHARTS = (area, cost)
+CHARTS = (area,)

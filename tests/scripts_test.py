@@ -11,7 +11,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 SCRIPTS = ROOT / "scripts"
 MACHINE = {"cpu_model": "Test CPU", "cores": 2, "simd_best": "avx2", "memory_gib": 4, "os": "Test OS",
-           "compiler": "GCC 1", "build_type": "Release", "commit": "abc"}
+           "compiler": "GCC 1", "build_type": "Release", "commit": "abc", "caches": {"L2": "1024K", "L3": "32768K"}}
 VERIFY = {"backends": ["slow", "fast"],
           "scenes": [{"configurations": 8, "differing_pixels": 0, "oracle": {"configurations": 2, "differing_pixels": 0}}]}
 COUNTERS = {"triangles": 12.0, "covered_px": 1e6, "overdraw": 0.5, "width": 1920.0, "height": 1080.0}
@@ -32,7 +32,15 @@ def bench(slow=(10.0, 10.2, 10.1), fast=(2.0, 2.1, 2.2)):
                 rows += entries(f"{backend}/area:{area}/threads:{threads}", [t * factor for t in times])
         rows += entries(f"{backend}/cube/size:256x256/threads:2", times)
         rows += entries(f"{backend}/cube/size:512x512/threads:2", [4 * t for t in times])
-        rows += entries(f"{backend}/count:100/threads:2", times) + entries(f"{backend}/count:1000/threads:2", times)
+        for count, factor in ((100, 1), (1000, 1), (10000, 10)):
+            rows += entries(f"{backend}/count:{count}/threads:2", [t * factor for t in times])
+        for threads in (1, 2):
+            rows += entries(f"{backend}+frontend/cube/threads:{threads}", [t / threads for t in times], peak_bytes=20e6)
+            rows += entries(f"{backend}/cube/tiny:256x256/threads:{threads}", [t * 2e-3 for t in times])
+        for cores in (1, 2, 4):
+            rows += entries(f"{backend}+frontend/cube/cores:{cores}/threads:{cores}", [times[0] / min(cores, 3)],
+                            label="the longest task of build in bins.cpp", work_ms=times[0], path_ms=times[0] / 3,
+                            longest_ms=times[0] / 6, barrier_ms=2e-3)
         for mode, factor in (("none", 2), ("back", 1)):
             rows += entries(f"{backend}+frontend/cube/cull:{mode}/threads:2", [t * factor for t in times])
         if backend == "fast":
@@ -264,7 +272,7 @@ class ScriptsTest(unittest.TestCase):
         self.assertEqual(first.returncode, 0, first.stderr)
         self.assertEqual(second.returncode, 0, second.stderr)
         drawn = sorted(p.name for p in (self.results / "charts").iterdir())
-        charts = ["area", "cost", "culling", "ladder", "scenes", "simd", "threads", "stability-nearer", "turning-cube",
+        charts = ["area", "culling", "growth", "ladder", "scaling", "scenes", "simd", "threads", "stability-nearer", "turning-cube",
                   *(f"{kind}-{family}" for kind in ("accuracy", "errors")
                     for family in ("coverage", "visibility", "facing", "clipping"))]
         self.assertEqual(drawn, sorted(f"{c}.{suffix}" for c in charts for suffix in ("png", "svg")))

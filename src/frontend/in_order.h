@@ -47,6 +47,7 @@ class InOrder {
         turn.store(static_cast<std::uint32_t>(run + 1), std::memory_order_release);
         turn.notify_all();
         place(out, at);
+        piece_done();
       }
     });
   }

@@ -70,7 +70,9 @@ void Bins::bin(const ScreenTriangle& triangle, std::uint32_t index, const CellBo
 
 void Bins::build(std::span<const ScreenTriangle> triangles, const CellGrid& grid, int threads,
                  SimdTarget target, const TiledIdeas& ideas) {
-  constexpr std::size_t kLeastChunk = 4096;  // triangles; below, a chunk's bookkeeping outweighs its work
+  // Triangles. A thousand large ones are worth sharing; but the shorter a cell's lists, the emptier the
+  // vectors of who draws it.
+  constexpr std::size_t kLeastChunk = 500;
   constexpr std::size_t kChunksPerThread = 4;
   constexpr std::size_t kMaxHeads = std::size_t{1} << 24;  // list heads of all chunks together: 128 MB
   const auto cells = static_cast<std::size_t>(grid.cells());

@@ -11,6 +11,8 @@
 
 namespace edgewise::detail {
 
+constinit thread_local ParallelObserver* parallel_observer = nullptr;
+
 namespace {
 
 // One arena for each thread count, made on first use and kept: making one costs more than drawing a small

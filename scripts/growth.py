@@ -1,0 +1,135 @@
+"""How cost grows with triangles, pixels and overdraw: exponents from step to step, and where they leave 1."""
+import math
+import re
+from dataclasses import dataclass
+
+from tables import short
+
+LINEAR = 0.1  # an exponent so near to 1 is called linear
+FRAME_BYTES, RECORD_BYTES = 8, 40  # a pixel, a triangle
+
+
+def pixels(row):
+    width, height = row.keys["size"].split("x")
+    return int(width) * int(height)
+
+
+@dataclass(frozen=True)
+class Quantity:
+    key: str
+    name: str
+    x_of: object  # of a row
+    item_bytes: int  # what each step more adds to memory that is gone through once a frame; 0: nothing
+
+    def rows(self, bench):
+        """Per backend its rows by growing x."""
+        found = {backend: [] for backend in bench.backends}
+        for row in bench.sweep(self.key):
+            if row.backend in found and not row.frontend:
+                found[row.backend].append(row)
+        return {backend: sorted(rows, key=self.x_of) for backend, rows in found.items() if rows}
+
+    def label(self, x):
+        return f"{math.isqrt(int(x))}²" if self.key == "size" else short(x)
+
+    def scene(self, bench):
+        """What is drawn."""
+        row = bench.sweep(self.key)[0]
+        if self.key == "size":
+            return f"`{row.scene}` in square images"
+        covered = sum(row.counters["covered_px"] for row in bench.sweep(self.key))
+        area = covered / sum(row.counters["triangles"] for row in bench.sweep(self.key))
+        return (f"triangles of about {short(float(f'{area:.1g}'))} px in an image of {row.counters['width']:.0f} × "
+                f"{row.counters['height']:.0f}")
+
+
+QUANTITIES = (Quantity("count", "triangles", lambda row: int(row.keys["count"]), RECORD_BYTES),
+              Quantity("size", "pixels", pixels, FRAME_BYTES),
+              Quantity("overdraw", "overdraw", lambda row: float(row.keys["overdraw"]), 0))
+
+
+@dataclass(frozen=True)
+class Step:
+    """From one row to the next: time grows like x to the power of `exponent`; low to high is what the middle halves of
+    the repetitions leave open."""
+    start: float
+    end: float
+    exponent: float
+    low: float
+    high: float
+    repeated: bool
+
+    @property
+    def kind(self):
+        if abs(self.exponent - 1) <= LINEAR:
+            return "linear"
+        if self.repeated and self.high < 1 - LINEAR:
+            return "less than linear"
+        if self.repeated and self.low > 1 + LINEAR:
+            return "more than linear"
+        return "not settled"
+
+
+def steps(quantity, rows):
+    found = []
+    for before, after in zip(rows, rows[1:]):
+        start, end = quantity.x_of(before), quantity.x_of(after)
+
+        def exponent(first_ms, then_ms):
+            return math.log(then_ms / first_ms) / math.log(end / start)
+
+        found.append(Step(start, end, exponent(before.median_ms, after.median_ms),
+                          exponent(before.quarter_ms(3), after.quarter_ms(1)),
+                          exponent(before.quarter_ms(1), after.quarter_ms(3)),
+                          min(len(before.times_ms), len(after.times_ms)) > 1))
+    return found
+
+
+def runs(found):
+    """Neighbouring steps of one kind, together."""
+    grouped = []
+    for step in found:
+        if grouped and grouped[-1][0].kind == step.kind:
+            grouped[-1].append(step)
+        else:
+            grouped.append([step])
+    return grouped
+
+
+def run_text(quantity, run):
+    low, high = (f"{pick(step.exponent for step in run):.2f}" for pick in (min, max))
+    exponents = low if low == high else f"{low} to {high}"
+    words = f"**{run[0].kind}**" if run[0].kind.endswith("than linear") else run[0].kind
+    return f"{words} from {quantity.label(run[0].start)} to {quantity.label(run[-1].end)} ({exponents})"
+
+
+def growth_sentences(bench):
+    """One a quantity: per backend, where its cost is linear and where it is not, with the exponents there."""
+    sentences = []
+    for quantity in QUANTITIES:
+        rows = {backend: found for backend, found in quantity.rows(bench).items() if len(found) > 1}
+        if not rows:
+            continue
+        parts = [f"`{backend}` " + ", ".join(run_text(quantity, run) for run in runs(steps(quantity, found)))
+                 for backend, found in rows.items()]
+        sentences.append(f"With {quantity.name} ({quantity.scene(bench)}): " + "; ".join(parts) + ".")
+    return sentences
+
+
+def cache_bytes(machine, level):
+    """None where the machine does not say."""
+    match = re.fullmatch(r"(\d+)K", str(machine.get("caches", {}).get(level, "")))
+    return int(match.group(1)) * 1024 if match else None
+
+
+def cache_sentence(machine):
+    """Which frames and how many triangles' records the caches hold."""
+    parts = []
+    for level, whose in (("L2", "a core's"), ("L3", "the")):
+        size = cache_bytes(machine, level)
+        if size:
+            side = math.isqrt(size // FRAME_BYTES)
+            parts.append(f"{whose} {level} of {size / 2**20:.3g} MiB holds a frame of {side}² px or the records of "
+                         f"{short(float(f'{size // RECORD_BYTES:.2g}'))} triangles")
+    bytes_each = f"A pixel of the frame takes {FRAME_BYTES} bytes, a triangle's record {RECORD_BYTES}"
+    return f"{bytes_each}: {', '.join(parts)}." if parts else f"{bytes_each}."

@@ -1,0 +1,100 @@
+"""What a frame's work and critical path allow on more cores; what two threads cost a small draw; memory at its worst."""
+from tables import milliseconds, number, short
+
+
+def scheduled(bench):
+    """{(scene, backend): {cores: row}}, scene by scene."""
+    found = {}
+    for row in bench.sweep("cores"):
+        found.setdefault((row.scene, row.backend), {})[int(row.keys["cores"])] = row
+    scenes = list(dict.fromkeys(scene for scene, _ in found))
+    return {key: dict(sorted(rows.items())) for key, rows in
+            sorted(found.items(), key=lambda item: (scenes.index(item[0][0]), bench.backends.index(item[0][1])))
+            if 1 in rows}
+
+
+def allowed(rows):
+    """{cores: speed-up over one core}."""
+    return {cores: rows[1].median_ms / row.median_ms for cores, row in rows.items()}
+
+
+def measured(bench, scene, backend):
+    """{threads: speed-up over one thread} of whole frames."""
+    one, two = (bench.find(f"{backend}+frontend/{scene}/threads:{threads}") for threads in (1, 2))
+    return {1: 1.0, 2: one.median_ms / two.median_ms} if one and two else {}
+
+
+def quickest(bench):
+    """Of each scene the backend that would be done first on the most cores."""
+    best = {}
+    for (scene, backend), rows in scheduled(bench).items():
+        time_ms = rows[max(rows)].median_ms
+        if scene not in best or time_ms < best[scene][1]:
+            best[scene] = backend, time_ms
+    return {scene: backend for scene, (backend, _) in best.items()}
+
+
+def scaling_table(bench):
+    """Header and lines: one line a scene, for the backend that would be done first on the most cores."""
+    found = scheduled(bench)
+    all_cores = sorted({cores for rows in found.values() for cores in rows} - {1})
+    header = ["scene", "backend", "work, ms", "critical path, ms", "measured, 2", *(str(cores) for cores in all_cores),
+              "longest serial part"]
+    lines = []
+    for scene, backend in quickest(bench).items():
+        rows = found[scene, backend]
+        last = rows[max(rows)]
+        speed_up, two = allowed(rows), measured(bench, scene, backend).get(2)
+        path_ms = last.counters["path_ms"]
+        part = f"{last.label}: {last.counters['longest_ms'] / path_ms:.0%} of the path" if path_ms > 0 else "–"
+        lines.append([scene, backend, milliseconds(rows[1]), f"{path_ms:.3f}", f"{two:.2f}×" if two else "–",
+                      *(f"{speed_up[cores]:.3g}×" if cores in speed_up else "–" for cores in all_cores), part])
+    return header, lines
+
+
+def barrier_sentence(bench):
+    rows = bench.sweep("cores")
+    return (f"A section of tasks is charged {number(rows[0].counters['barrier_ms'] * 1e3)} µs for starting and waiting, as "
+            "measured with two threads here.")
+
+
+def small_draw_sentences(bench):
+    """How much longer two threads take than half of what one takes, where there is little to do."""
+    sentences = []
+    for title, pattern in (("The 12 triangles of `cube` at {size}", "{backend}/cube/tiny:256x256/threads:{threads}"),
+                           ("The same at {size}", "{backend}/cube/threads:{threads}")):
+        parts, size = [], ""
+        for backend in bench.backends:
+            one, two = (bench.find(pattern.format(backend=backend, threads=threads)) for threads in (1, 2))
+            if not one or not two:
+                continue
+            size = f"{one.counters['width']:.0f} × {one.counters['height']:.0f}"
+            one_us, two_us = (1e3 * row.median_ms for row in (one, two))
+            parts.append(f"`{backend}` {number(one_us)} µs on one thread, {number(two_us)} on two "
+                         f"({two_us - one_us / 2:+.1f} against half)")
+        if parts:
+            sentences.append(f"{title.format(size=size)}: " + ", ".join(parts) + ".")
+    return sentences
+
+
+def memory_sentence(bench):
+    """The most that a first frame's front end, frame and backend take."""
+    rows = [row for row in bench.rows.values() if "peak_bytes" in row.counters and set(row.keys) == {"threads"}]
+    if not rows:
+        return ""
+
+    def pixels(row):
+        return row.counters["width"] * row.counters["height"]
+
+    def share(row):
+        return row.counters["peak_bytes"] / (100 * row.counters["triangles"] + 16 * pixels(row))
+
+    fewest = min(rows, key=lambda row: (row.counters["triangles"], -row.counters["peak_bytes"]))
+    most = max(rows, key=lambda row: (row.counters["triangles"], row.counters["peak_bytes"]))
+    a_pixel = fewest.counters["peak_bytes"] / pixels(fewest)
+    a_triangle = (most.counters["peak_bytes"] - a_pixel * pixels(most)) / most.counters["triangles"]
+    worst = max(rows, key=share)
+    return (f"Memory at its worst, in the first frame, the frame included and the scene not: {a_pixel:.1f} bytes a pixel "
+            f"(`{fewest.scene}`), and beyond that {a_triangle:.0f} bytes a triangle (`{most.backend}` on `{most.scene}`, "
+            f"{short(most.counters['triangles'])} triangles). Of 100 bytes a triangle plus 16 a pixel no scene takes more than "
+            f"{share(worst):.0%} (`{worst.backend}` on `{worst.scene}`).")
