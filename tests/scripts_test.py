@@ -188,7 +188,7 @@ class ScriptsTest(unittest.TestCase):
         (self.results / "bench.json").write_text(json.dumps(bench_with_peer()))
         self.assertEqual(run("readme", "--file", readme).returncode, 0)
         text = readme.read_text()
-        self.assertIn("| cube | 12 | 0.50 | 10.1 | 5.05 | 2.10 | 1.05 | fast, 4.81× | 8.00× |", text)
+        self.assertIn("| cube | 12 | 0.50 | 10.1 | 5.05 | 2.10 | 1.05 | 1.50, 1.50 | fast, 4.81× | 8.00× |", text)
         self.assertIn("ext (Ext 1.2):", text)
         self.assertIn("| cube | 12 | 16.8 | 8.40 | 2.10 | 1.05 | 8.00× | 8.00× | 7 | fast | screen triangles |", text)
         self.assertIn("| knot | – | 12.0 | 6.00 | 3.00 | 1.50 | 4.00× | 4.00× | 0 | fast | mesh |", text)
