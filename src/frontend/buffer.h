@@ -1,21 +1,35 @@
 // Memory for the front end's output. Unlike a vector it never initialises: pages that no triangle is written
-// to are never touched, so room for the worst case costs nothing but address space.
+// to are never touched, so room for the worst case costs nothing but address space. Large buffers ask for
+// huge pages, since a backend reads triangles in the order of tiles: all over the buffer.
 #pragma once
+
+#include <sys/mman.h>
 
 #include <cstddef>
 #include <memory>
+#include <new>
+#include <type_traits>
 
 namespace edgewise {
 
 template <typename T>
 class Buffer {
  public:
+  static_assert(std::is_trivially_default_constructible_v<T> && std::is_trivially_destructible_v<T>);
+
   // Room for `count`; what was in it is lost when it grows.
   void reserve(std::size_t count) {
     if (count <= capacity_) return;
     data_.reset();  // first, so that both are never held at once
     capacity_ = 0;
-    data_ = std::make_unique_for_overwrite<T[]>(count);
+    const std::size_t bytes = count * sizeof(T);
+    const bool large = bytes >= 2 * kHugePage;
+    const std::align_val_t alignment{large ? kHugePage : kCacheLine};
+    data_ = {static_cast<T*>(::operator new(bytes, alignment)), Free{alignment}};
+#ifdef MADV_HUGEPAGE
+    // Advice: where it is not taken, all is as before, and slower.
+    if (large) madvise(data_.get(), bytes / kHugePage * kHugePage, MADV_HUGEPAGE);
+#endif
     capacity_ = count;
   }
   T* data() { return data_.get(); }
@@ -23,7 +37,13 @@ class Buffer {
   std::size_t capacity() const { return capacity_; }
 
  private:
-  std::unique_ptr<T[]> data_;
+  static constexpr std::size_t kCacheLine = 64, kHugePage = std::size_t{1} << 21;
+  struct Free {
+    std::align_val_t alignment{};
+    void operator()(T* data) const { ::operator delete(data, alignment); }
+  };
+
+  std::unique_ptr<T, Free> data_;
   std::size_t capacity_ = 0;
 };
 
