@@ -1,8 +1,7 @@
 // Setting up triangles for one tile, a vector of triangles at a time.
 //
-// Edge values and depth gradients are sums of 32 x 32 -> 64 bit products (triangle_lanes-inl.h). The
-// gradient's division is done in doubles and corrected by its remainder, as contract::gradient() does; lanes
-// whose quotient is too large for that are done again by the contract's own functions, one by one.
+// Edge values are sums of 32 x 32 -> 64 bit products (triangle_lanes-inl.h). Lanes whose depth gradient is
+// too large for doubles (depth_lanes-inl.h) are done again by the contract's own functions, one by one.
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 #include <span>
 
 #include "raster/contract.h"
+#include "raster/depth_lanes-inl.h"
 #include "raster/tile_kernel.h"
 #include "raster/triangle_lanes-inl.h"
 
@@ -107,14 +107,6 @@ inline bool set_up_one(const TileJob& job, const ScreenTriangle& triangle, Batch
 
 #if HWY_TARGET != HWY_SCALAR
 
-// g n mod 2^64, for n >= 0.
-HWY_INLINE V64 product(V64 g, V64 n) {
-  const hn::Repartition<std::uint32_t, D64> u32;
-  const auto gl = hn::BitCast(u32, g), gh = hn::BitCast(u32, upper(g)), nl = hn::BitCast(u32, n),
-             nh = hn::BitCast(u32, upper(n));
-  const auto cross = hn::Add(hn::MulEven(gl, nh), hn::MulEven(gh, nl));
-  return hn::BitCast(D64{}, hn::Add(hn::MulEven(gl, nl), hn::ShiftLeft<32>(cross)));
-}
 HWY_INLINE V32 thrice(V32 v) {
   static_assert(kBlock - 1 == 3);
   return hn::Add(v, hn::Add(v, v));
@@ -126,59 +118,14 @@ HWY_INLINE void store(Batch::Linear& f, int k, V32 x, V32 y, V32 first) {
   store(thrice(hn::Add(hn::Abs(x), hn::Abs(y))), f.span + k);
 }
 
-struct Gradient {
-  V64 g;                // floor(2^24 n / area)
-  hn::Mask<D64> exact;  // where that holds
-};
-// Rule 6. The double quotient q is within 3 2^-53 |q| < 1/4 of the truth and rounds to an integer within 1/2,
-// so the floor is that integer or the one below it; the remainder's sign tells which.
-HWY_INLINE Gradient gradient(V64 n, V64 area, hn::Vec<F64> scaled_inverse) {
-  const F64 df;
-  const D64 d;
-  const auto q = hn::Mul(hn::ConvertTo(df, n), scaled_inverse);
-  const auto rounder = hn::Set(df, 0x1.8p52);  // its unit is 1: adding it rounds
-  const V64 g = hn::Sub(hn::BitCast(d, hn::Add(q, rounder)), hn::BitCast(d, rounder));
-  const V64 rest = hn::Sub(hn::ShiftLeft<24>(n), product(g, area));
-  return {hn::Sub(g, shift_right<63>(rest)), hn::RebindMask(d, hn::Lt(hn::Abs(q), hn::Set(df, 0x1p49)))};
-}
-
-struct Vertices {
-  const V32 (&x)[3], (&y)[3], (&z)[3];
-  V32 left, top;  // px in the tile: where the triangle's blocks begin
-  V64 area;       // > 0
-  V64 flip;       // -1 where the winding has been turned round for that
-};
 // Returns where the depths are exact.
-HWY_INLINE hn::Mask<D64> set_up_depth(const TileJob& job, const Vertices& t, Batch& out, int k) {
-  const D64 d;
-  const F64 df;
-  const V32 dz1 = hn::Sub(t.z[1], t.z[0]), dz2 = hn::Sub(t.z[2], t.z[0]);
-  const V32 dx1 = hn::Sub(t.x[1], t.x[0]), dx2 = hn::Sub(t.x[2], t.x[0]);
-  const V32 dy1 = hn::Sub(t.y[1], t.y[0]), dy2 = hn::Sub(t.y[2], t.y[0]);
-  const V64 nx = flipped(hn::Sub(product(dz1, dy2), product(dz2, dy1)), t.flip);
-  const V64 ny = flipped(hn::Sub(product(dz2, dx1), product(dz1, dx2)), t.flip);
-  const auto scaled_inverse = hn::Div(hn::Set(df, 0x1p24), hn::ConvertTo(df, t.area));
-  const Gradient gx = gradient(nx, t.area, scaled_inverse), gy = gradient(ny, t.area, scaled_inverse);
-
-  // The anchor: the topmost, then leftmost vertex.
-  V32 x = t.x[0], y = t.y[0], z = t.z[0];
-  for (int i = 1; i < 3; ++i) {
-    const auto above = hn::Or(hn::Lt(t.y[i], y), hn::And(hn::Eq(t.y[i], y), hn::Lt(t.x[i], x)));
-    x = hn::IfThenElse(above, t.x[i], x);
-    y = hn::IfThenElse(above, t.y[i], y);
-    z = hn::IfThenElse(above, t.z[i], z);
-  }
+HWY_INLINE hn::Mask<D64> set_up_depth(const TileJob& job, const TriangleLanes& t, const Area& area, V32 left,
+                                      V32 top, Batch& out, int k) {
   const int in_cell_x = job.x0 % kDepthCell, in_cell_y = job.y0 % kDepthCell;
-  const V32 from_x = hn::Sub(set32(sample_sub(job.x0 - in_cell_x)), x);
-  const V32 from_y = hn::Sub(set32(sample_sub(job.y0 - in_cell_y)), y);
-  const V64 anchor = shift_right<8>(hn::ShiftLeft<32>(as64(z)));  // 2^24 z, whatever the upper half
-  const V64 half = hn::Set(d, std::int64_t{1} << 23), round = hn::Set(d, 0x8000);
-  const V64 base =
-      shift_right<24>(hn::Add(hn::Add(anchor, half), hn::Add(product(gx.g, from_x), product(gy.g, from_y))));
-  const V32 zx = lower(shift_right<16>(hn::Add(gx.g, round))),
-            zy = lower(shift_right<16>(hn::Add(gy.g, round)));
-  const V32 first = lower(hn::Add(base, hn::Add(product(zx, hn::Add(t.left, set32(in_cell_x))),
-                                                product(zy, hn::Add(t.top, set32(in_cell_y))))));
+  const DepthLanes depth = depth_lanes(t, area, job.x0 - in_cell_x, job.y0 - in_cell_y);
+  const V32 zx = depth.x, zy = depth.y;
+  const V32 first = lower(hn::Add(as64(depth.base), hn::Add(product(zx, hn::Add(left, set32(in_cell_x))),
+                                                            product(zy, hn::Add(top, set32(in_cell_y))))));
   store(out.depth, k, zx, zy, first);
 
   const auto gentle = [](V32 v) { return hn::And(hn::Lt(v, set32(kSteep)), hn::Gt(v, set32(-kSteep))); };
@@ -189,7 +136,7 @@ HWY_INLINE hn::Mask<D64> set_up_depth(const TileJob& job, const Vertices& t, Bat
   store(hn::IfThenElseZero(flat, zx), out.nearest.x + k);
   store(hn::IfThenElseZero(flat, zy), out.nearest.y + k);
   store(hn::IfThenElse(flat, least, vertex), out.nearest.first + k);
-  return hn::And(gx.exact, gy.exact);
+  return depth.exact;
 }
 
 // Sets up the triangles triangles[run[i]]; bit i of the result is set if that one touches the tile. Reads
@@ -197,7 +144,8 @@ HWY_INLINE hn::Mask<D64> set_up_depth(const TileJob& job, const Vertices& t, Bat
 HWY_INLINE std::uint32_t set_up_vector(const TileJob& job, const std::uint32_t* run, Batch& out, int k) {
   const D64 d;
   const V64 index = hn::BitCast(d, hn::PromoteTo(U64{}, hn::LoadU(Low32{}, run + k)));
-  const auto [x, y, z, payload] = load(job.triangles, record_offset(index));
+  const TriangleLanes t = load(job.triangles, record_offset(index));
+  const auto& [x, y, z, payload] = t;
 
   const int size = 1 << job.size_log2;
   const auto [x0, x1] = sample_range(x, job.x0, std::min(size, job.frame.width - job.x0));
@@ -218,12 +166,11 @@ HWY_INLINE std::uint32_t set_up_vector(const TileJob& job, const std::uint32_t* 
   const V32 sample_x = sample(left, job.x0), sample_y = sample(top, job.y0);
 
   const V64 zero = hn::Zero(d);
-  const V64 area = hn::Sub(product(hn::Sub(x[1], x[0]), hn::Sub(y[2], y[0])),
-                           product(hn::Sub(y[1], y[0]), hn::Sub(x[2], x[0])));
-  const V64 flip = hn::VecFromMask(d, hn::Lt(area, zero));
+  const Area area = area_of(t);
+  const V64 flip = area.flip;
   // Lanes whose sign bit is set touch nothing.
   V64 dead = hn::Or(hn::ShiftLeft<32>(as64(hn::VecFromMask(D32{}, hn::Not(filled)))),
-                    hn::VecFromMask(d, hn::Eq(area, zero)));
+                    hn::VecFromMask(d, hn::Eq(area.value, zero)));
 
   for (int i = 0; i < 3; ++i) {
     const int j = i == 2 ? 0 : i + 1;
@@ -245,9 +192,8 @@ HWY_INLINE std::uint32_t set_up_vector(const TileJob& job, const std::uint32_t* 
           unless_accepted(shift_right<kSubBits>(first)));
   }
 
-  const V64 positive_area = flipped(area, flip);
-  store(shift_right<2 * kSubBits>(positive_area), out.twice_area_px + k);
-  const auto exact = set_up_depth(job, {x, y, z, left, top, positive_area, flip}, out, k);
+  store(shift_right<2 * kSubBits>(area.value), out.twice_area_px + k);
+  const auto exact = set_up_depth(job, t, area, left, top, out, k);
   store(payload, out.payload + k);
   store(bx0, out.bx0 + k), store(bx1, out.bx1 + k);
   store(by0, out.by0 + k), store(by1, out.by1 + k);
