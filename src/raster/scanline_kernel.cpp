@@ -62,7 +62,6 @@ class TilePainter {
       std::fill_n(blocks, std::size(blocks), static_cast<std::int32_t>(kDepthClear));
   }
   void draw(std::span<const std::uint32_t> run) {
-    if (run.empty()) return;
     const Alive alive = set_up(job_, run, batch_);
     for (std::uint32_t left = alive.all; left != 0; left &= left - 1) {
       const int k = std::countr_zero(left);
@@ -100,24 +99,12 @@ void write_rows(const Place& to, const std::int32_t* rows) {
 void draw_tile_in_spans(const TileJob& job) {
   const Place depth(job, job.frame.depth), payload(job, job.frame.payload);
   if (job.bins->empty(job.cell)) {
-    write_value(depth, static_cast<std::int32_t>(kDepthClear));
-    write_value(payload, static_cast<std::int32_t>(job.background));
+    write_background(job, depth, payload);
     hwy::FlushStream();
     return clear_upper_halves();
   }
   TilePainter painter(job);
-  // The records lie anywhere: each run's are asked for while the run before it is drawn.
-  std::span<const std::uint32_t> asked_for;
-  job.bins->for_each_run(job.cell, [&](std::span<const std::uint32_t> run) {
-    for (const std::uint32_t index : run) {
-      const auto* record = reinterpret_cast<const char*>(job.triangles + index);
-      hwy::Prefetch(record);
-      hwy::Prefetch(record + sizeof(ScreenTriangle) - 1);
-    }
-    painter.draw(asked_for);
-    asked_for = run;
-  });
-  painter.draw(asked_for);
+  draw_runs(job, [&](std::span<const std::uint32_t> run) { painter.draw(run); });
   write_rows(depth, painter.depth());
   write_rows(payload, painter.payload());
   hwy::FlushStream();

@@ -37,19 +37,10 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace contract;
 
-HWY_INLINE void ask_for(const TileJob& job, std::span<const std::uint32_t> run) {
-  for (const std::uint32_t index : run) {
-    const auto* record = reinterpret_cast<const char*>(job.triangles + index);
-    hwy::Prefetch(record);
-    hwy::Prefetch(record + sizeof(ScreenTriangle) - 1);
-  }
-}
-
 void draw_tile(const TileJob& job) {
   const Place depth(job, job.frame.depth), payload(job, job.frame.payload);
   if (job.bins->empty(job.cell)) {
-    write_value(depth, wrap(kDepthClear));
-    write_value(payload, wrap(job.background));
+    write_background(job, depth, payload);
     hwy::FlushStream();
     return clear_upper_halves();
   }
@@ -65,11 +56,9 @@ void draw_tile(const TileJob& job) {
   }
   fill(tile.farthest, kMaxBlocks * kMaxBlocks + kBlocksAtOnce, kDepthClear);
 
-  // The records lie anywhere: each run's are asked for while the run before it is drawn.
   Batch batch;
   SmallTriangles small(tile);
   bool hides = false;
-  std::span<const std::uint32_t> asked_for;
   const auto draw_run = [&](std::span<const std::uint32_t> run) {
     for (std::uint32_t left = set_up(job, run, batch); left != 0; left &= left - 1) {
       const int k = std::countr_zero(left);
@@ -83,12 +72,7 @@ void draw_tile(const TileJob& job) {
       }
     }
   };
-  job.bins->for_each_run(job.cell, [&](std::span<const std::uint32_t> run) {
-    if (job.ideas.prefetch) ask_for(job, run);
-    if (!asked_for.empty()) draw_run(asked_for);
-    asked_for = run;
-  });
-  if (!asked_for.empty()) draw_run(asked_for);
+  draw_runs(job, draw_run);
   small.draw();
   write_out(depth, tile.depth);
   write_out(payload, tile.payload);

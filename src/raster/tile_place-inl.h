@@ -1,9 +1,13 @@
-// How a tile of pixels goes to the frame: through the caches or past them (tiled_ideas.h).
+// What tile kernels share around the drawing: asking for triangles, and the way of a tile of pixels to the
+// frame, through the caches or past them (tiled_ideas.h).
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 
+#include "raster/contract.h"
 #include "raster/tile_kernel.h"
 
 // Included once a SIMD target.
@@ -53,6 +57,33 @@ inline void write_value(const Place& to, std::int32_t value) {
     for (; x + kLanes <= to.width; x += kLanes) to.store(v, x, y);
     std::fill(to.at + y * to.stride + x, to.at + y * to.stride + to.width, value);
   }
+}
+
+HWY_INLINE void ask_for(const TileJob& job, std::span<const std::uint32_t> run) {
+  for (const std::uint32_t index : run) {
+    const auto* record = reinterpret_cast<const char*>(job.triangles + index);
+    hwy::Prefetch(record);
+    hwy::Prefetch(record + sizeof(ScreenTriangle) - 1);
+  }
+}
+
+// draw(run) for the tile's runs of indices. The records lie anywhere: each run's are asked for while the run
+// before it is drawn.
+template <typename Draw>
+HWY_INLINE void draw_runs(const TileJob& job, Draw&& draw) {
+  std::span<const std::uint32_t> asked_for;
+  job.bins->for_each_run(job.cell, [&](std::span<const std::uint32_t> run) {
+    if (job.ideas.prefetch) ask_for(job, run);
+    if (!asked_for.empty()) draw(asked_for);
+    asked_for = run;
+  });
+  if (!asked_for.empty()) draw(asked_for);
+}
+
+// A tile without triangles needs no buffer.
+HWY_INLINE void write_background(const TileJob& job, const Place& depth, const Place& payload) {
+  write_value(depth, static_cast<std::int32_t>(contract::kDepthClear));
+  write_value(payload, static_cast<std::int32_t>(job.background));
 }
 
 // Where a tile has no triangle, GCC 12 forgets this instruction between the clear and the return. The
