@@ -21,7 +21,7 @@ namespace edgewise::lab {
 inline constexpr std::uint32_t kNobody = Owners::kNobody;
 
 struct VisibilityTriangle {
-  ScreenTriangle screen;   // z: the contract's depth (rule 6) of view_z
+  ScreenTriangle screen;   // z: the depth (rule 6) that the front end makes of view_z, in float
   float x_px[3], y_px[3];  // before snapping
   double view_z[3];        // distance along the view direction, near … far
 };
@@ -103,9 +103,8 @@ VisibilityScene two_planes(double distance, double separation, double near_z, do
 // Thin triangles in many directions, from distance 10 to 50 across their width; aspect is length over
 // (horizontal) width, at most 2^17: thinner ones have no area.
 VisibilityScene slivers(double aspect);
-// What a front end made of a scene, with Payload::id or not; needs keep_unsnapped.
+// What a front end made of a scene, beside the true distances; needs Payload::id and keep_unsnapped.
 VisibilityScene visibility_scene(std::span<const ScreenTriangle> triangles,
-                                 std::span<const UnsnappedTriangle> unsnapped, const Camera& camera,
-                                 Size size);
+                                 std::span<const UnsnappedTriangle> unsnapped, const Scene& scene, Size size);
 
 }  // namespace edgewise::lab
