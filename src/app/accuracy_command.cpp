@@ -72,7 +72,8 @@ constexpr const char* kFooter = R"(Examples:
 Families: coverage, visibility, facing, clipping. The first three are judged twice: on the snapped positions,
 where the exact methods must score 0, and on the positions before snapping; so are the owners of pixels. Errors
 are counted per 10^6 crossings of an edge with a row or column of samples, per 10^6 pixels or per 10^6 faces;
-where none was seen, the rate is below the bound in brackets with 95 % confidence.
+where none was seen, the rate is below the bound in brackets with 95 % confidence. A gap is farther inside the
+union of the triangles than the method's promise lets an edge move, or than 0.71 px if that is less.
 
 Pictures, FAMILY-SCENE-METHOD.png: vermilion: nothing was drawn where something must be (of coverage: a gap, a
 crack between neighbours); blue: drawn twice, or by the wrong triangle; yellow: a triangle lacks a pixel that
