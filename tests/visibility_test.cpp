@@ -86,6 +86,23 @@ TEST(Visibility, NoOrderPaintsACycleOrAnIntersectionButDepthDoes) {
   }
 }
 
+// The promise of one is broken by another: that is how it is seen to be judged.
+TEST(Visibility, OrdersAreHeldToTheirPromises) {
+  const VisibilityScene scene = make_case("front_to_back");
+  const auto owners = true_owners(scene);
+  VisibilityMethod unsorted = method("submission_order");
+  EXPECT_EQ(score(unsorted, scene, owners).broken, 0u);
+  unsorted.may_hide = method("painter_mean").may_hide;
+  const auto s = score(unsorted, scene, owners);
+  EXPECT_GT(s.broken, 0u);
+  EXPECT_EQ(s.broken, s.snapped.wrong_owner) << "all depth ranges are apart";
+
+  const VisibilityScene floor = make_case("floor_under_box");  // the box is submitted last, and hidden
+  VisibilityMethod mean = method("painter_mean");
+  mean.may_hide = method("submission_order").may_hide;
+  EXPECT_GT(score(mean, floor, true_owners(floor)).broken, 0u);
+}
+
 TEST(Visibility, MeanDepthPutsTheFloorOverTheBox) {
   const VisibilityScene scene = make_case("floor_under_box");
   EXPECT_GT(judge("painter_mean", scene).wrong_owner, 50u);

@@ -59,6 +59,9 @@ struct VisibilityMethod {
   long double (*stored01)(const VisibilityFrame& frame, std::size_t pixel);
   long double (*ulp01)(long double depth01);
   double (*bound01)(const VisibilityTriangle& triangle, const VisibilityScene& scene);
+
+  // Only where none is kept: the promise, whether triangle `said` may hide `truth`, the nearest.
+  bool (*may_hide)(const VisibilityScene& scene, std::uint32_t said, std::uint32_t truth) = nullptr;
 };
 
 std::span<const VisibilityMethod> visibility_methods();
@@ -84,7 +87,7 @@ struct VisibilityScores {
   // truth, those whose depth lies no farther from the right one's than both triangles' bounds:
   std::uint64_t near_ties = 0;
   // Promises broken: a pixel owned by a triangle that does not cover it, a depth beyond bound01, or a wrong
-  // owner that is no near tie though depths are kept.
+  // owner that is no near tie though depths are kept, or one that may not hide the right one.
   std::uint64_t broken = 0;
 };
 VisibilityScores score(const VisibilityMethod& method, const VisibilityScene& scene,
