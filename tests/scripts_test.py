@@ -232,7 +232,7 @@ class ScriptsTest(unittest.TestCase):
         self.assertIn("2 scenes taken together): `ours` errs least, 0 (in 0); `float_le` errs most, 5,000 (in 2).", text)
         self.assertIn("| method | nearer, px |\n|---|--:|\n| **ours** | 0 |\n| float_le | **0.1**: 7 |", text)
         self.assertEqual(run("readme", "--check", "--file", readme).returncode, 0)
-        self.assertIn("ours draw no wrong pixel in 2 scenes", run("summary", self.results).stdout)
+        self.assertIn("ours cover no wrong pixel in 2 scenes", run("summary", self.results).stdout)
 
     def test_a_spread_that_overlaps_settles_nothing(self):
         self.add_laboratory(accuracy(spread=1.0))
