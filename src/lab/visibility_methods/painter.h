@@ -11,7 +11,7 @@
 namespace edgewise::lab {
 
 inline void paint(const VisibilityScene& scene, VisibilityFrame& frame, std::uint32_t id) {
-  for_each_span(scene.triangles[id].screen, scene, [&](int y, int begin, int end) {
+  for_each_span(scene.triangles[id].screen, scene.width, scene.height, [&](int y, int begin, int end) {
     const auto row = frame.owner.begin() + std::ptrdiff_t{y} * scene.width;
     std::fill(row + begin, row + end, id);
   });
