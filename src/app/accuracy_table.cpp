@@ -245,7 +245,8 @@ std::string cube_table(const CubeResult& cube) {
     text += fmt::format(kLine, m.name, m.floats.gaps.median, m.floats.gaps.worst, m.floats.gaps.total,
                         m.floats.double_hits.median, m.floats.double_hits.worst, m.floats.double_hits.total,
                         m.snapped.missing.total + m.snapped.extra.total);
-  return text;
+  return text + fmt::format("0 in total: in less than {} of the frames, with 95 % confidence\n",
+                            digits(lab::rate_bound(static_cast<std::uint64_t>(cube.frames))));
 }
 
 }  // namespace
