@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "lab/measure.h"
+#include "lab/exact_spans.h"
 #include "limit_kernels.h"
 #include "raster/contract.h"
 #include "raster/parallel.h"
@@ -24,28 +24,25 @@ BlockCounts count_blocks(std::span<const ScreenTriangle> triangles, int width, i
                                    kDepthClear);
   BlockCounts counts;
   for (std::size_t i = 0; i < triangles.size(); ++i) {
-    const PixelBox box = pixel_box(triangles[i], width, height);
     const Oriented oriented = orient(triangles[i]);
-    if (box.empty() || oriented.area == 0) continue;
-    const Edge edges[3] = {make_edge(oriented, 0), make_edge(oriented, 1), make_edge(oriented, 2)};
+    if (oriented.area == 0) continue;
     const DepthPlane plane = make_depth(oriented);
     const auto count = [&](std::size_t& last, std::uint64_t& counter) {
       counter += last != i + 1;
       last = i + 1;
     };
-    for (int y = box.y0; y < box.y1; ++y) {
-      const lab::RowSpan span = lab::covered_in_row(edges, box, y);
+    lab::for_each_span(triangles[i], width, height, [&](int y, int begin, int end) {
       std::uint32_t* row = depth.data() + std::ptrdiff_t{y} * width;
       std::uint32_t z = 0;
-      for (int x = span.first; x < span.end; ++x) {
+      for (int x = begin; x < end; ++x) {
         const auto block = static_cast<std::size_t>((y >> kBlockLog2) * columns + (x >> kBlockLog2));
         count(covered_by[block], counts.covered);
-        z = x == span.first || x % kDepthCell == 0 ? plane.at(x, y) : z + plane.zx;
+        z = x == begin || x % kDepthCell == 0 ? plane.at(x, y) : z + plane.zx;
         if (z >= row[x]) continue;
         row[x] = z;
         count(won_by[block], counts.won);
       }
-    }
+    });
   }
   return counts;
 }

@@ -35,7 +35,7 @@ def exact_sentence(accuracy):
     wrong = [name for name in names if any(rate > 0 for rate, of in rates if of == name)]
     if wrong:
         return f"**{listed(wrong)} promise exact coverage and err** given the snapped positions."
-    return f"Given positions snapped to 1/256 px, {listed(names)} draw no wrong pixel in {scenes} scenes."
+    return f"Given positions snapped to 1/256 px, {listed(names)} cover no wrong pixel in {scenes} scenes."
 
 
 def fastest(measured):

@@ -60,6 +60,7 @@ class Cost(NamedTuple):
     ns: float
     low: float
     high: float
+    mtri: float  # 10⁶ triangles a second, in the median
 
     def overlaps(self, other):
         """Whether the order of the two is not settled."""
@@ -140,7 +141,7 @@ class Sweep:
 def parse_cost(speed, key):
     ns, ms = float(speed[key]), speed["ms"]
     median = float(ms["median"])
-    return Cost(ns, ns * float(ms["min"]) / median, ns * float(ms["max"]) / median)
+    return Cost(ns, ns * float(ms["min"]) / median, ns * float(ms["max"]) / median, float(speed["mtri_per_s"]))
 
 
 def parse_measured(entry, family, method):

@@ -132,6 +132,8 @@ TEST(Accuracy, ExactMethodsScoreZeroAgainstTheSnappedTruth) {
       if (lab::find_coverage_method(name).contract_depth) {
         EXPECT_EQ(method.at("snapped").at("unexplained_owners"), 0) << scene.at("name") << ' ' << name;
         EXPECT_EQ(method.at("snapped").at("wrong_owners"), 0) << scene.at("name") << ' ' << name;
+        const double pixels = scene.at("width").get<double>() * scene.at("height").get<double>();
+        EXPECT_DOUBLE_EQ(method.at("snapped").at("wrong_owners_bound_per_million"), 3e6 / pixels);
         EXPECT_LT(method.at("depth").at("max_ulp"), contract::kDepthError) << scene.at("name") << ' ' << name;
       }
       if (scene.at("name") == "t_junction") cracks.insert(method.at("float").at("gaps").get<int>());
@@ -141,6 +143,8 @@ TEST(Accuracy, ExactMethodsScoreZeroAgainstTheSnappedTruth) {
   for (const std::string& name : exact) {
     const json& counts = named(report.at("turning_cube").at("methods"), name);
     EXPECT_EQ(counts.at("snapped").at("missing").at("total"), 0) << name;
+    EXPECT_EQ(counts.at("snapped").at("missing").at("bound_per_frame"), 3.0 / 120);
+    EXPECT_FALSE(counts.at("missing").contains("bound_per_frame")) << "some were seen";
     EXPECT_EQ(counts.at("snapped").at("extra").at("total"), 0) << name;
     EXPECT_GT(counts.at("missing").at("total"), 0) << name << ": snapping moves the outline";
     EXPECT_EQ(counts.at("gaps").at("total"), 0) << name << ": and opens no crack";

@@ -59,6 +59,25 @@ TEST_P(EveryCoverageMethod, IsWrongOnlyWithinItsReachOnTheGrid) {
     expect_reach(testing::as_floats(adversarial(family, 100, 160, 120, 4)), {160, 120}, std::string(family));
 }
 
+// Past its largest triangle a method may draw anything, but inside the bounding box.
+TEST_P(EveryCoverageMethod, KeepsToTheBoxOfTrianglesTooLargeForIt) {
+  const int largest = method_.promise.max_side_px, side = std::min(4096, 3 * largest);
+  if (largest >= side) return;
+  auto triangles = hard_floats("anywhere", 100, {side, side}, 5);
+  std::erase_if(triangles,
+                [&](const FloatTriangle& t) { return side_px(t.at) <= static_cast<float>(largest); });
+  ASSERT_GT(triangles.size(), 20u);
+  std::uint64_t extra = 0;
+  for (const int x : {0, side / 2, side - 300})
+    for (const int y : {0, side / 2, side - 200}) {
+      const Picture picture(triangles, {300, 200, x, y});
+      const CoverageScore score = score_coverage(picture.by_floats, method_, picture.input);
+      EXPECT_EQ(score.out_of_box, 0u) << x << ", " << y;
+      extra += score.extra;
+    }
+  EXPECT_GT(extra, 1000u) << "nothing wraps";
+}
+
 TEST_P(EveryCoverageMethod, LeavesNoGapOrDoubleHitInAMeshIfItSaysSo) {
   const CoveragePromise& promise = method_.promise;
   if (!promise.no_gaps && !promise.no_double_hits) return;

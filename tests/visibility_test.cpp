@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "frontend/frontend.h"
@@ -33,8 +34,11 @@ VisibilityScene seen_by_the_front_end(std::string_view name, Size size) {
                                                  .cull = Cull::none,
                                                  .payload = Payload::id,
                                                  .keep_unsnapped = true});
-  return visibility_scene(triangles, frontend.unsnapped(), std::get<Scene>(drawable).camera, size);
+  return visibility_scene(triangles, frontend.unsnapped(), std::get<Scene>(drawable), size);
 }
+// Rule 6, and at the vertices two float steps of 2^-24, which are 128 of ours each.
+constexpr double kOurWorst_ulp = contract::kDepthError + 1.0 + 2 * 128;
+
 std::vector<ScreenTriangle> screen_of(const VisibilityScene& scene) {
   std::vector<ScreenTriangle> triangles;
   for (const auto& t : scene.triangles) triangles.push_back(t.screen);
@@ -82,6 +86,23 @@ TEST(Visibility, NoOrderPaintsACycleOrAnIntersectionButDepthDoes) {
   }
 }
 
+// The promise of one is broken by another: that is how it is seen to be judged.
+TEST(Visibility, OrdersAreHeldToTheirPromises) {
+  const VisibilityScene scene = make_case("front_to_back");
+  const auto owners = true_owners(scene);
+  VisibilityMethod unsorted = method("submission_order");
+  EXPECT_EQ(score(unsorted, scene, owners).broken, 0u);
+  unsorted.may_hide = method("painter_mean").may_hide;
+  const auto s = score(unsorted, scene, owners);
+  EXPECT_GT(s.broken, 0u);
+  EXPECT_EQ(s.broken, s.snapped.wrong_owner) << "all depth ranges are apart";
+
+  const VisibilityScene floor = make_case("floor_under_box");  // the box is submitted last, and hidden
+  VisibilityMethod mean = method("painter_mean");
+  mean.may_hide = method("submission_order").may_hide;
+  EXPECT_GT(score(mean, floor, true_owners(floor)).broken, 0u);
+}
+
 TEST(Visibility, MeanDepthPutsTheFloorOverTheBox) {
   const VisibilityScene scene = make_case("floor_under_box");
   EXPECT_GT(judge("painter_mean", scene).wrong_owner, 50u);
@@ -123,7 +144,7 @@ TEST(Visibility, DepthFormatsSeparateWhatTheFormulaSays) {
                   {"unorm24", 8e-3, 3e-3},
                   {"float_z", 4e-2, 3e-3},
                   {"reversed_z", 1e-3, 2e-6},
-                  {"contract31", 1e-4, 1e-5}};
+                  {"contract31", 4e-2, 3e-3}};
   for (const auto& e : expected) {
     EXPECT_EQ(judge(e.name, two_planes(100, e.separates, 0.1, 1000)).wrong_owner, 0u) << e.name;
     EXPECT_GT(judge(e.name, two_planes(100, e.does_not, 0.1, 1000)).wrong_owner, 0u) << e.name;
@@ -142,7 +163,7 @@ TEST(Visibility, TwoPlanesFavourNoOrderOfSubmission) {
 TEST(Visibility, FloatPlanesLeaveASliversDepthAndOursDoesNot) {
   const VisibilityScene scene = make_case("slivers");
   EXPECT_EQ(judge("contract31", scene).out_of_range, 0u);
-  EXPECT_LE(judge("contract31", scene).max_ulp, 66.0);
+  EXPECT_LE(judge("contract31", scene).max_ulp, kOurWorst_ulp);
   for (const auto name : {"float_z", "reversed_z"}) EXPECT_GT(judge(name, scene).out_of_range, 0u) << name;
 }
 
@@ -166,6 +187,52 @@ TEST(Visibility, OursIsTheContractsPicture) {
           std::equal(oracle.payload_row(y), oracle.payload_row(y) + scene.width, frame.owner.begin() + row));
     }
   }
+}
+
+// Nobody has a finer depth than the pipeline in front of it hands on.
+TEST(Visibility, TheSmallestScenesHaveTheFrontEndsDepths) {
+  Scene scene;
+  scene.camera.near_z = 0.1f, scene.camera.far_z = 1000.0f;
+  scene.instances.resize(1);
+  scene.meshes.push_back({{{0, 0, -90}, {9, 0, -90}, {0, 9, -110}}, {{0, 1, 2}}, {rgb(1, 2, 3)}});
+  Frontend frontend;
+  const auto triangles = frontend.run(scene, {.width = 128, .height = 96, .cull = Cull::none});
+  ASSERT_EQ(triangles.size(), 1u);
+  std::size_t found = 0;
+  for (const VisibilityTriangle& t : make_case("planes_1_apart").triangles)
+    for (int i = 0; i < 3; ++i)
+      for (int k = 1; k < 3; ++k)
+        if (static_cast<float>(t.view_z[i]) == -scene.meshes[0].positions[static_cast<std::size_t>(k)].z) {
+          EXPECT_EQ(t.screen.z[i], triangles[0].z[k]);
+          ++found;
+        }
+  EXPECT_GE(found, 12u);
+}
+
+// The distances are those of the positions, of clipped triangles, too, and not what a float depth gives back.
+TEST(Visibility, TheTruthOfAMeshHasTheDistancesOfItsPositions) {
+  Scene scene;
+  scene.camera.near_z = 0.5f, scene.camera.far_z = 1000.0f;
+  scene.instances.resize(2);
+  scene.instances[0].mesh = 1;  // so that ids and meshes run apart
+  scene.meshes.push_back({{{-30, -20, -700.1f}, {30, -20, -700.3f}, {0, 20, -700.7f}}, {{0, 1, 2}}, {0}});
+  scene.meshes.push_back({{{0, -1, 5}, {-2, -1, -40}, {2, -1, -40}}, {{0, 1, 2}}, {0}});  // behind the eye
+  constexpr Size kSize{128, 96};
+  Frontend frontend;
+  const auto triangles = frontend.run(scene, {.width = kSize.width,
+                                              .height = kSize.height,
+                                              .cull = Cull::none,
+                                              .payload = Payload::id,
+                                              .keep_unsnapped = true});
+  const auto seen = visibility_scene(triangles, frontend.unsnapped(), scene, kSize);
+  ASSERT_EQ(seen.triangles.size(), 3u);
+  for (std::size_t piece = 0; piece < 2; ++piece)
+    for (const double z : seen.triangles[piece].view_z)
+      EXPECT_TRUE(z == 40.0 || std::abs(z - 0.5) < 1e-5) << z;
+  const auto& far_away = seen.triangles[2];
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(far_away.view_z[k], -double{scene.meshes[0].positions[k].z});
+  const double by_depth = 500.0 / (1000.0 - double{frontend.unsnapped()[2].z01[1]} * 999.5);
+  EXPECT_GT(std::abs(by_depth - far_away.view_z[1]), 1e-3);
 }
 
 TEST(Visibility, JudgesWhatTheFrontEndMade) {
@@ -228,7 +295,7 @@ TEST(Visibility, OursErrsOnlyWhereDepthsAreNearerThanTwiceTheContractsError) {
     const VisibilityScene scene = c.make();
     const auto all = score(method("contract31"), scene, true_owners(scene));
     EXPECT_EQ(all.snapped.wrong_owner, all.near_ties) << c.name;
-    EXPECT_LE(all.snapped.max_ulp, contract::kDepthError + 1.0) << c.name;
+    EXPECT_LE(all.snapped.max_ulp, kOurWorst_ulp) << c.name;
 
     const auto triangles = screen_of(scene);
     const Owners exact = exact_owners(triangles, {scene.width, scene.height}, 2);

@@ -62,13 +62,13 @@ void judge(const CoverageScene& scene, const Bench& bench, SceneResult& result) 
     const lab::CoverageMethod& method = *methods[i];
     std::vector<lab::Run> runs;
     method.runs(input, scene.window(), runs);
-    CoverageScores scores{lab::score_coverage(snapped, runs, scene.floats, method.promise.reach_px),
-                          lab::score_coverage(floats, runs, scene.floats, method.promise.reach_px),
+    CoverageScores scores{lab::score_coverage(snapped, runs, scene.floats, lab::gap_reach_px(method)),
+                          lab::score_coverage(floats, runs, scene.floats, lab::gap_reach_px(method)),
                           owners.score(method)};
     result.methods[i] = {std::string(method.info.name), method.info.exact, scores, {}};
     if (bench.plan.pictures && bench.scene.smallest && scores.floats.errors() != 0)
       closeups[i] = closeup(closeup_name(Family::coverage, bench.scene.name, method.info.name),
-                            mark_coverage(floats, std::move(runs), scene.floats, method.promise.reach_px));
+                            mark_coverage(floats, std::move(runs), scene.floats, lab::gap_reach_px(method)));
     const std::lock_guard lock(mutex);
     bench.progress(static_cast<double>(++done) / static_cast<double>(methods.size() + 1));
   });

@@ -52,7 +52,7 @@ Closeup worst_frame(const lab::CoverageMethod& method, const Scores& scores) {
   std::vector<lab::Run> runs;
   method.runs(scene.input(), scene.window(), runs);
   return closeup(closeup_name(Family::coverage, kTurningCube, method.info.name),
-                 mark_coverage(truth, std::move(runs), scene.floats, method.promise.reach_px));
+                 mark_coverage(truth, std::move(runs), scene.floats, lab::gap_reach_px(method)));
 }
 
 }  // namespace
@@ -73,8 +73,8 @@ CubeResult judge_turning_cube(const AccuracyPlan& plan, const ChosenMethods& met
         std::vector<lab::Run> runs;
         method.runs(scene.input(), scene.window(), runs);
         scores[i][static_cast<std::size_t>(frame)] = {
-            lab::score_coverage(snapped, runs, scene.floats, method.promise.reach_px),
-            lab::score_coverage(floats, std::move(runs), scene.floats, method.promise.reach_px),
+            lab::score_coverage(snapped, runs, scene.floats, lab::gap_reach_px(method)),
+            lab::score_coverage(floats, std::move(runs), scene.floats, lab::gap_reach_px(method)),
             {}};
       }
     }

@@ -49,11 +49,17 @@ struct AddScore {
   json& method;
   const SceneResult& scene;
 
+  // Every pixel is a trial: the background may be shown wrong, too.
+  void add_owners(json& score, std::uint64_t wrong) const {
+    score["wrong_owners"] = wrong;
+    const auto pixels = static_cast<std::uint64_t>(scene.width) * static_cast<std::uint64_t>(scene.height);
+    if (wrong == 0) score["wrong_owners_bound_per_million"] = 1e6 * lab::rate_bound(pixels);
+  }
   void operator()(const CoverageScores& s) const {
     method["snapped"] = score_json(s.snapped, scene.crossings);
     method["float"] = score_json(s.floats, scene.crossings);
-    method["snapped"]["wrong_owners"] = s.owners.wrong_snapped;
-    method["float"]["wrong_owners"] = s.owners.wrong_floats;
+    add_owners(method["snapped"], s.owners.wrong_snapped);
+    add_owners(method["float"], s.owners.wrong_floats);
     if (lab::find_coverage_method(method["name"].get<std::string>()).contract_depth)
       method["snapped"]["unexplained_owners"] = s.owners.unexplained;
     method["depth"] = {{"max_ulp", s.owners.max_ulp}, {"rms_ulp", s.owners.rms_ulp}};
@@ -115,24 +121,26 @@ json scene_json(const SceneResult& scene) {
   return result;
 }
 
-json per_frame_json(const PerFrame& counts) {
-  return {{"median", counts.median}, {"worst", counts.worst}, {"total", counts.total}};
+json per_frame_json(const PerFrame& counts, int frames) {
+  json result{{"median", counts.median}, {"worst", counts.worst}, {"total", counts.total}};
+  if (counts.total == 0) result["bound_per_frame"] = lab::rate_bound(static_cast<std::uint64_t>(frames));
+  return result;
 }
 
-json counts_json(const CubeCounts& counts) {
-  return {{"gaps", per_frame_json(counts.gaps)},
-          {"double_hits", per_frame_json(counts.double_hits)},
-          {"missing", per_frame_json(counts.missing)},
-          {"extra", per_frame_json(counts.extra)}};
+json counts_json(const CubeCounts& counts, int frames) {
+  return {{"gaps", per_frame_json(counts.gaps, frames)},
+          {"double_hits", per_frame_json(counts.double_hits, frames)},
+          {"missing", per_frame_json(counts.missing, frames)},
+          {"extra", per_frame_json(counts.extra, frames)}};
 }
 
 json cube_json(const CubeResult& cube) {
   json result{
       {"frames", cube.frames}, {"width", cube.width}, {"height", cube.height}, {"methods", json::array()}};
   for (const CubeMethodResult& method : cube.methods) {
-    json& entry = result["methods"].emplace_back(counts_json(method.floats));
+    json& entry = result["methods"].emplace_back(counts_json(method.floats, cube.frames));
     entry["name"] = method.name;
-    entry["snapped"] = counts_json(method.snapped);
+    entry["snapped"] = counts_json(method.snapped, cube.frames);
   }
   return result;
 }

@@ -44,7 +44,7 @@ lab::VisibilityScene mesh_visibility(const Scene& scene, lab::Size size, Cull cu
   FrontendOptions options{size.width, size.height, cull, false, Payload::id, 1, true};
   Frontend frontend;
   const auto triangles = frontend.run(scene, options);
-  return lab::visibility_scene(triangles, frontend.unsnapped(), scene.camera, size);
+  return lab::visibility_scene(triangles, frontend.unsnapped(), scene, size);
 }
 
 // Triangles through one another, from near the eye to a thousand times as far: every order and every depth

@@ -129,8 +129,7 @@ class FamilyTable {
       const double rate = lab::per_million(errors(scene->methods[method].score), scene->trials());
       if (rate > most) most = rate, worst = scene;
     }
-    constexpr std::size_t kWidth = 17;
-    return worst == nullptr ? "-" : worst->name.substr(0, kWidth);
+    return worst == nullptr ? "-" : worst->name;
   }
 
   std::vector<const SceneResult*> scenes_;
@@ -138,9 +137,11 @@ class FamilyTable {
   std::uint64_t trials_ = 0;
 };
 
-// The last column is wide where it holds a name.
-int last_width(const FamilyTable& t) {
-  return t.timed() ? 8 : 18;
+// The last column is as wide as the names it holds.
+std::size_t last_width(const FamilyTable& t) {
+  std::size_t widest = t.timed() ? 7 : t.last_title("").size();
+  for (std::size_t i = 0; i < t.methods(); ++i) widest = std::max(widest, t.last(i).size());
+  return widest + 1;
 }
 
 // What shows of all that; and, where it was judged, what splitting an edge does for a T-junction.
@@ -203,15 +204,15 @@ std::string visibility_table(const FamilyTable& t) {
 std::string facing_table(const FamilyTable& t) {
   using S = lab::FacingScores;
   std::string text = t.title("misjudged per 10^6 faces that own a pixel", "faces");
-  text += fmt::format("{:<20}{:>19}{:>19}\n", "", "against snapped", "those before");
-  constexpr const char* kLine = "{:<20}{:>11}{:>8}{:>11}{:>8}{:>{}}\n";
+  text += fmt::format("{:<20}{:>20}{:>20}\n", "", "against snapped", "those before");
+  constexpr const char* kLine = "{:<20}{:>13}{:>7}{:>13}{:>7}{:>{}}\n";
   text += fmt::format(kLine, "method", "per 10^6", "faces", "per 10^6", "faces", t.last_title("ns/face"),
-                      last_width(t) + 2);
+                      last_width(t));
   for (std::size_t i = 0; i < t.methods(); ++i) {
     const auto snapped = t.facing(i, &S::snapped), floats = t.facing(i, &S::floats);
-    text += fmt::format(kLine, t.name(i), rate(snapped.misclassified, snapped.faces), snapped.misclassified,
-                        rate(floats.misclassified, floats.faces), floats.misclassified, t.last(i),
-                        last_width(t) + 2);
+    text +=
+        fmt::format(kLine, t.name(i), rate(snapped.misclassified, snapped.faces), snapped.misclassified,
+                    rate(floats.misclassified, floats.faces), floats.misclassified, t.last(i), last_width(t));
   }
   return text;
 }
@@ -244,7 +245,8 @@ std::string cube_table(const CubeResult& cube) {
     text += fmt::format(kLine, m.name, m.floats.gaps.median, m.floats.gaps.worst, m.floats.gaps.total,
                         m.floats.double_hits.median, m.floats.double_hits.worst, m.floats.double_hits.total,
                         m.snapped.missing.total + m.snapped.extra.total);
-  return text;
+  return text + fmt::format("0 in total: in less than {} of the frames, with 95 % confidence\n",
+                            digits(lab::rate_bound(static_cast<std::uint64_t>(cube.frames))));
 }
 
 }  // namespace

@@ -171,7 +171,7 @@ CoverageScore score_coverage(const CoverageTruth& truth, const CoverageMethod& m
                              const CoverageInput& input) {
   std::vector<Run> runs;
   method.runs(input, truth.window, runs);
-  return score_coverage(truth, std::move(runs), input.floats, method.promise.reach_px);
+  return score_coverage(truth, std::move(runs), input.floats, gap_reach_px(method));
 }
 
 }  // namespace edgewise::lab

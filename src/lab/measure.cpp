@@ -4,6 +4,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "lab/exact_spans.h"
 #include "raster/contract.h"
 
 namespace edgewise::lab {
@@ -78,35 +79,11 @@ std::vector<std::uint32_t> count_hits(Backend& backend, std::span<const ScreenTr
   return hits;
 }
 
-RowSpan covered_in_row(const Edge (&edges)[3], const PixelBox& box, int y) {
-  const auto floor_div = [](std::int64_t n, std::int64_t d) { return n / d - (n % d < 0); };
-  // E grows by 256 a from pixel to pixel, so each edge bounds the pixels of a row on one side.
-  std::int64_t first = box.x0, end = box.x1;
-  for (const Edge& edge : edges) {
-    const std::int64_t at_zero = edge.at(0, y), step = std::int64_t{edge.a} * kSub;
-    if (step > 0)
-      first = std::max(first, -floor_div(at_zero, step));
-    else if (step < 0)
-      end = std::min(end, floor_div(at_zero, -step) + 1);
-    else if (at_zero < 0)
-      end = first;
-  }
-  if (end <= first) return {box.x0, box.x0};
-  return {static_cast<int>(first), static_cast<int>(end)};
-}
-
 std::uint64_t covered_pixels(std::span<const ScreenTriangle> triangles, int width, int height) {
   std::uint64_t covered = 0;
-  for (const auto& triangle : triangles) {
-    const PixelBox box = pixel_box(triangle, width, height);
-    const Oriented oriented = orient(triangle);
-    if (box.empty() || oriented.area == 0) continue;
-    const Edge edges[3] = {make_edge(oriented, 0), make_edge(oriented, 1), make_edge(oriented, 2)};
-    for (int y = box.y0; y < box.y1; ++y) {
-      const RowSpan span = covered_in_row(edges, box, y);
-      covered += static_cast<std::uint64_t>(span.end - span.first);
-    }
-  }
+  for (const auto& triangle : triangles)
+    for_each_span(triangle, width, height,
+                  [&](int, int begin, int end) { covered += static_cast<std::uint64_t>(end - begin); });
   return covered;
 }
 

@@ -34,13 +34,6 @@ std::vector<std::uint32_t> count_hits(Backend& backend, std::span<const ScreenTr
                                       int height, const Execution& execution,
                                       const std::function<void(double)>& on_progress = {});
 
-// The pixels of a row of its box that a triangle covers, [first, end). One exact division
-// an edge.
-struct RowSpan {
-  int first, end;
-};
-RowSpan covered_in_row(const contract::Edge (&edges)[3], const contract::PixelBox& box, int y);
-
 // Pixels covered, each as often as triangles cover it (the sum of the hit counts), by one exact division a
 // row and edge. Divided by the image's pixels this is the overdraw.
 std::uint64_t covered_pixels(std::span<const ScreenTriangle> triangles, int width, int height);

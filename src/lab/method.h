@@ -15,7 +15,7 @@ struct MethodInfo {
   std::string_view idea;     // one line
   std::string_view source;   // where it is used or described
   std::string_view promise;  // one line: how wrong it may be, and never more; the tests hold it to that
-  bool exact;                // ours: it scores zero against the snapped truth
+  bool exact;                // covers no wrong pixel against the snapped truth
 };
 
 struct Size {

@@ -17,6 +17,7 @@ namespace {
 
 constexpr YAxis kMisjudged{"misjudged faces, %", false, 100};
 
+// The first method judges the exact sign of the snapped positions: all that it gets wrong is snapping.
 Measured measure_scene(const FacingScene& scene) {
   const auto methods = facing_methods();
   const auto facts = facing_facts(scene);
@@ -25,15 +26,12 @@ Measured measure_scene(const FacingScene& scene) {
     const FacingScore s = score(methods[i], scene, facts).floats;
     result.methods[i] = {s.misclassified, s.faces};
   }
+  result.by_snapping = result.methods.front().errors;
   return result;
 }
 
-// The first method judges the exact sign of the snapped positions: all that it gets wrong is snapping.
 Measured measure_tilt(double degrees, bool perspective, bool quick) {
-  Measured result =
-      measure_scene(tilted_faces(degrees * std::numbers::pi / 180, perspective, quick ? 2000 : 40000, 1));
-  result.by_snapping = result.methods.front().errors;
-  return result;
+  return measure_scene(tilted_faces(degrees * std::numbers::pi / 180, perspective, quick ? 2000 : 40000, 1));
 }
 
 // Triangles of some 80 px that are `height_px` high on the screen, at random distances and places, with a

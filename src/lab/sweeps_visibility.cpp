@@ -59,9 +59,12 @@ VisibilityScene ring_of_bars(int bars) {
   }
   constexpr Size kSize{256, 192};
   Frontend frontend;
-  const auto triangles = frontend.run(
-      scene, {.width = kSize.width, .height = kSize.height, .cull = Cull::none, .keep_unsnapped = true});
-  return visibility_scene(triangles, frontend.unsnapped(), scene.camera, kSize);
+  const auto triangles = frontend.run(scene, {.width = kSize.width,
+                                              .height = kSize.height,
+                                              .cull = Cull::none,
+                                              .payload = Payload::id,
+                                              .keep_unsnapped = true});
+  return visibility_scene(triangles, frontend.unsnapped(), scene, kSize);
 }
 
 Measured measure_cycle(double bars, bool) {

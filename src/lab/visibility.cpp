@@ -177,7 +177,7 @@ class Scorer {
   bool keeps_promise(std::uint32_t said, std::uint32_t truth, int x, int y) {
     snapped_.add_owner(said, truth);
     if (said != kNobody && said != truth && !snapped_.covers(said, x, y)) return false;
-    if (!keeps_depth()) return said != kNobody || truth == kNobody;
+    if (!keeps_depth()) return said == truth || (said != kNobody && method_.may_hide(scene_, said, truth));
     const bool right_depth = said == kNobody || snapped_.add_depth(frame_, said, x, y) <= bound01(said);
     if (said == truth) return right_depth;
     // Where a method shows the background, it says that the depth is 1.

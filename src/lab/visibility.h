@@ -21,7 +21,7 @@ namespace edgewise::lab {
 inline constexpr std::uint32_t kNobody = Owners::kNobody;
 
 struct VisibilityTriangle {
-  ScreenTriangle screen;   // z: the contract's depth (rule 6) of view_z
+  ScreenTriangle screen;   // z: the depth (rule 6) that the front end makes of view_z, in float
   float x_px[3], y_px[3];  // before snapping
   double view_z[3];        // distance along the view direction, near … far
 };
@@ -59,6 +59,9 @@ struct VisibilityMethod {
   long double (*stored01)(const VisibilityFrame& frame, std::size_t pixel);
   long double (*ulp01)(long double depth01);
   double (*bound01)(const VisibilityTriangle& triangle, const VisibilityScene& scene);
+
+  // Only where none is kept: the promise, whether triangle `said` may hide `truth`, the nearest.
+  bool (*may_hide)(const VisibilityScene& scene, std::uint32_t said, std::uint32_t truth) = nullptr;
 };
 
 std::span<const VisibilityMethod> visibility_methods();
@@ -84,7 +87,7 @@ struct VisibilityScores {
   // truth, those whose depth lies no farther from the right one's than both triangles' bounds:
   std::uint64_t near_ties = 0;
   // Promises broken: a pixel owned by a triangle that does not cover it, a depth beyond bound01, or a wrong
-  // owner that is no near tie though depths are kept.
+  // owner that is no near tie though depths are kept, or one that may not hide the right one.
   std::uint64_t broken = 0;
 };
 VisibilityScores score(const VisibilityMethod& method, const VisibilityScene& scene,
@@ -103,9 +106,8 @@ VisibilityScene two_planes(double distance, double separation, double near_z, do
 // Thin triangles in many directions, from distance 10 to 50 across their width; aspect is length over
 // (horizontal) width, at most 2^17: thinner ones have no area.
 VisibilityScene slivers(double aspect);
-// What a front end made of a scene, with Payload::id or not; needs keep_unsnapped.
+// What a front end made of a scene, beside the true distances; needs Payload::id and keep_unsnapped.
 VisibilityScene visibility_scene(std::span<const ScreenTriangle> triangles,
-                                 std::span<const UnsnappedTriangle> unsnapped, const Camera& camera,
-                                 Size size);
+                                 std::span<const UnsnappedTriangle> unsnapped, const Scene& scene, Size size);
 
 }  // namespace edgewise::lab

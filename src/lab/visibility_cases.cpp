@@ -5,20 +5,23 @@
 #include <array>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 #include <initializer_list>
 #include <numeric>
-#include <stdexcept>
 
 #include "frontend/fixed.h"
+#include "frontend/transform.h"
+#include "frontend/vertex.h"
 #include "raster/contract.h"
 
 namespace edgewise::lab {
 
 namespace {
 
-std::uint32_t contract_depth(double view_z, double near_z, double far_z) {
-  const double depth01 = far_z / (far_z - near_z) * (1 - near_z / view_z);
-  return contract::kDepthHead + static_cast<std::uint32_t>(std::nearbyint(depth01 * contract::kDepthRange));
+// As the front end has it: the matrix, the position and the quotient are floats.
+std::uint32_t front_end_depth(double view_z, double near_z, double far_z) {
+  const glm::mat4 projection(glm::perspectiveRH_ZO(1.0, 1.0, near_z, far_z));
+  return project(transform(projection, {0.0f, 0.0f, -static_cast<float>(view_z)})).z;
 }
 
 // View space: x to the right, y down, z away from the eye, which sees the image's height as 1 at distance 1.
@@ -47,7 +50,7 @@ class Builder {
       t.y_px[i] = static_cast<float>(scene_.height / 2.0 + scene_.height * p.y / p.z);
       t.screen.x_sub[i] = snap(t.x_px[i]);
       t.screen.y_sub[i] = snap(t.y_px[i]);
-      t.screen.z[i] = contract_depth(p.z, scene_.near_z, scene_.far_z);
+      t.screen.z[i] = front_end_depth(p.z, scene_.near_z, scene_.far_z);
       t.view_z[i] = p.z;
     }
     t.screen.payload = static_cast<std::uint32_t>(scene_.triangles.size());
@@ -66,7 +69,6 @@ VisibilityScene floor_under_box() {
       .take();
 }
 
-// Each bar starts near the eye, over the end of the one before it.
 // A floor of five corners, 46 away in the mean, under a wall at 50. By its triangles the floor's far part
 // would be painted first.
 VisibilityScene pentagon_under_wall() {
@@ -84,6 +86,7 @@ VisibilityScene bent_quad() {
       .take();
 }
 
+// Each bar starts near the eye, over the end of the one before it.
 VisibilityScene bars_in_a_cycle() {
   Builder builder(kSize, 0.5, 10);
   const auto at = [](double degrees, double radius, double z) {
@@ -168,36 +171,13 @@ VisibilityScene slivers(double aspect) {
       VisibilityTriangle t{
           {{sample_sub(kSide / 2), x, third}, {sample_sub(kSide / 2), y, y}, {}, 0}, {}, {}, {10, 10, 50}};
       for (int i = 0; i < 3; ++i) {
-        t.screen.z[i] = contract_depth(t.view_z[i], near_z, far_z);
+        t.screen.z[i] = front_end_depth(t.view_z[i], near_z, far_z);
         t.x_px[i] = static_cast<float>(t.screen.x_sub[i]) / kSub;
         t.y_px[i] = static_cast<float>(t.screen.y_sub[i]) / kSub;
       }
       scene.faces.push_back({static_cast<std::uint32_t>(scene.triangles.size()), 1});
       scene.triangles.push_back(t);
     }
-  return scene;
-}
-
-VisibilityScene visibility_scene(std::span<const ScreenTriangle> triangles,
-                                 std::span<const UnsnappedTriangle> unsnapped, const Camera& camera,
-                                 Size size) {
-  if (triangles.size() != unsnapped.size()) throw std::invalid_argument("keep_unsnapped was not set");
-  const double near_z = camera.near_z, far_z = camera.far_z;
-  VisibilityScene scene{size.width, size.height, near_z, far_z, {}, {}};
-  scene.triangles.reserve(triangles.size());
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    VisibilityTriangle t{triangles[i], {}, {}, {}};
-    for (int k = 0; k < 3; ++k) {
-      t.x_px[k] = unsnapped[i].x_px[k];
-      t.y_px[k] = unsnapped[i].y_px[k];
-      const double depth01 = std::clamp(static_cast<double>(unsnapped[i].z01[k]), 0.0, 1.0);
-      t.view_z[k] = near_z * far_z / (far_z - depth01 * (far_z - near_z));
-      // Anew, since the distance that depth01 gives back is rounded.
-      t.screen.z[k] = contract_depth(t.view_z[k], near_z, far_z);
-    }
-    scene.faces.push_back({static_cast<std::uint32_t>(i), 1});
-    scene.triangles.push_back(t);
-  }
   return scene;
 }
 

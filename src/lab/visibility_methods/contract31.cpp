@@ -32,7 +32,9 @@ class Plane {
 extern const VisibilityMethod visibility_contract31;
 const VisibilityMethod visibility_contract31{
     {"contract31", "ours: 31-bit integer plane, based anew every 64 px", "raster/contract.h, rule 6",
-     "depth within 66 steps of 2^-31, whatever the triangle's shape", false},
+     "depth within 66 steps of 2^-31 of the plane through the vertices' depths, which the front end has as "
+     "floats, whatever the triangle's shape",
+     false},
     [](const VisibilityScene& scene, VisibilityFrame& frame) {
       draw_depth_buffer<Plane, std::uint32_t>(scene, frame, frame.depth32, contract::kDepthClear);
     },
@@ -40,9 +42,15 @@ const VisibilityMethod visibility_contract31{
       return (static_cast<long double>(frame.depth32[pixel]) - contract::kDepthHead) / contract::kDepthRange;
     },
     [](long double) { return 1.0L / contract::kDepthRange; },
-    // Rule 6, and half a step at the vertices.
-    [](const VisibilityTriangle&, const VisibilityScene&) {
-      return (contract::kDepthError + 1.0) / contract::kDepthRange;
+    // Rule 6, and what the vertices' depths are off; inside, the planes are no farther apart than there.
+    [](const VisibilityTriangle& t, const VisibilityScene& s) {
+      double worst = 0;
+      for (int i = 0; i < 3; ++i) {
+        const double given =
+            static_cast<double>(t.screen.z[i] - contract::kDepthHead) / contract::kDepthRange;
+        worst = std::max(worst, std::abs(given - depth01(t.view_z[i], s)));
+      }
+      return worst + (contract::kDepthError + 1.0) / contract::kDepthRange;
     }};
 
 }  // namespace edgewise::lab

@@ -1,4 +1,4 @@
-// What the visibility methods share: exact spans, and the depth buffer's loop.
+// What the visibility methods share: planes of depth, and the depth buffer's loop.
 #pragma once
 
 #include <algorithm>
@@ -6,37 +6,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "lab/exact_spans.h"
 #include "lab/visibility.h"
 #include "raster/contract.h"
 
 namespace edgewise::lab {
-
-// Calls body(y, begin, end) for each row of a triangle: rule 4 solved for x, by one division an edge.
-template <typename Body>
-void for_each_span(const ScreenTriangle& triangle, const VisibilityScene& scene, Body&& body) {
-  using namespace contract;
-  const PixelBox box = pixel_box(triangle, scene.width, scene.height);
-  const Oriented oriented = orient(triangle);
-  if (box.empty() || oriented.area == 0) return;
-  const Edge edges[3] = {make_edge(oriented, 0), make_edge(oriented, 1), make_edge(oriented, 2)};
-  const auto floor_divide = [](std::int64_t n, std::int64_t d) {
-    const std::int64_t q = n / d;
-    return q * d > n ? q - 1 : q;
-  };
-  for (int y = box.y0; y < box.y1; ++y) {
-    std::int64_t begin = box.x0, end = box.x1;
-    for (const Edge& e : edges) {
-      const std::int64_t first = e.at(0, y), step = std::int64_t{e.a} * kSub;
-      if (step > 0)
-        begin = std::max(begin, -floor_divide(first, step));
-      else if (step < 0)
-        end = std::min(end, floor_divide(first, -step) + 1);
-      else if (first < 0)
-        end = begin;
-    }
-    if (begin < end) body(y, static_cast<int>(begin), static_cast<int>(end));
-  }
-}
 
 // Plane: built from a triangle; row(x, y) starts a row, value(x) is the word to compare and store;
 // nearer(a, b) is the depth test.
@@ -51,7 +25,7 @@ void draw_depth_buffer(const VisibilityScene& scene, VisibilityFrame& frame, std
     const VisibilityTriangle& triangle = scene.triangles[id];
     if (contract::signed_area(triangle.screen) == 0) continue;
     Plane plane(triangle, scene);
-    for_each_span(triangle.screen, scene, [&](int y, int begin, int end) {
+    for_each_span(triangle.screen, scene.width, scene.height, [&](int y, int begin, int end) {
       std::uint32_t* owner_row = frame.owner.data() + static_cast<std::size_t>(y) * width;
       Word* depth_row = depth.data() + static_cast<std::size_t>(y) * width;
       plane.row(begin, y);

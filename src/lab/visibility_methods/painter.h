@@ -2,14 +2,16 @@
 #pragma once
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
+#include <utility>
 
 #include "lab/visibility_methods/depth_buffer.h"
 
 namespace edgewise::lab {
 
 inline void paint(const VisibilityScene& scene, VisibilityFrame& frame, std::uint32_t id) {
-  for_each_span(scene.triangles[id].screen, scene, [&](int y, int begin, int end) {
+  for_each_span(scene.triangles[id].screen, scene.width, scene.height, [&](int y, int begin, int end) {
     const auto row = frame.owner.begin() + std::ptrdiff_t{y} * scene.width;
     std::fill(row + begin, row + end, id);
   });
@@ -42,6 +44,23 @@ void draw_painter(const VisibilityScene& scene, VisibilityFrame& frame, Key&& ke
     const VisibilityFace face = scene.faces[id];
     for (std::uint32_t i = 0; i < face.count; ++i) paint(scene, frame, face.first + i);
   }
+}
+
+inline std::pair<double, double> depth_range(const VisibilityScene& scene, std::uint32_t triangle) {
+  const auto after =
+      std::upper_bound(scene.faces.begin(), scene.faces.end(), triangle,
+                       [](std::uint32_t id, const VisibilityFace& face) { return id < face.first; });
+  std::pair range{scene.far_z, scene.near_z};
+  for_each_distance(scene, *std::prev(after), [&](double z) {
+    range = {std::min(range.first, z), std::max(range.second, z)};
+  });
+  return range;
+}
+
+// What the painters promise: of two faces whose depth ranges are apart, the nearer one is painted later.
+inline bool ranges_overlap(const VisibilityScene& scene, std::uint32_t said, std::uint32_t truth) {
+  const auto a = depth_range(scene, said), b = depth_range(scene, truth);
+  return a.first <= b.second && b.first <= a.second;
 }
 
 }  // namespace edgewise::lab

@@ -17,6 +17,7 @@ const VisibilityMethod visibility_painter_farthest{
     },
     nullptr,
     nullptr,
-    nullptr};
+    nullptr,
+    ranges_overlap};
 
 }  // namespace edgewise::lab

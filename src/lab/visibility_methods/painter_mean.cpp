@@ -16,6 +16,7 @@ const VisibilityMethod visibility_painter_mean{
     },
     nullptr,
     nullptr,
-    nullptr};
+    nullptr,
+    ranges_overlap};
 
 }  // namespace edgewise::lab

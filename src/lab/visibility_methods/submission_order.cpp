@@ -13,6 +13,7 @@ const VisibilityMethod visibility_submission_order{
     },
     nullptr,
     nullptr,
-    nullptr};
+    nullptr,
+    [](const VisibilityScene&, std::uint32_t said, std::uint32_t truth) { return truth < said; }};
 
 }  // namespace edgewise::lab
