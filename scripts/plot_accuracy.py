@@ -199,7 +199,8 @@ def all_scenes(accuracy, family, folder, caption):
     scenes, methods = chart_rows(accuracy.of(family.name)), accuracy.methods[family.name]
     if not scenes or not methods:
         return None
-    above = 1.5 if len(methods) > 8 else 1.05
+    slanted = len(methods) > 8 or max(len(method.name) for method in methods) > 14  # or they run into one another
+    above = 1.5 if slanted else 1.05
     figure, axes = plt.subplots(figsize=(10.4, above + 0.45 + 0.27 * len(scenes)))
     shades = plt.get_cmap("YlOrBr")
     for line, (_, texts, rates) in enumerate(scenes):
@@ -219,10 +220,9 @@ def all_scenes(accuracy, family, folder, caption):
         tick.set_fontstyle("italic" if label in CRACKS.values() else "normal")
     axes.xaxis.tick_top()
     axes.set_xticks(range(len(methods)), [method.name for method in methods], fontsize=9)
-    many = len(methods) > 8
     for tick, method in zip(axes.get_xticklabels(), methods):
-        tick.set(fontweight="bold" if method.ours else "normal", rotation_mode="anchor", rotation=30 if many else 0,
-                 ha="left" if many else "center")
+        tick.set(fontweight="bold" if method.ours else "normal", rotation_mode="anchor", rotation=30 if slanted else 0,
+                 ha="left" if slanted else "center")
     axes.tick_params(length=0)
     axes.grid(visible=False)
     for spine in axes.spines.values():
