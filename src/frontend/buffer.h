@@ -32,9 +32,15 @@ class Buffer {
 #endif
     capacity_ = count;
   }
-  T* data() { return data_.get(); }
-  const T* data() const { return data_.get(); }
-  std::size_t capacity() const { return capacity_; }
+  T* data() {
+    return data_.get();
+  }
+  const T* data() const {
+    return data_.get();
+  }
+  std::size_t capacity() const {
+    return capacity_;
+  }
 
  private:
   static constexpr std::size_t kCacheLine = 64, kHugePage = std::size_t{1} << 21;
