@@ -31,8 +31,9 @@ inline constexpr std::size_t kRun = 2048;
 // Below this many, waking another thread costs more than it saves.
 inline constexpr std::size_t kWorthThreads = 8192;
 
-// A run's visible triangles. Every worker has one and fills it again for each of its runs.
-struct RunOutput {
+// A run's visible triangles. Every worker has one and fills it again for each of its runs; two workers' share
+// no cache line, nor the pair of lines that processors fetch.
+struct alignas(128) RunOutput {
   // A triangle cut by six planes has nine corners, so it becomes seven at most; vectors are stored whole.
   static constexpr std::size_t kRoom = kRun * 7 + 16;
 

@@ -51,7 +51,8 @@ class Bins {
   static constexpr std::uint32_t kBlock = 32;        // slots, a power of two
   static constexpr std::uint32_t kRun = kBlock - 1;  // indices in a block; the last slot names the next block
 
-  struct Chunk {
+  // Two chunks share no cache line, nor the pair of lines that processors fetch: threads write to them.
+  struct alignas(128) Chunk {
     std::vector<std::uint32_t> slots;          // blocks of kBlock
     std::vector<std::uint32_t> first, cursor;  // for each cell: slot of its first block, next slot to write
     std::uint32_t used = 0;                    // slots in use
