@@ -97,8 +97,9 @@ inline bool set_up_one(const TileJob& job, const ScreenTriangle& triangle, Batch
   const std::int64_t nearest = std::min({t.z[0], t.z[1], t.z[2]}) - kDepthError;
   out.nearest.x[k] = flat ? zx : 0;
   out.nearest.y[k] = flat ? zy : 0;
-  out.nearest.first[k] =
-      flat ? z + out.depth.rise[k] - out.depth.span[k] : static_cast<std::int32_t>(nearest);
+  const auto bits = [](std::int32_t v) { return static_cast<std::uint32_t>(v); };
+  out.nearest.first[k] = flat ? wrap(bits(z) + bits(out.depth.rise[k]) - bits(out.depth.span[k]))
+                              : static_cast<std::int32_t>(nearest);
   out.payload[k] = wrap(triangle.payload);
   out.twice_area_px[k] = static_cast<std::int32_t>(t.area >> 2 * kSubBits);
   out.bx0[k] = bx0, out.by0[k] = by0, out.bx1[k] = bx1, out.by1[k] = by1;
