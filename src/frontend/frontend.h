@@ -71,8 +71,8 @@ class Frontend {
   Frontend& operator=(Frontend&&) noexcept;
 
   // The visible triangles in submission order, valid until the next call. Throws std::invalid_argument for a
-  // camera or a size out of range, a triangle that names a vertex its mesh lacks, or a SIMD target that this
-  // machine cannot run.
+  // camera or a size out of range, a triangle of a mesh in view that names a vertex its mesh lacks, or a SIMD
+  // target that this machine cannot run.
   std::span<const ScreenTriangle> run(const Drawable& drawable, const FrontendOptions& options);
   const FrontendStats& stats() const;
   // One for each triangle that run() returned, if keep_unsnapped was set; else none.

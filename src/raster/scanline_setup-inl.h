@@ -16,8 +16,8 @@
 //   line that starts farther away does not come back to the tile in 63 rows, and does not when its start is
 //   clamped to 2^18 + 2^17 px either.
 // - Start, steps and the at most 2^15 px from vertex to tile sum up to less than 2^20 px = 2^63 units.
-// An edge flatter than 2^12 px a row crosses 8 rows at the most. Its triangle is walked by integers with a
-// remainder (scanline_walk.h), and so is one whose depth gradient a double cannot hold.
+// An edge flatter than 2^12 px a row, but not horizontal, crosses 8 rows at the most. Its triangle is walked
+// by integers with a remainder (scanline_walk.h), and so is one whose depth gradient a double cannot hold.
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -75,7 +75,8 @@ HWY_INLINE LineLanes line_lanes(V32 px, V32 py, V32 qx, V32 qy, V32 flip, V32 fi
   const D64 d;
   const F64 df;
   const V32 zero = hn::Zero(D32{}), dx = hn::Sub(qx, px), dy = hn::Sub(qy, py);
-  const V32 not_zero_dy = hn::Sub(dy, hn::VecFromMask(D32{}, hn::Eq(dy, zero)));
+  // A horizontal edge bounds no row; a divisor this large keeps it from passing for one that is too flat.
+  const V32 not_zero_dy = hn::IfThenElse(hn::Eq(dy, zero), set32(kGuardSub), dy);
   const auto as_double = [](V64 v) { return hn::ConvertTo(F64{}, v); };
   const auto per_sub = hn::Div(hn::Set(df, 0x1p35), as_double(product(not_zero_dy, set32(1))));
   const auto step = hn::Mul(as_double(product(dx, set32(kSub))), per_sub);
