@@ -1,11 +1,10 @@
 // The scanline kernel.
 //
 // 1. Triangles are set up a vector at a time (scanline_setup-inl.h), their spans are found a vector of rows
-// at
-//    a time (scanline_rows-inl.h) and filled a vector of pixels at a time (scanline_list-inl.h).
+//    at a time (scanline_rows-inl.h) and filled a vector of pixels at a time (scanline_list-inl.h).
 // 2. Rows end at the sides of a tile. Rows as long as the image would need fewer set-ups, but a band of them
-//    does not fit the L1 cache, where a tile's 32 KB do. The tile is written out once, and
-//    lies in one cell of the depth grid (rule 6), so a span has one plane.
+//    does not fit the L1 cache, where a tile's 32 KB do. The tile is written out once, and lies in one cell
+//    of the depth grid (rule 6), so a span has one plane.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raster/scanline_kernel.cpp"
 #include <hwy/cache_control.h>
