@@ -85,7 +85,8 @@ def verify_sentence(verify):
     scenes = verify["scenes"]
     frames = sum(scene["configurations"] for scene in scenes)
     oracle = sum(scene.get("oracle", {}).get("configurations", 0) for scene in scenes)
-    differing = sum(scene["differing_pixels"] + scene.get("oracle", {}).get("differing_pixels", 0) for scene in scenes)
+    differing = sum(scene["differing_pixels"] + scene.get("written_outside", 0)
+                    + scene.get("oracle", {}).get("differing_pixels", 0) for scene in scenes)
     backends = ", ".join(verify["backends"])
     return (f"{frames:,} frames of {len(scenes)} scenes were compared bit for bit, in depth and payload, across {backends}, "
             f"thread counts, tile sizes, SIMD targets and culling modes, and {oracle:,} small ones with a "

@@ -63,6 +63,16 @@ class LeavesGaps : public Backend {
   std::unique_ptr<Backend> right_ = backends()[0].make();
 };
 
+// The picture is right, and the first pixel behind a row is gone.
+class WritesBesideTheImage : public Backend {
+  void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
+                    const Execution& execution) override {
+    right_->draw(triangles, frame, background, execution);
+    frame.payload[kWrongY * frame.stride + frame.width] = background;
+  }
+  std::unique_ptr<Backend> right_ = backends()[0].make();
+};
+
 template <typename Wrong>
 BackendInfo wrong_backend() {
   return {"wrong", "a wrong backend", [] { return std::unique_ptr<Backend>(std::make_unique<Wrong>()); }};
@@ -146,6 +156,17 @@ TEST(Verify, FindsWhatOnlyOneConfigurationDoes) {
   ASSERT_FALSE(report.ok());
   EXPECT_EQ(report.scenes[0].mismatches[0].execution.threads, 3);
   EXPECT_EQ(report.scenes[0].mismatches[0].payload, Payload::id);
+}
+
+TEST(Verify, FindsWhatIsWrittenBesideTheImage) {
+  const VerifyReport report = verify_quietly(small_plan({"cube"}, wrong_backend<WritesBesideTheImage>()));
+  ASSERT_FALSE(report.ok());
+  const SceneVerdict& verdict = report.scenes[0];
+  EXPECT_EQ(verdict.differing_pixels, 0u);
+  EXPECT_EQ(verdict.written_outside, verdict.configurations / 2 + verdict.oracle_configurations / 2);
+  EXPECT_EQ(verdict.mismatches.at(0).outside, 1u);
+  const std::string text = explain(verdict);
+  EXPECT_NE(text.find("words written beside the image: 1"), std::string::npos) << text;
 }
 
 TEST(Verify, FindsGapsInAGrid) {

@@ -25,7 +25,9 @@ std::string explain(const Mismatch& m) {
   std::string text = fmt::format("  {} ({}) differs from {} in {} of {}x{} pixels, cull {}, payload {}\n",
                                  m.backend, describe(m.execution), m.judge, m.pixels, m.width, m.height,
                                  name_of(m.cull), name_of_payload(m.payload));
-  text += fmt::format("    the first is x {}, y {}, where depth and payload are\n", m.x, m.y);
+  if (m.outside != 0) text += fmt::format("    words written beside the image: {}\n", m.outside);
+  if (!m.values.empty())
+    text += fmt::format("    the first is x {}, y {}, where depth and payload are\n", m.x, m.y);
   for (const PixelValue& v : m.values)
     text += fmt::format("      {:<24} {:#010x} {:#010x}\n", v.drawn_by, v.depth, v.payload);
   for (const std::string& file : m.files) text += fmt::format("    {}\n", printable(file));
@@ -45,8 +47,10 @@ nlohmann::json mismatch_json(const Mismatch& m) {
                       {"width", m.width},
                       {"height", m.height},
                       {"pixels", m.pixels},
+                      {"written_outside", m.outside},
                       {"first", {m.x, m.y}},
-                      {"files", m.files}};
+                      {"files", m.files},
+                      {"values", nlohmann::json::array()}};
   for (const PixelValue& v : m.values)
     json["values"].push_back({{"drawn_by", v.drawn_by}, {"depth", v.depth}, {"payload", v.payload}});
   return json;
@@ -60,6 +64,7 @@ nlohmann::json scene_json(const SceneVerdict& v) {
                       {"emitted", v.emitted},
                       {"configurations", v.configurations},
                       {"differing_pixels", v.differing_pixels},
+                      {"written_outside", v.written_outside},
                       {"oracle",
                        {{"width", v.oracle_width},
                         {"height", v.oracle_height},
