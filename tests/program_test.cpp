@@ -64,6 +64,8 @@ TEST_P(ProgramRejects, WithOneLineAndStatus2AndLeavesNothing) {
   input.write("large.ppm", "P6\n2 1\n255\nabcdef");
   input.write("depth.pfm", std::string("Pf\n1 1\n-1.0\n\0\0\0\0", 16));
   input.write("mesh.stl", "solid");
+  input.write("cut.json", R"({"format": "edgewise soak", "sequence": 1, "seed": 1})");
+  input.write("old.json", R"({"format": "edgewise soak", "sequence": 0, "seed": 1})");
   const std::string arguments =
       replaced(replaced(GetParam().arguments, "DIR", folder.path().string()), "IN", input.path().string());
   const Outcome outcome = edgewise_with(arguments);
@@ -140,6 +142,24 @@ INSTANTIATE_TEST_SUITE_P(
                       BadInput{"diff IN/small.ppm IN/none.ppm", "none.ppm"},                             //
                       BadInput{"diff IN/small.ppm IN/mesh.stl", "unknown kind of file"},                 //
                       BadInput{"diff IN/small.ppm", "B is required"},                                    //
+                      BadInput{"soak --for 20", "'20' is not a duration such as 90s, 20m or 2h"},        //
+                      BadInput{"soak --for -5m", "--for"},                                               //
+                      BadInput{"soak --for nans", "--for"},                                              //
+                      BadInput{"soak --cases 0", "--cases"},                                             //
+                      BadInput{"soak --seed -1", "--seed"},                                              //
+                      BadInput{"soak --seed 18446744073709551616", "--seed"},                            //
+                      BadInput{"soak --shard 3", "'3' is not I/N"},                                      //
+                      BadInput{"soak --shard 3/3", "0 to 2"},                                            //
+                      BadInput{"soak --shard 0/0", "--shard"},                                           //
+                      BadInput{"soak --case 5 --cases 2", "--cases"},                                    //
+                      BadInput{"soak --jobs 0", "1 to 256"},                                             //
+                      BadInput{"soak --cases 1 --json DIR/no/a.json", "cannot be written"},              //
+                      BadInput{"soak --resume IN/none.json", "none.json"},                               //
+                      BadInput{"soak --resume IN/text.png", "is not a record of a soak"},                //
+                      BadInput{"soak --merge IN/depth.pfm -o DIR/a.json", "is not a record of a soak"},  //
+                      BadInput{"soak --merge IN/cut.json -o DIR/a.json", "is not a whole record"},       //
+                      BadInput{"soak --merge IN/old.json", "another sequence"},                          //
+                      BadInput{"soak --merge IN/cut.json --for 2m", "--for"},                            //
                       BadInput{"list >/dev/full", "standard output"},                                    //
                       BadInput{"render cube --size 9x9 -o DIR/../DIR-none/a.png", "a.png"}));
 

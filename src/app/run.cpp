@@ -44,6 +44,7 @@ int parse_and_run(int argc, char** argv) {
   add_list(program, action);
   add_render(program, action);
   add_verify(program, action);
+  add_soak(program, action);
   add_accuracy(program, action);
   add_stability(program, action);
   add_diff(program, action);

@@ -11,12 +11,6 @@ namespace {
 
 constexpr std::size_t kNameWidth = 12;
 
-std::string describe(const Execution& e) {
-  const std::string ideas = edgewise::describe(e.ideas);
-  return fmt::format("{} thread{}, {}, tile {}{}{}", e.threads, e.threads == 1 ? "" : "s",
-                     name_of(resolve(e.target)), e.tile_size, ideas.empty() ? "" : ", ", ideas);
-}
-
 std::string_view name_of_payload(Payload payload) {
   return payload == Payload::colour ? "colour" : "id";
 }
@@ -79,6 +73,12 @@ nlohmann::json scene_json(const SceneVerdict& v) {
 }
 
 }  // namespace
+
+std::string describe(const Execution& e) {
+  const std::string ideas = edgewise::describe(e.ideas);
+  return fmt::format("{} thread{}, {}, tile {}{}{}", e.threads, e.threads == 1 ? "" : "s",
+                     name_of(resolve(e.target)), e.tile_size, ideas.empty() ? "" : ", ", ideas);
+}
 
 std::string VerifyTable::header() const {
   if (!wide_)

@@ -22,13 +22,11 @@ GuardedFrame::GuardedFrame(int width, int height, Layout layout)
       layout_(layout),
       stride_(static_cast<std::size_t>(width + layout.padding)),
       depth_(allocate()),
-      payload_(allocate()) {
-  poison();
-}
+      payload_(allocate()) {}
 
 GuardedFrame::Plane GuardedFrame::allocate() const {
   Plane plane;
-  plane.words.resize(stride_ * static_cast<std::size_t>(height_) + 2 * kMargin + 2 * kLine);
+  plane.words.assign(stride_ * static_cast<std::size_t>(height_) + 2 * kMargin + 2 * kLine, kCanary);
   const auto address = reinterpret_cast<std::uintptr_t>(plane.words.data()) / sizeof(std::uint32_t);
   plane.first = kMargin + (kLine - address % kLine) % kLine + static_cast<std::size_t>(layout_.offset);
   return plane;

@@ -21,7 +21,7 @@ class GuardedFrame {
   };
   static Layout aligned(int width);  // every row starts on a 64-byte boundary, as in a Framebuffer
 
-  GuardedFrame(int width, int height, Layout layout);
+  GuardedFrame(int width, int height, Layout layout);  // poisoned
   // A copied plane would be aligned by chance.
   GuardedFrame(const GuardedFrame&) = delete;
   GuardedFrame& operator=(const GuardedFrame&) = delete;
@@ -32,7 +32,7 @@ class GuardedFrame {
   const std::uint32_t* depth_row(int y) const { return row_of(depth_, y); }
   const std::uint32_t* payload_row(int y) const { return row_of(payload_, y); }
 
-  void poison();                          // fills all memory with canaries; to be done before each draw
+  void poison();  // fills all memory with canaries; to be done before each draw but the first
   std::uint64_t written_outside() const;  // canaries that are gone before, between and after the rows
   Framebuffer copy() const;
 
