@@ -159,7 +159,7 @@ INSTANTIATE_TEST_SUITE_P(
                       BadInput{"soak --merge IN/depth.pfm -o DIR/a.json", "is not a record of a soak"},  //
                       BadInput{"soak --merge IN/cut.json -o DIR/a.json", "is not a whole record"},       //
                       BadInput{"soak --merge IN/old.json", "another sequence"},                          //
-                      BadInput{"soak --merge IN/cut.json --for 2m", "--for"},                            //
+                      BadInput{"soak --merge IN/cut.json --for 2m", "--merge draws"},                    //
                       BadInput{"list >/dev/full", "standard output"},                                    //
                       BadInput{"render cube --size 9x9 -o DIR/../DIR-none/a.png", "a.png"}));
 

@@ -3,12 +3,14 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
-#include <csignal>
+#include <chrono>
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "app/commands.h"
@@ -133,7 +135,16 @@ class Watch {
   TimeLeft left_;
 };
 
+void check(const SoakOptions& o) {
+  const bool draws_many = o.shard || o.seconds || o.cases || !o.resume.empty();
+  if (o.only_case && draws_many)
+    throw std::invalid_argument("--case and --shard, --for, --cases or --resume exclude each other");
+  if (!o.merge.empty() && (o.seed || o.only_case || draws_many))
+    throw std::invalid_argument("--merge draws nothing: it goes with --json alone");
+}
+
 int soak_command(const SoakOptions& o) {
+  check(o);
   if (!o.merge.empty()) return merge_command(o);
   soak::Record record = first_record(o);
   const std::string path = o.json.empty() ? o.resume : o.json == "-" ? "" : o.json;
@@ -187,32 +198,27 @@ void add_soak(CLI::App& program, Action& action) {
       "soak", "Compare all backends on random pictures, for hours and on many machines");
   const auto o = std::make_shared<SoakOptions>();
   const auto add = [&](const char* name, const char* type, const char* help, auto parse) {
-    return command.add_option_function<std::string>(name, parse, help)->type_name(type);
+    command.add_option_function<std::string>(name, parse, help)->type_name(type);
   };
   add("--seed", "S", "Which sequence of cases (1)",
       [o](const std::string& text) { o->seed = parse_count("--seed", text, 0, ~std::uint64_t{0}); });
-  auto* shard = add("--shard", "I/N", "Every N-th case from number I on (0/1: all)",
-                    [o](const std::string& text) { o->shard = parse_shard(text); });
-  auto* duration = add("--for", "DURATION", "90s, 20m or 2h (until Ctrl-C)",
-                       [o](const std::string& text) { o->seconds = parse_duration("--for", text); });
-  auto* cases = add("--cases", "N", "Stop after so many cases",
-                    [o](const std::string& text) { o->cases = parse_count("--cases", text, 1, kMostCases); });
-  auto* only = add("--case", "NUMBER", "Only this case", [o](const std::string& text) {
-    o->only_case = parse_count("--case", text, 0, soak::kMostShards - 1);
-  });
+  add("--shard", "I/N", "Every N-th case from number I on (0/1: all)",
+      [o](const std::string& text) { o->shard = parse_shard(text); });
+  add("--for", "DURATION", "90s, 20m or 2h (until Ctrl-C)",
+      [o](const std::string& text) { o->seconds = parse_duration("--for", text); });
+  add("--cases", "N", "Stop after so many cases",
+      [o](const std::string& text) { o->cases = parse_count("--cases", text, 1, kMostCases); });
+  add("--case", "NUMBER", "Only this case",
+      [o](const std::string& text) { o->only_case = parse_count("--case", text, 0, soak::kMostShards - 1); });
   add_integer(command, "--jobs", o->jobs, 1, kMaxThreads,
               "Cases drawn at once (all cores); no result depends on it");
   command.add_option("-o,--json", o->json, "Write the results as JSON; - for stdout, instead of the tables")
       ->type_name("FILE");
-  auto* resume =
-      command.add_option("--resume", o->resume, "Go on from these results, and write there (or to --json)")
-          ->type_name("FILE");
-  auto* merge =
-      command.add_option("--merge", o->merge, "Add up results instead of drawing")->type_name("FILE...");
+  command.add_option("--resume", o->resume, "Go on from these results, and write there (or to --json)")
+      ->type_name("FILE");
+  command.add_option("--merge", o->merge, "Add up results instead of drawing")->type_name("FILE");
   command.add_option("--out", o->out, "Folder for .tri files of differences (edgewise-soak-failures)")
       ->type_name("DIR");
-  for (CLI::Option* other : {shard, duration, cases, resume}) only->excludes(other);
-  for (CLI::Option* other : {shard, duration, cases, resume, only}) merge->excludes(other);
   command.footer(kFooter);
   command.callback([o, &action] { action = [o] { return soak_command(*o); }; });
 }

@@ -34,9 +34,9 @@ nlohmann::json shares_json(const Tally& tally) {
 nlohmann::json bounds_json(const Tally& tally) {
   if (tally.differences() != 0 || tally.cases == 0) return nullptr;
   return {
-      {"per_case", lab::rate_bound(tally.cases)},
-      {"per_frame", lab::rate_bound(tally.frames)},
-      {"per_pixel", lab::rate_bound(tally.pixels)},
+      {"per_case", bound_on(tally.cases)},
+      {"per_frame", bound_on(tally.frames)},
+      {"per_pixel", bound_on(tally.pixels)},
       {"assumes",
        "no difference seen in n independent trials: the rate is below 3 / n with 95 % confidence; cases are "
        "drawn independently from the soak's own distribution, while frames of one case, and pixels of one "
@@ -107,6 +107,10 @@ void check_alike(const Record& a, const Record& b) {
 }
 
 }  // namespace
+
+double bound_on(std::uint64_t trials) {
+  return std::min(1.0, lab::rate_bound(trials));
+}
 
 bool overlap(const Shard& a, const Shard& b) {
   if (a.cases > b.cases) return overlap(b, a);

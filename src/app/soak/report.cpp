@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "app/printable.h"
-#include "lab/method.h"
 
 namespace edgewise::soak {
 
@@ -77,7 +76,7 @@ std::string bounds(const Tally& t) {
       "if "
       "they\nfail independently (3/n for none in n); counted by cases alone, which are independent: "
       "{:.2g}.\n",
-      lab::rate_bound(t.frames), lab::rate_bound(t.pixels), lab::rate_bound(t.cases));
+      bound_on(t.frames), bound_on(t.pixels), bound_on(t.cases));
 }
 
 }  // namespace
