@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +17,11 @@
 namespace edgewise::testing {
 
 inline constexpr std::uint32_t kBackground = 0xABCD1234;
+
+// True under `scripts/test --full`: tests that can do more then do all.
+inline bool full_size() {
+  return std::getenv("EDGEWISE_FULL") != nullptr;
+}
 
 // Families of triangles that are hard for a rasterizer.
 inline constexpr std::string_view kFamilies[] = {"lattice",     "pixel-centres", "subpixel", "slivers",
@@ -83,17 +89,27 @@ inline std::vector<Execution> executions() {
 }
 
 inline std::string describe(const Execution& e) {
+  const std::string ideas = edgewise::describe(e.ideas);
   return std::to_string(e.threads) + " threads, tile " + std::to_string(e.tile_size) + ", " +
-         std::string(name_of(e.target)) + ", " + edgewise::describe(e.ideas);
+         std::string(name_of(e.target)) + (ideas.empty() ? "" : ", " + ideas);
+}
+
+// Empty where the frames are the same.
+inline std::string difference_text(const Framebuffer& expected, const Framebuffer& actual) {
+  const auto difference = lab::compare(expected, actual);
+  if (difference.pixels == 0) return {};
+  const int x = difference.first_x, y = difference.first_y;
+  const auto both = [&](std::uint32_t a, std::uint32_t b) {
+    return std::to_string(a) + " and " + std::to_string(b);
+  };
+  return std::to_string(difference.pixels) + " pixels differ, first (" + std::to_string(x) + ", " +
+         std::to_string(y) + "): depth " + both(expected.depth_row(y)[x], actual.depth_row(y)[x]) +
+         ", payload " + both(expected.payload_row(y)[x], actual.payload_row(y)[x]);
 }
 
 inline void expect_same(const Framebuffer& expected, const Framebuffer& actual, const std::string& what) {
-  const auto difference = lab::compare(expected, actual);
-  if (difference.pixels == 0) return;
-  const int x = difference.first_x, y = difference.first_y;
-  ADD_FAILURE() << what << ": " << difference.pixels << " pixels differ, first (" << x << ", " << y
-                << "): depth " << expected.depth_row(y)[x] << " and " << actual.depth_row(y)[x]
-                << ", payload " << expected.payload_row(y)[x] << " and " << actual.payload_row(y)[x];
+  const std::string difference = difference_text(expected, actual);
+  if (!difference.empty()) ADD_FAILURE() << what << ": " << difference;
 }
 
 inline std::vector<std::string_view> backend_names() {

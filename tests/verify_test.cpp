@@ -185,6 +185,22 @@ TEST(Verify, KeepsAFindingWhosePicturesCannotBeWritten) {
   EXPECT_NE(report.scenes[0].mismatches.at(0).file_error, "");
 }
 
+TEST(Verify, ShowsASmallStreamToTheOracleAsItIs) {
+  const TempDir folder;
+  for (const std::size_t count : {1u, 2'000u}) {
+    const TriangleStream stream{
+        90, 70, {count, StreamTriangle{{{0, 0, 0}, {80.5f, 3.25f, 0}, {4.75f, 60.5f, 0}}, 1}}};
+    const auto path = folder.path() / "stream.tri";
+    {
+      std::ofstream out(path, std::ios::binary);
+      write_tri(out, stream);
+    }
+    const SceneVerdict verdict = verify_quietly(small_plan({path.string()}, backends()[1])).scenes.at(0);
+    EXPECT_EQ(verdict.oracle_width == 90 && verdict.oracle_height == 70, count == 1) << count;
+    EXPECT_TRUE(verdict.ok());
+  }
+}
+
 TEST(Verify, TableFitsItsTerminal) {
   SceneVerdict verdict{};
   verdict.scene = "a-scene-with-a-very-long-name";
