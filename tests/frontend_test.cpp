@@ -208,6 +208,28 @@ TEST(Frontend, ACutPlaneIsWatertight) {
   }
 }
 
+// Corners within a sub-unit of the guard band: cut and snapped, their polygons bend inwards by a hairline,
+// and a fan holds a piece of the other winding with a sample in it.
+TEST(Frontend, NoPieceOfACutTriangleIsWoundTheOtherWay) {
+  const auto at = [](float x, float y) { return glm::vec3(x, y, 0.5f); };
+  const StreamTriangle kHairlines[] = {
+      {{at(64076, -60823), at(16383.9971f, -9145.52148f), at(-8121.66699f, 4625.58789f)}, 1},
+      {{at(57852, -40315), at(16383.9961f, -7531.72461f), at(-8113.375f, 3816.67773f)}, 1},
+      {{at(64909, -46252), at(16383.9951f, -12058.8828f), at(-8123.56445f, 6074.8125f)}, 1},
+      {{at(86855, -61750), at(16383.9971f, -5470.03711f), at(-16296.7842f, 5526.59766f)}, 1}};
+  for (const StreamTriangle& triangle : kHairlines) {
+    const TriangleStream stream{96, 64, {triangle}};
+    const auto drawn = [&](Cull cull) {
+      const auto pieces = run(stream, {.width = 96, .height = 64, .cull = cull}).triangles;
+      return lab::count_hits(*find_backend("scanline").make(), pieces, 96, 64, {});
+    };
+    const auto all = drawn(Cull::none), front = drawn(Cull::back), back = drawn(Cull::front);
+    EXPECT_EQ(*std::max_element(all.begin(), all.end()), 1u);
+    const std::vector<std::uint32_t> nothing(all.size(), 0);
+    EXPECT_TRUE((front == all && back == nothing) || (front == nothing && back == all));
+  }
+}
+
 TEST(Frontend, DropsWholeMeshesOutsideTheView) {
   Scene scene = loose(kFront);
   scene.instances.push_back({.translation = {100, 0, 0}});

@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <exception>
-#include <new>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
@@ -23,16 +22,20 @@ constexpr const char* kFooter = R"(Try:
   edgewise verify                        do all backends agree on every bit?
   edgewise COMMAND --help                options and examples
 
-Exit status: 0 done, 1 a difference was found, 2 bad input or failure, 130 after Ctrl-C.)";
+Exit status: 0 done, 1 a difference was found, 2 bad input or failure, 128 + N stopped by signal N (130: Ctrl-C).)";
 
-// CLI11 would only say that the word was not expected.
-void check_command(const CLI::App& program, std::string_view word) {
-  std::vector<std::string_view> known;
-  const auto commands = program.get_subcommands([](const CLI::App*) { return true; });
-  for (const CLI::App* command : commands) known.push_back(command->get_name());
+// CLI11 would only say that the word was not expected, or that a command is missing.
+void check_first_word(const CLI::App& program, std::string_view word) {
+  std::vector<std::string_view> known{"--help", "--version", "-h"};
+  const bool option = word.starts_with('-');
+  if (!option) {
+    known.clear();
+    const auto commands = program.get_subcommands([](const CLI::App*) { return true; });
+    for (const CLI::App* command : commands) known.push_back(command->get_name());
+  }
   for (const std::string_view name : known)
     if (name == word) return;
-  throw std::invalid_argument(unknown_name("command", word, known));
+  throw std::invalid_argument(unknown_name(option ? "option" : "command", word, known));
 }
 
 int parse_and_run(int argc, char** argv) {
@@ -51,7 +54,7 @@ int parse_and_run(int argc, char** argv) {
   add_capture(program, action);
   add_machine(program, action);
   if (argc < 2) throw std::invalid_argument("no command given; try edgewise --help");
-  if (argv[1][0] != '-') check_command(program, argv[1]);
+  check_first_word(program, argv[1]);
 
   try {
     program.parse(argc, argv);
@@ -68,10 +71,8 @@ int parse_and_run(int argc, char** argv) {
 int guarded(int argc, char** argv) {
   try {
     return parse_and_run(argc, argv);
-  } catch (const std::bad_alloc&) {
-    print_error("out of memory");
   } catch (const std::exception& error) {
-    print_error(error.what());
+    print_error(reason_of(error));
   }
   return kFailed;
 }
@@ -79,7 +80,7 @@ int guarded(int argc, char** argv) {
 }  // namespace
 
 int run(int argc, char** argv) {
-  prepare_process();
+  prepare_process("edgewise");
   const int status = guarded(argc, argv);
   if (stdout_is_whole() || status == kFailed) return status;
   print_error("cannot write to standard output");

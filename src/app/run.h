@@ -3,8 +3,8 @@
 
 namespace edgewise::app {
 
-// Exit statuses: 0 done, 1 a difference was found, 2 bad input or failure (one line on stderr), 130 after
-// Ctrl-C.
+// Exit statuses: 0 done, 1 a difference was found, 2 bad input or failure (one line on stderr), 128 + N stopped
+// by signal N.
 int run(int argc, char** argv);
 
 }  // namespace edgewise::app

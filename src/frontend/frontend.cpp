@@ -16,6 +16,7 @@
 #include "frontend/view.h"
 #include "raster/contract.h"
 #include "raster/parallel.h"
+#include "scale_limits.h"
 
 namespace edgewise {
 
@@ -42,6 +43,13 @@ const Mesh& mesh_of(const Scene& scene, const Instance& instance) {
                                 [&](glm::uvec3 t) { return largest(t) >= mesh.positions.size(); });
   throw std::invalid_argument("triangle " + std::to_string(bad - mesh.triangles.begin()) + " names vertex " +
                               std::to_string(largest(*bad)) + " of " + std::to_string(mesh.positions.size()));
+}
+
+std::size_t checked_count(std::size_t triangles) {
+  if (triangles > kMaxTriangles)
+    throw std::invalid_argument(std::to_string(triangles) + " triangles are more than " +
+                                std::to_string(kMaxTriangles));
+  return triangles;
 }
 
 std::size_t submitted(const Drawable& drawable) {
@@ -176,9 +184,9 @@ struct Frontend::State {
   }
 
   void run(const Drawable& drawable) {
-    run_once(drawable, submitted(drawable));
+    run_once(drawable, checked_count(submitted(drawable)));
     // More pieces of cut triangles than triangles that were dropped: rare, and for one frame only.
-    if (order.total() > screen.capacity()) run_once(drawable, order.total());
+    if (order.total() > screen.capacity()) run_once(drawable, checked_count(order.total()));
   }
 };
 
@@ -192,6 +200,9 @@ std::span<const ScreenTriangle> Frontend::run(const Drawable& drawable, const Fr
     if (side < 1 || side > contract::kMaxImageSide)
       throw std::invalid_argument("image side " + std::to_string(side) + " is outside 1 to " +
                                   std::to_string(contract::kMaxImageSide));
+  if (options.threads > kMaxThreads)
+    throw std::invalid_argument(std::to_string(options.threads) + " threads are more than " +
+                                std::to_string(kMaxThreads));
   State& s = *state_;
   s.options = options;
   s.options.threads = std::max(options.threads, 1);

@@ -27,7 +27,7 @@ struct FrontendOptions {
   Cull cull = Cull::back;           // front is clockwise on the y-down screen
   bool shade = true;                // scenes only: colour times max(n·l, 0.15)
   Payload payload = Payload::colour;
-  int threads = 1;
+  int threads = 1;  // up to kMaxThreads; fewer than 1 are 1
   // For judging: remember where each triangle lay before it was snapped, and keep those that lost their area
   // by it.
   bool keep_unsnapped = false;
@@ -71,8 +71,9 @@ class Frontend {
   Frontend& operator=(Frontend&&) noexcept;
 
   // The visible triangles in submission order, valid until the next call. Throws std::invalid_argument for a
-  // camera or a size out of range, a triangle of a mesh in view that names a vertex its mesh lacks, or a SIMD
-  // target that this machine cannot run.
+  // camera, a size or a number of threads out of range, more than kMaxTriangles (before any memory is taken
+  // for them), a triangle of a mesh in view that names a vertex its mesh lacks, or a SIMD target that this
+  // machine cannot run.
   std::span<const ScreenTriangle> run(const Drawable& drawable, const FrontendOptions& options);
   const FrontendStats& stats() const;
   // One for each triangle that run() returned, if keep_unsnapped was set; else none.
