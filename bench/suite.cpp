@@ -81,7 +81,7 @@ class Suite {
   void add_ladder(const WorkloadPtr& workload, const std::string& scene) {
     if (!in_ladder(scene)) return;
     for (const Rung& rung : ladder()) {
-      add(workload, Timed::raster, find_backend(kLadderBackend), fmt::format("{}/rung:{}", scene, rung.name),
+      add(workload, Timed::raster, find_backend(rung.backend), fmt::format("{}/rung:{}", scene, rung.name),
           rung.execution);
       rows_.back().rung = true;
     }

@@ -82,9 +82,12 @@ TEST(BenchSuite, NamesAllRowsDifferently) {
 TEST(BenchLadder, AddsOneIdeaARungAndEndsOneBelowTheDefault) {
   const auto rungs = ladder();
   const auto count = supported_targets().size();
-  ASSERT_EQ(rungs.size(), count + 3);
-  for (std::size_t i = 0; i < rungs.size(); ++i) {
-    const Execution& execution = rungs[i].execution;
+  ASSERT_EQ(rungs.size(), 1 + count + 3);
+  EXPECT_EQ(rungs[0].backend, "naive");
+  EXPECT_TRUE(rungs[0].execution.stepped);
+  for (std::size_t i = 0; i < rungs.size() - 1; ++i) {
+    EXPECT_EQ(rungs[i + 1].backend, "tiled");
+    const Execution& execution = rungs[i + 1].execution;
     EXPECT_EQ(execution.threads, 1);
     EXPECT_EQ(execution.target, i < count ? supported_targets()[i] : SimdTarget::best);
     EXPECT_EQ(execution.ideas.vector_setup, i >= count);
@@ -103,7 +106,8 @@ TEST(BenchLadder, StandsBesideTheRowsThatAreItsEnds) {
   }
   for (const SceneInfo& scene : builtin_scenes())
     for (const Rung& rung : ladder())
-      EXPECT_EQ(names.count("tiled/" + std::string(scene.name) + "/rung:" + rung.name + "/threads:1"),
+      EXPECT_EQ(names.count(std::string(rung.backend) + "/" + std::string(scene.name) + "/rung:" + rung.name +
+                            "/threads:1"),
                 in_ladder(scene.name) ? 1u : 0u);
   EXPECT_TRUE(names.count("naive/large/threads:1") && names.count("tiled/large/threads:2"));
   const std::size_t scenes = builtin_scenes().size() + 1;  // and the crowd

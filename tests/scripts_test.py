@@ -296,11 +296,12 @@ class LadderTest(unittest.TestCase):
         from plot_ladder import steps
         rows = {}
         for name, times in (("naive/cube/threads:1", [9.0]), ("fast/cube/threads:1", [2.0]), ("fast/cube/threads:2", [1.0]),
+                            ("naive/cube/rung:stepped/threads:1", [8.5]),
                             ("fast/cube/rung:tiles/threads:1", [8.0]), ("fast/knot/rung:tiles/threads:1", [5.0]),
                             ("fast/cube/rung:avx2/threads:1", [4.0])):
             rows[name] = parse_name(name)
             rows[name].times_ms = times
-        self.assertEqual([row.median_ms for _, row in steps(Bench({}, rows), "cube")], [9.0, 8.0, 4.0, 2.0, 1.0])
+        self.assertEqual([row.median_ms for _, row in steps(Bench({}, rows), "cube")], [9.0, 8.5, 8.0, 4.0, 2.0, 1.0])
 
     def test_a_colour_claims_only_what_repetitions_settle(self):
         from bench_rows import Row

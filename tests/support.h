@@ -70,7 +70,7 @@ inline std::vector<ScreenTriangle> adversarial(std::string_view family, int coun
 }
 
 // Every SIMD target with one thread, all tile sizes, and ideas left out; several thread counts with the best
-// one.
+// one; and what only the naive backend looks at.
 inline std::vector<Execution> executions() {
   std::vector<Execution> list;
   for (const auto target : supported_targets()) list.push_back({1, 64, target});
@@ -79,12 +79,13 @@ inline std::vector<Execution> executions() {
     for (const int tile : {16, 32}) list.push_back({2, tile, target});
   for (const auto target : supported_targets())
     for (const auto& ideas : kTiledVariants) list.push_back({1, 64, target, ideas});
+  list.push_back({1, 64, SimdTarget::best, {}, true});
   return list;
 }
 
 inline std::string describe(const Execution& e) {
   return std::to_string(e.threads) + " threads, tile " + std::to_string(e.tile_size) + ", " +
-         std::string(name_of(e.target)) + ", " + edgewise::describe(e.ideas);
+         std::string(name_of(e.target)) + ", " + edgewise::describe(e.ideas) + (e.stepped ? ", stepped" : "");
 }
 
 inline void expect_same(const Framebuffer& expected, const Framebuffer& actual, const std::string& what) {
