@@ -7,13 +7,13 @@
 #include <string_view>
 
 #include "raster/framebuffer.h"
+#include "raster/parallel.h"
 #include "raster/screen_triangle.h"
 #include "raster/simd_target.h"
 #include "raster/tiled_ideas.h"
 
 namespace edgewise {
 
-inline constexpr int kMaxThreads = 256;
 inline constexpr std::size_t kMaxTriangles = std::size_t{1} << 30;  // a frame
 
 // How to draw. No choice here changes a bit of the picture.

@@ -7,6 +7,8 @@
 
 namespace edgewise {
 
+inline constexpr int kMaxThreads = 256;
+
 // Is told of the sections of parallel work that its thread starts. While one watches, a section's tasks run
 // one after the other on that thread, so that each has the core to itself: what `threads` still decides is
 // how the work is cut. It may take the time at each call; nothing here does.
