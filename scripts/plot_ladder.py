@@ -6,7 +6,8 @@ from tables import milliseconds
 
 START = "naive"
 NAMES = {"vector-setup": "+ set-up in vectors", "prefetch": "+ prefetch",
-         "hierarchical-depth": "+ hierarchical depth", "stepped": "+ incremental edges"}
+         "hierarchical-depth": "+ hierarchical depth", "stepped": "+ incremental edges",
+         "tiles": "+ tiles"}
 GAIN, LOSS, NEITHER = PALETTE[0], PALETTE[3], "#8c959f"
 COLUMNS = 3
 

@@ -1,6 +1,6 @@
 // The order of the steps, each of which has a file of its own: vertices (transform.cpp), triangles
 // (assemble.cpp or stream.cpp, with one_by_one.cpp and clip.cpp for what is special), colours (shade.cpp),
-// and their places (in_order.h).
+// and their places (in_order.h). Instances go through them in groups, cut into runs (runs.h).
 #include "frontend/frontend.h"
 
 #include <algorithm>
