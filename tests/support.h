@@ -76,7 +76,7 @@ inline std::vector<ScreenTriangle> adversarial(std::string_view family, int coun
 }
 
 // Every SIMD target with one thread, all tile sizes, and ideas left out; several thread counts with the best
-// one.
+// one; and what only the naive backend looks at.
 inline std::vector<Execution> executions() {
   std::vector<Execution> list;
   for (const auto target : supported_targets()) list.push_back({1, 64, target});
@@ -85,13 +85,14 @@ inline std::vector<Execution> executions() {
     for (const int tile : {16, 32}) list.push_back({2, tile, target});
   for (const auto target : supported_targets())
     for (const auto& ideas : kTiledVariants) list.push_back({1, 64, target, ideas});
+  list.push_back({1, 64, SimdTarget::best, {}, true});
   return list;
 }
 
 inline std::string describe(const Execution& e) {
   const std::string ideas = edgewise::describe(e.ideas);
   return std::to_string(e.threads) + " threads, tile " + std::to_string(e.tile_size) + ", " +
-         std::string(name_of(e.target)) + (ideas.empty() ? "" : ", " + ideas);
+         std::string(name_of(e.target)) + (ideas.empty() ? "" : ", " + ideas) + (e.stepped ? ", stepped" : "");
 }
 
 // Empty where the frames are the same.

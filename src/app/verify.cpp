@@ -29,7 +29,8 @@ constexpr Execution kMostSeams{3, 16, SimdTarget::best};
 constexpr Execution kPlainest{1, 64, SimdTarget::scalar};
 
 // Other tile sizes run on the best target, other targets with the usual tile, and ideas are left out on one
-// thread count: the product would mostly repeat itself, since only tiled backends look at either.
+// thread count: the product would mostly repeat itself, since only tiled backends look at either. The last is
+// for the naive one.
 std::vector<Execution> executions(const VerifyPlan& plan) {
   std::vector<Execution> all;
   for (const int threads : plan.threads) {
@@ -38,6 +39,7 @@ std::vector<Execution> executions(const VerifyPlan& plan) {
   }
   for (const TiledIdeas& ideas : kTiledVariants)
     all.push_back({plan.threads.front(), 64, resolve(SimdTarget::best), ideas});
+  all.push_back({plan.threads.front(), 64, resolve(SimdTarget::best), {}, true});
   return all;
 }
 

@@ -36,6 +36,7 @@ nlohmann::json mismatch_json(const Mismatch& m) {
                       {"tile_size", m.execution.tile_size},
                       {"simd_target", name_of(resolve(m.execution.target))},
                       {"ideas", edgewise::describe(m.execution.ideas)},
+                      {"stepped", m.execution.stepped},
                       {"cull", name_of(m.cull)},
                       {"payload", name_of_payload(m.payload)},
                       {"width", m.width},
@@ -76,8 +77,9 @@ nlohmann::json scene_json(const SceneVerdict& v) {
 
 std::string describe(const Execution& e) {
   const std::string ideas = edgewise::describe(e.ideas);
-  return fmt::format("{} thread{}, {}, tile {}{}{}", e.threads, e.threads == 1 ? "" : "s",
-                     name_of(resolve(e.target)), e.tile_size, ideas.empty() ? "" : ", ", ideas);
+  return fmt::format("{} thread{}, {}, tile {}{}{}{}", e.threads, e.threads == 1 ? "" : "s",
+                     name_of(resolve(e.target)), e.tile_size, ideas.empty() ? "" : ", ", ideas,
+                     e.stepped ? ", stepped" : "");
 }
 
 std::string VerifyTable::header() const {

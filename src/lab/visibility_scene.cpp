@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
-#include <stdexcept>
 
 #include "frontend/transform.h"
 #include "frontend/view.h"
@@ -69,10 +68,15 @@ class Sources {
 
 }  // namespace
 
-VisibilityScene visibility_scene(std::span<const ScreenTriangle> triangles,
-                                 std::span<const UnsnappedTriangle> unsnapped, const Scene& scene,
-                                 Size size) {
-  if (triangles.size() != unsnapped.size()) throw std::invalid_argument("keep_unsnapped was not set");
+VisibilityScene visibility_scene(const Scene& scene, Size size, Cull cull) {
+  Frontend frontend;
+  const auto triangles = frontend.run(scene, {.width = size.width,
+                                              .height = size.height,
+                                              .cull = cull,
+                                              .shade = false,
+                                              .payload = Payload::id,
+                                              .keep_unsnapped = true});
+  const auto unsnapped = frontend.unsnapped();
   const double near_z = scene.camera.near_z, far_z = scene.camera.far_z;
   VisibilityScene result{size.width, size.height, near_z, far_z, {}, {}};
   result.triangles.reserve(triangles.size());

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "raster/framebuffer.h"
+#include "raster/parallel.h"
 #include "raster/screen_triangle.h"
 #include "raster/simd_target.h"
 #include "raster/tiled_ideas.h"
@@ -19,7 +20,8 @@ struct Execution {
   int threads = 1;     // 1 … kMaxThreads
   int tile_size = 64;  // px; 16, 32 or 64; only tiled backends look at it
   SimdTarget target = SimdTarget::best;
-  TiledIdeas ideas{};  // all on; only the tiled backend looks at them
+  TiledIdeas ideas{};    // all on; only the tiled backend looks at them
+  bool stepped = false;  // along rows, instead of evaluated at each pixel; only the naive backend looks at it
 };
 
 // A backend keeps its scratch memory between frames, so one object must not draw on two threads at once; two

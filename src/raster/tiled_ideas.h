@@ -12,7 +12,9 @@ namespace edgewise {
 enum class WriteOut {
   through_caches,
   past_caches,
-  by_size  // past the caches where frame and triangles don't fit half of the last one
+  // Past the caches where frame and triangles don't fit half of the last one; tiles without a triangle where
+  // the frame alone does not.
+  by_size
 };
 
 struct TiledIdeas {
