@@ -3,6 +3,7 @@
 // process where something is wrong, since that is all that libFuzzer looks for.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
