@@ -38,7 +38,18 @@ void check_first_word(const CLI::App& program, std::string_view word) {
   throw std::invalid_argument(unknown_name(option ? "option" : "command", word, known));
 }
 
-int parse_and_run(int argc, char** argv) {
+int guarded(int argc, char** argv) {
+  try {
+    return parse(argc, argv)();
+  } catch (const std::exception& error) {
+    print_error(reason_of(error));
+  }
+  return kFailed;
+}
+
+}  // namespace
+
+Action parse(int argc, char** argv) {
   CLI::App program("A laboratory for triangle rasterization on the CPU.", "edgewise");
   program.set_version_flag("--version", "edgewise " EDGEWISE_VERSION);
   program.require_subcommand(1);
@@ -62,22 +73,13 @@ int parse_and_run(int argc, char** argv) {
     if (error.get_exit_code() != 0) throw std::invalid_argument(error.what());
     std::ostringstream help;
     program.exit(error, help, help);
-    print(help.str());
-    return kDone;
+    return [text = help.str()] {
+      print(text);
+      return kDone;
+    };
   }
-  return action();
+  return action;
 }
-
-int guarded(int argc, char** argv) {
-  try {
-    return parse_and_run(argc, argv);
-  } catch (const std::exception& error) {
-    print_error(reason_of(error));
-  }
-  return kFailed;
-}
-
-}  // namespace
 
 int run(int argc, char** argv) {
   prepare_process("edgewise");
