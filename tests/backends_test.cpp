@@ -105,6 +105,28 @@ TEST_P(EveryBackend, TellsTheLeastDistanceBetweenTheTallestEdgesAndASample) {
   for (const auto& t : triangles) expect_oracle(std::span(&t, 1), kWidth, kHeight, std::to_string(t.payload));
 }
 
+TEST_P(EveryBackend, TellsLayersThatAreOneUnitOfDepthApart) {
+  // Parallel planes over the whole image: a bound on a block's depths that errs by one hides or shows a
+  // layer.
+  constexpr int kWidth = 97, kHeight = 71, kLayers = 30;
+  Random random(9);
+  for (const int slope_x : {0, 1, -3})
+    for (const int slope_y : {0, 2, -1}) {
+      std::vector<ScreenTriangle> layers;
+      for (std::uint32_t id = 0; id < kLayers; ++id) {
+        const auto z = [&, level = 10'000 + static_cast<int>(random.below(6))](int x, int y) {
+          return static_cast<std::uint32_t>(level + slope_x * x + slope_y * y);
+        };
+        layers.push_back({{-100 * kSub, 400 * kSub, -100 * kSub},
+                          {-100 * kSub, -100 * kSub, 400 * kSub},
+                          {z(-100, -100), z(400, -100), z(-100, 400)},
+                          id});
+      }
+      expect_oracle(layers, kWidth, kHeight,
+                    "slope " + std::to_string(slope_x) + ", " + std::to_string(slope_y));
+    }
+}
+
 TEST_P(EveryBackend, DrawsEdgesThatAreAlmostHorizontal) {
   // About as flat as 1 in 4096, where scanline turns to another way, and flatter.
   Random random(5);
