@@ -133,7 +133,7 @@ TEST_P(EveryBackend, AnchorsDepthAtTheTopmostThenLeftmostVertex) {
   const auto between = [&](std::int32_t low, std::int32_t high) {
     return low + static_cast<std::int32_t>(random.below(static_cast<std::uint64_t>(high - low + 1)));
   };
-  for (std::uint32_t id = 0; id < 30; ++id) {
+  for (std::uint32_t id = 0; id < 100; ++id) {
     const std::int32_t top = between(-kGuardSub, -kGuardSub / 2), far = between(kGuardSub / 2, kGuardSub);
     ScreenTriangle t{{-far, far, between(-far, far)},
                      {top, id % 2 == 0 ? top : top + between(0, 1000), kGuardSub},
