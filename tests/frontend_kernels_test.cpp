@@ -14,6 +14,7 @@
 #include "message_of.h"
 #include "raster/contract.h"
 #include "raster/parallel.h"
+#include "scale_limits.h"
 #include "scene/builtin.h"
 #include "scene/random.h"
 
