@@ -82,14 +82,15 @@ TEST(BenchSuite, NamesAllRowsDifferently) {
 TEST(BenchLadder, AddsOneIdeaARungAndEndsOneBelowTheDefault) {
   const auto rungs = ladder();
   const auto count = supported_targets().size();
-  ASSERT_EQ(rungs.size(), count + 3);
+  ASSERT_EQ(rungs.size(), count + 4);
   for (std::size_t i = 0; i < rungs.size(); ++i) {
     const Execution& execution = rungs[i].execution;
     EXPECT_EQ(execution.threads, 1);
     EXPECT_EQ(execution.target, i < count ? supported_targets()[i] : SimdTarget::best);
     EXPECT_EQ(execution.ideas.vector_setup, i >= count);
     EXPECT_EQ(execution.ideas.prefetch, i >= count + 1);
-    EXPECT_EQ(execution.ideas.hierarchical_depth, i >= count + 2);
+    EXPECT_EQ(execution.ideas.patches, i >= count + 2);
+    EXPECT_EQ(execution.ideas.hierarchical_depth, i >= count + 3);
     EXPECT_EQ(execution.ideas.write_out, WriteOut::through_caches);
   }
 }
