@@ -5,7 +5,7 @@
 namespace edgewise::bench {
 
 std::vector<Rung> ladder() {
-  TiledIdeas ideas{false, false, false, WriteOut::through_caches};
+  TiledIdeas ideas{false, false, false, false, WriteOut::through_caches};
   const auto with = [&](SimdTarget target) {
     Execution execution;
     execution.target = target;
@@ -24,6 +24,7 @@ std::vector<Rung> ladder() {
   };
   add("vector-setup", &TiledIdeas::vector_setup);
   add("prefetch", &TiledIdeas::prefetch);
+  add("patches", &TiledIdeas::patches);
   add("hierarchical-depth", &TiledIdeas::hierarchical_depth);
   return rungs;
 }

@@ -83,7 +83,7 @@ TEST(BenchSuite, NamesAllRowsDifferently) {
 TEST(BenchLadder, AddsOneIdeaARungAndEndsOneBelowTheDefault) {
   const auto rungs = ladder();
   const auto count = supported_targets().size();
-  ASSERT_EQ(rungs.size(), 1 + count + 3);
+  ASSERT_EQ(rungs.size(), 1 + count + 4);
   EXPECT_EQ(rungs[0].backend, "naive");
   EXPECT_TRUE(rungs[0].execution.stepped);
   for (std::size_t i = 0; i < rungs.size() - 1; ++i) {
@@ -93,7 +93,8 @@ TEST(BenchLadder, AddsOneIdeaARungAndEndsOneBelowTheDefault) {
     EXPECT_EQ(execution.target, i < count ? supported_targets()[i] : SimdTarget::best);
     EXPECT_EQ(execution.ideas.vector_setup, i >= count);
     EXPECT_EQ(execution.ideas.prefetch, i >= count + 1);
-    EXPECT_EQ(execution.ideas.hierarchical_depth, i >= count + 2);
+    EXPECT_EQ(execution.ideas.patches, i >= count + 2);
+    EXPECT_EQ(execution.ideas.hierarchical_depth, i >= count + 3);
     EXPECT_EQ(execution.ideas.write_out, WriteOut::through_caches);
   }
 }

@@ -24,9 +24,9 @@ inline bool full_size() {
 }
 
 // Families of triangles that are hard for a rasterizer.
-inline constexpr std::string_view kFamilies[] = {"lattice",     "pixel-centres", "subpixel", "slivers",
-                                                 "huge",        "guardband",     "tiny",     "degenerate",
-                                                 "equal-depth", "steep"};
+inline constexpr std::string_view kFamilies[] = {"lattice",     "pixel-centres", "subpixel",   "slivers",
+                                                 "huge",        "guardband",     "tiny",       "degenerate",
+                                                 "equal-depth", "steep",         "few-pixels", "mixed-sizes"};
 
 inline std::vector<ScreenTriangle> adversarial(std::string_view family, int count, int width, int height,
                                                std::uint64_t seed) {
@@ -62,6 +62,11 @@ inline std::vector<ScreenTriangle> adversarial(std::string_view family, int coun
         y = copy == 2 ? 2 * t.y_sub[1] - t.y_sub[0] : t.y_sub[copy];
       }
       if (family == "equal-depth") z = kDepthHead + 1000;
+      if (family == "few-pixels") x = cx + between(-1100, 1100), y = cy + between(-1100, 1100);
+      if (family == "mixed-sizes") {  // at one depth, so that the order of submission decides
+        const std::int32_t reach = id % 3 == 0 ? 40 * kSub : 4 * kSub;
+        x = cx + between(-reach, reach), y = cy + between(-reach, reach), z = kDepthHead + 1000;
+      }
       if (family == "steep") {
         x = cx + between(-400, 400), y = cy + between(-400, 400);
         z = between(0, 1) ? kDepthHead : kDepthHead + kDepthRange;

@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
-#include "frontend/buffer.h"
 #include "frontend/frontend.h"
 #include "frontend/vertex.h"
+#include "raster/buffer.h"
 
 namespace edgewise {
 

@@ -24,10 +24,11 @@ inline WriteOut write_out_for(std::size_t bytes) {
 
 inline void draw_in_tiles(std::span<const ScreenTriangle> triangles, FrameView frame,
                           std::uint32_t background, const Execution& execution, int tile_size, Bins& bins,
-                          TileKernel draw_tile) {
+                          Bins::Small small, TileKernel draw_tile) {
   const int size_log2 = std::countr_zero(static_cast<unsigned>(tile_size));
   const CellGrid grid{frame.width, frame.height, size_log2, size_log2};
-  bins.build(triangles, grid, execution.threads, execution.target, execution.ideas);
+  const SimdTarget binning = execution.ideas.vector_setup ? execution.target : SimdTarget::scalar;
+  bins.build(triangles, grid, execution.threads, binning, small, execution.ideas.prefetch);
   const auto pixels = static_cast<std::size_t>(frame.stride) * static_cast<std::size_t>(frame.height);
   const std::size_t frame_bytes = pixels * (sizeof(*frame.depth) + sizeof(*frame.payload));
   const WriteOut drawn = write_out_for(frame_bytes + triangles.size_bytes());
