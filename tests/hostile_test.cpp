@@ -28,6 +28,7 @@ constexpr int kSkipped = 77;
 // is the command's. `unprivileged COMMAND…` runs it as somebody whom permissions bind, or skips the row.
 constexpr const char* kWords = R"(
 set -m
+for descriptor in {3..20}; do eval "exec $descriptor>&-"; done  # what ctest leaves open
 edgewise() { "$EDGEWISE" "$@"; }
 bench() { "$BENCH" "$@"; }
 SHORT='--no-peers --scene cube --size 32x32 --quick --benchmark_min_time=0.001'
