@@ -8,7 +8,7 @@ void PatchLists::reset(std::size_t cells, std::size_t patches) {
   lists_.assign(cells, {});
   used_ = 0;
   // What a list leaves empty of its last block should be little beside the rest.
-  constexpr std::size_t kBlocks = 8;
+  constexpr std::size_t kBlocks = 4;
   block_bytes_ =
       std::bit_ceil(std::clamp(patches * sizeof(Patch) / cells / kBlocks, kSmallestBlock, kLargestBlock));
 }

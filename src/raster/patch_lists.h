@@ -92,8 +92,8 @@ class PatchLists {
 
   Patch* add_block(List& list);
 
-  // Slab i has kFirstSlab << i pieces.
-  static constexpr std::size_t kFirstSlab = 4;
+  // Slab i has kFirstSlab << i pieces, and already the first is large enough for huge pages.
+  static constexpr std::size_t kFirstSlab = 1024;
   std::array<Buffer<Piece>, 40> slabs_;
   std::size_t block_bytes_ = kSmallestBlock, used_ = 0;  // bytes; of all slabs one after the other
   std::vector<List> lists_;
