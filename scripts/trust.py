@@ -1,5 +1,5 @@
-"""What `scripts/test --full` and `edgewise soak` left in a results folder, as one table: how the claim that no bit
-differs was tested, how far, and what was found. What was not run there is left out."""
+"""What `scripts/test --full` left in a results folder, as one table: how the claim that no bit differs was tested, how
+far, and what was found. What was not run there is left out."""
 import argparse
 import sys
 from pathlib import Path
@@ -57,16 +57,7 @@ def fuzz_lines(data):
                none_or(len(target["crashes"]), "crash").replace("crashs", "crashes")]
 
 
-def soak_lines(data):
-    hours = data["seconds"] / 3600
-    bound = f"; below {3 / data['frames']:.1e} of all frames, if they fail independently" if (
-        data["differences"] == 0 and data["frames"]) else ""
-    yield ["Soak: random and adversarial scenes, every backend and SIMD target",
-           f"{short(data['frames'])} frames, {short(data['triangles'])} triangles, {short(data['pixels'])} pixels compared "
-           f"in {hours:.1f} h", none_or(data["differences"], "difference") + bound]
-
-
-LINES = {"tests": test_lines, "prove": prove_lines, "mutate": mutate_lines, "fuzz": fuzz_lines, "soak": soak_lines}
+LINES = {"tests": test_lines, "prove": prove_lines, "mutate": mutate_lines, "fuzz": fuzz_lines}
 
 
 def trust_table(folder):
