@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 
@@ -13,7 +14,11 @@ namespace edgewise::app {
 
 namespace {
 
+std::atomic<void (*)()> before_stopping{nullptr};
+static_assert(decltype(before_stopping)::is_always_lock_free);
+
 extern "C" void stop(int signal) {
+  if (void (*const action)() = before_stopping) action();
   remove_unfinished_files();
   erase_progress_on_signal();
   _exit(128 + signal);
@@ -26,6 +31,10 @@ void occupy_closed_streams() {
 }
 
 }  // namespace
+
+void call_before_stopping(void (*action)()) {
+  before_stopping = action;
+}
 
 void prepare_process() {
   occupy_closed_streams();

@@ -11,4 +11,8 @@ namespace edgewise::app {
 // files and the progress bar, and exit with 128 + the signal, unless they were ignored (nohup).
 void prepare_process();
 
+// Has those signals call something first that puts right what the program has done to its surroundings; null:
+// nothing more. It must be async-signal-safe.
+void call_before_stopping(void (*action)());
+
 }  // namespace edgewise::app
