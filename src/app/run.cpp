@@ -35,7 +35,7 @@ void check_command(const CLI::App& program, std::string_view word) {
   throw std::invalid_argument(unknown_name("command", word, known));
 }
 
-int parse_and_run(int argc, char** argv) {
+int parse_and_run(int argc, char** argv, viewer::ShowWindow show_window) {
   CLI::App program("A laboratory for triangle rasterization on the CPU.", "edgewise");
   program.set_version_flag("--version", "edgewise " EDGEWISE_VERSION);
   program.require_subcommand(1);
@@ -48,6 +48,7 @@ int parse_and_run(int argc, char** argv) {
   add_stability(program, action);
   add_diff(program, action);
   add_capture(program, action);
+  add_view(program, action, show_window);
   add_machine(program, action);
   if (argc < 2) throw std::invalid_argument("no command given; try edgewise --help");
   if (argv[1][0] != '-') check_command(program, argv[1]);
@@ -64,9 +65,9 @@ int parse_and_run(int argc, char** argv) {
   return action();
 }
 
-int guarded(int argc, char** argv) {
+int guarded(int argc, char** argv, viewer::ShowWindow show_window) {
   try {
-    return parse_and_run(argc, argv);
+    return parse_and_run(argc, argv, show_window);
   } catch (const std::bad_alloc&) {
     print_error("out of memory");
   } catch (const std::exception& error) {
@@ -77,9 +78,9 @@ int guarded(int argc, char** argv) {
 
 }  // namespace
 
-int run(int argc, char** argv) {
+int run(int argc, char** argv, viewer::ShowWindow show_window) {
   prepare_process();
-  const int status = guarded(argc, argv);
+  const int status = guarded(argc, argv, show_window);
   if (stdout_is_whole() || status == kFailed) return status;
   print_error("cannot write to standard output");
   return kFailed;
