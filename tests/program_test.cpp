@@ -140,6 +140,15 @@ INSTANTIATE_TEST_SUITE_P(
                       BadInput{"diff IN/small.ppm IN/none.ppm", "none.ppm"},                             //
                       BadInput{"diff IN/small.ppm IN/mesh.stl", "unknown kind of file"},                 //
                       BadInput{"diff IN/small.ppm", "B is required"},                                    //
+                      BadInput{"view cub -o DIR/a.png", "did you mean 'cube'"},                          //
+                      BadInput{"view --keys b% -o DIR/a.png", "'%'"},                                    //
+                      BadInput{"view --coverage tile -o DIR/a.png", "did you mean 'tiled'"},             //
+                      BadInput{"view --facing normal -o DIR/a.png", "did you mean 'normal_z'"},          //
+                      BadInput{"view --axis 1,2 -o DIR/a.png", "X,Y,Z"},                                 //
+                      BadInput{"view -o DIR/a.tri", ".png or .ppm"},                                     //
+                      BadInput{"view -o DIR/no/a.png", "/no/a.png: cannot be written"},                  //
+                      BadInput{"view --terminal -o DIR/a.png", "neither"},                               //
+                      BadInput{"view --terminal </dev/null", "needs a terminal"},                        //
                       BadInput{"list >/dev/full", "standard output"},                                    //
                       BadInput{"render cube --size 9x9 -o DIR/../DIR-none/a.png", "a.png"}));
 
@@ -159,7 +168,7 @@ TEST(Program, SaysWhenMemoryIsShort) {
 
 TEST(Program, HelpsOnEveryCommand) {
   for (const char* command :
-       {"", "list", "render", "verify", "accuracy", "stability", "diff", "capture", "machine"}) {
+       {"", "list", "render", "verify", "accuracy", "stability", "diff", "capture", "view", "machine"}) {
     const Outcome outcome = edgewise_with(std::string(command) + " --help");
     EXPECT_EQ(outcome.status, 0) << command;
     EXPECT_NE(outcome.out.find("edgewise"), std::string::npos) << command;

@@ -24,7 +24,8 @@ constexpr int kMostFrames = 1'000'000;
 constexpr double kStroke_s = 0.1;  // how long --keys holds each key
 
 struct ViewOptions {
-  std::string scene = "cube", backend = "tiled", keys, output, folder = ".";
+  std::string scene = "cube", keys, output, folder = ".";
+  viewer::Choice choice = viewer::our_choice("tiled");
   SceneOptions options;
   ExecutionOptions execution;
   std::optional<glm::vec3> axis;
@@ -43,7 +44,7 @@ viewer::Session make_session(const ViewOptions& o) {
     sized.size = size;
     return load_shot(o.scene, sized, o.options.time.value_or(0.0));
   };
-  start.backend = find_backend(o.backend).name;
+  start.choice = o.choice;
   start.execution = o.execution.execution;
   start.axis = o.axis;
   start.folder = o.folder;
@@ -107,6 +108,7 @@ std::string footer() {
   edgewise view                                        the tutorials' cube; h shows the keys
   edgewise view terrain --size 1920x1080
   edgewise view bunny.obj --fit --terminal             half-block characters, over ssh for example
+  edgewise view cube --coverage float_lt --keys ve     beside the exact picture, wrong pixels tinted
   edgewise view cube --keys "bbbe<enter>" -o seen.png  what these keys lead to, without a window
   edgewise view torus-knot --keys r --frames 600       how smoothly it turns here
 
@@ -129,8 +131,21 @@ void add_view(CLI::App& program, Action& action, viewer::ShowWindow show_window)
   command.add_option("SCENE", o->scene, "A scene of `edgewise list`, or an .obj or .tri file (cube)");
   command.add_flag("--terminal", o->terminal,
                    "Show it in this terminal, in true colour, instead of a window");
-  command.add_option("--backend", o->backend, "Backend of `edgewise list` to begin with (tiled)")
-      ->type_name("NAME");
+  const auto add_stage = [&](const char* option, const char* help, const auto& find,
+                             auto viewer::Choice::*stage) {
+    command
+        .add_option_function<std::string>(
+            option, [o, find, stage](const std::string& name) { o->choice.*stage = &find(name); }, help)
+        ->type_name("NAME")
+        ->group("Methods to begin with");
+  };
+  add_stage("--coverage", "A backend, or a coverage method of the laboratory (tiled)",
+            lab::find_coverage_method, &viewer::Choice::coverage);
+  add_stage("--clipping", "Clipping method (near_guard)", viewer::find_clipping_method,
+            &viewer::Choice::clipping);
+  add_stage("--visibility", "Visibility method (contract31)", viewer::find_visibility_method,
+            &viewer::Choice::visibility);
+  add_stage("--facing", "Facing test (snapped_area)", viewer::find_facing_method, &viewer::Choice::facing);
   command
       .add_option_function<std::string>(
           "--axis", [o](const std::string& text) { o->axis = parse_vector("--axis", text); },

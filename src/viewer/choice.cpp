@@ -1,8 +1,38 @@
 #include "viewer/choice.h"
 
-#include <array>
+#include <algorithm>
+#include <stdexcept>
+#include <vector>
+
+#include "nearest_name.h"
 
 namespace edgewise::viewer {
+
+namespace {
+
+template <typename Method>
+const Method& find(std::span<const Method> methods, std::string_view kind, std::string_view name) {
+  const auto found =
+      std::find_if(methods.begin(), methods.end(), [&](const Method& m) { return m.info.name == name; });
+  if (found != methods.end()) return *found;
+  std::vector<std::string_view> known;
+  for (const Method& method : methods) known.push_back(method.info.name);
+  throw std::invalid_argument(unknown_name(kind, name, known));
+}
+
+}  // namespace
+
+const lab::ClippingMethod& find_clipping_method(std::string_view name) {
+  return find(lab::clipping_methods(), "clipping method", name);
+}
+
+const lab::VisibilityMethod& find_visibility_method(std::string_view name) {
+  return find(lab::visibility_methods(), "visibility method", name);
+}
+
+const lab::FacingMethod& find_facing_method(std::string_view name) {
+  return find(lab::facing_methods(), "facing test", name);
+}
 
 Choice our_choice(std::string_view backend) {
   return {&lab::find_coverage_method(find_backend(backend).name)};

@@ -30,6 +30,10 @@ struct Choice {
 
 // With this backend at the stage of coverage, and ours elsewhere.
 Choice our_choice(std::string_view backend);
+// All throw std::invalid_argument, with the nearest known name, for an unknown one.
+const lab::ClippingMethod& find_clipping_method(std::string_view name);
+const lab::VisibilityMethod& find_visibility_method(std::string_view name);
+const lab::FacingMethod& find_facing_method(std::string_view name);
 
 // What can be drawn of a choice, and why not all of it.
 struct Drawn {

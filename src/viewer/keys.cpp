@@ -67,6 +67,7 @@ std::span<const KeyRow> key_table() {
       {"1 2",
        "cull front, back faces",
        {{key_of('1'), Command::cull_front}, {key_of('2'), Command::cull_back}}},
+      {"k", "light on, off", {{key_of('k'), Command::light}}},
       {"j", "threads", {{key_of('j'), Command::threads}}},
       {"i", "SIMD target", {{key_of('i'), Command::target}}},
       {"backspace", "the last of these one step back", {{Key::backspace, Command::step_back}}},

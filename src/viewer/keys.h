@@ -57,6 +57,7 @@ enum class Command : std::uint8_t {
   facing,
   cull_front,
   cull_back,
+  light,
   threads,
   target,
   step_back,

@@ -66,7 +66,7 @@ std::string culling(const State& state) {
 std::string errors_of(const State& state, const Side& side) {
   if (state.errors == Errors::off || !side.judgement) return "[e] errors not counted";
   const Judgement& j = *side.judgement;
-  std::string text = fmt::format("{} of {} wrong", count(j.wrong, "pixel"), j.covered);
+  std::string text = fmt::format("{}, {} covered", count(j.wrong, "wrong pixel"), j.covered);
   if (j.gaps) text += fmt::format(", {}, {}", count(*j.gaps, "gap"), count(*j.double_hits, "double hit"));
   return text;
 }
@@ -92,7 +92,8 @@ class Overlaying {
     common.line(fmt::format("{} {}x{}   {:.1f} ms a frame", app::printable(state_.scene), panel_.width,
                             panel_.height, state_.frame_ms),
                 kStrong);
-    common.line(culling(state_), state_.cull_front ? kNotOurs : kPlain);
+    common.line(fmt::format("{}{}", culling(state_), state_.stream || state_.lit ? "" : "  [k] unlit"),
+                state_.cull_front ? kNotOurs : kPlain);
     common.line(fmt::format("[j] {}  [i] {}",
                             count(static_cast<std::uint64_t>(state_.execution.threads), "thread"),
                             edgewise::name_of(state_.execution.target)));
@@ -154,7 +155,7 @@ class Overlaying {
   }
 
   int help() {
-    constexpr int kKeys = 15, kBoth = 54;  // letters
+    constexpr int kKeys = 14, kBoth = 54;  // letters
     const auto rows = key_table();
     const int letters = screen_.picture.width / cell_.width,
               lines = screen_.picture.height / cell_.height - 1;
@@ -171,7 +172,7 @@ class Overlaying {
       for (int i = 0; i < lines; ++i) {
         const auto row = static_cast<std::size_t>((page - 1) * on_page + c * lines + i);
         if (row < rows.size())
-          list.line(fmt::format("{:<{}}{}", rows[row].keys, letters < kBoth ? 7 : kKeys, rows[row].does));
+          list.line(fmt::format("{:<{}} {}", rows[row].keys, letters < kBoth ? 6 : kKeys, rows[row].does));
       }
     }
     return page;
@@ -228,8 +229,9 @@ class Overlaying {
              {"  ", kPlain},
              stage("n", c.our_facing(), c.facing->info)});
     to.line(fmt::format("front end {:.2f} ms, raster {:.2f} ms", s.frontend_ms, s.raster_ms));
-    to.line(fmt::format("{} in, {} culled, {} clipped, {} drawn", n.triangles, n.culled,
-                        n.clipped_near + n.clipped_far + n.clipped_guard, n.emitted));
+    const auto clipped = n.clipped_near + n.clipped_far + n.clipped_guard;
+    to.line(fmt::format("{} in, {} culled, {}{} drawn", n.triangles, n.culled,
+                        c.our_clipping() ? fmt::format("{} clipped, ", clipped) : "", n.emitted));
     if (n.meshes > 0) to.line(fmt::format("{}, {} culled whole", count(n.meshes, "object"), n.meshes_culled));
     if (!s.because.empty()) to.line(s.because, kWrong);
     to.line(errors_of(state_, s), error_colour(s));

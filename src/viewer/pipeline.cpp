@@ -122,7 +122,7 @@ void Pipeline::draw_composed(const Choice& choice, const View& view, Picture& pi
   const Triangles triangles = triangles_of(choice, view, stages_ms);
   if (!choice.our_facing() || !choice.our_clipping()) {
     picture.frontend_ms = stages_ms;
-    picture.stats.culled = 0;
+    picture.stats.culled = triangles.culled;
     picture.stats.emitted = triangles.snapped.size();
   }
   const Owners owners = owners_of(choice, view, triangles, picture.raster_ms);
@@ -140,7 +140,8 @@ Pipeline::Triangles Pipeline::from_front_end(const View& view, Cull cull) {
   options.keep_unsnapped = true;
   options.cull = cull;
   const auto screen = frontend_of_ids_.run(view.world.drawable(), options);
-  Triangles triangles{lab::unsnapped(screen, frontend_of_ids_.unsnapped()), {screen.begin(), screen.end()}};
+  Triangles triangles{
+      lab::unsnapped(screen, frontend_of_ids_.unsnapped()), {screen.begin(), screen.end()}, 0};
   for (auto& t : triangles.floats) ++t.payload;
   for (auto& t : triangles.snapped) ++t.payload;
   return triangles;
@@ -190,6 +191,7 @@ void Pipeline::cull(const lab::FacingMethod& method, const View& view, Triangles
     triangles.snapped[kept] = triangles.snapped[i];
     triangles.floats[kept++] = triangles.floats[i];
   }
+  triangles.culled = triangles.snapped.size() - kept;
   triangles.snapped.resize(kept);
   triangles.floats.resize(kept);
 }

@@ -61,6 +61,7 @@ class Pipeline {
   struct Triangles {
     std::vector<lab::FloatTriangle> floats;
     std::vector<ScreenTriangle> snapped;
+    std::uint64_t culled = 0;  // dropped by cull()
   };
   // Row by row, a triangle's index in the scene or lab::kNobody.
   using Owners = std::vector<std::uint32_t>;

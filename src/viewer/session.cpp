@@ -77,7 +77,8 @@ void take(double now, double& mean) {
 }  // namespace
 
 Session::Session(Start start) : start_(std::move(start)) {
-  for (Side& side : sides_) side.choice = our_choice(start_.backend);
+  sides_[0].choice = start_.choice;
+  sides_[1].choice = our_choice("tiled");
   state_.execution = start_.execution;
   state_.execution.target = resolve(state_.execution.target);
 }
@@ -261,6 +262,9 @@ void Session::switch_by(Command command, int step) {
     case Command::cull_back:
       state_.cull_back = !state_.cull_back;
       break;
+    case Command::light:
+      state_.lit = !state_.lit;
+      break;
     case Command::threads:
       state_.execution.threads =
           next_in(thread_counts(), step, [&](int n) { return n >= state_.execution.threads; });
@@ -286,6 +290,7 @@ void Session::load(app::Size size) {
   frontend_ = shot.frontend;
   state_.scene = shot.source.name;
   state_.stream = world_->scene() == nullptr;
+  state_.lit = frontend_.shade;
   state_.cull_front = frontend_.cull == Cull::front || frontend_.cull == Cull::both;
   state_.cull_back = frontend_.cull == Cull::back || frontend_.cull == Cull::both;
   state_.axis = start_.axis.value_or(world_->first_axis());
@@ -297,6 +302,7 @@ View Session::view_of(app::Size size) const {
   view.frontend.height = size.height;
   view.frontend.cull = state_.cull_front ? (state_.cull_back ? Cull::both : Cull::front)
                                          : (state_.cull_back ? Cull::back : Cull::none);
+  view.frontend.shade = !state_.stream && state_.lit;
   view.frontend.threads = state_.execution.threads;
   view.frontend.target = state_.execution.target;
   return view;

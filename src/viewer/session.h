@@ -24,7 +24,7 @@ namespace edgewise::viewer {
 struct Start {
   // What to look at, for a picture of this size. Asked again when the size changes, of streams that fill it.
   std::function<app::Shot(app::Size)> load;
-  std::string backend = "tiled";
+  Choice choice = our_choice("tiled");  // of the first side
   Execution execution;
   std::optional<glm::vec3> axis;  // none: the scene's own
   std::filesystem::path folder;   // where `p` saves
@@ -48,6 +48,7 @@ struct State {
   std::string scene;
   bool stream = false;
   bool cull_front = false, cull_back = false;
+  bool lit = true;  // scenes only
   Execution execution;
   bool along_view = true;
   float speed = 1.0f;  // factor
