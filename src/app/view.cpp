@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -33,16 +34,19 @@ struct ViewOptions {
   int frames = 0;
 };
 
-Size first_size(const ViewOptions& o, const Shot& shot) {
-  return o.options.size.value_or(Size{shot.frontend.width, shot.frontend.height});
-}
-
-viewer::Session make_session(const ViewOptions& o) {
+// `first` is the shot that is loaded already.
+viewer::Session make_session(const ViewOptions& o, Shot first) {
   viewer::Start start;
-  start.load = [&o](Size size) {
+  start.load = [&o, kept = std::make_shared<std::optional<Shot>>(std::move(first))](Size size) {
     SceneOptions sized = o.options;
     sized.size = size;
-    return load_shot(o.scene, sized, o.options.time.value_or(0.0));
+    const bool fits =
+        *kept && ((*kept)->source.built_in == nullptr || !(*kept)->source.stream ||
+                  ((*kept)->frontend.width == size.width && (*kept)->frontend.height == size.height));
+    if (!fits) return load_shot(o.scene, sized, o.options.time.value_or(0.0));
+    Shot shot = std::move(**kept);
+    kept->reset();
+    return shot;
   };
   start.choice = o.choice;
   start.execution = o.execution.execution;
@@ -84,8 +88,9 @@ int view(const ViewOptions& o, viewer::ShowWindow show_window) {
         "and "
         "build again");
   // What is wrong with the scene is to be known before a window opens.
-  const Size size = first_size(o, load_shot(o.scene, o.options, o.options.time.value_or(0.0)));
-  viewer::Session session = make_session(o);
+  Shot shot = load_shot(o.scene, o.options, o.options.time.value_or(0.0));
+  const Size size{shot.frontend.width, shot.frontend.height};
+  viewer::Session session = make_session(o, std::move(shot));
   const int scale = viewer::font_scale(size.height);
   if (!o.terminal || !strokes.empty()) type(session, strokes, size, viewer::font_cell(scale));
   if (!o.output.empty()) {

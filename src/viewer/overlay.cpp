@@ -63,10 +63,11 @@ std::string culling(const State& state) {
   return state.cull_back ? "[2] back faces culled" : "[1] [2] no faces culled";
 }
 
-std::string errors_of(const State& state, const Side& side) {
+std::string errors_of(const State& state, const Side& side, bool brief) {
   if (state.errors == Errors::off || !side.judgement) return "[e] errors not counted";
   const Judgement& j = *side.judgement;
-  std::string text = fmt::format("{}, {} covered", count(j.wrong, "wrong pixel"), j.covered);
+  std::string text = brief ? fmt::format("{} wrong", j.wrong)
+                           : fmt::format("{}, {} covered", count(j.wrong, "wrong pixel"), j.covered);
   if (j.gaps) text += fmt::format(", {}, {}", count(*j.gaps, "gap"), count(*j.double_hits, "double hit"));
   return text;
 }
@@ -78,7 +79,7 @@ int degrees(float radians) {
 
 // When the count is from.
 std::string_view when(const State& state, const Side& side) {
-  if (side.judged != state.version) return "before; next when it stands still";
+  if (side.judged != state.version) return "a while ago, to keep the pace";
   return "in this frame";
 }
 
@@ -122,7 +123,7 @@ class Overlaying {
       own.line(fmt::format("{}{}  {:.1f} ms", marker(i), describe(s.choice), s.frontend_ms + s.raster_ms),
                s.choice.ours() ? kStrong : kNotOurs);
       if (state_.arrangement != Arrangement::difference && state_.errors != Errors::off)
-        own.line(errors_of(state_, s), error_colour(s));
+        own.line(errors_of(state_, s, true), error_colour(s));
       if (i == 0 && state_.cull_front) own.line(culling(state_), kNotOurs);
     }
     if (state_.arrangement == Arrangement::difference) {
@@ -234,7 +235,7 @@ class Overlaying {
                         c.our_clipping() ? fmt::format("{} clipped, ", clipped) : "", n.emitted));
     if (n.meshes > 0) to.line(fmt::format("{}, {} culled whole", count(n.meshes, "object"), n.meshes_culled));
     if (!s.because.empty()) to.line(s.because, kWrong);
-    to.line(errors_of(state_, s), error_colour(s));
+    to.line(errors_of(state_, s, false), error_colour(s));
     if (s.judgement && state_.errors != Errors::off) {
       to.line(fmt::format("  against [u] {}, {}", viewer::name_of(state_.truth), when(state_, s)));
     }

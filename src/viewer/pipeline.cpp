@@ -234,9 +234,10 @@ Pipeline::Owners Pipeline::owners_by_visibility(const lab::VisibilityMethod& met
   return owners;
 }
 
-Pipeline::Owners Pipeline::true_owners(const View& view, const Triangles& triangles, Truth truth) {
+Pipeline::Owners Pipeline::true_owners(const View& view, const Triangles& triangles, Truth truth,
+                                       std::string_view by) {
   if (truth == Truth::contract) {
-    backend(backends().front().name).draw(triangles.snapped, canvas_->frame.view(), 0, view.execution);
+    backend(by).draw(triangles.snapped, canvas_->frame.view(), 0, view.execution);
     return owners_in(canvas_->frame);
   }
   const auto id_of = [&](std::uint32_t i) {
@@ -255,14 +256,17 @@ Judgement Pipeline::judge(const Choice& choice, const View& view, Truth truth) {
   const Triangles triangles = triangles_of(choice, view, unused_ms);
   const Owners said = owners_of(choice, view, triangles, unused_ms);
 
+  // No backend is its own judge.
+  const bool is_first = choice.coverage->info.name == backends().front().name;
+  const std::string_view by = backends()[is_first ? 1 : 0].name;
   const Owners shown = [&] {
-    if (choice.our_clipping() && choice.our_facing()) return true_owners(view, triangles, truth);
-    const Choice exact = our_choice(backends().front().name);
-    if (choice.our_clipping()) return true_owners(view, triangles_of(exact, view, unused_ms), truth);
+    if (choice.our_clipping() && choice.our_facing()) return true_owners(view, triangles, truth, by);
+    const Choice exact = our_choice(by);
+    if (choice.our_clipping()) return true_owners(view, triangles_of(exact, view, unused_ms), truth, by);
     // In view space all clipping methods get the same, slightly rounded vertices: so must ours.
     Triangles clipped = from_clipping(*exact.clipping, view, unused_ms);
     cull(*exact.facing, view, clipped, unused_ms);
-    return true_owners(view, clipped, truth);
+    return true_owners(view, clipped, truth, by);
   }();
 
   Judgement judgement;

@@ -75,7 +75,8 @@ class Pipeline {
   Owners owners_of(const Choice& choice, const View& view, const Triangles& triangles, double& spent_ms);
   Owners owners_by_visibility(const lab::VisibilityMethod& method, const View& view,
                               const Triangles& triangles, double& spent_ms);
-  Owners true_owners(const View& view, const Triangles& triangles, Truth truth);
+  // `by`: the backend that draws the contract's picture.
+  Owners true_owners(const View& view, const Triangles& triangles, Truth truth, std::string_view by);
   Backend& backend(std::string_view name);
 
   Frontend frontend_, frontend_of_ids_;

@@ -20,8 +20,9 @@ namespace {
 
 constexpr float kTurnPerSecond = 0.6f, kLookPerSecond = 1.2f;  // rad
 constexpr float kSpeedStep = 1.5f, kSlowest = 0.01f, kFastest = 100.0f;
-// While something moves, errors are counted only if that leaves the frame this short.
-constexpr double kBudget_ms = 10.0;
+// While something moves, errors are counted only if that is likely to leave the frame this short. What it
+// last took is forgotten by and by, so that it is tried again about once in a second.
+constexpr double kBudget_ms = 10.0, kRemembered = 0.98;
 
 constexpr bool changes_picture(Command command) {
   switch (command) {
@@ -368,7 +369,10 @@ void Session::judge_if_due(std::size_t i, const Choice& choice, const View& view
   const bool fresh = side.judgement && side.judged == state_.version;
   if (state_.errors == Errors::off || fresh) return;
   const bool affordable = work_ms + side.judging_ms < kBudget_ms;
-  if (side.judgement && !affordable && !still() && state_.errors != Errors::tint) return;
+  if (side.judgement && !affordable && !still() && state_.errors != Errors::tint) {
+    side.judging_ms *= kRemembered;
+    return;
+  }
   side.judging_ms =
       app::milliseconds([&] { side.judgement = pipelines_[i].judge(choice, view, state_.truth); });
   side.judged = state_.version;
