@@ -183,6 +183,15 @@ class Window(Viewer):
         self.assertEqual(self.program.wait(PATIENCE_S), 128 + signal.SIGINT)
 
 
+class NoDisplay(Viewer):
+    def test_is_said(self):
+        nowhere = {key: value for key, value in os.environ.items()
+                   if key not in ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER")}
+        result = subprocess.run([EDGEWISE, "view"], env=nowhere, capture_output=True, text=True, timeout=PATIENCE_S)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("--terminal", result.stderr)
+
+
 class Terminal(Viewer):
     def setUp(self):
         super().setUp()

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <string_view>
 
 #include "raster/contract.h"
 #include "viewer/window.h"
@@ -30,6 +32,14 @@ struct Sdl {
     SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // the program has its own
     SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
     if (SDL_Init(SDL_INIT_VIDEO) != 0) fail("no window can be opened");
+    // Without a display SDL falls back on drivers that show nothing to anybody.
+    const std::string_view driver = SDL_GetCurrentVideoDriver();
+    const char* const asked_for = std::getenv("SDL_VIDEODRIVER");
+    if ((asked_for == nullptr || *asked_for == 0) &&
+        (driver == "offscreen" || driver == "dummy" || driver == "evdev")) {
+      SDL_Quit();
+      throw std::runtime_error("no window can be opened: there is no display; --terminal needs none");
+    }
   }
   ~Sdl() { SDL_Quit(); }
   Sdl(const Sdl&) = delete;
