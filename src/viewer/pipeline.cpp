@@ -68,7 +68,8 @@ std::vector<std::uint32_t> owners_in(const Framebuffer& frame) {
   std::vector<std::uint32_t> ids;
   ids.reserve(static_cast<std::size_t>(frame.width()) * static_cast<std::size_t>(frame.height()));
   for (int y = 0; y < frame.height(); ++y)
-    for (int x = 0; x < frame.width(); ++x) ids.push_back(frame.payload_row(y)[x] - 1);
+    ids.insert(ids.end(), frame.payload_row(y), frame.payload_row(y) + frame.width());
+  for (std::uint32_t& id : ids) --id;
   return ids;
 }
 

@@ -31,6 +31,8 @@ struct Sdl {
   Sdl() {
     SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // the program has its own
     SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
+    // Pixels go straight to the window: without a GPU, OpenGL would take more time for them than we do.
+    SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
     if (SDL_Init(SDL_INIT_VIDEO) != 0) fail("no window can be opened");
     // Without a display SDL falls back on drivers that show nothing to anybody.
     const std::string_view driver = SDL_GetCurrentVideoDriver();
