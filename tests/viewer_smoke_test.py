@@ -81,13 +81,8 @@ class Screen:
 
 class Viewer(unittest.TestCase):
     def setUp(self):
-        self.folder = Path(self.enterContext_(tempfile.TemporaryDirectory()))
+        self.folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
         self.running = []
-
-    def enterContext_(self, context):  # unittest has one of its own from Python 3.11 on
-        value = context.__enter__()
-        self.addCleanup(context.__exit__, None, None, None)
-        return value
 
     def leads_to(self, keys, size):
         path = self.folder / "expected.ppm"
@@ -261,7 +256,7 @@ class Terminal(Viewer):
 if __name__ == "__main__":
     EDGEWISE = sys.argv.pop(1)
     missing = [tool for tool in ("Xvfb", "xdotool", "tmux") if shutil.which(tool) is None]
-    if "without SDL2" in subprocess.run([EDGEWISE, "view", "--frames", "1"], env={**os.environ, "SDL_VIDEODRIVER": "none"},
+    if "without SDL2" in subprocess.run([EDGEWISE, "view"], env={**os.environ, "SDL_VIDEODRIVER": "none"},
                                         capture_output=True, text=True).stderr:
         missing.append("SDL2, when this was built,")
     if missing:

@@ -197,6 +197,9 @@ TEST(Viewer, SaysWhatCannotBeCombined) {
   type(session, "bbz");
   EXPECT_NE(session.side(0).because.find("covers exactly by itself"), std::string::npos);
   EXPECT_TRUE(says(session.draw({900, 600}, kTestCell), "covers exactly by itself"));
+  Session floats = session_of("cubes");
+  type(floats, "bb");
+  EXPECT_TRUE(says(floats.draw({900, 600}, kTestCell), "[z] float plane"));
   Session stream = session_of("grid64");
   type(stream, "x");
   EXPECT_NE(stream.side(0).because.find("no camera"), std::string::npos);

@@ -218,17 +218,20 @@ class Overlaying {
     const Side& s = session_.side(i);
     const FrontendStats& n = s.stats;
     const Choice& c = s.choice;
-    const auto stage = [&](const char* key, bool ours, const lab::MethodInfo& info) {
-      return std::pair(fmt::format("[{}] {}", key, info.name), ours ? kPlain : kNotOurs);
+    const auto stage = [&](const char* key, bool ours, std::string_view name) {
+      return std::pair(fmt::format("[{}] {}", key, name), ours ? kPlain : kNotOurs);
     };
+    // Coverage methods other than the backends bring a depth test of their own (lab/coverage.h).
+    const bool own_depth = c.our_visibility() && !c.our_coverage();
     to.line({{marker(i), kStrong},
-             stage("b", c.our_coverage(), c.coverage->info),
+             stage("b", c.our_coverage(), c.coverage->info.name),
              {"  ", kPlain},
-             stage("x", c.our_clipping(), c.clipping->info)});
-    to.line({{state_.arrangement == Arrangement::one ? "" : "  ", kPlain},
-             stage("z", c.our_visibility(), c.visibility->info),
-             {"  ", kPlain},
-             stage("n", c.our_facing(), c.facing->info)});
+             stage("x", c.our_clipping(), c.clipping->info.name)});
+    to.line(
+        {{state_.arrangement == Arrangement::one ? "" : "  ", kPlain},
+         stage("z", c.our_visibility() && !own_depth, own_depth ? "float plane" : c.visibility->info.name),
+         {"  ", kPlain},
+         stage("n", c.our_facing(), c.facing->info.name)});
     to.line(fmt::format("front end {:.2f} ms, raster {:.2f} ms", s.frontend_ms, s.raster_ms));
     const auto clipped = n.clipped_near + n.clipped_far + n.clipped_guard;
     to.line(fmt::format("{} in, {} culled, {}{} drawn", n.triangles, n.culled,

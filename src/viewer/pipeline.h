@@ -31,7 +31,8 @@ struct Picture {
 };
 
 // What pictures are judged against. Each next one blames a picture for more: `contract` for what differs from
-// the library's bits, `snapped` for the rounding of depths too, `floats` for snapping too.
+// the library's bits, `snapped` for the rounding of depths too, `floats` for snapping too. (Clipping methods
+// hand on snapped positions only: for them the last two are one.)
 enum class Truth { contract, snapped, floats };
 inline constexpr Truth kTruths[] = {Truth::contract, Truth::snapped, Truth::floats};
 std::string_view name_of(Truth truth);

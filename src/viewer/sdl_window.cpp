@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "raster/contract.h"
+#include "viewer/session.h"
 #include "viewer/window.h"
 
 namespace edgewise::viewer {

@@ -5,9 +5,10 @@
 
 #include "app/options.h"
 #include "viewer/frame_times.h"
-#include "viewer/session.h"
 
 namespace edgewise::viewer {
+
+class Session;
 
 struct WindowOptions {
   std::string title;
