@@ -407,9 +407,12 @@ TEST(Viewer, HelpsWithEveryKeyOnAsManyPagesAsItTakes) {
 }
 
 TEST(Viewer, FitsAnySize) {
+  const TempDir folder;
   for (const app::Size size : {app::Size{1, 1}, app::Size{2, 3}, app::Size{33, 9}, app::Size{320, 200},
                                app::Size{700, 20}, app::Size{20, 700}}) {
-    Session session = session_of("cube");
+    Start start = start_with(find_scene("cube").make({}), Cull::back);
+    start.folder = folder.path();
+    Session session(std::move(start));
     for (const char* keys : {"egt", "v", "<tab>bbb", "v<enter>", "ohp"}) {
       const Screen& screen = type(session, keys, size);
       ASSERT_EQ(screen.picture.pixels.size(), static_cast<std::size_t>(size.width * size.height));

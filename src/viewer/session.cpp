@@ -21,8 +21,8 @@ namespace {
 constexpr float kTurnPerSecond = 0.6f, kLookPerSecond = 1.2f;  // rad
 constexpr float kSpeedStep = 1.5f, kSlowest = 0.01f, kFastest = 100.0f;
 // While something moves, errors are counted only if that is likely to leave the frame this short. What it
-// last took is forgotten by and by, so that it is tried again about once in a second.
-constexpr double kBudget_ms = 10.0, kRemembered = 0.98;
+// last took is forgotten by and by, so that it is tried again every few seconds.
+constexpr double kBudget_ms = 10.0, kRemembered = 0.995;
 
 constexpr bool changes_picture(Command command) {
   switch (command) {
