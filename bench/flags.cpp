@@ -39,7 +39,7 @@ std::optional<Flags> parse_flags(int argc, char** argv) {
       "Google Benchmark's other flags work too, among them --benchmark_filter=REGEX, "
       "--benchmark_list_tests,\n"
       "--benchmark_repetitions=N, --benchmark_min_time=SECONDS and --benchmark_format=console|json|csv.\n"
-      "Exit status: 0 done, 1 a row drew other pixels, 2 bad input.");
+      "Exit status: 0 done, 1 a row drew other pixels, 2 bad input or failure, 130 after Ctrl-C.");
   try {
     parser.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {

@@ -5,22 +5,26 @@
 namespace edgewise::bench {
 
 std::vector<Rung> ladder() {
-  TiledIdeas ideas{false, false, false, WriteOut::through_caches};
+  TiledIdeas ideas{false, false, false, false, WriteOut::through_caches};
   const auto with = [&](SimdTarget target) {
     Execution execution;
     execution.target = target;
     execution.ideas = ideas;
     return execution;
   };
-  std::vector<Rung> rungs;
+  Execution stepped;
+  stepped.stepped = true;
+  std::vector<Rung> rungs{{"stepped", "naive", stepped}};
   for (const SimdTarget target : supported_targets())
-    rungs.push_back({target == SimdTarget::scalar ? "tiles" : std::string(name_of(target)), with(target)});
+    rungs.push_back({target == SimdTarget::scalar ? "tiles" : std::string(name_of(target)), kLadderBackend,
+                     with(target)});
   const auto add = [&](const char* name, bool TiledIdeas::*idea) {
     ideas.*idea = true;
-    rungs.push_back({name, with(SimdTarget::best)});
+    rungs.push_back({name, kLadderBackend, with(SimdTarget::best)});
   };
   add("vector-setup", &TiledIdeas::vector_setup);
   add("prefetch", &TiledIdeas::prefetch);
+  add("patches", &TiledIdeas::patches);
   add("hierarchical-depth", &TiledIdeas::hierarchical_depth);
   return rungs;
 }

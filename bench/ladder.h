@@ -13,11 +13,13 @@ namespace edgewise::bench {
 inline constexpr std::string_view kLadderBackend = "tiled";
 
 struct Rung {
-  std::string name;  // in row names, after "rung:"
+  std::string name;          // in row names, after "rung:"
+  std::string_view backend;  // whose switches these are
   Execution execution;
 };
 
-// On one thread, each with one idea more than the one before; the last lacks the choice of how to write out.
+// On one thread, each with one idea more than the one before: the first is the reference backend with another
+// inner loop, the last lacks the choice of how to write out.
 std::vector<Rung> ladder();
 
 // Whether the ladder is climbed in a scene: those of one kind each.

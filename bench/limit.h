@@ -1,11 +1,11 @@
 // The floor under a frame's time on this machine: what anyone must spend who draws the triangles in their
-// order, were everything else free. It is the sum of
+// order, were everything else free and nothing done beside another. It is the sum of
 //   - reading each triangle's record once,
 //   - testing and writing each block of 4 x 4 pixels once for each triangle that wins a pixel of it, out of
 //     the L1 cache and with vectors of the best target,
 //   - writing depth and payload of the frame once, through the caches or past them, whichever is faster,
 // each measured here, warm, on as many threads. A triangle's hidden blocks are free: hierarchical depth may
-// drop them by the thousand.
+// drop them by the thousand. Who draws all that is covered needs blocks_s as often as there are covered ones.
 #pragma once
 
 #include <cstdint>

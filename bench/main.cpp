@@ -7,7 +7,6 @@
 #include <cmath>
 #include <iostream>
 #include <limits>
-#include <new>
 
 #include "app/console.h"
 #include "app/machine.h"
@@ -21,6 +20,8 @@
 #include "stage.h"
 
 namespace edgewise::bench {
+
+constexpr const char* kProgram = "edgewise_bench";
 
 namespace {
 
@@ -269,17 +270,15 @@ int run(int argc, char** argv) {
 }
 
 int failed(std::string_view why) {
-  app::print_error(why, "edgewise_bench");
+  app::print_error(why, kProgram);
   return 2;
 }
 
 int guarded(int argc, char** argv) {
   try {
     return run(argc, argv);
-  } catch (const std::bad_alloc&) {
-    return failed("out of memory");
   } catch (const std::exception& error) {
-    return failed(error.what());
+    return failed(app::reason_of(error));
   }
 }
 
@@ -288,7 +287,7 @@ int guarded(int argc, char** argv) {
 }  // namespace edgewise::bench
 
 int main(int argc, char** argv) {
-  edgewise::app::prepare_process();
+  edgewise::app::prepare_process(edgewise::bench::kProgram);
   const int status = edgewise::bench::guarded(argc, argv);
   if (std::cout.flush() || status == 2) return status;
   return edgewise::bench::failed("cannot write to standard output");

@@ -67,7 +67,7 @@ class FrameRecorder final : public ParallelObserver {
 };
 
 // What a section of two short tasks takes longer, on two threads of this machine, than one of them: starting
-// and waiting. One in a hundred takes less: many others waited for a core that something else had.
+// and waiting. The median of many; where others use a core, it has what waiting for them costs.
 double measured_barrier_s();
 
 }  // namespace edgewise::bench

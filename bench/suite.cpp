@@ -11,6 +11,7 @@
 #include "crowd.h"
 #include "growth.h"
 #include "ladder.h"
+#include "quads.h"
 
 namespace edgewise::bench {
 
@@ -81,7 +82,7 @@ class Suite {
   void add_ladder(const WorkloadPtr& workload, const std::string& scene) {
     if (!in_ladder(scene)) return;
     for (const Rung& rung : ladder()) {
-      add(workload, Timed::raster, find_backend(kLadderBackend), fmt::format("{}/rung:{}", scene, rung.name),
+      add(workload, Timed::raster, find_backend(rung.backend), fmt::format("{}/rung:{}", scene, rung.name),
           rung.execution);
       rows_.back().rung = true;
     }
@@ -236,10 +237,13 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
     suite.add_scene(workload, name, scene.stream);
     suite.add_ladder(workload, name);
   }
-  taken.emplace(kCrowdName, kCrowdName);
-  suite.add_scene(
-      suite.make_workload([r = request(options, options.width, options.height)] { return crowd(r); }),
-      kCrowdName, false);
+  const auto add_own = [&](const char* name, app::Source (*make)(const SceneRequest&), bool stream) {
+    taken.emplace(name, name);
+    const SceneRequest wanted = request(options, options.width, options.height);
+    suite.add_scene(suite.make_workload([make, wanted] { return make(wanted); }), name, stream);
+  };
+  add_own(kQuadsName, quads, true);
+  add_own(kCrowdName, crowd, false);
   for (const auto& scene : options.more_scenes) add_named(scene);
   suite.add_area_sweep();
   suite.add_growth();

@@ -3,6 +3,9 @@
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$root/build
+# A script that wants another build than the usual one sets these.
+build_type=Release
+build_flags=()
 
 die() {
   echo "$(basename "$0"): $*" >&2
@@ -50,9 +53,9 @@ set_up() {
     "${missing[@]}" >/dev/null || die "apt-get could not install ${missing[*]}"
 }
 
-# build TARGETS…: a Release build below build/; only what changed is compiled.
+# build TARGETS…: below $build; only what changed is compiled.
 build() {
-  local -a configure=(-S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release)
+  local -a configure=(-S "$root" -B "$build" "-DCMAKE_BUILD_TYPE=$build_type" "${build_flags[@]}")
   if [[ ! -f $build/CMakeCache.txt ]] && command -v ninja >/dev/null; then configure+=(-G Ninja); fi
   if [[ -n ${CI:-} ]]; then configure+=(-DEDGEWISE_WERROR=ON); fi
   cmake "${configure[@]}" >/dev/null || die "CMake could not configure the build; see above"

@@ -5,8 +5,8 @@ from plot_style import FAINT, INK, PALETTE, headline, log_axis, plt, save
 from tables import milliseconds
 
 START = "naive"
-NAMES = {"vector-setup": "+ set-up in vectors", "prefetch": "+ prefetch",
-         "hierarchical-depth": "+ hierarchical depth", "tiles": "tiles, edges stepped"}
+NAMES = {"vector-setup": "+ set-up in vectors", "prefetch": "+ prefetch", "patches": "+ small ones while binning",
+         "hierarchical-depth": "+ hierarchical depth", "stepped": "+ incremental edges", "tiles": "+ tiles"}
 GAIN, LOSS, NEITHER = PALETTE[0], PALETTE[3], "#8c959f"
 COLUMNS = 3
 
@@ -14,7 +14,7 @@ COLUMNS = 3
 def steps(bench, scene):
     """[(label, row)] from the plainest to the last: rows of the suite at both ends, rungs between them."""
     rungs = [row for row in bench.sweep("rung") if row.scene == scene]
-    backend = rungs[0].backend
+    backend = rungs[-1].backend
     named = [(f"{START}, 1 thread", bench.find(f"{START}/{scene}/threads:1"))]
     named += [(NAMES.get(row.keys["rung"], f"… in {row.keys['rung']}"), row) for row in rungs]
     named += [("+ write-out by size", bench.find(f"{backend}/{scene}/threads:1")),

@@ -54,8 +54,8 @@ def scaling_table(bench):
 
 def barrier_sentence(bench):
     rows = bench.sweep("cores")
-    return (f"A section of tasks is charged {number(rows[0].counters['barrier_ms'] * 1e3)} µs for starting and waiting, as "
-            "measured with two threads here.")
+    return (f"A section of tasks is charged {number(rows[0].counters['barrier_ms'] * 1e3)} µs for starting and waiting, the "
+            "median of what two threads here take longer for two short tasks than for one.")
 
 
 def small_draw_sentences(bench):

@@ -44,23 +44,15 @@ def scene_facts(bench, scene):
     return triangles, overdraw
 
 
-def over_floor(bench, backend, scene):
-    """How many times the floor under its time a backend takes, for each thread count."""
-    rows = [bench.find(f"{backend}/{scene}/threads:{n}") for n in THREADS]
-    ratios = [row.median_ms / row.counters["floor_ms"] for row in rows if row and row.counters.get("floor_ms")]
-    return ", ".join(f"{ratio:.2f}" for ratio in ratios) or "–"
-
-
-def scene_table(bench):
-    """Header and lines: one line a scene."""
-    floored = list(dict.fromkeys(row.backend for row in bench.rows.values() if "floor_ms" in row.counters))
+def scene_table(bench, more=()):
+    """Header and lines: one line a scene. `more` are columns before the last: (title, scene → cell)."""
     header = ["scene", "triangles", "overdraw", *(f"{b}, {n}" for b in bench.backends for n in THREADS),
-              *(f"{b} / floor" for b in floored), "fastest"]
+              *(title for title, _ in more), "fastest"]
     lines = []
     for scene in bench.scenes:
         times = [milliseconds(bench.find(f"{b}/{scene}/threads:{n}")) for b in bench.backends for n in THREADS]
-        lines.append([scene, *scene_facts(bench, scene), *times,
-                      *(over_floor(bench, b, scene) for b in floored), fastest(bench, scene)])
+        lines.append([scene, *scene_facts(bench, scene), *times, *(cell(scene) for _, cell in more),
+                      fastest(bench, scene)])
     return header, lines
 
 
@@ -85,7 +77,8 @@ def verify_sentence(verify):
     scenes = verify["scenes"]
     frames = sum(scene["configurations"] for scene in scenes)
     oracle = sum(scene.get("oracle", {}).get("configurations", 0) for scene in scenes)
-    differing = sum(scene["differing_pixels"] + scene.get("oracle", {}).get("differing_pixels", 0) for scene in scenes)
+    differing = sum(scene["differing_pixels"] + scene.get("written_outside", 0)
+                    + scene.get("oracle", {}).get("differing_pixels", 0) for scene in scenes)
     backends = ", ".join(verify["backends"])
     return (f"{frames:,} frames of {len(scenes)} scenes were compared bit for bit, in depth and payload, across {backends}, "
             f"thread counts, tile sizes, SIMD targets and culling modes, and {oracle:,} small ones with a "

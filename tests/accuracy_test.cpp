@@ -182,37 +182,6 @@ TEST(Accuracy, KeepsToTheMethodsAndTheFamilyAskedFor) {
   EXPECT_EQ(json_of("cube --quick --no-speed --family visibility").at("scenes").size(), 1u);
 }
 
-TEST(Accuracy, RejectsWithOneLineAndStatus2) {
-  const TempDir folder;
-  const std::string json_file = (folder.path() / "a.json").string();
-  const struct {
-    const char *arguments, *said;
-  } kBad[] = {{"drtk_squad", "did you mean 'drtk_quad'"},
-              {"turning-cub", "did you mean 'turning-cube'"},
-              {"drtk_quad --method float_less", "did you mean 'float_le'"},
-              {"drtk_quad --method painter_mean", "nothing to do"},
-              {"drtk_quad --family coverag", "did you mean 'coverage'"},
-              {"drtk_quad --family facing", "nothing to do"},
-              {"--family facing --method float_le", "unknown method"},
-              {"none.obj", "no such file"},
-              {"drtk_quad --pictures /dev/null/x", "not a folder"}};
-  for (const auto& bad : kBad) {
-    const Outcome outcome = accuracy(std::string(bad.arguments) + " --json " + json_file);
-    EXPECT_EQ(outcome.status, 2) << bad.arguments;
-    EXPECT_NE(outcome.err.find(bad.said), std::string::npos) << bad.arguments << ": " << outcome.err;
-    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-    EXPECT_EQ(folder.count(), 0u) << bad.arguments;
-  }
-}
-
-TEST(Accuracy, LeavesNothingAfterCtrlC) {
-  const TempDir folder;
-  const std::string json_file = (folder.path() / "a.json").string(),
-                    pictures = (folder.path() / "pictures").string();
-  testing::expect_nothing_after_ctrl_c(EDGEWISE_PROGRAM,
-                                       {"accuracy", "--json", json_file, "--pictures", pictures}, folder);
-}
-
 TEST(Accuracy, TablesFitEightyColumns) {
   AccuracyPlan plan;
   plan.scenes = {"cube", "legs_182", "planes_1e-5_apart", "edge_on", "floor_behind_eye", "turning-cube"};

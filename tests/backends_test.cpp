@@ -62,6 +62,8 @@ TEST_P(EveryBackend, DrawsTheOraclesPictureWhenTrianglesFillManyChunks) {
   const auto big = adversarial("subpixel", 20, 40, 40, 4);
   triangles.insert(triangles.begin() + 6'000, big.begin(), big.end());
   expect_oracle(triangles, 40, 40, "many chunks");
+  // Where all depths tie, the order of the chunks decides.
+  expect_oracle(adversarial("equal-depth", 3'000, 40, 40, 5), 40, 40, "many chunks at one depth");
 }
 
 TEST_P(EveryBackend, ReachesTheFarCornerOfTheLargestImage) {
@@ -103,6 +105,44 @@ TEST_P(EveryBackend, TellsTheLeastDistanceBetweenTheTallestEdgesAndASample) {
           ++id;
         }
   for (const auto& t : triangles) expect_oracle(std::span(&t, 1), kWidth, kHeight, std::to_string(t.payload));
+}
+
+TEST_P(EveryBackend, TellsLayersThatAreOneUnitOfDepthApart) {
+  // Parallel planes over the whole image, every third nearer by one, then one behind it and one that ties: a
+  // bound on a block's depths that errs by one hides a layer.
+  constexpr int kWidth = 97, kHeight = 71, kLayers = 12;
+  for (const int slope : {0, 1, -3}) {
+    std::vector<ScreenTriangle> layers;
+    for (int id = 0; id < kLayers; ++id) {
+      const auto z = [&](int x, int y) {
+        return static_cast<std::uint32_t>(10'000 - id / 3 + (id % 3 == 1) + slope * (x + y));
+      };
+      layers.push_back({{-100 * kSub, 400 * kSub, -100 * kSub},
+                        {-100 * kSub, -100 * kSub, 400 * kSub},
+                        {z(-100, -100), z(400, -100), z(-100, 400)},
+                        static_cast<std::uint32_t>(id)});
+    }
+    expect_oracle(layers, kWidth, kHeight, "slope " + std::to_string(slope));
+  }
+}
+
+TEST_P(EveryBackend, AnchorsDepthAtTheTopmostThenLeftmostVertex) {
+  // Gradients are rounded down, so over the width of the guard band another anchor gives another depth.
+  constexpr int kWidth = 70, kHeight = 5;
+  Random random(13);
+  const auto between = [&](std::int32_t low, std::int32_t high) {
+    return low + static_cast<std::int32_t>(random.below(static_cast<std::uint64_t>(high - low + 1)));
+  };
+  for (std::uint32_t id = 0; id < 100; ++id) {
+    const std::int32_t top = between(-kGuardSub, -kGuardSub / 2), far = between(kGuardSub / 2, kGuardSub);
+    ScreenTriangle t{{-far, far, between(-far, far)},
+                     {top, id % 2 == 0 ? top : top + between(0, 1000), kGuardSub},
+                     {},
+                     id};
+    for (auto& z : t.z) z = kDepthHead + static_cast<std::uint32_t>(random.below(kDepthRange + 1ull));
+    for (auto* field : {t.x_sub, t.y_sub}) std::rotate(field, field + id % 3, field + 3);
+    expect_oracle(std::span(&t, 1), kWidth, kHeight, std::to_string(id));
+  }
 }
 
 TEST_P(EveryBackend, DrawsEdgesThatAreAlmostHorizontal) {

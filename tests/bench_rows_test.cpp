@@ -7,6 +7,7 @@
 #include "ladder.h"
 #include "limit.h"
 #include "message_of.h"
+#include "quads.h"
 #include "raster/contract.h"
 #include "stage.h"
 #include "suite.h"
@@ -82,14 +83,18 @@ TEST(BenchSuite, NamesAllRowsDifferently) {
 TEST(BenchLadder, AddsOneIdeaARungAndEndsOneBelowTheDefault) {
   const auto rungs = ladder();
   const auto count = supported_targets().size();
-  ASSERT_EQ(rungs.size(), count + 3);
-  for (std::size_t i = 0; i < rungs.size(); ++i) {
-    const Execution& execution = rungs[i].execution;
+  ASSERT_EQ(rungs.size(), 1 + count + 4);
+  EXPECT_EQ(rungs[0].backend, "naive");
+  EXPECT_TRUE(rungs[0].execution.stepped);
+  for (std::size_t i = 0; i < rungs.size() - 1; ++i) {
+    EXPECT_EQ(rungs[i + 1].backend, "tiled");
+    const Execution& execution = rungs[i + 1].execution;
     EXPECT_EQ(execution.threads, 1);
     EXPECT_EQ(execution.target, i < count ? supported_targets()[i] : SimdTarget::best);
     EXPECT_EQ(execution.ideas.vector_setup, i >= count);
     EXPECT_EQ(execution.ideas.prefetch, i >= count + 1);
-    EXPECT_EQ(execution.ideas.hierarchical_depth, i >= count + 2);
+    EXPECT_EQ(execution.ideas.patches, i >= count + 2);
+    EXPECT_EQ(execution.ideas.hierarchical_depth, i >= count + 3);
     EXPECT_EQ(execution.ideas.write_out, WriteOut::through_caches);
   }
 }
@@ -103,11 +108,23 @@ TEST(BenchLadder, StandsBesideTheRowsThatAreItsEnds) {
   }
   for (const SceneInfo& scene : builtin_scenes())
     for (const Rung& rung : ladder())
-      EXPECT_EQ(names.count("tiled/" + std::string(scene.name) + "/rung:" + rung.name + "/threads:1"),
+      EXPECT_EQ(names.count(std::string(rung.backend) + "/" + std::string(scene.name) + "/rung:" + rung.name +
+                            "/threads:1"),
                 in_ladder(scene.name) ? 1u : 0u);
   EXPECT_TRUE(names.count("naive/large/threads:1") && names.count("tiled/large/threads:2"));
-  const std::size_t scenes = builtin_scenes().size() + 1;  // and the crowd
+  const std::size_t scenes = builtin_scenes().size() + 2;  // and the crowd and the quads
   EXPECT_EQ(floors, 2 * scenes);
+}
+
+TEST(BenchQuads, LieOnThePixelGridAndCoverEachPixelThreeTimes) {
+  constexpr int kWidth = 200, kHeight = 100;
+  Workload workload(kWidth, kHeight, Cull::back, [] { return quads({kWidth, kHeight, 0.0f, 1.0}); });
+  workload.prepare(false);
+  EXPECT_EQ(workload.covered_px(), 3u * kWidth * kHeight);
+  ASSERT_EQ(workload.triangles().size(), 2u * (13 * 7 + 7 * 4 + 4 * 2));
+  for (const ScreenTriangle& t : workload.triangles())
+    for (int i = 0; i < 3; ++i) EXPECT_EQ((t.x_sub[i] | t.y_sub[i]) % (16 * 256), 0);
+  EXPECT_EQ(std::get<TriangleStream>(quads({kWidth, kHeight, 0.0f, 0.1}).drawable).triangles.size(), 26u);
 }
 
 // Its right angle in the image's upper left corner.

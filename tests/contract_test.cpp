@@ -110,6 +110,16 @@ TEST(Contract, TopAndLeftEdgesOwnTheirSamplesAndTheOthersDoNot) {
   EXPECT_FALSE(inside(2, 6));
 }
 
+TEST(Contract, OfAnEdgeAndItsReverseOneIsTopOrLeft) {
+  for (int a = -2; a <= 2; ++a)
+    for (int b = -2; b <= 2; ++b) {
+      if (a == 0 && b == 0) continue;
+      EXPECT_NE(is_top_left(a, b), is_top_left(-a, -b)) << a << ", " << b;
+    }
+  EXPECT_TRUE(is_top_left(0, 1)) << "a top edge runs to the right";
+  EXPECT_TRUE(is_top_left(1, 0)) << "a left edge runs up";
+}
+
 TEST(Contract, PixelBoxHoldsEverySampleThatCanBeCovered) {
   for (const auto family : testing::kFamilies)
     for (const auto& triangle : testing::adversarial(family, 60, 40, 30, 5)) {

@@ -11,7 +11,10 @@
 #include "frontend/frontend.h"
 #include "frontend/jobs.h"
 #include "frontend/transform.h"
+#include "message_of.h"
 #include "raster/contract.h"
+#include "raster/parallel.h"
+#include "scale_limits.h"
 #include "scene/builtin.h"
 #include "scene/random.h"
 
@@ -138,6 +141,92 @@ TEST(FrontendKernels, BuiltInScenesAreAlikeOnEveryTarget) {
   }
 }
 
+// Meshes of all sizes about those of vectors, runs and groups, some of them empty, out of sight, without a
+// finite vertex, or with triangles that must be cut.
+Scene scene_of_many_meshes() {
+  Random random(4);
+  Scene scene;
+  scene.camera.near_z = 1e-2f;
+  const auto add = [&](std::size_t triangles) {
+    Mesh& mesh = scene.meshes.emplace_back();
+    for (std::size_t i = 0; i < triangles / 2 + 3; ++i)
+      mesh.positions.emplace_back(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    for (std::size_t i = 0; i < triangles; ++i) {
+      const auto vertex = [&] { return static_cast<unsigned>(random.below(mesh.positions.size())); };
+      mesh.triangles.emplace_back(vertex(), vertex(), vertex());
+      mesh.colours.push_back(static_cast<std::uint32_t>(random.below(1ull << 32)));
+    }
+    if (scene.meshes.size() % 16 == 0) mesh.positions.assign(mesh.positions.size(), glm::vec3(kNan));
+    Instance instance{.mesh = scene.meshes.size() - 1};
+    instance.angle = random.uniform(0, 6);
+    instance.translation = {random.uniform(-4, 4), random.uniform(-3, 3), random.uniform(-9, 1)};
+    scene.instances.push_back(instance);
+  };
+  for (const std::size_t triangles :
+       {0u, 1u, 12u, 2047u, 2048u, 2049u, 5000u, 0u, 8191u, 8192u, 30'000u, 100'000u, 1u}) {
+    for (int i = 0; i < 50; ++i) add(random.below(40));
+    add(triangles);
+  }
+  for (int i = 0; i < 2000; ++i) add(1);
+  return scene;
+}
+
+TEST(FrontendKernels, ManyMeshesAreAlikeOnEveryTargetAndThreadCount) {
+  const Scene scene = scene_of_many_meshes();
+  const auto stats = run(scene, {.width = 300, .height = 200}).stats;
+  for (const auto count : {stats.meshes_culled, stats.not_finite, stats.clipped_near, stats.culled})
+    EXPECT_GT(count, 0u);
+  expect_all_alike(scene, {.width = 300, .height = 200});
+  expect_all_alike(scene, {.width = 300, .height = 200, .shade = false});
+  expect_all_alike(scene, {.width = 300, .height = 200, .cull = Cull::none, .payload = Payload::id});
+}
+
+TEST(FrontendKernels, ManyMeshesMakeWhatEachMakesAlone) {
+  const Scene scene = scene_of_many_meshes();
+  const FrontendOptions options{.width = 300, .height = 200, .threads = 2};
+  std::vector<ScreenTriangle> expected;
+  FrontendStats sum;
+  Scene alone;
+  alone.camera = scene.camera, alone.to_light = scene.to_light;
+  alone.instances.resize(1);
+  for (const Instance& instance : scene.instances) {
+    alone.meshes.assign(1, scene.meshes[instance.mesh]);
+    alone.instances[0] = instance;
+    alone.instances[0].mesh = 0;
+    const auto [triangles, stats] = run(alone, options);
+    expected.insert(expected.end(), triangles.begin(), triangles.end());
+    sum += stats;
+  }
+  const auto together = run(scene, options);
+  expect_same_triangles(expected, together.triangles, "together");
+  EXPECT_EQ(std::memcmp(&sum, &together.stats, sizeof sum), 0);
+}
+
+TEST(FrontendKernels, SmallMeshesShareTheThreads) {
+  struct Counter final : ParallelObserver {
+    void section_begins(const std::source_location&) override { most = std::max(most, tasks), tasks = 0; }
+    void task_ends() override { ++tasks; }
+    void section_ends() override { most = std::max(most, tasks), ++sections; }
+    int tasks = 0, most = 0, sections = 0;
+  } counter;
+  Scene scene = scene_of_many_meshes();
+  scene.instances.resize(500);
+  std::erase_if(scene.instances,
+                [&](const Instance& i) { return scene.meshes[i.mesh].triangles.size() > 40; });
+  Mesh small = scene.meshes[0];
+  small.positions.resize(3, glm::vec3(0.0f));
+  small.triangles.assign(40, {0, 1, 2});
+  small.colours.assign(40, 0);
+  for (Mesh& mesh : scene.meshes) mesh = small;
+  ASSERT_GT(40 * scene.instances.size(), kWorthThreads);
+  {
+    const ObserveParallel scope(counter);
+    run(scene, {.width = 300, .height = 200, .threads = 4});
+  }
+  EXPECT_EQ(counter.sections, 2) << "all vertices, then all triangles";
+  EXPECT_GE(counter.most, 4);
+}
+
 TEST(FrontendKernels, TheWildOnesMeetEveryFate) {
   const auto mesh = run(wild_scene(true), {.width = 300, .height = 200}).stats;
   const auto stream = run(wild_stream(), {.width = 640, .height = 480}).stats;
@@ -258,6 +347,49 @@ TEST(FrontendKernels, NamesTheTriangleWhoseVertexIsMissing) {
     }
   scene.meshes[0].positions.clear();
   EXPECT_THROW(run(scene, {}), std::invalid_argument);
+}
+
+TEST(FrontendKernels, NamesTheMissingVertexOfAMeshAmongMany) {
+  Scene scene = scene_of_many_meshes();
+  const auto rotten = [](const Mesh& mesh) { return mesh.triangles.size() == 5000; };
+  Mesh& mesh = *std::find_if(scene.meshes.begin(), scene.meshes.end(), rotten);
+  mesh.triangles[2345].z = 70'000;
+  Instance& instance = scene.instances[static_cast<std::size_t>(&mesh - scene.meshes.data())];
+  instance.translation = {0, 0, -5};
+  EXPECT_EQ(message_of([&] { run(scene, {.threads = 2}); }), "triangle 2345 names vertex 70000 of 2503");
+  instance.translation = {0, 0, 50};
+  EXPECT_GT(run(scene, {.threads = 2}).stats.emitted, 0u) << "what is out of sight is not looked at";
+}
+
+TEST(FrontendKernels, RefusesThreadCountsThatBackendsRefuse) {
+  for (const int threads : {0, -1, kMaxThreads + 1})
+    EXPECT_EQ(message_of([&] { run(wild_stream(), {.threads = threads}); }),
+              std::to_string(threads) + " threads are outside 1 to 256");
+  EXPECT_GT(run(wild_stream(), {.threads = kMaxThreads}).stats.emitted, 0u);
+}
+
+TEST(FrontendKernels, NothingIsLeftOfTheUnsnappedWhereItThrew) {
+  const Scene good = wild_scene(false);
+  Scene blind = good, broken = good;
+  blind.camera.near_z = -1;
+  broken.meshes[0].triangles.back().x = 9001;
+  Frontend frontend;
+  const FrontendOptions plain{.width = 300, .height = 200},
+      keep{.width = 300, .height = 200, .keep_unsnapped = true};
+  const auto expect_throw = [&](const Scene& scene, FrontendOptions options) {
+    EXPECT_THROW(frontend.run(scene, options), std::invalid_argument);
+    EXPECT_EQ(frontend.unsnapped().size(), 0u);
+  };
+  frontend.run(good, plain);
+  EXPECT_EQ(frontend.unsnapped().size(), 0u);
+  for (const Scene* bad : {&blind, &broken}) {
+    expect_throw(*bad, keep);
+    const std::size_t count = frontend.run(good, keep).size();
+    EXPECT_GT(count, 0u);
+    EXPECT_EQ(frontend.unsnapped().size(), count);
+    expect_throw(*bad, keep);
+    expect_throw(good, {.width = 0, .keep_unsnapped = true});
+  }
 }
 
 TEST(FrontendKernels, AMeshWithoutAFiniteVertexIsNotOutOfSight) {

@@ -8,6 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "frontend/clip.h"
 #include "frontend/fixed.h"
 #include "lab/measure.h"
 #include "scene/builtin.h"
@@ -208,6 +209,61 @@ TEST(Frontend, ACutPlaneIsWatertight) {
   }
 }
 
+// Corners within a sub-unit of the guard band: cut and snapped, their polygons bend inwards by a hairline,
+// and a fan holds a piece of the other winding with a sample in it.
+TEST(Frontend, NoPieceOfACutTriangleIsWoundTheOtherWay) {
+  const auto at = [](float x, float y) { return glm::vec3(x, y, 0.5f); };
+  const StreamTriangle kHairlines[] = {
+      {{at(64076, -60823), at(16383.9971f, -9145.52148f), at(-8121.66699f, 4625.58789f)}, 1},
+      {{at(57852, -40315), at(16383.9961f, -7531.72461f), at(-8113.375f, 3816.67773f)}, 1},
+      {{at(64909, -46252), at(16383.9951f, -12058.8828f), at(-8123.56445f, 6074.8125f)}, 1},
+      {{at(86855, -61750), at(16383.9971f, -5470.03711f), at(-16296.7842f, 5526.59766f)}, 1}};
+  for (const StreamTriangle& triangle : kHairlines) {
+    const TriangleStream stream{96, 64, {triangle}};
+    const auto drawn = [&](Cull cull) {
+      const auto pieces = run(stream, {.width = 96, .height = 64, .cull = cull}).triangles;
+      return lab::count_hits(*find_backend("scanline").make(), pieces, 96, 64, {});
+    };
+    const auto all = drawn(Cull::none), front = drawn(Cull::back), back = drawn(Cull::front);
+    EXPECT_EQ(*std::max_element(all.begin(), all.end()), 1u);
+    const std::vector<std::uint32_t> nothing(all.size(), 0);
+    EXPECT_TRUE((front == all && back == nothing) || (front == nothing && back == all));
+  }
+}
+
+TEST(Frontend, BothTrianglesAtACutEdgeGetTheBitIdenticalVertex) {
+  Random random(17);
+  const auto same = [](const ClipVertex& p, const ClipVertex& q) {
+    return std::memcmp(&p, &q, sizeof p) == 0;
+  };
+  int cuts = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const auto vertex = [&] {
+      const float w = random.uniform(0.1f, 3.0f), reach = 20'000.0f * w;
+      return ClipVertex{random.uniform(-reach, reach), random.uniform(-reach, reach),
+                        random.uniform(-1.0f, 2.0f) * w, w};
+    };
+    const ClipVertex p = vertex(), q = vertex();
+    const auto plane = static_cast<std::uint16_t>(kNear << random.below(6));  // one of the six that cut
+    if ((outside_of(p, 100, 100) & plane) == (outside_of(q, 100, 100) & plane)) continue;
+    // Neighbours run through their common edge in opposite directions.
+    const auto cut_of = [&](const ClipVertex& from, const ClipVertex& to) {
+      Clipper clipper;
+      const auto polygon = clipper.clip({from, to, vertex()}, plane);
+      for (std::size_t k = 0; k < polygon.size(); ++k) {
+        const ClipVertex &here = polygon[k], &next = polygon[(k + 1) % polygon.size()];
+        if (same(here, from) && !same(next, to)) return next;
+        if (same(next, to) && !same(here, from)) return here;
+      }
+      ADD_FAILURE() << "the edge is not cut";
+      return from;
+    };
+    ASSERT_TRUE(same(cut_of(p, q), cut_of(q, p))) << "edge " << i;
+    ++cuts;
+  }
+  EXPECT_GT(cuts, 1000);
+}
+
 TEST(Frontend, DropsWholeMeshesOutsideTheView) {
   Scene scene = loose(kFront);
   scene.instances.push_back({.translation = {100, 0, 0}});
@@ -228,6 +284,7 @@ TEST(Frontend, IdsAreSourceTrianglesInSubmissionOrder) {
   ASSERT_EQ(result.triangles.size(), 2u);
   EXPECT_EQ(result.triangles[0].payload, 0u);
   EXPECT_EQ(result.triangles[1].payload, 2u);
+  EXPECT_LT(result.triangles[0].x_sub[0], result.triangles[1].x_sub[0]) << "instances keep their order";
   for (const auto& piece : run(loose({{-1, -1, -5}, {1, -1, -5}, {0, -1, 5}}), options).triangles)
     EXPECT_EQ(piece.payload, 0u);
 }
@@ -270,6 +327,25 @@ TEST(Frontend, ShadingFollowsRotationAndMirroring) {
   const auto result = run(scene);
   EXPECT_EQ(result.triangles.at(0).payload & 255, 30u);
   EXPECT_LT(contract::signed_area(result.triangles.at(0)), 0);
+}
+
+TEST(Frontend, ShadesStretchedInstancesAsIfTheirMeshesWereStretched) {
+  Random random(23);
+  for (int i = 0; i < 200; ++i) {
+    std::vector<glm::vec3> corners(3);
+    for (auto& c : corners) c = {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
+    Scene scene = loose(corners);
+    const auto factor = [&] { return random.uniform(0.2f, 1.0f) * (random.below(2) ? 1.0f : -1.0f); };
+    scene.instances[0] = {.scale = {factor(), factor(), factor()},
+                          .axis = {random.uniform(-1, 1), random.uniform(-1, 1), 1.0f},
+                          .angle = random.uniform(0, 6),
+                          .translation = {0, 0, -6}};
+    for (auto& c : corners) c = glm::vec3(model_matrix(scene.instances[0]) * glm::vec4(c, 1.0f));
+    Scene stretched = loose(corners);
+    scene.to_light = stretched.to_light = {0.3f, 0.5f, 0.8f};
+    const auto red = [](const Scene& s) { return static_cast<double>(run(s).triangles.at(0).payload & 255); };
+    ASSERT_NEAR(red(scene), red(stretched), 1) << "triangle " << i;
+  }
 }
 
 TEST(Frontend, GivesTheSameTrianglesOnEveryThreadCount) {

@@ -1,9 +1,7 @@
-// The program as a user meets it: exit statuses, one line for each failure, whole files or none.
+// The program as a user meets it. What it must refuse stands in hostile_table.h.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
-#include <ostream>
 #include <set>
 #include <string>
 #include <vector>
@@ -23,12 +21,6 @@ Outcome edgewise_with(const std::string& arguments) {
   return testing::run_program(EDGEWISE_PROGRAM, arguments);
 }
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-    text.replace(at, from.size(), to);
-  return text;
-}
-
 std::vector<std::string> names_in(const nlohmann::json& list) {
   std::vector<std::string> names;
   for (const auto& entry : list) names.push_back(entry.is_string() ? entry : entry.at("name"));
@@ -40,130 +32,6 @@ std::vector<std::string> names_of(const Registry& registry) {
   std::vector<std::string> names;
   for (const auto& entry : registry) names.emplace_back(entry.name);
   return names;
-}
-
-struct BadInput {
-  const char* arguments;  // DIR stands for a folder of the test's own
-  const char* said;       // a part of the line on stderr
-};
-void PrintTo(const BadInput& bad, std::ostream* out) {
-  *out << "edgewise " << bad.arguments;
-}
-
-class ProgramRejects : public ::testing::TestWithParam<BadInput> {};
-
-TEST_P(ProgramRejects, WithOneLineAndStatus2AndLeavesNothing) {
-  const TempDir folder;
-  const TempDir input;
-  input.write("empty.obj", "");
-  input.write("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");
-  input.write("cut.tri", "TRI1\1");
-  input.write("other.tri", "NOPE............");
-  input.write("text.png", "not a picture");
-  input.write("small.ppm", "P6\n1 1\n255\nabc");
-  input.write("large.ppm", "P6\n2 1\n255\nabcdef");
-  input.write("depth.pfm", std::string("Pf\n1 1\n-1.0\n\0\0\0\0", 16));
-  input.write("mesh.stl", "solid");
-  const std::string arguments =
-      replaced(replaced(GetParam().arguments, "DIR", folder.path().string()), "IN", input.path().string());
-  const Outcome outcome = edgewise_with(arguments);
-  EXPECT_EQ(outcome.status, 2) << outcome.err;
-  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-  EXPECT_TRUE(outcome.err.starts_with("edgewise: ")) << outcome.err;
-  EXPECT_NE(outcome.err.find(GetParam().said), std::string::npos) << outcome.err;
-  EXPECT_EQ(folder.count(), 0u);
-}
-
-INSTANTIATE_TEST_SUITE_P(
-    Table, ProgramRejects,
-    ::testing::Values(BadInput{"", "no command given"},                                                  //
-                      BadInput{"rendr cube", "did you mean 'render'"},                                   //
-                      BadInput{"render", "SCENE is required"},                                           //
-                      BadInput{"render cube", "nothing to write"},                                       //
-                      BadInput{"render cube -o DIR/a.png --colour", "--colour"},                         //
-                      BadInput{"render cub -o DIR/a.png", "did you mean 'cube'"},                        //
-                      BadInput{"render cube cub -o DIR/", "did you mean 'cube'"},                        //
-                      BadInput{"render '' -o DIR/a.png", "unknown scene"},                               //
-                      BadInput{"render cube --backend tile -o DIR/a.png", "did you mean 'tiled'"},       //
-                      BadInput{"render cube --target avx9 -o DIR/a.png", "unknown SIMD target 'avx9'"},  //
-                      BadInput{"render cube --cull bak -o DIR/a.png", "did you mean 'back'"},            //
-                      BadInput{"render cube --payload color -o DIR/a.png", "did you mean 'colour'"},     //
-                      BadInput{"render cube --size 0x5 -o DIR/a.png", "'0x5'"},                          //
-                      BadInput{"render cube --size -4x5 -o DIR/a.png", "'-4x5'"},                        //
-                      BadInput{"render cube --size 16385x5 -o DIR/a.png", "1 to 16384"},                 //
-                      BadInput{"render cube --size 99999999999x5 -o DIR/a.png", "1 to 16384"},           //
-                      BadInput{"render cube --size 5 -o DIR/a.png", "WIDTHxHEIGHT"},                     //
-                      BadInput{"render cube --size 5x5x5 -o DIR/a.png", "WIDTHxHEIGHT"},                 //
-                      BadInput{"render cube --threads 0 -o DIR/a.png", "1 to 256"},                      //
-                      BadInput{"render cube --threads 257 -o DIR/a.png", "1 to 256"},                    //
-                      BadInput{"render cube --threads two -o DIR/a.png", "'two'"},                       //
-                      BadInput{"render cube --tile 48 -o DIR/a.png", "16, 32 or 64"},                    //
-                      BadInput{"render cube --frames 0 -o DIR/a.png", "1 to 100000"},                    //
-                      BadInput{"render cube --time nan -o DIR/a.png", "'nan'"},                          //
-                      BadInput{"render cube --fov 180 -o DIR/a.png", "'180'"},                           //
-                      BadInput{"render cube --near 0 -o DIR/a.png", "--near"},                           //
-                      BadInput{"render cube --near 5 --far 4 -o DIR/a.png", "near"},                     //
-                      BadInput{"render cube --eye 1,2 -o DIR/a.png", "X,Y,Z"},                           //
-                      BadInput{"render cube --eye 1,2,inf -o DIR/a.png", "X,Y,Z"},                       //
-                      BadInput{"render cube --at 0,0,0 --yaw 5 -o DIR/a.png", "exclude"},                //
-                      BadInput{"render cube --scale 2 -o DIR/a.png", "--scale"},                         //
-                      BadInput{"render large --scale 0 -o DIR/a.png", "--scale"},                        //
-                      BadInput{"render large --scale nan -o DIR/a.png", "--scale"},                      //
-                      BadInput{"render micro --scale 900 -o DIR/a.png", "10^8"},                         //
-                      BadInput{"render large --fov 50 -o DIR/a.png", "no camera"},                       //
-                      BadInput{"render cube sphere -o DIR/a.png", "{scene}"},                            //
-                      BadInput{"render cube ./cube.obj -o DIR/", "no such file"},                        //
-                      BadInput{"render grid4 cube --scale 2 -o DIR/", "--scale"},                        //
-                      BadInput{"render cube IN/index.obj -o DIR/", "index.obj"},                         //
-                      BadInput{"render cube cube -o DIR/", "two scenes"},                                //
-                      BadInput{"render cube -o DIR/a.jpg", ".png or .ppm"},                              //
-                      BadInput{"render cube -o DIR/a.png --depth DIR/a.png", ".pfm"},                    //
-                      BadInput{"render cube -o DIR/no/a.png", "/no/a.png: cannot be written"},           //
-                      BadInput{"render cube -o /proc/a.png", "/proc/a.png"},                             //
-                      BadInput{"render cube --size 64x64 -o /dev/full/a.png", "/dev/full/a.png"},        //
-                      BadInput{"render cube -o ''", "nothing to write"},                                 //
-                      BadInput{"render IN/none.obj -o DIR/a.png", "no such file"},                       //
-                      BadInput{"render IN/mesh.stl -o DIR/a.png", "unknown kind of file"},               //
-                      BadInput{"render IN/ -o DIR/a.png", "unknown kind of file"},                       //
-                      BadInput{"render IN/empty.obj -o DIR/a.png", "empty.obj"},                         //
-                      BadInput{"render IN/index.obj -o DIR/a.png", "index.obj"},                         //
-                      BadInput{"render IN/cut.tri -o DIR/a.png", "cut.tri"},                             //
-                      BadInput{"render IN/other.tri -o DIR/a.png", "other.tri"},                         //
-                      BadInput{"capture cube -o DIR/a.png", ".tri"},                                     //
-                      BadInput{"capture cube -o DIR/no/a.tri", "/no/a.tri: cannot be written"},          //
-                      BadInput{"verify cub", "did you mean 'cube'"},                                     //
-                      BadInput{"verify IN/empty.obj --out DIR/out", "empty.obj"},                        //
-                      BadInput{"verify cube --json DIR/no/a.json", "/no/a.json: cannot be written"},     //
-                      BadInput{"diff IN/text.png IN/text.png -o DIR/a.png", "text.png"},                 //
-                      BadInput{"diff IN/small.ppm IN/large.ppm -o DIR/a.png", "different sizes"},        //
-                      BadInput{"diff IN/small.ppm IN/depth.pfm -o DIR/a.png", "cannot be compared"},     //
-                      BadInput{"diff IN/small.ppm IN/none.ppm", "none.ppm"},                             //
-                      BadInput{"diff IN/small.ppm IN/mesh.stl", "unknown kind of file"},                 //
-                      BadInput{"diff IN/small.ppm", "B is required"},                                    //
-                      BadInput{"view cub -o DIR/a.png", "did you mean 'cube'"},                          //
-                      BadInput{"view --keys b% -o DIR/a.png", "'%'"},                                    //
-                      BadInput{"view --coverage tile -o DIR/a.png", "did you mean 'tiled'"},             //
-                      BadInput{"view --facing normal -o DIR/a.png", "did you mean 'normal_z'"},          //
-                      BadInput{"view --axis 1,2 -o DIR/a.png", "X,Y,Z"},                                 //
-                      BadInput{"view -o DIR/a.tri", ".png or .ppm"},                                     //
-                      BadInput{"view -o DIR/no/a.png", "/no/a.png: cannot be written"},                  //
-                      BadInput{"view --terminal -o DIR/a.png", "neither"},                               //
-                      BadInput{"view --terminal </dev/null", "needs a terminal"},                        //
-                      BadInput{"list >/dev/full", "standard output"},                                    //
-                      BadInput{"render cube --size 9x9 -o DIR/../DIR-none/a.png", "a.png"}));
-
-TEST(Program, SaysWhenMemoryIsShort) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "sanitizers reserve more address space than the limit";
-#endif
-  const TempDir folder;
-  const std::string program = EDGEWISE_PROGRAM;
-  const Outcome outcome = testing::run_program(
-      "/bin/sh", "-c 'ulimit -v 400000; \"" + program + "\" render cube --threads 1 --size " +
-                     "16384x16384 -o \"" + (folder.path() / "a.png").string() + "\"'");
-  EXPECT_EQ(outcome.status, 2);
-  EXPECT_EQ(outcome.err, "edgewise: out of memory\n");
-  EXPECT_EQ(folder.count(), 0u);
 }
 
 TEST(Program, HelpsOnEveryCommand) {
@@ -340,12 +208,6 @@ TEST_F(ProgramRenders, WhatDiffTellsApart) {
   EXPECT_EQ(json.at("pixels"), 64 * 64);
   EXPECT_GT(json.at("differing"), 0);
   EXPECT_EQ(read_image(path("d.png")).width, 64);
-}
-
-TEST_F(ProgramRenders, NothingOverAFileThatIsThereWhenItFails) {
-  const auto older = folder_.write("a.png", "older");
-  EXPECT_EQ(edgewise_with("render cube --near 5 --far 4 -o " + older.string()).status, 2);
-  EXPECT_EQ(file_content(older), "older");
 }
 
 TEST_F(ProgramRenders, AVerdictAsJson) {

@@ -17,6 +17,11 @@ VERIFY = {"backends": ["slow", "fast"],
 COUNTERS = {"triangles": 12.0, "covered_px": 1e6, "overdraw": 0.5, "width": 1920.0, "height": 1080.0}
 
 
+# 100 blocks won of 400 covered: were all drawn, the floor would be 2.6.
+FLOOR = {"floor_ms": 1.4, "floor_read_ms": 0.1, "floor_blocks_ms": 0.4, "floor_write_ms": 0.9, "won_blocks": 100.0,
+         "covered_blocks": 400.0}
+
+
 def entries(name, times_ms, **counters):
     return [{"name": name, "run_name": name, "run_type": "iteration", "real_time": t, "time_unit": "ms",
              **COUNTERS, **counters} for t in times_ms]
@@ -26,7 +31,8 @@ def bench(slow=(10.0, 10.2, 10.1), fast=(2.0, 2.1, 2.2)):
     rows = entries("frontend/cube/threads:1", [0.5])
     for backend, times in (("slow", slow), ("fast", fast)):
         for threads in (1, 2):
-            floor = {"floor_ms": 1.4 / threads} if backend == "fast" else {}
+            floor = {key: value / threads for key, value in FLOOR.items()} if backend == "fast" else {}
+            rows += entries(f"{backend}/large/threads:{threads}", [t / threads for t in times], **floor) if floor else []
             rows += entries(f"{backend}/cube/threads:{threads}", [t / threads for t in times], **floor)
             for area, factor in ((1, 0.1 if backend == "slow" else 1), (100, 1), (10000, 1)):
                 rows += entries(f"{backend}/area:{area}/threads:{threads}", [t * factor for t in times])
@@ -171,13 +177,21 @@ class ScriptsTest(unittest.TestCase):
         self.assertEqual(run("readme", "--check", "--file", readme).returncode, 1)
         self.assertEqual(run("readme", "--file", readme).returncode, 0)
         text = readme.read_text()
-        self.assertIn("| cube | 12 | 0.50 | 10.1 | 5.05 | 2.10 | 1.05 | 1.50, 1.50 | fast, 4.81× |", text)
+        self.assertIn("| cube | 12 | 0.50 | 10.1 | 5.05 | 2.10 | 1.05 | 1.50, 1.50 | 0.81, 0.81 | fast, 4.81× |", text)
         self.assertIn("Hand-written.", text)
         self.assertIn("no bit differs", text)
         self.assertNotIn("old", text)
         self.assertEqual(run("readme", "--check", "--file", readme).returncode, 0)
         readme.write_text(text.replace("10.1", "10.0"))
         self.assertEqual(run("readme", "--check", "--file", readme).returncode, 1)
+
+    def test_the_floor_is_told_by_its_parts(self):
+        readme = self.folder / "README.md"
+        readme.write_text("<!-- results: results -->\n<!-- generated:floor -->\n<!-- /generated -->\n")
+        self.assertEqual(run("readme", "--file", readme).returncode, 0)
+        self.assertIn("- `large`, fast on one thread: 2.10 ms. The floor has 0.9 for writing the frame, 0.4 for 100 blocks "
+                      "won, 0.1 for reading; 0.7 ms are left. Were all 400 covered blocks to be drawn, it would be 2.6 ms.",
+                      readme.read_text())
 
     def test_peers_get_ratios_where_they_were_timed(self):
         readme = self.folder / "README.md"
@@ -189,7 +203,7 @@ class ScriptsTest(unittest.TestCase):
         (self.results / "bench.json").write_text(json.dumps(bench_with_peer()))
         self.assertEqual(run("readme", "--file", readme).returncode, 0)
         text = readme.read_text()
-        self.assertIn("| cube | 12 | 0.50 | 10.1 | 5.05 | 2.10 | 1.05 | 1.50, 1.50 | fast, 4.81× | 8.00× |", text)
+        self.assertIn("| cube | 12 | 0.50 | 10.1 | 5.05 | 2.10 | 1.05 | 1.50, 1.50 | 0.81, 0.81 | fast, 4.81× | 8.00× |", text)
         self.assertIn("ext (Ext 1.2):", text)
         self.assertIn("| cube | 12 | 16.8 | 8.40 | 2.10 | 1.05 | 8.00× | 8.00× | 7 | fast | screen triangles |", text)
         self.assertIn("| knot | – | 12.0 | 6.00 | 3.00 | 1.50 | 4.00× | 4.00× | 0 | fast | mesh |", text)
@@ -229,6 +243,20 @@ class ScriptsTest(unittest.TestCase):
         result = missing("packages-peers.txt")
         self.assertEqual(result.returncode, 2)
         self.assertIn("Missing packages: libegl-dev\n", result.stderr)
+
+    def test_soak_is_told_with_its_bound_or_its_differences(self):
+        readme = self.folder / "README.md"
+        soak = {"backends": ["slow", "fast"], "seconds": 1320.0, "shards": [{"shard": 0, "of": 1, "cases": 6000}],
+                "cases": 6000, "frames": 150000, "triangles": 5, "pixels": 3 * 10**9, "oracle_frames": 7,
+                "frontend_lists": 8, "differences": 0,
+                "bounds_95": {"per_case": 3 / 6000, "per_frame": 3 / 150000, "per_pixel": 1e-9}}
+        for record, said in ((soak, "**No bit differs.** With 95 % confidence fewer than one picture in 2,000"),
+                             (soak, "one frame in 50,000, and one pixel in 1.0e+09"), (soak, "In 22 minutes, 6,000"),
+                             ({**soak, "differences": 4, "bounds_95": None}, "**4 differ**")):
+            (self.folder / "results/soak.json").write_text(json.dumps(record))
+            readme.write_text("<!-- results: results -->\n<!-- generated:soak -->\n<!-- /generated -->\n")
+            self.assertEqual(run("readme", "--file", readme).returncode, 0)
+            self.assertIn(said, readme.read_text())
 
     def test_laboratory_fills_the_readme_and_the_summary(self):
         self.add_laboratory()
@@ -296,11 +324,12 @@ class LadderTest(unittest.TestCase):
         from plot_ladder import steps
         rows = {}
         for name, times in (("naive/cube/threads:1", [9.0]), ("fast/cube/threads:1", [2.0]), ("fast/cube/threads:2", [1.0]),
+                            ("naive/cube/rung:stepped/threads:1", [8.5]),
                             ("fast/cube/rung:tiles/threads:1", [8.0]), ("fast/knot/rung:tiles/threads:1", [5.0]),
                             ("fast/cube/rung:avx2/threads:1", [4.0])):
             rows[name] = parse_name(name)
             rows[name].times_ms = times
-        self.assertEqual([row.median_ms for _, row in steps(Bench({}, rows), "cube")], [9.0, 8.0, 4.0, 2.0, 1.0])
+        self.assertEqual([row.median_ms for _, row in steps(Bench({}, rows), "cube")], [9.0, 8.5, 8.0, 4.0, 2.0, 1.0])
 
     def test_a_colour_claims_only_what_repetitions_settle(self):
         from bench_rows import Row

@@ -1,7 +1,6 @@
 // `edgewise stability` as a user meets it.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <string>
@@ -18,19 +17,6 @@ using testing::Outcome;
 
 Outcome stability(const std::string& arguments) {
   return testing::run_program(EDGEWISE_PROGRAM, "stability " + arguments);
-}
-
-TEST(StabilityCommand, RejectsBadInputWithOneLine) {
-  for (const auto& [arguments, said] : {std::pair{"lgs", "did you mean 'legs'"},
-                                        {"cycle lgs --list", "did you mean 'legs'"},
-                                        {"cycle --threads 0", "1 to 256"},
-                                        {"cycle --json /nowhere/a.json", "/nowhere"}}) {
-    const Outcome outcome = stability(arguments);
-    EXPECT_EQ(outcome.status, 2) << arguments;
-    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-    EXPECT_NE(outcome.err.find(said), std::string::npos) << outcome.err;
-    EXPECT_EQ(outcome.out, "") << arguments;
-  }
 }
 
 TEST(StabilityCommand, ListsAllSweeps) {
@@ -58,12 +44,6 @@ TEST(StabilityCommand, WritesTheSameAsTableAndAsJson) {
   ASSERT_EQ(json.at("sweeps").size(), 2u);
   EXPECT_EQ(json["sweeps"][1], sweep_json(run_sweep(lab::find_sweep("legs"), true, 1, [] {})));
   EXPECT_EQ(nlohmann::json::parse(stability("cycle legs --quick --json -").out).at("sweeps"), json["sweeps"]);
-}
-
-TEST(StabilityCommand, LeavesNothingAfterCtrlC) {
-  const TempDir folder;
-  const std::string path = (folder.path() / "stability.json").string();
-  testing::expect_nothing_after_ctrl_c(EDGEWISE_PROGRAM, {"stability", "--json", path}, folder);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,10 +18,15 @@ namespace edgewise::testing {
 
 inline constexpr std::uint32_t kBackground = 0xABCD1234;
 
+// True under `scripts/test --full`: tests that can do more then do all.
+inline bool full_size() {
+  return std::getenv("EDGEWISE_FULL") != nullptr;
+}
+
 // Families of triangles that are hard for a rasterizer.
-inline constexpr std::string_view kFamilies[] = {"lattice",     "pixel-centres", "subpixel", "slivers",
-                                                 "huge",        "guardband",     "tiny",     "degenerate",
-                                                 "equal-depth", "steep"};
+inline constexpr std::string_view kFamilies[] = {"lattice",     "pixel-centres", "subpixel",   "slivers",
+                                                 "huge",        "guardband",     "tiny",       "degenerate",
+                                                 "equal-depth", "steep",         "few-pixels", "mixed-sizes"};
 
 inline std::vector<ScreenTriangle> adversarial(std::string_view family, int count, int width, int height,
                                                std::uint64_t seed) {
@@ -56,6 +62,11 @@ inline std::vector<ScreenTriangle> adversarial(std::string_view family, int coun
         y = copy == 2 ? 2 * t.y_sub[1] - t.y_sub[0] : t.y_sub[copy];
       }
       if (family == "equal-depth") z = kDepthHead + 1000;
+      if (family == "few-pixels") x = cx + between(-1100, 1100), y = cy + between(-1100, 1100);
+      if (family == "mixed-sizes") {  // at one depth, so that the order of submission decides
+        const std::int32_t reach = id % 3 == 0 ? 40 * kSub : 4 * kSub;
+        x = cx + between(-reach, reach), y = cy + between(-reach, reach), z = kDepthHead + 1000;
+      }
       if (family == "steep") {
         x = cx + between(-400, 400), y = cy + between(-400, 400);
         z = between(0, 1) ? kDepthHead : kDepthHead + kDepthRange;
@@ -70,7 +81,7 @@ inline std::vector<ScreenTriangle> adversarial(std::string_view family, int coun
 }
 
 // Every SIMD target with one thread, all tile sizes, and ideas left out; several thread counts with the best
-// one.
+// one; and what only the naive backend looks at.
 inline std::vector<Execution> executions() {
   std::vector<Execution> list;
   for (const auto target : supported_targets()) list.push_back({1, 64, target});
@@ -79,21 +90,32 @@ inline std::vector<Execution> executions() {
     for (const int tile : {16, 32}) list.push_back({2, tile, target});
   for (const auto target : supported_targets())
     for (const auto& ideas : kTiledVariants) list.push_back({1, 64, target, ideas});
+  list.push_back({1, 64, SimdTarget::best, {}, true});
   return list;
 }
 
 inline std::string describe(const Execution& e) {
+  const std::string ideas = edgewise::describe(e.ideas);
   return std::to_string(e.threads) + " threads, tile " + std::to_string(e.tile_size) + ", " +
-         std::string(name_of(e.target)) + ", " + edgewise::describe(e.ideas);
+         std::string(name_of(e.target)) + (ideas.empty() ? "" : ", " + ideas) + (e.stepped ? ", stepped" : "");
+}
+
+// Empty where the frames are the same.
+inline std::string difference_text(const Framebuffer& expected, const Framebuffer& actual) {
+  const auto difference = lab::compare(expected, actual);
+  if (difference.pixels == 0) return {};
+  const int x = difference.first_x, y = difference.first_y;
+  const auto both = [&](std::uint32_t a, std::uint32_t b) {
+    return std::to_string(a) + " and " + std::to_string(b);
+  };
+  return std::to_string(difference.pixels) + " pixels differ, first (" + std::to_string(x) + ", " +
+         std::to_string(y) + "): depth " + both(expected.depth_row(y)[x], actual.depth_row(y)[x]) +
+         ", payload " + both(expected.payload_row(y)[x], actual.payload_row(y)[x]);
 }
 
 inline void expect_same(const Framebuffer& expected, const Framebuffer& actual, const std::string& what) {
-  const auto difference = lab::compare(expected, actual);
-  if (difference.pixels == 0) return;
-  const int x = difference.first_x, y = difference.first_y;
-  ADD_FAILURE() << what << ": " << difference.pixels << " pixels differ, first (" << x << ", " << y
-                << "): depth " << expected.depth_row(y)[x] << " and " << actual.depth_row(y)[x]
-                << ", payload " << expected.payload_row(y)[x] << " and " << actual.payload_row(y)[x];
+  const std::string difference = difference_text(expected, actual);
+  if (!difference.empty()) ADD_FAILURE() << what << ": " << difference;
 }
 
 inline std::vector<std::string_view> backend_names() {

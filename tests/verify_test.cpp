@@ -63,6 +63,16 @@ class LeavesGaps : public Backend {
   std::unique_ptr<Backend> right_ = backends()[0].make();
 };
 
+// The picture is right, and the first pixel behind a row is gone.
+class WritesBesideTheImage : public Backend {
+  void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
+                    const Execution& execution) override {
+    right_->draw(triangles, frame, background, execution);
+    frame.payload[kWrongY * frame.stride + frame.width] = background;
+  }
+  std::unique_ptr<Backend> right_ = backends()[0].make();
+};
+
 template <typename Wrong>
 BackendInfo wrong_backend() {
   return {"wrong", "a wrong backend", [] { return std::unique_ptr<Backend>(std::make_unique<Wrong>()); }};
@@ -148,6 +158,17 @@ TEST(Verify, FindsWhatOnlyOneConfigurationDoes) {
   EXPECT_EQ(report.scenes[0].mismatches[0].payload, Payload::id);
 }
 
+TEST(Verify, FindsWhatIsWrittenBesideTheImage) {
+  const VerifyReport report = verify_quietly(small_plan({"cube"}, wrong_backend<WritesBesideTheImage>()));
+  ASSERT_FALSE(report.ok());
+  const SceneVerdict& verdict = report.scenes[0];
+  EXPECT_EQ(verdict.differing_pixels, 0u);
+  EXPECT_EQ(verdict.written_outside, verdict.configurations / 2 + verdict.oracle_configurations / 2);
+  EXPECT_EQ(verdict.mismatches.at(0).outside, 1u);
+  const std::string text = explain(verdict);
+  EXPECT_NE(text.find("words written beside the image: 1"), std::string::npos) << text;
+}
+
 TEST(Verify, FindsGapsInAGrid) {
   const VerifyReport report = verify_quietly(small_plan({"grid4"}, wrong_backend<LeavesGaps>()));
   const auto& hits = report.scenes.at(0).hits;
@@ -162,6 +183,22 @@ TEST(Verify, KeepsAFindingWhosePicturesCannotBeWritten) {
   const VerifyReport report = verify_quietly(plan);
   ASSERT_FALSE(report.ok());
   EXPECT_NE(report.scenes[0].mismatches.at(0).file_error, "");
+}
+
+TEST(Verify, ShowsASmallStreamToTheOracleAsItIs) {
+  const TempDir folder;
+  for (const std::size_t count : {1u, 2'000u}) {
+    const TriangleStream stream{
+        90, 70, {count, StreamTriangle{{{0, 0, 0}, {80.5f, 3.25f, 0}, {4.75f, 60.5f, 0}}, 1}}};
+    const auto path = folder.path() / "stream.tri";
+    {
+      std::ofstream out(path, std::ios::binary);
+      write_tri(out, stream);
+    }
+    const SceneVerdict verdict = verify_quietly(small_plan({path.string()}, backends()[1])).scenes.at(0);
+    EXPECT_EQ(verdict.oracle_width == 90 && verdict.oracle_height == 70, count == 1) << count;
+    EXPECT_TRUE(verdict.ok());
+  }
 }
 
 TEST(Verify, TableFitsItsTerminal) {

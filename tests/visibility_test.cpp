@@ -28,13 +28,7 @@ VisibilityScore judge(std::string_view name, const VisibilityScene& scene) {
 }
 VisibilityScene seen_by_the_front_end(std::string_view name, Size size) {
   const auto drawable = find_scene(name).make({.width = size.width, .height = size.height});
-  Frontend frontend;
-  const auto triangles = frontend.run(drawable, {.width = size.width,
-                                                 .height = size.height,
-                                                 .cull = Cull::none,
-                                                 .payload = Payload::id,
-                                                 .keep_unsnapped = true});
-  return visibility_scene(triangles, frontend.unsnapped(), std::get<Scene>(drawable), size);
+  return visibility_scene(std::get<Scene>(drawable), size);
 }
 // Rule 6, and at the vertices two float steps of 2^-24, which are 128 of ours each.
 constexpr double kOurWorst_ulp = contract::kDepthError + 1.0 + 2 * 128;
@@ -217,21 +211,15 @@ TEST(Visibility, TheTruthOfAMeshHasTheDistancesOfItsPositions) {
   scene.instances[0].mesh = 1;  // so that ids and meshes run apart
   scene.meshes.push_back({{{-30, -20, -700.1f}, {30, -20, -700.3f}, {0, 20, -700.7f}}, {{0, 1, 2}}, {0}});
   scene.meshes.push_back({{{0, -1, 5}, {-2, -1, -40}, {2, -1, -40}}, {{0, 1, 2}}, {0}});  // behind the eye
-  constexpr Size kSize{128, 96};
-  Frontend frontend;
-  const auto triangles = frontend.run(scene, {.width = kSize.width,
-                                              .height = kSize.height,
-                                              .cull = Cull::none,
-                                              .payload = Payload::id,
-                                              .keep_unsnapped = true});
-  const auto seen = visibility_scene(triangles, frontend.unsnapped(), scene, kSize);
+  const auto seen = visibility_scene(scene, {128, 96});
   ASSERT_EQ(seen.triangles.size(), 3u);
   for (std::size_t piece = 0; piece < 2; ++piece)
     for (const double z : seen.triangles[piece].view_z)
       EXPECT_TRUE(z == 40.0 || std::abs(z - 0.5) < 1e-5) << z;
   const auto& far_away = seen.triangles[2];
   for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(far_away.view_z[k], -double{scene.meshes[0].positions[k].z});
-  const double by_depth = 500.0 / (1000.0 - double{frontend.unsnapped()[2].z01[1]} * 999.5);
+  const double depth01 = (far_away.screen.z[1] - double{contract::kDepthHead}) / contract::kDepthRange;
+  const double by_depth = 500.0 / (1000.0 - depth01 * 999.5);
   EXPECT_GT(std::abs(by_depth - far_away.view_z[1]), 1e-3);
 }
 

@@ -40,13 +40,6 @@ Share share_of(std::string_view name) {
   return kUsualShare;
 }
 
-lab::VisibilityScene mesh_visibility(const Scene& scene, lab::Size size, Cull cull = Cull::back) {
-  FrontendOptions options{size.width, size.height, cull, false, Payload::id, 1, true};
-  Frontend frontend;
-  const auto triangles = frontend.run(scene, options);
-  return lab::visibility_scene(triangles, frontend.unsnapped(), scene, size);
-}
-
 // Triangles through one another, from near the eye to a thousand times as far: every order and every depth
 // format has something to get wrong.
 Scene deep_soup(int count) {
@@ -118,8 +111,7 @@ class Catalogue {
     }
     const lab::Size seen = plan_.quick ? kQuick : kUsual;
     add(Family::visibility, "deep_soup", "20,000 triangles through one another, near and far", Timed::always,
-        false, plan_.quick ? 0.5 : 3.0,
-        [seen] { return mesh_visibility(deep_soup(20'000), seen, Cull::none); });
+        false, plan_.quick ? 0.5 : 3.0, [seen] { return lab::visibility_scene(deep_soup(20'000), seen); });
     for (const SceneInfo& info : builtin_scenes()) add_built_in(info);
     for (const lab::VisibilityCase& c : lab::visibility_cases())
       add(Family::visibility, c.name, c.idea, Timed::never, true, 0.1, c.make);
@@ -154,8 +146,8 @@ class Catalogue {
     if (mesh)
       add(Family::visibility, source_name(path), "your file", Timed::always, false, 5.0, [load] {
         const Shot shot = load();
-        return mesh_visibility(std::get<Scene>(shot.source.drawable),
-                               {shot.frontend.width, shot.frontend.height});
+        return lab::visibility_scene(std::get<Scene>(shot.source.drawable),
+                                     {shot.frontend.width, shot.frontend.height}, Cull::back);
       });
     return std::move(list_);
   }
@@ -179,7 +171,7 @@ class Catalogue {
     if (info.stream) return;
     const lab::Size seen = plan_.quick ? kQuick : kUsual;
     add(Family::visibility, info.name, info.idea, Timed::never, false, cost_s / 2, [&info, seen] {
-      return mesh_visibility(std::get<Scene>(info.make({seen.width, seen.height})), seen);
+      return lab::visibility_scene(std::get<Scene>(info.make({seen.width, seen.height})), seen, Cull::back);
     });
   }
 

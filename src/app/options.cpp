@@ -9,6 +9,7 @@
 #include <glm/trigonometric.hpp>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "nearest_name.h"
@@ -19,7 +20,7 @@ namespace edgewise::app {
 namespace {
 
 constexpr double kFarthest = 1e6;     // world units, of a camera's places and planes
-constexpr double kLongestTime = 1e6;  // s
+constexpr double kLongestTime = 1e6;  // s, 11 days
 constexpr double kLargestScale = 1e3;
 constexpr double kSmallest = 1e-6;  // what "more than zero" means on the command line
 
@@ -106,6 +107,24 @@ int parse_integer(std::string_view option, std::string_view text, int min, int m
   if (!value || *value < min || *value > max)
     reject(option, text, fmt::format("a whole number from {} to {}", min, max));
   return *value;
+}
+
+std::uint64_t parse_count(std::string_view option, std::string_view text, std::uint64_t min,
+                          std::uint64_t max) {
+  const auto value = whole_number<std::uint64_t>(text);
+  if (!value || *value < min || *value > max)
+    reject(option, text, fmt::format("a whole number from {} to {}", min, max));
+  return *value;
+}
+
+double parse_duration(std::string_view option, std::string_view text) {
+  constexpr std::pair<char, double> kUnits[] = {{'s', 1.0}, {'m', 60.0}, {'h', 3600.0}};
+  for (const auto& [unit, seconds] : kUnits) {
+    if (!text.ends_with(unit)) continue;
+    const auto value = whole_number<double>(text.substr(0, text.size() - 1));
+    if (value && *value > 0.0 && *value * seconds <= kLongestTime) return *value * seconds;
+  }
+  reject(option, text, fmt::format("a duration such as 90s, 20m or 2h, of at most {} s", kLongestTime));
 }
 
 glm::vec3 parse_vector(std::string_view option, std::string_view text) {

@@ -2,6 +2,7 @@
 // std::invalid_argument with a line that names the option, the text and what would have been right.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <optional>
@@ -27,6 +28,9 @@ inline constexpr Size kDefaultSize{1280, 720};
 Size parse_size(std::string_view option, std::string_view text);
 double parse_number(std::string_view option, std::string_view text, double min, double max);
 int parse_integer(std::string_view option, std::string_view text, int min, int max);
+std::uint64_t parse_count(std::string_view option, std::string_view text, std::uint64_t min,
+                          std::uint64_t max);
+double parse_duration(std::string_view option, std::string_view text);  // "90s", "20m", "2h" → s
 glm::vec3 parse_vector(std::string_view option, std::string_view text);
 
 CLI::Option* add_number(CLI::App& command, const std::string& name, std::optional<double>& value, double min,

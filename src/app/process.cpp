@@ -6,7 +6,10 @@
 #include <atomic>
 #include <cerrno>
 #include <csignal>
+#include <new>
+#include <string_view>
 
+#include "app/console.h"
 #include "app/progress.h"
 #include "image/atomic_file.h"
 
@@ -24,6 +27,21 @@ extern "C" void stop(int signal) {
   _exit(128 + signal);
 }
 
+const char* program_name = "";
+
+[[noreturn]] void give_up() {
+  if (void (*const action)() = before_stopping) action();
+  remove_unfinished_files();
+  erase_progress_on_signal();
+  try {
+    if (const auto thrown = std::current_exception()) std::rethrow_exception(thrown);
+  } catch (const std::exception& error) {
+    print_error(reason_of(error), program_name);
+  } catch (...) {
+  }
+  _exit(2);
+}
+
 // open() takes the lowest free number, which is the closed stream's own.
 void occupy_closed_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
@@ -36,7 +54,17 @@ void call_before_stopping(void (*action)()) {
   before_stopping = action;
 }
 
-void prepare_process() {
+std::string reason_of(const std::exception& error) {
+  if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) return "out of memory";
+  const std::string_view what = error.what();
+  if (what.starts_with("pthread_create"))
+    return "no more threads can be started; ask for fewer, or allow more memory or processes";
+  return std::string(what);
+}
+
+void prepare_process(const char* program) {
+  program_name = program;
+  std::set_terminate(give_up);
   occupy_closed_streams();
   for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT})

@@ -4,6 +4,7 @@
 #include <array>
 #include <chrono>
 #include <memory>
+#include <optional>
 
 #include "app/pictures.h"
 #include "app/verify_pictures.h"
@@ -28,7 +29,8 @@ constexpr Execution kMostSeams{3, 16, SimdTarget::best};
 constexpr Execution kPlainest{1, 64, SimdTarget::scalar};
 
 // Other tile sizes run on the best target, other targets with the usual tile, and ideas are left out on one
-// thread count: the product would mostly repeat itself, since only tiled backends look at either.
+// thread count: the product would mostly repeat itself, since only tiled backends look at either. The last is
+// for the naive one.
 std::vector<Execution> executions(const VerifyPlan& plan) {
   std::vector<Execution> all;
   for (const int threads : plan.threads) {
@@ -37,10 +39,12 @@ std::vector<Execution> executions(const VerifyPlan& plan) {
   }
   for (const TiledIdeas& ideas : kTiledVariants)
     all.push_back({plan.threads.front(), 64, resolve(SimdTarget::best), ideas});
+  all.push_back({plan.threads.front(), 64, resolve(SimdTarget::best), {}, true});
   return all;
 }
 
-PixelValue value_at(const Framebuffer& frame, std::string_view drawn_by, int x, int y) {
+template <typename Frame>
+PixelValue value_at(const Frame& frame, std::string_view drawn_by, int x, int y) {
   return {std::string(drawn_by), frame.depth_row(y)[x], frame.payload_row(y)[x]};
 }
 
@@ -69,7 +73,7 @@ class SceneCheck {
     verdict_.width = width;
     verdict_.height = height;
     Framebuffer expected(width, height);
-    candidate_ = std::make_unique<Framebuffer>(width, height);
+    candidate_.emplace(width, height, lab::GuardedFrame::aligned(width));
 
     for (const Cull cull : cull_modes()) {
       shot.frontend.cull = cull;
@@ -106,7 +110,7 @@ class SceneCheck {
     const int width = verdict_.oracle_width = shot.frontend.width;
     const int height = verdict_.oracle_height = shot.frontend.height;
     Framebuffer expected(width, height);
-    candidate_ = std::make_unique<Framebuffer>(width, height);
+    candidate_.emplace(width, height, lab::GuardedFrame::aligned(width));
     for (const Cull cull : cull_modes()) {
       shot.frontend.cull = cull;
       const auto triangles = frontend_.run(shot.source.drawable, shot.frontend);
@@ -136,12 +140,13 @@ class SceneCheck {
     const bool known =
         std::any_of(verdict_.mismatches.begin(), verdict_.mismatches.end(),
                     [&](const Mismatch& m) { return m.backend == name && m.judge == j.judge; });
-    if (found.pixels != 0 && !known) keep(j, backend, execution, found);
+    verdict_.written_outside += found.outside;
+    if (found.any() && !known) keep(j, backend, execution, found);
     return found.pixels;
   }
 
   void draw(const Judgement& j, std::size_t backend, const Execution& execution) {
-    lab::poison(*candidate_);
+    candidate_->poison();
     backends_[backend]->draw(j.triangles, candidate_->view(), background_of(j.frontend.payload), execution);
   }
 
@@ -157,17 +162,21 @@ class SceneCheck {
                       std::string(name),
                       execution,
                       found.pixels,
+                      found.outside,
                       x,
                       y,
                       {},
                       {},
                       {}};
-    mismatch.values = {value_at(j.expected, j.judge, x, y),
-                       value_at(*candidate_, std::string(name) + " (so configured)", x, y)};
-    write_failure(plan_.failure_folder, verdict_.scene, mismatch, {j.triangles, j.expected, *candidate_});
-    for (std::size_t b = 0; b < backends_.size(); ++b) {
-      draw(j, b, {1, 64, resolve(SimdTarget::best)});
-      mismatch.values.push_back(value_at(*candidate_, plan_.backends[b].name, x, y));
+    write_failure(plan_.failure_folder, verdict_.scene, mismatch,
+                  {j.triangles, j.expected, candidate_->copy()});
+    if (found.pixels != 0) {
+      mismatch.values = {value_at(j.expected, j.judge, x, y),
+                         value_at(*candidate_, std::string(name) + " (so configured)", x, y)};
+      for (std::size_t b = 0; b < backends_.size(); ++b) {
+        draw(j, b, {1, 64, resolve(SimdTarget::best)});
+        mismatch.values.push_back(value_at(*candidate_, plan_.backends[b].name, x, y));
+      }
     }
     verdict_.mismatches.push_back(std::move(mismatch));
   }
@@ -183,7 +192,7 @@ class SceneCheck {
   const std::vector<Execution> executions_;
   std::vector<std::unique_ptr<Backend>> backends_;
   Frontend frontend_;
-  std::unique_ptr<Framebuffer> candidate_;
+  std::optional<lab::GuardedFrame> candidate_;
   SceneVerdict verdict_{};
   std::size_t steps_, steps_done_ = 0;
 };
@@ -191,7 +200,7 @@ class SceneCheck {
 }  // namespace
 
 bool SceneVerdict::ok() const {
-  return differing_pixels == 0 && oracle_differences == 0 &&
+  return differing_pixels == 0 && oracle_differences == 0 && written_outside == 0 &&
          std::all_of(hits.begin(), hits.end(), [](const HitCount& h) { return h.not_once == 0; });
 }
 

@@ -41,8 +41,9 @@ struct Mismatch {
   std::string judge;  // the reference's name, or "oracle"
   std::string backend;
   Execution execution;
-  std::uint64_t pixels;  // that differ
-  int x, y;              // the first of them
+  std::uint64_t pixels;   // that differ
+  std::uint64_t outside;  // words written beside the image
+  int x, y;               // the first pixel that differs; -1 if none does
   std::vector<PixelValue>
       values;  // there: the judge's, this configuration's, then each backend's on one thread
   std::vector<std::string> files;
@@ -61,6 +62,7 @@ struct SceneVerdict {
   std::uint64_t emitted = 0;           // by the front end, over all culling modes
   std::uint64_t configurations = 0;    // compared with the reference
   std::uint64_t differing_pixels = 0;  // over all of them
+  std::uint64_t written_outside = 0;   // words beside the image, over all frames
   int oracle_width = 0, oracle_height = 0;
   std::uint64_t oracle_configurations = 0, oracle_differences = 0;
   std::vector<HitCount> hits;        // built-in grids only

@@ -11,12 +11,6 @@ namespace {
 
 constexpr std::size_t kNameWidth = 12;
 
-std::string describe(const Execution& e) {
-  const std::string ideas = edgewise::describe(e.ideas);
-  return fmt::format("{} thread{}, {}, tile {}{}{}", e.threads, e.threads == 1 ? "" : "s",
-                     name_of(resolve(e.target)), e.tile_size, ideas.empty() ? "" : ", ", ideas);
-}
-
 std::string_view name_of_payload(Payload payload) {
   return payload == Payload::colour ? "colour" : "id";
 }
@@ -25,7 +19,9 @@ std::string explain(const Mismatch& m) {
   std::string text = fmt::format("  {} ({}) differs from {} in {} of {}x{} pixels, cull {}, payload {}\n",
                                  m.backend, describe(m.execution), m.judge, m.pixels, m.width, m.height,
                                  name_of(m.cull), name_of_payload(m.payload));
-  text += fmt::format("    the first is x {}, y {}, where depth and payload are\n", m.x, m.y);
+  if (m.outside != 0) text += fmt::format("    words written beside the image: {}\n", m.outside);
+  if (!m.values.empty())
+    text += fmt::format("    the first is x {}, y {}, where depth and payload are\n", m.x, m.y);
   for (const PixelValue& v : m.values)
     text += fmt::format("      {:<24} {:#010x} {:#010x}\n", v.drawn_by, v.depth, v.payload);
   for (const std::string& file : m.files) text += fmt::format("    {}\n", printable(file));
@@ -40,13 +36,16 @@ nlohmann::json mismatch_json(const Mismatch& m) {
                       {"tile_size", m.execution.tile_size},
                       {"simd_target", name_of(resolve(m.execution.target))},
                       {"ideas", edgewise::describe(m.execution.ideas)},
+                      {"stepped", m.execution.stepped},
                       {"cull", name_of(m.cull)},
                       {"payload", name_of_payload(m.payload)},
                       {"width", m.width},
                       {"height", m.height},
                       {"pixels", m.pixels},
+                      {"written_outside", m.outside},
                       {"first", {m.x, m.y}},
-                      {"files", m.files}};
+                      {"files", m.files},
+                      {"values", nlohmann::json::array()}};
   for (const PixelValue& v : m.values)
     json["values"].push_back({{"drawn_by", v.drawn_by}, {"depth", v.depth}, {"payload", v.payload}});
   return json;
@@ -60,6 +59,7 @@ nlohmann::json scene_json(const SceneVerdict& v) {
                       {"emitted", v.emitted},
                       {"configurations", v.configurations},
                       {"differing_pixels", v.differing_pixels},
+                      {"written_outside", v.written_outside},
                       {"oracle",
                        {{"width", v.oracle_width},
                         {"height", v.oracle_height},
@@ -74,6 +74,13 @@ nlohmann::json scene_json(const SceneVerdict& v) {
 }
 
 }  // namespace
+
+std::string describe(const Execution& e) {
+  const std::string ideas = edgewise::describe(e.ideas);
+  return fmt::format("{} thread{}, {}, tile {}{}{}{}", e.threads, e.threads == 1 ? "" : "s",
+                     name_of(resolve(e.target)), e.tile_size, ideas.empty() ? "" : ", ", ideas,
+                     e.stepped ? ", stepped" : "");
+}
 
 std::string VerifyTable::header() const {
   if (!wide_)

@@ -19,6 +19,9 @@ class VerifyTable {
   bool wide_;
 };
 
+// "2 threads, avx2, tile 64, no prefetch"
+std::string describe(const Execution& execution);
+
 // All that is known about the differences of a scene; empty if there are none.
 std::string explain(const SceneVerdict& verdict);
 

@@ -37,6 +37,10 @@ Shot load_thinned(const VerifyPlan& plan, const std::string& name, Size size, do
   return load(plan, name, size, std::min(1.0, scale * wanted / count));
 }
 
+bool is_affordable(const TriangleStream& stream) {
+  return static_cast<double>(stream.triangles.size()) * stream.width * stream.height <= kOracleBudget;
+}
+
 // A stream from a file, shrunk to a size, with every n-th of its triangles.
 TriangleStream shrunk(const TriangleStream& stream, Size size, std::size_t most) {
   const std::size_t step = (stream.triangles.size() + most - 1) / most;
@@ -86,8 +90,14 @@ Shot shot_for_oracle(const VerifyPlan& plan, const std::string& name) {
   const bool built_in_stream = !is_file_path(name) && find_scene(name).stream;
   Shot shot = built_in_stream ? load_thinned(plan, name, kOracleSize, 1e-3, kEnoughTriangles)
                               : load(plan, name, kOracleSize, std::nullopt);
-  if (!built_in_stream && stream_of(shot) != nullptr)
-    shot.source.drawable = shrunk(*stream_of(shot), kOracleSize, static_cast<std::size_t>(kEnoughTriangles));
+  if (const TriangleStream* stream = stream_of(shot); stream != nullptr && !built_in_stream) {
+    if (is_affordable(*stream)) {  // a counterexample must stay one
+      shot.frontend.width = stream->width;
+      shot.frontend.height = stream->height;
+    } else {
+      shot.source.drawable = shrunk(*stream, kOracleSize, static_cast<std::size_t>(kEnoughTriangles));
+    }
+  }
   const Size size = affordable_size(shot);
   shot.frontend.width = size.width;
   shot.frontend.height = size.height;

@@ -39,10 +39,11 @@ std::uint16_t outside_of(const ClipVertex& v, float width_px, float height_px);
 // vertex to the outside one, so that both triangles at an edge get the bit-identical vertex.
 class Clipper {
  public:
+  static constexpr std::size_t kMaxVertices = 3 + 6;  // each plane adds at most one
+
   std::span<const ClipVertex> clip(const ClipVertex (&triangle)[3], std::uint16_t planes);
 
  private:
-  static constexpr std::size_t kMaxVertices = 3 + 6;  // each plane adds at most one
   std::array<ClipVertex, kMaxVertices> from_, to_;
 };
 

@@ -1,21 +1,24 @@
 // The order of the steps, each of which has a file of its own: vertices (transform.cpp), triangles
 // (assemble.cpp or stream.cpp, with one_by_one.cpp and clip.cpp for what is special), colours (shade.cpp),
-// and their places (in_order.h).
+// and their places (in_order.h). Instances go through them in groups, cut into runs (runs.h).
 #include "frontend/frontend.h"
 
 #include <algorithm>
 #include <atomic>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "frontend/assemble.h"
 #include "frontend/in_order.h"
+#include "frontend/runs.h"
 #include "frontend/shade.h"
 #include "frontend/stream.h"
 #include "frontend/transform.h"
 #include "frontend/view.h"
 #include "raster/contract.h"
 #include "raster/parallel.h"
+#include "scale_limits.h"
 
 namespace edgewise {
 
@@ -36,12 +39,20 @@ const Mesh& mesh_of(const Scene& scene, const Instance& instance) {
   return scene.meshes[instance.mesh];
 }
 
-[[noreturn]] void throw_missing_vertex(const Mesh& mesh) {
+void throw_if_vertex_missing(const Mesh& mesh) {
   const auto largest = [](glm::uvec3 t) { return std::max({t.x, t.y, t.z}); };
   const auto bad = std::find_if(mesh.triangles.begin(), mesh.triangles.end(),
                                 [&](glm::uvec3 t) { return largest(t) >= mesh.positions.size(); });
+  if (bad == mesh.triangles.end()) return;
   throw std::invalid_argument("triangle " + std::to_string(bad - mesh.triangles.begin()) + " names vertex " +
                               std::to_string(largest(*bad)) + " of " + std::to_string(mesh.positions.size()));
+}
+
+std::size_t checked_count(std::size_t triangles) {
+  if (triangles > kMaxTriangles)
+    throw std::invalid_argument(std::to_string(triangles) + " triangles are more than " +
+                                std::to_string(kMaxTriangles));
+  return triangles;
 }
 
 std::size_t submitted(const Drawable& drawable) {
@@ -81,25 +92,48 @@ FrontendStats& FrontendStats::operator+=(const FrontendStats& o) {
   return *this;
 }
 
-struct Frontend::State {
-  Buffer<Vertex> vertices;  // of one mesh
-  InOrder order;
-  Buffer<ScreenTriangle> screen;
-  Buffer<UnsnappedTriangle> unsnapped;
-  FrontendStats stats;
-  FrontendOptions options;
+// An instance's part in the work of a group.
+struct GroupMember {
+  GroupMember(const MeshJob& its_job, const ShadeJob& its_light, std::size_t vertices_before,
+              std::uint32_t id)
+      : job(its_job), light(its_light), first_vertex(vertices_before), first_id(id) {}
+
+  MeshJob job;
+  ShadeJob light;
+  std::size_t first_vertex;  // in the group's memory
+  std::uint32_t first_id;
+  std::uint32_t common = kInvisible | kNotFinite;  // sides beyond which all finite vertices lie
 
   // True if the mesh lies beyond one side of the view as a whole; no side is known of one without a finite
   // vertex.
-  bool transform_mesh(const MeshJob& job) {
+  bool out_of_sight() const { return (common & kNotFinite) == 0 && common != 0; }
+};
+
+struct Frontend::State {
+  // Instances that follow one another, and are worked on together: alone most would not be worth threads.
+  static constexpr std::size_t kMaxVertices = 4 * kWorthThreads, kMaxMembers = 1024;
+  std::vector<GroupMember> group;
+  Runs vertex_runs, triangle_runs;
+  Buffer<Vertex> vertices;
+
+  InOrder order;
+  Buffer<ScreenTriangle> screen;
+  Buffer<UnsnappedTriangle> unsnapped;
+  std::size_t unsnapped_count = 0;  // valid ones
+  FrontendStats stats;
+  FrontendOptions options;
+
+  void transform_group() {
     const TransformKernel transform = transform_kernel(options.target);
-    const std::size_t count = job.mesh.positions.size(), runs = (count + kRun - 1) / kRun;
-    std::atomic<std::uint32_t> common{kInvisible | kNotFinite};
-    parallel_for(count < kWorthThreads ? 1 : options.threads, static_cast<int>(runs), [&](int i) {
-      const std::size_t begin = static_cast<std::size_t>(i) * kRun;
-      common &= transform(job, begin, std::min(count, begin + kRun));
-    });
-    return (common & kNotFinite) == 0 && common != 0;
+    vertices.reserve(vertex_runs.total());
+    for (GroupMember& member : group) member.job.vertices = vertices.data() + member.first_vertex;
+    parallel_for(workers_for(vertex_runs.total(), options.threads), static_cast<int>(vertex_runs.size()),
+                 [&](int run) {
+                   for (const Piece& piece : vertex_runs[static_cast<std::size_t>(run)]) {
+                     GroupMember& member = group[piece.mesh];
+                     std::atomic_ref(member.common) &= transform(member.job, piece.begin, piece.end);
+                   }
+                 });
   }
 
   // Copies a run's output to its place, if there is room: if not, the frame is run again with more.
@@ -109,58 +143,92 @@ struct Frontend::State {
     if (options.keep_unsnapped) std::copy_n(out.unsnapped.data(), out.count, unsnapped.data() + at);
   }
 
-  void assemble_mesh(const MeshJob& job, const ShadeJob& light, std::uint32_t first_id) {
+  // Turns the payload of the output's triangles from `first` on, their index in the mesh, into what is
+  // wanted.
+  void finish_payload(const GroupMember& member, std::size_t first, RunOutput& out, ShadeKernel shade) {
+    ScreenTriangle* triangles = out.triangles.data() + first;
+    const std::size_t count = out.count - first;
+    if (options.payload == Payload::id)
+      std::for_each_n(triangles, count, [&](ScreenTriangle& t) { t.payload += member.first_id; });
+    else if (options.shade)
+      shade(member.light, out, first);
+    else
+      std::for_each_n(triangles, count,
+                      [&](ScreenTriangle& t) { t.payload = member.job.mesh.colours[t.payload]; });
+  }
+
+  void assemble_group() {
+    for (const GroupMember& member : group)
+      if (member.out_of_sight()) {
+        ++stats.meshes_culled;
+        stats.whole_mesh += member.job.mesh.triangles.size();
+      }
     const AssembleKernel assemble = assemble_kernel(options.target);
     const ShadeKernel shade = shade_kernel(options.target);
     std::atomic<bool> all_exist{true};
-    const auto make = [&](std::size_t begin, std::size_t end, RunOutput& out) {
-      if (!assemble(job, begin, end, out)) {
-        all_exist = false;
-        return;
+    const auto make = [&](std::size_t run, RunOutput& out) {
+      for (const Piece& piece : triangle_runs[run]) {
+        const GroupMember& member = group[piece.mesh];
+        const std::size_t first = out.count;
+        if (member.out_of_sight()) continue;
+        if (assemble(member.job, piece.begin, piece.end, out))
+          finish_payload(member, first, out, shade);
+        else
+          all_exist = false;
       }
-      ScreenTriangle* triangles = out.triangles.data();
-      if (options.payload == Payload::id)
-        std::for_each_n(triangles, out.count, [&](ScreenTriangle& t) { t.payload += first_id; });
-      else if (options.shade)
-        shade(light, out);
-      else
-        std::for_each_n(triangles, out.count,
-                        [&](ScreenTriangle& t) { t.payload = job.mesh.colours[t.payload]; });
     };
-    order.for_each_run(job.mesh.triangles.size(), make,
+    order.for_each_run(triangle_runs.size(), triangle_runs.total(), make,
                        [&](const RunOutput& out, std::size_t at) { place(out, at); });
-    if (!all_exist) throw_missing_vertex(job.mesh);
+    if (all_exist) return;
+    for (const GroupMember& member : group)
+      if (!member.out_of_sight()) throw_if_vertex_missing(member.job.mesh);
+  }
+
+  void start_group() {
+    group.clear();
+    vertex_runs.clear();
+    triangle_runs.clear();
+  }
+
+  void run_group() {
+    if (group.empty()) return;
+    transform_group();
+    assemble_group();
+    start_group();
   }
 
   void run_scene(const Scene& scene) {
     const glm::dmat4 to_screen = screen_matrix(scene.camera, options.width, options.height);
     std::size_t first_id = 0;
+    start_group();
     for (const auto& instance : scene.instances) {
       const Mesh& mesh = mesh_of(scene, instance);
       check(mesh);
-      vertices.reserve(mesh.positions.size());
+      if (vertex_runs.total() + mesh.positions.size() > kMaxVertices || group.size() == kMaxMembers)
+        run_group();
       const glm::mat4 model = model_matrix(instance);
-      const MeshJob job{options, mesh, glm::mat4(to_screen * glm::dmat4(model)), vertices.data()};
+      const MeshJob job{options, mesh, glm::mat4(to_screen * glm::dmat4(model)), nullptr};
       ++stats.meshes;
       stats.triangles += mesh.triangles.size();
-      if (transform_mesh(job)) {
-        ++stats.meshes_culled;
-        stats.whole_mesh += mesh.triangles.size();
-      } else {
-        assemble_mesh(job, ShadeJob(mesh, model, scene.to_light), static_cast<std::uint32_t>(first_id));
-      }
+      vertex_runs.add(group.size(), mesh.positions.size());
+      triangle_runs.add(group.size(), mesh.triangles.size());
+      group.emplace_back(job, ShadeJob(mesh, model, scene.to_light),
+                         vertex_runs.total() - mesh.positions.size(), static_cast<std::uint32_t>(first_id));
       first_id += mesh.triangles.size();
     }
+    run_group();
   }
 
   void run_stream(const TriangleStream& stream) {
     const StreamKernel kernel = stream_kernel(options.target);
     const StreamJob job{options, stream};
-    stats.triangles = stream.triangles.size();
-    order.for_each_run(
-        stream.triangles.size(),
-        [&](std::size_t begin, std::size_t end, RunOutput& out) { kernel(job, begin, end, out); },
-        [&](const RunOutput& out, std::size_t at) { place(out, at); });
+    const std::size_t count = stream.triangles.size();
+    stats.triangles = count;
+    order.for_each_run((count + kRun - 1) / kRun, count,
+                       [&](std::size_t run, RunOutput& out) {
+                         kernel(job, run * kRun, std::min(count, (run + 1) * kRun), out);
+                       },
+                       [&](const RunOutput& out, std::size_t at) { place(out, at); });
   }
 
   void run_once(const Drawable& drawable, std::size_t room) {
@@ -176,9 +244,10 @@ struct Frontend::State {
   }
 
   void run(const Drawable& drawable) {
-    run_once(drawable, submitted(drawable));
+    run_once(drawable, checked_count(submitted(drawable)));
     // More pieces of cut triangles than triangles that were dropped: rare, and for one frame only.
-    if (order.total() > screen.capacity()) run_once(drawable, order.total());
+    if (order.total() > screen.capacity()) run_once(drawable, checked_count(order.total()));
+    if (options.keep_unsnapped) unsnapped_count = order.total();
   }
 };
 
@@ -188,13 +257,16 @@ Frontend::Frontend(Frontend&&) noexcept = default;
 Frontend& Frontend::operator=(Frontend&&) noexcept = default;
 
 std::span<const ScreenTriangle> Frontend::run(const Drawable& drawable, const FrontendOptions& options) {
+  State& s = *state_;
+  s.unsnapped_count = 0;
   for (const int side : {options.width, options.height})
     if (side < 1 || side > contract::kMaxImageSide)
       throw std::invalid_argument("image side " + std::to_string(side) + " is outside 1 to " +
                                   std::to_string(contract::kMaxImageSide));
-  State& s = *state_;
+  if (options.threads < 1 || options.threads > kMaxThreads)
+    throw std::invalid_argument(std::to_string(options.threads) + " threads are outside 1 to " +
+                                std::to_string(kMaxThreads));
   s.options = options;
-  s.options.threads = std::max(options.threads, 1);
   s.options.target = resolve(options.target);
   s.run(drawable);
   return {s.screen.data(), s.order.total()};
@@ -205,7 +277,7 @@ const FrontendStats& Frontend::stats() const {
 }
 
 std::span<const UnsnappedTriangle> Frontend::unsnapped() const {
-  return {state_->unsnapped.data(), state_->options.keep_unsnapped ? state_->order.total() : 0};
+  return {state_->unsnapped.data(), state_->unsnapped_count};
 }
 
 }  // namespace edgewise

@@ -27,7 +27,7 @@ struct FrontendOptions {
   Cull cull = Cull::back;           // front is clockwise on the y-down screen
   bool shade = true;                // scenes only: colour times max(n·l, 0.15)
   Payload payload = Payload::colour;
-  int threads = 1;
+  int threads = 1;  // 1 … kMaxThreads
   // For judging: remember where each triangle lay before it was snapped, and keep those that lost their area
   // by it.
   bool keep_unsnapped = false;
@@ -61,8 +61,9 @@ struct FrontendStats {
 };
 
 // Keeps its memory between frames, and allocates none after the first of a kind: 16 bytes a vertex of the
-// largest mesh, 40 a visible triangle, and less than 1 MB a thread. One object must not work on two threads
-// at once.
+// largest mesh or of a group of small ones, 1 MB at most; 40 a visible triangle, and less than 1 MB a thread;
+// with keep_unsnapped 36 a visible triangle more, and as much a thread again. One object must not work on two
+// threads at once.
 class Frontend {
  public:
   Frontend();
@@ -71,11 +72,12 @@ class Frontend {
   Frontend& operator=(Frontend&&) noexcept;
 
   // The visible triangles in submission order, valid until the next call. Throws std::invalid_argument for a
-  // camera or a size out of range, a triangle of a mesh in view that names a vertex its mesh lacks, or a SIMD
-  // target that this machine cannot run.
+  // camera, a size or a thread count out of range, more than kMaxTriangles (before any memory is taken for
+  // them), a triangle of a mesh in view that names a vertex its mesh lacks, or a SIMD target that this machine
+  // cannot run.
   std::span<const ScreenTriangle> run(const Drawable& drawable, const FrontendOptions& options);
   const FrontendStats& stats() const;
-  // One for each triangle that run() returned, if keep_unsnapped was set; else none.
+  // One for each triangle that run() returned, if keep_unsnapped was set; else none, as when it threw.
   std::span<const UnsnappedTriangle> unsnapped() const;
 
  private:

@@ -28,19 +28,18 @@ class InOrder {
     }
   }
 
-  // Calls make(begin, end, output) for the runs of 0 … count - 1, which fills an empty output, and
-  // place(output, at) where `at` triangles come before it. Neither may throw.
+  // Calls make(run, output) for each of so many runs, of `count` triangles together, which fills an empty
+  // output, and place(output, at) where `at` triangles come before it. Neither may throw.
   template <typename Make, typename Place>
-  void for_each_run(std::size_t count, Make&& make, Place&& place) {
-    const std::size_t runs = (count + kRun - 1) / kRun;
-    const int workers = count < kWorthThreads ? 1 : threads_;
+  void for_each_run(std::size_t runs, std::size_t count, Make&& make, Place&& place) {
+    const int workers = workers_for(count, threads_);
     std::atomic<std::size_t> next{0};
     std::atomic<std::uint32_t> turn{0};
     parallel_for(workers, workers, [&](int worker) {
       RunOutput& out = outputs_[static_cast<std::size_t>(worker)];
       for (std::size_t run; (run = next.fetch_add(1, std::memory_order_relaxed)) < runs;) {
         out.count = 0;
-        make(run * kRun, std::min(count, (run + 1) * kRun), out);
+        make(run, out);
         wait_until(turn, static_cast<std::uint32_t>(run));
         const std::size_t at = total_;
         total_ += out.count;

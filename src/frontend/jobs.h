@@ -2,13 +2,14 @@
 // the output of one run of it.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
 
-#include "frontend/buffer.h"
 #include "frontend/frontend.h"
 #include "frontend/vertex.h"
+#include "raster/buffer.h"
 
 namespace edgewise {
 
@@ -31,11 +32,16 @@ inline constexpr std::size_t kRun = 2048;
 // Below this many, waking another thread costs more than it saves.
 inline constexpr std::size_t kWorthThreads = 8192;
 
+inline int workers_for(std::size_t count, int threads) {
+  return count < kWorthThreads ? 1 : threads;
+}
+
 // A run's visible triangles. Every worker has one and fills it again for each of its runs; two workers' share
 // no cache line, nor the pair of lines that processors fetch.
 struct alignas(128) RunOutput {
   // A triangle cut by six planes has nine corners, so it becomes seven at most; vectors are stored whole.
   static constexpr std::size_t kRoom = kRun * 7 + 16;
+  static_assert(kRoom * std::max(sizeof(ScreenTriangle), sizeof(UnsnappedTriangle)) < 1'000'000);
 
   void reserve(bool with_unsnapped) {
     triangles.reserve(kRoom);

@@ -1,7 +1,9 @@
 #include "frontend/one_by_one.h"
 
 #include <algorithm>
+#include <array>
 
+#include "frontend/pieces.h"
 #include "frontend/transform.h"
 #include "raster/contract.h"
 
@@ -66,13 +68,13 @@ void clip(const ClipVertex (&triangle)[3], std::uint32_t sides, std::uint32_t pa
     ++stats.not_in_front;
     return;
   }
-  const Vertex first = project(polygon[0]);
-  Vertex previous = project(polygon[1]);
-  for (std::size_t i = 2; i < polygon.size(); ++i) {
-    const Vertex next = project(polygon[i]);
-    emit(first, previous, next, payload, options, out,
-         [&] { return unsnapped_triangle(polygon[0], polygon[i - 1], polygon[i]); });
-    previous = next;
+  std::array<Vertex, Clipper::kMaxVertices> snapped;
+  std::transform(polygon.begin(), polygon.end(), snapped.begin(), project);
+  const Pieces pieces = split({snapped.data(), polygon.size()});
+  for (std::size_t i = 0; i < pieces.count; ++i) {
+    const auto [a, b, c] = pieces.corners[i];
+    emit(snapped[a], snapped[b], snapped[c], payload, options, out,
+         [&, a = a, b = b, c = c] { return unsnapped_triangle(polygon[a], polygon[b], polygon[c]); });
   }
 }
 

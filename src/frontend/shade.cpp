@@ -97,11 +97,11 @@ HWY_INLINE VF cosines(const ShadeJob& job, const Positions& positions,
       real(c.word[0]), real(c.word[1]), real(c.word[2]));
 }
 
-void shade(const ShadeJob& job, RunOutput& run) {
+void shade(const ShadeJob& job, RunOutput& run, std::size_t first) {
   const DI d;
   const Positions positions(job.mesh);
   ScreenTriangle* triangles = run.triangles.data();
-  for (std::size_t i = 0; i < run.count; i += kLanes) {
+  for (std::size_t i = first; i < run.count; i += kLanes) {
     const std::size_t count = std::min(kLanes, run.count - i);
     const glm::uvec3* corners[kLanes];
     std::uint32_t colours[kLanes];
@@ -146,7 +146,7 @@ std::vector<std::uint32_t> lit_colours(const Scene& scene) {
       run.count = std::min(kRun, mesh.triangles.size() - begin);
       for (std::size_t i = 0; i < run.count; ++i)
         run.triangles.data()[i].payload = static_cast<std::uint32_t>(begin + i);
-      kernel(job, run);
+      kernel(job, run, 0);
       for (std::size_t i = 0; i < run.count; ++i) colours.push_back(run.triangles.data()[i].payload);
     }
   }

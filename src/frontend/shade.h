@@ -18,8 +18,9 @@ struct ShadeJob {
   glm::dvec3 to_light;  // normalised
 };
 
-// Replaces the payload of a run's triangles, their index in the mesh, by their colour in the light.
-using ShadeKernel = void (*)(const ShadeJob& job, RunOutput& run);
+// Replaces the payload of a run's triangles from `first` on, their index in the mesh, by their colour in the
+// light.
+using ShadeKernel = void (*)(const ShadeJob& job, RunOutput& run, std::size_t first);
 
 // `target` must be resolved.
 ShadeKernel shade_kernel(SimdTarget target);

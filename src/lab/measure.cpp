@@ -11,15 +11,10 @@ namespace edgewise::lab {
 
 using namespace contract;
 
-void poison(Framebuffer& frame) {
-  const FrameView view = frame.view();
-  const auto bytes =
-      static_cast<std::size_t>(view.stride) * static_cast<std::size_t>(view.height) * sizeof(*view.depth);
-  std::memset(view.depth, 0xA5, bytes);
-  std::memset(view.payload, 0xA5, bytes);
-}
+namespace {
 
-FrameDifference compare(const Framebuffer& a, const Framebuffer& b) {
+template <typename Frame>
+FrameDifference difference_of(const Framebuffer& a, const Frame& b) {
   if (a.width() != b.width() || a.height() != b.height())
     throw std::invalid_argument("frames of different sizes cannot be compared");
   FrameDifference result;
@@ -33,6 +28,25 @@ FrameDifference compare(const Framebuffer& a, const Framebuffer& b) {
       if (result.pixels++ == 0) result.first_x = x, result.first_y = y;
     }
   }
+  return result;
+}
+
+}  // namespace
+
+void poison(Framebuffer& frame) {
+  const FrameView view = frame.view();
+  const auto words = static_cast<std::size_t>(view.stride) * static_cast<std::size_t>(view.height);
+  std::fill_n(view.depth, words, kCanary);
+  std::fill_n(view.payload, words, kCanary);
+}
+
+FrameDifference compare(const Framebuffer& a, const Framebuffer& b) {
+  return difference_of(a, b);
+}
+
+FrameDifference compare(const Framebuffer& expected, const GuardedFrame& found) {
+  FrameDifference result = difference_of(expected, found);
+  result.outside = found.written_outside();
   return result;
 }
 

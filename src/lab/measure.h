@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "lab/guarded_frame.h"
 #include "raster/backend.h"
 #include "raster/contract.h"
 
@@ -18,9 +19,13 @@ void poison(Framebuffer& frame);
 struct FrameDifference {
   std::uint64_t pixels = 0;  // pixels whose depth or payload differ
   int first_x = -1, first_y = -1;
+  std::uint64_t outside = 0;  // words written beside the image; known of guarded frames only
+
+  bool any() const { return pixels != 0 || outside != 0; }
 };
 // Both frames must have the same size.
 FrameDifference compare(const Framebuffer& a, const Framebuffer& b);
+FrameDifference compare(const Framebuffer& expected, const GuardedFrame& found);
 
 // Puts triangles into groups whose members' bounding boxes don't meet, so that every pixel drawn for each of
 // them shows when a group is drawn alone; indices, without those that touch no sample. Few groups for grids,

@@ -1,6 +1,8 @@
-// Coverage by the snapped truth, sample by sample. Depth by the contract's formula in exact integers, with no
-// shared code and no shortcut.
+// Coverage by the snapped truth, sample by sample, wherever a pixel touches the triangle's box. Depth by the
+// contract's formula in exact integers, with no shared code and no shortcut.
 #include "lab/oracle.h"
+
+#include <algorithm>
 
 #include "lab/truth.h"
 #include "raster/contract.h"  // constants only
@@ -47,6 +49,17 @@ class ContractDepth {
   int top_ = 0;
 };
 
+// The pixels of an image, of `size` on an axis, whose squares touch [low, high] there; both ends included. A
+// sample elsewhere lies outside the triangle.
+struct PixelRange {
+  int first, last;
+};
+PixelRange touched(const std::int32_t (&sub)[3], int size) {
+  const auto [low, high] = std::minmax({sub[0], sub[1], sub[2]});
+  return {static_cast<int>(std::max<Wide>(floor_divide(low, 256), 0)),
+          static_cast<int>(std::min<Wide>(floor_divide(high, 256), size - 1))};
+}
+
 }  // namespace
 
 void draw_oracle(std::span<const ScreenTriangle> triangles, Framebuffer& frame, std::uint32_t background) {
@@ -60,8 +73,10 @@ void draw_oracle(std::span<const ScreenTriangle> triangles, Framebuffer& frame, 
     const SnappedTruth truth(triangle);
     if (truth.facing() == 0) continue;
     const ContractDepth depth(triangle);
-    for (int y = 0; y < view.height; ++y)
-      for (int x = 0; x < view.width; ++x) {
+    const PixelRange columns = touched(triangle.x_sub, view.width),
+                     rows = touched(triangle.y_sub, view.height);
+    for (int y = rows.first; y <= rows.last; ++y)
+      for (int x = columns.first; x <= columns.last; ++x) {
         if (!truth.covers(x, y)) continue;
         const std::uint32_t z = depth.at(x, y);
         std::uint32_t& old = view.depth[y * view.stride + x];

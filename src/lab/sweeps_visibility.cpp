@@ -57,14 +57,7 @@ VisibilityScene ring_of_bars(int bars) {
     mesh.triangles.emplace_back(first, first + 1, first + 2);
     mesh.colours.push_back(rgb(255, 255, 255));
   }
-  constexpr Size kSize{256, 192};
-  Frontend frontend;
-  const auto triangles = frontend.run(scene, {.width = kSize.width,
-                                              .height = kSize.height,
-                                              .cull = Cull::none,
-                                              .payload = Payload::id,
-                                              .keep_unsnapped = true});
-  return visibility_scene(triangles, frontend.unsnapped(), scene, kSize);
+  return visibility_scene(scene, {256, 192});
 }
 
 Measured measure_cycle(double bars, bool) {

@@ -106,7 +106,9 @@ VisibilityScene two_planes(double distance, double separation, double near_z, do
 // Thin triangles in many directions, from distance 10 to 50 across their width; aspect is length over
 // (horizontal) width, at most 2^17: thinner ones have no area.
 VisibilityScene slivers(double aspect);
-// What a front end made of a scene, beside the true distances; needs Payload::id and keep_unsnapped.
+// What the front end makes of a scene, beside the true distances.
+VisibilityScene visibility_scene(const Scene& scene, Size size, Cull cull = Cull::none);
+// The same of what was made of it already: payloads are ids, which ascend.
 VisibilityScene visibility_scene(std::span<const ScreenTriangle> triangles,
                                  std::span<const UnsnappedTriangle> unsnapped, const Scene& scene, Size size);
 

@@ -7,21 +7,21 @@
 #include <string_view>
 
 #include "raster/framebuffer.h"
+#include "raster/parallel.h"
 #include "raster/screen_triangle.h"
 #include "raster/simd_target.h"
 #include "raster/tiled_ideas.h"
+#include "scale_limits.h"
 
 namespace edgewise {
-
-inline constexpr int kMaxThreads = 256;
-inline constexpr std::size_t kMaxTriangles = std::size_t{1} << 30;  // a frame
 
 // How to draw. No choice here changes a bit of the picture.
 struct Execution {
   int threads = 1;     // 1 … kMaxThreads
   int tile_size = 64;  // px; 16, 32 or 64; only tiled backends look at it
   SimdTarget target = SimdTarget::best;
-  TiledIdeas ideas{};  // all on; only the tiled backend looks at them
+  TiledIdeas ideas{};    // all on; only the tiled backend looks at them
+  bool stepped = false;  // along rows, instead of evaluated at each pixel; only the naive backend looks at it
 };
 
 // A backend keeps its scratch memory between frames, so one object must not draw on two threads at once; two
@@ -31,9 +31,9 @@ class Backend {
   virtual ~Backend() = default;
 
   // Draws a whole frame: every pixel of `frame` is written, with `background` and contract::kDepthClear where
-  // no triangle wins. Throws std::invalid_argument for an impossible frame or execution (before a pixel is
-  // touched), std::bad_alloc for lack of memory. Thousands of frames into the same view allocate only in the
-  // first.
+  // no triangle wins. Throws std::invalid_argument for an impossible frame or execution, or more than
+  // kMaxTriangles (before anything is touched or allocated), std::bad_alloc for lack of memory. Thousands of
+  // frames into the same view allocate only in the first.
   void draw(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
             const Execution& execution);
 

@@ -37,12 +37,12 @@ void draw_in_bands(std::span<const ScreenTriangle> triangles, FrameView frame, s
   constexpr int kBandRowsLog2 = 5, kWholeWidthLog2 = 14;
   static_assert(1 << kWholeWidthLog2 == contract::kMaxImageSide);
   const CellGrid grid{frame.width, frame.height, kWholeWidthLog2, kBandRowsLog2};
-  bins.build(triangles, grid, execution.threads, execution.target);
+  bins.build(triangles, grid, execution.threads, execution.target, Bins::Small::as_indices, true);
   parallel_for(execution.threads, grid.rows(), [&](int band) {
     const RowRange rows{band << kBandRowsLog2, std::min((band + 1) << kBandRowsLog2, frame.height)};
     clear_rows(frame, rows, background);
-    bins.for_each_run(band, [&](std::span<const std::uint32_t> run) {
-      for (const std::uint32_t index : run) draw(triangles[index], rows);
+    bins.for_each_run(band, [&](const Bins::Run& run) {
+      for (const std::uint32_t index : run.indices) draw(triangles[index], rows);
     });
   });
 }

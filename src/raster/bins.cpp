@@ -17,6 +17,7 @@ void Bins::Chunk::reset(std::size_t cells) {
   used = 0;
 }
 
+template <bool kPatches>
 void Bins::Chunk::push(std::size_t cell, std::uint32_t index) {
   std::uint32_t slot = cursor[cell];
   if (slot % kBlock == kRun) {  // a full block, or none yet (kNone ends in the same bits)
@@ -29,19 +30,24 @@ void Bins::Chunk::push(std::size_t cell, std::uint32_t index) {
     slot = block;
   }
   slots[slot] = index;
+  if constexpr (kPatches) {  // a scene of large triangles shall not pay for that
+    if (patches.any() && after.size() < slots.size()) after.resize(slots.size());
+    if (slot < after.size()) after[slot] = patches.end(cell);
+  }
   cursor[cell] = slot + 1;
 }
 
-void Bins::bin(const ScreenTriangle& triangle, std::uint32_t index, const CellBox& box, const CellGrid& grid,
-               Chunk& chunk) {
+template <bool kPatches>
+void Bins::Chunk::bin(const ScreenTriangle& triangle, std::uint32_t index, const CellBox& box,
+                      const CellGrid& grid) {
   const int column0 = box.column0, column1 = box.column1, row0 = box.row0, row1 = box.row1;
   const int columns = grid.columns();
   const auto cell_at = [&](int column, int row) { return static_cast<std::size_t>(row * columns + column); };
 
   // One or two cells: the tile's own test is as cheap as one here.
   if (column1 - column0 + row1 - row0 <= 1) {
-    chunk.push(cell_at(column0, row0), index);
-    if (column1 - column0 + row1 - row0 == 1) chunk.push(cell_at(column1, row1), index);
+    push<kPatches>(cell_at(column0, row0), index);
+    if (column1 - column0 + row1 - row0 == 1) push<kPatches>(cell_at(column1, row1), index);
     return;
   }
   const Oriented oriented = orient(triangle);
@@ -61,42 +67,92 @@ void Bins::bin(const ScreenTriangle& triangle, std::uint32_t index, const CellBo
   for (int row = row0; row <= row1; ++row) {
     std::int64_t value[3] = {row_value[0], row_value[1], row_value[2]};
     for (int column = column0; column <= column1; ++column) {
-      if ((value[0] | value[1] | value[2]) >= 0) chunk.push(cell_at(column, row), index);
+      if ((value[0] | value[1] | value[2]) >= 0) push<kPatches>(cell_at(column, row), index);
       for (int i = 0; i < 3; ++i) value[i] += step_x[i];
     }
     for (int i = 0; i < 3; ++i) row_value[i] += step_y[i];
   }
 }
 
+namespace {
+
+// Calls sort(triangles + i, i) for every kBoxesAtOnce of them; empty triangles fill up what is missing.
+template <typename Sort>
+void in_batches(std::span<const ScreenTriangle> triangles, Sort&& sort) {
+  const std::size_t whole = triangles.size() / kBoxesAtOnce * kBoxesAtOnce;
+  for (std::size_t i = 0; i < whole; i += kBoxesAtOnce) sort(triangles.data() + i, i);
+  if (whole == triangles.size()) return;
+  ScreenTriangle rest[kBoxesAtOnce] = {};
+  std::copy(triangles.begin() + static_cast<std::ptrdiff_t>(whole), triangles.end(), rest);
+  sort(rest, whole);
+}
+
+}  // namespace
+
+// `begin`: index of the first triangle.
+void Bins::Chunk::bin_as_indices(std::span<const ScreenTriangle> triangles, std::size_t begin,
+                                 const CellGrid& grid, bool prefetch, CellBoxKernel find_boxes) {
+  CellBox boxes[kBoxesAtOnce];
+  in_batches(triangles, [&](const ScreenTriangle* some, std::size_t at) {
+    for (std::uint64_t left = find_boxes(some, grid, prefetch, boxes); left != 0; left &= left - 1) {
+      const auto k = static_cast<std::size_t>(std::countr_zero(left));
+      bin<false>(some[k], static_cast<std::uint32_t>(begin + at + k), boxes[k], grid);
+    }
+  });
+}
+
+void Bins::Chunk::bin_with_patches(std::span<const ScreenTriangle> triangles, std::size_t begin,
+                                   const CellGrid& grid, bool prefetch, PatchFinder find_patches) {
+  SortedTriangles sorted;
+  in_batches(triangles, [&](const ScreenTriangle* some, std::size_t at) {
+    find_patches(some, grid, prefetch, sorted);
+    std::size_t n = 0;
+    for (std::uint64_t left = sorted.boxed | sorted.patched; left != 0; left &= left - 1) {
+      const auto k = static_cast<std::size_t>(std::countr_zero(left));
+      if (sorted.patched >> k & 1) {
+        for (unsigned windows = sorted.windows[n]; windows != 0; windows &= windows - 1) {
+          const auto w = static_cast<std::size_t>(std::countr_zero(windows));
+          patches.append(sorted.first[w][n], sorted.second[w][n]);
+        }
+        ++n;
+      } else {
+        bin<true>(some[k], static_cast<std::uint32_t>(begin + at + k), sorted.boxes[k], grid);
+      }
+    }
+  });
+}
+
 void Bins::build(std::span<const ScreenTriangle> triangles, const CellGrid& grid, int threads,
-                 SimdTarget target, const TiledIdeas& ideas) {
+                 SimdTarget target, Small small, bool prefetch) {
   // Triangles. A thousand large ones are worth sharing; but the shorter a cell's lists, the emptier the
   // vectors of who draws it.
   constexpr std::size_t kLeastChunk = 500;
   constexpr std::size_t kChunksPerThread = 4;
-  constexpr std::size_t kMaxHeads = std::size_t{1} << 24;  // list heads of all chunks together: 128 MB
+  constexpr std::size_t kMaxHeads = std::size_t{1} << 24;  // of all chunks: 128 MB, 384 with patches
   const auto cells = static_cast<std::size_t>(grid.cells());
   const std::size_t most = threads == 1 ? 1 : kChunksPerThread * static_cast<std::size_t>(threads);
   const std::size_t affordable = std::max<std::size_t>(1, kMaxHeads / cells);
   used_chunks_ = std::clamp<std::size_t>(triangles.size() / kLeastChunk, 1, std::min(most, affordable));
   if (chunks_.size() < used_chunks_) chunks_.resize(used_chunks_);
 
-  const CellBoxKernel find_boxes = cell_box_kernel(ideas.vector_setup ? target : SimdTarget::scalar);
+  const CellBoxKernel find_boxes = cell_box_kernel(target);
+  const PatchFinder find_patches = small == Small::as_patches ? patch_finder(target) : nullptr;
   parallel_for(threads, static_cast<int>(used_chunks_), [&](int i) {
     const auto c = static_cast<std::size_t>(i);
     Chunk& chunk = chunks_[c];
     chunk.reset(cells);
     const std::size_t begin = triangles.size() * c / used_chunks_;
-    const std::size_t end = triangles.size() * (c + 1) / used_chunks_;
-    CellBox boxes[kBoxesAtOnce];
-    for (std::size_t first = begin; first < end; first += kBoxesAtOnce) {
-      const auto some = triangles.subspan(first, std::min<std::size_t>(kBoxesAtOnce, end - first));
-      for (std::uint64_t left = find_boxes(some, grid, ideas.prefetch, boxes); left != 0; left &= left - 1) {
-        const auto k = static_cast<std::size_t>(std::countr_zero(left));
-        bin(some[k], static_cast<std::uint32_t>(first + k), boxes[k], grid, chunk);
-      }
+    const auto some = triangles.subspan(begin, triangles.size() * (c + 1) / used_chunks_ - begin);
+    if (find_patches != nullptr) {
+      chunk.patches.reset(cells, some.size());
+      chunk.bin_with_patches(some, begin, grid, prefetch, find_patches);
+    } else {
+      chunk.bin_as_indices(some, begin, grid, prefetch, find_boxes);
     }
   });
+  has_patches_ = find_patches != nullptr &&
+                 std::any_of(chunks_.begin(), chunks_.begin() + static_cast<std::ptrdiff_t>(used_chunks_),
+                             [](const Chunk& chunk) { return chunk.patches.any(); });
 }
 
 }  // namespace edgewise

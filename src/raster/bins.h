@@ -1,5 +1,8 @@
 // Binning: which triangles can touch which cell of the image, in submission order.
 //
+// Small triangles may be resolved to patches at once (patch_finder.cpp), which lie in lists by value. Others
+// lie in lists of indices, and for each index it is known after which patch of the cell it comes.
+//
 // The triangles are cut into chunks that are binned in parallel, each into lists of its own; a cell's
 // triangles are its lists of chunk 0, 1, 2 …, which keeps the order of submission (rule 7) whatever thread
 // did which chunk. A list holds indices, not records, in blocks of two cache lines that are chained and
@@ -11,26 +14,39 @@
 #include <vector>
 
 #include "raster/cell_boxes.h"
+#include "raster/patch_finder.h"
+#include "raster/patch_lists.h"
 #include "raster/screen_triangle.h"
 #include "raster/simd_target.h"
-#include "raster/tiled_ideas.h"
 
 namespace edgewise {
 
 class Bins {
  public:
+  enum class Small { as_indices, as_patches };
+
   // Replaces what was binned before. A triangle with no sample in its bounding box lands nowhere; one without
-  // area may land in a cell or two. Throws std::length_error when a chunk's lists pass 2^32 entries.
+  // area may land in a cell or two. Patches want cells of tiles; a target without vectors makes none.
+  // `prefetch`: triangles are asked for before they are needed. Throws std::length_error when a chunk's lists
+  // pass 2^32 entries.
   void build(std::span<const ScreenTriangle> triangles, const CellGrid& grid, int threads, SimdTarget target,
-             const TiledIdeas& ideas = {});
+             Small small, bool prefetch);
 
   bool empty(int cell) const {
+    const auto c = static_cast<std::size_t>(cell);
     for (std::size_t i = 0; i < used_chunks_; ++i)
-      if (chunks_[i].first[static_cast<std::size_t>(cell)] != kNone) return false;
+      if (chunks_[i].first[c] != kNone || (has_patches_ && !chunks_[i].patches.empty(c))) return false;
     return true;
   }
 
-  // visit(indices) for consecutive runs of a cell's triangle indices, in submission order.
+  // Consecutive indices of a cell.
+  struct Run {
+    std::span<const std::uint32_t> indices;
+    std::size_t chunk;
+    const PatchLists::Position* after;  // for each index the patches before it; or null if none are
+  };
+
+  // visit(run) for a cell's triangle indices, in submission order.
   template <typename Visit>
   void for_each_run(int cell, Visit&& visit) const {
     const auto c = static_cast<std::size_t>(cell);
@@ -40,11 +56,51 @@ class Bins {
         const std::uint32_t block_end = slot + kRun;
         const bool last = chunk.cursor[c] <= block_end && chunk.cursor[c] > slot;
         const std::uint32_t end = last ? chunk.cursor[c] : block_end;
-        visit(std::span<const std::uint32_t>(&chunk.slots[slot], end - slot));
+        if (!last) {  // the next block is anywhere: ask for it in time
+          const std::uint32_t* const next = &chunk.slots[chunk.slots[block_end]];
+          __builtin_prefetch(next), __builtin_prefetch(next + kRun);
+        }
+        visit(Run{
+            {&chunk.slots[slot], end - slot}, i, chunk.after.size() >= end ? &chunk.after[slot] : nullptr});
         slot = last ? kNone : chunk.slots[block_end];
       }
     }
   }
+
+  // Goes through the patches of a cell, in submission order.
+  class PatchReader {
+   public:
+    PatchReader(const Bins& bins, int cell) : bins_(bins), cell_(static_cast<std::size_t>(cell)) {
+      if (!bins_.has_patches_) return;
+      for (std::size_t i = 0; i < bins_.used_chunks_; ++i) bins_.chunks_[i].patches.ask_for_first(cell_);
+    }
+    // visit(patches) for runs of what is left before one of a run's triangles, see
+    // PatchLists::for_each_run().
+    template <typename Visit>
+    void up_to(const Run& run, std::size_t index, Visit&& visit) {
+      if (!bins_.has_patches_) return;
+      const PatchLists::Position position = run.after != nullptr ? run.after[index] : nullptr;
+      for (; chunk_ != run.chunk; ++chunk_, at_ = nullptr) rest_of_chunk(visit);
+      bins_.chunks_[chunk_].patches.for_each_run(cell_, at_, position, visit);
+      at_ = position;
+    }
+    template <typename Visit>
+    void to_the_end(Visit&& visit) {
+      if (!bins_.has_patches_) return;
+      for (; chunk_ != bins_.used_chunks_; ++chunk_, at_ = nullptr) rest_of_chunk(visit);
+    }
+
+   private:
+    template <typename Visit>
+    void rest_of_chunk(Visit&& visit) {
+      const PatchLists& lists = bins_.chunks_[chunk_].patches;
+      lists.for_each_run(cell_, at_, lists.end(cell_), visit);
+    }
+
+    const Bins& bins_;
+    std::size_t cell_, chunk_ = 0;
+    PatchLists::Position at_ = nullptr;
+  };
 
  private:
   static constexpr std::uint32_t kNone = 0xFFFFFFFF;
@@ -56,16 +112,23 @@ class Bins {
     std::vector<std::uint32_t> slots;          // blocks of kBlock
     std::vector<std::uint32_t> first, cursor;  // for each cell: slot of its first block, next slot to write
     std::uint32_t used = 0;                    // slots in use
+    PatchLists patches;
+    std::vector<PatchLists::Position> after;  // of slots; fewer, if there are no patches before the others
 
     void reset(std::size_t cells);
+    template <bool kPatches>
     void push(std::size_t cell, std::uint32_t index);
+    template <bool kPatches>
+    void bin(const ScreenTriangle& triangle, std::uint32_t index, const CellBox& box, const CellGrid& grid);
+    void bin_as_indices(std::span<const ScreenTriangle> triangles, std::size_t begin, const CellGrid& grid,
+                        bool prefetch, CellBoxKernel find_boxes);
+    void bin_with_patches(std::span<const ScreenTriangle> triangles, std::size_t begin, const CellGrid& grid,
+                          bool prefetch, PatchFinder find_patches);
   };
-
-  static void bin(const ScreenTriangle& triangle, std::uint32_t index, const CellBox& box,
-                  const CellGrid& grid, Chunk& chunk);
 
   std::vector<Chunk> chunks_;
   std::size_t used_chunks_ = 0;
+  bool has_patches_ = false;
 };
 
 }  // namespace edgewise

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 
 #include "raster/screen_triangle.h"
 #include "raster/simd_target.h"
@@ -23,11 +22,11 @@ struct CellBox {
 
 inline constexpr int kBoxesAtOnce = 64;
 
-// Writes the boxes of up to kBoxesAtOnce triangles (at least one) to out[0 … kBoxesAtOnce) and returns which
-// of them hold a sample, bit by bit; the others' boxes mean nothing. `prefetch`: the triangles that follow in
-// memory are asked for.
-using CellBoxKernel = std::uint64_t (*)(std::span<const ScreenTriangle> triangles, const CellGrid& grid,
-                                        bool prefetch, CellBox* out);
+// Writes the boxes of kBoxesAtOnce triangles to out[0 … kBoxesAtOnce) and returns which of them hold a
+// sample, bit by bit; the others' boxes mean nothing. `prefetch`: the triangles that follow in memory are
+// asked for.
+using CellBoxKernel = std::uint64_t (*)(const ScreenTriangle* triangles, const CellGrid& grid, bool prefetch,
+                                        CellBox* out);
 
 // `target` must be resolved.
 CellBoxKernel cell_box_kernel(SimdTarget target);

@@ -4,6 +4,8 @@
 // so a backend may step, tile, vectorise or thread as it likes and still write the same bits. Floats end in
 // the front end.
 //
+// What is claimed here of all inputs is proven by a solver: raster/proofs, run by scripts/prove.
+//
 // Sources: fill rule, snapping and sample positions follow the D3D11.3 functional specification, section 3.4
 // (rasterization rules); edge functions are those of Pineda, "A Parallel Algorithm for Polygon
 // Rasterization", 1988.
@@ -32,8 +34,8 @@ constexpr std::int32_t sample_sub(std::int32_t pixel) {
 }
 
 // Rule 3, guard band. |x|, |y| <= 2^22 sub-units (16384 px). The front end clips what lies beyond, so a
-// difference of coordinates fits 24 signed bits, and the largest image is one whose every sample lies inside
-// the band.
+// difference of coordinates is at most 2^23, and the largest image is one whose every sample lies inside the
+// band.
 inline constexpr std::int32_t kGuardSub = 1 << 22;
 inline constexpr std::int32_t kMaxImageSide = kGuardSub / kSub;
 static_assert(kMaxImageSide == 16384 && sample_sub(kMaxImageSide - 1) < kGuardSub);
@@ -75,9 +77,9 @@ static_assert(std::int64_t{kMaxTile} * 2 * (2 * kGuardSub) <= std::int64_t{1} <<
 //   z(x, y)  = base + (x mod 64) zx + (y mod 64) zy,  zx = floor(gx / 2^16 + 1/2)           mod 2^32
 // The plane is anchored at the topmost, then leftmost vertex, so rotating or flipping the vertices changes no
 // bit. Error at a sample inside the triangle: gx, gy are off by less than 2^-16 each over at most 2^15 px,
-// base rounds by 1/2, and 63 steps on both axes are off by at most 1/2 + 2^-16 each: under 2 (1/2) + 1/2 +
-// 126 (1/2 + 2^-16) < 65. A head-room of 128 units at both ends of the 31 bits therefore keeps every drawn
-// depth from wrapping, and keeps it below kDepthClear, so the background never wins.
+// base rounds by 1/2, and 63 steps on both axes are off by at most 1/2 each: under 2 (1/2) + 1/2 + 126 (1/2)
+// < 65. A head-room of 128 units at both ends of the 31 bits therefore keeps every drawn depth from wrapping,
+// and keeps it below kDepthClear, so the background never wins.
 inline constexpr int kDepthCell = 64;
 inline constexpr std::uint32_t kDepthHead = 128;
 inline constexpr std::uint32_t kDepthClear = 0x7FFFFFFF;

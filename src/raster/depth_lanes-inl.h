@@ -64,22 +64,38 @@ HWY_INLINE Area area_of(const TriangleLanes& t) {
 
 struct DepthLanes {
   V32 x, y;             // steps a pixel
-  V32 base;             // at the first pixel of the cell
+  V64 gx, gy;           // rule 6
+  V64 start;            // 2^24 (depth at the first pixel of the cell + 1/2)
   hn::Mask<D64> exact;  // where all that holds
+  HWY_INLINE V32 base() const { return lower(shift_right<24>(start)); }
 };
-// Over the cell whose first pixel is (cell_px, cell_py).
-HWY_INLINE DepthLanes depth_lanes(const TriangleLanes& t, const Area& area, int cell_px, int cell_py) {
+// What a depth plane is made of: from vertex 0 to the others, in sub-units with the sign of a positive area
+// and in depth; and from the anchor, the topmost, then leftmost vertex, to the first sample of a cell.
+struct PlaneLanes {
+  V32 dx1, dx2, dy1, dy2, dz1, dz2;
+  V64 area;  // twice the area, > 0
+  V32 from_x, from_y, anchor_z;
+};
+HWY_INLINE DepthLanes depth_lanes(const PlaneLanes& p) {
   const D64 d;
   const F64 df;
-  const V32 dz1 = hn::Sub(t.z[1], t.z[0]), dz2 = hn::Sub(t.z[2], t.z[0]);
-  const V32 dx1 = hn::Sub(t.x[1], t.x[0]), dx2 = hn::Sub(t.x[2], t.x[0]);
-  const V32 dy1 = hn::Sub(t.y[1], t.y[0]), dy2 = hn::Sub(t.y[2], t.y[0]);
-  const V64 nx = flipped(hn::Sub(product(dz1, dy2), product(dz2, dy1)), area.flip);
-  const V64 ny = flipped(hn::Sub(product(dz2, dx1), product(dz1, dx2)), area.flip);
-  const auto scaled_inverse = hn::Div(hn::Set(df, 0x1p24), hn::ConvertTo(df, area.value));
-  const Gradient gx = gradient(nx, area.value, scaled_inverse), gy = gradient(ny, area.value, scaled_inverse);
+  const V64 nx = hn::Sub(product(p.dz1, p.dy2), product(p.dz2, p.dy1));
+  const V64 ny = hn::Sub(product(p.dz2, p.dx1), product(p.dz1, p.dx2));
+  const auto scaled_inverse = hn::Div(hn::Set(df, 0x1p24), hn::ConvertTo(df, p.area));
+  const Gradient gx = gradient(nx, p.area, scaled_inverse), gy = gradient(ny, p.area, scaled_inverse);
+  const V64 anchor = shift_right<8>(hn::ShiftLeft<32>(as64(p.anchor_z)));  // 2^24 z, whatever the upper half
+  const V64 half = hn::Set(d, std::int64_t{1} << 23), round = hn::Set(d, 0x8000);
+  const V64 start = hn::Add(hn::Add(anchor, half), hn::Add(product(gx.g, p.from_x), product(gy.g, p.from_y)));
+  return {lower(shift_right<16>(hn::Add(gx.g, round))),
+          lower(shift_right<16>(hn::Add(gy.g, round))),
+          gx.g,
+          gy.g,
+          start,
+          hn::And(gx.exact, gy.exact)};
+}
 
-  // The anchor: the topmost, then leftmost vertex.
+// Over the cell whose first pixel is (cell_px, cell_py).
+HWY_INLINE DepthLanes depth_lanes(const TriangleLanes& t, const Area& area, int cell_px, int cell_py) {
   V32 x = t.x[0], y = t.y[0], z = t.z[0];
   for (int i = 1; i < 3; ++i) {
     const auto above = hn::Or(hn::Lt(t.y[i], y), hn::And(hn::Eq(t.y[i], y), hn::Lt(t.x[i], x)));
@@ -87,14 +103,12 @@ HWY_INLINE DepthLanes depth_lanes(const TriangleLanes& t, const Area& area, int 
     y = hn::IfThenElse(above, t.y[i], y);
     z = hn::IfThenElse(above, t.z[i], z);
   }
-  const V32 from_x = hn::Sub(set32(contract::sample_sub(cell_px)), x);
-  const V32 from_y = hn::Sub(set32(contract::sample_sub(cell_py)), y);
-  const V64 anchor = shift_right<8>(hn::ShiftLeft<32>(as64(z)));  // 2^24 z, whatever the upper half
-  const V64 half = hn::Set(d, std::int64_t{1} << 23), round = hn::Set(d, 0x8000);
-  const V64 base =
-      shift_right<24>(hn::Add(hn::Add(anchor, half), hn::Add(product(gx.g, from_x), product(gy.g, from_y))));
-  return {lower(shift_right<16>(hn::Add(gx.g, round))), lower(shift_right<16>(hn::Add(gy.g, round))),
-          lower(base), hn::And(gx.exact, gy.exact)};
+  const V32 flip = lower(area.flip);
+  const auto turned = [&](V32 to, V32 from) { return flipped(hn::Sub(to, from), flip); };
+  return depth_lanes({turned(t.x[1], t.x[0]), turned(t.x[2], t.x[0]), turned(t.y[1], t.y[0]),
+                      turned(t.y[2], t.y[0]), hn::Sub(t.z[1], t.z[0]), hn::Sub(t.z[2], t.z[0]), area.value,
+                      hn::Sub(set32(contract::sample_sub(cell_px)), x),
+                      hn::Sub(set32(contract::sample_sub(cell_py)), y), z});
 }
 
 }  // namespace HWY_NAMESPACE

@@ -103,7 +103,7 @@ void draw_tile_in_spans(const TileJob& job) {
     return clear_upper_halves();
   }
   TilePainter painter(job);
-  draw_runs(job, [&](std::span<const std::uint32_t> run) { painter.draw(run); });
+  draw_runs(job, [&](const Bins::Run& run) { painter.draw(run.indices); });
   write_rows(depth, painter.depth());
   write_rows(payload, painter.payload());
   hwy::FlushStream();

@@ -138,7 +138,7 @@ HWY_INLINE Alive set_up_vector(const TileJob& job, const std::uint32_t* run, Spa
     plain = hn::Or(plain, line.flat);
   }
   const DepthLanes depth = depth_lanes(t, area, job.x0, job.y0);
-  store(hn::Add(depth.base, hn::Mul(depth.y, y0)), out.depth.first + k);
+  store(hn::Add(depth.base(), hn::Mul(depth.y, y0)), out.depth.first + k);
   store(depth.x, out.depth.x + k), store(depth.y, out.depth.y + k);
   store(t.payload, out.payload + k);
   store(x0, out.x0 + k), store(x1, out.x1 + k);

@@ -34,53 +34,30 @@ static_assert(kBlocksAtOnce == kMaxBlocks && kBlocksAtOnce == kBlockPixels);
 alignas(64) constexpr std::int32_t kLaneX[kBlockPixels] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
 alignas(64) constexpr std::int32_t kLaneY[kBlockPixels] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
 
-struct Tile {
-  alignas(64) std::int32_t depth[kMaxTile * kMaxTile];  // block by block, 16 pixels each
-  alignas(64) std::int32_t payload[kMaxTile * kMaxTile];
+constexpr int kTilePixels = kMaxBlocks * kMaxBlocks * kBlockPixels;
+
+class Tile {
+ public:
+  // Block by block, 16 pixels each. A patch at the end of a plane takes along blocks behind it, in which it
+  // has no pixel: they may be read and written back, and are the payload's first ones, or spare.
+  HWY_INLINE std::int32_t* depth() { return planes_; }
+  HWY_INLINE std::int32_t* payload() { return planes_ + kTilePixels; }
+
+ private:
+  static constexpr int kSpare = (kMaxBlocks + 1) * kBlockPixels;
+  alignas(64) std::int32_t planes_[2 * kTilePixels + kSpare];
+
+ public:
   // No pixel of the block is farther.
   alignas(64) std::int32_t farthest[kMaxBlocks * kMaxBlocks + kBlocksAtOnce];
 };
-
-HWY_INLINE std::uint32_t mask_bits(hn::Mask<D> mask) {
-  std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(D{}, mask, bytes);
-  std::uint32_t bits;
-  std::memcpy(&bits, bytes, sizeof bits);
-  return bits;
-}
-
-#if HWY_TARGET == HWY_SSE4 || HWY_TARGET == HWY_AVX2
-// For each mask, the lanes that it selects, and then any. Highway 1.0.3 has the same table in Compress(), but
-// GCC copies it to the stack at every call.
-constexpr auto kSelected = [] {
-  struct {
-    std::uint8_t lane[1 << kLanes][kLanes];
-  } table{};
-  for (int mask = 0; mask < 1 << kLanes; ++mask) {
-    int count = 0;
-    for (int lane = 0; lane < kLanes; ++lane)
-      if (mask >> lane & 1) table.lane[mask][count++] = static_cast<std::uint8_t>(lane);
-  }
-  return table;
-}();
-HWY_INLINE V selected_first(V v, hn::Mask<D> mask) {
-  const D d;
-  const hn::Rebind<std::uint8_t, D> d8;
-  const auto lanes = hn::PromoteTo(d, hn::LoadU(d8, kSelected.lane[mask_bits(mask)]));
-  return hn::TableLookupLanes(v, hn::IndicesFromVec(d, lanes));
-}
-#else
-HWY_INLINE V selected_first(V v, hn::Mask<D> mask) {
-  return hn::Compress(v, mask);
-}
-#endif
 
 // A list that a vector's selected lanes are appended to; it needs kLanes to spare.
 struct List {
   std::int32_t* at;
   int length = 0;
   HWY_INLINE void append(V v, hn::Mask<D> mask) {
-    hn::StoreU(selected_first(v, mask), D{}, at + length);
+    hn::StoreU(Selection(mask)(v), D{}, at + length);
     length += static_cast<int>(hn::CountTrue(D{}, mask));
   }
 };
@@ -99,13 +76,17 @@ HWY_INLINE Sixteen over_block(const std::int32_t* x, const std::int32_t* y) {
   return out;
 }
 
-// Tests and writes a vector of a block's pixels.
+// Writes those of a vector of a block's pixels that win, given their old depths.
+HWY_INLINE void write(Tile& tile, int at, hn::Mask<D> wins, V old_z, V z, V payload) {
+  const D d;
+  hn::Store(hn::IfThenElse(wins, z, old_z), d, tile.depth() + at);
+  hn::Store(hn::IfThenElse(wins, payload, hn::Load(d, tile.payload() + at)), d, tile.payload() + at);
+}
+// Tests and writes them where `outside` is not negative.
 HWY_INLINE void write(Tile& tile, int at, V outside, V z, V payload) {
   const D d;
-  const V old_z = hn::Load(d, tile.depth + at);
-  const auto wins = hn::AndNot(hn::Lt(outside, hn::Zero(d)), hn::Lt(z, old_z));
-  hn::Store(hn::IfThenElse(wins, z, old_z), d, tile.depth + at);
-  hn::Store(hn::IfThenElse(wins, payload, hn::Load(d, tile.payload + at)), d, tile.payload + at);
+  const V old_z = hn::Load(d, tile.depth() + at);
+  write(tile, at, hn::AndNot(hn::Lt(outside, hn::Zero(d)), hn::Lt(z, old_z)), old_z, z, payload);
 }
 
 #if HWY_TARGET != HWY_SCALAR

@@ -12,6 +12,9 @@
 //    in one vector operation.
 // 5. What is touched goes to a list first: how many blocks a triangle has is hard for a branch predictor to
 //    guess, and the loop over the list need not.
+// 6. Small triangles come as patches, whose pixels were found where they were binned (patch_finder.cpp), and
+// are
+//    drawn without a branch (tile_patches-inl.h).
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raster/tile_kernel.cpp"
 #include <hwy/cache_control.h>
@@ -27,6 +30,7 @@
 #include "raster/kernel_table.h"
 #include "raster/tile_blocks-inl.h"
 #include "raster/tile_kernel.h"
+#include "raster/tile_patches-inl.h"
 #include "raster/tile_rows-inl.h"
 #include "raster/tile_setup-inl.h"
 #include "raster/tile_small-inl.h"
@@ -51,17 +55,23 @@ void draw_tile(const TileJob& job) {
     for (int i = 0; i < count; i += kLanes) hn::Store(hn::Set(d, wrap(value)), d, at + i);
   };
   for (int y = 0; y < size; y += kBlock) {
-    fill(tile.depth + y * kMaxTile, size * kBlock, kDepthClear);
-    fill(tile.payload + y * kMaxTile, size * kBlock, job.background);
+    fill(tile.depth() + y * kMaxTile, size * kBlock, kDepthClear);
+    fill(tile.payload() + y * kMaxTile, size * kBlock, job.background);
   }
   fill(tile.farthest, kMaxBlocks * kMaxBlocks + kBlocksAtOnce, kDepthClear);
 
   Batch batch;
   SmallTriangles small(tile);
   bool hides = false;
-  const auto draw_run = [&](std::span<const std::uint32_t> run) {
-    for (std::uint32_t left = set_up(job, run, batch); left != 0; left &= left - 1) {
+  Bins::PatchReader patches(*job.bins, job.cell);
+  const auto draw_some = [&](std::span<const Patch> some) {
+    small.draw();
+    draw_patches(tile, some);
+  };
+  const auto draw_run = [&](const Bins::Run& run) {
+    for (std::uint32_t left = set_up(job, run.indices, batch); left != 0; left &= left - 1) {
       const int k = std::countr_zero(left);
+      patches.up_to(run, static_cast<std::size_t>(k), draw_some);
       if (std::max(batch.bx1[k] - batch.bx0[k], batch.by1[k] - batch.by0[k]) < SmallTriangles::kSide) {
         small.add(batch, k);
       } else {
@@ -74,8 +84,9 @@ void draw_tile(const TileJob& job) {
   };
   draw_runs(job, draw_run);
   small.draw();
-  write_out(depth, tile.depth);
-  write_out(payload, tile.payload);
+  patches.to_the_end(draw_some);
+  write_out(depth, tile.depth());
+  write_out(payload, tile.payload());
   hwy::FlushStream();
   clear_upper_halves();
 }

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "raster/contract.h"
+#include "raster/lanes-inl.h"
 #include "raster/tile_kernel.h"
 
 // Included once a SIMD target.
@@ -22,10 +23,6 @@ HWY_BEFORE_NAMESPACE();
 namespace edgewise {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-using D = hn::CappedTag<std::int32_t, 16>;
-using V = hn::Vec<D>;
-constexpr int kLanes = static_cast<int>(hn::MaxLanes(D{}));
 
 // Where a tile lies in a plane of the frame.
 struct Place {
@@ -67,17 +64,17 @@ HWY_INLINE void ask_for(const TileJob& job, std::span<const std::uint32_t> run) 
   }
 }
 
-// draw(run) for the tile's runs of indices. The records lie anywhere: each run's are asked for while the run
-// before it is drawn.
+// draw(run) for the tile's runs of indices (Bins::Run). The records lie anywhere: each run's are asked for
+// while the run before it is drawn.
 template <typename Draw>
 HWY_INLINE void draw_runs(const TileJob& job, Draw&& draw) {
-  std::span<const std::uint32_t> asked_for;
-  job.bins->for_each_run(job.cell, [&](std::span<const std::uint32_t> run) {
-    if (job.ideas.prefetch) ask_for(job, run);
-    if (!asked_for.empty()) draw(asked_for);
+  Bins::Run asked_for{};
+  job.bins->for_each_run(job.cell, [&](const Bins::Run& run) {
+    if (job.ideas.prefetch) ask_for(job, run.indices);
+    if (!asked_for.indices.empty()) draw(asked_for);
     asked_for = run;
   });
-  if (!asked_for.empty()) draw(asked_for);
+  if (!asked_for.indices.empty()) draw(asked_for);
 }
 
 // A tile without triangles needs no buffer.

@@ -125,8 +125,8 @@ HWY_INLINE hn::Mask<D64> set_up_depth(const TileJob& job, const TriangleLanes& t
   const int in_cell_x = job.x0 % kDepthCell, in_cell_y = job.y0 % kDepthCell;
   const DepthLanes depth = depth_lanes(t, area, job.x0 - in_cell_x, job.y0 - in_cell_y);
   const V32 zx = depth.x, zy = depth.y;
-  const V32 first = lower(hn::Add(as64(depth.base), hn::Add(product(zx, hn::Add(left, set32(in_cell_x))),
-                                                            product(zy, hn::Add(top, set32(in_cell_y))))));
+  const V32 first = lower(hn::Add(as64(depth.base()), hn::Add(product(zx, hn::Add(left, set32(in_cell_x))),
+                                                              product(zy, hn::Add(top, set32(in_cell_y))))));
   store(out.depth, k, zx, zy, first);
 
   const auto gentle = [](V32 v) { return hn::And(hn::Lt(v, set32(kSteep)), hn::Gt(v, set32(-kSteep))); };

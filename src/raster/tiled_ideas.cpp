@@ -9,6 +9,7 @@ std::string describe(const TiledIdeas& ideas) {
   };
   add(!ideas.vector_setup, "no vector set-up");
   add(!ideas.prefetch, "no prefetch");
+  add(!ideas.patches, "no patches");
   add(!ideas.hierarchical_depth, "no hierarchical depth");
   add(ideas.write_out == WriteOut::through_caches, "written through the caches");
   add(ideas.write_out == WriteOut::past_caches, "written past the caches");

@@ -12,12 +12,15 @@ namespace edgewise {
 enum class WriteOut {
   through_caches,
   past_caches,
-  by_size  // past the caches where frame and triangles don't fit half of the last one
+  // Past the caches where frame and triangles don't fit half of the last one; tiles without a triangle where
+  // the frame alone does not.
+  by_size
 };
 
 struct TiledIdeas {
   bool vector_setup = true;        // boxes and triangles a vector at a time, where the target has vectors
   bool prefetch = true;            // records are asked for before they are needed
+  bool patches = true;             // small triangles are resolved where they are binned; needs vector_setup
   bool hierarchical_depth = true;  // blocks are dropped that lie behind all that they show
   WriteOut write_out = WriteOut::by_size;
 };
@@ -26,11 +29,12 @@ struct TiledIdeas {
 std::string describe(const TiledIdeas& ideas);
 
 // Each idea left out, the write-out both ways, and all left out: what a test must compare.
-constexpr std::array<TiledIdeas, 6> kTiledVariants{{{.vector_setup = false},
+constexpr std::array<TiledIdeas, 7> kTiledVariants{{{.vector_setup = false},
                                                     {.prefetch = false},
+                                                    {.patches = false},
                                                     {.hierarchical_depth = false},
                                                     {.write_out = WriteOut::through_caches},
                                                     {.write_out = WriteOut::past_caches},
-                                                    {false, false, false, WriteOut::through_caches}}};
+                                                    {false, false, false, false, WriteOut::through_caches}}};
 
 }  // namespace edgewise

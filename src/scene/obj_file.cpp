@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "input_file.h"
+#include "scale_limits.h"
 #include "scene/polygon.h"
 
 #pragma GCC diagnostic push
@@ -228,6 +229,9 @@ Mesh parse_obj(std::string_view text) {
 
 Scene read_obj(const std::filesystem::path& path) {
   InputFile file = open_input(path);
+  if (file.size > kMaxObjBytes)
+    throw file_error(
+        path, "has " + std::to_string(file.size) + " bytes, more than " + std::to_string(kMaxObjBytes));
   std::string text(file.size, '\0');
   if (!file.stream.read(text.data(), static_cast<std::streamsize>(text.size())))
     throw file_error(path, "cannot be read to its end");

@@ -12,6 +12,7 @@
 
 #include "input_file.h"
 #include "raster/contract.h"
+#include "scale_limits.h"
 
 namespace edgewise {
 
@@ -56,6 +57,10 @@ TriangleStream read_tri(const std::filesystem::path& path) {
                                std::string(": header promises ") + count_text(count, "triangle") + " (" +
                                count_text(promised, "byte") + "), " + count_text(follow, "byte") +
                                (follow == 1 ? " follows" : " follow"));
+
+  if (count > kMaxTriangles)
+    throw file_error(path,
+                     "has " + count_text(count, "triangle") + ", more than " + std::to_string(kMaxTriangles));
 
   TriangleStream stream{static_cast<int>(width), static_cast<int>(height), {}};
   stream.triangles.resize(count);

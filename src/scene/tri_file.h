@@ -10,7 +10,8 @@
 namespace edgewise {
 
 // Throws std::runtime_error, naming the file and what is wrong with it, for a file that is missing,
-// truncated, too long for its count, of another format, or of a size outside 1 … contract::kMaxImageSide.
+// truncated, too long for its count, of another format, of a size outside 1 … contract::kMaxImageSide, or of
+// more than kMaxTriangles.
 // Vertices of any value, NaN included, are read as they are: the front end judges them.
 TriangleStream read_tri(const std::filesystem::path& path);
 

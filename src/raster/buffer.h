@@ -1,6 +1,6 @@
-// Memory for the front end's output. Unlike a vector it never initialises: pages that no triangle is written
-// to are never touched, so room for the worst case costs nothing but address space. Large buffers ask for
-// huge pages, since a backend reads triangles in the order of tiles: all over the buffer.
+// Memory for many records. Unlike a vector it never initialises: pages that no record is written to are never
+// touched, so room for the worst case costs nothing but address space. Large buffers ask for huge pages,
+// since a backend goes through records in the order of tiles: all over the buffer.
 #pragma once
 
 #include <sys/mman.h>
@@ -24,7 +24,7 @@ class Buffer {
     capacity_ = 0;
     const std::size_t bytes = count * sizeof(T);
     const bool large = bytes >= 2 * kHugePage;
-    const std::align_val_t alignment{large ? kHugePage : kCacheLine};
+    const std::align_val_t alignment{large ? kHugePage : kLeastAlignment};
     data_ = {static_cast<T*>(::operator new(bytes, alignment)), Free{alignment}};
 #ifdef MADV_HUGEPAGE
     // Advice: where it is not taken, all is as before, and slower.
@@ -43,7 +43,8 @@ class Buffer {
   }
 
  private:
-  static constexpr std::size_t kCacheLine = 64, kHugePage = std::size_t{1} << 21;
+  static constexpr std::size_t kLeastAlignment = alignof(T) > 64 ? alignof(T) : 64;  // a cache line
+  static constexpr std::size_t kHugePage = std::size_t{1} << 21;
   struct Free {
     std::align_val_t alignment{};
     void operator()(T* data) const { ::operator delete(data, alignment); }

@@ -1,0 +1,82 @@
+"""Reads the table of planted mistakes (tests/mutations.toml), and plants one in a copy of the tree.
+
+A mistake is a replacement of text that occurs exactly once in its file, so that no entry can rot unseen.
+"""
+import re
+import shutil
+import tomllib
+from dataclasses import dataclass
+from pathlib import Path
+
+from bench_rows import BadInput
+
+COPIED = ("CMakeLists.txt", "README.md", "bench", "results", "scripts", "src", "tests")
+KEYS = {"name", "mistake", "file", "tests", "before", "after"}
+
+
+@dataclass(frozen=True)
+class Mutation:
+    name: str
+    mistake: str  # what is done wrong
+    file: str
+    tests: str  # a filter of GoogleTest's: who is asked first
+    before: str
+    after: str
+
+
+def read_mutations(path):
+    try:
+        entries = tomllib.loads(path.read_text())["mutation"]
+    except (OSError, KeyError, tomllib.TOMLDecodeError) as error:
+        raise BadInput(f"{path}: {error}") from error
+    for entry in entries:
+        if set(entry) != KEYS:
+            raise BadInput(f"{path}: {entry.get('name', 'an entry')} must have exactly {', '.join(sorted(KEYS))}")
+    mutations = [Mutation(**entry) for entry in entries]
+    names = [m.name for m in mutations]
+    twice = sorted({name for name in names if names.count(name) > 1})
+    if twice:
+        raise BadInput(f"{path}: twice: {', '.join(twice)}")
+    return mutations
+
+
+def mutated(mutation, root):
+    """The file's text with the mistake in it."""
+    path = root / mutation.file
+    text = path.read_text() if path.is_file() else ""
+    count = text.count(mutation.before)
+    if count != 1:
+        raise BadInput(f"{mutation.name}: the text to replace occurs {count} times, not once, in {mutation.file}:\n"
+                       f"{mutation.before}")
+    if mutation.before == mutation.after:
+        raise BadInput(f"{mutation.name} changes nothing")
+    return text.replace(mutation.before, mutation.after)
+
+
+def files_of(root):
+    for top in COPIED:
+        path = root / top
+        for file in [path] if path.is_file() else sorted(path.rglob("*")):
+            if file.is_file() and file.suffix != ".pyc":
+                yield file.relative_to(root)
+
+
+def copy_tree(root, tree):
+    """Makes `tree` hold what `root` does; what is the same already stays untouched, and so do its objects."""
+    wanted = set(files_of(root))
+    for file in wanted:
+        source, target = root / file, tree / file
+        if not target.is_file() or source.read_bytes() != target.read_bytes():
+            target.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(source, target)
+    for file in set(files_of(tree)) - wanted:
+        (tree / file).unlink()
+
+
+def failed_tests(output):
+    """Of GoogleTest's output: the tests that failed, or the one that was under way when the program died."""
+    failed = list(dict.fromkeys(re.findall(r"^\[  FAILED  \] (\S+?)(?:,| \()", output, re.MULTILINE)))
+    if failed:
+        return failed
+    started = re.findall(r"^\[ RUN      \] (\S+)", output, re.MULTILINE)
+    return started[-1:]

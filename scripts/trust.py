@@ -1,0 +1,95 @@
+"""What `scripts/test --full` and `edgewise soak` left in a results folder, as one table: how the claim that no bit
+differs was tested, how far, and what was found. What was not run there is left out."""
+import argparse
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from bench_rows import main_guard, read_json  # noqa: E402
+from tables import markdown, plain, short  # noqa: E402
+
+HEADER = ["how", "how far", "found"]
+SANITIZERS = {"address": "Tests again, with the address and undefined-behaviour sanitizers",
+              "thread": "Tests again, with the thread sanitizer"}
+
+
+def none_or(count, what):
+    """"no difference", or how many, to be noticed."""
+    return f"no {what}" if count == 0 else f"**{count:,} {what}{'' if count == 1 else 's'}**"
+
+
+def how_many(count, what):
+    return f"{count:,} {what}{'' if count == 1 else 's'}"
+
+
+def all_of(done, all_there, what):
+    return f"all {what}" if done == all_there else f"**{done:,} of {all_there:,} {what}**"
+
+
+def ran(totals):
+    skipped = f", {totals['skipped']:,} of them skipped" if totals["skipped"] else ""
+    return how_many(totals["tests"], "test") + skipped
+
+
+def test_lines(data):
+    totals = data["all"]
+    covered = [f"{short(totals[name])} {name}" for name in ("cases", "comparisons") if totals[name]]
+    yield ["Tests at full size", ", ".join([ran(totals), *covered]), none_or(totals["failed"], "failure")]
+    for run in data["sanitized"]:
+        yield [SANITIZERS.get(run["name"], run["name"]), ran(run), none_or(run["failed"], "failure")]
+
+
+def prove_lines(data):
+    claims = data["claims"]
+    yield ["Proofs, for all inputs", f"{how_many(claims, 'claim')}, and as many that claim a little too much",
+           f"{all_of(data['proven'], claims, 'proven')}; {all_of(data['refuted'], claims, 'bold ones refuted')}"]
+
+
+def mutate_lines(data):
+    yield ["Planted mistakes", how_many(data["mutations"], "mistake") + ", one at a time",
+           all_of(data["caught"], data["mutations"], "caught")]
+
+
+def fuzz_lines(data):
+    for target in data["targets"]:
+        reached = 100 * target["lines_reached"] / target["lines"] if target["lines"] else 0
+        yield [f"Fuzzing: {target['what']}", f"{short(target['executions'])} executions, {reached:.0f}% of the lines",
+               none_or(len(target["crashes"]), "crash").replace("crashs", "crashes")]
+
+
+def soak_lines(data):
+    hours = data["seconds"] / 3600
+    bound = f"; below {3 / data['frames']:.1e} of all frames, if they fail independently" if (
+        data["differences"] == 0 and data["frames"]) else ""
+    yield ["Soak: random and adversarial scenes, every backend and SIMD target",
+           f"{short(data['frames'])} frames, {short(data['triangles'])} triangles, {short(data['pixels'])} pixels compared "
+           f"in {hours:.1f} h", none_or(data["differences"], "difference") + bound]
+
+
+LINES = {"tests": test_lines, "prove": prove_lines, "mutate": mutate_lines, "fuzz": fuzz_lines, "soak": soak_lines}
+
+
+def trust_table(folder):
+    """Header and lines; no lines where nothing was run."""
+    lines = []
+    for name, lines_of in LINES.items():
+        path = folder / f"{name}.json"
+        if path.exists():
+            lines += lines_of(read_json(path))
+    return HEADER, lines
+
+
+def trust_markdown(folder):
+    header, lines = trust_table(folder)
+    return markdown(header, lines, "|---|---|---|") if lines else "None of this was run for these results."
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="trust", description=__doc__)
+    parser.add_argument("folder", type=Path, help="results/MACHINE")
+    print(plain(*trust_table(parser.parse_args().folder)))
+    return 0
+
+
+if __name__ == "__main__":
+    main_guard(main)

@@ -1,0 +1,33 @@
+// The soak itself: case after case of a shard, several at once, until told to stop.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+
+#include "app/soak/check.h"
+#include "app/soak/record.h"
+
+namespace edgewise::soak {
+
+struct Campaign {
+  Judged judged;
+  std::optional<double> seconds;                      // begins no case later than that; none: no limit
+  std::optional<std::uint64_t> cases;                 // at most so many more
+  int jobs = 1;                                       // cases drawn at once; no result depends on it
+  std::filesystem::path failure_folder;               // see evidence_of
+  std::function<bool()> stop = [] { return false; };  // asked before each case, on any thread
+
+  // Called a few times a second and at the end, on the caller's thread, with a record that is whole: all
+  // cases up to its last one are in it.
+  std::function<void(const Record&)> on_progress = [](const Record&) {};
+};
+
+// Goes on from `record`, which has one shard, and returns what it has become. Case by case it takes on what
+// was found in the sequence's order, so that where it stops it can go on. Throws what a backend throws, with
+// the case's number.
+Record run(const Campaign& campaign, Record record);
+
+}  // namespace edgewise::soak

@@ -1,0 +1,108 @@
+#include "app/soak/evidence.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+#include <string>
+#include <utility>
+
+#include "app/capture.h"
+#include "app/soak/reduce.h"
+#include "app/verify.h"
+#include "image/atomic_file.h"
+#include "scene/tri_file.h"
+
+namespace edgewise::soak {
+
+namespace {
+
+constexpr int kMostAttempts = 500;
+
+// What a stream of these triangles becomes when it is read again: depths that no float holds are rounded.
+std::vector<ScreenTriangle> replayed(std::span<const ScreenTriangle> triangles, const Case& c) {
+  Frontend frontend;
+  const auto again = frontend.run(app::to_stream(triangles, c.width, c.height),
+                                  {.width = c.width, .height = c.height, .cull = Cull::none, .shade = false});
+  return {again.begin(), again.end()};
+}
+
+// As few triangles as still differ. Those of the file if they do, else those of the frame.
+TriangleStream smallest_frame(const Case& c, const Finding& finding, Checker& checker) {
+  const auto fails = [&](const std::vector<ScreenTriangle>& list) {
+    return checker.differs(finding, c, list);
+  };
+  std::vector<ScreenTriangle> list = replayed(finding.triangles, c);
+  if (!fails(list)) list = finding.triangles;
+  return app::to_stream(reduce(std::move(list), kMostAttempts, fails), c.width, c.height);
+}
+
+TriangleStream smallest_stream(const Case& c, TriangleStream stream, Checker& checker) {
+  const int width = stream.width, height = stream.height;
+  auto list = reduce(std::move(stream.triangles), kMostAttempts, [&](const auto& triangles) {
+    return checker.frontend_differs(c, TriangleStream{width, height, triangles});
+  });
+  return {width, height, std::move(list)};
+}
+
+void write(const std::filesystem::path& path, const TriangleStream& stream) {
+  std::filesystem::create_directories(path.parent_path());
+  AtomicFile file(path);
+  write_tri(file.stream(), stream);
+  file.commit();
+}
+
+// `verify` draws in configurations of its own, which may miss what this one did.
+bool verify_finds(const std::filesystem::path& path, const Judged& judged) {
+  app::VerifyPlan plan;
+  plan.backends = judged.backends;
+  return !app::verify_scene(plan, path.string(), [](double) {}).ok();
+}
+
+nlohmann::json description(const Case& c, const Finding& f, const Judged& judged) {
+  nlohmann::json json{{"case", c.number},
+                      {"family", c.family},
+                      {"judge", f.judge},
+                      {"backend", f.of_frontend ? "front end" : judged.backends[f.draw.backend].name},
+                      {"threads", f.draw.execution.threads},
+                      {"simd_target", name_of(f.draw.execution.target)},
+                      {"width", c.width},
+                      {"height", c.height}};
+  if (f.of_frontend) return json;
+  json["tile_size"] = f.draw.execution.tile_size;
+  json["ideas"] = edgewise::describe(f.draw.execution.ideas);
+  json["row_padding"] = f.draw.layout.padding;
+  json["row_offset"] = f.draw.layout.offset;
+  json["pixels"] = f.difference.pixels;
+  json["first"] = {f.difference.first_x, f.difference.first_y};
+  json["written_outside"] = f.difference.outside;
+  json["triangles"] = f.triangles.size();
+  return json;
+}
+
+}  // namespace
+
+nlohmann::json evidence_of(const std::filesystem::path& folder, std::uint64_t seed, const Case& c,
+                           const Finding& finding, Checker& checker) {
+  nlohmann::json json = description(c, finding, checker.judged());
+  json["replay"] = {fmt::format("edgewise soak --seed {} --case {}", seed, c.number)};
+  const auto* stream = c.drawable ? std::get_if<TriangleStream>(&*c.drawable) : nullptr;
+  if (folder.empty() || (finding.of_frontend && stream == nullptr)) return json;
+  try {
+    const TriangleStream smallest =
+        finding.of_frontend ? smallest_stream(c, *stream, checker) : smallest_frame(c, finding, checker);
+    std::string name = fmt::format("seed-{}-case-{}-{}-vs-{}.tri", seed, c.number,
+                                   json["backend"].get<std::string>(), finding.judge);
+    std::replace(name.begin(), name.end(), ' ', '-');
+    write(folder / name, smallest);
+    json["file"] = (folder / name).string();
+    json["reduced_to"] = smallest.triangles.size();
+    if (verify_finds(folder / name, checker.judged()))
+      json["replay"].push_back(fmt::format("edgewise verify {}", (folder / name).string()));
+  } catch (const std::exception& error) {
+    json["trouble"] = error.what();
+  }
+  return json;
+}
+
+}  // namespace edgewise::soak

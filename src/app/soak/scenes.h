@@ -1,0 +1,20 @@
+// Families of whole scenes, which go through the front end: the second half of what a soak draws.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "scene/random.h"
+#include "scene/scene.h"
+
+namespace edgewise::soak {
+
+struct SceneFamily {
+  std::string_view name;
+  std::string_view idea;                                    // one line
+  Drawable (*make)(Random& random, int width, int height);  // for an image of that size in pixels
+};
+
+std::span<const SceneFamily> scene_families();
+
+}  // namespace edgewise::soak

@@ -1,0 +1,37 @@
+// Sorts triangles for the bins: small ones become patches, of the others it tells which cells their boxes
+// touch. See patch_finder.cpp for how.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "raster/cell_boxes.h"
+#include "raster/patch.h"
+
+namespace edgewise {
+
+// Up to kBoxesAtOnce triangles, sorted. Bit i of a set is triangle i's.
+struct SortedTriangles {
+  std::uint64_t boxed;    // lie in boxes[i]
+  std::uint64_t patched;  // small ones that cover a sample
+  CellBox boxes[kBoxesAtOnce];
+
+  // The patches of the n-th patched triangle: of windows that lie at the box's upper left, upper right, lower
+  // left and lower right, those whose bits are set.
+  static constexpr int kWindows = 4, kRoom = kBoxesAtOnce;
+  std::uint8_t windows[kRoom];
+  // Halves of patches.
+  struct alignas(16) Half {
+    std::uint32_t field[4];
+  };
+  Half first[kWindows][kRoom], second[kWindows][kRoom];
+};
+
+// `triangles`: kBoxesAtOnce records. `prefetch`: those that follow in memory are asked for.
+using PatchFinder = void (*)(const ScreenTriangle* triangles, const CellGrid& grid, bool prefetch,
+                             SortedTriangles& out);
+
+// Null where the target has no vectors. `target` must be resolved.
+PatchFinder patch_finder(SimdTarget target);
+
+}  // namespace edgewise

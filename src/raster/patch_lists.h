@@ -1,0 +1,102 @@
+// For each cell of the image a list of patches, in the order in which they were appended.
+//
+// Patches lie in the lists by value, in blocks that are chained: who draws a tile reads whole cache lines,
+// one after the other. The longer the lists, the larger the blocks: to find the next one costs the latency of
+// memory. Memory is kept from frame to frame, and grows without moving what it has.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <vector>
+
+#include "raster/buffer.h"
+#include "raster/patch.h"
+
+namespace edgewise {
+
+class PatchLists {
+ public:
+  // Behind a patch of a list; null before the first.
+  using Position = const Patch*;
+
+  // Empties all lists; about `patches` are to come.
+  void reset(std::size_t cells, std::size_t patches);
+  // Two halves of a patch, to the list of its cell.
+  template <typename Half>
+  void append(const Half& first, const Half& second) {
+    List& list = lists_[second.field[3]];
+    Patch* at = list.end;
+    if (reinterpret_cast<std::uintptr_t>(at) % block_bytes_ == 0) at = add_block(list);  // full, or none yet
+    std::memcpy(at, &first, sizeof first);
+    std::memcpy(reinterpret_cast<char*>(at) + sizeof first, &second, sizeof second);
+    __builtin_prefetch(reinterpret_cast<const char*>(at) + kWriteAhead, 1);
+    list.end = at + 1;
+  }
+
+  bool any() const { return used_ != 0; }
+  Position end(std::size_t cell) const { return lists_[cell].end; }
+  bool empty(std::size_t cell) const { return lists_[cell].end == nullptr; }
+
+  // visit(patches) for consecutive runs of a list's patches between two positions in it. The block after the
+  // next is asked for.
+  template <typename Visit>
+  void for_each_run(std::size_t cell, Position from, Position to, Visit&& visit) const {
+    while (from != to) {
+      const Header* block = from == nullptr ? lists_[cell].first : block_of(from);
+      if (from == end_of(block)) block = block->next, from = nullptr;
+      if (from == nullptr) {
+        from = begin_of(block);
+        if (block->next != nullptr && block->next->next != nullptr)
+          ask_for(block->next->next, std::min(block_bytes_, kReadAhead));
+      }
+      const Position end = block_of(to) == block ? to : end_of(block);
+      visit(std::span<const Patch>(from, end));
+      from = end;
+    }
+  }
+  // Asks for the beginning of a list.
+  void ask_for_first(std::size_t cell) const {
+    if (const Header* first = lists_[cell].first) ask_for(first, kSmallestBlock);
+  }
+
+ private:
+  static constexpr std::size_t kSmallestBlock = 256, kLargestBlock = 4096;  // bytes, powers of two
+  static constexpr std::size_t kCacheLine = 64, kWriteAhead = 2 * kCacheLine, kReadAhead = 1024;
+  // At the beginning of a block, which is aligned to its size.
+  struct alignas(sizeof(Patch)) Header {
+    Header* next;
+  };
+  struct alignas(kLargestBlock) Piece {  // of a slab
+    std::byte bytes[kLargestBlock];
+  };
+  struct List {
+    Header* first = nullptr;
+    Patch* end = nullptr;
+  };
+  // Of a position that is not null.
+  Header* block_of(const Patch* at) const {
+    return reinterpret_cast<Header*>((reinterpret_cast<std::uintptr_t>(at) - 1) & ~(block_bytes_ - 1));
+  }
+  static const Patch* begin_of(const Header* block) { return reinterpret_cast<const Patch*>(block + 1); }
+  const Patch* end_of(const Header* block) const {
+    return reinterpret_cast<const Patch*>(reinterpret_cast<const std::byte*>(block) + block_bytes_);
+  }
+  static void ask_for(const Header* block, std::size_t bytes) {
+    for (std::size_t i = 0; i < bytes; i += kCacheLine)
+      __builtin_prefetch(reinterpret_cast<const std::byte*>(block) + i);
+  }
+
+  Patch* add_block(List& list);
+
+  // Slab i has kFirstSlab << i pieces.
+  static constexpr std::size_t kFirstSlab = 4;
+  std::array<Buffer<Piece>, 40> slabs_;
+  std::size_t block_bytes_ = kSmallestBlock, used_ = 0;  // bytes; of all slabs one after the other
+  std::vector<List> lists_;
+};
+
+}  // namespace edgewise

@@ -1,0 +1,78 @@
+; The contract's constants and functions (src/raster/contract.h), for the claims in the files beside this one.
+;
+; The solver reasons about mathematical integers and reals, in which nothing wraps. What the code computes in 32 and
+; 64 bits is the same number wherever the claims say that every intermediate result fits, and the same number modulo
+; a power of two where the code wraps on purpose (lanes.smt2, depth.smt2). Polynomials are stated over the reals,
+; which hold the integers, since that theory is decidable; roundings are stated over integers.
+;
+; A file is this text, its own introduction, and sections. A section "claim NAME" asserts what is given and the
+; negation of what is claimed: the solver must find that impossible. A section "weakened NAME" asserts the same of a
+; claim that is a little too bold: the solver must find a counterexample. `scripts/prove` runs all of them.
+;
+; A constant whose comment begins with "=" is compared with the source it names by `scripts/prove`; the functions are
+; compared with those of contract.h, on many arguments, by tests/proofs_test.cpp.
+
+(define-const kSubBits Int 8)              ; = kSubBits of src/raster/contract.h
+(define-const kSub Int 256)                ; = kSub of src/raster/contract.h
+(define-const kHalf Int 128)               ; = kHalf of src/raster/contract.h
+(define-const kGuardSub Int 4194304)       ; = kGuardSub of src/raster/contract.h
+(define-const kMaxImageSide Int 16384)     ; = kMaxImageSide of src/raster/contract.h
+(define-const kMaxEdge Int 140737488355328) ; = kMaxEdge of src/raster/contract.h
+(define-const kMaxTile Int 64)             ; = kMaxTile of src/raster/contract.h
+(define-const kDepthCell Int 64)           ; = kDepthCell of src/raster/contract.h
+(define-const kDepthHead Int 128)          ; = kDepthHead of src/raster/contract.h
+(define-const kDepthClear Int 2147483647)  ; = kDepthClear of src/raster/contract.h
+(define-const kDepthRange Int 2147483391)  ; = kDepthRange of src/raster/contract.h
+(define-const kDepthError Int 65)          ; = kDepthError of src/raster/contract.h
+
+(define-const two8 Int 256)
+(define-const two16 Int 65536)
+(define-const two24 Int 16777216)
+(define-const two31 Int 2147483648)
+(define-const two32 Int 4294967296)
+(define-const two46 Int 70368744177664)
+(define-const two53 Int 9007199254740992)
+(define-const two54 Int 18014398509481984)
+(define-const two63 Int 9223372036854775808)
+(define-const two64 Int 18446744073709551616)
+
+(define-fun int32 ((v Int)) Bool (and (<= (- two31) v) (< v two31)))
+(define-fun int64 ((v Int)) Bool (and (<= (- two63) v) (< v two63)))
+(define-fun int32r ((v Real)) Bool (and (<= (- (to_real two31)) v) (< v (to_real two31))))
+(define-fun int64r ((v Real)) Bool (and (<= (- (to_real two63)) v) (< v (to_real two63))))
+(define-fun signed32 ((v Int)) Int (- (mod (+ v two31) two32) two31)) ; the number that the lower 32 bits are
+(define-fun between ((low Real) (v Real) (high Real)) Bool (and (<= low v) (<= v high)))
+(define-fun maxr ((u Real) (v Real)) Real (ite (< u v) v u))
+(define-fun minr ((u Real) (v Real)) Real (ite (< u v) u v))
+(define-fun absr ((v Real)) Real (ite (< v 0.0) (- v) v))
+
+; Rules 1 and 3. A coordinate or a sample of an image, in sub-units.
+(define-fun sample_sub ((pixel Int)) Int (+ (* kSub pixel) kHalf))
+(define-fun in_guard ((v Real)) Bool (between (- (to_real kGuardSub)) v (to_real kGuardSub)))
+(define-fun pixel_in_image ((p Int)) Bool (and (<= 0 p) (< p kMaxImageSide)))
+
+; Rule 4. The edge from p to q, without bias; make_edge() and Edge::at() add the bias.
+(define-fun edge_a ((py Real) (qy Real)) Real (- py qy))
+(define-fun edge_b ((px Real) (qx Real)) Real (- qx px))
+(define-fun edge_at ((px Real) (py Real) (qx Real) (qy Real) (sx Real) (sy Real)) Real
+  (+ (* (edge_a py qy) (- sx px)) (* (edge_b px qx) (- sy py))))
+(define-fun top_left ((a Real) (b Real)) Bool (or (> a 0.0) (and (= a 0.0) (> b 0.0))))
+(define-fun bias ((a Real) (b Real)) Int (ite (top_left a b) 0 (- 1)))
+; E + bias >= 0 for an integer E (fill_rule.smt2 proves that), in a form that means the same to the reals.
+(define-fun owns ((px Real) (py Real) (qx Real) (qy Real) (sx Real) (sy Real)) Bool
+  (let ((e (edge_at px py qx qy sx sy)))
+    (or (> e 0.0) (and (= e 0.0) (top_left (edge_a py qy) (edge_b px qx))))))
+
+; signed_area(), and pixel_box() along an axis.
+(define-fun signed_area ((x0 Real) (y0 Real) (x1 Real) (y1 Real) (x2 Real) (y2 Real)) Real
+  (- (* (- x1 x0) (- y2 y0)) (* (- y1 y0) (- x2 x0))))
+(define-fun first_sample ((c Int)) Int (div (+ c kHalf (- 1)) kSub))
+
+; Rule 6. gradient(), before it wraps; the rounded step a pixel; and depth, before it wraps, at the first pixel of a
+; cell whose sample is (dx, dy) from the anchor, and (x, y) pixels further.
+(define-fun gradient ((n Int) (area Int)) Int (div (* two24 n) area))
+(define-fun depth_step ((g Int)) Int (div (+ g 32768) two16))
+(define-fun depth_base ((z Int) (gx Int) (gy Int) (dx Int) (dy Int)) Int
+  (div (+ (* two24 z) 8388608 (* gx dx) (* gy dy)) two24))
+(define-fun depth_at ((z Int) (gx Int) (gy Int) (dx Int) (dy Int) (x Int) (y Int)) Int
+  (+ (depth_base z gx gy dx dy) (* x (depth_step gx)) (* y (depth_step gy))))

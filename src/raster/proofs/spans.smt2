@@ -1,0 +1,122 @@
+; Spans from lines walked in binary fractions (scanline_setup-inl.h) and by a remainder (scanline_walk.h). Theories:
+; nonlinear real arithmetic, with a rounding to double as a factor 1 + e, |e| <= 2^-53; linear real arithmetic.
+;
+; In units of 2^-43 px: a step or start is a quotient of integers, made of two roundings to double (the quotient of
+; 2^35 and dy, its product with an exact number) and one to a whole unit, off by at most 1.
+
+(define-const unit Real 8796093022208.0)  ; units a px, 2^43
+(define-fun ulp ((e Real)) Bool (between (- (/ 1.0 9007199254740992.0)) e (/ 1.0 9007199254740992.0)))
+(define-const kUnitBits Int 43)           ; = kUnitBits of src/raster/scanline_setup-inl.h
+
+;; claim step_off: Steps below 2^12 px a row are off by less than 575 units over 63 rows.
+(declare-const exact Real) (declare-const e1 Real) (declare-const e2 Real) (declare-const step Real)
+(define-fun rounded () Real (* exact (+ 1.0 e1) (+ 1.0 e2)))
+(assert (and (ulp e1) (ulp e2) (< (absr rounded) (* 4096.0 unit)) (<= (absr (- step rounded)) 1.0)))
+(assert (not (< (absr (* 63.0 (- step exact))) 575.0)))
+
+;; weakened step_off: Over 64 rows.
+(declare-const exact Real) (declare-const e1 Real) (declare-const e2 Real) (declare-const step Real)
+(define-fun rounded () Real (* exact (+ 1.0 e1) (+ 1.0 e2)))
+(assert (and (ulp e1) (ulp e2) (< (absr rounded) (* 4096.0 unit)) (<= (absr (- step rounded)) 1.0)))
+(assert (and (= e1 e2) (= e1 (/ 1.0 9007199254740992.0))))
+(assert (not (< (absr (* 64.0 (- step exact))) 575.0)))
+
+;; claim start_off: A start within 2^18 + 2^15 px of the vertex is off by less than 650 units.
+(declare-const exact Real) (declare-const e1 Real) (declare-const e2 Real) (declare-const start Real)
+(define-fun rounded () Real (* exact (+ 1.0 e1) (+ 1.0 e2)))
+(assert (and (ulp e1) (ulp e2) (<= (absr exact) (* 294912.0 unit)) (<= (absr (- start rounded)) 1.0)))
+(assert (not (< (absr (- start exact)) 650.0)))
+
+;; weakened start_off: One within 2^18 + 2^17 px.
+(declare-const exact Real) (declare-const e1 Real) (declare-const e2 Real) (declare-const start Real)
+(define-fun rounded () Real (* exact (+ 1.0 e1) (+ 1.0 e2)))
+(assert (and (ulp e1) (ulp e2) (<= (absr exact) (* 393216.0 unit)) (<= (absr (- start rounded)) 1.0)))
+(assert (and (= e1 e2) (= e1 (/ 1.0 9007199254740992.0))))
+(assert (not (< (absr (- start exact)) 650.0)))
+
+;; claim ceiling: Where v = n + r / d px, d = 256 |dy| <= 2^31, and u lies within 1300 units of v, the floor of u + 1 px -
+;;   2^11 units is the ceiling of v: n if r is 0, n + 1 if not.
+(declare-const n Real) (declare-const r Real) (declare-const d Real) (declare-const u Real)
+(assert (and (>= d 1.0) (<= d 2147483648.0) (or (= r 0.0) (between 1.0 r (- d 1.0)))))
+(assert (< (absr (- u (* unit (+ n (/ r d))))) 1300.0))
+(define-fun w () Real (- (+ u unit) 2048.0))
+(define-fun pixel () Real (ite (= r 0.0) n (+ n 1.0)))
+(assert (not (and (<= (* unit pixel) w) (< w (* unit (+ pixel 1.0))))))
+
+;; weakened ceiling: Without the 2^11 units.
+(declare-const n Real) (declare-const r Real) (declare-const d Real) (declare-const u Real)
+(assert (and (>= d 1.0) (<= d 2147483648.0) (or (= r 0.0) (between 1.0 r (- d 1.0)))))
+(assert (< (absr (- u (* unit (+ n (/ r d))))) 1300.0))
+(define-fun w () Real (+ u unit))
+(define-fun pixel () Real (ite (= r 0.0) n (+ n 1.0)))
+(assert (not (and (<= (* unit pixel) w) (< w (* unit (+ pixel 1.0))))))
+
+;; claim far_starts: A line that starts more than 2^18 + 2^15 px right of a vertex, which is at most 2^15 px from the
+;;   tile, stays right of the tile for 63 rows of less than 2^12 px, and does so when the start is clamped to
+;;   2^18 + 2^17 px; on the left it is the same by symmetry. In px.
+(declare-const vertex Real) (declare-const start Real) (declare-const way Real)
+(assert (and (>= vertex (- 32768.0)) (> start 294912.0) (> way (- (* 63.0 4096.0)))))
+(assert (not (and (> (+ vertex start way) 64.0) (> (+ vertex (minr start 393216.0) way) 64.0))))
+
+;; weakened far_starts: For 64 rows.
+(declare-const vertex Real) (declare-const start Real) (declare-const way Real)
+(assert (and (>= vertex (- 32768.0)) (> start 294912.0) (> way (- (* 64.0 4096.0)))))
+(assert (not (and (> (+ vertex start way) 64.0) (> (+ vertex (minr start 393216.0) way) 64.0))))
+
+;; claim sums_fit: Start, steps, the way from vertex to tile and the rounding's px sum up to less than 2^63 units.
+(declare-const vertex Real) (declare-const start Real) (declare-const way Real)
+(assert (and (<= (absr vertex) 32768.0) (<= (absr start) 393216.0) (<= (absr way) (* 63.0 4096.0))))
+(assert (not (int64r (* unit (+ vertex start way 1.0)))))
+
+;; weakened sums_fit: Starts beyond 2^19 + 2^18 px do, too.
+(declare-const vertex Real) (declare-const start Real) (declare-const way Real)
+(assert (and (<= (absr vertex) 32768.0) (<= (absr start) 786432.0) (<= (absr way) (* 63.0 4096.0))))
+(assert (not (int64r (* unit (+ vertex start way 1.0)))))
+
+;; claim flat_edges: An edge of the guard band that moves 2^12 px a row or more spans at most 8 px of height.
+(declare-const dx Real) (declare-const dy Real)
+(assert (and (<= (absr dx) 8388608.0) (> dy 0.0) (>= (absr dx) (* 4096.0 dy))))
+(assert (not (<= dy 2048.0)))
+
+;; weakened flat_edges: At most 7.
+(declare-const dx Real) (declare-const dy Real)
+(assert (and (<= (absr dx) 8388608.0) (> dy 0.0) (>= (absr dx) (* 4096.0 dy))))
+(assert (not (<= dy 1792.0)))
+
+;; claim walk_numerator: EdgeWalk's numerator fits 64 bits with 15 to spare: it stays below 2^49.
+(declare-const px Real) (declare-const py Real) (declare-const qx Real) (declare-const qy Real) (declare-const s Real)
+(assert (and (in_guard px) (in_guard py) (in_guard qx) (in_guard qy) (in_guard s) (< py qy)))
+(define-fun numerator () Real
+  (+ (* (- px 128.0) (- qy py)) (* (- s py) (- qx px)) (* 256.0 (- qy py)) (- 1.0)))
+(assert (not (between (- 562949953421312.0) numerator 562949953421312.0)))
+
+;; weakened walk_numerator: Below 2^45.
+(declare-const px Real) (declare-const py Real) (declare-const qx Real) (declare-const qy Real) (declare-const s Real)
+(assert (and (in_guard px) (in_guard py) (in_guard qx) (in_guard qy) (in_guard s) (< py qy)))
+(define-fun numerator () Real
+  (+ (* (- px 128.0) (- qy py)) (* (- s py) (- qx px)) (* 256.0 (- qy py)) (- 1.0)))
+(assert (and (= px 0.0) (= py (- 4194304.0))))
+(assert (not (between (- 35184372088832.0) numerator 35184372088832.0)))
+
+;; claim walk_row: EdgeWalk::next_row() keeps pixel and rest what a division would give: n = pixel d + rest and
+;;   0 <= rest < d, as n grows by 256 dx; d = 256 dy, and dx = pixel_step dy + rest_step.
+(declare-const n Real) (declare-const pixel Real) (declare-const rest Real)
+(declare-const dy Real) (declare-const dx Real) (declare-const pixel_step Real) (declare-const rest_step Real)
+(define-fun d () Real (* 256.0 dy))
+(assert (and (> dy 0.0) (= n (+ (* pixel d) rest)) (<= 0.0 rest) (< rest d)))
+(assert (and (= dx (+ (* pixel_step dy) rest_step)) (<= 0.0 rest_step) (< rest_step dy)))
+(define-fun carry () Real (ite (>= (+ rest (* 256.0 rest_step)) d) 1.0 0.0))
+(define-fun next_pixel () Real (+ pixel pixel_step carry))
+(define-fun next_rest () Real (- (+ rest (* 256.0 rest_step)) (* carry d)))
+(assert (not (and (= (+ n (* 256.0 dx)) (+ (* next_pixel d) next_rest)) (<= 0.0 next_rest) (< next_rest d))))
+
+;; weakened walk_row: With a carry where the rest passes d, not where it reaches it.
+(declare-const n Real) (declare-const pixel Real) (declare-const rest Real)
+(declare-const dy Real) (declare-const dx Real) (declare-const pixel_step Real) (declare-const rest_step Real)
+(define-fun d () Real (* 256.0 dy))
+(assert (and (> dy 0.0) (= n (+ (* pixel d) rest)) (<= 0.0 rest) (< rest d)))
+(assert (and (= dx (+ (* pixel_step dy) rest_step)) (<= 0.0 rest_step) (< rest_step dy)))
+(define-fun carry () Real (ite (> (+ rest (* 256.0 rest_step)) d) 1.0 0.0))
+(define-fun next_pixel () Real (+ pixel pixel_step carry))
+(define-fun next_rest () Real (- (+ rest (* 256.0 rest_step)) (* carry d)))
+(assert (not (and (= (+ n (* 256.0 dx)) (+ (* next_pixel d) next_rest)) (<= 0.0 next_rest) (< next_rest d))))

@@ -1,0 +1,70 @@
+// Drawing patches: which pixels they cover is known, what is left is the test of depth.
+#include <hwy/cache_control.h>
+#include <hwy/highway.h>
+
+#include <cstdint>
+#include <span>
+
+#include "raster/patch.h"
+#include "raster/tile_blocks-inl.h"
+
+// Included once a SIMD target.
+#if defined(EDGEWISE_TILE_PATCHES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef EDGEWISE_TILE_PATCHES_INL_H
+#undef EDGEWISE_TILE_PATCHES_INL_H
+#else
+#define EDGEWISE_TILE_PATCHES_INL_H
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace edgewise {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// The bit of each of a block's pixels in Patch::rows, in its left and in its right blocks.
+alignas(64) constexpr auto kPatchBits = [] {
+  struct {
+    std::int32_t left[kBlockPixels], right[kBlockPixels];
+  } bits{};
+  for (int i = 0; i < kBlockPixels; ++i) {
+    bits.left[i] = static_cast<std::int32_t>(1u << (i / kBlock * kPatchSide + i % kBlock));
+    bits.right[i] = static_cast<std::int32_t>(1u << (i / kBlock * kPatchSide + i % kBlock + kBlock));
+  }
+  return bits;
+}();
+
+constexpr std::ptrdiff_t kPatchesAhead = 32;  // are asked for
+
+// All four blocks of a patch are written, for no branch could guess which of them are touched.
+HWY_NOINLINE void draw_patches(Tile& tile, std::span<const Patch> patches) {
+  const D d;
+  static_assert(kPatchSide == 2 * kBlock);
+  for (const Patch& patch : patches) {
+    hwy::Prefetch(&patch + kPatchesAhead);
+    const V zx = hn::Set(d, wrap(patch.zx)), zy = hn::Set(d, wrap(patch.zy));
+    const V z0 = hn::Set(d, wrap(patch.z)), payload = hn::Set(d, wrap(patch.payload));
+    const V right = hn::ShiftLeft<2>(zx), down = hn::ShiftLeft<2>(zy);
+    const V rows[2] = {hn::Set(d, wrap(patch.rows[0])), hn::Set(d, wrap(patch.rows[1]))};
+    for (int p = 0; p < kBlockPixels; p += kLanes) {
+      const V left_bits = hn::Load(d, kPatchBits.left + p), right_bits = hn::Load(d, kPatchBits.right + p);
+      V z = hn::Add(z0, hn::Add(hn::Mul(hn::Load(d, kLaneX + p), zx), hn::Mul(hn::Load(d, kLaneY + p), zy)));
+      int at = static_cast<int>(patch.block) * kBlockPixels + p;
+      const auto write_covered = [&](int to, hn::Mask<D> covered, V here) {
+        const V old_z = hn::Load(d, tile.depth() + to);
+        write(tile, to, hn::And(covered, hn::Lt(here, old_z)), old_z, here, payload);
+      };
+      for (int y = 0; y < 2; ++y) {
+        write_covered(at, hn::TestBit(rows[y], left_bits), z);
+        write_covered(at + kBlockPixels, hn::TestBit(rows[y], right_bits), hn::Add(z, right));
+        z = hn::Add(z, down);
+        at += kMaxBlocks * kBlockPixels;
+      }
+    }
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace edgewise
+HWY_AFTER_NAMESPACE();
+
+#endif

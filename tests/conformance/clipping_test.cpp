@@ -1,0 +1,432 @@
+// Clipping of one, two and three vertices by each of the six planes and by several of them.
+//
+// The planes are near, far and the four sides of the guard band: the image's own sides cut nothing. What is
+// asserted where clipping makes new vertices:
+// - Where the cuts fall on the grid of 1/256 px, nothing is rounded: every pixel is the exact polygon's.
+// - Elsewhere every decided sample is (outline.h), and no sample is hit twice by one triangle.
+// - Neighbours that share a cut edge, or fill the image, hit every pixel once along it: no sample is excused.
+// - What lies beyond a plane draws nothing.
+#include <gmpxx.h>
+
+#include <array>
+#include <glm/glm.hpp>
+
+#include "conformance/outline.h"
+#include "conformance/pipeline.h"
+#include "lab/clipping_truth.h"
+#include "lab/truth.h"
+#include "scene/random.h"
+
+namespace edgewise::conformance {
+namespace {
+
+constexpr float kGuard = contract::kMaxImageSide;  // px
+
+struct Plane {
+  const char* name;
+  int axis;  // of x, y, depth
+  float at, inward;
+  float distance(glm::vec3 v) const { return (v[axis] - at) * inward; }
+};
+constexpr Plane kPlanes[] = {{"near", 2, 0, 1},        {"far", 2, 1, -1},      {"left", 0, -kGuard, 1},
+                             {"right", 0, kGuard, -1}, {"top", 1, -kGuard, 1}, {"bottom", 1, kGuard, -1}};
+
+using Triangle = std::array<glm::vec3, 3>;
+
+TriangleStream stream_of(const Triangle& t) {
+  return conformance::stream_of({t.begin(), t.end()}, {{0, 1, 2}});
+}
+
+Homogeneous homogeneous(glm::vec3 v) {
+  return {glm::dvec3(v), 1};
+}
+
+class ConformanceClips : public Conformance {
+ protected:
+  void expect_outline(const Drawable& drawable, const View& view, const Outline& outline,
+                      const std::string& what) {
+    std::vector<int> expected;
+    for (int y = 0; y < view.height; ++y)
+      for (int x = 0; x < view.width; ++x) {
+        const bool decided = outline.decides(x, y);
+        expected.push_back(decided ? std::abs(outline.winding(x, y)) : kUndecided);
+        undecided_ += !decided;
+        inside_ += expected.back() > 0;
+        ++judged_;
+      }
+    with_each(what, [&](Pipeline& pipeline) {
+      const auto hits = pipeline.hits(drawable, view);
+      for (std::size_t i = 0; i < hits.size(); ++i) {
+        if (expected[i] == kUndecided)
+          ASSERT_LE(hits[i], 1) << i;
+        else
+          ASSERT_EQ(hits[i], expected[i]) << i;
+      }
+    });
+  }
+
+  ~ConformanceClips() override {
+    if (judged_ == 0) return;
+    RecordProperty("samples", std::to_string(judged_));
+    RecordProperty("undecided", std::to_string(undecided_));
+  }
+  void expect_most_decided() const {
+    EXPECT_LT(undecided_ * 500, judged_);
+    EXPECT_GT(inside_ * 50, judged_);
+  }
+
+ private:
+  static constexpr int kUndecided = -1;
+  std::uint64_t judged_ = 0, undecided_ = 0, inside_ = 0;
+};
+
+// A triangle with one or two vertices beyond a plane, whose edges are cut where floats and the grid are
+// exact: at 1/2, 3/4 or 7/8 of the way out. All other planes leave it alone.
+Triangle exactly_cut(const Plane& plane, int outside, Random& random) {
+  const auto pick = [&](int low, int high) {
+    return static_cast<float>(low +
+                              static_cast<int>(random.below(static_cast<std::uint64_t>(high - low + 1))));
+  };
+  constexpr float kRatios[] = {1, 3, 7};  // distance inside over distance outside
+  const auto ratio = [&](std::uint64_t kinds) { return kRatios[random.below(kinds)]; };
+  const bool depth = plane.axis == 2;
+  // Of a vertex on the screen; all ratios divide it.
+  const float inside = depth ? 21.0f / 32 : 21 * (plane.inward > 0 ? 782.0f : 779.0f);
+  float distance[3];
+  if (outside == 1) {
+    const std::uint64_t largest = random.below(3);
+    const float beyond = inside / kRatios[largest];
+    distance[0] = -beyond, distance[1] = inside, distance[2] = beyond * ratio(largest + 1);
+  } else {
+    distance[0] = inside, distance[1] = -inside / ratio(3), distance[2] = -inside / ratio(3);
+  }
+  Triangle t;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const bool near_screen = depth || distance[k] == inside;
+    const int reach = near_screen ? 40 : 3000;
+    t[k] = {pick(-reach, 64 + reach), pick(-reach, 64 + reach), pick(1, 15) / 16};
+    t[k][plane.axis] = plane.at + plane.inward * distance[k];
+  }
+  return t;
+}
+
+// In rationals. Every corner must lie on the grid.
+std::vector<SubPlace> exact_polygon(const Triangle& t, const Plane& plane) {
+  std::vector<SubPlace> polygon;
+  const auto add = [&](const mpq_class& x, const mpq_class& y) {
+    const mpq_class sx(x * 256), sy(y * 256);
+    EXPECT_TRUE(sx.get_den() == 1 && sy.get_den() == 1);
+    polygon.push_back({sx.get_num().get_si(), sy.get_num().get_si()});
+  };
+  for (std::size_t i = 0; i < 3; ++i) {
+    const glm::vec3 &a = t[i], &b = t[(i + 1) % 3];
+    const mpq_class da(plane.distance(a)), db(plane.distance(b)), ax(a.x), ay(a.y);
+    if (da >= 0) add(ax, ay);
+    if ((da >= 0) == (db >= 0)) continue;
+    const mpq_class along(da / (da - db));
+    add(mpq_class(ax + along * (mpq_class(b.x) - ax)), mpq_class(ay + along * (mpq_class(b.y) - ay)));
+  }
+  return polygon;
+}
+
+class ConformanceExactClips : public ConformanceClips, public ::testing::WithParamInterface<Plane> {};
+
+TEST_P(ConformanceExactClips, OneOrTwoVerticesBeyondAPlane) {
+  Random random(17);
+  const View view{};
+  int covered = 0;
+  for (int trial = 0; trial < 60; ++trial)
+    for (const int outside : {1, 2})
+      for (int turn = 0; turn < 6; ++turn) {
+        Triangle t = exactly_cut(GetParam(), outside, random);
+        std::rotate(t.begin(), t.begin() + turn % 3, t.end());
+        if (turn >= 3) std::swap(t[1], t[2]);
+        const auto polygon = exact_polygon(t, GetParam());
+        ASSERT_EQ(polygon.size(), outside == 1 ? 4u : 3u);
+        auto expected = windings(polygon, view.width, view.height);
+        for (int& turns : expected) covered += turns = std::abs(turns);
+        expect_hits(stream_of(t), view, expected, "trial " + std::to_string(trial));
+        // Its facing is the polygon's.
+        const bool front = area(polygon) > 0;
+        if (area(polygon) != 0)
+          expect_nothing(stream_of(t), {.cull = front ? Cull::front : Cull::back}, "culled");
+        if (HasFailure()) return;
+      }
+  EXPECT_GT(covered, 50'000);
+}
+
+TEST_P(ConformanceExactClips, ThreeVerticesBeyondAPlaneDrawNothing) {
+  Random random(18);
+  const Plane& plane = GetParam();
+  for (int trial = 0; trial < 40; ++trial) {
+    Triangle t;
+    for (glm::vec3& v : t) {
+      v = {random.uniform(-90.0f, 150.0f), random.uniform(-90.0f, 150.0f), random.uniform(0.1f, 0.9f)};
+      const float beyond = std::nextafter(plane.at, -plane.inward * 1e9f);
+      v[plane.axis] = trial % 4 == 0 ? beyond : beyond - plane.inward * random.uniform(0.0f, 100'000.0f);
+    }
+    expect_nothing(stream_of(t), {}, "trial " + std::to_string(trial));
+    expect_nothing(stream_of({t[0], t[2], t[1]}), {}, "reversed");
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Planes, ConformanceExactClips, ::testing::ValuesIn(kPlanes),
+                         [](const auto& p) { return std::string(p.param.name); });
+
+int outside_of(const Plane& plane, const Triangle& t) {
+  return static_cast<int>(
+      std::count_if(t.begin(), t.end(), [&](glm::vec3 v) { return plane.distance(v) < 0; }));
+}
+
+// Each coordinate of each vertex in the view, or to either side of it up to 100,000 px away; two triangles in
+// three hold a place in the image.
+Triangle anywhere(Random& random) {
+  Triangle t;
+  for (glm::vec3& v : t) {
+    for (int axis = 0; axis < 2; ++axis) {
+      const float beyond = 16384 * std::pow(6.1f, random.uniform(0.0f, 1.0f));
+      const float place[] = {random.uniform(-30.0f, 94.0f), -beyond, beyond};
+      v[axis] = place[random.below(3)];
+    }
+    const float depth[] = {random.uniform(0.0f, 1.0f), -random.uniform(0.0f, 2.0f),
+                           1 + random.uniform(0.0f, 2.0f)};
+    v.z = depth[random.below(3)];
+  }
+  if (random.below(3) == 0) return t;
+  const glm::vec3 held(random.uniform(2.0f, 62.0f), random.uniform(2.0f, 62.0f), random.uniform(0.1f, 0.9f));
+  t[2] = 2.0f * held - 0.5f * (t[0] + t[1]);
+  return t;
+}
+
+TEST_F(ConformanceClips, VerticesUpTo100000PixelsAwayBeyondSeveralPlanes) {
+  Random random(19);
+  int with_outside[6][4] = {}, with_planes[7] = {};
+  for (int trial = 0; trial < 1500 && !HasFailure(); ++trial) {
+    const Triangle t = anywhere(random);
+    int crossed = 0;
+    for (std::size_t plane = 0; plane < 6; ++plane) {
+      const int outside = outside_of(kPlanes[plane], t);
+      ++with_outside[plane][outside];
+      crossed += outside > 0;
+    }
+    ++with_planes[crossed];
+    const Outline outline({homogeneous(t[0]), homogeneous(t[1]), homogeneous(t[2])});
+    expect_outline(stream_of(t), {}, outline, "trial " + std::to_string(trial));
+  }
+  for (std::size_t plane = 0; plane < 6; ++plane)
+    for (const int outside : {1, 2, 3}) EXPECT_GT(with_outside[plane][outside], 10) << kPlanes[plane].name;
+  for (int planes = 1; planes <= 6; ++planes) EXPECT_GT(with_planes[planes], 3) << planes;
+  expect_most_decided();
+}
+
+// ---- Through a camera
+
+constexpr lab::Size kSize{64, 48};
+
+// The eye at the origin looks along -z.
+Scene seen(const std::vector<glm::vec3>& positions, const std::vector<glm::uvec3>& triangles,
+           float far_z = 5000.0f) {
+  Scene scene;
+  Mesh mesh{positions, triangles, std::vector<std::uint32_t>(triangles.size(), 0)};
+  scene.meshes.push_back(std::move(mesh));
+  scene.instances.push_back({});
+  scene.camera.near_z = 0.5f;
+  scene.camera.far_z = far_z;
+  return scene;
+}
+
+Homogeneous homogeneous(const Scene& scene, glm::vec3 v) {
+  const Camera& camera = scene.camera;
+  const double focal = kSize.height / 2.0 / std::tan(double{camera.fov_y} / 2), w = -double{v.z};
+  const double scale = camera.far_z / (double{camera.far_z} - camera.near_z);
+  return {focal * v.x + kSize.width / 2.0 * w, -focal * v.y + kSize.height / 2.0 * w,
+          scale * (w - camera.near_z), w};
+}
+
+TEST_F(ConformanceClips, VerticesUpTo100000UnitsFromTheEye) {
+  Random random(20);
+  int used = 0, behind[4] = {};
+  for (int trial = 0; trial < 900 && !HasFailure(); ++trial) {
+    Triangle t;
+    for (glm::vec3& v : t) {
+      const float reach = std::pow(10.0f, random.uniform(0.0f, 5.0f));
+      v = {random.uniform(-reach, reach), random.uniform(-reach, reach), random.uniform(-reach, reach)};
+    }
+    if (trial % 3 != 0) {
+      const float w = random.uniform(1.0f, 20.0f);
+      const glm::vec3 held(w * random.uniform(-0.5f, 0.5f), w * random.uniform(-0.4f, 0.4f), -w);
+      t[2] = 2.0f * held - 0.5f * (t[0] + t[1]);
+    }
+    const Scene scene = seen({t.begin(), t.end()}, {{0, 1, 2}});
+    const Outline outline({homogeneous(scene, t[0]), homogeneous(scene, t[1]), homogeneous(scene, t[2])});
+    // Where both ends of an edge are so far out on the screen, floats no longer place its middle to 1/64 px.
+    if (outline.reaches_beyond(1 << 15)) continue;
+    ++used;
+    ++behind[std::count_if(t.begin(), t.end(), [](glm::vec3 v) { return v.z > -0.5f; })];
+    expect_outline(scene, {kSize.width, kSize.height}, outline, "trial " + std::to_string(trial));
+  }
+  EXPECT_GT(used, 400);
+  for (const int vertices : {0, 1, 2, 3})
+    EXPECT_GT(behind[vertices], 20) << vertices << " behind the near plane";
+  expect_most_decided();
+}
+
+// FAILURES.md, 10, and the other smallest scenes of the laboratory, against its exact oracle.
+class ConformanceClippingScenes : public ConformanceClips {
+ protected:
+  void expect_exact_owners(const lab::ClippingScene& scene, const std::string& what) {
+    const auto truth = lab::clipping_truth(scene);
+    std::vector<bool> decided;
+    auto owner = truth.owner.begin();
+    for (int y = 0; y < scene.size.height; ++y)
+      for (int x = 0; x < scene.size.width; ++x, ++owner) {
+        bool same = true;
+        for (int k = 0; same && k < 8; ++k) {
+          const double angle = k * 0.78539816339744831;
+          same = truth.oracle->owner_at(x + 0.5 + lab::kHairlinePx * std::cos(angle),
+                                        y + 0.5 + lab::kHairlinePx * std::sin(angle)) == *owner;
+        }
+        decided.push_back(same);
+      }
+    EXPECT_GT(std::count(decided.begin(), decided.end(), true) * 10, std::ssize(decided) * 9) << what;
+    const View view{scene.size.width, scene.size.height, scene.cull_back ? Cull::back : Cull::none};
+    with_each(what, [&](Pipeline& pipeline) {
+      const Framebuffer& frame = pipeline.draw(scene.scene, view);
+      for (int y = 0, i = 0; y < view.height; ++y)
+        for (int x = 0; x < view.width; ++x, ++i)
+          if (decided[static_cast<std::size_t>(i)]) {
+            ASSERT_EQ(frame.payload_row(y)[x], truth.owner[static_cast<std::size_t>(i)])
+                << "pixel (" << x << ", " << y << ")";
+          }
+    });
+  }
+};
+
+TEST_F(ConformanceClippingScenes, EveryOutsideDirectionInBothWindings) {
+  for (int direction = 0; direction < lab::kOutsideDirections; ++direction) {
+    expect_exact_owners(lab::outside_direction(direction, false), "direction " + std::to_string(direction));
+    const lab::ClippingScene back = lab::outside_direction(direction, true);
+    expect_nothing(back.scene, {back.size.width, back.size.height, Cull::back}, "reversed");
+    expect_nothing(lab::outside_direction(direction, false).scene,
+                   {back.size.width, back.size.height, Cull::front}, "front culled");
+  }
+}
+
+TEST_F(ConformanceClippingScenes, TheLaboratorysSmallestScenes) {
+  for (const lab::ClippingCase& c : lab::clipping_cases())
+    if (c.name != "along_the_rows")  // where nearly all samples lie within a hair of an edge
+      expect_exact_owners(c.make(), std::string(c.name));
+}
+
+// ---- Fans and neighbours
+
+// A fan on a tilted plane around a hub in view. Its rim lies beyond all six planes, so that every triangle
+// is cut by some; the screen sees none of the rim, and every pixel must be hit once.
+struct Fan {
+  std::vector<glm::vec3> vertices;
+  std::vector<glm::uvec3> triangles;
+};
+Fan make_fan(glm::vec3 hub, glm::vec3 u, glm::vec3 v, int spokes, double turn, bool reversed) {
+  Fan fan;
+  for (int i = 0; i < spokes; ++i) {
+    const double angle = turn + 2 * 3.14159265358979 * i / spokes;
+    fan.vertices.push_back(hub + static_cast<float>(std::cos(angle)) * u +
+                           static_cast<float>(std::sin(angle)) * v);
+  }
+  const auto n = static_cast<unsigned>(spokes);
+  for (unsigned i = 0; i < n; ++i)
+    fan.triangles.push_back(reversed ? glm::uvec3(n, (i + 1) % n, i) : glm::uvec3(n, i, (i + 1) % n));
+  fan.vertices.push_back(hub);
+  return fan;
+}
+
+class ConformanceFans : public ConformanceClips {
+ protected:
+  void expect_all_once(const Drawable& drawable, const Fan& fan, View view, const std::string& what) {
+    const auto pixels = static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height);
+    expect_hits(drawable, view, std::vector<int>(pixels, 1), what);
+    const bool front = drawn(drawable, {view.width, view.height, Cull::back});
+    EXPECT_NE(front, drawn(drawable, {view.width, view.height, Cull::front}));
+    view.cull = front ? Cull::back : Cull::front;
+    expect_hits(drawable, view, std::vector<int>(pixels, 1), what + ", the others culled");
+    with_each(what, [&](Pipeline& pipeline) {
+      pipeline.triangles(drawable, view);
+      const FrontendStats& s = pipeline.stats();
+      ASSERT_GT(s.clipped_near, 0u);
+      ASSERT_GT(s.clipped_far, 0u);
+      ASSERT_GT(s.clipped_guard, 0u);
+      ASSERT_EQ(s.triangles, fan.triangles.size());
+    });
+  }
+
+ private:
+  bool drawn(const Drawable& drawable, const View& view) {
+    return !pipelines().front().triangles(drawable, view).empty();
+  }
+};
+
+TEST_F(ConformanceFans, OnTheScreenThroughAllSixPlanes) {
+  Random random(21);
+  for (int trial = 0; trial < 60 && !HasFailure(); ++trial) {
+    const glm::vec3 hub(random.uniform(1.0f, 63.0f), random.uniform(1.0f, 63.0f), 0.5f);
+    // Depth changes by less than 0.3 over the screen, and by more than 1 over the fan.
+    const glm::vec2 slope(random.uniform(2e-4f, 1e-3f), random.uniform(2e-4f, 1e-3f));
+    const float reach = random.uniform(60'000.0f, 100'000.0f);
+    const Fan fan = make_fan(hub, {reach, 0, reach * slope.x}, {0, reach, reach * slope.y}, 4 + trial % 21,
+                             random.uniform(0.0f, 6.0f), trial % 2 == 0);
+    expect_all_once(conformance::stream_of(fan.vertices, fan.triangles), fan, {},
+                    "trial " + std::to_string(trial));
+  }
+}
+
+TEST_F(ConformanceFans, InSpaceThroughAllSixPlanes) {
+  Random random(22);
+  for (int trial = 0; trial < 60 && !HasFailure(); ++trial) {
+    const float distance = random.uniform(2.0f, 20.0f), reach = random.uniform(50'000.0f, 100'000.0f);
+    const glm::vec3 hub(random.uniform(-0.4f, 0.4f) * distance, random.uniform(-0.4f, 0.4f) * distance,
+                        -distance);
+    // Tilted so that it runs behind the eye on one side and beyond far on the other, out of sight.
+    const glm::vec3 u(reach, 0, reach * random.uniform(0.1f, 0.7f)),
+        v(0, reach, reach * random.uniform(0.1f, 0.7f));
+    const Fan fan = make_fan(hub, u, v, 4 + trial % 21, random.uniform(0.0f, 6.0f), trial % 2 == 0);
+    expect_all_once(seen(fan.vertices, fan.triangles, 1000.0f), fan, {kSize.width, kSize.height},
+                    "trial " + std::to_string(trial));
+  }
+}
+
+// Two triangles of a flat quad whose shared edge crosses the image and leaves through planes on both ends.
+// Every sample away from the quad's own outline is hit once, those on the shared edge too.
+TEST_F(ConformanceClips, NeighboursAtACutEdgeLeaveNoGap) {
+  Random random(23);
+  int ends_outside[3] = {}, seam = 0;
+  for (int trial = 0; trial < 600 && !HasFailure(); ++trial) {
+    const glm::vec2 held(random.uniform(10.0f, 54.0f), random.uniform(10.0f, 54.0f));
+    const glm::vec2 along(random.direction()), across(-along.y, along.x);
+    const auto reach = [&] { return std::pow(10.0f, random.uniform(1.0f, 5.0f)); };
+    // So gentle that the near and far planes cut beyond the image.
+    const glm::vec2 slope(random.uniform(-2e-4f, 2e-4f), random.uniform(-2e-4f, 2e-4f));
+    const auto at = [&](glm::vec2 p) { return glm::vec3(p, 0.5f + glm::dot(slope, p - held)); };
+    const glm::vec3 a = at(held - reach() * along), b = at(held + reach() * along),
+                    left = at(held - reach() * across), right = at(held + reach() * across);
+    int outside = 0;
+    for (const glm::vec3 end : {a, b})
+      outside += std::any_of(std::begin(kPlanes), std::end(kPlanes),
+                             [&](const Plane& plane) { return plane.distance(end) < 0; });
+    ++ends_outside[outside];
+    const Outline quad({homogeneous(a), homogeneous(right), homogeneous(b), homogeneous(left)}),
+        half({homogeneous(a), homogeneous(b), homogeneous(left)});
+    for (int y = 0; y < 64; ++y)
+      for (int x = 0; x < 64; ++x)
+        seam += quad.decides(x, y) && quad.winding(x, y) != 0 && !half.decides(x, y);
+    const std::vector<glm::uvec3> triangles = trial % 2 == 0 ? std::vector<glm::uvec3>{{0, 1, 2}, {1, 0, 3}}
+                                                             : std::vector<glm::uvec3>{{2, 1, 0}, {1, 3, 0}};
+    expect_outline(conformance::stream_of({a, b, left, right}, triangles), {}, quad,
+                   "trial " + std::to_string(trial));
+  }
+  for (const int ends : {0, 1, 2}) EXPECT_GT(ends_outside[ends], 20);
+  EXPECT_GT(seam, 300) << "samples within a hair of the shared edge";
+  expect_most_decided();
+}
+
+}  // namespace
+}  // namespace edgewise::conformance

@@ -1,0 +1,166 @@
+// Culling: every mode against every winding, for triangle lists, strips and fans (as lists: a
+// strip turns every second triangle round, so that all face the same way), and one tiny triangle a pixel with
+// the windings alternating. Which triangles are left is told by exact areas, what they cover by winding
+// numbers.
+#include <array>
+#include <glm/glm.hpp>
+
+#include "conformance/pipeline.h"
+#include "scene/random.h"
+
+namespace edgewise::conformance {
+namespace {
+
+class ConformanceCulling : public Conformance {
+ protected:
+  static bool is_kept(Cull cull, std::int64_t twice_area) {
+    return twice_area > 0 ? cull == Cull::none || cull == Cull::back
+                          : twice_area < 0 && (cull == Cull::none || cull == Cull::front);
+  }
+
+  // Every mode. Where triangles overlap the first is seen: all have the same depth.
+  void expect_culled(const TriangleStream& stream, View view, const std::string& what) {
+    for (const Cull cull : cull_modes()) {
+      view.cull = cull;
+      std::vector<std::uint32_t> owners(
+          static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height), kNobody);
+      for (std::uint32_t id = 0; id < stream.triangles.size(); ++id) {
+        const auto places = snapped(stream.triangles[id].vertex);
+        if (!is_kept(cull, area(places))) continue;
+        auto owner = owners.begin();
+        for (int y = 0; y < view.height; ++y)
+          for (int x = 0; x < view.width; ++x, ++owner)
+            if (*owner == kNobody && winding(places, x, y) != 0) *owner = id;
+      }
+      expect_owners(stream, view, owners, what + ", cull " + std::string(name_of(cull)));
+    }
+  }
+
+  // As a list, as it is and with every triangle reversed.
+  void expect_culled_both_ways(const std::vector<glm::vec3>& vertices, std::vector<glm::uvec3> triangles,
+                               const std::string& what) {
+    expect_culled(stream_of(vertices, triangles), {}, what);
+    for (glm::uvec3& t : triangles) std::swap(t.y, t.z);
+    expect_culled(stream_of(vertices, triangles), {}, what + " reversed");
+  }
+};
+
+std::vector<glm::vec3> zigzag(Random& random) {
+  std::vector<glm::vec3> v;
+  for (int i = 0; i < 12; ++i)
+    v.emplace_back(3.0f + 5.0f * static_cast<float>(i) + random.uniform(-2.0f, 2.0f),
+                   (i % 2 == 0 ? 12.0f : 50.0f) + random.uniform(-8.0f, 8.0f), 0.5f);
+  return v;
+}
+
+TEST_F(ConformanceCulling, Lists) {
+  Random random(1);
+  for (int trial = 0; trial < 4; ++trial) {
+    std::vector<glm::vec3> v;
+    std::vector<glm::uvec3> triangles;
+    for (unsigned i = 0; i < 60; ++i) {
+      v.emplace_back(random.uniform(-9.0f, 73.0f), random.uniform(-9.0f, 73.0f), 0.5f);
+      if (i % 3 == 2) triangles.emplace_back(i - 2, i - 1, i);
+    }
+    expect_culled_both_ways(v, triangles, "list");
+  }
+}
+
+TEST_F(ConformanceCulling, Strips) {
+  Random random(2);
+  for (int trial = 0; trial < 4; ++trial) {
+    const auto v = zigzag(random);
+    std::vector<glm::uvec3> strip;
+    for (unsigned i = 0; i + 2 < v.size(); ++i)
+      strip.emplace_back(i % 2 == 0 ? glm::uvec3(i, i + 1, i + 2) : glm::uvec3(i + 1, i, i + 2));
+    const auto stream = stream_of(v, strip);
+    for (const StreamTriangle& t : stream.triangles)
+      ASSERT_EQ(area(snapped(t.vertex)) > 0, area(snapped(stream.triangles[0].vertex)) > 0);
+    expect_culled_both_ways(v, strip, "strip");
+  }
+}
+
+TEST_F(ConformanceCulling, Fans) {
+  Random random(3);
+  for (int trial = 0; trial < 4; ++trial) {
+    std::vector<glm::vec3> v{{random.uniform(20.0f, 44.0f), random.uniform(20.0f, 44.0f), 0.5f}};
+    std::vector<glm::uvec3> fan;
+    for (unsigned i = 0; i < 14; ++i) {
+      const double angle = 0.4 * i;
+      const float radius = random.uniform(10.0f, 40.0f);
+      v.emplace_back(v[0].x + radius * static_cast<float>(std::cos(angle)),
+                     v[0].y + radius * static_cast<float>(std::sin(angle)), 0.5f);
+      if (i > 0) fan.emplace_back(0, i, i + 1);
+    }
+    expect_culled_both_ways(v, fan, "fan");
+  }
+}
+
+// The same through a camera, where the front end culls meshes; which way a triangle faces is told by the
+// places that it gets when nothing is culled.
+TEST_F(ConformanceCulling, Meshes) {
+  Random random(4);
+  for (const float mirror : {1.0f, -1.0f}) {
+    Scene scene;
+    Mesh mesh;
+    for (unsigned i = 0; i < 90; ++i) {
+      mesh.positions.emplace_back(random.uniform(-3.0f, 3.0f), random.uniform(-3.0f, 3.0f),
+                                  -random.uniform(3.0f, 9.0f));
+      if (i % 3 == 2) mesh.triangles.emplace_back(i - 2, i - 1, i);
+    }
+    mesh.colours.assign(mesh.triangles.size(), 0);
+    scene.meshes.push_back(mesh);
+    scene.instances.push_back({.scale = {mirror, 1, 1}});
+    with_each("mesh", [&](Pipeline& pipeline) {
+      const auto span = pipeline.triangles(scene, {});
+      const std::vector<ScreenTriangle> all(span.begin(), span.end());
+      ASSERT_GT(all.size(), 20u);
+      for (const Cull cull : cull_modes()) {
+        std::vector<std::uint32_t> expected, ids;
+        for (const ScreenTriangle& t : all) {
+          const std::array places{SubPlace{t.x_sub[0], t.y_sub[0]}, SubPlace{t.x_sub[1], t.y_sub[1]},
+                                  SubPlace{t.x_sub[2], t.y_sub[2]}};
+          if (is_kept(cull, area(places))) expected.push_back(t.payload);
+        }
+        for (const ScreenTriangle& t : pipeline.triangles(scene, {.cull = cull})) ids.push_back(t.payload);
+        ASSERT_EQ(ids, expected) << name_of(cull);
+      }
+    });
+  }
+}
+
+// From the smallest triangle that can own a sample to one that nearly meets its neighbours.
+TEST_F(ConformanceCulling, OneTinyTriangleAPixelWithTheWindingsAlternating) {
+  const View view{48, 40};
+  // Sub-units around the sample, clockwise.
+  const glm::ivec2 kShapes[][3] = {{{0, 0}, {1, 0}, {0, 1}},
+                                   {{-1, -1}, {1, 0}, {0, 1}},
+                                   {{0, -3}, {2, 2}, {-3, 1}},
+                                   {{-20, -30}, {41, -7}, {-3, 50}},
+                                   {{-127, -127}, {127, -127}, {-126, 127}}};
+  for (const auto& shape : kShapes) {
+    TriangleStream stream{view.width, view.height, {}};
+    for (int y = 0; y < view.height; ++y)
+      for (int x = 0; x < view.width; ++x) {
+        StreamTriangle t{};
+        for (int k = 0; k < 3; ++k) {
+          const glm::ivec2 p = shape[(x + y) % 2 == 0 ? k : 2 - k];
+          t.vertex[k] = {static_cast<float>(x) + 0.5f + static_cast<float>(p.x) / 256.0f,
+                         static_cast<float>(y) + 0.5f + static_cast<float>(p.y) / 256.0f, 0.5f};
+        }
+        stream.triangles.push_back(t);
+      }
+    for (const Cull cull : cull_modes()) {
+      std::vector<std::uint32_t> owners;
+      for (int y = 0; y < view.height; ++y)
+        for (int x = 0; x < view.width; ++x)
+          owners.push_back(is_kept(cull, (x + y) % 2 == 0 ? 1 : -1)
+                               ? static_cast<std::uint32_t>(y * view.width + x)
+                               : kNobody);
+      expect_owners(stream, {view.width, view.height, cull}, owners, std::string(name_of(cull)));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace edgewise::conformance

@@ -1,0 +1,158 @@
+// Depth at the near and far planes: on them a triangle is drawn, beyond them it is not, and
+// between them it has the depths of its exact plane.
+#include <gmpxx.h>
+
+#include <cmath>
+#include <glm/glm.hpp>
+
+#include "conformance/pipeline.h"
+#include "lab/truth.h"
+#include "scene/random.h"
+
+namespace edgewise::conformance {
+namespace {
+
+using contract::kDepthHead;
+using contract::kDepthRange;
+
+class ConformanceDepth : public Conformance {
+ protected:
+  static TriangleStream wall(float z) {
+    return stream_of({{-10, -10, z}, {200, -10, z}, {-10, 200, z}}, {{0, 1, 2}});
+  }
+
+  void expect_wall(const Drawable& drawable, std::uint32_t depth, const std::string& what) {
+    with_each(what, [&](Pipeline& pipeline) {
+      const Framebuffer& frame = pipeline.draw(drawable, {});
+      for (int y = 0; y < frame.height(); ++y)
+        for (int x = 0; x < frame.width(); ++x) {
+          ASSERT_EQ(frame.payload_row(y)[x], 0u);
+          ASSERT_EQ(frame.depth_row(y)[x], depth);
+        }
+    });
+  }
+};
+
+TEST_F(ConformanceDepth, WallsOnThePlanesAreDrawnWithTheRangesEnds) {
+  expect_wall(wall(0.0f), kDepthHead, "on the near plane");
+  expect_wall(wall(-0.0f), kDepthHead, "on the near plane, minus zero");
+  expect_wall(wall(1.0f), kDepthHead + kDepthRange, "on the far plane");
+}
+
+TEST_F(ConformanceDepth, WallsBetweenThePlanesHaveTheNearestDepth) {
+  Random random(31);
+  for (int trial = 0; trial < 300; ++trial) {
+    const float z = trial == 0   ? std::nextafter(0.0f, 1.0f)
+                    : trial == 1 ? std::nextafter(1.0f, 0.0f)
+                    : trial == 2 ? 0.5f
+                                 : random.uniform(0.0f, 1.0f);
+    // Half to even, in whole numbers: z is n / 2^149 at the finest.
+    mpq_class units(z);
+    units *= kDepthRange;
+    const mpz_class whole = units.get_num() / units.get_den();
+    const mpq_class rest = units - whole;
+    const bool up = rest > mpq_class(1, 2) || (rest == mpq_class(1, 2) && whole % 2 != 0);
+    expect_wall(wall(z), kDepthHead + static_cast<std::uint32_t>(whole.get_ui()) + up, std::to_string(z));
+  }
+}
+
+TEST_F(ConformanceDepth, WallsBeyondThePlanesDrawNothing) {
+  for (const float z : {std::nextafter(0.0f, -1.0f), -1e-30f, -0.25f, -1e5f, -3e38f,
+                        std::nextafter(1.0f, 2.0f), 1.5f, 1e5f, 3e38f})
+    expect_nothing(wall(z), {}, std::to_string(z));
+}
+
+// With near 1 and far 2 the projection is exact: depth is 2 - 2 / w, times w.
+TEST_F(ConformanceDepth, WallsThroughACameraToo) {
+  const auto wall_at = [](float distance) {
+    Scene scene;
+    Mesh mesh;
+    mesh.positions = {{-9, -9, -distance}, {-9, 9, -distance}, {9, -9, -distance}, {9, 9, -distance}};
+    mesh.triangles = {{0, 1, 2}, {3, 2, 1}};
+    mesh.colours = {0, 0};
+    scene.meshes.push_back(mesh);
+    scene.instances.push_back({});
+    scene.camera.near_z = 1;
+    scene.camera.far_z = 2;
+    return scene;
+  };
+  const auto expect_depth = [&](float distance, std::uint32_t depth) {
+    with_each(std::to_string(distance), [&](Pipeline& pipeline) {
+      const Framebuffer& frame = pipeline.draw(wall_at(distance), {});
+      for (int y = 0; y < frame.height(); ++y)
+        for (int x = 0; x < frame.width(); ++x) ASSERT_EQ(frame.depth_row(y)[x], depth);
+    });
+  };
+  expect_depth(1.0f, kDepthHead);
+  expect_depth(2.0f, kDepthHead + kDepthRange);
+  for (const float beyond : {std::nextafter(1.0f, 0.0f), 0.5f, 0.0f, -1.5f, std::nextafter(2.0f, 3.0f), 1e5f})
+    expect_nothing(wall_at(beyond), {}, std::to_string(beyond));
+}
+
+// A slope from before the near plane to behind the far one, cut where floats and the grid are exact. The cut
+// runs along a column of samples, which belongs to the side that a left edge gives it to.
+TEST_F(ConformanceDepth, ASlopeThroughBothPlanesIsDrawnBetweenThem) {
+  for (const float start : {8.5f, 8.0f, 8.25f})
+    for (const bool falls : {false, true}) {
+      // Depth 0 at `start`, 1 at start + 32; the corners lie 32 px beyond.
+      const auto at = [&](float x, float y) {
+        const float z = (x - start) / 32;
+        return glm::vec3(x, y, falls ? 1 - z : z);
+      };
+      const std::vector<glm::vec3> v{at(start - 32, -16), at(start + 64, -16), at(start - 32, 80),
+                                     at(start + 64, 80)};
+      with_each("start " + std::to_string(start) + (falls ? " falling" : ""), [&](Pipeline& pipeline) {
+        const auto stream = stream_of(v, {{0, 1, 2}, {1, 3, 2}});
+        const auto hits = pipeline.hits(stream, {});
+        const Framebuffer& frame = pipeline.draw(stream, {});
+        for (int y = 0; y < 64; ++y)
+          for (int x = 0; x < 64; ++x) {
+            const float sample = static_cast<float>(x) + 0.5f;
+            const bool between = sample >= start && sample < start + 32;
+            ASSERT_EQ(hits[static_cast<std::size_t>(y * 64 + x)], between) << x << ", " << y;
+            ASSERT_EQ(frame.depth_row(y)[x] == contract::kDepthClear, !between);
+            if (!between) continue;
+            const double z = (sample - start) / 32.0;
+            const double exact = kDepthHead + (falls ? 1 - z : z) * kDepthRange;
+            ASSERT_LT(std::abs(frame.depth_row(y)[x] - exact), contract::kDepthError) << x << ", " << y;
+          }
+      });
+    }
+}
+
+// Drawn depths keep within the contract's error of the exact plane through the places as they were handed
+// in, up to the very ends of the range, and never leave it.
+TEST_F(ConformanceDepth, SteepTrianglesBetweenThePlanesStayOnTheirPlane) {
+  Random random(32);
+  for (int trial = 0; trial < 150 && !HasFailure(); ++trial) {
+    std::vector<glm::vec3> v;
+    for (int k = 0; k < 3; ++k)
+      v.emplace_back(std::round(random.uniform(-20.0f, 84.0f) * 256) / 256,
+                     std::round(random.uniform(-20.0f, 84.0f) * 256) / 256,
+                     static_cast<float>(random.below(2)));
+    ScreenTriangle t{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      t.x_sub[k] = static_cast<std::int32_t>(snapped(v[k]).x);
+      t.y_sub[k] = static_cast<std::int32_t>(snapped(v[k]).y);
+      t.z[k] = kDepthHead + (v[k].z > 0 ? kDepthRange : 0);
+    }
+    const lab::SnappedTruth truth(t);
+    std::vector<double> expected;  // negative where nothing is drawn
+    for (int y = 0; y < 64; ++y)
+      for (int x = 0; x < 64; ++x) expected.push_back(truth.covers(x, y) ? truth.depth(x, y).get_d() : -1);
+    with_each("trial " + std::to_string(trial), [&](Pipeline& pipeline) {
+      const Framebuffer& frame = pipeline.draw(stream_of(v, {{0, 1, 2}}), {});
+      auto exact = expected.begin();
+      for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 64; ++x, ++exact) {
+          ASSERT_EQ(frame.payload_row(y)[x] != kNobody, *exact >= 0);
+          if (*exact < 0) continue;
+          ASSERT_LT(std::abs(frame.depth_row(y)[x] - *exact), contract::kDepthError);
+          ASSERT_LT(frame.depth_row(y)[x], contract::kDepthClear);
+        }
+    });
+  }
+}
+
+}  // namespace
+}  // namespace edgewise::conformance

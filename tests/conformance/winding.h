@@ -1,0 +1,68 @@
+// The conformance suite's own truth: how often a polygon winds around a sample. It shares no arithmetic with
+// the contract, a backend or the laboratory: no edge function is biased and no triangle is asked.
+//
+// The top-left rule in one sentence: a sample counts as lying an infinitesimal step to the right of its
+// place, and an infinitely smaller one below it. There it lies on no edge. A ray to the right then crosses an
+// edge where the edge runs past the sample's height, the upper end included, strictly to the right of it.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace edgewise::conformance {
+
+template <typename T>
+struct Place {
+  T x, y;
+};
+
+// 1/256 px, as snapped positions are; up to 2^30.
+using SubPlace = Place<std::int64_t>;
+
+// Around the sample of a pixel: positive is clockwise on the y-down screen, that is front. Where triangles
+// share the polygon's orientation and fill it, this is how often they must draw the pixel, all together.
+inline int winding(std::span<const SubPlace> polygon, int px, int py) {
+  const std::int64_t sx = std::int64_t{px} * 256 + 128, sy = std::int64_t{py} * 256 + 128;
+  int turns = 0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const SubPlace &p = polygon[i], &q = polygon[i + 1 == polygon.size() ? 0 : i + 1];
+    const bool down = p.y <= sy && sy < q.y, up = q.y <= sy && sy < p.y;
+    if (!down && !up) continue;
+    const std::int64_t side = (q.x - p.x) * (sy - p.y) - (q.y - p.y) * (sx - p.x);
+    if (down && side > 0) ++turns;
+    if (up && side < 0) --turns;
+  }
+  return turns;
+}
+
+inline std::vector<int> windings(std::span<const SubPlace> polygon, int width, int height) {
+  std::vector<int> all;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) all.push_back(winding(polygon, x, y));
+  return all;
+}
+
+// Twice the area; positive is clockwise.
+inline std::int64_t area(std::span<const SubPlace> polygon) {
+  std::int64_t sum = 0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const SubPlace &p = polygon[i], &q = polygon[i + 1 == polygon.size() ? 0 : i + 1];
+    sum += p.x * q.y - p.y * q.x;
+  }
+  return sum;
+}
+
+// Samples that lie exactly on the line between two places: where only a tie rule decides.
+inline int ties(const SubPlace& p, const SubPlace& q, int width, int height) {
+  int count = 0;
+  for (std::int64_t y = 0; y < height; ++y)
+    for (std::int64_t x = 0; x < width; ++x) {
+      const std::int64_t dx = x * 256 + 128 - p.x, dy = y * 256 + 128 - p.y, ex = q.x - p.x, ey = q.y - p.y;
+      const std::int64_t along = dx * ex + dy * ey;
+      count += dx * ey == dy * ex && along > 0 && along < ex * ex + ey * ey;
+    }
+  return count;
+}
+
+}  // namespace edgewise::conformance

@@ -1,0 +1,80 @@
+// The program on processors that this machine is not: an emulator (qemu-user) runs it on ones without AVX,
+// and without AVX-512, where an instruction that leaked out of the dispatched kernels ends it, and the
+// pictures must still be the same files.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <string>
+
+#include "run_program.h"
+
+#if defined(__x86_64__)
+
+namespace edgewise::testing {
+namespace {
+
+struct Processor {
+  const char* name;    // as qemu calls it
+  const char* target;  // the best that it must be found to have
+  bool avx;
+};
+
+constexpr Processor kProcessors[] = {
+    {"Nehalem", "scalar", false},  // 2008: SSE4.2, but none of what Highway's SSE4 asks for besides
+    {"Westmere", "sse4", false},   // 2010
+    {"Haswell", "avx2", true},     // 2013
+};
+
+constexpr const char* kEmulator = "qemu-x86_64";
+
+class EmulatedCpu : public ::testing::TestWithParam<Processor> {
+ protected:
+  void SetUp() override {
+    if (std::system((std::string("command -v ") + kEmulator + " >/dev/null").c_str()) != 0)
+      GTEST_SKIP() << kEmulator << " is not here; on Debian: apt-get install qemu-user";
+  }
+
+  static Outcome emulate(const std::string& program, const std::string& arguments) {
+    return run_program(
+        "env", std::string(kEmulator) + " -cpu " + GetParam().name + " '" + program + "' " + arguments);
+  }
+};
+
+TEST_P(EmulatedCpu, EndsAProgramThatUsesWhatItLacks) {
+  const Outcome outcome = emulate(EDGEWISE_AVX_PROBE, "");
+  EXPECT_EQ(outcome.status == 0, GetParam().avx) << outcome.err;
+}
+
+TEST_P(EmulatedCpu, GetsTheKernelsThatItCanRunAndNoBitDiffers) {
+  const Outcome list = emulate(EDGEWISE_PROGRAM, "machine");
+  ASSERT_EQ(list.status, 0) << list.err;
+  EXPECT_NE(list.out.find("\"simd_best\": \"" + std::string(GetParam().target) + '"'), std::string::npos)
+      << list.out;
+  const TempDir folder;
+  const Outcome verify = emulate(
+      EDGEWISE_PROGRAM, "verify torus-knot grid4 --size 70x67 --out '" + folder.path().string() + "/none'");
+  EXPECT_EQ(verify.status, 0) << verify.out << verify.err;
+}
+
+TEST_P(EmulatedCpu, DrawsTheFilesThatThisMachineDraws) {
+  const TempDir here, there;
+  const auto arguments = [](const TempDir& folder) {
+    return "render torus-knot terrain --size 120x90 -o '" + folder.path().string() +
+           "/{scene}.ppm' --depth '" + folder.path().string() + "/{scene}.pfm'";
+  };
+  ASSERT_EQ(run_program(EDGEWISE_PROGRAM, arguments(here)).status, 0);
+  const Outcome emulated = emulate(EDGEWISE_PROGRAM, arguments(there));
+  ASSERT_EQ(emulated.status, 0) << emulated.err;
+  for (const char* name : {"torus-knot.ppm", "torus-knot.pfm", "terrain.ppm", "terrain.pfm"}) {
+    const std::string expected = file_content(here.path() / name);
+    EXPECT_FALSE(expected.empty());
+    EXPECT_TRUE(expected == file_content(there.path() / name)) << name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Qemu, EmulatedCpu, ::testing::ValuesIn(kProcessors),
+                         [](const auto& param) { return std::string(param.param.name); });
+
+}  // namespace
+}  // namespace edgewise::testing
+#endif

@@ -1,0 +1,157 @@
+#include "fuzz.h"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+#include "frontend/frontend.h"
+#include "lab/measure.h"
+#include "lab/oracle.h"
+#include "raster/contract.h"
+
+namespace edgewise::fuzz {
+
+void fail(const std::string& what) {
+  std::fprintf(stderr, "FOUND: %s\n", what.c_str());
+  std::abort();
+}
+
+MemoryFile::MemoryFile(const std::uint8_t* data, std::size_t size)
+    : descriptor_(memfd_create("edgewise-fuzz", MFD_CLOEXEC)) {
+  // Not what is tested: without memory there is no file.
+  if (descriptor_ < 0 || write(descriptor_, data, size) != static_cast<ssize_t>(size)) std::exit(2);
+  path_ = "/proc/self/fd/" + std::to_string(descriptor_);
+}
+
+MemoryFile::~MemoryFile() {
+  close(descriptor_);
+}
+
+namespace {
+
+constexpr std::uint32_t kBackground = 0xABCD1234, kCanary = 0xDEADBEEF;
+
+std::string describe(const BackendInfo& backend, const Execution& e) {
+  return std::string(backend.name) + ", " + std::string(name_of(e.target)) + ", " +
+         std::to_string(e.threads) + " threads, tile " + std::to_string(e.tile_size) + ", " +
+         edgewise::describe(e.ideas);
+}
+
+// A plane of pixels in memory that is no larger, so that a sanitizer sees what leaves it.
+class Plane {
+ public:
+  explicit Plane(const Placement& p)
+      : p_(p),
+        stride_(p.width + p.padding),
+        pixels_(static_cast<std::size_t>(p.start + stride_ * (p.height - 1) + p.width), kCanary) {}
+
+  std::uint32_t* data() { return pixels_.data() + p_.start; }
+  int stride() const { return stride_; }
+
+  // `expected(x, y)` in the frame, canaries beside it.
+  template <typename Expected>
+  void check(const Expected& expected, const std::string& what) const {
+    for (int i = 0; i < static_cast<int>(pixels_.size()); ++i) {
+      const int x = (i - p_.start) % stride_, y = (i - p_.start) / stride_;
+      const bool beside = i < p_.start || x >= p_.width;
+      if (pixels_[static_cast<std::size_t>(i)] != (beside ? kCanary : expected(x, y)))
+        fail(what + (beside ? ": wrote beside the frame at (" : ": wrong at (") + std::to_string(x) + ", " +
+             std::to_string(y) + ")");
+    }
+  }
+
+ private:
+  Placement p_;
+  int stride_;
+  std::vector<std::uint32_t> pixels_;
+};
+
+// The picture that all must draw.
+Framebuffer reference(std::span<const ScreenTriangle> triangles, int width, int height) {
+  constexpr std::size_t kOracleWork = 20'000;  // pixels times triangles
+  Framebuffer frame(width, height);
+  if (triangles.size() * static_cast<std::size_t>(width * height) <= kOracleWork)
+    lab::draw_oracle(triangles, frame, kBackground);
+  else
+    backends()[0].make()->draw(triangles, frame.view(), kBackground, {1, 64, SimdTarget::scalar});
+  return frame;
+}
+
+}  // namespace
+
+void check_backends(std::span<const ScreenTriangle> triangles, const Placement& p, Execution execution) {
+  const Framebuffer expected = reference(triangles, p.width, p.height);
+  for (const BackendInfo& info : backends())
+    for (const SimdTarget target : supported_targets()) {
+      execution.target = target;
+      Plane depth(p), payload(p);
+      info.make()->draw(triangles, {depth.data(), payload.data(), p.width, p.height, depth.stride()},
+                        kBackground, execution);
+      const std::string what = describe(info, execution);
+      depth.check([&](int x, int y) { return expected.depth_row(y)[x]; }, what + ", depth");
+      payload.check([&](int x, int y) { return expected.payload_row(y)[x]; }, what + ", payload");
+    }
+}
+
+namespace {
+
+void check_ranges(std::span<const ScreenTriangle> triangles) {
+  for (const ScreenTriangle& t : triangles)
+    for (int i = 0; i < 3; ++i) {
+      const auto in_band = [](std::int32_t c) {
+        return c >= -contract::kGuardSub && c <= contract::kGuardSub;
+      };
+      require(in_band(t.x_sub[i]) && in_band(t.y_sub[i]), "the front end left the guard band");
+      require(t.z[i] >= contract::kDepthHead && t.z[i] <= contract::kDepthHead + contract::kDepthRange,
+              "the front end left the depth range");
+    }
+}
+
+// Nothing for a camera out of range.
+std::optional<std::span<const ScreenTriangle>> run(Frontend& frontend, const Drawable& drawable,
+                                                   const FrontendOptions& options) {
+  try {
+    return frontend.run(drawable, options);
+  } catch (const std::invalid_argument&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+void check_frontend(const Drawable& drawable, int width, int height) {
+  constexpr int kLargestSide = 64;
+  FrontendOptions options;
+  options.width = std::min(width, kLargestSide);
+  options.height = std::min(height, kLargestSide);
+  static Frontend scalar, vectors;  // as programs keep them from frame to frame
+  options.shade = std::holds_alternative<Scene>(drawable);
+  for (const Cull cull : {Cull::none, Cull::back}) {
+    options.cull = cull;
+    options.target = SimdTarget::scalar;
+    const auto expected = run(scalar, drawable, options);
+    for (const SimdTarget target : supported_targets().subspan(1)) {
+      options.target = target;
+      const auto actual = run(vectors, drawable, options);
+      const std::string name(name_of(target));
+      require(expected.has_value() == actual.has_value(), "only one of scalar and " + name + " refuses");
+      if (!expected) continue;
+      require(expected->size() == actual->size() &&
+                  (expected->empty() ||
+                   std::memcmp(expected->data(), actual->data(), expected->size_bytes()) == 0),
+              "the front end's triangles differ from scalar to " + name);
+    }
+    if (!expected) return;
+    check_ranges(*expected);
+    if (cull == Cull::none) check_backends(*expected, {options.width, options.height, 0, 0}, {});
+  }
+}
+
+}  // namespace edgewise::fuzz

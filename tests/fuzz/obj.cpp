@@ -1,0 +1,38 @@
+// Any bytes as an .obj file: either a message, or a mesh that is whole and can be drawn.
+#include <cmath>
+#include <stdexcept>
+
+#include "fuzz.h"
+#include "scene/obj_file.h"
+
+using namespace edgewise;
+
+namespace {
+
+void check(const Scene& scene) {
+  for (const Mesh& mesh : scene.meshes) {
+    fuzz::require(!mesh.triangles.empty(), "a mesh without triangles");
+    fuzz::require(mesh.colours.size() == mesh.triangles.size(), "colours and triangles differ in number");
+    for (const glm::vec3& p : mesh.positions)
+      fuzz::require(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z),
+                    "a position is not finite");
+    for (const glm::uvec3& t : mesh.triangles)
+      for (int i = 0; i < 3; ++i)
+        fuzz::require(t[i] < mesh.positions.size(), "a triangle names a vertex that is not there");
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const fuzz::MemoryFile file(data, size);
+  Scene scene;
+  try {
+    scene = read_obj(file.path());
+  } catch (const std::runtime_error&) {
+    return 0;
+  }
+  check(scene);
+  fuzz::check_frontend(std::move(scene), 64, 48);
+  return 0;
+}

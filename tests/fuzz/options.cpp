@@ -1,0 +1,48 @@
+// Any bytes as a command line, a word a line: either a message that a terminal can show, or an action, which
+// is not taken.
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/printable.h"
+#include "app/run.h"
+#include "fuzz.h"
+
+using namespace edgewise;
+
+namespace {
+
+// As main() gets them.
+std::vector<std::string> words_of(std::string_view text) {
+  std::vector<std::string> words{"edgewise"};
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    words.emplace_back(text.substr(0, std::min(text.substr(0, end).find('\0'), end)));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return words;
+}
+
+bool is_control(char c) {
+  return static_cast<unsigned char>(c) < ' ' || c == '\x7F';
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  std::vector<std::string> words = words_of({reinterpret_cast<const char*>(data), size});
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  try {
+    fuzz::require(app::parse(static_cast<int>(words.size()), argv.data()) != nullptr,
+                  "nothing to do, nothing wrong");
+  } catch (const std::invalid_argument& error) {
+    const std::string line = app::printable(error.what(), ' ');
+    fuzz::require(!line.empty() && std::none_of(line.begin(), line.end(), is_control),
+                  "a message that is no line");
+  }
+  return 0;
+}

@@ -1,0 +1,25 @@
+// Any bytes as a .tri file: either a message, or a stream that writes the same bytes again and can be drawn.
+#include <sstream>
+#include <stdexcept>
+
+#include "fuzz.h"
+#include "scene/tri_file.h"
+
+using namespace edgewise;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const fuzz::MemoryFile file(data, size);
+  TriangleStream stream;
+  try {
+    stream = read_tri(file.path());
+  } catch (const std::runtime_error&) {
+    return 0;
+  }
+  std::ostringstream again;
+  write_tri(again, stream);
+  fuzz::require(again.view() == std::string_view(reinterpret_cast<const char*>(data), size),
+                "what was read is written differently");
+  const int width = stream.width, height = stream.height;
+  fuzz::check_frontend(std::move(stream), width, height);
+  return 0;
+}

@@ -1,0 +1,191 @@
+// Bad input and faults, row by row of hostile_table.h: a clear message, the documented exit status, no file
+// under its final name that is not whole, and never a crash.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "hostile_table.h"
+#include "image/image.h"
+#include "run_program.h"
+#include "temp_dir.h"
+
+namespace edgewise::testing {
+
+void PrintTo(const Hostile& row, std::ostream* out) {
+  *out << row.script;
+}
+
+namespace {
+
+constexpr int kSkipped = 77;
+
+// `stopped SIGNAL COMMAND…` runs a command until a file appears in $DIR, and sends it the signal; its status
+// is the command's. `unprivileged COMMAND…` runs it as somebody whom permissions bind, or skips the row.
+constexpr const char* kWords = R"(
+set -m
+for descriptor in {3..20}; do eval "exec $descriptor>&-"; done  # what ctest leaves open
+edgewise() { "$EDGEWISE" "$@"; }
+bench() { "$BENCH" "$@"; }
+SHORT='--no-peers --scene cube --size 32x32 --quick --benchmark_min_time=0.001'
+program() { case $1 in edgewise) shift; exec "$EDGEWISE" "$@" ;; bench) shift; exec "$BENCH" "$@" ;; esac; }
+stopped() {
+  local signal=$1 before; shift
+  before=$(ls -A "$DIR" | wc -l)
+  exec 3>&2 2>/dev/null
+  program "$@" >/dev/null 2>&3 &
+  for ((i = 0; i < 2000; i++)); do
+    (($(ls -A "$DIR" | wc -l) == before)) || break
+    sleep 0.01
+  done
+  kill -s "$signal" $!
+  wait $!
+}
+unprivileged() {
+  chmod 755 "$IN"
+  if (($(id -u) != 0)); then
+    program "$@"
+  elif setpriv --reuid=65534 --regid=65534 --clear-groups test -x "$EDGEWISE" -a -x "$IN"; then
+    [[ $1 == bench ]] && set -- "$BENCH" "${@:2}" || set -- "$EDGEWISE" "${@:2}"
+    setpriv --reuid=65534 --regid=65534 --clear-groups "$@"
+  else
+    exit 77
+  fi
+}
+)";
+
+void write_inputs(const TempDir& folder) {
+  using namespace std::string_literals;
+  const auto le = [](std::uint32_t value) {
+    std::string bytes;
+    for (int i = 0; i < 4; ++i) bytes += static_cast<char>(value >> 8 * i & 255);
+    return bytes;
+  };
+  const std::string kCorners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  folder.write("good.obj", kCorners + "f 1 2 3\n");
+  folder.write("empty.obj", "");
+  folder.write("index.obj", kCorners + "f 1 2 9\n");
+  folder.write("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n");
+  folder.write("infinite.obj", "v 0 0 0\nv 1e999 0 0\nv 0 1 0\nf 1 2 3\n");
+  folder.write("binary.obj", "\x7F"s + "ELF\0\1\2\3"s);
+  folder.write("mesh.stl", "solid");
+  folder.write("cut.tri", "TRI1\1");
+  folder.write("other.tri", "NOPE............");
+  folder.write("lies.tri", "TRI1" + le(4) + le(4) + le(0xFFFFFFFF) + "xxxx");
+  folder.write("wide.tri", "TRI1" + le(16385) + le(4) + le(0));
+  std::string floats;  // of a triangle with an infinity, one with a NaN, and a good one
+  for (const std::uint32_t first : {0x7F800000u, 0x7FC00000u, 0x3F800000u})
+    floats +=
+        le(first) + le(0) + le(0) + le(0x41000000) + le(0) + le(0) + le(0) + le(0x41000000) + le(0) + le(7);
+  folder.write("nan.tri", "TRI1" + le(8) + le(8) + le(3) + floats);
+  folder.write("text.png", "not a picture");
+  folder.write("cut.json", R"({"format": "edgewise soak", "sequence": 1, "seed": 1})");
+  folder.write("old.json", R"({"format": "edgewise soak", "sequence": 0, "seed": 1})");
+  folder.write("cut.png", "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\x09\0\0\0\x09"s);
+  folder.write("large.tri", "TRI1" + le(4) + le(4) + le((1 << 30) + 1));
+  folder.write("wide.png",
+               "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\x0f\x42\x40\0\x0f\x42\x40\x08\x02\0\0\0\xd3\x0f\xaf\x2a"s);
+  folder.write("small.ppm", "P6\n1 1\n255\nabc");
+  folder.write("other.ppm", "P6\n1 1\n255\nxyz");
+  folder.write("large.ppm", "P6\n2 1\n255\nabcdef");
+  folder.write("huge.ppm", "P6\n1000000000 1000000000\n255\nabc");
+  folder.write("cut.ppm", "P6\n2 2\n255\nabc");
+  folder.write("depth.pfm", "Pf\n1 1\n-1.0\n\0\0\0\0"s);
+  folder.write("cut.pfm", "Pf\n2 2\n-1.0\n\0\0\0\0"s);
+}
+
+std::string shown_name(const std::string& name) {
+  return name.starts_with(".edgewise.") && name.ends_with(".partial") ? "partial" : name;
+}
+
+void expect_whole(const std::filesystem::path& file) {
+  const std::string name = file.filename();
+  if (std::filesystem::is_directory(file)) {
+    for (const auto& entry : std::filesystem::directory_iterator(file))
+      if (shown_name(entry.path().filename()) != "partial") expect_whole(entry.path());
+  } else if (name.starts_with("older")) {
+    EXPECT_EQ(file_content(file), "older");
+  } else if (file.extension() == ".json") {
+    EXPECT_FALSE(nlohmann::json::parse(file_content(file), nullptr, false).is_discarded());
+  } else if (is_image_path(file)) {
+    EXPECT_NO_THROW(read_image(file));
+  }
+}
+
+bool takes_too_much_address_space(const std::string& script) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  return script.find("ulimit -v") != std::string::npos;
+#else
+  return script.empty();
+#endif
+}
+
+// A signal that is ignored when a shell starts stays so; and nothing may hang.
+Outcome run_script(const std::string& script, const TempDir& folder, const TempDir& input) {
+  const auto file = input.write("script", kWords + script);
+  return run_program("/usr/bin/env", "--default-signal=HUP,INT,QUIT,TERM DIR='" + folder.path().string() +
+                                         "' IN='" + input.path().string() +
+                                         "' EDGEWISE='" EDGEWISE_PROGRAM "' BENCH='" EDGEWISE_BENCH
+                                         "' timeout -s KILL 60 bash '" +
+                                         file.string() + "'");
+}
+
+class HostileInput : public ::testing::TestWithParam<Hostile> {};
+
+TEST_P(HostileInput, IsAnsweredAsTheTableSays) {
+  const Hostile& row = GetParam();
+  const std::string script = row.script;
+  if (takes_too_much_address_space(script)) GTEST_SKIP() << "sanitizers reserve more than the limit";
+  const TempDir folder, input;
+  write_inputs(input);
+  const Outcome outcome = run_script(script, folder, input);
+  if (outcome.status == kSkipped) GTEST_SKIP() << "nobody here whom permissions bind may run the program";
+  EXPECT_EQ(outcome.status, row.status) << outcome.err;
+  EXPECT_NE(outcome.err.find(row.said), std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find('\x1b'), std::string::npos) << "nothing that a terminal obeys";
+  if (outcome.status == 2 && *row.said != '\0' && script.find("bench ") == std::string::npos) {
+    EXPECT_TRUE(outcome.err.starts_with("edgewise: ")) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << "one line: " << outcome.err;
+  }
+
+  std::vector<std::string> left;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+    left.push_back(shown_name(entry.path().filename()));
+    if (left.back() != "partial") expect_whole(entry.path());
+  }
+  std::sort(left.begin(), left.end());
+  std::string listing;
+  for (const std::string& name : left) listing += (listing.empty() ? "" : " ") + name;
+  EXPECT_EQ(listing, row.left);
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, HostileInput, ::testing::ValuesIn(kHostile));
+
+// Wherever memory runs out: done, or one line and status 2. On one thread, since oneTBB may not come back.
+TEST(HostileMemory, EndsInAFileOrInOneLineAtAnyLimit) {
+  int done = 0, refused = 0;
+  for (const std::string command : {"edgewise render torus-knot --size 1900x1900 --threads 1 -o $DIR/a.png",
+                                    "edgewise capture terrain -o $DIR/a.tri",
+                                    "edgewise stability cycle --quick --threads 1 --json $DIR/a.json"})
+    for (const int kib : {15'000, 20'000, 30'000, 40'000, 50'000, 60'000, 80'000, 150'000}) {
+      const std::string script = "ulimit -v " + std::to_string(kib) + "; " + command;
+      if (takes_too_much_address_space(script)) GTEST_SKIP() << "sanitizers reserve more than the limit";
+      const TempDir folder, input;
+      const Outcome outcome = run_script(script, folder, input);
+      ASSERT_TRUE(outcome.status == 0 || outcome.status == 2)
+          << script << ": " << outcome.status << outcome.err;
+      ++(outcome.status == 0 ? done : refused);
+      EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), outcome.status == 0 ? 0 : 1);
+      EXPECT_EQ(folder.count(), outcome.status == 0 ? 1u : 0u) << script;
+      for (const auto& entry : std::filesystem::directory_iterator(folder.path())) expect_whole(entry.path());
+    }
+  EXPECT_GT(done, 3);
+  EXPECT_GT(refused, 3);
+}
+
+}  // namespace
+}  // namespace edgewise::testing

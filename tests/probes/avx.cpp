@@ -1,0 +1,6 @@
+// Ends well only where there is AVX.
+int main() {
+#if defined(__x86_64__)
+  asm volatile("vpxor %%xmm0, %%xmm0, %%xmm0" ::: "xmm0");
+#endif
+}

@@ -1,0 +1,144 @@
+// All triangles, in every orientation, whose vertices lie on a small lattice of sub-units inside a few
+// pixels: what every backend draws on every SIMD target, against the oracle's depth and ids. Thousands share
+// a frame, each in a cell of its own.
+#include <gtest/gtest.h>
+
+#include <ostream>
+#include <string_view>
+#include <vector>
+
+#include "app/capture.h"
+#include "frontend/fixed.h"
+#include "lab/oracle.h"
+#include "properties/mistaken.h"
+#include "properties/pictures.h"
+#include "properties/streams.h"
+#include "support.h"
+
+namespace edgewise::testing {
+namespace {
+
+// x and y of a vertex, in sub-units, are any two of `coordinates`.
+struct Lattice {
+  std::string name;
+  std::vector<std::int32_t> coordinates;
+
+  std::uint64_t points() const { return coordinates.size() * coordinates.size(); }
+  std::uint64_t triangles() const { return points() * points() * points(); }  // each vertex is any point
+  friend std::ostream& operator<<(std::ostream& out, const Lattice& lattice) { return out << lattice.name; }
+};
+
+Lattice steps(std::string name, int px, int steps_a_px) {
+  Lattice lattice{std::move(name), {}};
+  for (int i = 0; i <= px * steps_a_px; ++i) lattice.coordinates.push_back(i * contract::kSub / steps_a_px);
+  return lattice;
+}
+
+// The samples of some pixels in a row, and what lies a sub-unit before and after them.
+Lattice around_samples(int px) {
+  Lattice lattice{"around_samples", {}};
+  for (int i = 0; i < px; ++i)
+    for (const int off : {-1, 0, 1}) lattice.coordinates.push_back(contract::sample_sub(i) + off);
+  return lattice;
+}
+
+// Odd, so that the cells meet all places in a vector and lie across all borders of tiles.
+constexpr int kCellPx = 5, kCellsASide = 128, kSidePx = kCellPx * kCellsASide;
+constexpr std::uint64_t kCells = std::uint64_t{kCellsASide} * kCellsASide;
+
+ScreenTriangle triangle_of(const Lattice& lattice, std::uint64_t number, std::uint32_t cell) {
+  ScreenTriangle t{};
+  Random depths(number);
+  for (int i = 0; i < 3; ++i) {
+    const std::uint64_t point = number % lattice.points(), side = lattice.coordinates.size();
+    number /= lattice.points();
+    const auto origin = [](std::uint32_t c) {
+      return static_cast<std::int32_t>(c) * kCellPx * contract::kSub;
+    };
+    t.x_sub[i] = origin(cell % kCellsASide) + lattice.coordinates[point % side];
+    t.y_sub[i] = origin(cell / kCellsASide) + lattice.coordinates[point / side];
+    t.z[i] = quantize_depth(static_cast<float>(depths.below(1 << 16)) * 0x1p-16f);  // a stream can hold it
+  }
+  t.payload = cell;
+  return t;
+}
+
+std::vector<Execution> all_targets() {  // and the other tile sizes
+  std::vector<Execution> ways;
+  for (const SimdTarget target : supported_targets()) ways.push_back({1, 64, target});
+  ways.push_back({1, 16, SimdTarget::best});
+  ways.push_back({2, 32, SimdTarget::best, {.vector_setup = false}});
+  return ways;
+}
+
+// Of a batch that is drawn wrong, the triangles at the first wrong pixel, if they are drawn wrong for
+// themselves; else all.
+Counterexample narrowed(const std::vector<ScreenTriangle>& batch, const Framebuffer& wrong, int x, int y,
+                        const Property& property) {
+  std::vector<ScreenTriangle> suspects;
+  const auto owner = static_cast<std::uint32_t>(y / kCellPx * kCellsASide + x / kCellPx);
+  for (const std::uint32_t cell : {owner, wrong.payload_row(y)[x]})
+    if (cell < batch.size()) suspects.push_back(batch[cell]);
+  const TriangleStream few = app::to_stream(suspects, kSidePx, kSidePx);
+  if (!property(few).wrong.empty()) return smallest(shrinkable(few), property);
+  return {property(app::to_stream(batch, kSidePx, kSidePx)), 0};
+}
+
+// Up to the first difference. Counts the triangles drawn, by all painters in all ways.
+SearchResult draw_all(const Lattice& lattice, const std::vector<Painter>& painters,
+                      const std::vector<Execution>& ways) {
+  SearchResult result;
+  Framebuffer expected(kSidePx, kSidePx), actual(kSidePx, kSidePx);
+  std::vector<ScreenTriangle> batch;
+  for (std::uint64_t first = 0; first < lattice.triangles(); first += batch.size()) {
+    batch.clear();
+    for (std::uint64_t i = first; i < std::min(first + kCells, lattice.triangles()); ++i)
+      batch.push_back(triangle_of(lattice, i, static_cast<std::uint32_t>(i - first)));
+    result.cases += batch.size();
+    lab::draw_oracle(batch, expected, kBackground);
+    for (const Painter& painter : painters)
+      for (const Execution& way : ways) {
+        lab::poison(actual);
+        painter.backend->draw(batch, actual.view(), kBackground, way);
+        result.comparisons += batch.size();
+        const auto difference = lab::compare(expected, actual);
+        if (difference.pixels == 0) continue;
+        result.found = narrowed(batch, actual, difference.first_x, difference.first_y,
+                                like_the_oracles(painters, {way}));
+        return result;
+      }
+  }
+  return result;
+}
+
+class EveryTriangle : public ::testing::TestWithParam<Lattice> {};
+
+TEST_P(EveryTriangle, OfTheLatticeIsDrawnLikeTheOracles) {
+  const SearchResult result = draw_all(GetParam(), painters(backends()), all_targets());
+  RecordProperty("cases", std::to_string(result.cases));
+  RecordProperty("comparisons", std::to_string(result.comparisons));
+  if (result.found) fail(*result.found);
+  EXPECT_EQ(result.cases, GetParam().triangles());
+}
+
+std::vector<Lattice> lattices() {
+  if (full_size())
+    return {steps("eighths_of_2_px", 2, 8), steps("quarters_of_4_px", 4, 4), around_samples(4)};
+  return {steps("quarters_of_2_px", 2, 4), steps("halves_of_4_px", 4, 2), around_samples(2)};
+}
+
+INSTANTIATE_TEST_SUITE_P(Lattices, EveryTriangle, ::testing::ValuesIn(lattices()),
+                         [](const auto& lattice) { return lattice.param.name; });
+
+TEST(EveryTriangle, FindsAPlantedMistake) {
+  for (const BackendInfo& wrong : {mistaken<Mistake::samples_on_all_edges_are_inside>(),
+                                   mistaken<Mistake::one_lane_is_a_unit_deeper>()}) {
+    const SearchResult result =
+        draw_all(steps("halves_of_2_px", 2, 2), painters(std::span(&wrong, 1)), {Execution{}});
+    ASSERT_TRUE(result.found.has_value());
+    EXPECT_EQ(result.found->verdict.replay.at(0).triangles.size(), 1u);
+  }
+}
+
+}  // namespace
+}  // namespace edgewise::testing

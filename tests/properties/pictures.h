@@ -1,0 +1,47 @@
+// Streams as screen triangles, pictures of them by every backend, and counts of hits.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "frontend/frontend.h"
+#include "properties/property.h"
+#include "raster/backend.h"
+#include "scene/scene.h"
+
+namespace edgewise::testing {
+
+// Pixels → sub-units, half to even; by doubles, apart from the front end.
+std::int32_t snapped_to_grid(float px);
+
+// Positions by snapped_to_grid(). Unlike there, triangles stay that lie
+// outside the image or have no area. Nothing is clipped: coordinates may exceed the guard band.
+std::vector<ScreenTriangle> snapped(const TriangleStream& stream, Payload payload);
+
+// A backend that keeps its memory from one case to the next.
+struct Painter {
+  std::string_view name;
+  std::unique_ptr<Backend> backend;
+};
+std::vector<Painter> painters(std::span<const BackendInfo> infos);
+
+// The plainest way to execute, and the fastest on one thread.
+std::span<const Execution> two_executions();
+
+Framebuffer drawn(const Painter& painter, std::span<const ScreenTriangle> triangles, int width, int height,
+                  const Execution& execution);
+
+// Compares the picture that each painter makes in each way with `expected`.
+void compare_pictures(Verdict& verdict, const Framebuffer& expected, std::span<const Painter> painters,
+                      std::span<const ScreenTriangle> triangles, std::span<const Execution> ways,
+                      const std::string& what);
+
+// The oracle's picture is every painter's, with ids and with colours, in every way to execute; `painters`
+// must outlive the property.
+Property like_the_oracles(const std::vector<Painter>& painters, std::vector<Execution> ways);
+
+}  // namespace edgewise::testing

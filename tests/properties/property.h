@@ -1,0 +1,65 @@
+// A property is a claim about every triangle stream. RapidCheck makes streams and shrinks one that breaks the
+// claim; what is left is written as .tri files that the program replays.
+#pragma once
+
+#include <rapidcheck.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace edgewise::testing {
+
+// What a property says of one stream.
+struct Verdict {
+  std::uint64_t comparisons = 0;  // of pictures, or of planes of counts
+  std::string wrong = {};         // the first thing; empty if the property holds
+  std::vector<TriangleStream>
+      replay;                       // the streams to draw to see it: this one, and what it was compared with
+  bool replay_by_pictures = false;  // each may be drawn faithfully, but the first two should look the same
+
+  // Counts a comparison; `difference` is empty if it found none.
+  void compare(const std::string& difference, const std::string& what) {
+    ++comparisons;
+    if (wrong.empty() && !difference.empty()) wrong = what + ": " + difference;
+  }
+};
+
+using Property = std::function<Verdict(const TriangleStream&)>;
+
+struct Counterexample {
+  Verdict verdict;  // of the smallest stream
+  std::size_t shrinks;
+};
+
+// The smallest that can be found of a stream that breaks the property.
+Counterexample smallest(const rc::Shrinkable<TriangleStream>& stream, const Property& property);
+
+struct SearchResult {
+  std::uint64_t cases = 0, comparisons = 0;
+  std::optional<Counterexample> found;
+};
+
+// Tries `cases` streams of growing size, up to the first that breaks the property.
+SearchResult search(const rc::Gen<TriangleStream>& streams, int cases, const Property& property);
+
+// Writes what is to be replayed as FOLDER/NAME.tri, NAME-2.tri … and returns the message: what is wrong,
+// where the files are, and the command that shows it again.
+std::string report(const Counterexample& found, const std::filesystem::path& folder, const std::string& name);
+
+// Where the files of failed properties go: property-failures, beside the program.
+std::filesystem::path failure_folder();
+
+// Fails the running test with a report, whose files are named after the test.
+void fail(const Counterexample& found);
+
+// Searches, and fails if there is a counterexample. `cases` is the number for every day; the full size tries
+// 25 times as many. --gtest_random_seed=N tries others. Records "cases" and "comparisons".
+void check(const rc::Gen<TriangleStream>& streams, int cases, const Property& property);
+
+}  // namespace edgewise::testing

@@ -1,0 +1,238 @@
+#include "properties/streams.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+#include "app/capture.h"
+#include "properties/generator.h"
+#include "properties/pictures.h"
+#include "support.h"
+
+namespace edgewise::testing {
+
+namespace {
+
+using contract::kSub;
+
+// How streams shrink: fewer triangles, a smaller image, nearer to the origin, rounder numbers.
+
+// To the grid first, then towards 0.
+rc::Seq<float> simpler_positions(float px) {
+  const std::int32_t sub = snapped_to_grid(px);
+  if (pixels(sub) != px) return rc::seq::just(pixels(sub));
+  return rc::seq::map(rc::shrink::towards(sub, 0), pixels);
+}
+
+rc::Seq<float> simpler_depths(float z) {
+  std::vector<float> simpler;
+  if (z != 0.0f) simpler.push_back(0.0f);
+  if (z != 0.0f && z != 0.5f) simpler.push_back(0.5f);
+  if (const float rounder = std::nearbyint(z * 256.0f) / 256.0f; rounder != z) simpler.push_back(rounder);
+  return rc::seq::fromContainer(simpler);
+}
+
+rc::Seq<StreamTriangle> simpler_triangles(const StreamTriangle& triangle) {
+  const auto one = [&](int vertex, int axis) {
+    const float value = triangle.vertex[vertex][axis];
+    return rc::seq::map(axis == 2 ? simpler_depths(value) : simpler_positions(value), [=](float simpler) {
+      StreamTriangle changed = triangle;
+      changed.vertex[vertex][axis] = simpler;
+      return changed;
+    });
+  };
+  return rc::seq::concat(one(0, 0), one(0, 1), one(1, 0), one(1, 1), one(2, 0), one(2, 1), one(0, 2),
+                         one(1, 2), one(2, 2));
+}
+
+// The stream moved by whole pixels so that its least coordinate, if it is beyond a pixel, is below one.
+rc::Seq<TriangleStream> nearer_the_origin(const TriangleStream& stream, int axis) {
+  float least = contract::kMaxImageSide;
+  for (const StreamTriangle& t : stream.triangles)
+    for (const glm::vec3& v : t.vertex) least = std::min(least, v[axis]);
+  if (stream.triangles.empty() || least < 1.0f) return {};
+  TriangleStream moved = stream;
+  for (StreamTriangle& t : moved.triangles)
+    for (glm::vec3& v : t.vertex) v[axis] -= std::floor(least);
+  return rc::seq::just(moved);
+}
+
+// The image without its first columns (axis 0) or rows (axis 1); the triangles move with the rest.
+rc::Seq<TriangleStream> cropped(const TriangleStream& stream, int axis) {
+  const int side = axis == 0 ? stream.width : stream.height;
+  return rc::seq::map(rc::shrink::towards(side, 1), [=](int smaller) {
+    TriangleStream changed = stream;
+    (axis == 0 ? changed.width : changed.height) = smaller;
+    for (StreamTriangle& t : changed.triangles)
+      for (glm::vec3& v : t.vertex)
+        v[axis] = std::max(v[axis] - static_cast<float>(side - smaller), -float{contract::kMaxImageSide});
+    return changed;
+  });
+}
+
+// One coordinate, wherever it occurs: shared vertices and copies stay what they are.
+rc::Seq<TriangleStream> simpler_shared_coordinates(const TriangleStream& stream, int axis) {
+  std::vector<float> values;
+  for (const StreamTriangle& t : stream.triangles)
+    for (const glm::vec3& v : t.vertex) values.push_back(v[axis]);
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  const auto with_values = [=](const std::vector<float>& simpler) {
+    TriangleStream changed = stream;
+    for (StreamTriangle& t : changed.triangles)
+      for (glm::vec3& v : t.vertex) {
+        const auto at = std::lower_bound(values.begin(), values.end(), v[axis]) - values.begin();
+        v[axis] = simpler[static_cast<std::size_t>(at)];
+      }
+    return changed;
+  };
+  return rc::seq::map(rc::shrink::eachElement(values, axis == 2 ? simpler_depths : simpler_positions),
+                      with_values);
+}
+
+rc::Seq<TriangleStream> simpler_streams(const TriangleStream& stream) {
+  const auto with_triangles = [=](const std::vector<StreamTriangle>& triangles) {
+    return TriangleStream{stream.width, stream.height, triangles};
+  };
+  const auto with_width = [=](int width) { return TriangleStream{width, stream.height, stream.triangles}; };
+  const auto with_height = [=](int height) { return TriangleStream{stream.width, height, stream.triangles}; };
+  return rc::seq::concat(
+      rc::seq::map(rc::shrink::removeChunks(stream.triangles), with_triangles), nearer_the_origin(stream, 0),
+      nearer_the_origin(stream, 1), rc::seq::map(rc::shrink::towards(stream.width, 1), with_width),
+      rc::seq::map(rc::shrink::towards(stream.height, 1), with_height), cropped(stream, 0),
+      cropped(stream, 1), simpler_shared_coordinates(stream, 0), simpler_shared_coordinates(stream, 1),
+      simpler_shared_coordinates(stream, 2),
+      rc::seq::map(rc::shrink::eachElement(stream.triangles, simpler_triangles), with_triangles));
+}
+
+// Triangles around a hub, each sharing an edge with the next, the last with the first.
+std::vector<ScreenTriangle> fan(Random& random, int width, int height) {
+  const std::int32_t reach = between(random, 0, 2) == 0 ? 3 : between(random, 64, 60 * kSub);
+  const std::int32_t x = between(random, 0, width * kSub), y = between(random, 0, height * kSub);
+  std::vector<glm::vec2> spokes(static_cast<std::size_t>(between(random, 3, 9)));
+  for (glm::vec2& spoke : spokes) spoke = random.direction();
+  const auto turn = [](glm::vec2 d) {  // grows with the angle; no trigonometry, see Random::direction()
+    const float along = d.x / (std::abs(d.x) + std::abs(d.y));
+    return d.y < 0.0f ? along : 2.0f - along;
+  };
+  std::sort(spokes.begin(), spokes.end(), [&](glm::vec2 a, glm::vec2 b) { return turn(a) < turn(b); });
+  const auto rim = [&](std::size_t i) {
+    return glm::ivec2(x, y) + glm::ivec2(glm::round(spokes[i % spokes.size()] * static_cast<float>(reach)));
+  };
+  const auto depth = contract::kDepthHead + static_cast<std::uint32_t>(random.below(contract::kDepthRange));
+  std::vector<ScreenTriangle> triangles;
+  for (std::size_t i = 0; i < spokes.size(); ++i) {
+    const glm::ivec2 a = rim(i), b = rim(i + 1);
+    triangles.push_back({{x, a.x, b.x}, {y, a.y, b.y}, {depth, contract::kDepthHead, depth}, 0});
+  }
+  return triangles;
+}
+
+// A copy of some triangle, its vertices perhaps in another order.
+StreamTriangle duplicate(Random& random, const std::vector<StreamTriangle>& triangles) {
+  StreamTriangle copy = triangles[random.below(triangles.size())];
+  std::rotate(copy.vertex, copy.vertex + random.below(3), copy.vertex + 3);
+  if (random.below(2) == 0) std::swap(copy.vertex[0], copy.vertex[1]);
+  return copy;
+}
+
+// What a family seldom has: an edge along an axis, vertices a sub-unit beside where it puts them, or all of
+// them at samples or very near.
+void vary(Random& random, ScreenTriangle& t) {
+  const auto change = [&](auto&& coordinate) {
+    for (auto* sub : {t.x_sub, t.y_sub})
+      for (int i = 0; i < 3; ++i)
+        sub[i] = std::clamp(coordinate(sub[i]), -contract::kGuardSub, contract::kGuardSub);
+  };
+  switch (random.below(6)) {
+    case 0:
+      t.y_sub[1] = t.y_sub[0];
+      break;
+    case 1:
+      t.x_sub[1] = t.x_sub[0];
+      break;
+    case 2:
+      change([&](std::int32_t sub) { return sub + between(random, -1, 1); });
+      break;
+    case 3:
+      change([&](std::int32_t sub) { return contract::sample_sub(sub / kSub) + between(random, -2, 2); });
+      break;
+    default:
+      break;
+  }
+}
+
+TriangleStream make_grid_stream(Random& random, int size) {
+  const int width = between(random, 1, 130), height = between(random, 1, 130);
+  std::vector<ScreenTriangle> triangles;
+  const auto append = [&](const std::vector<ScreenTriangle>& more) {
+    triangles.insert(triangles.end(), more.begin(), more.end());
+  };
+  for (int part = between(random, 1, 3); part > 0; --part) {
+    const auto family = kFamilies[random.below(std::size(kFamilies))];
+    auto hard = adversarial(family, between(random, 1, 1 + size / 12), width, height, random.next());
+    for (ScreenTriangle& t : hard) vary(random, t);
+    append(hard);
+    if (random.below(4) == 0) append(fan(random, width, height));
+  }
+  TriangleStream stream = app::to_stream(triangles, width, height);
+  for (int more = between(random, 0, 3); more > 0; --more)
+    stream.triangles.push_back(duplicate(random, stream.triangles));
+  for (StreamTriangle& t : stream.triangles) t.colour = static_cast<std::uint32_t>(random.next());
+  return stream;
+}
+
+TriangleStream make_float_stream(Random& random, int size) {
+  constexpr int kFraction = 8;            // of a sub-unit
+  constexpr float kRoomForIt = 4'096.0f;  // px; farther out floats are too coarse
+  TriangleStream stream = make_grid_stream(random, size);
+  for (StreamTriangle& t : stream.triangles)
+    for (glm::vec3& v : t.vertex) {
+      for (const int axis : {0, 1})
+        if (std::abs(v[axis]) < kRoomForIt)
+          v[axis] += static_cast<float>(between(random, -kFraction, kFraction)) / (kFraction * kSub);
+      if (random.below(8) == 0) v.z = random.below(2) == 0 ? 1.0f : 1e-40f;
+    }
+  return stream;
+}
+
+// Half of the triangles get one vertex far away, half an edge from far away to far away through the image.
+TriangleStream make_far_stream(Random& random, int size) {
+  TriangleStream stream = make_float_stream(random, size);
+  const auto far = [&](glm::vec3& v, glm::vec2 direction) {
+    const glm::vec2 at = glm::vec2(v) + direction * random.uniform(100.0f, 100'000.0f);
+    v.x = at.x, v.y = at.y;
+  };
+  for (StreamTriangle& t : stream.triangles) {
+    const glm::vec2 direction = random.direction();
+    if (random.below(2) == 0) {
+      t.vertex[1] = t.vertex[0];
+      far(t.vertex[1], -direction);
+    }
+    far(t.vertex[0], direction);
+  }
+  return stream;
+}
+
+}  // namespace
+
+rc::Shrinkable<TriangleStream> shrinkable(const TriangleStream& stream) {
+  return rc::shrinkable::shrinkRecur(stream, simpler_streams);
+}
+
+rc::Gen<TriangleStream> grid_streams() {
+  return generator<TriangleStream>(make_grid_stream, simpler_streams);
+}
+
+rc::Gen<TriangleStream> float_streams() {
+  return generator<TriangleStream>(make_float_stream, simpler_streams);
+}
+
+rc::Gen<TriangleStream> far_streams() {
+  return generator<TriangleStream>(make_far_stream, simpler_streams);
+}
+
+}  // namespace edgewise::testing

@@ -1,0 +1,27 @@
+// Generators of triangle streams that are hard to draw, and how each shrinks.
+#pragma once
+
+#include <rapidcheck.h>
+
+#include "scene/scene.h"
+
+namespace edgewise::testing {
+
+// Every family of support.h, mixed with fans, shared edges and duplicates; on the 1/256 px grid, within the
+// guard band. Up to 40 triangles and 130 px a side.
+rc::Gen<TriangleStream> grid_streams();
+
+// The same, with positions off the grid, many of them half-way between two points of it.
+rc::Gen<TriangleStream> float_streams();
+
+// The same, with some vertices beyond the guard band, up to 10^5 px away.
+rc::Gen<TriangleStream> far_streams();
+
+// A stream from elsewhere, to be shrunk as these are.
+rc::Shrinkable<TriangleStream> shrinkable(const TriangleStream& stream);
+
+// Triangulations, fans and slivers among them, of a rectangle whose samples are those of the image; every
+// edge is shared whole. They shrink to triangulations.
+rc::Gen<TriangleStream> tessellations();
+
+}  // namespace edgewise::testing

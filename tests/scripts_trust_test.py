@@ -1,0 +1,81 @@
+"""scripts/collect_tests.py and scripts/trust.py, on results made here."""
+import json
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+SCRIPTS = Path(__file__).resolve().parent.parent / "scripts"
+sys.path.insert(0, str(SCRIPTS))
+from trust import trust_markdown, trust_table  # noqa: E402
+
+SHARDS = [{"testsuites": [{"testsuite": [{"name": "A", "cases": "40", "comparisons": "400"}, {"name": "B"}]}]},
+          {"testsuites": [{"testsuite": [{"name": "C", "cases": "2", "failures": [{"failure": "wrong"}]},
+                                         {"name": "D", "result": "SKIPPED"}]}]}]
+JUNIT = '<testsuite name="x" tests="7" failures="1" disabled="1" skipped="2"></testsuite>'
+TOTALS = {"all": {"tests": 4, "failed": 1, "skipped": 1, "cases": 42, "comparisons": 400},
+          "sanitized": [{"name": "thread", "tests": 7, "failed": 1, "skipped": 3}]}
+GOOD = {"tests": {"all": {"tests": 500, "failed": 0, "skipped": 0, "cases": 2_000_000, "comparisons": 0},
+                  "sanitized": [{"name": "address", "tests": 499, "failed": 0, "skipped": 2}]},
+        "prove": {"claims": 9, "proven": 9, "refuted": 9},
+        "mutate": {"mutations": 25, "caught": 25},
+        "fuzz": {"targets": [{"what": "any bytes", "executions": 12_345, "lines_reached": 90, "lines": 100, "crashes": []}]},
+        "soak": {"seconds": 1800, "frames": 3_000_000, "triangles": 10**9, "pixels": 10**11, "differences": 0}}
+
+
+class CollectTest(unittest.TestCase):
+    def test_adds_up_shards_and_sanitizers(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            for i, shard in enumerate(SHARDS):
+                (folder / f"{i}.json").write_text(json.dumps(shard))
+            (folder / "thread.xml").write_text(JUNIT)
+            run = subprocess.run([sys.executable, SCRIPTS / "collect_tests.py", folder / "0.json", folder / "1.json",
+                                  folder / "thread.xml"], stdout=subprocess.PIPE, check=True)
+            self.assertEqual(json.loads(run.stdout), TOTALS)
+
+    def test_says_what_is_no_result(self):
+        with tempfile.TemporaryDirectory() as name:
+            path = Path(name) / "thread.xml"
+            path.write_text("<a/>")
+            run = subprocess.run([sys.executable, SCRIPTS / "collect_tests.py", path], stderr=subprocess.PIPE, text=True,
+                                 check=False)
+            self.assertEqual(run.returncode, 2)
+            self.assertEqual(len(run.stderr.splitlines()), 1, run.stderr)
+
+
+class TrustTest(unittest.TestCase):
+    def table(self, **results):
+        with tempfile.TemporaryDirectory() as name:
+            for key, data in results.items():
+                (Path(name) / f"{key}.json").write_text(json.dumps(data))
+            return trust_table(Path(name))[1], trust_markdown(Path(name))
+
+    def test_each_result_has_its_line(self):
+        lines, text = self.table(**GOOD)
+        self.assertEqual([line[1:] for line in lines], [
+            ["500 tests, 2M cases", "no failure"],
+            ["499 tests, 2 of them skipped", "no failure"],
+            ["9 claims, and as many that claim a little too much", "all proven; all bold ones refuted"],
+            ["25 mistakes, one at a time", "all caught"],
+            ["12.3k executions, 90% of the lines", "no crash"],
+            ["3M frames, 1G triangles, 100G pixels compared in 0.5 h",
+             "no difference; below 1.0e-06 of all frames, if they fail independently"]])
+        self.assertNotIn("**", text)
+
+    def test_what_was_not_run_is_left_out(self):
+        self.assertEqual(len(self.table(mutate=GOOD["mutate"])[0]), 1)
+        self.assertEqual(self.table(), ([], "None of this was run for these results."))
+
+    def test_what_failed_is_bold(self):
+        bad = {"tests": TOTALS, "prove": {"claims": 9, "proven": 8, "refuted": 7}, "mutate": {"mutations": 25, "caught": 24},
+               "fuzz": {"targets": [{**GOOD["fuzz"]["targets"][0], "crashes": ["a", "b"]}]},
+               "soak": {**GOOD["soak"], "differences": 3}}
+        self.assertEqual([line[2] for line in self.table(**bad)[0]], [
+            "**1 failure**", "**1 failure**", "**8 of 9 proven**; **7 of 9 bold ones refuted**", "**24 of 25 caught**",
+            "**2 crashes**", "**3 differences**"])
+
+
+if __name__ == "__main__":
+    unittest.main()
