@@ -57,6 +57,18 @@ inline constexpr Hostile kHostile[] = {
     {"edgewise stability cycle lgs --list", 2, "did you mean 'legs'"},
     {"bench --scene cub --benchmark_out=$DIR/a", 2, "did you mean 'cube'"},
 
+    // ---- The viewer
+    {"edgewise view cub -o $DIR/a.png", 2, "did you mean 'cube'"},
+    {"edgewise view --keys b% -o $DIR/a.png", 2, "'%'"},
+    {"edgewise view --keys '<tabb>' -o $DIR/a.png", 2, "<tabb>"},
+    {"edgewise view --coverage tile -o $DIR/a.png", 2, "did you mean 'tiled'"},
+    {"edgewise view --facing normal -o $DIR/a.png", 2, "did you mean 'normal_z'"},
+    {"edgewise view --axis 1,2 -o $DIR/a.png", 2, "X,Y,Z"},
+    {"edgewise view -o $DIR/a.tri", 2, ".png or .ppm"},
+    {"edgewise view -o $DIR/no/a.png", 2, "/no/a.png: cannot be written"},
+    {"edgewise view --terminal -o $DIR/a.png", 2, "neither"},
+    {"edgewise view --terminal </dev/null", 2, "needs a terminal"},
+
     // ---- Sizes
     {"edgewise render cube --size 0x0 -o $DIR/a.png", 2, "--size: '0x0' is not"},
     {"edgewise render cube --size 0x5 -o $DIR/a.png", 2, "'0x5'"},

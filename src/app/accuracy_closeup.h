@@ -24,6 +24,8 @@ enum class Mark : std::uint8_t {
   extra,    // purple: drawn where nothing must be, or beside the triangle
 };
 
+std::uint32_t colour_of(Mark mark);  // none: paper
+
 struct Line {
   double x0, y0, x1, y1;  // px
   bool operator==(const Line&) const = default;

@@ -4,6 +4,8 @@
 
 #include <functional>
 
+#include "viewer/window.h"
+
 namespace CLI {
 class App;
 }
@@ -22,6 +24,7 @@ void add_accuracy(CLI::App& program, Action& action);
 void add_stability(CLI::App& program, Action& action);
 void add_diff(CLI::App& program, Action& action);
 void add_capture(CLI::App& program, Action& action);
+void add_view(CLI::App& program, Action& action, viewer::ShowWindow show_window);
 void add_machine(CLI::App& program, Action& action);
 
 }  // namespace edgewise::app

@@ -1,5 +1,10 @@
 #include "app/run.h"
+#include "viewer/window.h"
 
 int main(int argc, char** argv) {
-  return edgewise::app::run(argc, argv);
+#ifdef EDGEWISE_SDL
+  return edgewise::app::run(argc, argv, edgewise::viewer::show_sdl_window);
+#else
+  return edgewise::app::run(argc, argv, nullptr);
+#endif
 }

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <new>
@@ -16,7 +17,11 @@ namespace edgewise::app {
 
 namespace {
 
+std::atomic<void (*)()> before_stopping{nullptr};
+static_assert(decltype(before_stopping)::is_always_lock_free);
+
 extern "C" void stop(int signal) {
+  if (void (*const action)() = before_stopping) action();
   remove_unfinished_files();
   erase_progress_on_signal();
   _exit(128 + signal);
@@ -25,6 +30,7 @@ extern "C" void stop(int signal) {
 const char* program_name = "";
 
 [[noreturn]] void give_up() {
+  if (void (*const action)() = before_stopping) action();
   remove_unfinished_files();
   erase_progress_on_signal();
   try {
@@ -43,6 +49,10 @@ void occupy_closed_streams() {
 }
 
 }  // namespace
+
+void call_before_stopping(void (*action)()) {
+  before_stopping = action;
+}
 
 std::string reason_of(const std::exception& error) {
   if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) return "out of memory";

@@ -19,4 +19,8 @@ void prepare_process(const char* program);
 // What to tell the user of an exception.
 std::string reason_of(const std::exception& error);
 
+// Has those signals call something first that puts right what the program has done to its surroundings; null:
+// nothing more. It must be async-signal-safe.
+void call_before_stopping(void (*action)());
+
 }  // namespace edgewise::app

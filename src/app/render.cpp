@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -16,6 +15,7 @@
 #include "app/console.h"
 #include "app/describe.h"
 #include "app/json_text.h"
+#include "app/milliseconds.h"
 #include "app/options.h"
 #include "app/output_path.h"
 #include "app/pictures.h"
@@ -54,13 +54,6 @@ struct Picture {
   std::array<std::uint64_t, 4> hits{};  // pixels hit 0, 1, 2, 3 or more times
   std::vector<std::string> files;
 };
-
-template <typename Work>
-double milliseconds(Work work) {
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
 
 What parse_what(const std::string& text) {
   constexpr std::array<std::string_view, 3> kNames{"colour", "id", "hits"};

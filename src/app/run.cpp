@@ -38,9 +38,9 @@ void check_first_word(const CLI::App& program, std::string_view word) {
   throw std::invalid_argument(unknown_name(option ? "option" : "command", word, known));
 }
 
-int guarded(int argc, char** argv) {
+int guarded(int argc, char** argv, viewer::ShowWindow show_window) {
   try {
-    return parse(argc, argv)();
+    return parse(argc, argv, show_window)();
   } catch (const std::exception& error) {
     print_error(reason_of(error));
   }
@@ -49,7 +49,7 @@ int guarded(int argc, char** argv) {
 
 }  // namespace
 
-Action parse(int argc, char** argv) {
+Action parse(int argc, char** argv, viewer::ShowWindow show_window) {
   CLI::App program("A laboratory for triangle rasterization on the CPU.", "edgewise");
   program.set_version_flag("--version", "edgewise " EDGEWISE_VERSION);
   program.require_subcommand(1);
@@ -63,6 +63,7 @@ Action parse(int argc, char** argv) {
   add_stability(program, action);
   add_diff(program, action);
   add_capture(program, action);
+  add_view(program, action, show_window);
   add_machine(program, action);
   if (argc < 2) throw std::invalid_argument("no command given; try edgewise --help");
   check_first_word(program, argv[1]);
@@ -81,9 +82,9 @@ Action parse(int argc, char** argv) {
   return action;
 }
 
-int run(int argc, char** argv) {
+int run(int argc, char** argv, viewer::ShowWindow show_window) {
   prepare_process("edgewise");
-  const int status = guarded(argc, argv);
+  const int status = guarded(argc, argv, show_window);
   if (stdout_is_whole() || status == kFailed) return status;
   print_error("cannot write to standard output");
   return kFailed;

@@ -134,5 +134,24 @@ ShadeKernel shade_kernel(SimdTarget target) {
   return EDGEWISE_KERNEL(shade, target);
 }
 
+std::vector<std::uint32_t> lit_colours(const Scene& scene) {
+  const ShadeKernel kernel = shade_kernel(resolve(SimdTarget::best));
+  std::vector<std::uint32_t> colours;
+  RunOutput run;
+  run.reserve(false);
+  for (const Instance& instance : scene.instances) {
+    const Mesh& mesh = scene.meshes.at(instance.mesh);
+    const ShadeJob job(mesh, model_matrix(instance), scene.to_light);
+    for (std::size_t begin = 0; begin < mesh.triangles.size(); begin += kRun) {
+      run.count = std::min(kRun, mesh.triangles.size() - begin);
+      for (std::size_t i = 0; i < run.count; ++i)
+        run.triangles.data()[i].payload = static_cast<std::uint32_t>(begin + i);
+      kernel(job, run, 0);
+      for (std::size_t i = 0; i < run.count; ++i) colours.push_back(run.triangles.data()[i].payload);
+    }
+  }
+  return colours;
+}
+
 }  // namespace edgewise
 #endif

@@ -1,7 +1,9 @@
 // Flat shading of visible triangles. See shade.cpp.
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
+#include <vector>
 
 #include "frontend/jobs.h"
 #include "raster/simd_target.h"
@@ -22,5 +24,9 @@ using ShadeKernel = void (*)(const ShadeJob& job, RunOutput& run, std::size_t fi
 
 // `target` must be resolved.
 ShadeKernel shade_kernel(SimdTarget target);
+
+// The colours that the front end gives to a scene's triangles, in the order of submission, those that it
+// drops included. All indices must exist.
+std::vector<std::uint32_t> lit_colours(const Scene& scene);
 
 }  // namespace edgewise

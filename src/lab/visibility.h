@@ -108,5 +108,8 @@ VisibilityScene two_planes(double distance, double separation, double near_z, do
 VisibilityScene slivers(double aspect);
 // What the front end makes of a scene, beside the true distances.
 VisibilityScene visibility_scene(const Scene& scene, Size size, Cull cull = Cull::none);
+// The same of what was made of it already: payloads are ids, which ascend.
+VisibilityScene visibility_scene(std::span<const ScreenTriangle> triangles,
+                                 std::span<const UnsnappedTriangle> unsnapped, const Scene& scene, Size size);
 
 }  // namespace edgewise::lab

@@ -68,15 +68,9 @@ class Sources {
 
 }  // namespace
 
-VisibilityScene visibility_scene(const Scene& scene, Size size, Cull cull) {
-  Frontend frontend;
-  const auto triangles = frontend.run(scene, {.width = size.width,
-                                              .height = size.height,
-                                              .cull = cull,
-                                              .shade = false,
-                                              .payload = Payload::id,
-                                              .keep_unsnapped = true});
-  const auto unsnapped = frontend.unsnapped();
+VisibilityScene visibility_scene(std::span<const ScreenTriangle> triangles,
+                                 std::span<const UnsnappedTriangle> unsnapped, const Scene& scene,
+                                 Size size) {
   const double near_z = scene.camera.near_z, far_z = scene.camera.far_z;
   VisibilityScene result{size.width, size.height, near_z, far_z, {}, {}};
   result.triangles.reserve(triangles.size());
@@ -94,6 +88,17 @@ VisibilityScene visibility_scene(const Scene& scene, Size size, Cull cull) {
     result.triangles.push_back(t);
   }
   return result;
+}
+
+VisibilityScene visibility_scene(const Scene& scene, Size size, Cull cull) {
+  Frontend frontend;
+  const auto triangles = frontend.run(scene, {.width = size.width,
+                                              .height = size.height,
+                                              .cull = cull,
+                                              .shade = false,
+                                              .payload = Payload::id,
+                                              .keep_unsnapped = true});
+  return visibility_scene(triangles, frontend.unsnapped(), scene, size);
 }
 
 }  // namespace edgewise::lab

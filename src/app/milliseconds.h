@@ -1,0 +1,15 @@
+// How long a piece of work took, by the clock on the wall.
+#pragma once
+
+#include <chrono>
+
+namespace edgewise::app {
+
+template <typename Work>
+double milliseconds(Work&& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace edgewise::app

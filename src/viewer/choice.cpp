@@ -1,0 +1,68 @@
+#include "viewer/choice.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <vector>
+
+#include "nearest_name.h"
+
+namespace edgewise::viewer {
+
+namespace {
+
+template <typename Method>
+const Method& find(std::span<const Method> methods, std::string_view kind, std::string_view name) {
+  const auto found =
+      std::find_if(methods.begin(), methods.end(), [&](const Method& m) { return m.info.name == name; });
+  if (found != methods.end()) return *found;
+  std::vector<std::string_view> known;
+  for (const Method& method : methods) known.push_back(method.info.name);
+  throw std::invalid_argument(unknown_name(kind, name, known));
+}
+
+}  // namespace
+
+const lab::ClippingMethod& find_clipping_method(std::string_view name) {
+  return find(lab::clipping_methods(), "clipping method", name);
+}
+
+const lab::VisibilityMethod& find_visibility_method(std::string_view name) {
+  return find(lab::visibility_methods(), "visibility method", name);
+}
+
+const lab::FacingMethod& find_facing_method(std::string_view name) {
+  return find(lab::facing_methods(), "facing test", name);
+}
+
+Choice our_choice(std::string_view backend) {
+  return {&lab::find_coverage_method(find_backend(backend).name)};
+}
+
+Drawn drawable_part(const Choice& choice, bool stream) {
+  if (stream) {
+    const Choice only_coverage{choice.coverage};
+    if (choice == only_coverage) return {choice, {}};
+    return {only_coverage, "a stream has no camera: clipping, visibility and facing stay ours"};
+  }
+  if (choice.our_visibility() || choice.our_coverage()) return {choice, {}};
+  Drawn drawn{choice, std::string(choice.visibility->info.name) + " covers exactly by itself: no " +
+                          std::string(choice.coverage->info.name)};
+  drawn.choice.coverage = our_choice(backends().front().name).coverage;
+  return drawn;
+}
+
+std::string describe(const Choice& choice) {
+  std::string names;
+  const auto add = [&](bool shown, const lab::MethodInfo& info) {
+    if (!shown) return;
+    if (!names.empty()) names += " + ";
+    names += info.name;
+  };
+  add(!choice.our_facing(), choice.facing->info);
+  add(!choice.our_clipping(), choice.clipping->info);
+  add(!choice.our_coverage() || choice.ours(), choice.coverage->info);
+  add(!choice.our_visibility(), choice.visibility->info);
+  return names;
+}
+
+}  // namespace edgewise::viewer

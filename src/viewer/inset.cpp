@@ -1,0 +1,168 @@
+#include "viewer/inset.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "frontend/frontend.h"
+#include "frontend/view.h"
+#include "raster/backend.h"
+#include "raster/contract.h"
+#include "scene/builtin.h"
+#include "viewer/world.h"
+
+namespace edgewise::viewer {
+
+namespace {
+
+constexpr std::uint32_t kFrame = rgb(255, 255, 255), kFocus = rgb(255, 255, 0);
+constexpr std::array kAxisColours{rgb(235, 70, 60), rgb(80, 200, 80), rgb(90, 130, 255)};
+constexpr std::array<const char*, 3> kAxisLetters{"x", "y", "z"};
+
+std::uint32_t* pixel(Image& image, int x, int y) {
+  if (x < 0 || y < 0 || x >= image.width || y >= image.height) return nullptr;
+  return &image.pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+                       static_cast<std::size_t>(x)];
+}
+
+void outline(Image& image, int x0, int y0, int size, std::uint32_t colour) {
+  for (int i = 0; i < size; ++i)
+    for (const Pixel p : {Pixel{x0 + i, y0}, {x0 + i, y0 + size - 1}, {x0, y0 + i}, {x0 + size - 1, y0 + i}})
+      if (std::uint32_t* const at = pixel(image, p.x, p.y)) *at = colour;
+}
+
+// Three thin boxes along the axes, before a camera turned as the given one.
+Scene axes_scene(const Camera& camera) {
+  constexpr float kHalfLength = 0.5f, kHalfWidth = 0.04f;
+  const Drawable cube = find_scene("cube").make({});
+  Scene scene;
+  for (int axis = 0; axis < 3; ++axis) {
+    Mesh box = std::get<Scene>(cube).meshes.front();
+    std::fill(box.colours.begin(), box.colours.end(), kAxisColours[static_cast<std::size_t>(axis)]);
+    scene.meshes.push_back(std::move(box));
+    Instance instance{.mesh = static_cast<std::size_t>(axis), .scale = glm::vec3(kHalfWidth)};
+    instance.scale[axis] = kHalfLength;
+    instance.translation[axis] = kHalfLength;
+    scene.instances.push_back(instance);
+  }
+  scene.camera.yaw = camera.yaw;
+  scene.camera.pitch = camera.pitch;
+  scene.camera.position = -4.0f * line_of_sight(camera);
+  scene.camera.fov_y = 0.65f;
+  return scene;
+}
+
+// How far the glass reaches around its focus, and how large it shows a pixel.
+struct Glass {
+  explicit Glass(app::Size picture) {
+    const int room = std::min(picture.width, picture.height) * 2 / 5;
+    zoom = std::clamp(room / 15, 2, 24);
+    reach = std::max(room / zoom / 2, 1);
+  }
+  int across() const { return 2 * reach + 1; }
+  int zoom, reach;  // px
+};
+
+struct Projected {
+  float x_px, y_px;
+  bool in_front;
+};
+Projected project(const glm::dmat4& to_screen, glm::vec3 world) {
+  const glm::dvec4 p = to_screen * glm::dvec4(glm::dvec3(world), 1.0);
+  if (!(p.w > 0.0) || !(p.z >= 0.0)) return {0.0f, 0.0f, false};
+  return {static_cast<float>(p.x / p.w), static_cast<float>(p.y / p.w), true};
+}
+
+}  // namespace
+
+void tint(Image& image, std::span<const app::Mark> marks) {
+  for (std::size_t i = 0; i < marks.size(); ++i)
+    if (marks[i] != app::Mark::none) image.pixels[i] = app::colour_of(marks[i]);
+}
+
+void paste(const Image& from, int left, int top, Image& into) {
+  for (int y = std::max(0, -top); y < std::min(from.height, into.height - top); ++y)
+    for (int x = std::max(0, -left); x < std::min(from.width, into.width - left); ++x)
+      *pixel(into, left + x, top + y) =
+          from.pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(from.width) +
+                      static_cast<std::size_t>(x)];
+}
+
+int glass_side(app::Size picture) {
+  const Glass glass(picture);
+  return glass.across() * glass.zoom;
+}
+
+void magnify(Image& image, Pixel focus) {
+  const auto [zoom, reach] = Glass({image.width, image.height});
+  const int across = 2 * reach + 1;
+  Image part{across, across, std::vector<std::uint32_t>(static_cast<std::size_t>(across * across))};
+  for (int y = 0; y < across; ++y)
+    for (int x = 0; x < across; ++x)
+      if (const std::uint32_t* const at = pixel(image, focus.x - reach + x, focus.y - reach + y))
+        *pixel(part, x, y) = *at;
+  Image large = enlarge(part, zoom);
+  constexpr int kLeastForGrid = 6;
+  if (zoom >= kLeastForGrid)
+    for (int y = 0; y < large.height; ++y)
+      for (int x = 0; x < large.width; ++x)
+        if (x % zoom == 0 || y % zoom == 0) *pixel(large, x, y) = darkened(*pixel(large, x, y));
+  outline(large, reach * zoom, reach * zoom, zoom + 1, kFocus);
+  outline(large, 0, 0, large.width, kFrame);
+  outline(image, focus.x - reach - 1, focus.y - reach - 1, across + 2, kFrame);
+  paste(large, image.width - large.width, image.height - large.height, image);
+}
+
+void draw_axes(const Camera& camera, Cell cell, Screen& screen) {
+  const int side = std::min({screen.picture.width, screen.picture.height / 3, 12 * cell.height});
+  if (side < 6 * cell.height) return;
+  Drawable scene = axes_scene(camera);
+  FrontendOptions options;
+  options.width = options.height = side;
+  options.shade = false;
+  Frontend frontend;
+  Framebuffer frame(side, side);
+  find_backend("scanline").make()->draw(frontend.run(scene, options), frame.view(), 0, {});
+  const int top = screen.picture.height - side;
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x)
+      if (frame.depth_row(y)[x] != contract::kDepthClear)
+        *pixel(screen.picture, x, top + y) = frame.payload_row(y)[x];
+  const glm::dmat4 to_screen = screen_matrix(std::get<Scene>(scene).camera, side, side);
+  for (int axis = 0; axis < 3; ++axis) {
+    glm::vec3 tip(0.0f);
+    tip[axis] = 1.2f;
+    const Projected at = project(to_screen, tip);
+    screen.texts.push_back(
+        {static_cast<int>(at.x_px) - cell.width / 2, top + static_cast<int>(at.y_px) - cell.height / 2,
+         kAxisLetters[static_cast<std::size_t>(axis)], kAxisColours[static_cast<std::size_t>(axis)]});
+  }
+}
+
+std::size_t vertex_count(const Scene& scene) {
+  std::size_t vertices = 0;
+  for (const Instance& instance : scene.instances)
+    vertices += scene.meshes.at(instance.mesh).positions.size();
+  return vertices;
+}
+
+void add_vertex_labels(const Scene& scene, int width, int height, int left, Cell cell,
+                       std::vector<Text>& texts) {
+  if (vertex_count(scene) > kMostLabels) return;
+  const glm::dmat4 to_screen = screen_matrix(scene.camera, width, height);
+  for (const Instance& instance : scene.instances) {
+    const glm::dmat4 to_pixels = to_screen * glm::dmat4(model_matrix(instance));
+    const auto& positions = scene.meshes[instance.mesh].positions;
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      const Projected at = project(to_pixels, positions[i]);
+      const bool seen = at.in_front && at.x_px >= 0.0f && at.x_px < static_cast<float>(width) &&
+                        at.y_px >= 0.0f && at.y_px < static_cast<float>(height);
+      if (!seen) continue;
+      const std::string number = std::to_string(i);
+      texts.push_back({left + static_cast<int>(at.x_px) - cell.width * static_cast<int>(number.size()) / 2,
+                       static_cast<int>(at.y_px) - cell.height / 2, number, rgb(255, 255, 255)});
+    }
+  }
+}
+
+}  // namespace edgewise::viewer

@@ -1,0 +1,42 @@
+// What is drawn over a picture besides text: tinted errors, the magnifying glass, the axes.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/accuracy_closeup.h"
+#include "app/options.h"
+#include "image/image.h"
+#include "scene/scene.h"
+#include "viewer/text.h"
+
+namespace edgewise::viewer {
+
+struct Pixel {
+  int x, y;
+};
+
+// Paints the marked pixels in the colours of their marks.
+void tint(Image& image, std::span<const app::Mark> marks);
+
+// The glass shows the pixels around a place as squares, framed, in the lower right corner.
+void magnify(Image& image, Pixel focus);
+int glass_side(app::Size picture);  // px
+
+// Pastes `from` with its upper left corner at (x, y); what lies outside is left out.
+void paste(const Image& from, int x, int y, Image& into);
+
+// The world's axes as the camera sees them: x red, y green, z blue, drawn by the library into the lower left
+// corner of the picture; and their letters.
+void draw_axes(const Camera& camera, Cell cell, Screen& screen);
+
+std::size_t vertex_count(const Scene& scene);  // of all instances
+// More would be too many to read.
+inline constexpr std::size_t kMostLabels = 300;
+// The number of each vertex, where the camera sees it in a panel that begins at `left`; none if there are
+// more than kMostLabels.
+void add_vertex_labels(const Scene& scene, int width, int height, int left, Cell cell,
+                       std::vector<Text>& texts);
+
+}  // namespace edgewise::viewer

@@ -1,0 +1,116 @@
+#include "viewer/keys.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <stdexcept>
+#include <utility>
+
+namespace edgewise::viewer {
+
+namespace {
+
+constexpr double kLongestWait = 3600;  // s
+
+constexpr std::array<std::pair<std::string_view, Key>, 10> kNames{{{"up", Key::up},
+                                                                   {"down", Key::down},
+                                                                   {"left", Key::left},
+                                                                   {"right", Key::right},
+                                                                   {"shift", Key::shift},
+                                                                   {"tab", Key::tab},
+                                                                   {"space", Key::space},
+                                                                   {"enter", Key::enter},
+                                                                   {"escape", Key::escape},
+                                                                   {"backspace", Key::backspace}}};
+
+Stroke parse_name(std::string_view name) {
+  const auto found =
+      std::find_if(kNames.begin(), kNames.end(), [&](const auto& known) { return known.first == name; });
+  if (found != kNames.end()) return found->second;
+  double seconds = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), seconds);
+  if (error != std::errc{} || end != name.data() + name.size() || !(seconds >= 0 && seconds <= kLongestWait))
+    throw std::invalid_argument("--keys: <" + std::string(name) + "> is no key, and no time in seconds");
+  return seconds;
+}
+
+}  // namespace
+
+std::span<const KeyRow> key_table() {
+  static const std::vector<KeyRow> rows{
+      {"w a s d",
+       "move forwards, left, backwards, right",
+       {{key_of('w'), Command::forwards},
+        {key_of('a'), Command::step_left},
+        {key_of('s'), Command::backwards},
+        {key_of('d'), Command::step_right}}},
+      {"space, shift c",
+       "move up, down",
+       {{Key::space, Command::rise}, {Key::shift, Command::sink}, {key_of('c'), Command::sink}}},
+      {"arrows, drag",
+       "look around",
+       {{Key::up, Command::look_up},
+        {Key::down, Command::look_down},
+        {Key::left, Command::look_left},
+        {Key::right, Command::look_right}}},
+      {"m", "move along the view or the world", {{key_of('m'), Command::axes}}},
+      {"3 4", "move slower, faster", {{key_of('3'), Command::slower}, {key_of('4'), Command::faster}}},
+      {"0", "back to where it began", {{key_of('0'), Command::home}}},
+      {"r", "turn the objects, or stop", {{key_of('r'), Command::spin}}},
+      {", .", "turn them by hand", {{key_of(','), Command::turn_back}, {key_of('.'), Command::turn_on}}},
+      {"l", "turn about the line of sight", {{key_of('l'), Command::axis_of_sight}}},
+      {"f", "freeze", {{key_of('f'), Command::freeze}}},
+      {"b", "backend or coverage method", {{key_of('b'), Command::coverage}}},
+      {"x", "clipping method", {{key_of('x'), Command::clipping}}},
+      {"z", "visibility method", {{key_of('z'), Command::visibility}}},
+      {"n", "facing test", {{key_of('n'), Command::facing}}},
+      {"1 2",
+       "cull front, back faces",
+       {{key_of('1'), Command::cull_front}, {key_of('2'), Command::cull_back}}},
+      {"k", "light on, off", {{key_of('k'), Command::light}}},
+      {"j", "threads", {{key_of('j'), Command::threads}}},
+      {"i", "SIMD target", {{key_of('i'), Command::target}}},
+      {"backspace", "the last of these one step back", {{Key::backspace, Command::step_back}}},
+      {"e", "errors: count, tint, off", {{key_of('e'), Command::errors}}},
+      {"u", "truth that they are counted against", {{key_of('u'), Command::truth}}},
+      {"g", "magnifying glass", {{key_of('g'), Command::magnifier}}},
+      {"enter", "glass to the next wrong pixel", {{Key::enter, Command::next_error}}},
+      {"v", "one, side by side, difference", {{key_of('v'), Command::arrangement}}},
+      {"tab", "keys go to the other side", {{Key::tab, Command::other_side}}},
+      {"t", "vertex labels", {{key_of('t'), Command::labels}}},
+      {"o", "overlay: full, short, none", {{key_of('o'), Command::overlay}}},
+      {"p", "save a .png and a .tri", {{key_of('p'), Command::save}}},
+      {"h", "this help", {{key_of('h'), Command::help}}},
+      {"q, esc", "quit", {{key_of('q'), Command::quit}, {Key::escape, Command::quit}}},
+  };
+  return rows;
+}
+
+std::optional<Command> command_of(Key key) {
+  for (const KeyRow& row : key_table())
+    for (const Binding& binding : row.bindings)
+      if (binding.key == key) return binding.command;
+  return std::nullopt;
+}
+
+std::vector<Stroke> parse_keys(std::string_view text) {
+  std::vector<Stroke> strokes;
+  while (!text.empty()) {
+    std::size_t used = 1;
+    if (text.front() == '<') {
+      const auto end = text.find('>');
+      if (end == std::string_view::npos) throw std::invalid_argument("--keys: a '<' without '>'");
+      strokes.push_back(parse_name(text.substr(1, end - 1)));
+      used = end + 1;
+    } else {
+      const Key key = key_of(text.front());
+      if (!command_of(key))
+        throw std::invalid_argument("--keys: '" + std::string(text.substr(0, 1)) + "' does nothing");
+      strokes.emplace_back(key);
+    }
+    text.remove_prefix(used);
+  }
+  return strokes;
+}
+
+}  // namespace edgewise::viewer

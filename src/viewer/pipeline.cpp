@@ -1,0 +1,299 @@
+#include "viewer/pipeline.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "app/milliseconds.h"
+#include "app/pictures.h"
+#include "frontend/shade.h"
+#include "lab/coverage_score.h"
+#include "raster/contract.h"
+#include "viewer/view_space.h"
+
+namespace edgewise::viewer {
+
+namespace {
+
+using app::milliseconds;
+
+lab::Size size_of(const View& view) {
+  return {view.frontend.width, view.frontend.height};
+}
+
+lab::Window window_of(const View& view) {
+  return {view.frontend.width, view.frontend.height};
+}
+
+// Keeps the triangles it is to draw.
+class Recorder final : public Backend {
+ public:
+  std::vector<ScreenTriangle> triangles;
+
+ private:
+  void draw_checked(std::span<const ScreenTriangle> drawn, FrameView, std::uint32_t,
+                    const Execution&) override {
+    triangles.assign(drawn.begin(), drawn.end());
+  }
+};
+
+// Exact: 1/256 px is a power of two, and no coordinate has more than 24 bits.
+lab::FloatTriangle as_floats(const ScreenTriangle& t) {
+  lab::FloatTriangle floats{{}, t.payload};
+  for (int i = 0; i < 3; ++i) {
+    floats.at.x_px[i] = static_cast<float>(t.x_sub[i]) / contract::kSub;
+    floats.at.y_px[i] = static_cast<float>(t.y_sub[i]) / contract::kSub;
+    floats.at.z01[i] = static_cast<float>((static_cast<double>(t.z[i]) - contract::kDepthHead) /
+                                          double{contract::kDepthRange});
+  }
+  return floats;
+}
+
+std::vector<std::uint32_t> colours_of(const Drawable& drawable, bool shade) {
+  std::vector<std::uint32_t> colours;
+  if (const auto* stream = std::get_if<TriangleStream>(&drawable)) {
+    for (const StreamTriangle& t : stream->triangles) colours.push_back(t.colour);
+    return colours;
+  }
+  const Scene& scene = std::get<Scene>(drawable);
+  if (shade) return lit_colours(scene);
+  for (const Instance& instance : scene.instances) {
+    const auto& of_mesh = scene.meshes.at(instance.mesh).colours;
+    colours.insert(colours.end(), of_mesh.begin(), of_mesh.end());
+  }
+  return colours;
+}
+
+// The background's 0 becomes kNobody.
+std::vector<std::uint32_t> owners_in(const Framebuffer& frame) {
+  std::vector<std::uint32_t> ids;
+  ids.reserve(static_cast<std::size_t>(frame.width()) * static_cast<std::size_t>(frame.height()));
+  for (int y = 0; y < frame.height(); ++y)
+    ids.insert(ids.end(), frame.payload_row(y), frame.payload_row(y) + frame.width());
+  for (std::uint32_t& id : ids) --id;
+  return ids;
+}
+
+}  // namespace
+
+std::string_view name_of(Truth truth) {
+  switch (truth) {
+    case Truth::contract:
+      return "contract";
+    case Truth::snapped:
+      return "snapped";
+    case Truth::floats:
+      return "floats";
+  }
+  throw std::invalid_argument("not a truth");
+}
+
+Backend& Pipeline::backend(std::string_view name) {
+  auto& slot = backends_[name];
+  if (!slot) slot = find_backend(name).make();
+  return *slot;
+}
+
+Picture Pipeline::draw(const Choice& choice, const View& view) {
+  Picture picture;
+  FrontendOptions options = view.frontend;
+  options.payload = Payload::colour;
+  picture.frontend_ms = milliseconds([&] { screen_ = frontend_.run(view.world.drawable(), options); });
+  picture.stats = frontend_.stats();
+  const lab::Size size = size_of(view);
+  if (!frame_ || frame_->width() != size.width || frame_->height() != size.height) {
+    frame_.emplace(size.width, size.height);
+    canvas_.emplace(size.width, size.height);
+  }
+  if (choice.ours())
+    draw_ours(choice, view, picture);
+  else
+    draw_composed(choice, view, picture);
+  return picture;
+}
+
+void Pipeline::draw_ours(const Choice& choice, const View& view, Picture& picture) {
+  Backend& by = backend(choice.coverage->info.name);
+  const std::uint32_t background = app::background_of(Payload::colour);
+  picture.raster_ms = milliseconds([&] { by.draw(screen_, frame_->view(), background, view.execution); });
+  picture.image = to_image(*frame_);
+}
+
+void Pipeline::draw_composed(const Choice& choice, const View& view, Picture& picture) {
+  double stages_ms = 0;
+  const Triangles triangles = triangles_of(choice, view, stages_ms);
+  if (!choice.our_facing() || !choice.our_clipping()) {
+    picture.frontend_ms = stages_ms;
+    picture.stats.culled = triangles.culled;
+    picture.stats.emitted = triangles.snapped.size();
+  }
+  const Owners owners = owners_of(choice, view, triangles, picture.raster_ms);
+  const auto colours = colours_of(view.world.drawable(), view.frontend.shade);
+  picture.image = {view.frontend.width, view.frontend.height, {}};
+  picture.image.pixels.reserve(owners.size());
+  for (const std::uint32_t owner : owners)
+    picture.image.pixels.push_back(owner == lab::kNobody ? app::background_of(Payload::colour)
+                                                         : colours[owner]);
+}
+
+Pipeline::Triangles Pipeline::from_front_end(const View& view, Cull cull) {
+  FrontendOptions options = view.frontend;
+  options.payload = Payload::id;
+  options.keep_unsnapped = true;
+  options.cull = cull;
+  const auto screen = frontend_of_ids_.run(view.world.drawable(), options);
+  Triangles triangles{
+      lab::unsnapped(screen, frontend_of_ids_.unsnapped()), {screen.begin(), screen.end()}, 0};
+  for (auto& t : triangles.floats) ++t.payload;
+  for (auto& t : triangles.snapped) ++t.payload;
+  return triangles;
+}
+
+// The method's own backend is replaced by one that records what it is handed.
+Pipeline::Triangles Pipeline::from_clipping(const lab::ClippingMethod& method, const View& view,
+                                            double& spent_ms) {
+  const lab::ClippingScene seen = in_view_space(*view.world.scene(), size_of(view));
+  lab::ClippingFrame frame(seen.size);
+  auto recorder = std::make_unique<Recorder>();
+  Triangles triangles;
+  std::vector<ScreenTriangle>& recorded = recorder->triangles;
+  frame.backend = std::move(recorder);
+  spent_ms += milliseconds([&] { method.draw(seen, frame); });
+  triangles.snapped = std::move(recorded);
+  for (ScreenTriangle& t : triangles.snapped) {
+    ++t.payload;
+    triangles.floats.push_back(as_floats(t));
+  }
+  return triangles;
+}
+
+void Pipeline::cull(const lab::FacingMethod& method, const View& view, Triangles& triangles,
+                    double& spent_ms) {
+  std::vector<std::uint8_t> fronts;  // empty: the sign of the snapped area decides
+  lab::ClippingScene seen;
+  if (&method != &lab::facing_methods().front()) {
+    seen = in_view_space(*view.world.scene(), size_of(view));
+    spent_ms += milliseconds([&] { fronts = fronts_of(method, seen); });
+  }
+  const auto side_of = [&](const ScreenTriangle& t) -> std::int64_t {
+    const std::size_t id = t.payload - 1;
+    // Tests of whole triangles know nothing of what lies behind the near plane.
+    const auto before_near = [&](std::size_t vertex) {
+      return seen.mesh().positions[vertex].z > -seen.scene.camera.near_z;
+    };
+    if (fronts.empty() || before_near(3 * id) || before_near(3 * id + 1) || before_near(3 * id + 2))
+      return contract::signed_area(t);
+    return fronts[id] != 0 ? 1 : -1;
+  };
+  const Cull mode = view.frontend.cull;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < triangles.snapped.size(); ++i) {
+    const std::int64_t side = side_of(triangles.snapped[i]);
+    if (mode == Cull::both || (mode == Cull::front && side > 0) || (mode == Cull::back && side < 0)) continue;
+    triangles.snapped[kept] = triangles.snapped[i];
+    triangles.floats[kept++] = triangles.floats[i];
+  }
+  triangles.culled = triangles.snapped.size() - kept;
+  triangles.snapped.resize(kept);
+  triangles.floats.resize(kept);
+}
+
+Pipeline::Triangles Pipeline::triangles_of(const Choice& choice, const View& view, double& spent_ms) {
+  if (choice.our_clipping() && choice.our_facing()) return from_front_end(view, view.frontend.cull);
+  Triangles triangles;
+  if (choice.our_clipping())
+    spent_ms += milliseconds([&] { triangles = from_front_end(view, Cull::none); });
+  else
+    triangles = from_clipping(*choice.clipping, view, spent_ms);
+  cull(*choice.facing, view, triangles, spent_ms);
+  return triangles;
+}
+
+Pipeline::Owners Pipeline::owners_of(const Choice& choice, const View& view, const Triangles& triangles,
+                                     double& spent_ms) {
+  if (!choice.our_visibility()) return owners_by_visibility(*choice.visibility, view, triangles, spent_ms);
+  spent_ms = milliseconds([&] {
+    if (choice.our_coverage())
+      backend(choice.coverage->info.name).draw(triangles.snapped, canvas_->frame.view(), 0, view.execution);
+    else
+      choice.coverage->draw({triangles.floats, triangles.snapped}, *canvas_, view.execution.threads);
+  });
+  return owners_in(canvas_->frame);
+}
+
+Pipeline::Owners Pipeline::owners_by_visibility(const lab::VisibilityMethod& method, const View& view,
+                                                const Triangles& triangles, double& spent_ms) {
+  std::vector<ScreenTriangle> by_id = triangles.snapped;
+  std::vector<UnsnappedTriangle> at;
+  for (ScreenTriangle& t : by_id) --t.payload;
+  for (const lab::FloatTriangle& t : triangles.floats) at.push_back(t.at);
+  const auto scene = lab::visibility_scene(by_id, at, *view.world.scene(), size_of(view));
+  spent_ms = milliseconds([&] { method.draw(scene, visibility_frame_); });
+  Owners owners;
+  owners.reserve(visibility_frame_.owner.size());
+  for (const std::uint32_t i : visibility_frame_.owner)
+    owners.push_back(i == lab::kNobody ? lab::kNobody : by_id[i].payload);
+  return owners;
+}
+
+Pipeline::Owners Pipeline::true_owners(const View& view, const Triangles& triangles, Truth truth,
+                                       std::string_view by) {
+  if (truth == Truth::contract) {
+    backend(by).draw(triangles.snapped, canvas_->frame.view(), 0, view.execution);
+    return owners_in(canvas_->frame);
+  }
+  const auto id_of = [&](std::uint32_t i) {
+    return i == lab::kNobody ? lab::kNobody : triangles.snapped[i].payload - 1;
+  };
+  const int threads = view.execution.threads;
+  Owners owners = truth == Truth::snapped
+                      ? lab::exact_owners(std::span(triangles.snapped), window_of(view), threads).triangle
+                      : lab::exact_owners(std::span(triangles.floats), window_of(view), threads).triangle;
+  std::transform(owners.begin(), owners.end(), owners.begin(), id_of);
+  return owners;
+}
+
+Judgement Pipeline::judge(const Choice& choice, const View& view, Truth truth) {
+  double unused_ms = 0;
+  const Triangles triangles = triangles_of(choice, view, unused_ms);
+  const Owners said = owners_of(choice, view, triangles, unused_ms);
+
+  // No backend is its own judge.
+  const bool is_first = choice.coverage->info.name == backends().front().name;
+  const std::string_view by = backends()[is_first ? 1 : 0].name;
+  const Owners shown = [&] {
+    if (choice.our_clipping() && choice.our_facing()) return true_owners(view, triangles, truth, by);
+    const Choice exact = our_choice(by);
+    if (choice.our_clipping()) return true_owners(view, triangles_of(exact, view, unused_ms), truth, by);
+    // In view space all clipping methods get the same, slightly rounded vertices: so must ours.
+    Triangles clipped = from_clipping(*exact.clipping, view, unused_ms);
+    cull(*exact.facing, view, clipped, unused_ms);
+    return true_owners(view, clipped, truth, by);
+  }();
+
+  Judgement judgement;
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    if (shown[i] != lab::kNobody) ++judgement.covered;
+    if (shown[i] != said[i]) ++judgement.wrong;
+  }
+  judgement.marks = app::mark_owners(shown, said, window_of(view)).marks;
+  if (choice.our_coverage()) return judgement;
+
+  const lab::CoverageInput input{triangles.floats, triangles.snapped};
+  const lab::CoverageTruth covered =
+      truth == Truth::floats ? lab::float_coverage(input, window_of(view), view.execution.threads)
+                             : lab::snapped_coverage(input, window_of(view), view.execution.threads);
+  std::vector<lab::Run> runs;
+  choice.coverage->runs(input, window_of(view), runs);
+  const auto marked =
+      app::mark_coverage(covered, std::move(runs), triangles.floats, lab::gap_reach_px(*choice.coverage));
+  judgement.gaps = judgement.double_hits = 0;
+  for (std::size_t i = 0; i < marked.marks.size(); ++i) {
+    if (marked.marks[i] == app::Mark::gap) ++*judgement.gaps;
+    if (marked.marks[i] == app::Mark::twice) ++*judgement.double_hits;
+    if (marked.marks[i] == app::Mark::gap || marked.marks[i] == app::Mark::twice)
+      judgement.marks[i] = marked.marks[i];
+  }
+  return judgement;
+}
+
+}  // namespace edgewise::viewer

@@ -1,0 +1,447 @@
+#include "viewer/session.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <numbers>
+#include <thread>
+
+#include "app/capture.h"
+#include "app/milliseconds.h"
+#include "app/printable.h"
+#include "image/atomic_file.h"
+#include "scene/tri_file.h"
+
+namespace edgewise::viewer {
+
+namespace {
+
+constexpr float kTurnPerSecond = 0.6f, kLookPerSecond = 1.2f;  // rad
+constexpr float kSpeedStep = 1.5f, kSlowest = 0.01f, kFastest = 100.0f;
+// While something moves, errors are counted only if that is likely to leave the frame this short. What it
+// last took is forgotten by and by, so that it is tried again every few seconds.
+constexpr double kBudget_ms = 10.0, kRemembered = 0.995;
+
+constexpr bool changes_picture(Command command) {
+  switch (command) {
+    case Command::axes:
+    case Command::slower:
+    case Command::faster:
+    case Command::magnifier:
+    case Command::next_error:
+    case Command::other_side:
+    case Command::labels:
+    case Command::overlay:
+    case Command::help:
+    case Command::save:
+    case Command::quit:
+      return false;
+    default:
+      return true;
+  }
+}
+
+// The entry `step` further on, round and round.
+template <typename List, typename IsCurrent>
+const auto& next_in(const List& list, int step, IsCurrent&& is_current) {
+  const auto count = static_cast<std::ptrdiff_t>(std::size(list));
+  const std::ptrdiff_t at = std::find_if(std::begin(list), std::end(list), is_current) - std::begin(list);
+  return *(std::begin(list) + (at + step + count) % count);
+}
+
+template <typename Method>
+void step_method(std::span<const Method> methods, const Method*& method, int step) {
+  method = &next_in(methods, step, [&](const Method& m) { return &m == method; });
+}
+
+template <typename Enum>
+Enum next_of_three(Enum value) {
+  return static_cast<Enum>((static_cast<int>(value) + 1) % 3);
+}
+
+// 1, 2, 4 … and all cores.
+std::vector<int> thread_counts() {
+  const int cores = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMaxThreads);
+  std::vector<int> counts;
+  for (int n = 1; n < cores; n *= 2) counts.push_back(n);
+  counts.push_back(cores);
+  return counts;
+}
+
+void take(double now, double& mean) {
+  constexpr double kShare = 0.1;
+  mean = mean == 0.0 ? now : mean + kShare * (now - mean);
+}
+
+}  // namespace
+
+Session::Session(Start start) : start_(std::move(start)) {
+  sides_[0].choice = start_.choice;
+  sides_[1].choice = our_choice("tiled");
+  state_.execution = start_.execution;
+  state_.execution.target = resolve(state_.execution.target);
+}
+
+void Session::press(Key key) {
+  const auto command = command_of(key);
+  if (!command) return;
+  if (is_held(*command))
+    held_.insert(key);
+  else
+    act(*command);
+}
+
+void Session::release(Key key) {
+  held_.erase(key);
+}
+
+void Session::release_all() {
+  held_.clear();
+}
+
+void Session::point(Pixel to, bool held) {
+  if (held && pointer_ && !state_.stream && panel_.height > 0) {
+    // What is seen in the middle of the picture keeps up with the pointer.
+    const float per_px = world_->scene()->camera.fov_y / static_cast<float>(panel_.height);
+    look(world_->camera(), per_px * static_cast<float>(pointer_->x - to.x),
+         per_px * static_cast<float>(pointer_->y - to.y));
+    ++state_.version;
+  }
+  pointer_ = to;
+  focus_ = Pixel{panel_.width > 0 ? to.x % panel_.width : 0, to.y};
+}
+
+bool Session::still() const {
+  return held_.empty() && (!state_.spinning || state_.frozen);
+}
+
+void Session::advance(double seconds) {
+  if (!world_ || state_.stream || still()) return;
+  const auto passed = static_cast<float>(seconds);
+  for (const Key key : held_) move(*command_of(key), passed);
+  if (state_.spinning && !state_.frozen) state_.angle += kTurnPerSecond * passed;
+  state_.angle = std::remainder(state_.angle, 2.0f * std::numbers::pi_v<float>);
+  world_->turn(state_.axis, state_.angle);
+  ++state_.version;
+}
+
+void Session::move(Command command, float seconds) {
+  // Large scenes are crossed faster, but not in proportion.
+  const float way = state_.speed * std::sqrt(world_->radius()) * seconds, turn = kLookPerSecond * seconds;
+  Camera& camera = world_->camera();
+  const auto go = [&](float x, float y, float z) {
+    viewer::move(camera, way * glm::vec3(x, y, z), state_.along_view);
+  };
+  switch (command) {
+    case Command::forwards:
+      return go(0, 0, -1);
+    case Command::backwards:
+      return go(0, 0, 1);
+    case Command::step_left:
+      return go(-1, 0, 0);
+    case Command::step_right:
+      return go(1, 0, 0);
+    case Command::rise:
+      return go(0, 1, 0);
+    case Command::sink:
+      return go(0, -1, 0);
+    case Command::look_up:
+      return look(camera, 0, turn);
+    case Command::look_down:
+      return look(camera, 0, -turn);
+    case Command::look_left:
+      return look(camera, turn, 0);
+    case Command::look_right:
+      return look(camera, -turn, 0);
+    case Command::turn_on:
+      state_.angle += kTurnPerSecond * seconds;
+      return;
+    case Command::turn_back:
+      state_.angle -= kTurnPerSecond * seconds;
+      return;
+    default:
+      return;
+  }
+}
+
+void Session::act(Command command) {
+  state_.message.clear();
+  if (changes_picture(command)) ++state_.version;
+  switch (command) {
+    case Command::axes:
+      state_.along_view = !state_.along_view;
+      break;
+    case Command::slower:
+      state_.speed = std::max(state_.speed / kSpeedStep, kSlowest);
+      break;
+    case Command::faster:
+      state_.speed = std::min(state_.speed * kSpeedStep, kFastest);
+      break;
+    case Command::home:
+      if (!world_ || state_.stream) break;
+      world_->camera() = world_->home();
+      state_.angle = 0.0f;
+      world_->turn(state_.axis, state_.angle);
+      break;
+    case Command::spin:
+      state_.spinning = !state_.spinning;
+      break;
+    case Command::axis_of_sight:
+      if (world_ && !state_.stream) state_.axis = line_of_sight(world_->camera());
+      break;
+    case Command::freeze:
+      state_.frozen = !state_.frozen;
+      break;
+    case Command::step_back:
+      if (last_switch_) switch_by(*last_switch_, -1);
+      break;
+    case Command::errors:
+      state_.errors = next_of_three(state_.errors);
+      break;
+    case Command::truth:
+      state_.truth = next_of_three(state_.truth);
+      for (Side& side : sides_) side.judgement.reset();
+      break;
+    case Command::magnifier:
+      state_.magnifier = !state_.magnifier;
+      break;
+    case Command::next_error:
+      show_next_error();
+      break;
+    case Command::arrangement:
+      state_.arrangement = next_of_three(state_.arrangement);
+      if (state_.arrangement == Arrangement::one) state_.active = 0;
+      break;
+    case Command::other_side:
+      if (state_.arrangement == Arrangement::one)
+        state_.message = "there is one side only; v shows two";
+      else
+        state_.active = 1 - state_.active;
+      break;
+    case Command::labels:
+      state_.labels = !state_.labels;
+      break;
+    case Command::overlay:
+      state_.overlay = next_of_three(state_.shown_overlay);
+      break;
+    case Command::help:
+      ++state_.help_page;  // the overlay knows how many there are
+      break;
+    case Command::save:
+      save_next_ = true;
+      break;
+    case Command::quit:
+      done_ = true;
+      break;
+    default:
+      switch_by(command, 1);
+      last_switch_ = command;
+  }
+}
+
+void Session::switch_by(Command command, int step) {
+  Side& side = sides_[state_.active];
+  Choice& choice = side.choice;
+  switch (command) {
+    case Command::coverage:
+      step_method(lab::coverage_methods(), choice.coverage, step);
+      break;
+    case Command::clipping:
+      step_method(lab::clipping_methods(), choice.clipping, step);
+      break;
+    case Command::visibility:
+      step_method(lab::visibility_methods(), choice.visibility, step);
+      break;
+    case Command::facing:
+      step_method(lab::facing_methods(), choice.facing, step);
+      break;
+    case Command::cull_front:
+      state_.cull_front = !state_.cull_front;
+      break;
+    case Command::cull_back:
+      state_.cull_back = !state_.cull_back;
+      break;
+    case Command::light:
+      state_.lit = !state_.lit;
+      break;
+    case Command::threads:
+      state_.execution.threads =
+          next_in(thread_counts(), step, [&](int n) { return n >= state_.execution.threads; });
+      break;
+    case Command::target:
+      state_.execution.target = next_in(supported_targets(), step,
+                                        [&](SimdTarget target) { return target == state_.execution.target; });
+      break;
+    default:
+      return;
+  }
+  side.judgement.reset();
+  for (Side& each : sides_) each.frontend_ms = each.raster_ms = 0;
+}
+
+void Session::load(app::Size size) {
+  const bool first = !world_;
+  if (!first && !fills_its_size_) return;
+  app::Shot shot = start_.load(size);
+  fills_its_size_ = shot.source.stream && shot.source.built_in != nullptr;
+  world_.emplace(std::move(shot.source.drawable));
+  if (!first) return;
+  frontend_ = shot.frontend;
+  state_.scene = shot.source.name;
+  state_.stream = world_->scene() == nullptr;
+  state_.lit = frontend_.shade;
+  state_.cull_front = frontend_.cull == Cull::front || frontend_.cull == Cull::both;
+  state_.cull_back = frontend_.cull == Cull::back || frontend_.cull == Cull::both;
+  state_.axis = start_.axis.value_or(world_->first_axis());
+}
+
+View Session::view_of(app::Size size) const {
+  View view{*world_, frontend_, state_.execution};
+  view.frontend.width = size.width;
+  view.frontend.height = size.height;
+  view.frontend.cull = state_.cull_front ? (state_.cull_back ? Cull::both : Cull::front)
+                                         : (state_.cull_back ? Cull::back : Cull::none);
+  view.frontend.shade = !state_.stream && state_.lit;
+  view.frontend.threads = state_.execution.threads;
+  view.frontend.target = state_.execution.target;
+  return view;
+}
+
+Screen& Session::draw(app::Size size, Cell cell) {
+  double work_ms = 0;
+  const double frame_ms = app::milliseconds([&] {
+    if (size.width != size_.width || size.height != size_.height) {
+      load(size);
+      size_ = size;
+      ++state_.version;
+    }
+    const bool halves = state_.arrangement == Arrangement::side_by_side && size.width > 1;
+    panel_ = {halves ? size.width / 2 : size.width, size.height};
+    screen_.texts.clear();
+    Image first = draw_side(0, panel_, work_ms);
+    if (state_.arrangement == Arrangement::one) {
+      finish(first, 0);
+      screen_.picture = std::move(first);
+    } else {
+      Image second = draw_side(1, panel_, work_ms);
+      if (halves) {
+        finish(first, 0), finish(second, 1);
+        screen_.picture = {size.width, size.height, {}};
+        screen_.picture.pixels.resize(static_cast<std::size_t>(size.width) *
+                                      static_cast<std::size_t>(size.height));
+        paste(first, 0, 0, screen_.picture);
+        paste(second, size.width - panel_.width, 0, screen_.picture);
+      } else {
+        Difference both = difference(first, second);
+        state_.differing = both.count;
+        first_difference_ = {both.first_x, both.first_y};
+        screen_.picture = std::move(both.picture);
+        if (state_.magnifier)
+          magnify(screen_.picture, focus_.value_or(Pixel{size.width / 2, size.height / 2}));
+      }
+    }
+    if (save_next_) save();
+    state_.shown_overlay = state_.overlay.value_or(overlay_that_fits(size, cell));
+    state_.help_page = add_overlay(*this, panel_, cell, screen_);
+  });
+  take(frame_ms, state_.frame_ms);
+  return screen_;
+}
+
+Image Session::draw_side(std::size_t i, app::Size size, double& work_ms) {
+  Side& side = sides_[i];
+  const View view = view_of(size);
+  const auto [choice, because] = drawable_part(side.choice, state_.stream);
+  side.because = because;
+  Picture picture = pipelines_[i].draw(choice, view);
+  take(picture.frontend_ms, side.frontend_ms);
+  take(picture.raster_ms, side.raster_ms);
+  side.stats = picture.stats;
+  work_ms += picture.frontend_ms + picture.raster_ms;
+  judge_if_due(i, choice, view, work_ms);
+  return std::move(picture.image);
+}
+
+void Session::judge_if_due(std::size_t i, const Choice& choice, const View& view, double work_ms) {
+  Side& side = sides_[i];
+  const bool fresh = side.judgement && side.judged == state_.version;
+  if (state_.errors == Errors::off || fresh) return;
+  const bool affordable = work_ms + side.judging_ms < kBudget_ms;
+  if (side.judgement && !affordable && !still() && state_.errors != Errors::tint) {
+    side.judging_ms *= kRemembered;
+    return;
+  }
+  side.judging_ms =
+      app::milliseconds([&] { side.judgement = pipelines_[i].judge(choice, view, state_.truth); });
+  side.judged = state_.version;
+}
+
+// What lies over one side's picture.
+void Session::finish(Image& panel, std::size_t i) {
+  const Side& side = sides_[i];
+  if (state_.errors == Errors::tint && side.judgement) tint(panel, side.judgement->marks);
+  if (state_.magnifier) magnify(panel, focus_.value_or(Pixel{panel.width / 2, panel.height / 2}));
+}
+
+void Session::show_next_error() {
+  const auto show = [&](Pixel at, const char* what) {
+    state_.magnifier = true;
+    focus_ = at;
+    state_.message = fmt::format("{} at {}, {}", what, at.x, at.y);
+  };
+  if (state_.arrangement == Arrangement::difference) {
+    if (state_.differing > 0)
+      show(first_difference_, "first difference");
+    else
+      state_.message = "no difference";
+    return;
+  }
+  const auto& judgement = sides_[state_.active].judgement;
+  if (!judgement || state_.errors == Errors::off) {
+    state_.message = "no errors are counted; e counts them";
+    return;
+  }
+  const std::vector<app::Mark>& marks = judgement->marks;
+  const std::size_t width = static_cast<std::size_t>(panel_.width);
+  const Pixel from = focus_.value_or(Pixel{-1, 0});
+  const std::size_t start =
+      static_cast<std::size_t>(std::max(from.y, 0)) * width + static_cast<std::size_t>(from.x + 1);
+  for (std::size_t k = 0; k < marks.size(); ++k) {
+    const std::size_t at = (start + k) % marks.size();
+    if (marks[at] == app::Mark::none) continue;
+    return show({static_cast<int>(at % width), static_cast<int>(at / width)}, "wrong pixel");
+  }
+  state_.message = "no wrong pixel";
+}
+
+void Session::save() {
+  save_next_ = false;
+  const auto path = [&](int n, const char* extension) {
+    return start_.folder / fmt::format("{}-{:04}{}", state_.scene, n, extension);
+  };
+  try {
+    int n = 1;
+    while (std::filesystem::exists(path(n, ".png")) || std::filesystem::exists(path(n, ".tri"))) ++n;
+    write_image(path(n, ".png"), screen_.picture);
+    AtomicFile stream(path(n, ".tri"));
+    write_tri(stream.stream(),
+              app::to_stream(pipelines_[state_.active].screen_triangles(), panel_.width, panel_.height));
+    stream.commit();
+    for (const char* extension : {".png", ".tri"}) saved_.push_back(path(n, extension).string());
+    state_.message = fmt::format("saved {} and .tri", app::printable(path(n, ".png").string()));
+  } catch (const std::exception& error) {
+    state_.message = fmt::format("not saved: {}", app::printable(error.what()));
+  }
+}
+
+std::size_t Session::vertex_count() const {
+  return world_->scene() == nullptr ? 0 : viewer::vertex_count(*world_->scene());
+}
+
+std::vector<std::string> Session::take_saved() {
+  return std::exchange(saved_, {});
+}
+
+}  // namespace edgewise::viewer

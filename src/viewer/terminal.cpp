@@ -1,0 +1,158 @@
+// Bytes in, bytes out; everything else is the session's.
+#include "viewer/terminal.h"
+
+#include <poll.h>
+#include <sys/ioctl.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <map>
+#include <stdexcept>
+
+#include "app/process.h"
+#include "raster/contract.h"
+#include "viewer/terminal_input.h"
+#include "viewer/terminal_picture.h"
+
+namespace edgewise::viewer {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+constexpr milliseconds kFrame(33), kIdle(200);
+// A terminal does not say when a key is let go: it counts as held until it has not been repeated for so long.
+constexpr milliseconds kHeld(200);
+constexpr milliseconds kEscapeIsAlone(50);
+
+// Another screen, no cursor, mouse reports; and back, for the signal handler too.
+constexpr char kEnter[] = "\x1b[?1049h\x1b[?25l\x1b[?1002h\x1b[?1006h";
+constexpr char kLeave[] = "\x1b[0m\x1b[?1006l\x1b[?1002l\x1b[?25h\x1b[?1049l";
+termios mode_before;
+
+void leave() {
+  // What cannot be written now cannot be helped.
+  [[maybe_unused]] const auto written = write(STDOUT_FILENO, kLeave, sizeof(kLeave) - 1);
+  tcsetattr(STDIN_FILENO, TCSANOW, &mode_before);
+}
+
+// False if the terminal is gone.
+bool put(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = write(STDOUT_FILENO, bytes.data(), bytes.size());
+    if (written < 0 && errno != EINTR && errno != EAGAIN) return false;
+    if (written < 0 && errno == EAGAIN) {
+      pollfd out{STDOUT_FILENO, POLLOUT, 0};
+      poll(&out, 1, -1);
+    }
+    bytes.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(written, 0)));
+  }
+  return true;
+}
+
+class RawTerminal {
+ public:
+  RawTerminal() {
+    if (isatty(STDIN_FILENO) == 0 || isatty(STDOUT_FILENO) == 0 || tcgetattr(STDIN_FILENO, &mode_before) != 0)
+      throw std::runtime_error("--terminal needs a terminal to show pictures in and to read keys from");
+    app::call_before_stopping(leave);
+    termios raw = mode_before;
+    raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO | IEXTEN);
+    raw.c_iflag &= ~static_cast<tcflag_t>(ICRNL | IXON);
+    raw.c_cc[VSUSP] = _POSIX_VDISABLE;  // it would leave the terminal as it is now
+    raw.c_cc[VMIN] = raw.c_cc[VTIME] = 0;
+    tcsetattr(STDIN_FILENO, TCSANOW, &raw);
+    put(kEnter);
+  }
+  ~RawTerminal() {
+    leave();
+    app::call_before_stopping(nullptr);
+  }
+  RawTerminal(const RawTerminal&) = delete;
+  RawTerminal& operator=(const RawTerminal&) = delete;
+
+  app::Size size_px() const {
+    winsize size{};
+    if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0 || size.ws_row == 0)
+      size.ws_col = 80, size.ws_row = 24;
+    return {std::min<int>(size.ws_col, contract::kMaxImageSide),
+            std::min<int>(size.ws_row * 2, contract::kMaxImageSide)};
+  }
+};
+
+class Loop {
+ public:
+  explicit Loop(Session& session) : session_(session) {}
+
+  void run() {
+    Clock::time_point last = Clock::now();
+    while (!session_.done()) {
+      const Clock::time_point now = Clock::now();
+      session_.advance(std::chrono::duration<double>(std::min<Clock::duration>(now - last, kIdle)).count());
+      last = now;
+      if (!put(picture_.show(session_.draw(terminal_.size_px(), kTerminalCell)))) return;
+      const bool busy = !session_.still();
+      const auto until = now + (busy ? kFrame : kIdle);
+      // One event ends the pause, since there is something new to be seen.
+      if (!read_until(until)) return;
+      release_old();
+    }
+  }
+
+ private:
+  // False if the terminal is gone.
+  bool read_until(Clock::time_point until) {
+    auto pause = std::chrono::duration_cast<milliseconds>(until - Clock::now());
+    if (input_.waits()) pause = std::min(pause, kEscapeIsAlone);
+    pollfd in{STDIN_FILENO, POLLIN, 0};
+    const int ready = poll(&in, 1, static_cast<int>(std::max<std::int64_t>(pause.count(), 0)));
+    if (ready < 0) return errno == EINTR;
+    if (ready == 0) {
+      if (input_.waits()) handle(input_.settle());
+      return true;
+    }
+    char bytes[1024];
+    const ssize_t size = read(STDIN_FILENO, bytes, sizeof(bytes));
+    if (size <= 0) return size < 0 && (errno == EINTR || errno == EAGAIN);
+    handle(input_.feed({bytes, static_cast<std::size_t>(size)}));
+    return true;
+  }
+
+  void handle(const std::vector<TerminalEvent>& events) {
+    for (const TerminalEvent& event : events) {
+      if (const Key* const key = std::get_if<Key>(&event)) {
+        session_.press(*key);
+        held_until_[*key] = Clock::now() + kHeld;
+      } else {
+        const Pointed& to = std::get<Pointed>(event);
+        session_.point({to.column, to.row * 2}, to.held);
+      }
+    }
+  }
+
+  void release_old() {
+    std::erase_if(held_until_, [&](const auto& held) {
+      if (Clock::now() < held.second) return false;
+      session_.release(held.first);
+      return true;
+    });
+  }
+
+  RawTerminal terminal_;
+  Session& session_;
+  TerminalInput input_;
+  TerminalPicture picture_;
+  std::map<Key, Clock::time_point> held_until_;
+};
+
+}  // namespace
+
+void show_in_terminal(Session& session) {
+  Loop(session).run();
+}
+
+}  // namespace edgewise::viewer

@@ -1,0 +1,83 @@
+#include "viewer/terminal_picture.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+#include <optional>
+
+namespace edgewise::viewer {
+
+namespace {
+
+constexpr std::uint32_t kBlack = 0xFF000000u;
+constexpr const char* kUpperHalf = "\xe2\x96\x80";
+
+std::uint32_t mean(std::uint32_t a, std::uint32_t b) {
+  return (a & b) + (((a ^ b) >> 1) & 0x7F7F7F7Fu);
+}
+
+void append_colour(std::string& out, int ground, std::uint32_t colour) {
+  fmt::format_to(std::back_inserter(out), "\x1b[{};2;{};{};{}m", ground, colour & 255, colour >> 8 & 255,
+                 colour >> 16 & 255);
+}
+
+}  // namespace
+
+std::string TerminalPicture::show(const Screen& screen) {
+  const Image& image = screen.picture;
+  const int columns = image.width, rows = (image.height + 1) / 2;
+  std::vector<Character> now;
+  now.reserve(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+  const auto pixel = [&](int x, int y) {
+    if (y >= image.height) return kBlack;
+    return image.pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) +
+                        static_cast<std::size_t>(x)];
+  };
+  for (int row = 0; row < rows; ++row)
+    for (int x = 0; x < columns; ++x) {
+      const std::uint32_t upper = pixel(x, 2 * row), lower = pixel(x, 2 * row + 1);
+      // Where both are alike a space will do, which is shorter.
+      now.push_back(upper == lower ? Character{' ', lower, lower} : Character{0, upper, lower});
+    }
+  for (const Text& text : screen.texts) {
+    const int row = text.y / 2;
+    if (text.y < 0 || row >= rows) continue;
+    for (std::size_t i = 0; i < text.words.size(); ++i) {
+      const int x = text.x + static_cast<int>(i);
+      if (x < 0 || x >= columns) continue;
+      Character& c = now[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+                         static_cast<std::size_t>(x)];
+      c = {text.words[i], text.colour, darkened(mean(pixel(x, 2 * row), pixel(x, 2 * row + 1)))};
+    }
+  }
+
+  const bool all = columns != columns_ || now.size() != shown_.size();
+  std::string out = all ? "\x1b[0m\x1b[2J" : "";
+  std::optional<std::uint32_t> foreground, background;
+  std::size_t cursor = now.size();  // nowhere
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    const Character& c = now[i];
+    if (!all && c == shown_[i]) continue;
+    const auto width = static_cast<std::size_t>(columns);
+    if (cursor != i || i % width == 0)
+      fmt::format_to(std::back_inserter(out), "\x1b[{};{}H", i / width + 1, i % width + 1);
+    if (c.letter != ' ' && foreground != c.foreground) {
+      append_colour(out, 38, c.foreground);
+      foreground = c.foreground;
+    }
+    if (background != c.background) {
+      append_colour(out, 48, c.background);
+      background = c.background;
+    }
+    if (c.letter == 0)
+      out += kUpperHalf;
+    else
+      out += c.letter;
+    cursor = i + 1;
+  }
+  shown_ = std::move(now);
+  columns_ = columns;
+  return out;
+}
+
+}  // namespace edgewise::viewer

@@ -1,0 +1,87 @@
+#include "viewer/world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <limits>
+#include <numbers>
+
+namespace edgewise::viewer {
+
+namespace {
+
+constexpr float kFarthest = 1e6f;  // world units, of the camera from the origin on each axis
+
+glm::quat rotation(glm::vec3 axis, float angle) {
+  const float length = glm::length(axis);
+  if (!(length > 0.0f)) return glm::quat(1.0f, 0.0f, 0.0f, 0.0f);
+  return glm::angleAxis(angle, axis / length);
+}
+
+}  // namespace
+
+World::World(Drawable drawable) : drawable_(std::move(drawable)) {
+  const Scene* const seen = scene();
+  if (seen == nullptr) return;
+  loaded_ = seen->instances;
+  home_ = seen->camera;
+  glm::vec3 low(std::numeric_limits<float>::infinity()), high(-low);
+  for (const Instance& instance : loaded_) {
+    const glm::mat4 model = model_matrix(instance);
+    for (const glm::vec3& position : seen->meshes.at(instance.mesh).positions) {
+      const glm::vec3 p(model * glm::vec4(position, 1.0f));
+      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) continue;
+      low = glm::min(low, p);
+      high = glm::max(high, p);
+    }
+  }
+  const float diagonal = glm::distance(low, high);
+  if (!std::isfinite(diagonal)) return;
+  middle_ = low + 0.5f * (high - low);
+  if (diagonal > 0.0f) radius_ = 0.5f * diagonal;
+}
+
+glm::vec3 World::first_axis() const {
+  return loaded_.empty() ? glm::vec3(0.0f, 1.0f, 0.0f) : loaded_.front().axis;
+}
+
+void World::turn(glm::vec3 axis, float angle) {
+  const glm::quat by = rotation(axis, angle);
+  auto& instances = std::get<Scene>(drawable_).instances;
+  for (std::size_t i = 0; i < loaded_.size(); ++i) {
+    const Instance& from = loaded_[i];
+    if (angle == 0.0f) {
+      instances[i] = from;  // to the bit
+      continue;
+    }
+    const glm::quat both = by * rotation(from.axis, from.angle);
+    instances[i].axis = glm::axis(both);
+    instances[i].angle = glm::angle(both);
+    instances[i].translation = middle_ + by * (from.translation - middle_);
+  }
+}
+
+glm::dmat3 to_camera_frame(const Camera& camera) {
+  glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), -double{camera.pitch}, glm::dvec3(1, 0, 0));
+  turn = glm::rotate(turn, -double{camera.yaw}, glm::dvec3(0, 1, 0));
+  return glm::dmat3(turn);
+}
+
+void move(Camera& camera, glm::vec3 distance, bool along_view) {
+  glm::dvec3 step(distance);
+  if (along_view) step = glm::transpose(to_camera_frame(camera)) * step;
+  camera.position = glm::clamp(camera.position + glm::vec3(step), -kFarthest, kFarthest);
+}
+
+void look(Camera& camera, float left, float up) {
+  constexpr float kHalfTurn = std::numbers::pi_v<float>, kQuarter = kHalfTurn / 2.0f;
+  camera.yaw = std::remainder(camera.yaw + left, 2.0f * kHalfTurn);
+  camera.pitch = std::clamp(camera.pitch + up, -kQuarter, kQuarter);
+}
+
+glm::vec3 line_of_sight(const Camera& camera) {
+  return glm::vec3(glm::transpose(to_camera_frame(camera)) * glm::dvec3(0, 0, -1));
+}
+
+}  // namespace edgewise::viewer

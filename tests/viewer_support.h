@@ -1,0 +1,57 @@
+// Sessions on small scenes, without files.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "scene/builtin.h"
+#include "viewer/session.h"
+
+namespace edgewise::viewer {
+
+inline constexpr Cell kTestCell{6, 10};
+inline constexpr app::Size kTestSize{240, 160};
+
+inline Start start_with(Drawable drawable, Cull cull) {
+  Start start;
+  start.load = [drawable = std::move(drawable), cull](app::Size) {
+    app::Shot shot{{"test", drawable, std::holds_alternative<TriangleStream>(drawable), nullptr}, {}};
+    shot.frontend.cull = cull;
+    shot.frontend.shade = !shot.source.stream;
+    return shot;
+  };
+  return start;
+}
+inline Session session_of(Drawable drawable, Cull cull = Cull::back) {
+  return Session(start_with(std::move(drawable), cull));
+}
+inline Session session_of(std::string_view scene) {
+  const SceneInfo& info = find_scene(scene);
+  return session_of(info.make({kTestSize.width, kTestSize.height, 0.0f, 1.0}),
+                    info.stream ? Cull::none : Cull::back);
+}
+
+// Types keys as --keys takes them; held ones are held for a tenth of a second.
+inline Screen& type(Session& session, std::string_view keys, app::Size size = kTestSize) {
+  session.draw(size, kTestCell);
+  for (const Stroke& stroke : parse_keys(keys)) {
+    if (const Key* const key = std::get_if<Key>(&stroke)) {
+      session.press(*key);
+      session.advance(0.1);
+      session.release(*key);
+    } else {
+      session.advance(std::get<double>(stroke));
+    }
+    session.draw(size, kTestCell);
+  }
+  return session.draw(size, kTestCell);
+}
+
+inline bool says(const Screen& screen, std::string_view words) {
+  return std::any_of(screen.texts.begin(), screen.texts.end(),
+                     [&](const Text& text) { return text.words.find(words) != std::string::npos; });
+}
+
+}  // namespace edgewise::viewer
