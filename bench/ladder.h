@@ -18,8 +18,9 @@ struct Rung {
   Execution execution;
 };
 
-// On one thread, each with one idea more than the one before: the first is the reference backend with another
-// inner loop, the last lacks the choice of how to write out.
+// On one thread, each with one idea more than the one before: the first is naive with another inner loop, the
+// last lacks the choice of how to write out. From the first to the second the backend changes, and with it
+// more than one thing: tiles, blocks, lists and 32-bit lanes come together.
 std::vector<Rung> ladder();
 
 // Whether the ladder is climbed in a scene: those of one kind each.

@@ -5,7 +5,8 @@
 //     the L1 cache and with vectors of the best target,
 //   - writing depth and payload of the frame once, through the caches or past them, whichever is faster,
 // each measured here, warm, on as many threads. A triangle's hidden blocks are free: hierarchical depth may
-// drop them by the thousand. Who draws all that is covered needs blocks_s as often as there are covered ones.
+// drop them by the thousand. For who draws all that is covered, blocks_s counts
+// covered / won times.
 #pragma once
 
 #include <cstdint>

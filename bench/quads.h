@@ -9,8 +9,8 @@ namespace edgewise::bench {
 
 inline constexpr const char* kQuadsName = "quads";
 
-// Each pixel lies in a square of 16, one of 32 and one of 64 px, which lie at different depths; all of them
-// come in random order. A scale below 1 leaves squares out.
+// Each pixel lies in a square of 16, one of 32 and one of 64 px, which lie at different depths; their
+// triangles come in random order. A scale below 1 leaves triangles out.
 app::Source quads(const SceneRequest& request);
 
 }  // namespace edgewise::bench

@@ -25,7 +25,7 @@ def floor_columns(bench):
     """[(title, scene → cell)] for the table of scenes."""
     floored = list(dict.fromkeys(row.backend for row in bench.rows.values() if floors_ms(row)))
     return [(f"{backend} / {title}", lambda scene, b=backend, w=which: over_floor(bench, b, scene, w))
-            for backend in floored for which, title in enumerate(("floor", "floor of all blocks"))]
+            for backend in floored for which, title in enumerate(("floor", "floor of covered blocks"))]
 
 
 def floor_sentences(bench):

@@ -5,7 +5,7 @@ from plot_style import FAINT, INK, PALETTE, headline, log_axis, plt, save
 from tables import milliseconds
 
 START = "naive"
-NAMES = {"vector-setup": "+ set-up in vectors", "prefetch": "+ prefetch", "patches": "+ small ones while binning",
+NAMES = {"vector-setup": "+ set-up in vectors", "prefetch": "+ prefetch", "patches": "+ small ones in binning",
          "hierarchical-depth": "+ hierarchical depth", "stepped": "+ incremental edges", "tiles": "+ tiles"}
 GAIN, LOSS, NEITHER = PALETTE[0], PALETTE[3], "#8c959f"
 COLUMNS = 3

@@ -111,7 +111,7 @@ struct GroupMember {
 
 struct Frontend::State {
   // Instances that follow one another, and are worked on together: alone most would not be worth threads.
-  static constexpr std::size_t kMaxVertices = 4 * kWorthThreads, kMaxMembers = 1024;
+  static constexpr std::size_t kMaxVertices = 4 * kWorthThreads, kMaxMembers = kWorthThreads;
   std::vector<GroupMember> group;
   Runs vertex_runs, triangle_runs;
   Buffer<Vertex> vertices;

@@ -61,7 +61,7 @@ struct FrontendStats {
 };
 
 // Keeps its memory between frames, and allocates none after the first of a kind: 16 bytes a vertex of the
-// largest mesh or of a group of small ones, 1 MB at most; 40 a visible triangle, and less than 1 MB a thread;
+// largest mesh, 3 MB at most for a group of small ones; 40 a visible triangle, and less than 1 MB a thread;
 // with keep_unsnapped 36 a visible triangle more, and as much a thread again. One object must not work on two
 // threads at once.
 class Frontend {
@@ -73,8 +73,8 @@ class Frontend {
 
   // The visible triangles in submission order, valid until the next call. Throws std::invalid_argument for a
   // camera, a size or a thread count out of range, more than kMaxTriangles (before any memory is taken for
-  // them), a triangle of a mesh in view that names a vertex its mesh lacks, or a SIMD target that this machine
-  // cannot run.
+  // them), a triangle of a mesh in view that names a vertex its mesh lacks, or a SIMD target that this
+  // machine cannot run.
   std::span<const ScreenTriangle> run(const Drawable& drawable, const FrontendOptions& options);
   const FrontendStats& stats() const;
   // One for each triangle that run() returned, if keep_unsnapped was set; else none, as when it threw.

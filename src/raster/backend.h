@@ -20,7 +20,7 @@ struct Execution {
   int threads = 1;     // 1 … kMaxThreads
   int tile_size = 64;  // px; 16, 32 or 64; only tiled backends look at it
   SimdTarget target = SimdTarget::best;
-  TiledIdeas ideas{};    // all on; only the tiled backend looks at them
+  TiledIdeas ideas{};    // all on; patches and hierarchical depth are tiled's, the others also scanline's
   bool stepped = false;  // along rows, instead of evaluated at each pixel; only the naive backend looks at it
 };
 
@@ -32,7 +32,8 @@ class Backend {
 
   // Draws a whole frame: every pixel of `frame` is written, with `background` and contract::kDepthClear where
   // no triangle wins. Throws std::invalid_argument for an impossible frame or execution, or more than
-  // kMaxTriangles (before anything is touched or allocated), std::bad_alloc for lack of memory. Thousands of
+  // kMaxTriangles (before anything is touched or allocated), std::bad_alloc for lack of memory,
+  // std::length_error where large triangles fill more than 2^32 places in the lists of tiles. Thousands of
   // frames into the same view allocate only in the first.
   void draw(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
             const Execution& execution);

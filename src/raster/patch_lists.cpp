@@ -11,13 +11,15 @@ void PatchLists::reset(std::size_t cells, std::size_t patches) {
   constexpr std::size_t kBlocks = 4;
   block_bytes_ =
       std::bit_ceil(std::clamp(patches * sizeof(Patch) / cells / kBlocks, kSmallestBlock, kLargestBlock));
+  // Few large slabs, since those get huge pages; but none much larger than what comes.
+  first_slab_ = std::bit_ceil(std::max<std::size_t>(1, patches * sizeof(Patch) / kLargestBlock));
 }
 
 Patch* PatchLists::add_block(List& list) {
   const std::size_t piece = used_ / kLargestBlock;
-  const auto slab = static_cast<std::size_t>(std::bit_width(piece / kFirstSlab + 1)) - 1;
-  const std::size_t pieces_before = kFirstSlab * ((std::size_t{1} << slab) - 1);
-  slabs_[slab].reserve(kFirstSlab << slab);
+  const auto slab = static_cast<std::size_t>(std::bit_width(piece / first_slab_ + 1)) - 1;
+  const std::size_t pieces_before = first_slab_ * ((std::size_t{1} << slab) - 1);
+  slabs_[slab].reserve(first_slab_ << slab);
   auto* const block =
       reinterpret_cast<Header*>(slabs_[slab].data()[piece - pieces_before].bytes + used_ % kLargestBlock);
   used_ += block_bytes_;

@@ -30,7 +30,8 @@ class PatchLists {
   void append(const Half& first, const Half& second) {
     List& list = lists_[second.field[3]];
     Patch* at = list.end;
-    if (reinterpret_cast<std::uintptr_t>(at) % block_bytes_ == 0) at = add_block(list);  // full, or none yet
+    if ((reinterpret_cast<std::uintptr_t>(at) & (block_bytes_ - 1)) == 0)
+      at = add_block(list);  // full, or none yet
     std::memcpy(at, &first, sizeof first);
     std::memcpy(reinterpret_cast<char*>(at) + sizeof first, &second, sizeof second);
     __builtin_prefetch(reinterpret_cast<const char*>(at) + kWriteAhead, 1);
@@ -92,9 +93,8 @@ class PatchLists {
 
   Patch* add_block(List& list);
 
-  // Slab i has kFirstSlab << i pieces, and already the first is large enough for huge pages.
-  static constexpr std::size_t kFirstSlab = 1024;
-  std::array<Buffer<Piece>, 40> slabs_;
+  std::array<Buffer<Piece>, 40> slabs_;                  // slab i has first_slab_ << i pieces
+  std::size_t first_slab_ = 1;                           // a power of two
   std::size_t block_bytes_ = kSmallestBlock, used_ = 0;  // bytes; of all slabs one after the other
   std::vector<List> lists_;
 };

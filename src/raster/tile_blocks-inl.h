@@ -1,4 +1,4 @@
-// The tile's buffer, and what its two ways of drawing share: blocks of 4 x 4 pixels, 16 consecutive integers
+// The tile's buffer, and what its ways of drawing share: blocks of 4 x 4 pixels, 16 consecutive integers
 // (one AVX-512 vector, two of AVX2, four of SSE4), and lists of those that a triangle touches.
 #include <hwy/highway.h>
 
