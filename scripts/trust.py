@@ -42,7 +42,8 @@ def test_lines(data):
 def prove_lines(data):
     claims = data["claims"]
     yield ["Proofs, for all inputs", f"{how_many(claims, 'claim')}, and as many that claim a little too much",
-           f"{all_of(data['proven'], claims, 'proven')}; {all_of(data['refuted'], claims, 'bold ones refuted')}"]
+           f"{all_of(data['proven'], claims, 'proven')}; {all_of(data['premises_hold'], claims, 'premises possible')}; "
+           f"{all_of(data['refuted'], claims, 'bold ones refuted')}"]
 
 
 def mutate_lines(data):

@@ -18,7 +18,7 @@ TOTALS = {"all": {"tests": 4, "failed": 1, "skipped": 1, "cases": 42, "compariso
           "sanitized": [{"name": "thread", "tests": 7, "failed": 1, "skipped": 3}]}
 GOOD = {"tests": {"all": {"tests": 500, "failed": 0, "skipped": 0, "cases": 2_000_000, "comparisons": 0},
                   "sanitized": [{"name": "address", "tests": 499, "failed": 0, "skipped": 2}]},
-        "prove": {"claims": 9, "proven": 9, "refuted": 9},
+        "prove": {"claims": 9, "proven": 9, "premises_hold": 9, "refuted": 9},
         "mutate": {"mutations": 25, "caught": 25},
         "fuzz": {"targets": [{"what": "any bytes", "executions": 12_345, "lines_reached": 90, "lines": 100, "crashes": []}]}}
 
@@ -56,7 +56,7 @@ class TrustTest(unittest.TestCase):
         self.assertEqual([line[1:] for line in lines], [
             ["500 tests, 2M cases", "no failure"],
             ["499 tests, 2 of them skipped", "no failure"],
-            ["9 claims, and as many that claim a little too much", "all proven; all bold ones refuted"],
+            ["9 claims, and as many that claim a little too much", "all proven; all premises possible; all bold ones refuted"],
             ["25 mistakes, one at a time", "all caught"],
             ["12.3k executions, 90% of the lines", "no crash"]])
         self.assertNotIn("**", text)
@@ -66,10 +66,10 @@ class TrustTest(unittest.TestCase):
         self.assertEqual(self.table(), ([], "None of this was run for these results."))
 
     def test_what_failed_is_bold(self):
-        bad = {"tests": TOTALS, "prove": {"claims": 9, "proven": 8, "refuted": 7}, "mutate": {"mutations": 25, "caught": 24},
+        bad = {"tests": TOTALS, "prove": {"claims": 9, "proven": 8, "premises_hold": 6, "refuted": 7}, "mutate": {"mutations": 25, "caught": 24},
                "fuzz": {"targets": [{**GOOD["fuzz"]["targets"][0], "crashes": ["a", "b"]}]}}
         self.assertEqual([line[2] for line in self.table(**bad)[0]], [
-            "**1 failure**", "**1 failure**", "**8 of 9 proven**; **7 of 9 bold ones refuted**", "**24 of 25 caught**",
+            "**1 failure**", "**1 failure**", "**8 of 9 proven**; **6 of 9 premises possible**; **7 of 9 bold ones refuted**", "**24 of 25 caught**",
             "**2 crashes**"])
 
 
