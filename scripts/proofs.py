@@ -53,7 +53,7 @@ def read_sections(folder):
 
 
 def premises_of(claim):
-    """What a claim takes for given: all but its last assertion, which denies it. If none could be, it would claim nothing."""
+    """What a claim takes for given: all but its last assertion, which denies it. If that is impossible, it claims nothing."""
     given, found, _ = claim.script.rpartition("\n(assert ")
     if not found:
         raise BadInput(f"{claim.file}: claim {claim.name} asserts nothing")
