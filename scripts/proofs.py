@@ -6,13 +6,13 @@ slow one takes no other with it.
 import re
 import subprocess
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from bench_rows import BadInput
 
 DEFINITIONS = "contract.smt2"
-EXPECTED = {"claim": "unsat", "weakened": "sat"}
+EXPECTED = {"claim": "unsat", "premises": "sat", "weakened": "sat"}
 SECTION = re.compile(r"^;; (claim|weakened) (\w+): (.*(?:\n;;   .*)*)\n", re.MULTILINE)
 CONSTANT = re.compile(r"^\(define-const (\w+) (?:Int|Real) ([\d.]+)\)\s*; = (\w+) of (\S+)$", re.MULTILINE)
 VALUE = re.compile(r"\(define-fun (\S+) \(\) (?:Int|Real|Bool|\(_ BitVec \d+\))\s+(.*?)\)\n", re.DOTALL)
@@ -21,7 +21,7 @@ VALUE = re.compile(r"\(define-fun (\S+) \(\) (?:Int|Real|Bool|\(_ BitVec \d+\))\
 @dataclass(frozen=True)
 class Section:
     file: str
-    kind: str  # claim or weakened
+    kind: str  # claim, weakened, or premises (of a claim)
     name: str
     text: str
     script: str  # all that the solver reads
@@ -50,6 +50,14 @@ def read_sections(folder):
         if kind == "weakened" and ("claim", name) not in found:
             raise BadInput(f"{name} is weakened, but is no claim")
     return sections
+
+
+def premises_of(claim):
+    """What a claim takes for given: all but its last assertion, which denies it. If that is impossible, it claims nothing."""
+    given, found, _ = claim.script.rpartition("\n(assert ")
+    if not found:
+        raise BadInput(f"{claim.file}: claim {claim.name} asserts nothing")
+    return replace(claim, kind="premises", text="what it takes for given can be", script=f"{given}\n(check-sat)\n")
 
 
 def constant_of(name, source, path):

@@ -9,17 +9,19 @@ from bench_rows import main_guard, read_json  # noqa: E402
 from tables import markdown, plain, short  # noqa: E402
 
 HEADER = ["how", "how far", "found"]
-SANITIZERS = {"address": "Tests again, with the address and undefined-behaviour sanitizers",
-              "thread": "Tests again, with the thread sanitizer"}
+SANITIZERS = {"address": "Tests again at the usual size, with the address and undefined-behaviour sanitizers",
+              "thread": "Tests again at the usual size, with the thread sanitizer"}
+FAMILIES = {"properties": ("properties of random streams", "streams"), "lattices": ("exhaustive lattices", "triangles"),
+            "conformance": ("conformance", "pictures"), "hostile": ("hostile input, a row a test", "inputs")}
 
 
-def none_or(count, what):
+def none_or(count, what, plural=None):
     """"no difference", or how many, to be noticed."""
-    return f"no {what}" if count == 0 else f"**{count:,} {what}{'' if count == 1 else 's'}**"
+    return f"no {what}" if count == 0 else f"**{how_many(count, what, plural)}**"
 
 
-def how_many(count, what):
-    return f"{count:,} {what}{'' if count == 1 else 's'}"
+def how_many(count, what, plural=None):
+    return f"{count:,} {what if count == 1 else plural or what + 's'}"
 
 
 def all_of(done, all_there, what):
@@ -32,9 +34,12 @@ def ran(totals):
 
 
 def test_lines(data):
-    totals = data["all"]
-    covered = [f"{short(totals[name])} {name}" for name in ("cases", "comparisons") if totals[name]]
-    yield ["Tests at full size", ", ".join([ran(totals), *covered]), none_or(totals["failed"], "failure")]
+    yield ["Tests at full size", ran(data["all"]), none_or(data["all"]["failed"], "failure")]
+    for name, totals in data["families"].items():
+        what, cases = FAMILIES[name]
+        covered = [f"{short(totals[key])} {unit}" for key, unit in (("cases", cases), ("comparisons", "comparisons"))
+                   if totals[key]]
+        yield [f"Of them, {what}", ", ".join([ran(totals), *covered]), none_or(totals["failed"], "failure")]
     for run in data["sanitized"]:
         yield [SANITIZERS.get(run["name"], run["name"]), ran(run), none_or(run["failed"], "failure")]
 
@@ -42,7 +47,8 @@ def test_lines(data):
 def prove_lines(data):
     claims = data["claims"]
     yield ["Proofs, for all inputs", f"{how_many(claims, 'claim')}, and as many that claim a little too much",
-           f"{all_of(data['proven'], claims, 'proven')}; {all_of(data['refuted'], claims, 'bold ones refuted')}"]
+           f"{all_of(data['proven'], claims, 'proven')}; {all_of(data['premises_hold'], claims, 'premises possible')}; "
+           f"{all_of(data['refuted'], claims, 'bold ones refuted')}"]
 
 
 def mutate_lines(data):
@@ -54,7 +60,7 @@ def fuzz_lines(data):
     for target in data["targets"]:
         reached = 100 * target["lines_reached"] / target["lines"] if target["lines"] else 0
         yield [f"Fuzzing: {target['what']}", f"{short(target['executions'])} executions, {reached:.0f}% of the lines",
-               none_or(len(target["crashes"]), "crash").replace("crashs", "crashes")]
+               none_or(len(target["crashes"]), "crash", "crashes")]
 
 
 LINES = {"tests": test_lines, "prove": prove_lines, "mutate": mutate_lines, "fuzz": fuzz_lines}

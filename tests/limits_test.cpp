@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "frontend/frontend.h"
+#include "lab/measure.h"
 #include "raster/backend.h"
 #include "raster/contract.h"
 #include "support.h"
@@ -84,6 +85,24 @@ TEST(Limits, TheLargestSidesAndTheMostThreadsAreDrawn) {
       EXPECT_EQ(frame.payload_row(0)[0], 7u) << info.name;
       EXPECT_EQ(frame.payload_row(height - 1)[0], 7u) << info.name;
     }
+}
+
+// Both sides at once: 2 GiB of picture.
+TEST(Limits, TheLargestImageIsDrawn) {
+  if (!testing::full_size()) GTEST_SKIP() << "takes 2 GiB; scripts/test --full draws it";
+  constexpr int kSide = contract::kMaxImageSide;
+  const TriangleStream stream{1, 1, {{{{-20'000, 0, 0.5f}, {60'000, 0, 0.5f}, {0, 60'000, 0.5f}}, 7}}};
+  Framebuffer frame(kSide, kSide);
+  for (const BackendInfo& info : backends()) {
+    Frontend frontend;
+    lab::poison(frame);
+    info.make()->draw(frontend.run(stream, {.width = kSide, .height = kSide, .cull = Cull::none}),
+                      frame.view(), 0, {.threads = 2});
+    std::uint64_t wrong = 0;
+    for (int y = 0; y < kSide; ++y)
+      for (int x = 0; x < kSide; ++x) wrong += frame.payload_row(y)[x] != 7;
+    EXPECT_EQ(wrong, 0u) << info.name;
+  }
 }
 
 }  // namespace

@@ -44,9 +44,10 @@ class ProveTest(unittest.TestCase):
         result = self.run_prove("--json", self.folder / "out.json")
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
         written = json.loads((self.folder / "out.json").read_text())
-        self.assertEqual((written["claims"], written["proven"], written["refuted"]), (1, 1, 1))
+        self.assertEqual([written[key] for key in ("claims", "proven", "premises_hold", "refuted")], [1, 1, 1, 1])
         claim = written["list"][0]
         self.assertEqual((claim["text"], claim["result"]), ("Twice a number is even.", "proven"))
+        self.assertTrue(claim["premises_hold"])
         self.assertEqual(claim["weakened"]["result"], "refuted")
         self.assertEqual(list(claim["weakened"]["counterexample"]), ["v"])
 
@@ -63,6 +64,24 @@ class ProveTest(unittest.TestCase):
         result = self.run_prove()
         self.assertEqual(result.returncode, 1)
         self.assertIn("HOLDS", result.stdout)
+
+    def test_a_claim_of_what_cannot_be_fails(self):
+        self.needs_solver()
+        impossible = "(assert (and (< v 0) (> v 0)))\n(assert (not"
+        self.write(CLAIM.replace("(assert (not", impossible) + WEAKENED)
+        result = self.run_prove("--json", self.folder / "out.json")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("EMPTY", result.stdout)
+        written = json.loads((self.folder / "out.json").read_text())
+        self.assertEqual((written["proven"], written["premises_hold"], written["refuted"]), (1, 0, 1))
+        self.assertFalse(written["list"][0]["premises_hold"])
+
+    def test_a_claim_that_asserts_nothing_is_refused(self):
+        self.needs_solver()
+        self.write(CLAIM[:CLAIM.index("(assert")] + WEAKENED)
+        result = self.run_prove()
+        self.assertEqual((result.returncode, result.stderr),
+                         (2, "prove: numbers.smt2: claim even asserts nothing\n"))
 
     def test_no_answer_in_time_is_no_proof(self):
         self.needs_solver()

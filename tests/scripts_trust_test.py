@@ -10,15 +10,30 @@ SCRIPTS = Path(__file__).resolve().parent.parent / "scripts"
 sys.path.insert(0, str(SCRIPTS))
 from trust import trust_markdown, trust_table  # noqa: E402
 
-SHARDS = [{"testsuites": [{"testsuite": [{"name": "A", "cases": "40", "comparisons": "400"}, {"name": "B"}]}]},
-          {"testsuites": [{"testsuite": [{"name": "C", "cases": "2", "failures": [{"failure": "wrong"}]},
-                                         {"name": "D", "result": "SKIPPED"}]}]}]
+SHARDS = [{"testsuites": [{"name": "Properties", "testsuite": [{"name": "A", "cases": "40", "comparisons": "400"},
+                                                               {"name": "B"}]},
+                          {"name": "Lattices/EveryTriangle", "testsuite": [{"name": "E", "cases": "9"}]}]},
+          {"testsuites": [{"name": "CoverageProperties",
+                           "testsuite": [{"name": "C", "cases": "2", "failures": [{"failure": "wrong"}]},
+                                         {"name": "D", "result": "SKIPPED"}]},
+                          {"name": "ConformanceDepth", "testsuite": [{"name": "F", "cases": "5"}]},
+                          {"name": "Table/HostileInput", "testsuite": [{"name": "G/0"}, {"name": "G/1"}]},
+                          {"name": "Soak", "testsuite": [{"name": "H", "cases": "1000"}]}]}]
 JUNIT = '<testsuite name="x" tests="7" failures="1" disabled="1" skipped="2"></testsuite>'
-TOTALS = {"all": {"tests": 4, "failed": 1, "skipped": 1, "cases": 42, "comparisons": 400},
-          "sanitized": [{"name": "thread", "tests": 7, "failed": 1, "skipped": 3}]}
-GOOD = {"tests": {"all": {"tests": 500, "failed": 0, "skipped": 0, "cases": 2_000_000, "comparisons": 0},
-                  "sanitized": [{"name": "address", "tests": 499, "failed": 0, "skipped": 2}]},
-        "prove": {"claims": 9, "proven": 9, "refuted": 9},
+
+
+def totals(tests, failed=0, skipped=0, **counted):
+    return {"tests": tests, "failed": failed, "skipped": skipped, **counted}
+
+
+TOTALS = {"all": totals(9, 1, 1),
+          "families": {"properties": totals(4, 1, 1, cases=42, comparisons=400),
+                       "lattices": totals(1, cases=9, comparisons=0), "conformance": totals(1, cases=5, comparisons=0),
+                       "hostile": totals(2, cases=0, comparisons=0)},
+          "sanitized": [{"name": "thread", **totals(7, 1, 3)}]}
+GOOD = {"tests": {"all": totals(500), "families": {"lattices": totals(5, cases=2_000_000, comparisons=0)},
+                  "sanitized": [{"name": "address", **totals(499, 0, 2)}]},
+        "prove": {"claims": 9, "proven": 9, "premises_hold": 9, "refuted": 9},
         "mutate": {"mutations": 25, "caught": 25},
         "fuzz": {"targets": [{"what": "any bytes", "executions": 12_345, "lines_reached": 90, "lines": 100, "crashes": []}]}}
 
@@ -54,9 +69,10 @@ class TrustTest(unittest.TestCase):
     def test_each_result_has_its_line(self):
         lines, text = self.table(**GOOD)
         self.assertEqual([line[1:] for line in lines], [
-            ["500 tests, 2M cases", "no failure"],
+            ["500 tests", "no failure"],
+            ["5 tests, 2M triangles", "no failure"],
             ["499 tests, 2 of them skipped", "no failure"],
-            ["9 claims, and as many that claim a little too much", "all proven; all bold ones refuted"],
+            ["9 claims, and as many that claim a little too much", "all proven; all premises possible; all bold ones refuted"],
             ["25 mistakes, one at a time", "all caught"],
             ["12.3k executions, 90% of the lines", "no crash"]])
         self.assertNotIn("**", text)
@@ -66,10 +82,13 @@ class TrustTest(unittest.TestCase):
         self.assertEqual(self.table(), ([], "None of this was run for these results."))
 
     def test_what_failed_is_bold(self):
-        bad = {"tests": TOTALS, "prove": {"claims": 9, "proven": 8, "refuted": 7}, "mutate": {"mutations": 25, "caught": 24},
+        bad = {"tests": TOTALS, "prove": {"claims": 9, "proven": 8, "premises_hold": 6, "refuted": 7},
+               "mutate": {"mutations": 25, "caught": 24},
                "fuzz": {"targets": [{**GOOD["fuzz"]["targets"][0], "crashes": ["a", "b"]}]}}
         self.assertEqual([line[2] for line in self.table(**bad)[0]], [
-            "**1 failure**", "**1 failure**", "**8 of 9 proven**; **7 of 9 bold ones refuted**", "**24 of 25 caught**",
+            "**1 failure**", "**1 failure**", "no failure", "no failure", "no failure", "**1 failure**",
+            "**8 of 9 proven**; **6 of 9 premises possible**; **7 of 9 bold ones refuted**",
+            "**24 of 25 caught**",
             "**2 crashes**"])
 
 

@@ -79,7 +79,9 @@ static_assert(std::int64_t{kMaxTile} * 2 * (2 * kGuardSub) <= std::int64_t{1} <<
 // bit. Error at a sample inside the triangle: gx, gy are off by less than 2^-16 each over at most 2^15 px,
 // base rounds by 1/2, and 63 steps on both axes are off by at most 1/2 each: under 2 (1/2) + 1/2 + 126 (1/2)
 // < 65. A head-room of 128 units at both ends of the 31 bits therefore keeps every drawn depth from wrapping,
-// and keeps it below kDepthClear, so the background never wins.
+// and keeps it below kDepthClear, so the background never wins. The cells lie fixed in the image: a triangle
+// moved by whole pixels keeps its samples, but its depths only if moved by multiples of 64; else they may
+// differ by two errors, under 2 * 65 units.
 inline constexpr int kDepthCell = 64;
 inline constexpr std::uint32_t kDepthHead = 128;
 inline constexpr std::uint32_t kDepthClear = 0x7FFFFFFF;
