@@ -184,7 +184,14 @@ inline constexpr Hostile kHostile[] = {
     {"ulimit -v 400000; edgewise render cube --size 16385x16384 -o $DIR/a.png", 2, "1 to 16384"},
     {"ulimit -v 400000; edgewise render micro --scale 60 -o $DIR/a.png", 2, "10^8"},
     {"edgewise verify $IN/cut.tri --json $DIR/a.json", 2, "truncated"},
-    {"edgewise soak --resume $IN/none.json", 2, "none.json"},
+    {"edgewise soak --cases 1 --resume $DIR/a.json --json $DIR/a.json", 0, "", "a.json"},  // begins it
+    {"edgewise soak --cases 1 --resume $DIR/no/a.json", 2, "cannot be written"},
+    {"edgewise soak --cases 1 --json $DIR/a.json && edgewise soak --cases 1 --json $DIR/a.json", 2,
+     "a.json: exists; --resume goes on from it", "a.json"},
+    {"edgewise soak --cases 1 --json $DIR/a.json && edgewise soak --cases 1 --resume $DIR/b.json --json "
+     "$DIR/a.json",
+     2, "a.json: exists; --resume goes on from it", "a.json"},
+    {"edgewise soak --cases 1 --json $IN/cut.json", 2, "cut.json: exists"},
     {"edgewise soak --resume $IN/text.png", 2, "is not a record of a soak"},
     {"edgewise soak --merge $IN/depth.pfm -o $DIR/a.json", 2, "is not a record of a soak"},
     {"edgewise soak --merge $IN/cut.json -o $DIR/a.json", 2, "is not a whole record"},

@@ -452,8 +452,7 @@ TEST_F(SoakProgram, WritesWhatIsDoneOnCtrlCAndGoesOn) {
     if (child == 0) {
       for (const int n : {SIGINT, SIGTERM}) signal(n, SIG_DFL);
       if (freopen("/dev/null", "w", stdout) != nullptr)
-        execl(EDGEWISE_PROGRAM, "edgewise", "soak", cases_before == 0 ? "--json" : "--resume", file.c_str(),
-              nullptr);
+        execl(EDGEWISE_PROGRAM, "edgewise", "soak", "--resume", file.c_str(), nullptr);
       _exit(99);
     }
     // The first record shows that the work is about to begin.

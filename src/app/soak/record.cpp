@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 #include <stdexcept>
+#include <system_error>
 
 #include "app/machine.h"
 #include "app/soak/case.h"
@@ -89,6 +90,14 @@ Record record_from(const nlohmann::json& json) {
   return record;
 }
 
+// Null for what is no record of a soak at all.
+nlohmann::json parse(const std::filesystem::path& path) {
+  InputFile file = open_input(path);
+  nlohmann::json json = nlohmann::json::parse(file.stream, nullptr, false);
+  if (!json.is_object() || !json.contains("format") || json["format"] != kFormat) return nullptr;
+  return json;
+}
+
 void add_machine(std::vector<nlohmann::json>& machines, const nlohmann::json& machine) {
   if (std::find(machines.begin(), machines.end(), machine) == machines.end()) machines.push_back(machine);
 }
@@ -159,11 +168,14 @@ nlohmann::json to_json(const Record& r) {
   return json;
 }
 
+bool is_record(const std::filesystem::path& path) {
+  std::error_code missing;
+  return std::filesystem::is_regular_file(path, missing) && !parse(path).is_null();
+}
+
 Record read_record(const std::filesystem::path& path) {
-  InputFile file = open_input(path);
-  nlohmann::json json = nlohmann::json::parse(file.stream, nullptr, false);
-  if (!json.is_object() || !json.contains("format") || json["format"] != kFormat)
-    throw file_error(path, "is not a record of a soak");
+  const nlohmann::json json = parse(path);
+  if (json.is_null()) throw file_error(path, "is not a record of a soak");
   if (!json.contains("sequence") || json["sequence"] != kSequence)
     throw file_error(path, fmt::format("is of another sequence of cases; this program's is {}", kSequence));
   try {
