@@ -10,7 +10,9 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <new>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -376,6 +378,30 @@ TEST(SoakFindings, ABackendThatThrowsEndsItWithTheCase) {
   const std::string said = message_of([&] { run(campaign, fresh(12, {})); });
   EXPECT_TRUE(said.starts_with("seed 12, case 0 (")) << said;
   EXPECT_TRUE(said.ends_with("): too much")) << said;
+}
+
+TEST(SoakFindings, WhatWasDoneBeforeAFailureIsHandedOver) {
+  // Draws two cases, and has no memory for the third.
+  class Tires : public Backend {
+    void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
+                      const Execution& execution) override {
+      const auto frames_a_case = static_cast<int>(2 * supported_targets().size());
+      if (++drawn_ > 2 * frames_a_case) throw std::bad_alloc();
+      backends()[0].make()->draw(triangles, frame, background, execution);
+    }
+    int drawn_ = 0;
+  };
+  Campaign campaign = campaign_of(4);
+  campaign.judged.backends = {backends()[0], planted<Tires>()};
+  campaign.jobs = 1;
+  std::uint64_t done = 0;
+  campaign.on_failure = [&](const Record& record) { done = record.tally.cases; };
+  const std::string said = message_of([&] { run(campaign, fresh(12, {})); });
+  EXPECT_TRUE(said.ends_with("): out of memory")) << said;
+  EXPECT_EQ(done, 2u);
+
+  campaign.on_failure = [](const Record&) { throw std::runtime_error("a full disk"); };
+  EXPECT_EQ(message_of([&] { run(campaign, fresh(12, {})); }), said);
 }
 
 TEST(SoakReduce, KeepsOnlyWhatIsNeeded) {

@@ -175,6 +175,9 @@ int soak_command(const SoakOptions& o) {
   {
     Watch watch(o, path, record);
     campaign.on_progress = [&](const soak::Record& now) { watch(now); };
+    campaign.on_failure = [&](const soak::Record& done) {
+      if (!path.empty()) write(path, done);
+    };
     record = soak::run(campaign, std::move(record));
   }
   return finish(o, path, record, request.signal());

@@ -12,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "app/process.h"
 #include "app/soak/evidence.h"
 
 namespace edgewise::soak {
@@ -36,16 +37,38 @@ class Soak {
 
   Record run() {
     std::vector<std::thread> jobs;
-    working_ = campaign_.jobs;
-    for (int i = 0; i < campaign_.jobs; ++i) jobs.emplace_back([this] { work(); });
+    start(jobs);
     watch();
     for (std::thread& job : jobs) job.join();
-    if (failure_) std::rethrow_exception(failure_);
+    if (failure_) give_up();
     campaign_.on_progress(record_);
     return std::move(record_);
   }
 
  private:
+  // Those that began must end before what kept others from beginning is told.
+  void start(std::vector<std::thread>& jobs) {
+    try {
+      for (int i = 0; i < campaign_.jobs; ++i) {
+        const std::lock_guard lock(mutex_);
+        jobs.emplace_back([this] { work(); });
+        ++working_;
+      }
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      failure_ = std::current_exception();
+    }
+  }
+
+  // What cannot be saved either is no news.
+  [[noreturn]] void give_up() {
+    try {
+      campaign_.on_failure(record_);
+    } catch (const std::exception&) {
+    }
+    std::rethrow_exception(failure_);
+  }
+
   // One job: takes the next case until there is none.
   void work() {
     try {
@@ -95,7 +118,7 @@ class Soak {
       return done;
     } catch (const std::exception& error) {
       throw std::runtime_error(
-          fmt::format("seed {}, case {} ({}): {}", seed_, number, c.family, error.what()));
+          fmt::format("seed {}, case {} ({}): {}", seed_, number, c.family, app::reason_of(error)));
     }
   }
 

@@ -23,6 +23,8 @@ struct Campaign {
   // Called a few times a second and at the end, on the caller's thread, with a record that is whole: all
   // cases up to its last one are in it.
   std::function<void(const Record&)> on_progress = [](const Record&) {};
+  // Called on the caller's thread before run() throws, with a record of what had been done by then.
+  std::function<void(const Record&)> on_failure = [](const Record&) {};
 };
 
 // Goes on from `record`, which has one shard, and returns what it has become. Case by case it takes on what

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/capture.h"
+#include "app/process.h"
 #include "app/soak/reduce.h"
 #include "app/verify.h"
 #include "image/atomic_file.h"
@@ -100,7 +101,7 @@ nlohmann::json evidence_of(const std::filesystem::path& folder, std::uint64_t se
     if (verify_finds(folder / name, checker.judged()))
       json["replay"].push_back(fmt::format("edgewise verify {}", (folder / name).string()));
   } catch (const std::exception& error) {
-    json["trouble"] = error.what();
+    json["trouble"] = app::reason_of(error);
   }
   return json;
 }
