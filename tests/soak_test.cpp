@@ -366,6 +366,40 @@ TEST(SoakFindings, IncludeAFrontEndThatIsWrong) {
   EXPECT_GT(files, 0);
 }
 
+TEST(SoakFindings, AreNotReducedFurtherOnceAskedToStop) {
+  const TempDir folder;
+  Campaign campaign = campaign_of(1);
+  campaign.judged.backends = {backends()[0], planted<WrongInTheCorner>()};
+  campaign.jobs = 1;
+  campaign.failure_folder = folder.path();
+  std::uint64_t number = 0;
+  std::vector<nlohmann::json> found;
+  const auto draw = [&] { found = run(campaign, fresh(8, {number, number + 1, 0})).findings; };
+  for (draw(); found.empty() || found[0].at("triangles") < 10; draw()) ++number;
+  EXPECT_EQ(found[0].at("reduced_to"), 1u);
+
+  int asked = 0;
+  campaign.stop = [&] { return ++asked > 1; };  // once the case has begun
+  draw();
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_GT(found[0].at("reduced_to"), 1u);
+  EXPECT_EQ(found[0].at("replay").size(), 1u);
+  EXPECT_EQ(asked, 3) << "before the first case, the first attempt and the search for another command";
+}
+
+TEST(SoakFindings, BeyondTheMostThatAreKeptLeaveNoFiles) {
+  const TempDir folder;
+  Campaign campaign = campaign_of(10);
+  campaign.judged.backends = {backends()[0], planted<WrongInTheCorner>()};
+  campaign.failure_folder = folder.path() / "failures";
+  Record before = fresh(8, {});
+  before.findings.resize(kMostFindings - 1, {{"case", 0}});
+  const Record record = run(campaign, before);
+  EXPECT_GT(record.tally.frames_differ, 1u);
+  EXPECT_EQ(record.findings.size(), kMostFindings);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(campaign.failure_folder), {}), 1);
+}
+
 TEST(SoakFindings, ABackendThatThrowsEndsItWithTheCase) {
   class Throws : public Backend {
     void draw_checked(std::span<const ScreenTriangle>, FrameView, std::uint32_t, const Execution&) override {
@@ -410,8 +444,16 @@ TEST(SoakReduce, KeepsOnlyWhatIsNeeded) {
   const auto fails = [](const std::vector<int>& l) {
     return std::count(l.begin(), l.end(), 17) == 1 && std::count(l.begin(), l.end(), 80) == 1;
   };
-  EXPECT_EQ(reduce(list, 1000, fails), (std::vector<int>{17, 80}));
-  EXPECT_TRUE(fails(reduce(list, 5, fails)));
+  const auto never = [] { return false; };
+  EXPECT_EQ(reduce(list, 1000, fails, never), (std::vector<int>{17, 80}));
+  EXPECT_TRUE(fails(reduce(list, 5, fails, never)));
+}
+
+TEST(SoakReduce, EndsWhenAsked) {
+  int attempts = 0;
+  const auto fails = [&](const std::vector<int>& l) { return ++attempts, l.front() == 0; };
+  EXPECT_EQ(reduce(std::vector<int>(64), 1000, fails, [&] { return attempts == 3; }).size(), 8u);
+  EXPECT_EQ(attempts, 3);
 }
 
 TEST(GuardedFrame, SeesEveryWordThatIsWrittenBesideThePicture) {

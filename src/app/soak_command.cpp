@@ -201,7 +201,7 @@ Case k of shard I/N is number I + k N of the seed's sequence, whatever the machi
 common and need not know of one another. --merge adds their results up, and refuses what does not belong
 together: other seeds, programs (version and commit) or sequences, cases that two files share.
 
-Without --for or --cases it goes on until Ctrl-C. On Ctrl-C, SIGTERM or SIGHUP the pictures in work are
+Without --for or --cases it goes on until Ctrl-C. On Ctrl-C, SIGTERM or SIGHUP the cases in work are
 finished and all is written; twice ends it at once. With --json (or --resume) the file is also written every
 half a minute, so that little is lost when the machine goes down. --resume of a file that isn't there yet begins
 it, so that a job that may be started again names one file; --json alone refuses a record that exists.
@@ -230,7 +230,7 @@ void add_soak(CLI::App& program, Action& action) {
   add("--case", "NUMBER", "Only this case",
       [o](const std::string& text) { o->only_case = parse_count("--case", text, 0, soak::kMostShards - 1); });
   add_integer(command, "--jobs", o->jobs, 1, kMaxThreads,
-              "Cases drawn at once (all cores); no result depends on it");
+              "Cases drawn at once (all cores); no count depends on it");
   command.add_option("-o,--json", o->json, "Write the results as JSON; - for stdout, instead of the tables")
       ->type_name("FILE");
   command

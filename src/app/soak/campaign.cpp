@@ -102,9 +102,12 @@ class Soak {
 
   std::optional<std::uint64_t> take() {
     const std::lock_guard lock(mutex_);
-    const bool late = campaign_.seconds && seconds_here() >= *campaign_.seconds;
-    if (failure_ || late || next_ >= end_ || campaign_.stop()) return std::nullopt;
+    if (failure_ || next_ >= end_ || must_end()) return std::nullopt;
     return next_++;
+  }
+
+  bool must_end() const {
+    return (campaign_.seconds && seconds_here() >= *campaign_.seconds) || campaign_.stop();
   }
 
   Done check(Checker& checker, std::uint64_t number) {
@@ -114,7 +117,7 @@ class Soak {
       Done done{std::move(verdict.tally), {}};
       for (const Finding& finding : verdict.findings)
         if (found_++ < kMostFindings)
-          done.findings.push_back(evidence_of(campaign_.failure_folder, seed_, c, finding, checker));
+          done.findings.push_back(evidence_of(evidence_, seed_, c, finding, checker));
       return done;
     } catch (const std::exception& error) {
       throw std::runtime_error(
@@ -141,11 +144,12 @@ class Soak {
 
   const Campaign& campaign_;
   const Clock::time_point start_ = Clock::now();
-  std::atomic<std::size_t> found_ = 0;
+  const Evidence evidence_{campaign_.failure_folder, [this] { return must_end(); }};
   std::mutex mutex_;  // of all that changes below
   std::condition_variable ended_;
   Record record_;
   const double seconds_before_;
+  std::atomic<std::size_t> found_ = record_.findings.size();
   const std::uint64_t seed_ = record_.seed;
   const Shard shard_ = record_.shards.front();
   std::uint64_t next_;

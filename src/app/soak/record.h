@@ -31,7 +31,7 @@ struct Record {
   Tally tally;
   double seconds = 0.0;                  // of all runs together
   std::vector<std::string> backends;     // the reference first
-  std::vector<nlohmann::json> findings;  // the first ones
+  std::vector<nlohmann::json> findings;  // at most kMostFindings
   std::vector<nlohmann::json> machines;  // those that drew, each once
 };
 inline constexpr std::size_t kMostFindings = 20;
