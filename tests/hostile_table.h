@@ -197,6 +197,12 @@ inline constexpr Hostile kHostile[] = {
     {"edgewise soak --merge $IN/cut.json -o $DIR/a.json", 2, "is not a whole record"},
     {"edgewise soak --merge $IN/old.json", 2, "another sequence"},
     {"edgewise soak --merge $IN/cut.json --for 2m", 2, "--merge draws"},
+    {"edgewise soak --cases 1 -o $IN/a.json; sed -i 's/\"frames\": [0-9]*/\"frames\": -3/' $IN/a.json; "
+     "edgewise soak --merge $IN/a.json -o $DIR/a.json",
+     2, "not a whole record of a soak: 'frames' is no count"},
+    {"edgewise soak --cases 1 -o $IN/a.json; sed -i 's/\"differ\": 0/\"differ\": 0.9/' $IN/a.json; "
+     "edgewise soak --merge $IN/a.json -o $DIR/a.json",
+     2, "not a whole record of a soak: 'differ' is no count"},
     // NaN and infinity in a stream are no error: such triangles are dropped, and counted.
     {"edgewise render $IN/nan.tri -o $DIR/a.png", 0, "", "a.png"},
     {"edgewise verify $IN/nan.tri --json $DIR/a.json", 0, "", "a.json"},
