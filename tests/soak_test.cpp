@@ -353,6 +353,28 @@ TEST(SoakFindings, IncludeWhatIsWrittenBesideThePicture) {
   EXPECT_EQ(record.findings[0].at("written_outside"), 1u);
 }
 
+// Wrong only in the way that just one backend has.
+class WrongWhenStepped : public Backend {
+  void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
+                    const Execution& execution) override {
+    right_->draw(triangles, frame, background, execution);
+    if (execution.stepped) frame.depth[0] ^= 1;
+  }
+  std::unique_ptr<Backend> right_ = backends()[0].make();
+};
+
+TEST(SoakFindings, IncludeValuesThatAreSteppedWrong) {
+  Campaign campaign = campaign_of(3);
+  BackendInfo wrong = planted<WrongWhenStepped>();
+  wrong.name = "naive";
+  campaign.judged.backends = {backends()[0], wrong};
+  const Record record = run(campaign, fresh(13, {}));
+  EXPECT_EQ(record.tally.frames_differ, 3u);
+  EXPECT_EQ(record.tally.by.at("backend_ideas").at("naive, stepped"), (Share{3, 3}));
+  EXPECT_EQ(record.findings.at(0).at("stepped"), true);
+  EXPECT_NE(report(record).find(", stepped, tile 64"), std::string::npos) << report(record);
+}
+
 TEST(SoakFindings, IncludeAReferenceThatIsWrong) {
   Campaign campaign = campaign_of(40);
   campaign.judged.backends = {planted<WrongReference>()};

@@ -74,6 +74,7 @@ nlohmann::json description(const Case& c, const Finding& f, const Judged& judged
   if (f.of_frontend) return json;
   json["tile_size"] = f.draw.execution.tile_size;
   json["ideas"] = edgewise::describe(f.draw.execution.ideas);
+  json["stepped"] = f.draw.execution.stepped;
   json["row_padding"] = f.draw.layout.padding;
   json["row_offset"] = f.draw.layout.offset;
   json["pixels"] = f.difference.pixels;
