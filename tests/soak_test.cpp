@@ -306,7 +306,8 @@ TEST(SoakFindings, AreReportedReducedAndReplayed) {
   const TempDir folder;
   Campaign campaign = campaign_of(40);
   campaign.judged.backends = {backends()[0], planted<WrongInTheCorner>()};
-  campaign.failure_folder = folder.path() / "failures";
+  campaign.failure_folder = folder.path() / "the soak's failures";
+  campaign.program = EDGEWISE_PROGRAM;
   const Record record = soaked(campaign, fresh(8, {}), folder);
   ASSERT_GT(record.tally.frames_differ, 0u);
   ASSERT_FALSE(record.findings.empty());
@@ -325,13 +326,15 @@ TEST(SoakFindings, AreReportedReducedAndReplayed) {
     EXPECT_EQ(stream.triangles.size(), 1u);
     EXPECT_EQ(stream.width, finding.at("width"));
     const auto commands = finding.at("replay").get<std::vector<std::string>>();
-    EXPECT_EQ(commands.at(0), "edgewise soak --seed 8 --case " + finding.at("case").dump());
+    EXPECT_EQ(commands.at(0), "'" EDGEWISE_PROGRAM "' soak --seed 8 --case " + finding.at("case").dump());
     replayed += commands.size() == 2;
+    // The program has no planted backend: it must only understand what it is told.
+    const auto script = folder.write("replay.sh", "cd / && " + commands.at(1));
+    EXPECT_EQ(testing::run_program("/bin/sh", script.string()).status, 0) << commands.at(1);
   }
   EXPECT_EQ(replayed, static_cast<int>(record.findings.size()));
   const std::string text = report(record);
-  EXPECT_NE(text.find("see it again: edgewise verify " + campaign.failure_folder.string()), std::string::npos)
-      << text;
+  EXPECT_NE(text.find("see it again: '" EDGEWISE_PROGRAM "' verify '"), std::string::npos) << text;
   EXPECT_NE(text.find("DIFFER."), std::string::npos);
 
   // The same case alone, as the command draws it.
@@ -373,6 +376,18 @@ TEST(SoakFindings, IncludeValuesThatAreSteppedWrong) {
   EXPECT_EQ(record.tally.by.at("backend_ideas").at("naive, stepped"), (Share{3, 3}));
   EXPECT_EQ(record.findings.at(0).at("stepped"), true);
   EXPECT_NE(report(record).find(", stepped, tile 64"), std::string::npos) << report(record);
+}
+
+TEST(SoakFindings, AreKeptWhereNoFileCanBeWritten) {
+  Campaign campaign = campaign_of(6);
+  campaign.judged.backends = {backends()[0], planted<WritesBehindTheLastRow>()};
+  campaign.failure_folder = "/dev/null/failures";
+  const Record record = run(campaign, fresh(9, {}));
+  ASSERT_FALSE(record.findings.empty());
+  EXPECT_NE(record.findings[0].at("trouble").get<std::string>().find("/dev/null/failures"),
+            std::string::npos);
+  EXPECT_EQ(record.findings[0].at("replay").size(), 1u);
+  EXPECT_NE(report(record).find("no file: "), std::string::npos);
 }
 
 TEST(SoakFindings, IncludeAReferenceThatIsWrong) {
@@ -529,6 +544,15 @@ class SoakProgram : public ::testing::Test {
   }
   TempDir folder_;
 };
+
+TEST_F(SoakProgram, DrawsOneCaseAgain) {
+  const Outcome outcome = soak("--seed 7 --case 123456 -o " + path("a.json"));
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(json("a.json").at("cases"), 1);
+  EXPECT_EQ(json("a.json").at("seed"), 7);
+  EXPECT_EQ(json("a.json").at("shards").at(0).at("shard"), 123456);
+  EXPECT_TRUE(json("a.json").at("by").at("family").contains(std::string(make_case(7, 123456).family)));
+}
 
 TEST_F(SoakProgram, MergesShards) {
   ASSERT_EQ(soak("--seed 4 --shard 0/2 --cases 5 -o " + path("a.json")).status, 0);

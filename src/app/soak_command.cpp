@@ -169,6 +169,9 @@ int soak_command(const SoakOptions& o) {
   campaign.seconds = o.seconds;
   campaign.cases = o.only_case ? 1 : o.cases;
   campaign.jobs = o.only_case ? 1 : o.jobs;
+  std::error_code unknown;  // the name alone must do then
+  const auto self = std::filesystem::read_symlink("/proc/self/exe", unknown);
+  if (!unknown) campaign.program = self.string();
   campaign.failure_folder = o.out;
   const StopRequest request;
   campaign.stop = [&] { return request.signal() != 0; };

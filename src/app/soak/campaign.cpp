@@ -144,7 +144,7 @@ class Soak {
 
   const Campaign& campaign_;
   const Clock::time_point start_ = Clock::now();
-  const Evidence evidence_{campaign_.failure_folder, [this] { return must_end(); }};
+  const Evidence evidence_{campaign_.program, campaign_.failure_folder, [this] { return must_end(); }};
   std::mutex mutex_;  // of all that changes below
   std::condition_variable ended_;
   Record record_;

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <string>
 
 #include "app/soak/check.h"
 #include "app/soak/record.h"
@@ -19,7 +20,8 @@ struct Campaign {
   // Cases drawn at once. No result depends on it, but for one: where there are more findings than
   // kMostFindings, which of them are described.
   int jobs = 1;
-  std::filesystem::path failure_folder;  // see Evidence
+  std::string program = "edgewise";  // see Evidence, as for
+  std::filesystem::path failure_folder;
   // Asked before each case, and while a finding's triangles are reduced, on any thread.
   std::function<bool()> stop = [] { return false; };
 

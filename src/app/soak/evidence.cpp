@@ -62,6 +62,13 @@ bool verify_finds(const std::filesystem::path& path, const Judged& judged) {
   return !app::verify_scene(plan, path.string(), [](double) {}).ok();
 }
 
+// Taken by a shell as it stands.
+std::string quoted(const std::string& word) {
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
 nlohmann::json description(const Case& c, const Finding& f, const Judged& judged) {
   nlohmann::json json{{"case", c.number},
                       {"family", c.family},
@@ -89,7 +96,7 @@ nlohmann::json description(const Case& c, const Finding& f, const Judged& judged
 nlohmann::json evidence_of(const Evidence& evidence, std::uint64_t seed, const Case& c,
                            const Finding& finding, Checker& checker) {
   nlohmann::json json = description(c, finding, checker.judged());
-  json["replay"] = {fmt::format("edgewise soak --seed {} --case {}", seed, c.number)};
+  json["replay"] = {fmt::format("{} soak --seed {} --case {}", quoted(evidence.program), seed, c.number)};
   const auto* stream = c.drawable ? std::get_if<TriangleStream>(&*c.drawable) : nullptr;
   if (evidence.folder.empty() || (finding.of_frontend && stream == nullptr)) return json;
   try {
@@ -103,7 +110,8 @@ nlohmann::json evidence_of(const Evidence& evidence, std::uint64_t seed, const C
     json["file"] = path.string();
     json["reduced_to"] = smallest.triangles.size();
     if (!evidence.stop() && verify_finds(path, checker.judged()))
-      json["replay"].push_back(fmt::format("edgewise verify {}", path.string()));
+      json["replay"].push_back(
+          fmt::format("{} verify {}", quoted(evidence.program), quoted(absolute(path).string())));
   } catch (const std::exception& error) {
     json["trouble"] = app::reason_of(error);
   }
