@@ -241,6 +241,7 @@ inline constexpr Hostile kHostile[] = {
     {"chmod 555 $DIR; unprivileged edgewise render cube -o $DIR/a.png", 2,
      "cannot be written: Permission denied"},
     {"chmod 555 $DIR; unprivileged edgewise verify cube --json $DIR/a.json", 2, "Permission denied"},
+    {"chmod 555 $DIR; unprivileged edgewise soak --cases 1 --json $DIR/a.json", 2, "Permission denied"},
     {"chmod 555 $DIR; unprivileged edgewise accuracy drtk_quad --pictures $DIR/a", 2, "cannot be written"},
     {"chmod 555 $DIR; unprivileged bench --scene cube --benchmark_out=$DIR/a", 2, "Permission denied"},
     {"printf older >$DIR/older.png; chmod 444 $DIR/older.png; chmod 777 $DIR;"
@@ -258,6 +259,7 @@ inline constexpr Hostile kHostile[] = {
      "No space left"},
     {"ln -s /dev/full $IN/full.json; edgewise stability cycle --quick --json $IN/full.json", 2,
      "No space left"},
+    {"ln -s /dev/full $IN/full.json; edgewise soak --cases 1 --json $IN/full.json", 2, "No space left"},
     {"ulimit -f 4; edgewise render torus-knot -o $DIR/a.png", 2, "a.png: cannot be written: File too large"},
     {"ulimit -f 64; edgewise render cube --size 640x480 -o $DIR/a.ppm", 2,
      "a.ppm: cannot be written: File too large"},
@@ -269,6 +271,8 @@ inline constexpr Hostile kHostile[] = {
     {"ulimit -f 1; edgewise accuracy drtk_quad --no-speed --json $DIR/a.json", 2,
      "a.json: cannot be written: File too large"},
     {"ulimit -f 1; edgewise stability cycle --quick --json $DIR/a.json", 2,
+     "a.json: cannot be written: File too large"},
+    {"ulimit -f 1; edgewise soak --cases 1 --json $DIR/a.json", 2,
      "a.json: cannot be written: File too large"},
     {"ulimit -f 1; bench $SHORT --benchmark_out=$DIR/a", 2, "a: cannot be written: File too large"},
     {"ulimit -f 1; edgewise machine >$IN/machine.json", 2, "cannot write to standard output"},
@@ -286,6 +290,9 @@ inline constexpr Hostile kHostile[] = {
     {"edgewise render cube --size 33x21 -o $DIR/a.ppm >&-", 2, "cannot write to standard output", "a.ppm"},
     {"edgewise verify cube --size 65x33 --json $DIR/a.json >&-", 2, "cannot write to standard output",
      "a.json"},
+    {"edgewise soak --cases 1 --json $DIR/a.json >/dev/full", 2, "cannot write to standard output", "a.json"},
+    {"edgewise soak --cases 1 --json $DIR/a.json >&-", 2, "cannot write to standard output", "a.json"},
+    {"edgewise soak --cases 1 --json - >/dev/full", 2, "cannot write to standard output"},
     {"bench $SHORT --benchmark_out=$DIR/a.json >&-", 2, "cannot write to standard output", "a.json"},
     {"edgewise render cube --size 33x21 -o $DIR/a.ppm --depth /none/a.pfm 0<&- >&- 2>&-", 2, ""},
     {"edgewise render cube --size 33x21 -o $DIR/a.ppm 0<&- >&- 2>&-", 2, "", "a.ppm"},
@@ -304,6 +311,7 @@ inline constexpr Hostile kHostile[] = {
      "out of memory"},
     {"ulimit -u 1; unprivileged edgewise stability cycle --threads 8", 2, "no more threads can be started"},
     {"ulimit -u 3; unprivileged edgewise stability cycle --threads 8", 2, "no more threads can be started"},
+    {"ulimit -u 3; unprivileged edgewise soak --jobs 8", 2, "no more threads can be started"},
 
     // ---- Signals, once the first file has been begun. Nothing is left but by SIGKILL, which nobody can
     // answer: and that is no file under its final name.
@@ -318,6 +326,11 @@ inline constexpr Hostile kHostile[] = {
     {"stopped INT edgewise stability --json $DIR/a.json", 130, ""},
     {"stopped TERM edgewise stability --json $DIR/a.json", 143, ""},
     {"stopped KILL edgewise stability --json $DIR/a.json", 137, "", "partial"},
+    // What a soak has done is there, whatever stops it.
+    {"stopped INT edgewise soak --json $DIR/a.json", 130, "", "a.json"},
+    {"stopped TERM edgewise soak --json $DIR/a.json", 143, "", "a.json"},
+    {"stopped HUP edgewise soak --json $DIR/a.json", 129, "", "a.json"},
+    {"awaited=a.json stopped KILL edgewise soak --json $DIR/a.json", 137, "", "a.json"},
     {"stopped INT bench --benchmark_out=$DIR/a.json", 130, ""},
     {"stopped TERM bench --benchmark_out=$DIR/a.json", 143, ""},
     {"stopped QUIT bench --benchmark_out=$DIR/a.json", 131, ""},
