@@ -189,8 +189,8 @@ int soak_command(const SoakOptions& o) {
 constexpr const char* kFooter = R"(Examples:
   edgewise soak --for 20m --json soak.json
   edgewise soak --resume soak.json --for 2h               goes on where that ended, or begins
-  edgewise soak --seed 7 --shard 3/16 --for 1h --json 3.json
-  edgewise soak --merge *.json -o all.json
+  edgewise soak --seed 7 --shard 3/16 --for 1h --json shard-3.json
+  edgewise soak --merge shard-*.json -o soak.json
   edgewise soak --seed 7 --case 123456                    one picture again
 
 Random and adversarial pictures without end: triangle lists of many families, and scenes with the camera in
