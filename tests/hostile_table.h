@@ -184,12 +184,25 @@ inline constexpr Hostile kHostile[] = {
     {"ulimit -v 400000; edgewise render cube --size 16385x16384 -o $DIR/a.png", 2, "1 to 16384"},
     {"ulimit -v 400000; edgewise render micro --scale 60 -o $DIR/a.png", 2, "10^8"},
     {"edgewise verify $IN/cut.tri --json $DIR/a.json", 2, "truncated"},
-    {"edgewise soak --resume $IN/none.json", 2, "none.json"},
+    {"edgewise soak --cases 1 --resume $DIR/a.json --json $DIR/a.json", 0, "", "a.json"},  // begins it
+    {"edgewise soak --cases 1 --resume $DIR/no/a.json", 2, "cannot be written"},
+    {"edgewise soak --cases 1 --json $DIR/a.json && edgewise soak --cases 1 --json $DIR/a.json", 2,
+     "a.json: exists; --resume goes on from it", "a.json"},
+    {"edgewise soak --cases 1 --json $DIR/a.json && edgewise soak --cases 1 --resume $DIR/b.json --json "
+     "$DIR/a.json",
+     2, "a.json: exists; --resume goes on from it", "a.json"},
+    {"edgewise soak --cases 1 --json $IN/cut.json", 2, "cut.json: exists"},
     {"edgewise soak --resume $IN/text.png", 2, "is not a record of a soak"},
     {"edgewise soak --merge $IN/depth.pfm -o $DIR/a.json", 2, "is not a record of a soak"},
     {"edgewise soak --merge $IN/cut.json -o $DIR/a.json", 2, "is not a whole record"},
     {"edgewise soak --merge $IN/old.json", 2, "another sequence"},
     {"edgewise soak --merge $IN/cut.json --for 2m", 2, "--merge draws"},
+    {"edgewise soak --cases 1 -o $IN/a.json; sed -i 's/\"frames\": [0-9]*/\"frames\": -3/' $IN/a.json; "
+     "edgewise soak --merge $IN/a.json -o $DIR/a.json",
+     2, "not a whole record of a soak: 'frames' is no count"},
+    {"edgewise soak --cases 1 -o $IN/a.json; sed -i 's/\"differ\": 0/\"differ\": 0.9/' $IN/a.json; "
+     "edgewise soak --merge $IN/a.json -o $DIR/a.json",
+     2, "not a whole record of a soak: 'differ' is no count"},
     // NaN and infinity in a stream are no error: such triangles are dropped, and counted.
     {"edgewise render $IN/nan.tri -o $DIR/a.png", 0, "", "a.png"},
     {"edgewise verify $IN/nan.tri --json $DIR/a.json", 0, "", "a.json"},
@@ -228,6 +241,7 @@ inline constexpr Hostile kHostile[] = {
     {"chmod 555 $DIR; unprivileged edgewise render cube -o $DIR/a.png", 2,
      "cannot be written: Permission denied"},
     {"chmod 555 $DIR; unprivileged edgewise verify cube --json $DIR/a.json", 2, "Permission denied"},
+    {"chmod 555 $DIR; unprivileged edgewise soak --cases 1 --json $DIR/a.json", 2, "Permission denied"},
     {"chmod 555 $DIR; unprivileged edgewise accuracy drtk_quad --pictures $DIR/a", 2, "cannot be written"},
     {"chmod 555 $DIR; unprivileged bench --scene cube --benchmark_out=$DIR/a", 2, "Permission denied"},
     {"printf older >$DIR/older.png; chmod 444 $DIR/older.png; chmod 777 $DIR;"
@@ -245,6 +259,7 @@ inline constexpr Hostile kHostile[] = {
      "No space left"},
     {"ln -s /dev/full $IN/full.json; edgewise stability cycle --quick --json $IN/full.json", 2,
      "No space left"},
+    {"ln -s /dev/full $IN/full.json; edgewise soak --cases 1 --json $IN/full.json", 2, "No space left"},
     {"ulimit -f 4; edgewise render torus-knot -o $DIR/a.png", 2, "a.png: cannot be written: File too large"},
     {"ulimit -f 64; edgewise render cube --size 640x480 -o $DIR/a.ppm", 2,
      "a.ppm: cannot be written: File too large"},
@@ -256,6 +271,8 @@ inline constexpr Hostile kHostile[] = {
     {"ulimit -f 1; edgewise accuracy drtk_quad --no-speed --json $DIR/a.json", 2,
      "a.json: cannot be written: File too large"},
     {"ulimit -f 1; edgewise stability cycle --quick --json $DIR/a.json", 2,
+     "a.json: cannot be written: File too large"},
+    {"ulimit -f 1; edgewise soak --cases 1 --json $DIR/a.json", 2,
      "a.json: cannot be written: File too large"},
     {"ulimit -f 1; bench $SHORT --benchmark_out=$DIR/a", 2, "a: cannot be written: File too large"},
     {"ulimit -f 1; edgewise machine >$IN/machine.json", 2, "cannot write to standard output"},
@@ -273,6 +290,9 @@ inline constexpr Hostile kHostile[] = {
     {"edgewise render cube --size 33x21 -o $DIR/a.ppm >&-", 2, "cannot write to standard output", "a.ppm"},
     {"edgewise verify cube --size 65x33 --json $DIR/a.json >&-", 2, "cannot write to standard output",
      "a.json"},
+    {"edgewise soak --cases 1 --json $DIR/a.json >/dev/full", 2, "cannot write to standard output", "a.json"},
+    {"edgewise soak --cases 1 --json $DIR/a.json >&-", 2, "cannot write to standard output", "a.json"},
+    {"edgewise soak --cases 1 --json - >/dev/full", 2, "cannot write to standard output"},
     {"bench $SHORT --benchmark_out=$DIR/a.json >&-", 2, "cannot write to standard output", "a.json"},
     {"edgewise render cube --size 33x21 -o $DIR/a.ppm --depth /none/a.pfm 0<&- >&- 2>&-", 2, ""},
     {"edgewise render cube --size 33x21 -o $DIR/a.ppm 0<&- >&- 2>&-", 2, "", "a.ppm"},
@@ -291,6 +311,7 @@ inline constexpr Hostile kHostile[] = {
      "out of memory"},
     {"ulimit -u 1; unprivileged edgewise stability cycle --threads 8", 2, "no more threads can be started"},
     {"ulimit -u 3; unprivileged edgewise stability cycle --threads 8", 2, "no more threads can be started"},
+    {"ulimit -u 3; unprivileged edgewise soak --jobs 8", 2, "no more threads can be started"},
 
     // ---- Signals, once the first file has been begun. Nothing is left but by SIGKILL, which nobody can
     // answer: and that is no file under its final name.
@@ -305,6 +326,11 @@ inline constexpr Hostile kHostile[] = {
     {"stopped INT edgewise stability --json $DIR/a.json", 130, ""},
     {"stopped TERM edgewise stability --json $DIR/a.json", 143, ""},
     {"stopped KILL edgewise stability --json $DIR/a.json", 137, "", "partial"},
+    // What a soak has done is there, whatever stops it.
+    {"stopped INT edgewise soak --json $DIR/a.json", 130, "", "a.json"},
+    {"stopped TERM edgewise soak --json $DIR/a.json", 143, "", "a.json"},
+    {"stopped HUP edgewise soak --json $DIR/a.json", 129, "", "a.json"},
+    {"awaited=a.json stopped KILL edgewise soak --json $DIR/a.json", 137, "", "a.json"},
     {"stopped INT bench --benchmark_out=$DIR/a.json", 130, ""},
     {"stopped TERM bench --benchmark_out=$DIR/a.json", 143, ""},
     {"stopped QUIT bench --benchmark_out=$DIR/a.json", 131, ""},

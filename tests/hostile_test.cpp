@@ -12,6 +12,7 @@
 #include "hostile_table.h"
 #include "image/image.h"
 #include "run_program.h"
+#include "scene/tri_file.h"
 #include "temp_dir.h"
 
 namespace edgewise::testing {
@@ -24,8 +25,9 @@ namespace {
 
 constexpr int kSkipped = 77;
 
-// `stopped SIGNAL COMMAND…` runs a command until a file appears in $DIR, and sends it the signal; its status
-// is the command's. `unprivileged COMMAND…` runs it as somebody whom permissions bind, or skips the row.
+// `stopped SIGNAL COMMAND…` runs a command until a file appears in $DIR (with awaited=NAME before it, that
+// one), and sends it the signal; its status is the command's. `unprivileged COMMAND…` runs it as somebody
+// whom permissions bind, or skips the row.
 constexpr const char* kWords = R"(
 set -m
 for descriptor in {3..20}; do eval "exec $descriptor>&-"; done  # what ctest leaves open
@@ -39,7 +41,11 @@ stopped() {
   exec 3>&2 2>/dev/null
   program "$@" >/dev/null 2>&3 &
   for ((i = 0; i < 2000; i++)); do
-    (($(ls -A "$DIR" | wc -l) == before)) || break
+    if [[ ${awaited-} ]]; then
+      [[ ! -e $DIR/$awaited ]] || break
+    else
+      (($(ls -A "$DIR" | wc -l) == before)) || break
+    fi
     sleep 0.01
   done
   kill -s "$signal" $!
@@ -113,14 +119,18 @@ void expect_whole(const std::filesystem::path& file) {
     EXPECT_FALSE(nlohmann::json::parse(file_content(file), nullptr, false).is_discarded());
   } else if (is_image_path(file)) {
     EXPECT_NO_THROW(read_image(file));
+  } else if (file.extension() == ".pfm") {
+    EXPECT_NO_THROW(read_pfm(file));
+  } else if (file.extension() == ".tri") {
+    EXPECT_NO_THROW(read_tri(file));
   }
 }
 
-bool takes_too_much_address_space(const std::string& script) {
+bool takes_too_much_address_space([[maybe_unused]] const std::string& script) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   return script.find("ulimit -v") != std::string::npos;
 #else
-  return script.empty();
+  return false;
 #endif
 }
 
@@ -165,8 +175,8 @@ TEST_P(HostileInput, IsAnsweredAsTheTableSays) {
 
 INSTANTIATE_TEST_SUITE_P(Table, HostileInput, ::testing::ValuesIn(kHostile));
 
-// Wherever memory runs out: done, or one line and status 2. On one thread, since oneTBB may not come back; and
-// only where the system's loader, which speaks for itself, finds room for the program.
+// Wherever memory runs out: done, or one line and status 2. On one thread, since oneTBB may not come back;
+// and only where the system's loader, which speaks for itself, finds room for the program.
 TEST(HostileMemory, EndsInAFileOrInOneLineAtAnyLimit) {
   int done = 0, refused = 0;
   for (const std::string command : {"edgewise render torus-knot --size 1900x1900 --threads 1 -o $DIR/a.png",
@@ -187,6 +197,26 @@ TEST(HostileMemory, EndsInAFileOrInOneLineAtAnyLimit) {
     }
   EXPECT_GT(done, 3);
   EXPECT_GT(refused, 3);
+}
+
+// A soak's record is there from the beginning, and stays whole.
+TEST(HostileMemory, LeavesAWholeRecordOfASoakAtAnyLimit) {
+  int done = 0;
+  for (const int kib : {40'000, 60'000, 80'000, 150'000, 300'000, 2'000'000}) {
+    const std::string limit = "ulimit -v " + std::to_string(kib) + "; ";
+    const std::string script = limit + "edgewise soak --cases 9 --jobs 1 --json $DIR/a.json";
+    if (takes_too_much_address_space(script)) GTEST_SKIP() << "sanitizers reserve more than the limit";
+    const TempDir folder, input;
+    if (run_script(limit + "edgewise --version", folder, input).status == 127) continue;
+    const Outcome outcome = run_script(script, folder, input);
+    ASSERT_TRUE(outcome.status == 0 || outcome.status == 2)
+        << script << ": " << outcome.status << outcome.err;
+    done += outcome.status == 0;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), outcome.status == 0 ? 0 : 1);
+    EXPECT_LE(folder.count(), 1u) << script;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path())) expect_whole(entry.path());
+  }
+  EXPECT_GT(done, 0);
 }
 
 }  // namespace

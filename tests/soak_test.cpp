@@ -10,7 +10,9 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <new>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -246,6 +248,24 @@ TEST(SoakMerge, RefusesWhatDoesNotBelongTogether) {
   EXPECT_NE(refusal(other).find("backends"), std::string::npos);
 }
 
+TEST(SoakMerge, AndReadingRefuseARecordThatCannotBe) {
+  const TempDir folder;
+  const nlohmann::json whole = to_json(run(campaign_of(2), fresh(1, {})));
+  const auto refusal = [&](const char* change, const nlohmann::json& value) {
+    nlohmann::json json = whole;
+    json[nlohmann::json::json_pointer(change)] = value;
+    const auto path = folder.write("record.json", json.dump());
+    return message_of([&] { read_record(path); });
+  };
+  EXPECT_EQ(refusal("/cases", 2), "");
+  for (const char* count : {"/seed", "/cases", "/frames", "/pixels", "/frames_differ", "/shards/0/cases",
+                            "/shards/0/of", "/by/judge/scanline/compared", "/by/judge/scanline/differ"})
+    for (const nlohmann::json& no_count : {nlohmann::json(-1), nlohmann::json(1.5), nlohmann::json("2")})
+      EXPECT_NE(refusal(count, no_count).find("is no count"), std::string::npos) << count << ' ' << no_count;
+  const nlohmann::json shard{{"shard", 0}, {"of", 1}, {"cases", 1}};
+  EXPECT_NE(refusal("/shards", {shard, shard}).find("drawn twice, in shards 0/1 and 0/1"), std::string::npos);
+}
+
 // Right but for pixel (0, 0), on several threads, and only if a triangle covers it.
 class WrongInTheCorner : public Backend {
   void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
@@ -286,7 +306,8 @@ TEST(SoakFindings, AreReportedReducedAndReplayed) {
   const TempDir folder;
   Campaign campaign = campaign_of(40);
   campaign.judged.backends = {backends()[0], planted<WrongInTheCorner>()};
-  campaign.failure_folder = folder.path() / "failures";
+  campaign.failure_folder = folder.path() / "the soak's failures";
+  campaign.program = EDGEWISE_PROGRAM;
   const Record record = soaked(campaign, fresh(8, {}), folder);
   ASSERT_GT(record.tally.frames_differ, 0u);
   ASSERT_FALSE(record.findings.empty());
@@ -305,13 +326,15 @@ TEST(SoakFindings, AreReportedReducedAndReplayed) {
     EXPECT_EQ(stream.triangles.size(), 1u);
     EXPECT_EQ(stream.width, finding.at("width"));
     const auto commands = finding.at("replay").get<std::vector<std::string>>();
-    EXPECT_EQ(commands.at(0), "edgewise soak --seed 8 --case " + finding.at("case").dump());
+    EXPECT_EQ(commands.at(0), "'" EDGEWISE_PROGRAM "' soak --seed 8 --case " + finding.at("case").dump());
     replayed += commands.size() == 2;
+    // The program has no planted backend: it must only understand what it is told.
+    const auto script = folder.write("replay.sh", "cd / && " + commands.at(1));
+    EXPECT_EQ(testing::run_program("/bin/sh", script.string()).status, 0) << commands.at(1);
   }
   EXPECT_EQ(replayed, static_cast<int>(record.findings.size()));
   const std::string text = report(record);
-  EXPECT_NE(text.find("see it again: edgewise verify " + campaign.failure_folder.string()), std::string::npos)
-      << text;
+  EXPECT_NE(text.find("see it again: '" EDGEWISE_PROGRAM "' verify '"), std::string::npos) << text;
   EXPECT_NE(text.find("DIFFER."), std::string::npos);
 
   // The same case alone, as the command draws it.
@@ -331,6 +354,40 @@ TEST(SoakFindings, IncludeWhatIsWrittenBesideThePicture) {
   ASSERT_FALSE(record.findings.empty());
   EXPECT_EQ(record.findings[0].at("pixels"), 0u);
   EXPECT_EQ(record.findings[0].at("written_outside"), 1u);
+}
+
+// Wrong only in the way that just one backend has.
+class WrongWhenStepped : public Backend {
+  void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
+                    const Execution& execution) override {
+    right_->draw(triangles, frame, background, execution);
+    if (execution.stepped) frame.depth[0] ^= 1;
+  }
+  std::unique_ptr<Backend> right_ = backends()[0].make();
+};
+
+TEST(SoakFindings, IncludeValuesThatAreSteppedWrong) {
+  Campaign campaign = campaign_of(3);
+  BackendInfo wrong = planted<WrongWhenStepped>();
+  wrong.name = "naive";
+  campaign.judged.backends = {backends()[0], wrong};
+  const Record record = run(campaign, fresh(13, {}));
+  EXPECT_EQ(record.tally.frames_differ, 3u);
+  EXPECT_EQ(record.tally.by.at("backend_ideas").at("naive, stepped"), (Share{3, 3}));
+  EXPECT_EQ(record.findings.at(0).at("stepped"), true);
+  EXPECT_NE(report(record).find(", stepped, tile 64"), std::string::npos) << report(record);
+}
+
+TEST(SoakFindings, AreKeptWhereNoFileCanBeWritten) {
+  Campaign campaign = campaign_of(6);
+  campaign.judged.backends = {backends()[0], planted<WritesBehindTheLastRow>()};
+  campaign.failure_folder = "/dev/null/failures";
+  const Record record = run(campaign, fresh(9, {}));
+  ASSERT_FALSE(record.findings.empty());
+  EXPECT_NE(record.findings[0].at("trouble").get<std::string>().find("/dev/null/failures"),
+            std::string::npos);
+  EXPECT_EQ(record.findings[0].at("replay").size(), 1u);
+  EXPECT_NE(report(record).find("no file: "), std::string::npos);
 }
 
 TEST(SoakFindings, IncludeAReferenceThatIsWrong) {
@@ -364,6 +421,40 @@ TEST(SoakFindings, IncludeAFrontEndThatIsWrong) {
   EXPECT_GT(files, 0);
 }
 
+TEST(SoakFindings, AreNotReducedFurtherOnceAskedToStop) {
+  const TempDir folder;
+  Campaign campaign = campaign_of(1);
+  campaign.judged.backends = {backends()[0], planted<WrongInTheCorner>()};
+  campaign.jobs = 1;
+  campaign.failure_folder = folder.path();
+  std::uint64_t number = 0;
+  std::vector<nlohmann::json> found;
+  const auto draw = [&] { found = run(campaign, fresh(8, {number, number + 1, 0})).findings; };
+  for (draw(); found.empty() || found[0].at("triangles") < 10; draw()) ++number;
+  EXPECT_EQ(found[0].at("reduced_to"), 1u);
+
+  int asked = 0;
+  campaign.stop = [&] { return ++asked > 1; };  // once the case has begun
+  draw();
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_GT(found[0].at("reduced_to"), 1u);
+  EXPECT_EQ(found[0].at("replay").size(), 1u);
+  EXPECT_EQ(asked, 3) << "before the first case, the first attempt and the search for another command";
+}
+
+TEST(SoakFindings, BeyondTheMostThatAreKeptLeaveNoFiles) {
+  const TempDir folder;
+  Campaign campaign = campaign_of(10);
+  campaign.judged.backends = {backends()[0], planted<WrongInTheCorner>()};
+  campaign.failure_folder = folder.path() / "failures";
+  Record before = fresh(8, {});
+  before.findings.resize(kMostFindings - 1, {{"case", 0}});
+  const Record record = run(campaign, before);
+  EXPECT_GT(record.tally.frames_differ, 1u);
+  EXPECT_EQ(record.findings.size(), kMostFindings);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(campaign.failure_folder), {}), 1);
+}
+
 TEST(SoakFindings, ABackendThatThrowsEndsItWithTheCase) {
   class Throws : public Backend {
     void draw_checked(std::span<const ScreenTriangle>, FrameView, std::uint32_t, const Execution&) override {
@@ -378,14 +469,46 @@ TEST(SoakFindings, ABackendThatThrowsEndsItWithTheCase) {
   EXPECT_TRUE(said.ends_with("): too much")) << said;
 }
 
+TEST(SoakFindings, WhatWasDoneBeforeAFailureIsHandedOver) {
+  // Draws two cases, and has no memory for the third.
+  class Tires : public Backend {
+    void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
+                      const Execution& execution) override {
+      const auto frames_a_case = static_cast<int>(2 * supported_targets().size());
+      if (++drawn_ > 2 * frames_a_case) throw std::bad_alloc();
+      backends()[0].make()->draw(triangles, frame, background, execution);
+    }
+    int drawn_ = 0;
+  };
+  Campaign campaign = campaign_of(4);
+  campaign.judged.backends = {backends()[0], planted<Tires>()};
+  campaign.jobs = 1;
+  std::uint64_t done = 0;
+  campaign.on_failure = [&](const Record& record) { done = record.tally.cases; };
+  const std::string said = message_of([&] { run(campaign, fresh(12, {})); });
+  EXPECT_TRUE(said.ends_with("): out of memory")) << said;
+  EXPECT_EQ(done, 2u);
+
+  campaign.on_failure = [](const Record&) { throw std::runtime_error("a full disk"); };
+  EXPECT_EQ(message_of([&] { run(campaign, fresh(12, {})); }), said);
+}
+
 TEST(SoakReduce, KeepsOnlyWhatIsNeeded) {
   std::vector<int> list(100);
   for (int i = 0; i < 100; ++i) list[static_cast<std::size_t>(i)] = i;
   const auto fails = [](const std::vector<int>& l) {
     return std::count(l.begin(), l.end(), 17) == 1 && std::count(l.begin(), l.end(), 80) == 1;
   };
-  EXPECT_EQ(reduce(list, 1000, fails), (std::vector<int>{17, 80}));
-  EXPECT_TRUE(fails(reduce(list, 5, fails)));
+  const auto never = [] { return false; };
+  EXPECT_EQ(reduce(list, 1000, fails, never), (std::vector<int>{17, 80}));
+  EXPECT_TRUE(fails(reduce(list, 5, fails, never)));
+}
+
+TEST(SoakReduce, EndsWhenAsked) {
+  int attempts = 0;
+  const auto fails = [&](const std::vector<int>& l) { return ++attempts, !l.empty(); };
+  EXPECT_EQ(reduce(std::vector<int>(64), 1000, fails, [&] { return attempts == 3; }).size(), 16u);
+  EXPECT_EQ(attempts, 3);
 }
 
 TEST(GuardedFrame, SeesEveryWordThatIsWrittenBesideThePicture) {
@@ -422,6 +545,15 @@ class SoakProgram : public ::testing::Test {
   TempDir folder_;
 };
 
+TEST_F(SoakProgram, DrawsOneCaseAgain) {
+  const Outcome outcome = soak("--seed 7 --case 123456 -o " + path("a.json"));
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(json("a.json").at("cases"), 1);
+  EXPECT_EQ(json("a.json").at("seed"), 7);
+  EXPECT_EQ(json("a.json").at("shards").at(0).at("shard"), 123456);
+  EXPECT_TRUE(json("a.json").at("by").at("family").contains(std::string(make_case(7, 123456).family)));
+}
+
 TEST_F(SoakProgram, MergesShards) {
   ASSERT_EQ(soak("--seed 4 --shard 0/2 --cases 5 -o " + path("a.json")).status, 0);
   ASSERT_EQ(soak("--seed 4 --shard 1/2 --cases 5 -o " + path("b.json")).status, 0);
@@ -452,8 +584,7 @@ TEST_F(SoakProgram, WritesWhatIsDoneOnCtrlCAndGoesOn) {
     if (child == 0) {
       for (const int n : {SIGINT, SIGTERM}) signal(n, SIG_DFL);
       if (freopen("/dev/null", "w", stdout) != nullptr)
-        execl(EDGEWISE_PROGRAM, "edgewise", "soak", cases_before == 0 ? "--json" : "--resume", file.c_str(),
-              nullptr);
+        execl(EDGEWISE_PROGRAM, "edgewise", "soak", "--resume", file.c_str(), nullptr);
       _exit(99);
     }
     // The first record shows that the work is about to begin.

@@ -8,6 +8,7 @@
 #include <csignal>
 #include <new>
 #include <string_view>
+#include <system_error>
 
 #include "app/console.h"
 #include "app/progress.h"
@@ -57,7 +58,9 @@ void call_before_stopping(void (*action)()) {
 std::string reason_of(const std::exception& error) {
   if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) return "out of memory";
   const std::string_view what = error.what();
-  if (what.starts_with("pthread_create"))
+  const auto* const system = dynamic_cast<const std::system_error*>(&error);  // which std::thread throws
+  const bool again = system != nullptr && system->code() == std::errc::resource_unavailable_try_again;
+  if (again || what.starts_with("pthread_create"))
     return "no more threads can be started; ask for fewer, or allow more memory or processes";
   return std::string(what);
 }

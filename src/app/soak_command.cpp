@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -22,6 +24,7 @@
 #include "app/soak/report.h"
 #include "app/stop_request.h"
 #include "image/atomic_file.h"
+#include "input_file.h"
 
 namespace edgewise::app {
 
@@ -61,7 +64,11 @@ soak::Record first_record(const SoakOptions& o) {
   soak::Shard shard = o.shard.value_or(soak::Shard{});
   if (o.only_case) shard = {*o.only_case, *o.only_case + 1, 0};
   const std::uint64_t seed = o.seed.value_or(kDefaultSeed);
-  if (o.resume.empty()) return soak::new_record(seed, shard, names);
+  // A job that a scheduler starts again cannot know whether it got as far as a file.
+  std::error_code unknown;  // left to read_record
+  const bool begun =
+      std::filesystem::status(o.resume, unknown).type() != std::filesystem::file_type::not_found;
+  if (o.resume.empty() || !begun) return soak::new_record(seed, shard, names);
   const soak::Record before = soak::read_record(o.resume);
   if (!o.shard && before.shards.size() == 1) shard = before.shards.front();
   shard.cases = 0;
@@ -135,6 +142,13 @@ class Watch {
   TimeLeft left_;
 };
 
+// Hours of work must not be lost to a command that is given twice.
+void check_nothing_is_lost(const SoakOptions& o) {
+  std::error_code missing;
+  if (!o.resume.empty() && std::filesystem::equivalent(o.resume, o.json, missing)) return;
+  if (o.json != "-" && soak::is_record(o.json)) throw file_error(o.json, "exists; --resume goes on from it");
+}
+
 void check(const SoakOptions& o) {
   const bool draws_many = o.shard || o.seconds || o.cases || !o.resume.empty();
   if (o.only_case && draws_many)
@@ -146,6 +160,7 @@ void check(const SoakOptions& o) {
 int soak_command(const SoakOptions& o) {
   check(o);
   if (!o.merge.empty()) return merge_command(o);
+  check_nothing_is_lost(o);
   soak::Record record = first_record(o);
   const std::string path = o.json.empty() ? o.resume : o.json == "-" ? "" : o.json;
 
@@ -154,12 +169,18 @@ int soak_command(const SoakOptions& o) {
   campaign.seconds = o.seconds;
   campaign.cases = o.only_case ? 1 : o.cases;
   campaign.jobs = o.only_case ? 1 : o.jobs;
+  std::error_code unknown;  // the name alone must do then
+  const auto self = std::filesystem::read_symlink("/proc/self/exe", unknown);
+  if (!unknown) campaign.program = self.string();
   campaign.failure_folder = o.out;
   const StopRequest request;
   campaign.stop = [&] { return request.signal() != 0; };
   {
     Watch watch(o, path, record);
     campaign.on_progress = [&](const soak::Record& now) { watch(now); };
+    campaign.on_failure = [&](const soak::Record& done) {
+      if (!path.empty()) write(path, done);
+    };
     record = soak::run(campaign, std::move(record));
   }
   return finish(o, path, record, request.signal());
@@ -167,9 +188,9 @@ int soak_command(const SoakOptions& o) {
 
 constexpr const char* kFooter = R"(Examples:
   edgewise soak --for 20m --json soak.json
-  edgewise soak --resume soak.json --for 2h               goes on where that ended
-  edgewise soak --seed 7 --shard 3/16 --for 1h --json 3.json
-  edgewise soak --merge *.json -o all.json
+  edgewise soak --resume soak.json --for 2h               goes on where that ended, or begins
+  edgewise soak --seed 7 --shard 3/16 --for 1h --json shard-3.json
+  edgewise soak --merge shard-*.json -o soak.json
   edgewise soak --seed 7 --case 123456                    one picture again
 
 Random and adversarial pictures without end: triangle lists of many families, and scenes with the camera in
@@ -183,9 +204,10 @@ Case k of shard I/N is number I + k N of the seed's sequence, whatever the machi
 common and need not know of one another. --merge adds their results up, and refuses what does not belong
 together: other seeds, programs (version and commit) or sequences, cases that two files share.
 
-Without --for or --cases it goes on until Ctrl-C. On Ctrl-C, SIGTERM or SIGHUP the pictures in work are
+Without --for or --cases it goes on until Ctrl-C. On Ctrl-C, SIGTERM or SIGHUP the cases in work are
 finished and all is written; twice ends it at once. With --json (or --resume) the file is also written every
-half a minute, so that little is lost when the machine goes down.
+half a minute, so that little is lost when the machine goes down. --resume of a file that isn't there yet begins
+it, so that a job that may be started again names one file; --json alone refuses a record that exists.
 A difference leaves a .tri with as few triangles as still differ, and the commands that show it again.
 
 Exit status: 1 if anything differs; else 0, or 128 and the signal's number when stopped by one (130 after
@@ -211,10 +233,12 @@ void add_soak(CLI::App& program, Action& action) {
   add("--case", "NUMBER", "Only this case",
       [o](const std::string& text) { o->only_case = parse_count("--case", text, 0, soak::kMostShards - 1); });
   add_integer(command, "--jobs", o->jobs, 1, kMaxThreads,
-              "Cases drawn at once (all cores); no result depends on it");
+              "Cases drawn at once (all cores); no count depends on it");
   command.add_option("-o,--json", o->json, "Write the results as JSON; - for stdout, instead of the tables")
       ->type_name("FILE");
-  command.add_option("--resume", o->resume, "Go on from these results, and write there (or to --json)")
+  command
+      .add_option("--resume", o->resume,
+                  "Go on from these results, if they exist, and write there (or to --json)")
       ->type_name("FILE");
   command.add_option("--merge", o->merge, "Add up results instead of drawing")->type_name("FILE");
   command.add_option("--out", o->out, "Folder for .tri files of differences (edgewise-soak-failures)")

@@ -41,7 +41,7 @@ constexpr std::uint32_t kBackground = 0xABCD1234, kCanary = 0xDEADBEEF;
 std::string describe(const BackendInfo& backend, const Execution& e) {
   return std::string(backend.name) + ", " + std::string(name_of(e.target)) + ", " +
          std::to_string(e.threads) + " threads, tile " + std::to_string(e.tile_size) + ", " +
-         edgewise::describe(e.ideas);
+         edgewise::describe(e.ideas) + (e.stepped ? ", stepped" : "");
 }
 
 // A plane of pixels in memory that is no larger, so that a sanitizer sees what leaves it.

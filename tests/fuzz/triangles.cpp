@@ -99,7 +99,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                                   bytes.below(20)};
   Execution execution;
   execution.threads = std::max(1, bytes.below(8) - 4);  // mostly 1, which is faster here
-  execution.tile_size = 16 << bytes.below(3);
+  const int choice = bytes.below(6);                    // no backend looks at both of these
+  execution.tile_size = 16 << choice % 3;
+  execution.stepped = choice >= 3;
   const int ideas = bytes.below(static_cast<int>(kTiledVariants.size()) + 1);
   if (ideas > 0) execution.ideas = kTiledVariants[static_cast<std::size_t>(ideas - 1)];
   const int times = 1 << bytes.below(12);

@@ -63,11 +63,12 @@ ScreenTriangle triangle_of(const Lattice& lattice, std::uint64_t number, std::ui
   return t;
 }
 
-std::vector<Execution> all_targets() {  // and the other tile sizes
+std::vector<Execution> all_targets() {  // and the other tile sizes, and values that are stepped
   std::vector<Execution> ways;
   for (const SimdTarget target : supported_targets()) ways.push_back({1, 64, target});
   ways.push_back({1, 16, SimdTarget::best});
   ways.push_back({2, 32, SimdTarget::best, {.vector_setup = false}});
+  ways.push_back({1, 64, SimdTarget::best, {}, true});
   return ways;
 }
 

@@ -12,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "app/process.h"
 #include "app/soak/evidence.h"
 
 namespace edgewise::soak {
@@ -36,16 +37,38 @@ class Soak {
 
   Record run() {
     std::vector<std::thread> jobs;
-    working_ = campaign_.jobs;
-    for (int i = 0; i < campaign_.jobs; ++i) jobs.emplace_back([this] { work(); });
+    start(jobs);
     watch();
     for (std::thread& job : jobs) job.join();
-    if (failure_) std::rethrow_exception(failure_);
+    if (failure_) give_up();
     campaign_.on_progress(record_);
     return std::move(record_);
   }
 
  private:
+  // Those that began must end before what kept others from beginning is told.
+  void start(std::vector<std::thread>& jobs) {
+    try {
+      for (int i = 0; i < campaign_.jobs; ++i) {
+        const std::lock_guard lock(mutex_);
+        jobs.emplace_back([this] { work(); });
+        ++working_;
+      }
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      failure_ = std::current_exception();
+    }
+  }
+
+  // What cannot be saved either is no news.
+  [[noreturn]] void give_up() {
+    try {
+      campaign_.on_failure(record_);
+    } catch (const std::exception&) {
+    }
+    std::rethrow_exception(failure_);
+  }
+
   // One job: takes the next case until there is none.
   void work() {
     try {
@@ -79,9 +102,12 @@ class Soak {
 
   std::optional<std::uint64_t> take() {
     const std::lock_guard lock(mutex_);
-    const bool late = campaign_.seconds && seconds_here() >= *campaign_.seconds;
-    if (failure_ || late || next_ >= end_ || campaign_.stop()) return std::nullopt;
+    if (failure_ || next_ >= end_ || must_end()) return std::nullopt;
     return next_++;
+  }
+
+  bool must_end() const {
+    return (campaign_.seconds && seconds_here() >= *campaign_.seconds) || campaign_.stop();
   }
 
   Done check(Checker& checker, std::uint64_t number) {
@@ -91,11 +117,11 @@ class Soak {
       Done done{std::move(verdict.tally), {}};
       for (const Finding& finding : verdict.findings)
         if (found_++ < kMostFindings)
-          done.findings.push_back(evidence_of(campaign_.failure_folder, seed_, c, finding, checker));
+          done.findings.push_back(evidence_of(evidence_, seed_, c, finding, checker));
       return done;
     } catch (const std::exception& error) {
       throw std::runtime_error(
-          fmt::format("seed {}, case {} ({}): {}", seed_, number, c.family, error.what()));
+          fmt::format("seed {}, case {} ({}): {}", seed_, number, c.family, app::reason_of(error)));
     }
   }
 
@@ -118,11 +144,12 @@ class Soak {
 
   const Campaign& campaign_;
   const Clock::time_point start_ = Clock::now();
-  std::atomic<std::size_t> found_ = 0;
+  const Evidence evidence_{campaign_.program, campaign_.failure_folder, [this] { return must_end(); }};
   std::mutex mutex_;  // of all that changes below
   std::condition_variable ended_;
   Record record_;
   const double seconds_before_;
+  std::atomic<std::size_t> found_ = record_.findings.size();
   const std::uint64_t seed_ = record_.seed;
   const Shard shard_ = record_.shards.front();
   std::uint64_t next_;

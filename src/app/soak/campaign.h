@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <string>
 
 #include "app/soak/check.h"
 #include "app/soak/record.h"
@@ -14,15 +15,21 @@ namespace edgewise::soak {
 
 struct Campaign {
   Judged judged;
-  std::optional<double> seconds;                      // begins no case later than that; none: no limit
-  std::optional<std::uint64_t> cases;                 // at most so many more
-  int jobs = 1;                                       // cases drawn at once; no result depends on it
-  std::filesystem::path failure_folder;               // see evidence_of
-  std::function<bool()> stop = [] { return false; };  // asked before each case, on any thread
+  std::optional<double> seconds;       // begins no case later than that; none: no limit
+  std::optional<std::uint64_t> cases;  // at most so many more
+  // Cases drawn at once. No result depends on it, but for one: where there are more findings than
+  // kMostFindings, which of them are described.
+  int jobs = 1;
+  std::string program = "edgewise";  // see Evidence, as for
+  std::filesystem::path failure_folder;
+  // Asked before each case, and while a finding's triangles are reduced, on any thread.
+  std::function<bool()> stop = [] { return false; };
 
   // Called a few times a second and at the end, on the caller's thread, with a record that is whole: all
   // cases up to its last one are in it.
   std::function<void(const Record&)> on_progress = [](const Record&) {};
+  // Called on the caller's thread before run() throws, with a record of what had been done by then.
+  std::function<void(const Record&)> on_failure = [](const Record&) {};
 };
 
 // Goes on from `record`, which has one shard, and returns what it has become. Case by case it takes on what

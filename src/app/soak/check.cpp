@@ -16,6 +16,7 @@ namespace {
 
 constexpr const char* kOracle = "oracle";
 constexpr const char* kOneByOne = "one triangle at a time";
+constexpr const char* kSteps = "naive";  // the backend that looks at Execution::stepped
 constexpr Execution kPlainest{1, 64, SimdTarget::scalar};
 
 // Pixels times triangles: about 5 ms, and a tenth of a second.
@@ -67,6 +68,11 @@ Verdict Checker::check(const Case& c) {
         draw.layout = random_layout(random, c.width);
         check_frame(c, reference, expected, draw, triangles, verdict);
       }
+  for (std::size_t b = 0; b < backends_.size(); ++b)
+    if (judged_.backends[b].name == kSteps) {
+      const Execution stepped{c.threads, 64, supported_targets().back(), {}, true};
+      check_frame(c, reference, expected, {b, stepped, random_layout(random, c.width)}, triangles, verdict);
+    }
   return verdict;
 }
 
@@ -105,13 +111,13 @@ void Checker::check_frame(const Case& c, const std::string& judge, const Framebu
 
   const Execution& e = draw.execution;
   const std::string_view name = judged_.backends[draw.backend].name;
-  const std::string ideas = describe(e.ideas);
+  const std::string ideas = describe(e.ideas), all = e.stepped ? "stepped" : "all";
   tally.count("family", std::string(c.family), found.any());
   tally.count("judge", judge, found.any());
   tally.count("backend_simd_target", fmt::format("{}, {}", name, name_of(e.target)), found.any());
   tally.count("backend_threads", fmt::format("{}, {}", name, e.threads), found.any());
   tally.count("backend_tile_size", fmt::format("{}, {}", name, e.tile_size), found.any());
-  tally.count("backend_ideas", fmt::format("{}, {}", name, ideas.empty() ? "all" : ideas), found.any());
+  tally.count("backend_ideas", fmt::format("{}, {}", name, ideas.empty() ? all : ideas), found.any());
 
   const bool known = std::any_of(verdict.findings.begin(), verdict.findings.end(), [&](const Finding& f) {
     return !f.of_frontend && f.judge == judge && f.draw.backend == draw.backend;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/capture.h"
+#include "app/process.h"
 #include "app/soak/reduce.h"
 #include "app/verify.h"
 #include "image/atomic_file.h"
@@ -28,21 +29,23 @@ std::vector<ScreenTriangle> replayed(std::span<const ScreenTriangle> triangles, 
 }
 
 // As few triangles as still differ. Those of the file if they do, else those of the frame.
-TriangleStream smallest_frame(const Case& c, const Finding& finding, Checker& checker) {
+TriangleStream smallest_frame(const Case& c, const Finding& finding, Checker& checker,
+                              const std::function<bool()>& stop) {
   const auto fails = [&](const std::vector<ScreenTriangle>& list) {
     return checker.differs(finding, c, list);
   };
   std::vector<ScreenTriangle> list = replayed(finding.triangles, c);
   if (!fails(list)) list = finding.triangles;
-  return app::to_stream(reduce(std::move(list), kMostAttempts, fails), c.width, c.height);
+  return app::to_stream(reduce(std::move(list), kMostAttempts, fails, stop), c.width, c.height);
 }
 
-TriangleStream smallest_stream(const Case& c, TriangleStream stream, Checker& checker) {
+TriangleStream smallest_stream(const Case& c, TriangleStream stream, Checker& checker,
+                               const std::function<bool()>& stop) {
   const int width = stream.width, height = stream.height;
-  auto list = reduce(std::move(stream.triangles), kMostAttempts, [&](const auto& triangles) {
+  const auto fails = [&](const std::vector<StreamTriangle>& triangles) {
     return checker.frontend_differs(c, TriangleStream{width, height, triangles});
-  });
-  return {width, height, std::move(list)};
+  };
+  return {width, height, reduce(std::move(stream.triangles), kMostAttempts, fails, stop)};
 }
 
 void write(const std::filesystem::path& path, const TriangleStream& stream) {
@@ -59,6 +62,13 @@ bool verify_finds(const std::filesystem::path& path, const Judged& judged) {
   return !app::verify_scene(plan, path.string(), [](double) {}).ok();
 }
 
+// Taken by a shell as it stands.
+std::string quoted(const std::string& word) {
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
 nlohmann::json description(const Case& c, const Finding& f, const Judged& judged) {
   nlohmann::json json{{"case", c.number},
                       {"family", c.family},
@@ -71,6 +81,7 @@ nlohmann::json description(const Case& c, const Finding& f, const Judged& judged
   if (f.of_frontend) return json;
   json["tile_size"] = f.draw.execution.tile_size;
   json["ideas"] = edgewise::describe(f.draw.execution.ideas);
+  json["stepped"] = f.draw.execution.stepped;
   json["row_padding"] = f.draw.layout.padding;
   json["row_offset"] = f.draw.layout.offset;
   json["pixels"] = f.difference.pixels;
@@ -82,25 +93,27 @@ nlohmann::json description(const Case& c, const Finding& f, const Judged& judged
 
 }  // namespace
 
-nlohmann::json evidence_of(const std::filesystem::path& folder, std::uint64_t seed, const Case& c,
+nlohmann::json evidence_of(const Evidence& evidence, std::uint64_t seed, const Case& c,
                            const Finding& finding, Checker& checker) {
   nlohmann::json json = description(c, finding, checker.judged());
-  json["replay"] = {fmt::format("edgewise soak --seed {} --case {}", seed, c.number)};
+  json["replay"] = {fmt::format("{} soak --seed {} --case {}", quoted(evidence.program), seed, c.number)};
   const auto* stream = c.drawable ? std::get_if<TriangleStream>(&*c.drawable) : nullptr;
-  if (folder.empty() || (finding.of_frontend && stream == nullptr)) return json;
+  if (evidence.folder.empty() || (finding.of_frontend && stream == nullptr)) return json;
   try {
-    const TriangleStream smallest =
-        finding.of_frontend ? smallest_stream(c, *stream, checker) : smallest_frame(c, finding, checker);
+    const TriangleStream smallest = finding.of_frontend ? smallest_stream(c, *stream, checker, evidence.stop)
+                                                        : smallest_frame(c, finding, checker, evidence.stop);
     std::string name = fmt::format("seed-{}-case-{}-{}-vs-{}.tri", seed, c.number,
                                    json["backend"].get<std::string>(), finding.judge);
     std::replace(name.begin(), name.end(), ' ', '-');
-    write(folder / name, smallest);
-    json["file"] = (folder / name).string();
+    const std::filesystem::path path = evidence.folder / name;
+    write(path, smallest);
+    json["file"] = path.string();
     json["reduced_to"] = smallest.triangles.size();
-    if (verify_finds(folder / name, checker.judged()))
-      json["replay"].push_back(fmt::format("edgewise verify {}", (folder / name).string()));
+    if (!evidence.stop() && verify_finds(path, checker.judged()))
+      json["replay"].push_back(
+          fmt::format("{} verify {}", quoted(evidence.program), quoted(absolute(path).string())));
   } catch (const std::exception& error) {
-    json["trouble"] = error.what();
+    json["trouble"] = app::reason_of(error);
   }
   return json;
 }

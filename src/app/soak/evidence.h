@@ -3,16 +3,24 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "app/soak/check.h"
 
 namespace edgewise::soak {
 
-// Writes FOLDER/seed-S-case-N-BACKEND-vs-JUDGE.tri with as few of the frame's triangles as still differ
-// (nothing for an empty folder name), and tells all about the finding, "replay" among it: the commands that
-// show it. Files that cannot be written don't lose the finding: "trouble" says why.
-nlohmann::json evidence_of(const std::filesystem::path& folder, std::uint64_t seed, const Case& c,
+struct Evidence {
+  std::string program;           // what the commands call; a path or a name
+  std::filesystem::path folder;  // for .tri files, made when needed; empty: none are written
+  std::function<bool()> stop;    // then the file holds what is left by now
+};
+
+// Writes FOLDER/seed-S-case-N-BACKEND-vs-JUDGE.tri with as few of the frame's triangles as still differ, and
+// tells all about the finding, "replay" among it: the commands that show it, for a shell in any folder. Files
+// that cannot be written don't lose the finding: "trouble" says why.
+nlohmann::json evidence_of(const Evidence& evidence, std::uint64_t seed, const Case& c,
                            const Finding& finding, Checker& checker);
 
 }  // namespace edgewise::soak

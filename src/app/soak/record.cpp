@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 #include <stdexcept>
+#include <system_error>
 
 #include "app/machine.h"
 #include "app/soak/case.h"
@@ -44,36 +46,55 @@ nlohmann::json bounds_json(const Tally& tally) {
        "fail independently"}};
 }
 
+// The library would turn a negative or fractional number into some count.
+std::uint64_t count_in(const nlohmann::json& json, const char* key) {
+  const nlohmann::json& value = json.at(key);
+  if (!value.is_number_unsigned()) throw std::invalid_argument(fmt::format("'{}' is no count", key));
+  return value.get<std::uint64_t>();
+}
+
 Shard shard_from(const nlohmann::json& json) {
-  const Shard shard{json.at("shard").get<std::uint64_t>(), json.at("of").get<std::uint64_t>(),
-                    json.at("cases").get<std::uint64_t>()};
+  const Shard shard{count_in(json, "shard"), count_in(json, "of"), count_in(json, "cases")};
   constexpr std::uint64_t kEnd = std::uint64_t{1} << 63;
   if (shard.of == 0 || shard.of > kMostShards || shard.index >= shard.of || shard.cases >= kEnd / shard.of)
     throw std::invalid_argument("a shard that cannot be");
   return shard;
 }
 
+std::string name_of(const Shard& shard) {
+  return fmt::format("{}/{}", shard.index, shard.of);
+}
+
+void check_disjoint(std::span<const Shard> these, std::span<const Shard> those) {
+  for (const Shard& a : these)
+    for (const Shard& b : those)
+      if (overlap(a, b))
+        throw std::invalid_argument(
+            fmt::format("the same cases were drawn twice, in shards {} and {}", name_of(a), name_of(b)));
+}
+
 Tally tally_from(const nlohmann::json& json) {
   Tally tally;
-  json.at("cases").get_to(tally.cases);
-  json.at("frames").get_to(tally.frames);
-  json.at("triangles").get_to(tally.triangles);
-  json.at("pixels").get_to(tally.pixels);
-  json.at("oracle_frames").get_to(tally.oracle_frames);
-  json.at("frontend_lists").get_to(tally.frontend_lists);
-  json.at("frames_differ").get_to(tally.frames_differ);
-  json.at("frontend_lists_differ").get_to(tally.frontend_lists_differ);
+  tally.cases = count_in(json, "cases");
+  tally.frames = count_in(json, "frames");
+  tally.triangles = count_in(json, "triangles");
+  tally.pixels = count_in(json, "pixels");
+  tally.oracle_frames = count_in(json, "oracle_frames");
+  tally.frontend_lists = count_in(json, "frontend_lists");
+  tally.frames_differ = count_in(json, "frames_differ");
+  tally.frontend_lists_differ = count_in(json, "frontend_lists_differ");
   for (const auto& [category, shares] : json.at("by").items())
     for (const auto& [label, share] : shares.items())
-      tally.by[category][label] = {share.at("compared").get<std::uint64_t>(),
-                                   share.at("differ").get<std::uint64_t>()};
+      tally.by[category][label] = {count_in(share, "compared"), count_in(share, "differ")};
   return tally;
 }
 
 Record record_from(const nlohmann::json& json) {
   Record record;
-  json.at("seed").get_to(record.seed);
+  record.seed = count_in(json, "seed");
   for (const auto& shard : json.at("shards")) record.shards.push_back(shard_from(shard));
+  for (auto a = record.shards.begin(); a != record.shards.end(); ++a)
+    check_disjoint({a, 1}, {a + 1, record.shards.end()});
   record.tally = tally_from(json);
   json.at("seconds").get_to(record.seconds);
   if (!(record.seconds >= 0.0 && record.seconds <= 1e12)) throw std::invalid_argument("an impossible time");
@@ -89,12 +110,16 @@ Record record_from(const nlohmann::json& json) {
   return record;
 }
 
-void add_machine(std::vector<nlohmann::json>& machines, const nlohmann::json& machine) {
-  if (std::find(machines.begin(), machines.end(), machine) == machines.end()) machines.push_back(machine);
+// Null for what is no record of a soak at all.
+nlohmann::json parse(const std::filesystem::path& path) {
+  InputFile file = open_input(path);
+  nlohmann::json json = nlohmann::json::parse(file.stream, nullptr, false);
+  if (!json.is_object() || !json.contains("format") || json["format"] != kFormat) return nullptr;
+  return json;
 }
 
-std::string name_of(const Shard& shard) {
-  return fmt::format("{}/{}", shard.index, shard.of);
+void add_machine(std::vector<nlohmann::json>& machines, const nlohmann::json& machine) {
+  if (std::find(machines.begin(), machines.end(), machine) == machines.end()) machines.push_back(machine);
 }
 
 void check_alike(const Record& a, const Record& b) {
@@ -159,11 +184,14 @@ nlohmann::json to_json(const Record& r) {
   return json;
 }
 
+bool is_record(const std::filesystem::path& path) {
+  std::error_code missing;
+  return std::filesystem::is_regular_file(path, missing) && !parse(path).is_null();
+}
+
 Record read_record(const std::filesystem::path& path) {
-  InputFile file = open_input(path);
-  nlohmann::json json = nlohmann::json::parse(file.stream, nullptr, false);
-  if (!json.is_object() || !json.contains("format") || json["format"] != kFormat)
-    throw file_error(path, "is not a record of a soak");
+  const nlohmann::json json = parse(path);
+  if (json.is_null()) throw file_error(path, "is not a record of a soak");
   if (!json.contains("sequence") || json["sequence"] != kSequence)
     throw file_error(path, fmt::format("is of another sequence of cases; this program's is {}", kSequence));
   try {
@@ -186,11 +214,7 @@ Record continued(Record record, const Record& fresh) {
 
 void merge(Record& record, const Record& other) {
   check_alike(record, other);
-  for (const Shard& a : record.shards)
-    for (const Shard& b : other.shards)
-      if (overlap(a, b))
-        throw std::invalid_argument(
-            fmt::format("both have drawn the same cases, of shards {} and {}", name_of(a), name_of(b)));
+  check_disjoint(record.shards, other.shards);
   record.shards.insert(record.shards.end(), other.shards.begin(), other.shards.end());
   std::sort(record.shards.begin(), record.shards.end(),
             [](const Shard& a, const Shard& b) { return a.of != b.of ? a.of < b.of : a.index < b.index; });

@@ -31,7 +31,7 @@ struct Record {
   Tally tally;
   double seconds = 0.0;                  // of all runs together
   std::vector<std::string> backends;     // the reference first
-  std::vector<nlohmann::json> findings;  // the first ones
+  std::vector<nlohmann::json> findings;  // at most kMostFindings
   std::vector<nlohmann::json> machines;  // those that drew, each once
 };
 inline constexpr std::size_t kMostFindings = 20;
@@ -43,6 +43,9 @@ nlohmann::json to_json(const Record& record);
 
 // The rates of differences that none in `trials` excludes with 95 % confidence; at most 1.
 double bound_on(std::uint64_t trials);
+
+// Is there a file that a soak wrote, whole or not, of whatever sequence?
+bool is_record(const std::filesystem::path& path);
 
 // Throws std::runtime_error that names the file: missing, no JSON, no record of a soak, or one of another
 // sequence of cases.

@@ -9,12 +9,13 @@
 namespace edgewise::soak {
 
 // Leaves out ever smaller parts, half of the list first and single elements last, as long as fails(list)
-// holds without them. Order is kept. `list` itself must fail; at most `most_attempts` calls are made.
-template <typename T, typename Fails>
-std::vector<T> reduce(std::vector<T> list, int most_attempts, const Fails& fails) {
+// holds without them. Order is kept. `list` itself must fail; at most `most_attempts` calls are made, and
+// none once stop() holds.
+template <typename T, typename Fails, typename Stop>
+std::vector<T> reduce(std::vector<T> list, int most_attempts, const Fails& fails, const Stop& stop) {
   for (std::size_t part = (list.size() + 1) / 2; part > 0; part = part == 1 ? 0 : (part + 1) / 2)
     for (std::size_t begin = 0; begin < list.size() && list.size() > 1;) {
-      if (most_attempts-- <= 0) return list;
+      if (most_attempts-- <= 0 || stop()) return list;
       const std::size_t end = std::min(begin + part, list.size());
       std::vector<T> rest(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(begin));
       rest.insert(rest.end(), list.begin() + static_cast<std::ptrdiff_t>(end), list.end());

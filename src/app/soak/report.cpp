@@ -47,6 +47,7 @@ std::string explain(const nlohmann::json& f) {
       fmt::format("case {} ({}, {}x{}): {} differs from {}\n", text_of(f, "case"), text_of(f, "family"),
                   text_of(f, "width"), text_of(f, "height"), text_of(f, "backend"), text_of(f, "judge"));
   text += fmt::format("  {} threads, {}", text_of(f, "threads"), text_of(f, "simd_target"));
+  if (f.contains("stepped") && f["stepped"] == true) text += ", stepped";
   if (f.contains("pixels"))
     text += fmt::format(
         ", tile {}, ideas left out: '{}', rows {} px apart and {} px off a cache line\n"
