@@ -97,7 +97,8 @@ inline std::vector<Execution> executions() {
 inline std::string describe(const Execution& e) {
   const std::string ideas = edgewise::describe(e.ideas);
   return std::to_string(e.threads) + " threads, tile " + std::to_string(e.tile_size) + ", " +
-         std::string(name_of(e.target)) + (ideas.empty() ? "" : ", " + ideas) + (e.stepped ? ", stepped" : "");
+         std::string(name_of(e.target)) + (ideas.empty() ? "" : ", " + ideas) +
+         (e.stepped ? ", stepped" : "");
 }
 
 // Empty where the frames are the same.

@@ -116,7 +116,7 @@ class Drawing {
                           static_cast<std::size_t>(px);
     const Mark mark = closeup_.marks[i];
     const std::uint32_t owner = closeup_.owner[i];
-    const std::uint32_t colour = mark != Mark::none ? colour_of(mark)
+    const std::uint32_t colour = mark != Mark::none              ? colour_of(mark)
                                  : owner == lab::Owners::kNobody ? kPaper
                                                                  : kMuted[owner % std::size(kMuted)];
     const int gap = scale_ < 6 ? 0 : 1;  // between pixels

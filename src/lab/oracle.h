@@ -9,9 +9,9 @@
 
 namespace edgewise::lab {
 
-// Draws by exact 128-bit arithmetic, each triangle against each pixel that its bounding box touches. Shares no
-// arithmetic with raster/contract.h. Cost: the pixels of all boxes, at most pixels times triangles; meant for
-// images of some 100 px a side, or for small triangles.
+// Draws by exact 128-bit arithmetic, each triangle against each pixel that its bounding box touches. Shares
+// no arithmetic with raster/contract.h. Cost: the pixels of all boxes, at most pixels times triangles; meant
+// for images of some 100 px a side, or for small triangles.
 void draw_oracle(std::span<const ScreenTriangle> triangles, Framebuffer& frame, std::uint32_t background);
 
 }  // namespace edgewise::lab
