@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "raster/contract.h"
+#include "edgewise/contract.h"
 
 namespace edgewise::bench {
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "raster/backend.h"
+#include "edgewise/backend.h"
 
 namespace edgewise::bench {
 

@@ -6,9 +6,9 @@
 #include <limits>
 #include <vector>
 
+#include "edgewise/contract.h"
 #include "lab/exact_spans.h"
 #include "limit_kernels.h"
-#include "raster/contract.h"
 #include "raster/parallel.h"
 
 namespace edgewise::bench {

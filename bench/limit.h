@@ -14,8 +14,8 @@
 #include <span>
 #include <tuple>
 
-#include "raster/framebuffer.h"
-#include "raster/screen_triangle.h"
+#include "edgewise/framebuffer.h"
+#include "edgewise/screen_triangle.h"
 
 namespace edgewise::bench {
 

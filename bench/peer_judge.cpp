@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "edgewise/contract.h"
 #include "peer_scene.h"
-#include "raster/contract.h"
 
 namespace edgewise::bench {
 

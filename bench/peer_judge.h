@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <span>
 
-#include "raster/framebuffer.h"
-#include "raster/screen_triangle.h"
+#include "edgewise/framebuffer.h"
+#include "edgewise/screen_triangle.h"
 
 namespace edgewise::bench {
 

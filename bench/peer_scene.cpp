@@ -1,7 +1,7 @@
 #include "peer_scene.h"
 
+#include "edgewise/contract.h"
 #include "frontend/view.h"
-#include "raster/contract.h"
 
 namespace edgewise::bench {
 

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "app/source.h"
-#include "frontend/frontend.h"
+#include "edgewise/backend.h"
+#include "edgewise/frontend.h"
 #include "limit.h"
-#include "raster/backend.h"
 
 namespace edgewise::bench {
 

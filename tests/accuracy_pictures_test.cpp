@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/accuracy.h"
-#include "image/image.h"
+#include "edgewise/image.h"
 #include "run_program.h"
 #include "temp_dir.h"
 

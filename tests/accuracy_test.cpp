@@ -9,10 +9,10 @@
 #include "app/accuracy.h"
 #include "app/accuracy_report.h"
 #include "app/accuracy_scenes.h"
+#include "edgewise/builtin.h"
+#include "edgewise/contract.h"
 #include "lab/coverage_cases.h"
-#include "raster/contract.h"
 #include "run_program.h"
-#include "scene/builtin.h"
 #include "temp_dir.h"
 
 namespace edgewise::app {

@@ -9,8 +9,8 @@
 #include <new>
 #include <vector>
 
-#include "frontend/frontend.h"
-#include "scene/builtin.h"
+#include "edgewise/builtin.h"
+#include "edgewise/frontend.h"
 #include "support.h"
 
 namespace {

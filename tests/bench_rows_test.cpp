@@ -4,11 +4,11 @@
 #include <set>
 #include <string>
 
+#include "edgewise/contract.h"
 #include "ladder.h"
 #include "limit.h"
 #include "message_of.h"
 #include "quads.h"
-#include "raster/contract.h"
 #include "stage.h"
 #include "suite.h"
 #include "temp_dir.h"

@@ -1,5 +1,5 @@
 // The contract's arithmetic against exact 128-bit truth.
-#include "raster/contract.h"
+#include "edgewise/contract.h"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "coverage_support.h"
+#include "edgewise/contract.h"
 #include "lab/coverage_owners.h"
-#include "raster/contract.h"
 
 namespace edgewise::lab {
 namespace {

@@ -10,11 +10,11 @@
 #include <random>
 #include <sstream>
 
-#include "frontend/frontend.h"
+#include "edgewise/frontend.h"
+#include "edgewise/obj_file.h"
+#include "edgewise/tri_file.h"
 #include "message_of.h"
-#include "scene/obj_file.h"
 #include "scene/polygon.h"
-#include "scene/tri_file.h"
 #include "temp_dir.h"
 
 namespace edgewise {

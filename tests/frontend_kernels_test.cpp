@@ -8,14 +8,14 @@
 #include <stdexcept>
 #include <string>
 
-#include "frontend/frontend.h"
+#include "edgewise/builtin.h"
+#include "edgewise/contract.h"
+#include "edgewise/frontend.h"
+#include "edgewise/limits.h"
 #include "frontend/jobs.h"
 #include "frontend/transform.h"
 #include "message_of.h"
-#include "raster/contract.h"
 #include "raster/parallel.h"
-#include "scale_limits.h"
-#include "scene/builtin.h"
 #include "scene/random.h"
 
 namespace edgewise {

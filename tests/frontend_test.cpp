@@ -1,5 +1,5 @@
 // The front end: what it drops, what it cuts, and what it hands on.
-#include "frontend/frontend.h"
+#include "edgewise/frontend.h"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 #include <limits>
 #include <stdexcept>
 
+#include "edgewise/builtin.h"
 #include "frontend/clip.h"
 #include "frontend/fixed.h"
 #include "lab/measure.h"
-#include "scene/builtin.h"
 #include "support.h"
 
 namespace edgewise {

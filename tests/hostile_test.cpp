@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "edgewise/image.h"
+#include "edgewise/tri_file.h"
 #include "hostile_table.h"
-#include "image/image.h"
 #include "run_program.h"
-#include "scene/tri_file.h"
 #include "temp_dir.h"
 
 namespace edgewise::testing {

@@ -8,11 +8,11 @@
 #include <cstring>
 #include <limits>
 
+#include "edgewise/contract.h"
+#include "edgewise/image.h"
+#include "edgewise/scene.h"
 #include "image/atomic_file.h"
-#include "image/image.h"
 #include "message_of.h"
-#include "raster/contract.h"
-#include "scene/scene.h"
 #include "temp_dir.h"
 
 namespace edgewise {

@@ -1,6 +1,6 @@
 // The library's limits: past them std::invalid_argument, before memory is touched. The programs' rows stand
 // in hostile_table.h.
-#include "scale_limits.h"
+#include "edgewise/limits.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -9,10 +9,10 @@
 #include <functional>
 #include <stdexcept>
 
-#include "frontend/frontend.h"
+#include "edgewise/backend.h"
+#include "edgewise/contract.h"
+#include "edgewise/frontend.h"
 #include "lab/measure.h"
-#include "raster/backend.h"
-#include "raster/contract.h"
 #include "support.h"
 
 namespace edgewise {

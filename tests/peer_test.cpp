@@ -5,10 +5,10 @@
 #include <map>
 #include <stdexcept>
 
+#include "edgewise/contract.h"
 #include "peer_judge.h"
 #include "peer_scene.h"
 #include "peer_stage.h"
-#include "raster/contract.h"
 #include "ratios.h"
 #include "support.h"
 

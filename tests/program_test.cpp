@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "image/image.h"
-#include "raster/backend.h"
+#include "edgewise/backend.h"
+#include "edgewise/builtin.h"
+#include "edgewise/image.h"
 #include "run_program.h"
-#include "scene/builtin.h"
 #include "temp_dir.h"
 
 namespace edgewise {

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "raster/contract.h"
+#include "edgewise/contract.h"
 #include "run_program.h"
 #include "scene/random.h"
 

@@ -14,7 +14,7 @@ from bench_rows import BadInput  # noqa: E402
 from proofs import check_constants, constant_of, read_sections  # noqa: E402
 
 PROVE = ROOT / "scripts/prove"
-DEFINITIONS = "(define-const kSub Int 256) ; = kSub of src/raster/contract.h\n"
+DEFINITIONS = "(define-const kSub Int 256) ; = kSub of src/edgewise/contract.h\n"
 CLAIM = ";; claim even: Twice a number\n;;   is even.\n(assert (not (= (mod (* 2 v) 2) 0)))\n"
 WEAKENED = ";; weakened even: So is thrice.\n(assert (not (= (mod (* 3 v) 2) 0)))\n"
 INTRODUCTION = "; Numbers.\n(declare-const v Int)\n"
@@ -121,7 +121,7 @@ class ProveTest(unittest.TestCase):
     def test_a_constant_that_drifts_from_its_source_is_refused(self):
         self.assertEqual(check_constants(self.folder, ROOT), 1)
         self.write(CLAIM + WEAKENED, DEFINITIONS.replace("256", "255"))
-        with self.assertRaisesRegex(BadInput, "kSub is 255 in the proofs, but kSub of src/raster/contract.h is 256"):
+        with self.assertRaisesRegex(BadInput, "kSub is 255 in the proofs, but kSub of src/edgewise/contract.h is 256"):
             check_constants(self.folder, ROOT)
         self.write(CLAIM + WEAKENED, DEFINITIONS.replace("contract.h", "gone.h"))
         with self.assertRaisesRegex(BadInput, "not there"):

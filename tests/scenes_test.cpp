@@ -8,9 +8,9 @@
 #include <set>
 #include <stdexcept>
 
-#include "frontend/frontend.h"
+#include "edgewise/builtin.h"
+#include "edgewise/frontend.h"
 #include "lab/measure.h"
-#include "scene/builtin.h"
 #include "support.h"
 
 namespace edgewise {

@@ -22,10 +22,10 @@
 #include "app/soak/case.h"
 #include "app/soak/reduce.h"
 #include "app/soak/report.h"
+#include "edgewise/contract.h"
+#include "edgewise/tri_file.h"
 #include "message_of.h"
-#include "raster/contract.h"
 #include "run_program.h"
-#include "scene/tri_file.h"
 #include "temp_dir.h"
 
 namespace edgewise::soak {

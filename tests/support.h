@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
+#include "edgewise/backend.h"
+#include "edgewise/contract.h"
 #include "lab/measure.h"
-#include "raster/backend.h"
-#include "raster/contract.h"
 #include "scene/random.h"
 
 namespace edgewise::testing {

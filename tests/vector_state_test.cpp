@@ -5,7 +5,7 @@
 
 #include <optional>
 
-#include "raster/framebuffer.h"
+#include "edgewise/framebuffer.h"
 #include "support.h"
 
 #if defined(__x86_64__)

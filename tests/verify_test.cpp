@@ -11,9 +11,9 @@
 
 #include "app/capture.h"
 #include "app/verify_report.h"
-#include "image/image.h"
-#include "raster/contract.h"
-#include "scene/tri_file.h"
+#include "edgewise/contract.h"
+#include "edgewise/image.h"
+#include "edgewise/tri_file.h"
 #include "temp_dir.h"
 
 namespace edgewise::app {

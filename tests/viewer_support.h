@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "scene/builtin.h"
+#include "edgewise/builtin.h"
 #include "viewer/session.h"
 
 namespace edgewise::viewer {

@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <set>
 
+#include "edgewise/image.h"
+#include "edgewise/tri_file.h"
 #include "frontend/shade.h"
-#include "image/image.h"
 #include "message_of.h"
-#include "scene/tri_file.h"
 #include "temp_dir.h"
 #include "viewer_support.h"
 

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <map>
 
-#include "frontend/frontend.h"
+#include "edgewise/builtin.h"
+#include "edgewise/contract.h"
+#include "edgewise/frontend.h"
 #include "lab/oracle.h"
 #include "lab/truth.h"
 #include "lab_support.h"
-#include "raster/contract.h"
-#include "scene/builtin.h"
 
 namespace edgewise::lab {
 namespace {

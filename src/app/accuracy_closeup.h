@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "image/image.h"
+#include "edgewise/image.h"
 #include "lab/coverage_score.h"
 #include "lab/facing.h"
 

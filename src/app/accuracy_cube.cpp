@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "app/accuracy_score.h"
+#include "edgewise/builtin.h"
 #include "raster/parallel.h"
-#include "scene/builtin.h"
 
 namespace edgewise::app {
 

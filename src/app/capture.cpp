@@ -13,10 +13,10 @@
 #include "app/describe.h"
 #include "app/options.h"
 #include "app/printable.h"
+#include "edgewise/contract.h"
+#include "edgewise/tri_file.h"
 #include "file_extension.h"
 #include "image/atomic_file.h"
-#include "raster/contract.h"
-#include "scene/tri_file.h"
 
 namespace edgewise::app {
 

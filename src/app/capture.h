@@ -3,8 +3,8 @@
 
 #include <span>
 
-#include "raster/screen_triangle.h"
-#include "scene/scene.h"
+#include "edgewise/scene.h"
+#include "edgewise/screen_triangle.h"
 
 namespace edgewise::app {
 

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "frontend/frontend.h"
+#include "edgewise/frontend.h"
 
 namespace edgewise::app {
 

@@ -10,8 +10,8 @@
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/json_text.h"
+#include "edgewise/image.h"
 #include "file_extension.h"
-#include "image/image.h"
 
 namespace edgewise::app {
 

@@ -9,9 +9,9 @@
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/json_text.h"
-#include "frontend/frontend.h"
-#include "raster/backend.h"
-#include "scene/builtin.h"
+#include "edgewise/backend.h"
+#include "edgewise/builtin.h"
+#include "edgewise/frontend.h"
 
 namespace edgewise::app {
 

@@ -22,7 +22,7 @@
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/json_text.h"
-#include "raster/simd_target.h"
+#include "edgewise/simd_target.h"
 
 namespace edgewise::app {
 

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "edgewise/contract.h"
 #include "nearest_name.h"
-#include "raster/contract.h"
 
 namespace edgewise::app {
 

@@ -10,8 +10,8 @@
 #include <string_view>
 
 #include "app/source.h"
-#include "frontend/frontend.h"
-#include "raster/backend.h"
+#include "edgewise/backend.h"
+#include "edgewise/frontend.h"
 
 namespace CLI {
 class App;

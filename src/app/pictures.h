@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "frontend/frontend.h"
-#include "image/image.h"
-#include "raster/framebuffer.h"
+#include "edgewise/framebuffer.h"
+#include "edgewise/frontend.h"
+#include "edgewise/image.h"
 
 namespace edgewise::app {
 

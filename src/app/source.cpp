@@ -4,9 +4,9 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "edgewise/obj_file.h"
+#include "edgewise/tri_file.h"
 #include "file_extension.h"
-#include "scene/obj_file.h"
-#include "scene/tri_file.h"
 
 namespace edgewise::app {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "scene/builtin.h"
+#include "edgewise/builtin.h"
 
 namespace edgewise::app {
 

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "app/options.h"
-#include "frontend/frontend.h"
-#include "raster/backend.h"
+#include "edgewise/backend.h"
+#include "edgewise/frontend.h"
 
 namespace edgewise::app {
 

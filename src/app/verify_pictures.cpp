@@ -6,8 +6,8 @@
 
 #include "app/capture.h"
 #include "app/pictures.h"
+#include "edgewise/tri_file.h"
 #include "image/atomic_file.h"
-#include "scene/tri_file.h"
 
 namespace edgewise::app {
 

@@ -1,8 +1,8 @@
 // Triangles of a mesh from its transformed vertices. See assemble.cpp.
 #pragma once
 
+#include "edgewise/simd_target.h"
 #include "frontend/jobs.h"
-#include "raster/simd_target.h"
 
 namespace edgewise {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "raster/contract.h"
+#include "edgewise/contract.h"
 
 namespace edgewise {
 

@@ -5,7 +5,7 @@
 #include <bit>
 #include <cstdint>
 
-#include "raster/contract.h"
+#include "edgewise/contract.h"
 
 namespace edgewise {
 

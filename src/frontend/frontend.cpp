@@ -1,7 +1,7 @@
 // The order of the steps, each of which has a file of its own: vertices (transform.cpp), triangles
 // (assemble.cpp or stream.cpp, with one_by_one.cpp and clip.cpp for what is special), colours (shade.cpp),
 // and their places (in_order.h). Instances go through them in groups, cut into runs (runs.h).
-#include "frontend/frontend.h"
+#include "edgewise/frontend.h"
 
 #include <algorithm>
 #include <atomic>
@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "edgewise/contract.h"
+#include "edgewise/limits.h"
 #include "frontend/assemble.h"
 #include "frontend/in_order.h"
 #include "frontend/runs.h"
@@ -16,9 +18,7 @@
 #include "frontend/stream.h"
 #include "frontend/transform.h"
 #include "frontend/view.h"
-#include "raster/contract.h"
 #include "raster/parallel.h"
-#include "scale_limits.h"
 
 namespace edgewise {
 

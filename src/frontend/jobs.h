@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
-#include "frontend/frontend.h"
+#include "edgewise/frontend.h"
 #include "frontend/vertex.h"
 #include "raster/buffer.h"
 

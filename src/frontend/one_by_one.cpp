@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 
+#include "edgewise/contract.h"
 #include "frontend/pieces.h"
 #include "frontend/transform.h"
-#include "raster/contract.h"
 
 namespace edgewise {
 

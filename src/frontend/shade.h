@@ -5,8 +5,8 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "edgewise/simd_target.h"
 #include "frontend/jobs.h"
-#include "raster/simd_target.h"
 
 namespace edgewise {
 

@@ -1,8 +1,8 @@
 // Triangles of a stream, whose positions are pixels already. See stream.cpp.
 #pragma once
 
+#include "edgewise/simd_target.h"
 #include "frontend/jobs.h"
-#include "raster/simd_target.h"
 
 namespace edgewise {
 

@@ -3,7 +3,7 @@
 
 #include <glm/glm.hpp>
 
-#include "scene/scene.h"
+#include "edgewise/scene.h"
 
 namespace edgewise {
 

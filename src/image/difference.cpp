@@ -5,9 +5,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "image/image.h"
-#include "raster/contract.h"
-#include "scene/scene.h"
+#include "edgewise/contract.h"
+#include "edgewise/image.h"
+#include "edgewise/scene.h"
 
 namespace edgewise {
 

@@ -1,5 +1,5 @@
 // PNG by libpng's simplified interface, which keeps its longjmp to itself, and PPM (P6) by hand.
-#include "image/image.h"
+#include "edgewise/image.h"
 
 #include <png.h>
 
@@ -9,11 +9,11 @@
 #include <stdexcept>
 #include <string>
 
+#include "edgewise/contract.h"
 #include "file_extension.h"
 #include "image/atomic_file.h"
 #include "image/netpbm.h"
 #include "input_file.h"
-#include "raster/contract.h"
 
 namespace edgewise {
 

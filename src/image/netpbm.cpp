@@ -2,7 +2,7 @@
 
 #include <charconv>
 
-#include "raster/contract.h"
+#include "edgewise/contract.h"
 
 namespace edgewise::netpbm {
 

@@ -8,8 +8,8 @@
 #include <cstring>
 #include <string>
 
+#include "edgewise/image.h"
 #include "image/atomic_file.h"
-#include "image/image.h"
 #include "image/netpbm.h"
 
 namespace edgewise {

@@ -12,11 +12,11 @@
 #include <span>
 #include <vector>
 
+#include "edgewise/backend.h"
+#include "edgewise/frontend.h"
+#include "edgewise/scene.h"
 #include "frontend/clip.h"
-#include "frontend/frontend.h"
 #include "lab/method.h"
-#include "raster/backend.h"
-#include "scene/scene.h"
 
 namespace edgewise::lab {
 

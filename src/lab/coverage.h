@@ -9,10 +9,10 @@
 #include <string_view>
 #include <vector>
 
+#include "edgewise/backend.h"
+#include "edgewise/framebuffer.h"
 #include "lab/method.h"
 #include "lab/truth.h"
-#include "raster/backend.h"
-#include "raster/framebuffer.h"
 
 namespace edgewise::lab {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "edgewise/builtin.h"
 #include "nearest_name.h"
-#include "scene/builtin.h"
 #include "scene/random.h"
 #include "scene/streams.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "raster/contract.h"
+#include "edgewise/contract.h"
 
 namespace edgewise::lab {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "raster/contract.h"
+#include "edgewise/contract.h"
 
 namespace edgewise::lab {
 

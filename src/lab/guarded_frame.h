@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "raster/framebuffer.h"
+#include "edgewise/framebuffer.h"
 
 namespace edgewise::lab {
 

@@ -4,8 +4,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "edgewise/contract.h"
 #include "lab/exact_spans.h"
-#include "raster/contract.h"
 
 namespace edgewise::lab {
 

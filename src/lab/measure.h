@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "edgewise/backend.h"
+#include "edgewise/contract.h"
 #include "lab/guarded_frame.h"
-#include "raster/backend.h"
-#include "raster/contract.h"
 
 namespace edgewise::lab {
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <string_view>
 
-#include "frontend/frontend.h"
+#include "edgewise/frontend.h"
 
 namespace edgewise::lab {
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "edgewise/contract.h"  // constants only
 #include "lab/truth.h"
-#include "raster/contract.h"  // constants only
 
 namespace edgewise::lab {
 

@@ -4,14 +4,14 @@
 #include <cstdint>
 #include <span>
 
-#include "raster/framebuffer.h"
-#include "raster/screen_triangle.h"
+#include "edgewise/framebuffer.h"
+#include "edgewise/screen_triangle.h"
 
 namespace edgewise::lab {
 
 // Draws by exact 128-bit arithmetic, each triangle against each pixel that its bounding box touches. Shares
-// no arithmetic with raster/contract.h. Cost: the pixels of all boxes, at most pixels times triangles; meant
-// for images of some 100 px a side, or for small triangles.
+// no arithmetic with edgewise/contract.h. Cost: the pixels of all boxes, at most pixels times triangles;
+// meant for images of some 100 px a side, or for small triangles.
 void draw_oracle(std::span<const ScreenTriangle> triangles, Framebuffer& frame, std::uint32_t background);
 
 }  // namespace edgewise::lab

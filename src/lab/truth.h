@@ -2,7 +2,7 @@
 //   SnappedTruth: on the snapped grid, by 128-bit integers. What is wrong against it is arithmetic.
 //   FloatTruth:   on the positions as they were before snapping, by doubles with an error bound, and by GMP's
 //                 rationals where those cannot tell. What is wrong against it is arithmetic and snapping.
-// They share no arithmetic with raster/contract.h or with any backend.
+// They share no arithmetic with edgewise/contract.h or with any backend.
 #pragma once
 
 #include <gmpxx.h>
@@ -12,10 +12,10 @@
 #include <span>
 #include <vector>
 
-#include "frontend/frontend.h"
+#include "edgewise/frontend.h"
+#include "edgewise/screen_triangle.h"
 #include "lab/ball.h"
 #include "lab/method.h"
-#include "raster/screen_triangle.h"
 
 namespace edgewise::lab {
 

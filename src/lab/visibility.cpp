@@ -8,8 +8,8 @@
 #include <array>
 #include <cmath>
 
+#include "edgewise/contract.h"
 #include "lab/truth.h"
-#include "raster/contract.h"
 
 #define EDGEWISE_VISIBILITY_METHODS(X) \
   X(contract31)                        \

@@ -11,10 +11,10 @@
 #include <span>
 #include <vector>
 
+#include "edgewise/scene.h"
+#include "edgewise/screen_triangle.h"
 #include "lab/method.h"
 #include "lab/truth.h"
-#include "raster/screen_triangle.h"
-#include "scene/scene.h"
 
 namespace edgewise::lab {
 

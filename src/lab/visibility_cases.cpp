@@ -9,10 +9,10 @@
 #include <initializer_list>
 #include <numeric>
 
+#include "edgewise/contract.h"
 #include "frontend/fixed.h"
 #include "frontend/transform.h"
 #include "frontend/vertex.h"
-#include "raster/contract.h"
 
 namespace edgewise::lab {
 

@@ -1,9 +1,9 @@
-#include "raster/backend.h"
+#include "edgewise/backend.h"
 
 #include <stdexcept>
 #include <string>
 
-#include "raster/contract.h"
+#include "edgewise/contract.h"
 
 namespace edgewise {
 

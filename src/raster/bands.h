@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <span>
 
-#include "raster/backend.h"
+#include "edgewise/backend.h"
+#include "edgewise/contract.h"
 #include "raster/bins.h"
-#include "raster/contract.h"
 #include "raster/parallel.h"
 
 namespace edgewise {

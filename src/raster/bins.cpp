@@ -4,7 +4,7 @@
 #include <bit>
 #include <stdexcept>
 
-#include "raster/contract.h"
+#include "edgewise/contract.h"
 #include "raster/parallel.h"
 
 namespace edgewise {

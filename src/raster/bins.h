@@ -13,11 +13,11 @@
 #include <span>
 #include <vector>
 
+#include "edgewise/screen_triangle.h"
+#include "edgewise/simd_target.h"
 #include "raster/cell_boxes.h"
 #include "raster/patch_finder.h"
 #include "raster/patch_lists.h"
-#include "raster/screen_triangle.h"
-#include "raster/simd_target.h"
 
 namespace edgewise {
 

@@ -3,9 +3,9 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "edgewise/contract.h"
 #include "raster/cell_box_lanes-inl.h"
 #include "raster/cell_boxes.h"
-#include "raster/contract.h"
 #include "raster/kernel_table.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "raster/screen_triangle.h"
-#include "raster/simd_target.h"
+#include "edgewise/screen_triangle.h"
+#include "edgewise/simd_target.h"
 
 namespace edgewise {
 

@@ -7,7 +7,7 @@
 
 #include <cstdint>
 
-#include "raster/contract.h"
+#include "edgewise/contract.h"
 #include "raster/triangle_lanes-inl.h"
 
 // Included once a SIMD target.

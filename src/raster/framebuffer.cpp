@@ -1,9 +1,9 @@
-#include "raster/framebuffer.h"
+#include "edgewise/framebuffer.h"
 
 #include <stdexcept>
 #include <string>
 
-#include "raster/contract.h"
+#include "edgewise/contract.h"
 
 namespace edgewise {
 

@@ -3,7 +3,7 @@
 
 #include <hwy/highway.h>
 
-#include "raster/simd_target.h"
+#include "edgewise/simd_target.h"
 
 // The kernel for a resolved target. Use where HWY_ONCE holds, in the namespace that encloses HWY_NAMESPACE.
 // Where a target was not compiled in, supported_targets() doesn't list it either.

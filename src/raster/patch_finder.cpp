@@ -11,8 +11,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "edgewise/contract.h"
 #include "raster/cell_box_lanes-inl.h"
-#include "raster/contract.h"
 #include "raster/kernel_table.h"
 #include "raster/patch_coverage-inl.h"
 #include "raster/patch_finder.h"

@@ -8,9 +8,9 @@
 
 #include <cstdint>
 
-#include "raster/contract.h"
+#include "edgewise/contract.h"
+#include "edgewise/screen_triangle.h"
 #include "raster/lanes-inl.h"
-#include "raster/screen_triangle.h"
 
 // Included once a SIMD target.
 #if defined(EDGEWISE_RECORD_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)

@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "edgewise/backend.h"
 #include "nearest_name.h"
-#include "raster/backend.h"
 
 #define EDGEWISE_BACKENDS(X) \
   X(scanline)                \

@@ -16,7 +16,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "raster/contract.h"
+#include "edgewise/contract.h"
 #include "raster/kernel_table.h"
 #include "raster/scanline_kernel.h"
 #include "raster/scanline_list-inl.h"

@@ -12,7 +12,7 @@
 #include <bit>
 #include <cstdint>
 
-#include "raster/contract.h"
+#include "edgewise/contract.h"
 #include "raster/scanline_rows-inl.h"
 #include "raster/tile_place-inl.h"
 

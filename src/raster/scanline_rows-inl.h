@@ -5,7 +5,7 @@
 #include <bit>
 #include <cstdint>
 
-#include "raster/contract.h"
+#include "edgewise/contract.h"
 #include "raster/scanline_setup-inl.h"
 
 // Included once a SIMD target.

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "raster/contract.h"
+#include "edgewise/contract.h"
 #include "raster/tile_kernel.h"
 
 namespace edgewise {

@@ -1,4 +1,4 @@
-#include "raster/simd_target.h"
+#include "edgewise/simd_target.h"
 
 #include <hwy/targets.h>
 

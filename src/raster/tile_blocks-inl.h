@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "raster/contract.h"
+#include "edgewise/contract.h"
 #include "raster/tile_kernel.h"
 #include "raster/tile_place-inl.h"
 #include "raster/tile_setup-inl.h"

@@ -27,7 +27,7 @@
 #include <cstdint>
 #include <span>
 
-#include "raster/contract.h"
+#include "edgewise/contract.h"
 #include "raster/kernel_table.h"
 #include "raster/tile_blocks-inl.h"
 #include "raster/tile_kernel.h"

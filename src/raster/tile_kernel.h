@@ -3,10 +3,10 @@
 
 #include <cstdint>
 
+#include "edgewise/framebuffer.h"
+#include "edgewise/simd_target.h"
+#include "edgewise/tiled_ideas.h"
 #include "raster/bins.h"
-#include "raster/framebuffer.h"
-#include "raster/simd_target.h"
-#include "raster/tiled_ideas.h"
 
 namespace edgewise {
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <span>
 
-#include "raster/contract.h"
+#include "edgewise/contract.h"
 #include "raster/lanes-inl.h"
 #include "raster/tile_kernel.h"
 

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <span>
 
-#include "raster/contract.h"
+#include "edgewise/contract.h"
 #include "raster/depth_lanes-inl.h"
 #include "raster/tile_kernel.h"
 #include "raster/triangle_lanes-inl.h"

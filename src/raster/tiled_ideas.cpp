@@ -1,4 +1,4 @@
-#include "raster/tiled_ideas.h"
+#include "edgewise/tiled_ideas.h"
 
 namespace edgewise {
 

@@ -5,7 +5,7 @@
 #include <bit>
 #include <span>
 
-#include "raster/backend.h"
+#include "edgewise/backend.h"
 #include "raster/bins.h"
 #include "raster/last_cache.h"
 #include "raster/parallel.h"

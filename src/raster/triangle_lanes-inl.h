@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
-#include "raster/contract.h"
-#include "raster/screen_triangle.h"
+#include "edgewise/contract.h"
+#include "edgewise/screen_triangle.h"
 
 // Included once a SIMD target.
 #if defined(EDGEWISE_TRIANGLE_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)

@@ -1,4 +1,4 @@
-#include "scene/builtin.h"
+#include "edgewise/builtin.h"
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "scene/scene.h"
+#include "edgewise/scene.h"
 
 namespace edgewise {
 

@@ -3,7 +3,7 @@
 // on, written plainly: positions and vertex indices.
 // Its callback interface is used because the other one cuts polygons at 255 corners and triangulates them
 // wrongly (see polygon.cpp).
-#include "scene/obj_file.h"
+#include "edgewise/obj_file.h"
 
 #include <algorithm>
 #include <array>
@@ -17,8 +17,8 @@
 #include <string_view>
 #include <vector>
 
+#include "edgewise/limits.h"
 #include "input_file.h"
-#include "scale_limits.h"
 #include "scene/polygon.h"
 
 #pragma GCC diagnostic push

@@ -1,4 +1,4 @@
-#include "scene/scene.h"
+#include "edgewise/scene.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "scene/builtin.h"
+#include "edgewise/builtin.h"
 
 namespace edgewise {
 

@@ -1,5 +1,5 @@
 // The file's bytes are the vector's bytes, so both directions are one bulk copy.
-#include "scene/tri_file.h"
+#include "edgewise/tri_file.h"
 
 #include <array>
 #include <bit>
@@ -10,9 +10,9 @@
 #include <string>
 #include <type_traits>
 
+#include "edgewise/contract.h"
+#include "edgewise/limits.h"
 #include "input_file.h"
-#include "raster/contract.h"
-#include "scale_limits.h"
 
 namespace edgewise {
 

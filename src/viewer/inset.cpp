@@ -4,11 +4,11 @@
 #include <array>
 #include <cmath>
 
-#include "frontend/frontend.h"
+#include "edgewise/backend.h"
+#include "edgewise/builtin.h"
+#include "edgewise/contract.h"
+#include "edgewise/frontend.h"
 #include "frontend/view.h"
-#include "raster/backend.h"
-#include "raster/contract.h"
-#include "scene/builtin.h"
 #include "viewer/world.h"
 
 namespace edgewise::viewer {

@@ -7,8 +7,8 @@
 
 #include "app/accuracy_closeup.h"
 #include "app/options.h"
-#include "image/image.h"
-#include "scene/scene.h"
+#include "edgewise/image.h"
+#include "edgewise/scene.h"
 #include "viewer/text.h"
 
 namespace edgewise::viewer {

@@ -5,9 +5,9 @@
 
 #include "app/milliseconds.h"
 #include "app/pictures.h"
+#include "edgewise/contract.h"
 #include "frontend/shade.h"
 #include "lab/coverage_score.h"
-#include "raster/contract.h"
 #include "viewer/view_space.h"
 
 namespace edgewise::viewer {

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "app/accuracy_closeup.h"
-#include "frontend/frontend.h"
-#include "image/image.h"
-#include "raster/backend.h"
+#include "edgewise/backend.h"
+#include "edgewise/frontend.h"
+#include "edgewise/image.h"
 #include "viewer/choice.h"
 #include "viewer/world.h"
 

@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "raster/contract.h"
+#include "edgewise/contract.h"
 #include "viewer/session.h"
 #include "viewer/window.h"
 

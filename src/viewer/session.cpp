@@ -11,8 +11,8 @@
 #include "app/capture.h"
 #include "app/milliseconds.h"
 #include "app/printable.h"
+#include "edgewise/tri_file.h"
 #include "image/atomic_file.h"
-#include "scene/tri_file.h"
 
 namespace edgewise::viewer {
 

@@ -13,7 +13,7 @@
 #include <stdexcept>
 
 #include "app/process.h"
-#include "raster/contract.h"
+#include "edgewise/contract.h"
 #include "viewer/terminal_input.h"
 #include "viewer/terminal_picture.h"
 

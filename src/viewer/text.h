@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "image/image.h"
+#include "edgewise/image.h"
 
 namespace edgewise::viewer {
 

@@ -5,7 +5,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "scene/scene.h"
+#include "edgewise/scene.h"
 
 namespace edgewise::viewer {
 

@@ -18,10 +18,10 @@
 #include <vector>
 
 #include "conformance/winding.h"
-#include "frontend/frontend.h"
+#include "edgewise/backend.h"
+#include "edgewise/contract.h"
+#include "edgewise/frontend.h"
 #include "lab/measure.h"
-#include "raster/backend.h"
-#include "raster/contract.h"
 
 namespace edgewise::conformance {
 

@@ -11,10 +11,10 @@
 #include <stdexcept>
 #include <vector>
 
-#include "frontend/frontend.h"
+#include "edgewise/contract.h"
+#include "edgewise/frontend.h"
 #include "lab/measure.h"
 #include "lab/oracle.h"
-#include "raster/contract.h"
 
 namespace edgewise::fuzz {
 

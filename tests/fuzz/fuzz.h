@@ -11,8 +11,8 @@
 #include <span>
 #include <string>
 
-#include "raster/backend.h"
-#include "scene/scene.h"
+#include "edgewise/backend.h"
+#include "edgewise/scene.h"
 
 // No header declares it.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "edgewise/obj_file.h"
 #include "fuzz.h"
-#include "scene/obj_file.h"
 
 using namespace edgewise;
 

@@ -2,8 +2,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "edgewise/tri_file.h"
 #include "fuzz.h"
-#include "scene/tri_file.h"
 
 using namespace edgewise;
 

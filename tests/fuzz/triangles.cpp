@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "edgewise/contract.h"
 #include "fuzz.h"
-#include "raster/contract.h"
 
 using namespace edgewise;
 using namespace edgewise::contract;

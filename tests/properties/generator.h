@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "raster/contract.h"
+#include "edgewise/contract.h"
 #include "scene/random.h"
 
 namespace edgewise::testing {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <memory>
 
-#include "raster/backend.h"
-#include "raster/contract.h"
+#include "edgewise/backend.h"
+#include "edgewise/contract.h"
 
 namespace edgewise::testing {
 

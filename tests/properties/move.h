@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "raster/contract.h"
-#include "raster/framebuffer.h"
-#include "scene/scene.h"
+#include "edgewise/contract.h"
+#include "edgewise/framebuffer.h"
+#include "edgewise/scene.h"
 
 namespace edgewise::testing {
 

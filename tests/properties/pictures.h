@@ -8,10 +8,10 @@
 #include <string_view>
 #include <vector>
 
-#include "frontend/frontend.h"
+#include "edgewise/backend.h"
+#include "edgewise/frontend.h"
+#include "edgewise/scene.h"
 #include "properties/property.h"
-#include "raster/backend.h"
-#include "scene/scene.h"
 
 namespace edgewise::testing {
 

@@ -7,12 +7,12 @@
 #include <ostream>
 
 #include "app/verify.h"
+#include "edgewise/tri_file.h"
 #include "properties/mistaken.h"
 #include "properties/pictures.h"
 #include "properties/property.h"
 #include "properties/streams.h"
 #include "run_program.h"
-#include "scene/tri_file.h"
 #include "support.h"
 
 namespace edgewise::testing {

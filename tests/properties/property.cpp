@@ -7,7 +7,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "scene/tri_file.h"
+#include "edgewise/tri_file.h"
 #include "support.h"
 
 namespace edgewise::testing {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene.h"
+#include "edgewise/scene.h"
 
 namespace edgewise::testing {
 

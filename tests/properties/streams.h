@@ -3,7 +3,7 @@
 
 #include <rapidcheck.h>
 
-#include "scene/scene.h"
+#include "edgewise/scene.h"
 
 namespace edgewise::testing {
 

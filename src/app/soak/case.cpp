@@ -7,7 +7,7 @@
 
 #include "app/soak/scenes.h"
 #include "app/soak/triangles.h"
-#include "raster/contract.h"
+#include "edgewise/contract.h"
 
 namespace edgewise::soak {
 

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "frontend/frontend.h"
-#include "raster/screen_triangle.h"
+#include "edgewise/frontend.h"
+#include "edgewise/screen_triangle.h"
 
 namespace edgewise::soak {
 

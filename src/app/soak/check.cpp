@@ -6,8 +6,8 @@
 #include <array>
 #include <cstring>
 
+#include "edgewise/contract.h"
 #include "lab/oracle.h"
-#include "raster/contract.h"
 #include "scene/random.h"
 
 namespace edgewise::soak {

@@ -9,8 +9,8 @@
 
 #include "app/soak/case.h"
 #include "app/soak/tally.h"
+#include "edgewise/backend.h"
 #include "lab/measure.h"
-#include "raster/backend.h"
 
 namespace edgewise::soak {
 

@@ -11,8 +11,8 @@
 #include "app/process.h"
 #include "app/soak/reduce.h"
 #include "app/verify.h"
+#include "edgewise/tri_file.h"
 #include "image/atomic_file.h"
-#include "scene/tri_file.h"
 
 namespace edgewise::soak {
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <string_view>
 
+#include "edgewise/scene.h"
 #include "scene/random.h"
-#include "scene/scene.h"
 
 namespace edgewise::soak {
 

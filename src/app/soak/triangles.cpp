@@ -7,8 +7,8 @@
 #include <array>
 #include <utility>
 
+#include "edgewise/contract.h"
 #include "frontend/fixed.h"
-#include "raster/contract.h"
 
 namespace edgewise::soak {
 

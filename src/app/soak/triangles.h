@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "raster/screen_triangle.h"
+#include "edgewise/screen_triangle.h"
 #include "scene/random.h"
 
 namespace edgewise::soak {

@@ -7,10 +7,10 @@
 #include <optional>
 #include <span>
 
+#include "edgewise/contract.h"
 #include "frontend/fixed.h"
 #include "lab/clipping.h"
 #include "lab/truth.h"
-#include "raster/contract.h"
 
 namespace edgewise::lab {
 

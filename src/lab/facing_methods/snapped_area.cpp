@@ -6,7 +6,7 @@ namespace edgewise::lab {
 
 extern const FacingMethod facing_snapped_area;
 const FacingMethod facing_snapped_area{
-    {"snapped_area", "ours: sign of the area of the snapped vertices", "raster/contract.h, rule 2",
+    {"snapped_area", "ours: sign of the area of the snapped vertices", "edgewise/contract.h, rule 2",
      "wrong only about faces that are less than 1/128 px wide on the screen, which it draws as they are "
      "snapped",
      true},

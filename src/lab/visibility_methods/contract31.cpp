@@ -31,7 +31,7 @@ class Plane {
 
 extern const VisibilityMethod visibility_contract31;
 const VisibilityMethod visibility_contract31{
-    {"contract31", "ours: 31-bit integer plane, based anew every 64 px", "raster/contract.h, rule 6",
+    {"contract31", "ours: 31-bit integer plane, based anew every 64 px", "edgewise/contract.h, rule 6",
      "depth within 66 steps of 2^-31 of the plane through the vertices' depths, which the front end has as "
      "floats, whatever the triangle's shape",
      false},

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "edgewise/contract.h"
 #include "lab/exact_spans.h"
 #include "lab/visibility.h"
-#include "raster/contract.h"
 
 namespace edgewise::lab {
 

@@ -1,8 +1,8 @@
 // The reference: walk the triangle's boundaries row by row and fill the spans between them. What surrounds
 // that is what `tiled` has (binning to tiles, tiles on threads), so the two differ in how they find and fill
 // a triangle's pixels. Drawing lives in scanline_kernel.cpp.
-#include "raster/backend.h"
-#include "raster/contract.h"
+#include "edgewise/backend.h"
+#include "edgewise/contract.h"
 #include "raster/scanline_kernel.h"
 #include "raster/tiles.h"
 

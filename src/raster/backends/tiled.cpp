@@ -1,7 +1,7 @@
 // Every pixel independent, as on a GPU: triangles are binned to square tiles, and tiles are drawn in
 // parallel, each in a buffer of its own, by SIMD edge functions. Binning lives in bins.cpp, drawing in
 // tile_kernel.cpp.
-#include "raster/backend.h"
+#include "edgewise/backend.h"
 #include "raster/tile_kernel.h"
 #include "raster/tiles.h"
 

@@ -1,4 +1,4 @@
-; The contract's constants and functions (src/raster/contract.h), for the claims in the files beside this one.
+; The contract's constants and functions (src/edgewise/contract.h), for the claims in the files beside this one.
 ;
 ; The solver reasons about mathematical integers and reals, in which nothing wraps. What the code computes in 32 and
 ; 64 bits is the same number wherever the claims say that every intermediate result fits, and the same number modulo
@@ -12,18 +12,18 @@
 ; A constant whose comment begins with "=" is compared with the source it names by `scripts/prove`; the functions are
 ; compared with those of contract.h, on many arguments, by tests/proofs_test.cpp.
 
-(define-const kSubBits Int 8)              ; = kSubBits of src/raster/contract.h
-(define-const kSub Int 256)                ; = kSub of src/raster/contract.h
-(define-const kHalf Int 128)               ; = kHalf of src/raster/contract.h
-(define-const kGuardSub Int 4194304)       ; = kGuardSub of src/raster/contract.h
-(define-const kMaxImageSide Int 16384)     ; = kMaxImageSide of src/raster/contract.h
-(define-const kMaxEdge Int 140737488355328) ; = kMaxEdge of src/raster/contract.h
-(define-const kMaxTile Int 64)             ; = kMaxTile of src/raster/contract.h
-(define-const kDepthCell Int 64)           ; = kDepthCell of src/raster/contract.h
-(define-const kDepthHead Int 128)          ; = kDepthHead of src/raster/contract.h
-(define-const kDepthClear Int 2147483647)  ; = kDepthClear of src/raster/contract.h
-(define-const kDepthRange Int 2147483391)  ; = kDepthRange of src/raster/contract.h
-(define-const kDepthError Int 65)          ; = kDepthError of src/raster/contract.h
+(define-const kSubBits Int 8)              ; = kSubBits of src/edgewise/contract.h
+(define-const kSub Int 256)                ; = kSub of src/edgewise/contract.h
+(define-const kHalf Int 128)               ; = kHalf of src/edgewise/contract.h
+(define-const kGuardSub Int 4194304)       ; = kGuardSub of src/edgewise/contract.h
+(define-const kMaxImageSide Int 16384)     ; = kMaxImageSide of src/edgewise/contract.h
+(define-const kMaxEdge Int 140737488355328) ; = kMaxEdge of src/edgewise/contract.h
+(define-const kMaxTile Int 64)             ; = kMaxTile of src/edgewise/contract.h
+(define-const kDepthCell Int 64)           ; = kDepthCell of src/edgewise/contract.h
+(define-const kDepthHead Int 128)          ; = kDepthHead of src/edgewise/contract.h
+(define-const kDepthClear Int 2147483647)  ; = kDepthClear of src/edgewise/contract.h
+(define-const kDepthRange Int 2147483391)  ; = kDepthRange of src/edgewise/contract.h
+(define-const kDepthError Int 65)          ; = kDepthError of src/edgewise/contract.h
 
 (define-const two8 Int 256)
 (define-const two16 Int 65536)

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "raster/framebuffer.h"
+#include "edgewise/framebuffer.h"
 
 namespace edgewise {
 

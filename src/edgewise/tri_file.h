@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <iosfwd>
 
-#include "scene/scene.h"
+#include "edgewise/scene.h"
 
 namespace edgewise {
 

@@ -7,9 +7,9 @@
 #include <span>
 #include <string_view>
 
-#include "raster/screen_triangle.h"
-#include "raster/simd_target.h"
-#include "scene/scene.h"
+#include "edgewise/scene.h"
+#include "edgewise/screen_triangle.h"
+#include "edgewise/simd_target.h"
 
 namespace edgewise {
 

@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "raster/screen_triangle.h"
+#include "edgewise/screen_triangle.h"
 
 namespace edgewise::contract {
 

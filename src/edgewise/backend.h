@@ -6,12 +6,11 @@
 #include <span>
 #include <string_view>
 
-#include "raster/framebuffer.h"
-#include "raster/parallel.h"
-#include "raster/screen_triangle.h"
-#include "raster/simd_target.h"
-#include "raster/tiled_ideas.h"
-#include "scale_limits.h"
+#include "edgewise/framebuffer.h"
+#include "edgewise/limits.h"
+#include "edgewise/screen_triangle.h"
+#include "edgewise/simd_target.h"
+#include "edgewise/tiled_ideas.h"
 
 namespace edgewise {
 

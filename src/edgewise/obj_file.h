@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "scene/scene.h"
+#include "edgewise/scene.h"
 
 namespace edgewise {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <string_view>
 
-#include "scene/scene.h"
+#include "edgewise/scene.h"
 
 namespace edgewise {
 
