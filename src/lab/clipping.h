@@ -76,6 +76,9 @@ inline constexpr double kNearTie01 = 0x1p-22;
 // How far out both ends of an edge across the screen may lie. Floats place them to 2^-24 of that distance,
 // and what lies between moves as much; hairline is 2^-6 px. So 2^18, if nothing else is rounded.
 inline constexpr double kReachPx = 1 << 18;
+// A camera rounds a vertex before anything is cut: matrix, products, sums, and the scaling to pixels. Eight
+// last places are allowed for it.
+inline constexpr double kCameraReachPx = kReachPx / 8;
 
 struct ClippingScore {
   std::uint64_t covered = 0;  // pixels, in truth

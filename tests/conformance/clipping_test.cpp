@@ -259,10 +259,8 @@ TEST_F(ConformanceClips, VerticesUpTo100000UnitsFromTheEye) {
     }
     const Scene scene = seen({t.begin(), t.end()}, {{0, 1, 2}});
     const Outline outline({homogeneous(scene, t[0]), homogeneous(scene, t[1]), homogeneous(scene, t[2])});
-    // Where both ends of an edge are so far out on the screen, floats no longer place its middle to 1/64 px:
-    // lab::kReachPx is for what only the cut rounds, and the camera has rounded each vertex several times
-    // before.
-    if (outline.reaches_beyond(1 << 15)) continue;
+    // Where both ends of an edge are so far out on the screen, floats no longer place its middle to 1/64 px.
+    if (outline.reaches_beyond(lab::kCameraReachPx)) continue;
     ++used;
     ++behind[std::count_if(t.begin(), t.end(), [](glm::vec3 v) { return v.z > -0.5f; })];
     expect_outline(scene, {kSize.width, kSize.height}, outline, "trial " + std::to_string(trial));

@@ -7,9 +7,9 @@ namespace edgewise::lab {
 extern const ClippingMethod clipping_near_guard;
 const ClippingMethod clipping_near_guard{
     {"near_guard", "ours: near and far planes and guard band, in homogeneous space", "frontend/clip.h",
-     "differences within 1/64 px, if no edge across the screen has both ends over 2^18 px out; owners right "
-     "if "
-     "depths, from 0 to 1, are over 2^-22 apart: z^2 / (2^22 near) at a distance z",
+     "differences within 1/64 px, if no edge across the screen has both ends over 2^15 px out (2^18 where "
+     "the camera rounds no vertex); owners right if depths, from 0 to 1, are over 2^-22 apart: "
+     "z^2 / (2^22 near) at a distance z",
      true},
     [](const ClippingScene& scene, ClippingFrame& frame) {
       FrontendOptions options;
