@@ -52,7 +52,7 @@ class Method:
 
     @property
     def ours(self):
-        return self.source.startswith(("src/", "raster/", "frontend/"))
+        return self.source.startswith(("src/", "edgewise/", "frontend/"))
 
 
 class Cost(NamedTuple):
