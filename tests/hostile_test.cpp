@@ -126,9 +126,12 @@ void expect_whole(const std::filesystem::path& file) {
   }
 }
 
-bool takes_too_much_address_space([[maybe_unused]] const std::string& script) {
+// Sanitizers reserve more memory than the limits leave, and need files and a thread of their own.
+bool starves_sanitizers([[maybe_unused]] const std::string& script) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  return script.find("ulimit -v") != std::string::npos;
+  for (const auto limit : {"ulimit -v", "ulimit -n", "ulimit -u"})
+    if (script.find(limit) != std::string::npos) return true;
+  return false;
 #else
   return false;
 #endif
@@ -149,7 +152,7 @@ class HostileInput : public ::testing::TestWithParam<Hostile> {};
 TEST_P(HostileInput, IsAnsweredAsTheTableSays) {
   const Hostile& row = GetParam();
   const std::string script = row.script;
-  if (takes_too_much_address_space(script)) GTEST_SKIP() << "sanitizers reserve more than the limit";
+  if (starves_sanitizers(script)) GTEST_SKIP() << "sanitizers need more than the limit";
   const TempDir folder, input;
   write_inputs(input);
   const Outcome outcome = run_script(script, folder, input);
@@ -184,7 +187,7 @@ TEST(HostileMemory, EndsInAFileOrInOneLineAtAnyLimit) {
                                     "edgewise stability cycle --quick --threads 1 --json $DIR/a.json"})
     for (const int kib : {15'000, 20'000, 30'000, 40'000, 50'000, 60'000, 80'000, 150'000, 300'000}) {
       const std::string limit = "ulimit -v " + std::to_string(kib) + "; ", script = limit + command;
-      if (takes_too_much_address_space(script)) GTEST_SKIP() << "sanitizers reserve more than the limit";
+      if (starves_sanitizers(script)) GTEST_SKIP() << "sanitizers need more than the limit";
       const TempDir folder, input;
       if (run_script(limit + "edgewise --version", folder, input).status == 127) continue;
       const Outcome outcome = run_script(script, folder, input);
@@ -205,7 +208,7 @@ TEST(HostileMemory, LeavesAWholeRecordOfASoakAtAnyLimit) {
   for (const int kib : {40'000, 60'000, 80'000, 150'000, 300'000, 2'000'000}) {
     const std::string limit = "ulimit -v " + std::to_string(kib) + "; ";
     const std::string script = limit + "edgewise soak --cases 9 --jobs 1 --json $DIR/a.json";
-    if (takes_too_much_address_space(script)) GTEST_SKIP() << "sanitizers reserve more than the limit";
+    if (starves_sanitizers(script)) GTEST_SKIP() << "sanitizers need more than the limit";
     const TempDir folder, input;
     if (run_script(limit + "edgewise --version", folder, input).status == 127) continue;
     const Outcome outcome = run_script(script, folder, input);
