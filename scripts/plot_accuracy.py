@@ -6,14 +6,15 @@ from palette import FAINT, INK
 from plot_kinds import Kinds
 from plot_labels import Label, label_points
 from plot_style import headline, plt, save
-from speed_accuracy import CRACKS, TRIALS, chart_rows, front_line, side_by_side, unsettled
+from speed_accuracy import (CRACKS, SUBTITLES, TRIALS, chart_rows, cost_range, front_line, shade, side_by_side,
+                            unsettled)
 from tables import short
 from zero_axis import BAND, ZeroAxis
 
 
-def cost_axis(axes, costs):
+def cost_axis(axes, measured):
     """A log axis with round numbers. Returns its upper end."""
-    low, high = min(costs) / 1.3, max(costs) * 1.3
+    low, high = cost_range(measured)
     steps = (1, 2, 5) if high / low > 12 else (1, 1.5, 2, 3, 4, 5, 7)
     ticks = [step * 10.0 ** k for k in range(math.floor(math.log10(low)), math.ceil(math.log10(high))) for step in steps]
     axes.set_yscale("log")
@@ -30,7 +31,7 @@ def draw_points(axes, scene, kinds):
     scale = ZeroAxis([m.rate for m in measured])
     bounds = [m.bound for m in measured if m.bound is not None]
     scale.apply_x(axes, f"0\n(<{float(f'{max(bounds):.2g}'):g})" if bounds else "0")
-    top = cost_axis(axes, [cost for m in measured for c in m.costs.values() for cost in (c.low, c.high)])
+    top = cost_axis(axes, measured)
     places = side_by_side(measured, scale)
     singles = [(scale.at(m.rate), m.costs[1].ns, x) for m, x in zip(measured, places) if 1 in m.costs]
     lines = [front_line(singles, scale.limit, top)] if singles else []
@@ -58,17 +59,6 @@ WHISKER = {"linewidth": 4.0, "alpha": 0.35, "solid_capstyle": "butt"}
 RING = {"marker": "o", "markersize": 13, "markerfacecolor": "none", "markeredgecolor": INK, "markeredgewidth": 0.9,
         "linestyle": ""}
 FRONT = {"color": INK, "linewidth": 1.2, "linestyle": (0, (4, 2))}
-SUBTITLES = {
-    "coverage": "Further left: fewer errors; further down: faster. Judged by exact arithmetic on the positions before "
-                "any snapping, which costs those who\nsnap something wherever vertices lie off their grid. Filled: no "
-                "pixel is wrong given the snapped positions. Ours use the widest SIMD.",
-    "visibility": "Further left: fewer errors; further down: faster. Who owns a pixel, judged by exact planes on the "
-                  "snapped positions; all draw\nwith the same exact coverage of these.",
-    "facing": "Further left: fewer errors; further down: faster. Which faces look at the eye, judged by the exact sign of "
-              "the projected area\nbefore any snapping. Filled: no face is misjudged given the snapped positions.",
-    "clipping": "Further left: fewer errors; further down: faster. Judged by rays that need no clipping; differences "
-                "within 1/64 px of an edge do not count.",
-}
 
 
 def speed_chart(scene, name, folder, caption):
@@ -147,11 +137,11 @@ def all_scenes(accuracy, family, folder, caption):
             rate = rates.get(method.name)
             if rate is None:
                 continue
-            shade = min(1.0, math.log10(1 + rate) / 6) if rate else 0.0
+            dark = shade(rate)
             axes.add_patch(plt.Rectangle((place - 0.48, line - 0.46), 0.96, 0.92, linewidth=0,
-                                         facecolor=shades(0.08 + 0.8 * shade) if rate else BAND))
+                                         facecolor=shades(0.08 + 0.8 * dark) if rate else BAND))
             axes.text(place, line, texts[method.name], ha="center", va="center", fontsize=7.5 if len(methods) > 12 else 8.5,
-                      color="white" if shade > 0.75 else INK)
+                      color="white" if dark > 0.75 else INK)
     axes.set_xlim(-0.5, len(methods) - 0.5)
     axes.set_ylim(len(scenes) - 0.5, -0.5)
     axes.set_yticks(range(len(scenes)), [label for label, _, _ in scenes], fontsize=9)

@@ -3,10 +3,8 @@ from accuracy_rows import FAMILIES
 from palette import FAINT, INK
 from plot_kinds import Kinds
 from plot_style import headline, plt, save
-from stability_curves import (axis_of_errors, failing, groups_of, line_count, names_of, place_of_failure, runs_down, tidy,
-                              trials_note)
-
-STYLES = ("-", (0, (5, 1.5)), (0, (1.5, 1.2)), (0, (5, 1.5, 1, 1.5)), (0, (8, 2)), (0, (3, 1, 1, 1, 1, 1)))
+from stability_curves import (axis_of_errors, failing, groups_of, kinds_and_dashes, known_methods, line_count, names_of,
+                              place_of_failure, runs_down, tidy, trials_note)
 
 
 def stacked(wanted, heights, ties):
@@ -48,12 +46,10 @@ def set_axis(axes, sweep):
 
 def draw_curves(axes, groups, kinds, y_scale):
     """Returns (colour, marker, style) of each group."""
-    used, looks = {}, []
-    for members, curve in groups:
-        colour, marker = kinds.of(members[0])
-        kind = kinds.family.kind(members[0])
-        style = STYLES[used.get(kind, 0) % len(STYLES)]
-        used[kind] = used.get(kind, 0) + 1
+    looks = []
+    for (members, curve), (kind, dash) in zip(groups, kinds_and_dashes(groups, kinds.family)):
+        colour, marker = kinds.looks[kind]
+        style = (0, dash) if dash else "-"
         looks.append((colour, marker, style))
         xs, ys = [x for x, _ in curve.points], [y_scale.at(y) for _, y in curve.points]
         ours = any(member.ours for member in members)
@@ -114,5 +110,5 @@ def sweep_chart(sweep, methods, folder, caption):
 
 def draw(sweeps, accuracy, folder, caption):
     """The names of the charts drawn."""
-    methods = {(family, m.name): m for family, known in accuracy.methods.items() for m in known} if accuracy else {}
+    methods = known_methods(accuracy)
     return [name for sweep in sweeps if (name := sweep_chart(sweep, methods, folder, caption))]

@@ -15,15 +15,21 @@ class Plain:
         return value
 
 
-def axis_of_errors(sweep):
-    ys = [y for curve in sweep.curves for _, y in curve.points]
-    return ZeroAxis(ys) if sweep.y["log"] else Plain(ys)
+def axis_of_errors(*sweeps):
+    """One axis for the same sweep of one or more results."""
+    ys = [y for sweep in sweeps for curve in sweep.curves for _, y in curve.points]
+    return ZeroAxis(ys) if sweeps[0].y["log"] else Plain(ys)
 
 
 def runs_down(sweep):
     """Whether x falls from easy to hard."""
     first = sweep.curves[0].points
     return first[0][0] > first[-1][0]
+
+
+def known_methods(accuracy):
+    """{(family, name): method}; accuracy may be None."""
+    return {(family, m.name): m for family, found in accuracy.methods.items() for m in found} if accuracy else {}
 
 
 def groups_of(sweep, methods):
@@ -33,6 +39,20 @@ def groups_of(sweep, methods):
         members, _ = groups.setdefault((curve.points, curve.starts_to_fail), ([], curve))
         members.append(methods.get((sweep.family, curve.method)) or Method(curve.method, "", "", curve.exact))
     return list(groups.values())
+
+
+# Lengths of dashes and gaps, in widths of the line; given out within a kind of method.
+DASHES = ((), (5, 1.5), (1.5, 1.2), (5, 1.5, 1, 1.5), (8, 2), (3, 1, 1, 1, 1, 1))
+
+
+def kinds_and_dashes(groups, family):
+    """(kind, dash) of each group, so that no two lines look alike."""
+    found, used = [], {}
+    for members, _ in groups:
+        kind = family.kind(members[0])
+        found.append((kind, DASHES[used.get(kind, 0) % len(DASHES)]))
+        used[kind] = used.get(kind, 0) + 1
+    return found
 
 
 def wrapped(names, width=30):
