@@ -1,4 +1,5 @@
 """The ladder from the plainest backend to the fastest, one idea more on each line."""
+from tables import milliseconds
 
 START = "naive"
 NAMES = {"vector-setup": "+ set-up in vectors", "prefetch": "+ prefetch", "patches": "+ small ones in binning",
@@ -14,6 +15,11 @@ def steps(bench, scene):
     named += [("+ write-out by size", bench.find(f"{backend}/{scene}/threads:1")),
               ("+ second thread", bench.find(f"{backend}/{scene}/threads:2"))]
     return [(label, row) for label, row in named if row]
+
+
+def said(before, row):
+    """How many times faster than the step before; of the first its time."""
+    return f"{before.median_ms / row.median_ms:.2f}×" if before else f"{milliseconds(row)} ms"
 
 
 def verdict(before, after):

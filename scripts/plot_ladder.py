@@ -1,10 +1,9 @@
 """The ladder: what each idea is worth on each scene, one added at a time, and how far the floor still is."""
 import math
 
-from ladder import steps, verdict
+from ladder import said, steps, verdict
 from palette import INK, PALETTE, VERDICTS
 from plot_style import headline, log_axis, plt, save
-from tables import milliseconds
 
 COLUMNS = 3
 
@@ -14,11 +13,10 @@ def panel(axes, scene, named):
     places = range(len(named))
     axes.plot(times, places, color="#d0d7de", linewidth=1.4, zorder=2)
     for place, (time, (_, row)) in enumerate(zip(times, named)):
-        gain = times[place - 1] / time if place else 1.0
-        colour = VERDICTS[verdict(named[place - 1][1], row)] if place else INK
+        before = named[place - 1][1] if place else None
+        colour = VERDICTS[verdict(before, row)] if before else INK
         axes.plot([time], [place], marker="o", markersize=5.5, color=colour, zorder=3)
-        text = f"{gain:.2f}×" if place else f"{milliseconds(row)} ms"
-        axes.annotate(text, (time, place), xytext=(7, 0), textcoords="offset points", va="center", fontsize=8,
+        axes.annotate(said(before, row), (time, place), xytext=(7, 0), textcoords="offset points", va="center", fontsize=8,
                       color=colour)
     for place, (_, row) in zip(places, named):
         floor = row.counters.get("floor_ms")

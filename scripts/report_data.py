@@ -4,7 +4,7 @@ from accuracy_tables import rate_text
 from bench_rows import describe_machine, read_bench, read_json
 from compare_rows import judge, other_work
 from floor import floors_ms
-from ladder import steps, verdict
+from ladder import said, steps, verdict
 from peers import over_backend, pairs
 from scaling import allowed, measured, quickest, scheduled
 from speed_accuracy import SUBTITLES, TRIALS, chart_rows, cost_range, front_line, shade, side_by_side, unsettled
@@ -73,7 +73,7 @@ def ladder(bench):
         befores = [None, *(row for _, row in named)]
         found.append({"scene": scene, "steps": [
             {"label": label, "ms": time(row), "floor": rounded(row.counters.get("floor_ms", 0.0)),
-             "gain": rounded(before.median_ms / row.median_ms) if before else 1,
+             "said": said(before, row),
              "verdict": verdict(before, row) if before else "start"}
             for before, (label, row) in zip(befores, named)]})
     return found

@@ -24,13 +24,13 @@ export function changes(view) {
     ...(clear.length
       ? [
           table(
-            "What changed",
+            "Rows that changed",
             [
               ["row", ([name]) => name],
               ["ms before", (row) => row[1]],
               ["ms after", (row) => row[2]],
               ["ratio", (row) => row[3]],
-              ["", (row) => row[4]],
+              ["verdict", (row) => row[4]],
             ],
             clear.slice(0, most),
           ),

@@ -27,13 +27,13 @@ function panel(view, { scene, steps }, width) {
   const fill = { value: (step) => verdictColour(view, step.verdict), scale: null };
   const floored = steps.filter((step) => step.floor > 0);
   const all = [...steps, ...shared].flatMap(({ ms, floor }) => [ms[0], floor || ms[0]]);
-  const domain = [Math.min(...all) / 1.5, Math.max(...all) * 4];
+  const domain = [Math.min(...all) / 1.5, Math.max(...all) * 1.3];
   const time = (step) => step.ms[0];
   const drawn = plot({
     width,
     height: 44 + 21 * steps.length,
     marginLeft: 14 + Math.max(...steps.map(({ label }) => widthOf(label))),
-    marginRight: 10,
+    marginRight: 60, // for the figure beside the last mark
     marginBottom: 40,
     marginTop: 4,
     x: { type: "log", domain, label: "ms a frame", ticks: decades(domain), tickFormat: short },
@@ -61,7 +61,7 @@ function panel(view, { scene, steps }, width) {
         fill: "var(--ink)",
         stroke: "var(--paper)",
         strokeWidth: 3,
-        text: (step) => (step.verdict === "start" ? `${number(step.ms[0])} ms` : `${step.gain.toFixed(2)}×`),
+        text: "said",
       }),
       tip(steps, { x: time, y: "label", says: (step) => says(step, beforeOf(step), view) }),
     ],
@@ -74,7 +74,7 @@ function panel(view, { scene, steps }, width) {
       [
         ["idea", (step) => step.label],
         ["ms", time],
-        ["times faster", (step) => (step.verdict === "start" ? "–" : step.gain)],
+        ["times faster", (step) => (step.verdict === "start" ? "–" : step.said)],
         ["floor, ms", (step) => (step.floor > 0 ? step.floor : "–")],
         ...(shared.length ? [[view.other.name, (step) => beforeOf(step)?.ms[0] ?? "–"]] : []),
       ],
@@ -89,7 +89,7 @@ function says(step, other, view) {
     step.label,
     `${ms} ms (${low} to ${high})`,
     step.verdict !== "start" &&
-      `${step.gain.toFixed(2)}× as fast as the line above${step.verdict === "neither" ? ", not settled" : ""}`,
+      `${step.said} as fast as the line above${step.verdict === "neither" ? ", not settled" : ""}`,
     step.floor > 0 && `floor ${number(step.floor)} ms`,
     other && `${view.other.name}: ${number(other.ms[0])} ms`,
   ];

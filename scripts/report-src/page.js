@@ -77,7 +77,7 @@ export function chart({ title, text, legend, plot, figures, more = [] }) {
 export function grid(view, items, least, draw) {
   const gap = 24;
   const columns = Math.max(1, Math.min(items.length, Math.floor((view.width + gap) / (least + gap))));
-  const width = Math.floor((view.width - gap * (columns - 1)) / columns);
+  const width = Math.min(760, Math.floor((view.width - gap * (columns - 1)) / columns));
   const holder = element("div", {
     class: "charts",
     style: `grid-template-columns: repeat(${columns}, minmax(0, 1fr))`,
