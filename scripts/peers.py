@@ -32,6 +32,12 @@ def pairs(bench):
     return {key: found for key in keys if (found := pair(bench, *key))}
 
 
+def over_backend(bench, found, backend):
+    """How many times longer the peer of a Pair takes than this one of our backends; None where it was not timed."""
+    ours = found and bench.find(found.ours.name.replace(found.ours.backend, backend, 1))
+    return found.peer.median_ms / ours.median_ms if ours else None
+
+
 def times(ratio):
     return f"{ratio:.1f}×" if ratio >= 9.95 else f"{ratio:.2f}×"
 

@@ -2,28 +2,19 @@
 import math
 
 from accuracy_rows import FAMILIES
-from plot_kinds import BAND, Kinds, ZeroAxis
+from palette import FAINT, INK
+from plot_kinds import Kinds
 from plot_labels import Label, label_points
-from plot_style import FAINT, INK, headline, plt, save
+from plot_style import headline, plt, save
+from speed_accuracy import (CRACKS, SUBTITLES, TRIALS, chart_rows, cost_range, front_line, shade, side_by_side,
+                            unsettled)
 from tables import short
+from zero_axis import BAND, ZeroAxis
 
 
-def front_line(points, right, top):
-    """A step line along the points that no other beats in both coordinates, from the top edge to the right one.
-    points: (x, y, x where it is drawn)."""
-    best = []
-    for x, y, drawn_x in sorted(points):
-        if not best or y < best[-1][1]:
-            best.append((drawn_x, y))
-    line = [(best[0][0], top), best[0]]
-    for x, y in best[1:]:
-        line += [(x, line[-1][1]), (x, y)]
-    return [*line, (right, line[-1][1])]
-
-
-def cost_axis(axes, costs):
+def cost_axis(axes, measured):
     """A log axis with round numbers. Returns its upper end."""
-    low, high = min(costs) / 1.3, max(costs) * 1.3
+    low, high = cost_range(measured)
     steps = (1, 2, 5) if high / low > 12 else (1, 1.5, 2, 3, 4, 5, 7)
     ticks = [step * 10.0 ** k for k in range(math.floor(math.log10(low)), math.ceil(math.log10(high))) for step in steps]
     axes.set_yscale("log")
@@ -34,41 +25,13 @@ def cost_axis(axes, costs):
     return high
 
 
-def side_by_side(measured, scale):
-    """Where each method stands: those whose whiskers would hide one another step aside."""
-    places = [scale.at(m.rate) for m in measured]
-    step = 0.011 * (scale.limit - scale.start)
-    reach = [(min(c.low for c in m.costs.values()), max(c.high for c in m.costs.values())) for m in measured]
-    for x in sorted(set(places)):
-        lanes = []  # of methods, none of whose whiskers meet
-        for i in [i for i, place in enumerate(places) if place == x]:
-            free = next((lane for lane in lanes
-                         if all(reach[i][1] < reach[j][0] or reach[j][1] < reach[i][0] for j in lane)), None)
-            lanes.append([i]) if free is None else free.append(i)
-        for k, lane in enumerate(lanes):
-            for i in lane:
-                places[i] = x + (k - (len(lanes) - 1) / 2) * step
-    return places
-
-
-def unsettled(measured):
-    """Those of which the spread does not tell whether some other beats them in both errors and speed."""
-    found = []
-    for m in measured:
-        rivals = [other.costs[1] for other in measured if other is not m and other.rate <= m.rate]
-        beaten = any(rival.high < m.costs[1].low for rival in rivals)
-        if not beaten and any(rival.overlaps(m.costs[1]) for rival in rivals):
-            found.append(m)
-    return found
-
-
 def draw_points(axes, scene, kinds):
     """Returns labels for label_points(), the lines that they are to keep off, and whether a point is unsettled."""
     measured = [m for m in scene.measured if m.costs]
     scale = ZeroAxis([m.rate for m in measured])
     bounds = [m.bound for m in measured if m.bound is not None]
     scale.apply_x(axes, f"0\n(<{float(f'{max(bounds):.2g}'):g})" if bounds else "0")
-    top = cost_axis(axes, [cost for m in measured for c in m.costs.values() for cost in (c.low, c.high)])
+    top = cost_axis(axes, measured)
     places = side_by_side(measured, scale)
     singles = [(scale.at(m.rate), m.costs[1].ns, x) for m, x in zip(measured, places) if 1 in m.costs]
     lines = [front_line(singles, scale.limit, top)] if singles else []
@@ -96,19 +59,6 @@ WHISKER = {"linewidth": 4.0, "alpha": 0.35, "solid_capstyle": "butt"}
 RING = {"marker": "o", "markersize": 13, "markerfacecolor": "none", "markeredgecolor": INK, "markeredgewidth": 0.9,
         "linestyle": ""}
 FRONT = {"color": INK, "linewidth": 1.2, "linestyle": (0, (4, 2))}
-TRIALS = {"coverage": "edge crossings", "visibility": "covered pixels", "facing": "faces that own a pixel",
-          "clipping": "covered pixels"}
-SUBTITLES = {
-    "coverage": "Further left: fewer errors; further down: faster. Judged by exact arithmetic on the positions before "
-                "any snapping, which costs those who\nsnap something wherever vertices lie off their grid. Filled: no "
-                "pixel is wrong given the snapped positions. Ours use the widest SIMD.",
-    "visibility": "Further left: fewer errors; further down: faster. Who owns a pixel, judged by exact planes on the "
-                  "snapped positions; all draw\nwith the same exact coverage of these.",
-    "facing": "Further left: fewer errors; further down: faster. Which faces look at the eye, judged by the exact sign of "
-              "the projected area\nbefore any snapping. Filled: no face is misjudged given the snapped positions.",
-    "clipping": "Further left: fewer errors; further down: faster. Judged by rays that need no clipping; differences "
-                "within 1/64 px of an edge do not count.",
-}
 
 
 def speed_chart(scene, name, folder, caption):
@@ -173,27 +123,6 @@ def turning_cube(accuracy, folder, caption):
     return "turning-cube"
 
 
-def cell_text(rate):
-    return "0" if rate == 0 else "<1" if rate < 1 else short(float(f"{rate:.2g}"))
-
-
-CRACKS = {"t_junction": "its gaps, in pixels", "t_junction_split": "its gaps once split"}
-
-
-def chart_rows(scenes):
-    """(label, what stands there, how dark) of each row, the last two by method. A T-junction's rate says how many
-    pixels change hands; that splitting its edge closes the crack, only its gaps say."""
-    rows = []
-    for scene in scenes:
-        rates = {m.method.name: m.rate for m in scene.measured}
-        rows.append((scene.name, {name: cell_text(rate) for name, rate in rates.items()}, rates))
-        if scene.name in CRACKS and all(m.gaps is not None for m in scene.measured):
-            gaps = {m.method.name: m.gaps for m in scene.measured}
-            rows.append((CRACKS[scene.name], {name: short(count) for name, count in gaps.items()},
-                         {m.method.name: 1e6 * m.gaps / scene.trials for m in scene.measured}))
-    return rows
-
-
 def all_scenes(accuracy, family, folder, caption):
     """Every method on every scene: the rate as a number, and as a shade."""
     scenes, methods = chart_rows(accuracy.of(family.name)), accuracy.methods[family.name]
@@ -208,11 +137,11 @@ def all_scenes(accuracy, family, folder, caption):
             rate = rates.get(method.name)
             if rate is None:
                 continue
-            shade = min(1.0, math.log10(1 + rate) / 6) if rate else 0.0
+            dark = shade(rate)
             axes.add_patch(plt.Rectangle((place - 0.48, line - 0.46), 0.96, 0.92, linewidth=0,
-                                         facecolor=shades(0.08 + 0.8 * shade) if rate else BAND))
+                                         facecolor=shades(0.08 + 0.8 * dark) if rate else BAND))
             axes.text(place, line, texts[method.name], ha="center", va="center", fontsize=7.5 if len(methods) > 12 else 8.5,
-                      color="white" if shade > 0.75 else INK)
+                      color="white" if dark > 0.75 else INK)
     axes.set_xlim(-0.5, len(methods) - 0.5)
     axes.set_ylim(len(scenes) - 0.5, -0.5)
     axes.set_yticks(range(len(scenes)), [label for label, _, _ in scenes], fontsize=9)

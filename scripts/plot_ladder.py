@@ -1,32 +1,11 @@
 """The ladder: what each idea is worth on each scene, one added at a time, and how far the floor still is."""
 import math
 
-from plot_style import FAINT, INK, PALETTE, headline, log_axis, plt, save
-from tables import milliseconds
+from ladder import said, steps, verdict
+from palette import INK, PALETTE, VERDICTS
+from plot_style import headline, log_axis, plt, save
 
-START = "naive"
-NAMES = {"vector-setup": "+ set-up in vectors", "prefetch": "+ prefetch", "patches": "+ small ones in binning",
-         "hierarchical-depth": "+ hierarchical depth", "stepped": "+ incremental edges", "tiles": "+ tiles"}
-GAIN, LOSS, NEITHER = PALETTE[0], PALETTE[3], "#8c959f"
 COLUMNS = 3
-
-
-def steps(bench, scene):
-    """[(label, row)] from the plainest to the last: rows of the suite at both ends, rungs between them."""
-    rungs = [row for row in bench.sweep("rung") if row.scene == scene]
-    backend = rungs[-1].backend
-    named = [(f"{START}, 1 thread", bench.find(f"{START}/{scene}/threads:1"))]
-    named += [(NAMES.get(row.keys["rung"], f"… in {row.keys['rung']}"), row) for row in rungs]
-    named += [("+ write-out by size", bench.find(f"{backend}/{scene}/threads:1")),
-              ("+ second thread", bench.find(f"{backend}/{scene}/threads:2"))]
-    return [(label, row) for label, row in named if row]
-
-
-def colour_of(before, after):
-    """Whether one idea more made a difference: where the middle halves of the repetitions overlap, none is claimed."""
-    if after.quarter_ms(3) < before.quarter_ms(1):
-        return GAIN
-    return LOSS if after.quarter_ms(1) > before.quarter_ms(3) else NEITHER
 
 
 def panel(axes, scene, named):
@@ -34,11 +13,10 @@ def panel(axes, scene, named):
     places = range(len(named))
     axes.plot(times, places, color="#d0d7de", linewidth=1.4, zorder=2)
     for place, (time, (_, row)) in enumerate(zip(times, named)):
-        gain = times[place - 1] / time if place else 1.0
-        colour = colour_of(named[place - 1][1], row) if place else INK
+        before = named[place - 1][1] if place else None
+        colour = VERDICTS[verdict(before, row)] if before else INK
         axes.plot([time], [place], marker="o", markersize=5.5, color=colour, zorder=3)
-        text = f"{gain:.2f}×" if place else f"{milliseconds(row)} ms"
-        axes.annotate(text, (time, place), xytext=(7, 0), textcoords="offset points", va="center", fontsize=8,
+        axes.annotate(said(before, row), (time, place), xytext=(7, 0), textcoords="offset points", va="center", fontsize=8,
                       color=colour)
     for place, (_, row) in zip(places, named):
         floor = row.counters.get("floor_ms")

@@ -1,5 +1,5 @@
 """Chart of how many times longer other projects' rasterizers take than our backends."""
-from peers import pairs
+from peers import over_backend, pairs
 from plot_scenes import gain_chart
 from tables import THREADS
 
@@ -10,9 +10,7 @@ def against(bench, folder, caption):
         scenes = [scene for scene in bench.scenes if any((peer, scene, n) in found for n in THREADS)]
 
         def value_of(scene, backend, peer=peer):
-            timed = found.get((peer, scene, max(THREADS)))
-            ours = timed and bench.find(timed.ours.name.replace(timed.ours.backend, backend, 1))
-            return timed.peer.median_ms / ours.median_ms if ours else None
+            return over_backend(bench, found.get((peer, scene, max(THREADS))), backend)
 
         gain_chart(bench, folder, caption, f"against-{peer}", scenes, value_of, f"How many times longer {peer} takes",
                    f"Time of {bench.context.get(peer, peer)} over ours on {max(THREADS)} threads; meshes from vertices to "

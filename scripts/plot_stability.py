@@ -1,39 +1,10 @@
 """Charts of stability: a figure a sweep, a curve a method, from easy on the left to hard on the right."""
-from accuracy_rows import FAMILIES, Method
-from plot_kinds import Kinds, ZeroAxis
-from plot_style import FAINT, INK, headline, plt, save
-from tables import short
-
-STYLES = ("-", (0, (5, 1.5)), (0, (1.5, 1.2)), (0, (5, 1.5, 1, 1.5)), (0, (8, 2)), (0, (3, 1, 1, 1, 1, 1)))
-
-
-class Plain:
-    """Places on an axis without logarithm."""
-
-    def __init__(self, values):
-        self.low, self.high = min(values), max(values)
-
-    @staticmethod
-    def at(value):
-        return value
-
-
-def groups_of(sweep, methods):
-    """Methods whose curves are the same, as one: (methods, curve), in the registry's order."""
-    groups = {}
-    for curve in sweep.curves:
-        members, _ = groups.setdefault((curve.points, curve.starts_to_fail), ([], curve))
-        members.append(methods.get((sweep.family, curve.method)) or Method(curve.method, "", "", curve.exact))
-    return list(groups.values())
-
-
-def wrapped(names, width=30):
-    lines = [""]
-    for name in names:
-        if lines[-1] and len(lines[-1]) + len(name) > width:
-            lines.append("")
-        lines[-1] += name + ", "
-    return "\n".join(line.strip() for line in lines).rstrip(",")
+from accuracy_rows import FAMILIES
+from palette import FAINT, INK
+from plot_kinds import Kinds
+from plot_style import headline, plt, save
+from stability_curves import (axis_of_errors, failing, groups_of, kinds_and_dashes, known_methods, line_count, names_of,
+                              place_of_failure, runs_down, tidy, trials_note)
 
 
 def stacked(wanted, heights, ties):
@@ -59,8 +30,7 @@ def stacked(wanted, heights, ties):
 def set_axis(axes, sweep):
     """Returns what places x and y."""
     xs = [x for curve in sweep.curves for x, _ in curve.points]
-    ys = [y for curve in sweep.curves for _, y in curve.points]
-    y_scale = ZeroAxis(ys) if sweep.y["log"] else Plain(ys)
+    y_scale = axis_of_errors(sweep)
     if sweep.y["log"]:
         y_scale.apply_y(axes)
     else:
@@ -69,50 +39,17 @@ def set_axis(axes, sweep):
         axes.set_xscale("log", base=10)
         axes.xaxis.set_major_formatter(lambda value, _: tidy(value))
         axes.minorticks_off()
-    first = sweep.curves[0].points
-    if first[0][0] > first[-1][0]:
+    if runs_down(sweep):
         axes.invert_xaxis()
     return y_scale
 
 
-def tidy(value):
-    if value == 0 or 1e-3 <= abs(value) < 1000:
-        return f"{value:.3g}"
-    if abs(value) >= 1000:
-        return short(value)
-    digits, power = f"{value:.0e}".split("e")
-    raised = str(int(power)).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
-    return ("" if digits == "1" else digits + "·") + "10" + raised
-
-
-def names_of(members):
-    """Ours, then the others."""
-    return wrapped([m.name for m in members if m.ours]), wrapped([m.name for m in members if not m.ours])
-
-
-def line_count(text):
-    return text.count("\n") + 1 if text else 0
-
-
-def place_of_failure(curve):
-    """Its number among the places."""
-    return next((i for i, (x, _) in enumerate(curve.points) if x == curve.starts_to_fail), len(curve.points))
-
-
-def failing(curve, sweep):
-    if curve.starts_to_fail is None:
-        return "no more than snapping" if max(sweep.by_snapping) > 0 else "nowhere"
-    return f"from {tidy(curve.starts_to_fail)} {sweep.x['unit']}".rstrip()
-
-
 def draw_curves(axes, groups, kinds, y_scale):
     """Returns (colour, marker, style) of each group."""
-    used, looks = {}, []
-    for members, curve in groups:
-        colour, marker = kinds.of(members[0])
-        kind = kinds.family.kind(members[0])
-        style = STYLES[used.get(kind, 0) % len(STYLES)]
-        used[kind] = used.get(kind, 0) + 1
+    looks = []
+    for (members, curve), (kind, dash) in zip(groups, kinds_and_dashes(groups, kinds.family)):
+        colour, marker = kinds.looks[kind]
+        style = (0, dash) if dash else "-"
         looks.append((colour, marker, style))
         xs, ys = [x for x, _ in curve.points], [y_scale.at(y) for _, y in curve.points]
         ours = any(member.ours for member in members)
@@ -147,14 +84,6 @@ def label_curves(axes, groups, looks, y_scale, sweep):
             top -= line_count(part) * 0.142 / height_in
 
 
-def trials_note(sweep):
-    trials = [n for curve in sweep.curves for n in curve.trials if n]
-    if not trials or not sweep.y["log"]:
-        return ""
-    low, high = short(min(trials)), short(max(trials))
-    return f" 0: none in {low if low == high else f'{low} to {high}'} trials a place: a rate below 3/N (95 %)."
-
-
 def sweep_chart(sweep, methods, folder, caption):
     groups = groups_of(sweep, methods)
     if not groups or not all(curve.points for _, curve in groups):
@@ -181,5 +110,5 @@ def sweep_chart(sweep, methods, folder, caption):
 
 def draw(sweeps, accuracy, folder, caption):
     """The names of the charts drawn."""
-    methods = {(family, m.name): m for family, known in accuracy.methods.items() for m in known} if accuracy else {}
+    methods = known_methods(accuracy)
     return [name for sweep in sweeps if (name := sweep_chart(sweep, methods, folder, caption))]

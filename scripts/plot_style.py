@@ -9,12 +9,8 @@ import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.colors import to_hex, to_rgb  # noqa: E402
 from matplotlib.ticker import FuncFormatter, NullFormatter  # noqa: E402
 
+from palette import FAINT, INK, MARKERS, PALETTE  # noqa: E402
 from tables import short  # noqa: E402
-
-# Okabe and Ito, "Color Universal Design", 2008; given out in the registry's order.
-PALETTE = ["#0072B2", "#E69F00", "#009E73", "#D55E00", "#CC79A7", "#56B4E9", "#000000"]
-MARKERS = ["o", "s", "^", "D", "v", "P", "X"]
-INK, FAINT = "#24292f", "#6e7781"
 
 plt.rcParams.update({
     "figure.facecolor": "white", "axes.facecolor": "white", "savefig.facecolor": "white",

@@ -2,38 +2,7 @@
 import math
 
 from plot_style import INK, Look, headline, log_axis, plt, save, spread_labels
-
-
-def curves(bench, key, threads, x_of, scale_of=lambda row: 1.0):
-    """Per backend the points (x, row, scale) by growing x; times are to be multiplied by scale."""
-    points = {backend: [] for backend in bench.backends}
-    for row in bench.sweep(key):
-        if row.threads == threads and row.backend in points and not row.frontend:
-            points[row.backend].append((x_of(row), row, scale_of(row)))
-    return {backend: sorted(found, key=lambda point: point[0]) for backend, found in points.items() if found}
-
-
-def crossings(first, second):
-    """Where two curves over the same x cross, by straight lines on log axes; not where they only tangle.
-
-    Left and right of a crossing the middle halves of the repetitions must lie apart, the other way round.
-    """
-    by_x = {x: row for x, row, _ in second}
-    decided = None  # (side, index of the point) that was last clear of noise
-    shared = [(x, row, by_x[x], scale) for x, row, scale in first if x in by_x]
-    logs = [(math.log(x), math.log(a.median_ms * scale), math.log(b.median_ms * scale)) for x, a, b, scale in shared]
-    for index, (_, a, b, _) in enumerate(shared):
-        repeated = min(len(a.times_ms), len(b.times_ms)) > 1
-        side = repeated * ((a.quarter_ms(1) > b.quarter_ms(3)) - (a.quarter_ms(3) < b.quarter_ms(1)))
-        if side and decided and side != decided[0]:
-            for (x0, a0, b0), (x1, a1, b1) in reversed(list(zip(logs[decided[1]:index], logs[decided[1] + 1:index + 1]))):
-                before, after = a0 - b0, a1 - b1
-                if before * after < 0:
-                    t = before / (before - after)
-                    yield math.exp(x0 + t * (x1 - x0)), math.exp(a0 + t * (a1 - a0))
-                    break
-        if side:
-            decided = side, index
+from sweeps import all_crossings, area_curves, two_digits
 
 
 def draw_curves(axes, points, look):
@@ -57,10 +26,6 @@ def label_ends(axes, points, look):
     for (backend, found), height in zip(points.items(), heights):
         axes.annotate(backend, (found[-1][0], math.exp(height)), xytext=(7, 0), textcoords="offset points",
                       va="center", color=look.text_colour(backend), fontweight="bold", annotation_clip=False)
-
-
-def two_digits(px):
-    return f"{float(f'{px:.2g}'):,.{0 if px >= 10 else 1}f}"
 
 
 def free_place(axes, at, size, taken):
@@ -90,10 +55,7 @@ def mark_crossings(axes, points):
         ends = [in_points(x, row.median_ms * scale) for x, row, scale in found]
         for (x0, y0), (x1, y1) in zip(ends, ends[1:]):
             taken += [(x0 + t / 10 * (x1 - x0), y0 + t / 10 * (y1 - y0)) for t in range(11)]
-    names = list(points)
-    marks = [(x, y, a, b) for i, a in enumerate(names) for b in names[i + 1:]
-             for x, y in crossings(points[a], points[b])]
-    for x, y, a, b in sorted(marks):
+    for x, y, a, b in all_crossings(points):
         axes.plot([x], [y], marker="o", markersize=11, markerfacecolor="none", markeredgecolor=INK, markeredgewidth=1.3)
         size = (5.4 * (len(a) + len(b) + 3), 24)
         at = in_points(x, y)
@@ -116,8 +78,7 @@ def area(bench, folder, caption):
     figure.subplots_adjust(left=0.065, right=0.925, bottom=0.145, top=top - 0.06, wspace=0.22)
     drawn = []
     for axes, threads in zip(panels[0], all_threads):
-        points = curves(bench, "area", threads, lambda row: float(row.keys["area"]),
-                        lambda row: 1e6 / row.counters["covered_px"])
+        points = area_curves(bench, threads)
         draw_curves(axes, points, look)
         drawn.append((axes, points))
         axes.set_title(f"{threads} thread{'s' if threads > 1 else ''}")

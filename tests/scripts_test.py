@@ -2,6 +2,7 @@
 import importlib.util
 import json
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -170,6 +171,19 @@ class ScriptsTest(unittest.TestCase):
         self.fails(run("compare", self.results, broken), "Google Benchmark")
         self.fails(run("summary", self.folder), "bench.json")
 
+    def test_report_says_in_one_line_that_npm_is_missing(self):
+        tools = self.folder / "tools"
+        tools.mkdir()
+        for tool in ("bash", "dirname", "env"):
+            (tools / tool).symlink_to(shutil.which(tool))
+        (tools / "python3").write_text(f'#!/bin/bash\nexec {sys.executable} "$@"\n')
+        (tools / "python3").chmod(0o755)
+        result = subprocess.run([SCRIPTS / "report", self.results], capture_output=True, text=True, check=False,
+                                env={**os.environ, "PATH": str(tools)})
+        self.assertEqual((result.returncode, len(result.stderr.splitlines())), (3, 1), result.stderr)
+        self.assertIn("only the static charts", result.stderr)
+        self.assertEqual(list(self.results.glob("report*")), [])
+
     def test_readme_is_filled_then_up_to_date_then_stale(self):
         readme = self.folder / "README.md"
         readme.write_text("Hand-written.\n<!-- results: results -->\n<!-- generated:table -->\n<!-- /generated -->\n"
@@ -311,17 +325,15 @@ class ScriptsTest(unittest.TestCase):
 
 
 class LadderTest(unittest.TestCase):
-    """plot_ladder.steps(): from the plainest backend over the rungs to the last row."""
+    """ladder.steps(): from the plainest backend over the rungs to the last row."""
 
     @classmethod
     def setUpClass(cls):
-        if importlib.util.find_spec("matplotlib") is None:
-            raise unittest.SkipTest("no matplotlib")
         sys.path.insert(0, str(SCRIPTS))
 
     def test_rungs_stand_between_the_suites_own_rows(self):
         from bench_rows import Bench, parse_name
-        from plot_ladder import steps
+        from ladder import steps
         rows = {}
         for name, times in (("naive/cube/threads:1", [9.0]), ("fast/cube/threads:1", [2.0]), ("fast/cube/threads:2", [1.0]),
                             ("naive/cube/rung:stepped/threads:1", [8.5]),
@@ -331,23 +343,21 @@ class LadderTest(unittest.TestCase):
             rows[name].times_ms = times
         self.assertEqual([row.median_ms for _, row in steps(Bench({}, rows), "cube")], [9.0, 8.5, 8.0, 4.0, 2.0, 1.0])
 
-    def test_a_colour_claims_only_what_repetitions_settle(self):
+    def test_a_verdict_claims_only_what_repetitions_settle(self):
         from bench_rows import Row
-        from plot_ladder import GAIN, LOSS, NEITHER, colour_of
+        from ladder import verdict
         slow, between, fast = (Row("", "", False, "", {}, list(times)) for times in ((4.0, 5.0), (2.5, 4.5), (1.0, 2.0)))
-        self.assertEqual([colour_of(slow, fast), colour_of(fast, slow), colour_of(slow, between)], [GAIN, LOSS, NEITHER])
+        self.assertEqual([verdict(slow, fast), verdict(fast, slow), verdict(slow, between)], ["gain", "loss", "neither"])
 
 
 class CrossingsTest(unittest.TestCase):
-    """plot_sweeps.crossings() on curves whose crossing is known."""
+    """sweeps.crossings() on curves whose crossing is known."""
 
     @classmethod
     def setUpClass(cls):
-        if importlib.util.find_spec("matplotlib") is None:
-            raise unittest.SkipTest("no matplotlib")
         sys.path.insert(0, str(SCRIPTS))
         from bench_rows import Row
-        from plot_sweeps import crossings
+        from sweeps import crossings
         cls.row, cls.crossings = Row, staticmethod(crossings)
 
     def curve(self, *repetitions):
@@ -370,14 +380,12 @@ class CrossingsTest(unittest.TestCase):
 
 
 class UnsettledTest(unittest.TestCase):
-    """plot_accuracy.unsettled(): of which points the spread leaves open whether they are on the front."""
+    """speed_accuracy.unsettled(): of which points the spread leaves open whether they are on the front."""
 
     def test_only_who_overlaps_a_rival_that_errs_no_more(self):
-        if importlib.util.find_spec("matplotlib") is None:
-            raise unittest.SkipTest("no matplotlib")
         sys.path.insert(0, str(SCRIPTS))
         from accuracy_rows import Cost, Measured, Method
-        from plot_accuracy import unsettled
+        from speed_accuracy import unsettled
 
         def at(name, rate, *cost):
             return Measured(Method(name, "", "", False), rate, None, None, {1: Cost(*cost, 1.0)})
