@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "lab/measure.h"
 #include "lab/oracle.h"
 #include "support.h"
 
@@ -27,6 +28,7 @@ class EveryBackend : public ::testing::TestWithParam<std::string_view> {
     Framebuffer expected(width, height), actual(width, height);
     lab::draw_oracle(triangles, expected, kBackground);
     for (const auto& execution : testing::executions()) {
+      lab::poison(actual);  // or what is left out would still be right, from the draw before
       backend_->draw(triangles, actual.view(), kBackground, execution);
       testing::expect_same(expected, actual, what + ", " + testing::describe(execution));
     }
@@ -272,6 +274,19 @@ TEST(Registry, SuggestsTheNearestName) {
 
 TEST(Registry, HasTheThreeExactBackends) {
   for (const auto name : {"naive", "tiled", "scanline"}) EXPECT_EQ(find_backend(name).name, name);
+}
+
+TEST(Framebuffer, RowsAreWholeCacheLinesAndNoMultipleOfAPageApart) {
+  constexpr int kLine = 16, kPage = 1024;  // px
+  for (const int width : {1, 16, 17, 1008, 1009, 1024, 1025, 1920, 2048, 4096, contract::kMaxImageSide}) {
+    Framebuffer frame(width, 3);
+    EXPECT_GE(frame.stride(), width);
+    EXPECT_LT(frame.stride(), width + 2 * kLine) << width;
+    EXPECT_EQ(frame.stride() % kLine, 0) << width;
+    EXPECT_NE(frame.stride() % kPage, 0) << width;
+    for (const std::uint32_t* row : {frame.depth_row(1), frame.payload_row(2)})
+      EXPECT_EQ(reinterpret_cast<std::uintptr_t>(row) % (kLine * sizeof(*row)), 0u) << width;
+  }
 }
 
 TEST(Framebuffer, RefusesSidesThatTheContractCannotHold) {

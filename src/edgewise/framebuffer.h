@@ -18,7 +18,8 @@ struct FrameView {
   std::ptrdiff_t stride;
 };
 
-// Owns a frame. Rows start on 64-byte boundaries, so that a backend can stream whole cache lines.
+// Owns a frame. Rows start on 64-byte boundaries, so that a backend can stream whole cache lines, and never a
+// multiple of 4 KB apart, so that a tile's rows don't all want the same few places in the caches.
 class Framebuffer {
  public:
   // Throws std::invalid_argument for a side outside 1 … contract::kMaxImageSide, std::bad_alloc for lack of

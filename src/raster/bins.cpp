@@ -127,10 +127,10 @@ void Bins::build(std::span<const ScreenTriangle> triangles, const CellGrid& grid
   // Triangles. A thousand large ones are worth sharing; but the shorter a cell's lists, the emptier the
   // vectors of who draws it.
   constexpr std::size_t kLeastChunk = 500;
-  constexpr std::size_t kChunksPerThread = 2;
   constexpr std::size_t kMaxHeads = std::size_t{1} << 24;  // of all chunks: 128 MB, 384 with patches
   const auto cells = static_cast<std::size_t>(grid.cells());
-  const std::size_t most = threads == 1 ? 1 : kChunksPerThread * static_cast<std::size_t>(threads);
+  // A chunk a thread: the more lists a cell has, the more of them have to be found, begun and left half full.
+  const auto most = static_cast<std::size_t>(threads);
   const std::size_t affordable = std::max<std::size_t>(1, kMaxHeads / cells);
   used_chunks_ = std::clamp<std::size_t>(triangles.size() / kLeastChunk, 1, std::min(most, affordable));
   if (chunks_.size() < used_chunks_) chunks_.resize(used_chunks_);

@@ -16,12 +16,18 @@ int checked_side(int side) {
                                 std::to_string(contract::kMaxImageSide));
   return side;
 }
+
+std::ptrdiff_t stride_for(int width) {
+  constexpr int kPixelsPerPage = 1024;
+  const int whole_lines = (width + kPixelsPerLine - 1) / kPixelsPerLine * kPixelsPerLine;
+  return whole_lines % kPixelsPerPage == 0 ? whole_lines + kPixelsPerLine : whole_lines;
+}
 }  // namespace
 
 Framebuffer::Framebuffer(int width, int height)
     : width_(checked_side(width)),
       height_(checked_side(height)),
-      stride_((width + kPixelsPerLine - 1) / kPixelsPerLine * kPixelsPerLine),
+      stride_(stride_for(width)),
       depth_(allocate()),
       payload_(allocate()) {}
 

@@ -61,7 +61,7 @@ class PatchLists {
   }
   // Asks for the beginning of a list.
   void ask_for_first(std::size_t cell) const {
-    if (const Header* first = lists_[cell].first) ask_for(first, kSmallestBlock);
+    if (const Header* first = lists_[cell].first) ask_for(first, std::min(block_bytes_, kReadAhead));
   }
 
  private:

@@ -86,11 +86,14 @@ class TilePainter {
 #endif
 
 void write_rows(const Place& to, const std::int32_t* rows) {
-  for (int y = 0; y < to.height; ++y, rows += kMaxTile) {
-    int x = 0;
-    for (; x + kLanes <= to.width; x += kLanes) to.store(hn::Load(D{}, rows + x), x, y);
-    std::copy(rows + x, rows + to.width, to.at + y * to.stride + x);
-  }
+  write_to(to, [&](const auto& store) {
+    for (int y = 0; y < to.height; ++y, rows += kMaxTile) {
+      std::int32_t* const row = to.row(y);
+      int x = 0;
+      for (; x + kLanes <= to.width; x += kLanes) store(hn::Load(D{}, rows + x), row + x);
+      std::copy(rows + x, rows + to.width, row + x);
+    }
+  });
 }
 
 }  // namespace

@@ -92,48 +92,58 @@ HWY_INLINE void write(Tile& tile, int at, V outside, V z, V payload) {
 #if HWY_TARGET != HWY_SCALAR
 constexpr int kBlocksAcross = kLanes / kBlock;  // as many as fill a vector of a pixel row
 
-// The four pixel rows of neighbouring blocks.
-HWY_INLINE void rows_of_blocks(const std::int32_t* from, V (&row)[kBlock]) {
+// Two neighbouring pixel rows of neighbouring blocks; `from` is where the first block's part of them begins.
+HWY_INLINE void two_rows_of_blocks(const std::int32_t* from, V& upper, V& lower) {
   const D d;
 #if HWY_TARGET == HWY_SSE4
-  for (int y = 0; y < kBlock; ++y) row[y] = hn::Load(d, from + y * kBlock);
+  upper = hn::Load(d, from);
+  lower = hn::Load(d, from + kBlock);
 #elif HWY_TARGET == HWY_AVX2
-  for (int y = 0; y < kBlock; y += 2) {
-    const V left = hn::Load(d, from + y * kBlock), right = hn::Load(d, from + kBlockPixels + y * kBlock);
-    row[y] = hn::ConcatLowerLower(d, right, left);
-    row[y + 1] = hn::ConcatUpperUpper(d, right, left);
-  }
+  const V left = hn::Load(d, from), right = hn::Load(d, from + kBlockPixels);
+  upper = hn::ConcatLowerLower(d, right, left);
+  lower = hn::ConcatUpperUpper(d, right, left);
 #else
-  V block[4];
-  for (int i = 0; i < 4; ++i) block[i] = hn::Load(d, from + i * kBlockPixels);
-  const auto two_rows = [&](V even, V odd, V* out) {  // two rows each of blocks 0 and 2, and of 1 and 3
-    out[0] = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(odd), even);
-    out[1] = hn::OddEvenBlocks(odd, hn::SwapAdjacentBlocks(even));
+  const hn::Half<D> half;
+  const auto of_blocks = [&](int first, int second) {
+    return hn::Combine(d, hn::Load(half, from + second * kBlockPixels),
+                       hn::Load(half, from + first * kBlockPixels));
   };
-  two_rows(hn::ConcatLowerLower(d, block[2], block[0]), hn::ConcatLowerLower(d, block[3], block[1]), row);
-  two_rows(hn::ConcatUpperUpper(d, block[2], block[0]), hn::ConcatUpperUpper(d, block[3], block[1]), row + 2);
+  const V even = of_blocks(0, 2), odd = of_blocks(1, 3);
+  upper = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(odd), even);
+  lower = hn::OddEvenBlocks(odd, hn::SwapAdjacentBlocks(even));
 #endif
 }
 #endif
 
-// Blocks back to rows.
+// Blocks back to rows. Rows are written whole, one after the other: processors bring neighbouring cache lines
+// together, and those of several rows at once often want the same places in the caches.
 inline void write_out(const Place& to, const std::int32_t* blocks) {
-  for (int y0 = 0; y0 < to.height; y0 += kBlock, blocks += kMaxBlocks * kBlockPixels) {
-    const int rows = std::min(kBlock, to.height - y0);
-    const std::int32_t* from = blocks;
-    int x = 0;
+  const auto part_of_row = [&](int x, int y) {
+    return blocks + y / kBlock * kMaxBlocks * kBlockPixels + y % kBlock * kBlock + x * kBlock;
+  };
+  int in_vectors_x = 0, in_vectors_y = 0;
 #if HWY_TARGET != HWY_SCALAR
-    for (; x + kLanes <= to.width; x += kLanes, from += kBlocksAcross * kBlockPixels) {
-      V row[kBlock];
-      rows_of_blocks(from, row);
-      for (int y = 0; y < rows; ++y) to.store(row[y], x, y0 + y);
-    }
+  constexpr int kWhole = kMaxTile / kLanes;
+  in_vectors_x = to.width & -kLanes, in_vectors_y = to.height & -2;
+  write_to(to, [&](const auto& store) {
+    const auto write_two_rows = [&](int y, int count) {
+      std::int32_t *const upper_row = to.row(y), *const lower_row = to.row(y + 1);
+      V lower[kWhole];
+      for (int i = 0; i < count; ++i) {
+        V upper;
+        two_rows_of_blocks(part_of_row(i * kLanes, y), upper, lower[i]);
+        store(upper, upper_row + i * kLanes);
+      }
+      for (int i = 0; i < count; ++i) store(lower[i], lower_row + i * kLanes);
+    };
+    for (int y = 0; y < in_vectors_y; y += 2)
+      to.width == kMaxTile ? write_two_rows(y, kWhole) : write_two_rows(y, to.width / kLanes);
+  });
 #endif
-    for (; x < to.width; x += kBlock, from += kBlockPixels)
-      for (int y = 0; y < rows; ++y)
-        std::memcpy(to.at + (y0 + y) * to.stride + x, from + y * kBlock,
-                    sizeof(std::int32_t) * static_cast<std::size_t>(std::min(kBlock, to.width - x)));
-  }
+  for (int y = 0; y < to.height; ++y)
+    for (int x = y < in_vectors_y ? in_vectors_x : 0; x < to.width; x += kBlock)
+      std::memcpy(to.row(y) + x, part_of_row(x, y),
+                  sizeof(std::int32_t) * static_cast<std::size_t>(std::min(kBlock, to.width - x)));
 }
 
 }  // namespace HWY_NAMESPACE

@@ -30,6 +30,7 @@ struct Place {
   std::ptrdiff_t stride;
   int width, height;  // px
   bool past_caches;   // wanted, and the frame's alignment allows it
+  int ahead;          // px, to where the frame goes on at the right; or 0
 
   Place(const TileJob& job, std::uint32_t* plane)
       : at(reinterpret_cast<std::int32_t*>(plane + job.y0 * job.frame.stride + job.x0)),
@@ -37,23 +38,37 @@ struct Place {
         width(std::min(1 << job.size_log2, job.frame.width - job.x0)),
         height(std::min(1 << job.size_log2, job.frame.height - job.y0)),
         past_caches(job.ideas.write_out == WriteOut::past_caches &&
-                    reinterpret_cast<std::uintptr_t>(plane) % sizeof(V) == 0 && stride % kLanes == 0) {}
+                    reinterpret_cast<std::uintptr_t>(plane) % sizeof(V) == 0 && stride % kLanes == 0),
+        ahead(job.x0 + (2 << job.size_log2) <= job.frame.width ? 1 << job.size_log2 : 0) {}
 
-  HWY_INLINE void store(V v, int x, int y) const {
-    const D d;
-    std::int32_t* to = at + y * stride + x;
-    past_caches ? hn::Stream(v, d, to) : hn::StoreU(v, d, to);
-  }
+  HWY_INLINE std::int32_t* row(int y) const { return at + y * stride; }
 };
+
+// Calls write(store), where store(v, pixels) puts a vector of pixels to the frame. Through the caches, the
+// tile to the right, most often the next to be drawn, is asked for at the same time: its rows are too short
+// for processors to foresee where they lie, and a few stores that wait for memory hold up all others.
+template <typename Write>
+HWY_INLINE void write_to(const Place& to, Write&& write) {
+  if (to.past_caches) {
+    write([](V v, std::int32_t* pixels) { hn::Stream(v, D{}, pixels); });
+  } else {
+    write([ahead = to.ahead](V v, std::int32_t* pixels) {
+      __builtin_prefetch(pixels + ahead, 0, 2);  // to L2: L1 is the tile's
+      hn::StoreU(v, D{}, pixels);
+    });
+  }
+}
 
 // For a tile that holds `value` everywhere.
 inline void write_value(const Place& to, std::int32_t value) {
-  const V v = hn::Set(D{}, value);
-  for (int y = 0; y < to.height; ++y) {
-    int x = 0;
-    for (; x + kLanes <= to.width; x += kLanes) to.store(v, x, y);
-    std::fill(to.at + y * to.stride + x, to.at + y * to.stride + to.width, value);
-  }
+  write_to(to, [&](const auto& store) {
+    const V v = hn::Set(D{}, value);
+    for (int y = 0; y < to.height; ++y) {
+      std::int32_t *at = to.row(y), *const end = at + to.width;
+      for (; at + kLanes <= end; at += kLanes) store(v, at);
+      std::fill(at, end, value);
+    }
+  });
 }
 
 HWY_INLINE void ask_for(const TileJob& job, std::span<const std::uint32_t> run) {
