@@ -39,7 +39,7 @@ def configure(source, build, *options):
 
 
 def targets(build):
-    return set(re.findall(r"^(?:\.\.\. )?([\w:-]+)", run("cmake", "--build", build, "--target", "help"), re.MULTILINE))
+    return set(re.findall(r"^(?:\.\.\. )?([\w-]+)", run("cmake", "--build", build, "--target", "help"), re.MULTILINE))
 
 
 class Installed(unittest.TestCase):
@@ -58,9 +58,9 @@ class Installed(unittest.TestCase):
         said = run(folder / "consumer", cwd=folder, env=environment)
         self.assertRegex(said, r"^triangle \d, depth 0\.\d{6}\n$")
         self.assertTrue((folder / "picture.png").read_bytes().startswith(b"\x89PNG"))
-        triangle = folder / "triangle.obj"
-        triangle.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
-        self.assertRegex(run(folder / "consumer", triangle, cwd=folder, env=environment), "^triangle 0, ")
+        square = folder / "square.obj"
+        square.write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")
+        self.assertRegex(run(folder / "consumer", square, cwd=folder, env=environment), "^triangle [01], ")
         missing = subprocess.run([folder / "consumer", "missing.obj"], capture_output=True, text=True, check=False,
                                  env={**os.environ, **(environment or {})})
         self.assertEqual((missing.returncode, missing.stderr.count("missing.obj")), (1, 1))
@@ -88,10 +88,10 @@ class Installed(unittest.TestCase):
             environment["LD_LIBRARY_PATH"] = str(next(prefix.rglob("libedgewise.so")).parent)
         compiler = cached("CMAKE_CXX_COMPILER")
         self.assertEqual(run(*pkg_config, "--modversion", "edgewise", env=environment), cached("CMAKE_PROJECT_VERSION") + "\n")
-        for program, package in (("consumer", "edgewise-files"), ("frames", "edgewise")):
+        for program, source, package in (("consumer", "main", "edgewise-files"), ("frames", "frames", "edgewise")):
             flags = run(*pkg_config, "--cflags", "--libs", package, env=environment).split()
             self.assertFalse([flag for flag in flags if not re.match("-[ILl]", flag)], "a flag leaks")
-            run(compiler, "-std=c++20", CONSUMER / f"{program}.cpp", "-o", build / program, *flags)
+            run(compiler, "-std=c++20", CONSUMER / f"{source}.cpp", "-o", build / program, *flags)
         self.use(build, environment)
 
     def test_a_package_for_cmake(self):
