@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Installs the build and uses the copy as others would: tests/consumer, by CMake and by pkg-config.
+usage: install_test.py BUILD
 
 Where the source is built along with the consumer (add_subdirectory, FetchContent), and for a shared library, the whole
 library is compiled anew; that is done under EDGEWISE_FULL, otherwise such builds are only configured.
@@ -39,7 +40,8 @@ def configure(source, build, *options):
 
 
 def targets(build):
-    return set(re.findall(r"^(?:\.\.\. )?([\w-]+)", run("cmake", "--build", build, "--target", "help"), re.MULTILINE))
+    listed = run("cmake", "--build", build, "--target", "help")
+    return set(re.findall(r"^(?:\.\.\. )?([\w-]+)", listed, re.MULTILINE))
 
 
 class Installed(unittest.TestCase):
@@ -87,7 +89,8 @@ class Installed(unittest.TestCase):
         if not static:
             environment["LD_LIBRARY_PATH"] = str(next(prefix.rglob("libedgewise.so")).parent)
         compiler = cached("CMAKE_CXX_COMPILER")
-        self.assertEqual(run(*pkg_config, "--modversion", "edgewise", env=environment), cached("CMAKE_PROJECT_VERSION") + "\n")
+        version = run(*pkg_config, "--modversion", "edgewise", env=environment)
+        self.assertEqual(version, cached("CMAKE_PROJECT_VERSION") + "\n")
         for program, source, package in (("consumer", "main", "edgewise-files"), ("frames", "frames", "edgewise")):
             flags = run(*pkg_config, "--cflags", "--libs", package, env=environment).split()
             self.assertFalse([flag for flag in flags if not re.match("-[ILl]", flag)], "a flag leaks")
@@ -106,6 +109,15 @@ class Installed(unittest.TestCase):
         for path in self.prefix.rglob("*.h"):
             for included in re.findall(r'^#include "(.*)"', path.read_text(), re.MULTILINE):
                 self.assertTrue((path.parent.parent / included).is_file(), f"{path.name} includes {included}")
+
+    @unittest.skipUnless(FULL, "compiles each header")
+    def test_each_header_stands_alone_and_pleases_strict_compilers(self):
+        strict = ("-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Wconversion", "-Wsign-conversion", "-Wold-style-cast")
+        for path in self.prefix.rglob("*.h"):
+            alone = self.folder / f"{path.stem}.cpp"
+            alone.write_text(f"#include <edgewise/{path.name}>\n")
+            run(cached("CMAKE_CXX_COMPILER"), "-std=c++20", "-fsyntax-only", "-Werror", *strict,
+                "-I", path.parent.parent, alone)
 
     def test_another_version_is_refused(self):
         project = self.folder / "version"
