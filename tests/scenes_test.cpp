@@ -198,5 +198,13 @@ TEST(Fit, CentresAndScalesTheLongestSideToTwo) {
   EXPECT_NEAR(std::max({high.x - low.x, high.y - low.y, high.z - low.z}), 2.0f, 1e-4f);
 }
 
+TEST(Fit, RefusesAnInstanceOfAMeshThatTheSceneLacks) {
+  Scene scene;
+  scene.instances.push_back({.mesh = 1});
+  scene.meshes.resize(1);
+  EXPECT_THROW(fit(scene), std::out_of_range);
+  EXPECT_THROW(frame_camera(scene), std::out_of_range);
+}
+
 }  // namespace
 }  // namespace edgewise

@@ -22,10 +22,7 @@ namespace edgewise::app {
 
 TriangleStream to_stream(std::span<const ScreenTriangle> triangles, int width, int height) {
   const auto pixels = [](std::int32_t sub) { return static_cast<float>(sub) / contract::kSub; };
-  const auto depth01 = [](std::uint32_t z) {
-    return static_cast<float>((static_cast<double>(z) - contract::kDepthHead) /
-                              double{contract::kDepthRange});
-  };
+  const auto depth01 = [](std::uint32_t z) { return static_cast<float>(contract::depth01(z)); };
   TriangleStream stream{width, height, {}};
   stream.triangles.reserve(triangles.size());
   for (const ScreenTriangle& t : triangles) {

@@ -9,6 +9,7 @@
 #include <array>
 #include <cctype>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -131,7 +132,13 @@ std::string compiler() {
 }
 
 // Results are written while they are measured, so changes below results/ don't make the tree dirty.
+// A program that was installed cannot tell: the tree may have gone on, or be gone.
 std::string commit() {
+  namespace fs = std::filesystem;
+  std::error_code failed;
+  const fs::path self = fs::read_symlink("/proc/self/exe", failed);
+  const fs::path build = fs::weakly_canonical(EDGEWISE_BINARY_DIR, failed);
+  if (self.lexically_relative(build).string().starts_with("..")) return kUnknown;
   const std::string git = "git --no-optional-locks -C " + quoted_for_shell(EDGEWISE_SOURCE_DIR) + " ";
   const auto hash = output_of(git + "rev-parse --short=12 HEAD");
   if (!hash || hash->empty()) return kUnknown;

@@ -1,4 +1,5 @@
-// The interface that all backends share, and their registry.
+// The interface that all backends share, and their registry: screen triangles → depth and payload of every
+// pixel. All backends draw the same bits (contract.h).
 #pragma once
 
 #include <cstdint>
@@ -23,17 +24,19 @@ struct Execution {
   bool stepped = false;  // along rows, instead of evaluated at each pixel; only the naive backend looks at it
 };
 
-// A backend keeps its scratch memory between frames, so one object must not draw on two threads at once; two
-// objects may.
+// A backend keeps its scratch memory between frames, about 100 bytes a triangle and 16 a pixel at most, until
+// it is destroyed. One object must not draw on two threads at once; two objects may.
 class Backend {
  public:
   virtual ~Backend() = default;
 
   // Draws a whole frame: every pixel of `frame` is written, with `background` and contract::kDepthClear where
-  // no triangle wins. Throws std::invalid_argument for an impossible frame or execution, or more than
-  // kMaxTriangles (before anything is touched or allocated), std::bad_alloc for lack of memory,
-  // std::length_error where large triangles fill more than 2^32 places in the lists of tiles. Thousands of
-  // frames into the same view allocate only in the first.
+  // no triangle wins. Neither `triangles` nor `frame` is kept. `triangles` must keep to the ranges in
+  // screen_triangle.h, which are not checked. Throws std::invalid_argument for an impossible frame or
+  // execution, or more than kMaxTriangles (before anything is touched or allocated), std::bad_alloc for lack
+  // of memory, std::length_error where large triangles fill more than 2^32 places in the lists of tiles;
+  // after the last two the frame's content is undefined, and the backend may be used again. Thousands of
+  // frames of a kind allocate only in the first.
   void draw(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
             const Execution& execution);
 
@@ -49,7 +52,7 @@ struct BackendInfo {
   std::unique_ptr<Backend> (*make)();
 };
 
-// All backends, the reference first.
+// All backends, the reference first. Valid for as long as the program; any thread may ask.
 std::span<const BackendInfo> backends();
 
 // Throws std::invalid_argument, with the nearest known name, for an unknown one.

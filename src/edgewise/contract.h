@@ -89,6 +89,13 @@ inline constexpr std::uint32_t kDepthRange = kDepthClear - 2 * kDepthHead;
 inline constexpr std::uint32_t kDepthError = 65;
 static_assert(kDepthHead > kDepthError && kDepthCell == kMaxTile);
 
+// Contract units → depth from 0 (near) to 1 (far); the background is 1.
+constexpr double depth01(std::uint32_t depth) {
+  return std::clamp((static_cast<double>(depth) - kDepthHead) / kDepthRange, 0.0, 1.0);
+}
+static_assert(depth01(kDepthHead) == 0 && depth01(kDepthHead + kDepthRange) == 1 &&
+              depth01(kDepthClear) == 1);
+
 struct DepthPlane {
   std::uint64_t gx, gy;  // 48.16 fixed point per pixel, wrapped
   std::uint64_t origin;  // 2^24 (plane at pixel (0, 0) + 1/2), wrapped

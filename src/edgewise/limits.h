@@ -7,7 +7,7 @@
 
 namespace edgewise {
 
-inline constexpr int kMaxThreads = 256;
+inline constexpr int kMaxThreads = 256;                             // of a draw or a front end
 inline constexpr std::size_t kMaxTriangles = std::size_t{1} << 30;  // submitted to a frame, or drawn in one
 
 // tinyobjloader counts vertices in an int, and a vertex takes at least the eight bytes of "v 0 0 0\n".

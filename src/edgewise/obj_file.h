@@ -1,4 +1,4 @@
-// Wavefront OBJ meshes, read by tinyobjloader.
+// Wavefront OBJ meshes, read by tinyobjloader. Part of edgewise::files; any thread may call it.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,5 @@
 // What can be drawn: meshes seen by a camera under a light, or a stream of triangles already on the screen.
+// All are plain values that own what they hold. Nothing is checked until they are drawn (Frontend::run).
 #pragma once
 
 #include <cstdint>
@@ -12,13 +13,14 @@ namespace edgewise {
 // World space is right-handed with y up: x right, z towards a camera of yaw 0 and pitch 0, which looks along
 // -z. Colours are 0xAABBGGRR (red in the lowest byte). Angles are radians, lengths are world units.
 
+// Each 0 … 255; opaque.
 constexpr std::uint32_t rgb(std::uint32_t r, std::uint32_t g, std::uint32_t b) {
   return 0xFF000000u | b << 16 | g << 8 | r;
 }
 
 struct Mesh {
   std::vector<glm::vec3> positions;
-  std::vector<glm::uvec3> triangles;   // clockwise seen from outside is front
+  std::vector<glm::uvec3> triangles;   // indices into positions; clockwise seen from outside is front
   std::vector<std::uint32_t> colours;  // one a triangle
 };
 
@@ -26,8 +28,8 @@ struct Mesh {
 struct Instance {
   std::size_t mesh = 0;  // index into Scene::meshes
   glm::vec3 scale{1.0f};
-  glm::vec3 axis{0.0f, 1.0f, 0.0f};  // need not be normalised
-  float angle = 0.0f;
+  glm::vec3 axis{0.0f, 1.0f, 0.0f};  // of any length; 0: no rotation
+  float angle = 0.0f;                // about the axis, counter-clockwise seen from its tip
   glm::vec3 translation{0.0f};
 };
 
@@ -47,7 +49,7 @@ struct Scene {
   std::vector<Mesh> meshes;
   std::vector<Instance> instances;
   Camera camera;
-  glm::vec3 to_light{0.3f, 0.8f, 0.5f};  // direction towards the light; need not be normalised
+  glm::vec3 to_light{0.3f, 0.8f, 0.5f};  // direction towards the light, of any length but 0
 };
 
 // One triangle of a stream: x and y in pixels (y down), z in [0, 1], smaller is nearer.
@@ -65,14 +67,16 @@ struct TriangleStream {
 using Drawable = std::variant<Scene, TriangleStream>;
 
 // Moves the scene's meshes together so that their bounding box is centred on the origin and its longest side
-// is 2. Vertices that are not finite don't count.
+// is 2. Vertices that are not finite don't count. Throws std::out_of_range, as frame_camera does, for an
+// instance that names a mesh the scene lacks.
 void fit(Scene& scene);
 
 // Puts the camera where it sees all finite vertices from the front, a little to the right and above, with a
-// vertical field of view of 45 degrees. The image should be at least as wide as high.
+// vertical field of view of 45 degrees and near and far planes around them. The image should be at least as
+// wide as high.
 void frame_camera(Scene& scene);
 
-// The same for one instance's placement in the world.
+// Where an instance's mesh lies in the world.
 glm::mat4 model_matrix(const Instance& instance);
 
 }  // namespace edgewise

@@ -6,7 +6,9 @@
 namespace edgewise {
 
 // Vertices in either winding; see contract.h for the ranges (rules 2, 3 and 6), which the front end
-// guarantees and every backend relies on. A triangle of zero area draws nothing.
+// guarantees and every backend relies on: who makes triangles by hand must keep to |x_sub|, |y_sub| <=
+// contract::kGuardSub and contract::kDepthHead <= z <= contract::kDepthHead + contract::kDepthRange. A
+// triangle of zero area draws nothing.
 struct alignas(8) ScreenTriangle {
   std::int32_t x_sub[3];  // 1/256 px, x to the right
   std::int32_t y_sub[3];  // 1/256 px, y down

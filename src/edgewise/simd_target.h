@@ -1,4 +1,4 @@
-// The SIMD targets that kernels are compiled for, chosen at run time.
+// The SIMD targets that kernels are compiled for, chosen at run time. Any thread may call anything here.
 #pragma once
 
 #include <span>
@@ -6,6 +6,7 @@
 
 namespace edgewise {
 
+// All draw the same bits.
 enum class SimdTarget { scalar, sse4, avx2, avx512, best };
 
 // The targets this machine can run, slowest first; `best` stands for the last of them.

@@ -1,5 +1,6 @@
 // Triangle streams on disk (.tri), little endian: "TRI1", uint32 width, height, count, then per triangle nine
-// float32 (x, y, z of three vertices) and a uint32 colour.
+// float32 (x, y, z of three vertices) and a uint32 colour. Units as in StreamTriangle. Any thread may call
+// either, but only one at a time write to one std::ostream.
 #pragma once
 
 #include <filesystem>
@@ -15,6 +16,8 @@ namespace edgewise {
 // Vertices of any value, NaN included, are read as they are: the front end judges them.
 TriangleStream read_tri(const std::filesystem::path& path);
 
+// Throws std::invalid_argument for a stream that read_tri would refuse. A failure to write is left in the
+// state of `out`, or thrown if `out` throws.
 void write_tri(std::ostream& out, const TriangleStream& stream);
 
 }  // namespace edgewise

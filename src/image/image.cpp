@@ -97,25 +97,22 @@ std::runtime_error unknown_format(const fs::path& path) {
 
 }  // namespace
 
-Image to_image(const Framebuffer& frame) {
-  Image image{frame.width(), frame.height(), {}};
-  image.pixels.reserve(static_cast<std::size_t>(frame.width()) * static_cast<std::size_t>(frame.height()));
-  for (int y = 0; y < frame.height(); ++y)
-    image.pixels.insert(image.pixels.end(), frame.payload_row(y), frame.payload_row(y) + frame.width());
+Image to_image(const ConstFrameView& frame) {
+  Image image{frame.width, frame.height, {}};
+  image.pixels.reserve(static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height));
+  for (int y = 0; y < frame.height; ++y) {
+    const std::uint32_t* row = frame.payload + y * frame.stride;
+    image.pixels.insert(image.pixels.end(), row, row + frame.width);
+  }
   return image;
 }
 
-DepthMap to_depth_map(const Framebuffer& frame) {
-  const auto depth01 = [](std::uint32_t z) {
-    if (z == contract::kDepthClear) return 1.0f;
-    const double above_head = static_cast<double>(z) - contract::kDepthHead;
-    return static_cast<float>(std::clamp(above_head / contract::kDepthRange, 0.0, 1.0));
-  };
-  DepthMap map{frame.width(), frame.height(), {}};
-  map.depth01.resize(static_cast<std::size_t>(frame.width()) * static_cast<std::size_t>(frame.height()));
-  auto out = map.depth01.begin();
-  for (int y = 0; y < frame.height(); ++y)
-    out = std::transform(frame.depth_row(y), frame.depth_row(y) + frame.width(), out, depth01);
+DepthMap to_depth_map(const ConstFrameView& frame) {
+  DepthMap map{frame.width, frame.height, {}};
+  map.depth01.reserve(static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height));
+  for (int y = 0; y < frame.height; ++y)
+    for (int x = 0; x < frame.width; ++x)
+      map.depth01.push_back(static_cast<float>(contract::depth01(frame.depth[y * frame.stride + x])));
   return map;
 }
 

@@ -1,5 +1,5 @@
-// The list of coverage methods. A new one is a file in coverage_methods/ that defines make_coverage_NAME(),
-// and a line here.
+// The list of coverage methods. A new one is a file that defines make_coverage_NAME(): in coverage_methods/,
+// with a line here; or anywhere, named to CMake by EDGEWISE_COVERAGE_METHODS.
 #include "lab/coverage.h"
 
 #include <algorithm>
@@ -9,6 +9,10 @@
 #include "frontend/fixed.h"
 #include "lab/measure.h"
 #include "nearest_name.h"
+
+#ifndef EDGEWISE_MORE_COVERAGE_METHODS
+#define EDGEWISE_MORE_COVERAGE_METHODS(X)
+#endif
 
 #define EDGEWISE_COVERAGE_METHODS(X) \
   X(float_le)                        \
@@ -26,7 +30,8 @@
   X(fixed_16)                        \
   X(dda_float)                       \
   X(dda_16_16)                       \
-  X(dda_rounded)
+  X(dda_rounded)                     \
+  EDGEWISE_MORE_COVERAGE_METHODS(X)
 
 namespace edgewise::lab {
 

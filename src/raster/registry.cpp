@@ -1,5 +1,5 @@
-// The list of backends. A new one is a file in backends/ that defines make_NAME() and idea_NAME, and a line
-// here.
+// The list of backends. A new one is a file that defines make_NAME() and idea_NAME: in backends/, with a line
+// here; or anywhere, named to CMake by EDGEWISE_BACKENDS.
 #include <algorithm>
 #include <array>
 #include <stdexcept>
@@ -8,10 +8,15 @@
 #include "edgewise/backend.h"
 #include "nearest_name.h"
 
+#ifndef EDGEWISE_MORE_BACKENDS
+#define EDGEWISE_MORE_BACKENDS(X)
+#endif
+
 #define EDGEWISE_BACKENDS(X) \
   X(scanline)                \
   X(naive)                   \
-  X(tiled)
+  X(tiled)                   \
+  EDGEWISE_MORE_BACKENDS(X)
 
 namespace edgewise {
 

@@ -1,3 +1,5 @@
+// The list of scenes, at the end, and most of them. A new one is a function and a line here; or a file anywhere
+// that defines scene_NAME, named to CMake by EDGEWISE_SCENES.
 #include "edgewise/builtin.h"
 
 #include <algorithm>
@@ -10,7 +12,14 @@
 #include "scene/random.h"
 #include "scene/streams.h"
 
+#ifndef EDGEWISE_MORE_SCENES
+#define EDGEWISE_MORE_SCENES(X)
+#endif
+
 namespace edgewise {
+
+#define EDGEWISE_DECLARE(name) extern const SceneInfo scene_##name;
+EDGEWISE_MORE_SCENES(EDGEWISE_DECLARE)
 
 namespace {
 
@@ -227,7 +236,8 @@ Drawable grid64(const SceneRequest& r) {
 }  // namespace
 
 std::span<const SceneInfo> builtin_scenes() {
-  static constexpr std::array kScenes = {
+#define EDGEWISE_ENTRY(name) scene_##name,
+  static const std::array kScenes = {
       SceneInfo{"cube", "the tutorials' cube: twelve triangles of twelve colours, turning", false, cube},
       SceneInfo{"cubes", "seven cubes that overlap and interpenetrate", false, cubes},
       SceneInfo{"sphere", "49,152 triangles of nearly one size", false, sphere},
@@ -241,6 +251,7 @@ std::span<const SceneInfo> builtin_scenes() {
       SceneInfo{"sliver", "100,000 triangles of about 500 x 0.5 px in all directions", true, sliver},
       SceneInfo{"grid4", "a watertight jittered grid with cells of 4 px", true, grid4},
       SceneInfo{"grid64", "a watertight jittered grid with cells of 64 px", true, grid64},
+      EDGEWISE_MORE_SCENES(EDGEWISE_ENTRY)
   };
   return kScenes;
 }

@@ -17,7 +17,7 @@ template <typename Visit>
 void for_each_vertex(const Scene& scene, const Visit& visit) {
   for (const Instance& instance : scene.instances) {
     const glm::dmat4 model(model_matrix(instance));
-    for (const glm::vec3& position : scene.meshes[instance.mesh].positions) {
+    for (const glm::vec3& position : scene.meshes.at(instance.mesh).positions) {
       const glm::dvec3 world(model * glm::dvec4(position, 1.0));
       if (std::isfinite(world.x) && std::isfinite(world.y) && std::isfinite(world.z)) visit(world);
     }

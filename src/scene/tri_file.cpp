@@ -4,7 +4,6 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <limits>
 #include <ostream>
 #include <stdexcept>
 #include <string>
@@ -75,8 +74,8 @@ void write_tri(std::ostream& out, const TriangleStream& stream) {
              height = static_cast<std::uint32_t>(stream.height);
   if (!is_side(width) || !is_side(height))
     throw std::invalid_argument("a stream's image size is out of range");
-  if (stream.triangles.size() > std::numeric_limits<std::uint32_t>::max())
-    throw std::invalid_argument("a .tri file holds at most 4294967295 triangles");
+  if (stream.triangles.size() > kMaxTriangles)
+    throw std::invalid_argument("a .tri file holds at most " + std::to_string(kMaxTriangles) + " triangles");
 
   const Header header{kMagic, width, height, static_cast<std::uint32_t>(stream.triangles.size())};
   out.write(reinterpret_cast<const char*>(header.data()), sizeof header);

@@ -42,8 +42,7 @@ lab::FloatTriangle as_floats(const ScreenTriangle& t) {
   for (int i = 0; i < 3; ++i) {
     floats.at.x_px[i] = static_cast<float>(t.x_sub[i]) / contract::kSub;
     floats.at.y_px[i] = static_cast<float>(t.y_sub[i]) / contract::kSub;
-    floats.at.z01[i] = static_cast<float>((static_cast<double>(t.z[i]) - contract::kDepthHead) /
-                                          double{contract::kDepthRange});
+    floats.at.z01[i] = static_cast<float>(contract::depth01(t.z[i]));
   }
   return floats;
 }

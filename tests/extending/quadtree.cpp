@@ -1,0 +1,61 @@
+// A backend: quarters a triangle's box until a part lies outside an edge, or is a pixel.
+#include <algorithm>
+
+#include "edgewise/backend.h"
+#include "edgewise/contract.h"
+
+namespace edgewise {
+
+using namespace contract;
+
+namespace {
+
+struct Prepared {
+  Edge edges[3];     // rule 4
+  DepthPlane depth;  // rule 6
+  std::uint32_t payload;
+};
+
+void draw_part(const Prepared& t, PixelBox part, FrameView frame) {
+  if (part.empty()) return;
+  for (const Edge& edge : t.edges)  // asked where the part reaches farthest to its inner side
+    if (edge.at(edge.a > 0 ? part.x1 - 1 : part.x0, edge.b > 0 ? part.y1 - 1 : part.y0) < 0) return;
+  if (part.x1 - part.x0 == 1 && part.y1 - part.y0 == 1) {
+    const std::ptrdiff_t pixel = part.y0 * frame.stride + part.x0;
+    const std::uint32_t z = t.depth.at(part.x0, part.y0);
+    if (z < frame.depth[pixel]) frame.depth[pixel] = z, frame.payload[pixel] = t.payload;  // rule 7
+    return;
+  }
+  const int x = (part.x0 + part.x1) / 2, y = (part.y0 + part.y1) / 2;
+  draw_part(t, {part.x0, part.y0, x, y}, frame);
+  draw_part(t, {x, part.y0, part.x1, y}, frame);
+  draw_part(t, {part.x0, y, x, part.y1}, frame);
+  draw_part(t, {x, y, part.x1, part.y1}, frame);
+}
+
+class Quadtree final : public Backend {
+  void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
+                    const Execution&) override {
+    for (int y = 0; y < frame.height; ++y) {
+      std::fill_n(frame.depth + y * frame.stride, frame.width, kDepthClear);
+      std::fill_n(frame.payload + y * frame.stride, frame.width, background);
+    }
+    for (const ScreenTriangle& triangle : triangles) {
+      const Oriented t = orient(triangle);
+      if (t.area == 0) continue;
+      draw_part({{make_edge(t, 0), make_edge(t, 1), make_edge(t, 2)}, make_depth(t), triangle.payload},
+                pixel_box(triangle, frame.width, frame.height), frame);
+    }
+  }
+};
+
+}  // namespace
+
+extern const std::string_view idea_quadtree;
+const std::string_view idea_quadtree = "quarters the bounding box until a part is outside, or a pixel";
+std::unique_ptr<Backend> make_quadtree();
+std::unique_ptr<Backend> make_quadtree() {
+  return std::make_unique<Quadtree>();
+}
+
+}  // namespace edgewise
