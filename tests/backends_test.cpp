@@ -68,6 +68,25 @@ TEST_P(EveryBackend, DrawsTheOraclesPictureWhenTrianglesFillManyChunks) {
   expect_oracle(adversarial("equal-depth", 3'000, 40, 40, 5), 40, 40, "many chunks at one depth");
 }
 
+TEST_P(EveryBackend, DrawsTheOraclesPictureWhenPatchesTakeTooMuchMemory) {
+  // Eight pixels wide and high at most: small, but most of them in more than two windows of 8 x 8.
+  std::vector<ScreenTriangle> triangles(12'000);
+  std::uint32_t random = 1;
+  const auto below = [&](int end) {
+    random = random * 1664525u + 1013904223u;
+    return static_cast<std::int32_t>((random >> 8) % static_cast<unsigned>(end));
+  };
+  for (auto& t : triangles) {
+    const std::int32_t side = 2000, x = below(90 * kSub), y = below(70 * kSub);
+    t = {{x, x + side, x + below(side)},
+         {y, y + below(side), y + side},
+         {},
+         static_cast<std::uint32_t>(&t - triangles.data())};
+    for (auto& z : t.z) z = kDepthHead + static_cast<std::uint32_t>(below(1000));
+  }
+  expect_oracle(triangles, 97, 71, "patches of 8 x 8 pixels");
+}
+
 TEST_P(EveryBackend, ReachesTheFarCornerOfTheLargestImage) {
   for (const auto& [width, height] : {std::pair{kMaxImageSide, 3}, {3, kMaxImageSide}})
     expect_oracle(adversarial("subpixel", 6, width, height, 2), width, height, "largest side");

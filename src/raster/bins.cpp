@@ -76,6 +76,27 @@ void Bins::Chunk::bin(const ScreenTriangle& triangle, std::uint32_t index, const
 
 namespace {
 
+// Takes back what was resolved of triangles that need more than two patches.
+[[gnu::noinline]] void keep_short(SortedTriangles& sorted, const ScreenTriangle* some, const CellGrid& grid) {
+  std::size_t n = 0, kept = 0;
+  for (std::uint64_t left = sorted.patched; left != 0; left &= left - 1, ++n) {
+    if (std::popcount(sorted.windows[n]) > 2) {
+      const auto k = static_cast<std::size_t>(std::countr_zero(left));
+      sorted.patched ^= left & -left;
+      sorted.boxed |= left & -left;
+      const PixelBox box = pixel_box(some[k], grid.width, grid.height);
+      const auto cell = [](int px, int log2) { return static_cast<std::uint16_t>(px >> log2); };
+      sorted.boxes[k] = {cell(box.x0, grid.cell_w_log2), cell(box.y0, grid.cell_h_log2),
+                         cell(box.x1 - 1, grid.cell_w_log2), cell(box.y1 - 1, grid.cell_h_log2)};
+    } else {
+      sorted.windows[kept] = sorted.windows[n];
+      for (std::size_t w = 0; w < SortedTriangles::kWindows; ++w)
+        sorted.first[w][kept] = sorted.first[w][n], sorted.second[w][kept] = sorted.second[w][n];
+      ++kept;
+    }
+  }
+}
+
 // Calls sort(triangles + i, i) for every kBoxesAtOnce of them; empty triangles fill up what is missing.
 template <typename Sort>
 void in_batches(std::span<const ScreenTriangle> triangles, Sort&& sort) {
@@ -101,11 +122,16 @@ void Bins::Chunk::bin_as_indices(std::span<const ScreenTriangle> triangles, std:
   });
 }
 
+// `most_patch_bytes`: when patches have taken that much, triangles that need more than two become indices,
+// which are slower to draw, but shorter.
 void Bins::Chunk::bin_with_patches(std::span<const ScreenTriangle> triangles, std::size_t begin,
-                                   const CellGrid& grid, bool prefetch, PatchFinder find_patches) {
+                                   const CellGrid& grid, bool prefetch, PatchFinder find_patches,
+                                   std::size_t most_patch_bytes) {
   SortedTriangles sorted;
   in_batches(triangles, [&](const ScreenTriangle* some, std::size_t at) {
     find_patches(some, grid, prefetch, sorted);
+    if (patches.used_bytes() > most_patch_bytes) [[unlikely]]
+      keep_short(sorted, some, grid);
     std::size_t n = 0;
     for (std::uint64_t left = sorted.boxed | sorted.patched; left != 0; left &= left - 1) {
       const auto k = static_cast<std::size_t>(std::countr_zero(left));
@@ -128,9 +154,12 @@ void Bins::build(std::span<const ScreenTriangle> triangles, const CellGrid& grid
   // vectors of who draws it.
   constexpr std::size_t kLeastChunk = 500;
   constexpr std::size_t kMaxHeads = std::size_t{1} << 24;  // of all chunks: 128 MB, 384 with patches
+  // With the triangles themselves and the frame, less than 100 bytes a triangle and 16 a pixel.
+  constexpr std::size_t kPatchBytes = 40, kPatchBytesPerPixel = 8;
   const auto cells = static_cast<std::size_t>(grid.cells());
   // A chunk a thread: the more lists a cell has, the more of them have to be found, begun and left half full.
   const auto most = static_cast<std::size_t>(threads);
+  const std::size_t pixels = static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height);
   const std::size_t affordable = std::max<std::size_t>(1, kMaxHeads / cells);
   used_chunks_ = std::clamp<std::size_t>(triangles.size() / kLeastChunk, 1, std::min(most, affordable));
   if (chunks_.size() < used_chunks_) chunks_.resize(used_chunks_);
@@ -145,7 +174,9 @@ void Bins::build(std::span<const ScreenTriangle> triangles, const CellGrid& grid
     const auto some = triangles.subspan(begin, triangles.size() * (c + 1) / used_chunks_ - begin);
     if (find_patches != nullptr) {
       chunk.patches.reset(cells, some.size());
-      chunk.bin_with_patches(some, begin, grid, prefetch, find_patches);
+      const std::size_t most_patch_bytes =
+          some.size() * kPatchBytes + pixels * kPatchBytesPerPixel / used_chunks_;
+      chunk.bin_with_patches(some, begin, grid, prefetch, find_patches, most_patch_bytes);
     } else {
       chunk.bin_as_indices(some, begin, grid, prefetch, find_boxes);
     }

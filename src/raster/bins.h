@@ -123,7 +123,7 @@ class Bins {
     void bin_as_indices(std::span<const ScreenTriangle> triangles, std::size_t begin, const CellGrid& grid,
                         bool prefetch, CellBoxKernel find_boxes);
     void bin_with_patches(std::span<const ScreenTriangle> triangles, std::size_t begin, const CellGrid& grid,
-                          bool prefetch, PatchFinder find_patches);
+                          bool prefetch, PatchFinder find_patches, std::size_t most_patch_bytes);
   };
 
   std::vector<Chunk> chunks_;

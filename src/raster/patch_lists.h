@@ -39,6 +39,7 @@ class PatchLists {
   }
 
   bool any() const { return used_ != 0; }
+  std::size_t used_bytes() const { return used_; }
   Position end(std::size_t cell) const { return lists_[cell].end; }
   bool empty(std::size_t cell) const { return lists_[cell].end == nullptr; }
 

@@ -48,8 +48,9 @@ class Tile {
   alignas(64) std::int32_t planes_[2 * kTilePixels + kSpare];
 
  public:
-  // No pixel of the block is farther.
-  alignas(64) std::int32_t farthest[kMaxBlocks * kMaxBlocks + kBlocksAtOnce];
+  // No pixel of the block is farther. Sifting reads and writes back what lies right of a box.
+  static constexpr int kFarthest = kMaxBlocks * kMaxBlocks + kBlocksAtOnce;
+  alignas(64) std::int32_t farthest[kFarthest];
 };
 
 // A list that a vector's selected lanes are appended to; it needs kLanes to spare.
@@ -76,17 +77,25 @@ HWY_INLINE Sixteen over_block(const std::int32_t* x, const std::int32_t* y) {
   return out;
 }
 
-// Writes those of a vector of a block's pixels that win, given their old depths.
-HWY_INLINE void write(Tile& tile, int at, hn::Mask<D> wins, V old_z, V z, V payload) {
+// Writes those of a vector of a block's pixels that win, given their old depths. Stores under a mask are
+// faster where a mask has a register of its own.
+HWY_INLINE void write(Tile& tile, int at, hn::Mask<D> wins, [[maybe_unused]] V old_z, V z, V payload) {
   const D d;
-  hn::Store(hn::IfThenElse(wins, z, old_z), d, tile.depth() + at);
-  hn::Store(hn::IfThenElse(wins, payload, hn::Load(d, tile.payload() + at)), d, tile.payload() + at);
+  std::int32_t* const to_depth = tile.depth() + at;
+  std::int32_t* const to_payload = tile.payload() + at;
+#if HWY_TARGET <= HWY_AVX3  // the better the target, the lower its number
+  hn::BlendedStore(z, wins, d, to_depth);
+  hn::BlendedStore(payload, wins, d, to_payload);
+#else
+  hn::Store(hn::IfThenElse(wins, z, old_z), d, to_depth);
+  hn::Store(hn::IfThenElse(wins, payload, hn::Load(d, to_payload)), d, to_payload);
+#endif
 }
 // Tests and writes them where `outside` is not negative.
 HWY_INLINE void write(Tile& tile, int at, V outside, V z, V payload) {
   const D d;
   const V old_z = hn::Load(d, tile.depth() + at);
-  write(tile, at, hn::AndNot(hn::Lt(outside, hn::Zero(d)), hn::Lt(z, old_z)), old_z, z, payload);
+  write(tile, at, hn::And(hn::Gt(outside, hn::Set(d, -1)), hn::Lt(z, old_z)), old_z, z, payload);
 }
 
 #if HWY_TARGET != HWY_SCALAR

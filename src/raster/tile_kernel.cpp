@@ -12,8 +12,9 @@
 //    (tile_small-inl.h) at a time: all blocks that an edge rejects, or that lie behind the block's farthest
 //    depth (hierarchical depth: Greene, Kass and Miller, "Hierarchical Z-buffer visibility", 1993), fall out
 //    in one vector operation.
-// 5. What is touched goes to a list first: how many blocks a triangle has is hard for a branch predictor to
-//    guess, and the loop over the list need not.
+// 5. What is touched goes to a list first (tile_touched-inl.h): how many blocks a triangle has is hard for a
+//    branch predictor to guess, and the loop over the list need not. A large triangle's list waits while the
+//    next one is sifted: so its length is long known when the loop begins.
 // 6. Small triangles come as patches, whose pixels were found where they were binned (patch_finder.cpp); they
 //    are drawn without a branch (tile_patches-inl.h).
 #undef HWY_TARGET_INCLUDE
@@ -35,12 +36,76 @@
 #include "raster/tile_rows-inl.h"
 #include "raster/tile_setup-inl.h"
 #include "raster/tile_small-inl.h"
+#include "raster/tile_touched-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace edgewise {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace contract;
+
+// Draws what a tile's bin holds, in submission order.
+class TilePainter {
+ public:
+  TilePainter(const TileJob& job, Tile& tile)
+      : job_(job), tile_(tile), small_(tile), patches_(*job.bins, job.cell) {}
+
+  HWY_NOINLINE void draw_run(const Bins::Run& run) {
+    Touched* next = touched_;
+    const Touched* waiting = nullptr;
+    const auto draw_waiting = [&] {
+      if (waiting != nullptr) draw_touched(tile_, batch_, *waiting);
+      waiting = nullptr;
+    };
+    const auto draw_some = [&](std::span<const Patch> patches) {
+      draw_waiting();
+      draw(patches);
+    };
+    for (std::uint32_t left = set_up(job_, run.indices, batch_); left != 0; left &= left - 1) {
+      const int k = std::countr_zero(left);
+      patches_.up_to(run, static_cast<std::size_t>(k), draw_some);
+      const int width = batch_.bx1[k] - batch_.bx0[k] + 1, height = batch_.by1[k] - batch_.by0[k] + 1;
+      if (std::max(width, height) <= SmallTriangles::kSide) {
+        draw_waiting();
+        small_.add(batch_, k);
+      } else {
+        small_.draw();
+        // Thin triangles fill no block, and hide none.
+        hides_ = hides_ || (job_.ideas.hierarchical_depth && may_fill_blocks(batch_, k));
+        hides_ ? sift<true>(k, width, *next) : sift<false>(k, width, *next);
+        draw_waiting();
+        waiting = next;
+        next = next == touched_ ? touched_ + 1 : touched_;
+      }
+    }
+    draw_waiting();
+  }
+
+  void draw_rest() {
+    small_.draw();
+    patches_.to_the_end([&](std::span<const Patch> patches) { draw(patches); });
+  }
+
+ private:
+  HWY_INLINE void draw(std::span<const Patch> patches) {
+    small_.draw();
+    draw_patches(tile_, patches);
+  }
+  template <bool kHierarchicalDepth>
+  HWY_INLINE void sift(int k, int width, Touched& out) {
+    constexpr std::size_t kAll = kVectors, kHalf = std::max(kVectors / 2, 1);
+    width <= kMaxBlocks / 2 ? sift_rows<kHierarchicalDepth, kHalf>(tile_, batch_, k, out)
+                            : sift_rows<kHierarchicalDepth, kAll>(tile_, batch_, k, out);
+  }
+
+  const TileJob& job_;
+  Tile& tile_;
+  Batch batch_;
+  SmallTriangles small_;
+  Touched touched_[2];  // one is filled while the other waits
+  Bins::PatchReader patches_;
+  bool hides_ = false;
+};
 
 void draw_tile(const TileJob& job) {
   const Place depth(job, job.frame.depth), payload(job, job.frame.payload);
@@ -59,33 +124,11 @@ void draw_tile(const TileJob& job) {
     fill(tile.depth() + y * kMaxTile, size * kBlock, kDepthClear);
     fill(tile.payload() + y * kMaxTile, size * kBlock, job.background);
   }
-  fill(tile.farthest, kMaxBlocks * kMaxBlocks + kBlocksAtOnce, kDepthClear);
+  fill(tile.farthest, Tile::kFarthest, kDepthClear);
 
-  Batch batch;
-  SmallTriangles small(tile);
-  bool hides = false;
-  Bins::PatchReader patches(*job.bins, job.cell);
-  const auto draw_some = [&](std::span<const Patch> some) {
-    small.draw();
-    draw_patches(tile, some);
-  };
-  const auto draw_run = [&](const Bins::Run& run) {
-    for (std::uint32_t left = set_up(job, run.indices, batch); left != 0; left &= left - 1) {
-      const int k = std::countr_zero(left);
-      patches.up_to(run, static_cast<std::size_t>(k), draw_some);
-      if (std::max(batch.bx1[k] - batch.bx0[k], batch.by1[k] - batch.by0[k]) < SmallTriangles::kSide) {
-        small.add(batch, k);
-      } else {
-        small.draw();
-        // Thin triangles fill no block, and hide none.
-        hides = hides || (job.ideas.hierarchical_depth && may_fill_blocks(batch, k));
-        hides ? draw_rows<true>(tile, batch, k) : draw_rows<false>(tile, batch, k);
-      }
-    }
-  };
-  draw_runs(job, draw_run);
-  small.draw();
-  patches.to_the_end(draw_some);
+  TilePainter painter(job, tile);
+  draw_runs(job, [&](const Bins::Run& run) { painter.draw_run(run); });
+  painter.draw_rest();
   write_out(depth, tile.depth());
   write_out(payload, tile.payload());
   hwy::FlushStream();

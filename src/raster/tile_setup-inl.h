@@ -41,6 +41,7 @@ struct alignas(64) Batch {
   struct Linear {
     std::int32_t x[kSize], y[kSize];  // step a pixel
     std::int32_t first[kSize];        // at the first pixel of block (bx0, by0)
+    std::int32_t most[kSize];         // where it is largest in that block: first + rise
     std::int32_t rise[kSize];         // from a block's first pixel to where it is largest in the block
     std::int32_t span[kSize];         // from where it is smallest to where it is largest
   } edge[3], depth;
@@ -62,7 +63,8 @@ inline void set(Batch::Linear& f, int k, std::int32_t x, std::int32_t y, std::in
   const auto up = [](std::int32_t step) { return step > 0 ? static_cast<std::uint32_t>(step) : 0u; };
   const auto down = [](std::int32_t step) { return step < 0 ? 0u - static_cast<std::uint32_t>(step) : 0u; };
   const std::uint32_t rise = (kBlock - 1) * (up(x) + up(y)), fall = (kBlock - 1) * (down(x) + down(y));
-  f.x[k] = x, f.y[k] = y, f.first[k] = first, f.rise[k] = wrap(rise), f.span[k] = wrap(rise + fall);
+  f.x[k] = x, f.y[k] = y, f.first[k] = first, f.most[k] = wrap(static_cast<std::uint32_t>(first) + rise);
+  f.rise[k] = wrap(rise), f.span[k] = wrap(rise + fall);
 }
 
 // The plain form: what set_up() below does for many, done for one. False if no pixel of the tile is touched.
@@ -115,7 +117,8 @@ HWY_INLINE V32 thrice(V32 v) {
 HWY_INLINE void store(Batch::Linear& f, int k, V32 x, V32 y, V32 first) {
   const V32 zero = hn::Zero(D32{});
   store(x, f.x + k), store(y, f.y + k), store(first, f.first + k);
-  store(thrice(hn::Add(hn::Max(x, zero), hn::Max(y, zero))), f.rise + k);
+  const V32 rise = thrice(hn::Add(hn::Max(x, zero), hn::Max(y, zero)));
+  store(rise, f.rise + k), store(hn::Add(first, rise), f.most + k);
   store(thrice(hn::Add(hn::Abs(x), hn::Abs(y))), f.span + k);
 }
 

@@ -1,0 +1,78 @@
+// Lists of patches: what was appended comes back in its order, whole or between two positions, however often
+// memory had to grow.
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "raster/patch.h"
+#include "raster/patch_finder.h"
+#include "raster/patch_lists.h"
+
+namespace edgewise {
+namespace {
+
+using Half = SortedTriangles::Half;
+
+// A patch that tells its number.
+void append(PatchLists& lists, std::uint32_t cell, std::uint32_t number) {
+  lists.append(Half{{number, ~number, 1, 2}}, Half{{number + 1, 3, 4, cell}});
+}
+
+std::vector<std::uint32_t> numbers(const PatchLists& lists, std::size_t cell, PatchLists::Position from,
+                                   PatchLists::Position to) {
+  std::vector<std::uint32_t> out;
+  lists.for_each_run(cell, from, to, [&](std::span<const Patch> patches) {
+    EXPECT_FALSE(patches.empty());
+    for (const Patch& patch : patches) {
+      EXPECT_EQ(patch.rows[1], ~patch.rows[0]);
+      EXPECT_EQ(patch.z, patch.rows[0] + 1);
+      EXPECT_EQ(patch.cell, cell);
+      out.push_back(patch.rows[0]);
+    }
+  });
+  return out;
+}
+
+struct Size {
+  std::size_t cells, expected, appended;
+};
+class PatchListsOfSize : public testing::TestWithParam<Size> {};
+
+TEST_P(PatchListsOfSize, KeepOrderWhenMemoryGrows) {
+  const auto [cells, expected, appended] = GetParam();
+  PatchLists lists;
+  for (std::uint32_t frame = 0; frame < 2; ++frame) {  // the second one finds the memory of the first
+    lists.reset(cells, expected);
+    EXPECT_FALSE(lists.any());
+    std::vector<std::vector<std::uint32_t>> in_list(cells);
+    std::vector<PatchLists::Position> middle(cells, nullptr);
+    std::vector<std::size_t> before_middle(cells, 0);
+    for (std::uint32_t i = 0; i < appended; ++i) {
+      const std::size_t cell = (i * 2654435761u >> 16) % (cells + 1) % cells;  // the first has more
+      append(lists, static_cast<std::uint32_t>(cell), i + frame);
+      in_list[cell].push_back(i + frame);
+      if (i == appended / 2)
+        for (std::size_t c = 0; c < cells; ++c)
+          middle[c] = lists.end(c), before_middle[c] = in_list[c].size();
+    }
+    EXPECT_TRUE(lists.any());
+    for (std::size_t c = 0; c < cells; ++c) {
+      EXPECT_EQ(lists.empty(c), in_list[c].empty());
+      const auto cut = in_list[c].begin() + static_cast<std::ptrdiff_t>(before_middle[c]);
+      EXPECT_EQ(numbers(lists, c, nullptr, lists.end(c)), in_list[c]);
+      EXPECT_EQ(numbers(lists, c, nullptr, middle[c]), std::vector(in_list[c].begin(), cut));
+      EXPECT_EQ(numbers(lists, c, middle[c], lists.end(c)), std::vector(cut, in_list[c].end()));
+    }
+  }
+}
+
+// Blocks of 256 bytes hold 7 patches, those of 4096 bytes 127. Slabs double: the fifth begins where fifteen
+// times as much is there as was expected.
+INSTANTIATE_TEST_SUITE_P(Sizes, PatchListsOfSize,
+                         testing::Values(Size{1, 1, 1}, Size{3, 1, 7}, Size{3, 1, 5000}, Size{510, 1, 3000},
+                                         Size{1, 4000, 20000}, Size{2, 4000, 90000}));
+
+}  // namespace
+}  // namespace edgewise
