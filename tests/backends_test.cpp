@@ -21,12 +21,18 @@ using testing::kBackground;
 
 class EveryBackend : public ::testing::TestWithParam<std::string_view> {
  protected:
-  std::unique_ptr<Backend> backend_ = find_backend(GetParam()).make();
+  const BackendInfo& info_ = find_backend(GetParam());
+  std::unique_ptr<Backend> backend_ = info_.make();
 
+  Framebuffer oracle(std::span<const ScreenTriangle> triangles, int width, int height) const {
+    Framebuffer expected(width, height);
+    (info_.fills ? lab::draw_oracle : lab::draw_edge_oracle)(triangles, expected, kBackground);
+    return expected;
+  }
   void expect_oracle(std::span<const ScreenTriangle> triangles, int width, int height,
                      const std::string& what) {
-    Framebuffer expected(width, height), actual(width, height);
-    lab::draw_oracle(triangles, expected, kBackground);
+    const Framebuffer expected = oracle(triangles, width, height);
+    Framebuffer actual(width, height);
     for (const auto& execution : testing::executions()) {
       lab::poison(actual);  // or what is left out would still be right, from the draw before
       backend_->draw(triangles, actual.view(), kBackground, execution);
@@ -193,14 +199,14 @@ TEST_P(EveryBackend, DrawsNothingButBackgroundWithoutTriangles) {
 }
 
 TEST_P(EveryBackend, KeepsTheEarlierTriangleAtATie) {
-  const ScreenTriangle first{{0, 40 * 256, 0}, {0, 0, 40 * 256}, {5000, 5000, 5000}, 1};
+  const ScreenTriangle first{{0, 40 * 256, 3 * 256}, {0, 0, 40 * 256}, {5000, 5000, 5000}, 1};
   ScreenTriangle second = first;
   second.payload = 2;
   const ScreenTriangle both[] = {first, second};
   Framebuffer frame(32, 32);
   for (const auto& execution : testing::executions()) {
     backend_->draw(both, frame.view(), 0, execution);
-    EXPECT_EQ(frame.payload_row(3)[3], 1u) << testing::describe(execution);
+    EXPECT_EQ(frame.payload_row(0)[3], 1u) << testing::describe(execution);
   }
 }
 
@@ -228,8 +234,7 @@ TEST_P(EveryBackend, WritesEveryPixelOfACallersFrameAndNothingBesideIt) {
   constexpr int kWidth = 75, kHeight = 66;
   constexpr std::uint32_t kCanary = 0xDEADBEEF;
   const auto triangles = adversarial("subpixel", 50, kWidth, kHeight, 9);
-  Framebuffer expected(kWidth, kHeight);
-  lab::draw_oracle(triangles, expected, kBackground);
+  const Framebuffer expected = oracle(triangles, kWidth, kHeight);
   // Odd strides and starts defeat aligned stores; a multiple of four invites them.
   for (const auto& [stride, offset] :
        {std::pair{kWidth, 0}, {kWidth + 2, 1}, {kWidth + 5, 0}, {kWidth + 5, 3}}) {
@@ -271,7 +276,7 @@ TEST_P(EveryBackend, RefusesWhatItCannotDraw) {
   EXPECT_NO_THROW(draw(good, {}));
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, EveryBackend, ::testing::ValuesIn(testing::backend_names()),
+INSTANTIATE_TEST_SUITE_P(Registry, EveryBackend, ::testing::ValuesIn(testing::names_of(backends())),
                          [](const auto& param) { return testing::test_name(param); });
 
 TEST(Registry, HoldsEveryFileInTheBackendsFolder) {
@@ -307,6 +312,13 @@ TEST(Framebuffer, RowsAreWholeCacheLinesAndNoMultipleOfAPageApart) {
     for (const std::uint32_t* row : {frame.depth_row(1), frame.payload_row(2)})
       EXPECT_EQ(reinterpret_cast<std::uintptr_t>(row) % (kLine * sizeof(*row)), 0u) << width;
   }
+}
+
+TEST(Registry, NamesThoseThatFillFirst) {
+  const auto filling = filling_backends();
+  for (const auto& b : backends())
+    EXPECT_EQ(b.fills, std::any_of(filling.begin(), filling.end(), [&](const auto& f) { return &f == &b; }))
+        << b.name;
 }
 
 TEST(Framebuffer, RefusesSidesThatTheContractCannotHold) {

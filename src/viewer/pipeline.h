@@ -51,7 +51,7 @@ class Pipeline {
  public:
   // The choice must be drawable (drawable_part).
   Picture draw(const Choice& choice, const View& view);
-  // Of the same choice and view.
+  // Of the same choice and view; the choice must be one that fills.
   Judgement judge(const Choice& choice, const View& view, Truth truth);
   // What the last draw's front end would hand to a backend.
   std::span<const ScreenTriangle> screen_triangles() const { return screen_; }
