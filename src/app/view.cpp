@@ -15,6 +15,7 @@
 #include "edgewise/image.h"
 #include "viewer/session.h"
 #include "viewer/terminal.h"
+#include "viewer/typing.h"
 #include "viewer/window.h"
 
 namespace edgewise::app {
@@ -22,7 +23,6 @@ namespace edgewise::app {
 namespace {
 
 constexpr int kMostFrames = 1'000'000;
-constexpr double kStroke_s = 0.1;  // how long --keys holds each key
 
 struct ViewOptions {
   std::string scene = "cube", keys, output, folder = ".";
@@ -55,21 +55,6 @@ viewer::Session make_session(const ViewOptions& o, Shot first) {
   return viewer::Session(std::move(start));
 }
 
-void type(viewer::Session& session, const std::vector<viewer::Stroke>& strokes, Size size,
-          viewer::Cell cell) {
-  session.draw(size, cell);
-  for (const viewer::Stroke& stroke : strokes) {
-    if (const auto* const key = std::get_if<viewer::Key>(&stroke)) {
-      session.press(*key);
-      session.advance(kStroke_s);
-      session.release(*key);
-    } else {
-      session.advance(std::get<double>(stroke));
-    }
-    session.draw(size, cell);
-  }
-}
-
 void print_saved(viewer::Session& session) {
   for (const std::string& path : session.take_saved()) print(printable(path) + "\n");
 }
@@ -92,7 +77,7 @@ int view(const ViewOptions& o, viewer::ShowWindow show_window) {
   const Size size{shot.frontend.width, shot.frontend.height};
   viewer::Session session = make_session(o, std::move(shot));
   const int scale = viewer::font_scale(size.height);
-  if (!o.terminal || !strokes.empty()) type(session, strokes, size, viewer::font_cell(scale));
+  if (!o.terminal || !strokes.empty()) viewer::type(session, strokes, size, viewer::font_cell(scale));
   if (!o.output.empty()) {
     viewer::Screen& screen = session.draw(size, viewer::font_cell(scale));
     viewer::paint(screen, scale);
@@ -117,7 +102,8 @@ std::string footer() {
   edgewise view cube --keys "bbbe<enter>" -o seen.png  what these keys lead to, without a window
   edgewise view torus-knot --keys r --frames 600       how smoothly it turns here
 
---keys: names of keys that are no characters stand in brackets, as do seconds to wait: "v<tab>b<1.5>".
+--keys: names of keys that are no characters stand in brackets, as do names of methods, which they put at their
+stage, and seconds to wait: "v<tab><float_lt><1.5>".
 The names of the files that p saves are printed. They never replace others.
 
 Keys:

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "viewer/choice.h"
+
 namespace edgewise::viewer {
 
 namespace {
@@ -27,10 +29,12 @@ Stroke parse_name(std::string_view name) {
   const auto found =
       std::find_if(kNames.begin(), kNames.end(), [&](const auto& known) { return known.first == name; });
   if (found != kNames.end()) return found->second;
+  if (Choice unused; put(name, unused)) return Named{std::string(name)};
   double seconds = 0;
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), seconds);
   if (error != std::errc{} || end != name.data() + name.size() || !(seconds >= 0 && seconds <= kLongestWait))
-    throw std::invalid_argument("--keys: <" + std::string(name) + "> is no key, and no time in seconds");
+    throw std::invalid_argument("--keys: <" + std::string(name) +
+                                "> is no key, no method, and no time in seconds");
   return seconds;
 }
 
@@ -80,6 +84,7 @@ std::span<const KeyRow> key_table() {
       {"t", "vertex labels", {{key_of('t'), Command::labels}}},
       {"o", "overlay: full, short, none", {{key_of('o'), Command::overlay}}},
       {"p", "save a .png and a .tri", {{key_of('p'), Command::save}}},
+      {"5", "the next step of a demonstration", {{key_of('5'), Command::next_step}}},
       {"h", "this help", {{key_of('h'), Command::help}}},
       {"q, esc", "quit", {{key_of('q'), Command::quit}, {Key::escape, Command::quit}}},
   };
