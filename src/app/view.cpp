@@ -11,6 +11,7 @@
 #include "app/console.h"
 #include "app/options.h"
 #include "app/printable.h"
+#include "app/show.h"
 #include "edgewise/contract.h"
 #include "edgewise/image.h"
 #include "viewer/session.h"
@@ -55,10 +56,6 @@ viewer::Session make_session(const ViewOptions& o, Shot first) {
   return viewer::Session(std::move(start));
 }
 
-void print_saved(viewer::Session& session) {
-  for (const std::string& path : session.take_saved()) print(printable(path) + "\n");
-}
-
 int view(const ViewOptions& o, viewer::ShowWindow show_window) {
   const auto strokes = viewer::parse_keys(o.keys);
   if (!o.output.empty() && !is_image_path(o.output))
@@ -67,21 +64,15 @@ int view(const ViewOptions& o, viewer::ShowWindow show_window) {
     throw std::invalid_argument("--terminal goes with neither --output nor --frames");
   if (!o.output.empty() && o.frames > 0)
     throw std::invalid_argument("--output and --frames exclude each other");
-  if (show_window == nullptr && !o.terminal && o.output.empty())
-    throw std::invalid_argument(
-        "this program was built without SDL2, which opens windows: try --terminal, or install libsdl2-dev "
-        "and "
-        "build again");
+  if (!o.terminal && o.output.empty()) check_windows(show_window);
   // What is wrong with the scene is to be known before a window opens.
   Shot shot = load_shot(o.scene, o.options, o.options.time.value_or(0.0));
   const Size size{shot.frontend.width, shot.frontend.height};
   viewer::Session session = make_session(o, std::move(shot));
-  const int scale = viewer::font_scale(size.height);
-  if (!o.terminal || !strokes.empty()) viewer::type(session, strokes, size, viewer::font_cell(scale));
+  if (!o.terminal || !strokes.empty())
+    viewer::type(session, strokes, size, viewer::font_cell(viewer::font_scale(size.height)));
   if (!o.output.empty()) {
-    viewer::Screen& screen = session.draw(size, viewer::font_cell(scale));
-    viewer::paint(screen, scale);
-    write_image(o.output, screen.picture);
+    write_seen(o.output, session, size);
   } else if (o.terminal) {
     viewer::show_in_terminal(session);
   } else {
