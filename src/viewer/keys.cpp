@@ -82,6 +82,7 @@ std::span<const KeyRow> key_table() {
       {"v", "one, side by side, difference", {{key_of('v'), Command::arrangement}}},
       {"tab", "keys go to the other side", {{Key::tab, Command::other_side}}},
       {"t", "vertex labels", {{key_of('t'), Command::labels}}},
+      {"6", "outlines, white of what clipping cut in several", {{key_of('6'), Command::outlines}}},
       {"o", "overlay: full, short, none", {{key_of('o'), Command::overlay}}},
       {"p", "save a .png and a .tri", {{key_of('p'), Command::save}}},
       {"5", "the next step of a demonstration", {{key_of('5'), Command::next_step}}},

@@ -68,6 +68,7 @@ enum class Command : std::uint8_t {
   arrangement,
   other_side,
   labels,
+  outlines,
   overlay,
   next_step,
   help,

@@ -264,6 +264,7 @@ class Overlaying {
             s.cull_front ? kNotOurs : kPlain);
     to.line(unless_reproducible("front end {:.2f} ms, raster {:.2f} ms", s.frontend_ms, s.raster_ms));
     if (i == 1) to.line(compared_with_the_other(s));
+    if (state_.outlines) to.line("[6] outlined; white: cut into several triangles");
     const auto clipped = n.clipped_near + n.clipped_far + n.clipped_guard;
     to.line(fmt::format("{} in, {} culled, {}{} drawn", n.triangles, n.culled,
                         c.our_clipping() ? fmt::format("{} clipped, ", clipped) : "", n.emitted));

@@ -227,6 +227,9 @@ void Session::act(Command command) {
     case Command::labels:
       state_.labels = !state_.labels;
       break;
+    case Command::outlines:
+      state_.outlines = !state_.outlines;
+      break;
     case Command::overlay:
       state_.overlay = next_of_three(state_.shown_overlay);
       break;
@@ -396,6 +399,7 @@ Image Session::draw_side(std::size_t i, app::Size size, double& work_ms) {
   side.stats = picture.stats;
   work_ms += picture.frontend_ms + picture.raster_ms;
   judge_if_due(i, choice, view, work_ms);
+  if (state_.outlines) pipelines_[i].outline(choice, view, picture.image);
   return std::move(picture.image);
 }
 

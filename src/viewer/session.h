@@ -71,7 +71,7 @@ struct State {
   std::optional<Overlay> overlay;         // none: what there is room for
   Overlay shown_overlay = Overlay::full;  // in the last frame
   std::size_t active = 0;                 // the side that keys go to
-  bool magnifier = false, labels = false;
+  bool magnifier = false, labels = false, outlines = false;
   int help_page = 0;            // from 1; 0: none
   std::uint64_t differing = 0;  // pixels, in the difference of both sides
   double frame_ms = 0;          // mean of late
