@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -29,7 +30,7 @@ constexpr int kMostFrames = 100000;
 
 struct DemoOptions {
   std::vector<std::string> names;
-  std::string output;
+  std::optional<std::string> output;
   int frames = 1;
   bool view = false, terminal = false, json = false;
   std::optional<Size> size;
@@ -93,7 +94,7 @@ void write_frames(const viewer::Demo& demo, const DemoOptions& o, const OutputPa
 }
 
 int write_all(const DemoOptions& o) {
-  const OutputPaths paths("--output", o.output, OutputPaths::Kind::picture, o.names, o.frames);
+  const OutputPaths paths("--output", *o.output, OutputPaths::Kind::picture, o.names, o.frames);
   paths.make_folder();
   Progress progress;
   for (const std::string& name : o.names) write_frames(viewer::find_demo(name), o, paths, progress);
@@ -117,15 +118,15 @@ int show(const viewer::Demo& demo, const DemoOptions& o, viewer::ShowWindow show
 int demonstrate(const DemoOptions& o, viewer::ShowWindow show_window) {
   for (const std::string& name : o.names) viewer::find_demo(name);
   const bool alive = o.view || o.terminal;
-  if (alive && !o.output.empty()) throw std::invalid_argument("--view and --output exclude each other");
-  if (o.frames > 1 && o.output.empty()) throw std::invalid_argument("--frames needs --output");
+  if (alive && o.output) throw std::invalid_argument("--view and --output exclude each other");
+  if (o.frames > 1 && !o.output) throw std::invalid_argument("--frames needs --output");
   if (o.names.empty()) {
-    if (alive || !o.output.empty())
+    if (alive || o.output)
       throw std::invalid_argument("no TUTORIAL is named; edgewise demo lists them");
     print(o.json ? json_text(as_json(), 2) + "\n" : list_of_all());
     return kDone;
   }
-  if (!o.output.empty()) return write_all(o);
+  if (o.output) return write_all(o);
   if (alive && o.names.size() > 1) throw std::invalid_argument("--view shows one TUTORIAL");
   if (alive) return show(viewer::find_demo(o.names.front()), o, show_window);
   for (const std::string& name : o.names) print(steps_of(viewer::find_demo(name)));

@@ -18,27 +18,82 @@ Scene built_in(std::string_view name) {
   return std::get<Scene>(find_scene(name).make({}));
 }
 
-// Head on from a little to the right and above: the face towards the eye is a square on the screen, and its
-// diagonal runs through pixel centres, since the eye has moved along it.
+// Head on, from a little to the left and below: the face towards the eye is a square on the screen, and its
+// diagonal runs through pixel centres, as the eye has moved along it.
 Scene cube_head_on() {
   Scene scene = built_in("cube");
   scene.instances[0].angle = 0.0f;
   scene.camera = {};
-  scene.camera.position = {1.5f, 1.5f, 4.0f};
+  scene.camera.position = {-1.125f, -1.125f, 3.8125f};
   scene.camera.fov_y = 0.5f * std::numbers::pi_v<float>;
   return scene;
 }
 
+// Cubes and slabs around the eye: one in the middle of the view, one across each edge of the screen, and the
+// one below reaches under the eye, through the near plane.
+Scene around_the_eye() {
+  Scene scene = built_in("cube");
+  scene.camera = {};
+  scene.camera.pitch = -0.05f;
+  scene.instances = {
+      {.scale = glm::vec3(0.55f),
+       .axis = {1.0f, 1.0f, 1.0f},
+       .angle = 0.9f,
+       .translation = {0.1f, 0.1f, -4.2f}},
+      {.scale = glm::vec3(0.8f), .angle = 0.5f, .translation = {-2.7f, -0.1f, -2.8f}},
+      {.scale = glm::vec3(0.8f), .angle = -0.4f, .translation = {2.8f, 0.0f, -3.0f}},
+      {.scale = {1.2f, 0.3f, 0.5f}, .angle = 0.2f, .translation = {0.5f, 2.1f, -3.2f}},
+      {.scale = {0.7f, 0.1f, 1.6f}, .angle = 0.1f, .translation = {0.0f, -0.9f, -1.2f}},
+  };
+  return scene;
+}
+
 constexpr Step kCulling[] = {
-    {"r<2>", "Wireframe: all twelve triangles of the cube."},
+    {"o<wireframe>r<2>",
+     "Wireframe: all twelve triangles of the cube, those behind as well as those in front."},
+    {"2<2>", "[2] Back faces culled: those that turn clockwise on the screen, whose y runs down, survive."},
+    {"1<1>2<2>",
+     "[1] [2] Front faces culled instead: what is left is the inside of the far walls, a diorama."},
+    {"y<2>", "[y] Filled: the cube is open towards you, and can be looked into."},
+    {"rv<tab>2y<1>",
+     "Culled by winding on the screen alone. Left: front faces culled, a diorama. Right: back faces culled, "
+     "and the edges of the faces that survive. [1] and [2] switch each by itself, [tab] changes sides."},
 };
 
 constexpr Step kInsideTest[] = {
-    {"<float_lt>e", "float_lt"},
+    {"ok<float_le><2>",
+     "Each pixel of the bounding box is tested: inside, or on an edge (<= 0). Pixels on a shared edge are "
+     "drawn "
+     "twice: the double hits."},
+    {"<float_lt><2>",
+     "Strictly inside (< 0): nobody draws the pixels on a shared edge, and they stay black. Gaps are "
+     "counted."},
+    {"v<tab>2<submission_order><2>",
+     "Right: no culling and no depth. What is submitted last wins, so faces behind hide those in front."},
+    {"2<2>", "Right: [2] back faces culled, the cure for one convex object."},
+    {"2<contract31><2>", "Right: [z] a depth buffer, the cure for all; nothing is culled."},
+    {"<submission_order><tab><enter><enter><enter><enter><enter><enter><enter><enter><enter><enter><enter><"
+     "2>",
+     "Left: a strict inside test (< 0) leaves gaps along shared edges; they are counted. Right: both "
+     "cullings "
+     "off and no depth, so that the last face wins. Culling [2] or depth [z] cures it."},
 };
 
 constexpr Step kClipping[] = {
-    {"<screen_edges><painter_mean>", "p5"},
+    {"<screen_edges><painter_mean><2>",
+     "Triangles are cut by the near plane, then by the four edges of the screen, and painted back to "
+     "front by their mean distance."},
+    {"6<2>", "[6] Outlines: white ones were cut into several triangles."},
+    {"t<1>", "[t] The numbers of the vertices."},
+    {"wwwww<1>sssss<1>", "[w] Through the near plane, and back: nothing tears."},
+    {"m<space><space><space>dddaaa<shift><shift><shift><1>",
+     "[m] Now along the world's axes: space and shift move straight up and down."},
+    {"r<1.5>r,,,,,,,,,,,,,,,", "[r] All turn about one axis, (1, 1, 1), and back."},
+    {"t<1>",
+     "Cut by the near plane and by the four edges of the screen (white: in several pieces), painted back to "
+     "front. A face turned away from the light keeps 0.15 of its colour. [w a s d], space, shift and "
+     "dragging "
+     "move the eye, [m] along the view or the world; [t] numbers the vertices."},
 };
 
 constexpr Step kBackface[] = {
@@ -56,8 +111,8 @@ constexpr std::array kDemos{
          "what a strict inside test leaves out, and order without depth", cube_head_on, Cull::back,
          kInsideTest},
     Demo{"p5js-clipping", "p5.js engine, clipping",
-         "a walk through near plane and screen edges, painted back to front",
-         [] { return built_in("cubes"); }, Cull::back, kClipping},
+         "a walk through near plane and screen edges, painted back to front", around_the_eye, Cull::back,
+         kClipping, glm::vec3(1.0f)},
     Demo{"realbasic-backface", "REALbasic engine, backface removal",
          "faces and whole objects that need no drawing, each with its state",
          [] { return built_in("cubes"); }, Cull::back, kBackface},

@@ -137,7 +137,8 @@ class Overlaying {
                s.choice.ours() ? kStrong : kNotOurs);
       if (state_.arrangement != Arrangement::difference && state_.errors != Errors::off)
         own.line(errors_of(state_, s, true), error_colour(s));
-      if (s.cull_front && state_.arrangement != Arrangement::difference) own.line(culling(s), kNotOurs);
+      const bool as_usual = state_.stream || (s.cull_back && !s.cull_front);
+      if (!as_usual && state_.arrangement != Arrangement::difference) own.line(culling(s), kNotOurs);
     }
     if (state_.arrangement == Arrangement::difference) {
       Column below = column(0, top + 2 * cell_.height);

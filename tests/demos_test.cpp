@@ -1,0 +1,123 @@
+// The tutorials' demonstrations: that each shows what it says, and the same on every machine.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "message_of.h"
+#include "run_program.h"
+#include "temp_dir.h"
+#include "viewer/demos.h"
+#include "viewer_support.h"
+
+namespace edgewise::viewer {
+namespace {
+
+class Shown {
+ public:
+  explicit Shown(std::string_view name, Execution execution = {}) : demo_(find_demo(name)) {
+    Start start = start_of(demo_);
+    start.reproducible = true;
+    start.execution = execution;
+    session_.emplace(std::move(start));
+  }
+  // What is seen after the next steps.
+  const Screen& step(std::size_t steps = 1) {
+    for (std::size_t i = 0; i < steps; ++i) viewer::type(*session_, parse_keys("5"), kDemoSize, kTestCell);
+    return session_->draw(kDemoSize, kTestCell);
+  }
+  const Screen& last() { return step(demo_.steps.size()); }
+  const Screen& type(std::string_view keys) { return viewer::type(*session_, keys, kDemoSize); }
+  const Side& side(std::size_t i) const { return session_->side(i); }
+  const State& state() const { return session_->state(); }
+
+ private:
+  const Demo& demo_;
+  std::optional<Session> session_;
+};
+
+TEST(Demos, AreWellFormed) {
+  std::set<std::string_view> names;
+  for (const Demo& demo : demos()) {
+    EXPECT_TRUE(names.insert(demo.name).second) << demo.name;
+    EXPECT_EQ(&find_demo(demo.name), &demo);
+    EXPECT_GE(demo.steps.size(), 3u) << demo.name;
+    for (const Step& step : demo.steps) {
+      EXPECT_FALSE(step.notice.empty()) << demo.name;
+      // Nothing that saves, quits, or depends on the size of the screen.
+      for (const Stroke& stroke : parse_keys(step.keys))
+        if (const Key* const key = std::get_if<Key>(&stroke)) {
+          const auto command = command_of(*key);
+          EXPECT_FALSE(command == Command::save || command == Command::quit || command == Command::help ||
+                       command == Command::next_step)
+              << demo.name << ": " << step.keys;
+        }
+    }
+  }
+  EXPECT_EQ(names.size(), 5u);
+  EXPECT_NE(message_of([] { find_demo("outlaw"); }).find("did you mean 'outlaw-triad'"), std::string::npos);
+}
+
+TEST(Demos, LookTheSameOnAllTargetsAndThreads) {
+  std::uint64_t compared = 0;
+  for (const Demo& demo : demos()) {
+    Shown first(demo.name, {.threads = 1, .target = SimdTarget::scalar});
+    std::vector<Shown> others;
+    for (const SimdTarget target : supported_targets())
+      others.emplace_back(demo.name, Execution{.threads = 3, .tile_size = 16, .target = target});
+    for (std::size_t i = 0; i < demo.steps.size(); ++i) {
+      Screen expected = first.step();
+      paint(expected, 1);
+      for (Shown& other : others) {
+        Screen screen = other.step();
+        paint(screen, 1);
+        EXPECT_EQ(screen.picture.pixels, expected.picture.pixels) << demo.name << ", step " << i;
+        ++compared;
+      }
+    }
+  }
+  RecordProperty("comparisons", std::to_string(compared));
+}
+
+TEST(DemoCommand, ListsThemAndTheirSteps) {
+  const std::string list = testing::run_program(EDGEWISE_PROGRAM, "demo").out;
+  const auto json = nlohmann::json::parse(testing::run_program(EDGEWISE_PROGRAM, "demo --json").out);
+  ASSERT_EQ(json.size(), demos().size());
+  EXPECT_EQ(std::count(list.begin(), list.end(), '\n'), static_cast<std::ptrdiff_t>(demos().size()));
+  for (std::size_t i = 0; i < demos().size(); ++i) {
+    const Demo& demo = demos()[i];
+    EXPECT_NE(list.find(demo.name), std::string::npos);
+    EXPECT_EQ(json[i].at("name"), demo.name);
+    EXPECT_EQ(json[i].at("steps").size(), demo.steps.size());
+    EXPECT_EQ(json[i].at("steps").back().at("notice"), demo.steps.back().notice);
+    const auto told = testing::run_program(EDGEWISE_PROGRAM, "demo " + std::string(demo.name));
+    EXPECT_NE(told.out.find(demo.steps.front().notice), std::string::npos) << demo.name;
+  }
+}
+
+TEST(DemoCommand, WritesAPictureOrAnAnimation) {
+  const TempDir folder;
+  const std::string there = folder.path().string();
+  const auto write = [&](const std::string& words) {
+    const auto outcome = testing::run_program(EDGEWISE_PROGRAM, "demo pico8-culling --size 320x180 " + words);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return outcome.out;
+  };
+  EXPECT_EQ(write("-o " + there + "/"), there + "/pico8-culling.png\n");
+  write("-o " + there + "/again.png --threads 1 --target scalar");
+  EXPECT_EQ(file_content(there + "/pico8-culling.png"), file_content(there + "/again.png"));
+  const Image last = read_image(there + "/again.png");
+  EXPECT_EQ(last.width, 320);
+  const std::string files = write("--frames 7 -o " + there + "/film/");
+  EXPECT_EQ(std::count(files.begin(), files.end(), '\n'), 7);
+  std::set<std::string> different;
+  for (int i = 1; i <= 7; ++i)
+    different.insert(file_content(there + "/film/pico8-culling-000" + std::to_string(i) + ".png"));
+  EXPECT_GE(different.size(), 5u);
+  EXPECT_FALSE(std::filesystem::exists(there + "/film/pico8-culling-0008.png"));
+}
+
+}  // namespace
+}  // namespace edgewise::viewer
