@@ -34,7 +34,7 @@ Scene cube_head_on() {
 Scene around_the_eye() {
   Scene scene = built_in("cube");
   scene.camera = {};
-  scene.camera.pitch = -0.05f;
+  scene.to_light = {0.3f, 0.8f, 0.7f};
   scene.instances = {
       {.scale = glm::vec3(0.55f),
        .axis = {1.0f, 1.0f, 1.0f},
@@ -42,7 +42,7 @@ Scene around_the_eye() {
        .translation = {0.1f, 0.1f, -4.2f}},
       {.scale = glm::vec3(0.8f), .angle = 0.5f, .translation = {-2.7f, -0.1f, -2.8f}},
       {.scale = glm::vec3(0.8f), .angle = -0.4f, .translation = {2.8f, 0.0f, -3.0f}},
-      {.scale = {1.2f, 0.3f, 0.5f}, .angle = 0.2f, .translation = {0.5f, 2.1f, -3.2f}},
+      {.scale = {1.2f, 0.25f, 0.5f}, .angle = 0.2f, .translation = {0.9f, 1.75f, -3.2f}},
       {.scale = {0.7f, 0.1f, 1.6f}, .angle = 0.1f, .translation = {0.0f, -0.9f, -1.2f}},
   };
   return scene;
@@ -88,8 +88,8 @@ constexpr Step kClipping[] = {
     {"wwwww<1>sssss<1>", "[w] Through the near plane, and back: nothing tears."},
     {"m<space><space><space>dddaaa<shift><shift><shift><1>",
      "[m] Now along the world's axes: space and shift move straight up and down."},
-    {"r<1.5>r,,,,,,,,,,,,,,,", "[r] All turn about one axis, (1, 1, 1), and back."},
-    {"t<1>",
+    {"r<1.5>r", "[r] All turn about one axis, (1, 1, 1)."},
+    {"0t<1>",
      "Cut by the near plane and by the four edges of the screen (white: in several pieces), painted back to "
      "front. A face turned away from the light keeps 0.15 of its colour. [w a s d], space, shift and "
      "dragging "

@@ -90,6 +90,11 @@ int degrees(float radians) {
   return static_cast<int>(std::lround(glm::degrees(radians)));
 }
 
+// Rounded, never "-0.00".
+double hundredths(float length) {
+  return std::round(double{length} * 100.0) / 100.0 + 0.0;
+}
+
 // When the count is from.
 std::string_view when(const State& state, const Side& side) {
   if (side.judged != state.version) return "a while ago, to keep the pace";
@@ -226,8 +231,9 @@ class Overlaying {
 
   void place(Column& to) {
     const Camera& camera = session_.world().scene()->camera;
-    to.line(fmt::format("eye {:.2f} {:.2f} {:.2f}  yaw {}  pitch {}", camera.position.x, camera.position.y,
-                        camera.position.z, degrees(camera.yaw), degrees(camera.pitch)));
+    to.line(fmt::format("eye {:.2f} {:.2f} {:.2f}  yaw {}  pitch {}", hundredths(camera.position.x),
+                        hundredths(camera.position.y), hundredths(camera.position.z), degrees(camera.yaw),
+                        degrees(camera.pitch)));
     to.line(fmt::format("[m] moves along the {}, speed {:.2g}", state_.along_view ? "view" : "world's axes",
                         state_.speed));
     to.line(fmt::format("{} {} deg about {:.2f} {:.2f} {:.2f}{}", state_.spinning ? "[r] turning," : "turned",
