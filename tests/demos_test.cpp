@@ -10,6 +10,7 @@
 #include "run_program.h"
 #include "temp_dir.h"
 #include "viewer/demos.h"
+#include "viewer/outlines.h"
 #include "viewer_support.h"
 
 namespace edgewise::viewer {
@@ -79,6 +80,107 @@ TEST(Demos, LookTheSameOnAllTargetsAndThreads) {
     }
   }
   RecordProperty("comparisons", std::to_string(compared));
+}
+
+TEST(Pico8Culling, SwitchesFrontAndBackFacesSeparately) {
+  Shown demo("pico8-culling");
+  const auto drawn = [&] { return demo.side(0).stats.emitted; };
+  EXPECT_TRUE(says(demo.step(), "[1] [2] no faces culled"));
+  EXPECT_EQ(demo.side(0).choice.coverage->info.name, "wireframe");
+  EXPECT_EQ(drawn(), 12u);
+  EXPECT_TRUE(says(demo.step(), "[2] back faces culled"));
+  EXPECT_LE(drawn(), 6u);
+  const std::uint64_t survive = drawn();
+  EXPECT_TRUE(says(demo.step(), "[1] front faces culled: diorama"));
+  EXPECT_NEAR(static_cast<double>(drawn()), static_cast<double>(12 - survive), 4.0);  // it turns
+  demo.step();
+  EXPECT_TRUE(demo.side(0).choice.ours());
+  const Screen& last = demo.step();
+  EXPECT_TRUE(says(last, "diorama") && says(last, "[2] back faces culled"));
+  EXPECT_EQ(demo.side(0).stats.emitted + demo.side(1).stats.emitted, 12u);
+  EXPECT_EQ(demo.side(1).choice.coverage->info.name, "wireframe");
+}
+
+TEST(Pico8InsideTest, CountsGapsAndDoubleHitsAndCuresTheOrder) {
+  Shown demo("pico8-inside-test");
+  demo.step();
+  EXPECT_GT(demo.side(0).judgement->double_hits.value(), 150u);
+  EXPECT_EQ(demo.side(0).judgement->gaps.value(), 0u);
+  EXPECT_TRUE(says(demo.step(), "gaps"));
+  EXPECT_GT(demo.side(0).judgement->gaps.value(), 150u);
+  EXPECT_EQ(demo.side(0).judgement->double_hits.value(), 0u);
+  const auto wrong_on_the_right = [&] {
+    demo.step();
+    return demo.side(1).judgement->wrong;
+  };
+  EXPECT_GT(wrong_on_the_right(), 10000u);
+  EXPECT_FALSE(demo.side(1).cull_front || demo.side(1).cull_back);
+  EXPECT_EQ(wrong_on_the_right(), 0u);
+  EXPECT_TRUE(demo.side(1).cull_back);
+  EXPECT_EQ(wrong_on_the_right(), 0u);
+  EXPECT_FALSE(demo.side(1).cull_back);
+  EXPECT_GT(wrong_on_the_right(), 10000u);
+  EXPECT_TRUE(demo.state().magnifier);
+  EXPECT_NE(demo.state().message.find("wrong pixel"), std::string::npos);
+}
+
+TEST(P5jsClipping, CutsMovesTurnsAndComesBack) {
+  Shown demo("p5js-clipping");
+  demo.step();
+  const Choice& choice = demo.side(0).choice;
+  EXPECT_EQ(describe(choice), "screen_edges + painter_mean");
+  EXPECT_GT(demo.side(0).stats.clipped_near, 0u);
+  EXPECT_LT(demo.side(0).judgement->wrong, 100u);
+  const auto count = [](const Screen& screen, std::uint32_t colour) {
+    return std::count(screen.picture.pixels.begin(), screen.picture.pixels.end(), colour);
+  };
+  const auto outlines = count(demo.step(), kPiecesOutline);
+  EXPECT_GT(outlines, 1000);
+  const auto labels = [](const Screen& screen) {
+    return std::count_if(screen.texts.begin(), screen.texts.end(), [](const Text& text) {
+      return text.words.size() == 1 && text.words[0] >= '0' && text.words[0] <= '7';
+    });
+  };
+  EXPECT_EQ(labels(demo.type("")), 0);
+  const Screen& labelled = demo.step();
+  EXPECT_GE(labels(labelled), 16);
+  EXPECT_TRUE(says(labelled, "x") && says(labelled, "y") && says(labelled, "z"));
+  EXPECT_TRUE(says(labelled, "eye 0.00 0.00 0.00  yaw 0  pitch 0"));
+  EXPECT_TRUE(says(labelled, "about 1.00 1.00 1.00"));
+  demo.step();
+  EXPECT_TRUE(demo.state().along_view);
+  demo.step();
+  EXPECT_FALSE(demo.state().along_view);
+  demo.step();
+  EXPECT_GT(std::abs(demo.state().angle), 0.5f);
+  const Screen& last = demo.step();
+  EXPECT_EQ(demo.state().angle, 0.0f);
+  EXPECT_EQ(count(last, kPiecesOutline) > 1000, true);
+}
+
+TEST(RealbasicBackface, CullsFacesAndWholeObjects) {
+  Shown demo("realbasic-backface");
+  demo.step();
+  EXPECT_EQ(demo.side(0).choice.facing->info.name, "normal_dot_eye");
+  const FrontendStats stats = demo.side(0).stats;
+  EXPECT_GE(stats.meshes_culled, 4u);
+  EXPECT_GT(stats.culled, 10u);
+  EXPECT_GT(stats.clipped_near, 0u);
+  EXPECT_EQ(demo.side(0).judgement->wrong, 0u);
+  EXPECT_TRUE(says(demo.step(), "culled whole"));
+  EXPECT_EQ(demo.side(0).judgement->wrong, 0u);
+  demo.step();
+  EXPECT_EQ(demo.side(0).judgement->wrong, 0u);
+}
+
+TEST(OutlawTriad, DrawsHalfOfTheFaces) {
+  Shown demo("outlaw-triad");
+  const Screen& last = demo.last();
+  EXPECT_EQ(demo.side(0).choice.facing->info.name, "normal_z");
+  EXPECT_EQ(demo.side(1).stats.culled, 0u);
+  EXPECT_LE(demo.side(0).stats.emitted, demo.side(1).stats.emitted * 6 / 10);
+  EXPECT_EQ(demo.side(0).judgement->wrong, 0u);
+  EXPECT_TRUE(says(last, "back faces culled") && says(last, "no faces culled"));
 }
 
 TEST(DemoCommand, ListsThemAndTheirSteps) {

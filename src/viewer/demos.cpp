@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -48,16 +49,38 @@ Scene around_the_eye() {
   return scene;
 }
 
+// Nine cubes around the eye, and a slab under it.
+Scene ring_of_cubes() {
+  Scene scene = built_in("cube");
+  scene.camera = {};
+  scene.camera.position = {0.0f, 0.5f, 0.0f};
+  scene.camera.pitch = -0.1f;
+  scene.to_light = {0.3f, 0.8f, 0.7f};
+  scene.instances.clear();
+  constexpr int kCubes = 9;
+  for (int i = 0; i < kCubes; ++i) {
+    const float around =
+        2.0f * std::numbers::pi_v<float> * static_cast<float>(i) / static_cast<float>(kCubes);
+    scene.instances.push_back({.scale = glm::vec3(0.9f),
+                               .angle = 0.3f + around,
+                               .translation = {5.0f * std::sin(around), 0.0f, -5.0f * std::cos(around)}});
+  }
+  // What is under the eye reaches through the near plane.
+  scene.instances.push_back({.scale = {0.5f, 0.1f, 2.0f}, .translation = {0.0f, -0.6f, 0.0f}});
+  return scene;
+}
+
 constexpr Step kCulling[] = {
-    {"o<wireframe>r<2>",
+    {"k<wireframe>r<2>",
      "Wireframe: all twelve triangles of the cube, those behind as well as those in front."},
-    {"2<2>", "[2] Back faces culled: those that turn clockwise on the screen, whose y runs down, survive."},
-    {"1<1>2<2>",
-     "[1] [2] Front faces culled instead: what is left is the inside of the far walls, a diorama."},
-    {"y<2>", "[y] Filled: the cube is open towards you, and can be looked into."},
-    {"rv<tab>2y<1>",
+    {"2<2>",
+     "[2] Back faces culled: only those survive whose vertices turn clockwise on the screen, where y points "
+     "down."},
+    {"21<2>", "[1] Front faces culled instead: what is left are the far walls from inside, a diorama."},
+    {"<tiled><2>", "[y] Filled: the cube is open towards you, and can be looked into."},
+    {"v<tab>2<wireframe><1>r",
      "Culled by winding on the screen alone. Left: front faces culled, a diorama. Right: back faces culled, "
-     "and the edges of the faces that survive. [1] and [2] switch each by itself, [tab] changes sides."},
+     "and the edges of the faces that survive. [1] and [2] switch each, [tab] changes sides."},
 };
 
 constexpr Step kInsideTest[] = {
@@ -89,7 +112,7 @@ constexpr Step kClipping[] = {
     {"m<space><space><space>dddaaa<shift><shift><shift><1>",
      "[m] Now along the world's axes: space and shift move straight up and down."},
     {"r<1.5>r", "[r] All turn about one axis, (1, 1, 1)."},
-    {"0t<1>",
+    {"0<1>",
      "Cut by the near plane and by the four edges of the screen (white: in several pieces), painted back to "
      "front. A face turned away from the light keeps 0.15 of its colour. [w a s d], space, shift and "
      "dragging "
@@ -97,11 +120,23 @@ constexpr Step kClipping[] = {
 };
 
 constexpr Step kBackface[] = {
-    {"<normal_dot_eye>", "rb"},
+    {"<normal_dot_eye><2>",
+     "A face is kept if its normal in the world and the ray from the eye to it point against each other; "
+     "that "
+     "needs no projection. Objects that lie outside the view as a whole are not looked at any further."},
+    {"2<2>2", "[2] With back faces drawn as well, the same picture: those in front hide them, at a price."},
+    {"<left><left><left><2>",
+     "Culled before anything is projected: back faces by world-space normal times the ray from the eye, and "
+     "objects outside the view as a whole; both are counted. What reaches out of the view is clipped."},
 };
 
 constexpr Step kTriad[] = {
-    {"<normal_z>", "triad"},
+    {"<normal_z>k<2>", "A face is kept if the z of its normal, turned with the object, points to the eye."},
+    {"r<2>r", "[r] Half of the faces of a closed object are hidden at any time, whichever half it is."},
+    {"0kv<tab>2<2>",
+     "Left: hidden faces removed, before they are lit, cut or drawn. Right: the same picture with all of "
+     "them. "
+     "In the window both times are shown, and how much longer the right side takes."},
 };
 
 constexpr std::array kDemos{
@@ -114,8 +149,8 @@ constexpr std::array kDemos{
          "a walk through near plane and screen edges, painted back to front", around_the_eye, Cull::back,
          kClipping, glm::vec3(1.0f)},
     Demo{"realbasic-backface", "REALbasic engine, backface removal",
-         "faces and whole objects that need no drawing, each with its state",
-         [] { return built_in("cubes"); }, Cull::back, kBackface},
+         "faces and whole objects that need no drawing, each with its state", ring_of_cubes, Cull::back,
+         kBackface},
     Demo{"outlaw-triad", "Outlaw Triad trainer, hidden face removal",
          "faces of four vertices, and what it gains to drop the hidden half",
          [] { return built_in("sphere"); }, Cull::back, kTriad},
