@@ -80,11 +80,11 @@ def culling_sentence(bench):
     for (scene, backend, mode), none_ms in median.items():
         back_ms = median.get((scene, backend, "back"))
         if mode == "none" and back_ms:
-            gains.setdefault(scene, []).append(f"`{backend}` {none_ms / back_ms:.2f}×")
+            gains.setdefault(scene, []).append(f"{none_ms / back_ms:.2f}× (`{backend}`)")
     if not gains:
         return ""
-    return ("In the benchmark, whole frames with all faces take longer than with back faces culled: "
-            + "; ".join(f"`{scene}` by {', '.join(by)}" for scene, by in gains.items()) + ".")
+    return ("In the benchmark, a whole frame with all its faces takes so many times as long as with back faces culled: "
+            + "; ".join(f"`{scene}` {', '.join(by)}" for scene, by in gains.items()) + ".")
 
 
 def verify_sentence(verify):

@@ -182,7 +182,7 @@ class ScriptsTest(unittest.TestCase):
         self.assertIn("**A trainer**: `edgewise demo turn --view`", text)
         self.assertIn("![it turns](results/pictures/demo-turn.png)\n\nNow look.\n", text)
         self.assertNotIn("First.", text)
-        self.assertIn("`cube` by `slow` 2.00×, `fast` 2.00×.", text)
+        self.assertIn("`cube` 2.00× (`slow`), 2.00× (`fast`).", text)
         (self.results / "demos.json").unlink()
         self.fails(run("readme", "--file", readme), "demos.json", "No such file")
 
