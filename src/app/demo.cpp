@@ -105,10 +105,10 @@ int show(const viewer::Demo& demo, const DemoOptions& o, viewer::ShowWindow show
   if (!o.terminal) check_windows(show_window);
   const Size size = o.size.value_or(viewer::kDemoSize);
   viewer::Session session = session_of(demo, o, false);
+  viewer::type(session, viewer::parse_keys("5"), size, viewer::font_cell(viewer::font_scale(size.height)));
   if (o.terminal) {
     viewer::show_in_terminal(session);
   } else {
-    viewer::type(session, viewer::parse_keys("5"), size, viewer::font_cell(viewer::font_scale(size.height)));
     show_window(session, {fmt::format("edgewise: {}", demo.name), size});
   }
   print_saved(session);
@@ -121,8 +121,7 @@ int demonstrate(const DemoOptions& o, viewer::ShowWindow show_window) {
   if (alive && o.output) throw std::invalid_argument("--view and --output exclude each other");
   if (o.frames > 1 && !o.output) throw std::invalid_argument("--frames needs --output");
   if (o.names.empty()) {
-    if (alive || o.output)
-      throw std::invalid_argument("no TUTORIAL is named; edgewise demo lists them");
+    if (alive || o.output) throw std::invalid_argument("no TUTORIAL is named; edgewise demo lists them");
     print(o.json ? json_text(as_json(), 2) + "\n" : list_of_all());
     return kDone;
   }
