@@ -83,7 +83,7 @@ bool is_beaten(const Row& row, const std::vector<Row>& rows) {
   double own_s = 0.0, best_s = std::numeric_limits<double>::infinity();
   for (const Row& other : rows) {
     if (other.workload != row.workload || other.timed != Timed::frame || other.peer != nullptr ||
-        other.cores > 0 || other.execution.threads != 1)
+        other.backend->fills != row.backend->fills || other.cores > 0 || other.execution.threads != 1)
       continue;
     best_s = std::min(best_s, other.once_s);
     if (other.backend == row.backend) own_s = other.once_s;
@@ -231,7 +231,7 @@ void add_context(const Flags& flags) {
   benchmark::AddCustomContext("suite", flags.suite.quick            ? "quick"
                                        : flags.suite.scenes.empty() ? "full"
                                                                     : "scenes");
-  benchmark::AddCustomContext("backends", names_of(backends()));
+  benchmark::AddCustomContext("backends", names_of(filling_backends()));
   benchmark::AddCustomContext("peers", names_of(peers()));
 }
 

@@ -11,8 +11,8 @@ std::pair<const Row*, double> fastest_of_ours(const Row& peer, const std::vector
                                               const std::map<std::string, double>& median_ms) {
   std::pair<const Row*, double> best{nullptr, 0.0};
   for (const Row& row : rows) {
-    const bool same = row.backend != nullptr && row.workload == peer.workload && row.timed == peer.timed &&
-                      row.execution.threads == peer.execution.threads;
+    const bool same = row.backend != nullptr && row.backend->fills && row.workload == peer.workload &&
+                      row.timed == peer.timed && row.execution.threads == peer.execution.threads;
     const auto found = same ? median_ms.find(row.name) : median_ms.end();
     if (found != median_ms.end() && (best.first == nullptr || found->second < best.second))
       best = {&row, found->second};

@@ -61,11 +61,11 @@ void Stage::compare_ours(Row& row) {
       row.error = fmt::format("emits other triangles than on 1 thread ({} instead of {})", found.size(),
                               expected.size());
   } else {
-    const auto difference = lab::compare(row.workload->reference(), frame(row));
+    const auto difference = lab::compare(row.workload->reference(row.backend->fills), frame(row));
     if (difference.pixels != 0)
       row.error =
           fmt::format("{} pixels differ from {} on 1 thread, the first at ({}, {})", difference.pixels,
-                      backends().front().name, difference.first_x, difference.first_y);
+                      reference_backend(row.backend->fills).name, difference.first_x, difference.first_y);
   }
 }
 

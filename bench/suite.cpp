@@ -95,7 +95,7 @@ class Suite {
     for (const double area_px : areas_px) {
       const auto workload =
           make_workload([options = options_, area_px] { return area_source(options, area_px); });
-      for (const auto& backend : backends())
+      for (const auto& backend : filling_backends())
         for (const int threads : kThreads)
           add(workload, Timed::raster, backend, fmt::format("area:{:.0f}", area_px), threads);
     }
@@ -104,7 +104,7 @@ class Suite {
   // The last steps take some backends a second, where one draw tells enough.
   void add_growth() {
     for (const auto& [what, workload] : growth_steps(options_.width, options_.height, options_.quick))
-      for (const auto& backend : backends()) {
+      for (const auto& backend : filling_backends()) {
         add(workload, Timed::raster, backend, what, kSweepThreads);
         rows_.back().repeat_below_s = 0.6;
       }
@@ -114,7 +114,7 @@ class Suite {
   void add_tiny() {
     constexpr int kSide_px = 256;
     const auto workload = scene_workload("cube", kSide_px, kSide_px, Cull::back);
-    for (const auto& backend : backends())
+    for (const auto& backend : filling_backends())
       for (const int threads : kThreads)
         add(workload, Timed::raster, backend, fmt::format("cube/tiny:{}x{}", kSide_px, kSide_px), threads);
   }
@@ -124,7 +124,7 @@ class Suite {
     for (const std::string scene : {"cube", "cubes", "sphere", "torus-knot"})
       for (const Cull cull : {Cull::none, Cull::back}) {
         const auto workload = scene_workload(scene, options_.width, options_.height, cull);
-        for (const auto& backend : backends())
+        for (const auto& backend : filling_backends())
           add(workload, Timed::frame, backend, fmt::format("{}/cull:{}", scene, name_of(cull)),
               kSweepThreads);
       }
@@ -134,7 +134,7 @@ class Suite {
   void add_target_sweep() {
     for (const std::string scene : {"torus-knot", "large", "medium", "grid4"}) {
       const auto workload = scene_workload(scene, options_.width, options_.height, Cull::back);
-      for (const auto& backend : backends())
+      for (const auto& backend : filling_backends())
         for (const SimdTarget target : supported_targets())
           add(workload, Timed::raster, backend, fmt::format("{}/target:{}", scene, name_of(target)), 1,
               target);
@@ -175,7 +175,7 @@ class Suite {
   }
 
   void add_scheduled(const WorkloadPtr& workload, const std::string& name) {
-    for (const auto& backend : backends())
+    for (const auto& backend : filling_backends())
       for (const int cores : kScheduledCores) {
         add(workload, Timed::frame, backend, fmt::format("{}/cores:{}", name, cores), 1);
         rows_.back().cores = rows_.back().execution.threads = cores;

@@ -4,6 +4,10 @@
 
 namespace edgewise::bench {
 
+const BackendInfo& reference_backend(bool fills) {
+  return backends()[fills ? 0 : filling_backends().size()];
+}
+
 Workload::Workload(int width, int height, Cull mesh_cull, std::function<app::Source()> load)
     : width_(width), height_(height), mesh_cull_(mesh_cull), load_(std::move(load)) {}
 
@@ -35,14 +39,15 @@ const BlockCounts& Workload::blocks() {
   return *blocks_;
 }
 
-const Framebuffer& Workload::reference() {
-  if (!reference_) {
-    reference_.emplace(width_, height_);
+const Framebuffer& Workload::reference(bool fills) {
+  std::optional<Framebuffer>& reference = fills ? filled_ : other_;
+  if (!reference) {
+    reference.emplace(width_, height_);
     Execution execution;
     execution.target = supported_targets().front();
-    backends().front().make()->draw(triangles_, reference_->view(), kBackground, execution);
+    reference_backend(fills).make()->draw(triangles_, reference->view(), kBackground, execution);
   }
-  return *reference_;
+  return *reference;
 }
 
 }  // namespace edgewise::bench

@@ -18,6 +18,9 @@ namespace edgewise::bench {
 
 inline constexpr std::uint32_t kBackground = 0xFF000000u;
 
+// The first of the registry that fill, or of those that don't.
+const BackendInfo& reference_backend(bool fills);
+
 class Workload {
  public:
   // Meshes are drawn with `mesh_cull` and shading, streams with neither.
@@ -27,10 +30,9 @@ class Workload {
   // Rows that time the front end need the scene itself afterwards, others let its memory go.
   void prepare(bool keep_scene);
 
-  // The picture that every row must reproduce: first backend of the registry, one thread, slowest SIMD
-  // target.
-  const Framebuffer& reference();
-  void drop_reference() { reference_.reset(); }
+  // The picture that every row must reproduce: reference_backend(), one thread, slowest SIMD target.
+  const Framebuffer& reference(bool fills = true);
+  void drop_reference() { filled_.reset(), other_.reset(); }
 
   // Counted when first asked for.
   const BlockCounts& blocks();
@@ -52,7 +54,7 @@ class Workload {
   std::vector<ScreenTriangle> triangles_;
   std::uint64_t submitted_ = 0, covered_px_ = 0;
   std::optional<BlockCounts> blocks_;
-  std::optional<Framebuffer> reference_;
+  std::optional<Framebuffer> filled_, other_;
 };
 
 }  // namespace edgewise::bench

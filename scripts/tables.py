@@ -94,6 +94,8 @@ def verify_sentence(verify):
     differing = sum(scene["differing_pixels"] + scene.get("written_outside", 0)
                     + scene.get("oracle", {}).get("differing_pixels", 0) for scene in scenes)
     backends = ", ".join(verify["backends"])
+    if "other_backends" in verify:
+        backends += f" (and of {', '.join(verify['other_backends'])}, which draws another picture, with itself)"
     return (f"{frames:,} frames of {len(scenes)} scenes were compared bit for bit, in depth and payload, across {backends}, "
             f"thread counts, tile sizes, SIMD targets and culling modes, and {oracle:,} small ones with a "
             f"brute-force oracle: "

@@ -81,7 +81,7 @@ TEST_P(Allocations, OfABackendEndWithTheFirstFrame) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, Allocations, ::testing::ValuesIn(testing::backend_names()),
+INSTANTIATE_TEST_SUITE_P(Registry, Allocations, ::testing::ValuesIn(testing::names_of(backends())),
                          [](const auto& param) { return testing::test_name(param); });
 
 TEST(FrontendAllocations, EndWithTheFirstFrame) {

@@ -20,12 +20,18 @@ using testing::kBackground;
 
 class EveryBackend : public ::testing::TestWithParam<std::string_view> {
  protected:
-  std::unique_ptr<Backend> backend_ = find_backend(GetParam()).make();
+  const BackendInfo& info_ = find_backend(GetParam());
+  std::unique_ptr<Backend> backend_ = info_.make();
 
+  Framebuffer oracle(std::span<const ScreenTriangle> triangles, int width, int height) const {
+    Framebuffer expected(width, height);
+    (info_.fills ? lab::draw_oracle : lab::draw_edge_oracle)(triangles, expected, kBackground);
+    return expected;
+  }
   void expect_oracle(std::span<const ScreenTriangle> triangles, int width, int height,
                      const std::string& what) {
-    Framebuffer expected(width, height), actual(width, height);
-    lab::draw_oracle(triangles, expected, kBackground);
+    const Framebuffer expected = oracle(triangles, width, height);
+    Framebuffer actual(width, height);
     for (const auto& execution : testing::executions()) {
       backend_->draw(triangles, actual.view(), kBackground, execution);
       testing::expect_same(expected, actual, what + ", " + testing::describe(execution));
@@ -172,14 +178,14 @@ TEST_P(EveryBackend, DrawsNothingButBackgroundWithoutTriangles) {
 }
 
 TEST_P(EveryBackend, KeepsTheEarlierTriangleAtATie) {
-  const ScreenTriangle first{{0, 40 * 256, 0}, {0, 0, 40 * 256}, {5000, 5000, 5000}, 1};
+  const ScreenTriangle first{{0, 40 * 256, 3 * 256}, {0, 0, 40 * 256}, {5000, 5000, 5000}, 1};
   ScreenTriangle second = first;
   second.payload = 2;
   const ScreenTriangle both[] = {first, second};
   Framebuffer frame(32, 32);
   for (const auto& execution : testing::executions()) {
     backend_->draw(both, frame.view(), 0, execution);
-    EXPECT_EQ(frame.payload_row(3)[3], 1u) << testing::describe(execution);
+    EXPECT_EQ(frame.payload_row(0)[3], 1u) << testing::describe(execution);
   }
 }
 
@@ -207,8 +213,7 @@ TEST_P(EveryBackend, WritesEveryPixelOfACallersFrameAndNothingBesideIt) {
   constexpr int kWidth = 75, kHeight = 66;
   constexpr std::uint32_t kCanary = 0xDEADBEEF;
   const auto triangles = adversarial("subpixel", 50, kWidth, kHeight, 9);
-  Framebuffer expected(kWidth, kHeight);
-  lab::draw_oracle(triangles, expected, kBackground);
+  const Framebuffer expected = oracle(triangles, kWidth, kHeight);
   // Odd strides and starts defeat aligned stores; a multiple of four invites them.
   for (const auto& [stride, offset] :
        {std::pair{kWidth, 0}, {kWidth + 2, 1}, {kWidth + 5, 0}, {kWidth + 5, 3}}) {
@@ -250,7 +255,7 @@ TEST_P(EveryBackend, RefusesWhatItCannotDraw) {
   EXPECT_NO_THROW(draw(good, {}));
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, EveryBackend, ::testing::ValuesIn(testing::backend_names()),
+INSTANTIATE_TEST_SUITE_P(Registry, EveryBackend, ::testing::ValuesIn(testing::names_of(backends())),
                          [](const auto& param) { return testing::test_name(param); });
 
 TEST(Registry, HoldsEveryFileInTheBackendsFolderAndNothingElse) {
@@ -272,6 +277,13 @@ TEST(Registry, SuggestsTheNearestName) {
 
 TEST(Registry, HasTheThreeExactBackends) {
   for (const auto name : {"naive", "tiled", "scanline"}) EXPECT_EQ(find_backend(name).name, name);
+}
+
+TEST(Registry, NamesThoseThatFillFirst) {
+  const auto filling = filling_backends();
+  for (const auto& b : backends())
+    EXPECT_EQ(b.fills, std::any_of(filling.begin(), filling.end(), [&](const auto& f) { return &f == &b; }))
+        << b.name;
 }
 
 TEST(Framebuffer, RefusesSidesThatTheContractCannotHold) {

@@ -75,6 +75,20 @@ TEST(BenchSuite, NamesRowsSoThatTheirPartsCanBeTold) {
   EXPECT_EQ(names.size(), 2 + 4 * backends().size() + 2 * peers().size());
 }
 
+TEST(BenchStage, ComparesEdgesWithEdges) {
+  const auto workload = std::make_shared<Workload>(96, 64, Cull::back, [] {
+    return app::load_source("cube", {96, 64, 0.0f, 1.0}, false);
+  });
+  workload->prepare(false);
+  Stage stage;
+  for (const BackendInfo& backend : backends()) {
+    Row row = row_of(backend, workload);
+    row.execution.threads = 3;
+    stage.compare(row);
+    EXPECT_EQ(row.error, "") << backend.name;
+  }
+}
+
 TEST(BenchSuite, NamesAllRowsDifferently) {
   std::set<std::string> names;
   for (const Row& row : make_suite({})) EXPECT_TRUE(names.insert(row.name).second) << row.name;

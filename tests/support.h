@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -119,9 +120,9 @@ inline void expect_same(const Framebuffer& expected, const Framebuffer& actual, 
   if (!difference.empty()) ADD_FAILURE() << what << ": " << difference;
 }
 
-inline std::vector<std::string_view> backend_names() {
+inline std::vector<std::string_view> names_of(std::span<const BackendInfo> infos) {
   std::vector<std::string_view> names;
-  for (const auto& b : backends()) names.push_back(b.name);
+  for (const auto& b : infos) names.push_back(b.name);
   return names;
 }
 

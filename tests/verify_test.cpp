@@ -103,7 +103,7 @@ TEST(Verify, PassesEveryBackendOnEveryScene) {
     EXPECT_TRUE(verdict.ok()) << explain(verdict);
     EXPECT_GT(verdict.emitted, 0u) << verdict.scene;
     EXPECT_GT(verdict.oracle_configurations, 0u) << verdict.scene;
-    EXPECT_EQ(verdict.hits.size(), verdict.scene.starts_with("grid") ? plan.backends.size() : 0)
+    EXPECT_EQ(verdict.hits.size(), verdict.scene.starts_with("grid") ? filling_backends().size() : 0)
         << verdict.scene;
   }
 }

@@ -16,13 +16,14 @@ namespace {
 
 constexpr std::string_view kNoOverlay = "o";  // at this size it begins with the short one
 
-Image rendered(std::string_view scene, Cull cull, app::Size size = kTestSize) {
+Image rendered(std::string_view scene, Cull cull, app::Size size = kTestSize,
+               std::string_view backend = "naive") {
   Frontend frontend;
   FrontendOptions options;
   options.width = size.width, options.height = size.height;
   options.cull = cull;
   Framebuffer frame(size.width, size.height);
-  find_backend("naive").make()->draw(frontend.run(find_scene(scene).make({size.width, size.height}), options),
+  find_backend(backend).make()->draw(frontend.run(find_scene(scene).make({size.width, size.height}), options),
                                      frame.view(), rgb(0, 0, 0), {});
   return to_image(frame);
 }
@@ -102,13 +103,31 @@ TEST(Viewer, ShowsTheLibrarysBits) {
   EXPECT_EQ(type(session, "1o").picture.pixels, rendered("cubes", Cull::none).pixels);
 }
 
+TEST(Viewer, DrawsEdgesOfWhatIsCulledAndLitLikeFacesAndBack) {
+  Session session = session_of("cubes");
+  const Image filled = type(session, kNoOverlay).picture, edges = type(session, "y").picture;
+  EXPECT_FALSE(session.side(0).choice.fills());
+  EXPECT_EQ(edges.pixels, rendered("cubes", Cull::back, kTestSize, "wireframe").pixels);
+  EXPECT_EQ(type(session, "1").picture.pixels, rendered("cubes", Cull::both, kTestSize, "wireframe").pixels);
+  EXPECT_EQ(type(session, "2").picture.pixels, rendered("cubes", Cull::front, kTestSize, "wireframe").pixels);
+  EXPECT_EQ(type(session, "12y").picture.pixels, filled.pixels);
+  // A painter covers by itself.
+  EXPECT_EQ(type(session, "z").picture.pixels, type(session, "y").picture.pixels);
+  EXPECT_TRUE(says(type(session, "o"), "no wireframe"));
+}
+
 TEST(Viewer, GoesThroughAllCoverageMethodsAndTheExactOnesAreRight) {
   Session session = session_of("cubes");
   type(session, "ei<backspace>");
-  for (std::size_t i = 0; i < lab::coverage_methods().size(); ++i) {
+  for (std::size_t i = 0; i < lab::drawing_methods().size(); ++i) {
     const Screen& screen = type(session, "b");
     const lab::CoverageMethod& method = *session.side(0).choice.coverage;
     EXPECT_TRUE(says(screen, method.info.name)) << method.info.name;
+    if (!method.fills) {
+      EXPECT_TRUE(says(screen, "edges only")) << method.info.name;
+      EXPECT_FALSE(session.side(0).judgement) << method.info.name;
+      continue;
+    }
     ASSERT_TRUE(session.side(0).judgement) << method.info.name;
     if (method.contract_depth) {
       EXPECT_EQ(wrong(session), 0u) << method.info.name;

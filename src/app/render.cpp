@@ -66,6 +66,11 @@ class Renderer {
  public:
   explicit Renderer(const RenderOptions& options)
       : options_(options), info_(find_backend(options.backend)), backend_(info_.make()) {
+    if (options.what == What::hits && !info_.fills)
+      throw std::invalid_argument(
+          fmt::format("--payload hits counts what triangles cover: --backend {} "
+                      "does not fill them",
+                      info_.name));
     std::vector<std::string> names;
     for (const auto& scene : options.scenes) {
       check_source(scene);

@@ -60,7 +60,7 @@ void write(const std::string& path, const soak::Record& record) {
 
 soak::Record first_record(const SoakOptions& o) {
   std::vector<std::string> names;
-  for (const BackendInfo& backend : backends()) names.emplace_back(backend.name);
+  for (const BackendInfo& backend : filling_backends()) names.emplace_back(backend.name);
   soak::Shard shard = o.shard.value_or(soak::Shard{});
   if (o.only_case) shard = {*o.only_case, *o.only_case + 1, 0};
   const std::uint64_t seed = o.seed.value_or(kDefaultSeed);
@@ -165,7 +165,7 @@ int soak_command(const SoakOptions& o) {
   const std::string path = o.json.empty() ? o.resume : o.json == "-" ? "" : o.json;
 
   soak::Campaign campaign;
-  campaign.judged.backends.assign(backends().begin(), backends().end());
+  campaign.judged.backends.assign(filling_backends().begin(), filling_backends().end());
   campaign.seconds = o.seconds;
   campaign.cases = o.only_case ? 1 : o.cases;
   campaign.jobs = o.only_case ? 1 : o.jobs;

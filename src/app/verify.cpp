@@ -16,9 +16,11 @@ namespace edgewise::app {
 
 namespace {
 
-// What a frame is judged by: the triangles, and the frame they should become.
+// What a frame is judged by: the triangles, and the frame they should become by backends that fill, or by
+// those that don't.
 struct Judgement {
   std::string_view judge;
+  bool filled;
   const FrontendOptions& frontend;
   std::span<const ScreenTriangle> triangles;
   const Framebuffer& expected;
@@ -81,10 +83,15 @@ class SceneCheck {
         shot.frontend.payload = payload;
         const auto triangles = frontend_.run(shot.source.drawable, shot.frontend);
         if (payload == Payload::colour) count(frontend_.stats());
-        lab::poison(expected);
-        backends_[0]->draw(triangles, expected.view(), background_of(payload), kPlainest);
-        const Judgement judgement{plan_.backends[0].name, shot.frontend, triangles, expected};
-        compare_all(judgement);
+        for (const bool filled : {true, false}) {
+          const auto first = std::find_if(plan_.backends.begin(), plan_.backends.end(),
+                                          [&](const BackendInfo& info) { return info.fills == filled; });
+          if (first == plan_.backends.end()) continue;
+          lab::poison(expected);
+          backends_[static_cast<std::size_t>(first - plan_.backends.begin())]->draw(
+              triangles, expected.view(), background_of(payload), kPlainest);
+          compare_all({first->name, filled, shot.frontend, triangles, expected});
+        }
         if (cull == Cull::none && payload == Payload::id && covers_each_pixel_once(shot.source))
           check_hits(triangles, width, height);
       }
@@ -95,7 +102,7 @@ class SceneCheck {
     const Execution seams[] = {kMostSeams};
     const std::span<const Execution> all =
         judgement.frontend.payload == Payload::colour ? std::span<const Execution>(executions_) : seams;
-    for (std::size_t b = 0; b < backends_.size(); ++b)
+    for (const std::size_t b : judged_by(judgement))
       for (const Execution& execution : all) {
         verdict_.differing_pixels += compare(judgement, b, execution);
         ++verdict_.configurations;
@@ -114,21 +121,34 @@ class SceneCheck {
     for (const Cull cull : cull_modes()) {
       shot.frontend.cull = cull;
       const auto triangles = frontend_.run(shot.source.drawable, shot.frontend);
-      lab::draw_oracle(triangles, expected, background_of(Payload::id));
-      const Judgement judgement{"oracle", shot.frontend, triangles, expected};
-      for (std::size_t b = 0; b < backends_.size(); ++b) {
-        verdict_.oracle_differences += compare(judgement, b, kMostSeams);
-        ++verdict_.oracle_configurations;
+      for (const bool filled : {true, false}) {
+        const Judgement judgement{"oracle", filled, shot.frontend, triangles, expected};
+        const auto judged = judged_by(judgement);
+        if (judged.empty()) continue;
+        const auto draw_exactly = filled ? lab::draw_oracle : lab::draw_edge_oracle;
+        draw_exactly(triangles, expected, background_of(Payload::id));
+        for (const std::size_t b : judged) {
+          verdict_.oracle_differences += compare(judgement, b, kMostSeams);
+          ++verdict_.oracle_configurations;
+        }
       }
     }
   }
 
   void check_hits(std::span<const ScreenTriangle> triangles, int width, int height) {
     for (std::size_t b = 0; b < backends_.size(); ++b) {
+      if (!plan_.backends[b].fills) continue;
       const auto hits = lab::count_hits(*backends_[b], triangles, width, height, kMostSeams);
       const auto wrong = std::count_if(hits.begin(), hits.end(), [](std::uint32_t n) { return n != 1; });
       verdict_.hits.push_back({std::string(plan_.backends[b].name), static_cast<std::uint64_t>(wrong)});
     }
+  }
+
+  std::vector<std::size_t> judged_by(const Judgement& j) const {
+    std::vector<std::size_t> indices;
+    for (std::size_t b = 0; b < backends_.size(); ++b)
+      if (plan_.backends[b].fills == j.filled) indices.push_back(b);
+    return indices;
   }
 
   // The number of pixels that differ; the first difference of each backend and judge is kept with all that
@@ -173,7 +193,7 @@ class SceneCheck {
     if (found.pixels != 0) {
       mismatch.values = {value_at(j.expected, j.judge, x, y),
                          value_at(*candidate_, std::string(name) + " (so configured)", x, y)};
-      for (std::size_t b = 0; b < backends_.size(); ++b) {
+      for (const std::size_t b : judged_by(j)) {
         draw(j, b, {1, 64, resolve(SimdTarget::best)});
         mismatch.values.push_back(value_at(*candidate_, plan_.backends[b].name, x, y));
       }

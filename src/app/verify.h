@@ -1,5 +1,6 @@
 // The judge: does every backend, in every configuration, write the bits that the reference writes, and does
-// the reference write those of the oracle?
+// the reference write those of the oracle? Those that don't fill have a reference of their own, the first of
+// them, and an oracle.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +19,7 @@ namespace edgewise::app {
 
 struct VerifyPlan {
   std::vector<std::string> scenes;    // names or paths
-  std::vector<BackendInfo> backends;  // the first is the reference
+  std::vector<BackendInfo> backends;  // the first of those that fill is their reference, and so of others
   std::vector<int> threads{1, 2, 3};
   std::optional<Size> size;  // none: one that nothing divides; for .tri files their own
   bool full = false;         // 1920×1080, and built-in streams with all their triangles

@@ -71,9 +71,10 @@ constexpr const char* kFooter = R"(Examples:
 
 Every backend draws every scene in every culling mode, with 1, 2 and 3 threads, each SIMD target of this
 machine and each tile size. Each frame is compared bit for bit, in depth and payload (colours, and
-triangle ids), with the reference (the first backend of `edgewise list`, one thread, scalar). On a small
-image all backends are compared with an oracle, exact 128-bit arithmetic for each pixel and triangle; a
-.tri file that is small enough (pixels times triangles up to 7.5 million) keeps its own size there.
+triangle ids), with the reference (the first backend of `edgewise list`, one thread, scalar; backends that
+don't fill with the first of them). On a small image all backends are compared with an oracle, exact
+128-bit arithmetic for each pixel and triangle; a .tri file that is small enough (pixels times triangles up
+to 7.5 million) keeps its own size there.
 
 Columns: triangles submitted; emitted by the front end, over all culling modes; frames compared; pixels
 that differ; pixels that differ from the oracle.

@@ -29,6 +29,13 @@ std::string explain(const Mismatch& m) {
   return text;
 }
 
+std::string names_of(const VerifyPlan& plan, bool fills) {
+  std::string names;
+  for (const BackendInfo& backend : plan.backends)
+    if (backend.fills == fills) names += (names.empty() ? "" : ", ") + std::string(backend.name);
+  return names;
+}
+
 nlohmann::json mismatch_json(const Mismatch& m) {
   nlohmann::json json{{"judge", m.judge},
                       {"backend", m.backend},
@@ -121,13 +128,13 @@ std::string summary(const VerifyReport& report, const VerifyPlan& plan) {
     differing_scenes += v.ok() ? 0 : 1;
     if (!v.hits.empty() && v.ok()) once += (once.empty() ? "" : ", ") + printable(v.scene);
   }
-  std::string names;
-  for (const BackendInfo& backend : plan.backends)
-    names += (names.empty() ? "" : ", ") + std::string(backend.name);
+  const std::string names = names_of(plan, true), others = names_of(plan, false);
   std::string text;
   if (!once.empty()) text += fmt::format("{}: every pixel drawn exactly once by {}.\n", once, names);
-  text += fmt::format("{} frames compared with {}, {} with the oracle: ", configurations,
-                      plan.backends[0].name, oracle);
+  const auto first_of = [](const std::string& list) { return list.substr(0, list.find(',')); };
+  text +=
+      fmt::format("{} frames compared with {}{}, {} with the oracle: ", configurations, first_of(names),
+                  others.empty() ? "" : fmt::format(" (of {} with {})", others, first_of(others)), oracle);
   return text + (report.ok()
                      ? "no bit differs.\n"
                      : fmt::format("{} scene{} DIFFER{}.\n", differing_scenes,
@@ -136,7 +143,8 @@ std::string summary(const VerifyReport& report, const VerifyPlan& plan) {
 
 nlohmann::json report_json(const VerifyReport& report, const VerifyPlan& plan) {
   nlohmann::json json{{"machine", machine_description()}, {"full", plan.full}, {"ok", report.ok()}};
-  for (const BackendInfo& backend : plan.backends) json["backends"].push_back(backend.name);
+  for (const BackendInfo& backend : plan.backends)
+    json[backend.fills ? "backends" : "other_backends"].push_back(backend.name);
   json["threads"] = plan.threads;
   json["scenes"] = nlohmann::json::array();
   for (const SceneVerdict& verdict : report.scenes) json["scenes"].push_back(scene_json(verdict));

@@ -122,7 +122,7 @@ void add_view(CLI::App& program, Action& action, viewer::ShowWindow show_window)
         ->group("Methods to begin with");
   };
   add_stage("--coverage", "A backend, or a coverage method of the laboratory (tiled)",
-            lab::find_coverage_method, &viewer::Choice::coverage);
+            lab::find_drawing_method, &viewer::Choice::coverage);
   add_stage("--clipping", "Clipping method (near_guard)", viewer::find_clipping_method,
             &viewer::Choice::clipping);
   add_stage("--visibility", "Visibility method (contract31)", viewer::find_visibility_method,

@@ -47,10 +47,13 @@ struct BackendInfo {
   std::string_view name;  // the one key in command line, tests, results and charts
   std::string_view idea;  // one line
   std::unique_ptr<Backend> (*make)();
+  bool fills = true;  // the contract's picture; else one of its own
 };
 
-// All backends, the reference first.
+// All backends: those that fill, the reference first, then the others.
 std::span<const BackendInfo> backends();
+// Those that draw the same picture, bit for bit: what may be compared, judged and raced.
+std::span<const BackendInfo> filling_backends();
 
 // Throws std::invalid_argument, with the nearest known name, for an unknown one.
 const BackendInfo& find_backend(std::string_view name);

@@ -90,7 +90,17 @@ CoverageMethod make_from(const BackendInfo& backend) {
             backend_runs(*backend.make(), input.snapped, window, runs);
           },
           true,
-          true};
+          true,
+          backend.fills};
+}
+
+const CoverageMethod& find(std::span<const CoverageMethod> all, std::string_view kind,
+                           std::string_view name) {
+  const auto found = std::find_if(all.begin(), all.end(), [&](const auto& m) { return m.info.name == name; });
+  if (found != all.end()) return *found;
+  std::vector<std::string_view> names;
+  for (const auto& m : all) names.push_back(m.info.name);
+  throw std::invalid_argument(unknown_name(kind, name, names));
 }
 
 }  // namespace
@@ -105,24 +115,29 @@ Backend& Canvas::backend(const BackendInfo& info) {
   return *slot;
 }
 
-std::span<const CoverageMethod> coverage_methods() {
+std::span<const CoverageMethod> drawing_methods() {
   static const std::vector<CoverageMethod> list = [] {
     std::vector<CoverageMethod> methods;
-    for (const auto& backend : backends()) methods.push_back(make_from(backend));
+    for (const auto& backend : filling_backends()) methods.push_back(make_from(backend));
 #define EDGEWISE_ENTRY(name) methods.push_back(make_coverage_##name());
     EDGEWISE_COVERAGE_METHODS(EDGEWISE_ENTRY)
+    for (const auto& backend : backends().subspan(filling_backends().size()))
+      methods.push_back(make_from(backend));
     return methods;
   }();
   return list;
 }
 
+std::span<const CoverageMethod> coverage_methods() {
+  return drawing_methods().first(drawing_methods().size() - (backends().size() - filling_backends().size()));
+}
+
 const CoverageMethod& find_coverage_method(std::string_view name) {
-  const auto all = coverage_methods();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const auto& m) { return m.info.name == name; });
-  if (found != all.end()) return *found;
-  std::vector<std::string_view> names;
-  for (const auto& m : all) names.push_back(m.info.name);
-  throw std::invalid_argument(unknown_name("coverage method", name, names));
+  return find(coverage_methods(), "coverage method", name);
+}
+
+const CoverageMethod& find_drawing_method(std::string_view name) {
+  return find(drawing_methods(), "backend or coverage method", name);
 }
 
 std::vector<ScreenTriangle> snapped(std::span<const FloatTriangle> triangles) {

@@ -61,12 +61,17 @@ struct CoverageMethod {
   std::function<void(const CoverageInput&, Window, std::vector<Run>&)> runs;
   bool threaded = false;        // draw looks at `threads`
   bool contract_depth = false;  // draw leaves depths in the frame, in units of rule 6
+  bool fills = true;            // else there is another picture, which nothing here judges
 };
 
 // The backends first.
 std::span<const CoverageMethod> coverage_methods();
 // Throws std::invalid_argument, with the nearest known name, for an unknown one.
 const CoverageMethod& find_coverage_method(std::string_view name);
+
+// What can be looked at: the coverage methods, then the backends that don't fill.
+std::span<const CoverageMethod> drawing_methods();
+const CoverageMethod& find_drawing_method(std::string_view name);
 
 // Snaps as the front end does (rule 2), for triangles that were made without it. Does not clamp to the guard
 // band, since a window far off has a band of its own; |x|, |y| < 2^22 px.

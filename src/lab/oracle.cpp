@@ -1,8 +1,11 @@
 // Coverage by the snapped truth, sample by sample, wherever a pixel touches the triangle's box. Depth by the
-// contract's formula in exact integers, with no shared code and no shortcut.
+// contract's formula in exact integers, with no shared code and no shortcut. And the edges of triangles by
+// the definition of their rule, pixel by pixel.
 #include "lab/oracle.h"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "edgewise/contract.h"  // constants only
 #include "lab/truth.h"
@@ -60,9 +63,10 @@ PixelRange touched(const std::int32_t (&sub)[3], int size) {
           static_cast<int>(std::min<Wide>(floor_divide(high, 256), size - 1))};
 }
 
-}  // namespace
-
-void draw_oracle(std::span<const ScreenTriangle> triangles, Framebuffer& frame, std::uint32_t background) {
+// depth_of(triangle) makes a function of a pixel that has a depth where the triangle draws it.
+template <typename DepthOf>
+void draw(std::span<const ScreenTriangle> triangles, Framebuffer& frame, std::uint32_t background,
+          DepthOf&& depth_of) {
   const FrameView view = frame.view();
   for (int y = 0; y < view.height; ++y)
     for (int x = 0; x < view.width; ++x) {
@@ -70,21 +74,62 @@ void draw_oracle(std::span<const ScreenTriangle> triangles, Framebuffer& frame, 
       view.payload[y * view.stride + x] = background;
     }
   for (const auto& triangle : triangles) {
-    const SnappedTruth truth(triangle);
-    if (truth.facing() == 0) continue;
-    const ContractDepth depth(triangle);
+    if (SnappedTruth(triangle).facing() == 0) continue;
+    const auto depth_at = depth_of(triangle);
     const PixelRange columns = touched(triangle.x_sub, view.width),
                      rows = touched(triangle.y_sub, view.height);
     for (int y = rows.first; y <= rows.last; ++y)
       for (int x = columns.first; x <= columns.last; ++x) {
-        if (!truth.covers(x, y)) continue;
-        const std::uint32_t z = depth.at(x, y);
+        const std::optional<std::uint32_t> z = depth_at(x, y);
         std::uint32_t& old = view.depth[y * view.stride + x];
-        if (z >= old) continue;
-        old = z;
+        if (!z || *z >= old) continue;
+        old = *z;
         view.payload[y * view.stride + x] = triangle.payload;
       }
   }
+}
+
+// An edge between its ends: the depth at a pixel, if it draws it.
+std::optional<Wide> depth_between(const ScreenTriangle& t, int i, int j, int px, int py) {
+  Wide u[2] = {t.x_sub[i], t.x_sub[j]}, v[2] = {t.y_sub[i], t.y_sub[j]}, z[2] = {t.z[i], t.z[j]};
+  const auto length = [](const Wide(&at)[2]) { return at[0] < at[1] ? at[1] - at[0] : at[0] - at[1]; };
+  const bool along_x = length(u) >= length(v);
+  if (!along_x) std::swap(u, v);
+  if (u[0] > u[1]) std::swap(u[0], u[1]), std::swap(v[0], v[1]), std::swap(z[0], z[1]);
+  const Wide sample = Wide{along_x ? px : py} * 256 + 128, du = u[1] - u[0], done = sample - u[0];
+  if (sample < u[0] || sample >= u[1]) return {};
+  if (floor_divide(v[0] * du + (v[1] - v[0]) * done, 256 * du) != (along_x ? py : px)) return {};
+  return floor_divide(2 * (z[0] * du + (z[1] - z[0]) * done) + du, 2 * du);
+}
+
+std::optional<std::uint32_t> edge_depth(const ScreenTriangle& t, int px, int py) {
+  std::optional<Wide> nearest;
+  const auto take = [&](std::optional<Wide> z) {
+    if (z && (!nearest || *z < *nearest)) nearest = z;
+  };
+  for (int i = 0; i < 3; ++i) {
+    take(depth_between(t, i, (i + 1) % 3, px, py));
+    if (floor_divide(t.x_sub[i], 256) == px && floor_divide(t.y_sub[i], 256) == py) take(Wide{t.z[i]});
+  }
+  if (!nearest) return {};
+  return static_cast<std::uint32_t>(*nearest);
+}
+
+}  // namespace
+
+void draw_oracle(std::span<const ScreenTriangle> triangles, Framebuffer& frame, std::uint32_t background) {
+  draw(triangles, frame, background, [](const ScreenTriangle& triangle) {
+    return [truth = SnappedTruth(triangle), depth = ContractDepth(triangle)](int x, int y) {
+      return truth.covers(x, y) ? std::optional(depth.at(x, y)) : std::nullopt;
+    };
+  });
+}
+
+void draw_edge_oracle(std::span<const ScreenTriangle> triangles, Framebuffer& frame,
+                      std::uint32_t background) {
+  draw(triangles, frame, background, [](const ScreenTriangle& triangle) {
+    return [&triangle](int x, int y) { return edge_depth(triangle, x, y); };
+  });
 }
 
 }  // namespace edgewise::lab

@@ -1,5 +1,6 @@
 // The list of backends. A new one is a file in backends/ that defines make_NAME() and idea_NAME, and a line
-// here.
+// in one of the two lists: of those that fill triangles by the contract, and of those that draw another
+// picture of them.
 #include <algorithm>
 #include <array>
 #include <stdexcept>
@@ -8,22 +9,33 @@
 #include "edgewise/backend.h"
 #include "nearest_name.h"
 
-#define EDGEWISE_BACKENDS(X) \
-  X(scanline)                \
-  X(naive)                   \
+#define EDGEWISE_FILLING_BACKENDS(X) \
+  X(scanline)                        \
+  X(naive)                           \
   X(tiled)
+
+#define EDGEWISE_OTHER_BACKENDS(X) X(wireframe)
 
 namespace edgewise {
 
 #define EDGEWISE_DECLARE(name)               \
   extern const std::string_view idea_##name; \
   std::unique_ptr<Backend> make_##name();
-EDGEWISE_BACKENDS(EDGEWISE_DECLARE)
+EDGEWISE_FILLING_BACKENDS(EDGEWISE_DECLARE)
+EDGEWISE_OTHER_BACKENDS(EDGEWISE_DECLARE)
 
 std::span<const BackendInfo> backends() {
-#define EDGEWISE_ENTRY(name) BackendInfo{#name, idea_##name, make_##name},
-  static const std::array list{EDGEWISE_BACKENDS(EDGEWISE_ENTRY)};
+#define EDGEWISE_FILLING(name) BackendInfo{#name, idea_##name, make_##name, true},
+#define EDGEWISE_OTHER(name) BackendInfo{#name, idea_##name, make_##name, false},
+  static const std::array list{EDGEWISE_FILLING_BACKENDS(EDGEWISE_FILLING)
+                                   EDGEWISE_OTHER_BACKENDS(EDGEWISE_OTHER)};
   return list;
+}
+
+std::span<const BackendInfo> filling_backends() {
+  const auto all = backends();
+  const auto filling = std::count_if(all.begin(), all.end(), [](const auto& b) { return b.fills; });
+  return all.first(static_cast<std::size_t>(filling));
 }
 
 const BackendInfo& find_backend(std::string_view name) {

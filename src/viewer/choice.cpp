@@ -40,7 +40,7 @@ const lab::FacingMethod& find_facing_method(std::string_view name) {
 }
 
 Choice our_choice(std::string_view backend) {
-  return {&lab::find_coverage_method(find_backend(backend).name)};
+  return {&lab::find_drawing_method(find_backend(backend).name)};
 }
 
 bool put(std::string_view method, Choice& choice) {
@@ -49,7 +49,7 @@ bool put(std::string_view method, Choice& choice) {
     if (found != nullptr) stage = found;
     return found != nullptr;
   };
-  return put_at(lab::coverage_methods(), choice.coverage) ||
+  return put_at(lab::drawing_methods(), choice.coverage) ||
          put_at(lab::clipping_methods(), choice.clipping) ||
          put_at(lab::visibility_methods(), choice.visibility) || put_at(lab::facing_methods(), choice.facing);
 }
@@ -60,7 +60,7 @@ Drawn drawable_part(const Choice& choice, bool stream) {
     if (choice == only_coverage) return {choice, {}};
     return {only_coverage, "a stream has no camera: clipping, visibility and facing stay ours"};
   }
-  if (choice.our_visibility() || choice.our_coverage()) return {choice, {}};
+  if (choice.our_visibility() || (choice.our_coverage() && choice.fills())) return {choice, {}};
   Drawn drawn{choice, std::string(choice.visibility->info.name) + " covers exactly by itself: no " +
                           std::string(choice.coverage->info.name)};
   drawn.choice.coverage = our_choice(backends().front().name).coverage;

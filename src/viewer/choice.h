@@ -23,6 +23,7 @@ struct Choice {
   bool our_clipping() const { return clipping == &lab::clipping_methods().front(); }
   bool our_visibility() const { return visibility == &lab::visibility_methods().front(); }
   bool our_facing() const { return facing == &lab::facing_methods().front(); }
+  bool fills() const { return coverage->fills; }
   bool ours() const { return our_coverage() && our_clipping() && our_visibility() && our_facing(); }
 
   bool operator==(const Choice&) const = default;

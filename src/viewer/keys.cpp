@@ -65,6 +65,7 @@ std::span<const KeyRow> key_table() {
       {"l", "turn about the line of sight", {{key_of('l'), Command::axis_of_sight}}},
       {"f", "freeze", {{key_of('f'), Command::freeze}}},
       {"b", "backend or coverage method", {{key_of('b'), Command::coverage}}},
+      {"y", "edges only, or filled", {{key_of('y'), Command::edges}}},
       {"x", "clipping method", {{key_of('x'), Command::clipping}}},
       {"z", "visibility method", {{key_of('z'), Command::visibility}}},
       {"n", "facing test", {{key_of('n'), Command::facing}}},

@@ -52,6 +52,7 @@ enum class Command : std::uint8_t {
   axis_of_sight,
   freeze,
   coverage,
+  edges,
   clipping,
   visibility,
   facing,

@@ -77,6 +77,8 @@ std::string_view culling(const Side& side) {
 }
 
 std::string errors_of(const State& state, const Side& side, bool brief) {
+  if (!side.judgement && !side.choice.fills())
+    return brief ? "edges only" : "[y] edges only: no errors to count";
   if (state.errors == Errors::off || !side.judgement) return "[e] errors not counted";
   const Judgement& j = *side.judgement;
   std::string text = brief ? fmt::format("{} wrong", j.wrong)

@@ -266,8 +266,8 @@ Judgement Pipeline::judge(const Choice& choice, const View& view, Truth truth) {
   const Owners said = owners_of(choice, view, triangles, unused_ms);
 
   // No backend is its own judge.
-  const bool is_first = choice.coverage->info.name == backends().front().name;
-  const std::string_view by = backends()[is_first ? 1 : 0].name;
+  const bool is_first = choice.coverage->info.name == filling_backends().front().name;
+  const std::string_view by = filling_backends()[is_first ? 1 : 0].name;
   const Owners shown = [&] {
     if (choice.our_clipping() && choice.our_facing()) return true_owners(view, triangles, truth, by);
     const Choice exact = our_choice(by);

@@ -51,7 +51,7 @@ class Pipeline {
  public:
   // The choice must be drawable (drawable_part).
   Picture draw(const Choice& choice, const View& view);
-  // Of the same choice and view.
+  // Of the same choice and view; the choice must be one that fills.
   Judgement judge(const Choice& choice, const View& view, Truth truth);
   // Over the picture of the last draw, by the same choice and view.
   void outline(const Choice& choice, const View& view, Image& image);

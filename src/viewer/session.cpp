@@ -59,6 +59,13 @@ void step_method(std::span<const Method> methods, const Method*& method, int ste
   method = &next_in(methods, step, [&](const Method& m) { return &m == method; });
 }
 
+// The next one that fills, from one that does not; and the other way round.
+void step_to_other_picture(const lab::CoverageMethod*& method) {
+  const auto filled = method->fills;
+  do step_method(lab::drawing_methods(), method, 1);
+  while (method->fills == filled);
+}
+
 template <typename Enum>
 Enum next_of_three(Enum value) {
   return static_cast<Enum>((static_cast<int>(value) + 1) % 3);
@@ -256,7 +263,10 @@ void Session::switch_by(Command command, int step) {
   Choice& choice = side.choice;
   switch (command) {
     case Command::coverage:
-      step_method(lab::coverage_methods(), choice.coverage, step);
+      step_method(lab::drawing_methods(), choice.coverage, step);
+      break;
+    case Command::edges:
+      step_to_other_picture(choice.coverage);
       break;
     case Command::clipping:
       step_method(lab::clipping_methods(), choice.clipping, step);
@@ -406,7 +416,7 @@ Image Session::draw_side(std::size_t i, app::Size size, double& work_ms) {
 void Session::judge_if_due(std::size_t i, const Choice& choice, const View& view, double work_ms) {
   Side& side = sides_[i];
   const bool fresh = side.judgement && side.judged == state_.version;
-  if (state_.errors == Errors::off || fresh) return;
+  if (state_.errors == Errors::off || !choice.fills() || fresh) return;
   const bool affordable = state_.reproducible || work_ms + side.judging_ms < kBudget_ms;
   if (side.judgement && !affordable && !still() && state_.errors != Errors::tint) {
     side.judging_ms *= kRemembered;

@@ -88,7 +88,7 @@ Framebuffer reference(std::span<const ScreenTriangle> triangles, int width, int 
 
 void check_backends(std::span<const ScreenTriangle> triangles, const Placement& p, Execution execution) {
   const Framebuffer expected = reference(triangles, p.width, p.height);
-  for (const BackendInfo& info : backends())
+  for (const BackendInfo& info : filling_backends())
     for (const SimdTarget target : supported_targets()) {
       execution.target = target;
       Plane depth(p), payload(p);

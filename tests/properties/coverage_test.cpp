@@ -36,7 +36,7 @@ Hits covered_counts(std::span<const ScreenTriangle> triangles, const TriangleStr
 
 class CoverageProperties : public ::testing::Test {
  protected:
-  const std::vector<Painter> painters_ = painters(backends());
+  const std::vector<Painter> painters_ = painters(filling_backends());
 
   static Hits hits(const Painter& painter, std::span<const ScreenTriangle> triangles,
                    const TriangleStream& stream, const Execution& way) {

@@ -16,7 +16,7 @@ namespace {
 
 class Properties : public ::testing::Test {
  protected:
-  const std::vector<Painter> painters_ = painters(backends());
+  const std::vector<Painter> painters_ = painters(filling_backends());
 
   // Each painter's picture of the one list, in both ways, with its own plain picture of the other.
   void compare_with_own(Verdict& verdict, std::span<const ScreenTriangle> triangles,
