@@ -19,7 +19,9 @@ std::string_view name_of(Cull cull);  // "none", "back", "front", "both"
 
 enum class Payload {
   colour,  // 0xAABBGGRR
-  id       // index of the source triangle in submission order; the pieces of a clipped triangle share one
+  // Index of the source triangle in submission order; the pieces of a clipped triangle share one, and so do
+  // both halves of a face of four vertices (its first half's).
+  id
 };
 
 struct FrontendOptions {

@@ -16,10 +16,24 @@ constexpr std::uint32_t rgb(std::uint32_t r, std::uint32_t g, std::uint32_t b) {
   return 0xFF000000u | b << 16 | g << 8 | r;
 }
 
+// What sets a triangle apart from others.
+inline constexpr std::uint8_t kTwoSided = 1;  // never culled for its facing, and lit on the side that is seen
+inline constexpr std::uint8_t kSecondHalf = 2;  // with the triangle before it, a face of four vertices
+
 struct Mesh {
   std::vector<glm::vec3> positions;
   std::vector<glm::uvec3> triangles;   // clockwise seen from outside is front
   std::vector<std::uint32_t> colours;  // one a triangle
+  std::vector<std::uint8_t> marks{};   // of each triangle, the sum of the above; or empty: none has any
+
+  bool has_mark(std::size_t triangle, std::uint8_t mark) const {
+    return !marks.empty() && (marks[triangle] & mark) != 0;
+  }
+  // The first triangle of a triangle's face. It stands for the face: its colour, its light (by its own
+  // normal) and its index are those of both halves.
+  std::size_t face_of(std::size_t triangle) const { return triangle - has_mark(triangle, kSecondHalf); }
+  // A face of four vertices a, b, c, d: the triangles a, b, c and a, c, d, in this order.
+  void add_quad(glm::uvec4 corners, std::uint32_t colour, bool two_sided = false);
 };
 
 // A mesh in the world: scaled, then rotated about an axis through its origin, then moved.

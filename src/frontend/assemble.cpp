@@ -20,6 +20,7 @@ namespace edgewise {
 namespace HWY_NAMESPACE {
 
 // False if the triangles must go one by one.
+template <bool kMarked>
 HWY_INLINE bool assemble_vector(const MeshJob& job, std::size_t first, RunOutput& out) {
   if (job.options.keep_unsnapped) return false;
   const DI d;
@@ -33,11 +34,11 @@ HWY_INLINE bool assemble_vector(const MeshJob& job, std::size_t first, RunOutput
   const VI any = hn::Or(a.word[3], hn::Or(b.word[3], c.word[3]));
   const MI special = hn::Ne(hn::And(any, hn::Set(d, kMustClip | kNotFinite)), hn::Zero(d));
   if (!hn::AllFalse(d, hn::AndNot(outside, special))) return false;
-  cull_and_append({{a.word[0], b.word[0], c.word[0]},
-                   {a.word[1], b.word[1], c.word[1]},
-                   {a.word[2], b.word[2], c.word[2]},
-                   hn::Iota(d, static_cast<std::int32_t>(first))},
-                  outside, job.options.cull, out);
+  cull_and_append<kMarked>({{a.word[0], b.word[0], c.word[0]},
+                            {a.word[1], b.word[1], c.word[1]},
+                            {a.word[2], b.word[2], c.word[2]},
+                            hn::Iota(d, static_cast<std::int32_t>(first))},
+                           outside, job.options.cull, out, job.mesh.marks.data() + (kMarked ? first : 0));
   return true;
 }
 
@@ -54,15 +55,23 @@ bool vertices_exist(const Mesh& mesh, std::size_t begin, std::size_t end) {
   return *std::max_element(lanes, lanes + kLanes) < mesh.positions.size();
 }
 
-bool assemble(const MeshJob& job, std::size_t begin, std::size_t end, RunOutput& out) {
-  if (!vertices_exist(job.mesh, begin, end)) return false;
+template <bool kMarked>
+void assemble_all(const MeshJob& job, std::size_t begin, std::size_t end, RunOutput& out) {
   const auto one_by_one = [&](std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; ++i) add_one(job, i, out);
   };
   std::size_t i = begin;
   for (; i + kLanes <= end; i += kLanes)
-    if (!assemble_vector(job, i, out)) one_by_one(i, i + kLanes);
+    if (!assemble_vector<kMarked>(job, i, out)) one_by_one(i, i + kLanes);
   one_by_one(i, end);
+}
+
+bool assemble(const MeshJob& job, std::size_t begin, std::size_t end, RunOutput& out) {
+  if (!vertices_exist(job.mesh, begin, end)) return false;
+  if (job.mesh.marks.empty())
+    assemble_all<false>(job, begin, end, out);
+  else
+    assemble_all<true>(job, begin, end, out);
   return true;
 }
 

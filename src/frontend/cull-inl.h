@@ -35,13 +35,21 @@ HWY_INLINE VI area_sign(const TriangleVectors& t) {
                    hn::Sub(t.y[2], t.y[0]));
 }
 
-// Appends triangles that need no clipping, in order; `outside` are those beyond one side of the view.
-HWY_INLINE void cull_and_append(const TriangleVectors& t, MI outside, Cull cull, RunOutput& out) {
+// Appends triangles that need no clipping, in order; `outside` are those beyond one side of the view. With
+// `kMarked`, `marks` are theirs.
+template <bool kMarked = false>
+HWY_INLINE void cull_and_append(const TriangleVectors& t, MI outside, Cull cull, RunOutput& out,
+                                const std::uint8_t* marks = nullptr) {
   const DI d;
   const VI sign = area_sign(t);
   const VI front = hn::Set(d, cull == Cull::none || cull == Cull::back ? 1 : 2);
   const VI back = hn::Set(d, cull == Cull::none || cull == Cull::front ? -1 : 2);
-  const MI faces = hn::Or(hn::Eq(sign, front), hn::Eq(sign, back));
+  MI faces = hn::Or(hn::Eq(sign, front), hn::Eq(sign, back));
+  if constexpr (kMarked) {
+    const VI mark = hn::PromoteTo(d, hn::LoadU(hn::Rebind<std::uint8_t, DI>{}, marks));
+    const MI two_sided = hn::Ne(hn::And(mark, hn::Set(d, kTwoSided)), hn::Zero(d));
+    faces = hn::Or(faces, hn::And(two_sided, hn::Ne(sign, hn::Zero(d))));
+  }
   const MI keep = hn::AndNot(outside, faces);
   const MI zero = hn::AndNot(outside, hn::Eq(sign, hn::Zero(d)));
   const std::size_t kept = hn::CountTrue(d, keep), flat = hn::CountTrue(d, zero);

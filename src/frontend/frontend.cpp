@@ -30,6 +30,11 @@ void check(const Mesh& mesh) {
   if (mesh.colours.size() != mesh.triangles.size())
     throw std::invalid_argument("a mesh has " + std::to_string(mesh.triangles.size()) + " triangles and " +
                                 std::to_string(mesh.colours.size()) + " colours");
+  if (!mesh.marks.empty() && mesh.marks.size() != mesh.triangles.size())
+    throw std::invalid_argument("a mesh has " + std::to_string(mesh.triangles.size()) + " triangles and " +
+                                std::to_string(mesh.marks.size()) + " marks");
+  if (!mesh.marks.empty() && mesh.has_mark(0, kSecondHalf))
+    throw std::invalid_argument("a mesh begins with the second half of a face");
 }
 
 const Mesh& mesh_of(const Scene& scene, const Instance& instance) {
@@ -148,13 +153,18 @@ struct Frontend::State {
   void finish_payload(const GroupMember& member, std::size_t first, RunOutput& out, ShadeKernel shade) {
     ScreenTriangle* triangles = out.triangles.data() + first;
     const std::size_t count = out.count - first;
+    const Mesh& mesh = member.job.mesh;
+    if (!mesh.marks.empty())
+      std::for_each_n(triangles, count, [&](ScreenTriangle& t) {
+        if (options.payload == Payload::id || !options.shade)
+          t.payload = static_cast<std::uint32_t>(mesh.face_of(t.payload));
+      });
     if (options.payload == Payload::id)
       std::for_each_n(triangles, count, [&](ScreenTriangle& t) { t.payload += member.first_id; });
     else if (options.shade)
       shade(member.light, out, first);
     else
-      std::for_each_n(triangles, count,
-                      [&](ScreenTriangle& t) { t.payload = member.job.mesh.colours[t.payload]; });
+      std::for_each_n(triangles, count, [&](ScreenTriangle& t) { t.payload = mesh.colours[t.payload]; });
   }
 
   void assemble_group() {

@@ -33,17 +33,24 @@ bool faces_away(std::int64_t area, Cull cull) {
   return cull == Cull::both || (cull == Cull::front && area > 0) || (cull == Cull::back && area < 0);
 }
 
+// What the steps below know of a triangle beside its vertices.
+struct Source {
+  std::uint32_t payload;
+  Cull cull;  // none for two-sided ones
+};
+
 // unsnapped() is called only where it is kept.
 template <typename Unsnapped>
-void emit(const Vertex& a, const Vertex& b, const Vertex& c, std::uint32_t payload,
+void emit(const Vertex& a, const Vertex& b, const Vertex& c, const Source& source,
           const FrontendOptions& options, RunOutput& out, Unsnapped&& unsnapped) {
   FrontendStats& stats = out.stats;
   ++stats.pieces;
-  const ScreenTriangle t{{a.x_sub, b.x_sub, c.x_sub}, {a.y_sub, b.y_sub, c.y_sub}, {a.z, b.z, c.z}, payload};
+  const ScreenTriangle t{
+      {a.x_sub, b.x_sub, c.x_sub}, {a.y_sub, b.y_sub, c.y_sub}, {a.z, b.z, c.z}, source.payload};
   const std::int64_t area = contract::signed_area(t);
   if (area == 0 && !options.keep_unsnapped) {
     ++stats.zero_area;
-  } else if (faces_away(area, options.cull)) {
+  } else if (faces_away(area, source.cull)) {
     ++stats.culled;
   } else {
     ++stats.emitted;
@@ -52,7 +59,7 @@ void emit(const Vertex& a, const Vertex& b, const Vertex& c, std::uint32_t paylo
   }
 }
 
-void clip(const ClipVertex (&triangle)[3], std::uint32_t sides, std::uint32_t payload,
+void clip(const ClipVertex (&triangle)[3], std::uint32_t sides, const Source& source,
           const FrontendOptions& options, RunOutput& out) {
   FrontendStats& stats = out.stats;
   if (sides & kNear) ++stats.clipped_near;
@@ -73,22 +80,22 @@ void clip(const ClipVertex (&triangle)[3], std::uint32_t sides, std::uint32_t pa
   const Pieces pieces = split({snapped.data(), polygon.size()});
   for (std::size_t i = 0; i < pieces.count; ++i) {
     const auto [a, b, c] = pieces.corners[i];
-    emit(snapped[a], snapped[b], snapped[c], payload, options, out,
+    emit(snapped[a], snapped[b], snapped[c], source, options, out,
          [&, a = a, b = b, c = c] { return unsnapped_triangle(polygon[a], polygon[b], polygon[c]); });
   }
 }
 
 // clip_of(k) is corner k before the division.
 template <typename ClipOf>
-void add(const Vertex& a, const Vertex& b, const Vertex& c, std::uint32_t payload,
+void add(const Vertex& a, const Vertex& b, const Vertex& c, const Source& source,
          const FrontendOptions& options, RunOutput& out, ClipOf&& clip_of) {
   if (drop(a, b, c, out.stats)) return;
   const std::uint32_t sides = (a.outside | b.outside | c.outside) & kMustClip;
   if (sides == 0)
-    emit(a, b, c, payload, options, out,
+    emit(a, b, c, source, options, out,
          [&] { return unsnapped_triangle(clip_of(0), clip_of(1), clip_of(2)); });
   else
-    clip({clip_of(0), clip_of(1), clip_of(2)}, sides, payload, options, out);
+    clip({clip_of(0), clip_of(1), clip_of(2)}, sides, source, options, out);
 }
 
 }  // namespace
@@ -96,7 +103,8 @@ void add(const Vertex& a, const Vertex& b, const Vertex& c, std::uint32_t payloa
 void add_one(const MeshJob& job, std::size_t triangle, RunOutput& out) {
   const glm::uvec3 t = job.mesh.triangles[triangle];
   const auto clip_of = [&](int k) { return transform(job.to_screen, job.mesh.positions[t[k]]); };
-  add(job.vertices[t.x], job.vertices[t.y], job.vertices[t.z], static_cast<std::uint32_t>(triangle),
+  const Cull cull = job.mesh.has_mark(triangle, kTwoSided) ? Cull::none : job.options.cull;
+  add(job.vertices[t.x], job.vertices[t.y], job.vertices[t.z], {static_cast<std::uint32_t>(triangle), cull},
       job.options, out, clip_of);
 }
 
@@ -109,8 +117,8 @@ void add_one(const StreamJob& job, std::size_t triangle, RunOutput& out) {
   };
   const auto vertex = [&](int k) { return make_vertex(clip_of(k), width, height); };
   const bool ids = job.options.payload == Payload::id;
-  add(vertex(0), vertex(1), vertex(2), ids ? static_cast<std::uint32_t>(triangle) : t.colour, job.options,
-      out, clip_of);
+  add(vertex(0), vertex(1), vertex(2),
+      {ids ? static_cast<std::uint32_t>(triangle) : t.colour, job.options.cull}, job.options, out, clip_of);
 }
 
 }  // namespace edgewise

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 
+#include "edgewise/contract.h"
 #include "frontend/shade.h"
 #include "raster/kernel_table.h"
 
@@ -97,7 +98,13 @@ HWY_INLINE VF cosines(const ShadeJob& job, const Positions& positions,
       real(c.word[0]), real(c.word[1]), real(c.word[2]));
 }
 
-void shade(const ShadeJob& job, RunOutput& run, std::size_t first) {
+// -1 for a two-sided triangle that is seen from behind, else 1.
+float side_seen(const Mesh& mesh, std::uint32_t source, const ScreenTriangle& seen) {
+  return mesh.has_mark(source, kTwoSided) && contract::signed_area(seen) < 0 ? -1.0f : 1.0f;
+}
+
+template <bool kMarked>
+void shade_all(const ShadeJob& job, RunOutput& run, std::size_t first) {
   const DI d;
   const Positions positions(job.mesh);
   ScreenTriangle* triangles = run.triangles.data();
@@ -105,15 +112,30 @@ void shade(const ShadeJob& job, RunOutput& run, std::size_t first) {
     const std::size_t count = std::min(kLanes, run.count - i);
     const glm::uvec3* corners[kLanes];
     std::uint32_t colours[kLanes];
+    float sides[kLanes];
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      const std::uint32_t source = triangles[i + std::min(lane, count - 1)].payload;
+      const ScreenTriangle& seen = triangles[i + std::min(lane, count - 1)];
+      std::size_t source = seen.payload;
+      if constexpr (kMarked) {
+        sides[lane] = side_seen(job.mesh, seen.payload, seen);
+        source = job.mesh.face_of(source);
+      }
       corners[lane] = &job.mesh.triangles[source];
       colours[lane] = job.mesh.colours[source];
     }
     const VI colour = hn::LoadU(d, reinterpret_cast<const std::int32_t*>(colours));
-    hn::StoreU(lit(colour, cosines(job, positions, corners)), d, reinterpret_cast<std::int32_t*>(colours));
+    VF cosine = cosines(job, positions, corners);
+    if constexpr (kMarked) cosine = hn::Mul(cosine, hn::LoadU(DF{}, sides));
+    hn::StoreU(lit(colour, cosine), d, reinterpret_cast<std::int32_t*>(colours));
     for (std::size_t lane = 0; lane < count; ++lane) triangles[i + lane].payload = colours[lane];
   }
+}
+
+void shade(const ShadeJob& job, RunOutput& run, std::size_t first) {
+  if (job.mesh.marks.empty())
+    shade_all<false>(job, run, first);
+  else
+    shade_all<true>(job, run, first);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -134,6 +156,24 @@ ShadeKernel shade_kernel(SimdTarget target) {
   return EDGEWISE_KERNEL(shade, target);
 }
 
+namespace {
+
+// Some triangle that is wound on the screen as one of the mesh's is seen, or has no area.
+ScreenTriangle wound_as_seen(const Scene& scene, const Mesh& mesh, const glm::dmat4& model,
+                             std::size_t triangle) {
+  glm::dvec3 from_eye[3];
+  for (int k = 0; k < 3; ++k)
+    from_eye[k] =
+        glm::dvec3(model * glm::dvec4(glm::dvec3(mesh.positions[mesh.triangles[triangle][k]]), 1.0)) -
+        glm::dvec3(scene.camera.position);
+  // Clockwise is the front, so this points to where it is seen from.
+  const glm::dvec3 normal = glm::cross(from_eye[2] - from_eye[0], from_eye[1] - from_eye[0]);
+  const int tall = glm::dot(normal, from_eye[0]) < 0.0 ? 1 : -1;
+  return {{0, 1, 0}, {0, 0, tall}, {}, static_cast<std::uint32_t>(triangle)};
+}
+
+}  // namespace
+
 std::vector<std::uint32_t> lit_colours(const Scene& scene) {
   const ShadeKernel kernel = shade_kernel(resolve(SimdTarget::best));
   std::vector<std::uint32_t> colours;
@@ -141,11 +181,12 @@ std::vector<std::uint32_t> lit_colours(const Scene& scene) {
   run.reserve(false);
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes.at(instance.mesh);
-    const ShadeJob job(mesh, model_matrix(instance), scene.to_light);
+    const glm::dmat4 model(model_matrix(instance));
+    const ShadeJob job(mesh, model, scene.to_light);
     for (std::size_t begin = 0; begin < mesh.triangles.size(); begin += kRun) {
       run.count = std::min(kRun, mesh.triangles.size() - begin);
       for (std::size_t i = 0; i < run.count; ++i)
-        run.triangles.data()[i].payload = static_cast<std::uint32_t>(begin + i);
+        run.triangles.data()[i] = wound_as_seen(scene, mesh, model, begin + i);
       kernel(job, run, 0);
       for (std::size_t i = 0; i < run.count; ++i) colours.push_back(run.triangles.data()[i].payload);
     }

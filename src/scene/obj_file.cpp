@@ -190,6 +190,7 @@ struct Builder {
 Mesh make_mesh(Builder built, const std::vector<std::size_t>& face_lines) {
   Mesh mesh;
   std::vector<std::uint32_t> polygon;
+  std::vector<std::size_t> second_halves;
   for (std::size_t face = 0; face < face_lines.size(); ++face) {
     polygon.clear();
     for (std::size_t i = built.face_ends[face]; i < built.face_ends[face + 1]; ++i) {
@@ -201,7 +202,9 @@ Mesh make_mesh(Builder built, const std::vector<std::size_t>& face_lines) {
       polygon.push_back(static_cast<std::uint32_t>(corner));
     }
     try {
+      const std::size_t before = mesh.triangles.size();
       triangulate(built.positions, polygon, mesh.triangles);
+      if (polygon.size() == 4 && mesh.triangles.size() == before + 2) second_halves.push_back(before + 1);
     } catch (const std::invalid_argument& error) {
       throw std::invalid_argument(at_line(face_lines[face], error.what()));
     }
@@ -209,6 +212,8 @@ Mesh make_mesh(Builder built, const std::vector<std::size_t>& face_lines) {
   for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
   mesh.positions = std::move(built.positions);
   mesh.colours.assign(mesh.triangles.size(), kGrey);
+  if (!second_halves.empty()) mesh.marks.resize(mesh.triangles.size());
+  for (const std::size_t triangle : second_halves) mesh.marks[triangle] = kSecondHalf;
   return mesh;
 }
 

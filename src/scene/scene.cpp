@@ -7,6 +7,15 @@
 
 namespace edgewise {
 
+void Mesh::add_quad(glm::uvec4 corners, std::uint32_t colour, bool two_sided) {
+  const std::uint8_t sides = two_sided ? kTwoSided : 0;
+  marks.resize(triangles.size());
+  triangles.emplace_back(corners.x, corners.y, corners.z);
+  triangles.emplace_back(corners.x, corners.z, corners.w);
+  marks.insert(marks.end(), {sides, static_cast<std::uint8_t>(sides | kSecondHalf)});
+  colours.insert(colours.end(), 2, colour);
+}
+
 void Camera::look_at(glm::vec3 target) {
   const glm::dvec3 d = glm::dvec3(target) - glm::dvec3(position);
   if (d == glm::dvec3(0.0)) return;

@@ -64,6 +64,19 @@ std::vector<std::uint32_t> colours_of(const Drawable& drawable, bool shade) {
   return colours;
 }
 
+// By index in the scene; empty where there is none.
+std::vector<bool> two_sided_faces(const Drawable& drawable) {
+  const auto* scene = std::get_if<Scene>(&drawable);
+  const auto has_marks = [](const Mesh& mesh) { return !mesh.marks.empty(); };
+  if (scene == nullptr || std::none_of(scene->meshes.begin(), scene->meshes.end(), has_marks)) return {};
+  std::vector<bool> faces;
+  for (const Instance& instance : scene->instances) {
+    const Mesh& mesh = scene->meshes.at(instance.mesh);
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) faces.push_back(mesh.has_mark(i, kTwoSided));
+  }
+  return faces;
+}
+
 // The background's 0 becomes kNobody.
 std::vector<std::uint32_t> owners_in(const Framebuffer& frame) {
   std::vector<std::uint32_t> ids;
@@ -193,10 +206,15 @@ void Pipeline::cull(const lab::FacingMethod& method, const View& view, Triangles
     return fronts[id] != 0 ? 1 : -1;
   };
   const Cull mode = view.frontend.cull;
+  const std::vector<bool> two_sided = two_sided_faces(view.world.drawable());
+  const auto is_culled = [&](const ScreenTriangle& t) {
+    if (!two_sided.empty() && two_sided[t.payload - 1]) return false;
+    const std::int64_t side = side_of(t);
+    return mode == Cull::both || (mode == Cull::front && side > 0) || (mode == Cull::back && side < 0);
+  };
   std::size_t kept = 0;
   for (std::size_t i = 0; i < triangles.snapped.size(); ++i) {
-    const std::int64_t side = side_of(triangles.snapped[i]);
-    if (mode == Cull::both || (mode == Cull::front && side > 0) || (mode == Cull::back && side < 0)) continue;
+    if (is_culled(triangles.snapped[i])) continue;
     triangles.snapped[kept] = triangles.snapped[i];
     triangles.floats[kept++] = triangles.floats[i];
   }
