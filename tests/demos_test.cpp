@@ -158,22 +158,33 @@ TEST(P5jsClipping, CutsMovesTurnsAndComesBack) {
   EXPECT_EQ(count(last, kPiecesOutline) > 1000, true);
 }
 
-TEST(RealbasicBackface, CullsFacesAndWholeObjects) {
+TEST(RealbasicBackface, CullsFacesAndWholeObjectsButNoTwoSidedFace) {
+  constexpr std::uint32_t kSheet = rgb(230, 230, 230);
   Shown demo("realbasic-backface");
+  // Unlit, so that a face has its colour.
+  const auto sheets = [&](const Screen& screen) {
+    return std::count(screen.picture.pixels.begin(), screen.picture.pixels.end(), kSheet);
+  };
   demo.step();
   EXPECT_EQ(demo.side(0).choice.facing->info.name, "normal_dot_eye");
   const FrontendStats stats = demo.side(0).stats;
   EXPECT_GE(stats.meshes_culled, 4u);
   EXPECT_GT(stats.culled, 10u);
   EXPECT_GT(stats.clipped_near, 0u);
+  const auto one = sheets(demo.type("k"));
+  EXPECT_GT(one, 1000);
+  EXPECT_EQ(demo.side(0).judgement->wrong, 0u);
+  EXPECT_GT(sheets(demo.step()), one * 3 / 2);
   EXPECT_EQ(demo.side(0).judgement->wrong, 0u);
   EXPECT_TRUE(says(demo.step(), "culled whole"));
   EXPECT_EQ(demo.side(0).judgement->wrong, 0u);
-  demo.step();
-  EXPECT_EQ(demo.side(0).judgement->wrong, 0u);
 }
 
-TEST(OutlawTriad, DrawsHalfOfTheFaces) {
+TEST(OutlawTriad, DrawsHalfOfTheFacesOfFourVertices) {
+  const Scene scene = find_demo("outlaw-triad").scene();
+  for (const Mesh& mesh : scene.meshes)
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+      ASSERT_EQ(mesh.has_mark(i, kSecondHalf), i % 2 == 1);
   Shown demo("outlaw-triad");
   const Screen& last = demo.last();
   EXPECT_EQ(demo.side(0).choice.facing->info.name, "normal_z");

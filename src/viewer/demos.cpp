@@ -49,7 +49,22 @@ Scene around_the_eye() {
   return scene;
 }
 
-// Nine cubes around the eye, and a slab under it.
+// The sphere's cells as faces of four vertices; each is two triangles in a row there.
+Scene sphere_of_quads() {
+  Scene scene = built_in("sphere");
+  for (Mesh& mesh : scene.meshes) {
+    Mesh quads{mesh.positions, {}, {}};
+    for (std::size_t i = 0; i + 1 < mesh.triangles.size(); i += 2) {
+      const glm::uvec3 upper = mesh.triangles[i], lower = mesh.triangles[i + 1];
+      quads.add_quad({upper.x, upper.y, lower.y, upper.z}, mesh.colours[i]);
+    }
+    mesh = std::move(quads);
+  }
+  return scene;
+}
+
+// Nine cubes around the eye, a slab under it, and two sheets before it that turn their backs on it: the left
+// one has one side, the right one two.
 Scene ring_of_cubes() {
   Scene scene = built_in("cube");
   scene.camera = {};
@@ -67,6 +82,17 @@ Scene ring_of_cubes() {
   }
   // What is under the eye reaches through the near plane.
   scene.instances.push_back({.scale = {0.5f, 0.1f, 2.0f}, .translation = {0.0f, -0.6f, 0.0f}});
+  for (const float x : {-0.9f, 0.9f}) {
+    Mesh sheet{{{x - 0.3f, 0.3f, -2.6f},
+                {x + 0.3f, 0.3f, -2.4f},
+                {x + 0.3f, -0.4f, -2.4f},
+                {x - 0.3f, -0.4f, -2.6f}},
+               {},
+               {}};
+    sheet.add_quad({0, 3, 2, 1}, rgb(230, 230, 230), x > 0.0f);
+    scene.instances.push_back({.mesh = scene.meshes.size()});
+    scene.meshes.push_back(std::move(sheet));
+  }
   return scene;
 }
 
@@ -123,15 +149,22 @@ constexpr Step kBackface[] = {
     {"<normal_dot_eye><2>",
      "A face is kept if its normal in the world and the ray from the eye to it point against each other; "
      "that "
-     "needs no projection. Objects that lie outside the view as a whole are not looked at any further."},
-    {"2<2>2", "[2] With back faces drawn as well, the same picture: those in front hide them, at a price."},
-    {"<left><left><left><2>",
-     "Culled before anything is projected: back faces by world-space normal times the ray from the eye, and "
-     "objects outside the view as a whole; both are counted. What reaches out of the view is clipped."},
+     "needs no projection. Objects outside the view as a whole are not looked at any further."},
+    {"2<2>",
+     "[2] With back faces drawn as well a second sheet shows, on the left, which turns its back on the eye. "
+     "The "
+     "one on the right is two-sided, and never culled for its facing."},
+    {"2<left><2>",
+     "Back faces are culled by world-space normal times the ray from the eye, before anything is projected; "
+     "the "
+     "white sheet turns its back, but is two-sided. Objects outside the view are culled whole, and what "
+     "reaches "
+     "out of it is clipped: all of it is counted."},
 };
 
 constexpr Step kTriad[] = {
-    {"<normal_z>k<2>", "A face is kept if the z of its normal, turned with the object, points to the eye."},
+    {"<normal_z>k<2>",
+     "A face of four vertices is kept if the z of its normal, turned with the object, points to the eye."},
     {"r<2>r", "[r] Half of the faces of a closed object are hidden at any time, whichever half it is."},
     {"0kv<tab>2<2>",
      "Left: hidden faces removed, before they are lit, cut or drawn. Right: the same picture with all of "
@@ -149,11 +182,11 @@ constexpr std::array kDemos{
          "a walk through near plane and screen edges, painted back to front", around_the_eye, Cull::back,
          kClipping, glm::vec3(1.0f)},
     Demo{"realbasic-backface", "REALbasic engine, backface removal",
-         "faces and whole objects that need no drawing, each with its state", ring_of_cubes, Cull::back,
+         "faces and whole objects that need no drawing, and faces with two sides", ring_of_cubes, Cull::back,
          kBackface},
     Demo{"outlaw-triad", "Outlaw Triad trainer, hidden face removal",
-         "faces of four vertices, and what it gains to drop the hidden half",
-         [] { return built_in("sphere"); }, Cull::back, kTriad},
+         "faces of four vertices, and what it gains to drop the hidden half", sphere_of_quads, Cull::back,
+         kTriad},
 };
 
 }  // namespace
