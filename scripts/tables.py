@@ -73,6 +73,20 @@ def plain(header, lines):
     return "\n".join(map(aligned, [header, *lines]))
 
 
+def culling_sentence(bench):
+    """What culling back faces gains in whole frames."""
+    median = {(row.scene, row.backend, row.keys["cull"]): row.median_ms for row in bench.sweep("cull")}
+    gains = {}
+    for (scene, backend, mode), none_ms in median.items():
+        back_ms = median.get((scene, backend, "back"))
+        if mode == "none" and back_ms:
+            gains.setdefault(scene, []).append(f"{none_ms / back_ms:.2f}× (`{backend}`)")
+    if not gains:
+        return ""
+    return ("In the benchmark, a whole frame with all its faces takes so many times as long as with back faces culled: "
+            + "; ".join(f"`{scene}` {', '.join(by)}" for scene, by in gains.items()) + ".")
+
+
 def verify_sentence(verify):
     scenes = verify["scenes"]
     frames = sum(scene["configurations"] for scene in scenes)

@@ -70,6 +70,23 @@ inline constexpr Hostile kHostile[] = {
     {"edgewise view --terminal -o $DIR/a.png", 2, "neither"},
     {"edgewise view --terminal </dev/null", 2, "needs a terminal"},
 
+    {"edgewise demo p5-clipping", 2, "unknown tutorial 'p5-clipping'; did you mean 'p5js-clipping'"},
+    {"edgewise demo outlaw-triad pico8 -o $DIR/", 2, "did you mean 'pico8-culling'"},
+    {"edgewise demo '' -o $DIR/a.png", 2, "unknown tutorial ''"},
+    {"edgewise demo -o $DIR/a.png", 2, "no TUTORIAL is named"},
+    {"edgewise demo --view", 2, "no TUTORIAL is named"},
+    {"edgewise demo outlaw-triad pico8-culling --view", 2, "one TUTORIAL"},
+    {"edgewise demo outlaw-triad --view -o $DIR/a.png", 2, "exclude"},
+    {"edgewise demo outlaw-triad --terminal </dev/null", 2, "needs a terminal"},
+    {"edgewise demo outlaw-triad -o $DIR/a.gif", 2, ".png or .ppm"},
+    {"edgewise demo outlaw-triad -o ''", 2, "the file name is empty"},
+    {"edgewise demo outlaw-triad -o $DIR/no/a.png", 2, "/no/a.png: cannot be written"},
+    {"edgewise demo outlaw-triad pico8-culling -o $DIR/a.png", 2, "several scenes need a folder"},
+    {"edgewise demo outlaw-triad --frames 3", 2, "--frames needs --output"},
+    {"edgewise demo outlaw-triad --frames 0 -o $DIR/a.png", 2, "1 to 100000"},
+    {"edgewise demo outlaw-triad --size 0x5 -o $DIR/a.png", 2, "'0x5'"},
+    {"(ulimit -f 1; edgewise demo outlaw-triad -o $DIR/a.png)", 2, "a.png"},
+
     // ---- Sizes
     {"edgewise render cube --size 0x0 -o $DIR/a.png", 2, "--size: '0x0' is not"},
     {"edgewise render cube --size 0x5 -o $DIR/a.png", 2, "'0x5'"},

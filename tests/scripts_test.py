@@ -184,6 +184,22 @@ class ScriptsTest(unittest.TestCase):
         self.assertIn("only the static charts", result.stderr)
         self.assertEqual(list(self.results.glob("report*")), [])
 
+    def test_readme_shows_the_tutorials_and_what_culling_gains(self):
+        demo = {"name": "turn", "tutorial": "A trainer", "idea": "it turns",
+                "steps": [{"keys": "1", "notice": "First."}, {"keys": "2", "notice": "Now look."}]}
+        (self.results / "demos.json").write_text(json.dumps([demo]))
+        readme = self.folder / "README.md"
+        readme.write_text("<!-- results: results -->\n<!-- generated:demos -->\n<!-- /generated -->\n"
+                          "<!-- generated:culling -->\n<!-- /generated -->\n")
+        self.assertEqual(run("readme", "--file", readme).returncode, 0)
+        text = readme.read_text()
+        self.assertIn("**A trainer**: `edgewise demo turn --view`", text)
+        self.assertIn("![it turns](results/pictures/demo-turn.png)\n\nNow look.\n", text)
+        self.assertNotIn("First.", text)
+        self.assertIn("`cube` 2.00× (`slow`), 2.00× (`fast`).", text)
+        (self.results / "demos.json").unlink()
+        self.fails(run("readme", "--file", readme), "demos.json", "No such file")
+
     def test_readme_is_filled_then_up_to_date_then_stale(self):
         readme = self.folder / "README.md"
         readme.write_text("Hand-written.\n<!-- results: results -->\n<!-- generated:table -->\n<!-- /generated -->\n"

@@ -4,6 +4,7 @@ in tmux. What is seen is compared with the pictures that the same keys lead to w
 
 usage: viewer_smoke_test.py EDGEWISE
 Exit status 77, which ctest takes for "skipped", where what it needs is absent."""
+import json
 import os
 import shutil
 import signal
@@ -90,11 +91,10 @@ class Viewer(unittest.TestCase):
         return read_ppm(path)
 
 
-class Window(Viewer):
+class InWindow(Viewer):
     SIZE = "640x400"
 
-    def setUp(self):
-        super().setUp()
+    def start(self, title, *words):
         self.screen = Screen(self.folder)
         self.addCleanup(self.screen.close)
         # What a library below SDL keeps to the end is no leak of the program's, should a sanitizer look.
@@ -102,13 +102,10 @@ class Window(Viewer):
         known_leaks.write_text("leak:libdbus-1.so\n")
         self.environment = {**os.environ, "DISPLAY": self.screen.display, "SDL_VIDEODRIVER": "x11",
                             "LSAN_OPTIONS": f"suppressions={known_leaks}:print_suppressions=0"}
-        self.saved = self.folder / "saved"
-        self.saved.mkdir()
-        self.program = subprocess.Popen(
-            [EDGEWISE, "view", "cube", "--size", self.SIZE, "--keys", "oo", "--save-to", self.saved],
-            env=self.environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.program = subprocess.Popen([EDGEWISE, *words, "--size", self.SIZE], env=self.environment,
+                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.addCleanup(self.stop)
-        self.window = self.xdo("search", "--sync", "--onlyvisible", "--name", "edgewise: cube").split()[0]
+        self.window = self.xdo("search", "--sync", "--onlyvisible", "--name", f"edgewise: {title}").split()[0]
         self.xdo("windowfocus", "--sync", self.window)
 
     def stop(self):
@@ -127,7 +124,38 @@ class Window(Viewer):
         place = self.place()
         return self.screen.shot().part(place["X"], place["Y"], place["WIDTH"], place["HEIGHT"])
 
-    def expect(self, keys, size=SIZE):
+
+class Demonstration(InWindow):
+    NAME = "pico8-inside-test"
+
+    def test_steps_lead_to_the_picture(self):
+        self.start(self.NAME, "demo", self.NAME, "--view")
+        path = self.folder / "expected.ppm"
+        subprocess.run([EDGEWISE, "demo", self.NAME, "--size", self.SIZE, "-o", path], check=True,
+                       stdout=subprocess.DEVNULL)
+        demos = json.loads(subprocess.run([EDGEWISE, "demo", "--json"], check=True, capture_output=True).stdout)
+        steps = next(demo["steps"] for demo in demos if demo["name"] == self.NAME)
+
+        def below_the_text(picture):  # where times stand, which differ
+            return picture.part(0, 80, picture.width, picture.height - 80)
+
+        expected = below_the_text(read_ppm(path))
+        self.assertNotEqual(below_the_text(self.shown()), expected)
+        for _ in steps[1:]:
+            self.xdo("key", "5")
+        wait_for(lambda: below_the_text(self.shown()) == expected, "the last step's picture")
+        self.xdo("key", "q")
+        self.assertEqual(self.program.wait(PATIENCE_S), 0)
+
+
+class Window(InWindow):
+    def setUp(self):
+        super().setUp()
+        self.saved = self.folder / "saved"
+        self.saved.mkdir()
+        self.start("cube", "view", "cube", "--keys", "oo", "--save-to", self.saved)
+
+    def expect(self, keys, size=InWindow.SIZE):
         expected = self.leads_to(keys, size)
         wait_for(lambda: self.shown() == expected, f"what {keys} leads to at {size}")
         return expected

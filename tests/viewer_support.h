@@ -8,6 +8,7 @@
 
 #include "edgewise/builtin.h"
 #include "viewer/session.h"
+#include "viewer/typing.h"
 
 namespace edgewise::viewer {
 
@@ -33,19 +34,9 @@ inline Session session_of(std::string_view scene) {
                     info.stream ? Cull::none : Cull::back);
 }
 
-// Types keys as --keys takes them; held ones are held for a tenth of a second.
+// Types keys as --keys takes them.
 inline Screen& type(Session& session, std::string_view keys, app::Size size = kTestSize) {
-  session.draw(size, kTestCell);
-  for (const Stroke& stroke : parse_keys(keys)) {
-    if (const Key* const key = std::get_if<Key>(&stroke)) {
-      session.press(*key);
-      session.advance(0.1);
-      session.release(*key);
-    } else {
-      session.advance(std::get<double>(stroke));
-    }
-    session.draw(size, kTestCell);
-  }
+  type(session, parse_keys(keys), size, kTestCell);
   return session.draw(size, kTestCell);
 }
 

@@ -85,6 +85,7 @@ TEST(ViewerKeys, AreReadFromText) {
   EXPECT_EQ(std::get<Key>(strokes[1]), Key::tab);
   EXPECT_EQ(std::get<Key>(strokes[2]), key_of('b'));
   EXPECT_EQ(std::get<double>(strokes[3]), 1.5);
+  EXPECT_EQ(std::get<Named>(parse_keys("<float_lt>").front()).method, "float_lt");
   EXPECT_NE(message_of([] { parse_keys("b<tabb>"); }).find("<tabb>"), std::string::npos);
   EXPECT_NE(message_of([] { parse_keys("b<-1>"); }).find("<-1>"), std::string::npos);
   EXPECT_NE(message_of([] { parse_keys("b<nan>"); }).find("<nan>"), std::string::npos);
@@ -366,6 +367,102 @@ TEST(Viewer, ComparesTwoSides) {
   EXPECT_NE(session.state().message.find("first difference"), std::string::npos);
   type(session, "v<tab>");
   EXPECT_NE(session.state().message.find("one side only"), std::string::npos);
+}
+
+TEST(Viewer, CullsEachSideAlone) {
+  constexpr app::Size kHalf{kTestSize.width / 2, kTestSize.height};
+  Session session = session_of("cubes");
+  const Screen& screen = type(session, std::string(kNoOverlay) + "v<tab>12");
+  const Image left = rendered("cubes", Cull::back, kHalf), right = rendered("cubes", Cull::front, kHalf);
+  const auto row_of = [](const Image& image, int x) { return image.pixels.begin() + 80 * image.width + x; };
+  EXPECT_TRUE(std::equal(row_of(left, 0), row_of(left, kHalf.width), row_of(screen.picture, 0)));
+  EXPECT_TRUE(std::equal(row_of(right, 0), row_of(right, kHalf.width), row_of(screen.picture, kHalf.width)));
+  EXPECT_EQ(session.side(0).stats.culled, session.side(1).stats.emitted);
+  const Screen& full = session.draw({900, 600}, kTestCell);
+  EXPECT_FALSE(says(full, "diorama"));
+  type(session, "o", {900, 600});
+  EXPECT_TRUE(says(session.draw({900, 600}, kTestCell), "diorama"));
+  EXPECT_TRUE(says(session.draw({900, 600}, kTestCell), "back faces culled"));
+  EXPECT_TRUE(says(session.draw({900, 600}, kTestCell), "times as long as the first side"));
+}
+
+TEST(Viewer, PutsNamedMethodsAtTheirStages) {
+  Session session = session_of("cubes");
+  type(session, "<float_lt><none><painter_mean>v<tab><normal_z>");
+  const Choice first = session.side(0).choice, second = session.side(1).choice;
+  EXPECT_EQ(describe(first), "none + float_lt + painter_mean");
+  EXPECT_EQ(describe(second), "normal_z");
+  EXPECT_TRUE(session.side(1).judgement);
+  EXPECT_NE(message_of([&] { session.choose("float"); }).find("'float'"), std::string::npos);
+}
+
+TEST(Viewer, TakesTheStepsOfADemonstration) {
+  constexpr Step kSteps[] = {{"2", "Nothing is culled."}, {"v<tab><float_lt>", "Another test on the right."}};
+  Start start = start_with(find_scene("cubes").make({}), Cull::back);
+  start.steps = kSteps;
+  Session session(std::move(start));
+  EXPECT_FALSE(says(type(session, ""), "culled."));
+  EXPECT_TRUE(says(type(session, "5"), "Nothing is culled."));
+  EXPECT_EQ(session.side(0).stats.culled, 0u);
+  const Screen& screen = type(session, "5");
+  EXPECT_TRUE(says(screen, "Another test on the right."));
+  EXPECT_EQ(session.side(1).choice.coverage->info.name, "float_lt");
+  type(session, "5");
+  EXPECT_EQ(session.state().message, "that was the last step");
+  Session none = session_of("cubes");
+  type(none, "5");
+  EXPECT_NE(none.state().message.find("only demonstrations"), std::string::npos);
+}
+
+TEST(Viewer, BreaksWhatToNoticeAtBlanks) {
+  Session session = session_of("cubes");
+  type(session, "");
+  session.say("twenty-one letters in and a good deal more to be read than one line of this screen has");
+  const Screen& screen = type(session, "");
+  EXPECT_EQ(screen.texts.front().words.size() > 20, true);
+  std::string all;
+  int lines = 0;
+  for (const Text& text : screen.texts)
+    if (text.colour == screen.texts.front().colour) {
+      all += (all.empty() ? "" : " ") + text.words;
+      EXPECT_EQ(text.y, lines++ * kTestCell.height);
+    }
+  EXPECT_EQ(all, session.state().notice);
+  EXPECT_GT(lines, 2);
+}
+
+TEST(Viewer, ShowsNothingThatDiffersWhereItIsToBeReproducible) {
+  const auto seen = [](int threads, SimdTarget target, std::string_view keys) {
+    Start start = start_with(find_scene("cubes").make({}), Cull::back);
+    start.reproducible = true;
+    start.execution.threads = threads;
+    start.execution.target = target;
+    Session session(std::move(start));
+    Screen screen = type(session, keys, {900, 600});
+    paint(screen, 1);
+    return screen.picture.pixels;
+  };
+  for (const std::string_view keys : {"r<1>", "r<1>o", "r<1>v<tab><float_lt>g"}) {
+    const auto first = seen(1, SimdTarget::scalar, keys);
+    EXPECT_EQ(first, seen(3, SimdTarget::best, keys)) << keys;
+    EXPECT_EQ(first, seen(1, SimdTarget::scalar, keys)) << keys;
+  }
+}
+
+TEST(Film, ShowsFramesAsTimeGoesBy) {
+  Session session = session_of("cube");
+  const auto strokes = parse_keys("r<1>");
+  EXPECT_NEAR(seconds_of(strokes), 1.1, 1e-12);
+  std::vector<float> angles;
+  Film film(session, kTestSize, kTestCell, 0.25, [&](Screen& screen) {
+    EXPECT_EQ(screen.picture.width, kTestSize.width);
+    angles.push_back(session.state().angle);
+  });
+  film.type(strokes);
+  ASSERT_EQ(angles.size(), 4u);
+  for (std::size_t i = 1; i < 4; ++i) EXPECT_NEAR(angles[i] - angles[i - 1], angles[0], 1e-5f);
+  film.type(parse_keys("<0.15>"));
+  EXPECT_EQ(angles.size(), 5u);
 }
 
 TEST(Viewer, SavesWhatRendersTheSameAndReplacesNothing) {

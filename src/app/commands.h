@@ -25,6 +25,7 @@ void add_stability(CLI::App& program, Action& action);
 void add_diff(CLI::App& program, Action& action);
 void add_capture(CLI::App& program, Action& action);
 void add_view(CLI::App& program, Action& action, viewer::ShowWindow show_window);
+void add_demo(CLI::App& program, Action& action, viewer::ShowWindow show_window);
 void add_machine(CLI::App& program, Action& action);
 
 }  // namespace edgewise::app

@@ -7,6 +7,9 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "edgewise/image.h"
+#include "file_extension.h"
+
 namespace edgewise::app {
 
 namespace fs = std::filesystem;
@@ -15,14 +18,19 @@ namespace {
 constexpr std::string_view kPlaceholder = "{scene}";
 }
 
-OutputPaths::OutputPaths(const std::string& option, const std::string& pattern, const std::string& extension,
+OutputPaths::OutputPaths(const std::string& option, const std::string& pattern, Kind kind,
                          const std::vector<std::string>& scenes, int frames)
     : pattern_(pattern), frames_(frames) {
   if (pattern.empty()) throw std::invalid_argument(option + ": the file name is empty");
   std::error_code ignored;
+  const bool depth = kind == Kind::depth;
+  const bool known = depth ? extension_of(pattern) == ".pfm" : is_image_path(pattern);
   own_folder_ = pattern.ends_with('/');
   if (own_folder_ || fs::is_directory(pattern_, ignored))
-    pattern_ /= std::string(kPlaceholder) + extension;
+    pattern_ /= std::string(kPlaceholder) + (depth ? ".pfm" : ".png");
+  else if (!known)
+    throw std::invalid_argument(
+        fmt::format("{} {}: the name must end in {}", option, pattern, depth ? ".pfm" : ".png or .ppm"));
   else if (scenes.size() > 1 && pattern.find(kPlaceholder) == std::string::npos)
     throw std::invalid_argument(fmt::format("{} {}: several scenes need a folder, or a name with {} in it",
                                             option, pattern, kPlaceholder));

@@ -8,12 +8,13 @@
 namespace edgewise::app {
 
 // `pattern` is a file, a name that contains "{scene}", or a folder (one that exists, or that ends in a slash
-// and is made when needed), in which files are named after their scenes with `extension`. With more than one
+// and is made when needed), in which files are named after their scenes, .png or .pfm. With more than one
 // frame, "-0001" and so on stands before the extension. Throws std::invalid_argument if several scenes would
-// write the same file.
+// write the same file, or for a file that is no picture (.png, .ppm) or depth file (.pfm).
 class OutputPaths {
  public:
-  OutputPaths(const std::string& option, const std::string& pattern, const std::string& extension,
+  enum class Kind { picture, depth };
+  OutputPaths(const std::string& option, const std::string& pattern, Kind kind,
               const std::vector<std::string>& scenes, int frames);
 
   std::filesystem::path path(const std::string& scene, int frame) const;

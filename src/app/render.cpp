@@ -21,7 +21,6 @@
 #include "app/pictures.h"
 #include "app/printable.h"
 #include "app/progress.h"
-#include "file_extension.h"
 #include "lab/measure.h"
 #include "nearest_name.h"
 
@@ -62,15 +61,6 @@ What parse_what(const std::string& text) {
   return static_cast<What>(found - kNames.begin());
 }
 
-std::string extension_for(const std::string& option, const std::string& path, bool depth) {
-  const bool known = depth ? extension_of(path) == ".pfm" : is_image_path(path);
-  const bool folder = path.ends_with('/') || std::filesystem::is_directory(path);
-  if (!known && !folder)
-    throw std::invalid_argument(
-        fmt::format("{} {}: the name must end in {}", option, path, depth ? ".pfm" : ".png or .ppm"));
-  return depth ? ".pfm" : ".png";
-}
-
 // Renders pictures one after the other and keeps its memory between them.
 class Renderer {
  public:
@@ -87,7 +77,8 @@ class Renderer {
       names.push_back(source_name(scene));
     }
     const auto outputs = [&](const char* option, const std::string& path, bool depth) {
-      return OutputPaths(option, path, extension_for(option, path, depth), names, options.frames);
+      return OutputPaths(option, path, depth ? OutputPaths::Kind::depth : OutputPaths::Kind::picture, names,
+                         options.frames);
     };
     if (!options.output.empty()) images_ = outputs("--output", options.output, false);
     if (!options.depth.empty()) depths_ = outputs("--depth", options.depth, true);

@@ -64,6 +64,7 @@ Action parse(int argc, char** argv, viewer::ShowWindow show_window) {
   add_diff(program, action);
   add_capture(program, action);
   add_view(program, action, show_window);
+  add_demo(program, action, show_window);
   add_machine(program, action);
   if (argc < 2) throw std::invalid_argument("no command given; try edgewise --help");
   check_first_word(program, argv[1]);

@@ -11,10 +11,12 @@
 #include "app/console.h"
 #include "app/options.h"
 #include "app/printable.h"
+#include "app/show.h"
 #include "edgewise/contract.h"
 #include "edgewise/image.h"
 #include "viewer/session.h"
 #include "viewer/terminal.h"
+#include "viewer/typing.h"
 #include "viewer/window.h"
 
 namespace edgewise::app {
@@ -22,7 +24,6 @@ namespace edgewise::app {
 namespace {
 
 constexpr int kMostFrames = 1'000'000;
-constexpr double kStroke_s = 0.1;  // how long --keys holds each key
 
 struct ViewOptions {
   std::string scene = "cube", keys, output, folder = ".";
@@ -55,25 +56,6 @@ viewer::Session make_session(const ViewOptions& o, Shot first) {
   return viewer::Session(std::move(start));
 }
 
-void type(viewer::Session& session, const std::vector<viewer::Stroke>& strokes, Size size,
-          viewer::Cell cell) {
-  session.draw(size, cell);
-  for (const viewer::Stroke& stroke : strokes) {
-    if (const auto* const key = std::get_if<viewer::Key>(&stroke)) {
-      session.press(*key);
-      session.advance(kStroke_s);
-      session.release(*key);
-    } else {
-      session.advance(std::get<double>(stroke));
-    }
-    session.draw(size, cell);
-  }
-}
-
-void print_saved(viewer::Session& session) {
-  for (const std::string& path : session.take_saved()) print(printable(path) + "\n");
-}
-
 int view(const ViewOptions& o, viewer::ShowWindow show_window) {
   const auto strokes = viewer::parse_keys(o.keys);
   if (!o.output.empty() && !is_image_path(o.output))
@@ -82,21 +64,15 @@ int view(const ViewOptions& o, viewer::ShowWindow show_window) {
     throw std::invalid_argument("--terminal goes with neither --output nor --frames");
   if (!o.output.empty() && o.frames > 0)
     throw std::invalid_argument("--output and --frames exclude each other");
-  if (show_window == nullptr && !o.terminal && o.output.empty())
-    throw std::invalid_argument(
-        "this program was built without SDL2, which opens windows: try --terminal, or install libsdl2-dev "
-        "and "
-        "build again");
+  if (!o.terminal && o.output.empty()) check_windows(show_window);
   // What is wrong with the scene is to be known before a window opens.
   Shot shot = load_shot(o.scene, o.options, o.options.time.value_or(0.0));
   const Size size{shot.frontend.width, shot.frontend.height};
   viewer::Session session = make_session(o, std::move(shot));
-  const int scale = viewer::font_scale(size.height);
-  if (!o.terminal || !strokes.empty()) type(session, strokes, size, viewer::font_cell(scale));
+  if (!o.terminal || !strokes.empty())
+    viewer::type(session, strokes, size, viewer::font_cell(viewer::font_scale(size.height)));
   if (!o.output.empty()) {
-    viewer::Screen& screen = session.draw(size, viewer::font_cell(scale));
-    viewer::paint(screen, scale);
-    write_image(o.output, screen.picture);
+    write_seen(o.output, session, size);
   } else if (o.terminal) {
     viewer::show_in_terminal(session);
   } else {
@@ -117,7 +93,8 @@ std::string footer() {
   edgewise view cube --keys "bbbe<enter>" -o seen.png  what these keys lead to, without a window
   edgewise view torus-knot --keys r --frames 600       how smoothly it turns here
 
---keys: names of keys that are no characters stand in brackets, as do seconds to wait: "v<tab>b<1.5>".
+--keys: names of keys that are no characters stand in brackets, as do names of methods, which they put at their
+stage, and seconds to wait: "v<tab><float_lt><1.5>".
 The names of the files that p saves are printed. They never replace others.
 
 Keys:

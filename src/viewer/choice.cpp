@@ -11,10 +11,15 @@ namespace edgewise::viewer {
 namespace {
 
 template <typename Method>
-const Method& find(std::span<const Method> methods, std::string_view kind, std::string_view name) {
+const Method* found_in(std::span<const Method> methods, std::string_view name) {
   const auto found =
       std::find_if(methods.begin(), methods.end(), [&](const Method& m) { return m.info.name == name; });
-  if (found != methods.end()) return *found;
+  return found == methods.end() ? nullptr : &*found;
+}
+
+template <typename Method>
+const Method& find(std::span<const Method> methods, std::string_view kind, std::string_view name) {
+  if (const Method* const found = found_in(methods, name)) return *found;
   std::vector<std::string_view> known;
   for (const Method& method : methods) known.push_back(method.info.name);
   throw std::invalid_argument(unknown_name(kind, name, known));
@@ -36,6 +41,17 @@ const lab::FacingMethod& find_facing_method(std::string_view name) {
 
 Choice our_choice(std::string_view backend) {
   return {&lab::find_drawing_method(find_backend(backend).name)};
+}
+
+bool put(std::string_view method, Choice& choice) {
+  const auto put_at = [&](auto methods, auto& stage) {
+    const auto* const found = found_in(methods, method);
+    if (found != nullptr) stage = found;
+    return found != nullptr;
+  };
+  return put_at(lab::drawing_methods(), choice.coverage) ||
+         put_at(lab::clipping_methods(), choice.clipping) ||
+         put_at(lab::visibility_methods(), choice.visibility) || put_at(lab::facing_methods(), choice.facing);
 }
 
 Drawn drawable_part(const Choice& choice, bool stream) {

@@ -36,6 +36,9 @@ const lab::ClippingMethod& find_clipping_method(std::string_view name);
 const lab::VisibilityMethod& find_visibility_method(std::string_view name);
 const lab::FacingMethod& find_facing_method(std::string_view name);
 
+// Puts a method of any family at its stage; false if no method has this name.
+bool put(std::string_view method, Choice& choice);
+
 // What can be drawn of a choice, and why not all of it.
 struct Drawn {
   Choice choice;

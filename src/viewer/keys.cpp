@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "viewer/choice.h"
+
 namespace edgewise::viewer {
 
 namespace {
@@ -27,10 +29,12 @@ Stroke parse_name(std::string_view name) {
   const auto found =
       std::find_if(kNames.begin(), kNames.end(), [&](const auto& known) { return known.first == name; });
   if (found != kNames.end()) return found->second;
+  if (Choice unused; put(name, unused)) return Named{std::string(name)};
   double seconds = 0;
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), seconds);
   if (error != std::errc{} || end != name.data() + name.size() || !(seconds >= 0 && seconds <= kLongestWait))
-    throw std::invalid_argument("--keys: <" + std::string(name) + "> is no key, and no time in seconds");
+    throw std::invalid_argument("--keys: <" + std::string(name) +
+                                "> is no key, no method, and no time in seconds");
   return seconds;
 }
 
@@ -79,8 +83,10 @@ std::span<const KeyRow> key_table() {
       {"v", "one, side by side, difference", {{key_of('v'), Command::arrangement}}},
       {"tab", "keys go to the other side", {{Key::tab, Command::other_side}}},
       {"t", "vertex labels", {{key_of('t'), Command::labels}}},
+      {"6", "outlines, white of what clipping cut in several", {{key_of('6'), Command::outlines}}},
       {"o", "overlay: full, short, none", {{key_of('o'), Command::overlay}}},
       {"p", "save a .png and a .tri", {{key_of('p'), Command::save}}},
+      {"5", "the next step of a demonstration", {{key_of('5'), Command::next_step}}},
       {"h", "this help", {{key_of('h'), Command::help}}},
       {"q, esc", "quit", {{key_of('q'), Command::quit}, {Key::escape, Command::quit}}},
   };

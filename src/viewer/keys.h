@@ -69,7 +69,9 @@ enum class Command : std::uint8_t {
   arrangement,
   other_side,
   labels,
+  outlines,
   overlay,
+  next_step,
   help,
   save,
   quit,
@@ -91,10 +93,13 @@ struct KeyRow {
 std::span<const KeyRow> key_table();
 std::optional<Command> command_of(Key key);
 
-// "wd<tab><1.5>": characters are themselves, names of other keys stand in brackets (up, down, left, right,
-// shift, tab, space, enter, escape, backspace), and a number is a time to wait, in seconds. Throws
-// std::invalid_argument for what is none of these.
-using Stroke = std::variant<Key, double>;
+// "wd<tab><1.5><float_lt>": characters are themselves, names of other keys stand in brackets (up, down, left,
+// right, shift, tab, space, enter, escape, backspace), a number is a time to wait, in seconds, and the name
+// of a method puts it at its stage. Throws std::invalid_argument for what is none of these.
+struct Named {
+  std::string method;
+};
+using Stroke = std::variant<Key, double, Named>;
 std::vector<Stroke> parse_keys(std::string_view text);
 
 }  // namespace edgewise::viewer

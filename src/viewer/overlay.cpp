@@ -16,10 +16,12 @@ namespace edgewise::viewer {
 namespace {
 
 constexpr std::uint32_t kPlain = rgb(225, 225, 225), kStrong = rgb(255, 255, 255),
-                        kNotOurs = rgb(255, 190, 90), kWrong = rgb(255, 120, 90);
+                        kNotOurs = rgb(255, 190, 90), kWrong = rgb(255, 120, 90),
+                        kNotice = rgb(140, 220, 255);
 constexpr int kRowsForFull = 30;
 
-// Writes line after line down a column of the screen, and leaves out what would reach beyond it.
+// Writes line after line down a column of the screen, and leaves out empty ones and what would reach beyond
+// it.
 class Column {
  public:
   Column(Screen& screen, Cell cell, int x, int y, int width)
@@ -27,6 +29,7 @@ class Column {
 
   void line(std::string_view words, std::uint32_t colour = kPlain) {
     if (y_ + cell_.height > screen_.picture.height) return;
+    if (words.empty()) return;
     std::string fitted = app::printable_within(words, static_cast<std::size_t>(letters_));
     std::replace_if(
         fitted.begin(), fitted.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
@@ -45,6 +48,16 @@ class Column {
     }
     x_ = x, letters_ = letters;
   }
+  // Several lines, broken at blanks.
+  void lines(std::string_view words, std::uint32_t colour) {
+    const auto width = static_cast<std::size_t>(letters_);
+    while (!words.empty()) {
+      const std::size_t blank = words.size() > width ? words.rfind(' ', width) : words.size();
+      const std::size_t end = blank == std::string_view::npos ? width : blank;
+      line(words.substr(0, end), colour);
+      words.remove_prefix(std::min(end + 1, words.size()));
+    }
+  }
   int y() const { return y_; }
 
  private:
@@ -57,10 +70,10 @@ std::string count(std::uint64_t n, std::string_view what) {
   return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
 }
 
-std::string culling(const State& state) {
-  if (state.cull_front && state.cull_back) return "[1] [2] front and back faces culled: nothing is left";
-  if (state.cull_front) return "[1] front faces culled: diorama";
-  return state.cull_back ? "[2] back faces culled" : "[1] [2] no faces culled";
+std::string_view culling(const Side& side) {
+  if (side.cull_front && side.cull_back) return "[1] [2] front and back faces culled: nothing is left";
+  if (side.cull_front) return "[1] front faces culled: diorama";
+  return side.cull_back ? "[2] back faces culled" : "[1] [2] no faces culled";
 }
 
 std::string errors_of(const State& state, const Side& side, bool brief) {
@@ -79,6 +92,11 @@ int degrees(float radians) {
   return static_cast<int>(std::lround(glm::degrees(radians)));
 }
 
+// Rounded, never "-0.00".
+double hundredths(float length) {
+  return std::round(double{length} * 100.0) / 100.0 + 0.0;
+}
+
 // When the count is from.
 std::string_view when(const State& state, const Side& side) {
   if (side.judged != state.version) return "a while ago, to keep the pace";
@@ -91,15 +109,13 @@ class Overlaying {
       : session_(session), state_(session.state()), panel_(panel), cell_(cell), screen_(screen) {}
 
   void full() {
-    Column common = column(0, 0);
-    common.line(fmt::format("{} {}x{}   {:.1f} ms a frame", app::printable(state_.scene), panel_.width,
-                            panel_.height, state_.frame_ms),
+    Column common = column(0, notice());
+    common.line(fmt::format("{} {}x{}{}", app::printable(state_.scene), panel_.width, panel_.height,
+                            unless_reproducible("   {:.1f} ms a frame", state_.frame_ms)),
                 kStrong);
-    common.line(fmt::format("{}{}", culling(state_), state_.stream || state_.lit ? "" : "  [k] unlit"),
-                state_.cull_front ? kNotOurs : kPlain);
-    common.line(fmt::format("[j] {}  [i] {}",
-                            count(static_cast<std::uint64_t>(state_.execution.threads), "thread"),
-                            edgewise::name_of(state_.execution.target)));
+    common.line(unless_reproducible("[j] {}  [i] {}",
+                                    count(static_cast<std::uint64_t>(state_.execution.threads), "thread"),
+                                    edgewise::name_of(state_.execution.target)));
     if (!state_.stream) place(common);
     if (state_.errors == Errors::tint) legend(common);
     if (state_.arrangement == Arrangement::difference)
@@ -117,19 +133,22 @@ class Overlaying {
   }
 
   void brief() {
+    const int top = notice();
     for (std::size_t i = 0; i < sides(); ++i) {
       const Side& s = session_.side(i);
-      Column own =
-          column(state_.arrangement == Arrangement::difference ? 0 : i,
-                 state_.arrangement == Arrangement::difference ? static_cast<int>(i) * cell_.height : 0);
-      own.line(fmt::format("{}{}  {:.1f} ms", marker(i), describe(s.choice), s.frontend_ms + s.raster_ms),
+      Column own = column(
+          state_.arrangement == Arrangement::difference ? 0 : i,
+          top + (state_.arrangement == Arrangement::difference ? static_cast<int>(i) * cell_.height : 0));
+      own.line(fmt::format("{}{}{}", marker(i), describe(s.choice),
+                           unless_reproducible("  {:.1f} ms", s.frontend_ms + s.raster_ms)),
                s.choice.ours() ? kStrong : kNotOurs);
       if (state_.arrangement != Arrangement::difference && state_.errors != Errors::off)
         own.line(errors_of(state_, s, true), error_colour(s));
-      if (i == 0 && state_.cull_front) own.line(culling(state_), kNotOurs);
+      const bool as_usual = state_.stream || (s.cull_back && !s.cull_front);
+      if (!as_usual && state_.arrangement != Arrangement::difference) own.line(culling(s), kNotOurs);
     }
     if (state_.arrangement == Arrangement::difference) {
-      Column below = column(0, 2 * cell_.height);
+      Column below = column(0, top + 2 * cell_.height);
       below.line(fmt::format("{} differ", count(state_.differing, "pixel")), kWrong);
     }
   }
@@ -182,6 +201,16 @@ class Overlaying {
   }
 
  private:
+  // Over the whole width; returns where it ends, px.
+  int notice() {
+    Column lines(screen_, cell_, cell_.width, 0, screen_.picture.width - cell_.width);
+    lines.lines(state_.notice, kNotice);
+    return lines.y();
+  }
+  template <typename... Values>
+  std::string unless_reproducible(fmt::format_string<const Values&...> words, const Values&... values) const {
+    return state_.reproducible ? "" : fmt::format(words, values...);
+  }
   std::size_t sides() const { return state_.arrangement == Arrangement::one ? 1 : 2; }
   int left_of(std::size_t i) const { return i == 0 ? 0 : screen_.picture.width - panel_.width; }
   Column column(std::size_t i, int y) {
@@ -193,14 +222,20 @@ class Overlaying {
     if (state_.arrangement == Arrangement::one) return "";
     return i == state_.active ? "> " : "  ";
   }
+  std::string compared_with_the_other(const Side& s) const {
+    const Side& other = session_.side(0);
+    return unless_reproducible("{:.2f} times as long as the first side",
+                               (s.frontend_ms + s.raster_ms) / (other.frontend_ms + other.raster_ms));
+  }
   std::uint32_t error_colour(const Side& s) const {
     return s.judgement && s.judgement->wrong > 0 && state_.errors != Errors::off ? kWrong : kPlain;
   }
 
   void place(Column& to) {
     const Camera& camera = session_.world().scene()->camera;
-    to.line(fmt::format("eye {:.2f} {:.2f} {:.2f}  yaw {}  pitch {}", camera.position.x, camera.position.y,
-                        camera.position.z, degrees(camera.yaw), degrees(camera.pitch)));
+    to.line(fmt::format("eye {:.2f} {:.2f} {:.2f}  yaw {}  pitch {}", hundredths(camera.position.x),
+                        hundredths(camera.position.y), hundredths(camera.position.z), degrees(camera.yaw),
+                        degrees(camera.pitch)));
     to.line(fmt::format("[m] moves along the {}, speed {:.2g}", state_.along_view ? "view" : "world's axes",
                         state_.speed));
     to.line(fmt::format("{} {} deg about {:.2f} {:.2f} {:.2f}{}", state_.spinning ? "[r] turning," : "turned",
@@ -234,7 +269,11 @@ class Overlaying {
          stage("z", c.our_visibility() && !own_depth, own_depth ? "float plane" : c.visibility->info.name),
          {"  ", kPlain},
          stage("n", c.our_facing(), c.facing->info.name)});
-    to.line(fmt::format("front end {:.2f} ms, raster {:.2f} ms", s.frontend_ms, s.raster_ms));
+    to.line(fmt::format("{}{}", culling(s), state_.stream || state_.lit ? "" : "  [k] unlit"),
+            s.cull_front ? kNotOurs : kPlain);
+    to.line(unless_reproducible("front end {:.2f} ms, raster {:.2f} ms", s.frontend_ms, s.raster_ms));
+    if (i == 1) to.line(compared_with_the_other(s));
+    if (state_.outlines) to.line("[6] outlined; white: cut into several triangles");
     const auto clipped = n.clipped_near + n.clipped_far + n.clipped_guard;
     to.line(fmt::format("{} in, {} culled, {}{} drawn", n.triangles, n.culled,
                         c.our_clipping() ? fmt::format("{} clipped, ", clipped) : "", n.emitted));

@@ -8,6 +8,7 @@
 #include "edgewise/contract.h"
 #include "frontend/shade.h"
 #include "lab/coverage_score.h"
+#include "viewer/outlines.h"
 #include "viewer/view_space.h"
 
 namespace edgewise::viewer {
@@ -145,6 +146,13 @@ void Pipeline::draw_composed(const Choice& choice, const View& view, Picture& pi
   for (const std::uint32_t owner : owners)
     picture.image.pixels.push_back(owner == lab::kNobody ? app::background_of(Payload::colour)
                                                          : colours[owner]);
+}
+
+void Pipeline::outline(const Choice& choice, const View& view, Image& image) {
+  double unused_ms = 0;
+  const Triangles triangles = triangles_of(choice, view, unused_ms);
+  const Owners owners = owners_of(choice, view, triangles, unused_ms);
+  add_outlines(triangles.snapped, owners, backend("wireframe"), frame_->view(), view.execution, image);
 }
 
 Pipeline::Triangles Pipeline::from_front_end(const View& view, Cull cull) {

@@ -53,6 +53,8 @@ class Pipeline {
   Picture draw(const Choice& choice, const View& view);
   // Of the same choice and view; the choice must be one that fills.
   Judgement judge(const Choice& choice, const View& view, Truth truth);
+  // Over the picture of the last draw, by the same choice and view.
+  void outline(const Choice& choice, const View& view, Image& image);
   // What the last draw's front end would hand to a backend.
   std::span<const ScreenTriangle> screen_triangles() const { return screen_; }
 

@@ -1,5 +1,4 @@
 // Events in, pictures out; everything else is the session's.
-#include <SDL.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 #include <string_view>
 
 #include "edgewise/contract.h"
+#include "viewer/sdl_library.h"
 #include "viewer/session.h"
 #include "viewer/window.h"
 
@@ -24,27 +24,32 @@ constexpr auto kFrame = std::chrono::microseconds(1'000'000 / 60);
 constexpr int kIdle_ms = 100;            // between frames while nothing happens
 constexpr double kLongestStep_s = 0.25;  // after a hitch, movement does not jump farther than this
 
+const SdlLibrary& sdl() {
+  static const SdlLibrary library;
+  return library;
+}
+
 [[noreturn]] void fail(const char* what) {
-  throw std::runtime_error(std::string(what) + ": " + SDL_GetError() + "; --terminal needs no window");
+  throw std::runtime_error(std::string(what) + ": " + sdl().GetError() + "; --terminal needs no window");
 }
 
 struct Sdl {
   Sdl() {
-    SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // the program has its own
-    SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
+    sdl().SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // the program has its own
+    sdl().SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
     // Pixels go straight to the window: without a GPU, OpenGL would take more time for them than we do.
-    SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
-    if (SDL_Init(SDL_INIT_VIDEO) != 0) fail("no window can be opened");
+    sdl().SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
+    if (sdl().Init(SDL_INIT_VIDEO) != 0) fail("no window can be opened");
     // Without a display SDL falls back on drivers that show nothing to anybody.
-    const std::string_view driver = SDL_GetCurrentVideoDriver();
+    const std::string_view driver = sdl().GetCurrentVideoDriver();
     const char* const asked_for = std::getenv("SDL_VIDEODRIVER");
     if ((asked_for == nullptr || *asked_for == 0) &&
         (driver == "offscreen" || driver == "dummy" || driver == "evdev")) {
-      SDL_Quit();
+      sdl().Quit();
       throw std::runtime_error("no window can be opened: there is no display; --terminal needs none");
     }
   }
-  ~Sdl() { SDL_Quit(); }
+  ~Sdl() { sdl().Quit(); }
   Sdl(const Sdl&) = delete;
   Sdl& operator=(const Sdl&) = delete;
 };
@@ -85,15 +90,15 @@ double cpu_ms() {
 class Window {
  public:
   explicit Window(const WindowOptions& o)
-      : window_(SDL_CreateWindow(o.title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
-                                 o.size.width, o.size.height, SDL_WINDOW_RESIZABLE),
-                SDL_DestroyWindow) {
+      : window_(sdl().CreateWindow(o.title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
+                                   o.size.width, o.size.height, SDL_WINDOW_RESIZABLE),
+                sdl().DestroyWindow) {
     if (!window_) fail("no window can be opened");
-    SDL_SetWindowMinimumSize(window_.get(), 64, 48);
+    sdl().SetWindowMinimumSize(window_.get(), 64, 48);
   }
 
   void show(Session& session) {
-    SDL_Surface* const surface = SDL_GetWindowSurface(window_.get());
+    SDL_Surface* const surface = sdl().GetWindowSurface(window_.get());
     if (surface == nullptr) fail("the window cannot be drawn into");
     const app::Size size{std::clamp(surface->w, 1, contract::kMaxImageSide),
                          std::clamp(surface->h, 1, contract::kMaxImageSide)};
@@ -101,14 +106,14 @@ class Window {
     Screen& screen = session.draw(size, font_cell(scale));
     paint(screen, scale);
     const std::unique_ptr<SDL_Surface, decltype(&SDL_FreeSurface)> picture(
-        SDL_CreateRGBSurfaceWithFormatFrom(screen.picture.pixels.data(), size.width, size.height, 32,
-                                           size.width * 4, SDL_PIXELFORMAT_ABGR8888),
-        SDL_FreeSurface);
+        sdl().CreateRGBSurfaceWithFormatFrom(screen.picture.pixels.data(), size.width, size.height, 32,
+                                             size.width * 4, SDL_PIXELFORMAT_ABGR8888),
+        sdl().FreeSurface);
     if (!picture) fail("the window cannot be drawn into");
-    SDL_SetSurfaceBlendMode(picture.get(), SDL_BLENDMODE_NONE);
+    sdl().SetSurfaceBlendMode(picture.get(), SDL_BLENDMODE_NONE);
     // A failure here means that the window has just changed; the next frame gets its new surface.
-    SDL_BlitSurface(picture.get(), nullptr, surface, nullptr);
-    SDL_UpdateWindowSurface(window_.get());
+    sdl().UpperBlit(picture.get(), nullptr, surface, nullptr);
+    sdl().UpdateWindowSurface(window_.get());
   }
 
  private:
@@ -142,25 +147,25 @@ bool handle(const SDL_Event& event, Session& session) {
 }  // namespace
 
 FrameTimes show_sdl_window(Session& session, const WindowOptions& options) {
-  const Sdl sdl;
+  const Sdl started;
   Window window(options);
   FrameTimes times;
   const double cpu_before = cpu_ms();
   const bool hurried = options.frames > 0;
   Clock::time_point last = Clock::now();
   for (bool open = true; open;) {
-    if (!hurried && session.still()) SDL_WaitEventTimeout(nullptr, kIdle_ms);
+    if (!hurried && session.still()) sdl().WaitEventTimeout(nullptr, kIdle_ms);
     const Clock::time_point now = Clock::now();
     const double passed = std::chrono::duration<double>(now - last).count();
     last = now;
-    for (SDL_Event event; open && SDL_PollEvent(&event) != 0;) open = handle(event, session);
+    for (SDL_Event event; open && sdl().PollEvent(&event) != 0;) open = handle(event, session);
     session.advance(std::min(passed, kLongestStep_s));
     window.show(session);
     if (hurried) {
       times.milliseconds.push_back(std::chrono::duration<double, std::milli>(Clock::now() - now).count());
       open = open && times.milliseconds.size() < static_cast<std::size_t>(options.frames);
     } else if (const auto left = kFrame - (Clock::now() - now); left.count() > 0) {
-      SDL_Delay(static_cast<Uint32>(std::chrono::duration_cast<std::chrono::milliseconds>(left).count()));
+      sdl().Delay(static_cast<Uint32>(std::chrono::duration_cast<std::chrono::milliseconds>(left).count()));
     }
   }
   times.cpu_ms = cpu_ms() - cpu_before;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <exception>
 #include <numbers>
+#include <stdexcept>
 #include <thread>
 
 #include "app/capture.h"
@@ -13,6 +14,7 @@
 #include "app/printable.h"
 #include "edgewise/tri_file.h"
 #include "image/atomic_file.h"
+#include "viewer/typing.h"
 
 namespace edgewise::viewer {
 
@@ -34,6 +36,7 @@ constexpr bool changes_picture(Command command) {
     case Command::other_side:
     case Command::labels:
     case Command::overlay:
+    case Command::next_step:  // as its keys do
     case Command::help:
     case Command::save:
     case Command::quit:
@@ -88,6 +91,7 @@ Session::Session(Start start) : start_(std::move(start)) {
   sides_[0].choice = start_.choice;
   sides_[1].choice = our_choice("tiled");
   state_.execution = start_.execution;
+  state_.reproducible = start_.reproducible;
   state_.execution.target = resolve(state_.execution.target);
 }
 
@@ -230,8 +234,14 @@ void Session::act(Command command) {
     case Command::labels:
       state_.labels = !state_.labels;
       break;
+    case Command::outlines:
+      state_.outlines = !state_.outlines;
+      break;
     case Command::overlay:
       state_.overlay = next_of_three(state_.shown_overlay);
+      break;
+    case Command::next_step:
+      next_step();
       break;
     case Command::help:
       ++state_.help_page;  // the overlay knows how many there are
@@ -268,10 +278,10 @@ void Session::switch_by(Command command, int step) {
       step_method(lab::facing_methods(), choice.facing, step);
       break;
     case Command::cull_front:
-      state_.cull_front = !state_.cull_front;
+      side.cull_front = !side.cull_front;
       break;
     case Command::cull_back:
-      state_.cull_back = !state_.cull_back;
+      side.cull_back = !side.cull_back;
       break;
     case Command::light:
       state_.lit = !state_.lit;
@@ -288,7 +298,31 @@ void Session::switch_by(Command command, int step) {
       return;
   }
   side.judgement.reset();
-  for (Side& each : sides_) each.frontend_ms = each.raster_ms = 0;
+  reset_times();
+}
+
+void Session::choose(std::string_view method) {
+  Side& side = sides_[state_.active];
+  if (!put(method, side.choice))
+    throw std::invalid_argument("no method is named '" + std::string(method) + "'");
+  side.judgement.reset();
+  reset_times();
+  ++state_.version;
+}
+
+void Session::reset_times() {
+  for (Side& side : sides_) side.frontend_ms = side.raster_ms = 0;
+}
+
+// At once: what takes time in its keys, such as walking, is a jump.
+void Session::next_step() {
+  if (next_step_ == start_.steps.size()) {
+    state_.message = start_.steps.empty() ? "only demonstrations have steps" : "that was the last step";
+    return;
+  }
+  const Step& step = start_.steps[next_step_++];
+  say(step.notice);
+  type(*this, parse_keys(step.keys), size_, cell_);
 }
 
 void Session::load(app::Size size) {
@@ -302,17 +336,20 @@ void Session::load(app::Size size) {
   state_.scene = shot.source.name;
   state_.stream = world_->scene() == nullptr;
   state_.lit = frontend_.shade;
-  state_.cull_front = frontend_.cull == Cull::front || frontend_.cull == Cull::both;
-  state_.cull_back = frontend_.cull == Cull::back || frontend_.cull == Cull::both;
+  for (Side& side : sides_) {
+    side.cull_front = frontend_.cull == Cull::front || frontend_.cull == Cull::both;
+    side.cull_back = frontend_.cull == Cull::back || frontend_.cull == Cull::both;
+  }
   state_.axis = start_.axis.value_or(world_->first_axis());
 }
 
-View Session::view_of(app::Size size) const {
+View Session::view_of(std::size_t i, app::Size size) const {
+  const Side& side = sides_[i];
   View view{*world_, frontend_, state_.execution};
   view.frontend.width = size.width;
   view.frontend.height = size.height;
-  view.frontend.cull = state_.cull_front ? (state_.cull_back ? Cull::both : Cull::front)
-                                         : (state_.cull_back ? Cull::back : Cull::none);
+  view.frontend.cull = side.cull_front ? (side.cull_back ? Cull::both : Cull::front)
+                                       : (side.cull_back ? Cull::back : Cull::none);
   view.frontend.shade = !state_.stream && state_.lit;
   view.frontend.threads = state_.execution.threads;
   view.frontend.target = state_.execution.target;
@@ -320,6 +357,7 @@ View Session::view_of(app::Size size) const {
 }
 
 Screen& Session::draw(app::Size size, Cell cell) {
+  cell_ = cell;
   double work_ms = 0;
   const double frame_ms = app::milliseconds([&] {
     if (size.width != size_.width || size.height != size_.height) {
@@ -362,7 +400,7 @@ Screen& Session::draw(app::Size size, Cell cell) {
 
 Image Session::draw_side(std::size_t i, app::Size size, double& work_ms) {
   Side& side = sides_[i];
-  const View view = view_of(size);
+  const View view = view_of(i, size);
   const auto [choice, because] = drawable_part(side.choice, state_.stream);
   side.because = because;
   Picture picture = pipelines_[i].draw(choice, view);
@@ -371,6 +409,7 @@ Image Session::draw_side(std::size_t i, app::Size size, double& work_ms) {
   side.stats = picture.stats;
   work_ms += picture.frontend_ms + picture.raster_ms;
   judge_if_due(i, choice, view, work_ms);
+  if (state_.outlines) pipelines_[i].outline(choice, view, picture.image);
   return std::move(picture.image);
 }
 
@@ -378,7 +417,7 @@ void Session::judge_if_due(std::size_t i, const Choice& choice, const View& view
   Side& side = sides_[i];
   const bool fresh = side.judgement && side.judged == state_.version;
   if (state_.errors == Errors::off || !choice.fills() || fresh) return;
-  const bool affordable = work_ms + side.judging_ms < kBudget_ms;
+  const bool affordable = state_.reproducible || work_ms + side.judging_ms < kBudget_ms;
   if (side.judgement && !affordable && !still() && state_.errors != Errors::tint) {
     side.judging_ms *= kRemembered;
     return;

@@ -8,6 +8,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,11 @@
 
 namespace edgewise::viewer {
 
+// A step of a demonstration: keys that lead on, as --keys takes them, and what to notice then.
+struct Step {
+  std::string_view keys, notice;
+};
+
 struct Start {
   // What to look at, for a picture of this size. Asked again when the size changes, of streams that fill it.
   std::function<app::Shot(app::Size)> load;
@@ -28,6 +34,10 @@ struct Start {
   Execution execution;
   std::optional<glm::vec3> axis;  // none: the scene's own
   std::filesystem::path folder;   // where `p` saves
+  std::span<const Step> steps;    // of a demonstration; key by key
+  // Nothing is shown that differs from run to run or between machines, as times do; and errors are counted in
+  // every frame, however long that takes.
+  bool reproducible = false;
 };
 
 enum class Errors { count, tint, off };
@@ -36,6 +46,7 @@ enum class Arrangement { one, side_by_side, difference };
 // What is known of one of the two pictures that can be compared.
 struct Side {
   Choice choice;
+  bool cull_front = false, cull_back = false;
   std::string because;                    // what of the choice cannot be drawn, and why
   double frontend_ms = 0, raster_ms = 0;  // means of late
   FrontendStats stats;                    // of the last frame
@@ -47,7 +58,6 @@ struct Side {
 struct State {
   std::string scene;
   bool stream = false;
-  bool cull_front = false, cull_back = false;
   bool lit = true;  // scenes only
   Execution execution;
   bool along_view = true;
@@ -61,12 +71,14 @@ struct State {
   std::optional<Overlay> overlay;         // none: what there is room for
   Overlay shown_overlay = Overlay::full;  // in the last frame
   std::size_t active = 0;                 // the side that keys go to
-  bool magnifier = false, labels = false;
+  bool magnifier = false, labels = false, outlines = false;
   int help_page = 0;            // from 1; 0: none
   std::uint64_t differing = 0;  // pixels, in the difference of both sides
   double frame_ms = 0;          // mean of late
   std::uint64_t version = 1;    // of the picture: changes with all that it depends on
   std::string message;
+  std::string notice;  // what to notice, of a demonstration
+  bool reproducible = false;
 };
 
 class Session {
@@ -76,6 +88,11 @@ class Session {
   void press(Key key);
   void release(Key key);
   void release_all();
+  // Puts a method at its stage, of the side that keys go to. Throws std::invalid_argument for an unknown
+  // name.
+  void choose(std::string_view method);
+  // Shows what to notice.
+  void say(std::string_view notice) { state_.notice = notice; }
   // The pointer moved to a place of the screen, with the button held or not.
   void point(Pixel to, bool held);
   // Lets this much time pass, in seconds.
@@ -98,11 +115,13 @@ class Session {
   void switch_by(Command command, int step);
   void move(Command command, float seconds);
   void load(app::Size size);
-  View view_of(app::Size size) const;
+  View view_of(std::size_t side, app::Size size) const;
   Image draw_side(std::size_t side, app::Size size, double& work_ms);
   void judge_if_due(std::size_t side, const Choice& choice, const View& view, double work_ms);
   void finish(Image& panel, std::size_t side);
+  void reset_times();
   void show_next_error();
+  void next_step();
   void save();
 
   Start start_;
@@ -113,6 +132,8 @@ class Session {
   FrontendOptions frontend_;
   bool fills_its_size_ = false;
   app::Size size_{0, 0}, panel_{0, 0};
+  Cell cell_{1, 1};
+  std::size_t next_step_ = 0;
   std::set<Key> held_;
   std::optional<Command> last_switch_;
   std::optional<Pixel> pointer_, focus_;

@@ -1,0 +1,29 @@
+#include "app/show.h"
+
+#include <stdexcept>
+
+#include "app/console.h"
+#include "app/printable.h"
+#include "edgewise/image.h"
+
+namespace edgewise::app {
+
+void check_windows(viewer::ShowWindow show_window) {
+  if (show_window == nullptr)
+    throw std::invalid_argument(
+        "this program was built without SDL2, which opens windows: try --terminal, or install libsdl2-dev "
+        "and build again");
+}
+
+void write_seen(const std::filesystem::path& path, viewer::Session& session, Size size) {
+  const int scale = viewer::font_scale(size.height);
+  viewer::Screen& screen = session.draw(size, viewer::font_cell(scale));
+  viewer::paint(screen, scale);
+  write_image(path, screen.picture);
+}
+
+void print_saved(viewer::Session& session) {
+  for (const std::string& path : session.take_saved()) print(printable(path) + "\n");
+}
+
+}  // namespace edgewise::app
