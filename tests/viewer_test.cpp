@@ -113,7 +113,7 @@ TEST(Viewer, DrawsEdgesOfWhatIsCulledAndLitLikeFacesAndBack) {
   EXPECT_EQ(type(session, "12y").picture.pixels, filled.pixels);
   // A painter covers by itself.
   EXPECT_EQ(type(session, "z").picture.pixels, type(session, "y").picture.pixels);
-  EXPECT_TRUE(says(type(session, "o"), "no wireframe"));
+  EXPECT_TRUE(says(type(session, "o"), "covers exactly by itself"));
 }
 
 TEST(Viewer, GoesThroughAllCoverageMethodsAndTheExactOnesAreRight) {

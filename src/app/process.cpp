@@ -31,6 +31,9 @@ extern "C" void stop(int signal) {
 const char* program_name = "";
 
 [[noreturn]] void give_up() {
+  // Where several threads fail at once, the first one speaks and ends the process.
+  static std::atomic_flag begun;
+  while (begun.test_and_set()) pause();
   if (void (*const action)() = before_stopping) action();
   remove_unfinished_files();
   erase_progress_on_signal();

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "raster/contract.h"
+#include "edgewise/contract.h"
 #include "raster/tile_blocks-inl.h"
 #include "raster/tile_setup-inl.h"
 
