@@ -52,6 +52,8 @@ Scene around_the_eye() {
 // The sphere's cells as faces of four vertices; each is two triangles in a row there.
 Scene sphere_of_quads() {
   Scene scene = built_in("sphere");
+  scene.camera.position = {0.0f, 0.9f, 3.2f};
+  scene.camera.look_at({0.0f, 0.25f, 0.0f});
   for (Mesh& mesh : scene.meshes) {
     Mesh quads{mesh.positions, {}, {}};
     for (std::size_t i = 0; i + 1 < mesh.triangles.size(); i += 2) {
