@@ -35,7 +35,7 @@ def run(*command, env=None, cwd=None):
 
 
 def configure(source, build, *options):
-    return run("cmake", "-S", source, "-B", build, "-G", cached("CMAKE_GENERATOR"), "-DCMAKE_BUILD_TYPE=Release",
+    return run("cmake", "-S", source, "-B", build, "-G", cached("CMAKE_GENERATOR"),
                f"-DCMAKE_CXX_COMPILER={cached('CMAKE_CXX_COMPILER')}", *options)
 
 
@@ -151,6 +151,7 @@ class Installed(unittest.TestCase):
                   *(f"-DCMAKE_DISABLE_FIND_PACKAGE_{package}=ON" for package in LABORATORY_PACKAGES))
         ours = {target for target in targets(build) if re.match("edgewise_|fuzz_|avx_probe", target)}
         self.assertLessEqual(ours, {"edgewise_files"})
+        self.assertRegex((build / "CMakeCache.txt").read_text(), r"(?m)^CMAKE_BUILD_TYPE:\w+=$")  # the consumer's choice
         if FULL:
             run("cmake", "--build", build, "--parallel", os.cpu_count())
             self.use(build)

@@ -111,6 +111,7 @@ TEST(Viewer, DrawsEdgesOfWhatIsCulledAndLitLikeFacesAndBack) {
   EXPECT_EQ(type(session, "1").picture.pixels, rendered("cubes", Cull::both, kTestSize, "wireframe").pixels);
   EXPECT_EQ(type(session, "2").picture.pixels, rendered("cubes", Cull::front, kTestSize, "wireframe").pixels);
   EXPECT_EQ(type(session, "12y").picture.pixels, filled.pixels);
+  EXPECT_EQ(session.side(0).choice.coverage->info.name, "tiled");  // as before the edges
   // A painter covers by itself.
   EXPECT_EQ(type(session, "z").picture.pixels, type(session, "y").picture.pixels);
   type(session, "o");

@@ -37,9 +37,11 @@ struct DemoOptions {
   ExecutionOptions execution;
 };
 
-nlohmann::json as_json() {
+// Of those that are named, or of all.
+nlohmann::json as_json(const std::vector<std::string>& names) {
   auto list = nlohmann::json::array();
   for (const viewer::Demo& demo : viewer::demos()) {
+    if (!names.empty() && std::find(names.begin(), names.end(), demo.name) == names.end()) continue;
     auto steps = nlohmann::json::array();
     for (const viewer::Step& step : demo.steps)
       steps.push_back({{"keys", step.keys}, {"notice", step.notice}});
@@ -122,13 +124,16 @@ int demonstrate(const DemoOptions& o, viewer::ShowWindow show_window) {
   if (o.frames > 1 && !o.output) throw std::invalid_argument("--frames needs --output");
   if (o.names.empty()) {
     if (alive || o.output) throw std::invalid_argument("no TUTORIAL is named; edgewise demo lists them");
-    print(o.json ? json_text(as_json(), 2) + "\n" : list_of_all());
+    print(o.json ? json_text(as_json({}), 2) + "\n" : list_of_all());
     return kDone;
   }
   if (o.output) return write_all(o);
   if (alive && o.names.size() > 1) throw std::invalid_argument("--view shows one TUTORIAL");
   if (alive) return show(viewer::find_demo(o.names.front()), o, show_window);
-  for (const std::string& name : o.names) print(steps_of(viewer::find_demo(name)));
+  if (o.json)
+    print(json_text(as_json(o.names), 2) + "\n");
+  else
+    for (const std::string& name : o.names) print(steps_of(viewer::find_demo(name)));
   return kDone;
 }
 

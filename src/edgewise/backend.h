@@ -24,8 +24,9 @@ struct Execution {
   bool stepped = false;  // along rows, instead of evaluated at each pixel; only the naive backend looks at it
 };
 
-// A backend keeps its scratch memory between frames, about 100 bytes a triangle and 16 a pixel at most, until
-// it is destroyed. One object must not draw on two threads at once; two objects may.
+// A backend keeps its scratch memory between frames, until it is destroyed: with triangles and frame less
+// than 100 bytes a triangle and 16 a pixel where triangles are small, and up to 8 bytes more for each tile or
+// band that a larger one touches. One object must not draw on two threads at once; two objects may.
 class Backend {
  public:
   virtual ~Backend() = default;

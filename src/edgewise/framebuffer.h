@@ -30,8 +30,8 @@ struct FrameView {
 };
 
 // Owns a frame, whose content is undefined until something is drawn. Rows start on 64-byte boundaries, so
-// that a backend can stream whole cache lines, and never a multiple of 4 KB apart, so that a tile's rows don't
-// all want the same few places in the caches. Moving it leaves its views valid.
+// that a backend can stream whole cache lines, and never a multiple of 4 KB apart, so that a tile's rows
+// don't all want the same few places in the caches. Moving it leaves its views valid.
 class Framebuffer {
  public:
   // In px. Throws std::invalid_argument for a side outside 1 … contract::kMaxImageSide, std::bad_alloc for

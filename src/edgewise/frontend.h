@@ -19,8 +19,8 @@ std::string_view name_of(Cull cull);  // "none", "back", "front", "both"
 
 enum class Payload {
   colour,  // 0xAABBGGRR
-  // Index of the source triangle in submission order; the pieces of a clipped triangle share one, and so do
-  // both halves of a face of four vertices (its first half's).
+  // Index of the source triangle in submission order; the pieces of a clipped triangle share one. A face of
+  // four vertices is two triangles (Mesh::face_of).
   id
 };
 
@@ -51,7 +51,8 @@ struct FrontendStats {
   std::uint64_t not_finite = 0;     // dropped: a vertex is NaN or infinite, or became so
   std::uint64_t outside = 0;        // dropped: wholly beyond one side of the view volume
   std::uint64_t not_in_front = 0;   // dropped: w ≤ 0 is left after clipping
-  std::uint64_t clipped_near = 0;   // cut by the near plane (not dropped)
+  std::uint64_t clipped = 0;        // cut (not dropped), by one or more of the following
+  std::uint64_t clipped_near = 0;   // cut by the near plane
   std::uint64_t clipped_far = 0;    // cut by the far plane
   std::uint64_t clipped_guard = 0;  // cut by the guard band
   std::uint64_t pieces = 0;         // triangles after clipping

@@ -31,8 +31,8 @@ struct Mesh {
   bool has_mark(std::size_t triangle, std::uint8_t mark) const {
     return !marks.empty() && (marks[triangle] & mark) != 0;
   }
-  // The first triangle of a triangle's face. It stands for the face: its colour, its light (by its own
-  // normal) and its index are those of both halves.
+  // The first triangle of a triangle's face. It stands for the face: its colour and its light (by its own
+  // normal) are those of both halves.
   std::size_t face_of(std::size_t triangle) const { return triangle - has_mark(triangle, kSecondHalf); }
   // A face of four vertices a, b, c, d: the triangles a, b, c and a, c, d, in this order.
   void add_quad(glm::uvec4 corners, std::uint32_t colour, bool two_sided = false);

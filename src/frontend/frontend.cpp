@@ -92,7 +92,8 @@ FrontendStats& FrontendStats::operator+=(const FrontendStats& o) {
   meshes += o.meshes, meshes_culled += o.meshes_culled;
   triangles += o.triangles, whole_mesh += o.whole_mesh, not_finite += o.not_finite, outside += o.outside;
   not_in_front += o.not_in_front;
-  clipped_near += o.clipped_near, clipped_far += o.clipped_far, clipped_guard += o.clipped_guard;
+  clipped += o.clipped, clipped_near += o.clipped_near, clipped_far += o.clipped_far,
+      clipped_guard += o.clipped_guard;
   pieces += o.pieces, culled += o.culled, zero_area += o.zero_area, emitted += o.emitted;
   return *this;
 }
@@ -154,17 +155,13 @@ struct Frontend::State {
     ScreenTriangle* triangles = out.triangles.data() + first;
     const std::size_t count = out.count - first;
     const Mesh& mesh = member.job.mesh;
-    if (!mesh.marks.empty())
-      std::for_each_n(triangles, count, [&](ScreenTriangle& t) {
-        if (options.payload == Payload::id || !options.shade)
-          t.payload = static_cast<std::uint32_t>(mesh.face_of(t.payload));
-      });
     if (options.payload == Payload::id)
       std::for_each_n(triangles, count, [&](ScreenTriangle& t) { t.payload += member.first_id; });
     else if (options.shade)
       shade(member.light, out, first);
     else
-      std::for_each_n(triangles, count, [&](ScreenTriangle& t) { t.payload = mesh.colours[t.payload]; });
+      std::for_each_n(triangles, count,
+                      [&](ScreenTriangle& t) { t.payload = mesh.colours[mesh.face_of(t.payload)]; });
   }
 
   void assemble_group() {

@@ -62,6 +62,7 @@ void emit(const Vertex& a, const Vertex& b, const Vertex& c, const Source& sourc
 void clip(const ClipVertex (&triangle)[3], std::uint32_t sides, const Source& source,
           const FrontendOptions& options, RunOutput& out) {
   FrontendStats& stats = out.stats;
+  ++stats.clipped;
   if (sides & kNear) ++stats.clipped_near;
   if (sides & kFar) ++stats.clipped_far;
   if (sides & kGuard) ++stats.clipped_guard;

@@ -154,7 +154,7 @@ void Bins::build(std::span<const ScreenTriangle> triangles, const CellGrid& grid
   // vectors of who draws it.
   constexpr std::size_t kLeastChunk = 500;
   constexpr std::size_t kMaxHeads = std::size_t{1} << 24;  // of all chunks: 128 MB, 384 with patches
-  // With the triangles themselves and the frame, less than 100 bytes a triangle and 16 a pixel.
+  // With the triangles themselves and the frame, less than 100 bytes a small triangle and 16 a pixel.
   constexpr std::size_t kPatchBytes = 40, kPatchBytesPerPixel = 8;
   const auto cells = static_cast<std::size_t>(grid.cells());
   // A chunk a thread: the more lists a cell has, the more of them have to be found, begun and left half full.

@@ -157,21 +157,21 @@ constexpr Step kBackface[] = {
      "The "
      "one on the right is two-sided, and never culled for its facing."},
     {"2<left><2>",
-     "Back faces are culled by world-space normal times the ray from the eye, before anything is projected; "
-     "the "
-     "white sheet turns its back, but is two-sided. Objects outside the view are culled whole, and what "
-     "reaches "
-     "out of it is clipped: all of it is counted."},
+     "Back faces are culled by world-space normal times the ray from the eye; the grey sheet turns its back, "
+     "but is two-sided. Objects outside the view are culled whole, and what reaches out of it is clipped: "
+     "all "
+     "of it is counted."},
 };
 
 constexpr Step kTriad[] = {
     {"<normal_z>k<2>",
      "A face of four vertices is kept if the z of its normal, turned with the object, points to the eye."},
     {"r<2>r", "[r] Half of the faces of a closed object are hidden at any time, whichever half it is."},
-    {"0kv<tab>2<2>",
-     "Left: hidden faces removed, before they are lit, cut or drawn. Right: the same picture with all of "
-     "them. "
-     "In the window both times are shown, and how much longer the right side takes."},
+    {"0k<snapped_area>v<tab>2<2>",
+     "Left: hidden faces removed, by the winding on the screen, before they are lit or drawn. Right: the "
+     "same "
+     "picture with all of them. In the window both times are shown, and how much longer the right side "
+     "takes."},
 };
 
 constexpr std::array kDemos{

@@ -55,7 +55,7 @@ class Column {
       const std::size_t blank = words.size() > width ? words.rfind(' ', width) : words.size();
       const std::size_t end = blank == std::string_view::npos ? width : blank;
       line(words.substr(0, end), colour);
-      words.remove_prefix(std::min(end + 1, words.size()));
+      words.remove_prefix(blank == std::string_view::npos ? end : std::min(end + 1, words.size()));
     }
   }
   int y() const { return y_; }
@@ -274,9 +274,8 @@ class Overlaying {
     to.line(unless_reproducible("front end {:.2f} ms, raster {:.2f} ms", s.frontend_ms, s.raster_ms));
     if (i == 1) to.line(compared_with_the_other(s));
     if (state_.outlines) to.line("[6] outlined; white: cut into several triangles");
-    const auto clipped = n.clipped_near + n.clipped_far + n.clipped_guard;
-    to.line(fmt::format("{} in, {} culled, {}{} drawn", n.triangles, n.culled,
-                        c.our_clipping() ? fmt::format("{} clipped, ", clipped) : "", n.emitted));
+    to.line(fmt::format("{} in, {} outside, {} culled, {}{} drawn", n.triangles, n.whole_mesh + n.outside,
+                        n.culled, c.our_clipping() ? fmt::format("{} clipped, ", n.clipped) : "", n.emitted));
     if (n.meshes > 0) to.line(fmt::format("{}, {} culled whole", count(n.meshes, "object"), n.meshes_culled));
     if (!s.because.empty()) to.line(s.because, kWrong);
     to.line(errors_of(state_, s, false), error_colour(s));

@@ -59,11 +59,18 @@ void step_method(std::span<const Method> methods, const Method*& method, int ste
   method = &next_in(methods, step, [&](const Method& m) { return &m == method; });
 }
 
-// The next one that fills, from one that does not; and the other way round.
-void step_to_other_picture(const lab::CoverageMethod*& method) {
-  const auto filled = method->fills;
-  do step_method(lab::drawing_methods(), method, 1);
-  while (method->fills == filled);
+// From a method that fills to one that draws edges, and back again.
+void switch_edges(Side& side) {
+  const lab::CoverageMethod*& method = side.choice.coverage;
+  const bool filled = method->fills;
+  const lab::CoverageMethod* const before = filled ? method : nullptr;
+  if (!filled && side.filled != nullptr) {
+    method = side.filled;
+  } else {
+    do step_method(lab::drawing_methods(), method, 1);
+    while (method->fills == filled);
+  }
+  side.filled = before;
 }
 
 template <typename Enum>
@@ -266,7 +273,7 @@ void Session::switch_by(Command command, int step) {
       step_method(lab::drawing_methods(), choice.coverage, step);
       break;
     case Command::edges:
-      step_to_other_picture(choice.coverage);
+      switch_edges(side);
       break;
     case Command::clipping:
       step_method(lab::clipping_methods(), choice.clipping, step);

@@ -46,6 +46,7 @@ enum class Arrangement { one, side_by_side, difference };
 // What is known of one of the two pictures that can be compared.
 struct Side {
   Choice choice;
+  const lab::CoverageMethod* filled = nullptr;  // what `choice` filled with before it drew edges
   bool cull_front = false, cull_back = false;
   std::string because;                    // what of the choice cannot be drawn, and why
   double frontend_ms = 0, raster_ms = 0;  // means of late
