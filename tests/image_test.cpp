@@ -4,9 +4,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <thread>
 
 #include "edgewise/contract.h"
 #include "edgewise/image.h"
@@ -341,6 +343,26 @@ TEST(AtomicFile, ImpossibleTargetsAreRefusedAtOnce) {
 TEST(AtomicFile, ADeviceIsWrittenStraight) {
   write_pfm("/dev/null", {1, 1, {0.0f}});
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+// Another thread may begin a file when the process is about to end, and must not leave it behind.
+TEST(AtomicFile, IsNotBegunWhereTheProcessEnds) {
+  const TempDir dir;
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    remove_unfinished_files();
+    std::thread([&] {
+      AtomicFile file(dir.path() / "a.txt");
+      pause();
+    }).detach();
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    _exit(0);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+  EXPECT_EQ(dir.count(), 0u);
 }
 
 TEST(AtomicFile, AFullDiskIsReported) {

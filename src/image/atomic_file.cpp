@@ -30,6 +30,15 @@ struct Slot {
   char path[PATH_MAX] = {};
 };
 std::array<Slot, 32> slots;
+std::atomic<bool> ending{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+// Whoever begins a file while another thread ends the process leaves none behind, and waits for the end.
+void wait_if_ending(const fs::path& begun) {
+  if (!ending) return;
+  unlink(begun.c_str());
+  while (true) pause();
+}
 
 extern "C" void remove_temporaries(int signal_number) {
   remove_unfinished_files();
@@ -81,6 +90,7 @@ std::runtime_error write_error(const fs::path& path, int error = errno) {
 }  // namespace
 
 void remove_unfinished_files() {
+  ending = true;
   for (Slot& slot : slots)
     if (slot.state.load() == SlotState::live) unlink(slot.path);
 }
@@ -137,6 +147,7 @@ AtomicFile::AtomicFile(const fs::path& path) : path_(path) {
     slot_ = claim_slot(temporary_.string());
     if (slot_ < 0)
       throw file_error(path, "cannot be written: the path is too long, or too many files are open");
+    wait_if_ending(temporary_);
     descriptor = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   } while (descriptor < 0 && errno == EEXIST);
   if (descriptor < 0) {
@@ -150,6 +161,7 @@ AtomicFile::AtomicFile(const fs::path& path) : path_(path) {
     release_slot(slot_);
     throw write_error(path, reason);
   }
+  wait_if_ending(temporary_);
   if (fs::exists(status)) fs::permissions(temporary_, status.permissions(), error);
 }
 

@@ -43,8 +43,8 @@ class AtomicFile {
   int slot_ = -1;  // in the list that the signal handler reads
 };
 
-// Removes the temporary files of all AtomicFiles. Async-signal-safe, for a program with signal handlers of
-// its own.
+// Removes the temporary files of all AtomicFiles; whoever begins one from then on waits. To be called right
+// before the process ends. Async-signal-safe, for a program with signal handlers of its own.
 void remove_unfinished_files();
 
 }  // namespace edgewise

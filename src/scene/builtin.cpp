@@ -1,5 +1,5 @@
-// The list of scenes, at the end, and most of them. A new one is a function and a line here; or a file anywhere
-// that defines scene_NAME, named to CMake by EDGEWISE_SCENES.
+// The list of scenes, at the end, and most of them. A new one is a function and a line here; or a file
+// anywhere that defines scene_NAME, named to CMake by EDGEWISE_SCENES.
 #include "edgewise/builtin.h"
 
 #include <algorithm>
@@ -251,8 +251,7 @@ std::span<const SceneInfo> builtin_scenes() {
       SceneInfo{"sliver", "100,000 triangles of about 500 x 0.5 px in all directions", true, sliver},
       SceneInfo{"grid4", "a watertight jittered grid with cells of 4 px", true, grid4},
       SceneInfo{"grid64", "a watertight jittered grid with cells of 64 px", true, grid64},
-      EDGEWISE_MORE_SCENES(EDGEWISE_ENTRY)
-  };
+      EDGEWISE_MORE_SCENES(EDGEWISE_ENTRY)};
   return kScenes;
 }
 
