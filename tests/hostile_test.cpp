@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <ostream>
 #include <sstream>
 #include <string>
@@ -178,25 +179,32 @@ TEST_P(HostileInput, IsAnsweredAsTheTableSays) {
 
 INSTANTIATE_TEST_SUITE_P(Table, HostileInput, ::testing::ValuesIn(kHostile));
 
-// Wherever memory runs out: done, or one line and status 2. On one thread, since oneTBB may not come back;
-// and only where the system's loader, which speaks for itself, finds room for the program.
+// The exit status within so much address space: done, or 2 and one line. None where the system's loader,
+// which speaks for itself, finds no room for the program.
+std::optional<int> status_within(int kib, const std::string& command, const TempDir& folder) {
+  const std::string limit = "ulimit -v " + std::to_string(kib) + "; ", script = limit + command;
+  const TempDir input;
+  if (run_script(limit + "edgewise --version", folder, input).status == 127) return {};
+  const Outcome outcome = run_script(script, folder, input);
+  EXPECT_TRUE(outcome.status == 0 || outcome.status == 2) << script << ": " << outcome.status << outcome.err;
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), outcome.status == 0 ? 0 : 1) << script;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) expect_whole(entry.path());
+  return outcome.status;
+}
+
+// Wherever memory runs out. On one thread, since oneTBB may not come back.
 TEST(HostileMemory, EndsInAFileOrInOneLineAtAnyLimit) {
+  if (starves_sanitizers("ulimit -v")) GTEST_SKIP() << "sanitizers need more than the limit";
   int done = 0, refused = 0;
   for (const std::string command : {"edgewise render torus-knot --size 1900x1900 --threads 1 -o $DIR/a.png",
                                     "edgewise capture terrain -o $DIR/a.tri",
                                     "edgewise stability cycle --quick --threads 1 --json $DIR/a.json"})
     for (const int kib : {15'000, 20'000, 30'000, 40'000, 50'000, 60'000, 80'000, 150'000, 300'000}) {
-      const std::string limit = "ulimit -v " + std::to_string(kib) + "; ", script = limit + command;
-      if (starves_sanitizers(script)) GTEST_SKIP() << "sanitizers need more than the limit";
-      const TempDir folder, input;
-      if (run_script(limit + "edgewise --version", folder, input).status == 127) continue;
-      const Outcome outcome = run_script(script, folder, input);
-      ASSERT_TRUE(outcome.status == 0 || outcome.status == 2)
-          << script << ": " << outcome.status << outcome.err;
-      ++(outcome.status == 0 ? done : refused);
-      EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), outcome.status == 0 ? 0 : 1);
-      EXPECT_EQ(folder.count(), outcome.status == 0 ? 1u : 0u) << script;
-      for (const auto& entry : std::filesystem::directory_iterator(folder.path())) expect_whole(entry.path());
+      const TempDir folder;
+      const auto status = status_within(kib, command, folder);
+      if (!status) continue;
+      ++(*status == 0 ? done : refused);
+      EXPECT_EQ(folder.count(), *status == 0 ? 1u : 0u) << command << " within " << kib;
     }
   EXPECT_GT(done, 3);
   EXPECT_GT(refused, 3);
@@ -204,20 +212,14 @@ TEST(HostileMemory, EndsInAFileOrInOneLineAtAnyLimit) {
 
 // A soak's record is there from the beginning, and stays whole.
 TEST(HostileMemory, LeavesAWholeRecordOfASoakAtAnyLimit) {
+  if (starves_sanitizers("ulimit -v")) GTEST_SKIP() << "sanitizers need more than the limit";
   int done = 0;
   for (const int kib : {40'000, 60'000, 80'000, 150'000, 300'000, 2'000'000}) {
-    const std::string limit = "ulimit -v " + std::to_string(kib) + "; ";
-    const std::string script = limit + "edgewise soak --cases 9 --jobs 1 --json $DIR/a.json";
-    if (starves_sanitizers(script)) GTEST_SKIP() << "sanitizers need more than the limit";
-    const TempDir folder, input;
-    if (run_script(limit + "edgewise --version", folder, input).status == 127) continue;
-    const Outcome outcome = run_script(script, folder, input);
-    ASSERT_TRUE(outcome.status == 0 || outcome.status == 2)
-        << script << ": " << outcome.status << outcome.err;
-    done += outcome.status == 0;
-    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), outcome.status == 0 ? 0 : 1);
-    EXPECT_LE(folder.count(), 1u) << script;
-    for (const auto& entry : std::filesystem::directory_iterator(folder.path())) expect_whole(entry.path());
+    const TempDir folder;
+    const auto status = status_within(kib, "edgewise soak --cases 9 --jobs 1 --json $DIR/a.json", folder);
+    if (!status) continue;
+    done += *status == 0;
+    EXPECT_LE(folder.count(), 1u) << kib;
   }
   EXPECT_GT(done, 0);
 }

@@ -77,22 +77,23 @@ void write_frames(const viewer::Demo& demo, const DemoOptions& o, const OutputPa
   double seconds = 0;
   for (const viewer::Step& step : demo.steps) seconds += viewer::seconds_of(viewer::parse_keys(step.keys));
   int frame = 0;
-  const auto write_next = [&] {
+  const int scale = viewer::font_scale(size.height);
+  const viewer::Cell cell = viewer::font_cell(scale);
+  const auto write_next = [&](viewer::Screen& screen) {
     const std::string path = paths.path(std::string(demo.name), ++frame).string();
-    write_seen(path, session, size);
+    write_screen(path, screen, scale);
     progress.erase();
     print(printable(path) + "\n");
     progress.show(static_cast<double>(frame) / o.frames, demo.name);
   };
-  viewer::Film film(session, size, viewer::font_cell(viewer::font_scale(size.height)), seconds / o.frames,
-                    [&](viewer::Screen&) {
-                      if (frame + 1 < o.frames) write_next();
-                    });
+  viewer::Film film(session, size, cell, seconds / o.frames, [&](viewer::Screen& screen) {
+    if (frame + 1 < o.frames) write_next(screen);
+  });
   for (const viewer::Step& step : demo.steps) {
     session.say(step.notice);
     film.type(viewer::parse_keys(step.keys));
   }
-  write_next();
+  write_next(session.draw(size, cell));
 }
 
 int write_all(const DemoOptions& o) {

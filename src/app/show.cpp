@@ -15,11 +15,14 @@ void check_windows(viewer::ShowWindow show_window) {
         "and build again");
 }
 
+void write_screen(const std::filesystem::path& path, viewer::Screen& screen, int font_scale) {
+  viewer::paint(screen, font_scale);
+  write_image(path, screen.picture);
+}
+
 void write_seen(const std::filesystem::path& path, viewer::Session& session, Size size) {
   const int scale = viewer::font_scale(size.height);
-  viewer::Screen& screen = session.draw(size, viewer::font_cell(scale));
-  viewer::paint(screen, scale);
-  write_image(path, screen.picture);
+  write_screen(path, session.draw(size, viewer::font_cell(scale)), scale);
 }
 
 void print_saved(viewer::Session& session) {
