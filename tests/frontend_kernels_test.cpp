@@ -368,17 +368,76 @@ TEST(FrontendKernels, RefusesThreadCountsThatBackendsRefuse) {
   EXPECT_GT(run(wild_stream(), {.threads = kMaxThreads}).stats.emitted, 0u);
 }
 
-TEST(FrontendKernels, NothingIsLeftOfTheUnsnappedWhereItThrew) {
+// Each triangle's state, by what is known otherwise: the counts, and which ids were handed on.
+void expect_states_agree(const Drawable& drawable, FrontendOptions options) {
+  options.payload = Payload::id;
+  const auto plain = run(drawable, options);
+  options.keep_states = true;
+  for (const int threads : {1, 3}) {
+    options.threads = threads;
+    Frontend frontend;
+    const auto triangles = frontend.run(drawable, options);
+    expect_same_triangles(plain.triangles, {triangles.begin(), triangles.end()}, "with states");
+    const FrontendStats& stats = frontend.stats();
+    EXPECT_EQ(std::memcmp(&stats, &plain.stats, sizeof stats), 0);
+    const auto states = frontend.states();
+    ASSERT_EQ(states.size(), stats.triangles);
+    const auto count = [&](TriangleState state) {
+      return static_cast<std::uint64_t>(std::count(states.begin(), states.end(), state));
+    };
+    EXPECT_EQ(count(TriangleState::outside_with_mesh), stats.whole_mesh);
+    EXPECT_EQ(count(TriangleState::not_finite), stats.not_finite);
+    EXPECT_EQ(count(TriangleState::outside), stats.outside);
+    EXPECT_EQ(count(TriangleState::not_in_front), stats.not_in_front);
+    EXPECT_LE(count(TriangleState::clipped), stats.clipped);
+    EXPECT_GT(count(TriangleState::clipped), 0u);
+    EXPECT_EQ(count(TriangleState::culled) > 0, stats.culled > 0);
+    std::vector<bool> handed_on(states.size());
+    for (const ScreenTriangle& t : triangles) handed_on[t.payload] = true;
+    for (std::size_t i = 0; i < states.size(); ++i)
+      ASSERT_EQ(states[i] >= TriangleState::active, handed_on[i]) << i << ": " << name_of(states[i]);
+  }
+}
+
+TEST(FrontendKernels, StatesTellOfEachTriangleWhatTheCountsTellOfAll) {
+  for (const bool spoil : {false, true})
+    for (const Cull cull : cull_modes()) {
+      if (cull == Cull::both) continue;  // nothing would be clipped and handed on
+      expect_states_agree(wild_scene(spoil), {.width = 300, .height = 200, .cull = cull});
+      expect_states_agree(wild_stream(), {.width = 640, .height = 480, .cull = cull});
+    }
+}
+
+TEST(FrontendKernels, StatesOfSingleTriangles) {
+  const auto state = [](glm::vec3 a, glm::vec3 b, glm::vec3 c, Cull cull = Cull::back) {
+    const TriangleStream stream{64, 64, {{{a, b, c}, 0xFFFFFFFFu}}};
+    Frontend frontend;
+    frontend.run(stream, {.width = 64, .height = 64, .cull = cull, .keep_states = true});
+    return frontend.states().front();
+  };
+  const glm::vec3 a{8, 8, 0.5f}, b{40, 8, 0.5f}, c{8, 40, 0.5f};
+  EXPECT_EQ(state(a, b, c), TriangleState::active);
+  EXPECT_EQ(state(a, c, b), TriangleState::culled);
+  EXPECT_EQ(state(a, c, b, Cull::none), TriangleState::active);
+  EXPECT_EQ(state(a, b, a), TriangleState::zero_area);
+  EXPECT_EQ(state(a, b, {8, kNan, 0.5f}), TriangleState::not_finite);
+  EXPECT_EQ(state(a, b, {8, 40, -0.5f}), TriangleState::clipped);
+  EXPECT_EQ(state(a, {8, 40, -0.5f}, b), TriangleState::culled) << "cut, and then seen from behind";
+  EXPECT_EQ(state({100, 8, 0.5f}, {140, 8, 0.5f}, {100, 40, 0.5f}), TriangleState::outside);
+}
+
+TEST(FrontendKernels, NothingIsLeftOfTheUnsnappedOrTheStatesWhereItThrew) {
   const Scene good = wild_scene(false);
   Scene blind = good, broken = good;
   blind.camera.near_z = -1;
   broken.meshes[0].triangles.back().x = 9001;
   Frontend frontend;
   const FrontendOptions plain{.width = 300, .height = 200},
-      keep{.width = 300, .height = 200, .keep_unsnapped = true};
+      keep{.width = 300, .height = 200, .keep_unsnapped = true, .keep_states = true};
   const auto expect_throw = [&](const Scene& scene, FrontendOptions options) {
     EXPECT_THROW(frontend.run(scene, options), std::invalid_argument);
     EXPECT_EQ(frontend.unsnapped().size(), 0u);
+    EXPECT_EQ(frontend.states().size(), 0u);
   };
   frontend.run(good, plain);
   EXPECT_EQ(frontend.unsnapped().size(), 0u);
@@ -387,8 +446,9 @@ TEST(FrontendKernels, NothingIsLeftOfTheUnsnappedWhereItThrew) {
     const std::size_t count = frontend.run(good, keep).size();
     EXPECT_GT(count, 0u);
     EXPECT_EQ(frontend.unsnapped().size(), count);
+    EXPECT_EQ(frontend.states().size(), frontend.stats().triangles);
     expect_throw(*bad, keep);
-    expect_throw(good, {.width = 0, .keep_unsnapped = true});
+    expect_throw(good, {.width = 0, .keep_unsnapped = true, .keep_states = true});
   }
 }
 

@@ -505,6 +505,42 @@ TEST(Viewer, LabelsVerticesAndAxes) {
   EXPECT_TRUE(says(knot.draw({900, 600}, kTestCell), "too many for labels"));
 }
 
+// Three quads: one before the eye and turned to it, one that turns its back, one behind the eye; and a floor
+// that passes under it.
+TEST(Viewer, TellsOfEachFaceWhatBecameOfIt) {
+  constexpr app::Size kLarge{640, 480};
+  Scene scene;
+  const auto add = [&](glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d) {
+    Mesh mesh{{a, b, c, d}, {}, {}};
+    mesh.add_quad({0, 1, 2, 3}, rgb(200, 200, 200));
+    scene.instances.push_back({.mesh = scene.meshes.size()});
+    scene.meshes.push_back(std::move(mesh));
+  };
+  add({-1, 1, -4}, {1, 1, -4}, {1, 0, -4}, {-1, 0, -4});
+  add({1, 1, -5}, {-1, 1, -5}, {-1, 0, -5}, {1, 0, -5});
+  add({-1, 1, 4}, {1, 1, 4}, {1, 0, 4}, {-1, 0, 4});
+  add({-9, -1, -9}, {9, -1, -9}, {9, -1, 9}, {-9, -1, 9});
+  Session session = session_of(scene);
+  EXPECT_FALSE(says(session.draw(kLarge, kTestCell), "active"));
+  EXPECT_TRUE(says(type(session, "7", kLarge), "a b - c"));
+  EXPECT_TRUE(says(session.draw(kLarge, kTestCell), "a 1 active, c 1 clipped, b 1 culled"));
+  const auto letters = [&](const Screen& screen, std::string_view letter) {
+    return std::count_if(screen.texts.begin(), screen.texts.end(),
+                         [&](const Text& text) { return text.words == letter; });
+  };
+  EXPECT_EQ(letters(session.draw(kLarge, kTestCell), "a"), 1);
+  EXPECT_EQ(letters(session.draw(kLarge, kTestCell), "b"), 1);
+  EXPECT_EQ(letters(session.draw(kLarge, kTestCell), "-"), 0) << "behind the eye";
+  EXPECT_TRUE(says(type(session, "2", kLarge), "a a - c"));
+  // The same by a facing test of the laboratory, which knows no clipping.
+  EXPECT_TRUE(says(type(session, "2<normal_dot_eye>", kLarge), "a b - c"));
+  EXPECT_TRUE(says(type(session, "<screen_linear>", kLarge), "not known"));
+  EXPECT_FALSE(says(type(session, "7", kLarge), "[7]"));
+  Session knot = session_of("torus-knot");
+  EXPECT_TRUE(says(type(knot, "7", kLarge), "active"));
+  EXPECT_LT(knot.draw(kLarge, kTestCell).texts.size(), 60u) << "too many for letters";
+}
+
 TEST(Viewer, HelpsWithEveryKeyOnAsManyPagesAsItTakes) {
   for (const app::Size size : {app::Size{320, 200}, app::Size{1280, 720}, app::Size{120, 60}}) {
     Session session = session_of("cube");

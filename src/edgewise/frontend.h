@@ -24,6 +24,20 @@ enum class Payload {
   id
 };
 
+// What became of a submitted triangle; of one that was cut, of all its pieces together. The later in this
+// list, the further it came.
+enum class TriangleState : std::uint8_t {
+  outside_with_mesh,  // its mesh lies beyond one side of the view volume as a whole
+  not_finite,         // a vertex is NaN or infinite, or became so
+  outside,            // wholly beyond one side of the view volume
+  not_in_front,       // w ≤ 0 is left after clipping
+  zero_area,          // no area after snapping
+  culled,             // for its facing
+  active,             // handed on whole
+  clipped             // handed on, cut
+};
+std::string_view name_of(TriangleState state);  // as above, with blanks for underscores
+
 struct FrontendOptions {
   int width = 1920, height = 1080;  // px, 1 … contract::kMaxImageSide
   Cull cull = Cull::back;           // front is clockwise on the y-down screen
@@ -33,6 +47,7 @@ struct FrontendOptions {
   // For judging: remember where each triangle lay before it was snapped, and keep those that lost their area
   // by it.
   bool keep_unsnapped = false;
+  bool keep_states = false;  // remember what became of each triangle; slower, and the same triangles
   SimdTarget target = SimdTarget::best;
 };
 
@@ -65,8 +80,8 @@ struct FrontendStats {
 
 // Keeps its memory between frames, and allocates none after the first of a kind: 16 bytes a vertex of the
 // largest mesh, 3 MB at most for a group of small ones; 40 a visible triangle, and less than 1 MB a thread;
-// with keep_unsnapped 36 a visible triangle more, and as much a thread again. One object must not work on two
-// threads at once.
+// with keep_unsnapped 36 a visible triangle more, and as much a thread again; with keep_states 1 a submitted
+// triangle. One object must not work on two threads at once.
 class Frontend {
  public:
   Frontend();
@@ -86,6 +101,8 @@ class Frontend {
   const FrontendStats& stats() const;
   // One for each triangle that run() returned, if keep_unsnapped was set; else none, as when it threw.
   std::span<const UnsnappedTriangle> unsnapped() const;
+  // One for each triangle that was submitted, in order, if keep_states was set; else none, as when it threw.
+  std::span<const TriangleState> states() const;
 
  private:
   struct State;

@@ -22,7 +22,7 @@ namespace HWY_NAMESPACE {
 // False if the triangles must go one by one.
 template <bool kMarked>
 HWY_INLINE bool assemble_vector(const MeshJob& job, std::size_t first, RunOutput& out) {
-  if (job.options.keep_unsnapped) return false;
+  if (job.one_by_one()) return false;
   const DI d;
   const std::uint32_t* index = &job.mesh.triangles[first].x;
   const auto corner = [&](std::size_t k) HWY_ATTR {

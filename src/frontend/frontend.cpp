@@ -88,6 +88,28 @@ std::string_view name_of(Cull cull) {
   throw std::invalid_argument("not a culling mode");
 }
 
+std::string_view name_of(TriangleState state) {
+  switch (state) {
+    case TriangleState::outside_with_mesh:
+      return "outside with mesh";
+    case TriangleState::not_finite:
+      return "not finite";
+    case TriangleState::outside:
+      return "outside";
+    case TriangleState::not_in_front:
+      return "not in front";
+    case TriangleState::zero_area:
+      return "zero area";
+    case TriangleState::culled:
+      return "culled";
+    case TriangleState::active:
+      return "active";
+    case TriangleState::clipped:
+      return "clipped";
+  }
+  throw std::invalid_argument("not a triangle's state");
+}
+
 FrontendStats& FrontendStats::operator+=(const FrontendStats& o) {
   meshes += o.meshes, meshes_culled += o.meshes_culled;
   triangles += o.triangles, whole_mesh += o.whole_mesh, not_finite += o.not_finite, outside += o.outside;
@@ -126,6 +148,8 @@ struct Frontend::State {
   Buffer<ScreenTriangle> screen;
   Buffer<UnsnappedTriangle> unsnapped;
   std::size_t unsnapped_count = 0;  // valid ones
+  Buffer<TriangleState> states;
+  std::size_t state_count = 0;  // valid ones
   FrontendStats stats;
   FrontendOptions options;
 
@@ -169,6 +193,8 @@ struct Frontend::State {
       if (member.out_of_sight()) {
         ++stats.meshes_culled;
         stats.whole_mesh += member.job.mesh.triangles.size();
+        if (options.keep_states)
+          std::fill_n(member.job.states, member.job.mesh.triangles.size(), TriangleState::outside_with_mesh);
       }
     const AssembleKernel assemble = assemble_kernel(options.target);
     const ShadeKernel shade = shade_kernel(options.target);
@@ -214,7 +240,8 @@ struct Frontend::State {
       if (vertex_runs.total() + mesh.positions.size() > kMaxVertices || group.size() == kMaxMembers)
         run_group();
       const glm::mat4 model = model_matrix(instance);
-      const MeshJob job{options, mesh, glm::mat4(to_screen * glm::dmat4(model)), nullptr};
+      const MeshJob job{options, mesh, glm::mat4(to_screen * glm::dmat4(model)), nullptr,
+                        options.keep_states ? states.data() + first_id : nullptr};
       ++stats.meshes;
       stats.triangles += mesh.triangles.size();
       vertex_runs.add(group.size(), mesh.positions.size());
@@ -228,7 +255,7 @@ struct Frontend::State {
 
   void run_stream(const TriangleStream& stream) {
     const StreamKernel kernel = stream_kernel(options.target);
-    const StreamJob job{options, stream};
+    const StreamJob job{options, stream, options.keep_states ? states.data() : nullptr};
     const std::size_t count = stream.triangles.size();
     stats.triangles = count;
     order.for_each_run((count + kRun - 1) / kRun, count,
@@ -251,10 +278,13 @@ struct Frontend::State {
   }
 
   void run(const Drawable& drawable) {
-    run_once(drawable, checked_count(submitted(drawable)));
+    const std::size_t count = checked_count(submitted(drawable));
+    if (options.keep_states) states.reserve(count);
+    run_once(drawable, count);
     // More pieces of cut triangles than triangles that were dropped: rare, and for one frame only.
     if (order.total() > screen.capacity()) run_once(drawable, checked_count(order.total()));
     if (options.keep_unsnapped) unsnapped_count = order.total();
+    if (options.keep_states) state_count = count;
   }
 };
 
@@ -265,7 +295,7 @@ Frontend& Frontend::operator=(Frontend&&) noexcept = default;
 
 std::span<const ScreenTriangle> Frontend::run(const Drawable& drawable, const FrontendOptions& options) {
   State& s = *state_;
-  s.unsnapped_count = 0;
+  s.unsnapped_count = s.state_count = 0;
   for (const int side : {options.width, options.height})
     if (side < 1 || side > contract::kMaxImageSide)
       throw std::invalid_argument("image side " + std::to_string(side) + " is outside 1 to " +
@@ -285,6 +315,10 @@ const FrontendStats& Frontend::stats() const {
 
 std::span<const UnsnappedTriangle> Frontend::unsnapped() const {
   return {state_->unsnapped.data(), state_->unsnapped_count};
+}
+
+std::span<const TriangleState> Frontend::states() const {
+  return {state_->states.data(), state_->state_count};
 }
 
 }  // namespace edgewise

@@ -16,13 +16,20 @@ namespace edgewise {
 struct MeshJob {
   const FrontendOptions& options;
   const Mesh& mesh;
-  glm::mat4 to_screen;  // model space → pixels and depth, both times w
-  Vertex* vertices;     // one a position
+  glm::mat4 to_screen;              // model space → pixels and depth, both times w
+  Vertex* vertices;                 // one a position
+  TriangleState* states = nullptr;  // one a triangle, to be set; null: not wanted
+
+  // What is asked for of each triangle alone.
+  bool one_by_one() const { return options.keep_unsnapped || states != nullptr; }
 };
 
 struct StreamJob {
   const FrontendOptions& options;
   const TriangleStream& stream;
+  TriangleState* states = nullptr;  // as above
+
+  bool one_by_one() const { return options.keep_unsnapped || states != nullptr; }
 };
 
 // Work is cut into runs of this many vertices or triangles, whatever the thread count: small enough that a

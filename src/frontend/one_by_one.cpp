@@ -99,14 +99,35 @@ void add(const Vertex& a, const Vertex& b, const Vertex& c, const Source& source
     clip({clip_of(0), clip_of(1), clip_of(2)}, sides, source, options, out);
 }
 
+TriangleState state_between(const FrontendStats& before, const FrontendStats& after) {
+  const auto grew = [&](std::uint64_t FrontendStats::*count) { return after.*count > before.*count; };
+  if (grew(&FrontendStats::emitted))
+    return grew(&FrontendStats::clipped) ? TriangleState::clipped : TriangleState::active;
+  if (grew(&FrontendStats::culled)) return TriangleState::culled;
+  if (grew(&FrontendStats::zero_area)) return TriangleState::zero_area;
+  if (grew(&FrontendStats::not_in_front)) return TriangleState::not_in_front;
+  return grew(&FrontendStats::not_finite) ? TriangleState::not_finite : TriangleState::outside;
+}
+
+// What became of a triangle is told by what add_it() counts.
+template <typename Job, typename AddIt>
+void add_and_tell(const Job& job, std::size_t triangle, RunOutput& out, AddIt&& add_it) {
+  if (job.states == nullptr) return add_it();
+  const FrontendStats before = out.stats;
+  add_it();
+  job.states[triangle] = state_between(before, out.stats);
+}
+
 }  // namespace
 
 void add_one(const MeshJob& job, std::size_t triangle, RunOutput& out) {
   const glm::uvec3 t = job.mesh.triangles[triangle];
   const auto clip_of = [&](int k) { return transform(job.to_screen, job.mesh.positions[t[k]]); };
   const Cull cull = job.mesh.has_mark(triangle, kTwoSided) ? Cull::none : job.options.cull;
-  add(job.vertices[t.x], job.vertices[t.y], job.vertices[t.z], {static_cast<std::uint32_t>(triangle), cull},
-      job.options, out, clip_of);
+  add_and_tell(job, triangle, out, [&] {
+    add(job.vertices[t.x], job.vertices[t.y], job.vertices[t.z], {static_cast<std::uint32_t>(triangle), cull},
+        job.options, out, clip_of);
+  });
 }
 
 void add_one(const StreamJob& job, std::size_t triangle, RunOutput& out) {
@@ -118,8 +139,9 @@ void add_one(const StreamJob& job, std::size_t triangle, RunOutput& out) {
   };
   const auto vertex = [&](int k) { return make_vertex(clip_of(k), width, height); };
   const bool ids = job.options.payload == Payload::id;
-  add(vertex(0), vertex(1), vertex(2),
-      {ids ? static_cast<std::uint32_t>(triangle) : t.colour, job.options.cull}, job.options, out, clip_of);
+  const Source source{ids ? static_cast<std::uint32_t>(triangle) : t.colour, job.options.cull};
+  add_and_tell(job, triangle, out,
+               [&] { add(vertex(0), vertex(1), vertex(2), source, job.options, out, clip_of); });
 }
 
 }  // namespace edgewise

@@ -64,7 +64,7 @@ HWY_INLINE MI beyond(const VF (&v)[3], int side_px) {
 
 // False if the triangles must go one by one.
 HWY_INLINE bool stream_vector(const StreamJob& job, std::size_t first, RunOutput& out) {
-  if (job.options.keep_unsnapped) return false;
+  if (job.one_by_one()) return false;
   constexpr auto kGuardPx = static_cast<float>(contract::kMaxImageSide);
   const FrontendOptions& options = job.options;
   prefetch(job.stream, first);

@@ -156,11 +156,13 @@ constexpr Step kBackface[] = {
      "[2] With back faces drawn as well a second sheet shows, on the left, which turns its back on the eye. "
      "The "
      "one on the right is two-sided, and never culled for its facing."},
-    {"2<left><2>",
+    {"27<2>",
+     "[7] What became of each face, as a letter at its centre, and of those out of sight in the list: a word "
+     "for each object."},
+    {"<left><2>",
      "Back faces are culled by world-space normal times the ray from the eye; the grey sheet turns its back, "
      "but is two-sided. Objects outside the view are culled whole, and what reaches out of it is clipped: "
-     "all "
-     "of it is counted."},
+     "[7] lists each face."},
 };
 
 constexpr Step kTriad[] = {
@@ -172,6 +174,12 @@ constexpr Step kTriad[] = {
      "same "
      "picture with all of them. In the window both times are shown, and how much longer the right side "
      "takes."},
+    {"<tab><normal_z>e<1>",
+     "Left: by the z of the rotated normal, as the trainer does. It leaves perspective out, and so drops "
+     "faces "
+     "near the rim that can be seen: orange. Right: all faces, hidden ones too; in the window the times of "
+     "both "
+     "are shown."},
 };
 
 constexpr std::array kDemos{

@@ -146,23 +146,49 @@ std::size_t vertex_count(const Scene& scene) {
   return vertices;
 }
 
-void add_vertex_labels(const Scene& scene, int width, int height, int left, Cell cell,
-                       std::vector<Text>& texts) {
+namespace {
+
+// Centred on a point, if the camera sees its place.
+void add_label(Projected at, const Panel& panel, std::string words, std::uint32_t colour,
+               std::vector<Text>& texts) {
+  const bool seen = at.in_front && at.x_px >= 0.0f && at.x_px < static_cast<float>(panel.width) &&
+                    at.y_px >= 0.0f && at.y_px < static_cast<float>(panel.height);
+  if (!seen) return;
+  const int half_width = panel.cell.width * static_cast<int>(words.size()) / 2;
+  texts.push_back({panel.left + static_cast<int>(at.x_px) - half_width,
+                   static_cast<int>(at.y_px) - panel.cell.height / 2, std::move(words), colour});
+}
+
+std::uint32_t colour_of(TriangleState state) {
+  switch (state) {
+    case TriangleState::active:
+      return rgb(255, 255, 255);
+    case TriangleState::clipped:
+      return rgb(255, 210, 60);
+    default:
+      return rgb(150, 170, 190);
+  }
+}
+
+}  // namespace
+
+void add_vertex_labels(const Scene& scene, const Panel& panel, std::vector<Text>& texts) {
   if (vertex_count(scene) > kMostLabels) return;
-  const glm::dmat4 to_screen = screen_matrix(scene.camera, width, height);
+  const glm::dmat4 to_screen = screen_matrix(scene.camera, panel.width, panel.height);
   for (const Instance& instance : scene.instances) {
     const glm::dmat4 to_pixels = to_screen * glm::dmat4(model_matrix(instance));
     const auto& positions = scene.meshes[instance.mesh].positions;
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-      const Projected at = project(to_pixels, positions[i]);
-      const bool seen = at.in_front && at.x_px >= 0.0f && at.x_px < static_cast<float>(width) &&
-                        at.y_px >= 0.0f && at.y_px < static_cast<float>(height);
-      if (!seen) continue;
-      const std::string number = std::to_string(i);
-      texts.push_back({left + static_cast<int>(at.x_px) - cell.width * static_cast<int>(number.size()) / 2,
-                       static_cast<int>(at.y_px) - cell.height / 2, number, rgb(255, 255, 255)});
-    }
+    for (std::size_t i = 0; i < positions.size(); ++i)
+      add_label(project(to_pixels, positions[i]), panel, std::to_string(i), rgb(255, 255, 255), texts);
   }
+}
+
+void add_face_letters(const Camera& camera, std::span<const FaceState> faces, const Panel& panel,
+                      std::vector<Text>& texts) {
+  if (faces.size() > kMostLabels) return;
+  const glm::dmat4 to_screen = screen_matrix(camera, panel.width, panel.height);
+  for (const FaceState& face : faces)
+    add_label(project(to_screen, face.centre), panel, {letter_of(face.state)}, colour_of(face.state), texts);
 }
 
 }  // namespace edgewise::viewer

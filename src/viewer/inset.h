@@ -1,4 +1,4 @@
-// What is drawn over a picture besides text: tinted errors, the magnifying glass, the axes.
+// What is drawn over a picture: tinted errors, the magnifying glass, the axes, labels in the scene.
 #pragma once
 
 #include <span>
@@ -9,6 +9,7 @@
 #include "app/options.h"
 #include "edgewise/image.h"
 #include "edgewise/scene.h"
+#include "viewer/face_states.h"
 #include "viewer/text.h"
 
 namespace edgewise::viewer {
@@ -34,9 +35,15 @@ void draw_axes(const Camera& camera, Cell cell, Screen& screen);
 std::size_t vertex_count(const Scene& scene);  // of all instances
 // More would be too many to read.
 inline constexpr std::size_t kMostLabels = 300;
-// The number of each vertex, where the camera sees it in a panel that begins at `left`; none if there are
-// more than kMostLabels.
-void add_vertex_labels(const Scene& scene, int width, int height, int left, Cell cell,
-                       std::vector<Text>& texts);
+// A part of the screen, over its whole height, that shows a picture.
+struct Panel {
+  int left, width, height;  // px
+  Cell cell;
+};
+// The number of each vertex, where the camera sees it; none if there are more than kMostLabels.
+void add_vertex_labels(const Scene& scene, const Panel& panel, std::vector<Text>& texts);
+// The same of faces, at their centres: the letters of their states.
+void add_face_letters(const Camera& camera, std::span<const FaceState> faces, const Panel& panel,
+                      std::vector<Text>& texts);
 
 }  // namespace edgewise::viewer

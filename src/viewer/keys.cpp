@@ -83,6 +83,7 @@ std::span<const KeyRow> key_table() {
       {"v", "one, side by side, difference", {{key_of('v'), Command::arrangement}}},
       {"tab", "keys go to the other side", {{Key::tab, Command::other_side}}},
       {"t", "vertex labels", {{key_of('t'), Command::labels}}},
+      {"7", "what became of each face", {{key_of('7'), Command::face_states}}},
       {"6", "outlines, white of what clipping cut in several", {{key_of('6'), Command::outlines}}},
       {"o", "overlay: full, short, none", {{key_of('o'), Command::overlay}}},
       {"p", "save a .png and a .tri", {{key_of('p'), Command::save}}},

@@ -69,6 +69,7 @@ enum class Command : std::uint8_t {
   arrangement,
   other_side,
   labels,
+  face_states,
   outlines,
   overlay,
   next_step,

@@ -165,9 +165,12 @@ class Overlaying {
 
   void labels() {
     const Scene* const scene = session_.world().scene();
-    if (!state_.labels || state_.arrangement == Arrangement::difference || scene == nullptr) return;
-    for (std::size_t i = 0; i < sides(); ++i)
-      add_vertex_labels(*scene, panel_.width, panel_.height, left_of(i), cell_, screen_.texts);
+    if (state_.arrangement == Arrangement::difference || scene == nullptr) return;
+    for (std::size_t i = 0; i < sides(); ++i) {
+      const Panel panel{left_of(i), panel_.width, panel_.height, cell_};
+      if (state_.labels) add_vertex_labels(*scene, panel, screen_.texts);
+      add_face_letters(scene->camera, session_.side(i).faces, panel, screen_.texts);
+    }
     // The magnifying glass lies on top.
     const int glass = state_.magnifier ? glass_side(panel_) : 0;
     std::erase_if(screen_.texts, [&](const Text& text) {
@@ -277,11 +280,21 @@ class Overlaying {
     to.line(fmt::format("{} in, {} outside, {} culled, {}{} drawn", n.triangles, n.whole_mesh + n.outside,
                         n.culled, c.our_clipping() ? fmt::format("{} clipped, ", n.clipped) : "", n.emitted));
     if (n.meshes > 0) to.line(fmt::format("{}, {} culled whole", count(n.meshes, "object"), n.meshes_culled));
+    if (state_.face_states) faces(to, s);
     if (!s.because.empty()) to.line(s.because, kWrong);
     to.line(errors_of(state_, s, false), error_colour(s));
     if (s.judgement && state_.errors != Errors::off) {
       to.line(fmt::format("  against [u] {}, {}", viewer::name_of(state_.truth), when(state_, s)));
     }
+  }
+
+  void faces(Column& to, const Side& s) {
+    if (s.faces.empty())
+      return to.line(state_.stream ? "[7] a stream's triangles are no faces of objects"
+                                   : "[7] what this clipping does to each face is not known",
+                     kNotOurs);
+    to.lines(fmt::format("[7] {}", summary_of(s.faces)), kPlain);
+    if (s.faces.size() <= kMostLabels) to.lines(letters_of(s.faces), kStrong);
   }
 
   const Session& session_;

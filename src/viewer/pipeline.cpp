@@ -155,6 +155,22 @@ void Pipeline::outline(const Choice& choice, const View& view, Image& image) {
   add_outlines(triangles.snapped, owners, backend("wireframe"), frame_->view(), view.execution, image);
 }
 
+std::vector<TriangleState> Pipeline::states(const Choice& choice, const View& view) {
+  if (!choice.our_clipping()) return {};
+  FrontendOptions options = view.frontend;
+  options.keep_states = true;
+  if (!choice.our_facing()) options.cull = Cull::none;
+  frontend_of_ids_.run(view.world.drawable(), options);
+  std::vector<TriangleState> states(frontend_of_ids_.states().begin(), frontend_of_ids_.states().end());
+  if (choice.our_facing()) return states;
+  double unused_ms = 0;
+  std::vector<bool> kept(states.size());
+  for (const ScreenTriangle& t : triangles_of(choice, view, unused_ms).snapped) kept[t.payload - 1] = true;
+  for (std::size_t i = 0; i < states.size(); ++i)
+    if (states[i] >= TriangleState::active && !kept[i]) states[i] = TriangleState::culled;
+  return states;
+}
+
 Pipeline::Triangles Pipeline::from_front_end(const View& view, Cull cull) {
   FrontendOptions options = view.frontend;
   options.payload = Payload::id;

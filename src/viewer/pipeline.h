@@ -55,6 +55,8 @@ class Pipeline {
   Judgement judge(const Choice& choice, const View& view, Truth truth);
   // Over the picture of the last draw, by the same choice and view.
   void outline(const Choice& choice, const View& view, Image& image);
+  // What became of each triangle of a scene; none is known of what a clipping method of the laboratory cuts.
+  std::vector<TriangleState> states(const Choice& choice, const View& view);
   // What the last draw's front end would hand to a backend.
   std::span<const ScreenTriangle> screen_triangles() const { return screen_; }
 

@@ -35,6 +35,7 @@ constexpr bool changes_picture(Command command) {
     case Command::next_error:
     case Command::other_side:
     case Command::labels:
+    case Command::face_states:
     case Command::overlay:
     case Command::next_step:  // as its keys do
     case Command::help:
@@ -105,6 +106,7 @@ Session::Session(Start start) : start_(std::move(start)) {
 void Session::press(Key key) {
   const auto command = command_of(key);
   if (!command) return;
+  strayed_ |= *command != Command::next_step;
   if (is_held(*command))
     held_.insert(key);
   else
@@ -121,6 +123,7 @@ void Session::release_all() {
 
 void Session::point(Pixel to, bool held) {
   if (held && pointer_ && !state_.stream && panel_.height > 0) {
+    strayed_ = true;
     // What is seen in the middle of the picture keeps up with the pointer.
     const float per_px = world_->scene()->camera.fov_y / static_cast<float>(panel_.height);
     look(world_->camera(), per_px * static_cast<float>(pointer_->x - to.x),
@@ -241,6 +244,9 @@ void Session::act(Command command) {
     case Command::labels:
       state_.labels = !state_.labels;
       break;
+    case Command::face_states:
+      state_.face_states = !state_.face_states;
+      break;
     case Command::outlines:
       state_.outlines = !state_.outlines;
       break;
@@ -321,15 +327,29 @@ void Session::reset_times() {
   for (Side& side : sides_) side.frontend_ms = side.raster_ms = 0;
 }
 
-// At once: what takes time in its keys, such as walking, is a jump.
+// At once: what takes time in its keys, such as walking, is a jump. Since the keys of a step lead on from the
+// step before, the way there is gone again where somebody left it.
 void Session::next_step() {
   if (next_step_ == start_.steps.size()) {
     state_.message = start_.steps.empty() ? "only demonstrations have steps" : "that was the last step";
     return;
   }
-  const Step& step = start_.steps[next_step_++];
-  say(step.notice);
-  type(*this, parse_keys(step.keys), size_, cell_);
+  const auto take = [this](const Step& step, app::Size size, Cell cell) {
+    say(step.notice);
+    type(*this, parse_keys(step.keys), size, cell);
+  };
+  const std::size_t step = next_step_;
+  const app::Size size = size_;
+  const Cell cell = cell_;
+  if (strayed_) {
+    auto saved = std::move(saved_);
+    *this = Session(Start(start_));
+    saved_ = std::move(saved);
+    for (std::size_t i = 0; i < step; ++i) take(start_.steps[i], size, cell);
+  }
+  take(start_.steps[step], size, cell);
+  next_step_ = step + 1;
+  strayed_ = false;
 }
 
 void Session::load(app::Size size) {
@@ -417,6 +437,9 @@ Image Session::draw_side(std::size_t i, app::Size size, double& work_ms) {
   work_ms += picture.frontend_ms + picture.raster_ms;
   judge_if_due(i, choice, view, work_ms);
   if (state_.outlines) pipelines_[i].outline(choice, view, picture.image);
+  side.faces.clear();
+  if (state_.face_states && !state_.stream && choice.our_clipping())
+    side.faces = face_states(*world_->scene(), pipelines_[i].states(choice, view));
   return std::move(picture.image);
 }
 

@@ -51,6 +51,7 @@ struct Side {
   std::string because;                    // what of the choice cannot be drawn, and why
   double frontend_ms = 0, raster_ms = 0;  // means of late
   FrontendStats stats;                    // of the last frame
+  std::vector<FaceState> faces;           // of it, where wanted and known
   std::optional<Judgement> judgement;     // none yet, of this choice
   double judging_ms = 0;                  // what it took
   std::uint64_t judged = 0;               // the version of the picture
@@ -72,7 +73,7 @@ struct State {
   std::optional<Overlay> overlay;         // none: what there is room for
   Overlay shown_overlay = Overlay::full;  // in the last frame
   std::size_t active = 0;                 // the side that keys go to
-  bool magnifier = false, labels = false, outlines = false;
+  bool magnifier = false, labels = false, face_states = false, outlines = false;
   int help_page = 0;            // from 1; 0: none
   std::uint64_t differing = 0;  // pixels, in the difference of both sides
   double frame_ms = 0;          // mean of late
@@ -135,6 +136,7 @@ class Session {
   app::Size size_{0, 0}, panel_{0, 0};
   Cell cell_{1, 1};
   std::size_t next_step_ = 0;
+  bool strayed_ = false;  // from the demonstration's way, since its last step
   std::set<Key> held_;
   std::optional<Command> last_switch_;
   std::optional<Pixel> pointer_, focus_;

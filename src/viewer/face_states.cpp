@@ -1,0 +1,84 @@
+#include "viewer/face_states.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace edgewise::viewer {
+
+namespace {
+
+struct Kind {
+  char letter;
+  std::string_view name;
+};
+// As the tutorials call them; what is rare is one kind.
+constexpr std::array kKinds{
+    Kind{'a', "active"},  Kind{'c', "clipped"},           Kind{'b', "culled by facing"},
+    Kind{'o', "outside"}, Kind{'-', "with their object"}, Kind{'x', "not drawable"}};
+
+glm::vec3 centre_of(const Mesh& mesh, std::size_t triangle, bool quad) {
+  const auto corner = [&](std::size_t t, int k) { return mesh.positions[mesh.triangles[t][k]]; };
+  const glm::vec3 three = corner(triangle, 0) + corner(triangle, 1) + corner(triangle, 2);
+  return quad ? (three + corner(triangle + 1, 2)) / 4.0f : three / 3.0f;
+}
+
+}  // namespace
+
+std::vector<FaceState> face_states(const Scene& scene, std::span<const TriangleState> states) {
+  std::vector<FaceState> faces;
+  std::size_t id = 0;
+  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+    const Mesh& mesh = scene.meshes.at(scene.instances[i].mesh);
+    const glm::mat4 model = model_matrix(scene.instances[i]);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t, ++id) {
+      if (mesh.has_mark(t, kSecondHalf)) {
+        faces.back().state = std::max(faces.back().state, states[id]);
+        continue;
+      }
+      const bool quad = t + 1 < mesh.triangles.size() && mesh.has_mark(t + 1, kSecondHalf);
+      faces.push_back({i, glm::vec3(model * glm::vec4(centre_of(mesh, t, quad), 1.0f)), states[id]});
+    }
+  }
+  return faces;
+}
+
+char letter_of(TriangleState state) {
+  switch (state) {
+    case TriangleState::active:
+      return 'a';
+    case TriangleState::clipped:
+      return 'c';
+    case TriangleState::culled:
+      return 'b';
+    case TriangleState::outside:
+      return 'o';
+    case TriangleState::outside_with_mesh:
+      return '-';
+    default:
+      return 'x';
+  }
+}
+
+std::string letters_of(std::span<const FaceState> faces) {
+  std::string words;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    if (i > 0 && faces[i].instance != faces[i - 1].instance) words += ' ';
+    words += letter_of(faces[i].state);
+  }
+  return words;
+}
+
+std::string summary_of(std::span<const FaceState> faces) {
+  std::string text;
+  for (const auto& [letter, name] : kKinds) {
+    const auto count = std::count_if(faces.begin(), faces.end(), [letter = letter](const FaceState& face) {
+      return letter_of(face.state) == letter;
+    });
+    if (count > 0) text += fmt::format("{}{} {} {}", text.empty() ? "" : ", ", letter, count, name);
+  }
+  return text;
+}
+
+}  // namespace edgewise::viewer
