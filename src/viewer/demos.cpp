@@ -174,12 +174,11 @@ constexpr Step kTriad[] = {
      "same "
      "picture with all of them. In the window both times are shown, and how much longer the right side "
      "takes."},
-    {"<tab><normal_z>e<1>",
-     "Left: by the z of the rotated normal, as the trainer does. It leaves perspective out, and so drops "
-     "faces "
-     "near the rim that can be seen: orange. Right: all faces, hidden ones too; in the window the times of "
-     "both "
-     "are shown."},
+    {"<wireframe><tab><wireframe><1>",
+     "Left: the edges of the faces that are left once hidden ones are removed, by the winding on the screen, "
+     "before they are lit or drawn. Right: of all. In the window both times are shown, and how much longer "
+     "the "
+     "right side takes."},
 };
 
 constexpr std::array kDemos{
