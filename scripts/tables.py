@@ -93,10 +93,10 @@ def verify_sentence(verify):
     oracle = sum(scene.get("oracle", {}).get("configurations", 0) for scene in scenes)
     differing = sum(scene["differing_pixels"] + scene.get("written_outside", 0)
                     + scene.get("oracle", {}).get("differing_pixels", 0) for scene in scenes)
-    backends = ", ".join(verify["backends"])
+    backends, alone = ", ".join(verify["backends"]), ""
     if "other_backends" in verify:
-        backends += f" (and of {', '.join(verify['other_backends'])}, which draws another picture, with itself)"
+        alone = f"; {', '.join(verify['other_backends'])}, which draws another picture, with itself"
     return (f"{frames:,} frames of {len(scenes)} scenes were compared bit for bit, in depth and payload, across {backends}, "
             f"thread counts, tile sizes, SIMD targets and culling modes, and {oracle:,} small ones with a "
-            f"brute-force oracle: "
+            f"brute-force oracle{alone}: "
             + ("**no bit differs**." if differing == 0 else f"**{differing:,} pixels differ**."))

@@ -1,12 +1,9 @@
 #include "viewer/demos.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "edgewise/builtin.h"
 #include "nearest_name.h"
@@ -198,12 +195,7 @@ std::span<const Demo> demos() {
 }
 
 const Demo& find_demo(std::string_view name) {
-  std::vector<std::string_view> known;
-  for (const Demo& demo : demos()) {
-    if (demo.name == name) return demo;
-    known.push_back(demo.name);
-  }
-  throw std::invalid_argument(unknown_name("tutorial", name, known));
+  return find_named("tutorial", name, demos(), &Demo::name);
 }
 
 Start start_of(const Demo& demo) {
