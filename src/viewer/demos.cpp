@@ -10,6 +10,7 @@
 
 #include "edgewise/builtin.h"
 #include "nearest_name.h"
+#include "scene/cells.h"
 
 namespace edgewise::viewer {
 
@@ -49,19 +50,12 @@ Scene around_the_eye() {
   return scene;
 }
 
-// The sphere's cells as faces of four vertices; each is two triangles in a row there.
+// The sphere's cells as faces of four vertices.
 Scene sphere_of_quads() {
   Scene scene = built_in("sphere");
   scene.camera.position = {0.0f, 0.9f, 3.2f};
   scene.camera.look_at({0.0f, 0.25f, 0.0f});
-  for (Mesh& mesh : scene.meshes) {
-    Mesh quads{mesh.positions, {}, {}};
-    for (std::size_t i = 0; i + 1 < mesh.triangles.size(); i += 2) {
-      const glm::uvec3 upper = mesh.triangles[i], lower = mesh.triangles[i + 1];
-      quads.add_quad({upper.x, upper.y, lower.y, upper.z}, mesh.colours[i]);
-    }
-    mesh = std::move(quads);
-  }
+  join_cells(scene);
   return scene;
 }
 
