@@ -1,5 +1,5 @@
 // The ladder: one backend with its ideas added one by one, so that a reader sees what each is worth. It
-// begins at the reference backend and ends at the backend's own rows, which the suite has already.
+// begins at the naive backend and ends at the last one's own rows, which the suite has already.
 #pragma once
 
 #include <string>

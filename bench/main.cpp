@@ -174,6 +174,7 @@ void time_row(benchmark::State& state, const Row& row, Stage& stage) {
   counters["triangles"] =
       static_cast<double>(row.timed == Timed::raster ? workload.triangles().size() : workload.submitted());
   if (row.peak_bytes > 0.0) counters["peak_bytes"] = row.peak_bytes;
+  if (workload.wrong_px()) counters["wrong_px"] = static_cast<double>(*workload.wrong_px());
   if (row.timed == Timed::frontend) return;
   const auto covered_px = static_cast<double>(workload.covered_px());
   counters["covered_px"] = covered_px;

@@ -29,11 +29,10 @@ std::optional<double> peak_bytes(const Row& row) {
   malloc_trim(0);  // else the frame would live in what others left behind, and seem to need nothing
   forget_earlier_peaks();
   const auto before = status_bytes("VmRSS:"), peak_before = status_bytes("VmHWM:");
-  const Workload& workload = *row.workload;
+  Workload& workload = *row.workload;
   {
     Frontend frontend;
-    const auto triangles =
-        frontend.run(workload.drawable(), workload.frontend_options(row.execution.threads));
+    const auto triangles = workload.run(frontend, row.execution.threads);
     Framebuffer frame(workload.width(), workload.height());
     row.backend->make()->draw(triangles, frame.view(), kBackground, row.execution);
   }

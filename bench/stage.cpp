@@ -23,10 +23,9 @@ Framebuffer& Stage::frame(const Row& row) {
 
 void Stage::work(const Row& row) {
   if (row.peer != nullptr) return peers_.work(row);
-  const Workload& workload = *row.workload;
+  Workload& workload = *row.workload;
   auto triangles = workload.triangles();
-  if (row.timed != Timed::raster)
-    triangles = frontend_.run(workload.drawable(), workload.frontend_options(row.execution.threads));
+  if (row.timed != Timed::raster) triangles = workload.run(frontend_, row.execution.threads);
   if (row.timed != Timed::frontend)
     backend(row).draw(triangles, frame(row).view(), kBackground, row.execution);
 }
@@ -54,8 +53,7 @@ void Stage::compare_ours(Row& row) {
   row.once_s = row.cores > 0 ? recorded_work_s(row) : timed_work_s(row);
   if (row.timed == Timed::frontend) {
     const auto expected = row.workload->triangles();
-    const auto found =
-        frontend_.run(row.workload->drawable(), row.workload->frontend_options(row.execution.threads));
+    const auto found = row.workload->run(frontend_, row.execution.threads);
     if (found.size() != expected.size() ||
         std::memcmp(found.data(), expected.data(), expected.size_bytes()) != 0)
       row.error = fmt::format("emits other triangles than on 1 thread ({} instead of {})", found.size(),

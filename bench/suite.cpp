@@ -12,6 +12,8 @@
 #include "growth.h"
 #include "ladder.h"
 #include "quads.h"
+#include "scene/cells.h"
+#include "viewer/choice.h"
 
 namespace edgewise::bench {
 
@@ -56,6 +58,14 @@ std::string name_in_rows(const app::Source& source) {
   std::string name = app::printable(source.name);
   std::replace(name.begin(), name.end(), ':', '_');
   return name;
+}
+
+constexpr const char* kSphereQuadsName = "sphere-quads";
+
+app::Source sphere_quads(const SceneRequest& request) {
+  Scene scene = std::get<Scene>(find_scene("sphere").make(request));
+  join_cells(scene);
+  return {kSphereQuadsName, std::move(scene), false};
 }
 
 class Suite {
@@ -121,13 +131,20 @@ class Suite {
 
   // Whole frames, since culling costs the front end what it saves the backend.
   void add_cull_sweep() {
-    for (const std::string scene : {"cube", "cubes", "sphere", "torus-knot"})
-      for (const Cull cull : {Cull::none, Cull::back}) {
-        const auto workload = scene_workload(scene, options_.width, options_.height, cull);
+    const SceneRequest wanted = request(options_, options_.width, options_.height);
+    const lab::FacingMethod& trainers = viewer::find_facing_method("normal_z");
+    for (const std::string scene : {"cube", "cubes", "sphere", kSphereQuadsName, "torus-knot"}) {
+      const auto load = [scene, wanted] {
+        return scene == kSphereQuadsName ? sphere_quads(wanted) : app::load_source(scene, wanted, false);
+      };
+      const auto add_mode = [&](Cull cull, std::string_view name, const lab::FacingMethod* facing = nullptr) {
+        const auto workload = std::make_shared<Workload>(options_.width, options_.height, cull, load, facing);
         for (const auto& backend : filling_backends())
-          add(workload, Timed::frame, backend, fmt::format("{}/cull:{}", scene, name_of(cull)),
-              kSweepThreads);
-      }
+          add(workload, Timed::frame, backend, fmt::format("{}/cull:{}", scene, name), kSweepThreads);
+      };
+      for (const Cull cull : {Cull::none, Cull::back}) add_mode(cull, name_of(cull));
+      add_mode(Cull::back, trainers.info.name, &trainers);
+    }
   }
 
   // One thread, so that nothing but the target changes.

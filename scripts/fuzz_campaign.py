@@ -84,7 +84,7 @@ class Target:
         corpus = self.seeds[0]
         before = len(list(corpus.iterdir()))
         # Edges only, not how often: a corpus is to stay small.
-        text, status = self.run(corpus, *self.corpus(), "-set_cover_merge=1", "-use_counters=0")
+        _, status = self.run(corpus, *self.corpus(), "-set_cover_merge=1", "-use_counters=0")
         if status != 0:
             raise SystemExit(f"fuzz: {self.name} could not be merged; see {self.log}")
         return len(list(corpus.iterdir())) - before

@@ -6,7 +6,6 @@ import re
 import shutil
 import tomllib
 from dataclasses import dataclass
-from pathlib import Path
 
 from bench_rows import BadInput
 

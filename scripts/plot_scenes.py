@@ -1,5 +1,6 @@
 """Charts by scene: time, and what threads, SIMD and culling gain."""
 from plot_style import FAINT, INK, Look, headline, log_axis, plt, save
+from tables import NORMAL_Z, culling_gains, pixels_wrong
 
 
 def room_for(names):
@@ -45,19 +46,22 @@ def scene_time(bench, folder, caption):
     return "scenes"
 
 
-def dots(axes, look, groups, value_of):
-    """A dot a backend for each group, in lines from top to bottom."""
-    step = 0.6 / max(1, len(look.backends))
+def dots(axes, look, groups, value_of, hollow_of=None):
+    """A dot a backend for each group, in lines from top to bottom; below each the hollow one of hollow_of, if given."""
+    marks = [(value_of, True), *([(hollow_of, False)] if hollow_of else [])]
+    step = (0.6 if len(marks) == 1 else 0.76) / max(1, len(look.backends) * len(marks))
     for line, group in enumerate(groups):
         if line % 2:
             axes.axhspan(line - 0.5, line + 0.5, color="#f6f8fa", zorder=0)
-        for place, backend in enumerate(look.backends):
-            value = value_of(group, backend)
+        each = [(backend, *mark) for backend in look.backends for mark in marks]
+        for place, (backend, found, filled) in enumerate(each):
+            value = found(group, backend)
             if value is None:
                 continue
-            y = line + (place - (len(look.backends) - 1) / 2) * step
-            axes.plot([1, value], [y, y], color=look.colour(backend), linewidth=2.2)
-            axes.plot([value], [y], marker=look.marker(backend), color=look.colour(backend), markersize=6.5)
+            y = line + (place - (len(each) - 1) / 2) * step
+            axes.plot([1, value], [y, y], color=look.colour(backend), linewidth=2.2 if filled else 1.1)
+            axes.plot([value], [y], marker=look.marker(backend), color=look.colour(backend), markersize=6.5,
+                      markerfacecolor=look.colour(backend) if filled else "white", markeredgewidth=1.0 if filled else 1.5)
     axes.axvline(1, color=FAINT, linewidth=1.0)
     axes.set_yticks(range(len(groups)), groups)
     axes.tick_params(axis="y", length=0)
@@ -70,17 +74,21 @@ def gain(before, after):
     return before.median_ms / after.median_ms if before and after else None
 
 
-def gain_chart(bench, folder, caption, name, groups, value_of, title, subtitle, label):
+def gain_chart(bench, folder, caption, name, groups, value_of, title, subtitle, label, hollow_of=None, notes=None):
+    """`notes`: what stands on the right of a group."""
     if not any(value_of(group, backend) for group in groups for backend in bench.backends):
         return None
     look = Look(bench.backends)
-    figure, axes = plt.subplots(figsize=(10.0, 2.0 + 0.4 * len(groups)))
-    dots(axes, look, groups, value_of)
+    figure, axes = plt.subplots(figsize=(10.0, 2.0 + (0.85 if hollow_of else 0.4) * len(groups)))
+    dots(axes, look, groups, value_of, hollow_of)
+    for line, group in enumerate(groups if notes else ()):
+        axes.text(1.012, line, notes[group], transform=axes.get_yaxis_transform(), fontsize=9, color=FAINT, va="center")
     axes.set_xlabel(label)
     height = figure.get_figheight()
     top = headline(figure, title, subtitle)
     look.legend(figure, top - 0.02 / height)
-    figure.subplots_adjust(left=room_for(groups), right=0.975, bottom=0.78 / height, top=top - 0.42 / height)
+    figure.subplots_adjust(left=room_for(groups), right=0.86 if notes else 0.975, bottom=0.78 / height,
+                           top=top - 0.42 / height)
     save(figure, folder, name, caption)
     return name
 
@@ -94,16 +102,20 @@ def threads(bench, folder, caption):
 
 
 def culling(bench, folder, caption):
-    rows = bench.sweep("cull")
-    by_mode = {(row.scene, row.backend, row.keys["cull"]): row for row in rows}
-    scenes = list(dict.fromkeys(row.scene for row in rows))
+    """By the winding on the screen, and hollow by the z of normals where that was timed."""
+    by_winding, by_normal = culling_gains(bench, "back"), culling_gains(bench, NORMAL_Z)
 
-    def value_of(scene, backend):
-        return gain(by_mode.get((scene, backend, "none")), by_mode.get((scene, backend, "back")))
+    def value_in(gains):
+        return lambda scene, backend: gains.get(scene, {}).get(backend)
 
-    return gain_chart(bench, folder, caption, "culling", scenes, value_of, "What culling gains",
-                      "Whole frames of closed meshes, front end included: time without culling over time with back "
-                      "faces culled.", "speed-up")
+    told = "Whole frames of closed meshes, front end included: time without culling over time with back faces culled"
+    if not by_normal:
+        return gain_chart(bench, folder, caption, "culling", list(by_winding), value_in(by_winding), "What culling gains",
+                          f"{told}.", "speed-up")
+    notes = {scene: pixels_wrong(bench, scene) if scene in by_normal else "" for scene in by_winding}
+    return gain_chart(bench, folder, caption, "culling", list(by_winding), value_in(by_winding), "What culling gains",
+                      f"{told}.\nFilled: by the winding on the screen. Hollow: by the z of normals before projection "
+                      f"({NORMAL_Z}), with the pixels it gets wrong.", "speed-up", value_in(by_normal), notes)
 
 
 def simd(bench, folder, caption):

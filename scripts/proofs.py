@@ -7,7 +7,6 @@ import re
 import subprocess
 import time
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 from bench_rows import BadInput
 

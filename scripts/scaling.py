@@ -96,5 +96,5 @@ def memory_sentence(bench):
     worst = max(rows, key=share)
     return (f"Memory at its worst, in the first frame, the frame included and the scene not: {a_pixel:.1f} bytes a pixel "
             f"(`{fewest.scene}`), and beyond that {a_triangle:.0f} bytes a triangle (`{most.backend}` on `{most.scene}`, "
-            f"{short(most.counters['triangles'])} triangles). Of 100 bytes a triangle plus 16 a pixel no scene takes more than "
+            f"{short(most.counters['triangles'])} triangles). Of the 100 bytes a triangle plus 16 a pixel that `edgewise/backend.h` allows, no scene takes more than "
             f"{share(worst):.0%} (`{worst.backend}` on `{worst.scene}`).")

@@ -1,14 +1,30 @@
-// "Did you mean …?" for every place that looks a name up.
+// Looking names up, with "did you mean …?" where there is none.
 #pragma once
 
+#include <functional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace edgewise {
 
 // "unknown KIND 'NAME'; did you mean 'NEAREST'? (known: …)", the nearest by edit distance.
 std::string unknown_name(std::string_view kind, std::string_view name,
                          std::span<const std::string_view> known);
+
+// The entry of a list that lives on whose name_of, a member or a function, is `name`. Throws
+// std::invalid_argument, with the text above, if there is none.
+template <typename Entry, typename NameOf>
+const Entry& find_named(std::string_view kind, std::string_view name, std::span<const Entry> all,
+                        NameOf name_of) {
+  std::vector<std::string_view> known;
+  for (const Entry& entry : all) {
+    if (std::invoke(name_of, entry) == name) return entry;
+    known.push_back(std::invoke(name_of, entry));
+  }
+  throw std::invalid_argument(unknown_name(kind, name, known));
+}
 
 }  // namespace edgewise

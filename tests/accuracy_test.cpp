@@ -1,4 +1,4 @@
-// `edgewise accuracy` as a user meets it: the schema, the figures that FAILURES.md foretells, clean failures.
+// `edgewise accuracy` as a user meets it: the schema, the figures that theory foretells, clean failures.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -11,7 +11,9 @@
 
 #include "edgewise/builtin.h"
 #include "edgewise/frontend.h"
+#include "hidden_faces.h"
 #include "support.h"
+#include "viewer/choice.h"
 
 namespace {
 std::atomic<std::size_t> allocations{0};
@@ -95,6 +97,12 @@ TEST(FrontendAllocations, EndWithTheFirstFrame) {
       EXPECT_EQ(allocations_of_each(run), 0u) << info.name << ", " << threads << " threads";
     }
   }
+}
+
+TEST(HiddenFacesAllocations, AreNone) {
+  const Scene scene = std::get<Scene>(find_scene("cubes").make({}));
+  bench::HiddenFaces hidden(scene, viewer::find_facing_method("normal_z"));
+  EXPECT_EQ(allocations_in([&] { hidden.drop(); }), 0u);
 }
 
 }  // namespace

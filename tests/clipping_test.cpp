@@ -50,7 +50,6 @@ TEST(Clipping, EveryMethodKeepsItsPromiseAndTheImpreciseFailSomewhere) {
   }
 }
 
-// FAILURES.md, 6.
 TEST(Clipping, AFloorUnderTheEye) {
   for (const float near_z : {0.5f, 0.1f, 0.001f}) {
     const ClippingScene scene = floor_through_eye(near_z);
@@ -68,12 +67,11 @@ TEST(Clipping, DividingByZeroIsCaughtAndCounted) {
   EXPECT_GT(judge("none", make_case("beyond_the_guard_band")).out_of_range, 0u);
 }
 
-// FAILURES.md, 7.
 TEST(Clipping, QuadsBeforeTheNearPlaneAreNotDrawn) {
   const ClippingScene scene = make_case("quads_before_near");
   const auto truth = clipping_truth(scene);
   EXPECT_TRUE(std::all_of(truth.owner.begin(), truth.owner.end(),
-                          [](auto owner) { return owner < 2 || owner == Owners::kNobody; }));
+                          [](auto owner) { return owner < 2 || owner == kNobody; }));
   for (const auto name : {"near_guard", "screen_edges", "discard_behind"})
     EXPECT_EQ(score(method(name), scene, truth).wrong(), 0u) << name;
   for (const auto name : {"near_too_near", "none"}) {
@@ -110,7 +108,7 @@ std::uint64_t crossings(const ClippingScene& scene) {
   return edge_crossings(unsnapped(triangles, frontend.unsnapped()), {scene.size.width, scene.size.height});
 }
 
-// FAILURES.md, 9. The scene's vertices lie on the 1/256 px grid, so ours moves nothing.
+// The scene's vertices lie on the 1/256 px grid, so ours moves nothing.
 TEST(Clipping, EdgesThatAreCutAtTheScreensEdgesAndSnappedAgainMove) {
   const ClippingScene scene = make_case("along_the_rows");
   const auto truth = clipping_truth(scene);
@@ -149,7 +147,7 @@ double linear_attribute_error(double w0, double w1, double fraction) {
   return std::abs(fraction - fraction / w1 / ((1 - fraction) / w0 + fraction / w1));
 }
 
-// FAILURES.md, 9: wrong by .41 half-way, and at most by (sqrt 10 - 1) / (sqrt 10 + 1).
+// Wrong by .41 half-way, and at most by (sqrt 10 - 1) / (sqrt 10 + 1).
 TEST(Clipping, LinearAttributesAreWrongWhereAnEdgeIsCut) {
   const double most = (std::sqrt(10.0) - 1) / (std::sqrt(10.0) + 1);
   double worst = 0;
@@ -208,7 +206,6 @@ TEST(Clipping, NearPlanesTooNearLeaveDepthNoSteps) {
   EXPECT_GT(wrong, 100u);
 }
 
-// FAILURES.md, 10.
 TEST(Clipping, EveryDirectionKeepsItsWinding) {
   for (int direction = 0; direction < kOutsideDirections; ++direction)
     for (const bool reversed : {false, true}) {
@@ -223,7 +220,7 @@ TEST(Clipping, EveryDirectionKeepsItsWinding) {
         for (int y = 0; y < scene.size.height; ++y)
           EXPECT_TRUE(std::all_of(frame.picture.payload_row(y),
                                   frame.picture.payload_row(y) + scene.size.width,
-                                  [](auto owner) { return owner == Owners::kNobody; }));
+                                  [](auto owner) { return owner == kNobody; }));
       }
     }
 }

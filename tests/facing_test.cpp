@@ -71,7 +71,6 @@ TEST(Facing, TheSignBeforeSnappingIsWrongAboutWhatIsDrawn) {
   EXPECT_EQ(ours.snapped.misclassified, 0u);
 }
 
-// FAILURES.md, 5.
 TEST(Facing, TheBoxBesideTheAxisIsMisjudgedByTheNormalsZAndByNoOther) {
   const FacingScene scene = make_case("box_beside_the_axis");
   const auto facts = facing_facts(scene);

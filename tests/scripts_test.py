@@ -88,6 +88,14 @@ def accuracy(spread=0.1):
                 for name, most in (("ours", 0), ("float_le", 8))]}}
 
 
+def bench_with_normals():
+    """Faces dropped by the z of their normals, which gains half as much, and costs 1,234 pixels."""
+    data = bench()
+    for backend, ms in (("slow", 20.2 / 1.5), ("fast", 2.8)):
+        data["benchmarks"] += entries(f"{backend}+frontend/cube/cull:normal_z/threads:2", [ms] * 3, wrong_px=1234.0)
+    return data
+
+
 def cube_worst(most):
     return {"gaps": {"median": most // 2, "worst": most}, "double_hits": {"median": 0, "worst": most}}
 
@@ -197,6 +205,11 @@ class ScriptsTest(unittest.TestCase):
         self.assertIn("![it turns](results/pictures/demo-turn.png)\n\nNow look.\n", text)
         self.assertNotIn("First.", text)
         self.assertIn("`cube` 2.00× (`slow`), 2.00× (`fast`).", text)
+        self.assertNotIn("normal_z", text)
+        (self.results / "bench.json").write_text(json.dumps(bench_with_normals()))
+        self.assertEqual(run("readme", "--file", readme).returncode, 0)
+        self.assertIn("2.00× (`fast`). With faces dropped before they are projected, by the z of their normals (`normal_z`), "
+                      "it is `cube` 1.50× (`slow`), 1.50× (`fast`), 1,234 px wrong.", readme.read_text())
         (self.results / "demos.json").unlink()
         self.fails(run("readme", "--file", readme), "demos.json", "No such file")
 
@@ -258,6 +271,18 @@ class ScriptsTest(unittest.TestCase):
         (self.results / "bench.json").write_text(json.dumps(bench_with_peer()))
         self.assertEqual(run("plot", self.results).returncode, 0)
         self.assertTrue((self.results / "charts" / "against-ext.svg").exists())
+
+    def test_what_the_test_of_normals_gains_is_drawn_beside_culling(self):
+        if importlib.util.find_spec("matplotlib") is None:
+            self.skipTest("no matplotlib")
+        drawn = []
+        for data in (bench(), bench_with_normals()):
+            (self.results / "bench.json").write_text(json.dumps(data))
+            self.assertEqual(run("plot", self.results).returncode, 0)
+            drawn.append((self.results / "charts/culling.svg").read_text())
+        # Texts are paths; matplotlib keeps them as comments.
+        self.assertNotIn("wrong", drawn[0])
+        self.assertIn("<!-- 1,234 px wrong -->", drawn[1])
 
     def test_missing_packages_of_a_further_list_are_named(self):
         tools = self.folder / "tools"

@@ -194,18 +194,18 @@ void expect_owners(std::span<const Triangle> triangles, Window window, TruthOf&&
     std::size_t at = 0;
     for (int y = window.y0; y < window.y1(); ++y)
       for (int x = window.x0; x < window.x1(); ++x, ++at) {
-        std::uint32_t nearest = Owners::kNobody;
+        std::uint32_t nearest = kNobody;
         mpq_class depth;
         for (std::size_t i = 0; i < triangles.size(); ++i) {
           const auto truth = truth_of(triangles[i]);
           if (!truth.covers(x, y)) continue;
           const mpq_class here = truth.depth(x, y);
-          if (nearest != Owners::kNobody && here >= depth) continue;
+          if (nearest != kNobody && here >= depth) continue;
           nearest = static_cast<std::uint32_t>(i);
           depth = here;
         }
         ASSERT_EQ(owners.triangle[at], nearest) << what << " at " << x << ", " << y;
-        if (nearest == Owners::kNobody)
+        if (nearest == kNobody)
           ASSERT_TRUE(std::isinf(owners.depth[at]));
         else
           ASSERT_LE(abs(mpq_class(owners.depth[at]) - depth), abs(depth) * mpq_class(0x1p-40)) << what;
@@ -236,14 +236,14 @@ TEST(Owners, OfABackendDifferOnlyWhereDepthsAreCloserThanTheContractsError) {
     const auto triangles = adversarial(family, 80, window.width, window.height, 16);  // payload is the index
     const Owners owners = exact_owners(std::span(triangles), window, 2);
     Framebuffer frame(window.width, window.height);
-    find_backend("scanline").make()->draw(triangles, frame.view(), Owners::kNobody, {});
+    find_backend("scanline").make()->draw(triangles, frame.view(), kNobody, {});
     for (int y = 0; y < window.height; ++y)
       for (int x = 0; x < window.width; ++x) {
         const std::uint32_t drawn = frame.payload_row(y)[x];
         const std::uint32_t owner = owners.triangle[static_cast<std::size_t>(y * window.width + x)];
         if (drawn == owner) continue;
-        ASSERT_NE(drawn, Owners::kNobody) << family;
-        ASSERT_NE(owner, Owners::kNobody) << family;
+        ASSERT_NE(drawn, kNobody) << family;
+        ASSERT_NE(owner, kNobody) << family;
         const mpq_class behind =
             SnappedTruth(triangles[drawn]).depth(x, y) - SnappedTruth(triangles[owner]).depth(x, y);
         ASSERT_LT(behind.get_d(), 2.0 * contract::kDepthError) << family;

@@ -292,6 +292,6 @@ if __name__ == "__main__":
                                         capture_output=True, text=True).stderr:
         missing.append("SDL2, when this was built,")
     if missing:
-        print(f"skipped: {', '.join(missing)} not installed (scripts/packages-viewer.txt)")
+        print(f"skipped: {', '.join(missing)} not installed (scripts/packages-viewer.txt, packages-test.txt)")
         sys.exit(SKIPPED)
     unittest.main()

@@ -52,14 +52,6 @@ Scene floor_under_the_eye() {
   return scene;
 }
 
-// To the right of the line of sight: its left side is seen, though the z of that side's normal is 0.
-Scene box_aside() {
-  Scene scene = std::get<Scene>(find_scene("cube").make({}));
-  scene.instances[0] = {.scale = glm::vec3(0.5f), .translation = {2.0f, 0.0f, -4.0f}};
-  scene.camera = {};
-  return scene;
-}
-
 std::uint64_t wrong(const Session& session) {
   return session.side(0).judgement.value().wrong;
 }

@@ -104,7 +104,7 @@ TEST(Visibility, MeanDepthPutsTheFloorOverTheBox) {
   EXPECT_EQ(judge("contract31", scene).wrong_owner, 0u);
 }
 
-// FAILURES.md, 8, as it is meant: painters sort polygons, by all their corners, and paint them whole.
+// Painters sort polygons, by all their corners, and paint them whole.
 TEST(Visibility, PaintersSortPolygonsByAllTheirCorners) {
   const auto wrong_pixels = [](std::string_view name, const VisibilityScene& scene) {
     return judge(name, scene).wrong_owner;
@@ -128,7 +128,7 @@ TEST(Visibility, PaintersSortPolygonsByAllTheirCorners) {
   }
 }
 
-// FAILURES.md, 11: near 0.1 at z = 100 separates z^2 / (near 2^bits), .006 with 24 bits and 1.5 with 16. The
+// Near 0.1 at z = 100 separates z^2 / (near 2^bits), .006 with 24 bits and 1.5 with 16. The
 // planes reach from z = 90 to 110.
 TEST(Visibility, DepthFormatsSeparateWhatTheFormulaSays) {
   const struct {

@@ -116,9 +116,9 @@ class Drawing {
                           static_cast<std::size_t>(px);
     const Mark mark = closeup_.marks[i];
     const std::uint32_t owner = closeup_.owner[i];
-    const std::uint32_t colour = mark != Mark::none              ? colour_of(mark)
-                                 : owner == lab::Owners::kNobody ? kPaper
-                                                                 : kMuted[owner % std::size(kMuted)];
+    const std::uint32_t colour = mark != Mark::none      ? colour_of(mark)
+                                 : owner == lab::kNobody ? kPaper
+                                                         : kMuted[owner % std::size(kMuted)];
     const int gap = scale_ < 6 ? 0 : 1;  // between pixels
     for (int y = gap; y < scale_; ++y)
       for (int x = gap; x < scale_; ++x) at(px * scale_ + x, py * scale_ + y) = colour;

@@ -34,7 +34,7 @@ struct Line {
 struct Closeup {
   std::string name;                  // FAMILY-SCENE-METHOD
   lab::Window part;                  // of the picture
-  std::vector<std::uint32_t> owner;  // in truth; lab::Owners::kNobody shows as paper
+  std::vector<std::uint32_t> owner;  // in truth; lab::kNobody shows as paper
   std::vector<Mark> marks;
   std::vector<Line> lines;  // the triangles' exact edges
 };

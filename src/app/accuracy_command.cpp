@@ -7,13 +7,13 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <thread>
 
 #include "app/accuracy.h"
 #include "app/accuracy_report.h"
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/json_text.h"
+#include "app/options.h"
 #include "app/progress.h"
 #include "image/atomic_file.h"
 
@@ -32,7 +32,7 @@ int accuracy_command(AccuracyOptions& o) {
   if (!o.family.empty()) plan.family = lab::find_family(o.family);
   plan.speed = !o.no_speed;
   plan.pictures = !o.pictures.empty();
-  plan.threads = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMaxThreads);
+  plan.threads = all_cores();
 
   if (plan.pictures) check_closeup_folder(o.pictures);
   const bool json_on_stdout = o.json == "-";

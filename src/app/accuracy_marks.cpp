@@ -50,7 +50,7 @@ MarkedPicture mark_coverage(const lab::CoverageTruth& truth, std::vector<lab::Ru
                             std::span<const lab::FloatTriangle> triangles, double reach_px) {
   const lab::Window w = truth.window;
   MarkedPicture picture{w,
-                        std::vector<std::uint32_t>(pixels_of(w), lab::Owners::kNobody),
+                        std::vector<std::uint32_t>(pixels_of(w), lab::kNobody),
                         std::vector<Mark>(pixels_of(w), Mark::none),
                         {}};
   const auto row_at = [&](const lab::Run& run) {
@@ -83,10 +83,10 @@ MarkedPicture mark_owners(std::span<const std::uint32_t> truth, std::span<const 
                           lab::Window window) {
   MarkedPicture picture{window, {truth.begin(), truth.end()}, {}, {}};
   for (std::size_t i = 0; i < truth.size(); ++i)
-    picture.marks.push_back(said[i] == truth[i]                ? Mark::none
-                            : said[i] == lab::Owners::kNobody  ? Mark::gap
-                            : truth[i] == lab::Owners::kNobody ? Mark::extra
-                                                               : Mark::twice);
+    picture.marks.push_back(said[i] == truth[i]        ? Mark::none
+                            : said[i] == lab::kNobody  ? Mark::gap
+                            : truth[i] == lab::kNobody ? Mark::extra
+                                                       : Mark::twice);
   return picture;
 }
 
@@ -94,7 +94,7 @@ MarkedPicture mark_faces(const lab::FacingScene& scene, std::span<const lab::Fac
                          std::span<const std::uint8_t> kept) {
   const lab::Window window{scene.view.size.width, scene.view.size.height};
   MarkedPicture picture{window,
-                        std::vector<std::uint32_t>(pixels_of(window), lab::Owners::kNobody),
+                        std::vector<std::uint32_t>(pixels_of(window), lab::kNobody),
                         std::vector<Mark>(pixels_of(window), Mark::none),
                         {}};
   for (std::uint32_t i = 0; i < scene.faces.size(); ++i) {

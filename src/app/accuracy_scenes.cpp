@@ -103,7 +103,7 @@ class Catalogue {
                           : c.name == "mesh"       ? Timed::full
                                                    : Timed::never;
       const double cost_s = small ? 0.1 : plan_.quick ? 1.0 : 6.0;
-      add(Family::coverage, c.name, c.shows, timed, small, cost_s, [&c] {
+      add(Family::coverage, c.name, c.idea, timed, small, cost_s, [&c] {
         auto floats = c.make();
         auto snapped = lab::snapped(floats);
         return CoverageScene{c.size, std::move(floats), std::move(snapped)};

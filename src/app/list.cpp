@@ -1,4 +1,4 @@
-// `edgewise list`: everything that can be named on the command line.
+// `edgewise list`: scenes, backends, SIMD targets and culling modes.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

@@ -24,8 +24,9 @@ constexpr double kLongestTime = 1e6;  // s, 11 days
 constexpr double kLargestScale = 1e3;
 constexpr double kSmallest = 1e-6;  // what "more than zero" means on the command line
 
+// Nothing, unless all of the text is one.
 template <typename T>
-std::optional<T> whole_number(std::string_view text) {
+std::optional<T> parsed(std::string_view text) {
   T value{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
@@ -86,8 +87,8 @@ void place_camera(Camera& camera, const SceneOptions& o) {
 Size parse_size(std::string_view option, std::string_view text) {
   const auto cross = text.find('x');
   if (cross != std::string_view::npos) {
-    const auto width = whole_number<int>(text.substr(0, cross));
-    const auto height = whole_number<int>(text.substr(cross + 1));
+    const auto width = parsed<int>(text.substr(0, cross));
+    const auto height = parsed<int>(text.substr(cross + 1));
     const auto fits = [](int side) { return side >= 1 && side <= contract::kMaxImageSide; };
     if (width && height && fits(*width) && fits(*height)) return {*width, *height};
   }
@@ -95,7 +96,7 @@ Size parse_size(std::string_view option, std::string_view text) {
 }
 
 double parse_number(std::string_view option, std::string_view text, double min, double max) {
-  const auto value = whole_number<double>(text);
+  const auto value = parsed<double>(text);
   // Written so that NaN fails as well.
   if (!value || !(*value >= min && *value <= max))
     reject(option, text, fmt::format("a number from {} to {}", min, max));
@@ -103,7 +104,7 @@ double parse_number(std::string_view option, std::string_view text, double min, 
 }
 
 int parse_integer(std::string_view option, std::string_view text, int min, int max) {
-  const auto value = whole_number<int>(text);
+  const auto value = parsed<int>(text);
   if (!value || *value < min || *value > max)
     reject(option, text, fmt::format("a whole number from {} to {}", min, max));
   return *value;
@@ -111,7 +112,7 @@ int parse_integer(std::string_view option, std::string_view text, int min, int m
 
 std::uint64_t parse_count(std::string_view option, std::string_view text, std::uint64_t min,
                           std::uint64_t max) {
-  const auto value = whole_number<std::uint64_t>(text);
+  const auto value = parsed<std::uint64_t>(text);
   if (!value || *value < min || *value > max)
     reject(option, text, fmt::format("a whole number from {} to {}", min, max));
   return *value;
@@ -121,7 +122,7 @@ double parse_duration(std::string_view option, std::string_view text) {
   constexpr std::pair<char, double> kUnits[] = {{'s', 1.0}, {'m', 60.0}, {'h', 3600.0}};
   for (const auto& [unit, seconds] : kUnits) {
     if (!text.ends_with(unit)) continue;
-    const auto value = whole_number<double>(text.substr(0, text.size() - 1));
+    const auto value = parsed<double>(text.substr(0, text.size() - 1));
     if (value && *value > 0.0 && *value * seconds <= kLongestTime) return *value * seconds;
   }
   reject(option, text, fmt::format("a duration such as 90s, 20m or 2h, of at most {} s", kLongestTime));
@@ -132,7 +133,7 @@ glm::vec3 parse_vector(std::string_view option, std::string_view text) {
   std::string_view rest = text;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto comma = rest.find(',');
-    const auto value = whole_number<double>(rest.substr(0, comma));
+    const auto value = parsed<double>(rest.substr(0, comma));
     const bool last = i == 2;
     if (!value || !(std::abs(*value) <= kFarthest) || (comma == std::string_view::npos) != last)
       reject(option, text, fmt::format("X,Y,Z with numbers from {} to {}", -kFarthest, kFarthest));
@@ -221,8 +222,12 @@ Shot load_shot(const std::string& name_or_path, const SceneOptions& options, dou
   return shot;
 }
 
+int all_cores() {
+  return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMaxThreads);
+}
+
 ExecutionOptions::ExecutionOptions() {
-  execution.threads = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMaxThreads);
+  execution.threads = all_cores();
 }
 
 void ExecutionOptions::add_to(CLI::App& command) {
@@ -240,7 +245,7 @@ void ExecutionOptions::add_to(CLI::App& command) {
             if (tile != 16 && tile != 32 && tile != 64) reject("--tile", text, "16, 32 or 64");
             execution.tile_size = tile;
           },
-          "Tile size in pixels for tiled backends: 16, 32 or 64 (64)")
+          "Tile size in pixels of the tiled backend: 16, 32 or 64 (64)")
       ->type_name("PX");
 }
 

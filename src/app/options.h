@@ -58,6 +58,8 @@ struct Shot {
 };
 Shot load_shot(const std::string& name_or_path, const SceneOptions& options, double time);
 
+int all_cores();  // of this machine; 1 … kMaxThreads
+
 // How to draw it.
 struct ExecutionOptions {
   ExecutionOptions();

@@ -207,7 +207,7 @@ constexpr const char* kFooter = R"(Examples:
 
 The background is black, and 1 in a depth file (PFM, floats in [0, 1]).
 --payload id writes (id + 1) * 0x9E3779 modulo 2^24 as a colour, R lowest: one colour for each
-  triangle, and the id can be recovered exactly below 16,777,215. The background is black.
+  triangle, and the id can be recovered exactly below 16,777,215.
 --payload hits paints how often a pixel is drawn: black never, grey once, yellow twice, red more.
 The times are those of one cold run; edgewise_bench measures.)";
 

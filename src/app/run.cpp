@@ -17,7 +17,7 @@ namespace edgewise::app {
 namespace {
 
 constexpr const char* kFooter = R"(Try:
-  edgewise list                          what can be named
+  edgewise list                          scenes, backends, SIMD targets, culling modes
   edgewise render cube -o cube.png       a first picture
   edgewise verify                        do all backends agree on every bit?
   edgewise COMMAND --help                options and examples

@@ -11,7 +11,6 @@
 #include <stdexcept>
 #include <string>
 #include <system_error>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -37,7 +36,7 @@ struct SoakOptions {
   std::optional<std::uint64_t> seed, cases, only_case;
   std::optional<soak::Shard> shard;
   std::optional<double> seconds;
-  int jobs = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMaxThreads);
+  int jobs = all_cores();
   std::string json, resume, out = "edgewise-soak-failures";
   std::vector<std::string> merge;
 };

@@ -138,7 +138,7 @@ void add_view(CLI::App& program, Action& action, viewer::ShowWindow show_window)
       ->type_name("FILE");
   add_integer(command, "--frames", o->frames, 1, kMostFrames,
               "Draw so many frames into the window, as fast as they go; print how long they took");
-  command.add_option("--save-to", o->folder, "Folder for the files that p saves (.)")->type_name("FOLDER");
+  command.add_option("--save-to", o->folder, "Folder for the files that p saves (.)")->type_name("DIR");
   o->options.add_to(command);
   o->execution.add_to(command);
   command.footer(footer());

@@ -18,7 +18,7 @@ namespace edgewise {
 // How to draw. No choice here changes a bit of the picture.
 struct Execution {
   int threads = 1;     // 1 … kMaxThreads
-  int tile_size = 64;  // px; 16, 32 or 64; only tiled backends look at it
+  int tile_size = 64;  // px; 16, 32 or 64; only the tiled backend looks at it
   SimdTarget target = SimdTarget::best;
   TiledIdeas ideas{};    // all on; patches and hierarchical depth are tiled's, the others also scanline's
   bool stepped = false;  // along rows, instead of evaluated at each pixel; only the naive backend looks at it

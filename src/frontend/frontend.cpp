@@ -159,9 +159,9 @@ struct Frontend::State {
     for (GroupMember& member : group) member.job.vertices = vertices.data() + member.first_vertex;
     parallel_for(workers_for(vertex_runs.total(), options.threads), static_cast<int>(vertex_runs.size()),
                  [&](int run) {
-                   for (const Piece& piece : vertex_runs[static_cast<std::size_t>(run)]) {
-                     GroupMember& member = group[piece.mesh];
-                     std::atomic_ref(member.common) &= transform(member.job, piece.begin, piece.end);
+                   for (const MeshPart& part : vertex_runs[static_cast<std::size_t>(run)]) {
+                     GroupMember& member = group[part.mesh];
+                     std::atomic_ref(member.common) &= transform(member.job, part.begin, part.end);
                    }
                  });
   }
@@ -200,11 +200,11 @@ struct Frontend::State {
     const ShadeKernel shade = shade_kernel(options.target);
     std::atomic<bool> all_exist{true};
     const auto make = [&](std::size_t run, RunOutput& out) {
-      for (const Piece& piece : triangle_runs[run]) {
-        const GroupMember& member = group[piece.mesh];
+      for (const MeshPart& part : triangle_runs[run]) {
+        const GroupMember& member = group[part.mesh];
         const std::size_t first = out.count;
         if (member.out_of_sight()) continue;
-        if (assemble(member.job, piece.begin, piece.end, out))
+        if (assemble(member.job, part.begin, part.end, out))
           finish_payload(member, first, out, shade);
         else
           all_exist = false;

@@ -95,15 +95,15 @@ class Scorer {
   Scorer(const ClippingScene& scene, const ClippingTruth& truth) : scene_(scene), oracle_(*truth.oracle) {}
 
   void add(int x, int y, std::uint32_t said, std::uint32_t truth, double stored01) {
-    if (truth != Owners::kNobody) ++score.covered;
+    if (truth != kNobody) ++score.covered;
     if (said == truth) {
-      if (said != Owners::kNobody) add_depth(x, y, said, stored01);
+      if (said != kNobody) add_depth(x, y, said, stored01);
     } else if (around(x, y,
                       [&](double x_px, double y_px) { return oracle_.shows(said, truth, x_px, y_px); })) {
       ++score.hairline;
-    } else if (said == Owners::kNobody) {
+    } else if (said == kNobody) {
       ++score.missing;
-    } else if (truth == Owners::kNobody) {
+    } else if (truth == kNobody) {
       ++score.extra;
     } else {
       ++score.wrong_owner;

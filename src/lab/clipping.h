@@ -33,7 +33,7 @@ struct ClippingScene {
 struct ClippingFrame {
   explicit ClippingFrame(Size size);
 
-  Framebuffer picture;  // payload: index of the triangle, or Owners::kNobody
+  Framebuffer picture;  // payload: index of the triangle, or kNobody
   std::unique_ptr<Backend> backend;
   Frontend frontend;
   Clipper clipper;

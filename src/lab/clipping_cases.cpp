@@ -49,7 +49,6 @@ ClippingScene vertex_at_eye_plane() {
   return s;
 }
 
-// FAILURES.md, 7.
 ClippingScene quads_before_near() {
   ClippingScene s = view(0.1f);
   add_wall(s, 2.0f, 0.9f);
@@ -58,7 +57,6 @@ ClippingScene quads_before_near() {
   return s;
 }
 
-// FAILURES.md, 9.
 ClippingScene over_the_screens_edges() {
   ClippingScene s = view(0.1f);
   s.size = {128, 96};
@@ -84,7 +82,7 @@ glm::vec3 unproject(const ClippingScene& s, Place p) {
       glm::dvec3((p.x_px - s.size.width / 2.0) * scale, (s.size.height / 2.0 - p.y_px) * scale, -p.w));
 }
 
-// FAILURES.md, 9: thin triangles that leave the screen far on both sides and cross a row of samples on it,
+// Thin triangles that leave the screen far on both sides and cross a row of samples on it,
 // all on the grid of 1/256 px. Cut at the screen's edges and snapped again, they cross elsewhere or never.
 ClippingScene along_the_rows() {
   ClippingScene s = view(0.1f);
@@ -97,7 +95,7 @@ ClippingScene along_the_rows() {
   return s;
 }
 
-// FAILURES.md, 9: w runs from 1 to 10, and half of it, on the screen, lies outside.
+// w runs from 1 to 10, and half of it, on the screen, lies outside.
 ClippingScene road_from_the_side() {
   ClippingScene s = view(0.1f);
   s.size = {128, 96};

@@ -132,16 +132,15 @@ void ClippingOracle::sort_into_tiles(int tile_x, int tile_y, int tiles,
 std::uint32_t ClippingOracle::owner_at(double x_px, double y_px) const {
   const auto tile =
       static_cast<std::size_t>(static_cast<int>(y_px) / kTile * tiles_x_ + static_cast<int>(x_px) / kTile);
-  std::uint32_t owner = Owners::kNobody;
+  std::uint32_t owner = kNobody;
   for (const std::uint32_t i : in_tile_[tile])
-    if (covers(i, x_px, y_px) && (owner == Owners::kNobody || nearer(i, owner, x_px, y_px))) owner = i;
+    if (covers(i, x_px, y_px) && (owner == kNobody || nearer(i, owner, x_px, y_px))) owner = i;
   return owner;
 }
 
 bool ClippingOracle::shows(std::uint32_t owner, std::uint32_t rival, double x_px, double y_px) const {
-  if (owner != Owners::kNobody && !covers(owner, x_px, y_px)) return false;
-  if (rival != Owners::kNobody && covers(rival, x_px, y_px) &&
-      (owner == Owners::kNobody || nearer(rival, owner, x_px, y_px)))
+  if (owner != kNobody && !covers(owner, x_px, y_px)) return false;
+  if (rival != kNobody && covers(rival, x_px, y_px) && (owner == kNobody || nearer(rival, owner, x_px, y_px)))
     return false;
   return owner_at(x_px, y_px) == owner;
 }

@@ -64,15 +64,14 @@ void backend_runs(Backend& backend, std::span<const ScreenTriangle> snapped, Win
   for (const auto& group : disjoint_groups(triangles, window.width, window.height)) {
     members.clear();
     for (const std::uint32_t i : group) members.push_back(triangles[i]);
-    backend.draw(members, frame.view(), Owners::kNobody, {});
+    backend.draw(members, frame.view(), kNobody, {});
     for (int y = 0; y < window.height; ++y) {
       const std::uint32_t* row = frame.payload_row(y);
       for (int x = 0; x < window.width;) {
         const int begin = x;
         const std::uint32_t owner = row[x];
         while (x < window.width && row[x] == owner) ++x;
-        if (owner != Owners::kNobody)
-          runs.push_back({owner, y + window.y0, begin + window.x0, x + window.x0});
+        if (owner != kNobody) runs.push_back({owner, y + window.y0, begin + window.x0, x + window.x0});
       }
     }
   }
@@ -101,11 +100,7 @@ CoverageMethod make_from(const BackendInfo& backend) {
 
 const CoverageMethod& find(std::span<const CoverageMethod> all, std::string_view kind,
                            std::string_view name) {
-  const auto found = std::find_if(all.begin(), all.end(), [&](const auto& m) { return m.info.name == name; });
-  if (found != all.end()) return *found;
-  std::vector<std::string_view> names;
-  for (const auto& m : all) names.push_back(m.info.name);
-  throw std::invalid_argument(unknown_name(kind, name, names));
+  return find_named(kind, name, all, [](const CoverageMethod& m) { return m.info.name; });
 }
 
 }  // namespace

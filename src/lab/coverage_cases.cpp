@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <stdexcept>
 
 #include "edgewise/builtin.h"
 #include "nearest_name.h"
@@ -170,12 +169,7 @@ std::span<const CoverageCase> coverage_cases() {
 }
 
 const CoverageCase& find_coverage_case(std::string_view name) {
-  const auto all = coverage_cases();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const auto& c) { return c.name == name; });
-  if (found != all.end()) return *found;
-  std::vector<std::string_view> names;
-  for (const auto& c : all) names.push_back(c.name);
-  throw std::invalid_argument(unknown_name("coverage case", name, names));
+  return find_named("coverage case", name, coverage_cases(), &CoverageCase::name);
 }
 
 std::vector<FloatTriangle> float_triangles(const TriangleStream& stream) {

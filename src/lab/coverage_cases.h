@@ -1,4 +1,4 @@
-// The smallest scenes that show where coverage fails (FAILURES.md), as screen triangles.
+// The smallest scenes that show where coverage fails, as screen triangles.
 #pragma once
 
 #include <span>
@@ -11,7 +11,7 @@ namespace edgewise::lab {
 
 struct CoverageCase {
   std::string_view name;
-  std::string_view shows;  // one line
+  std::string_view idea;  // one line
   Size size;
   std::vector<FloatTriangle> (*make)();
 };

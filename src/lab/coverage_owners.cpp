@@ -14,7 +14,7 @@ constexpr std::uint32_t kBackground = 0;
 
 // An owner as the pictures here show it.
 std::uint32_t shown(std::uint32_t owner) {
-  return owner == Owners::kNobody ? kBackground : owner + 1;
+  return owner == kNobody ? kBackground : owner + 1;
 }
 
 double float_ulp(double depth01) {
@@ -45,7 +45,7 @@ void add_depth_errors(OwnerScore& score, const Canvas& canvas, const Owners& tru
   std::uint64_t count = 0;
   each_pixel({truth.window.width, truth.window.height}, [&](int x, int y, std::size_t pixel) {
     const std::uint32_t owner = truth.triangle[pixel];
-    if (owner == Owners::kNobody || canvas.frame.payload_row(y)[x] != shown(owner)) return;
+    if (owner == kNobody || canvas.frame.payload_row(y)[x] != shown(owner)) return;
     const double ulp = error(x, y, truth.depth[pixel]);
     score.max_ulp = std::max(score.max_ulp, ulp);
     squares += ulp * ulp;
@@ -96,7 +96,7 @@ std::uint64_t OwnerJudge::unexplained(const Canvas& canvas) const {
     const std::uint32_t drawn = canvas.frame.payload_row(y)[x], owner = by_grid_.triangle[pixel];
     if (drawn == shown(owner)) return;
     const auto explains = [&] {
-      if (drawn == kBackground || owner == Owners::kNobody) return false;
+      if (drawn == kBackground || owner == kNobody) return false;
       const SnappedTruth truth(snapped_[drawn - 1]);
       return truth.covers(x, y) &&
              truth.depth(x, y).get_d() - by_grid_.depth[pixel] <= 2.0 * contract::kDepthError;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
-#include <stdexcept>
 
 #include "nearest_name.h"
 #include "raster/parallel.h"
@@ -45,12 +44,7 @@ std::span<const Sweep> sweeps() {
 }
 
 const Sweep& find_sweep(std::string_view name) {
-  std::vector<std::string_view> names;
-  for (const Sweep& sweep : sweeps()) {
-    if (sweep.name == name) return sweep;
-    names.push_back(sweep.name);
-  }
-  throw std::invalid_argument(unknown_name("sweep", name, names));
+  return find_named("sweep", name, sweeps(), &Sweep::name);
 }
 
 std::optional<double> SweepResult::starts_to_fail(std::size_t method) const {

@@ -170,7 +170,7 @@ class OwnerFinder {
  public:
   OwnerFinder(std::span<const Triangle> triangles, Window window)
       : triangles_(triangles),
-        result_{window, std::vector(pixels(window), Owners::kNobody),
+        result_{window, std::vector(pixels(window), kNobody),
                 std::vector(pixels(window), std::numeric_limits<double>::infinity())} {}
 
   Owners run(int threads) && {
@@ -213,7 +213,7 @@ class OwnerFinder {
   template <typename Truth>
   bool wins(const Truth& truth, const Ball& depth, std::uint32_t owner, const Ball& owners, int x,
             int y) const {
-    if (owner == Owners::kNobody) return true;
+    if (owner == kNobody) return true;
     if (const int sign = (depth - owners).sign(); sign != 0) return sign < 0;
     return truth.depth(x, y) < truth_of(triangles_[owner]).depth(x, y);
   }

@@ -106,9 +106,9 @@ class FloatTruth {
 std::vector<Run> covered_runs(std::span<const ScreenTriangle> triangles, Window window, int threads);
 std::vector<Run> covered_runs(std::span<const FloatTriangle> triangles, Window window, int threads);
 
+inline constexpr std::uint32_t kNobody = 0xFFFFFFFF;
 // Who owns each pixel, row by row: the nearest triangle, the earlier one at a tie, all by exact comparison.
 struct Owners {
-  static constexpr std::uint32_t kNobody = 0xFFFFFFFF;
   Window window;
   std::vector<std::uint32_t> triangle;  // index, or kNobody
   std::vector<double> depth;            // of the owner, within 2^-40 of its size; infinity where nobody

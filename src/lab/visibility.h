@@ -18,8 +18,6 @@
 
 namespace edgewise::lab {
 
-inline constexpr std::uint32_t kNobody = Owners::kNobody;
-
 struct VisibilityTriangle {
   ScreenTriangle screen;   // z: the depth (rule 6) that the front end makes of view_z, in float
   float x_px[3], y_px[3];  // before snapping

@@ -16,12 +16,12 @@ void PatchLists::reset(std::size_t cells, std::size_t patches) {
 }
 
 Patch* PatchLists::add_block(List& list) {
-  const std::size_t piece = used_ / kLargestBlock;
-  const auto slab = static_cast<std::size_t>(std::bit_width(piece / first_slab_ + 1)) - 1;
-  const std::size_t pieces_before = first_slab_ * ((std::size_t{1} << slab) - 1);
+  const std::size_t page = used_ / kLargestBlock;
+  const auto slab = static_cast<std::size_t>(std::bit_width(page / first_slab_ + 1)) - 1;
+  const std::size_t pages_before = first_slab_ * ((std::size_t{1} << slab) - 1);
   slabs_[slab].reserve(first_slab_ << slab);
   auto* const block =
-      reinterpret_cast<Header*>(slabs_[slab].data()[piece - pieces_before].bytes + used_ % kLargestBlock);
+      reinterpret_cast<Header*>(slabs_[slab].data()[page - pages_before].bytes + used_ % kLargestBlock);
   used_ += block_bytes_;
   block->next = nullptr;
   (list.first == nullptr ? list.first : block_of(list.end)->next) = block;

@@ -72,7 +72,7 @@ class PatchLists {
   struct alignas(sizeof(Patch)) Header {
     Header* next;
   };
-  struct alignas(kLargestBlock) Piece {  // of a slab
+  struct alignas(kLargestBlock) Page {  // of a slab
     std::byte bytes[kLargestBlock];
   };
   struct List {
@@ -94,7 +94,7 @@ class PatchLists {
 
   Patch* add_block(List& list);
 
-  std::array<Buffer<Piece>, 40> slabs_;                  // slab i has first_slab_ << i pieces
+  std::array<Buffer<Page>, 40> slabs_;                   // slab i has first_slab_ << i pages
   std::size_t first_slab_ = 1;                           // a power of two
   std::size_t block_bytes_ = kSmallestBlock, used_ = 0;  // bytes; of all slabs one after the other
   std::vector<List> lists_;

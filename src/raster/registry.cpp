@@ -3,8 +3,6 @@
 // picture of them; or anywhere, named to CMake by EDGEWISE_BACKENDS, if it fills.
 #include <algorithm>
 #include <array>
-#include <stdexcept>
-#include <vector>
 
 #include "edgewise/backend.h"
 #include "nearest_name.h"
@@ -44,12 +42,7 @@ std::span<const BackendInfo> filling_backends() {
 }
 
 const BackendInfo& find_backend(std::string_view name) {
-  const auto all = backends();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const auto& b) { return b.name == name; });
-  if (found != all.end()) return *found;
-  std::vector<std::string_view> names;
-  for (const auto& b : all) names.push_back(b.name);
-  throw std::invalid_argument(unknown_name("backend", name, names));
+  return find_named("backend", name, backends(), &BackendInfo::name);
 }
 
 }  // namespace edgewise

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
 #include "nearest_name.h"
 #include "scene/random.h"
@@ -256,12 +255,7 @@ std::span<const SceneInfo> builtin_scenes() {
 }
 
 const SceneInfo& find_scene(std::string_view name) {
-  const auto all = builtin_scenes();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const auto& s) { return s.name == name; });
-  if (found != all.end()) return *found;
-  std::vector<std::string_view> names;
-  for (const auto& s : all) names.push_back(s.name);
-  throw std::invalid_argument(unknown_name("scene", name, names));
+  return find_named("scene", name, builtin_scenes(), &SceneInfo::name);
 }
 
 }  // namespace edgewise

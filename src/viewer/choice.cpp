@@ -1,8 +1,6 @@
 #include "viewer/choice.h"
 
 #include <algorithm>
-#include <stdexcept>
-#include <vector>
 
 #include "nearest_name.h"
 
@@ -19,10 +17,7 @@ const Method* found_in(std::span<const Method> methods, std::string_view name) {
 
 template <typename Method>
 const Method& find(std::span<const Method> methods, std::string_view kind, std::string_view name) {
-  if (const Method* const found = found_in(methods, name)) return *found;
-  std::vector<std::string_view> known;
-  for (const Method& method : methods) known.push_back(method.info.name);
-  throw std::invalid_argument(unknown_name(kind, name, known));
+  return find_named(kind, name, methods, [](const Method& method) { return method.info.name; });
 }
 
 }  // namespace

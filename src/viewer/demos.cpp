@@ -1,15 +1,13 @@
 #include "viewer/demos.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "edgewise/builtin.h"
 #include "nearest_name.h"
+#include "scene/cells.h"
 
 namespace edgewise::viewer {
 
@@ -49,19 +47,12 @@ Scene around_the_eye() {
   return scene;
 }
 
-// The sphere's cells as faces of four vertices; each is two triangles in a row there.
+// The sphere's cells as faces of four vertices.
 Scene sphere_of_quads() {
   Scene scene = built_in("sphere");
   scene.camera.position = {0.0f, 0.9f, 3.2f};
   scene.camera.look_at({0.0f, 0.25f, 0.0f});
-  for (Mesh& mesh : scene.meshes) {
-    Mesh quads{mesh.positions, {}, {}};
-    for (std::size_t i = 0; i + 1 < mesh.triangles.size(); i += 2) {
-      const glm::uvec3 upper = mesh.triangles[i], lower = mesh.triangles[i + 1];
-      quads.add_quad({upper.x, upper.y, lower.y, upper.z}, mesh.colours[i]);
-    }
-    mesh = std::move(quads);
-  }
+  join_cells(scene);
   return scene;
 }
 
@@ -205,12 +196,7 @@ std::span<const Demo> demos() {
 }
 
 const Demo& find_demo(std::string_view name) {
-  std::vector<std::string_view> known;
-  for (const Demo& demo : demos()) {
-    if (demo.name == name) return demo;
-    known.push_back(demo.name);
-  }
-  throw std::invalid_argument(unknown_name("tutorial", name, known));
+  return find_named("tutorial", name, demos(), &Demo::name);
 }
 
 Start start_of(const Demo& demo) {

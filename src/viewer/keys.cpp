@@ -75,7 +75,7 @@ std::span<const KeyRow> key_table() {
       {"k", "light on, off", {{key_of('k'), Command::light}}},
       {"j", "threads", {{key_of('j'), Command::threads}}},
       {"i", "SIMD target", {{key_of('i'), Command::target}}},
-      {"backspace", "the last of these one step back", {{Key::backspace, Command::step_back}}},
+      {"backspace", "the last of these one step back", {{Key::backspace, Command::switch_back}}},
       {"e", "errors: count, tint, off", {{key_of('e'), Command::errors}}},
       {"u", "truth that they are counted against", {{key_of('u'), Command::truth}}},
       {"g", "magnifying glass", {{key_of('g'), Command::magnifier}}},

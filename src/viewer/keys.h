@@ -61,7 +61,7 @@ enum class Command : std::uint8_t {
   light,
   threads,
   target,
-  step_back,
+  switch_back,
   errors,
   truth,
   magnifier,

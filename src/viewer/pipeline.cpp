@@ -57,8 +57,8 @@ std::vector<std::uint32_t> colours_of(const Drawable& drawable, bool shade) {
   const Scene& scene = std::get<Scene>(drawable);
   if (shade) return lit_colours(scene);
   for (const Instance& instance : scene.instances) {
-    const auto& of_mesh = scene.meshes.at(instance.mesh).colours;
-    colours.insert(colours.end(), of_mesh.begin(), of_mesh.end());
+    const Mesh& mesh = scene.meshes.at(instance.mesh);
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) colours.push_back(mesh.colours[mesh.face_of(i)]);
   }
   return colours;
 }

@@ -7,7 +7,6 @@
 #include <exception>
 #include <numbers>
 #include <stdexcept>
-#include <thread>
 
 #include "app/capture.h"
 #include "app/milliseconds.h"
@@ -81,7 +80,7 @@ Enum next_of_three(Enum value) {
 
 // 1, 2, 4 … and all cores.
 std::vector<int> thread_counts() {
-  const int cores = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMaxThreads);
+  const int cores = app::all_cores();
   std::vector<int> counts;
   for (int n = 1; n < cores; n *= 2) counts.push_back(n);
   counts.push_back(cores);
@@ -215,7 +214,7 @@ void Session::act(Command command) {
     case Command::freeze:
       state_.frozen = !state_.frozen;
       break;
-    case Command::step_back:
+    case Command::switch_back:
       if (last_switch_) switch_by(*last_switch_, -1);
       break;
     case Command::errors:

@@ -271,7 +271,7 @@ TEST_F(ConformanceClips, VerticesUpTo100000UnitsFromTheEye) {
   expect_most_decided();
 }
 
-// FAILURES.md, 10, and the other smallest scenes of the laboratory, against its exact oracle.
+// Every direction, and the other smallest scenes of the laboratory, against its exact oracle.
 class ConformanceClippingScenes : public ConformanceClips {
  protected:
   void expect_exact_owners(const lab::ClippingScene& scene, const std::string& what) {

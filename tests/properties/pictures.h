@@ -18,8 +18,8 @@ namespace edgewise::testing {
 // Pixels → sub-units, half to even; by doubles, apart from the front end.
 std::int32_t snapped_to_grid(float px);
 
-// Positions by snapped_to_grid(). Unlike there, triangles stay that lie
-// outside the image or have no area. Nothing is clipped: coordinates may exceed the guard band.
+// Positions by snapped_to_grid(). Unlike the front end's, triangles stay that lie outside the image or have
+// no area. Nothing is clipped: coordinates may exceed the guard band.
 std::vector<ScreenTriangle> snapped(const TriangleStream& stream, Payload payload);
 
 // A backend that keeps its memory from one case to the next.

@@ -85,11 +85,4 @@ Case make_case(std::uint64_t seed, std::uint64_t number) {
   return c;
 }
 
-std::vector<std::string_view> families() {
-  std::vector<std::string_view> names;
-  for (const TriangleFamily& family : triangle_families()) names.push_back(family.name);
-  for (const SceneFamily& family : scene_families()) names.push_back(family.name);
-  return names;
-}
-
 }  // namespace edgewise::soak

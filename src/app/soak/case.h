@@ -32,7 +32,4 @@ struct Case {
 
 Case make_case(std::uint64_t seed, std::uint64_t number);
 
-// All that a case can be of.
-std::vector<std::string_view> families();
-
 }  // namespace edgewise::soak

@@ -168,10 +168,10 @@ Drawable boxes(Random& random, int, int) {
 
 std::span<const SceneFamily> scene_families() {
   static constexpr std::array kFamilies = {
-      SceneFamily{"stream", "a stream that the guard band and both planes of depth cut, with NaN", stream},
-      SceneFamily{"soup", "triangles between vertices at all distances, with NaN", soup},
-      SceneFamily{"inside", "a bumpy sheet around the camera", inside},
-      SceneFamily{"boxes", "boxes of all sizes, some around the camera", boxes},
+      SceneFamily{"stream", stream},  // a stream that the guard band and both planes of depth cut, with NaN
+      SceneFamily{"soup", soup},      // triangles between vertices at all distances, with NaN
+      SceneFamily{"inside", inside},  // a bumpy sheet around the camera
+      SceneFamily{"boxes", boxes},    // boxes of all sizes, some around the camera
   };
   return kFamilies;
 }

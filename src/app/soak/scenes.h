@@ -11,7 +11,6 @@ namespace edgewise::soak {
 
 struct SceneFamily {
   std::string_view name;
-  std::string_view idea;                                    // one line
   Drawable (*make)(Random& random, int width, int height);  // for an image of that size in pixels
 };
 

@@ -290,21 +290,21 @@ std::vector<ScreenTriangle> make(Random& random, int width, int height) {
 
 std::span<const TriangleFamily> triangle_families() {
   static constexpr std::array kFamilies = {
-      TriangleFamily{"uniform", "vertices anywhere over the image and a little beside it", make<uniform>},
-      TriangleFamily{"slivers", "long, and up to 40 sub-units thick", make<slivers>},
-      TriangleFamily{"huge", "vertices anywhere in the guard band", make<huge>},
-      TriangleFamily{"guard-band", "vertices in the corners of the guard band and of the image",
-                     make<guard_band>},
-      TriangleFamily{"lattice", "vertices on corners, halves and quarters of pixels", make<lattice>},
-      TriangleFamily{"pixel-centres", "vertices on samples", make<pixel_centres>},
-      TriangleFamily{"grid", "shared edges: a grid, jittered or folded", make<grid>},
-      TriangleFamily{"fan", "shared edges: many through one vertex", make<fan>},
-      TriangleFamily{"ties", "equal depths, and triangles drawn again", make<ties>},
-      TriangleFamily{"steep", "the whole range of depth within a few pixels", make<steep>},
-      TriangleFamily{"cloud", "very many that are smaller than a pixel, or little larger", make<cloud>},
-      TriangleFamily{"mixed", "all sizes from a sub-unit to the guard band", make<mixed>},
-      TriangleFamily{"degenerate", "no area, or the least that there is", make<degenerate>},
-      TriangleFamily{"flat", "edges almost along a row or a column", make<flat>},
+      TriangleFamily{"uniform", make<uniform>},  // vertices anywhere over the image and a little beside it
+      TriangleFamily{"slivers", make<slivers>},  // long, and up to 40 sub-units thick
+      TriangleFamily{"huge", make<huge>},        // vertices anywhere in the guard band
+      TriangleFamily{"guard-band",
+                     make<guard_band>},          // vertices in the corners of the guard band and of the image
+      TriangleFamily{"lattice", make<lattice>},  // vertices on corners, halves and quarters of pixels
+      TriangleFamily{"pixel-centres", make<pixel_centres>},  // vertices on samples
+      TriangleFamily{"grid", make<grid>},                    // shared edges: a grid, jittered or folded
+      TriangleFamily{"fan", make<fan>},                      // shared edges: many through one vertex
+      TriangleFamily{"ties", make<ties>},                    // equal depths, and triangles drawn again
+      TriangleFamily{"steep", make<steep>},                  // the whole range of depth within a few pixels
+      TriangleFamily{"cloud", make<cloud>},  // very many that are smaller than a pixel, or little larger
+      TriangleFamily{"mixed", make<mixed>},  // all sizes from a sub-unit to the guard band
+      TriangleFamily{"degenerate", make<degenerate>},  // no area, or the least that there is
+      TriangleFamily{"flat", make<flat>},              // edges almost along a row or a column
   };
   return kFamilies;
 }

@@ -12,7 +12,6 @@ namespace edgewise::soak {
 
 struct TriangleFamily {
   std::string_view name;
-  std::string_view idea;  // one line
   // For an image of that size in pixels. All vertices lie in the guard band; payloads are indices.
   std::vector<ScreenTriangle> (*make)(Random& random, int width, int height);
 };
