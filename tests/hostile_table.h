@@ -354,9 +354,9 @@ inline constexpr Hostile kHostile[] = {
     {"stopped QUIT bench --benchmark_out=$DIR/a.json", 131, ""},
     {"stopped KILL bench --benchmark_out=$DIR/a.json", 137, "", "partial"},
     // Pictures are written one by one: whole ones may be there.
-    {"stopped INT edgewise accuracy fan edge_on t_junction --no-speed --pictures $DIR/errors", 130, "",
+    {"stopped INT edgewise accuracy edge_on t_junction --no-speed --pictures $DIR/errors", 130, "",
      "errors"},
-    {"stopped KILL edgewise accuracy fan edge_on t_junction --no-speed --pictures $DIR/errors", 137, "",
+    {"stopped KILL edgewise accuracy edge_on t_junction --no-speed --pictures $DIR/errors", 137, "",
      "errors"},
     {"stopped INT edgewise render torus-knot --size 5000x5000 -o $DIR/a.png", 130, ""},
     {"stopped KILL edgewise render torus-knot --size 5000x5000 -o $DIR/a.png", 137, "", "partial"},
