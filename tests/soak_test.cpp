@@ -22,6 +22,8 @@
 #include "app/soak/case.h"
 #include "app/soak/reduce.h"
 #include "app/soak/report.h"
+#include "app/soak/scenes.h"
+#include "app/soak/triangles.h"
 #include "edgewise/contract.h"
 #include "edgewise/tri_file.h"
 #include "message_of.h"
