@@ -165,11 +165,12 @@ constexpr Step kTriad[] = {
      "same "
      "picture with all of them. In the window both times are shown, and how much longer the right side "
      "takes."},
-    {"<wireframe><tab><wireframe><1>",
-     "Left: the edges of the faces that are left once hidden ones are removed, by the winding on the screen, "
-     "before they are lit or drawn. Right: of all. In the window both times are shown, and how much longer "
-     "the "
-     "right side takes."},
+    {"<wireframe><tab><wireframe>wwwwwwwwwwwwww<1>",
+     "From close by, left: the edges of the faces that are left once hidden ones are removed, by the winding "
+     "on "
+     "the screen, before they are lit or drawn. Right: of all, the far side too. In the window both times "
+     "are "
+     "shown, and how much longer the right side takes."},
 };
 
 constexpr std::array kDemos{
