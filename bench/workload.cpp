@@ -26,7 +26,7 @@ std::span<const ScreenTriangle> Workload::run(Frontend& frontend, int threads) {
   FrontendOptions options = frontend_options(threads);
   if (!hidden_) return frontend.run(source_->drawable, options);
   options.cull = Cull::none;
-  return frontend.run(hidden_->drop(), options);
+  return frontend.run(hidden_->drop(std::get<Scene>(source_->drawable)), options);
 }
 
 void Workload::drop_hidden(Frontend& frontend) {

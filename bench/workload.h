@@ -12,8 +12,8 @@
 #include "app/source.h"
 #include "edgewise/backend.h"
 #include "edgewise/frontend.h"
-#include "hidden_faces.h"
 #include "limit.h"
+#include "viewer/hidden_faces.h"
 
 namespace edgewise::bench {
 
@@ -25,7 +25,8 @@ const BackendInfo& reference_backend(bool fills);
 class Workload {
  public:
   // Meshes are drawn with `mesh_cull` and shading, streams with neither.
-  // `facing` drops a mesh scene's hidden faces in place of `mesh_cull`; see HiddenFaces for those it may be.
+  // `facing` drops a mesh scene's hidden faces in place of `mesh_cull`; see viewer::HiddenFaces for those it
+  // may be.
   Workload(int width, int height, Cull mesh_cull, std::function<app::Source()> load,
            const lab::FacingMethod* facing = nullptr);
 
@@ -63,7 +64,7 @@ class Workload {
   const lab::FacingMethod* facing_;
   std::function<app::Source()> load_;
   std::optional<app::Source> source_;
-  std::optional<HiddenFaces> hidden_;
+  std::optional<viewer::HiddenFaces> hidden_;
   bool stream_ = false, prepared_ = false;
   std::vector<ScreenTriangle> triangles_;
   std::uint64_t submitted_ = 0, covered_px_ = 0;

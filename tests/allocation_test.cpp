@@ -11,9 +11,9 @@
 
 #include "edgewise/builtin.h"
 #include "edgewise/frontend.h"
-#include "hidden_faces.h"
 #include "support.h"
 #include "viewer/choice.h"
+#include "viewer/hidden_faces.h"
 
 namespace {
 std::atomic<std::size_t> allocations{0};
@@ -101,8 +101,8 @@ TEST(FrontendAllocations, EndWithTheFirstFrame) {
 
 TEST(HiddenFacesAllocations, AreNone) {
   const Scene scene = std::get<Scene>(find_scene("cubes").make({}));
-  bench::HiddenFaces hidden(scene, viewer::find_facing_method("normal_z"));
-  EXPECT_EQ(allocations_in([&] { hidden.drop(); }), 0u);
+  viewer::HiddenFaces hidden(scene, viewer::find_facing_method("normal_z"));
+  EXPECT_EQ(allocations_in([&] { hidden.drop(scene); }), 0u);
 }
 
 }  // namespace

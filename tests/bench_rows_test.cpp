@@ -1,6 +1,7 @@
 // The benchmark's rows: told apart by name, and never timed when they draw other pixels.
 #include <gtest/gtest.h>
 
+#include <map>
 #include <set>
 #include <string>
 
@@ -92,6 +93,33 @@ TEST(BenchStage, ComparesEdgesWithEdges) {
 TEST(BenchSuite, NamesAllRowsDifferently) {
   std::set<std::string> names;
   for (const Row& row : make_suite({})) EXPECT_TRUE(names.insert(row.name).second) << row.name;
+}
+
+TEST(BenchSuite, TimesHiddenFacesDroppedInThreeWays) {
+  SuiteOptions options;
+  options.quick = true;
+  options.width = 160, options.height = 90;
+  std::map<std::string, Row> rows;
+  for (Row& row : make_suite(options)) rows.emplace(row.name, std::move(row));
+  Stage stage;
+  for (const std::string scene : {"cube", "cubes", "sphere", "sphere-quads", "torus-knot"})
+    for (const std::string mode : {"none", "back", "normal_z"})
+      for (const BackendInfo& backend : filling_backends())
+        ASSERT_TRUE(
+            rows.contains(std::string(backend.name) + "+frontend/" + scene + "/cull:" + mode + "/threads:2"))
+            << scene << ", " << mode;
+  const auto wrong_px = [&](const std::string& name) {
+    Row& row = rows.at(name);
+    row.workload->prepare(true);
+    stage.compare(row);
+    EXPECT_EQ(row.error, "") << name;
+    return row.workload->wrong_px();
+  };
+  EXPECT_FALSE(wrong_px("tiled+frontend/cubes/cull:back/threads:2").has_value());
+  EXPECT_GT(wrong_px("tiled+frontend/cubes/cull:normal_z/threads:2").value(), 0u);
+  const Row& quads = rows.at("naive+frontend/sphere-quads/cull:normal_z/threads:2");
+  quads.workload->prepare(true);
+  EXPECT_TRUE(std::get<Scene>(quads.workload->drawable()).meshes[0].has_mark(1, kSecondHalf));
 }
 
 TEST(BenchLadder, AddsOneIdeaARungAndEndsOneBelowTheDefault) {

@@ -395,7 +395,7 @@ void expect_states_agree(const Drawable& drawable, FrontendOptions options) {
     std::vector<bool> handed_on(states.size());
     for (const ScreenTriangle& t : triangles) handed_on[t.payload] = true;
     for (std::size_t i = 0; i < states.size(); ++i)
-      ASSERT_EQ(states[i] >= TriangleState::active, handed_on[i]) << i << ": " << name_of(states[i]);
+      ASSERT_EQ(states[i] >= TriangleState::active, handed_on[i]) << i << ": " << static_cast<int>(states[i]);
   }
 }
 

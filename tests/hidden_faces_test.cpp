@@ -1,6 +1,6 @@
 // Hidden faces dropped by their normals in the benchmark: what is left of a scene, and how wrong its picture
 // is.
-#include "hidden_faces.h"
+#include "viewer/hidden_faces.h"
 
 #include <gtest/gtest.h>
 
@@ -88,9 +88,10 @@ TEST(HiddenFaces, AreJudgedOnceByTheirFirstThreeVerticesAndStayIfTwoSided) {
   add(away, 5, false);
   mesh.triangles.emplace_back(0, 1, 2), mesh.colours.push_back(6), mesh.marks.push_back(0);
   mesh.triangles.emplace_back(2, 1, 0), mesh.colours.push_back(7), mesh.marks.push_back(0);
-  HiddenFaces hidden({.meshes = {mesh}, .instances = {{}}, .camera = {}}, normal_z());  // seen along -z
+  const Scene scene{.meshes = {mesh}, .instances = {{}}, .camera = {}};  // seen along -z
+  viewer::HiddenFaces hidden(scene, normal_z());
   for (int frame = 0; frame < 2; ++frame) {
-    const Mesh& left = std::get<Scene>(hidden.drop()).meshes.at(0);
+    const Mesh& left = std::get<Scene>(hidden.drop(scene)).meshes.at(0);
     EXPECT_EQ(left.colours, (std::vector<std::uint32_t>{1, 1, 3, 3, 4, 4, 6}));
     EXPECT_EQ(left.marks, (std::vector<std::uint8_t>{0, kSecondHalf, kTwoSided, kTwoSided | kSecondHalf,
                                                      kTwoSided, kTwoSided | kSecondHalf, 0}));

@@ -173,7 +173,9 @@ class Window(InWindow):
         self.xdo("key", "v", "Tab")
         self.xdo("key", "z", "BackSpace", "BackSpace")
         self.expect("oov<tab>z<backspace><backspace>")
-        self.xdo("key", "v", "v")
+        self.xdo("key", "v", "v", "7")
+        self.expect("oo7")
+        self.xdo("key", "7")
         self.expect("oo")
 
         # A drag turns the view, a held key moves the eye, and there is a way back.
@@ -198,7 +200,8 @@ class Window(InWindow):
         subprocess.run([EDGEWISE, "render", stream, "-o", again], check=True, stdout=subprocess.DEVNULL)
         self.assertEqual(subprocess.run([EDGEWISE, "diff", again, stream.with_suffix(".png")],
                                         stdout=subprocess.DEVNULL).returncode, 0)
-        self.assertEqual(subprocess.run([EDGEWISE, "verify", stream], stdout=subprocess.DEVNULL).returncode, 0)
+        for judge in (["verify"], ["accuracy", "--no-speed"]):
+            self.assertEqual(subprocess.run([EDGEWISE, *judge, stream], stdout=subprocess.DEVNULL).returncode, 0)
 
         self.xdo("key", "q")
         out, err = self.program.communicate(timeout=PATIENCE_S)

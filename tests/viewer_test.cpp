@@ -528,9 +528,13 @@ TEST(Viewer, TellsOfEachFaceWhatBecameOfIt) {
   EXPECT_TRUE(says(type(session, "2<normal_dot_eye>", kLarge), "a b - c"));
   EXPECT_TRUE(says(type(session, "<screen_linear>", kLarge), "not known"));
   EXPECT_FALSE(says(type(session, "7", kLarge), "[7]"));
+  scene.meshes[1].marks = {kTwoSided, kTwoSided | kSecondHalf};
+  Session two_sided = session_of(scene);
+  EXPECT_TRUE(says(type(two_sided, "7", kLarge), "a A - c"));
+  EXPECT_FALSE(says(type(two_sided, "v", {12, 1000}), "a A")) << "no room for a letter";
   Session knot = session_of("torus-knot");
   EXPECT_TRUE(says(type(knot, "7", kLarge), "active"));
-  EXPECT_LT(knot.draw(kLarge, kTestCell).texts.size(), 60u) << "too many for letters";
+  EXPECT_TRUE(says(knot.draw(kLarge, kTestCell), "too many for a letter each"));
 }
 
 TEST(Viewer, HelpsWithEveryKeyOnAsManyPagesAsItTakes) {

@@ -29,14 +29,13 @@ enum class Payload {
 enum class TriangleState : std::uint8_t {
   outside_with_mesh,  // its mesh lies beyond one side of the view volume as a whole
   not_finite,         // a vertex is NaN or infinite, or became so
-  outside,            // wholly beyond one side of the view volume
+  outside,            // beyond one side of the view volume, or nothing is left after clipping
   not_in_front,       // w ≤ 0 is left after clipping
   zero_area,          // no area after snapping
   culled,             // for its facing
   active,             // handed on whole
   clipped             // handed on, cut
 };
-std::string_view name_of(TriangleState state);  // as above, with blanks for underscores
 
 struct FrontendOptions {
   int width = 1920, height = 1080;  // px, 1 … contract::kMaxImageSide
@@ -68,9 +67,9 @@ struct FrontendStats {
       0;  // dropped: beyond one side of the view volume, or nothing is left after clipping
   std::uint64_t not_in_front = 0;   // dropped: w ≤ 0 is left after clipping
   std::uint64_t clipped = 0;        // reached beyond one or more of the following; some of them end above
-  std::uint64_t clipped_near = 0;   // cut by the near plane
-  std::uint64_t clipped_far = 0;    // cut by the far plane
-  std::uint64_t clipped_guard = 0;  // cut by the guard band
+  std::uint64_t clipped_near = 0;   // the near plane
+  std::uint64_t clipped_far = 0;    // the far plane
+  std::uint64_t clipped_guard = 0;  // the guard band
   std::uint64_t pieces = 0;         // triangles after clipping
   std::uint64_t culled = 0;         // dropped for their facing
   std::uint64_t zero_area = 0;      // dropped: no area after snapping

@@ -88,28 +88,6 @@ std::string_view name_of(Cull cull) {
   throw std::invalid_argument("not a culling mode");
 }
 
-std::string_view name_of(TriangleState state) {
-  switch (state) {
-    case TriangleState::outside_with_mesh:
-      return "outside with mesh";
-    case TriangleState::not_finite:
-      return "not finite";
-    case TriangleState::outside:
-      return "outside";
-    case TriangleState::not_in_front:
-      return "not in front";
-    case TriangleState::zero_area:
-      return "zero area";
-    case TriangleState::culled:
-      return "culled";
-    case TriangleState::active:
-      return "active";
-    case TriangleState::clipped:
-      return "clipped";
-  }
-  throw std::invalid_argument("not a triangle's state");
-}
-
 FrontendStats& FrontendStats::operator+=(const FrontendStats& o) {
   meshes += o.meshes, meshes_culled += o.meshes_culled;
   triangles += o.triangles, whole_mesh += o.whole_mesh, not_finite += o.not_finite, outside += o.outside;

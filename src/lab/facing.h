@@ -75,6 +75,7 @@ struct FacingMethod {
   void (*classify)(const FacingScene& scene, std::span<std::uint8_t> front);
   // The promise: false if the method can't be wrong about the sign of the first three vertices.
   bool (*may_err)(const FaceFacts& face, const FacingView& view);
+  bool by_direction = false;  // it asks nothing of the view but `forward`
 };
 
 // Ours first.

@@ -148,8 +148,9 @@ constexpr Step kBackface[] = {
      "The "
      "one on the right is two-sided, and never culled for its facing."},
     {"27<2>",
-     "[7] What became of each face, as a letter at its centre, and of those out of sight in the list: a word "
-     "for each object."},
+     "[7] What became of each face: a letter at its centre, if that is on the screen, and in the list, a "
+     "word for "
+     "each object. Capitals are two-sided."},
     {"<left><2>",
      "Back faces are culled by world-space normal times the ray from the eye; the grey sheet turns its back, "
      "but is two-sided. Objects outside the view are culled whole, and what reaches out of it is clipped: "
@@ -160,15 +161,14 @@ constexpr Step kTriad[] = {
     {"<normal_z>k<2>",
      "A face of four vertices is kept if the z of its normal, turned with the object, points to the eye."},
     {"r<2>r", "[r] Half of the faces of a closed object are hidden at any time, whichever half it is."},
-    {"0k<snapped_area>v<tab>2<2>",
-     "Left: hidden faces removed, by the winding on the screen, before they are lit or drawn. Right: the "
-     "same "
-     "picture with all of them. In the window both times are shown, and how much longer the right side "
-     "takes."},
+    {"0kv<tab>2<2>",
+     "Left: hidden faces removed so, before they are projected, lit or drawn. Right: the same picture with "
+     "all "
+     "of them. In the window both times are shown, and how much longer the right side takes."},
     {"<wireframe><tab><wireframe>wwwwwwwwwwwwww<1>",
-     "From close by, left: the edges of the faces that are left once hidden ones are removed, by the winding "
-     "on "
-     "the screen, before they are lit or drawn. Right: of all, the far side too. In the window both times "
+     "From close by, left: the edges of the triangles that are left (a face of four vertices is two) when "
+     "faces "
+     "are removed whose normal's z points away. Right: of all, the far side too. In the window both times "
      "are "
      "shown, and how much longer the right side takes."},
 };

@@ -13,10 +13,27 @@ struct Kind {
   char letter;
   std::string_view name;
 };
-// As the tutorials call them; what is rare is one kind.
+// What is rare is one kind.
 constexpr std::array kKinds{
     Kind{'a', "active"},  Kind{'c', "clipped"},           Kind{'b', "culled by facing"},
     Kind{'o', "outside"}, Kind{'-', "with their object"}, Kind{'x', "not drawable"}};
+
+char letter_of(TriangleState state) {
+  switch (state) {
+    case TriangleState::active:
+      return 'a';
+    case TriangleState::clipped:
+      return 'c';
+    case TriangleState::culled:
+      return 'b';
+    case TriangleState::outside:
+      return 'o';
+    case TriangleState::outside_with_mesh:
+      return '-';
+    default:
+      return 'x';
+  }
+}
 
 glm::vec3 centre_of(const Mesh& mesh, std::size_t triangle, bool quad) {
   const auto corner = [&](std::size_t t, int k) { return mesh.positions[mesh.triangles[t][k]]; };
@@ -38,34 +55,23 @@ std::vector<FaceState> face_states(const Scene& scene, std::span<const TriangleS
         continue;
       }
       const bool quad = t + 1 < mesh.triangles.size() && mesh.has_mark(t + 1, kSecondHalf);
-      faces.push_back({i, glm::vec3(model * glm::vec4(centre_of(mesh, t, quad), 1.0f)), states[id]});
+      const glm::vec3 centre(model * glm::vec4(centre_of(mesh, t, quad), 1.0f));
+      faces.push_back({i, centre, states[id], mesh.has_mark(t, kTwoSided)});
     }
   }
   return faces;
 }
 
-char letter_of(TriangleState state) {
-  switch (state) {
-    case TriangleState::active:
-      return 'a';
-    case TriangleState::clipped:
-      return 'c';
-    case TriangleState::culled:
-      return 'b';
-    case TriangleState::outside:
-      return 'o';
-    case TriangleState::outside_with_mesh:
-      return '-';
-    default:
-      return 'x';
-  }
+char letter_of(const FaceState& face) {
+  const char letter = letter_of(face.state);
+  return face.two_sided && letter != '-' ? static_cast<char>(letter - 'a' + 'A') : letter;
 }
 
 std::string letters_of(std::span<const FaceState> faces) {
   std::string words;
   for (std::size_t i = 0; i < faces.size(); ++i) {
     if (i > 0 && faces[i].instance != faces[i - 1].instance) words += ' ';
-    words += letter_of(faces[i].state);
+    words += letter_of(faces[i]);
   }
   return words;
 }
@@ -78,6 +84,8 @@ std::string summary_of(std::span<const FaceState> faces) {
     });
     if (count > 0) text += fmt::format("{}{} {} {}", text.empty() ? "" : ", ", letter, count, name);
   }
+  if (std::any_of(faces.begin(), faces.end(), [](const FaceState& face) { return face.two_sided; }))
+    text += "; capitals: two-sided";
   return text;
 }
 

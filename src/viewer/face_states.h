@@ -15,13 +15,14 @@ struct FaceState {
   std::size_t instance;
   glm::vec3 centre;  // in the world
   TriangleState state;
+  bool two_sided;
 };
 
 // Instance by instance, in the order of their triangles. Of the halves of a face of four vertices the one
 // that came further counts. `states` must be those of all triangles of the scene.
 std::vector<FaceState> face_states(const Scene& scene, std::span<const TriangleState> states);
 
-char letter_of(TriangleState state);
+char letter_of(const FaceState& face);  // a capital if it is two-sided
 // A word for each instance with a letter for each of its faces.
 std::string letters_of(std::span<const FaceState> faces);
 // How many there are of each kind, with its letter.

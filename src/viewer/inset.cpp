@@ -188,7 +188,7 @@ void add_face_letters(const Camera& camera, std::span<const FaceState> faces, co
   if (faces.size() > kMostLabels) return;
   const glm::dmat4 to_screen = screen_matrix(camera, panel.width, panel.height);
   for (const FaceState& face : faces)
-    add_label(project(to_screen, face.centre), panel, {letter_of(face.state)}, colour_of(face.state), texts);
+    add_label(project(to_screen, face.centre), panel, {letter_of(face)}, colour_of(face.state), texts);
 }
 
 }  // namespace edgewise::viewer

@@ -51,6 +51,7 @@ class Column {
   // Several lines, broken at blanks.
   void lines(std::string_view words, std::uint32_t colour) {
     const auto width = static_cast<std::size_t>(letters_);
+    if (width == 0) return;
     while (!words.empty()) {
       const std::size_t blank = words.size() > width ? words.rfind(' ', width) : words.size();
       const std::size_t end = blank == std::string_view::npos ? width : blank;
@@ -169,7 +170,7 @@ class Overlaying {
     for (std::size_t i = 0; i < sides(); ++i) {
       const Panel panel{left_of(i), panel_.width, panel_.height, cell_};
       if (state_.labels) add_vertex_labels(*scene, panel, screen_.texts);
-      add_face_letters(scene->camera, session_.side(i).faces, panel, screen_.texts);
+      if (state_.face_states) add_face_letters(scene->camera, session_.side(i).faces, panel, screen_.texts);
     }
     // The magnifying glass lies on top.
     const int glass = state_.magnifier ? glass_side(panel_) : 0;
@@ -289,12 +290,14 @@ class Overlaying {
   }
 
   void faces(Column& to, const Side& s) {
-    if (s.faces.empty())
-      return to.line(state_.stream ? "[7] a stream's triangles are no faces of objects"
-                                   : "[7] what this clipping does to each face is not known",
-                     kNotOurs);
-    to.lines(fmt::format("[7] {}", summary_of(s.faces)), kPlain);
-    if (s.faces.size() <= kMostLabels) to.lines(letters_of(s.faces), kStrong);
+    if (state_.stream) return to.line("[7] a stream's triangles are no faces of objects", kNotOurs);
+    if (!s.choice.our_clipping())
+      return to.line("[7] what this clipping does to each face is not known", kNotOurs);
+    to.lines(fmt::format("[7] faces: {}", summary_of(s.faces)), kPlain);
+    if (s.faces.size() > kMostLabels)
+      to.line("    too many for a letter each", kNotOurs);
+    else
+      to.lines(letters_of(s.faces), kStrong);
   }
 
   const Session& session_;

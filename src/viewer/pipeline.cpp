@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "app/milliseconds.h"
 #include "app/pictures.h"
@@ -139,6 +140,7 @@ void Pipeline::draw_composed(const Choice& choice, const View& view, Picture& pi
     picture.stats.culled = triangles.culled;
     picture.stats.emitted = triangles.snapped.size();
   }
+  if (choice.our_clipping() && choice.facing->by_direction) run_dropped(*choice.facing, view, picture);
   const Owners owners = owners_of(choice, view, triangles, picture.raster_ms);
   const auto colours = colours_of(view.world.drawable(), view.frontend.shade);
   picture.image = {view.frontend.width, view.frontend.height, {}};
@@ -146,6 +148,17 @@ void Pipeline::draw_composed(const Choice& choice, const View& view, Picture& pi
   for (const std::uint32_t owner : owners)
     picture.image.pixels.push_back(owner == lab::kNobody ? app::background_of(Payload::colour)
                                                          : colours[owner]);
+}
+
+void Pipeline::run_dropped(const lab::FacingMethod& method, const View& view, Picture& picture) {
+  const Scene& scene = *view.world.scene();
+  if (hidden_of_ != &scene || &hidden_->method() != &method) hidden_.emplace(scene, method);
+  hidden_of_ = &scene;
+  FrontendOptions options = view.frontend;
+  if (options.cull == Cull::front || options.cull == Cull::both) return;  // it drops back faces only
+  const bool drops = std::exchange(options.cull, Cull::none) == Cull::back;
+  picture.frontend_ms = milliseconds(
+      [&] { screen_ = frontend_.run(drops ? hidden_->drop(scene) : view.world.drawable(), options); });
 }
 
 void Pipeline::outline(const Choice& choice, const View& view, Image& image) {

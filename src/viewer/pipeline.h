@@ -14,6 +14,7 @@
 #include "edgewise/frontend.h"
 #include "edgewise/image.h"
 #include "viewer/choice.h"
+#include "viewer/hidden_faces.h"
 #include "viewer/world.h"
 
 namespace edgewise::viewer {
@@ -72,6 +73,8 @@ class Pipeline {
   using Owners = std::vector<std::uint32_t>;
 
   void draw_ours(const Choice& choice, const View& view, Picture& picture);
+  // Times a method that drops hidden faces before anything is projected at its own work.
+  void run_dropped(const lab::FacingMethod& method, const View& view, Picture& picture);
   void draw_composed(const Choice& choice, const View& view, Picture& picture);
   Triangles triangles_of(const Choice& choice, const View& view, double& spent_ms);
   Triangles from_front_end(const View& view, Cull cull);
@@ -90,6 +93,8 @@ class Pipeline {
   std::optional<lab::Canvas> canvas_;
   lab::VisibilityFrame visibility_frame_;
   std::span<const ScreenTriangle> screen_;
+  std::optional<HiddenFaces> hidden_;  // of the scene at this address
+  const Scene* hidden_of_ = nullptr;
 };
 
 }  // namespace edgewise::viewer

@@ -34,7 +34,6 @@ constexpr bool changes_picture(Command command) {
     case Command::next_error:
     case Command::other_side:
     case Command::labels:
-    case Command::face_states:
     case Command::overlay:
     case Command::next_step:  // as its keys do
     case Command::help:
@@ -73,6 +72,12 @@ void switch_edges(Side& side) {
   side.filled = before;
 }
 
+// Of a demonstration: what needs not be undone before its next step.
+constexpr bool leaves_the_way_clear(Command command) {
+  return command == Command::next_step || command == Command::help || command == Command::save ||
+         command == Command::quit;
+}
+
 template <typename Enum>
 Enum next_of_three(Enum value) {
   return static_cast<Enum>((static_cast<int>(value) + 1) % 3);
@@ -105,7 +110,7 @@ Session::Session(Start start) : start_(std::move(start)) {
 void Session::press(Key key) {
   const auto command = command_of(key);
   if (!command) return;
-  strayed_ |= *command != Command::next_step;
+  strayed_ |= !leaves_the_way_clear(*command);
   if (is_held(*command))
     held_.insert(key);
   else
@@ -341,9 +346,11 @@ void Session::next_step() {
   const app::Size size = size_;
   const Cell cell = cell_;
   if (strayed_) {
-    auto saved = std::move(saved_);
-    *this = Session(Start(start_));
-    saved_ = std::move(saved);
+    Session afresh{Start(start_)};
+    afresh.saved_ = std::move(saved_);
+    afresh.save_next_ = save_next_;
+    afresh.done_ = done_;
+    *this = std::move(afresh);
     for (std::size_t i = 0; i < step; ++i) take(start_.steps[i], size, cell);
   }
   take(start_.steps[step], size, cell);
@@ -436,9 +443,11 @@ Image Session::draw_side(std::size_t i, app::Size size, double& work_ms) {
   work_ms += picture.frontend_ms + picture.raster_ms;
   judge_if_due(i, choice, view, work_ms);
   if (state_.outlines) pipelines_[i].outline(choice, view, picture.image);
-  side.faces.clear();
-  if (state_.face_states && !state_.stream && choice.our_clipping())
-    side.faces = face_states(*world_->scene(), pipelines_[i].states(choice, view));
+  if (state_.face_states && !state_.stream && side.faces_of != state_.version) {
+    side.faces.clear();
+    if (choice.our_clipping()) side.faces = face_states(*world_->scene(), pipelines_[i].states(choice, view));
+    side.faces_of = state_.version;
+  }
   return std::move(picture.image);
 }
 

@@ -51,7 +51,8 @@ struct Side {
   std::string because;                    // what of the choice cannot be drawn, and why
   double frontend_ms = 0, raster_ms = 0;  // means of late
   FrontendStats stats;                    // of the last frame
-  std::vector<FaceState> faces;           // of it, where wanted and known
+  std::vector<FaceState> faces;           // where wanted and known, of
+  std::uint64_t faces_of = 0;             // this version of the picture
   std::optional<Judgement> judgement;     // none yet, of this choice
   double judging_ms = 0;                  // what it took
   std::uint64_t judged = 0;               // the version of the picture

@@ -15,6 +15,7 @@ const FacingMethod facing_normal_z{
     },
     [](const FaceFacts& face, const FacingView& view) {
       return face.sine <= ray_rounding(face) + (view.perspective ? face.tilt_sine : 0.0);
-    }};
+    },
+    true};
 
 }  // namespace edgewise::lab

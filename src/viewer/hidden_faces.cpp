@@ -1,10 +1,11 @@
-#include "hidden_faces.h"
+#include "viewer/hidden_faces.h"
 
+#include <stdexcept>
 #include <utility>
 
 #include "viewer/world.h"
 
-namespace edgewise::bench {
+namespace edgewise::viewer {
 
 namespace {
 
@@ -21,11 +22,21 @@ void append(Mesh& to, const Mesh& from, std::size_t begin, std::size_t end) {
   append(to.marks, from.marks, begin, end);
 }
 
+// The view's direction as an instance's mesh sees it. The normal of a face that M moves is det M · M^-T · n,
+// so its product with the line of sight d is n times det M · M^-1 · d, whatever M scales or mirrors.
+glm::vec3 sight_of(const Instance& instance, const Camera& camera) {
+  const glm::dmat3 model(model_matrix(instance));
+  const glm::dvec3 sight(line_of_sight(camera));
+  return glm::vec3(glm::normalize(glm::determinant(model) * (glm::inverse(model) * sight)));
+}
+
 }  // namespace
 
-HiddenFaces::HiddenFaces(Scene scene, const lab::FacingMethod& method)
-    : all_(std::move(scene)), method_(method) {
-  for (const Mesh& mesh : all_.meshes) {
+HiddenFaces::HiddenFaces(const Scene& scene, const lab::FacingMethod& method) : method_(&method) {
+  if (!method.by_direction)
+    throw std::invalid_argument(std::string(method.info.name) +
+                                " cannot judge faces before the eye is known");
+  for (const Mesh& mesh : scene.meshes) {
     Faces& faces = faces_.emplace_back();
     auto& positions = faces.scene.positions;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -40,29 +51,24 @@ HiddenFaces::HiddenFaces(Scene scene, const lab::FacingMethod& method)
     }
     faces.front.resize(faces.scene.faces.size());
   }
-  Scene left = all_;
+  Scene left = scene;
   left.meshes.clear();
   for (Instance& instance : left.instances)
-    left.meshes.push_back(all_.meshes.at(std::exchange(instance.mesh, left.meshes.size())));
+    left.meshes.push_back(scene.meshes.at(std::exchange(instance.mesh, left.meshes.size())));
   left_ = std::move(left);
 }
 
-// The normal of a face that M moves is det M · M^-T · n, so its product with the line of sight d is n times
-// det M · M^-1 · d, whatever M scales or mirrors.
-void HiddenFaces::look_at(const Instance& instance, lab::FacingView& view) const {
-  const glm::dmat3 model(model_matrix(instance));
-  const glm::dvec3 sight(viewer::line_of_sight(all_.camera));
-  view.forward = glm::vec3(glm::normalize(glm::determinant(model) * (glm::inverse(model) * sight)));
-}
-
-const Drawable& HiddenFaces::drop() {
+const Drawable& HiddenFaces::drop(const Scene& scene) {
   Scene& left = std::get<Scene>(left_);
-  for (std::size_t i = 0; i < all_.instances.size(); ++i) {
-    const Instance& instance = all_.instances[i];
-    const Mesh& mesh = all_.meshes[instance.mesh];
+  left.camera = scene.camera;
+  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+    const Instance& instance = scene.instances[i];
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    left.instances[i] = instance;
+    left.instances[i].mesh = i;
     Faces& faces = faces_[instance.mesh];
-    look_at(instance, faces.scene.view);
-    method_.classify(faces.scene, faces.front);
+    faces.scene.view.forward = sight_of(instance, scene.camera);
+    method_->classify(faces.scene, faces.front);
 
     Mesh& kept = left.meshes[i];
     kept.triangles.clear(), kept.colours.clear(), kept.marks.clear();
@@ -79,4 +85,4 @@ const Drawable& HiddenFaces::drop() {
   return left_;
 }
 
-}  // namespace edgewise::bench
+}  // namespace edgewise::viewer
