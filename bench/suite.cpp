@@ -123,7 +123,7 @@ class Suite {
   // So little work that starting a thread shows.
   void add_tiny() {
     constexpr int kSide_px = 256;
-    const auto workload = scene_workload("cube", kSide_px, kSide_px, Cull::back);
+    const auto workload = scene_workload("cube", kSide_px, kSide_px);
     for (const auto& backend : filling_backends())
       for (const int threads : kThreads)
         add(workload, Timed::raster, backend, fmt::format("cube/tiny:{}x{}", kSide_px, kSide_px), threads);
@@ -150,7 +150,7 @@ class Suite {
   // One thread, so that nothing but the target changes.
   void add_target_sweep() {
     for (const std::string scene : {"torus-knot", "large", "medium", "grid4"}) {
-      const auto workload = scene_workload(scene, options_.width, options_.height, Cull::back);
+      const auto workload = scene_workload(scene, options_.width, options_.height);
       for (const auto& backend : filling_backends())
         for (const SimdTarget target : supported_targets())
           add(workload, Timed::raster, backend, fmt::format("{}/target:{}", scene, name_of(target)), 1,
@@ -162,9 +162,9 @@ class Suite {
     return std::make_shared<Workload>(options_.width, options_.height, Cull::back, std::move(load));
   }
 
-  WorkloadPtr scene_workload(const std::string& scene, int width, int height, Cull cull) const {
+  WorkloadPtr scene_workload(const std::string& scene, int width, int height) const {
     const SceneRequest wanted = request(options_, width, height);
-    return std::make_shared<Workload>(width, height, cull,
+    return std::make_shared<Workload>(width, height, Cull::back,
                                       [scene, wanted] { return app::load_source(scene, wanted, false); });
   }
 
@@ -250,7 +250,7 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
   for (const auto& scene : builtin_scenes()) {
     const std::string name(scene.name);
     taken.emplace(name, name);
-    const auto workload = suite.scene_workload(name, options.width, options.height, Cull::back);
+    const auto workload = suite.scene_workload(name, options.width, options.height);
     suite.add_scene(workload, name, scene.stream);
     suite.add_ladder(workload, name);
   }

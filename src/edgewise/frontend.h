@@ -63,8 +63,7 @@ struct FrontendStats {
   std::uint64_t triangles = 0;      // submitted
   std::uint64_t whole_mesh = 0;     // dropped with their mesh
   std::uint64_t not_finite = 0;     // dropped: a vertex is NaN or infinite, or became so
-  std::uint64_t outside =
-      0;  // dropped: beyond one side of the view volume, or nothing is left after clipping
+  std::uint64_t outside = 0;        // dropped: beyond a side of the view volume, or nothing left by clipping
   std::uint64_t not_in_front = 0;   // dropped: w ≤ 0 is left after clipping
   std::uint64_t clipped = 0;        // reached beyond one or more of the following; some of them end above
   std::uint64_t clipped_near = 0;   // the near plane

@@ -151,12 +151,14 @@ void Pipeline::draw_composed(const Choice& choice, const View& view, Picture& pi
 }
 
 void Pipeline::run_dropped(const lab::FacingMethod& method, const View& view, Picture& picture) {
-  const Scene& scene = *view.world.scene();
-  if (hidden_of_ != &scene || &hidden_->method() != &method) hidden_.emplace(scene, method);
-  hidden_of_ = &scene;
   FrontendOptions options = view.frontend;
   if (options.cull == Cull::front || options.cull == Cull::both) return;  // it drops back faces only
   const bool drops = std::exchange(options.cull, Cull::none) == Cull::back;
+  const Scene& scene = *view.world.scene();
+  if (drops && (hidden_of_ != &scene || &hidden_->method() != &method)) {
+    hidden_.emplace(scene, method);
+    hidden_of_ = &scene;
+  }
   picture.frontend_ms = milliseconds(
       [&] { screen_ = frontend_.run(drops ? hidden_->drop(scene) : view.world.drawable(), options); });
 }
