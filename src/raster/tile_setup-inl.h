@@ -11,6 +11,7 @@
 
 #include "edgewise/contract.h"
 #include "raster/depth_lanes-inl.h"
+#include "raster/lanes-inl.h"
 #include "raster/tile_kernel.h"
 #include "raster/triangle_lanes-inl.h"
 
@@ -110,45 +111,46 @@ inline bool set_up_one(const TileJob& job, const ScreenTriangle& triangle, Batch
 
 #if HWY_TARGET != HWY_SCALAR
 
+// What goes to a batch, of half as many triangles as there are 32-bit lanes: each has a 64-bit one, whose
+// lower half counts.
+struct HalfBatch {
+  struct Linear {
+    V32 x, y, first;
+  } edge[3], depth, nearest;
+  V32 payload, twice_area_px, bx0, by0, bx1, by1;
+  std::uint32_t alive, exact;  // bit by bit: may touch the tile; depth needs no more than doubles
+};
+HWY_INLINE V both(V32 left, V32 right) {
+  return hn::ConcatEven(D{}, right, left);
+}
+
 HWY_INLINE V32 thrice(V32 v) {
   static_assert(kBlock - 1 == 3);
   return hn::Add(v, hn::Add(v, v));
 }
-HWY_INLINE void store(Batch::Linear& f, int k, V32 x, V32 y, V32 first) {
-  const V32 zero = hn::Zero(D32{});
-  store(x, f.x + k), store(y, f.y + k), store(first, f.first + k);
-  const V32 rise = thrice(hn::Add(hn::Max(x, zero), hn::Max(y, zero)));
-  store(rise, f.rise + k), store(hn::Add(first, rise), f.most + k);
-  store(thrice(hn::Add(hn::Abs(x), hn::Abs(y))), f.span + k);
-}
 
-// Returns where the depths are exact.
-HWY_INLINE hn::Mask<D64> set_up_depth(const TileJob& job, const TriangleLanes& t, const Area& area, V32 left,
-                                      V32 top, Batch& out, int k) {
+HWY_INLINE void set_up_depth(const TileJob& job, const TriangleLanes& t, const Area& area, V32 left, V32 top,
+                             HalfBatch& out) {
   const int in_cell_x = job.x0 % kDepthCell, in_cell_y = job.y0 % kDepthCell;
   const DepthLanes depth = depth_lanes(t, area, job.x0 - in_cell_x, job.y0 - in_cell_y);
   const V32 zx = depth.x, zy = depth.y;
   const V32 first = lower(hn::Add(as64(depth.base()), hn::Add(product(zx, hn::Add(left, set32(in_cell_x))),
                                                               product(zy, hn::Add(top, set32(in_cell_y))))));
-  store(out.depth, k, zx, zy, first);
+  out.depth = {zx, zy, first};
 
   const auto gentle = [](V32 v) { return hn::And(hn::Lt(v, set32(kSteep)), hn::Gt(v, set32(-kSteep))); };
   const auto flat = hn::And(gentle(zx), gentle(zy));
   const V32 least =
       hn::Add(first, thrice(hn::Add(hn::Min(zx, hn::Zero(D32{})), hn::Min(zy, hn::Zero(D32{})))));
   const V32 vertex = hn::Sub(hn::Min(hn::Min(t.z[0], t.z[1]), t.z[2]), set32(kDepthError));
-  store(hn::IfThenElseZero(flat, zx), out.nearest.x + k);
-  store(hn::IfThenElseZero(flat, zy), out.nearest.y + k);
-  store(hn::IfThenElse(flat, least, vertex), out.nearest.first + k);
-  return depth.exact;
+  out.nearest = {hn::IfThenElseZero(flat, zx), hn::IfThenElseZero(flat, zy),
+                 hn::IfThenElse(flat, least, vertex)};
+  out.exact = mask_bits(depth.exact);
 }
 
-// Sets up the triangles triangles[run[i]]; bit i of the result is set if that one touches the tile. Reads
-// run[] up to the next multiple of a vector's lanes, so it must be padded with valid indices.
-HWY_INLINE std::uint32_t set_up_vector(const TileJob& job, const std::uint32_t* run, Batch& out, int k) {
+HWY_INLINE void set_up_half(const TileJob& job, const std::uint32_t* run, HalfBatch& out) {
   const D64 d;
-  const V64 index = hn::BitCast(d, hn::PromoteTo(U64{}, hn::LoadU(Low32{}, run + k)));
-  const TriangleLanes t = load(job.triangles, record_offset(index));
+  const TriangleLanes t = load(job.triangles, run);
   const auto& [x, y, z, payload] = t;
 
   const int size = 1 << job.size_log2;
@@ -192,18 +194,48 @@ HWY_INLINE std::uint32_t set_up_vector(const TileJob& job, const std::uint32_t* 
     dead = hn::Or(dead, most);
     const auto crossed = hn::Lt(least, zero);
     const auto unless_accepted = [&](V64 v) { return lower(hn::IfThenElseZero(crossed, v)); };
-    store(out.edge[i], k, unless_accepted(as64(a)), unless_accepted(as64(b)),
-          unless_accepted(shift_right<kSubBits>(first)));
+    out.edge[i] = {unless_accepted(as64(a)), unless_accepted(as64(b)),
+                   unless_accepted(shift_right<kSubBits>(first))};
   }
 
-  store(shift_right<2 * kSubBits>(area.value), out.twice_area_px + k);
-  const auto exact = set_up_depth(job, t, area, left, top, out, k);
-  store(payload, out.payload + k);
-  store(bx0, out.bx0 + k), store(bx1, out.bx1 + k);
-  store(by0, out.by0 + k), store(by1, out.by1 + k);
+  set_up_depth(job, t, area, left, top, out);
+  out.payload = payload, out.twice_area_px = lower(shift_right<2 * kSubBits>(area.value));
+  out.bx0 = bx0, out.by0 = by0, out.bx1 = bx1, out.by1 = by1;
+  out.alive = mask_bits(hn::Not(hn::Lt(dead, zero)));
+}
 
-  std::uint32_t alive = mask_bits(hn::Not(hn::Lt(dead, zero)));
-  for (std::uint32_t left_over = alive & ~mask_bits(exact); left_over != 0; left_over &= left_over - 1) {
+HWY_INLINE void store(const HalfBatch::Linear& left, const HalfBatch::Linear& right, Batch::Linear& f,
+                      int k) {
+  const D d;
+  const V x = both(left.x, right.x), y = both(left.y, right.y), first = both(left.first, right.first);
+  const V rise = thrice(hn::Add(hn::Max(x, hn::Zero(d)), hn::Max(y, hn::Zero(d))));
+  hn::Store(x, d, f.x + k), hn::Store(y, d, f.y + k), hn::Store(first, d, f.first + k);
+  hn::Store(rise, d, f.rise + k), hn::Store(hn::Add(first, rise), d, f.most + k);
+  hn::Store(thrice(hn::Add(hn::Abs(x), hn::Abs(y))), d, f.span + k);
+}
+
+// Sets up triangles[run[i]] for i = k … k + kLanes - 1; bit i - k of the result is set if that one touches
+// the tile. Of `count` indices the last half vector is filled up with valid ones.
+HWY_INLINE std::uint32_t set_up_vector(const TileJob& job, const std::uint32_t* run, int count, Batch& out,
+                                       int k) {
+  constexpr int kHalf = kLanes / 2;
+  HalfBatch left, right;
+  set_up_half(job, run + k, left);
+  k + kHalf < count ? set_up_half(job, run + k + kHalf, right) : void(right = left);
+
+  for (int i = 0; i < 3; ++i) store(left.edge[i], right.edge[i], out.edge[i], k);
+  store(left.depth, right.depth, out.depth, k);
+  const auto store_both = [&](V32 l, V32 r, std::int32_t* list) { hn::Store(both(l, r), D{}, list + k); };
+  store_both(left.nearest.x, right.nearest.x, out.nearest.x);
+  store_both(left.nearest.y, right.nearest.y, out.nearest.y);
+  store_both(left.nearest.first, right.nearest.first, out.nearest.first);
+  store_both(left.payload, right.payload, out.payload);
+  store_both(left.twice_area_px, right.twice_area_px, out.twice_area_px);
+  store_both(left.bx0, right.bx0, out.bx0), store_both(left.bx1, right.bx1, out.bx1);
+  store_both(left.by0, right.by0, out.by0), store_both(left.by1, right.by1, out.by1);
+
+  const std::uint32_t alive = left.alive | right.alive << kHalf, exact = left.exact | right.exact << kHalf;
+  for (std::uint32_t left_over = alive & ~exact; left_over != 0; left_over &= left_over - 1) {
     const int lane = std::countr_zero(left_over);
     set_up_one(job, job.triangles[run[k + lane]], out, k + lane);
   }
@@ -224,8 +256,7 @@ inline std::uint32_t set_up(const TileJob& job, std::span<const std::uint32_t> r
 #if HWY_TARGET != HWY_SCALAR
   std::uint32_t padded[Batch::kSize];
   for (int k = 0; k < Batch::kSize; ++k) padded[k] = run[static_cast<std::size_t>(std::min(k, count - 1))];
-  constexpr int kLanes = static_cast<int>(hn::MaxLanes(D64{}));
-  for (int k = 0; k < count; k += kLanes) alive |= set_up_vector(job, padded, out, k) << k;
+  for (int k = 0; k < count; k += kLanes) alive |= set_up_vector(job, padded, count, out, k) << k;
   alive &= static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1);
 #endif
   return alive;
