@@ -31,10 +31,14 @@ HWY_NOINLINE void draw_touched(Tile& tile, const Batch& batch, const Touched& to
   const int length = touched.length, k = touched.k;
   if (length == 0) return;
   const D d;
-  // Values at the blocks' first pixels.
-  alignas(64) std::int32_t at_edge[3][kMaxBlocks * kMaxBlocks], at_depth[kMaxBlocks * kMaxBlocks];
-  for (int n = 0; n < length; n += kLanes) {
-    const V place = hn::Load(d, touched.place + n);
+  const auto in_block = [&](const auto& f) { return over_block(f.x + k, f.y + k); };
+  const Sixteen edge_in[3] = {in_block(batch.edge[0]), in_block(batch.edge[1]), in_block(batch.edge[2])};
+  const Sixteen depth_in = in_block(batch.depth);
+  const V payload = hn::Set(d, batch.payload[k]);
+  const int first_place = batch.by0[k] * kMaxBlocks + batch.bx0[k];
+  for (int begin = 0; begin < length; begin += kLanes) {
+    // Values at the blocks' first pixels.
+    const V place = hn::Load(d, touched.place + begin);
     static_assert(kBlock == 1 << 2 && kMaxBlocks == 1 << 4);
     const V x = hn::ShiftLeft<2>(hn::And(place, hn::Set(d, kMaxBlocks - 1)));
     const V y = hn::ShiftLeft<2>(hn::ShiftRight<4>(place));
@@ -42,23 +46,22 @@ HWY_NOINLINE void draw_touched(Tile& tile, const Batch& batch, const Touched& to
       return hn::Add(hn::Set(d, f.first[k]),
                      hn::Add(hn::Mul(x, hn::Set(d, f.x[k])), hn::Mul(y, hn::Set(d, f.y[k]))));
     };
-    for (int i = 0; i < 3; ++i) hn::Store(at_first(batch.edge[i]), d, at_edge[i] + n);
-    hn::Store(at_first(batch.depth), d, at_depth + n);
-  }
-  const auto in_block = [&](const auto& f) { return over_block(f.x + k, f.y + k); };
-  const Sixteen edge_in[3] = {in_block(batch.edge[0]), in_block(batch.edge[1]), in_block(batch.edge[2])};
-  const Sixteen depth_in = in_block(batch.depth);
-  const V payload = hn::Set(d, batch.payload[k]);
-  const int first_place = batch.by0[k] * kMaxBlocks + batch.bx0[k];
-  for (int n = 0; n < length; ++n) {
-    const int block = first_place + touched.place[n];
-    for (int p = 0; p < kVectors; ++p) {
-      const auto value = [&](const std::int32_t* at_block, const Sixteen& in) {
-        return hn::Add(hn::Set(d, at_block[n]), in.v[p]);
-      };
-      const V outside = hn::Or(hn::Or(value(at_edge[0], edge_in[0]), value(at_edge[1], edge_in[1])),
-                               value(at_edge[2], edge_in[2]));
-      write(tile, block * kBlockPixels + p * kLanes, outside, value(at_depth, depth_in), payload);
+    const V at_edge[3] = {at_first(batch.edge[0]), at_first(batch.edge[1]), at_first(batch.edge[2])};
+    const V at_depth = at_first(batch.depth);
+    V lane = hn::Zero(d);
+    const int end = std::min(begin + kLanes, length);
+    for (int n = begin; n < end; ++n) {
+      const int block = first_place + touched.place[n];
+      const auto which = hn::IndicesFromVec(d, lane);
+      const auto everywhere = [&](V at) { return hn::TableLookupLanes(at, which); };
+      const V edge[3] = {everywhere(at_edge[0]), everywhere(at_edge[1]), everywhere(at_edge[2])};
+      const V depth = everywhere(at_depth);
+      for (int p = 0; p < kVectors; ++p) {
+        const auto value = [&](int i) { return hn::Add(edge[i], edge_in[i].v[p]); };
+        write(tile, block * kBlockPixels + p * kLanes, hn::Or(hn::Or(value(0), value(1)), value(2)),
+              hn::Add(depth, depth_in.v[p]), payload);
+      }
+      lane = hn::Add(lane, hn::Set(d, 1));
     }
   }
 }
