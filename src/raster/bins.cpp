@@ -17,39 +17,49 @@ void Bins::Chunk::reset(std::size_t cells) {
   used = 0;
 }
 
-template <bool kPatches>
-void Bins::Chunk::push(std::size_t cell, std::uint32_t index) {
-  std::uint32_t slot = cursor[cell];
-  if (slot % kBlock == kRun) {  // a full block, or none yet (kNone ends in the same bits)
-    if (used > kNone - kBlock)
-      throw std::length_error("too many triangles over too many tiles for one frame");
-    const std::uint32_t block = used;
-    used += kBlock;
-    if (slots.size() < used) slots.resize(std::max<std::size_t>(used, slots.size() * 2));
-    (slot == kNone ? first[cell] : slots[slot]) = block;
-    slot = block;
-  }
-  slots[slot] = index;
-  if constexpr (kPatches) {  // a scene of large triangles shall not pay for that
-    if (patches.any() && after.size() < slots.size()) after.resize(slots.size());
-    if (slot < after.size()) after[slot] = patches.end(cell);
-  }
-  cursor[cell] = slot + 1;
+std::uint32_t Bins::Chunk::begin_block(std::size_t cell, std::uint32_t end_of_last) {
+  if (used > kNone - kBlock) throw std::length_error("too many triangles over too many tiles for one frame");
+  const std::uint32_t block = used;
+  used += kBlock;
+  if (slots.size() < used) slots.resize(std::max<std::size_t>(used, slots.size() * 2));
+  (end_of_last == kNone ? first[cell] : slots[end_of_last]) = block;
+  return block;
 }
 
 template <bool kPatches>
-void Bins::Chunk::bin(const ScreenTriangle& triangle, std::uint32_t index, const CellBox& box,
-                      const CellGrid& grid) {
+inline void Bins::Chunk::push(std::size_t cell, std::uint32_t index, bool wanted) {
+  std::uint32_t slot = cursor[cell];
+  if (slot % kBlock == kRun) [[unlikely]] {  // a full block, or none yet (kNone ends in the same bits)
+    if (!wanted) return;
+    slot = begin_block(cell, slot);
+  }
+  slots[slot] = index;
+  if constexpr (kPatches) {
+    if (patches.any() && after.size() < slots.size()) after.resize(slots.size());
+    if (slot < after.size()) after[slot] = patches.end(cell);
+  }
+  cursor[cell] = slot + wanted;
+}
+
+template <bool kPatches>
+inline void Bins::Chunk::bin(const ScreenTriangle& triangle, std::uint32_t index, const CellBox& box,
+                             int of_four, const CellGrid& grid) {
+  if (of_four == 0) return bin_in_many<kPatches>(triangle, index, box, grid);
+  const auto columns = static_cast<std::size_t>(grid.columns());
+  const std::size_t upper = box.row0 * columns, lower = box.row1 * columns;
+  if (of_four == 0b0001) return push<kPatches>(upper + box.column0, index, true);
+  push<kPatches>(upper + box.column0, index, of_four & 0b0001);
+  push<kPatches>(upper + box.column1, index, of_four & 0b0010);
+  push<kPatches>(lower + box.column0, index, of_four & 0b0100);
+  push<kPatches>(lower + box.column1, index, of_four & 0b1000);
+}
+
+template <bool kPatches>
+[[gnu::noinline]] void Bins::Chunk::bin_in_many(const ScreenTriangle& triangle, std::uint32_t index,
+                                                const CellBox& box, const CellGrid& grid) {
   const int column0 = box.column0, column1 = box.column1, row0 = box.row0, row1 = box.row1;
   const int columns = grid.columns();
   const auto cell_at = [&](int column, int row) { return static_cast<std::size_t>(row * columns + column); };
-
-  // One or two cells: the tile's own test is as cheap as one here.
-  if (column1 - column0 + row1 - row0 <= 1) {
-    push<kPatches>(cell_at(column0, row0), index);
-    if (column1 - column0 + row1 - row0 == 1) push<kPatches>(cell_at(column1, row1), index);
-    return;
-  }
   const Oriented oriented = orient(triangle);
   if (oriented.area == 0) return;
 
@@ -67,7 +77,7 @@ void Bins::Chunk::bin(const ScreenTriangle& triangle, std::uint32_t index, const
   for (int row = row0; row <= row1; ++row) {
     std::int64_t value[3] = {row_value[0], row_value[1], row_value[2]};
     for (int column = column0; column <= column1; ++column) {
-      if ((value[0] | value[1] | value[2]) >= 0) push<kPatches>(cell_at(column, row), index);
+      if ((value[0] | value[1] | value[2]) >= 0) push<kPatches>(cell_at(column, row), index, true);
       for (int i = 0; i < 3; ++i) value[i] += step_x[i];
     }
     for (int i = 0; i < 3; ++i) row_value[i] += step_y[i];
@@ -84,10 +94,7 @@ namespace {
       const auto k = static_cast<std::size_t>(std::countr_zero(left));
       sorted.patched ^= left & -left;
       sorted.boxed |= left & -left;
-      const PixelBox box = pixel_box(some[k], grid.width, grid.height);
-      const auto cell = [](int px, int log2) { return static_cast<std::uint16_t>(px >> log2); };
-      sorted.boxes[k] = {cell(box.x0, grid.cell_w_log2), cell(box.y0, grid.cell_h_log2),
-                         cell(box.x1 - 1, grid.cell_w_log2), cell(box.y1 - 1, grid.cell_h_log2)};
+      sorted.boxes.set(k, pixel_box(some[k], grid.width, grid.height), grid);
     } else {
       sorted.windows[kept] = sorted.windows[n];
       for (std::size_t w = 0; w < SortedTriangles::kWindows; ++w)
@@ -110,15 +117,22 @@ void in_batches(std::span<const ScreenTriangle> triangles, Sort&& sort) {
 
 }  // namespace
 
+// Bins those of some triangles that `boxed` selects, where there are no patches yet. `begin`: index of the
+// first.
+void Bins::Chunk::bin_boxed(const ScreenTriangle* some, std::uint64_t boxed, const CellBoxes& boxes,
+                            std::size_t begin, const CellGrid& grid) {
+  for (std::uint64_t left = boxed; left != 0; left &= left - 1) {
+    const auto k = static_cast<std::size_t>(std::countr_zero(left));
+    bin<false>(some[k], static_cast<std::uint32_t>(begin + k), boxes.box[k], boxes.of_four[k], grid);
+  }
+}
+
 // `begin`: index of the first triangle.
 void Bins::Chunk::bin_as_indices(std::span<const ScreenTriangle> triangles, std::size_t begin,
                                  const CellGrid& grid, bool prefetch, CellBoxKernel find_boxes) {
-  CellBox boxes[kBoxesAtOnce];
+  CellBoxes boxes;
   in_batches(triangles, [&](const ScreenTriangle* some, std::size_t at) {
-    for (std::uint64_t left = find_boxes(some, grid, prefetch, boxes); left != 0; left &= left - 1) {
-      const auto k = static_cast<std::size_t>(std::countr_zero(left));
-      bin<false>(some[k], static_cast<std::uint32_t>(begin + at + k), boxes[k], grid);
-    }
+    bin_boxed(some, find_boxes(some, grid, prefetch, boxes), boxes, begin + at, grid);
   });
 }
 
@@ -130,6 +144,9 @@ void Bins::Chunk::bin_with_patches(std::span<const ScreenTriangle> triangles, st
   SortedTriangles sorted;
   in_batches(triangles, [&](const ScreenTriangle* some, std::size_t at) {
     find_patches(some, grid, prefetch, sorted);
+    // A scene of large triangles shall not pay for patches.
+    if (sorted.patched == 0 && !patches.any())
+      return bin_boxed(some, sorted.boxed, sorted.boxes, begin + at, grid);
     if (patches.used_bytes() > most_patch_bytes) [[unlikely]]
       keep_short(sorted, some, grid);
     std::size_t n = 0;
@@ -142,7 +159,8 @@ void Bins::Chunk::bin_with_patches(std::span<const ScreenTriangle> triangles, st
         }
         ++n;
       } else {
-        bin<true>(some[k], static_cast<std::uint32_t>(begin + at + k), sorted.boxes[k], grid);
+        bin<true>(some[k], static_cast<std::uint32_t>(begin + at + k), sorted.boxes.box[k],
+                  sorted.boxes.of_four[k], grid);
       }
     }
   });

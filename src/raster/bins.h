@@ -26,7 +26,7 @@ class Bins {
   enum class Small { as_indices, as_patches };
 
   // Replaces what was binned before. A triangle with no sample in its bounding box lands nowhere; one without
-  // area may land in a cell or two. Patches want cells of tiles; a target without vectors makes none.
+  // area may land in up to four cells. Patches want cells of tiles; a target without vectors makes none.
   // `prefetch`: triangles are asked for before they are needed. Throws std::length_error when a chunk's lists
   // pass 2^32 entries.
   void build(std::span<const ScreenTriangle> triangles, const CellGrid& grid, int threads, SimdTarget target,
@@ -116,10 +116,19 @@ class Bins {
     std::vector<PatchLists::Position> after;  // of slots; fewer, if there are no patches before the others
 
     void reset(std::size_t cells);
+    // For a cell whose last block, if it has one, is full up to the slot that names the next.
+    std::uint32_t begin_block(std::size_t cell, std::uint32_t end_of_last);
+    // Adds it if it is wanted; no branch could guess whether.
     template <bool kPatches>
-    void push(std::size_t cell, std::uint32_t index);
+    void push(std::size_t cell, std::uint32_t index, bool wanted);
     template <bool kPatches>
-    void bin(const ScreenTriangle& triangle, std::uint32_t index, const CellBox& box, const CellGrid& grid);
+    void bin(const ScreenTriangle& triangle, std::uint32_t index, const CellBox& box, int of_four,
+             const CellGrid& grid);
+    template <bool kPatches>
+    void bin_in_many(const ScreenTriangle& triangle, std::uint32_t index, const CellBox& box,
+                     const CellGrid& grid);
+    void bin_boxed(const ScreenTriangle* some, std::uint64_t boxed, const CellBoxes& boxes, std::size_t begin,
+                   const CellGrid& grid);
     void bin_as_indices(std::span<const ScreenTriangle> triangles, std::size_t begin, const CellGrid& grid,
                         bool prefetch, CellBoxKernel find_boxes);
     void bin_with_patches(std::span<const ScreenTriangle> triangles, std::size_t begin, const CellGrid& grid,

@@ -38,7 +38,7 @@ void find_patches(const ScreenTriangle* triangles, const CellGrid& grid, bool pr
     const BoxLanes box(t, grid.width, grid.height);
     const auto small = is_small(t, box);
     const std::uint32_t small_bits = mask_bits(small), boxed_bits = mask_bits(box.filled) & ~small_bits;
-    if (boxed_bits != 0) store_cell_boxes(box, grid, out.boxes + i);
+    if (boxed_bits != 0) store_cell_boxes(t, box, grid, i, out.boxes);
     out.boxed |= std::uint64_t{boxed_bits} << i;
     if (small_bits != 0) out.patched |= std::uint64_t{append_covering(t, box, small, i, covering)} << i;
   }

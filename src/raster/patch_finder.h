@@ -12,9 +12,9 @@ namespace edgewise {
 
 // Up to kBoxesAtOnce triangles, sorted. Bit i of a set is triangle i's.
 struct SortedTriangles {
-  std::uint64_t boxed;    // lie in boxes[i]
+  std::uint64_t boxed;    // lie in boxes
   std::uint64_t patched;  // small ones that cover a sample
-  CellBox boxes[kBoxesAtOnce];
+  CellBoxes boxes;
 
   // The patches of the n-th patched triangle: of windows that lie at the box's upper left, upper right, lower
   // left and lower right, those whose bits are set.
