@@ -103,6 +103,23 @@ double measure_write_s(Framebuffer& frame, int threads) {
   return std::min(fill(false), fill(true));
 }
 
+double measure_tiles_s(Framebuffer& frame, int threads) {
+  const FrameView view = frame.view();
+  constexpr int kSide = L1Tile::kSide;
+  const int columns = (view.width + kSide - 1) / kSide, rows = (view.height + kSide - 1) / kSide;
+  const auto copy = [&](bool past_caches) {
+    return least_s([&] {
+      in_parts(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 1, threads,
+               [&](std::size_t begin, std::size_t end) {
+                 L1Tile tile;
+                 for (auto i = static_cast<int>(begin); i < static_cast<int>(end); ++i)
+                   clear_and_copy(tile, view, i % columns * kSide, i / columns * kSide, past_caches);
+               });
+    });
+  };
+  return std::min(copy(false), copy(true));
+}
+
 double measure_block_s(int threads) {
   constexpr int kRounds = 1000;
   const double s = least_s([&] {
@@ -120,9 +137,11 @@ Floor Limit::under(std::span<const ScreenTriangle> triangles, const BlockCounts&
                    int threads) {
   double& block_s = block_s_[threads];
   if (block_s == 0.0) block_s = measure_block_s(threads);
-  double& write_s = write_s_[{frame.width(), frame.height(), threads}];
-  if (write_s == 0.0) write_s = measure_write_s(frame, threads);
-  return {blocks, measure_read_s(triangles, threads), block_s * static_cast<double>(blocks.won), write_s};
+  const auto [writing, unknown] = writing_.try_emplace({frame.width(), frame.height(), threads});
+  if (unknown) writing->second = {measure_write_s(frame, threads), measure_tiles_s(frame, threads)};
+  const auto [write_s, tiles_s] = writing->second;
+  return {blocks, measure_read_s(triangles, threads), block_s * static_cast<double>(blocks.won), write_s,
+          tiles_s};
 }
 
 }  // namespace edgewise::bench

@@ -5,8 +5,9 @@
 //     the L1 cache and with vectors of the best target,
 //   - writing depth and payload of the frame once, through the caches or past them, whichever is faster,
 // each measured here, warm, on as many threads. A triangle's hidden blocks are free: hierarchical depth may
-// drop them by the thousand. For who draws all that is covered, blocks_s counts
-// covered / won times.
+// drop them by the thousand. For who draws all that is covered, blocks_s counts covered / won times. And who
+// draws in tiles, each in a buffer, clears that buffer and copies it to the frame, tile by tile: for them,
+// tiles_s takes the place of write_s.
 #pragma once
 
 #include <cstdint>
@@ -27,8 +28,9 @@ BlockCounts count_blocks(std::span<const ScreenTriangle> triangles, int width, i
 
 struct Floor {
   BlockCounts blocks;
-  double read_s = 0, blocks_s = 0, write_s = 0;
+  double read_s = 0, blocks_s = 0, write_s = 0, tiles_s = 0;
   double total_s() const { return read_s + blocks_s + write_s; }
+  double in_tiles_s() const { return read_s + blocks_s + tiles_s; }
 };
 
 // Measures, and remembers what other frames need too.
@@ -39,8 +41,11 @@ class Limit {
               int threads);
 
  private:
-  std::map<int, double> block_s_;                        // by threads
-  std::map<std::tuple<int, int, int>, double> write_s_;  // by size and threads
+  struct Writing {
+    double write_s, tiles_s;
+  };
+  std::map<int, double> block_s_;                         // by threads
+  std::map<std::tuple<int, int, int>, Writing> writing_;  // by size and threads
 };
 
 }  // namespace edgewise::bench

@@ -4,6 +4,9 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include <algorithm>
+
+#include "edgewise/contract.h"
 #include "limit_kernels.h"
 #include "raster/kernel_table.h"
 
@@ -59,6 +62,36 @@ void draw_blocks(L1Tile& tile, std::int32_t payload) {
     }
 }
 
+void clear_and_copy(L1Tile& tile, const FrameView& frame, int x0, int y0, bool past_caches) {
+  const D d;
+  constexpr int kSide = L1Tile::kSide;
+  const int width = std::min<int>(kSide, static_cast<int>(frame.stride) - x0);
+  const int height = std::min(kSide, frame.height - y0);
+  const auto copy_rows = [&](const std::int32_t* from, std::uint32_t* plane, const auto& store) {
+    for (int y = 0; y < height; ++y) {
+      auto* const row = reinterpret_cast<std::int32_t*>(plane + (y0 + y) * frame.stride + x0);
+      for (int x = 0; x < width; x += kLanes) store(hn::Load(d, from + y * kSide + x), row + x);
+    }
+  };
+  const auto copy = [&](const auto& store) {
+    copy_rows(tile.depth, frame.depth, store);
+    copy_rows(tile.payload, frame.payload, store);
+  };
+  for (int i = 0; i < kSide * kSide; i += kLanes) {
+    hn::Store(hn::Set(d, static_cast<std::int32_t>(contract::kDepthClear)), d, tile.depth + i);
+    hn::Store(hn::Zero(d), d, tile.payload + i);
+  }
+  if (past_caches) {
+    copy([&](V v, std::int32_t* at) { hn::Stream(v, d, at); });
+    hwy::FlushStream();
+  } else {
+    copy([&](V v, std::int32_t* at) {
+      __builtin_prefetch(at + kSide, 0, 2);  // the tile to the right, as the tiled backend does
+      hn::Store(v, d, at);
+    });
+  }
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace edgewise::bench
 HWY_AFTER_NAMESPACE();
@@ -79,6 +112,11 @@ void fill_all(std::uint32_t* to, std::size_t count, std::uint32_t value, bool pa
 void draw_blocks(L1Tile& tile, std::int32_t payload) {
   static const auto kernel = EDGEWISE_KERNEL(draw_blocks, resolve(SimdTarget::best));
   kernel(tile, payload);
+}
+
+void clear_and_copy(L1Tile& tile, const FrameView& frame, int x0, int y0, bool past_caches) {
+  static const auto kernel = EDGEWISE_KERNEL(clear_and_copy, resolve(SimdTarget::best));
+  kernel(tile, frame, x0, y0, past_caches);
 }
 
 }  // namespace edgewise::bench

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "edgewise/framebuffer.h"
+
 namespace edgewise::bench {
 
 // Sums `count` integers, so that all are read.
@@ -14,12 +16,16 @@ void fill_all(std::uint32_t* to, std::size_t count, std::uint32_t value, bool pa
 
 // Blocks of a tile of 64 x 64 pixels, and all that a triangle needs to be drawn to them.
 struct L1Tile {
-  static constexpr int kBlocks = 256, kBlockPixels = 16;
+  static constexpr int kSide = 64, kBlocks = 256, kBlockPixels = 16;
   alignas(64) std::int32_t depth[kBlocks * kBlockPixels], payload[kBlocks * kBlockPixels];
   alignas(64) std::int32_t in_block[4][kBlockPixels];  // three edges and depth, relative to the first pixel
   std::int32_t at_block[4][kBlocks];                   // at the first pixel
 };
 // Tests and writes every block once.
 void draw_blocks(L1Tile& tile, std::int32_t payload);
+
+// Clears the tile, and copies it to the frame at (x0, y0), multiples of 64 px; a row of the tile is 64
+// integers one after the other. Rows of the frame are aligned to 64 bytes, its stride is a multiple of 16.
+void clear_and_copy(L1Tile& tile, const FrameView& frame, int x0, int y0, bool past_caches);
 
 }  // namespace edgewise::bench

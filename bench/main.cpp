@@ -153,7 +153,9 @@ void add_floor(benchmark::UserCounters& counters, const Floor& floor) {
   counters["floor_read_ms"] = floor.read_s * kMs;
   counters["floor_blocks_ms"] = floor.blocks_s * kMs;
   counters["floor_write_ms"] = floor.write_s * kMs;
+  counters["floor_tiles_ms"] = floor.tiles_s * kMs;
   counters["floor_ms"] = floor.total_s() * kMs;
+  counters["floor_in_tiles_ms"] = floor.in_tiles_s() * kMs;
 }
 
 void time_row(benchmark::State& state, const Row& row, Stage& stage) {

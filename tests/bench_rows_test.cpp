@@ -232,6 +232,7 @@ TEST(BenchStage, FindsTheFloorOnlyWhereItIsWanted) {
   ASSERT_TRUE(with.floor.has_value());
   EXPECT_EQ(with.floor->blocks.won, workload->blocks().won);
   EXPECT_GT(with.floor->blocks_s, 0.0);
+  EXPECT_GT(with.floor->in_tiles_s(), with.floor->read_s + with.floor->blocks_s);
   EXPECT_FALSE(without.floor.has_value());
   EXPECT_EQ(with.error, "");
 }

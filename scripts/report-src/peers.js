@@ -132,6 +132,7 @@ function timesChart(view, rows, width) {
         ["slowest", (row) => row.ms[2]],
         ["floor, ms", (row) => row.floors[0] ?? "–"],
         ["of covered blocks, ms", (row) => row.floors[1] ?? "–"],
+        ["in tiles, ms", (row) => row.floors[2] ?? "–"],
         ["times the floor", (row) => (row.floors.length ? row.ms[0] / row.floors[0] : "–")],
       ],
       rows,
@@ -147,6 +148,7 @@ function timesSay(row, before, view) {
     `${ms} ms (${low} to ${high})`,
     row.floors.length && `floor ${number(row.floors[0])} ms: ${number(row.ms[0] / row.floors[0])} times as long`,
     row.floors.length && `floor of all covered blocks ${number(row.floors[1])} ms`,
+    row.floors.length && `floor in tiles ${number(row.floors[2])} ms`,
     other && `${view.other.name}: ${number(other.ms[0])} ms`,
   ];
 }
