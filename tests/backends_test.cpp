@@ -74,6 +74,26 @@ TEST_P(EveryBackend, DrawsTheOraclesPictureWhenTrianglesFillManyChunks) {
   expect_oracle(adversarial("equal-depth", 3'000, 40, 40, 5), 40, 40, "many chunks at one depth");
 }
 
+TEST_P(EveryBackend, ForgetsTheFrameBefore) {
+  const int width = 150, height = 90;
+  const auto small = adversarial("few-pixels", 40, width, height, 1);
+  const auto large = adversarial("subpixel", 160, width, height, 2);
+  const auto joined = [](std::vector<ScreenTriangle> first, const std::vector<ScreenTriangle>& then) {
+    first.insert(first.end(), then.begin(), then.end());
+    return first;
+  };
+  // Small ones take another way than large ones, at once or once the first has come.
+  const std::vector<ScreenTriangle> frames[] = {joined(small, large), joined(large, small), large, small};
+  std::vector<Framebuffer> expected;
+  for (const auto& triangles : frames) expected.push_back(oracle(triangles, width, height));
+  for (const auto& execution : testing::executions())
+    for (const std::size_t i : {0u, 1u, 2u, 3u, 1u, 0u, 3u, 2u, 0u}) {
+      Framebuffer actual(width, height);
+      backend_->draw(frames[i], actual.view(), kBackground, execution);
+      testing::expect_same(expected[i], actual, std::to_string(i) + ", " + testing::describe(execution));
+    }
+}
+
 TEST_P(EveryBackend, DrawsTheOraclesPictureWhenPatchesTakeTooMuchMemory) {
   // Eight pixels wide and high at most: small, but most of them in more than two windows of 8 x 8.
   std::vector<ScreenTriangle> triangles(12'000);

@@ -47,7 +47,7 @@ ScreenTriangle triangle(std::int32_t x0, std::int32_t y0, std::int32_t x1, std::
   return t;
 }
 
-// Long edges that pass the place where four cells meet within a few sub-units, in all directions.
+// Edges in all directions that pass, within a few sub-units, samples next to where four cells meet.
 std::vector<ScreenTriangle> around_a_corner(int corner_px, std::int32_t reach_sub, int count) {
   Random random(7);
   const auto within = [&](std::int32_t reach) {
@@ -57,7 +57,8 @@ std::vector<ScreenTriangle> around_a_corner(int corner_px, std::int32_t reach_su
   std::vector<ScreenTriangle> out;
   for (int i = 0; i < count; ++i) {
     const std::int32_t dx = within(reach_sub), dy = within(reach_sub);
-    const std::int32_t x = corner + within(kSub), y = corner + within(kSub);
+    const std::int32_t x = corner + (i & 4 ? kHalf : -kHalf) + within(2);
+    const std::int32_t y = corner + (i & 8 ? kHalf : -kHalf) + within(2);
     const std::int32_t far_x = corner + within(reach_sub), far_y = corner + within(reach_sub);
     out.push_back(triangle(x - dx, y - dy, x + dx + within(2), y + dy + within(2), far_x, far_y));
     auto& t = out.back();
@@ -97,6 +98,18 @@ TEST_P(BinsOnTarget, LoseNoTriangle) {
     }
 }
 
+// Each owns the sample of the fourth cell that its longest side passes through, or leaves it to a neighbour.
+TEST_P(BinsOnTarget, LoseNoTriangleWithASampleOnItsEdge) {
+  const CellGrid grid{32, 32, 4, 4};
+  std::vector<ScreenTriangle> triangles;
+  for (int mirrored = 0; mirrored < 4; ++mirrored) {
+    const auto x = [&](int px) { return (mirrored & 1 ? 32 - px : px) * kSub; };
+    const auto y = [&](int px) { return (mirrored & 2 ? 32 - px : px) * kSub; };
+    triangles.push_back(triangle(x(5), y(5), x(28), y(5), x(5), y(28)));  // x + y = 33 at (16.5, 16.5)
+  }
+  expect_no_loss(triangles, grid, lists(triangles, grid));
+}
+
 TEST_P(BinsOnTarget, LoseNoTriangleThatPassesTheCornerOfCells) {
   const int count = full_size() ? 400'000 : 40'000;
   for (const int log2 : {3, 6, 13}) {  // the last: edges as long as coordinates allow
@@ -106,6 +119,22 @@ TEST_P(BinsOnTarget, LoseNoTriangleThatPassesTheCornerOfCells) {
     SCOPED_TRACE("cells of " + std::to_string(1 << log2));
     expect_no_loss(triangles, grid, lists(triangles, grid));
   }
+}
+
+// Long slivers whose long side touches a cell at its sample next to the corner, and whose orientation is lost
+// when products are rounded to floats.
+TEST_P(BinsOnTarget, LoseNoSliverThatFloatsTakeForALine) {
+  const CellGrid grid{1 << 14, 1 << 14, 13, 13};
+  const std::int32_t k = 2'000'000, corner = (1 << 13) * kSub;
+  std::vector<ScreenTriangle> triangles;
+  for (const int side : {-1, 1})
+    for (int i = -40; i < 40; ++i) {
+      const std::int32_t x = corner + side * kHalf, y = x;
+      const auto t = triangle(x + k, y - k + 1, x - k, y + k - 1, x - k + i, y + k - 1 - i);
+      triangles.push_back(t);
+      triangles.push_back(triangle(t.x_sub[0], t.y_sub[0], t.x_sub[2], t.y_sub[2], t.x_sub[1], t.y_sub[1]));
+    }
+  expect_no_loss(triangles, grid, lists(triangles, grid));
 }
 
 // Right triangles whose longest side passes the middle so that one cell of four has none of their samples.

@@ -144,9 +144,11 @@ void Bins::Chunk::bin_with_patches(std::span<const ScreenTriangle> triangles, st
   SortedTriangles sorted;
   in_batches(triangles, [&](const ScreenTriangle* some, std::size_t at) {
     find_patches(some, grid, prefetch, sorted);
-    // A scene of large triangles shall not pay for patches.
-    if (sorted.patched == 0 && !patches.any())
-      return bin_boxed(some, sorted.boxed, sorted.boxes, begin + at, grid);
+    if (!patches.any()) {
+      // A scene of large triangles shall not pay for patches.
+      if (sorted.patched == 0) return bin_boxed(some, sorted.boxed, sorted.boxes, begin + at, grid);
+      std::fill_n(after.begin(), std::min<std::size_t>(used, after.size()), nullptr);
+    }
     if (patches.used_bytes() > most_patch_bytes) [[unlikely]]
       keep_short(sorted, some, grid);
     std::size_t n = 0;

@@ -60,8 +60,8 @@ class Bins {
           const std::uint32_t* const next = &chunk.slots[chunk.slots[block_end]];
           __builtin_prefetch(next), __builtin_prefetch(next + kRun);
         }
-        visit(Run{
-            {&chunk.slots[slot], end - slot}, i, chunk.after.size() >= end ? &chunk.after[slot] : nullptr});
+        const bool any_before = chunk.patches.any() && chunk.after.size() >= end;
+        visit(Run{{&chunk.slots[slot], end - slot}, i, any_before ? &chunk.after[slot] : nullptr});
         slot = last ? kNone : chunk.slots[block_end];
       }
     }
@@ -113,7 +113,8 @@ class Bins {
     std::vector<std::uint32_t> first, cursor;  // for each cell: slot of its first block, next slot to write
     std::uint32_t used = 0;                    // slots in use
     PatchLists patches;
-    std::vector<PatchLists::Position> after;  // of slots; fewer, if there are no patches before the others
+    // Of slots; fewer, if there are no patches before the others. Without any patch, the last frame's.
+    std::vector<PatchLists::Position> after;
 
     void reset(std::size_t cells);
     // For a cell whose last block, if it has one, is full up to the slot that names the next.

@@ -25,21 +25,18 @@ namespace hn = hwy::HWY_NAMESPACE;
 // Of boxes of 2 x 2 cells, those that no edge rejects: bit column + 2 row. `centre`: where the cells meet.
 //
 // An edge rejects a cell where its value is negative in all of the box's part of it. Floats suffice, since
-// who draws a tile tests for itself: what is not surely negative stays.
+// who draws a tile tests for itself, and what must stay does stay: factors are exact (rule 3), and where p +
+// q >= 0, rounding keeps the order of p and -q.
 HWY_NOINLINE inline V touched_of_four(const RecordLanes& t, V centre_x, V centre_y) {
   const D d;
   const hn::RebindToFloat<D> df;
   using F = hn::Vec<decltype(df)>;
   const auto set = [&](float v) { return hn::Set(df, v); };
-  // Exact, since differences of coordinates are (rule 3).
   const auto relative = [&](V v, V centre) { return hn::ConvertTo(df, hn::Sub(v, centre)); };
   F x[3], y[3];
   for (int i = 0; i < 3; ++i) x[i] = relative(t.x[i], centre_x), y[i] = relative(t.y[i], centre_y);
   const F left = hn::Min(hn::Min(x[0], x[1]), x[2]), right = hn::Max(hn::Max(x[0], x[1]), x[2]);
   const F top = hn::Min(hn::Min(y[0], y[1]), y[2]), bottom = hn::Max(hn::Max(y[0], y[1]), y[2]);
-  // A value is the sum of two products, each at most width * height of the box. Rounding three times to 24
-  // bits adds up to less than 2^-22 of that.
-  const F error = hn::Mul(set(0x1p-20f), hn::Mul(hn::Sub(right, left), hn::Sub(bottom, top)));
   const F area = hn::Sub(hn::Mul(hn::Sub(x[1], x[0]), hn::Sub(y[2], y[0])),
                          hn::Mul(hn::Sub(y[1], y[0]), hn::Sub(x[2], x[0])));
   const F flip = hn::And(area, hn::SignBit(df));
@@ -58,11 +55,12 @@ HWY_NOINLINE inline V touched_of_four(const RecordLanes& t, V centre_x, V centre
       most[cell] = i == 0 ? value : hn::Min(most[cell], value);
     }
   }
-  const auto unsure = hn::Le(hn::Abs(area), error);
+  const F zero = hn::Zero(df);
+  const auto unsure = hn::Eq(area, zero);  // of the orientation
   V touched = hn::Zero(d);
   for (int cell = 0; cell < 4; ++cell) {
-    const auto kept = hn::Or(unsure, hn::Ge(most[cell], hn::Neg(error)));
-    touched = hn::Or(touched, hn::IfThenElseZero(hn::RebindMask(d, kept), hn::Set(d, 1 << cell)));
+    const auto kept = hn::RebindMask(d, hn::Or(unsure, hn::Ge(most[cell], zero)));
+    touched = hn::Or(touched, hn::IfThenElseZero(kept, hn::Set(d, 1 << cell)));
   }
   return touched;
 }

@@ -28,7 +28,8 @@ inline constexpr int kBoxesAtOnce = 64;
 
 struct CellBoxes {
   CellBox box[kBoxesAtOnce];
-  // Where a box is at most 2 x 2 cells, those that the triangle may touch: bit column + 2 row. Else 0.
+  // Where a box is at most 2 x 2 cells, those that the triangle may touch: bit column + 2 row. Or 0: they
+  // have to be looked for.
   alignas(64) std::int32_t of_four[kBoxesAtOnce];
 
   // The box of triangle i, which may touch all cells of it.

@@ -215,13 +215,16 @@ HWY_INLINE void store(const HalfBatch::Linear& left, const HalfBatch::Linear& ri
 }
 
 // Sets up triangles[run[i]] for i = k … k + kLanes - 1; bit i - k of the result is set if that one touches
-// the tile. Of `count` indices the last half vector is filled up with valid ones.
+// the tile. From `count` on, indices need only be valid; half a vector of such is left out.
 HWY_INLINE std::uint32_t set_up_vector(const TileJob& job, const std::uint32_t* run, int count, Batch& out,
                                        int k) {
-  constexpr int kHalf = kLanes / 2;
+  constexpr int kInHalf = kLanes / 2;
   HalfBatch left, right;
   set_up_half(job, run + k, left);
-  k + kHalf < count ? set_up_half(job, run + k + kHalf, right) : void(right = left);
+  if (k + kInHalf < count)
+    set_up_half(job, run + k + kInHalf, right);
+  else
+    right = left, right.alive = 0;
 
   for (int i = 0; i < 3; ++i) store(left.edge[i], right.edge[i], out.edge[i], k);
   store(left.depth, right.depth, out.depth, k);
@@ -234,7 +237,8 @@ HWY_INLINE std::uint32_t set_up_vector(const TileJob& job, const std::uint32_t* 
   store_both(left.bx0, right.bx0, out.bx0), store_both(left.bx1, right.bx1, out.bx1);
   store_both(left.by0, right.by0, out.by0), store_both(left.by1, right.by1, out.by1);
 
-  const std::uint32_t alive = left.alive | right.alive << kHalf, exact = left.exact | right.exact << kHalf;
+  const std::uint32_t alive = left.alive | right.alive << kInHalf;
+  const std::uint32_t exact = left.exact | right.exact << kInHalf;
   for (std::uint32_t left_over = alive & ~exact; left_over != 0; left_over &= left_over - 1) {
     const int lane = std::countr_zero(left_over);
     set_up_one(job, job.triangles[run[k + lane]], out, k + lane);

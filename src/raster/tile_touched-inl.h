@@ -1,6 +1,7 @@
 // Drawing the blocks that a large triangle touches, from a list of them.
 #include <hwy/highway.h>
 
+#include <algorithm>
 #include <cstdint>
 
 #include "edgewise/contract.h"

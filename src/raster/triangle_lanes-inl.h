@@ -106,6 +106,7 @@ HWY_INLINE TriangleLanes load(const ScreenTriangle* triangles, const std::uint32
   const auto four = [&](int i) { return hn::LoadU(d, from(i, 0)); };
   pair[4] = hn::Combine(d, last(2), last(0));
 #else
+  static_assert(hn::MaxLanes(D64{}) == 8);
   const hn::Half<D64> half;
   const auto four = [&](int i) {
     return hn::Combine(d, hn::LoadU(half, from(i + 4, 0)), hn::LoadU(half, from(i, 0)));
