@@ -9,7 +9,7 @@ def floors_ms(row):
     """The floor if only the blocks that a triangle wins are drawn; if all that it covers are; and if the frame is
     written tile by tile from a buffer; None without."""
     c = row.counters if row else {}
-    if not c.get("floor_ms"):
+    if not c.get("floor_in_tiles_ms"):  # or it is of before that was measured
         return None
     others = c.get("floor_read_ms", 0.0) + c.get("floor_write_ms", 0.0)
     covered = c.get("floor_blocks_ms", 0.0) * c["covered_blocks"] / c["won_blocks"] if c.get("won_blocks") else 0.0

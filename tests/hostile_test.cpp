@@ -28,7 +28,7 @@ constexpr int kSkipped = 77;
 
 // `stopped SIGNAL COMMAND…` runs a command until a file appears in $DIR (with awaited=NAME before it, that
 // one), and sends it the signal; its status is the command's. `unprivileged COMMAND…` runs it as somebody
-// whom permissions bind, or skips the row.
+// whom permissions bind, or skips the row: another one each time, since limits count all that one runs.
 constexpr const char* kWords = R"(
 set -m
 for descriptor in {3..20}; do eval "exec $descriptor>&-"; done  # what ctest leaves open
@@ -53,12 +53,13 @@ stopped() {
   wait $!
 }
 unprivileged() {
+  local somebody="--reuid=$((100000 + $$)) --regid=65534 --clear-groups"
   chmod 755 "$IN"
   if (($(id -u) != 0)); then
     program "$@"
-  elif setpriv --reuid=65534 --regid=65534 --clear-groups test -x "$EDGEWISE" -a -x "$IN"; then
+  elif setpriv $somebody test -x "$EDGEWISE" -a -x "$IN"; then
     [[ $1 == bench ]] && set -- "$BENCH" "${@:2}" || set -- "$EDGEWISE" "${@:2}"
-    setpriv --reuid=65534 --regid=65534 --clear-groups "$@"
+    setpriv $somebody "$@"
   else
     exit 77
   fi
