@@ -5,6 +5,8 @@
 // The lowest run that is under way waits for nobody, so the others will get their turn.
 #pragma once
 
+#include <hwy/cache_control.h>
+
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -59,7 +61,13 @@ class InOrder {
   }
 
  private:
+  // Looks again and again for some 20 us before it sleeps: a run takes less, and waking a thread takes more.
   static void wait_until(const std::atomic<std::uint32_t>& turn, std::uint32_t run) {
+    constexpr int kLooks = 2000;
+    for (int i = 0; i < kLooks; ++i) {
+      if (turn.load(std::memory_order_acquire) == run) return;
+      hwy::Pause();
+    }
     for (std::uint32_t now; (now = turn.load(std::memory_order_acquire)) != run;)
       turn.wait(now, std::memory_order_acquire);
   }
