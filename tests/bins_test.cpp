@@ -47,6 +47,17 @@ ScreenTriangle triangle(std::int32_t x0, std::int32_t y0, std::int32_t x1, std::
   return t;
 }
 
+// A right triangle in a corner of 32 x 32 px: the upper left one, or mirrored to the right (1), down (2) or
+// both.
+ScreenTriangle in_corner(int from_px, int to_px, int mirrored) {
+  const auto x = [&](int px) { return (mirrored & 1 ? 32 - px : px) * kSub; };
+  const auto y = [&](int px) { return (mirrored & 2 ? 32 - px : px) * kSub; };
+  return triangle(x(from_px), y(from_px), x(to_px), y(from_px), x(from_px), y(to_px));
+}
+ScreenTriangle turned(const ScreenTriangle& t) {
+  return triangle(t.x_sub[0], t.y_sub[0], t.x_sub[2], t.y_sub[2], t.x_sub[1], t.y_sub[1]);
+}
+
 // Edges in all directions that pass, within a few sub-units, samples next to where four cells meet.
 std::vector<ScreenTriangle> around_a_corner(int corner_px, std::int32_t reach_sub, int count) {
   Random random(7);
@@ -102,11 +113,8 @@ TEST_P(BinsOnTarget, LoseNoTriangle) {
 TEST_P(BinsOnTarget, LoseNoTriangleWithASampleOnItsEdge) {
   const CellGrid grid{32, 32, 4, 4};
   std::vector<ScreenTriangle> triangles;
-  for (int mirrored = 0; mirrored < 4; ++mirrored) {
-    const auto x = [&](int px) { return (mirrored & 1 ? 32 - px : px) * kSub; };
-    const auto y = [&](int px) { return (mirrored & 2 ? 32 - px : px) * kSub; };
-    triangles.push_back(triangle(x(5), y(5), x(28), y(5), x(5), y(28)));  // x + y = 33 at (16.5, 16.5)
-  }
+  for (int mirrored = 0; mirrored < 4; ++mirrored)
+    triangles.push_back(in_corner(5, 28, mirrored));  // x + y = 33 at (16.5, 16.5)
   expect_no_loss(triangles, grid, lists(triangles, grid));
 }
 
@@ -132,7 +140,7 @@ TEST_P(BinsOnTarget, LoseNoSliverThatFloatsTakeForALine) {
       const std::int32_t x = corner + side * kHalf, y = x;
       const auto t = triangle(x + k, y - k + 1, x - k, y + k - 1, x - k + i, y + k - 1 - i);
       triangles.push_back(t);
-      triangles.push_back(triangle(t.x_sub[0], t.y_sub[0], t.x_sub[2], t.y_sub[2], t.x_sub[1], t.y_sub[1]));
+      triangles.push_back(turned(t));
     }
   expect_no_loss(triangles, grid, lists(triangles, grid));
 }
@@ -141,13 +149,8 @@ TEST_P(BinsOnTarget, LoseNoSliverThatFloatsTakeForALine) {
 TEST_P(BinsOnTarget, RejectACellOfFour) {
   const CellGrid grid{32, 32, 4, 4};
   std::vector<ScreenTriangle> triangles;
-  for (const bool turned : {false, true})
-    for (int mirrored = 0; mirrored < 4; ++mirrored) {
-      const auto x = [&](int px) { return (mirrored & 1 ? 32 - px : px) * kSub; };
-      const auto y = [&](int px) { return (mirrored & 2 ? 32 - px : px) * kSub; };
-      triangles.push_back(turned ? triangle(x(4), y(27), x(27), y(4), x(4), y(4))
-                                 : triangle(x(4), y(4), x(27), y(4), x(4), y(27)));
-    }
+  for (int mirrored = 0; mirrored < 4; ++mirrored) triangles.push_back(in_corner(4, 27, mirrored));
+  for (int mirrored = 0; mirrored < 4; ++mirrored) triangles.push_back(turned(in_corner(4, 27, mirrored)));
   using Lists = std::vector<std::vector<std::uint32_t>>;
   // Triangle i misses the cell across: 3 - i.
   const Lists rejected = {{0, 1, 2, 4, 5, 6}, {0, 1, 3, 4, 5, 7}, {0, 2, 3, 4, 6, 7}, {1, 2, 3, 5, 6, 7}};

@@ -147,6 +147,7 @@ void Bins::Chunk::bin_with_patches(std::span<const ScreenTriangle> triangles, st
     if (!patches.any()) {
       // A scene of large triangles shall not pay for patches.
       if (sorted.patched == 0) return bin_boxed(some, sorted.boxed, sorted.boxes, begin + at, grid);
+      // What has come so far comes before every patch; of the last frame's, this was not true.
       std::fill_n(after.begin(), std::min<std::size_t>(used, after.size()), nullptr);
     }
     if (patches.used_bytes() > most_patch_bytes) [[unlikely]]

@@ -35,12 +35,12 @@ HWY_NOINLINE inline V touched_of_four(const RecordLanes& t, V centre_x, V centre
   const auto relative = [&](V v, V centre) { return hn::ConvertTo(df, hn::Sub(v, centre)); };
   F x[3], y[3];
   for (int i = 0; i < 3; ++i) x[i] = relative(t.x[i], centre_x), y[i] = relative(t.y[i], centre_y);
-  const F left = hn::Min(hn::Min(x[0], x[1]), x[2]), right = hn::Max(hn::Max(x[0], x[1]), x[2]);
-  const F top = hn::Min(hn::Min(y[0], y[1]), y[2]), bottom = hn::Max(hn::Max(y[0], y[1]), y[2]);
+  const F left = relative(least(t.x), centre_x), right = relative(most(t.x), centre_x);
+  const F top = relative(least(t.y), centre_y), bottom = relative(most(t.y), centre_y);
   const F area = hn::Sub(hn::Mul(hn::Sub(x[1], x[0]), hn::Sub(y[2], y[0])),
                          hn::Mul(hn::Sub(y[1], y[0]), hn::Sub(x[2], x[0])));
   const F flip = hn::And(area, hn::SignBit(df));
-  F most[4];
+  F largest[4];  // in each cell, the least of the edges'
   for (int i = 0; i < 3; ++i) {
     const int j = i == 2 ? 0 : i + 1;
     const F a = hn::Xor(hn::Sub(y[i], y[j]), flip), b = hn::Xor(hn::Sub(x[j], x[i]), flip);
@@ -52,14 +52,14 @@ HWY_NOINLINE inline V touched_of_four(const RecordLanes& t, V centre_x, V centre
                        hn::Mul(b, hn::Sub(hn::IfThenElse(rises_y, bottom, set(half)), y[i]))};
     for (int cell = 0; cell < 4; ++cell) {
       const F value = hn::Add(across[cell % 2], down[cell / 2]);
-      most[cell] = i == 0 ? value : hn::Min(most[cell], value);
+      largest[cell] = i == 0 ? value : hn::Min(largest[cell], value);
     }
   }
   const F zero = hn::Zero(df);
   const auto unsure = hn::Eq(area, zero);  // of the orientation
   V touched = hn::Zero(d);
   for (int cell = 0; cell < 4; ++cell) {
-    const auto kept = hn::RebindMask(d, hn::Or(unsure, hn::Ge(most[cell], zero)));
+    const auto kept = hn::RebindMask(d, hn::Or(unsure, hn::Ge(largest[cell], zero)));
     touched = hn::Or(touched, hn::IfThenElseZero(kept, hn::Set(d, 1 << cell)));
   }
   return touched;

@@ -117,7 +117,6 @@ struct Alive {
 HWY_INLINE Alive set_up_vector(const TileJob& job, const std::uint32_t* run, SpanBatch& out, int k) {
   const D64 d;
   const V64 zero = hn::Zero(d);
-
   const TriangleLanes t = load(job.triangles, run + k);
   const auto [x0, x1] = sample_range(t.x, job.x0, std::min(kMaxTile, job.frame.width - job.x0));
   const auto [y0, y1] = sample_range(t.y, job.y0, std::min(kMaxTile, job.frame.height - job.y0));

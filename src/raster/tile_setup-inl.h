@@ -148,6 +148,7 @@ HWY_INLINE void set_up_depth(const TileJob& job, const TriangleLanes& t, const A
   out.exact = mask_bits(depth.exact);
 }
 
+// Half a vector of set_up_one(); lanes that are not exact have no depth yet.
 HWY_INLINE void set_up_half(const TileJob& job, const std::uint32_t* run, HalfBatch& out) {
   const D64 d;
   const TriangleLanes t = load(job.triangles, run);
