@@ -1,7 +1,8 @@
-// Lists of patches: what was appended comes back in its order, whole or between two positions, however often
-// memory had to grow.
+// Lists of patches: what was appended comes back in its order, in whatever portions it is read and however
+// often memory had to grow.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -17,21 +18,23 @@ using Half = SortedTriangles::Half;
 
 // A patch that tells its number.
 void append(PatchLists& lists, std::uint32_t cell, std::uint32_t number) {
-  lists.append(Half{{number, ~number, 1, 2}}, Half{{number + 1, 3, 4, cell}});
+  lists.append(cell, number + 5, Half{{number, ~number, 1, 2}}, Half{{number + 1, 3, 4, cell}});
 }
 
-std::vector<std::uint32_t> numbers(const PatchLists& lists, std::size_t cell, PatchLists::Position from,
-                                   PatchLists::Position to) {
+// The numbers in a list that is read at most so many patches at a time.
+std::vector<std::uint32_t> numbers(const PatchLists& lists, std::size_t cell, std::size_t most) {
   std::vector<std::uint32_t> out;
-  lists.for_each_run(cell, from, to, [&](std::span<const Patch> patches) {
-    EXPECT_FALSE(patches.empty());
-    for (const Patch& patch : patches) {
+  PatchLists::Reader reader(lists, cell);
+  for (auto ahead = reader.ahead(); !ahead.empty(); ahead = reader.ahead()) {
+    const std::size_t count = std::min(most, ahead.size());
+    for (const Patch& patch : ahead.first(count)) {
       EXPECT_EQ(patch.rows[1], ~patch.rows[0]);
       EXPECT_EQ(patch.z, patch.rows[0] + 1);
-      EXPECT_EQ(patch.cell, cell);
+      EXPECT_EQ(patch.rank, patch.rows[0] + 5);
       out.push_back(patch.rows[0]);
     }
-  });
+    reader.pass(count);
+  }
   return out;
 }
 
@@ -47,23 +50,16 @@ TEST_P(PatchListsOfSize, KeepOrderWhenMemoryGrows) {
     lists.reset(cells, expected);
     EXPECT_FALSE(lists.any());
     std::vector<std::vector<std::uint32_t>> in_list(cells);
-    std::vector<PatchLists::Position> middle(cells, nullptr);
-    std::vector<std::size_t> before_middle(cells, 0);
     for (std::uint32_t i = 0; i < appended; ++i) {
       const std::size_t cell = (i * 2654435761u >> 16) % (cells + 1) % cells;  // the first has more
       append(lists, static_cast<std::uint32_t>(cell), i + frame);
       in_list[cell].push_back(i + frame);
-      if (i == appended / 2)
-        for (std::size_t c = 0; c < cells; ++c)
-          middle[c] = lists.end(c), before_middle[c] = in_list[c].size();
     }
     EXPECT_TRUE(lists.any());
     for (std::size_t c = 0; c < cells; ++c) {
       EXPECT_EQ(lists.empty(c), in_list[c].empty());
-      const auto cut = in_list[c].begin() + static_cast<std::ptrdiff_t>(before_middle[c]);
-      EXPECT_EQ(numbers(lists, c, nullptr, lists.end(c)), in_list[c]);
-      EXPECT_EQ(numbers(lists, c, nullptr, middle[c]), std::vector(in_list[c].begin(), cut));
-      EXPECT_EQ(numbers(lists, c, middle[c], lists.end(c)), std::vector(cut, in_list[c].end()));
+      for (const std::size_t most : {std::size_t{1}, std::size_t{3}, appended})
+        EXPECT_EQ(numbers(lists, c, most), in_list[c]);
     }
   }
 }

@@ -37,7 +37,7 @@ HWY_INLINE bool assemble_vector(const MeshJob& job, std::size_t first, RunOutput
   cull_and_append<kMarked>({{a.word[0], b.word[0], c.word[0]},
                             {a.word[1], b.word[1], c.word[1]},
                             {a.word[2], b.word[2], c.word[2]},
-                            hn::Iota(d, static_cast<std::int32_t>(first))},
+                            counting_from(first)},
                            outside, job.options.cull, out, job.mesh.marks.data() + (kMarked ? first : 0));
   return true;
 }

@@ -27,6 +27,12 @@ using VI = hn::Vec<DI>;
 using VF = hn::Vec<DF>;
 constexpr std::size_t kLanes = hn::MaxLanes(DI{});
 
+// first, first + 1 ... Not Iota(first): Highway 1.0.3 stores its lanes one by one, and a vector that is
+// loaded from them waits for all.
+HWY_INLINE VI counting_from(std::size_t first) {
+  return hn::Add(hn::Iota(DI{}, 0), hn::Set(DI{}, static_cast<std::int32_t>(first)));
+}
+
 // Word k of the records of all lanes.
 struct Words {
   VI word[4];

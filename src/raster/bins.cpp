@@ -26,7 +26,6 @@ std::uint32_t Bins::Chunk::begin_block(std::size_t cell, std::uint32_t end_of_la
   return block;
 }
 
-template <bool kPatches>
 inline void Bins::Chunk::push(std::size_t cell, std::uint32_t index, bool wanted) {
   std::uint32_t slot = cursor[cell];
   if (slot % kBlock == kRun) [[unlikely]] {  // a full block, or none yet (kNone ends in the same bits)
@@ -34,27 +33,21 @@ inline void Bins::Chunk::push(std::size_t cell, std::uint32_t index, bool wanted
     slot = begin_block(cell, slot);
   }
   slots[slot] = index;
-  if constexpr (kPatches) {
-    if (patches.any() && after.size() < slots.size()) after.resize(slots.size());
-    if (slot < after.size()) after[slot] = patches.end(cell);
-  }
   cursor[cell] = slot + wanted;
 }
 
-template <bool kPatches>
 inline void Bins::Chunk::bin(const ScreenTriangle& triangle, std::uint32_t index, const CellBox& box,
                              int of_four, const CellGrid& grid) {
-  if (of_four == 0) return bin_in_many<kPatches>(triangle, index, box, grid);
+  if (of_four == 0) return bin_in_many(triangle, index, box, grid);
   const auto columns = static_cast<std::size_t>(grid.columns());
   const std::size_t upper = box.row0 * columns, lower = box.row1 * columns;
-  if (of_four == 0b0001) return push<kPatches>(upper + box.column0, index, true);
-  push<kPatches>(upper + box.column0, index, of_four & 0b0001);
-  push<kPatches>(upper + box.column1, index, of_four & 0b0010);
-  push<kPatches>(lower + box.column0, index, of_four & 0b0100);
-  push<kPatches>(lower + box.column1, index, of_four & 0b1000);
+  if (of_four == 0b0001) return push(upper + box.column0, index, true);
+  push(upper + box.column0, index, of_four & 0b0001);
+  push(upper + box.column1, index, of_four & 0b0010);
+  push(lower + box.column0, index, of_four & 0b0100);
+  push(lower + box.column1, index, of_four & 0b1000);
 }
 
-template <bool kPatches>
 [[gnu::noinline]] void Bins::Chunk::bin_in_many(const ScreenTriangle& triangle, std::uint32_t index,
                                                 const CellBox& box, const CellGrid& grid) {
   const int column0 = box.column0, column1 = box.column1, row0 = box.row0, row1 = box.row1;
@@ -77,7 +70,7 @@ template <bool kPatches>
   for (int row = row0; row <= row1; ++row) {
     std::int64_t value[3] = {row_value[0], row_value[1], row_value[2]};
     for (int column = column0; column <= column1; ++column) {
-      if ((value[0] | value[1] | value[2]) >= 0) push<kPatches>(cell_at(column, row), index, true);
+      if ((value[0] | value[1] | value[2]) >= 0) push(cell_at(column, row), index, true);
       for (int i = 0; i < 3; ++i) value[i] += step_x[i];
     }
     for (int i = 0; i < 3; ++i) row_value[i] += step_y[i];
@@ -117,13 +110,12 @@ void in_batches(std::span<const ScreenTriangle> triangles, Sort&& sort) {
 
 }  // namespace
 
-// Bins those of some triangles that `boxed` selects, where there are no patches yet. `begin`: index of the
-// first.
+// Bins those of some triangles that `boxed` selects. `begin`: index of the first.
 void Bins::Chunk::bin_boxed(const ScreenTriangle* some, std::uint64_t boxed, const CellBoxes& boxes,
                             std::size_t begin, const CellGrid& grid) {
   for (std::uint64_t left = boxed; left != 0; left &= left - 1) {
     const auto k = static_cast<std::size_t>(std::countr_zero(left));
-    bin<false>(some[k], static_cast<std::uint32_t>(begin + k), boxes.box[k], boxes.of_four[k], grid);
+    bin(some[k], static_cast<std::uint32_t>(begin + k), boxes.box[k], boxes.of_four[k], grid);
   }
 }
 
@@ -136,6 +128,18 @@ void Bins::Chunk::bin_as_indices(std::span<const ScreenTriangle> triangles, std:
   });
 }
 
+// Appends the patches of the n-th patched triangle to the one before the end-th. One loop for all of eight
+// triangles, since no branch could guess how many windows each has.
+void Bins::Chunk::append(const SortedTriangles& sorted, std::size_t n, std::size_t end) {
+  for (; n < end; n += 8)
+    for (std::uint32_t left = sorted.windows_of_eight(n, end); left != 0; left &= left - 1) {
+      const auto bit = static_cast<std::size_t>(std::countr_zero(left));
+      const std::size_t triangle = n + bit / SortedTriangles::kWindows, w = bit % SortedTriangles::kWindows;
+      const std::uint32_t cell = sorted.second[w][triangle].field[3];
+      patches.append(cell, cursor[cell] + 1, sorted.first[w][triangle], sorted.second[w][triangle]);
+    }
+}
+
 // `most_patch_bytes`: when patches have taken that much, triangles that need more than two become indices,
 // which are slower to draw, but shorter.
 void Bins::Chunk::bin_with_patches(std::span<const ScreenTriangle> triangles, std::size_t begin,
@@ -144,28 +148,19 @@ void Bins::Chunk::bin_with_patches(std::span<const ScreenTriangle> triangles, st
   SortedTriangles sorted;
   in_batches(triangles, [&](const ScreenTriangle* some, std::size_t at) {
     find_patches(some, grid, prefetch, sorted);
-    if (!patches.any()) {
-      // A scene of large triangles shall not pay for patches.
-      if (sorted.patched == 0) return bin_boxed(some, sorted.boxed, sorted.boxes, begin + at, grid);
-      // What has come so far comes before every patch; of the last frame's, this was not true.
-      std::fill_n(after.begin(), std::min<std::size_t>(used, after.size()), nullptr);
-    }
+    if (sorted.patched == 0) return bin_boxed(some, sorted.boxed, sorted.boxes, begin + at, grid);
     if (patches.used_bytes() > most_patch_bytes) [[unlikely]]
       keep_short(sorted, some, grid);
     std::size_t n = 0;
-    for (std::uint64_t left = sorted.boxed | sorted.patched; left != 0; left &= left - 1) {
+    for (std::uint64_t left = sorted.boxed; left != 0; left &= left - 1) {
       const auto k = static_cast<std::size_t>(std::countr_zero(left));
-      if (sorted.patched >> k & 1) {
-        for (unsigned windows = sorted.windows[n]; windows != 0; windows &= windows - 1) {
-          const auto w = static_cast<std::size_t>(std::countr_zero(windows));
-          patches.append(sorted.first[w][n], sorted.second[w][n]);
-        }
-        ++n;
-      } else {
-        bin<true>(some[k], static_cast<std::uint32_t>(begin + at + k), sorted.boxes.box[k],
-                  sorted.boxes.of_four[k], grid);
-      }
+      const auto before = static_cast<std::size_t>(std::popcount(sorted.patched & ~left & (left - 1)));
+      append(sorted, n, before);
+      n = before;
+      bin(some[k], static_cast<std::uint32_t>(begin + at + k), sorted.boxes.box[k], sorted.boxes.of_four[k],
+          grid);
     }
+    append(sorted, n, static_cast<std::size_t>(std::popcount(sorted.patched)));
   });
 }
 

@@ -1,7 +1,7 @@
 // Binning: which triangles can touch which cell of the image, in submission order.
 //
 // Small triangles may be resolved to patches at once (patch_finder.cpp), which lie in lists by value. Others
-// lie in lists of indices, and for each index it is known after which patch of the cell it comes.
+// lie in lists of indices, and each patch knows after which index of its cell it comes.
 //
 // The triangles are cut into chunks that are binned in parallel, each into lists of its own; a cell's
 // triangles are its lists of chunk 0, 1, 2 …, which keeps the order of submission (rule 7) whatever thread
@@ -43,7 +43,7 @@ class Bins {
   struct Run {
     std::span<const std::uint32_t> indices;
     std::size_t chunk;
-    const PatchLists::Position* after;  // for each index the patches before it; or null if none are
+    std::uint32_t first_slot;
   };
 
   // visit(run) for a cell's triangle indices, in submission order.
@@ -60,46 +60,48 @@ class Bins {
           const std::uint32_t* const next = &chunk.slots[chunk.slots[block_end]];
           __builtin_prefetch(next), __builtin_prefetch(next + kRun);
         }
-        const bool any_before = chunk.patches.any() && chunk.after.size() >= end;
-        visit(Run{{&chunk.slots[slot], end - slot}, i, any_before ? &chunk.after[slot] : nullptr});
+        visit(Run{{&chunk.slots[slot], end - slot}, i, slot});
         slot = last ? kNone : chunk.slots[block_end];
       }
     }
   }
 
-  // Goes through the patches of a cell, in submission order.
+  // Goes through the patches of a cell, in submission order. draw(patches, rank) draws the first of some
+  // consecutive patches, as many as have no higher rank, and returns how many these are.
   class PatchReader {
    public:
     PatchReader(const Bins& bins, int cell) : bins_(bins), cell_(static_cast<std::size_t>(cell)) {
       if (!bins_.has_patches_) return;
       for (std::size_t i = 0; i < bins_.used_chunks_; ++i) bins_.chunks_[i].patches.ask_for_first(cell_);
+      reader_ = {bins_.chunks_[0].patches, cell_};
     }
-    // visit(patches) for runs of what is left before one of a run's triangles, see
-    // PatchLists::for_each_run().
-    template <typename Visit>
-    void up_to(const Run& run, std::size_t index, Visit&& visit) {
-      if (!bins_.has_patches_) return;
-      const PatchLists::Position position = run.after != nullptr ? run.after[index] : nullptr;
-      for (; chunk_ != run.chunk; ++chunk_, at_ = nullptr) rest_of_chunk(visit);
-      bins_.chunks_[chunk_].patches.for_each_run(cell_, at_, position, visit);
-      at_ = position;
+    // Draws what is left of those before one of a run's triangles.
+    template <typename Draw>
+    void up_to(const Run& run, std::size_t index, Draw&& draw) {
+      go_on(run.chunk, run.first_slot + static_cast<std::uint32_t>(index) + 1, draw);
     }
-    template <typename Visit>
-    void to_the_end(Visit&& visit) {
-      if (!bins_.has_patches_) return;
-      for (; chunk_ != bins_.used_chunks_; ++chunk_, at_ = nullptr) rest_of_chunk(visit);
+    template <typename Draw>
+    void to_the_end(Draw&& draw) {
+      go_on(bins_.used_chunks_ - 1, kNone, draw);
     }
 
    private:
-    template <typename Visit>
-    void rest_of_chunk(Visit&& visit) {
-      const PatchLists& lists = bins_.chunks_[chunk_].patches;
-      lists.for_each_run(cell_, at_, lists.end(cell_), visit);
+    template <typename Draw>
+    void go_on(std::size_t chunk, std::uint32_t rank, Draw&& draw) {
+      if (!bins_.has_patches_) return;
+      for (; chunk_ != chunk; reader_ = {bins_.chunks_[++chunk_].patches, cell_}) draw_some(kNone, draw);
+      draw_some(rank, draw);
+    }
+    template <typename Draw>
+    void draw_some(std::uint32_t rank, Draw&& draw) {
+      for (auto ahead = reader_.ahead(); !ahead.empty() && ahead.front().rank <= rank;
+           ahead = reader_.ahead())
+        reader_.pass(draw(ahead, rank));
     }
 
     const Bins& bins_;
     std::size_t cell_, chunk_ = 0;
-    PatchLists::Position at_ = nullptr;
+    PatchLists::Reader reader_;
   };
 
  private:
@@ -113,23 +115,19 @@ class Bins {
     std::vector<std::uint32_t> first, cursor;  // for each cell: slot of its first block, next slot to write
     std::uint32_t used = 0;                    // slots in use
     PatchLists patches;
-    // Of slots; fewer, if there are no patches before the others. Without any patch, the last frame's.
-    std::vector<PatchLists::Position> after;
 
     void reset(std::size_t cells);
     // For a cell whose last block, if it has one, is full up to the slot that names the next.
     std::uint32_t begin_block(std::size_t cell, std::uint32_t end_of_last);
     // Adds it if it is wanted; no branch could guess whether.
-    template <bool kPatches>
     void push(std::size_t cell, std::uint32_t index, bool wanted);
-    template <bool kPatches>
     void bin(const ScreenTriangle& triangle, std::uint32_t index, const CellBox& box, int of_four,
              const CellGrid& grid);
-    template <bool kPatches>
     void bin_in_many(const ScreenTriangle& triangle, std::uint32_t index, const CellBox& box,
                      const CellGrid& grid);
     void bin_boxed(const ScreenTriangle* some, std::uint64_t boxed, const CellBoxes& boxes, std::size_t begin,
                    const CellGrid& grid);
+    void append(const SortedTriangles& sorted, std::size_t n, std::size_t end);
     void bin_as_indices(std::span<const ScreenTriangle> triangles, std::size_t begin, const CellGrid& grid,
                         bool prefetch, CellBoxKernel find_boxes);
     void bin_with_patches(std::span<const ScreenTriangle> triangles, std::size_t begin, const CellGrid& grid,

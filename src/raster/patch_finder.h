@@ -2,7 +2,9 @@
 // touch. See patch_finder.cpp for how.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 
 #include "raster/cell_boxes.h"
@@ -19,12 +21,22 @@ struct SortedTriangles {
   // The patches of the n-th patched triangle: of windows that lie at the box's upper left, upper right, lower
   // left and lower right, those whose bits are set.
   static constexpr int kWindows = 4, kRoom = kBoxesAtOnce;
-  std::uint8_t windows[kRoom];
+  std::uint8_t windows[kRoom + 7];  // are read eight at a time
   // Halves of patches.
   struct alignas(16) Half {
     std::uint32_t field[4];
   };
   Half first[kWindows][kRoom], second[kWindows][kRoom];
+
+  // Bit 4 i + w: window w of the (n + i)-th patched triangle, of eight, but of none from the end-th on.
+  std::uint32_t windows_of_eight(std::size_t n, std::size_t end) const {
+    std::uint64_t bits;
+    std::memcpy(&bits, windows + n, sizeof bits);
+    if (end - n < 8) bits &= (std::uint64_t{1} << (end - n) * 8) - 1;
+    bits = (bits | bits >> 4) & 0x00FF00FF00FF00FF;
+    bits = (bits | bits >> 8) & 0x0000FFFF0000FFFF;
+    return static_cast<std::uint32_t>(bits | bits >> 16);
+  }
 };
 
 // `triangles`: kBoxesAtOnce records. `prefetch`: those that follow in memory are asked for.

@@ -19,47 +19,55 @@
 namespace edgewise {
 
 class PatchLists {
- public:
-  // Behind a patch of a list; null before the first.
-  using Position = const Patch*;
+  struct Header;
 
+ public:
   // Empties all lists; about `patches` are to come.
   void reset(std::size_t cells, std::size_t patches);
-  // Two halves of a patch, to the list of its cell.
+  // Two halves of a patch, whose rank is still to be set.
   template <typename Half>
-  void append(const Half& first, const Half& second) {
-    List& list = lists_[second.field[3]];
+  void append(std::size_t cell, std::uint32_t rank, const Half& first, const Half& second) {
+    List& list = lists_[cell];
     Patch* at = list.end;
     if ((reinterpret_cast<std::uintptr_t>(at) & (block_bytes_ - 1)) == 0)
       at = add_block(list);  // full, or none yet
     std::memcpy(at, &first, sizeof first);
     std::memcpy(reinterpret_cast<char*>(at) + sizeof first, &second, sizeof second);
-    __builtin_prefetch(reinterpret_cast<const char*>(at) + kWriteAhead, 1);
+    at->rank = rank;
+    __builtin_prefetch(reinterpret_cast<const char*>(at) + kCacheLine, 1);
     list.end = at + 1;
   }
 
   bool any() const { return used_ != 0; }
   std::size_t used_bytes() const { return used_; }
-  Position end(std::size_t cell) const { return lists_[cell].end; }
   bool empty(std::size_t cell) const { return lists_[cell].end == nullptr; }
 
-  // visit(patches) for consecutive runs of a list's patches between two positions in it. The block after the
-  // next is asked for.
-  template <typename Visit>
-  void for_each_run(std::size_t cell, Position from, Position to, Visit&& visit) const {
-    while (from != to) {
-      const Header* block = from == nullptr ? lists_[cell].first : block_of(from);
-      if (from == end_of(block)) block = block->next, from = nullptr;
-      if (from == nullptr) {
-        from = begin_of(block);
-        if (block->next != nullptr && block->next->next != nullptr)
-          ask_for(block->next->next, std::min(block_bytes_, kReadAhead));
-      }
-      const Position end = block_of(to) == block ? to : end_of(block);
-      visit(std::span<const Patch>(from, end));
-      from = end;
+  // Goes through a list, a block at a time.
+  class Reader {
+   public:
+    Reader() = default;
+    Reader(const PatchLists& lists, std::size_t cell) : lists_(&lists), list_end_(lists.lists_[cell].end) {
+      if (list_end_ != nullptr) enter(lists.lists_[cell].first);
     }
-  }
+    // Consecutive patches; none at the list's end.
+    std::span<const Patch> ahead() const { return {at_, block_end_}; }
+    void pass(std::size_t count) {
+      at_ += count;
+      if (at_ == block_end_ && at_ != list_end_) enter(lists_->block_of(at_)->next);
+    }
+
+   private:
+    // The block after the next is asked for.
+    void enter(const Header* block) {
+      at_ = begin_of(block);
+      block_end_ = lists_->block_of(list_end_) == block ? list_end_ : lists_->end_of(block);
+      if (block->next != nullptr && block->next->next != nullptr)
+        ask_for(block->next->next, std::min(lists_->block_bytes_, kReadAhead));
+    }
+
+    const PatchLists* lists_ = nullptr;
+    const Patch *at_ = nullptr, *block_end_ = nullptr, *list_end_ = nullptr;
+  };
   // Asks for the beginning of a list.
   void ask_for_first(std::size_t cell) const {
     if (const Header* first = lists_[cell].first) ask_for(first, std::min(block_bytes_, kReadAhead));
@@ -67,7 +75,7 @@ class PatchLists {
 
  private:
   static constexpr std::size_t kSmallestBlock = 256, kLargestBlock = 4096;  // bytes, powers of two
-  static constexpr std::size_t kCacheLine = 64, kWriteAhead = 2 * kCacheLine, kReadAhead = 1024;
+  static constexpr std::size_t kCacheLine = 64, kReadAhead = 1024;
   // At the beginning of a block, which is aligned to its size.
   struct alignas(sizeof(Patch)) Header {
     Header* next;

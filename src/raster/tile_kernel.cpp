@@ -57,9 +57,9 @@ class TilePainter {
       if (waiting != nullptr) draw_touched(tile_, batch_, *waiting);
       waiting = nullptr;
     };
-    const auto draw_some = [&](std::span<const Patch> patches) {
+    const auto draw_some = [&](std::span<const Patch> patches, std::uint32_t last) {
       draw_waiting();
-      draw(patches);
+      return draw(patches, last);
     };
     for (std::uint32_t left = set_up(job_, run.indices, batch_); left != 0; left &= left - 1) {
       const int k = std::countr_zero(left);
@@ -83,13 +83,14 @@ class TilePainter {
 
   void draw_rest() {
     small_.draw();
-    patches_.to_the_end([&](std::span<const Patch> patches) { draw(patches); });
+    patches_.to_the_end(
+        [&](std::span<const Patch> patches, std::uint32_t last) { return draw(patches, last); });
   }
 
  private:
-  HWY_INLINE void draw(std::span<const Patch> patches) {
+  HWY_INLINE std::size_t draw(std::span<const Patch> patches, std::uint32_t last) {
     small_.draw();
-    draw_patches(tile_, patches);
+    return draw_patches(tile_, patches, last);
   }
   template <bool kHierarchicalDepth>
   HWY_INLINE void sift(int k, int width, Touched& out) {

@@ -35,11 +35,14 @@ alignas(64) constexpr auto kPatchBits = [] {
 
 constexpr std::ptrdiff_t kPatchesAhead = 32;  // are asked for
 
-// All four blocks of a patch are written, for no branch could guess which of them are touched.
-HWY_NOINLINE void draw_patches(Tile& tile, std::span<const Patch> patches) {
+// Draws patches up to the first of a rank above `last`; returns how many. All four blocks of a patch are
+// written, for no branch could guess which of them are touched.
+HWY_NOINLINE std::size_t draw_patches(Tile& tile, std::span<const Patch> patches, std::uint32_t last) {
   const D d;
   static_assert(kPatchSide == 2 * kBlock);
-  for (const Patch& patch : patches) {
+  std::size_t n = 0;
+  for (; n != patches.size() && patches[n].rank <= last; ++n) {
+    const Patch& patch = patches[n];
     hwy::Prefetch(&patch + kPatchesAhead);
     const V zx = hn::Set(d, wrap(patch.zx)), zy = hn::Set(d, wrap(patch.zy));
     const V z0 = hn::Set(d, wrap(patch.z)), payload = hn::Set(d, wrap(patch.payload));
@@ -61,6 +64,7 @@ HWY_NOINLINE void draw_patches(Tile& tile, std::span<const Patch> patches) {
       }
     }
   }
+  return n;
 }
 
 }  // namespace HWY_NAMESPACE
