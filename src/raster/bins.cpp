@@ -180,14 +180,16 @@ void Bins::build(std::span<const ScreenTriangle> triangles, const CellGrid& grid
   used_chunks_ = std::clamp<std::size_t>(triangles.size() / kLeastChunk, 1, std::min(most, affordable));
   if (chunks_.size() < used_chunks_) chunks_.resize(used_chunks_);
 
+  shares_.cut(triangles, grid, used_chunks_);
+
   const CellBoxKernel find_boxes = cell_box_kernel(target);
   const PatchFinder find_patches = small == Small::as_patches ? patch_finder(target) : nullptr;
   parallel_for(threads, static_cast<int>(used_chunks_), [&](int i) {
     const auto c = static_cast<std::size_t>(i);
     Chunk& chunk = chunks_[c];
     chunk.reset(cells);
-    const std::size_t begin = triangles.size() * c / used_chunks_;
-    const auto some = triangles.subspan(begin, triangles.size() * (c + 1) / used_chunks_ - begin);
+    const std::size_t begin = shares_.bounds()[c];
+    const auto some = triangles.subspan(begin, shares_.bounds()[c + 1] - begin);
     if (find_patches != nullptr) {
       chunk.patches.reset(cells, some.size());
       const std::size_t most_patch_bytes =

@@ -18,6 +18,7 @@
 #include "raster/cell_boxes.h"
 #include "raster/patch_finder.h"
 #include "raster/patch_lists.h"
+#include "raster/shares.h"
 
 namespace edgewise {
 
@@ -135,6 +136,7 @@ class Bins {
   };
 
   std::vector<Chunk> chunks_;
+  Shares shares_;
   std::size_t used_chunks_ = 0;
   bool has_patches_ = false;
 };
