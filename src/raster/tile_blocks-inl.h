@@ -77,25 +77,30 @@ HWY_INLINE Sixteen over_block(const std::int32_t* x, const std::int32_t* y) {
   return out;
 }
 
-// Writes those of a vector of a block's pixels that win, given their old depths. Stores under a mask are
-// faster where a mask has a register of its own.
-HWY_INLINE void write(Tile& tile, int at, hn::Mask<D> wins, [[maybe_unused]] V old_z, V z, V payload) {
-  const D d;
-  std::int32_t* const to_depth = tile.depth() + at;
-  std::int32_t* const to_payload = tile.payload() + at;
+// Stores the lanes of a mask; under the mask, which is faster, where that has a register of its own.
+HWY_INLINE void replace(std::int32_t* at, hn::Mask<D> where, V v) {
 #if HWY_TARGET <= HWY_AVX3  // the better the target, the lower its number
-  hn::BlendedStore(z, wins, d, to_depth);
-  hn::BlendedStore(payload, wins, d, to_payload);
+  hn::BlendedStore(v, where, D{}, at);
 #else
-  hn::Store(hn::IfThenElse(wins, z, old_z), d, to_depth);
-  hn::Store(hn::IfThenElse(wins, payload, hn::Load(d, to_payload)), d, to_payload);
+  hn::Store(hn::IfThenElse(where, v, hn::Load(D{}, at)), D{}, at);
 #endif
 }
-// Tests and writes them where `outside` is not negative.
-HWY_INLINE void write(Tile& tile, int at, V outside, V z, V payload) {
-  const D d;
-  const V old_z = hn::Load(d, tile.depth() + at);
-  write(tile, at, hn::And(hn::Gt(outside, hn::Set(d, -1)), hn::Lt(z, old_z)), old_z, z, payload);
+HWY_INLINE hn::Mask<D> inside(V outside) {
+  return hn::Gt(outside, hn::Set(D{}, -1));
+}
+// Tests and writes those of a vector of a block's pixels that are covered.
+HWY_INLINE void write(Tile& tile, int at, hn::Mask<D> covered, V z, V payload) {
+  const auto wins = hn::And(covered, hn::Lt(z, hn::Load(D{}, tile.depth() + at)));
+  replace(tile.depth() + at, wins, z);
+  replace(tile.payload() + at, wins, payload);
+}
+// The same for small triangles: in a mesh, the next one often wants the same block. Where depths were stored
+// under a mask, its load would have to wait until they have reached the cache.
+HWY_INLINE void write_for_next(Tile& tile, int at, hn::Mask<D> covered, V z, V payload) {
+  const V old_z = hn::Load(D{}, tile.depth() + at);
+  const auto wins = hn::And(covered, hn::Lt(z, old_z));
+  hn::Store(hn::IfThenElse(wins, z, old_z), D{}, tile.depth() + at);
+  replace(tile.payload() + at, wins, payload);
 }
 
 #if HWY_TARGET != HWY_SCALAR

@@ -52,13 +52,9 @@ HWY_NOINLINE std::size_t draw_patches(Tile& tile, std::span<const Patch> patches
       const V left_bits = hn::Load(d, kPatchBits.left + p), right_bits = hn::Load(d, kPatchBits.right + p);
       V z = hn::Add(z0, hn::Add(hn::Mul(hn::Load(d, kLaneX + p), zx), hn::Mul(hn::Load(d, kLaneY + p), zy)));
       int at = static_cast<int>(patch.block) * kBlockPixels + p;
-      const auto write_covered = [&](int to, hn::Mask<D> covered, V here) {
-        const V old_z = hn::Load(d, tile.depth() + to);
-        write(tile, to, hn::And(covered, hn::Lt(here, old_z)), old_z, here, payload);
-      };
       for (int y = 0; y < 2; ++y) {
-        write_covered(at, hn::TestBit(rows[y], left_bits), z);
-        write_covered(at + kBlockPixels, hn::TestBit(rows[y], right_bits), hn::Add(z, right));
+        write_for_next(tile, at, hn::TestBit(rows[y], left_bits), z, payload);
+        write_for_next(tile, at + kBlockPixels, hn::TestBit(rows[y], right_bits), hn::Add(z, right), payload);
         z = hn::Add(z, down);
         at += kMaxBlocks * kBlockPixels;
       }

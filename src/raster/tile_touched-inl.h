@@ -59,7 +59,7 @@ HWY_NOINLINE void draw_touched(Tile& tile, const Batch& batch, const Touched& to
       const V depth = everywhere(at_depth);
       for (int p = 0; p < kVectors; ++p) {
         const auto value = [&](int i) { return hn::Add(edge[i], edge_in[i].v[p]); };
-        write(tile, block * kBlockPixels + p * kLanes, hn::Or(hn::Or(value(0), value(1)), value(2)),
+        write(tile, block * kBlockPixels + p * kLanes, inside(hn::Or(hn::Or(value(0), value(1)), value(2))),
               hn::Add(depth, depth_in.v[p]), payload);
       }
       lane = hn::Add(lane, hn::Set(d, 1));
