@@ -82,7 +82,7 @@ TEST_P(EveryBackend, ForgetsTheFrameBefore) {
     first.insert(first.end(), then.begin(), then.end());
     return first;
   };
-  // Small ones take another way than large ones, at once or once the first has come.
+  // Small ones take another way than large ones.
   const std::vector<ScreenTriangle> frames[] = {joined(small, large), joined(large, small), large, small};
   std::vector<Framebuffer> expected;
   for (const auto& triangles : frames) expected.push_back(oracle(triangles, width, height));
@@ -228,6 +228,51 @@ TEST_P(EveryBackend, KeepsTheEarlierTriangleAtATie) {
     backend_->draw(both, frame.view(), 0, execution);
     EXPECT_EQ(frame.payload_row(0)[3], 1u) << testing::describe(execution);
   }
+}
+
+// Small ones may lie in other lists than large ones, whose blocks end somewhere.
+TEST_P(EveryBackend, KeepsTheEarlierOfASmallAndALargeTriangleAtATie) {
+  const auto right_angled = [](int at_px, int side_px, std::uint32_t z, std::uint32_t payload) {
+    const std::int32_t begin = at_px * kSub, end = (at_px + side_px) * kSub;
+    return ScreenTriangle{{begin, end, begin}, {begin, begin, end}, {z, z, z}, payload};
+  };
+  for (std::uint32_t before = 1; before <= 70; ++before) {
+    std::vector<ScreenTriangle> triangles;
+    std::uint32_t z = kDepthHead + 1000;
+    const auto add_large = [&] { triangles.push_back(right_angled(0, 80, z, 1)); };
+    const auto add_small = [&](int at_px) { triangles.push_back(right_angled(at_px, 3, z, 2)); };
+    for (std::uint32_t i = 0; i < before; ++i, z -= 10) add_large();
+    z += 10;
+    add_small(2);  // behind the last large one
+    z -= 10;
+    add_small(6);  // before the next
+    add_large();
+    expect_oracle(triangles, 20, 20, "after " + std::to_string(before) + " large ones");
+  }
+}
+
+// So many that parts of different lengths are given to threads.
+TEST_P(EveryBackend, DrawsTheSameOnThreadsThatShareManyTriangles) {
+  const int side = 64;
+  std::vector<ScreenTriangle> triangles(1'000'000);
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const auto n = static_cast<std::uint32_t>(i);
+    const std::int32_t px = i < triangles.size() / 2 ? 1 : 8;
+    const auto x = static_cast<std::int32_t>(n * 2654435761u >> 18),
+               y = static_cast<std::int32_t>(n * 40503u >> 18);
+    const std::uint32_t z = kDepthHead + (n * 2246822519u >> 12);
+    triangles[i] = {{x, x + px * kSub, x}, {y, y, y + px * kSub}, {z, z, z}, n};
+  }
+  const auto drawn = [&](int threads) {
+    Framebuffer frame(side, side);
+    Execution execution;
+    execution.threads = threads;
+    backend_->draw(triangles, frame.view(), kBackground, execution);
+    return frame;
+  };
+  const Framebuffer alone = drawn(1);
+  for (const int threads : {2, 3})
+    testing::expect_same(alone, drawn(threads), std::to_string(threads) + " threads");
 }
 
 TEST_P(EveryBackend, DrawsTheSameHoweverTheVerticesAreRotatedOrWound) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <random>
 #include <vector>
 
 #include "edgewise/contract.h"
@@ -10,8 +11,6 @@
 
 namespace edgewise {
 namespace {
-
-constexpr CellGrid kGrid{1024, 1024, 6, 6};
 
 // Its box is a square of so many pixels.
 ScreenTriangle of_side(int px) {
@@ -27,7 +26,7 @@ std::vector<ScreenTriangle> triangles(std::size_t count, int px, std::size_t las
 }
 std::vector<std::size_t> bounds(const std::vector<ScreenTriangle>& triangles, std::size_t parts) {
   Shares shares;
-  shares.cut(triangles, kGrid, parts);
+  shares.cut_by_work(triangles, 1024, 1024, parts);
   return {shares.bounds().begin(), shares.bounds().end()};
 }
 using Bounds = std::vector<std::size_t>;
@@ -36,8 +35,8 @@ TEST(Shares, AreEqualWhereTrianglesAreFewOrAlike) {
   EXPECT_EQ(bounds({}, 3), (Bounds{0, 0, 0, 0}));
   EXPECT_EQ(bounds(triangles(5, 4, 0, 4), 2), (Bounds{0, 2, 5}));
   EXPECT_EQ(bounds(triangles(10'000, 1, 5'000, 8), 2), (Bounds{0, 5'000, 10'000}));
-  EXPECT_EQ(bounds(triangles(600'001, 4, 300'000, 4), 3), (Bounds{0, 200'000, 400'000, 600'001}));
-  EXPECT_EQ(bounds(triangles(400'000, 4, 1'000, 8), 2), (Bounds{0, 200'000, 400'000}));
+  EXPECT_EQ(bounds(triangles(900'001, 4, 300'000, 4), 3), (Bounds{0, 300'000, 600'000, 900'001}));
+  EXPECT_EQ(bounds(triangles(400'000, 4, 10'000, 8), 2), (Bounds{0, 200'000, 400'000}));
 }
 
 // 16 + 1 for a pixel, 16 + 64 for 8 x 8.
@@ -50,19 +49,31 @@ TEST(Shares, AreShorterWhereTrianglesTakeLonger) {
   EXPECT_EQ(cut[2], 2 * half);
 }
 
-// As soon as the last one outweighs all others, these are one part, and parts may be empty.
-TEST(Shares, HoldEachTriangleOnceWhateverTheWeights) {
-  constexpr CellGrid kFine{16384, 16384, 2, 2};
-  auto all = triangles(1'000'000, 1, 0, 1);
-  for (std::size_t i = all.size() - 1'000; i < all.size(); ++i) all[i] = of_side(16384);
-  Shares shares;
-  shares.cut(all, kFine, 5);
-  const auto bounds = shares.bounds();
-  ASSERT_EQ(bounds.size(), 6u);
-  EXPECT_EQ(bounds.front(), 0u);
-  EXPECT_EQ(bounds.back(), all.size());
-  EXPECT_TRUE(std::is_sorted(bounds.begin(), bounds.end()));
-  EXPECT_GT(bounds[1], all.size() - 1'500);
+// Boxes of 8 x 8 px take 16 + 64, larger and empty ones 16.
+TEST(Shares, TakeLargeTrianglesForQuick) {
+  const std::size_t half = 250'000;
+  const Bounds cut = bounds(triangles(2 * half, 8, half, 9), 2);
+  EXPECT_NEAR(static_cast<double>(cut[1]), static_cast<double>(half) * (80.0 + 16.0) / 2.0 / 80.0, 500.0);
+  EXPECT_EQ(bounds(triangles(2 * half, 0, half, 9), 2)[1], half);
+}
+
+// A tenth takes five times as long as the others.
+TEST(Shares, AreEqualWhereTheOrderIsRandom) {
+  auto all = triangles(1'000'000, 1, 100'000, 8);
+  std::mt19937 random(3);
+  for (int i = 0; i < 20; ++i) {
+    std::shuffle(all.begin(), all.end(), random);
+    EXPECT_EQ(bounds(all, 2)[1], all.size() / 2);
+  }
+}
+
+TEST(Shares, HoldEachTriangleOnce) {
+  const Bounds cut = bounds(triangles(2'000'000, 1, 200'000, 8), 4);
+  ASSERT_EQ(cut.size(), 5u);
+  EXPECT_EQ(cut.front(), 0u);
+  EXPECT_EQ(cut.back(), 2'000'000u);
+  EXPECT_TRUE(std::is_sorted(cut.begin(), cut.end()));
+  EXPECT_GT(cut[1], 600'000u);
 }
 
 }  // namespace

@@ -27,8 +27,7 @@ using VI = hn::Vec<DI>;
 using VF = hn::Vec<DF>;
 constexpr std::size_t kLanes = hn::MaxLanes(DI{});
 
-// first, first + 1 ... Not Iota(first): Highway 1.0.3 stores its lanes one by one, and a vector that is
-// loaded from them waits for all.
+// first, first + 1 ... Not Iota(first), see raster/lanes-inl.h.
 HWY_INLINE VI counting_from(std::size_t first) {
   return hn::Add(hn::Iota(DI{}, 0), hn::Set(DI{}, static_cast<std::int32_t>(first)));
 }

@@ -148,6 +148,7 @@ void Bins::Chunk::bin_with_patches(std::span<const ScreenTriangle> triangles, st
   SortedTriangles sorted;
   in_batches(triangles, [&](const ScreenTriangle* some, std::size_t at) {
     find_patches(some, grid, prefetch, sorted);
+    // A scene of large triangles shall not pay for patches.
     if (sorted.patched == 0) return bin_boxed(some, sorted.boxed, sorted.boxes, begin + at, grid);
     if (patches.used_bytes() > most_patch_bytes) [[unlikely]]
       keep_short(sorted, some, grid);
@@ -180,10 +181,12 @@ void Bins::build(std::span<const ScreenTriangle> triangles, const CellGrid& grid
   used_chunks_ = std::clamp<std::size_t>(triangles.size() / kLeastChunk, 1, std::min(most, affordable));
   if (chunks_.size() < used_chunks_) chunks_.resize(used_chunks_);
 
-  shares_.cut(triangles, grid, used_chunks_);
-
   const CellBoxKernel find_boxes = cell_box_kernel(target);
   const PatchFinder find_patches = small == Small::as_patches ? patch_finder(target) : nullptr;
+  if (find_patches != nullptr)
+    shares_.cut_by_work(triangles, grid.width, grid.height, used_chunks_);
+  else
+    shares_.cut_equally(triangles.size(), used_chunks_);
   parallel_for(threads, static_cast<int>(used_chunks_), [&](int i) {
     const auto c = static_cast<std::size_t>(i);
     Chunk& chunk = chunks_[c];

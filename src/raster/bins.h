@@ -1,12 +1,12 @@
 // Binning: which triangles can touch which cell of the image, in submission order.
 //
 // Small triangles may be resolved to patches at once (patch_finder.cpp), which lie in lists by value. Others
-// lie in lists of indices, and each patch knows after which index of its cell it comes.
+// lie in lists of indices, and each patch knows its place among its cell's indices.
 //
-// The triangles are cut into chunks that are binned in parallel, each into lists of its own; a cell's
-// triangles are its lists of chunk 0, 1, 2 …, which keeps the order of submission (rule 7) whatever thread
-// did which chunk. A list holds indices, not records, in blocks of two cache lines that are chained and
-// reused from frame to frame.
+// The triangles are cut into chunks (shares.h) that are binned in parallel, each into lists of its own; a
+// cell's triangles are its lists of chunk 0, 1, 2 …, which keeps the order of submission (rule 7) whatever
+// thread did which chunk. A list holds indices, not records, in blocks of two cache lines that are chained
+// and reused from frame to frame.
 #pragma once
 
 #include <cstdint>

@@ -22,6 +22,12 @@ using D = hn::CappedTag<std::int32_t, 16>;
 using V = hn::Vec<D>;
 constexpr int kLanes = static_cast<int>(hn::MaxLanes(D{}));
 
+// first, first + 1 ... Not Iota(first): Highway 1.0.3 stores its lanes one by one, and a vector that is
+// loaded from them waits for all.
+HWY_INLINE V counting_from(int first) {
+  return hn::Add(hn::Iota(D{}, 0), hn::Set(D{}, first));
+}
+
 HWY_INLINE std::uint32_t mask_bits(hn::Mask<D> mask) {
   std::uint8_t bytes[8] = {};
   hn::StoreMaskBits(D{}, mask, bytes);

@@ -13,8 +13,7 @@ struct alignas(16) Patch {
   std::uint32_t block;    // of its first pixel, in the tile: 16 y + x, in blocks of 4 x 4 px
   std::uint32_t payload;
   std::uint32_t z, zx, zy;  // depth (rule 6) at its first pixel, and steps a pixel
-  // Of the cell's list of indices: the patch comes before those whose slot + 1 is no less. (Where it is made,
-  // the cell.)
+  // Its place among its cell's indices (bins.h): before the one in slot s if rank <= s + 1, else behind it.
   std::uint32_t rank;
 };
 static_assert(sizeof(Patch) == 32);

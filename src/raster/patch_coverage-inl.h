@@ -127,7 +127,7 @@ HWY_INLINE std::uint32_t append_covering(const RecordLanes& t, const BoxLanes& b
   const Selection select(covers);
   const int at = out.count;
   const auto keep = [&](V v, std::int32_t* list) { hn::StoreU(select(v), d, list + at); };
-  keep(hn::Add(hn::Iota(d, 0), hn::Set(d, name)), out.name);
+  keep(counting_from(name), out.name);
   keep(box.x0, out.x0), keep(box.y0, out.y0);
   keep(inside[0], out.rows[0]), keep(inside[1], out.rows[1]);
   keep(t.payload, out.payload);

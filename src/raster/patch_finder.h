@@ -2,6 +2,7 @@
 // touch. See patch_finder.cpp for how.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -21,8 +22,8 @@ struct SortedTriangles {
   // The patches of the n-th patched triangle: of windows that lie at the box's upper left, upper right, lower
   // left and lower right, those whose bits are set.
   static constexpr int kWindows = 4, kRoom = kBoxesAtOnce;
-  std::uint8_t windows[kRoom + 7];  // are read eight at a time
-  // Halves of patches.
+  std::uint8_t windows[kRoom + 7];  // four bits; are read eight at a time
+  // Halves of patches, but the last field is the cell.
   struct alignas(16) Half {
     std::uint32_t field[4];
   };
@@ -30,6 +31,7 @@ struct SortedTriangles {
 
   // Bit 4 i + w: window w of the (n + i)-th patched triangle, of eight, but of none from the end-th on.
   std::uint32_t windows_of_eight(std::size_t n, std::size_t end) const {
+    static_assert(std::endian::native == std::endian::little);
     std::uint64_t bits;
     std::memcpy(&bits, windows + n, sizeof bits);
     if (end - n < 8) bits &= (std::uint64_t{1} << (end - n) * 8) - 1;

@@ -24,7 +24,7 @@ class PatchLists {
  public:
   // Empties all lists; about `patches` are to come.
   void reset(std::size_t cells, std::size_t patches);
-  // Two halves of a patch, whose rank is still to be set.
+  // Two halves of a patch. `rank` takes the place of the second's last field.
   template <typename Half>
   void append(std::size_t cell, std::uint32_t rank, const Half& first, const Half& second) {
     List& list = lists_[cell];

@@ -1,4 +1,4 @@
-// Cuts triangles into as many parts as there are threads to bin them, so that none waits long for another.
+// Cuts triangles into parts for the threads that bin them, so that none waits long for another.
 #pragma once
 
 #include <cstddef>
@@ -7,20 +7,21 @@
 #include <vector>
 
 #include "edgewise/screen_triangle.h"
-#include "raster/cell_boxes.h"
 
 namespace edgewise {
 
 class Shares {
  public:
-  // Part i is triangles [bounds()[i], bounds()[i + 1]). Parts are equally long, unless there are so many
-  // triangles that looking at some of them pays, and these tell that one part takes much longer than others.
-  void cut(std::span<const ScreenTriangle> triangles, const CellGrid& grid, std::size_t parts);
+  // Part i is triangles [bounds()[i], bounds()[i + 1]) of `count`, all parts of the same length.
+  void cut_equally(std::size_t count, std::size_t parts);
+  // Parts that take about as long where small triangles become patches, if equal ones would not, and there
+  // are so many triangles that looking at some of them pays. `width`, `height`: of the image, px.
+  void cut_by_work(std::span<const ScreenTriangle> triangles, int width, int height, std::size_t parts);
   std::span<const std::size_t> bounds() const { return bounds_; }
 
  private:
   std::vector<std::size_t> bounds_;
-  std::vector<std::uint32_t> weights_;  // of the triangles that were looked at
+  std::vector<std::uint32_t> work_;  // of the triangles that were looked at
 };
 
 }  // namespace edgewise

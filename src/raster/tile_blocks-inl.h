@@ -77,7 +77,7 @@ HWY_INLINE Sixteen over_block(const std::int32_t* x, const std::int32_t* y) {
   return out;
 }
 
-// Stores the lanes of a mask; under the mask, which is faster, where that has a register of its own.
+// Stores the lanes of a mask. Where masks have registers of their own (AVX-512), a store under one is faster.
 HWY_INLINE void replace(std::int32_t* at, hn::Mask<D> where, V v) {
 #if HWY_TARGET <= HWY_AVX3  // the better the target, the lower its number
   hn::BlendedStore(v, where, D{}, at);
@@ -94,9 +94,9 @@ HWY_INLINE void write(Tile& tile, int at, hn::Mask<D> covered, V z, V payload) {
   replace(tile.depth() + at, wins, z);
   replace(tile.payload() + at, wins, payload);
 }
-// The same for small triangles: in a mesh, the next one often wants the same block. Where depths were stored
-// under a mask, its load would have to wait until they have reached the cache.
-HWY_INLINE void write_for_next(Tile& tile, int at, hn::Mask<D> covered, V z, V payload) {
+// The same, but depths are stored whole: in a mesh, the next small triangle often wants the same block, and a
+// load has to wait until what was stored under a mask has reached the cache.
+HWY_INLINE void write_whole(Tile& tile, int at, hn::Mask<D> covered, V z, V payload) {
   const V old_z = hn::Load(D{}, tile.depth() + at);
   const auto wins = hn::And(covered, hn::Lt(z, old_z));
   hn::Store(hn::IfThenElse(wins, z, old_z), D{}, tile.depth() + at);

@@ -53,8 +53,8 @@ HWY_NOINLINE std::size_t draw_patches(Tile& tile, std::span<const Patch> patches
       V z = hn::Add(z0, hn::Add(hn::Mul(hn::Load(d, kLaneX + p), zx), hn::Mul(hn::Load(d, kLaneY + p), zy)));
       int at = static_cast<int>(patch.block) * kBlockPixels + p;
       for (int y = 0; y < 2; ++y) {
-        write_for_next(tile, at, hn::TestBit(rows[y], left_bits), z, payload);
-        write_for_next(tile, at + kBlockPixels, hn::TestBit(rows[y], right_bits), hn::Add(z, right), payload);
+        write_whole(tile, at, hn::TestBit(rows[y], left_bits), z, payload);
+        write_whole(tile, at + kBlockPixels, hn::TestBit(rows[y], right_bits), hn::Add(z, right), payload);
         z = hn::Add(z, down);
         at += kMaxBlocks * kBlockPixels;
       }

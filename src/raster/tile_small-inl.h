@@ -79,9 +79,9 @@ class SmallTriangles {
           return hn::Add(hn::Set(d, at_block_[i][place]),
                          hn::Load(d, in_block_[i] + slot * kBlockPixels + p * kLanes));
         };
-        write_for_next(tile_, block * kBlockPixels + p * kLanes,
-                       inside(hn::Or(hn::Or(value(0), value(1)), value(2))), value(3),
-                       hn::Set(d, payload_[slot]));
+        write_whole(tile_, block * kBlockPixels + p * kLanes,
+                    inside(hn::Or(hn::Or(value(0), value(1)), value(2))), value(3),
+                    hn::Set(d, payload_[slot]));
       }
     }
     used_ = list_.length = 0;
