@@ -239,14 +239,14 @@ TEST_P(EveryBackend, KeepsTheEarlierOfASmallAndALargeTriangleAtATie) {
   for (std::uint32_t before = 1; before <= 70; ++before) {
     std::vector<ScreenTriangle> triangles;
     std::uint32_t z = kDepthHead + 1000;
-    const auto add_large = [&] { triangles.push_back(right_angled(0, 80, z, 1)); };
+    const auto add_large = [&](int at_px) { triangles.push_back(right_angled(at_px, 80, z, 1)); };
     const auto add_small = [&](int at_px) { triangles.push_back(right_angled(at_px, 3, z, 2)); };
-    for (std::uint32_t i = 0; i < before; ++i, z -= 10) add_large();
+    for (std::uint32_t i = 0; i < before; ++i, z -= 10) add_large(0);
     z += 10;
     add_small(2);  // behind the last large one
     z -= 10;
     add_small(6);  // before the next
-    add_large();
+    add_large(6);
     expect_oracle(triangles, 20, 20, "after " + std::to_string(before) + " large ones");
   }
 }
