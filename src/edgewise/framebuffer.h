@@ -50,9 +50,9 @@ class Framebuffer {
   const std::uint32_t* payload_row(int y) const { return payload_.get() + y * stride_; }
 
  private:
-  static constexpr std::size_t kAlignment = 64;
   struct Release {
-    void operator()(std::uint32_t* p) const { ::operator delete[](p, std::align_val_t{kAlignment}); }
+    std::align_val_t alignment{};
+    void operator()(std::uint32_t* p) const { ::operator delete(p, alignment); }
   };
   using Plane = std::unique_ptr<std::uint32_t[], Release>;
   Plane allocate() const;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "edgewise/contract.h"
+#include "raster/pages.h"
 
 namespace edgewise {
 
@@ -33,8 +34,9 @@ Framebuffer::Framebuffer(int width, int height)
 
 Framebuffer::Plane Framebuffer::allocate() const {
   const auto pixels = static_cast<std::size_t>(stride_) * static_cast<std::size_t>(height_);
-  return Plane(static_cast<std::uint32_t*>(
-      ::operator new[](pixels * sizeof(std::uint32_t), std::align_val_t{kAlignment})));
+  const std::size_t bytes = pixels * sizeof(std::uint32_t);
+  const std::align_val_t alignment = page_alignment(bytes);
+  return Plane(static_cast<std::uint32_t*>(allocate_pages(bytes, alignment)), Release{alignment});
 }
 
 }  // namespace edgewise
