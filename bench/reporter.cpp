@@ -19,7 +19,9 @@ void derive_rates(benchmark::BenchmarkReporter::Run& run) {
   const double s = run.GetAdjustedRealTime() / benchmark::GetTimeUnitMultiplier(run.time_unit);
   if (s <= 0.0) return;
   auto& counters = run.counters;
-  counters["Mtri/s"] = counters["triangles"].value / s * 1e-6;
+  const auto triangles = counters.find("triangles");
+  if (triangles == counters.end()) return;
+  counters["Mtri/s"] = triangles->second.value / s * 1e-6;
   if (const auto floor = counters.find("floor_ms"); floor != counters.end())
     counters["over_floor"] = s * 1e3 / floor->second.value;
   const auto covered = counters.find("covered_px");

@@ -23,6 +23,21 @@ def milliseconds(row):
     return f"{ms:.3f}" if ms < 1 else f"{ms:.2f}" if ms < 10 else f"{ms:.1f}" if ms < 100 else f"{ms:,.0f}"
 
 
+def random_reads_sentence(bench):
+    """Whether the last cache was ours while the rows were timed."""
+    cache, memory = (bench.find(f"random_read/{where}") for where in ("half_last_cache", "memory"))
+    if cache is None or memory is None:
+        return ""
+
+    def ns(row):
+        low, middle, high = (ms * 1e6 / row.counters["reads"] for ms in (row.low_ms, row.median_ms, row.high_ms))
+        return f"{middle:.0f} ns ({low:.0f} to {high:.0f})"
+
+    ours = ("so the last cache was mostly ours" if 2 * cache.median_ms < memory.median_ms else
+            "so others used the last cache, and what needs it took longer than on an idle machine")
+    return f"Beside the rows, a random read of half the last cache took {ns(cache)}, of memory {ns(memory)}: {ours}."
+
+
 def fastest(bench, scene):
     """The fastest backend of a scene, and how many times longer the best of the others takes."""
     best = {}

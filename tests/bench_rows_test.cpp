@@ -1,6 +1,7 @@
 // The benchmark's rows: told apart by name, and never timed when they draw other pixels.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <string>
@@ -10,6 +11,7 @@
 #include "limit.h"
 #include "message_of.h"
 #include "quads.h"
+#include "random_reads.h"
 #include "stage.h"
 #include "suite.h"
 #include "temp_dir.h"
@@ -217,6 +219,18 @@ TEST(BenchLimit, IsASumOfMeasuredPartsAndGrowsWithTheBlocks) {
   EXPECT_DOUBLE_EQ(many.blocks_s, 2 * few.blocks_s);
   EXPECT_DOUBLE_EQ(many.write_s, few.write_s);
   EXPECT_DOUBLE_EQ(few.total_s(), few.read_s + few.blocks_s + few.write_s);
+}
+
+TEST(RandomReads, AllLinesAreReadBeforeOneIsReadAgain) {
+  for (const std::size_t bytes : {std::size_t{0}, std::size_t{64}, std::size_t{128}, std::size_t{1} << 16}) {
+    RandomReads reads(bytes);
+    EXPECT_EQ(reads.lines(), std::max<std::size_t>(1, bytes / 64));
+    std::set<std::uint64_t> seen;
+    for (std::size_t i = 0; i < reads.lines(); ++i) seen.insert(reads.go_on(1));
+    EXPECT_EQ(seen.size(), reads.lines());
+    EXPECT_EQ(*seen.rbegin(), reads.lines() - 1);
+    EXPECT_EQ(reads.go_on(reads.lines()), 0u);
+  }
 }
 
 TEST(BenchStage, FindsTheFloorOnlyWhereItIsWanted) {

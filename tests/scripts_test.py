@@ -237,6 +237,22 @@ class ScriptsTest(unittest.TestCase):
                       "were the frame written from the buffers of tiles, each cleared first, which takes 1.3, 1.8 ms.",
                       readme.read_text())
 
+    def test_readme_tells_whose_the_last_cache_was(self):
+        readme = self.folder / "README.md"
+
+        def told(cache_ms):
+            benchmark = bench()
+            for where, times in (("half_last_cache", cache_ms), ("memory", (1.8, 1.7, 1.9))):
+                benchmark["benchmarks"] += entries(f"random_read/{where}", times, reads=10e3)
+            (self.results / "bench.json").write_text(json.dumps(benchmark))
+            readme.write_text("<!-- results: results -->\n<!-- generated:machine -->\n<!-- /generated -->\n")
+            self.assertEqual(run("readme", "--file", readme).returncode, 0)
+            return readme.read_text()
+
+        self.assertIn("of half the last cache took 15 ns (14 to 160), of memory 180 ns (170 to 190): so the last cache was "
+                      "mostly ours.", told((0.14, 1.6, 0.15)))
+        self.assertIn("so others used the last cache", told((0.14, 1.6, 1.5)))
+
     def test_peers_get_ratios_where_they_were_timed(self):
         readme = self.folder / "README.md"
         blocks = "".join(f"<!-- generated:{name} -->\n<!-- /generated -->\n" for name in ("table", "peers", "peer_charts"))
