@@ -152,16 +152,19 @@ void Bins::Chunk::bin_with_patches(std::span<const ScreenTriangle> triangles, st
     if (sorted.patched == 0) return bin_boxed(some, sorted.boxed, sorted.boxes, begin + at, grid);
     if (patches.used_bytes() > most_patch_bytes) [[unlikely]]
       keep_short(sorted, some, grid);
+    // Runs of one kind and of the other, in turns.
     std::size_t n = 0;
-    for (std::uint64_t left = sorted.boxed; left != 0; left &= left - 1) {
-      const auto k = static_cast<std::size_t>(std::countr_zero(left));
-      const auto before = static_cast<std::size_t>(std::popcount(sorted.patched & ~left & (left - 1)));
-      append(sorted, n, before);
-      n = before;
-      bin(some[k], static_cast<std::uint32_t>(begin + at + k), sorted.boxes.box[k], sorted.boxes.of_four[k],
-          grid);
+    const auto below_lowest = [](std::uint64_t bits) { return (bits & -bits) - 1; };  // all, if none is set
+    for (std::uint64_t boxed = sorted.boxed, patched = sorted.patched; (boxed | patched) != 0;) {
+      const std::uint64_t run = patched & below_lowest(boxed);
+      const std::size_t end = n + static_cast<std::size_t>(std::popcount(run));
+      append(sorted, n, end);
+      n = end;
+      patched ^= run;
+      const std::uint64_t other_run = boxed & below_lowest(patched);
+      bin_boxed(some, other_run, sorted.boxes, begin + at, grid);
+      boxed ^= other_run;
     }
-    append(sorted, n, static_cast<std::size_t>(std::popcount(sorted.patched)));
   });
 }
 

@@ -51,6 +51,70 @@ HWY_INLINE hn::Mask<D> is_small(const RecordLanes& t, const BoxLanes& box) {
   return hn::And(box.filled, hn::And(fits(box.x0, box.x1, t.x), fits(box.y0, box.y1, t.y)));
 }
 
+using DF = hn::Rebind<float, D>;
+using VF = hn::Vec<DF>;
+
+// A row's columns that edges leave, from the box's first on: those between two places. A place is column +
+// 17, so that in a float of 16 … 32 the column's bits stand at the same place.
+class Columns {
+ public:
+  HWY_INLINE explicit Columns(V width) {
+    const DF df;
+    begin_ = hn::Set(df, 16.5f);
+    end_ = hn::Add(hn::ConvertTo(df, width), hn::Set(df, 16.5f));
+  }
+  HWY_INLINE void begin_behind(VF place, hn::Mask<DF> where) {
+    begin_ = hn::IfThenElse(where, hn::Max(begin_, place), begin_);
+  }
+  HWY_INLINE void end_before(VF place, hn::Mask<DF> where) {
+    end_ = hn::IfThenElse(where, hn::Min(end_, place), end_);
+  }
+  HWY_INLINE V bits() const {
+    const D d;
+    const DF df;
+    const auto ones_from = [&](VF place) {
+      const V column = hn::And(hn::ShiftRight<19>(hn::BitCast(d, place)), hn::Set(d, 15));
+      return hn::Set(d, -1) << column;
+    };
+    return hn::AndNot(ones_from(hn::Max(end_, hn::Set(df, 16.0f))),
+                      ones_from(hn::Min(begin_, hn::Set(df, 25.0f))));
+  }
+
+ private:
+  VF begin_, end_;
+};
+
+// Where an edge crosses one row of samples after another. Its value e at a column is an integer, and so is
+// its step a: where e + 1/2 is 0, the place is at least 1 / 2^13 of a column away from all columns, and no
+// rounding of floats takes it past one.
+class Crossings {
+ public:
+  Crossings() = default;
+  // From column to column, from row to row, and at the first of each.
+  HWY_INLINE Crossings(V a, V b, V first) {
+    const DF df;
+    const VF back = hn::ConvertTo(df, hn::Neg(a));
+    // An edge along the row is crossed far away.
+    const VF nonzero = hn::IfThenElse(hn::Eq(back, hn::Zero(df)), hn::Set(df, 1.0f / 32), back);
+    rises_ = hn::Lt(back, hn::Zero(df));
+    over_step_ = hn::Div(hn::Set(df, 1.0f), nonzero);
+    down_ = hn::ConvertTo(df, b);
+    value_ =
+        hn::Add(hn::Add(hn::ConvertTo(df, first), hn::Set(df, 0.5f)), hn::Mul(nonzero, hn::Set(df, 17.0f)));
+  }
+  // Leaves the columns of the next row that are inside.
+  HWY_INLINE void cut_row(Columns& columns) {
+    const VF place = hn::Mul(value_, over_step_);
+    columns.begin_behind(place, rises_);
+    columns.end_before(place, hn::Not(rises_));
+    value_ = hn::Add(value_, down_);
+  }
+
+ private:
+  VF value_, down_, over_step_;
+  hn::Mask<DF> rises_;
+};
+
 // Appends those of kLanes triangles that `small` selects and that cover a sample; returns which they are.
 HWY_INLINE std::uint32_t append_covering(const RecordLanes& t, const BoxLanes& box, hn::Mask<D> small,
                                          int name, Covering& out) {
@@ -70,48 +134,32 @@ HWY_INLINE std::uint32_t append_covering(const RecordLanes& t, const BoxLanes& b
   const auto sample = [&](V px) { return hn::Add(hn::ShiftLeft<kSubBits>(px), hn::Set(d, kHalf)); };
   const V sx = sample(box.x0), sy = sample(box.y0);
   const V a[3] = {hn::Neg(dy1), minus(dy1, dy2), dy2}, b[3] = {dx1, minus(dx2, dx1), hn::Neg(dx2)};
-  V row[3];
+  Crossings edge[3];
   for (int i = 0; i < 3; ++i) {
     const auto top_left = hn::Or(hn::Gt(a[i], zero), hn::And(hn::Eq(a[i], zero), hn::Gt(b[i], zero)));
     const V bias = hn::IfThenZeroElse(top_left, hn::Set(d, -1));
     const V first = hn::Add(hn::Mul(a[i], minus(sx, t.x[i])), hn::Mul(b[i], minus(sy, t.y[i])));
-    row[i] = hn::ShiftRight<kSubBits>(hn::Add(first, bias));  // rule 5
+    edge[i] = Crossings(a[i], b[i], hn::ShiftRight<kSubBits>(hn::Add(first, bias)));  // rule 5
   }
 
-  // Bits of samples that are outside; where none of the triangles has a sample, they don't matter.
-  const int columns = hn::GetLane(hn::MaxOfLanes(d, hn::IfThenElseZero(small, width)));
   const int rows = hn::GetLane(hn::MaxOfLanes(d, hn::IfThenElseZero(small, height)));
-  const V sign = hn::Set(d, INT32_MIN);
-  const hn::RebindToUnsigned<D> du;
-  const auto shifted_right = [&](V v, int by) {
-    return hn::BitCast(d, hn::ShiftRightSame(hn::BitCast(du, v), by));
-  };
-  V outside[2] = {zero, zero};
+  const Columns whole(width);
+  V covered[2] = {zero, zero};
   for (int y = 0; y < rows; ++y) {
-    V e0 = row[0], e1 = row[1], e2 = row[2], bits = zero;
-    for (int x = 0; x < columns; ++x) {
-      bits = hn::Or(hn::BitCast(d, hn::ShiftRight<1>(hn::BitCast(du, bits))),
-                    hn::And(hn::Or(hn::Or(e0, e1), e2), sign));
-      e0 = hn::Add(e0, a[0]), e1 = hn::Add(e1, a[1]), e2 = hn::Add(e2, a[2]);
-    }
-    bits = shifted_right(bits, 32 - columns);
-    V& half = outside[y / 4];
-    half = hn::Or(half, hn::ShiftLeftSame(bits, y % 4 * 8));
-    for (int i = 0; i < 3; ++i) row[i] = hn::Add(row[i], b[i]);
+    Columns columns = whole;
+    for (Crossings& e : edge) e.cut_row(columns);
+    V& half = covered[y / 4];
+    half = hn::Or(half, hn::ShiftLeftSame(columns.bits(), y % 4 * 8));
   }
-  // The box.
-  const auto unsigned_of = [&](V v) { return hn::BitCast(du, v); };
-  const auto bytes = [&](V v) { return hn::Mul(v, hn::Set(d, 0x01010101)); };
-  const V column_bits = bytes(hn::BitCast(d, hn::Set(du, 0xFF) >> unsigned_of(minus(hn::Set(d, 8), width))));
+  const hn::RebindToUnsigned<D> du;
   const auto row_bits = [&](V first_rows) {  // of 0 … 4 rows; shifts of 32 bits are none
     const V left_out = hn::ShiftLeft<3>(minus(hn::Set(d, 4), first_rows));
-    const auto half = hn::ShiftRight<1>(left_out);
-    return hn::BitCast(d, (hn::Set(du, 0xFFFFFFFF) >> unsigned_of(half)) >> unsigned_of(half));
+    const auto half = hn::BitCast(du, hn::ShiftRight<1>(left_out));
+    return hn::BitCast(d, (hn::Set(du, 0xFFFFFFFF) >> half) >> half);
   };
   const V four = hn::Set(d, 4);
   const V upper_rows = hn::Min(height, four), lower_rows = hn::Sub(height, upper_rows);
-  const V inside[2] = {hn::AndNot(outside[0], hn::And(column_bits, row_bits(upper_rows))),
-                       hn::AndNot(outside[1], hn::And(column_bits, row_bits(lower_rows)))};
+  const V inside[2] = {hn::And(covered[0], row_bits(upper_rows)), hn::And(covered[1], row_bits(lower_rows))};
   const auto covers = hn::And(hn::And(small, hn::Gt(area, zero)), hn::Ne(hn::Or(inside[0], inside[1]), zero));
 
   // The anchor (rule 6).
