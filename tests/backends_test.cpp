@@ -154,6 +154,36 @@ TEST_P(EveryBackend, TellsTheLeastDistanceBetweenTheTallestEdgesAndASample) {
   for (const auto& t : triangles) expect_oracle(std::span(&t, 1), kWidth, kHeight, std::to_string(t.payload));
 }
 
+TEST_P(EveryBackend, TellsTheLeastDistanceBetweenSmallTrianglesAndASample) {
+  // As above, with sides just short of 16 px, of which an image of 8 x 8 px shows a part: as steep as edges
+  // of small triangles can be. An edge's value is cut to whole pixels: 0 … 255 count as 0.
+  constexpr int kSide = 8;
+  std::vector<ScreenTriangle> triangles;
+  for (const std::int32_t dy : {4'095, 4'093, 2'731})
+    for (const int x : {0, 4, 7})
+      for (const int y : {0, 3, 7})
+        for (const std::int64_t rest : {-256, -255, -1, 0, 1, 255, 256})
+          for (const bool across : {false, true}) {
+            std::int64_t n = dy / 2;
+            while (std::gcd(n, std::int64_t{dy}) != 1) ++n;
+            std::int64_t dx = (rest + dy) * inverse(n, dy) % dy;
+            if (dx > dy / 2) dx -= dy;
+            const std::int64_t px = sample_sub(x) + (rest - n * dx) / dy, py = sample_sub(y) - n;
+            ASSERT_EQ((px - sample_sub(x)) * dy + n * dx, rest);
+            for (const std::int64_t third_x :
+                 {std::min(px, px + dx) - 1'900, std::max(px, px + dx) + 1'900}) {
+              const auto i32 = [](std::int64_t v) { return static_cast<std::int32_t>(v); };
+              ScreenTriangle t{{i32(px), i32(px + dx), i32(third_x)},
+                               {i32(py), i32(py + dy), i32(py + 700)},
+                               {5000, 6000, 7000},
+                               static_cast<std::uint32_t>(triangles.size())};
+              if (across) std::swap(t.x_sub, t.y_sub);
+              triangles.push_back(t);
+            }
+          }
+  for (const auto& t : triangles) expect_oracle(std::span(&t, 1), kSide, kSide, std::to_string(t.payload));
+}
+
 TEST_P(EveryBackend, TellsLayersThatAreOneUnitOfDepthApart) {
   // Parallel planes over the whole image, every third nearer by one, then one behind it and one that ties: a
   // bound on a block's depths that errs by one hides a layer.

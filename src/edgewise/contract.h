@@ -2,7 +2,7 @@
 //
 // The idea: everything a backend computes is integer arithmetic, which stays associative even when it wraps,
 // so a backend may step, tile, vectorise or thread as it likes and still write the same bits. Floats end in
-// the front end.
+// the front end; a backend may use them where it shows that rounding cannot change what they decide.
 //
 // What is claimed here of all inputs is proven by a solver: raster/proofs, run by scripts/prove.
 //

@@ -156,14 +156,14 @@ void Bins::Chunk::bin_with_patches(std::span<const ScreenTriangle> triangles, st
     std::size_t n = 0;
     const auto below_lowest = [](std::uint64_t bits) { return (bits & -bits) - 1; };  // all, if none is set
     for (std::uint64_t boxed = sorted.boxed, patched = sorted.patched; (boxed | patched) != 0;) {
-      const std::uint64_t run = patched & below_lowest(boxed);
-      const std::size_t end = n + static_cast<std::size_t>(std::popcount(run));
+      const std::uint64_t patch_run = patched & below_lowest(boxed);
+      const std::size_t end = n + static_cast<std::size_t>(std::popcount(patch_run));
       append(sorted, n, end);
       n = end;
-      patched ^= run;
-      const std::uint64_t other_run = boxed & below_lowest(patched);
-      bin_boxed(some, other_run, sorted.boxes, begin + at, grid);
-      boxed ^= other_run;
+      patched ^= patch_run;
+      const std::uint64_t boxed_run = boxed & below_lowest(patched);
+      bin_boxed(some, boxed_run, sorted.boxes, begin + at, grid);
+      boxed ^= boxed_run;
     }
   });
 }

@@ -54,64 +54,75 @@ HWY_INLINE hn::Mask<D> is_small(const RecordLanes& t, const BoxLanes& box) {
 using DF = hn::Rebind<float, D>;
 using VF = hn::Vec<DF>;
 
-// A row's columns that edges leave, from the box's first on: those between two places. A place is column +
-// 17, so that in a float of 16 … 32 the column's bits stand at the same place.
-class Columns {
+// Where a row is crossed, in columns from the box's first sample on, is held as 17 more: rounded down that is
+// 16 + the next column, in a float of 16 … 32, whose bits from 19 on count whole columns.
+constexpr float kFirst = 16, kBefore = 17, kEnd = kFirst + kPatchSide + 1;
+static_assert(kEnd < 2 * kFirst);
+
+// The samples of a row that edges leave.
+class RowSpan {
  public:
-  HWY_INLINE explicit Columns(V width) {
+  HWY_INLINE explicit RowSpan(V width) {
     const DF df;
-    begin_ = hn::Set(df, 16.5f);
-    end_ = hn::Add(hn::ConvertTo(df, width), hn::Set(df, 16.5f));
+    begin_ = hn::Set(df, kFirst + 0.5f);
+    end_ = hn::Add(hn::ConvertTo(df, width), hn::Set(df, kFirst + 0.5f));
   }
-  HWY_INLINE void begin_behind(VF place, hn::Mask<DF> where) {
-    begin_ = hn::IfThenElse(where, hn::Max(begin_, place), begin_);
+  HWY_INLINE void begin_after(VF crossing, hn::Mask<DF> where) {
+    begin_ = hn::IfThenElse(where, hn::Max(begin_, crossing), begin_);
   }
-  HWY_INLINE void end_before(VF place, hn::Mask<DF> where) {
-    end_ = hn::IfThenElse(where, hn::Min(end_, place), end_);
+  HWY_INLINE void end_before(VF crossing, hn::Mask<DF> where) {
+    end_ = hn::IfThenElse(where, hn::Min(end_, crossing), end_);
   }
+  // Bit x is sample x.
   HWY_INLINE V bits() const {
     const D d;
     const DF df;
-    const auto ones_from = [&](VF place) {
-      const V column = hn::And(hn::ShiftRight<19>(hn::BitCast(d, place)), hn::Set(d, 15));
+    const auto ones_from = [&](VF crossing) {
+      const V column = hn::And(hn::ShiftRight<19>(hn::BitCast(d, crossing)), hn::Set(d, 15));
       return hn::Set(d, -1) << column;
     };
-    return hn::AndNot(ones_from(hn::Max(end_, hn::Set(df, 16.0f))),
-                      ones_from(hn::Min(begin_, hn::Set(df, 25.0f))));
+    return hn::AndNot(ones_from(hn::Max(end_, hn::Set(df, kFirst))),
+                      ones_from(hn::Min(begin_, hn::Set(df, kEnd))));
   }
 
  private:
   VF begin_, end_;
 };
 
-// Where an edge crosses one row of samples after another. Its value e at a column is an integer, and so is
-// its step a: where e + 1/2 is 0, the place is at least 1 / 2^13 of a column away from all columns, and no
-// rounding of floats takes it past one.
+// Where an edge crosses one row of samples after another: the integers of rule 5, told apart by floats.
+//
+// At sample x of a row the edge's value is e + a x, |a| < 2^12, and the sample is inside if that is at least
+// 0, which is to say if e + a x + 1/2 is above 0. It never is 0, but 1/2 away from it or more: so the
+// crossing, where it would be, is more than 2^-13 of a column away from every sample. All sums are exact:
+// below 2^18, in halves or in 32nds. The reciprocal and the product move a crossing below 32 by less than
+// 2^-16, whatever the rounding mode, so never past a sample.
 class Crossings {
  public:
   Crossings() = default;
-  // From column to column, from row to row, and at the first of each.
+  // `first`: at the box's first sample. `a`, `b`: steps to the next column and to the next row.
   HWY_INLINE Crossings(V a, V b, V first) {
+    static_assert(kLongest <= 1 << 12);
     const DF df;
     const VF back = hn::ConvertTo(df, hn::Neg(a));
-    // An edge along the row is crossed far away.
-    const VF nonzero = hn::IfThenElse(hn::Eq(back, hn::Zero(df)), hn::Set(df, 1.0f / 32), back);
     rises_ = hn::Lt(back, hn::Zero(df));
-    over_step_ = hn::Div(hn::Set(df, 1.0f), nonzero);
-    down_ = hn::ConvertTo(df, b);
+    // With 1/32 an edge along the row has its crossing at 33 or beyond if e is at least 0, else at 1 or
+    // before.
+    const VF nonzero = hn::IfThenElse(hn::Eq(back, hn::Zero(df)), hn::Set(df, 1.0f / 32), back);
+    inverse_ = hn::Div(hn::Set(df, 1.0f), nonzero);
+    step_y_ = hn::ConvertTo(df, b);
     value_ =
-        hn::Add(hn::Add(hn::ConvertTo(df, first), hn::Set(df, 0.5f)), hn::Mul(nonzero, hn::Set(df, 17.0f)));
+        hn::Add(hn::Add(hn::ConvertTo(df, first), hn::Set(df, 0.5f)), hn::Mul(nonzero, hn::Set(df, kBefore)));
   }
-  // Leaves the columns of the next row that are inside.
-  HWY_INLINE void cut_row(Columns& columns) {
-    const VF place = hn::Mul(value_, over_step_);
-    columns.begin_behind(place, rises_);
-    columns.end_before(place, hn::Not(rises_));
-    value_ = hn::Add(value_, down_);
+  // Leaves the samples of the next row that are inside.
+  HWY_INLINE void cut_row(RowSpan& span) {
+    const VF crossing = hn::Mul(value_, inverse_);
+    span.begin_after(crossing, rises_);
+    span.end_before(crossing, hn::Not(rises_));
+    value_ = hn::Add(value_, step_y_);
   }
 
  private:
-  VF value_, down_, over_step_;
+  VF value_, step_y_, inverse_;
   hn::Mask<DF> rises_;
 };
 
@@ -143,13 +154,13 @@ HWY_INLINE std::uint32_t append_covering(const RecordLanes& t, const BoxLanes& b
   }
 
   const int rows = hn::GetLane(hn::MaxOfLanes(d, hn::IfThenElseZero(small, height)));
-  const Columns whole(width);
+  const RowSpan whole(width);
   V covered[2] = {zero, zero};
   for (int y = 0; y < rows; ++y) {
-    Columns columns = whole;
-    for (Crossings& e : edge) e.cut_row(columns);
+    RowSpan span = whole;
+    for (Crossings& e : edge) e.cut_row(span);
     V& half = covered[y / 4];
-    half = hn::Or(half, hn::ShiftLeftSame(columns.bits(), y % 4 * 8));
+    half = hn::Or(half, hn::ShiftLeftSame(span.bits(), y % 4 * 8));
   }
   const hn::RebindToUnsigned<D> du;
   const auto row_bits = [&](V first_rows) {  // of 0 … 4 rows; shifts of 32 bits are none
