@@ -409,6 +409,24 @@ TEST(Framebuffer, RowsAreWholeCacheLinesAndNoMultipleOfAPageApart) {
   }
 }
 
+TEST(Framebuffer, LargeOnesBeginAtAHugePageAndMoveWithTheirViews) {
+  constexpr int kSmall = 64, kLarge = 1100;  // px; 4.9 MB a plane
+  constexpr std::uintptr_t kHugePage = std::uintptr_t{1} << 21;
+  const auto begins_at_huge_page = [](const Framebuffer& frame) {
+    return reinterpret_cast<std::uintptr_t>(frame.depth_row(0)) % kHugePage == 0 &&
+           reinterpret_cast<std::uintptr_t>(frame.payload_row(0)) % kHugePage == 0;
+  };
+  for (const auto& [from, to] : {std::pair{kSmall, kLarge}, {kLarge, kSmall}}) {
+    Framebuffer moved(from, from), frame(to, to);
+    EXPECT_EQ(begins_at_huge_page(moved), from == kLarge);
+    const FrameView view = moved.view();
+    view.depth[view.stride * (from - 1)] = 7;
+    frame = std::move(moved);  // frees what it held, which began elsewhere
+    EXPECT_EQ(frame.depth_row(from - 1), view.depth + view.stride * (from - 1));
+    EXPECT_EQ(*frame.depth_row(from - 1), 7u);
+  }
+}
+
 TEST(Registry, NamesThoseThatFillFirst) {
   const auto filling = filling_backends();
   for (const auto& b : backends())

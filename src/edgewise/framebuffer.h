@@ -51,7 +51,7 @@ class Framebuffer {
 
  private:
   struct Release {
-    std::align_val_t alignment{};
+    std::align_val_t alignment{};  // large frames begin at a huge page
     void operator()(std::uint32_t* p) const { ::operator delete(p, alignment); }
   };
   using Plane = std::unique_ptr<std::uint32_t[], Release>;

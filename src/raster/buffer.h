@@ -32,8 +32,8 @@ class Buffer {
     data_.reset();  // first, so that both are never held at once
     capacity_ = 0;
     const std::size_t bytes = count * sizeof(T);
-    const std::align_val_t alignment = page_alignment(bytes, alignof(T));
-    data_ = {static_cast<T*>(allocate_pages(bytes, alignment)), Free{alignment}};
+    const std::align_val_t alignment = alignment_for(bytes, alignof(T));
+    data_ = {static_cast<T*>(allocate_aligned(bytes, alignment)), Free{alignment}};
     capacity_ = count;
   }
   T* data() { return data_.get(); }

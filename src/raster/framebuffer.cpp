@@ -35,8 +35,8 @@ Framebuffer::Framebuffer(int width, int height)
 Framebuffer::Plane Framebuffer::allocate() const {
   const auto pixels = static_cast<std::size_t>(stride_) * static_cast<std::size_t>(height_);
   const std::size_t bytes = pixels * sizeof(std::uint32_t);
-  const std::align_val_t alignment = page_alignment(bytes);
-  return Plane(static_cast<std::uint32_t*>(allocate_pages(bytes, alignment)), Release{alignment});
+  const std::align_val_t alignment = alignment_for(bytes);
+  return Plane(static_cast<std::uint32_t*>(allocate_aligned(bytes, alignment)), Release{alignment});
 }
 
 }  // namespace edgewise
