@@ -39,6 +39,8 @@ std::optional<Flags> parse_flags(int argc, char** argv) {
       "Google Benchmark's other flags work too, among them --benchmark_filter=REGEX, "
       "--benchmark_list_tests,\n"
       "--benchmark_repetitions=N, --benchmark_min_time=SECONDS and --benchmark_format=console|json|csv.\n"
+      "Whatever the filter lets through, random reads are timed between: they tell whether the last cache "
+      "was ours.\n"
       "Exit status: 0 done, 1 a row drew other pixels, 2 bad input or failure, 130 after Ctrl-C.");
   try {
     parser.parse(argc, argv);

@@ -218,32 +218,21 @@ void register_rows(const std::vector<Row>& rows, Stage& stage, const Flags& flag
   }
 }
 
-// What the machine's caches gave while the rows were timed.
+// Whatever rows are wanted: they tell what the machine's caches gave while those were timed.
 void register_random_reads(const Flags& flags) {
-  const Effort effort = flags.suite.quick ? kQuick : kFull;
   constexpr std::size_t kReads = 10'000;
-  constexpr int kIterations = 10;
-  for (const ReadRow& row : read_rows()) {
+  constexpr int kIterations = 5;
+  for (const ReadRow& row : random_read_rows()) {
     auto* registered = benchmark::RegisterBenchmark(
-        row.name.data(),
-        [reads = std::make_shared<RandomReads>(row.bytes), warm = row.held](benchmark::State& state) {
-          if (warm) benchmark::DoNotOptimize(reads->go_on(reads->lines()));
+        row.name.data(), [reads = std::make_shared<RandomReads>(row.bytes), row](benchmark::State& state) {
+          if (row.fits_cache) benchmark::DoNotOptimize(reads->go_on(reads->lines()));  // back in
           for (auto _ : state) benchmark::DoNotOptimize(reads->go_on(kReads));
           state.counters["reads"] = kReads;
+          state.counters["bytes"] = static_cast<double>(row.bytes);
         });
     registered->Unit(benchmark::kMillisecond)->UseRealTime()->Iterations(kIterations);
-    if (flags.own_repetitions) registered->Repetitions(effort.repetitions);
+    if (flags.own_repetitions) registered->Repetitions(flags.suite.quick ? 5 : 20);
   }
-}
-
-void warn_of_shared_cache(const std::map<std::string, double>& median_ms) {
-  const auto [cache, memory] = read_rows();
-  const double share = median_ms.at(std::string(cache.name)) / median_ms.at(std::string(memory.name));
-  if (share < 0.5) return;
-  std::cerr << fmt::format(
-      "Note: random reads of half the last cache took {:.0f} % as long as of memory: others use that cache, "
-      "and who needs it took longer than on an idle machine.\n",
-      100.0 * share);
 }
 
 template <typename Info>
@@ -287,7 +276,7 @@ int run(int argc, char** argv) {
   add_context(flags);
   std::vector<std::string> names;
   for (const auto& row : rows) names.push_back(row.name);
-  for (const auto& row : read_rows()) names.emplace_back(row.name);
+  for (const auto& row : random_read_rows()) names.emplace_back(row.name);
   Reporter reporter(names);
   {
     app::Progress progress;
@@ -299,9 +288,7 @@ int run(int argc, char** argv) {
     out->stream() << reporter.json();
     out->commit();
   }
-  const auto median_ms = reporter.median_ms();
-  warn_of_shared_cache(median_ms);
-  if (flags.readable) std::cout << ratio_table(rows, median_ms);
+  if (flags.readable) std::cout << ratio_table(rows, reporter.median_ms());
   return std::any_of(rows.begin(), rows.end(), [](const Row& row) { return !row.error.empty(); }) ? 1 : 0;
 }
 

@@ -1,6 +1,6 @@
-// How long reads take that no prefetcher can guess. A processor's last cache is everybody's: where others run
-// beside us and fill it, whoever goes over a frame in no order waits for memory and takes several times as
-// long, while arithmetic is as fast as ever. So this is timed beside the rows.
+// Pointer chasing: how long reads take that no prefetcher can guess. A processor's last cache is everybody's:
+// where others run beside us and fill it, whoever goes over a frame in no order waits for memory, while
+// arithmetic is as fast as ever. So this is timed beside the rows.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace edgewise::bench {
 
-// Memory whose cache lines are read one after the other: each tells which is next, and all are in one cycle
+// A buffer whose cache lines are read one after the other: each tells which is next, and all are in one cycle
 // of random order.
 class RandomReads {
  public:
@@ -27,17 +27,17 @@ class RandomReads {
     std::uint64_t next;
   };
   std::size_t lines_;
-  Buffer<Line> memory_;  // in huge pages, so that no page has to be looked up
+  Buffer<Line> memory_;  // in huge pages, so that looking up pages hardly counts
   std::uint64_t at_ = 0;
 };
 
 struct ReadRow {
   std::string_view name;
-  std::size_t bytes;  // that are read all over
-  bool held;          // by the last cache, if nobody else uses it
+  std::size_t bytes;  // of the buffer
+  bool fits_cache;    // the last one, if nobody else uses it
 };
 
-// Of half the last cache, and of memory that it holds little of.
-std::array<ReadRow, 2> read_rows();
+// A buffer half as large as the last cache, and one that it can hold little of.
+std::array<ReadRow, 2> random_read_rows();
 
 }  // namespace edgewise::bench

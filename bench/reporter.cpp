@@ -60,14 +60,14 @@ void Reporter::ReportRuns(const std::vector<Run>& runs) {
 }
 
 void Reporter::Finalize() {
+  std::vector<Run> shown;  // all at once: CSV's columns are the counters of its first report
   for (const auto& name : names_) {
     const auto& runs = runs_[name];
-    std::vector<Run> shown;
     std::copy_if(runs.begin(), runs.end(), std::back_inserter(shown), is_median);
-    if (shown.empty() && !runs.empty()) shown.push_back(runs.front());
-    if (!shown.empty()) console_->ReportRuns(shown);
+    if (std::none_of(runs.begin(), runs.end(), is_median) && !runs.empty()) shown.push_back(runs.front());
     if (!runs.empty()) json_.ReportRuns(runs);
   }
+  if (!shown.empty()) console_->ReportRuns(shown);
   console_->Finalize();
   json_.Finalize();
 }

@@ -1,7 +1,7 @@
 """Reads what a run left in results/MACHINE: bench.json (Google Benchmark's format), machine.json, verify.json.
 
 A row's name is WHO/what/key:value…/threads:N, WHO being a backend, "frontend" or BACKEND+frontend; peers, the
-rasterizers of other projects, stand in a backend's place.
+rasterizers of other projects, stand in a backend's place. Rows random_read/WHERE, which every run has, draw nothing.
 """
 import json
 import statistics
@@ -63,6 +63,7 @@ def parse_name(name):
 class Bench:
     context: dict
     rows: dict  # by name
+    random_reads: dict = field(default_factory=dict)  # rows that tell of the machine, by what is read
 
     @property
     def backends(self):
@@ -121,7 +122,8 @@ def read_bench(folder_or_file):
             row.counters = {key: value for key, value in entry.items() if isinstance(value, float)}
     except (KeyError, TypeError, AttributeError) as error:
         raise BadInput(f"{path}: not a Google Benchmark result: {error}") from None
-    return Bench(data.get("context", {}), rows)
+    reads = {row.scene: rows.pop(name) for name, row in list(rows.items()) if row.backend == "random_read"}
+    return Bench(data.get("context", {}), rows, reads)
 
 
 def describe_machine(machine):

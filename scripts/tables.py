@@ -24,8 +24,8 @@ def milliseconds(row):
 
 
 def random_reads_sentence(bench):
-    """Whether the last cache was ours while the rows were timed."""
-    cache, memory = (bench.find(f"random_read/{where}") for where in ("half_last_cache", "memory"))
+    """Whether the last cache was ours while the rows were timed; empty if that was not measured."""
+    cache, memory = (bench.random_reads.get(where) for where in ("half_last_cache", "memory"))
     if cache is None or memory is None:
         return ""
 
@@ -33,9 +33,10 @@ def random_reads_sentence(bench):
         low, middle, high = (ms * 1e6 / row.counters["reads"] for ms in (row.low_ms, row.median_ms, row.high_ms))
         return f"{middle:.0f} ns ({low:.0f} to {high:.0f})"
 
-    ours = ("so the last cache was mostly ours" if 2 * cache.median_ms < memory.median_ms else
-            "so others used the last cache, and what needs it took longer than on an idle machine")
-    return f"Beside the rows, a random read of half the last cache took {ns(cache)}, of memory {ns(memory)}: {ours}."
+    verdict = ("the cache was ours" if cache.median_ms < 0.3 * memory.median_ms else
+               "as where others fill the cache, and who needs it takes longer than on an idle machine")
+    return (f"Between the rows, a random read took {ns(cache)} in a buffer half as large as the last cache, {ns(memory)} "
+            f"in one that it holds little of: {verdict}.")
 
 
 def fastest(bench, scene):

@@ -318,6 +318,8 @@ inline constexpr Hostile kHostile[] = {
     {"set -o pipefail; edgewise list | true; exit 0", 0, ""},
     {"{ bench $SHORT --benchmark_out=$DIR/a.json; echo $? >$IN/status; } | true; exit $(cat $IN/status)", 2,
      "cannot write to standard output", "a.json"},
+    {"bench $SHORT --benchmark_format=csv", 0, ""},
+    {"bench $SHORT --benchmark_report_aggregates_only=true", 0, ""},
 
     // ---- Too little memory, too few threads
     {"ulimit -v 400000; edgewise render cube --threads 1 --size 16384x16384 -o $DIR/a.png", 2,

@@ -249,9 +249,12 @@ class ScriptsTest(unittest.TestCase):
             self.assertEqual(run("readme", "--file", readme).returncode, 0)
             return readme.read_text()
 
-        self.assertIn("of half the last cache took 15 ns (14 to 160), of memory 180 ns (170 to 190): so the last cache was "
-                      "mostly ours.", told((0.14, 1.6, 0.15)))
-        self.assertIn("so others used the last cache", told((0.14, 1.6, 1.5)))
+        self.assertIn("a random read took 15 ns (14 to 160) in a buffer half as large as the last cache, 180 ns (170 to "
+                      "190) in one that it holds little of: the cache was ours.", told((0.14, 1.6, 0.15)))
+        self.assertIn("as where others fill the cache", told((0.14, 1.6, 0.7)))
+        compared = run("compare", self.results, self.results).stdout
+        self.assertIn("In the second: Between the rows, a random read took 70 ns", compared)
+        self.assertNotIn("random_read/", run("compare", "--all", self.results, self.results).stdout)
 
     def test_peers_get_ratios_where_they_were_timed(self):
         readme = self.folder / "README.md"
