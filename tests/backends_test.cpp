@@ -129,9 +129,25 @@ std::int64_t inverse(std::int64_t a, std::int64_t m) {
   return (t0 + m) % m;
 }
 
+std::int32_t i32(std::int64_t v) {
+  return static_cast<std::int32_t>(v);
+}
+
+struct EdgeStart {
+  std::int64_t x, y, dx;  // sub-units; dx to the edge's end
+};
+// Of an edge, `dy` sub-units high, that crosses a sample's height rest / (256 dy) px to its right: from
+// vertex p, n sub-units above, by (p.x - sample_x) dy + n dx = rest. `above`: the least n.
+EdgeStart edge_beside(std::int32_t sample_x, std::int32_t sample_y, std::int64_t rest, std::int32_t dy,
+                      std::int64_t above) {
+  std::int64_t n = above;
+  while (std::gcd(n, std::int64_t{dy}) != 1) ++n;  // puts p higher
+  std::int64_t dx = (rest + dy) * inverse(n, dy) % dy;
+  if (dx > dy / 2) dx -= dy;
+  return {sample_x + (rest - n * dx) / dy, sample_y - n, dx};
+}
+
 TEST_P(EveryBackend, TellsTheLeastDistanceBetweenTheTallestEdgesAndASample) {
-  // An edge crosses the height of sample (x, y) at x + rest / (256 dy) px: from vertex p, n sub-units above,
-  // by (p.x - sample_x) dy + n dx = rest.
   constexpr int kWidth = 80, kHeight = 70;
   std::vector<ScreenTriangle> triangles;
   std::uint32_t id = 0;
@@ -139,14 +155,9 @@ TEST_P(EveryBackend, TellsTheLeastDistanceBetweenTheTallestEdgesAndASample) {
     for (const int y : {0, 33, 69})
       for (const std::int64_t rest : {-1, 0, 1})
         for (const int third_x : {-kGuardSub, kGuardSub}) {
-          const std::int32_t sample_x = sample_sub(y * 7 % kWidth), top = -dy / 2;
-          std::int64_t n = sample_sub(y) - top;
-          while (std::gcd(n, std::int64_t{dy}) != 1) ++n;  // puts p higher
-          std::int64_t dx = (rest + dy) * inverse(n, dy) % dy;
-          if (dx > dy / 2) dx -= dy;
-          const std::int64_t px = sample_x + (rest - n * dx) / dy, py = sample_sub(y) - n;
-          ASSERT_EQ((px - sample_x) * dy + n * dx, rest);
-          const auto i32 = [](std::int64_t v) { return static_cast<std::int32_t>(v); };
+          const std::int32_t sample_x = sample_sub(y * 7 % kWidth), sample_y = sample_sub(y), top = -dy / 2;
+          const auto [px, py, dx] = edge_beside(sample_x, sample_y, rest, dy, sample_y - top);
+          ASSERT_EQ((px - sample_x) * dy + (sample_y - py) * dx, rest);
           triangles.push_back(
               {{i32(px), i32(px + dx), third_x}, {i32(py), i32(py + dy), 1000}, {5000, 6000 + id, 7000}, id});
           ++id;
@@ -155,7 +166,7 @@ TEST_P(EveryBackend, TellsTheLeastDistanceBetweenTheTallestEdgesAndASample) {
 }
 
 TEST_P(EveryBackend, TellsTheLeastDistanceBetweenSmallTrianglesAndASample) {
-  // As above, with sides just short of 16 px, of which an image of 8 x 8 px shows a part: as steep as edges
+  // Sides just short of 16 px, of which an image of 8 x 8 px shows a part: as steep as edges
   // of small triangles can be. An edge's value is cut to whole pixels: 0 … 255 count as 0.
   constexpr int kSide = 8;
   std::vector<ScreenTriangle> triangles;
@@ -164,15 +175,10 @@ TEST_P(EveryBackend, TellsTheLeastDistanceBetweenSmallTrianglesAndASample) {
       for (const int y : {0, 3, 7})
         for (const std::int64_t rest : {-256, -255, -1, 0, 1, 255, 256})
           for (const bool across : {false, true}) {
-            std::int64_t n = dy / 2;
-            while (std::gcd(n, std::int64_t{dy}) != 1) ++n;
-            std::int64_t dx = (rest + dy) * inverse(n, dy) % dy;
-            if (dx > dy / 2) dx -= dy;
-            const std::int64_t px = sample_sub(x) + (rest - n * dx) / dy, py = sample_sub(y) - n;
-            ASSERT_EQ((px - sample_sub(x)) * dy + n * dx, rest);
+            const auto [px, py, dx] = edge_beside(sample_sub(x), sample_sub(y), rest, dy, dy / 2);
+            ASSERT_EQ((px - sample_sub(x)) * dy + (sample_sub(y) - py) * dx, rest);
             for (const std::int64_t third_x :
                  {std::min(px, px + dx) - 1'900, std::max(px, px + dx) + 1'900}) {
-              const auto i32 = [](std::int64_t v) { return static_cast<std::int32_t>(v); };
               ScreenTriangle t{{i32(px), i32(px + dx), i32(third_x)},
                                {i32(py), i32(py + dy), i32(py + 700)},
                                {5000, 6000, 7000},
