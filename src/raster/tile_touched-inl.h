@@ -38,31 +38,30 @@ HWY_NOINLINE void draw_touched(Tile& tile, const Batch& batch, const Touched& to
   const V payload = hn::Set(d, batch.payload[k]);
   const int first_place = batch.by0[k] * kMaxBlocks + batch.bx0[k];
   for (int begin = 0; begin < length; begin += kLanes) {
-    // Values at the blocks' first pixels.
+    // Values at the blocks' first pixels. From memory they reach all lanes by a load, which is free while the
+    // units for arithmetic, and for moving lanes, are not.
     const V place = hn::Load(d, touched.place + begin);
     static_assert(kBlock == 1 << 2 && kMaxBlocks == 1 << 4);
     const V x = hn::ShiftLeft<2>(hn::And(place, hn::Set(d, kMaxBlocks - 1)));
     const V y = hn::ShiftLeft<2>(hn::ShiftRight<4>(place));
-    const auto at_first = [&](const Batch::Linear& f) {
-      return hn::Add(hn::Set(d, f.first[k]),
-                     hn::Add(hn::Mul(x, hn::Set(d, f.x[k])), hn::Mul(y, hn::Set(d, f.y[k]))));
+    alignas(64) std::int32_t edge_at[3][kLanes], depth_at[kLanes];
+    const auto store_first = [&](const Batch::Linear& f, std::int32_t* at) {
+      hn::Store(hn::Add(hn::Set(d, f.first[k]),
+                        hn::Add(hn::Mul(x, hn::Set(d, f.x[k])), hn::Mul(y, hn::Set(d, f.y[k])))),
+                d, at);
     };
-    const V at_edge[3] = {at_first(batch.edge[0]), at_first(batch.edge[1]), at_first(batch.edge[2])};
-    const V at_depth = at_first(batch.depth);
-    V lane = hn::Zero(d);
-    const int end = std::min(begin + kLanes, length);
-    for (int n = begin; n < end; ++n) {
-      const int block = first_place + touched.place[n];
-      const auto which = hn::IndicesFromVec(d, lane);
-      const auto everywhere = [&](V at) { return hn::TableLookupLanes(at, which); };
-      const V edge[3] = {everywhere(at_edge[0]), everywhere(at_edge[1]), everywhere(at_edge[2])};
-      const V depth = everywhere(at_depth);
+    for (int i = 0; i < 3; ++i) store_first(batch.edge[i], edge_at[i]);
+    store_first(batch.depth, depth_at);
+    const int count = std::min(kLanes, length - begin);
+    for (int n = 0; n < count; ++n) {
+      const int block = first_place + touched.place[begin + n];
+      const V edge[3] = {hn::Set(d, edge_at[0][n]), hn::Set(d, edge_at[1][n]), hn::Set(d, edge_at[2][n])};
+      const V depth = hn::Set(d, depth_at[n]);
       for (int p = 0; p < kVectors; ++p) {
         const auto value = [&](int i) { return hn::Add(edge[i], edge_in[i].v[p]); };
         write(tile, block * kBlockPixels + p * kLanes, inside(hn::Or(hn::Or(value(0), value(1)), value(2))),
               hn::Add(depth, depth_in.v[p]), payload);
       }
-      lane = hn::Add(lane, hn::Set(d, 1));
     }
   }
 }
