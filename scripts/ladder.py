@@ -12,7 +12,7 @@ def steps(bench, scene):
     backend = rungs[-1].backend
     named = [(f"{START}, 1 thread", bench.find(f"{START}/{scene}/threads:1"))]
     named += [(NAMES.get(row.keys["rung"], f"… in {row.keys['rung']}"), row) for row in rungs]
-    named += [("+ write-out by size", bench.find(f"{backend}/{scene}/threads:1")),
+    named += [("+ write-out chosen", bench.find(f"{backend}/{scene}/threads:1")),
               ("+ second thread", bench.find(f"{backend}/{scene}/threads:2"))]
     return [(label, row) for label, row in named if row]
 

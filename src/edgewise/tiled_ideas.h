@@ -12,9 +12,9 @@ namespace edgewise {
 enum class WriteOut {
   through_caches,
   past_caches,
-  // Past the caches where frame and triangles don't fit half of the last one; tiles without a triangle where
-  // the frame alone does not.
-  by_size
+  // Past the caches where frame and triangles don't fit half of the last one (tiles without a triangle: where
+  // the frame alone does not), and where a frame that would fit is found not to stay there.
+  automatic
 };
 
 struct TiledIdeas {
@@ -22,7 +22,7 @@ struct TiledIdeas {
   bool prefetch = true;            // records are asked for before they are needed; lists always are
   bool patches = true;             // small triangles are resolved where they are binned; needs vector_setup
   bool hierarchical_depth = true;  // blocks are dropped that lie behind all that they show
-  WriteOut write_out = WriteOut::by_size;
+  WriteOut write_out = WriteOut::automatic;
 };
 
 // What differs from the default, as "no prefetch, …"; empty where nothing does.

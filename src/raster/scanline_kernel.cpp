@@ -7,7 +7,6 @@
 //    of the depth grid (rule 6), so a span has one plane.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raster/scanline_kernel.cpp"
-#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -99,17 +98,16 @@ void write_rows(const Place& to, const std::int32_t* rows) {
 }  // namespace
 
 void draw_tile_in_spans(const TileJob& job) {
-  const Place depth(job, job.frame.depth), payload(job, job.frame.payload);
   if (job.bins->empty(job.cell)) {
-    write_background(job, depth, payload);
-    hwy::FlushStream();
+    write_background(job);
     return clear_upper_halves();
   }
   TilePainter painter(job);
   draw_runs(job, [&](const Bins::Run& run) { painter.draw(run.indices); });
-  write_rows(depth, painter.depth());
-  write_rows(payload, painter.payload());
-  hwy::FlushStream();
+  write_planes(job, [&](const Place& depth, const Place& payload) {
+    write_rows(depth, painter.depth());
+    write_rows(payload, painter.payload());
+  });
   clear_upper_halves();
 }
 

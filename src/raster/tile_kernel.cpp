@@ -19,7 +19,6 @@
 //    are drawn without a branch (tile_patches-inl.h).
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raster/tile_kernel.cpp"
-#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -109,10 +108,8 @@ class TilePainter {
 };
 
 void draw_tile(const TileJob& job) {
-  const Place depth(job, job.frame.depth), payload(job, job.frame.payload);
   if (job.bins->empty(job.cell)) {
-    write_background(job, depth, payload);
-    hwy::FlushStream();
+    write_background(job);
     return clear_upper_halves();
   }
   const D d;
@@ -130,9 +127,10 @@ void draw_tile(const TileJob& job) {
   TilePainter painter(job, tile);
   draw_runs(job, [&](const Bins::Run& run) { painter.draw_run(run); });
   painter.draw_rest();
-  write_out(depth, tile.depth());
-  write_out(payload, tile.payload());
-  hwy::FlushStream();
+  write_planes(job, [&](const Place& depth, const Place& payload) {
+    write_out(depth, tile.depth());
+    write_out(payload, tile.payload());
+  });
   clear_upper_halves();
 }
 

@@ -4,6 +4,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <span>
 
@@ -92,10 +93,24 @@ HWY_INLINE void draw_runs(const TileJob& job, Draw&& draw) {
   if (!asked_for.indices.empty()) draw(asked_for);
 }
 
+// Calls write(depth, payload) with the tile's places, and waits until what went past the caches is on its
+// way.
+template <typename Write>
+HWY_INLINE void write_planes(const TileJob& job, Write&& write) {
+  using Clock = std::chrono::steady_clock;
+  const Place depth(job, job.frame.depth), payload(job, job.frame.payload);
+  const Clock::time_point begin = job.write_out_ns == nullptr ? Clock::time_point() : Clock::now();
+  write(depth, payload);
+  hwy::FlushStream();
+  if (job.write_out_ns != nullptr) *job.write_out_ns = std::chrono::nanoseconds(Clock::now() - begin).count();
+}
+
 // A tile without triangles needs no buffer.
-HWY_INLINE void write_background(const TileJob& job, const Place& depth, const Place& payload) {
-  write_value(depth, static_cast<std::int32_t>(contract::kDepthClear));
-  write_value(payload, static_cast<std::int32_t>(job.background));
+HWY_INLINE void write_background(const TileJob& job) {
+  write_planes(job, [&](const Place& depth, const Place& payload) {
+    write_value(depth, static_cast<std::int32_t>(contract::kDepthClear));
+    write_value(payload, static_cast<std::int32_t>(job.background));
+  });
 }
 
 // Where a tile has no triangle, GCC 12 forgets this instruction between the clear and the return. The
