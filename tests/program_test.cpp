@@ -1,11 +1,13 @@
 // The program as a user meets it. What it must refuse stands in hostile_table.h.
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "app/machine.h"
 #include "edgewise/backend.h"
 #include "edgewise/builtin.h"
 #include "edgewise/image.h"
@@ -69,6 +71,20 @@ TEST(Program, MachineIsDescribedWithoutAHostName) {
   const std::string name = edgewise_with("machine --name").out;
   EXPECT_EQ(name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-\n"), std::string::npos) << name;
   EXPECT_TRUE(name.ends_with("-core\n") || name.ends_with("-cores\n")) << name;
+}
+
+// Results of different machines must not go to one folder.
+TEST(Program, TellsCpusApartThatGoByOneName) {
+  TempDir folder;
+  const auto model_of = [&](const std::string& name, const std::string& more) {
+    const std::string path = (folder.path() / "cpuinfo").string();
+    std::ofstream(path) << "processor\t: 0\n" + more + "model name\t: " + name + "\nstepping\t: 1\n";
+    return app::cpu_model(path);
+  };
+  EXPECT_EQ(model_of("AMD EPYC", "cpu family\t: 25\nmodel\t\t: 17\n"), "AMD EPYC (family 25, model 17)");
+  EXPECT_EQ(model_of("AMD EPYC 9R14", "cpu family\t: 25\nmodel\t\t: 17\n"), "AMD EPYC 9R14");
+  EXPECT_EQ(model_of("Some core", ""), "Some core");
+  EXPECT_EQ(app::cpu_model((folder.path() / "missing").string()), "unknown");
 }
 
 class ProgramRenders : public ::testing::Test {

@@ -79,11 +79,6 @@ std::string value_of(const std::map<std::string, std::string>& pairs, const std:
   return found == pairs.end() ? std::string() : found->second;
 }
 
-std::string cpu_model() {
-  const std::string model = value_of(read_pairs("/proc/cpuinfo", ':'), "model name");
-  return model.empty() ? kUnknown : model;
-}
-
 long cores() {
   return std::max(1L, sysconf(_SC_NPROCESSORS_ONLN));
 }
@@ -160,6 +155,18 @@ nlohmann::json packages() {
 }
 
 }  // namespace
+
+std::string cpu_model(const std::string& cpuinfo) {
+  const auto pairs = read_pairs(cpuinfo, ':');
+  const std::string model = value_of(pairs, "model name"), family = value_of(pairs, "cpu family"),
+                    number = value_of(pairs, "model");
+  if (model.empty()) return kUnknown;
+  const bool names_one =
+      std::any_of(model.begin(), model.end(), [](unsigned char c) { return std::isdigit(c); });
+  return names_one || family.empty() || number.empty()
+             ? model
+             : fmt::format("{} (family {}, model {})", model, family, number);
+}
 
 nlohmann::json machine_description() {
   nlohmann::json json;

@@ -10,8 +10,12 @@ namespace edgewise::app {
 // source tree's git at run time, "-dirty" appended), package versions, SIMD targets. No host name.
 nlohmann::json machine_description();
 
-// The folder below results/ for this machine, for example "amd-epyc-2-cores": CPU model and core count, lower
-// case.
+// As the system tells, for example "AMD Ryzen 9 7950X 16-Core Processor". A name without a number, as virtual
+// machines have it, stands for many: then with its CPUID family and model, "AMD EPYC (family 25, model 17)".
+std::string cpu_model(const std::string& cpuinfo = "/proc/cpuinfo");
+
+// The folder below results/ for this machine, for example "amd-epyc-family-25-model-17-2-cores": CPU model
+// and core count, lower case.
 std::string machine_name();
 
 }  // namespace edgewise::app
