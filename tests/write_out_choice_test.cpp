@@ -7,133 +7,197 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <string>
+#include <utility>
 #include <vector>
 
-#include "edgewise/builtin.h"
-#include "edgewise/contract.h"
-#include "edgewise/frontend.h"
-#include "raster/last_cache.h"
+#include "lab/measure.h"
+#include "raster/scanline_kernel.h"
+#include "raster/tiles.h"
 #include "support.h"
 
 namespace edgewise::testing {
 namespace {
 
-constexpr std::size_t kCache = 32'000'000, kFits = 16'000'000, kTiles = 510;
+constexpr std::size_t kCache = 32'000'000, kFits = 16'000'000;
+constexpr int kTiles = 510;
 
-// What a frame's tiles were told. Those that are timed get the times of their way; tiles for which `empty`
-// holds are empty.
-template <typename Empty>
-std::vector<WriteOut> frame(WriteOutChoice& choice, std::int64_t through_ns, std::int64_t past_ns,
-                            Empty&& empty, std::size_t frame_bytes = kFits, std::size_t triangle_bytes = 0) {
-  std::vector<WriteOut> ways;
-  choice.begin_frame(frame_bytes, triangle_bytes, 1);
-  for (std::size_t i = 0; i < kTiles; ++i) {
-    const auto told = choice.for_tile(static_cast<int>(i), empty(i));
-    if (told.elapsed_ns != nullptr)
-      *told.elapsed_ns = told.way == WriteOut::past_caches ? past_ns : through_ns;
-    ways.push_back(told.way);
+struct Times {
+  std::int64_t through_ns, past_ns;
+};
+constexpr Times kThroughIsFaster{80, 100}, kPastIsFaster{100, 80};
+
+class WriteOutChoices : public ::testing::Test {
+ protected:
+  // How many tiles of a frame were told to go past the caches. Those that are timed get the times of their
+  // way; tiles for which `empty` holds are empty.
+  template <typename Empty>
+  int past(const Times& times, const WriteOutChoice::Frame& frame, Empty&& empty) {
+    int count = 0;
+    choice_.begin_frame(frame);
+    for (int tile = 0; tile < frame.tiles; ++tile) {
+      const auto told = choice_.for_tile(tile, empty(tile));
+      const bool is_past = told.way == WriteOut::past_caches;
+      if (told.elapsed_ns != nullptr) *told.elapsed_ns = is_past ? times.past_ns : times.through_ns;
+      count += is_past;
+    }
+    choice_.end_frame();
+    return count;
   }
-  choice.end_frame();
-  return ways;
-}
-std::vector<WriteOut> frame(WriteOutChoice& choice, std::int64_t through_ns, std::int64_t past_ns,
-                            std::size_t frame_bytes = kFits, std::size_t triangle_bytes = 0) {
-  return frame(
-      choice, through_ns, past_ns, [](std::size_t) { return false; }, frame_bytes, triangle_bytes);
+  int past(const Times& times, const WriteOutChoice::Frame& frame = {kFits, 0, kTiles, 2}) {
+    return past(times, frame, [](int) { return false; });
+  }
+  // Of a frame after a look.
+  int past_after_looking(const Times& times, const WriteOutChoice::Frame& frame = {kFits, 0, kTiles, 2}) {
+    for (int i = 0; i < kLook; ++i) past(times, frame);
+    return past(times, frame);
+  }
+  static constexpr int kLook = 6, kTried = 16;  // frames, and tiles of one
+  WriteOutChoice choice_{kCache};
+};
+
+TEST_F(WriteOutChoices, ArePastTheCachesForWhatDoesNotFitHalfOfTheLast) {
+  EXPECT_EQ(past_after_looking(kThroughIsFaster, {kFits + 4, 0, kTiles, 2}), kTiles);
+  EXPECT_EQ(past_after_looking(kThroughIsFaster, {kFits - 40, 44, kTiles, 2}), kTiles);
+  EXPECT_EQ(past_after_looking(kThroughIsFaster, {kFits - 40, 40, kTiles, 2}), 0);
 }
 
-std::ptrdiff_t past(const std::vector<WriteOut>& ways) {
-  return std::count(ways.begin(), ways.end(), WriteOut::past_caches);
-}
-// Two of each 64.
-constexpr std::ptrdiff_t kOtherWay = 16, kUsualWay = kTiles - kOtherWay;
-
-TEST(WriteOutChoice, GoesPastTheCachesWithWhatDoesNotFitHalfOfTheLast) {
-  WriteOutChoice choice(kCache);
-  EXPECT_EQ(past(frame(choice, 1, 9, kFits + 4)), static_cast<std::ptrdiff_t>(kTiles));
-  EXPECT_EQ(past(frame(choice, 1, 9, kFits - 40, 44)), static_cast<std::ptrdiff_t>(kTiles));
-  EXPECT_EQ(past(frame(choice, 1, 9, kFits - 40, 40)), kOtherWay);
+TEST_F(WriteOutChoices, CountNoTrianglesWhereATileIsEmpty) {
+  const auto even = [](int tile) { return tile % 2 == 0; };
+  const WriteOutChoice::Frame frame{kFits - 40, 44, kTiles, 2};
+  for (int i = 0; i < kLook; ++i) past(kThroughIsFaster, frame, even);
+  EXPECT_EQ(past(kThroughIsFaster, frame, even), kTiles / 2);
 }
 
-TEST(WriteOutChoice, CountsNoTrianglesWhereATileIsEmpty) {
-  WriteOutChoice choice(kCache);
-  const auto ways = frame(
-      choice, 1, 9, [](std::size_t i) { return i % 2 == 0; }, kFits - 40, 44);
-  EXPECT_EQ(ways[0], WriteOut::through_caches);
-  EXPECT_EQ(ways[1], WriteOut::past_caches);
+TEST_F(WriteOutChoices, AreThroughTheCachesForSmallFrames) {
+  for (const WriteOutChoice::Frame& frame :
+       {WriteOutChoice::Frame{kFits / 4, 0, kTiles, 2}, {kFits, 0, 177, 2}})
+    for (int i = 0; i < 9; ++i) EXPECT_EQ(past(kPastIsFaster, frame), 0) << i;
 }
 
-TEST(WriteOutChoice, DoesNotTrySmallFramesTheOtherWay) {
-  WriteOutChoice choice(kCache);
-  for (int i = 0; i < 9; ++i) EXPECT_EQ(past(frame(choice, 9, 1, kFits / 4)), 0);
-  choice.begin_frame(kFits / 4, 0, 1);
-  for (int i = 0; i < static_cast<int>(kTiles); ++i)
-    EXPECT_EQ(choice.for_tile(i, false).elapsed_ns, nullptr) << i;
+TEST_F(WriteOutChoices, FollowTheTimesOfALook) {
+  for (int i = 0; i < kLook; ++i) EXPECT_EQ(past(kPastIsFaster), kTried) << i;
+  for (int i = kLook; i < 128; ++i) EXPECT_EQ(past(kThroughIsFaster), kTiles) << i;
+  for (int i = 0; i < kLook; ++i) EXPECT_EQ(past(kThroughIsFaster), kTried) << i;
+  for (int i = kLook; i < 32; ++i) EXPECT_EQ(past(kPastIsFaster), 0) << i;
+  EXPECT_EQ(past_after_looking(kPastIsFaster), kTiles);
 }
 
-TEST(WriteOutChoice, TurnsWhereThreeFramesInARowTookLessTheOtherWay) {
-  WriteOutChoice choice(kCache);
-  EXPECT_EQ(past(frame(choice, 100, 80)), kOtherWay);
-  EXPECT_EQ(past(frame(choice, 100, 120)), kOtherWay);
-  for (int i = 0; i < 3; ++i) EXPECT_EQ(past(frame(choice, 100, 80)), kOtherWay) << i;
-  EXPECT_EQ(past(frame(choice, 100, 80)), kUsualWay);
-  EXPECT_EQ(past(frame(choice, 100, 80, kFits / 4)), 0) << "a small frame";
-  for (int i = 0; i < 3; ++i) EXPECT_EQ(past(frame(choice, 80, 100)), kUsualWay) << i;
-  EXPECT_EQ(past(frame(choice, 80, 100)), kOtherWay);
+// 1280 x 720 has 240 tiles of 64 px.
+TEST_F(WriteOutChoices, LearnFromFramesOf240Tiles) {
+  const WriteOutChoice::Frame frame{kFits / 2, 0, 240, 2};
+  EXPECT_EQ(past_after_looking(kPastIsFaster, frame), 240);
 }
 
-TEST(WriteOutChoice, StaysWhereLittleIsGained) {
-  WriteOutChoice choice(kCache);
-  for (int i = 0; i < 9; ++i) EXPECT_NE(past(frame(choice, 100, 91)), kUsualWay) << i;
+TEST_F(WriteOutChoices, LetTheCachesSettle) {
+  for (int i = 0; i < kLook; ++i) past(i < 3 ? kPastIsFaster : kThroughIsFaster);
+  EXPECT_EQ(past(kThroughIsFaster), 0);
 }
 
-TEST(WriteOutChoice, LooksSixFramesOf32) {
-  WriteOutChoice choice(kCache);
-  for (int i = 0; i < 70; ++i) EXPECT_EQ(past(frame(choice, 100, 120)), i % 32 < 6 ? kOtherWay : 0) << i;
+TEST_F(WriteOutChoices, NeedThreeOfFourFrames) {
+  for (int i = 0; i < kLook; ++i) past(i < 4 ? kThroughIsFaster : kPastIsFaster);
+  EXPECT_EQ(past(kPastIsFaster), 0);
+  for (int i = kLook + 1; i < 32; ++i) past(kPastIsFaster);
+  for (int i = 0; i < kLook; ++i) past(i < 3 ? kThroughIsFaster : kPastIsFaster);
+  EXPECT_EQ(past(kPastIsFaster), kTiles);
+}
+
+TEST_F(WriteOutChoices, StayWhereLittleIsGained) {
+  EXPECT_EQ(past_after_looking({100, 91}), 0);
+}
+
+TEST_F(WriteOutChoices, AreRememberedForEachKindOfFrame) {
+  const std::vector<WriteOutChoice::Frame> slow_past{{kFits, 0, kTiles, 2}, {kFits, 0, kTiles, 1}};
+  const std::vector<WriteOutChoice::Frame> fast_past{{kFits, 40, kTiles, 2}, {kFits - 64, 0, kTiles, 2}};
+  for (int i = 0; i < kLook; ++i) {
+    for (const auto& frame : slow_past) past(kThroughIsFaster, frame, [](int) { return true; });
+    for (const auto& frame : fast_past) past(kPastIsFaster, frame, [](int) { return true; });
+  }
+  for (const auto& frame : slow_past) EXPECT_EQ(past(kPastIsFaster, frame, [](int) { return true; }), 0);
+  for (const auto& frame : fast_past)
+    EXPECT_EQ(past(kThroughIsFaster, frame, [](int) { return true; }), kTiles);
+}
+
+TEST_F(WriteOutChoices, ForgetWhatWasNotDrawnForLongest) {
+  EXPECT_EQ(past_after_looking(kPastIsFaster), kTiles);
+  for (std::size_t kind = 1; kind <= 16; ++kind) past(kThroughIsFaster, {kFits - kind, 0, kTiles, 2});
+  EXPECT_EQ(past(kThroughIsFaster), kTried) << "is looked at anew";
 }
 
 // An empty tile is filled, another one is copied.
-TEST(WriteOutChoice, ComparesTilesOfOneKind) {
-  WriteOutChoice choice(kCache);
-  for (int i = 0; i < 9; ++i)
-    EXPECT_LE(past(frame(choice, 100, 50, [](std::size_t tile) { return tile % 64 < 32; })), kOtherWay) << i;
+TEST_F(WriteOutChoices, CompareTilesOfOneKind) {
+  const auto empty = [](int tile) { return tile % 64 < 32; };
+  for (int i = 0; i < kLook; ++i) past(kPastIsFaster, {kFits, 0, kTiles, 2}, empty);
+  EXPECT_EQ(past(kPastIsFaster, {kFits, 0, kTiles, 2}, empty), 0);
 }
 
-TEST(WriteOutChoice, IsNotMisledByATileThatTookLong) {
-  WriteOutChoice choice(kCache);
-  for (int i = 0; i < 9; ++i) {
-    choice.begin_frame(kFits, 0, 1);
-    for (std::size_t tile = 0; tile < kTiles; ++tile) {
-      const auto told = choice.for_tile(static_cast<int>(tile), false);
+TEST_F(WriteOutChoices, AreNotMisledByATileThatTookLong) {
+  for (int i = 0; i < kLook; ++i) {
+    choice_.begin_frame({kFits, 0, kTiles, 2});
+    for (int tile = 0; tile < kTiles; ++tile) {
+      const auto told = choice_.for_tile(tile, false);
       if (told.elapsed_ns != nullptr) *told.elapsed_ns = tile < 3 * 64 && tile % 64 > 32 ? 100'000 : 100;
     }
-    choice.end_frame();
+    choice_.end_frame();
   }
-  EXPECT_EQ(past(frame(choice, 100, 100)), 0);
+  EXPECT_EQ(past({100, 100}), 0);
 }
 
-TEST(WriteOutChoice, LooksAtTheFirstTilesOfALargeFrame) {
-  WriteOutChoice choice(std::size_t{1} << 40);
-  choice.begin_frame(std::size_t{1} << 38, 0, 1);
-  int timed = 0;
-  for (int tile = 0; tile < 65'536; ++tile) timed += choice.for_tile(tile, false).elapsed_ns != nullptr;
-  EXPECT_EQ(timed, 2 * 64);
+TEST_F(WriteOutChoices, TryTheFirstTilesOfALargeFrame) {
+  choice_ = WriteOutChoice(std::size_t{1} << 40);
+  EXPECT_EQ(past(kThroughIsFaster, {std::size_t{1} << 38, 0, 65'536, 2}), 2 * 64);
 }
 
-// A frame that just fits half of the last cache, so that some tiles go the other way.
-TEST(WriteOutChoice, LeavesTheBitsAsTheyAre) {
-  constexpr int kWidth = 1024;
-  const std::size_t row_bytes = 8 * kWidth;
-  const int height = static_cast<int>(std::clamp<std::size_t>(last_cache_bytes() / 2 / row_bytes, 1, 4096));
-  const auto triangles = adversarial("mixed-sizes", 400, kWidth, height, 5);
-  Framebuffer expected(kWidth, height), drawn(kWidth, height);
+// Whoever draws tiles tells how long it took, and writes the same bits either way.
+TEST(WriteOut, IsTimedAndLeavesTheBitsAsTheyAre) {
+  constexpr int kWidth = 1280, kHeight = 720;
+  auto triangles = adversarial("mixed-sizes", 400, kWidth / 2, kHeight, 5);  // the right half stays empty
+  Framebuffer expected(kWidth, kHeight), drawn(kWidth, kHeight);
   find_backend("naive").make()->draw(triangles, expected.view(), kBackground, {});
-  for (const auto& info : filling_backends()) {
-    const auto backend = info.make();
-    for (int i = 0; i < 5; ++i) {
-      backend->draw(triangles, drawn.view(), kBackground, {2});
-      expect_same(expected, drawn, std::string(info.name) + ", frame " + std::to_string(i));
-    }
+  for (const SimdTarget target : supported_targets())
+    for (const auto& [name, kernel] :
+         {std::pair{"tiled", tile_kernel(target)}, {"scanline", scanline_kernel(target)}})
+      for (const WriteOut way : {WriteOut::through_caches, WriteOut::past_caches}) {
+        lab::poison(drawn);
+        Bins bins;
+        const CellGrid grid{kWidth, kHeight, 6, 6};
+        bins.build(triangles, grid, 1, target, Bins::Small::as_indices, true);
+        int empty = 0, timed = 0;
+        for (int cell = 0; cell < grid.cells(); ++cell) {
+          std::int64_t ns = -1;
+          TileJob job{triangles.data(),
+                      &bins,
+                      cell,
+                      cell % grid.columns() * 64,
+                      cell / grid.columns() * 64,
+                      6,
+                      drawn.view(),
+                      kBackground,
+                      {},
+                      &ns};
+          job.ideas.write_out = way;
+          kernel(job);
+          empty += bins.empty(cell), timed += ns >= 0;
+        }
+        const std::string what = std::string(name) + " on " + std::string(name_of(target));
+        EXPECT_EQ(timed, grid.cells()) << what;
+        EXPECT_GT(empty, 0);
+        expect_same(expected, drawn, what);
+      }
+}
+
+// Through a whole look and beyond, with some tiles past the caches.
+TEST(WriteOut, OfFramesInDoubtLeavesTheBitsAsTheyAre) {
+  constexpr int kWidth = 1280, kHeight = 720;
+  const auto triangles = adversarial("mixed-sizes", 400, kWidth, kHeight, 6);
+  Framebuffer expected(kWidth, kHeight), drawn(kWidth, kHeight);
+  find_backend("naive").make()->draw(triangles, expected.view(), kBackground, {});
+  TileScratch scratch{{}, WriteOutChoice(4 * 8 * kWidth * kHeight)};
+  for (int frame = 0; frame < 8; ++frame) {
+    lab::poison(drawn);
+    draw_in_tiles(triangles, drawn.view(), kBackground, {2, 64, resolve(SimdTarget::best)}, 64, scratch,
+                  Bins::Small::as_patches, tile_kernel(resolve(SimdTarget::best)));
+    expect_same(expected, drawn, "frame " + std::to_string(frame));
   }
 }
 

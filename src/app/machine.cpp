@@ -161,11 +161,8 @@ std::string cpu_model(const std::string& cpuinfo) {
   const std::string model = value_of(pairs, "model name"), family = value_of(pairs, "cpu family"),
                     number = value_of(pairs, "model");
   if (model.empty()) return kUnknown;
-  const bool names_one =
-      std::any_of(model.begin(), model.end(), [](unsigned char c) { return std::isdigit(c); });
-  return names_one || family.empty() || number.empty()
-             ? model
-             : fmt::format("{} (family {}, model {})", model, family, number);
+  return family.empty() || number.empty() ? model
+                                          : fmt::format("{} (family {}, model {})", model, family, number);
 }
 
 nlohmann::json machine_description() {

@@ -10,8 +10,8 @@ namespace edgewise::app {
 // source tree's git at run time, "-dirty" appended), package versions, SIMD targets. No host name.
 nlohmann::json machine_description();
 
-// As the system tells, for example "AMD Ryzen 9 7950X 16-Core Processor". A name without a number, as virtual
-// machines have it, stands for many: then with its CPUID family and model, "AMD EPYC (family 25, model 17)".
+// As the system tells, and where it tells them with CPUID's family and model, since virtual machines have one
+// name for many: "AMD EPYC (family 25, model 17)".
 std::string cpu_model(const std::string& cpuinfo = "/proc/cpuinfo");
 
 // The folder below results/ for this machine, for example "amd-epyc-family-25-model-17-2-cores": CPU model

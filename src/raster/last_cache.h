@@ -1,4 +1,4 @@
-// The size of the machine's last cache, which decides where a frame is best written to.
+// The size of the machine's last cache, as the processor tells it to whoever asks; others may use it, too.
 #pragma once
 
 #include <cstddef>

@@ -18,8 +18,8 @@ struct TileJob {
   int size_log2;  // px; at most 6
   FrameView frame;
   std::uint32_t background;
-  TiledIdeas ideas;            // write_out decided
-  std::int64_t* write_out_ns;  // what it takes goes here, if anybody wants to know
+  TiledIdeas ideas;                      // write_out decided
+  std::int64_t* write_out_ns = nullptr;  // where the time that it takes is wanted, or null
 };
 
 using TileKernel = void (*)(const TileJob&);

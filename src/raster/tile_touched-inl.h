@@ -38,8 +38,8 @@ HWY_NOINLINE void draw_touched(Tile& tile, const Batch& batch, const Touched& to
   const V payload = hn::Set(d, batch.payload[k]);
   const int first_place = batch.by0[k] * kMaxBlocks + batch.bx0[k];
   for (int begin = 0; begin < length; begin += kLanes) {
-    // Values at the blocks' first pixels. From memory they reach all lanes by a load, which is free while the
-    // units for arithmetic, and for moving lanes, are not.
+    // Values at the blocks' first pixels. From AVX2 on, a load brings one to all lanes without the units for
+    // arithmetic and for moving lanes, which have enough to do.
     const V place = hn::Load(d, touched.place + begin);
     static_assert(kBlock == 1 << 2 && kMaxBlocks == 1 << 4);
     const V x = hn::ShiftLeft<2>(hn::And(place, hn::Set(d, kMaxBlocks - 1)));

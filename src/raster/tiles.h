@@ -30,8 +30,9 @@ inline void draw_in_tiles(std::span<const ScreenTriangle> triangles, FrameView f
   bins.build(triangles, grid, execution.threads, binning, small, execution.ideas.prefetch);
   const auto pixels = static_cast<std::size_t>(frame.stride) * static_cast<std::size_t>(frame.height);
   const std::size_t frame_bytes = pixels * (sizeof(*frame.depth) + sizeof(*frame.payload));
-  WriteOutChoice& write_out = scratch.write_out;
-  write_out.begin_frame(frame_bytes, triangles.size_bytes(), execution.threads);
+  WriteOutChoice* const choice =
+      execution.ideas.write_out == WriteOut::automatic ? &scratch.write_out : nullptr;
+  if (choice) choice->begin_frame({frame_bytes, triangles.size_bytes(), grid.cells(), execution.threads});
   const int columns = grid.columns();
   parallel_for(execution.threads, grid.cells(), [&](int cell) {
     TileJob job{triangles.data(),
@@ -42,15 +43,14 @@ inline void draw_in_tiles(std::span<const ScreenTriangle> triangles, FrameView f
                 size_log2,
                 frame,
                 background,
-                execution.ideas,
-                nullptr};
-    if (job.ideas.write_out == WriteOut::automatic) {
-      const WriteOutChoice::ForTile chosen = write_out.for_tile(cell, bins.empty(cell));
+                execution.ideas};
+    if (choice) {
+      const WriteOutChoice::ForTile chosen = choice->for_tile(cell, bins.empty(cell));
       job.ideas.write_out = chosen.way, job.write_out_ns = chosen.elapsed_ns;
     }
     draw_tile(job);
   });
-  write_out.end_frame();
+  if (choice) choice->end_frame();
 }
 
 }  // namespace edgewise

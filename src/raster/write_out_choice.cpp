@@ -1,70 +1,93 @@
 #include "raster/write_out_choice.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace edgewise {
 
 namespace {
 
-constexpr int kGroup = 64;  // tiles
-// Places in a group. `kOtherFirst` and the one after it are written the other way.
-constexpr int kOtherFirst = 16, kOther = kOtherFirst + 1, kUsual = 48;
+// Of so many tiles two go past the caches, and the second's time is compared with that of one below it, that
+// is in the same column where a row holds 32 tiles, 16 or 8. The first is there because who writes through
+// the caches asks for the right neighbour's place.
+constexpr int kGroup = 64, kPastFirst = 16, kPast = kPastFirst + 1, kThrough = kPast + 32;
+constexpr std::size_t kEnoughPairs = 3;
+constexpr int kEnoughTiles = (static_cast<int>(kEnoughPairs) - 1) * kGroup + kThrough + 1;
+
+// Frames: of a look, and of these, at its beginning, those that let the caches settle.
+constexpr int kLooking = 6, kSettling = 2;
+// From one look to the next. It costs more where the frame is not written through the caches anyway.
+constexpr int kFromThrough = 32, kFromPast = 128;
 
 }  // namespace
 
-WriteOutChoice::WriteOutChoice(std::size_t cache_bytes) : cache_bytes_(cache_bytes) {}
+WriteOutChoice::Kind& WriteOutChoice::find_kind(const Frame& frame) {
+  const auto triangle_bytes_log2 = static_cast<int>(std::bit_width(frame.triangle_bytes));
+  const auto same = [&](const Kind& kind) {
+    return kind.frame_bytes == frame.bytes && kind.triangle_bytes_log2 == triangle_bytes_log2 &&
+           kind.threads == frame.threads;
+  };
+  auto found = std::find_if(kinds_.begin(), kinds_.end(), same);
+  if (found != kinds_.end()) {
+    found->frame = (found->frame + 1) % (found->past ? kFromPast : kFromThrough);
+  } else {
+    const auto earlier = [](const Kind& a, const Kind& b) { return a.last_used < b.last_used; };
+    found = std::min_element(kinds_.begin(), kinds_.end(), earlier);
+    *found = {frame.bytes, triangle_bytes_log2, frame.threads};
+  }
+  found->last_used = ++frames_;
+  return *found;
+}
 
-void WriteOutChoice::begin_frame(std::size_t frame_bytes, std::size_t triangle_bytes, int threads) {
+void WriteOutChoice::begin_frame(const Frame& frame) {
   // Half of it, since whoever shows the frame and whoever makes the triangles want it, too.
   const std::size_t room = cache_bytes_ / 2;
-  frame_fits_ = frame_bytes <= room;
-  all_fit_ = frame_bytes + triangle_bytes <= room;
-  constexpr int kLooking = 6, kInAll = 32;  // frames
-  const bool as_before = frame_bytes == frame_bytes_ && threads == threads_;
-  frame_ = as_before ? (frame_ + 1) % kInAll : 0;
-  if (frame_ == 0) frames_against_ = 0;
-  frame_bytes_ = frame_bytes, threads_ = threads;
+  frame_fits_ = frame.bytes <= room;
+  all_fit_ = frame.bytes + frame.triangle_bytes <= room;
   // A small frame stays even where many share, and there the other way costs most.
-  in_doubt_ = frame_fits_ && frame_bytes > room / 4;
-  looks_ = in_doubt_ && frame_ < kLooking;
+  const bool in_doubt = frame_fits_ && frame.bytes > room / 4 && frame.tiles >= kEnoughTiles;
+  kind_ = in_doubt ? &find_kind(frame) : nullptr;
+  looks_ = in_doubt && kind_->frame < kLooking;
   pairs_.fill({});
 }
 
 WriteOutChoice::ForTile WriteOutChoice::for_tile(int tile, bool empty) {
   // Tiles without triangles are filled in a burst that no work hides, and want nothing else from the caches.
   if (!(empty ? frame_fits_ : all_fit_)) return {WriteOut::past_caches};
-  if (!in_doubt_) return {WriteOut::through_caches};
-  const int place = tile % kGroup;
-  const bool other = looks_ && (place == kOtherFirst || place == kOther);
-  ForTile out{rather_past_ != other ? WriteOut::past_caches : WriteOut::through_caches};
-  if (!looks_) return out;
+  if (kind_ == nullptr) return {WriteOut::through_caches};
+  if (!looks_) return {kind_->past ? WriteOut::past_caches : WriteOut::through_caches};
   const auto group = static_cast<std::size_t>(tile / kGroup);
-  if (group < kGroups && place == kOther) {
-    out.elapsed_ns = &pairs_[group].other_ns;
-    pairs_[group].other_empty = empty;
-  } else if (group < kGroups && place == kUsual) {
-    out.elapsed_ns = &pairs_[group].usual_ns;
-    pairs_[group].usual_empty = empty;
+  if (group >= kPairs) return {WriteOut::through_caches};
+  Pair& pair = pairs_[group];
+  switch (tile % kGroup) {
+    case kPastFirst:
+      return {WriteOut::past_caches};
+    case kPast:
+      pair.past_empty = empty;
+      return {WriteOut::past_caches, &pair.past_ns};
+    case kThrough:
+      pair.through_empty = empty;
+      return {WriteOut::through_caches, &pair.through_ns};
+    default:
+      return {WriteOut::through_caches};
   }
-  return out;
 }
 
 void WriteOutChoice::end_frame() {
-  std::array<double, kGroups> ratios;  // other / usual
+  if (!looks_ || kind_->frame < kSettling) return;
+  std::array<double, kPairs> ratios;  // past / through
   std::size_t count = 0;
   for (const Pair& pair : pairs_)
-    if (pair.usual_ns > 0 && pair.other_ns > 0 && pair.usual_empty == pair.other_empty)
-      ratios[count++] = static_cast<double>(pair.other_ns) / static_cast<double>(pair.usual_ns);
-  constexpr std::size_t kEnough = 4;
-  if (count < kEnough) return;
+    if (pair.through_ns > 0 && pair.past_ns > 0 && pair.through_empty == pair.past_empty)
+      ratios[count++] = static_cast<double>(pair.past_ns) / static_cast<double>(pair.through_ns);
   const auto median = ratios.begin() + static_cast<std::ptrdiff_t>(count / 2);
   std::nth_element(ratios.begin(), median, ratios.begin() + static_cast<std::ptrdiff_t>(count));
   constexpr double kClearlyLess = 0.9;
-  constexpr int kFrames = 3;
-  frames_against_ = *median < kClearlyLess ? frames_against_ + 1 : 0;
-  if (frames_against_ < kFrames) return;
-  rather_past_ = !rather_past_;
-  frames_against_ = 0;
+  if (count >= kEnoughPairs && *median < kClearlyLess) ++kind_->votes_past;
+  if (kind_->frame < kLooking - 1) return;
+  constexpr int kMajority = (kLooking - kSettling) / 2 + 1;
+  kind_->past = kind_->votes_past >= kMajority;
+  kind_->votes_past = 0;
 }
 
 }  // namespace edgewise
