@@ -256,6 +256,25 @@ class ScriptsTest(unittest.TestCase):
         self.assertIn("In the second: Between the rows, a random read took 70 ns", compared)
         self.assertNotIn("random_read/", run("compare", "--all", self.results, self.results).stdout)
 
+    def test_readme_compares_machines_by_how_long_peers_take(self):
+        readme = self.folder / "README.md"
+        readme.write_text("<!-- results: results/mine -->\n<!-- generated:other_machines -->\n<!-- /generated -->\n")
+        mine, other, empty = (self.results / name for name in ("mine", "other", "empty"))
+        for folder, slow in ((mine, bench_with_peer()), (other, bench())):
+            folder.mkdir()
+            (folder / "machine.json").write_text(json.dumps(MACHINE))
+            (folder / "bench.json").write_text(json.dumps(slow))
+        empty.mkdir()
+        self.assertEqual(run("readme", "--file", readme).returncode, 0)
+        text = readme.read_text()
+        self.assertIn("- [`other`](results/other/charts): Test CPU, 2 cores, avx2, 4 GiB;", text)
+        self.assertIn("| scene | `mine` | `other` |", text)
+        self.assertIn("| cube, ext | 8.00× | – |", text)
+        self.assertNotIn("empty", text)
+        (other / "bench.json").unlink()
+        self.assertEqual(run("readme", "--file", readme).returncode, 0)
+        self.assertIn("No other machine's results lie beside these.", readme.read_text())
+
     def test_peers_get_ratios_where_they_were_timed(self):
         readme = self.folder / "README.md"
         blocks = "".join(f"<!-- generated:{name} -->\n<!-- /generated -->\n" for name in ("table", "peers", "peer_charts"))

@@ -4,9 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <string>
 #include <utility>
 #include <vector>
@@ -71,7 +72,7 @@ TEST_F(WriteOutChoices, CountNoTrianglesWhereATileIsEmpty) {
 
 TEST_F(WriteOutChoices, AreThroughTheCachesForSmallFrames) {
   for (const WriteOutChoice::Frame& frame :
-       {WriteOutChoice::Frame{kFits / 4, 0, kTiles, 2}, {kFits, 0, 177, 2}})
+       {WriteOutChoice::Frame{kFits / 4, 0, kTiles, 2}, {kFits, 0, 149, 2}})
     for (int i = 0; i < 9; ++i) EXPECT_EQ(past(kPastIsFaster, frame), 0) << i;
 }
 
@@ -83,14 +84,16 @@ TEST_F(WriteOutChoices, FollowTheTimesOfALook) {
   EXPECT_EQ(past_after_looking(kPastIsFaster), kTiles);
 }
 
-// 1280 x 720 has 240 tiles of 64 px.
+// 1280 x 720 has 20 x 12 tiles of 64 px. What is shown is in the middle.
 TEST_F(WriteOutChoices, LearnFromFramesOf240Tiles) {
   const WriteOutChoice::Frame frame{kFits / 2, 0, 240, 2};
-  EXPECT_EQ(past_after_looking(kPastIsFaster, frame), 240);
+  const auto empty = [](int tile) { return std::abs(tile % 20 - 10) > 5 || std::abs(tile / 20 - 6) > 3; };
+  for (int i = 0; i < kLook; ++i) past(kPastIsFaster, frame, empty);
+  EXPECT_EQ(past(kPastIsFaster, frame, empty), 240);
 }
 
 TEST_F(WriteOutChoices, LetTheCachesSettle) {
-  for (int i = 0; i < kLook; ++i) past(i < 3 ? kPastIsFaster : kThroughIsFaster);
+  for (int i = 0; i < kLook; ++i) past(i < 4 ? kPastIsFaster : kThroughIsFaster);
   EXPECT_EQ(past(kThroughIsFaster), 0);
 }
 
@@ -100,6 +103,9 @@ TEST_F(WriteOutChoices, NeedThreeOfFourFrames) {
   for (int i = kLook + 1; i < 32; ++i) past(kPastIsFaster);
   for (int i = 0; i < kLook; ++i) past(i < 3 ? kThroughIsFaster : kPastIsFaster);
   EXPECT_EQ(past(kPastIsFaster), kTiles);
+  for (int i = kLook + 1; i < 128; ++i) past(kPastIsFaster);
+  for (int i = 0; i < kLook; ++i) past(i < 4 ? kThroughIsFaster : kPastIsFaster);
+  EXPECT_EQ(past(kPastIsFaster), 0) << "earlier looks count no more";
 }
 
 TEST_F(WriteOutChoices, StayWhereLittleIsGained) {
@@ -107,28 +113,52 @@ TEST_F(WriteOutChoices, StayWhereLittleIsGained) {
 }
 
 TEST_F(WriteOutChoices, AreRememberedForEachKindOfFrame) {
-  const std::vector<WriteOutChoice::Frame> slow_past{{kFits, 0, kTiles, 2}, {kFits, 0, kTiles, 1}};
-  const std::vector<WriteOutChoice::Frame> fast_past{{kFits, 40, kTiles, 2}, {kFits - 64, 0, kTiles, 2}};
+  const std::vector<WriteOutChoice::Frame> slow_past{{kFits - 50, 40, kTiles, 2}};
+  const std::vector<WriteOutChoice::Frame> fast_past{{kFits - 66, 40, kTiles, 2},
+                                                     {kFits - 50, 20, kTiles, 2},
+                                                     {kFits - 50, 60, kTiles, 2},
+                                                     {kFits - 50, 40, kTiles - 1, 2},
+                                                     {kFits - 50, 40, kTiles, 1}};
   for (int i = 0; i < kLook; ++i) {
     for (const auto& frame : slow_past) past(kThroughIsFaster, frame, [](int) { return true; });
     for (const auto& frame : fast_past) past(kPastIsFaster, frame, [](int) { return true; });
   }
   for (const auto& frame : slow_past) EXPECT_EQ(past(kPastIsFaster, frame, [](int) { return true; }), 0);
   for (const auto& frame : fast_past)
-    EXPECT_EQ(past(kThroughIsFaster, frame, [](int) { return true; }), kTiles);
+    EXPECT_EQ(past(kThroughIsFaster, frame, [](int) { return true; }), frame.tiles);
 }
 
 TEST_F(WriteOutChoices, ForgetWhatWasNotDrawnForLongest) {
   EXPECT_EQ(past_after_looking(kPastIsFaster), kTiles);
-  for (std::size_t kind = 1; kind <= 16; ++kind) past(kThroughIsFaster, {kFits - kind, 0, kTiles, 2});
+  const auto others = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t kind = begin; kind < end; ++kind) past(kThroughIsFaster, {kFits - kind, 0, kTiles, 2});
+  };
+  others(1, 64);
+  EXPECT_EQ(past(kThroughIsFaster), kTiles);
+  others(64, 65);
+  EXPECT_EQ(past(kThroughIsFaster), kTiles) << "another one is forgotten";
+  others(65, 129);
   EXPECT_EQ(past(kThroughIsFaster), kTried) << "is looked at anew";
 }
 
 // An empty tile is filled, another one is copied.
 TEST_F(WriteOutChoices, CompareTilesOfOneKind) {
-  const auto empty = [](int tile) { return tile % 64 < 32; };
-  for (int i = 0; i < kLook; ++i) past(kPastIsFaster, {kFits, 0, kTiles, 2}, empty);
-  EXPECT_EQ(past(kPastIsFaster, {kFits, 0, kTiles, 2}, empty), 0);
+  const WriteOutChoice::Frame frame{kFits, 0, kTiles, 2};
+  const auto unlike = [](int tile) { return tile % 64 < 20; };
+  for (int i = 0; i < kLook; ++i) past(kPastIsFaster, frame, unlike);
+  EXPECT_EQ(past(kPastIsFaster, frame, unlike), 0);
+}
+
+TEST_F(WriteOutChoices, StayAsTheyAreWhereFewerThanThreePairsAreAlike) {
+  const WriteOutChoice::Frame frame{kFits, 0, kTiles, 2};
+  const auto two_alike = [](int tile) { return tile % 64 < 20 && tile >= 2 * 64; };
+  for (int i = 0; i < kLook; ++i) past(kPastIsFaster, frame, two_alike);
+  EXPECT_EQ(past(kPastIsFaster), 0);
+  for (int i = kLook + 1; i < 32; ++i) past(kPastIsFaster);
+  EXPECT_EQ(past_after_looking(kPastIsFaster), kTiles);
+  for (int i = kLook + 1; i < 128; ++i) past(kPastIsFaster);
+  for (int i = 0; i < kLook; ++i) past(kThroughIsFaster, frame, two_alike);
+  EXPECT_EQ(past(kThroughIsFaster), kTiles);
 }
 
 TEST_F(WriteOutChoices, AreNotMisledByATileThatTookLong) {
@@ -136,7 +166,7 @@ TEST_F(WriteOutChoices, AreNotMisledByATileThatTookLong) {
     choice_.begin_frame({kFits, 0, kTiles, 2});
     for (int tile = 0; tile < kTiles; ++tile) {
       const auto told = choice_.for_tile(tile, false);
-      if (told.elapsed_ns != nullptr) *told.elapsed_ns = tile < 3 * 64 && tile % 64 > 32 ? 100'000 : 100;
+      if (told.elapsed_ns != nullptr) *told.elapsed_ns = tile < 3 * 64 && tile % 64 > 20 ? 100'000 : 100;
     }
     choice_.end_frame();
   }
@@ -151,7 +181,8 @@ TEST_F(WriteOutChoices, TryTheFirstTilesOfALargeFrame) {
 // Whoever draws tiles tells how long it took, and writes the same bits either way.
 TEST(WriteOut, IsTimedAndLeavesTheBitsAsTheyAre) {
   constexpr int kWidth = 1280, kHeight = 720;
-  auto triangles = adversarial("mixed-sizes", 400, kWidth / 2, kHeight, 5);  // the right half stays empty
+  const auto triangles =
+      adversarial("mixed-sizes", 400, kWidth / 2, kHeight, 5);  // the right half stays empty
   Framebuffer expected(kWidth, kHeight), drawn(kWidth, kHeight);
   find_backend("naive").make()->draw(triangles, expected.view(), kBackground, {});
   for (const SimdTarget target : supported_targets())
@@ -199,6 +230,34 @@ TEST(WriteOut, OfFramesInDoubtLeavesTheBitsAsTheyAre) {
                   Bins::Small::as_patches, tile_kernel(resolve(SimdTarget::best)));
     expect_same(expected, drawn, "frame " + std::to_string(frame));
   }
+}
+
+// What draw_in_tiles() does with the choice, with a kernel that draws nothing and takes less time past the
+// caches.
+TEST(WriteOut, IsChosenForEachFrame) {
+  constexpr int kWidth = 1280, kHeight = 720;
+  static std::atomic<int> past;
+  const TileKernel count_past = [](const TileJob& job) {
+    const bool is_past = job.ideas.write_out == WriteOut::past_caches;
+    past += is_past;
+    if (job.write_out_ns != nullptr) *job.write_out_ns = is_past ? 80 : 100;
+  };
+  Framebuffer frame(kWidth, kHeight);
+  TileScratch scratch{{}, WriteOutChoice(4 * 8 * kWidth * kHeight)};
+  const auto told_past = [&](SimdTarget target, WriteOut way) {
+    past = 0;
+    Execution execution{2, 64, target};
+    execution.ideas.write_out = way;
+    draw_in_tiles({}, frame.view(), kBackground, execution, 64, scratch, Bins::Small::as_indices, count_past);
+    return past.load();
+  };
+  const SimdTarget best = resolve(SimdTarget::best);
+  EXPECT_EQ(told_past(best, WriteOut::past_caches), 240);
+  EXPECT_EQ(told_past(best, WriteOut::through_caches), 0);
+  EXPECT_EQ(told_past(SimdTarget::scalar, WriteOut::automatic), 0);
+  if (best == SimdTarget::scalar) return;
+  for (int i = 0; i < 6; ++i) EXPECT_EQ(told_past(best, WriteOut::automatic), 8) << i;
+  EXPECT_EQ(told_past(best, WriteOut::automatic), 240);
 }
 
 }  // namespace

@@ -13,8 +13,8 @@ enum class WriteOut {
   through_caches,
   past_caches,
   // Past the caches where frame and triangles don't fit half of the last one (tiles without a triangle: where
-  // the frame alone does not), and where one that would fit is found not to stay there: each backend object
-  // tries both ways now and then, for each kind of frame that it draws.
+  // the frame alone does not), and where one that would fit, and takes more than an eighth of it, is found to
+  // be written faster so: each backend object tries it now and then.
   automatic
 };
 

@@ -30,8 +30,10 @@ inline void draw_in_tiles(std::span<const ScreenTriangle> triangles, FrameView f
   bins.build(triangles, grid, execution.threads, binning, small, execution.ideas.prefetch);
   const auto pixels = static_cast<std::size_t>(frame.stride) * static_cast<std::size_t>(frame.height);
   const std::size_t frame_bytes = pixels * (sizeof(*frame.depth) + sizeof(*frame.payload));
-  WriteOutChoice* const choice =
-      execution.ideas.write_out == WriteOut::automatic ? &scratch.write_out : nullptr;
+  // Without vectors both ways are one.
+  const bool open =
+      execution.ideas.write_out == WriteOut::automatic && execution.target != SimdTarget::scalar;
+  WriteOutChoice* const choice = open ? &scratch.write_out : nullptr;
   if (choice) choice->begin_frame({frame_bytes, triangles.size_bytes(), grid.cells(), execution.threads});
   const int columns = grid.columns();
   parallel_for(execution.threads, grid.cells(), [&](int cell) {

@@ -7,10 +7,10 @@ namespace edgewise {
 
 namespace {
 
-// Of so many tiles two go past the caches, and the second's time is compared with that of one below it, that
-// is in the same column where a row holds 32 tiles, 16 or 8. The first is there because who writes through
-// the caches asks for the right neighbour's place.
-constexpr int kGroup = 64, kPastFirst = 16, kPast = kPastFirst + 1, kThrough = kPast + 32;
+// Of so many tiles two go past the caches, and the second's time is compared with that of one nearby. There
+// is a first, and some distance between the two, because who writes through the caches asks for the right
+// neighbour's place.
+constexpr int kGroup = 64, kPastFirst = 16, kPast = kPastFirst + 1, kThrough = kPast + 4;
 constexpr std::size_t kEnoughPairs = 3;
 constexpr int kEnoughTiles = (static_cast<int>(kEnoughPairs) - 1) * kGroup + kThrough + 1;
 
@@ -21,22 +21,18 @@ constexpr int kFromThrough = 32, kFromPast = 128;
 
 }  // namespace
 
-WriteOutChoice::Kind& WriteOutChoice::find_kind(const Frame& frame) {
-  const auto triangle_bytes_log2 = static_cast<int>(std::bit_width(frame.triangle_bytes));
-  const auto same = [&](const Kind& kind) {
-    return kind.frame_bytes == frame.bytes && kind.triangle_bytes_log2 == triangle_bytes_log2 &&
-           kind.threads == frame.threads;
-  };
-  auto found = std::find_if(kinds_.begin(), kinds_.end(), same);
-  if (found != kinds_.end()) {
+void WriteOutChoice::bring_kind_to_front(const Frame& frame) {
+  const auto log2 = static_cast<int>(std::bit_width(frame.triangle_bytes));
+  const Kind fresh{frame.bytes, frame.tiles, log2, frame.threads, all_fit_};
+  auto found = std::find_if(kinds_.begin(), kinds_.end(), [&](const Kind& kind) {
+    return kind.frame_bytes == fresh.frame_bytes && kind.tiles == fresh.tiles &&
+           kind.triangle_bytes_log2 == log2 && kind.threads == fresh.threads && kind.all_fit == fresh.all_fit;
+  });
+  if (found == kinds_.end())
+    *--found = fresh;
+  else
     found->frame = (found->frame + 1) % (found->past ? kFromPast : kFromThrough);
-  } else {
-    const auto earlier = [](const Kind& a, const Kind& b) { return a.last_used < b.last_used; };
-    found = std::min_element(kinds_.begin(), kinds_.end(), earlier);
-    *found = {frame.bytes, triangle_bytes_log2, frame.threads};
-  }
-  found->last_used = ++frames_;
-  return *found;
+  std::rotate(kinds_.begin(), found, found + 1);
 }
 
 void WriteOutChoice::begin_frame(const Frame& frame) {
@@ -45,17 +41,20 @@ void WriteOutChoice::begin_frame(const Frame& frame) {
   frame_fits_ = frame.bytes <= room;
   all_fit_ = frame.bytes + frame.triangle_bytes <= room;
   // A small frame stays even where many share, and there the other way costs most.
-  const bool in_doubt = frame_fits_ && frame.bytes > room / 4 && frame.tiles >= kEnoughTiles;
-  kind_ = in_doubt ? &find_kind(frame) : nullptr;
-  looks_ = in_doubt && kind_->frame < kLooking;
+  in_doubt_ = frame_fits_ && frame.bytes > room / 4 && frame.tiles >= kEnoughTiles;
+  if (in_doubt_) bring_kind_to_front(frame);
+  Kind& kind = kinds_.front();
+  looks_ = in_doubt_ && kind.frame < kLooking;
+  if (!looks_) return;
   pairs_.fill({});
+  if (kind.frame == 0) kind.votes = kind.votes_past = 0;
 }
 
 WriteOutChoice::ForTile WriteOutChoice::for_tile(int tile, bool empty) {
   // Tiles without triangles are filled in a burst that no work hides, and want nothing else from the caches.
   if (!(empty ? frame_fits_ : all_fit_)) return {WriteOut::past_caches};
-  if (kind_ == nullptr) return {WriteOut::through_caches};
-  if (!looks_) return {kind_->past ? WriteOut::past_caches : WriteOut::through_caches};
+  if (!in_doubt_) return {WriteOut::through_caches};
+  if (!looks_) return {kinds_.front().past ? WriteOut::past_caches : WriteOut::through_caches};
   const auto group = static_cast<std::size_t>(tile / kGroup);
   if (group >= kPairs) return {WriteOut::through_caches};
   Pair& pair = pairs_[group];
@@ -74,20 +73,21 @@ WriteOutChoice::ForTile WriteOutChoice::for_tile(int tile, bool empty) {
 }
 
 void WriteOutChoice::end_frame() {
-  if (!looks_ || kind_->frame < kSettling) return;
+  Kind& kind = kinds_.front();
+  if (!looks_ || kind.frame < kSettling) return;
   std::array<double, kPairs> ratios;  // past / through
   std::size_t count = 0;
   for (const Pair& pair : pairs_)
     if (pair.through_ns > 0 && pair.past_ns > 0 && pair.through_empty == pair.past_empty)
       ratios[count++] = static_cast<double>(pair.past_ns) / static_cast<double>(pair.through_ns);
-  const auto median = ratios.begin() + static_cast<std::ptrdiff_t>(count / 2);
-  std::nth_element(ratios.begin(), median, ratios.begin() + static_cast<std::ptrdiff_t>(count));
-  constexpr double kClearlyLess = 0.9;
-  if (count >= kEnoughPairs && *median < kClearlyLess) ++kind_->votes_past;
-  if (kind_->frame < kLooking - 1) return;
-  constexpr int kMajority = (kLooking - kSettling) / 2 + 1;
-  kind_->past = kind_->votes_past >= kMajority;
-  kind_->votes_past = 0;
+  if (count >= kEnoughPairs) {
+    const auto median = ratios.begin() + static_cast<std::ptrdiff_t>(count / 2);
+    std::nth_element(ratios.begin(), median, ratios.begin() + static_cast<std::ptrdiff_t>(count));
+    constexpr double kClearlyLess = 0.9;
+    ++kind.votes;
+    kind.votes_past += *median < kClearlyLess;
+  }
+  if (kind.frame == kLooking - 1 && kind.votes > 0) kind.past = 2 * kind.votes_past > kind.votes;
 }
 
 }  // namespace edgewise

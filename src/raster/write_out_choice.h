@@ -4,8 +4,8 @@
 // not, each line is read before it is overwritten. What stays is not to be known beforehand: whoever else
 // runs on the processor shares that cache, and virtual machines don't tell with how many. So where a frame
 // ought to stay, one is now and then written through the caches several times in a row, but for a few tiles,
-// which go past them; and whose tiles took less time is done from then on. Not the other way round: a few
-// tiles written through the caches always find room there.
+// which go past them; and until the next look all do, if those took clearly less time. Not the other way
+// round: a few tiles written through the caches always find room there.
 #pragma once
 
 #include <array>
@@ -41,25 +41,22 @@ class WriteOutChoice {
   // What was found out of frames that are alike.
   struct Kind {
     std::size_t frame_bytes = 0;
-    int triangle_bytes_log2 = 0, threads = 0;
-    int frame = 0;       // since the last look began
-    int votes_past = 0;  // of the frames looked at
+    int tiles = 0, triangle_bytes_log2 = 0, threads = 0;
+    bool all_fit = false;
+    int frame = 0;                  // since the last look began
+    int votes = 0, votes_past = 0;  // in this look, of its frames
     bool past = false;
-    std::uint64_t last_used = 0;
   };
   struct Pair {
     std::int64_t through_ns = 0, past_ns = 0;  // 0: not known
     bool through_empty = false, past_empty = false;
   };
-  static constexpr std::size_t kKinds = 16, kPairs = 64;
-  Kind& find_kind(const Frame& frame);
+  static constexpr std::size_t kKinds = 64, kPairs = 64;
+  void bring_kind_to_front(const Frame& frame);
 
   std::size_t cache_bytes_;
-  bool frame_fits_ = false, all_fit_ = false;
-  Kind* kind_ = nullptr;  // of the frame, if it is in doubt whether it stays
-  bool looks_ = false;
-  std::uint64_t frames_ = 0;  // in doubt, so far
-  std::array<Kind, kKinds> kinds_{};
+  bool frame_fits_ = false, all_fit_ = false, in_doubt_ = false, looks_ = false;
+  std::array<Kind, kKinds> kinds_{};  // the one drawn last comes first
   std::array<Pair, kPairs> pairs_{};
 };
 

@@ -1,0 +1,38 @@
+"""What was measured on other machines, beside the one whose results README.md shows."""
+from bench_rows import describe_machine, read_bench, read_json
+from peers import pairs, times
+from tables import THREADS, random_reads_sentence
+
+
+def others(folder):
+    """Results folders beside this one, of runs that timed something."""
+    return [other for other in sorted(folder.resolve().parent.iterdir())
+            if other != folder.resolve() and (other / "bench.json").exists() and (other / "machine.json").exists()]
+
+
+def ratio_table(folders):
+    """Header and lines: how many times longer each peer takes than our fastest backend, on the most threads."""
+    found = [pairs(read_bench(folder)) for folder in folders]
+    keys = dict.fromkeys((peer, scene) for ratios in found for peer, scene, _ in ratios)
+    cells = [[ratios.get((peer, scene, max(THREADS))) for ratios in found] for peer, scene in keys]
+    return (["scene", *(f"`{folder.resolve().name}`" for folder in folders)],
+            [[f"{scene}, {peer}", *(times(pair.ratio) if pair else "–" for pair in row)]
+             for (peer, scene), row in zip(keys, cells)])
+
+
+def other_machines(folder, where, layout):
+    """A line for each other machine, and the peers' ratios on all, laid out by `layout` (see markdown()); `where` is `folder` as README.md
+    names it."""
+    beside = others(folder)
+    if not beside:
+        return "No other machine's results lie beside these."
+    lines = []
+    for other in beside:
+        machine, reads = describe_machine(read_json(other / "machine.json")), random_reads_sentence(read_bench(other))
+        charts = f"{where.rstrip('/').rpartition('/')[0]}/{other.name}/charts".lstrip("/")
+        lines.append(f"- [`{other.name}`]({charts}): {machine}. {reads}".rstrip())
+    header, rows = ratio_table([folder, *beside])
+    if rows:
+        lines += ["", f"How many times longer peers take than our fastest backend, {max(THREADS)} threads:", "",
+                  layout(header, rows, "|---|" + "--:|" * (len(header) - 1))]
+    return "\n".join(lines)
