@@ -10,12 +10,13 @@ def others(folder):
             if other != folder.resolve() and (other / "bench.json").exists() and (other / "machine.json").exists()]
 
 
-def ratio_table(folders):
-    """Header and lines: how many times longer each peer takes than our fastest backend, on the most threads."""
-    found = [pairs(read_bench(folder)) for folder in folders]
+def ratio_table(benches):
+    """Header and lines: how many times longer each peer takes than our fastest backend, on the most threads. `benches`:
+    by the machine's name."""
+    found = [pairs(bench) for bench in benches.values()]
     keys = dict.fromkeys((peer, scene) for ratios in found for peer, scene, _ in ratios)
     cells = [[ratios.get((peer, scene, max(THREADS))) for ratios in found] for peer, scene in keys]
-    return (["scene", *(f"`{folder.resolve().name}`" for folder in folders)],
+    return (["scene", *(f"`{name}`" for name in benches)],
             [[f"{scene}, {peer}", *(times(pair.ratio) if pair else "–" for pair in row)]
              for (peer, scene), row in zip(keys, cells)])
 
@@ -26,12 +27,13 @@ def other_machines(folder, where, layout):
     beside = others(folder)
     if not beside:
         return "No other machine's results lie beside these."
+    benches = {one.resolve().name: read_bench(one) for one in (folder, *beside)}
     lines = []
     for other in beside:
-        machine, reads = describe_machine(read_json(other / "machine.json")), random_reads_sentence(read_bench(other))
+        machine, reads = describe_machine(read_json(other / "machine.json")), random_reads_sentence(benches[other.name])
         charts = f"{where.rstrip('/').rpartition('/')[0]}/{other.name}/charts".lstrip("/")
         lines.append(f"- [`{other.name}`]({charts}): {machine}. {reads}".rstrip())
-    header, rows = ratio_table([folder, *beside])
+    header, rows = ratio_table(benches)
     if rows:
         lines += ["", f"How many times longer peers take than our fastest backend, {max(THREADS)} threads:", "",
                   layout(header, rows, "|---|" + "--:|" * (len(header) - 1))]

@@ -22,14 +22,12 @@ constexpr int kFromThrough = 32, kFromPast = 128;
 }  // namespace
 
 void WriteOutChoice::bring_kind_to_front(const Frame& frame) {
-  const auto log2 = static_cast<int>(std::bit_width(frame.triangle_bytes));
-  const Kind fresh{frame.bytes, frame.tiles, log2, frame.threads, all_fit_};
-  auto found = std::find_if(kinds_.begin(), kinds_.end(), [&](const Kind& kind) {
-    return kind.frame_bytes == fresh.frame_bytes && kind.tiles == fresh.tiles &&
-           kind.triangle_bytes_log2 == log2 && kind.threads == fresh.threads && kind.all_fit == fresh.all_fit;
-  });
+  const Likeness like{frame.bytes, frame.tiles, static_cast<int>(std::bit_width(frame.triangle_bytes)),
+                      frame.threads, all_fit_};
+  auto found =
+      std::find_if(kinds_.begin(), kinds_.end(), [&](const Kind& kind) { return kind.like == like; });
   if (found == kinds_.end())
-    *--found = fresh;
+    *--found = {like};
   else
     found->frame = (found->frame + 1) % (found->past ? kFromPast : kFromThrough);
   std::rotate(kinds_.begin(), found, found + 1);

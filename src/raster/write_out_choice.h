@@ -38,11 +38,15 @@ class WriteOutChoice {
   void end_frame();
 
  private:
+  struct Likeness {
+    std::size_t frame_bytes;
+    int tiles, triangle_bytes_log2, threads;
+    bool all_fit;
+    bool operator==(const Likeness&) const = default;
+  };
   // What was found out of frames that are alike.
   struct Kind {
-    std::size_t frame_bytes = 0;
-    int tiles = 0, triangle_bytes_log2 = 0, threads = 0;
-    bool all_fit = false;
+    Likeness like{};
     int frame = 0;                  // since the last look began
     int votes = 0, votes_past = 0;  // in this look, of its frames
     bool past = false;
