@@ -22,8 +22,8 @@ def ratio_table(benches):
 
 
 def other_machines(folder, where, layout):
-    """A line for each other machine, and the peers' ratios on all, laid out by `layout` (see markdown()); `where` is `folder` as README.md
-    names it."""
+    """A line for each other machine, and the peers' ratios on all, laid out by `layout` (see markdown()); `where` is
+    `folder` as README.md names it."""
     beside = others(folder)
     if not beside:
         return "No other machine's results lie beside these."
