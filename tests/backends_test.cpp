@@ -209,6 +209,60 @@ TEST_P(EveryBackend, TellsLayersThatAreOneUnitOfDepthApart) {
   }
 }
 
+TEST_P(EveryBackend, ShowsWhatIsNearerInOneCornerOfATile) {
+  // A layer over the whole image, a triangle before the first blocks, and a plane that is nearer than the
+  // layer by one where it is nearest, in a corner or along a side of the first tile, or everywhere.
+  constexpr int kWidth = 97, kHeight = 71, kLast = kMaxTile - 1;
+  constexpr std::uint32_t kLayer = 1'000'000;
+  const auto triangle = [](int side, auto&& z, std::uint32_t id) {
+    return ScreenTriangle{{-100 * kSub, side * kSub, -100 * kSub},
+                          {-100 * kSub, -100 * kSub, side * kSub},
+                          {z(-100, -100), z(side, -100), z(-100, side)},
+                          id};
+  };
+  const auto flat = [](std::uint32_t z) { return [z](int, int) { return z; }; };
+  for (const int across : {-10, 0, 10})
+    for (const int down : {-10, 0, 10}) {
+      const auto plane = [&](int x, int y) {
+        const int from_x = across < 0 ? kLast : 0, from_y = down < 0 ? kLast : 0;
+        return static_cast<std::uint32_t>(static_cast<int>(kLayer) - 1 - (across + down) / 2 +
+                                          across * (x - from_x) + down * (y - from_y));
+      };
+      const ScreenTriangle triangles[] = {triangle(400, flat(kLayer), 1), triangle(150, flat(kLayer / 2), 2),
+                                          triangle(400, plane, 3)};
+      const Framebuffer picture = oracle(triangles, kWidth, kHeight);
+      if (info_.fills) {
+        const int x = across < 0 ? kLast : 0, y = down < 0 ? kLast : 0;
+        const bool covered = x + y < 50;
+        EXPECT_EQ(picture.payload_row(y)[x], covered ? 2 : 3) << across << ", " << down;
+        EXPECT_TRUE(covered || picture.depth_row(y)[x] == kLayer - 1) << picture.depth_row(y)[x];
+      }
+      expect_oracle(triangles, kWidth, kHeight, std::to_string(across) + ", " + std::to_string(down));
+    }
+}
+
+TEST_P(EveryBackend, ShowsSteepTrianglesWhoseDepthPlanesLeaveTheirRange) {
+  // Thin triangles across a tile, from the nearest depth to the farthest within few pixels, before a layer:
+  // over the box their planes pass 32 bits many times.
+  constexpr int kWidth = 64, kHeight = 64;
+  Random random(17);
+  const auto between = [&](int low, int high) {
+    return low + static_cast<std::int32_t>(random.below(static_cast<std::uint64_t>(high - low + 1)));
+  };
+  const ScreenTriangle layer{{-100 * kSub, 400 * kSub, -100 * kSub},
+                             {-100 * kSub, -100 * kSub, 400 * kSub},
+                             {kDepthRange / 2, kDepthRange / 2, kDepthRange / 2},
+                             1};
+  for (int i = 0; i < 200; ++i) {
+    const std::int32_t x = between(0, 4 * kSub), y = between(0, 63 * kSub);
+    const ScreenTriangle thin{{x, between(57 * kSub, 63 * kSub), x + between(-500, 500)},
+                              {y, between(0, 63 * kSub), y + between(100, 1000)},
+                              {kDepthHead, kDepthHead, kDepthHead + kDepthRange},
+                              2};
+    expect_oracle(std::array{layer, thin}, kWidth, kHeight, std::to_string(i));
+  }
+}
+
 TEST_P(EveryBackend, AnchorsDepthAtTheTopmostThenLeftmostVertex) {
   // Gradients are rounded down, so over the width of the guard band another anchor gives another depth.
   constexpr int kWidth = 70, kHeight = 5;

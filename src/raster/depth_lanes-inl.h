@@ -18,12 +18,17 @@
 #define EDGEWISE_DEPTH_LANES_INL_H
 #endif
 
-#if HWY_TARGET != HWY_SCALAR
-
 HWY_BEFORE_NAMESPACE();
 namespace edgewise {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
+
+// For hierarchical depth. A plane whose steps are smaller than this stays, over a tile, within 2^31 of the
+// triangle's depths, so a wrapped value is negative and passes as near: the bound may be the plane itself. A
+// steeper one falls back to the nearest vertex.
+constexpr std::int32_t kSteep = 1 << 24;
+
+#if HWY_TARGET != HWY_SCALAR
 
 // g n mod 2^64, for n >= 0.
 HWY_INLINE V64 product(V64 g, V64 n) {
@@ -68,7 +73,16 @@ struct DepthLanes {
   V64 start;            // 2^24 (depth at the first pixel of the cell + 1/2)
   hn::Mask<D64> exact;  // where all that holds
   HWY_INLINE V32 base() const { return lower(shift_right<24>(start)); }
+  // Where no step is steep.
+  HWY_INLINE hn::Mask<D32> is_flat() const {
+    const auto gentle = [](V32 v) { return hn::And(hn::Lt(v, set32(kSteep)), hn::Gt(v, set32(-kSteep))); };
+    return hn::And(gentle(x), gentle(y));
+  }
 };
+// No pixel of the triangles is nearer.
+HWY_INLINE V32 nearest_vertex(const TriangleLanes& t) {
+  return hn::Sub(hn::Min(hn::Min(t.z[0], t.z[1]), t.z[2]), set32(contract::kDepthError));
+}
 // What a depth plane is made of: from vertex 0 to the others, in sub-units with the sign of a positive area
 // and in depth; and from the anchor, the topmost, then leftmost vertex, to the first sample of a cell.
 struct PlaneLanes {
@@ -111,10 +125,10 @@ HWY_INLINE DepthLanes depth_lanes(const TriangleLanes& t, const Area& area, int 
                       hn::Sub(set32(contract::sample_sub(cell_py)), y), z});
 }
 
+#endif
+
 }  // namespace HWY_NAMESPACE
 }  // namespace edgewise
 HWY_AFTER_NAMESPACE();
-
-#endif
 
 #endif

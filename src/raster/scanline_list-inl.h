@@ -4,8 +4,8 @@
 //    for a branch predictor to guess, and the loop over the list need not. Short spans are cut into aligned
 //    vectors of pixels, since how many of those a span needs is hard to guess, too.
 // 2. Where the long spans of a vector of rows overlap, they are a rectangle, drawn at once in blocks. A block
-//    keeps the depth of its farthest pixel and rejects what lies behind as a whole (hierarchical depth:
-//    Greene, Kass and Miller, "Hierarchical Z-buffer visibility", 1993).
+//    keeps the depth of its farthest pixel and rejects what lies behind as a whole (hierarchical depth,
+//    farthest-inl.h); what lies behind all blocks has no spans.
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -13,6 +13,7 @@
 #include <cstdint>
 
 #include "edgewise/contract.h"
+#include "raster/farthest-inl.h"
 #include "raster/scanline_rows-inl.h"
 #include "raster/tile_place-inl.h"
 
@@ -37,7 +38,7 @@ constexpr int kBlock = 16;  // px, of kRows rows
 struct SpanTile {
   alignas(64) std::int32_t depth[kMaxTile * kMaxTile];  // row by row
   alignas(64) std::int32_t payload[kMaxTile * kMaxTile];
-  std::int32_t farthest[kMaxTile / kRows][kMaxTile / kBlock];  // no pixel of the block is farther
+  Farthest<kMaxTile / kBlock, kMaxTile / kRows> farthest;
 };
 
 constexpr std::int32_t wrapped_product(std::int32_t a, std::int32_t b) {
@@ -49,16 +50,15 @@ class SpanList {
   explicit SpanList(SpanTile& tile) : tile_(tile) {}
 
   HWY_INLINE void add(const SpanBatch& batch, int k) {
+    const bool wide = batch.x1[k] - batch.x0[k] > kNarrow;
+    if (wide && tile_.farthest.hides(batch.nearest[k])) return;
     if (length_ > kCapacity - kMostSpans) draw();
     const D d;
     const V zx = hn::Set(d, batch.depth.x[k]);
     hn::Store(hn::Mul(hn::Iota(d, 0), zx), d, in_vector_ + k * kLanes);
     hn::Store(hn::Mul(hn::Set(d, kLanes), zx), d, step_ + k * kLanes);
     payload_[k] = batch.payload[k];
-    if (batch.x1[k] - batch.x0[k] > kNarrow)
-      add_wide(batch, k);
-    else
-      add_narrow(batch, k);
+    wide ? add_wide(batch, k) : add_narrow(batch, k);
   }
 
   HWY_INLINE void draw() {
@@ -132,7 +132,7 @@ class SpanList {
   HWY_INLINE void draw_block(const SpanBatch& batch, int k, int x, int y, std::int32_t z) {
     const D d;
     const std::int32_t zx = batch.depth.x[k], zy = batch.depth.y[k];
-    std::int32_t& farthest = tile_.farthest[y / kRows][x / kBlock];
+    std::int32_t& farthest = *tile_.farthest.at(x / kBlock, y / kRows);
     if (z + std::min(0, zx * (kBlock - 1)) + std::min(0, zy * (kRows - 1)) >= farthest) return;
     V far = hn::Zero(d);
     const V payload = hn::Set(d, batch.payload[k]);

@@ -104,6 +104,7 @@ struct alignas(64) SpanBatch {
     std::int32_t first[kSize];  // at the first pixel of the first row
     std::int32_t x[kSize], y[kSize];
   } depth;
+  std::int32_t nearest[kSize];  // no pixel of the box is nearer
   std::int32_t payload[kSize];
   std::int32_t x0[kSize], x1[kSize], y0[kSize], y1[kSize];  // the box
 };
@@ -137,8 +138,15 @@ HWY_INLINE Alive set_up_vector(const TileJob& job, const std::uint32_t* run, Spa
     plain = hn::Or(plain, line.flat);
   }
   const DepthLanes depth = depth_lanes(t, area, job.x0, job.y0);
-  store(hn::Add(depth.base(), hn::Mul(depth.y, y0)), out.depth.first + k);
+  const V32 first = hn::Add(depth.base(), hn::Mul(depth.y, y0));
+  store(first, out.depth.first + k);
   store(depth.x, out.depth.x + k), store(depth.y, out.depth.y + k);
+  const V32 at_box = hn::Add(first, hn::Mul(depth.x, x0));
+  const auto fall = [](V32 step, V32 begin, V32 end) {
+    return hn::Mul(hn::Min(step, hn::Zero(D32{})), hn::Sub(hn::Sub(end, begin), set32(1)));
+  };
+  const V32 least = hn::Add(at_box, hn::Add(fall(depth.x, x0, x1), fall(depth.y, y0, y1)));
+  store(hn::IfThenElse(depth.is_flat(), least, nearest_vertex(t)), out.nearest + k);
   store(t.payload, out.payload + k);
   store(x0, out.x0 + k), store(x1, out.x1 + k);
   store(y0, out.y0 + k), store(y1, out.y1 + k);

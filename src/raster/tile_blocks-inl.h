@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "edgewise/contract.h"
+#include "raster/farthest-inl.h"
 #include "raster/tile_kernel.h"
 #include "raster/tile_place-inl.h"
 #include "raster/tile_setup-inl.h"
@@ -48,9 +49,7 @@ class Tile {
   alignas(64) std::int32_t planes_[2 * kTilePixels + kSpare];
 
  public:
-  // No pixel of the block is farther. Sifting reads and writes back what lies right of a box.
-  static constexpr int kFarthest = kMaxBlocks * kMaxBlocks + kBlocksAtOnce;
-  alignas(64) std::int32_t farthest[kFarthest];
+  Farthest<kMaxBlocks, kMaxBlocks> farthest;
 };
 
 // A list that a vector's selected lanes are appended to; it needs kLanes to spare.

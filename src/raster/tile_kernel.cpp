@@ -9,9 +9,8 @@
 // 3. Triangles are set up a vector at a time (tile_setup-inl.h), for the tile: an edge that accepts the
 //    triangle's whole box there becomes the constant 0, the others are stepped in int32 lanes (rule 5).
 // 4. A box of several blocks is first sifted a row of blocks (tile_rows-inl.h) or a square of blocks
-//    (tile_small-inl.h) at a time: all blocks that an edge rejects, or that lie behind the block's farthest
-//    depth (hierarchical depth: Greene, Kass and Miller, "Hierarchical Z-buffer visibility", 1993), fall out
-//    in one vector operation.
+//    (tile_small-inl.h) at a time: all blocks that an edge rejects, or that hide the triangle (hierarchical
+//    depth, farthest-inl.h), fall out in one vector operation. What the whole tile hides is not sifted.
 // 5. What is touched goes to a list first (tile_touched-inl.h): how many blocks a triangle has is hard for a
 //    branch predictor to guess, and the loop over the list need not. A large triangle's list waits while the
 //    next one is sifted: so its length is long known when the loop begins.
@@ -71,6 +70,8 @@ class TilePainter {
         small_.draw();
         // Thin triangles fill no block, and hide none.
         hides_ = hides_ || (job_.ideas.hierarchical_depth && may_fill_blocks(batch_, k));
+        if (hides_ && tile_.farthest.hides(batch_.nearest.least[k])) [[unlikely]]  // in most scenes
+          continue;
         hides_ ? sift<true>(k, width, *next) : sift<false>(k, width, *next);
         draw_waiting();
         waiting = next;
@@ -122,7 +123,8 @@ void draw_tile(const TileJob& job) {
     fill(tile.depth() + y * kMaxTile, size * kBlock, kDepthClear);
     fill(tile.payload() + y * kMaxTile, size * kBlock, job.background);
   }
-  fill(tile.farthest, Tile::kFarthest, kDepthClear);
+  const auto blocks = [&](int px) { return (std::min(size, px) + kBlock - 1) / kBlock; };
+  tile.farthest.clear(blocks(job.frame.width - job.x0), blocks(job.frame.height - job.y0));
 
   TilePainter painter(job, tile);
   draw_runs(job, [&](const Bins::Run& run) { painter.draw_run(run); });

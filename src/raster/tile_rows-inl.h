@@ -72,7 +72,7 @@ HWY_NOINLINE void sift_rows(Tile& tile, const Batch& batch, int k, Touched& out)
     place[p] = hn::Load(d, kIota + lane_of(p));
     before_end[p] = hn::Sub(last_column, place[p]);
   }
-  std::int32_t* farthest = tile.farthest + batch.by0[k] * kMaxBlocks + batch.bx0[k];
+  std::int32_t* farthest = tile.farthest.at(batch.bx0[k], batch.by0[k]);
   List list{out.place};
   for (int row = batch.by0[k]; row <= batch.by1[k]; ++row) {
     for (std::size_t p = 0; p < kParts; ++p) {

@@ -49,16 +49,12 @@ struct alignas(64) Batch {
   // A bound for hierarchical depth: no pixel of a block is nearer than this linear function of its place.
   struct Bound {
     std::int32_t x[kSize], y[kSize], first[kSize];
+    std::int32_t least[kSize];  // of all blocks that it may touch
   } nearest;
   std::int32_t payload[kSize];
   std::int32_t twice_area_px[kSize];
   std::int32_t bx0[kSize], by0[kSize], bx1[kSize], by1[kSize];  // blocks that it may touch, inclusive
 };
-
-// A plane whose steps are smaller than this stays, over a tile, within 2^31 of the triangle's depths, so a
-// wrapped value is negative and passes as near: the bound may be the plane itself. A steeper one falls back
-// to the nearest vertex.
-constexpr std::int32_t kSteep = 1 << 24;
 
 inline void set(Batch::Linear& f, int k, std::int32_t x, std::int32_t y, std::int32_t first) {
   const auto up = [](std::int32_t step) { return step > 0 ? static_cast<std::uint32_t>(step) : 0u; };
@@ -103,6 +99,11 @@ inline bool set_up_one(const TileJob& job, const ScreenTriangle& triangle, Batch
   const auto bits = [](std::int32_t v) { return static_cast<std::uint32_t>(v); };
   out.nearest.first[k] = flat ? wrap(bits(z) + bits(out.depth.rise[k]) - bits(out.depth.span[k]))
                               : static_cast<std::int32_t>(nearest);
+  const auto falls = [&](std::int32_t step, int blocks) {
+    return bits(std::min(step, 0)) * static_cast<std::uint32_t>(kBlock * blocks);
+  };
+  out.nearest.least[k] = wrap(bits(out.nearest.first[k]) + falls(out.nearest.x[k], bx1 - bx0) +
+                              falls(out.nearest.y[k], by1 - by0));
   out.payload[k] = wrap(triangle.payload);
   out.twice_area_px[k] = static_cast<std::int32_t>(t.area >> 2 * kSubBits);
   out.bx0[k] = bx0, out.by0[k] = by0, out.bx1[k] = bx1, out.by1[k] = by1;
@@ -138,13 +139,11 @@ HWY_INLINE void set_up_depth(const TileJob& job, const TriangleLanes& t, const A
                                                               product(zy, hn::Add(top, set32(in_cell_y))))));
   out.depth = {zx, zy, first};
 
-  const auto gentle = [](V32 v) { return hn::And(hn::Lt(v, set32(kSteep)), hn::Gt(v, set32(-kSteep))); };
-  const auto flat = hn::And(gentle(zx), gentle(zy));
+  const auto flat = depth.is_flat();
   const V32 least =
       hn::Add(first, thrice(hn::Add(hn::Min(zx, hn::Zero(D32{})), hn::Min(zy, hn::Zero(D32{})))));
-  const V32 vertex = hn::Sub(hn::Min(hn::Min(t.z[0], t.z[1]), t.z[2]), set32(kDepthError));
   out.nearest = {hn::IfThenElseZero(flat, zx), hn::IfThenElseZero(flat, zy),
-                 hn::IfThenElse(flat, least, vertex)};
+                 hn::IfThenElse(flat, least, nearest_vertex(t))};
   out.exact = mask_bits(depth.exact);
 }
 
@@ -229,14 +228,22 @@ HWY_INLINE std::uint32_t set_up_vector(const TileJob& job, const std::uint32_t* 
 
   for (int i = 0; i < 3; ++i) store(left.edge[i], right.edge[i], out.edge[i], k);
   store(left.depth, right.depth, out.depth, k);
-  const auto store_both = [&](V32 l, V32 r, std::int32_t* list) { hn::Store(both(l, r), D{}, list + k); };
-  store_both(left.nearest.x, right.nearest.x, out.nearest.x);
-  store_both(left.nearest.y, right.nearest.y, out.nearest.y);
-  store_both(left.nearest.first, right.nearest.first, out.nearest.first);
+  const auto store_both = [&](V32 l, V32 r, std::int32_t* list) {
+    const V v = both(l, r);
+    hn::Store(v, D{}, list + k);
+    return v;
+  };
+  const V x = store_both(left.nearest.x, right.nearest.x, out.nearest.x);
+  const V y = store_both(left.nearest.y, right.nearest.y, out.nearest.y);
+  const V first = store_both(left.nearest.first, right.nearest.first, out.nearest.first);
   store_both(left.payload, right.payload, out.payload);
   store_both(left.twice_area_px, right.twice_area_px, out.twice_area_px);
-  store_both(left.bx0, right.bx0, out.bx0), store_both(left.bx1, right.bx1, out.bx1);
-  store_both(left.by0, right.by0, out.by0), store_both(left.by1, right.by1, out.by1);
+  const V bx0 = store_both(left.bx0, right.bx0, out.bx0), bx1 = store_both(left.bx1, right.bx1, out.bx1);
+  const V by0 = store_both(left.by0, right.by0, out.by0), by1 = store_both(left.by1, right.by1, out.by1);
+  const auto falls = [](V step, V blocks) { return hn::Mul(hn::Min(step, hn::Zero(D{})), blocks); };
+  const V fall = hn::Add(falls(x, hn::Sub(bx1, bx0)), falls(y, hn::Sub(by1, by0)));
+  static_assert(kBlock == 1 << 2);
+  hn::Store(hn::Add(first, hn::ShiftLeft<2>(fall)), D{}, out.nearest.least + k);
 
   const std::uint32_t alive = left.alive | right.alive << kInHalf;
   const std::uint32_t exact = left.exact | right.exact << kInHalf;

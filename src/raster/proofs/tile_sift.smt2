@@ -1,12 +1,12 @@
-; How cells, tiles and blocks are accepted and rejected (bins.cpp, tile_setup-inl.h, tile_rows-inl.h): never one that
-; holds a pixel is rejected, never one with a pixel outside is accepted. Theories: nonlinear real arithmetic; linear
-; integer arithmetic for what is shifted.
+; How cells, tiles and blocks are accepted and rejected (bins.cpp, tile_setup-inl.h, tile_rows-inl.h, farthest-inl.h):
+; never one that holds a pixel is rejected, never one with a pixel outside is accepted. Theories: nonlinear real
+; arithmetic; linear integer arithmetic for what is shifted.
 ;
 ; f + x a + y b is an edge value or a depth, by pixels from a box's first one, of which (last_x, last_y) is the last,
 ; (x, y) any.
 
 (define-const kBlock Real 4.0)         ; = kBlock of src/raster/tile_setup-inl.h
-(define-const kSteep Int 16777216)     ; = kSteep of src/raster/tile_setup-inl.h
+(define-const kSteep Int 16777216)     ; = kSteep of src/raster/depth_lanes-inl.h
 
 (declare-const f Real) (declare-const a Real) (declare-const b Real)
 (declare-const x Real) (declare-const y Real) (declare-const last_x Real) (declare-const last_y Real)
@@ -29,7 +29,8 @@
 (assert (< (+ f (maxr (* a last_x) 0.0)) 0.0))
 (assert (not (< (at x y) 0.0)))
 
-;; claim trivial_accept: One whose first value and largest falls do not is inside.
+;; claim trivial_accept: One whose first value and largest falls do not is inside. By the same sum, of a depth plane
+;;   less a depth, nothing in a box is nearer than that depth.
 (assert (>= (+ f (minr (* a last_x) 0.0) (minr (* b last_y) 0.0)) 0.0))
 (assert (not (>= (at x y) 0.0)))
 
