@@ -22,7 +22,7 @@ struct TiledIdeas {
   bool vector_setup = true;        // boxes and triangles a vector at a time, where the target has vectors
   bool prefetch = true;            // records are asked for before they are needed; lists always are
   bool patches = true;             // small triangles are resolved where they are binned; needs vector_setup
-  bool hierarchical_depth = true;  // blocks are dropped that lie behind all that they show
+  bool hierarchical_depth = true;  // what lies behind all that a block, or the tile, shows is dropped
   WriteOut write_out = WriteOut::automatic;
 };
 
