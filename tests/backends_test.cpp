@@ -210,35 +210,41 @@ TEST_P(EveryBackend, TellsLayersThatAreOneUnitOfDepthApart) {
 }
 
 TEST_P(EveryBackend, ShowsWhatIsNearerInOneCornerOfATile) {
-  // A layer over the whole image, a triangle before the first blocks, and a plane that is nearer than the
-  // layer by one where it is nearest, in a corner or along a side of the first tile, or everywhere.
+  // A layer over the whole image, a triangle before the first blocks, or all but the last, and a plane that
+  // is nearer than the layer by one where it is nearest, in a corner or along a side of the first tile, or
+  // everywhere; it may begin inside the tile.
   constexpr int kWidth = 97, kHeight = 71, kLast = kMaxTile - 1;
   constexpr std::uint32_t kLayer = 1'000'000;
-  const auto triangle = [](int side, auto&& z, std::uint32_t id) {
-    return ScreenTriangle{{-100 * kSub, side * kSub, -100 * kSub},
-                          {-100 * kSub, -100 * kSub, side * kSub},
-                          {z(-100, -100), z(side, -100), z(-100, side)},
+  const auto triangle = [](int left, int right, auto&& z, std::uint32_t id) {
+    return ScreenTriangle{{left * kSub, right * kSub, left * kSub},
+                          {-100 * kSub, -100 * kSub, 400 * kSub},
+                          {z(left, -100), z(right, -100), z(left, 400)},
                           id};
   };
   const auto flat = [](std::uint32_t z) { return [z](int, int) { return z; }; };
-  for (const int across : {-10, 0, 10})
-    for (const int down : {-10, 0, 10}) {
-      const auto plane = [&](int x, int y) {
-        const int from_x = across < 0 ? kLast : 0, from_y = down < 0 ? kLast : 0;
-        return static_cast<std::uint32_t>(static_cast<int>(kLayer) - 1 - (across + down) / 2 +
-                                          across * (x - from_x) + down * (y - from_y));
-      };
-      const ScreenTriangle triangles[] = {triangle(400, flat(kLayer), 1), triangle(150, flat(kLayer / 2), 2),
-                                          triangle(400, plane, 3)};
-      const Framebuffer picture = oracle(triangles, kWidth, kHeight);
-      if (info_.fills) {
+  for (const int reach : {50, 118})
+    for (const int across : {-10, 0, 10})
+      for (const int down : {-10, 0, 10}) {
         const int x = across < 0 ? kLast : 0, y = down < 0 ? kLast : 0;
-        const bool covered = x + y < 50;
-        EXPECT_EQ(picture.payload_row(y)[x], covered ? 2 : 3) << across << ", " << down;
-        EXPECT_TRUE(covered || picture.depth_row(y)[x] == kLayer - 1) << picture.depth_row(y)[x];
+        const auto plane = [&](int u, int v) {
+          return static_cast<std::uint32_t>(static_cast<int>(kLayer) - 1 - (across + down) / 2 +
+                                            across * (u - x) + down * (v - y));
+        };
+        // The second one's third side is the line u + v = reach.
+        ScreenTriangle near = triangle(-100, reach + 100, flat(kLayer / 2), 2);
+        near.y_sub[2] = (reach + 100) * kSub;
+        const ScreenTriangle triangles[] = {triangle(-100, 400, flat(kLayer), 1), near,
+                                            triangle(across < 0 ? 8 : -100, 400, plane, 3)};
+        const Framebuffer picture = oracle(triangles, kWidth, kHeight);
+        const std::string what =
+            std::to_string(reach) + ", " + std::to_string(across) + ", " + std::to_string(down);
+        if (info_.fills) {
+          const bool covered = x + y < reach;
+          EXPECT_EQ(picture.payload_row(y)[x], covered ? 2 : 3) << what;
+          EXPECT_EQ(picture.depth_row(y)[x], covered ? kLayer / 2 : kLayer - 1) << what;
+        }
+        expect_oracle(triangles, kWidth, kHeight, what);
       }
-      expect_oracle(triangles, kWidth, kHeight, std::to_string(across) + ", " + std::to_string(down));
-    }
 }
 
 TEST_P(EveryBackend, ShowsSteepTrianglesWhoseDepthPlanesLeaveTheirRange) {

@@ -5,7 +5,8 @@
 //    vectors of pixels, since how many of those a span needs is hard to guess, too.
 // 2. Where the long spans of a vector of rows overlap, they are a rectangle, drawn at once in blocks. A block
 //    keeps the depth of its farthest pixel and rejects what lies behind as a whole (hierarchical depth,
-//    farthest-inl.h); what lies behind all blocks has no spans.
+//    farthest-inl.h); what lies behind all blocks has no spans. Blocks that a side of the frame cuts hide
+//    nothing.
 #include <hwy/highway.h>
 
 #include <algorithm>
