@@ -30,10 +30,11 @@ namespace {
 struct Effort {
   // at_least for rows of a backend alone: charts judge the noise by them. Slow rungs are steps far above it.
   int repetitions, at_least;
-  double repetition_s;  // at least, unless one iteration takes longer
-  double slow_row_s;    // beyond this, all repetitions together, they become fewer
+  int in_ladder;             // instead: its steps are often smaller than the noise
+  double repetition_s;       // at least, unless one iteration takes longer
+  double slow_repetition_s;  // where one takes longer, they become fewer
 };
-constexpr Effort kFull{5, 3, 0.012, 0.35}, kQuick{3, 2, 0.015, 0.3};
+constexpr Effort kFull{5, 3, 9, 0.012, 0.07}, kQuick{3, 2, 3, 0.015, 0.1};
 
 // Memory is measured once a scene and backend.
 bool needs_peak(const Row& row) {
@@ -212,9 +213,10 @@ void register_rows(const std::vector<Row>& rows, Stage& stage, const Flags& flag
     if (flags.own_iterations || known)
       registered->Iterations(known ? 1
                                    : std::max<std::int64_t>(1, std::llround(effort.repetition_s / once_s)));
+    const int most = row.rung || row.wants_floor ? effort.in_ladder : effort.repetitions;
     if (flags.own_repetitions || known)
       registered->Repetitions(
-          known ? 1 : std::clamp(static_cast<int>(effort.slow_row_s / once_s), at_least, effort.repetitions));
+          known ? 1 : std::clamp(static_cast<int>(most * effort.slow_repetition_s / once_s), at_least, most));
   }
 }
 

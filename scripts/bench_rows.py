@@ -4,6 +4,7 @@ A row's name is WHO/what/key:value…/threads:N, WHO being a backend, "frontend"
 rasterizers of other projects, stand in a backend's place. Rows random_read/WHERE, which every run has, draw nothing.
 """
 import json
+import math
 import statistics
 import sys
 from dataclasses import dataclass, field
@@ -48,6 +49,19 @@ class Row:
     @property
     def threads(self):
         return int(self.keys.get("threads", "1"))
+
+
+def order(a, b):
+    """-1 where row a is faster than b, 1 where it is slower, 0 where their repetitions don't settle it.
+
+    Counts the pairs of repetitions, one of each, that a wins (Mann and Whitney, "On a test of whether one of two random
+    variables is stochastically larger than the other", 1947). Two that are equally fast would pass for different once in
+    a hundred times. Of fewer than five repetitions all pairs must be won, and it happens more often.
+    """
+    n, m = len(a.times_ms), len(b.times_ms)
+    won = sum((x < y) - (x > y) for x in a.times_ms for y in b.times_ms)
+    clear = min(n * m, 2.58 * math.sqrt(n * m * (n + m + 1) / 3))
+    return (won <= -clear) - (won >= clear)
 
 
 def parse_name(name):

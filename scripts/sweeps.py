@@ -1,6 +1,8 @@
 """Curves over a benchmark's sweeps, and where they cross."""
 import math
 
+from bench_rows import order
+
 
 def curves(bench, key, threads, x_of, scale_of=lambda row: 1.0):
     """Per backend the points (x, row, scale) by growing x; times are to be multiplied by scale."""
@@ -20,7 +22,7 @@ def area_curves(bench, threads):
 def crossings(first, second):
     """Where two curves over the same x cross, by straight lines on log axes; not where they only tangle.
 
-    Left and right of a crossing the middle halves of the repetitions must lie apart, the other way round.
+    Left and right of a crossing the repetitions must settle the order of the two, the other way round.
     """
     by_x = {x: row for x, row, _ in second}
     decided = None  # (side, index of the point) that was last clear of noise
@@ -28,7 +30,7 @@ def crossings(first, second):
     logs = [(math.log(x), math.log(a.median_ms * scale), math.log(b.median_ms * scale)) for x, a, b, scale in shared]
     for index, (_, a, b, _) in enumerate(shared):
         repeated = min(len(a.times_ms), len(b.times_ms)) > 1
-        side = repeated * ((a.quarter_ms(1) > b.quarter_ms(3)) - (a.quarter_ms(3) < b.quarter_ms(1)))
+        side = repeated * order(a, b)
         if side and decided and side != decided[0]:
             for (x0, a0, b0), (x1, a1, b1) in reversed(list(zip(logs[decided[1]:index], logs[decided[1] + 1:index + 1]))):
                 before, after = a0 - b0, a1 - b1

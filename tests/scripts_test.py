@@ -7,6 +7,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from itertools import combinations
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -428,6 +429,21 @@ class LadderTest(unittest.TestCase):
         from ladder import verdict
         slow, between, fast = (Row("", "", False, "", {}, list(times)) for times in ((4.0, 5.0), (2.5, 4.5), (1.0, 2.0)))
         self.assertEqual([verdict(slow, fast), verdict(fast, slow), verdict(slow, between)], ["gain", "loss", "neither"])
+
+    def test_rows_that_are_equally_fast_seldom_pass_for_different(self):
+        from bench_rows import Row, order
+
+        def row(times):
+            return Row("", "", False, "", {}, [float(t) for t in times])
+
+        for repetitions in (5, 6, 7):  # in each order that chance may give, once
+            every = set(range(2 * repetitions))
+            claims = [order(row(some), row(every - set(some))) for some in combinations(sorted(every), repetitions)]
+            self.assertLess(sum(map(abs, claims)), 0.012 * len(claims))
+            self.assertEqual(sum(claims), 0)
+            self.assertIn(1, claims)
+        # One repetition in nine that others slowed down hides nothing.
+        self.assertEqual(order(row([*range(8), 99]), row(range(10, 19))), -1)
 
 
 class CrossingsTest(unittest.TestCase):
