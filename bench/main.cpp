@@ -28,7 +28,8 @@ namespace {
 
 // How long a row may take. Noise comes in bursts, so many short repetitions tell more than a few long ones.
 struct Effort {
-  // at_least for rows of a backend alone: charts judge the noise by them. Slow rungs are steps far above it.
+  // at_least for rows of a backend alone: charts judge the noise by them. Slow rungs are steps far above it;
+  // peers are repeated in full.
   int repetitions, at_least;
   int in_ladder;             // instead: its steps are often smaller than the noise
   double repetition_s;       // at least, unless one iteration takes longer
@@ -209,7 +210,9 @@ void register_rows(const std::vector<Row>& rows, Stage& stage, const Flags& flag
     else
       registered->UseRealTime();
     const double once_s = std::max(row.once_s, 1e-6);
-    const int at_least = row.timed == Timed::raster && !row.rung ? effort.at_least : 1;
+    const int at_least = row.peer != nullptr                       ? effort.repetitions
+                         : row.timed == Timed::raster && !row.rung ? effort.at_least
+                                                                   : 1;
     if (flags.own_iterations || known)
       registered->Iterations(known ? 1
                                    : std::max<std::int64_t>(1, std::llround(effort.repetition_s / once_s)));

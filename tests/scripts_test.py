@@ -429,6 +429,8 @@ class LadderTest(unittest.TestCase):
         from ladder import verdict
         slow, between, fast = (Row("", "", False, "", {}, list(times)) for times in ((4.0, 5.0), (2.5, 4.5), (1.0, 2.0)))
         self.assertEqual([verdict(slow, fast), verdict(fast, slow), verdict(slow, between)], ["gain", "loss", "neither"])
+        once, little_faster = (Row("", "", False, "", {}, [time]) for time in (4.0, 3.0))
+        self.assertEqual([verdict(once, little_faster), verdict(little_faster, once)], ["neither", "neither"])
 
     def test_rows_that_are_equally_fast_seldom_pass_for_different(self):
         from bench_rows import Row, order
