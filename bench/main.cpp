@@ -31,7 +31,7 @@ struct Effort {
   // at_least for rows of a backend alone: charts judge the noise by them. Slow rungs are steps far above it;
   // peers are repeated in full.
   int repetitions, at_least;
-  int in_ladder;             // instead: its steps are often smaller than the noise
+  int in_ladder;             // instead, and for its backend's own rows: steps are often below the noise
   double repetition_s;       // at least, unless one iteration takes longer
   double slow_repetition_s;  // where one takes longer, they become fewer
 };
@@ -192,13 +192,14 @@ void time_row(benchmark::State& state, const Row& row, Stage& stage) {
 
 void register_rows(const std::vector<Row>& rows, Stage& stage, const Flags& flags, app::Progress& progress) {
   const Effort effort = flags.suite.quick ? kQuick : kFull;
-  auto calls = std::make_shared<std::size_t>(0);
+  struct Calls {
+    int made = 0, expected = 0;
+  };
+  const auto calls = std::make_shared<Calls>();
   for (const Row& row : rows) {
     auto* registered = benchmark::RegisterBenchmark(
-        row.name.c_str(),
-        [&row, &stage, &progress, calls,
-         total = rows.size() * static_cast<std::size_t>(effort.repetitions)](benchmark::State& state) {
-          progress.show(std::min(1.0, static_cast<double>((*calls)++) / static_cast<double>(total)),
+        row.name.c_str(), [&row, &stage, &progress, calls](benchmark::State& state) {
+          progress.show(std::min(1.0, static_cast<double>(calls->made++) / calls->expected),
                         "timing " + row.name);
           time_row(state, row, stage);
         });
@@ -217,9 +218,10 @@ void register_rows(const std::vector<Row>& rows, Stage& stage, const Flags& flag
       registered->Iterations(known ? 1
                                    : std::max<std::int64_t>(1, std::llround(effort.repetition_s / once_s)));
     const int most = row.rung || row.wants_floor ? effort.in_ladder : effort.repetitions;
-    if (flags.own_repetitions || known)
-      registered->Repetitions(
-          known ? 1 : std::clamp(static_cast<int>(most * effort.slow_repetition_s / once_s), at_least, most));
+    const int repetitions =
+        known ? 1 : std::clamp(static_cast<int>(most * effort.slow_repetition_s / once_s), at_least, most);
+    if (flags.own_repetitions || known) registered->Repetitions(repetitions);
+    calls->expected += repetitions;
   }
 }
 

@@ -56,7 +56,7 @@ def order(a, b):
 
     Counts the pairs of repetitions, one of each, that a wins (Mann and Whitney, "On a test of whether one of two random
     variables is stochastically larger than the other", 1947). Two that are equally fast would pass for different once in
-    a hundred times. Of fewer than five repetitions all pairs must be won, and it happens more often.
+    a hundred times, or more often where both have fewer than five repetitions, of which all pairs must be won.
     """
     n, m = len(a.times_ms), len(b.times_ms)
     won = sum((x < y) - (x > y) for x in a.times_ms for y in b.times_ms)

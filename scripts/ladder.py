@@ -24,8 +24,8 @@ def said(before, row):
 
 
 def verdict(before, after):
-    """Whether one idea more made a difference. Slow rungs are drawn once or twice, which settles large steps only."""
+    """Whether one idea more made a difference. Slow rungs are drawn a few times, which settles large steps only."""
     larger, smaller = sorted((before.median_ms, after.median_ms), reverse=True)
-    if min(len(before.times_ms), len(after.times_ms)) < 3 and larger < 1.5 * smaller:
+    if min(len(before.times_ms), len(after.times_ms)) < 5 and larger < 1.5 * smaller:
         return "neither"
     return {-1: "gain", 0: "neither", 1: "loss"}[order(after, before)]

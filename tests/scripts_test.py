@@ -427,10 +427,16 @@ class LadderTest(unittest.TestCase):
     def test_a_verdict_claims_only_what_repetitions_settle(self):
         from bench_rows import Row
         from ladder import verdict
-        slow, between, fast = (Row("", "", False, "", {}, list(times)) for times in ((4.0, 5.0), (2.5, 4.5), (1.0, 2.0)))
-        self.assertEqual([verdict(slow, fast), verdict(fast, slow), verdict(slow, between)], ["gain", "loss", "neither"])
-        once, little_faster = (Row("", "", False, "", {}, [time]) for time in (4.0, 3.0))
-        self.assertEqual([verdict(once, little_faster), verdict(little_faster, once)], ["neither", "neither"])
+
+        def row(*times):
+            return Row("", "", False, "", {}, list(times))
+
+        slow, fast = row(40.0, 41.0, 42.0, 43.0, 44.0), row(35.0, 36.0, 37.0, 38.0, 39.0)
+        self.assertEqual([verdict(slow, fast), verdict(fast, slow)], ["gain", "loss"])
+        between = row(30.0, 31.0, 32.0, 33.0, 40.5)  # 24 of 25 pairs
+        self.assertEqual([verdict(slow, between), verdict(between, slow)], ["neither", "neither"])
+        seldom = row(40.0, 41.0, 42.0, 43.0)  # large steps only
+        self.assertEqual([verdict(seldom, fast), verdict(seldom, row(25.0))], ["neither", "gain"])
 
     def test_rows_that_are_equally_fast_seldom_pass_for_different(self):
         from bench_rows import Row, order
