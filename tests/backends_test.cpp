@@ -190,6 +190,20 @@ TEST_P(EveryBackend, TellsTheLeastDistanceBetweenSmallTrianglesAndASample) {
   for (const auto& t : triangles) expect_oracle(std::span(&t, 1), kSide, kSide, std::to_string(t.payload));
 }
 
+// With a right angle at the upper left, where z(x, y) is the depth at a vertex; all in px. Over the whole
+// image, unless told.
+template <typename Depth>
+ScreenTriangle right_triangle(const Depth& z, int id, int left = -100, int right = 400, int bottom = 400) {
+  constexpr int kTop = -100;
+  return {{left * kSub, right * kSub, left * kSub},
+          {kTop * kSub, kTop * kSub, bottom * kSub},
+          {z(left, kTop), z(right, kTop), z(left, bottom)},
+          static_cast<std::uint32_t>(id)};
+}
+auto at_depth(std::uint32_t z) {
+  return [z](int, int) { return z; };
+}
+
 TEST_P(EveryBackend, TellsLayersThatAreOneUnitOfDepthApart) {
   // Parallel planes over the whole image, every third nearer by one, then one behind it and one that ties: a
   // bound on a block's depths that errs by one hides a layer.
@@ -200,10 +214,7 @@ TEST_P(EveryBackend, TellsLayersThatAreOneUnitOfDepthApart) {
       const auto z = [&](int x, int y) {
         return static_cast<std::uint32_t>(10'000 - id / 3 + (id % 3 == 1) + slope * (x + y));
       };
-      layers.push_back({{-100 * kSub, 400 * kSub, -100 * kSub},
-                        {-100 * kSub, -100 * kSub, 400 * kSub},
-                        {z(-100, -100), z(400, -100), z(-100, 400)},
-                        static_cast<std::uint32_t>(id)});
+      layers.push_back(right_triangle(z, id));
     }
     expect_oracle(layers, kWidth, kHeight, "slope " + std::to_string(slope));
   }
@@ -215,13 +226,6 @@ TEST_P(EveryBackend, ShowsWhatIsNearerInOneCornerOfATile) {
   // everywhere; it may begin inside the tile.
   constexpr int kWidth = 97, kHeight = 71, kLast = kMaxTile - 1;
   constexpr std::uint32_t kLayer = 1'000'000;
-  const auto triangle = [](int left, int right, auto&& z, std::uint32_t id) {
-    return ScreenTriangle{{left * kSub, right * kSub, left * kSub},
-                          {-100 * kSub, -100 * kSub, 400 * kSub},
-                          {z(left, -100), z(right, -100), z(left, 400)},
-                          id};
-  };
-  const auto flat = [](std::uint32_t z) { return [z](int, int) { return z; }; };
   for (const int reach : {50, 118})
     for (const int across : {-10, 0, 10})
       for (const int down : {-10, 0, 10}) {
@@ -231,10 +235,10 @@ TEST_P(EveryBackend, ShowsWhatIsNearerInOneCornerOfATile) {
                                             across * (u - x) + down * (v - y));
         };
         // The second one's third side is the line u + v = reach.
-        ScreenTriangle near = triangle(-100, reach + 100, flat(kLayer / 2), 2);
-        near.y_sub[2] = (reach + 100) * kSub;
-        const ScreenTriangle triangles[] = {triangle(-100, 400, flat(kLayer), 1), near,
-                                            triangle(across < 0 ? 8 : -100, 400, plane, 3)};
+        const ScreenTriangle triangles[] = {
+            right_triangle(at_depth(kLayer), 1),
+            right_triangle(at_depth(kLayer / 2), 2, -100, reach + 100, reach + 100),
+            right_triangle(plane, 3, across < 0 ? 8 : -100)};
         const Framebuffer picture = oracle(triangles, kWidth, kHeight);
         const std::string what =
             std::to_string(reach) + ", " + std::to_string(across) + ", " + std::to_string(down);
@@ -255,10 +259,7 @@ TEST_P(EveryBackend, ShowsSteepTrianglesWhoseDepthPlanesLeaveTheirRange) {
   const auto between = [&](int low, int high) {
     return low + static_cast<std::int32_t>(random.below(static_cast<std::uint64_t>(high - low + 1)));
   };
-  const ScreenTriangle layer{{-100 * kSub, 400 * kSub, -100 * kSub},
-                             {-100 * kSub, -100 * kSub, 400 * kSub},
-                             {kDepthRange / 2, kDepthRange / 2, kDepthRange / 2},
-                             1};
+  const ScreenTriangle layer = right_triangle(at_depth(kDepthRange / 2), 1);
   for (int i = 0; i < 200; ++i) {
     const std::int32_t x = between(0, 4 * kSub), y = between(0, 63 * kSub);
     const ScreenTriangle thin{{x, between(57 * kSub, 63 * kSub), x + between(-500, 500)},

@@ -424,13 +424,14 @@ class LadderTest(unittest.TestCase):
             rows[name].times_ms = times
         self.assertEqual([row.median_ms for _, row in steps(Bench({}, rows), "cube")], [9.0, 8.5, 8.0, 4.0, 2.0, 1.0])
 
-    def test_a_verdict_claims_only_what_repetitions_settle(self):
+    @staticmethod
+    def row(*times_ms):
         from bench_rows import Row
+        return Row("", "", False, "", {}, list(times_ms))
+
+    def test_a_verdict_claims_only_what_repetitions_settle(self):
         from ladder import verdict
-
-        def row(*times):
-            return Row("", "", False, "", {}, list(times))
-
+        row = self.row
         slow, fast = row(40.0, 41.0, 42.0, 43.0, 44.0), row(35.0, 36.0, 37.0, 38.0, 39.0)
         self.assertEqual([verdict(slow, fast), verdict(fast, slow)], ["gain", "loss"])
         between = row(30.0, 31.0, 32.0, 33.0, 40.5)  # 24 of 25 pairs
@@ -439,19 +440,16 @@ class LadderTest(unittest.TestCase):
         self.assertEqual([verdict(seldom, fast), verdict(seldom, row(25.0))], ["neither", "gain"])
 
     def test_rows_that_are_equally_fast_seldom_pass_for_different(self):
-        from bench_rows import Row, order
-
-        def row(times):
-            return Row("", "", False, "", {}, [float(t) for t in times])
-
+        from bench_rows import order
+        row = self.row
         for repetitions in (5, 6, 7):  # in each order that chance may give, once
             every = set(range(2 * repetitions))
-            claims = [order(row(some), row(every - set(some))) for some in combinations(sorted(every), repetitions)]
+            claims = [order(row(*some), row(*(every - set(some)))) for some in combinations(sorted(every), repetitions)]
             self.assertLess(sum(map(abs, claims)), 0.012 * len(claims))
             self.assertEqual(sum(claims), 0)
             self.assertIn(1, claims)
         # One repetition in nine that others slowed down hides nothing.
-        self.assertEqual(order(row([*range(8), 99]), row(range(10, 19))), -1)
+        self.assertEqual(order(row(*range(8), 99), row(*range(10, 19))), -1)
 
 
 class CrossingsTest(unittest.TestCase):

@@ -23,12 +23,16 @@ namespace edgewise {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Of kColumns x kRows blocks, row by row; kLanes divides their number.
+// Of the kColumns x kRows blocks of the largest tile, row by row; kLanes divides their number.
 template <int kColumns, int kRows>
 class Farthest {
  public:
-  // Of the tile's blocks those of some columns and rows lie in the frame; the others show nothing.
-  void clear(int columns, int rows) {
+  // The tile's first width x height px lie in the frame; blocks beside them show nothing.
+  void clear(int width, int height) {
+    const auto blocks = [](int px, int most) {
+      return (px * most + contract::kMaxTile - 1) / contract::kMaxTile;
+    };
+    const int columns = blocks(width, kColumns), rows = blocks(height, kRows);
     std::fill(std::begin(depth_), std::end(depth_), static_cast<std::int32_t>(contract::kDepthClear));
     for (int row = 0; row < rows; ++row) std::fill(at(columns, row), at(0, row + 1), 0);
     std::fill(at(0, rows), at(0, kRows), 0);

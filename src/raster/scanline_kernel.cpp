@@ -56,8 +56,8 @@ class TilePainter {
   explicit TilePainter(const TileJob& job) : job_(job) {
     std::fill_n(tile_.depth, std::size(tile_.depth), static_cast<std::int32_t>(kDepthClear));
     std::fill_n(tile_.payload, std::size(tile_.payload), static_cast<std::int32_t>(job.background));
-    const auto blocks = [](int px, int side) { return (std::min(kMaxTile, px) + side - 1) / side; };
-    tile_.farthest.clear(blocks(job.frame.width - job.x0, kBlock), blocks(job.frame.height - job.y0, kRows));
+    tile_.farthest.clear(std::min(kMaxTile, job.frame.width - job.x0),
+                         std::min(kMaxTile, job.frame.height - job.y0));
   }
   void draw(std::span<const std::uint32_t> run) {
     const Alive alive = set_up(job_, run, batch_);

@@ -123,8 +123,7 @@ void draw_tile(const TileJob& job) {
     fill(tile.depth() + y * kMaxTile, size * kBlock, kDepthClear);
     fill(tile.payload() + y * kMaxTile, size * kBlock, job.background);
   }
-  const auto blocks = [&](int px) { return (std::min(size, px) + kBlock - 1) / kBlock; };
-  tile.farthest.clear(blocks(job.frame.width - job.x0), blocks(job.frame.height - job.y0));
+  tile.farthest.clear(std::min(size, job.frame.width - job.x0), std::min(size, job.frame.height - job.y0));
 
   TilePainter painter(job, tile);
   draw_runs(job, [&](const Bins::Run& run) { painter.draw_run(run); });
