@@ -6,8 +6,8 @@
 //   - writing depth and payload of the frame once, through the caches or past them, whichever is faster,
 // each measured here, warm, on as many threads. A triangle's hidden blocks are free: hierarchical depth may
 // drop them by the thousand. For who draws all that is covered, blocks_s counts covered / won times. And who
-// draws in tiles, each in a buffer, clears that buffer and copies it to the frame, tile by tile: for them,
-// tiles_s takes the place of write_s.
+// draws in tiles, each in a buffer, clears that buffer's depths and copies it to the frame, tile by tile: for
+// them, tiles_s takes the place of write_s.
 #pragma once
 
 #include <cstdint>

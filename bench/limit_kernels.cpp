@@ -77,10 +77,8 @@ void clear_and_copy(L1Tile& tile, const FrameView& frame, int x0, int y0, bool p
     copy_rows(tile.depth, frame.depth, store);
     copy_rows(tile.payload, frame.payload, store);
   };
-  for (int i = 0; i < kSide * kSide; i += kLanes) {
+  for (int i = 0; i < kSide * kSide; i += kLanes)
     hn::Store(hn::Set(d, static_cast<std::int32_t>(contract::kDepthClear)), d, tile.depth + i);
-    hn::Store(hn::Zero(d), d, tile.payload + i);
-  }
   if (past_caches) {
     copy([&](V v, std::int32_t* at) { hn::Stream(v, d, at); });
     hwy::FlushStream();

@@ -24,8 +24,9 @@ struct L1Tile {
 // Tests and writes every block once.
 void draw_blocks(L1Tile& tile, std::int32_t payload);
 
-// Clears the tile, and copies it to the frame at (x0, y0), multiples of 64 px; a row of the tile is 64
-// integers one after the other. Rows of the frame are aligned to 64 bytes, its stride is a multiple of 16.
+// Clears the tile's depths, and copies the tile to the frame at (x0, y0), multiples of 64 px; a row of the
+// tile is 64 integers one after the other. Rows of the frame are aligned to 64 bytes, its stride is a
+// multiple of 16.
 void clear_and_copy(L1Tile& tile, const FrameView& frame, int x0, int y0, bool past_caches);
 
 }  // namespace edgewise::bench

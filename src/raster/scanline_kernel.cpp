@@ -36,7 +36,6 @@ class TilePainter {
  public:
   explicit TilePainter(const TileJob& job) : job_(job) {
     std::fill_n(depth_, kMaxTile * kMaxTile, static_cast<std::int32_t>(kDepthClear));
-    std::fill_n(payload_, kMaxTile * kMaxTile, static_cast<std::int32_t>(job.background));
   }
   void draw(std::span<const std::uint32_t> run) {
     for (const std::uint32_t index : run) walk_triangle(job_, job_.triangles[index], depth_, payload_);
@@ -55,7 +54,6 @@ class TilePainter {
  public:
   explicit TilePainter(const TileJob& job) : job_(job) {
     std::fill_n(tile_.depth, std::size(tile_.depth), static_cast<std::int32_t>(kDepthClear));
-    std::fill_n(tile_.payload, std::size(tile_.payload), static_cast<std::int32_t>(job.background));
     tile_.farthest.clear(std::min(kMaxTile, job.frame.width - job.x0),
                          std::min(kMaxTile, job.frame.height - job.y0));
   }
@@ -84,13 +82,14 @@ class TilePainter {
 
 #endif
 
-void write_rows(const Place& to, const std::int32_t* rows) {
+template <typename Pixels>
+void write_rows(const Place& to, const Pixels& pixels) {
   write_to(to, [&](const auto& store) {
-    for (int y = 0; y < to.height; ++y, rows += kMaxTile) {
+    for (int y = 0; y < to.height; ++y) {
       std::int32_t* const row = to.row(y);
       int x = 0;
-      for (; x + kLanes <= to.width; x += kLanes) store(hn::Load(D{}, rows + x), row + x);
-      std::copy(rows + x, rows + to.width, row + x);
+      for (; x + kLanes <= to.width; x += kLanes) store(pixels(D{}, y * kMaxTile + x), row + x);
+      for (; x < to.width; ++x) row[x] = hn::GetLane(pixels(One{}, y * kMaxTile + x));
     }
   });
 }
@@ -104,10 +103,8 @@ void draw_tile_in_spans(const TileJob& job) {
   }
   TilePainter painter(job);
   draw_runs(job, [&](const Bins::Run& run) { painter.draw(run.indices); });
-  write_planes(job, [&](const Place& depth, const Place& payload) {
-    write_rows(depth, painter.depth());
-    write_rows(payload, painter.payload());
-  });
+  write_tile(job, painter.depth(), painter.payload(),
+             [](const Place& to, const auto& pixels) { write_rows(to, pixels); });
   clear_upper_halves();
 }
 

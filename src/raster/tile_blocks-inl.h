@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
 
 #include "edgewise/contract.h"
 #include "raster/farthest-inl.h"
@@ -42,7 +41,7 @@ class Tile {
   // Block by block, 16 pixels each. A patch at the end of a plane takes along blocks behind it, in which it
   // has no pixel: they may be read and written back, and are the payload's first ones, or spare.
   HWY_INLINE std::int32_t* depth() { return planes_; }
-  HWY_INLINE std::int32_t* payload() { return planes_ + kTilePixels; }
+  HWY_INLINE std::int32_t* payload() { return planes_ + kTilePixels; }  // see write_tile
 
  private:
   static constexpr int kSpare = (kMaxBlocks + 1) * kBlockPixels;
@@ -106,20 +105,21 @@ HWY_INLINE void write_whole(Tile& tile, int at, hn::Mask<D> covered, V z, V payl
 constexpr int kBlocksAcross = kLanes / kBlock;  // as many as fill a vector of a pixel row
 
 // Two neighbouring pixel rows of neighbouring blocks; `from` is where the first block's part of them begins.
-HWY_INLINE void two_rows_of_blocks(const std::int32_t* from, V& upper, V& lower) {
+template <typename Pixels>
+HWY_INLINE void two_rows_of_blocks(const Pixels& pixels, int from, V& upper, V& lower) {
   const D d;
 #if HWY_TARGET == HWY_SSE4
-  upper = hn::Load(d, from);
-  lower = hn::Load(d, from + kBlock);
+  upper = pixels(d, from);
+  lower = pixels(d, from + kBlock);
 #elif HWY_TARGET == HWY_AVX2
-  const V left = hn::Load(d, from), right = hn::Load(d, from + kBlockPixels);
+  const V left = pixels(d, from), right = pixels(d, from + kBlockPixels);
   upper = hn::ConcatLowerLower(d, right, left);
   lower = hn::ConcatUpperUpper(d, right, left);
 #else
   const hn::Half<D> half;
   const auto of_blocks = [&](int first, int second) {
-    return hn::Combine(d, hn::Load(half, from + second * kBlockPixels),
-                       hn::Load(half, from + first * kBlockPixels));
+    return hn::Combine(d, pixels(half, from + second * kBlockPixels),
+                       pixels(half, from + first * kBlockPixels));
   };
   const V even = of_blocks(0, 2), odd = of_blocks(1, 3);
   upper = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(odd), even);
@@ -130,9 +130,10 @@ HWY_INLINE void two_rows_of_blocks(const std::int32_t* from, V& upper, V& lower)
 
 // Blocks back to rows. Rows are written whole, one after the other: processors bring neighbouring cache lines
 // together, and those of several rows at once often want the same places in the caches.
-inline void write_out(const Place& to, const std::int32_t* blocks) {
-  const auto part_of_row = [&](int x, int y) {
-    return blocks + y / kBlock * kMaxBlocks * kBlockPixels + y % kBlock * kBlock + x * kBlock;
+template <typename Pixels>
+void write_blocks(const Place& to, const Pixels& pixels) {
+  const auto part_of_row = [](int x, int y) {
+    return y / kBlock * kMaxBlocks * kBlockPixels + y % kBlock * kBlock + x * kBlock;
   };
   int in_vectors_x = 0, in_vectors_y = 0;
 #if HWY_TARGET != HWY_SCALAR
@@ -144,7 +145,7 @@ inline void write_out(const Place& to, const std::int32_t* blocks) {
       V lower[kWhole];
       for (int i = 0; i < count; ++i) {
         V upper;
-        two_rows_of_blocks(part_of_row(i * kLanes, y), upper, lower[i]);
+        two_rows_of_blocks(pixels, part_of_row(i * kLanes, y), upper, lower[i]);
         store(upper, upper_row + i * kLanes);
       }
       for (int i = 0; i < count; ++i) store(lower[i], lower_row + i * kLanes);
@@ -155,8 +156,8 @@ inline void write_out(const Place& to, const std::int32_t* blocks) {
 #endif
   for (int y = 0; y < to.height; ++y)
     for (int x = y < in_vectors_y ? in_vectors_x : 0; x < to.width; x += kBlock)
-      std::memcpy(to.row(y) + x, part_of_row(x, y),
-                  sizeof(std::int32_t) * static_cast<std::size_t>(std::min(kBlock, to.width - x)));
+      for (int i = 0; i < std::min(kBlock, to.width - x); ++i)
+        to.row(y)[x + i] = hn::GetLane(pixels(One{}, part_of_row(x, y) + i));
 }
 
 }  // namespace HWY_NAMESPACE

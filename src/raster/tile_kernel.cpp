@@ -2,8 +2,8 @@
 //
 // 1. Depth and payload of the tile live in a buffer of 32 KB; with the lists beside it a tile works on about
 //    46 KB, which an L1 cache of 48 KB just holds, while one of 32 KB leaves some to L2. The buffer is
-//    written out once, past the other caches where the frame would not stay in them; the frame needs no clear
-//    pass.
+//    written out once, past the other caches where the frame would not stay in them. So the frame needs no
+//    clear pass, and of the buffer only depth does.
 // 2. The buffer is stored in blocks of 4 x 4 pixels, 16 consecutive integers: one AVX-512 vector, two of
 //    AVX2, four of SSE4 (tile_blocks-inl.h). Four by four wastes fewer lanes on small triangles than 16 x 1.
 // 3. Triangles are set up a vector at a time (tile_setup-inl.h), for the tile: an edge that accepts the
@@ -119,19 +119,14 @@ void draw_tile(const TileJob& job) {
   const auto fill = [&](std::int32_t* at, int count, std::uint32_t value) {
     for (int i = 0; i < count; i += kLanes) hn::Store(hn::Set(d, wrap(value)), d, at + i);
   };
-  for (int y = 0; y < size; y += kBlock) {
-    fill(tile.depth() + y * kMaxTile, size * kBlock, kDepthClear);
-    fill(tile.payload() + y * kMaxTile, size * kBlock, job.background);
-  }
+  for (int y = 0; y < size; y += kBlock) fill(tile.depth() + y * kMaxTile, size * kBlock, kDepthClear);
   tile.farthest.clear(std::min(size, job.frame.width - job.x0), std::min(size, job.frame.height - job.y0));
 
   TilePainter painter(job, tile);
   draw_runs(job, [&](const Bins::Run& run) { painter.draw_run(run); });
   painter.draw_rest();
-  write_planes(job, [&](const Place& depth, const Place& payload) {
-    write_out(depth, tile.depth());
-    write_out(payload, tile.payload());
-  });
+  write_tile(job, tile.depth(), tile.payload(),
+             [](const Place& to, const auto& pixels) { write_blocks(to, pixels); });
   clear_upper_halves();
 }
 

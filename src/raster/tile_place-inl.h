@@ -47,14 +47,15 @@ struct Place {
 
 // Calls write(store), where store(v, pixels) puts a vector of pixels to the frame. Through the caches, the
 // tile to the right, most often the next to be drawn, is asked for at the same time: its rows are too short
-// for processors to foresee where they lie, and a few stores that wait for memory hold up all others.
+// for processors to foresee where they lie, and a few stores that wait for memory hold up all others. (Not
+// pixel by pixel, where asking would take longer than storing.)
 template <typename Write>
 HWY_INLINE void write_to(const Place& to, Write&& write) {
   if (to.past_caches) {
     write([](V v, std::int32_t* pixels) { hn::Stream(v, D{}, pixels); });
   } else {
     write([ahead = to.ahead](V v, std::int32_t* pixels) {
-      __builtin_prefetch(pixels + ahead, 0, 2);  // to L2: L1 is the tile's
+      if constexpr (kLanes > 1) __builtin_prefetch(pixels + ahead, 0, 2);  // to L2: L1 is the tile's
       hn::StoreU(v, D{}, pixels);
     });
   }
@@ -103,6 +104,24 @@ HWY_INLINE void write_planes(const TileJob& job, Write&& write) {
   write(depth, payload);
   hwy::FlushStream();
   if (job.write_out_ns != nullptr) *job.write_out_ns = std::chrono::nanoseconds(Clock::now() - begin).count();
+}
+
+using One = hn::CappedTag<std::int32_t, 1>;  // pixel
+
+// Calls write(place, pixels) for depth and for payload, where pixels(d, i) is a vector of what goes to the
+// frame from the i-th pixel of the tile's buffers on. Those of the payload need no clear: what they hold
+// counts where something was drawn, which is nearer than kDepthClear.
+template <typename Write>
+HWY_INLINE void write_tile(const TileJob& job, const std::int32_t* depth, const std::int32_t* payload,
+                           Write&& write) {
+  write_planes(job, [&](const Place& depth_place, const Place& payload_place) {
+    write(depth_place, [=](auto d, int i) { return hn::Load(d, depth + i); });
+    write(payload_place, [&](auto d, int i) {
+      const auto value = [&](std::uint32_t v) { return hn::Set(d, static_cast<std::int32_t>(v)); };
+      const auto drawn = hn::Lt(hn::Load(d, depth + i), value(contract::kDepthClear));
+      return hn::IfThenElse(drawn, hn::Load(d, payload + i), value(job.background));
+    });
+  });
 }
 
 // A tile without triangles needs no buffer.
