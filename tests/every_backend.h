@@ -1,0 +1,39 @@
+// A test of each backend in the registry: what it draws, under every execution, against a brute-force oracle.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "lab/measure.h"
+#include "lab/oracle.h"
+#include "support.h"
+
+namespace edgewise::testing {
+
+class EveryBackend : public ::testing::TestWithParam<std::string_view> {
+ protected:
+  const BackendInfo& info_ = find_backend(GetParam());
+  std::unique_ptr<Backend> backend_ = info_.make();
+
+  Framebuffer oracle(std::span<const ScreenTriangle> triangles, int width, int height) const {
+    Framebuffer expected(width, height);
+    (info_.fills ? lab::draw_oracle : lab::draw_edge_oracle)(triangles, expected, kBackground);
+    return expected;
+  }
+  void expect_oracle(std::span<const ScreenTriangle> triangles, int width, int height,
+                     const std::string& what) {
+    const Framebuffer expected = oracle(triangles, width, height);
+    Framebuffer actual(width, height);
+    for (const auto& execution : testing::executions()) {
+      lab::poison(actual);  // or what is left out would still be right, from the draw before
+      backend_->draw(triangles, actual.view(), kBackground, execution);
+      testing::expect_same(expected, actual, what + ", " + testing::describe(execution));
+    }
+  }
+};
+
+}  // namespace edgewise::testing

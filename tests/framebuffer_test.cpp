@@ -1,0 +1,56 @@
+// Rows of the library's own frames, and what sides they may have.
+#include "edgewise/framebuffer.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <stdexcept>
+#include <utility>
+
+#include "edgewise/contract.h"
+
+namespace edgewise {
+namespace {
+
+using namespace contract;
+
+TEST(Framebuffer, RowsAreWholeCacheLinesAndNoMultipleOfAPageApart) {
+  constexpr int kLine = 16, kPage = 1024;  // px
+  for (const int width : {1, 16, 17, 1008, 1009, 1024, 1025, 1920, 2048, 4096, contract::kMaxImageSide}) {
+    Framebuffer frame(width, 3);
+    EXPECT_GE(frame.stride(), width);
+    EXPECT_LT(frame.stride(), width + 2 * kLine) << width;
+    EXPECT_EQ(frame.stride() % kLine, 0) << width;
+    EXPECT_NE(frame.stride() % kPage, 0) << width;
+    for (const std::uint32_t* row : {frame.depth_row(1), frame.payload_row(2)})
+      EXPECT_EQ(reinterpret_cast<std::uintptr_t>(row) % (kLine * sizeof(*row)), 0u) << width;
+  }
+}
+
+TEST(Framebuffer, LargeOnesBeginAtAHugePageAndMoveWithTheirViews) {
+  constexpr int kSmall = 64, kLarge = 1100;  // px; 4.9 MB a plane
+  constexpr std::uintptr_t kHugePage = std::uintptr_t{1} << 21;
+  const auto begins_at_huge_page = [](const Framebuffer& frame) {
+    return reinterpret_cast<std::uintptr_t>(frame.depth_row(0)) % kHugePage == 0 &&
+           reinterpret_cast<std::uintptr_t>(frame.payload_row(0)) % kHugePage == 0;
+  };
+  for (const auto& [from, to] : {std::pair{kSmall, kLarge}, {kLarge, kSmall}}) {
+    Framebuffer moved(from, from), frame(to, to);
+    EXPECT_EQ(begins_at_huge_page(moved), from == kLarge);
+    const FrameView view = moved.view();
+    view.depth[view.stride * (from - 1)] = 7;
+    frame = std::move(moved);  // frees what it held, which began elsewhere
+    EXPECT_EQ(frame.depth_row(from - 1), view.depth + view.stride * (from - 1));
+    EXPECT_EQ(*frame.depth_row(from - 1), 7u);
+  }
+}
+
+TEST(Framebuffer, RefusesSidesThatTheContractCannotHold) {
+  for (const int side : {-1, 0, kMaxImageSide + 1, 1'000'000}) {
+    EXPECT_THROW(Framebuffer(side, 4), std::invalid_argument);
+    EXPECT_THROW(Framebuffer(4, side), std::invalid_argument);
+  }
+}
+
+}  // namespace
+}  // namespace edgewise

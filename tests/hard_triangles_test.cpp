@@ -1,0 +1,208 @@
+// Triangles made by hand, or by number theory, so that the least mistake of a backend's arithmetic shows.
+#include <array>
+#include <numeric>
+#include <tuple>
+
+#include "every_backend.h"
+
+namespace edgewise {
+namespace {
+
+using namespace contract;
+using testing::EveryBackend;
+
+// a^-1 mod m, for coprime a and m.
+std::int64_t inverse(std::int64_t a, std::int64_t m) {
+  std::int64_t r0 = m, r1 = a % m, t0 = 0, t1 = 1;
+  while (r1 != 0) {
+    const std::int64_t q = r0 / r1;
+    std::tie(r0, r1) = std::pair(r1, r0 - q * r1);
+    std::tie(t0, t1) = std::pair(t1, t0 - q * t1);
+  }
+  return (t0 + m) % m;
+}
+
+std::int32_t i32(std::int64_t v) {
+  return static_cast<std::int32_t>(v);
+}
+
+struct EdgeStart {
+  std::int64_t x, y, dx;  // sub-units; dx to the edge's end
+};
+// Of an edge, `dy` sub-units high, that crosses a sample's height rest / (256 dy) px to its right: from
+// vertex p, n sub-units above, by (p.x - sample_x) dy + n dx = rest. `above`: the least n.
+EdgeStart edge_beside(std::int32_t sample_x, std::int32_t sample_y, std::int64_t rest, std::int32_t dy,
+                      std::int64_t above) {
+  std::int64_t n = above;
+  while (std::gcd(n, std::int64_t{dy}) != 1) ++n;  // puts p higher
+  std::int64_t dx = (rest + dy) * inverse(n, dy) % dy;
+  if (dx > dy / 2) dx -= dy;
+  return {sample_x + (rest - n * dx) / dy, sample_y - n, dx};
+}
+
+TEST_P(EveryBackend, TellsTheLeastDistanceBetweenTheTallestEdgesAndASample) {
+  constexpr int kWidth = 80, kHeight = 70;
+  std::vector<ScreenTriangle> triangles;
+  std::uint32_t id = 0;
+  for (const std::int32_t dy : {2 * kGuardSub - 101, kGuardSub + 1, 131'071, 8'191})
+    for (const int y : {0, 33, 69})
+      for (const std::int64_t rest : {-1, 0, 1})
+        for (const int third_x : {-kGuardSub, kGuardSub}) {
+          const std::int32_t sample_x = sample_sub(y * 7 % kWidth), sample_y = sample_sub(y), top = -dy / 2;
+          const auto [px, py, dx] = edge_beside(sample_x, sample_y, rest, dy, sample_y - top);
+          ASSERT_EQ((px - sample_x) * dy + (sample_y - py) * dx, rest);
+          triangles.push_back(
+              {{i32(px), i32(px + dx), third_x}, {i32(py), i32(py + dy), 1000}, {5000, 6000 + id, 7000}, id});
+          ++id;
+        }
+  for (const auto& t : triangles) expect_oracle(std::span(&t, 1), kWidth, kHeight, std::to_string(t.payload));
+}
+
+TEST_P(EveryBackend, TellsTheLeastDistanceBetweenSmallTrianglesAndASample) {
+  // Sides just short of 16 px, of which an image of 8 x 8 px shows a part: as steep as edges
+  // of small triangles can be. An edge's value is cut to whole pixels: 0 … 255 count as 0.
+  constexpr int kSide = 8;
+  std::vector<ScreenTriangle> triangles;
+  for (const std::int32_t dy : {4'095, 4'093, 2'731})
+    for (const int x : {0, 4, 7})
+      for (const int y : {0, 3, 7})
+        for (const std::int64_t rest : {-256, -255, -1, 0, 1, 255, 256})
+          for (const bool across : {false, true}) {
+            const auto [px, py, dx] = edge_beside(sample_sub(x), sample_sub(y), rest, dy, dy / 2);
+            ASSERT_EQ((px - sample_sub(x)) * dy + (sample_sub(y) - py) * dx, rest);
+            for (const std::int64_t third_x :
+                 {std::min(px, px + dx) - 1'900, std::max(px, px + dx) + 1'900}) {
+              ScreenTriangle t{{i32(px), i32(px + dx), i32(third_x)},
+                               {i32(py), i32(py + dy), i32(py + 700)},
+                               {5000, 6000, 7000},
+                               static_cast<std::uint32_t>(triangles.size())};
+              if (across) std::swap(t.x_sub, t.y_sub);
+              triangles.push_back(t);
+            }
+          }
+  for (const auto& t : triangles) expect_oracle(std::span(&t, 1), kSide, kSide, std::to_string(t.payload));
+}
+
+// With a right angle at the upper left, where z(x, y) is the depth at a vertex; all in px. Over the whole
+// image, unless told.
+template <typename Depth>
+ScreenTriangle right_triangle(const Depth& z, int id, int left = -100, int right = 400, int bottom = 400) {
+  constexpr int kTop = -100;
+  return {{left * kSub, right * kSub, left * kSub},
+          {kTop * kSub, kTop * kSub, bottom * kSub},
+          {z(left, kTop), z(right, kTop), z(left, bottom)},
+          static_cast<std::uint32_t>(id)};
+}
+auto at_depth(std::uint32_t z) {
+  return [z](int, int) { return z; };
+}
+
+TEST_P(EveryBackend, TellsLayersThatAreOneUnitOfDepthApart) {
+  // Parallel planes over the whole image, every third nearer by one, then one behind it and one that ties: a
+  // bound on a block's depths that errs by one hides a layer.
+  constexpr int kWidth = 97, kHeight = 71, kLayers = 12;
+  for (const int slope : {0, 1, -3}) {
+    std::vector<ScreenTriangle> layers;
+    for (int id = 0; id < kLayers; ++id) {
+      const auto z = [&](int x, int y) {
+        return static_cast<std::uint32_t>(10'000 - id / 3 + (id % 3 == 1) + slope * (x + y));
+      };
+      layers.push_back(right_triangle(z, id));
+    }
+    expect_oracle(layers, kWidth, kHeight, "slope " + std::to_string(slope));
+  }
+}
+
+TEST_P(EveryBackend, ShowsWhatIsNearerInOneCornerOfATile) {
+  // A layer over the whole image, a triangle before the first blocks, or all but the last, and a plane that
+  // is nearer than the layer by one where it is nearest, in a corner or along a side of the first tile, or
+  // everywhere; it may begin inside the tile.
+  constexpr int kWidth = 97, kHeight = 71, kLast = kMaxTile - 1;
+  constexpr std::uint32_t kLayer = 1'000'000;
+  for (const int reach : {50, 118})
+    for (const int across : {-10, 0, 10})
+      for (const int down : {-10, 0, 10}) {
+        const int x = across < 0 ? kLast : 0, y = down < 0 ? kLast : 0;
+        const auto plane = [&](int u, int v) {
+          return static_cast<std::uint32_t>(static_cast<int>(kLayer) - 1 - (across + down) / 2 +
+                                            across * (u - x) + down * (v - y));
+        };
+        // The second one's third side is the line u + v = reach.
+        const ScreenTriangle triangles[] = {
+            right_triangle(at_depth(kLayer), 1),
+            right_triangle(at_depth(kLayer / 2), 2, -100, reach + 100, reach + 100),
+            right_triangle(plane, 3, across < 0 ? 8 : -100)};
+        const Framebuffer picture = oracle(triangles, kWidth, kHeight);
+        const std::string what =
+            std::to_string(reach) + ", " + std::to_string(across) + ", " + std::to_string(down);
+        if (info_.fills) {
+          const bool covered = x + y < reach;
+          EXPECT_EQ(picture.payload_row(y)[x], covered ? 2 : 3) << what;
+          EXPECT_EQ(picture.depth_row(y)[x], covered ? kLayer / 2 : kLayer - 1) << what;
+        }
+        expect_oracle(triangles, kWidth, kHeight, what);
+      }
+}
+
+TEST_P(EveryBackend, ShowsSteepTrianglesWhoseDepthPlanesLeaveTheirRange) {
+  // Thin triangles across a tile, from the nearest depth to the farthest within few pixels, before a layer:
+  // over the box their planes pass 32 bits many times.
+  constexpr int kWidth = 64, kHeight = 64;
+  Random random(17);
+  const auto between = [&](int low, int high) {
+    return low + static_cast<std::int32_t>(random.below(static_cast<std::uint64_t>(high - low + 1)));
+  };
+  const ScreenTriangle layer = right_triangle(at_depth(kDepthRange / 2), 1);
+  for (int i = 0; i < 200; ++i) {
+    const std::int32_t x = between(0, 4 * kSub), y = between(0, 63 * kSub);
+    const ScreenTriangle thin{{x, between(57 * kSub, 63 * kSub), x + between(-500, 500)},
+                              {y, between(0, 63 * kSub), y + between(100, 1000)},
+                              {kDepthHead, kDepthHead, kDepthHead + kDepthRange},
+                              2};
+    expect_oracle(std::array{layer, thin}, kWidth, kHeight, std::to_string(i));
+  }
+}
+
+TEST_P(EveryBackend, AnchorsDepthAtTheTopmostThenLeftmostVertex) {
+  // Gradients are rounded down, so over the width of the guard band another anchor gives another depth.
+  constexpr int kWidth = 70, kHeight = 5;
+  Random random(13);
+  const auto between = [&](std::int32_t low, std::int32_t high) {
+    return low + static_cast<std::int32_t>(random.below(static_cast<std::uint64_t>(high - low + 1)));
+  };
+  for (std::uint32_t id = 0; id < 100; ++id) {
+    const std::int32_t top = between(-kGuardSub, -kGuardSub / 2), far = between(kGuardSub / 2, kGuardSub);
+    ScreenTriangle t{{-far, far, between(-far, far)},
+                     {top, id % 2 == 0 ? top : top + between(0, 1000), kGuardSub},
+                     {},
+                     id};
+    for (auto& z : t.z) z = kDepthHead + static_cast<std::uint32_t>(random.below(kDepthRange + 1ull));
+    for (auto* field : {t.x_sub, t.y_sub}) std::rotate(field, field + id % 3, field + 3);
+    expect_oracle(std::span(&t, 1), kWidth, kHeight, std::to_string(id));
+  }
+}
+
+TEST_P(EveryBackend, DrawsEdgesThatAreAlmostHorizontal) {
+  // About as flat as 1 in 4096, where scanline turns to another way, and flatter.
+  Random random(5);
+  std::vector<ScreenTriangle> triangles;
+  for (std::uint32_t id = 0; id < 400; ++id) {
+    const auto between = [&](std::int32_t low, std::int32_t high) {
+      return low + static_cast<std::int32_t>(random.below(static_cast<std::uint64_t>(high - low + 1)));
+    };
+    const std::int32_t x = between(-2000, 2000), y = between(0, 70 * kSub), dy = between(1, 600);
+    const std::int32_t dx = std::min(between(4090, 4102) * dy, kGuardSub);
+    triangles.push_back({{x, x + dx, between(0, 100 * kSub)},
+                         {y, y + (id % 2 == 0 ? dy : -dy), y + between(-900, 900)},
+                         {kDepthHead + id * 1000, kDepthHead + 90'000, kDepthHead + 400'000 - id * 1000},
+                         id});
+    if (id % 3 == 0)
+      for (auto& x_sub : triangles.back().x_sub) x_sub = 90 * kSub - x_sub;
+  }
+  for (auto& t : triangles)
+    for (auto& x_sub : t.x_sub) x_sub = std::clamp(x_sub, -kGuardSub, kGuardSub);
+  expect_oracle(triangles, 90, 70, "almost horizontal");
+}
+
+}  // namespace
+}  // namespace edgewise
