@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <iterator>
 #include <limits>
 #include <vector>
 
@@ -111,7 +112,8 @@ double measure_tiles_s(Framebuffer& frame, int threads) {
     return least_s([&] {
       in_parts(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 1, threads,
                [&](std::size_t begin, std::size_t end) {
-                 L1Tile tile{};
+                 L1Tile tile;
+                 std::fill(std::begin(tile.payload), std::end(tile.payload), 0);
                  for (auto i = static_cast<int>(begin); i < static_cast<int>(end); ++i)
                    clear_and_copy(tile, view, i % columns * kSide, i / columns * kSide, past_caches);
                });

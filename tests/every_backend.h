@@ -28,10 +28,10 @@ class EveryBackend : public ::testing::TestWithParam<std::string_view> {
                      const std::string& what) {
     const Framebuffer expected = oracle(triangles, width, height);
     Framebuffer actual(width, height);
-    for (const auto& execution : testing::executions()) {
+    for (const auto& execution : executions()) {
       lab::poison(actual);  // or what is left out would still be right, from the draw before
       backend_->draw(triangles, actual.view(), kBackground, execution);
-      testing::expect_same(expected, actual, what + ", " + testing::describe(execution));
+      expect_same(expected, actual, what + ", " + describe(execution));
     }
   }
 };

@@ -16,7 +16,7 @@ using namespace contract;
 
 TEST(Framebuffer, RowsAreWholeCacheLinesAndNoMultipleOfAPageApart) {
   constexpr int kLine = 16, kPage = 1024;  // px
-  for (const int width : {1, 16, 17, 1008, 1009, 1024, 1025, 1920, 2048, 4096, contract::kMaxImageSide}) {
+  for (const int width : {1, 16, 17, 1008, 1009, 1024, 1025, 1920, 2048, 4096, kMaxImageSide}) {
     Framebuffer frame(width, 3);
     EXPECT_GE(frame.stride(), width);
     EXPECT_LT(frame.stride(), width + 2 * kLine) << width;

@@ -3,8 +3,8 @@
 // 1. Triangles are set up a vector at a time (scanline_setup-inl.h), their spans are found a vector of rows
 //    at a time (scanline_rows-inl.h) and filled a vector of pixels at a time (scanline_list-inl.h).
 // 2. Rows end at the sides of a tile. Rows as long as the image would need fewer set-ups, but a band of them
-//    does not fit the L1 cache, where a tile's 32 KB do. The tile is written out once, and lies in one cell
-//    of the depth grid (rule 6), so a span has one plane.
+//    does not fit the L1 cache, where a tile's 32 KB do. The tile is written out once, the background where
+//    its depths are still clear, and lies in one cell of the depth grid (rule 6), so a span has one plane.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raster/scanline_kernel.cpp"
 #include <hwy/foreach_target.h>
@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <cstring>
 
 #include "edgewise/contract.h"
 #include "raster/kernel_table.h"
@@ -89,7 +88,8 @@ void write_rows(const Place& to, const Pixels& pixels) {
       std::int32_t* const row = to.row(y);
       int x = 0;
       for (; x + kLanes <= to.width; x += kLanes) store(pixels(D{}, y * kMaxTile + x), row + x);
-      for (; x < to.width; ++x) row[x] = hn::GetLane(pixels(One{}, y * kMaxTile + x));
+      for (; x < to.width; ++x)
+        row[x] = hn::GetLane(pixels(hn::CappedTag<std::int32_t, 1>{}, y * kMaxTile + x));
     }
   });
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 
 #include "edgewise/contract.h"
 #include "raster/farthest-inl.h"
@@ -39,9 +40,10 @@ constexpr int kTilePixels = kMaxBlocks * kMaxBlocks * kBlockPixels;
 class Tile {
  public:
   // Block by block, 16 pixels each. A patch at the end of a plane takes along blocks behind it, in which it
-  // has no pixel: they may be read and written back, and are the payload's first ones, or spare.
+  // has no pixel: they may be read and written back, whatever they hold, and are the payload's first ones, or
+  // spare.
   HWY_INLINE std::int32_t* depth() { return planes_; }
-  HWY_INLINE std::int32_t* payload() { return planes_ + kTilePixels; }  // see write_tile
+  HWY_INLINE std::int32_t* payload() { return planes_ + kTilePixels; }  // see Payloads
 
  private:
   static constexpr int kSpare = (kMaxBlocks + 1) * kBlockPixels;
@@ -128,6 +130,17 @@ HWY_INLINE void two_rows_of_blocks(const Pixels& pixels, int from, V& upper, V& 
 }
 #endif
 
+// How much of a tile goes to the frame in whole vectors, two rows at a time. What is left is copied as it is:
+// who draws it has cleared its payloads.
+struct InVectors {
+  int width = 0, height = 0;  // px
+  bool all;
+  InVectors(int tile_width, int tile_height) {
+    if (kLanes > 1) width = tile_width & -kLanes, height = tile_height & -2;
+    all = width == tile_width && height == tile_height;
+  }
+};
+
 // Blocks back to rows. Rows are written whole, one after the other: processors bring neighbouring cache lines
 // together, and those of several rows at once often want the same places in the caches.
 template <typename Pixels>
@@ -135,10 +148,9 @@ void write_blocks(const Place& to, const Pixels& pixels) {
   const auto part_of_row = [](int x, int y) {
     return y / kBlock * kMaxBlocks * kBlockPixels + y % kBlock * kBlock + x * kBlock;
   };
-  int in_vectors_x = 0, in_vectors_y = 0;
+  const InVectors in_vectors(to.width, to.height);
 #if HWY_TARGET != HWY_SCALAR
   constexpr int kWhole = kMaxTile / kLanes;
-  in_vectors_x = to.width & -kLanes, in_vectors_y = to.height & -2;
   write_to(to, [&](const auto& store) {
     const auto write_two_rows = [&](int y, int count) {
       std::int32_t *const upper_row = to.row(y), *const lower_row = to.row(y + 1);
@@ -150,14 +162,14 @@ void write_blocks(const Place& to, const Pixels& pixels) {
       }
       for (int i = 0; i < count; ++i) store(lower[i], lower_row + i * kLanes);
     };
-    for (int y = 0; y < in_vectors_y; y += 2)
+    for (int y = 0; y < in_vectors.height; y += 2)
       to.width == kMaxTile ? write_two_rows(y, kWhole) : write_two_rows(y, to.width / kLanes);
   });
 #endif
   for (int y = 0; y < to.height; ++y)
-    for (int x = y < in_vectors_y ? in_vectors_x : 0; x < to.width; x += kBlock)
-      for (int i = 0; i < std::min(kBlock, to.width - x); ++i)
-        to.row(y)[x + i] = hn::GetLane(pixels(One{}, part_of_row(x, y) + i));
+    for (int x = y < in_vectors.height ? in_vectors.width : 0; x < to.width; x += kBlock)
+      std::memcpy(to.row(y) + x, pixels.buffer + part_of_row(x, y),
+                  sizeof(std::int32_t) * static_cast<std::size_t>(std::min(kBlock, to.width - x)));
 }
 
 }  // namespace HWY_NAMESPACE

@@ -2,8 +2,8 @@
 //
 // 1. Depth and payload of the tile live in a buffer of 32 KB; with the lists beside it a tile works on about
 //    46 KB, which an L1 cache of 48 KB just holds, while one of 32 KB leaves some to L2. The buffer is
-//    written out once, past the other caches where the frame would not stay in them. So the frame needs no
-//    clear pass, and of the buffer only depth does.
+//    written out once, past the other caches where the frame would not stay in them. The frame needs no clear
+//    pass, and of the buffer only the depths do: where they are still clear, the background goes out.
 // 2. The buffer is stored in blocks of 4 x 4 pixels, 16 consecutive integers: one AVX-512 vector, two of
 //    AVX2, four of SSE4 (tile_blocks-inl.h). Four by four wastes fewer lanes on small triangles than 16 x 1.
 // 3. Triangles are set up a vector at a time (tile_setup-inl.h), for the tile: an edge that accepts the
@@ -113,14 +113,18 @@ void draw_tile(const TileJob& job) {
     write_background(job);
     return clear_upper_halves();
   }
-  const D d;
   const int size = 1 << job.size_log2;
+  const int width = std::min(size, job.frame.width - job.x0);
+  const int height = std::min(size, job.frame.height - job.y0);
   Tile tile;
-  const auto fill = [&](std::int32_t* at, int count, std::uint32_t value) {
-    for (int i = 0; i < count; i += kLanes) hn::Store(hn::Set(d, wrap(value)), d, at + i);
+  const auto clear = [&](std::int32_t* plane, std::uint32_t value) {
+    for (int y = 0; y < size; y += kBlock)
+      for (int i = 0; i < size * kBlock; i += kLanes)
+        hn::Store(hn::Set(D{}, wrap(value)), D{}, plane + y * kMaxTile + i);
   };
-  for (int y = 0; y < size; y += kBlock) fill(tile.depth() + y * kMaxTile, size * kBlock, kDepthClear);
-  tile.farthest.clear(std::min(size, job.frame.width - job.x0), std::min(size, job.frame.height - job.y0));
+  clear(tile.depth(), kDepthClear);
+  if (!InVectors(width, height).all) clear(tile.payload(), job.background);
+  tile.farthest.clear(width, height);
 
   TilePainter painter(job, tile);
   draw_runs(job, [&](const Bins::Run& run) { painter.draw_run(run); });

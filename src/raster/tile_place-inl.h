@@ -55,7 +55,7 @@ HWY_INLINE void write_to(const Place& to, Write&& write) {
     write([](V v, std::int32_t* pixels) { hn::Stream(v, D{}, pixels); });
   } else {
     write([ahead = to.ahead](V v, std::int32_t* pixels) {
-      if constexpr (kLanes > 1) __builtin_prefetch(pixels + ahead, 0, 2);  // to L2: L1 is the tile's
+      if (kLanes > 1) __builtin_prefetch(pixels + ahead, 0, 2);  // to L2: L1 is the tile's
       hn::StoreU(v, D{}, pixels);
     });
   }
@@ -106,21 +106,33 @@ HWY_INLINE void write_planes(const TileJob& job, Write&& write) {
   if (job.write_out_ns != nullptr) *job.write_out_ns = std::chrono::nanoseconds(Clock::now() - begin).count();
 }
 
-using One = hn::CappedTag<std::int32_t, 1>;  // pixel
+// What goes to the frame from a tile's buffers: vectors of pixels from the i-th on.
+struct Depths {
+  const std::int32_t* buffer;
+  template <typename DX>
+  HWY_INLINE hn::Vec<DX> operator()(DX d, int i) const {
+    return hn::Load(d, buffer + i);
+  }
+};
+// Their buffer needs no clear: it counts where something was drawn, which is nearer than kDepthClear.
+struct Payloads {
+  const std::int32_t *buffer, *depth;
+  std::int32_t background;
+  template <typename DX>
+  HWY_INLINE hn::Vec<DX> operator()(DX d, int i) const {
+    const auto clear = hn::Set(d, static_cast<std::int32_t>(contract::kDepthClear));
+    const auto drawn = hn::Lt(hn::Load(d, depth + i), clear);
+    return hn::IfThenElse(drawn, hn::Load(d, buffer + i), hn::Set(d, background));
+  }
+};
 
-// Calls write(place, pixels) for depth and for payload, where pixels(d, i) is a vector of what goes to the
-// frame from the i-th pixel of the tile's buffers on. Those of the payload need no clear: what they hold
-// counts where something was drawn, which is nearer than kDepthClear.
+// Calls write(place, pixels) for both.
 template <typename Write>
 HWY_INLINE void write_tile(const TileJob& job, const std::int32_t* depth, const std::int32_t* payload,
                            Write&& write) {
   write_planes(job, [&](const Place& depth_place, const Place& payload_place) {
-    write(depth_place, [=](auto d, int i) { return hn::Load(d, depth + i); });
-    write(payload_place, [&](auto d, int i) {
-      const auto value = [&](std::uint32_t v) { return hn::Set(d, static_cast<std::int32_t>(v)); };
-      const auto drawn = hn::Lt(hn::Load(d, depth + i), value(contract::kDepthClear));
-      return hn::IfThenElse(drawn, hn::Load(d, payload + i), value(job.background));
-    });
+    write(depth_place, Depths{depth});
+    write(payload_place, Payloads{payload, depth, static_cast<std::int32_t>(job.background)});
   });
 }
 
