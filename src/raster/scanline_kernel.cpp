@@ -53,8 +53,7 @@ class TilePainter {
  public:
   explicit TilePainter(const TileJob& job) : job_(job) {
     std::fill_n(tile_.depth, std::size(tile_.depth), static_cast<std::int32_t>(kDepthClear));
-    tile_.farthest.clear(std::min(kMaxTile, job.frame.width - job.x0),
-                         std::min(kMaxTile, job.frame.height - job.y0));
+    tile_.farthest.clear(job.width(), job.height());
   }
   void draw(std::span<const std::uint32_t> run) {
     const Alive alive = set_up(job_, run, batch_);

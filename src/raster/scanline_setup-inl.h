@@ -119,8 +119,8 @@ HWY_INLINE Alive set_up_vector(const TileJob& job, const std::uint32_t* run, Spa
   const D64 d;
   const V64 zero = hn::Zero(d);
   const TriangleLanes t = load(job.triangles, run + k);
-  const auto [x0, x1] = sample_range(t.x, job.x0, std::min(kMaxTile, job.frame.width - job.x0));
-  const auto [y0, y1] = sample_range(t.y, job.y0, std::min(kMaxTile, job.frame.height - job.y0));
+  const auto [x0, x1] = sample_range(t.x, job.x0, job.width());
+  const auto [y0, y1] = sample_range(t.y, job.y0, job.height());
   const Area area = area_of(t);
   const V32 filled = hn::VecFromMask(D32{}, hn::And(hn::Lt(x0, x1), hn::Lt(y0, y1)));
   const auto alive = hn::And(hn::Gt(area.value, zero), hn::Lt(hn::ShiftLeft<32>(as64(filled)), zero));

@@ -113,9 +113,7 @@ void draw_tile(const TileJob& job) {
     write_background(job);
     return clear_upper_halves();
   }
-  const int size = 1 << job.size_log2;
-  const int width = std::min(size, job.frame.width - job.x0);
-  const int height = std::min(size, job.frame.height - job.y0);
+  const int size = job.size();
   Tile tile;
   const auto clear = [&](std::int32_t* plane, std::uint32_t value) {
     for (int y = 0; y < size; y += kBlock)
@@ -123,8 +121,8 @@ void draw_tile(const TileJob& job) {
         hn::Store(hn::Set(D{}, wrap(value)), D{}, plane + y * kMaxTile + i);
   };
   clear(tile.depth(), kDepthClear);
-  if (!InVectors(width, height).all) clear(tile.payload(), job.background);
-  tile.farthest.clear(width, height);
+  if (!InVectors(job.width(), job.height()).all) clear(tile.payload(), job.background);
+  tile.farthest.clear(job.width(), job.height());
 
   TilePainter painter(job, tile);
   draw_runs(job, [&](const Bins::Run& run) { painter.draw_run(run); });

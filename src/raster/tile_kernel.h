@@ -1,6 +1,7 @@
 // Draws one tile of the image, in a buffer that stays in the L1 cache. See tile_kernel.cpp for the ideas.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "edgewise/framebuffer.h"
@@ -20,6 +21,11 @@ struct TileJob {
   std::uint32_t background;
   TiledIdeas ideas;                      // write_out decided
   std::int64_t* write_out_ns = nullptr;  // where the time that it takes is wanted, or null
+
+  int size() const { return 1 << size_log2; }  // px
+  // What of it lies in the frame, px.
+  int width() const { return std::min(size(), frame.width - x0); }
+  int height() const { return std::min(size(), frame.height - y0); }
 };
 
 using TileKernel = void (*)(const TileJob&);

@@ -36,11 +36,11 @@ struct Place {
   Place(const TileJob& job, std::uint32_t* plane)
       : at(reinterpret_cast<std::int32_t*>(plane + job.y0 * job.frame.stride + job.x0)),
         stride(job.frame.stride),
-        width(std::min(1 << job.size_log2, job.frame.width - job.x0)),
-        height(std::min(1 << job.size_log2, job.frame.height - job.y0)),
+        width(job.width()),
+        height(job.height()),
         past_caches(job.ideas.write_out == WriteOut::past_caches &&
                     reinterpret_cast<std::uintptr_t>(plane) % sizeof(V) == 0 && stride % kLanes == 0),
-        ahead(job.x0 + (2 << job.size_log2) <= job.frame.width ? 1 << job.size_log2 : 0) {}
+        ahead(job.x0 + 2 * job.size() <= job.frame.width ? job.size() : 0) {}
 
   HWY_INLINE std::int32_t* row(int y) const { return at + y * stride; }
 };

@@ -66,7 +66,7 @@ inline void set(Batch::Linear& f, int k, std::int32_t x, std::int32_t y, std::in
 
 // The plain form: what set_up() below does for many, done for one. False if no pixel of the tile is touched.
 inline bool set_up_one(const TileJob& job, const ScreenTriangle& triangle, Batch& out, int k) {
-  const int size = 1 << job.size_log2;
+  const int size = job.size();
   const PixelBox box = pixel_box(triangle, job.frame.width, job.frame.height);
   const int x0 = std::max(box.x0 - job.x0, 0), x1 = std::min(box.x1 - job.x0, size);
   const int y0 = std::max(box.y0 - job.y0, 0), y1 = std::min(box.y1 - job.y0, size);
@@ -153,9 +153,8 @@ HWY_INLINE void set_up_half(const TileJob& job, const std::uint32_t* run, HalfBa
   const TriangleLanes t = load(job.triangles, run);
   const auto& [x, y, z, payload] = t;
 
-  const int size = 1 << job.size_log2;
-  const auto [x0, x1] = sample_range(x, job.x0, std::min(size, job.frame.width - job.x0));
-  const auto [y0, y1] = sample_range(y, job.y0, std::min(size, job.frame.height - job.y0));
+  const auto [x0, x1] = sample_range(x, job.x0, job.width());
+  const auto [y0, y1] = sample_range(y, job.y0, job.height());
   const auto filled = hn::And(hn::Lt(x0, x1), hn::Lt(y0, y1));
   static_assert(kBlock == 1 << 2);
   const V32 one = set32(1);
