@@ -12,11 +12,79 @@ die() {
   exit 2
 }
 
-# step WHAT: announces a step with its number and the seconds since the start.
+# unknown ARGUMENT OPTION…: the usage error for an argument that is none of the script's options.
+unknown() {
+  local hint
+  hint=$(nearest "$@")
+  die "unknown argument '$1'; ${hint:+did you mean $hint? }--help lists all"
+}
+
+# nearest WORD CANDIDATE…: the candidate at the smallest edit distance, if at most a third of WORD's length.
+nearest() {
+  local word=$1 candidate best="" i j cost
+  local -i least=$((${#1} / 3 + 1))
+  shift
+  for candidate in "$@"; do
+    local -a above=() row
+    for ((j = 0; j <= ${#candidate}; ++j)); do above[j]=$j; done
+    for ((i = 1; i <= ${#word}; ++i)); do
+      row=("$i")
+      for ((j = 1; j <= ${#candidate}; ++j)); do
+        cost=${above[j - 1]}
+        [[ ${word:i-1:1} == "${candidate:j-1:1}" ]] || cost=$((cost + 1))
+        ((above[j] + 1 < cost)) && cost=$((above[j] + 1))
+        ((row[j - 1] + 1 < cost)) && cost=$((row[j - 1] + 1))
+        row[j]=$cost
+      done
+      above=("${row[@]}")
+    done
+    if ((above[${#candidate}] < least)); then least=${above[${#candidate}]} best=$candidate; fi
+  done
+  echo "$best"
+}
+
+# step WHAT [SECONDS]: announces a step with its number and the seconds since the start. It also says how long the step
+# took last time with the same $build, or else that it is expected to take SECONDS, measured on two cores.
 step_number=0
+step_name=
 step() {
+  local seconds name last=
+  end_step
   step_number=$((step_number + 1))
-  printf '[%d, %d s] %s\n' "$step_number" "$SECONDS" "$*"
+  step_name="$(basename "$0"): $1" step_start=$SECONDS step_file=$build/step-seconds
+  if [[ -f $step_file ]]; then
+    while read -r seconds name; do
+      if [[ $name == "$step_name" ]]; then last=$seconds; fi
+    done <"$step_file"
+  fi
+  if [[ -n $last ]]; then
+    last=" (took $(duration "$last") last time)"
+  elif [[ -n ${2:-} ]]; then
+    last=" (expected: $(duration "$2"))"
+  fi
+  printf '[%d, %d s] %s%s\n' "$step_number" "$SECONDS" "$1" "$last"
+}
+
+# Notes how long the step took. Call it before a subshell that has steps of its own, and after the last step.
+end_step() {
+  local seconds name
+  if [[ -n $step_name && -d ${step_file%/*} ]]; then
+    {
+      if [[ -f $step_file ]]; then
+        while read -r seconds name; do
+          if [[ $name != "$step_name" ]]; then echo "$seconds $name"; fi
+        done <"$step_file"
+      fi
+      echo "$((SECONDS - step_start)) $step_name"
+    } >"$step_file.part"
+    mv "$step_file.part" "$step_file"
+  fi
+  step_name=
+}
+
+# duration SECONDS: for people.
+duration() {
+  if (($1 < 60)); then echo "$1 s"; else echo "$(($1 / 60)) min $(($1 % 60)) s"; fi
 }
 
 # Of the lists in scripts/ that are named; packages.txt is what everything needs.
@@ -48,9 +116,27 @@ set_up() {
   [[ $EUID -eq 0 ]] || command -v sudo >/dev/null ||
     die "not root and no sudo; as root, run: apt-get install --no-install-recommends ${missing[*]}"
   echo "Installing: ${missing[*]}"
-  "${as_root[@]}" apt-get update -qq || die "apt-get update failed"
-  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -qq -y --no-install-recommends \
-    "${missing[@]}" >/dev/null || die "apt-get could not install ${missing[*]}"
+  local log
+  log=$(mktemp)
+  # An update may fail for a server that none of these packages come from.
+  "${as_root[@]}" env LC_ALL=C apt-get update -qq >"$log" 2>&1 || true
+  if "${as_root[@]}" env LC_ALL=C DEBIAN_FRONTEND=noninteractive apt-get install -qq -y --no-install-recommends \
+    "${missing[@]}" >>"$log" 2>&1; then
+    rm "$log"
+    return
+  fi
+  {
+    if grep -qiE 'resolv|connect|unreachable|timed out|failed to fetch|unable to fetch' "$log"; then
+      echo "No network: apt-get could not reach a package server. Install these packages by hand, then run this again:"
+    else
+      echo "apt-get failed. Install these packages by hand, then run this again:"
+    fi
+    echo "  ${as_root[*]:+${as_root[*]} }apt-get install --no-install-recommends ${missing[*]}"
+    echo "apt-get said:"
+    cat "$log"
+  } >&2
+  rm "$log"
+  exit 2
 }
 
 # build TARGETS…: below $build; only what changed is compiled.
@@ -59,7 +145,26 @@ build() {
   if [[ ! -f $build/CMakeCache.txt ]] && command -v ninja >/dev/null; then configure+=(-G Ninja); fi
   if [[ -n ${CI:-} ]]; then configure+=(-DEDGEWISE_WERROR=ON); fi
   cmake "${configure[@]}" >/dev/null || die "CMake could not configure the build; see above"
-  cmake --build "$build" --parallel "$(nproc)" --target "$@" || die "the build failed; see above"
+  local start=$SECONDS
+  cmake --build "$build" --parallel "$(nproc)" --target "$@" 2>&1 | build_output || die "the build failed; see above"
+  echo "Built in $(duration $((SECONDS - start)))"
+}
+
+# Filters what Ninja or Make prints: warnings and errors pass. A terminal shows progress in one line that is rewritten;
+# elsewhere, progress is dropped.
+build_output() {
+  local line width=0 clear=''
+  if [[ -t 1 && ${TERM:-dumb} != dumb ]]; then
+    width=$(tput cols) clear=$'\r\e[K'
+  fi
+  while IFS= read -r line || [[ -n $line ]]; do
+    if [[ $line =~ ^\[\ *[0-9]+(%|/[0-9]+)\] ]]; then
+      if ((width)); then printf '%s%s' "$clear" "${line:0:width-1}"; fi
+    elif [[ ! $line =~ ^(ninja: no work to do|(Consolidate compiler generated|Scanning) dependencies of target) ]]; then
+      printf '%s%s\n' "$clear" "$line"
+    fi
+  done
+  printf '%s' "$clear"
 }
 
 # python_with MODULE…: the first interpreter that has the modules. The python3 on the PATH may be one that Debian's

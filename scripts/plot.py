@@ -1,13 +1,13 @@
 """Draws the charts of a results folder as SVG and PNG: bench.json beside machine.json; accuracy and stability.json."""
-import argparse
 from pathlib import Path
 
 from accuracy_rows import read_accuracy, read_stability
 from bench_rows import BadInput, describe_machine, main_guard, read_bench, read_json
+from options import Parser
 
 
 def main():
-    parser = argparse.ArgumentParser(prog="plot", description=__doc__, epilog="Exit status: 0 drawn, 2 bad input.")
+    parser = Parser(prog="plot", description=__doc__, epilog="Exit status: 0 drawn, 2 bad input.")
     parser.add_argument("results", type=Path, metavar="RESULTS", help="folder with bench.json and machine.json")
     parser.add_argument("--out", type=Path, metavar="DIR", help="where the charts go (RESULTS/charts)")
     options = parser.parse_args()
