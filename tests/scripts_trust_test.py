@@ -10,16 +10,20 @@ SCRIPTS = Path(__file__).resolve().parent.parent / "scripts"
 sys.path.insert(0, str(SCRIPTS))
 from trust import trust_markdown, trust_table  # noqa: E402
 
-SHARDS = [{"testsuites": [{"name": "Properties", "testsuite": [{"name": "A", "cases": "40", "comparisons": "400"},
-                                                               {"name": "B"}]},
-                          {"name": "Lattices/EveryTriangle", "testsuite": [{"name": "E", "cases": "9"}]}]},
-          {"testsuites": [{"name": "CoverageProperties",
-                           "testsuite": [{"name": "C", "cases": "2", "failures": [{"failure": "wrong"}]},
-                                         {"name": "D", "result": "SKIPPED"}]},
-                          {"name": "ConformanceDepth", "testsuite": [{"name": "F", "cases": "5"}]},
-                          {"name": "Table/HostileInput", "testsuite": [{"name": "G/0"}, {"name": "G/1"}]},
-                          {"name": "Soak", "testsuite": [{"name": "H", "cases": "1000"}]}]}]
-JUNIT = '<testsuite name="x" tests="7" failures="1" disabled="1" skipped="2"></testsuite>'
+
+
+def gtest_case(suite, name, inside="", result="completed", **properties):
+    noted = "".join(f'<property name="{key}" value="{value}"/>' for key, value in properties.items())
+    return f'<testcase classname="{suite}" name="{name}" result="{result}"><properties>{noted}</properties>{inside}</testcase>'
+
+
+SHARDS = [[gtest_case("Properties", "A", cases=40, comparisons=400), gtest_case("Properties", "B"),
+           gtest_case("Lattices/EveryTriangle", "E", cases=9)],
+          [gtest_case("CoverageProperties", "C", "<failure/>", cases=2),
+           gtest_case("CoverageProperties", "D", "<skipped/>", "skipped"), gtest_case("ConformanceDepth", "F", cases=5),
+           gtest_case("Table/HostileInput", "G/0"), gtest_case("Table/HostileInput", "G/1"),
+           gtest_case("Soak", "H", cases=1000)]]
+CTEST = ["run"] * 3 + ["fail", "disabled"] + ["notrun"] * 2
 
 
 def totals(tests, failed=0, skipped=0, **counted):
@@ -43,17 +47,19 @@ class CollectTest(unittest.TestCase):
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
             for i, shard in enumerate(SHARDS):
-                (folder / f"{i}.json").write_text(json.dumps(shard))
-            (folder / "thread.xml").write_text(JUNIT)
-            run = subprocess.run([sys.executable, SCRIPTS / "collect_tests.py", folder / "0.json", folder / "1.json",
-                                  folder / "thread.xml"], stdout=subprocess.PIPE, check=True)
+                (folder / f"{i}.xml").write_text(f"<testsuites>{''.join(shard)}</testsuites>")
+            cases = "".join(f'<testcase status="{status}"><skipped message="SKIP_RETURN_CODE=77"/></testcase>'
+                            for status in CTEST)
+            (folder / "thread.xml").write_text(f"<testsuite>{cases}</testsuite>")
+            run = subprocess.run([sys.executable, SCRIPTS / "collect_tests.py", "--gtest", folder / "0.xml", folder / "1.xml",
+                                  "--sanitized", folder / "thread.xml"], stdout=subprocess.PIPE, check=True)
             self.assertEqual(json.loads(run.stdout), TOTALS)
 
     def test_says_what_is_no_result(self):
         with tempfile.TemporaryDirectory() as name:
             path = Path(name) / "thread.xml"
             path.write_text("<a/>")
-            run = subprocess.run([sys.executable, SCRIPTS / "collect_tests.py", path], stderr=subprocess.PIPE, text=True,
+            run = subprocess.run([sys.executable, SCRIPTS / "collect_tests.py", "--sanitized", path], stderr=subprocess.PIPE, text=True,
                                  check=False)
             self.assertEqual(run.returncode, 2)
             self.assertEqual(len(run.stderr.splitlines()), 1, run.stderr)
