@@ -124,12 +124,16 @@ def culling_sentence(bench):
             + "; ".join(f"`{scene}` {told(gains)}, {pixels_wrong(bench, scene)}" for scene, gains in by_normal.items()) + ".")
 
 
+def differing_pixels(verify):
+    return sum(scene["differing_pixels"] + scene.get("written_outside", 0)
+               + scene.get("oracle", {}).get("differing_pixels", 0) for scene in verify["scenes"])
+
+
 def verify_sentence(verify):
     scenes = verify["scenes"]
     frames = sum(scene["configurations"] for scene in scenes)
     oracle = sum(scene.get("oracle", {}).get("configurations", 0) for scene in scenes)
-    differing = sum(scene["differing_pixels"] + scene.get("written_outside", 0)
-                    + scene.get("oracle", {}).get("differing_pixels", 0) for scene in scenes)
+    differing = differing_pixels(verify)
     backends, alone = ", ".join(verify["backends"]), ""
     if "other_backends" in verify:
         alone = f"; {', '.join(verify['other_backends'])}, which draws another picture, with itself"

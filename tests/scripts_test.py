@@ -123,8 +123,9 @@ def bench_with_peer():
     return data
 
 
-def run(script, *arguments):
-    return subprocess.run([SCRIPTS / script, *map(str, arguments)], capture_output=True, text=True, check=False)
+def run(script, *arguments, environment=None):
+    return subprocess.run([SCRIPTS / script, *map(str, arguments)], capture_output=True, text=True, check=False,
+                          env={**os.environ, **(environment or {})})
 
 
 class ScriptsTest(unittest.TestCase):
@@ -291,7 +292,7 @@ class ScriptsTest(unittest.TestCase):
         self.assertIn("| cube | 12 | 16.8 | 8.40 | 2.10 | 1.05 | 8.00× | 8.00× | 7 | fast | screen triangles |", text)
         self.assertIn("| knot | – | 12.0 | 6.00 | 3.00 | 1.50 | 4.00× | 4.00× | 0 | fast | mesh |", text)
         self.assertIn("charts/against-ext.svg", text)
-        self.assertRegex(run("summary", self.results).stdout, r"cube .* 8\.00×\n")
+        self.assertRegex(run("summary", "--tables", self.results).stdout, r"cube .* 8\.00×\n")
 
     def test_compare_tells_the_ratios_against_peers(self):
         before = self.write("before", bench_with_peer())
@@ -378,6 +379,35 @@ class ScriptsTest(unittest.TestCase):
         readme.write_text("<!-- results: results -->\n<!-- generated:lessons -->\n<!-- /generated -->\n")
         self.assertEqual(run("readme", "--file", readme).returncode, 0)
         self.assertIn("the fastest of the others; which of the two is faster is not settled.", readme.read_text())
+
+    def test_a_summary_fits_on_a_screen(self):
+        def summary(folder):
+            result = run("summary", folder)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            lines = result.stdout.splitlines()
+            self.assertLessEqual(len(lines), 25, result.stdout)
+            self.assertLessEqual(max(map(len, lines)), 100, result.stdout)
+            return result.stdout
+
+        text = summary(self.results)
+        for words in ("No bit differs in 8 frames", "/results/: *.json\n", "scripts/run --peers", "scripts/run --report",
+                      "scripts/summary --tables"):
+            self.assertIn(words, text)
+        data = bench_with_peer()
+        data["context"]["suite"] = "quick"
+        for i in range(50):
+            data["benchmarks"].append({"name": f"fast/scene{i}", "error_occurred": True, "error_message": "wrong " * 99})
+        crowded = self.write("crowded", data)
+        for name in ("charts", "pictures", "errors"):
+            (crowded / name).mkdir()
+        wrong = json.loads(json.dumps(VERIFY).replace('"differing_pixels": 0', '"differing_pixels": 3'))
+        (crowded / "verify.json").write_text(json.dumps(wrong))
+        text = summary(crowded)
+        for words in ("ERROR in 50 benchmark rows", "BACKENDS DISAGREE: 6 pixels differ", "/crowded/verify-failures/",
+                      "Against ext", "charts/, pictures/, errors/, *.json", "quick ones are for a look only"):
+            self.assertIn(words, " ".join(text.split()))
+        for folder in ROOT.glob("results/*/"):
+            self.assertIn("Parallel or scanline?", summary(folder))
 
     def test_malformed_laboratory_gets_one_line(self):
         data = accuracy()
