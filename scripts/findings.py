@@ -36,7 +36,7 @@ def speed_finding(bench):
 
 def accuracy_finding(accuracy):
     """Are the tutorials' tests wrong, and does it cost speed to be right?"""
-    scene = next((s for s in accuracy.of("coverage") if s.name == TIDY_SCENE), None)
+    scene = next((s for s in accuracy.of("coverage") if s.name == TIDY_SCENE), None) if accuracy else None
     if scene is None:
         return ""
     measured = {m.method.name: m for m in scene.measured}

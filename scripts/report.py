@@ -1,11 +1,13 @@
 """Makes the report of a results folder: one HTML file that shows its figures and lets readers filter and compare them."""
-import argparse
 import subprocess
+import sys
 import tempfile
 from pathlib import Path
 
 from bench_rows import BadInput, main_guard
 from json_file import write_text
+from options import Parser
+from report_bundle import Absent, bundle
 from report_data import Result
 from report_page import page
 
@@ -34,7 +36,7 @@ def committed(ref, machine):
 
 
 def main():
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="report", description=__doc__,
         epilog="Needs npm, and the npm registry when run for the first time. Exit status: 0 made, 2 bad input, 3 npm or what "
                "it is to fetch is not there.")
@@ -43,7 +45,6 @@ def main():
                         help="a results folder, or a commit that has results of the same machine, to compare with "
                              "(repeatable)")
     parser.add_argument("--out", type=Path, metavar="FILE", help="where the report goes (RESULTS/report.html)")
-    parser.add_argument("--script", type=Path, required=True, help=argparse.SUPPRESS)
     options = parser.parse_args()
     if not options.results.is_dir():
         raise BadInput(f"{options.results}: no such folder")
@@ -51,7 +52,12 @@ def main():
     machine = results[0].bench.context.get("machine", options.results.resolve().name)
     results += [Result(Path(other)) if Path(other).is_dir() else committed(other, machine) for other in options.compare]
     path = options.out or options.results / "report.html"
-    write_text(path, page(options.results, results, options.script))
+    try:
+        script = bundle()
+    except Absent as error:
+        print(f"report: {error}", file=sys.stderr)
+        return 3
+    write_text(path, page(options.results, results, script))
     print(f"{path}: {path.stat().st_size / 1e6:.1f} MB")
     return 0
 

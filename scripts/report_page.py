@@ -2,6 +2,7 @@
 import base64
 import io
 import json
+import re
 from html import escape
 from pathlib import Path
 from string import Template
@@ -11,6 +12,7 @@ from PIL import Image
 
 from accuracy_rows import FAMILIES
 from bench_rows import BadInput
+from findings import findings
 from palette import MARKERS, PALETTE, VERDICTS, kind_looks
 from peers import pairs, peer_table
 from report_data import families, results_data
@@ -107,6 +109,17 @@ def section(name, heading, shows, static):
             f'<div class="charts js-only" data-charts="{name}"></div>\n<noscript>{static}</noscript></section>')
 
 
+def html(markdown):
+    """Of a finding: bold and code are all that it uses."""
+    text = re.sub(r"\*\*(.+?)\*\*", r"<strong>\1</strong>", escape(markdown))
+    return re.sub(r"`(.+?)`", r"<code>\1</code>", text)
+
+
+def finding_list(result, hidden):
+    items = "".join(f"<li>{html(found)}</li>" for found in findings(result.bench, result.accuracy))
+    return f'<ul data-findings{" hidden" if hidden else ""}>{items}</ul>'
+
+
 def embedded(data):
     """JSON that can't end the element that it stands in."""
     text = json.dumps(data, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
@@ -134,7 +147,8 @@ def page(folder, results, script):
 
     shown = (*SECTIONS, CHANGES) if len(results) > 1 else SECTIONS
     return Template(template).substitute(
-        name=escape(first.name), machine=escape(found[0]["machine"]), style=style.rstrip(), data=embedded(data),
+        name=escape(first.name), findings="\n".join(finding_list(result, result is not first) for result in results),
+        machine=escape(found[0]["machine"]), style=style.rstrip(), data=embedded(data),
         script=bundle.rstrip().replace("</script", "<\\/script"),
         links="".join(f'<li><a href="#{name}">{heading.partition(":")[0]}</a></li>' for name, heading, _ in shown),
         sections="\n".join(section(name, heading, shows, static_part(name, heading))

@@ -191,6 +191,35 @@ class ReportTest(unittest.TestCase):
         browser.choose("other", "0")
         self.assertIn("slower", browser.all("[data-charts=changes] tbody")[0].text)
 
+    def test_the_findings_are_those_of_the_chosen_result(self):
+        def shown():
+            return [item.text for item in self.browser.all("header > ul li") if item.is_displayed()]
+
+        self.assertEqual([text.partition(",")[0] for text in shown()], ["Against ext"])
+        self.assertEqual(self.browser.all("header > ul strong")[0].text, "Against ext")
+        self.browser.choose("result", "1")  # without a peer
+        self.assertEqual(shown(), [])
+
+    def test_links_lead_to_headings_below_the_filters(self):
+        browser = self.browser
+
+        def assert_visible(name):
+            heading, filters = browser.script(
+                "return [`#${arguments[0]}`, 'form'].map((s) => document.querySelector(s).getBoundingClientRect())", name)
+            self.assertGreaterEqual(heading["top"], filters["bottom"], name)
+            self.assertLess(heading["bottom"], browser.script("return innerHeight"), name)
+
+        browser.open(self.page, "stability")
+        browser.wait(lambda: browser.script("return scrollY") > 0)
+        assert_visible("stability")
+        for rows in (1, 2):
+            browser.wait(lambda: browser.script("return document.querySelector('form').offsetHeight") > 50 * rows)
+            for link in browser.all("nav a"):
+                browser.script("scrollTo(0, 0)")
+                link.click()
+                assert_visible(link.get_attribute("hash")[1:])
+            browser.script("document.querySelector('form').style.maxWidth = '20rem'")
+
     def mark_of(self, name):
         """The mark of a method: where the browser looks for it."""
         label = next(text for text in self.browser.all("[data-charts=accuracy] g.labels text") if text.text == name)
@@ -270,6 +299,18 @@ class ReportTest(unittest.TestCase):
         self.assertFalse(browser.all("form")[0].is_displayed())
         self.assertIn("10.1", browser.all("main table")[0].text)
 
+    def test_a_wrong_command_line_is_told_before_npm_runs(self):
+        tools = self.folder / "no-npm"
+        tools.mkdir()
+        (tools / "npm").write_text("#!/bin/sh\necho npm ran >&2\nexit 1\n")
+        (tools / "npm").chmod(0o755)
+        path = {"PATH": f"{tools}:{os.environ['PATH']}"}
+        made = scripts_test.run("report", self.folder / "nope", environment=path)
+        self.assertEqual((made.returncode, made.stderr), (2, f"report: {self.folder / 'nope'}: no such folder\n"))
+        made = scripts_test.run("report", self.results, "--comare", self.slower, environment=path)
+        self.assertEqual(made.returncode, 2)
+        self.assertEqual(made.stderr, "report: unknown argument '--comare'; did you mean --compare? --help lists all\n")
+
     def test_bad_input_is_told_and_leaves_no_file(self):
         bad = write_results(self.folder / "bad", scripts_test.bench())
         for name, text in (("bench", "{"), ("accuracy", '{"methods": 3}'), ("machine", None)):
@@ -314,6 +355,16 @@ class CommittedResults(unittest.TestCase):
 
     def test_size(self):
         self.assertLess(self.page.stat().st_size, 8e6)
+
+    def test_the_first_screen_has_the_findings(self):
+        browser = Browser()
+        self.addCleanup(browser.close)
+        browser.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
+                                       {"width": 1280, "height": 800, "deviceScaleFactor": 1, "mobile": False})
+        browser.open(self.page)
+        findings = browser.all("header > ul li")
+        self.assertGreater(len(findings), 1)
+        self.assertLess(findings[-1].rect["y"] + findings[-1].rect["height"], 800)
 
     def test_nothing_overlaps_or_is_wider_than_the_screen(self):
         for width, phone in ((1280, False), (390, True)):

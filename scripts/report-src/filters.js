@@ -41,5 +41,13 @@ export function filters(form, data, changed) {
     form.append(element("label", {}, label, select));
   }
   form.addEventListener("submit", (event) => event.preventDefault());
+  new ResizeObserver(() => tellHeight(form)).observe(form);
+  tellHeight(form);
   return state;
+}
+
+// While the filters stay on top, links must scroll their targets below them.
+function tellHeight(form) {
+  const height = getComputedStyle(form).position === "sticky" ? form.offsetHeight : 0;
+  document.documentElement.style.setProperty("--filters-height", `${height}px`);
 }

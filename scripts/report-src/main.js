@@ -20,6 +20,7 @@ function draw(wanted) {
   const threads = state.threads ? [Number(state.threads)] : [1, 2];
   document.getElementById("machine").textContent =
     `${result.machine}.` + (other ? ` Compared with ${other.name}: ${other.machine}.` : "");
+  document.querySelectorAll("[data-findings]").forEach((list, index) => (list.hidden = index !== Number(state.result)));
   for (const holder of document.querySelectorAll("[data-charts]")) {
     const width = wanted ?? holder.clientWidth;
     const view = { data, state, result, other, threads, width, redraw: () => draw() };
@@ -46,3 +47,5 @@ addEventListener("resize", () => {
 addEventListener("beforeprint", () => draw(pageOfPaper));
 addEventListener("afterprint", () => draw());
 draw();
+// The browser scrolled there before the charts took their room.
+document.getElementById(location.hash.slice(1))?.scrollIntoView();
