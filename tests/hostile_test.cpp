@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <ostream>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "edgewise/image.h"
@@ -178,7 +180,21 @@ TEST_P(HostileInput, IsAnsweredAsTheTableSays) {
   EXPECT_EQ(listing, row.left);
 }
 
-INSTANTIATE_TEST_SUITE_P(Table, HostileInput, ::testing::ValuesIn(kHostile));
+// The row's number, which makes the name unique, and the first letters and digits of its script.
+std::string row_name(const ::testing::TestParamInfo<Hostile>& row) {
+  constexpr std::size_t kLongest = 40;
+  std::string name = std::to_string(row.index) + '_';
+  for (const char c : std::string_view(row.param.script)) {
+    if (name.size() == kLongest) break;
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0)
+      name += c;
+    else if (name.back() != '_')
+      name += '_';
+  }
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, HostileInput, ::testing::ValuesIn(kHostile), row_name);
 
 // The exit status within so much address space: done, or 2 and one line. None where the system's loader,
 // which speaks for itself, finds no room for the program.
