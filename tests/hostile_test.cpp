@@ -184,7 +184,9 @@ TEST_P(HostileInput, IsAnsweredAsTheTableSays) {
 std::string row_name(const ::testing::TestParamInfo<Hostile>& row) {
   constexpr std::size_t kLongest = 40;
   std::string name = std::to_string(row.index) + '_';
-  for (const char c : std::string_view(row.param.script)) {
+  std::string_view script = row.param.script;
+  if (script.starts_with("edgewise ")) script.remove_prefix(9);
+  for (const char c : script) {
     if (name.size() == kLongest) break;
     if (std::isalnum(static_cast<unsigned char>(c)) != 0)
       name += c;
