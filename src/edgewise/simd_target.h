@@ -9,7 +9,7 @@ namespace edgewise {
 // All draw the same bits.
 enum class SimdTarget { scalar, sse4, avx2, avx512, best };
 
-// The targets this machine can run, slowest first; `best` stands for the last of them.
+// The targets that were compiled and that this machine can run, slowest first; `best` stands for the last.
 std::span<const SimdTarget> supported_targets();
 
 // "scalar", "sse4", "avx2", "avx512" or "best".

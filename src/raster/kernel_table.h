@@ -6,9 +6,10 @@
 #include "edgewise/simd_target.h"
 
 // The kernel for a resolved target. Use where HWY_ONCE holds, in the namespace that encloses HWY_NAMESPACE.
-// Where a target was not compiled in, supported_targets() doesn't list it either.
+// It is never null: supported_targets() lists only targets that were compiled, and a build without the scalar
+// kernels doesn't compile.
 #define EDGEWISE_KERNEL(function, target)                                 \
   ((target) == ::edgewise::SimdTarget::avx512 ? HWY_CHOOSE_AVX3(function) \
    : (target) == ::edgewise::SimdTarget::avx2 ? HWY_CHOOSE_AVX2(function) \
    : (target) == ::edgewise::SimdTarget::sse4 ? HWY_CHOOSE_SSE4(function) \
-                                              : HWY_CHOOSE_FALLBACK(function))
+                                              : &N_SCALAR::function)

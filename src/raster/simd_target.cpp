@@ -10,11 +10,11 @@ namespace edgewise {
 
 std::span<const SimdTarget> supported_targets() {
   static const auto supported = [] {
-    const auto here = hwy::SupportedTargets();
+    const auto compiled_and_runnable = HWY_TARGETS & hwy::SupportedTargets();
     std::vector<SimdTarget> list{SimdTarget::scalar};
-    if (here & HWY_SSE4) list.push_back(SimdTarget::sse4);
-    if (here & HWY_AVX2) list.push_back(SimdTarget::avx2);
-    if (here & HWY_AVX3) list.push_back(SimdTarget::avx512);
+    if (compiled_and_runnable & HWY_SSE4) list.push_back(SimdTarget::sse4);
+    if (compiled_and_runnable & HWY_AVX2) list.push_back(SimdTarget::avx2);
+    if (compiled_and_runnable & HWY_AVX3) list.push_back(SimdTarget::avx512);
     return list;
   }();
   return supported;
