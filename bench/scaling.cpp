@@ -92,10 +92,9 @@ double FrameWork::time_s(int cores, double barrier_s) const {
   return total_s;
 }
 
-std::string section_name(std::string_view function, std::string_view file) {
-  const std::string_view before_arguments = function.substr(0, function.find('('));
-  const std::string_view name = before_arguments.substr(before_arguments.find_last_of(" :*&") + 1);
-  return std::string(name) + " in " + std::string(file.substr(file.find_last_of('/') + 1));
+std::string section_name(const CallSite& where) {
+  const std::string_view file = where.file;
+  return where.function + (" in " + std::string(file.substr(file.find_last_of('/') + 1)));
 }
 
 FrameWork FrameRecorder::finish() {
@@ -117,9 +116,9 @@ double FrameRecorder::lap_s() {
   return lap_s;
 }
 
-void FrameRecorder::section_begins(const std::source_location& where) {
+void FrameRecorder::section_begins(const CallSite& where) {
   const double before_s = lap_s();
-  frame_.sections.push_back({section_name(where.function_name(), where.file_name()), before_s, {}});
+  frame_.sections.push_back({section_name(where), before_s, {}});
   start_lap();
 }
 

@@ -44,8 +44,8 @@ struct FrameWork {
   double time_s(int cores, double barrier_s) const;
 };
 
-// "void a::b::draw(int) [with T = int]" in "/x/raster/bins.cpp" becomes "draw in bins.cpp".
-std::string section_name(std::string_view function, std::string_view file);
+// "draw in bins.cpp".
+std::string section_name(const CallSite& where);
 
 // Records the frame that is drawn from its making to finish().
 class FrameRecorder final : public ParallelObserver {
@@ -53,7 +53,7 @@ class FrameRecorder final : public ParallelObserver {
   FrameRecorder() { start_lap(); }
   FrameWork finish();
 
-  void section_begins(const std::source_location& where) override;
+  void section_begins(const CallSite& where) override;
   void task_ends() override;
   void section_ends() override;
 

@@ -204,7 +204,7 @@ TEST(FrontendKernels, ManyMeshesMakeWhatEachMakesAlone) {
 
 TEST(FrontendKernels, SmallMeshesShareTheThreads) {
   struct Counter final : ParallelObserver {
-    void section_begins(const std::source_location&) override { most = std::max(most, tasks), tasks = 0; }
+    void section_begins(const CallSite&) override { most = std::max(most, tasks), tasks = 0; }
     void task_ends() override { ++tasks; }
     void section_ends() override { most = std::max(most, tasks), ++sections; }
     int tasks = 0, most = 0, sections = 0;

@@ -110,6 +110,22 @@ class Installed(unittest.TestCase):
             for included in re.findall(r'^#include "(.*)"', path.read_text(), re.MULTILINE):
                 self.assertTrue((path.parent.parent / included).is_file(), f"{path.name} includes {included}")
 
+    def test_each_header_says_in_one_line_that_it_needs_cxx20(self):
+        for path in self.prefix.rglob("*.h"):
+            user = self.folder / "user.cpp"
+            user.write_text(f"#include <edgewise/{path.name}>\nedgewise::Undeclared undeclared;\n")
+            done = subprocess.run([cached("CMAKE_CXX_COMPILER"), "-std=c++17", "-fsyntax-only",
+                                   "-I", path.parent.parent, user], capture_output=True, text=True, check=False)
+            errors = [line for line in done.stderr.splitlines() if "error:" in line]
+            self.assertNotEqual(done.returncode, 0)
+            self.assertEqual(len(errors), 1, done.stderr)
+            self.assertIn("C++20", errors[0])
+
+    def test_the_licence_is_readmes_last_section(self):
+        text = next(self.prefix.glob("share/doc/edgewise/LICENSE")).read_text()
+        self.assertTrue(text.startswith("MIT License\n\nCopyright (c) "))
+        self.assertTrue((ROOT / "README.md").read_text().endswith("\n## Licence\n\n" + text))
+
     @unittest.skipUnless(FULL, "compiles each header")
     def test_each_header_stands_alone_and_pleases_strict_compilers(self):
         strict = ("-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Wconversion", "-Wsign-conversion", "-Wold-style-cast")
@@ -127,6 +143,17 @@ class Installed(unittest.TestCase):
             "find_package(edgewise 99.0 QUIET)\nfind_package(edgewise 0.0 QUIET)\n"
             "if(edgewise_FOUND)\n  message(FATAL_ERROR \"taken\")\nendif()\n")
         run("cmake", "-S", project, "-B", project / "build", f"-DCMAKE_PREFIX_PATH={self.prefix}")
+
+    def test_an_older_compiler_is_refused_in_one_sentence(self):
+        compiler = self.folder / "older"
+        compiler.write_text(f"#!/bin/sh\nexec {cached('CMAKE_CXX_COMPILER')} \"$@\" -w -U__GNUC__ -D__GNUC__=11 "
+                            "-U__clang_major__ -D__clang_major__=13\n")
+        compiler.chmod(0o755)
+        done = subprocess.run(["cmake", "-S", ROOT, "-B", self.folder / "older-build", f"-DCMAKE_CXX_COMPILER={compiler}"],
+                              capture_output=True, text=True, check=False)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertEqual(done.stderr.count("CMake Error"), 1, done.stderr)
+        self.assertRegex(" ".join(done.stderr.split()), r"Edgewise needs g\+\+ 12, clang\+\+ 14 or later, not \w+ 1[13]\.")
 
     def test_programs_run_without_source_and_build(self):
         away = self.folder / "away"

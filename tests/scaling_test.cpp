@@ -57,8 +57,8 @@ TEST(FrameWork, TakesTheLeastOfEachPieceUnlessTheCutDiffers) {
 }
 
 TEST(SectionName, IsTheFunctionAndItsFile) {
-  EXPECT_EQ(section_name("void a::B::build(std::span<int>, int)", "/x/raster/bins.cpp"), "build in bins.cpp");
-  EXPECT_EQ(section_name("static T* a::make(int) [with T = b::C]", "make.h"), "make in make.h");
+  EXPECT_EQ(section_name({"build", "/x/raster/bins.cpp"}), "build in bins.cpp");
+  EXPECT_EQ(section_name({"make", "make.h"}), "make in make.h");
 }
 
 TEST(FrameRecorder, SeesTheTasksInOrderOnOneThread) {
@@ -105,7 +105,7 @@ TEST(FrameRecorder, FindsTheTimeWhereItIsSpent) {
 // An observer that counts, to see how a draw is cut.
 class Counter final : public ParallelObserver {
  public:
-  void section_begins(const std::source_location&) override { tasks.push_back(0); }
+  void section_begins(const CallSite&) override { tasks.push_back(0); }
   void task_ends() override { ++tasks.back(); }
   void section_ends() override {}
   std::vector<int> tasks;

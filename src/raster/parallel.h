@@ -2,10 +2,15 @@
 #pragma once
 
 #include <memory>
-#include <source_location>
 #include <type_traits>
 
 namespace edgewise {
+
+// Where a section of parallel work starts. Clang 14 has no std::source_location.
+struct CallSite {
+  const char* function;  // its name alone, without scope and arguments
+  const char* file;
+};
 
 // Is told of the sections of parallel work that its thread starts. While one watches, a section's tasks run
 // one after the other on that thread, so that each has the core to itself: what `threads` still decides is
@@ -13,7 +18,7 @@ namespace edgewise {
 class ParallelObserver {
  public:
   virtual ~ParallelObserver() = default;
-  virtual void section_begins(const std::source_location& where) = 0;
+  virtual void section_begins(const CallSite& where) = 0;
   virtual void task_ends() = 0;  // the next one begins at once
   virtual void section_ends() = 0;
 };
@@ -41,7 +46,7 @@ class ObserveParallel {
 // Calls with different arguments must not touch the same memory. An exception thrown by one is rethrown here.
 template <typename Body>
 void parallel_for(int threads, int count, Body&& body,
-                  const std::source_location& where = std::source_location::current()) {
+                  const CallSite& where = {__builtin_FUNCTION(), __builtin_FILE()}) {
   if (ParallelObserver* const observer = detail::parallel_observer) {
     observer->section_begins(where);
     for (int i = 0; i < count; ++i) {
