@@ -91,6 +91,8 @@ class Installed(unittest.TestCase):
         compiler = cached("CMAKE_CXX_COMPILER")
         version = run(*pkg_config, "--modversion", "edgewise", env=environment)
         self.assertEqual(version, cached("CMAKE_PROJECT_VERSION") + "\n")
+        for package in prefix.rglob("*.pc"):
+            self.assertIn("\nLicense: MIT\n", package.read_text())
         for program, source, package in (("consumer", "main", "edgewise-files"), ("frames", "frames", "edgewise")):
             flags = run(*pkg_config, "--cflags", "--libs", package, env=environment).split()
             self.assertFalse([flag for flag in flags if not re.match("-[ILl]", flag)], "a flag leaks")
@@ -107,7 +109,7 @@ class Installed(unittest.TestCase):
         headers = {path.name for path in self.prefix.rglob("*.h")}
         self.assertEqual(headers, {path.name for path in (ROOT / "src" / "edgewise").iterdir()})
         for path in self.prefix.rglob("*.h"):
-            for included in re.findall(r'^#include "(.*)"', path.read_text(), re.MULTILINE):
+            for included in re.findall(r'^#include "(\S*)"', path.read_text(), re.MULTILINE):
                 self.assertTrue((path.parent.parent / included).is_file(), f"{path.name} includes {included}")
 
     def test_each_header_says_in_one_line_that_it_needs_cxx20(self):
@@ -195,6 +197,9 @@ class Installed(unittest.TestCase):
         configure(ROOT, build, "-DBUILD_SHARED_LIBS=ON", "-DEDGEWISE_LABORATORY=OFF")
         run("cmake", "--build", build, "--parallel", os.cpu_count())
         run("cmake", "--install", build, "--prefix", prefix)
+        for name in ("edgewise", "edgewise_files"):
+            self.assertIn(f"Library soname: [lib{name}.so.0.1]",
+                          run("readelf", "-d", next(prefix.rglob(f"lib{name}.so"))))
         self.use_package(prefix, "shared-package")
         self.use_pkg_config(prefix, "shared-pkg-config", static=False)
 

@@ -2,6 +2,8 @@
 // pixel. All backends draw the same bits (contract.h).
 #pragma once
 
+#include "edgewise/cxx20.h"
+
 #include <cstdint>
 #include <memory>
 #include <span>

@@ -2,6 +2,8 @@
 // everywhere. Any thread may call anything here.
 #pragma once
 
+#include "edgewise/cxx20.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <span>

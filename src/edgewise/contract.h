@@ -11,6 +11,8 @@
 // Rasterization", 1988.
 #pragma once
 
+#include "edgewise/cxx20.h"
+
 #include <algorithm>
 #include <cstdint>
 

@@ -1,6 +1,8 @@
 // Depth and payload of an image, in the library's memory or in the caller's.
 #pragma once
 
+#include "edgewise/cxx20.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <memory>

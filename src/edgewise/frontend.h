@@ -2,6 +2,8 @@
 // fixed point.
 #pragma once
 
+#include "edgewise/cxx20.h"
+
 #include <cstdint>
 #include <memory>
 #include <span>

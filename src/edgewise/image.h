@@ -2,6 +2,8 @@
 // value or a function without state: any thread may call anything at any time.
 #pragma once
 
+#include "edgewise/cxx20.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <vector>

@@ -2,6 +2,8 @@
 // Whoever allocates checks before it does.
 #pragma once
 
+#include "edgewise/cxx20.h"
+
 #include <cstddef>
 #include <cstdint>
 

@@ -1,6 +1,8 @@
 // Wavefront OBJ meshes, read by tinyobjloader. Part of edgewise::files; any thread may call it.
 #pragma once
 
+#include "edgewise/cxx20.h"
+
 #include <filesystem>
 
 #include "edgewise/scene.h"

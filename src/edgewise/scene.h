@@ -2,6 +2,8 @@
 // All are plain values that own what they hold. Nothing is checked until they are drawn (Frontend::run).
 #pragma once
 
+#include "edgewise/cxx20.h"
+
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <string>

@@ -1,6 +1,8 @@
 // What the front end hands to a backend: a triangle on the snapped pixel grid.
 #pragma once
 
+#include "edgewise/cxx20.h"
+
 #include <cstdint>
 
 namespace edgewise {

@@ -1,6 +1,8 @@
 // The SIMD targets that kernels are compiled for, chosen at run time. Any thread may call anything here.
 #pragma once
 
+#include "edgewise/cxx20.h"
+
 #include <span>
 #include <string_view>
 

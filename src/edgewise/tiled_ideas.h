@@ -1,6 +1,8 @@
 // Ideas of the tiled backend that can be switched off, to see what each is worth.
 #pragma once
 
+#include "edgewise/cxx20.h"
+
 #include <array>
 #include <string>
 

@@ -3,6 +3,8 @@
 // either, but only one at a time write to one std::ostream.
 #pragma once
 
+#include "edgewise/cxx20.h"
+
 #include <filesystem>
 #include <iosfwd>
 
