@@ -17,7 +17,7 @@ namespace {
 struct Reach {
   int width, height;
 };
-constexpr Reach kUsual{96, 72}, kDense{24, 18}, kVast{240, 240};
+constexpr Reach kCommon{96, 72}, kDense{24, 18}, kVast{240, 240};
 constexpr int kWhole = 130;  // a picture so small is shown as a whole
 constexpr int kPictureSide = 960, kLargestPixel = 64;
 constexpr std::uint32_t kPaper = rgb(255, 255, 255), kInk = rgb(20, 20, 20), kDot = rgb(120, 120, 120);
@@ -76,7 +76,7 @@ lab::Window part_of(const MarkedPicture& picture) {
   MarkCount count(picture);
   if (picture.lines.size() > 2 * picture.marks.size()) return most_wrong(all, count, kDense);
   if (all.width <= kWhole && all.height <= kWhole) return all;
-  const lab::Window part = most_wrong(all, count, kUsual);
+  const lab::Window part = most_wrong(all, count, kCommon);
   const bool nearly_all =
       10 * count.in(part.x0, part.y0, part.width, part.height) > 9 * part.width * part.height;
   return nearly_all ? most_wrong(all, count, kVast) : part;

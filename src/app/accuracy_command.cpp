@@ -63,7 +63,7 @@ int accuracy_command(AccuracyOptions& o) {
   return kDiffers;
 }
 
-constexpr const char* kFooter = R"(Examples:
+constexpr const char* kAccuracyFooter = R"(Examples:
   edgewise accuracy --quick                  a first look
   edgewise accuracy --json accuracy.json --pictures errors
   edgewise accuracy bunny.obj capture.tri    your own files
@@ -105,7 +105,7 @@ void add_accuracy(CLI::App& program, Action& action) {
       ->type_name("FILE");
   command.add_option("--pictures", o->pictures, "Folder for pictures of errors on the small scenes")
       ->type_name("DIR");
-  command.footer(kFooter);
+  command.footer(kAccuracyFooter);
   command.callback([o, &action] { action = [o] { return accuracy_command(*o); }; });
 }
 

@@ -11,7 +11,7 @@ namespace edgewise::app {
 namespace {
 
 constexpr int kFrames = 3600, kQuickFrames = 120, kFramesPerSecond = 60;
-constexpr int kShare = 20;  // frames of a work item
+constexpr int kFramesPerTask = 20;
 
 CoverageScene cube_at(int frame) {
   const SceneRequest request{kTurningCubeSize.width, kTurningCubeSize.height,
@@ -63,8 +63,8 @@ CubeResult judge_turning_cube(const AccuracyPlan& plan, const ChosenMethods& met
   std::vector<Scores> scores(methods.coverage.size(), Scores(static_cast<std::size_t>(frames)));
   std::mutex mutex;
   int done = 0;
-  parallel_for(plan.threads, frames / kShare, [&](int share) {
-    for (int frame = share * kShare; frame < (share + 1) * kShare; ++frame) {
+  parallel_for(plan.threads, frames / kFramesPerTask, [&](int share) {
+    for (int frame = share * kFramesPerTask; frame < (share + 1) * kFramesPerTask; ++frame) {
       const CoverageScene scene = cube_at(frame);
       const auto snapped = lab::snapped_coverage(scene.input(), scene.window(), 1),
                  floats = lab::float_coverage(scene.input(), scene.window(), 1);
@@ -79,7 +79,7 @@ CubeResult judge_turning_cube(const AccuracyPlan& plan, const ChosenMethods& met
       }
     }
     const std::lock_guard lock(mutex);
-    progress(static_cast<double>(done += kShare) / frames);
+    progress(static_cast<double>(done += kFramesPerTask) / frames);
   });
 
   const std::size_t first_closeup = closeups.size();

@@ -55,7 +55,7 @@ int capture(const CaptureOptions& o) {
   return kDone;
 }
 
-constexpr const char* kFooter = R"(Examples:
+constexpr const char* kCaptureFooter = R"(Examples:
   edgewise capture terrain --size 1920x1080 -o terrain.tri
   edgewise render terrain.tri -o terrain.png           (the same picture, bit for bit)
   edgewise verify terrain.tri
@@ -72,7 +72,7 @@ void add_capture(CLI::App& program, Action& action) {
   command.add_option("SCENE", o->scene, "A scene of `edgewise list`, or an .obj or .tri file")->required();
   command.add_option("-o,--output", o->output, "The stream, .tri")->required()->type_name("FILE");
   o->options.add_to(command);
-  command.footer(kFooter);
+  command.footer(kCaptureFooter);
   command.callback([o, &action] { action = [o] { return capture(*o); }; });
 }
 

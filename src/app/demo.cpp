@@ -138,7 +138,7 @@ int demonstrate(const DemoOptions& o, viewer::ShowWindow show_window) {
   return kDone;
 }
 
-constexpr const char* kFooter = R"(Examples:
+constexpr const char* kDemoFooter = R"(Examples:
   edgewise demo                                        names them
   edgewise demo p5js-clipping                          its steps: what to notice, and the keys that lead there
   edgewise demo p5js-clipping --view                   in a window; 5 takes the next step, h shows the keys
@@ -165,7 +165,7 @@ void add_demo(CLI::App& program, Action& action, viewer::ShowWindow show_window)
   command.add_flag("--json", o->json, "Print all tutorials and their steps as JSON");
   add_size(command, o->size, "Size of window or pictures (960x540)");
   o->execution.add_to(command);
-  command.footer(kFooter);
+  command.footer(kDemoFooter);
   command.callback(
       [o, &action, show_window] { action = [o, show_window] { return demonstrate(*o, show_window); }; });
 }

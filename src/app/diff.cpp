@@ -66,7 +66,7 @@ int diff(const DiffOptions& o) {
   return d.count == 0 ? kDone : kDiffers;
 }
 
-constexpr const char* kFooter = R"(Examples:
+constexpr const char* kDiffFooter = R"(Examples:
   edgewise diff a.png b.ppm
   edgewise diff a.pfm b.pfm -o where.png     (grey where equal, red where not)
 
@@ -84,7 +84,7 @@ void add_diff(CLI::App& program, Action& action) {
   command.add_option("-o,--output", o->output, "A picture of the difference, .png or .ppm")
       ->type_name("FILE");
   command.add_flag("--json", o->json, "Print JSON");
-  command.footer(kFooter);
+  command.footer(kDiffFooter);
   command.callback([o, &action] { action = [o] { return diff(*o); }; });
 }
 

@@ -197,7 +197,7 @@ class Renderer {
   Progress progress_;
 };
 
-constexpr const char* kFooter = R"(Examples:
+constexpr const char* kRenderFooter = R"(Examples:
   edgewise render cube -o cube.png
   edgewise render terrain --size 1920x1080 --backend scanline -o a.png --depth a.pfm
   edgewise render bunny.obj --fit --yaw 0 --cull none --no-shade -o bunny.png
@@ -233,7 +233,7 @@ void add_render(CLI::App& program, Action& action) {
               "Numbered pictures of an animation from --time on (1)");
   add_number(command, "--fps", o->fps, 0.001, kMaxFps, "Frames a second of the animation (30)");
   command.add_flag("--json", o->json, "Print one JSON object a line for each picture");
-  command.footer(kFooter);
+  command.footer(kRenderFooter);
   command.callback([o, &action] {
     action = [o] {
       Renderer(*o).run();

@@ -16,7 +16,7 @@ namespace edgewise::app {
 
 namespace {
 
-constexpr const char* kFooter = R"(Try:
+constexpr const char* kProgramFooter = R"(Try:
   edgewise list                          scenes, backends, SIMD targets, culling modes
   edgewise render cube -o cube.png       a first picture
   edgewise verify                        do all backends agree on every bit?
@@ -53,7 +53,7 @@ Action parse(int argc, char** argv, viewer::ShowWindow show_window) {
   CLI::App program("A laboratory for triangle rasterization on the CPU.", "edgewise");
   program.set_version_flag("--version", "edgewise " EDGEWISE_VERSION);
   program.require_subcommand(1);
-  program.footer(kFooter);
+  program.footer(kProgramFooter);
   Action action;
   add_list(program, action);
   add_render(program, action);

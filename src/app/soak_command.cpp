@@ -185,7 +185,7 @@ int soak_command(const SoakOptions& o) {
   return finish(o, path, record, request.signal());
 }
 
-constexpr const char* kFooter = R"(Examples:
+constexpr const char* kSoakFooter = R"(Examples:
   edgewise soak --for 20m --json soak.json
   edgewise soak --resume soak.json --for 2h               goes on where that ended, or begins
   edgewise soak --seed 7 --shard 3/16 --for 1h --json shard-3.json
@@ -242,7 +242,7 @@ void add_soak(CLI::App& program, Action& action) {
   command.add_option("--merge", o->merge, "Add up results instead of drawing")->type_name("FILE");
   command.add_option("--out", o->out, "Folder for .tri files of differences (edgewise-soak-failures)")
       ->type_name("DIR");
-  command.footer(kFooter);
+  command.footer(kSoakFooter);
   command.callback([o, &action] { action = [o] { return soak_command(*o); }; });
 }
 

@@ -71,7 +71,7 @@ int stability_command(const StabilityOptions& o) {
   return kDone;
 }
 
-constexpr const char* kFooter = R"(Examples:
+constexpr const char* kStabilityFooter = R"(Examples:
   edgewise stability --quick
   edgewise stability --json stability.json       the whole run: minutes
   edgewise stability legs separation_at_100
@@ -97,7 +97,7 @@ void add_stability(CLI::App& program, Action& action) {
       .add_option("--json", o->json, "Also write all results as JSON; - for stdout, instead of the tables")
       ->type_name("FILE");
   add_integer(command, "--threads", o->threads, 1, kMaxThreads, "Threads (2); no result depends on them");
-  command.footer(kFooter);
+  command.footer(kStabilityFooter);
   command.callback([o, &action] { action = [o] { return stability_command(*o); }; });
 }
 

@@ -63,7 +63,7 @@ int verify_command(VerifyOptions& o) {
   return report.ok() ? kDone : kDiffers;
 }
 
-constexpr const char* kFooter = R"(Examples:
+constexpr const char* kVerifyFooter = R"(Examples:
   edgewise verify                              all built-in scenes, streams scaled down
   edgewise verify --full                       at 1920x1080, all triangles (long)
   edgewise verify bunny.obj capture.tri --fit  your own files
@@ -94,7 +94,7 @@ void add_verify(CLI::App& program, Action& action) {
       ->type_name("FILE");
   command.add_option("--out", o->out, "Folder for pictures of differences (edgewise-verify-failures)")
       ->type_name("DIR");
-  command.footer(kFooter);
+  command.footer(kVerifyFooter);
   command.callback([o, &action] { action = [o] { return verify_command(*o); }; });
 }
 

@@ -22,12 +22,12 @@ namespace edgewise::viewer {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using std::chrono::milliseconds;
+using Milliseconds = std::chrono::milliseconds;
 
-constexpr milliseconds kFrame(33), kIdle(200);
+constexpr Milliseconds kFrame(33), kIdle(200);
 // A terminal does not say when a key is let go: it counts as held until it has not been repeated for so long.
-constexpr milliseconds kHeld(200);
-constexpr milliseconds kEscapeIsAlone(50);
+constexpr Milliseconds kHeld(200);
+constexpr Milliseconds kEscapeIsAlone(50);
 
 // Another screen, no cursor, mouse reports; and back, for the signal handler too.
 constexpr char kEnter[] = "\x1b[?1049h\x1b[?25l\x1b[?1002h\x1b[?1006h";
@@ -106,7 +106,7 @@ class Loop {
  private:
   // False if the terminal is gone.
   bool read_until(Clock::time_point until) {
-    auto pause = std::chrono::duration_cast<milliseconds>(until - Clock::now());
+    auto pause = std::chrono::duration_cast<Milliseconds>(until - Clock::now());
     if (input_.waits()) pause = std::min(pause, kEscapeIsAlone);
     pollfd in{STDIN_FILENO, POLLIN, 0};
     const int ready = poll(&in, 1, static_cast<int>(std::max<std::int64_t>(pause.count(), 0)));
