@@ -1,5 +1,6 @@
 // The letters of the overlay: "6x10" of the X Window System's miscellaneous fixed fonts, which are in the
-// public domain. One byte a row, six pixels wide, the leftmost in bit 5; space to tilde.
+// public domain, but for . : , ; whose dots are squares here. One byte a row, six pixels wide, the leftmost
+// in bit 5; space to tilde.
 #pragma once
 
 #include <cstdint>
@@ -23,9 +24,9 @@ inline constexpr std::uint8_t kGlyphs[][kGlyphHeight] = {
     { 0, 16,  8,  4,  4,  4,  8, 16,  0,  0},  // )
     { 0,  0, 34, 20, 62, 20, 34,  0,  0,  0},  // *
     { 0,  0,  8,  8, 62,  8,  8,  0,  0,  0},  // +
-    { 0,  0,  0,  0,  0,  0, 12,  8, 16,  0},  // ,
+    { 0,  0,  0,  0,  0,  0, 24, 24,  8, 16},  // ,
     { 0,  0,  0,  0, 62,  0,  0,  0,  0,  0},  // -
-    { 0,  0,  0,  0,  0,  0,  8, 28,  8,  0},  // .
+    { 0,  0,  0,  0,  0,  0, 24, 24,  0,  0},  // .
     { 0,  2,  2,  4,  8, 16, 32, 32,  0,  0},  // /
     { 0,  8, 20, 34, 34, 34, 20,  8,  0,  0},  // 0
     { 0,  8, 24, 40,  8,  8,  8, 62,  0,  0},  // 1
@@ -37,8 +38,8 @@ inline constexpr std::uint8_t kGlyphs[][kGlyphHeight] = {
     { 0, 62,  2,  4,  4,  8, 16, 16,  0,  0},  // 7
     { 0, 28, 34, 34, 28, 34, 34, 28,  0,  0},  // 8
     { 0, 28, 34, 38, 26,  2,  4, 24,  0,  0},  // 9
-    { 0,  0,  8, 28,  8,  0,  8, 28,  8,  0},  // :
-    { 0,  0,  8, 28,  8,  0, 12,  8, 16,  0},  // ;
+    { 0,  0,  0, 24, 24,  0, 24, 24,  0,  0},  // :
+    { 0,  0,  0, 24, 24,  0, 24, 24,  8, 16},  // ;
     { 0,  2,  4,  8, 16,  8,  4,  2,  0,  0},  // <
     { 0,  0,  0, 62,  0, 62,  0,  0,  0,  0},  // =
     { 0, 16,  8,  4,  2,  4,  8, 16,  0,  0},  // >

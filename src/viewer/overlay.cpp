@@ -228,8 +228,9 @@ class Overlaying {
   }
   std::string compared_with_the_other(const Side& s) const {
     const Side& other = session_.side(0);
-    return unless_reproducible("{:.2f} times as long as the first side",
-                               (s.frontend_ms + s.raster_ms) / (other.frontend_ms + other.raster_ms));
+    const double ratio = (s.frontend_ms + s.raster_ms) / (other.frontend_ms + other.raster_ms);
+    return unless_reproducible("{:.2f}x {} than the first side", ratio < 1 ? 1 / ratio : ratio,
+                               ratio < 1 ? "faster" : "slower");
   }
   std::uint32_t error_colour(const Side& s) const {
     return s.judgement && s.judgement->wrong > 0 && state_.errors != Errors::off ? kWrong : kPlain;

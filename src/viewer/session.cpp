@@ -7,6 +7,7 @@
 #include <exception>
 #include <numbers>
 #include <stdexcept>
+#include <system_error>
 
 #include "app/capture.h"
 #include "app/milliseconds.h"
@@ -238,6 +239,7 @@ void Session::act(Command command) {
     case Command::arrangement:
       state_.arrangement = next_of_three(state_.arrangement);
       if (state_.arrangement == Arrangement::one) state_.active = 0;
+      reset_times();
       break;
     case Command::other_side:
       if (state_.arrangement == Arrangement::one)
@@ -329,6 +331,8 @@ void Session::choose(std::string_view method) {
 
 void Session::reset_times() {
   for (Side& side : sides_) side.frontend_ms = side.raster_ms = 0;
+  state_.frame_ms = 0;
+  cold_ = true;
 }
 
 // At once: what takes time in its keys, such as walking, is a jump. Since the keys of a step lead on from the
@@ -391,44 +395,52 @@ View Session::view_of(std::size_t i, app::Size size) const {
 
 Screen& Session::draw(app::Size size, Cell cell) {
   cell_ = cell;
-  double work_ms = 0;
-  const double frame_ms = app::milliseconds([&] {
-    if (size.width != size_.width || size.height != size_.height) {
-      load(size);
-      size_ = size;
-      ++state_.version;
-    }
-    const bool halves = state_.arrangement == Arrangement::side_by_side && size.width > 1;
-    panel_ = {halves ? size.width / 2 : size.width, size.height};
-    screen_.texts.clear();
-    Image first = draw_side(0, panel_, work_ms);
-    if (state_.arrangement == Arrangement::one) {
-      finish(first, 0);
-      screen_.picture = std::move(first);
-    } else {
-      Image second = draw_side(1, panel_, work_ms);
-      if (halves) {
-        finish(first, 0), finish(second, 1);
-        screen_.picture = {size.width, size.height, {}};
-        screen_.picture.pixels.resize(static_cast<std::size_t>(size.width) *
-                                      static_cast<std::size_t>(size.height));
-        paste(first, 0, 0, screen_.picture);
-        paste(second, size.width - panel_.width, 0, screen_.picture);
-      } else {
-        Difference both = difference(first, second);
-        state_.differing = both.count;
-        first_difference_ = {both.first_x, both.first_y};
-        screen_.picture = std::move(both.picture);
-        if (state_.magnifier)
-          magnify(screen_.picture, focus_.value_or(Pixel{size.width / 2, size.height / 2}));
-      }
-    }
-    if (save_next_) save();
-    state_.shown_overlay = state_.overlay.value_or(overlay_that_fits(size, cell));
-    state_.help_page = add_overlay(*this, panel_, cell, screen_);
-  });
-  take(frame_ms, state_.frame_ms);
+  if (size.width != size_.width || size.height != size_.height) {
+    load(size);
+    size_ = size;
+    ++state_.version;
+    reset_times();
+  }
+  // The first frame also allocates memory and fills caches, so the times are those of the next one.
+  if (cold_ && !state_.reproducible) {
+    draw_picture();
+    reset_times();
+  }
+  cold_ = false;
+  take(app::milliseconds([&] { draw_picture(); }), state_.frame_ms);
+  if (save_next_) save();
+  state_.shown_overlay = state_.overlay.value_or(overlay_that_fits(size, cell));
+  state_.help_page = add_overlay(*this, panel_, cell, screen_);
   return screen_;
+}
+
+void Session::draw_picture() {
+  double work_ms = 0;
+  const bool halves = state_.arrangement == Arrangement::side_by_side && size_.width > 1;
+  panel_ = {halves ? size_.width / 2 : size_.width, size_.height};
+  screen_.texts.clear();
+  Image first = draw_side(0, panel_, work_ms);
+  if (state_.arrangement == Arrangement::one) {
+    finish(first, 0);
+    screen_.picture = std::move(first);
+  } else {
+    Image second = draw_side(1, panel_, work_ms);
+    if (halves) {
+      finish(first, 0), finish(second, 1);
+      screen_.picture = {size_.width, size_.height, {}};
+      screen_.picture.pixels.resize(static_cast<std::size_t>(size_.width) *
+                                    static_cast<std::size_t>(size_.height));
+      paste(first, 0, 0, screen_.picture);
+      paste(second, size_.width - panel_.width, 0, screen_.picture);
+    } else {
+      Difference both = difference(first, second);
+      state_.differing = both.count;
+      first_difference_ = {both.first_x, both.first_y};
+      screen_.picture = std::move(both.picture);
+      if (state_.magnifier)
+        magnify(screen_.picture, focus_.value_or(Pixel{size_.width / 2, size_.height / 2}));
+    }
+  }
 }
 
 Image Session::draw_side(std::size_t i, app::Size size, double& work_ms) {
@@ -509,6 +521,8 @@ void Session::save() {
     return start_.folder / fmt::format("{}-{:04}{}", state_.scene, n, extension);
   };
   try {
+    std::error_code error;  // a missing folder fails the writing below
+    std::filesystem::create_directories(start_.folder, error);
     int n = 1;
     while (std::filesystem::exists(path(n, ".png")) || std::filesystem::exists(path(n, ".tri"))) ++n;
     write_image(path(n, ".png"), screen_.picture);

@@ -118,6 +118,7 @@ class Session {
   void switch_by(Command command, int step);
   void move(Command command, float seconds);
   void load(app::Size size);
+  void draw_picture();
   View view_of(std::size_t side, app::Size size) const;
   Image draw_side(std::size_t side, app::Size size, double& work_ms);
   void judge_if_due(std::size_t side, const Choice& choice, const View& view, double work_ms);
@@ -143,6 +144,7 @@ class Session {
   std::optional<Pixel> pointer_, focus_;
   Pixel first_difference_{0, 0};
   bool done_ = false, save_next_ = false;
+  bool cold_ = true;  // this size and these methods were not drawn yet
   Screen screen_;
   std::vector<std::string> saved_;
 };
