@@ -114,8 +114,11 @@ struct Geometry {
   }
 
  private:
+  std::int64_t vertices_ = 0;
+
   void add_vertex(std::string_view rest, std::size_t line) {
     text += 'v';
+    ++vertices_;
     for (int i = 0; i < 3; ++i) {
       const std::string_view word = next_word(rest);
       if (word.empty()) throw std::invalid_argument(at_line(line, "a vertex needs three coordinates"));
@@ -128,10 +131,18 @@ struct Geometry {
     int corners = 0;
     text += 'f';
     for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest), ++corners)
-      append(parse_corner(word, line));
+      append(checked(parse_corner(word, line), line));
     if (corners < 3) throw std::invalid_argument(at_line(line, "a face needs three corners or more"));
     text += '\n';
     face_lines.push_back(line);
+  }
+
+  // A negative index counts back from the vertex before the face. Positive ones may name a later vertex.
+  int checked(int index, std::size_t line) const {
+    if (-std::int64_t{index} > vertices_)
+      throw std::invalid_argument(at_line(line, "a face names vertex " + std::to_string(index) + " of the " +
+                                                    std::to_string(vertices_) + " before it"));
+    return index;
   }
 
   template <typename Number>
@@ -169,8 +180,7 @@ Geometry read_geometry(std::string_view text) {
 // Filled by tinyobjloader's callbacks.
 struct Builder {
   std::vector<glm::vec3> positions;
-  std::vector<std::int64_t>
-      corners;  // zero-based; not yet known to be in range, since a vertex may follow its face
+  std::vector<std::int64_t> corners;  // zero-based; may be too large, since a vertex may follow its face
   std::vector<std::size_t> face_ends{0};
 
   static void vertex(void* self, float x, float y, float z, float) {
@@ -195,7 +205,7 @@ Mesh make_mesh(Builder built, const std::vector<std::size_t>& face_lines) {
     polygon.clear();
     for (std::size_t i = built.face_ends[face]; i < built.face_ends[face + 1]; ++i) {
       const std::int64_t corner = built.corners[i];
-      if (corner < 0 || corner >= static_cast<std::int64_t>(built.positions.size()))
+      if (corner >= static_cast<std::int64_t>(built.positions.size()))
         throw std::invalid_argument(at_line(face_lines[face], "a face names vertex " +
                                                                   std::to_string(corner + 1) + " of " +
                                                                   std::to_string(built.positions.size())));
