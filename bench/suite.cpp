@@ -8,10 +8,8 @@
 #include <stdexcept>
 
 #include "app/printable.h"
-#include "crowd.h"
 #include "growth.h"
 #include "ladder.h"
-#include "quads.h"
 #include "scene/cells.h"
 #include "viewer/choice.h"
 
@@ -27,7 +25,7 @@ constexpr int kScheduledCores[] = {1, 2, 4, 8, 16, 32, 64, 128};
 
 using WorkloadPtr = std::shared_ptr<Workload>;
 
-// A quick run draws a tenth of each stream.
+// A quick run draws a tenth of each scalable scene.
 SceneRequest request(const SuiteOptions& options, int width, int height) {
   SceneRequest r;
   r.width = width;
@@ -254,13 +252,6 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
     suite.add_scene(workload, name, scene.stream);
     suite.add_ladder(workload, name);
   }
-  const auto add_own = [&](const char* name, app::Source (*make)(const SceneRequest&), bool stream) {
-    taken.emplace(name, name);
-    const SceneRequest wanted = request(options, options.width, options.height);
-    suite.add_scene(suite.make_workload([make, wanted] { return make(wanted); }), name, stream);
-  };
-  add_own(kQuadsName, quads, true);
-  add_own(kCrowdName, crowd, false);
   for (const auto& scene : options.more_scenes) add_named(scene);
   suite.add_area_sweep();
   suite.add_growth();

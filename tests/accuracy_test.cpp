@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "app/accuracy.h"
 #include "app/accuracy_report.h"
@@ -51,6 +53,19 @@ TEST(Accuracy, CountsTheDrtkQuadAndTheLatticeSquareAsForetold) {
   EXPECT_EQ(count("drtk_quad", "float_top_left", "errors"), 0);
   EXPECT_EQ(count("lattice_square", "float_le", "double_hits"), 64);
   EXPECT_EQ(count("lattice_square", "float_lt", "gaps"), 64);
+}
+
+TEST(Accuracy, JudgesQuadsAndKnotsOnlyWhenNamed) {
+  const auto count = [](std::vector<std::string> named) {
+    AccuracyPlan plan;
+    plan.scenes = std::move(named);
+    const auto scenes = scenes_of(plan).scenes;
+    return std::count_if(scenes.begin(), scenes.end(), [](const AccuracyScene& scene) {
+      return scene.name == "quads" || scene.name == "knots";
+    });
+  };
+  EXPECT_EQ(count({}), 0);
+  EXPECT_EQ(count({"quads", "knots"}), 3);  // knots in coverage and in visibility
 }
 
 TEST(Accuracy, WritesTheAgreedKeys) {

@@ -10,7 +10,6 @@
 #include "ladder.h"
 #include "limit.h"
 #include "message_of.h"
-#include "quads.h"
 #include "random_reads.h"
 #include "stage.h"
 #include "suite.h"
@@ -156,19 +155,7 @@ TEST(BenchLadder, StandsBesideTheRowsThatAreItsEnds) {
                             "/threads:1"),
                 in_ladder(scene.name) ? 1u : 0u);
   EXPECT_TRUE(names.count("naive/large/threads:1") && names.count("tiled/large/threads:2"));
-  const std::size_t scenes = builtin_scenes().size() + 2;  // and the crowd and the quads
-  EXPECT_EQ(floors, 2 * scenes);
-}
-
-TEST(BenchQuads, LieOnThePixelGridAndCoverEachPixelThreeTimes) {
-  constexpr int kWidth = 200, kHeight = 100;
-  Workload workload(kWidth, kHeight, Cull::back, [] { return quads({kWidth, kHeight, 0.0f, 1.0}); });
-  workload.prepare(false);
-  EXPECT_EQ(workload.covered_px(), 3u * kWidth * kHeight);
-  ASSERT_EQ(workload.triangles().size(), 2u * (13 * 7 + 7 * 4 + 4 * 2));
-  for (const ScreenTriangle& t : workload.triangles())
-    for (int i = 0; i < 3; ++i) EXPECT_EQ((t.x_sub[i] | t.y_sub[i]) % (16 * 256), 0);
-  EXPECT_EQ(std::get<TriangleStream>(quads({kWidth, kHeight, 0.0f, 0.1}).drawable).triangles.size(), 26u);
+  EXPECT_EQ(floors, 2 * builtin_scenes().size());
 }
 
 // Its right angle in the image's upper left corner.

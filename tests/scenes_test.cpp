@@ -73,7 +73,7 @@ TEST(Scenes, ScaleChangesTheCountOfStreams) {
 
 TEST(Scenes, RefuseAbsurdScales) {
   for (const double scale : {0.0, -1.0, std::nan(""), 1e9})
-    for (const auto name : {"micro", "grid4"})
+    for (const auto name : {"micro", "grid4", "quads", "knots"})
       EXPECT_THROW(find_scene(name).make({.scale = scale}), std::invalid_argument);
 }
 
@@ -141,6 +141,38 @@ TEST(Scenes, TerrainSurroundsTheCameraAndCrossesTheNearPlane) {
   EXPECT_GT(s.emitted, 10'000u);
 }
 
+TEST(Scenes, QuadsLieOnThePixelGridAndCoverEachPixelThreeTimes) {
+  constexpr int kWidth = 200, kHeight = 100;
+  const SceneInfo& quads = find_scene("quads");
+  Frontend frontend;
+  const Drawable drawable = quads.make({.width = kWidth, .height = kHeight});
+  const auto triangles =
+      frontend.run(drawable, {.width = kWidth, .height = kHeight, .cull = Cull::none, .shade = false});
+  EXPECT_EQ(lab::covered_pixels(triangles, kWidth, kHeight), 3u * kWidth * kHeight);
+  ASSERT_EQ(triangles.size(), 2u * (13 * 7 + 7 * 4 + 4 * 2));
+  for (const ScreenTriangle& t : triangles)
+    for (int i = 0; i < 3; ++i) EXPECT_EQ((t.x_sub[i] | t.y_sub[i]) % (16 * 256), 0);
+  const auto count = [&](double scale) {
+    const Drawable scaled = quads.make({.width = kWidth, .height = kHeight, .scale = scale});
+    return stream_of(scaled).triangles.size();
+  };
+  EXPECT_EQ(count(0.1), 26u);
+  EXPECT_EQ(count(2.5), 635u);
+}
+
+TEST(Scenes, KnotsAreInstancesOfOneMeshThatScaleAddsAndLeavesOut) {
+  const auto instances = [](double scale) {
+    const Scene scene = std::get<Scene>(find_scene("knots").make({.scale = scale}));
+    EXPECT_EQ(scene.meshes.size(), 1u);
+    EXPECT_EQ(scene.meshes[0].triangles.size(), 49'152u);
+    return scene.instances.size();
+  };
+  EXPECT_EQ(instances(1.0), 36u);
+  EXPECT_EQ(instances(0.1), 4u);
+  EXPECT_EQ(instances(0.001), 1u);
+  EXPECT_EQ(instances(4.0), 144u);
+}
+
 class Grids : public ::testing::TestWithParam<std::string_view> {};
 
 TEST_P(Grids, CoverEveryPixelExactlyOnceByEveryBackend) {
@@ -196,6 +228,25 @@ TEST(Fit, CentresAndScalesTheLongestSideToTwo) {
   }
   EXPECT_NEAR(glm::length(low + high), 0.0f, 1e-4f);
   EXPECT_NEAR(std::max({high.x - low.x, high.y - low.y, high.z - low.z}), 2.0f, 1e-4f);
+}
+
+TEST(Fit, RefusesSizesAndPlacesBeyondFloatsAndLeavesTheSceneAsItWas) {
+  const auto scene_of_size = [](float size) {
+    Scene scene;
+    scene.meshes.push_back({{{0, 0, 0}, {size, 0, 0}, {0, size, 0}}, {{0, 1, 2}}, {0}});
+    scene.instances.emplace_back();
+    return scene;
+  };
+  Scene small = scene_of_size(1e-29f), too_small = scene_of_size(1e-38f);
+  EXPECT_NO_THROW(fit(small));
+  EXPECT_FLOAT_EQ(small.instances[0].scale.x * 1e-29f, 2.0f);
+  EXPECT_THROW(fit(too_small), std::invalid_argument);
+  EXPECT_EQ(too_small.instances[0].scale, glm::vec3(1.0f));
+  Scene far = scene_of_size(1e-20f), too_large = scene_of_size(3e38f);
+  for (glm::vec3& p : far.meshes[0].positions) p.z = 1e20f;
+  too_large.meshes[0].positions[0].x = -3e38f;
+  EXPECT_THROW(fit(far), std::invalid_argument);
+  EXPECT_THROW(fit(too_large), std::invalid_argument);
 }
 
 TEST(Fit, RefusesAnInstanceOfAMeshThatTheSceneLacks) {

@@ -76,8 +76,8 @@ crossings of an edge with a row or column of samples, per 10^6 pixels or per 10^
 the rate is below the bound in brackets with 95 % confidence. A gap is farther inside the union of the triangles
 than the method's promise lets an edge move, or than 0.71 px if that is less.
 
-Of built-in streams a part is judged, the same each time: sliver 3 %, medium 30 %, small and micro 40 % of the
-triangles; less with --quick. Meshes, built in or yours, are judged in coverage and visibility, streams in
+Of some scenes a part is judged, the same each time: sliver 3 %, knots 10 %, medium 30 %, small and micro 40 % of
+the triangles; less with --quick. Meshes, built in or yours, are judged in coverage and visibility, streams in
 coverage alone; facing and clipping have scenes of their own.
 
 Pictures, FAMILY-SCENE-METHOD.png: vermilion: nothing was drawn where something must be (of coverage: a gap, a
@@ -89,9 +89,9 @@ another one covers, or one on the outline; purple: drawn where nothing must be.)
 void add_accuracy(CLI::App& program, Action& action) {
   CLI::App& command = *program.add_subcommand("accuracy", "Count how wrong each method is, and time it");
   const auto o = std::make_shared<AccuracyOptions>();
-  command.add_option(
-      "SCENE", o->plan.scenes,
-      "Scenes of `edgewise list`, small scenes by name, turning-cube, or .obj or .tri files (all)");
+  command.add_option("SCENE", o->plan.scenes,
+                     "Scenes of `edgewise list`, small scenes by name, turning-cube, or .obj or .tri files "
+                     "(all but quads and knots)");
   command.add_flag("--quick", o->plan.quick, "Smaller scenes, fewer frames and repetitions");
   command.add_option("--family", o->family, "Only one family of methods")->type_name("NAME");
   command.add_option("--method", o->plan.methods, "Only this method (repeatable)")

@@ -174,7 +174,7 @@ void SceneOptions::add_to(CLI::App& command) {
   add_size(command, size, "Image size (1280x720; .tri: its own; else cropped, not scaled)");
   add_number(command, "--time", time, -kLongestTime, kLongestTime, "Seconds, for scenes that turn (0)");
   add_number(command, "--scale", scale, kSmallest, kLargestScale,
-             "Factor on a built-in stream's triangles, to 10^8 of them (1)");
+             "Factor on the triangles of knots or a built-in stream, to 10^8 of them (1)");
   command
       .add_option_function<std::string>(
           "--cull",
@@ -202,8 +202,8 @@ Shot load_shot(const std::string& name_or_path, const SceneOptions& options, dou
   Shot shot{load_source(name_or_path, request, options.fit), {}};
   Source& source = shot.source;
 
-  if (options.scale && !(source.built_in != nullptr && source.stream))
-    throw std::invalid_argument("--scale is for built-in streams, and '" + source.name + "' is none");
+  if (options.scale && !(source.built_in != nullptr && source.built_in->scalable))
+    throw std::invalid_argument("--scale: the triangles of '" + source.name + "' have a fixed number");
   shot.frontend.width = size.width;
   shot.frontend.height = size.height;
   if (auto* stream = std::get_if<TriangleStream>(&source.drawable)) {

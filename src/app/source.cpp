@@ -7,6 +7,7 @@
 #include "edgewise/obj_file.h"
 #include "edgewise/tri_file.h"
 #include "file_extension.h"
+#include "input_file.h"
 
 namespace edgewise::app {
 
@@ -48,7 +49,11 @@ Source load_source(const std::string& name_or_path, const SceneRequest& request,
   if (extension_of(name_or_path) == ".tri") return {source_name(name_or_path), read_tri(name_or_path), true};
   Scene scene = read_obj(name_or_path);
   if (fit_mesh) {
-    fit(scene);
+    try {
+      fit(scene);
+    } catch (const std::invalid_argument& error) {
+      throw file_error(name_or_path, error.what());
+    }
     frame_camera(scene);
   }
   return {source_name(name_or_path), std::move(scene), false};

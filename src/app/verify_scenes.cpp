@@ -11,7 +11,7 @@ namespace {
 
 // Odd and prime sides: no tile, vector or cell size divides them.
 constexpr Size kQuickSize{509, 283}, kFullSize{1920, 1080}, kOracleSize{61, 37};
-constexpr double kQuickScale = 0.02;
+constexpr double kQuickScale = 0.02, kQuickMeshScale = 0.1;
 constexpr double kEnoughTriangles = 400;
 constexpr double kOracleBudget =
     7.5e6;  // pixels times triangles for each culling mode, a quarter of a second
@@ -77,19 +77,24 @@ bool covers_each_pixel_once(const Source& source) {
 }
 
 Shot shot_for_comparison(const VerifyPlan& plan, const std::string& name) {
-  const SceneInfo* stream = is_file_path(name) ? nullptr : &find_scene(name);
-  if (stream != nullptr && !stream->stream) stream = nullptr;
+  const SceneInfo* const built_in = is_file_path(name) ? nullptr : &find_scene(name);
   const Size size = plan.size.value_or(plan.full ? kFullSize : kQuickSize);
-  if (stream != nullptr && !plan.full && !name.starts_with("grid"))  // a grid's count goes with the image
+  const bool scaled = built_in != nullptr && built_in->scalable && !plan.full;
+  if (scaled && !built_in->stream) return load(plan, name, size, kQuickMeshScale);
+  if (scaled && !name.starts_with("grid"))  // a grid's count goes with the image
     return load_thinned(plan, name, size, kQuickScale, kEnoughTriangles);
   const bool own_size = !plan.size && extension_of(name) == ".tri";
   return load(plan, name, own_size ? std::nullopt : std::optional(size), std::nullopt);
 }
 
 Shot shot_for_oracle(const VerifyPlan& plan, const std::string& name) {
-  const bool built_in_stream = !is_file_path(name) && find_scene(name).stream;
-  Shot shot = built_in_stream ? load_thinned(plan, name, kOracleSize, 1e-3, kEnoughTriangles)
-                              : load(plan, name, kOracleSize, std::nullopt);
+  constexpr double kScale = 1e-3;
+  const SceneInfo* const built_in = is_file_path(name) ? nullptr : &find_scene(name);
+  const bool built_in_stream = built_in != nullptr && built_in->stream;
+  const bool scaled_mesh = built_in != nullptr && built_in->scalable && !built_in->stream;
+  Shot shot = built_in_stream
+                  ? load_thinned(plan, name, kOracleSize, kScale, kEnoughTriangles)
+                  : load(plan, name, kOracleSize, scaled_mesh ? std::optional(kScale) : std::nullopt);
   if (const TriangleStream* stream = stream_of(shot); stream != nullptr && !built_in_stream) {
     if (is_affordable(*stream)) {  // a counterexample must stay one
       shot.frontend.width = stream->width;

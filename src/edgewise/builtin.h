@@ -16,7 +16,7 @@ namespace edgewise {
 struct SceneRequest {
   int width = 1920, height = 1080;  // px, 1 … contract::kMaxImageSide; meshes look the same in any
   float time = 0.0f;                // s, for scenes that turn
-  double scale = 1.0;               // streams only: factor on the number of triangles, > 0
+  double scale = 1.0;               // factor on the number of triangles, > 0; only of scalable scenes
 };
 
 struct SceneInfo {
@@ -25,6 +25,7 @@ struct SceneInfo {
   bool stream;            // true: a TriangleStream, to be drawn without culling or shading
   // Throws std::invalid_argument for a size or scale that it cannot make.
   Drawable (*make)(const SceneRequest&);
+  bool scalable = stream;  // SceneRequest::scale changes it
 };
 
 // Valid for as long as the program.

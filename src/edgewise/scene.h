@@ -82,9 +82,9 @@ struct TriangleStream {
 
 using Drawable = std::variant<Scene, TriangleStream>;
 
-// Moves the scene's meshes together so that their bounding box is centred on the origin and its longest side
-// is 2. Vertices that are not finite don't count. Throws std::out_of_range, as frame_camera does, for an
-// instance that names a mesh the scene lacks.
+// Centres the bounding box of the scene's finite vertices on the origin and scales its longest side to 2.
+// Throws std::out_of_range, as frame_camera does, for an instance that names a mesh the scene lacks, and
+// std::invalid_argument for a box below about 10^-30 or above 10^38, or as far off in proportion.
 void fit(Scene& scene);
 
 // Puts the camera where it sees all finite vertices from the front, a little to the right and above, with a

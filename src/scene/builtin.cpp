@@ -163,6 +163,33 @@ Drawable torus_knot(const SceneRequest& request) {
   return scene;
 }
 
+// What single meshes lack: instances that occlude one another, a million triangles and more.
+Drawable knots(const SceneRequest& request) {
+  constexpr int kSide = 6;
+  constexpr float kSpacing = 2.6f;  // less than a knot is wide
+  constexpr double kTrianglesOfKnot = 49'152;
+  check_triangles(kSide * kSide * kTrianglesOfKnot * request.scale, request.scale);
+  const int side = std::max(1, static_cast<int>(std::lround(kSide * std::sqrt(request.scale))));
+  Scene scene = std::get<Scene>(torus_knot(request));
+  const Instance knot = scene.instances.front();
+  scene.instances.clear();
+  for (int row = 0; row < side; ++row)
+    for (int column = 0; column < side; ++column) {
+      const auto at = [&](int i) {
+        return kSpacing * (static_cast<float>(i) - 0.5f * static_cast<float>(side - 1));
+      };
+      Instance instance = knot;
+      instance.angle += 0.7f * static_cast<float>(row * side + column);
+      instance.translation = {at(column), 0.0f, at(row)};
+      scene.instances.push_back(instance);
+    }
+  const float extent = kSpacing * static_cast<float>(side);
+  scene.camera.position = {0.2f * extent, 0.4f * extent, 0.8f * extent};
+  scene.camera.look_at({0.0f, -0.5f, 0.0f});
+  scene.camera.far_z = std::max(scene.camera.far_z, 3.0f * extent);
+  return scene;
+}
+
 // Smooth value noise on an integer lattice, in [0, 1].
 float value_noise(float x, float y) {
   const auto lattice = [](int i, int j) {
@@ -231,6 +258,9 @@ Drawable grid4(const SceneRequest& r) {
 Drawable grid64(const SceneRequest& r) {
   return jittered_grid(r, 64.0, 7);
 }
+Drawable quads(const SceneRequest& r) {
+  return aligned_squares(r, 1);
+}
 
 }  // namespace
 
@@ -250,6 +280,10 @@ std::span<const SceneInfo> builtin_scenes() {
       SceneInfo{"sliver", "100,000 triangles of about 500 x 0.5 px in all directions", true, sliver},
       SceneInfo{"grid4", "a watertight jittered grid with cells of 4 px", true, grid4},
       SceneInfo{"grid64", "a watertight jittered grid with cells of 64 px", true, grid64},
+      SceneInfo{"quads", "squares of 16, 32 and 64 px on the pixel grid, one of each over every pixel", true,
+                quads},
+      SceneInfo{"knots", "36 instances of torus-knot that hide one another: 1,769,472 triangles", false,
+                knots, true},
       EDGEWISE_MORE_SCENES(EDGEWISE_ENTRY)};
   return kScenes;
 }

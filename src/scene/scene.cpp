@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
+#include <stdexcept>
 
 namespace edgewise {
 
@@ -44,9 +45,16 @@ void fit(Scene& scene) {
   }
   const glm::vec3 size = high - low;
   const float longest = std::max({size.x, size.y, size.z});
-  if (!(longest > 0.0f) || !std::isfinite(longest)) return;
+  if (!(longest > 0.0f)) return;
   const float factor = 2.0f / longest;
-  const glm::vec3 centre = low + 0.5f * size;
+  const glm::vec3 centre = low + 0.5f * size, moved = centre * factor;
+  // Beyond it, products with the camera's matrix may overflow. Written so that infinities and NaN fail as
+  // well.
+  constexpr float kLargest = 0x1p100f;
+  if (!(factor > 0.0f &&
+        std::max({factor, std::abs(moved.x), std::abs(moved.y), std::abs(moved.z)}) <= kLargest))
+    throw std::invalid_argument(
+        "too small, too large, or too far from the origin to be scaled to a size of 2");
   for (auto& instance : scene.instances) {
     instance.scale *= factor;
     instance.translation = (instance.translation - centre) * factor;

@@ -20,17 +20,21 @@ std::uint32_t random_colour(Random& random) {
   return rgb(r, g, b);
 }
 
-void check(double triangles, double scale) {
-  if (!(scale > 0.0) || !(triangles <= kMaxTriangles))
-    throw std::invalid_argument("scale " + std::to_string(scale) + " gives no triangle, or more than 10^8");
+void shuffle(std::vector<StreamTriangle>& triangles, Random& random) {
+  for (std::size_t i = triangles.size(); i > 1; --i) std::swap(triangles[i - 1], triangles[random.below(i)]);
 }
 
 }  // namespace
 
+void check_triangles(double triangles, double scale) {
+  if (!(scale > 0.0) || !(triangles <= kMaxTriangles))
+    throw std::invalid_argument("scale " + std::to_string(scale) + " gives no triangle, or more than 10^8");
+}
+
 TriangleStream random_stream(const SceneRequest& request, std::size_t count, double area_px, double aspect,
                              std::uint64_t seed) {
   const double wanted = std::max(1.0, std::round(static_cast<double>(count) * request.scale));
-  check(wanted, request.scale);
+  check_triangles(wanted, request.scale);
   Random random(seed);
   TriangleStream stream{request.width, request.height, {}};
   stream.triangles.resize(static_cast<std::size_t>(wanted));
@@ -61,7 +65,7 @@ TriangleStream jittered_grid(const SceneRequest& request, double cell_px, std::u
   // Below a quarter of a cell no triangle can flip: its area stays above (1 - 2j)^2 - (2j)^2 = 1 - 4j cells.
   constexpr float kJitter = 0.2f;
   const double cell = cell_px / std::sqrt(request.scale);
-  check(2.0 * request.width / cell * request.height / cell, request.scale);
+  check_triangles(2.0 * request.width / cell * request.height / cell, request.scale);
   const auto cells = [&](int side) { return std::max(1, static_cast<int>(std::lround(side / cell))); };
   const int columns = cells(request.width), rows = cells(request.height);
   Random random(seed);
@@ -91,8 +95,38 @@ TriangleStream jittered_grid(const SceneRequest& request, double cell_px, std::u
         stream.triangles.push_back(
             {{quad[first % 4], quad[(first + 1) % 4], quad[(first + 2) % 4]}, random_colour(random)});
     }
-  for (std::size_t i = stream.triangles.size(); i > 1; --i)
-    std::swap(stream.triangles[i - 1], stream.triangles[random.below(i)]);
+  shuffle(stream.triangles, random);
+  return stream;
+}
+
+TriangleStream aligned_squares(const SceneRequest& request, std::uint64_t seed) {
+  constexpr int kSides_px[] = {16, 32, 64};
+  const auto squares = [&](int length_px, int side_px) { return (length_px + side_px - 1) / side_px; };
+  double in_all = 0.0;
+  for (const int side_px : kSides_px)
+    in_all += 2.0 * squares(request.width, side_px) * squares(request.height, side_px);
+  const double wanted = std::ceil(in_all * request.scale);
+  check_triangles(wanted, request.scale);
+
+  Random random(seed);
+  TriangleStream stream{request.width, request.height, {}};
+  while (static_cast<double>(stream.triangles.size()) < wanted)
+    for (const int side_px : kSides_px)
+      for (int y = 0; y < request.height; y += side_px)
+        for (int x = 0; x < request.width; x += side_px) {
+          const float z = random.uniform(0.1f, 0.9f);
+          const auto corner = [&](int right, int down) {
+            return glm::vec3(static_cast<float>(x + right * side_px), static_cast<float>(y + down * side_px),
+                             z);
+          };
+          const glm::vec3 at[4] = {corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)};
+          const std::uint64_t turn = random.below(2);  // which diagonal
+          for (const std::uint64_t first : {turn, turn + 2})
+            stream.triangles.push_back({{at[first % 4], at[(first + 1) % 4], at[(first + 2) % 4]},
+                                        static_cast<std::uint32_t>(random.below(1u << 24)) | 0xFF000000u});
+        }
+  shuffle(stream.triangles, random);
+  stream.triangles.resize(static_cast<std::size_t>(wanted));
   return stream;
 }
 
