@@ -12,6 +12,7 @@
 #include "app/console.h"
 #include "app/describe.h"
 #include "app/options.h"
+#include "app/output_path.h"
 #include "app/printable.h"
 #include "edgewise/contract.h"
 #include "edgewise/tri_file.h"
@@ -43,6 +44,7 @@ struct CaptureOptions {
 int capture(const CaptureOptions& o) {
   if (extension_of(o.output) != ".tri")
     throw std::invalid_argument("--output " + o.output + ": the name must end in .tri");
+  check_output_is_not_input(o.output, o.scene);
   const Shot shot = load_shot(o.scene, o.options, o.options.time.value_or(0.0));
   Frontend frontend;
   const auto triangles = frontend.run(shot.source.drawable, shot.frontend);

@@ -157,7 +157,7 @@ void add_demo(CLI::App& program, Action& action, viewer::ShowWindow show_window)
   command.add_option("TUTORIAL", o->names, "One of those that `edgewise demo` lists; several for --output");
   command
       .add_option("-o,--output", o->output,
-                  "Write a picture, .png or .ppm; also a folder, or a name with {scene}")
+                  "Write a picture, .png or .ppm; also a folder, made if missing, or a name with {scene}")
       ->type_name("FILE");
   add_integer(command, "--frames", o->frames, 1, kMostFrames, "Numbered pictures of all its steps (1)");
   command.add_flag("--view", o->view, "Show it in a window");

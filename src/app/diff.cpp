@@ -10,6 +10,7 @@
 #include "app/commands.h"
 #include "app/console.h"
 #include "app/json_text.h"
+#include "app/output_path.h"
 #include "edgewise/image.h"
 #include "file_extension.h"
 
@@ -47,6 +48,7 @@ int diff(const DiffOptions& o) {
     throw std::invalid_argument(fmt::format("{} and {}: a picture cannot be compared with depth", o.a, o.b));
   if (!o.output.empty() && !is_image_path(o.output))
     throw std::invalid_argument("--output " + o.output + ": the name must end in .png or .ppm");
+  for (const std::string& input : {o.a, o.b}) check_output_is_not_input(o.output, input);
 
   const Difference d = depth ? checked_difference(o, read_pfm(o.a), read_pfm(o.b))
                              : checked_difference(o, read_image(o.a), read_image(o.b));

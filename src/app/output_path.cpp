@@ -60,4 +60,10 @@ void OutputPaths::make_folder() const {
   if (error) throw std::runtime_error(pattern_.parent_path().string() + ": " + error.message());
 }
 
+void check_output_is_not_input(const std::string& output, const std::string& input) {
+  std::error_code not_there;  // then nothing is overwritten
+  if (fs::equivalent(output, input, not_there))
+    throw std::invalid_argument(fmt::format("--output {} would overwrite the input {}", output, input));
+}
+
 }  // namespace edgewise::app

@@ -8,7 +8,7 @@
 namespace edgewise::app {
 
 // `pattern` is a file, a name that contains "{scene}", or a folder (one that exists, or that ends in a slash
-// and is made when needed), in which files are named after their scenes, .png or .pfm. With more than one
+// and is made if missing), in which files are named after their scenes, .png or .pfm. With more than one
 // frame, "-0001" and so on stands before the extension. Throws std::invalid_argument if several scenes would
 // write the same file, or for a file that is no picture (.png, .ppm) or depth file (.pfm).
 class OutputPaths {
@@ -25,5 +25,8 @@ class OutputPaths {
   int frames_;
   bool own_folder_ = false;
 };
+
+// Throws std::invalid_argument if both paths name the same file, however they are spelled or linked.
+void check_output_is_not_input(const std::string& output, const std::string& input);
 
 }  // namespace edgewise::app

@@ -218,7 +218,8 @@ void add_render(CLI::App& program, Action& action) {
   const auto o = std::make_shared<RenderOptions>();
   command.add_option("SCENE", o->scenes, "Scenes of `edgewise list`, or .obj or .tri files")->required();
   command
-      .add_option("-o,--output", o->output, "Picture, .png or .ppm; also a folder, or a name with {scene}")
+      .add_option("-o,--output", o->output,
+                  "Picture, .png or .ppm; also a folder, made if missing, or a name with {scene}")
       ->type_name("FILE");
   command.add_option("--depth", o->depth, "Depth as floats, .pfm; named as --output is")->type_name("FILE");
   command.add_option("--backend", o->backend, "Backend of `edgewise list` (tiled)")->type_name("NAME");

@@ -151,8 +151,11 @@ AtomicFile::AtomicFile(const fs::path& path) : path_(path) {
     descriptor = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   } while (descriptor < 0 && errno == EEXIST);
   if (descriptor < 0) {
+    const int reason = errno;
     release_slot(slot_);
-    throw write_error(path);
+    const fs::path folder = path_.parent_path();
+    if (folder.empty() || fs::exists(folder, error)) throw write_error(path, reason);
+    throw file_error(path, "cannot be written: there is no folder " + folder.string());
   }
   close(descriptor);
   if (buffer_.open(temporary_, std::ios::out | std::ios::binary) == nullptr) {
