@@ -2,11 +2,32 @@
 
 #include <CLI/CLI.hpp>
 #include <iostream>
+#include <iterator>
 #include <stdexcept>
 
 #include "app/options.h"
 
 namespace edgewise::bench {
+
+namespace {
+
+// Only to suggest them: Google Benchmark itself decides which it takes.
+constexpr const char* kGoogleBenchmarkOptions[] = {"--benchmark_color",
+                                                   "--benchmark_context",
+                                                   "--benchmark_counters_tabular",
+                                                   "--benchmark_display_aggregates_only",
+                                                   "--benchmark_enable_random_interleaving",
+                                                   "--benchmark_filter",
+                                                   "--benchmark_format",
+                                                   "--benchmark_list_tests",
+                                                   "--benchmark_min_time",
+                                                   "--benchmark_min_warmup_time",
+                                                   "--benchmark_perf_counters",
+                                                   "--benchmark_repetitions",
+                                                   "--benchmark_report_aggregates_only",
+                                                   "--benchmark_time_unit"};
+
+}  // namespace
 
 std::optional<Flags> parse_flags(int argc, char** argv) {
   Flags flags;
@@ -29,7 +50,8 @@ std::optional<Flags> parse_flags(int argc, char** argv) {
       parser.add_flag("--peers", flags.need_peers,
                       "Fail where a rasterizer of another project is missing (else it is left out)");
   parser.add_flag("--no-peers", no_peers, "Leave them out")->excludes(peers_flag);
-  parser.add_flag("--quick", flags.suite.quick, "Fewer rows and repetitions, streams of a tenth");
+  parser.add_flag("--quick", flags.suite.quick,
+                  "Fewer rows and repetitions, a tenth of the triangles of knots and streams");
   app::add_size(parser, size, "Image size (1920x1080; a .tri file has its own)");
   std::string format;
   parser.add_option("--benchmark_out", flags.out, "Write the results there, complete or not at all")
@@ -41,7 +63,8 @@ std::optional<Flags> parse_flags(int argc, char** argv) {
       "--benchmark_repetitions=N, --benchmark_min_time=SECONDS and --benchmark_format=console|json|csv.\n"
       "Whatever the filter lets through, random reads are timed between: they tell whether the last cache "
       "was ours.\n"
-      "Exit status: 0 done, 1 a row drew other pixels, 2 bad input or failure, 130 after Ctrl-C.");
+      "Exit status: 0 done, 1 a row drew other pixels, 2 bad input or failure, 130 after Ctrl-C.\n"
+      "A reader that closes standard output early, as `head` does, is no failure.");
   try {
     parser.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
@@ -59,6 +82,9 @@ std::optional<Flags> parse_flags(int argc, char** argv) {
     throw std::invalid_argument(
         "--peers: none was built, since EGL or OpenGL was not found (scripts/run --peers installs them)");
   flags.benchmark = parser.remaining();
+  flags.known = app::option_names(parser);
+  flags.known.insert(flags.known.end(), std::begin(kGoogleBenchmarkOptions),
+                     std::end(kGoogleBenchmarkOptions));
   for (const auto& flag : flags.benchmark) {
     if (flag.starts_with("--benchmark_repetitions")) flags.own_repetitions = false;
     if (flag.starts_with("--benchmark_min_time")) flags.own_iterations = false;

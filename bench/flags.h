@@ -13,6 +13,7 @@ struct Flags {
   SuiteOptions suite;
   std::string out;                     // --benchmark_out
   std::vector<std::string> benchmark;  // what is left for Google Benchmark
+  std::vector<std::string> known;      // the names of all options, Google Benchmark's included
   bool own_repetitions = true, own_iterations = true;
   bool need_peers = false;
   bool readable = true;  // standard output is for people, not JSON or CSV

@@ -10,6 +10,7 @@
 
 #include "app/console.h"
 #include "app/machine.h"
+#include "app/options.h"
 #include "app/process.h"
 #include "app/progress.h"
 #include "flags.h"
@@ -53,7 +54,7 @@ void initialize_benchmark(const Flags& flags) {
   for (auto& word : words) argv.push_back(word.data());
   int argc = static_cast<int>(argv.size());
   benchmark::Initialize(&argc, argv.data());
-  if (argc > 1) throw std::invalid_argument(fmt::format("unknown flag '{}'; --help lists all", argv[1]));
+  if (argc > 1) throw std::invalid_argument(app::unknown_option(argv[1], flags.known, kProgram));
 }
 
 class Mute final : public benchmark::BenchmarkReporter {
@@ -319,6 +320,6 @@ int guarded(int argc, char** argv) {
 int main(int argc, char** argv) {
   edgewise::app::prepare_process(edgewise::bench::kProgram);
   const int status = edgewise::bench::guarded(argc, argv);
-  if (std::cout.flush() || status == 2) return status;
+  if (edgewise::app::stdout_is_whole() || status == 2) return status;
   return edgewise::bench::failed("cannot write to standard output");
 }

@@ -26,14 +26,17 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-std::string unknown_name(std::string_view kind, std::string_view name,
-                         std::span<const std::string_view> known) {
-  std::string text = "unknown " + std::string(kind) + " '" + std::string(name) + "'";
+std::string did_you_mean(std::string_view name, std::span<const std::string_view> known) {
   const auto nearest = std::min_element(known.begin(), known.end(), [&](auto a, auto b) {
     return edit_distance(name, a) < edit_distance(name, b);
   });
-  if (nearest != known.end()) text += "; did you mean '" + std::string(*nearest) + "'?";
-  text += " (known:";
+  return nearest == known.end() ? "" : "; did you mean '" + std::string(*nearest) + "'?";
+}
+
+std::string unknown_name(std::string_view kind, std::string_view name,
+                         std::span<const std::string_view> known) {
+  std::string text = "unknown " + std::string(kind) + " '" + std::string(name) + "'";
+  text += did_you_mean(name, known) + " (known:";
   for (const auto k : known) {
     text += ' ';
     text += k;

@@ -10,7 +10,10 @@
 
 namespace edgewise {
 
-// "unknown KIND 'NAME'; did you mean 'NEAREST'? (known: …)", the nearest by edit distance.
+// "; did you mean 'NEAREST'?", by edit distance; empty if nothing is known.
+std::string did_you_mean(std::string_view name, std::span<const std::string_view> known);
+
+// "unknown KIND 'NAME'; did you mean 'NEAREST'? (known: …)".
 std::string unknown_name(std::string_view kind, std::string_view name,
                          std::span<const std::string_view> known);
 

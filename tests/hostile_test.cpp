@@ -79,6 +79,7 @@ void write_inputs(const TempDir& folder) {
   folder.write("good.obj", kCorners + "f 1 2 3\n");
   folder.write("empty.obj", "");
   folder.write("index.obj", kCorners + "f 1 2 9\n");
+  folder.write("tiny.obj", "v 0 0 0\nv 1e-40 0 0\nv 0 1e-40 0\nf 1 2 3\n");
   folder.write("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n");
   folder.write("infinite.obj", "v 0 0 0\nv 1e999 0 0\nv 0 1 0\nf 1 2 3\n");
   folder.write("binary.obj", "\x7F"s + "ELF\0\1\2\3"s);

@@ -73,6 +73,38 @@ TEST(Program, MachineIsDescribedWithoutAHostName) {
   EXPECT_TRUE(name.ends_with("-core\n") || name.ends_with("-cores\n")) << name;
 }
 
+// The sleep lets the reader go first.
+TEST(Program, EndsQuietlyAfterItsReader) {
+  for (const std::string command : {EDGEWISE_PROGRAM " demo --json", EDGEWISE_PROGRAM " render --help",
+                                    EDGEWISE_BENCH " --help", EDGEWISE_BENCH " --benchmark_list_tests"}) {
+    const Outcome outcome =
+        testing::run_program("/bin/bash", "-c '{ sleep 0.2; " + command + "; echo status $? >&2; } | true'");
+    EXPECT_EQ(outcome.err, "status 0\n") << command;
+  }
+}
+
+// What a program writes to a terminal, both streams together. script(1) makes the terminal.
+Outcome on_terminal(const std::string& term, const std::string& arguments) {
+  return testing::run_program(
+      "/usr/bin/env", "TERM=" + term + " script -qec \"" EDGEWISE_PROGRAM " " + arguments + "\" /dev/null");
+}
+
+TEST(Program, SendsNoCursorControlsToADumbTerminal) {
+  const std::string work = "verify cube --size 65x33";
+  EXPECT_NE(on_terminal("xterm", work).out.find("\x1b[K"), std::string::npos);
+  const Outcome dumb = on_terminal("dumb", work);
+  EXPECT_EQ(dumb.status, 0);
+  EXPECT_NE(dumb.out.find("cube"), std::string::npos);
+  EXPECT_EQ(dumb.out.find('\x1b'), std::string::npos) << dumb.out;
+
+  for (const std::string viewer : {"view --terminal", "demo outlaw-triad --terminal"}) {
+    const Outcome refused = on_terminal("dumb", viewer);
+    EXPECT_EQ(refused.status, 2) << viewer;
+    EXPECT_EQ(refused.out.find('\x1b'), std::string::npos) << refused.out;
+    EXPECT_NE(refused.out.find("moves its cursor"), std::string::npos) << refused.out;
+  }
+}
+
 // Results of different machines must not go to one folder.
 TEST(Program, TellsCpusApartThatGoByOneName) {
   TempDir folder;

@@ -1,10 +1,13 @@
 #include "app/console.h"
 
+#include <poll.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <string>
+#include <string_view>
 
 #include "app/printable.h"
 
@@ -15,12 +18,19 @@ void print(std::string_view text) {
 }
 
 bool stdout_is_whole() {
-  return std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return true;
+  pollfd out{STDOUT_FILENO, POLLOUT, 0};
+  return poll(&out, 1, 0) == 1 && (out.revents & POLLERR) != 0;
 }
 
 void print_error(std::string_view message, std::string_view program) {
   const std::string line = std::string(program) + ": " + printable(message, ' ') + '\n';
   std::fwrite(line.data(), 1, line.size(), stderr);
+}
+
+bool moves_cursor(int descriptor) {
+  const char* const term = std::getenv("TERM");
+  return isatty(descriptor) != 0 && term != nullptr && std::string_view(term) != "dumb";
 }
 
 int terminal_width(int descriptor) {

@@ -74,6 +74,9 @@ void place_camera(Camera& camera, const SceneOptions& o) {
     throw std::invalid_argument("--at and --yaw or --pitch exclude each other");
   const auto radians = [](double degrees) { return static_cast<float>(glm::radians(degrees)); };
   if (o.eye) camera.position = *o.eye;
+  if (o.at && *o.at == camera.position)
+    throw std::invalid_argument(
+        "--at is where the camera stands, which gives no direction to look in: change --eye or --at");
   if (o.at) camera.look_at(*o.at);
   if (o.yaw_deg) camera.yaw = radians(*o.yaw_deg);
   if (o.pitch_deg) camera.pitch = radians(*o.pitch_deg);
@@ -83,6 +86,23 @@ void place_camera(Camera& camera, const SceneOptions& o) {
 }
 
 }  // namespace
+
+std::vector<std::string> option_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+  }
+  return names;
+}
+
+std::string unknown_option(std::string_view word, const std::vector<std::string>& known,
+                           std::string_view command) {
+  const std::string_view name = word.substr(0, word.find('='));
+  const std::vector<std::string_view> names(known.begin(), known.end());
+  const std::string nearest = name.starts_with('-') ? did_you_mean(name, names) : "";
+  return fmt::format("unknown option '{}'{} ({} --help lists all)", name, nearest, command);
+}
 
 Size parse_size(std::string_view option, std::string_view text) {
   const auto cross = text.find('x');
@@ -241,9 +261,9 @@ void ExecutionOptions::add_to(CLI::App& command) {
       .add_option_function<std::string>(
           "--tile",
           [this](const std::string& text) {
-            const int tile = parse_integer("--tile", text, 16, 64);
+            const auto tile = parsed<int>(text);
             if (tile != 16 && tile != 32 && tile != 64) reject("--tile", text, "16, 32 or 64");
-            execution.tile_size = tile;
+            execution.tile_size = *tile;
           },
           "Tile size in pixels of the tiled backend: 16, 32 or 64 (64)")
       ->type_name("PX");

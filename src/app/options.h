@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "app/source.h"
 #include "edgewise/backend.h"
@@ -24,6 +25,13 @@ struct Size {
   int width, height;  // px
 };
 inline constexpr Size kDefaultSize{1280, 720};
+
+// All names of a command's options, with their dashes.
+std::vector<std::string> option_names(const CLI::App& command);
+
+// "unknown option 'WORD'; did you mean 'NEAREST'? (COMMAND --help lists all)". A value after "=" is ignored.
+std::string unknown_option(std::string_view word, const std::vector<std::string>& known,
+                           std::string_view command);
 
 Size parse_size(std::string_view option, std::string_view text);
 double parse_number(std::string_view option, std::string_view text, double min, double max);

@@ -22,7 +22,7 @@ volatile std::sig_atomic_t on_screen = 0;
 
 }  // namespace
 
-Progress::Progress() : terminal_(isatty(STDERR_FILENO) != 0) {}
+Progress::Progress() : terminal_(moves_cursor(STDERR_FILENO)) {}
 
 Progress::~Progress() {
   erase();

@@ -1,4 +1,4 @@
-// A progress bar: one line on stderr, redrawn in place, only where stderr is a terminal.
+// A progress bar: one line on stderr, redrawn in place, only on a terminal that moves its cursor.
 #pragma once
 
 #include <chrono>

@@ -1,14 +1,17 @@
 #include "app/run.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 #include <sstream>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "app/commands.h"
 #include "app/console.h"
+#include "app/options.h"
 #include "app/process.h"
 #include "nearest_name.h"
 
@@ -22,20 +25,29 @@ constexpr const char* kProgramFooter = R"(Try:
   edgewise verify                        do all backends agree on every bit?
   edgewise COMMAND --help                options and examples
 
-Exit status: 0 done, 1 a difference was found, 2 bad input or failure, 128 + N stopped by signal N (130: Ctrl-C).)";
+The folder of an output file must exist. An output that is a folder itself (-o pictures/) is made.
+
+Exit status: 0 done, 1 a difference was found, 2 bad input or failure, 128 + N stopped by signal N (130: Ctrl-C).
+A reader that closes standard output early, as `head` does, is no failure.)";
 
 // CLI11 would only say that the word was not expected, or that a command is missing.
 void check_first_word(const CLI::App& program, std::string_view word) {
-  std::vector<std::string_view> known{"--help", "--version", "-h"};
-  const bool option = word.starts_with('-');
-  if (!option) {
-    known.clear();
-    const auto commands = program.get_subcommands([](const CLI::App*) { return true; });
-    for (const CLI::App* command : commands) known.push_back(command->get_name());
-  }
-  for (const std::string_view name : known)
-    if (name == word) return;
-  throw std::invalid_argument(unknown_name(option ? "option" : "command", word, known));
+  std::vector<std::string> words = option_names(program);
+  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
+    words.push_back(command->get_name());
+  const std::vector<std::string_view> known(words.begin(), words.end());
+  if (std::find(known.begin(), known.end(), word) != known.end()) return;
+  throw std::invalid_argument(unknown_name(word.starts_with('-') ? "option" : "command", word, known));
+}
+
+// The message of a command line that CLI11 refuses. A mistyped option explains errors that seem to be others:
+// its value stands for a positional argument, or a required option seems to be missing.
+std::string why_refused(const CLI::ParseError& error, const CLI::App& program) {
+  for (const CLI::App* command : program.get_subcommands())
+    for (const std::string& word : command->remaining())
+      if (word.starts_with('-'))
+        return unknown_option(word, option_names(*command), program.get_name() + ' ' + command->get_name());
+  return error.what();
 }
 
 int guarded(int argc, char** argv, viewer::ShowWindow show_window) {
@@ -72,7 +84,7 @@ Action parse(int argc, char** argv, viewer::ShowWindow show_window) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() != 0) throw std::invalid_argument(error.what());
+    if (error.get_exit_code() != 0) throw std::invalid_argument(why_refused(error, program));
     std::ostringstream help;
     program.exit(error, help, help);
     return [text = help.str()] {

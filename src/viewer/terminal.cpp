@@ -12,6 +12,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "app/console.h"
 #include "app/process.h"
 #include "edgewise/contract.h"
 #include "viewer/terminal_input.h"
@@ -59,6 +60,8 @@ class RawTerminal {
   RawTerminal() {
     if (isatty(STDIN_FILENO) == 0 || isatty(STDOUT_FILENO) == 0 || tcgetattr(STDIN_FILENO, &mode_before) != 0)
       throw std::runtime_error("--terminal needs a terminal to show pictures in and to read keys from");
+    if (!app::moves_cursor(STDOUT_FILENO))
+      throw std::runtime_error("--terminal needs a terminal that moves its cursor: TERM is unset or 'dumb'");
     app::call_before_stopping(leave);
     termios raw = mode_before;
     raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO | IEXTEN);
