@@ -5,6 +5,10 @@
 
 #include "edgewise/simd_target.h"
 
+#ifdef __AVX__
+#error "CMakeLists.txt must compile this file with kernel_options"
+#endif
+
 // The kernel for a resolved target. Use where HWY_ONCE holds, in the namespace that encloses HWY_NAMESPACE.
 // It is never null: supported_targets() lists only targets that were compiled, and a build without the scalar
 // kernels doesn't compile.
