@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -12,11 +13,14 @@
 #include "edgewise/contract.h"
 #include "edgewise/frontend.h"
 #include "edgewise/limits.h"
+#include "frontend/fixed.h"
 #include "frontend/jobs.h"
+#include "frontend/stream.h"
 #include "frontend/transform.h"
 #include "message_of.h"
 #include "raster/parallel.h"
 #include "scene/random.h"
+#include "support.h"
 
 namespace edgewise {
 namespace {
@@ -132,6 +136,81 @@ TEST(FrontendKernels, StreamsAreAlikeOnEveryTargetAndThreadCount) {
   for (const Cull cull : {Cull::none, Cull::back, Cull::front})
     for (const Payload payload : {Payload::colour, Payload::id})
       expect_all_alike(wild_stream(), {.width = 640, .height = 480, .cull = cull, .payload = payload});
+}
+
+// A float of 0 … 1 in contract units, half to even, by integers alone.
+std::uint32_t exact_depth(float z01) {
+  const auto bits = std::bit_cast<std::uint32_t>(z01);
+  const std::uint32_t exponent = bits >> 23, fraction = bits & 0x7FFFFF;
+  const std::uint32_t mantissa = exponent == 0 ? fraction : fraction | 1u << 23;
+  const std::uint32_t shift = 150 - std::max(exponent, 1u);  // z01 = mantissa / 2^shift
+  if (shift > 60) return contract::kDepthHead;               // less than half a unit
+  const std::uint64_t product = std::uint64_t{mantissa} * contract::kDepthRange;
+  const std::uint64_t whole = product >> shift, rest = product - (whole << shift);
+  const std::uint64_t half = std::uint64_t{1} << (shift - 1);
+  const bool up = rest > half || (rest == half && whole % 2 == 1);
+  return contract::kDepthHead + static_cast<std::uint32_t>(whole) + (up ? 1 : 0);
+}
+
+// Quantizes depths by every SIMD target's kernel and one by one, and compares them with exact_depth().
+class DepthRounding {
+ public:
+  DepthRounding() {
+    const StreamTriangle triangle{{{0, 0, 0}, {50, 0, 0}, {0, 50, 0}}, 0};
+    stream_.triangles.assign(kRun, triangle);
+    out_.reserve(false);
+    for (const SimdTarget target : supported_targets()) kernels_.push_back(stream_kernel(target));
+  }
+  void add(float z01) {
+    stream_.triangles[count_ / 3].vertex[count_ % 3].z = z01;
+    if (++count_ == 3 * kRun) check();
+  }
+  // Checks what was added since the last check.
+  void check() {
+    for (std::size_t i = 0; i < count_; ++i) {
+      const float z01 = stream_.triangles[i / 3].vertex[i % 3].z;
+      expected_[i] = exact_depth(z01);
+      compare(quantize_depth(z01), i, "one by one");
+    }
+    for (std::size_t k = 0; k < kernels_.size(); ++k) {
+      out_.count = 0;
+      kernels_[k]({options_, stream_}, 0, kRun, out_);
+      ASSERT_EQ(out_.count, kRun);
+      for (std::size_t i = 0; i < count_; ++i)
+        compare(out_.triangles.data()[i / 3].z[i % 3], i, name_of(supported_targets()[k]));
+    }
+    count_ = 0;
+  }
+  std::size_t wrong() const { return wrong_; }
+
+ private:
+  // Only the first mistake is described: there may be a billion.
+  void compare(std::uint32_t found, std::size_t i, std::string_view by) {
+    if (found != expected_[i] && wrong_++ == 0)
+      ADD_FAILURE() << by << ": " << stream_.triangles[i / 3].vertex[i % 3].z << " became " << found
+                    << " instead of " << expected_[i];
+  }
+
+  FrontendOptions options_{.width = 64, .height = 64, .cull = Cull::none};
+  TriangleStream stream_{64, 64, {}};
+  std::vector<StreamKernel> kernels_;
+  std::vector<std::uint32_t> expected_ = std::vector<std::uint32_t>(3 * kRun);
+  RunOutput out_;
+  std::size_t count_ = 0, wrong_ = 0;
+};
+
+// At full size all floats of 0 … 1, else every thousandth, the ends of every binade, and all ties.
+TEST(FrontendKernels, DepthsAreRoundedHalfToEven) {
+  constexpr std::uint32_t kOne = std::bit_cast<std::uint32_t>(1.0f);
+  DepthRounding rounding;
+  for (const float tie : {0.125f, 0.375f, 0.625f, 0.875f}) rounding.add(tie);
+  for (std::uint32_t binade = 0; binade <= kOne; binade += 1u << 23)
+    for (const std::uint32_t bits : {binade - 1, binade, binade + 1})
+      if (bits <= kOne) rounding.add(std::bit_cast<float>(bits));
+  const std::uint32_t step = testing::full_size() ? 1 : 1009;
+  for (std::uint32_t bits = 0; bits <= kOne; bits += step) rounding.add(std::bit_cast<float>(bits));
+  rounding.check();
+  EXPECT_EQ(rounding.wrong(), 0u);
 }
 
 TEST(FrontendKernels, BuiltInScenesAreAlikeOnEveryTarget) {

@@ -80,16 +80,19 @@ static_assert(std::int64_t{kMaxTile} * 2 * (2 * kGuardSub) <= std::int64_t{1} <<
 // The plane is anchored at the topmost, then leftmost vertex, so rotating or flipping the vertices changes no
 // bit. Error at a sample inside the triangle: gx, gy are off by less than 2^-16 each over at most 2^15 px,
 // base rounds by 1/2, and 63 steps on both axes are off by at most 1/2 each: under 2 (1/2) + 1/2 + 126 (1/2)
-// < 65. A head-room of 128 units at both ends of the 31 bits therefore keeps every drawn depth from wrapping,
-// and keeps it below kDepthClear, so the background never wins. The cells lie fixed in the image: a triangle
-// moved by whole pixels keeps its samples, but its depths only if moved by multiples of 64; else they may
-// differ by two errors, under 2 * 65 units.
+// < 65. A head-room of at least 128 units at both ends of the 31 bits therefore keeps every drawn depth from
+// wrapping, and keeps it below kDepthClear, so the background never wins. The range is a multiple of 4, so it
+// has 29 significant bits, and its product with a float (24 bits) is exact in a double (53 bits): the front
+// end rounds a depth only once. The cells lie fixed in the image: a triangle moved by whole pixels keeps its
+// samples, but its depths only if moved by multiples of 64; else they may differ by two errors, under 2 * 65
+// units.
 inline constexpr int kDepthCell = 64;
 inline constexpr std::uint32_t kDepthHead = 128;
 inline constexpr std::uint32_t kDepthClear = 0x7FFFFFFF;
-inline constexpr std::uint32_t kDepthRange = kDepthClear - 2 * kDepthHead;
+inline constexpr std::uint32_t kDepthRange = kDepthClear - 2 * kDepthHead - 3;
 inline constexpr std::uint32_t kDepthError = 65;
 static_assert(kDepthHead > kDepthError && kDepthCell == kMaxTile);
+static_assert(kDepthRange % 4 == 0 && kDepthRange < std::uint32_t{1} << 31);
 
 // Contract units → depth from 0 (near) to 1 (far); the background is 1.
 constexpr double depth01(std::uint32_t depth) {

@@ -24,7 +24,9 @@ inline std::int32_t snap(float px) {
   return round_half_even(std::clamp(px * static_cast<float>(contract::kSub), -kLimit, kLimit));
 }
 
-// Depth in [0, 1] (clamped) → contract units.
+// Depth in [0, 1] (clamped) → contract units, half to even for every float: the product is exact (rule 6), so
+// the addition is the only operation that rounds. As the sum lies between 2^52 and 2^53, it rounds to whole
+// units.
 inline std::uint32_t quantize_depth(float depth01) {
   const double units = static_cast<double>(std::clamp(depth01, 0.0f, 1.0f)) * contract::kDepthRange;
   return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(units + kRoundDouble) -

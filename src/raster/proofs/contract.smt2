@@ -22,7 +22,7 @@
 (define-const kDepthCell Int 64)           ; = kDepthCell of src/edgewise/contract.h
 (define-const kDepthHead Int 128)          ; = kDepthHead of src/edgewise/contract.h
 (define-const kDepthClear Int 2147483647)  ; = kDepthClear of src/edgewise/contract.h
-(define-const kDepthRange Int 2147483391)  ; = kDepthRange of src/edgewise/contract.h
+(define-const kDepthRange Int 2147483388)  ; = kDepthRange of src/edgewise/contract.h
 (define-const kDepthError Int 65)          ; = kDepthError of src/edgewise/contract.h
 
 (define-const two8 Int 256)
