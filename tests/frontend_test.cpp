@@ -329,6 +329,28 @@ TEST(Frontend, ShadingFollowsRotationAndMirroring) {
   EXPECT_LT(contract::signed_area(result.triangles.at(0)), 0);
 }
 
+TEST(Frontend, MirroringTurnsAClosedMeshInsideOut) {
+  auto scene = std::get<Scene>(find_scene("cube").make({}));
+  const Mesh& cube = scene.meshes.at(0);
+  FrontendOptions options{.width = 100, .height = 100, .cull = Cull::back, .payload = Payload::id};
+  for (const glm::vec3 scale :
+       {glm::vec3(1, 1, 1), {-1, 1, 1}, {1, -1, 1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, -1}}) {
+    scene.instances.at(0).scale = scale;
+    const glm::mat4 model = model_matrix(scene.instances[0]);
+    const glm::vec3 centre(model[3]);
+    const auto seen = run(scene, options).triangles;
+    EXPECT_GE(seen.size(), 2u);
+    for (const ScreenTriangle& t : seen) {
+      const glm::uvec3 corners = cube.triangles.at(t.payload);
+      const glm::vec3 middle =
+          (cube.positions[corners.x] + cube.positions[corners.y] + cube.positions[corners.z]) / 3.0f;
+      const glm::vec3 at(model * glm::vec4(middle, 1.0f));
+      const bool outside = glm::dot(at - centre, scene.camera.position - at) > 0.0f;
+      EXPECT_EQ(outside, scale.x * scale.y * scale.z > 0.0f) << "triangle " << t.payload;
+    }
+  }
+}
+
 TEST(Frontend, ShadesStretchedInstancesAsIfTheirMeshesWereStretched) {
   Random random(23);
   for (int i = 0; i < 200; ++i) {

@@ -40,7 +40,10 @@ struct Mesh {
   void add_quad(glm::uvec4 corners, std::uint32_t colour, bool two_sided = false);
 };
 
-// A mesh in the world: scaled, then rotated about an axis through its origin, then moved.
+// A mesh in the world: scaled, then rotated about an axis through its origin, then moved. A scale with one or
+// three negative components mirrors the mesh. Only the winding decides which side is the front, and mirroring
+// reverses it: Cull::back shows the inside of a closed mesh, and the light falls on that side, too. To draw
+// the outside, give the instance a mesh whose triangles name their vertices in reverse order.
 struct Instance {
   std::size_t mesh = 0;  // index into Scene::meshes
   glm::vec3 scale{1.0f};
