@@ -3,7 +3,9 @@
 #include <set>
 #include <stdexcept>
 
+#include "edgewise/frontend.h"
 #include "every_backend.h"
+#include "message_of.h"
 
 namespace edgewise {
 namespace {
@@ -215,6 +217,20 @@ TEST_P(EveryBackend, RefusesWhatItCannotDraw) {
   EXPECT_THROW(draw(with([](auto& v) { v.stride = 7; }), {}), std::invalid_argument);
   EXPECT_THROW(draw(with([](auto& v) { v.depth = nullptr; }), {}), std::invalid_argument);
   EXPECT_NO_THROW(draw(good, {}));
+}
+
+TEST_P(EveryBackend, RefusesAFrameOfAnotherSizeThanTheFrontEndsImage) {
+  Frontend frontend;
+  const auto draw = [&](int width, int height) {
+    Framebuffer frame(width, height);
+    const ScreenTriangles triangles = frontend.run(TriangleStream{}, {.width = 80, .height = 60});
+    backend_->draw(triangles, frame.view(), 0, {});
+  };
+  EXPECT_NO_THROW(draw(80, 60));
+  EXPECT_EQ(message_of([&] { draw(81, 60); }),
+            "triangles made for 80 x 60 px cannot be drawn into a frame of 81 x 60 px");
+  EXPECT_EQ(message_of([&] { draw(80, 59); }),
+            "triangles made for 80 x 60 px cannot be drawn into a frame of 80 x 59 px");
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, EveryBackend, ::testing::ValuesIn(testing::names_of(backends())),

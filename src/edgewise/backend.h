@@ -42,6 +42,10 @@ class Backend {
   // frames of a kind allocate only in the first.
   void draw(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
             const Execution& execution);
+  // The same for what a front end made. Throws std::invalid_argument, too, if it was made for a frame of
+  // another size.
+  void draw(const ScreenTriangles& triangles, FrameView frame, std::uint32_t background,
+            const Execution& execution);
 
  private:
   // `execution.target` is resolved, all arguments are checked.

@@ -91,13 +91,14 @@ class Frontend {
   Frontend& operator=(Frontend&&) noexcept;
 
   // The visible triangles in submission order, in this object's memory: valid until the next call, or until
-  // the object goes. Neither argument is kept, and a drawable may be run by several front ends at once.
+  // the object goes. Backend::draw() refuses them for a frame of another size than options.width x
+  // options.height. Neither argument is kept, and a drawable may be run by several front ends at once.
   // Throws std::invalid_argument for a camera, a size or a thread count out of range, an instance that names
   // a mesh the scene lacks, a mesh without a colour for each triangle, more than kMaxTriangles (before any
   // memory is taken for them), a triangle of a mesh in view that names a vertex its mesh lacks, or a SIMD
   // target that this machine cannot run; std::bad_alloc for lack of memory. It may be called again after
   // either.
-  std::span<const ScreenTriangle> run(const Drawable& drawable, const FrontendOptions& options);
+  ScreenTriangles run(const Drawable& drawable, const FrontendOptions& options);
   // Of the last call of run().
   const FrontendStats& stats() const;
   // One for each triangle that run() returned, if keep_unsnapped was set; else none, as when it threw.

@@ -1,9 +1,10 @@
-// What the front end hands to a backend: a triangle on the snapped pixel grid.
+// What the front end hands to a backend: triangles on the snapped pixel grid.
 #pragma once
 
 #include "edgewise/cxx20.h"
 
 #include <cstdint>
+#include <span>
 
 namespace edgewise {
 
@@ -18,5 +19,19 @@ struct alignas(8) ScreenTriangle {
   std::uint32_t payload;  // written where the triangle wins: a colour when rendering, an id when judging
 };
 static_assert(sizeof(ScreenTriangle) == 40);
+
+// Triangles together with the image size they were made for. A backend refuses a frame of any other size. A
+// plain span carries no size, so a backend draws it to any frame.
+class ScreenTriangles : public std::span<const ScreenTriangle> {
+ public:
+  ScreenTriangles(std::span<const ScreenTriangle> triangles, int width, int height)
+      : span(triangles), width_(width), height_(height) {}
+
+  int width() const { return width_; }    // px
+  int height() const { return height_; }  // px
+
+ private:
+  int width_, height_;
+};
 
 }  // namespace edgewise

@@ -271,7 +271,7 @@ Frontend::~Frontend() = default;
 Frontend::Frontend(Frontend&&) noexcept = default;
 Frontend& Frontend::operator=(Frontend&&) noexcept = default;
 
-std::span<const ScreenTriangle> Frontend::run(const Drawable& drawable, const FrontendOptions& options) {
+ScreenTriangles Frontend::run(const Drawable& drawable, const FrontendOptions& options) {
   State& s = *state_;
   s.unsnapped_count = s.state_count = 0;
   for (const int side : {options.width, options.height})
@@ -284,7 +284,7 @@ std::span<const ScreenTriangle> Frontend::run(const Drawable& drawable, const Fr
   s.options = options;
   s.options.target = resolve(options.target);
   s.run(drawable);
-  return {s.screen.data(), s.order.total()};
+  return {{s.screen.data(), s.order.total()}, options.width, options.height};
 }
 
 const FrontendStats& Frontend::stats() const {

@@ -28,4 +28,15 @@ void Backend::draw(std::span<const ScreenTriangle> triangles, FrameView frame, s
   draw_checked(triangles, frame, background, checked);
 }
 
+void Backend::draw(const ScreenTriangles& triangles, FrameView frame, std::uint32_t background,
+                   const Execution& execution) {
+  const auto size = [](int width, int height) {
+    return std::to_string(width) + " x " + std::to_string(height) + " px";
+  };
+  if (triangles.width() != frame.width || triangles.height() != frame.height)
+    throw std::invalid_argument("triangles made for " + size(triangles.width(), triangles.height()) +
+                                " cannot be drawn into a frame of " + size(frame.width, frame.height));
+  draw(std::span(triangles), frame, background, execution);
+}
+
 }  // namespace edgewise
