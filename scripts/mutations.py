@@ -11,6 +11,7 @@ from bench_rows import BadInput
 
 COPIED = ("CMakeLists.txt", "README.md", "bench", "results", "scripts", "src", "tests")
 KEYS = {"name", "mistake", "file", "tests", "before", "after"}
+OPTIONAL = {"sanitizer": {"thread"}}  # keys that an entry may have, and the values allowed
 
 
 @dataclass(frozen=True)
@@ -21,6 +22,7 @@ class Mutation:
     tests: str  # a filter of GoogleTest's: who is asked first
     before: str
     after: str
+    sanitizer: str = ""  # the build whose tests must catch it; "": the usual one
 
 
 def read_mutations(path):
@@ -29,8 +31,11 @@ def read_mutations(path):
     except (OSError, KeyError, tomllib.TOMLDecodeError) as error:
         raise BadInput(f"{path}: {error}") from error
     for entry in entries:
-        if set(entry) != KEYS:
+        if set(entry) - set(OPTIONAL) != KEYS:
             raise BadInput(f"{path}: {entry.get('name', 'an entry')} must have exactly {', '.join(sorted(KEYS))}")
+        for key, allowed in OPTIONAL.items():
+            if entry.get(key) not in (None, *allowed):
+                raise BadInput(f"{path}: {entry['name']}: {key} must be one of {', '.join(sorted(allowed))}")
     mutations = [Mutation(**entry) for entry in entries]
     names = [m.name for m in mutations]
     twice = sorted({name for name in names if names.count(name) > 1})

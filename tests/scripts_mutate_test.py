@@ -60,6 +60,7 @@ class MutateTest(unittest.TestCase):
     def test_a_bad_table_is_told(self):
         for text, message in ((ENTRY.format("a") + ENTRY.format("a"), "twice: a"),
                               (ENTRY.format("a").replace("mistake", "idea"), "a must have exactly"),
+                              (ENTRY.format("a") + 'sanitizer = "memory"\n', "a: sanitizer must be one of thread"),
                               ("", "mutation"), ("[[", "Invalid|Expected")):
             with self.assertRaisesRegex(BadInput, message):
                 self.read(text)

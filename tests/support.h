@@ -24,6 +24,14 @@ inline bool full_size() {
   return std::getenv("EDGEWISE_FULL") != nullptr;
 }
 
+// Under the thread sanitizer, which slows tests down tenfold, a choice of executions holds only those that
+// can have races: several threads, with the best SIMD target.
+#ifdef __SANITIZE_THREAD__
+inline constexpr bool kRacesOnly = true;
+#else
+inline constexpr bool kRacesOnly = false;
+#endif
+
 // Families of triangles that are hard for a rasterizer.
 inline constexpr std::string_view kFamilies[] = {"lattice",     "pixel-centres", "subpixel",   "slivers",
                                                  "huge",        "guardband",     "tiny",       "degenerate",
@@ -85,8 +93,9 @@ inline std::vector<ScreenTriangle> adversarial(std::string_view family, int coun
 // one; and what only the naive backend looks at.
 inline std::vector<Execution> executions() {
   std::vector<Execution> list;
-  for (const auto target : supported_targets()) list.push_back({1, 64, target});
   for (const int threads : {2, 3, 8}) list.push_back({threads, 64, SimdTarget::best});
+  if (kRacesOnly) return list;
+  for (const auto target : supported_targets()) list.push_back({1, 64, target});
   for (const auto target : supported_targets())
     for (const int tile : {16, 32}) list.push_back({2, tile, target});
   for (const auto target : supported_targets())
