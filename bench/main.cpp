@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iostream>
 #include <limits>
+#include <span>
 
 #include "app/console.h"
 #include "app/machine.h"
@@ -110,8 +111,17 @@ void leave_out_missing_peers(std::vector<Row>& rows, bool need_peers) {
   }
 }
 
-// Workload by workload, so that only one reference picture is held at a time.
-void compare_all(std::vector<Row>& rows, Stage& stage) {
+// Whether the row before is the same backend's draw without the front end, and took too long already.
+bool is_too_slow_alone(std::span<const Row> rows, std::size_t i) {
+  if (i == 0 || rows[i].timed != Timed::frame || rows[i].cores > 0) return false;
+  const Row &row = rows[i], &alone = rows[i - 1];
+  return alone.timed == Timed::raster && alone.workload == row.workload && alone.backend == row.backend &&
+         alone.execution.threads == row.execution.threads && alone.once_s > kTooSlowToRepeat_s;
+}
+
+// Workload by workload, so that only one reference picture is held at a time. Of the whole suite, frames that
+// will be left out for their length are not drawn.
+void compare_all(std::vector<Row>& rows, Stage& stage, bool whole_suite) {
   app::Progress progress;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     progress.show(static_cast<double>(i) / static_cast<double>(rows.size()), "comparing " + rows[i].name);
@@ -122,6 +132,8 @@ void compare_all(std::vector<Row>& rows, Stage& stage) {
     workload.prepare(std::any_of(rows.begin(), rows.end(), needs_scene));
     if (rows[i].cores > 0 && is_beaten(rows[i], rows))
       rows[i].once_s = std::numeric_limits<double>::infinity();
+    else if (whole_suite && is_too_slow_alone(rows, i))
+      rows[i].once_s = rows[i - 1].once_s;
     else
       stage.compare(rows[i]);
     if (needs_peak(rows[i])) rows[i].peak_bytes = peak_bytes(rows[i]).value_or(0.0);
@@ -279,7 +291,7 @@ int run(int argc, char** argv) {
   leave_out_missing_peers(rows, flags.need_peers);
   if (rows.empty()) return 2;
   Stage stage;
-  compare_all(rows, stage);
+  compare_all(rows, stage, flags.suite.scenes.empty());
   if (flags.suite.scenes.empty()) leave_out_slow_frames(rows);
   add_context(flags);
   std::vector<std::string> names;

@@ -405,7 +405,7 @@ TEST(SoakFindings, IncludeAFrontEndThatIsWrong) {
   Campaign campaign = campaign_of(60);
   campaign.judged.frontend = [](Frontend& frontend, const Drawable& drawable,
                                 const FrontendOptions& options) {
-    const auto all = frontend.run(drawable, options);
+    const std::span<const ScreenTriangle> all = frontend.run(drawable, options);
     return options.threads > 1 && !all.empty() ? all.first(all.size() - 1) : all;
   };
   campaign.failure_folder = folder.path() / "failures";

@@ -76,9 +76,9 @@ crossings of an edge with a row or column of samples, per 10^6 pixels or per 10^
 the rate is below the bound in brackets with 95 % confidence. A gap is farther inside the union of the triangles
 than the method's promise lets an edge move, or than 0.71 px if that is less.
 
-Of some scenes a part is judged, the same each time: sliver 3 %, knots 10 %, medium 30 %, small and micro 40 % of
-the triangles; less with --quick. Meshes, built in or yours, are judged in coverage and visibility, streams in
-coverage alone; facing and clipping have scenes of their own.
+Of large streams a part is judged, the same each time: the JSON says how many triangles; less with --quick. Meshes,
+built in or yours, are judged in coverage and visibility, streams in coverage alone; facing and clipping have
+scenes of their own.
 
 Pictures, FAMILY-SCENE-METHOD.png: vermilion: nothing was drawn where something must be (of coverage: a gap, a
 crack between neighbours); blue: drawn twice, or by the wrong triangle; yellow: a triangle lacks a pixel that

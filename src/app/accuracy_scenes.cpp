@@ -26,11 +26,11 @@ struct Share {
 };
 constexpr Share kShares[] = {
     {"torus-knot", kFullHd, kFullHd, 1, 1, Timed::always, 3.4, 2.2},
-    {"medium", kFullHd, kUsual, 0.3, 0.1, Timed::never, 4, 0.5},
-    {"small", kFullHd, kUsual, 0.4, 0.05, Timed::never, 5, 0.5},
-    {"micro", kFullHd, kUsual, 0.4, 0.05, Timed::never, 3, 0.5},
-    {"large", kFullHd, kUsual, 1, 0.1, Timed::never, 1.6, 0.3},
-    {"sliver", kFullHd, kUsual, 0.03, 0.02, Timed::never, 3, 1},
+    {"medium", kFullHd, kUsual, 0.15, 0.1, Timed::never, 2, 0.5},
+    {"small", kFullHd, kUsual, 0.15, 0.05, Timed::never, 2.5, 0.5},
+    {"micro", kFullHd, kUsual, 0.15, 0.05, Timed::never, 2, 0.5},
+    {"large", kFullHd, kUsual, 0.4, 0.1, Timed::never, 1, 0.3},
+    {"sliver", kFullHd, kUsual, 0.02, 0.02, Timed::never, 2, 1},
     {"knots", kFullHd, kUsual, 0.1, 0.02, Timed::never, 4, 1},
 };
 constexpr Share kUsualShare{"", kFullHd, kUsual, 1, 1, Timed::never, 1, 0.3};
