@@ -102,15 +102,14 @@ class LostSamples {
   void meet(const Inside& triangle, const Ring& ring) {
     const auto [left, right] = triangle.columns();
     const auto [top, bottom] = triangle.rows();
-    const double reach = ring.radius();
+    const double reach = ring.radius(), leftmost = left - reach;
     const int first = row_at(std::ceil(top - reach - 0.5)),
               end = row_at(std::floor(bottom + reach - 0.5) + 1);
     for (int row = first; row < end; ++row) {
       const auto begin = list_.begin() + static_cast<std::ptrdiff_t>(row_[static_cast<std::size_t>(row)]),
                  stop = list_.begin() + static_cast<std::ptrdiff_t>(row_[static_cast<std::size_t>(row) + 1]);
       if (begin == stop) continue;
-      auto sample =
-          std::partition_point(begin, stop, [&](const Sample& s) { return s.x + 0.5 < left - reach; });
+      auto sample = std::partition_point(begin, stop, [&](const Sample& s) { return s.x + 0.5 < leftmost; });
       for (; sample != stop && sample->x + 0.5 <= right + reach; ++sample)
         sample->points |= triangle.points(ring, sample->x + 0.5, window_.y0 + row + 0.5);
     }
