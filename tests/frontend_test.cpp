@@ -337,15 +337,16 @@ TEST(Frontend, MirroringTurnsAClosedMeshInsideOut) {
        {glm::vec3(1, 1, 1), {-1, 1, 1}, {1, -1, 1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, -1}}) {
     scene.instances.at(0).scale = scale;
     const glm::mat4 model = model_matrix(scene.instances[0]);
-    const glm::vec3 centre(model[3]);
     const auto seen = run(scene, options).triangles;
     EXPECT_GE(seen.size(), 2u);
     for (const ScreenTriangle& t : seen) {
-      const glm::uvec3 corners = cube.triangles.at(t.payload);
-      const glm::vec3 middle =
-          (cube.positions[corners.x] + cube.positions[corners.y] + cube.positions[corners.z]) / 3.0f;
-      const glm::vec3 at(model * glm::vec4(middle, 1.0f));
-      const bool outside = glm::dot(at - centre, scene.camera.position - at) > 0.0f;
+      glm::vec3 at[3];
+      for (int k = 0; k < 3; ++k)
+        at[k] = glm::vec3(model * glm::vec4(cube.positions[cube.triangles.at(t.payload)[k]], 1.0f));
+      const glm::vec3 normal = glm::cross(at[1] - at[0], at[2] - at[0]);
+      const float centre_side = glm::dot(normal, glm::vec3(model[3]) - at[0]);
+      const float camera_side = glm::dot(normal, scene.camera.position - at[0]);
+      const bool outside = centre_side * camera_side < 0.0f;
       EXPECT_EQ(outside, scale.x * scale.y * scale.z > 0.0f) << "triangle " << t.payload;
     }
   }
