@@ -1,9 +1,10 @@
-"""README's examples: files of the tests, which build and run them. README shows them whole."""
+"""The examples in READMEs: files of the tests, which build and run them, shown whole."""
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 
 EXAMPLES = {
+    "example_short": "tests/consumer/picture.cpp",
     "example_consumer": "tests/consumer/main.cpp",
     "example_backend": "tests/extending/quadtree.cpp",
     "example_method": "tests/extending/double_snapped.cpp",

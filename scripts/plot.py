@@ -30,6 +30,7 @@ def main():
     import plot_scaling
     import plot_scenes
     import plot_stability
+    import plot_stability_grid
     import plot_sweeps
     charts = (*plot_sweeps.CHARTS, *plot_scenes.CHARTS, *plot_ladder.CHARTS)
     drawn = [name for chart in charts if (name := chart(bench, folder, caption))]
@@ -37,6 +38,8 @@ def main():
                                 plot_scaling.scaling(bench, folder, caption)) if name]
     drawn += plot_peers.against(bench, folder, caption)
     drawn += [*plot_accuracy.draw(accuracy, folder, caption), *plot_stability.draw(sweeps, accuracy, folder, caption)]
+    if grid := plot_stability_grid.grid(sweeps, accuracy, folder, caption):
+        drawn.append(grid)
     if not drawn:
         raise BadInput(f"{options.results}: no row that a chart shows")
     print(f"{len(drawn)} charts in {folder}: {' '.join(drawn)}")

@@ -57,6 +57,8 @@ class Installed(unittest.TestCase):
     def use(self, folder, environment=None):
         """Runs the consumer's programs, which were built in `folder`."""
         run(folder / "frames", env=environment)
+        run(folder / "picture", cwd=folder, env=environment)
+        self.assertTrue((folder / "pyramid.png").read_bytes().startswith(b"\x89PNG"))
         said = run(folder / "consumer", cwd=folder, env=environment)
         self.assertRegex(said, r"^triangle \d, depth 0\.\d{6}\n$")
         self.assertTrue((folder / "picture.png").read_bytes().startswith(b"\x89PNG"))
@@ -93,7 +95,8 @@ class Installed(unittest.TestCase):
         self.assertEqual(version, cached("CMAKE_PROJECT_VERSION") + "\n")
         for package in prefix.rglob("*.pc"):
             self.assertIn("\nLicense: MIT\n", package.read_text())
-        for program, source, package in (("consumer", "main", "edgewise-files"), ("frames", "frames", "edgewise")):
+        for program, source, package in (("consumer", "main", "edgewise-files"), ("picture", "picture", "edgewise-files"),
+                                         ("frames", "frames", "edgewise")):
             flags = run(*pkg_config, "--cflags", "--libs", package, env=environment).split()
             self.assertFalse([flag for flag in flags if not re.match("-[ILl]", flag)], "a flag leaks")
             run(compiler, "-std=c++20", CONSUMER / f"{source}.cpp", "-o", build / program, *flags)
