@@ -22,19 +22,20 @@ def ratio_table(benches):
 
 
 def other_machines(folder, where, layout):
-    """A line for each other machine, and the peers' ratios on all, laid out by `layout` (see markdown()); `where` is
-    `folder` as README.md names it."""
+    """A line and a chart for each other machine, and the peers' ratios on all machines, laid out by `layout` (see
+    markdown()); `where` is `folder` as README.md names it."""
     beside = others(folder)
     if not beside:
         return "No other machine's results lie beside these."
     benches = {one.resolve().name: read_bench(one) for one in (folder, *beside)}
-    lines = []
+    lines, charts = [], []
     for other in beside:
         machine, reads = describe_machine(read_json(other / "machine.json")), random_reads_sentence(benches[other.name])
-        charts = f"{where.rstrip('/').rpartition('/')[0]}/{other.name}/charts".lstrip("/")
-        lines.append(f"- [`{other.name}`]({charts}): {machine}. {reads}".rstrip())
+        link = f"{where.rstrip('/').rpartition('/')[0]}/{other.name}".lstrip("/")
+        lines.append(f"- [`{other.name}`]({link}): {machine}. {reads}".rstrip())
+        charts += ["", f"![`{other.name}`: ns per covered pixel against triangle area]({link}/charts/area.svg)"]
     header, rows = ratio_table(benches)
     if rows:
-        lines += ["", f"How many times longer peers take than our fastest backend, {max(THREADS)} threads:", "",
+        lines += ["", f"Peers are so many times slower than our fastest backend, on {max(THREADS)} threads:", "",
                   layout(header, rows, "|---|" + "--:|" * (len(header) - 1))]
-    return "\n".join(lines)
+    return "\n".join([*lines, *charts])

@@ -1,4 +1,4 @@
-"""Draws the charts of a results folder as SVG and PNG: bench.json beside machine.json; accuracy and stability.json."""
+"""Draws the charts of a results folder as SVG: bench.json beside machine.json; accuracy and stability.json."""
 from pathlib import Path
 
 from accuracy_rows import read_accuracy, read_stability

@@ -82,8 +82,7 @@ def spread_labels(positions, gap):
 
 def save(figure, folder, name, caption):
     figure.text(0.012, 0.07 / figure.get_figheight(), caption, fontsize=7.5, color=FAINT, va="bottom")
-    for suffix, metadata in ((".svg", {"Date": None}), (".png", {"Software": None})):
-        partial = Path(folder) / f".{name}.partial{suffix}"
-        figure.savefig(partial, dpi=130, metadata=metadata)
-        partial.replace(Path(folder) / f"{name}{suffix}")
+    partial = Path(folder) / f".{name}.partial.svg"
+    figure.savefig(partial, dpi=130, metadata={"Date": None})
+    partial.replace(Path(folder) / f"{name}.svg")
     plt.close(figure)

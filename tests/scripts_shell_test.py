@@ -24,7 +24,7 @@ DPKG_QUERY = "#!/bin/bash\n[[ ${*: -1} != ninja-build ]] && echo -n installed\ne
 ALL_INSTALLED = "#!/bin/bash\necho -n installed\n"
 SUDO = '#!/bin/bash\nexec "$@"\n'
 LONG = "x" * 200
-# Prints what Ninja and Make print, and makes the program that the sanitized step runs.
+# Prints what Ninja and Make print, and makes the programs that the sanitized steps run.
 CMAKE = f"""#!/bin/bash
 [[ $1 == --build ]] || exit 0
 echo '[1/20] Building CXX object {LONG}.o'
@@ -32,9 +32,9 @@ echo '[ 50%] Building CXX object {LONG}.o'
 echo 'a.cpp:1: warning: {LONG}'
 echo 'ninja: no work to do.'
 mkdir -p "$2"
-printf '#!/bin/bash\\nfor a; do [[ $a != --gtest_output=xml:* ]] || cp "$GTEST_XML" "${{a#*xml:}}"; done\\n' \\
-  >"$2/edgewise_library_tests"
-chmod +x "$2/edgewise_library_tests"
+printf '#!/bin/bash\\nfor a; do [[ $a != --gtest_output=xml:* ]] || cp "$GTEST_XML" "${{a#*xml:}}"; done\\n' |
+  tee "$2/edgewise_library_tests" >"$2/edgewise_thread_tests"
+chmod +x "$2"/edgewise_*_tests
 exit "${{CMAKE_STATUS:-0}}"
 """
 CTEST = """#!/bin/bash
@@ -110,7 +110,8 @@ class ShellTest(unittest.TestCase):
     def test_unknown_options_fail_before_anything_runs(self):
         self.tool("dpkg-query", DPKG_QUERY)
         for script, near in (("test", "--sanitize"), ("run", "--quick"), ("fuzz", "--keep"), ("prove", "--list"),
-                             ("mutate", "--check"), ("compare", "--least"), ("readme", "--check"), ("summary", "--tables")):
+                             ("mutate", "--check"), ("compare", "--least"), ("readme", "--check"), ("summary", "--tables"),
+                             ("publish", "--check")):
             wrong = near[:-1] + "_"
             self.assert_usage_error(self.run_script(script, "--no-install", wrong) if script in ("test", "run", "fuzz")
                                     else self.run_script(script, wrong), f"'{wrong}'; did you mean {near}?")
@@ -208,10 +209,10 @@ class ShellTest(unittest.TestCase):
         shards = os.cpu_count()
         result, lines = self.run_tests("")
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
-        # Of two runs of ctest and one shard per core.
-        self.assertEqual(lines[-1], f"{2 + shards} passed, 0 failed, {4 + shards} skipped")
-        self.assertEqual(lines[-3:-1], [f"Skipped {2 + shards}, z3 is not installed: L.Proofs, Proofs.A",
-                                        "Skipped 2, tmux not installed: viewer_smoke"])
+        # Of three runs of ctest and, of two programs, one shard per core.
+        self.assertEqual(lines[-1], f"{3 + 2 * shards} passed, 0 failed, {6 + 2 * shards} skipped")
+        self.assertEqual(lines[-3:-1], [f"Skipped {3 + 2 * shards}, z3 is not installed: L.Proofs, Proofs.A",
+                                        "Skipped 3, tmux not installed: viewer_smoke"])
 
     def test_selected_tests_run_once(self):
         result, lines = self.run_tests("", "-R", "A", "-j4")

@@ -269,7 +269,9 @@ class ScriptsTest(unittest.TestCase):
         empty.mkdir()
         self.assertEqual(run("readme", "--file", readme).returncode, 0)
         text = readme.read_text()
-        self.assertIn("- [`other`](results/other/charts): Test CPU, 2 cores, avx2, 4 GiB;", text)
+        self.assertIn("- [`other`](results/other): Test CPU, 2 cores, avx2, 4 GiB;", text)
+        self.assertIn("triangle area](results/other/charts/area.svg)\n", text)
+        self.assertNotIn("results/mine/charts", text)
         self.assertIn("| scene | `mine` | `other` |", text)
         self.assertIn("| cube, ext | 8.00× | – |", text)
         self.assertNotIn("empty", text)
@@ -430,7 +432,7 @@ class ScriptsTest(unittest.TestCase):
         charts = ["area", "culling", "growth", "ladder", "scaling", "scenes", "simd", "threads", "stability-nearer", "turning-cube",
                   *(f"{kind}-{family}" for kind in ("accuracy", "errors")
                     for family in ("coverage", "visibility", "facing", "clipping"))]
-        self.assertEqual(drawn, sorted(f"{c}.{suffix}" for c in charts for suffix in ("png", "svg")))
+        self.assertEqual(drawn, sorted(f"{c}.svg" for c in charts))
         for name in drawn:
             self.assertEqual((self.results / "charts" / name).read_bytes(), (self.folder / "again" / name).read_bytes())
 
