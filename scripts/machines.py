@@ -36,6 +36,6 @@ def other_machines(folder, where, layout):
         charts += ["", f"![`{other.name}`: ns per covered pixel against triangle area]({link}/charts/area.svg)"]
     header, rows = ratio_table(benches)
     if rows:
-        lines += ["", f"Peers are so many times slower than our fastest backend, on {max(THREADS)} threads:", "",
+        lines += ["", f"How many times longer peers take than our fastest backend, {max(THREADS)} threads:", "",
                   layout(header, rows, "|---|" + "--:|" * (len(header) - 1))]
     return "\n".join([*lines, *charts])

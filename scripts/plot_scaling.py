@@ -1,4 +1,4 @@
-"""The speed-up that a frame's work and critical path allow on more cores, next to what is measured."""
+"""The estimated speed-up of more cores, from a frame's work and critical path, beside what two threads gain."""
 import math
 
 from plot_style import FAINT, INK, Look, headline, plt, save
@@ -53,10 +53,10 @@ def scaling(bench, folder, caption):
         axes.xaxis.set_tick_params(labelbottom=True)
     figure.supxlabel("cores", fontsize=10.5, y=0.28 / figure.get_figheight())
     height = figure.get_figheight()
-    top = headline(figure, "What more cores could gain",
-                   "Whole frames, front end included: speed-up over one core that work, longest tasks and barriers allow "
-                   "(filled), and as measured\non two threads (ring). Dotted: ideal. Not in it: shared memory, caches and "
-                   "clock. In words: the longest serial part on the most cores.")
+    top = headline(figure, "More cores: estimated speed-ups",
+                   "Whole frames, front end included. Filled: estimate from work, longest tasks and barriers, without shared "
+                   "memory, caches and clock.\nRing: measured on two threads. Dotted: ideal. Label: the longest serial part "
+                   "on the most cores.")
     look.legend(figure, top - 0.02 / height)
     figure.subplots_adjust(left=0.05, right=0.985, bottom=0.75 / height, top=top - 0.72 / height, wspace=0.1, hspace=0.38)
     save(figure, folder, "scaling", caption)

@@ -1,5 +1,5 @@
 """What a frame's work and critical path allow on more cores; what two threads cost a small draw; memory at its worst."""
-from tables import milliseconds, number, short
+from tables import number, short
 
 
 def scheduled(bench):
@@ -14,8 +14,9 @@ def scheduled(bench):
 
 
 def allowed(rows):
-    """{cores: speed-up over one core}."""
-    return {cores: rows[1].median_ms / row.median_ms for cores, row in rows.items()}
+    """{cores: estimated speed-up over one core}. The smaller of both recordings' work counts: one slow recording must not
+    let N cores gain more than N, and work that only many cores need is no gain."""
+    return {cores: min(rows[1].counters["work_ms"], row.counters["work_ms"]) / row.median_ms for cores, row in rows.items()}
 
 
 def measured(bench, scene, backend):
@@ -34,12 +35,16 @@ def quickest(bench):
     return {scene: backend for scene, (backend, _) in best.items()}
 
 
+SHOWN_CORES = (2, 16, 128)  # the chart has all
+
+
 def scaling_table(bench):
     """Header and lines: one line a scene, for the backend that would be done first on the most cores."""
     found = scheduled(bench)
-    all_cores = sorted({cores for rows in found.values() for cores in rows} - {1})
-    header = ["scene", "backend", "work, ms", "critical path, ms", "measured, 2", *(str(cores) for cores in all_cores),
-              "longest serial part"]
+    timed = {cores for rows in found.values() for cores in rows}
+    shown = [cores for cores in SHOWN_CORES if cores in timed]
+    header = ["scene", "backend", "measured, 2 threads", *(f"estimate, {cores} cores" for cores in shown),
+              "longest serial part, estimate"]
     lines = []
     for scene, backend in quickest(bench).items():
         rows = found[scene, backend]
@@ -47,15 +52,15 @@ def scaling_table(bench):
         speed_up, two = allowed(rows), measured(bench, scene, backend).get(2)
         path_ms = last.counters["path_ms"]
         part = f"{last.label}: {last.counters['longest_ms'] / path_ms:.0%} of the path" if path_ms > 0 else "–"
-        lines.append([scene, backend, milliseconds(rows[1]), f"{path_ms:.3f}", f"{two:.2f}×" if two else "–",
-                      *(f"{speed_up[cores]:.3g}×" if cores in speed_up else "–" for cores in all_cores), part])
+        lines.append([scene, backend, f"{two:.2f}×" if two else "–",
+                      *(f"{number(speed_up[cores], 2)}×" if cores in speed_up else "–" for cores in shown), part])
     return header, lines
 
 
 def barrier_sentence(bench):
     rows = bench.sweep("cores")
-    return (f"A section of tasks is charged {number(rows[0].counters['barrier_ms'] * 1e3)} µs for starting and waiting, the "
-            "median of what two threads here take longer for two short tasks than for one.")
+    return (f"The estimate charges {number(rows[0].counters['barrier_ms'] * 1e3)} µs per parallel section for starting and waiting: "
+            "the median extra time of two threads on this machine for two short tasks instead of one.")
 
 
 def small_draw_sentences(bench):

@@ -12,8 +12,8 @@ def short(value, _=None):
     return f"{value:.3g}"
 
 
-def number(value):
-    return f"{float(f'{value:.3g}'):,.10g}"
+def number(value, digits=3):
+    return f"{float(f'{value:.{digits}g}'):,.10g}"
 
 
 def milliseconds(row):
