@@ -12,7 +12,7 @@ HEADER = ["how", "how far", "found"]
 SANITIZERS = {"address": "Tests again at the usual size, with the address and undefined-behaviour sanitizers",
               "thread": "Tests again at the usual size, with the thread sanitizer"}
 FAMILIES = {"properties": ("properties of random streams", "streams"), "lattices": ("exhaustive lattices", "triangles"),
-            "conformance": ("conformance", "pictures"), "hostile": ("hostile input, a row a test", "inputs")}
+            "conformance": ("conformance", "pictures"), "hostile": ("invalid input and faults, one per test", "inputs")}
 
 
 def none_or(count, what, plural=None):
@@ -46,13 +46,13 @@ def test_lines(data):
 
 def prove_lines(data):
     claims = data["claims"]
-    yield ["Proofs, for all inputs", f"{how_many(claims, 'claim')}, and as many that claim a little too much",
-           f"{all_of(data['proven'], claims, 'proven')}; {all_of(data['premises_hold'], claims, 'premises possible')}; "
-           f"{all_of(data['refuted'], claims, 'bold ones refuted')}"]
+    yield ["Proofs, for all inputs", f"{how_many(claims, 'claim')}, each with a deliberately false variant",
+           f"{all_of(data['proven'], claims, 'proven')}; {all_of(data['premises_hold'], claims, 'premises satisfiable')}; "
+           f"{all_of(data['refuted'], claims, 'false variants refuted')}"]
 
 
 def mutate_lines(data):
-    yield ["Planted mistakes", how_many(data["mutations"], "mistake") + ", one at a time",
+    yield ["Mutation testing", how_many(data["mutations"], "mutant") + ", one at a time",
            all_of(data["caught"], data["mutations"], "caught")]
 
 

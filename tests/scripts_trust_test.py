@@ -78,8 +78,8 @@ class TrustTest(unittest.TestCase):
             ["500 tests", "no failure"],
             ["5 tests, 2M triangles", "no failure"],
             ["499 tests, 2 of them skipped", "no failure"],
-            ["9 claims, and as many that claim a little too much", "all proven; all premises possible; all bold ones refuted"],
-            ["25 mistakes, one at a time", "all caught"],
+            ["9 claims, each with a deliberately false variant", "all proven; all premises satisfiable; all false variants refuted"],
+            ["25 mutants, one at a time", "all caught"],
             ["12.3k executions, 90% of the lines", "no crash"]])
         self.assertNotIn("**", text)
 
@@ -93,7 +93,7 @@ class TrustTest(unittest.TestCase):
                "fuzz": {"targets": [{**GOOD["fuzz"]["targets"][0], "crashes": ["a", "b"]}]}}
         self.assertEqual([line[2] for line in self.table(**bad)[0]], [
             "**1 failure**", "**1 failure**", "no failure", "no failure", "no failure", "**1 failure**",
-            "**8 of 9 proven**; **6 of 9 premises possible**; **7 of 9 bold ones refuted**",
+            "**8 of 9 proven**; **6 of 9 premises satisfiable**; **7 of 9 false variants refuted**",
             "**24 of 25 caught**",
             "**2 crashes**"])
 
