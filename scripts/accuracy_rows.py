@@ -102,8 +102,8 @@ class Accuracy:
     quick: bool
     methods: dict  # by family, in the registry's order
     scenes: tuple
-    cube: dict | None  # {"frames", "methods": [(Method, {"gaps": (median, worst), "double_hits": …,
-    # "snapped": the same against the snapped truth})]}
+    cube: dict | None  # {"frames", "methods": [(Method, {"gaps": (median, worst) a frame, "double_hits": …,
+    # "total_gaps": over all frames, "total_double_hits", "snapped": the same against the snapped truth})]}
 
     def of(self, family):
         return [scene for scene in self.scenes if scene.family == family]
@@ -158,8 +158,11 @@ def parse_cube(data, methods):
     cube = data.get("turning_cube")
     if not cube:
         return None
+
     def worst_of(entry):
-        return {key: (float(entry[key]["median"]), float(entry[key]["worst"])) for key in ("gaps", "double_hits")}
+        counts = ("gaps", "double_hits")
+        return {**{key: (float(entry[key]["median"]), float(entry[key]["worst"])) for key in counts},
+                **{f"total_{key}": int(entry[key]["total"]) for key in counts}}
 
     rows = [(methods["coverage", entry["name"]], {**worst_of(entry), "snapped": worst_of(entry["snapped"])})
             for entry in cube["methods"]]

@@ -1,5 +1,5 @@
 """The README's tables of methods, and of where each starts to fail."""
-from accuracy_lessons import rates_together, scenes_with_errors
+from accuracy_lessons import ours_fail_sentence, rates_together, scenes_with_errors
 from accuracy_rows import FAMILIES
 from tables import markdown, number, short
 
@@ -88,18 +88,13 @@ def counted_in(sweeps):
     return "; ".join([common, *(f"in {' and '.join(names)} {what}" for what, names in rest)])
 
 
-def by_snapping(sweeps):
-    """What rounding to 1/256 px costs by itself: that ours err no more is true by construction."""
-    found = [f"up to {short(max(sweep.by_snapping))} in `{sweep.name}`" for sweep in sweeps if max(sweep.by_snapping) > 0]
-    return f". Snapping alone, and so ours by construction: {', '.join(found)}, else 0" if found else ""
-
-
 def fails_tables(sweeps, accuracy):
-    text = []
+    own = ours_fail_sentence(sweeps, accuracy)
+    text = [own] if own else []
     for family in FAMILIES:
         of = [sweep for sweep in sweeps if sweep.family == family and sweep.curves]
         most = [y for sweep in of for curve in sweep.curves for _, y in curve.points]
         if of:
-            text.append(f"**{family.capitalize()}**: {counted_in(of)}{by_snapping(of)}{FAMILIES[family].beyond_note(most)}\n\n"
+            text.append(f"**{family.capitalize()}**: {counted_in(of)}{FAMILIES[family].beyond_note(most)}\n\n"
                         + fails_table(of, accuracy.methods[family]))
     return "\n\n".join(text)

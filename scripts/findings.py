@@ -1,73 +1,93 @@
-"""The findings on README's first screen: what the charts say, each in a sentence or two."""
-from statistics import median
-
-from accuracy_lessons import fastest as fastest_measured, listed
-from peers import pairs, times
+"""The findings on README's first screen: what the results say, each in a sentence or two."""
+from accuracy_lessons import before_snapping_clause, cost_sentence, listed, numbered
+from bench_rows import order
+from claims import kernels, outcome, spread, with_width
+from peers import OURS, pairs
 from tables import THREADS, number
 
-# The tutorials' inside tests, and the scene that shows what becomes of shared edges.
+# The tutorials' inside tests, and the scene whose shared edges run through pixel centres.
 TUTORIAL_TESTS = ("float_lt", "float_le")
-TIDY_SCENE = "mesh_on_grid"
-
-
-def spread(ratios):
-    return f"{times(min(ratios))} to {times(max(ratios))}"
+CENTRED_SCENE = "mesh_on_grid"
 
 
 def speed_finding(bench):
     """Parallel or scanline? Over the scenes that all backends drew, on the most threads."""
     threads = max(THREADS)
-    ms = {scene: {b: row.median_ms for b in bench.backends if (row := bench.find(f"{b}/{scene}/threads:{threads}"))}
-          for scene in bench.scenes}
-    ms = {scene: of for scene, of in ms.items() if {"scanline", "naive", "tiled"} <= of.keys()}
-    if not ms:
+    drawn = [{b: row for b in (OURS, "scanline", "naive") if (row := bench.find(f"{b}/{scene}/threads:{threads}"))}
+             for scene in bench.scenes]
+    drawn = [rows for rows in drawn if len(rows) == 3]
+    if not drawn:
         return ""
-    # How many times longer than tiled scanline takes, the largest ratio first.
-    ahead = sorted(((of["scanline"] / of["tiled"], scene) for scene, of in ms.items()), reverse=True)
-    won = [(ratio, scene) for ratio, scene in ahead if ratio > 1]
-    text = (f"**Parallel or scanline?** On {threads} threads `tiled` is the faster on {len(won)} of {len(ms)} scenes"
-            + (f", by {times(won[0][0])} at most (`{won[0][1]}`)" if won else ""))
-    if len(won) < len(ms):
-        ratio, scene = ahead[-1]
-        text += f"; `scanline` on the others, by {times(1 / ratio)} at most (`{scene}`)"
-    return text + (". Asking of every pixel of the bounding box, as `naive` does, takes "
-                   f"{spread([of['naive'] / min(of.values()) for of in ms.values()])} as long as the faster of them.")
-
-
-def accuracy_finding(accuracy):
-    """Are the tutorials' tests wrong, and does it cost speed to be right?"""
-    scene = next((s for s in accuracy.of("coverage") if s.name == TIDY_SCENE), None) if accuracy else None
-    if scene is None:
-        return ""
-    measured = {m.method.name: m for m in scene.measured}
-    ours = [m for m in scene.measured if m.method.ours]
-    tests = [measured[name] for name in TUTORIAL_TESTS if name in measured]
-    if not ours or not tests:
-        return ""
-    wrong = " and ".join(f"{number(m.rate)} (`{m.method.name}`)" for m in tests)
-    text = (f"**Gaps when the cube turns?** Of 10⁶ edge crossings of a mesh whose vertices lie tidily, the tutorials' inside "
-            f"tests get {wrong} pixels wrong; {listed(m.method.name for m in ours)} "
-            f"{number(max(m.rate for m in ours))}.")
-    if scene.single:
-        us, others = ([m for m in scene.single if m.method.ours == whose] for whose in (True, False))
-        if us and others:
-            best, rival = fastest_measured(us)[0], fastest_measured(others)[0]
-            text += (f" Per covered pixel `{best.method.name}`, with SIMD, takes {best.costs[1].ns / rival.costs[1].ns:.2f} "
-                     f"times as long as the fastest of the others, `{rival.method.name}`, in plain C++.")
+    text = (f"**Parallel or scanline?** On {threads} threads, with {kernels(bench.context.get('simd_target'))} in all backends, "
+            f"`{OURS}` {outcome([(rows[OURS], rows['scanline']) for rows in drawn], 'scenes against `scanline`')}.")
+    boxed = [(rows["naive"], min(rows[OURS], rows["scanline"], key=lambda row: row.median_ms)) for rows in drawn]
+    slower = [slow.median_ms / fast.median_ms for slow, fast in boxed if order(fast, slow) < 0]
+    if slower:
+        text += (f" `naive`, which tests every pixel of the bounding box, is {spread(slower)} slower than the faster of the "
+                 f"two on {len(slower)} of {len(drawn)} scenes.")
     return text
 
 
-def peer_finding(bench):
-    found = [(key, p) for key, p in pairs(bench).items() if key[2] == max(THREADS)]
-    if not found:
+def turned(name, cube):
+    """What a method does to the turning cube: "leaves 3 gaps and hits 2 pixels twice"."""
+    gaps, doubles = (cube[name][key] for key in ("total_gaps", "total_double_hits"))
+    said = [*([f"leaves {numbered(gaps, 'gap')}"] if gaps else []),
+            *([f"draws {numbered(doubles, 'pixel')} twice"] if doubles else [])]
+    return f"`{name}` {' and '.join(said) or 'errs nowhere'}"
+
+
+def crack_finding(accuracy):
+    """Gaps between neighbours: on the turning cube, and where edges run through pixel centres."""
+    if accuracy is None:
         return ""
+    sentences = []
+    if accuracy.cube:
+        cube = {method.name: found for method, found in accuracy.cube["methods"]}
+        ours = [method.name for method, _ in accuracy.cube["methods"] if method.ours]
+        tests = [turned(name, cube) for name in TUTORIAL_TESTS if name in cube]
+        wrong = sum(cube[name][key] for name in ours for key in ("total_gaps", "total_double_hits"))
+        if tests and ours:
+            sentences.append(f"In {accuracy.cube['frames']:,} frames of the tutorials' cube {', '.join(tests)}; "
+                             + (f"{listed(ours)} do neither." if wrong == 0 else f"ours err at {numbered(wrong, 'pixel')}."))
+    scene = next((s for s in accuracy.of("coverage") if s.name == CENTRED_SCENE), None)
+    measured = {m.method.name: m for m in scene.measured} if scene else {}
+    tests = [measured[name] for name in TUTORIAL_TESTS if name in measured]
+    ours = [m for m in measured.values() if m.method.ours]
+    if tests and ours:
+        wrong = " and ".join(f"{number(m.rate)} (`{m.method.name}`)" for m in tests)
+        sentences.append(f"Where edges run through pixel centres (`{scene.name}`), those tests get {wrong} pixels wrong per 10⁶ "
+                         f"edge crossings, ours {number(max(m.rate for m in ours))}.")
+    return f"**Gaps when the cube turns?** {' '.join(sentences)}" if sentences else ""
+
+
+def exactness_finding(accuracy):
+    """What it costs to be exact: errors against unsnapped positions, and time."""
+    if accuracy is None:
+        return ""
+    scene = next((s for s in accuracy.of("coverage") if s.name == CENTRED_SCENE), None)
+    sentences = [before_snapping_clause(accuracy, TUTORIAL_TESTS[0]), cost_sentence(scene, accuracy.machine) if scene else ""]
+    return " ".join(["**What does exactness cost?**", *filter(None, sentences)]) if any(sentences) else ""
+
+
+def peer_finding(bench):
     texts = []
-    for peer in dict.fromkeys(key[0] for key, _ in found):
-        ratios = [p.ratio for key, p in found if key[0] == peer]
-        texts.append(f"**Against {peer}**, a software OpenGL, which draws the same pixels: it takes {spread(ratios)} as long "
-                     f"on {max(THREADS)} threads ({times(median(ratios))} in the median of {len(ratios)} scenes).")
+    for peer in bench.peers:
+        sentences = []
+        for target, found in ((bench.context.get("simd_target"), pairs(bench)), ("avx2", pairs(bench, "avx2"))):
+            of = [p for (name, _, threads), p in found.items() if name == peer and threads == max(THREADS)]
+            said = [outcome([(p.ours, p.peer) for p in of if p.peer.frontend == whole], what) for whole, what in
+                    ((True, "meshes from vertices to picture"), (False, "streams from screen triangles to picture"))
+                    if any(p.peer.frontend == whole for p in of)]
+            if said:
+                sentences.append((with_width(target), "; it ".join(said)))
+        if sentences:
+            (width, said), *narrower = sentences
+            text = (f"**Against {peer}** ({bench.context.get(peer, 'unknown version')}): on {max(THREADS)} threads, `{OURS}` with "
+                    f"{width}, {said}.")
+            texts.append(" ".join([text, *(f"With {width} it {said}." for width, said in narrower)]))
     return " ".join(texts)
 
 
 def findings(bench, accuracy):
-    return [text for text in (speed_finding(bench), accuracy_finding(accuracy), peer_finding(bench)) if text]
+    found = speed_finding(bench), crack_finding(accuracy), exactness_finding(accuracy), peer_finding(bench)
+    return [text for text in found if text]

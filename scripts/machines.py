@@ -1,6 +1,7 @@
 """What was measured on other machines, beside the one whose results README.md shows."""
 from bench_rows import describe_machine, read_bench, read_json
-from peers import pairs, times
+from claims import mark
+from peers import OURS, pairs
 from tables import THREADS, random_reads_sentence
 
 
@@ -11,13 +12,13 @@ def others(folder):
 
 
 def ratio_table(benches):
-    """Header and lines: how many times longer each peer takes than our fastest backend, on the most threads. `benches`:
-    by the machine's name."""
+    """Header and lines: how many times faster than each peer our backend is, on the most threads. `benches`: by the
+    machine's name."""
     found = [pairs(bench) for bench in benches.values()]
     keys = dict.fromkeys((peer, scene) for ratios in found for peer, scene, _ in ratios)
     cells = [[ratios.get((peer, scene, max(THREADS))) for ratios in found] for peer, scene in keys]
     return (["scene", *(f"`{name}`" for name in benches)],
-            [[f"{scene}, {peer}", *(times(pair.ratio) if pair else "–" for pair in row)]
+            [[f"{scene}, {peer}", *(mark(pair.ratio, pair.settled) if pair else "–" for pair in row)]
              for (peer, scene), row in zip(keys, cells)])
 
 
@@ -36,6 +37,6 @@ def other_machines(folder, where, layout):
         charts += ["", f"![`{other.name}`: ns per covered pixel against triangle area]({link}/charts/area.svg)"]
     header, rows = ratio_table(benches)
     if rows:
-        lines += ["", f"How many times longer peers take than our fastest backend, {max(THREADS)} threads:", "",
+        lines += ["", f"How many times faster than its peers `{OURS}` is, on {max(THREADS)} threads with the widest SIMD of each machine:", "",
                   layout(header, rows, "|---|" + "--:|" * (len(header) - 1))]
     return "\n".join([*lines, *charts])

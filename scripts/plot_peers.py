@@ -1,18 +1,25 @@
-"""Chart of how many times longer other projects' rasterizers take than our backends."""
-from peers import over_backend, pairs
+"""Chart of how many times faster our backends are than other projects' rasterizers."""
+from claims import about, with_width
+from peers import OURS, pairs
 from plot_scenes import gain_chart
 from tables import THREADS
 
 
 def against(bench, folder, caption):
     found = pairs(bench)
-    for peer in dict.fromkeys(peer for peer, _, _ in found):
-        scenes = [scene for scene in bench.scenes if any((peer, scene, n) in found for n in THREADS)]
+    threads = max(THREADS)
+    for peer in dict.fromkeys(peer for peer, _, n in found if n == threads):
+        compared = {scene: p for (name, scene, n), p in found.items() if name == peer and n == threads}
 
-        def value_of(scene, backend, peer=peer):
-            return over_backend(bench, found.get((peer, scene, max(THREADS))), backend)
+        def rows_of(scene, backend, compared=compared):
+            ours = bench.find(compared[scene].ours.name.replace(OURS, backend, 1))
+            return (compared[scene].peer, ours) if ours else None
 
-        gain_chart(bench, folder, caption, f"against-{peer}", scenes, value_of, f"How many times longer {peer} takes",
-                   f"Time of {bench.context.get(peer, peer)} over ours on {max(THREADS)} threads; meshes from vertices to "
-                   "picture, others from screen triangles.", f"time of {peer} over time of ours")
+        ratios = [p.ratio for p in compared.values()]
+        title = (f"{OURS} is {about(min(ratios))} to {about(max(ratios))} faster than {peer}" if min(ratios) > 1 else
+                 f"{OURS} runs at {about(min(ratios))} to {about(max(ratios))} the speed of {peer}")
+        gain_chart(bench, folder, caption, f"against-{peer}", list(compared), rows_of, title,
+                   f"{bench.context.get(peer, peer)}, against our backends with {with_width(bench.context.get('simd_target'))}; "
+                   f"{threads} threads.\nMeshes from vertices to picture, streams from screen triangles to picture.",
+                   f"time of {peer} over ours")
         yield f"against-{peer}"

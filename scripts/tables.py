@@ -1,4 +1,6 @@
 """The tables made from results: as Markdown for the README, as plain text for the terminal."""
+from bench_rows import order
+from claims import mark
 
 THREADS = (1, 2)
 NORMAL_Z = "normal_z"  # the Outlaw Triad trainer's facing test
@@ -33,23 +35,21 @@ def random_reads_sentence(bench):
         low, middle, high = (ms * 1e6 / row.counters["reads"] for ms in (row.low_ms, row.median_ms, row.high_ms))
         return f"{middle:.0f} ns ({low:.0f} to {high:.0f})"
 
-    verdict = ("the cache was ours" if cache.median_ms < 0.3 * memory.median_ms else
-               "as where others fill the cache, and who needs it takes longer than on an idle machine")
-    return (f"Between the rows, a random read took {ns(cache)} in a buffer half as large as the last cache, {ns(memory)} "
-            f"in one that it holds little of: {verdict}.")
+    verdict = ("other processes left it to us" if cache.median_ms < 0.3 * memory.median_ms else
+               "other processes filled it, so what depends on it is slower than on an idle machine")
+    return (f"Between the rows, a random read took {ns(cache)} in a buffer of half the last-level cache, and {ns(memory)} in a "
+            f"far larger one: {verdict}.")
 
 
 def fastest(bench, scene):
-    """The fastest backend of a scene, and how many times longer the best of the others takes."""
-    best = {}
-    for backend in bench.backends:
-        times = [row.median_ms for n in THREADS if (row := bench.find(f"{backend}/{scene}/threads:{n}"))]
-        if times:
-            best[backend] = min(times)
-    if len(best) < 2:
+    """The backend that is fastest on the most threads, with its speed-up over the next; several if the order is open."""
+    rows = [row for b in bench.backends if (row := bench.find(f"{b}/{scene}/threads:{max(THREADS)}"))]
+    if len(rows) < 2:
         return "–"
-    first, second = sorted(best, key=best.get)[:2]
-    return f"{first}, {best[second] / best[first]:.2f}×"
+    first, *others = sorted(rows, key=lambda row: row.median_ms)
+    close = [row.backend for row in others if order(first, row) == 0]
+    return " or ".join([first.backend, *close]) if close else \
+        f"{first.backend}, {others[0].median_ms / first.median_ms:.2g}×"
 
 
 def scene_facts(bench, scene):
@@ -62,14 +62,13 @@ def scene_facts(bench, scene):
 
 
 def scene_table(bench, more=()):
-    """Header and lines: one line a scene. `more` are columns before the last: (title, scene → cell)."""
-    header = ["scene", "triangles", "overdraw", *(f"{b}, {n}" for b in bench.backends for n in THREADS),
-              *(title for title, _ in more), "fastest"]
+    """Header and lines: a line per scene, with a backend's ms on 1 and on 2 threads in one cell. `more` are columns before
+    the last: (title, scene → cell)."""
+    header = ["scene", "triangles", "overdraw", *(f"{b}, ms" for b in bench.backends), *(title for title, _ in more), "fastest"]
     lines = []
     for scene in bench.scenes:
-        times = [milliseconds(bench.find(f"{b}/{scene}/threads:{n}")) for b in bench.backends for n in THREADS]
-        lines.append([scene, *scene_facts(bench, scene), *times, *(cell(scene) for _, cell in more),
-                      fastest(bench, scene)])
+        times = [" / ".join(milliseconds(bench.find(f"{b}/{scene}/threads:{n}")) for n in THREADS) for b in bench.backends]
+        lines.append([scene, *scene_facts(bench, scene), *times, *(cell(scene) for _, cell in more), fastest(bench, scene)])
     return header, lines
 
 
@@ -90,15 +89,14 @@ def plain(header, lines):
     return "\n".join(map(aligned, [header, *lines]))
 
 
-def culling_gains(bench, mode):
-    """{scene: {backend: time of a whole frame with all its faces over time in this culling mode}}"""
-    median = {(row.scene, row.backend, row.keys["cull"]): row.median_ms for row in bench.sweep("cull")}
-    gains = {}
-    for (scene, backend, kept), none_ms in median.items():
-        ms = median.get((scene, backend, mode))
-        if kept == "none" and ms:
-            gains.setdefault(scene, {})[backend] = none_ms / ms
-    return gains
+def culling_rows(bench, mode):
+    """{scene: {backend: (row of a whole frame with all its faces, row in this culling mode)}}"""
+    rows = {(row.scene, row.backend, row.keys["cull"]): row for row in bench.sweep("cull")}
+    found = {}
+    for (scene, backend, kept), all_faces in rows.items():
+        if kept == "none" and (culled := rows.get((scene, backend, mode))):
+            found.setdefault(scene, {})[backend] = all_faces, culled
+    return found
 
 
 def pixels_wrong(bench, scene):
@@ -110,18 +108,19 @@ def pixels_wrong(bench, scene):
 
 def culling_sentence(bench):
     """What dropping back faces gains in whole frames, by winding, and by the z of normals where that was timed."""
-    def told(gains):
-        return ", ".join(f"{gain:.2f}× (`{backend}`)" for backend, gain in gains.items())
+    def told(rows):
+        return ", ".join(f"`{backend}` {mark(before.median_ms / after.median_ms, order(before, after))}"
+                         for backend, (before, after) in rows.items())
 
-    by_winding, by_normal = culling_gains(bench, "back"), culling_gains(bench, NORMAL_Z)
+    by_winding, by_normal = culling_rows(bench, "back"), culling_rows(bench, NORMAL_Z)
     if not by_winding:
         return ""
-    sentence = ("In the benchmark, a whole frame with all its faces takes so many times as long as with back faces culled: "
-                + "; ".join(f"`{scene}` {told(gains)}" for scene, gains in by_winding.items()) + ".")
+    sentence = (f"Culling back faces by their winding speeds up whole frames on {max(THREADS)} threads: "
+                + "; ".join(f"`{scene}`: {told(rows)}" for scene, rows in by_winding.items()) + ".")
     if not by_normal:
         return sentence
-    return (f"{sentence} With faces dropped before they are projected, by the z of their normals (`{NORMAL_Z}`), it is "
-            + "; ".join(f"`{scene}` {told(gains)}, {pixels_wrong(bench, scene)}" for scene, gains in by_normal.items()) + ".")
+    return (f"{sentence} Culling them before projection, by the z of their normals (`{NORMAL_Z}`), gives "
+            + "; ".join(f"`{scene}`: {told(rows)}, {pixels_wrong(bench, scene)}" for scene, rows in by_normal.items()) + ".")
 
 
 def differing_pixels(verify):

@@ -115,7 +115,7 @@ class ReportTest(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
         cls.results = write_results(cls.folder / "results", scripts_test.bench_with_peer())
-        cls.slower = write_results(cls.folder / "slower", scripts_test.bench(fast=(4.0, 4.1, 4.2)))
+        cls.slower = write_results(cls.folder / "slower", scripts_test.bench(tiled=(4.0, 4.1, 4.2)))
         made = report(cls.results, "--compare", cls.slower)
         if made.returncode == 3:
             raise unittest.SkipTest(made.stderr)
@@ -181,10 +181,10 @@ class ReportTest(unittest.TestCase):
     def test_compares_two_results(self):
         browser = self.browser
         lines = len(browser.all("[data-charts=area] figure:first-child svg [aria-label=line] path"))
-        self.assertNotIn("fast/cube/threads:1", browser.all("[data-charts=changes]")[0].text)
+        self.assertNotIn("tiled/cube/threads:1", browser.all("[data-charts=changes]")[0].text)
         browser.choose("other", "1")
         self.assertIn("Compared with test, commit abc", browser.all("#machine")[0].text)
-        self.assertIn("fast/cube/threads:1", browser.all("[data-charts=changes]")[0].text)
+        self.assertIn("tiled/cube/threads:1", browser.all("[data-charts=changes]")[0].text)
         self.assertIn("faster", browser.all("[data-charts=changes]")[0].text)
         self.assertEqual(len(browser.all("[data-charts=area] figure:first-child svg [aria-label=line] path")), 2 * lines)
         browser.choose("result", "1")
@@ -329,8 +329,8 @@ class ReportTest(unittest.TestCase):
     def test_results_with_little_in_them(self):
         folder = self.folder / "little"
         folder.mkdir()
-        (folder / "bench.json").write_text(json.dumps({"context": {"backends": "fast"},
-                                                       "benchmarks": scripts_test.entries("fast/cube/threads:1", [1.0])}))
+        (folder / "bench.json").write_text(json.dumps({"context": {"backends": "tiled"},
+                                                       "benchmarks": scripts_test.entries("tiled/cube/threads:1", [1.0])}))
         (folder / "machine.json").write_text("{}")
         self.assertEqual(report(folder).returncode, 0)
         self.browser.open(folder / "report.html")

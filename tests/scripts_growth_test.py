@@ -30,10 +30,10 @@ class ReadmeTest(unittest.TestCase):
         result = scripts_test.run("readme", "--file", readme)
         self.assertEqual(result.returncode, 0, result.stderr)
         text = readme.read_text()
-        self.assertIn("`fast` **less than linear** from 100 to 1k (0.00), linear from 1k to 10k (1.00)", text)
-        self.assertIn("`fast` linear from 256² to 512² (1.00)", text)
+        self.assertIn("`tiled` **less than linear** from 100 to 1k (0.00), linear from 1k to 10k (1.00)", text)
+        self.assertIn("`tiled` linear from 256² to 512² (1.00)", text)
         self.assertIn("the L3 of 32 MiB holds a frame of 2048² px or the records of 840k triangles", text)
-        self.assertIn("| cube | fast | 2.00× | 2× | the longest task of build in bins.cpp: 50% of the "
+        self.assertIn("| cube | tiled | 2.00× | 2× | the longest task of build in bins.cpp: 50% of the "
                       "path |", text)
         self.assertIn("charges 2 µs", text)
         self.assertIn("at 1920 × 1080: `slow` 20.2 µs on one thread, 20.2 on two (+10.1 against half)", text)
@@ -51,7 +51,7 @@ class ReadmeTest(unittest.TestCase):
 
     def test_readme_says_so_where_rows_are_missing(self):
         data = scripts_test.bench()
-        data["benchmarks"] = scripts_test.entries("fast/cube/threads:1", [1.0])
+        data["benchmarks"] = scripts_test.entries("tiled/cube/threads:1", [1.0])
         self.write("few", data)
         readme = self.folder / "README.md"
         readme.write_text("<!-- results: few -->\n<!-- generated:growth -->\n<!-- /generated -->\n"

@@ -1,0 +1,45 @@
+"""How a comparison is said: who is faster, how many times, and whether the repetitions settle it."""
+from bench_rows import order
+
+# Of each SIMD target: its name in sentences, and the width of its vectors in bits.
+VECTORS = {"sse4": ("SSE4", 128), "avx2": ("AVX2", 256), "avx512": ("AVX-512", 512)}
+
+
+def kernels(target):
+    """"AVX-512", or "scalar code"."""
+    return VECTORS[target][0] if target in VECTORS else "scalar code" if target == "scalar" else target or "unknown SIMD"
+
+
+def with_width(target):
+    """"AVX-512, 512 bits"."""
+    return f"{kernels(target)}, {VECTORS[target][1]} bits" if target in VECTORS else kernels(target)
+
+
+def about(ratio):
+    """Two digits: the noise allows no more."""
+    return f"{ratio:.2f}×" if ratio < 1.095 else f"{ratio:.1f}×" if ratio < 9.95 else f"{float(f'{ratio:.2g}'):,.0f}×"
+
+
+def spread(ratios):
+    ends = list(dict.fromkeys(map(about, (min(ratios), max(ratios)))))
+    return " to ".join(ends)
+
+
+def outcome(compared, what):
+    """"wins 9 of 15 scenes, 1.1× to 2.6× faster; 6 are too close to call": `compared` has pairs of rows, ours first."""
+    won, lost, close = [], [], []
+    for ours, other in compared:
+        (close, won, lost)[-order(ours, other)].append(other.median_ms / ours.median_ms)
+    text = f"wins {'all ' if len(won) == len(compared) else f'{len(won)} of '}{len(compared)} {what}"
+    if won:
+        text += f", {spread(won)} faster"
+    if lost:
+        text += f"; it loses {len(lost)}, {spread([1 / ratio for ratio in lost])} slower"
+    if close:
+        text += f"; {len(close)} {'is' if len(close) == 1 else 'are'} too close to call"
+    return text
+
+
+def mark(ratio, settled):
+    """A ratio in a table."""
+    return about(ratio) + ("" if settled else " (not settled)")
