@@ -42,7 +42,8 @@ constexpr Effort kFull{5, 3, 9, 0.012, 0.07}, kQuick{3, 2, 3, 0.015, 0.1};
 // Memory is measured once a scene and backend.
 bool needs_peak(const Row& row) {
   return row.timed == Timed::frame && row.backend != nullptr && row.cores == 0 &&
-         row.execution.threads == 2 && row.once_s < row.repeat_below_s;
+         row.execution.target == SimdTarget::best && row.execution.threads == 2 &&
+         row.once_s < row.repeat_below_s;
 }
 
 // Hands Google Benchmark its flags behind our defaults, so that the user's win.
@@ -88,7 +89,8 @@ bool is_beaten(const Row& row, const std::vector<Row>& rows) {
   double own_s = 0.0, best_s = std::numeric_limits<double>::infinity();
   for (const Row& other : rows) {
     if (other.workload != row.workload || other.timed != Timed::frame || other.peer != nullptr ||
-        other.backend->fills != row.backend->fills || other.cores > 0 || other.execution.threads != 1)
+        other.backend->fills != row.backend->fills || other.cores > 0 || other.execution.threads != 1 ||
+        other.execution.target != SimdTarget::best)
       continue;
     best_s = std::min(best_s, other.once_s);
     if (other.backend == row.backend) own_s = other.once_s;

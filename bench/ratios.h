@@ -1,4 +1,4 @@
-// How many times longer each peer takes than the fastest of our backends.
+// How many times faster our backend is than each peer.
 #pragma once
 
 #include <map>

@@ -81,9 +81,14 @@ class Suite {
       }
     if (options_.scenes.empty()) add_scheduled(workload, name);
     if (!options_.peers) return;
+    const Timed timed = stream ? Timed::raster : Timed::frame;
     for (const auto& peer : peers())
+      for (const int threads : kThreads) add_peer(workload, timed, peer, name, threads);
+    // Peers may use vectors of 256 bits at most, so ours is timed with as many too.
+    if (!peers().empty() && resolve(SimdTarget::best) == SimdTarget::avx512)
       for (const int threads : kThreads)
-        add_peer(workload, stream ? Timed::raster : Timed::frame, peer, name, threads);
+        add(workload, timed, find_backend(kLadderBackend), fmt::format("{}/target:avx2", name), threads,
+            SimdTarget::avx2);
   }
 
   // Beside the scene's own rows, which are its ends: one reference picture serves them all.
@@ -150,9 +155,11 @@ class Suite {
     for (const std::string scene : {"torus-knot", "large", "medium", "grid4"}) {
       const auto workload = scene_workload(scene, options_.width, options_.height);
       for (const auto& backend : filling_backends())
-        for (const SimdTarget target : supported_targets())
+        for (const SimdTarget target : supported_targets()) {
           add(workload, Timed::raster, backend, fmt::format("{}/target:{}", scene, name_of(target)), 1,
               target);
+          if (is_repeated(rows_.back())) rows_.pop_back();  // the row beside a peer
+        }
     }
   }
 
@@ -187,6 +194,10 @@ class Suite {
     row.backend = &backend;
     row.execution = execution;
     rows_.push_back(std::move(row));
+  }
+
+  bool is_repeated(const Row& last) const {
+    return std::any_of(rows_.begin(), rows_.end() - 1, [&](const Row& row) { return row.name == last.name; });
   }
 
   void add_scheduled(const WorkloadPtr& workload, const std::string& name) {

@@ -96,6 +96,23 @@ TEST(BenchSuite, NamesAllRowsDifferently) {
   for (const Row& row : make_suite({})) EXPECT_TRUE(names.insert(row.name).second) << row.name;
 }
 
+TEST(BenchSuite, TimesOursAtThePeersVectorWidthToo) {
+  std::map<std::string, int> count;
+  for (const Row& row : make_suite({})) ++count[row.name];
+  const bool wanted = !peers().empty() && resolve(SimdTarget::best) == SimdTarget::avx512;
+  for (const SceneInfo& scene : builtin_scenes())
+    for (const std::string threads : {"1", "2"}) {
+      const std::string who = scene.stream ? "tiled/" : "tiled+frontend/";
+      const std::string name = who + std::string(scene.name) + "/target:avx2/threads:" + threads;
+      // A row of the sweep over targets may bear the same name.
+      if (wanted) {
+        EXPECT_EQ(count[name], 1) << name;
+      } else {
+        EXPECT_LE(count[name], threads == "1" ? 1 : 0) << name;
+      }
+    }
+}
+
 TEST(BenchSuite, TimesHiddenFacesDroppedInThreeWays) {
   SuiteOptions options;
   options.quick = true;
