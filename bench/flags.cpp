@@ -56,6 +56,10 @@ std::optional<Flags> parse_flags(int argc, char** argv) {
   std::string format;
   parser.add_option("--benchmark_out", flags.out, "Write the results there, complete or not at all")
       ->type_name("FILE");
+  parser
+      .add_option("--model_out", flags.model_out,
+                  "Write estimates there: the cost model, and speed-ups on more cores")
+      ->type_name("FILE");
   parser.add_option("--benchmark_out_format", format, "json only")->check(CLI::IsMember({"json"}));
   parser.footer(
       "Google Benchmark's other flags work too, among them --benchmark_filter=REGEX, "

@@ -12,6 +12,7 @@ namespace edgewise::bench {
 struct Flags {
   SuiteOptions suite;
   std::string out;                     // --benchmark_out
+  std::string model_out;               // --model_out
   std::vector<std::string> benchmark;  // what is left for Google Benchmark
   std::vector<std::string> known;      // the names of all options, Google Benchmark's included
   bool own_repetitions = true, own_iterations = true;

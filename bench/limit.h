@@ -1,5 +1,5 @@
-// The floor under a frame's time on this machine: what anyone must spend who draws the triangles in their
-// order, were everything else free and nothing done beside another. It is the sum of
+// A cost model of a frame on this machine, no lower bound: work that runs side by side undercuts it. It is
+// the sum of
 //   - reading each triangle's record once,
 //   - testing and writing each block of 4 x 4 pixels once for each triangle that wins a pixel of it, out of
 //     the L1 cache and with vectors of the best target,

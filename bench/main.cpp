@@ -17,6 +17,7 @@
 #include "flags.h"
 #include "image/atomic_file.h"
 #include "memory.h"
+#include "model.h"
 #include "random_reads.h"
 #include "ratios.h"
 #include "reporter.h"
@@ -143,6 +144,13 @@ void compare_all(std::vector<Row>& rows, Stage& stage, bool whole_suite) {
   }
 }
 
+// An error tells who asks for such rows alone.
+void leave_out_estimates(std::vector<Row>& rows) {
+  std::erase_if(rows, [](const Row& row) { return row.cores > 0; });
+  if (rows.empty())
+    throw std::invalid_argument("these rows are estimates, not timed: --model_out=FILE writes them");
+}
+
 // Beside a draw of seconds the front end's milliseconds are lost in the noise.
 void leave_out_slow_frames(std::vector<Row>& rows) {
   std::erase_if(rows, [&](const Row& row) {
@@ -152,35 +160,9 @@ void leave_out_slow_frames(std::vector<Row>& rows) {
   });
 }
 
-void schedule_row(benchmark::State& state, const Row& row) {
-  static const double barrier_s = measured_barrier_s();
-  const FrameWork& frame = row.recorded;
-  for (auto _ : state) state.SetIterationTime(frame.time_s(row.cores, barrier_s));
-  const PathPart longest = frame.longest_part();
-  state.SetLabel(longest.name);
-  state.counters["longest_ms"] = longest.time_s * 1e3;
-  state.counters["work_ms"] = frame.work_s() * 1e3;
-  state.counters["path_ms"] = frame.path_s() * 1e3;
-  state.counters["barrier_ms"] = barrier_s * 1e3;
-}
-
-void add_floor(benchmark::UserCounters& counters, const Floor& floor) {
-  constexpr double kMs = 1e3;
-  counters["covered_blocks"] = static_cast<double>(floor.blocks.covered);
-  counters["won_blocks"] = static_cast<double>(floor.blocks.won);
-  counters["floor_read_ms"] = floor.read_s * kMs;
-  counters["floor_blocks_ms"] = floor.blocks_s * kMs;
-  counters["floor_write_ms"] = floor.write_s * kMs;
-  counters["floor_tiles_ms"] = floor.tiles_s * kMs;
-  counters["floor_ms"] = floor.total_s() * kMs;
-  counters["floor_in_tiles_ms"] = floor.in_tiles_s() * kMs;
-}
-
 void time_row(benchmark::State& state, const Row& row, Stage& stage) {
   if (!row.error.empty()) return state.SkipWithError(row.error.c_str());
-  if (row.cores > 0) {
-    schedule_row(state, row);
-  } else if (row.once_s > row.repeat_below_s) {
+  if (row.once_s > row.repeat_below_s) {
     for (auto _ : state) state.SetIterationTime(row.once_s);
   } else {
     // The caches were another row's; a long draw warms its own.
@@ -199,7 +181,6 @@ void time_row(benchmark::State& state, const Row& row, Stage& stage) {
   const auto covered_px = static_cast<double>(workload.covered_px());
   counters["covered_px"] = covered_px;
   counters["overdraw"] = covered_px / (static_cast<double>(workload.width()) * workload.height());
-  if (row.floor) add_floor(counters, *row.floor);
   if (row.peer == nullptr) return;
   counters["near_ties"] = static_cast<double>(row.near_ties);
   state.SetLabel(row.peer->version());
@@ -212,6 +193,7 @@ void register_rows(const std::vector<Row>& rows, Stage& stage, const Flags& flag
   };
   const auto calls = std::make_shared<Calls>();
   for (const Row& row : rows) {
+    if (row.cores > 0) continue;  // estimated, not timed
     auto* registered = benchmark::RegisterBenchmark(
         row.name.c_str(), [&row, &stage, &progress, calls](benchmark::State& state) {
           progress.show(std::min(1.0, static_cast<double>(calls->made++) / calls->expected),
@@ -220,7 +202,7 @@ void register_rows(const std::vector<Row>& rows, Stage& stage, const Flags& flag
         });
     registered->Unit(benchmark::kMillisecond);
     // Such a row's time stands before it would be taken.
-    const bool known = row.once_s > row.repeat_below_s || row.cores > 0;
+    const bool known = row.once_s > row.repeat_below_s;
     if (known)
       registered->UseManualTime();
     else
@@ -285,6 +267,8 @@ int run(int argc, char** argv) {
   initialize_benchmark(flags);
   std::optional<AtomicFile> out;
   if (!flags.out.empty()) out.emplace(flags.out);
+  std::optional<AtomicFile> model_out;
+  if (!flags.model_out.empty()) model_out.emplace(flags.model_out);
   auto selected = select(make_suite(flags.suite));
   if (!selected) return 2;
   if (selected->empty()) return 0;
@@ -292,12 +276,14 @@ int run(int argc, char** argv) {
 
   leave_out_missing_peers(rows, flags.need_peers);
   if (rows.empty()) return 2;
+  if (flags.model_out.empty()) leave_out_estimates(rows);
   Stage stage;
   compare_all(rows, stage, flags.suite.scenes.empty());
   if (flags.suite.scenes.empty()) leave_out_slow_frames(rows);
   add_context(flags);
   std::vector<std::string> names;
-  for (const auto& row : rows) names.push_back(row.name);
+  for (const auto& row : rows)
+    if (row.cores == 0) names.push_back(row.name);
   for (const auto& row : random_read_rows()) names.emplace_back(row.name);
   Reporter reporter(names);
   {
@@ -309,6 +295,10 @@ int run(int argc, char** argv) {
   if (out) {
     out->stream() << reporter.json();
     out->commit();
+  }
+  if (model_out) {
+    model_out->stream() << model_json(rows, measured_barrier_s());
+    model_out->commit();
   }
   if (flags.readable) std::cout << ratio_table(rows, reporter.median_ms());
   return std::any_of(rows.begin(), rows.end(), [](const Row& row) { return !row.error.empty(); }) ? 1 : 0;

@@ -22,8 +22,6 @@ void derive_rates(benchmark::BenchmarkReporter::Run& run) {
   const auto triangles = counters.find("triangles");
   if (triangles == counters.end()) return;
   counters["Mtri/s"] = triangles->second.value / s * 1e-6;
-  if (const auto floor = counters.find("floor_ms"); floor != counters.end())
-    counters["over_floor"] = s * 1e3 / floor->second.value;
   const auto covered = counters.find("covered_px");
   if (covered == counters.end() || covered->second.value == 0.0) return;
   const double covered_px = covered->second.value;

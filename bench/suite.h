@@ -30,7 +30,7 @@ struct Row {
   const PeerInfo* peer = nullptr;
   Execution execution;
   double repeat_below_s = kTooSlowToRepeat_s;
-  int cores = 0;          // if set, not timed but scheduled on so many; execution.threads is the same
+  int cores = 0;          // if set, estimated for so many, not timed; execution.threads is the same
   FrameWork recorded;     // what is scheduled then
   double peak_bytes = 0;  // of a first frame; 0 where it was not measured
   bool wants_floor = false;

@@ -1,4 +1,4 @@
-"""Reads what a run left in results/MACHINE: bench.json (Google Benchmark's format), machine.json, verify.json.
+"""Reads what a run left in results/MACHINE: bench.json (Google Benchmark's format), model.json, machine.json, verify.json.
 
 A row's name is WHO/what/key:value…/threads:N, WHO being a backend, "frontend" or BACKEND+frontend; peers, the
 rasterizers of other projects, stand in a backend's place. Rows random_read/WHERE, which every run has, draw nothing.
@@ -78,6 +78,8 @@ class Bench:
     context: dict
     rows: dict  # by name
     random_reads: dict = field(default_factory=dict)  # rows that tell of the machine, by what is read
+    scheduled: dict = field(default_factory=dict)  # by name: estimates for more cores, not timed
+    costs: dict = field(default_factory=dict)  # by the name of the timed row: the parts of the cost model
 
     @property
     def backends(self):
@@ -94,8 +96,8 @@ class Bench:
         return row if row and row.times_ms else None
 
     def sweep(self, key):
-        """The timed rows that have this key."""
-        return [r for r in self.rows.values() if key in r.keys and r.times_ms]
+        """The rows that have this key: timed ones, or estimates for `cores`."""
+        return [r for r in (*self.rows.values(), *self.scheduled.values()) if key in r.keys and r.times_ms]
 
     @property
     def scenes(self):
@@ -112,6 +114,32 @@ def read_json(path):
         raise BadInput(f"{path}: {error.strerror}") from None
     except ValueError as error:
         raise BadInput(f"{path}: not JSON: {error}") from None
+
+
+# In results from before there was model.json, estimates stand among the timed rows and their counters.
+OLD_COSTS = {"covered_blocks": "covered_blocks", "won_blocks": "won_blocks", "floor_read_ms": "read_ms",
+             "floor_blocks_ms": "blocks_ms", "floor_write_ms": "write_ms", "floor_tiles_ms": "tiles_ms"}
+
+
+def old_models(rows):
+    """Takes the estimates out of the rows."""
+    scheduled = {name: rows.pop(name) for name, row in list(rows.items()) if "cores" in row.keys}
+    costs = {name: {new: row.counters[old] for old, new in OLD_COSTS.items()} for name, row in rows.items()
+             if OLD_COSTS.keys() <= row.counters.keys()}
+    return scheduled, costs
+
+
+def read_model(path):
+    data = read_json(path)
+    try:
+        scheduled = {}
+        for entry in data["scheduled"]:
+            row = scheduled[entry["name"]] = parse_name(entry["name"])
+            row.times_ms, row.label = [float(entry["estimate_ms"])], entry["longest"]
+            row.counters = {key: float(entry[key]) for key in ("work_ms", "path_ms", "longest_ms", "barrier_ms")}
+        return scheduled, {entry["name"]: {key: float(entry[key]) for key in OLD_COSTS.values()} for entry in data["costs"]}
+    except (KeyError, TypeError, ValueError, AttributeError) as error:
+        raise BadInput(f"{path}: not what 'edgewise_bench --model_out' writes: {type(error).__name__} {error}") from None
 
 
 def read_bench(folder_or_file):
@@ -137,7 +165,9 @@ def read_bench(folder_or_file):
     except (KeyError, TypeError, AttributeError) as error:
         raise BadInput(f"{path}: not a Google Benchmark result: {error}") from None
     reads = {row.scene: rows.pop(name) for name, row in list(rows.items()) if row.backend == "random_read"}
-    return Bench(data.get("context", {}), rows, reads)
+    model = path.parent / "model.json"
+    scheduled, costs = read_model(model) if path.name == "bench.json" and model.exists() else old_models(rows)
+    return Bench(data.get("context", {}), rows, reads, scheduled, costs)
 
 
 def describe_machine(machine):

@@ -1,66 +1,46 @@
-"""The lower bound of a cost model under a frame's time, two estimates beside it, and how far above them the rows are."""
+"""The cost model of a frame, and what is left: an estimate for reading, drawing and writing, were all else free."""
 from tables import THREADS, milliseconds, number, short
 
-# Few large triangles: here the model explains most of the time.
+# Few large triangles: here the estimate comes near enough for its parts to be told from what is left.
 TOLD = ("large", "grid64")
 
 
-def floors_ms(row):
-    """The lower bound, where only the blocks that a triangle wins are drawn; the estimates for all blocks that it covers,
-    and for a frame that is written tile by tile. None if they were not measured."""
-    c = row.counters if row else {}
-    if not c.get("floor_in_tiles_ms"):  # or the results are older than this figure
+def floors_ms(bench, row):
+    """The estimate if only the blocks that a triangle wins are drawn; if all that it covers are; and if the frame is
+    written tile by tile from a buffer; None without."""
+    c = bench.costs.get(row.name) if row else None
+    if not c:
         return None
-    others = c.get("floor_read_ms", 0.0) + c.get("floor_write_ms", 0.0)
-    covered = c.get("floor_blocks_ms", 0.0) * c["covered_blocks"] / c["won_blocks"] if c.get("won_blocks") else 0.0
-    return c["floor_ms"], others + covered, c["floor_in_tiles_ms"]
+    covered = c["blocks_ms"] * c["covered_blocks"] / c["won_blocks"] if c["won_blocks"] else 0.0
+    return (c["read_ms"] + c["blocks_ms"] + c["write_ms"], c["read_ms"] + covered + c["write_ms"],
+            c["read_ms"] + c["blocks_ms"] + c["tiles_ms"])
 
 
-def ratios(bench, backend, scene, which):
-    """A backend's time over a figure of floors_ms(), for each thread count."""
+def over_estimate(bench, backend, scene):
+    """A backend's time over the estimate for writing tile by tile, for each thread count."""
     rows = [row for n in THREADS if (row := bench.find(f"{backend}/{scene}/threads:{n}"))]
-    return [row.median_ms / floors_ms(row)[which] for row in rows if floors_ms(row)]
-
-
-def modelled(bench):
-    """The backends that have the figures."""
-    return list(dict.fromkeys(row.backend for row in bench.rows.values() if floors_ms(row)))
-
-
-def bound_name(bench):
-    """A bound that a row undercuts is none."""
-    holds = all(ratio >= 1 for backend in modelled(bench) for scene in bench.scenes
-                for ratio in ratios(bench, backend, scene, 0))
-    return "lower bound" if holds else "estimate, won blocks"
+    found = [row.median_ms / floors[2] for row in rows if (floors := floors_ms(bench, row))]
+    return " / ".join(f"{ratio:.2f}" for ratio in found) or "–"
 
 
 def floor_columns(bench):
-    """[(title, scene → cell)] for a table of scenes."""
-    titles = (bound_name(bench), "estimate, covered blocks", "estimate, tile by tile")
-    return [(f"{backend} / {title}",
-             lambda scene, b=backend, w=which: " / ".join(f"{ratio:.2f}" for ratio in ratios(bench, b, scene, w)) or "–")
-            for backend in modelled(bench) for which, title in enumerate(titles)]
-
-
-def floor_table(bench):
-    """Header and lines: one line a scene."""
-    columns = floor_columns(bench)
-    return ["scene", *(title for title, _ in columns)], [[scene, *(cell(scene) for _, cell in columns)] for scene in bench.scenes]
+    """[(title, scene → cell)] for the table of scenes."""
+    modelled = list(dict.fromkeys(row.backend for row in bench.rows.values() if floors_ms(bench, row)))
+    return [(f"{backend} / estimate", lambda scene, b=backend: over_estimate(bench, b, scene)) for backend in modelled]
 
 
 def floor_sentences(bench):
-    """What the time of the rows on one thread consists of, as far as the model knows."""
+    """What the time of the rows on one thread consists of, by the cost model."""
     sentences = []
     for backend in bench.backends:
         for scene in TOLD:
             row = bench.find(f"{backend}/{scene}/threads:1")
-            if not floors_ms(row):
+            if not (floors := floors_ms(bench, row)):
                 continue
-            c, (won_ms, covered_ms, in_tiles_ms) = row.counters, floors_ms(row)
+            c, (won_ms, covered_ms, in_tiles_ms) = bench.costs[row.name], floors
             sentences.append(
-                f"`{scene}`, `{backend}` on one thread: {milliseconds(row)} ms, of which the {bound_name(bench)} explains "
-                f"{number(won_ms)}: {number(c['floor_write_ms'])} for writing the frame, {number(c['floor_blocks_ms'])} for "
-                f"{short(c['won_blocks'])} won blocks, {number(c['floor_read_ms'])} for reading triangles. Estimates: "
-                f"{number(covered_ms)} ms if all {short(c['covered_blocks'])} covered blocks are drawn; {number(in_tiles_ms)} ms if the "
-                f"frame is written tile by tile, which takes {number(c['floor_tiles_ms'])}.")
+                f"`{scene}`, {backend} on one thread: {milliseconds(row)} ms measured, {number(won_ms)} ms estimated "
+                f"({number(c['write_ms'])} to write the frame, {number(c['blocks_ms'])} for the {short(c['won_blocks'])} blocks that "
+                f"a triangle wins, {number(c['read_ms'])} to read the triangles). With all {short(c['covered_blocks'])} covered "
+                f"blocks the estimate is {number(covered_ms)} ms; with the frame stored tile by tile, {number(in_tiles_ms)} ms.")
     return sentences

@@ -1,6 +1,7 @@
-"""The estimated speed-up of more cores, from a frame's work and critical path, beside what two threads gain."""
+"""The estimated speed-up of a frame on more cores, next to what is measured on two."""
 import math
 
+from claims import about
 from plot_style import FAINT, INK, Look, headline, plt, save
 from scaling import allowed, measured, quickest, scheduled
 
@@ -53,10 +54,11 @@ def scaling(bench, folder, caption):
         axes.xaxis.set_tick_params(labelbottom=True)
     figure.supxlabel("cores", fontsize=10.5, y=0.28 / figure.get_figheight())
     height = figure.get_figheight()
-    top = headline(figure, "More cores: estimated speed-ups",
-                   "Whole frames, front end included. Filled: estimate from work, longest tasks and barriers, without shared "
-                   "memory, caches and clock.\nRing: measured on two threads. Dotted: ideal. Label: the longest serial part "
-                   "on the most cores.")
+    gains = [allowed(found[key])[most] for key in best.items() if most in found[key]]
+    top = headline(figure, f"Estimate: {most} cores gain {about(min(gains))} to {about(max(gains))}",
+                   "Whole frames, front end included. Filled: estimated from recorded tasks and barriers, without shared "
+                   "bandwidth, caches and clock rate.\nRing: measured on two threads. Dotted: ideal. In words: the longest "
+                   "serial part on the most cores.")
     look.legend(figure, top - 0.02 / height)
     figure.subplots_adjust(left=0.05, right=0.985, bottom=0.75 / height, top=top - 0.72 / height, wspace=0.1, hspace=0.38)
     save(figure, folder, "scaling", caption)

@@ -51,9 +51,9 @@ def area(bench):
 
 
 def times(bench):
-    """What each backend takes for a scene, and its floors: what is won drawn, and all that is covered."""
+    """What each backend takes for a scene, and the estimates of the cost model."""
     return [{"scene": scene, "backend": backend, "threads": threads, "ms": time(row),
-             "floors": [rounded(ms) for ms in floors_ms(row) or ()]}
+             "floors": [rounded(ms) for ms in floors_ms(bench, row) or ()]}
             for scene in bench.scenes for backend in bench.backends for threads in THREADS
             if (row := bench.find(f"{backend}/{scene}/threads:{threads}"))]
 
@@ -72,7 +72,7 @@ def ladder(bench):
         named = steps(bench, scene)
         befores = [None, *(row for _, row in named)]
         found.append({"scene": scene, "steps": [
-            {"label": label, "ms": time(row), "floor": rounded(row.counters.get("floor_ms", 0.0)),
+            {"label": label, "ms": time(row), "floor": rounded((floors_ms(bench, row) or [0.0])[0]),
              "said": said(before, row),
              "verdict": verdict(before, row) if before else "start"}
             for before, (label, row) in zip(befores, named)]})

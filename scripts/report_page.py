@@ -29,15 +29,14 @@ SECTIONS = (
     ("area", "Cost against triangle area", "Random triangles of one area that together cover the same number of pixels. "
      "Lower is better. Rings: where curves cross and the noise leaves no doubt. Bands: fastest to slowest repetition."),
     ("ladder", "The ladder: what each idea is worth", "Line by line one idea more, on one thread up to the last; figures say "
-     "how many times faster than the line above. Blue: faster; vermilion: slower; grey: not settled. Green: the floor."),
+     "how many times faster than the line above. Blue: faster; vermilion: slower; grey: not settled. Green: the cost model's estimate."),
     ("stability", "Stability: where methods start to fail", "Each chart leads from easy on the left to hard on the right. "
      "A hollow mark stands where a method starts to fail. Methods whose curves are the same share one line."),
-    ("peers", "Peers and floor", "Milliseconds a frame beside the floor, the least that reading, drawing and writing can "
-     "take; and how many times longer other projects' rasterizers take than ours."),
-    ("scaling", "Scaling: what more cores could gain", "Whole frames, front end included: the speed-up over one core that "
-     "work, longest tasks and barriers allow (line), and as measured on two threads (ring). Dotted: ideal. Not in it: "
-     "shared memory, caches and clock. In words: the longest serial part on the most cores, of the backend that would be "
-     "done first."),
+    ("peers", "Peers and cost model", "Milliseconds a frame beside an estimate for reading, drawing and writing; and how many "
+     "times faster ours are than other projects' rasterizers."),
+    ("scaling", "Scaling: what more cores could gain", "Whole frames, front end included: the speed-up estimated from "
+     "recorded tasks and barriers (line), and as measured on two threads (ring). Dotted: ideal. Not in it: shared memory, "
+     "caches and clock. In words: the longest serial part on the most cores, of the backend estimated to be fastest."),
 )
 CHANGES = ("changes", "What changed", "Which rows got faster or slower between two results: all repetitions of one lie on one "
            "side of all of the other's. Choose one under “Compare with” above.")
@@ -98,10 +97,10 @@ def static_charts(result):
 
 def static_tables(bench):
     """{section: its figures without JavaScript}."""
-    peers = [static_table(f"ms a frame: {peer} and our fastest", *peer_table(bench, peer))
+    peers = [static_table(f"ms a frame: {peer} and ours", *peer_table(bench, peer))
              for peer in dict.fromkeys(peer for peer, _, _ in pairs(bench))]
     return {"peers": static_table("ms a frame, backend alone", *scene_table(bench)) + "".join(peers),
-            "scaling": static_table("Speed-up that cores allow", *scaling_table(bench)) if bench.sweep("cores") else ""}
+            "scaling": static_table("Estimated speed-up on more cores", *scaling_table(bench)) if bench.sweep("cores") else ""}
 
 
 def section(name, heading, shows, static):

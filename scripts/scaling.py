@@ -1,5 +1,5 @@
-"""What a frame's work and critical path allow on more cores; what two threads cost a small draw; memory at its worst."""
-from tables import number, short
+"""Estimated speed-ups on more cores; what two threads cost a small draw; memory at its worst."""
+from tables import milliseconds, number, short
 
 
 def scheduled(bench):
@@ -14,9 +14,8 @@ def scheduled(bench):
 
 
 def allowed(rows):
-    """{cores: estimated speed-up over one core}. The smaller of both recordings' work counts: one slow recording must not
-    let N cores gain more than N, and work that only many cores need is no gain."""
-    return {cores: min(rows[1].counters["work_ms"], row.counters["work_ms"]) / row.median_ms for cores, row in rows.items()}
+    """{cores: estimated speed-up}: work over time of one and the same run, so that N cores never give more than N."""
+    return {cores: row.counters["work_ms"] / row.median_ms for cores, row in rows.items()}
 
 
 def measured(bench, scene, backend):
@@ -35,16 +34,12 @@ def quickest(bench):
     return {scene: backend for scene, (backend, _) in best.items()}
 
 
-SHOWN_CORES = (2, 16, 128)  # the chart has all
-
-
 def scaling_table(bench):
     """Header and lines: one line a scene, for the backend that would be done first on the most cores."""
     found = scheduled(bench)
-    timed = {cores for rows in found.values() for cores in rows}
-    shown = [cores for cores in SHOWN_CORES if cores in timed]
-    header = ["scene", "backend", "measured, 2 threads", *(f"estimate, {cores} cores" for cores in shown),
-              "longest serial part, estimate"]
+    all_cores = sorted({cores for rows in found.values() for cores in rows} - {1})
+    shown = [cores for cores in all_cores if cores in (2, 8) or cores == all_cores[-1]]
+    header = ["scene", "backend", "measured on 2", *(f"estimate for {cores}" for cores in shown), "longest serial part"]
     lines = []
     for scene, backend in quickest(bench).items():
         rows = found[scene, backend]
@@ -52,15 +47,16 @@ def scaling_table(bench):
         speed_up, two = allowed(rows), measured(bench, scene, backend).get(2)
         path_ms = last.counters["path_ms"]
         part = f"{last.label}: {last.counters['longest_ms'] / path_ms:.0%} of the path" if path_ms > 0 else "–"
-        lines.append([scene, backend, f"{two:.2f}×" if two else "–",
-                      *(f"{number(speed_up[cores], 2)}×" if cores in speed_up else "–" for cores in shown), part])
+        lines.append([scene, backend, f"{two:.2g}×" if two else "–",
+                      *(f"{speed_up[cores]:.2g}×" if cores in speed_up else "–" for cores in shown), part])
     return header, lines
 
 
 def barrier_sentence(bench):
     rows = bench.sweep("cores")
-    return (f"The estimate charges {number(rows[0].counters['barrier_ms'] * 1e3)} µs per parallel section for starting and waiting: "
-            "the median extra time of two threads on this machine for two short tasks instead of one.")
+    return ("The speed-ups are estimates: the recorded tasks of a frame, handed out to that many cores. They ignore shared "
+            f"bandwidth, caches and clock rate. Each parallel section is charged {number(rows[0].counters['barrier_ms'] * 1e3)} µs "
+            "for starting and waiting, as measured with two threads.")
 
 
 def small_draw_sentences(bench):

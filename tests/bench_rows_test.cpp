@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 
@@ -10,6 +11,7 @@
 #include "ladder.h"
 #include "limit.h"
 #include "message_of.h"
+#include "model.h"
 #include "random_reads.h"
 #include "stage.h"
 #include "suite.h"
@@ -253,6 +255,29 @@ TEST(BenchStage, FindsTheFloorOnlyWhereItIsWanted) {
   EXPECT_GT(with.floor->in_tiles_s(), with.floor->read_s + with.floor->blocks_s);
   EXPECT_FALSE(without.floor.has_value());
   EXPECT_EQ(with.error, "");
+}
+
+TEST(BenchModel, WritesEstimatesOfNoMoreThanACoreIsWorthEach) {
+  const auto workload = std::make_shared<Workload>(96, 64, Cull::back, [] {
+    return app::load_source("cube", {96, 64, 0.0f, 1.0}, false);
+  });
+  workload->prepare(true);
+  Stage stage;
+  std::vector<Row> rows(3, row_of(find_backend("tiled"), workload));
+  rows[0].cores = rows[0].execution.threads = 4;
+  rows[0].timed = Timed::frame;
+  rows[1].wants_floor = true;
+  for (Row& row : rows) stage.compare(row);
+  const auto model = nlohmann::json::parse(model_json(rows, 1e-6));
+  ASSERT_EQ(model["scheduled"].size(), 1u);
+  ASSERT_EQ(model["costs"].size(), 1u);
+  const auto& frame = model["scheduled"][0];
+  EXPECT_EQ(frame["cores"], 4);
+  EXPECT_GE(frame["estimate_ms"].get<double>() * 4, frame["work_ms"].get<double>());
+  EXPECT_DOUBLE_EQ(frame["barrier_ms"].get<double>(), 1e-3);
+  EXPECT_EQ(model["costs"][0]["won_blocks"], workload->blocks().won);
+  rows[0].error = rows[1].error = "wrong";
+  EXPECT_TRUE(nlohmann::json::parse(model_json(rows, 0.0))["costs"].empty());
 }
 
 }  // namespace

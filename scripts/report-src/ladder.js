@@ -12,13 +12,13 @@ export function ladder(view) {
       sample({ colour: verdictColour(view, verdict), symbol: circle }),
       ["faster", "slower", "not settled"][i],
     ]),
-    [sample({ colour: floorColour(view) }, { dash: [1, 1] }), "floor"],
+    [sample({ colour: kEstimate }, { dash: [1, 1] }), "estimate"],
     ...(view.other ? [[sample({ colour: "var(--faint)", symbol: circle }, { hollow: true }), view.other.name]] : []),
   ]);
   return [key, grid(view, drawn, 340, (scene, width) => panel(view, scene, width))];
 }
 
-const floorColour = (view) => view.data.looks.palette[2];
+const kEstimate = "#6e7781";
 
 function panel(view, { scene, steps }, width) {
   const before = view.other?.ladder.find((other) => other.scene === scene)?.steps ?? [];
@@ -47,10 +47,10 @@ function panel(view, { scene, steps }, width) {
         x2: time,
         y1: "label",
         y2: "label",
-        stroke: floorColour(view),
+        stroke: kEstimate,
         strokeDasharray: "1,2",
       }),
-      Plot.dot(floored, { x: "floor", y: "label", symbol: bar, r: 6, stroke: floorColour(view), strokeWidth: 2.5 }),
+      Plot.dot(floored, { x: "floor", y: "label", symbol: bar, r: 6, stroke: kEstimate, strokeWidth: 2.5 }),
       Plot.dot(shared, { x: time, y: "label", r: 4, stroke: "var(--faint)" }),
       Plot.dot(steps, { x: time, y: "label", r: 4.5, fill }),
       Plot.text(steps, {
@@ -75,7 +75,7 @@ function panel(view, { scene, steps }, width) {
         ["idea", (step) => step.label],
         ["ms", time],
         ["times faster", (step) => (step.verdict === "start" ? "–" : step.said)],
-        ["floor, ms", (step) => (step.floor > 0 ? step.floor : "–")],
+        ["estimate, ms", (step) => (step.floor > 0 ? step.floor : "–")],
         ...(shared.length ? [[view.other.name, (step) => beforeOf(step)?.ms[0] ?? "–"]] : []),
       ],
       steps,
@@ -90,7 +90,7 @@ function says(step, other, view) {
     `${ms} ms (${low} to ${high})`,
     step.verdict !== "start" &&
       `${step.said} as fast as the line above${step.verdict === "neither" ? ", not settled" : ""}`,
-    step.floor > 0 && `floor ${number(step.floor)} ms`,
+    step.floor > 0 && `estimate ${number(step.floor)} ms`,
     other && `${view.other.name}: ${number(other.ms[0])} ms`,
   ];
 }

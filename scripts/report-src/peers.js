@@ -1,4 +1,4 @@
-// Milliseconds a frame beside the floor, and how many times longer other projects' rasterizers take.
+// Milliseconds a frame beside the cost model's estimate, and how many times faster ours are than other projects' rasterizers.
 import * as Plot from "@observablehq/plot";
 import { widthOf } from "./labels.js";
 import { backendLegend, backendLook, bar, decades, gridAt, legend, logTicks, plot, sample, tip } from "./look.js";
@@ -95,7 +95,7 @@ function timesChart(view, rows, width) {
     label: "ms a frame, backend alone, clear included",
   });
   const floored = rows.filter((row) => row.floors.length);
-  const floor = view.data.looks.palette[2];
+  const floor = "#6e7781";
   const drawn = plot({
     ...flip(parts.options),
     marks: [
@@ -115,12 +115,12 @@ function timesChart(view, rows, width) {
     ],
   });
   return chart({
-    title: "Milliseconds a frame, and the floor",
+    title: "Milliseconds a frame, and an estimate",
     plot: drawn,
-    text: `Lower is better.${hollow(view)} Green: the floor if only the blocks that a triangle wins are drawn.${before.length ? ` Small and grey: ${view.other.name}.` : ""}`,
+    text: `Lower is better.${hollow(view)} Grey bars: the cost model's estimate if only the blocks that a triangle wins are drawn.${before.length ? ` Small and grey: ${view.other.name}.` : ""}`,
     legend: legend([
       ...view.result.backends.map((name) => [sample(backendLook(view, name)), name]),
-      [sample({ colour: floor }, { dash: [1, 1] }), "floor"],
+      [sample({ colour: floor }, { dash: [1, 1] }), "estimate"],
     ]),
     figures: [
       [
@@ -130,10 +130,10 @@ function timesChart(view, rows, width) {
         ["ms", time],
         ["fastest", (row) => row.ms[1]],
         ["slowest", (row) => row.ms[2]],
-        ["floor, ms", (row) => row.floors[0] ?? "–"],
+        ["estimate, ms", (row) => row.floors[0] ?? "–"],
         ["of covered blocks, ms", (row) => row.floors[1] ?? "–"],
         ["in tiles, ms", (row) => row.floors[2] ?? "–"],
-        ["times the floor", (row) => (row.floors.length ? row.ms[0] / row.floors[0] : "–")],
+        ["time / estimate", (row) => (row.floors.length ? row.ms[0] / row.floors[0] : "–")],
       ],
       rows,
     ],
@@ -146,9 +146,9 @@ function timesSay(row, before, view) {
   return [
     `${row.scene}: ${row.backend}, ${row.threads} thread${row.threads > 1 ? "s" : ""}`,
     `${ms} ms (${low} to ${high})`,
-    row.floors.length && `floor ${number(row.floors[0])} ms: ${number(row.ms[0] / row.floors[0])} times as long`,
-    row.floors.length && `floor of all covered blocks ${number(row.floors[1])} ms`,
-    row.floors.length && `floor in tiles ${number(row.floors[2])} ms`,
+    row.floors.length && `estimate ${number(row.floors[0])} ms`,
+    row.floors.length && `estimate for all covered blocks ${number(row.floors[1])} ms`,
+    row.floors.length && `estimate in tiles ${number(row.floors[2])} ms`,
     other && `${view.other.name}: ${number(other.ms[0])} ms`,
   ];
 }
@@ -197,7 +197,7 @@ function peerChart(view, peer, found, width) {
     ],
   });
   return chart({
-    title: `How many times longer ${peer} takes`,
+    title: `How many times faster ours are than ${peer}`,
     plot: drawn,
     legend: backendLegend(view),
     text: `${view.result.peer_versions[peer]}. Meshes from vertices to picture, others from screen triangles.${hollow(view)}${before.length ? ` Small and grey: ${view.other.name}.` : ""}`,
@@ -207,7 +207,7 @@ function peerChart(view, peer, found, width) {
         ["threads", (row) => row.threads],
         [`${peer}, ms`, (row) => row.ms[0]],
         ["over", (row) => row.backend],
-        ["times longer", (row) => row.ratio],
+        ["times faster", (row) => row.ratio],
         ["from", (row) => row.draws],
       ],
       rows,
