@@ -144,7 +144,8 @@ def all_scenes(accuracy, family, folder, caption):
                       color="white" if dark > 0.75 else INK)
     axes.set_xlim(-0.5, len(methods) - 0.5)
     axes.set_ylim(len(scenes) - 0.5, -0.5)
-    axes.set_yticks(range(len(scenes)), [label for label, _, _ in scenes], fontsize=9)
+    trials = {scene.name: f", {short(scene.trials)}" for scene in accuracy.of(family.name)}
+    axes.set_yticks(range(len(scenes)), [label + trials.get(label, "") for label, _, _ in scenes], fontsize=9)
     for tick, (label, _, _) in zip(axes.get_yticklabels(), scenes):
         tick.set_fontstyle("italic" if label in CRACKS.values() else "normal")
     axes.xaxis.tick_top()
@@ -159,9 +160,9 @@ def all_scenes(accuracy, family, folder, caption):
     note = family.beyond_note(rate for _, _, rates in scenes for rate in rates.values())
     height = figure.get_figheight()
     headline(figure, f"{family.name.capitalize()}: where each method errs",
-             f"{family.errors[0].upper()}{family.errors[1:]}, scene by scene. Bold: ours."
+             f"{family.errors[0].upper()}{family.errors[1:]}, scene by scene; beside its name the number of {TRIALS[family.name]}. Bold: ours."
              + (" Italics: the crack's pixels." if any(label in CRACKS.values() for label, _, _ in scenes) else ""))
-    figure.subplots_adjust(left=0.16, right=0.945, bottom=0.45 / height, top=1 - above / height)
+    figure.subplots_adjust(left=0.2, right=0.945, bottom=0.45 / height, top=1 - above / height)
     save(figure, folder, f"errors-{family.name}", f"{note[2:]}.\n{caption}" if note else caption)
     return f"errors-{family.name}"
 
