@@ -431,7 +431,8 @@ class ScriptsTest(unittest.TestCase):
         self.assertEqual(first.returncode, 0, first.stderr)
         self.assertEqual(second.returncode, 0, second.stderr)
         drawn = sorted(p.name for p in (self.results / "charts").iterdir())
-        charts = ["area", "culling", "growth", "ladder", "scaling", "scenes", "simd", "threads", "stability-grid", "stability-nearer", "turning-cube",
+        charts = ["area", "culling", "growth", "ladder", "scaling", "scenes", "simd", "threads", "stability-grid",
+                  "stability-nearer", "turning-cube",
                   *(f"{kind}-{family}" for kind in ("accuracy", "errors")
                     for family in ("coverage", "visibility", "facing", "clipping"))]
         self.assertEqual(drawn, sorted(f"{c}.svg" for c in charts))
