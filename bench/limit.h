@@ -3,11 +3,10 @@
 //   - reading each triangle's record once,
 //   - testing and writing each block of 4 x 4 pixels once for each triangle that wins a pixel of it, out of
 //     the L1 cache and with vectors of the best target,
-//   - writing depth and payload of the frame once, through the caches or past them, whichever is faster,
-// each measured here, warm, on as many threads. A triangle's hidden blocks are free: hierarchical depth may
-// drop them by the thousand. For who draws all that is covered, blocks_s counts covered / won times. And who
-// draws in tiles, each in a buffer, clears that buffer's depths and copies it to the frame, tile by tile: for
-// them, tiles_s takes the place of write_s.
+//   - writing depth and payload of the frame once, by cached or streaming stores, whichever is faster,
+// each measured here, warm, on as many threads. A triangle's hidden blocks are free, as hierarchical depth
+// may reject them. With every covered block drawn, blocks_s grows by covered / won. A backend that draws into
+// tile buffers clears each buffer's depths and copies it to the frame: it has tiles_s instead of write_s.
 #pragma once
 
 #include <cstdint>

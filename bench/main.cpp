@@ -144,7 +144,7 @@ void compare_all(std::vector<Row>& rows, Stage& stage, bool whole_suite) {
   }
 }
 
-// An error tells who asks for such rows alone.
+// Throws std::invalid_argument if no other rows were selected.
 void leave_out_estimates(std::vector<Row>& rows) {
   std::erase_if(rows, [](const Row& row) { return row.cores > 0; });
   if (rows.empty())

@@ -116,16 +116,18 @@ set_up() {
   [[ $EUID -eq 0 ]] || command -v sudo >/dev/null ||
     die "not root and no sudo; as root, run: apt-get install --no-install-recommends ${missing[*]}"
   echo "Installing: ${missing[*]}"
-  local log
+  local log updated
   log=$(mktemp)
-  # An update may fail for a server that none of these packages come from.
-  "${as_root[@]}" env LC_ALL=C apt-get update -qq >"$log" 2>&1 || true
+  # An update may fail for a server that none of these packages come from, so its messages count only where a package
+  # was not found.
+  updated=$("${as_root[@]}" env LC_ALL=C apt-get update -qq 2>&1) || true
   if "${as_root[@]}" env LC_ALL=C DEBIAN_FRONTEND=noninteractive apt-get install -qq -y --no-install-recommends \
-    "${missing[@]}" >>"$log" 2>&1; then
+    "${missing[@]}" >"$log" 2>&1; then
     rm "$log"
     return
   fi
   {
+    if grep -qE 'Unable to locate package|has no installation candidate' "$log"; then echo "$updated" >>"$log"; fi
     if grep -qiE 'resolv|connect|unreachable|timed out|failed to fetch|unable to fetch' "$log"; then
       echo "No network: apt-get could not reach a package server. Install these packages by hand, then run this again:"
     else

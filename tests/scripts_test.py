@@ -408,7 +408,7 @@ class ScriptsTest(unittest.TestCase):
         (crowded / "verify.json").write_text(json.dumps(wrong))
         text = summary(crowded)
         for words in ("ERROR in 50 benchmark rows", "BACKENDS DISAGREE: 6 pixels differ", "/crowded/verify-failures/",
-                      "Against ext", "charts/, pictures/, errors/, *.json", "quick ones are for a look only"):
+                      "Against ext", "charts/, pictures/, errors/, *.json", "quick figures are rough"):
             self.assertIn(words, " ".join(text.split()))
         for folder in ROOT.glob("results/*/"):
             self.assertIn("Parallel or scanline?", summary(folder))

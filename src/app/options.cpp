@@ -194,7 +194,7 @@ void SceneOptions::add_to(CLI::App& command) {
   add_size(command, size, "Image size (1280x720; .tri: its own; else cropped, not scaled)");
   add_number(command, "--time", time, -kLongestTime, kLongestTime, "Seconds, for scenes that turn (0)");
   add_number(command, "--scale", scale, kSmallest, kLargestScale,
-             "Factor on the triangles of knots or a built-in stream, to 10^8 of them (1)");
+             "Multiply the number of triangles, to at most 10^8; knots and built-in streams only (1)");
   command
       .add_option_function<std::string>(
           "--cull",
@@ -223,7 +223,7 @@ Shot load_shot(const std::string& name_or_path, const SceneOptions& options, dou
   Source& source = shot.source;
 
   if (options.scale && !(source.built_in != nullptr && source.built_in->scalable))
-    throw std::invalid_argument("--scale: the triangles of '" + source.name + "' have a fixed number");
+    throw std::invalid_argument("--scale: '" + source.name + "' has a fixed number of triangles");
   shot.frontend.width = size.width;
   shot.frontend.height = size.height;
   if (auto* stream = std::get_if<TriangleStream>(&source.drawable)) {
