@@ -205,6 +205,15 @@ class ShellTest(unittest.TestCase):
                                  **environment)
         return result, result.stdout.splitlines()
 
+    def test_a_run_that_wrote_nothing_failed_and_a_shard_without_tests_did_not(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for name, text in (("shard-0", '<testsuites><testsuite><testcase name="a" classname="A"/></testsuite></testsuites>'),
+                               ("shard-1", '<testsuites tests="0"></testsuites>'), ("died", "")):
+                (Path(folder) / f"{name}.xml").write_text(text)
+            result = subprocess.run(["python3", SCRIPTS / "verdict.py", folder], capture_output=True, text=True, check=False)
+        self.assertEqual(result.stdout.splitlines()[-1], "1 passed, 1 failed, 0 skipped")
+        self.assertIn("the run ended without results; see above (died)", result.stdout)
+
     def test_the_verdict_counts_all_runs_and_tells_why_tests_are_skipped(self):
         shards = os.cpu_count()
         result, lines = self.run_tests("")
