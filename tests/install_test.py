@@ -110,7 +110,7 @@ class Installed(unittest.TestCase):
 
     def test_public_headers_are_installed_and_no_others(self):
         headers = {path.name for path in self.prefix.rglob("*.h")}
-        self.assertEqual(headers, {path.name for path in (ROOT / "src" / "edgewise").iterdir()})
+        self.assertEqual(headers, {path.name for path in (ROOT / "src" / "edgewise").glob("*.h")})
         for path in self.prefix.rglob("*.h"):
             for included in re.findall(r'^#include "(\S*)"', path.read_text(), re.MULTILINE):
                 self.assertTrue((path.parent.parent / included).is_file(), f"{path.name} includes {included}")
