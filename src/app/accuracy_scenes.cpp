@@ -54,11 +54,14 @@ Scene deep_soup(int count) {
     const auto within = [&](float reach) { return random.uniform(-reach, reach); };
     // Far more of the far ones, which look smaller.
     const float distance = 900.0f / std::sqrt(random.uniform(1.0f, 900.0f));
-    const glm::vec3 centre(within(distance), within(0.6f * distance), -distance);
+    const float centre_y = within(0.6f * distance);
+    const glm::vec3 centre(within(distance), centre_y, -distance);
     const auto first = static_cast<unsigned>(mesh.positions.size());
     const float side = 0.08f * distance;
-    for (int k = 0; k < 3; ++k)
-      mesh.positions.push_back(centre + glm::vec3(within(side), within(side), within(side)));
+    for (int k = 0; k < 3; ++k) {
+      const float z = within(side), y = within(side);
+      mesh.positions.push_back(centre + glm::vec3(within(side), y, z));
+    }
     mesh.triangles.emplace_back(first, first + 1, first + 2);
     mesh.colours.push_back(rgb(200, 200, 200));
   }
@@ -77,8 +80,8 @@ lab::ClippingScene around_the_eye(int count, lab::Size size) {
   Random random(9);
   for (int i = 0; i < count; ++i) {
     const auto inside = [&](float reach) {
-      return glm::vec3(random.uniform(-reach, reach), random.uniform(-reach, reach),
-                       random.uniform(-reach, reach));
+      const float z = random.uniform(-reach, reach), y = random.uniform(-reach, reach);
+      return glm::vec3(random.uniform(-reach, reach), y, z);
     };
     const int kind = i % 200;
     const float away = kind == 0 ? 0.4f : kind == 1 ? 60.0f : 16.0f;

@@ -64,7 +64,8 @@ ClippingScene over_the_screens_edges() {
   for (int i = 0; i < 150; ++i) {
     const auto corner = [&] {
       const float distance = random.uniform(2.0f, 20.0f);
-      return distance * glm::vec3(random.uniform(-1.2f, 1.2f), random.uniform(-0.9f, 0.9f), -1.0f);
+      const float y = random.uniform(-0.9f, 0.9f);
+      return distance * glm::vec3(random.uniform(-1.2f, 1.2f), y, -1.0f);
     };
     add(s, {corner(), corner(), corner()});
   }
@@ -167,7 +168,8 @@ ClippingScene far_slivers(double reach_px, int count) {
   Random random(8);
   for (int i = 0; i < count; ++i) {
     const glm::dvec2 along(random.direction()), across(-along.y, along.x);
-    const glm::dvec2 middle(random.uniform(0, 128), random.uniform(0, 96));
+    const double middle_y = random.uniform(0, 96);
+    const glm::dvec2 middle(random.uniform(0, 128), middle_y);
     const double width_px = random.uniform(4, 12);
     const auto at = [&](double along_px, double across_px) {
       const glm::dvec2 p = middle + along_px * along + across_px * across;

@@ -72,7 +72,8 @@ constexpr std::array kCases = {
 
 glm::vec3 unit_vector(Random& random) {
   for (;;) {
-    const glm::vec3 v(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    const float z = random.uniform(-1, 1), y = random.uniform(-1, 1);
+    const glm::vec3 v(random.uniform(-1, 1), y, z);
     const float square = glm::dot(v, v);
     if (square > 0.01f && square <= 1.0f) return v / std::sqrt(square);
   }
@@ -120,7 +121,8 @@ FacingScene polygons(Shape shape, std::size_t count, std::uint64_t seed) {
   Random random(seed);
   for (std::size_t i = 0; i < count; ++i) {
     const auto corners = static_cast<std::uint32_t>(3 + i % 5);
-    const glm::vec3 centre(random.uniform(-5.0f, 5.0f), random.uniform(-5.0f, 5.0f), kDistance);
+    const float centre_y = random.uniform(-5.0f, 5.0f);
+    const glm::vec3 centre(random.uniform(-5.0f, 5.0f), centre_y, kDistance);
     const auto [u, v] = random_plane(random);
     const glm::vec3 normal = glm::cross(u, v);
     scene.faces.push_back({static_cast<std::uint32_t>(scene.positions.size()), corners});
@@ -142,8 +144,8 @@ FacingScene edge_on_faces(bool perspective, std::size_t count, std::uint64_t see
   view.eye = {0.3f, -0.7f, 0.1f};
   Random random(seed);
   for (std::size_t i = 0; i < count; ++i) {
-    const glm::vec2 sample(static_cast<float>(random.below(128)) - 63.5f,
-                           static_cast<float>(random.below(128)) - 63.5f);
+    const float sample_y = static_cast<float>(random.below(128)) - 63.5f;
+    const glm::vec2 sample(static_cast<float>(random.below(128)) - 63.5f, sample_y);
     const glm::vec2 along = random.direction();
     const auto at = [&](float reach_px) {
       const float w = random.uniform(1.0f, 4.0f);

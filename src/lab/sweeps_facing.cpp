@@ -42,7 +42,8 @@ Measured measure_edge_on(double height_px, bool quick) {
   Random random(3);
   for (int i = 0; i < (quick ? 1000 : 10000); ++i) {
     const auto sample_px = [&] { return static_cast<float>(random.below(128)) - 63.5f; };
-    const glm::vec2 sample(sample_px(), sample_px()), along = random.direction(), across(-along.y, along.x);
+    const float sample_y = sample_px();
+    const glm::vec2 sample(sample_px(), sample_y), along = random.direction(), across(-along.y, along.x);
     const auto height = static_cast<float>(height_px) * (random.below(2) == 0 ? 1.0f : -1.0f);
     const auto add = [&](float along_px, float across_px) {
       const float w = random.uniform(1.0f, 4.0f);

@@ -1,4 +1,5 @@
-// Random numbers that are the same on every machine and standard library.
+// Random numbers that are the same on every machine and standard library. Compilers choose the order in which
+// they evaluate a call's arguments, so draw only one number per call.
 #pragma once
 
 #include <cmath>

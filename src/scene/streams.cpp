@@ -49,8 +49,8 @@ TriangleStream random_stream(const SceneRequest& request, std::size_t count, dou
     const glm::vec2 along = random.direction(), across(-along.y, along.x);
     const glm::vec2 apex = foot * along + height * across;
     const glm::vec2 centroid = (base * along + apex) / 3.0f;
-    const glm::vec2 centre(random.uniform(0.0f, static_cast<float>(request.width)),
-                           random.uniform(0.0f, static_cast<float>(request.height)));
+    const float centre_y = random.uniform(0.0f, static_cast<float>(request.height));
+    const glm::vec2 centre(random.uniform(0.0f, static_cast<float>(request.width)), centre_y);
     const glm::vec2 corners[3] = {centre - centroid, centre - centroid + base * along,
                                   centre - centroid + apex};
     const float z = random.uniform(0.1f, 0.9f);

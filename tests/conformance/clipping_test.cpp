@@ -254,7 +254,8 @@ TEST_F(ConformanceClips, VerticesUpTo100000UnitsFromTheEye) {
     }
     if (trial % 3 != 0) {
       const float w = random.uniform(1.0f, 20.0f);
-      const glm::vec3 held(w * random.uniform(-0.5f, 0.5f), w * random.uniform(-0.4f, 0.4f), -w);
+      const float held_y = w * random.uniform(-0.4f, 0.4f);
+      const glm::vec3 held(w * random.uniform(-0.5f, 0.5f), held_y, -w);
       t[2] = 2.0f * held - 0.5f * (t[0] + t[1]);
     }
     const Scene scene = seen({t.begin(), t.end()}, {{0, 1, 2}});
