@@ -111,7 +111,8 @@ TEST_F(CoverageProperties, MovingByWholePixelsChangesNone) {
   const auto moving = [&](const TriangleStream& stream) {
     Verdict verdict;
     for (const Move move : {Move{1, 0}, Move{0, 1}, Move{63, 17}, Move{5, 130}}) {
-      const auto [before, after] = before_and_after(stream, move);
+      const auto both = before_and_after(stream, move);
+      const TriangleStream &before = both.first, &after = both.second;
       verdict.replay = {before, after};
       for_each_way([&](const Painter& painter, const Execution& way, const std::string& what) {
         const Hits moved = hits(painter, snapped(after, Payload::id), after, way);

@@ -220,7 +220,7 @@ TriangleStream make_far_stream(Random& random, int size) {
 }  // namespace
 
 rc::Shrinkable<TriangleStream> shrinkable(const TriangleStream& stream) {
-  return rc::shrinkable::shrinkRecur(stream, simpler_streams);
+  return rc::shrinkable::shrinkRecur(stream, &simpler_streams);
 }
 
 rc::Gen<TriangleStream> grid_streams() {
