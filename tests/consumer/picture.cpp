@@ -16,6 +16,7 @@ int main() {
   Frontend frontend;  // it and the backend keep their memory: make them once, draw often
   const auto backend = find_backend("tiled").make();
   Framebuffer frame(640, 360);
-  backend->draw(frontend.run(scene, {.width = 640, .height = 360}), frame.view(), rgb(30, 30, 40), {.threads = 2});
+  backend->draw(frontend.run(scene, {.width = 640, .height = 360}), frame.view(), rgb(30, 30, 40),
+                {.threads = 2});
   write_image("pyramid.png", to_image(frame.view()));
 }
