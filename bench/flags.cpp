@@ -1,11 +1,11 @@
-#include "flags.h"
+#include "bench/flags.h"
 
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <iterator>
 #include <stdexcept>
 
-#include "app/options.h"
+#include "support/options.h"
 
 namespace edgewise::bench {
 

@@ -9,19 +9,19 @@
 #include <limits>
 #include <span>
 
-#include "app/console.h"
-#include "app/machine.h"
-#include "app/options.h"
-#include "app/process.h"
-#include "app/progress.h"
-#include "flags.h"
-#include "image/atomic_file.h"
-#include "memory.h"
-#include "model.h"
-#include "random_reads.h"
-#include "ratios.h"
-#include "reporter.h"
-#include "stage.h"
+#include "bench/flags.h"
+#include "bench/models/model.h"
+#include "bench/peers/ratios.h"
+#include "bench/reporter.h"
+#include "bench/workloads/memory.h"
+#include "bench/workloads/random_reads.h"
+#include "bench/workloads/stage.h"
+#include "core/atomic_file.h"
+#include "support/console.h"
+#include "support/machine.h"
+#include "support/options.h"
+#include "support/process.h"
+#include "support/progress.h"
 
 namespace edgewise::bench {
 
@@ -34,7 +34,7 @@ struct Effort {
   // at_least for rows of a backend alone: charts judge the noise by them. Slow rungs are steps far above it;
   // peers are repeated in full.
   int repetitions, at_least;
-  int in_ladder;             // instead, and for its backend's own rows: steps are often below the noise
+  int in_ablation;           // instead, and for its backend's own rows: steps are often below the noise
   double repetition_s;       // at least, unless one iteration takes longer
   double slow_repetition_s;  // where one takes longer, they become fewer
 };
@@ -214,7 +214,7 @@ void register_rows(const std::vector<Row>& rows, Stage& stage, const Flags& flag
     if (flags.own_iterations || known)
       registered->Iterations(known ? 1
                                    : std::max<std::int64_t>(1, std::llround(effort.repetition_s / once_s)));
-    const int most = row.rung || row.wants_floor ? effort.in_ladder : effort.repetitions;
+    const int most = row.rung || row.wants_floor ? effort.in_ablation : effort.repetitions;
     const int repetitions =
         known ? 1 : std::clamp(static_cast<int>(most * effort.slow_repetition_s / once_s), at_least, most);
     if (flags.own_repetitions || known) registered->Repetitions(repetitions);

@@ -1,11 +1,11 @@
-#include "reporter.h"
+#include "bench/reporter.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "app/json_text.h"
+#include "support/json_text.h"
 
 namespace edgewise::bench {
 

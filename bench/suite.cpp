@@ -1,4 +1,4 @@
-#include "suite.h"
+#include "bench/suite.h"
 
 #include <fmt/format.h>
 
@@ -7,11 +7,11 @@
 #include <map>
 #include <stdexcept>
 
-#include "app/printable.h"
-#include "growth.h"
-#include "ladder.h"
+#include "bench/workloads/ablation.h"
+#include "bench/workloads/growth.h"
+#include "lab/choice.h"
 #include "scene/cells.h"
-#include "viewer/choice.h"
+#include "support/printable.h"
 
 namespace edgewise::bench {
 
@@ -76,7 +76,7 @@ class Suite {
     for (const auto& backend : backends())
       for (const int threads : kThreads) {
         add(workload, Timed::raster, backend, name, threads);
-        rows_.back().wants_floor = backend.name == kLadderBackend;
+        rows_.back().wants_floor = backend.name == kAblationBackend;
         add(workload, Timed::frame, backend, name, threads);
       }
     if (options_.scenes.empty()) add_scheduled(workload, name);
@@ -87,14 +87,14 @@ class Suite {
     // Peers may use vectors of 256 bits at most, so ours is timed with as many too.
     if (!peers().empty() && resolve(SimdTarget::best) == SimdTarget::avx512)
       for (const int threads : kThreads)
-        add(workload, timed, find_backend(kLadderBackend), fmt::format("{}/target:avx2", name), threads,
+        add(workload, timed, find_backend(kAblationBackend), fmt::format("{}/target:avx2", name), threads,
             SimdTarget::avx2);
   }
 
   // Beside the scene's own rows, which are its ends: one reference picture serves them all.
   void add_ladder(const WorkloadPtr& workload, const std::string& scene) {
-    if (!in_ladder(scene)) return;
-    for (const Rung& rung : ladder()) {
+    if (!in_ablation(scene)) return;
+    for (const AblationStep& rung : ablation_steps()) {
       add(workload, Timed::raster, find_backend(rung.backend), fmt::format("{}/rung:{}", scene, rung.name),
           rung.execution);
       rows_.back().rung = true;
@@ -135,7 +135,7 @@ class Suite {
   // Whole frames, since culling costs the front end what it saves the backend.
   void add_cull_sweep() {
     const SceneRequest wanted = request(options_, options_.width, options_.height);
-    const lab::FacingMethod& trainers = viewer::find_facing_method("normal_z");
+    const lab::FacingMethod& trainers = lab::find_facing_method("normal_z");
     for (const std::string scene : {"cube", "cubes", "sphere", kSphereQuadsName, "torus-knot"}) {
       const auto load = [scene, wanted] {
         return scene == kSphereQuadsName ? sphere_quads(wanted) : app::load_source(scene, wanted, false);

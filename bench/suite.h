@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "peer.h"
-#include "scaling.h"
-#include "workload.h"
+#include "bench/models/scaling.h"
+#include "bench/peers/peer.h"
+#include "bench/workloads/workload.h"
 
 namespace edgewise::bench {
 
@@ -34,11 +34,11 @@ struct Row {
   FrameWork recorded;     // what is scheduled then
   double peak_bytes = 0;  // of a first frame; 0 where it was not measured
   bool wants_floor = false;
-  bool rung = false;            // of the ladder
-  double once_s = 0.0;          // what it took when it was compared
-  std::optional<Floor> floor;   // if wanted
-  std::uint64_t near_ties = 0;  // peers: pixels where another triangle is as near up to rounding
-  std::string error;            // why it must not be timed
+  bool rung = false;               // of the ladder
+  double once_s = 0.0;             // what it took when it was compared
+  std::optional<FrameCost> floor;  // if wanted
+  std::uint64_t near_ties = 0;     // peers: pixels where another triangle is as near up to rounding
+  std::string error;               // why it must not be timed
 };
 
 struct SuiteOptions {

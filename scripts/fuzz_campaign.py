@@ -17,8 +17,8 @@ TARGETS = {
     "obj": ("any bytes as an .obj file", 1024, ("src/scene/obj_file.cpp", "src/scene/polygon.cpp")),
     "tri": ("any bytes as a .tri file", 1000, ("src/scene/tri_file.cpp", "src/frontend/stream.cpp",
                                                "src/frontend/clip.cpp", "src/frontend/one_by_one.cpp")),
-    "options": ("any bytes as a command line", 400, ("src/app/run.cpp", "src/app/options.cpp", "src/nearest_name.cpp",
-                                                     "src/app/printable.cpp")),
+    "options": ("any bytes as a command line", 400, ("src/cli/run.cpp", "src/support/options.cpp", "src/core/nearest_name.cpp",
+                                                     "src/support/printable.cpp")),
     "triangles": ("any bytes as triangles, all backends against each other", 600, ("src/raster/",)),
 }
 

@@ -10,10 +10,10 @@
 #include <string_view>
 #include <vector>
 
+#include "core/random.h"
 #include "edgewise/backend.h"
 #include "edgewise/contract.h"
 #include "lab/measure.h"
-#include "scene/random.h"
 
 namespace edgewise::testing {
 
@@ -99,7 +99,7 @@ inline std::vector<Execution> executions() {
   for (const auto target : supported_targets())
     for (const int tile : {16, 32}) list.push_back({2, tile, target});
   for (const auto target : supported_targets())
-    for (const auto& ideas : kTiledVariants) list.push_back({1, 64, target, ideas});
+    for (const auto& ideas : kAblations) list.push_back({1, 64, target, ideas});
   list.push_back({1, 64, SimdTarget::best, {}, true});
   return list;
 }

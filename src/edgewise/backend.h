@@ -9,11 +9,11 @@
 #include <span>
 #include <string_view>
 
+#include "edgewise/ablation.h"
 #include "edgewise/framebuffer.h"
 #include "edgewise/limits.h"
 #include "edgewise/screen_triangle.h"
 #include "edgewise/simd_target.h"
-#include "edgewise/tiled_ideas.h"
 
 namespace edgewise {
 
@@ -22,7 +22,7 @@ struct Execution {
   int threads = 1;     // 1 … kMaxThreads
   int tile_size = 64;  // px; 16, 32 or 64; only the tiled backend looks at it
   SimdTarget target = SimdTarget::best;
-  TiledIdeas ideas{};    // all on; patches and hierarchical depth are tiled's, the others also scanline's
+  Ablation ideas{};      // all on; patches and hierarchical depth are tiled's, the others also scanline's
   bool stepped = false;  // along rows, instead of evaluated at each pixel; only the naive backend looks at it
 };
 

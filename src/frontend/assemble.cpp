@@ -11,9 +11,9 @@
 
 #include <algorithm>
 
+#include "core/kernel_table.h"
 #include "frontend/assemble.h"
 #include "frontend/one_by_one.h"
-#include "raster/kernel_table.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace edgewise {
@@ -21,7 +21,7 @@ namespace HWY_NAMESPACE {
 
 // False if the triangles must go one by one.
 template <bool kMarked>
-HWY_INLINE bool assemble_vector(const MeshJob& job, std::size_t first, RunOutput& out) {
+HWY_INLINE bool assemble_vector(const MeshTask& job, std::size_t first, RunOutput& out) {
   if (job.one_by_one()) return false;
   const DI d;
   const std::uint32_t* index = &job.mesh.triangles[first].x;
@@ -56,7 +56,7 @@ bool vertices_exist(const Mesh& mesh, std::size_t begin, std::size_t end) {
 }
 
 template <bool kMarked>
-void assemble_all(const MeshJob& job, std::size_t begin, std::size_t end, RunOutput& out) {
+void assemble_all(const MeshTask& job, std::size_t begin, std::size_t end, RunOutput& out) {
   const auto one_by_one = [&](std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; ++i) add_one(job, i, out);
   };
@@ -66,7 +66,7 @@ void assemble_all(const MeshJob& job, std::size_t begin, std::size_t end, RunOut
   one_by_one(i, end);
 }
 
-bool assemble(const MeshJob& job, std::size_t begin, std::size_t end, RunOutput& out) {
+bool assemble(const MeshTask& job, std::size_t begin, std::size_t end, RunOutput& out) {
   if (!vertices_exist(job.mesh, begin, end)) return false;
   if (job.mesh.marks.empty())
     assemble_all<false>(job, begin, end, out);

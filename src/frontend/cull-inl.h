@@ -2,17 +2,17 @@
 // dropped, and the rest is appended to a run's output. Shared by assemble.cpp and stream.cpp.
 //
 // Compiled once a SIMD target, like lanes-inl.h.
-#if defined(EDGEWISE_FRONTEND_CULL) == defined(HWY_TARGET_TOGGLE)
-#ifdef EDGEWISE_FRONTEND_CULL
-#undef EDGEWISE_FRONTEND_CULL
+#if defined(EDGEWISE_FRONTEND_CULL_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef EDGEWISE_FRONTEND_CULL_INL_H
+#undef EDGEWISE_FRONTEND_CULL_INL_H
 #else
-#define EDGEWISE_FRONTEND_CULL
+#define EDGEWISE_FRONTEND_CULL_INL_H
 #endif
 
 #include <cstring>
 
-#include "frontend/jobs.h"
 #include "frontend/lanes-inl.h"
+#include "frontend/tasks.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace edgewise {

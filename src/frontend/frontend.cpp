@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/parallel.h"
 #include "edgewise/contract.h"
 #include "edgewise/limits.h"
 #include "frontend/assemble.h"
@@ -18,7 +19,6 @@
 #include "frontend/stream.h"
 #include "frontend/transform.h"
 #include "frontend/view.h"
-#include "raster/parallel.h"
 
 namespace edgewise {
 
@@ -100,11 +100,11 @@ FrontendStats& FrontendStats::operator+=(const FrontendStats& o) {
 
 // An instance's part in the work of a group.
 struct GroupMember {
-  GroupMember(const MeshJob& its_job, const ShadeJob& its_light, std::size_t vertices_before,
+  GroupMember(const MeshTask& its_job, const ShadeJob& its_light, std::size_t vertices_before,
               std::uint32_t id)
       : job(its_job), light(its_light), first_vertex(vertices_before), first_id(id) {}
 
-  MeshJob job;
+  MeshTask job;
   ShadeJob light;
   std::size_t first_vertex;  // in the group's memory
   std::uint32_t first_id;
@@ -218,8 +218,8 @@ struct Frontend::State {
       if (vertex_runs.total() + mesh.positions.size() > kMaxVertices || group.size() == kMaxMembers)
         run_group();
       const glm::mat4 model = model_matrix(instance);
-      const MeshJob job{options, mesh, glm::mat4(to_screen * glm::dmat4(model)), nullptr,
-                        options.keep_states ? states.data() + first_id : nullptr};
+      const MeshTask job{options, mesh, glm::mat4(to_screen * glm::dmat4(model)), nullptr,
+                         options.keep_states ? states.data() + first_id : nullptr};
       ++stats.meshes;
       stats.triangles += mesh.triangles.size();
       vertex_runs.add(group.size(), mesh.positions.size());
@@ -233,7 +233,7 @@ struct Frontend::State {
 
   void run_stream(const TriangleStream& stream) {
     const StreamKernel kernel = stream_kernel(options.target);
-    const StreamJob job{options, stream, options.keep_states ? states.data() : nullptr};
+    const StreamTask job{options, stream, options.keep_states ? states.data() : nullptr};
     const std::size_t count = stream.triangles.size();
     stats.triangles = count;
     order.for_each_run((count + kRun - 1) / kRun, count,

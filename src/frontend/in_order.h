@@ -12,8 +12,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "frontend/jobs.h"
-#include "raster/parallel.h"
+#include "core/parallel.h"
+#include "frontend/tasks.h"
 
 namespace edgewise {
 

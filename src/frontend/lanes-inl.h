@@ -3,11 +3,11 @@
 // record.
 //
 // Compiled once a SIMD target; include it after hwy/highway.h, inside foreach_target's scheme.
-#if defined(EDGEWISE_FRONTEND_LANES) == defined(HWY_TARGET_TOGGLE)
-#ifdef EDGEWISE_FRONTEND_LANES
-#undef EDGEWISE_FRONTEND_LANES
+#if defined(EDGEWISE_FRONTEND_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef EDGEWISE_FRONTEND_LANES_INL_H
+#undef EDGEWISE_FRONTEND_LANES_INL_H
 #else
-#define EDGEWISE_FRONTEND_LANES
+#define EDGEWISE_FRONTEND_LANES_INL_H
 #endif
 
 #include <cstddef>
@@ -27,7 +27,7 @@ using VI = hn::Vec<DI>;
 using VF = hn::Vec<DF>;
 constexpr std::size_t kLanes = hn::MaxLanes(DI{});
 
-// first, first + 1 ... Not Iota(first), see raster/lanes-inl.h.
+// first, first + 1 ... Not Iota(first), see raster/simd/lanes-inl.h.
 HWY_INLINE VI counting_from(std::size_t first) {
   return hn::Add(hn::Iota(DI{}, 0), hn::Set(DI{}, static_cast<std::int32_t>(first)));
 }

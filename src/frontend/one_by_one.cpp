@@ -120,7 +120,7 @@ void add_and_tell(const Job& job, std::size_t triangle, RunOutput& out, AddIt&& 
 
 }  // namespace
 
-void add_one(const MeshJob& job, std::size_t triangle, RunOutput& out) {
+void add_one(const MeshTask& job, std::size_t triangle, RunOutput& out) {
   const glm::uvec3 t = job.mesh.triangles[triangle];
   const auto clip_of = [&](int k) { return transform(job.to_screen, job.mesh.positions[t[k]]); };
   const Cull cull = job.mesh.has_mark(triangle, kTwoSided) ? Cull::none : job.options.cull;
@@ -130,7 +130,7 @@ void add_one(const MeshJob& job, std::size_t triangle, RunOutput& out) {
   });
 }
 
-void add_one(const StreamJob& job, std::size_t triangle, RunOutput& out) {
+void add_one(const StreamTask& job, std::size_t triangle, RunOutput& out) {
   const StreamTriangle& t = job.stream.triangles[triangle];
   const auto width = static_cast<float>(job.options.width), height = static_cast<float>(job.options.height);
   const auto clip_of = [&](int k) {

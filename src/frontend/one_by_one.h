@@ -3,11 +3,11 @@
 // and all of them when the unsnapped positions are kept.
 #pragma once
 
-#include "frontend/jobs.h"
+#include "frontend/tasks.h"
 
 namespace edgewise {
 
-void add_one(const MeshJob& job, std::size_t triangle, RunOutput& out);
-void add_one(const StreamJob& job, std::size_t triangle, RunOutput& out);
+void add_one(const MeshTask& job, std::size_t triangle, RunOutput& out);
+void add_one(const StreamTask& job, std::size_t triangle, RunOutput& out);
 
 }  // namespace edgewise

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "frontend/jobs.h"
+#include "frontend/tasks.h"
 
 namespace edgewise {
 

@@ -10,9 +10,9 @@
 
 #include <algorithm>
 
+#include "core/kernel_table.h"
 #include "edgewise/contract.h"
 #include "frontend/shade.h"
-#include "raster/kernel_table.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace edgewise {

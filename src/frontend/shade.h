@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "edgewise/simd_target.h"
-#include "frontend/jobs.h"
+#include "frontend/tasks.h"
 
 namespace edgewise {
 

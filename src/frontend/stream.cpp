@@ -11,9 +11,9 @@
 
 #include <algorithm>
 
+#include "core/kernel_table.h"
 #include "frontend/one_by_one.h"
 #include "frontend/stream.h"
-#include "raster/kernel_table.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace edgewise {
@@ -63,7 +63,7 @@ HWY_INLINE MI beyond(const VF (&v)[3], int side_px) {
 }
 
 // False if the triangles must go one by one.
-HWY_INLINE bool stream_vector(const StreamJob& job, std::size_t first, RunOutput& out) {
+HWY_INLINE bool stream_vector(const StreamTask& job, std::size_t first, RunOutput& out) {
   if (job.one_by_one()) return false;
   constexpr auto kGuardPx = static_cast<float>(contract::kMaxImageSide);
   const FrontendOptions& options = job.options;
@@ -81,7 +81,7 @@ HWY_INLINE bool stream_vector(const StreamJob& job, std::size_t first, RunOutput
   return true;
 }
 
-void stream(const StreamJob& job, std::size_t begin, std::size_t end, RunOutput& out) {
+void stream(const StreamTask& job, std::size_t begin, std::size_t end, RunOutput& out) {
   const auto one_by_one = [&](std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; ++i) add_one(job, i, out);
   };

@@ -2,12 +2,12 @@
 #pragma once
 
 #include "edgewise/simd_target.h"
-#include "frontend/jobs.h"
+#include "frontend/tasks.h"
 
 namespace edgewise {
 
 // Appends what is visible of triangles begin … end - 1 to the output, with its payload.
-using StreamKernel = void (*)(const StreamJob& job, std::size_t begin, std::size_t end, RunOutput& out);
+using StreamKernel = void (*)(const StreamTask& job, std::size_t begin, std::size_t end, RunOutput& out);
 
 // `target` must be resolved.
 StreamKernel stream_kernel(SimdTarget target);

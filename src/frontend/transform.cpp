@@ -9,8 +9,8 @@
 
 #include <algorithm>
 
+#include "core/kernel_table.h"
 #include "frontend/transform.h"
-#include "raster/kernel_table.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace edgewise {
@@ -56,7 +56,7 @@ HWY_INLINE VI outside_of(const ClipVectors& v, float width_px, float height_px) 
 }
 
 // A whole vector of vertices. Returns the sides beyond which each lies, all of them where it is not finite.
-HWY_INLINE VI transform_vector(const MeshJob& job, const float* positions, Vertex* out) {
+HWY_INLINE VI transform_vector(const MeshTask& job, const float* positions, Vertex* out) {
   const DF df;
   const DI di;
   VF x, y, z;
@@ -74,7 +74,7 @@ HWY_INLINE VI transform_vector(const MeshJob& job, const float* positions, Verte
   return hn::IfThenElse(hn::Eq(outside, hn::Set(di, kNotFinite)), hn::Set(di, -1), outside);
 }
 
-std::uint32_t transform_vertices(const MeshJob& job, std::size_t begin, std::size_t end) {
+std::uint32_t transform_vertices(const MeshTask& job, std::size_t begin, std::size_t end) {
   const DI d;
   const glm::vec3* positions = job.mesh.positions.data();
   VI common = hn::Set(d, -1);

@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "edgewise/simd_target.h"
-#include "frontend/jobs.h"
+#include "frontend/tasks.h"
 
 namespace edgewise {
 
@@ -18,7 +18,7 @@ inline ClipVertex transform(const glm::mat4& m, glm::vec3 p) {
 
 // Transforms vertices begin … end - 1 and returns the sides of Outside beyond which all finite ones lie;
 // kNotFinite is among them if there is none.
-using TransformKernel = std::uint32_t (*)(const MeshJob& job, std::size_t begin, std::size_t end);
+using TransformKernel = std::uint32_t (*)(const MeshTask& job, std::size_t begin, std::size_t end);
 
 // `target` must be resolved.
 TransformKernel transform_kernel(SimdTarget target);

@@ -9,11 +9,11 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/atomic_file.h"
+#include "core/file_extension.h"
+#include "core/input_file.h"
 #include "edgewise/contract.h"
-#include "file_extension.h"
-#include "image/atomic_file.h"
 #include "image/netpbm.h"
-#include "input_file.h"
 
 namespace edgewise {
 

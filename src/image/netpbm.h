@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "input_file.h"
+#include "core/input_file.h"
 
 namespace edgewise::netpbm {
 

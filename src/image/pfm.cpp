@@ -8,8 +8,8 @@
 #include <cstring>
 #include <string>
 
+#include "core/atomic_file.h"
 #include "edgewise/image.h"
-#include "image/atomic_file.h"
 #include "image/netpbm.h"
 
 namespace edgewise {

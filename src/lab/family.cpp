@@ -2,11 +2,11 @@
 
 #include <stdexcept>
 
-#include "lab/clipping.h"
-#include "lab/coverage.h"
-#include "lab/facing.h"
-#include "lab/visibility.h"
-#include "nearest_name.h"
+#include "core/nearest_name.h"
+#include "lab/clipping/clipping.h"
+#include "lab/coverage/coverage.h"
+#include "lab/facing/facing.h"
+#include "lab/visibility/visibility.h"
 
 namespace edgewise::lab {
 

@@ -14,7 +14,7 @@ namespace edgewise::lab {
 // meant for images of some 100 px a side, or for small triangles.
 void draw_oracle(std::span<const ScreenTriangle> triangles, Framebuffer& frame, std::uint32_t background);
 
-// The same for edges, by the rule on top of raster/backends/wireframe.cpp.
+// The same for edges, by the rule on top of raster/wireframe.cpp.
 void draw_edge_oracle(std::span<const ScreenTriangle> triangles, Framebuffer& frame,
                       std::uint32_t background);
 

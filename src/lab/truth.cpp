@@ -5,7 +5,7 @@
 #include <iterator>
 #include <limits>
 
-#include "raster/parallel.h"
+#include "core/parallel.h"
 
 namespace edgewise::lab {
 

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <span>
 
+#include "core/parallel.h"
 #include "edgewise/backend.h"
 #include "edgewise/contract.h"
-#include "raster/bins.h"
-#include "raster/parallel.h"
+#include "raster/binning/bins.h"
 
 namespace edgewise {
 

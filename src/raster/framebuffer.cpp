@@ -3,8 +3,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/pages.h"
 #include "edgewise/contract.h"
-#include "raster/pages.h"
 
 namespace edgewise {
 

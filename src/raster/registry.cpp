@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "core/nearest_name.h"
 #include "edgewise/backend.h"
-#include "nearest_name.h"
 
 #ifndef EDGEWISE_MORE_BACKENDS
 #define EDGEWISE_MORE_BACKENDS(X)

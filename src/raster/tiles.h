@@ -5,11 +5,11 @@
 #include <bit>
 #include <span>
 
+#include "core/llc.h"
+#include "core/parallel.h"
 #include "edgewise/backend.h"
-#include "raster/bins.h"
-#include "raster/last_cache.h"
-#include "raster/parallel.h"
-#include "raster/tile_kernel.h"
+#include "raster/binning/bins.h"
+#include "raster/tile_task.h"
 #include "raster/write_out_choice.h"
 
 namespace edgewise {
@@ -17,7 +17,7 @@ namespace edgewise {
 // What a backend keeps from frame to frame.
 struct TileScratch {
   Bins bins;
-  WriteOutChoice write_out{last_cache_bytes()};
+  WriteOutChoice write_out{llc_bytes()};
 };
 
 inline void draw_in_tiles(std::span<const ScreenTriangle> triangles, FrameView frame,
@@ -37,15 +37,15 @@ inline void draw_in_tiles(std::span<const ScreenTriangle> triangles, FrameView f
   if (choice) choice->begin_frame({frame_bytes, triangles.size_bytes(), grid.cells(), execution.threads});
   const int columns = grid.columns();
   parallel_for(execution.threads, grid.cells(), [&](int cell) {
-    TileJob job{triangles.data(),
-                &bins,
-                cell,
-                cell % columns << size_log2,
-                cell / columns << size_log2,
-                size_log2,
-                frame,
-                background,
-                execution.ideas};
+    TileTask job{triangles.data(),
+                 &bins,
+                 cell,
+                 cell % columns << size_log2,
+                 cell / columns << size_log2,
+                 size_log2,
+                 frame,
+                 background,
+                 execution.ideas};
     if (choice) {
       const WriteOutChoice::ForTile chosen = choice->for_tile(cell, bins.empty(cell));
       job.ideas.write_out = chosen.way, job.write_out_ns = chosen.elapsed_ns;

@@ -12,7 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "edgewise/tiled_ideas.h"
+#include "edgewise/ablation.h"
 
 namespace edgewise {
 

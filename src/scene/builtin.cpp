@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "nearest_name.h"
-#include "scene/random.h"
+#include "core/nearest_name.h"
+#include "core/random.h"
 #include "scene/streams.h"
 
 #ifndef EDGEWISE_MORE_SCENES

@@ -17,8 +17,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/input_file.h"
 #include "edgewise/limits.h"
-#include "input_file.h"
 #include "scene/polygon.h"
 
 #pragma GCC diagnostic push

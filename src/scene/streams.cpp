@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "scene/random.h"
+#include "core/random.h"
 
 namespace edgewise {
 

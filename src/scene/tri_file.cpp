@@ -9,9 +9,9 @@
 #include <string>
 #include <type_traits>
 
+#include "core/input_file.h"
 #include "edgewise/contract.h"
 #include "edgewise/limits.h"
-#include "input_file.h"
 
 namespace edgewise {
 

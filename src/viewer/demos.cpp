@@ -5,8 +5,8 @@
 #include <numbers>
 #include <string>
 
+#include "core/nearest_name.h"
 #include "edgewise/builtin.h"
-#include "nearest_name.h"
 #include "scene/cells.h"
 
 namespace edgewise::viewer {

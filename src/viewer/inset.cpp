@@ -1,4 +1,5 @@
 #include "viewer/inset.h"
+#include "lab/view_space.h"
 
 #include <algorithm>
 #include <array>
@@ -47,7 +48,7 @@ Scene axes_scene(const Camera& camera) {
   }
   scene.camera.yaw = camera.yaw;
   scene.camera.pitch = camera.pitch;
-  scene.camera.position = -4.0f * line_of_sight(camera);
+  scene.camera.position = -4.0f * lab::line_of_sight(camera);
   scene.camera.fov_y = 0.65f;
   return scene;
 }
@@ -75,9 +76,9 @@ Projected project(const glm::dmat4& to_screen, glm::vec3 world) {
 
 }  // namespace
 
-void tint(Image& image, std::span<const app::Mark> marks) {
+void tint(Image& image, std::span<const lab::Mark> marks) {
   for (std::size_t i = 0; i < marks.size(); ++i)
-    if (marks[i] != app::Mark::none) image.pixels[i] = app::colour_of(marks[i]);
+    if (marks[i] != lab::Mark::none) image.pixels[i] = lab::colour_of(marks[i]);
 }
 
 void paste(const Image& from, int left, int top, Image& into) {

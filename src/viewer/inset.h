@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "app/accuracy_closeup.h"
-#include "app/options.h"
 #include "edgewise/image.h"
 #include "edgewise/scene.h"
+#include "lab/error_marks.h"
+#include "support/options.h"
 #include "viewer/face_states.h"
 #include "viewer/text.h"
 
@@ -19,7 +19,7 @@ struct Pixel {
 };
 
 // Paints the marked pixels in the colours of their marks.
-void tint(Image& image, std::span<const app::Mark> marks);
+void tint(Image& image, std::span<const lab::Mark> marks);
 
 // The glass shows the pixels around a place as squares, framed, in the lower right corner.
 void magnify(Image& image, Pixel focus);

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "viewer/choice.h"
+#include "lab/choice.h"
 
 namespace edgewise::viewer {
 
@@ -29,7 +29,7 @@ Stroke parse_name(std::string_view name) {
   const auto found =
       std::find_if(kNames.begin(), kNames.end(), [&](const auto& known) { return known.first == name; });
   if (found != kNames.end()) return found->second;
-  if (Choice unused; put(name, unused)) return Named{std::string(name)};
+  if (lab::Choice unused; put(name, unused)) return Named{std::string(name)};
   double seconds = 0;
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), seconds);
   if (error != std::errc{} || end != name.data() + name.size() || !(seconds >= 0 && seconds <= kLongestWait))

@@ -8,7 +8,7 @@
 #include <initializer_list>
 #include <utility>
 
-#include "app/printable.h"
+#include "support/printable.h"
 #include "viewer/session.h"
 
 namespace edgewise::viewer {
@@ -251,19 +251,19 @@ class Overlaying {
   }
 
   void legend(Column& to) {
-    to.line("nothing drawn", app::colour_of(app::Mark::gap));
-    to.line("drawn twice, or the wrong one shows", app::colour_of(app::Mark::twice));
-    to.line("drawn where nothing is", app::colour_of(app::Mark::extra));
+    to.line("nothing drawn", lab::colour_of(lab::Mark::gap));
+    to.line("drawn twice, or the wrong one shows", lab::colour_of(lab::Mark::twice));
+    to.line("drawn where nothing is", lab::colour_of(lab::Mark::extra));
   }
 
   void side(Column& to, std::size_t i) {
     const Side& s = session_.side(i);
     const FrontendStats& n = s.stats;
-    const Choice& c = s.choice;
+    const lab::Choice& c = s.choice;
     const auto stage = [&](const char* key, bool ours, std::string_view name) {
       return std::pair(fmt::format("[{}] {}", key, name), ours ? kPlain : kNotOurs);
     };
-    // Coverage methods other than the backends bring a depth test of their own (lab/coverage.h).
+    // Coverage methods other than the backends bring a depth test of their own (lab/coverage/coverage.h).
     const bool own_depth = c.our_visibility() && !c.our_coverage();
     to.line({{marker(i), kStrong},
              stage("b", c.our_coverage(), c.coverage->info.name),

@@ -1,7 +1,7 @@
 // What is written over the picture: the state of the session, or the help.
 #pragma once
 
-#include "app/options.h"
+#include "support/options.h"
 #include "viewer/text.h"
 
 namespace edgewise::viewer {

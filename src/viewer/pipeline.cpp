@@ -4,13 +4,13 @@
 #include <stdexcept>
 #include <utility>
 
-#include "app/milliseconds.h"
-#include "app/pictures.h"
 #include "edgewise/contract.h"
 #include "frontend/shade.h"
-#include "lab/coverage_score.h"
+#include "image/pictures.h"
+#include "lab/coverage/score.h"
+#include "lab/view_space.h"
+#include "support/milliseconds.h"
 #include "viewer/outlines.h"
-#include "viewer/view_space.h"
 
 namespace edgewise::viewer {
 
@@ -107,7 +107,7 @@ Backend& Pipeline::backend(std::string_view name) {
   return *slot;
 }
 
-Picture Pipeline::draw(const Choice& choice, const View& view) {
+Picture Pipeline::draw(const lab::Choice& choice, const View& view) {
   Picture picture;
   FrontendOptions options = view.frontend;
   options.payload = Payload::colour;
@@ -125,14 +125,14 @@ Picture Pipeline::draw(const Choice& choice, const View& view) {
   return picture;
 }
 
-void Pipeline::draw_ours(const Choice& choice, const View& view, Picture& picture) {
+void Pipeline::draw_ours(const lab::Choice& choice, const View& view, Picture& picture) {
   Backend& by = backend(choice.coverage->info.name);
   const std::uint32_t background = app::background_of(Payload::colour);
   picture.raster_ms = milliseconds([&] { by.draw(screen_, frame_->view(), background, view.execution); });
   picture.image = to_image(*frame_);
 }
 
-void Pipeline::draw_composed(const Choice& choice, const View& view, Picture& picture) {
+void Pipeline::draw_composed(const lab::Choice& choice, const View& view, Picture& picture) {
   double stages_ms = 0;
   const Triangles triangles = triangles_of(choice, view, stages_ms);
   if (!choice.our_facing() || !choice.our_clipping()) {
@@ -163,14 +163,14 @@ void Pipeline::run_dropped(const lab::FacingMethod& method, const View& view, Pi
       [&] { screen_ = frontend_.run(drops ? hidden_->drop(scene) : view.world.drawable(), options); });
 }
 
-void Pipeline::outline(const Choice& choice, const View& view, Image& image) {
+void Pipeline::outline(const lab::Choice& choice, const View& view, Image& image) {
   double unused_ms = 0;
   const Triangles triangles = triangles_of(choice, view, unused_ms);
   const Owners owners = owners_of(choice, view, triangles, unused_ms);
   add_outlines(triangles.snapped, owners, backend("wireframe"), frame_->view(), view.execution, image);
 }
 
-std::vector<TriangleState> Pipeline::states(const Choice& choice, const View& view) {
+std::vector<TriangleState> Pipeline::states(const lab::Choice& choice, const View& view) {
   if (!choice.our_clipping()) return {};
   FrontendOptions options = view.frontend;
   options.keep_states = true;
@@ -202,7 +202,7 @@ Pipeline::Triangles Pipeline::from_front_end(const View& view, Cull cull) {
 // The method's own backend is replaced by one that records what it is handed.
 Pipeline::Triangles Pipeline::from_clipping(const lab::ClippingMethod& method, const View& view,
                                             double& spent_ms) {
-  const lab::ClippingScene seen = in_view_space(*view.world.scene(), size_of(view));
+  const lab::ClippingScene seen = lab::in_view_space(*view.world.scene(), size_of(view));
   lab::ClippingFrame frame(seen.size);
   auto recorder = std::make_unique<Recorder>();
   Triangles triangles;
@@ -222,8 +222,8 @@ void Pipeline::cull(const lab::FacingMethod& method, const View& view, Triangles
   std::vector<std::uint8_t> fronts;  // empty: the sign of the snapped area decides
   lab::ClippingScene seen;
   if (&method != &lab::facing_methods().front()) {
-    seen = in_view_space(*view.world.scene(), size_of(view));
-    spent_ms += milliseconds([&] { fronts = fronts_of(method, seen); });
+    seen = lab::in_view_space(*view.world.scene(), size_of(view));
+    spent_ms += milliseconds([&] { fronts = lab::fronts_of(method, seen); });
   }
   const auto side_of = [&](const ScreenTriangle& t) -> std::int64_t {
     const std::size_t id = t.payload - 1;
@@ -253,7 +253,7 @@ void Pipeline::cull(const lab::FacingMethod& method, const View& view, Triangles
   triangles.floats.resize(kept);
 }
 
-Pipeline::Triangles Pipeline::triangles_of(const Choice& choice, const View& view, double& spent_ms) {
+Pipeline::Triangles Pipeline::triangles_of(const lab::Choice& choice, const View& view, double& spent_ms) {
   if (choice.our_clipping() && choice.our_facing()) return from_front_end(view, view.frontend.cull);
   Triangles triangles;
   if (choice.our_clipping())
@@ -264,7 +264,7 @@ Pipeline::Triangles Pipeline::triangles_of(const Choice& choice, const View& vie
   return triangles;
 }
 
-Pipeline::Owners Pipeline::owners_of(const Choice& choice, const View& view, const Triangles& triangles,
+Pipeline::Owners Pipeline::owners_of(const lab::Choice& choice, const View& view, const Triangles& triangles,
                                      double& spent_ms) {
   if (!choice.our_visibility()) return owners_by_visibility(*choice.visibility, view, triangles, spent_ms);
   spent_ms = milliseconds([&] {
@@ -308,7 +308,7 @@ Pipeline::Owners Pipeline::true_owners(const View& view, const Triangles& triang
   return owners;
 }
 
-Judgement Pipeline::judge(const Choice& choice, const View& view, Truth truth) {
+Judgement Pipeline::judge(const lab::Choice& choice, const View& view, Truth truth) {
   double unused_ms = 0;
   const Triangles triangles = triangles_of(choice, view, unused_ms);
   const Owners said = owners_of(choice, view, triangles, unused_ms);
@@ -318,7 +318,7 @@ Judgement Pipeline::judge(const Choice& choice, const View& view, Truth truth) {
   const std::string_view by = filling_backends()[is_first ? 1 : 0].name;
   const Owners shown = [&] {
     if (choice.our_clipping() && choice.our_facing()) return true_owners(view, triangles, truth, by);
-    const Choice exact = our_choice(by);
+    const lab::Choice exact = lab::our_choice(by);
     if (choice.our_clipping()) return true_owners(view, triangles_of(exact, view, unused_ms), truth, by);
     // In view space all clipping methods get the same, slightly rounded vertices: so must ours.
     Triangles clipped = from_clipping(*exact.clipping, view, unused_ms);
@@ -331,7 +331,7 @@ Judgement Pipeline::judge(const Choice& choice, const View& view, Truth truth) {
     if (shown[i] != lab::kNobody) ++judgement.covered;
     if (shown[i] != said[i]) ++judgement.wrong;
   }
-  judgement.marks = app::mark_owners(shown, said, window_of(view)).marks;
+  judgement.marks = lab::mark_owners(shown, said, window_of(view)).marks;
   if (choice.our_coverage()) return judgement;
 
   const lab::CoverageInput input{triangles.floats, triangles.snapped};
@@ -341,12 +341,12 @@ Judgement Pipeline::judge(const Choice& choice, const View& view, Truth truth) {
   std::vector<lab::Run> runs;
   choice.coverage->runs(input, window_of(view), runs);
   const auto marked =
-      app::mark_coverage(covered, std::move(runs), triangles.floats, lab::gap_reach_px(*choice.coverage));
+      lab::mark_coverage(covered, std::move(runs), triangles.floats, lab::gap_reach_px(*choice.coverage));
   judgement.gaps = judgement.double_hits = 0;
   for (std::size_t i = 0; i < marked.marks.size(); ++i) {
-    if (marked.marks[i] == app::Mark::gap) ++*judgement.gaps;
-    if (marked.marks[i] == app::Mark::twice) ++*judgement.double_hits;
-    if (marked.marks[i] == app::Mark::gap || marked.marks[i] == app::Mark::twice)
+    if (marked.marks[i] == lab::Mark::gap) ++*judgement.gaps;
+    if (marked.marks[i] == lab::Mark::twice) ++*judgement.double_hits;
+    if (marked.marks[i] == lab::Mark::gap || marked.marks[i] == lab::Mark::twice)
       judgement.marks[i] = marked.marks[i];
   }
   return judgement;

@@ -9,12 +9,12 @@
 #include <string_view>
 #include <vector>
 
-#include "app/accuracy_closeup.h"
 #include "edgewise/backend.h"
 #include "edgewise/frontend.h"
 #include "edgewise/image.h"
-#include "viewer/choice.h"
-#include "viewer/hidden_faces.h"
+#include "lab/choice.h"
+#include "lab/error_marks.h"
+#include "lab/hidden_faces.h"
 #include "viewer/world.h"
 
 namespace edgewise::viewer {
@@ -44,20 +44,20 @@ struct Judgement {
   // Of coverage methods other than the backends: pixels that nobody draws between neighbours, and pixels
   // drawn twice where at most one triangle is, whatever is seen of it.
   std::optional<std::uint64_t> gaps, double_hits;
-  std::vector<app::Mark> marks;  // row by row
+  std::vector<lab::Mark> marks;  // row by row
 };
 
 // Keeps its memory between frames.
 class Pipeline {
  public:
   // The choice must be drawable (drawable_part).
-  Picture draw(const Choice& choice, const View& view);
+  Picture draw(const lab::Choice& choice, const View& view);
   // Of the same choice and view; the choice must be one that fills.
-  Judgement judge(const Choice& choice, const View& view, Truth truth);
+  Judgement judge(const lab::Choice& choice, const View& view, Truth truth);
   // Over the picture of the last draw, by the same choice and view.
-  void outline(const Choice& choice, const View& view, Image& image);
+  void outline(const lab::Choice& choice, const View& view, Image& image);
   // What became of each triangle of a scene; none is known of what a clipping method of the laboratory cuts.
-  std::vector<TriangleState> states(const Choice& choice, const View& view);
+  std::vector<TriangleState> states(const lab::Choice& choice, const View& view);
   // What the last draw's front end would hand to a backend.
   std::span<const ScreenTriangle> screen_triangles() const { return screen_; }
 
@@ -72,15 +72,15 @@ class Pipeline {
   // Row by row, a triangle's index in the scene or lab::kNobody.
   using Owners = std::vector<std::uint32_t>;
 
-  void draw_ours(const Choice& choice, const View& view, Picture& picture);
+  void draw_ours(const lab::Choice& choice, const View& view, Picture& picture);
   // Times a method that drops hidden faces before anything is projected at its own work.
   void run_dropped(const lab::FacingMethod& method, const View& view, Picture& picture);
-  void draw_composed(const Choice& choice, const View& view, Picture& picture);
-  Triangles triangles_of(const Choice& choice, const View& view, double& spent_ms);
+  void draw_composed(const lab::Choice& choice, const View& view, Picture& picture);
+  Triangles triangles_of(const lab::Choice& choice, const View& view, double& spent_ms);
   Triangles from_front_end(const View& view, Cull cull);
   Triangles from_clipping(const lab::ClippingMethod& method, const View& view, double& spent_ms);
   void cull(const lab::FacingMethod& method, const View& view, Triangles& triangles, double& spent_ms);
-  Owners owners_of(const Choice& choice, const View& view, const Triangles& triangles, double& spent_ms);
+  Owners owners_of(const lab::Choice& choice, const View& view, const Triangles& triangles, double& spent_ms);
   Owners owners_by_visibility(const lab::VisibilityMethod& method, const View& view,
                               const Triangles& triangles, double& spent_ms);
   // `by`: the backend that draws the contract's picture.
@@ -93,7 +93,7 @@ class Pipeline {
   std::optional<lab::Canvas> canvas_;
   lab::VisibilityFrame visibility_frame_;
   std::span<const ScreenTriangle> screen_;
-  std::optional<HiddenFaces> hidden_;  // of the scene at this address
+  std::optional<lab::HiddenFaces> hidden_;  // of the scene at this address
   const Scene* hidden_of_ = nullptr;
 };
 

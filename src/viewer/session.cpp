@@ -9,11 +9,11 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "app/capture.h"
-#include "app/milliseconds.h"
-#include "app/printable.h"
+#include "core/atomic_file.h"
 #include "edgewise/tri_file.h"
-#include "image/atomic_file.h"
+#include "lab/to_stream.h"
+#include "support/milliseconds.h"
+#include "support/printable.h"
 #include "viewer/typing.h"
 
 namespace edgewise::viewer {
@@ -102,7 +102,7 @@ void take(double now, double& mean) {
 
 Session::Session(Start start) : start_(std::move(start)) {
   sides_[0].choice = start_.choice;
-  sides_[1].choice = our_choice("tiled");
+  sides_[1].choice = lab::our_choice("tiled");
   state_.execution = start_.execution;
   state_.reproducible = start_.reproducible;
   state_.execution.target = resolve(state_.execution.target);
@@ -215,7 +215,7 @@ void Session::act(Command command) {
       state_.spinning = !state_.spinning;
       break;
     case Command::axis_of_sight:
-      if (world_ && !state_.stream) state_.axis = line_of_sight(world_->camera());
+      if (world_ && !state_.stream) state_.axis = lab::line_of_sight(world_->camera());
       break;
     case Command::freeze:
       state_.frozen = !state_.frozen;
@@ -279,7 +279,7 @@ void Session::act(Command command) {
 
 void Session::switch_by(Command command, int step) {
   Side& side = sides_[state_.active];
-  Choice& choice = side.choice;
+  lab::Choice& choice = side.choice;
   switch (command) {
     case Command::coverage:
       step_method(lab::drawing_methods(), choice.coverage, step);
@@ -446,7 +446,7 @@ void Session::draw_picture() {
 Image Session::draw_side(std::size_t i, app::Size size, double& work_ms) {
   Side& side = sides_[i];
   const View view = view_of(i, size);
-  const auto [choice, because] = drawable_part(side.choice, state_.stream);
+  const auto [choice, because] = lab::drawable_part(side.choice, state_.stream);
   side.because = because;
   Picture picture = pipelines_[i].draw(choice, view);
   take(picture.frontend_ms, side.frontend_ms);
@@ -463,7 +463,7 @@ Image Session::draw_side(std::size_t i, app::Size size, double& work_ms) {
   return std::move(picture.image);
 }
 
-void Session::judge_if_due(std::size_t i, const Choice& choice, const View& view, double work_ms) {
+void Session::judge_if_due(std::size_t i, const lab::Choice& choice, const View& view, double work_ms) {
   Side& side = sides_[i];
   const bool fresh = side.judgement && side.judged == state_.version;
   if (state_.errors == Errors::off || !choice.fills() || fresh) return;
@@ -502,14 +502,14 @@ void Session::show_next_error() {
     state_.message = "no errors are counted; e counts them";
     return;
   }
-  const std::vector<app::Mark>& marks = judgement->marks;
+  const std::vector<lab::Mark>& marks = judgement->marks;
   const std::size_t width = static_cast<std::size_t>(panel_.width);
   const Pixel from = focus_.value_or(Pixel{-1, 0});
   const std::size_t start =
       static_cast<std::size_t>(std::max(from.y, 0)) * width + static_cast<std::size_t>(from.x + 1);
   for (std::size_t k = 0; k < marks.size(); ++k) {
     const std::size_t at = (start + k) % marks.size();
-    if (marks[at] == app::Mark::none) continue;
+    if (marks[at] == lab::Mark::none) continue;
     return show({static_cast<int>(at % width), static_cast<int>(at / width)}, "wrong pixel");
   }
   state_.message = "no wrong pixel";
@@ -528,7 +528,7 @@ void Session::save() {
     write_image(path(n, ".png"), screen_.picture);
     AtomicFile stream(path(n, ".tri"));
     write_tri(stream.stream(),
-              app::to_stream(pipelines_[state_.active].screen_triangles(), panel_.width, panel_.height));
+              lab::to_stream(pipelines_[state_.active].screen_triangles(), panel_.width, panel_.height));
     stream.commit();
     for (const char* extension : {".png", ".tri"}) saved_.push_back(path(n, extension).string());
     state_.message = fmt::format("saved {} and .tri", app::printable(path(n, ".png").string()));

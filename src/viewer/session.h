@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "app/options.h"
+#include "support/options.h"
 #include "viewer/inset.h"
 #include "viewer/keys.h"
 #include "viewer/overlay.h"
@@ -30,7 +30,7 @@ struct Step {
 struct Start {
   // What to look at, for a picture of this size. Asked again when the size changes, of streams that fill it.
   std::function<app::Shot(app::Size)> load;
-  Choice choice = our_choice("tiled");  // of the first side
+  lab::Choice choice = lab::our_choice("tiled");  // of the first side
   Execution execution;
   std::optional<glm::vec3> axis;  // none: the scene's own
   std::filesystem::path folder;   // where `p` saves
@@ -45,7 +45,7 @@ enum class Arrangement { one, side_by_side, difference };
 
 // What is known of one of the two pictures that can be compared.
 struct Side {
-  Choice choice;
+  lab::Choice choice;
   const lab::CoverageMethod* filled = nullptr;  // what `choice` filled with before it drew edges
   bool cull_front = false, cull_back = false;
   std::string because;                    // what of the choice cannot be drawn, and why
@@ -121,7 +121,7 @@ class Session {
   void draw_picture();
   View view_of(std::size_t side, app::Size size) const;
   Image draw_side(std::size_t side, app::Size size, double& work_ms);
-  void judge_if_due(std::size_t side, const Choice& choice, const View& view, double work_ms);
+  void judge_if_due(std::size_t side, const lab::Choice& choice, const View& view, double work_ms);
   void finish(Image& panel, std::size_t side);
   void reset_times();
   void show_next_error();

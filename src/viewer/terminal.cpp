@@ -12,9 +12,9 @@
 #include <map>
 #include <stdexcept>
 
-#include "app/console.h"
-#include "app/process.h"
 #include "edgewise/contract.h"
+#include "support/console.h"
+#include "support/process.h"
 #include "viewer/terminal_input.h"
 #include "viewer/terminal_picture.h"
 

@@ -4,7 +4,7 @@
 #include <functional>
 #include <span>
 
-#include "app/options.h"
+#include "support/options.h"
 #include "viewer/keys.h"
 #include "viewer/text.h"
 

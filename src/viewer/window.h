@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "app/options.h"
+#include "support/options.h"
 #include "viewer/frame_times.h"
 
 namespace edgewise::viewer {

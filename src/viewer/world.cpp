@@ -7,6 +7,8 @@
 #include <limits>
 #include <numbers>
 
+#include "lab/view_space.h"
+
 namespace edgewise::viewer {
 
 namespace {
@@ -62,15 +64,9 @@ void World::turn(glm::vec3 axis, float angle) {
   }
 }
 
-glm::dmat3 to_camera_frame(const Camera& camera) {
-  glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), -double{camera.pitch}, glm::dvec3(1, 0, 0));
-  turn = glm::rotate(turn, -double{camera.yaw}, glm::dvec3(0, 1, 0));
-  return glm::dmat3(turn);
-}
-
 void move(Camera& camera, glm::vec3 distance, bool along_view) {
   glm::dvec3 step(distance);
-  if (along_view) step = glm::transpose(to_camera_frame(camera)) * step;
+  if (along_view) step = glm::transpose(lab::to_camera_frame(camera)) * step;
   camera.position = glm::clamp(camera.position + glm::vec3(step), -kFarthest, kFarthest);
 }
 
@@ -78,10 +74,6 @@ void look(Camera& camera, float left, float up) {
   constexpr float kHalfTurn = std::numbers::pi_v<float>, kQuarter = kHalfTurn / 2.0f;
   camera.yaw = std::remainder(camera.yaw + left, 2.0f * kHalfTurn);
   camera.pitch = std::clamp(camera.pitch + up, -kQuarter, kQuarter);
-}
-
-glm::vec3 line_of_sight(const Camera& camera) {
-  return glm::vec3(glm::transpose(to_camera_frame(camera)) * glm::dvec3(0, 0, -1));
 }
 
 }  // namespace edgewise::viewer

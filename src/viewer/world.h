@@ -41,8 +41,4 @@ class World {
 void move(Camera& camera, glm::vec3 distance, bool along_view);
 // Radians; the pitch stops straight up and down.
 void look(Camera& camera, float left, float up);
-glm::vec3 line_of_sight(const Camera& camera);
-// Turns vectors of the world into the camera's frame.
-glm::dmat3 to_camera_frame(const Camera& camera);
-
 }  // namespace edgewise::viewer

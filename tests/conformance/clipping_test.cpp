@@ -13,9 +13,9 @@
 
 #include "conformance/outline.h"
 #include "conformance/pipeline.h"
-#include "lab/clipping_truth.h"
+#include "core/random.h"
+#include "lab/clipping/truth.h"
 #include "lab/truth.h"
-#include "scene/random.h"
 
 namespace edgewise::conformance {
 namespace {

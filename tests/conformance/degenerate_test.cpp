@@ -3,7 +3,7 @@
 #include <glm/glm.hpp>
 
 #include "conformance/pipeline.h"
-#include "scene/random.h"
+#include "core/random.h"
 
 namespace edgewise::conformance {
 namespace {

@@ -6,8 +6,8 @@
 #include <glm/glm.hpp>
 
 #include "conformance/pipeline.h"
+#include "core/random.h"
 #include "lab/truth.h"
-#include "scene/random.h"
 
 namespace edgewise::conformance {
 namespace {

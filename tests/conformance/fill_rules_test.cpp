@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "conformance/pipeline.h"
-#include "scene/random.h"
+#include "core/random.h"
 
 namespace edgewise::conformance {
 namespace {

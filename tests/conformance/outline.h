@@ -2,9 +2,9 @@
 // divided by w, but neither cut by the guard band nor snapped, as if there were neither.
 //
 // The front end rounds a cut vertex to float and all vertices to 1/256 px, so an edge may lie up to
-// kHairlinePx from where it belongs (lab/clipping.h derives that). A sample that is farther than that from
-// every edge is decided: there the picture must agree, without tolerance. The others, fewer than one in 500,
-// are judged by hit counts only.
+// kHairlinePx from where it belongs (lab/clipping/clipping.h derives that). A sample that is farther than
+// that from every edge is decided: there the picture must agree, without tolerance. The others, fewer than
+// one in 500, are judged by hit counts only.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "conformance/winding.h"
-#include "lab/clipping.h"
+#include "lab/clipping/clipping.h"
 
 namespace edgewise::conformance {
 

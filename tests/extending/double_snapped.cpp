@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "lab/coverage_plot.h"
+#include "lab/coverage/plot.h"
 
 namespace edgewise::lab {
 

@@ -3,7 +3,7 @@
 
 #include "edgewise/builtin.h"
 #include "edgewise/frontend.h"
-#include "lab/coverage.h"
+#include "lab/coverage/coverage.h"
 #include "support.h"
 
 namespace edgewise {

@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "app/printable.h"
-#include "app/run.h"
+#include "cli/run.h"
 #include "fuzz.h"
+#include "support/printable.h"
 
 using namespace edgewise;
 

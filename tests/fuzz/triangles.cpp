@@ -102,8 +102,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const int choice = bytes.below(6);                    // no backend looks at both of these
   execution.tile_size = 16 << choice % 3;
   execution.stepped = choice >= 3;
-  const int ideas = bytes.below(static_cast<int>(kTiledVariants.size()) + 1);
-  if (ideas > 0) execution.ideas = kTiledVariants[static_cast<std::size_t>(ideas - 1)];
+  const int ideas = bytes.below(static_cast<int>(kAblations.size()) + 1);
+  if (ideas > 0) execution.ideas = kAblations[static_cast<std::size_t>(ideas - 1)];
   const int times = 1 << bytes.below(12);
 
   std::vector<ScreenTriangle> triangles = take_triangles(bytes);

@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
-#include "app/capture.h"
 #include "frontend/fixed.h"
 #include "lab/oracle.h"
-#include "properties/mistaken.h"
+#include "lab/to_stream.h"
+#include "properties/false_variants.h"
 #include "properties/pictures.h"
 #include "properties/streams.h"
 #include "support.h"
@@ -80,9 +80,9 @@ Counterexample narrowed(const std::vector<ScreenTriangle>& batch, const Framebuf
   const auto owner = static_cast<std::uint32_t>(y / kCellPx * kCellsASide + x / kCellPx);
   for (const std::uint32_t cell : {owner, wrong.payload_row(y)[x]})
     if (cell < batch.size()) suspects.push_back(batch[cell]);
-  const TriangleStream few = app::to_stream(suspects, kSidePx, kSidePx);
+  const TriangleStream few = lab::to_stream(suspects, kSidePx, kSidePx);
   if (!property(few).wrong.empty()) return smallest(shrinkable(few), property);
-  return {property(app::to_stream(batch, kSidePx, kSidePx)), 0};
+  return {property(lab::to_stream(batch, kSidePx, kSidePx)), 0};
 }
 
 // Up to the first difference. Counts the triangles drawn, by all painters in all ways.

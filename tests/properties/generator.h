@@ -5,8 +5,8 @@
 
 #include <cstdint>
 
+#include "core/random.h"
 #include "edgewise/contract.h"
-#include "scene/random.h"
 
 namespace edgewise::testing {
 

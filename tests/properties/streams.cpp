@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/capture.h"
+#include "lab/to_stream.h"
 #include "properties/generator.h"
 #include "properties/pictures.h"
 #include "support.h"
@@ -178,7 +178,7 @@ TriangleStream make_grid_stream(Random& random, int size) {
     append(hard);
     if (random.below(4) == 0) append(fan(random, width, height));
   }
-  TriangleStream stream = app::to_stream(triangles, width, height);
+  TriangleStream stream = lab::to_stream(triangles, width, height);
   for (int more = between(random, 0, 3); more > 0; --more)
     stream.triangles.push_back(duplicate(random, stream.triangles));
   for (StreamTriangle& t : stream.triangles) t.colour = static_cast<std::uint32_t>(random.next());

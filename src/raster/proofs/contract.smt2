@@ -10,7 +10,7 @@
 ; claim that is a little too bold: the solver must find a counterexample. `scripts/prove` runs all of them.
 ;
 ; A constant whose comment begins with "=" is compared with the source it names by `scripts/prove`; the functions are
-; compared with those of contract.h, on many arguments, by tests/proofs_test.cpp.
+; compared with those of contract.h, on many arguments, by tests/raster/proofs_test.cpp.
 
 (define-const kSubBits Int 8)              ; = kSubBits of src/edgewise/contract.h
 (define-const kSub Int 256)                ; = kSub of src/edgewise/contract.h

@@ -6,7 +6,7 @@
 
 (define-const unit Real 8796093022208.0)  ; units a px, 2^43
 (define-fun ulp ((e Real)) Bool (between (- (/ 1.0 9007199254740992.0)) e (/ 1.0 9007199254740992.0)))
-(define-const kUnitBits Int 43)           ; = kUnitBits of src/raster/scanline_setup-inl.h
+(define-const kUnitBits Int 43)           ; = kUnitBits of src/raster/scanline/scanline_setup-inl.h
 
 ;; claim step_off: Steps below 2^12 px a row are off by less than 575 units over 63 rows.
 (declare-const exact Real) (declare-const e1 Real) (declare-const e2 Real) (declare-const step Real)

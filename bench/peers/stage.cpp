@@ -1,0 +1,51 @@
+#include "bench/peers/stage.h"
+
+#include <fmt/format.h>
+
+#include "bench/peers/judge.h"
+#include "bench/peers/scene.h"
+
+namespace edgewise::bench {
+
+namespace {
+
+// Where both pictures name the same triangle, both must have its colour.
+std::uint64_t other_colours(const Framebuffer& ids, std::span<const std::uint32_t> their_ids,
+                            const Framebuffer& colours, std::span<const std::uint32_t> their_colours) {
+  std::uint64_t other = 0;
+  std::size_t i = 0;
+  for (int y = 0; y < ids.height(); ++y)
+    for (int x = 0; x < ids.width(); ++x, ++i)
+      other += ids.payload_row(y)[x] == their_ids[i] && colours.payload_row(y)[x] != their_colours[i];
+  return other;
+}
+
+}  // namespace
+
+void PeerStage::compare(Row& row) {
+  const Workload& workload = *row.workload;
+  const bool whole_frame = row.timed == Timed::frame;
+  const auto load = [&](PeerPayload payload) {
+    auto frame = row.peer->load(peer_scene(workload, whole_frame, payload), row.execution.threads);
+    frame->draw();
+    return frame;
+  };
+
+  const auto triangles = triangles_by_id(workload, whole_frame);
+  Framebuffer ours(workload.width(), workload.height());
+  backends().front().make()->draw(triangles, ours.view(), kNoTriangle, {});
+  const auto their_ids = load(PeerPayload::id)->read();
+  auto& loaded = loaded_[row.name] = load(PeerPayload::colour);
+
+  const PeerJudgement judgement = judge(ours, their_ids, triangles);
+  row.near_ties = judgement.near_ties;
+  if (judgement.wrong() != 0)
+    row.error = fmt::format(
+        "{} pixels are drawn by one of us only, {} belong to other triangles, the first at ({}, {})",
+        judgement.coverage, judgement.owners, judgement.first_x, judgement.first_y);
+  else if (const auto other = other_colours(ours, their_ids, row.workload->reference(), loaded->read());
+           other != 0)
+    row.error = fmt::format("{} pixels have other colours", other);
+}
+
+}  // namespace edgewise::bench

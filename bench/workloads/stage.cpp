@@ -1,0 +1,90 @@
+#include "bench/workloads/stage.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+
+#include "lab/measure.h"
+
+namespace edgewise::bench {
+
+Backend& Stage::backend(const Row& row) {
+  auto& made = backends_[row.backend];
+  if (!made) made = row.backend->make();
+  return *made;
+}
+
+Framebuffer& Stage::frame(const Row& row) {
+  const int width = row.workload->width(), height = row.workload->height();
+  return frames_.try_emplace({width, height}, width, height).first->second;
+}
+
+void Stage::work(const Row& row) {
+  if (row.peer != nullptr) return peers_.work(row);
+  Workload& workload = *row.workload;
+  auto triangles = workload.triangles();
+  if (row.timed != Timed::raster) triangles = workload.run(frontend_, row.execution.threads);
+  if (row.timed != Timed::frontend)
+    backend(row).draw(triangles, frame(row).view(), kBackground, row.execution);
+}
+
+double Stage::timed_work_s(const Row& row) {
+  const auto begin = std::chrono::steady_clock::now();
+  work(row);
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+double Stage::recorded_work_s(Row& row) {
+  FrameRecorder recorder;
+  {
+    const ObserveParallel scope(recorder);
+    work(row);
+  }
+  const FrameWork found = recorder.finish();
+  row.recorded.take_least(found);
+  return found.work_s();
+}
+
+void Stage::compare_ours(Row& row) {
+  // It still holds the picture of the row before, which is the right one.
+  if (row.timed != Timed::frontend) lab::poison(frame(row));
+  row.once_s = row.cores > 0 ? recorded_work_s(row) : timed_work_s(row);
+  if (row.timed == Timed::frontend) {
+    const auto expected = row.workload->triangles();
+    const auto found = row.workload->run(frontend_, row.execution.threads);
+    if (found.size() != expected.size() ||
+        std::memcmp(found.data(), expected.data(), expected.size_bytes()) != 0)
+      row.error = fmt::format("emits other triangles than on 1 thread ({} instead of {})", found.size(),
+                              expected.size());
+  } else {
+    const auto difference = lab::compare(row.workload->reference(row.backend->fills), frame(row));
+    if (difference.pixels != 0)
+      row.error =
+          fmt::format("{} pixels differ from {} on 1 thread, the first at ({}, {})", difference.pixels,
+                      reference_backend(row.backend->fills).name, difference.first_x, difference.first_y);
+  }
+}
+
+void Stage::compare(Row& row) {
+  if (row.peer != nullptr) {
+    peers_.compare(row);
+    row.once_s = timed_work_s(row);
+  } else {
+    compare_ours(row);
+  }
+  if (row.cores > 0) {
+    for (const double limit_s : {row.repeat_below_s, 0.02})
+      if (row.once_s < limit_s) row.once_s = recorded_work_s(row);
+    return;
+  }
+  // The first draw allocates; later ones tell how long a row really takes, the shorter the more of them.
+  for (const double limit_s : {row.repeat_below_s, 0.1, 0.1})
+    if (row.once_s < limit_s) row.once_s = std::min(row.once_s, timed_work_s(row));
+  if (row.wants_floor)
+    row.floor =
+        limit_.under(row.workload->triangles(), row.workload->blocks(), frame(row), row.execution.threads);
+}
+
+}  // namespace edgewise::bench

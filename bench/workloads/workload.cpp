@@ -1,0 +1,73 @@
+#include "bench/workloads/workload.h"
+
+#include "lab/measure.h"
+
+namespace edgewise::bench {
+
+const BackendInfo& reference_backend(bool fills) {
+  return backends()[fills ? 0 : filling_backends().size()];
+}
+
+Workload::Workload(int width, int height, Cull mesh_cull, std::function<app::Source()> load,
+                   const lab::FacingMethod* facing)
+    : width_(width), height_(height), mesh_cull_(mesh_cull), facing_(facing), load_(std::move(load)) {}
+
+FrontendOptions Workload::frontend_options(int threads) const {
+  FrontendOptions options;
+  options.width = width_;
+  options.height = height_;
+  options.cull = stream_ ? Cull::none : mesh_cull_;
+  options.shade = !stream_;
+  options.threads = threads;
+  return options;
+}
+
+std::span<const ScreenTriangle> Workload::run(Frontend& frontend, int threads) {
+  FrontendOptions options = frontend_options(threads);
+  if (!hidden_) return frontend.run(source_->drawable, options);
+  options.cull = Cull::none;
+  return frontend.run(hidden_->drop(std::get<Scene>(source_->drawable)), options);
+}
+
+void Workload::drop_hidden(Frontend& frontend) {
+  const Framebuffer exact = drawn(true);
+  hidden_.emplace(std::get<Scene>(source_->drawable), *facing_);
+  const auto left = run(frontend, 1);
+  triangles_.assign(left.begin(), left.end());
+  wrong_px_ = lab::compare(exact, reference()).pixels;
+}
+
+void Workload::prepare(bool keep_scene) {
+  if (prepared_) return;
+  source_ = load_();
+  stream_ = source_->stream;
+  Frontend frontend;
+  const auto emitted = frontend.run(source_->drawable, frontend_options(1));
+  triangles_.assign(emitted.begin(), emitted.end());
+  submitted_ = frontend.stats().triangles;
+  if (facing_ != nullptr) drop_hidden(frontend);
+  covered_px_ = lab::covered_pixels(triangles_, width_, height_);
+  if (!keep_scene) source_.reset(), hidden_.reset();
+  prepared_ = true;
+}
+
+const BlockCounts& Workload::blocks() {
+  if (!blocks_) blocks_ = count_blocks(triangles_, width_, height_);
+  return *blocks_;
+}
+
+Framebuffer Workload::drawn(bool fills) const {
+  Framebuffer frame(width_, height_);
+  Execution execution;
+  execution.target = supported_targets().front();
+  reference_backend(fills).make()->draw(triangles_, frame.view(), kBackground, execution);
+  return frame;
+}
+
+const Framebuffer& Workload::reference(bool fills) {
+  std::optional<Framebuffer>& reference = fills ? filled_ : other_;
+  if (!reference) reference.emplace(drawn(fills));
+  return *reference;
+}
+
+}  // namespace edgewise::bench

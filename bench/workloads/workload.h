@@ -1,0 +1,76 @@
+// What is drawn by a row of the benchmark: one scene at one size and culling mode, loaded when a row first
+// needs it. The mode may be a facing test of the laboratory's, in the front end's place.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bench/models/cost_model.h"
+#include "edgewise/backend.h"
+#include "edgewise/frontend.h"
+#include "lab/hidden_faces.h"
+#include "support/source.h"
+
+namespace edgewise::bench {
+
+inline constexpr std::uint32_t kBackground = 0xFF000000u;
+
+// The first of the registry that fill, or of those that don't.
+const BackendInfo& reference_backend(bool fills);
+
+class Workload {
+ public:
+  // Meshes are drawn with `mesh_cull` and shading, streams with neither.
+  // `facing` drops a mesh scene's hidden faces in place of `mesh_cull`; see lab::HiddenFaces for those it
+  // may be.
+  Workload(int width, int height, Cull mesh_cull, std::function<app::Source()> load,
+           const lab::FacingMethod* facing = nullptr);
+
+  // Loads the scene, runs the front end and counts the covered pixels; only the first call does anything.
+  // Rows that time the front end need the scene itself afterwards, others let its memory go.
+  void prepare(bool keep_scene);
+
+  // The picture that every row must reproduce: reference_backend(), one thread, slowest SIMD target.
+  const Framebuffer& reference(bool fills = true);
+  void drop_reference() { filled_.reset(), other_.reset(); }
+
+  // Counted when first asked for.
+  const BlockCounts& blocks();
+
+  // Of a facing test: pixels of its reference that differ from the exact picture, which `mesh_cull` gives.
+  std::optional<std::uint64_t> wrong_px() const { return wrong_px_; }
+
+  // What a row times of the front end: scene to screen triangles. Needs the scene kept.
+  std::span<const ScreenTriangle> run(Frontend& frontend, int threads);
+
+  FrontendOptions frontend_options(int threads) const;
+  const Drawable& drawable() const { return source_->drawable; }
+  std::span<const ScreenTriangle> triangles() const { return triangles_; }
+  std::uint64_t submitted() const { return submitted_; }    // the scene's triangles
+  std::uint64_t covered_px() const { return covered_px_; }  // each pixel as often as triangles cover it
+  int width() const { return width_; }
+  int height() const { return height_; }
+
+ private:
+  Framebuffer drawn(bool fills) const;
+  void drop_hidden(Frontend& frontend);
+
+  int width_, height_;
+  Cull mesh_cull_;
+  const lab::FacingMethod* facing_;
+  std::function<app::Source()> load_;
+  std::optional<app::Source> source_;
+  std::optional<lab::HiddenFaces> hidden_;
+  bool stream_ = false, prepared_ = false;
+  std::vector<ScreenTriangle> triangles_;
+  std::uint64_t submitted_ = 0, covered_px_ = 0;
+  std::optional<std::uint64_t> wrong_px_;
+  std::optional<BlockCounts> blocks_;
+  std::optional<Framebuffer> filled_, other_;
+};
+
+}  // namespace edgewise::bench

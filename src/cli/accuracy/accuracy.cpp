@@ -1,0 +1,137 @@
+#include "cli/accuracy/accuracy.h"
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+
+#include "cli/accuracy/score.h"
+#include "core/nearest_name.h"
+
+namespace edgewise::app {
+
+namespace {
+
+template <typename Methods, typename Chosen>
+void choose(const AccuracyPlan& plan, Family family, const Methods& all, Chosen& chosen) {
+  if (plan.family && *plan.family != family) return;
+  for (const auto& method : all)
+    if (plan.methods.empty() ||
+        std::find(plan.methods.begin(), plan.methods.end(), method.info.name) != plan.methods.end())
+      chosen.push_back(&method);
+}
+
+void check_method_names(const AccuracyPlan& plan) {
+  AccuracyPlan everything;
+  everything.family = plan.family;
+  std::vector<std::string_view> known;
+  for (const auto& [family, info] : methods_of(everything).all()) known.push_back(info->name);
+  for (const std::string& name : plan.methods)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw std::invalid_argument(unknown_name("method", name, known));
+}
+
+// The exact methods' score against the snapped truth, and promises that hold on every scene.
+bool broken(const MethodResult& method) {
+  struct Visit {
+    bool exact;
+    bool operator()(const CoverageScores& s) const {
+      return s.owners.unexplained != 0 ||
+             (exact && (s.snapped.errors() != 0 || s.snapped.out_of_bounds != 0));
+    }
+    bool operator()(const lab::VisibilityScores& s) const { return s.broken != 0; }
+    bool operator()(const lab::FacingScores& s) const { return s.broken != 0; }
+    bool operator()(const lab::ClippingScore& s) const { return s.broken != 0; }
+  };
+  return std::visit(Visit{method.exact}, method.score);
+}
+
+class Run {
+ public:
+  explicit Run(const AccuracyPlan& plan) : plan_(plan) {
+    check_method_names(plan);
+    methods_ = methods_of(plan);
+    chosen_ = scenes_of(plan);
+    std::erase_if(chosen_.scenes,
+                  [&](const AccuracyScene& scene) { return methods_.count(scene.family) == 0; });
+    chosen_.turning_cube = chosen_.turning_cube && !methods_.coverage.empty();
+    if (chosen_.scenes.empty() && !chosen_.turning_cube)
+      throw std::invalid_argument("nothing to do: none of these methods is of these scenes' family");
+    for (const AccuracyScene& scene : chosen_.scenes) total_s_ += scene.cost_s;
+    if (chosen_.turning_cube) total_s_ += kCube_s;
+  }
+
+  AccuracyReport go() {
+    AccuracyReport report;
+    for (const AccuracyScene& scene : chosen_.scenes) {
+      const auto start = std::chrono::steady_clock::now();
+      const Bench bench{plan_, methods_, scene, progress(scene.name, scene.cost_s), report.closeups};
+      bench.progress(0.0);
+      SceneResult result{scene.family, scene.name, scene.idea, scene.smallest, 0, 0, 0, 0, 0, {}, 0};
+      std::visit([&](const auto& made) { judge(made, bench, result); }, scene.make());
+      result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      report.scenes.push_back(std::move(result));
+      done_s_ += scene.cost_s;
+    }
+    if (chosen_.turning_cube)
+      report.turning_cube =
+          judge_turning_cube(plan_, methods_, progress(std::string(kTurningCube), kCube_s), report.closeups);
+    return report;
+  }
+
+ private:
+  std::function<void(double)> progress(const std::string& name, double cost_s) const {
+    return [this, name, cost_s](double fraction) {
+      if (plan_.on_progress) plan_.on_progress((done_s_ + fraction * cost_s) / total_s_, name);
+    };
+  }
+
+  const AccuracyPlan& plan_;
+  const double kCube_s = plan_.quick ? 1.5 : 45.0;
+  ChosenMethods methods_;
+  AccuracyScenes chosen_;
+  double done_s_ = 0.0, total_s_ = 0.0;
+};
+
+}  // namespace
+
+std::size_t ChosenMethods::count(Family family) const {
+  const std::size_t counts[] = {coverage.size(), visibility.size(), facing.size(), clipping.size()};
+  return counts[static_cast<std::size_t>(family)];
+}
+
+std::vector<std::pair<Family, const lab::MethodInfo*>> ChosenMethods::all() const {
+  std::vector<std::pair<Family, const lab::MethodInfo*>> list;
+  for (const auto* method : coverage) list.emplace_back(Family::coverage, &method->info);
+  for (const auto* method : visibility) list.emplace_back(Family::visibility, &method->info);
+  for (const auto* method : facing) list.emplace_back(Family::facing, &method->info);
+  for (const auto* method : clipping) list.emplace_back(Family::clipping, &method->info);
+  return list;
+}
+
+ChosenMethods methods_of(const AccuracyPlan& plan) {
+  ChosenMethods chosen;
+  choose(plan, Family::coverage, lab::coverage_methods(), chosen.coverage);
+  choose(plan, Family::visibility, lab::visibility_methods(), chosen.visibility);
+  choose(plan, Family::facing, lab::facing_methods(), chosen.facing);
+  choose(plan, Family::clipping, lab::clipping_methods(), chosen.clipping);
+  return chosen;
+}
+
+std::string closeup_name(Family family, std::string_view scene, std::string_view method) {
+  return std::string(name_of(family)) + '-' + std::string(scene) + '-' + std::string(method);
+}
+
+bool AccuracyReport::ok() const {
+  if (turning_cube)
+    for (const CubeMethodResult& method : turning_cube->methods)
+      if (method.exact && method.snapped.missing.total + method.snapped.extra.total != 0) return false;
+  return std::all_of(scenes.begin(), scenes.end(), [](const SceneResult& scene) {
+    return std::none_of(scene.methods.begin(), scene.methods.end(), broken);
+  });
+}
+
+AccuracyReport measure_accuracy(const AccuracyPlan& plan) {
+  return Run(plan).go();
+}
+
+}  // namespace edgewise::app

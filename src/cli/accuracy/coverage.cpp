@@ -1,0 +1,81 @@
+// Coverage: every method's pixels of every triangle against both truths.
+#include <algorithm>
+#include <stdexcept>
+
+#include "cli/accuracy/score.h"
+#include "cli/accuracy/speed.h"
+#include "core/parallel.h"
+#include "lab/measure.h"
+
+namespace edgewise::app {
+
+namespace {
+
+// Before they are timed: the backends' pictures must be the same on any number of threads, or the times
+// compare different work.
+void compare_threads(const CoverageScene& scene, const lab::CoverageMethod& method, int threads) {
+  lab::Canvas one(scene.size.width, scene.size.height), more(scene.size.width, scene.size.height);
+  method.draw(scene.input(), one, 1);
+  method.draw(scene.input(), more, threads);
+  if (lab::compare(one.frame, more.frame).pixels != 0)
+    throw std::runtime_error(std::string(method.info.name) +
+                             " draws other pixels on two threads than on one");
+}
+
+void time_methods(const CoverageScene& scene, const Bench& bench, SceneResult& result) {
+  lab::Canvas canvas(scene.size.width, scene.size.height);
+  const auto input = scene.input();
+  std::vector<TimedDraw> draws;
+  for (std::size_t i = 0; i < bench.methods.coverage.size(); ++i) {
+    const lab::CoverageMethod& method = *bench.methods.coverage[i];
+    for (const int threads : {1, 2}) {
+      if (threads > 1 && !method.threaded) continue;
+      if (threads > 1) compare_threads(scene, method, threads);
+      draws.push_back(
+          {i, threads, [&method, &input, &canvas, threads] { method.draw(input, canvas, threads); }});
+    }
+  }
+  const auto speeds = time_in_turns(draws, bench.plan.quick);
+  for (std::size_t i = 0; i < draws.size(); ++i) result.methods[draws[i].method].speed.push_back(speeds[i]);
+}
+
+}  // namespace
+
+void judge(const CoverageScene& scene, const Bench& bench, SceneResult& result) {
+  const auto& methods = bench.methods.coverage;
+  const auto input = scene.input();
+  const auto snapped = lab::snapped_coverage(input, scene.window(), bench.plan.threads),
+             floats = lab::float_coverage(input, scene.window(), bench.plan.threads);
+  result.width = scene.size.width;
+  result.height = scene.size.height;
+  result.triangles = scene.floats.size();
+  result.covered = snapped.covered;
+  result.crossings = lab::edge_crossings(scene.floats, scene.window());
+
+  result.methods.resize(methods.size());
+  std::vector<Closeup> closeups(methods.size());
+  std::mutex mutex;
+  std::size_t done = 0;
+  const lab::OwnerJudge owners(input, scene.size, bench.plan.threads);
+  parallel_for(bench.plan.threads, static_cast<int>(methods.size()), [&](int n) {
+    const auto i = static_cast<std::size_t>(n);
+    const lab::CoverageMethod& method = *methods[i];
+    std::vector<lab::Run> runs;
+    method.runs(input, scene.window(), runs);
+    CoverageScores scores{lab::score_coverage(snapped, runs, scene.floats, lab::gap_reach_px(method)),
+                          lab::score_coverage(floats, runs, scene.floats, lab::gap_reach_px(method)),
+                          owners.score(method)};
+    result.methods[i] = {std::string(method.info.name), method.info.exact, scores, {}};
+    if (bench.plan.pictures && bench.scene.smallest && scores.floats.errors() != 0)
+      closeups[i] = closeup(closeup_name(Family::coverage, bench.scene.name, method.info.name),
+                            mark_coverage(floats, std::move(runs), scene.floats, lab::gap_reach_px(method)));
+    const std::lock_guard lock(mutex);
+    bench.progress(static_cast<double>(++done) / static_cast<double>(methods.size() + 1));
+  });
+  const std::size_t first = bench.closeups.size();
+  for (Closeup& c : closeups)
+    if (!c.name.empty()) add_unless_known(std::move(c), bench.closeups, first);
+  if (bench.scene.timed) time_methods(scene, bench, result);
+}
+
+}  // namespace edgewise::app

@@ -1,0 +1,159 @@
+// Visibility, facing and clipping: what draws a picture or sorts faces, against the truths of its family.
+#include <algorithm>
+
+#include "cli/accuracy/score.h"
+#include "cli/accuracy/speed.h"
+#include "core/parallel.h"
+
+namespace edgewise::app {
+
+namespace {
+
+// Calls score_one(method, index) for all methods, on several threads, and reports how far it is.
+template <typename Method, typename ScoreOne>
+void score_all(const std::vector<const Method*>& methods, const Bench& bench, SceneResult& result,
+               ScoreOne&& score_one) {
+  result.methods.resize(methods.size());
+  std::mutex mutex;
+  std::size_t done = 0;
+  parallel_for(bench.plan.threads, static_cast<int>(methods.size()), [&](int n) {
+    const auto i = static_cast<std::size_t>(n);
+    const lab::MethodInfo& info = methods[i]->info;
+    result.methods[i] = {std::string(info.name), info.exact, score_one(*methods[i]), {}};
+    const std::lock_guard lock(mutex);
+    bench.progress(static_cast<double>(++done) / static_cast<double>(methods.size() + 1));
+  });
+}
+
+template <typename Method, typename Draw>
+void time_all(const std::vector<const Method*>& methods, const Bench& bench, SceneResult& result,
+              Draw&& draw) {
+  if (!bench.scene.timed) return;
+  std::vector<TimedDraw> draws;
+  for (std::size_t i = 0; i < methods.size(); ++i)
+    draws.push_back({i, 1, [&draw, method = methods[i]] { draw(*method); }});
+  const auto speeds = time_in_turns(draws, bench.plan.quick);
+  for (std::size_t i = 0; i < draws.size(); ++i) result.methods[i].speed.push_back(speeds[i]);
+}
+
+// A close-up of each method for which wrong(score) holds.
+template <typename Method, typename Wrong, typename Picture>
+void picture_all(const std::vector<const Method*>& methods, const Bench& bench, const SceneResult& result,
+                 Wrong&& wrong, Picture&& picture) {
+  if (!bench.plan.pictures || !bench.scene.smallest) return;
+  for (std::size_t i = 0; i < methods.size(); ++i)
+    if (wrong(result.methods[i].score))
+      bench.closeups.push_back(closeup(closeup_name(result.family, bench.scene.name, methods[i]->info.name),
+                                       picture(*methods[i])));
+}
+
+std::uint64_t pixels_of(lab::Size size) {
+  return static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height);
+}
+
+std::uint64_t owned(const std::vector<std::uint32_t>& owners) {
+  return static_cast<std::uint64_t>(
+      std::count_if(owners.begin(), owners.end(), [](std::uint32_t id) { return id != lab::kNobody; }));
+}
+
+// The faces' exact facts, on several threads.
+std::vector<lab::FaceFacts> facts_of(const lab::FacingScene& scene, const Bench& bench) {
+  constexpr std::size_t kShare = 2000;
+  const std::size_t shares = (scene.faces.size() + kShare - 1) / kShare;
+  const lab::FacingTruth truth(scene);
+  std::vector<lab::FaceFacts> all(scene.faces.size());
+  std::mutex mutex;
+  std::size_t done = 0;
+  parallel_for(bench.plan.threads, static_cast<int>(shares), [&](int n) {
+    const auto first = static_cast<std::size_t>(n) * kShare;
+    for (std::size_t i = first; i < std::min(first + kShare, all.size()); ++i)
+      all[i] = truth.facts(scene.faces[i]);
+    const std::lock_guard lock(mutex);
+    bench.progress(0.9 * static_cast<double>(++done) / static_cast<double>(shares));
+  });
+  return all;
+}
+
+}  // namespace
+
+void judge(const lab::VisibilityScene& scene, const Bench& bench, SceneResult& result) {
+  const auto& methods = bench.methods.visibility;
+  const auto owners = lab::true_owners(scene);
+  result.width = scene.width;
+  result.height = scene.height;
+  result.triangles = scene.triangles.size();
+  result.covered = owned(owners.snapped);
+  score_all(methods, bench, result,
+            [&](const lab::VisibilityMethod& method) { return lab::score(method, scene, owners); });
+  lab::VisibilityFrame frame;
+  time_all(methods, bench, result, [&](const lab::VisibilityMethod& method) { method.draw(scene, frame); });
+  picture_all(
+      methods, bench, result,
+      [](const Score& score) { return std::get<lab::VisibilityScores>(score).snapped.wrong_owner != 0; },
+      [&](const lab::VisibilityMethod& method) {
+        method.draw(scene, frame);
+        lab::MarkedPicture picture =
+            lab::mark_owners(owners.snapped, frame.owner, {scene.width, scene.height});
+        for (const lab::VisibilityTriangle& t : scene.triangles)
+          for (int i = 0; i < 3; ++i) {
+            const int j = (i + 1) % 3;
+            picture.lines.push_back({t.screen.x_sub[i] / 256.0, t.screen.y_sub[i] / 256.0,
+                                     t.screen.x_sub[j] / 256.0, t.screen.y_sub[j] / 256.0});
+          }
+        return picture;
+      });
+}
+
+void judge(const lab::FacingScene& scene, const Bench& bench, SceneResult& result) {
+  const auto& methods = bench.methods.facing;
+  const auto facts = facts_of(scene, bench);
+  result.width = scene.view.size.width;
+  result.height = scene.view.size.height;
+  result.triangles = scene.faces.size();
+  result.covered = static_cast<std::uint64_t>(
+      std::count_if(facts.begin(), facts.end(), [](const lab::FaceFacts& f) { return f.floats.owns_pixel; }));
+  score_all(methods, bench, result,
+            [&](const lab::FacingMethod& method) { return lab::score(method, scene, facts); });
+  std::vector<std::uint8_t> front(scene.faces.size());
+  time_all(methods, bench, result, [&](const lab::FacingMethod& method) { method.classify(scene, front); });
+  constexpr std::size_t kFew = 20;  // more would hide one another
+  if (scene.faces.size() > kFew) return;
+  picture_all(
+      methods, bench, result,
+      [](const Score& score) { return std::get<lab::FacingScores>(score).floats.misclassified != 0; },
+      [&](const lab::FacingMethod& method) {
+        method.classify(scene, front);
+        return lab::mark_faces(scene, facts, front);
+      });
+}
+
+void judge(const lab::ClippingScene& scene, const Bench& bench, SceneResult& result) {
+  const auto& methods = bench.methods.clipping;
+  const auto truth = lab::clipping_truth(scene, bench.plan.threads);
+  result.width = scene.size.width;
+  result.height = scene.size.height;
+  result.triangles = scene.mesh().triangles.size();
+  result.covered = owned(truth.owner);
+  bench.progress(0.5);
+  score_all(methods, bench, result,
+            [&](const lab::ClippingMethod& method) { return lab::score(method, scene, truth); });
+  lab::ClippingFrame frame(scene.size);
+  time_all(methods, bench, result, [&](const lab::ClippingMethod& method) { method.draw(scene, frame); });
+  picture_all(
+      methods, bench, result,
+      [](const Score& score) {  // of depths alone there is nothing to see
+        const auto& s = std::get<lab::ClippingScore>(score);
+        return s.missing + s.extra + s.wrong_owner != 0;
+      },
+      [&](const lab::ClippingMethod& method) {
+        method.draw(scene, frame);
+        std::vector<std::uint32_t> said;
+        said.reserve(pixels_of(scene.size));
+        for (int y = 0; y < scene.size.height; ++y)
+          said.insert(said.end(), frame.picture.payload_row(y),
+                      frame.picture.payload_row(y) + scene.size.width);
+        return lab::mark_owners(truth.owner, said, {scene.size.width, scene.size.height});
+      });
+}
+
+}  // namespace edgewise::app

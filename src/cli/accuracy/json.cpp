@@ -1,0 +1,168 @@
+#include <cmath>
+
+#include "cli/accuracy/report.h"
+#include "cli/accuracy/score.h"
+#include "support/machine.h"
+
+namespace edgewise::app {
+
+namespace {
+
+using nlohmann::json;
+
+// The bound by which no error in so many trials limits the rate stands beside a zero only.
+void add_rate(json& score, std::uint64_t errors, std::uint64_t trials) {
+  score["errors_per_million"] = lab::per_million(errors, trials);
+  if (errors == 0 && trials != 0) score["bound_per_million"] = 1e6 * lab::rate_bound(trials);
+}
+
+json score_json(const lab::CoverageScore& s, std::uint64_t crossings) {
+  json score{{"missing", s.missing},
+             {"extra", s.extra},
+             {"gaps", s.gaps},
+             {"double_hits", s.double_hits},
+             {"out_of_bounds", s.out_of_bounds},
+             {"out_of_box", s.out_of_box},
+             {"worst_px", s.worst_px},
+             {"errors", s.errors()}};
+  add_rate(score, s.errors(), crossings);
+  return score;
+}
+
+json score_json(const lab::VisibilityScore& s) {
+  json score{{"covered", s.covered},
+             {"wrong_owner", s.wrong_owner},
+             {"out_of_range", s.out_of_range},
+             {"max_ulp", s.max_ulp},
+             {"rms_ulp", s.rms_ulp}};
+  add_rate(score, s.wrong_owner, s.covered);
+  return score;
+}
+
+json score_json(const lab::FacingScore& s) {
+  json score{{"faces", s.faces}, {"misclassified", s.misclassified}, {"by_first_three", s.by_first_three}};
+  add_rate(score, s.misclassified, s.faces);
+  return score;
+}
+
+struct AddScore {
+  json& method;
+  const SceneResult& scene;
+
+  // Every pixel is a trial: the background may be shown wrong, too.
+  void add_owners(json& score, std::uint64_t wrong) const {
+    score["wrong_owners"] = wrong;
+    const auto pixels = static_cast<std::uint64_t>(scene.width) * static_cast<std::uint64_t>(scene.height);
+    if (wrong == 0) score["wrong_owners_bound_per_million"] = 1e6 * lab::rate_bound(pixels);
+  }
+  void operator()(const CoverageScores& s) const {
+    method["snapped"] = score_json(s.snapped, scene.crossings);
+    method["float"] = score_json(s.floats, scene.crossings);
+    add_owners(method["snapped"], s.owners.wrong_snapped);
+    add_owners(method["float"], s.owners.wrong_floats);
+    if (lab::find_coverage_method(method["name"].get<std::string>()).contract_depth)
+      method["snapped"]["unexplained_owners"] = s.owners.unexplained;
+    method["depth"] = {{"max_ulp", s.owners.max_ulp}, {"rms_ulp", s.owners.rms_ulp}};
+  }
+  void operator()(const lab::VisibilityScores& s) const {
+    method["snapped"] = score_json(s.snapped);
+    method["snapped"]["near_ties"] = s.near_ties;
+    method["float"] = score_json(s.floats);
+    method["broken"] = s.broken;
+  }
+  void operator()(const lab::FacingScores& s) const {
+    method["snapped"] = score_json(s.snapped);
+    method["float"] = score_json(s.floats);
+    method["disagreements"] = s.disagreements;
+    method["broken"] = s.broken;
+  }
+  void operator()(const lab::ClippingScore& s) const {
+    json& score = method["score"] = {{"missing", s.missing},
+                                     {"extra", s.extra},
+                                     {"wrong_owner", s.wrong_owner},
+                                     {"near_ties", s.near_ties},
+                                     {"wrong_depth", s.wrong_depth},
+                                     {"worst_distance", s.worst_distance},
+                                     {"hairline", s.hairline},
+                                     {"differs_from_ours", s.differs_from_ours},
+                                     {"not_a_number", s.not_a_number},
+                                     {"out_of_range", s.out_of_range},
+                                     {"broken", s.broken}};
+    add_rate(score, s.wrong(), scene.covered);
+  }
+};
+
+json speed_json(const Speed& speed, const SceneResult& scene) {
+  const bool facing = scene.family == Family::facing;
+  const auto count = static_cast<double>(facing ? scene.triangles : scene.covered);
+  json result{{"threads", speed.threads},
+              {"ms",
+               {{"median", speed.median_ms},
+                {"min", speed.min_ms},
+                {"max", speed.max_ms},
+                {"repetitions", speed.repetitions}}},
+              {"mtri_per_s", static_cast<double>(scene.triangles) / speed.median_ms / 1e3}};
+  if (count > 0) result[facing ? "ns_per_face" : "ns_per_covered_pixel"] = 1e6 * speed.median_ms / count;
+  return result;
+}
+
+json scene_json(const SceneResult& scene) {
+  json result{{"name", scene.name},       {"family", name_of(scene.family)}, {"idea", scene.idea},
+              {"width", scene.width},     {"height", scene.height},          {"triangles", scene.triangles},
+              {"covered", scene.covered}, {"smallest", scene.smallest},      {"seconds", scene.seconds},
+              {"methods", json::array()}};
+  if (scene.family == Family::coverage) result["crossings"] = scene.crossings;
+  if (scene.family == Family::facing) result["faces"] = scene.triangles;
+  for (const MethodResult& method : scene.methods) {
+    json& entry = result["methods"].emplace_back(json{{"name", method.name}});
+    std::visit(AddScore{entry, scene}, method.score);
+    for (const Speed& speed : method.speed) entry["speed"].push_back(speed_json(speed, scene));
+  }
+  return result;
+}
+
+json per_frame_json(const PerFrame& counts, int frames) {
+  json result{{"median", counts.median}, {"worst", counts.worst}, {"total", counts.total}};
+  if (counts.total == 0) result["bound_per_frame"] = lab::rate_bound(static_cast<std::uint64_t>(frames));
+  return result;
+}
+
+json counts_json(const CubeCounts& counts, int frames) {
+  return {{"gaps", per_frame_json(counts.gaps, frames)},
+          {"double_hits", per_frame_json(counts.double_hits, frames)},
+          {"missing", per_frame_json(counts.missing, frames)},
+          {"extra", per_frame_json(counts.extra, frames)}};
+}
+
+json cube_json(const CubeResult& cube) {
+  json result{
+      {"frames", cube.frames}, {"width", cube.width}, {"height", cube.height}, {"methods", json::array()}};
+  for (const CubeMethodResult& method : cube.methods) {
+    json& entry = result["methods"].emplace_back(counts_json(method.floats, cube.frames));
+    entry["name"] = method.name;
+    entry["snapped"] = counts_json(method.snapped, cube.frames);
+  }
+  return result;
+}
+
+}  // namespace
+
+json accuracy_json(const AccuracyReport& report, const AccuracyPlan& plan) {
+  json result{{"machine", machine_description()},
+              {"quick", plan.quick},
+              {"ok", report.ok()},
+              {"methods", json::array()},
+              {"scenes", json::array()}};
+  for (const auto& [family, info] : methods_of(plan).all())
+    result["methods"].push_back({{"family", name_of(family)},
+                                 {"name", info->name},
+                                 {"idea", info->idea},
+                                 {"source", info->source},
+                                 {"promise", info->promise},
+                                 {"exact", info->exact}});
+  for (const SceneResult& scene : report.scenes) result["scenes"].push_back(scene_json(scene));
+  if (report.turning_cube) result["turning_cube"] = cube_json(*report.turning_cube);
+  return result;
+}
+
+}  // namespace edgewise::app

@@ -1,0 +1,45 @@
+// One scene of each family, judged.
+#pragma once
+
+#include <functional>
+#include <mutex>
+
+#include "cli/accuracy/scenes.h"
+
+namespace edgewise::app {
+
+// The methods that the plan names, in registry order.
+struct ChosenMethods {
+  std::vector<const lab::CoverageMethod*> coverage;
+  std::vector<const lab::VisibilityMethod*> visibility;
+  std::vector<const lab::FacingMethod*> facing;
+  std::vector<const lab::ClippingMethod*> clipping;
+
+  std::size_t count(Family family) const;
+  std::vector<std::pair<Family, const lab::MethodInfo*>> all() const;
+};
+ChosenMethods methods_of(const AccuracyPlan& plan);
+
+// Where a scene's judge works: what is asked for, and where it reports. `progress` may be called from several
+// threads, one at a time.
+struct Bench {
+  const AccuracyPlan& plan;
+  const ChosenMethods& methods;
+  const AccuracyScene& scene;
+  std::function<void(double)> progress;  // fraction of the scene
+  std::vector<Closeup>& closeups;
+};
+
+// They fill in all but the scene's name and its seconds.
+void judge(const CoverageScene& scene, const Bench& bench, SceneResult& result);
+void judge(const lab::VisibilityScene& scene, const Bench& bench, SceneResult& result);
+void judge(const lab::FacingScene& scene, const Bench& bench, SceneResult& result);
+void judge(const lab::ClippingScene& scene, const Bench& bench, SceneResult& result);
+
+CubeResult judge_turning_cube(const AccuracyPlan& plan, const ChosenMethods& methods,
+                              const std::function<void(double)>& progress, std::vector<Closeup>& closeups);
+
+// "coverage-drtk_quad-float_le"
+std::string closeup_name(Family family, std::string_view scene, std::string_view method);
+
+}  // namespace edgewise::app

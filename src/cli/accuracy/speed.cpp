@@ -1,0 +1,41 @@
+#include "cli/accuracy/speed.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace edgewise::app {
+
+namespace {
+
+// Of draws that follow one of the same method.
+double warm_ms(const TimedDraw& timed, int times) {
+  timed.draw();
+  const auto start = std::chrono::steady_clock::now();
+  for (int i = 0; i < times; ++i) timed.draw();
+  const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
+  return spent.count() / times;
+}
+
+}  // namespace
+
+std::vector<Speed> time_in_turns(const std::vector<TimedDraw>& draws, bool quick) {
+  const int repetitions = quick ? 5 : 11;
+  const double least_ms = quick ? 2.0 : 5.0;  // of a repetition: far above the clock's grain
+  std::vector<std::vector<double>> ms(draws.size());
+  std::vector<int> times;
+  for (const TimedDraw& timed : draws)
+    times.push_back(
+        std::clamp(static_cast<int>(std::ceil(least_ms / std::max(warm_ms(timed, 1), 1e-3))), 1, 1000));
+  for (int repetition = 0; repetition < repetitions; ++repetition)
+    for (std::size_t i = 0; i < draws.size(); ++i) ms[i].push_back(warm_ms(draws[i], times[i]));
+
+  std::vector<Speed> speeds;
+  for (std::size_t i = 0; i < draws.size(); ++i) {
+    std::sort(ms[i].begin(), ms[i].end());
+    speeds.push_back({draws[i].threads, ms[i][ms[i].size() / 2], ms[i].front(), ms[i].back(), repetitions});
+  }
+  return speeds;
+}
+
+}  // namespace edgewise::app

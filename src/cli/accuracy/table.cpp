@@ -1,0 +1,266 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cli/accuracy/report.h"
+
+namespace edgewise::app {
+
+namespace {
+
+// Three digits, or a whole number that fits the narrowest column.
+std::string digits(double v) {
+  if (v == 0.0) return "0";
+  if (v >= 9'999'999.5) return fmt::format("{:.1e}", v);
+  if (v >= 99.5) return fmt::format("{:.0f}", v);
+  return v >= 0.001 ? fmt::format("{:.3g}", v) : fmt::format("{:.0e}", v);
+}
+
+std::string rate(std::uint64_t errors, std::uint64_t trials) {
+  if (trials == 0) return "-";
+  const double bound = 1e6 * lab::rate_bound(trials);
+  if (errors == 0) return bound < 10 ? fmt::format("0 (<{:.2g})", bound) : fmt::format("0 (<{:.0f})", bound);
+  return digits(lab::per_million(errors, trials));
+}
+
+// A family's scenes, method by method.
+class FamilyTable {
+ public:
+  FamilyTable(const AccuracyReport& report, Family family, bool smallest) {
+    for (const SceneResult& scene : report.scenes) {
+      if (scene.family != family || scene.smallest != smallest) continue;
+      scenes_.push_back(&scene);
+      trials_ += scene.trials();
+      const bool timed = !scene.methods.empty() && !scene.methods.front().speed.empty();
+      if (timed && timed_ == nullptr) timed_ = &scene;
+    }
+  }
+  bool timed() const { return timed_ != nullptr; }
+  bool empty() const { return scenes_.empty(); }
+  std::uint64_t trials() const { return trials_; }
+  std::size_t methods() const { return scenes_.front()->methods.size(); }
+  const std::string& name(std::size_t method) const { return scenes_.front()->methods[method].name; }
+
+  template <typename S>
+  std::uint64_t sum(std::size_t method, std::uint64_t S::*count) const {
+    std::uint64_t total = 0;
+    for (const SceneResult* scene : scenes_) total += std::get<S>(scene->methods[method].score).*count;
+    return total;
+  }
+  // Against one truth, over all scenes.
+  lab::VisibilityScore visibility(std::size_t method,
+                                  lab::VisibilityScore lab::VisibilityScores::*truth) const {
+    lab::VisibilityScore total;
+    for (const SceneResult* scene : scenes_) {
+      const lab::VisibilityScore& s = std::get<lab::VisibilityScores>(scene->methods[method].score).*truth;
+      total.covered += s.covered, total.wrong_owner += s.wrong_owner, total.out_of_range += s.out_of_range;
+      total.max_ulp = std::max(total.max_ulp, s.max_ulp);
+    }
+    return total;
+  }
+  lab::FacingScore facing(std::size_t method, lab::FacingScore lab::FacingScores::*truth) const {
+    lab::FacingScore total;
+    for (const SceneResult* scene : scenes_) {
+      const lab::FacingScore& s = std::get<lab::FacingScores>(scene->methods[method].score).*truth;
+      total.faces += s.faces, total.misclassified += s.misclassified;
+    }
+    return total;
+  }
+  lab::CoverageScore coverage(std::size_t method, lab::CoverageScore CoverageScores::*truth) const {
+    lab::CoverageScore total;
+    for (const SceneResult* scene : scenes_) {
+      const lab::CoverageScore& s = std::get<CoverageScores>(scene->methods[method].score).*truth;
+      total.missing += s.missing, total.extra += s.extra;
+      total.gaps += s.gaps, total.double_hits += s.double_hits;
+    }
+    return total;
+  }
+  lab::OwnerScore owners(std::size_t method) const {
+    lab::OwnerScore worst;
+    for (const SceneResult* scene : scenes_) {
+      const lab::OwnerScore& s = std::get<CoverageScores>(scene->methods[method].score).owners;
+      worst.wrong_snapped += s.wrong_snapped, worst.wrong_floats += s.wrong_floats;
+      worst.max_ulp = std::max(worst.max_ulp, s.max_ulp), worst.rms_ulp = std::max(worst.rms_ulp, s.rms_ulp);
+    }
+    return worst;
+  }
+  const SceneResult* scene(std::string_view name) const {
+    const auto found =
+        std::find_if(scenes_.begin(), scenes_.end(), [&](const SceneResult* s) { return s->name == name; });
+    return found == scenes_.end() ? nullptr : *found;
+  }
+  std::size_t scenes() const { return scenes_.size(); }
+  // The last column: on one thread, on the first scene that was timed; else the scene with the most errors.
+  std::string last(std::size_t method) const {
+    if (timed_ == nullptr) return most_wrong_on(method);
+    const bool facing = timed_->family == Family::facing;
+    const auto count = static_cast<double>(facing ? timed_->triangles : timed_->covered);
+    return count > 0 ? digits(1e6 * timed_->methods[method].speed.front().median_ms / count) : "-";
+  }
+  std::string title(std::string_view what, std::string_view trials) const {
+    const SceneResult& first = *scenes_.front();
+    std::string text =
+        fmt::format("\n{}: {}, {} {} in {} {}scene{}\n", name_of(first.family), what, trials_, trials,
+                    scenes_.size(), first.smallest ? "small " : "", scenes_.size() == 1 ? "" : "s");
+    if (timed_ != nullptr)
+      text += fmt::format("ns: on one thread, {}x{} {}\n", timed_->width, timed_->height, timed_->name);
+    return text;
+  }
+  // What the last column holds.
+  std::string last_title(std::string_view ns) const {
+    return std::string(timed_ != nullptr ? ns : "most wrong on");
+  }
+
+ private:
+  static std::uint64_t errors(const Score& score) {
+    struct Visit {
+      std::uint64_t operator()(const CoverageScores& s) const { return s.floats.errors(); }
+      std::uint64_t operator()(const lab::VisibilityScores& s) const { return s.snapped.wrong_owner; }
+      std::uint64_t operator()(const lab::FacingScores& s) const { return s.floats.misclassified; }
+      std::uint64_t operator()(const lab::ClippingScore& s) const { return s.wrong(); }
+    };
+    return std::visit(Visit{}, score);
+  }
+  std::string most_wrong_on(std::size_t method) const {
+    const SceneResult* worst = nullptr;
+    double most = 0.0;
+    for (const SceneResult* scene : scenes_) {
+      const double rate = lab::per_million(errors(scene->methods[method].score), scene->trials());
+      if (rate > most) most = rate, worst = scene;
+    }
+    return worst == nullptr ? "-" : worst->name;
+  }
+
+  std::vector<const SceneResult*> scenes_;
+  const SceneResult* timed_ = nullptr;
+  std::uint64_t trials_ = 0;
+};
+
+// The last column is as wide as the names it holds.
+std::size_t last_width(const FamilyTable& t) {
+  std::size_t widest = t.timed() ? 7 : t.last_title("").size();
+  for (std::size_t i = 0; i < t.methods(); ++i) widest = std::max(widest, t.last(i).size());
+  return widest + 1;
+}
+
+// What shows of all that; and, where it was judged, what splitting an edge does for a T-junction.
+std::string owner_table(const FamilyTable& t) {
+  const SceneResult *junction = t.scene("t_junction"), *split = t.scene("t_junction_split");
+  const bool cracks = junction != nullptr && split != nullptr;
+  std::string text = fmt::format(
+      "\ncoverage: pixels with the wrong owner, and the worst depths, in {} scene{}\n"
+      "last place of a depth: 2^-31 of the range for backends, a float's for others\n",
+      t.scenes(), t.scenes() == 1 ? "" : "s");
+  constexpr const char *kLine = "{:<17}{:>10}{:>10}{:>12}{:>9}", *kCracks = "{:>12}{:>8}";
+  const auto add = [&](const std::string& line, const auto& of_junction, const auto& of_split) {
+    text += line + (cracks ? fmt::format(kCracks, of_junction, of_split) : "") + '\n';
+  };
+  add(fmt::format(kLine, "", "wrong", "wrong", "depth: max", "RMS"), "T-junction:", "split:");
+  add(fmt::format(kLine, "method", "snapped", "before", "last places", "places"), "gaps", "gaps");
+  const auto gaps = [&](const SceneResult* scene, std::size_t method) {
+    return scene == nullptr ? 0 : std::get<CoverageScores>(scene->methods[method].score).floats.gaps;
+  };
+  for (std::size_t i = 0; i < t.methods(); ++i) {
+    const lab::OwnerScore s = t.owners(i);
+    add(fmt::format(kLine, t.name(i), s.wrong_snapped, s.wrong_floats, digits(s.max_ulp), digits(s.rms_ulp)),
+        gaps(junction, i), gaps(split, i));
+  }
+  return text;
+}
+
+std::string coverage_table(const FamilyTable& t) {
+  std::string text = t.title("errors per 10^6 edge crossings", "crossings");
+  text += fmt::format("{:<17}{:>29}{:>28}\n", "", "against snapped positions", "against those before");
+  constexpr const char* kLine = "{:<17}{:>11}{:>9}{:>9}{:>11}{:>8}{:>9}{}\n";
+  text += fmt::format(kLine, "method", "errors", "gaps", "doubles", "errors", "gaps", "doubles",
+                      t.timed() ? " ns/px" : "");
+  for (std::size_t i = 0; i < t.methods(); ++i) {
+    const auto snapped = t.coverage(i, &CoverageScores::snapped),
+               floats = t.coverage(i, &CoverageScores::floats);
+    text += fmt::format(kLine, t.name(i), rate(snapped.errors(), t.trials()), snapped.gaps,
+                        snapped.double_hits, rate(floats.errors(), t.trials()), floats.gaps,
+                        floats.double_hits, t.timed() ? fmt::format("{:>6}", t.last(i)) : "");
+  }
+  return text + owner_table(t);
+}
+
+std::string visibility_table(const FamilyTable& t) {
+  using S = lab::VisibilityScores;
+  std::string text = t.title("wrong owners per 10^6 pixels", "pixels");
+  text += fmt::format("{:<17}{:>25}{:>19}\n", "", "against snapped positions", "those before");
+  constexpr const char* kLine = "{:<17}{:>10}{:>7}{:>8}{:>11}{:>8}{:>{}}\n";
+  text += fmt::format(kLine, "method", "per 10^6", "beyond", "ulp", "per 10^6", "ulp", t.last_title("ns/px"),
+                      last_width(t));
+  for (std::size_t i = 0; i < t.methods(); ++i) {
+    const auto snapped = t.visibility(i, &S::snapped), floats = t.visibility(i, &S::floats);
+    text += fmt::format(kLine, t.name(i), rate(snapped.wrong_owner, snapped.covered), snapped.out_of_range,
+                        digits(snapped.max_ulp), rate(floats.wrong_owner, floats.covered),
+                        digits(floats.max_ulp), t.last(i), last_width(t));
+  }
+  return text + "beyond: pixels outside the depths of their own triangle\n";
+}
+
+std::string facing_table(const FamilyTable& t) {
+  using S = lab::FacingScores;
+  std::string text = t.title("misjudged per 10^6 faces that own a pixel", "faces");
+  text += fmt::format("{:<20}{:>20}{:>20}\n", "", "against snapped", "those before");
+  constexpr const char* kLine = "{:<20}{:>13}{:>7}{:>13}{:>7}{:>{}}\n";
+  text += fmt::format(kLine, "method", "per 10^6", "faces", "per 10^6", "faces", t.last_title("ns/face"),
+                      last_width(t));
+  for (std::size_t i = 0; i < t.methods(); ++i) {
+    const auto snapped = t.facing(i, &S::snapped), floats = t.facing(i, &S::floats);
+    text +=
+        fmt::format(kLine, t.name(i), rate(snapped.misclassified, snapped.faces), snapped.misclassified,
+                    rate(floats.misclassified, floats.faces), floats.misclassified, t.last(i), last_width(t));
+  }
+  return text;
+}
+
+std::string clipping_table(const FamilyTable& t) {
+  using S = lab::ClippingScore;
+  std::string text = t.title("wrong per 10^6 pixels", "pixels");
+  constexpr const char* kLine = "{:<15}{:>9}{:>8}{:>7}{:>7}{:>7}{:>5}{:>4}{:>{}}\n";
+  text += fmt::format(kLine, "method", "per 10^6", "missing", "extra", "owner", "depth", "hair", "NaN",
+                      t.last_title("ns/px"), last_width(t));
+  for (std::size_t i = 0; i < t.methods(); ++i) {
+    const std::uint64_t missing = t.sum(i, &S::missing), extra = t.sum(i, &S::extra),
+                        owner = t.sum(i, &S::wrong_owner), depth = t.sum(i, &S::wrong_depth);
+    text += fmt::format(kLine, t.name(i), rate(missing + extra + owner + depth, t.trials()), missing, extra,
+                        owner, depth, t.sum(i, &S::hairline), t.sum(i, &S::not_a_number), t.last(i),
+                        last_width(t));
+  }
+  return text;
+}
+
+// Gaps and double hits against the positions before snapping; in the last column, all that is wrong against
+// the snapped ones.
+std::string cube_table(const CubeResult& cube) {
+  std::string text = fmt::format("\nthe turning cube: wrong pixels a frame, {} frames of {}x{}\n",
+                                 cube.frames, cube.width, cube.height);
+  text += fmt::format("{:<17}{:>25}{:>27}{:>11}\n", "", "gaps", "double hits", "snapped");
+  constexpr const char* kLine = "{:<17}{:>8}{:>7}{:>10}{:>10}{:>7}{:>10}{:>11}\n";
+  text += fmt::format(kLine, "method", "median", "worst", "total", "median", "worst", "total", "total");
+  for (const CubeMethodResult& m : cube.methods)
+    text += fmt::format(kLine, m.name, m.floats.gaps.median, m.floats.gaps.worst, m.floats.gaps.total,
+                        m.floats.double_hits.median, m.floats.double_hits.worst, m.floats.double_hits.total,
+                        m.snapped.missing.total + m.snapped.extra.total);
+  return text + fmt::format("0 in total: in less than {} of the frames, with 95 % confidence\n",
+                            digits(lab::rate_bound(static_cast<std::uint64_t>(cube.frames))));
+}
+
+}  // namespace
+
+std::string accuracy_tables(const AccuracyReport& report) {
+  constexpr std::string (*kTables[])(const FamilyTable&) = {coverage_table, visibility_table, facing_table,
+                                                            clipping_table};
+  std::string text;
+  for (const Family family : lab::kFamilies)
+    for (const bool smallest : {false, true})
+      if (const FamilyTable table(report, family, smallest); !table.empty())
+        text += kTables[static_cast<std::size_t>(family)](table);
+  if (report.turning_cube) text += cube_table(*report.turning_cube);
+  return text.substr(text.starts_with('\n') ? 1 : 0);
+}
+
+}  // namespace edgewise::app

@@ -1,0 +1,66 @@
+// `edgewise capture`: what the front end hands to a backend, as a .tri stream.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "cli/commands.h"
+#include "cli/describe.h"
+#include "core/atomic_file.h"
+#include "core/file_extension.h"
+#include "edgewise/tri_file.h"
+#include "lab/to_stream.h"
+#include "support/console.h"
+#include "support/options.h"
+#include "support/output_path.h"
+#include "support/printable.h"
+
+namespace edgewise::app {
+
+namespace {
+
+struct CaptureOptions {
+  std::string scene, output;
+  SceneOptions options;
+};
+
+int capture(const CaptureOptions& o) {
+  if (extension_of(o.output) != ".tri")
+    throw std::invalid_argument("--output " + o.output + ": the name must end in .tri");
+  check_output_is_not_input(o.output, o.scene);
+  const Shot shot = load_shot(o.scene, o.options, o.options.time.value_or(0.0));
+  Frontend frontend;
+  const auto triangles = frontend.run(shot.source.drawable, shot.frontend);
+
+  AtomicFile file(o.output);
+  write_tri(file.stream(), lab::to_stream(triangles, shot.frontend.width, shot.frontend.height));
+  file.commit();
+  print(fmt::format("{} ({}x{}): {}\n  -> {}\n", printable(shot.source.name), shot.frontend.width,
+                    shot.frontend.height, stats_text(frontend.stats()), printable(o.output)));
+  return kDone;
+}
+
+constexpr const char* kCaptureFooter = R"(Examples:
+  edgewise capture terrain --size 1920x1080 -o terrain.tri
+  edgewise render terrain.tri -o terrain.png           (the same picture, bit for bit)
+  edgewise verify terrain.tri
+
+The stream holds what is left after transforming, clipping, culling and shading. The format, little
+endian: "TRI1", uint32 width, height, count; then for each triangle nine float32 (x, y, z of three
+vertices: pixels, y down, z in [0, 1], smaller is nearer) and a uint32 colour, R in the lowest byte.)";
+
+}  // namespace
+
+void add_capture(CLI::App& program, Action& action) {
+  CLI::App& command = *program.add_subcommand("capture", "Write a scene's screen triangles as a .tri stream");
+  const auto o = std::make_shared<CaptureOptions>();
+  command.add_option("SCENE", o->scene, "A scene of `edgewise list`, or an .obj or .tri file")->required();
+  command.add_option("-o,--output", o->output, "The stream, .tri")->required()->type_name("FILE");
+  o->options.add_to(command);
+  command.footer(kCaptureFooter);
+  command.callback([o, &action] { action = [o] { return capture(*o); }; });
+}
+
+}  // namespace edgewise::app

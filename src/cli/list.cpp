@@ -1,0 +1,87 @@
+// `edgewise list`: scenes, backends, SIMD targets and culling modes.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "cli/commands.h"
+#include "edgewise/backend.h"
+#include "edgewise/builtin.h"
+#include "edgewise/frontend.h"
+#include "support/console.h"
+#include "support/json_text.h"
+
+namespace edgewise::app {
+
+namespace {
+
+std::string_view idea_of(Cull cull) {
+  switch (cull) {
+    case Cull::none:
+      return "every face is drawn";
+    case Cull::back:
+      return "faces that turn away are dropped (counter-clockwise on the screen)";
+    case Cull::front:
+      return "faces that look at the camera are dropped";
+    case Cull::both:
+      return "all faces are dropped";
+  }
+  return {};
+}
+
+nlohmann::json as_json() {
+  nlohmann::json json;
+  for (const SceneInfo& scene : builtin_scenes())
+    json["scenes"].push_back({{"name", scene.name}, {"idea", scene.idea}, {"stream", scene.stream}});
+  for (const BackendInfo& backend : backends())
+    json["backends"].push_back({{"name", backend.name}, {"idea", backend.idea}, {"fills", backend.fills}});
+  for (const SimdTarget target : supported_targets()) json["simd_targets"].push_back(name_of(target));
+  json["simd_best"] = name_of(resolve(SimdTarget::best));
+  for (const Cull cull : cull_modes())
+    json["cull_modes"].push_back({{"name", name_of(cull)}, {"idea", idea_of(cull)}});
+  return json;
+}
+
+std::string as_text() {
+  const auto line = [](std::string_view name, std::string_view idea) {
+    return idea.empty() ? fmt::format("  {}\n", name) : fmt::format("  {:<12} {}\n", name, idea);
+  };
+  std::string text = "Scenes:\n";
+  for (const SceneInfo& scene : builtin_scenes())
+    if (!scene.stream) text += line(scene.name, scene.idea);
+  text += "Scenes that are streams of screen triangles:\n";
+  for (const SceneInfo& scene : builtin_scenes())
+    if (scene.stream) text += line(scene.name, scene.idea);
+  text += "Files that can stand for a scene:\n" + line("*.obj", "Wavefront meshes");
+  text += line("*.tri", "triangle streams, written by edgewise capture");
+  text += "Backends, the reference first:\n";
+  for (const BackendInfo& backend : filling_backends()) text += line(backend.name, backend.idea);
+  text += "Backends that draw another picture than these:\n";
+  for (const BackendInfo& backend : backends().subspan(filling_backends().size()))
+    text += line(backend.name, backend.idea);
+  text += "SIMD targets of this machine:\n";
+  for (const SimdTarget target : supported_targets())
+    text += line(name_of(target), target == resolve(SimdTarget::best) ? "best" : "");
+  text += "Culling modes:\n";
+  for (const Cull cull : cull_modes()) text += line(name_of(cull), idea_of(cull));
+  return text;
+}
+
+}  // namespace
+
+void add_list(CLI::App& program, Action& action) {
+  CLI::App& command =
+      *program.add_subcommand("list", "Name all scenes, backends, SIMD targets and culling modes");
+  const auto json = std::make_shared<bool>(false);
+  command.add_flag("--json", *json, "Print JSON");
+  command.callback([json, &action] {
+    action = [json] {
+      print(*json ? json_text(as_json(), 2) + "\n" : as_text());
+      return kDone;
+    };
+  });
+}
+
+}  // namespace edgewise::app

@@ -1,0 +1,26 @@
+// `edgewise machine`: the machine and the build, as every result records them.
+#include "support/machine.h"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "cli/commands.h"
+#include "support/console.h"
+#include "support/json_text.h"
+
+namespace edgewise::app {
+
+void add_machine(CLI::App& program, Action& action) {
+  CLI::App& command =
+      *program.add_subcommand("machine", "Describe this machine and build as JSON, as results do");
+  const auto name_only = std::make_shared<bool>(false);
+  command.add_flag("--name", *name_only, "Print only the name of its folder below results/");
+  command.callback([name_only, &action] {
+    action = [name_only] {
+      print((*name_only ? machine_name() : json_text(machine_description(), 2)) + "\n");
+      return kDone;
+    };
+  });
+}
+
+}  // namespace edgewise::app

@@ -1,0 +1,246 @@
+// `edgewise render`: scenes to pictures.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "cli/commands.h"
+#include "cli/describe.h"
+#include "core/nearest_name.h"
+#include "image/pictures.h"
+#include "lab/measure.h"
+#include "support/console.h"
+#include "support/json_text.h"
+#include "support/milliseconds.h"
+#include "support/options.h"
+#include "support/output_path.h"
+#include "support/printable.h"
+#include "support/progress.h"
+
+namespace edgewise::app {
+
+namespace {
+
+constexpr int kMaxFrames = 100000;
+constexpr double kMaxFps = 1000;
+enum class What { colour, id, hits };
+
+struct RenderOptions {
+  std::vector<std::string> scenes;
+  SceneOptions scene;
+  ExecutionOptions execution;
+  std::string backend = "tiled";
+  What what = What::colour;
+  std::string output, depth;
+  int frames = 1;
+  std::optional<double> fps;
+  bool json = false;
+};
+
+struct Picture {
+  std::string scene;
+  double time;
+  FrontendOptions frontend;
+  FrontendStats stats;
+  double frontend_ms, draw_ms;
+  std::array<std::uint64_t, 4> hits{};  // pixels hit 0, 1, 2, 3 or more times
+  std::vector<std::string> files;
+};
+
+What parse_what(const std::string& text) {
+  constexpr std::array<std::string_view, 3> kNames{"colour", "id", "hits"};
+  const auto found = std::find(kNames.begin(), kNames.end(), text);
+  if (found == kNames.end()) throw std::invalid_argument(unknown_name("payload", text, kNames));
+  return static_cast<What>(found - kNames.begin());
+}
+
+// Renders pictures one after the other and keeps its memory between them.
+class Renderer {
+ public:
+  explicit Renderer(const RenderOptions& options)
+      : options_(options), info_(find_backend(options.backend)), backend_(info_.make()) {
+    if (options.what == What::hits && !info_.fills)
+      throw std::invalid_argument(
+          fmt::format("--payload hits counts what triangles cover: --backend {} "
+                      "does not fill them",
+                      info_.name));
+    std::vector<std::string> names;
+    for (const auto& scene : options.scenes) {
+      check_source(scene);
+      names.push_back(source_name(scene));
+    }
+    const auto outputs = [&](const char* option, const std::string& path, bool depth) {
+      return OutputPaths(option, path, depth ? OutputPaths::Kind::depth : OutputPaths::Kind::picture, names,
+                         options.frames);
+    };
+    if (!options.output.empty()) images_ = outputs("--output", options.output, false);
+    if (!options.depth.empty()) depths_ = outputs("--depth", options.depth, true);
+    if (!images_ && !depths_)
+      throw std::invalid_argument("nothing to write: give --output FILE or --depth FILE");
+  }
+
+  void run() {
+    if (options_.scenes.size() > 1) rehearse();
+    if (images_) images_->make_folder();
+    if (depths_) depths_->make_folder();
+    for (const std::string& scene : options_.scenes) render_frames(scene);
+  }
+
+ private:
+  // So that what is wrong with the last scene is known before the first picture is written.
+  void rehearse() {
+    for (const std::string& scene : options_.scenes) {
+      const Shot shot = load_shot(scene, options_.scene, options_.scene.time.value_or(0.0));
+      frontend_.run(shot.source.drawable, shot.frontend);
+    }
+  }
+
+  void render_frames(const std::string& scene) {
+    std::optional<Shot> shot;
+    for (int frame = 1; frame <= options_.frames; ++frame) {
+      if (options_.frames > 1) show_progress(source_name(scene), frame, 0.0);
+      const double time = options_.scene.time.value_or(0.0) + (frame - 1) / options_.fps.value_or(30.0);
+      // Files don't move, and reading them again would take most of the time.
+      if (!shot || shot->source.built_in != nullptr) shot = load_shot(scene, options_.scene, time);
+      shot->frontend.payload = options_.what == What::id ? Payload::id : Payload::colour;
+      shot->frontend.threads = options_.execution.execution.threads;
+      shot->frontend.target = options_.execution.execution.target;
+      report(render(*shot, time, frame));
+    }
+  }
+
+  void show_progress(const std::string& scene, int frame, double frame_fraction) {
+    progress_.show((frame - 1 + frame_fraction) / options_.frames, scene);
+  }
+
+  Picture render(const Shot& shot, double time, int frame) {
+    const int width = shot.frontend.width, height = shot.frontend.height;
+    if (!frame_ || frame_->width() != width || frame_->height() != height) frame_.emplace(width, height);
+    Picture picture{shot.source.name, time, shot.frontend, {}, 0, 0, {}, {}};
+
+    std::span<const ScreenTriangle> triangles;
+    picture.frontend_ms =
+        milliseconds([&] { triangles = frontend_.run(shot.source.drawable, shot.frontend); });
+    picture.stats = frontend_.stats();
+    const Execution& execution = options_.execution.execution;
+    picture.draw_ms = milliseconds(
+        [&] { backend_->draw(triangles, frame_->view(), background_of(shot.frontend.payload), execution); });
+
+    if (depths_) {
+      picture.files.push_back(depths_->path(shot.source.name, frame).string());
+      write_pfm(picture.files.back(), to_depth_map(*frame_));
+    }
+    if (options_.what == What::hits) {
+      const auto hits = lab::count_hits(*backend_, triangles, width, height, execution, [&](double fraction) {
+        show_progress(shot.source.name, frame, fraction);
+      });
+      for (const std::uint32_t n : hits) ++picture.hits[std::min(n, 3u)];
+      if (images_) write_picture(picture, frame, picture_of_hits(hits, width, height));
+    } else if (images_) {
+      write_picture(picture, frame, picture_of(*frame_, shot.frontend.payload));
+    }
+    return picture;
+  }
+
+  void write_picture(Picture& picture, int frame, const Image& image) {
+    picture.files.push_back(images_->path(picture.scene, frame).string());
+    write_image(picture.files.back(), image);
+  }
+
+  void report(const Picture& picture) {
+    progress_.erase();
+    print(options_.json ? json_text(as_json(picture)) + "\n" : as_text(picture));
+  }
+
+  nlohmann::json as_json(const Picture& p) const {
+    nlohmann::json json{{"scene", p.scene},
+                        {"backend", info_.name},
+                        {"width", p.frontend.width},
+                        {"height", p.frontend.height},
+                        {"cull", name_of(p.frontend.cull)},
+                        {"shade", p.frontend.shade},
+                        {"threads", options_.execution.execution.threads},
+                        {"simd_target", name_of(resolve(options_.execution.execution.target))},
+                        {"time_s", p.time},
+                        {"frontend", stats_json(p.stats)},
+                        {"frontend_ms", p.frontend_ms},
+                        {"draw_ms", p.draw_ms},
+                        {"files", p.files}};
+    if (options_.what == What::hits)
+      json["hits"] = {{"0", p.hits[0]}, {"1", p.hits[1]}, {"2", p.hits[2]}, {"3+", p.hits[3]}};
+    return json;
+  }
+
+  std::string as_text(const Picture& p) const {
+    std::string text = fmt::format("{} ({}x{}, {}): {}\n", printable(p.scene), p.frontend.width,
+                                   p.frontend.height, info_.name, stats_text(p.stats));
+    if (options_.what == What::hits)
+      text += fmt::format("  pixels hit: 0 times {}, once {}, twice {}, 3 times or more {}\n", p.hits[0],
+                          p.hits[1], p.hits[2], p.hits[3]);
+    return text + fmt::format("  front end {:.2f} ms, draw {:.2f} ms -> {}\n", p.frontend_ms, p.draw_ms,
+                              printable(fmt::format("{}", fmt::join(p.files, ", "))));
+  }
+
+  const RenderOptions& options_;
+  const BackendInfo& info_;
+  std::unique_ptr<Backend> backend_;
+  Frontend frontend_;
+  std::optional<Framebuffer> frame_;
+  std::optional<OutputPaths> images_, depths_;
+  Progress progress_;
+};
+
+constexpr const char* kRenderFooter = R"(Examples:
+  edgewise render cube -o cube.png
+  edgewise render terrain --size 1920x1080 --backend scanline -o a.png --depth a.pfm
+  edgewise render bunny.obj --fit --yaw 0 --cull none --no-shade -o bunny.png
+  edgewise render cube sphere torus-knot -o pictures/        (pictures/cube.png, ...)
+  edgewise render cube --frames 90 --fps 30 -o turn.png      (turn-0001.png, ...)
+  edgewise render grid4 --payload hits -o hits.png           (is every pixel hit once?)
+
+The background is black, and 1 in a depth file (PFM, floats in [0, 1]).
+--payload id writes (id + 1) * 0x9E3779 modulo 2^24 as a colour, R lowest: one colour for each
+  triangle, and the id can be recovered exactly below 16,777,215.
+--payload hits paints how often a pixel is drawn: black never, grey once, yellow twice, red more.
+The times are those of one cold run; edgewise_bench measures.)";
+
+}  // namespace
+
+void add_render(CLI::App& program, Action& action) {
+  CLI::App& command = *program.add_subcommand("render", "Draw scenes into pictures and depth files");
+  const auto o = std::make_shared<RenderOptions>();
+  command.add_option("SCENE", o->scenes, "Scenes of `edgewise list`, or .obj or .tri files")->required();
+  command
+      .add_option("-o,--output", o->output,
+                  "Picture, .png or .ppm; also a folder, made if missing, or a name with {scene}")
+      ->type_name("FILE");
+  command.add_option("--depth", o->depth, "Depth as floats, .pfm; named as --output is")->type_name("FILE");
+  command.add_option("--backend", o->backend, "Backend of `edgewise list` (tiled)")->type_name("NAME");
+  command
+      .add_option_function<std::string>(
+          "--payload", [o](const std::string& text) { o->what = parse_what(text); },
+          "What to paint: colour, id or hits (colour)")
+      ->type_name("WHAT");
+  o->scene.add_to(command);
+  o->execution.add_to(command);
+  add_integer(command, "--frames", o->frames, 1, kMaxFrames,
+              "Numbered pictures of an animation from --time on (1)");
+  add_number(command, "--fps", o->fps, 0.001, kMaxFps, "Frames a second of the animation (30)");
+  command.add_flag("--json", o->json, "Print one JSON object a line for each picture");
+  command.footer(kRenderFooter);
+  command.callback([o, &action] {
+    action = [o] {
+      Renderer(*o).run();
+      return kDone;
+    };
+  });
+}
+
+}  // namespace edgewise::app

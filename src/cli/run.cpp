@@ -1,0 +1,106 @@
+#include "cli/run.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <exception>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cli/commands.h"
+#include "core/nearest_name.h"
+#include "support/console.h"
+#include "support/options.h"
+#include "support/process.h"
+
+namespace edgewise::app {
+
+namespace {
+
+constexpr const char* kProgramFooter = R"(Try:
+  edgewise list                          scenes, backends, SIMD targets, culling modes
+  edgewise render cube -o cube.png       a first picture
+  edgewise verify                        do all backends agree on every bit?
+  edgewise COMMAND --help                options and examples
+
+The folder of an output file must exist. An output that is a folder itself (-o pictures/) is made.
+
+Exit status: 0 done, 1 a difference was found, 2 bad input or failure, 128 + N stopped by signal N (130: Ctrl-C).
+A reader that closes standard output early, as `head` does, is no failure.)";
+
+// CLI11 would only say that the word was not expected, or that a command is missing.
+void check_first_word(const CLI::App& program, std::string_view word) {
+  std::vector<std::string> words = option_names(program);
+  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
+    words.push_back(command->get_name());
+  const std::vector<std::string_view> known(words.begin(), words.end());
+  if (std::find(known.begin(), known.end(), word) != known.end()) return;
+  throw std::invalid_argument(unknown_name(word.starts_with('-') ? "option" : "command", word, known));
+}
+
+// The message of a command line that CLI11 refuses. A mistyped option explains errors that seem to be others:
+// its value stands for a positional argument, or a required option seems to be missing.
+std::string why_refused(const CLI::ParseError& error, const CLI::App& program) {
+  for (const CLI::App* command : program.get_subcommands())
+    for (const std::string& word : command->remaining())
+      if (word.starts_with('-'))
+        return unknown_option(word, option_names(*command), program.get_name() + ' ' + command->get_name());
+  return error.what();
+}
+
+int guarded(int argc, char** argv, viewer::ShowWindow show_window) {
+  try {
+    return parse(argc, argv, show_window)();
+  } catch (const std::exception& error) {
+    print_error(reason_of(error));
+  }
+  return kFailed;
+}
+
+}  // namespace
+
+Action parse(int argc, char** argv, viewer::ShowWindow show_window) {
+  CLI::App program("A laboratory for triangle rasterization on the CPU.", "edgewise");
+  program.set_version_flag("--version", "edgewise " EDGEWISE_VERSION);
+  program.require_subcommand(1);
+  program.footer(kProgramFooter);
+  Action action;
+  add_list(program, action);
+  add_render(program, action);
+  add_verify(program, action);
+  add_soak(program, action);
+  add_accuracy(program, action);
+  add_stability(program, action);
+  add_diff(program, action);
+  add_capture(program, action);
+  add_view(program, action, show_window);
+  add_demo(program, action, show_window);
+  add_machine(program, action);
+  if (argc < 2) throw std::invalid_argument("no command given; try edgewise --help");
+  check_first_word(program, argv[1]);
+
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() != 0) throw std::invalid_argument(why_refused(error, program));
+    std::ostringstream help;
+    program.exit(error, help, help);
+    return [text = help.str()] {
+      print(text);
+      return kDone;
+    };
+  }
+  return action;
+}
+
+int run(int argc, char** argv, viewer::ShowWindow show_window) {
+  prepare_process("edgewise");
+  const int status = guarded(argc, argv, show_window);
+  if (stdout_is_whole() || status == kFailed) return status;
+  print_error("cannot write to standard output");
+  return kFailed;
+}
+
+}  // namespace edgewise::app

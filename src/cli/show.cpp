@@ -1,0 +1,32 @@
+#include "cli/show.h"
+
+#include <stdexcept>
+
+#include "edgewise/image.h"
+#include "support/console.h"
+#include "support/printable.h"
+
+namespace edgewise::app {
+
+void check_windows(viewer::ShowWindow show_window) {
+  if (show_window == nullptr)
+    throw std::invalid_argument(
+        "this program was built without SDL2, which opens windows: try --terminal, or install libsdl2-dev "
+        "and build again");
+}
+
+void write_screen(const std::filesystem::path& path, viewer::Screen& screen, int font_scale) {
+  viewer::paint(screen, font_scale);
+  write_image(path, screen.picture);
+}
+
+void write_seen(const std::filesystem::path& path, viewer::Session& session, Size size) {
+  const int scale = viewer::font_scale(size.height);
+  write_screen(path, session.draw(size, viewer::font_cell(scale)), scale);
+}
+
+void print_saved(viewer::Session& session) {
+  for (const std::string& path : session.take_saved()) print(printable(path) + "\n");
+}
+
+}  // namespace edgewise::app

@@ -1,0 +1,160 @@
+#include "cli/soak/check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+#include "core/random.h"
+#include "edgewise/contract.h"
+#include "lab/oracle.h"
+
+namespace edgewise::soak {
+
+namespace {
+
+constexpr const char* kOracle = "oracle";
+constexpr const char* kOneByOne = "one triangle at a time";
+constexpr const char* kSteps = "naive";  // the backend that looks at Execution::stepped
+constexpr Execution kPlainest{1, 64, SimdTarget::scalar};
+
+// Pixels times triangles: about 5 ms, and a tenth of a second.
+constexpr double kOracleBudget = 1.5e5, kPatientBudget = 3e6;
+
+bool oracle_can_follow(const Case& c, std::size_t triangles) {
+  const double cost = static_cast<double>(triangles) * c.width * c.height;
+  return cost <= (c.patient_oracle ? kPatientBudget : kOracleBudget);
+}
+
+// Odd strides and starts defeat aligned stores; those of a Framebuffer invite them.
+lab::GuardedFrame::Layout random_layout(Random& random, int width) {
+  if (random.below(2) == 0) return lab::GuardedFrame::aligned(width);
+  const int padding = static_cast<int>(random.below(40));
+  return {padding, static_cast<int>(random.below(16))};
+}
+
+bool same(std::span<const ScreenTriangle> a, std::span<const ScreenTriangle> b) {
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
+}
+
+}  // namespace
+
+Checker::Checker(const Judged& judged) : judged_(judged) {
+  for (const BackendInfo& info : judged.backends) backends_.push_back(info.make());
+}
+
+Verdict Checker::check(const Case& c) {
+  Verdict verdict;
+  verdict.tally.cases = 1;
+  const std::span<const ScreenTriangle> triangles = c.drawable ? check_frontend(c, verdict) : c.triangles;
+
+  if (oracle_can_follow(c, triangles.size())) {
+    Framebuffer exact(c.width, c.height);
+    lab::draw_oracle(triangles, exact, c.background);
+    ++verdict.tally.oracle_frames;
+    check_frame(c, kOracle, exact, {0, kPlainest, lab::GuardedFrame::aligned(c.width)}, triangles, verdict);
+  }
+
+  const Framebuffer expected = reference_frame(c, triangles);
+  const std::string reference(judged_.backends[0].name);
+  constexpr std::array kTiles{16, 32, 64};
+  Random random(c.draws_seed);
+  for (std::size_t b = 0; b < backends_.size(); ++b)
+    for (const SimdTarget target : supported_targets())
+      for (const int threads : {1, c.threads}) {
+        Draw draw{b, {threads, kTiles[random.below(kTiles.size())], target}, {}};
+        if (random.below(2) == 0) draw.execution.ideas = kAblations[random.below(kAblations.size())];
+        draw.layout = random_layout(random, c.width);
+        check_frame(c, reference, expected, draw, triangles, verdict);
+      }
+  for (std::size_t b = 0; b < backends_.size(); ++b)
+    if (judged_.backends[b].name == kSteps) {
+      const Execution stepped{c.threads, 64, supported_targets().back(), {}, true};
+      check_frame(c, reference, expected, {b, stepped, random_layout(random, c.width)}, triangles, verdict);
+    }
+  return verdict;
+}
+
+std::span<const ScreenTriangle> Checker::check_frontend(const Case& c, Verdict& verdict) {
+  FrontendOptions options = c.frontend;
+  options.target = SimdTarget::scalar;
+  options.keep_unsnapped = true;  // which takes the triangles one by one, and keeps those without area
+  const auto plain = plain_.run(*c.drawable, options);
+  expected_list_.assign(plain.begin(), plain.end());
+  std::erase_if(expected_list_, [](const ScreenTriangle& t) { return contract::signed_area(t) == 0; });
+
+  options.keep_unsnapped = false;
+  for (const SimdTarget target : supported_targets())
+    for (const int threads : {1, c.threads}) {
+      options.target = target;
+      options.threads = threads;
+      const bool differs = !same(expected_list_, judged_.frontend(candidate_, *c.drawable, options));
+      ++verdict.tally.frontend_lists;
+      if (differs) ++verdict.tally.frontend_lists_differ;
+      verdict.tally.count("frontend_simd_target", std::string(name_of(target)), differs);
+      verdict.tally.count("frontend_threads", std::to_string(threads), differs);
+      if (differs && verdict.findings.empty())
+        verdict.findings.push_back({kOneByOne, true, {0, {threads, 64, target}, {}}, {}, {}});
+    }
+  return expected_list_;
+}
+
+void Checker::check_frame(const Case& c, const std::string& judge, const Framebuffer& expected,
+                          const Draw& draw, std::span<const ScreenTriangle> triangles, Verdict& verdict) {
+  const lab::FrameDifference found = compare(c, expected, draw, triangles);
+  Tally& tally = verdict.tally;
+  ++tally.frames;
+  tally.triangles += triangles.size();
+  tally.pixels += static_cast<std::uint64_t>(c.width) * static_cast<std::uint64_t>(c.height);
+  if (found.any()) ++tally.frames_differ;
+
+  const Execution& e = draw.execution;
+  const std::string_view name = judged_.backends[draw.backend].name;
+  const std::string ideas = describe(e.ideas), all = e.stepped ? "stepped" : "all";
+  tally.count("family", std::string(c.family), found.any());
+  tally.count("judge", judge, found.any());
+  tally.count("backend_simd_target", fmt::format("{}, {}", name, name_of(e.target)), found.any());
+  tally.count("backend_threads", fmt::format("{}, {}", name, e.threads), found.any());
+  tally.count("backend_tile_size", fmt::format("{}, {}", name, e.tile_size), found.any());
+  tally.count("backend_ideas", fmt::format("{}, {}", name, ideas.empty() ? all : ideas), found.any());
+
+  const bool known = std::any_of(verdict.findings.begin(), verdict.findings.end(), [&](const Finding& f) {
+    return !f.of_frontend && f.judge == judge && f.draw.backend == draw.backend;
+  });
+  if (found.any() && !known)
+    verdict.findings.push_back({judge, false, draw, found, {triangles.begin(), triangles.end()}});
+}
+
+Framebuffer Checker::reference_frame(const Case& c, std::span<const ScreenTriangle> triangles) {
+  Framebuffer frame(c.width, c.height);
+  lab::poison(frame);
+  backends_[0]->draw(triangles, frame.view(), c.background, kPlainest);
+  return frame;
+}
+
+lab::FrameDifference Checker::compare(const Case& c, const Framebuffer& expected, const Draw& draw,
+                                      std::span<const ScreenTriangle> triangles) {
+  lab::GuardedFrame frame(c.width, c.height, draw.layout);
+  backends_[draw.backend]->draw(triangles, frame.view(), c.background, draw.execution);
+  return lab::compare(expected, frame);
+}
+
+bool Checker::differs(const Finding& finding, const Case& c, std::span<const ScreenTriangle> triangles) {
+  Framebuffer expected = reference_frame(c, triangles);
+  if (finding.judge == kOracle) lab::draw_oracle(triangles, expected, c.background);
+  const int attempts = finding.draw.execution.threads == 1 ? 1 : 5;
+  for (int i = 0; i < attempts; ++i)
+    if (compare(c, expected, finding.draw, triangles).any()) return true;
+  return false;
+}
+
+bool Checker::frontend_differs(const Case& c, const Drawable& drawable) {
+  Case other = c;
+  other.drawable = drawable;
+  Verdict verdict;
+  check_frontend(other, verdict);
+  return verdict.tally.frontend_lists_differ != 0;
+}
+
+}  // namespace edgewise::soak

@@ -1,0 +1,18 @@
+#include "cli/soak/tally.h"
+
+namespace edgewise::soak {
+
+Tally& Tally::operator+=(const Tally& o) {
+  cases += o.cases;
+  frames += o.frames, triangles += o.triangles, pixels += o.pixels, oracle_frames += o.oracle_frames;
+  frontend_lists += o.frontend_lists;
+  frames_differ += o.frames_differ, frontend_lists_differ += o.frontend_lists_differ;
+  for (const auto& [category, shares] : o.by)
+    for (const auto& [label, share] : shares) {
+      Share& mine = by[category][label];
+      mine.compared += share.compared, mine.differ += share.differ;
+    }
+  return *this;
+}
+
+}  // namespace edgewise::soak

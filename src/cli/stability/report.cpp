@@ -1,0 +1,129 @@
+#include "cli/stability/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "support/machine.h"
+
+namespace edgewise::app {
+
+namespace {
+
+using lab::Measured;
+using lab::SweepResult;
+
+std::string place_text(double x) {
+  return x < 1.0 ? fmt::format("{:.4g}", x) : fmt::format("{:.7g}", x);
+}
+
+// One method's curve in a sweep.
+struct Curve {
+  const SweepResult& result;
+  std::size_t method;
+
+  double y(std::size_t place) const { return result.y(result.at[place].methods[method]); }
+  std::size_t worst() const {
+    std::size_t worst = 0;
+    for (std::size_t place = 1; place < result.at.size(); ++place)
+      if (y(place) > y(worst)) worst = place;
+    return worst;
+  }
+  std::size_t failing_places() const {
+    std::size_t count = 0;
+    for (std::size_t place = 0; place < result.at.size(); ++place) count += result.fails(method, place);
+    return count;
+  }
+  // Of the place with the fewest trials. They are not added up: the same scenes may stand at all places.
+  double bound() const {
+    std::uint64_t fewest = result.at.front().methods[method].trials;
+    for (const Measured& measured : result.at) fewest = std::min(fewest, measured.methods[method].trials);
+    return result.sweep->y.scale * lab::rate_bound(fewest);
+  }
+};
+
+constexpr const char* kRow = "{:<20} {:>14} {:>11} {:>11} {:>11} {:>7}\n";
+
+std::string row(std::string_view name, const Curve& curve) {
+  const SweepResult& result = curve.result;
+  const auto start = result.starts_to_fail(curve.method);
+  std::string there;
+  if (start) {
+    const auto& places = result.sweep->places;
+    there = fmt::format(
+        "{:.4g}",
+        curve.y(static_cast<std::size_t>(std::find(places.begin(), places.end(), *start) - places.begin())));
+  }
+  const std::size_t worst = curve.worst();
+  const bool spotless = curve.y(worst) == 0.0;
+  return fmt::format(
+      kRow, name, start ? place_text(*start) : "never", there,
+      spotless ? fmt::format("< {:.2g}", curve.bound()) : fmt::format("{:.4g}", curve.y(worst)),
+      spotless ? "" : place_text(result.sweep->places[worst]),
+      fmt::format("{}/{}", curve.failing_places(), result.at.size()));
+}
+
+}  // namespace
+
+std::string stability_table(const SweepResult& result) {
+  const lab::Sweep& sweep = *result.sweep;
+  std::string text = fmt::format("{} ({}): {}\n", sweep.name, name_of(sweep.family), sweep.x.name);
+  text += fmt::format("  {}\n  {} to {}{}{}; {}\n", sweep.idea, place_text(sweep.places.front()),
+                      place_text(sweep.places.back()), sweep.x.unit.empty() ? "" : " ", sweep.x.unit,
+                      sweep.y.name);
+  double snapping = 0.0;
+  for (const Measured& measured : result.at)
+    snapping = std::max(snapping, result.y({measured.by_snapping, measured.methods.front().trials}));
+  if (snapping > 0.0)
+    text += fmt::format("  up to {:.4g} by snapping to 1/256 px alone; only more than that is failing\n",
+                        snapping);
+  text += fmt::format(kRow, "method", "starts to fail", "there", "at most", "at", "places");
+  const auto methods = methods_of(sweep.family);
+  for (std::size_t i = 0; i < methods.size(); ++i) text += row(methods[i].name, {result, i});
+  return text;
+}
+
+std::string list_of_sweeps() {
+  std::string text;
+  for (const lab::Sweep& sweep : lab::sweeps())
+    text += fmt::format("{:<18} {:<11} {}\n", sweep.name, name_of(sweep.family), sweep.x.name);
+  return text;
+}
+
+nlohmann::json sweep_json(const SweepResult& result) {
+  const lab::Sweep& sweep = *result.sweep;
+  nlohmann::json json{{"name", sweep.name},
+                      {"family", name_of(sweep.family)},
+                      {"idea", sweep.idea},
+                      {"x", {{"name", sweep.x.name}, {"unit", sweep.x.unit}, {"log", sweep.x.log}}},
+                      {"y", {{"name", sweep.y.name}, {"log", sweep.y.log}}},
+                      {"curves", nlohmann::json::array()},
+                      {"by_snapping", nlohmann::json::array()}};
+  const std::size_t places = result.at.size();
+  for (std::size_t place = 0; place < places; ++place) {
+    const Measured& measured = result.at[place];
+    json["by_snapping"].push_back(
+        {sweep.places[place], result.y({measured.by_snapping, measured.methods.front().trials})});
+  }
+  const auto methods = methods_of(sweep.family);
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    nlohmann::json curve{{"method", methods[i].name}, {"exact", methods[i].exact}};
+    for (std::size_t place = 0; place < places; ++place) {
+      curve["points"].push_back({sweep.places[place], Curve{result, i}.y(place)});
+      curve["trials"].push_back(result.at[place].methods[i].trials);
+    }
+    const auto start = result.starts_to_fail(i);
+    curve["starts_to_fail"] = start ? nlohmann::json(*start) : nlohmann::json(nullptr);
+    json["curves"].push_back(std::move(curve));
+  }
+  return json;
+}
+
+nlohmann::json stability_json(std::span<const SweepResult> results, bool quick) {
+  nlohmann::json json{
+      {"machine", machine_description()}, {"quick", quick}, {"sweeps", nlohmann::json::array()}};
+  for (const SweepResult& result : results) json["sweeps"].push_back(sweep_json(result));
+  return json;
+}
+
+}  // namespace edgewise::app

@@ -1,0 +1,154 @@
+#include "cli/verify/report.h"
+
+#include <fmt/format.h>
+
+#include "support/machine.h"
+#include "support/printable.h"
+
+namespace edgewise::app {
+
+namespace {
+
+constexpr std::size_t kNameWidth = 12;
+
+std::string_view name_of_payload(Payload payload) {
+  return payload == Payload::colour ? "colour" : "id";
+}
+
+std::string explain(const Mismatch& m) {
+  std::string text = fmt::format("  {} ({}) differs from {} in {} of {}x{} pixels, cull {}, payload {}\n",
+                                 m.backend, describe(m.execution), m.judge, m.pixels, m.width, m.height,
+                                 name_of(m.cull), name_of_payload(m.payload));
+  if (m.outside != 0) text += fmt::format("    words written beside the image: {}\n", m.outside);
+  if (!m.values.empty())
+    text += fmt::format("    the first is x {}, y {}, where depth and payload are\n", m.x, m.y);
+  for (const PixelValue& v : m.values)
+    text += fmt::format("      {:<24} {:#010x} {:#010x}\n", v.drawn_by, v.depth, v.payload);
+  for (const std::string& file : m.files) text += fmt::format("    {}\n", printable(file));
+  if (!m.file_error.empty()) text += fmt::format("    pictures are missing: {}\n", printable(m.file_error));
+  return text;
+}
+
+std::string names_of(const VerifyPlan& plan, bool fills) {
+  std::string names;
+  for (const BackendInfo& backend : plan.backends)
+    if (backend.fills == fills) names += (names.empty() ? "" : ", ") + std::string(backend.name);
+  return names;
+}
+
+nlohmann::json mismatch_json(const Mismatch& m) {
+  nlohmann::json json{{"judge", m.judge},
+                      {"backend", m.backend},
+                      {"threads", m.execution.threads},
+                      {"tile_size", m.execution.tile_size},
+                      {"simd_target", name_of(resolve(m.execution.target))},
+                      {"ideas", edgewise::describe(m.execution.ideas)},
+                      {"stepped", m.execution.stepped},
+                      {"cull", name_of(m.cull)},
+                      {"payload", name_of_payload(m.payload)},
+                      {"width", m.width},
+                      {"height", m.height},
+                      {"pixels", m.pixels},
+                      {"written_outside", m.outside},
+                      {"first", {m.x, m.y}},
+                      {"files", m.files},
+                      {"values", nlohmann::json::array()}};
+  for (const PixelValue& v : m.values)
+    json["values"].push_back({{"drawn_by", v.drawn_by}, {"depth", v.depth}, {"payload", v.payload}});
+  return json;
+}
+
+nlohmann::json scene_json(const SceneVerdict& v) {
+  nlohmann::json json{{"scene", v.scene},
+                      {"width", v.width},
+                      {"height", v.height},
+                      {"triangles", v.triangles},
+                      {"emitted", v.emitted},
+                      {"configurations", v.configurations},
+                      {"differing_pixels", v.differing_pixels},
+                      {"written_outside", v.written_outside},
+                      {"oracle",
+                       {{"width", v.oracle_width},
+                        {"height", v.oracle_height},
+                        {"configurations", v.oracle_configurations},
+                        {"differing_pixels", v.oracle_differences}}},
+                      {"seconds", v.seconds},
+                      {"ok", v.ok()}};
+  for (const HitCount& h : v.hits) json["pixels_not_hit_once"][h.backend] = h.not_once;
+  json["mismatches"] = nlohmann::json::array();
+  for (const Mismatch& m : v.mismatches) json["mismatches"].push_back(mismatch_json(m));
+  return json;
+}
+
+}  // namespace
+
+std::string describe(const Execution& e) {
+  const std::string ideas = edgewise::describe(e.ideas);
+  return fmt::format("{} thread{}, {}, tile {}{}{}{}", e.threads, e.threads == 1 ? "" : "s",
+                     name_of(resolve(e.target)), e.tile_size, ideas.empty() ? "" : ", ", ideas,
+                     e.stepped ? ", stepped" : "");
+}
+
+std::string VerifyTable::header() const {
+  if (!wide_)
+    return fmt::format("{:<{}} {:>9} {:>7} {:>7} {:>7} {}\n", "scene", kNameWidth, "triangles", "compared",
+                       "differ", "oracle", "verdict");
+  return fmt::format("{:<{}} {:>9} {:>9} {:>9} {:>8} {:>6} {:>6} {:>5} {}\n", "scene", kNameWidth, "size",
+                     "triangles", "emitted", "compared", "differ", "oracle", "s", "verdict");
+}
+
+std::string VerifyTable::line(const SceneVerdict& v) const {
+  const char* verdict = v.ok() ? "ok" : "DIFFERS";
+  if (!wide_)
+    return fmt::format("{:<{}} {:>9} {:>8} {:>7} {:>7} {}\n", printable_within(v.scene, kNameWidth),
+                       kNameWidth, v.triangles, v.configurations, v.differing_pixels, v.oracle_differences,
+                       verdict);
+  return fmt::format("{:<{}} {:>9} {:>9} {:>9} {:>8} {:>6} {:>6} {:>5.1f} {}\n",
+                     printable_within(v.scene, kNameWidth), kNameWidth,
+                     fmt::format("{}x{}", v.width, v.height), v.triangles, v.emitted, v.configurations,
+                     v.differing_pixels, v.oracle_differences, v.seconds, verdict);
+}
+
+std::string explain(const SceneVerdict& verdict) {
+  std::string text;
+  for (const Mismatch& m : verdict.mismatches) text += explain(m);
+  for (const HitCount& h : verdict.hits)
+    if (h.not_once != 0)
+      text += fmt::format("  {} draws {} pixels not exactly once\n", h.backend, h.not_once);
+  return text;
+}
+
+std::string summary(const VerifyReport& report, const VerifyPlan& plan) {
+  std::uint64_t configurations = 0, oracle = 0;
+  int differing_scenes = 0;
+  std::string once;
+  for (const SceneVerdict& v : report.scenes) {
+    configurations += v.configurations;
+    oracle += v.oracle_configurations;
+    differing_scenes += v.ok() ? 0 : 1;
+    if (!v.hits.empty() && v.ok()) once += (once.empty() ? "" : ", ") + printable(v.scene);
+  }
+  const std::string names = names_of(plan, true), others = names_of(plan, false);
+  std::string text;
+  if (!once.empty()) text += fmt::format("{}: every pixel drawn exactly once by {}.\n", once, names);
+  const auto first_of = [](const std::string& list) { return list.substr(0, list.find(',')); };
+  text +=
+      fmt::format("{} frames compared with {}{}, {} with the oracle: ", configurations, first_of(names),
+                  others.empty() ? "" : fmt::format(" (of {} with {})", others, first_of(others)), oracle);
+  return text + (report.ok()
+                     ? "no bit differs.\n"
+                     : fmt::format("{} scene{} DIFFER{}.\n", differing_scenes,
+                                   differing_scenes == 1 ? "" : "s", differing_scenes == 1 ? "S" : ""));
+}
+
+nlohmann::json report_json(const VerifyReport& report, const VerifyPlan& plan) {
+  nlohmann::json json{{"machine", machine_description()}, {"full", plan.full}, {"ok", report.ok()}};
+  for (const BackendInfo& backend : plan.backends)
+    json[backend.fills ? "backends" : "other_backends"].push_back(backend.name);
+  json["threads"] = plan.threads;
+  json["scenes"] = nlohmann::json::array();
+  for (const SceneVerdict& verdict : report.scenes) json["scenes"].push_back(scene_json(verdict));
+  return json;
+}
+
+}  // namespace edgewise::app

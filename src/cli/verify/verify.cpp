@@ -1,0 +1,250 @@
+#include "cli/verify/verify.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <memory>
+#include <optional>
+
+#include "cli/verify/pictures.h"
+#include "cli/verify/scenes.h"
+#include "image/pictures.h"
+#include "lab/measure.h"
+#include "lab/oracle.h"
+
+namespace edgewise::app {
+
+namespace {
+
+// What a frame is judged by: the triangles, and the frame they should become by backends that fill, or by
+// those that don't.
+struct Judgement {
+  std::string_view judge;
+  bool filled;
+  const FrontendOptions& frontend;
+  std::span<const ScreenTriangle> triangles;
+  const Framebuffer& expected;
+};
+
+// Small tiles, many threads and the widest vectors: the configuration with the most seams.
+constexpr Execution kMostSeams{3, 16, SimdTarget::best};
+constexpr Execution kPlainest{1, 64, SimdTarget::scalar};
+
+// Other tile sizes run on the best target, other targets with the usual tile, and ideas are left out on one
+// thread count: the product would mostly repeat itself, since only tiled backends look at either. The last is
+// for the naive one.
+std::vector<Execution> executions(const VerifyPlan& plan) {
+  std::vector<Execution> all;
+  for (const int threads : plan.threads) {
+    for (const SimdTarget target : supported_targets()) all.push_back({threads, 64, target});
+    for (const int tile : {16, 32}) all.push_back({threads, tile, resolve(SimdTarget::best)});
+  }
+  for (const Ablation& ideas : kAblations)
+    all.push_back({plan.threads.front(), 64, resolve(SimdTarget::best), ideas});
+  all.push_back({plan.threads.front(), 64, resolve(SimdTarget::best), {}, true});
+  return all;
+}
+
+template <typename Frame>
+PixelValue value_at(const Frame& frame, std::string_view drawn_by, int x, int y) {
+  return {std::string(drawn_by), frame.depth_row(y)[x], frame.payload_row(y)[x]};
+}
+
+class SceneCheck {
+ public:
+  SceneCheck(const VerifyPlan& plan, const std::string& name, const std::function<void(double)>& progress)
+      : plan_(plan), name_(name), progress_(progress), executions_(executions(plan)) {
+    for (const BackendInfo& info : plan.backends) backends_.push_back(info.make());
+    // Per culling mode: all configurations and one of each backend for ids.
+    steps_ = cull_modes().size() * plan.backends.size() * (executions_.size() + 1);
+  }
+
+  SceneVerdict run() {
+    const auto start = std::chrono::steady_clock::now();
+    check_against_reference();
+    check_against_oracle();
+    verdict_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return std::move(verdict_);
+  }
+
+ private:
+  void check_against_reference() {
+    Shot shot = shot_for_comparison(plan_, name_);
+    const int width = shot.frontend.width, height = shot.frontend.height;
+    verdict_.scene = shot.source.name;
+    verdict_.width = width;
+    verdict_.height = height;
+    Framebuffer expected(width, height);
+    candidate_.emplace(width, height, lab::GuardedFrame::aligned(width));
+
+    for (const Cull cull : cull_modes()) {
+      shot.frontend.cull = cull;
+      for (const Payload payload : {Payload::colour, Payload::id}) {
+        shot.frontend.payload = payload;
+        const auto triangles = frontend_.run(shot.source.drawable, shot.frontend);
+        if (payload == Payload::colour) count(frontend_.stats());
+        for (const bool filled : {true, false}) {
+          const auto first = std::find_if(plan_.backends.begin(), plan_.backends.end(),
+                                          [&](const BackendInfo& info) { return info.fills == filled; });
+          if (first == plan_.backends.end()) continue;
+          lab::poison(expected);
+          backends_[static_cast<std::size_t>(first - plan_.backends.begin())]->draw(
+              triangles, expected.view(), background_of(payload), kPlainest);
+          compare_all({first->name, filled, shot.frontend, triangles, expected});
+        }
+        if (cull == Cull::none && payload == Payload::id && covers_each_pixel_once(shot.source))
+          check_hits(triangles, width, height);
+      }
+    }
+  }
+
+  void compare_all(const Judgement& judgement) {
+    const Execution seams[] = {kMostSeams};
+    const std::span<const Execution> all =
+        judgement.frontend.payload == Payload::colour ? std::span<const Execution>(executions_) : seams;
+    for (const std::size_t b : judged_by(judgement))
+      for (const Execution& execution : all) {
+        verdict_.differing_pixels += compare(judgement, b, execution);
+        ++verdict_.configurations;
+        progress_(static_cast<double>(++steps_done_) / static_cast<double>(steps_));
+      }
+  }
+
+  // Ids tell more than colours, which may be equal by chance.
+  void check_against_oracle() {
+    Shot shot = shot_for_oracle(plan_, name_);
+    shot.frontend.payload = Payload::id;
+    const int width = verdict_.oracle_width = shot.frontend.width;
+    const int height = verdict_.oracle_height = shot.frontend.height;
+    Framebuffer expected(width, height);
+    candidate_.emplace(width, height, lab::GuardedFrame::aligned(width));
+    for (const Cull cull : cull_modes()) {
+      shot.frontend.cull = cull;
+      const auto triangles = frontend_.run(shot.source.drawable, shot.frontend);
+      for (const bool filled : {true, false}) {
+        const Judgement judgement{"oracle", filled, shot.frontend, triangles, expected};
+        const auto judged = judged_by(judgement);
+        if (judged.empty()) continue;
+        const auto draw_exactly = filled ? lab::draw_oracle : lab::draw_edge_oracle;
+        draw_exactly(triangles, expected, background_of(Payload::id));
+        for (const std::size_t b : judged) {
+          verdict_.oracle_differences += compare(judgement, b, kMostSeams);
+          ++verdict_.oracle_configurations;
+        }
+      }
+    }
+  }
+
+  void check_hits(std::span<const ScreenTriangle> triangles, int width, int height) {
+    for (std::size_t b = 0; b < backends_.size(); ++b) {
+      if (!plan_.backends[b].fills) continue;
+      const auto hits = lab::count_hits(*backends_[b], triangles, width, height, kMostSeams);
+      const auto wrong = std::count_if(hits.begin(), hits.end(), [](std::uint32_t n) { return n != 1; });
+      verdict_.hits.push_back({std::string(plan_.backends[b].name), static_cast<std::uint64_t>(wrong)});
+    }
+  }
+
+  std::vector<std::size_t> judged_by(const Judgement& j) const {
+    std::vector<std::size_t> indices;
+    for (std::size_t b = 0; b < backends_.size(); ++b)
+      if (plan_.backends[b].fills == j.filled) indices.push_back(b);
+    return indices;
+  }
+
+  // The number of pixels that differ; the first difference of each backend and judge is kept with all that
+  // helps.
+  std::uint64_t compare(const Judgement& j, std::size_t backend, const Execution& execution) {
+    draw(j, backend, execution);
+    const lab::FrameDifference found = lab::compare(j.expected, *candidate_);
+    const std::string_view name = plan_.backends[backend].name;
+    const bool known =
+        std::any_of(verdict_.mismatches.begin(), verdict_.mismatches.end(),
+                    [&](const Mismatch& m) { return m.backend == name && m.judge == j.judge; });
+    verdict_.written_outside += found.outside;
+    if (found.any() && !known) keep(j, backend, execution, found);
+    return found.pixels;
+  }
+
+  void draw(const Judgement& j, std::size_t backend, const Execution& execution) {
+    candidate_->poison();
+    backends_[backend]->draw(j.triangles, candidate_->view(), background_of(j.frontend.payload), execution);
+  }
+
+  void keep(const Judgement& j, std::size_t backend, const Execution& execution,
+            const lab::FrameDifference& found) {
+    const int x = found.first_x, y = found.first_y;
+    const std::string_view name = plan_.backends[backend].name;
+    Mismatch mismatch{j.frontend.cull,
+                      j.frontend.payload,
+                      j.frontend.width,
+                      j.frontend.height,
+                      std::string(j.judge),
+                      std::string(name),
+                      execution,
+                      found.pixels,
+                      found.outside,
+                      x,
+                      y,
+                      {},
+                      {},
+                      {}};
+    write_failure(plan_.failure_folder, verdict_.scene, mismatch,
+                  {j.triangles, j.expected, candidate_->copy()});
+    if (found.pixels != 0) {
+      mismatch.values = {value_at(j.expected, j.judge, x, y),
+                         value_at(*candidate_, std::string(name) + " (so configured)", x, y)};
+      for (const std::size_t b : judged_by(j)) {
+        draw(j, b, {1, 64, resolve(SimdTarget::best)});
+        mismatch.values.push_back(value_at(*candidate_, plan_.backends[b].name, x, y));
+      }
+    }
+    verdict_.mismatches.push_back(std::move(mismatch));
+  }
+
+  void count(const FrontendStats& stats) {
+    verdict_.triangles = stats.triangles;
+    verdict_.emitted += stats.emitted;
+  }
+
+  const VerifyPlan& plan_;
+  const std::string& name_;
+  const std::function<void(double)>& progress_;
+  const std::vector<Execution> executions_;
+  std::vector<std::unique_ptr<Backend>> backends_;
+  Frontend frontend_;
+  std::optional<lab::GuardedFrame> candidate_;
+  SceneVerdict verdict_{};
+  std::size_t steps_, steps_done_ = 0;
+};
+
+}  // namespace
+
+bool SceneVerdict::ok() const {
+  return differing_pixels == 0 && oracle_differences == 0 && written_outside == 0 &&
+         std::all_of(hits.begin(), hits.end(), [](const HitCount& h) { return h.not_once == 0; });
+}
+
+bool VerifyReport::ok() const {
+  return std::all_of(scenes.begin(), scenes.end(), [](const SceneVerdict& scene) { return scene.ok(); });
+}
+
+SceneVerdict verify_scene(const VerifyPlan& plan, const std::string& name,
+                          const std::function<void(double)>& progress) {
+  return SceneCheck(plan, name, progress).run();
+}
+
+VerifyReport verify(const VerifyPlan& plan, const std::function<void(const SceneVerdict&)>& on_scene) {
+  VerifyReport report;
+  for (const std::string& name : plan.scenes) {
+    const auto progress = [&](double scene_fraction) {
+      const auto done = static_cast<double>(report.scenes.size()) + scene_fraction;
+      if (plan.on_progress)
+        plan.on_progress(done / static_cast<double>(plan.scenes.size()), source_name(name));
+    };
+    report.scenes.push_back(verify_scene(plan, name, progress));
+    if (on_scene) on_scene(report.scenes.back());
+  }
+  return report;
+}
+
+}  // namespace edgewise::app

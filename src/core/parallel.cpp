@@ -1,0 +1,81 @@
+#include "core/parallel.h"
+
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/partitioner.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <map>
+#include <mutex>
+
+#ifdef EDGEWISE_TELL_TSAN
+#include <sanitizer/tsan_interface.h>
+#endif
+
+namespace edgewise::detail {
+
+constinit thread_local ParallelObserver* parallel_observer = nullptr;
+
+namespace {
+
+// One arena for each thread count, made on first use and kept: making one costs more than drawing a small
+// scene.
+tbb::task_arena& arena_of(int threads) {
+  static std::mutex mutex;
+  static std::map<int, tbb::task_arena> arenas;
+  static std::unique_ptr<tbb::global_control> more_threads_than_cores;
+  const std::lock_guard lock(mutex);
+  if (threads > tbb::info::default_concurrency() && !more_threads_than_cores) {
+    constexpr std::size_t kPlenty = 1024;
+    more_threads_than_cores =
+        std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, kPlenty);
+  }
+  return arenas.try_emplace(threads, threads).first->second;
+}
+
+// ThreadSanitizer does not see into oneTBB, which is not built with it, and would take what oneTBB orders for
+// races. So it does not look at this file either, but is told what a section promises, and no more: tasks
+// begin after the section did, and end before it does. Two tasks that touch the same memory remain a race
+// (tests/sanitizers/seeded_race.cpp).
+class Section {
+ public:
+#ifdef EDGEWISE_TELL_TSAN
+  Section() {
+    __tsan_release(&begun_);
+  }
+  ~Section() {
+    __tsan_acquire(&ended_);
+  }
+  void task_begins() {
+    __tsan_acquire(&begun_);
+  }
+  void task_ends() {
+    __tsan_release(&ended_);
+  }
+
+ private:
+  char begun_, ended_;
+#else
+  void task_begins() {}
+  void task_ends() {}
+#endif
+};
+
+}  // namespace
+
+void parallel_for(int threads, int count, void (*call)(void*, int), void* context) {
+  Section section;
+  arena_of(threads).execute([&] {
+    tbb::parallel_for(
+        0, count,
+        [&](int i) {
+          section.task_begins();
+          call(context, i);
+          section.task_ends();
+        },
+        tbb::simple_partitioner{});
+  });
+}
+
+}  // namespace edgewise::detail

@@ -1,0 +1,158 @@
+// The registry of clipping methods, and the score. A method is a file in
+// clipping_methods/ that defines clipping_NAME, and a line here.
+#include "lab/clipping/clipping.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "lab/clipping/methods/pipeline.h"
+#include "lab/clipping/truth.h"
+#include "lab/truth.h"
+
+#define EDGEWISE_CLIPPING_METHODS(X) \
+  X(near_guard)                      \
+  X(near_too_near)                   \
+  X(screen_edges)                    \
+  X(screen_linear)                   \
+  X(discard_behind)                  \
+  X(none)
+
+namespace edgewise::lab {
+
+#define EDGEWISE_DECLARE(name) extern const ClippingMethod clipping_##name;
+EDGEWISE_CLIPPING_METHODS(EDGEWISE_DECLARE)
+
+std::span<const ClippingMethod> clipping_methods() {
+#define EDGEWISE_ENTRY(name) clipping_##name,
+  static const std::array list{EDGEWISE_CLIPPING_METHODS(EDGEWISE_ENTRY)};
+  return list;
+}
+
+ClippingFrame::ClippingFrame(Size size)
+    : picture(size.width, size.height), backend(backends().front().make()) {}
+
+namespace {
+
+// Calls visit(x, y) for the sample and eight places around it, until it returns true; false if it never does.
+template <typename Visit>
+bool around(int px, int py, Visit&& visit) {
+  for (const int dx : {0, -1, 1})
+    for (const int dy : {0, -1, 1}) {
+      const double reach = dx != 0 && dy != 0 ? kHairlinePx * 0.7071 : kHairlinePx;
+      if (visit(px + 0.5 + dx * reach, py + 0.5 + dy * reach)) return true;
+    }
+  return false;
+}
+
+// How far out both ends of an edge lie, if it may cross the screen: where a rounding of one moves it. An edge
+// with one end at hand is held by that end.
+double reach_px(const ClipVertex& a, const ClipVertex& b, Size size) {
+  const auto beyond = [&](double ax, double bx, int limit) {
+    return (ax < 0 && bx < 0) || (ax > limit * double{a.w} && bx > limit * double{b.w});
+  };
+  if (beyond(a.x, b.x, size.width) || beyond(a.y, b.y, size.height)) return 0;
+  const auto far_out = [&](const ClipVertex& v) {
+    return std::max(std::abs(double{v.x} / v.w - size.width / 2.0),
+                    std::abs(double{v.y} / v.w - size.height / 2.0));
+  };
+  return std::min(far_out(a), far_out(b));
+}
+
+bool promises(const ClippingMethod& method, const ClippingScene& scene) {
+  const ToClip to_clip(scene);
+  const auto width = static_cast<float>(scene.size.width), height = static_cast<float>(scene.size.height);
+  Clipper clipper;
+  return std::all_of(scene.mesh().triangles.begin(), scene.mesh().triangles.end(), [&](glm::uvec3 t) {
+    const auto& p = scene.mesh().positions;
+    const ClipVertex vertices[3] = {to_clip(p[t.x]), to_clip(p[t.y]), to_clip(p[t.z])};
+    unsigned sides = 0;
+    for (const ClipVertex& v : vertices)
+      sides |= outside_of(v, width, height) & unsigned{kNear | kFar | kNotFinite};
+    const auto polygon = clipper.clip(vertices, kNear | kFar);
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      sides |= outside_of(polygon[i], width, height);
+      if (reach_px(polygon[i], polygon[(i + 1) % polygon.size()], scene.size) > method.reach_px) return false;
+    }
+    return (sides & method.fails_on) == 0;
+  });
+}
+
+// A place's error, of the distance that a depth stands for.
+double distance_error(const ClippingScene& scene, std::uint32_t triangle, double stored01, double true01) {
+  const double near_z = scene.scene.camera.near_z, far_z = scene.scene.camera.far_z;
+  const glm::uvec3 t = scene.mesh().triangles[triangle];
+  const auto w = [&](unsigned i) { return std::clamp(-double{scene.mesh().positions[i].z}, near_z, far_z); };
+  const auto [nearest, farthest] = std::minmax({w(t.x), w(t.y), w(t.z)});
+  if (farthest - nearest < 0.01 * farthest) return 0;
+  const auto distance = [&](double depth01) { return near_z * far_z / (far_z - depth01 * (far_z - near_z)); };
+  return std::abs(distance(stored01) - distance(true01)) / (farthest - nearest);
+}
+
+// What a method's picture is worth, pixel by pixel.
+class Scorer {
+ public:
+  Scorer(const ClippingScene& scene, const ClippingTruth& truth) : scene_(scene), oracle_(*truth.oracle) {}
+
+  void add(int x, int y, std::uint32_t said, std::uint32_t truth, double stored01) {
+    if (truth != kNobody) ++score.covered;
+    if (said == truth) {
+      if (said != kNobody) add_depth(x, y, said, stored01);
+    } else if (around(x, y,
+                      [&](double x_px, double y_px) { return oracle_.shows(said, truth, x_px, y_px); })) {
+      ++score.hairline;
+    } else if (said == kNobody) {
+      ++score.missing;
+    } else if (truth == kNobody) {
+      ++score.extra;
+    } else {
+      ++score.wrong_owner;
+      const auto depth01 = [&](std::uint32_t id) { return oracle_.depth01(id, x + 0.5, y + 0.5); };
+      if (oracle_.covers(said, x + 0.5, y + 0.5) && std::abs(depth01(said) - depth01(truth)) <= kNearTie01)
+        ++score.near_ties;
+    }
+  }
+
+  ClippingScore score;
+
+ private:
+  void add_depth(int x, int y, std::uint32_t owner, double stored01) {
+    double low = 2, high = -1;
+    around(x, y, [&](double x_px, double y_px) {
+      const double here = oracle_.depth01(owner, x_px, y_px);
+      low = std::min(low, here), high = std::max(high, here);
+      return false;
+    });
+    if (stored01 < low - 0x1p-20 || stored01 > high + 0x1p-20) ++score.wrong_depth;
+    const double nearest_place = std::clamp(stored01, low, high);
+    score.worst_distance =
+        std::max(score.worst_distance, distance_error(scene_, owner, stored01, nearest_place));
+  }
+
+  const ClippingScene& scene_;
+  const ClippingOracle& oracle_;
+};
+
+}  // namespace
+
+ClippingScore score(const ClippingMethod& method, const ClippingScene& scene, const ClippingTruth& truth) {
+  ClippingFrame frame(scene.size), ours(scene.size);
+  method.draw(scene, frame);
+  clipping_methods().front().draw(scene, ours);
+  Scorer scorer(scene, truth);
+  auto owner = truth.owner.begin();
+  for (int y = 0; y < scene.size.height; ++y)
+    for (int x = 0; x < scene.size.width; ++x, ++owner) {
+      const std::uint32_t said = frame.picture.payload_row(y)[x];
+      if (said != ours.picture.payload_row(y)[x]) ++scorer.score.differs_from_ours;
+      const double stored = static_cast<double>(frame.picture.depth_row(y)[x]) - contract::kDepthHead;
+      scorer.add(x, y, said, *owner, stored / contract::kDepthRange);
+    }
+  ClippingScore& score = scorer.score;
+  score.not_a_number = frame.not_a_number;
+  score.out_of_range = frame.out_of_range;
+  if (promises(method, scene)) score.broken = score.wrong() - score.near_ties;
+  return score;
+}
+
+}  // namespace edgewise::lab

@@ -1,0 +1,25 @@
+// Ours: the front end as it is. Near and far planes are clipped in homogeneous space, and so is what lies
+// beyond the guard band; the screen's edges are left to the backend, which never leaves the image.
+#include "lab/clipping/methods/pipeline.h"
+
+namespace edgewise::lab {
+
+extern const ClippingMethod clipping_near_guard;
+const ClippingMethod clipping_near_guard{
+    {"near_guard", "ours: near and far planes and guard band, in homogeneous space", "frontend/clip.h",
+     "differences within 1/64 px, if no edge across the screen has both ends over 2^15 px out (2^18 where "
+     "the camera rounds no vertex); owners right if depths, from 0 to 1, are over 2^-22 apart: "
+     "z^2 / (2^22 near) at a distance z",
+     true},
+    [](const ClippingScene& scene, ClippingFrame& frame) {
+      FrontendOptions options;
+      options.width = scene.size.width;
+      options.height = scene.size.height;
+      options.cull = scene.cull_back ? Cull::back : Cull::none;
+      options.payload = Payload::id;
+      frame.backend->draw(frame.frontend.run(scene.scene, options), frame.picture.view(), kNobody, {});
+    },
+    0,
+    kReachPx};
+
+}  // namespace edgewise::lab

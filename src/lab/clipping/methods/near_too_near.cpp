@@ -1,0 +1,30 @@
+// Clipping at a tenth of the distance that the projection calls near: 0.01 under a near plane of 0.1. What
+// lies between has a depth below 0, which is clamped here and wraps elsewhere.
+#include "lab/clipping/methods/pipeline.h"
+
+namespace edgewise::lab {
+
+extern const ClippingMethod clipping_near_too_near;
+const ClippingMethod clipping_near_too_near{
+    {"near_too_near", "near plane clipped at 0.01 under a projection whose near is 0.1",
+     "a tutorial's mismatch of constants", "right where nothing is nearer than the near plane", false},
+    [](const ClippingScene& scene, ClippingFrame& frame) {
+      const float clip_w = scene.scene.camera.near_z * 0.1f;
+      draw_clipped(scene, frame, [&](const ClipVertex(&triangle)[3], std::uint32_t payload) {
+        ClipVertex polygon[4];
+        const auto count = cut<ClipVertex>(
+            triangle, polygon, [&](const ClipVertex& v) { return v.w - clip_w; },
+            [](const ClipVertex& a, const ClipVertex& b, float t) {
+              return ClipVertex{a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.z + t * (b.z - a.z),
+                                a.w + t * (b.w - a.w)};
+            });
+        for (std::size_t i = 2; i < count; ++i) {
+          const ClipVertex piece[3] = {polygon[0], polygon[i - 1], polygon[i]};
+          emit(frame.clipper.clip(piece, kFar | kGuard), payload, scene.cull_back, frame);
+        }
+      });
+    },
+    kNear,
+    kReachPx};
+
+}  // namespace edgewise::lab

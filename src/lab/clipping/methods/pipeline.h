@@ -1,0 +1,125 @@
+// What the clipping methods share: transform, project, snap, draw. Every cast is guarded and what the guard
+// catches is counted.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
+
+#include "edgewise/contract.h"
+#include "frontend/fixed.h"
+#include "lab/clipping/clipping.h"
+#include "lab/truth.h"
+
+namespace edgewise::lab {
+
+inline double focal_px(const ClippingScene& s) {
+  return s.size.height / 2.0 / std::tan(double{s.scene.camera.fov_y} / 2);
+}
+
+// World → pixels and depth, both times w, in float.
+class ToClip {
+ public:
+  explicit ToClip(const ClippingScene& s)
+      : focal_(static_cast<float>(focal_px(s))),
+        half_width_(static_cast<float>(s.size.width) * 0.5f),
+        half_height_(static_cast<float>(s.size.height) * 0.5f),
+        near_(s.scene.camera.near_z),
+        depth_scale_(s.scene.camera.far_z / (s.scene.camera.far_z - near_)) {}
+  ClipVertex operator()(glm::vec3 p) const {
+    const float w = -p.z;
+    return {focal_ * p.x + half_width_ * w, -focal_ * p.y + half_height_ * w, depth_scale_ * (w - near_), w};
+  }
+
+ private:
+  float focal_, half_width_, half_height_, near_, depth_scale_;
+};
+
+// Sutherland and Hodgman's step for one plane: keeps where distance >= 0; lerp(inside, outside, t) cuts. Both
+// arrays hold a vertex more than before.
+template <typename Vertex, typename Distance, typename Lerp>
+std::size_t cut(std::span<const Vertex> from, Vertex* to, Distance&& distance, Lerp&& lerp) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const Vertex &a = from[i], &b = from[i + 1 == from.size() ? 0 : i + 1];
+    const float da = distance(a), db = distance(b);
+    if (da >= 0.0f) to[kept++] = a;
+    if (da >= 0.0f && db < 0.0f) to[kept++] = lerp(a, b, da / (da - db));
+    if (da < 0.0f && db >= 0.0f) to[kept++] = lerp(b, a, db / (db - da));
+  }
+  return kept;
+}
+
+struct Projected {
+  float x_px, y_px, z01;
+};
+
+inline Projected divide(const ClipVertex& v) {
+  const float inverse_w = 1.0f / v.w;
+  return {v.x * inverse_w, v.y * inverse_w, v.z * inverse_w};
+}
+
+// Snaps a polygon and appends its fan; drops it if it has become NaN or infinite.
+inline void emit(std::span<const Projected> polygon, std::uint32_t payload, bool cull_back,
+                 ClippingFrame& frame) {
+  constexpr float kGuardPx = contract::kMaxImageSide;
+  // A cut vertex may miss its plane by a rounding.
+  constexpr float kSlackPx = 1.0f, kSlack01 = 1e-5f;
+  for (const Projected& p : polygon) {
+    if (!std::isfinite(p.x_px) || !std::isfinite(p.y_px) || !std::isfinite(p.z01)) {
+      ++frame.not_a_number;
+      return;
+    }
+    if (std::max(std::abs(p.x_px), std::abs(p.y_px)) > kGuardPx + kSlackPx || p.z01 < -kSlack01 ||
+        p.z01 > 1 + kSlack01)
+      ++frame.out_of_range;
+  }
+  for (std::size_t i = 2; i < polygon.size(); ++i) {
+    ScreenTriangle t{};
+    const std::size_t corners[3] = {0, i - 1, i};
+    for (int k = 0; k < 3; ++k) {
+      const Projected& p = polygon[corners[k]];
+      t.x_sub[k] = snap(p.x_px);
+      t.y_sub[k] = snap(p.y_px);
+      t.z[k] = quantize_depth(p.z01);
+    }
+    t.payload = payload;
+    if (!cull_back || contract::signed_area(t) > 0) frame.triangles.push_back(t);
+  }
+}
+
+inline void emit(std::span<const ClipVertex> polygon, std::uint32_t payload, bool cull_back,
+                 ClippingFrame& frame) {
+  Projected projected[16];
+  std::transform(polygon.begin(), polygon.end(), projected, divide);
+  emit(std::span<const Projected>(projected, polygon.size()), payload, cull_back, frame);
+}
+
+// The sides on which a vertex of the triangle lies; nothing if the triangle can be left out, because all its
+// vertices lie on one side together or one is not finite.
+inline std::optional<std::uint16_t> sides_of(const ClipVertex (&v)[3], Size size) {
+  std::uint16_t sides[3];
+  for (int i = 0; i < 3; ++i)
+    sides[i] = outside_of(v[i], static_cast<float>(size.width), static_cast<float>(size.height));
+  const unsigned any = sides[0] | sides[1] | sides[2], all = sides[0] & sides[1] & sides[2];
+  if ((any & kNotFinite) != 0 || (all & kInvisible) != 0) return std::nullopt;
+  return static_cast<std::uint16_t>(any);
+}
+
+// A whole draw; per_triangle(vertices, payload) clips and emits.
+template <typename PerTriangle>
+void draw_clipped(const ClippingScene& scene, ClippingFrame& frame, PerTriangle&& per_triangle) {
+  frame.not_a_number = frame.out_of_range = 0;
+  frame.triangles.clear();
+  const Mesh& mesh = scene.mesh();
+  frame.vertices.resize(mesh.positions.size());
+  std::transform(mesh.positions.begin(), mesh.positions.end(), frame.vertices.begin(), ToClip(scene));
+  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+    const glm::uvec3 t = mesh.triangles[i];
+    per_triangle({frame.vertices[t.x], frame.vertices[t.y], frame.vertices[t.z]}, i);
+  }
+  frame.backend->draw(frame.triangles, frame.picture.view(), kNobody, {});
+}
+
+}  // namespace edgewise::lab

@@ -1,0 +1,24 @@
+// Sutherland and Hodgman against the four edges of the screen, after projection: the new vertices are snapped
+// again, and so move the edges they lie on.
+#include "lab/clipping/methods/screen_clip.h"
+
+namespace edgewise::lab {
+
+extern const ClippingMethod clipping_screen_edges;
+const ClippingMethod clipping_screen_edges{
+    {"screen_edges", "near and far planes, then the screen's four edges after projection", "p5.js engine",
+     "as near_guard to half as far out; but edges move by a snap as they leave the screen, long runs of "
+     "pixels "
+     "where they run along a row",
+     false},
+    [](const ClippingScene& scene, ClippingFrame& frame) {
+      const auto lerp = [](const Projected& a, const Projected& b, float t) {
+        return Projected{a.x_px + t * (b.x_px - a.x_px), a.y_px + t * (b.y_px - a.y_px),
+                         a.z01 + t * (b.z01 - a.z01)};
+      };
+      draw_screen_clipped(scene, frame, divide, lerp, [](const Projected& p) { return p; });
+    },
+    0,
+    kReachPx / 2};
+
+}  // namespace edgewise::lab

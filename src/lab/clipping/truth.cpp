@@ -1,0 +1,185 @@
+#include "lab/clipping/truth.h"
+
+#include <gmpxx.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/parallel.h"
+#include "lab/clipping/methods/pipeline.h"
+#include "lab/truth.h"
+
+namespace edgewise::lab {
+
+namespace {
+
+constexpr int kTile = 16;  // px
+
+int sign(const Ball& v) {
+  return v.sign();
+}
+int sign(const mpq_class& v) {
+  return sgn(v);
+}
+
+}  // namespace
+
+template <typename T>
+class Homogeneous {
+ public:
+  Homogeneous(const ClippingScene& scene, glm::uvec3 t)
+      : Homogeneous(scene, vertex(scene, t.x), vertex(scene, t.y), vertex(scene, t.z)) {}
+  int facing() const { return sign(det_); }
+
+  // 1 if the ray through a point of the screen hits the triangle between near and far, -1 if not. The edge
+  // functions are det times barycentric coordinates over w, so their sum is det / w, and w > 0 comes for
+  // free.
+  int hit(double x_px, double y_px, int front) const {
+    int all = 1;
+    for (const T& v : conditions(x_px, y_px)) {
+      all = std::min(all, sign(v) * front);
+      if (all < 0) break;
+    }
+    return all;
+  }
+  // Whether one of the conditions, all linear on the screen, fails at all corners of a box, and so in it.
+  bool misses(const Box& box, int front) const {
+    std::array<bool, 5> fails;
+    fails.fill(true);
+    for (const double x : {box.x0, box.x1})
+      for (const double y : {box.y0, box.y1}) {
+        const auto values = conditions(x, y);
+        for (std::size_t i = 0; i < values.size(); ++i) fails[i] = fails[i] && sign(values[i]) * front < 0;
+      }
+    return std::find(fails.begin(), fails.end(), true) != fails.end();
+  }
+  // 1 / w of the triangle's plane.
+  T nearness(double x_px, double y_px) const {
+    T sum(0.0);
+    for (const auto& e : edge_) sum = sum + T(e[0] * T(x_px)) + T(e[1] * T(y_px)) + e[2];
+    return T(sum / det_);
+  }
+
+ private:
+  using Row = std::array<T, 3>;
+  // What must not have another sign than the triangle's facing.
+  std::array<T, 5> conditions(double x_px, double y_px) const {
+    const auto edge = [&](const Row& e) { return T(T(e[0] * T(x_px)) + T(e[1] * T(y_px)) + e[2]); };
+    const T a = edge(edge_[0]), b = edge(edge_[1]), c = edge(edge_[2]), sum = T(a + b + c);
+    return {a, b, c, T(det_ - near_ * sum), T(far_ * sum - det_)};
+  }
+  Homogeneous(const ClippingScene& scene, const Row& a, const Row& b, const Row& c)
+      : edge_{cross(b, c), cross(c, a), cross(a, b)},
+        det_(a[0] * edge_[0][0] + a[1] * edge_[0][1] + a[2] * edge_[0][2]),
+        near_(scene.scene.camera.near_z),
+        far_(scene.scene.camera.far_z) {}
+
+  // Pixels times w, and w.
+  static Row vertex(const ClippingScene& scene, unsigned index) {
+    const glm::dvec3 v(scene.mesh().positions[index]);
+    const T focal(focal_px(scene)), w(-v.z);
+    return {T(focal * T(v.x) + T(scene.size.width / 2.0) * w),
+            T(T(scene.size.height / 2.0) * w - focal * T(v.y)), w};
+  }
+  static Row cross(const Row& a, const Row& b) {
+    return {T(a[1] * b[2] - a[2] * b[1]), T(a[2] * b[0] - a[0] * b[2]), T(a[0] * b[1] - a[1] * b[0])};
+  }
+
+  std::array<Row, 3> edge_;
+  T det_, near_, far_;
+};
+
+using Estimate = Homogeneous<Ball>;
+using Exact = Homogeneous<mpq_class>;
+
+ClippingOracle::ClippingOracle(const ClippingScene& scene)
+    : scene_(scene), tiles_x_((scene.size.width + kTile - 1) / kTile) {
+  const int tiles_y = (scene.size.height + kTile - 1) / kTile;
+  in_tile_.resize(static_cast<std::size_t>(tiles_x_) * static_cast<std::size_t>(tiles_y));
+  for (const auto& t : scene.mesh().triangles) {
+    estimates_.emplace_back(scene, t);
+    const int guess = estimates_.back().facing();
+    facing_.push_back(static_cast<std::int8_t>(guess != 0 ? guess : Exact(scene, t).facing()));
+  }
+  std::vector<std::uint32_t> all(estimates_.size());
+  std::iota(all.begin(), all.end(), 0u);
+  std::erase_if(all, [&](std::uint32_t i) { return facing_[i] == 0 || (scene.cull_back && facing_[i] < 0); });
+  int tiles = 1;
+  while (tiles < std::max(tiles_x_, tiles_y)) tiles *= 2;
+  sort_into_tiles(0, 0, tiles, all);
+}
+
+ClippingOracle::~ClippingOracle() = default;
+
+void ClippingOracle::sort_into_tiles(int tile_x, int tile_y, int tiles,
+                                     std::span<const std::uint32_t> candidates) {
+  const int tiles_y = static_cast<int>(in_tile_.size()) / tiles_x_;
+  if (tile_x >= tiles_x_ || tile_y >= tiles_y) return;
+  const Box box{double{kTile} * tile_x, double{kTile} * tile_y, double{kTile} * (tile_x + tiles),
+                double{kTile} * (tile_y + tiles)};
+  std::vector<std::uint32_t> kept;
+  for (const std::uint32_t i : candidates)
+    if (!estimates_[i].misses(box, facing_[i])) kept.push_back(i);
+  if (tiles == 1) {
+    in_tile_[static_cast<std::size_t>(tile_y * tiles_x_ + tile_x)] = std::move(kept);
+    return;
+  }
+  const int half = tiles / 2;
+  for (const int right : {0, half})
+    for (const int below : {0, half}) sort_into_tiles(tile_x + right, tile_y + below, half, kept);
+}
+
+std::uint32_t ClippingOracle::owner_at(double x_px, double y_px) const {
+  const auto tile =
+      static_cast<std::size_t>(static_cast<int>(y_px) / kTile * tiles_x_ + static_cast<int>(x_px) / kTile);
+  std::uint32_t owner = kNobody;
+  for (const std::uint32_t i : in_tile_[tile])
+    if (covers(i, x_px, y_px) && (owner == kNobody || nearer(i, owner, x_px, y_px))) owner = i;
+  return owner;
+}
+
+bool ClippingOracle::shows(std::uint32_t owner, std::uint32_t rival, double x_px, double y_px) const {
+  if (owner != kNobody && !covers(owner, x_px, y_px)) return false;
+  if (rival != kNobody && covers(rival, x_px, y_px) && (owner == kNobody || nearer(rival, owner, x_px, y_px)))
+    return false;
+  return owner_at(x_px, y_px) == owner;
+}
+
+double ClippingOracle::depth01(std::uint32_t triangle, double x_px, double y_px) const {
+  const double near_z = scene_.scene.camera.near_z, far_z = scene_.scene.camera.far_z;
+  const Ball estimate = estimates_[triangle].nearness(x_px, y_px);
+  const double nearness = estimate.error * near_z < 0x1p-34
+                              ? estimate.value
+                              : Exact(scene_, scene_.mesh().triangles[triangle]).nearness(x_px, y_px).get_d();
+  return far_z / (far_z - near_z) * (1 - near_z * nearness);
+}
+
+bool ClippingOracle::covers(std::uint32_t i, double x_px, double y_px) const {
+  if (facing_[i] == 0 || (scene_.cull_back && facing_[i] < 0)) return false;
+  const int guess = estimates_[i].hit(x_px, y_px, facing_[i]);
+  // A point exactly on an edge counts: which side it belongs to is a hairline matter.
+  return guess != 0 ? guess > 0 : Exact(scene_, scene_.mesh().triangles[i]).hit(x_px, y_px, facing_[i]) >= 0;
+}
+
+bool ClippingOracle::nearer(std::uint32_t a, std::uint32_t b, double x_px, double y_px) const {
+  const int guess = sign(estimates_[a].nearness(x_px, y_px) - estimates_[b].nearness(x_px, y_px));
+  if (guess != 0) return guess > 0;
+  const auto exact = [&](std::uint32_t i) {
+    return Exact(scene_, scene_.mesh().triangles[i]).nearness(x_px, y_px);
+  };
+  return exact(a) > exact(b);
+}
+
+ClippingTruth clipping_truth(const ClippingScene& scene, int threads) {
+  const auto width = static_cast<std::size_t>(scene.size.width);
+  ClippingTruth truth{{}, std::make_shared<ClippingOracle>(scene)};
+  truth.owner.resize(width * static_cast<std::size_t>(scene.size.height));
+  parallel_for(threads, scene.size.height, [&](int y) {
+    for (int x = 0; x < scene.size.width; ++x)
+      truth.owner[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] =
+          truth.oracle->owner_at(x + 0.5, y + 0.5);
+  });
+  return truth;
+}
+
+}  // namespace edgewise::lab

@@ -1,0 +1,166 @@
+// The list of coverage methods. A new one is a file that defines make_coverage_NAME(): in coverage_methods/,
+// with a line here; or anywhere, named to CMake by EDGEWISE_COVERAGE_METHODS.
+#include "lab/coverage/coverage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "core/nearest_name.h"
+#include "frontend/fixed.h"
+#include "lab/measure.h"
+
+#ifndef EDGEWISE_MORE_COVERAGE_METHODS
+#define EDGEWISE_MORE_COVERAGE_METHODS(X)
+#endif
+
+#define EDGEWISE_COVERAGE_METHODS(X) \
+  X(float_le)                        \
+  X(float_lt)                        \
+  X(float_top_left)                  \
+  X(float_snapped)                   \
+  X(float_incremental)               \
+  X(double_top_left)                 \
+  X(whole_pixel)                     \
+  X(fixed_4)                         \
+  X(fixed_4_int32)                   \
+  X(fixed_8)                         \
+  X(fixed_8_int32)                   \
+  X(fixed_12)                        \
+  X(fixed_16)                        \
+  X(dda_float)                       \
+  X(dda_16_16)                       \
+  X(dda_rounded)                     \
+  EDGEWISE_MORE_COVERAGE_METHODS(X)
+
+namespace edgewise::lab {
+
+#define EDGEWISE_DECLARE(name) CoverageMethod make_coverage_##name();
+EDGEWISE_COVERAGE_METHODS(EDGEWISE_DECLARE)
+
+namespace {
+
+ScreenTriangle shifted(ScreenTriangle t, std::uint32_t payload, Window window) {
+  for (int i = 0; i < 3; ++i) {
+    const std::int64_t x = t.x_sub[i] - std::int64_t{window.x0} * contract::kSub,
+                       y = t.y_sub[i] - std::int64_t{window.y0} * contract::kSub;
+    if (std::max(std::abs(x), std::abs(y)) > contract::kGuardSub)
+      throw std::invalid_argument("triangle " + std::to_string(payload) + " lies beyond the guard band");
+    t.x_sub[i] = static_cast<std::int32_t>(x), t.y_sub[i] = static_cast<std::int32_t>(y);
+  }
+  t.payload = payload;
+  return t;
+}
+
+// Draws the triangles in groups whose boxes don't meet, each triangle with its index as payload.
+void backend_runs(Backend& backend, std::span<const ScreenTriangle> snapped, Window window,
+                  std::vector<Run>& runs) {
+  std::vector<ScreenTriangle> triangles;
+  triangles.reserve(snapped.size());
+  for (const auto& t : snapped)
+    triangles.push_back(shifted(t, static_cast<std::uint32_t>(triangles.size()), window));
+  Framebuffer frame(window.width, window.height);
+  std::vector<ScreenTriangle> members;
+  for (const auto& group : disjoint_groups(triangles, window.width, window.height)) {
+    members.clear();
+    for (const std::uint32_t i : group) members.push_back(triangles[i]);
+    backend.draw(members, frame.view(), kNobody, {});
+    for (int y = 0; y < window.height; ++y) {
+      const std::uint32_t* row = frame.payload_row(y);
+      for (int x = 0; x < window.width;) {
+        const int begin = x;
+        const std::uint32_t owner = row[x];
+        while (x < window.width && row[x] == owner) ++x;
+        if (owner != kNobody) runs.push_back({owner, y + window.y0, begin + window.x0, x + window.x0});
+      }
+    }
+  }
+}
+
+// Rule 2; the current rounding mode is half to even.
+std::int32_t to_sub(float px) {
+  return static_cast<std::int32_t>(std::nearbyint(double{px} * contract::kSub));
+}
+
+CoverageMethod make_from(const BackendInfo& backend) {
+  constexpr double kSnap = 0.00277;  // half a sub-unit on both axes: sqrt(2) / 512
+  return {{backend.name, backend.idea, "src/raster/backends",
+           "exact coverage of the positions snapped to 1/256 px", true},
+          {.reach_px = kSnap, .no_gaps = true, .no_double_hits = true},
+          [&backend](const CoverageInput& input, Canvas& canvas, int threads) {
+            canvas.backend(backend).draw(input.snapped, canvas.frame.view(), 0, {.threads = threads});
+          },
+          [&backend](const CoverageInput& input, Window window, std::vector<Run>& runs) {
+            backend_runs(*backend.make(), input.snapped, window, runs);
+          },
+          true,
+          true,
+          backend.fills};
+}
+
+const CoverageMethod& find(std::span<const CoverageMethod> all, std::string_view kind,
+                           std::string_view name) {
+  return find_named(kind, name, all, [](const CoverageMethod& m) { return m.info.name; });
+}
+
+}  // namespace
+
+Canvas::Canvas(int width, int height)
+    : frame(width, height),
+      depth(static_cast<std::size_t>(frame.stride()) * static_cast<std::size_t>(height)) {}
+
+Backend& Canvas::backend(const BackendInfo& info) {
+  auto& slot = backends_[info.name];
+  if (!slot) slot = info.make();
+  return *slot;
+}
+
+std::span<const CoverageMethod> drawing_methods() {
+  static const std::vector<CoverageMethod> list = [] {
+    std::vector<CoverageMethod> methods;
+    for (const auto& backend : filling_backends()) methods.push_back(make_from(backend));
+#define EDGEWISE_ENTRY(name) methods.push_back(make_coverage_##name());
+    EDGEWISE_COVERAGE_METHODS(EDGEWISE_ENTRY)
+    for (const auto& backend : backends().subspan(filling_backends().size()))
+      methods.push_back(make_from(backend));
+    return methods;
+  }();
+  return list;
+}
+
+std::span<const CoverageMethod> coverage_methods() {
+  return drawing_methods().first(drawing_methods().size() - (backends().size() - filling_backends().size()));
+}
+
+const CoverageMethod& find_coverage_method(std::string_view name) {
+  return find(coverage_methods(), "coverage method", name);
+}
+
+const CoverageMethod& find_drawing_method(std::string_view name) {
+  return find(drawing_methods(), "backend or coverage method", name);
+}
+
+std::vector<ScreenTriangle> snapped(std::span<const FloatTriangle> triangles) {
+  std::vector<ScreenTriangle> result(triangles.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      result[i].x_sub[k] = to_sub(triangles[i].at.x_px[k]);
+      result[i].y_sub[k] = to_sub(triangles[i].at.y_px[k]);
+      result[i].z[k] = quantize_depth(triangles[i].at.z01[k]);
+    }
+    result[i].payload = triangles[i].payload;
+  }
+  return result;
+}
+
+std::vector<FloatTriangle> unsnapped(std::span<const ScreenTriangle> triangles,
+                                     std::span<const UnsnappedTriangle> at) {
+  if (triangles.size() != at.size())
+    throw std::invalid_argument("the front end did not keep unsnapped triangles");
+  std::vector<FloatTriangle> result;
+  result.reserve(at.size());
+  for (std::size_t i = 0; i < at.size(); ++i) result.push_back({at[i], triangles[i].payload});
+  return result;
+}
+
+}  // namespace edgewise::lab

@@ -1,0 +1,17 @@
+// Four subpixel bits and edge values of 32 bits, as many a software rasterizer has them: they hold while a
+// triangle's box is at most 2896 px on a side. Its area is then 46336^2 square units, below 2^31; with 2897
+// px it is above.
+#include "lab/coverage/methods/fixed_edges.h"
+
+namespace edgewise::lab {
+
+CoverageMethod make_coverage_fixed_4_int32();
+CoverageMethod make_coverage_fixed_4_int32() {
+  return make_coverage_method<FixedEdges<4, std::int32_t>>(
+      {"fixed_4_int32", "vertices snapped to 1/16 px, 32-bit edge functions that wrap",
+       "Giesen, \"Triangle rasterization in practice\", at the range it states",
+       "as fixed_4 for triangles of at most 2896 px; anything inside the bounding box beyond", false},
+      {.reach_px = snap_reach_px(4), .max_side_px = 2896, .no_gaps = true, .no_double_hits = true});
+}
+
+}  // namespace edgewise::lab

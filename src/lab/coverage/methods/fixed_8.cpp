@@ -1,0 +1,13 @@
+// Eight subpixel bits, as Direct3D asks: the snapping of our contract, in a loop of its own.
+#include "lab/coverage/methods/fixed_edges.h"
+
+namespace edgewise::lab {
+
+CoverageMethod make_coverage_fixed_8();
+CoverageMethod make_coverage_fixed_8() {
+  return make_fixed_method<8>({"fixed_8", "vertices snapped to 1/256 px, 64-bit edge functions",
+                               "Direct3D 11.3 functional specification, 3.4.1",
+                               "exact coverage of the positions snapped to 1/256 px", true});
+}
+
+}  // namespace edgewise::lab

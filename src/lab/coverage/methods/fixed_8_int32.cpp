@@ -1,0 +1,17 @@
+// Eight subpixel bits and edge values of 32 bits: they hold while a triangle's box is at most 181 px on a
+// side. Its doubled area is then below 2^31, and no value at a sample in the box is larger. Beyond that they
+// wrap.
+#include "lab/coverage/methods/fixed_edges.h"
+
+namespace edgewise::lab {
+
+CoverageMethod make_coverage_fixed_8_int32();
+CoverageMethod make_coverage_fixed_8_int32() {
+  return make_coverage_method<FixedEdges<8, std::int32_t>>(
+      {"fixed_8_int32", "vertices snapped to 1/256 px, 32-bit edge functions that wrap",
+       "Giesen, \"Triangle rasterization in practice\", past the range it states",
+       "as fixed_8 for triangles of at most 181 px; anything inside the bounding box beyond", false},
+      {.reach_px = snap_reach_px(8), .max_side_px = 181, .no_gaps = true, .no_double_hits = true});
+}
+
+}  // namespace edgewise::lab

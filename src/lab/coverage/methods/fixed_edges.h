@@ -1,0 +1,121 @@
+// Fixed-point edge functions, stepped exactly by integer additions. SnapBits say how finely vertices are
+// snapped, Int how wide the edge values are: 64 bits hold them for triangles of up to 16384 px, 32 bits soon
+// wrap.
+//
+// While no value wraps, it is the exact edge function less the bias, linear along a row: each edge accepts
+// the samples on one side of some place, and a row's accepted samples are one interval. A value at a sample
+// is twice the signed area of a triangle inside the bounding box, so none wraps where the box's own area, in
+// square units, is below 2^31 or 2^63. In larger boxes values may change sign anywhere, and every pixel is
+// tested.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+
+#include "lab/coverage/methods/row_spans.h"
+#include "lab/coverage/plot.h"
+
+namespace edgewise::lab {
+
+template <int SnapBits, typename Int>
+struct FixedEdges {
+  // A box no wider than this is sooner tested pixel by pixel, which costs one addition an edge.
+  static constexpr int kNarrow_px = 10;
+  // A sample lies at half a pixel, so one bit is needed even where vertices have none.
+  static constexpr int kBits = SnapBits == 0 ? 1 : SnapBits;
+  static constexpr std::int64_t kOne = std::int64_t{1} << kBits, kSample = kOne / 2;
+  using Wrapping = std::make_unsigned_t<Int>;
+
+  static std::int64_t snap(float px) {
+    return round_half_even(double{px} * (1 << SnapBits)) * (1 << (kBits - SnapBits));
+  }
+
+  struct Edge {
+    Wrapping value, step_x, step_y;  // value at the box's first sample, biased by the fill rule
+    int x0, y0;                      // the box's first pixel
+    bool right;                      // where the triangle lies
+
+    struct Row {
+      Wrapping value, step;
+      int x0;
+      bool accepts(int x) const {
+        return static_cast<Int>(value + step * static_cast<Wrapping>(x - x0)) >= 0;
+      }
+    };
+    Row row(int y) const { return {value + step_y * static_cast<Wrapping>(y - y0), step_x, x0}; }
+    bool faces_right() const { return right; }
+  };
+  static Edge edge(std::int64_t px, std::int64_t py, std::int64_t qx, std::int64_t qy, int x0, int y0) {
+    const std::int64_t sx = x0 * kOne + kSample, sy = y0 * kOne + kSample;
+    const std::int64_t a = py - qy, b = qx - px;
+    const bool top_left = a > 0 || (a == 0 && b > 0);
+    const auto wrap = [](std::int64_t v) { return static_cast<Wrapping>(v); };
+    return {wrap(a) * wrap(sx - px) + wrap(b) * wrap(sy - py) - wrap(top_left ? 0 : 1),
+            wrap(a) * wrap(kOne),
+            wrap(b) * wrap(kOne),
+            x0,
+            y0,
+            a >= 0};
+  }
+
+  // Whether all values, less the bias, fit; sides are in units.
+  static bool holds(std::int64_t width, std::int64_t height) {
+    constexpr auto kEnd = static_cast<double>(std::uint64_t{1} << std::numeric_limits<Int>::digits);
+    return static_cast<double>(width) * static_cast<double>(height) < kEnd;
+  }
+
+  template <class Plot>
+  static void test_every_pixel(const Edge (&e)[3], const PixelRows& box, Plot& plot) {
+    Wrapping row0 = e[0].value, row1 = e[1].value, row2 = e[2].value;
+    for (int py = box.y0; py < box.y1; ++py) {
+      Wrapping v0 = row0, v1 = row1, v2 = row2;
+      for (int px = box.x0; px < box.x1; ++px) {
+        if (static_cast<Int>(v0 | v1 | v2) >= 0) plot.pixel(px, py);
+        v0 += e[0].step_x, v1 += e[1].step_x, v2 += e[2].step_x;
+      }
+      row0 += e[0].step_y, row1 += e[1].step_y, row2 += e[2].step_y;
+    }
+  }
+
+  template <class Plot>
+  static void cover(const UnsnappedTriangle& t, Window w, Plot& plot) {
+    std::int64_t x[3], y[3];
+    for (int i = 0; i < 3; ++i) x[i] = snap(t.x_px[i]), y[i] = snap(t.y_px[i]);
+    const auto first = [](std::int64_t v) { return (v + kSample - 1) >> kBits; };  // sample at or after v
+    const auto [min_x, max_x] = std::minmax({x[0], x[1], x[2]});
+    const auto [min_y, max_y] = std::minmax({y[0], y[1], y[2]});
+    const PixelRows box{static_cast<int>(std::max<std::int64_t>(first(min_x), w.x0)),
+                        static_cast<int>(std::max<std::int64_t>(first(min_y), w.y0)),
+                        static_cast<int>(std::min<std::int64_t>(first(max_x), w.x1())),
+                        static_cast<int>(std::min<std::int64_t>(first(max_y), w.y1()))};
+    if (box.x0 >= box.x1 || box.y0 >= box.y1) return;
+    const auto area =
+        static_cast<Int>(static_cast<Wrapping>(x[1] - x[0]) * static_cast<Wrapping>(y[2] - y[0]) -
+                         static_cast<Wrapping>(y[1] - y[0]) * static_cast<Wrapping>(x[2] - x[0]));
+    if (area == 0) return;
+    if (area < 0) std::swap(x[1], x[2]), std::swap(y[1], y[2]);
+    plot.begin();
+    const Edge edges[3] = {edge(x[0], y[0], x[1], y[1], box.x0, box.y0),
+                           edge(x[1], y[1], x[2], y[2], box.x0, box.y0),
+                           edge(x[2], y[2], x[0], y[0], box.x0, box.y0)};
+    if (box.x1 - box.x0 > kNarrow_px && holds(max_x - min_x, max_y - min_y))
+      fill_between(edges, box, plot);
+    else
+      test_every_pixel(edges, box, plot);
+  }
+};
+
+// Snapping moves a vertex by up to half a unit on both axes, and no point of a triangle moves farther than a
+// vertex.
+constexpr double snap_reach_px(int snap_bits) {
+  return 0.70711 / (1 << snap_bits);
+}
+
+template <int SnapBits>
+CoverageMethod make_fixed_method(const MethodInfo& info) {
+  return make_coverage_method<FixedEdges<SnapBits, std::int64_t>>(
+      info, {.reach_px = snap_reach_px(SnapBits), .no_gaps = true, .no_double_hits = true});
+}
+
+}  // namespace edgewise::lab

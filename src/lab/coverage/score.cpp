@@ -1,0 +1,177 @@
+#include "lab/coverage/score.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace edgewise::lab {
+
+namespace {
+
+std::uint64_t length(const Run& run) {
+  return static_cast<std::uint64_t>(run.x1 - run.x0);
+}
+
+CoverageTruth truth_from(std::vector<Run> runs, Window window) {
+  CoverageTruth truth{window, std::move(runs), {}, 0};
+  truth.hits = hits_of(truth.runs, window);
+  for (const Run& run : truth.runs) truth.covered += length(run);
+  return truth;
+}
+
+// Cuts runs to the window and returns how many pixels that cost.
+std::uint64_t cut(std::vector<Run>& runs, Window w) {
+  std::uint64_t lost = 0;
+  for (Run& run : runs) {
+    const std::uint64_t before = length(run);
+    run.x0 = std::clamp(run.x0, w.x0, w.x1());
+    run.x1 = run.y >= w.y0 && run.y < w.y1() ? std::clamp(run.x1, run.x0, w.x1()) : run.x0;
+    lost += before - length(run);
+  }
+  if (lost > 0) std::erase_if(runs, [](const Run& run) { return run.x0 == run.x1; });
+  return lost;
+}
+
+// Joins runs that overlap or touch, so that a pair counts once.
+std::vector<Run> joined(std::vector<Run> runs) {
+  std::size_t count = 0;
+  for (const Run& run : runs) {
+    Run* last = count > 0 ? &runs[count - 1] : nullptr;
+    if (last != nullptr && last->triangle == run.triangle && last->y == run.y && run.x0 <= last->x1)
+      last->x1 = std::max(last->x1, run.x1);
+    else
+      runs[count++] = run;
+  }
+  runs.resize(count);
+  return runs;
+}
+
+// Samples on one axis strictly between two places, or at the first.
+double samples_between(double a, double b) {
+  return std::abs(std::floor(a + 0.5) - std::floor(b + 0.5));
+}
+
+}  // namespace
+
+CoverageTruth snapped_coverage(const CoverageInput& input, Window window, int threads) {
+  return truth_from(covered_runs(input.snapped, window, threads), window);
+}
+
+CoverageTruth float_coverage(const CoverageInput& input, Window window, int threads) {
+  return truth_from(covered_runs(input.floats, window, threads), window);
+}
+
+std::uint64_t edge_crossings(std::span<const FloatTriangle> triangles, Window w) {
+  double crossings = 0.0;
+  for (const auto& [t, payload] : triangles)
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3;
+      const double x = double{t.x_px[i]}, y = double{t.y_px[i]}, dx = double{t.x_px[j]} - x,
+                   dy = double{t.y_px[j]} - y;
+      // The part of the edge inside the window (Liang and Barsky, 1984), as parameters of x + t dx, y + t dy.
+      double begin = 0.0, end = 1.0;
+      const auto clip = [&](double start, double step, double low, double high) {
+        if (step == 0.0) {
+          if (start < low || start > high) end = -1.0;
+          return;
+        }
+        const double a = (low - start) / step, b = (high - start) / step;
+        begin = std::max(begin, std::min(a, b));
+        end = std::min(end, std::max(a, b));
+      };
+      clip(x, dx, w.x0, w.x1());
+      clip(y, dy, w.y0, w.y1());
+      if (begin >= end) continue;
+      crossings += std::max(samples_between(x + begin * dx, x + end * dx),
+                            samples_between(y + begin * dy, y + end * dy));
+    }
+  return static_cast<std::uint64_t>(crossings);
+}
+
+void for_each_difference(std::span<const Run> truth, std::span<const Run> drawn,
+                         const std::function<void(const Run&, bool missing)>& on_run) {
+  // Runs of one row, as places on a line: what the two lists don't share lies between neighbouring ends.
+  const auto row_of = [](const Run& run) { return std::pair(run.triangle, run.y); };
+  auto t = truth.begin();
+  auto d = drawn.begin();
+  while (t != truth.end() || d != drawn.end()) {
+    const auto row =
+        d == drawn.end() || (t != truth.end() && row_of(*t) <= row_of(*d)) ? row_of(*t) : row_of(*d);
+    const auto in_row = [&](auto at, auto end) { return at != end && row_of(*at) == row; };
+    int x = std::numeric_limits<int>::min();
+    while (in_row(t, truth.end()) || in_row(d, drawn.end())) {
+      constexpr int kNever = std::numeric_limits<int>::max();
+      const bool has_t = in_row(t, truth.end()), has_d = in_row(d, drawn.end());
+      const bool in_t = has_t && t->x0 <= x, in_d = has_d && d->x0 <= x;
+      const int next_t = !has_t ? kNever
+                         : in_t ? t->x1
+                                : t->x0,
+                next_d = !has_d ? kNever
+                         : in_d ? d->x1
+                                : d->x0;
+      const int next = std::min(next_t, next_d);
+      if (in_t != in_d) on_run({row.first, row.second, x, next}, in_t);
+      x = next;
+      if (has_t && t->x1 == x) ++t;
+      if (has_d && d->x1 == x) ++d;
+    }
+  }
+}
+
+std::vector<std::uint32_t> hits_of(std::span<const Run> runs, Window w) {
+  std::vector<std::uint32_t> hits(static_cast<std::size_t>(w.width) * static_cast<std::size_t>(w.height), 0);
+  for (const Run& run : runs) {
+    if (run.y < w.y0 || run.y >= w.y1()) continue;
+    std::uint32_t* row = &hits[static_cast<std::size_t>(run.y - w.y0) * static_cast<std::size_t>(w.width)];
+    for (int x = std::max(run.x0, w.x0); x < std::min(run.x1, w.x1()); ++x) ++row[x - w.x0];
+  }
+  return hits;
+}
+
+ErrorDistance::ErrorDistance(const UnsnappedTriangle& t) {
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    const double dx = double{t.x_px[j]} - double{t.x_px[i]}, dy = double{t.y_px[j]} - double{t.y_px[i]};
+    const double length = std::hypot(dx, dy), scale = length > 0.0 ? 1.0 / length : 0.0;
+    lines_[i] = {double{t.x_px[i]}, double{t.y_px[i]}, -dy * scale, dx * scale};
+  }
+  const auto [low_x, high_x] = std::minmax({t.x_px[0], t.x_px[1], t.x_px[2]});
+  const auto [low_y, high_y] = std::minmax({t.y_px[0], t.y_px[1], t.y_px[2]});
+  low_x_ = double{low_x}, low_y_ = double{low_y}, high_x_ = double{high_x}, high_y_ = double{high_y};
+}
+
+double ErrorDistance::at(int px, int py) const {
+  const double sx = px + 0.5, sy = py + 0.5;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Line& line : lines_)
+    nearest = std::min(nearest, std::abs((sx - line.x) * line.normal_x + (sy - line.y) * line.normal_y));
+  return std::max({nearest, low_x_ - sx, sx - high_x_, low_y_ - sy, sy - high_y_});
+}
+
+CoverageScore score_coverage(const CoverageTruth& truth, std::vector<Run> runs,
+                             std::span<const FloatTriangle> triangles, double reach_px) {
+  CoverageScore score{.triangles = triangles.size(), .covered = truth.covered};
+  score.out_of_bounds = cut(runs, truth.window);
+  const auto hits = hits_of(runs, truth.window);
+  score.gaps = gaps(truth, hits, triangles, reach_px).size();
+  for (std::size_t i = 0; i < hits.size(); ++i) score.double_hits += truth.hits[i] <= 1 && hits[i] >= 2;
+  if (!std::is_sorted(runs.begin(), runs.end())) std::sort(runs.begin(), runs.end());
+  for_each_difference(truth.runs, joined(std::move(runs)), [&](const Run& run, bool missing) {
+    (missing ? score.missing : score.extra) += length(run);
+    const ErrorDistance distance(triangles[run.triangle].at);
+    for (int x = run.x0; x < run.x1; ++x) {
+      score.worst_px = std::max(score.worst_px, distance.at(x, run.y));
+      if (!missing) score.out_of_box += distance.off_box(x, run.y);
+    }
+  });
+  return score;
+}
+
+CoverageScore score_coverage(const CoverageTruth& truth, const CoverageMethod& method,
+                             const CoverageInput& input) {
+  std::vector<Run> runs;
+  method.runs(input, truth.window, runs);
+  return score_coverage(truth, std::move(runs), input.floats, gap_reach_px(method));
+}
+
+}  // namespace edgewise::lab

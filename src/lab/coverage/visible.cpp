@@ -1,0 +1,109 @@
+#include "lab/coverage/visible.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "edgewise/contract.h"
+
+namespace edgewise::lab {
+
+namespace {
+
+constexpr std::uint32_t kBackground = 0;
+
+// An owner as the pictures here show it.
+std::uint32_t shown(std::uint32_t owner) {
+  return owner == kNobody ? kBackground : owner + 1;
+}
+
+double float_ulp(double depth01) {
+  constexpr double kLeast = 0x1p-8;
+  const auto size = static_cast<float>(std::max(std::abs(depth01), kLeast));
+  return std::ldexp(1.0, std::ilogb(size) - (std::numeric_limits<float>::digits - 1));
+}
+
+template <typename Visit>
+void each_pixel(Size size, Visit&& visit) {
+  std::size_t pixel = 0;
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x) visit(x, y, pixel++);
+}
+
+std::uint64_t wrong_owners(const Canvas& canvas, const Owners& truth) {
+  std::uint64_t wrong = 0;
+  each_pixel({truth.window.width, truth.window.height}, [&](int x, int y, std::size_t pixel) {
+    wrong += canvas.frame.payload_row(y)[x] != shown(truth.triangle[pixel]);
+  });
+  return wrong;
+}
+
+// error(x, y, exact): in last places.
+template <typename Error>
+void add_depth_errors(OwnerScore& score, const Canvas& canvas, const Owners& truth, Error&& error) {
+  double squares = 0.0;
+  std::uint64_t count = 0;
+  each_pixel({truth.window.width, truth.window.height}, [&](int x, int y, std::size_t pixel) {
+    const std::uint32_t owner = truth.triangle[pixel];
+    if (owner == kNobody || canvas.frame.payload_row(y)[x] != shown(owner)) return;
+    const double ulp = error(x, y, truth.depth[pixel]);
+    score.max_ulp = std::max(score.max_ulp, ulp);
+    squares += ulp * ulp;
+    ++count;
+  });
+  if (count > 0) score.rms_ulp = std::sqrt(squares / static_cast<double>(count));
+}
+
+template <typename Triangle>
+std::vector<Triangle> numbered(std::span<const Triangle> triangles) {
+  std::vector<Triangle> list(triangles.begin(), triangles.end());
+  std::uint32_t number = 0;
+  for (Triangle& triangle : list) triangle.payload = ++number;
+  return list;
+}
+
+}  // namespace
+
+OwnerJudge::OwnerJudge(const CoverageInput& input, Size size, int threads)
+    : size_(size),
+      floats_(numbered(input.floats)),
+      snapped_(numbered(input.snapped)),
+      by_grid_(exact_owners(snapped_, {size.width, size.height}, threads)),
+      by_floats_(exact_owners(floats_, {size.width, size.height}, threads)) {}
+
+OwnerScore OwnerJudge::score(const CoverageMethod& method) const {
+  Canvas canvas(size_.width, size_.height);
+  method.draw({floats_, snapped_}, canvas, 1);
+  OwnerScore score{.wrong_snapped = wrong_owners(canvas, by_grid_),
+                   .wrong_floats = wrong_owners(canvas, by_floats_)};
+  if (method.contract_depth) {
+    add_depth_errors(score, canvas, by_grid_, [&](int x, int y, double exact) {
+      return std::abs(static_cast<double>(canvas.frame.depth_row(y)[x]) - exact);
+    });
+    score.unexplained = unexplained(canvas);
+  } else {
+    add_depth_errors(score, canvas, by_floats_, [&](int x, int y, double exact) {
+      return std::abs(double{canvas.depth[static_cast<std::size_t>(y * canvas.frame.stride() + x)]} - exact) /
+             float_ulp(exact);
+    });
+  }
+  return score;
+}
+
+std::uint64_t OwnerJudge::unexplained(const Canvas& canvas) const {
+  std::uint64_t count = 0;
+  each_pixel(size_, [&](int x, int y, std::size_t pixel) {
+    const std::uint32_t drawn = canvas.frame.payload_row(y)[x], owner = by_grid_.triangle[pixel];
+    if (drawn == shown(owner)) return;
+    const auto explains = [&] {
+      if (drawn == kBackground || owner == kNobody) return false;
+      const SnappedTruth truth(snapped_[drawn - 1]);
+      return truth.covers(x, y) &&
+             truth.depth(x, y).get_d() - by_grid_.depth[pixel] <= 2.0 * contract::kDepthError;
+    };
+    count += !explains();
+  });
+  return count;
+}
+
+}  // namespace edgewise::lab

@@ -1,0 +1,126 @@
+#include "lab/error_marks.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "edgewise/screen_triangle.h"
+
+namespace edgewise::lab {
+
+namespace {
+
+constexpr std::uint32_t kMarkColours[] = {rgb(255, 255, 255), rgb(213, 94, 0), rgb(0, 114, 178),
+                                          rgb(240, 228, 66), rgb(204, 121, 167)};
+
+std::size_t pixels_of(Window w) {
+  return static_cast<std::size_t>(w.width) * static_cast<std::size_t>(w.height);
+}
+
+void add_edges(std::span<const FloatTriangle> triangles, std::vector<Line>& lines) {
+  for (const auto& [t, payload] : triangles)
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3;
+      lines.push_back({double{t.x_px[i]}, double{t.y_px[i]}, double{t.x_px[j]}, double{t.y_px[j]}});
+    }
+}
+
+using Polygon = std::vector<glm::dvec2>;  // px
+
+Polygon projected(const FacingScene& scene, const Face& face) {
+  const FacingView& v = scene.view;
+  Polygon polygon;
+  for (std::uint32_t i = face.first; i < face.first + face.count; ++i) {
+    const glm::dvec3 ray = glm::dvec3(scene.positions[i]) - glm::dvec3(v.eye);
+    const double w = v.perspective ? glm::dot(ray, glm::dvec3(v.forward)) : 1.0;
+    polygon.emplace_back(v.size.width / 2.0 + double{v.focal_px} * glm::dot(ray, glm::dvec3(v.right)) / w,
+                         v.size.height / 2.0 + double{v.focal_px} * glm::dot(ray, glm::dvec3(v.down)) / w);
+  }
+  return polygon;
+}
+
+// Even-odd rule.
+bool contains(const Polygon& polygon, double x, double y) {
+  bool inside = false;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const glm::dvec2 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+    if ((a.y <= y) != (b.y <= y) && x < a.x + (y - a.y) * (b.x - a.x) / (b.y - a.y)) inside = !inside;
+  }
+  return inside;
+}
+
+}  // namespace
+
+std::uint32_t colour_of(Mark mark) {
+  return kMarkColours[static_cast<std::size_t>(mark)];
+}
+
+MarkedPicture mark_coverage(const CoverageTruth& truth, std::vector<Run> runs,
+                            std::span<const FloatTriangle> triangles, double reach_px) {
+  const Window w = truth.window;
+  MarkedPicture picture{
+      w, std::vector<std::uint32_t>(pixels_of(w), kNobody), std::vector<Mark>(pixels_of(w), Mark::none), {}};
+  const auto row_at = [&](const Run& run) {
+    return static_cast<std::size_t>(run.y - w.y0) * static_cast<std::size_t>(w.width);
+  };
+  const auto each_pixel = [&](const Run& run, auto&& visit) {
+    if (run.y < w.y0 || run.y >= w.y1()) return;
+    for (int x = std::max(run.x0, w.x0); x < std::min(run.x1, w.x1()); ++x)
+      visit(row_at(run) + static_cast<std::size_t>(x - w.x0));
+  };
+  for (const Run& run : truth.runs)
+    each_pixel(run, [&](std::size_t pixel) { picture.owner[pixel] = run.triangle; });
+
+  const auto hits = hits_of(runs, w);
+  std::sort(runs.begin(), runs.end());
+  for_each_difference(truth.runs, runs, [&](const Run& run, bool missing) {
+    each_pixel(run, [&](std::size_t pixel) {
+      Mark& mark = picture.marks[pixel];
+      if (missing || mark == Mark::none) mark = missing ? Mark::missing : Mark::extra;
+    });
+  });
+  for (const std::size_t i : gaps(truth, hits, triangles, reach_px)) picture.marks[i] = Mark::gap;
+  for (std::size_t i = 0; i < hits.size(); ++i)
+    if (truth.hits[i] <= 1 && hits[i] >= 2) picture.marks[i] = Mark::twice;
+  add_edges(triangles, picture.lines);
+  return picture;
+}
+
+MarkedPicture mark_owners(std::span<const std::uint32_t> truth, std::span<const std::uint32_t> said,
+                          Window window) {
+  MarkedPicture picture{window, {truth.begin(), truth.end()}, {}, {}};
+  for (std::size_t i = 0; i < truth.size(); ++i)
+    picture.marks.push_back(said[i] == truth[i]   ? Mark::none
+                            : said[i] == kNobody  ? Mark::gap
+                            : truth[i] == kNobody ? Mark::extra
+                                                  : Mark::twice);
+  return picture;
+}
+
+MarkedPicture mark_faces(const FacingScene& scene, std::span<const FaceFacts> facts,
+                         std::span<const std::uint8_t> kept) {
+  const Window window{scene.view.size.width, scene.view.size.height};
+  MarkedPicture picture{window,
+                        std::vector<std::uint32_t>(pixels_of(window), kNobody),
+                        std::vector<Mark>(pixels_of(window), Mark::none),
+                        {}};
+  for (std::uint32_t i = 0; i < scene.faces.size(); ++i) {
+    const Polygon polygon = projected(scene, scene.faces[i]);
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+      const glm::dvec2 a = polygon[k], b = polygon[(k + 1) % polygon.size()];
+      picture.lines.push_back({a.x, a.y, b.x, b.y});
+    }
+    const bool keep = kept[i] != 0, front = facts[i].floats.front;
+    if (!facts[i].floats.owns_pixel || (!front && !keep)) continue;
+    for (int y = 0; y < window.height; ++y)
+      for (int x = 0; x < window.width; ++x) {
+        if (!contains(polygon, x + 0.5, y + 0.5)) continue;
+        const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(window.width) +
+                                  static_cast<std::size_t>(x);
+        if (front) picture.owner[pixel] = i;
+        if (front != keep) picture.marks[pixel] = keep ? Mark::extra : Mark::gap;
+      }
+  }
+  return picture;
+}
+
+}  // namespace edgewise::lab

@@ -1,0 +1,162 @@
+// The smallest scenes on which facing tests fail.
+#include "lab/facing/facing.h"
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "core/random.h"
+
+namespace edgewise::lab {
+
+namespace {
+
+void add(FacingScene& scene, std::initializer_list<glm::vec3> polygon) {
+  scene.faces.push_back(
+      {static_cast<std::uint32_t>(scene.positions.size()), static_cast<std::uint32_t>(polygon.size())});
+  scene.positions.insert(scene.positions.end(), polygon);
+}
+
+// Seen from the origin along +z. Clockwise from outside.
+FacingScene box_beside_the_axis() {
+  FacingScene scene;
+  const auto v = [](int x, int y, int z) {
+    return glm::vec3(x != 0 ? 2.5f : 1.5f, y != 0 ? 0.5f : -0.5f, z != 0 ? 4.5f : 3.5f);
+  };
+  add(scene,
+      {v(0, 0, 1), v(0, 0, 0), v(0, 1, 0), v(0, 1, 1)});  // normal (-1, 0, 0): seen, though its n.z is 0
+  add(scene, {v(1, 0, 0), v(1, 0, 1), v(1, 1, 1), v(1, 1, 0)});
+  add(scene, {v(0, 0, 1), v(1, 0, 1), v(1, 0, 0), v(0, 0, 0)});
+  add(scene, {v(0, 1, 0), v(1, 1, 0), v(1, 1, 1), v(0, 1, 1)});
+  add(scene, {v(0, 0, 0), v(1, 0, 0), v(1, 1, 0), v(0, 1, 0)});
+  add(scene, {v(1, 0, 1), v(0, 0, 1), v(0, 1, 1), v(1, 1, 1)});
+  return scene;
+}
+
+FacingScene box_orthographic() {
+  FacingScene scene = box_beside_the_axis();
+  scene.view.perspective = false;
+  scene.view.focal_px = 32.0f;
+  return scene;
+}
+
+// An arrowhead whose second corner is the notch: its first three vertices turn the wrong way.
+FacingScene notch_second() {
+  FacingScene scene;
+  add(scene, {{-1.0f, 1.0f, 4.0f}, {0.0f, 0.25f, 4.0f}, {1.0f, 1.0f, 4.0f}, {0.0f, -1.0f, 4.0f}});
+  return scene;
+}
+
+constexpr double kTilt = 0.5235987755982988;  // 30 degrees
+
+constexpr std::array kCases = {
+    FacingCase{"box_beside_the_axis", "a box whose visible side has n.z = 0", box_beside_the_axis},
+    FacingCase{"box_orthographic", "the same box, where that side is edge-on", box_orthographic},
+    FacingCase{"tilted_perspective", "random directions, 30 degrees off the axis",
+               [] { return tilted_faces(kTilt, true, 1000, 1); }},
+    FacingCase{"tilted_orthographic", "the same under an orthographic camera",
+               [] { return tilted_faces(kTilt, false, 1000, 1); }},
+    FacingCase{"edge_on", "slivers through pixel centres, almost edge-on",
+               [] { return edge_on_faces(true, 2000, 2); }},
+    FacingCase{"edge_on_orthographic", "the same under an orthographic camera",
+               [] { return edge_on_faces(false, 2000, 2); }},
+    FacingCase{"polygons", "regular polygons all over the view",
+               [] { return polygons(Shape::regular, 500, 5); }},
+    FacingCase{"irregular_polygons", "polygons with reflex corners, now and then the second one",
+               [] { return polygons(Shape::irregular, 500, 6); }},
+    FacingCase{"bent_polygons", "polygons that are not planar: three vertices may lie",
+               [] { return polygons(Shape::bent, 500, 7); }},
+    FacingCase{"notch_second", "a concave polygon whose second vertex is its notch: three vertices lie",
+               notch_second},
+};
+
+glm::vec3 unit_vector(Random& random) {
+  for (;;) {
+    const float z = random.uniform(-1, 1), y = random.uniform(-1, 1);
+    const glm::vec3 v(random.uniform(-1, 1), y, z);
+    const float square = glm::dot(v, v);
+    if (square > 0.01f && square <= 1.0f) return v / std::sqrt(square);
+  }
+}
+
+// Two unit vectors at a right angle.
+std::pair<glm::vec3, glm::vec3> random_plane(Random& random) {
+  const glm::vec3 normal = unit_vector(random);
+  const glm::vec3 u = glm::normalize(glm::cross(normal, unit_vector(random)));
+  return {u, glm::cross(normal, u)};
+}
+
+}  // namespace
+
+std::span<const FacingCase> facing_cases() {
+  return kCases;
+}
+
+FacingScene tilted_faces(double tilt, bool perspective, std::size_t count, std::uint64_t seed) {
+  FacingScene scene;
+  FacingView& view = scene.view;
+  view.perspective = perspective;
+  const auto sine = static_cast<float>(std::sin(tilt)), cosine = static_cast<float>(std::cos(tilt));
+  constexpr float kRadius = 1.0f;
+  // So that the arc has the same place on the screen whatever the tilt's tangent.
+  view.focal_px = perspective ? 128.0f * cosine : 14.0f;
+  const int side = 1 + static_cast<int>(2 * (128 * sine + 64));
+  view.size = {side, side};
+  Random random(seed);
+  for (std::size_t i = 0; i < count; ++i) {
+    // A half turn about (1, 0) in the picture.
+    glm::vec2 around = random.direction();
+    around.x = std::abs(around.x);
+    const glm::vec3 centre = random.uniform(8.0f, 10.0f) * glm::vec3(sine * around, cosine);
+    const auto [u, v] = random_plane(random);
+    add(scene, {centre + kRadius * u, centre + kRadius * (-0.5f * u + 0.866f * v),
+                centre + kRadius * (-0.5f * u - 0.866f * v)});
+  }
+  return scene;
+}
+
+FacingScene polygons(Shape shape, std::size_t count, std::uint64_t seed) {
+  constexpr float kDistance = 6.0f, kTurn = 6.2831853f;
+  FacingScene scene;
+  Random random(seed);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto corners = static_cast<std::uint32_t>(3 + i % 5);
+    const float centre_y = random.uniform(-5.0f, 5.0f);
+    const glm::vec3 centre(random.uniform(-5.0f, 5.0f), centre_y, kDistance);
+    const auto [u, v] = random_plane(random);
+    const glm::vec3 normal = glm::cross(u, v);
+    scene.faces.push_back({static_cast<std::uint32_t>(scene.positions.size()), corners});
+    for (std::uint32_t k = 0; k < corners; ++k) {
+      const float astray = shape == Shape::regular ? 0.0f : random.uniform(-0.4f, 0.4f);
+      const float radius = shape == Shape::regular ? 1.0f : random.uniform(0.25f, 1.0f);
+      const float lift = shape == Shape::bent ? random.uniform(-0.5f, 0.5f) : 0.0f;
+      const float turn = kTurn * (static_cast<float>(k) + astray) / static_cast<float>(corners);
+      scene.positions.push_back(centre + radius * (std::cos(turn) * u + std::sin(turn) * v) + lift * normal);
+    }
+  }
+  return scene;
+}
+
+FacingScene edge_on_faces(bool perspective, std::size_t count, std::uint64_t seed) {
+  FacingScene scene;
+  FacingView& view = scene.view;
+  view.perspective = perspective;
+  view.eye = {0.3f, -0.7f, 0.1f};
+  Random random(seed);
+  for (std::size_t i = 0; i < count; ++i) {
+    const float sample_y = static_cast<float>(random.below(128)) - 63.5f;
+    const glm::vec2 sample(static_cast<float>(random.below(128)) - 63.5f, sample_y);
+    const glm::vec2 along = random.direction();
+    const auto at = [&](float reach_px) {
+      const float w = random.uniform(1.0f, 4.0f);
+      const glm::vec2 p = (sample + reach_px * along) / view.focal_px * (perspective ? w : 1.0f);
+      return view.eye + glm::vec3(p, w);
+    };
+    const glm::vec3 a = at(random.uniform(-60, -20)), b = at(random.uniform(20, 60)),
+                    c = at(random.uniform(-20, 20));
+    add(scene, {a, b, c});
+  }
+  return scene;
+}
+
+}  // namespace edgewise::lab

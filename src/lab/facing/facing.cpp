@@ -1,0 +1,231 @@
+// The registry of facing methods, the exact facts, and the score. A method is a file in facing_methods/ that
+// defines facing_NAME, and a line here.
+#include "lab/facing/facing.h"
+
+#include <gmpxx.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "frontend/fixed.h"
+#include "lab/facing/methods/project.h"
+
+#define EDGEWISE_FACING_METHODS(X) \
+  X(snapped_area)                  \
+  X(float_area)                    \
+  X(normal_dot_eye)                \
+  X(normal_dot_centroid)           \
+  X(normal_dot_mean_ray)           \
+  X(normal_dot_object)             \
+  X(normal_z)
+
+namespace edgewise::lab {
+
+#define EDGEWISE_DECLARE(name) extern const FacingMethod facing_##name;
+EDGEWISE_FACING_METHODS(EDGEWISE_DECLARE)
+
+std::span<const FacingMethod> facing_methods() {
+#define EDGEWISE_ENTRY(name) facing_##name,
+  static const std::array list{EDGEWISE_FACING_METHODS(EDGEWISE_ENTRY)};
+  return list;
+}
+
+namespace {
+
+// Pixels, or sub-units once snapped.
+struct Point {
+  mpq_class x, y;
+};
+struct SnappedPoint {
+  std::int64_t x, y;  // within the guard band, so that products of two differences fit
+};
+
+template <typename P>
+auto cross(const P& o, const P& a, const P& b) {
+  return decltype(a.x)((a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x));
+}
+
+class Projector {
+ public:
+  explicit Projector(const FacingView& view) : view_(view) {}
+  Point operator()(glm::vec3 p) const {
+    const mpq_class w = view_.perspective ? along(view_.forward, p) : mpq_class(1);
+    const mpq_class scale = mpq_class(double{view_.focal_px}) / w;
+    return {mpq_class(view_.size.width) / 2 + scale * along(view_.right, p),
+            mpq_class(view_.size.height) / 2 + scale * along(view_.down, p)};
+  }
+
+ private:
+  mpq_class along(glm::vec3 axis, glm::vec3 p) const {
+    mpq_class sum;
+    for (int i = 0; i < 3; ++i)
+      sum += mpq_class(double{axis[i]}) * (mpq_class(double{p[i]}) - mpq_class(double{view_.eye[i]}));
+    return sum;
+  }
+  FacingView view_;
+};
+
+// The pixel whose sample is the first at or after a coordinate.
+int first_pixel(const mpq_class& px, int limit) {
+  const mpq_class shifted = px - mpq_class(1, 2);
+  mpz_class up;
+  mpz_cdiv_q(up.get_mpz_t(), shifted.get_num_mpz_t(), shifted.get_den_mpz_t());
+  if (up <= 0) return 0;
+  return up >= limit ? limit : static_cast<int>(up.get_si());
+}
+int first_pixel(std::int64_t sub, int limit) {
+  const std::int64_t up = (sub - contract::kHalf + contract::kSub - 1) >> contract::kSubBits;
+  return static_cast<int>(std::clamp<std::int64_t>(up, 0, limit));
+}
+
+mpq_class sample(const Point&, int pixel) {
+  return mpq_class(2 * pixel + 1, 2);
+}
+std::int64_t sample(const SnappedPoint&, int pixel) {
+  return contract::sample_sub(pixel);
+}
+
+// Where the edge from a to b, which is not horizontal, crosses a height; for pixels, all that counts of a
+// fraction of a sub-unit is that it is one.
+mpq_class crossing(const Point& a, const Point& b, const mpq_class& y) {
+  return a.x + (y - a.y) * (b.x - a.x) / (b.y - a.y);
+}
+std::int64_t crossing(const SnappedPoint& a, const SnappedPoint& b, std::int64_t y) {
+  const std::int64_t n = (y - a.y) * (b.x - a.x), d = b.y - a.y;
+  return a.x + n / d + (n % d != 0 && (n < 0) == (d < 0) ? 1 : 0);
+}
+
+// Even-odd rule along each row of samples; what lies between two crossings, the first included, is inside.
+template <typename P>
+bool owns_pixel(std::span<const P> polygon, Size size) {
+  auto top = polygon[0].y, bottom = polygon[0].y;
+  for (const P& p : polygon) top = std::min(top, p.y), bottom = std::max(bottom, p.y);
+  std::vector<int> crossings;
+  for (int y = first_pixel(top, size.height); y < first_pixel(bottom, size.height); ++y) {
+    const auto height = sample(polygon[0], y);
+    crossings.clear();
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const P &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+      if ((a.y <= height) != (b.y <= height))
+        crossings.push_back(first_pixel(crossing(a, b, height), size.width));
+    }
+    std::sort(crossings.begin(), crossings.end());
+    for (std::size_t i = 0; i + 1 < crossings.size(); i += 2)
+      if (crossings[i] < crossings[i + 1]) return true;
+  }
+  return false;
+}
+
+int sign(const mpq_class& v) {
+  return sgn(v);
+}
+int sign(std::int64_t v) {
+  return (v > 0) - (v < 0);
+}
+
+template <typename P>
+FaceSide side_of(std::span<const P> polygon, Size size) {
+  auto area = cross(polygon[0], polygon[1], polygon[2]);
+  const int first_three = sign(area);
+  for (std::size_t i = 3; i < polygon.size(); ++i) area += cross(polygon[0], polygon[i - 1], polygon[i]);
+  return {sign(area) != 0 && owns_pixel(polygon, size), sign(area) > 0, first_three != sign(area)};
+}
+
+// The signs are exact; these are measures of how close it was, for which long double does: 2^-64 against
+// bounds of 2^-24.
+using Real3 = glm::tvec3<long double>;
+
+void measure_rays(FaceFacts& facts, std::span<const glm::vec3> v, Real3 object, const FacingView& view) {
+  const Real3 a(v[0]), b(v[1]), c(v[2]), eye(view.eye), forward(view.forward);
+  const Real3 normal = glm::cross(c - a, b - a), ray = (a + b + c) / 3.0L - eye;
+  const Real3 sight = view.perspective ? ray : forward;
+  const long double area = glm::length(normal);
+  const long double height = glm::dot(normal, view.perspective ? a - eye : forward);
+  facts.sine = static_cast<double>(std::abs(height) / (area * glm::length(sight)));
+  const auto sine_to = [&](Real3 other) {
+    return static_cast<double>(glm::length(glm::cross(ray, other)) / (glm::length(ray) * glm::length(other)));
+  };
+  facts.tilt_sine = sine_to(forward);
+  facts.object_sine = sine_to(object - eye);
+  facts.magnification = static_cast<double>(std::max(1.0L, glm::length(c - a) * glm::length(b - a) / area) *
+                                            (1 + glm::length(eye) / glm::length(ray)));
+}
+
+void measure_screen(FaceFacts& facts, std::span<const glm::vec3> v, std::span<const Point> p,
+                    const FacingView& view) {
+  double longest = 0, reach = 0, extent = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const mpq_class dx = p[i].x - p[(i + 1) % 3].x, dy = p[i].y - p[(i + 1) % 3].y;
+    longest = std::max(longest, std::hypot(dx.get_d(), dy.get_d()));
+    const glm::dvec3 ray = glm::dvec3(v[i]) - glm::dvec3(view.eye);
+    const double w = view.perspective ? glm::dot(ray, glm::dvec3(view.forward)) : 1.0;
+    reach = std::max(reach, glm::length(ray) / w);
+    extent = std::max({extent, std::abs(p[i].x.get_d()), std::abs(p[i].y.get_d())});
+  }
+  facts.width_px = std::abs(cross(p[0], p[1], p[2]).get_d()) / longest;
+  // Three roundings a dot product, one a quotient, one a sum; each relative to the longest vector that takes
+  // part.
+  facts.rounding_px =
+      0x1p-24 *
+      (8 * double{view.focal_px} * reach * (view.perspective ? std::max(1.0, reach) : 1.0) + 2 * extent);
+}
+
+}  // namespace
+
+FacingTruth::FacingTruth(const FacingScene& scene) : scene_(scene), object_(0.0L) {
+  for (const auto& p : scene.positions)
+    object_ += Real3(p) / static_cast<long double>(scene.positions.size());
+}
+
+FaceFacts FacingTruth::facts(const Face& face) const {
+  const FacingView& view = scene_.view;
+  const auto vertices = std::span(scene_.positions).subspan(face.first, face.count);
+  const Projector exactly(view);
+  const FloatProjector in_float(view);
+  std::vector<Point> floats;
+  std::vector<SnappedPoint> snapped;
+  for (const auto& p : vertices) {
+    floats.push_back(exactly(p));
+    const glm::vec2 px = in_float(p);
+    snapped.push_back({snap(px.x), snap(px.y)});
+  }
+  FaceFacts facts{};
+  facts.snapped = side_of<SnappedPoint>(snapped, view.size);
+  facts.floats = side_of<Point>(floats, view.size);
+  measure_rays(facts, vertices, object_, view);
+  measure_screen(facts, vertices, floats, view);
+  return facts;
+}
+
+std::vector<FaceFacts> facing_facts(const FacingScene& scene) {
+  const FacingTruth truth(scene);
+  std::vector<FaceFacts> all;
+  for (const Face& face : scene.faces) all.push_back(truth.facts(face));
+  return all;
+}
+
+FacingScores score(const FacingMethod& method, const FacingScene& scene, std::span<const FaceFacts> facts) {
+  std::vector<std::uint8_t> said(scene.faces.size()), ours(said.size());
+  method.classify(scene, said);
+  facing_methods().front().classify(scene, ours);
+  FacingScores scores;
+  for (std::size_t i = 0; i < facts.size(); ++i) {
+    if (said[i] != ours[i]) ++scores.disagreements;
+    const auto add = [&](FacingScore& score, const FaceSide& side, bool may_err) {
+      if (!side.owns_pixel) return;
+      ++score.faces;
+      if ((said[i] != 0) == side.front) return;
+      ++score.misclassified;
+      if (side.first_three_lie)
+        ++score.by_first_three;
+      else if (!may_err)
+        ++scores.broken;
+    };
+    add(scores.snapped, facts[i].snapped, !method.info.exact);
+    add(scores.floats, facts[i].floats, method.may_err(facts[i], scene.view));
+  }
+  return scores;
+}
+
+}  // namespace edgewise::lab

@@ -1,0 +1,19 @@
+// Normal times the ray to the mean of the vertices.
+#include "lab/facing/methods/project.h"
+
+namespace edgewise::lab {
+
+extern const FacingMethod facing_normal_dot_centroid;
+const FacingMethod facing_normal_dot_centroid{
+    {"normal_dot_centroid", "normal times the ray to the first three vertices' mean",
+     "a mean-direction variant",
+     "perspective: wrong only where a face is edge-on up to rounding; orthographic: wrong by the ray's tilt",
+     false},
+    [](const FacingScene& scene, std::span<std::uint8_t> front) {
+      classify_each(scene, front, [eye = scene.view.eye](glm::vec3 a, glm::vec3 b, glm::vec3 c) {
+        return glm::dot(normal_of(a, b, c), (a + b + c) * (1.0f / 3.0f) - eye) < 0.0f;
+      });
+    },
+    ray_may_err};
+
+}  // namespace edgewise::lab

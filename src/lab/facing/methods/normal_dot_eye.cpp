@@ -1,0 +1,18 @@
+// World-space normal times the vector from the eye to the face: no projection needed.
+#include "lab/facing/methods/project.h"
+
+namespace edgewise::lab {
+
+extern const FacingMethod facing_normal_dot_eye;
+const FacingMethod facing_normal_dot_eye{
+    {"normal_dot_eye", "world-space normal times the ray to a vertex, <= 0", "REALbasic engine",
+     "perspective: wrong only where a face is edge-on up to rounding; orthographic: wrong by the ray's tilt",
+     false},
+    [](const FacingScene& scene, std::span<std::uint8_t> front) {
+      classify_each(scene, front, [eye = scene.view.eye](glm::vec3 a, glm::vec3 b, glm::vec3 c) {
+        return glm::dot(normal_of(a, b, c), a - eye) <= 0.0f;
+      });
+    },
+    ray_may_err};
+
+}  // namespace edgewise::lab

@@ -1,0 +1,31 @@
+// Ours: the sign of the area that will be drawn, in integers (rule 2).
+#include "frontend/fixed.h"
+#include "lab/facing/methods/project.h"
+
+namespace edgewise::lab {
+
+extern const FacingMethod facing_snapped_area;
+const FacingMethod facing_snapped_area{
+    {"snapped_area", "ours: sign of the area of the snapped vertices", "edgewise/contract.h, rule 2",
+     "wrong only about faces that are less than 1/128 px wide on the screen, which it draws as they are "
+     "snapped",
+     true},
+    [](const FacingScene& scene, std::span<std::uint8_t> front) {
+      const FloatProjector project(scene.view);
+      classify_each(scene, front, [&](glm::vec3 a, glm::vec3 b, glm::vec3 c) {
+        ScreenTriangle t{};
+        const glm::vec3* const vertices[3] = {&a, &b, &c};
+        for (int i = 0; i < 3; ++i) {
+          const glm::vec2 p = project(*vertices[i]);
+          t.x_sub[i] = snap(p.x);
+          t.y_sub[i] = snap(p.y);
+        }
+        return contract::signed_area(t) > 0;
+      });
+    },
+    // A vertex moves by at most sqrt(2) / 512 px, and so does the side opposite to it.
+    [](const FaceFacts& face, const FacingView&) {
+      return face.width_px <= 1.0 / 128 + 4 * face.rounding_px;
+    }};
+
+}  // namespace edgewise::lab

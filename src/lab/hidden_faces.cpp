@@ -1,0 +1,88 @@
+#include "lab/hidden_faces.h"
+
+#include <stdexcept>
+#include <utility>
+
+#include "lab/view_space.h"
+
+namespace edgewise::lab {
+
+namespace {
+
+template <typename T>
+void append(std::vector<T>& to, const std::vector<T>& from, std::size_t begin, std::size_t end) {
+  if (from.empty()) return;  // marks
+  const auto at = [&](std::size_t i) { return from.begin() + static_cast<std::ptrdiff_t>(i); };
+  to.insert(to.end(), at(begin), at(end));
+}
+
+void append(Mesh& to, const Mesh& from, std::size_t begin, std::size_t end) {
+  append(to.triangles, from.triangles, begin, end);
+  append(to.colours, from.colours, begin, end);
+  append(to.marks, from.marks, begin, end);
+}
+
+// The view's direction as an instance's mesh sees it. The normal of a face that M moves is det M · M^-T · n,
+// so its product with the line of sight d is n times det M · M^-1 · d, whatever M scales or mirrors.
+glm::vec3 sight_of(const Instance& instance, const Camera& camera) {
+  const glm::dmat3 model(model_matrix(instance));
+  const glm::dvec3 sight(line_of_sight(camera));
+  return glm::vec3(glm::normalize(glm::determinant(model) * (glm::inverse(model) * sight)));
+}
+
+}  // namespace
+
+HiddenFaces::HiddenFaces(const Scene& scene, const FacingMethod& method) : method_(&method) {
+  if (!method.by_direction)
+    throw std::invalid_argument(std::string(method.info.name) +
+                                " cannot judge faces before the eye is known");
+  for (const Mesh& mesh : scene.meshes) {
+    Faces& faces = faces_.emplace_back();
+    auto& positions = faces.scene.positions;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+      const glm::uvec3 corners = mesh.triangles[i];
+      if (mesh.has_mark(i, kSecondHalf) && i > 0) {
+        positions.push_back(mesh.positions.at(corners.z));
+        ++faces.scene.faces.back().count;
+        continue;
+      }
+      faces.scene.faces.push_back({static_cast<std::uint32_t>(positions.size()), 3});
+      for (int k = 0; k < 3; ++k) positions.push_back(mesh.positions.at(corners[k]));
+    }
+    faces.front.resize(faces.scene.faces.size());
+  }
+  Scene left = scene;
+  left.meshes.clear();
+  for (Instance& instance : left.instances)
+    left.meshes.push_back(scene.meshes.at(std::exchange(instance.mesh, left.meshes.size())));
+  left_ = std::move(left);
+}
+
+const Drawable& HiddenFaces::drop(const Scene& scene) {
+  Scene& left = std::get<Scene>(left_);
+  left.camera = scene.camera;
+  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+    const Instance& instance = scene.instances[i];
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    left.instances[i] = instance;
+    left.instances[i].mesh = i;
+    Faces& faces = faces_[instance.mesh];
+    faces.scene.view.forward = sight_of(instance, scene.camera);
+    method_->classify(faces.scene, faces.front);
+
+    Mesh& kept = left.meshes[i];
+    kept.triangles.clear(), kept.colours.clear(), kept.marks.clear();
+    std::size_t begin = 0, end = 0;  // of the triangles that are kept in a row
+    for (std::size_t face = 0; face < faces.front.size(); ++face) {
+      const std::size_t first = end;
+      end += faces.scene.faces[face].count - 2;
+      if (faces.front[face] != 0 || mesh.has_mark(first, kTwoSided)) continue;
+      append(kept, mesh, begin, first);
+      begin = end;
+    }
+    append(kept, mesh, begin, end);
+  }
+  return left_;
+}
+
+}  // namespace edgewise::lab

@@ -1,0 +1,96 @@
+// The list of sweeps. A new one is a function make_sweep_NAME() in one of the files sweeps_*.cpp, and a line
+// here.
+#include "lab/sweeps/sweeps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include "core/nearest_name.h"
+#include "core/parallel.h"
+
+#define EDGEWISE_SWEEPS(X) \
+  X(distance)              \
+  X(aspect)                \
+  X(legs)                  \
+  X(height)                \
+  X(pan)                   \
+  X(translation)           \
+  X(separation_at_10)      \
+  X(separation_at_100)     \
+  X(cycle)                 \
+  X(sliver_depth)          \
+  X(tilt_perspective)      \
+  X(tilt_orthographic)     \
+  X(edge_on)               \
+  X(near_plane)            \
+  X(vertex_w)
+
+namespace edgewise::lab {
+
+#define EDGEWISE_DECLARE(name) Sweep make_sweep_##name();
+EDGEWISE_SWEEPS(EDGEWISE_DECLARE)
+
+Tally& Tally::operator+=(const Tally& other) {
+  errors += other.errors;
+  trials += other.trials;
+  return *this;
+}
+
+std::span<const Sweep> sweeps() {
+#define EDGEWISE_ENTRY(name) make_sweep_##name(),
+  static const std::vector<Sweep> list{EDGEWISE_SWEEPS(EDGEWISE_ENTRY)};
+  return list;
+}
+
+const Sweep& find_sweep(std::string_view name) {
+  return find_named("sweep", name, sweeps(), &Sweep::name);
+}
+
+std::optional<double> SweepResult::starts_to_fail(std::size_t method) const {
+  for (std::size_t place = 0; place < at.size(); ++place)
+    if (fails(method, place)) return sweep->places[place];
+  return std::nullopt;
+}
+
+double SweepResult::y(const Tally& tally) const {
+  if (tally.trials == 0) return 0.0;
+  return sweep->y.scale * static_cast<double>(tally.errors) / static_cast<double>(tally.trials);
+}
+
+SweepResult run_sweep(const Sweep& sweep, bool quick, int threads, const std::function<void()>& on_place) {
+  SweepResult result{&sweep, std::vector<Measured>(sweep.places.size(), Measured(0))};
+  std::mutex mutex;
+  parallel_for(threads, static_cast<int>(sweep.places.size()), [&](int i) {
+    const auto place = static_cast<std::size_t>(i);
+    result.at[place] = sweep.measure(sweep.places[place], quick);
+    const std::lock_guard lock(mutex);
+    on_place();
+  });
+  return result;
+}
+
+std::vector<double> powers_of_two(int from, int to) {
+  std::vector<double> places;
+  const int step = from < to ? 1 : -1;
+  for (int exponent = from; exponent != to + step; exponent += step)
+    places.push_back(std::ldexp(1.0, exponent));
+  return places;
+}
+
+std::vector<double> decades(int from, int to) {
+  // Quotients of exact numbers, so that 0.002 is the double that is written so.
+  const auto place = [](int digit, int exponent) {
+    double power = 1.0;
+    for (int i = 0; i < std::abs(exponent); ++i) power *= 10.0;
+    return exponent < 0 ? digit / power : digit * power;
+  };
+  std::vector<double> places;
+  for (int exponent = std::min(from, to); exponent < std::max(from, to); ++exponent)
+    for (const int digit : {1, 2, 5}) places.push_back(place(digit, exponent));
+  places.push_back(place(1, std::max(from, to)));
+  if (from > to) std::reverse(places.begin(), places.end());
+  return places;
+}
+
+}  // namespace edgewise::lab

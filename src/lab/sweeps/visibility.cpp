@@ -1,0 +1,119 @@
+// Visibility: how near two planes may lie, how many bars make a cycle, how thin a triangle's depth plane is.
+#include <cmath>
+#include <numbers>
+
+#include "lab/sweeps/sweeps.h"
+#include "lab/visibility/visibility.h"
+
+namespace edgewise::lab {
+
+Sweep make_sweep_separation_at_10();
+Sweep make_sweep_separation_at_100();
+Sweep make_sweep_cycle();
+Sweep make_sweep_sliver_depth();
+
+namespace {
+
+constexpr YAxis kWrongOwners{"wrong owners per 10^6 covered pixels", true, 1e6};
+
+template <typename Errors>
+Measured measure_scene(const VisibilityScene& scene, Errors&& errors) {
+  const auto methods = visibility_methods();
+  const auto owners = true_owners(scene);
+  Measured result(methods.size());
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    // All draw the same snapped positions, so what snapping costs is left to the sweeps of coverage.
+    const VisibilityScore s = score(methods[i], scene, owners).snapped;
+    result.methods[i] = {errors(s), s.covered};
+  }
+  return result;
+}
+
+Measured measure_separation(double distance, double separation) {
+  return measure_scene(two_planes(distance, separation, 0.1, 1000),
+                       [](const VisibilityScore& s) { return s.wrong_owner; });
+}
+
+// Bars laid round a ring, each broad and near the eye where it starts, over the far tip of the one before it.
+// With one or two the ring is open.
+VisibilityScene ring_of_bars(int bars) {
+  constexpr float kNear = 2, kFar = 4;
+  const double step = 2 * std::numbers::pi / std::max(bars, 3);
+  Scene scene;
+  scene.camera.fov_y = 2 * std::atan(0.5f);
+  scene.camera.near_z = 0.5f, scene.camera.far_z = 10.0f;
+  Mesh& mesh = scene.meshes.emplace_back();
+  scene.instances.emplace_back();
+  for (int bar = 0; bar < bars; ++bar) {
+    // Angles in steps from bar to bar. Down the screen is -y.
+    const auto add = [&](double angle, float radius, float z) {
+      const auto turn = static_cast<float>((bar + angle) * step);
+      mesh.positions.push_back(z * glm::vec3(radius * std::cos(turn), -radius * std::sin(turn), -1.0f));
+    };
+    const auto first = static_cast<unsigned>(mesh.positions.size());
+    add(-0.1, 0.40f, kNear);
+    add(-0.1, 0.48f, kNear);
+    add(1.3, 0.44f, kFar);
+    mesh.triangles.emplace_back(first, first + 1, first + 2);
+    mesh.colours.push_back(rgb(255, 255, 255));
+  }
+  return visibility_scene(scene, {256, 192});
+}
+
+Measured measure_cycle(double bars, bool) {
+  return measure_scene(ring_of_bars(static_cast<int>(bars)),
+                       [](const VisibilityScore& s) { return s.wrong_owner; });
+}
+
+Measured measure_sliver_depth(double aspect, bool) {
+  return measure_scene(slivers(aspect),
+                       [](const VisibilityScore& s) { return s.wrong_owner + s.out_of_range; });
+}
+
+}  // namespace
+
+Sweep make_sweep_separation_at_10() {
+  return {"separation_at_10",
+          Family::visibility,
+          "two tilted planes at z = 10, in either order; near 0.1, far 1000",
+          {"separation", "", true},
+          kWrongOwners,
+          0.1,
+          decades(0, -8),
+          [](double separation, bool) { return measure_separation(10, separation); }};
+}
+
+Sweep make_sweep_separation_at_100() {
+  return {"separation_at_100",
+          Family::visibility,
+          "two tilted planes at z = 100, in either order; near 0.1, far 1000",
+          {"separation", "", true},
+          kWrongOwners,
+          0.1,
+          decades(1, -7),
+          [](double separation, bool) { return measure_separation(100, separation); }};
+}
+
+Sweep make_sweep_cycle() {
+  return {"cycle",
+          Family::visibility,
+          "bars, each over the end of the one before it; from three on in a cycle",
+          {"bars", "", false},
+          kWrongOwners,
+          0.1,
+          {1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24},
+          measure_cycle};
+}
+
+Sweep make_sweep_sliver_depth() {
+  return {"sliver_depth",
+          Family::visibility,
+          "slivers: owners, and depths outside the triangle's own range",
+          {"length over width", "", true},
+          {"wrong owners and depths per 10^6 covered pixels", true, 1e6},
+          0.4,
+          decades(1, 5),
+          measure_sliver_depth};
+}
+
+}  // namespace edgewise::lab

@@ -1,0 +1,58 @@
+#include "lab/view_space.h"
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace edgewise::lab {
+
+ClippingScene in_view_space(const Scene& scene, Size size) {
+  ClippingScene seen{{}, size};
+  seen.scene.meshes.resize(1);
+  seen.scene.instances.resize(1);
+  seen.scene.camera = scene.camera;
+  seen.scene.camera.position = glm::vec3(0.0f);
+  seen.scene.camera.yaw = seen.scene.camera.pitch = 0.0f;
+  Mesh& all = seen.scene.meshes.front();
+  const glm::dmat3 turn = to_camera_frame(scene.camera);
+  const glm::dvec3 eye(scene.camera.position);
+  for (const Instance& instance : scene.instances) {
+    const Mesh& mesh = scene.meshes.at(instance.mesh);
+    const glm::dmat4 model(model_matrix(instance));
+    for (const glm::uvec3 triangle : mesh.triangles) {
+      const auto first = static_cast<unsigned>(all.positions.size());
+      for (int k = 0; k < 3; ++k) {
+        const glm::dvec3 world(model * glm::dvec4(glm::dvec3(mesh.positions.at(triangle[k])), 1.0));
+        all.positions.emplace_back(turn * (world - eye));
+      }
+      all.triangles.emplace_back(first, first + 1, first + 2);
+    }
+    all.colours.insert(all.colours.end(), mesh.colours.begin(), mesh.colours.end());
+  }
+  return seen;
+}
+
+std::vector<std::uint8_t> fronts_of(const FacingMethod& method, const ClippingScene& seen) {
+  const float half_height_px = static_cast<float>(seen.size.height) * 0.5f;
+  FacingScene scene;
+  scene.view.down = {0.0f, -1.0f, 0.0f};
+  scene.view.forward = {0.0f, 0.0f, -1.0f};
+  scene.view.focal_px = half_height_px / std::tan(seen.scene.camera.fov_y * 0.5f);
+  scene.view.size = seen.size;
+  scene.positions = seen.mesh().positions;
+  for (std::uint32_t i = 0; i < seen.mesh().triangles.size(); ++i) scene.faces.push_back({3 * i, 3});
+  std::vector<std::uint8_t> fronts(scene.faces.size());
+  method.classify(scene, fronts);
+  return fronts;
+}
+
+glm::dmat3 to_camera_frame(const Camera& camera) {
+  glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), -double{camera.pitch}, glm::dvec3(1, 0, 0));
+  turn = glm::rotate(turn, -double{camera.yaw}, glm::dvec3(0, 1, 0));
+  return glm::dmat3(turn);
+}
+
+glm::vec3 line_of_sight(const Camera& camera) {
+  return glm::vec3(glm::transpose(to_camera_frame(camera)) * glm::dvec3(0, 0, -1));
+}
+
+}  // namespace edgewise::lab

@@ -1,0 +1,104 @@
+// What a front end made of a scene, beside how far off its vertices really are. The front end has depth as a
+// float; the truth takes the positions to the eye in double, without that detour.
+#include <algorithm>
+#include <cmath>
+#include <glm/glm.hpp>
+
+#include "frontend/transform.h"
+#include "frontend/view.h"
+#include "lab/visibility/visibility.h"
+
+namespace edgewise::lab {
+
+namespace {
+
+class SourceTriangle {
+ public:
+  SourceTriangle(const glm::dmat4& to_screen, const Mesh& mesh, std::size_t triangle) {
+    const glm::mat4 as_front_end(to_screen);
+    for (int i = 0; i < 3; ++i) {
+      const glm::vec3 p = mesh.positions[mesh.triangles[triangle][i]];
+      const ClipVertex v = transform(as_front_end, p);
+      const float inverse_w = 1.0f / v.w;
+      seen_[i] = {v.x * inverse_w, v.y * inverse_w, v.z * inverse_w};
+      const glm::dvec4 exact = to_screen * glm::dvec4(glm::dvec3(p), 1.0);
+      corner_[i] = {exact.x, exact.y, exact.w};
+    }
+  }
+  double distance(glm::vec3 seen) const {
+    for (int i = 0; i < 3; ++i)
+      if (seen == seen_[i]) return corner_[i].z;
+    return on_plane(seen.x, seen.y);
+  }
+
+ private:
+  // A vertex that clipping made lies on the plane of the corners, which are a weighted sum's terms: with
+  // weights such that sum(corner) = (x, y, 1), their sum is 1 / distance.
+  double on_plane(double x_px, double y_px) const {
+    const glm::dvec3 weights = glm::inverse(corner_) * glm::dvec3(x_px, y_px, 1.0);
+    const double distance = 1.0 / (weights.x + weights.y + weights.z);
+    const auto [nearest, farthest] = std::minmax({corner_[0].z, corner_[1].z, corner_[2].z});
+    // Exactly edge-on it has no such plane, and covers nothing.
+    return std::isfinite(distance) ? std::clamp(distance, nearest, farthest) : farthest;
+  }
+
+  glm::vec3 seen_[3];  // as the front end has the corners: px, px, depth01
+  glm::dmat3 corner_;  // x w, y w, w
+};
+
+// Finds the source triangles; ids must ascend, as a front end's do.
+class Sources {
+ public:
+  Sources(const Scene& scene, Size size)
+      : scene_(scene), to_screen_(screen_matrix(scene.camera, size.width, size.height)) {}
+
+  SourceTriangle at(std::uint32_t id) {
+    while (id - first_ >= mesh().triangles.size()) first_ += mesh().triangles.size(), ++instance_;
+    const glm::dmat4 model(model_matrix(scene_.instances[instance_]));
+    return {to_screen_ * model, mesh(), id - first_};
+  }
+
+ private:
+  const Mesh& mesh() const { return scene_.meshes[scene_.instances.at(instance_).mesh]; }
+
+  const Scene& scene_;
+  glm::dmat4 to_screen_;
+  std::size_t instance_ = 0, first_ = 0;
+};
+
+}  // namespace
+
+VisibilityScene visibility_scene(std::span<const ScreenTriangle> triangles,
+                                 std::span<const UnsnappedTriangle> unsnapped, const Scene& scene,
+                                 Size size) {
+  const double near_z = scene.camera.near_z, far_z = scene.camera.far_z;
+  VisibilityScene result{size.width, size.height, near_z, far_z, {}, {}};
+  result.triangles.reserve(triangles.size());
+  Sources sources(scene, size);
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const UnsnappedTriangle& at = unsnapped[i];
+    VisibilityTriangle t{triangles[i], {}, {}, {}};
+    const SourceTriangle source = sources.at(triangles[i].payload);
+    for (int k = 0; k < 3; ++k) {
+      t.x_px[k] = at.x_px[k];
+      t.y_px[k] = at.y_px[k];
+      t.view_z[k] = std::clamp(source.distance({at.x_px[k], at.y_px[k], at.z01[k]}), near_z, far_z);
+    }
+    result.faces.push_back({static_cast<std::uint32_t>(i), 1});
+    result.triangles.push_back(t);
+  }
+  return result;
+}
+
+VisibilityScene visibility_scene(const Scene& scene, Size size, Cull cull) {
+  Frontend frontend;
+  const auto triangles = frontend.run(scene, {.width = size.width,
+                                              .height = size.height,
+                                              .cull = cull,
+                                              .shade = false,
+                                              .payload = Payload::id,
+                                              .keep_unsnapped = true});
+  return visibility_scene(triangles, frontend.unsnapped(), scene, size);
+}
+
+}  // namespace edgewise::lab

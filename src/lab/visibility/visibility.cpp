@@ -1,0 +1,219 @@
+// The registry of visibility methods, the exact owners, and the score. A method is a file in
+// visibility_methods/ that defines visibility_NAME, and a line here.
+#include "lab/visibility/visibility.h"
+
+#include <gmpxx.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "edgewise/contract.h"
+#include "lab/truth.h"
+
+#define EDGEWISE_VISIBILITY_METHODS(X) \
+  X(contract31)                        \
+  X(reversed_z)                        \
+  X(float_z)                           \
+  X(unorm24)                           \
+  X(unorm16)                           \
+  X(painter_farthest)                  \
+  X(painter_mean)                      \
+  X(submission_order)
+
+namespace edgewise::lab {
+
+#define EDGEWISE_DECLARE(name) extern const VisibilityMethod visibility_##name;
+EDGEWISE_VISIBILITY_METHODS(EDGEWISE_DECLARE)
+
+std::span<const VisibilityMethod> visibility_methods() {
+#define EDGEWISE_ENTRY(name) visibility_##name,
+  static const std::array list{EDGEWISE_VISIBILITY_METHODS(EDGEWISE_ENTRY)};
+  return list;
+}
+
+namespace {
+
+// A triangle's plane in one truth, in whatever arithmetic T is.
+class Plane {
+ public:
+  Plane(const VisibilityTriangle& t, bool snapped) {
+    for (int i = 0; i < 3; ++i) {
+      x_[i] = snapped ? t.screen.x_sub[i] / double{contract::kSub} : double{t.x_px[i]};
+      y_[i] = snapped ? t.screen.y_sub[i] / double{contract::kSub} : double{t.y_px[i]};
+      z_[i] = t.view_z[i];
+    }
+  }
+  // 1 / distance: the vertices', weighted by the areas opposite to them. Inside the triangle no two terms
+  // have opposite signs, so nothing cancels.
+  template <typename T>
+  T nearness(int px, int py) const {
+    const T x(px + 0.5), y(py + 0.5);
+    T sum(0.0), weights(0.0);
+    for (int i = 0; i < 3; ++i) {
+      const int p = (i + 1) % 3, q = (i + 2) % 3;
+      const T weight =
+          T(T(T(x_[q]) - T(x_[p])) * T(y - T(y_[p]))) - T(T(T(y_[q]) - T(y_[p])) * T(x - T(x_[p])));
+      sum = T(sum + weight / T(z_[i]));
+      weights = T(weights + weight);
+    }
+    return T(sum / weights);
+  }
+
+ private:
+  double x_[3], y_[3], z_[3];
+};
+
+long double depth01_of(long double nearness, const VisibilityScene& s) {
+  const long double near_z = s.near_z, far_z = s.far_z;
+  return far_z / (far_z - near_z) * (1.0L - near_z * nearness);
+}
+
+std::size_t pixel_at(const VisibilityScene& scene, int x, int y) {
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(scene.width) + static_cast<std::size_t>(x);
+}
+
+std::vector<std::uint32_t> owners_of(const VisibilityScene& scene, std::span<const Run> runs, bool snapped) {
+  std::vector<Plane> planes;
+  for (const auto& triangle : scene.triangles) planes.emplace_back(triangle, snapped);
+  const auto pixels = static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height);
+  std::vector<std::uint32_t> owners(pixels, kNobody);
+  std::vector<Ball> nearness(pixels, Ball(0.0));
+  for (const Run& run : runs)
+    for (int x = run.x0; x < run.x1; ++x) {
+      const std::size_t pixel = pixel_at(scene, x, run.y);
+      const Ball mine = planes[run.triangle].nearness<Ball>(x, run.y);
+      if (owners[pixel] != kNobody) {
+        const auto exact = [&](std::uint32_t id) { return planes[id].nearness<mpq_class>(x, run.y); };
+        const int sign = (mine - nearness[pixel]).sign();
+        if (sign < 0 || (sign == 0 && exact(run.triangle) <= exact(owners[pixel]))) continue;
+      }
+      owners[pixel] = run.triangle;
+      nearness[pixel] = mine;
+    }
+  return owners;
+}
+
+// A method's picture against one truth.
+class Judge {
+ public:
+  Judge(const VisibilityMethod& method, const VisibilityScene& scene, bool snapped)
+      : method_(method), scene_(scene), snapped_(snapped) {}
+
+  bool covers(std::uint32_t id, int x, int y) const {
+    const VisibilityTriangle& t = scene_.triangles[id];
+    if (snapped_) return SnappedTruth(t.screen).covers(x, y);
+    return FloatTruth({{t.x_px[0], t.x_px[1], t.x_px[2]}, {t.y_px[0], t.y_px[1], t.y_px[2]}, {}})
+        .covers(x, y);
+  }
+  // The background's is 1. To 60 bits or more on snapped positions.
+  long double depth01(std::uint32_t id, int x, int y) const {
+    if (id == kNobody) return 1.0L;
+    return depth01_of(Plane(scene_.triangles[id], snapped_).nearness<long double>(x, y), scene_);
+  }
+  // Returns the error of the depth that is kept, in depth01.
+  long double add_depth(const VisibilityFrame& frame, std::uint32_t owner, int x, int y) {
+    const long double truth = depth01(owner, x, y), stored = method_.stored01(frame, pixel_at(scene_, x, y));
+    const long double error = std::abs(stored - truth), steps = error / method_.ulp01(truth);
+    max_ = std::max(max_, steps);
+    squares_ += steps * steps;
+    ++count_;
+    const auto& z = scene_.triangles[owner].view_z;
+    const auto [nearest, farthest] = std::minmax({z[0], z[1], z[2]});
+    const long double low = depth01_of(1.0L / nearest, scene_), high = depth01_of(1.0L / farthest, scene_);
+    if (stored < low - 0x1p-16L || stored > high + 0x1p-16L) ++score_.out_of_range;
+    return error;
+  }
+  void add_owner(std::uint32_t said, std::uint32_t truth) {
+    if (truth != kNobody) ++score_.covered;
+    if (said != truth) ++score_.wrong_owner;
+  }
+  VisibilityScore report() {
+    score_.max_ulp = static_cast<double>(max_);
+    if (count_ > 0)
+      score_.rms_ulp = static_cast<double>(std::sqrt(squares_ / static_cast<long double>(count_)));
+    return score_;
+  }
+
+ private:
+  const VisibilityMethod& method_;
+  const VisibilityScene& scene_;
+  bool snapped_;
+  VisibilityScore score_;
+  long double max_ = 0, squares_ = 0;
+  std::uint64_t count_ = 0;
+};
+
+// Both truths at once, since a picture need be drawn only once.
+class Scorer {
+ public:
+  Scorer(const VisibilityMethod& method, const VisibilityScene& scene)
+      : method_(method), scene_(scene), snapped_(method, scene, true), floats_(method, scene, false) {
+    method.draw(scene, frame_);
+  }
+  void add(int x, int y, const TrueOwners& owners) {
+    const std::size_t pixel = pixel_at(scene_, x, y);
+    const std::uint32_t said = frame_.owner[pixel];
+    add_float(said, owners.floats[pixel], x, y);
+    if (!keeps_promise(said, owners.snapped[pixel], x, y)) ++scores_.broken;
+  }
+  VisibilityScores report() {
+    scores_.snapped = snapped_.report();
+    scores_.floats = floats_.report();
+    return scores_;
+  }
+
+ private:
+  bool keeps_depth() const { return method_.stored01 != nullptr; }
+  double bound01(std::uint32_t id) const {
+    return id == kNobody ? 0.0 : method_.bound01(scene_.triangles[id], scene_);
+  }
+
+  void add_float(std::uint32_t said, std::uint32_t truth, int x, int y) {
+    floats_.add_owner(said, truth);
+    if (said == kNobody || !keeps_depth()) return;
+    if (said == truth || floats_.covers(said, x, y)) floats_.add_depth(frame_, said, x, y);
+  }
+  bool keeps_promise(std::uint32_t said, std::uint32_t truth, int x, int y) {
+    snapped_.add_owner(said, truth);
+    if (said != kNobody && said != truth && !snapped_.covers(said, x, y)) return false;
+    if (!keeps_depth()) return said == truth || (said != kNobody && method_.may_hide(scene_, said, truth));
+    const bool right_depth = said == kNobody || snapped_.add_depth(frame_, said, x, y) <= bound01(said);
+    if (said == truth) return right_depth;
+    // Where a method shows the background, it says that the depth is 1.
+    const long double apart = std::abs(snapped_.depth01(said, x, y) - snapped_.depth01(truth, x, y));
+    if (apart > bound01(said) + bound01(truth)) return false;
+    ++scores_.near_ties;
+    return right_depth;
+  }
+
+  const VisibilityMethod& method_;
+  const VisibilityScene& scene_;
+  VisibilityFrame frame_;
+  Judge snapped_, floats_;
+  VisibilityScores scores_;
+};
+
+}  // namespace
+
+TrueOwners true_owners(const VisibilityScene& scene) {
+  std::vector<ScreenTriangle> screen;
+  std::vector<FloatTriangle> floats;
+  for (const VisibilityTriangle& t : scene.triangles) {
+    screen.push_back(t.screen);
+    floats.push_back({{{t.x_px[0], t.x_px[1], t.x_px[2]}, {t.y_px[0], t.y_px[1], t.y_px[2]}, {}}, 0});
+  }
+  const Window window{scene.width, scene.height};
+  return {owners_of(scene, covered_runs(screen, window, 1), true),
+          owners_of(scene, covered_runs(floats, window, 1), false)};
+}
+
+VisibilityScores score(const VisibilityMethod& method, const VisibilityScene& scene,
+                       const TrueOwners& owners) {
+  Scorer scorer(method, scene);
+  for (int y = 0; y < scene.height; ++y)
+    for (int x = 0; x < scene.width; ++x) scorer.add(x, y, owners);
+  return scorer.report();
+}
+
+}  // namespace edgewise::lab

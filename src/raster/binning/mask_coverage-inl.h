@@ -1,0 +1,208 @@
+// Which samples small triangles cover, and what their depth planes are made of: a lane belongs to a triangle,
+// and all that is known of it fits 32 bits.
+//
+// A triangle is small if its box is less than 16 px wide and high, of which at most 8 x 8 lie in the image.
+// So steps and distances stay below 2^12 sub-units, and edge values below 2^25.
+#include <hwy/highway.h>
+
+#include <bit>
+#include <cstdint>
+
+#include "raster/binning/mask_finder.h"
+#include "raster/simd/record_lanes-inl.h"
+
+// Included once a SIMD target.
+#if defined(EDGEWISE_MASK_COVERAGE_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef EDGEWISE_MASK_COVERAGE_INL_H
+#undef EDGEWISE_MASK_COVERAGE_INL_H
+#else
+#define EDGEWISE_MASK_COVERAGE_INL_H
+#endif
+
+#if HWY_TARGET != HWY_SCALAR
+
+HWY_BEFORE_NAMESPACE();
+namespace edgewise {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr std::int32_t kLongest = 1 << 12;  // sub-units, of a small triangle's sides along an axis
+
+// Small triangles that cover a sample, in their order. Vectors may be stored behind the last.
+struct Covering {
+  static constexpr int kRoom = kBoxesAtOnce + 16;
+  int count = 0;
+  alignas(64) std::int32_t name[kRoom];           // which of the triangles
+  alignas(64) std::int32_t x0[kRoom], y0[kRoom];  // first pixel of the box
+  alignas(64) std::int32_t rows[2][kRoom];        // as in CoverageMask, but from the box's first pixel on
+  alignas(64) std::int32_t payload[kRoom];
+  // depth_lanes-inl.h
+  alignas(64) std::int32_t dx1[kRoom], dx2[kRoom], dy1[kRoom], dy2[kRoom], dz1[kRoom], dz2[kRoom];
+  alignas(64) std::int32_t area[kRoom], from_x[kRoom], from_y[kRoom], anchor_z[kRoom];
+};
+
+HWY_INLINE hn::Mask<D> is_small(const RecordLanes& t, const BoxLanes& box) {
+  const D d;
+  const V side = hn::Set(d, kMaskSide), longest = hn::Set(d, kLongest);
+  // Differences fit (rule 3).
+  const auto fits = [&](V begin, V end, const V(&c)[3]) {
+    return hn::AndNot(hn::Gt(hn::Sub(end, begin), side), hn::Lt(hn::Sub(most(c), least(c)), longest));
+  };
+  return hn::And(box.filled, hn::And(fits(box.x0, box.x1, t.x), fits(box.y0, box.y1, t.y)));
+}
+
+using DF = hn::Rebind<float, D>;
+using VF = hn::Vec<DF>;
+
+// Where a row is crossed, in columns from the box's first sample on, is held as 17 more: rounded down that is
+// 16 + the next column, in a float of 16 … 32, whose bits from 19 on count whole columns.
+constexpr float kFirst = 16, kBefore = 17, kEnd = kFirst + kMaskSide + 1;
+static_assert(kEnd < 2 * kFirst);
+
+// The samples of a row that edges leave.
+class RowSpan {
+ public:
+  HWY_INLINE explicit RowSpan(V width) {
+    const DF df;
+    begin_ = hn::Set(df, kFirst + 0.5f);
+    end_ = hn::Add(hn::ConvertTo(df, width), hn::Set(df, kFirst + 0.5f));
+  }
+  HWY_INLINE void begin_after(VF crossing, hn::Mask<DF> where) {
+    begin_ = hn::IfThenElse(where, hn::Max(begin_, crossing), begin_);
+  }
+  HWY_INLINE void end_before(VF crossing, hn::Mask<DF> where) {
+    end_ = hn::IfThenElse(where, hn::Min(end_, crossing), end_);
+  }
+  // Bit x is sample x.
+  HWY_INLINE V bits() const {
+    const D d;
+    const DF df;
+    const auto ones_from = [&](VF crossing) {
+      const V column = hn::And(hn::ShiftRight<19>(hn::BitCast(d, crossing)), hn::Set(d, 15));
+      return hn::Set(d, -1) << column;
+    };
+    return hn::AndNot(ones_from(hn::Max(end_, hn::Set(df, kFirst))),
+                      ones_from(hn::Min(begin_, hn::Set(df, kEnd))));
+  }
+
+ private:
+  VF begin_, end_;
+};
+
+// Where an edge crosses one row of samples after another: the integers of rule 5, told apart by floats.
+//
+// At sample x of a row the edge's value is e + a x, |a| < 2^12, and the sample is inside if that is at least
+// 0, which is to say if e + a x + 1/2 is above 0. It never is 0, but 1/2 away from it or more: so the
+// crossing, where it would be, is more than 2^-13 of a column away from every sample. All sums are exact:
+// below 2^18, in halves or in 32nds. The reciprocal and the product move a crossing below 32 by less than
+// 2^-16, whatever the rounding mode, so never past a sample.
+class Crossings {
+ public:
+  Crossings() = default;
+  // `first`: at the box's first sample. `a`, `b`: steps to the next column and to the next row.
+  HWY_INLINE Crossings(V a, V b, V first) {
+    static_assert(kLongest <= 1 << 12);
+    const DF df;
+    const VF back = hn::ConvertTo(df, hn::Neg(a));
+    rises_ = hn::Lt(back, hn::Zero(df));
+    // With 1/32 an edge along the row has its crossing at 33 or beyond if e is at least 0, else at 1 or
+    // before.
+    const VF nonzero = hn::IfThenElse(hn::Eq(back, hn::Zero(df)), hn::Set(df, 1.0f / 32), back);
+    inverse_ = hn::Div(hn::Set(df, 1.0f), nonzero);
+    step_y_ = hn::ConvertTo(df, b);
+    value_ =
+        hn::Add(hn::Add(hn::ConvertTo(df, first), hn::Set(df, 0.5f)), hn::Mul(nonzero, hn::Set(df, kBefore)));
+  }
+  // Leaves the samples of the next row that are inside.
+  HWY_INLINE void cut_row(RowSpan& span) {
+    const VF crossing = hn::Mul(value_, inverse_);
+    span.begin_after(crossing, rises_);
+    span.end_before(crossing, hn::Not(rises_));
+    value_ = hn::Add(value_, step_y_);
+  }
+
+ private:
+  VF value_, step_y_, inverse_;
+  hn::Mask<DF> rises_;
+};
+
+// Appends those of kLanes triangles that `small` selects and that cover a sample; returns which they are.
+HWY_INLINE std::uint32_t append_covering(const RecordLanes& t, const BoxLanes& box, hn::Mask<D> small,
+                                         int name, Covering& out) {
+  const D d;
+  const V zero = hn::Zero(d);
+  const auto minus = [](V a, V b) { return hn::Sub(a, b); };
+  // Positive area (rule 4).
+  V dx1 = minus(t.x[1], t.x[0]), dx2 = minus(t.x[2], t.x[0]);
+  V dy1 = minus(t.y[1], t.y[0]), dy2 = minus(t.y[2], t.y[0]);
+  const V signed_area = minus(hn::Mul(dx1, dy2), hn::Mul(dy1, dx2));
+  const V flip = hn::BroadcastSignBit(signed_area);
+  const auto flipped = [&](V v) { return hn::Sub(hn::Xor(v, flip), flip); };
+  const V area = flipped(signed_area);
+  dx1 = flipped(dx1), dx2 = flipped(dx2), dy1 = flipped(dy1), dy2 = flipped(dy2);
+
+  const V width = minus(box.x1, box.x0), height = minus(box.y1, box.y0);
+  const auto sample = [&](V px) { return hn::Add(hn::ShiftLeft<kSubBits>(px), hn::Set(d, kHalf)); };
+  const V sx = sample(box.x0), sy = sample(box.y0);
+  const V a[3] = {hn::Neg(dy1), minus(dy1, dy2), dy2}, b[3] = {dx1, minus(dx2, dx1), hn::Neg(dx2)};
+  Crossings edge[3];
+  for (int i = 0; i < 3; ++i) {
+    const auto top_left = hn::Or(hn::Gt(a[i], zero), hn::And(hn::Eq(a[i], zero), hn::Gt(b[i], zero)));
+    const V bias = hn::IfThenZeroElse(top_left, hn::Set(d, -1));
+    const V first = hn::Add(hn::Mul(a[i], minus(sx, t.x[i])), hn::Mul(b[i], minus(sy, t.y[i])));
+    edge[i] = Crossings(a[i], b[i], hn::ShiftRight<kSubBits>(hn::Add(first, bias)));  // rule 5
+  }
+
+  const int rows = hn::GetLane(hn::MaxOfLanes(d, hn::IfThenElseZero(small, height)));
+  const RowSpan whole(width);
+  V covered[2] = {zero, zero};
+  for (int y = 0; y < rows; ++y) {
+    RowSpan span = whole;
+    for (Crossings& e : edge) e.cut_row(span);
+    V& half = covered[y / 4];
+    half = hn::Or(half, hn::ShiftLeftSame(span.bits(), y % 4 * 8));
+  }
+  const hn::RebindToUnsigned<D> du;
+  const auto row_bits = [&](V first_rows) {  // of 0 … 4 rows; shifts of 32 bits are none
+    const V left_out = hn::ShiftLeft<3>(minus(hn::Set(d, 4), first_rows));
+    const auto half = hn::BitCast(du, hn::ShiftRight<1>(left_out));
+    return hn::BitCast(d, (hn::Set(du, 0xFFFFFFFF) >> half) >> half);
+  };
+  const V four = hn::Set(d, 4);
+  const V upper_rows = hn::Min(height, four), lower_rows = hn::Sub(height, upper_rows);
+  const V inside[2] = {hn::And(covered[0], row_bits(upper_rows)), hn::And(covered[1], row_bits(lower_rows))};
+  const auto covers = hn::And(hn::And(small, hn::Gt(area, zero)), hn::Ne(hn::Or(inside[0], inside[1]), zero));
+
+  // The anchor (rule 6).
+  V ax = t.x[0], ay = t.y[0], az = t.z[0];
+  for (int i = 1; i < 3; ++i) {
+    const auto above = hn::Or(hn::Lt(t.y[i], ay), hn::And(hn::Eq(t.y[i], ay), hn::Lt(t.x[i], ax)));
+    ax = hn::IfThenElse(above, t.x[i], ax);
+    ay = hn::IfThenElse(above, t.y[i], ay);
+    az = hn::IfThenElse(above, t.z[i], az);
+  }
+  const auto cell_sample = [&](V px) { return sample(hn::And(px, hn::Set(d, -kDepthCell))); };
+  const std::uint32_t covering = mask_bits(covers);
+  const Selection select(covers);
+  const int at = out.count;
+  const auto keep = [&](V v, std::int32_t* list) { hn::StoreU(select(v), d, list + at); };
+  keep(counting_from(name), out.name);
+  keep(box.x0, out.x0), keep(box.y0, out.y0);
+  keep(inside[0], out.rows[0]), keep(inside[1], out.rows[1]);
+  keep(t.payload, out.payload);
+  keep(dx1, out.dx1), keep(dx2, out.dx2), keep(dy1, out.dy1), keep(dy2, out.dy2);
+  keep(minus(t.z[1], t.z[0]), out.dz1), keep(minus(t.z[2], t.z[0]), out.dz2);
+  keep(area, out.area);
+  keep(minus(cell_sample(box.x0), ax), out.from_x), keep(minus(cell_sample(box.y0), ay), out.from_y);
+  keep(az, out.anchor_z);
+  out.count += std::popcount(covering);
+  return covering;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace edgewise
+HWY_AFTER_NAMESPACE();
+
+#endif
+
+#endif

@@ -1,0 +1,64 @@
+// Small triangles are resolved where they are binned.
+//
+// 1. Binning goes through the triangles as they lie in memory. Whoever draws tiles goes through them in the
+//    order of tiles, all over the memory, and waits for it. So what a small triangle covers is found here,
+//    and put into the tiles' lists by value (mask_lists.h). A triangle that covers no sample vanishes.
+// 2. Small triangles take small numbers: samples are tested in 32-bit lanes, a triangle a lane
+//    (mask_coverage-inl.h), and only those that cover one get a depth plane.
+// 3. A patch is laid out as the tile's buffer is (mask_quadrants-inl.h), so that drawing it needs no branch.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "raster/binning/mask_finder.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "core/kernel_table.h"
+#include "edgewise/contract.h"
+#include "raster/binning/cell_box_lanes-inl.h"
+#include "raster/binning/mask_coverage-inl.h"
+#include "raster/binning/mask_finder.h"
+#include "raster/binning/mask_quadrants-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace edgewise {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+#if HWY_TARGET == HWY_SCALAR
+
+void find_masks(const ScreenTriangle*, const CellGrid&, bool, SortedTriangles&) {}  // never chosen
+
+#else
+
+void find_masks(const ScreenTriangle* triangles, const CellGrid& grid, bool prefetch, SortedTriangles& out) {
+  Covering covering;
+  out.boxed = out.masked = 0;
+  for (int i = 0; i < kBoxesAtOnce; i += kLanes) {
+    const RecordLanes t(triangles + i, prefetch);
+    const BoxLanes box(t, grid.width, grid.height);
+    const auto small = is_small(t, box);
+    const std::uint32_t small_bits = mask_bits(small), boxed_bits = mask_bits(box.filled) & ~small_bits;
+    if (boxed_bits != 0) store_cell_boxes(t, box, grid, i, out.boxes);
+    out.boxed |= std::uint64_t{boxed_bits} << i;
+    if (small_bits != 0) out.masked |= std::uint64_t{append_covering(t, box, small, i, covering)} << i;
+  }
+  Planes planes;
+  find_planes(triangles, covering, planes);
+  cut_into_patches(grid, covering, planes, out);
+}
+
+#endif
+
+}  // namespace HWY_NAMESPACE
+}  // namespace edgewise
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace edgewise {
+
+MaskFinder mask_finder(SimdTarget target) {
+  if (target == SimdTarget::scalar) return nullptr;
+  return EDGEWISE_KERNEL(find_masks, target);
+}
+
+}  // namespace edgewise
+#endif

@@ -1,0 +1,111 @@
+// A triangle's spans in one tile, a vector of rows at a time: a lane is a row, and what fits 32 bits lives in
+// its upper half.
+#include <hwy/highway.h>
+
+#include <bit>
+#include <cstdint>
+
+#include "edgewise/contract.h"
+#include "raster/scanline/scanline_setup-inl.h"
+
+// Included once a SIMD target.
+#if defined(EDGEWISE_SCANLINE_ROWS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef EDGEWISE_SCANLINE_ROWS_INL_H
+#undef EDGEWISE_SCANLINE_ROWS_INL_H
+#else
+#define EDGEWISE_SCANLINE_ROWS_INL_H
+#endif
+
+#if HWY_TARGET != HWY_SCALAR
+
+HWY_BEFORE_NAMESPACE();
+namespace edgewise {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+using namespace contract;
+
+constexpr int kRows = static_cast<int>(hn::MaxLanes(D64{}));
+constexpr int kRowsLog2 = std::countr_zero(static_cast<unsigned>(kRows));
+
+// The selected 64-bit lanes, and then any. Highway 1.0.3 can do that, but with a table that GCC copies to the
+// stack at every call, except for 32-bit lanes under AVX-512.
+#if HWY_TARGET <= HWY_AVX3
+HWY_INLINE V64 selected_first(V64 v, hn::Mask<D64> mask) {
+  const V32 both_halves = hn::DupOdd(lower(hn::VecFromMask(D64{}, mask)));
+  return as64(hn::Compress(lower(v), hn::MaskFromVec(both_halves)));
+}
+#else
+constexpr auto kSelected = [] {
+  struct {
+    std::uint8_t half[1 << kRows][2 * kRows];
+  } table{};
+  for (int mask = 0; mask < 1 << kRows; ++mask) {
+    int count = 0;
+    for (int lane = 0; lane < kRows; ++lane)
+      if (mask >> lane & 1)
+        for (const int half : {2 * lane, 2 * lane + 1})
+          table.half[mask][count++] = static_cast<std::uint8_t>(half);
+  }
+  return table;
+}();
+HWY_INLINE V64 selected_first(V64 v, hn::Mask<D64> mask) {
+  const D32 d;
+  const hn::Rebind<std::uint8_t, D32> d8;
+  const V32 halves = hn::PromoteTo(d, hn::LoadU(d8, kSelected.half[mask_bits(mask)]));
+  return as64(hn::TableLookupLanes(lower(v), hn::IndicesFromVec(d, halves)));
+}
+#endif
+
+// Where the spans of entry k of a batch begin and end, from a row of the tile on.
+class RowLanes {
+ public:
+  HWY_INLINE RowLanes(const SpanBatch& batch, int k, int first_row)
+      : zy_(set32(batch.depth.y[k])),
+        first_row_(set32(batch.y0[k])),
+        rows_(set32(batch.y1[k] - batch.y0[k])) {
+    const D64 d;
+    const V64 lane = hn::Add(hn::Iota(d, 0), hn::Set(d, first_row - batch.y0[k]));
+    for (int i = 0; i < 3; ++i) {
+      const auto& line = batch.line[i];
+      const V64 step = hn::Set(d, line.step[k]);
+      at_[i] = hn::Add(hn::Set(d, line.at[k]), product(step, lower(lane)));
+      stride_[i] = hn::ShiftLeft<kRowsLog2>(step);
+      is_left_[i] = set32(line.is_left[k]), is_right_[i] = set32(line.is_right[k]);
+    }
+    const V32 from_first = lower(hn::ShiftLeft<32>(lane));
+    row = hn::Add(first_row_, from_first);
+    z = hn::Add(set32(batch.depth.first[k]), hn::Mul(zy_, from_first));
+    find_ends();
+  }
+  HWY_INLINE void next() {
+    for (int i = 0; i < 3; ++i) at_[i] = hn::Add(at_[i], stride_[i]);
+    row = hn::Add(row, set32(kRows));
+    z = hn::Add(z, hn::ShiftLeft<kRowsLog2>(zy_));
+    find_ends();
+  }
+  V32 row, z;      // in the tile; at the row's first pixel
+  V32 begin, end;  // in the tile; end = 0 for rows that are not the triangle's
+
+ private:
+  HWY_INLINE void find_ends() {
+    const V32 size = set32(kMaxTile);
+    begin = hn::Zero(D32{}), end = size;
+    for (int i = 0; i < 3; ++i) {
+      const V32 pixel = hn::ShiftRight<kUnitBits - 32>(lower(at_[i]));
+      begin = hn::Max(begin, hn::And(pixel, is_left_[i]));
+      end = hn::Min(end, hn::IfVecThenElse(is_right_[i], pixel, size));
+    }
+    const V32 from_first = hn::Sub(row, first_row_);
+    end = hn::IfThenElseZero(hn::And(hn::Gt(from_first, set32(-1)), hn::Lt(from_first, rows_)), end);
+  }
+  V64 at_[3], stride_[3];
+  V32 is_left_[3], is_right_[3], zy_, first_row_, rows_;
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace edgewise
+HWY_AFTER_NAMESPACE();
+
+#endif
+
+#endif

@@ -1,0 +1,134 @@
+// The depth planes of a vector of triangles (rule 6).
+//
+// The gradient's division is done in doubles and corrected by its remainder, as contract::gradient() does;
+// lanes whose quotient is too large for that are told, and the caller does them again by the contract's own
+// functions.
+#include <hwy/highway.h>
+
+#include <cstdint>
+
+#include "edgewise/contract.h"
+#include "raster/simd/triangle_lanes-inl.h"
+
+// Included once a SIMD target.
+#if defined(EDGEWISE_DEPTH_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef EDGEWISE_DEPTH_LANES_INL_H
+#undef EDGEWISE_DEPTH_LANES_INL_H
+#else
+#define EDGEWISE_DEPTH_LANES_INL_H
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace edgewise {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// For hierarchical depth. A plane whose steps are smaller than this stays, over a tile, within 2^31 of the
+// triangle's depths, so a wrapped value is negative and passes as near: the bound may be the plane itself. A
+// steeper one falls back to the nearest vertex.
+constexpr std::int32_t kSteep = 1 << 24;
+
+#if HWY_TARGET != HWY_SCALAR
+
+// g n mod 2^64, for n >= 0.
+HWY_INLINE V64 product(V64 g, V64 n) {
+  const hn::Repartition<std::uint32_t, D64> u32;
+  const auto gl = hn::BitCast(u32, g), gh = hn::BitCast(u32, upper(g)), nl = hn::BitCast(u32, n),
+             nh = hn::BitCast(u32, upper(n));
+  const auto cross = hn::Add(hn::MulEven(gl, nh), hn::MulEven(gh, nl));
+  return hn::BitCast(D64{}, hn::Add(hn::MulEven(gl, nl), hn::ShiftLeft<32>(cross)));
+}
+
+struct Gradient {
+  V64 g;                // floor(2^24 n / area)
+  hn::Mask<D64> exact;  // where that holds
+};
+// The double quotient q is within 3 2^-53 |q| < 1/4 of the truth and rounds to an integer within 1/2, so the
+// floor is that integer or the one below it; the remainder's sign tells which.
+HWY_INLINE Gradient gradient(V64 n, V64 area, hn::Vec<F64> scaled_inverse) {
+  const F64 df;
+  const D64 d;
+  const auto q = hn::Mul(hn::ConvertTo(df, n), scaled_inverse);
+  const auto rounder = hn::Set(df, 0x1.8p52);  // its unit is 1: adding it rounds
+  const V64 g = hn::Sub(hn::BitCast(d, hn::Add(q, rounder)), hn::BitCast(d, rounder));
+  const V64 rest = hn::Sub(hn::ShiftLeft<24>(n), product(g, area));
+  return {hn::Sub(g, shift_right<63>(rest)), hn::RebindMask(d, hn::Lt(hn::Abs(q), hn::Set(df, 0x1p49)))};
+}
+
+// Twice the signed area, made positive.
+struct Area {
+  V64 value;
+  V64 flip;  // -1 where the winding has been turned round for that
+};
+HWY_INLINE Area area_of(const TriangleLanes& t) {
+  const V64 area = hn::Sub(product(hn::Sub(t.x[1], t.x[0]), hn::Sub(t.y[2], t.y[0])),
+                           product(hn::Sub(t.y[1], t.y[0]), hn::Sub(t.x[2], t.x[0])));
+  const V64 flip = hn::VecFromMask(D64{}, hn::Lt(area, hn::Zero(D64{})));
+  return {flipped(area, flip), flip};
+}
+
+struct DepthLanes {
+  V32 x, y;             // steps a pixel
+  V64 gx, gy;           // rule 6
+  V64 start;            // 2^24 (depth at the first pixel of the cell + 1/2)
+  hn::Mask<D64> exact;  // where all that holds
+  HWY_INLINE V32 base() const { return lower(shift_right<24>(start)); }
+  // Where no step is steep.
+  HWY_INLINE hn::Mask<D32> is_flat() const {
+    const auto gentle = [](V32 v) { return hn::And(hn::Lt(v, set32(kSteep)), hn::Gt(v, set32(-kSteep))); };
+    return hn::And(gentle(x), gentle(y));
+  }
+};
+// No pixel of the triangles is nearer.
+HWY_INLINE V32 nearest_vertex(const TriangleLanes& t) {
+  return hn::Sub(hn::Min(hn::Min(t.z[0], t.z[1]), t.z[2]), set32(contract::kDepthError));
+}
+// What a depth plane is made of: from vertex 0 to the others, in sub-units with the sign of a positive area
+// and in depth; and from the anchor, the topmost, then leftmost vertex, to the first sample of a cell.
+struct PlaneLanes {
+  V32 dx1, dx2, dy1, dy2, dz1, dz2;
+  V64 area;  // twice the area, > 0
+  V32 from_x, from_y, anchor_z;
+};
+HWY_INLINE DepthLanes depth_lanes(const PlaneLanes& p) {
+  const D64 d;
+  const F64 df;
+  const V64 nx = hn::Sub(product(p.dz1, p.dy2), product(p.dz2, p.dy1));
+  const V64 ny = hn::Sub(product(p.dz2, p.dx1), product(p.dz1, p.dx2));
+  const auto scaled_inverse = hn::Div(hn::Set(df, 0x1p24), hn::ConvertTo(df, p.area));
+  const Gradient gx = gradient(nx, p.area, scaled_inverse), gy = gradient(ny, p.area, scaled_inverse);
+  const V64 anchor = shift_right<8>(hn::ShiftLeft<32>(as64(p.anchor_z)));  // 2^24 z, whatever the upper half
+  const V64 half = hn::Set(d, std::int64_t{1} << 23), round = hn::Set(d, 0x8000);
+  const V64 start = hn::Add(hn::Add(anchor, half), hn::Add(product(gx.g, p.from_x), product(gy.g, p.from_y)));
+  return {lower(shift_right<16>(hn::Add(gx.g, round))),
+          lower(shift_right<16>(hn::Add(gy.g, round))),
+          gx.g,
+          gy.g,
+          start,
+          hn::And(gx.exact, gy.exact)};
+}
+
+// Over the cell whose first pixel is (cell_px, cell_py).
+HWY_INLINE DepthLanes depth_lanes(const TriangleLanes& t, const Area& area, int cell_px, int cell_py) {
+  V32 x = t.x[0], y = t.y[0], z = t.z[0];
+  for (int i = 1; i < 3; ++i) {
+    const auto above = hn::Or(hn::Lt(t.y[i], y), hn::And(hn::Eq(t.y[i], y), hn::Lt(t.x[i], x)));
+    x = hn::IfThenElse(above, t.x[i], x);
+    y = hn::IfThenElse(above, t.y[i], y);
+    z = hn::IfThenElse(above, t.z[i], z);
+  }
+  const V32 flip = lower(area.flip);
+  const auto turned = [&](V32 to, V32 from) { return flipped(hn::Sub(to, from), flip); };
+  return depth_lanes({turned(t.x[1], t.x[0]), turned(t.x[2], t.x[0]), turned(t.y[1], t.y[0]),
+                      turned(t.y[2], t.y[0]), hn::Sub(t.z[1], t.z[0]), hn::Sub(t.z[2], t.z[0]), area.value,
+                      hn::Sub(set32(contract::sample_sub(cell_px)), x),
+                      hn::Sub(set32(contract::sample_sub(cell_py)), y), z});
+}
+
+#endif
+
+}  // namespace HWY_NAMESPACE
+}  // namespace edgewise
+HWY_AFTER_NAMESPACE();
+
+#endif

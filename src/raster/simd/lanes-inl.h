@@ -1,0 +1,79 @@
+// Vectors of up to sixteen 32-bit lanes: pixels, blocks or triangles. What they share: masks as bits, and
+// selected lanes moved to the front.
+#include <hwy/highway.h>
+
+#include <cstdint>
+#include <cstring>
+
+// Included once a SIMD target.
+#if defined(EDGEWISE_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef EDGEWISE_LANES_INL_H
+#undef EDGEWISE_LANES_INL_H
+#else
+#define EDGEWISE_LANES_INL_H
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace edgewise {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D = hn::CappedTag<std::int32_t, 16>;
+using V = hn::Vec<D>;
+constexpr int kLanes = static_cast<int>(hn::MaxLanes(D{}));
+
+// first, first + 1 ... Not Iota(first): Highway 1.0.3 stores its lanes one by one, and a vector that is
+// loaded from them waits for all.
+HWY_INLINE V counting_from(int first) {
+  return hn::Add(hn::Iota(D{}, 0), hn::Set(D{}, first));
+}
+
+HWY_INLINE std::uint32_t mask_bits(hn::Mask<D> mask) {
+  std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(D{}, mask, bytes);
+  std::uint32_t bits;
+  std::memcpy(&bits, bytes, sizeof bits);
+  return bits;
+}
+
+#if HWY_TARGET == HWY_SSE4 || HWY_TARGET == HWY_AVX2
+// For each mask, the lanes that it selects, and then any. Highway 1.0.3 has the same table in Compress(), but
+// GCC copies it to the stack at every call.
+constexpr auto kLanesOfMask = [] {
+  struct {
+    std::uint8_t lane[1 << kLanes][kLanes];
+  } table{};
+  for (int mask = 0; mask < 1 << kLanes; ++mask) {
+    int count = 0;
+    for (int lane = 0; lane < kLanes; ++lane)
+      if (mask >> lane & 1) table.lane[mask][count++] = static_cast<std::uint8_t>(lane);
+  }
+  return table;
+}();
+// Moves the lanes of a mask to the front; the others may become anything.
+class Selection {
+ public:
+  HWY_INLINE explicit Selection(hn::Mask<D> mask)
+      : lanes_(hn::IndicesFromVec(D{}, hn::PromoteTo(D{}, hn::LoadU(hn::Rebind<std::uint8_t, D>{},
+                                                                    kLanesOfMask.lane[mask_bits(mask)])))) {}
+  HWY_INLINE V operator()(V v) const { return hn::TableLookupLanes(v, lanes_); }
+
+ private:
+  decltype(hn::IndicesFromVec(D{}, V{})) lanes_;
+};
+#else
+class Selection {
+ public:
+  HWY_INLINE explicit Selection(hn::Mask<D> mask) : mask_(mask) {}
+  HWY_INLINE V operator()(V v) const { return hn::Compress(v, mask_); }
+
+ private:
+  hn::Mask<D> mask_;
+};
+#endif
+
+}  // namespace HWY_NAMESPACE
+}  // namespace edgewise
+HWY_AFTER_NAMESPACE();
+
+#endif

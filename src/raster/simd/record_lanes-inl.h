@@ -1,0 +1,124 @@
+// Triangles that follow one another in memory, in vectors of 32-bit lanes, and the pixels their boxes hold.
+//
+// A record is five pairs of 32-bit fields. Five is odd and a vector's number of pairs a power of two, so
+// among the five vectors that hold as many records as one has pairs, a field's pairs lie in different lanes:
+// they blend into one vector, and a permutation orders them, which is much cheaper than gathers.
+#include <hwy/cache_control.h>
+#include <hwy/highway.h>
+
+#include <cstdint>
+
+#include "edgewise/contract.h"
+#include "edgewise/screen_triangle.h"
+#include "raster/simd/lanes-inl.h"
+
+// Included once a SIMD target.
+#if defined(EDGEWISE_RECORD_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef EDGEWISE_RECORD_LANES_INL_H
+#undef EDGEWISE_RECORD_LANES_INL_H
+#else
+#define EDGEWISE_RECORD_LANES_INL_H
+#endif
+
+#if HWY_TARGET != HWY_SCALAR  // a one-lane target has no halves of lanes
+
+HWY_BEFORE_NAMESPACE();
+namespace edgewise {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+using namespace contract;
+
+using Pairs = hn::Repartition<std::int64_t, D>;
+constexpr int kPairs = static_cast<int>(hn::MaxLanes(Pairs{}));
+constexpr int kFields = sizeof(ScreenTriangle) / sizeof(std::int64_t);
+static_assert(kFields == 5);
+
+// For each field its first lane, and the lanes of the records' pairs in the blend.
+alignas(64) constexpr auto kPairTables = [] {
+  struct {
+    std::int64_t remainder[kPairs], place[kFields][kPairs];
+  } t{};
+  for (int i = 0; i < kPairs; ++i) {
+    t.remainder[i] = i % kFields;
+    for (int field = 0; field < kFields; ++field) t.place[field][i] = (kFields * i + field) % kPairs;
+  }
+  return t;
+}();
+
+// The pairs of kPairs records.
+HWY_INLINE void load_pairs(const std::int64_t* from, hn::Vec<Pairs> (&field)[kFields]) {
+  const Pairs d;
+  hn::Vec<Pairs> part[kFields];
+  for (int p = 0; p < kFields; ++p) part[p] = hn::LoadU(d, from + p * kPairs);
+  const auto remainder = hn::LoadU(d, kPairTables.remainder);
+  hn::Mask<Pairs> is[kFields];
+  for (int r = 0; r < kFields; ++r) is[r] = hn::Eq(remainder, hn::Set(d, r));
+  for (int f = 0; f < kFields; ++f) {
+    auto v = part[0];
+    for (int p = 1; p < kFields; ++p) {
+      const int r = ((f - p * kPairs) % kFields + kFields) % kFields;
+      if (r < kPairs) v = hn::IfThenElse(is[r], part[p], v);
+    }
+    field[f] = hn::TableLookupLanes(v, hn::SetTableIndices(d, kPairTables.place[f]));
+  }
+}
+
+constexpr std::size_t kAhead = 2560;  // bytes
+
+struct RecordLanes {
+  V x[3], y[3], z[3], payload;
+
+  // Of kLanes triangles. `prefetch`: others that follow in memory are asked for.
+  HWY_INLINE RecordLanes(const ScreenTriangle* triangles, bool prefetch) {
+    const D d;
+    if (prefetch)
+      for (std::size_t i = 0; i < kLanes * sizeof(ScreenTriangle); i += 64)
+        hwy::Prefetch(reinterpret_cast<const char*>(triangles) + kAhead + i);
+    hn::Vec<Pairs> first[kFields], second[kFields];
+    load_pairs(reinterpret_cast<const std::int64_t*>(triangles), first);
+    load_pairs(reinterpret_cast<const std::int64_t*>(triangles + kPairs), second);
+    const auto even = [&](int f) {
+      return hn::ConcatEven(d, hn::BitCast(d, second[f]), hn::BitCast(d, first[f]));
+    };
+    const auto odd = [&](int f) {
+      return hn::ConcatOdd(d, hn::BitCast(d, second[f]), hn::BitCast(d, first[f]));
+    };
+    x[0] = even(0), x[1] = odd(0), x[2] = even(1);
+    y[0] = odd(1), y[1] = even(2), y[2] = odd(2);
+    z[0] = even(3), z[1] = odd(3), z[2] = even(4);
+    payload = odd(4);
+  }
+};
+
+HWY_INLINE V least(const V (&v)[3]) {
+  return hn::Min(hn::Min(v[0], v[1]), v[2]);
+}
+HWY_INLINE V most(const V (&v)[3]) {
+  return hn::Max(hn::Max(v[0], v[1]), v[2]);
+}
+// The first sample at or after a coordinate.
+HWY_INLINE V first_sample(V c) {
+  return hn::ShiftRight<kSubBits>(hn::Add(c, hn::Set(D{}, kHalf - 1)));
+}
+
+// contract::pixel_box().
+struct BoxLanes {
+  V x0, y0, x1, y1;
+  hn::Mask<D> filled;
+
+  HWY_INLINE BoxLanes(const RecordLanes& t, int width, int height) {
+    const D d;
+    const V zero = hn::Zero(d);
+    x0 = hn::Max(first_sample(least(t.x)), zero), x1 = hn::Min(first_sample(most(t.x)), hn::Set(d, width));
+    y0 = hn::Max(first_sample(least(t.y)), zero), y1 = hn::Min(first_sample(most(t.y)), hn::Set(d, height));
+    filled = hn::And(hn::Lt(x0, x1), hn::Lt(y0, y1));
+  }
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace edgewise
+HWY_AFTER_NAMESPACE();
+
+#endif
+
+#endif

@@ -1,0 +1,33 @@
+// One tile of the image to draw, for the backends that draw by tiles.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "edgewise/ablation.h"
+#include "edgewise/framebuffer.h"
+#include "edgewise/simd_target.h"
+#include "raster/binning/bins.h"
+
+namespace edgewise {
+
+struct TileTask {
+  const ScreenTriangle* triangles;
+  const Bins* bins;
+  int cell;       // which of the bins
+  int x0, y0;     // px, the tile's first pixel; multiples of the tile's size
+  int size_log2;  // px; at most 6
+  FrameView frame;
+  std::uint32_t background;
+  Ablation ideas;                      // write_out decided
+  std::int64_t* write_out_ns = nullptr;  // where the time that it takes is wanted, or null
+
+  int size() const { return 1 << size_log2; }  // px
+  // What of it lies in the frame, px.
+  int width() const { return std::min(size(), frame.width - x0); }
+  int height() const { return std::min(size(), frame.height - y0); }
+};
+
+using TileKernel = void (*)(const TileTask&);
+
+}  // namespace edgewise

@@ -1,0 +1,107 @@
+// Sifting large triangles: which blocks of a row are touched, and not hidden, is found for all of them at
+// once.
+#include <hwy/highway.h>
+
+#include <cstddef>
+#include <cstdint>
+
+#include "edgewise/contract.h"
+#include "raster/tiled/tile_blocks-inl.h"
+#include "raster/tiled/tile_candidates-inl.h"
+#include "raster/tiled/tile_setup-inl.h"
+
+// Included once a SIMD target.
+#if defined(EDGEWISE_TILE_ROWS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef EDGEWISE_TILE_ROWS_INL_H
+#undef EDGEWISE_TILE_ROWS_INL_H
+#else
+#define EDGEWISE_TILE_ROWS_INL_H
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace edgewise {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+using namespace contract;
+
+alignas(64) constexpr std::int32_t kIota[kBlocksAtOnce] = {0, 1, 2,  3,  4,  5,  6,  7,
+                                                           8, 9, 10, 11, 12, 13, 14, 15};
+alignas(64) constexpr std::int32_t kBlockX[kBlocksAtOnce] = {0,  4,  8,  12, 16, 20, 24, 28,  // px
+                                                             32, 36, 40, 44, 48, 52, 56, 60};
+HWY_INLINE std::size_t lane_of(std::size_t part) {
+  return part * static_cast<std::size_t>(kLanes);
+}
+
+// Whether entry k may hold a whole block. Each edge's value rises from 0 to twice the area, and by its span
+// over a block.
+HWY_INLINE bool may_fill_blocks(const Batch& batch, int k) {
+  const auto has_room = [&](const Batch::Linear& edge) {
+    return edge.span[k] >> kSubBits <= batch.twice_area_px[k];
+  };
+  return has_room(batch.edge[0]) && has_room(batch.edge[1]) && has_room(batch.edge[2]);
+}
+
+// A linear function of the pixel's place, at a row of blocks, in kParts vectors.
+template <std::size_t kParts>
+struct Row {
+  V v[kParts], step;
+  HWY_INLINE Row(const std::int32_t* x, const std::int32_t* y, const std::int32_t* first) {
+    const D d;
+    for (std::size_t p = 0; p < kParts; ++p)
+      v[p] = hn::Add(hn::Set(d, *first), hn::Mul(hn::Load(d, kBlockX + lane_of(p)), hn::Set(d, *x)));
+    step = hn::Mul(hn::Set(d, *y), hn::Set(d, kBlock));
+  }
+  HWY_INLINE void next() {
+    for (V& part : v) part = hn::Add(part, step);
+  }
+};
+
+// Lists the blocks of entry k of the batch, whose box is at most kParts vectors of blocks wide.
+template <bool kHierarchicalDepth, std::size_t kParts>
+HWY_NOINLINE void find_candidates_by_rows(Tile& tile, const Batch& batch, int k, Candidates& out) {
+  const D d;
+  const V minus_one = hn::Set(d, -1);
+  const auto largest = [&](const Batch::Linear& f) { return Row<kParts>(f.x + k, f.y + k, f.most + k); };
+  Row<kParts> edge[3] = {largest(batch.edge[0]), largest(batch.edge[1]), largest(batch.edge[2])};
+  Row<kParts> depth = largest(batch.depth);
+  Row<kParts> nearest(batch.nearest.x + k, batch.nearest.y + k, batch.nearest.first + k);
+
+  const V last_column = hn::Set(d, batch.bx1[k] - batch.bx0[k]);
+  V before_end[kParts], place[kParts];  // the former is negative behind the box's last column
+  for (std::size_t p = 0; p < kParts; ++p) {
+    place[p] = hn::Load(d, kIota + lane_of(p));
+    before_end[p] = hn::Sub(last_column, place[p]);
+  }
+  std::int32_t* hiz = tile.hiz.at(batch.bx0[k], batch.by0[k]);
+  List list{out.place};
+  for (int row = batch.by0[k]; row <= batch.by1[k]; ++row) {
+    for (std::size_t p = 0; p < kParts; ++p) {
+      const V most = hn::Or(hn::Or(edge[0].v[p], edge[1].v[p]), hn::Or(edge[2].v[p], before_end[p]));
+      auto seen = hn::Gt(most, minus_one);
+      if constexpr (kHierarchicalDepth) {
+        // No pixel of a block that lies inside is farther, from now on, than the triangle's own farthest
+        // there.
+        const auto low = [&](int i) { return hn::Sub(edge[i].v[p], hn::Set(d, batch.edge[i].span[k])); };
+        const V least = hn::Or(hn::Or(low(0), low(1)), hn::Or(low(2), before_end[p]));
+        const V old_farthest = hn::LoadU(d, hiz + lane_of(p)), own_farthest = depth.v[p];
+        const auto inside = hn::Gt(least, minus_one);
+        hn::StoreU(hn::IfThenElse(inside, hn::Min(old_farthest, own_farthest), old_farthest), d,
+                   hiz + lane_of(p));
+        seen = hn::And(seen, hn::Lt(nearest.v[p], old_farthest));
+      }
+      list.append(place[p], seen);
+      place[p] = hn::Add(place[p], hn::Set(d, kMaxBlocks));
+    }
+    for (Row<kParts>& e : edge) e.next();
+    if constexpr (kHierarchicalDepth) depth.next(), nearest.next();
+    hiz += kMaxBlocks;
+  }
+  out.length = list.length;
+  out.k = k;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace edgewise
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,31 @@
+// Every pixel independent, as on a GPU: triangles are binned to square tiles, and tiles are drawn in
+// parallel, each in a buffer of its own, by SIMD edge functions. Binning lives in bins.cpp, drawing in
+// tile_kernel.cpp.
+#include "edgewise/backend.h"
+#include "raster/tiled/tile_kernel.h"
+#include "raster/tiles.h"
+
+namespace edgewise {
+
+namespace {
+
+class Tiled final : public Backend {
+  void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
+                    const Execution& execution) override {
+    draw_in_tiles(triangles, frame, background, execution, execution.tile_size, scratch_,
+                  execution.ideas.patches ? Bins::Small::as_masks : Bins::Small::as_indices,
+                  tile_kernel(execution.target));
+  }
+  TileScratch scratch_;
+};
+
+}  // namespace
+
+extern const std::string_view idea_tiled;
+const std::string_view idea_tiled =
+    "SIMD edge functions over tiles, tiles on threads, every pixel independent";
+std::unique_ptr<Backend> make_tiled() {
+  return std::make_unique<Tiled>();
+}
+
+}  // namespace edgewise

@@ -1,0 +1,178 @@
+// The edges of triangles, and nothing between them: one pixel wide, by an exact integer rule.
+//
+// An edge runs along its major axis u, that of its larger extent (x, if both are the same), and v is the
+// other axis. In sub-units (rules 1 and 2), with u0 <= u1 and du = u1 - u0, it draws
+//   - in each pixel row or column whose sample s lies in [u0, u1) the pixel floor(v(s) / 256), where
+//     v(s) = v0 + (v1 - v0) (s - u0) / du, at the depth floor(z0 + (z1 - z0) (s - u0) / du + 1/2);
+//   - the pixels that its two ends lie in, floor(u / 256) and floor(v / 256), at their depths.
+// Depth test, ties and payload are the contract's (rules 7 and 8), as is that a triangle without area draws
+// nothing.
+//
+// Why these: nothing depends on which end comes first, so that neighbours draw their edge in the same pixels
+// at the same depths. Samples of a half-open range are shared out among the parts of an edge that a vertex
+// cuts, none twice, none lost. And no outline has a gap: from a sample's pixel to the next, and from the
+// outermost one to that of the end, it is one step along u and, as |dv| <= du, at most one along v. Between
+// its ends an edge is what Bresenham ("Algorithm for computer control of a digital plotter", 1965) draws, and
+// D3D11.3 (functional specification 3.4, aliased lines): there a line draws a pixel if it leaves the diamond
+// |x| + |y| < 1/2 around its sample, and so never the one that it ends in. That joins the lines of a strip
+// but depends on the direction, and triangles that share an edge run along it in opposite ones.
+//
+// Widths: v0 du, dv (s - u0) and a frame's rows times 256 du are at most 2^46 each, wherever in the band s
+// lies, and twice z du is at most 2^55. int64 does, and quotients are stepped with their remainders, exactly,
+// so where the drawing of an edge begins changes nothing: parts outside the frame or the band are skipped by
+// division.
+//
+// On threads, bands of the frame are drawn in parallel, and each looks at all triangles: a comparison of y is
+// cheap beside what an edge takes, and bins (raster/binning/bins.h) know triangles by the samples in their
+// box, which an edge's pixels may lie beside.
+#include <algorithm>
+#include <utility>
+
+#include "raster/bands.h"
+
+namespace edgewise {
+
+using namespace contract;
+
+namespace {
+
+struct Point {
+  std::int32_t u, v;
+  std::int64_t z;
+};
+
+constexpr std::int32_t pixel_of(std::int32_t sub) {
+  return sub >> kSubBits;
+}
+// The first pixel whose sample lies at or after a coordinate.
+constexpr std::int32_t first_sample(std::int32_t sub) {
+  return (sub + kHalf - 1) >> kSubBits;
+}
+
+constexpr std::int64_t floor_divide(std::int64_t n, std::int64_t d) {  // d > 0
+  const std::int64_t q = n / d;
+  return q - (q * d > n);
+}
+constexpr std::int64_t ceil_divide(std::int64_t n, std::int64_t d) {
+  return -floor_divide(-n, d);
+}
+
+// floor(n / d), and what it becomes as n grows by the same step again and again.
+class Quotient {
+ public:
+  constexpr Quotient(std::int64_t n, std::int64_t d, std::int64_t step)
+      : value_(floor_divide(n, d)),
+        rest_(n - value_ * d),
+        divisor_(d),
+        step_(floor_divide(step, d)),
+        step_rest_(step - step_ * d) {}
+
+  constexpr std::int64_t value() const { return value_; }
+  constexpr void advance() {
+    value_ += step_, rest_ += step_rest_;
+    if (rest_ >= divisor_) ++value_, rest_ -= divisor_;
+  }
+
+ private:
+  std::int64_t value_, rest_, divisor_, step_, step_rest_;
+};
+
+struct PixelRange {
+  std::int64_t begin, end;
+};
+
+// Those of a range of u where floor((n0 + 256 dv u) / (256 du)) lies in `rows`.
+PixelRange clip_to(PixelRange u, RowRange rows, std::int64_t n0, std::int64_t dv, std::int64_t du) {
+  const std::int64_t low = rows.begin * du * kSub - n0, high = rows.end * du * kSub - n0, step = dv * kSub;
+  if (dv > 0) return {std::max(u.begin, ceil_divide(low, step)), std::min(u.end, ceil_divide(high, step))};
+  if (dv < 0)
+    return {std::max(u.begin, floor_divide(-high, -step) + 1),
+            std::min(u.end, floor_divide(-low, -step) + 1)};
+  return low <= 0 && 0 < high ? u : PixelRange{0, 0};
+}
+
+class Edges {
+ public:
+  Edges(FrameView frame, RowRange rows) : frame_(frame), rows_(rows) {}
+
+  void draw(const ScreenTriangle& t) const {
+    const auto [min_y, max_y] = std::minmax({t.y_sub[0], t.y_sub[1], t.y_sub[2]});
+    if (pixel_of(max_y) < rows_.begin || pixel_of(min_y) >= rows_.end) return;
+    const auto [min_x, max_x] = std::minmax({t.x_sub[0], t.x_sub[1], t.x_sub[2]});
+    if (pixel_of(max_x) < 0 || pixel_of(min_x) >= frame_.width || signed_area(t) == 0) return;
+    for (int i = 0; i < 3; ++i) {
+      const int j = i == 2 ? 0 : i + 1;
+      draw_end(t, i);
+      if (std::abs(t.x_sub[j] - t.x_sub[i]) >= std::abs(t.y_sub[j] - t.y_sub[i]))
+        draw_between<true>({t.x_sub[i], t.y_sub[i], t.z[i]}, {t.x_sub[j], t.y_sub[j], t.z[j]}, t.payload);
+      else
+        draw_between<false>({t.y_sub[i], t.x_sub[i], t.z[i]}, {t.y_sub[j], t.x_sub[j], t.z[j]}, t.payload);
+    }
+  }
+
+ private:
+  void test_and_write(std::int64_t x, std::int64_t y, std::int64_t z, std::uint32_t payload) const {
+    const std::ptrdiff_t at = y * frame_.stride + x;
+    const auto depth = static_cast<std::uint32_t>(z);
+    if (depth >= frame_.depth[at]) return;
+    frame_.depth[at] = depth;
+    frame_.payload[at] = payload;
+  }
+
+  void draw_end(const ScreenTriangle& t, int i) const {
+    const std::int32_t x = pixel_of(t.x_sub[i]), y = pixel_of(t.y_sub[i]);
+    if (x >= 0 && x < frame_.width && y >= rows_.begin && y < rows_.end)
+      test_and_write(x, y, t.z[i], t.payload);
+  }
+
+  template <bool kAlongX>
+  void draw_between(Point a, Point b, std::uint32_t payload) const {
+    if (a.u > b.u) std::swap(a, b);
+    const RowRange columns{0, frame_.width};
+    const RowRange along = kAlongX ? columns : rows_, across = kAlongX ? rows_ : columns;
+    PixelRange range{std::max(first_sample(a.u), along.begin), std::min(first_sample(b.u), along.end)};
+    if (range.begin >= range.end) return;
+    const std::int64_t du = b.u - a.u, dv = b.v - a.v, dz = b.z - a.z;
+    const std::int64_t n0 = a.v * du + dv * (kHalf - a.u);
+    const auto [low, high] = std::minmax({pixel_of(a.v), pixel_of(b.v)});
+    if (low < across.begin || high >= across.end) range = clip_to(range, across, n0, dv, du);
+    if (range.begin >= range.end) return;
+
+    const std::int64_t done = range.begin * kSub + kHalf - a.u;
+    Quotient v(n0 + dv * kSub * range.begin, du * kSub, dv * kSub);
+    Quotient z(2 * (a.z * du + dz * done) + du, 2 * du, 2 * dz * kSub);
+    for (std::int64_t u = range.begin; u < range.end; ++u, v.advance(), z.advance())
+      test_and_write(kAlongX ? u : v.value(), kAlongX ? v.value() : u, z.value(), payload);
+  }
+
+  FrameView frame_;
+  RowRange rows_;
+};
+
+class Wireframe final : public Backend {
+  void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
+                    const Execution& execution) override {
+    // Several for each thread, as edges gather here and there.
+    constexpr int kBandsPerThread = 4;
+    const int bands =
+        execution.threads == 1 ? 1 : std::min(execution.threads * kBandsPerThread, frame.height);
+    const auto row = [&](int band) { return static_cast<int>(std::int64_t{band} * frame.height / bands); };
+    parallel_for(execution.threads, bands, [&](int band) {
+      const RowRange rows{row(band), row(band + 1)};
+      clear_rows(frame, rows, background);
+      const Edges edges(frame, rows);
+      for (const ScreenTriangle& triangle : triangles) edges.draw(triangle);
+    });
+  }
+};
+
+}  // namespace
+
+extern const std::string_view idea_wireframe;
+const std::string_view idea_wireframe =
+    "draws the edges only, by an exact line rule; not compared with the others";
+std::unique_ptr<Backend> make_wireframe() {
+  return std::make_unique<Wireframe>();
+}
+
+}  // namespace edgewise

@@ -1,0 +1,199 @@
+#include "support/machine.h"
+
+#include <fmt/format.h>
+#include <sys/utsname.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <string_view>
+#include <vector>
+
+#include "edgewise/simd_target.h"
+
+namespace edgewise::app {
+
+namespace {
+
+constexpr const char* kUnknown = "unknown";
+
+// The standard output of a shell command, without the last newline; nothing if it failed.
+std::optional<std::string> output_of(const std::string& command) {
+  FILE* pipe = popen((command + " 2>/dev/null").c_str(), "r");
+  if (pipe == nullptr) return std::nullopt;
+  std::string text;
+  std::array<char, 4096> part;
+  for (std::size_t n; (n = std::fread(part.data(), 1, part.size(), pipe)) > 0;) text.append(part.data(), n);
+  if (pclose(pipe) != 0) return std::nullopt;
+  if (text.ends_with('\n')) text.pop_back();
+  return text;
+}
+
+std::string quoted_for_shell(std::string_view text) {
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+std::string first_line(const std::string& path) {
+  std::ifstream file(path);
+  std::string line;
+  std::getline(file, line);
+  return line;
+}
+
+// "key<separator>value" lines, the first of each key.
+std::map<std::string, std::string> read_pairs(const std::string& path, char separator) {
+  std::map<std::string, std::string> pairs;
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line);) {
+    const auto at = line.find(separator);
+    if (at == std::string::npos) continue;
+    const auto trimmed = [](std::string text) {
+      const auto wanted = [](char c) { return c != ' ' && c != '\t' && c != '"'; };
+      text.erase(std::find_if(text.rbegin(), text.rend(), wanted).base(), text.end());
+      text.erase(text.begin(), std::find_if(text.begin(), text.end(), wanted));
+      return text;
+    };
+    pairs.emplace(trimmed(line.substr(0, at)), trimmed(line.substr(at + 1)));
+  }
+  return pairs;
+}
+
+std::string value_of(const std::map<std::string, std::string>& pairs, const std::string& key) {
+  const auto found = pairs.find(key);
+  return found == pairs.end() ? std::string() : found->second;
+}
+
+long cores() {
+  return std::max(1L, sysconf(_SC_NPROCESSORS_ONLN));
+}
+
+// Those that decide which kernels run and how fast.
+nlohmann::json cpu_features() {
+  constexpr std::array kOfInterest = {"sse4_1",   "sse4_2",   "avx",         "f16c",        "fma",
+                                      "bmi2",     "avx2",     "avx512f",     "avx512bw",    "avx512dq",
+                                      "avx512vl", "avx512cd", "avx512_vnni", "avx512_bf16", "gfni"};
+  std::istringstream words(value_of(read_pairs("/proc/cpuinfo", ':'), "flags"));
+  const std::set<std::string> has{std::istream_iterator<std::string>(words), {}};
+  nlohmann::json features = nlohmann::json::array();
+  for (const char* name : kOfInterest)
+    if (has.contains(name)) features.push_back(name);
+  return features;
+}
+
+nlohmann::json caches() {
+  nlohmann::json sizes = nlohmann::json::object();
+  for (int index = 0;; ++index) {
+    const std::string folder = fmt::format("/sys/devices/system/cpu/cpu0/cache/index{}/", index);
+    const std::string level = first_line(folder + "level"), type = first_line(folder + "type");
+    if (level.empty()) return sizes;
+    const std::string suffix = type == "Data" ? "d" : type == "Instruction" ? "i" : "";
+    sizes["L" + level + suffix] = first_line(folder + "size");
+  }
+}
+
+double memory_gib() {
+  const double bytes =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  return static_cast<double>(static_cast<long>(bytes / double(1 << 30) * 10.0 + 0.5)) / 10.0;
+}
+
+std::string kernel() {
+  utsname names{};
+  return uname(&names) == 0 ? std::string(names.sysname) + " " + names.release : kUnknown;
+}
+
+std::string compiler() {
+#if defined(__clang__)
+  return "Clang " __VERSION__;
+#else
+  return "GCC " __VERSION__;
+#endif
+}
+
+// Results are written while they are measured, so changes below results/ don't make the tree dirty.
+// A program that was installed cannot tell: the tree may have gone on, or be gone.
+std::string commit() {
+  namespace fs = std::filesystem;
+  std::error_code failed;
+  const fs::path self = fs::read_symlink("/proc/self/exe", failed);
+  const fs::path build = fs::weakly_canonical(EDGEWISE_BINARY_DIR, failed);
+  if (self.lexically_relative(build).string().starts_with("..")) return kUnknown;
+  const std::string git = "git --no-optional-locks -C " + quoted_for_shell(EDGEWISE_SOURCE_DIR) + " ";
+  const auto hash = output_of(git + "rev-parse --short=12 HEAD");
+  if (!hash || hash->empty()) return kUnknown;
+  const auto changes = output_of(git + "status --porcelain -- ':/' ':(top,exclude)results'");
+  return *hash + (changes && changes->empty() ? "" : "-dirty");
+}
+
+nlohmann::json packages() {
+  const auto list = output_of(
+      "dpkg-query -W -f='${Package} ${Version}\\n' libtbb-dev libbenchmark-dev libglm-dev libhwy-dev "
+      "libpng-dev "
+      "libcli11-dev nlohmann-json3-dev libfmt-dev libtinyobjloader-dev python3-matplotlib libgl1-mesa-dri; "
+      "true");
+  nlohmann::json versions = nlohmann::json::object();
+  std::istringstream lines(list.value_or(""));
+  for (std::string name, version; lines >> name && std::getline(lines >> std::ws, version);)
+    versions[name] = version;
+  return versions;
+}
+
+}  // namespace
+
+std::string cpu_model(const std::string& cpuinfo) {
+  const auto pairs = read_pairs(cpuinfo, ':');
+  const std::string model = value_of(pairs, "model name"), family = value_of(pairs, "cpu family"),
+                    number = value_of(pairs, "model");
+  if (model.empty()) return kUnknown;
+  return family.empty() || number.empty() ? model
+                                          : fmt::format("{} (family {}, model {})", model, family, number);
+}
+
+nlohmann::json machine_description() {
+  nlohmann::json json;
+  json["cpu_model"] = cpu_model();
+  json["cpu_features"] = cpu_features();
+  json["cores"] = cores();
+  const std::string max_khz = first_line("/sys/devices/system/cpu/cpu0/cpufreq/cpuinfo_max_freq");
+  if (!max_khz.empty()) json["cpu_mhz_max"] = std::strtol(max_khz.c_str(), nullptr, 10) / 1000;
+  json["caches"] = caches();
+  json["memory_gib"] = memory_gib();
+  const std::string os = value_of(read_pairs("/etc/os-release", '='), "PRETTY_NAME");
+  json["os"] = os.empty() ? kUnknown : os;
+  json["kernel"] = kernel();
+  json["compiler"] = compiler();
+  json["flags"] = EDGEWISE_FLAGS;
+  json["build_type"] = EDGEWISE_BUILD_TYPE;
+  json["edgewise_version"] = EDGEWISE_VERSION;
+  json["commit"] = commit();
+  json["packages"] = packages();
+  for (const SimdTarget target : supported_targets()) json["simd_targets"].push_back(name_of(target));
+  json["simd_best"] = name_of(resolve(SimdTarget::best));
+  return json;
+}
+
+std::string machine_name() {
+  const long n = cores();
+  std::string name;
+  for (const char c : fmt::format("{} {} {}", cpu_model(), n, n == 1 ? "core" : "cores")) {
+    const auto u = static_cast<unsigned char>(c);
+    if (std::isalnum(u))
+      name += static_cast<char>(std::tolower(u));
+    else if (!name.empty() && name.back() != '-')
+      name += '-';
+  }
+  return name;
+}
+
+}  // namespace edgewise::app

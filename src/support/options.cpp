@@ -1,0 +1,272 @@
+#include "support/options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <glm/trigonometric.hpp>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "core/nearest_name.h"
+#include "edgewise/contract.h"
+
+namespace edgewise::app {
+
+namespace {
+
+constexpr double kFarthest = 1e6;     // world units, of a camera's places and planes
+constexpr double kLongestTime = 1e6;  // s, 11 days
+constexpr double kLargestScale = 1e3;
+constexpr double kSmallest = 1e-6;  // what "more than zero" means on the command line
+
+// Nothing, unless all of the text is one.
+template <typename T>
+std::optional<T> parsed(std::string_view text) {
+  T value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+[[noreturn]] void reject(std::string_view option, std::string_view text, std::string_view wanted) {
+  throw std::invalid_argument(fmt::format("{}: '{}' is not {}", option, text, wanted));
+}
+
+Cull parse_cull(std::string_view text) {
+  std::vector<std::string_view> known;
+  for (const Cull cull : cull_modes()) {
+    if (name_of(cull) == text) return cull;
+    known.push_back(name_of(cull));
+  }
+  known.push_back("auto");
+  throw std::invalid_argument(unknown_name("culling mode", text, known));
+}
+
+SimdTarget parse_target(std::string_view text) {
+  std::vector<std::string_view> known;
+  for (const SimdTarget target :
+       {SimdTarget::scalar, SimdTarget::sse4, SimdTarget::avx2, SimdTarget::avx512, SimdTarget::best}) {
+    if (name_of(target) == text) return resolve(target);
+    known.push_back(name_of(target));
+  }
+  throw std::invalid_argument(unknown_name("SIMD target", text, known));
+}
+
+CLI::Option* add_vector(CLI::App& command, const std::string& name, std::optional<glm::vec3>& value,
+                        const std::string& help) {
+  return command
+      .add_option_function<std::string>(
+          name, [&value, name](const std::string& text) { value = parse_vector(name, text); }, help)
+      ->type_name("X,Y,Z");
+}
+
+bool moves_camera(const SceneOptions& o) {
+  return o.eye || o.at || o.fov_deg || o.near_z || o.far_z || o.yaw_deg || o.pitch_deg;
+}
+
+void place_camera(Camera& camera, const SceneOptions& o) {
+  if (o.at && (o.yaw_deg || o.pitch_deg))
+    throw std::invalid_argument("--at and --yaw or --pitch exclude each other");
+  const auto radians = [](double degrees) { return static_cast<float>(glm::radians(degrees)); };
+  if (o.eye) camera.position = *o.eye;
+  if (o.at && *o.at == camera.position)
+    throw std::invalid_argument(
+        "--at is where the camera stands, which gives no direction to look in: change --eye or --at");
+  if (o.at) camera.look_at(*o.at);
+  if (o.yaw_deg) camera.yaw = radians(*o.yaw_deg);
+  if (o.pitch_deg) camera.pitch = radians(*o.pitch_deg);
+  if (o.fov_deg) camera.fov_y = radians(*o.fov_deg);
+  if (o.near_z) camera.near_z = static_cast<float>(*o.near_z);
+  if (o.far_z) camera.far_z = static_cast<float>(*o.far_z);
+}
+
+}  // namespace
+
+std::vector<std::string> option_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+  }
+  return names;
+}
+
+std::string unknown_option(std::string_view word, const std::vector<std::string>& known,
+                           std::string_view command) {
+  const std::string_view name = word.substr(0, word.find('='));
+  const std::vector<std::string_view> names(known.begin(), known.end());
+  const std::string nearest = name.starts_with('-') ? did_you_mean(name, names) : "";
+  return fmt::format("unknown option '{}'{} ({} --help lists all)", name, nearest, command);
+}
+
+Size parse_size(std::string_view option, std::string_view text) {
+  const auto cross = text.find('x');
+  if (cross != std::string_view::npos) {
+    const auto width = parsed<int>(text.substr(0, cross));
+    const auto height = parsed<int>(text.substr(cross + 1));
+    const auto fits = [](int side) { return side >= 1 && side <= contract::kMaxImageSide; };
+    if (width && height && fits(*width) && fits(*height)) return {*width, *height};
+  }
+  reject(option, text, fmt::format("WIDTHxHEIGHT with sides of 1 to {} pixels", contract::kMaxImageSide));
+}
+
+double parse_number(std::string_view option, std::string_view text, double min, double max) {
+  const auto value = parsed<double>(text);
+  // Written so that NaN fails as well.
+  if (!value || !(*value >= min && *value <= max))
+    reject(option, text, fmt::format("a number from {} to {}", min, max));
+  return *value;
+}
+
+int parse_integer(std::string_view option, std::string_view text, int min, int max) {
+  const auto value = parsed<int>(text);
+  if (!value || *value < min || *value > max)
+    reject(option, text, fmt::format("a whole number from {} to {}", min, max));
+  return *value;
+}
+
+std::uint64_t parse_count(std::string_view option, std::string_view text, std::uint64_t min,
+                          std::uint64_t max) {
+  const auto value = parsed<std::uint64_t>(text);
+  if (!value || *value < min || *value > max)
+    reject(option, text, fmt::format("a whole number from {} to {}", min, max));
+  return *value;
+}
+
+double parse_duration(std::string_view option, std::string_view text) {
+  constexpr std::pair<char, double> kUnits[] = {{'s', 1.0}, {'m', 60.0}, {'h', 3600.0}};
+  for (const auto& [unit, seconds] : kUnits) {
+    if (!text.ends_with(unit)) continue;
+    const auto value = parsed<double>(text.substr(0, text.size() - 1));
+    if (value && *value > 0.0 && *value * seconds <= kLongestTime) return *value * seconds;
+  }
+  reject(option, text, fmt::format("a duration such as 90s, 20m or 2h, of at most {} s", kLongestTime));
+}
+
+glm::vec3 parse_vector(std::string_view option, std::string_view text) {
+  std::array<float, 3> v{};
+  std::string_view rest = text;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto comma = rest.find(',');
+    const auto value = parsed<double>(rest.substr(0, comma));
+    const bool last = i == 2;
+    if (!value || !(std::abs(*value) <= kFarthest) || (comma == std::string_view::npos) != last)
+      reject(option, text, fmt::format("X,Y,Z with numbers from {} to {}", -kFarthest, kFarthest));
+    v[i] = static_cast<float>(*value);
+    rest.remove_prefix(last ? rest.size() : comma + 1);
+  }
+  return {v[0], v[1], v[2]};
+}
+
+CLI::Option* add_number(CLI::App& command, const std::string& name, std::optional<double>& value, double min,
+                        double max, const std::string& help) {
+  return command
+      .add_option_function<std::string>(
+          name,
+          [&value, name, min, max](const std::string& text) { value = parse_number(name, text, min, max); },
+          help)
+      ->type_name("NUMBER");
+}
+
+CLI::Option* add_integer(CLI::App& command, const std::string& name, int& value, int min, int max,
+                         const std::string& help) {
+  return command
+      .add_option_function<std::string>(
+          name,
+          [&value, name, min, max](const std::string& text) { value = parse_integer(name, text, min, max); },
+          help)
+      ->type_name("N");
+}
+
+CLI::Option* add_size(CLI::App& command, std::optional<Size>& size, const std::string& help) {
+  return command
+      .add_option_function<std::string>(
+          "--size", [&size](const std::string& text) { size = parse_size("--size", text); }, help)
+      ->type_name("WxH");
+}
+
+void SceneOptions::add_to(CLI::App& command) {
+  add_size(command, size, "Image size (1280x720; .tri: its own; else cropped, not scaled)");
+  add_number(command, "--time", time, -kLongestTime, kLongestTime, "Seconds, for scenes that turn (0)");
+  add_number(command, "--scale", scale, kSmallest, kLargestScale,
+             "Multiply the number of triangles, to at most 10^8; knots and built-in streams only (1)");
+  command
+      .add_option_function<std::string>(
+          "--cull",
+          [this](const std::string& text) {
+            if (text != "auto") cull = parse_cull(text);
+          },
+          "Faces to drop: none, back, front, both (back; streams: none)")
+      ->type_name("MODE");
+  command.add_flag("--no-shade", no_shade, "Draw meshes unlit, as streams always are");
+  command.add_flag("--fit", fit, "Centre a mesh and scale its longest side to 2");
+
+  constexpr const char* kGroup = "Camera (meshes only)";
+  add_vector(command, "--eye", eye, "Where the camera stands")->group(kGroup);
+  add_vector(command, "--at", at, "What it looks at")->group(kGroup);
+  add_number(command, "--yaw", yaw_deg, -3600, 3600, "Degrees to the left; 0 looks along -z")->group(kGroup);
+  add_number(command, "--pitch", pitch_deg, -90, 90, "Degrees upwards")->group(kGroup);
+  add_number(command, "--fov", fov_deg, 0.1, 179, "Vertical field of view, degrees")->group(kGroup);
+  add_number(command, "--near", near_z, kSmallest, kFarthest, "Distance of the near plane")->group(kGroup);
+  add_number(command, "--far", far_z, kSmallest, kFarthest, "Distance of the far plane")->group(kGroup);
+}
+
+Shot load_shot(const std::string& name_or_path, const SceneOptions& options, double time) {
+  const Size size = options.size.value_or(kDefaultSize);
+  const SceneRequest request{size.width, size.height, static_cast<float>(time), options.scale.value_or(1.0)};
+  Shot shot{load_source(name_or_path, request, options.fit), {}};
+  Source& source = shot.source;
+
+  if (options.scale && !(source.built_in != nullptr && source.built_in->scalable))
+    throw std::invalid_argument("--scale: '" + source.name + "' has a fixed number of triangles");
+  shot.frontend.width = size.width;
+  shot.frontend.height = size.height;
+  if (auto* stream = std::get_if<TriangleStream>(&source.drawable)) {
+    if (moves_camera(options))
+      throw std::invalid_argument("'" + source.name +
+                                  "' is a stream of screen triangles: it has no camera to move");
+    if (!options.size) {
+      shot.frontend.width = stream->width;
+      shot.frontend.height = stream->height;
+    }
+  } else {
+    place_camera(std::get<Scene>(source.drawable).camera, options);
+  }
+  shot.frontend.cull = options.cull.value_or(source.stream ? Cull::none : Cull::back);
+  shot.frontend.shade = !source.stream && !options.no_shade;
+  return shot;
+}
+
+int all_cores() {
+  return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMaxThreads);
+}
+
+ExecutionOptions::ExecutionOptions() {
+  execution.threads = all_cores();
+}
+
+void ExecutionOptions::add_to(CLI::App& command) {
+  add_integer(command, "--threads", execution.threads, 1, kMaxThreads, "Threads, 1 to 256 (all cores)");
+  command
+      .add_option_function<std::string>(
+          "--target", [this](const std::string& text) { execution.target = parse_target(text); },
+          "SIMD target: scalar, sse4, avx2, avx512 or best (best)")
+      ->type_name("SIMD");
+  command
+      .add_option_function<std::string>(
+          "--tile",
+          [this](const std::string& text) {
+            const auto tile = parsed<int>(text);
+            if (tile != 16 && tile != 32 && tile != 64) reject("--tile", text, "16, 32 or 64");
+            execution.tile_size = *tile;
+          },
+          "Tile size in pixels of the tiled backend: 16, 32 or 64 (64)")
+      ->type_name("PX");
+}
+
+}  // namespace edgewise::app

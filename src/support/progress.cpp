@@ -1,0 +1,67 @@
+#include "support/progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <string>
+
+#include "support/console.h"
+#include "support/printable.h"
+
+namespace edgewise::app {
+
+namespace {
+
+constexpr int kBarWidth = 24;
+constexpr int kBesideBar = 8;  // columns: brackets, blanks, "100%"
+constexpr std::string_view kErase = "\r\033[K";
+volatile std::sig_atomic_t on_screen = 0;
+
+}  // namespace
+
+Progress::Progress() : terminal_(moves_cursor(STDERR_FILENO)) {}
+
+Progress::~Progress() {
+  erase();
+}
+
+void Progress::show(double fraction, std::string_view label) {
+  if (!terminal_) return;
+  const int percent = static_cast<int>(100.0 * std::clamp(fraction, 0.0, 1.0));
+  if (percent == shown_percent_) return;
+  shown_percent_ = percent;
+  // The last column stays free: some terminals wrap as soon as it is filled.
+  const int room = terminal_width(STDERR_FILENO) - 1;
+  const int bar = std::clamp(room - kBesideBar, 0, kBarWidth);
+  const auto label_room = static_cast<std::size_t>(std::max(0, room - kBesideBar - bar));
+  const auto filled = static_cast<std::size_t>(percent * bar / 100);
+  const std::string line = fmt::format("{}[{:<{}}] {:3}% {}", kErase, std::string(filled, '#'), bar, percent,
+                                       printable_within(label, label_room));
+  on_screen = 1;
+  std::fwrite(line.data(), 1, line.size(), stderr);
+  std::fflush(stderr);
+}
+
+void Progress::erase() {
+  if (on_screen == 0) return;
+  std::fwrite(kErase.data(), 1, kErase.size(), stderr);
+  std::fflush(stderr);
+  on_screen = 0;
+  shown_percent_ = -1;
+}
+
+std::string TimeLeft::label(double fraction, std::string_view label) const {
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
+  if (spent.count() < 1.0 || fraction < 0.01) return std::string(label);
+  const auto left_s = static_cast<int>(spent.count() * (1.0 - fraction) / fraction + 0.5);
+  return fmt::format("{}:{:02} left, {}", left_s / 60, left_s % 60, label);
+}
+
+void erase_progress_on_signal() {
+  if (on_screen != 0 && write(STDERR_FILENO, kErase.data(), kErase.size()) < 0) on_screen = 0;
+}
+
+}  // namespace edgewise::app

@@ -1,0 +1,50 @@
+#include "support/stop_request.h"
+
+#include <signal.h>
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+
+namespace edgewise::app {
+
+namespace {
+
+constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
+std::array<struct sigaction, kSignals.size()> before;
+std::atomic<int> asked = 0;
+static_assert(std::atomic<int>::is_always_lock_free);
+
+void restore(std::size_t i) {
+  if (before[i].sa_handler != SIG_IGN) sigaction(kSignals[i], &before[i], nullptr);
+}
+
+extern "C" void ask(int signal) {
+  asked = signal;
+  for (std::size_t i = 0; i < kSignals.size(); ++i)
+    if (kSignals[i] == signal) restore(i);
+}
+
+}  // namespace
+
+StopRequest::StopRequest() {
+  asked = 0;
+  for (std::size_t i = 0; i < kSignals.size(); ++i) {
+    sigaction(kSignals[i], nullptr, &before[i]);
+    if (before[i].sa_handler == SIG_IGN) continue;
+    struct sigaction action {};
+    action.sa_handler = ask;
+    action.sa_flags = SA_RESTART;
+    sigaction(kSignals[i], &action, nullptr);
+  }
+}
+
+StopRequest::~StopRequest() {
+  for (std::size_t i = 0; i < kSignals.size(); ++i) restore(i);
+}
+
+int StopRequest::signal() const {
+  return asked;
+}
+
+}  // namespace edgewise::app

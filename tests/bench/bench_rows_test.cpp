@@ -1,0 +1,285 @@
+// The benchmark's rows: told apart by name, and never timed when they draw other pixels.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+
+#include "bench/models/cost_model.h"
+#include "bench/models/model.h"
+#include "bench/suite.h"
+#include "bench/workloads/ablation.h"
+#include "bench/workloads/random_reads.h"
+#include "bench/workloads/stage.h"
+#include "edgewise/contract.h"
+#include "message_of.h"
+#include "temp_dir.h"
+
+namespace edgewise::bench {
+namespace {
+
+class DrawsNothing : public Backend {
+  void draw_checked(std::span<const ScreenTriangle>, FrameView, std::uint32_t, const Execution&) override {}
+};
+
+Row row_of(const BackendInfo& backend, const std::shared_ptr<Workload>& workload) {
+  Row row;
+  row.name = backend.name;
+  row.workload = workload;
+  row.backend = &backend;
+  return row;
+}
+
+TEST(BenchStage, FindsABackendThatLeavesTheFrameAsItWas) {
+  const auto workload = std::make_shared<Workload>(96, 64, Cull::back, [] {
+    return app::load_source("cube", {96, 64, 0.0f, 1.0}, false);
+  });
+  workload->prepare(false);
+  const BackendInfo lazy{"lazy", "draws nothing",
+                         [] { return std::unique_ptr<Backend>(std::make_unique<DrawsNothing>()); }};
+  Stage stage;
+  Row right = row_of(backends()[0], workload), wrong = row_of(lazy, workload);
+  stage.compare(right);
+  stage.compare(wrong);
+  EXPECT_EQ(right.error, "");
+  EXPECT_NE(wrong.error.find(std::to_string(96 * 64) + " pixels differ"), std::string::npos) << wrong.error;
+}
+
+SuiteOptions only(std::vector<std::string> scenes) {
+  SuiteOptions options;
+  options.width = options.height = 32;
+  options.scenes = std::move(scenes);
+  return options;
+}
+
+TEST(BenchSuite, RefusesTwoSourcesOfOneName) {
+  const TempDir a, b;
+  const std::string mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  const std::string first = a.write("x.obj", mesh).string(), second = b.write("x.obj", mesh).string();
+  const std::string clash = b.write("a_b.obj", mesh).string(), colon = a.write("a:b.obj", mesh).string();
+  EXPECT_EQ(message_of([&] {
+              make_suite(only({first, second}));
+            }),
+            "--scene " + first + " and --scene " + second + " would both be named 'x'");
+  EXPECT_NE(message_of([&] { make_suite(only({"cube", "cube"})); }), "");
+  EXPECT_NE(message_of([&] { make_suite(only({clash, colon})); }), "");
+}
+
+TEST(BenchSuite, NamesRowsSoThatTheirPartsCanBeTold) {
+  const TempDir folder;
+  const std::string mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  const std::string odd = folder.write("threads:1\x1b\xff.obj", mesh).string();
+  std::set<std::string> names;
+  for (const Row& row : make_suite(only({odd}))) {
+    EXPECT_TRUE(names.insert(row.name).second) << row.name;
+    EXPECT_NE(row.name.find("/threads_1\?\?/"), std::string::npos) << row.name;
+  }
+  const bool narrower = !peers().empty() && resolve(SimdTarget::best) == SimdTarget::avx512;
+  EXPECT_EQ(names.size(), 2 + 4 * backends().size() + 2 * peers().size() + (narrower ? 2 : 0));
+}
+
+TEST(BenchStage, ComparesEdgesWithEdges) {
+  const auto workload = std::make_shared<Workload>(96, 64, Cull::back, [] {
+    return app::load_source("cube", {96, 64, 0.0f, 1.0}, false);
+  });
+  workload->prepare(false);
+  Stage stage;
+  for (const BackendInfo& backend : backends()) {
+    Row row = row_of(backend, workload);
+    row.execution.threads = 3;
+    stage.compare(row);
+    EXPECT_EQ(row.error, "") << backend.name;
+  }
+}
+
+TEST(BenchSuite, NamesAllRowsDifferently) {
+  std::set<std::string> names;
+  for (const Row& row : make_suite({})) EXPECT_TRUE(names.insert(row.name).second) << row.name;
+}
+
+TEST(BenchSuite, TimesOursAtThePeersVectorWidthToo) {
+  std::map<std::string, int> count;
+  for (const Row& row : make_suite({})) ++count[row.name];
+  const bool wanted = !peers().empty() && resolve(SimdTarget::best) == SimdTarget::avx512;
+  for (const SceneInfo& scene : builtin_scenes())
+    for (const std::string threads : {"1", "2"}) {
+      const std::string who = scene.stream ? "tiled/" : "tiled+frontend/";
+      const std::string name = who + std::string(scene.name) + "/target:avx2/threads:" + threads;
+      // A row of the sweep over targets may bear the same name.
+      if (wanted) {
+        EXPECT_EQ(count[name], 1) << name;
+      } else {
+        EXPECT_LE(count[name], threads == "1" ? 1 : 0) << name;
+      }
+    }
+}
+
+TEST(BenchSuite, TimesHiddenFacesDroppedInThreeWays) {
+  SuiteOptions options;
+  options.quick = true;
+  options.width = 160, options.height = 90;
+  std::map<std::string, Row> rows;
+  for (Row& row : make_suite(options)) rows.emplace(row.name, std::move(row));
+  Stage stage;
+  for (const std::string scene : {"cube", "cubes", "sphere", "sphere-quads", "torus-knot"})
+    for (const std::string mode : {"none", "back", "normal_z"})
+      for (const BackendInfo& backend : filling_backends())
+        ASSERT_TRUE(
+            rows.contains(std::string(backend.name) + "+frontend/" + scene + "/cull:" + mode + "/threads:2"))
+            << scene << ", " << mode;
+  const auto wrong_px = [&](const std::string& name) {
+    Row& row = rows.at(name);
+    row.workload->prepare(true);
+    stage.compare(row);
+    EXPECT_EQ(row.error, "") << name;
+    return row.workload->wrong_px();
+  };
+  EXPECT_FALSE(wrong_px("tiled+frontend/cubes/cull:back/threads:2").has_value());
+  EXPECT_GT(wrong_px("tiled+frontend/cubes/cull:normal_z/threads:2").value(), 0u);
+  const Row& quads = rows.at("naive+frontend/sphere-quads/cull:normal_z/threads:2");
+  quads.workload->prepare(true);
+  EXPECT_TRUE(std::get<Scene>(quads.workload->drawable()).meshes[0].has_mark(1, kSecondHalf));
+}
+
+TEST(BenchLadder, AddsOneIdeaARungAndEndsOneBelowTheDefault) {
+  const auto rungs = ablation_steps();
+  const auto count = supported_targets().size();
+  ASSERT_EQ(rungs.size(), 1 + count + 4);
+  EXPECT_EQ(rungs[0].backend, "naive");
+  EXPECT_TRUE(rungs[0].execution.stepped);
+  for (std::size_t i = 0; i < rungs.size() - 1; ++i) {
+    EXPECT_EQ(rungs[i + 1].backend, "tiled");
+    const Execution& execution = rungs[i + 1].execution;
+    EXPECT_EQ(execution.threads, 1);
+    EXPECT_EQ(execution.target, i < count ? supported_targets()[i] : SimdTarget::best);
+    EXPECT_EQ(execution.ideas.vector_setup, i >= count);
+    EXPECT_EQ(execution.ideas.prefetch, i >= count + 1);
+    EXPECT_EQ(execution.ideas.patches, i >= count + 2);
+    EXPECT_EQ(execution.ideas.hierarchical_depth, i >= count + 3);
+    EXPECT_EQ(execution.ideas.write_out, WriteOut::through_caches);
+  }
+}
+
+TEST(BenchLadder, StandsBesideTheRowsThatAreItsEnds) {
+  std::set<std::string> names;
+  std::size_t floors = 0;
+  for (const Row& row : make_suite({})) {
+    names.insert(row.name);
+    floors += row.wants_floor;
+  }
+  for (const SceneInfo& scene : builtin_scenes())
+    for (const AblationStep& rung : ablation_steps())
+      EXPECT_EQ(names.count(std::string(rung.backend) + "/" + std::string(scene.name) + "/rung:" + rung.name +
+                            "/threads:1"),
+                in_ablation(scene.name) ? 1u : 0u);
+  EXPECT_TRUE(names.count("naive/large/threads:1") && names.count("tiled/large/threads:2"));
+  EXPECT_EQ(floors, 2 * builtin_scenes().size());
+}
+
+// Its right angle in the image's upper left corner.
+ScreenTriangle right_triangle(int legs_px, std::uint32_t z) {
+  return {{0, legs_px * 256, 0}, {0, 0, legs_px * 256}, {z, z, z}, 0};
+}
+
+TEST(BenchLimit, CountsEachBlockOnceForEachTriangleThatWinsAPixelOfIt) {
+  // Legs of 8 px cover blocks (0,0), (1,0) and (0,1), legs of 12 px six blocks.
+  const ScreenTriangle near_small = right_triangle(8, 5000), far_large = right_triangle(12, 6000);
+  const ScreenTriangle order[2][2] = {{near_small, far_large}, {far_large, near_small}};
+  const BlockCounts near_first = count_blocks(order[0], 16, 16), far_first = count_blocks(order[1], 16, 16);
+  EXPECT_EQ(near_first.covered, 9u);
+  EXPECT_EQ(far_first.covered, 9u);
+  // Block (0,0) of the far one lies behind the near one in every pixel; in (1,0) and (0,1) it looks out.
+  EXPECT_EQ(near_first.won, 8u);
+  EXPECT_EQ(far_first.won, 9u);
+}
+
+TEST(BenchLimit, CountsWhatTheReferenceDraws) {
+  // One triangle a draw, so that blocks that are not background are those it won.
+  SceneRequest request;
+  request.width = 173;
+  request.height = 91;
+  const Drawable stream = random_stream(request, 20, 900.0, 0.0, 5);
+  Frontend frontend;
+  for (const ScreenTriangle& triangle : frontend.run(stream, {})) {
+    Framebuffer frame(request.width, request.height);
+    backends().front().make()->draw({&triangle, 1}, frame.view(), 0, {});
+    std::set<std::pair<int, int>> blocks;
+    for (int y = 0; y < request.height; ++y)
+      for (int x = 0; x < request.width; ++x)
+        if (frame.depth_row(y)[x] != contract::kDepthClear) blocks.insert({x / 4, y / 4});
+    const BlockCounts counts = count_blocks({&triangle, 1}, request.width, request.height);
+    EXPECT_EQ(counts.won, blocks.size());
+    EXPECT_EQ(counts.covered, blocks.size());
+  }
+}
+
+TEST(BenchLimit, IsASumOfMeasuredPartsAndGrowsWithTheBlocks) {
+  const std::vector<ScreenTriangle> triangles(1000, right_triangle(8, 5000));
+  Framebuffer frame(64, 64);
+  CostModel limit;
+  const FrameCost few = limit.under(triangles, {1000, 1000}, frame, 1);
+  const FrameCost many = limit.under(triangles, {2000, 2000}, frame, 1);
+  EXPECT_GT(few.read_s, 0.0);
+  EXPECT_GT(few.write_s, 0.0);
+  EXPECT_DOUBLE_EQ(many.blocks_s, 2 * few.blocks_s);
+  EXPECT_DOUBLE_EQ(many.write_s, few.write_s);
+  EXPECT_DOUBLE_EQ(few.total_s(), few.read_s + few.blocks_s + few.write_s);
+}
+
+TEST(RandomReads, AllLinesAreReadBeforeOneIsReadAgain) {
+  for (const std::size_t bytes : {std::size_t{0}, std::size_t{64}, std::size_t{128}, std::size_t{1} << 16}) {
+    RandomReads reads(bytes);
+    EXPECT_EQ(reads.lines(), std::max<std::size_t>(1, bytes / 64));
+    std::set<std::uint64_t> seen;
+    for (std::size_t i = 0; i < reads.lines(); ++i) seen.insert(reads.go_on(1));
+    EXPECT_EQ(seen.size(), reads.lines());
+    EXPECT_EQ(*seen.rbegin(), reads.lines() - 1);
+    EXPECT_EQ(reads.go_on(reads.lines()), 0u);
+  }
+}
+
+TEST(BenchStage, FindsTheFloorOnlyWhereItIsWanted) {
+  const auto workload = std::make_shared<Workload>(96, 64, Cull::back, [] {
+    return app::load_source("cube", {96, 64, 0.0f, 1.0}, false);
+  });
+  workload->prepare(false);
+  Stage stage;
+  Row with = row_of(backends()[0], workload), without = with;
+  with.wants_floor = true;
+  stage.compare(with);
+  stage.compare(without);
+  ASSERT_TRUE(with.floor.has_value());
+  EXPECT_EQ(with.floor->blocks.won, workload->blocks().won);
+  EXPECT_GT(with.floor->blocks_s, 0.0);
+  EXPECT_GT(with.floor->in_tiles_s(), with.floor->read_s + with.floor->blocks_s);
+  EXPECT_FALSE(without.floor.has_value());
+  EXPECT_EQ(with.error, "");
+}
+
+TEST(BenchModel, WritesEstimatesOfNoMoreThanACoreIsWorthEach) {
+  const auto workload = std::make_shared<Workload>(96, 64, Cull::back, [] {
+    return app::load_source("cube", {96, 64, 0.0f, 1.0}, false);
+  });
+  workload->prepare(true);
+  Stage stage;
+  std::vector<Row> rows(3, row_of(find_backend("tiled"), workload));
+  rows[0].cores = rows[0].execution.threads = 4;
+  rows[0].timed = Timed::frame;
+  rows[1].wants_floor = true;
+  for (Row& row : rows) stage.compare(row);
+  const auto model = nlohmann::json::parse(model_json(rows, 1e-6));
+  ASSERT_EQ(model["scheduled"].size(), 1u);
+  ASSERT_EQ(model["costs"].size(), 1u);
+  const auto& frame = model["scheduled"][0];
+  EXPECT_EQ(frame["cores"], 4);
+  EXPECT_GE(frame["estimate_ms"].get<double>() * 4, frame["work_ms"].get<double>());
+  EXPECT_DOUBLE_EQ(frame["barrier_ms"].get<double>(), 1e-3);
+  EXPECT_EQ(model["costs"][0]["won_blocks"], workload->blocks().won);
+  rows[0].error = rows[1].error = "wrong";
+  EXPECT_TRUE(nlohmann::json::parse(model_json(rows, 0.0))["costs"].empty());
+}
+
+}  // namespace
+}  // namespace edgewise::bench

@@ -1,0 +1,265 @@
+// Other projects' rasterizers in the benchmark: they are given our scene, and a wrong picture is found.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+
+#include "bench/peers/judge.h"
+#include "bench/peers/ratios.h"
+#include "bench/peers/scene.h"
+#include "bench/peers/stage.h"
+#include "edgewise/contract.h"
+#include "support.h"
+
+namespace edgewise::bench {
+namespace {
+
+using contract::kSub;
+
+ScreenTriangle half_square(std::uint32_t z, std::uint32_t id) {
+  return {{0, 64 * kSub, 0}, {0, 0, 64 * kSub}, {z, z, z}, id};
+}
+
+struct Pictures {
+  std::vector<ScreenTriangle> triangles;
+  Framebuffer ours{64, 64};
+  std::vector<std::uint32_t> theirs;
+
+  explicit Pictures(std::vector<ScreenTriangle> given) : triangles(std::move(given)) {
+    backends().front().make()->draw(triangles, ours.view(), kNoTriangle, {});
+    for (int y = 0; y < 64; ++y) theirs.insert(theirs.end(), ours.payload_row(y), ours.payload_row(y) + 64);
+  }
+  PeerJudgement judged() const { return judge(ours, theirs, triangles); }
+};
+
+TEST(PeerJudge, FindsWhatOnlyOneOfTheTwoDraws) {
+  Pictures pictures({half_square(1'000'000, 0)});
+  EXPECT_EQ(pictures.judged().wrong(), 0u);
+  EXPECT_EQ(pictures.judged().drawn, 64u * 63 / 2);
+  pictures.theirs[2 * 64 + 5] = kNoTriangle;
+  pictures.theirs[64 * 64 - 1] = 0;
+  const auto judged = pictures.judged();
+  EXPECT_EQ(judged.coverage, 2u);
+  EXPECT_EQ(judged.owners, 0u);
+  EXPECT_EQ(judged.first_x, 5);
+  EXPECT_EQ(judged.first_y, 2);
+}
+
+TEST(PeerJudge, ForgivesAnotherOwnerOnlyUpToRounding) {
+  constexpr std::uint32_t kNear = 1u << 30;
+  const auto bound = static_cast<std::uint32_t>(float_plane_error(half_square(kNear, 0), 64, 64));
+  for (const auto& [gap, forgiven] : {std::pair{bound, true}, std::pair{4 * bound, false}}) {
+    Pictures pictures({half_square(kNear, 0), half_square(kNear + gap, 1)});
+    pictures.theirs[3] = 1;
+    EXPECT_EQ(pictures.judged().near_ties, forgiven ? 1u : 0u) << gap;
+    EXPECT_EQ(pictures.judged().owners, forgiven ? 0u : 1u) << gap;
+  }
+}
+
+TEST(PeerJudge, ForgivesNoOwnerThatMissesThePixel) {
+  ScreenTriangle elsewhere = half_square(1'000'000, 1);
+  for (auto& x : elsewhere.x_sub) x += 40 * kSub;
+  Pictures pictures({half_square(1'000'000, 0), elsewhere});
+  pictures.theirs[3] = 1;
+  EXPECT_EQ(pictures.judged().owners, 1u);
+  EXPECT_EQ(pictures.judged().near_ties, 0u);
+}
+
+std::shared_ptr<Workload> workload_of(const std::string& scene) {
+  const SceneRequest request{320, 180, 0.0f, 0.02};
+  auto workload = std::make_shared<Workload>(request.width, request.height, Cull::back,
+                                             [=] { return app::load_source(scene, request, false); });
+  workload->prepare(true);
+  return workload;
+}
+
+TEST(PeerScene, GivesEachTriangleOfAMeshAVertexOfItsOwn) {
+  for (const std::string scene : {"cube", "torus-knot", "sphere"}) {
+    const auto workload = workload_of(scene);
+    const auto& given = std::get<Scene>(workload->drawable());
+    const PeerScene made = peer_scene(*workload, true, PeerPayload::id);
+    ASSERT_EQ(made.meshes.size(), given.instances.size());
+    std::uint32_t id = 0;
+    for (std::size_t m = 0; m < made.meshes.size(); ++m) {
+      const Mesh& mesh = given.meshes[given.instances[m].mesh];
+      const PeerMesh& peer = made.meshes[m];
+      ASSERT_EQ(peer.indices.size(), 3 * mesh.triangles.size());
+      EXPECT_LE(peer.positions.size(), mesh.positions.size() + mesh.triangles.size());
+      for (std::size_t i = 0; i < mesh.triangles.size(); ++i, ++id) {
+        const auto at = [&](std::size_t k) { return peer.positions[peer.indices[3 * i + k % 3]]; };
+        bool turned = false;
+        for (std::size_t turn = 0; turn < 3; ++turn)
+          turned |= at(turn) == mesh.positions[mesh.triangles[i][0]] &&
+                    at(turn + 1) == mesh.positions[mesh.triangles[i][1]] &&
+                    at(turn + 2) == mesh.positions[mesh.triangles[i][2]];
+        ASSERT_TRUE(turned) << scene << ' ' << i;
+        ASSERT_EQ(peer.payloads[peer.indices[3 * i + 2]], id) << scene << ' ' << i;
+      }
+    }
+  }
+}
+
+TEST(PeerScene, KeepsSnappedPositionsExactly) {
+  const auto workload = workload_of("small");
+  const PeerScene made = peer_scene(*workload, false, PeerPayload::colour);
+  ASSERT_EQ(made.meshes.size(), 1u);
+  const auto& positions = made.meshes[0].positions;
+  ASSERT_EQ(positions.size(), 3 * workload->triangles().size());
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const ScreenTriangle& t = workload->triangles()[i / 3];
+    ASSERT_EQ(positions[i].x * kSub, static_cast<float>(t.x_sub[i % 3]));
+    ASSERT_EQ(positions[i].y * kSub, static_cast<float>(t.y_sub[i % 3]));
+    ASSERT_EQ(made.meshes[0].payloads[i], t.payload);
+  }
+}
+
+// A peer that is one of our backends, and may err.
+class Mirror final : public PeerFrame {
+ public:
+  Mirror(const PeerScene& scene, bool errs) : scene_(scene), frame_(scene.width, scene.height), errs_(errs) {}
+  void draw() override {
+    std::vector<ScreenTriangle> triangles;
+    const PeerMesh& mesh = scene_.meshes.at(0);
+    for (std::size_t i = 0; i < mesh.positions.size(); i += 3) {
+      ScreenTriangle t{{}, {}, {}, mesh.payloads[i + 2]};
+      for (std::size_t k = 0; k < 3; ++k) {
+        t.x_sub[k] = static_cast<std::int32_t>(mesh.positions[i + k].x * kSub);
+        t.y_sub[k] = static_cast<std::int32_t>(mesh.positions[i + k].y * kSub);
+        t.z[k] = static_cast<std::uint32_t>(double{mesh.positions[i + k].z} * contract::kDepthRange) +
+                 contract::kDepthHead;
+      }
+      if (errs_) std::rotate(t.z, t.z + 1, t.z + 3), t.x_sub[0] += kSub;
+      triangles.push_back(t);
+    }
+    filling_backends().back().make()->draw(triangles, frame_.view(), scene_.background, {});
+  }
+  std::vector<std::uint32_t> read() override {
+    std::vector<std::uint32_t> pixels;
+    for (int y = 0; y < frame_.height(); ++y)
+      pixels.insert(pixels.end(), frame_.payload_row(y), frame_.payload_row(y) + frame_.width());
+    return pixels;
+  }
+
+ private:
+  PeerScene scene_;
+  Framebuffer frame_;
+  bool errs_;
+};
+
+PeerInfo mirror(bool errs) {
+  if (errs)
+    return {"mirror", [] { return std::string("1"); },
+            [](const PeerScene& scene, int) {
+              return std::unique_ptr<PeerFrame>(std::make_unique<Mirror>(scene, true));
+            }};
+  return {"mirror", [] { return std::string("1"); },
+          [](const PeerScene& scene, int) {
+            return std::unique_ptr<PeerFrame>(std::make_unique<Mirror>(scene, false));
+          }};
+}
+
+Row row_of(const PeerInfo& peer, const std::shared_ptr<Workload>& workload, Timed timed, int threads) {
+  Row row;
+  row.name = std::string(peer.name) + std::to_string(threads);
+  row.workload = workload;
+  row.timed = timed;
+  row.peer = &peer;
+  row.execution.threads = threads;
+  return row;
+}
+
+TEST(PeerStage, TellsARightPictureFromAWrongOne) {
+  const auto workload = workload_of("medium");
+  const PeerInfo right = mirror(false), wrong = mirror(true);
+  PeerStage stage;
+  Row good = row_of(right, workload, Timed::raster, 1), bad = row_of(wrong, workload, Timed::raster, 2);
+  stage.compare(good);
+  stage.compare(bad);
+  EXPECT_EQ(good.error, "");
+  EXPECT_NE(bad.error.find("pixels are drawn by one of us only"), std::string::npos) << bad.error;
+}
+
+TEST(Ratios, CompareThePeerWithTheBackendThatUsersGet) {
+  const auto workload = std::make_shared<Workload>(8, 8, Cull::back, [] { return app::Source{}; });
+  const PeerInfo peer = mirror(false);
+  std::vector<Row> rows{row_of(peer, workload, Timed::raster, 1)};
+  std::map<std::string, double> median_ms{{rows[0].name, 30.0}};
+  EXPECT_EQ(ratio_table(rows, median_ms), "");
+  const auto add = [&](const char* name, std::string_view backend, int threads, SimdTarget target,
+                       double ms) {
+    Row row;
+    row.name = name;
+    row.workload = workload;
+    row.backend = &find_backend(backend);
+    row.execution.threads = threads;
+    row.execution.target = target;
+    rows.push_back(row);
+    median_ms[name] = ms;
+  };
+  add("other", "scanline", 1, SimdTarget::best, 3.0);
+  add("threaded", "tiled", 2, SimdTarget::best, 1.0);
+  add("narrow", "tiled", 1, SimdTarget::scalar, 2.0);
+  EXPECT_EQ(ratio_table(rows, median_ms), "");
+  add("ours", "tiled", 1, SimdTarget::best, 4.0);
+  const std::string table = ratio_table(rows, median_ms);
+  EXPECT_NE(table.find("ours "), std::string::npos) << table;
+  EXPECT_NE(table.find(" 7.50×"), std::string::npos) << table;
+}
+
+// An outside witness: it draws what we draw, from triangles that are hard and from whole scenes.
+class BuiltPeer : public ::testing::TestWithParam<std::string> {};
+
+std::shared_ptr<Workload> hard_workload(const std::string& family) {
+  TriangleStream stream{192, 128, {}};
+  for (const ScreenTriangle& t : testing::adversarial(family, 400, stream.width, stream.height, 7)) {
+    StreamTriangle out{{}, t.payload};
+    for (int k = 0; k < 3; ++k)
+      out.vertex[k] = {static_cast<float>(t.x_sub[k]) / kSub, static_cast<float>(t.y_sub[k]) / kSub,
+                       static_cast<float>(t.z[k]) / static_cast<float>(contract::kDepthClear)};
+    stream.triangles.push_back(out);
+  }
+  auto workload = std::make_shared<Workload>(stream.width, stream.height, Cull::none, [=] {
+    return app::Source{family, stream, true};
+  });
+  workload->prepare(true);
+  return workload;
+}
+
+TEST_P(BuiltPeer, DrawsWhatWeDraw) {
+  const bool family = std::ranges::find(testing::kFamilies, GetParam()) != std::end(testing::kFamilies);
+  const auto workload = family ? hard_workload(GetParam()) : workload_of(GetParam());
+  const bool stream = std::holds_alternative<TriangleStream>(workload->drawable());
+  for (const PeerInfo& peer : peers()) {
+    try {
+      peer.version();
+    } catch (const std::runtime_error& error) {
+      GTEST_SKIP() << error.what();
+    }
+    for (const int threads : {1, 2}) {
+      PeerStage stage;
+      Row row = row_of(peer, workload, stream ? Timed::raster : Timed::frame, threads);
+      stage.compare(row);
+      EXPECT_EQ(row.error, "") << peer.name << ", threads " << threads;
+    }
+  }
+  if (peers().empty()) GTEST_SKIP() << "no peer was built";
+}
+
+std::vector<std::string> witnessed() {
+  std::vector<std::string> names;
+  for (const auto& scene : builtin_scenes()) names.emplace_back(scene.name);
+  // The others reach beyond 8192 px, where llvmpipe clips.
+  for (const auto family : testing::kFamilies)
+    if (family != "huge" && family != "guardband") names.emplace_back(family);
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BuiltPeer, ::testing::ValuesIn(witnessed()), [](const auto& test) {
+  std::string name = test.param;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
+
+}  // namespace
+}  // namespace edgewise::bench

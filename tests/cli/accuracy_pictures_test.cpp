@@ -1,0 +1,90 @@
+// What `edgewise accuracy --pictures` shows: each error in its colour, each failure once.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "cli/accuracy/accuracy.h"
+#include "edgewise/image.h"
+#include "run_program.h"
+#include "temp_dir.h"
+
+namespace edgewise::app {
+namespace {
+
+// The colours that README and --help name.
+constexpr std::uint32_t kVermilion = rgb(213, 94, 0), kBlue = rgb(0, 114, 178);
+
+TEST(AccuracyPictures, PicturesShowEachErrorInItsColour) {
+  const TempDir folder;
+  const std::string pictures = (folder.path() / "errors").string();
+  ASSERT_EQ(
+      testing::run_program(EDGEWISE_PROGRAM, "accuracy drtk_quad --no-speed --pictures " + pictures).status,
+      0);
+  const auto pixels_of_colour = [&](const char* method, std::uint32_t colour) {
+    const Image image = read_image(pictures + "/coverage-drtk_quad-" + method + ".png");
+    return std::count_if(image.pixels.begin(), image.pixels.end(),
+                         [&](std::uint32_t pixel) { return (pixel & 0xFFFFFF) == (colour & 0xFFFFFF); });
+  };
+  const auto twice = pixels_of_colour("float_le", kBlue), gaps = pixels_of_colour("float_lt", kVermilion);
+  EXPECT_GT(twice, 6 * 32 * 32);  // six of 64 x 64, less edges and samples
+  EXPECT_EQ(twice, gaps);
+  EXPECT_EQ(pixels_of_colour("float_le", kVermilion), 0);
+  EXPECT_EQ(pixels_of_colour("float_lt", kBlue), 0);
+  EXPECT_FALSE(std::filesystem::exists(pictures + "/coverage-drtk_quad-float_top_left.png"));
+}
+
+TEST(AccuracyPictures, PicturesOfMethodsThatDrawAlikeAreMadeOnce) {
+  AccuracyPlan plan;
+  plan.scenes = {"t_junction", "t_junction_split"};
+  plan.pictures = true;
+  plan.family = Family::coverage;
+  std::vector<std::string> names;
+  for (const Closeup& closeup : measure_accuracy(plan).closeups) names.push_back(closeup.name);
+  const auto made = [&](const char* name) { return std::count(names.begin(), names.end(), name); };
+  for (const std::string scene : {"coverage-t_junction-", "coverage-t_junction_split-"}) {
+    EXPECT_EQ(made((scene + "scanline").c_str()), 1) << "a scene of its own, a picture of its own";
+    for (const char* same : {"naive", "tiled", "fixed_8"}) EXPECT_EQ(made((scene + same).c_str()), 0) << same;
+  }
+}
+
+// The crack is vermilion; where it is closed, pixels change hands, and another triangle covers them.
+TEST(AccuracyPictures, PicturesShowTheTJunctionsCrackAndThatSplittingClosesIt) {
+  AccuracyPlan plan;
+  plan.scenes = {"t_junction", "t_junction_split"};
+  plan.methods = {"scanline"};
+  plan.pictures = true;
+  const auto report = measure_accuracy(plan);
+  ASSERT_EQ(report.closeups.size(), 2u);
+  const auto count = [&](std::size_t scene, lab::Mark mark) {
+    const auto& marks = report.closeups[scene].marks;
+    return std::count(marks.begin(), marks.end(), mark);
+  };
+  EXPECT_GT(count(0, lab::Mark::gap), 40);
+  EXPECT_EQ(count(1, lab::Mark::gap), 0);
+  EXPECT_EQ(count(1, lab::Mark::missing), count(0, lab::Mark::gap));
+  EXPECT_EQ(count(1, lab::Mark::extra), 0);
+}
+
+TEST(AccuracyPictures, PicturesCanBeMadeForEveryFamily) {
+  AccuracyPlan plan;
+  plan.scenes = {"t_junction", "interpenetrating", "box_beside_the_axis", "floor_behind_eye"};
+  plan.pictures = true;
+  std::set<std::string> families;
+  for (const Closeup& closeup : measure_accuracy(plan).closeups) {
+    families.insert(closeup.name.substr(0, closeup.name.find('-')));
+    EXPECT_TRUE(std::any_of(closeup.marks.begin(), closeup.marks.end(), [](lab::Mark mark) {
+      return mark != lab::Mark::none;
+    })) << closeup.name;
+    const Image image = draw(closeup);
+    EXPECT_LE(std::max(image.width, image.height), 1000) << closeup.name;
+    EXPECT_GE(std::max(image.width, image.height), 200) << closeup.name;
+  }
+  EXPECT_EQ(families.size(), lab::kFamilies.size());
+}
+
+}  // namespace
+}  // namespace edgewise::app

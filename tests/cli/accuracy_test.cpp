@@ -1,0 +1,223 @@
+// `edgewise accuracy` as a user meets it: the schema, the figures that theory foretells, clean failures.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cli/accuracy/accuracy.h"
+#include "cli/accuracy/report.h"
+#include "cli/accuracy/scenes.h"
+#include "edgewise/builtin.h"
+#include "edgewise/contract.h"
+#include "lab/coverage/cases.h"
+#include "run_program.h"
+#include "temp_dir.h"
+
+namespace edgewise::app {
+namespace {
+
+using nlohmann::json;
+using testing::Outcome;
+
+Outcome accuracy(const std::string& arguments) {
+  return testing::run_program(EDGEWISE_PROGRAM, "accuracy " + arguments);
+}
+
+json json_of(const std::string& arguments) {
+  const Outcome outcome = accuracy(arguments + " --json -");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  return json::parse(outcome.out);
+}
+
+const json& named(const json& list, std::string_view name) {
+  return *std::find_if(list.begin(), list.end(), [&](const json& entry) { return entry.at("name") == name; });
+}
+
+void expect_keys(const json& object, std::initializer_list<const char*> keys) {
+  for (const char* key : keys) EXPECT_TRUE(object.contains(key)) << key << " in " << object;
+}
+
+TEST(Accuracy, CountsTheDrtkQuadAndTheLatticeSquareAsForetold) {
+  const json report = json_of("drtk_quad lattice_square --no-speed");
+  const auto count = [&](const char* scene, const char* method, const char* what) {
+    return named(named(report.at("scenes"), scene).at("methods"), method).at("float").at(what).get<int>();
+  };
+  EXPECT_EQ(count("drtk_quad", "float_le", "double_hits"), 6);
+  EXPECT_EQ(count("drtk_quad", "float_le", "gaps"), 0);
+  EXPECT_EQ(count("drtk_quad", "float_lt", "gaps"), 6);
+  EXPECT_EQ(count("drtk_quad", "float_lt", "double_hits"), 0);
+  EXPECT_EQ(count("drtk_quad", "float_top_left", "errors"), 0);
+  EXPECT_EQ(count("lattice_square", "float_le", "double_hits"), 64);
+  EXPECT_EQ(count("lattice_square", "float_lt", "gaps"), 64);
+}
+
+TEST(Accuracy, JudgesQuadsAndKnotsOnlyWhenNamed) {
+  const auto count = [](std::vector<std::string> named) {
+    AccuracyPlan plan;
+    plan.scenes = std::move(named);
+    const auto scenes = scenes_of(plan).scenes;
+    return std::count_if(scenes.begin(), scenes.end(), [](const AccuracyScene& scene) {
+      return scene.name == "quads" || scene.name == "knots";
+    });
+  };
+  EXPECT_EQ(count({}), 0);
+  EXPECT_EQ(count({"quads", "knots"}), 3);  // knots in coverage and in visibility
+}
+
+TEST(Accuracy, WritesTheAgreedKeys) {
+  const json report = json_of("drtk_quad bars_in_a_cycle box_beside_the_axis in_view turning-cube --quick");
+  expect_keys(report, {"machine", "quick", "methods", "scenes", "turning_cube"});
+  EXPECT_EQ(report.at("quick"), true);
+  EXPECT_TRUE(report.at("machine").contains("cpu_model"));
+  std::set<std::string> families;
+  for (const json& method : report.at("methods")) {
+    expect_keys(method, {"family", "name", "idea", "source", "promise", "exact"});
+    families.insert(method.at("family"));
+  }
+  EXPECT_EQ(families, (std::set<std::string>{"coverage", "visibility", "facing", "clipping"}));
+
+  ASSERT_EQ(report.at("scenes").size(), 4u);
+  for (const json& scene : report.at("scenes")) {
+    expect_keys(scene, {"name", "family", "idea", "width", "height", "triangles", "covered", "methods"});
+    const std::string family = scene.at("family");
+    const json& first = scene.at("methods").at(0);
+    if (family == "coverage") {
+      EXPECT_TRUE(scene.contains("crossings"));
+      for (const char* truth : {"snapped", "float"}) {
+        expect_keys(first.at(truth),
+                    {"missing", "extra", "gaps", "double_hits", "out_of_bounds", "out_of_box", "worst_px",
+                     "errors", "errors_per_million", "bound_per_million", "wrong_owners"});
+        expect_keys(first.at("depth"), {"max_ulp", "rms_ulp"});
+        const json& wrong = named(scene.at("methods"), "float_le").at("float");
+        EXPECT_GT(wrong.at("errors_per_million"), 0);
+        EXPECT_FALSE(wrong.contains("bound_per_million"));
+      }
+    } else if (family == "clipping") {
+      expect_keys(first.at("score"), {"errors_per_million"});
+    } else {
+      for (const char* truth : {"snapped", "float"}) expect_keys(first.at(truth), {"errors_per_million"});
+      expect_keys(first, {"broken"});
+    }
+  }
+  const json& scenes = report.at("scenes");
+  const json& bars = named(scenes, "bars_in_a_cycle").at("methods").at(0);
+  expect_keys(bars.at("snapped"), {"covered", "wrong_owner", "out_of_range", "max_ulp", "rms_ulp",
+                                   "near_ties", "bound_per_million"});
+  expect_keys(bars.at("float"), {"covered", "wrong_owner", "out_of_range", "max_ulp", "rms_ulp"});
+  const json& box = named(scenes, "box_beside_the_axis").at("methods").at(0);
+  expect_keys(box, {"disagreements"});
+  for (const char* truth : {"snapped", "float"})
+    expect_keys(box.at(truth), {"faces", "misclassified", "by_first_three"});
+  expect_keys(named(scenes, "in_view").at("methods").at(0).at("score"),
+              {"missing", "extra", "wrong_owner", "wrong_depth", "hairline", "differs_from_ours",
+               "not_a_number", "out_of_range"});
+
+  const json& cube = report.at("turning_cube");
+  EXPECT_EQ(cube.at("frames"), 120);
+  for (const json& method : cube.at("methods"))
+    for (const char* count : {"gaps", "double_hits", "missing", "extra"})
+      expect_keys(method.at(count), {"median", "worst", "total"});
+}
+
+TEST(Accuracy, TheZNormalTestAloneMisjudgesTheBox) {
+  const json report = json_of("box_beside_the_axis");
+  for (const json& method : report.at("scenes").at(0).at("methods"))
+    for (const char* truth : {"snapped", "float"})
+      EXPECT_EQ(method.at(truth).at("misclassified"), method.at("name") == "normal_z" ? 1 : 0) << method;
+}
+
+TEST(Accuracy, ExactMethodsScoreZeroAgainstTheSnappedTruth) {
+  const json report = json_of(
+      "cube cubes grid64 drtk_quad t_junction double_tie turning-cube --quick --no-speed "
+      "--family coverage");
+  std::set<std::string> exact;
+  for (const json& method : report.at("methods"))
+    if (method.at("exact")) exact.insert(method.at("name"));
+  EXPECT_GE(exact.size(), 3u);
+  std::set<int> cracks;
+  for (const json& scene : report.at("scenes"))
+    for (const std::string& name : exact) {
+      const json& method = named(scene.at("methods"), name);
+      EXPECT_EQ(method.at("snapped").at("errors"), 0) << scene.at("name") << ' ' << name;
+      EXPECT_EQ(method.at("snapped").at("out_of_bounds"), 0) << scene.at("name") << ' ' << name;
+      if (lab::find_coverage_method(name).contract_depth) {
+        EXPECT_EQ(method.at("snapped").at("unexplained_owners"), 0) << scene.at("name") << ' ' << name;
+        EXPECT_EQ(method.at("snapped").at("wrong_owners"), 0) << scene.at("name") << ' ' << name;
+        const double pixels = scene.at("width").get<double>() * scene.at("height").get<double>();
+        EXPECT_DOUBLE_EQ(method.at("snapped").at("wrong_owners_bound_per_million"), 3e6 / pixels);
+        EXPECT_LT(method.at("depth").at("max_ulp"), contract::kDepthError) << scene.at("name") << ' ' << name;
+      }
+      if (scene.at("name") == "t_junction") cracks.insert(method.at("float").at("gaps").get<int>());
+    }
+  EXPECT_EQ(cracks.size(), 1u);
+  EXPECT_GT(*cracks.begin(), 0);
+  for (const std::string& name : exact) {
+    const json& counts = named(report.at("turning_cube").at("methods"), name);
+    EXPECT_EQ(counts.at("snapped").at("missing").at("total"), 0) << name;
+    EXPECT_EQ(counts.at("snapped").at("missing").at("bound_per_frame"), 3.0 / 120);
+    EXPECT_FALSE(counts.at("missing").contains("bound_per_frame")) << "some were seen";
+    EXPECT_EQ(counts.at("snapped").at("extra").at("total"), 0) << name;
+    EXPECT_GT(counts.at("missing").at("total"), 0) << name << ": snapping moves the outline";
+    EXPECT_EQ(counts.at("gaps").at("total"), 0) << name << ": and opens no crack";
+  }
+}
+
+TEST(Accuracy, TimesExactMethodsOnOneAndTwoThreads) {
+  const TempDir folder;
+  const std::string path = (folder.path() / "mine.tri").string();
+  ASSERT_EQ(testing::run_program(EDGEWISE_PROGRAM, "capture cube --size 64x48 -o " + path).status, 0);
+  const json report = json_of(path + " --quick");
+  const json& scene = named(report.at("scenes"), "mine");
+  EXPECT_EQ(scene.at("width"), 64);
+  for (const json& entry : report.at("methods")) {
+    if (entry.at("family") != "coverage") continue;
+    const std::string name = entry.at("name");
+    const json& speed = named(scene.at("methods"), name).at("speed");
+    ASSERT_EQ(speed.size(), lab::find_coverage_method(name).threaded ? 2u : 1u) << name;
+    for (const json& one : speed) {
+      EXPECT_GT(one.at("ns_per_covered_pixel"), 0);
+      EXPECT_GT(one.at("mtri_per_s"), 0);
+      EXPECT_LE(one.at("ms").at("min"), one.at("ms").at("median"));
+      EXPECT_LE(one.at("ms").at("median"), one.at("ms").at("max"));
+      EXPECT_GT(one.at("ms").at("repetitions"), 1);
+    }
+  }
+}
+
+TEST(Accuracy, KeepsToTheMethodsAndTheFamilyAskedFor) {
+  const json report = json_of("cube --quick --no-speed --method float_le,painter_mean --method float_lt");
+  ASSERT_EQ(report.at("methods").size(), 3u);
+  ASSERT_EQ(report.at("scenes").size(), 2u);
+  EXPECT_EQ(report.at("scenes")[0].at("methods").size(), 2u);
+  EXPECT_EQ(report.at("scenes")[1].at("methods").at(0).at("name"), "painter_mean");
+  EXPECT_EQ(json_of("cube --quick --no-speed --family visibility").at("scenes").size(), 1u);
+}
+
+TEST(Accuracy, TablesFitEightyColumns) {
+  AccuracyPlan plan;
+  plan.scenes = {"cube", "legs_182", "planes_1e-5_apart", "edge_on", "floor_behind_eye", "turning-cube"};
+  plan.quick = true;
+  plan.speed = false;
+  std::string text = accuracy_tables(measure_accuracy(plan));
+  EXPECT_NE(text.find("0 (<"), std::string::npos);
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    EXPECT_LE(end, 80u) << text.substr(0, end);
+    text.erase(0, end + 1);
+  }
+}
+
+TEST(Accuracy, MeshesLoseTheirBackFacesByTheExactSign) {
+  const lab::Size size{200, 150};
+  const CoverageScene scene = coverage_scene(find_scene("cube").make({size.width, size.height}), size);
+  ASSERT_EQ(scene.floats.size(), scene.snapped.size());
+  EXPECT_EQ(scene.floats.size(), 6u);
+  for (const lab::FloatTriangle& triangle : scene.floats) EXPECT_EQ(lab::FloatTruth(triangle.at).facing(), 1);
+}
+
+}  // namespace
+}  // namespace edgewise::app

@@ -1,0 +1,248 @@
+// Bad input and faults, row by row of invalid_inputs.h: a clear message, the documented exit status, no file
+// under its final name that is not whole, and never a crash.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <ostream>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cli/invalid_inputs.h"
+#include "edgewise/image.h"
+#include "edgewise/tri_file.h"
+#include "run_program.h"
+#include "temp_dir.h"
+
+namespace edgewise::testing {
+
+void PrintTo(const Hostile& row, std::ostream* out) {
+  *out << row.script;
+}
+
+namespace {
+
+constexpr int kSkipped = 77;
+
+// `stopped SIGNAL COMMAND…` runs a command until a file appears in $DIR (with awaited=NAME before it, that
+// one), and sends it the signal; its status is the command's. `unprivileged COMMAND…` runs it as somebody
+// whom permissions bind, or skips the row: another one each time, since limits count all that one runs.
+constexpr const char* kWords = R"(
+set -m
+for descriptor in {3..20}; do eval "exec $descriptor>&-"; done  # what ctest leaves open
+edgewise() { "$EDGEWISE" "$@"; }
+bench() { "$BENCH" "$@"; }
+SHORT='--no-peers --scene cube --size 32x32 --quick --benchmark_min_time=0.001'
+program() { case $1 in edgewise) shift; exec "$EDGEWISE" "$@" ;; bench) shift; exec "$BENCH" "$@" ;; esac; }
+stopped() {
+  local signal=$1 before; shift
+  before=$(ls -A "$DIR" | wc -l)
+  exec 3>&2 2>/dev/null
+  program "$@" >/dev/null 2>&3 &
+  for ((i = 0; i < 2000; i++)); do
+    if [[ ${awaited-} ]]; then
+      [[ ! -e $DIR/$awaited ]] || break
+    else
+      (($(ls -A "$DIR" | wc -l) == before)) || break
+    fi
+    sleep 0.01
+  done
+  kill -s "$signal" $!
+  wait $!
+}
+unprivileged() {
+  local somebody="--reuid=$((100000 + $$)) --regid=65534 --clear-groups"
+  chmod 755 "$IN"
+  if (($(id -u) != 0)); then
+    program "$@"
+  elif setpriv $somebody test -x "$EDGEWISE" -a -x "$IN"; then
+    [[ $1 == bench ]] && set -- "$BENCH" "${@:2}" || set -- "$EDGEWISE" "${@:2}"
+    setpriv $somebody "$@"
+  else
+    exit 77
+  fi
+}
+)";
+
+void write_inputs(const TempDir& folder) {
+  using namespace std::string_literals;
+  const auto le = [](std::uint32_t value) {
+    std::string bytes;
+    for (int i = 0; i < 4; ++i) bytes += static_cast<char>(value >> 8 * i & 255);
+    return bytes;
+  };
+  const std::string kCorners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  folder.write("good.obj", kCorners + "f 1 2 3\n");
+  folder.write("empty.obj", "");
+  folder.write("index.obj", kCorners + "f 1 2 9\n");
+  folder.write("tiny.obj", "v 0 0 0\nv 1e-40 0 0\nv 0 1e-40 0\nf 1 2 3\n");
+  folder.write("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n");
+  folder.write("infinite.obj", "v 0 0 0\nv 1e999 0 0\nv 0 1 0\nf 1 2 3\n");
+  folder.write("binary.obj", "\x7F"s + "ELF\0\1\2\3"s);
+  folder.write("mesh.stl", "solid");
+  folder.write("cut.tri", "TRI1\1");
+  folder.write("other.tri", "NOPE............");
+  folder.write("lies.tri", "TRI1" + le(4) + le(4) + le(0xFFFFFFFF) + "xxxx");
+  folder.write("wide.tri", "TRI1" + le(16385) + le(4) + le(0));
+  std::string floats;  // of a triangle with an infinity, one with a NaN, and a good one
+  for (const std::uint32_t first : {0x7F800000u, 0x7FC00000u, 0x3F800000u})
+    floats +=
+        le(first) + le(0) + le(0) + le(0x41000000) + le(0) + le(0) + le(0) + le(0x41000000) + le(0) + le(7);
+  folder.write("nan.tri", "TRI1" + le(8) + le(8) + le(3) + floats);
+  folder.write("text.png", "not a picture");
+  folder.write("cut.json", R"({"format": "edgewise soak", "sequence": 2, "seed": 1})");
+  folder.write("old.json", R"({"format": "edgewise soak", "sequence": 0, "seed": 1})");
+  folder.write("cut.png", "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\x09\0\0\0\x09"s);
+  folder.write("large.tri", "TRI1" + le(4) + le(4) + le((1 << 30) + 1));
+  folder.write("wide.png",
+               "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\x0f\x42\x40\0\x0f\x42\x40\x08\x02\0\0\0\xd3\x0f\xaf\x2a"s);
+  folder.write("small.ppm", "P6\n1 1\n255\nabc");
+  folder.write("other.ppm", "P6\n1 1\n255\nxyz");
+  folder.write("large.ppm", "P6\n2 1\n255\nabcdef");
+  folder.write("huge.ppm", "P6\n1000000000 1000000000\n255\nabc");
+  folder.write("cut.ppm", "P6\n2 2\n255\nabc");
+  folder.write("depth.pfm", "Pf\n1 1\n-1.0\n\0\0\0\0"s);
+  folder.write("cut.pfm", "Pf\n2 2\n-1.0\n\0\0\0\0"s);
+}
+
+std::string shown_name(const std::string& name) {
+  return name.starts_with(".edgewise.") && name.ends_with(".partial") ? "partial" : name;
+}
+
+void expect_whole(const std::filesystem::path& file) {
+  const std::string name = file.filename();
+  if (std::filesystem::is_directory(file)) {
+    for (const auto& entry : std::filesystem::directory_iterator(file))
+      if (shown_name(entry.path().filename()) != "partial") expect_whole(entry.path());
+  } else if (name.starts_with("older")) {
+    EXPECT_EQ(file_content(file), "older");
+  } else if (file.extension() == ".json") {
+    EXPECT_FALSE(nlohmann::json::parse(file_content(file), nullptr, false).is_discarded());
+  } else if (is_image_path(file)) {
+    EXPECT_NO_THROW(read_image(file));
+  } else if (file.extension() == ".pfm") {
+    EXPECT_NO_THROW(read_pfm(file));
+  } else if (file.extension() == ".tri") {
+    EXPECT_NO_THROW(read_tri(file));
+  }
+}
+
+// Sanitizers reserve more memory than the limits leave, and need files and a thread of their own.
+bool starves_sanitizers([[maybe_unused]] const std::string& script) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  for (const auto limit : {"ulimit -v", "ulimit -n", "ulimit -u"})
+    if (script.find(limit) != std::string::npos) return true;
+  return false;
+#else
+  return false;
+#endif
+}
+
+// A signal that is ignored when a shell starts stays so; and nothing may hang.
+Outcome run_script(const std::string& script, const TempDir& folder, const TempDir& input) {
+  const auto file = input.write("script", kWords + script);
+  return run_program("/usr/bin/env", "--default-signal=HUP,INT,QUIT,TERM DIR='" + folder.path().string() +
+                                         "' IN='" + input.path().string() +
+                                         "' EDGEWISE='" EDGEWISE_PROGRAM "' BENCH='" EDGEWISE_BENCH
+                                         "' timeout -s KILL 60 bash '" +
+                                         file.string() + "'");
+}
+
+class InvalidInput : public ::testing::TestWithParam<Hostile> {};
+
+TEST_P(InvalidInput, IsAnsweredAsTheTableSays) {
+  const Hostile& row = GetParam();
+  const std::string script = row.script;
+  if (starves_sanitizers(script)) GTEST_SKIP() << "sanitizers need more than the limit";
+  const TempDir folder, input;
+  write_inputs(input);
+  const Outcome outcome = run_script(script, folder, input);
+  if (outcome.status == kSkipped) GTEST_SKIP() << "nobody here whom permissions bind may run the program";
+  EXPECT_EQ(outcome.status, row.status) << outcome.err;
+  EXPECT_NE(outcome.err.find(row.said), std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find('\x1b'), std::string::npos) << "nothing that a terminal obeys";
+  if (outcome.status == 2 && *row.said != '\0' && script.find("bench ") == std::string::npos) {
+    EXPECT_TRUE(outcome.err.starts_with("edgewise: ")) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << "one line: " << outcome.err;
+  }
+
+  std::vector<std::string> left;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+    left.push_back(shown_name(entry.path().filename()));
+    if (left.back() != "partial") expect_whole(entry.path());
+  }
+  std::sort(left.begin(), left.end());
+  std::string listing;
+  for (const std::string& name : left) listing += (listing.empty() ? "" : " ") + name;
+  EXPECT_EQ(listing, row.left);
+}
+
+// The row's number, which makes the name unique, and the first letters and digits of its script.
+std::string row_name(const ::testing::TestParamInfo<Hostile>& row) {
+  constexpr std::size_t kLongest = 40;
+  std::string name = std::to_string(row.index) + '_';
+  std::string_view script = row.param.script;
+  if (script.starts_with("edgewise ")) script.remove_prefix(9);
+  for (const char c : script) {
+    if (name.size() == kLongest) break;
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0)
+      name += c;
+    else if (name.back() != '_')
+      name += '_';
+  }
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, InvalidInput, ::testing::ValuesIn(kHostile), row_name);
+
+// The exit status within so much address space: done, or 2 and one line. None where the system's loader,
+// which speaks for itself, finds no room for the program.
+std::optional<int> status_within(int kib, const std::string& command, const TempDir& folder) {
+  const std::string limit = "ulimit -v " + std::to_string(kib) + "; ", script = limit + command;
+  const TempDir input;
+  if (run_script(limit + "edgewise --version", folder, input).status == 127) return {};
+  const Outcome outcome = run_script(script, folder, input);
+  EXPECT_TRUE(outcome.status == 0 || outcome.status == 2) << script << ": " << outcome.status << outcome.err;
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), outcome.status == 0 ? 0 : 1) << script;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) expect_whole(entry.path());
+  return outcome.status;
+}
+
+// Wherever memory runs out. On one thread, since oneTBB may not come back.
+TEST(HostileMemory, EndsInAFileOrInOneLineAtAnyLimit) {
+  if (starves_sanitizers("ulimit -v")) GTEST_SKIP() << "sanitizers need more than the limit";
+  int done = 0, refused = 0;
+  for (const std::string command : {"edgewise render torus-knot --size 1900x1900 --threads 1 -o $DIR/a.png",
+                                    "edgewise capture terrain -o $DIR/a.tri",
+                                    "edgewise stability cycle --quick --threads 1 --json $DIR/a.json"})
+    for (const int kib : {15'000, 20'000, 30'000, 40'000, 50'000, 60'000, 80'000, 150'000, 300'000}) {
+      const TempDir folder;
+      const auto status = status_within(kib, command, folder);
+      if (!status) continue;
+      ++(*status == 0 ? done : refused);
+      EXPECT_EQ(folder.count(), *status == 0 ? 1u : 0u) << command << " within " << kib;
+    }
+  EXPECT_GT(done, 3);
+  EXPECT_GT(refused, 3);
+}
+
+// A soak's record is there from the beginning, and stays whole.
+TEST(HostileMemory, LeavesAWholeRecordOfASoakAtAnyLimit) {
+  if (starves_sanitizers("ulimit -v")) GTEST_SKIP() << "sanitizers need more than the limit";
+  int done = 0;
+  for (const int kib : {40'000, 60'000, 80'000, 150'000, 300'000, 2'000'000}) {
+    const TempDir folder;
+    const auto status = status_within(kib, "edgewise soak --cases 9 --jobs 1 --json $DIR/a.json", folder);
+    if (!status) continue;
+    done += *status == 0;
+    EXPECT_LE(folder.count(), 1u) << kib;
+  }
+  EXPECT_GT(done, 0);
+}
+
+}  // namespace
+}  // namespace edgewise::testing

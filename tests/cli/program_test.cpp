@@ -1,0 +1,275 @@
+// The program as a user meets it. What it must refuse stands in invalid_inputs.h.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "edgewise/backend.h"
+#include "edgewise/builtin.h"
+#include "edgewise/image.h"
+#include "run_program.h"
+#include "support/machine.h"
+#include "temp_dir.h"
+
+namespace edgewise {
+namespace {
+
+using testing::Outcome;
+
+Outcome edgewise_with(const std::string& arguments) {
+  return testing::run_program(EDGEWISE_PROGRAM, arguments);
+}
+
+std::vector<std::string> names_in(const nlohmann::json& list) {
+  std::vector<std::string> names;
+  for (const auto& entry : list) names.push_back(entry.is_string() ? entry : entry.at("name"));
+  return names;
+}
+
+template <typename Registry>
+std::vector<std::string> names_of(const Registry& registry) {
+  std::vector<std::string> names;
+  for (const auto& entry : registry) names.emplace_back(entry.name);
+  return names;
+}
+
+TEST(Program, HelpsOnEveryCommand) {
+  for (const char* command : {"", "list", "render", "verify", "accuracy", "stability", "diff", "capture",
+                              "view", "demo", "machine"}) {
+    const Outcome outcome = edgewise_with(std::string(command) + " --help");
+    EXPECT_EQ(outcome.status, 0) << command;
+    EXPECT_NE(outcome.out.find("edgewise"), std::string::npos) << command;
+    EXPECT_EQ(outcome.err, "") << command;
+  }
+}
+
+TEST(Program, ListNamesAllRegistries) {
+  const Outcome outcome = edgewise_with("list --json");
+  ASSERT_EQ(outcome.status, 0);
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(names_in(json.at("scenes")), names_of(builtin_scenes()));
+  EXPECT_EQ(names_in(json.at("backends")), names_of(backends()));
+  std::vector<std::string> targets;
+  for (const SimdTarget target : supported_targets()) targets.emplace_back(name_of(target));
+  EXPECT_EQ(names_in(json.at("simd_targets")), targets);
+  EXPECT_EQ(json.at("simd_best"), targets.back());
+  EXPECT_EQ(names_in(json.at("cull_modes")), (std::vector<std::string>{"none", "back", "front", "both"}));
+
+  const std::string text = edgewise_with("list").out;
+  for (const auto& name : names_of(builtin_scenes())) EXPECT_NE(text.find(name), std::string::npos) << name;
+}
+
+TEST(Program, MachineIsDescribedWithoutAHostName) {
+  const auto json = nlohmann::json::parse(edgewise_with("machine").out);
+  for (const char* key :
+       {"cpu_model", "cpu_features", "cores", "caches", "memory_gib", "os", "kernel", "compiler", "flags",
+        "build_type", "edgewise_version", "commit", "packages", "simd_targets", "simd_best"})
+    EXPECT_TRUE(json.contains(key)) << key;
+  const std::string name = edgewise_with("machine --name").out;
+  EXPECT_EQ(name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-\n"), std::string::npos) << name;
+  EXPECT_TRUE(name.ends_with("-core\n") || name.ends_with("-cores\n")) << name;
+}
+
+// The sleep lets the reader go first.
+TEST(Program, EndsQuietlyAfterItsReader) {
+  for (const std::string command : {EDGEWISE_PROGRAM " demo --json", EDGEWISE_PROGRAM " render --help",
+                                    EDGEWISE_BENCH " --help", EDGEWISE_BENCH " --benchmark_list_tests"}) {
+    const Outcome outcome =
+        testing::run_program("/bin/bash", "-c '{ sleep 0.2; " + command + "; echo status $? >&2; } | true'");
+    EXPECT_EQ(outcome.err, "status 0\n") << command;
+  }
+}
+
+// What a program writes to a terminal, both streams together. script(1) makes the terminal.
+Outcome on_terminal(const std::string& term, const std::string& arguments) {
+  return testing::run_program(
+      "/usr/bin/env", "TERM=" + term + " script -qec \"" EDGEWISE_PROGRAM " " + arguments + "\" /dev/null");
+}
+
+TEST(Program, SendsNoCursorControlsToADumbTerminal) {
+  const std::string work = "verify cube --size 65x33";
+  EXPECT_NE(on_terminal("xterm", work).out.find("\x1b[K"), std::string::npos);
+  const Outcome dumb = on_terminal("dumb", work);
+  EXPECT_EQ(dumb.status, 0);
+  EXPECT_NE(dumb.out.find("cube"), std::string::npos);
+  EXPECT_EQ(dumb.out.find('\x1b'), std::string::npos) << dumb.out;
+
+  for (const std::string viewer : {"view --terminal", "demo outlaw-triad --terminal"}) {
+    const Outcome refused = on_terminal("dumb", viewer);
+    EXPECT_EQ(refused.status, 2) << viewer;
+    EXPECT_EQ(refused.out.find('\x1b'), std::string::npos) << refused.out;
+    EXPECT_NE(refused.out.find("moves its cursor"), std::string::npos) << refused.out;
+  }
+}
+
+// Results of different machines must not go to one folder.
+TEST(Program, TellsCpusApartThatGoByOneName) {
+  TempDir folder;
+  const auto model_of = [&](const std::string& name, const std::string& more) {
+    const std::string path = (folder.path() / "cpuinfo").string();
+    std::ofstream(path) << "processor\t: 0\n" + more + "model name\t: " + name + "\nstepping\t: 1\n";
+    return app::cpu_model(path);
+  };
+  EXPECT_EQ(model_of("AMD EPYC", "cpu family\t: 25\nmodel\t\t: 17\n"), "AMD EPYC (family 25, model 17)");
+  EXPECT_EQ(model_of("AMD EPYC", "cpu family\t: 26\nmodel\t\t: 2\n"), "AMD EPYC (family 26, model 2)");
+  EXPECT_EQ(model_of("Some core", ""), "Some core");
+  EXPECT_EQ(app::cpu_model((folder.path() / "missing").string()), "unknown");
+}
+
+class ProgramRenders : public ::testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
+  std::set<std::string> names() const {
+    std::set<std::string> all;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
+      all.insert(entry.path().filename().string());
+    return all;
+  }
+  TempDir folder_;
+};
+
+TEST_F(ProgramRenders, TheSamePictureInEveryFormatAndByEveryBackend) {
+  ASSERT_EQ(
+      edgewise_with("render cube --size 97x61 -o " + path("a.png") + " --depth " + path("a.pfm")).status, 0);
+  const Image png = read_image(path("a.png"));
+  EXPECT_EQ(png.width, 97);
+  EXPECT_EQ(png.height, 61);
+  EXPECT_GT(std::set<std::uint32_t>(png.pixels.begin(), png.pixels.end()).size(), 3u);
+  for (const BackendInfo& backend : filling_backends()) {
+    const Outcome outcome =
+        edgewise_with("render cube --size 97x61 --threads 3 --backend " + std::string(backend.name) + " -o " +
+                      path("b.ppm") + " --depth " + path("b.pfm"));
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(read_image(path("b.ppm")).pixels, png.pixels) << backend.name;
+    EXPECT_EQ(edgewise_with("diff " + path("a.pfm") + " " + path("b.pfm")).status, 0) << backend.name;
+  }
+}
+
+TEST_F(ProgramRenders, SeveralScenesIntoAFolderThatItMakes) {
+  ASSERT_EQ(edgewise_with("render cube sphere --size 32x32 -o " + path("new/")).status, 0);
+  EXPECT_TRUE(std::filesystem::exists(path("new/cube.png")));
+  EXPECT_TRUE(std::filesystem::exists(path("new/sphere.png")));
+}
+
+TEST_F(ProgramRenders, NumberedFramesOfAnAnimation) {
+  ASSERT_EQ(edgewise_with("render cube --size 32x32 --frames 3 --fps 2 -o " + path("{scene}.png")).status, 0);
+  EXPECT_EQ(names(), (std::set<std::string>{"cube-0001.png", "cube-0002.png", "cube-0003.png"}));
+  ASSERT_EQ(edgewise_with("render cube --size 32x32 --time 1 -o " + path("one.png")).status, 0);
+  EXPECT_EQ(read_image(path("cube-0003.png")).pixels, read_image(path("one.png")).pixels);
+  EXPECT_NE(read_image(path("cube-0001.png")).pixels, read_image(path("one.png")).pixels);
+}
+
+TEST_F(ProgramRenders, HitsOfAGridAsOnceEverywhere) {
+  const Outcome outcome =
+      edgewise_with("render grid4 --size 101x67 --payload hits --json -o " + path("hits.png"));
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json.at("scene"), "grid4");
+  EXPECT_EQ(json.at("hits").at("1"), 101 * 67);
+  const Image picture = read_image(path("hits.png"));
+  EXPECT_EQ(std::set<std::uint32_t>(picture.pixels.begin(), picture.pixels.end()).size(), 1u);
+}
+
+TEST_F(ProgramRenders, IdsThatCanBeReadBack) {
+  ASSERT_EQ(edgewise_with("render grid64 --size 128x64 --payload id -o " + path("id.png")).status, 0);
+  constexpr std::uint32_t kSpread = 0x9E3779;
+  std::uint32_t inverse = 1;  // Newton's iteration doubles the number of right bits
+  for (int i = 0; i < 5; ++i) inverse *= 2 - kSpread * inverse;
+  const TriangleStream stream = std::get<TriangleStream>(find_scene("grid64").make({128, 64, 0.0f, 1.0}));
+  std::set<std::uint32_t> ids;
+  for (const std::uint32_t pixel : read_image(path("id.png")).pixels) {
+    const std::uint32_t id = ((pixel * inverse) & 0xFFFFFFu) - 1;
+    ASSERT_LT(id, stream.triangles.size());
+    ids.insert(id);
+  }
+  EXPECT_EQ(ids.size(), stream.triangles.size());
+}
+
+TEST_F(ProgramRenders, ACaptureExactlyAsTheSceneItCameFrom) {
+  const std::string options = " --size 200x120 --fov 70 --cull none ";
+  ASSERT_EQ(
+      edgewise_with("render terrain" + options + "-o " + path("a.png") + " --depth " + path("a.pfm")).status,
+      0);
+  ASSERT_EQ(edgewise_with("capture terrain" + options + "-o " + path("a.tri")).status, 0);
+  ASSERT_EQ(
+      edgewise_with("render " + path("a.tri") + " -o " + path("b.png") + " --depth " + path("b.pfm")).status,
+      0);
+  EXPECT_EQ(edgewise_with("diff " + path("a.png") + " " + path("b.png")).status, 0);
+  EXPECT_EQ(edgewise_with("diff " + path("a.pfm") + " " + path("b.pfm")).status, 0);
+}
+
+TEST_F(ProgramRenders, AStreamCroppedNotScaled) {
+  ASSERT_EQ(edgewise_with("capture grid4 --size 64x64 -o " + path("a.tri")).status, 0);
+  ASSERT_EQ(edgewise_with("render " + path("a.tri") + " -o " + path("whole.png")).status, 0);
+  ASSERT_EQ(edgewise_with("render " + path("a.tri") + " --size 32x100 -o " + path("part.png")).status, 0);
+  const Image whole = read_image(path("whole.png")), part = read_image(path("part.png"));
+  ASSERT_EQ(part.width, 32);
+  ASSERT_EQ(part.height, 100);
+  EXPECT_EQ(part.pixels[31 + 63 * 32], whole.pixels[31 + 63 * 64]);
+  EXPECT_EQ(part.pixels[31 + 64 * 32] & 0xFFFFFFu, 0u);
+}
+
+TEST_F(ProgramRenders, WhateverTheCaseOfItsExtension) {
+  ASSERT_EQ(
+      edgewise_with("render cube --size 40x30 -o " + path("a.PNG") + " --depth " + path("a.PFM")).status, 0);
+  EXPECT_EQ(edgewise_with("diff " + path("a.PNG") + " " + path("a.PNG")).status, 0);
+  EXPECT_EQ(edgewise_with("diff " + path("a.PFM") + " " + path("a.PFM")).status, 0);
+  ASSERT_EQ(edgewise_with("capture cube --size 40x30 -o " + path("a.TRI")).status, 0);
+  const auto json = nlohmann::json::parse(edgewise_with("verify --json - " + path("a.TRI")).out);
+  EXPECT_EQ(json.at("scenes")[0].at("width"), 40);
+}
+
+TEST_F(ProgramRenders, AFileOfAnyNameAndSaysNothingThatATerminalObeys) {
+  const std::string name = path("x\x1b[31m\xff\xc3\xa9.tri");
+  ASSERT_EQ(edgewise_with("capture grid4 --size 40x30 -o " + path("a.tri")).status, 0);
+  std::filesystem::rename(path("a.tri"), name);
+  const auto json = nlohmann::json::parse(edgewise_with("render --json '" + name + "' -o " + path("")).out);
+  EXPECT_EQ(json.at("scene"), "x\x1b[31m\xef\xbf\xbd\xc3\xa9");
+  EXPECT_EQ(
+      nlohmann::json::parse(edgewise_with("verify --json - '" + name + "'").out).at("scenes")[0].at("scene"),
+      json.at("scene"));
+  for (const std::string& command : {"render -o " + path("") + " ", std::string("verify ")}) {
+    const Outcome outcome = edgewise_with(command + "'" + name + "'");
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("x?[31m?\xc3\xa9"), std::string::npos) << outcome.out;
+    EXPECT_EQ(outcome.out.find('\x1b'), std::string::npos);
+  }
+  EXPECT_EQ(edgewise_with("diff '" + name + "' a").err.find('\x1b'), std::string::npos);
+}
+
+TEST_F(ProgramRenders, WhatDiffTellsApart) {
+  ASSERT_EQ(
+      edgewise_with("render cube --size 64x64 -o " + path("a.png") + " --depth " + path("a.pfm")).status, 0);
+  ASSERT_EQ(
+      edgewise_with("render cube --size 64x64 --time 1 -o " + path("b.png") + " --depth " + path("b.pfm"))
+          .status,
+      0);
+  EXPECT_EQ(edgewise_with("diff " + path("a.png") + " " + path("a.png")).status, 0);
+  EXPECT_EQ(edgewise_with("diff " + path("a.pfm") + " " + path("b.pfm")).status, 1);
+  const Outcome outcome =
+      edgewise_with("diff --json " + path("a.png") + " " + path("b.png") + " -o " + path("d.png"));
+  EXPECT_EQ(outcome.status, 1);
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json.at("pixels"), 64 * 64);
+  EXPECT_GT(json.at("differing"), 0);
+  EXPECT_EQ(read_image(path("d.png")).width, 64);
+}
+
+TEST_F(ProgramRenders, AVerdictAsJson) {
+  const Outcome outcome = edgewise_with("verify cube grid64 --size 65x33 --json - --out " + path("out"));
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json.at("ok"), true);
+  EXPECT_TRUE(json.at("machine").contains("cpu_model"));
+  ASSERT_EQ(json.at("scenes").size(), 2u);
+  for (const auto& [backend, wrong] : json.at("scenes")[1].at("pixels_not_hit_once").items())
+    EXPECT_EQ(wrong, 0) << backend;
+  EXPECT_EQ(json.at("scenes")[1].at("pixels_not_hit_once").size(), filling_backends().size());
+  EXPECT_FALSE(std::filesystem::exists(path("out")));
+}
+
+}  // namespace
+}  // namespace edgewise

@@ -1,0 +1,50 @@
+// `edgewise stability` as a user meets it.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <string>
+
+#include "cli/stability/report.h"
+#include "lab/sweeps/sweeps.h"
+#include "run_program.h"
+#include "temp_dir.h"
+
+namespace edgewise::app {
+namespace {
+
+using testing::Outcome;
+
+Outcome stability(const std::string& arguments) {
+  return testing::run_program(EDGEWISE_PROGRAM, "stability " + arguments);
+}
+
+TEST(StabilityCommand, ListsAllSweeps) {
+  const Outcome outcome = stability("--list");
+  EXPECT_EQ(outcome.status, 0);
+  for (const lab::Sweep& sweep : lab::sweeps())
+    EXPECT_NE(outcome.out.find(std::string(sweep.name) + ' '), std::string::npos) << sweep.name;
+}
+
+TEST(StabilityCommand, WritesTheSameAsTableAndAsJson) {
+  const TempDir folder;
+  const std::string path = (folder.path() / "stability.json").string();
+  const Outcome table = stability("cycle legs --quick --json '" + path + "'");
+  ASSERT_EQ(table.status, 0) << table.err;
+  EXPECT_EQ(table.err, "") << "no progress bar where there is no terminal";
+  EXPECT_LT(table.out.find("cycle (visibility)"), table.out.find("legs (coverage)"));
+  EXPECT_TRUE(std::regex_search(table.out, std::regex("\nfixed_8_int32 +182 "))) << table.out;
+  // Three over the 768 crossings of the smallest legs.
+  EXPECT_TRUE(std::regex_search(table.out, std::regex("\nfixed_8 +never +< 3\\.9e\\+03 +0/17\n")))
+      << table.out;
+
+  const auto json = nlohmann::json::parse(file_content(path));
+  EXPECT_TRUE(json.at("machine").is_object());
+  EXPECT_EQ(json.at("quick"), true);
+  ASSERT_EQ(json.at("sweeps").size(), 2u);
+  EXPECT_EQ(json["sweeps"][1], sweep_json(run_sweep(lab::find_sweep("legs"), true, 1, [] {})));
+  EXPECT_EQ(nlohmann::json::parse(stability("cycle legs --quick --json -").out).at("sweeps"), json["sweeps"]);
+}
+
+}  // namespace
+}  // namespace edgewise::app

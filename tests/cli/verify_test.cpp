@@ -1,0 +1,273 @@
+// The judge is judged: it must find what wrong backends do, and pass right ones. Captures must replay
+// exactly.
+#include "cli/verify/verify.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <memory>
+
+#include "cli/verify/report.h"
+#include "edgewise/contract.h"
+#include "edgewise/image.h"
+#include "edgewise/tri_file.h"
+#include "lab/to_stream.h"
+#include "temp_dir.h"
+
+namespace edgewise::app {
+namespace {
+
+constexpr int kWrongX = 7, kWrongY = 5;
+
+// Right but for one bit of depth at one pixel.
+class OneBitOff : public Backend {
+  void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
+                    const Execution& execution) override {
+    right_->draw(triangles, frame, background, execution);
+    frame.depth[kWrongY * frame.stride + kWrongX] ^= 1;
+  }
+  std::unique_ptr<Backend> right_ = backends()[0].make();
+};
+
+// Leaves the frame as it was when there is nothing to draw.
+class ForgetsBackground : public Backend {
+  void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
+                    const Execution& execution) override {
+    if (!triangles.empty()) right_->draw(triangles, frame, background, execution);
+  }
+  std::unique_ptr<Backend> right_ = backends()[0].make();
+};
+
+// Wrong only with three threads and ids.
+class WrongOnThreads : public Backend {
+  void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
+                    const Execution& execution) override {
+    right_->draw(triangles, frame, background, execution);
+    if (execution.threads == 3 && background == 0xFFFFFFFFu) frame.payload[0] += 1;
+  }
+  std::unique_ptr<Backend> right_ = backends()[0].make();
+};
+
+// The drawing of the last pixel of each row is skipped: a seam that leaves gaps in a grid.
+class LeavesGaps : public Backend {
+  void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
+                    const Execution& execution) override {
+    right_->draw(triangles, frame, background, execution);
+    for (int y = 0; y < frame.height; ++y) {
+      frame.depth[y * frame.stride + frame.width - 1] = 0x7FFFFFFF;
+      frame.payload[y * frame.stride + frame.width - 1] = background;
+    }
+  }
+  std::unique_ptr<Backend> right_ = backends()[0].make();
+};
+
+// The picture is right, and the first pixel behind a row is gone.
+class WritesBesideTheImage : public Backend {
+  void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
+                    const Execution& execution) override {
+    right_->draw(triangles, frame, background, execution);
+    frame.payload[kWrongY * frame.stride + frame.width] = background;
+  }
+  std::unique_ptr<Backend> right_ = backends()[0].make();
+};
+
+template <typename Wrong>
+BackendInfo wrong_backend() {
+  return {"wrong", "a wrong backend", [] { return std::unique_ptr<Backend>(std::make_unique<Wrong>()); }};
+}
+
+VerifyPlan small_plan(std::vector<std::string> scenes, const BackendInfo& second) {
+  VerifyPlan plan;
+  plan.scenes = std::move(scenes);
+  plan.backends = {backends()[0], second};
+  plan.threads = {1, 3};
+  plan.size = Size{67, 41};
+  return plan;
+}
+
+VerifyReport verify_quietly(const VerifyPlan& plan) {
+  return verify(plan, {});
+}
+
+TEST(Verify, PassesEveryBackendOnEveryScene) {
+  VerifyPlan plan;
+  for (const SceneInfo& scene : builtin_scenes()) plan.scenes.emplace_back(scene.name);
+  plan.backends.assign(backends().begin(), backends().end());
+  plan.threads = {1, 2};
+  plan.size = Size{131, 71};
+  const VerifyReport report = verify_quietly(plan);
+  ASSERT_EQ(report.scenes.size(), plan.scenes.size());
+  for (const SceneVerdict& verdict : report.scenes) {
+    EXPECT_TRUE(verdict.ok()) << explain(verdict);
+    EXPECT_GT(verdict.emitted, 0u) << verdict.scene;
+    EXPECT_GT(verdict.oracle_configurations, 0u) << verdict.scene;
+    EXPECT_EQ(verdict.hits.size(), verdict.scene.starts_with("grid") ? filling_backends().size() : 0)
+        << verdict.scene;
+  }
+}
+
+TEST(Verify, FindsOneBitAndShowsIt) {
+  const TempDir folder;
+  VerifyPlan plan = small_plan({"cube"}, wrong_backend<OneBitOff>());
+  plan.failure_folder = folder.path() / "failures";
+  const VerifyReport report = verify_quietly(plan);
+  EXPECT_FALSE(report.ok());
+  const SceneVerdict& verdict = report.scenes.at(0);
+  EXPECT_EQ(verdict.differing_pixels, verdict.configurations / 2);  // one a frame, of the wrong backend only
+  EXPECT_EQ(verdict.oracle_differences, verdict.oracle_configurations / 2);
+
+  ASSERT_EQ(verdict.mismatches.size(), 2u);  // against the reference, and against the oracle
+  const Mismatch& mismatch = verdict.mismatches[0];
+  EXPECT_EQ(mismatch.backend, "wrong");
+  EXPECT_EQ(mismatch.judge, backends()[0].name);
+  EXPECT_EQ(mismatch.pixels, 1u);
+  EXPECT_EQ(mismatch.x, kWrongX);
+  EXPECT_EQ(mismatch.y, kWrongY);
+  ASSERT_EQ(mismatch.values.size(), 2 + plan.backends.size());
+  EXPECT_EQ(mismatch.values[1].depth, mismatch.values[0].depth ^ 1);
+  EXPECT_EQ(mismatch.values[1].payload, mismatch.values[0].payload);
+  EXPECT_EQ(verdict.mismatches[1].judge, "oracle");
+
+  ASSERT_EQ(mismatch.files.size(), 4u) << mismatch.file_error;
+  EXPECT_EQ(read_image(mismatch.files[0]).width, 67);
+  const Image difference = read_image(mismatch.files[2]);
+  EXPECT_EQ(difference.width % 67, 0);
+  EXPECT_GT(difference.width, 67);
+  const int factor = difference.width / 67;
+  const auto pixel = [&](int x, int y) {
+    return difference.pixels[static_cast<std::size_t>(y * factor * difference.width + x * factor)];
+  };
+  EXPECT_NE(pixel(kWrongX, kWrongY), pixel(kWrongX + 1, kWrongY));
+  EXPECT_EQ(read_tri(mismatch.files[3]).width, 67);
+
+  const std::string text = explain(verdict);
+  EXPECT_NE(text.find("x 7, y 5"), std::string::npos) << text;
+  EXPECT_FALSE(report_json(report, plan).at("ok"));
+}
+
+TEST(Verify, FindsAForgottenBackground) {
+  EXPECT_FALSE(verify_quietly(small_plan({"cube"}, wrong_backend<ForgetsBackground>())).ok());
+}
+
+TEST(Verify, FindsWhatOnlyOneConfigurationDoes) {
+  const VerifyReport report = verify_quietly(small_plan({"cube"}, wrong_backend<WrongOnThreads>()));
+  ASSERT_FALSE(report.ok());
+  EXPECT_EQ(report.scenes[0].mismatches[0].execution.threads, 3);
+  EXPECT_EQ(report.scenes[0].mismatches[0].payload, Payload::id);
+}
+
+TEST(Verify, FindsWhatIsWrittenBesideTheImage) {
+  const VerifyReport report = verify_quietly(small_plan({"cube"}, wrong_backend<WritesBesideTheImage>()));
+  ASSERT_FALSE(report.ok());
+  const SceneVerdict& verdict = report.scenes[0];
+  EXPECT_EQ(verdict.differing_pixels, 0u);
+  EXPECT_EQ(verdict.written_outside, verdict.configurations / 2 + verdict.oracle_configurations / 2);
+  EXPECT_EQ(verdict.mismatches.at(0).outside, 1u);
+  const std::string text = explain(verdict);
+  EXPECT_NE(text.find("words written beside the image: 1"), std::string::npos) << text;
+}
+
+TEST(Verify, FindsGapsInAGrid) {
+  const VerifyReport report = verify_quietly(small_plan({"grid4"}, wrong_backend<LeavesGaps>()));
+  const auto& hits = report.scenes.at(0).hits;
+  ASSERT_EQ(hits.size(), 2u);
+  EXPECT_EQ(hits[0].not_once, 0u);
+  EXPECT_EQ(hits[1].not_once, 41u);
+}
+
+TEST(Verify, KeepsAFindingWhosePicturesCannotBeWritten) {
+  VerifyPlan plan = small_plan({"cube"}, wrong_backend<OneBitOff>());
+  plan.failure_folder = "/dev/null/failures";
+  const VerifyReport report = verify_quietly(plan);
+  ASSERT_FALSE(report.ok());
+  EXPECT_NE(report.scenes[0].mismatches.at(0).file_error, "");
+}
+
+TEST(Verify, ShowsASmallStreamToTheOracleAsItIs) {
+  const TempDir folder;
+  for (const std::size_t count : {1u, 2'000u}) {
+    const TriangleStream stream{
+        90, 70, {count, StreamTriangle{{{0, 0, 0}, {80.5f, 3.25f, 0}, {4.75f, 60.5f, 0}}, 1}}};
+    const auto path = folder.path() / "stream.tri";
+    {
+      std::ofstream out(path, std::ios::binary);
+      write_tri(out, stream);
+    }
+    const SceneVerdict verdict = verify_quietly(small_plan({path.string()}, backends()[1])).scenes.at(0);
+    EXPECT_EQ(verdict.oracle_width == 90 && verdict.oracle_height == 70, count == 1) << count;
+    EXPECT_TRUE(verdict.ok());
+  }
+}
+
+TEST(Verify, TableFitsItsTerminal) {
+  SceneVerdict verdict{};
+  verdict.scene = "a-scene-with-a-very-long-name";
+  verdict.width = 1920;
+  verdict.height = 1080;
+  verdict.triangles = verdict.emitted = 99'999'999;
+  verdict.configurations = verdict.differing_pixels = 999'999;
+  verdict.oracle_differences = 99'999;
+  for (const std::size_t columns : {60u, 80u}) {
+    const VerifyTable table(static_cast<int>(columns));
+    EXPECT_LE(table.header().size(), columns);  // the newline stands for the last column
+    EXPECT_LE(table.line(verdict).size(), columns + 1);
+  }
+}
+
+bool same(const ScreenTriangle& a, const ScreenTriangle& b) {
+  return std::equal(a.x_sub, a.x_sub + 3, b.x_sub) && std::equal(a.y_sub, a.y_sub + 3, b.y_sub) &&
+         std::equal(a.z, a.z + 3, b.z) && a.payload == b.payload;
+}
+
+// Those that can reach a pixel. The front end tells that a triangle is outside before snapping in a scene and
+// after it in a stream, so some that draw nothing may be in one list only.
+std::vector<ScreenTriangle> visible(std::span<const ScreenTriangle> triangles,
+                                    const FrontendOptions& options) {
+  std::vector<ScreenTriangle> all;
+  std::copy_if(triangles.begin(), triangles.end(), std::back_inserter(all), [&](const ScreenTriangle& t) {
+    return !contract::pixel_box(t, options.width, options.height).empty();
+  });
+  return all;
+}
+
+class Capture : public ::testing::TestWithParam<std::string_view> {};
+
+TEST_P(Capture, ReplaysToTheSameScreenTriangles) {
+  const SceneInfo& scene = find_scene(GetParam());
+  const SceneRequest request{317, 211, 0.7f, 0.01};
+  const TempDir folder;
+  const auto path = folder.path() / "capture.tri";
+  for (const Cull cull : cull_modes()) {
+    FrontendOptions options{request.width, request.height, cull, !scene.stream, Payload::colour, 1};
+    Frontend first, second;
+    const Drawable drawable = scene.make(request);
+    const auto screen = first.run(drawable, options);
+    {
+      std::ofstream out(path, std::ios::binary);
+      write_tri(out, lab::to_stream(screen, request.width, request.height));
+    }
+    const auto captured = visible(screen, options);
+    options.cull = Cull::none;
+    options.shade = false;
+    const auto replayed = visible(second.run(read_tri(path), options), options);
+    ASSERT_EQ(captured.size(), replayed.size());
+    EXPECT_TRUE(std::equal(captured.begin(), captured.end(), replayed.begin(), same)) << name_of(cull);
+  }
+}
+
+std::vector<std::string_view> scene_names() {
+  std::vector<std::string_view> names;
+  for (const SceneInfo& scene : builtin_scenes()) names.push_back(scene.name);
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(AllScenes, Capture, ::testing::ValuesIn(scene_names()), [](const auto& scene) {
+  std::string name(scene.param);
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
+
+}  // namespace
+}  // namespace edgewise::app

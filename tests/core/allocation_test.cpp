@@ -1,0 +1,109 @@
+// Memory is kept from frame to frame: after the first, nothing is allocated. Counted by the global operator
+// new, which is replaced for the whole test program.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+#include <vector>
+
+#include "edgewise/builtin.h"
+#include "edgewise/frontend.h"
+#include "lab/choice.h"
+#include "lab/hidden_faces.h"
+#include "support.h"
+
+namespace {
+std::atomic<std::size_t> allocations{0};
+
+void* counted(std::size_t bytes, std::size_t alignment) {
+  allocations.fetch_add(1, std::memory_order_relaxed);
+  const std::size_t whole = (std::max<std::size_t>(bytes, 1) + alignment - 1) / alignment * alignment;
+  if (void* memory = std::aligned_alloc(alignment, whole)) return memory;
+  throw std::bad_alloc();
+}
+}  // namespace
+
+// The forms that the others are made of.
+void* operator new(std::size_t bytes) {
+  return counted(bytes, alignof(std::max_align_t));
+}
+void* operator new(std::size_t bytes, std::align_val_t alignment) {
+  return counted(bytes, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::align_val_t) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+  std::free(memory);
+}
+
+namespace edgewise {
+namespace {
+
+template <typename Work>
+std::size_t allocations_in(Work&& work) {
+  const std::size_t before = allocations;
+  work();
+  return allocations - before;
+}
+
+// Of a frame that is drawn again and again. oneTBB's workers come and go, and allocate when they do; what a
+// frame allocates by itself it allocates each time.
+template <typename Frame>
+std::size_t allocations_of_each(Frame&& frame) {
+  constexpr int kFrames = 6;
+  std::size_t least = allocations_in(frame);
+  for (int i = 1; i < kFrames; ++i) least = std::min(least, allocations_in(frame));
+  return least;
+}
+
+class Allocations : public ::testing::TestWithParam<std::string_view> {};
+
+TEST_P(Allocations, OfABackendEndWithTheFirstFrame) {
+  constexpr int kWidth = 320, kHeight = 200;
+  const auto backend = find_backend(GetParam()).make();
+  Framebuffer frame(kWidth, kHeight);
+  for (const int threads : {1, 2, 8})
+    for (const auto& [family, count] : {std::pair{"tiny", 9'000}, {"subpixel", 200}}) {
+      const auto triangles = testing::adversarial(family, count, kWidth, kHeight, 7);
+      const auto draw = [&] {
+        backend->draw(triangles, frame.view(), testing::kBackground, {.threads = threads});
+      };
+      draw();
+      EXPECT_EQ(allocations_of_each(draw), 0u) << family << ", " << threads << " threads";
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, Allocations, ::testing::ValuesIn(testing::names_of(backends())),
+                         [](const auto& param) { return testing::test_name(param); });
+
+TEST(FrontendAllocations, EndWithTheFirstFrame) {
+  for (const SceneInfo& info : builtin_scenes()) {
+    const Drawable drawable = info.make({.width = 640, .height = 480, .scale = 0.02});
+    for (const int threads : {1, 2, 8}) {
+      const FrontendOptions options{.width = 640, .height = 480, .threads = threads};
+      Frontend frontend;
+      const auto run = [&] { frontend.run(drawable, options); };
+      EXPECT_GT(allocations_in(run), 0u) << info.name;
+      EXPECT_EQ(allocations_of_each(run), 0u) << info.name << ", " << threads << " threads";
+    }
+  }
+}
+
+TEST(HiddenFacesAllocations, AreNone) {
+  const Scene scene = std::get<Scene>(find_scene("cubes").make({}));
+  lab::HiddenFaces hidden(scene, lab::find_facing_method("normal_z"));
+  EXPECT_EQ(allocations_in([&] { hidden.drop(scene); }), 0u);
+}
+
+}  // namespace
+}  // namespace edgewise

@@ -1,0 +1,109 @@
+// The library's limits: past them std::invalid_argument, before memory is touched. The programs' rows stand
+// in invalid_inputs.h.
+#include "edgewise/limits.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <cstdlib>
+#include <functional>
+#include <stdexcept>
+
+#include "edgewise/backend.h"
+#include "edgewise/contract.h"
+#include "edgewise/frontend.h"
+#include "lab/measure.h"
+#include "support.h"
+
+namespace edgewise {
+namespace {
+
+// 2^30 + 2^20 triangles of one small mesh.
+Scene too_many() {
+  Scene scene;
+  Mesh mesh;
+  mesh.positions = {{0, 0, -1}, {0, 1, -1}, {1, 0, -1}};
+  mesh.triangles.assign(1 << 20, glm::uvec3(0, 1, 2));
+  mesh.colours.assign(1 << 20, 0);
+  scene.meshes.push_back(std::move(mesh));
+  scene.instances.assign(1025, {});
+  return scene;
+}
+
+// In a process with hardly more address space than it has: an allocation in proportion would fail otherwise.
+void exit_as_refused(const std::function<void()>& action) {
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  constexpr rlim_t kEnough = rlim_t{1} << 30;
+  const rlimit limit{kEnough, kEnough};
+  if (setrlimit(RLIMIT_AS, &limit) != 0) std::exit(1);
+#endif
+  try {
+    action();
+  } catch (const std::invalid_argument&) {
+    std::exit(0);
+  } catch (...) {
+    std::exit(2);
+  }
+  std::exit(3);
+}
+
+void expect_refused(const std::function<void()>& action) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_EXIT(exit_as_refused(action), ::testing::ExitedWithCode(0), "");
+}
+
+TEST(LimitsDeathTest, TheFrontEndRefusesTooManyTrianglesAndThreads) {
+  expect_refused([] { Frontend().run(too_many(), {}); });
+  expect_refused([] { Frontend().run(Scene{}, {.threads = kMaxThreads + 1}); });
+  expect_refused([] { Frontend().run(Scene{}, {.width = contract::kMaxImageSide + 1}); });
+}
+
+TEST(LimitsDeathTest, EveryBackendRefusesTooManyTriangles) {
+  for (const BackendInfo& info : backends())
+    expect_refused([&] {
+      const ScreenTriangle one{};  // never read
+      Framebuffer frame(8, 8);
+      info.make()->draw(std::span(&one, kMaxTriangles + 1), frame.view(), 0, {});
+    });
+}
+
+TEST(LimitsDeathTest, NoImageIsLargerThanTheGuardBand) {
+  expect_refused([] { Framebuffer(contract::kMaxImageSide + 1, contract::kMaxImageSide); });
+  expect_refused([] { Framebuffer(1'000'000, 1'000'000); });
+}
+
+// Exactly at the limits there is a picture.
+TEST(Limits, TheLargestSidesAndTheMostThreadsAreDrawn) {
+  const TriangleStream stream{
+      1, 1, {{{{-20'000, -20'000, 0.5f}, {60'000, -20'000, 0.5f}, {0, 60'000, 0.5f}}, 7}}};
+  for (const auto& [width, height] : {std::pair{contract::kMaxImageSide, 2}, {2, contract::kMaxImageSide}})
+    for (const BackendInfo& info : filling_backends()) {
+      Frontend frontend;
+      Framebuffer frame(width, height);
+      const auto triangles = frontend.run(stream, {.width = width, .height = height, .threads = kMaxThreads});
+      info.make()->draw(triangles, frame.view(), 0, {.threads = kMaxThreads});
+      EXPECT_EQ(frame.payload_row(0)[0], 7u) << info.name;
+      EXPECT_EQ(frame.payload_row(height - 1)[0], 7u) << info.name;
+    }
+}
+
+// Both sides at once: 2 GiB of picture.
+TEST(Limits, TheLargestImageIsDrawn) {
+  if (!testing::full_size()) GTEST_SKIP() << "takes 2 GiB; scripts/test --full draws it";
+  constexpr int kSide = contract::kMaxImageSide;
+  const TriangleStream stream{1, 1, {{{{-20'000, 0, 0.5f}, {60'000, 0, 0.5f}, {0, 60'000, 0.5f}}, 7}}};
+  Framebuffer frame(kSide, kSide);
+  for (const BackendInfo& info : filling_backends()) {
+    Frontend frontend;
+    lab::poison(frame);
+    info.make()->draw(frontend.run(stream, {.width = kSide, .height = kSide, .cull = Cull::none}),
+                      frame.view(), 0, {.threads = 2});
+    std::uint64_t wrong = 0;
+    for (int y = 0; y < kSide; ++y)
+      for (int x = 0; x < kSide; ++x) wrong += frame.payload_row(y)[x] != 7;
+    EXPECT_EQ(wrong, 0u) << info.name;
+  }
+}
+
+}  // namespace
+}  // namespace edgewise

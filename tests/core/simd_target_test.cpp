@@ -1,0 +1,89 @@
+// Which SIMD targets are listed, and which kernels run for them, whatever flags the build has.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/simd_target_test.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include <cstdint>
+
+#include "core/kernel_table.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace edgewise {
+namespace HWY_NAMESPACE {
+
+std::int64_t compiled_for() {
+  return HWY_TARGET;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace edgewise
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <type_traits>
+#include <vector>
+
+#include "frontend/assemble.h"
+#include "frontend/shade.h"
+#include "frontend/stream.h"
+#include "frontend/transform.h"
+#include "raster/binning/cell_boxes.h"
+#include "raster/binning/mask_finder.h"
+#include "raster/scanline/scanline_kernel.h"
+#include "raster/tiled/tile_kernel.h"
+
+namespace edgewise {
+namespace {
+
+TEST(SimdTargets, AreThoseThatAreCompiledAndRunHere) {
+  const struct {
+    SimdTarget target;
+    std::int64_t highway;
+  } all[] = {{SimdTarget::scalar, HWY_SCALAR},
+             {SimdTarget::sse4, HWY_SSE4},
+             {SimdTarget::avx2, HWY_AVX2},
+             {SimdTarget::avx512, HWY_AVX3}};
+  const auto available = HWY_TARGETS & (hwy::SupportedTargets() | HWY_SCALAR);
+  std::vector<SimdTarget> expected;
+  for (const auto& [target, highway] : all) {
+    if ((available & highway) == 0) continue;
+    expected.push_back(target);
+    const auto kernel = EDGEWISE_KERNEL(compiled_for, target);
+    ASSERT_NE(kernel, nullptr) << name_of(target);
+    EXPECT_EQ(kernel(), highway) << name_of(target);
+  }
+  const auto listed = supported_targets();
+  EXPECT_EQ(std::vector(listed.begin(), listed.end()), expected);
+  EXPECT_EQ(listed.front(), SimdTarget::scalar) << "whatever flags the build has";
+}
+
+// Fails for a target whose kernel is missing or is another target's.
+template <typename Kernel>
+void expect_own_kernels(Kernel (*kernel_of)(SimdTarget), const char* name) {
+  std::set<Kernel> kernels;
+  for (const SimdTarget target : supported_targets()) {
+    const bool none = std::is_same_v<Kernel, MaskFinder> && target == SimdTarget::scalar;
+    EXPECT_EQ(kernel_of(target) == nullptr, none) << name << ", " << name_of(target);
+    EXPECT_TRUE(kernels.insert(kernel_of(target)).second) << name << ", " << name_of(target);
+  }
+}
+
+TEST(SimdTargets, EachHasKernelsOfItsOwn) {
+  expect_own_kernels(tile_kernel, "tile");
+  expect_own_kernels(scanline_kernel, "scanline");
+  expect_own_kernels(cell_box_kernel, "cell boxes");
+  expect_own_kernels(mask_finder, "patches");
+  expect_own_kernels(transform_kernel, "transform");
+  expect_own_kernels(assemble_kernel, "assemble");
+  expect_own_kernels(shade_kernel, "shade");
+  expect_own_kernels(stream_kernel, "stream");
+}
+
+}  // namespace
+}  // namespace edgewise
+#endif

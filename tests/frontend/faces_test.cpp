@@ -1,0 +1,180 @@
+// Faces of four vertices and two-sided ones, on their way through the front end.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <vector>
+
+#include "core/random.h"
+#include "edgewise/contract.h"
+#include "edgewise/frontend.h"
+#include "frontend/shade.h"
+#include "message_of.h"
+
+namespace edgewise {
+namespace {
+
+// Quads and triangles in turn, some two-sided, all around the eye, so that planes cut many of them.
+Scene scene_of_quads(bool two_sided) {
+  Random random(5);
+  Scene scene;
+  Mesh& mesh = scene.meshes.emplace_back();
+  for (std::uint32_t i = 0; i < 3000; ++i) {
+    const float reach = i % 3 == 0 ? 5.0f : 0.3f;
+    const glm::vec3 at(random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(-9, 1));
+    const auto edge = [&] {
+      return glm::vec3(random.uniform(-reach, reach), random.uniform(-reach, reach),
+                       random.uniform(-reach, reach));
+    };
+    const glm::vec3 u = edge(), v = edge();
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    mesh.positions.insert(mesh.positions.end(), {at, at + u, at + u + v, at + v});
+    const bool both = two_sided && i % 4 == 0;
+    mesh.add_quad({first, first + 1, first + 2, first + 3}, rgb(i % 256, 200, 90), both);
+    if (i % 5 != 0) continue;
+    mesh.triangles.emplace_back(first, first + 2, first + 1);
+    mesh.colours.push_back(rgb(10, i % 256, 20));
+    mesh.marks.push_back(both ? kTwoSided : 0);
+  }
+  scene.instances.push_back({});
+  scene.instances.push_back({.scale = {-1, 1, 1}, .angle = 1.0f, .translation = {0, 0, -6}});
+  return scene;
+}
+
+struct Result {
+  std::vector<ScreenTriangle> triangles;
+  FrontendStats stats;
+};
+Result run(const Scene& scene, FrontendOptions options) {
+  Frontend frontend;
+  const auto span = frontend.run(scene, options);
+  return {{span.begin(), span.end()}, frontend.stats()};
+}
+
+constexpr FrontendOptions kOptions{.width = 320, .height = 200};
+
+bool same(const std::vector<ScreenTriangle>& a, const std::vector<ScreenTriangle>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(ScreenTriangle)) == 0;
+}
+
+TEST(Faces, AreAlikeOnEveryTargetAndThreadCountAndOneByOne) {
+  const Scene scene = scene_of_quads(true);
+  for (const Cull cull : cull_modes())
+    for (const Payload payload : {Payload::colour, Payload::id}) {
+      FrontendOptions options = kOptions;
+      options.cull = cull;
+      options.payload = payload;
+      options.keep_unsnapped = true;
+      auto expected = run(scene, options).triangles;
+      std::erase_if(expected, [](const ScreenTriangle& t) { return contract::signed_area(t) == 0; });
+      ASSERT_FALSE(expected.empty());
+      options.keep_unsnapped = false;
+      for (const SimdTarget target : supported_targets())
+        for (const int threads : {1, 3}) {
+          options.target = target;
+          options.threads = threads;
+          EXPECT_TRUE(same(run(scene, options).triangles, expected))
+              << name_of(target) << ", " << threads << " threads, cull " << name_of(cull);
+        }
+    }
+}
+
+// Without marks a mesh of the same triangles has the same places on the screen, in the same order.
+TEST(Faces, LieWhereTheirTrianglesLie) {
+  const Scene scene = scene_of_quads(false);
+  Scene plain = scene;
+  plain.meshes[0].marks.clear();
+  for (const Cull cull : cull_modes()) {
+    FrontendOptions options = kOptions;
+    options.cull = cull;
+    const Result quads = run(scene, options), halves = run(plain, options);
+    ASSERT_EQ(quads.triangles.size(), halves.triangles.size());
+    for (std::size_t i = 0; i < quads.triangles.size(); ++i)
+      ASSERT_EQ(std::memcmp(&quads.triangles[i], &halves.triangles[i], offsetof(ScreenTriangle, payload)), 0);
+    EXPECT_EQ(std::memcmp(&quads.stats, &halves.stats, sizeof quads.stats), 0);
+  }
+}
+
+TEST(Faces, OfFourVerticesHaveOneColourAndAnIdForEachHalf) {
+  const Scene scene = scene_of_quads(false);
+  const Mesh& mesh = scene.meshes[0];
+  FrontendOptions options = kOptions;
+  options.cull = Cull::none;
+  options.payload = Payload::id;
+  const auto ids = run(scene, options).triangles;
+  options.payload = Payload::colour;
+  const auto colours = run(scene, options).triangles;
+  ASSERT_EQ(ids.size(), colours.size());
+  const auto lit = lit_colours(scene);
+  std::size_t second_halves = 0;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const std::uint32_t id = ids[i].payload;
+    EXPECT_EQ(colours[i].payload, lit[id]);
+    if (!mesh.has_mark(id % mesh.triangles.size(), kSecondHalf)) continue;
+    EXPECT_EQ(lit[id], lit[id - 1]);
+    ++second_halves;
+  }
+  EXPECT_GT(second_halves, 100u);
+}
+
+TEST(Faces, WithTwoSidesAreNeverCulledAndTheOthersAsEver) {
+  const Scene scene = scene_of_quads(true);
+  const Mesh& mesh = scene.meshes[0];
+  const auto is_two_sided = [&](const ScreenTriangle& t) {
+    return mesh.has_mark(t.payload % mesh.triangles.size(), kTwoSided);
+  };
+  FrontendOptions options = kOptions;
+  options.payload = Payload::id;
+  options.cull = Cull::none;
+  const auto all = run(scene, options).triangles;
+  for (const Cull cull : {Cull::back, Cull::front, Cull::both}) {
+    auto expected = all;
+    std::erase_if(expected, [&](const ScreenTriangle& t) {
+      const bool front = contract::signed_area(t) > 0;
+      return !is_two_sided(t) && (cull == Cull::both || (cull == Cull::front) == front);
+    });
+    options.cull = cull;
+    const Result found = run(scene, options);
+    EXPECT_TRUE(same(found.triangles, expected)) << name_of(cull);
+    EXPECT_EQ(found.stats.culled, all.size() - expected.size());
+  }
+}
+
+// A square across the view, its light behind the eye or behind itself.
+std::uint32_t colour_of_square(bool two_sided, bool turned, glm::vec3 to_light) {
+  Scene scene;
+  Mesh& mesh = scene.meshes.emplace_back();
+  mesh.positions = {{-1, 1, -3}, {1, 1, -3}, {1, -1, -3}, {-1, -1, -3}};
+  mesh.add_quad(turned ? glm::uvec4{0, 3, 2, 1} : glm::uvec4{0, 1, 2, 3}, rgb(200, 200, 200), two_sided);
+  scene.instances.push_back({});
+  scene.to_light = to_light;
+  FrontendOptions options = kOptions;
+  options.cull = Cull::none;
+  const auto triangles = run(scene, options).triangles;
+  EXPECT_EQ(triangles.size(), 2u);
+  EXPECT_EQ(triangles.front().payload, triangles.back().payload);
+  EXPECT_EQ(lit_colours(scene), std::vector<std::uint32_t>(2, triangles.front().payload));
+  return triangles.front().payload;
+}
+
+TEST(Faces, WithTwoSidesAreLitOnTheSideThatIsSeen) {
+  const std::uint32_t light = rgb(200, 200, 200), dark = rgb(30, 30, 30);
+  for (const bool turned : {false, true}) {
+    EXPECT_EQ(colour_of_square(true, turned, {0, 0, 1}), light);
+    EXPECT_EQ(colour_of_square(true, turned, {0, 0, -1}), dark);
+    EXPECT_EQ(colour_of_square(false, turned, {0, 0, 1}), turned ? dark : light);
+  }
+}
+
+TEST(Faces, AreRefusedWhereMarksDoNotFit) {
+  Scene scene = scene_of_quads(false);
+  scene.meshes[0].marks.pop_back();
+  EXPECT_NE(message_of([&] { run(scene, kOptions); }), "");
+  scene = scene_of_quads(false);
+  scene.meshes[0].marks[0] = kSecondHalf;
+  EXPECT_EQ(message_of([&] { run(scene, kOptions); }), "a mesh begins with the second half of a face");
+}
+
+}  // namespace
+}  // namespace edgewise

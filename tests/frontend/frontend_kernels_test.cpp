@@ -1,0 +1,545 @@
+// The front end's kernels: every SIMD target and thread count makes what one triangle at a time does.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "core/parallel.h"
+#include "core/random.h"
+#include "edgewise/builtin.h"
+#include "edgewise/contract.h"
+#include "edgewise/frontend.h"
+#include "edgewise/limits.h"
+#include "frontend/fixed.h"
+#include "frontend/stream.h"
+#include "frontend/tasks.h"
+#include "frontend/transform.h"
+#include "message_of.h"
+#include "support.h"
+
+namespace edgewise {
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInf = std::numeric_limits<float>::infinity();
+
+glm::vec3 spoiled(Random& random, glm::vec3 v) {
+  const auto dice = random.below(100);
+  if (dice < 2) v[static_cast<int>(random.below(3))] = dice == 0 ? kNan : kInf;
+  if (dice == 2) v *= 1e35f;
+  return v;
+}
+
+// Every size and distance, so that all planes cut something; `spoil` adds NaN, infinities and the edge of
+// float. Not a whole number of vectors, and enough of them to be worth threads.
+Scene wild_scene(bool spoil) {
+  Random random(1);
+  Mesh mesh;
+  for (int i = 0; i < 9001; ++i) {
+    const float reach = std::pow(10.0f, random.uniform(-3.0f, 6.0f));
+    const glm::vec3 position(random.uniform(-reach, reach), random.uniform(-reach, reach),
+                             random.uniform(-reach, reach));
+    mesh.positions.push_back(spoil ? spoiled(random, position) : position);
+  }
+  for (int i = 0; i < 20011; ++i) {
+    const auto vertex = [&] { return static_cast<unsigned>(random.below(mesh.positions.size())); };
+    const unsigned a = vertex(), b = vertex();
+    mesh.triangles.emplace_back(a, b, i % 16 == 0 ? a : vertex());
+    mesh.colours.push_back(static_cast<std::uint32_t>(random.below(1ull << 32)));
+  }
+  Scene scene;
+  scene.meshes.push_back(std::move(mesh));
+  scene.instances.push_back({});
+  scene.instances.push_back({.scale = {-1e-3f, 2e-3f, 1e-3f}, .angle = 1.1f, .translation = {1, 2, -30}});
+  scene.camera.near_z = 1e-2f;
+  scene.camera.far_z = 1e5f;
+  return scene;
+}
+
+TriangleStream wild_stream() {
+  Random random(2);
+  TriangleStream stream{640, 480, {}};
+  for (int i = 0; i < 20011; ++i) {
+    StreamTriangle t{};
+    const glm::vec2 centre(random.uniform(-100.0f, 740.0f), random.uniform(-100.0f, 580.0f));
+    // Every tenth may cross the guard band or the planes of depth.
+    const bool may_be_cut = i % 10 == 0;
+    const float size = std::pow(10.0f, random.uniform(-2.0f, may_be_cut ? 6.0f : 2.5f));
+    for (auto& v : t.vertex) {
+      v = {centre.x + random.uniform(-size, size), centre.y + random.uniform(-size, size),
+           may_be_cut ? random.uniform(-0.5f, 1.5f) : random.uniform(0.0f, 1.0f)};
+      if (may_be_cut) v = spoiled(random, v);
+    }
+    if (i % 16 == 1) t.vertex[2] = t.vertex[0];
+    t.colour = static_cast<std::uint32_t>(random.below(1ull << 32));
+    stream.triangles.push_back(t);
+  }
+  return stream;
+}
+
+struct Result {
+  std::vector<ScreenTriangle> triangles;
+  FrontendStats stats;
+};
+Result run(const Drawable& drawable, const FrontendOptions& options) {
+  Frontend frontend;
+  const auto span = frontend.run(drawable, options);
+  return {{span.begin(), span.end()}, frontend.stats()};
+}
+
+void expect_same_triangles(const std::vector<ScreenTriangle>& a, const std::vector<ScreenTriangle>& b,
+                           const std::string& what) {
+  ASSERT_EQ(a.size(), b.size()) << what;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    ASSERT_EQ(std::memcmp(&a[i], &b[i], sizeof a[i]), 0) << what << ", triangle " << i;
+}
+
+// With keep_unsnapped each triangle goes alone, and those without area stay.
+std::vector<ScreenTriangle> one_by_one(const Drawable& drawable, FrontendOptions options) {
+  options.keep_unsnapped = true;
+  auto triangles = run(drawable, options).triangles;
+  std::erase_if(triangles, [](const ScreenTriangle& t) { return contract::signed_area(t) == 0; });
+  return triangles;
+}
+
+void expect_all_alike(const Drawable& drawable, FrontendOptions options) {
+  const auto expected = one_by_one(drawable, options);
+  options.threads = 1;
+  options.target = SimdTarget::scalar;
+  const FrontendStats stats = run(drawable, options).stats;
+  EXPECT_GT(stats.emitted, 0u);
+  const auto targets = supported_targets();
+  for (const SimdTarget target : testing::kRacesOnly ? targets.last(1) : targets)
+    for (const int threads : {1, 2, 5}) {
+      if (testing::kRacesOnly && threads == 1) continue;
+      options.threads = threads;
+      options.target = target;
+      const auto found = run(drawable, options);
+      const std::string what = std::string(name_of(target)) + ", " + std::to_string(threads) + " threads";
+      expect_same_triangles(expected, found.triangles, what);
+      EXPECT_EQ(std::memcmp(&stats, &found.stats, sizeof stats), 0) << what;
+    }
+}
+
+TEST(FrontendKernels, MeshesAreAlikeOnEveryTargetAndThreadCount) {
+  for (const bool spoil : {false, true})
+    for (const Cull cull : {Cull::none, Cull::back, Cull::front})
+      for (const Payload payload : {Payload::colour, Payload::id})
+        expect_all_alike(wild_scene(spoil), {.width = 300, .height = 200, .cull = cull, .payload = payload});
+  expect_all_alike(wild_scene(true), {.width = 300, .height = 200, .shade = false});
+}
+
+TEST(FrontendKernels, StreamsAreAlikeOnEveryTargetAndThreadCount) {
+  for (const Cull cull : {Cull::none, Cull::back, Cull::front})
+    for (const Payload payload : {Payload::colour, Payload::id})
+      expect_all_alike(wild_stream(), {.width = 640, .height = 480, .cull = cull, .payload = payload});
+}
+
+// A float of 0 … 1 in contract units, half to even, by integers alone.
+std::uint32_t exact_depth(float z01) {
+  const auto bits = std::bit_cast<std::uint32_t>(z01);
+  const std::uint32_t exponent = bits >> 23, fraction = bits & 0x7FFFFF;
+  const std::uint32_t mantissa = exponent == 0 ? fraction : fraction | 1u << 23;
+  const std::uint32_t shift = 150 - std::max(exponent, 1u);  // z01 = mantissa / 2^shift
+  if (shift > 60) return contract::kDepthHead;               // less than half a unit
+  const std::uint64_t product = std::uint64_t{mantissa} * contract::kDepthRange;
+  const std::uint64_t whole = product >> shift, rest = product - (whole << shift);
+  const std::uint64_t half = std::uint64_t{1} << (shift - 1);
+  const bool up = rest > half || (rest == half && whole % 2 == 1);
+  return contract::kDepthHead + static_cast<std::uint32_t>(whole) + (up ? 1 : 0);
+}
+
+// Quantizes depths by every SIMD target's kernel and one by one, and compares them with exact_depth().
+class DepthRounding {
+ public:
+  DepthRounding() {
+    const StreamTriangle triangle{{{0, 0, 0}, {50, 0, 0}, {0, 50, 0}}, 0};
+    stream_.triangles.assign(kRun, triangle);
+    out_.reserve(false);
+    for (const SimdTarget target : supported_targets()) kernels_.push_back(stream_kernel(target));
+  }
+  void add(float z01) {
+    stream_.triangles[count_ / 3].vertex[count_ % 3].z = z01;
+    if (++count_ == 3 * kRun) check();
+  }
+  // Checks what was added since the last check.
+  void check() {
+    for (std::size_t i = 0; i < count_; ++i) {
+      const float z01 = stream_.triangles[i / 3].vertex[i % 3].z;
+      expected_[i] = exact_depth(z01);
+      compare(quantize_depth(z01), i, "one by one");
+    }
+    for (std::size_t k = 0; k < kernels_.size(); ++k) {
+      out_.count = 0;
+      kernels_[k]({options_, stream_}, 0, kRun, out_);
+      ASSERT_EQ(out_.count, kRun);
+      for (std::size_t i = 0; i < count_; ++i)
+        compare(out_.triangles.data()[i / 3].z[i % 3], i, name_of(supported_targets()[k]));
+    }
+    count_ = 0;
+  }
+  std::size_t wrong() const { return wrong_; }
+
+ private:
+  // Only the first mistake is described: there may be a billion.
+  void compare(std::uint32_t found, std::size_t i, std::string_view by) {
+    if (found != expected_[i] && wrong_++ == 0)
+      ADD_FAILURE() << by << ": " << stream_.triangles[i / 3].vertex[i % 3].z << " became " << found
+                    << " instead of " << expected_[i];
+  }
+
+  FrontendOptions options_{.width = 64, .height = 64, .cull = Cull::none};
+  TriangleStream stream_{64, 64, {}};
+  std::vector<StreamKernel> kernels_;
+  std::vector<std::uint32_t> expected_ = std::vector<std::uint32_t>(3 * kRun);
+  RunOutput out_;
+  std::size_t count_ = 0, wrong_ = 0;
+};
+
+// At full size all floats of 0 … 1, else every thousandth, the ends of every binade, and all ties.
+TEST(FrontendKernels, DepthsAreRoundedHalfToEven) {
+  constexpr std::uint32_t kOne = std::bit_cast<std::uint32_t>(1.0f);
+  DepthRounding rounding;
+  for (const float tie : {0.125f, 0.375f, 0.625f, 0.875f}) rounding.add(tie);
+  for (std::uint32_t binade = 0; binade <= kOne; binade += 1u << 23)
+    for (const std::uint32_t bits : {binade - 1, binade, binade + 1})
+      if (bits <= kOne) rounding.add(std::bit_cast<float>(bits));
+  const std::uint32_t step = testing::full_size() ? 1 : 1009;
+  for (std::uint32_t bits = 0; bits <= kOne; bits += step) rounding.add(std::bit_cast<float>(bits));
+  rounding.check();
+  EXPECT_EQ(rounding.wrong(), 0u);
+}
+
+TEST(FrontendKernels, BuiltInScenesAreAlikeOnEveryTarget) {
+  for (const SceneInfo& info : builtin_scenes()) {
+    SCOPED_TRACE(info.name);
+    expect_all_alike(info.make({.width = 640, .height = 480, .scale = 0.01}), {.width = 640, .height = 480});
+  }
+}
+
+// Meshes of all sizes about those of vectors, runs and groups, some of them empty, out of sight, without a
+// finite vertex, or with triangles that must be cut.
+Scene scene_of_many_meshes() {
+  Random random(4);
+  Scene scene;
+  scene.camera.near_z = 1e-2f;
+  const auto add = [&](std::size_t triangles) {
+    Mesh& mesh = scene.meshes.emplace_back();
+    for (std::size_t i = 0; i < triangles / 2 + 3; ++i)
+      mesh.positions.emplace_back(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    for (std::size_t i = 0; i < triangles; ++i) {
+      const auto vertex = [&] { return static_cast<unsigned>(random.below(mesh.positions.size())); };
+      mesh.triangles.emplace_back(vertex(), vertex(), vertex());
+      mesh.colours.push_back(static_cast<std::uint32_t>(random.below(1ull << 32)));
+    }
+    if (scene.meshes.size() % 16 == 0) mesh.positions.assign(mesh.positions.size(), glm::vec3(kNan));
+    Instance instance{.mesh = scene.meshes.size() - 1};
+    instance.angle = random.uniform(0, 6);
+    instance.translation = {random.uniform(-4, 4), random.uniform(-3, 3), random.uniform(-9, 1)};
+    scene.instances.push_back(instance);
+  };
+  for (const std::size_t triangles :
+       {0u, 1u, 12u, 2047u, 2048u, 2049u, 5000u, 0u, 8191u, 8192u, 30'000u, 100'000u, 1u}) {
+    for (int i = 0; i < 50; ++i) add(random.below(40));
+    add(triangles);
+  }
+  for (int i = 0; i < 2000; ++i) add(1);
+  return scene;
+}
+
+TEST(FrontendKernels, ManyMeshesAreAlikeOnEveryTargetAndThreadCount) {
+  const Scene scene = scene_of_many_meshes();
+  const auto stats = run(scene, {.width = 300, .height = 200}).stats;
+  for (const auto count : {stats.meshes_culled, stats.not_finite, stats.clipped_near, stats.culled})
+    EXPECT_GT(count, 0u);
+  expect_all_alike(scene, {.width = 300, .height = 200});
+  expect_all_alike(scene, {.width = 300, .height = 200, .shade = false});
+  expect_all_alike(scene, {.width = 300, .height = 200, .cull = Cull::none, .payload = Payload::id});
+}
+
+TEST(FrontendKernels, ManyMeshesMakeWhatEachMakesAlone) {
+  const Scene scene = scene_of_many_meshes();
+  const FrontendOptions options{.width = 300, .height = 200, .threads = 2};
+  std::vector<ScreenTriangle> expected;
+  FrontendStats sum;
+  Scene alone;
+  alone.camera = scene.camera, alone.to_light = scene.to_light;
+  alone.instances.resize(1);
+  for (const Instance& instance : scene.instances) {
+    alone.meshes.assign(1, scene.meshes[instance.mesh]);
+    alone.instances[0] = instance;
+    alone.instances[0].mesh = 0;
+    const auto [triangles, stats] = run(alone, options);
+    expected.insert(expected.end(), triangles.begin(), triangles.end());
+    sum += stats;
+  }
+  const auto together = run(scene, options);
+  expect_same_triangles(expected, together.triangles, "together");
+  EXPECT_EQ(std::memcmp(&sum, &together.stats, sizeof sum), 0);
+}
+
+TEST(FrontendKernels, SmallMeshesShareTheThreads) {
+  struct Counter final : ParallelObserver {
+    void section_begins(const CallSite&) override { most = std::max(most, tasks), tasks = 0; }
+    void task_ends() override { ++tasks; }
+    void section_ends() override { most = std::max(most, tasks), ++sections; }
+    int tasks = 0, most = 0, sections = 0;
+  } counter;
+  Scene scene = scene_of_many_meshes();
+  scene.instances.resize(500);
+  std::erase_if(scene.instances,
+                [&](const Instance& i) { return scene.meshes[i.mesh].triangles.size() > 40; });
+  Mesh small = scene.meshes[0];
+  small.positions.resize(3, glm::vec3(0.0f));
+  small.triangles.assign(2, {0, 1, 2});
+  small.colours.assign(2, 0);
+  for (Mesh& mesh : scene.meshes) mesh = small;
+  while (2 * scene.instances.size() <= kWorthThreads) scene.instances.push_back(scene.instances.front());
+  {
+    const ObserveParallel scope(counter);
+    run(scene, {.width = 300, .height = 200, .threads = 4});
+  }
+  EXPECT_EQ(counter.sections, 2) << "all vertices, then all triangles";
+  EXPECT_GE(counter.most, 4);
+}
+
+TEST(FrontendKernels, TheWildOnesMeetEveryFate) {
+  const auto mesh = run(wild_scene(true), {.width = 300, .height = 200}).stats;
+  const auto stream = run(wild_stream(), {.width = 640, .height = 480}).stats;
+  for (const auto& s : {mesh, stream})
+    for (const auto count :
+         {s.not_finite, s.outside, s.clipped_near, s.clipped_far, s.clipped_guard, s.culled, s.zero_area})
+      EXPECT_GT(count, 0u);
+}
+
+// Coordinates on every border of the view volume when w is the given one, and next to it.
+std::vector<float> borders(float w, float side_px) {
+  std::vector<float> values{0.0f, -0.0f, 1e-45f, 3e38f, -3e38f, kNan, kInf, -kInf};
+  for (const float border : {w, side_px * w, 16384.0f * w, -16384.0f * w, 0.5f * side_px * w})
+    for (const float value : {border, std::nextafter(border, kInf), std::nextafter(border, -kInf)})
+      values.push_back(value);
+  return values;
+}
+
+TEST(FrontendKernels, VerticesOnEveryBorderAreJudgedAsOneByOne) {
+  constexpr int kWidth = 640, kHeight = 480;
+  const FrontendOptions options{.width = kWidth, .height = kHeight};
+  for (const float w : {1.0f, 0.7f, 0.0f, -0.0f, -1.0f, 1e-45f, 1e-38f, 3e38f, kNan, kInf}) {
+    Mesh mesh;
+    for (const float x : borders(w, kWidth))
+      for (const float y : borders(w, kHeight))
+        for (const float z : borders(w, 2.0f)) mesh.positions.emplace_back(x, y, z);
+    std::vector<Vertex> vertices(mesh.positions.size());
+    MeshTask job{options, mesh, glm::mat4(1.0f), vertices.data()};
+    job.to_screen[3][3] = w;
+    for (const SimdTarget target : supported_targets()) {
+      transform_kernel(target)(job, 0, vertices.size());
+      for (std::size_t i = 0; i < vertices.size(); ++i) {
+        const Vertex expected = make_vertex(transform(job.to_screen, mesh.positions[i]), kWidth, kHeight);
+        ASSERT_EQ(vertices[i].outside, expected.outside) << name_of(target) << ", w = " << w << ", " << i;
+        if ((expected.outside & (kMustClip | kNotFinite)) != 0) continue;
+        ASSERT_EQ(std::memcmp(&vertices[i], &expected, sizeof expected), 0) << name_of(target) << ", " << i;
+      }
+    }
+  }
+}
+
+TEST(FrontendKernels, StreamsOnEveryBorderAreAlike) {
+  constexpr int kWidth = 640, kHeight = 480;
+  Random random(3);
+  const auto one_of = [&](float side_px) {
+    const auto values = borders(1.0f, side_px);
+    return values[random.below(values.size())];
+  };
+  TriangleStream stream{kWidth, kHeight, {}};
+  for (int i = 0; i < 40'000; ++i) {
+    StreamTriangle t{};
+    // Half of them have all vertices on one vertical or horizontal line.
+    const glm::vec2 line(one_of(kWidth), one_of(kHeight));
+    for (auto& v : t.vertex)
+      v = {i % 4 == 0 ? line.x : one_of(kWidth), i % 4 == 1 ? line.y : one_of(kHeight), random.below(2)};
+    stream.triangles.push_back(t);
+  }
+  expect_all_alike(stream, {.width = kWidth, .height = kHeight, .cull = Cull::none});
+}
+
+// Runs of every length around a vector and a run: nothing is lost, doubled or moved at the seams.
+TEST(FrontendKernels, RunsOfAnyLengthKeepTheOrder) {
+  for (const std::size_t count :
+       {std::size_t{0}, std::size_t{1}, std::size_t{15}, std::size_t{16}, std::size_t{17}, kRun - 1, kRun,
+        kRun + 1, kWorthThreads - 1, kWorthThreads, 3 * kWorthThreads + 5}) {
+    TriangleStream stream{100, 100, {}};
+    for (std::size_t i = 0; i < count; ++i)
+      stream.triangles.push_back({{{1, 1, 0.5f}, {50, 1, 0.5f}, {1, 50, 0.5f}}, 0});
+    const auto found =
+        run(stream, {.width = 100, .height = 100, .cull = Cull::none, .payload = Payload::id, .threads = 3});
+    ASSERT_EQ(found.triangles.size(), count);
+    for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(found.triangles[i].payload, i);
+  }
+}
+
+// Each is cut into two, so there are more pieces than the first attempt has room for.
+TEST(FrontendKernels, MakesRoomForThePiecesOfCutTriangles) {
+  constexpr std::size_t kCount = 3 * kRun;
+  Scene scene;
+  Mesh& mesh = scene.meshes.emplace_back();
+  mesh.positions = {{-1, -1, -5}, {1, -1, -5}, {0, -1, 5}};
+  mesh.triangles.assign(kCount, {0, 1, 2});
+  mesh.colours.assign(kCount, 7);
+  scene.instances.push_back({});
+  Frontend frontend;
+  const FrontendOptions options{
+      .width = 100, .height = 100, .cull = Cull::none, .payload = Payload::id, .threads = 2};
+  for (int frame = 0; frame < 2; ++frame) {
+    const auto found = frontend.run(scene, options);
+    ASSERT_EQ(found.size(), 2 * kCount);
+    EXPECT_EQ(frontend.stats().clipped_near, kCount);
+    for (std::size_t i = 0; i < found.size(); ++i) ASSERT_EQ(found[i].payload, i / 2);
+  }
+}
+
+TEST(FrontendKernels, LaterFramesStayWhereTheFirstOneWas) {
+  Frontend frontend;
+  FrontendOptions options{.width = 300, .height = 200, .threads = 2};
+  const Scene scene = wild_scene(false);
+  const auto* first = frontend.run(scene, options).data();
+  options.cull = Cull::none;
+  EXPECT_EQ(frontend.run(scene, options).data(), first);
+  EXPECT_EQ(frontend.run(wild_stream(), options).data(), first);
+}
+
+TEST(FrontendKernels, NamesTheTriangleWhoseVertexIsMissing) {
+  Scene scene = wild_scene(false);
+  scene.meshes[0].triangles[12345].y = 9001;
+  for (const SimdTarget target : supported_targets())
+    for (const int threads : {1, 2}) {
+      Frontend frontend;
+      try {
+        frontend.run(scene, {.threads = threads, .target = target});
+        ADD_FAILURE() << "no complaint";
+      } catch (const std::invalid_argument& e) {
+        EXPECT_STREQ(e.what(), "triangle 12345 names vertex 9001 of 9001");
+      }
+    }
+  scene.meshes[0].positions.clear();
+  EXPECT_THROW(run(scene, {}), std::invalid_argument);
+}
+
+TEST(FrontendKernels, NamesTheMissingVertexOfAMeshAmongMany) {
+  Scene scene = scene_of_many_meshes();
+  const auto rotten = [](const Mesh& mesh) { return mesh.triangles.size() == 5000; };
+  Mesh& mesh = *std::find_if(scene.meshes.begin(), scene.meshes.end(), rotten);
+  mesh.triangles[2345].z = 70'000;
+  Instance& instance = scene.instances[static_cast<std::size_t>(&mesh - scene.meshes.data())];
+  instance.translation = {0, 0, -5};
+  EXPECT_EQ(message_of([&] { run(scene, {.threads = 2}); }), "triangle 2345 names vertex 70000 of 2503");
+  instance.translation = {0, 0, 50};
+  EXPECT_GT(run(scene, {.threads = 2}).stats.emitted, 0u) << "what is out of sight is not looked at";
+}
+
+TEST(FrontendKernels, RefusesThreadCountsThatBackendsRefuse) {
+  for (const int threads : {0, -1, kMaxThreads + 1})
+    EXPECT_EQ(message_of([&] { run(wild_stream(), {.threads = threads}); }),
+              std::to_string(threads) + " threads are outside 1 to 256");
+  EXPECT_GT(run(wild_stream(), {.threads = kMaxThreads}).stats.emitted, 0u);
+}
+
+// Each triangle's state, by what is known otherwise: the counts, and which ids were handed on.
+void expect_states_agree(const Drawable& drawable, FrontendOptions options) {
+  options.payload = Payload::id;
+  const auto plain = run(drawable, options);
+  options.keep_states = true;
+  for (const int threads : {1, 3}) {
+    options.threads = threads;
+    Frontend frontend;
+    const auto triangles = frontend.run(drawable, options);
+    expect_same_triangles(plain.triangles, {triangles.begin(), triangles.end()}, "with states");
+    const FrontendStats& stats = frontend.stats();
+    EXPECT_EQ(std::memcmp(&stats, &plain.stats, sizeof stats), 0);
+    const auto states = frontend.states();
+    ASSERT_EQ(states.size(), stats.triangles);
+    const auto count = [&](TriangleState state) {
+      return static_cast<std::uint64_t>(std::count(states.begin(), states.end(), state));
+    };
+    EXPECT_EQ(count(TriangleState::outside_with_mesh), stats.whole_mesh);
+    EXPECT_EQ(count(TriangleState::not_finite), stats.not_finite);
+    EXPECT_EQ(count(TriangleState::outside), stats.outside);
+    EXPECT_EQ(count(TriangleState::not_in_front), stats.not_in_front);
+    EXPECT_LE(count(TriangleState::clipped), stats.clipped);
+    EXPECT_GT(count(TriangleState::clipped), 0u);
+    EXPECT_EQ(count(TriangleState::culled) > 0, stats.culled > 0);
+    std::vector<bool> handed_on(states.size());
+    for (const ScreenTriangle& t : triangles) handed_on[t.payload] = true;
+    for (std::size_t i = 0; i < states.size(); ++i)
+      ASSERT_EQ(states[i] >= TriangleState::active, handed_on[i]) << i << ": " << static_cast<int>(states[i]);
+  }
+}
+
+TEST(FrontendKernels, StatesTellOfEachTriangleWhatTheCountsTellOfAll) {
+  for (const bool spoil : {false, true})
+    for (const Cull cull : cull_modes()) {
+      if (cull == Cull::both) continue;  // nothing would be clipped and handed on
+      expect_states_agree(wild_scene(spoil), {.width = 300, .height = 200, .cull = cull});
+      expect_states_agree(wild_stream(), {.width = 640, .height = 480, .cull = cull});
+    }
+}
+
+TEST(FrontendKernels, StatesOfSingleTriangles) {
+  const auto state = [](glm::vec3 a, glm::vec3 b, glm::vec3 c, Cull cull = Cull::back) {
+    const TriangleStream stream{64, 64, {{{a, b, c}, 0xFFFFFFFFu}}};
+    Frontend frontend;
+    frontend.run(stream, {.width = 64, .height = 64, .cull = cull, .keep_states = true});
+    return frontend.states().front();
+  };
+  const glm::vec3 a{8, 8, 0.5f}, b{40, 8, 0.5f}, c{8, 40, 0.5f};
+  EXPECT_EQ(state(a, b, c), TriangleState::active);
+  EXPECT_EQ(state(a, c, b), TriangleState::culled);
+  EXPECT_EQ(state(a, c, b, Cull::none), TriangleState::active);
+  EXPECT_EQ(state(a, b, a), TriangleState::zero_area);
+  EXPECT_EQ(state(a, b, {8, kNan, 0.5f}), TriangleState::not_finite);
+  EXPECT_EQ(state(a, b, {8, 40, -0.5f}), TriangleState::clipped);
+  EXPECT_EQ(state(a, {8, 40, -0.5f}, b), TriangleState::culled) << "cut, and then seen from behind";
+  EXPECT_EQ(state({100, 8, 0.5f}, {140, 8, 0.5f}, {100, 40, 0.5f}), TriangleState::outside);
+}
+
+TEST(FrontendKernels, NothingIsLeftOfTheUnsnappedOrTheStatesWhereItThrew) {
+  const Scene good = wild_scene(false);
+  Scene blind = good, broken = good;
+  blind.camera.near_z = -1;
+  broken.meshes[0].triangles.back().x = 9001;
+  Frontend frontend;
+  const FrontendOptions plain{.width = 300, .height = 200},
+      keep{.width = 300, .height = 200, .keep_unsnapped = true, .keep_states = true};
+  const auto expect_throw = [&](const Scene& scene, FrontendOptions options) {
+    EXPECT_THROW(frontend.run(scene, options), std::invalid_argument);
+    EXPECT_EQ(frontend.unsnapped().size(), 0u);
+    EXPECT_EQ(frontend.states().size(), 0u);
+  };
+  frontend.run(good, plain);
+  EXPECT_EQ(frontend.unsnapped().size(), 0u);
+  for (const Scene* bad : {&blind, &broken}) {
+    expect_throw(*bad, keep);
+    const std::size_t count = frontend.run(good, keep).size();
+    EXPECT_GT(count, 0u);
+    EXPECT_EQ(frontend.unsnapped().size(), count);
+    EXPECT_EQ(frontend.states().size(), frontend.stats().triangles);
+    expect_throw(*bad, keep);
+    expect_throw(good, {.width = 0, .keep_unsnapped = true, .keep_states = true});
+  }
+}
+
+TEST(FrontendKernels, AMeshWithoutAFiniteVertexIsNotOutOfSight) {
+  Scene scene = wild_scene(false);
+  for (auto& p : scene.meshes[0].positions) p.x = kNan;
+  const auto stats = run(scene, {}).stats;
+  EXPECT_EQ(stats.meshes_culled, 0u);
+  EXPECT_EQ(stats.not_finite, stats.triangles);
+}
+
+}  // namespace
+}  // namespace edgewise

@@ -1,0 +1,407 @@
+// Pictures and depth maps on disk, their differences, and files that appear whole or not at all.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <thread>
+
+#include "core/atomic_file.h"
+#include "edgewise/contract.h"
+#include "edgewise/image.h"
+#include "edgewise/scene.h"
+#include "message_of.h"
+#include "temp_dir.h"
+
+namespace edgewise {
+namespace {
+
+namespace fs = std::filesystem;
+
+Image test_image(int width, int height) {
+  Image image{width, height, {}};
+  std::uint32_t state = 1;
+  for (int i = 0; i < width * height; ++i)
+    image.pixels.push_back(0xFF000000u | (state = state * 1664525 + 1013904223));
+  return image;
+}
+
+// ---- Pictures
+
+class ImageFormat : public testing::TestWithParam<const char*> {};
+
+TEST_P(ImageFormat, RoundTripKeepsEveryPixel) {
+  const TempDir dir;
+  for (const auto& [width, height] : {std::pair(1, 1), {3, 5}, {257, 2}, {1, 16384}}) {
+    const Image image = test_image(width, height);
+    const fs::path path = dir.path() / (std::string("a") + GetParam());
+    write_image(path, image);
+    const Image back = read_image(path);
+    EXPECT_EQ(back.width, width);
+    EXPECT_EQ(back.height, height);
+    EXPECT_EQ(back.pixels, image.pixels);
+  }
+}
+
+TEST_P(ImageFormat, AlphaIsIgnored) {
+  const TempDir dir;
+  const fs::path path = dir.path() / (std::string("a") + GetParam());
+  write_image(path, {2, 1, {0x00030201u, 0x80060504u}});
+  EXPECT_EQ(read_image(path).pixels, (std::vector<std::uint32_t>{0xFF030201u, 0xFF060504u}));
+}
+
+TEST_P(ImageFormat, EveryTruncationIsRefused) {
+  const TempDir dir;
+  const fs::path path = dir.path() / (std::string("a") + GetParam());
+  write_image(path, test_image(5, 4));
+  const std::string whole = file_content(path);
+  // The last chunk of a PNG (12 bytes) carries no pixels, and libpng does without it.
+  for (std::size_t size = 0; size + 12 < whole.size(); ++size) {
+    const fs::path cut = dir.write("cut" + path.extension().string(), whole.substr(0, size));
+    EXPECT_NE(message_of([&] { read_image(cut); }).find(cut.string() + ": "), std::string::npos) << size;
+  }
+}
+
+TEST_P(ImageFormat, WrongPixelCountOrSizeIsNotWritten) {
+  const TempDir dir;
+  const fs::path path = dir.path() / (std::string("a") + GetParam());
+  EXPECT_THROW(write_image(path, {2, 2, {1, 2, 3}}), std::runtime_error);
+  EXPECT_THROW(write_image(path, {0, 0, {}}), std::runtime_error);
+  EXPECT_THROW(write_image(path, {-1, -1, {1}}), std::runtime_error);
+  EXPECT_THROW(write_image(path, test_image(16385, 1)), std::runtime_error);
+  EXPECT_EQ(dir.count(), 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, ImageFormat, testing::Values(".png", ".ppm", ".PNG"),
+                         [](const auto& p) { return "Format" + std::to_string(p.index); });
+
+TEST(Png, APaletteBecomesRgb) {
+  // 2x1 pixels that point to the second and the first of two colours; made with Python's zlib.
+  const char content[] =
+      "\x89\x50\x4e\x47\x0d\x0a\x1a\x0a\x00\x00\x00\x0d\x49\x48\x44\x52\x00\x00\x00\x02\x00\x00\x00\x01"
+      "\x08\x03\x00\x00\x00\xc3\xfc\x8f\xb8\x00\x00\x00\x06\x50\x4c\x54\x45\x0a\x14\x1e\xc8\x64\x00\xbf"
+      "\x77\xe2\x1c\x00\x00\x00\x0b\x49\x44\x41\x54\x78\x9c\x63\x60\x64\x00\x00\x00\x05\x00\x02\xd1\x66"
+      "\x33\x78\x00\x00\x00\x00\x49\x45\x4e\x44\xae\x42\x60\x82";
+  const TempDir dir;
+  const Image image = read_image(dir.write("palette.png", std::string(content, sizeof content - 1)));
+  EXPECT_EQ(image.pixels, (std::vector<std::uint32_t>{rgb(200, 100, 0), rgb(10, 20, 30)}));
+}
+
+TEST(Png, AbsurdSizeIsRefusedBeforeMemoryIsTaken) {
+  const TempDir dir;
+  const fs::path path = dir.path() / "a.png";
+  write_image(path, test_image(1, 1));
+  std::string content = file_content(path);
+  // The header chunk: width at 16, height at 20, its checksum at 29.
+  content.replace(16, 8, std::string("\x00\x0F\x00\x00\x00\x0F\x00\x00", 8));
+  const std::uint32_t checksum = [&] {
+    std::uint32_t crc = 0xFFFFFFFFu;
+    for (std::size_t i = 12; i < 29; ++i) {
+      crc ^= static_cast<unsigned char>(content[i]);
+      for (int bit = 0; bit < 8; ++bit) crc = crc >> 1 ^ (crc & 1 ? 0xEDB88320u : 0);
+    }
+    return ~crc;
+  }();
+  for (std::size_t i = 0; i < 4; ++i) content[29 + i] = static_cast<char>(checksum >> (24 - 8 * i));
+  const fs::path huge = dir.write("huge.png", content);
+  EXPECT_EQ(message_of([&] { read_image(huge); }),
+            huge.string() + ": image size 983040x983040 is outside 1 to 16384");
+}
+
+TEST(Ppm, HeaderMayHaveCommentsAndFewerLevels) {
+  const TempDir dir;
+  const Image image = read_image(
+      dir.write("a.ppm", std::string("P6 # one\n#two\n 1\t2 #3\n 3\n") + std::string("\0\1\2\3\3\3", 6)));
+  EXPECT_EQ(image.width, 1);
+  EXPECT_EQ(image.height, 2);
+  EXPECT_EQ(image.pixels, (std::vector<std::uint32_t>{rgb(0, 85, 170), rgb(255, 255, 255)}));
+}
+
+struct BadFile {
+  const char *name, *extension;
+  std::string content, message;
+};
+
+class BadPicture : public testing::TestWithParam<BadFile> {};
+
+TEST_P(BadPicture, IsRefusedWithTheReason) {
+  const TempDir dir;
+  const fs::path path = dir.write(std::string("bad") + GetParam().extension, GetParam().content);
+  const auto read = [&] {
+    if (is_image_path(path))
+      read_image(path);
+    else
+      read_pfm(path);
+  };
+  EXPECT_EQ(message_of(read), path.string() + ": " + GetParam().message);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Files, BadPicture,
+    testing::Values(
+        BadFile{"PngIsText", ".png", "hello, this is no picture", "Not a PNG file"},
+        BadFile{"PpmEmpty", ".ppm", "", "does not start with P6"},
+        BadFile{"PpmIsAscii", ".ppm", "P3\n1 1\n255\n1 2 3\n", "does not start with P6"},
+        BadFile{"PpmNegative", ".ppm", "P6\n-1 1\n255\n", "malformed header: '-1' is not a size"},
+        BadFile{"PpmZero", ".ppm", "P6\n0 1\n255\n", "image size 0x1 is outside 1 to 16384"},
+        BadFile{"PpmAbsurd", ".ppm", "P6\n16385 1\n255\n", "image size 16385x1 is outside 1 to 16384"},
+        BadFile{"PpmBeyond64Bits", ".ppm", "P6\n99999999999999999999 1\n255\n",
+                "malformed header: '99999999999999999999' is not a size"},
+        BadFile{"PpmEndlessWord", ".ppm", "P6\n" + std::string(100, '1'), "malformed or truncated header"},
+        BadFile{"PpmOpenComment", ".ppm", "P6\n# no end", "malformed or truncated header"},
+        BadFile{"Ppm16Bits", ".ppm", "P6\n1 1\n65535\n123456", "has samples that are not of 8 bits"},
+        BadFile{"PpmTruncated", ".ppm", "P6\n16384 16384\n255\n1234",
+                "truncated: header promises 805306368 bytes, 4 follow"},
+        BadFile{"PfmColour", ".pfm", "PF\n1 1\n-1.0\n1234", "does not start with Pf"},
+        BadFile{"PfmScaleZero", ".pfm", "Pf\n1 1\n0\n1234", "malformed header: '0' is not a scale"},
+        BadFile{"PfmScaleText", ".pfm", "Pf\n1 1\nnan\n1234", "malformed header: 'nan' is not a scale"},
+        BadFile{"PfmTruncated", ".pfm", "Pf\n2 1\n-1.0\n1234567",
+                "truncated: header promises 8 bytes, 7 follow"}),
+    [](const auto& p) { return std::string(p.param.name); });
+
+TEST(Picture, UnknownExtensionIsRefused) {
+  EXPECT_EQ(message_of([] { read_image("a.jpg"); }), "a.jpg: is neither a .png nor a .ppm");
+  EXPECT_EQ(message_of([] { write_image("a", test_image(1, 1)); }), "a: is neither a .png nor a .ppm");
+}
+
+// ---- Depth
+
+TEST(Pfm, RoundTripKeepsEveryBit) {
+  const TempDir dir;
+  const fs::path path = dir.path() / "a.pfm";
+  const DepthMap map{
+      2, 3, {0.0f, -0.0f, 1.0f, std::nanf("5"), std::numeric_limits<float>::infinity(), 1e-40f}};
+  write_pfm(path, map);
+  const DepthMap back = read_pfm(path);
+  EXPECT_EQ(back.width, 2);
+  EXPECT_EQ(back.height, 3);
+  ASSERT_EQ(back.depth01.size(), 6u);
+  EXPECT_EQ(std::memcmp(back.depth01.data(), map.depth01.data(), 24), 0);
+}
+
+TEST(Pfm, RowsLieBottomUpAndBothByteOrdersAreRead) {
+  const TempDir dir;
+  const fs::path path = dir.path() / "a.pfm";
+  write_pfm(path, {1, 2, {1.0f, 2.0f}});
+  EXPECT_EQ(file_content(path), std::string("Pf\n1 2\n-1.0\n\0\0\0\x40\0\0\x80\x3F", 20));
+  const fs::path big = dir.write("b.pfm", std::string("Pf\n1 2\n1.0\n\x40\0\0\0\x3F\x80\0\0", 19));
+  EXPECT_EQ(read_pfm(big).depth01, (std::vector<float>{1.0f, 2.0f}));
+}
+
+TEST(Frame, DepthUnitsBecomeZeroToOneAndPaddingIsLeftOut) {
+  Framebuffer frame(3, 2);
+  const std::uint32_t units[2][3] = {
+      {contract::kDepthHead, contract::kDepthHead + contract::kDepthRange, contract::kDepthClear},
+      {contract::kDepthHead - 60, contract::kDepthHead + contract::kDepthRange + 60,
+       contract::kDepthHead + contract::kDepthRange / 2}};
+  for (int y = 0; y < 2; ++y)
+    for (int x = 0; x < 3; ++x) {
+      frame.view().depth[y * frame.stride() + x] = units[y][x];
+      frame.view().payload[y * frame.stride() + x] = static_cast<std::uint32_t>(10 * y + x);
+    }
+  EXPECT_EQ(to_depth_map(frame).depth01, (std::vector<float>{0.0f, 1.0f, 1.0f, 0.0f, 1.0f, 0.5f}));
+  EXPECT_EQ(to_image(frame).pixels, (std::vector<std::uint32_t>{0, 1, 2, 10, 11, 12}));
+}
+
+// ---- Differences
+
+std::uint32_t red_of(std::uint32_t pixel) {
+  return pixel & 255;
+}
+bool is_grey(std::uint32_t pixel) {
+  return (pixel & 255) == (pixel >> 8 & 255) && (pixel & 255) == (pixel >> 16 & 255);
+}
+
+TEST(Difference, OfAnImageAndItselfIsNothingOnDimmedGrey) {
+  const Image image = test_image(9, 7);
+  const Difference d = difference(image, image);
+  EXPECT_EQ(d.count, 0u);
+  EXPECT_EQ(d.largest, 0.0);
+  EXPECT_EQ(d.first_x, -1);
+  for (const std::uint32_t pixel : d.picture.pixels) EXPECT_TRUE(is_grey(pixel) && red_of(pixel) <= 85);
+}
+
+TEST(Difference, CountsFindsAndGradesPixels) {
+  const Image a{3, 2, {rgb(9, 9, 9), 0, 0, 0, 0, rgb(255, 255, 255)}};
+  Image b = a;
+  b.pixels[0] ^= 0xFF000000u;  // alpha is ignored
+  b.pixels[2] = rgb(0, 1, 0);
+  b.pixels[3] = rgb(3, 100, 7);
+  const Difference d = difference(a, b);
+  EXPECT_EQ(d.count, 2u);
+  EXPECT_EQ(d.largest, 100.0);
+  EXPECT_EQ(d.first_x, 2);
+  EXPECT_EQ(d.first_y, 0);
+  EXPECT_EQ(d.picture.pixels[3], rgb(255, 0, 0));
+  EXPECT_GE(red_of(d.picture.pixels[2]), 128u);
+  EXPECT_LT(red_of(d.picture.pixels[2]), red_of(d.picture.pixels[3]));
+  EXPECT_EQ(d.picture.pixels[2] & 0xFFFF00, 0u);
+  EXPECT_EQ(d.picture.pixels[5], rgb(85, 85, 85));
+}
+
+TEST(Difference, OfDepthsSeesTheSmallestStepAndNan) {
+  const float nan = std::nanf("");
+  const DepthMap a{5, 1, {0.5f, 0.25f, nan, nan, 1.0f}};
+  const DepthMap b{5, 1, {std::nextafter(0.5f, 1.0f), 0.25f, nan, 0.5f, 1.0f}};
+  const Difference d = difference(a, b);
+  EXPECT_EQ(d.count, 2u);
+  EXPECT_EQ(d.first_x, 0);
+  EXPECT_TRUE(std::isinf(d.largest));
+  EXPECT_EQ(d.picture.pixels[0], rgb(255, 0, 0));
+  EXPECT_EQ(d.picture.pixels[3], rgb(255, 0, 0));
+  EXPECT_EQ(d.picture.pixels[4], rgb(0, 0, 0));
+  EXPECT_GT(red_of(d.picture.pixels[1]), 0u);
+}
+
+TEST(Difference, OfUnequalSizesIsRefused) {
+  EXPECT_THROW(difference(test_image(2, 1), test_image(1, 2)), std::invalid_argument);
+  EXPECT_THROW(difference(DepthMap{1, 1, {0}}, DepthMap{2, 1, {0, 0}}), std::invalid_argument);
+}
+
+TEST(Enlarge, MakesSquares) {
+  const Image large = enlarge({2, 1, {5, 6}}, 2);
+  EXPECT_EQ(large.width, 4);
+  EXPECT_EQ(large.height, 2);
+  EXPECT_EQ(large.pixels, (std::vector<std::uint32_t>{5, 5, 6, 6, 5, 5, 6, 6}));
+  EXPECT_THROW(enlarge({2, 1, {5, 6}}, 0), std::invalid_argument);
+  EXPECT_THROW(enlarge({2, 1, {5, 6}}, 8193), std::invalid_argument);
+}
+
+// ---- Files that are whole or absent
+
+TEST(AtomicFile, AppearsOnCommitOnly) {
+  const TempDir dir;
+  const fs::path path = dir.path() / "a";
+  AtomicFile file(path);
+  file.stream() << "new";
+  EXPECT_FALSE(fs::exists(path));
+  file.commit();
+  EXPECT_EQ(file_content(path), "new");
+  EXPECT_EQ(dir.count(), 1u);
+}
+
+TEST(AtomicFile, WithoutCommitTheOldFileStaysAndNothingElse) {
+  const TempDir dir;
+  const fs::path path = dir.write("a", "old");
+  {
+    AtomicFile file(path);
+    file.stream() << "new";
+    EXPECT_EQ(file_content(path), "old");
+  }
+  EXPECT_EQ(file_content(path), "old");
+  EXPECT_EQ(dir.count(), 1u);
+}
+
+TEST(AtomicFile, ReplacesWhatALinkPointsToAndKeepsItsMode) {
+  const TempDir dir;
+  const fs::path path = dir.write("a", "old"), link = dir.path() / "link";
+  fs::permissions(path, fs::perms(0600));
+  fs::create_symlink("a", link);
+  AtomicFile file(link);
+  file.stream() << "new";
+  file.commit();
+  EXPECT_TRUE(fs::is_symlink(link));
+  EXPECT_EQ(file_content(path), "new");
+  EXPECT_EQ(fs::status(path).permissions(), fs::perms(0600));
+}
+
+TEST(AtomicFile, TwoOfOneNameDoNotDisturbEachOther) {
+  const TempDir dir;
+  const fs::path path = dir.path() / "a";
+  AtomicFile first(path), second(path);
+  first.stream() << "first";
+  second.stream() << "second";
+  first.commit();
+  EXPECT_EQ(file_content(path), "first");
+  second.commit();
+  EXPECT_EQ(file_content(path), "second");
+  EXPECT_EQ(dir.count(), 1u);
+}
+
+TEST(AtomicFile, ANameOfAnyAllowedLengthWorks) {
+  const TempDir dir;
+  AtomicFile file(dir.path() / std::string(255, 'x'));
+  file.commit();
+  EXPECT_TRUE(fs::exists(dir.path() / std::string(255, 'x')));
+}
+
+TEST(AtomicFile, ImpossibleTargetsAreRefusedAtOnce) {
+  const TempDir dir;
+  const fs::path file = dir.write("a", "");
+  EXPECT_EQ(message_of([&] { AtomicFile{dir.path()}; }), dir.path().string() + ": is a directory");
+  for (const fs::path& path : {dir.path() / "none" / "a", file / "b", dir.path() / std::string(256, 'x')})
+    EXPECT_NE(message_of([&] { AtomicFile{path}; }).find(path.string() + ": cannot be written: "),
+              std::string::npos)
+        << path;
+  EXPECT_EQ(dir.count(), 1u);
+}
+
+TEST(AtomicFile, ADeviceIsWrittenStraight) {
+  write_pfm("/dev/null", {1, 1, {0.0f}});
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+// Another thread may begin a file when the process is about to end, and must not leave it behind.
+TEST(AtomicFile, IsNotBegunWhereTheProcessEnds) {
+  const TempDir dir;
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    remove_unfinished_files();
+    std::thread([&] {
+      AtomicFile file(dir.path() / "a.txt");
+      pause();
+    }).detach();
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    _exit(0);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+  EXPECT_EQ(dir.count(), 0u);
+}
+
+TEST(AtomicFile, AFullDiskIsReported) {
+  EXPECT_EQ(message_of([] {
+              write_pfm("/dev/full", {1, 1, {0.0f}});
+            }),
+            "/dev/full: cannot be written: No space left on device");
+  // Fails while it is written, not when it is closed; and by way of a link.
+  const TempDir dir;
+  fs::create_symlink("/dev/full", dir.path() / "a.pfm");
+  EXPECT_EQ(message_of([&] {
+              write_pfm(dir.path() / "a.pfm", {600, 600, std::vector<float>(360000)});
+            }),
+            (dir.path() / "a.pfm").string() + ": cannot be written: No space left on device");
+}
+
+class Signalled : public testing::TestWithParam<int> {};
+
+TEST_P(Signalled, LeavesOnlyTheOldFileAndDiesOfTheSignal) {
+  const TempDir dir;
+  const fs::path path = dir.write("a", "old");
+  const pid_t child = fork();
+  if (child == 0) {
+    for (const int signal_number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) signal(signal_number, SIG_DFL);
+    AtomicFile file(path);
+    file.stream() << "new" << std::flush;
+    raise(GetParam());
+    _exit(0);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFSIGNALED(status));
+  EXPECT_EQ(WTERMSIG(status), GetParam());
+  EXPECT_EQ(file_content(path), "old");
+  EXPECT_EQ(dir.count(), 1u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, Signalled, testing::Values(SIGINT, SIGTERM, SIGHUP, SIGQUIT),
+                         [](const auto& p) { return std::string(sigabbrev_np(p.param)); });
+
+}  // namespace
+}  // namespace edgewise

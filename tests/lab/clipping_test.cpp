@@ -1,0 +1,229 @@
+// The clipping methods: their promises and their failures, against a truth that needs no clipping.
+#include "lab/clipping/clipping.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "lab/coverage/score.h"
+#include "lab/lab_support.h"
+#include "lab/truth.h"
+
+namespace edgewise::lab {
+namespace {
+
+const ClippingMethod& method(std::string_view name) {
+  return method_named(clipping_methods(), name);
+}
+ClippingScene make_case(std::string_view name) {
+  return make_case_named(clipping_cases(), name);
+}
+ClippingScore judge(std::string_view name, const ClippingScene& scene) {
+  return score(method(name), scene, clipping_truth(scene));
+}
+
+TEST(Clipping, EveryFileOfTheFolderIsRegistered) {
+  expect_folder_registered("clipping_methods", clipping_methods());
+}
+
+TEST(Clipping, EveryMethodKeepsItsPromiseAndTheImpreciseFailSomewhere) {
+  std::map<std::string_view, std::uint64_t> wrong, moved;
+  for (const auto& c : clipping_cases()) {
+    const ClippingScene scene = c.make();
+    const auto truth = clipping_truth(scene);
+    for (const auto& m : clipping_methods()) {
+      const auto s = score(m, scene, truth);
+      EXPECT_GT(s.covered, 200u) << c.name;
+      EXPECT_EQ(s.broken, 0u) << m.info.name << " on " << c.name;
+      if (c.name != "along_the_rows") {
+        EXPECT_LE(s.hairline, s.covered / 100) << m.info.name << " on " << c.name;
+      }
+      wrong[m.info.name] += s.wrong();
+      moved[m.info.name] += s.differs_from_ours;
+    }
+  }
+  for (const auto& m : clipping_methods()) {
+    EXPECT_EQ(wrong[m.info.name] == 0, m.info.exact) << m.info.name;
+    EXPECT_EQ(moved[m.info.name] == 0, m.info.exact) << m.info.name;
+  }
+}
+
+TEST(Clipping, AFloorUnderTheEye) {
+  for (const float near_z : {0.5f, 0.1f, 0.001f}) {
+    const ClippingScene scene = floor_through_eye(near_z);
+    EXPECT_EQ(judge("near_guard", scene).wrong(), 0u);
+    EXPECT_GT(judge("discard_behind", scene).missing, 500u);
+    const auto divided = judge("none", scene);
+    EXPECT_GT(divided.missing + divided.extra + divided.wrong_owner, 500u);
+  }
+}
+
+TEST(Clipping, DividingByZeroIsCaughtAndCounted) {
+  const auto s = judge("none", make_case("vertex_at_eye_plane"));
+  EXPECT_EQ(s.not_a_number, 2u);
+  EXPECT_EQ(judge("near_guard", make_case("vertex_at_eye_plane")).not_a_number, 0u);
+  EXPECT_GT(judge("none", make_case("beyond_the_guard_band")).out_of_range, 0u);
+}
+
+TEST(Clipping, QuadsBeforeTheNearPlaneAreNotDrawn) {
+  const ClippingScene scene = make_case("quads_before_near");
+  const auto truth = clipping_truth(scene);
+  EXPECT_TRUE(std::all_of(truth.owner.begin(), truth.owner.end(),
+                          [](auto owner) { return owner < 2 || owner == kNobody; }));
+  for (const auto name : {"near_guard", "screen_edges", "discard_behind"})
+    EXPECT_EQ(score(method(name), scene, truth).wrong(), 0u) << name;
+  for (const auto name : {"near_too_near", "none"}) {
+    const auto s = score(method(name), scene, truth);
+    EXPECT_GT(s.wrong_owner, 100u) << name;
+    EXPECT_EQ(s.out_of_range, 12u) << name;
+  }
+}
+
+// The pixels in which a method differs from ours, which leaves the screen's edges to the scissors.
+struct Moved {
+  std::uint64_t pixels = 0;
+  int longest_run = 0;  // along a row
+};
+Moved moved(std::string_view name, const ClippingScene& scene) {
+  ClippingFrame frame(scene.size), ours(scene.size);
+  method(name).draw(scene, frame);
+  method("near_guard").draw(scene, ours);
+  Moved found;
+  for (int y = 0; y < scene.size.height; ++y)
+    for (int x = 0, run = 0; x < scene.size.width; ++x) {
+      run = frame.picture.payload_row(y)[x] != ours.picture.payload_row(y)[x] ? run + 1 : 0;
+      found.pixels += run > 0;
+      found.longest_run = std::max(found.longest_run, run);
+    }
+  return found;
+}
+
+std::uint64_t crossings(const ClippingScene& scene) {
+  Frontend frontend;
+  const auto triangles = frontend.run(
+      scene.scene,
+      {.width = scene.size.width, .height = scene.size.height, .cull = Cull::none, .keep_unsnapped = true});
+  return edge_crossings(unsnapped(triangles, frontend.unsnapped()), {scene.size.width, scene.size.height});
+}
+
+// The scene's vertices lie on the 1/256 px grid, so ours moves nothing.
+TEST(Clipping, EdgesThatAreCutAtTheScreensEdgesAndSnappedAgainMove) {
+  const ClippingScene scene = make_case("along_the_rows");
+  const auto truth = clipping_truth(scene);
+  const Moved found = moved("screen_edges", scene);
+  EXPECT_GT(found.pixels, 200u);
+  EXPECT_GT(1e6 * static_cast<double>(found.pixels) / static_cast<double>(crossings(scene)), 50'000);
+  EXPECT_GE(found.longest_run, 16);
+  EXPECT_LT(score(method("near_guard"), scene, truth).hairline, found.pixels / 4);
+  const auto s = score(method("screen_edges"), scene, truth);
+  EXPECT_EQ(s.wrong(), 0u) << "each by less than 1/64 px";
+  EXPECT_GT(s.hairline, found.pixels / 2);
+}
+
+// What an edge both ends of which are far out promises, and no more.
+TEST(Clipping, FarOutOnBothSidesFloatsMoveEdges) {
+  const struct {
+    std::string_view name;
+    double reach_px;
+  } kLimits[] = {{"near_guard", kReachPx}, {"screen_edges", kReachPx / 2}};
+  for (const auto& limit : kLimits) {
+    EXPECT_EQ(method(limit.name).reach_px, limit.reach_px);
+    const ClippingScene inside = far_slivers(limit.reach_px - 300, 100),
+                        beyond = far_slivers(8 * limit.reach_px, 100);
+    EXPECT_EQ(judge(limit.name, inside).wrong(), 0u) << limit.name;
+    EXPECT_GT(judge(limit.name, beyond).wrong(), 100u) << limit.name;
+    EXPECT_EQ(judge(limit.name, beyond).broken, 0u) << limit.name;
+  }
+  const ClippingScene between = make_case("far_slivers");
+  EXPECT_EQ(judge("near_guard", between).wrong(), 0u);
+  EXPECT_GT(judge("screen_edges", between).wrong(), 100u);
+}
+
+// How wrong an attribute is that runs from 0 to 1 along an edge and is interpolated linearly on the screen at
+// `fraction` of the way, where w runs from w0 to w1.
+double linear_attribute_error(double w0, double w1, double fraction) {
+  return std::abs(fraction - fraction / w1 / ((1 - fraction) / w0 + fraction / w1));
+}
+
+// Wrong by .41 half-way, and at most by (sqrt 10 - 1) / (sqrt 10 + 1).
+TEST(Clipping, LinearAttributesAreWrongWhereAnEdgeIsCut) {
+  const double most = (std::sqrt(10.0) - 1) / (std::sqrt(10.0) + 1);
+  double worst = 0;
+  for (int i = 0; i <= 1000; ++i) worst = std::max(worst, linear_attribute_error(1, 10, i / 1000.0));
+  EXPECT_NEAR(worst, most, 1e-5);
+
+  const ClippingScene road = make_case("road_from_the_side");
+  const auto truth = clipping_truth(road);
+  const auto linear = score(method("screen_linear"), road, truth);
+  EXPECT_GT(linear.worst_distance, linear_attribute_error(1, 10, 0.5) - 0.01);
+  EXPECT_LE(linear.worst_distance, most);
+  EXPECT_GT(linear.wrong_depth, linear.covered / 2);
+  EXPECT_EQ(linear.missing + linear.extra, 0u);
+  for (const auto name : {"near_guard", "screen_edges"}) {
+    EXPECT_EQ(score(method(name), road, truth).wrong(), 0u) << name;
+    EXPECT_LT(score(method(name), road, truth).worst_distance, 1e-4) << name;
+  }
+}
+
+// Within its promise on every scene: nothing where nothing is cut, else no distance off by more than the
+// bound, which grows with the ratio of a triangle's distances; far over near is 500 in all of them.
+TEST(Clipping, LinearAttributesStayWithinTheirBound) {
+  const double most = (std::sqrt(500.0) - 1) / (std::sqrt(500.0) + 1);
+  for (const auto& c : clipping_cases()) {
+    const ClippingScene scene = c.make();
+    const auto s = judge("screen_linear", scene);
+    EXPECT_LE(s.worst_distance, most + 0.001) << c.name;
+    if (c.name == "in_view") {
+      EXPECT_EQ(s.wrong(), 0u);
+    }
+  }
+}
+
+// The front end's depths are floats. Down to where two steps of one no longer part the floor from the wall at
+// the nearest sample to where they meet, all is right; below, owners are wrong there, and nothing else is.
+TEST(Clipping, NearPlanesTooNearLeaveDepthNoSteps) {
+  const auto seen = [](double near_z) {
+    ClippingScene scene = floor_through_eye(static_cast<float>(near_z));
+    scene.size = {128, 96};
+    return scene;
+  };
+  double closest = 1;  // of 1 / z, between floor and wall, over rows of samples
+  for (int y = 48; y < 96; ++y) closest = std::min(closest, std::abs((y + 0.5 - 48) / 96 - 0.1));
+  const double limit = kNearTie01 / closest;  // as depth is 1 - near / z
+  EXPECT_LT(limit, 0.001);
+  for (const double inside : {1.01, 2.0, 5.0, 10.0, 100.0, 1000.0})
+    EXPECT_EQ(judge("near_guard", seen(inside * limit)).wrong(), 0u) << inside * limit;
+  std::uint64_t wrong = 0;
+  for (const double beyond : {20.0, 50.0, 100.0, 200.0, 1000.0}) {
+    const auto s = judge("near_guard", seen(limit / beyond));
+    EXPECT_EQ(s.wrong_owner, s.near_ties) << limit / beyond;
+    EXPECT_EQ(s.wrong(), s.wrong_owner) << limit / beyond;
+    EXPECT_EQ(s.broken, 0u);
+    wrong += s.wrong_owner;
+  }
+  EXPECT_GT(wrong, 100u);
+}
+
+TEST(Clipping, EveryDirectionKeepsItsWinding) {
+  for (int direction = 0; direction < kOutsideDirections; ++direction)
+    for (const bool reversed : {false, true}) {
+      const ClippingScene scene = outside_direction(direction, reversed);
+      const auto truth = clipping_truth(scene);
+      const auto s = score(method("near_guard"), scene, truth);
+      EXPECT_EQ(s.covered > 20, !reversed) << direction;
+      EXPECT_EQ(s.wrong(), 0u) << direction << (reversed ? " reversed" : "");
+      if (reversed) {
+        ClippingFrame frame(scene.size);
+        method("near_guard").draw(scene, frame);
+        for (int y = 0; y < scene.size.height; ++y)
+          EXPECT_TRUE(std::all_of(frame.picture.payload_row(y),
+                                  frame.picture.payload_row(y) + scene.size.width,
+                                  [](auto owner) { return owner == kNobody; }));
+      }
+    }
+}
+
+}  // namespace
+}  // namespace edgewise::lab

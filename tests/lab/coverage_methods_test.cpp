@@ -1,0 +1,224 @@
+// Every coverage method against its promise.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <set>
+#include <stdexcept>
+
+#include "lab/coverage/cases.h"
+#include "lab/coverage/score.h"
+#include "lab/coverage_support.h"
+#include "scene/streams.h"
+
+namespace edgewise::lab {
+namespace {
+
+using testing::adversarial;
+using testing::against_floats;
+using testing::hard_floats;
+using testing::Picture;
+using testing::picture_of;
+
+float side_px(const UnsnappedTriangle& t) {
+  const auto [low_x, high_x] = std::minmax({t.x_px[0], t.x_px[1], t.x_px[2]});
+  const auto [low_y, high_y] = std::minmax({t.y_px[0], t.y_px[1], t.y_px[2]});
+  return std::max(high_x - low_x, high_y - low_y);
+}
+
+std::vector<std::string_view> method_names() {
+  std::vector<std::string_view> names;
+  for (const auto& method : coverage_methods()) names.push_back(method.info.name);
+  return names;
+}
+
+class EveryCoverageMethod : public ::testing::TestWithParam<std::string_view> {
+ protected:
+  const CoverageMethod& method_ = find_coverage_method(GetParam());
+
+  void expect_reach(std::vector<FloatTriangle> triangles, Window window, const std::string& what) {
+    const auto too_large = static_cast<float>(method_.promise.max_side_px);
+    std::erase_if(triangles, [&](const FloatTriangle& t) { return side_px(t.at) > too_large; });
+    const Picture picture(std::move(triangles), window);
+    const CoverageScore score = score_coverage(picture.by_floats, method_, picture.input);
+    EXPECT_LE(score.worst_px, method_.promise.reach_px) << what;
+    EXPECT_EQ(score.out_of_bounds, 0u) << what;
+  }
+};
+
+TEST_P(EveryCoverageMethod, IsWrongOnlyWithinItsReach) {
+  for (const Window window : {Window{120, 90}, {64, 48, 4020, 4030}, {4096, 3, 0, 50}, {3, 4096, 4000, 0}})
+    for (const auto family : testing::kFloatFamilies)
+      for (const std::uint64_t seed : {1u, 2u})
+        expect_reach(hard_floats(family, 60, window, seed), window,
+                     std::string(family) + " in " + std::to_string(window.width) + "x" +
+                         std::to_string(window.height));
+}
+
+TEST_P(EveryCoverageMethod, IsWrongOnlyWithinItsReachOnTheGrid) {
+  for (const auto family : testing::kFamilies)
+    expect_reach(testing::as_floats(adversarial(family, 100, 160, 120, 4)), {160, 120}, std::string(family));
+}
+
+// Past its largest triangle a method may draw anything, but inside the bounding box.
+TEST_P(EveryCoverageMethod, KeepsToTheBoxOfTrianglesTooLargeForIt) {
+  const int largest = method_.promise.max_side_px, side = std::min(4096, 3 * largest);
+  if (largest >= side) return;
+  auto triangles = hard_floats("anywhere", 100, {side, side}, 5);
+  std::erase_if(triangles,
+                [&](const FloatTriangle& t) { return side_px(t.at) <= static_cast<float>(largest); });
+  ASSERT_GT(triangles.size(), 20u);
+  std::uint64_t extra = 0;
+  for (const int x : {0, side / 2, side - 300})
+    for (const int y : {0, side / 2, side - 200}) {
+      const Picture picture(triangles, {300, 200, x, y});
+      const CoverageScore score = score_coverage(picture.by_floats, method_, picture.input);
+      EXPECT_EQ(score.out_of_box, 0u) << x << ", " << y;
+      extra += score.extra;
+    }
+  EXPECT_GT(extra, 1000u) << "nothing wraps";
+}
+
+TEST_P(EveryCoverageMethod, LeavesNoGapOrDoubleHitInAMeshIfItSaysSo) {
+  const CoveragePromise& promise = method_.promise;
+  if (!promise.no_gaps && !promise.no_double_hits) return;
+  for (const double cell_px : {9.0, 40.0, 150.0})
+    for (const bool on_grid : {true, false}) {
+      const double longest_px = 1.5 * cell_px;  // a cell and its jitter
+      if ((promise.if_on_grid && !on_grid) || longest_px > promise.max_side_px) continue;
+      auto mesh = float_triangles(jittered_grid({.width = 501, .height = 302}, cell_px, 31));
+      if (on_grid) mesh = testing::as_floats(snapped(mesh));
+      const Picture picture(std::move(mesh), {501, 302});
+      ASSERT_TRUE(std::all_of(picture.by_floats.hits.begin(), picture.by_floats.hits.end(),
+                              [](std::uint32_t hits) { return hits == 1; }));
+      const CoverageScore score = score_coverage(picture.by_floats, method_, picture.input);
+      EXPECT_TRUE(score.gaps == 0 || !promise.no_gaps) << cell_px << " px, on grid: " << on_grid;
+      EXPECT_TRUE(score.double_hits == 0 || !promise.no_double_hits)
+          << cell_px << " px, on grid: " << on_grid;
+    }
+}
+
+TEST_P(EveryCoverageMethod, DiffersFromTheTruthSomewhereUnlessItIsExact) {
+  std::uint64_t off_grid_truth = 0, off_float_truth = 0;
+  for (const auto& c : coverage_cases()) {
+    const Picture& picture = picture_of(c.name);
+    std::vector<lab::Run> runs;
+    method_.runs(picture.input, picture.window, runs);
+    off_grid_truth += score_coverage(picture.by_grid, runs, picture.floats, 0.0).errors();
+    off_float_truth += score_coverage(picture.by_floats, runs, picture.floats, 0.0).errors();
+  }
+  EXPECT_EQ(off_grid_truth == 0, method_.info.exact);
+  EXPECT_GT(off_float_truth, 0u);
+}
+
+TEST_P(EveryCoverageMethod, IsWrongBySnappingAloneIfItIsExact) {
+  if (!method_.info.exact) return;
+  const auto expect_exact = [&](const Picture& picture, std::string_view what) {
+    CoverageScore perfect{.triangles = picture.floats.size(), .covered = picture.by_grid.covered};
+    const double reach = method_.promise.reach_px;
+    std::vector<lab::Run> runs;
+    method_.runs(picture.input, picture.window, runs);
+    EXPECT_EQ(score_coverage(picture.by_grid, runs, picture.floats, reach), perfect) << what;
+    EXPECT_EQ(score_coverage(picture.by_floats, runs, picture.floats, reach),
+              score_coverage(picture.by_floats, picture.by_grid.runs, picture.floats, reach))
+        << what;
+  };
+  for (const auto& c : coverage_cases()) expect_exact(picture_of(c.name), c.name);
+  for (const auto family : testing::kFamilies)
+    expect_exact({testing::as_floats(adversarial(family, 120, 97, 71, 6)), {97, 71}}, family);
+  for (const auto family : testing::kFloatFamilies)
+    expect_exact({hard_floats(family, 120, {97, 71}, 7), {97, 71}}, family);
+}
+
+// Triangles of constant depth, so that the nearest is known without rounding; few depths, so that ties are
+// many.
+TEST_P(EveryCoverageMethod, DrawsTheNearestOfItsOwnRuns) {
+  constexpr int kWidth = 90, kHeight = 70;
+  auto triangles = hard_floats("anywhere", 60, {kWidth, kHeight}, 3);
+  for (auto& t : triangles) t.at.z01[0] = t.at.z01[1] = t.at.z01[2] = std::floor(t.at.z01[0] * 8.0f) / 8.0f;
+  const auto grid = snapped(triangles);
+  const CoverageInput input{triangles, grid};
+  std::vector<lab::Run> runs;
+  method_.runs(input, {kWidth, kHeight}, runs);
+  std::vector<std::uint32_t> expected(kWidth * kHeight, 0);  // payloads count from 1
+  for (const lab::Run& run : runs)
+    for (int x = run.x0; x < run.x1; ++x) {
+      std::uint32_t& nearest = expected[static_cast<std::size_t>(run.y * kWidth + x)];
+      const auto z = [&](std::uint32_t payload) { return triangles[payload - 1].at.z01[0]; };
+      const std::uint32_t payload = run.triangle + 1;
+      const auto rank = [&](std::uint32_t p) { return std::pair(z(p), p); };
+      if (nearest == 0 || rank(payload) < rank(nearest)) nearest = payload;
+    }
+  Canvas canvas(kWidth, kHeight);
+  for (const int threads : {1, 2, 1}) {
+    method_.draw(input, canvas, threads);
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x)
+        ASSERT_EQ(canvas.frame.payload_row(y)[x], expected[static_cast<std::size_t>(y * kWidth + x)])
+            << x << ", " << y;
+  }
+}
+
+TEST_P(EveryCoverageMethod, FindsTheSameFarFromTheOriginWhileItsNumbersHold) {
+  // A square off the samples; every coordinate and every product is exact in every method's numbers.
+  const auto square = [](float x, float y) {
+    std::vector<FloatTriangle> list(
+        2, {{{x + 2, x + 10, x + 10}, {y + 3, y + 3, y + 11}, {0.5f, 0.5f, 0.5f}}, 1});
+    list[1].at.x_px[1] = x + 2, list[1].at.y_px[1] = y + 11;
+    return list;
+  };
+  const Picture near(square(0, 0), {16, 16}), far(square(30000, 20000), {16, 16, 30000, 20000});
+  const CoverageScore score = score_coverage(near.by_grid, method_, near.input);
+  EXPECT_EQ(score_coverage(far.by_grid, method_, far.input), score);
+  EXPECT_EQ(far.by_grid.covered, 64u);
+}
+
+TEST_P(EveryCoverageMethod, SaysWhatItIs) {
+  for (const auto text : {method_.info.name, method_.info.idea, method_.info.source, method_.info.promise})
+    EXPECT_FALSE(text.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, EveryCoverageMethod, ::testing::ValuesIn(method_names()),
+                         [](const auto& param) { return testing::test_name(param); });
+
+TEST(CoverageRegistry, HoldsEveryFileInTheFolderAndEveryBackendOnce) {
+  std::set<std::string> expected, names;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(EDGEWISE_SOURCE_DIR "/src/lab/coverage_methods"))
+    if (entry.path().extension() == ".cpp") expected.insert(entry.path().stem());
+  for (const auto& backend : filling_backends()) expected.emplace(backend.name);
+  for (const auto& method : coverage_methods()) names.emplace(method.info.name);
+  EXPECT_TRUE(std::includes(names.begin(), names.end(), expected.begin(), expected.end()));
+  EXPECT_EQ(names.size(), coverage_methods().size()) << "a name stands there twice";
+}
+
+TEST(CoverageRegistry, SuggestsTheNearestName) {
+  EXPECT_THROW(find_coverage_case("drtk"), std::invalid_argument);
+  try {
+    find_coverage_method("float_el");
+    FAIL() << "an unknown method was found";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("did you mean 'float_le'?"), std::string::npos) << error.what();
+  }
+}
+
+TEST(CoverageMethods, Dda1616WrapsPast32767Pixels) {
+  const auto errors = [](int x0) {
+    const auto x = static_cast<float>(x0);
+    const Picture picture({{{{x + 1, x + 30, x + 5}, {1, 9, 30}, {0, 0, 0}}, 1}}, {32, 32, x0, 0});
+    EXPECT_GT(picture.by_floats.covered, 100u);
+    return against_floats("dda_16_16", picture).errors();
+  };
+  EXPECT_EQ(errors(32736), 0u);
+  EXPECT_GT(errors(32768), 100u);
+}
+
+TEST(CoverageMethods, RefuseTrianglesBeyondTheGuardBandForBackends) {
+  const std::vector<FloatTriangle> far{{{{0, 30, 5}, {1, 9, 30}, {0, 0, 0}}, 1}};
+  const auto grid = snapped(far);
+  std::vector<lab::Run> runs;
+  EXPECT_THROW(find_coverage_method("tiled").runs({far, grid}, {16, 16, 20000, 0}, runs),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace edgewise::lab

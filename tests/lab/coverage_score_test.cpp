@@ -1,0 +1,140 @@
+// Scores of coverage on runs judged by hand, and what they are made of.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "lab/coverage_support.h"
+
+namespace edgewise::lab {
+namespace {
+
+using testing::adversarial;
+using testing::Picture;
+
+// A triangle of 15 pixels and one of a single pixel in a 5 x 5 window at (10, 20), judged by hand.
+class Score : public ::testing::Test {
+ protected:
+  const Picture picture_{{{{{11.0f, 17.1f, 11.0f}, {21.0f, 21.0f, 27.1f}, {0, 0, 0}}, 1},
+                          {{{11.0f, 11.0f, 12.1f}, {23.0f, 24.0f, 23.0f}, {0, 0, 0}}, 2}},
+                         {5, 5, 10, 20}};
+  CoverageScore score(std::vector<lab::Run> runs, double reach_px = 0.1) {
+    return score_coverage(picture_.by_floats, std::move(runs), picture_.floats, reach_px);
+  }
+};
+
+TEST_F(Score, CountsEachErrorByItself) {
+  const std::vector<lab::Run> truth{{0, 21, 11, 15}, {0, 22, 11, 15}, {0, 23, 11, 15}, {0, 24, 11, 14}};
+  ASSERT_EQ(picture_.by_floats.runs.size(), 4u + 1u);
+  ASSERT_TRUE(std::equal(truth.begin(), truth.end(), picture_.by_floats.runs.begin()));
+  ASSERT_EQ(picture_.by_floats.covered, 16u);
+  EXPECT_EQ(score(picture_.by_floats.runs).errors(), 0u);
+
+  auto runs = truth;
+  EXPECT_EQ(score(runs).missing, 1u);
+  EXPECT_EQ(score(runs).gaps, 0u) << "the other triangle is there";
+  runs[0].x1 = 13;
+  EXPECT_EQ(score(runs).missing, 3u);
+  EXPECT_EQ(score(runs).gaps, 2u);
+  EXPECT_EQ(score(runs, 0.6).gaps, 0u) << "half a pixel from the outline, which may move by more";
+  EXPECT_EQ(score(runs, 0.6).missing, 3u);
+  runs.push_back({1, 21, 13, 15});
+  EXPECT_EQ(score(runs).gaps, 0u) << "the wrong triangle, but drawn";
+  EXPECT_EQ(score(runs).extra, 2u);
+  runs.push_back({0, 22, 11, 12});  // drawn twice for one triangle
+  EXPECT_EQ(score(runs).double_hits, 1u);
+  EXPECT_EQ(score(runs).extra, 2u);
+  runs.push_back({0, 20, 10, 12});
+  EXPECT_EQ(score(runs).extra, 4u);
+  EXPECT_EQ(score(runs).out_of_box, 2u) << "the other triangle's; the last ones' squares touch the box";
+  runs.push_back({1, 24, 14, 15});
+  EXPECT_EQ(score(runs).out_of_box, 3u);
+  runs.push_back({1, 30, 10, 15});
+  runs.push_back({1, 21, 8, 10});
+  EXPECT_EQ(score(runs).out_of_bounds, 7u);
+  EXPECT_EQ(score(runs).extra, 5u);
+  EXPECT_NEAR(score(runs).worst_px, 14.5 - 12.1, 1e-5);
+}
+
+// A square whose corners, and whose diagonal, lie on samples: what "<" rejects on the diagonal is a crack,
+// what it rejects on the outline is not.
+TEST(Gaps, LieBetweenNeighboursAndNotOnTheOutline) {
+  const Picture square{{{{{1.5f, 5.5f, 5.5f}, {1.5f, 1.5f, 5.5f}, {0, 0, 0}}, 1},
+                        {{{1.5f, 5.5f, 1.5f}, {1.5f, 5.5f, 5.5f}, {0, 0, 0}}, 2}},
+                       {8, 8}};
+  ASSERT_EQ(square.by_floats.covered, 16u);
+  const CoverageScore rejects_all = testing::against_floats("float_lt", square);
+  EXPECT_EQ(rejects_all.gaps, 3u);
+  EXPECT_EQ(rejects_all.missing, 3u + 7u) << "the diagonal, the top edge and the left one";
+  EXPECT_EQ(testing::against_floats("float_top_left", square).errors(), 0u);
+}
+
+// The right edge is less than half a unit right of a column of samples; snapping puts it on them.
+TEST(Gaps, AreNotWhatAWatertightMethodLosesOnTheOutline) {
+  const float right = 4.5f + 1.0f / 1024;
+  const Picture square{
+      {{{{1, right, right}, {1, 1, 5}, {0, 0, 0}}, 1}, {{{1, right, 1}, {1, 5, 5}, {0, 0, 0}}, 2}}, {8, 8}};
+  for (const CoverageMethod& method : coverage_methods()) {
+    if (!method.info.exact) continue;
+    const CoverageScore score = score_coverage(square.by_floats, method, square.input);
+    EXPECT_EQ(score.missing, 4u) << method.info.name;
+    EXPECT_EQ(score.gaps, 0u) << method.info.name;
+  }
+}
+
+TEST(Crossings, AreSampleRowsOrColumnsWhicheverIsMore) {
+  const auto crossings = [](UnsnappedTriangle t) {
+    return edge_crossings(std::vector{FloatTriangle{t, 1}}, {100, 50});
+  };
+  EXPECT_EQ(crossings({{0, 30, 30}, {0, 10, 0}, {}}), 30u + 10u + 30u);
+  EXPECT_EQ(crossings({{0.6f, 30.4f, 30.4f}, {0, 10, 0}, {}}), 29u + 10u + 29u);
+  EXPECT_EQ(crossings({{-100, 200, 200}, {20, 20, 20}, {}}), 100u + 100u) << "cut to the window";
+  EXPECT_EQ(crossings({{-9, -2, -5}, {1, 8, 30}, {}}), 0u) << "outside";
+}
+
+TEST(Differences, AreWhatTheListsDoNotShare) {
+  Random random(17);
+  for (int trial = 0; trial < 300; ++trial) {
+    std::set<Hit> in_truth, in_drawn, missing, extra;
+    const auto random_runs = [&](std::set<Hit>& hits) {
+      std::vector<lab::Run> runs;
+      for (std::uint32_t triangle = 0; triangle < 2; ++triangle)
+        for (int y = 0; y < 3; ++y)
+          for (int x = -3; x < 20;) {
+            const int begin = x + 1 + static_cast<int>(random.below(6)),
+                      end = begin + 1 + static_cast<int>(random.below(6));
+            runs.push_back({triangle, y, begin, end});
+            for (int i = begin; i < end; ++i) hits.insert({triangle, i, y});
+            x = end + static_cast<int>(random.below(9));
+          }
+      return runs;
+    };
+    const auto truth = random_runs(in_truth), drawn = random_runs(in_drawn);
+    for_each_difference(truth, drawn, [&](const lab::Run& run, bool is_missing) {
+      for (int x = run.x0; x < run.x1; ++x)
+        ASSERT_TRUE((is_missing ? missing : extra).insert({run.triangle, x, run.y}).second);
+    });
+    for (const Hit& hit : in_truth) ASSERT_EQ(missing.count(hit), 1u - in_drawn.count(hit));
+    for (const Hit& hit : in_drawn) ASSERT_EQ(extra.count(hit), 1u - in_truth.count(hit));
+    for (const Hit& hit : missing) ASSERT_EQ(in_truth.count(hit), 1u);
+    for (const Hit& hit : extra) ASSERT_EQ(in_drawn.count(hit), 1u);
+  }
+}
+
+TEST(DisjointGroups, KeepTrianglesThatTouchNoCommonPixelTogetherAndAllOthersApart) {
+  const auto triangles = adversarial("tiny", 400, 80, 60, 2);
+  std::set<std::uint32_t> seen;
+  for (const auto& group : disjoint_groups(triangles, 80, 60)) {
+    std::vector<int> used(80 * 60, 0);
+    for (const std::uint32_t i : group) {
+      EXPECT_TRUE(seen.insert(i).second);
+      const auto box = contract::pixel_box(triangles[i], 80, 60);
+      for (int y = box.y0; y < box.y1; ++y)
+        for (int x = box.x0; x < box.x1; ++x) EXPECT_EQ(used[static_cast<std::size_t>(y * 80 + x)]++, 0);
+    }
+  }
+  for (std::uint32_t i = 0; i < triangles.size(); ++i)
+    EXPECT_EQ(seen.count(i) == 0, contract::pixel_box(triangles[i], 80, 60).empty());
+}
+
+}  // namespace
+}  // namespace edgewise::lab

@@ -1,0 +1,180 @@
+// The facing methods: their promises and their failures, against the exact sign of the projected area.
+#include "lab/facing/facing.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "lab/lab_support.h"
+
+namespace edgewise::lab {
+namespace {
+
+const FacingMethod& method(std::string_view name) {
+  return method_named(facing_methods(), name);
+}
+FacingScene make_case(std::string_view name) {
+  return make_case_named(facing_cases(), name);
+}
+FacingScore judge(std::string_view name, const FacingScene& scene) {
+  return score(method(name), scene, facing_facts(scene)).floats;
+}
+
+TEST(Facing, EveryFileOfTheFolderIsRegistered) {
+  expect_folder_registered("facing_methods", facing_methods());
+}
+
+TEST(Facing, EveryMethodKeepsItsPromiseAndFailsOnFloatInputSomewhere) {
+  std::map<std::string_view, std::uint64_t> wrong;
+  for (const auto& c : facing_cases()) {
+    const FacingScene scene = c.make();
+    const auto facts = facing_facts(scene);
+    for (const auto& m : facing_methods()) {
+      const auto s = score(m, scene, facts);
+      EXPECT_GT(s.floats.faces, 0u) << c.name;
+      EXPECT_EQ(s.broken, 0u) << m.info.name << " on " << c.name;
+      wrong[m.info.name] += s.floats.misclassified - s.floats.by_first_three;
+    }
+  }
+  for (const auto& m : facing_methods()) EXPECT_GT(wrong[m.info.name], 0u) << m.info.name;
+}
+
+// Ours judges what is drawn. Where it misjudges a face against the positions before snapping, that face is
+// snapped to its other side, or a polygon's first three vertices lie.
+TEST(Facing, OursIsTheSignOfTheSnappedAreaOnEveryScene) {
+  std::uint64_t turned = 0;
+  for (const auto& c : facing_cases()) {
+    const FacingScene scene = c.make();
+    const auto facts = facing_facts(scene);
+    const auto s = score(method("snapped_area"), scene, facts);
+    EXPECT_GT(s.snapped.faces, 0u) << c.name;
+    EXPECT_EQ(s.snapped.misclassified, s.snapped.by_first_three) << c.name;
+    std::uint64_t by_snapping = 0;
+    for (const FaceFacts& f : facts)
+      by_snapping += f.floats.owns_pixel && !f.floats.first_three_lie && !f.snapped.first_three_lie &&
+                     f.floats.front != f.snapped.front;
+    EXPECT_EQ(s.floats.misclassified - s.floats.by_first_three, by_snapping) << c.name;
+    turned += by_snapping;
+  }
+  EXPECT_GT(turned, 0u);
+}
+
+// The other way round: a sign taken before snapping is wrong about what snapping turns.
+TEST(Facing, TheSignBeforeSnappingIsWrongAboutWhatIsDrawn) {
+  const FacingScene scene = make_case("edge_on");
+  const auto facts = facing_facts(scene);
+  const auto ours = score(method("snapped_area"), scene, facts),
+             in_float = score(method("float_area"), scene, facts);
+  EXPECT_GT(ours.floats.misclassified, 10u);
+  EXPECT_GT(in_float.snapped.misclassified, 10u);
+  EXPECT_EQ(ours.snapped.misclassified, 0u);
+}
+
+TEST(Facing, TheBoxBesideTheAxisIsMisjudgedByTheNormalsZAndByNoOther) {
+  const FacingScene scene = make_case("box_beside_the_axis");
+  const auto facts = facing_facts(scene);
+  EXPECT_TRUE(facts[0].floats.front && facts[0].floats.owns_pixel);
+  for (const auto& m : facing_methods()) {
+    const auto s = score(m, scene, facts);
+    const bool by_z = m.info.name == "normal_z";
+    EXPECT_EQ(s.floats.misclassified, by_z ? 1u : 0u) << m.info.name;
+    EXPECT_EQ(s.snapped.misclassified, by_z ? 1u : 0u) << m.info.name;
+    EXPECT_EQ(s.disagreements, by_z ? 1u : 0u) << m.info.name;
+  }
+  std::vector<std::uint8_t> front(scene.faces.size());
+  method("normal_z").classify(scene, front);
+  EXPECT_EQ(front[0], 0);
+}
+
+TEST(Facing, TheNormalsZErrsByTheTiltOver180Degrees) {
+  for (const int degrees : {0, 15, 30, 60}) {
+    const double tilt = degrees * 3.141592653589793 / 180;
+    const auto perspective = judge("normal_z", tilted_faces(tilt, true, 3000, 7));
+    // Three standard deviations of a rate measured on 3000 faces.
+    const double rate = degrees / 180.0, spread = 3 * std::sqrt(rate * (1 - rate) / 3000);
+    EXPECT_NEAR(static_cast<double>(perspective.misclassified) / static_cast<double>(perspective.faces), rate,
+                spread + 0.01);
+    EXPECT_EQ(judge("normal_z", tilted_faces(tilt, false, 500, 7)).misclassified, 0u);
+    // And the other way round.
+    EXPECT_EQ(judge("normal_dot_eye", tilted_faces(tilt, true, 500, 7)).misclassified, 0u);
+    const auto orthographic = judge("normal_dot_eye", tilted_faces(tilt, false, 3000, 7));
+    EXPECT_NEAR(static_cast<double>(orthographic.misclassified) / static_cast<double>(orthographic.faces),
+                rate, spread + 0.01);
+  }
+}
+
+TEST(Facing, TheProjectedAreaHasTheSignOfTheSideTheEyeIsOn) {
+  const FacingScene scene = tilted_faces(0.5, true, 500, 3);
+  const auto facts = facing_facts(scene);
+  for (std::size_t i = 0; i < facts.size(); ++i) {
+    const glm::dvec3 a(scene.positions[3 * i]), b(scene.positions[3 * i + 1]), c(scene.positions[3 * i + 2]);
+    const double side = glm::dot(glm::cross(c - a, b - a), glm::dvec3(scene.view.eye) - a);
+    if (std::abs(side) > 1e-6) {
+      EXPECT_EQ(facts[i].floats.front, side > 0) << i;
+    }
+  }
+}
+
+// An object that spreads over the view has no one direction.
+TEST(Facing, OneRayForTheWholeObjectIsWrongUnderEitherCamera) {
+  for (const bool perspective : {true, false}) {
+    const auto s = judge("normal_dot_object", tilted_faces(0.5, perspective, 2000, 7));
+    EXPECT_GT(20 * s.misclassified, s.faces) << (perspective ? "perspective" : "orthographic");
+  }
+  EXPECT_EQ(judge("normal_dot_object", tilted_faces(0, true, 2000, 7)).misclassified, 0u) << "all on one ray";
+}
+
+// Quads, pentagons and more: convex and planar ones are judged by any three vertices; of the others, all that
+// methods get wrong beyond what they get wrong of triangles are those whose first three lie.
+TEST(Facing, PolygonsAreJudgedByTheirFirstThreeVertices) {
+  for (const auto shape : {Shape::regular, Shape::irregular, Shape::bent}) {
+    const FacingScene scene = polygons(shape, 2000, 8);
+    const auto facts = facing_facts(scene);
+    std::uint64_t lying = 0, quads_lying = 0;
+    for (std::size_t i = 0; i < facts.size(); ++i)
+      if (facts[i].floats.owns_pixel && facts[i].floats.first_three_lie) {
+        ++lying;
+        quads_lying += scene.faces[i].count == 4;
+        EXPECT_GT(scene.faces[i].count, 3u);
+      }
+    if (shape == Shape::regular) {
+      EXPECT_EQ(lying, 0u);
+    } else {
+      EXPECT_GT(lying, 30u);
+      EXPECT_GT(quads_lying, 0u);
+    }
+    for (const auto& m : facing_methods()) {
+      const auto s = score(m, scene, facts);
+      EXPECT_EQ(s.broken, 0u) << m.info.name;
+      if (m.info.name == "normal_z" || m.info.name == "normal_dot_object") continue;  // err by the tilt
+      EXPECT_NEAR(static_cast<double>(s.floats.misclassified), static_cast<double>(lying), 2) << m.info.name;
+      EXPECT_LE(s.floats.by_first_three, lying) << m.info.name;
+    }
+  }
+}
+
+// Its first three vertices are one of its two triangles; the other one, larger on the screen, looks the other
+// way.
+TEST(Facing, AQuadThatIsNotPlanarMayTurnTheOtherWay) {
+  FacingScene scene;
+  scene.positions = {{-1, 0, 4}, {0, 0.5f, 4}, {1, 0, 4}, {0, 1, 6}};
+  scene.faces = {{0, 4}};
+  const auto facts = facing_facts(scene);
+  EXPECT_TRUE(facts[0].floats.first_three_lie);
+  EXPECT_TRUE(facts[0].snapped.first_three_lie);
+  for (const auto& m : facing_methods()) {
+    const auto s = score(m, scene, facts);
+    EXPECT_EQ(s.floats.by_first_three, 1u) << m.info.name;
+    EXPECT_EQ(s.snapped.by_first_three, 1u) << m.info.name;
+  }
+}
+
+TEST(Facing, NoMethodSurvivesAPolygonWhoseSecondVertexIsItsNotch) {
+  const FacingScene scene = make_case("notch_second");
+  for (const auto& m : facing_methods())
+    EXPECT_EQ(judge(m.info.name, scene).misclassified, 1u) << m.info.name;
+}
+
+}  // namespace
+}  // namespace edgewise::lab

@@ -1,0 +1,106 @@
+// Hidden faces dropped by their normals in the benchmark: what is left of a scene, and how wrong its picture
+// is.
+#include "lab/hidden_faces.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <memory>
+
+#include "bench/workloads/stage.h"
+#include "viewer/viewer_support.h"
+
+namespace edgewise::bench {
+namespace {
+
+const lab::FacingMethod& normal_z() {
+  return lab::find_facing_method("normal_z");
+}
+
+std::shared_ptr<Workload> workload_of(const Scene& scene, const lab::FacingMethod* facing) {
+  const auto [width, height] = viewer::kTestSize;
+  const auto workload = std::make_shared<Workload>(
+      width, height, Cull::back,
+      [scene] {
+        return app::Source{"test", scene, false};
+      },
+      facing);
+  workload->prepare(true);
+  return workload;
+}
+
+TEST(HiddenFaces, FromFarAwayAreThoseOfTheWinding) {
+  Scene scene = std::get<Scene>(find_scene("cube").make({}));
+  Mesh quads = scene.meshes[0];
+  for (int i = 0; i < 12; ++i) quads.marks.push_back(i % 2 == 0 ? 0 : kSecondHalf);
+  scene.meshes.push_back(std::move(quads));
+  scene.instances.clear();
+  for (int i = 0; i < 8; ++i) {
+    const auto n = static_cast<float>(i);
+    scene.instances.push_back({.mesh = static_cast<std::size_t>(i % 2),
+                               .scale = {i < 4 ? 0.5f : -0.5f, 0.3f + 0.1f * n, 0.6f},
+                               .axis = {1.0f, 0.3f * n, -0.4f},
+                               .angle = 0.7f + n,
+                               .translation = {2.5f * n - 8.75f, 0.2f * n, -n}});
+  }
+  scene.camera = {.position = {700.0f, 900.0f, 4000.0f}, .fov_y = 0.0036f, .near_z = 1e3f, .far_z = 1e4f};
+  scene.camera.look_at({0.0f, 0.0f, 0.0f});
+  const auto left = workload_of(scene, &normal_z()), exact = workload_of(scene, nullptr);
+  EXPECT_EQ(left->wrong_px(), 0u);
+  EXPECT_EQ(left->submitted(), 8u * 12);
+  ASSERT_EQ(left->triangles().size(), 8u * 6);
+  ASSERT_EQ(exact->triangles().size(), 8u * 6);
+  EXPECT_EQ(std::memcmp(left->triangles().data(), exact->triangles().data(), left->triangles().size_bytes()),
+            0);
+  EXPECT_FALSE(exact->wrong_px());
+}
+
+TEST(HiddenFaces, AreMoreThanTheWindingsUnderPerspective) {
+  const auto workload = workload_of(viewer::box_aside(), &normal_z());
+  EXPECT_EQ(workload->triangles().size(), 2u);  // its front; not its left side
+  viewer::Session session = viewer::session_of(viewer::box_aside());
+  viewer::type(session, "<normal_z>k");
+  EXPECT_GT(workload->wrong_px(), 100u);
+  EXPECT_EQ(workload->wrong_px(), session.side(0).judgement.value().wrong);
+  Stage stage;
+  for (const BackendInfo& backend : filling_backends()) {
+    Row row;
+    row.workload = workload;
+    row.timed = Timed::frame;
+    row.backend = &backend;
+    row.execution.threads = 2;
+    stage.compare(row);
+    EXPECT_EQ(row.error, "") << backend.name;
+  }
+}
+
+TEST(HiddenFaces, AreJudgedOnceByTheirFirstThreeVerticesAndStayIfTwoSided) {
+  // The second half of each lies on the first, folded along their diagonal: it faces the other way.
+  Mesh mesh{{{0, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0.2f, 0.9f, 0}}, {}, {}};
+  const auto add = [&](glm::uvec4 corners, std::uint32_t colour, bool two_sided) {
+    mesh.add_quad(corners, colour, two_sided);
+  };
+  const glm::uvec4 towards(0, 1, 2, 3), away(2, 1, 0, 3);
+  add(towards, 1, false);
+  add(away, 2, false);
+  add(away, 3, true);
+  add(towards, 4, true);
+  add(away, 5, false);
+  mesh.triangles.emplace_back(0, 1, 2), mesh.colours.push_back(6), mesh.marks.push_back(0);
+  mesh.triangles.emplace_back(2, 1, 0), mesh.colours.push_back(7), mesh.marks.push_back(0);
+  const Scene scene{.meshes = {mesh}, .instances = {{}}, .camera = {}};  // seen along -z
+  lab::HiddenFaces hidden(scene, normal_z());
+  for (int frame = 0; frame < 2; ++frame) {
+    const Mesh& left = std::get<Scene>(hidden.drop(scene)).meshes.at(0);
+    EXPECT_EQ(left.colours, (std::vector<std::uint32_t>{1, 1, 3, 3, 4, 4, 6}));
+    EXPECT_EQ(left.marks, (std::vector<std::uint8_t>{0, kSecondHalf, kTwoSided, kTwoSided | kSecondHalf,
+                                                     kTwoSided, kTwoSided | kSecondHalf, 0}));
+    ASSERT_EQ(left.triangles.size(), 7u);
+    EXPECT_EQ(left.triangles[1], glm::uvec3(0, 2, 3));
+    EXPECT_EQ(left.triangles[2], glm::uvec3(2, 1, 0));
+    EXPECT_EQ(left.positions, mesh.positions);
+  }
+}
+
+}  // namespace
+}  // namespace edgewise::bench

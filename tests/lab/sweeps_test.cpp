@@ -1,0 +1,294 @@
+// The sweeps against what is known of where methods fail.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "cli/stability/report.h"
+#include "lab/sweeps/sweeps.h"
+#include "message_of.h"
+#include "temp_dir.h"
+
+namespace edgewise::lab {
+namespace {
+
+SweepResult swept(std::string_view name, int threads = 2) {
+  return run_sweep(find_sweep(name), true, threads, [] {});
+}
+
+// What a sweep found of one method.
+struct Found {
+  Found(const SweepResult& result, std::string_view method) : result_(result) {
+    const auto methods = methods_of(result.sweep->family);
+    const auto at =
+        std::find_if(methods.begin(), methods.end(), [&](const auto& m) { return m.name == method; });
+    if (at == methods.end()) throw std::invalid_argument("no method " + std::string(method));
+    index_ = static_cast<std::size_t>(at - methods.begin());
+  }
+  std::optional<double> start() const { return result_.starts_to_fail(index_); }
+  const Tally& at(double place) const {
+    const auto& places = result_.sweep->places;
+    const auto found = std::find(places.begin(), places.end(), place);
+    if (found == places.end()) throw std::invalid_argument("no place " + std::to_string(place));
+    return result_.at[static_cast<std::size_t>(found - places.begin())].methods[index_];
+  }
+
+ private:
+  const SweepResult& result_;
+  std::size_t index_;
+};
+
+double rate(const Tally& tally) {
+  return static_cast<double>(tally.errors) / static_cast<double>(tally.trials);
+}
+
+std::vector<std::string_view> sweep_names() {
+  std::vector<std::string_view> names;
+  for (const Sweep& sweep : sweeps()) names.push_back(sweep.name);
+  return names;
+}
+
+class EverySweep : public ::testing::TestWithParam<std::string_view> {};
+
+void expect_schema(const nlohmann::json& json, const SweepResult& result) {
+  const Sweep& sweep = *result.sweep;
+  EXPECT_EQ(json.at("name"), sweep.name);
+  EXPECT_EQ(json.at("family"), name_of(sweep.family));
+  EXPECT_FALSE(json.at("idea").get<std::string>().empty());
+  for (const char* key : {"name", "unit"}) EXPECT_TRUE(json.at("x").at(key).is_string());
+  EXPECT_TRUE(json.at("y").at("name").is_string());
+  for (const char* axis : {"x", "y"}) EXPECT_TRUE(json.at(axis).at("log").is_boolean());
+  const auto methods = methods_of(sweep.family);
+  const auto& curves = json.at("curves");
+  ASSERT_EQ(curves.size(), methods.size());
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    EXPECT_EQ(curves[i].at("method"), methods[i].name);
+    EXPECT_EQ(curves[i].at("exact"), methods[i].exact);
+    ASSERT_EQ(curves[i].at("points").size(), sweep.places.size());
+    ASSERT_EQ(curves[i].at("trials").size(), sweep.places.size());
+    const auto start = result.starts_to_fail(i);
+    EXPECT_EQ(curves[i].at("starts_to_fail"), start ? nlohmann::json(*start) : nlohmann::json());
+    for (std::size_t place = 0; place < sweep.places.size(); ++place) {
+      const Tally& tally = result.at[place].methods[i];
+      EXPECT_EQ(curves[i]["points"][place][0], sweep.places[place]);
+      EXPECT_EQ(curves[i]["trials"][place], tally.trials);
+      EXPECT_GT(tally.trials, 0u) << methods[i].name << " at " << sweep.places[place];
+      EXPECT_DOUBLE_EQ(curves[i]["points"][place][1].get<double>(), sweep.y.scale * rate(tally));
+    }
+  }
+}
+
+TEST_P(EverySweep, HasACurveForEveryMethodAndOneThatFails) {
+  const Sweep& sweep = find_sweep(GetParam());
+  int calls = 0;
+  const SweepResult result = run_sweep(sweep, true, 2, [&] { ++calls; });
+  EXPECT_EQ(calls, static_cast<int>(sweep.places.size()));
+  ASSERT_EQ(result.at.size(), sweep.places.size());
+  const bool up = sweep.places.front() < sweep.places.back();
+  EXPECT_TRUE(up ? std::is_sorted(sweep.places.begin(), sweep.places.end())
+                 : std::is_sorted(sweep.places.rbegin(), sweep.places.rend()));
+  expect_schema(app::sweep_json(result), result);
+
+  const auto methods = methods_of(sweep.family);
+  bool some_fail = false;
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    some_fail = some_fail || result.starts_to_fail(i);
+    if (sweep.family != Family::coverage || !methods[i].exact) continue;
+    for (std::size_t place = 0; place < sweep.places.size(); ++place)
+      EXPECT_EQ(result.at[place].methods[i].errors, result.at[place].by_snapping)
+          << methods[i].name << " differs from the snapped truth at " << sweep.places[place];
+  }
+  EXPECT_TRUE(some_fail);
+
+  std::istringstream table(app::stability_table(result));
+  std::size_t rows = 0;
+  for (std::string line; std::getline(table, line);) {
+    EXPECT_LE(line.size(), 80u) << line;
+    rows += std::any_of(methods.begin(), methods.end(),
+                        [&](const auto& m) { return line.starts_with(std::string(m.name) + ' '); });
+  }
+  EXPECT_EQ(rows, methods.size());
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, EverySweep, ::testing::ValuesIn(sweep_names()),
+                         [](const auto& param) { return std::string(param.param); });
+
+TEST(SweepRegistry, HoldsEverySweepOfTheSourcesOnce) {
+  std::multiset<std::string> written, names;
+  const std::regex definition(R"(\nSweep make_sweep_(\w+)\(\) \{\n\s*return \{"(\w+)\")");
+  for (const auto& entry : std::filesystem::directory_iterator(EDGEWISE_SOURCE_DIR "/src/lab")) {
+    if (!entry.path().filename().string().starts_with("sweeps_")) continue;
+    const std::string text = file_content(entry.path());
+    for (std::sregex_iterator match(text.begin(), text.end(), definition), end; match != end; ++match) {
+      written.insert((*match)[1]);
+      EXPECT_EQ((*match)[1], (*match)[2]);
+    }
+  }
+  for (const std::string_view name : sweep_names()) names.emplace(name);
+  EXPECT_EQ(names, written);
+}
+
+TEST(SweepRegistry, SuggestsTheNearestName) {
+  EXPECT_NE(message_of([] { find_sweep("leg"); }).find("unknown sweep 'leg'; did you mean 'legs'?"),
+            std::string::npos);
+}
+
+TEST(Sweeps, DoNotDependOnThreads) {
+  for (const auto name : {"legs", "cycle", "vertex_w"}) {
+    const SweepResult one = swept(name, 1), three = swept(name, 3);
+    for (std::size_t place = 0; place < one.at.size(); ++place) {
+      EXPECT_EQ(one.at[place].methods, three.at[place].methods) << name;
+      EXPECT_EQ(one.at[place].by_snapping, three.at[place].by_snapping) << name;
+    }
+  }
+}
+
+TEST(Sweeps, StartToFailWhereErrorsExceedThoseOfSnapping) {
+  Sweep sweep{};
+  sweep.places = {8, 4, 2};
+  SweepResult result{&sweep, std::vector<Measured>(3, Measured(3))};
+  for (Measured& measured : result.at) measured.by_snapping = 5;
+  result.at[1].methods[1] = {6, 100};
+  result.at[2].methods[1] = {9, 100};
+  for (Measured& measured : result.at) measured.methods[2] = {5, 100};
+  EXPECT_EQ(result.starts_to_fail(0), std::nullopt);
+  EXPECT_EQ(result.starts_to_fail(1), 4);
+  EXPECT_EQ(result.starts_to_fail(2), std::nullopt);
+}
+
+TEST(Sweeps, PlacesAreTheNumbersTheyAreWrittenAs) {
+  EXPECT_EQ(decades(-2, 0), (std::vector<double>{0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1}));
+  EXPECT_EQ(decades(1, 0), (std::vector<double>{10, 5, 2, 1}));
+  EXPECT_EQ(powers_of_two(-1, 2), (std::vector<double>{0.5, 1, 2, 4}));
+  EXPECT_EQ(powers_of_two(1, -1), (std::vector<double>{2, 1, 0.5}));
+}
+
+TEST(CoverageSweeps, LegsOf182PixelsAreTheFirstThatWrap32Bits) {
+  const SweepResult legs = swept("legs");
+  EXPECT_EQ(Found(legs, "fixed_8_int32").start(), 182);
+  EXPECT_EQ(Found(legs, "fixed_8_int32").at(181).errors, 0u);
+  EXPECT_EQ(Found(legs, "fixed_4_int32").start(), 2897);
+  EXPECT_EQ(Found(legs, "fixed_4_int32").at(2896).errors, 0u);
+  EXPECT_EQ(Found(legs, "fixed_4").start(), std::nullopt);
+  EXPECT_EQ(Found(legs, "fixed_8").start(), std::nullopt);
+  EXPECT_EQ(Found(legs, "double_top_left").start(), std::nullopt);
+  EXPECT_EQ(Found(legs, "float_le").start(), 64) << "ties on the diagonal";
+}
+
+TEST(CoverageSweeps, DistanceBreaksWhatAccumulatesAndWhatWraps) {
+  const SweepResult distance = swept("distance");
+  const Found dda(distance, "dda_16_16"), floats(distance, "dda_float");
+  EXPECT_LT(rate(dda.at(16384)), 1e-3);
+  EXPECT_GT(rate(dda.at(32768)), 1.0) << "nothing is where it should be past 32767 px";
+  EXPECT_GT(rate(floats.at(1 << 20)), 0.05);
+  EXPECT_LT(rate(floats.at(256)), 1e-3);
+  EXPECT_EQ(Found(distance, "fixed_16").start(), std::nullopt);
+}
+
+TEST(CoverageSweeps, DdaDriftsWithTheHeight) {
+  const SweepResult height = swept("height");
+  for (const auto method : {"dda_float", "dda_16_16"})
+    EXPECT_GT(rate(Found(height, method).at(8192)), 10 * rate(Found(height, method).at(256))) << method;
+  EXPECT_EQ(Found(height, "fixed_12").start(), std::nullopt);
+}
+
+TEST(CoverageSweeps, WholePixelsFlickerMoreTheSlowerThePan) {
+  const SweepResult pan = swept("pan");
+  const Found whole(pan, "whole_pixel");
+  EXPECT_EQ(whole.start(), 0.5);
+  EXPECT_GT(rate(whole.at(1.0 / 64)), 1.5 * rate(whole.at(0.5)));
+  EXPECT_EQ(Found(pan, "float_top_left").start(), std::nullopt);
+}
+
+TEST(CoverageSweeps, AMovingMeshShowsTiesAndHeightPlusOne) {
+  const SweepResult translation = swept("translation");
+  for (const auto method : {"float_le", "float_lt", "dda_rounded"})
+    EXPECT_EQ(Found(translation, method).start(), 8) << method;
+  for (const auto method : {"whole_pixel", "fixed_4", "fixed_8_int32", "dda_float"})
+    EXPECT_EQ(Found(translation, method).start(), std::nullopt) << method;
+}
+
+TEST(VisibilitySweeps, FewerBitsFailAtLargerSeparations) {
+  for (const auto name : {"separation_at_10", "separation_at_100"}) {
+    const SweepResult separation = swept(name);
+    const auto start = [&](std::string_view method) { return Found(separation, method).start().value(); };
+    EXPECT_GT(start("unorm16"), 50 * start("unorm24")) << name;
+    EXPECT_GT(start("unorm24"), 10 * start("reversed_z")) << name;
+    // Ours has its depths from the front end's floats, and so fails where those do.
+    EXPECT_EQ(start("contract31"), start("float_z")) << name;
+    EXPECT_EQ(start("submission_order"), separation.sweep->places.front()) << name;
+  }
+  // z^2 / (near 2^bits) lies between two planes that can be told apart: 1.5 and 0.006.
+  const SweepResult separation = swept("separation_at_100");
+  EXPECT_NEAR(Found(separation, "unorm16").start().value(), 1.5, 1.0);
+  EXPECT_NEAR(Found(separation, "unorm24").start().value(), 0.006, 0.004);
+}
+
+TEST(VisibilitySweeps, ThreeBarsMakeACycleThatNoOrderPaints) {
+  const SweepResult cycle = swept("cycle");
+  for (const auto method : {"painter_farthest", "painter_mean", "submission_order"})
+    EXPECT_EQ(Found(cycle, method).start(), 3) << method;
+  for (const auto method : {"contract31", "unorm16"})
+    EXPECT_EQ(Found(cycle, method).start(), std::nullopt) << method;
+}
+
+TEST(VisibilitySweeps, FloatDepthPlanesLeaveTheirTrianglesInSlivers) {
+  const SweepResult slivers = swept("sliver_depth");
+  EXPECT_EQ(Found(slivers, "contract31").start(), std::nullopt);
+  EXPECT_GE(Found(slivers, "float_z").start().value(), 1000);
+}
+
+TEST(FacingSweeps, NormalZErrsByTheTiltUnderPerspectiveAlone) {
+  const SweepResult perspective = swept("tilt_perspective"), orthographic = swept("tilt_orthographic");
+  const Found normal_z(perspective, "normal_z"), eye(orthographic, "normal_dot_eye");
+  for (const double tilt : perspective.sweep->places) {
+    const double expected = tilt / 180;
+    for (const Tally& tally : {normal_z.at(tilt), eye.at(tilt)}) {
+      const double sigma = std::sqrt(expected * (1 - expected) / static_cast<double>(tally.trials));
+      EXPECT_NEAR(rate(tally), expected, 4 * sigma) << tilt;
+    }
+  }
+  EXPECT_EQ(Found(orthographic, "normal_z").start(), std::nullopt);
+  EXPECT_EQ(Found(perspective, "normal_dot_eye").start(), std::nullopt);
+}
+
+TEST(FacingSweeps, SnappingTurnsFacesOfASubUnitAndFloatsMuchThinnerOnes) {
+  const SweepResult edge_on = swept("edge_on");
+  EXPECT_EQ(Found(edge_on, "snapped_area").start(), std::nullopt) << "it errs as snapping does";
+  const auto& at = edge_on.at;
+  const auto first = std::find_if(at.begin(), at.end(), [](const Measured& m) { return m.by_snapping > 0; });
+  ASSERT_NE(first, at.end());
+  const double snapped = edge_on.sweep->places[static_cast<std::size_t>(first - at.begin())];
+  EXPECT_LE(snapped, 1.0 / 128);
+  EXPECT_GE(snapped, 1.0 / 1024);
+  const Found floats(edge_on, "float_area");
+  EXPECT_EQ(floats.at(snapped).errors, 0u);
+  EXPECT_EQ(floats.at(snapped / 16).errors, 0u);
+  EXPECT_GT(floats.at(edge_on.sweep->places.back()).errors, 0u);
+}
+
+TEST(ClippingSweeps, AVertexBeforeTheNearPlaneBreaksAllButClipping) {
+  const SweepResult vertex = swept("vertex_w");
+  for (const auto method : {"near_too_near", "discard_behind", "none"})
+    EXPECT_EQ(Found(vertex, method).start(), 0.05) << method << ": the first place below 0.1";
+  for (const auto method : {"near_guard", "screen_edges"})
+    EXPECT_EQ(Found(vertex, method).start(), std::nullopt) << method;
+}
+
+TEST(ClippingSweeps, ANearPlaneTooNearLeavesNoDepth) {
+  const SweepResult near_plane = swept("near_plane");
+  EXPECT_LE(Found(near_plane, "near_guard").start().value(), 1e-4);
+  for (const auto method : {"discard_behind", "none", "near_too_near"})
+    EXPECT_EQ(Found(near_plane, method).start(), 10) << method;
+}
+
+}  // namespace
+}  // namespace edgewise::lab

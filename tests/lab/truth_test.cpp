@@ -1,0 +1,255 @@
+// The two truths against rationals alone, against each other and against the contract's depth.
+#include "lab/truth.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "lab/coverage_support.h"
+
+namespace edgewise::lab {
+namespace {
+
+using testing::adversarial;
+using testing::hard_floats;
+
+// The rule in another form: a sample is covered if, moved to the right by an infinitesimal and down by a far
+// smaller one, it lies strictly inside.
+bool covered_by_rationals(const UnsnappedTriangle& t, int px, int py) {
+  const mpq_class sx(px + 0.5), sy(py + 0.5);
+  mpq_class x[3], y[3];
+  for (int i = 0; i < 3; ++i) x[i] = double{t.x_px[i]}, y[i] = double{t.y_px[i]};
+  const mpq_class area = (x[1] - x[0]) * (y[2] - y[0]) - (y[1] - y[0]) * (x[2] - x[0]);
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    const mpq_class along_x = y[i] - y[j], along_y = x[j] - x[i];
+    const mpq_class here = along_x * (sx - x[i]) + along_y * (sy - y[i]);
+    const int side = sgn(here) != 0 ? sgn(here) : sgn(along_x) != 0 ? sgn(along_x) : sgn(along_y);
+    if (side * sgn(area) <= 0) return false;
+  }
+  return true;
+}
+
+TEST(FloatTruth, AgreesWithRationalsAlone) {
+  constexpr int kSide = 24;
+  int covered = 0;
+  for (const auto family : testing::kFloatFamilies)
+    for (const auto& triangle : hard_floats(family, 150, {kSide, kSide}, 5)) {
+      const FloatTruth truth(triangle.at);
+      for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x) {
+          const bool expected = covered_by_rationals(triangle.at, x, y);
+          ASSERT_EQ(truth.covers(x, y), expected)
+              << family << " triangle " << triangle.payload << " at " << x << ", " << y;
+          covered += expected;
+        }
+    }
+  EXPECT_GT(covered, 10'000);
+}
+
+TEST(FloatTruth, AgreesWithTheSnappedTruthOnTheGrid) {
+  constexpr int kWidth = 50, kHeight = 40;
+  for (const auto family : testing::kFamilies) {
+    const auto triangles = adversarial(family, 100, kWidth, kHeight, 8);
+    const auto floats = testing::as_floats(triangles);
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+      const SnappedTruth by_integers(triangles[i]);
+      const FloatTruth by_floats(floats[i].at);
+      ASSERT_EQ(by_integers.facing(), by_floats.facing()) << family << " triangle " << i;
+      for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x)
+          ASSERT_EQ(by_integers.covers(x, y), by_floats.covers(x, y)) << family << " triangle " << i;
+    }
+  }
+}
+
+TEST(FloatTruth, KnowsTheFacingOfTrianglesThatDoublesCannotJudge) {
+  const auto facing = [](float x, float y) {
+    return FloatTruth({{0.0f, 3000.0f, x}, {0.0f, 3000.0f, y}, {0, 0, 0}}).facing();
+  };
+  EXPECT_EQ(facing(1e-40f, 1e-40f), 0);
+  EXPECT_EQ(facing(1e-40f, 2e-40f), 1);
+  EXPECT_EQ(facing(2e-40f, 1e-40f), -1);
+}
+
+template <typename Truth, typename Triangle>
+void expect_runs_of(std::span<const Triangle> triangles, Window window, const std::string& what) {
+  std::vector<Run> expected;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const Truth truth = [&] {
+      if constexpr (std::is_same_v<Truth, FloatTruth>)
+        return FloatTruth(triangles[i].at);
+      else
+        return SnappedTruth(triangles[i]);
+    }();
+    for (int y = window.y0; y < window.y1(); ++y)
+      for (int x = window.x0; x < window.x1(); ++x) {
+        if (!truth.covers(x, y)) continue;
+        if (!expected.empty() && expected.back().triangle == i && expected.back().y == y &&
+            expected.back().x1 == x)
+          ++expected.back().x1;
+        else
+          expected.push_back({static_cast<std::uint32_t>(i), y, x, x + 1});
+      }
+  }
+  for (const int threads : {1, 2}) EXPECT_EQ(covered_runs(triangles, window, threads), expected) << what;
+}
+
+TEST(CoveredRuns, AreThePixelsThatTheTruthsCover) {
+  for (const Window window : {Window{40, 30}, {17, 23, 60, 300}}) {
+    for (const auto family : testing::kFloatFamilies) {
+      const auto floats = hard_floats(family, 120, window, 9);
+      expect_runs_of<FloatTruth>(std::span(floats), window, std::string(family));
+    }
+    for (const auto family : testing::kFamilies) {
+      const auto snapped = adversarial(family, 120, window.x1(), window.y1(), 10);
+      expect_runs_of<SnappedTruth>(std::span(snapped), window, std::string(family));
+    }
+  }
+}
+
+TEST(CoveredRuns, FollowManyTrianglesInOrder) {
+  const auto triangles = adversarial("tiny", 5'000, 60, 60, 1);
+  expect_runs_of<SnappedTruth>(std::span(triangles), {60, 60}, "more than one chunk");
+}
+
+// |value - exact| <= error.
+void expect_inside(const Ball& ball, const mpq_class& exact) {
+  if (std::isinf(ball.error)) return;
+  const mpq_class off = abs(mpq_class(ball.value) - exact);
+  ASSERT_LE(off, mpq_class(ball.error));
+}
+
+TEST(Ball, HoldsTheTruthAfterEveryOperation) {
+  Random random(3);
+  for (int trial = 0; trial < 5'000; ++trial) {
+    const auto number = [&] {
+      const double scale = std::ldexp(1.0, static_cast<int>(random.below(60)) - 30);
+      return static_cast<double>(random.uniform(-1.0f, 1.0f)) * scale;
+    };
+    Ball ball(number());
+    mpq_class exact(ball.value);
+    for (int step = 0; step < 8; ++step) {
+      const double b = number();
+      switch (random.below(4)) {
+        case 0:
+          ball = ball + Ball(b), exact += mpq_class(b);
+          break;
+        case 1:
+          ball = ball - Ball(b), exact -= mpq_class(b);
+          break;
+        case 2:
+          ball = ball * Ball(b), exact *= mpq_class(b);
+          break;
+        default:
+          if (b == 0.0) break;
+          ball = ball / Ball(b), exact /= mpq_class(b);
+      }
+      expect_inside(ball, exact);
+      if (ball.sign() != 0) {
+        ASSERT_EQ(ball.sign(), sgn(exact));
+      }
+    }
+  }
+}
+
+TEST(Depth, EstimatesHoldTheExactDepthAndMeetTheVertices) {
+  for (const auto family : testing::kFloatFamilies)
+    for (const auto& triangle : hard_floats(family, 60, {30, 30}, 12)) {
+      const FloatTruth truth(triangle.at);
+      if (truth.facing() == 0) continue;
+      for (int k = 0; k < 30; k += 5) expect_inside(truth.depth_estimate(k, 29 - k), truth.depth(k, 29 - k));
+    }
+  // Vertices at samples.
+  const UnsnappedTriangle at{{0.5f, 20.5f, 3.5f}, {0.5f, 2.5f, 30.5f}, {0.1f, 0.7f, 0.3f}};
+  for (int i = 0; i < 3; ++i)
+    EXPECT_EQ(FloatTruth(at).depth(static_cast<int>(at.x_px[i]), static_cast<int>(at.y_px[i])),
+              mpq_class(double{at.z01[i]}));
+}
+
+TEST(Depth, OfTheContractIsWithinItsBoundOfTheTruth) {
+  double worst = 0.0;
+  for (const auto family : testing::kFamilies)
+    for (const auto& t : adversarial(family, 60, 90, 80, 13)) {
+      const SnappedTruth truth(t);
+      if (truth.facing() == 0) continue;
+      const auto plane = contract::make_depth(contract::orient(t));
+      for (int y = 0; y < 80; ++y)
+        for (int x = 0; x < 90; ++x) {
+          if (!truth.covers(x, y)) continue;
+          expect_inside(truth.depth_estimate(x, y), truth.depth(x, y));
+          const mpq_class off = abs(truth.depth(x, y) - mpq_class(plane.at(x, y)));
+          worst = std::max(worst, off.get_d());
+        }
+    }
+  EXPECT_LT(worst, contract::kDepthError);
+  EXPECT_GT(worst, 1.0);
+}
+
+template <typename Triangle, typename TruthOf>
+void expect_owners(std::span<const Triangle> triangles, Window window, TruthOf&& truth_of,
+                   const std::string& what) {
+  for (const int threads : {1, 2}) {
+    const Owners owners = exact_owners(triangles, window, threads);
+    std::size_t at = 0;
+    for (int y = window.y0; y < window.y1(); ++y)
+      for (int x = window.x0; x < window.x1(); ++x, ++at) {
+        std::uint32_t nearest = kNobody;
+        mpq_class depth;
+        for (std::size_t i = 0; i < triangles.size(); ++i) {
+          const auto truth = truth_of(triangles[i]);
+          if (!truth.covers(x, y)) continue;
+          const mpq_class here = truth.depth(x, y);
+          if (nearest != kNobody && here >= depth) continue;
+          nearest = static_cast<std::uint32_t>(i);
+          depth = here;
+        }
+        ASSERT_EQ(owners.triangle[at], nearest) << what << " at " << x << ", " << y;
+        if (nearest == kNobody)
+          ASSERT_TRUE(std::isinf(owners.depth[at]));
+        else
+          ASSERT_LE(abs(mpq_class(owners.depth[at]) - depth), abs(depth) * mpq_class(0x1p-40)) << what;
+      }
+  }
+}
+
+TEST(Owners, AreTheNearestByRationals) {
+  const Window window{20, 37, 3, 2};
+  for (const auto family : {"anywhere", "near-centres", "slivers", "small"}) {
+    auto floats = hard_floats(family, 30, window, 14);
+    floats.push_back(floats[3]);  // a tie all over
+    expect_owners(
+        std::span<const FloatTriangle>(floats), window,
+        [](const FloatTriangle& t) { return FloatTruth(t.at); }, family);
+  }
+  for (const auto family : {"subpixel", "equal-depth", "slivers", "steep"}) {
+    const auto snapped = adversarial(family, 30, 24, 40, 15);
+    expect_owners(
+        std::span<const ScreenTriangle>(snapped), window,
+        [](const ScreenTriangle& t) { return SnappedTruth(t); }, family);
+  }
+}
+
+TEST(Owners, OfABackendDifferOnlyWhereDepthsAreCloserThanTheContractsError) {
+  const Window window{120, 90};
+  for (const auto family : testing::kFamilies) {
+    const auto triangles = adversarial(family, 80, window.width, window.height, 16);  // payload is the index
+    const Owners owners = exact_owners(std::span(triangles), window, 2);
+    Framebuffer frame(window.width, window.height);
+    find_backend("scanline").make()->draw(triangles, frame.view(), kNobody, {});
+    for (int y = 0; y < window.height; ++y)
+      for (int x = 0; x < window.width; ++x) {
+        const std::uint32_t drawn = frame.payload_row(y)[x];
+        const std::uint32_t owner = owners.triangle[static_cast<std::size_t>(y * window.width + x)];
+        if (drawn == owner) continue;
+        ASSERT_NE(drawn, kNobody) << family;
+        ASSERT_NE(owner, kNobody) << family;
+        const mpq_class behind =
+            SnappedTruth(triangles[drawn]).depth(x, y) - SnappedTruth(triangles[owner]).depth(x, y);
+        ASSERT_LT(behind.get_d(), 2.0 * contract::kDepthError) << family;
+      }
+  }
+}
+
+}  // namespace
+}  // namespace edgewise::lab

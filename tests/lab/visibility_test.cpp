@@ -1,0 +1,310 @@
+// The visibility methods: their promises, their failures, and where each depth format gives up.
+#include "lab/visibility/visibility.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "edgewise/builtin.h"
+#include "edgewise/contract.h"
+#include "edgewise/frontend.h"
+#include "lab/lab_support.h"
+#include "lab/oracle.h"
+#include "lab/truth.h"
+
+namespace edgewise::lab {
+namespace {
+
+const VisibilityMethod& method(std::string_view name) {
+  return method_named(visibility_methods(), name);
+}
+VisibilityScene make_case(std::string_view name) {
+  return make_case_named(visibility_cases(), name);
+}
+VisibilityScore judge(std::string_view name, const VisibilityScene& scene) {
+  return score(method(name), scene, true_owners(scene)).snapped;
+}
+VisibilityScene seen_by_the_front_end(std::string_view name, Size size) {
+  const auto drawable = find_scene(name).make({.width = size.width, .height = size.height});
+  return visibility_scene(std::get<Scene>(drawable), size);
+}
+// Rule 6, and at the vertices two float steps of 2^-24, which are 128 of ours each.
+constexpr double kOurWorst_ulp = contract::kDepthError + 1.0 + 2 * 128;
+
+std::vector<ScreenTriangle> screen_of(const VisibilityScene& scene) {
+  std::vector<ScreenTriangle> triangles;
+  for (const auto& t : scene.triangles) triangles.push_back(t.screen);
+  return triangles;
+}
+
+TEST(Visibility, EveryFileOfTheFolderIsRegistered) {
+  expect_folder_registered("visibility_methods", visibility_methods());
+}
+
+TEST(Visibility, EveryMethodKeepsItsPromiseAndFailsSomewhere) {
+  std::map<std::string_view, std::uint64_t> wrong;
+  for (const auto& c : visibility_cases()) {
+    const VisibilityScene scene = c.make();
+    const auto owners = true_owners(scene);
+    for (const auto& m : visibility_methods()) {
+      const auto s = score(m, scene, owners);
+      EXPECT_GT(s.snapped.covered, 100u) << c.name;
+      EXPECT_EQ(s.broken, 0u) << m.info.name << " on " << c.name;
+      wrong[m.info.name] += s.snapped.wrong_owner;
+    }
+  }
+  for (const auto& m : visibility_methods()) EXPECT_GT(wrong[m.info.name], 0u) << m.info.name;
+}
+
+TEST(Visibility, TrianglesApartInDepthAreSortedRight) {
+  for (const auto& m : visibility_methods()) {
+    EXPECT_EQ(judge(m.info.name, make_case("back_to_front")).wrong_owner, 0u) << m.info.name;
+    EXPECT_EQ(judge(m.info.name, make_case("front_to_back")).wrong_owner == 0,
+              m.info.name != "submission_order")
+        << m.info.name;
+  }
+}
+
+TEST(Visibility, NoOrderPaintsACycleOrAnIntersectionButDepthDoes) {
+  for (const auto name : {"bars_in_a_cycle", "interpenetrating"}) {
+    const VisibilityScene scene = make_case(name);
+    const auto owners = true_owners(scene);
+    for (const auto& m : visibility_methods())
+      if (m.stored01 == nullptr) {
+        EXPECT_GT(score(m, scene, owners).snapped.wrong_owner, 20u) << m.info.name << " on " << name;
+      } else {
+        EXPECT_LT(score(m, scene, owners).snapped.wrong_owner, 5u) << m.info.name << " on " << name;
+      }
+  }
+}
+
+// The promise of one is broken by another: that is how it is seen to be judged.
+TEST(Visibility, OrdersAreHeldToTheirPromises) {
+  const VisibilityScene scene = make_case("front_to_back");
+  const auto owners = true_owners(scene);
+  VisibilityMethod unsorted = method("submission_order");
+  EXPECT_EQ(score(unsorted, scene, owners).broken, 0u);
+  unsorted.may_hide = method("painter_mean").may_hide;
+  const auto s = score(unsorted, scene, owners);
+  EXPECT_GT(s.broken, 0u);
+  EXPECT_EQ(s.broken, s.snapped.wrong_owner) << "all depth ranges are apart";
+
+  const VisibilityScene floor = make_case("floor_under_box");  // the box is submitted last, and hidden
+  VisibilityMethod mean = method("painter_mean");
+  mean.may_hide = method("submission_order").may_hide;
+  EXPECT_GT(score(mean, floor, true_owners(floor)).broken, 0u);
+}
+
+TEST(Visibility, MeanDepthPutsTheFloorOverTheBox) {
+  const VisibilityScene scene = make_case("floor_under_box");
+  EXPECT_GT(judge("painter_mean", scene).wrong_owner, 50u);
+  EXPECT_EQ(judge("painter_farthest", scene).wrong_owner, 0u);
+  EXPECT_EQ(judge("contract31", scene).wrong_owner, 0u);
+}
+
+// Painters sort polygons, by all their corners, and paint them whole.
+TEST(Visibility, PaintersSortPolygonsByAllTheirCorners) {
+  const auto wrong_pixels = [](std::string_view name, const VisibilityScene& scene) {
+    return judge(name, scene).wrong_owner;
+  };
+  const VisibilityScene pentagon = make_case("pentagon_under_wall");
+  ASSERT_EQ(pentagon.faces.size(), 2u);
+  EXPECT_EQ(pentagon.faces[0].count, 3u);
+  // 46 is nearer than 50, so the pentagon is painted last: over all of the wall that stands before it.
+  EXPECT_GT(wrong_pixels("painter_mean", pentagon), 100u);
+  EXPECT_EQ(wrong_pixels("painter_farthest", pentagon), 0u);
+  VisibilityScene pieces = pentagon;
+  pieces.faces = {{0, 1}, {1, 1}, {2, 1}, {3, 1}, {4, 1}};
+  EXPECT_LT(wrong_pixels("painter_mean", pieces), wrong_pixels("painter_mean", pentagon) / 2);
+
+  const VisibilityScene bent = make_case("bent_quad");
+  for (const auto name : {"painter_mean", "painter_farthest"})
+    EXPECT_GT(wrong_pixels(name, bent), 500u) << name << ": one key for two planes";
+  for (const auto name : {"contract31", "unorm24"}) {
+    EXPECT_EQ(wrong_pixels(name, bent), 0u) << name;
+    EXPECT_EQ(wrong_pixels(name, pentagon), 0u) << name;
+  }
+}
+
+// Near 0.1 at z = 100 separates z^2 / (near 2^bits), .006 with 24 bits and 1.5 with 16. The
+// planes reach from z = 90 to 110.
+TEST(Visibility, DepthFormatsSeparateWhatTheFormulaSays) {
+  const struct {
+    std::string_view name;
+    double separates, does_not;
+  } expected[] = {{"unorm16", 2.5, 0.8},
+                  {"unorm24", 8e-3, 3e-3},
+                  {"float_z", 4e-2, 3e-3},
+                  {"reversed_z", 1e-3, 2e-6},
+                  {"contract31", 4e-2, 3e-3}};
+  for (const auto& e : expected) {
+    EXPECT_EQ(judge(e.name, two_planes(100, e.separates, 0.1, 1000)).wrong_owner, 0u) << e.name;
+    EXPECT_GT(judge(e.name, two_planes(100, e.does_not, 0.1, 1000)).wrong_owner, 0u) << e.name;
+  }
+}
+
+// So that no method is flattered: half of the picture is submitted the wrong way round.
+TEST(Visibility, TwoPlanesFavourNoOrderOfSubmission) {
+  for (const double separation : {1.0, 1e-5}) {
+    const VisibilityScene scene = two_planes(100, separation, 0.1, 1000);
+    const auto s = judge("submission_order", scene);
+    EXPECT_EQ(2 * s.wrong_owner, s.covered) << separation;
+  }
+}
+
+TEST(Visibility, FloatPlanesLeaveASliversDepthAndOursDoesNot) {
+  const VisibilityScene scene = make_case("slivers");
+  EXPECT_EQ(judge("contract31", scene).out_of_range, 0u);
+  EXPECT_LE(judge("contract31", scene).max_ulp, kOurWorst_ulp);
+  for (const auto name : {"float_z", "reversed_z"}) EXPECT_GT(judge(name, scene).out_of_range, 0u) << name;
+}
+
+TEST(Visibility, OursIsTheContractsPicture) {
+  for (const auto& c : visibility_cases()) {
+    const VisibilityScene scene = c.make();
+    std::vector<ScreenTriangle> triangles;
+    for (const auto& t : scene.triangles) {
+      triangles.push_back(t.screen);
+      triangles.back().payload = static_cast<std::uint32_t>(triangles.size() - 1);
+    }
+    Framebuffer oracle(scene.width, scene.height);
+    draw_oracle(triangles, oracle, kNobody);
+    VisibilityFrame frame;
+    method("contract31").draw(scene, frame);
+    for (int y = 0; y < scene.height; ++y) {
+      const auto row = static_cast<std::ptrdiff_t>(y) * scene.width;
+      EXPECT_TRUE(
+          std::equal(oracle.depth_row(y), oracle.depth_row(y) + scene.width, frame.depth32.begin() + row));
+      EXPECT_TRUE(
+          std::equal(oracle.payload_row(y), oracle.payload_row(y) + scene.width, frame.owner.begin() + row));
+    }
+  }
+}
+
+// Nobody has a finer depth than the pipeline in front of it hands on.
+TEST(Visibility, TheSmallestScenesHaveTheFrontEndsDepths) {
+  Scene scene;
+  scene.camera.near_z = 0.1f, scene.camera.far_z = 1000.0f;
+  scene.instances.resize(1);
+  scene.meshes.push_back({{{0, 0, -90}, {9, 0, -90}, {0, 9, -110}}, {{0, 1, 2}}, {rgb(1, 2, 3)}});
+  Frontend frontend;
+  const auto triangles = frontend.run(scene, {.width = 128, .height = 96, .cull = Cull::none});
+  ASSERT_EQ(triangles.size(), 1u);
+  std::size_t found = 0;
+  for (const VisibilityTriangle& t : make_case("planes_1_apart").triangles)
+    for (int i = 0; i < 3; ++i)
+      for (int k = 1; k < 3; ++k)
+        if (static_cast<float>(t.view_z[i]) == -scene.meshes[0].positions[static_cast<std::size_t>(k)].z) {
+          EXPECT_EQ(t.screen.z[i], triangles[0].z[k]);
+          ++found;
+        }
+  EXPECT_GE(found, 12u);
+}
+
+// The distances are those of the positions, of clipped triangles, too, and not what a float depth gives back.
+TEST(Visibility, TheTruthOfAMeshHasTheDistancesOfItsPositions) {
+  Scene scene;
+  scene.camera.near_z = 0.5f, scene.camera.far_z = 1000.0f;
+  scene.instances.resize(2);
+  scene.instances[0].mesh = 1;  // so that ids and meshes run apart
+  scene.meshes.push_back({{{-30, -20, -700.1f}, {30, -20, -700.3f}, {0, 20, -700.7f}}, {{0, 1, 2}}, {0}});
+  scene.meshes.push_back({{{0, -1, 5}, {-2, -1, -40}, {2, -1, -40}}, {{0, 1, 2}}, {0}});  // behind the eye
+  const auto seen = visibility_scene(scene, {128, 96});
+  ASSERT_EQ(seen.triangles.size(), 3u);
+  for (std::size_t piece = 0; piece < 2; ++piece)
+    for (const double z : seen.triangles[piece].view_z)
+      EXPECT_TRUE(z == 40.0 || std::abs(z - 0.5) < 1e-5) << z;
+  const auto& far_away = seen.triangles[2];
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(far_away.view_z[k], -double{scene.meshes[0].positions[k].z});
+  const double depth01 = (far_away.screen.z[1] - double{contract::kDepthHead}) / contract::kDepthRange;
+  const double by_depth = 500.0 / (1000.0 - depth01 * 999.5);
+  EXPECT_GT(std::abs(by_depth - far_away.view_z[1]), 1e-3);
+}
+
+TEST(Visibility, JudgesWhatTheFrontEndMade) {
+  const auto scene = seen_by_the_front_end("cube", {160, 120});
+  const auto owners = true_owners(scene);
+  EXPECT_EQ(score(method("contract31"), scene, owners).snapped.wrong_owner, 0u);
+  EXPECT_GT(score(method("submission_order"), scene, owners).snapped.wrong_owner, 100u);
+}
+
+// The two truths of lab/truth.h know depth as rule 6 and as a float have it, ours as it was. They agree but
+// for depths that these roundings exchange.
+TEST(Visibility, BothTruthsAreThoseOfTheCoverageFamilyButForRoundedDepths) {
+  for (const auto name : {"cube", "torus-knot"}) {
+    const auto scene = seen_by_the_front_end(name, {160, 120});
+    std::vector<FloatTriangle> floats;
+    for (const auto& t : scene.triangles) {
+      FloatTriangle& f = floats.emplace_back();
+      for (int i = 0; i < 3; ++i) {
+        f.at.x_px[i] = t.x_px[i], f.at.y_px[i] = t.y_px[i];
+        f.at.z01[i] =
+            static_cast<float>(scene.far_z / (scene.far_z - scene.near_z) * (1 - scene.near_z / t.view_z[i]));
+      }
+    }
+    const auto owners = true_owners(scene);
+    const Window window{scene.width, scene.height};
+    const auto differ = [](const auto& a, const auto& b) {
+      std::size_t count = 0;
+      for (std::size_t i = 0; i < a.size(); ++i) count += a[i] != b[i];
+      return count;
+    };
+    EXPECT_LE(differ(owners.snapped, exact_owners(screen_of(scene), window, 1).triangle), 2u) << name;
+    EXPECT_LE(differ(owners.floats, exact_owners(floats, window, 1).triangle), 2u) << name;
+  }
+}
+
+// All methods draw the snapped triangles, so that against the positions before snapping they err by what
+// snapping costs, and by what they get wrong themselves.
+TEST(Visibility, AgainstTheFloatPositionsSnappingIsAddedAndNoMore) {
+  const auto scene = seen_by_the_front_end("torus-knot", {320, 240});
+  const auto owners = true_owners(scene);
+  std::uint64_t by_snapping = 0;
+  for (std::size_t i = 0; i < owners.floats.size(); ++i) by_snapping += owners.snapped[i] != owners.floats[i];
+  EXPECT_GT(by_snapping, 0u);
+  for (const auto& m : visibility_methods()) {
+    const auto s = score(m, scene, owners);
+    EXPECT_LE(s.floats.wrong_owner, by_snapping + s.snapped.wrong_owner) << m.info.name;
+    EXPECT_GE(s.floats.wrong_owner + s.snapped.wrong_owner, by_snapping) << m.info.name;
+    // Moving a plane by up to 1/256 px costs far more than 31 bits resolve, and hardly anything of 16.
+    if (m.info.name == "contract31") {
+      EXPECT_GT(s.floats.max_ulp, 10 * s.snapped.max_ulp);
+    }
+  }
+}
+
+// Rule 6: each depth is within kDepthError of the exact plane through the vertices' depths, so the wrong
+// owner can only win where the two planes are nearer to one another than twice that.
+TEST(Visibility, OursErrsOnlyWhereDepthsAreNearerThanTwiceTheContractsError) {
+  std::size_t wrong = 0;
+  for (const auto& c : visibility_cases()) {
+    const VisibilityScene scene = c.make();
+    const auto all = score(method("contract31"), scene, true_owners(scene));
+    EXPECT_EQ(all.snapped.wrong_owner, all.near_ties) << c.name;
+    EXPECT_LE(all.snapped.max_ulp, kOurWorst_ulp) << c.name;
+
+    const auto triangles = screen_of(scene);
+    const Owners exact = exact_owners(triangles, {scene.width, scene.height}, 2);
+    VisibilityFrame frame;
+    method("contract31").draw(scene, frame);
+    for (std::size_t i = 0; i < exact.triangle.size(); ++i) {
+      const std::uint32_t said = frame.owner[i], truth = exact.triangle[i];
+      if (said == truth) continue;
+      ++wrong;
+      ASSERT_NE(said, kNobody) << c.name;
+      ASSERT_NE(truth, kNobody) << c.name;
+      const int x = static_cast<int>(i) % scene.width, y = static_cast<int>(i) / scene.width;
+      ASSERT_TRUE(SnappedTruth(triangles[said]).covers(x, y)) << c.name;
+      const mpq_class apart =
+          SnappedTruth(triangles[said]).depth(x, y) - SnappedTruth(triangles[truth]).depth(x, y);
+      EXPECT_GE(apart, 0) << c.name;
+      EXPECT_LE(apart, 2 * contract::kDepthError) << c.name;
+    }
+  }
+  EXPECT_GT(wrong, 0u) << "no scene is hard enough for the bound to matter";
+}
+
+}  // namespace
+}  // namespace edgewise::lab

@@ -1,0 +1,80 @@
+// What coverage methods' pictures show: owners and depths, judged by hand, by brute force, and by rule 6.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "edgewise/contract.h"
+#include "lab/coverage/visible.h"
+#include "lab/coverage_support.h"
+
+namespace edgewise::lab {
+namespace {
+
+using testing::Picture;
+using testing::picture_of;
+
+OwnerScore owners_of(std::string_view method, const Picture& picture) {
+  return OwnerJudge(picture.input, {picture.window.width, picture.window.height}, 2)
+      .score(find_coverage_method(method));
+}
+
+TEST(CoverageOwners, ShowWhoLosesTheTiesOfTheDrtkQuad) {
+  const Picture& quad = picture_of("drtk_quad");
+  EXPECT_EQ(owners_of("float_lt", quad).wrong_floats, 6u) << "nobody owns the diagonal";
+  EXPECT_EQ(owners_of("float_le", quad).wrong_floats, 6u)
+      << "the first of two owns the diagonal, not the second";
+  EXPECT_EQ(owners_of("float_top_left", quad), OwnerScore{});
+}
+
+TEST(CoverageOwners, OfBackendsAreExactAndTheirDepthsKeepRuleSix) {
+  for (const CoverageCase& c : coverage_cases()) {
+    const Picture& picture = picture_of(c.name);
+    const OwnerJudge judge(picture.input, c.size, 2);
+    for (const auto& backend : filling_backends()) {
+      const OwnerScore score = judge.score(find_coverage_method(backend.name));
+      EXPECT_EQ(score.wrong_snapped, 0u) << backend.name << " in " << c.name;
+      EXPECT_LT(score.max_ulp, contract::kDepthError) << backend.name << " in " << c.name;
+      EXPECT_LE(score.rms_ulp, score.max_ulp) << backend.name << " in " << c.name;
+    }
+  }
+}
+
+// Triangles through one another: where two are nearer than rule 6 tells apart, the wrong one may win.
+TEST(CoverageOwners, OfBackendsAreWrongOnlyWhereRuleSixExplainsIt) {
+  for (const auto family : testing::kFamilies) {
+    const auto grid = testing::adversarial(family, 150, 120, 90, 8);
+    const Picture picture(testing::as_floats(grid), {120, 90});
+    for (const auto& backend : filling_backends())
+      EXPECT_EQ(owners_of(backend.name, picture).unexplained, 0u) << backend.name << " in " << family;
+  }
+}
+
+TEST(CoverageOwners, DepthsErrByAsManyLastPlacesAsBruteForceFinds) {
+  const Picture picture({{{{3.3f, 60.1f, 20.7f}, {2.9f, 13.2f, 58.8f}, {0.1f, 0.7f, 0.45f}}, 1}}, {64, 64});
+  const CoverageMethod& method = find_coverage_method("float_top_left");
+  Canvas canvas(64, 64);
+  method.draw(picture.input, canvas, 1);
+  const FloatTruth truth(picture.floats[0].at);
+  double most = 0.0, squares = 0.0;
+  int count = 0;
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 64; ++x) {
+      if (!truth.covers(x, y)) continue;
+      const double exact = truth.depth(x, y).get_d();
+      const auto nearest = static_cast<float>(exact);
+      const double drawn = double{canvas.depth[static_cast<std::size_t>(y * canvas.frame.stride() + x)]};
+      const double ulp = double{std::nextafter(nearest, 1.0f)} - double{nearest};
+      most = std::max(most, std::abs(drawn - exact) / ulp);
+      squares += (drawn - exact) * (drawn - exact) / (ulp * ulp);
+      ++count;
+    }
+  const OwnerScore score = owners_of("float_top_left", picture);
+  EXPECT_GT(most, 0.5);
+  EXPECT_NEAR(score.max_ulp, most, 1e-6);
+  EXPECT_NEAR(score.rms_ulp, std::sqrt(squares / count), 1e-6);
+  EXPECT_EQ(score.wrong_floats, 0u);
+}
+
+}  // namespace
+}  // namespace edgewise::lab

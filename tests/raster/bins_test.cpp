@@ -1,0 +1,165 @@
+// Binning: a cell's list holds every triangle that covers one of its samples, once and in order; and of those
+// over few cells hardly any that does not.
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/random.h"
+#include "edgewise/contract.h"
+#include "edgewise/simd_target.h"
+#include "lab/exact_spans.h"
+#include "raster/binning/bins.h"
+#include "support.h"
+
+namespace edgewise::testing {
+namespace {
+
+using namespace contract;
+
+class BinsOnTarget : public ::testing::TestWithParam<SimdTarget> {
+ protected:
+  // The lists of all cells.
+  std::vector<std::vector<std::uint32_t>> lists(std::span<const ScreenTriangle> triangles,
+                                                const CellGrid& grid) {
+    bins_.build(triangles, grid, 2, GetParam(), Bins::Small::as_indices, true);
+    std::vector<std::vector<std::uint32_t>> out(static_cast<std::size_t>(grid.cells()));
+    for (int cell = 0; cell < grid.cells(); ++cell)
+      bins_.for_each_run(cell, [&](const Bins::Run& run) {
+        auto& list = out[static_cast<std::size_t>(cell)];
+        list.insert(list.end(), run.indices.begin(), run.indices.end());
+      });
+    return out;
+  }
+  Bins bins_;
+};
+
+ScreenTriangle triangle(std::int32_t x0, std::int32_t y0, std::int32_t x1, std::int32_t y1, std::int32_t x2,
+                        std::int32_t y2) {
+  ScreenTriangle t{};
+  t.x_sub[0] = x0, t.x_sub[1] = x1, t.x_sub[2] = x2;
+  t.y_sub[0] = y0, t.y_sub[1] = y1, t.y_sub[2] = y2;
+  return t;
+}
+
+// A right triangle in a corner of 32 x 32 px: the upper left one, or mirrored to the right (1), down (2) or
+// both.
+ScreenTriangle in_corner(int from_px, int to_px, int mirrored) {
+  const auto x = [&](int px) { return (mirrored & 1 ? 32 - px : px) * kSub; };
+  const auto y = [&](int px) { return (mirrored & 2 ? 32 - px : px) * kSub; };
+  return triangle(x(from_px), y(from_px), x(to_px), y(from_px), x(from_px), y(to_px));
+}
+ScreenTriangle turned(const ScreenTriangle& t) {
+  return triangle(t.x_sub[0], t.y_sub[0], t.x_sub[2], t.y_sub[2], t.x_sub[1], t.y_sub[1]);
+}
+
+// Edges in all directions that pass, within a few sub-units, samples next to where four cells meet.
+std::vector<ScreenTriangle> around_a_corner(int corner_px, std::int32_t reach_sub, int count) {
+  Random random(7);
+  const auto within = [&](std::int32_t reach) {
+    return static_cast<std::int32_t>(random.below(2 * static_cast<std::uint64_t>(reach) + 1)) - reach;
+  };
+  const std::int32_t corner = corner_px * kSub;
+  std::vector<ScreenTriangle> out;
+  for (int i = 0; i < count; ++i) {
+    const std::int32_t dx = within(reach_sub), dy = within(reach_sub);
+    const std::int32_t x = corner + (i & 4 ? kHalf : -kHalf) + within(2);
+    const std::int32_t y = corner + (i & 8 ? kHalf : -kHalf) + within(2);
+    const std::int32_t far_x = corner + within(reach_sub), far_y = corner + within(reach_sub);
+    out.push_back(triangle(x - dx, y - dy, x + dx + within(2), y + dy + within(2), far_x, far_y));
+    auto& t = out.back();
+    if (i % 2 != 0) std::swap(t.x_sub[0], t.x_sub[2]), std::swap(t.y_sub[0], t.y_sub[2]);
+    if (i % 3 == 0) t.x_sub[2] = x + within(3), t.y_sub[2] = y + within(3);  // a sliver
+  }
+  return out;
+}
+
+void expect_no_loss(const std::vector<ScreenTriangle>& triangles, const CellGrid& grid,
+                    const std::vector<std::vector<std::uint32_t>>& lists) {
+  std::vector<std::size_t> next(lists.size(), 0);
+  for (const auto& list : lists)
+    for (std::size_t i = 1; i < list.size(); ++i) ASSERT_LT(list[i - 1], list[i]);
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+    const auto expect_in = [&](int cell) {
+      const auto& list = lists[static_cast<std::size_t>(cell)];
+      std::size_t& at = next[static_cast<std::size_t>(cell)];
+      while (at < list.size() && list[at] < i) ++at;
+      EXPECT_TRUE(at < list.size() && list[at] == i) << "triangle " << i << " is not in cell " << cell;
+    };
+    lab::for_each_span(triangles[i], grid.width, grid.height, [&](int y, int begin, int end) {
+      const int row = (y >> grid.cell_h_log2) * grid.columns();
+      for (int column = begin >> grid.cell_w_log2; column <= (end - 1) >> grid.cell_w_log2; ++column)
+        expect_in(row + column);
+    });
+  }
+}
+
+TEST_P(BinsOnTarget, LoseNoTriangle) {
+  for (const int log2 : {3, 4, 6})
+    for (const std::string_view family : kFamilies) {
+      const CellGrid grid{200, 150, log2, log2};
+      const auto triangles = adversarial(family, full_size() ? 20'000 : 2'000, grid.width, grid.height, 11);
+      SCOPED_TRACE(std::string(family) + ", cells of " + std::to_string(1 << log2));
+      expect_no_loss(triangles, grid, lists(triangles, grid));
+    }
+}
+
+// Each owns the sample of the fourth cell that its longest side passes through, or leaves it to a neighbour.
+TEST_P(BinsOnTarget, LoseNoTriangleWithASampleOnItsEdge) {
+  const CellGrid grid{32, 32, 4, 4};
+  std::vector<ScreenTriangle> triangles;
+  for (int mirrored = 0; mirrored < 4; ++mirrored)
+    triangles.push_back(in_corner(5, 28, mirrored));  // x + y = 33 at (16.5, 16.5)
+  expect_no_loss(triangles, grid, lists(triangles, grid));
+}
+
+TEST_P(BinsOnTarget, LoseNoTriangleThatPassesTheCornerOfCells) {
+  const int count = full_size() ? 400'000 : 40'000;
+  for (const int log2 : {3, 6, 13}) {  // the last: edges as long as coordinates allow
+    const CellGrid grid{2 << log2, 2 << log2, log2, log2};
+    const auto triangles =
+        around_a_corner(1 << log2, ((1 << log2) - 4) * kSub, log2 == 13 ? count / 1000 : count);
+    SCOPED_TRACE("cells of " + std::to_string(1 << log2));
+    expect_no_loss(triangles, grid, lists(triangles, grid));
+  }
+}
+
+// Long slivers whose long side touches a cell at its sample next to the corner, and whose orientation is lost
+// when products are rounded to floats.
+TEST_P(BinsOnTarget, LoseNoSliverThatFloatsTakeForALine) {
+  const CellGrid grid{1 << 14, 1 << 14, 13, 13};
+  const std::int32_t k = 2'000'000, corner = (1 << 13) * kSub;
+  std::vector<ScreenTriangle> triangles;
+  for (const int side : {-1, 1})
+    for (int i = -40; i < 40; ++i) {
+      const std::int32_t x = corner + side * kHalf, y = x;
+      const auto t = triangle(x + k, y - k + 1, x - k, y + k - 1, x - k + i, y + k - 1 - i);
+      triangles.push_back(t);
+      triangles.push_back(turned(t));
+    }
+  expect_no_loss(triangles, grid, lists(triangles, grid));
+}
+
+// Right triangles whose longest side passes the middle so that one cell of four has none of their samples.
+TEST_P(BinsOnTarget, RejectACellOfFour) {
+  const CellGrid grid{32, 32, 4, 4};
+  std::vector<ScreenTriangle> triangles;
+  for (int mirrored = 0; mirrored < 4; ++mirrored) triangles.push_back(in_corner(4, 27, mirrored));
+  for (int mirrored = 0; mirrored < 4; ++mirrored) triangles.push_back(turned(in_corner(4, 27, mirrored)));
+  using Lists = std::vector<std::vector<std::uint32_t>>;
+  // Triangle i misses the cell across: 3 - i.
+  const Lists rejected = {{0, 1, 2, 4, 5, 6}, {0, 1, 3, 4, 5, 7}, {0, 2, 3, 4, 6, 7}, {1, 2, 3, 5, 6, 7}};
+  const Lists kept(4, {0, 1, 2, 3, 4, 5, 6, 7});  // without vectors, tiles alone reject
+  EXPECT_EQ(lists(triangles, grid), GetParam() == SimdTarget::scalar ? kept : rejected);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BinsOnTarget, ::testing::ValuesIn(supported_targets()),
+                         [](const auto& target) { return std::string(name_of(target.param)); });
+
+}  // namespace
+}  // namespace edgewise::testing

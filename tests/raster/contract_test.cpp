@@ -1,0 +1,139 @@
+// The contract's arithmetic against exact 128-bit truth.
+#include "edgewise/contract.h"
+
+#include <gtest/gtest.h>
+
+#include "core/random.h"
+#include "support.h"
+
+namespace edgewise {
+namespace {
+
+using namespace contract;
+
+std::uint64_t exact_gradient(std::int64_t n, std::int64_t area) {
+  const int128 wide = static_cast<int128>(n) * (1 << 24);
+  int128 q = wide / area;
+  if (wide % area < 0) --q;
+  return static_cast<std::uint64_t>(q);
+}
+
+TEST(Contract, GradientIsTheExactFloor) {
+  Random random(1);
+  for (int i = 0; i < 2'000'000; ++i) {
+    const auto bits_n = random.below(55), bits_a = random.below(47);
+    auto n = static_cast<std::int64_t>(random.next() >> (64 - bits_n - (bits_n == 0)));
+    if (random.below(2)) n = -n;
+    const auto area =
+        static_cast<std::int64_t>(1 + (random.next() >> (63 - bits_a)) % (std::uint64_t{1} << bits_a));
+    ASSERT_EQ(gradient(n, area), exact_gradient(n, area)) << n << " / " << area;
+  }
+}
+
+TEST(Contract, GradientIsExactAtItsBoundaries) {
+  for (const int shift : {0, 1, 20, 26, 27, 28, 29, 45, 46})
+    for (const std::int64_t wobble : {-2, -1, 0, 1, 2})
+      for (const std::int64_t n : {std::int64_t{0}, std::int64_t{1}, std::int64_t{-1}, std::int64_t{1} << 54,
+                                   -(std::int64_t{1} << 54), (std::int64_t{1} << 53) + 1}) {
+        const std::int64_t area = std::max<std::int64_t>(1, (std::int64_t{1} << shift) + wobble);
+        EXPECT_EQ(gradient(n, area), exact_gradient(n, area)) << n << " / " << area;
+      }
+}
+
+// The depth at every covered sample is within kDepthError of the exact plane, and inside the head-room.
+void expect_depth_error_bounded(const ScreenTriangle& triangle, int size, int* samples) {
+  const Oriented t = orient(triangle);
+  if (t.area == 0) return;
+  const PixelBox box = pixel_box(triangle, size, size);
+  const Edge edges[3] = {make_edge(t, 0), make_edge(t, 1), make_edge(t, 2)};
+  const DepthPlane plane = make_depth(t);
+  for (int y = box.y0; y < box.y1; ++y)
+    for (int x = box.x0; x < box.x1; ++x) {
+      if (edges[0].at(x, y) < 0 || edges[1].at(x, y) < 0 || edges[2].at(x, y) < 0) continue;
+      // area * z by barycentric weights, which are the unbiased edge values opposite each vertex.
+      int128 weighted = 0;
+      for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        const int128 weight = static_cast<int128>(t.x[j] - t.x[i]) * (sample_sub(y) - t.y[i]) -
+                              static_cast<int128>(t.y[j] - t.y[i]) * (sample_sub(x) - t.x[i]);
+        weighted += weight * t.z[k];
+      }
+      const std::uint32_t z = plane.at(x, y);
+      const int128 error = static_cast<int128>(z) * t.area - weighted;
+      ASSERT_LE(error, static_cast<int128>(kDepthError) * t.area) << "at " << x << ", " << y;
+      ASSERT_GE(error, -static_cast<int128>(kDepthError) * t.area) << "at " << x << ", " << y;
+      ASSERT_LT(z, kDepthClear);
+      ++*samples;
+    }
+}
+
+TEST(Contract, DepthStaysWithinItsStatedErrorForEveryFamily) {
+  for (const auto family : testing::kFamilies) {
+    constexpr int kSize = 150;
+    int samples = 0;
+    for (const auto& t : testing::adversarial(family, 150, kSize, kSize, 7))
+      expect_depth_error_bounded(t, kSize, &samples);
+    EXPECT_TRUE(samples > 0 || family == "degenerate") << family;
+  }
+}
+
+TEST(Contract, DepthStaysWithinItsStatedErrorFarFromTheOrigin) {
+  Random random(3);
+  int samples = 0;
+  for (auto t : testing::adversarial("steep", 3000, 64, 64, 8)) {
+    const auto far_x = static_cast<std::int32_t>(random.below(16300)) * kSub,
+               far_y = static_cast<std::int32_t>(random.below(16300)) * kSub;
+    for (int i = 0; i < 3; ++i) t.x_sub[i] += far_x, t.y_sub[i] += far_y;
+    expect_depth_error_bounded(t, kMaxImageSide, &samples);
+  }
+  EXPECT_GT(samples, 1000);
+}
+
+TEST(Contract, FrontIsClockwiseOnTheYDownScreen) {
+  const ScreenTriangle clockwise{{0, 256, 0}, {0, 0, 256}, {200, 200, 200}, 0};
+  EXPECT_GT(signed_area(clockwise), 0);
+}
+
+TEST(Contract, TopAndLeftEdgesOwnTheirSamplesAndTheOthersDoNot) {
+  // A right-angled square of two triangles whose sides pass through sample points.
+  const std::int32_t low = sample_sub(2), high = sample_sub(6);
+  const ScreenTriangle upper{{low, high, low}, {low, low, high}, {200, 200, 200}, 0};
+  const Oriented t = orient(upper);
+  const auto inside = [&](int x, int y) {
+    return make_edge(t, 0).at(x, y) >= 0 && make_edge(t, 1).at(x, y) >= 0 && make_edge(t, 2).at(x, y) >= 0;
+  };
+  EXPECT_TRUE(inside(2, 2));   // top left corner
+  EXPECT_TRUE(inside(4, 2));   // on the top edge
+  EXPECT_TRUE(inside(2, 4));   // on the left edge
+  EXPECT_FALSE(inside(4, 4));  // on the diagonal, a right edge
+  EXPECT_FALSE(inside(6, 2));
+  EXPECT_FALSE(inside(2, 6));
+}
+
+TEST(Contract, OfAnEdgeAndItsReverseOneIsTopOrLeft) {
+  for (int a = -2; a <= 2; ++a)
+    for (int b = -2; b <= 2; ++b) {
+      if (a == 0 && b == 0) continue;
+      EXPECT_NE(is_top_left(a, b), is_top_left(-a, -b)) << a << ", " << b;
+    }
+  EXPECT_TRUE(is_top_left(0, 1)) << "a top edge runs to the right";
+  EXPECT_TRUE(is_top_left(1, 0)) << "a left edge runs up";
+}
+
+TEST(Contract, PixelBoxHoldsEverySampleThatCanBeCovered) {
+  for (const auto family : testing::kFamilies)
+    for (const auto& triangle : testing::adversarial(family, 60, 40, 30, 5)) {
+      const Oriented t = orient(triangle);
+      if (t.area == 0) continue;
+      const PixelBox box = pixel_box(triangle, 40, 30);
+      for (int y = 0; y < 30; ++y)
+        for (int x = 0; x < 40; ++x) {
+          const bool inside =
+              make_edge(t, 0).at(x, y) >= 0 && make_edge(t, 1).at(x, y) >= 0 && make_edge(t, 2).at(x, y) >= 0;
+          ASSERT_TRUE(!inside || (x >= box.x0 && x < box.x1 && y >= box.y0 && y < box.y1)) << family;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace edgewise

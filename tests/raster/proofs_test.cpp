@@ -1,0 +1,163 @@
+// The definitions that the proofs reason about (src/raster/proofs/contract.smt2) against the functions of
+// contract.h: the solver computes them for many arguments and must find no other value than the code's.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+
+#include "core/random.h"
+#include "edgewise/contract.h"
+#include "run_program.h"
+
+namespace edgewise::testing {
+namespace {
+
+using namespace contract;
+
+bool have_solver() {
+  return std::system("command -v z3 >/dev/null") == 0;
+}
+
+// SMT-LIB writes a negative number as an application of -.
+std::string text(int128 v) {
+  const bool negative = v < 0;
+  std::string digits;
+  do digits.insert(digits.begin(), static_cast<char>('0' + static_cast<int>(negative ? -(v % 10) : v % 10)));
+  while ((v /= 10) != 0);
+  return negative ? fmt::format("(- {})", digits) : digits;
+}
+template <typename... Texts>
+std::string call_text(std::string_view function, const Texts&... arguments) {
+  return fmt::format("({} {})", function,
+                     fmt::join(std::array<std::string, sizeof...(Texts)>{std::string(arguments)...}, " "));
+}
+template <typename... Numbers>
+std::string call(std::string_view function, Numbers... v) {
+  return call_text(function, text(v)...);
+}
+// Of functions over the reals.
+template <typename... Numbers>
+std::string call_real(std::string_view function, Numbers... v) {
+  return call_text(function, call("to_real", v)...);
+}
+
+class Equations {
+ public:
+  void add(const std::string& term, int128 value) { add_text(term, text(value)); }
+  void add(const std::string& term, bool value) { add_text(term, value ? "true" : "false"); }
+  int count() const { return count_; }
+
+  // What the solver says to: is one of the equations wrong?
+  std::string solve() const {
+    const TempDir folder;
+    const std::string definitions = EDGEWISE_SOURCE_DIR "/src/raster/proofs/contract.smt2";
+    const auto script = folder.write(
+        "equations.smt2", file_content(definitions) + "(assert (or" + wrong_ + "))\n(check-sat)\n");
+    return run_program("z3", "-T:60 '" + script.string() + "'").out;
+  }
+
+ private:
+  void add_text(const std::string& term, const std::string& value) {
+    wrong_ += fmt::format("\n  (not (= {} {}))", term, value);
+    ++count_;
+  }
+  std::string wrong_;
+  int count_ = 0;
+};
+
+// Triangles of all sizes, many of them on the guard band's sides.
+ScreenTriangle draw_triangle(Random& random) {
+  ScreenTriangle t{};
+  const std::uint64_t bits = 1 + random.below(23);
+  const auto coordinate = [&] {
+    const auto v = static_cast<std::int64_t>(random.below((std::uint64_t{1} << bits) + 1));
+    return static_cast<std::int32_t>(v - (std::int64_t{1} << (bits - 1)));
+  };
+  for (int i = 0; i < 3; ++i) {
+    t.x_sub[i] = coordinate(), t.y_sub[i] = coordinate();
+    t.z[i] = kDepthHead + static_cast<std::uint32_t>(random.below(kDepthRange + 1ull));
+  }
+  return t;
+}
+
+void add_coverage(Equations& equations, const ScreenTriangle& triangle, int px, int py) {
+  const auto& [x, y, z, payload] = triangle;
+  const std::int64_t area = signed_area(triangle);
+  equations.add(call_real("signed_area", x[0], y[0], x[1], y[1], x[2], y[2]), int128{area});
+  const PixelBox box = pixel_box(triangle, kMaxImageSide, kMaxImageSide);
+  const auto [min_x, max_x] = std::minmax({x[0], x[1], x[2]});
+  if (box.x0 > 0) equations.add(call("first_sample", min_x), int128{box.x0});
+  if (box.x1 < kMaxImageSide) equations.add(call("first_sample", max_x), int128{box.x1});
+  equations.add(call("sample_sub", px), int128{sample_sub(px)});
+  if (area == 0) return;
+  const Oriented t = orient(triangle);
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    const Edge edge = make_edge(t, i);
+    const std::string a = call_real("edge_a", t.y[i], t.y[j]), b = call_real("edge_b", t.x[i], t.x[j]);
+    equations.add(a, int128{edge.a});
+    equations.add(b, int128{edge.b});
+    equations.add(call_text("top_left", a, b), is_top_left(edge.a, edge.b));
+    const std::string e =
+        call_real("edge_at", t.x[i], t.y[i], t.x[j], t.y[j], sample_sub(px), sample_sub(py));
+    equations.add(call_text("+", e, call_text("to_real", call_text("bias", a, b))), int128{edge.at(px, py)});
+    equations.add(call_real("owns", t.x[i], t.y[i], t.x[j], t.y[j], sample_sub(px), sample_sub(py)),
+                  edge.at(px, py) >= 0);
+  }
+}
+
+void add_depth(Equations& equations, const ScreenTriangle& triangle, int px, int py) {
+  const Oriented t = orient(triangle);
+  if (t.area == 0) return;
+  const std::int64_t dz1 = t.z[1] - t.z[0], dz2 = t.z[2] - t.z[0];
+  const std::int64_t nx = dz1 * (t.y[2] - t.y[0]) - dz2 * (t.y[1] - t.y[0]);
+  const std::int64_t ny = dz2 * (t.x[1] - t.x[0]) - dz1 * (t.x[2] - t.x[0]);
+  const std::string gx = call("gradient", nx, t.area), gy = call("gradient", ny, t.area);
+  const DepthPlane plane = make_depth(t);
+  const auto add_wrapped = [&](const std::string& term, std::uint64_t value, std::string_view modulus) {
+    equations.add(call_text("mod", term, modulus), int128{value});
+  };
+  add_wrapped(gx, plane.gx, "two64");
+  add_wrapped(gy, plane.gy, "two64");
+  add_wrapped(call_text("depth_step", gx), plane.zx, "two32");
+  add_wrapped(call_text("depth_step", gy), plane.zy, "two32");
+  int top = 0;
+  for (int i = 1; i < 3; ++i)
+    if (t.y[i] < t.y[top] || (t.y[i] == t.y[top] && t.x[i] < t.x[top])) top = i;
+  const int x = px % kDepthCell, y = py % kDepthCell;
+  const std::string z = text(t.z[top]), dx = text(sample_sub(px - x) - t.x[top]),
+                    dy = text(sample_sub(py - y) - t.y[top]);
+  add_wrapped(call_text("depth_base", z, gx, gy, dx, dy), plane.base(px - x, py - y), "two32");
+  add_wrapped(call_text("depth_at", z, gx, gy, dx, dy, text(x), text(y)), plane.at(px, py), "two32");
+}
+
+// Without this, the claims would be proven of something else than the code.
+TEST(Proofs, DefinitionsAreTheContractsFunctions) {
+  if (!have_solver()) GTEST_SKIP() << "z3 is not installed";
+  Random random(21);
+  Equations equations;
+  for (int i = 0; i < 1500; ++i) {
+    const ScreenTriangle triangle = draw_triangle(random);
+    const auto pixel = [&] { return static_cast<int>(random.below(kMaxImageSide)); };
+    const int px = pixel(), py = pixel();
+    add_coverage(equations, triangle, px, py);
+    add_depth(equations, triangle, px, py);
+  }
+  EXPECT_GT(equations.count(), 20'000);
+  EXPECT_EQ(equations.solve(), "unsat\n");
+  RecordProperty("comparisons", equations.count());
+}
+
+TEST(Proofs, AWrongDefinitionIsSeen) {
+  if (!have_solver()) GTEST_SKIP() << "z3 is not installed";
+  Equations equations;
+  equations.add(call("first_sample", 128), int128{0});
+  equations.add(call("first_sample", 129), int128{0});  // one too few
+  EXPECT_EQ(equations.solve(), "sat\n");
+}
+
+}  // namespace
+}  // namespace edgewise::testing

@@ -1,0 +1,259 @@
+// The tutorials' demonstrations: that each shows what it says, and the same on every machine.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "message_of.h"
+#include "run_program.h"
+#include "temp_dir.h"
+#include "viewer/demos.h"
+#include "viewer/outlines.h"
+#include "viewer/viewer_support.h"
+
+namespace edgewise::viewer {
+namespace {
+
+class Shown {
+ public:
+  explicit Shown(std::string_view name, Execution execution = {}) : demo_(find_demo(name)) {
+    Start start = start_of(demo_);
+    start.reproducible = true;
+    start.execution = execution;
+    session_.emplace(std::move(start));
+  }
+  // What is seen after the next steps.
+  const Screen& step(std::size_t steps = 1) {
+    for (std::size_t i = 0; i < steps; ++i) viewer::type(*session_, parse_keys("5"), kDemoSize, kTestCell);
+    return session_->draw(kDemoSize, kTestCell);
+  }
+  const Screen& last() { return step(demo_.steps.size()); }
+  const Screen& type(std::string_view keys) { return viewer::type(*session_, keys, kDemoSize); }
+  const Side& side(std::size_t i) const { return session_->side(i); }
+  const State& state() const { return session_->state(); }
+
+ private:
+  const Demo& demo_;
+  std::optional<Session> session_;
+};
+
+TEST(Demos, AreWellFormed) {
+  std::set<std::string_view> names;
+  for (const Demo& demo : demos()) {
+    EXPECT_TRUE(names.insert(demo.name).second) << demo.name;
+    EXPECT_EQ(&find_demo(demo.name), &demo);
+    EXPECT_GE(demo.steps.size(), 3u) << demo.name;
+    for (const Step& step : demo.steps) {
+      EXPECT_FALSE(step.notice.empty()) << demo.name;
+      // Nothing that saves, quits, or depends on the size of the screen.
+      for (const Stroke& stroke : parse_keys(step.keys))
+        if (const Key* const key = std::get_if<Key>(&stroke)) {
+          const auto command = command_of(*key);
+          EXPECT_FALSE(command == Command::save || command == Command::quit || command == Command::help ||
+                       command == Command::next_step)
+              << demo.name << ": " << step.keys;
+        }
+    }
+  }
+  EXPECT_EQ(names.size(), 5u);
+  EXPECT_NE(message_of([] { find_demo("outlaw"); }).find("did you mean 'outlaw-triad'"), std::string::npos);
+}
+
+TEST(Demos, LookTheSameOnAllTargetsAndThreads) {
+  std::uint64_t compared = 0;
+  for (const Demo& demo : demos()) {
+    Shown first(demo.name, {.threads = 1, .target = SimdTarget::scalar});
+    std::vector<Shown> others;
+    for (const SimdTarget target : supported_targets())
+      others.emplace_back(demo.name, Execution{.threads = 3, .tile_size = 16, .target = target});
+    for (std::size_t i = 0; i < demo.steps.size(); ++i) {
+      Screen expected = first.step();
+      paint(expected, 1);
+      for (Shown& other : others) {
+        Screen screen = other.step();
+        paint(screen, 1);
+        EXPECT_EQ(screen.picture.pixels, expected.picture.pixels) << demo.name << ", step " << i;
+        ++compared;
+      }
+    }
+  }
+  RecordProperty("comparisons", std::to_string(compared));
+}
+
+TEST(Demos, AStepLeadsToTheSameFromWherever) {
+  Shown straight("p5js-clipping"), strayed("p5js-clipping");
+  straight.step(2);
+  strayed.step();
+  strayed.type("<float_lt>wwd1r<1>");
+  Screen expected = straight.step(), found = strayed.step(2);
+  paint(expected, 1), paint(found, 1);
+  EXPECT_EQ(found.picture.pixels, expected.picture.pixels);
+  EXPECT_EQ(strayed.state().notice, straight.state().notice);
+}
+
+TEST(Pico8Culling, SwitchesFrontAndBackFacesSeparately) {
+  Shown demo("pico8-culling");
+  const auto drawn = [&] { return demo.side(0).stats.emitted; };
+  EXPECT_TRUE(says(demo.step(), "[1] [2] no faces culled"));
+  EXPECT_EQ(demo.side(0).choice.coverage->info.name, "wireframe");
+  EXPECT_EQ(drawn(), 12u);
+  EXPECT_TRUE(says(demo.step(), "[2] back faces culled"));
+  EXPECT_LE(drawn(), 6u);
+  const std::uint64_t survive = drawn();
+  EXPECT_TRUE(says(demo.step(), "[1] front faces culled: diorama"));
+  EXPECT_NEAR(static_cast<double>(drawn()), static_cast<double>(12 - survive), 4.0);  // it turns
+  demo.step();
+  EXPECT_TRUE(demo.side(0).choice.ours());
+  const Screen& last = demo.step();
+  EXPECT_TRUE(says(last, "diorama") && says(last, "[2] back faces culled"));
+  EXPECT_EQ(demo.side(0).stats.emitted + demo.side(1).stats.emitted, 12u);
+  EXPECT_EQ(demo.side(1).choice.coverage->info.name, "wireframe");
+}
+
+TEST(Pico8InsideTest, CountsGapsAndDoubleHitsAndCuresTheOrder) {
+  Shown demo("pico8-inside-test");
+  demo.step();
+  EXPECT_GT(demo.side(0).judgement->double_hits.value(), 150u);
+  EXPECT_EQ(demo.side(0).judgement->gaps.value(), 0u);
+  EXPECT_TRUE(says(demo.step(), "gaps"));
+  EXPECT_GT(demo.side(0).judgement->gaps.value(), 150u);
+  EXPECT_EQ(demo.side(0).judgement->double_hits.value(), 0u);
+  const auto wrong_on_the_right = [&] {
+    demo.step();
+    return demo.side(1).judgement->wrong;
+  };
+  EXPECT_GT(wrong_on_the_right(), 10000u);
+  EXPECT_FALSE(demo.side(1).cull_front || demo.side(1).cull_back);
+  EXPECT_EQ(wrong_on_the_right(), 0u);
+  EXPECT_TRUE(demo.side(1).cull_back);
+  EXPECT_EQ(wrong_on_the_right(), 0u);
+  EXPECT_FALSE(demo.side(1).cull_back);
+  EXPECT_GT(wrong_on_the_right(), 10000u);
+  EXPECT_TRUE(demo.state().magnifier);
+  EXPECT_NE(demo.state().message.find("wrong pixel"), std::string::npos);
+}
+
+TEST(P5jsClipping, CutsMovesTurnsAndComesBack) {
+  Shown demo("p5js-clipping");
+  demo.step();
+  const lab::Choice& choice = demo.side(0).choice;
+  EXPECT_EQ(describe(choice), "screen_edges + painter_mean");
+  EXPECT_GT(demo.side(0).stats.clipped_near, 0u);
+  EXPECT_LT(demo.side(0).judgement->wrong, 100u);
+  const auto count = [](const Screen& screen, std::uint32_t colour) {
+    return std::count(screen.picture.pixels.begin(), screen.picture.pixels.end(), colour);
+  };
+  const auto outlines = count(demo.step(), kPiecesOutline);
+  EXPECT_GT(outlines, 1000);
+  const auto labels = [](const Screen& screen) {
+    return std::count_if(screen.texts.begin(), screen.texts.end(), [](const Text& text) {
+      return text.words.size() == 1 && text.words[0] >= '0' && text.words[0] <= '7';
+    });
+  };
+  EXPECT_EQ(labels(demo.type("")), 0);
+  const Screen& labelled = demo.step();
+  EXPECT_GE(labels(labelled), 16);
+  EXPECT_TRUE(says(labelled, "x") && says(labelled, "y") && says(labelled, "z"));
+  EXPECT_TRUE(says(labelled, "eye 0.00 0.00 0.00  yaw 0  pitch 0"));
+  EXPECT_TRUE(says(labelled, "about 1.00 1.00 1.00"));
+  demo.step();
+  EXPECT_TRUE(demo.state().along_view);
+  demo.step();
+  EXPECT_FALSE(demo.state().along_view);
+  demo.step();
+  EXPECT_GT(std::abs(demo.state().angle), 0.5f);
+  const Screen& last = demo.step();
+  EXPECT_EQ(demo.state().angle, 0.0f);
+  EXPECT_EQ(count(last, kPiecesOutline) > 1000, true);
+}
+
+TEST(RealbasicBackface, CullsFacesAndWholeObjectsButNoTwoSidedFace) {
+  constexpr std::uint32_t kSheet = rgb(230, 230, 230);
+  Shown demo("realbasic-backface");
+  // Unlit, so that a face has its colour.
+  const auto sheets = [&](const Screen& screen) {
+    return std::count(screen.picture.pixels.begin(), screen.picture.pixels.end(), kSheet);
+  };
+  demo.step();
+  EXPECT_EQ(demo.side(0).choice.facing->info.name, "normal_dot_eye");
+  const FrontendStats stats = demo.side(0).stats;
+  EXPECT_GE(stats.meshes_culled, 4u);
+  EXPECT_GT(stats.culled, 10u);
+  EXPECT_GT(stats.clipped_near, 0u);
+  const auto one = sheets(demo.type("k"));
+  EXPECT_GT(one, 1000);
+  EXPECT_EQ(demo.side(0).judgement->wrong, 0u);
+  demo.step();
+  EXPECT_GT(sheets(demo.type("k")), one * 3 / 2);
+  EXPECT_EQ(demo.side(0).judgement->wrong, 0u);
+  EXPECT_TRUE(says(demo.step(), "with their object"));
+  EXPECT_TRUE(says(demo.step(), "culled whole"));
+  EXPECT_EQ(demo.side(0).judgement->wrong, 0u);
+}
+
+TEST(OutlawTriad, DrawsHalfOfTheFacesOfFourVertices) {
+  const Scene scene = find_demo("outlaw-triad").scene();
+  for (const Mesh& mesh : scene.meshes)
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+      ASSERT_EQ(mesh.has_mark(i, kSecondHalf), i % 2 == 1);
+  Shown demo("outlaw-triad");
+  demo.step();
+  EXPECT_EQ(demo.side(0).choice.facing->info.name, "normal_z");
+  const Screen& both = demo.step(2);
+  EXPECT_EQ(demo.side(0).choice.facing->info.name, "normal_z");
+  EXPECT_TRUE(demo.side(1).choice.ours());
+  EXPECT_EQ(demo.side(1).stats.culled, 0u);
+  EXPECT_LE(demo.side(0).stats.emitted, demo.side(1).stats.emitted * 6 / 10);
+  EXPECT_EQ(demo.side(0).judgement->wrong, 0u);
+  EXPECT_TRUE(says(both, "back faces culled") && says(both, "no faces culled"));
+  demo.step();
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(demo.side(i).choice.coverage->info.name, "wireframe");
+  EXPECT_LE(demo.side(0).stats.emitted, demo.side(1).stats.emitted * 6 / 10);
+}
+
+TEST(DemoCommand, ListsThemAndTheirSteps) {
+  const std::string list = testing::run_program(EDGEWISE_PROGRAM, "demo").out;
+  const auto json = nlohmann::json::parse(testing::run_program(EDGEWISE_PROGRAM, "demo --json").out);
+  ASSERT_EQ(json.size(), demos().size());
+  const auto one =
+      nlohmann::json::parse(testing::run_program(EDGEWISE_PROGRAM, "demo outlaw-triad --json").out);
+  ASSERT_EQ(one.size(), 1u);
+  EXPECT_EQ(one[0].at("name"), "outlaw-triad");
+  EXPECT_EQ(std::count(list.begin(), list.end(), '\n'), static_cast<std::ptrdiff_t>(demos().size()));
+  for (std::size_t i = 0; i < demos().size(); ++i) {
+    const Demo& demo = demos()[i];
+    EXPECT_NE(list.find(demo.name), std::string::npos);
+    EXPECT_EQ(json[i].at("name"), demo.name);
+    EXPECT_EQ(json[i].at("steps").size(), demo.steps.size());
+    EXPECT_EQ(json[i].at("steps").back().at("notice"), demo.steps.back().notice);
+    const auto told = testing::run_program(EDGEWISE_PROGRAM, "demo " + std::string(demo.name));
+    EXPECT_NE(told.out.find(demo.steps.front().notice), std::string::npos) << demo.name;
+  }
+}
+
+TEST(DemoCommand, WritesAPictureOrAnAnimation) {
+  const TempDir folder;
+  const std::string there = folder.path().string();
+  const auto write = [&](const std::string& words) {
+    const auto outcome = testing::run_program(EDGEWISE_PROGRAM, "demo pico8-culling --size 320x180 " + words);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return outcome.out;
+  };
+  EXPECT_EQ(write("-o " + there + "/"), there + "/pico8-culling.png\n");
+  write("-o " + there + "/again.png --threads 1 --target scalar");
+  EXPECT_EQ(file_content(there + "/pico8-culling.png"), file_content(there + "/again.png"));
+  const Image last = read_image(there + "/again.png");
+  EXPECT_EQ(last.width, 320);
+  const std::string files = write("--frames 7 -o " + there + "/film/");
+  EXPECT_EQ(std::count(files.begin(), files.end(), '\n'), 7);
+  std::set<std::string> different;
+  for (int i = 1; i <= 7; ++i)
+    different.insert(file_content(there + "/film/pico8-culling-000" + std::to_string(i) + ".png"));
+  EXPECT_GE(different.size(), 5u);
+  EXPECT_FALSE(std::filesystem::exists(there + "/film/pico8-culling-0008.png"));
+}
+
+}  // namespace
+}  // namespace edgewise::viewer

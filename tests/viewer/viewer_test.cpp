@@ -1,0 +1,634 @@
+// The viewer's session, driven by keys and mouse as a window would: what is seen, counted and saved.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <set>
+#include <thread>
+
+#include "edgewise/image.h"
+#include "edgewise/tri_file.h"
+#include "frontend/shade.h"
+#include "lab/view_space.h"
+#include "message_of.h"
+#include "temp_dir.h"
+#include "viewer/viewer_support.h"
+
+namespace edgewise::viewer {
+namespace {
+
+constexpr std::string_view kNoOverlay = "o";  // at this size it begins with the short one
+
+Image rendered(std::string_view scene, Cull cull, app::Size size = kTestSize,
+               std::string_view backend = "naive") {
+  Frontend frontend;
+  FrontendOptions options;
+  options.width = size.width, options.height = size.height;
+  options.cull = cull;
+  Framebuffer frame(size.width, size.height);
+  find_backend(backend).make()->draw(frontend.run(find_scene(scene).make({size.width, size.height}), options),
+                                     frame.view(), rgb(0, 0, 0), {});
+  return to_image(frame);
+}
+
+// A quad of two triangles, clockwise as given.
+void add_quad(Scene& scene, glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d, std::uint32_t colour) {
+  scene.meshes.push_back({{a, b, c, d}, {{0, 1, 2}, {0, 2, 3}}, {colour, colour}});
+  scene.instances.push_back({.mesh = scene.meshes.size() - 1});
+}
+
+// A near square that is submitted first, before a farther one.
+Scene near_then_far() {
+  Scene scene;
+  for (const float z : {-2.0f, -4.0f})
+    add_quad(scene, {-1, 1, z}, {1, 1, z}, {1, -1, z}, {-1, -1, z},
+             z > -3.0f ? rgb(250, 20, 20) : rgb(20, 250, 20));
+  return scene;
+}
+
+// A floor that passes under the eye.
+Scene floor_under_the_eye() {
+  Scene scene;
+  add_quad(scene, {-9, -1, 9}, {9, -1, 9}, {9, -1, -9}, {-9, -1, -9}, rgb(200, 200, 200));
+  std::swap(scene.meshes[0].triangles[0].y, scene.meshes[0].triangles[0].z);
+  std::swap(scene.meshes[0].triangles[1].y, scene.meshes[0].triangles[1].z);
+  return scene;
+}
+
+std::uint64_t wrong(const Session& session) {
+  return session.side(0).judgement.value().wrong;
+}
+
+TEST(ViewerKeys, EachHasOneMeaningAndEachCommandAKey) {
+  std::set<Key> keys;
+  std::set<Command> commands;
+  for (const KeyRow& row : key_table()) {
+    EXPECT_FALSE(row.does.empty());
+    for (const Binding& binding : row.bindings) {
+      EXPECT_TRUE(keys.insert(binding.key).second) << row.keys;
+      commands.insert(binding.command);
+      EXPECT_EQ(command_of(binding.key), binding.command);
+    }
+  }
+  EXPECT_EQ(commands.size(), static_cast<std::size_t>(Command::quit) + 1);
+  EXPECT_EQ(key_of('W'), key_of('w'));
+}
+
+TEST(ViewerKeys, AreReadFromText) {
+  const auto strokes = parse_keys("w<tab>B<1.5>");
+  ASSERT_EQ(strokes.size(), 4u);
+  EXPECT_EQ(std::get<Key>(strokes[1]), Key::tab);
+  EXPECT_EQ(std::get<Key>(strokes[2]), key_of('b'));
+  EXPECT_EQ(std::get<double>(strokes[3]), 1.5);
+  EXPECT_EQ(std::get<Named>(parse_keys("<float_lt>").front()).method, "float_lt");
+  EXPECT_NE(message_of([] { parse_keys("b<tabb>"); }).find("<tabb>"), std::string::npos);
+  EXPECT_NE(message_of([] { parse_keys("b<-1>"); }).find("<-1>"), std::string::npos);
+  EXPECT_NE(message_of([] { parse_keys("b<nan>"); }).find("<nan>"), std::string::npos);
+  EXPECT_NE(message_of([] { parse_keys("b<tab"); }).find("without '>'"), std::string::npos);
+  EXPECT_NE(message_of([] { parse_keys("b%"); }).find("'%'"), std::string::npos);
+}
+
+TEST(Viewer, ShowsTheLibrarysBits) {
+  Session session = session_of("cubes");
+  EXPECT_EQ(type(session, kNoOverlay).picture.pixels, rendered("cubes", Cull::back).pixels);
+  EXPECT_EQ(type(session, "1").picture.pixels, rendered("cubes", Cull::both).pixels);
+  EXPECT_EQ(type(session, "2").picture.pixels, rendered("cubes", Cull::front).pixels);
+  EXPECT_TRUE(says(type(session, "o"), "[b] tiled"));
+  EXPECT_TRUE(says(type(session, "o"), "diorama"));
+  EXPECT_EQ(type(session, "1o").picture.pixels, rendered("cubes", Cull::none).pixels);
+}
+
+TEST(Viewer, DrawsEdgesOfWhatIsCulledAndLitLikeFacesAndBack) {
+  Session session = session_of("cubes");
+  const Image filled = type(session, kNoOverlay).picture, edges = type(session, "y").picture;
+  EXPECT_FALSE(session.side(0).choice.fills());
+  EXPECT_EQ(edges.pixels, rendered("cubes", Cull::back, kTestSize, "wireframe").pixels);
+  EXPECT_EQ(type(session, "1").picture.pixels, rendered("cubes", Cull::both, kTestSize, "wireframe").pixels);
+  EXPECT_EQ(type(session, "2").picture.pixels, rendered("cubes", Cull::front, kTestSize, "wireframe").pixels);
+  EXPECT_EQ(type(session, "12y").picture.pixels, filled.pixels);
+  EXPECT_EQ(session.side(0).choice.coverage->info.name, "tiled");  // as before the edges
+  // A painter covers by itself.
+  EXPECT_EQ(type(session, "z").picture.pixels, type(session, "y").picture.pixels);
+  type(session, "o");
+  EXPECT_TRUE(says(session.draw({900, 600}, kTestCell), "no wireframe"));
+}
+
+TEST(Viewer, GoesThroughAllCoverageMethodsAndTheExactOnesAreRight) {
+  Session session = session_of("cubes");
+  type(session, "ei<backspace>");
+  for (std::size_t i = 0; i < lab::drawing_methods().size(); ++i) {
+    const Screen& screen = type(session, "b");
+    const lab::CoverageMethod& method = *session.side(0).choice.coverage;
+    EXPECT_TRUE(says(screen, method.info.name)) << method.info.name;
+    if (!method.fills) {
+      EXPECT_TRUE(says(screen, "edges only")) << method.info.name;
+      EXPECT_FALSE(session.side(0).judgement) << method.info.name;
+      continue;
+    }
+    ASSERT_TRUE(session.side(0).judgement) << method.info.name;
+    if (method.contract_depth) {
+      EXPECT_EQ(wrong(session), 0u) << method.info.name;
+    }
+    if (method.info.exact && !method.contract_depth) {
+      EXPECT_EQ(session.side(0).judgement->gaps, 0u) << method.info.name;
+      EXPECT_EQ(session.side(0).judgement->double_hits, 0u) << method.info.name;
+    }
+    if (method.info.name == "whole_pixel") {
+      EXPECT_GT(wrong(session), 100u);
+    }
+  }
+  EXPECT_EQ(session.side(0).choice.coverage->info.name, "tiled");
+  type(session, "b<backspace>");
+  EXPECT_EQ(session.side(0).choice.coverage->info.name, "tiled");
+}
+
+TEST(Viewer, CountsGapsAndDoubleHitsOfTheTutorialsInsideTests) {
+  // The diagonal runs through pixel centres.
+  const TriangleStream square{
+      240,
+      160,
+      {{{{8.5f, 8.5f, 0.5f}, {72.5f, 8.5f, 0.5f}, {72.5f, 72.5f, 0.5f}}, rgb(255, 0, 0)},
+       {{{8.5f, 8.5f, 0.5f}, {72.5f, 72.5f, 0.5f}, {8.5f, 72.5f, 0.5f}}, rgb(0, 255, 0)}}};
+  Session session = session_of(square, Cull::none);
+  const auto choose = [&](std::string_view name) {
+    while (session.side(0).choice.coverage->info.name != name) session.press(key_of('b'));
+    session.draw(kTestSize, kTestCell);
+    return session.side(0).judgement.value();
+  };
+  EXPECT_GE(choose("float_lt").gaps.value(), 63u);
+  EXPECT_EQ(choose("float_lt").double_hits.value(), 0u);
+  EXPECT_GE(choose("float_le").double_hits.value(), 63u);
+  EXPECT_EQ(choose("float_le").gaps.value(), 0u);
+  EXPECT_EQ(choose("float_top_left").wrong, 0u);
+}
+
+TEST(Viewer, ReplacesEachStageAlone) {
+  Session order = session_of(near_then_far());
+  EXPECT_EQ(type(order, "").texts.empty(), false);
+  EXPECT_EQ(wrong(order), 0u);
+  type(order, "z<backspace><backspace>");  // submission_order is the last
+  EXPECT_EQ(order.side(0).choice.visibility->info.name, "submission_order");
+  EXPECT_GT(wrong(order), 500u);
+
+  Session floor = session_of(floor_under_the_eye(), Cull::none);
+  type(floor, "");
+  EXPECT_EQ(wrong(floor), 0u);
+  EXPECT_GT(floor.side(0).judgement->covered, 5000u);
+  type(floor, "x<backspace><backspace>");
+  EXPECT_EQ(floor.side(0).choice.clipping->info.name, "none");
+  EXPECT_GT(wrong(floor), 5000u);
+
+  Session box = session_of(box_aside());
+  type(box, "n<backspace><backspace>");
+  EXPECT_EQ(box.side(0).choice.facing->info.name, "normal_z");
+  EXPECT_GT(wrong(box), 100u);
+  type(box, "<backspace>");
+  EXPECT_EQ(box.side(0).choice.facing->info.name, "normal_dot_object");
+  // A method that is right under perspective, and the composition itself.
+  while (box.side(0).choice.facing->info.name != "normal_dot_eye") type(box, "<backspace>");
+  EXPECT_EQ(wrong(box), 0u);
+}
+
+TEST(Viewer, ComposesAllMethodsOfAllStagesOnAScene) {
+  Session session = session_of("cubes");
+  for (const auto& [key, count] : {std::pair{'x', lab::clipping_methods().size()},
+                                   {'z', lab::visibility_methods().size()},
+                                   {'n', lab::facing_methods().size()}})
+    for (std::size_t i = 0; i < count; ++i) {
+      const Screen& screen = type(session, std::string(1, key));
+      EXPECT_EQ(screen.picture.width, kTestSize.width);
+      ASSERT_TRUE(session.side(0).judgement);
+      const lab::Choice& choice = session.side(0).choice;
+      // Nothing of this scene leaves the view, and its depths are far apart.
+      const bool sorts = choice.visibility->stored01 == nullptr;
+      if (!sorts && choice.facing->info.name != "normal_z" &&
+          choice.facing->info.name != "normal_dot_object") {
+        EXPECT_LT(wrong(session), 20u) << describe(choice);
+      }
+    }
+  EXPECT_TRUE(session.side(0).choice.ours());
+}
+
+TEST(Viewer, SaysWhatCannotBeCombined) {
+  Session session = session_of("cubes");
+  type(session, "bbz");
+  EXPECT_NE(session.side(0).because.find("covers exactly by itself"), std::string::npos);
+  EXPECT_TRUE(says(session.draw({900, 600}, kTestCell), "covers exactly by itself"));
+  Session floats = session_of("cubes");
+  type(floats, "bb");
+  EXPECT_TRUE(says(floats.draw({900, 600}, kTestCell), "[z] float plane"));
+  Session stream = session_of("grid64");
+  type(stream, "x");
+  EXPECT_NE(stream.side(0).because.find("no camera"), std::string::npos);
+  EXPECT_EQ(wrong(stream), 0u);
+  type(stream, "wr,<up>l0t");  // nothing of this is for a stream
+}
+
+TEST(Viewer, JudgesAgainstEachTruth) {
+  Session session = session_of("cubes");
+  for (const Truth truth : kTruths) {
+    EXPECT_EQ(session.state().truth, truth);
+    type(session, "");
+    const Judgement& judgement = session.side(0).judgement.value();
+    EXPECT_LE(judgement.wrong, truth == Truth::floats ? 60u : 0u) << name_of(truth);
+    EXPECT_GT(judgement.covered, 3000u);
+    type(session, "u");
+  }
+}
+
+TEST(Viewer, TintsWrongPixelsAndFindsThemWithTheGlass) {
+  Session session = session_of(near_then_far());
+  const Image plain = type(session, std::string(kNoOverlay) + "z<backspace><backspace>").picture;
+  const Screen& screen = type(session, "e");
+  std::uint64_t tinted = 0;
+  for (std::size_t i = 0; i < plain.pixels.size(); ++i)
+    if (screen.picture.pixels[i] != plain.pixels[i]) {
+      ++tinted;
+      EXPECT_EQ(screen.picture.pixels[i], lab::colour_of(lab::Mark::twice));
+    }
+  EXPECT_EQ(tinted, wrong(session));
+  type(session, "<enter>");
+  EXPECT_TRUE(session.state().magnifier);
+  EXPECT_NE(session.state().message.find("wrong pixel at"), std::string::npos);
+  const std::string first = session.state().message;
+  type(session, "<enter>");
+  EXPECT_NE(session.state().message, first);
+  type(session, "z<enter>");
+  EXPECT_EQ(session.state().message, "no wrong pixel");
+  type(session, "e<enter>");
+  EXPECT_NE(session.state().message.find("no errors are counted"), std::string::npos);
+}
+
+TEST(Viewer, TheGlassShowsSinglePixels) {
+  Session session = session_of("cube");
+  const Image plain = type(session, kNoOverlay).picture;
+  session.press(key_of('g'));
+  session.point({120, 80}, false);
+  const Image glass = session.draw(kTestSize, kTestCell).picture;
+  const int side = glass_side(kTestSize);
+  const auto at = [](const Image& image, int x, int y) {
+    return image.pixels[static_cast<std::size_t>(y * image.width + x)];
+  };
+  EXPECT_EQ(at(glass, kTestSize.width - side / 2 - 1, kTestSize.height - side / 2 - 1), at(plain, 120, 80));
+  EXPECT_EQ(at(glass, 2, 2), at(plain, 2, 2));
+}
+
+TEST(Viewer, LooksWhereItIsDragged) {
+  Session session = session_of("cube");
+  const Image home = type(session, kNoOverlay).picture;
+  const float yaw = session.world().scene()->camera.yaw, pitch = session.world().scene()->camera.pitch;
+  session.point({100, 80}, false);
+  EXPECT_EQ(session.draw(kTestSize, kTestCell).picture.pixels, home.pixels);
+  session.point({120, 70}, true);
+  EXPECT_LT(session.world().scene()->camera.yaw, yaw);  // to the right
+  EXPECT_GT(session.world().scene()->camera.pitch, pitch);
+  EXPECT_NE(session.draw(kTestSize, kTestCell).picture.pixels, home.pixels);
+  EXPECT_EQ(type(session, "0").picture.pixels, home.pixels);
+  type(session, "<up><left>");
+  EXPECT_GT(session.world().scene()->camera.yaw, yaw);
+  EXPECT_GT(session.world().scene()->camera.pitch, pitch);
+  for (int i = 0; i < 40; ++i) session.point({100, 80 - i * 100}, true);
+  EXPECT_LE(session.world().scene()->camera.pitch, 1.5708f);
+}
+
+TEST(Viewer, MovesAlongTheViewOrTheWorld) {
+  Session session = session_of("cube");
+  type(session, "");
+  const glm::vec3 home = session.world().scene()->camera.position;
+  const auto moved = [&](std::string_view keys) {
+    type(session, keys);
+    const glm::vec3 by = session.world().scene()->camera.position - home;
+    type(session, "0");
+    return by;
+  };
+  EXPECT_LT(moved("w").z, -0.05f);
+  EXPECT_LT(moved("w").y, -0.01f);  // it looks down
+  EXPECT_GT(moved("d").x, 0.05f);
+  EXPECT_LT(moved("<shift>").y, -0.05f);
+  EXPECT_EQ(moved("c"), moved("<shift>"));
+  type(session, "m");
+  EXPECT_LT(moved("w").z, -0.05f);
+  EXPECT_EQ(moved("w").y, 0.0f);
+  EXPECT_EQ(moved("<space>").z, 0.0f);
+  const float slow = moved("<space>").y;
+  EXPECT_GT(moved("44<space>").y, 2.0f * slow);
+  // All keys at once, and none after they are let go.
+  for (const char key : {'w', 'd'}) session.press(key_of(key));
+  EXPECT_FALSE(session.still());
+  session.release_all();
+  EXPECT_TRUE(session.still());
+}
+
+TEST(Viewer, TurnsObjectsAboutAnyAxis) {
+  Session session = session_of("cube");
+  const Image home = type(session, kNoOverlay).picture;
+  EXPECT_NE(type(session, "r<1>").picture.pixels, home.pixels);
+  type(session, "f");
+  const float angle = session.state().angle;
+  EXPECT_GT(angle, 0.5f);
+  type(session, "<2>");
+  EXPECT_EQ(session.state().angle, angle);
+  EXPECT_EQ(type(session, "0").picture.pixels, home.pixels);
+  type(session, "fr");  // no longer frozen, no longer turning
+  // About the line of sight everything keeps its distance: the middle of the cube stays where it is.
+  type(session, "l,,,");
+  EXPECT_LT(session.state().angle, 0.0f);
+  const glm::vec3 seen = lab::line_of_sight(session.world().scene()->camera);
+  EXPECT_EQ(session.state().axis, seen);
+  const glm::mat4 model = model_matrix(session.world().scene()->instances[0]);
+  EXPECT_NEAR(glm::length(glm::vec3(model[3])), 0.0f, 1e-5f);
+  EXPECT_NEAR(glm::determinant(glm::mat3(model)), 1.0f, 1e-5f);
+  EXPECT_NE(type(session, "").picture.pixels, home.pixels);
+}
+
+TEST(Viewer, ComparesTwoSides) {
+  Session session = session_of("cubes");
+  const Screen& halves = type(session, std::string(kNoOverlay) + "v");
+  const Image left = rendered("cubes", Cull::back, {kTestSize.width / 2, kTestSize.height});
+  for (int y = 0; y < kTestSize.height; ++y)
+    for (int x = 0; x < kTestSize.width; ++x)
+      ASSERT_EQ(halves.picture.pixels[static_cast<std::size_t>(y * kTestSize.width + x)],
+                left.pixels[static_cast<std::size_t>(y * left.width + x % left.width)]);
+  type(session, "<tab>z<backspace><backspace>");
+  EXPECT_TRUE(session.side(0).choice.ours());
+  EXPECT_EQ(session.side(1).choice.visibility->info.name, "submission_order");
+  EXPECT_EQ(session.side(0).judgement->wrong, 0u);
+  EXPECT_GT(session.side(1).judgement->wrong, 100u);
+  const Screen& apart = type(session, "v");
+  std::uint64_t red = 0;
+  for (const std::uint32_t pixel : apart.picture.pixels)
+    red += (pixel & 0xFFFFFFu) != 0 && (pixel & 0xFFFF00u) == 0;
+  EXPECT_EQ(red, session.state().differing);
+  EXPECT_GT(red, 100u);
+  type(session, "<enter>");
+  EXPECT_NE(session.state().message.find("first difference"), std::string::npos);
+  type(session, "v<tab>");
+  EXPECT_NE(session.state().message.find("one side only"), std::string::npos);
+}
+
+TEST(Viewer, CullsEachSideAlone) {
+  constexpr app::Size kHalf{kTestSize.width / 2, kTestSize.height};
+  Session session = session_of("cubes");
+  const Screen& screen = type(session, std::string(kNoOverlay) + "v<tab>12");
+  const Image left = rendered("cubes", Cull::back, kHalf), right = rendered("cubes", Cull::front, kHalf);
+  const auto row_of = [](const Image& image, int x) { return image.pixels.begin() + 80 * image.width + x; };
+  EXPECT_TRUE(std::equal(row_of(left, 0), row_of(left, kHalf.width), row_of(screen.picture, 0)));
+  EXPECT_TRUE(std::equal(row_of(right, 0), row_of(right, kHalf.width), row_of(screen.picture, kHalf.width)));
+  EXPECT_EQ(session.side(0).stats.culled, session.side(1).stats.emitted);
+  const Screen& full = session.draw({900, 600}, kTestCell);
+  EXPECT_FALSE(says(full, "diorama"));
+  type(session, "o", {900, 600});
+  EXPECT_TRUE(says(session.draw({900, 600}, kTestCell), "diorama"));
+  EXPECT_TRUE(says(session.draw({900, 600}, kTestCell), "back faces culled"));
+  EXPECT_TRUE(says(session.draw({900, 600}, kTestCell), "er than the first side"));
+}
+
+TEST(Viewer, PutsNamedMethodsAtTheirStages) {
+  Session session = session_of("cubes");
+  type(session, "<float_lt><none><painter_mean>v<tab><normal_z>");
+  const lab::Choice first = session.side(0).choice, second = session.side(1).choice;
+  EXPECT_EQ(describe(first), "none + float_lt + painter_mean");
+  EXPECT_EQ(describe(second), "normal_z");
+  EXPECT_TRUE(session.side(1).judgement);
+  EXPECT_NE(message_of([&] { session.choose("float"); }).find("'float'"), std::string::npos);
+}
+
+TEST(Viewer, TakesTheStepsOfADemonstration) {
+  constexpr Step kSteps[] = {{"2", "Nothing is culled."}, {"v<tab><float_lt>", "Another test on the right."}};
+  Start start = start_with(find_scene("cubes").make({}), Cull::back);
+  start.steps = kSteps;
+  Session session(std::move(start));
+  EXPECT_FALSE(says(type(session, ""), "culled."));
+  EXPECT_TRUE(says(type(session, "5"), "Nothing is culled."));
+  EXPECT_EQ(session.side(0).stats.culled, 0u);
+  const Screen& screen = type(session, "5");
+  EXPECT_TRUE(says(screen, "Another test on the right."));
+  EXPECT_EQ(session.side(1).choice.coverage->info.name, "float_lt");
+  type(session, "5");
+  EXPECT_EQ(session.state().message, "that was the last step");
+  Session none = session_of("cubes");
+  type(none, "5");
+  EXPECT_NE(none.state().message.find("only demonstrations"), std::string::npos);
+}
+
+TEST(Viewer, BreaksWhatToNoticeAtBlanks) {
+  Session session = session_of("cubes");
+  type(session, "");
+  session.say("twenty-one letters in and a good deal more to be read than one line of this screen has");
+  const Screen& screen = type(session, "");
+  EXPECT_EQ(screen.texts.front().words.size() > 20, true);
+  std::string all;
+  int lines = 0;
+  for (const Text& text : screen.texts)
+    if (text.colour == screen.texts.front().colour) {
+      all += (all.empty() ? "" : " ") + text.words;
+      EXPECT_EQ(text.y, lines++ * kTestCell.height);
+    }
+  EXPECT_EQ(all, session.state().notice);
+  EXPECT_GT(lines, 2);
+}
+
+TEST(Viewer, ShowsNothingThatDiffersWhereItIsToBeReproducible) {
+  const auto seen = [](int threads, SimdTarget target, std::string_view keys) {
+    Start start = start_with(find_scene("cubes").make({}), Cull::back);
+    start.reproducible = true;
+    start.execution.threads = threads;
+    start.execution.target = target;
+    Session session(std::move(start));
+    Screen screen = type(session, keys, {900, 600});
+    paint(screen, 1);
+    return screen.picture.pixels;
+  };
+  for (const std::string_view keys : {"r<1>", "r<1>o", "r<1>v<tab><float_lt>g"}) {
+    const auto first = seen(1, SimdTarget::scalar, keys);
+    EXPECT_EQ(first, seen(3, SimdTarget::best, keys)) << keys;
+    EXPECT_EQ(first, seen(1, SimdTarget::scalar, keys)) << keys;
+  }
+}
+
+TEST(Film, ShowsFramesAsTimeGoesBy) {
+  Session session = session_of("cube");
+  const auto strokes = parse_keys("r<1>");
+  EXPECT_NEAR(seconds_of(strokes), 1.1, 1e-12);
+  std::vector<float> angles;
+  Film film(session, kTestSize, kTestCell, 0.25, [&](Screen& screen) {
+    EXPECT_EQ(screen.picture.width, kTestSize.width);
+    angles.push_back(session.state().angle);
+  });
+  film.type(strokes);
+  ASSERT_EQ(angles.size(), 4u);
+  for (std::size_t i = 1; i < 4; ++i) EXPECT_NEAR(angles[i] - angles[i - 1], angles[0], 1e-5f);
+  film.type(parse_keys("<0.15>"));
+  EXPECT_EQ(angles.size(), 5u);
+}
+
+TEST(Viewer, SavesWhatRendersTheSameAndReplacesNothing) {
+  const TempDir folder;
+  folder.write("test-0001.png", "older");
+  folder.write("test-0002.tri", "older");
+  Start start = start_with(find_scene("cubes").make({}), Cull::back);
+  start.folder = folder.path();
+  Session session(std::move(start));
+  type(session, std::string(kNoOverlay) + "w<left>p");
+  const auto saved = session.take_saved();
+  ASSERT_EQ(saved,
+            (std::vector<std::string>{folder.path() / "test-0003.png", folder.path() / "test-0003.tri"}));
+  EXPECT_TRUE(session.take_saved().empty());
+  EXPECT_EQ(file_content(folder.path() / "test-0001.png"), "older");
+  EXPECT_EQ(folder.count(), 4u);
+  const Image picture = read_image(saved[0]);
+  EXPECT_EQ(picture.pixels, session.draw(kTestSize, kTestCell).picture.pixels);
+  Session replay = session_of(read_tri(saved[1]), Cull::none);
+  EXPECT_EQ(type(replay, kNoOverlay).picture.pixels, picture.pixels);
+}
+
+TEST(Viewer, SaysWhenItCannotSave) {
+  Start start = start_with(find_scene("cube").make({}), Cull::back);
+  start.folder = "/proc/none";
+  Session session(std::move(start));
+  EXPECT_TRUE(says(type(session, "p"), "not saved"));
+  EXPECT_TRUE(session.take_saved().empty());
+}
+
+TEST(Viewer, LabelsVerticesAndAxes) {
+  Session session = session_of("cube");
+  const Screen& screen = type(session, "t", {400, 300});
+  for (int i = 0; i < 8; ++i) EXPECT_TRUE(says(screen, std::to_string(i)));
+  for (const char* letter : {"x", "y", "z"}) EXPECT_TRUE(says(screen, letter));
+  Session knot = session_of("torus-knot");
+  type(knot, "t");
+  EXPECT_TRUE(says(knot.draw({900, 600}, kTestCell), "too many for labels"));
+}
+
+// Three quads: one before the eye and turned to it, one that turns its back, one behind the eye; and a floor
+// that passes under it.
+TEST(Viewer, TellsOfEachFaceWhatBecameOfIt) {
+  constexpr app::Size kLarge{640, 480};
+  Scene scene;
+  const auto add = [&](glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d) {
+    Mesh mesh{{a, b, c, d}, {}, {}};
+    mesh.add_quad({0, 1, 2, 3}, rgb(200, 200, 200));
+    scene.instances.push_back({.mesh = scene.meshes.size()});
+    scene.meshes.push_back(std::move(mesh));
+  };
+  add({-1, 1, -4}, {1, 1, -4}, {1, 0, -4}, {-1, 0, -4});
+  add({1, 1, -5}, {-1, 1, -5}, {-1, 0, -5}, {1, 0, -5});
+  add({-1, 1, 4}, {1, 1, 4}, {1, 0, 4}, {-1, 0, 4});
+  add({-9, -1, -9}, {9, -1, -9}, {9, -1, 9}, {-9, -1, 9});
+  Session session = session_of(scene);
+  EXPECT_FALSE(says(session.draw(kLarge, kTestCell), "active"));
+  EXPECT_TRUE(says(type(session, "7", kLarge), "a b - c"));
+  EXPECT_TRUE(says(session.draw(kLarge, kTestCell), "a 1 active, c 1 clipped, b 1 culled"));
+  const auto letters = [&](const Screen& screen, std::string_view letter) {
+    return std::count_if(screen.texts.begin(), screen.texts.end(),
+                         [&](const Text& text) { return text.words == letter; });
+  };
+  EXPECT_EQ(letters(session.draw(kLarge, kTestCell), "a"), 1);
+  EXPECT_EQ(letters(session.draw(kLarge, kTestCell), "b"), 1);
+  EXPECT_EQ(letters(session.draw(kLarge, kTestCell), "-"), 0) << "behind the eye";
+  EXPECT_TRUE(says(type(session, "2", kLarge), "a a - c"));
+  // The same by a facing test of the laboratory, which knows no clipping.
+  EXPECT_TRUE(says(type(session, "2<normal_dot_eye>", kLarge), "a b - c"));
+  EXPECT_TRUE(says(type(session, "<screen_linear>", kLarge), "not known"));
+  EXPECT_FALSE(says(type(session, "7", kLarge), "[7]"));
+  scene.meshes[1].marks = {kTwoSided, kTwoSided | kSecondHalf};
+  Session two_sided = session_of(scene);
+  EXPECT_TRUE(says(type(two_sided, "7", kLarge), "a A - c"));
+  EXPECT_FALSE(says(type(two_sided, "v", {12, 1000}), "a A")) << "no room for a letter";
+  Session knot = session_of("torus-knot");
+  EXPECT_TRUE(says(type(knot, "7", kLarge), "active"));
+  EXPECT_TRUE(says(knot.draw(kLarge, kTestCell), "too many for a letter each"));
+}
+
+TEST(Viewer, HelpsWithEveryKeyOnAsManyPagesAsItTakes) {
+  for (const app::Size size : {app::Size{320, 200}, app::Size{1280, 720}, app::Size{120, 60}}) {
+    Session session = session_of("cube");
+    std::set<std::string> seen;
+    type(session, "h", size);
+    int pages = 0;
+    for (; session.state().help_page != 0; ++pages) {
+      for (const Text& text : session.draw(size, kTestCell).texts) seen.insert(text.words.substr(0, 9));
+      type(session, "h", size);
+    }
+    for (const KeyRow& row : key_table())
+      EXPECT_TRUE(
+          std::any_of(seen.begin(), seen.end(),
+                      [&](const std::string& line) { return line.starts_with(row.keys.substr(0, 5)); }))
+          << row.keys << " at " << size.width;
+    EXPECT_EQ(pages == 1, size.height == 720);
+  }
+}
+
+TEST(Viewer, FitsAnySize) {
+  const TempDir folder;
+  for (const app::Size size : {app::Size{1, 1}, app::Size{2, 3}, app::Size{33, 9}, app::Size{320, 200},
+                               app::Size{700, 20}, app::Size{20, 700}}) {
+    Start start = start_with(find_scene("cube").make({}), Cull::back);
+    start.folder = folder.path();
+    Session session(std::move(start));
+    for (const char* keys : {"egt", "v", "<tab>bbb", "v<enter>", "ohp"}) {
+      const Screen& screen = type(session, keys, size);
+      ASSERT_EQ(screen.picture.pixels.size(), static_cast<std::size_t>(size.width * size.height));
+      Screen copy = screen;
+      paint(copy, 1);
+    }
+  }
+}
+
+TEST(Viewer, WaitsWithTheCountWhereItWouldCostFrames) {
+  Session session = session_of("cubes");
+  type(session, "ur");  // turning
+  EXPECT_FALSE(session.still());
+  for (int i = 0; i < 3; ++i) {
+    session.advance(0.02);
+    session.draw(kTestSize, kTestCell);
+    const Side& side = session.side(0);
+    const bool in_time = side.frontend_ms + side.raster_ms + side.judging_ms < 5.0;
+    if (in_time) {
+      EXPECT_EQ(side.judged, session.state().version);
+    }
+  }
+  type(session, "f");
+  EXPECT_EQ(session.side(0).judged, session.state().version);
+}
+
+TEST(Viewer, TimesNoColdFrame) {
+  static constexpr double kLoading_ms = 300;
+  Start start = start_with(find_scene("cube").make({}), Cull::back);
+  start.load = [load = start.load](app::Size size) {
+    std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(kLoading_ms));
+    return load(size);
+  };
+  Session session(std::move(start));
+  session.draw(kTestSize, kTestCell);
+  const double frame_ms = session.state().frame_ms;
+  EXPECT_GT(frame_ms, 0.0);
+  EXPECT_LT(frame_ms, kLoading_ms);
+  EXPECT_FALSE(says(session.draw({900, 600}, kTestCell), " 0.0 ms a frame"));
+}
+
+TEST(Viewer, QuitsByEitherKey) {
+  for (const char* key : {"q", "<escape>"}) {
+    Session session = session_of("cube");
+    EXPECT_FALSE(session.done());
+    type(session, key);
+    EXPECT_TRUE(session.done());
+  }
+}
+
+TEST(LitColours, AreTheFrontEndsOwn) {
+  const Drawable drawable = find_scene("cubes").make({200, 100, 1.0f});
+  const auto lit = lit_colours(std::get<Scene>(drawable));
+  FrontendOptions options;
+  options.width = 200, options.height = 100, options.cull = Cull::none;
+  Frontend by_colour, by_id;
+  const auto colours = by_colour.run(drawable, options);
+  options.payload = Payload::id;
+  const auto ids = by_id.run(drawable, options);
+  ASSERT_EQ(colours.size(), ids.size());
+  EXPECT_GT(ids.size(), 50u);
+  for (std::size_t i = 0; i < ids.size(); ++i) EXPECT_EQ(lit.at(ids[i].payload), colours[i].payload);
+}
+
+}  // namespace
+}  // namespace edgewise::viewer
