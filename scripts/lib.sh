@@ -87,21 +87,27 @@ duration() {
   if (($1 < 60)); then echo "$1 s"; else echo "$(($1 / 60)) min $(($1 % 60)) s"; fi
 }
 
-# Of the lists in scripts/ that are named; packages.txt is what everything needs.
+# listed_packages LIST…: the packages in scripts/packages/LIST.txt, one a line.
+listed_packages() {
+  local list
+  for list in "$@"; do cat "$root/scripts/packages/$list.txt"; done
+}
+
+# missing_packages LIST…: those of the packages that are not installed.
 missing_packages() {
   local package status
   while read -r package; do
     status=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)
     [[ $status == installed ]] || echo "$package"
-  done < <(cd "$root/scripts" && cat "$@")
+  done < <(listed_packages "$@")
 }
 
-# set_up install|list [LIST…]: brings in what is missing, of packages.txt and further lists, or only says how to.
+# set_up install|list [LIST…]: installs the missing packages of base.txt and of further lists, or only names them.
 set_up() {
-  local -a lists=(packages.txt "${@:2}")
+  local -a lists=(base "${@:2}")
   if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
     echo "No apt-get here. These Debian packages, or their like, must be installed:"
-    echo "  $(cd "$root/scripts" && cat "${lists[@]}" | paste -sd' ')"
+    echo "  $(listed_packages "${lists[@]}" | paste -sd' ')"
     return
   fi
   local -a missing as_root=()

@@ -1,0 +1,187 @@
+"""What accuracy teaches, as sentences for the README and the summary."""
+from accuracy_rows import FAMILIES
+from speedups import about, kernels
+from stability_curves import tidy
+from tables import number
+
+
+def listed(names):
+    names = [f"`{name}`" for name in names]
+    return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
+
+
+def scenes_with_errors(accuracy, family):
+    """In how many scenes each method errs."""
+    return {method.name: sum(m.rate > 0 for scene in accuracy.of(family) for m in scene.measured if m.method == method)
+            for method in accuracy.methods[family]}
+
+
+def rates_together(accuracy, family):
+    """Errors per 10⁶ of each method, all scenes taken together."""
+    rates = {}
+    for method in accuracy.methods.get(family, ()):
+        found = [(m.rate * scene.trials, scene.trials) for scene in accuracy.of(family)
+                 for m in scene.measured if m.method == method]
+        trials = sum(n for _, n in found)
+        if trials:
+            rates[method.name] = sum(errors for errors, _ in found) / trials
+    return rates
+
+
+def exact_sentence(accuracy):
+    rates = [(m.snapped_rate, m.method.name) for scene in accuracy.of("coverage") for m in scene.measured if m.method.exact]
+    names = list(dict.fromkeys(name for _, name in rates))
+    scenes = len(accuracy.of("coverage"))
+    if not rates:
+        return "No exact method was judged."
+    wrong = [name for name in names if any(rate > 0 for rate, of in rates if of == name)]
+    if wrong:
+        return f"**{listed(wrong)} promise exact coverage and err** given the snapped positions."
+    return f"Given positions snapped to 1/256 px, {listed(names)} cover no wrong pixel in {scenes} scenes."
+
+
+def numbered(count, noun):
+    return f"{count:,.0f} {noun}{'' if count == 1 else 's'}"
+
+
+def before_snapping_clause(accuracy, name):
+    """That a method errs less than ours against positions before snapping, all scenes pooled; empty where it doesn't."""
+    rates = rates_together(accuracy, "coverage")
+    ours = [rates[m.name] for m in accuracy.methods.get("coverage", ()) if m.ours and m.name in rates]
+    if not ours or name not in rates or rates[name] >= min(ours):
+        return ""
+    return (f"Against the positions before snapping, `{name}` errs less than ours: {number(rates[name])} wrong pixels per 10⁶ "
+            f"edge crossings against {number(min(ours))}, all {len(accuracy.of('coverage'))} scenes pooled. Ours round "
+            "vertices to 1/256 px.")
+
+
+def fastest(measured):
+    """By the median on one thread; and those whose range of repetitions overlaps its own."""
+    first = min(measured, key=lambda m: m.costs[1].ns)
+    return first, [m for m in measured if m is not first and m.costs[1].overlaps(first.costs[1])]
+
+
+def compared(ours, other, machine):
+    """"`tiled` with AVX-512 is 4.1× faster than `dda_16_16` in scalar code", and whether that is settled."""
+    ours_ns, other_ns = ours.costs[1].ns, other.costs[1].ns
+    ratio, word = (other_ns / ours_ns, "faster") if ours_ns <= other_ns else (ours_ns / other_ns, "slower")
+    open_question = " (ranges overlap: not settled)" if ours.costs[1].overlaps(other.costs[1]) else ""
+    return (f"`{ours.method.name}` with {kernels(machine.get('simd_best'))} is {about(ratio)} {word} than "
+            f"`{other.method.name}` in scalar code{open_question}")
+
+
+def sides(scene):
+    """What was timed on one thread of ours, and of the others; None where one is missing."""
+    ours, others = ([m for m in scene.single if m.method.ours == whose] for whose in (True, False))
+    return (ours, others) if ours and others else None
+
+
+def cost_sentence(scene, machine):
+    """Our fastest against the fastest other, and the price of its rule without SIMD; empty where not timed."""
+    if not (found := sides(scene)):
+        return ""
+    ours, others = found
+    first, other = fastest(ours)[0], fastest(others)[0]
+    text = f"On `{scene.name}` and one thread, {compared(first, other, machine)}, the fastest other"
+    exact = [m for m in others if m.method.exact and m is not other]
+    if exact:
+        same = fastest(exact)[0]
+        settled = "" if not same.costs[1].overlaps(other.costs[1]) else " (not settled)"
+        text += (f"; our rule in scalar code (`{same.method.name}`) is {about(same.costs[1].ns / other.costs[1].ns)} "
+                 f"slower than that{settled}")
+    return text + "."
+
+
+def leader(measured, unit, role):
+    """"`tiled` (1.3 ns, 0 wrong per 10⁶) is our fastest; `naive` is too close to call": ranges that overlap."""
+    first, close = fastest(measured)
+    text = f"`{first.method.name}` ({first.costs[1].ns:.2g} {unit}, {number(first.rate)} wrong per 10⁶) is {role}"
+    names = listed(m.method.name for m in close) if len(close) < 4 else f"{len(close)} others"
+    return first, text + (f" ({names} too close to call)" if close else "")
+
+
+def speed_sentence(scene, machine):
+    """Empty where ours or the others were not timed."""
+    if not (found := sides(scene)):
+        return ""
+    ours, others = found
+    unit = FAMILIES[scene.family].cost
+    first, text = leader(ours, unit, f"our fastest, with {kernels(machine.get('simd_best'))}")
+    other, other_text = leader(others, unit, "the fastest other method, in scalar code")
+    text = (f"On `{scene.name}` and one thread, against the positions before snapping: {text}; {other_text}. "
+            f"{compared(first, other, machine)}.")
+    right = [m for m in others if m.rate <= first.rate]
+    if right and other not in right:
+        text += f" {leader(right, unit, f'the fastest other method that errs no more than `{first.method.name}`')[1]}."
+    return text
+
+
+def family_sentence(accuracy, family):
+    """Who errs least, and who most: by how much, and in how many scenes."""
+    rates, erring = rates_together(accuracy, family.name), scenes_with_errors(accuracy, family.name)
+    if not rates:
+        return ""
+
+    def said(rate, how):
+        names = [name for name in rates if rates[name] == rate]
+        counts = sorted({erring[name] for name in names})
+        scenes = " to ".join(map(str, counts[:1] + counts[-1:] if len(counts) > 1 else counts))
+        return f"{listed(names)} err{'' if len(names) > 1 else 's'} {how}, {number(rate)} (in {scenes} of {total})"
+
+    total = len(accuracy.of(family.name))
+    truth = {"float": ", against the positions before snapping", "snapped": ", given the snapped positions"}
+    least, most = (said(pick(rates.values()), how) for pick, how in ((min, "least"), (max, "most")))
+    return (f"{family.name.capitalize()} ({family.errors}, {total} scenes pooled{truth.get(family.truths[0], '')}): "
+            f"{least}; {most}.")
+
+
+def cube_sentence(accuracy):
+    if not accuracy.cube:
+        return ""
+
+    def worst(found):
+        return [found[key][1] for key in ("gaps", "double_hits")]
+
+    rows = [(method.name, found) for method, found in accuracy.cube["methods"]]
+    clean = [name for name, found in rows if worst(found["snapped"]) == [0, 0]]
+    name, found = max(rows, key=lambda row: sum(worst(row[1])))
+    gaps, doubles = worst(found)
+    return (f"In {accuracy.cube['frames']:,} frames of the turning cube, given the snapped positions, "
+            f"{listed(clean) or 'no method'} left no gap and hit no pixel twice. Against the positions before snapping, "
+            f"`{name}` is the worst, with up to {gaps:,.0f} gaps and up to {doubles:,.0f} double hits in a frame.")
+
+
+def most_errors(sweep, curve):
+    worst = max(y for _, y in curve.points)
+    return number(worst) + (" %" if sweep.y["name"].endswith("%") else "")
+
+
+def ours_fail_sentence(sweeps, accuracy):
+    """Where ours err: as much as rounding to 1/256 px does by itself, and where more."""
+    names = {(family, m.name) for family, methods in accuracy.methods.items() for m in methods if m.ours}
+    own = [(sweep, [curve for curve in sweep.curves if (sweep.family, curve.method) in names]) for sweep in sweeps]
+    own = [(sweep, curves) for sweep, curves in own if curves]
+    if not own:
+        return ""
+    alike = [(sweep, curves[0]) for sweep, curves in own
+             if all(tuple(y for _, y in curve.points) == sweep.by_snapping for curve in curves)]
+    rounding = [f"up to {most_errors(sweep, curve)} in `{sweep.name}` ({what(sweep)})" for sweep, curve in alike
+                if max(sweep.by_snapping) > 0]
+    more = [f"`{sweep.name}` ({sweep.idea}): `{curve.method}` from {tidy(curve.starts_to_fail)}, up to "
+            f"{most_errors(sweep, curve)} {what(sweep)}"
+            for sweep, curves in own for curve in curves if curve.starts_to_fail is not None]
+    text = (f"In {len(alike)} of {len(own)} sweeps ours err exactly as much as rounding to 1/256 px does by itself: "
+            + ("; ".join([*rounding, "0 in the others"]) if rounding else "0 in all") + ".")
+    return text + (f" They err more in {'; '.join(more)}." if more else "")
+
+
+def what(sweep):
+    """What a sweep's figures count."""
+    return sweep.y["name"].replace("10^6", "10⁶").removesuffix(", %")
+
+
+def accuracy_sentences(accuracy):
+    speeds = [speed_sentence(scene, accuracy.machine) for _, scene in accuracy.main_charts("coverage")]
+    found = [exact_sentence(accuracy), before_snapping_clause(accuracy, "float_lt"), *(speeds if any(speeds) else ["Speed was not measured."]),
+             *(family_sentence(accuracy, family) for family in FAMILIES.values()), cube_sentence(accuracy)]
+    return [sentence for sentence in found if sentence]

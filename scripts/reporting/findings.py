@@ -1,0 +1,93 @@
+"""The findings on README's first screen: what the results say, each in a sentence or two."""
+from accuracy_findings import before_snapping_clause, cost_sentence, listed, numbered
+from bench_rows import order
+from speedups import kernels, outcome, spread, with_width
+from peers import OURS, pairs
+from tables import THREADS, number
+
+# The tutorials' inside tests, and the scene whose shared edges run through pixel centres.
+TUTORIAL_TESTS = ("float_lt", "float_le")
+CENTRED_SCENE = "mesh_on_grid"
+
+
+def speed_finding(bench):
+    """Parallel or scanline? Over the scenes that all backends drew, on the most threads."""
+    threads = max(THREADS)
+    drawn = [{b: row for b in (OURS, "scanline", "naive") if (row := bench.find(f"{b}/{scene}/threads:{threads}"))}
+             for scene in bench.scenes]
+    drawn = [rows for rows in drawn if len(rows) == 3]
+    if not drawn:
+        return ""
+    text = (f"**Parallel or scanline?** On {threads} threads, with {kernels(bench.context.get('simd_target'))} in all backends, "
+            f"`{OURS}` {outcome([(rows[OURS], rows['scanline']) for rows in drawn], 'scenes against `scanline`')}.")
+    boxed = [(rows["naive"], min(rows[OURS], rows["scanline"], key=lambda row: row.median_ms)) for rows in drawn]
+    slower = [slow.median_ms / fast.median_ms for slow, fast in boxed if order(fast, slow) < 0]
+    if slower:
+        text += (f" `naive`, which tests every pixel of the bounding box, is {spread(slower)} slower than the faster of the "
+                 f"two on {len(slower)} of {len(drawn)} scenes.")
+    return text
+
+
+def turned(name, cube):
+    """What a method does to the turning cube: "leaves 3 gaps and hits 2 pixels twice"."""
+    gaps, doubles = (cube[name][key] for key in ("total_gaps", "total_double_hits"))
+    said = [*([f"leaves {numbered(gaps, 'gap')}"] if gaps else []),
+            *([f"draws {numbered(doubles, 'pixel')} twice"] if doubles else [])]
+    return f"`{name}` {' and '.join(said) or 'errs nowhere'}"
+
+
+def crack_finding(accuracy):
+    """Gaps between neighbours: on the turning cube, and where edges run through pixel centres."""
+    if accuracy is None:
+        return ""
+    sentences = []
+    if accuracy.cube:
+        cube = {method.name: found for method, found in accuracy.cube["methods"]}
+        ours = [method.name for method, _ in accuracy.cube["methods"] if method.ours]
+        tests = [turned(name, cube) for name in TUTORIAL_TESTS if name in cube]
+        wrong = sum(cube[name][key] for name in ours for key in ("total_gaps", "total_double_hits"))
+        if tests and ours:
+            sentences.append(f"In {accuracy.cube['frames']:,} frames of the tutorials' cube {', '.join(tests)}; "
+                             + (f"{listed(ours)} do neither." if wrong == 0 else f"ours err at {numbered(wrong, 'pixel')}."))
+    scene = next((s for s in accuracy.of("coverage") if s.name == CENTRED_SCENE), None)
+    measured = {m.method.name: m for m in scene.measured} if scene else {}
+    tests = [measured[name] for name in TUTORIAL_TESTS if name in measured]
+    ours = [m for m in measured.values() if m.method.ours]
+    if tests and ours:
+        wrong = " and ".join(f"{number(m.rate)} (`{m.method.name}`)" for m in tests)
+        sentences.append(f"Where edges run through pixel centres (`{scene.name}`), those tests get {wrong} pixels wrong per 10⁶ "
+                         f"edge crossings, ours {number(max(m.rate for m in ours))}.")
+    return f"**Gaps when the cube turns?** {' '.join(sentences)}" if sentences else ""
+
+
+def exactness_finding(accuracy):
+    """What it costs to be exact: errors against unsnapped positions, and time."""
+    if accuracy is None:
+        return ""
+    scene = next((s for s in accuracy.of("coverage") if s.name == CENTRED_SCENE), None)
+    sentences = [before_snapping_clause(accuracy, TUTORIAL_TESTS[0]), cost_sentence(scene, accuracy.machine) if scene else ""]
+    return " ".join(["**What does exactness cost?**", *filter(None, sentences)]) if any(sentences) else ""
+
+
+def peer_finding(bench):
+    texts = []
+    for peer in bench.peers:
+        sentences = []
+        for target, found in ((bench.context.get("simd_target"), pairs(bench)), ("avx2", pairs(bench, "avx2"))):
+            of = [p for (name, _, threads), p in found.items() if name == peer and threads == max(THREADS)]
+            said = [outcome([(p.ours, p.peer) for p in of if p.peer.frontend == whole], what) for whole, what in
+                    ((True, "meshes from vertices to picture"), (False, "streams from screen triangles to picture"))
+                    if any(p.peer.frontend == whole for p in of)]
+            if said:
+                sentences.append((with_width(target), "; it ".join(said)))
+        if sentences:
+            (width, said), *narrower = sentences
+            text = (f"**Against {peer}** ({bench.context.get(peer, 'unknown version')}): on {max(THREADS)} threads, `{OURS}` with "
+                    f"{width}, {said}.")
+            texts.append(" ".join([text, *(f"With {width} it {said}." for width, said in narrower)]))
+    return " ".join(texts)
+
+
+def findings(bench, accuracy):
+    found = speed_finding(bench), crack_finding(accuracy), exactness_finding(accuracy), peer_finding(bench)
+    return [text for text in found if text]

@@ -1,0 +1,102 @@
+"""Compares the rows of other projects' rasterizers with ours: the same scene, work and number of threads."""
+from dataclasses import dataclass
+
+from bench_rows import Row, order
+from speedups import mark, with_width
+from tables import THREADS, milliseconds
+
+OURS = "tiled"  # the one backend that stands for ours
+
+
+@dataclass
+class Pair:
+    peer: Row
+    ours: Row
+
+    @property
+    def ratio(self):
+        """How many times faster ours is."""
+        return self.peer.median_ms / self.ours.median_ms
+
+    @property
+    def settled(self):
+        return order(self.ours, self.peer) != 0
+
+
+def pair(bench, peer, scene, threads, target=None):
+    """None where one side was not timed. Peers draw meshes as whole frames only, so ours are compared as such; with the
+    kernels of `target`, or the widest."""
+    kernels = f"target:{target}/" if target else ""
+    for with_frontend in ("", "+frontend"):
+        row = bench.find(f"{peer}{with_frontend}/{scene}/threads:{threads}")
+        ours = bench.find(f"{OURS}{with_frontend}/{scene}/{kernels}threads:{threads}")
+        if row and ours:
+            return Pair(row, ours)
+    return None
+
+
+def pairs(bench, target=None):
+    """All of them, by (peer, scene, threads)."""
+    keys = ((peer, scene, n) for peer in bench.peers for scene in bench.scenes for n in THREADS)
+    return {key: found for key in keys if (found := pair(bench, *key, target))}
+
+
+def over_backend(bench, found, backend):
+    """How many times faster than the peer of a Pair this one of our backends is; None where it was not timed."""
+    ours = found and bench.find(found.ours.name.replace(found.ours.backend, backend, 1))
+    return found.peer.median_ms / ours.median_ms if ours else None
+
+
+def times(ratio):
+    return f"{ratio:.1f}×" if ratio >= 9.95 else f"{ratio:.2f}×"
+
+
+def with_ratios(bench, header, lines):
+    """A scene table with a further column for each peer, on the most threads."""
+    found = pairs(bench)
+    for peer in dict.fromkeys(peer for peer, _, _ in found):
+        header = [*header, f"{OURS} faster than {peer}"]
+        lines = [[*line, mark(p.ratio, p.settled) if (p := found.get((peer, line[0], max(THREADS)))) else "–"]
+                 for line in lines]
+    return header, lines
+
+
+def peer_table(bench, peer):
+    """Header and lines: one line a scene that the peer drew; a cell has a figure for each number of threads."""
+    widest, narrow = pairs(bench), pairs(bench, "avx2")
+    compared = [(bench.context.get("simd_target"), widest), *([("avx2", narrow)] if any(key[2] == max(THREADS) for key in narrow) else [])]
+    header = ["scene", "draws", f"{peer}, ms", f"{OURS}, ms", *(f"faster with {with_width(target)}" for target, _ in compared)]
+
+    def joined(cells):
+        return " / ".join(cells)
+
+    lines = []
+    for scene in bench.scenes:
+        timed = [widest.get((peer, scene, n)) for n in THREADS]
+        some = next((p for p in reversed(timed) if p), None)
+        if not some:
+            continue
+        cells = [joined(milliseconds(p and p.peer) for p in timed), joined(milliseconds(p and p.ours) for p in timed)]
+        for _, found in compared:
+            cells.append(joined(mark(p.ratio, p.settled) if (p := found.get((peer, scene, n))) else "–" for n in THREADS))
+        lines.append([scene, "mesh" if some.peer.frontend else "screen triangles", *cells])
+    return header, lines
+
+
+def ties_sentence(bench, peer):
+    """Where pictures may differ: pixels at which two triangles are as near up to rounding."""
+    found = [p for (name, _, _), p in pairs(bench).items() if name == peer]
+    most = max(found, key=lambda p: p.peer.counters.get("near_ties", 0))
+    ties = most.peer.counters.get("near_ties", 0)
+    return (f"Figures are for {' / '.join(map(str, THREADS))} threads. A mesh is drawn from vertices to picture. The pictures "
+            + (f"agree in all pixels but depth ties within tolerance, at most {ties:,.0f} (`{most.peer.scene}`)." if ties else
+               "agree in all pixels."))
+
+
+def peer_tables(bench, layout):
+    """Every peer's version and table, laid out by `layout`; one line where no peer was timed."""
+    timed = list(dict.fromkeys(peer for peer, _, _ in pairs(bench)))
+    if not timed:
+        return "No other project's rasterizer was timed here; `scripts/run --peers` does."
+    return "\n\n".join(f"{peer} ({bench.context.get(peer, 'unknown version')}):\n\n{layout(*peer_table(bench, peer))}\n\n"
+                       f"{ties_sentence(bench, peer)}" for peer in timed)

@@ -1,0 +1,199 @@
+"""Charts by scene: time, and what threads, SIMD and culling gain."""
+from statistics import median
+
+from bench_rows import order
+from speedups import about, kernels, spread
+from peers import OURS
+from plot_style import FAINT, INK, Look, headline, log_axis, plt, save
+from tables import NORMAL_Z, culling_rows, pixels_wrong
+
+
+def room_for(names):
+    """Left margin, in figure fractions, for the names of lines."""
+    return 0.1 + 0.0085 * max(0, max(map(len, names)) - 10)
+
+
+def scene_time(bench, folder, caption):
+    """One line a scene, one place a backend: hollow 1 thread, filled 2."""
+    look = Look(bench.backends)
+    scenes = bench.scenes
+    if not scenes:
+        return None
+    figure, axes = plt.subplots(figsize=(10.0, 1.6 + 0.52 * len(scenes)))
+    step = 0.72 / max(1, len(bench.backends))
+    for line, scene in enumerate(scenes):
+        if line % 2:
+            axes.axhspan(line - 0.5, line + 0.5, color="#f6f8fa", zorder=0)
+        for place, backend in enumerate(bench.backends):
+            y = line + (place - (len(bench.backends) - 1) / 2) * step
+            rows = [row for threads in (1, 2) if (row := bench.find(f"{backend}/{scene}/threads:{threads}"))]
+            axes.plot([row.median_ms for row in rows], [y] * len(rows), color=look.colour(backend), linewidth=1.6)
+            for row in rows:
+                axes.plot([row.low_ms, row.high_ms], [y, y], color=look.colour(backend), linewidth=5, alpha=0.2,
+                          solid_capstyle="butt")
+                filled = row.threads > 1
+                axes.plot([row.median_ms], [y], marker=look.marker(backend), markersize=6.5, linestyle="",
+                          color=look.colour(backend), markerfacecolor=look.colour(backend) if filled else "white",
+                          markeredgewidth=1.5)
+    axes.set_xscale("log")
+    log_axis(axes.xaxis)
+    axes.set_yticks(range(len(scenes)), scenes)
+    axes.tick_params(axis="y", length=0)
+    axes.set_ylim(len(scenes) - 0.5, -0.5)
+    axes.grid(axis="y", visible=False)
+    axes.set_xlabel("ms a frame, backend alone, clear included")
+    height = figure.get_figheight()
+    top = headline(figure, "Time per scene", "Screen triangles to finished picture; lower is better. "
+                   "Hollow: 1 thread, filled: 2. Light bar: fastest to slowest repetition.")
+    look.legend(figure, top - 0.02 / height)
+    figure.subplots_adjust(left=room_for(scenes), right=0.975, bottom=0.78 / height, top=top - 0.42 / height)
+    save(figure, folder, "scenes", caption)
+    return "scenes"
+
+
+def ratio_axis(axis, low, high):
+    """A log axis of ratios with round numbers from low to high. Its limits must be set already."""
+    ticks = [step * 10.0 ** k for k in (-2, -1, 0, 1, 2) for step in (1, 1.5, 2, 3, 5, 7) if low <= step * 10.0 ** k <= high]
+    axis.set_ticks([tick for tick in ticks if len(ticks) < 9 or f"{tick:.0e}"[0] in "125"])
+    axis.set_ticks([], minor=True)
+    axis.set_major_formatter(lambda value, _: f"{value:g}×")
+
+
+def ends_of(before, after):
+    """A speed-up's spread: the middle half of the repetitions of one over that of the other."""
+    return before.quarter_ms(1) / after.quarter_ms(3), before.quarter_ms(3) / after.quarter_ms(1)
+
+
+def dots(axes, look, groups, rows_of, hollow_of=None):
+    """A dot a backend for each group, in lines from top to bottom; below each the hollow one of hollow_of, if given.
+    Both give (row before, row after) or None. Returns the least and the largest speed-up."""
+    marks = [(rows_of, True), *([(hollow_of, False)] if hollow_of else [])]
+    step = (0.6 if len(marks) == 1 else 0.76) / max(1, len(look.backends) * len(marks))
+    ends = [1.0]
+    for line, group in enumerate(groups):
+        if line % 2:
+            axes.axhspan(line - 0.5, line + 0.5, color="#f6f8fa", zorder=0)
+        each = [(backend, *mark) for backend in look.backends for mark in marks]
+        for place, (backend, found, filled) in enumerate(each):
+            if not (rows := found(group, backend)):
+                continue
+            y = line + (place - (len(each) - 1) / 2) * step
+            colour = look.colour(backend)
+            ends += ends_of(*rows)
+            axes.plot(ends[-2:], [y, y], color=colour, linewidth=5, alpha=0.25, solid_capstyle="butt")
+            axes.plot([rows[0].median_ms / rows[1].median_ms], [y], marker=look.marker(backend), color=colour, markersize=6.5,
+                      markerfacecolor=colour if filled else "white", markeredgewidth=1.0 if filled else 1.5)
+    axes.axvline(1, color=FAINT, linewidth=1.0)
+    axes.set_yticks(range(len(groups)), groups)
+    axes.tick_params(axis="y", length=0)
+    axes.set_ylim(len(groups) - 0.5, -0.5)
+    axes.grid(axis="y", visible=False)
+    axes.set_xscale("log")
+    low, high = min(ends) / 1.04, max(ends) * 1.04
+    axes.set_xlim(low, high)
+    ratio_axis(axes.xaxis, low, high)
+
+
+def gain_chart(bench, folder, caption, name, groups, rows_of, title, subtitle, label, hollow_of=None, notes=None):
+    """`notes`: what stands on the right of a group."""
+    if not any(rows_of(group, backend) for group in groups for backend in bench.backends):
+        return None
+    look = Look(bench.backends)
+    figure, axes = plt.subplots(figsize=(10.0, 2.2 + (0.85 if hollow_of else 0.4) * len(groups)))
+    dots(axes, look, groups, rows_of, hollow_of)
+    for line, group in enumerate(groups if notes else ()):
+        axes.text(1.012, line, notes[group], transform=axes.get_yaxis_transform(), fontsize=9, color=FAINT, va="center")
+    axes.set_xlabel(label)
+    height = figure.get_figheight()
+    top = headline(figure, title, subtitle)
+    look.legend(figure, top - 0.02 / height)
+    figure.subplots_adjust(left=room_for(groups), right=0.86 if notes else 0.975, bottom=0.78 / height,
+                           top=top - 0.42 / height)
+    save(figure, folder, name, f"Light bars: the middle half of the repetitions.\n{caption}")
+    return name
+
+
+def gains_title(pairs, what):
+    """What the speed-ups say: "The second thread makes 40 of 45 draws faster, 1.9× in the median"."""
+    faster = sum(order(after, before) < 0 for before, after in pairs)
+    middle = median(before.median_ms / after.median_ms for before, after in pairs)
+    return f"{what} faster in {faster} of {len(pairs)} cases; {about(middle)} in the median"
+
+
+def threads(bench, folder, caption):
+    def rows_of(scene, backend):
+        one, two = (bench.find(f"{backend}/{scene}/threads:{n}") for n in (1, 2))
+        return (one, two) if one and two else None
+
+    timed = [rows for scene in bench.scenes for backend in bench.backends if (rows := rows_of(scene, backend))]
+    title = gains_title(timed, "A second thread is") if timed else ""
+    return gain_chart(bench, folder, caption, "threads", bench.scenes, rows_of, title,
+                      "Time on 1 thread over time on 2, backend alone; 2× is ideal.", "speed-up of the second thread")
+
+
+def culling(bench, folder, caption):
+    """By the winding on the screen, and hollow by the z of normals where that was timed."""
+    by_winding, by_normal = culling_rows(bench, "back"), culling_rows(bench, NORMAL_Z)
+
+    def rows_in(rows):
+        return lambda scene, backend: rows.get(scene, {}).get(backend)
+
+    timed = [rows for of in by_winding.values() for rows in of.values()]
+    title = gains_title(timed, "Frames with back faces culled are") if timed else ""
+    told = "Whole frames of closed meshes, front end included: time with all faces over time with back faces culled"
+    if not by_normal:
+        return gain_chart(bench, folder, caption, "culling", list(by_winding), rows_in(by_winding), title, f"{told}.",
+                          "speed-up of culling")
+    notes = {scene: pixels_wrong(bench, scene) if scene in by_normal else "" for scene in by_winding}
+    return gain_chart(bench, folder, caption, "culling", list(by_winding), rows_in(by_winding), title,
+                      f"{told}.\nFilled: by the winding on the screen. Hollow: by the z of normals before projection "
+                      f"({NORMAL_Z}), with the pixels it gets wrong.", "speed-up of culling", rows_in(by_normal), notes)
+
+
+def simd(bench, folder, caption):
+    """Small multiples: speed-up over the slowest target, target by target."""
+    look = Look(bench.backends)
+    rows = [row for row in bench.sweep("target") if row.threads == 1 and not row.frontend]
+    targets = list(dict.fromkeys(row.keys["target"] for row in rows))
+    by_key = {(row.scene, row.backend, row.keys["target"]): row for row in rows}
+    scenes = [scene for scene in dict.fromkeys(row.scene for row in rows)
+              if any((scene, backend, targets[0]) in by_key for backend in bench.backends)]
+    if not scenes or len(targets) < 2:
+        return None
+    figure, panels = plt.subplots(1, len(scenes), sharey=True, squeeze=False, figsize=(10.0, 4.4))
+    ends, widest = [1.0], []
+    for axes, scene in zip(panels[0], scenes):
+        for backend in bench.backends:
+            first = by_key.get((scene, backend, targets[0]))
+            timed = [(place, row) for place, target in enumerate(targets) if (row := by_key.get((scene, backend, target)))]
+            if not first:
+                continue
+            colour = look.colour(backend)
+            for place, row in timed[1:]:
+                ends += ends_of(first, row)
+                axes.plot([place, place], ends[-2:], color=colour, linewidth=5, alpha=0.25, solid_capstyle="butt")
+            axes.plot([place for place, _ in timed], [first.median_ms / row.median_ms for _, row in timed], color=colour,
+                      marker=look.marker(backend), markeredgecolor="white", markeredgewidth=0.6)
+            if backend == OURS:
+                widest.append(first.median_ms / timed[-1][1].median_ms)
+        axes.axhline(1, color=FAINT, linewidth=1.0, zorder=1)
+        axes.set_xticks(range(len(targets)), targets, fontsize=9)
+        axes.set_xlim(-0.2, len(targets) - 0.8)
+        axes.set_title(scene, color=INK)
+        axes.set_yscale("log")
+    low, high = min(ends) / 1.04, max(ends) * 1.04
+    panels[0][0].set_ylim(low, high)
+    ratio_axis(panels[0][0].yaxis, low, high)
+    height = figure.get_figheight()
+    title = (f"{kernels(targets[-1])} makes {OURS} {spread(widest)} as fast as {kernels(targets[0])}" if widest else
+             f"What {kernels(targets[-1])} gains")
+    top = headline(figure, title,
+                   f"Time with {targets[0]} kernels over time with each target's, backend alone, 1 thread; higher is better.\n"
+                   "Light bars: the middle half of the repetitions.")
+    look.legend(figure, top - 0.02 / height)
+    figure.subplots_adjust(left=0.06, right=0.985, bottom=0.6 / height, top=top - 0.72 / height, wspace=0.12)
+    save(figure, folder, "simd", caption)
+    return "simd"
+
+
+CHARTS = (scene_time, threads, simd, culling)

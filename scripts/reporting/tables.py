@@ -1,0 +1,142 @@
+"""The tables made from results: as Markdown for the README, as plain text for the terminal."""
+from bench_rows import order
+from speedups import mark
+
+THREADS = (1, 2)
+NORMAL_Z = "normal_z"  # the Outlaw Triad trainer's facing test
+
+
+def short(value, _=None):
+    """1000 → 1k, 1e6 → 1M; small numbers as they are."""
+    for limit, unit in ((1e9, "G"), (1e6, "M"), (1e3, "k")):
+        if abs(value) >= limit * 0.9995:
+            return f"{value / limit:.3g}{unit}"
+    return f"{value:.3g}"
+
+
+def number(value, digits=3):
+    return f"{float(f'{value:.{digits}g}'):,.10g}"
+
+
+def milliseconds(row):
+    if row is None:
+        return "–"
+    ms = row.median_ms
+    return f"{ms:.3f}" if ms < 1 else f"{ms:.2f}" if ms < 10 else f"{ms:.1f}" if ms < 100 else f"{ms:,.0f}"
+
+
+def random_reads_sentence(bench):
+    """Whether the last cache was ours while the rows were timed; empty if that was not measured."""
+    cache, memory = (bench.random_reads.get(where) for where in ("half_last_cache", "memory"))
+    if cache is None or memory is None:
+        return ""
+
+    def ns(row):
+        low, middle, high = (ms * 1e6 / row.counters["reads"] for ms in (row.low_ms, row.median_ms, row.high_ms))
+        return f"{middle:.0f} ns ({low:.0f} to {high:.0f})"
+
+    verdict = ("other processes left it to us" if cache.median_ms < 0.3 * memory.median_ms else
+               "other processes filled it, so what depends on it is slower than on an idle machine")
+    return (f"Between the rows, a random read took {ns(cache)} in a buffer of half the last-level cache, and {ns(memory)} in a "
+            f"far larger one: {verdict}.")
+
+
+def fastest(bench, scene):
+    """The backend that is fastest on the most threads, with its speed-up over the next; several if the order is open."""
+    rows = [row for b in bench.backends if (row := bench.find(f"{b}/{scene}/threads:{max(THREADS)}"))]
+    if len(rows) < 2:
+        return "–"
+    first, *others = sorted(rows, key=lambda row: row.median_ms)
+    close = [row.backend for row in others if order(first, row) == 0]
+    return " or ".join([first.backend, *close]) if close else \
+        f"{first.backend}, {others[0].median_ms / first.median_ms:.2g}×"
+
+
+def scene_facts(bench, scene):
+    """Triangles submitted, and overdraw."""
+    front = bench.find(f"frontend/{scene}/threads:1")
+    raster = next((row for b in bench.backends if (row := bench.find(f"{b}/{scene}/threads:1"))), None)
+    triangles = f"{front.counters['triangles']:,.0f}" if front else "–"
+    overdraw = f"{raster.counters['overdraw']:.2f}" if raster else "–"
+    return triangles, overdraw
+
+
+def scene_table(bench, more=()):
+    """Header and lines: a line per scene, with a backend's ms on 1 and on 2 threads in one cell. `more` are columns before
+    the last: (title, scene → cell)."""
+    header = ["scene", "triangles", "overdraw", *(f"{b}, ms" for b in bench.backends), *(title for title, _ in more), "fastest"]
+    lines = []
+    for scene in bench.scenes:
+        times = [" / ".join(milliseconds(bench.find(f"{b}/{scene}/threads:{n}")) for n in THREADS) for b in bench.backends]
+        lines.append([scene, *scene_facts(bench, scene), *times, *(cell(scene) for _, cell in more), fastest(bench, scene)])
+    return header, lines
+
+
+def markdown(header, lines, alignment=None):
+    text = ["| " + " | ".join(header) + " |", alignment or "|---|" + "--:|" * (len(header) - 2) + "---|"]
+    text += ["| " + " | ".join(line) + " |" for line in lines]
+    return "\n".join(text)
+
+
+def plain(header, lines):
+    widths = [max(len(line[i]) for line in [header, *lines]) for i in range(len(header))]
+    last = len(header) - 1
+
+    def aligned(line):
+        return "  ".join(cell.ljust(w) if i in (0, last) else cell.rjust(w)
+                         for i, (cell, w) in enumerate(zip(line, widths))).rstrip()
+
+    return "\n".join(map(aligned, [header, *lines]))
+
+
+def culling_rows(bench, mode):
+    """{scene: {backend: (row of a whole frame with all its faces, row in this culling mode)}}"""
+    rows = {(row.scene, row.backend, row.keys["cull"]): row for row in bench.sweep("cull")}
+    found = {}
+    for (scene, backend, kept), all_faces in rows.items():
+        if kept == "none" and (culled := rows.get((scene, backend, mode))):
+            found.setdefault(scene, {})[backend] = all_faces, culled
+    return found
+
+
+def pixels_wrong(bench, scene):
+    """Of the picture that the test of normals leaves."""
+    wrong = next(row.counters["wrong_px"] for row in bench.sweep("cull")
+                 if row.scene == scene and row.keys["cull"] == NORMAL_Z)
+    return f"{wrong:,.0f} px wrong"
+
+
+def culling_sentence(bench):
+    """What dropping back faces gains in whole frames, by winding, and by the z of normals where that was timed."""
+    def told(rows):
+        return ", ".join(f"`{backend}` {mark(before.median_ms / after.median_ms, order(before, after))}"
+                         for backend, (before, after) in rows.items())
+
+    by_winding, by_normal = culling_rows(bench, "back"), culling_rows(bench, NORMAL_Z)
+    if not by_winding:
+        return ""
+    sentence = (f"Culling back faces by their winding speeds up whole frames on {max(THREADS)} threads: "
+                + "; ".join(f"`{scene}`: {told(rows)}" for scene, rows in by_winding.items()) + ".")
+    if not by_normal:
+        return sentence
+    return (f"{sentence} Culling them before projection, by the z of their normals (`{NORMAL_Z}`), gives "
+            + "; ".join(f"`{scene}`: {told(rows)}, {pixels_wrong(bench, scene)}" for scene, rows in by_normal.items()) + ".")
+
+
+def differing_pixels(verify):
+    return sum(scene["differing_pixels"] + scene.get("written_outside", 0)
+               + scene.get("oracle", {}).get("differing_pixels", 0) for scene in verify["scenes"])
+
+
+def verify_sentence(verify):
+    scenes = verify["scenes"]
+    frames = sum(scene["configurations"] for scene in scenes)
+    oracle = sum(scene.get("oracle", {}).get("configurations", 0) for scene in scenes)
+    differing = differing_pixels(verify)
+    backends, alone = ", ".join(verify["backends"]), ""
+    if "other_backends" in verify:
+        alone = f"; {', '.join(verify['other_backends'])}, which draws another picture, with itself"
+    return (f"{frames:,} frames of {len(scenes)} scenes were compared bit for bit, in depth and payload, across {backends}, "
+            f"thread counts, tile sizes, SIMD targets and culling modes, and {oracle:,} small ones with a "
+            f"brute-force oracle{alone}: "
+            + ("**no bit differs**." if differing == 0 else f"**{differing:,} pixels differ**."))

@@ -1,0 +1,90 @@
+"""What `scripts/test --full` left in a results folder, as one table: how the claim that no bit differs was tested, how
+far, and what was found. What was not run there is left out."""
+import argparse
+from pathlib import Path
+
+from bench_rows import main_guard, read_json
+from tables import markdown, plain, short
+
+HEADER = ["how", "how far", "found"]
+SANITIZERS = {"address": "Tests again at the usual size, with the address and undefined-behaviour sanitizers",
+              "thread": "Tests again at the usual size, with the thread sanitizer"}
+FAMILIES = {"properties": ("properties of random streams", "streams"), "lattices": ("exhaustive lattices", "triangles"),
+            "conformance": ("conformance", "pictures"), "invalid_input": ("invalid input and faults, one per test", "inputs")}
+
+
+def none_or(count, what, plural=None):
+    """"no difference", or how many, to be noticed."""
+    return f"no {what}" if count == 0 else f"**{how_many(count, what, plural)}**"
+
+
+def how_many(count, what, plural=None):
+    return f"{count:,} {what if count == 1 else plural or what + 's'}"
+
+
+def all_of(done, all_there, what):
+    return f"all {what}" if done == all_there else f"**{done:,} of {all_there:,} {what}**"
+
+
+def ran(totals):
+    skipped = f", {totals['skipped']:,} of them skipped" if totals["skipped"] else ""
+    return how_many(totals["tests"], "test") + skipped
+
+
+def test_lines(data):
+    yield ["Tests at full size", ran(data["all"]), none_or(data["all"]["failed"], "failure")]
+    for name, totals in data["families"].items():
+        what, cases = FAMILIES[name]
+        covered = [f"{short(totals[key])} {unit}" for key, unit in (("cases", cases), ("comparisons", "comparisons"))
+                   if totals[key]]
+        yield [f"Of them, {what}", ", ".join([ran(totals), *covered]), none_or(totals["failed"], "failure")]
+    for run in data["sanitized"]:
+        yield [SANITIZERS.get(run["name"], run["name"]), ran(run), none_or(run["failed"], "failure")]
+
+
+def prove_lines(data):
+    claims = data["claims"]
+    yield ["Proofs, for all inputs", f"{how_many(claims, 'claim')}, each with a deliberately false variant",
+           f"{all_of(data['proven'], claims, 'proven')}; {all_of(data['premises_hold'], claims, 'premises satisfiable')}; "
+           f"{all_of(data['refuted'], claims, 'false variants refuted')}"]
+
+
+def mutate_lines(data):
+    yield ["Mutation testing", how_many(data["mutations"], "mutant") + ", one at a time",
+           all_of(data["caught"], data["mutations"], "caught")]
+
+
+def fuzz_lines(data):
+    for target in data["targets"]:
+        reached = 100 * target["lines_reached"] / target["lines"] if target["lines"] else 0
+        yield [f"Fuzzing: {target['what']}", f"{short(target['executions'])} executions, {reached:.0f}% of the lines",
+               none_or(len(target["crashes"]), "crash", "crashes")]
+
+
+LINES = {"tests": test_lines, "prove": prove_lines, "mutate": mutate_lines, "fuzz": fuzz_lines}
+
+
+def verification_table(folder):
+    """Header and lines; no lines where nothing was run."""
+    lines = []
+    for name, lines_of in LINES.items():
+        path = folder / f"{name}.json"
+        if path.exists():
+            lines += lines_of(read_json(path))
+    return HEADER, lines
+
+
+def verification_markdown(folder):
+    header, lines = verification_table(folder)
+    return markdown(header, lines, "|---|---|---|") if lines else "None of this was run for these results."
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="verification_summary", description=__doc__)
+    parser.add_argument("folder", type=Path, help="results/MACHINE")
+    print(plain(*verification_table(parser.parse_args().folder)))
+    return 0
+
+
+if __name__ == "__main__":
+    main_guard(main)

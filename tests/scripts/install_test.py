@@ -1,0 +1,211 @@
+#!/usr/bin/env python3
+"""Installs the build and uses the copy as others would: tests/consumer, by CMake and by pkg-config.
+usage: install_test.py BUILD
+
+Where the source is built along with the consumer (add_subdirectory, FetchContent), and for a shared library, the whole
+library is compiled anew; that is done under EDGEWISE_FULL, otherwise such builds are only configured.
+"""
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+CONSUMER = ROOT / "tests" / "consumer"
+BUILD = Path(sys.argv.pop(1))
+FULL = "EDGEWISE_FULL" in os.environ
+LABORATORY_PACKAGES = ("GTest", "benchmark", "CLI11", "fmt", "nlohmann_json", "rapidcheck", "SDL2", "OpenGL")
+
+
+def cached(name):
+    return re.search(rf"^{name}:\w+=(.*)$", (BUILD / "CMakeCache.txt").read_text(), re.MULTILINE).group(1)
+
+
+def run(*command, env=None, cwd=None):
+    """What a command printed; its failure fails the test."""
+    done = subprocess.run([str(part) for part in command], capture_output=True, text=True, check=False, cwd=cwd,
+                          env={**os.environ, **(env or {})})
+    if done.returncode != 0:
+        raise AssertionError(f"{' '.join(map(str, command))} ended with {done.returncode}:\n{done.stdout}{done.stderr}")
+    return done.stdout
+
+
+def configure(source, build, *options):
+    return run("cmake", "-S", source, "-B", build, "-G", cached("CMAKE_GENERATOR"),
+               f"-DCMAKE_CXX_COMPILER={cached('CMAKE_CXX_COMPILER')}", *options)
+
+
+def targets(build):
+    listed = run("cmake", "--build", build, "--target", "help")
+    return set(re.findall(r"^(?:\.\.\. )?([\w-]+)", listed, re.MULTILINE))
+
+
+class Installed(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = Path(tempfile.mkdtemp(prefix="edgewise-install-"))
+        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        first = cls.folder / "first"
+        run("cmake", "--install", BUILD, "--prefix", first)
+        cls.prefix = cls.folder / "moved"  # an installed copy may be moved as a whole
+        first.rename(cls.prefix)
+
+    def use(self, folder, environment=None):
+        """Runs the consumer's programs, which were built in `folder`."""
+        run(folder / "frames", env=environment)
+        run(folder / "picture", cwd=folder, env=environment)
+        self.assertTrue((folder / "pyramid.png").read_bytes().startswith(b"\x89PNG"))
+        said = run(folder / "consumer", cwd=folder, env=environment)
+        self.assertRegex(said, r"^triangle \d, depth 0\.\d{6}\n$")
+        self.assertTrue((folder / "picture.png").read_bytes().startswith(b"\x89PNG"))
+        square = folder / "square.obj"
+        square.write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")
+        self.assertRegex(run(folder / "consumer", square, cwd=folder, env=environment), "^triangle [01], ")
+        missing = subprocess.run([folder / "consumer", "missing.obj"], capture_output=True, text=True, check=False,
+                                 env={**os.environ, **(environment or {})})
+        self.assertEqual((missing.returncode, missing.stderr.count("missing.obj")), (1, 1))
+
+    def use_package(self, prefix, name):
+        build = self.folder / name
+        configure(CONSUMER, build, f"-DCMAKE_PREFIX_PATH={prefix}")
+        run("cmake", "--build", build)
+        self.use(build)
+        rules = build / "build.ninja"
+        if not rules.exists():
+            rules = build / "CMakeFiles" / "consumer.dir" / "flags.make"
+        flags = re.findall(r"^ *(?:CXX_)?(?:FLAGS|DEFINES) = (.*)", rules.read_text(), re.MULTILINE)
+        self.assertIn("-std=", " ".join(flags))
+        for leaked in ("-f", "-W", "-D", "-m"):
+            self.assertFalse([flag for line in flags for flag in line.split()
+                              if flag.startswith(leaked) and flag != "-DNDEBUG"], "a flag leaks")
+
+    def use_pkg_config(self, prefix, name, static):
+        build = self.folder / name
+        build.mkdir()
+        pkg_config = ("pkg-config", *(("--static",) if static else ()))
+        environment = {"PKG_CONFIG_PATH": str(next(prefix.rglob("edgewise.pc")).parent)}
+        if not static:
+            environment["LD_LIBRARY_PATH"] = str(next(prefix.rglob("libedgewise.so")).parent)
+        compiler = cached("CMAKE_CXX_COMPILER")
+        version = run(*pkg_config, "--modversion", "edgewise", env=environment)
+        self.assertEqual(version, cached("CMAKE_PROJECT_VERSION") + "\n")
+        for package in prefix.rglob("*.pc"):
+            self.assertIn("\nLicense: MIT\n", package.read_text())
+        for program, source, package in (("consumer", "main", "edgewise-files"), ("picture", "picture", "edgewise-files"),
+                                         ("frames", "frames", "edgewise")):
+            flags = run(*pkg_config, "--cflags", "--libs", package, env=environment).split()
+            self.assertFalse([flag for flag in flags if not re.match("-[ILl]", flag)], "a flag leaks")
+            run(compiler, "-std=c++20", CONSUMER / f"{source}.cpp", "-o", build / program, *flags)
+        self.use(build, environment)
+
+    def test_a_package_for_cmake(self):
+        self.use_package(self.prefix, "package")
+
+    def test_pkg_config(self):
+        self.use_pkg_config(self.prefix, "pkg-config", static=not list(self.prefix.rglob("libedgewise.so")))
+
+    def test_public_headers_are_installed_and_no_others(self):
+        headers = {path.name for path in self.prefix.rglob("*.h")}
+        self.assertEqual(headers, {path.name for path in (ROOT / "src" / "edgewise").glob("*.h")})
+        for path in self.prefix.rglob("*.h"):
+            for included in re.findall(r'^#include "(\S*)"', path.read_text(), re.MULTILINE):
+                self.assertTrue((path.parent.parent / included).is_file(), f"{path.name} includes {included}")
+
+    def test_each_header_says_in_one_line_that_it_needs_cxx20(self):
+        for path in self.prefix.rglob("*.h"):
+            user = self.folder / "user.cpp"
+            user.write_text(f"#include <edgewise/{path.name}>\nedgewise::Undeclared undeclared;\n")
+            done = subprocess.run([cached("CMAKE_CXX_COMPILER"), "-std=c++17", "-fsyntax-only",
+                                   "-I", path.parent.parent, user], capture_output=True, text=True, check=False)
+            errors = [line for line in done.stderr.splitlines() if "error:" in line]
+            self.assertNotEqual(done.returncode, 0)
+            self.assertEqual(len(errors), 1, done.stderr)
+            self.assertIn("C++20", errors[0])
+
+    def test_the_licence_is_readmes_last_section(self):
+        text = next(self.prefix.glob("share/doc/edgewise/LICENSE")).read_text()
+        self.assertTrue(text.startswith("MIT License\n\nCopyright (c) "))
+        self.assertTrue((ROOT / "README.md").read_text().endswith("\n## Licence\n\n" + text))
+
+    @unittest.skipUnless(FULL, "compiles each header")
+    def test_each_header_stands_alone_and_pleases_strict_compilers(self):
+        strict = ("-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Wconversion", "-Wsign-conversion", "-Wold-style-cast")
+        for path in self.prefix.rglob("*.h"):
+            alone = self.folder / f"{path.stem}.cpp"
+            alone.write_text(f"#include <edgewise/{path.name}>\n")
+            run(cached("CMAKE_CXX_COMPILER"), "-std=c++20", "-fsyntax-only", "-Werror", *strict,
+                "-I", path.parent.parent, alone)
+
+    def test_another_version_is_refused(self):
+        project = self.folder / "version"
+        project.mkdir()
+        project.joinpath("CMakeLists.txt").write_text(
+            "cmake_minimum_required(VERSION 3.25)\nproject(version LANGUAGES NONE)\n"
+            "find_package(edgewise 99.0 QUIET)\nfind_package(edgewise 0.0 QUIET)\n"
+            "if(edgewise_FOUND)\n  message(FATAL_ERROR \"taken\")\nendif()\n")
+        run("cmake", "-S", project, "-B", project / "build", f"-DCMAKE_PREFIX_PATH={self.prefix}")
+
+    def test_an_older_compiler_is_refused_in_one_sentence(self):
+        compiler = self.folder / "older"
+        compiler.write_text(f"#!/bin/sh\nexec {cached('CMAKE_CXX_COMPILER')} \"$@\" -w -U__GNUC__ -D__GNUC__=11 "
+                            "-U__clang_major__ -D__clang_major__=13\n")
+        compiler.chmod(0o755)
+        done = subprocess.run(["cmake", "-S", ROOT, "-B", self.folder / "older-build", f"-DCMAKE_CXX_COMPILER={compiler}"],
+                              capture_output=True, text=True, check=False)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertEqual(done.stderr.count("CMake Error"), 1, done.stderr)
+        self.assertRegex(" ".join(done.stderr.split()), r"Edgewise needs g\+\+ 12 or clang\+\+ 14, or newer; this is \w+ 1[13]\.")
+
+    def test_programs_run_without_source_and_build(self):
+        away = self.folder / "away"
+        away.mkdir()
+        program = next(self.prefix.rglob("bin/edgewise"))
+        run(program, "render", "cube", "--size", "64x64", "-o", "cube.png", cwd=away)
+        self.assertTrue((away / "cube.png").is_file())
+        self.assertIn('"commit": "unknown"', run(program, "machine", cwd=away))
+        self.assertIn("/area:", run(next(self.prefix.rglob("bin/edgewise_bench")), "--benchmark_list_tests", cwd=away))
+
+    def test_destdir(self):
+        run("cmake", "--install", BUILD, "--prefix", "/opt/edgewise", env={"DESTDIR": str(self.folder / "stage")})
+        staged = self.folder / "stage" / "opt" / "edgewise"
+        self.assertEqual({str(path.relative_to(staged)) for path in staged.rglob("*") if path.is_file()},
+                         {str(path.relative_to(self.prefix)) for path in self.prefix.rglob("*") if path.is_file()})
+
+    def build_along(self, way, shared):
+        """The source as a part of the consumer's build, which brings nothing but the library."""
+        build = self.folder / way
+        configure(CONSUMER, build, f"-DEDGEWISE_FROM={way}", f"-DEDGEWISE_SOURCE={ROOT}",
+                  f"-DBUILD_SHARED_LIBS={'ON' if shared else 'OFF'}",
+                  *(f"-DCMAKE_DISABLE_FIND_PACKAGE_{package}=ON" for package in LABORATORY_PACKAGES))
+        ours = {target for target in targets(build) if re.match("edgewise_|fuzz_|avx_probe", target)}
+        self.assertLessEqual(ours, {"edgewise_files"})
+        self.assertRegex((build / "CMakeCache.txt").read_text(), r"(?m)^CMAKE_BUILD_TYPE:\w+=$")  # the consumer's choice
+        if FULL:
+            run("cmake", "--build", build, "--parallel", os.cpu_count())
+            self.use(build)
+
+    def test_add_subdirectory(self):
+        self.build_along("subdirectory", shared=False)
+
+    def test_fetch_content(self):
+        self.build_along("fetch", shared=True)
+
+    @unittest.skipUnless(FULL, "compiles the library anew")
+    def test_a_shared_library(self):
+        build, prefix = self.folder / "shared", self.folder / "shared-prefix"
+        configure(ROOT, build, "-DBUILD_SHARED_LIBS=ON", "-DEDGEWISE_LABORATORY=OFF")
+        run("cmake", "--build", build, "--parallel", os.cpu_count())
+        run("cmake", "--install", build, "--prefix", prefix)
+        for name in ("edgewise", "edgewise_files"):
+            self.assertIn(f"Library soname: [lib{name}.so.0.1]",
+                          run("readelf", "-d", next(prefix.rglob(f"lib{name}.so"))))
+        self.use_package(prefix, "shared-package")
+        self.use_pkg_config(prefix, "shared-pkg-config", static=False)
+
+
+if __name__ == "__main__":
+    unittest.main()

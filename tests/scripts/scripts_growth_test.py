@@ -1,0 +1,111 @@
+"""What scripts/ says about growth, more cores, small draws and memory, from results made up here."""
+import json
+import os
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import scripts_test
+
+
+class ReadmeTest(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+        self.write("results", scripts_test.bench())
+
+    def write(self, name, benchmark):
+        folder = self.folder / name
+        folder.mkdir()
+        for file, data in (("bench", benchmark), ("machine", scripts_test.MACHINE)):
+            (folder / f"{file}.json").write_text(json.dumps(data))
+
+    def test_growth_more_cores_and_memory_fill_the_readme(self):
+        readme = self.folder / "README.md"
+        names = ("growth", "scaling", "small_draws", "memory")
+        readme.write_text("<!-- results: results -->\n"
+                          + "".join(f"<!-- generated:{name} -->\n<!-- /generated -->\n" for name in names))
+        result = scripts_test.run("readme", "--file", readme)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        text = readme.read_text()
+        self.assertIn("`tiled` **less than linear** from 100 to 1k (0.00), linear from 1k to 10k (1.00)", text)
+        self.assertIn("`tiled` linear from 256² to 512² (1.00)", text)
+        self.assertIn("the L3 of 32 MiB holds a frame of 2048² px or the records of 840k triangles", text)
+        self.assertIn("| cube | tiled | 2× | 2× | 3× | the longest task of build in bins.cpp: 50% of the path |", text)
+        self.assertIn("charged 2 µs", text)
+        self.assertIn("at 1920 × 1080: `slow` 20.2 µs on one thread, 20.2 on two (+10.1 against half)", text)
+        self.assertIn("9.6 bytes a pixel", text)
+        self.assertIn("no scene takes more than 60%", text)
+
+    def test_models_apart_say_what_they_said_among_the_timed_rows(self):
+        data = scripts_test.bench()
+        rows = {row["name"]: row for row in data["benchmarks"]}
+        keys = ("work_ms", "path_ms", "longest_ms", "barrier_ms")
+        model = {"scheduled": [{"name": name, "cores": 1, "estimate_ms": row["real_time"], "longest": row["label"],
+                                **{key: row[key] for key in keys}} for name, row in rows.items() if "/cores:" in name],
+                 "costs": [{"name": name, "covered_blocks": row["covered_blocks"], "won_blocks": row["won_blocks"],
+                            **{f"{part}_ms": row[f"floor_{part}_ms"] for part in ("read", "blocks", "write", "tiles")}}
+                           for name, row in rows.items() if "floor_ms" in row]}
+        data["benchmarks"] = [{key: value for key, value in row.items() if key not in scripts_test.FLOOR}
+                              for row in data["benchmarks"] if "/cores:" not in row["name"]]
+        self.write("apart", data)
+        (self.folder / "apart" / "model.json").write_text(json.dumps(model))
+
+        def told(results):
+            readme = self.folder / "README.md"
+            readme.write_text(f"<!-- results: {results} -->\n" + "".join(
+                f"<!-- generated:{name} -->\n<!-- /generated -->\n" for name in ("table", "scaling", "cost_model")))
+            result = scripts_test.run("readme", "--file", readme)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            return readme.read_text().replace(results, "results")
+
+        self.assertEqual(told("apart"), told("results"))
+        compared = scripts_test.run("compare", "--all", self.folder / "results", self.folder / "apart").stdout
+        self.assertNotIn("cores:", compared)
+        (self.folder / "apart" / "model.json").write_text('{"scheduled": [{"name": "x"}], "costs": []}')
+        broken = scripts_test.run("compare", self.folder / "results", self.folder / "apart")
+        self.assertEqual((broken.returncode, len(broken.stderr.splitlines())), (2, 1), broken.stderr)
+        self.assertIn("model.json: not what 'edgewise_bench --model_out' writes", broken.stderr)
+
+    def test_a_speed_up_is_of_one_run(self):
+        sys.path.insert(0, str(scripts_test.SCRIPTS / "reporting"))
+        from bench_rows import Row
+        from scaling import allowed
+        one = Row("", "", True, "", {}, [9.0], {"work_ms": 9.0})
+        two = Row("", "", True, "", {}, [3.1], {"work_ms": 6.0})  # another run: less work
+        self.assertEqual(allowed({1: one, 2: two}), {1: 1.0, 2: 6.0 / 3.1})
+
+    def test_readme_says_so_where_rows_are_missing(self):
+        data = scripts_test.bench()
+        data["benchmarks"] = scripts_test.entries("tiled/cube/threads:1", [1.0])
+        self.write("few", data)
+        readme = self.folder / "README.md"
+        readme.write_text("<!-- results: few -->\n<!-- generated:growth -->\n<!-- /generated -->\n"
+                          "<!-- generated:scaling -->\n<!-- /generated -->\n")
+        self.assertEqual(scripts_test.run("readme", "--file", readme).returncode, 0)
+        self.assertEqual(readme.read_text().count("hold none of the rows"), 2)
+
+
+class GrowthTest(unittest.TestCase):
+    """growth.steps(): where noise leaves open how cost grows, nothing is claimed."""
+
+    def test_kinds(self):
+        sys.path.insert(0, str(scripts_test.SCRIPTS / "reporting"))
+        from bench_rows import Row
+        from growth import QUANTITIES, runs, steps
+
+        def kinds(*repetitions):
+            rows = [Row("", "", False, "", {"count": str(10 ** i)}, list(times)) for i, times in enumerate(repetitions)]
+            return [(run[0].kind, len(run)) for run in runs(steps(QUANTITIES[0], rows))]
+
+        self.assertEqual(kinds([1.0] * 3, [2.0] * 3, [4.0] * 3, [40.0] * 3), [("less than linear", 2), ("linear", 1)])
+        self.assertEqual(kinds([1.0] * 3, [20.0] * 3), [("more than linear", 1)])
+        self.assertEqual(kinds([1.0, 1.0, 3.0], [8.0, 20.0, 30.0]), [("not settled", 1)])
+        self.assertEqual(kinds([1.0], [20.0]), [("not settled", 1)], "one draw decides nothing")
+
+
+if __name__ == "__main__":
+    os.environ["PYTHONDONTWRITEBYTECODE"] = "1"
+    unittest.main()

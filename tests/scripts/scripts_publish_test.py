@@ -1,0 +1,110 @@
+"""scripts/publish: what it copies to results/, and what results/ of this repository holds."""
+import json
+import os
+import shutil
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import scripts_test
+
+ROOT = Path(__file__).resolve().parents[2]
+README = """<!-- results: results/mine -->
+<!-- generated:picture -->
+<!-- /generated -->
+"""
+FAR_README = """[A chart](../../results/mine/charts/area.svg), <img src="../../results/mine/errors/crack.png" width="400">,
+and one of another folder: ![](../charts/threads.svg)
+"""
+
+
+class PublishTest(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.root = Path(temporary.name)
+        shutil.copytree(scripts_test.SCRIPTS, self.root / "scripts")
+        (self.root / "scripts/README.md").unlink(missing_ok=True)
+        self.run, self.published = self.root / "build/results/mine", self.root / "results/mine"
+        for name in ("pictures/torus-knot.png", "pictures/cube.png", "charts/area.svg", "charts/threads.svg",
+                     "errors/crack.png"):
+            self.write(self.run / name, f"new {name}")
+        for name, data in (("bench", scripts_test.bench()), ("machine", scripts_test.MACHINE),
+                           ("verify", scripts_test.VERIFY), ("accuracy", scripts_test.accuracy())):
+            self.write(self.run / f"{name}.json", json.dumps(data))
+        self.write(self.root / "README.md", README)
+        self.write(self.root / "src/lab/README.md", FAR_README)
+        self.git("init", "--quiet")
+        self.git("add", "README.md", "src")
+
+    def write(self, path, text):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+
+    def git(self, *words):
+        subprocess.run(["git", "-C", self.root, *words], check=True)
+
+    def publish(self, *arguments):
+        return subprocess.run([self.root / "scripts/publish", *arguments], capture_output=True, text=True, check=False)
+
+    def files(self):
+        return {str(path.relative_to(self.published)) for path in self.published.rglob("*") if path.is_file()}
+
+    def test_readmes_decide_which_pictures_are_copied(self):
+        self.write(self.published / "soak.json", "{}")
+        self.write(self.published / "charts/threads.svg", "old")
+        self.write(self.published / "charts/area.svg", "old")
+        result = self.publish(self.run)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(self.files(), {"soak.json", "bench.json", "machine.json", "verify.json", "accuracy.json",
+                                        "pictures/torus-knot.png", "charts/area.svg", "errors/crack.png"})
+        self.assertEqual((self.published / "charts/area.svg").read_text(), "new charts/area.svg")
+        self.assertIn("results/mine/: 4 JSON files, and 3 charts and pictures", result.stdout)
+
+    def test_a_picture_that_was_not_drawn_removes_nothing(self):
+        self.write(self.published / "charts/area.svg", "old")
+        (self.run / "errors/crack.png").unlink()
+        result = self.publish(self.run)
+        self.assertEqual((result.returncode, result.stderr),
+                         (2, "publish: results/mine/errors/crack.png: a README shows it, but the run did not draw it\n"))
+        self.assertEqual((self.published / "charts/area.svg").read_text(), "old")
+
+    def test_a_folder_that_is_no_run_is_refused(self):
+        self.assertEqual(self.publish(self.run).returncode, 0)
+        before = self.files()
+        for folder in (self.root / "nowhere", self.published):
+            result = self.publish(folder)
+            self.assertEqual((result.returncode, len(result.stderr.splitlines())), (2, 1), result.stderr)
+        self.assertEqual(self.files(), before)
+
+    def test_check_lists_what_is_superfluous_and_what_is_missing(self):
+        self.assertEqual(self.publish(self.run).returncode, 0)
+        self.git("add", "results")
+        result = self.publish("--check")
+        self.assertEqual((result.returncode, result.stdout), (0, ""), result.stderr)
+        self.write(self.published / "report.html", "")
+        self.git("add", "results")
+        self.git("rm", "--quiet", "--cached", "results/mine/errors/crack.png")
+        result = self.publish("--check")
+        self.assertEqual((result.returncode, result.stdout.splitlines()),
+                         (1, ["results/mine/report.html: no README shows it",
+                              "results/mine/errors/crack.png: a README shows it, but it is not committed"]))
+
+
+class CommittedResults(unittest.TestCase):
+    def test_only_what_readmes_show_is_committed_and_little_of_it(self):
+        top = subprocess.run(["git", "-C", ROOT, "rev-parse", "--show-toplevel"], capture_output=True, text=True, check=False)
+        if top.stdout.strip() != str(ROOT):
+            self.skipTest("not a git checkout")
+        result = scripts_test.run("publish", "--check")
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        listed = subprocess.run(["git", "-C", ROOT, "ls-files", "results"], capture_output=True, text=True, check=True)
+        files = listed.stdout.splitlines()
+        self.assertLess(len(files), 150)
+        self.assertLess(sum((ROOT / file).stat().st_size for file in files), 15e6)
+
+
+if __name__ == "__main__":
+    os.environ["PYTHONDONTWRITEBYTECODE"] = "1"
+    unittest.main()

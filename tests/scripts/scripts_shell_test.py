@@ -1,0 +1,248 @@
+"""The shell scripts' command lines, steps, builds and verdicts, with programs made up here in place of cmake, ctest and
+apt-get."""
+import fcntl
+import os
+import pty
+import re
+import shutil
+import struct
+import subprocess
+import tempfile
+import termios
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+SCRIPTS = ROOT / "scripts"
+
+APT_OFFLINE = """#!/bin/bash
+echo "W: Failed to fetch http://deb.debian.org/debian/dists/bookworm/InRelease  Temporary failure resolving 'deb.debian.org'" >&2
+[[ $1 == update ]] || exit 100
+"""
+APT_BROKEN = "#!/bin/bash\necho 'E: dpkg was interrupted' >&2\n[[ $1 == update ]] || exit 100\n"
+DPKG_QUERY = "#!/bin/bash\n[[ ${*: -1} != ninja-build ]] && echo -n installed\nexit 0\n"
+ALL_INSTALLED = "#!/bin/bash\necho -n installed\n"
+SUDO = '#!/bin/bash\nexec "$@"\n'
+LONG = "x" * 200
+# Prints what Ninja and Make print, and makes the programs that the sanitized steps run.
+CMAKE = f"""#!/bin/bash
+[[ $1 == --build ]] || exit 0
+echo '[1/20] Building CXX object {LONG}.o'
+echo '[ 50%] Building CXX object {LONG}.o'
+echo 'a.cpp:1: warning: {LONG}'
+echo 'ninja: no work to do.'
+mkdir -p "$2"
+printf '#!/bin/bash\\nfor a; do [[ $a != --gtest_output=xml:* ]] || cp "$GTEST_XML" "${{a#*xml:}}"; done\\n' |
+  tee "$2/edgewise_library_tests" >"$2/edgewise_thread_tests"
+chmod +x "$2"/edgewise_*_tests
+exit "${{CMAKE_STATUS:-0}}"
+"""
+CTEST = """#!/bin/bash
+echo "ctest $*" >>"$CALLS"
+while (($#)); do
+  if [[ $1 == --output-junit && -n $CTEST_XML ]]; then cp "$CTEST_XML" "$2"; fi
+  shift
+done
+exit "${CTEST_STATUS:-0}"
+"""
+SKIPPED_OUTPUT = "[ RUN      ] Proofs.A\n/x/a.cpp:3: Skipped\nz3 is not installed\n\n[  SKIPPED ] Proofs.A (0 ms)\n"
+CTEST_CASES = f"""<testsuite name="(empty)" tests="4" failures="0" disabled="0" skipped="2">
+<testcase name="A.Ok" status="run"><system-out/></testcase>
+<testcase name="Proofs.A" status="notrun"><skipped message="SKIP_REGULAR_EXPRESSION_MATCHED"/>
+<system-out>{SKIPPED_OUTPUT}</system-out></testcase>
+<testcase name="viewer_smoke" status="notrun"><skipped message="SKIP_RETURN_CODE=77"/>
+<system-out>skipped: tmux not installed
+</system-out></testcase>%s
+</testsuite>"""
+FAILED_CASES = """
+<testcase name="B.Wrong" status="fail"><failure message=""/><system-out/></testcase>
+<testcase name="gone" status="notrun"><skipped message="Unable to find executable"/><system-out/></testcase>"""
+GTEST_CASES = """<testsuites tests="2"><testsuite name="L">
+<testcase name="Ok" status="run" result="completed" classname="L"/>
+<testcase name="Proofs" status="run" result="skipped" classname="L">
+<skipped message="x"><![CDATA[/x/a.cpp:3
+z3 is not installed]]></skipped></testcase></testsuite></testsuites>"""
+
+
+class ShellTest(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+        self.tools, self.root, self.calls = (self.folder / name for name in ("tools", "root", "calls"))
+        self.tools.mkdir()
+        shutil.copytree(SCRIPTS, self.root / "scripts")
+        self.tool("sudo", SUDO)
+        self.tool("cmake", CMAKE)
+        self.tool("ctest", CTEST)
+        self.tool("dpkg-query", ALL_INSTALLED)
+        self.tool("apt-get", '#!/bin/bash\necho "apt-get $*" >>"$CALLS"\nexit 9\n')
+        self.environment = {**os.environ, "PATH": f"{self.tools}:{os.environ['PATH']}", "CALLS": str(self.calls),
+                            "CTEST_XML": "", "GTEST_XML": str(self.write("gtest.xml", GTEST_CASES))}
+
+    def write(self, name, text):
+        path = self.folder / name
+        path.write_text(text)
+        return path
+
+    def tool(self, name, text):
+        path = self.tools / name
+        path.write_text(text)
+        path.chmod(0o755)
+
+    def run_script(self, *command, **environment):
+        return subprocess.run([self.root / "scripts" / command[0], *command[1:]], capture_output=True, text=True,
+                              check=False, env={**self.environment, **environment})
+
+    def library(self, commands, **environment):
+        """lib.sh, then these."""
+        return subprocess.run(["bash", "-c", f"set -euo pipefail; . {self.root}/scripts/lib.sh; {commands}"], text=True,
+                              capture_output=True, check=False, env={**self.environment, **environment})
+
+    def assert_usage_error(self, result, words):
+        self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
+        self.assertEqual(result.stdout, "")
+        self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+        self.assertIn(words, result.stderr)
+        self.assertFalse(self.calls.exists(), "something ran")
+        self.assertFalse((self.root / "build").exists())
+
+    def test_unknown_options_fail_before_anything_runs(self):
+        self.tool("dpkg-query", DPKG_QUERY)
+        for script, near in (("test", "--sanitize"), ("run", "--quick"), ("fuzz", "--keep"), ("prove", "--list"),
+                             ("mutate", "--check"), ("compare", "--least"), ("readme", "--check"), ("summary", "--tables"),
+                             ("publish", "--check")):
+            wrong = near[:-1] + "_"
+            self.assert_usage_error(self.run_script(script, "--no-install", wrong) if script in ("test", "run", "fuzz")
+                                    else self.run_script(script, wrong), f"'{wrong}'; did you mean {near}?")
+        self.assert_usage_error(self.run_script("test", "--quick", "--no-install"), "unknown argument '--quick'; --help")
+        self.assert_usage_error(self.run_script("test", "-R", "--no-install"), "-R needs a value")
+        self.assert_usage_error(self.run_script("test", "--full", "-R", "a"), "no options of ctest")
+        self.assert_usage_error(self.run_script("fuzz", "eight"), "'eight'")
+        self.assert_usage_error(self.run_script("run", "--mesh", str(self.folder)), "not a file")
+        self.assert_usage_error(self.run_script("compare", "a"), "required: after")
+
+    def test_plot_names_the_nearest_option(self):
+        result = self.run_script("plot", "--oot")
+        if "python3-matplotlib" in result.stderr:
+            self.skipTest("no matplotlib")
+        self.assert_usage_error(result, "did you mean --out?")
+
+    def test_no_install_holds_wherever_it_stands(self):
+        self.tool("dpkg-query", DPKG_QUERY)
+        for arguments in (("-R", "x", "--no-install"), ("--no-install", "-R", "x")):
+            result = self.run_script("test", *arguments)
+            self.assertEqual(result.returncode, 2)
+            self.assertIn("Missing packages: ninja-build\n", result.stderr)
+            self.assertFalse(self.calls.exists(), "something ran")
+
+    def test_without_a_network_the_first_line_says_so(self):
+        self.tool("dpkg-query", DPKG_QUERY)
+        for apt, first in ((APT_OFFLINE, "No network: apt-get could not reach a package server."),
+                           (APT_BROKEN, "apt-get failed.")):
+            self.tool("apt-get", apt)
+            result = self.run_script("test")
+            lines = result.stderr.splitlines()
+            self.assertEqual(result.returncode, 2)
+            self.assertTrue(lines[0].startswith(first), result.stderr)
+            self.assertRegex(lines[1], r"apt-get install --no-install-recommends ninja-build$")
+            self.assertEqual(lines[2], "apt-get said:")
+
+    def test_a_report_without_a_network_says_so_first(self):
+        self.tool("npm", "#!/bin/bash\necho 'npm ERR! code EAI_AGAIN' >&2\nexit 1\n")
+        commands = ("import sys; sys.path.insert(0, 'scripts/reporting'); from report_bundle import Absent, bundle\n"
+                    "try: bundle()\nexcept Absent as error: print(error)")
+        result = subprocess.run(["python3", "-c", commands], cwd=self.root, env=self.environment, text=True,
+                                capture_output=True, check=False)
+        self.assertTrue(result.stdout.startswith("No network: npm cannot reach its registry"), result.stdout + result.stderr)
+        self.assertIn("EAI_AGAIN", result.stdout)
+
+    def test_steps_tell_how_long_they_took_last_time(self):
+        commands = "mkdir -p $build; step Slow 150; SECONDS=$((SECONDS + {})); step 'Not known'; end_step"
+        first, then, again = (self.library(commands.format(seconds)).stdout for seconds in (95, 10, 10))
+        self.assertRegex(first, r"^\[1, \d s\] Slow \(expected: 2 min 30 s\)\n\[2, 9\d s\] Not known\n$")
+        self.assertRegex(then, r"Slow \(took 1 min 3\d s last time\)\n.*Not known \(took \d s last time\)\n$")
+        self.assertRegex(again, r"Slow \(took 1\d s last time\)")
+
+    def test_a_build_prints_warnings_and_its_last_line(self):
+        for environment in ({}, {"TERM": "dumb"}):
+            result = self.library("build all", **environment)
+            self.assertRegex(result.stdout, rf"^a.cpp:1: warning: {LONG}\nBuilt in \d s\n$")
+        result = self.library("build all", CMAKE_STATUS="1")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("warning", result.stdout)
+        self.assertNotIn("Built", result.stdout)
+        self.assertIn("the build failed; see above", result.stderr)
+
+    def on_terminal(self, term):
+        """What a build prints on a terminal of 40 columns."""
+        reader, writer = pty.openpty()
+        fcntl.ioctl(writer, termios.TIOCSWINSZ, struct.pack("HHHH", 25, 40, 0, 0))
+        subprocess.run(["bash", "-c", f"set -euo pipefail; . {self.root}/scripts/lib.sh; build all"], stdout=writer,
+                       stderr=writer, check=True, env={**self.environment, "TERM": term})
+        os.close(writer)
+        found = b""
+        try:
+            while part := os.read(reader, 4096):
+                found += part
+        except OSError:  # how Linux tells that a terminal was closed
+            pass
+        os.close(reader)
+        return found.decode().replace("\r\n", "\n")
+
+    def test_a_build_on_a_terminal_rewrites_one_line(self):
+        text = self.on_terminal("xterm")
+        self.assertIn(f"\r\033[Ka.cpp:1: warning: {LONG}\n", text)
+        progress = re.findall(r"\r\033\[K(\[[^\r\n]*)", text)
+        self.assertEqual([line.partition("]")[0] for line in progress], ["[1/20", "[ 50%"])
+        self.assertEqual([len(line) for line in progress], [39, 39])
+        self.assertEqual(text.count("\n"), 2, text)
+        self.assertTrue(text.splitlines()[-1].rpartition("\033[K")[2].startswith("Built in"), text)
+        self.assertNotIn("\033", self.on_terminal("dumb"))
+
+    def run_tests(self, cases, *arguments, **environment):
+        result = self.run_script("test", *arguments, CTEST_XML=str(self.write("ctest.xml", CTEST_CASES % cases)),
+                                 **environment)
+        return result, result.stdout.splitlines()
+
+    def test_a_run_that_wrote_nothing_failed_and_a_shard_without_tests_did_not(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for name, text in (("shard-0", '<testsuites><testsuite><testcase name="a" classname="A"/></testsuite></testsuites>'),
+                               ("shard-1", '<testsuites tests="0"></testsuites>'), ("died", "")):
+                (Path(folder) / f"{name}.xml").write_text(text)
+            result = subprocess.run(["python3", SCRIPTS / "checks/test_summary.py", folder], capture_output=True, text=True, check=False)
+        self.assertEqual(result.stdout.splitlines()[-1], "1 passed, 1 failed, 0 skipped")
+        self.assertIn("the run ended without results; see above (died)", result.stdout)
+
+    def test_the_verdict_counts_all_runs_and_tells_why_tests_are_skipped(self):
+        shards = os.cpu_count()
+        result, lines = self.run_tests("")
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        # Of three runs of ctest and, of two programs, one shard per core.
+        self.assertEqual(lines[-1], f"{3 + 2 * shards} passed, 0 failed, {6 + 2 * shards} skipped")
+        self.assertEqual(lines[-3:-1], [f"Skipped {3 + 2 * shards}, z3 is not installed: L.Proofs, Proofs.A",
+                                        "Skipped 3, tmux not installed: viewer_smoke"])
+
+    def test_selected_tests_run_once(self):
+        result, lines = self.run_tests("", "-R", "A", "-j4")
+        self.assertEqual((result.returncode, lines[-1]), (0, "1 passed, 0 failed, 2 skipped"))
+        self.assertIn(" -R A -j4", self.calls.read_text())
+        self.assertIn("Testing -R A", result.stdout)
+
+    def test_failures_are_named_and_keep_the_exit_status(self):
+        result, lines = self.run_tests(FAILED_CASES, "-R", "A", CTEST_STATUS="8")
+        self.assertEqual(result.returncode, 8)
+        self.assertEqual(lines[-3:], ["Failed: B.Wrong (tests)", "Failed: gone (tests)", "1 passed, 2 failed, 2 skipped"])
+
+    def test_a_run_without_results_counts_as_failed(self):
+        result = self.run_script("test", "-R", "A", CTEST_STATUS="8")
+        self.assertEqual(result.returncode, 8)
+        self.assertEqual(result.stdout.splitlines()[-2:], ["Failed: the run ended without results; see above (tests)",
+                                                           "0 passed, 1 failed, 0 skipped"])
+        result, lines = self.run_tests("", "-R", "A", CTEST_STATUS="3")
+        self.assertEqual((result.returncode, lines[-1]), (3, "1 passed, 1 failed, 2 skipped"))
+
+
+if __name__ == "__main__":
+    os.environ["PYTHONDONTWRITEBYTECODE"] = "1"
+    unittest.main()

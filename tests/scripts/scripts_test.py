@@ -1,0 +1,572 @@
+"""The scripts that read results, on a tiny result made here."""
+import importlib.util
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from itertools import combinations
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+SCRIPTS = ROOT / "scripts"
+MACHINE = {"cpu_model": "Test CPU", "cores": 2, "simd_best": "avx2", "memory_gib": 4, "os": "Test OS",
+           "compiler": "GCC 1", "build_type": "Release", "commit": "abc", "caches": {"L2": "1024K", "L3": "32768K"}}
+VERIFY = {"backends": ["slow", "tiled"],
+          "scenes": [{"configurations": 8, "differing_pixels": 0, "oracle": {"configurations": 2, "differing_pixels": 0}}]}
+COUNTERS = {"triangles": 12.0, "covered_px": 1e6, "overdraw": 0.5, "width": 1920.0, "height": 1080.0}
+
+
+# 100 blocks won of 400 covered: with all drawn the estimate is 2.6, with tiles copied to the frame 1.8.
+FLOOR = {"floor_ms": 1.4, "floor_read_ms": 0.1, "floor_blocks_ms": 0.4, "floor_write_ms": 0.9, "won_blocks": 100.0,
+         "covered_blocks": 400.0, "floor_tiles_ms": 1.3, "floor_in_tiles_ms": 1.8}
+
+
+def entries(name, times_ms, **counters):
+    return [{"name": name, "run_name": name, "run_type": "iteration", "real_time": t, "time_unit": "ms",
+             **COUNTERS, **counters} for t in times_ms]
+
+
+def bench(slow=(10.0, 10.2, 10.1), tiled=(2.0, 2.1, 2.2)):
+    rows = entries("frontend/cube/threads:1", [0.5])
+    for backend, times in (("slow", slow), ("tiled", tiled)):
+        for threads in (1, 2):
+            floor = {key: value / threads for key, value in FLOOR.items()} if backend == "tiled" else {}
+            rows += entries(f"{backend}/large/threads:{threads}", [t / threads for t in times], **floor) if floor else []
+            rows += entries(f"{backend}/cube/threads:{threads}", [t / threads for t in times], **floor)
+            for area, factor in ((1, 0.1 if backend == "slow" else 1), (100, 1), (10000, 1)):
+                rows += entries(f"{backend}/area:{area}/threads:{threads}", [t * factor for t in times])
+        rows += entries(f"{backend}/cube/size:256x256/threads:2", times)
+        rows += entries(f"{backend}/cube/size:512x512/threads:2", [4 * t for t in times])
+        for count, factor in ((100, 1), (1000, 1), (10000, 10)):
+            rows += entries(f"{backend}/count:{count}/threads:2", [t * factor for t in times])
+        for threads in (1, 2):
+            rows += entries(f"{backend}+frontend/cube/threads:{threads}", [t / threads for t in times], peak_bytes=20e6)
+            rows += entries(f"{backend}/cube/tiny:256x256/threads:{threads}", [t * 2e-3 for t in times])
+        for cores in (1, 2, 4):
+            rows += entries(f"{backend}+frontend/cube/cores:{cores}/threads:{cores}", [times[0] / min(cores, 3)],
+                            label="the longest task of build in bins.cpp", work_ms=times[0], path_ms=times[0] / 3,
+                            longest_ms=times[0] / 6, barrier_ms=2e-3)
+        for mode, factor in (("none", 2), ("back", 1)):
+            rows += entries(f"{backend}+frontend/cube/cull:{mode}/threads:2", [t * factor for t in times])
+        if backend == "tiled":
+            rows += entries("naive/cube/threads:1", [9 * t for t in times])
+            for rung, factor in (("tiles", 4), ("avx2", 2)):
+                rows += entries(f"tiled/cube/rung:{rung}/threads:1", [t * factor for t in times])
+        for target, factor in (("scalar", 4), ("avx2", 1)):
+            rows += entries(f"{backend}/cube/target:{target}/threads:1", [t * factor for t in times])
+    return {"context": {"backends": "slow tiled", "machine": "test"}, "benchmarks": rows}
+
+
+def accuracy(spread=0.1):
+    """Two methods a family, the second inexact, on a scene that is timed and on one that is not. `spread`: of 2, what
+    the slowest repetition takes longer than the median."""
+    def judged(wrong, crossings):
+        score = {"errors_per_million": 1e6 * wrong / crossings, "gaps": wrong}
+        return score if wrong else {**score, "bound_per_million": 3e6 / crossings}
+
+    def measured(family, method, wrong, cost_ns):
+        cost = "ns_per_face" if family == "facing" else "ns_per_covered_pixel"
+        speed = [{"threads": threads, cost: cost_ns / threads, "mtri_per_s": 7.5 * threads,
+                  "ms": {"median": 2.0, "min": 1.9, "max": 2.0 + spread}}
+                 for threads in ((1, 2) if wrong == 0 else (1,))]
+        score = judged(wrong, 1000)
+        scores = {"score": score} if family == "clipping" else {"float": score, "snapped": score}
+        return {"name": method, **scores, **({"speed": speed} if cost_ns else {})}
+
+    families = ("coverage", "visibility", "facing", "clipping")
+    return {"machine": MACHINE, "quick": False,
+            "methods": [{"family": family, "name": name, "source": source, "promise": "as told", "exact": exact}
+                        for family in families
+                        for name, source, exact in (("ours", "src/raster", True), ("float_le", "a book", False))],
+            "scenes": [{"name": scene, "family": family, "idea": "many faces", "covered": 1000, "crossings": 1000,
+                        "methods": [measured(family, "ours", 0, 2.0 * timed), measured(family, "float_le", 5, 1.5 * timed)]}
+                       for family in families for scene, timed in (("knot", 1), ("small", 0))],
+            "turning_cube": {"frames": 9, "methods": [
+                {"name": name, **cube_worst(most), "snapped": cube_worst(most)}
+                for name, most in (("ours", 0), ("float_le", 8))]}}
+
+
+def bench_with_normals():
+    """Faces dropped by the z of their normals, which gains half as much, and costs 1,234 pixels."""
+    data = bench()
+    for backend, ms in (("slow", 20.2 / 1.5), ("tiled", 2.8)):
+        data["benchmarks"] += entries(f"{backend}+frontend/cube/cull:normal_z/threads:2", [ms] * 3, wrong_px=1234.0)
+    return data
+
+
+def cube_worst(most):
+    return {"gaps": {"median": most // 2, "worst": most, "total": 2 * most},
+            "double_hits": {"median": 0, "worst": most, "total": most}}
+
+
+def stability():
+    curves = [{"method": "ours", "exact": True, "points": [[1, 0], [0.1, 0]], "trials": [50, 50], "starts_to_fail": None},
+              {"method": "float_le", "exact": False, "points": [[1, 0], [0.1, 7]], "trials": [50, 50],
+               "starts_to_fail": 0.1}]
+    return {"machine": MACHINE, "quick": False, "sweeps": [
+        {"name": "nearer", "family": "visibility", "by_snapping": [[1, 0], [0.1, 0]], "idea": "ever nearer", "x": {"name": "gap", "unit": "px", "log": True},
+         "y": {"name": "wrong", "log": True}, "curves": curves}]}
+
+
+def bench_with_peer():
+    """`tiled` is 8 times faster than `ext` from screen triangles, 4 times from meshes."""
+    data = bench()
+    data["context"].update(peers="ext", ext="Ext 1.2")
+    for threads in (1, 2):
+        for backend, ms in (("slow", 12.0), ("tiled", 3.0)):
+            data["benchmarks"] += entries(f"{backend}+frontend/knot/threads:{threads}", [ms / threads] * 3)
+            data["benchmarks"] += entries(f"{backend}/knot/threads:{threads}", [ms / 2 / threads] * 3)
+        data["benchmarks"] += entries(f"ext/cube/threads:{threads}", [16.8 / threads] * 3, near_ties=7.0)
+        data["benchmarks"] += entries(f"ext+frontend/knot/threads:{threads}", [12.0 / threads] * 3, near_ties=0.0)
+    return data
+
+
+def run(script, *arguments, environment=None):
+    return subprocess.run([SCRIPTS / script, *map(str, arguments)], capture_output=True, text=True, check=False,
+                          env={**os.environ, **(environment or {})})
+
+
+class ScriptsTest(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+        self.results = self.write("results", bench())
+
+    def write(self, name, benchmark):
+        folder = self.folder / name
+        folder.mkdir()
+        for file, data in (("bench", benchmark), ("machine", MACHINE), ("verify", VERIFY)):
+            (folder / f"{file}.json").write_text(json.dumps(data))
+        return folder
+
+    def add_laboratory(self, laboratory=None):
+        (self.results / "accuracy.json").write_text(json.dumps(laboratory or accuracy()))
+        (self.results / "stability.json").write_text(json.dumps(stability()))
+
+    def fails(self, result, *words):
+        self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
+        self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+        for word in words:
+            self.assertIn(word, result.stderr)
+
+    def test_compare_names_what_changed_and_only_that(self):
+        after = self.write("after", bench(tiled=(3.0, 3.1, 3.2), slow=(10.1, 9.9, 10.3)))
+        result = run("compare", self.results, after / "bench.json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        slower = result.stdout.split("\nSlower\n")[1]
+        self.assertIn("tiled/cube/threads:1 ", slower)
+        self.assertIn("× 1.476", slower)
+        self.assertNotIn("slow/", slower)
+        self.assertIn(" 0 faster", result.stdout)
+
+    def test_compare_sets_other_work_apart(self):
+        data = bench()
+        for row in data["benchmarks"]:
+            if row["name"] == "tiled/cube/threads:1":
+                row["triangles"] = 13.0
+                row["real_time"] *= 2
+        result = run("compare", self.results, self.write("other", data))
+        self.assertIn("0 slower", result.stdout)
+        self.assertIn("tiled/cube/threads:1", result.stdout.split("other triangles")[1])
+
+    def test_bad_input_gets_one_line(self):
+        broken = self.folder / "broken.json"
+        broken.write_text("{")
+        self.fails(run("compare", self.results, self.folder / "none"), "none", "No such file")
+        self.fails(run("compare", self.results, broken), "broken.json", "not JSON")
+        broken.write_text('{"benchmarks": [{"name": "x"}]}')
+        self.fails(run("compare", self.results, broken), "Google Benchmark")
+        self.fails(run("summary", self.folder), "bench.json")
+
+    def test_report_says_in_one_line_that_npm_is_missing(self):
+        tools = self.folder / "tools"
+        tools.mkdir()
+        for tool in ("bash", "dirname", "env"):
+            (tools / tool).symlink_to(shutil.which(tool))
+        (tools / "python3").write_text(f'#!/bin/bash\nexec {sys.executable} "$@"\n')
+        (tools / "python3").chmod(0o755)
+        result = subprocess.run([SCRIPTS / "report", self.results], capture_output=True, text=True, check=False,
+                                env={**os.environ, "PATH": str(tools)})
+        self.assertEqual((result.returncode, len(result.stderr.splitlines())), (3, 1), result.stderr)
+        self.assertIn("only the static charts", result.stderr)
+        self.assertEqual(list(self.results.glob("report*")), [])
+
+    def test_readme_shows_the_tutorials_and_what_culling_gains(self):
+        demo = {"name": "turn", "tutorial": "A trainer", "idea": "it turns",
+                "steps": [{"keys": "1", "notice": "First."}, {"keys": "2", "notice": "Now look."}]}
+        (self.results / "demos.json").write_text(json.dumps([demo]))
+        readme = self.folder / "README.md"
+        readme.write_text("<!-- results: results -->\n<!-- generated:demos -->\n<!-- /generated -->\n"
+                          "<!-- generated:culling -->\n<!-- /generated -->\n")
+        self.assertEqual(run("readme", "--file", readme).returncode, 0)
+        text = readme.read_text()
+        self.assertIn("**A trainer**: `edgewise demo turn --view`", text)
+        self.assertIn("![it turns](results/pictures/demo-turn.png)\n\nNow look.\n", text)
+        self.assertNotIn("First.", text)
+        self.assertIn("`cube`: `slow` 2.0×, `tiled` 2.0×.", text)
+        self.assertNotIn("normal_z", text)
+        (self.results / "bench.json").write_text(json.dumps(bench_with_normals()))
+        self.assertEqual(run("readme", "--file", readme).returncode, 0)
+        self.assertIn("`tiled` 2.0×. Culling them before projection, by the z of their normals (`normal_z`), gives `cube`: `slow` "
+                      "1.5×, `tiled` 1.5×, 1,234 px wrong.", readme.read_text())
+        (self.results / "demos.json").unlink()
+        self.fails(run("readme", "--file", readme), "demos.json", "No such file")
+
+    def test_readme_is_filled_then_up_to_date_then_stale(self):
+        readme = self.folder / "README.md"
+        readme.write_text("Hand-written.\n<!-- results: results -->\n<!-- generated:table -->\n<!-- /generated -->\n"
+                          "<!-- generated:verify -->\nold\n<!-- /generated -->\n")
+        self.assertEqual(run("readme", "--check", "--file", readme).returncode, 1)
+        self.assertEqual(run("readme", "--file", readme).returncode, 0)
+        text = readme.read_text()
+        self.assertIn("| cube | 12 | 0.50 | 10.1 / 5.05 | 2.10 / 1.05 | 1.17 / 1.17 | tiled, 4.8× |", text)
+        self.assertIn("Hand-written.", text)
+        self.assertIn("no bit differs", text)
+        self.assertNotIn("old", text)
+        self.assertEqual(run("readme", "--check", "--file", readme).returncode, 0)
+        readme.write_text(text.replace("10.1", "10.0"))
+        self.assertEqual(run("readme", "--check", "--file", readme).returncode, 1)
+
+    def test_the_cost_model_is_told_by_its_parts(self):
+        readme = self.folder / "README.md"
+        readme.write_text("<!-- results: results -->\n<!-- generated:cost_model -->\n<!-- /generated -->\n")
+        self.assertEqual(run("readme", "--file", readme).returncode, 0)
+        self.assertIn("- `large`, tiled on one thread: 2.10 ms measured, 1.4 ms estimated (0.9 to write the frame, 0.4 for the "
+                      "100 blocks that a triangle wins, 0.1 to read the triangles). With all 400 covered blocks the estimate is "
+                      "2.6 ms; with the frame stored tile by tile, 1.8 ms.",
+                      readme.read_text())
+
+    def test_readme_tells_whose_the_last_cache_was(self):
+        readme = self.folder / "README.md"
+
+        def told(cache_ms):
+            benchmark = bench()
+            for where, times in (("half_last_cache", cache_ms), ("memory", (1.8, 1.7, 1.9))):
+                benchmark["benchmarks"] += entries(f"random_read/{where}", times, reads=10e3)
+            (self.results / "bench.json").write_text(json.dumps(benchmark))
+            readme.write_text("<!-- results: results -->\n<!-- generated:machine -->\n<!-- /generated -->\n")
+            self.assertEqual(run("readme", "--file", readme).returncode, 0)
+            return readme.read_text()
+
+        self.assertIn("a random read took 15 ns (14 to 160) in a buffer of half the last-level cache, and 180 ns (170 to "
+                      "190) in a far larger one: other processes left it to us.", told((0.14, 1.6, 0.15)))
+        self.assertIn("other processes filled it", told((0.14, 1.6, 0.7)))
+        compared = run("compare", self.results, self.results).stdout
+        self.assertIn("In the second: Between the rows, a random read took 70 ns", compared)
+        self.assertNotIn("random_read/", run("compare", "--all", self.results, self.results).stdout)
+
+    def test_readme_compares_machines_by_how_long_peers_take(self):
+        readme = self.folder / "README.md"
+        readme.write_text("<!-- results: results/mine -->\n<!-- generated:other_machines -->\n<!-- /generated -->\n")
+        mine, other, empty = (self.results / name for name in ("mine", "other", "empty"))
+        for folder, slow in ((mine, bench_with_peer()), (other, bench())):
+            folder.mkdir()
+            (folder / "machine.json").write_text(json.dumps(MACHINE))
+            (folder / "bench.json").write_text(json.dumps(slow))
+        empty.mkdir()
+        self.assertEqual(run("readme", "--file", readme).returncode, 0)
+        text = readme.read_text()
+        self.assertIn("- [`other`](results/other): Test CPU, 2 cores, avx2, 4 GiB;", text)
+        self.assertIn("triangle area](results/other/charts/area.svg)\n", text)
+        self.assertNotIn("results/mine/charts", text)
+        self.assertIn("| scene | `mine` | `other` |", text)
+        self.assertIn("| cube, ext | 8.0× | – |", text)
+        self.assertNotIn("empty", text)
+        (other / "bench.json").unlink()
+        self.assertEqual(run("readme", "--file", readme).returncode, 0)
+        self.assertIn("No other machine's results lie beside these.", readme.read_text())
+
+    def test_peers_get_ratios_where_they_were_timed(self):
+        readme = self.folder / "README.md"
+        blocks = "".join(f"<!-- generated:{name} -->\n<!-- /generated -->\n" for name in ("table", "peers", "peer_charts"))
+        readme.write_text("<!-- results: results -->\n" + blocks)
+        self.assertEqual(run("readme", "--file", readme).returncode, 0)
+        self.assertIn("scripts/run --peers", readme.read_text())
+        self.assertNotIn("ext", readme.read_text())
+        (self.results / "bench.json").write_text(json.dumps(bench_with_peer()))
+        self.assertEqual(run("readme", "--file", readme).returncode, 0)
+        text = readme.read_text()
+        self.assertIn("| cube | 12 | 0.50 | 10.1 / 5.05 | 2.10 / 1.05 | 1.17 / 1.17 | tiled, 4.8× | 8.0× |", text)
+        self.assertIn("ext (Ext 1.2):", text)
+        self.assertIn("| cube | screen triangles | 16.8 / 8.40 | 2.10 / 1.05 | 8.0× / 8.0× |", text)
+        self.assertIn("| knot | mesh | 12.0 / 6.00 | 3.00 / 1.50 | 4.0× / 4.0× |", text)
+        self.assertIn("charts/against-ext.svg", text)
+        self.assertRegex(run("summary", "--tables", self.results).stdout, r"cube .* 8\.0×\n")
+
+    def test_compare_tells_the_ratios_against_peers(self):
+        before = self.write("before", bench_with_peer())
+        data = bench_with_peer()
+        for row in data["benchmarks"]:
+            if row["name"] == "tiled/cube/threads:1":
+                row["real_time"] /= 2
+        result = run("compare", before, self.write("after", data))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertRegex(result.stdout, r"ext/cube, 1 thread +8\.00× → +16\.0×\n")
+        self.assertIn("– →", run("compare", self.results, before).stdout)
+        self.assertNotIn("How many times", run("compare", self.results, self.results).stdout)
+
+    def test_peers_get_a_chart(self):
+        if importlib.util.find_spec("matplotlib") is None:
+            self.skipTest("no matplotlib")
+        (self.results / "bench.json").write_text(json.dumps(bench_with_peer()))
+        self.assertEqual(run("plot", self.results).returncode, 0)
+        self.assertTrue((self.results / "charts" / "against-ext.svg").exists())
+
+    def test_what_the_test_of_normals_gains_is_drawn_beside_culling(self):
+        if importlib.util.find_spec("matplotlib") is None:
+            self.skipTest("no matplotlib")
+        drawn = []
+        for data in (bench(), bench_with_normals()):
+            (self.results / "bench.json").write_text(json.dumps(data))
+            self.assertEqual(run("plot", self.results).returncode, 0)
+            drawn.append((self.results / "charts/culling.svg").read_text())
+        # Texts are paths; matplotlib keeps them as comments.
+        self.assertNotIn("wrong", drawn[0])
+        self.assertIn("<!-- 1,234 px wrong -->", drawn[1])
+
+    def test_missing_packages_of_a_further_list_are_named(self):
+        tools = self.folder / "tools"
+        tools.mkdir()
+        for tool, body in (("apt-get", "exit 9"), ("dpkg-query", '[[ ${*: -1} != libegl-dev ]] && echo -n installed; exit 0')):
+            (tools / tool).write_text(f"#!/bin/bash\n{body}\n")
+            (tools / tool).chmod(0o755)
+        def missing(*lists):
+            return subprocess.run(["bash", "-c", f". {SCRIPTS}/lib.sh; set_up list {' '.join(lists)}"], text=True, check=False,
+                                  capture_output=True, env={**os.environ, "PATH": f"{tools}:{os.environ['PATH']}"})
+
+        self.assertEqual(missing().returncode, 0)
+        result = missing("peers")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("Missing packages: libegl-dev\n", result.stderr)
+
+    def test_soak_is_told_with_its_bound_or_its_differences(self):
+        readme = self.folder / "README.md"
+        soak = {"backends": ["slow", "tiled"], "seconds": 1320.0, "shards": [{"shard": 0, "of": 1, "cases": 6000}],
+                "cases": 6000, "frames": 150000, "triangles": 5, "pixels": 3 * 10**9, "oracle_frames": 7,
+                "frontend_lists": 8, "differences": 0,
+                "bounds_95": {"per_case": 3 / 6000, "per_frame": 3 / 150000, "per_pixel": 1e-9}}
+        for record, said in ((soak, "**No bit differs.** With 95 % confidence fewer than one picture in 2,000"),
+                             (soak, "one frame in 50,000, and one pixel in 1.0e+09"), (soak, "In 22 minutes, 6,000"),
+                             ({**soak, "differences": 4, "bounds_95": None}, "**4 differ**")):
+            (self.folder / "results/soak.json").write_text(json.dumps(record))
+            readme.write_text("<!-- results: results -->\n<!-- generated:soak -->\n<!-- /generated -->\n")
+            self.assertEqual(run("readme", "--file", readme).returncode, 0)
+            self.assertIn(said, readme.read_text())
+
+    def test_laboratory_fills_the_readme_and_the_summary(self):
+        self.add_laboratory()
+        readme = self.folder / "README.md"
+        blocks = "".join(f"<!-- generated:{name} -->\n<!-- /generated -->\n" for name in ("methods", "lessons", "fails"))
+        readme.write_text("<!-- results: results -->\n" + blocks)
+        result = run("readme", "--file", readme)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        text = readme.read_text()
+        self.assertIn("| **ours** | src/raster | as told | 0 (<3,000) | 0 | 0 of 2 |", text)
+        self.assertIn("| float_le | a book | as told | 5,000 | 5,000 | 2 of 2 |", text)
+        self.assertIn("| **ours** | src/raster | as told | 0 (<3,000) | 7.5 | 0 | 0 of 2 |", text)  # coverage
+        self.assertIn("`ours` (2 ns per covered pixel, 0 wrong per 10⁶) is our fastest", text)
+        self.assertIn("`float_le` (1.5 ns per covered pixel, 5,000 wrong per 10⁶) is the fastest other method, in scalar code. "
+                      "`ours` with AVX2 is 1.3× slower than `float_le` in scalar code.", text)
+        self.assertIn("2 scenes pooled, given the snapped positions): `ours` errs least, 0 (in 0 of 2); `float_le` errs most, 5,000 (in 2 "
+                      "of 2).", text)
+        self.assertIn("| method | nearer, px |\n|---|--:|\n| **ours** | 0 |\n| float_le | **0.1**: 7 |", text)
+        self.assertEqual(run("readme", "--check", "--file", readme).returncode, 0)
+        self.assertIn("ours cover no wrong pixel in 2 scenes", run("summary", self.results).stdout)
+
+    def test_a_spread_that_overlaps_settles_nothing(self):
+        self.add_laboratory(accuracy(spread=1.0))
+        readme = self.folder / "README.md"
+        readme.write_text("<!-- results: results -->\n<!-- generated:lessons -->\n<!-- /generated -->\n")
+        self.assertEqual(run("readme", "--file", readme).returncode, 0)
+        self.assertIn("`ours` with AVX2 is 1.3× slower than `float_le` in scalar code (ranges overlap: not settled).", readme.read_text())
+
+    def test_a_summary_fits_on_a_screen(self):
+        def summary(folder):
+            result = run("summary", folder)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            lines = result.stdout.splitlines()
+            self.assertLessEqual(len(lines), 25, result.stdout)
+            self.assertLessEqual(max(map(len, lines)), 100, result.stdout)
+            return result.stdout
+
+        text = summary(self.results)
+        for words in ("No bit differs in 8 frames", "/results/: *.json\n", "scripts/run --peers", "scripts/run --report",
+                      "scripts/summary --tables"):
+            self.assertIn(words, text)
+        data = bench_with_peer()
+        data["context"]["suite"] = "quick"
+        for i in range(50):
+            data["benchmarks"].append({"name": f"tiled/scene{i}", "error_occurred": True, "error_message": "wrong " * 99})
+        crowded = self.write("crowded", data)
+        for name in ("charts", "pictures", "errors"):
+            (crowded / name).mkdir()
+        wrong = json.loads(json.dumps(VERIFY).replace('"differing_pixels": 0', '"differing_pixels": 3'))
+        (crowded / "verify.json").write_text(json.dumps(wrong))
+        text = summary(crowded)
+        for words in ("ERROR in 50 benchmark rows", "BACKENDS DISAGREE: 6 pixels differ", "/crowded/verify-failures/",
+                      "Against ext", "charts/, pictures/, errors/, *.json", "quick figures are rough"):
+            self.assertIn(words, " ".join(text.split()))
+        for folder in ROOT.glob("results/*/"):
+            self.assertIn("Parallel or scanline?", summary(folder))
+
+    def test_malformed_laboratory_gets_one_line(self):
+        data = accuracy()
+        del data["scenes"][0]["methods"][1]["float"]
+        self.add_laboratory(data)
+        self.fails(run("plot", self.results), "accuracy.json", "edgewise accuracy", "'float'")
+        self.fails(run("summary", self.results), "accuracy.json", "edgewise accuracy")
+        self.add_laboratory()
+        (self.results / "stability.json").write_text('{"sweeps": [3]}')
+        self.fails(run("plot", self.results), "stability.json", "edgewise stability")
+
+    def test_plot_draws_the_same_bytes_twice(self):
+        self.add_laboratory()
+        first, second = run("plot", self.results), run("plot", self.results, "--out", self.folder / "again")
+        if "apt-get install python3-matplotlib" in first.stderr:
+            self.skipTest("no matplotlib")
+        self.assertEqual(first.returncode, 0, first.stderr)
+        self.assertEqual(second.returncode, 0, second.stderr)
+        drawn = sorted(p.name for p in (self.results / "charts").iterdir())
+        charts = ["area", "culling", "growth", "ablation", "scaling", "scenes", "simd", "threads", "stability-grid",
+                  "stability-nearer", "turning-cube",
+                  *(f"{kind}-{family}" for kind in ("accuracy", "errors")
+                    for family in ("coverage", "visibility", "facing", "clipping"))]
+        self.assertEqual(drawn, sorted(f"{c}.svg" for c in charts))
+        for name in drawn:
+            self.assertEqual((self.results / "charts" / name).read_bytes(), (self.folder / "again" / name).read_bytes())
+
+
+class AblationTest(unittest.TestCase):
+    """ablation.steps(): from the plainest backend over the rungs to the last row."""
+
+    @classmethod
+    def setUpClass(cls):
+        sys.path.insert(0, str(SCRIPTS / "reporting"))
+
+    def test_rungs_stand_between_the_suites_own_rows(self):
+        from bench_rows import Bench, parse_name
+        from ablation import steps
+        rows = {}
+        for name, times in (("naive/cube/threads:1", [9.0]), ("tiled/cube/threads:1", [2.0]), ("tiled/cube/threads:2", [1.0]),
+                            ("naive/cube/rung:stepped/threads:1", [8.5]),
+                            ("tiled/cube/rung:tiles/threads:1", [8.0]), ("tiled/knot/rung:tiles/threads:1", [5.0]),
+                            ("tiled/cube/rung:avx2/threads:1", [4.0])):
+            rows[name] = parse_name(name)
+            rows[name].times_ms = times
+        self.assertEqual([row.median_ms for _, row in steps(Bench({}, rows), "cube")], [9.0, 8.5, 8.0, 4.0, 2.0, 1.0])
+
+    @staticmethod
+    def row(*times_ms):
+        from bench_rows import Row
+        return Row("", "", False, "", {}, list(times_ms))
+
+    def test_a_verdict_claims_only_what_repetitions_settle(self):
+        from ablation import verdict
+        row = self.row
+        slow, fast = row(40.0, 41.0, 42.0, 43.0, 44.0), row(35.0, 36.0, 37.0, 38.0, 39.0)
+        self.assertEqual([verdict(slow, fast), verdict(fast, slow)], ["gain", "loss"])
+        between = row(30.0, 31.0, 32.0, 33.0, 40.5)  # 24 of 25 pairs
+        self.assertEqual([verdict(slow, between), verdict(between, slow)], ["neither", "neither"])
+        seldom = row(40.0, 41.0, 42.0, 43.0)  # large steps only
+        self.assertEqual([verdict(seldom, fast), verdict(seldom, row(25.0))], ["neither", "gain"])
+
+    def test_rows_that_are_equally_fast_seldom_pass_for_different(self):
+        from bench_rows import order
+        row = self.row
+        for repetitions in (5, 6, 7):  # in each order that chance may give, once
+            every = set(range(2 * repetitions))
+            claims = [order(row(*some), row(*(every - set(some)))) for some in combinations(sorted(every), repetitions)]
+            self.assertLess(sum(map(abs, claims)), 0.012 * len(claims))
+            self.assertEqual(sum(claims), 0)
+            self.assertIn(1, claims)
+        # One repetition in nine that others slowed down hides nothing.
+        self.assertEqual(order(row(*range(8), 99), row(*range(10, 19))), -1)
+
+
+class CrossingsTest(unittest.TestCase):
+    """area.crossings() on curves whose crossing is known."""
+
+    @classmethod
+    def setUpClass(cls):
+        sys.path.insert(0, str(SCRIPTS / "reporting"))
+        from bench_rows import Row
+        from area import crossings
+        cls.row, cls.crossings = Row, staticmethod(crossings)
+
+    def curve(self, *repetitions):
+        return [(10.0 ** i, self.row("", "", False, "", {}, list(times)), 1.0) for i, times in enumerate(repetitions)]
+
+    def test_straight_lines_cross_where_they_should(self):
+        falling = self.curve(*[[time] * 3 for time in (1000.0, 100.0, 10.0, 1.0)])
+        level = self.curve(*[[30.0] * 3] * 4)
+        [(x, y)] = self.crossings(falling, level)
+        self.assertAlmostEqual(x, 1000 / 30, places=6)
+        self.assertAlmostEqual(y, 30.0, places=6)
+
+    def test_noise_is_no_crossing(self):
+        noisy = self.curve([8.0, 10.5, 12.0], [8.0, 9.5, 12.0], [8.0, 10.5, 12.0])
+        level = self.curve([8.5, 10.0, 11.5], [8.5, 10.0, 11.5], [8.5, 10.0, 11.5])
+        self.assertEqual(list(self.crossings(noisy, level)), [])
+
+    def test_one_draw_decides_nothing(self):
+        self.assertEqual(list(self.crossings(self.curve([9.0], [1.0]), self.curve([3.0], [3.0]))), [])
+
+
+class UnsettledTest(unittest.TestCase):
+    """speed_accuracy.unsettled(): of which points the spread leaves open whether they are on the front."""
+
+    def test_only_who_overlaps_a_rival_that_errs_no_more(self):
+        sys.path.insert(0, str(SCRIPTS / "reporting"))
+        from accuracy_rows import Cost, Measured, Method
+        from speed_accuracy import unsettled
+
+        def at(name, rate, *cost):
+            return Measured(Method(name, "", "", False), rate, None, None, {1: Cost(*cost, 1.0)})
+
+        right, level = at("right", 0, 3.0, 2.9, 3.2), at("level", 10, 2.9, 2.8, 3.0)
+        fast, beaten = at("fast", 20, 1.0, 0.9, 1.1), at("beaten", 30, 2.0, 1.9, 2.9)
+        self.assertEqual(unsettled([right, level, fast, beaten]), [level])
+        self.assertEqual(unsettled([fast, beaten]), [])
+
+
+class TenfoldTest(unittest.TestCase):
+    """accuracy_tables.fails_cell(): where a method that always fails becomes ten times worse."""
+
+    def test_cells(self):
+        sys.path.insert(0, str(SCRIPTS / "reporting"))
+        from accuracy_rows import Curve
+        from accuracy_tables import fails_cell
+
+        def cell(start, *ys):
+            return fails_cell(Curve("m", False, tuple((2.0 ** i, y) for i, y in enumerate(ys)), (1,) * len(ys), start))
+
+        self.assertEqual(cell(None, 0, 3), "3")
+        self.assertEqual(cell(2.0, 0, 5000), "**2**: 5k")
+        self.assertEqual(cell(1.0, 3, 29), "**first**: 29")
+        self.assertEqual(cell(1.0, 3, 29, 30), "**first**, ×10 at **4**: 30")
+
+
+class LabelsTest(unittest.TestCase):
+    """plot_labels.place(): labels of a crowd stand apart, inside, and off the points."""
+
+    def test_labels_of_a_crowd_stand_apart(self):
+        if importlib.util.find_spec("matplotlib") is None:
+            raise unittest.SkipTest("no matplotlib")
+        sys.path.insert(0, str(SCRIPTS / "reporting"))
+        from plot_labels import Box, place
+        points = [(200.0 + 6 * (i % 3), 150.0 + 5 * (i // 3)) for i in range(9)] + [(398.0, 1.0)]
+        bounds = Box(0, 0, 400, 300)
+        boxes = [box for box, _ in place(points, [(60.0, 10.0)] * len(points), bounds, [])]
+        for i, box in enumerate(boxes):
+            self.assertAlmostEqual(box.overlap(bounds), 600.0)
+            self.assertFalse([p for p in points if box.holds(*p)])
+            self.assertEqual([box.overlap(other) for other in boxes[:i]], [0.0] * i)
+
+
+if __name__ == "__main__":
+    os.environ["PYTHONDONTWRITEBYTECODE"] = "1"
+    unittest.main()

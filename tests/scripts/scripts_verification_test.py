@@ -1,0 +1,102 @@
+"""checks/collect_tests.py and reporting/verification_summary.py, on results made here."""
+import json
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
+sys.path.insert(0, str(SCRIPTS / "reporting"))
+from verification_summary import verification_markdown, verification_table  # noqa: E402
+
+
+
+def gtest_case(suite, name, inside="", result="completed", **properties):
+    noted = "".join(f'<property name="{key}" value="{value}"/>' for key, value in properties.items())
+    return f'<testcase classname="{suite}" name="{name}" result="{result}"><properties>{noted}</properties>{inside}</testcase>'
+
+
+SHARDS = [[gtest_case("Properties", "A", cases=40, comparisons=400), gtest_case("Properties", "B"),
+           gtest_case("Lattices/EveryTriangle", "E", cases=9)],
+          [gtest_case("CoverageProperties", "C", "<failure/>", cases=2),
+           gtest_case("CoverageProperties", "D", "<skipped/>", "skipped"), gtest_case("ConformanceDepth", "F", cases=5),
+           gtest_case("Table/HostileInput", "G/0"), gtest_case("Table/HostileInput", "G/1"),
+           gtest_case("Soak", "H", cases=1000)]]
+CTEST = ["run"] * 3 + ["fail", "disabled"] + ["notrun"] * 2
+
+
+def totals(tests, failed=0, skipped=0, **counted):
+    return {"tests": tests, "failed": failed, "skipped": skipped, **counted}
+
+
+TOTALS = {"all": totals(9, 1, 1),
+          "families": {"properties": totals(4, 1, 1, cases=42, comparisons=400),
+                       "lattices": totals(1, cases=9, comparisons=0), "conformance": totals(1, cases=5, comparisons=0),
+                       "invalid_input": totals(2, cases=0, comparisons=0)},
+          "sanitized": [{"name": "thread", **totals(7, 1, 3)}]}
+GOOD = {"tests": {"all": totals(500), "families": {"lattices": totals(5, cases=2_000_000, comparisons=0)},
+                  "sanitized": [{"name": "address", **totals(499, 0, 2)}]},
+        "prove": {"claims": 9, "proven": 9, "premises_hold": 9, "refuted": 9},
+        "mutate": {"mutations": 25, "caught": 25},
+        "fuzz": {"targets": [{"what": "any bytes", "executions": 12_345, "lines_reached": 90, "lines": 100, "crashes": []}]}}
+
+
+class CollectTest(unittest.TestCase):
+    def test_adds_up_shards_and_sanitizers(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            for i, shard in enumerate(SHARDS):
+                (folder / f"{i}.xml").write_text(f"<testsuites>{''.join(shard)}</testsuites>")
+            cases = "".join(f'<testcase status="{status}"><skipped message="SKIP_RETURN_CODE=77"/></testcase>'
+                            for status in CTEST)
+            (folder / "thread.xml").write_text(f"<testsuite>{cases}</testsuite>")
+            run = subprocess.run([sys.executable, SCRIPTS / "checks/collect_tests.py", "--gtest", folder / "0.xml", folder / "1.xml",
+                                  "--sanitized", folder / "thread.xml"], stdout=subprocess.PIPE, check=True)
+            self.assertEqual(json.loads(run.stdout), TOTALS)
+
+    def test_says_what_is_no_result(self):
+        with tempfile.TemporaryDirectory() as name:
+            path = Path(name) / "thread.xml"
+            path.write_text("<a/>")
+            run = subprocess.run([sys.executable, SCRIPTS / "checks/collect_tests.py", "--sanitized", path], stderr=subprocess.PIPE, text=True,
+                                 check=False)
+            self.assertEqual(run.returncode, 2)
+            self.assertEqual(len(run.stderr.splitlines()), 1, run.stderr)
+
+
+class VerificationTest(unittest.TestCase):
+    def table(self, **results):
+        with tempfile.TemporaryDirectory() as name:
+            for key, data in results.items():
+                (Path(name) / f"{key}.json").write_text(json.dumps(data))
+            return verification_table(Path(name))[1], verification_markdown(Path(name))
+
+    def test_each_result_has_its_line(self):
+        lines, text = self.table(**GOOD)
+        self.assertEqual([line[1:] for line in lines], [
+            ["500 tests", "no failure"],
+            ["5 tests, 2M triangles", "no failure"],
+            ["499 tests, 2 of them skipped", "no failure"],
+            ["9 claims, each with a deliberately false variant", "all proven; all premises satisfiable; all false variants refuted"],
+            ["25 mutants, one at a time", "all caught"],
+            ["12.3k executions, 90% of the lines", "no crash"]])
+        self.assertNotIn("**", text)
+
+    def test_what_was_not_run_is_left_out(self):
+        self.assertEqual(len(self.table(mutate=GOOD["mutate"])[0]), 1)
+        self.assertEqual(self.table(), ([], "None of this was run for these results."))
+
+    def test_what_failed_is_bold(self):
+        bad = {"tests": TOTALS, "prove": {"claims": 9, "proven": 8, "premises_hold": 6, "refuted": 7},
+               "mutate": {"mutations": 25, "caught": 24},
+               "fuzz": {"targets": [{**GOOD["fuzz"]["targets"][0], "crashes": ["a", "b"]}]}}
+        self.assertEqual([line[2] for line in self.table(**bad)[0]], [
+            "**1 failure**", "**1 failure**", "no failure", "no failure", "no failure", "**1 failure**",
+            "**8 of 9 proven**; **6 of 9 premises satisfiable**; **7 of 9 false variants refuted**",
+            "**24 of 25 caught**",
+            "**2 crashes**"])
+
+
+if __name__ == "__main__":
+    unittest.main()

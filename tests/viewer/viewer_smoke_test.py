@@ -1,0 +1,300 @@
+#!/usr/bin/env python3
+"""`edgewise view` as a person meets it: a real window under Xvfb that gets key presses and mouse drags, and a terminal
+in tmux. What is seen is compared with the pictures that the same keys lead to without a window.
+
+usage: viewer_smoke_test.py EDGEWISE
+Exit status 77, which ctest takes for "skipped", where what it needs is absent."""
+import json
+import os
+import shutil
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+PATIENCE_S = 10
+SKIPPED = 77
+
+
+def wait_for(condition, what):
+    end = time.monotonic() + PATIENCE_S
+    while time.monotonic() < end:
+        result = condition()
+        if result:
+            return result
+        time.sleep(0.02)
+    raise AssertionError(f"waited {PATIENCE_S} s for {what}")
+
+
+class Picture:
+    def __init__(self, width, height, rgb):
+        self.width, self.height, self.rgb = width, height, rgb
+
+    def __eq__(self, other):
+        return (self.width, self.height, self.rgb) == (other.width, other.height, other.rgb)
+
+    def part(self, x, y, width, height):
+        rows = (self.rgb[3 * (self.width * (y + row) + x):][:3 * width] for row in range(height))
+        return Picture(width, height, b"".join(rows))
+
+
+def read_ppm(path):
+    magic, width, height, depth, rgb = path.read_bytes().split(maxsplit=4)[0:5]
+    assert (magic, depth) == (b"P6", b"255")
+    # A pixel's byte may look like a blank: the data begin one byte after the depth.
+    size = 3 * int(width) * int(height)
+    return Picture(int(width), int(height), path.read_bytes()[-size:])
+
+
+class Screen:
+    """An X server whose framebuffer is a file in the format of xwd."""
+
+    def __init__(self, folder):
+        read, write = os.pipe()
+        self.server = subprocess.Popen(
+            ["Xvfb", "-displayfd", str(write), "-screen", "0", "1000x700x24", "-fbdir", folder, "-nolisten", "tcp"],
+            pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        os.close(write)
+        with os.fdopen(read) as display:
+            self.display = ":" + display.readline().strip()
+        self.file = Path(folder) / "Xvfb_screen0"
+
+    def close(self):
+        self.server.terminate()
+        self.server.wait()
+
+    def shot(self):
+        data = self.file.read_bytes()
+        header = struct.unpack(">25I", data[:100])
+        size, width, height, line, colours = header[0], header[4], header[5], header[12], header[19]
+        start = size + 12 * colours
+        rgb = bytearray(3 * width * height)
+        for row in range(height):  # blue, green, red, unused
+            pixels = data[start + row * line:][:4 * width]
+            for channel in range(3):
+                rgb[3 * width * row + channel:3 * width * (row + 1):3] = pixels[2 - channel::4]
+        return Picture(width, height, bytes(rgb))
+
+
+class Viewer(unittest.TestCase):
+    def setUp(self):
+        self.folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
+        self.running = []
+
+    def leads_to(self, keys, size):
+        path = self.folder / "expected.ppm"
+        subprocess.run([EDGEWISE, "view", "cube", "--size", size, "--keys", keys, "-o", path], check=True)
+        return read_ppm(path)
+
+
+class InWindow(Viewer):
+    SIZE = "640x400"
+
+    def start(self, title, *words):
+        self.screen = Screen(self.folder)
+        self.addCleanup(self.screen.close)
+        # What a library below SDL keeps to the end is no leak of the program's, should a sanitizer look.
+        known_leaks = self.folder / "known_leaks"
+        known_leaks.write_text("leak:libdbus-1.so\n")
+        self.environment = {**os.environ, "DISPLAY": self.screen.display, "SDL_VIDEODRIVER": "x11",
+                            "LSAN_OPTIONS": f"suppressions={known_leaks}:print_suppressions=0"}
+        self.program = subprocess.Popen([EDGEWISE, *words, "--size", self.SIZE], env=self.environment,
+                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(self.stop)
+        self.window = self.xdo("search", "--sync", "--onlyvisible", "--name", f"edgewise: {title}").split()[0]
+        self.xdo("windowfocus", "--sync", self.window)
+
+    def stop(self):
+        self.program.kill()
+        self.program.communicate()
+
+    def xdo(self, *words):
+        return subprocess.run(["xdotool", *words], env=self.environment, check=True, capture_output=True, text=True,
+                              timeout=PATIENCE_S).stdout
+
+    def place(self):
+        words = self.xdo("getwindowgeometry", "--shell", self.window).split()
+        return {key: int(value) for key, value in (word.split("=") for word in words)}
+
+    def shown(self):
+        place = self.place()
+        return self.screen.shot().part(place["X"], place["Y"], place["WIDTH"], place["HEIGHT"])
+
+
+class Demonstration(InWindow):
+    NAME = "pico8-inside-test"
+
+    def test_steps_lead_to_the_picture(self):
+        self.start(self.NAME, "demo", self.NAME, "--view")
+        path = self.folder / "expected.ppm"
+        subprocess.run([EDGEWISE, "demo", self.NAME, "--size", self.SIZE, "-o", path], check=True,
+                       stdout=subprocess.DEVNULL)
+        demos = json.loads(subprocess.run([EDGEWISE, "demo", "--json"], check=True, capture_output=True).stdout)
+        steps = next(demo["steps"] for demo in demos if demo["name"] == self.NAME)
+
+        def below_the_text(picture):  # where times stand, which differ
+            return picture.part(0, 80, picture.width, picture.height - 80)
+
+        expected = below_the_text(read_ppm(path))
+        self.assertNotEqual(below_the_text(self.shown()), expected)
+        for _ in steps[1:]:
+            self.xdo("key", "5")
+        wait_for(lambda: below_the_text(self.shown()) == expected, "the last step's picture")
+        self.xdo("key", "q")
+        self.assertEqual(self.program.wait(PATIENCE_S), 0)
+
+
+class Window(InWindow):
+    def setUp(self):
+        super().setUp()
+        self.saved = self.folder / "saved"
+        self.saved.mkdir()
+        self.start("cube", "view", "cube", "--keys", "oo", "--save-to", self.saved)
+
+    def expect(self, keys, size=InWindow.SIZE):
+        expected = self.leads_to(keys, size)
+        wait_for(lambda: self.shown() == expected, f"what {keys} leads to at {size}")
+        return expected
+
+    def test_keys_mouse_sizes_and_files(self):
+        # The full overlay is on at this size, the short one on a small screen: o takes them away, and with them the
+        # times that would differ.
+        home = self.expect("oo")
+        self.xdo("key", "1", "2")
+        self.assertNotEqual(self.expect("oo12"), home)
+        self.xdo("key", "2", "1", "h")
+        self.expect("ooh")
+        self.xdo("key", "h")
+        self.expect("oo")
+        self.xdo("key", "v", "Tab")
+        self.xdo("key", "z", "BackSpace", "BackSpace")
+        self.expect("oov<tab>z<backspace><backspace>")
+        self.xdo("key", "v", "v", "7")
+        self.expect("oo7")
+        self.xdo("key", "7")
+        self.expect("oo")
+
+        # A drag turns the view, a held key moves the eye, and there is a way back.
+        self.xdo("mousemove", "--window", self.window, "300", "200", "mousedown", "1", "mousemove", "--window",
+                 self.window, "360", "180", "mouseup", "1")
+        wait_for(lambda: self.shown() != home, "the view to turn")
+        self.xdo("key", "0")
+        self.expect("oo")
+        self.xdo("keydown", "w")
+        wait_for(lambda: self.shown() != home, "the eye to move")
+        self.xdo("keyup", "w")
+        self.xdo("key", "0")
+        self.expect("oo")
+
+        for size, keys in (("320x200", "o"), ("801x503", "oo")):
+            self.xdo("windowsize", "--sync", self.window, *size.split("x"))
+            self.expect(keys, size)
+
+        self.xdo("key", "p")
+        stream = wait_for(lambda: [*self.saved.glob("*.tri")], "files")[0]
+        again = self.folder / "again.png"
+        subprocess.run([EDGEWISE, "render", stream, "-o", again], check=True, stdout=subprocess.DEVNULL)
+        self.assertEqual(subprocess.run([EDGEWISE, "diff", again, stream.with_suffix(".png")],
+                                        stdout=subprocess.DEVNULL).returncode, 0)
+        for judge in (["verify"], ["accuracy", "--no-speed"]):
+            self.assertEqual(subprocess.run([EDGEWISE, *judge, stream], stdout=subprocess.DEVNULL).returncode, 0)
+
+        self.xdo("key", "q")
+        out, err = self.program.communicate(timeout=PATIENCE_S)
+        self.assertEqual((self.program.returncode, err), (0, ""))
+        self.assertEqual(out.split(), [str(stream.with_suffix(".png")), str(stream)])
+
+    def test_interruption(self):
+        self.program.send_signal(signal.SIGINT)
+        self.assertEqual(self.program.wait(PATIENCE_S), 128 + signal.SIGINT)
+
+
+class NoDisplay(Viewer):
+    def test_is_said(self):
+        nowhere = {key: value for key, value in os.environ.items()
+                   if key not in ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER")}
+        result = subprocess.run([EDGEWISE, "view"], env=nowhere, capture_output=True, text=True, timeout=PATIENCE_S)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("--terminal", result.stderr)
+
+
+class Terminal(Viewer):
+    def setUp(self):
+        super().setUp()
+        self.server = ["tmux", "-S", str(self.folder / "tmux"), "-f", "/dev/null"]
+        subprocess.run([*self.server, "new-session", "-d", "-x", "90", "-y", "30",
+                        "PS1='ready> ' bash --norc --noprofile"], check=True)
+        self.addCleanup(subprocess.run, [*self.server, "kill-server"])
+        self.seen("ready>")
+        self.type("echo be''fore; stty -g", "Enter")
+        self.seen("before")
+        self.mode = wait_for(self.line_after("before"), "stty")
+
+    def type(self, *words):
+        subprocess.run([*self.server, "send-keys", *words], check=True)
+
+    def text(self, *flags):
+        return subprocess.run([*self.server, "capture-pane", "-pJ", *flags], check=True, capture_output=True,
+                              text=True).stdout
+
+    def seen(self, words):
+        wait_for(lambda: words in self.text(), words)
+
+    def line_after(self, words):
+        def find():
+            lines = self.text().splitlines()
+            return words in lines and lines[lines.index(words) + 1]
+        return find
+
+    def start(self):
+        self.type(f"{EDGEWISE} view cube --terminal; echo status $?; stty -g", "Enter")
+        self.seen("[h] help")
+
+    def expect_all_as_before(self, status):
+        self.seen(f"status {status}")
+        self.seen("before")
+        self.assertEqual(wait_for(self.line_after(f"status {status}"), f"stty in:\n{self.text()}"), self.mode)
+        self.assertIn("cursor 1", subprocess.run([*self.server, "display-message", "-p", "cursor #{cursor_flag}"],
+                                                 check=True, capture_output=True, text=True).stdout)
+        self.type("clear; echo be''fore", "Enter")
+
+    def test_keys_sizes_and_ends(self):
+        self.start()
+        self.seen("tiled")
+        colours = self.text("-e")
+        self.assertIn("\u2580", colours)
+        self.assertIn("38;2;", colours)
+        for _ in range(2):
+            self.type("b")
+        self.seen("float_lt")
+        self.type("BSpace")
+        self.seen("float_le")
+        self.type("h")
+        self.seen("move forwards, left, backwards, right")
+        self.type("h", "h")
+        self.seen("[h] help")
+        subprocess.run([*self.server, "resize-window", "-x", "24", "-y", "8"], check=True)
+        self.seen("float_le")
+        subprocess.run([*self.server, "resize-window", "-x", "90", "-y", "30"], check=True)
+        self.seen("0 gaps")
+        self.type("Escape")
+        self.expect_all_as_before(0)
+        self.start()
+        self.type("C-c")
+        self.expect_all_as_before(130)
+
+
+if __name__ == "__main__":
+    EDGEWISE = sys.argv.pop(1)
+    missing = [tool for tool in ("Xvfb", "xdotool", "tmux") if shutil.which(tool) is None]
+    if "without SDL2" in subprocess.run([EDGEWISE, "view"], env={**os.environ, "SDL_VIDEODRIVER": "none"},
+                                        capture_output=True, text=True).stderr:
+        missing.append("SDL2, when this was built,")
+    if missing:
+        print(f"skipped: {', '.join(missing)} not installed (scripts/packages/viewer.txt, test.txt)")
+        sys.exit(SKIPPED)
+    unittest.main()
