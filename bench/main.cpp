@@ -90,8 +90,7 @@ bool is_beaten(const Row& row, const std::vector<Row>& rows) {
   double own_s = 0.0, best_s = std::numeric_limits<double>::infinity();
   for (const Row& other : rows) {
     if (other.workload != row.workload || other.timed != Timed::frame || other.peer != nullptr ||
-        other.backend->fills != row.backend->fills || other.cores > 0 || other.execution.threads != 1 ||
-        other.execution.target != SimdTarget::best)
+        other.cores > 0 || other.execution.threads != 1 || other.execution.target != SimdTarget::best)
       continue;
     best_s = std::min(best_s, other.once_s);
     if (other.backend == row.backend) own_s = other.once_s;
@@ -209,12 +208,12 @@ void register_rows(const std::vector<Row>& rows, Stage& stage, const Flags& flag
       registered->UseRealTime();
     const double once_s = std::max(row.once_s, 1e-6);
     const int at_least = row.peer != nullptr                       ? effort.repetitions
-                         : row.timed == Timed::raster && !row.rung ? effort.at_least
+                         : row.timed == Timed::raster && !row.step ? effort.at_least
                                                                    : 1;
     if (flags.own_iterations || known)
       registered->Iterations(known ? 1
                                    : std::max<std::int64_t>(1, std::llround(effort.repetition_s / once_s)));
-    const int most = row.rung || row.wants_floor ? effort.in_ablation : effort.repetitions;
+    const int most = row.step || row.wants_floor ? effort.in_ablation : effort.repetitions;
     const int repetitions =
         known ? 1 : std::clamp(static_cast<int>(most * effort.slow_repetition_s / once_s), at_least, most);
     if (flags.own_repetitions || known) registered->Repetitions(repetitions);
@@ -256,7 +255,7 @@ void add_context(const Flags& flags) {
   benchmark::AddCustomContext("suite", flags.suite.quick            ? "quick"
                                        : flags.suite.scenes.empty() ? "full"
                                                                     : "scenes");
-  benchmark::AddCustomContext("backends", names_of(filling_backends()));
+  benchmark::AddCustomContext("backends", names_of(backends()));
   benchmark::AddCustomContext("peers", names_of(peers()));
 }
 

@@ -92,12 +92,13 @@ class Suite {
   }
 
   // Beside the scene's own rows, which are its ends: one reference picture serves them all.
-  void add_ladder(const WorkloadPtr& workload, const std::string& scene) {
+  void add_ablation(const WorkloadPtr& workload, const std::string& scene) {
     if (!in_ablation(scene)) return;
-    for (const AblationStep& rung : ablation_steps()) {
-      add(workload, Timed::raster, find_backend(rung.backend), fmt::format("{}/rung:{}", scene, rung.name),
-          rung.execution);
-      rows_.back().rung = true;
+    for (const AblationStep& step : ablation_steps()) {
+      add(workload, Timed::raster, find_backend(step.backend), fmt::format("{}/step:{}", scene, step.name), 1,
+          step.target);
+      rows_.back().ablation = step.ablation;
+      rows_.back().step = true;
     }
   }
 
@@ -108,7 +109,7 @@ class Suite {
     for (const double area_px : areas_px) {
       const auto workload =
           make_workload([options = options_, area_px] { return area_source(options, area_px); });
-      for (const auto& backend : filling_backends())
+      for (const auto& backend : backends())
         for (const int threads : kThreads)
           add(workload, Timed::raster, backend, fmt::format("area:{:.0f}", area_px), threads);
     }
@@ -117,7 +118,7 @@ class Suite {
   // The last steps take some backends a second, where one draw tells enough.
   void add_growth() {
     for (const auto& [what, workload] : growth_steps(options_.width, options_.height, options_.quick))
-      for (const auto& backend : filling_backends()) {
+      for (const auto& backend : backends()) {
         add(workload, Timed::raster, backend, what, kSweepThreads);
         rows_.back().repeat_below_s = 0.6;
       }
@@ -127,7 +128,7 @@ class Suite {
   void add_tiny() {
     constexpr int kSide_px = 256;
     const auto workload = scene_workload("cube", kSide_px, kSide_px);
-    for (const auto& backend : filling_backends())
+    for (const auto& backend : backends())
       for (const int threads : kThreads)
         add(workload, Timed::raster, backend, fmt::format("cube/tiny:{}x{}", kSide_px, kSide_px), threads);
   }
@@ -142,7 +143,7 @@ class Suite {
       };
       const auto add_mode = [&](Cull cull, std::string_view name, const lab::FacingMethod* facing = nullptr) {
         const auto workload = std::make_shared<Workload>(options_.width, options_.height, cull, load, facing);
-        for (const auto& backend : filling_backends())
+        for (const auto& backend : backends())
           add(workload, Timed::frame, backend, fmt::format("{}/cull:{}", scene, name), kSweepThreads);
       };
       for (const Cull cull : {Cull::none, Cull::back}) add_mode(cull, name_of(cull));
@@ -154,7 +155,7 @@ class Suite {
   void add_target_sweep() {
     for (const std::string scene : {"torus-knot", "large", "medium", "grid4"}) {
       const auto workload = scene_workload(scene, options_.width, options_.height);
-      for (const auto& backend : filling_backends())
+      for (const auto& backend : backends())
         for (const SimdTarget target : supported_targets()) {
           add(workload, Timed::raster, backend, fmt::format("{}/target:{}", scene, name_of(target)), 1,
               target);
@@ -178,21 +179,14 @@ class Suite {
  private:
   void add(const WorkloadPtr& workload, Timed timed, const BackendInfo& backend, const std::string& what,
            int threads, SimdTarget target = SimdTarget::best) {
-    Execution execution;
-    execution.threads = threads;
-    execution.target = target;
-    add(workload, timed, backend, what, execution);
-  }
-
-  void add(const WorkloadPtr& workload, Timed timed, const BackendInfo& backend, const std::string& what,
-           const Execution& execution) {
     const char* with = timed == Timed::frame ? "+frontend" : "";
     Row row;
-    row.name = fmt::format("{}{}/{}/threads:{}", backend.name, with, what, execution.threads);
+    row.name = fmt::format("{}{}/{}/threads:{}", backend.name, with, what, threads);
     row.workload = workload;
     row.timed = timed;
     row.backend = &backend;
-    row.execution = execution;
+    row.execution.threads = threads;
+    row.execution.target = target;
     rows_.push_back(std::move(row));
   }
 
@@ -201,7 +195,7 @@ class Suite {
   }
 
   void add_scheduled(const WorkloadPtr& workload, const std::string& name) {
-    for (const auto& backend : filling_backends())
+    for (const auto& backend : backends())
       for (const int cores : kScheduledCores) {
         add(workload, Timed::frame, backend, fmt::format("{}/cores:{}", name, cores), 1);
         rows_.back().cores = rows_.back().execution.threads = cores;
@@ -261,7 +255,7 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
     taken.emplace(name, name);
     const auto workload = suite.scene_workload(name, options.width, options.height);
     suite.add_scene(workload, name, scene.stream);
-    suite.add_ladder(workload, name);
+    suite.add_ablation(workload, name);
   }
   for (const auto& scene : options.more_scenes) add_named(scene);
   suite.add_area_sweep();

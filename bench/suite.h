@@ -9,6 +9,7 @@
 #include "bench/models/scaling.h"
 #include "bench/peers/peer.h"
 #include "bench/workloads/workload.h"
+#include "raster/ablation.h"
 
 namespace edgewise::bench {
 
@@ -29,12 +30,13 @@ struct Row {
   const BackendInfo* backend = nullptr;  // null for front end rows and peers
   const PeerInfo* peer = nullptr;
   Execution execution;
+  Ablation ablation{};
   double repeat_below_s = kTooSlowToRepeat_s;
   int cores = 0;          // if set, estimated for so many, not timed; execution.threads is the same
   FrameWork recorded;     // what is scheduled then
   double peak_bytes = 0;  // of a first frame; 0 where it was not measured
   bool wants_floor = false;
-  bool rung = false;               // of the ladder
+  bool step = false;               // of the ablation
   double once_s = 0.0;             // what it took when it was compared
   std::optional<FrameCost> floor;  // if wanted
   std::uint64_t near_ties = 0;     // peers: pixels where another triangle is as near up to rounding

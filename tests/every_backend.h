@@ -1,4 +1,5 @@
-// A test of each backend in the registry: what it draws, under every execution, against a brute-force oracle.
+// A test of each backend and of wireframe(): what it draws, under every execution, against a brute-force
+// oracle.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,12 +17,13 @@ namespace edgewise::testing {
 
 class EveryBackend : public ::testing::TestWithParam<std::string_view> {
  protected:
-  const BackendInfo& info_ = find_backend(GetParam());
+  const BackendInfo& info_ = find_drawer(GetParam());
+  const bool fills_ = &info_ != &wireframe();
   std::unique_ptr<Backend> backend_ = info_.make();
 
   Framebuffer oracle(std::span<const ScreenTriangle> triangles, int width, int height) const {
     Framebuffer expected(width, height);
-    (info_.fills ? lab::draw_oracle : lab::draw_edge_oracle)(triangles, expected, kBackground);
+    (fills_ ? lab::draw_oracle : lab::draw_edge_oracle)(triangles, expected, kBackground);
     return expected;
   }
   void expect_oracle(std::span<const ScreenTriangle> triangles, int width, int height,
@@ -30,7 +32,7 @@ class EveryBackend : public ::testing::TestWithParam<std::string_view> {
     Framebuffer actual(width, height);
     for (const auto& execution : executions()) {
       lab::poison(actual);  // or what is left out would still be right, from the draw before
-      backend_->draw(triangles, actual.view(), kBackground, execution);
+      draw(*backend_, triangles, actual.view(), kBackground, execution);
       expect_same(expected, actual, what + ", " + describe(execution));
     }
   }

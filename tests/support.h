@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "core/random.h"
-#include "edgewise/backend.h"
 #include "edgewise/contract.h"
 #include "lab/measure.h"
+#include "raster/ablation.h"
 
 namespace edgewise::testing {
 
@@ -89,26 +89,28 @@ inline std::vector<ScreenTriangle> adversarial(std::string_view family, int coun
   return triangles;
 }
 
-// Every SIMD target with one thread, all tile sizes, and ideas left out; several thread counts with the best
-// one; and what only the naive backend looks at.
-inline std::vector<Execution> executions() {
-  std::vector<Execution> list;
-  for (const int threads : {2, 3, 8}) list.push_back({threads, 64, SimdTarget::best});
+// Every SIMD target with one thread, all tile sizes, and optimizations left out; several thread counts with
+// the best target.
+inline std::vector<AblatedExecution> executions() {
+  std::vector<AblatedExecution> list;
+  for (const int threads : {2, 3, 8}) list.push_back({{threads, 64, SimdTarget::best}});
   if (kRacesOnly) return list;
-  for (const auto target : supported_targets()) list.push_back({1, 64, target});
+  for (const auto target : supported_targets()) list.push_back({{1, 64, target}});
   for (const auto target : supported_targets())
-    for (const int tile : {16, 32}) list.push_back({2, tile, target});
+    for (const int tile : {16, 32}) list.push_back({{2, tile, target}});
   for (const auto target : supported_targets())
-    for (const auto& ideas : kAblations) list.push_back({1, 64, target, ideas});
-  list.push_back({1, 64, SimdTarget::best, {}, true});
+    for (const auto& ablation : kAblations) list.push_back({{1, 64, target}, ablation});
   return list;
 }
 
 inline std::string describe(const Execution& e) {
-  const std::string ideas = edgewise::describe(e.ideas);
   return std::to_string(e.threads) + " threads, tile " + std::to_string(e.tile_size) + ", " +
-         std::string(name_of(e.target)) + (ideas.empty() ? "" : ", " + ideas) +
-         (e.stepped ? ", stepped" : "");
+         std::string(name_of(e.target));
+}
+
+inline std::string describe(const AblatedExecution& how) {
+  const std::string left_out = edgewise::describe(how.ablation);
+  return describe(how.execution) + (left_out.empty() ? "" : ", " + left_out);
 }
 
 // Empty where the frames are the same.
@@ -133,6 +135,16 @@ inline std::vector<std::string_view> names_of(std::span<const BackendInfo> infos
   std::vector<std::string_view> names;
   for (const auto& b : infos) names.push_back(b.name);
   return names;
+}
+
+// The backends and wireframe().
+inline std::vector<std::string_view> all_drawers() {
+  std::vector<std::string_view> names = names_of(backends());
+  names.push_back(wireframe().name);
+  return names;
+}
+inline const BackendInfo& find_drawer(std::string_view name) {
+  return name == wireframe().name ? wireframe() : find_backend(name);
 }
 
 // For parameterised tests: names may hold letters, digits and underscores only.

@@ -12,7 +12,7 @@ namespace {
 
 // Whether our row draws what the peer's does, with as many threads and the switches that users get.
 bool is_comparable(const Row& ours, const Row& peer) {
-  return ours.backend != nullptr && ours.backend->name == kAblationBackend && !ours.rung && ours.cores == 0 &&
+  return ours.backend != nullptr && ours.backend->name == kAblationBackend && !ours.step && ours.cores == 0 &&
          ours.execution.target == SimdTarget::best && ours.workload == peer.workload &&
          ours.timed == peer.timed && ours.execution.threads == peer.execution.threads;
 }

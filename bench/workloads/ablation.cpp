@@ -5,28 +5,20 @@
 namespace edgewise::bench {
 
 std::vector<AblationStep> ablation_steps() {
-  Ablation ideas{false, false, false, false, WriteOut::through_caches};
-  const auto with = [&](SimdTarget target) {
-    Execution execution;
-    execution.target = target;
-    execution.ideas = ideas;
-    return execution;
-  };
-  Execution stepped;
-  stepped.stepped = true;
-  std::vector<AblationStep> rungs{{"stepped", "naive", stepped}};
+  std::vector<AblationStep> steps{{"stepped", "naive", SimdTarget::best, {.stepped = true}}};
+  Ablation ablation{false, false, false, false, TileStore::cached};
   for (const SimdTarget target : supported_targets())
-    rungs.push_back({target == SimdTarget::scalar ? "tiles" : std::string(name_of(target)), kAblationBackend,
-                     with(target)});
-  const auto add = [&](const char* name, bool Ablation::*idea) {
-    ideas.*idea = true;
-    rungs.push_back({name, kAblationBackend, with(SimdTarget::best)});
+    steps.push_back({target == SimdTarget::scalar ? "tiles" : std::string(name_of(target)), kAblationBackend,
+                     target, ablation});
+  const auto add = [&](const char* name, bool Ablation::*optimization) {
+    ablation.*optimization = true;
+    steps.push_back({name, kAblationBackend, SimdTarget::best, ablation});
   };
   add("vector-setup", &Ablation::vector_setup);
   add("prefetch", &Ablation::prefetch);
-  add("patches", &Ablation::patches);
+  add("coverage-masks", &Ablation::coverage_masks);
   add("hierarchical-depth", &Ablation::hierarchical_depth);
-  return rungs;
+  return steps;
 }
 
 bool in_ablation(std::string_view scene) {

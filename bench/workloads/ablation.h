@@ -1,29 +1,30 @@
-// The ladder: one backend with its ideas added one by one, so that a reader sees what each is worth. It
-// begins at the naive backend and ends at the last one's own rows, which the suite has already.
+// The ablation: the optimizations of one backend, added one by one, so that a reader sees what each is worth.
+// It begins at the naive backend and ends at the tiled backend's own rows, which the suite has already.
 #pragma once
 
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "edgewise/backend.h"
+#include "raster/ablation.h"
 
 namespace edgewise::bench {
 
 inline constexpr std::string_view kAblationBackend = "tiled";
 
 struct AblationStep {
-  std::string name;          // in row names, after "rung:"
-  std::string_view backend;  // whose switches these are
-  Execution execution;
+  std::string name;  // in row names, after "step:"
+  std::string_view backend;
+  SimdTarget target;
+  Ablation ablation;
 };
 
-// On one thread, each with one idea more than the one before: the first is naive with another inner loop, the
-// last lacks the choice of how to write out. From the first to the second the backend changes, and with it
-// more than one thing: tiles, blocks, lists and 32-bit lanes come together.
+// All on one thread, each with one optimization more than the step before. The first is the naive backend
+// with stepped edges; the last lacks only the automatic tile store. The second step changes the backend, and
+// with it tiles, blocks, lists and 32-bit lanes at once.
 std::vector<AblationStep> ablation_steps();
 
-// Whether the ladder is climbed in a scene: those of one kind each.
+// Whether the ablation runs on a scene: one of each kind does.
 bool in_ablation(std::string_view scene);
 
 }  // namespace edgewise::bench

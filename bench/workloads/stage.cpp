@@ -27,7 +27,7 @@ void Stage::work(const Row& row) {
   auto triangles = workload.triangles();
   if (row.timed != Timed::raster) triangles = workload.run(frontend_, row.execution.threads);
   if (row.timed != Timed::frontend)
-    backend(row).draw(triangles, frame(row).view(), kBackground, row.execution);
+    draw(backend(row), triangles, frame(row).view(), kBackground, {row.execution, row.ablation});
 }
 
 double Stage::timed_work_s(const Row& row) {
@@ -59,11 +59,11 @@ void Stage::compare_ours(Row& row) {
       row.error = fmt::format("emits other triangles than on 1 thread ({} instead of {})", found.size(),
                               expected.size());
   } else {
-    const auto difference = lab::compare(row.workload->reference(row.backend->fills), frame(row));
+    const auto difference = lab::compare(row.workload->reference(), frame(row));
     if (difference.pixels != 0)
       row.error =
           fmt::format("{} pixels differ from {} on 1 thread, the first at ({}, {})", difference.pixels,
-                      reference_backend(row.backend->fills).name, difference.first_x, difference.first_y);
+                      backends().front().name, difference.first_x, difference.first_y);
   }
 }
 

@@ -4,10 +4,6 @@
 
 namespace edgewise::bench {
 
-const BackendInfo& reference_backend(bool fills) {
-  return backends()[fills ? 0 : filling_backends().size()];
-}
-
 Workload::Workload(int width, int height, Cull mesh_cull, std::function<app::Source()> load,
                    const lab::FacingMethod* facing)
     : width_(width), height_(height), mesh_cull_(mesh_cull), facing_(facing), load_(std::move(load)) {}
@@ -30,7 +26,7 @@ std::span<const ScreenTriangle> Workload::run(Frontend& frontend, int threads) {
 }
 
 void Workload::drop_hidden(Frontend& frontend) {
-  const Framebuffer exact = drawn(true);
+  const Framebuffer exact = drawn();
   hidden_.emplace(std::get<Scene>(source_->drawable), *facing_);
   const auto left = run(frontend, 1);
   triangles_.assign(left.begin(), left.end());
@@ -56,18 +52,17 @@ const BlockCounts& Workload::blocks() {
   return *blocks_;
 }
 
-Framebuffer Workload::drawn(bool fills) const {
+Framebuffer Workload::drawn() const {
   Framebuffer frame(width_, height_);
   Execution execution;
   execution.target = supported_targets().front();
-  reference_backend(fills).make()->draw(triangles_, frame.view(), kBackground, execution);
+  backends().front().make()->draw(triangles_, frame.view(), kBackground, execution);
   return frame;
 }
 
-const Framebuffer& Workload::reference(bool fills) {
-  std::optional<Framebuffer>& reference = fills ? filled_ : other_;
-  if (!reference) reference.emplace(drawn(fills));
-  return *reference;
+const Framebuffer& Workload::reference() {
+  if (!reference_) reference_.emplace(drawn());
+  return *reference_;
 }
 
 }  // namespace edgewise::bench

@@ -20,7 +20,6 @@ namespace edgewise::bench {
 inline constexpr std::uint32_t kBackground = 0xFF000000u;
 
 // The first of the registry that fill, or of those that don't.
-const BackendInfo& reference_backend(bool fills);
 
 class Workload {
  public:
@@ -34,9 +33,9 @@ class Workload {
   // Rows that time the front end need the scene itself afterwards, others let its memory go.
   void prepare(bool keep_scene);
 
-  // The picture that every row must reproduce: reference_backend(), one thread, slowest SIMD target.
-  const Framebuffer& reference(bool fills = true);
-  void drop_reference() { filled_.reset(), other_.reset(); }
+  // The picture that every row must reproduce: the first backend on one thread, slowest SIMD target.
+  const Framebuffer& reference();
+  void drop_reference() { reference_.reset(); }
 
   // Counted when first asked for.
   const BlockCounts& blocks();
@@ -56,7 +55,7 @@ class Workload {
   int height() const { return height_; }
 
  private:
-  Framebuffer drawn(bool fills) const;
+  Framebuffer drawn() const;
   void drop_hidden(Frontend& frontend);
 
   int width_, height_;
@@ -70,7 +69,7 @@ class Workload {
   std::uint64_t submitted_ = 0, covered_px_ = 0;
   std::optional<std::uint64_t> wrong_px_;
   std::optional<BlockCounts> blocks_;
-  std::optional<Framebuffer> filled_, other_;
+  std::optional<Framebuffer> reference_;
 };
 
 }  // namespace edgewise::bench

@@ -36,7 +36,7 @@ nlohmann::json as_json() {
   for (const SceneInfo& scene : builtin_scenes())
     json["scenes"].push_back({{"name", scene.name}, {"idea", scene.idea}, {"stream", scene.stream}});
   for (const BackendInfo& backend : backends())
-    json["backends"].push_back({{"name", backend.name}, {"idea", backend.idea}, {"fills", backend.fills}});
+    json["backends"].push_back({{"name", backend.name}, {"idea", backend.idea}});
   for (const SimdTarget target : supported_targets()) json["simd_targets"].push_back(name_of(target));
   json["simd_best"] = name_of(resolve(SimdTarget::best));
   for (const Cull cull : cull_modes())
@@ -57,10 +57,7 @@ std::string as_text() {
   text += "Files that can stand for a scene:\n" + line("*.obj", "Wavefront meshes");
   text += line("*.tri", "triangle streams, written by edgewise capture");
   text += "Backends, the reference first:\n";
-  for (const BackendInfo& backend : filling_backends()) text += line(backend.name, backend.idea);
-  text += "Backends that draw another picture than these:\n";
-  for (const BackendInfo& backend : backends().subspan(filling_backends().size()))
-    text += line(backend.name, backend.idea);
+  for (const BackendInfo& backend : backends()) text += line(backend.name, backend.idea);
   text += "SIMD targets of this machine:\n";
   for (const SimdTarget target : supported_targets())
     text += line(name_of(target), target == resolve(SimdTarget::best) ? "best" : "");

@@ -37,6 +37,7 @@ struct RenderOptions {
   SceneOptions scene;
   ExecutionOptions execution;
   std::string backend = "tiled";
+  bool wireframe = false;
   What what = What::colour;
   std::string output, depth;
   int frames = 1;
@@ -65,12 +66,11 @@ What parse_what(const std::string& text) {
 class Renderer {
  public:
   explicit Renderer(const RenderOptions& options)
-      : options_(options), info_(find_backend(options.backend)), backend_(info_.make()) {
-    if (options.what == What::hits && !info_.fills)
+      : options_(options),
+        backend_((options.wireframe ? wireframe() : find_backend(options.backend)).make()) {
+    if (options.what == What::hits && options.wireframe)
       throw std::invalid_argument(
-          fmt::format("--payload hits counts what triangles cover: --backend {} "
-                      "does not fill them",
-                      info_.name));
+          "--payload hits counts what triangles cover: --wireframe does not fill them");
     std::vector<std::string> names;
     for (const auto& scene : options.scenes) {
       check_source(scene);
@@ -115,6 +115,8 @@ class Renderer {
       report(render(*shot, time, frame));
     }
   }
+
+  std::string_view drawn_by() const { return options_.wireframe ? wireframe().name : options_.backend; }
 
   void show_progress(const std::string& scene, int frame, double frame_fraction) {
     progress_.show((frame - 1 + frame_fraction) / options_.frames, scene);
@@ -161,7 +163,7 @@ class Renderer {
 
   nlohmann::json as_json(const Picture& p) const {
     nlohmann::json json{{"scene", p.scene},
-                        {"backend", info_.name},
+                        {"backend", drawn_by()},
                         {"width", p.frontend.width},
                         {"height", p.frontend.height},
                         {"cull", name_of(p.frontend.cull)},
@@ -180,7 +182,7 @@ class Renderer {
 
   std::string as_text(const Picture& p) const {
     std::string text = fmt::format("{} ({}x{}, {}): {}\n", printable(p.scene), p.frontend.width,
-                                   p.frontend.height, info_.name, stats_text(p.stats));
+                                   p.frontend.height, drawn_by(), stats_text(p.stats));
     if (options_.what == What::hits)
       text += fmt::format("  pixels hit: 0 times {}, once {}, twice {}, 3 times or more {}\n", p.hits[0],
                           p.hits[1], p.hits[2], p.hits[3]);
@@ -189,7 +191,6 @@ class Renderer {
   }
 
   const RenderOptions& options_;
-  const BackendInfo& info_;
   std::unique_ptr<Backend> backend_;
   Frontend frontend_;
   std::optional<Framebuffer> frame_;
@@ -223,6 +224,7 @@ void add_render(CLI::App& program, Action& action) {
       ->type_name("FILE");
   command.add_option("--depth", o->depth, "Depth as floats, .pfm; named as --output is")->type_name("FILE");
   command.add_option("--backend", o->backend, "Backend of `edgewise list` (tiled)")->type_name("NAME");
+  command.add_flag("--wireframe", o->wireframe, "Draw only the edges of triangles, one pixel wide");
   command
       .add_option_function<std::string>(
           "--payload", [o](const std::string& text) { o->what = parse_what(text); },

@@ -9,7 +9,6 @@
 #include <span>
 #include <string_view>
 
-#include "edgewise/ablation.h"
 #include "edgewise/framebuffer.h"
 #include "edgewise/limits.h"
 #include "edgewise/screen_triangle.h"
@@ -22,8 +21,6 @@ struct Execution {
   int threads = 1;     // 1 … kMaxThreads
   int tile_size = 64;  // px; 16, 32 or 64; only the tiled backend looks at it
   SimdTarget target = SimdTarget::best;
-  Ablation ideas{};      // all on; patches and hierarchical depth are tiled's, the others also scanline's
-  bool stepped = false;  // along rows, instead of evaluated at each pixel; only the naive backend looks at it
 };
 
 // A backend keeps its scratch memory between frames, until it is destroyed: with triangles and frame less
@@ -54,19 +51,20 @@ class Backend {
 };
 
 struct BackendInfo {
-  std::string_view name;  // the one key in command line, tests, results and charts
+  std::string_view name;  // the key in command line, tests, results and charts
   std::string_view idea;  // one line
   std::unique_ptr<Backend> (*make)();
-  bool fills = true;  // the contract's picture; else one of its own
 };
 
-// All backends: those that fill, the reference first, then the others. Valid for as long as the program; any
-// thread may ask.
+// All backends, the reference first. They draw the same picture, bit for bit. Valid until the program ends;
+// any thread may call.
 std::span<const BackendInfo> backends();
-// Those that draw the same picture, bit for bit: what may be compared, judged and raced.
-std::span<const BackendInfo> filling_backends();
 
 // Throws std::invalid_argument, with the nearest known name, for an unknown one.
 const BackendInfo& find_backend(std::string_view name);
+
+// Draws the edges of triangles only, one pixel wide, by an exact rule of its own (raster/wireframe.cpp). Its
+// picture is not the contract's, so it is not in backends().
+const BackendInfo& wireframe();
 
 }  // namespace edgewise

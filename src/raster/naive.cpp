@@ -1,6 +1,7 @@
 // The tutorials' rasterizer: ask every pixel of the bounding box whether it is inside. Three edge functions
 // (rule 4) and the depth plane (rule 6) are evaluated anew at each pixel; or, to see what that costs, stepped
-// along a row (Execution::stepped).
+// along a row (Ablation::stepped).
+#include "raster/ablation.h"
 #include "raster/bands.h"
 
 namespace edgewise {
@@ -46,10 +47,10 @@ void draw_triangle(const ScreenTriangle& triangle, RowRange rows, FrameView fram
   }
 }
 
-class Naive final : public Backend {
+class Naive final : public AblatableBackend {
   void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
                     const Execution& execution) override {
-    const auto draw = execution.stepped ? draw_triangle<true> : draw_triangle<false>;
+    const auto draw = ablation.stepped ? draw_triangle<true> : draw_triangle<false>;
     draw_in_bands(triangles, frame, background, execution, bins_,
                   [&](const ScreenTriangle& t, RowRange rows) { draw(t, rows, frame); });
   }

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "edgewise/ablation.h"
+#include "raster/ablation.h"
 #include "edgewise/framebuffer.h"
 #include "edgewise/simd_target.h"
 #include "raster/binning/bins.h"
@@ -19,8 +19,7 @@ struct TileTask {
   int size_log2;  // px; at most 6
   FrameView frame;
   std::uint32_t background;
-  Ablation ideas;                      // write_out decided
-  std::int64_t* write_out_ns = nullptr;  // where the time that it takes is wanted, or null
+  Ablation ablation;  // tile_store is resolved
 
   int size() const { return 1 << size_log2; }  // px
   // What of it lies in the frame, px.

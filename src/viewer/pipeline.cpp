@@ -103,7 +103,7 @@ std::string_view name_of(Truth truth) {
 
 Backend& Pipeline::backend(std::string_view name) {
   auto& slot = backends_[name];
-  if (!slot) slot = find_backend(name).make();
+  if (!slot) slot = (name == wireframe().name ? wireframe() : find_backend(name)).make();
   return *slot;
 }
 
@@ -167,7 +167,7 @@ void Pipeline::outline(const lab::Choice& choice, const View& view, Image& image
   double unused_ms = 0;
   const Triangles triangles = triangles_of(choice, view, unused_ms);
   const Owners owners = owners_of(choice, view, triangles, unused_ms);
-  add_outlines(triangles.snapped, owners, backend("wireframe"), frame_->view(), view.execution, image);
+  add_outlines(triangles.snapped, owners, backend(wireframe().name), frame_->view(), view.execution, image);
 }
 
 std::vector<TriangleState> Pipeline::states(const lab::Choice& choice, const View& view) {
@@ -314,8 +314,8 @@ Judgement Pipeline::judge(const lab::Choice& choice, const View& view, Truth tru
   const Owners said = owners_of(choice, view, triangles, unused_ms);
 
   // No backend is its own judge.
-  const bool is_first = choice.coverage->info.name == filling_backends().front().name;
-  const std::string_view by = filling_backends()[is_first ? 1 : 0].name;
+  const bool is_first = choice.coverage->info.name == backends().front().name;
+  const std::string_view by = backends()[is_first ? 1 : 0].name;
   const Owners shown = [&] {
     if (choice.our_clipping() && choice.our_facing()) return true_owners(view, triangles, truth, by);
     const lab::Choice exact = lab::our_choice(by);

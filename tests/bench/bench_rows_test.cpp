@@ -125,7 +125,7 @@ TEST(BenchSuite, TimesHiddenFacesDroppedInThreeWays) {
   Stage stage;
   for (const std::string scene : {"cube", "cubes", "sphere", "sphere-quads", "torus-knot"})
     for (const std::string mode : {"none", "back", "normal_z"})
-      for (const BackendInfo& backend : filling_backends())
+      for (const BackendInfo& backend : backends())
         ASSERT_TRUE(
             rows.contains(std::string(backend.name) + "+frontend/" + scene + "/cull:" + mode + "/threads:2"))
             << scene << ", " << mode;
@@ -143,26 +143,25 @@ TEST(BenchSuite, TimesHiddenFacesDroppedInThreeWays) {
   EXPECT_TRUE(std::get<Scene>(quads.workload->drawable()).meshes[0].has_mark(1, kSecondHalf));
 }
 
-TEST(BenchLadder, AddsOneIdeaARungAndEndsOneBelowTheDefault) {
-  const auto rungs = ablation_steps();
+TEST(BenchAblation, AddsOneOptimizationPerStep) {
+  const auto steps = ablation_steps();
   const auto count = supported_targets().size();
-  ASSERT_EQ(rungs.size(), 1 + count + 4);
-  EXPECT_EQ(rungs[0].backend, "naive");
-  EXPECT_TRUE(rungs[0].execution.stepped);
-  for (std::size_t i = 0; i < rungs.size() - 1; ++i) {
-    EXPECT_EQ(rungs[i + 1].backend, "tiled");
-    const Execution& execution = rungs[i + 1].execution;
-    EXPECT_EQ(execution.threads, 1);
-    EXPECT_EQ(execution.target, i < count ? supported_targets()[i] : SimdTarget::best);
-    EXPECT_EQ(execution.ideas.vector_setup, i >= count);
-    EXPECT_EQ(execution.ideas.prefetch, i >= count + 1);
-    EXPECT_EQ(execution.ideas.patches, i >= count + 2);
-    EXPECT_EQ(execution.ideas.hierarchical_depth, i >= count + 3);
-    EXPECT_EQ(execution.ideas.write_out, WriteOut::through_caches);
+  ASSERT_EQ(steps.size(), 1 + count + 4);
+  EXPECT_EQ(steps[0].backend, "naive");
+  EXPECT_TRUE(steps[0].ablation.stepped);
+  for (std::size_t i = 0; i < steps.size() - 1; ++i) {
+    const AblationStep& step = steps[i + 1];
+    EXPECT_EQ(step.backend, "tiled");
+    EXPECT_EQ(step.target, i < count ? supported_targets()[i] : SimdTarget::best);
+    EXPECT_EQ(step.ablation.vector_setup, i >= count);
+    EXPECT_EQ(step.ablation.prefetch, i >= count + 1);
+    EXPECT_EQ(step.ablation.coverage_masks, i >= count + 2);
+    EXPECT_EQ(step.ablation.hierarchical_depth, i >= count + 3);
+    EXPECT_EQ(step.ablation.tile_store, TileStore::cached);
   }
 }
 
-TEST(BenchLadder, StandsBesideTheRowsThatAreItsEnds) {
+TEST(BenchAblation, StandsBesideTheRowsThatAreItsEnds) {
   std::set<std::string> names;
   std::size_t floors = 0;
   for (const Row& row : make_suite({})) {
@@ -170,8 +169,8 @@ TEST(BenchLadder, StandsBesideTheRowsThatAreItsEnds) {
     floors += row.wants_floor;
   }
   for (const SceneInfo& scene : builtin_scenes())
-    for (const AblationStep& rung : ablation_steps())
-      EXPECT_EQ(names.count(std::string(rung.backend) + "/" + std::string(scene.name) + "/rung:" + rung.name +
+    for (const AblationStep& step : ablation_steps())
+      EXPECT_EQ(names.count(std::string(step.backend) + "/" + std::string(scene.name) + "/step:" + step.name +
                             "/threads:1"),
                 in_ablation(scene.name) ? 1u : 0u);
   EXPECT_TRUE(names.count("naive/large/threads:1") && names.count("tiled/large/threads:2"));

@@ -132,7 +132,7 @@ class Mirror final : public PeerFrame {
       if (errs_) std::rotate(t.z, t.z + 1, t.z + 3), t.x_sub[0] += kSub;
       triangles.push_back(t);
     }
-    filling_backends().back().make()->draw(triangles, frame_.view(), scene_.background, {});
+    backends().back().make()->draw(triangles, frame_.view(), scene_.background, {});
   }
   std::vector<std::uint32_t> read() override {
     std::vector<std::uint32_t> pixels;

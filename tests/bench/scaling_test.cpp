@@ -115,7 +115,7 @@ class ObservedBackend : public ::testing::TestWithParam<std::string_view> {};
 
 TEST_P(ObservedBackend, DrawsTheSameUnderAnObserverAndCutsItsWorkForItsThreads) {
   const auto triangles = testing::adversarial("tiny", 20'000, 200, 150, 3);
-  const auto backend = find_backend(GetParam()).make();
+  const auto backend = testing::find_drawer(GetParam()).make();
   Framebuffer expected(200, 150), actual(200, 150);
   backend->draw(triangles, expected.view(), 0, {});
   for (const int threads : {1, 2, 64}) {
@@ -126,12 +126,12 @@ TEST_P(ObservedBackend, DrawsTheSameUnderAnObserverAndCutsItsWorkForItsThreads) 
     }
     testing::expect_same(expected, actual, std::to_string(threads) + " threads");
     if (threads == 1) continue;
-    ASSERT_GE(counter.tasks.size(), find_backend(GetParam()).fills ? 2u : 1u) << "binning, and drawing";
+    ASSERT_GE(counter.tasks.size(), GetParam() == wireframe().name ? 1u : 2u) << "binning, and drawing";
     for (const int tasks : counter.tasks) EXPECT_GT(tasks, 1);
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, ObservedBackend, ::testing::ValuesIn(testing::names_of(backends())),
+INSTANTIATE_TEST_SUITE_P(Registry, ObservedBackend, ::testing::ValuesIn(testing::all_drawers()),
                          [](const auto& param) { return testing::test_name(param); });
 
 TEST(BenchStage, RecordsWhatIsToBeScheduled) {

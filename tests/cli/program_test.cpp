@@ -138,7 +138,7 @@ TEST_F(ProgramRenders, TheSamePictureInEveryFormatAndByEveryBackend) {
   EXPECT_EQ(png.width, 97);
   EXPECT_EQ(png.height, 61);
   EXPECT_GT(std::set<std::uint32_t>(png.pixels.begin(), png.pixels.end()).size(), 3u);
-  for (const BackendInfo& backend : filling_backends()) {
+  for (const BackendInfo& backend : backends()) {
     const Outcome outcome =
         edgewise_with("render cube --size 97x61 --threads 3 --backend " + std::string(backend.name) + " -o " +
                       path("b.ppm") + " --depth " + path("b.pfm"));
@@ -267,7 +267,7 @@ TEST_F(ProgramRenders, AVerdictAsJson) {
   ASSERT_EQ(json.at("scenes").size(), 2u);
   for (const auto& [backend, wrong] : json.at("scenes")[1].at("pixels_not_hit_once").items())
     EXPECT_EQ(wrong, 0) << backend;
-  EXPECT_EQ(json.at("scenes")[1].at("pixels_not_hit_once").size(), filling_backends().size());
+  EXPECT_EQ(json.at("scenes")[1].at("pixels_not_hit_once").size(), backends().size());
   EXPECT_FALSE(std::filesystem::exists(path("out")));
 }
 

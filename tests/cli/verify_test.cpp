@@ -103,7 +103,7 @@ TEST(Verify, PassesEveryBackendOnEveryScene) {
     EXPECT_TRUE(verdict.ok()) << explain(verdict);
     EXPECT_GT(verdict.emitted, 0u) << verdict.scene;
     EXPECT_GT(verdict.oracle_configurations, 0u) << verdict.scene;
-    EXPECT_EQ(verdict.hits.size(), verdict.scene.starts_with("grid") ? filling_backends().size() : 0)
+    EXPECT_EQ(verdict.hits.size(), verdict.scene.starts_with("grid") ? backends().size() : 0)
         << verdict.scene;
   }
 }
@@ -154,7 +154,7 @@ TEST(Verify, FindsAForgottenBackground) {
 TEST(Verify, FindsWhatOnlyOneConfigurationDoes) {
   const VerifyReport report = verify_quietly(small_plan({"cube"}, wrong_backend<WrongOnThreads>()));
   ASSERT_FALSE(report.ok());
-  EXPECT_EQ(report.scenes[0].mismatches[0].execution.threads, 3);
+  EXPECT_EQ(report.scenes[0].mismatches[0].how.execution.threads, 3);
   EXPECT_EQ(report.scenes[0].mismatches[0].payload, Payload::id);
 }
 

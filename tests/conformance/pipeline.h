@@ -83,7 +83,7 @@ class Pipeline {
 
 inline std::vector<Pipeline> pipelines() {
   std::vector<Pipeline> all;
-  for (const BackendInfo& backend : filling_backends())
+  for (const BackendInfo& backend : backends())
     for (const SimdTarget target : supported_targets()) all.emplace_back(backend, target);
   return all;
 }

@@ -70,7 +70,7 @@ class Allocations : public ::testing::TestWithParam<std::string_view> {};
 
 TEST_P(Allocations, OfABackendEndWithTheFirstFrame) {
   constexpr int kWidth = 320, kHeight = 200;
-  const auto backend = find_backend(GetParam()).make();
+  const auto backend = testing::find_drawer(GetParam()).make();
   Framebuffer frame(kWidth, kHeight);
   for (const int threads : {1, 2, 8})
     for (const auto& [family, count] : {std::pair{"tiny", 9'000}, {"subpixel", 200}}) {
@@ -83,7 +83,7 @@ TEST_P(Allocations, OfABackendEndWithTheFirstFrame) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, Allocations, ::testing::ValuesIn(testing::names_of(backends())),
+INSTANTIATE_TEST_SUITE_P(Registry, Allocations, ::testing::ValuesIn(testing::all_drawers()),
                          [](const auto& param) { return testing::test_name(param); });
 
 TEST(FrontendAllocations, EndWithTheFirstFrame) {

@@ -77,7 +77,7 @@ TEST(Limits, TheLargestSidesAndTheMostThreadsAreDrawn) {
   const TriangleStream stream{
       1, 1, {{{{-20'000, -20'000, 0.5f}, {60'000, -20'000, 0.5f}, {0, 60'000, 0.5f}}, 7}}};
   for (const auto& [width, height] : {std::pair{contract::kMaxImageSide, 2}, {2, contract::kMaxImageSide}})
-    for (const BackendInfo& info : filling_backends()) {
+    for (const BackendInfo& info : backends()) {
       Frontend frontend;
       Framebuffer frame(width, height);
       const auto triangles = frontend.run(stream, {.width = width, .height = height, .threads = kMaxThreads});
@@ -93,7 +93,7 @@ TEST(Limits, TheLargestImageIsDrawn) {
   constexpr int kSide = contract::kMaxImageSide;
   const TriangleStream stream{1, 1, {{{{-20'000, 0, 0.5f}, {60'000, 0, 0.5f}, {0, 60'000, 0.5f}}, 7}}};
   Framebuffer frame(kSide, kSide);
-  for (const BackendInfo& info : filling_backends()) {
+  for (const BackendInfo& info : backends()) {
     Frontend frontend;
     lab::poison(frame);
     info.make()->draw(frontend.run(stream, {.width = kSide, .height = kSide, .cull = Cull::none}),

@@ -20,14 +20,14 @@ TEST(Extending, EveryBackendDrawsTheExamplesScene) {
     drawn += static_cast<std::size_t>(std::count_if(expected.payload_row(y), expected.payload_row(y) + 320,
                                                     [](auto p) { return p != testing::kBackground; }));
   EXPECT_GT(drawn, 5'000u);
-  for (const BackendInfo& backend : filling_backends()) {
+  for (const BackendInfo& backend : backends()) {
     backend.make()->draw(triangles, actual.view(), testing::kBackground, {});
     testing::expect_same(expected, actual, std::string(backend.name));
   }
 }
 
 TEST(Extending, WhatIsAddedStandsBehindOurs) {
-  EXPECT_EQ(filling_backends().back().name, "quadtree");
+  EXPECT_EQ(backends().back().name, "quadtree");
   EXPECT_EQ(builtin_scenes().back().name, "staircase");
   EXPECT_EQ(lab::coverage_methods().back().info.name, "double_snapped");
 }

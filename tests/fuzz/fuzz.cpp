@@ -38,10 +38,11 @@ namespace {
 
 constexpr std::uint32_t kBackground = 0xABCD1234, kCanary = 0xDEADBEEF;
 
-std::string describe(const BackendInfo& backend, const Execution& e) {
+std::string describe(const BackendInfo& backend, const AblatedExecution& how) {
+  const Execution& e = how.execution;
   return std::string(backend.name) + ", " + std::string(name_of(e.target)) + ", " +
          std::to_string(e.threads) + " threads, tile " + std::to_string(e.tile_size) + ", " +
-         edgewise::describe(e.ideas) + (e.stepped ? ", stepped" : "");
+         edgewise::describe(how.ablation);
 }
 
 // A plane of pixels in memory that is no larger, so that a sanitizer sees what leaves it.
@@ -86,15 +87,15 @@ Framebuffer reference(std::span<const ScreenTriangle> triangles, int width, int 
 
 }  // namespace
 
-void check_backends(std::span<const ScreenTriangle> triangles, const Placement& p, Execution execution) {
+void check_backends(std::span<const ScreenTriangle> triangles, const Placement& p, AblatedExecution how) {
   const Framebuffer expected = reference(triangles, p.width, p.height);
-  for (const BackendInfo& info : filling_backends())
+  for (const BackendInfo& info : backends())
     for (const SimdTarget target : supported_targets()) {
-      execution.target = target;
+      how.execution.target = target;
       Plane depth(p), payload(p);
-      info.make()->draw(triangles, {depth.data(), payload.data(), p.width, p.height, depth.stride()},
-                        kBackground, execution);
-      const std::string what = describe(info, execution);
+      draw(*info.make(), triangles, {depth.data(), payload.data(), p.width, p.height, depth.stride()},
+           kBackground, how);
+      const std::string what = describe(info, how);
       depth.check([&](int x, int y) { return expected.depth_row(y)[x]; }, what + ", depth");
       payload.check([&](int x, int y) { return expected.payload_row(y)[x]; }, what + ", payload");
     }

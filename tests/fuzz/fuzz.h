@@ -11,8 +11,8 @@
 #include <span>
 #include <string>
 
-#include "edgewise/backend.h"
 #include "edgewise/scene.h"
+#include "raster/ablation.h"
 
 // No header declares it.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
@@ -68,9 +68,9 @@ struct Placement {
 };
 
 // Every backend and SIMD target draws the same picture, which is the oracle's where that is affordable, and
-// writes nothing beside it. `execution.target` is not looked at.
+// writes nothing beside it. `how.execution.target` is ignored.
 void check_backends(std::span<const ScreenTriangle> triangles, const Placement& placement,
-                    Execution execution);
+                    AblatedExecution how);
 
 // The front end makes the same triangles with every SIMD target, in the contract's ranges, and the backends
 // draw them. An image of more than 64 px a side is cut off there. Nothing that was read may be refused but a

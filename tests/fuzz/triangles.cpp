@@ -97,18 +97,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::Bytes bytes(data, size);
   const fuzz::Placement placement{1 + bytes.below(140), 1 + bytes.below(80), bytes.below(20),
                                   bytes.below(20)};
-  Execution execution;
-  execution.threads = std::max(1, bytes.below(8) - 4);  // mostly 1, which is faster here
-  const int choice = bytes.below(6);                    // no backend looks at both of these
-  execution.tile_size = 16 << choice % 3;
-  execution.stepped = choice >= 3;
-  const int ideas = bytes.below(static_cast<int>(kAblations.size()) + 1);
-  if (ideas > 0) execution.ideas = kAblations[static_cast<std::size_t>(ideas - 1)];
+  AblatedExecution how;
+  how.execution.threads = std::max(1, bytes.below(8) - 4);  // mostly 1, which is faster here
+  how.execution.tile_size = 16 << bytes.below(3);
+  const int ablation = bytes.below(static_cast<int>(kAblations.size()) + 1);
+  if (ablation > 0) how.ablation = kAblations[static_cast<std::size_t>(ablation - 1)];
   const int times = 1 << bytes.below(12);
 
   std::vector<ScreenTriangle> triangles = take_triangles(bytes);
   repeat(triangles, times, placement.width * placement.height);
   for (std::uint32_t id = 0; ScreenTriangle & t : triangles) t.payload = id++;
-  fuzz::check_backends(triangles, placement, execution);
+  fuzz::check_backends(triangles, placement, how);
   return 0;
 }

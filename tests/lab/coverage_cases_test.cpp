@@ -75,7 +75,7 @@ TEST(CoverageCases, LegsOf2897PixelsWrap32BitsWithFourSubpixelBits) {
 
 TEST(CoverageCases, ATJunctionCracksAlikeInAllExactBackends) {
   const Picture &cracked = picture_of("t_junction"), &split = picture_of("t_junction_split");
-  for (const auto& backend : filling_backends()) {
+  for (const auto& backend : backends()) {
     EXPECT_EQ(against_floats(backend.name, cracked).gaps, 199u) << backend.name;
     EXPECT_EQ(against_floats(backend.name, split).gaps, 0u) << backend.name;
     EXPECT_EQ(against_floats(backend.name, split).double_hits, 0u) << backend.name;

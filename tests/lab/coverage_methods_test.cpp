@@ -185,7 +185,7 @@ TEST(CoverageRegistry, HoldsEveryFileInTheFolderAndEveryBackendOnce) {
   for (const auto& entry :
        std::filesystem::directory_iterator(EDGEWISE_SOURCE_DIR "/src/lab/coverage_methods"))
     if (entry.path().extension() == ".cpp") expected.insert(entry.path().stem());
-  for (const auto& backend : filling_backends()) expected.emplace(backend.name);
+  for (const auto& backend : backends()) expected.emplace(backend.name);
   for (const auto& method : coverage_methods()) names.emplace(method.info.name);
   EXPECT_TRUE(std::includes(names.begin(), names.end(), expected.begin(), expected.end()));
   EXPECT_EQ(names.size(), coverage_methods().size()) << "a name stands there twice";

@@ -63,7 +63,7 @@ TEST(HiddenFaces, AreMoreThanTheWindingsUnderPerspective) {
   EXPECT_GT(workload->wrong_px(), 100u);
   EXPECT_EQ(workload->wrong_px(), session.side(0).judgement.value().wrong);
   Stage stage;
-  for (const BackendInfo& backend : filling_backends()) {
+  for (const BackendInfo& backend : backends()) {
     Row row;
     row.workload = workload;
     row.timed = Timed::frame;

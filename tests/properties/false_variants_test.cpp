@@ -30,7 +30,7 @@ class PlantedMistake : public ::testing::TestWithParam<Plant> {};
 
 TEST_P(PlantedMistake, ComesBackAsASmallStreamThatShowsItAgain) {
   const auto wrong = painters(std::span(&GetParam().wrong, 1));
-  const SearchResult result = search(grid_streams(), 300, like_the_oracles(wrong, {Execution{}}));
+  const SearchResult result = search(grid_streams(), 300, like_the_oracles(wrong, {AblatedExecution{}}));
   ASSERT_TRUE(result.found.has_value());
   ASSERT_EQ(result.found->verdict.replay.size(), 1u);
   const TriangleStream& smallest = result.found->verdict.replay.front();

@@ -33,31 +33,31 @@ std::vector<Painter> painters(std::span<const BackendInfo> infos) {
   return all;
 }
 
-std::span<const Execution> two_executions() {
-  static const Execution list[] = {{1, 64, SimdTarget::scalar}, {1, 64, SimdTarget::best}};
+std::span<const AblatedExecution> two_executions() {
+  static const AblatedExecution list[] = {{{1, 64, SimdTarget::scalar}}, {{1, 64, SimdTarget::best}}};
   return list;
 }
 
 Framebuffer drawn(const Painter& painter, std::span<const ScreenTriangle> triangles, int width, int height,
-                  const Execution& execution) {
+                  const AblatedExecution& execution) {
   Framebuffer frame(width, height);
   lab::poison(frame);
-  painter.backend->draw(triangles, frame.view(), kBackground, execution);
+  draw(*painter.backend, triangles, frame.view(), kBackground, execution);
   return frame;
 }
 
 void compare_pictures(Verdict& verdict, const Framebuffer& expected, std::span<const Painter> painters,
-                      std::span<const ScreenTriangle> triangles, std::span<const Execution> ways,
+                      std::span<const ScreenTriangle> triangles, std::span<const AblatedExecution> ways,
                       const std::string& what) {
   for (const Painter& painter : painters)
-    for (const Execution& way : ways) {
+    for (const AblatedExecution& way : ways) {
       const Framebuffer frame = drawn(painter, triangles, expected.width(), expected.height(), way);
       verdict.compare(difference_text(expected, frame),
                       what + ", " + std::string(painter.name) + ", " + describe(way));
     }
 }
 
-Property like_the_oracles(const std::vector<Painter>& painters, std::vector<Execution> ways) {
+Property like_the_oracles(const std::vector<Painter>& painters, std::vector<AblatedExecution> ways) {
   return [&painters, ways = std::move(ways)](const TriangleStream& stream) {
     Verdict verdict{.replay = {stream}};
     Framebuffer expected(stream.width, stream.height);

@@ -8,10 +8,10 @@
 #include <string_view>
 #include <vector>
 
-#include "edgewise/backend.h"
 #include "edgewise/frontend.h"
 #include "edgewise/scene.h"
 #include "properties/property.h"
+#include "raster/ablation.h"
 
 namespace edgewise::testing {
 
@@ -30,18 +30,18 @@ struct Painter {
 std::vector<Painter> painters(std::span<const BackendInfo> infos);
 
 // The plainest way to execute, and the fastest on one thread.
-std::span<const Execution> two_executions();
+std::span<const AblatedExecution> two_executions();
 
 Framebuffer drawn(const Painter& painter, std::span<const ScreenTriangle> triangles, int width, int height,
-                  const Execution& execution);
+                  const AblatedExecution& execution);
 
 // Compares the picture that each painter makes in each way with `expected`.
 void compare_pictures(Verdict& verdict, const Framebuffer& expected, std::span<const Painter> painters,
-                      std::span<const ScreenTriangle> triangles, std::span<const Execution> ways,
+                      std::span<const ScreenTriangle> triangles, std::span<const AblatedExecution> ways,
                       const std::string& what);
 
 // The oracle's picture is every painter's, with ids and with colours, in every way to execute; `painters`
 // must outlive the property.
-Property like_the_oracles(const std::vector<Painter>& painters, std::vector<Execution> ways);
+Property like_the_oracles(const std::vector<Painter>& painters, std::vector<AblatedExecution> ways);
 
 }  // namespace edgewise::testing

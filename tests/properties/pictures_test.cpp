@@ -16,7 +16,7 @@ namespace {
 
 class Properties : public ::testing::Test {
  protected:
-  const std::vector<Painter> painters_ = painters(filling_backends());
+  const std::vector<Painter> painters_ = painters(backends());
 
   // Each painter's picture of the one list, in both ways, with its own plain picture of the other.
   void compare_with_own(Verdict& verdict, std::span<const ScreenTriangle> triangles,
@@ -125,7 +125,7 @@ TEST_F(Properties, TheFirstTriangleOfAPixelIsKeptWhereAllDepthsAreEqual) {
     const auto triangles = snapped(flat, Payload::id);
     std::vector<lab::SnappedTruth> truths(triangles.begin(), triangles.end());
     for (const Painter& painter : painters_)
-      for (const Execution& way : two_executions()) {
+      for (const AblatedExecution& way : two_executions()) {
         const Framebuffer frame = drawn(painter, triangles, flat.width, flat.height, way);
         int wrong = 0;
         for (int y = 0; y < flat.height; ++y)
@@ -150,7 +150,7 @@ TEST_F(Properties, MovingByMultiplesOf64PixelsChangesNothing) {  // the cell of 
       verdict.replay = {before, after};
       const auto triangles = snapped(before, Payload::id), moved = snapped(after, Payload::id);
       for (const Painter& painter : painters_)
-        for (const Execution& way : two_executions())
+        for (const AblatedExecution& way : two_executions())
           verdict.compare(
               difference_text(drawn(painter, triangles, before.width, before.height, way),
                               moved_back(drawn(painter, moved, after.width, after.height, way), move)),
@@ -183,7 +183,7 @@ TEST_F(Properties, MovingATriangleByWholePixelsKeepsItsSamplesAndNearlyItsDepths
       const auto triangles = snapped(before, Payload::id), moved = snapped(after, Payload::id);
       for (const Painter& painter : painters_)
         for (std::size_t i = 0; i < triangles.size(); ++i) {
-          const Execution& way = two_executions().back();
+          const AblatedExecution& way = two_executions().back();
           const auto here = drawn(painter, std::span(&triangles[i], 1), before.width, before.height, way);
           const auto there = drawn(painter, std::span(&moved[i], 1), after.width, after.height, way);
           verdict.compare(difference_beyond_rounding(here, moved_back(there, move)),

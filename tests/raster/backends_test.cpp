@@ -63,7 +63,7 @@ TEST_P(EveryBackend, ForgetsTheFrameBefore) {
   for (const auto& execution : testing::executions())
     for (const std::size_t i : {0u, 1u, 2u, 3u, 1u, 0u, 3u, 2u, 0u}) {
       Framebuffer actual(width, height);
-      backend_->draw(frames[i], actual.view(), kBackground, execution);
+      draw(*backend_, frames[i], actual.view(), kBackground, execution);
       testing::expect_same(expected[i], actual, std::to_string(i) + ", " + testing::describe(execution));
     }
 }
@@ -103,7 +103,7 @@ TEST_P(EveryBackend, KeepsTheEarlierTriangleAtATie) {
   const ScreenTriangle both[] = {first, second};
   Framebuffer frame(32, 32);
   for (const auto& execution : testing::executions()) {
-    backend_->draw(both, frame.view(), 0, execution);
+    draw(*backend_, both, frame.view(), 0, execution);
     EXPECT_EQ(frame.payload_row(0)[3], 1u) << testing::describe(execution);
   }
 }
@@ -185,8 +185,8 @@ TEST_P(EveryBackend, WritesEveryPixelOfACallersFrameAndNothingBesideIt) {
       const auto size = static_cast<std::size_t>(stride * (kHeight + 2) + 8);
       std::vector<std::uint32_t> depth(size, kCanary), payload(size, kCanary);
       const std::ptrdiff_t start = stride + offset;
-      backend_->draw(triangles, {depth.data() + start, payload.data() + start, kWidth, kHeight, stride},
-                     kBackground, execution);
+      draw(*backend_, triangles, {depth.data() + start, payload.data() + start, kWidth, kHeight, stride},
+           kBackground, execution);
       for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(size); ++i) {
         const std::ptrdiff_t x = (i - start) % stride, y = (i - start) / stride;
         const bool in_frame = i >= start && x < kWidth && y < kHeight;
@@ -233,7 +233,7 @@ TEST_P(EveryBackend, RefusesAFrameOfAnotherSizeThanTheFrontEndsImage) {
             "triangles made for 80 x 60 px cannot be drawn into a frame of 80 x 59 px");
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, EveryBackend, ::testing::ValuesIn(testing::names_of(backends())),
+INSTANTIATE_TEST_SUITE_P(Registry, EveryBackend, ::testing::ValuesIn(testing::all_drawers()),
                          [](const auto& param) { return testing::test_name(param); });
 
 TEST(Registry, HoldsEveryFileInTheBackendsFolder) {
@@ -256,13 +256,6 @@ TEST(Registry, SuggestsTheNearestName) {
 
 TEST(Registry, HasTheThreeExactBackends) {
   for (const auto name : {"naive", "tiled", "scanline"}) EXPECT_EQ(find_backend(name).name, name);
-}
-
-TEST(Registry, NamesThoseThatFillFirst) {
-  const auto filling = filling_backends();
-  for (const auto& b : backends())
-    EXPECT_EQ(b.fills, std::any_of(filling.begin(), filling.end(), [&](const auto& f) { return &f == &b; }))
-        << b.name;
 }
 
 }  // namespace

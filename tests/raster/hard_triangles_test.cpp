@@ -135,7 +135,7 @@ TEST_P(EveryBackend, ShowsWhatIsNearerInOneCornerOfATile) {
         const Framebuffer picture = oracle(triangles, kWidth, kHeight);
         const std::string what =
             std::to_string(reach) + ", " + std::to_string(across) + ", " + std::to_string(down);
-        if (info_.fills) {
+        if (fills_) {
           const bool covered = x + y < reach;
           EXPECT_EQ(picture.payload_row(y)[x], covered ? 2 : 3) << what;
           EXPECT_EQ(picture.depth_row(y)[x], covered ? kLayer / 2 : kLayer - 1) << what;

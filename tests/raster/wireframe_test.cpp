@@ -47,7 +47,7 @@ class Wireframe : public ::testing::Test {
   std::uint32_t depth() { return kDepthHead + static_cast<std::uint32_t>(random_.below(kDepthRange + 1ull)); }
 
   Random random_{17};
-  std::unique_ptr<Backend> backend_ = find_backend("wireframe").make();
+  std::unique_ptr<Backend> backend_ = wireframe().make();
 };
 
 // The triangles' third vertices lie so far out that their other edges stay beside the ends of the edge that

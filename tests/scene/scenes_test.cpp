@@ -180,7 +180,7 @@ TEST_P(Grids, CoverEveryPixelExactlyOnceByEveryBackend) {
     const Drawable drawable = find_scene(GetParam()).make({.width = width, .height = height});
     Frontend frontend;
     const auto triangles = frontend.run(drawable, {.width = width, .height = height, .cull = Cull::none});
-    for (const auto& info : filling_backends()) {
+    for (const auto& info : backends()) {
       const auto hits = lab::count_hits(*info.make(), triangles, width, height, {.threads = 2});
       EXPECT_EQ(std::count(hits.begin(), hits.end(), 1u), width * height) << info.name;
     }

@@ -16,7 +16,6 @@ namespace {
 
 constexpr const char* kOracle = "oracle";
 constexpr const char* kOneByOne = "one triangle at a time";
-constexpr const char* kSteps = "naive";  // the backend that looks at Execution::stepped
 constexpr Execution kPlainest{1, 64, SimdTarget::scalar};
 
 // Pixels times triangles: about 5 ms, and a tenth of a second.
@@ -53,7 +52,7 @@ Verdict Checker::check(const Case& c) {
     Framebuffer exact(c.width, c.height);
     lab::draw_oracle(triangles, exact, c.background);
     ++verdict.tally.oracle_frames;
-    check_frame(c, kOracle, exact, {0, kPlainest, lab::GuardedFrame::aligned(c.width)}, triangles, verdict);
+    check_frame(c, kOracle, exact, {0, {kPlainest}, lab::GuardedFrame::aligned(c.width)}, triangles, verdict);
   }
 
   const Framebuffer expected = reference_frame(c, triangles);
@@ -63,16 +62,11 @@ Verdict Checker::check(const Case& c) {
   for (std::size_t b = 0; b < backends_.size(); ++b)
     for (const SimdTarget target : supported_targets())
       for (const int threads : {1, c.threads}) {
-        Draw draw{b, {threads, kTiles[random.below(kTiles.size())], target}, {}};
-        if (random.below(2) == 0) draw.execution.ideas = kAblations[random.below(kAblations.size())];
+        Draw draw{b, {{threads, kTiles[random.below(kTiles.size())], target}}, {}};
+        if (random.below(2) == 0) draw.how.ablation = kAblations[random.below(kAblations.size())];
         draw.layout = random_layout(random, c.width);
         check_frame(c, reference, expected, draw, triangles, verdict);
       }
-  for (std::size_t b = 0; b < backends_.size(); ++b)
-    if (judged_.backends[b].name == kSteps) {
-      const Execution stepped{c.threads, 64, supported_targets().back(), {}, true};
-      check_frame(c, reference, expected, {b, stepped, random_layout(random, c.width)}, triangles, verdict);
-    }
   return verdict;
 }
 
@@ -95,7 +89,7 @@ std::span<const ScreenTriangle> Checker::check_frontend(const Case& c, Verdict& 
       verdict.tally.count("frontend_simd_target", std::string(name_of(target)), differs);
       verdict.tally.count("frontend_threads", std::to_string(threads), differs);
       if (differs && verdict.findings.empty())
-        verdict.findings.push_back({kOneByOne, true, {0, {threads, 64, target}, {}}, {}, {}});
+        verdict.findings.push_back({kOneByOne, true, {0, {{threads, 64, target}}, {}}, {}, {}});
     }
   return expected_list_;
 }
@@ -109,15 +103,16 @@ void Checker::check_frame(const Case& c, const std::string& judge, const Framebu
   tally.pixels += static_cast<std::uint64_t>(c.width) * static_cast<std::uint64_t>(c.height);
   if (found.any()) ++tally.frames_differ;
 
-  const Execution& e = draw.execution;
+  const Execution& e = draw.how.execution;
   const std::string_view name = judged_.backends[draw.backend].name;
-  const std::string ideas = describe(e.ideas), all = e.stepped ? "stepped" : "all";
+  const std::string left_out = describe(draw.how.ablation);
   tally.count("family", std::string(c.family), found.any());
   tally.count("judge", judge, found.any());
   tally.count("backend_simd_target", fmt::format("{}, {}", name, name_of(e.target)), found.any());
   tally.count("backend_threads", fmt::format("{}, {}", name, e.threads), found.any());
   tally.count("backend_tile_size", fmt::format("{}, {}", name, e.tile_size), found.any());
-  tally.count("backend_ideas", fmt::format("{}, {}", name, ideas.empty() ? all : ideas), found.any());
+  tally.count("backend_ablation", fmt::format("{}, {}", name, left_out.empty() ? "all" : left_out),
+              found.any());
 
   const bool known = std::any_of(verdict.findings.begin(), verdict.findings.end(), [&](const Finding& f) {
     return !f.of_frontend && f.judge == judge && f.draw.backend == draw.backend;
@@ -136,14 +131,14 @@ Framebuffer Checker::reference_frame(const Case& c, std::span<const ScreenTriang
 lab::FrameDifference Checker::compare(const Case& c, const Framebuffer& expected, const Draw& draw,
                                       std::span<const ScreenTriangle> triangles) {
   lab::GuardedFrame frame(c.width, c.height, draw.layout);
-  backends_[draw.backend]->draw(triangles, frame.view(), c.background, draw.execution);
+  edgewise::draw(*backends_[draw.backend], triangles, frame.view(), c.background, draw.how);
   return lab::compare(expected, frame);
 }
 
 bool Checker::differs(const Finding& finding, const Case& c, std::span<const ScreenTriangle> triangles) {
   Framebuffer expected = reference_frame(c, triangles);
   if (finding.judge == kOracle) lab::draw_oracle(triangles, expected, c.background);
-  const int attempts = finding.draw.execution.threads == 1 ? 1 : 5;
+  const int attempts = finding.draw.how.execution.threads == 1 ? 1 : 5;
   for (int i = 0; i < attempts; ++i)
     if (compare(c, expected, finding.draw, triangles).any()) return true;
   return false;

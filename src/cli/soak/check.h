@@ -9,8 +9,8 @@
 
 #include "cli/soak/case.h"
 #include "cli/soak/tally.h"
-#include "edgewise/backend.h"
 #include "lab/measure.h"
+#include "raster/ablation.h"
 
 namespace edgewise::soak {
 
@@ -27,7 +27,7 @@ struct Judged {
 // How one frame was drawn.
 struct Draw {
   std::size_t backend;  // index
-  Execution execution;
+  AblatedExecution how;
   lab::GuardedFrame::Layout layout;
 };
 

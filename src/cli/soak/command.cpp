@@ -59,7 +59,7 @@ void write(const std::string& path, const soak::Record& record) {
 
 soak::Record first_record(const SoakOptions& o) {
   std::vector<std::string> names;
-  for (const BackendInfo& backend : filling_backends()) names.emplace_back(backend.name);
+  for (const BackendInfo& backend : backends()) names.emplace_back(backend.name);
   soak::Shard shard = o.shard.value_or(soak::Shard{});
   if (o.only_case) shard = {*o.only_case, *o.only_case + 1, 0};
   const std::uint64_t seed = o.seed.value_or(kDefaultSeed);
@@ -164,7 +164,7 @@ int soak_command(const SoakOptions& o) {
   const std::string path = o.json.empty() ? o.resume : o.json == "-" ? "" : o.json;
 
   soak::Campaign campaign;
-  campaign.judged.backends.assign(filling_backends().begin(), filling_backends().end());
+  campaign.judged.backends.assign(backends().begin(), backends().end());
   campaign.seconds = o.seconds;
   campaign.cases = o.only_case ? 1 : o.cases;
   campaign.jobs = o.only_case ? 1 : o.jobs;
@@ -195,7 +195,7 @@ constexpr const char* kSoakFooter = R"(Examples:
 Random and adversarial pictures without end: triangle lists of many families, and scenes with the camera in
 their midst that go through the front end. Each is drawn by every backend, on every SIMD target of this
 machine, on one thread and on a random number of them, with random tile sizes, row strides, alignments and
-ideas left out, and compared bit for bit, in depth and payload and in all memory around the picture, with the
+optimizations left out, and compared bit for bit, in depth and payload and in all memory around the picture, with the
 reference (the first backend of `edgewise list`, one thread, scalar). Wherever it can follow, the oracle
 judges the reference. The front end is compared with itself, one triangle at a time.
 

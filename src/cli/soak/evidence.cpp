@@ -74,14 +74,13 @@ nlohmann::json description(const Case& c, const Finding& f, const Judged& judged
                       {"family", c.family},
                       {"judge", f.judge},
                       {"backend", f.of_frontend ? "front end" : judged.backends[f.draw.backend].name},
-                      {"threads", f.draw.execution.threads},
-                      {"simd_target", name_of(f.draw.execution.target)},
+                      {"threads", f.draw.how.execution.threads},
+                      {"simd_target", name_of(f.draw.how.execution.target)},
                       {"width", c.width},
                       {"height", c.height}};
   if (f.of_frontend) return json;
-  json["tile_size"] = f.draw.execution.tile_size;
-  json["ideas"] = edgewise::describe(f.draw.execution.ideas);
-  json["stepped"] = f.draw.execution.stepped;
+  json["tile_size"] = f.draw.how.execution.tile_size;
+  json["ablation"] = edgewise::describe(f.draw.how.ablation);
   json["row_padding"] = f.draw.layout.padding;
   json["row_offset"] = f.draw.layout.offset;
   json["pixels"] = f.difference.pixels;

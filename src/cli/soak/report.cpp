@@ -47,12 +47,11 @@ std::string explain(const nlohmann::json& f) {
       fmt::format("case {} ({}, {}x{}): {} differs from {}\n", text_of(f, "case"), text_of(f, "family"),
                   text_of(f, "width"), text_of(f, "height"), text_of(f, "backend"), text_of(f, "judge"));
   text += fmt::format("  {} threads, {}", text_of(f, "threads"), text_of(f, "simd_target"));
-  if (f.contains("stepped") && f["stepped"] == true) text += ", stepped";
   if (f.contains("pixels"))
     text += fmt::format(
-        ", tile {}, ideas left out: '{}', rows {} px apart and {} px off a cache line\n"
+        ", tile {}, ablation: '{}', rows {} px apart and {} px off a cache line\n"
         "  in {} pixels, the first at {}; words written beside the image: {}",
-        text_of(f, "tile_size"), text_of(f, "ideas"), text_of(f, "row_padding"), text_of(f, "row_offset"),
+        text_of(f, "tile_size"), text_of(f, "ablation"), text_of(f, "row_padding"), text_of(f, "row_offset"),
         text_of(f, "pixels"), text_of(f, "first"), text_of(f, "written_outside"));
   text += '\n';
   if (f.contains("file"))

@@ -17,7 +17,7 @@ std::string_view name_of_payload(Payload payload) {
 
 std::string explain(const Mismatch& m) {
   std::string text = fmt::format("  {} ({}) differs from {} in {} of {}x{} pixels, cull {}, payload {}\n",
-                                 m.backend, describe(m.execution), m.judge, m.pixels, m.width, m.height,
+                                 m.backend, describe(m.how), m.judge, m.pixels, m.width, m.height,
                                  name_of(m.cull), name_of_payload(m.payload));
   if (m.outside != 0) text += fmt::format("    words written beside the image: {}\n", m.outside);
   if (!m.values.empty())
@@ -29,21 +29,20 @@ std::string explain(const Mismatch& m) {
   return text;
 }
 
-std::string names_of(const VerifyPlan& plan, bool fills) {
+std::string names_of(const VerifyPlan& plan) {
   std::string names;
   for (const BackendInfo& backend : plan.backends)
-    if (backend.fills == fills) names += (names.empty() ? "" : ", ") + std::string(backend.name);
+    names += (names.empty() ? "" : ", ") + std::string(backend.name);
   return names;
 }
 
 nlohmann::json mismatch_json(const Mismatch& m) {
   nlohmann::json json{{"judge", m.judge},
                       {"backend", m.backend},
-                      {"threads", m.execution.threads},
-                      {"tile_size", m.execution.tile_size},
-                      {"simd_target", name_of(resolve(m.execution.target))},
-                      {"ideas", edgewise::describe(m.execution.ideas)},
-                      {"stepped", m.execution.stepped},
+                      {"threads", m.how.execution.threads},
+                      {"tile_size", m.how.execution.tile_size},
+                      {"simd_target", name_of(resolve(m.how.execution.target))},
+                      {"ablation", edgewise::describe(m.how.ablation)},
                       {"cull", name_of(m.cull)},
                       {"payload", name_of_payload(m.payload)},
                       {"width", m.width},
@@ -82,11 +81,11 @@ nlohmann::json scene_json(const SceneVerdict& v) {
 
 }  // namespace
 
-std::string describe(const Execution& e) {
-  const std::string ideas = edgewise::describe(e.ideas);
-  return fmt::format("{} thread{}, {}, tile {}{}{}{}", e.threads, e.threads == 1 ? "" : "s",
-                     name_of(resolve(e.target)), e.tile_size, ideas.empty() ? "" : ", ", ideas,
-                     e.stepped ? ", stepped" : "");
+std::string describe(const AblatedExecution& how) {
+  const Execution& e = how.execution;
+  const std::string left_out = edgewise::describe(how.ablation);
+  return fmt::format("{} thread{}, {}, tile {}{}{}", e.threads, e.threads == 1 ? "" : "s",
+                     name_of(resolve(e.target)), e.tile_size, left_out.empty() ? "" : ", ", left_out);
 }
 
 std::string VerifyTable::header() const {
@@ -128,13 +127,10 @@ std::string summary(const VerifyReport& report, const VerifyPlan& plan) {
     differing_scenes += v.ok() ? 0 : 1;
     if (!v.hits.empty() && v.ok()) once += (once.empty() ? "" : ", ") + printable(v.scene);
   }
-  const std::string names = names_of(plan, true), others = names_of(plan, false);
   std::string text;
-  if (!once.empty()) text += fmt::format("{}: every pixel drawn exactly once by {}.\n", once, names);
-  const auto first_of = [](const std::string& list) { return list.substr(0, list.find(',')); };
-  text +=
-      fmt::format("{} frames compared with {}{}, {} with the oracle: ", configurations, first_of(names),
-                  others.empty() ? "" : fmt::format(" (of {} with {})", others, first_of(others)), oracle);
+  if (!once.empty()) text += fmt::format("{}: every pixel drawn exactly once by {}.\n", once, names_of(plan));
+  text += fmt::format("{} frames compared with {}, {} with the oracle: ", configurations,
+                      plan.backends.front().name, oracle);
   return text + (report.ok()
                      ? "no bit differs.\n"
                      : fmt::format("{} scene{} DIFFER{}.\n", differing_scenes,
@@ -143,8 +139,7 @@ std::string summary(const VerifyReport& report, const VerifyPlan& plan) {
 
 nlohmann::json report_json(const VerifyReport& report, const VerifyPlan& plan) {
   nlohmann::json json{{"machine", machine_description()}, {"full", plan.full}, {"ok", report.ok()}};
-  for (const BackendInfo& backend : plan.backends)
-    json[backend.fills ? "backends" : "other_backends"].push_back(backend.name);
+  for (const BackendInfo& backend : plan.backends) json["backends"].push_back(backend.name);
   json["threads"] = plan.threads;
   json["scenes"] = nlohmann::json::array();
   for (const SceneVerdict& verdict : report.scenes) json["scenes"].push_back(scene_json(verdict));

@@ -20,7 +20,7 @@ class VerifyTable {
 };
 
 // "2 threads, avx2, tile 64, no prefetch"
-std::string describe(const Execution& execution);
+std::string describe(const AblatedExecution& how);
 
 // All that is known about the differences of a scene; empty if there are none.
 std::string explain(const SceneVerdict& verdict);

@@ -1,7 +1,6 @@
 #include "cli/verify/verify.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -16,11 +15,9 @@ namespace edgewise::app {
 
 namespace {
 
-// What a frame is judged by: the triangles, and the frame they should become by backends that fill, or by
-// those that don't.
+// What a frame is compared with: the triangles, and the frame they must become.
 struct Judgement {
   std::string_view judge;
-  bool filled;
   const FrontendOptions& frontend;
   std::span<const ScreenTriangle> triangles;
   const Framebuffer& expected;
@@ -30,18 +27,17 @@ struct Judgement {
 constexpr Execution kMostSeams{3, 16, SimdTarget::best};
 constexpr Execution kPlainest{1, 64, SimdTarget::scalar};
 
-// Other tile sizes run on the best target, other targets with the usual tile, and ideas are left out on one
-// thread count: the product would mostly repeat itself, since only tiled backends look at either. The last is
-// for the naive one.
-std::vector<Execution> executions(const VerifyPlan& plan) {
-  std::vector<Execution> all;
+// Other tile sizes run on the best target, other targets with the usual tile, and optimizations are left out
+// on one thread count: the full product would mostly repeat itself, since only tiled backends use tile size
+// and target.
+std::vector<AblatedExecution> executions(const VerifyPlan& plan) {
+  std::vector<AblatedExecution> all;
   for (const int threads : plan.threads) {
-    for (const SimdTarget target : supported_targets()) all.push_back({threads, 64, target});
-    for (const int tile : {16, 32}) all.push_back({threads, tile, resolve(SimdTarget::best)});
+    for (const SimdTarget target : supported_targets()) all.push_back({{threads, 64, target}});
+    for (const int tile : {16, 32}) all.push_back({{threads, tile, resolve(SimdTarget::best)}});
   }
-  for (const Ablation& ideas : kAblations)
-    all.push_back({plan.threads.front(), 64, resolve(SimdTarget::best), ideas});
-  all.push_back({plan.threads.front(), 64, resolve(SimdTarget::best), {}, true});
+  for (const Ablation& ablation : kAblations)
+    all.push_back({{plan.threads.front(), 64, resolve(SimdTarget::best)}, ablation});
   return all;
 }
 
@@ -83,15 +79,9 @@ class SceneCheck {
         shot.frontend.payload = payload;
         const auto triangles = frontend_.run(shot.source.drawable, shot.frontend);
         if (payload == Payload::colour) count(frontend_.stats());
-        for (const bool filled : {true, false}) {
-          const auto first = std::find_if(plan_.backends.begin(), plan_.backends.end(),
-                                          [&](const BackendInfo& info) { return info.fills == filled; });
-          if (first == plan_.backends.end()) continue;
-          lab::poison(expected);
-          backends_[static_cast<std::size_t>(first - plan_.backends.begin())]->draw(
-              triangles, expected.view(), background_of(payload), kPlainest);
-          compare_all({first->name, filled, shot.frontend, triangles, expected});
-        }
+        lab::poison(expected);
+        backends_.front()->draw(triangles, expected.view(), background_of(payload), kPlainest);
+        compare_all({plan_.backends.front().name, shot.frontend, triangles, expected});
         if (cull == Cull::none && payload == Payload::id && covers_each_pixel_once(shot.source))
           check_hits(triangles, width, height);
       }
@@ -99,12 +89,13 @@ class SceneCheck {
   }
 
   void compare_all(const Judgement& judgement) {
-    const Execution seams[] = {kMostSeams};
-    const std::span<const Execution> all =
-        judgement.frontend.payload == Payload::colour ? std::span<const Execution>(executions_) : seams;
-    for (const std::size_t b : judged_by(judgement))
-      for (const Execution& execution : all) {
-        verdict_.differing_pixels += compare(judgement, b, execution);
+    const AblatedExecution seams[] = {{kMostSeams}};
+    const std::span<const AblatedExecution> all = judgement.frontend.payload == Payload::colour
+                                                      ? std::span<const AblatedExecution>(executions_)
+                                                      : seams;
+    for (std::size_t b = 0; b < backends_.size(); ++b)
+      for (const AblatedExecution& how : all) {
+        verdict_.differing_pixels += compare(judgement, b, how);
         ++verdict_.configurations;
         progress_(static_cast<double>(++steps_done_) / static_cast<double>(steps_));
       }
@@ -121,56 +112,44 @@ class SceneCheck {
     for (const Cull cull : cull_modes()) {
       shot.frontend.cull = cull;
       const auto triangles = frontend_.run(shot.source.drawable, shot.frontend);
-      for (const bool filled : {true, false}) {
-        const Judgement judgement{"oracle", filled, shot.frontend, triangles, expected};
-        const auto judged = judged_by(judgement);
-        if (judged.empty()) continue;
-        const auto draw_exactly = filled ? lab::draw_oracle : lab::draw_edge_oracle;
-        draw_exactly(triangles, expected, background_of(Payload::id));
-        for (const std::size_t b : judged) {
-          verdict_.oracle_differences += compare(judgement, b, kMostSeams);
-          ++verdict_.oracle_configurations;
-        }
+      lab::draw_oracle(triangles, expected, background_of(Payload::id));
+      for (std::size_t b = 0; b < backends_.size(); ++b) {
+        verdict_.oracle_differences +=
+            compare({"oracle", shot.frontend, triangles, expected}, b, {kMostSeams});
+        ++verdict_.oracle_configurations;
       }
     }
   }
 
   void check_hits(std::span<const ScreenTriangle> triangles, int width, int height) {
     for (std::size_t b = 0; b < backends_.size(); ++b) {
-      if (!plan_.backends[b].fills) continue;
       const auto hits = lab::count_hits(*backends_[b], triangles, width, height, kMostSeams);
       const auto wrong = std::count_if(hits.begin(), hits.end(), [](std::uint32_t n) { return n != 1; });
       verdict_.hits.push_back({std::string(plan_.backends[b].name), static_cast<std::uint64_t>(wrong)});
     }
   }
 
-  std::vector<std::size_t> judged_by(const Judgement& j) const {
-    std::vector<std::size_t> indices;
-    for (std::size_t b = 0; b < backends_.size(); ++b)
-      if (plan_.backends[b].fills == j.filled) indices.push_back(b);
-    return indices;
-  }
-
   // The number of pixels that differ; the first difference of each backend and judge is kept with all that
   // helps.
-  std::uint64_t compare(const Judgement& j, std::size_t backend, const Execution& execution) {
-    draw(j, backend, execution);
+  std::uint64_t compare(const Judgement& j, std::size_t backend, const AblatedExecution& how) {
+    draw(j, backend, how);
     const lab::FrameDifference found = lab::compare(j.expected, *candidate_);
     const std::string_view name = plan_.backends[backend].name;
     const bool known =
         std::any_of(verdict_.mismatches.begin(), verdict_.mismatches.end(),
                     [&](const Mismatch& m) { return m.backend == name && m.judge == j.judge; });
     verdict_.written_outside += found.outside;
-    if (found.any() && !known) keep(j, backend, execution, found);
+    if (found.any() && !known) keep(j, backend, how, found);
     return found.pixels;
   }
 
-  void draw(const Judgement& j, std::size_t backend, const Execution& execution) {
+  void draw(const Judgement& j, std::size_t backend, const AblatedExecution& how) {
     candidate_->poison();
-    backends_[backend]->draw(j.triangles, candidate_->view(), background_of(j.frontend.payload), execution);
+    edgewise::draw(*backends_[backend], j.triangles, candidate_->view(), background_of(j.frontend.payload),
+                   how);
   }
 
-  void keep(const Judgement& j, std::size_t backend, const Execution& execution,
+  void keep(const Judgement& j, std::size_t backend, const AblatedExecution& how,
             const lab::FrameDifference& found) {
     const int x = found.first_x, y = found.first_y;
     const std::string_view name = plan_.backends[backend].name;
@@ -180,7 +159,7 @@ class SceneCheck {
                       j.frontend.height,
                       std::string(j.judge),
                       std::string(name),
-                      execution,
+                      how,
                       found.pixels,
                       found.outside,
                       x,
@@ -193,8 +172,8 @@ class SceneCheck {
     if (found.pixels != 0) {
       mismatch.values = {value_at(j.expected, j.judge, x, y),
                          value_at(*candidate_, std::string(name) + " (so configured)", x, y)};
-      for (const std::size_t b : judged_by(j)) {
-        draw(j, b, {1, 64, resolve(SimdTarget::best)});
+      for (std::size_t b = 0; b < backends_.size(); ++b) {
+        draw(j, b, {{1, 64, resolve(SimdTarget::best)}});
         mismatch.values.push_back(value_at(*candidate_, plan_.backends[b].name, x, y));
       }
     }
@@ -209,7 +188,7 @@ class SceneCheck {
   const VerifyPlan& plan_;
   const std::string& name_;
   const std::function<void(double)>& progress_;
-  const std::vector<Execution> executions_;
+  const std::vector<AblatedExecution> executions_;
   std::vector<std::unique_ptr<Backend>> backends_;
   Frontend frontend_;
   std::optional<lab::GuardedFrame> candidate_;

@@ -11,8 +11,8 @@
 #include <string_view>
 #include <vector>
 
-#include "edgewise/backend.h"
 #include "edgewise/frontend.h"
+#include "raster/ablation.h"
 #include "support/options.h"
 
 namespace edgewise::app {
@@ -41,7 +41,7 @@ struct Mismatch {
   int width, height;
   std::string judge;  // the reference's name, or "oracle"
   std::string backend;
-  Execution execution;
+  AblatedExecution how;
   std::uint64_t pixels;   // that differ
   std::uint64_t outside;  // words written beside the image
   int x, y;               // the first pixel that differs; -1 if none does

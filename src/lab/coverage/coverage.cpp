@@ -82,20 +82,20 @@ std::int32_t to_sub(float px) {
   return static_cast<std::int32_t>(std::nearbyint(double{px} * contract::kSub));
 }
 
-CoverageMethod make_from(const BackendInfo& backend) {
+CoverageMethod make_from(const BackendInfo& backend, bool fills) {
   constexpr double kSnap = 0.00277;  // half a sub-unit on both axes: sqrt(2) / 512
-  return {{backend.name, backend.idea, "src/raster/backends",
-           "exact coverage of the positions snapped to 1/256 px", true},
-          {.reach_px = kSnap, .no_gaps = true, .no_double_hits = true},
-          [&backend](const CoverageInput& input, Canvas& canvas, int threads) {
-            canvas.backend(backend).draw(input.snapped, canvas.frame.view(), 0, {.threads = threads});
-          },
-          [&backend](const CoverageInput& input, Window window, std::vector<Run>& runs) {
-            backend_runs(*backend.make(), input.snapped, window, runs);
-          },
-          true,
-          true,
-          backend.fills};
+  return {
+      {backend.name, backend.idea, "src/raster", "exact coverage of the positions snapped to 1/256 px", true},
+      {.reach_px = kSnap, .no_gaps = true, .no_double_hits = true},
+      [&backend](const CoverageInput& input, Canvas& canvas, int threads) {
+        canvas.backend(backend).draw(input.snapped, canvas.frame.view(), 0, {.threads = threads});
+      },
+      [&backend](const CoverageInput& input, Window window, std::vector<Run>& runs) {
+        backend_runs(*backend.make(), input.snapped, window, runs);
+      },
+      true,
+      true,
+      fills};
 }
 
 const CoverageMethod& find(std::span<const CoverageMethod> all, std::string_view kind,
@@ -118,18 +118,17 @@ Backend& Canvas::backend(const BackendInfo& info) {
 std::span<const CoverageMethod> drawing_methods() {
   static const std::vector<CoverageMethod> list = [] {
     std::vector<CoverageMethod> methods;
-    for (const auto& backend : filling_backends()) methods.push_back(make_from(backend));
+    for (const auto& backend : backends()) methods.push_back(make_from(backend, true));
 #define EDGEWISE_ENTRY(name) methods.push_back(make_coverage_##name());
     EDGEWISE_COVERAGE_METHODS(EDGEWISE_ENTRY)
-    for (const auto& backend : backends().subspan(filling_backends().size()))
-      methods.push_back(make_from(backend));
+    methods.push_back(make_from(wireframe(), false));
     return methods;
   }();
   return list;
 }
 
 std::span<const CoverageMethod> coverage_methods() {
-  return drawing_methods().first(drawing_methods().size() - (backends().size() - filling_backends().size()));
+  return drawing_methods().first(drawing_methods().size() - 1);
 }
 
 const CoverageMethod& find_coverage_method(std::string_view name) {

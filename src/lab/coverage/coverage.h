@@ -69,7 +69,7 @@ std::span<const CoverageMethod> coverage_methods();
 // Throws std::invalid_argument, with the nearest known name, for an unknown one.
 const CoverageMethod& find_coverage_method(std::string_view name);
 
-// What can be looked at: the coverage methods, then the backends that don't fill.
+// All that can be looked at: the coverage methods, then wireframe().
 std::span<const CoverageMethod> drawing_methods();
 const CoverageMethod& find_drawing_method(std::string_view name);
 

@@ -1,8 +1,8 @@
 // The reference: walk the triangle's boundaries row by row and fill the spans between them. What surrounds
 // that is what `tiled` has (binning to tiles, tiles on threads), so the two differ in how they find and fill
 // a triangle's pixels. Drawing lives in scanline_kernel.cpp.
-#include "edgewise/backend.h"
 #include "edgewise/contract.h"
+#include "raster/ablation.h"
 #include "raster/scanline/scanline_kernel.h"
 #include "raster/tiles.h"
 
@@ -10,13 +10,13 @@ namespace edgewise {
 
 namespace {
 
-class Scanline final : public Backend {
+class Scanline final : public AblatableBackend {
   void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
                     const Execution& execution) override {
-    draw_in_tiles(triangles, frame, background, execution, contract::kMaxTile, scratch_,
+    draw_in_tiles(triangles, frame, background, execution, ablation, contract::kMaxTile, bins_,
                   Bins::Small::as_indices, scanline_kernel(execution.target));
   }
-  TileScratch scratch_;
+  Bins bins_;
 };
 
 }  // namespace

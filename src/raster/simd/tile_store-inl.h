@@ -1,10 +1,9 @@
-// What tile kernels share around the drawing: asking for triangles, and the way of a tile of pixels to the
-// frame, through the caches or past them (ablation.h).
+// What tile kernels share around the drawing: prefetching triangles, and copying a finished tile to the
+// frame by cached or streaming stores (raster/ablation.h).
 #include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdint>
 #include <span>
 
@@ -30,7 +29,7 @@ struct Place {
   std::int32_t* at;
   std::ptrdiff_t stride;
   int width, height;  // px
-  bool past_caches;   // wanted, and the frame's alignment allows it
+  bool streaming;     // wanted, and the frame's alignment allows it
   int ahead;          // px, to where the frame goes on at the right; or 0
 
   Place(const TileTask& job, std::uint32_t* plane)
@@ -38,20 +37,19 @@ struct Place {
         stride(job.frame.stride),
         width(job.width()),
         height(job.height()),
-        past_caches(job.ideas.write_out == WriteOut::past_caches &&
+        streaming(job.ablation.tile_store == TileStore::streaming &&
                     reinterpret_cast<std::uintptr_t>(plane) % sizeof(V) == 0 && stride % kLanes == 0),
         ahead(job.x0 + 2 * job.size() <= job.frame.width ? job.size() : 0) {}
 
   HWY_INLINE std::int32_t* row(int y) const { return at + y * stride; }
 };
 
-// Calls write(store), where store(v, pixels) puts a vector of pixels to the frame. Through the caches, the
-// tile to the right, most often the next to be drawn, is asked for at the same time: its rows are too short
-// for processors to foresee where they lie, and a few stores that wait for memory hold up all others. (Not
-// pixel by pixel, where asking would take longer than storing.)
+// Calls write(store), where store(v, pixels) writes a vector of pixels to the frame. Cached stores also prefetch the tile
+// to the right, which is usually drawn next: its rows are too short for the hardware prefetcher, and a few stores that
+// wait for memory stall all others. The scalar target stores pixel by pixel, where a prefetch costs more than it saves.
 template <typename Write>
 HWY_INLINE void write_to(const Place& to, Write&& write) {
-  if (to.past_caches) {
+  if (to.streaming) {
     write([](V v, std::int32_t* pixels) { hn::Stream(v, D{}, pixels); });
   } else {
     write([ahead = to.ahead](V v, std::int32_t* pixels) {
@@ -87,23 +85,19 @@ template <typename Draw>
 HWY_INLINE void draw_runs(const TileTask& job, Draw&& draw) {
   Bins::Run asked_for{};
   job.bins->for_each_run(job.cell, [&](const Bins::Run& run) {
-    if (job.ideas.prefetch) prefetch_triangles(job, run.indices);
+    if (job.ablation.prefetch) prefetch_triangles(job, run.indices);
     if (!asked_for.indices.empty()) draw(asked_for);
     asked_for = run;
   });
   if (!asked_for.indices.empty()) draw(asked_for);
 }
 
-// Calls write(depth, payload) with the tile's places, and waits until what went past the caches is on its
-// way.
+// Calls write(depth, payload) with the tile's places in the frame, and orders streaming stores before later ones.
 template <typename Write>
 HWY_INLINE void write_planes(const TileTask& job, Write&& write) {
-  using Clock = std::chrono::steady_clock;
   const Place depth(job, job.frame.depth), payload(job, job.frame.payload);
-  const Clock::time_point begin = job.write_out_ns == nullptr ? Clock::time_point() : Clock::now();
   write(depth, payload);
   hwy::FlushStream();
-  if (job.write_out_ns != nullptr) *job.write_out_ns = std::chrono::nanoseconds(Clock::now() - begin).count();
 }
 
 // What goes to the frame from a tile's buffers: vectors of pixels from the i-th on.

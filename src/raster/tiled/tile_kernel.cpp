@@ -70,7 +70,7 @@ class TilePainter {
       } else {
         small_.draw();
         // Thin triangles fill no block, and hide none.
-        occludes_ = occludes_ || (job_.ideas.hierarchical_depth && may_fill_blocks(batch_, k));
+        occludes_ = occludes_ || (job_.ablation.hierarchical_depth && may_fill_blocks(batch_, k));
         if (occludes_ && tile_.hiz.occludes(batch_.nearest.least[k])) [[unlikely]]  // in most scenes
           continue;
         occludes_ ? find_candidates<true>(k, width, *next) : find_candidates<false>(k, width, *next);

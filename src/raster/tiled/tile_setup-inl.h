@@ -259,7 +259,7 @@ HWY_INLINE std::uint32_t set_up_vector(const TileTask& job, const std::uint32_t*
 inline std::uint32_t set_up(const TileTask& job, std::span<const std::uint32_t> run, Batch& out) {
   std::uint32_t alive = 0;
   const int count = static_cast<int>(run.size());
-  if (HWY_TARGET == HWY_SCALAR || !job.ideas.vector_setup) {
+  if (HWY_TARGET == HWY_SCALAR || !job.ablation.vector_setup) {
     for (int k = 0; k < count; ++k)
       alive |= std::uint32_t{set_up_one(job, job.triangles[run[static_cast<std::size_t>(k)]], out, k)} << k;
     return alive;

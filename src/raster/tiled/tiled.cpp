@@ -1,7 +1,7 @@
 // Every pixel independent, as on a GPU: triangles are binned to square tiles, and tiles are drawn in
 // parallel, each in a buffer of its own, by SIMD edge functions. Binning lives in bins.cpp, drawing in
 // tile_kernel.cpp.
-#include "edgewise/backend.h"
+#include "raster/ablation.h"
 #include "raster/tiled/tile_kernel.h"
 #include "raster/tiles.h"
 
@@ -9,14 +9,14 @@ namespace edgewise {
 
 namespace {
 
-class Tiled final : public Backend {
+class Tiled final : public AblatableBackend {
   void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
                     const Execution& execution) override {
-    draw_in_tiles(triangles, frame, background, execution, execution.tile_size, scratch_,
-                  execution.ideas.patches ? Bins::Small::as_masks : Bins::Small::as_indices,
+    draw_in_tiles(triangles, frame, background, execution, ablation, execution.tile_size, bins_,
+                  ablation.coverage_masks ? Bins::Small::as_masks : Bins::Small::as_indices,
                   tile_kernel(execution.target));
   }
-  TileScratch scratch_;
+  Bins bins_;
 };
 
 }  // namespace
