@@ -31,15 +31,15 @@ FAMILIES = {family.name: family for family in (
            ("float", "snapped"),
            {"floating point": ("float", "double"), "fixed point": ("fixed", "whole"), "scanline DDA": ("dda",)},
            "More than 10⁶: one crossing can cost many pixels, most where a triangle fills its bounding box"),
-    Family("visibility", "pixels with the wrong owner, per 10⁶ covered", "covered", "ns per covered pixel",
-           ("snapped",),  # the other adds to each method what snapping costs: all draw the same snapped triangles
+    Family("visibility", "pixels that show the wrong triangle, per 10⁶ covered", "covered", "ns per covered pixel",
+           ("snapped",),  # all methods draw the same snapped triangles, so the other truth adds the same to each
            {"drawing in order": ("painter", "submission"),
             "depth buffer": ("float", "reversed", "unorm")}),
-    Family("facing", "misjudged faces per 10⁶ that own a pixel", "covered", "ns per face",
+    Family("facing", "misjudged faces per 10⁶ visible ones", "covered", "ns per face",
            ("float", "snapped"),
            {"signed area": ("float_area",), "normal": ("normal",)}),
     Family("clipping", "wrong pixels per 10⁶ covered", "covered", "ns per covered pixel",
-           beyond="More than 10⁶: what is drawn where nothing is to be drawn counts as well"),
+           beyond="More than 10⁶: pixels drawn where nothing should be count as well"),
 )}
 
 

@@ -1,4 +1,4 @@
-"""Curves over a benchmark's sweeps, and where they cross."""
+"""Curves over a benchmark's sweeps, their crossings, and the fastest backend at each point."""
 import math
 
 from bench_rows import order
@@ -20,7 +20,7 @@ def area_curves(bench, threads):
 
 
 def crossings(first, second):
-    """Where two curves over the same x cross, by straight lines on log axes; not where they only tangle.
+    """The settled crossings of two curves over the same x, by straight lines on log axes.
 
     Left and right of a crossing the repetitions must settle the order of the two, the other way round.
     """
@@ -47,6 +47,20 @@ def all_crossings(points):
     names = list(points)
     return sorted((x, y, a, b) for i, a in enumerate(names) for b in names[i + 1:]
                   for x, y in crossings(points[a], points[b]))
+
+
+def winners(points):
+    """{backend: at how many x it is settled as the fastest}, None where no backend is; `points` as of curves()."""
+    at = {}
+    for backend, found in points.items():
+        for x, row, _ in found:
+            at.setdefault(x, {})[backend] = row
+    won = {}
+    for rows in at.values():
+        settled = [name for name, row in rows.items() if all(order(row, other) < 0 for other in rows.values() if other is not row)]
+        winner = settled[0] if settled and len(rows) > 1 else None
+        won[winner] = won.get(winner, 0) + 1
+    return won
 
 
 def two_digits(px):

@@ -1,16 +1,27 @@
-"""The colours and markers of all charts, drawn or interactive: for each backend, and for each kind of method."""
+"""The colours and markers of all charts, drawn or interactive. A colour has one meaning in all of them."""
 
-# Okabe and Ito, "Color Universal Design", 2008; given out in the registry's order.
-PALETTE = ["#0072B2", "#E69F00", "#009E73", "#D55E00", "#CC79A7", "#56B4E9", "#000000"]
-MARKERS = ["o", "s", "^", "D", "v", "P", "X"]
-INK, FAINT = "#24292f", "#6e7781"
-OURS, OTHER = PALETTE[0], PALETTE[3]
-KIND_COLOURS, KIND_MARKERS = (PALETTE[1], PALETTE[2], PALETTE[4]), ("s", "^", "D")
-# What one change more made of a time; see ablation.verdict().
-VERDICTS = {"gain": PALETTE[0], "loss": PALETTE[3], "neither": "#8c959f"}
+# Okabe and Ito, "Color Universal Design", 2008.
+BLUE, ORANGE, GREEN, VERMILION, PURPLE, SKY = "#0072B2", "#E69F00", "#009E73", "#D55E00", "#CC79A7", "#56B4E9"
+BLACK, INK, FAINT = "#000000", "#24292f", "#6e7781"
+BAND = "#f0f2f4"  # behind a special part of an axis
+
+BACKENDS = {"scanline": (BLUE, "o"), "naive": (ORANGE, "s"), "tiled": (GREEN, "^")}
+ADDED = (("#7f5539", "D"), ("#8a8f00", "v"), ("#5c4d9a", "P"), ("#6b705c", "X"))  # for backends that a user adds
+
+OURS = (BLACK, "o")  # a method of the library that is no backend, or several that share a curve
+KINDS = ((VERMILION, "D"), (SKY, "v"), (PURPLE, "P"))
+OTHER = ("#8c959f", "X")
+
+# Whether a step of the ablation made the backend faster; see ablation.verdict().
+VERDICTS = {"gain": BLACK, "loss": "#b3261e", "neither": "#8c959f"}
+
+
+def backend_looks(backends):
+    """{backend: (colour, marker)}"""
+    added = [backend for backend in backends if backend not in BACKENDS]
+    return {backend: BACKENDS.get(backend) or ADDED[added.index(backend) % len(ADDED)] for backend in backends}
 
 
 def kind_looks(family):
     """{kind of method: (colour, marker)} in a family."""
-    looks = {"ours": (OURS, "o"), "other": (OTHER, "v")}
-    return {**looks, **{kind: look for kind, *look in zip(family.kinds, KIND_COLOURS, KIND_MARKERS)}}
+    return {"ours": OURS, "other": OTHER, **dict(zip(family.kinds, KINDS))}

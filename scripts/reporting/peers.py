@@ -47,10 +47,6 @@ def over_backend(bench, found, backend):
     return found.peer.median_ms / ours.median_ms if ours else None
 
 
-def times(ratio):
-    return f"{ratio:.1f}×" if ratio >= 9.95 else f"{ratio:.2f}×"
-
-
 def with_ratios(bench, header, lines):
     """A scene table with a further column for each peer, on the most threads."""
     found = pairs(bench)

@@ -1,15 +1,15 @@
 """The charts of accuracy: errors against speed, family by family, and the turning cube."""
 import math
 
+from accuracy_findings import compared, fastest, scenes_with_errors, sides
 from accuracy_rows import FAMILIES
-from palette import FAINT, INK
+from palette import BAND, FAINT, INK
 from plot_kinds import Kinds
 from plot_labels import Label, label_points
-from plot_style import headline, plt, save
-from speed_accuracy import (CRACKS, SUBTITLES, TRIALS, chart_rows, cost_range, front_line, shade, side_by_side,
-                            unsettled)
-from tables import short
-from zero_axis import BAND, ZeroAxis
+from plot_style import WIDTH_IN, head_in, headline, plt, save
+from speed_accuracy import CRACKS, SUBTITLES, TRIALS, chart_rows, cost_range, front_line, shade, unsettled
+from tables import number, short
+from zero_axis import ZeroAxis
 
 
 def cost_axis(axes, measured):
@@ -25,6 +25,18 @@ def cost_axis(axes, measured):
     return high
 
 
+def shared_labels(measured, scale):
+    """One label for methods of others with the same errors and nearly the same time, the slowest first."""
+    groups = []
+    for m in sorted((m for m in measured if 1 in m.costs and not m.method.ours), key=lambda m: (m.rate, -m.costs[1].ns)):
+        if groups and groups[-1][-1].rate == m.rate and groups[-1][-1].costs[1].ns < NEAR * m.costs[1].ns:
+            groups[-1].append(m)
+        else:
+            groups.append([m])
+    return [Label(scale.at(group[0].rate), group[len(group) // 2].costs[1].ns, "\n".join(m.method.name for m in group))
+            for group in groups]
+
+
 def draw_points(axes, scene, kinds):
     """Returns labels for label_points(), the lines that they are to keep off, and whether a point is unsettled."""
     measured = [m for m in scene.measured if m.costs]
@@ -32,43 +44,66 @@ def draw_points(axes, scene, kinds):
     bounds = [m.bound for m in measured if m.bound is not None]
     scale.apply_x(axes, f"0\n(<{float(f'{max(bounds):.2g}'):g})" if bounds else "0")
     top = cost_axis(axes, measured)
-    places = side_by_side(measured, scale)
-    singles = [(scale.at(m.rate), m.costs[1].ns, x) for m, x in zip(measured, places) if 1 in m.costs]
+    singles = [(scale.at(m.rate), m.costs[1].ns) for m in measured if 1 in m.costs]
     lines = [front_line(singles, scale.limit, top)] if singles else []
     for line in lines:
         axes.plot(*zip(*line), **FRONT, zorder=1.5)
     labels, open_question = [], unsettled(scene.single)
-    for m, x in zip(measured, places):
-        colour, marker = kinds.of(m.method)
-        ladder = sorted(m.costs.items())
-        axes.plot([x] * len(ladder), [cost.ns for _, cost in ladder], color=colour, linewidth=1.0, zorder=2)
+    for m in measured:
+        x, (colour, marker) = scale.at(m.rate), kinds.of(m.method)
+        by_threads = sorted(m.costs.items())
+        axes.plot([x] * len(by_threads), [cost.ns for _, cost in by_threads], color=colour, linewidth=1.0, zorder=2)
         if m in open_question:
             axes.plot([x], [m.costs[1].ns], **RING, zorder=2.8)
-        for threads, cost in ladder:
+        for threads, cost in by_threads:
             lines.append([(x, cost.low), (x, cost.high)])
             axes.plot(*zip(*lines[-1]), color=colour, **WHISKER, zorder=1.8)
             face, edge = ("white", colour) if m.snapped_rate else (colour, "white")
-            axes.plot([x], [cost.ns], marker=marker, linestyle="", zorder=3, markersize=8 if threads == 1 else 6,
+            axes.plot([x], [cost.ns], marker=marker, linestyle="", zorder=3, markersize=7 if threads == 1 else 5,
                       markerfacecolor=face, markeredgecolor=edge, markeredgewidth=1.5 if m.snapped_rate else 0.8)
-            labels.append(Label(x, cost.ns, m.method.name, bold=m.method.ours) if threads == 1 else
-                          Label(x, cost.ns, f"{m.method.name}, {threads} threads", FAINT, 8))
-    return labels, lines, bool(open_question)
+            if threads > 1:
+                labels.append(Label(x, cost.ns, f"{m.method.name}, {threads} threads", FAINT, 8))
+            elif m.method.ours:
+                labels.append(Label(x, cost.ns, m.method.name, bold=True))
+    return [*labels, *shared_labels(measured, scale)], lines, bool(open_question)
 
 
-WHISKER = {"linewidth": 4.0, "alpha": 0.35, "solid_capstyle": "butt"}
-RING = {"marker": "o", "markersize": 13, "markerfacecolor": "none", "markeredgecolor": INK, "markeredgewidth": 0.9,
+NEAR = 1.12  # ratio of times below which marks touch
+WHISKER = {"linewidth": 3.0, "alpha": 0.3, "solid_capstyle": "butt"}
+RING = {"marker": "o", "markersize": 12, "markerfacecolor": "none", "markeredgecolor": INK, "markeredgewidth": 0.9,
         "linestyle": ""}
 FRONT = {"color": INK, "linewidth": 1.2, "linestyle": (0, (4, 2))}
 
 
-def speed_chart(scene, name, folder, caption):
+def fewer_errors(scene, ours):
+    """How many methods of others err less than one of ours: "none of 12 others errs less"."""
+    others = [m for m in scene.measured if not m.method.ours]
+    less = sum(m.rate < ours.rate for m in others)
+    if not others:
+        return ""
+    return f"{less or 'none'} of {len(others)} other methods {'err' if less > 1 else 'errs'} less"
+
+
+def speed_title(scene, machine):
+    """Of coverage how much faster our fastest is than the fastest other; of all how many other methods err less."""
+    ours, others = sides(scene) or ([], [])
+    if not ours:
+        return f"{scene.name}: {scene.family}"
+    first = fastest(ours)[0]
+    less = fewer_errors(scene, first)
+    if scene.family == "coverage":
+        return f"{compared(first, fastest(others)[0], machine)}; {less}".replace("`", "")
+    return f"{first.method.name} makes {number(first.rate)} errors per 10⁶ on {scene.name}; {less}"
+
+
+def speed_chart(scene, name, machine, folder, caption):
     family = FAMILIES[scene.family]
     kinds = Kinds(family)
     subtitle = SUBTITLES[family.name]
-    above, below = 1.4 + 0.2 * subtitle.count("\n"), 1.12
-    figure, axes = plt.subplots(figsize=(10.4, above + below + (4.7 if family.name == "coverage" else 3.6)))
+    above, below = 0.85 + head_in(subtitle), 1.12
+    figure, axes = plt.subplots(figsize=(WIDTH_IN, above + below + (5.0 if family.name == "coverage" else 3.8)))
     height = figure.get_figheight()
-    top = headline(figure, f"{family.name.capitalize()}: speed against accuracy", subtitle)
+    top = headline(figure, speed_title(scene, machine), subtitle)
     figure.subplots_adjust(left=0.07, right=0.985, bottom=below / height, top=1 - above / height)
     labels, lines, open_question = draw_points(axes, scene, kinds)
     axes.set_ylabel(family.cost)
@@ -81,24 +116,37 @@ def speed_chart(scene, name, folder, caption):
         extra.append(plt.Line2D([], [], **RING, label="ringed: ranges overlap, not settled"))
     if any(m.snapped_rate for m in scene.measured):
         extra.append(plt.Line2D([], [], color=FAINT, marker="o", markerfacecolor="white", markeredgewidth=1.4,
-                                linestyle="", markersize=7, label="hollow: errs even then"))
+                                linestyle="", markersize=7, label="hollow: errs given the snapped positions"))
     kinds.legend(figure, top, [m.method for m in scene.measured], extra)
-    notes = ["0: no error seen; in brackets the bound 3/N below which the rate is with 95 % confidence."]
+    notes = ["0: no error seen; in brackets the 95 % upper bound, 3/N."]
     if any(len(m.costs) > 1 for m in scene.measured):
-        notes.append("Thin lines join a method's thread counts.")
-    beyond = family.beyond_note(m.rate for m in scene.measured)
-    notes.append(f"Points step aside where they would hide one another{beyond}.".replace(". ", ".\n"))
+        notes.append("Thin lines join the thread counts of a method.")
+    if beyond := family.beyond_note(m.rate for m in scene.measured):
+        notes.append(f"{beyond[2:]}.")
     save(figure, folder, name, " ".join(notes) + "\n" + caption)
     return name
 
 
+def cube_title(rows):
+    """Of ours and of the worst method: the worst frame."""
+    def worst(found):
+        return [found[key][1] for key in ("gaps", "double_hits")]
+
+    ours = [worst(found) for method, found in rows if method.ours]
+    method, found = max(rows, key=lambda row: sum(worst(row[1])))
+    gaps, doubles = worst(found)
+    said = "no gap and no double hit" if not any(map(sum, ours)) else (
+        f"up to {max(gap for gap, _ in ours):,.0f} gaps and {max(double for _, double in ours):,.0f} double hits per frame")
+    return f"Ours: {said}; {method.name}: up to {gaps:,.0f} gaps and {doubles:,.0f} double hits per frame"
+
+
 def turning_cube(accuracy, folder, caption):
-    """Gaps and double hits a frame: a line from the median frame to the worst."""
+    """Gaps and double hits per frame: a line from the median frame to the worst."""
     if not accuracy.cube or not accuracy.cube["methods"]:
         return None
     kinds = Kinds(FAMILIES["coverage"])
     rows = accuracy.cube["methods"]
-    figure, panels = plt.subplots(1, 2, sharey=True, figsize=(10.4, 1.9 + 0.26 * len(rows)))
+    figure, panels = plt.subplots(1, 2, sharey=True, figsize=(WIDTH_IN, 2.1 + 0.26 * len(rows)))
     for axes, key, title in zip(panels, ("gaps", "double_hits"), ("Gaps", "Double hits")):
         scale = ZeroAxis([value for _, found in rows for value in found[key]])
         scale.apply_x(axes)
@@ -110,17 +158,31 @@ def turning_cube(accuracy, folder, caption):
                       markeredgewidth=1.5)
             axes.plot([median], [line], marker=marker, color=colour, markersize=5)
         axes.set_title(title)
-        axes.set_xlabel("pixels a frame")
+        axes.set_xlabel("pixels per frame")
         axes.set_yticks(range(len(rows)), [method.name for method, _ in rows])
         axes.tick_params(axis="y", length=0)
         axes.set_ylim(len(rows) - 0.5, -0.5)
     height = figure.get_figheight()
-    headline(figure, "The turning cube", f"{accuracy.cube['frames']:,} frames of the tutorials' cube, against exact "
-             "arithmetic on the positions before any snapping. Filled: the median frame; hollow: the worst.")
-    figure.subplots_adjust(left=0.15, right=0.985, bottom=0.9 / height, top=1 - 0.95 / height, wspace=0.06)
-    note = "A gap is a crack between neighbours: a pixel that is lost where a method moved the outline does not count."
+    top = headline(figure, cube_title(rows), f"{accuracy.cube['frames']:,} frames of the tutorials' cube, judged by exact "
+                   "arithmetic on the positions before any snapping. Filled: the median frame; hollow: the worst frame.")
+    figure.subplots_adjust(left=0.15, right=0.985, bottom=0.9 / height, top=top - 0.35 / height, wspace=0.06)
+    note = "A gap is a crack between neighbours; pixels lost at a moved outline do not count."
     save(figure, folder, "turning-cube", f"{note}\n{caption}")
     return "turning-cube"
+
+
+def errors_title(accuracy, family):
+    """In how many scenes ours err, and the methods that err in the fewest and in the most."""
+    erring, total = scenes_with_errors(accuracy, family.name), len(accuracy.of(family.name))
+    ours = sorted({erring[m.name] for m in accuracy.methods[family.name] if m.ours})
+    said = [f"ours err in {' to '.join(map(str, ours))} of {total} scenes"] if ours else []
+    others = {m.name: erring[m.name] for m in accuracy.methods[family.name] if not m.ours}
+    for pick in (min, max) if others else ():
+        count = pick(others.values())
+        names = [name for name, scenes in others.items() if scenes == count]
+        who = names[0] if len(names) == 1 else f"{len(names)} other methods"
+        said.append(f"{who} in {count or 'none'}")
+    return f"{family.name.capitalize()}: {', '.join(dict.fromkeys(said))}"
 
 
 def all_scenes(accuracy, family, folder, caption):
@@ -129,8 +191,11 @@ def all_scenes(accuracy, family, folder, caption):
     if not scenes or not methods:
         return None
     slanted = len(methods) > 8 or max(len(method.name) for method in methods) > 14  # or they run into one another
-    above = 1.5 if slanted else 1.05
-    figure, axes = plt.subplots(figsize=(10.4, above + 0.45 + 0.27 * len(scenes)))
+    note = family.beyond_note(rate for _, _, rates in scenes for rate in rates.values())
+    subtitle = (f"{family.errors[0].upper()}{family.errors[1:]}, scene by scene; n is the number of {TRIALS[family.name]}. "
+                "Bold: ours." + (" Italics: pixels of the crack." if any(label in CRACKS.values() for label, _, _ in scenes) else ""))
+    above = head_in(subtitle) + (0.95 if slanted else 0.5)
+    figure, axes = plt.subplots(figsize=(WIDTH_IN, above + (0.55 if note else 0.4) + 0.27 * len(scenes)))
     shades = plt.get_cmap("YlOrBr")
     for line, (_, texts, rates) in enumerate(scenes):
         for place, method in enumerate(methods):
@@ -144,8 +209,8 @@ def all_scenes(accuracy, family, folder, caption):
                       color="white" if dark > 0.75 else INK)
     axes.set_xlim(-0.5, len(methods) - 0.5)
     axes.set_ylim(len(scenes) - 0.5, -0.5)
-    trials = {scene.name: f", {short(scene.trials)}" for scene in accuracy.of(family.name)}
-    axes.set_yticks(range(len(scenes)), [label + trials.get(label, "") for label, _, _ in scenes], fontsize=9)
+    trials = {scene.name: f" (n = {short(scene.trials)})" for scene in accuracy.of(family.name)}
+    axes.set_yticks(range(len(scenes)), [label + trials.get(label, "") for label, _, _ in scenes], fontsize=8.5)
     for tick, (label, _, _) in zip(axes.get_yticklabels(), scenes):
         tick.set_fontstyle("italic" if label in CRACKS.values() else "normal")
     axes.xaxis.tick_top()
@@ -157,12 +222,10 @@ def all_scenes(accuracy, family, folder, caption):
     axes.grid(visible=False)
     for spine in axes.spines.values():
         spine.set_visible(False)
-    note = family.beyond_note(rate for _, _, rates in scenes for rate in rates.values())
     height = figure.get_figheight()
-    headline(figure, f"{family.name.capitalize()}: where each method errs",
-             f"{family.errors[0].upper()}{family.errors[1:]}, scene by scene; beside its name the number of {TRIALS[family.name]}. Bold: ours."
-             + (" Italics: the crack's pixels." if any(label in CRACKS.values() for label, _, _ in scenes) else ""))
-    figure.subplots_adjust(left=0.2, right=0.945, bottom=0.45 / height, top=1 - above / height)
+    headline(figure, errors_title(accuracy, family), subtitle)
+    figure.subplots_adjust(left=0.235, right=0.945 if slanted else 0.985, bottom=(0.5 if note else 0.35) / height,
+                           top=1 - above / height)
     save(figure, folder, f"errors-{family.name}", f"{note[2:]}.\n{caption}" if note else caption)
     return f"errors-{family.name}"
 
@@ -173,5 +236,5 @@ def draw(accuracy, folder, caption):
         return []
     scenes = [all_scenes(accuracy, family, folder, caption) for family in FAMILIES.values()]
     timed = [found for family in FAMILIES for found in accuracy.timed_charts(family)]
-    charts = [speed_chart(scene, name, folder, caption) for name, scene in timed]
+    charts = [speed_chart(scene, name, accuracy.machine, folder, caption) for name, scene in timed]
     return [name for name in (*charts, *scenes, turning_cube(accuracy, folder, caption)) if name]

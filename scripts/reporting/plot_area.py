@@ -1,8 +1,9 @@
-"""What a covered pixel costs along the triangles' area, and what other charts of curves draw with."""
+"""The cost of a covered pixel along the triangles' area; other charts of curves share its functions."""
 import math
 
-from plot_style import INK, Look, headline, log_axis, plt, save, spread_labels
-from area import all_crossings, area_curves, two_digits
+from area import all_crossings, area_curves, two_digits, winners
+from peers import OURS
+from plot_style import INK, WIDTH_IN, Look, headline, log_axis, plt, save, spread_labels
 
 
 def draw_curves(axes, points, look):
@@ -46,7 +47,7 @@ def free_place(axes, at, size, taken):
 
 
 def mark_crossings(axes, points):
-    """Rings and labels, placed where no curve runs. The axes must have their final place and limits."""
+    """Rings and labels, placed off the curves. The axes must have their final place and limits."""
     def in_points(x, y):
         return axes.transData.transform((x, y)) * 72 / axes.figure.dpi
 
@@ -66,19 +67,33 @@ def mark_crossings(axes, points):
                       arrowprops={"arrowstyle": "-", "color": INK, "linewidth": 0.8, "shrinkB": 6})
 
 
+def title(points, threads):
+    """At how many areas each backend is the fastest."""
+    won = winners(points)
+    total, close = sum(won.values()), won.pop(None, 0)
+    order = sorted(won, key=lambda backend: (backend != OURS, -won[backend]))
+    said = [f"{backend} at {won[backend]}" for backend in order]
+    first, *others = said or ["no backend"]
+    first = first.replace(" at ", " is fastest at ", 1) + (f" of {total} triangle areas" if said else " is settled as the fastest")
+    return "; ".join([f"On {threads} thread{'s' if threads > 1 else ''}, {first}", *others,
+                      *([f"{close} {'are' if close > 1 else 'is'} too close to call"] if close else [])])
+
+
 def area(bench, folder, caption):
     look = Look(bench.backends)
     all_threads = sorted({row.threads for row in bench.sweep("area")})
     if not all_threads:
         return None
-    figure, panels = plt.subplots(1, len(all_threads), sharey=True, squeeze=False, figsize=(5.4 * len(all_threads), 5.3))
-    top = headline(figure, "What a covered pixel costs",
-                   "Random triangles of one area that together cover the same number of pixels; lower is better. Rings: "
-                   "where curves cross\nand the noise leaves no doubt. Band: fastest to slowest repetition.")
-    figure.subplots_adjust(left=0.065, right=0.925, bottom=0.145, top=top - 0.06, wspace=0.22)
+    curves = {threads: area_curves(bench, threads) for threads in all_threads}
+    rings = any(all_crossings(points) for points in curves.values())
+    figure, panels = plt.subplots(1, len(all_threads), sharey=True, squeeze=False, figsize=(WIDTH_IN, 5.2))
+    top = headline(figure, title(curves[all_threads[-1]], all_threads[-1]),
+                   "Random triangles of one area that together cover the same number of pixels; lower is better. Bands: fastest "
+                   "to slowest repetition." + (" Rings: settled crossings of two curves." if rings else ""))
+    figure.subplots_adjust(left=0.07, right=0.925, bottom=0.145, top=top - 0.06, wspace=0.24)
     drawn = []
     for axes, threads in zip(panels[0], all_threads):
-        points = area_curves(bench, threads)
+        points = curves[threads]
         draw_curves(axes, points, look)
         drawn.append((axes, points))
         axes.set_title(f"{threads} thread{'s' if threads > 1 else ''}")

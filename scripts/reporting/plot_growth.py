@@ -1,9 +1,11 @@
 """Cost against triangles, pixels and overdraw, and below it the exponent with which it grows from step to step."""
 import math
+import textwrap
 
 from growth import LINEAR, QUANTITIES, cache_bytes, steps
-from plot_style import FAINT, INK, Look, headline, plt, save
-from plot_area import draw_curves, label_ends
+from palette import BAND
+from plot_style import FAINT, INK, WIDTH_IN, Look, head_in, headline, plt, save
+from plot_area import draw_curves
 
 
 def mark_caches(axes, quantity, machine, named):
@@ -21,7 +23,7 @@ def mark_caches(axes, quantity, machine, named):
 
 
 def draw_steps(axes, quantity, rows, look):
-    axes.axhspan(1 - LINEAR, 1 + LINEAR, color="#eef4ee", zorder=0, linewidth=0)
+    axes.axhspan(1 - LINEAR, 1 + LINEAR, color=BAND, zorder=0, linewidth=0)
     axes.axhline(1, color=FAINT, linewidth=1.0, zorder=1)
     for backend, found in rows.items():
         middle, exponents, bars = [], [], []
@@ -38,8 +40,17 @@ def draw_steps(axes, quantity, rows, look):
 
 def label_x(axes, quantity, rows):
     places = sorted({quantity.x_of(row) for found in rows.values() for row in found})
-    axes.set_xticks(places, [quantity.label(x) for x in places], fontsize=8.5)
+    axes.set_xticks(places, [quantity.label(x) for x in places], fontsize=8, rotation=30 if quantity.key == "size" else 0)
     axes.tick_params(axis="x", which="minor", length=0)
+
+
+def title(drawn):
+    """The settled cases of growth beyond linear."""
+    faster = [f"{backend} with {quantity.name}" for quantity, rows in drawn for backend, found in rows.items()
+              if any(step.kind == "more than linear" for step in steps(quantity, found))]
+    if faster:
+        return f"Settled growth beyond linear: {', '.join(faster)}"
+    return f"No settled growth beyond linear with {', '.join(quantity.name for quantity, _ in drawn)}"
 
 
 def growth(bench, machine, folder, caption):
@@ -49,20 +60,21 @@ def growth(bench, machine, folder, caption):
     if not drawn:
         return None
     threads = next(iter(drawn[0][1].values()))[0].threads
-    figure, panels = plt.subplots(2, len(drawn), squeeze=False, sharex="col", figsize=(4.4 * len(drawn), 6.6),
+    subtitle = (f"Backend alone, clear included, {threads} threads. Top: ms per frame, lower is better; bands from the fastest to "
+                "the slowest repetition. Bottom: the exponent from point to point, 1 is linear and 0 no growth; light bars "
+                "from the middle half of the repetitions. Dotted: triangle records or the frame fill a cache.")
+    figure, panels = plt.subplots(2, len(drawn), squeeze=False, sharex="col", figsize=(WIDTH_IN, 5.9 + head_in(subtitle)),
                                   height_ratios=(3, 2))
-    top = headline(figure, "How cost grows with triangles, pixels and overdraw",
-                   f"Backend alone, clear included, {threads} threads. Above: ms a frame, lower is better. Below: the "
-                   "exponent from point to point; 1 is linear,\n0 is no growth. Bands and light bars: what the "
-                   "repetitions leave open. Dotted: where triangle records or the frame fill a cache.")
-    figure.subplots_adjust(left=0.05, right=0.945, bottom=0.11, top=top - 0.05, wspace=0.36, hspace=0.08)
+    height = figure.get_figheight()
+    top = headline(figure, title(drawn), subtitle)
+    look.legend(figure, top - 0.02 / height)
+    figure.subplots_adjust(left=0.06, right=0.985, bottom=0.95 / height, top=top - 0.72 / height, wspace=0.2, hspace=0.08)
     for (quantity, rows), (above, below) in zip(drawn, panels.T):
         points = {backend: [(quantity.x_of(row), row, 1.0) for row in found] for backend, found in rows.items()}
         draw_curves(above, points, look)
         draw_steps(below, quantity, rows, look)
-        label_ends(above, points, look)
         label_x(below, quantity, rows)
-        above.set_title(quantity.scene(bench).replace("`", ""), fontsize=9.5, color=INK)
+        above.set_title(textwrap.fill(quantity.scene(bench).replace("`", ""), 34), fontsize=9, color=INK)
         below.set_xlabel({"count": "triangles", "size": "image, pixels", "overdraw": "overdraw"}[quantity.key])
         mark_caches(above, quantity, machine, False)
         mark_caches(below, quantity, machine, True)

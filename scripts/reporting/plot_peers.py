@@ -1,7 +1,7 @@
-"""Chart of how many times faster our backends are than other projects' rasterizers."""
-from speedups import about, with_width
+"""Chart of our backends' speed-up over the peers."""
 from peers import OURS, pairs
 from plot_scenes import gain_chart
+from speedups import kernels, outcome, with_width
 from tables import THREADS
 
 
@@ -15,11 +15,10 @@ def against(bench, folder, caption):
             ours = bench.find(compared[scene].ours.name.replace(OURS, backend, 1))
             return (compared[scene].peer, ours) if ours else None
 
-        ratios = [p.ratio for p in compared.values()]
-        title = (f"{OURS} is {about(min(ratios))} to {about(max(ratios))} faster than {peer}" if min(ratios) > 1 else
-                 f"{OURS} runs at {about(min(ratios))} to {about(max(ratios))} the speed of {peer}")
+        said = outcome([(p.ours, p.peer) for p in compared.values()], f"scenes against {peer}")
+        title = f"{OURS} with {kernels(bench.context.get('simd_target'))} {said}"
         gain_chart(bench, folder, caption, f"against-{peer}", list(compared), rows_of, title,
                    f"{bench.context.get(peer, peer)}, against our backends with {with_width(bench.context.get('simd_target'))}; "
-                   f"{threads} threads.\nMeshes from vertices to picture, streams from screen triangles to picture.",
-                   f"time of {peer} over ours")
+                   f"{threads} threads. Meshes from vertices to picture, streams from screen triangles to picture.",
+                   f"speed-up over {peer}")
         yield f"against-{peer}"

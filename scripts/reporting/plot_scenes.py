@@ -1,16 +1,26 @@
-"""Charts by scene: time, and what threads, SIMD and culling gain."""
+"""Charts by scene: the time, and the speed-up by threads, SIMD and culling."""
 from statistics import median
 
 from bench_rows import order
-from speedups import about, kernels, spread
 from peers import OURS
-from plot_style import FAINT, INK, Look, headline, log_axis, plt, save
-from tables import NORMAL_Z, culling_rows, pixels_wrong
+from plot_style import FAINT, INK, WIDTH_IN, Look, head_in, headline, log_axis, plt, save
+from speedups import VECTORS, about, kernels, outcome, spread
+from tables import NORMAL_Z, THREADS, culling_rows, pixels_wrong
 
 
 def room_for(names):
     """Left margin, in figure fractions, for the names of lines."""
     return 0.1 + 0.0085 * max(0, max(map(len, names)) - 10)
+
+
+def time_title(bench):
+    """On the most threads: our backend against the best of the others on each scene."""
+    compared = []
+    for scene in bench.scenes:
+        rows = {b: row for b in bench.backends if (row := bench.find(f"{b}/{scene}/threads:{max(THREADS)}"))}
+        if OURS in rows and len(rows) > 1:
+            compared.append((rows[OURS], min((row for b, row in rows.items() if b != OURS), key=lambda row: row.median_ms)))
+    return f"On {max(THREADS)} threads, {OURS} {outcome(compared, 'scenes')}" if compared else "Time per scene"
 
 
 def scene_time(bench, folder, caption):
@@ -19,7 +29,7 @@ def scene_time(bench, folder, caption):
     scenes = bench.scenes
     if not scenes:
         return None
-    figure, axes = plt.subplots(figsize=(10.0, 1.6 + 0.52 * len(scenes)))
+    figure, axes = plt.subplots(figsize=(WIDTH_IN, 1.6 + 0.52 * len(scenes)))
     step = 0.72 / max(1, len(bench.backends))
     for line, scene in enumerate(scenes):
         if line % 2:
@@ -36,15 +46,16 @@ def scene_time(bench, folder, caption):
                           color=look.colour(backend), markerfacecolor=look.colour(backend) if filled else "white",
                           markeredgewidth=1.5)
     axes.set_xscale("log")
+    axes.margins(x=0.02)
     log_axis(axes.xaxis)
     axes.set_yticks(range(len(scenes)), scenes)
     axes.tick_params(axis="y", length=0)
     axes.set_ylim(len(scenes) - 0.5, -0.5)
     axes.grid(axis="y", visible=False)
-    axes.set_xlabel("ms a frame, backend alone, clear included")
+    axes.set_xlabel("ms per frame, backend alone, clear included")
     height = figure.get_figheight()
-    top = headline(figure, "Time per scene", "Screen triangles to finished picture; lower is better. "
-                   "Hollow: 1 thread, filled: 2. Light bar: fastest to slowest repetition.")
+    top = headline(figure, time_title(bench), "Screen triangles to finished picture; lower is better. "
+                   "Hollow: 1 thread, filled: 2. Light bars: fastest to slowest repetition.")
     look.legend(figure, top - 0.02 / height)
     figure.subplots_adjust(left=room_for(scenes), right=0.975, bottom=0.78 / height, top=top - 0.42 / height)
     save(figure, folder, "scenes", caption)
@@ -52,11 +63,13 @@ def scene_time(bench, folder, caption):
 
 
 def ratio_axis(axis, low, high):
-    """A log axis of ratios with round numbers from low to high. Its limits must be set already."""
-    ticks = [step * 10.0 ** k for k in (-2, -1, 0, 1, 2) for step in (1, 1.5, 2, 3, 5, 7) if low <= step * 10.0 ** k <= high]
-    axis.set_ticks([tick for tick in ticks if len(ticks) < 9 or f"{tick:.0e}"[0] in "125"])
+    """A log axis of speed-ups with round numbers from low to high. Its limits must be set already."""
+    steps = (1, 1.5, 2, 3, 5, 7) if high / low < 12 else (1, 2, 5)
+    factors = [step * 10.0 ** k for k in (0, 1, 2) for step in steps]
+    ticks = [*(1 / factor for factor in reversed(factors[1:])), *factors]
+    axis.set_ticks([tick for tick in ticks if low <= tick <= high])
     axis.set_ticks([], minor=True)
-    axis.set_major_formatter(lambda value, _: f"{value:g}×")
+    axis.set_major_formatter(lambda value, _: f"{value:g}×" if value >= 1 else f"{1 / value:.3g}×\nslower")
 
 
 def ends_of(before, after):
@@ -65,8 +78,8 @@ def ends_of(before, after):
 
 
 def dots(axes, look, groups, rows_of, hollow_of=None):
-    """A dot a backend for each group, in lines from top to bottom; below each the hollow one of hollow_of, if given.
-    Both give (row before, row after) or None. Returns the least and the largest speed-up."""
+    """A dot per backend for each group, in lines from top to bottom; below each the hollow one of hollow_of, if given.
+    Both give (row before, row after) or None."""
     marks = [(rows_of, True), *([(hollow_of, False)] if hollow_of else [])]
     step = (0.6 if len(marks) == 1 else 0.76) / max(1, len(look.backends) * len(marks))
     ends = [1.0]
@@ -95,11 +108,11 @@ def dots(axes, look, groups, rows_of, hollow_of=None):
 
 
 def gain_chart(bench, folder, caption, name, groups, rows_of, title, subtitle, label, hollow_of=None, notes=None):
-    """`notes`: what stands on the right of a group."""
+    """`notes`: the text on the right of a group."""
     if not any(rows_of(group, backend) for group in groups for backend in bench.backends):
         return None
     look = Look(bench.backends)
-    figure, axes = plt.subplots(figsize=(10.0, 2.2 + (0.85 if hollow_of else 0.4) * len(groups)))
+    figure, axes = plt.subplots(figsize=(WIDTH_IN, 1.8 + head_in(subtitle) + (0.85 if hollow_of else 0.4) * len(groups)))
     dots(axes, look, groups, rows_of, hollow_of)
     for line, group in enumerate(groups if notes else ()):
         axes.text(1.012, line, notes[group], transform=axes.get_yaxis_transform(), fontsize=9, color=FAINT, va="center")
@@ -107,17 +120,17 @@ def gain_chart(bench, folder, caption, name, groups, rows_of, title, subtitle, l
     height = figure.get_figheight()
     top = headline(figure, title, subtitle)
     look.legend(figure, top - 0.02 / height)
-    figure.subplots_adjust(left=room_for(groups), right=0.86 if notes else 0.975, bottom=0.78 / height,
+    figure.subplots_adjust(left=room_for(groups), right=0.86 if notes else 0.975, bottom=0.95 / height,
                            top=top - 0.42 / height)
     save(figure, folder, name, f"Light bars: the middle half of the repetitions.\n{caption}")
     return name
 
 
 def gains_title(pairs, what):
-    """What the speed-ups say: "The second thread makes 40 of 45 draws faster, 1.9× in the median"."""
+    """"A second thread is faster in 40 of 45 cases; 1.9× in the median"."""
     faster = sum(order(after, before) < 0 for before, after in pairs)
     middle = median(before.median_ms / after.median_ms for before, after in pairs)
-    return f"{what} faster in {faster} of {len(pairs)} cases; {about(middle)} in the median"
+    return f"{what} faster in {faster} of {len(pairs)} cases, {about(middle)} in the median"
 
 
 def threads(bench, folder, caption):
@@ -126,41 +139,42 @@ def threads(bench, folder, caption):
         return (one, two) if one and two else None
 
     timed = [rows for scene in bench.scenes for backend in bench.backends if (rows := rows_of(scene, backend))]
-    title = gains_title(timed, "A second thread is") if timed else ""
+    title = gains_title(timed, "With a second thread, frames are") if timed else ""
     return gain_chart(bench, folder, caption, "threads", bench.scenes, rows_of, title,
-                      "Time on 1 thread over time on 2, backend alone; 2× is ideal.", "speed-up of the second thread")
+                      "Time on 1 thread over time on 2, backend alone; 2× is ideal.", "speed-up by the second thread")
 
 
 def culling(bench, folder, caption):
-    """By the winding on the screen, and hollow by the z of normals where that was timed."""
+    """Filled: by the winding on the screen; hollow: by the z of normals, if timed."""
     by_winding, by_normal = culling_rows(bench, "back"), culling_rows(bench, NORMAL_Z)
 
     def rows_in(rows):
         return lambda scene, backend: rows.get(scene, {}).get(backend)
 
     timed = [rows for of in by_winding.values() for rows in of.values()]
-    title = gains_title(timed, "Frames with back faces culled are") if timed else ""
+    title = gains_title(timed, "With back faces culled, frames are") if timed else ""
     told = "Whole frames of closed meshes, front end included: time with all faces over time with back faces culled"
     if not by_normal:
         return gain_chart(bench, folder, caption, "culling", list(by_winding), rows_in(by_winding), title, f"{told}.",
-                          "speed-up of culling")
+                          "speed-up by culling")
     notes = {scene: pixels_wrong(bench, scene) if scene in by_normal else "" for scene in by_winding}
     return gain_chart(bench, folder, caption, "culling", list(by_winding), rows_in(by_winding), title,
-                      f"{told}.\nFilled: by the winding on the screen. Hollow: by the z of normals before projection "
-                      f"({NORMAL_Z}), with the pixels it gets wrong.", "speed-up of culling", rows_in(by_normal), notes)
+                      f"{told}. Filled: by the winding on the screen. Hollow: by the z of normals before projection "
+                      f"({NORMAL_Z}), with the pixels it gets wrong.", "speed-up by culling", rows_in(by_normal), notes)
 
 
 def simd(bench, folder, caption):
-    """Small multiples: speed-up over the slowest target, target by target."""
+    """Small multiples: the speed-up over scalar code, target by target."""
     look = Look(bench.backends)
     rows = [row for row in bench.sweep("target") if row.threads == 1 and not row.frontend]
-    targets = list(dict.fromkeys(row.keys["target"] for row in rows))
+    timed_targets = {row.keys["target"] for row in rows}
+    targets = [target for target in ("scalar", *VECTORS) if target in timed_targets]
     by_key = {(row.scene, row.backend, row.keys["target"]): row for row in rows}
     scenes = [scene for scene in dict.fromkeys(row.scene for row in rows)
               if any((scene, backend, targets[0]) in by_key for backend in bench.backends)]
     if not scenes or len(targets) < 2:
         return None
-    figure, panels = plt.subplots(1, len(scenes), sharey=True, squeeze=False, figsize=(10.0, 4.4))
+    figure, panels = plt.subplots(1, len(scenes), sharey=True, squeeze=False, figsize=(WIDTH_IN, 4.6))
     ends, widest = [1.0], []
     for axes, scene in zip(panels[0], scenes):
         for backend in bench.backends:
@@ -177,18 +191,18 @@ def simd(bench, folder, caption):
             if backend == OURS:
                 widest.append(first.median_ms / timed[-1][1].median_ms)
         axes.axhline(1, color=FAINT, linewidth=1.0, zorder=1)
-        axes.set_xticks(range(len(targets)), targets, fontsize=9)
-        axes.set_xlim(-0.2, len(targets) - 0.8)
+        axes.set_xticks(range(len(targets)), targets, fontsize=8)
+        axes.set_xlim(-0.15, len(targets) - 0.85)
         axes.set_title(scene, color=INK)
         axes.set_yscale("log")
     low, high = min(ends) / 1.04, max(ends) * 1.04
     panels[0][0].set_ylim(low, high)
     ratio_axis(panels[0][0].yaxis, low, high)
     height = figure.get_figheight()
-    title = (f"{kernels(targets[-1])} makes {OURS} {spread(widest)} as fast as {kernels(targets[0])}" if widest else
-             f"What {kernels(targets[-1])} gains")
+    title = (f"With {kernels(targets[-1])}, {OURS} is {spread(widest)} faster than with {kernels(targets[0])}" if widest else
+             f"Speed-up by {kernels(targets[-1])} over {kernels(targets[0])}")
     top = headline(figure, title,
-                   f"Time with {targets[0]} kernels over time with each target's, backend alone, 1 thread; higher is better.\n"
+                   f"Time with {kernels(targets[0])} over time with each target, backend alone, 1 thread; higher is better. "
                    "Light bars: the middle half of the repetitions.")
     look.legend(figure, top - 0.02 / height)
     figure.subplots_adjust(left=0.06, right=0.985, bottom=0.6 / height, top=top - 0.72 / height, wspace=0.12)

@@ -1,10 +1,13 @@
-"""Charts of stability: a figure a sweep, a curve a method, from easy on the left to hard on the right."""
+"""Charts of stability: one per sweep, with one curve per method, from easy on the left to hard on the right."""
 from accuracy_rows import FAMILIES
-from palette import FAINT, INK
+from palette import FAINT
 from plot_kinds import Kinds
-from plot_style import headline, plt, save
+from plot_style import WIDTH_IN, dark, head_in, headline, plt, save
 from stability_curves import (axis_of_errors, failing, groups_of, kinds_and_dashes, known_methods, line_count, names_of,
-                              place_of_failure, runs_down, tidy, trials_note)
+                              place_of_failure, runs_down, summary, tidy, trials_note)
+
+
+LINE_IN = 0.15  # of a label
 
 
 def stacked(wanted, heights, ties):
@@ -45,12 +48,12 @@ def set_axis(axes, sweep):
 
 
 def draw_curves(axes, groups, kinds, y_scale):
-    """Returns (colour, marker, style) of each group."""
+    """Returns (colour, style) of each group."""
     looks = []
     for (members, curve), (kind, dash) in zip(groups, kinds_and_dashes(groups, kinds.family)):
         colour, marker = kinds.looks[kind]
         style = (0, dash) if dash else "-"
-        looks.append((colour, marker, style))
+        looks.append((colour, style))
         xs, ys = [x for x, _ in curve.points], [y_scale.at(y) for _, y in curve.points]
         ours = any(member.ours for member in members)
         axes.plot(xs, ys, color=colour, linestyle=style, linewidth=2.6 if ours else 1.5, zorder=4 if ours else 3)
@@ -62,26 +65,24 @@ def draw_curves(axes, groups, kinds, y_scale):
 
 
 def label_curves(axes, groups, looks, y_scale, sweep):
-    """Names to the right of where the curves end, each with a sample of its line."""
+    """Names at the ends of the curves, each with a sample of its line."""
     low, high = axes.get_ylim()
     height_in = axes.figure.get_figheight() * axes.get_position().height
     texts = [(*names_of(members), failing(curve, sweep)) for members, curve in groups]
-    heights = [(0.05 + 0.142 * sum(map(line_count, text))) / height_in for text in texts]
-    ties = [-place_of_failure(curve) for _, curve in groups]  # who fails first stands at the top
+    heights = [(0.07 + LINE_IN * sum(map(line_count, text))) / height_in for text in texts]
+    ties = [-place_of_failure(curve) for _, curve in groups]  # the first to fail at the top
     wanted = [(y_scale.at(curve.points[-1][1]) - low) / (high - low) for _, curve in groups]
     lows = stacked(wanted, heights, ties)
-    for text, height, bottom, end, (colour, marker, style) in zip(texts, heights, lows, wanted, looks):
+    for text, height, bottom, end, (colour, style) in zip(texts, heights, lows, wanted, looks):
         y = bottom + height / 2
-        place = {"transform": axes.transAxes, "clip_on": False}
-        axes.plot([1.0, 1.03], [end, y], color=FAINT, linewidth=0.6, **place)
-        axes.plot([1.035, 1.095], [y, y], color=colour, linestyle=style, linewidth=2.2, **place)
-        axes.plot([1.065], [y], color="white", marker=marker, markersize=6, markeredgecolor=colour, linestyle="",
-                  markeredgewidth=1.5, **place)
+        place = {"color": colour, "transform": axes.transAxes, "clip_on": False}
+        axes.plot([0.983, 1.035], [end, y], linewidth=0.7, **place)
+        axes.plot([1.04, 1.088], [y, y], linewidth=2.0, linestyle=style, **place)
         top = bottom + height
-        for part, weight, size, ink in zip(text, ("bold", "normal", "normal"), (8.8, 8.8, 8), (INK, INK, FAINT)):
-            axes.text(1.105, top, part, transform=axes.transAxes, fontsize=size, va="top", linespacing=1.1, color=ink,
+        for part, weight, ink in zip(text, ("bold", "normal", "normal"), (dark(colour), dark(colour), FAINT)):
+            axes.text(1.095, top, part, transform=axes.transAxes, fontsize=9, va="top", linespacing=1.1, color=ink,
                       fontweight=weight)
-            top -= line_count(part) * 0.142 / height_in
+            top -= line_count(part) * LINE_IN / height_in
 
 
 def sweep_chart(sweep, methods, folder, caption):
@@ -90,20 +91,21 @@ def sweep_chart(sweep, methods, folder, caption):
         return None
     kinds = Kinds(FAMILIES[sweep.family])
     lines = sum(1 + sum(map(line_count, names_of(members))) for members, _ in groups)
-    figure, axes = plt.subplots(figsize=(10.4, 1.75 + max(3.4, 0.05 * len(groups) + 0.148 * lines)))
+    subtitle = f"{sweep.idea[0].upper()}{sweep.idea[1:]}. From easy on the left to hard on the right."
+    figure, axes = plt.subplots(figsize=(WIDTH_IN, 1.25 + head_in(subtitle) + max(3.4, 0.07 * len(groups) + 0.16 * lines)))
     height = figure.get_figheight()
-    title = sweep.name.replace("_", " ").replace("-", " ")
-    headline(figure, f"{sweep.family.capitalize()}: {title}",
-             f"{sweep.idea[0].upper()}{sweep.idea[1:]}. From easy on the left to hard on the right.")
-    figure.subplots_adjust(left=0.08, right=0.66, bottom=0.85 / height, top=1 - 0.85 / height)
+    title = f"{sweep.name.replace('_', ' ').capitalize()}: {summary(sweep, groups)}"
+    top = headline(figure, title, subtitle)
+    figure.subplots_adjust(left=0.085, right=0.67, bottom=0.9 / height, top=top - 0.15 / height)
     y_scale = set_axis(axes, sweep)
     looks = draw_curves(axes, groups, kinds, y_scale)
+    axes.margins(x=0.02)
     label_curves(axes, groups, looks, y_scale, sweep)
     unit = f", {sweep.x['unit']}" if sweep.x["unit"] else ""
     axes.set_xlabel(f"{sweep.x['name']}{unit}")
     axes.set_ylabel(sweep.y["name"].replace("10^6", "10⁶"))
-    more = ", which is to err more than rounding to 1/256 px does by itself" if max(sweep.by_snapping) > 0 else ""
-    note = f"Bold: ours. Hollow marks: where a method starts to fail{more}.{trials_note(sweep)}"
+    more = ", more often than rounding to 1/256 px does by itself" if max(sweep.by_snapping) > 0 else ""
+    note = f"Bold: ours. Hollow marks: the method starts to fail{more}.{trials_note(sweep)}"
     save(figure, folder, f"stability-{sweep.name}", f"{note}\n{caption}")
     return f"stability-{sweep.name}"
 

@@ -1,15 +1,15 @@
-"""One chart of all sweeps: how far along each every method holds."""
+"""One chart of all sweeps: a bar for each method, as far as it holds."""
 from accuracy_rows import FAMILIES
-from palette import FAINT, INK, OURS
+from palette import FAINT, INK
 from plot_style import headline, plt, save
-from tables import number
+from stability_curves import tidy
 
-HELD, EMPTY = "#9aa5b1", "#eef1f4"
+OURS, HELD, EMPTY = INK, "#9aa5b1", "#eef1f4"
 ROW_IN, NAME_IN, CELL_IN, GAP_IN, HEAD_IN = 0.2, 1.75, 1.16, 0.06, 0.42
 
 
 def held(curve):
-    """Of a sweep's places, easy ones first, the part before the first at which a method fails."""
+    """The share of a sweep's places, easy ones first, before the first at which a method fails."""
     places = [x for x, _ in curve.points]
     return 1.0 if curve.starts_to_fail is None else places.index(curve.starts_to_fail) / len(places)
 
@@ -17,7 +17,7 @@ def held(curve):
 def verdict(curve):
     if curve.starts_to_fail is None:
         return "holds"
-    return number(curve.starts_to_fail) if held(curve) else "fails"
+    return tidy(curve.starts_to_fail) if held(curve) else "fails"
 
 
 def rows_of(sweeps, methods):
@@ -27,7 +27,7 @@ def rows_of(sweeps, methods):
 
 
 def scale_text(x):
-    """What a sweep's places are, where a cell has room for it; else their unit."""
+    """The name and unit of a sweep's places, or the unit alone if a cell has no room for both."""
     whole = ", ".join(filter(None, (x["name"], x["unit"])))
     return whole if len(whole) < 24 else x["unit"]
 
@@ -54,8 +54,8 @@ def grid(sweeps, accuracy, folder, caption):
     axes.set(xlim=(0, width), ylim=(height, 0))
     axes.axis("off")
     headline(figure, title(families),
-             "A bar reaches as far as a method errs no more than rounding to 1/256 px does; the figure is where it fails "
-             "first.\nEach sweep runs from easy to hard. Blue: the methods of the library.")
+             "A bar reaches as far as a method errs no more than rounding to 1/256 px does; the figure is the first place at "
+             "which it fails. Each sweep runs from easy to hard. Bold names and dark bars: ours.")
     y = 1.0
     for family, of, rows in families:
         axes.text(0.08, y + 0.26, family.capitalize(), fontsize=10.5, fontweight="bold", va="bottom")

@@ -1,5 +1,6 @@
 """One look for all charts: light, colour-blind safe, one colour a backend, the same bytes for the same data."""
 import colorsys
+import textwrap
 from pathlib import Path
 
 import matplotlib
@@ -9,7 +10,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.colors import to_hex, to_rgb  # noqa: E402
 from matplotlib.ticker import FuncFormatter, NullFormatter  # noqa: E402
 
-from palette import FAINT, INK, MARKERS, PALETTE  # noqa: E402
+from palette import FAINT, INK, backend_looks  # noqa: E402
 from tables import short  # noqa: E402
 
 plt.rcParams.update({
@@ -23,22 +24,30 @@ plt.rcParams.update({
 })
 
 
+WIDTH_IN = 10.0  # of every chart
+
+
+def dark(colour):
+    """Dark enough to read on white."""
+    hue, light, saturation = colorsys.rgb_to_hls(*to_rgb(colour))
+    return to_hex(colorsys.hls_to_rgb(hue, min(light, 0.30), saturation))
+
+
 class Look:
     """Colour and marker of each backend."""
 
     def __init__(self, backends):
         self.backends = backends
+        self.looks = backend_looks(backends)
 
     def colour(self, backend):
-        return PALETTE[self.backends.index(backend) % len(PALETTE)]
+        return self.looks[backend][0]
 
     def text_colour(self, backend):
-        """Dark enough to read on white."""
-        hue, light, saturation = colorsys.rgb_to_hls(*to_rgb(self.colour(backend)))
-        return to_hex(colorsys.hls_to_rgb(hue, min(light, 0.30), saturation))
+        return dark(self.colour(backend))
 
     def marker(self, backend):
-        return MARKERS[self.backends.index(backend) % len(MARKERS)]
+        return self.looks[backend][1]
 
     def legend(self, figure, y, extra=()):
         handles = [plt.Line2D([], [], color=self.colour(b), marker=self.marker(b), linestyle="", markersize=7, label=b)
@@ -47,12 +56,23 @@ class Look:
                       handletextpad=0.4, columnspacing=1.6, fontsize=10.5)
 
 
-def headline(figure, title, subtitle, y=1.0):
-    """Returns the height, in figure fractions, below which the axes may begin."""
-    height_in = figure.get_figheight()
-    figure.text(0.012, y - 0.12 / height_in, title, fontsize=14, fontweight="bold", va="top")
-    figure.text(0.012, y - 0.43 / height_in, subtitle, fontsize=10, color=FAINT, va="top")
-    return y - (0.55 + 0.2 * subtitle.count("\n")) / height_in
+def wrapped(text, type_size, width_in=WIDTH_IN):
+    return textwrap.fill(text, int(133 * width_in / type_size))
+
+
+def head_in(subtitle):
+    """The height of a title and a subtitle, in inches."""
+    return 0.55 + 0.2 * wrapped(subtitle, 10).count("\n")
+
+
+def headline(figure, title, subtitle):
+    """Returns the height, in figure fractions, below which the axes may begin. A long title is set in smaller type."""
+    height_in, room = figure.get_figheight(), 0.976 * figure.bbox.width
+    text = figure.text(0.012, 1 - 0.12 / height_in, title, fontsize=14, fontweight="bold", va="top")
+    width = text.get_window_extent(figure.canvas.get_renderer()).width
+    text.set_fontsize(14 * min(1.0, room / width))
+    figure.text(0.012, 1 - 0.43 / height_in, wrapped(subtitle, 10), fontsize=10, color=FAINT, va="top")
+    return 1 - head_in(subtitle) / height_in
 
 
 def log_axis(axis):
@@ -81,7 +101,8 @@ def spread_labels(positions, gap):
 
 
 def save(figure, folder, name, caption):
-    figure.text(0.012, 0.07 / figure.get_figheight(), caption, fontsize=7.5, color=FAINT, va="bottom")
+    lines = "\n".join(wrapped(line, 7.5) for line in caption.split("\n"))
+    figure.text(0.012, 0.07 / figure.get_figheight(), lines, fontsize=7.5, color=FAINT, va="bottom")
     partial = Path(folder) / f".{name}.partial.svg"
     figure.savefig(partial, dpi=130, metadata={"Date": None})
     partial.replace(Path(folder) / f"{name}.svg")

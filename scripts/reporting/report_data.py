@@ -7,7 +7,7 @@ from cost_model import estimates_ms
 from ablation import said, steps, verdict
 from peers import over_backend, pairs
 from scaling import allowed, measured, quickest, scheduled
-from speed_accuracy import SUBTITLES, TRIALS, chart_rows, cost_range, front_line, shade, side_by_side, unsettled
+from speed_accuracy import SUBTITLES, TRIALS, chart_rows, cost_range, front_line, shade, unsettled
 from stability_curves import axis_of_errors, failing, groups_of, kinds_and_dashes, known_methods, runs_down, trials_note
 from area import all_crossings, area_curves, two_digits
 from tables import THREADS
@@ -102,12 +102,12 @@ def speed_scenes(results):
 
 def speed_scene(scene, scale, costs):
     timed = [m for m in scene.measured if m.costs]
-    places, open_question = side_by_side(timed, scale), unsettled(scene.single)
-    single = [(scale.at(m.rate), m.costs[1].ns, x) for m, x in zip(timed, places) if 1 in m.costs]
-    points = [{"method": m.method.name, "x": x, "rate": m.rate, "said": rate_text(m), "hollow": bool(m.snapped_rate),
+    open_question = unsettled(scene.single)
+    single = [(scale.at(m.rate), m.costs[1].ns) for m in timed if 1 in m.costs]
+    points = [{"method": m.method.name, "x": scale.at(m.rate), "rate": m.rate, "said": rate_text(m), "hollow": bool(m.snapped_rate),
                "unsettled": m in open_question,
                "costs": {threads: [rounded(ns) for ns in cost] for threads, cost in sorted(m.costs.items())}}
-              for m, x in zip(timed, places)]
+              for m in timed]
     return {"family": scene.family, "scene": scene.name, "idea": scene.idea, "trials": scene.trials, "costs": costs,
             "axis": zero_axis(scale), "points": points,
             "front": front_line(single, scale.limit, costs[1]) if single else []}
@@ -163,7 +163,7 @@ def changes(before, after, least=0.03):
 
 def families():
     return {name: {"errors": family.errors, "cost": family.cost, "trials": TRIALS[name],
-                   "idea": SUBTITLES[name].replace("\n", " ")} for name, family in FAMILIES.items()}
+                   "idea": SUBTITLES[name]} for name, family in FAMILIES.items()}
 
 
 def results_data(results):

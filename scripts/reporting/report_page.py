@@ -13,7 +13,7 @@ from PIL import Image
 from accuracy_rows import FAMILIES
 from bench_rows import BadInput
 from findings import findings
-from palette import MARKERS, PALETTE, VERDICTS, kind_looks
+from palette import VERDICTS, backend_looks, kind_looks
 from peers import pairs, peer_table
 from report_data import families, results_data
 from scaling import scaling_table
@@ -134,7 +134,8 @@ def page(folder, results, script):
         bundle = script.read_text(encoding="utf-8")
     except OSError as error:
         raise BadInput(f"{error.filename}: {error.strerror}") from None
-    looks = {"palette": PALETTE, "markers": MARKERS, "verdicts": VERDICTS,
+    backends = dict.fromkeys(backend for result in results for backend in result.bench.backends)
+    looks = {"backends": backend_looks(list(backends)), "verdicts": VERDICTS,
              "kinds": {name: kind_looks(family) for name, family in FAMILIES.items()}}
     found = results_data(results)
     data = {"looks": looks, "families": families(), "results": found, "pictures": pictures(folder / "errors")}

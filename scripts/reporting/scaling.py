@@ -1,4 +1,8 @@
-"""Estimated speed-ups on more cores; what two threads cost a small draw; memory at its worst."""
+"""Estimated speed-ups on more cores, the cost of two threads in a small draw, and the peak memory."""
+import re
+
+from bench_rows import order
+from speedups import about, mark
 from tables import milliseconds, number, short
 
 
@@ -18,10 +22,16 @@ def allowed(rows):
     return {cores: row.counters["work_ms"] / row.median_ms for cores, row in rows.items()}
 
 
+def pair_measured(bench, scene, backend):
+    """The rows of whole frames on one and on two threads; None where one is missing."""
+    one, two = (bench.find(f"{backend}+frontend/{scene}/threads:{threads}") for threads in (1, 2))
+    return (one, two) if one and two else None
+
+
 def measured(bench, scene, backend):
     """{threads: speed-up over one thread} of whole frames."""
-    one, two = (bench.find(f"{backend}+frontend/{scene}/threads:{threads}") for threads in (1, 2))
-    return {1: 1.0, 2: one.median_ms / two.median_ms} if one and two else {}
+    pair = pair_measured(bench, scene, backend)
+    return {1: 1.0, 2: pair[0].median_ms / pair[1].median_ms} if pair else {}
 
 
 def quickest(bench):
@@ -34,6 +44,14 @@ def quickest(bench):
     return {scene: backend for scene, (backend, _) in best.items()}
 
 
+def serial_part(row):
+    """The longest serial part, without the template arguments and namespaces that the compiler names."""
+    text, nested = row.label, None
+    while text != nested:
+        nested, text = text, re.sub(r"<[^<>]*>|\([^()]*\)", "", text)
+    return re.sub(r"\s+>", "", re.sub(r"(?:\w+::)+", "", text))
+
+
 def scaling_table(bench):
     """Header and lines: one line a scene, for the backend that would be done first on the most cores."""
     found = scheduled(bench)
@@ -44,11 +62,11 @@ def scaling_table(bench):
     for scene, backend in quickest(bench).items():
         rows = found[scene, backend]
         last = rows[max(rows)]
-        speed_up, two = allowed(rows), measured(bench, scene, backend).get(2)
+        speed_up, two = allowed(rows), pair_measured(bench, scene, backend)
         path_ms = last.counters["path_ms"]
-        part = f"{last.label}: {last.counters['longest_ms'] / path_ms:.0%} of the path" if path_ms > 0 else "–"
-        lines.append([scene, backend, f"{two:.2g}×" if two else "–",
-                      *(f"{speed_up[cores]:.2g}×" if cores in speed_up else "–" for cores in shown), part])
+        part = f"{serial_part(last)}: {last.counters['longest_ms'] / path_ms:.0%} of the path" if path_ms > 0 else "–"
+        lines.append([scene, backend, mark(two[0].median_ms / two[1].median_ms, order(*two) != 0) if two else "–",
+                      *(about(speed_up[cores]) if cores in speed_up else "–" for cores in shown), part])
     return header, lines
 
 

@@ -1,30 +1,29 @@
-"""Where methods stand between speed and accuracy, and what each scene says of them."""
+"""Speed and accuracy of methods: the front between the two, and the errors on each scene."""
 import math
 
 from tables import short
 
-TRIALS = {"coverage": "edge crossings", "visibility": "covered pixels", "facing": "faces that own a pixel",
+TRIALS = {"coverage": "edge crossings", "visibility": "covered pixels", "facing": "visible faces",
           "clipping": "covered pixels"}
 SUBTITLES = {
-    "coverage": "Further left: fewer errors; further down: faster. Judged by exact arithmetic on the positions before "
-                "any snapping, which costs those who\nsnap something wherever vertices lie off their grid. Filled: no "
-                "pixel is wrong given the snapped positions. Ours use the widest SIMD.",
-    "visibility": "Further left: fewer errors; further down: faster. Who owns a pixel, judged by exact planes on the "
-                  "snapped positions; all draw\nwith the same exact coverage of these.",
-    "facing": "Further left: fewer errors; further down: faster. Which faces look at the eye, judged by the exact sign of "
-              "the projected area\nbefore any snapping. Filled: no face is misjudged given the snapped positions.",
-    "clipping": "Further left: fewer errors; further down: faster. Judged by rays that need no clipping; differences "
-                "within 1/64 px of an edge do not count.",
+    "coverage": "Further left: fewer errors; further down: faster. Errors are counted against exact arithmetic on the "
+                "positions before any snapping. Filled: no wrong pixel given the snapped positions. Ours use the widest "
+                "SIMD, the others scalar code; the title compares them on one thread.",
+    "visibility": "Further left: fewer errors; further down: faster. The visible triangle of a pixel is judged by exact "
+                  "planes on the snapped positions. All methods share the same exact coverage.",
+    "facing": "Further left: fewer errors; further down: faster. Front faces are judged by the exact sign of the projected "
+              "area before any snapping. Filled: no misjudged face given the snapped positions.",
+    "clipping": "Further left: fewer errors; further down: faster. Pixels are judged by rays that need no clipping; "
+                "differences within 1/64 px of an edge do not count.",
 }
 
 
 def front_line(points, right, top):
-    """A step line along the points that no other beats in both coordinates, from the top edge to the right one.
-    points: (x, y, x where it is drawn)."""
+    """A step line along the points (x, y) that no other beats in both coordinates, from the top edge to the right one."""
     best = []
-    for x, y, drawn_x in sorted(points):
+    for x, y in sorted(points):
         if not best or y < best[-1][1]:
-            best.append((drawn_x, y))
+            best.append((x, y))
     line = [(best[0][0], top), best[0]]
     for x, y in best[1:]:
         line += [(x, line[-1][1]), (x, y)]
@@ -37,30 +36,13 @@ def cost_range(measured):
     return min(costs) / 1.3, max(costs) * 1.3
 
 
-def side_by_side(measured, scale):
-    """Where each method stands: those whose whiskers would hide one another step aside."""
-    places = [scale.at(m.rate) for m in measured]
-    step = 0.011 * (scale.limit - scale.start)
-    reach = [(min(c.low for c in m.costs.values()), max(c.high for c in m.costs.values())) for m in measured]
-    for x in sorted(set(places)):
-        lanes = []  # of methods, none of whose whiskers meet
-        for i in [i for i, place in enumerate(places) if place == x]:
-            free = next((lane for lane in lanes
-                         if all(reach[i][1] < reach[j][0] or reach[j][1] < reach[i][0] for j in lane)), None)
-            lanes.append([i]) if free is None else free.append(i)
-        for k, lane in enumerate(lanes):
-            for i in lane:
-                places[i] = x + (k - (len(lanes) - 1) / 2) * step
-    return places
-
-
 def unsettled(measured):
-    """Those of which the spread does not tell whether some other beats them in both errors and speed."""
+    """The methods for which the spread leaves open whether another one beats them in both errors and speed."""
     found = []
     for m in measured:
-        rivals = [other.costs[1] for other in measured if other is not m and other.rate <= m.rate]
-        beaten = any(rival.high < m.costs[1].low for rival in rivals)
-        if not beaten and any(rival.overlaps(m.costs[1]) for rival in rivals):
+        others = [other.costs[1] for other in measured if other is not m and other.rate <= m.rate]
+        beaten = any(cost.high < m.costs[1].low for cost in others)
+        if not beaten and any(cost.overlaps(m.costs[1]) for cost in others):
             found.append(m)
     return found
 

@@ -1,4 +1,4 @@
-"""How a comparison is said: who is faster, how many times, and whether the repetitions settle it."""
+"""Comparisons in words: the faster side, the speed-up, and whether the repetitions settle it."""
 from bench_rows import order
 
 # Of each SIMD target: its name in sentences, and the width of its vectors in bits.
@@ -40,6 +40,10 @@ def outcome(compared, what):
     return text
 
 
+def speed_up(ratio):
+    """A speed-up in a table, "2.6× slower" where it is none."""
+    return about(ratio) if ratio >= 1 else f"{about(1 / ratio)} slower"
+
+
 def mark(ratio, settled):
-    """A ratio in a table."""
-    return about(ratio) + ("" if settled else " (not settled)")
+    return speed_up(ratio) + ("" if settled else " (not settled)")

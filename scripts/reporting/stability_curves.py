@@ -1,4 +1,4 @@
-"""What the curves of a stability sweep say: which methods share one, where it starts to fail, and on which axis."""
+"""The curves of a stability sweep: methods that share one, the point of failure, and the axes."""
 from accuracy_rows import Method
 from tables import short
 from zero_axis import ZeroAxis
@@ -49,7 +49,7 @@ def kinds_and_dashes(groups, family):
     """(kind, dash) of each group, so that no two lines look alike."""
     found, used = [], {}
     for members, _ in groups:
-        kind = family.kind(members[0])
+        kind = "ours" if any(member.ours for member in members) else family.kind(members[0])
         found.append((kind, DASHES[used.get(kind, 0) % len(DASHES)]))
         used[kind] = used.get(kind, 0) + 1
     return found
@@ -84,14 +84,40 @@ def line_count(text):
 
 
 def place_of_failure(curve):
-    """Its number among the places."""
+    """The index of the first point at which a method fails."""
     return next((i for i, (x, _) in enumerate(curve.points) if x == curve.starts_to_fail), len(curve.points))
+
+
+def where(curve, sweep):
+    """"at 182 px"."""
+    return f"at {tidy(curve.starts_to_fail)} {sweep.x['unit']}".rstrip()
+
+
+def summary(sweep, groups):
+    """The sweep's finding: "`fixed_8_int32` breaks at 182 px; 4 methods fail from the start; ours hold"."""
+    breaking = sorted(((place_of_failure(curve), curve, m.name) for members, curve in groups for m in members
+                       if not m.ours and curve.starts_to_fail not in (None, curve.points[0][0])), key=lambda item: item[0])
+    failing_first = sum(not m.ours for members, curve in groups for m in members if curve.starts_to_fail == curve.points[0][0])
+    own = [curve for members, curve in groups if any(m.ours for m in members)]
+    parts = []
+    if own:
+        failed = [curve for curve in own if curve.starts_to_fail is not None]
+        parts.append(f"ours break {where(min(failed, key=place_of_failure), sweep)}" if failed else "ours hold")
+    if len(breaking) > 2:
+        parts.append(f"{len(breaking)} others break, {breaking[0][2]} first, {where(breaking[0][1], sweep)}")
+    else:
+        parts += [f"{name} breaks {where(curve, sweep)}" for _, curve, name in breaking]
+    if failing_first:
+        parts.append(f"{failing_first} other{'s fail' if failing_first > 1 else ' fails'} from the start")
+    elif not breaking:
+        parts.append("so do all others" if parts == ["ours hold"] else "no other method breaks")
+    return "; ".join(parts)
 
 
 def failing(curve, sweep):
     if curve.starts_to_fail is None:
-        return "no more than snapping" if max(sweep.by_snapping) > 0 else "nowhere"
-    return f"from {tidy(curve.starts_to_fail)} {sweep.x['unit']}".rstrip()
+        return "errs no more than snapping" if max(sweep.by_snapping) > 0 else "holds"
+    return f"fails {where(curve, sweep)}"
 
 
 def trials_note(sweep):
@@ -99,4 +125,4 @@ def trials_note(sweep):
     if not trials or not sweep.y["log"]:
         return ""
     low, high = short(min(trials)), short(max(trials))
-    return f" 0: none in {low if low == high else f'{low} to {high}'} trials a place: a rate below 3/N (95 %)."
+    return f" 0: no error in {low if low == high else f'{low} to {high}'} trials per point; the 95 % upper bound is 3/N."

@@ -1,9 +1,8 @@
 """Log axes that show 0 as well."""
 import math
 
+from palette import BAND
 from tables import short
-
-BAND = "#eef4ee"
 
 
 class ZeroAxis:
@@ -11,12 +10,11 @@ class ZeroAxis:
 
     def __init__(self, values):
         seen = [math.log10(v) for v in values if v > 0] or [0.0, 1.0]
-        self.low, self.high = math.floor(min(seen)), math.ceil(max(seen) - 1e-9)
-        if self.high - self.low < 2:
-            self.low, self.high = self.low - 1, self.low + 2
+        self.low, self.high = math.floor(min(seen)), max(seen)
+        self.high = max(self.high, self.low + 1)
         decades = self.high - self.low
         self.end = self.low - 0.035 * decades  # of the band
-        self.start = self.end - 0.15 * decades
+        self.start = self.end - 0.18 * decades
         self.zero = (self.start + self.end) / 2
         self.limit = self.high + 0.04 * decades
 
@@ -25,7 +23,7 @@ class ZeroAxis:
 
     def ticks(self, zero):
         step = max(1, math.ceil((self.high - self.low) / 8))
-        places = list(range(self.low, self.high + 1, step))
+        places = list(range(self.low, math.floor(self.high + 1e-9) + 1, step))
         return [self.zero, *places], [zero, *(short(10.0 ** k) for k in places)]
 
     def apply_x(self, axes, zero="0"):

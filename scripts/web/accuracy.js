@@ -2,7 +2,7 @@
 import * as Plot from "@observablehq/plot";
 import { group } from "d3";
 import { labels } from "./labels.js";
-import { gridAt, kindLook, legend, logTicks, plot, sample, tip, zeroScale } from "./look.js";
+import { gridAt, kindLook, legend, logTicks, methodLook, plot, sample, tip, zeroScale } from "./look.js";
 import { chart, element, number, short, wide } from "./page.js";
 import { pictureOf, showPictures } from "./pictures.js";
 
@@ -58,7 +58,7 @@ function speedChart(view, scene) {
   const moved = rows.flatMap((row) =>
     rowsBefore.filter((b) => b.method === row.method && b.threads === row.threads).map((b) => ({ ...row, before: b })),
   );
-  const look = (row) => kindLook(view, family, row.kind);
+  const look = (row) => methodLook(view, family, row);
   const colour = { value: (row) => look(row).colour, scale: null };
   const front = view.threads.includes(1) ? scene.front : [];
   const joined = [...group(rows, (row) => row.method).values()];
@@ -174,10 +174,16 @@ function says(row, facts, moved) {
 }
 
 function kindsLegend(view, family, rows, before) {
-  const kinds = [...new Set(rows.map((row) => row.kind))];
+  const kinds = new Map(
+    rows.map((row) => [row.method in view.data.looks.backends ? row.method : row.kind, methodLook(view, family, row)]),
+  );
   const names = { ours: "ours", other: "others" };
   const ink = { colour: "var(--faint)", symbol: kindLook(view, family, "ours").symbol };
-  const items = kinds.map((kind) => [sample(kindLook(view, family, kind)), names[kind] ?? kind, kind === "ours"]);
+  const items = [...kinds].map(([kind, look]) => [
+    sample(look),
+    names[kind] ?? kind,
+    kind === "ours" || kind in view.data.looks.backends,
+  ]);
   if (rows.some((row) => row.hollow))
     items.push([sample(ink, { hollow: true }), "hollow: errs even given the snapped positions"]);
   if (rows.some((row) => row.unsettled))

@@ -26,7 +26,7 @@ const symbols = {
   X: symbolX,
 };
 
-// Of the floor: upright, as high as a mark of its size is wide.
+// Of an estimate: upright, as high as a mark of its size is wide.
 export const bar = {
   draw(context, size) {
     const half = Math.sqrt(size / Math.PI);
@@ -35,16 +35,15 @@ export const bar = {
   },
 };
 
-// Black, the last of the palette, is the ink: white in the dark.
+// Black is the ink: white in the dark.
 const colour = (value) => (value === "#000000" ? "var(--ink)" : value);
 
 // Of a text: nearer to the ink, so that it can be read on the paper.
 export const asText = (value) => `color-mix(in srgb, ${value} 60%, var(--ink))`;
 
 export function backendLook(view, backend) {
-  const { palette, markers } = view.data.looks;
-  const index = Math.max(0, view.result.backends.indexOf(backend));
-  return { colour: colour(palette[index % palette.length]), symbol: symbols[markers[index % markers.length]] };
+  const [value, marker] = view.data.looks.backends[backend];
+  return { colour: colour(value), symbol: symbols[marker] };
 }
 
 export function kindLook(view, family, kind) {
@@ -52,7 +51,11 @@ export function kindLook(view, family, kind) {
   return { colour: colour(value), symbol: symbols[marker] };
 }
 
-export const verdictColour = (view, verdict) => view.data.looks.verdicts[verdict] ?? "var(--ink)";
+// Of the methods of coverage, ours are the backends.
+export const methodLook = (view, family, { method, kind }) =>
+  method in view.data.looks.backends ? backendLook(view, method) : kindLook(view, family, kind);
+
+export const verdictColour = (view, verdict) => colour(view.data.looks.verdicts[verdict] ?? "var(--ink)");
 
 // Of a line and a mark, as they stand in legends.
 export function sample(look, { hollow = false, dash = null, width = 16 } = {}) {

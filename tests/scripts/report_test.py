@@ -141,7 +141,7 @@ class ReportTest(unittest.TestCase):
         self.assertEqual(again.read_text(), text)
 
     def test_every_section_has_charts_and_their_figures(self):
-        self.assertIn("from 0.1 px", self.stability_of("visibility"))
+        self.assertIn("fails at 0.1 px", self.stability_of("visibility"))
         for section in SECTIONS:
             charts = self.browser.all(f"[data-charts={section}] figure > svg")
             self.assertTrue(charts, section)
