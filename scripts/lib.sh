@@ -1,9 +1,9 @@
-# Shared by the scripts: what is installed, what is built, which step runs. Sourced, not run.
+# Shared by the scripts: packages, builds, and the announcement of steps. Sourced, not run.
 # shellcheck shell=bash
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$root/build
-# A script that wants another build than the usual one sets these.
+# A script may set these for a build of its own.
 build_type=Release
 build_flags=()
 
@@ -147,7 +147,7 @@ set_up() {
   exit 2
 }
 
-# build TARGETS…: below $build; only what changed is compiled.
+# build TARGETS…: an incremental build in $build.
 build() {
   local -a configure=(-S "$root" -B "$build" "-DCMAKE_BUILD_TYPE=$build_type" "${build_flags[@]}")
   if [[ ! -f $build/CMakeCache.txt ]] && command -v ninja >/dev/null; then configure+=(-G Ninja); fi

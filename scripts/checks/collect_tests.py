@@ -10,8 +10,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "reporting"))
 from bench_rows import main_guard  # noqa: E402
 from junit import read_tests, totals  # noqa: E402
 
-COUNTED = ("cases", "comparisons")  # what tests say that they covered
-# Test suites whose cases are of one kind, so that they may be added up.
+COUNTED = ("cases", "comparisons")  # properties that tests record
+# Test suites with cases of one kind, which can be added up.
 FAMILIES = {"properties": r"Properties|CoverageProperties", "lattices": r"EveryTriangle", "conformance": r"Conformance\w*",
             "invalid_input": r"HostileInput"}
 

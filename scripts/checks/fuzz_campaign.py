@@ -1,4 +1,4 @@
-"""Runs the fuzz targets of a build folder side by side, and says what they reached and found. See scripts/fuzz."""
+"""Runs the fuzz targets of a build folder side by side, and reports coverage and crashes. See scripts/fuzz."""
 import argparse
 import concurrent.futures
 import json
@@ -12,7 +12,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 FUZZ = ROOT / "tests" / "fuzz"
 SECONDS_A_RUN = 20  # longer is a hang
-# What a target reads, bytes of an input at most, and the sources that it is after: of these coverage is told.
+# A target's input, its most bytes, and the sources whose coverage is reported.
 TARGETS = {
     "obj": ("any bytes as an .obj file", 1024, ("src/scene/obj_file.cpp", "src/scene/polygon.cpp")),
     "tri": ("any bytes as a .tri file", 1000, ("src/scene/tri_file.cpp", "src/frontend/stream.cpp",
@@ -41,7 +41,7 @@ class Target:
                 f"-timeout={SECONDS_A_RUN}", "-rss_limit_mb=2048", f"-artifact_prefix={self.crashes}/"]
 
     def run(self, *arguments):
-        """What it says, and its exit status."""
+        """Its output and exit status."""
         done = subprocess.run(self.command(*arguments), stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                               stdin=subprocess.DEVNULL, errors="replace", check=False,
                               env={**os.environ, "LLVM_PROFILE_FILE": str(self.profile)})
@@ -52,7 +52,7 @@ class Target:
         return [folder for folder in (self.found, *self.seeds) if folder.is_dir()]
 
     def fuzz(self, seconds):
-        """Until the time is up, going on after each crash."""
+        """Until the time is up, continuing after each crash."""
         before, end = set(self.crashes.iterdir()), time.monotonic() + seconds
         executions = 0
         while (left := round(end - time.monotonic())) > 0:
@@ -68,7 +68,7 @@ class Target:
                 "crashes": [str(path.relative_to(ROOT)) for path in reproducers]}
 
     def coverage(self):
-        """Lines that the inputs so far reach, of those in the sources it is after."""
+        """Lines of the target's sources that the inputs reach so far, and all of them."""
         self.run(*self.corpus(), "-runs=0")
         profile = self.log.with_suffix(".profdata")
         subprocess.run(["llvm-profdata-16", "merge", "-o", profile, self.profile], check=True)
@@ -80,10 +80,10 @@ class Target:
                 for name, key in (("lines_reached", "covered"), ("lines", "count"))}
 
     def keep(self):
-        """Adds to the corpus what reaches more than it does; how many."""
+        """Adds inputs with new coverage to the corpus; returns their number."""
         corpus = self.seeds[0]
         before = len(list(corpus.iterdir()))
-        # Edges only, not how often: a corpus is to stay small.
+        # Edges only, not their counts: the corpus must stay small.
         _, status = self.run(corpus, *self.corpus(), "-set_cover_merge=1", "-use_counters=0")
         if status != 0:
             raise SystemExit(f"fuzz: {self.name} could not be merged; see {self.log}")
@@ -120,7 +120,7 @@ def main():
     if options.json:
         options.json.write_text(json.dumps({"minutes": options.minutes, "targets": rows}, indent=2) + "\n")
     if any(row["crashes"] for row in rows):
-        print("Found something: build-fuzz/fuzz_TARGET FILE shows it again; mended, FILE belongs into "
+        print("Crashes found: build-fuzz/fuzz_TARGET FILE reproduces one; after the fix, add FILE to "
               "tests/fuzz/regressions/TARGET/ under a name that says what it broke.", file=sys.stderr)
         return 1
     return 0

@@ -59,7 +59,7 @@ def ctest_case(case):
 
 
 def reason_in(output):
-    """What GoogleTest prints on the line after "Skipped", and our Python tests after "skipped: "."""
+    """The reason that GoogleTest prints on the line after "Skipped", and our Python tests after "skipped: "."""
     found = re.search(r": Skipped\n(.+)", output) or re.search(r"^skipped: (.+)", output, re.MULTILINE | re.IGNORECASE)
     return found.group(1) if found else ""
 

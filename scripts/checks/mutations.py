@@ -1,6 +1,6 @@
-"""Reads the table of planted mistakes (tests/mutations.toml), and plants one in a copy of the tree.
+"""Reads the table of mutants (tests/mutations.toml), and applies one to a copy of the tree.
 
-A mistake is a replacement of text that occurs exactly once in its file, so that no entry can rot unseen.
+A mutant replaces text that occurs exactly once in its file, so that a stale entry is an error.
 """
 import re
 import shutil
@@ -17,9 +17,9 @@ OPTIONAL = {"sanitizer": {"thread"}}  # keys that an entry may have, and the val
 @dataclass(frozen=True)
 class Mutation:
     name: str
-    mistake: str  # what is done wrong
+    mistake: str  # the change, in words
     file: str
-    tests: str  # a filter of GoogleTest's: who is asked first
+    tests: str  # a filter of GoogleTest's: the tests to run first
     before: str
     after: str
     sanitizer: str = ""  # the build whose tests must catch it; "": the usual one
@@ -45,7 +45,7 @@ def read_mutations(path):
 
 
 def mutated(mutation, root):
-    """The file's text with the mistake in it."""
+    """The file's text with the mutation applied."""
     path = root / mutation.file
     text = path.read_text() if path.is_file() else ""
     count = text.count(mutation.before)
@@ -66,7 +66,7 @@ def files_of(root):
 
 
 def copy_tree(root, tree):
-    """Makes `tree` hold what `root` does; what is the same already stays untouched, and so do its objects."""
+    """Copies the files of `root` to `tree`. Equal files stay untouched, so that their objects stay valid."""
     wanted = set(files_of(root))
     for file in wanted:
         source, target = root / file, tree / file
@@ -78,7 +78,7 @@ def copy_tree(root, tree):
 
 
 def failed_tests(output):
-    """Of GoogleTest's output: the tests that failed, or the one that was under way when the program died."""
+    """Of GoogleTest's output: the tests that failed, or the one that ran when the program died."""
     failed = list(dict.fromkeys(re.findall(r"^\[  FAILED  \] (\S+?)(?:,| \()", output, re.MULTILINE)))
     if failed:
         return failed

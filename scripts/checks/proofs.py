@@ -1,7 +1,7 @@
-"""Reads the claims of src/raster/proofs/*.smt2 and asks a solver; how a file is laid out stands in contract.smt2 there.
+"""Reads the claims of src/raster/proofs/*.smt2 and asks a solver; contract.smt2 there describes the layout of the files.
 
-A section is run with the definitions and its file's introduction before it, each in a process of its own, so that a
-slow one takes no other with it.
+Each section runs after the definitions and its file's introduction, in a process of its own, so that a time-out ends
+no other section.
 """
 import re
 import subprocess
@@ -23,11 +23,11 @@ class Section:
     kind: str  # claim, weakened, or premises (of a claim)
     name: str
     text: str
-    script: str  # all that the solver reads
+    script: str  # the solver's whole input
 
 
 def read_sections(folder):
-    """Sections of all files. Every claim has a weakened form, and every weakened form a claim."""
+    """Sections of all files. Every claim has a deliberately false variant, in the files `weakened`, and vice versa."""
     definitions = (folder / DEFINITIONS).read_text()
     sections = []
     for path in sorted(folder.glob("*.smt2")):
@@ -43,20 +43,20 @@ def read_sections(folder):
         raise BadInput(f"{folder} has no claims")
     for kind, name in found:
         if found.count((kind, name)) > 1:
-            raise BadInput(f"{name} stands twice as {kind}")
+            raise BadInput(f"{name} occurs twice as {kind}")
         if kind == "claim" and ("weakened", name) not in found:
-            raise BadInput(f"claim {name} has no weakened form that must fail")
+            raise BadInput(f"claim {name} has no deliberately false variant")
         if kind == "weakened" and ("claim", name) not in found:
-            raise BadInput(f"{name} is weakened, but is no claim")
+            raise BadInput(f"{name} has a false variant, but no claim")
     return sections
 
 
 def premises_of(claim):
-    """What a claim takes for given: all but its last assertion, which denies it. If that is impossible, it claims nothing."""
+    """The premises: all but the last assertion, which denies the claim. With contradictory premises a claim is vacuous."""
     given, found, _ = claim.script.rpartition("\n(assert ")
     if not found:
         raise BadInput(f"{claim.file}: claim {claim.name} asserts nothing")
-    return replace(claim, kind="premises", text="what it takes for given can be", script=f"{given}\n(check-sat)\n")
+    return replace(claim, kind="premises", text="satisfiable", script=f"{given}\n(check-sat)\n")
 
 
 def constant_of(name, source, path):
@@ -72,7 +72,7 @@ def constant_of(name, source, path):
 
 
 def check_constants(folder, root):
-    """How many constants of the proofs were compared with the sources that they name."""
+    """Compares the constants of the proofs with the sources that they name; returns their number."""
     constants = [found for path in sorted(folder.glob("*.smt2")) for found in CONSTANT.findall(path.read_text())]
     for name, value, source_name, file in constants:
         path = root / file

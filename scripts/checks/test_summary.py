@@ -1,4 +1,4 @@
-"""The last lines of scripts/test: which tests failed, which were skipped and why, and how many of each."""
+"""The last lines of scripts/test: failed tests, skipped tests with their reasons, and the number of each."""
 import argparse
 import sys
 import textwrap
@@ -15,7 +15,7 @@ NAMES_LISTED = 4
 
 
 def tests_of(path):
-    """scripts/test creates each file empty, so one that stays so belongs to a run that failed before it wrote it."""
+    """scripts/test creates each file empty, so an empty one belongs to a run that failed early."""
     if path.stat().st_size:
         return read_tests(path)  # no tests where there are more shards than tests
     return [Test("", "the run ended without results; see above", FAILED)]

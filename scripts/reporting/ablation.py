@@ -45,5 +45,6 @@ def summary(named):
     if not gains:
         return "Ablation"
     best = max(gains, key=lambda label: median(gains[label]))
-    return (f"All steps on one thread: {speed_up(min(totals))} to {speed_up(max(totals))} faster; {best.strip('+… ').removeprefix('with ')} gains most, "
+    name = best.strip("+… ").removeprefix("with ")
+    return (f"All steps on one thread: {speed_up(min(totals))} to {speed_up(max(totals))} faster; {name} gains most, "
             f"{about(median(gains[best]))} in the median")

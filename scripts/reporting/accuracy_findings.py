@@ -1,4 +1,4 @@
-"""What accuracy teaches, as sentences for the README and the summary."""
+"""Findings about accuracy, as sentences for the READMEs and the summary."""
 from accuracy_rows import FAMILIES
 from speedups import about, kernels
 from stability_curves import tidy
@@ -11,7 +11,7 @@ def listed(names):
 
 
 def scenes_with_errors(accuracy, family):
-    """In how many scenes each method errs."""
+    """The number of scenes in which each method errs."""
     return {method.name: sum(m.rate > 0 for scene in accuracy.of(family) for m in scene.measured if m.method == method)
             for method in accuracy.methods[family]}
 
@@ -45,7 +45,7 @@ def numbered(count, noun):
 
 
 def before_snapping_clause(accuracy, name):
-    """That a method errs less than ours against positions before snapping, all scenes pooled; empty where it doesn't."""
+    """Says that a method errs less than ours against positions before snapping, all scenes pooled; empty otherwise."""
     rates = rates_together(accuracy, "coverage")
     ours = [rates[m.name] for m in accuracy.methods.get("coverage", ()) if m.ours and m.name in rates]
     if not ours or name not in rates or rates[name] >= min(ours):
@@ -56,13 +56,13 @@ def before_snapping_clause(accuracy, name):
 
 
 def fastest(measured):
-    """By the median on one thread; and those whose range of repetitions overlaps its own."""
+    """The fastest by the median on one thread, and the methods whose range of repetitions overlaps its range."""
     first = min(measured, key=lambda m: m.costs[1].ns)
     return first, [m for m in measured if m is not first and m.costs[1].overlaps(first.costs[1])]
 
 
 def compared(ours, other, machine):
-    """"`tiled` with AVX-512 is 4.1× faster than `dda_16_16` in scalar code", and whether that is settled."""
+    """"`tiled` with AVX-512 is 4.1× faster than `dda_16_16` in scalar code", marked if not settled."""
     ours_ns, other_ns = ours.costs[1].ns, other.costs[1].ns
     ratio, word = (other_ns / ours_ns, "faster") if ours_ns <= other_ns else (ours_ns / other_ns, "slower")
     open_question = " (ranges overlap: not settled)" if ours.costs[1].overlaps(other.costs[1]) else ""
@@ -71,13 +71,13 @@ def compared(ours, other, machine):
 
 
 def sides(scene):
-    """What was timed on one thread of ours, and of the others; None where one is missing."""
+    """The measurements of ours and of the others on one thread; None if either is missing."""
     ours, others = ([m for m in scene.single if m.method.ours == whose] for whose in (True, False))
     return (ours, others) if ours and others else None
 
 
 def cost_sentence(scene, machine):
-    """Our fastest against the fastest other, and the price of its rule without SIMD; empty where not timed."""
+    """Our fastest against the fastest other, and the cost of our rule in scalar code; empty if not timed."""
     if not (found := sides(scene)):
         return ""
     ours, others = found
@@ -93,7 +93,7 @@ def cost_sentence(scene, machine):
 
 
 def leader(measured, unit, role):
-    """"`tiled` (1.3 ns, 0 wrong per 10⁶) is our fastest; `naive` is too close to call": ranges that overlap."""
+    """"`tiled` (1.3 ns, 0 wrong per 10⁶) is our fastest; `naive` is too close to call": their ranges overlap."""
     first, close = fastest(measured)
     text = f"`{first.method.name}` ({first.costs[1].ns:.2g} {unit}, {number(first.rate)} wrong per 10⁶) is {role}"
     names = listed(m.method.name for m in close) if len(close) < 4 else f"{len(close)} others"
@@ -101,7 +101,7 @@ def leader(measured, unit, role):
 
 
 def speed_sentence(scene, machine):
-    """Empty where ours or the others were not timed."""
+    """Empty if ours or the others were not timed."""
     if not (found := sides(scene)):
         return ""
     ours, others = found
@@ -117,7 +117,7 @@ def speed_sentence(scene, machine):
 
 
 def family_sentence(accuracy, family):
-    """Who errs least, and who most: by how much, and in how many scenes."""
+    """The methods with the fewest and with the most errors, with rates and numbers of scenes."""
     rates, erring = rates_together(accuracy, family.name), scenes_with_errors(accuracy, family.name)
     if not rates:
         return ""
@@ -148,7 +148,7 @@ def cube_sentence(accuracy):
     gaps, doubles = worst(found)
     return (f"In {accuracy.cube['frames']:,} frames of the turning cube, given the snapped positions, "
             f"{listed(clean) or 'no method'} left no gap and hit no pixel twice. Against the positions before snapping, "
-            f"`{name}` is the worst, with up to {gaps:,.0f} gaps and up to {doubles:,.0f} double hits in a frame.")
+            f"`{name}` is the worst, with up to {gaps:,.0f} gaps and up to {doubles:,.0f} double hits per frame.")
 
 
 def most_errors(sweep, curve):
@@ -157,7 +157,7 @@ def most_errors(sweep, curve):
 
 
 def ours_fail_sentence(sweeps, accuracy):
-    """Where ours err: as much as rounding to 1/256 px does by itself, and where more."""
+    """The sweeps in which ours err exactly as rounding to 1/256 px does, and those in which they err more."""
     names = {(family, m.name) for family, methods in accuracy.methods.items() for m in methods if m.ours}
     own = [(sweep, [curve for curve in sweep.curves if (sweep.family, curve.method) in names]) for sweep in sweeps]
     own = [(sweep, curves) for sweep, curves in own if curves]
@@ -176,12 +176,13 @@ def ours_fail_sentence(sweeps, accuracy):
 
 
 def what(sweep):
-    """What a sweep's figures count."""
+    """The name of the errors that a sweep counts."""
     return sweep.y["name"].replace("10^6", "10⁶").removesuffix(", %")
 
 
 def accuracy_sentences(accuracy):
     speeds = [speed_sentence(scene, accuracy.machine) for _, scene in accuracy.main_charts("coverage")]
-    found = [exact_sentence(accuracy), before_snapping_clause(accuracy, "float_lt"), *(speeds if any(speeds) else ["Speed was not measured."]),
+    found = [exact_sentence(accuracy), before_snapping_clause(accuracy, "float_lt"),
+             *(speeds if any(speeds) else ["Speed was not measured."]),
              *(family_sentence(accuracy, family) for family in FAMILIES.values()), cube_sentence(accuracy)]
     return [sentence for sentence in found if sentence]

@@ -1,4 +1,4 @@
-"""Reads what `edgewise accuracy` and `edgewise stability` left in results/MACHINE: accuracy.json, stability.json."""
+"""Reads accuracy.json and stability.json of a results folder, written by `edgewise accuracy` and `edgewise stability`."""
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
@@ -8,14 +8,14 @@ from bench_rows import BadInput, read_json
 
 @dataclass(frozen=True)
 class Family:
-    """How a family's figures are said."""
+    """The wording of a family's figures."""
     name: str
-    errors: str  # what is counted, and in 10⁶ of what
-    trials: str  # the key of a scene's number of these
+    errors: str  # the errors counted, with their unit
+    trials: str  # the key of a scene's number of trials
     cost: str
-    truths: tuple = ("score",)  # what errors are counted against; where there are two, then the other
-    kinds: dict = field(default_factory=dict)  # kind of method: how its methods' names begin
-    beyond: str = ""  # why there can be more than 10⁶ errors in 10⁶
+    truths: tuple = ("score",)  # keys of the scores: the main truth first
+    kinds: dict = field(default_factory=dict)  # kind of method: prefixes of its methods' names
+    beyond: str = ""  # why a rate can exceed 10⁶ per 10⁶
 
     def beyond_note(self, rates):
         return f". {self.beyond}" if any(rate > 1e6 for rate in rates) else ""
@@ -56,11 +56,11 @@ class Method:
 
 
 class Cost(NamedTuple):
-    """Of one repetition after the other: the median, the fastest and the slowest."""
+    """The median, the fastest and the slowest repetition."""
     ns: float
     low: float
     high: float
-    mtri: float  # 10⁶ triangles a second, in the median
+    mtri: float  # 10⁶ triangles per second, median
 
     def overlaps(self, other):
         """Whether the order of the two is not settled."""
@@ -72,7 +72,7 @@ class Measured:
     """One method on one scene."""
     method: Method
     rate: float  # errors per 10⁶
-    bound: float | None  # where none was seen: below this, per 10⁶, with 95 % confidence
+    bound: float | None  # 95 % upper bound per 10⁶, only where no error was seen
     snapped_rate: float | None  # the same against the snapped truth; coverage and facing only
     costs: dict  # by threads; empty where the scene is not timed
     gaps: int | None = None  # pixels; coverage only
@@ -92,7 +92,7 @@ class Scene:
 
     @property
     def single(self):
-        """What was timed on one thread."""
+        """The measurements on one thread."""
         return [m for m in self.measured if 1 in m.costs]
 
 
@@ -102,18 +102,18 @@ class Accuracy:
     quick: bool
     methods: dict  # by family, in the registry's order
     scenes: tuple
-    cube: dict | None  # {"frames", "methods": [(Method, {"gaps": (median, worst) a frame, "double_hits": …,
+    cube: dict | None  # {"frames", "methods": [(Method, {"gaps": (median, worst) per frame, "double_hits": …,
     # "total_gaps": over all frames, "total_double_hits", "snapped": the same against the snapped truth})]}
 
     def of(self, family):
         return [scene for scene in self.scenes if scene.family == family]
 
     def main_charts(self, family):
-        """The first of them; of coverage two, since the first scene's vertices lie where they suit who snaps."""
+        """The first timed chart; of coverage two, since the vertices of the first scene already lie on the snapping grid."""
         return self.timed_charts(family)[:2 if family == "coverage" else 1]
 
     def timed_charts(self, family):
-        """(name of the chart, scene) of each scene that speed was measured on; the first is the family's main one."""
+        """(name of the chart, scene) of each timed scene, the family's main scene first."""
         timed = [scene for scene in self.of(family) if scene.timed]
         return [(f"accuracy-{family}" + ("" if scene is timed[0] else f"-{scene.name}"), scene) for scene in timed]
 
@@ -135,7 +135,7 @@ class Sweep:
     x: dict
     y: dict
     curves: tuple
-    by_snapping: tuple  # at each place: what rounding to 1/256 px costs by itself
+    by_snapping: tuple  # at each point: the errors of rounding to 1/256 px alone
 
 
 def parse_cost(speed, key):
@@ -207,12 +207,12 @@ def parsed(path, parse, what):
 
 
 def read_accuracy(folder):
-    """None where accuracy was not measured."""
+    """None if accuracy was not measured."""
     path = Path(folder) / "accuracy.json"
     return parsed(path, parse_accuracy, "what 'edgewise accuracy' writes") if path.exists() else None
 
 
 def read_stability(folder):
-    """No sweeps where stability was not tested."""
+    """No sweeps if stability was not tested."""
     path = Path(folder) / "stability.json"
     return parsed(path, parse_stability, "what 'edgewise stability' writes") if path.exists() else ()

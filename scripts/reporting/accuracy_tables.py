@@ -1,11 +1,11 @@
-"""The README's tables of methods, and of where each starts to fail."""
+"""The READMEs' tables of methods, and of the points at which they start to fail."""
 from accuracy_findings import ours_fail_sentence, rates_together, scenes_with_errors
 from accuracy_rows import FAMILIES
 from tables import markdown, number, short
 
 
 def rate_text(measured):
-    """As it stands in a table: where no error was seen, with the bound 3/N."""
+    """A rate in a table, with the bound 3/N if no error was seen."""
     if measured.rate == 0 and measured.bound is not None:
         return f"0 (<{number(measured.bound)})"
     return number(measured.rate)
@@ -27,7 +27,7 @@ def method_table(accuracy, family):
     at_main = {m.method.name: m for m in scene.measured} if scene else {}
     together = rates_together(accuracy, family)
     erring, scenes = scenes_with_errors(accuracy, family), len(accuracy.of(family))
-    throughput = family == "coverage"  # the others' scenes are not made to measure it
+    throughput = family == "coverage"  # the scenes of other families do not measure it
     if throughput:
         header.insert(4, "10⁶ triangles/s")
     lines = [[bold(method), method.source, method.promise,
@@ -49,13 +49,13 @@ def method_tables(accuracy):
 
 
 def tenfold(curve):
-    """The first place with ten times the errors of the first place."""
+    """The first point with ten times the errors of the sweep's first point."""
     first = curve.points[0][1]
     return next((x for x, y in curve.points if first and y >= 10 * first), None)
 
 
 def fails_cell(curve):
-    """From where a method fails, in bold, and its most errors. A method that fails nowhere has only these."""
+    """The point at which a method starts to fail, in bold, and its most errors; the latter alone if it holds."""
     most = short(max(y for _, y in curve.points))
     start = curve.starts_to_fail
     if start is None:
@@ -67,7 +67,7 @@ def fails_cell(curve):
 
 
 def fails_table(sweeps, methods):
-    """One family's sweeps side by side, a line a method; methods of the same cells share one."""
+    """One family's sweeps side by side, one line per method; methods with equal cells share a line."""
     lines = {}
     for method in methods:
         found = [next((c for c in sweep.curves if c.method == method.name), None) for sweep in sweeps]
@@ -80,7 +80,7 @@ def fails_table(sweeps, methods):
 
 
 def counted_in(sweeps):
-    """What the figures count: "wrong pixels …; in `pan` superfluous changes …"."""
+    """The errors counted: "wrong pixels …; in `pan` superfluous changes …"."""
     by_name = {}
     for sweep in sweeps:
         by_name.setdefault(sweep.y["name"].replace("10^6", "10⁶"), []).append(f"`{sweep.name}`")

@@ -1,7 +1,7 @@
-"""Reads what a run left in results/MACHINE: bench.json (Google Benchmark's format), model.json, machine.json, verify.json.
+"""Reads the files of a run in results/MACHINE: bench.json (Google Benchmark's format), model.json, machine.json, verify.json.
 
-A row's name is WHO/what/key:value…/threads:N, WHO being a backend, "frontend" or BACKEND+frontend; peers, the
-rasterizers of other projects, stand in a backend's place. Rows random_read/WHERE, which every run has, draw nothing.
+A row's name is DRAWER/scene/key:value…/threads:N. DRAWER is a backend, a peer (another project's rasterizer),
+"frontend" or BACKEND+frontend. Rows random_read/WHERE measure the machine and draw nothing.
 """
 import json
 import math
@@ -52,7 +52,7 @@ class Row:
 
 
 def order(a, b):
-    """-1 where row a is faster than b, 1 where it is slower, 0 where their repetitions don't settle it.
+    """-1 where row a is faster than b, 1 where it is slower, 0 where the repetitions do not settle the order.
 
     Counts the pairs of repetitions, one of each, that a wins (Mann and Whitney, "On a test of whether one of two random
     variables is stochastically larger than the other", 1947). Two that are equally fast would pass for different once in
@@ -77,7 +77,7 @@ def parse_name(name):
 class Bench:
     context: dict
     rows: dict  # by name
-    random_reads: dict = field(default_factory=dict)  # rows that tell of the machine, by what is read
+    random_reads: dict = field(default_factory=dict)  # rows that measure the machine, by what is read
     scheduled: dict = field(default_factory=dict)  # by name: estimates for more cores, not timed
     costs: dict = field(default_factory=dict)  # by the name of the timed row: the parts of the cost model
 
@@ -91,7 +91,7 @@ class Bench:
         return self.context.get("peers", "").split()
 
     def find(self, name):
-        """The row if it was timed, else None."""
+        """The row, None if it was not timed."""
         row = self.rows.get(name)
         return row if row and row.times_ms else None
 
@@ -101,7 +101,7 @@ class Bench:
 
     @property
     def scenes(self):
-        """Those of the main table, in the suite's order."""
+        """The scenes of the main table, in the suite's order."""
         plain = (r.scene for r in self.rows.values() if r.scene and set(r.keys) == {"threads"})
         return list(dict.fromkeys(plain))
 
@@ -116,13 +116,13 @@ def read_json(path):
         raise BadInput(f"{path}: not JSON: {error}") from None
 
 
-# In results from before there was model.json, estimates stand among the timed rows and their counters.
+# Results without model.json have the estimates among the timed rows and their counters.
 OLD_COSTS = {"covered_blocks": "covered_blocks", "won_blocks": "won_blocks", "floor_read_ms": "read_ms",
              "floor_blocks_ms": "blocks_ms", "floor_write_ms": "write_ms", "floor_tiles_ms": "tiles_ms"}
 
 
 def old_models(rows):
-    """Takes the estimates out of the rows."""
+    """Moves the estimates out of the rows."""
     scheduled = {name: rows.pop(name) for name, row in list(rows.items()) if "cores" in row.keys}
     costs = {name: {new: row.counters[old] for old, new in OLD_COSTS.items()} for name, row in rows.items()
              if OLD_COSTS.keys() <= row.counters.keys()}

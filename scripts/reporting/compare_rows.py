@@ -1,4 +1,4 @@
-"""What two results say of one row: faster, slower, or no more than noise."""
+"""Compares one row of two results: faster, slower, or within noise."""
 
 
 def judge(before, after, least):

@@ -1,13 +1,13 @@
-"""The cost model of a frame, and what is left: an estimate for reading, drawing and writing, were all else free."""
+"""The cost model of a frame: an estimate of the time to read triangles, draw blocks and write the frame."""
 from tables import THREADS, milliseconds, number, short
 
-# Few large triangles: here the estimate comes near enough for its parts to be told from what is left.
-TOLD = ("large", "grid64")
+# Scenes of few large triangles, on which the estimate comes near the measured time.
+DETAILED = ("large", "grid64")
 
 
 def estimates_ms(bench, row):
-    """The estimate if only the blocks that a triangle wins are drawn; if all that it covers are; and if the frame is
-    written tile by tile from a buffer; None without."""
+    """Three estimates: drawing only the blocks in which a triangle is visible, drawing all covered blocks, and the first
+    with the frame stored tile by tile from a buffer. None if the row has no model."""
     c = bench.costs.get(row.name) if row else None
     if not c:
         return None
@@ -17,9 +17,9 @@ def estimates_ms(bench, row):
 
 
 def over_estimate(bench, backend, scene):
-    """A backend's time over the estimate for writing tile by tile, for each thread count."""
+    """A backend's time over the estimate for tile stores, for each thread count."""
     rows = [row for n in THREADS if (row := bench.find(f"{backend}/{scene}/threads:{n}"))]
-    found = [row.median_ms / floors[2] for row in rows if (floors := estimates_ms(bench, row))]
+    found = [row.median_ms / estimates[2] for row in rows if (estimates := estimates_ms(bench, row))]
     return " / ".join(f"{ratio:.2f}" for ratio in found) or "–"
 
 
@@ -30,17 +30,17 @@ def estimate_columns(bench):
 
 
 def cost_model_sentences(bench):
-    """What the time of the rows on one thread consists of, by the cost model."""
+    """The parts of the estimate for the rows on one thread."""
     sentences = []
     for backend in bench.backends:
-        for scene in TOLD:
+        for scene in DETAILED:
             row = bench.find(f"{backend}/{scene}/threads:1")
-            if not (floors := estimates_ms(bench, row)):
+            if not (estimates := estimates_ms(bench, row)):
                 continue
-            c, (won_ms, covered_ms, in_tiles_ms) = bench.costs[row.name], floors
+            c, (won_ms, covered_ms, in_tiles_ms) = bench.costs[row.name], estimates
             sentences.append(
                 f"`{scene}`, {backend} on one thread: {milliseconds(row)} ms measured, {number(won_ms)} ms estimated "
-                f"({number(c['write_ms'])} to write the frame, {number(c['blocks_ms'])} for the {short(c['won_blocks'])} blocks that "
-                f"a triangle wins, {number(c['read_ms'])} to read the triangles). With all {short(c['covered_blocks'])} covered "
+                f"({number(c['write_ms'])} to write the frame, {number(c['blocks_ms'])} for the {short(c['won_blocks'])} blocks with "
+                f"a visible triangle, {number(c['read_ms'])} to read the triangles). With all {short(c['covered_blocks'])} covered "
                 f"blocks the estimate is {number(covered_ms)} ms; with the frame stored tile by tile, {number(in_tiles_ms)} ms.")
     return sentences

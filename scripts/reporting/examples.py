@@ -1,4 +1,4 @@
-"""The examples in READMEs: files of the tests, which build and run them, shown whole."""
+"""The examples in READMEs: whole files that the tests build and run."""
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -13,6 +13,6 @@ EXAMPLES = {
 
 
 def example(name):
-    """The block of README.md that shows an example."""
+    """The README block that shows an example."""
     path = EXAMPLES[name]
     return f"`{path}`:\n\n```cpp\n{(ROOT / path).read_text(encoding='utf-8')}```\n"

@@ -1,11 +1,11 @@
-"""The findings on README's first screen: what the results say, each in a sentence or two."""
+"""The findings on README's first screen, each in a sentence or two, made from the results."""
 from accuracy_findings import before_snapping_clause, cost_sentence, listed, numbered
 from bench_rows import order
 from speedups import kernels, outcome, spread, with_width
 from peers import OURS, pairs
 from tables import THREADS, number
 
-# The tutorials' inside tests, and the scene whose shared edges run through pixel centres.
+# The tutorials' inside tests, and the scene with shared edges through pixel centres.
 TUTORIAL_TESTS = ("float_lt", "float_le")
 CENTRED_SCENE = "mesh_on_grid"
 
@@ -29,7 +29,7 @@ def speed_finding(bench):
 
 
 def turned(name, cube):
-    """What a method does to the turning cube: "leaves 3 gaps and hits 2 pixels twice"."""
+    """A method's errors on the turning cube: "leaves 3 gaps and hits 2 pixels twice"."""
     gaps, doubles = (cube[name][key] for key in ("total_gaps", "total_double_hits"))
     said = [*([f"leaves {numbered(gaps, 'gap')}"] if gaps else []),
             *([f"draws {numbered(doubles, 'pixel')} twice"] if doubles else [])]
@@ -37,7 +37,7 @@ def turned(name, cube):
 
 
 def crack_finding(accuracy):
-    """Gaps between neighbours: on the turning cube, and where edges run through pixel centres."""
+    """Gaps between neighbours on the turning cube, and on edges through pixel centres."""
     if accuracy is None:
         return ""
     sentences = []
@@ -61,7 +61,7 @@ def crack_finding(accuracy):
 
 
 def exactness_finding(accuracy):
-    """What it costs to be exact: errors against unsnapped positions, and time."""
+    """The cost of exactness: errors against unsnapped positions, and time."""
     if accuracy is None:
         return ""
     scene = next((s for s in accuracy.of("coverage") if s.name == CENTRED_SCENE), None)

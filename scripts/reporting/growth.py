@@ -1,12 +1,12 @@
-"""How cost grows with triangles, pixels and overdraw: exponents from step to step, and where they leave 1."""
+"""Growth of cost with triangles, pixels and overdraw, as exponents from step to step."""
 import math
 import re
 from dataclasses import dataclass
 
 from tables import short
 
-LINEAR = 0.1  # an exponent so near to 1 is called linear
-FRAME_BYTES, RECORD_BYTES = 8, 40  # a pixel, a triangle
+LINEAR = 0.1  # exponents within this distance of 1 are called linear
+FRAME_BYTES, RECORD_BYTES = 8, 40  # per pixel, per triangle
 
 
 def pixels(row):
@@ -19,10 +19,10 @@ class Quantity:
     key: str
     name: str
     x_of: object  # of a row
-    item_bytes: int  # what each step more adds to memory that is gone through once a frame; 0: nothing
+    item_bytes: int  # memory per item that each frame passes over once; 0: none
 
     def rows(self, bench):
-        """Per backend its rows by growing x."""
+        """The rows of each backend, by growing x."""
         found = {backend: [] for backend in bench.backends}
         for row in bench.sweep(self.key):
             if row.backend in found and not row.frontend:
@@ -33,7 +33,7 @@ class Quantity:
         return f"{math.isqrt(int(x))}²" if self.key == "size" else short(x)
 
     def scene(self, bench):
-        """What is drawn."""
+        """Describes the drawn scene."""
         row = bench.sweep(self.key)[0]
         if self.key == "size":
             return f"`{row.scene}` in square images"
@@ -50,8 +50,8 @@ QUANTITIES = (Quantity("count", "triangles", lambda row: int(row.keys["count"]),
 
 @dataclass(frozen=True)
 class Step:
-    """From one row to the next: time grows like x to the power of `exponent`; low to high is what the middle halves of
-    the repetitions leave open."""
+    """From one row to the next: time grows like x to the power of `exponent`; low to high is the range that the
+    middle halves of the repetitions allow."""
     start: float
     end: float
     exponent: float
@@ -86,7 +86,7 @@ def steps(quantity, rows):
 
 
 def runs(found):
-    """Neighbouring steps of one kind, together."""
+    """Groups neighbouring steps of one kind."""
     grouped = []
     for step in found:
         if grouped and grouped[-1][0].kind == step.kind:
@@ -104,7 +104,7 @@ def run_text(quantity, run):
 
 
 def growth_sentences(bench):
-    """One a quantity: per backend, where its cost is linear and where it is not, with the exponents there."""
+    """One sentence per quantity: for each backend the ranges of linear and other growth, with their exponents."""
     sentences = []
     for quantity in QUANTITIES:
         rows = {backend: found for backend, found in quantity.rows(bench).items() if len(found) > 1}
@@ -117,13 +117,13 @@ def growth_sentences(bench):
 
 
 def cache_bytes(machine, level):
-    """None where the machine does not say."""
+    """None if the machine does not report it."""
     match = re.fullmatch(r"(\d+)K", str(machine.get("caches", {}).get(level, "")))
     return int(match.group(1)) * 1024 if match else None
 
 
 def cache_sentence(machine):
-    """Which frames and how many triangles' records the caches hold."""
+    """The sizes of frames and the numbers of triangle records that fit the caches."""
     parts = []
     for level, whose in (("L2", "a core's"), ("L3", "the")):
         size = cache_bytes(machine, level)

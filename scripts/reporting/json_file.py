@@ -5,7 +5,7 @@ from bench_rows import BadInput
 
 
 def write_text(path, text):
-    """Under its name only when it is whole."""
+    """Replaces the file in one step."""
     part = path.with_name(path.name + ".part")
     try:
         part.write_text(text, encoding="utf-8")

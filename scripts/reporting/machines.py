@@ -1,4 +1,4 @@
-"""What was measured on other machines, beside the one whose results README.md shows."""
+"""Results of other machines, beside those that README.md shows."""
 from bench_rows import describe_machine, read_bench, read_json
 from speedups import mark
 from peers import OURS, pairs
@@ -6,14 +6,13 @@ from tables import THREADS, random_reads_sentence
 
 
 def others(folder):
-    """Results folders beside this one, of runs that timed something."""
+    """Results folders beside this one that have benchmark rows."""
     return [other for other in sorted(folder.resolve().parent.iterdir())
             if other != folder.resolve() and (other / "bench.json").exists() and (other / "machine.json").exists()]
 
 
 def ratio_table(benches):
-    """Header and lines: how many times faster than each peer our backend is, on the most threads. `benches`: by the
-    machine's name."""
+    """Header and lines: our backend's speed-up over each peer, on the most threads. `benches`: by the machine's name."""
     found = [pairs(bench) for bench in benches.values()]
     keys = dict.fromkeys((peer, scene) for ratios in found for peer, scene, _ in ratios)
     cells = [[ratios.get((peer, scene, max(THREADS))) for ratios in found] for peer, scene in keys]
@@ -37,6 +36,6 @@ def other_machines(folder, where, layout):
         charts += ["", f"![`{other.name}`: ns per covered pixel against triangle area]({link}/charts/area.svg)"]
     header, rows = ratio_table(benches)
     if rows:
-        lines += ["", f"How many times faster than its peers `{OURS}` is, on {max(THREADS)} threads with the widest SIMD of each machine:", "",
+        lines += ["", f"Speed-up of `{OURS}` over its peers, on {max(THREADS)} threads with the widest SIMD of each machine:", "",
                   layout(header, rows, "|---|" + "--:|" * (len(header) - 1))]
     return "\n".join([*lines, *charts])

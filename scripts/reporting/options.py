@@ -6,7 +6,7 @@ import sys
 
 
 class Parser(argparse.ArgumentParser):
-    """Answers a wrong command line in one line, with exit status 2, and names the option nearest to an unknown one."""
+    """Reports a wrong command line in one line with exit status 2, and suggests the nearest option."""
 
     def __init__(self, **settings):
         super().__init__(allow_abbrev=False, **settings)

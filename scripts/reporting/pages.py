@@ -2,7 +2,7 @@
 
 
 def readmes(first):
-    """`first`, which is the root's, then those of the folders below it, without those of builds and of packages."""
+    """`first`, the README of the root, then those of its folders, except builds and packages."""
     root = first.parent
     return [first, *(page for page in sorted(root.glob("*/**/README.md"))
                      if not any(part.startswith(("build", ".")) or part == "node_modules"

@@ -5,7 +5,7 @@ from bench_rows import Row, order
 from speedups import mark, with_width
 from tables import THREADS, milliseconds
 
-OURS = "tiled"  # the one backend that stands for ours
+OURS = "tiled"  # the backend that represents ours
 
 
 @dataclass
@@ -15,7 +15,7 @@ class Pair:
 
     @property
     def ratio(self):
-        """How many times faster ours is."""
+        """The speed-up of ours over the peer."""
         return self.peer.median_ms / self.ours.median_ms
 
     @property
@@ -24,8 +24,8 @@ class Pair:
 
 
 def pair(bench, peer, scene, threads, target=None):
-    """None where one side was not timed. Peers draw meshes as whole frames only, so ours are compared as such; with the
-    kernels of `target`, or the widest."""
+    """None if either side was not timed. Peers draw meshes as whole frames only, so ours do, too; with the kernels of
+    `target`, or the widest."""
     kernels = f"target:{target}/" if target else ""
     for with_frontend in ("", "+frontend"):
         row = bench.find(f"{peer}{with_frontend}/{scene}/threads:{threads}")
@@ -36,13 +36,13 @@ def pair(bench, peer, scene, threads, target=None):
 
 
 def pairs(bench, target=None):
-    """All of them, by (peer, scene, threads)."""
+    """All pairs, by (peer, scene, threads)."""
     keys = ((peer, scene, n) for peer in bench.peers for scene in bench.scenes for n in THREADS)
     return {key: found for key in keys if (found := pair(bench, *key, target))}
 
 
 def over_backend(bench, found, backend):
-    """How many times faster than the peer of a Pair this one of our backends is; None where it was not timed."""
+    """The speed-up of one of our backends over the peer of a Pair; None if it was not timed."""
     ours = found and bench.find(found.ours.name.replace(found.ours.backend, backend, 1))
     return found.peer.median_ms / ours.median_ms if ours else None
 
@@ -51,17 +51,17 @@ def with_ratios(bench, header, lines):
     """A scene table with a further column for each peer, on the most threads."""
     found = pairs(bench)
     for peer in dict.fromkeys(peer for peer, _, _ in found):
-        header = [*header, f"{OURS} faster than {peer}"]
+        header = [*header, f"{OURS} over {peer}"]
         lines = [[*line, mark(p.ratio, p.settled) if (p := found.get((peer, line[0], max(THREADS)))) else "–"]
                  for line in lines]
     return header, lines
 
 
 def peer_table(bench, peer):
-    """Header and lines: one line a scene that the peer drew; a cell has a figure for each number of threads."""
+    """Header and lines: one line per scene that the peer drew; a cell has a figure for each number of threads."""
     widest, narrow = pairs(bench), pairs(bench, "avx2")
     compared = [(bench.context.get("simd_target"), widest), *([("avx2", narrow)] if any(key[2] == max(THREADS) for key in narrow) else [])]
-    header = ["scene", "draws", f"{peer}, ms", f"{OURS}, ms", *(f"faster with {with_width(target)}" for target, _ in compared)]
+    header = ["scene", "draws", f"{peer}, ms", f"{OURS}, ms", *(f"speed-up with {with_width(target)}" for target, _ in compared)]
 
     def joined(cells):
         return " / ".join(cells)
@@ -80,7 +80,7 @@ def peer_table(bench, peer):
 
 
 def ties_sentence(bench, peer):
-    """Where pictures may differ: pixels at which two triangles are as near up to rounding."""
+    """Depth ties within tolerance, at which the pictures may differ."""
     found = [p for (name, _, _), p in pairs(bench).items() if name == peer]
     most = max(found, key=lambda p: p.peer.counters.get("near_ties", 0))
     ties = most.peer.counters.get("near_ties", 0)
@@ -90,7 +90,7 @@ def ties_sentence(bench, peer):
 
 
 def peer_tables(bench, layout):
-    """Every peer's version and table, laid out by `layout`; one line where no peer was timed."""
+    """Every peer's version and table, laid out by `layout`; one line if no peer was timed."""
     timed = list(dict.fromkeys(peer for peer, _, _ in pairs(bench)))
     if not timed:
         return "No other project's rasterizer was timed here; `scripts/run --peers` does."

@@ -30,7 +30,7 @@ def label_ends(axes, points, look):
 
 
 def free_place(axes, at, size, taken):
-    """Offset in points, near a point, where a label of a size covers least of what is taken (all in points)."""
+    """Offset in points, near a point, where a label of a size covers the fewest taken places (all in points)."""
     bounds = axes.get_window_extent().transformed(axes.figure.dpi_scale_trans.inverted())
     left, bottom, right, top = (72 * v for v in bounds.extents)
     best = None

@@ -1,4 +1,4 @@
-"""Cost against triangles, pixels and overdraw, and below it the exponent with which it grows from step to step."""
+"""Chart of cost against triangles, pixels and overdraw, with the exponents from step to step below."""
 import math
 import textwrap
 
@@ -9,7 +9,7 @@ from plot_area import draw_curves
 
 
 def mark_caches(axes, quantity, machine, named):
-    """Where what is gone through once a frame fills a cache."""
+    """The x at which the memory that each frame passes over fills a cache."""
     low, high = axes.get_xlim()
     for level in ("L2", "L3"):
         size = cache_bytes(machine, level)

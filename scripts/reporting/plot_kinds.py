@@ -14,7 +14,7 @@ class Kinds:
         return BACKENDS.get(method.name) or self.looks[self.family.kind(method)]
 
     def legend(self, figure, y, methods, extra):
-        """Backends and kinds of methods, and below them what else marks a point."""
+        """Backends and kinds of methods, and below them the other marks."""
         found = {(method.name if method.name in BACKENDS else self.family.kind(method)): self.of(method) for method in methods}
         names = {"ours": "ours (bold)", "other": "others", **{name: f"{name} (ours)" for name in BACKENDS}}
         handles = [plt.Line2D([], [], color=colour, marker=marker, linestyle="", markersize=7, label=names.get(kind, kind))

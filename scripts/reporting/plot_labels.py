@@ -1,4 +1,4 @@
-"""Puts a name beside every point of a crowded chart: no label on another, on a point, or outside; the same each time."""
+"""Places a name beside every point of a dense chart, deterministically: off other labels and points, inside the axes."""
 import math
 from dataclasses import dataclass
 
@@ -70,9 +70,9 @@ def cost_of(distance, box, end, at, bounds, points, line_points, others):
 def place(points, sizes, bounds, line_points):
     """A (box, end of the leader) for each point; all in typographic points."""
     placed = [None] * len(points)
-    crowd = [sum(math.dist(p, q) < 60 for q in points) for p in points]
-    order = sorted(range(len(points)), key=lambda i: (-crowd[i], points[i]))
-    for _ in range(4):  # the later rounds know where all the others are
+    neighbours = [sum(math.dist(p, q) < 60 for q in points) for p in points]
+    order = sorted(range(len(points)), key=lambda i: (-neighbours[i], points[i]))
+    for _ in range(4):  # later rounds see all other labels
         for i in order:
             others = [(box, along(points[j], end)) for j, spot in enumerate(placed) if spot and j != i
                       for box, end in [spot]]

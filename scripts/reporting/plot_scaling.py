@@ -1,4 +1,4 @@
-"""The estimated speed-up of a frame on more cores, next to what is measured on two."""
+"""The estimated speed-up of a frame on more cores, beside the measured speed-up on two threads."""
 import math
 import textwrap
 
@@ -42,7 +42,8 @@ def scaling(bench, folder, caption):
         axes.set_yscale("log", base=2)
         axes.set_title(scene, color=INK)
         last = found[scene, first][max(found[scene, first])]
-        axes.text(0.03, 0.97, textwrap.fill(f"{first}: {serial_part(last)}", 32), transform=axes.transAxes, fontsize=8, va="top",
+        axes.text(0.03, 0.97, textwrap.fill(f"{first}: {serial_part(last)}", 32), transform=axes.transAxes,
+                  fontsize=8, va="top",
                   color=look.text_colour(first), linespacing=1.15)
     corner = panels[0][0]
     corner.set_xlim(0.92, most * 1.08)

@@ -24,7 +24,7 @@ def time_title(bench):
 
 
 def scene_time(bench, folder, caption):
-    """One line a scene, one place a backend: hollow 1 thread, filled 2."""
+    """One line per scene, one place per backend: hollow 1 thread, filled 2."""
     look = Look(bench.backends)
     scenes = bench.scenes
     if not scenes:

@@ -31,7 +31,7 @@ def stacked(wanted, heights, ties):
 
 
 def set_axis(axes, sweep):
-    """Returns what places x and y."""
+    """Returns the axis of errors."""
     xs = [x for curve in sweep.curves for x, _ in curve.points]
     y_scale = axis_of_errors(sweep)
     if sweep.y["log"]:

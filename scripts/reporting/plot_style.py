@@ -1,4 +1,4 @@
-"""One look for all charts: light, colour-blind safe, one colour a backend, the same bytes for the same data."""
+"""The common look of all charts: light, colour-blind safe, one colour per backend, the same bytes for the same data."""
 import colorsys
 import textwrap
 from pathlib import Path

@@ -20,7 +20,7 @@ def git(*arguments):
 
 
 def committed(ref, machine):
-    """The result of a machine as a commit has it."""
+    """The results of a machine in a commit."""
     commit = git("rev-parse", "--verify", "--quiet", "--end-of-options", f"{ref}^{{commit}}")
     if commit.returncode:
         raise BadInput(f"{ref}: neither a results folder nor a commit")
@@ -38,8 +38,8 @@ def committed(ref, machine):
 def main():
     parser = Parser(
         prog="report", description=__doc__,
-        epilog="Needs npm, and the npm registry when run for the first time. Exit status: 0 made, 2 bad input, 3 npm or what "
-               "it is to fetch is not there.")
+        epilog="Needs npm, and the npm registry when run for the first time. Exit status: 0 made, 2 bad input, 3 npm or its "
+               "packages are missing.")
     parser.add_argument("results", type=Path, metavar="RESULTS", help="folder with bench.json, machine.json, …")
     parser.add_argument("--compare", action="append", default=[], metavar="FOLDER|COMMIT",
                         help="a results folder, or a commit that has results of the same machine, to compare with "

@@ -12,7 +12,7 @@ NETWORK_ERRORS = ("ENOTFOUND", "EAI_AGAIN", "ETIMEDOUT", "ENETUNREACH", "EHOSTUN
 
 
 class Absent(Exception):
-    """What the report needs is not on this machine and cannot be fetched."""
+    """npm or its packages are not on this machine and cannot be fetched."""
 
 
 def bundle():
@@ -40,5 +40,5 @@ def install():
     if done.returncode:
         said = done.stderr.strip()
         reason = ("No network: npm cannot reach its registry" if any(name in said for name in NETWORK_ERRORS)
-                  else "npm could not fetch what it needs")
+                  else "npm could not fetch its packages")
         raise Absent(f"{reason}, so there is no report.html, only the static charts. npm said:\n{said}")

@@ -1,4 +1,4 @@
-"""The figures that the report shows, of one result: what the static charts and the tables show, as plain data."""
+"""The figures of the report as plain data: those of the static charts and of the tables."""
 from accuracy_rows import FAMILIES, read_accuracy, read_stability
 from accuracy_tables import rate_text
 from bench_rows import describe_machine, read_bench, read_json
@@ -15,7 +15,7 @@ from zero_axis import ZeroAxis
 
 
 class Result:
-    """What a run left in a folder, and what to call it."""
+    """The results in a folder, and their name."""
 
     def __init__(self, folder, called=None):
         self.bench = read_bench(folder)
@@ -27,7 +27,7 @@ class Result:
 
 
 def rounded(value):
-    """To what can be seen."""
+    """To the precision that a chart shows."""
     return float(f"{value:.4g}")
 
 
@@ -37,7 +37,7 @@ def time(row):
 
 
 def area(bench):
-    """By threads: ns per covered pixel along the area, and where curves cross."""
+    """By threads: ns per covered pixel along the area, and the crossings of the curves."""
     found = {}
     for threads in sorted({row.threads for row in bench.sweep("area")}):
         points = area_curves(bench, threads)
@@ -51,9 +51,9 @@ def area(bench):
 
 
 def times(bench):
-    """What each backend takes for a scene, and the estimates of the cost model."""
+    """The time of each backend on a scene, and the estimates of the cost model."""
     return [{"scene": scene, "backend": backend, "threads": threads, "ms": time(row),
-             "floors": [rounded(ms) for ms in estimates_ms(bench, row) or ()]}
+             "estimates": [rounded(ms) for ms in estimates_ms(bench, row) or ()]}
             for scene in bench.scenes for backend in bench.backends for threads in THREADS
             if (row := bench.find(f"{backend}/{scene}/threads:{threads}"))]
 
@@ -72,7 +72,7 @@ def ablation(bench):
         named = steps(bench, scene)
         befores = [None, *(row for _, row in named)]
         found.append({"scene": scene, "steps": [
-            {"label": label, "ms": time(row), "floor": rounded((estimates_ms(bench, row) or [0.0])[0]),
+            {"label": label, "ms": time(row), "estimate": rounded((estimates_ms(bench, row) or [0.0])[0]),
              "said": said(before, row),
              "verdict": verdict(before, row) if before else "start"}
             for before, (label, row) in zip(befores, named)]})

@@ -21,24 +21,26 @@ from tables import scene_table
 
 SOURCE = Path(__file__).resolve().parents[1] / "web"
 
-# (id, heading, what it shows)
+# (id, heading, description)
 SECTIONS = (
-    ("accuracy", "Speed against accuracy", "How many errors each method makes, and what it costs. The dashed line joins the "
-     "methods that no other beats in both on one thread; hollow marks err even given the snapped positions; bars reach "
-     "from the fastest repetition to the slowest."),
+    ("accuracy", "Speed against accuracy", "Errors and time of each method. The dashed line joins the methods that no other "
+     "beats in both on one thread; hollow marks err given the snapped positions, too; bars reach from the fastest "
+     "repetition to the slowest."),
     ("area", "Cost against triangle area", "Random triangles of one area that together cover the same number of pixels. "
-     "Lower is better. Rings: where curves cross and the noise leaves no doubt. Bands: fastest to slowest repetition."),
-    ("ablation", "Ablation: what each optimization gains", "Line by line one idea more, on one thread up to the last; figures say "
-     "how many times faster than the line above. Blue: faster; vermilion: slower; grey: not settled. Green: the cost model's estimate."),
-    ("stability", "Stability: where methods start to fail", "Each chart leads from easy on the left to hard on the right. "
-     "A hollow mark stands where a method starts to fail. Methods whose curves are the same share one line."),
-    ("peers", "Peers and cost model", "Milliseconds a frame beside an estimate for reading, drawing and writing; and how many "
-     "times faster ours are than other projects' rasterizers."),
-    ("scaling", "Scaling: what more cores could gain", "Whole frames, front end included: the speed-up estimated from "
-     "recorded tasks and barriers (line), and as measured on two threads (ring). Dotted: ideal. Not in it: shared memory, "
-     "caches and clock. In words: the longest serial part on the most cores, of the backend estimated to be fastest."),
+     "Lower is better. Rings: settled crossings of two curves. Bands: fastest to slowest repetition."),
+    ("ablation", "Ablation: what each optimization gains", "Each line adds one optimization; all but the last run on one "
+     "thread. Figures: speed-up over the line above. Black: faster; red: slower; grey: not settled. Grey ticks: the cost "
+     "model's estimate."),
+    ("stability", "Stability: the points at which methods start to fail", "Each chart leads from easy on the left to hard on the right. "
+     "A hollow mark shows the first failure of a method. Methods with equal curves share one line."),
+    ("peers", "Peers and cost model", "Milliseconds per frame beside an estimate for reading, drawing and writing, and the "
+     "speed-up of ours over other projects' rasterizers."),
+    ("scaling", "Scaling: estimated speed-up on more cores", "Whole frames, front end included: the speed-up estimated from "
+     "recorded tasks and barriers (line), and as measured on two threads (ring). Dotted: ideal. The estimate ignores shared "
+     "bandwidth, caches and clock rate. Text: the longest serial part on the most cores, for the backend estimated to be "
+     "fastest."),
 )
-CHANGES = ("changes", "What changed", "Which rows got faster or slower between two results: all repetitions of one lie on one "
+CHANGES = ("changes", "What changed", "Rows that became faster or slower between two results: all repetitions of one lie on one "
            "side of all of the other's. Choose one under “Compare with” above.")
 
 
@@ -64,7 +66,7 @@ def svg(path):
 
 
 def pictures(folder):
-    """The close-ups: {name: index}, and the different ones, since methods that err alike share one."""
+    """The close-ups: {name: index}, and the distinct pictures; methods with equal errors share one."""
     named, different = {}, {}
     for path in sorted(folder.glob("*.png")):
         data = png(path)
@@ -97,9 +99,9 @@ def static_charts(result):
 
 def static_tables(bench):
     """{section: its figures without JavaScript}."""
-    peers = [static_table(f"ms a frame: {peer} and ours", *peer_table(bench, peer))
+    peers = [static_table(f"ms per frame: {peer} and ours", *peer_table(bench, peer))
              for peer in dict.fromkeys(peer for peer, _, _ in pairs(bench))]
-    return {"peers": static_table("ms a frame, backend alone", *scene_table(bench)) + "".join(peers),
+    return {"peers": static_table("ms per frame, backend alone", *scene_table(bench)) + "".join(peers),
             "scaling": static_table("Estimated speed-up on more cores", *scaling_table(bench)) if bench.sweep("cores") else ""}
 
 
@@ -109,7 +111,7 @@ def section(name, heading, shows, static):
 
 
 def html(markdown):
-    """Of a finding: bold and code are all that it uses."""
+    """HTML of a finding, which uses bold and code only."""
     text = re.sub(r"\*\*(.+?)\*\*", r"<strong>\1</strong>", escape(markdown))
     return re.sub(r"`(.+?)`", r"<code>\1</code>", text)
 

@@ -18,12 +18,12 @@ def scheduled(bench):
 
 
 def allowed(rows):
-    """{cores: estimated speed-up}: work over time of one and the same run, so that N cores never give more than N."""
+    """{cores: estimated speed-up}: work over time of the same run, so that N cores never gain more than N."""
     return {cores: row.counters["work_ms"] / row.median_ms for cores, row in rows.items()}
 
 
 def pair_measured(bench, scene, backend):
-    """The rows of whole frames on one and on two threads; None where one is missing."""
+    """The rows of whole frames on one and on two threads; None if either is missing."""
     one, two = (bench.find(f"{backend}+frontend/{scene}/threads:{threads}") for threads in (1, 2))
     return (one, two) if one and two else None
 
@@ -35,7 +35,7 @@ def measured(bench, scene, backend):
 
 
 def quickest(bench):
-    """Of each scene the backend that would be done first on the most cores."""
+    """For each scene the backend with the shortest estimated time on the most cores."""
     best = {}
     for (scene, backend), rows in scheduled(bench).items():
         time_ms = rows[max(rows)].median_ms
@@ -53,7 +53,7 @@ def serial_part(row):
 
 
 def scaling_table(bench):
-    """Header and lines: one line a scene, for the backend that would be done first on the most cores."""
+    """Header and lines: one line per scene, for the backend with the shortest estimated time on the most cores."""
     found = scheduled(bench)
     all_cores = sorted({cores for rows in found.values() for cores in rows} - {1})
     shown = [cores for cores in all_cores if cores in (2, 8) or cores == all_cores[-1]]
@@ -78,7 +78,7 @@ def barrier_sentence(bench):
 
 
 def small_draw_sentences(bench):
-    """How much longer two threads take than half of what one takes, where there is little to do."""
+    """The cost of a second thread in small draws: its time over half the time on one thread."""
     sentences = []
     for title, pattern in (("The 12 triangles of `cube` at {size}", "{backend}/cube/tiny:256x256/threads:{threads}"),
                            ("The same at {size}", "{backend}/cube/threads:{threads}")):
@@ -97,7 +97,7 @@ def small_draw_sentences(bench):
 
 
 def memory_sentence(bench):
-    """The most that a first frame's front end, frame and backend take."""
+    """The peak memory of front end, frame and backend, in the first frame."""
     rows = [row for row in bench.rows.values() if "peak_bytes" in row.counters and set(row.keys) == {"threads"}]
     if not rows:
         return ""
@@ -113,7 +113,7 @@ def memory_sentence(bench):
     a_pixel = fewest.counters["peak_bytes"] / pixels(fewest)
     a_triangle = (most.counters["peak_bytes"] - a_pixel * pixels(most)) / most.counters["triangles"]
     worst = max(rows, key=share)
-    return (f"Memory at its worst, in the first frame, the frame included and the scene not: {a_pixel:.1f} bytes a pixel "
-            f"(`{fewest.scene}`), and beyond that {a_triangle:.0f} bytes a triangle (`{most.backend}` on `{most.scene}`, "
-            f"{short(most.counters['triangles'])} triangles). Of the 100 bytes a triangle plus 16 a pixel that `edgewise/backend.h` allows, no scene takes more than "
+    return (f"Peak memory, in the first frame, with the frame and without the scene: {a_pixel:.1f} bytes per pixel "
+            f"(`{fewest.scene}`), plus {a_triangle:.0f} bytes per triangle (`{most.backend}` on `{most.scene}`, "
+            f"{short(most.counters['triangles'])} triangles). Of the 100 bytes per triangle plus 16 per pixel that `edgewise/backend.h` allows, no scene needs more than "
             f"{share(worst):.0%} (`{worst.backend}` on `{worst.scene}`).")

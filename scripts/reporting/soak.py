@@ -1,4 +1,4 @@
-"""What soak.json (`edgewise soak --json`) says, in a sentence."""
+"""The result of a soak test (`edgewise soak --json`) in a sentence."""
 
 
 def soak_sentence(soak):

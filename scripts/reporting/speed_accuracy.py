@@ -60,8 +60,8 @@ CRACKS = {"t_junction": "its gaps, in pixels", "t_junction_split": "its gaps onc
 
 
 def chart_rows(scenes):
-    """(label, what stands there, how dark) of each row, the last two by method. A T-junction's rate says how many
-    pixels change hands; that splitting its edge closes the crack, only its gaps say."""
+    """(label, text of each method, rate of each method) of each row. A T-junction has a second row with its gaps, since its
+    rate does not show that splitting the edge closes the crack."""
     rows = []
     for scene in scenes:
         rates = {m.method.name: m.rate for m in scene.measured}

@@ -1,4 +1,4 @@
-"""README's table of speeds: whole pictures, ours beside the peers'."""
+"""README's table of speed: times of ours and of peers from scene to picture."""
 from bench_rows import order
 from tables import THREADS, milliseconds, scene_facts
 
@@ -8,12 +8,12 @@ def row_of(bench, who, scene, with_frontend):
 
 
 def is_mesh(bench, scene):
-    """Whether peers drew it as a whole frame, as they do meshes only."""
+    """Whether peers drew it as a whole frame; they draw only meshes so."""
     return any(row_of(bench, peer, scene, with_frontend=True) for peer in bench.peers)
 
 
 def speed_table(bench):
-    """Header and lines, one per scene; bold is what the repetitions settle as the fastest of ours."""
+    """Header and lines, one per scene; bold: the settled fastest of ours."""
     lines = []
     for scene in bench.scenes:
         mesh = is_mesh(bench, scene)

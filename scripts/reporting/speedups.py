@@ -16,7 +16,7 @@ def with_width(target):
 
 
 def about(ratio):
-    """Two digits: the noise allows no more."""
+    """With two digits, as many as the noise allows."""
     return f"{ratio:.2f}×" if ratio < 1.095 else f"{ratio:.1f}×" if ratio < 9.95 else f"{float(f'{ratio:.2g}'):,.0f}×"
 
 
@@ -41,7 +41,7 @@ def outcome(compared, what):
 
 
 def speed_up(ratio):
-    """A speed-up in a table, "2.6× slower" where it is none."""
+    """A speed-up in a table, "2.6× slower" if below 1."""
     return about(ratio) if ratio >= 1 else f"{about(1 / ratio)} slower"
 
 

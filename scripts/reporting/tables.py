@@ -1,6 +1,6 @@
-"""The tables made from results: as Markdown for the README, as plain text for the terminal."""
+"""Tables of results, as Markdown for the READMEs and as plain text for the terminal."""
 from bench_rows import order
-from speedups import mark
+from speedups import about, mark
 
 THREADS = (1, 2)
 NORMAL_Z = "normal_z"  # the Outlaw Triad trainer's facing test
@@ -26,7 +26,7 @@ def milliseconds(row):
 
 
 def random_reads_sentence(bench):
-    """Whether the last cache was ours while the rows were timed; empty if that was not measured."""
+    """Whether the last-level cache was available while the rows were timed; empty if not measured."""
     cache, memory = (bench.random_reads.get(where) for where in ("half_last_cache", "memory"))
     if cache is None or memory is None:
         return ""
@@ -35,21 +35,21 @@ def random_reads_sentence(bench):
         low, middle, high = (ms * 1e6 / row.counters["reads"] for ms in (row.low_ms, row.median_ms, row.high_ms))
         return f"{middle:.0f} ns ({low:.0f} to {high:.0f})"
 
-    verdict = ("other processes left it to us" if cache.median_ms < 0.3 * memory.median_ms else
-               "other processes filled it, so what depends on it is slower than on an idle machine")
+    verdict = ("other processes left it free" if cache.median_ms < 0.3 * memory.median_ms else
+               "other processes filled it, so rows that depend on it are slower than on an idle machine")
     return (f"Between the rows, a random read took {ns(cache)} in a buffer of half the last-level cache, and {ns(memory)} in a "
             f"far larger one: {verdict}.")
 
 
 def fastest(bench, scene):
-    """The backend that is fastest on the most threads, with its speed-up over the next; several if the order is open."""
+    """The fastest backend on the most threads, with its speed-up over the next; several if the order is not settled."""
     rows = [row for b in bench.backends if (row := bench.find(f"{b}/{scene}/threads:{max(THREADS)}"))]
     if len(rows) < 2:
         return "–"
     first, *others = sorted(rows, key=lambda row: row.median_ms)
     close = [row.backend for row in others if order(first, row) == 0]
     return " or ".join([first.backend, *close]) if close else \
-        f"{first.backend}, {others[0].median_ms / first.median_ms:.2g}×"
+        f"{first.backend}, {about(others[0].median_ms / first.median_ms)}"
 
 
 def scene_facts(bench, scene):
@@ -100,14 +100,14 @@ def culling_rows(bench, mode):
 
 
 def pixels_wrong(bench, scene):
-    """Of the picture that the test of normals leaves."""
+    """The number of wrong pixels after the test of normals."""
     wrong = next(row.counters["wrong_px"] for row in bench.sweep("cull")
                  if row.scene == scene and row.keys["cull"] == NORMAL_Z)
     return f"{wrong:,.0f} px wrong"
 
 
 def culling_sentence(bench):
-    """What dropping back faces gains in whole frames, by winding, and by the z of normals where that was timed."""
+    """The speed-up of whole frames by culling, by winding, and by the z of normals if timed."""
     def told(rows):
         return ", ".join(f"`{backend}` {mark(before.median_ms / after.median_ms, order(before, after))}"
                          for backend, (before, after) in rows.items())
@@ -115,11 +115,11 @@ def culling_sentence(bench):
     by_winding, by_normal = culling_rows(bench, "back"), culling_rows(bench, NORMAL_Z)
     if not by_winding:
         return ""
-    sentence = (f"Culling back faces by their winding speeds up whole frames on {max(THREADS)} threads: "
+    sentence = (f"Speed-up of whole frames on {max(THREADS)} threads by culling back faces by their winding: "
                 + "; ".join(f"`{scene}`: {told(rows)}" for scene, rows in by_winding.items()) + ".")
     if not by_normal:
         return sentence
-    return (f"{sentence} Culling them before projection, by the z of their normals (`{NORMAL_Z}`), gives "
+    return (f"{sentence} Culling them before projection, by the z of their normals (`{NORMAL_Z}`): "
             + "; ".join(f"`{scene}`: {told(rows)}, {pixels_wrong(bench, scene)}" for scene, rows in by_normal.items()) + ".")
 
 

@@ -1,12 +1,11 @@
-"""What `scripts/test --full` left in a results folder, as one table: how the claim that no bit differs was tested, how
-far, and what was found. What was not run there is left out."""
+"""The verification summary: one table of the methods that `scripts/test --full` ran, their extent and their findings."""
 import argparse
 from pathlib import Path
 
 from bench_rows import main_guard, read_json
 from tables import markdown, plain, short
 
-HEADER = ["how", "how far", "found"]
+HEADER = ["method", "extent", "found"]
 SANITIZERS = {"address": "Tests again at the usual size, with the address and undefined-behaviour sanitizers",
               "thread": "Tests again at the usual size, with the thread sanitizer"}
 FAMILIES = {"properties": ("properties of random streams", "streams"), "lattices": ("exhaustive lattices", "triangles"),
@@ -14,7 +13,7 @@ FAMILIES = {"properties": ("properties of random streams", "streams"), "lattices
 
 
 def none_or(count, what, plural=None):
-    """"no difference", or how many, to be noticed."""
+    """"no difference", or their number in bold."""
     return f"no {what}" if count == 0 else f"**{how_many(count, what, plural)}**"
 
 
@@ -65,7 +64,7 @@ LINES = {"tests": test_lines, "prove": prove_lines, "mutate": mutate_lines, "fuz
 
 
 def verification_table(folder):
-    """Header and lines; no lines where nothing was run."""
+    """Header and lines; no lines if nothing was run."""
     lines = []
     for name, lines_of in LINES.items():
         path = folder / f"{name}.json"

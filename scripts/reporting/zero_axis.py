@@ -6,7 +6,7 @@ from tables import short
 
 
 class ZeroAxis:
-    """Places for values from 0 up on a log axis that begins with a band for 0; in decades."""
+    """Positions, in decades, of values ≥ 0 on a log axis that begins with a band for 0."""
 
     def __init__(self, values):
         seen = [math.log10(v) for v in values if v > 0] or [0.0, 1.0]

@@ -1,4 +1,4 @@
-// What each idea is worth: a chart a scene, a line an idea.
+// The speed-up by each optimization: a chart per scene, a line per optimization.
 import * as Plot from "@observablehq/plot";
 import { widthOf } from "./labels.js";
 import { bar, circle, decades, gridAt, legend, plot, sample, tip, verdictColour } from "./look.js";
@@ -25,8 +25,8 @@ function panel(view, { scene, steps }, width) {
   const shared = before.filter(({ label }) => steps.some((step) => step.label === label));
   const beforeOf = (step) => shared.find(({ label }) => label === step.label);
   const fill = { value: (step) => verdictColour(view, step.verdict), scale: null };
-  const floored = steps.filter((step) => step.floor > 0);
-  const all = [...steps, ...shared].flatMap(({ ms, floor }) => [ms[0], floor || ms[0]]);
+  const modelled = steps.filter((step) => step.estimate > 0);
+  const all = [...steps, ...shared].flatMap(({ ms, estimate }) => [ms[0], estimate || ms[0]]);
   const domain = [Math.min(...all) / 1.5, Math.max(...all) * 1.3];
   const time = (step) => step.ms[0];
   const drawn = plot({
@@ -36,21 +36,21 @@ function panel(view, { scene, steps }, width) {
     marginRight: 60, // for the figure beside the last mark
     marginBottom: 40,
     marginTop: 4,
-    x: { type: "log", domain, label: "ms a frame", ticks: decades(domain), tickFormat: short },
+    x: { type: "log", domain, label: "ms per frame", ticks: decades(domain), tickFormat: short },
     y: { type: "point", domain: steps.map((step) => step.label), label: null, padding: 0.5 },
     marks: [
       gridAt("x", decades(domain)),
       Plot.axisY({ tickSize: 0 }),
       Plot.line(steps, { x: time, y: "label", stroke: "var(--line)", strokeWidth: 1.4 }),
-      Plot.link(floored, {
-        x1: "floor",
+      Plot.link(modelled, {
+        x1: "estimate",
         x2: time,
         y1: "label",
         y2: "label",
         stroke: kEstimate,
         strokeDasharray: "1,2",
       }),
-      Plot.dot(floored, { x: "floor", y: "label", symbol: bar, r: 6, stroke: kEstimate, strokeWidth: 2.5 }),
+      Plot.dot(modelled, { x: "estimate", y: "label", symbol: bar, r: 6, stroke: kEstimate, strokeWidth: 2.5 }),
       Plot.dot(shared, { x: time, y: "label", r: 4, stroke: "var(--faint)" }),
       Plot.dot(steps, { x: time, y: "label", r: 4.5, fill }),
       Plot.text(steps, {
@@ -72,10 +72,10 @@ function panel(view, { scene, steps }, width) {
     plot: drawn,
     figures: [
       [
-        ["idea", (step) => step.label],
+        ["optimization", (step) => step.label],
         ["ms", time],
-        ["times faster", (step) => (step.verdict === "start" ? "–" : step.said)],
-        ["estimate, ms", (step) => (step.floor > 0 ? step.floor : "–")],
+        ["speed-up", (step) => (step.verdict === "start" ? "–" : step.said)],
+        ["estimate, ms", (step) => (step.estimate > 0 ? step.estimate : "–")],
         ...(shared.length ? [[view.other.name, (step) => beforeOf(step)?.ms[0] ?? "–"]] : []),
       ],
       steps,
@@ -89,8 +89,8 @@ function says(step, other, view) {
     step.label,
     `${ms} ms (${low} to ${high})`,
     step.verdict !== "start" &&
-      `${step.said} as fast as the line above${step.verdict === "neither" ? ", not settled" : ""}`,
-    step.floor > 0 && `estimate ${number(step.floor)} ms`,
+      `${step.said.includes("slower") ? step.said : `${step.said} faster`} than the line above${step.verdict === "neither" ? ", not settled" : ""}`,
+    step.estimate > 0 && `estimate ${number(step.estimate)} ms`,
     other && `${view.other.name}: ${number(other.ms[0])} ms`,
   ];
 }

@@ -1,4 +1,4 @@
-// Speed against accuracy on one scene, and which methods err on which scenes. Methods lead to the pictures of their errors.
+// Speed against accuracy on one scene, and the errors of each method on each scene, with links to pictures of the errors.
 import * as Plot from "@observablehq/plot";
 import { group } from "d3";
 import { labels } from "./labels.js";
@@ -169,7 +169,7 @@ function says(row, facts, moved) {
     `${row.said} ${facts.errors}`,
     `${number(row.ns)} ${facts.cost} (${number(row.low)} to ${number(row.high)})`,
     before && `the other: ${number(before.ns)} ${facts.cost}`,
-    row.unsettled && "ranges overlap: not settled who is faster",
+    row.unsettled && "ranges overlap: the faster one is not settled",
   ];
 }
 

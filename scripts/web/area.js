@@ -1,4 +1,4 @@
-// What a covered pixel costs along the triangles' area, a chart for each number of threads.
+// The cost of a covered pixel along the triangles' area, a chart for each number of threads.
 import * as Plot from "@observablehq/plot";
 import { labels } from "./labels.js";
 import { asText, backendLegend, backendLook, gridAt, logTicks, plot, tip } from "./look.js";

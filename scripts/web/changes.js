@@ -1,4 +1,4 @@
-// Which rows got faster or slower between two results, as scripts/compare judges them.
+// Rows that became faster or slower between two results, as scripts/compare judges them.
 import { element, table } from "./page.js";
 
 const most = 60;

@@ -1,4 +1,4 @@
-// The same colours and marks as the static charts; what the marks of all charts have in common.
+// The colours and marks of the static charts, and functions that all charts share.
 import { symbol, symbolCircle, symbolCross, symbolDiamond2, symbolSquare, symbolTriangle, symbolX } from "d3";
 import * as Plot from "@observablehq/plot";
 import { element } from "./page.js";

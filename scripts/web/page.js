@@ -49,7 +49,7 @@ export function table(caption, columns, rows) {
   );
 }
 
-// What may be wider than a phone scrolls by itself, by keyboard as well.
+// Wide content scrolls by itself, by keyboard as well.
 export function wide(label, child) {
   return element("div", { class: "wide", role: "region", tabindex: "0", "aria-label": label }, child);
 }
@@ -58,7 +58,7 @@ export function folded(key, summary, ...children) {
   return element("details", { "data-key": key }, element("summary", {}, summary), ...children);
 }
 
-// A chart with its title, what it says in words, a legend and its figures.
+// A chart with its title, text, legend and figures.
 export function chart({ title, text, legend, plot, figures, more = [] }) {
   plot.setAttribute("role", "img");
   plot.setAttribute("aria-label", `${title}. ${text ?? ""} The figures stand in the table below.`);

@@ -1,4 +1,4 @@
-// Milliseconds a frame beside the cost model's estimate, and how many times faster ours are than other projects' rasterizers.
+// Milliseconds per frame beside the cost model's estimate, and the speed-up of ours over the peers.
 import * as Plot from "@observablehq/plot";
 import { widthOf } from "./labels.js";
 import { backendLegend, backendLook, bar, decades, gridAt, legend, logTicks, plot, sample, tip } from "./look.js";
@@ -24,7 +24,7 @@ export function peers(view) {
   return charts.length ? [grid(view, charts, 480, (draw, width) => draw(width))] : [];
 }
 
-// Options that both charts share: a line a scene, within it a place for each backend, hollow for one thread.
+// Options that both charts share: a line per scene, within it a place for each backend, hollow for one thread.
 function lines(view, rows, width, x) {
   const scenes = [...new Set(rows.map((row) => row.scene))];
   const { backends } = view.result;
@@ -84,7 +84,7 @@ const hollow = (view) => (view.threads.length > 1 ? " Hollow: 1 thread; filled: 
 
 function timesChart(view, rows, width) {
   const before = view.other ? chosen(view, view.other.times) : [];
-  const all = [...rows, ...before].flatMap(({ ms, floors }) => [ms[0], floors[0] ?? ms[0]]);
+  const all = [...rows, ...before].flatMap(({ ms, estimates }) => [ms[0], estimates[0] ?? ms[0]]);
   const domain = [Math.min(...all) / 1.3, Math.max(...all) * 1.3];
   const time = (row) => row.ms[0];
   const parts = lines(view, rows, width, {
@@ -92,35 +92,35 @@ function timesChart(view, rows, width) {
     domain,
     ticks: decades(domain),
     tickFormat: short,
-    label: "ms a frame, backend alone, clear included",
+    label: "ms per frame, backend alone, clear included",
   });
-  const floored = rows.filter((row) => row.floors.length);
-  const floor = "#6e7781";
+  const modelled = rows.filter((row) => row.estimates.length);
+  const faint = "#6e7781";
   const drawn = plot({
     ...flip(parts.options),
     marks: [
       ...parts.stripes,
-      Plot.link(floored, {
-        x1: (row) => row.floors[0],
+      Plot.link(modelled, {
+        x1: (row) => row.estimates[0],
         x2: time,
         y1: parts.y,
         y2: parts.y,
-        stroke: floor,
+        stroke: faint,
         strokeDasharray: "1,2",
       }),
-      Plot.dot(floored, { x: (row) => row.floors[0], y: parts.y, symbol: bar, r: 5, stroke: floor, strokeWidth: 2.5 }),
+      Plot.dot(modelled, { x: (row) => row.estimates[0], y: parts.y, symbol: bar, r: 5, stroke: faint, strokeWidth: 2.5 }),
       parts.faint(before, time),
       parts.dots(rows, time),
       tip(rows, { x: time, y: parts.y, says: (row) => timesSay(row, before, view) }),
     ],
   });
   return chart({
-    title: "Milliseconds a frame, and an estimate",
+    title: "Milliseconds per frame, and an estimate",
     plot: drawn,
-    text: `Lower is better.${hollow(view)} Grey bars: the cost model's estimate if only the blocks that a triangle wins are drawn.${before.length ? ` Small and grey: ${view.other.name}.` : ""}`,
+    text: `Lower is better.${hollow(view)} Grey bars: the cost model's estimate if only blocks with a visible triangle are drawn.${before.length ? ` Small and grey: ${view.other.name}.` : ""}`,
     legend: legend([
       ...view.result.backends.map((name) => [sample(backendLook(view, name)), name]),
-      [sample({ colour: floor }, { dash: [1, 1] }), "estimate"],
+      [sample({ colour: faint }, { dash: [1, 1] }), "estimate"],
     ]),
     figures: [
       [
@@ -130,10 +130,10 @@ function timesChart(view, rows, width) {
         ["ms", time],
         ["fastest", (row) => row.ms[1]],
         ["slowest", (row) => row.ms[2]],
-        ["estimate, ms", (row) => row.floors[0] ?? "–"],
-        ["of covered blocks, ms", (row) => row.floors[1] ?? "–"],
-        ["in tiles, ms", (row) => row.floors[2] ?? "–"],
-        ["time / estimate", (row) => (row.floors.length ? row.ms[0] / row.floors[0] : "–")],
+        ["estimate, ms", (row) => row.estimates[0] ?? "–"],
+        ["of covered blocks, ms", (row) => row.estimates[1] ?? "–"],
+        ["in tiles, ms", (row) => row.estimates[2] ?? "–"],
+        ["time / estimate", (row) => (row.estimates.length ? row.ms[0] / row.estimates[0] : "–")],
       ],
       rows,
     ],
@@ -146,9 +146,9 @@ function timesSay(row, before, view) {
   return [
     `${row.scene}: ${row.backend}, ${row.threads} thread${row.threads > 1 ? "s" : ""}`,
     `${ms} ms (${low} to ${high})`,
-    row.floors.length && `estimate ${number(row.floors[0])} ms`,
-    row.floors.length && `estimate for all covered blocks ${number(row.floors[1])} ms`,
-    row.floors.length && `estimate in tiles ${number(row.floors[2])} ms`,
+    row.estimates.length && `estimate ${number(row.estimates[0])} ms`,
+    row.estimates.length && `estimate for all covered blocks ${number(row.estimates[1])} ms`,
+    row.estimates.length && `estimate in tiles ${number(row.estimates[2])} ms`,
     other && `${view.other.name}: ${number(other.ms[0])} ms`,
   ];
 }
@@ -167,7 +167,7 @@ function peerChart(view, peer, found, width) {
     domain,
     ticks: logTicks(domain),
     tickFormat: (ratio) => `${short(ratio)}×`,
-    label: `time of ${peer} over time of ours`,
+    label: `speed-up over ${peer}`,
   });
   const drawn = plot({
     ...flip(parts.options),
@@ -197,7 +197,7 @@ function peerChart(view, peer, found, width) {
     ],
   });
   return chart({
-    title: `How many times faster ours are than ${peer}`,
+    title: `Speed-up of ours over ${peer}`,
     plot: drawn,
     legend: backendLegend(view),
     text: `${view.result.peer_versions[peer]}. Meshes from vertices to picture, others from screen triangles.${hollow(view)}${before.length ? ` Small and grey: ${view.other.name}.` : ""}`,
@@ -207,7 +207,7 @@ function peerChart(view, peer, found, width) {
         ["threads", (row) => row.threads],
         [`${peer}, ms`, (row) => row.ms[0]],
         ["over", (row) => row.backend],
-        ["times faster", (row) => row.ratio],
+        ["speed-up", (row) => row.ratio],
         ["from", (row) => row.draws],
       ],
       rows,

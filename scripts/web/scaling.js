@@ -1,4 +1,4 @@
-// The speed-up that a frame's work and critical path allow on more cores, a chart a scene.
+// The estimated speed-up of a frame on more cores, a chart per scene.
 import * as Plot from "@observablehq/plot";
 import { backendLegend, backendLook, gridAt, plot, tip } from "./look.js";
 import { chart, grid, number } from "./page.js";

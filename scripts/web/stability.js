@@ -1,4 +1,4 @@
-// Errors along a sweep from easy to hard, a chart a sweep; below it who shares a line, and where each starts to fail.
+// Errors along a sweep from easy to hard, a chart per sweep; below it the methods of each line, and their first failures.
 import * as Plot from "@observablehq/plot";
 import { gridAt, kindLook, legend, plot, sample, tip, zeroScale } from "./look.js";
 import { chart, element, folded, grid, number, short, table } from "./page.js";

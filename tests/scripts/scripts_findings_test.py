@@ -99,7 +99,7 @@ class FindingsTest(unittest.TestCase):
         narrow = bench({**rows, "tiled/a/target:avx2/threads:2": 2.0, "m/threads:2": 1.0}, peers="ext", ext="Ext 1, 256 bits")
         self.assertIn("With AVX2, 256 bits it wins all 1 streams from screen triangles to picture, 4.0× faster.", peer_finding(narrow))
         table = peer_tables(narrow, markdown)
-        self.assertIn("| faster with AVX-512, 512 bits | faster with AVX2, 256 bits |", table)
+        self.assertIn("| speed-up with AVX-512, 512 bits | speed-up with AVX2, 256 bits |", table)
         self.assertIn("| – / 8.0× | – / 4.0× |", table)
         self.assertEqual(peer_finding(bench(scene("a", 2.0, 8.0, 1.0))), "")
 

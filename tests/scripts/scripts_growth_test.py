@@ -36,8 +36,8 @@ class ReadmeTest(unittest.TestCase):
         self.assertIn("| cube | tiled | 2.0× | 2.0× | 3.0× | the longest task of build in bins.cpp: 50% of the path |", text)
         self.assertIn("charged 2 µs", text)
         self.assertIn("at 1920 × 1080: `slow` 20.2 µs on one thread, 20.2 on two (+10.1 against half)", text)
-        self.assertIn("9.6 bytes a pixel", text)
-        self.assertIn("no scene takes more than 60%", text)
+        self.assertIn("9.6 bytes per pixel", text)
+        self.assertIn("no scene needs more than 60%", text)
 
     def test_models_apart_say_what_they_said_among_the_timed_rows(self):
         data = scripts_test.bench()

@@ -1,4 +1,4 @@
-"""The table of planted mistakes, and scripts/checks/mutations.py."""
+"""The table of mutants, and scripts/checks/mutations.py."""
 import subprocess
 import sys
 import tempfile
@@ -68,7 +68,7 @@ class MutateTest(unittest.TestCase):
     def test_an_unknown_name_is_told(self):
         result = subprocess.run([ROOT / "scripts/mutate", "--only", "nobody"], capture_output=True, text=True, check=False)
         self.assertEqual((result.returncode, result.stderr),
-                         (2, "mutate: there is no mistake nobody; --list prints them\n"))
+                         (2, "mutate: there is no mutant nobody; --list prints them\n"))
 
     def test_the_copy_follows_the_tree_and_keeps_what_is_the_same(self):
         tree = self.folder / "copy"

@@ -109,13 +109,13 @@ class ProveTest(unittest.TestCase):
 
     def test_a_claim_without_a_weakened_form_is_refused(self):
         self.write(CLAIM)
-        with self.assertRaisesRegex(BadInput, "claim even has no weakened form"):
+        with self.assertRaisesRegex(BadInput, "claim even has no deliberately false variant"):
             read_sections(self.folder)
         self.write(WEAKENED)
-        with self.assertRaisesRegex(BadInput, "even is weakened, but is no claim"):
+        with self.assertRaisesRegex(BadInput, "even has a false variant, but no claim"):
             read_sections(self.folder)
         self.write(CLAIM + CLAIM + WEAKENED)
-        with self.assertRaisesRegex(BadInput, "even stands twice"):
+        with self.assertRaisesRegex(BadInput, "even occurs twice"):
             read_sections(self.folder)
 
     def test_a_constant_that_drifts_from_its_source_is_refused(self):

@@ -211,7 +211,7 @@ class ScriptsTest(unittest.TestCase):
         self.assertNotIn("normal_z", text)
         (self.results / "bench.json").write_text(json.dumps(bench_with_normals()))
         self.assertEqual(run("readme", "--file", readme).returncode, 0)
-        self.assertIn("`tiled` 2.0×. Culling them before projection, by the z of their normals (`normal_z`), gives `cube`: `slow` "
+        self.assertIn("`tiled` 2.0×. Culling them before projection, by the z of their normals (`normal_z`): `cube`: `slow` "
                       "1.5×, `tiled` 1.5×, 1,234 px wrong.", readme.read_text())
         (self.results / "demos.json").unlink()
         self.fails(run("readme", "--file", readme), "demos.json", "No such file")
@@ -236,7 +236,7 @@ class ScriptsTest(unittest.TestCase):
         readme.write_text("<!-- results: results -->\n<!-- generated:cost_model -->\n<!-- /generated -->\n")
         self.assertEqual(run("readme", "--file", readme).returncode, 0)
         self.assertIn("- `large`, tiled on one thread: 2.10 ms measured, 1.4 ms estimated (0.9 to write the frame, 0.4 for the "
-                      "100 blocks that a triangle wins, 0.1 to read the triangles). With all 400 covered blocks the estimate is "
+                      "100 blocks with a visible triangle, 0.1 to read the triangles). With all 400 covered blocks the estimate is "
                       "2.6 ms; with the frame stored tile by tile, 1.8 ms.",
                       readme.read_text())
 
@@ -253,7 +253,7 @@ class ScriptsTest(unittest.TestCase):
             return readme.read_text()
 
         self.assertIn("a random read took 15 ns (14 to 160) in a buffer of half the last-level cache, and 180 ns (170 to "
-                      "190) in a far larger one: other processes left it to us.", told((0.14, 1.6, 0.15)))
+                      "190) in a far larger one: other processes left it free.", told((0.14, 1.6, 0.15)))
         self.assertIn("other processes filled it", told((0.14, 1.6, 0.7)))
         compared = run("compare", self.results, self.results).stdout
         self.assertIn("In the second: Between the rows, a random read took 70 ns", compared)
@@ -441,13 +441,13 @@ class ScriptsTest(unittest.TestCase):
 
 
 class AblationTest(unittest.TestCase):
-    """ablation.steps(): from the plainest backend over the rungs to the last row."""
+    """ablation.steps(): from the plainest backend over the steps to the last row."""
 
     @classmethod
     def setUpClass(cls):
         sys.path.insert(0, str(SCRIPTS / "reporting"))
 
-    def test_rungs_stand_between_the_suites_own_rows(self):
+    def test_steps_stand_between_the_suites_own_rows(self):
         from bench_rows import Bench, parse_name
         from ablation import steps
         rows = {}
@@ -551,9 +551,9 @@ class TenfoldTest(unittest.TestCase):
 
 
 class LabelsTest(unittest.TestCase):
-    """plot_labels.place(): labels of a crowd stand apart, inside, and off the points."""
+    """plot_labels.place(): dense labels stand apart, inside, and off the points."""
 
-    def test_labels_of_a_crowd_stand_apart(self):
+    def test_dense_labels_stand_apart(self):
         if importlib.util.find_spec("matplotlib") is None:
             raise unittest.SkipTest("no matplotlib")
         sys.path.insert(0, str(SCRIPTS / "reporting"))
