@@ -81,7 +81,8 @@ def fewer_errors(scene, ours):
     less = sum(m.rate < ours.rate for m in others)
     if not others:
         return ""
-    return f"{less or 'none'} of {len(others)} other methods {'err' if less > 1 else 'errs'} less"
+    count = "all" if less == len(others) else f"{less or 'none'} of"
+    return f"{count} {len(others)} other methods {'err' if less > 1 else 'errs'} less"
 
 
 def speed_title(scene, machine):
@@ -93,7 +94,7 @@ def speed_title(scene, machine):
     less = fewer_errors(scene, first)
     if scene.family == "coverage":
         return f"{compared(first, fastest(others)[0], machine)}; {less}".replace("`", "")
-    return f"{first.method.name} makes {number(first.rate)} errors per 10⁶ on {scene.name}; {less}"
+    return f"{first.method.name} makes {number(first.rate, 2)} errors per 10⁶ on {scene.name}; {less}"
 
 
 def speed_chart(scene, name, machine, folder, caption):

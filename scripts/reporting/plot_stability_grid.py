@@ -37,8 +37,9 @@ def title(families):
             if all(c.starts_to_fail is None for method, curves in rows if method.ours for c in curves if c)]
     failing = [family for family, _, _ in families if family not in held]
     if not failing:
-        return "Ours hold along every sweep"
-    return f"Ours hold in {' and '.join(held) or 'no family'}, not in {' and '.join(failing)}"
+        return "Ours err no more than rounding to 1/256 px along every sweep"
+    return (f"Ours err no more than rounding to 1/256 px in {' and '.join(held)}; they fail in {' and '.join(failing)}" if held else
+            f"Ours fail in {' and '.join(failing)}")
 
 
 def grid(sweeps, accuracy, folder, caption):

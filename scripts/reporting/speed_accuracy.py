@@ -6,9 +6,9 @@ from tables import short
 TRIALS = {"coverage": "edge crossings", "visibility": "covered pixels", "facing": "visible faces",
           "clipping": "covered pixels"}
 SUBTITLES = {
-    "coverage": "Further left: fewer errors; further down: faster. Errors are counted against exact arithmetic on the "
-                "positions before any snapping. Filled: no wrong pixel given the snapped positions. Ours use the widest "
-                "SIMD, the others scalar code; the title compares them on one thread.",
+    "coverage": "Further left: fewer errors; further down: faster. Errors are counted against the exact picture of the "
+                "unsnapped positions. Filled: none given the snapped positions. Ours use SIMD, the others scalar code; the "
+                "title is about one thread.",
     "visibility": "Further left: fewer errors; further down: faster. The visible triangle of a pixel is judged by exact "
                   "planes on the snapped positions. All methods share the same exact coverage.",
     "facing": "Further left: fewer errors; further down: faster. Front faces are judged by the exact sign of the projected "

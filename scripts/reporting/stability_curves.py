@@ -94,23 +94,26 @@ def where(curve, sweep):
 
 
 def summary(sweep, groups):
-    """The sweep's finding: "`fixed_8_int32` breaks at 182 px; 4 methods fail from the start; ours hold"."""
+    """The sweep's finding: "ours hold; fixed_8_int32 breaks at 182 px; 4 others fail from the start"."""
     breaking = sorted(((place_of_failure(curve), curve, m.name) for members, curve in groups for m in members
                        if not m.ours and curve.starts_to_fail not in (None, curve.points[0][0])), key=lambda item: item[0])
     failing_first = sum(not m.ours for members, curve in groups for m in members if curve.starts_to_fail == curve.points[0][0])
     own = [curve for members, curve in groups if any(m.ours for m in members)]
+    rounding = max(sweep.by_snapping) > 0
+    hold = "ours err no more than rounding to 1/256 px" if rounding else "ours hold"
     parts = []
     if own:
         failed = [curve for curve in own if curve.starts_to_fail is not None]
-        parts.append(f"ours break {where(min(failed, key=place_of_failure), sweep)}" if failed else "ours hold")
+        parts.append(f"ours break {where(min(failed, key=place_of_failure), sweep)}" if failed else hold)
     if len(breaking) > 2:
         parts.append(f"{len(breaking)} others break, {breaking[0][2]} first, {where(breaking[0][1], sweep)}")
     else:
         parts += [f"{name} breaks {where(curve, sweep)}" for _, curve, name in breaking]
     if failing_first:
-        parts.append(f"{failing_first} other{'s fail' if failing_first > 1 else ' fails'} from the start")
+        one, many = ("errs more", "err more") if rounding else ("fails", "fail")
+        parts.append(f"{failing_first} other{f' {one}' if failing_first == 1 else f's {many}'} from the start")
     elif not breaking:
-        parts.append("so do all others" if parts == ["ours hold"] else "no other method breaks")
+        parts.append("no other method breaks")
     return "; ".join(parts)
 
 
