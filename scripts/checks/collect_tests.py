@@ -13,7 +13,7 @@ from junit import read_tests, totals  # noqa: E402
 COUNTED = ("cases", "comparisons")  # properties that tests record
 # Test suites with cases of one kind, which can be added up.
 FAMILIES = {"properties": r"Properties|CoverageProperties", "lattices": r"EveryTriangle", "conformance": r"Conformance\w*",
-            "invalid_input": r"HostileInput"}
+            "invalid_input": r"InvalidInput"}
 
 
 def members(tests, pattern):

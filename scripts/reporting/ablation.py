@@ -6,16 +6,16 @@ from speedups import about, kernels, speed_up
 from tables import milliseconds
 
 START = "naive"
-NAMES = {"vector-setup": "+ SIMD set-up", "prefetch": "+ prefetch", "patches": "+ coverage masks",
+NAMES = {"vector-setup": "+ SIMD set-up", "prefetch": "+ prefetch", "coverage-masks": "+ coverage masks",
          "hierarchical-depth": "+ HiZ", "stepped": "+ incremental edges", "tiles": "+ tiles"}
 
 
 def steps(bench, scene):
     """[(label, row)] from the plainest to the last: rows of the suite at both ends, those of the ablation between them."""
-    rows = [row for row in bench.sweep("rung") if row.scene == scene]
+    rows = [row for row in bench.sweep("step") if row.scene == scene]
     backend = rows[-1].backend
     named = [(f"{START}, 1 thread", bench.find(f"{START}/{scene}/threads:1"))]
-    named += [(NAMES.get(row.keys["rung"], f"… with {kernels(row.keys['rung'])}"), row) for row in rows]
+    named += [(NAMES.get(row.keys["step"], f"… with {kernels(row.keys['step'])}"), row) for row in rows]
     named += [("+ choice of tile store", bench.find(f"{backend}/{scene}/threads:1")),
               ("+ second thread", bench.find(f"{backend}/{scene}/threads:2"))]
     return [(label, row) for label, row in named if row]

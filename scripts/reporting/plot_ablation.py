@@ -33,7 +33,7 @@ def panel(axes, bench, scene, named):
 
 
 def ablation(bench, folder, caption):
-    scenes = list(dict.fromkeys(row.scene for row in bench.sweep("rung")))
+    scenes = list(dict.fromkeys(row.scene for row in bench.sweep("step")))
     if not scenes:
         return None
     named = {scene: steps(bench, scene) for scene in scenes}

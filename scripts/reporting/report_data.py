@@ -68,7 +68,7 @@ def peers(bench):
 
 def ablation(bench):
     found = []
-    for scene in dict.fromkeys(row.scene for row in bench.sweep("rung")):
+    for scene in dict.fromkeys(row.scene for row in bench.sweep("step")):
         named = steps(bench, scene)
         befores = [None, *(row for _, row in named)]
         found.append({"scene": scene, "steps": [

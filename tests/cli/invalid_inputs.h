@@ -55,7 +55,7 @@ inline constexpr Hostile kHostile[] = {
     {"edgewise render cube --target avx9 -o $DIR/a.png", 2, "unknown SIMD target 'avx9'; did you mean 'avx"},
     {"edgewise render cube --cull bak -o $DIR/a.png", 2, "did you mean 'back'"},
     {"edgewise render cube --payload color -o $DIR/a.png", 2, "did you mean 'colour'"},
-    {"edgewise render cube --payload hits --backend wireframe -o $DIR/a.png", 2, "does not fill them"},
+    {"edgewise render cube --payload hits --wireframe -o $DIR/a.png", 2, "does not fill them"},
     {"edgewise capture cub -o $DIR/a.tri", 2, "did you mean 'cube'"},
     {"edgewise verify cub --json $DIR/a.json", 2, "did you mean 'cube'"},
     {"edgewise accuracy drtk_squad --json $DIR/a.json", 2, "did you mean 'drtk_quad'"},

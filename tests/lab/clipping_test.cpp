@@ -25,7 +25,7 @@ ClippingScore judge(std::string_view name, const ClippingScene& scene) {
 }
 
 TEST(Clipping, EveryFileOfTheFolderIsRegistered) {
-  expect_folder_registered("clipping_methods", clipping_methods());
+  expect_folder_registered("clipping/methods", clipping_methods());
 }
 
 TEST(Clipping, EveryMethodKeepsItsPromiseAndTheImpreciseFailSomewhere) {

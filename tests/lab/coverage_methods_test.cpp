@@ -183,7 +183,7 @@ INSTANTIATE_TEST_SUITE_P(Registry, EveryCoverageMethod, ::testing::ValuesIn(meth
 TEST(CoverageRegistry, HoldsEveryFileInTheFolderAndEveryBackendOnce) {
   std::set<std::string> expected, names;
   for (const auto& entry :
-       std::filesystem::directory_iterator(EDGEWISE_SOURCE_DIR "/src/lab/coverage_methods"))
+       std::filesystem::directory_iterator(EDGEWISE_SOURCE_DIR "/src/lab/coverage/methods"))
     if (entry.path().extension() == ".cpp") expected.insert(entry.path().stem());
   for (const auto& backend : backends()) expected.emplace(backend.name);
   for (const auto& method : coverage_methods()) names.emplace(method.info.name);

@@ -22,7 +22,7 @@ FacingScore judge(std::string_view name, const FacingScene& scene) {
 }
 
 TEST(Facing, EveryFileOfTheFolderIsRegistered) {
-  expect_folder_registered("facing_methods", facing_methods());
+  expect_folder_registered("facing/methods", facing_methods());
 }
 
 TEST(Facing, EveryMethodKeepsItsPromiseAndFailsOnFloatInputSomewhere) {

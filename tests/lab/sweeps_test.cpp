@@ -124,8 +124,7 @@ INSTANTIATE_TEST_SUITE_P(Registry, EverySweep, ::testing::ValuesIn(sweep_names()
 TEST(SweepRegistry, HoldsEverySweepOfTheSourcesOnce) {
   std::multiset<std::string> written, names;
   const std::regex definition(R"(\nSweep make_sweep_(\w+)\(\) \{\n\s*return \{"(\w+)\")");
-  for (const auto& entry : std::filesystem::directory_iterator(EDGEWISE_SOURCE_DIR "/src/lab")) {
-    if (!entry.path().filename().string().starts_with("sweeps_")) continue;
+  for (const auto& entry : std::filesystem::directory_iterator(EDGEWISE_SOURCE_DIR "/src/lab/sweeps")) {
     const std::string text = file_content(entry.path());
     for (std::sregex_iterator match(text.begin(), text.end(), definition), end; match != end; ++match) {
       written.insert((*match)[1]);

@@ -40,7 +40,7 @@ std::vector<ScreenTriangle> screen_of(const VisibilityScene& scene) {
 }
 
 TEST(Visibility, EveryFileOfTheFolderIsRegistered) {
-  expect_folder_registered("visibility_methods", visibility_methods());
+  expect_folder_registered("visibility/methods", visibility_methods());
 }
 
 TEST(Visibility, EveryMethodKeepsItsPromiseAndFailsSomewhere) {

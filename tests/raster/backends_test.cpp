@@ -236,15 +236,6 @@ TEST_P(EveryBackend, RefusesAFrameOfAnotherSizeThanTheFrontEndsImage) {
 INSTANTIATE_TEST_SUITE_P(Registry, EveryBackend, ::testing::ValuesIn(testing::all_drawers()),
                          [](const auto& param) { return testing::test_name(param); });
 
-TEST(Registry, HoldsEveryFileInTheBackendsFolder) {
-  std::set<std::string> files, names;
-  for (const auto& entry : std::filesystem::directory_iterator(EDGEWISE_SOURCE_DIR "/src/raster/backends"))
-    files.insert(entry.path().stem());
-  for (const auto& b : backends()) names.emplace(b.name);
-  EXPECT_TRUE(std::includes(names.begin(), names.end(), files.begin(), files.end()));
-  EXPECT_EQ(names.size(), backends().size()) << "a name stands there twice";
-}
-
 TEST(Registry, SuggestsTheNearestName) {
   try {
     find_backend("scanlien");

@@ -53,8 +53,8 @@ def bench(slow=(10.0, 10.2, 10.1), tiled=(2.0, 2.1, 2.2)):
             rows += entries(f"{backend}+frontend/cube/cull:{mode}/threads:2", [t * factor for t in times])
         if backend == "tiled":
             rows += entries("naive/cube/threads:1", [9 * t for t in times])
-            for rung, factor in (("tiles", 4), ("avx2", 2)):
-                rows += entries(f"tiled/cube/rung:{rung}/threads:1", [t * factor for t in times])
+            for step, factor in (("tiles", 4), ("avx2", 2)):
+                rows += entries(f"tiled/cube/step:{step}/threads:1", [t * factor for t in times])
         for target, factor in (("scalar", 4), ("avx2", 1)):
             rows += entries(f"{backend}/cube/target:{target}/threads:1", [t * factor for t in times])
     return {"context": {"backends": "slow tiled", "machine": "test"}, "benchmarks": rows}
@@ -452,9 +452,9 @@ class AblationTest(unittest.TestCase):
         from ablation import steps
         rows = {}
         for name, times in (("naive/cube/threads:1", [9.0]), ("tiled/cube/threads:1", [2.0]), ("tiled/cube/threads:2", [1.0]),
-                            ("naive/cube/rung:stepped/threads:1", [8.5]),
-                            ("tiled/cube/rung:tiles/threads:1", [8.0]), ("tiled/knot/rung:tiles/threads:1", [5.0]),
-                            ("tiled/cube/rung:avx2/threads:1", [4.0])):
+                            ("naive/cube/step:stepped/threads:1", [8.5]),
+                            ("tiled/cube/step:tiles/threads:1", [8.0]), ("tiled/knot/step:tiles/threads:1", [5.0]),
+                            ("tiled/cube/step:avx2/threads:1", [4.0])):
             rows[name] = parse_name(name)
             rows[name].times_ms = times
         self.assertEqual([row.median_ms for _, row in steps(Bench({}, rows), "cube")], [9.0, 8.5, 8.0, 4.0, 2.0, 1.0])

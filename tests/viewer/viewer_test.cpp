@@ -26,8 +26,10 @@ Image rendered(std::string_view scene, Cull cull, app::Size size = kTestSize,
   options.width = size.width, options.height = size.height;
   options.cull = cull;
   Framebuffer frame(size.width, size.height);
-  find_backend(backend).make()->draw(frontend.run(find_scene(scene).make({size.width, size.height}), options),
-                                     frame.view(), rgb(0, 0, 0), {});
+  (backend == wireframe().name ? wireframe() : find_backend(backend))
+      .make()
+      ->draw(frontend.run(find_scene(scene).make({size.width, size.height}), options), frame.view(),
+             rgb(0, 0, 0), {});
   return to_image(frame);
 }
 
