@@ -1,5 +1,5 @@
-// The built-in scenes. All are deterministic: the same name, size, time and scale give the same bits
-// everywhere. Any thread may call anything here.
+// The built-in scenes. They are deterministic: the same name, size, time and scale give the same bits on
+// every machine. Any thread may call these functions.
 #pragma once
 
 #include "edgewise/cxx20.h"
@@ -14,29 +14,30 @@
 namespace edgewise {
 
 struct SceneRequest {
-  int width = 1920, height = 1080;  // px, 1 … contract::kMaxImageSide; meshes look the same in any
+  int width = 1920, height = 1080;  // px, 1 … contract::kMaxImageSide; scenes of meshes ignore it
   float time = 0.0f;                // s, for scenes that turn
-  double scale = 1.0;               // factor on the number of triangles, > 0; only of scalable scenes
+  double scale = 1.0;               // factor on the number of triangles, > 0; only scalable scenes use it
 };
 
 struct SceneInfo {
-  std::string_view name;  // the one key in command line, tests, results and charts
-  std::string_view idea;  // one line
-  bool stream;            // true: a TriangleStream, to be drawn without culling or shading
-  // Throws std::invalid_argument for a size or scale that it cannot make.
+  std::string_view name;  // the key in the command line, tests, results and charts
+  std::string_view idea;  // a description in one line
+  bool stream;            // true: make() returns a TriangleStream, to be drawn without culling
+  // Throws std::invalid_argument if it cannot make the requested size or scale.
   Drawable (*make)(const SceneRequest&);
-  bool scalable = stream;  // SceneRequest::scale changes it
+  bool scalable = stream;  // true: SceneRequest::scale changes the number of triangles
 };
 
-// Valid for as long as the program.
+// All built-in scenes. Valid until the program ends.
 std::span<const SceneInfo> builtin_scenes();
 
-// Throws std::invalid_argument, with the nearest known name, for an unknown one.
+// Throws std::invalid_argument for an unknown name; the message suggests the nearest known one.
 const SceneInfo& find_scene(std::string_view name);
 
-// A stream of `count` triangles of `area_px` square pixels each, at random places over the image, overlapping
-// at its borders, at random depths. `aspect` is length over width of a sliver; 0 draws from all shapes.
-// Throws std::invalid_argument where request.scale makes none of it, or more than 10^8.
+// A stream of count × request.scale triangles (at least 1) of `area_px` square pixels each. Their centres are
+// random points of the image, so some reach over its border; depths, windings and colours are random too.
+// `aspect` > 0 makes slivers of about that length over width; 0 draws from many shapes. Throws
+// std::invalid_argument if request.scale is not positive or gives more than 10^8 triangles.
 TriangleStream random_stream(const SceneRequest& request, std::size_t count, double area_px, double aspect,
                              std::uint64_t seed);
 

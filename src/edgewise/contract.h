@@ -1,10 +1,11 @@
-// The numeric contract. Every rule stands here once, with its derivation; other files cite it by number.
+// The numeric contract. This file states each rule once, with its derivation. Other files cite rules by
+// number.
 //
-// The idea: everything a backend computes is integer arithmetic, which stays associative even when it wraps,
-// so a backend may step, tile, vectorise or thread as it likes and still write the same bits. Floats end in
-// the front end; a backend may use them where it shows that rounding cannot change what they decide.
+// Backends compute with integers. Integer addition stays associative even when it wraps, so a backend may
+// step, tile, vectorise or thread in any order and still write the same bits. Floats end in the front end. A
+// backend may use floats only where it shows that rounding cannot change a decision.
 //
-// What is claimed here of all inputs is proven by a solver: raster/proofs, run by scripts/prove.
+// The z3 solver proves the claims about all inputs: raster/proofs, run by scripts/prove.
 //
 // Sources: fill rule, snapping and sample positions follow the D3D11.3 functional specification, section 3.4
 // (rasterization rules); edge functions are those of Pineda, "A Parallel Algorithm for Polygon
@@ -22,11 +23,11 @@ namespace edgewise::contract {
 
 __extension__ using int128 = __int128;
 
-// Rule 1, screen space. y points down, pixel (0, 0) is top left, and a pixel is sampled at its centre only:
-// pixel p has its sample at sub-unit 256 p + 128.
+// Rule 1, screen space. y points down, and pixel (0, 0) is top left. Each pixel has one sample, at its
+// centre: the sample of pixel p is at 256 p + 128 sub-units (of 1/256 px).
 //
-// Rule 2, snapping. x and y are rounded half to even to 1/256 px before anything looks at them. Facing,
-// coverage and depth see snapped positions only.
+// Rule 2, snapping. x and y are rounded half to even to 1/256 px. Facing, coverage and depth use only the
+// snapped positions.
 inline constexpr int kSubBits = 8;
 inline constexpr std::int32_t kSub = 1 << kSubBits;
 inline constexpr std::int32_t kHalf = kSub / 2;
@@ -35,9 +36,9 @@ constexpr std::int32_t sample_sub(std::int32_t pixel) {
   return pixel * kSub + kHalf;
 }
 
-// Rule 3, guard band. |x|, |y| <= 2^22 sub-units (16384 px). The front end clips what lies beyond, so a
-// difference of coordinates is at most 2^23, and the largest image is one whose every sample lies inside the
-// band.
+// Rule 3, guard band. |x|, |y| <= 2^22 sub-units (16384 px). The front end clips geometry beyond the band, so
+// the difference of two coordinates is at most 2^23. The largest image is the largest one whose samples all
+// lie inside the band.
 inline constexpr std::int32_t kGuardSub = 1 << 22;
 inline constexpr std::int32_t kMaxImageSide = kGuardSub / kSub;
 static_assert(kMaxImageSide == 16384 && sample_sub(kMaxImageSide - 1) < kGuardSub);
@@ -45,14 +46,14 @@ static_assert(kMaxImageSide == 16384 && sample_sub(kMaxImageSide - 1) < kGuardSu
 // Rule 4, edge function and fill rule. For the edge from p to q of a triangle of positive area
 //   E(s) = a (s.x - p.x) + b (s.y - p.y),  a = p.y - q.y,  b = q.x - p.x
 // is >= 0 on the inner side. A sample exactly on an edge belongs to the triangle only if that edge is a left
-// edge (a > 0) or a top edge (a = 0, b > 0); on any other edge a bias of -1 turns E = 0 into "outside". So
-// the inside test is E + bias >= 0 for all three edges. Width: |a|, |b| <= 2^23 and |s - p| <= 2^23, hence
-// |E| <= 2^47.
+// edge (a > 0) or a top edge (a = 0, b > 0). On any other edge, a bias of -1 turns E = 0 into "outside". So
+// the inside test is E + bias >= 0 for all three edges. Bound: |a|, |b| <= 2^23 and |s - p| <= 2^23 on each
+// axis, hence |E| <= 2^47.
 struct Edge {
   std::int32_t a, b;
   std::int64_t c;  // bias - a p.x - b p.y
 
-  // Biased edge value at the sample of a pixel.
+  // The biased edge value at a pixel's sample, in sub-units squared.
   constexpr std::int64_t at(std::int32_t px, std::int32_t py) const {
     return std::int64_t{a} * sample_sub(px) + std::int64_t{b} * sample_sub(py) + c;
   }
@@ -64,28 +65,33 @@ constexpr bool is_top_left(std::int32_t a, std::int32_t b) {
   return a > 0 || (a == 0 && b > 0);
 }
 
-// Rule 5, tile shortcut. Steps from sample to sample are multiples of 256, and floor((E + 256 k) / 256) =
-// floor(E / 256) + k: the biased value may be shifted right by 8 once and stepped by a and b afterwards, and
-// its sign still decides as the full value does. Bias first, then shift. In a tile of up to 64 x 64 pixels
-// that the edge crosses, the shifted value stays within 64 (|a| + |b|) <= 2^30 of zero: int32 lanes suffice.
+// Rule 5, tile shortcut. A step to the next sample changes E by 256 a or 256 b, and floor((E + 256 k) / 256)
+// = floor(E / 256) + k. So a backend may add the bias, shift the value right by 8 once, and then step it by a
+// and b: its sign stays that of the full value. The bias must be added before the shift. In a tile of up to
+// 64 x 64 px that the edge crosses, the shifted value stays within 64 (|a| + |b|) <= 2^30 of zero, so int32
+// lanes suffice.
 inline constexpr int kMaxTile = 64;
 static_assert(std::int64_t{kMaxTile} * 2 * (2 * kGuardSub) <= std::int64_t{1} << 30);
 
-// Rule 6, depth. Vertices carry z in [kDepthHead, kDepthHead + kDepthRange]; the front end maps depth 0 and 1
-// to the ends, half to even. Over a triangle depth is the plane through the vertices, in fixed point with
-// wrap-around:
+// Rule 6, depth. A vertex has z in [kDepthHead, kDepthHead + kDepthRange]. The front end maps depth 0 and 1
+// to the ends of this range and rounds half to even. Inside a triangle, depth is the plane through its
+// vertices, in fixed point with wrap-around:
 //   gx, gy   = floor(2^16 dz/dpx), floor(2^16 dz/dpy)           per pixel step, 16 fraction bits, mod 2^64
 //   base     = floor(plane at the first sample of the pixel's 64 x 64 cell + 1/2)           mod 2^32
 //   z(x, y)  = base + (x mod 64) zx + (y mod 64) zy,  zx = floor(gx / 2^16 + 1/2)           mod 2^32
-// The plane is anchored at the topmost, then leftmost vertex, so rotating or flipping the vertices changes no
-// bit. Error at a sample inside the triangle: gx, gy are off by less than 2^-16 each over at most 2^15 px,
-// base rounds by 1/2, and 63 steps on both axes are off by at most 1/2 each: under 2 (1/2) + 1/2 + 126 (1/2)
-// < 65. A head-room of at least 128 units at both ends of the 31 bits therefore keeps every drawn depth from
-// wrapping, and keeps it below kDepthClear, so the background never wins. The range is a multiple of 4, so it
-// has 29 significant bits, and its product with a float (24 bits) is exact in a double (53 bits): the front
-// end rounds a depth only once. The cells lie fixed in the image: a triangle moved by whole pixels keeps its
-// samples, but its depths only if moved by multiples of 64; else they may differ by two errors, under 2 * 65
-// units.
+// The plane is anchored at the topmost vertex (the leftmost of several), so the order of the vertices changes
+// no bit.
+//
+// Error at a sample inside the triangle, in units: gx and gy are off by less than 2^-16 each over at most
+// 2^15 px, base rounds by 1/2, and 63 steps on each axis are off by at most 1/2 each. The sum is under
+// 2 (1/2) + 1/2 + 126 (1/2) < 65. At least 128 units stay free at both ends of the 31 bits. So no drawn depth
+// wraps, and each is below kDepthClear: the background never wins.
+//
+// The range is a multiple of 4, so it has 29 significant bits. Its product with a float (24 bits) is exact in
+// a double (53 bits), so the front end rounds a depth only once.
+//
+// The cells are fixed in the image. A triangle that is moved by whole pixels keeps its samples. It keeps its
+// depths only if it moves by multiples of 64 px; else they may change by two errors, under 2 * 65 units.
 inline constexpr int kDepthCell = 64;
 inline constexpr std::uint32_t kDepthHead = 128;
 inline constexpr std::uint32_t kDepthClear = 0x7FFFFFFF;
@@ -94,34 +100,36 @@ inline constexpr std::uint32_t kDepthError = 65;
 static_assert(kDepthHead > kDepthError && kDepthCell == kMaxTile);
 static_assert(kDepthRange % 4 == 0 && kDepthRange < std::uint32_t{1} << 31);
 
-// Contract units → depth from 0 (near) to 1 (far); the background is 1.
+// Contract units → depth from 0 (near) to 1 (far). The background becomes 1.
 constexpr double depth01(std::uint32_t depth) {
   return std::clamp((static_cast<double>(depth) - kDepthHead) / kDepthRange, 0.0, 1.0);
 }
 static_assert(depth01(kDepthHead) == 0 && depth01(kDepthHead + kDepthRange) == 1 &&
               depth01(kDepthClear) == 1);
 
+// The depth plane of a triangle (rule 6).
 struct DepthPlane {
   std::uint64_t gx, gy;  // 48.16 fixed point per pixel, wrapped
   std::uint64_t origin;  // 2^24 (plane at pixel (0, 0) + 1/2), wrapped
   std::uint32_t zx, zy;  // gx, gy rounded to whole units
 
-  // Depth at the first pixel of a cell; both coordinates are multiples of kDepthCell.
+  // Depth at a cell's first pixel. Both coordinates must be multiples of kDepthCell.
   constexpr std::uint32_t base(std::int32_t cell_px, std::int32_t cell_py) const {
     return static_cast<std::uint32_t>((origin + gx * (static_cast<std::uint64_t>(cell_px) << kSubBits) +
                                        gy * (static_cast<std::uint64_t>(cell_py) << kSubBits)) >>
                                       24);
   }
+  // Depth at a pixel's sample.
   constexpr std::uint32_t at(std::int32_t px, std::int32_t py) const {
     const std::int32_t x = px % kDepthCell, y = py % kDepthCell;
     return base(px - x, py - y) + static_cast<std::uint32_t>(x) * zx + static_cast<std::uint32_t>(y) * zy;
   }
 };
 
-// floor(2^24 n / area) mod 2^64, for |n| <= 2^54 and 0 < area <= 2^46 (both are twice the area of a triangle
-// inside a box, which is at most the box). A double quotient is within one unit of the truth while it stays
-// below 2^51; the remainder, whose true size is a few areas, corrects it exactly even though it is computed
-// modulo 2^64.
+// floor(2^24 n / area) mod 2^64, for |n| <= 2^54 and 0 < area <= 2^46. Both are twice the area of a triangle
+// inside a box, which is at most the area of the box. While the double quotient stays below 2^51, it is
+// within one unit of the exact quotient. The remainder then corrects it exactly: its true size is a few
+// areas, so computing it modulo 2^64 loses nothing.
 inline std::uint64_t gradient(std::int64_t n, std::int64_t area) {
   const double quotient = static_cast<double>(n) * 16777216.0 / static_cast<double>(area);
   if (quotient > -0x1p51 && quotient < 0x1p51) {
@@ -138,21 +146,23 @@ inline std::uint64_t gradient(std::int64_t n, std::int64_t area) {
   return static_cast<std::uint64_t>(g);
 }
 
-// Rule 7, depth test. "Less" wins; at a tie the triangle that was submitted earlier stays.
+// Rule 7, depth test. The smaller depth wins. Of triangles with equal depth, the one submitted first wins.
 //
-// Rule 8, payload. The 32 bits of the winner are copied; a backend never looks at them.
+// Rule 8, payload. The winner's 32-bit payload is copied. A backend never interprets it.
 //
-// Rule 9, no contraction. Everything is built with -ffp-contract=off, so that the front end's floats (and the
-// double estimate above) do not depend on the machine either.
+// Rule 9, no contraction. Everything is built with -ffp-contract=off (no fused multiply-add), so the front
+// end's floats, and the double estimate above, are the same on every machine.
 
-// Twice the signed area in sub-units squared; positive is clockwise on the y-down screen, which is the front.
+// Twice the signed area, in sub-units squared. Positive is clockwise on the y-down screen, which is the
+// front.
 constexpr std::int64_t signed_area(const ScreenTriangle& t) {
   return std::int64_t{t.x_sub[1] - t.x_sub[0]} * (t.y_sub[2] - t.y_sub[0]) -
          std::int64_t{t.y_sub[1] - t.y_sub[0]} * (t.x_sub[2] - t.x_sub[0]);
 }
 
-// The pixels whose samples lie in the triangle's bounding box, clipped to an image; half open. The box's
-// right and lower sides are excluded: the fill rule (4) never gives a sample there to this triangle.
+// The pixels whose samples lie in a triangle's bounding box, clipped to an image: columns x0 … x1 - 1 and
+// rows y0 … y1 - 1. Samples on the box's right and lower sides are left out: by the fill rule (4) they never
+// belong to this triangle.
 struct PixelBox {
   std::int32_t x0, y0, x1, y1;
   constexpr bool empty() const { return x0 >= x1 || y0 >= y1; }
@@ -167,11 +177,11 @@ constexpr PixelBox pixel_box(const ScreenTriangle& t, std::int32_t width, std::i
           std::min(first(max_y), height)};
 }
 
-// A triangle turned to positive area.
+// A triangle whose vertices are ordered so that its area is positive.
 struct Oriented {
-  std::int32_t x[3], y[3];
-  std::int64_t z[3];
-  std::int64_t area;  // > 0, or 0: draw nothing
+  std::int32_t x[3], y[3];  // sub-units
+  std::int64_t z[3];        // contract units
+  std::int64_t area;        // twice the area, in sub-units squared; 0: the triangle draws nothing
 };
 
 constexpr Oriented orient(const ScreenTriangle& t) {
@@ -190,7 +200,7 @@ constexpr Edge make_edge(const Oriented& t, int i) {
   return {a, b, (is_top_left(a, b) ? 0 : -1) - std::int64_t{a} * t.x[i] - std::int64_t{b} * t.y[i]};
 }
 
-// The depth plane (rule 6) of a triangle whose area is not zero.
+// The depth plane (rule 6) of a triangle. Its area must not be zero.
 inline DepthPlane make_depth(const Oriented& t) {
   const std::int64_t dz1 = t.z[1] - t.z[0], dz2 = t.z[2] - t.z[0];
   DepthPlane d;

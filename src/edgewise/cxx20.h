@@ -1,7 +1,8 @@
-// Every public header includes this one first.
+// Stops compilers in a mode older than C++20. Every public header includes this one first.
 #pragma once
 
-// A header that doesn't exist stops GCC and Clang at once; after #error, hundreds of other errors follow.
+// GCC and Clang stop at once if an included file does not exist. After #error they would go on and print
+// hundreds of other errors.
 #if __cplusplus < 202002L
 #include "Edgewise needs C++20: compile with -std=c++20"
 #endif

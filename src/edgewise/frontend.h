@@ -1,5 +1,5 @@
-// Scene → screen triangles: transform, cull, clip, project, snap, shade. The only place where floats become
-// fixed point.
+// The front end turns a scene into screen triangles: it transforms, culls, clips, projects, snaps and shades.
+// It is the only part that converts floats to fixed point.
 #pragma once
 
 #include "edgewise/cxx20.h"
@@ -15,74 +15,80 @@
 
 namespace edgewise {
 
+// Which triangles to drop for their facing.
 enum class Cull { none, back, front, both };
-std::span<const Cull> cull_modes();
+std::span<const Cull> cull_modes();   // all four
 std::string_view name_of(Cull cull);  // "none", "back", "front", "both"
 
 enum class Payload {
   colour,  // 0xAABBGGRR
-  // Index of the source triangle in submission order; the pieces of a clipped triangle share one. A face of
-  // four vertices is two triangles (Mesh::face_of).
+  // Index of the source triangle in submission order. All pieces of a clipped triangle have the same id. The
+  // two triangles of a face of four vertices have different ids (Mesh::face_of).
   id
 };
 
-// What became of a submitted triangle; of one that was cut, of all its pieces together. The later in this
-// list, the further it came.
+// The outcome of a submitted triangle, in the order of the steps. The state of a clipped triangle is that of
+// its piece that got furthest.
 enum class TriangleState : std::uint8_t {
-  outside_with_mesh,  // its mesh lies beyond one side of the view volume as a whole
-  not_finite,         // a vertex is NaN or infinite, or became so
-  outside,            // beyond one side of the view volume, or nothing is left after clipping
-  not_in_front,       // w ≤ 0 is left after clipping
-  zero_area,          // no area after snapping
-  culled,             // for its facing
-  active,             // handed on whole
-  clipped             // handed on, cut
+  outside_with_mesh,  // dropped: the whole mesh lies beyond one side of the view volume
+  not_finite,         // dropped: a vertex is NaN or infinite, before or after the transform
+  outside,            // dropped: beyond one side of the view volume, or nothing left after clipping
+  not_in_front,       // dropped: a vertex still has w ≤ 0 after clipping
+  zero_area,          // dropped: no area after snapping
+  culled,             // dropped for its facing
+  active,             // returned unclipped
+  clipped             // returned clipped
 };
 
 struct FrontendOptions {
   int width = 1920, height = 1080;  // px, 1 … contract::kMaxImageSide
-  Cull cull = Cull::back;           // front is clockwise on the y-down screen
-  bool shade = true;                // scenes only: colour times max(n·l, 0.15)
+  Cull cull = Cull::back;           // the front is clockwise on the y-down screen
+  bool shade = true;                // scenes only: multiplies each colour by max(n·l, 0.15)
   Payload payload = Payload::colour;
   int threads = 1;  // 1 … kMaxThreads
-  // For judging: remember where each triangle lay before it was snapped, and keep those that lost their area
-  // by it.
+  // For measurements: keeps each triangle's vertices as they were before snapping, and does not drop
+  // triangles that snapping leaves without area. Slower.
   bool keep_unsnapped = false;
-  bool keep_states = false;  // remember what became of each triangle; slower, and the same triangles
+  bool keep_states = false;  // records the TriangleState of each triangle; slower, same triangles
   SimdTarget target = SimdTarget::best;
 };
 
-// A screen triangle's vertices as they were before snapping: pixels, and depth in [0, 1].
+// The vertices of a screen triangle before snapping: x and y in pixels, depth in [0, 1].
 struct UnsnappedTriangle {
   float x_px[3], y_px[3], z01[3];
 };
 
-// Where each triangle went. `triangles` = whole_mesh + not_finite + outside + not_in_front + (those that went
-// on); those that went on become `pieces`, and pieces = culled + zero_area + emitted.
+// Counts of one call of Frontend::run.
+//   triangles = whole_mesh + not_finite + outside + not_in_front + (triangles that are split into pieces)
+//   pieces    = culled + zero_area + emitted
+// An unclipped triangle is one piece.
 struct FrontendStats {
   std::uint64_t meshes = 0;         // instances submitted
-  std::uint64_t meshes_culled = 0;  // instances outside the frustum as a whole
+  std::uint64_t meshes_culled = 0;  // instances that lie beyond one side of the view volume as a whole
   std::uint64_t triangles = 0;      // submitted
-  std::uint64_t whole_mesh = 0;     // dropped with their mesh
-  std::uint64_t not_finite = 0;     // dropped: a vertex is NaN or infinite, or became so
+  std::uint64_t whole_mesh = 0;     // dropped with their instance
+  std::uint64_t not_finite = 0;     // dropped: a vertex is NaN or infinite, before or after the transform
   std::uint64_t outside = 0;        // dropped: beyond a side of the view volume, or nothing left by clipping
-  std::uint64_t not_in_front = 0;   // dropped: w ≤ 0 is left after clipping
-  std::uint64_t clipped = 0;        // reached beyond one or more of the following; some of them end above
-  std::uint64_t clipped_near = 0;   // the near plane
-  std::uint64_t clipped_far = 0;    // the far plane
-  std::uint64_t clipped_guard = 0;  // the guard band
+  std::uint64_t not_in_front = 0;   // dropped: a vertex still has w ≤ 0 after clipping
+  std::uint64_t clipped = 0;        // sent to the clipper; it may still drop them (outside, not_in_front)
+  std::uint64_t clipped_near = 0;   // of those: crossed the near plane
+  std::uint64_t clipped_far = 0;    // of those: crossed the far plane
+  std::uint64_t clipped_guard = 0;  // of those: crossed a side of the guard band
   std::uint64_t pieces = 0;         // triangles after clipping
-  std::uint64_t culled = 0;         // dropped for their facing
-  std::uint64_t zero_area = 0;      // dropped: no area after snapping
-  std::uint64_t emitted = 0;
+  std::uint64_t culled = 0;         // pieces dropped for their facing
+  std::uint64_t zero_area = 0;      // pieces dropped: no area after snapping
+  std::uint64_t emitted = 0;        // pieces returned
 
   FrontendStats& operator+=(const FrontendStats& other);
 };
 
-// Keeps its memory between frames, and allocates none after the first of a kind: 16 bytes a vertex of the
-// largest mesh, 3 MB at most for a group of small ones; 40 a visible triangle, and less than 1 MB a thread;
-// with keep_unsnapped 36 a visible triangle more, and as much a thread again; with keep_states 1 a submitted
-// triangle. One object must not work on two threads at once.
+// A front end keeps its memory between frames and allocates only in the first frame of a kind. It keeps
+// - 16 bytes per vertex of the largest mesh, or up to 3 MB for a group of small meshes,
+// - 40 bytes per visible triangle (and address space for as many per submitted one),
+// - less than 1 MB per thread,
+// - with keep_unsnapped, 36 bytes more per visible triangle and less than 1 MB more per thread,
+// - with keep_states, 1 byte per submitted triangle.
+// Two threads must not use one object at once.
 class Frontend {
  public:
   Frontend();
@@ -90,20 +96,27 @@ class Frontend {
   Frontend(Frontend&&) noexcept;
   Frontend& operator=(Frontend&&) noexcept;
 
-  // The visible triangles in submission order, in this object's memory: valid until the next call, or until
-  // the object goes. Backend::draw() refuses them for a frame of another size than options.width x
-  // options.height. Neither argument is kept, and a drawable may be run by several front ends at once.
-  // Throws std::invalid_argument for a camera, a size or a thread count out of range, an instance that names
-  // a mesh the scene lacks, a mesh without a colour for each triangle, more than kMaxTriangles (before any
-  // memory is taken for them), a triangle of a mesh in view that names a vertex its mesh lacks, or a SIMD
-  // target that this machine cannot run; std::bad_alloc for lack of memory. It may be called again after
-  // either.
+  // Returns the visible triangles in submission order. They lie in this object's memory and are valid until
+  // the next call or the object's destruction. Backend::draw() throws if the frame is not options.width x
+  // options.height pixels. Neither argument is kept. Several front ends may run one drawable at once.
+  //
+  // Throws std::bad_alloc if memory runs out, and std::invalid_argument for
+  // - a camera, image size or thread count out of range,
+  // - an instance whose mesh index the scene lacks,
+  // - a mesh without one colour per triangle, or whose flags are neither empty nor one per triangle, or whose
+  //   first triangle has kSecondHalf,
+  // - a triangle, of an instance in view, whose vertex index the mesh lacks,
+  // - more than kMaxTriangles triangles (before memory is allocated for them),
+  // - a SIMD target that this machine cannot run.
+  // The object may be used again after an exception.
   ScreenTriangles run(const Drawable& drawable, const FrontendOptions& options);
-  // Of the last call of run().
+  // Counts of the last call of run().
   const FrontendStats& stats() const;
-  // One for each triangle that run() returned, if keep_unsnapped was set; else none, as when it threw.
+  // One entry per triangle that run() returned, if keep_unsnapped was set. Empty otherwise and after an
+  // exception. Valid as long as those triangles.
   std::span<const UnsnappedTriangle> unsnapped() const;
-  // One for each triangle that was submitted, in order, if keep_states was set; else none, as when it threw.
+  // One entry per submitted triangle, in order, if keep_states was set. Empty otherwise and after an
+  // exception. Valid until the next call of run().
   std::span<const TriangleState> states() const;
 
  private:

@@ -1,5 +1,5 @@
-// Pictures and depth maps on disk, and the difference of two. Part of edgewise::files. Everything here is a
-// value or a function without state: any thread may call anything at any time.
+// Pictures and depth maps: reading, writing and comparing them. Part of edgewise::files. The types are plain
+// values and the functions have no state, so any thread may call them at any time.
 #pragma once
 
 #include "edgewise/cxx20.h"
@@ -12,7 +12,7 @@
 
 namespace edgewise {
 
-// 8-bit RGB; colours are 0xAABBGGRR and alpha is ignored.
+// An 8-bit RGB picture. Pixels are 0xAABBGGRR; alpha is ignored.
 struct Image {
   int width = 0, height = 0;          // px
   std::vector<std::uint32_t> pixels;  // row by row, top first
@@ -20,40 +20,44 @@ struct Image {
 
 struct DepthMap {
   int width = 0, height = 0;   // px
-  std::vector<float> depth01;  // row by row, top first; 0 is near, 1 far or background
+  std::vector<float> depth01;  // row by row, top first; 0 is near, 1 is far or background
 };
 
-// Copies of a frame; any view that can be drawn into will do.
+// Copies of a frame's payload or depth. A FrameView or a Framebuffer converts to ConstFrameView.
 Image to_image(const ConstFrameView& frame);
-DepthMap to_depth_map(const ConstFrameView& frame);  // units of rule 6 → [0, 1]
+DepthMap to_depth_map(const ConstFrameView& frame);  // contract units (rule 6) → [0, 1]
 
-// Both take .png and .ppm (P6), by the extension. A written file appears under its name only when it is
-// whole. All four throw std::runtime_error, naming the file and the reason: it cannot be opened, read or
-// written; it is malformed, truncated, or of another format; a side is outside 1 … contract::kMaxImageSide;
-// there are not width x height pixels.
+// The next four functions throw std::runtime_error, with the file's name and the reason, if
+// - the file cannot be opened, read or written,
+// - it is malformed, truncated or of another format,
+// - a side is outside 1 … contract::kMaxImageSide,
+// - the picture to write does not have width x height pixels.
+// A written file appears under its name only when it is complete.
+
+// PNG or PPM (P6), by the extension .png or .ppm.
 void write_image(const std::filesystem::path& path, const Image& image);
 Image read_image(const std::filesystem::path& path);
 
-// PFM ("Pf", rows bottom up on disk), written in little endian, read in either.
+// PFM ("Pf", rows bottom up on disk). Written in little endian, read in either byte order.
 void write_pfm(const std::filesystem::path& path, const DepthMap& map);
 DepthMap read_pfm(const std::filesystem::path& path);
 
-// True for the extensions that write_image and read_image know.
+// True if the extension is one that write_image and read_image accept.
 bool is_image_path(const std::filesystem::path& path);
 
 struct Difference {
   std::uint64_t count = 0;         // pixels that differ
-  double largest = 0.0;            // largest difference of a channel (0 … 255) or of a depth
-  int first_x = -1, first_y = -1;  // px; of the first in reading order, or -1
-  Image picture;                   // grey where equal, red where not, brighter for a larger difference
+  double largest = 0.0;            // the largest difference of a channel (0 … 255) or of a depth
+  int first_x = -1, first_y = -1;  // px; the first pixel that differs, row by row from the top; -1: none
+  Image picture;                   // grey where equal, red where not; brighter red for a larger difference
 };
 
-// Both throw std::invalid_argument if the sizes differ.
+// Compares two pictures or depth maps. Throws std::invalid_argument if their sizes differ.
 Difference difference(const Image& a, const Image& b);
 Difference difference(const DepthMap& a, const DepthMap& b);
 
-// Each pixel becomes a square of `factor` pixels. Throws std::invalid_argument for a factor below 1 or a side
-// beyond contract::kMaxImageSide.
+// Repeats each pixel as a square of factor x factor pixels. Throws std::invalid_argument if the factor is
+// below 1 or a side of the result exceeds contract::kMaxImageSide.
 Image enlarge(const Image& image, int factor);
 
 }  // namespace edgewise

@@ -1,5 +1,5 @@
-// How large things may be, apart from what memory holds; contract.h has the limits of images and coordinates.
-// Whoever allocates checks before it does.
+// Limits on counts and sizes. contract.h has those of images and coordinates. Functions check these limits
+// before they allocate.
 #pragma once
 
 #include "edgewise/cxx20.h"
@@ -9,10 +9,11 @@
 
 namespace edgewise {
 
-inline constexpr int kMaxThreads = 256;                             // of a draw or a front end
-inline constexpr std::size_t kMaxTriangles = std::size_t{1} << 30;  // submitted to a frame, or drawn in one
+inline constexpr int kMaxThreads = 256;  // per call of a front end or a backend
+// Per frame, both before and after clipping.
+inline constexpr std::size_t kMaxTriangles = std::size_t{1} << 30;
 
-// tinyobjloader counts vertices in an int, and a vertex takes at least the eight bytes of "v 0 0 0\n".
+// Bytes. tinyobjloader counts vertices in an int, and a vertex takes at least the 8 bytes of "v 0 0 0\n".
 inline constexpr std::uint64_t kMaxObjBytes = std::uint64_t{8} << 31;
 
 }  // namespace edgewise

@@ -1,4 +1,4 @@
-// Wavefront OBJ meshes, read by tinyobjloader. Part of edgewise::files; any thread may call it.
+// Wavefront OBJ meshes, read by tinyobjloader. Part of edgewise::files. Any thread may call this.
 #pragma once
 
 #include "edgewise/cxx20.h"
@@ -9,11 +9,11 @@
 
 namespace edgewise {
 
-// A scene of one mesh in one light grey, with a camera in front of it that sees all of it. Polygons of any
-// size are triangulated, negative (relative) indices are resolved, and windings are reversed, since
-// counter-clockwise is front in OBJ and clockwise is front here. Throws std::runtime_error, naming the file
-// and what is wrong with it, for a file that is missing, malformed, without faces, larger than kMaxObjBytes,
-// or with an index that is out of range.
+// A scene of one light grey mesh, with a camera placed by frame_camera. Polygons of any size are
+// triangulated. Negative (relative) indices are resolved. Windings are reversed: the front is
+// counter-clockwise in OBJ and clockwise here. Throws std::runtime_error, with the file's name and the fault,
+// if the file is missing, malformed, without faces or larger than kMaxObjBytes, or if an index is out of
+// range.
 Scene read_obj(const std::filesystem::path& path);
 
 }  // namespace edgewise

@@ -1,5 +1,6 @@
-// What can be drawn: meshes seen by a camera under a light, or a stream of triangles already on the screen.
-// All are plain values that own what they hold. Nothing is checked until they are drawn (Frontend::run).
+// The two kinds of input: a scene (meshes, a camera and a light), or a stream of triangles that are already
+// on the screen. All types here are plain values that own their data. Frontend::run checks them; nothing is
+// checked before.
 #pragma once
 
 #include "edgewise/cxx20.h"
@@ -12,55 +13,56 @@
 
 namespace edgewise {
 
-// World space is right-handed with y up: x right, z towards a camera of yaw 0 and pitch 0, which looks along
-// -z. Colours are 0xAABBGGRR (red in the lowest byte). Angles are radians, lengths are world units.
+// World space is right-handed: x points right, y up, and z backwards for a camera of yaw 0 and pitch 0, which
+// looks along -z. Colours are 0xAABBGGRR (red in the lowest byte). Angles are in radians, lengths in world
+// units.
 
-// Each 0 … 255; opaque.
+// An opaque colour. Each channel must be in 0 … 255, which is not checked.
 constexpr std::uint32_t rgb(std::uint32_t r, std::uint32_t g, std::uint32_t b) {
   return 0xFF000000u | b << 16 | g << 8 | r;
 }
 
-// What sets a triangle apart from others.
-inline constexpr std::uint8_t kTwoSided = 1;  // never culled for its facing, and lit on the side that is seen
-inline constexpr std::uint8_t kSecondHalf = 2;  // with the triangle before it, a face of four vertices
+// Triangle flags (Mesh::marks).
+inline constexpr std::uint8_t kTwoSided = 1;    // never culled, and lit on the side that the camera sees
+inline constexpr std::uint8_t kSecondHalf = 2;  // forms a face of four vertices with the triangle before it
 
 struct Mesh {
-  std::vector<glm::vec3> positions;
-  std::vector<glm::uvec3> triangles;   // indices into positions; clockwise seen from outside is front
-  std::vector<std::uint32_t> colours;  // one a triangle
-  std::vector<std::uint8_t> marks{};   // of each triangle, the sum of the above; or empty: none has any
+  std::vector<glm::vec3> positions;    // model space
+  std::vector<glm::uvec3> triangles;   // indices into positions; the side seen clockwise is the front
+  std::vector<std::uint32_t> colours;  // one per triangle
+  std::vector<std::uint8_t> marks{};   // flags, one sum per triangle; or empty: no triangle has a flag
 
   bool has_mark(std::size_t triangle, std::uint8_t mark) const {
     return !marks.empty() && (marks[triangle] & mark) != 0;
   }
-  // The first triangle of a triangle's face. It stands for the face: its colour and its light (by its own
-  // normal) are those of both halves.
+  // The index of the first triangle of a triangle's face. Both halves of a face use the colour and the normal
+  // of the first.
   std::size_t face_of(std::size_t triangle) const { return triangle - has_mark(triangle, kSecondHalf); }
-  // A face of four vertices a, b, c, d: the triangles a, b, c and a, c, d, in this order.
+  // Appends a face of four vertices a, b, c, d as two triangles: a, b, c and then a, c, d.
   void add_quad(glm::uvec4 corners, std::uint32_t colour, bool two_sided = false);
 };
 
-// A mesh in the world: scaled, then rotated about an axis through its origin, then moved. A scale with one or
-// three negative components mirrors the mesh. Only the winding decides which side is the front, and mirroring
-// reverses it: Cull::back shows the inside of a closed mesh, and the light falls on that side, too. To draw
-// the outside, give the instance a mesh whose triangles name their vertices in reverse order.
+// A mesh placed in the world: scaled, then rotated about an axis through its origin, then translated. A scale
+// with one or three negative components mirrors the mesh. Only the winding decides which side is the front,
+// and mirroring reverses it. So Cull::back then shows the inside of a closed mesh, and the light falls on
+// that side too. To draw the outside, use a mesh whose triangles list their vertices in reverse order.
 struct Instance {
   std::size_t mesh = 0;  // index into Scene::meshes
   glm::vec3 scale{1.0f};
-  glm::vec3 axis{0.0f, 1.0f, 0.0f};  // of any length; 0: no rotation
-  float angle = 0.0f;                // about the axis, counter-clockwise seen from its tip
+  glm::vec3 axis{0.0f, 1.0f, 0.0f};  // any length; length 0 means no rotation
+  float angle = 0.0f;                // radians about the axis, counter-clockwise seen from its tip
   glm::vec3 translation{0.0f};
 };
 
 struct Camera {
   glm::vec3 position{0.0f};
-  float yaw = 0.0f;     // about +y; positive turns left
-  float pitch = 0.0f;   // positive looks up
-  float fov_y = 1.0f;   // vertical field of view, in (0, pi)
+  float yaw = 0.0f;     // radians about +y; positive turns left
+  float pitch = 0.0f;   // radians; positive looks up
+  float fov_y = 1.0f;   // vertical field of view in radians, 0 < fov_y < pi
   float near_z = 0.1f;  // distances along the view direction, 0 < near_z < far_z
   float far_z = 100.0f;
 
-  // Turns the camera towards a point; one at the camera's own position changes nothing.
+  // Turns the camera towards a point. Does nothing if the point is the camera's own position.
   void look_at(glm::vec3 target);
 };
 
@@ -68,34 +70,37 @@ struct Scene {
   std::vector<Mesh> meshes;
   std::vector<Instance> instances;
   Camera camera;
-  glm::vec3 to_light{0.3f, 0.8f, 0.5f};  // direction towards the light, of any length but 0
+  glm::vec3 to_light{0.3f, 0.8f, 0.5f};  // direction towards the light; any length but 0
 };
 
-// One triangle of a stream: x and y in pixels (y down), z in [0, 1], smaller is nearer.
+// One triangle of a stream.
 struct StreamTriangle {
-  glm::vec3 vertex[3];
+  glm::vec3 vertex[3];  // x and y in pixels (y down), z in [0, 1]; smaller z is nearer
   std::uint32_t colour;
 };
 static_assert(sizeof(StreamTriangle) == 40);
 
 struct TriangleStream {
-  int width = 0, height = 0;  // px, the image it was made for
+  int width = 0, height = 0;  // px; the image size that the stream was made for
   std::vector<StreamTriangle> triangles;
 };
 
 using Drawable = std::variant<Scene, TriangleStream>;
 
-// Centres the bounding box of the scene's finite vertices on the origin and scales its longest side to 2.
-// Throws std::out_of_range, as frame_camera does, for an instance that names a mesh the scene lacks, and
-// std::invalid_argument for a box below about 10^-30 or above 10^38, or as far off in proportion.
+// Moves and scales the instances so that the bounding box of all finite vertices is centred on the origin and
+// its longest side is 2. Does nothing if that side is 0 or no vertex is finite. Throws std::out_of_range for
+// an instance whose mesh index the scene lacks. Throws std::invalid_argument if the longest side is below
+// about 10^-30 or above 10^38, or if the box is so far from the origin that its scaled centre would have a
+// coordinate beyond 2^100.
 void fit(Scene& scene);
 
-// Puts the camera where it sees all finite vertices from the front, a little to the right and above, with a
-// vertical field of view of 45 degrees and near and far planes around them. The image should be at least as
-// wide as high.
+// Places the camera in front of all finite vertices, a little to the right and above, so that it sees all of
+// them. Sets a vertical field of view of 45 degrees, and near and far planes around the vertices. The image
+// should be at least as wide as high. Throws std::out_of_range for an instance whose mesh index the scene
+// lacks.
 void frame_camera(Scene& scene);
 
-// Where an instance's mesh lies in the world.
+// The matrix from an instance's model space to world space.
 glm::mat4 model_matrix(const Instance& instance);
 
 }  // namespace edgewise

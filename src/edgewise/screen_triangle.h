@@ -1,4 +1,4 @@
-// What the front end hands to a backend: triangles on the snapped pixel grid.
+// The triangles that the front end passes to a backend, with vertices snapped to 1/256 px.
 #pragma once
 
 #include "edgewise/cxx20.h"
@@ -8,20 +8,21 @@
 
 namespace edgewise {
 
-// Vertices in either winding; see contract.h for the ranges (rules 2, 3 and 6), which the front end
-// guarantees and every backend relies on: who makes triangles by hand must keep to |x_sub|, |y_sub| <=
-// contract::kGuardSub and contract::kDepthHead <= z <= contract::kDepthHead + contract::kDepthRange. A
-// triangle of zero area draws nothing.
+// Either winding is allowed, and a triangle of zero area draws nothing. Backends rely on these ranges (rules
+// 3 and 6 of contract.h) and do not check them:
+//   |x_sub|, |y_sub| <= contract::kGuardSub
+//   contract::kDepthHead <= z <= contract::kDepthHead + contract::kDepthRange
+// The front end keeps to them. If you make triangles by hand, you must keep to them too.
 struct alignas(8) ScreenTriangle {
   std::int32_t x_sub[3];  // 1/256 px, x to the right
   std::int32_t y_sub[3];  // 1/256 px, y down
   std::uint32_t z[3];     // contract depth units (rule 6); smaller is nearer
-  std::uint32_t payload;  // written where the triangle wins: a colour when rendering, an id when judging
+  std::uint32_t payload;  // written where the triangle is visible: a colour or an id (Payload)
 };
 static_assert(sizeof(ScreenTriangle) == 40);
 
-// Triangles together with the image size they were made for. A backend refuses a frame of any other size. A
-// plain span carries no size, so a backend draws it to any frame.
+// Triangles and the image size they were made for. A backend throws if the frame has another size. A plain
+// span carries no size and is not checked. The triangles are not owned.
 class ScreenTriangles : public std::span<const ScreenTriangle> {
  public:
   ScreenTriangles(std::span<const ScreenTriangle> triangles, int width, int height)

@@ -1,4 +1,5 @@
-// The SIMD targets that kernels are compiled for, chosen at run time. Any thread may call anything here.
+// The SIMD instruction sets that kernels are compiled for, chosen at run time. Any thread may call these
+// functions.
 #pragma once
 
 #include "edgewise/cxx20.h"
@@ -8,17 +9,17 @@
 
 namespace edgewise {
 
-// All draw the same bits.
+// All targets draw the same bits.
 enum class SimdTarget { scalar, sse4, avx2, avx512, best };
 
-// The targets that were compiled and that this machine can run, slowest first; `best` stands for the last.
+// The targets that are compiled in and that this machine can run, slowest first. `best` means the last one.
 std::span<const SimdTarget> supported_targets();
 
 // "scalar", "sse4", "avx2", "avx512" or "best".
 std::string_view name_of(SimdTarget target);
 
-// `best` becomes the last supported target. Throws std::invalid_argument for one that this machine cannot
-// run.
+// Turns `best` into the last supported target and returns any other unchanged. Throws std::invalid_argument
+// for a target that this machine cannot run.
 SimdTarget resolve(SimdTarget target);
 
 }  // namespace edgewise

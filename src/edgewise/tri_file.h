@@ -1,6 +1,7 @@
-// Triangle streams on disk (.tri), little endian: "TRI1", uint32 width, height, count, then per triangle nine
-// float32 (x, y, z of three vertices) and a uint32 colour. Units as in StreamTriangle. Any thread may call
-// either, but only one at a time write to one std::ostream.
+// Triangle streams on disk (.tri). The format is little endian: "TRI1", then uint32 width, height and count,
+// then per triangle nine float32 (x, y, z of three vertices) and a uint32 colour. Units are those of
+// StreamTriangle. Any thread may call these functions, but two threads must not write to one std::ostream at
+// once.
 #pragma once
 
 #include "edgewise/cxx20.h"
@@ -12,14 +13,16 @@
 
 namespace edgewise {
 
-// Throws std::runtime_error, naming the file and what is wrong with it, for a file that is missing,
-// truncated, too long for its count, of another format, of a size outside 1 … contract::kMaxImageSide, or of
-// more than kMaxTriangles.
-// Vertices of any value, NaN included, are read as they are: the front end judges them.
+// Reads vertices of any value, NaN included, unchanged: the front end drops those it cannot draw. Throws
+// std::runtime_error, with the file's name and the fault, if the file
+// - cannot be opened or read, is truncated or of another format,
+// - is longer than its count of triangles says,
+// - has a width or height outside 1 … contract::kMaxImageSide,
+// - or has more than kMaxTriangles triangles.
 TriangleStream read_tri(const std::filesystem::path& path);
 
-// Throws std::invalid_argument for a stream that read_tri would refuse. A failure to write is left in the
-// state of `out`, or thrown if `out` throws.
+// Throws std::invalid_argument for a stream that read_tri would reject. A failed write sets the error state
+// of `out`, and throws if `out` is set to throw.
 void write_tri(std::ostream& out, const TriangleStream& stream);
 
 }  // namespace edgewise
