@@ -1,11 +1,11 @@
-// A vector of triangles at a time: three vertices each are fetched and transposed, tested against the sides
-// of the view, and culled by the sign of their area. If one of them has to be clipped or holds a NaN, the
-// whole vector goes one by one.
+// Assembles a vector of mesh triangles at a time. The kernel loads and transposes their vertices, tests them
+// against the sides of the view, and culls them by the sign of their area. If any triangle of the vector must
+// be clipped or is not finite, one_by_one.cpp handles the whole vector.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "frontend/assemble.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-// After Highway, which they need.
+// These need Highway first.
 #include "frontend/cull-inl.h"
 #include "frontend/lanes-inl.h"
 
@@ -19,14 +19,14 @@ HWY_BEFORE_NAMESPACE();
 namespace edgewise {
 namespace HWY_NAMESPACE {
 
-// False if the triangles must go one by one.
+// Returns false and appends nothing if add_one() must handle these triangles.
 template <bool kMarked>
-HWY_INLINE bool assemble_vector(const MeshTask& job, std::size_t first, RunOutput& out) {
-  if (job.one_by_one()) return false;
+HWY_INLINE bool assemble_vector(const MeshTask& task, std::size_t first, RunOutput& out) {
+  if (task.one_by_one()) return false;
   const DI d;
-  const std::uint32_t* index = &job.mesh.triangles[first].x;
+  const std::uint32_t* index = &task.mesh.triangles[first].x;
   const auto corner = [&](std::size_t k) HWY_ATTR {
-    return load_words([&](std::size_t lane) { return job.vertices + index[lane * 3 + k]; });
+    return load_words([&](std::size_t lane) { return task.vertices + index[lane * 3 + k]; });
   };
   const Words a = corner(0), b = corner(1), c = corner(2);
   const VI common = hn::And(a.word[3], hn::And(b.word[3], c.word[3]));
@@ -38,10 +38,11 @@ HWY_INLINE bool assemble_vector(const MeshTask& job, std::size_t first, RunOutpu
                             {a.word[1], b.word[1], c.word[1]},
                             {a.word[2], b.word[2], c.word[2]},
                             counting_from(first)},
-                           outside, job.options.cull, out, job.mesh.marks.data() + (kMarked ? first : 0));
+                           outside, task.options.cull, out, task.mesh.marks.data() + (kMarked ? first : 0));
   return true;
 }
 
+// True if the mesh has every vertex that triangles begin … end - 1 name.
 bool vertices_exist(const Mesh& mesh, std::size_t begin, std::size_t end) {
   const hn::RebindToUnsigned<DI> d;
   const std::uint32_t* index = &mesh.triangles[begin].x;
@@ -56,22 +57,22 @@ bool vertices_exist(const Mesh& mesh, std::size_t begin, std::size_t end) {
 }
 
 template <bool kMarked>
-void assemble_all(const MeshTask& job, std::size_t begin, std::size_t end, RunOutput& out) {
+void assemble_all(const MeshTask& task, std::size_t begin, std::size_t end, RunOutput& out) {
   const auto one_by_one = [&](std::size_t from, std::size_t to) {
-    for (std::size_t i = from; i < to; ++i) add_one(job, i, out);
+    for (std::size_t i = from; i < to; ++i) add_one(task, i, out);
   };
   std::size_t i = begin;
   for (; i + kLanes <= end; i += kLanes)
-    if (!assemble_vector<kMarked>(job, i, out)) one_by_one(i, i + kLanes);
+    if (!assemble_vector<kMarked>(task, i, out)) one_by_one(i, i + kLanes);
   one_by_one(i, end);
 }
 
-bool assemble(const MeshTask& job, std::size_t begin, std::size_t end, RunOutput& out) {
-  if (!vertices_exist(job.mesh, begin, end)) return false;
-  if (job.mesh.marks.empty())
-    assemble_all<false>(job, begin, end, out);
+bool assemble(const MeshTask& task, std::size_t begin, std::size_t end, RunOutput& out) {
+  if (!vertices_exist(task.mesh, begin, end)) return false;
+  if (task.mesh.marks.empty())
+    assemble_all<false>(task, begin, end, out);
   else
-    assemble_all<true>(job, begin, end, out);
+    assemble_all<true>(task, begin, end, out);
   return true;
 }
 

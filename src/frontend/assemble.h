@@ -1,4 +1,4 @@
-// Triangles of a mesh from its transformed vertices. See assemble.cpp.
+// Assembles a mesh's triangles from its transformed vertices. See assemble.cpp.
 #pragma once
 
 #include "edgewise/simd_target.h"
@@ -6,9 +6,9 @@
 
 namespace edgewise {
 
-// Appends what is visible of triangles begin … end - 1 to the output, with their index in the mesh as
-// payload. Returns false and appends nothing if one of them names a vertex that the mesh lacks.
-using AssembleKernel = bool (*)(const MeshTask& job, std::size_t begin, std::size_t end, RunOutput& out);
+// Appends the visible pieces of triangles begin … end - 1 to the output, with the triangle's index in the
+// mesh as payload. Returns false and appends nothing if a triangle names a vertex that the mesh lacks.
+using AssembleKernel = bool (*)(const MeshTask& task, std::size_t begin, std::size_t end, RunOutput& out);
 
 // `target` must be resolved.
 AssembleKernel assemble_kernel(SimdTarget target);

@@ -11,8 +11,7 @@ namespace {
 
 constexpr double kGuardPx = contract::kMaxImageSide;
 
-// Distance to a plane times something positive; inside is >= 0. In double, so that no finite vertex
-// overflows.
+// Distance to a plane times a positive factor; >= 0 is inside. In double, so that no finite vertex overflows.
 double distance(const ClipVertex& v, std::uint16_t plane) {
   const double guard = kGuardPx * v.w;
   switch (plane) {
@@ -31,7 +30,8 @@ double distance(const ClipVertex& v, std::uint16_t plane) {
   }
 }
 
-// In double: the difference of two finite floats may overflow, and the cut should lie on the edge.
+// The point where an edge crosses a plane. In double: the difference of two finite floats may overflow, and
+// the point should lie close to the edge.
 ClipVertex cut(const ClipVertex& inside, const ClipVertex& outside, double inside_distance,
                double outside_distance) {
   const double t = inside_distance / (inside_distance - outside_distance);

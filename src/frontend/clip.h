@@ -7,14 +7,14 @@
 
 namespace edgewise {
 
-// A vertex before the division, with the viewport already applied: x / w and y / w are pixels, z / w is depth
-// in [0, 1].
+// A vertex in clip space with the viewport already applied: x / w and y / w are pixels, z / w is depth in
+// [0, 1].
 struct ClipVertex {
   float x, y, z, w;
 };
 
-// On which outer sides of the view a vertex lies; every test is linear in the vertex, so a triangle all of
-// whose vertices share a side lies wholly beyond it, whatever the signs of w.
+// The sides of the view that a vertex lies beyond, as flags. Every test is linear in the vertex. So if all
+// vertices of a triangle lie beyond one side, the whole triangle does, whatever the signs of w.
 enum Outside : std::uint16_t {
   kNear = 1,
   kFar = 2,
@@ -32,15 +32,18 @@ enum Outside : std::uint16_t {
   kInvisible = kNear | kFar | kLeft | kRight | kTop | kBottom,
 };
 
+// The flags of a vertex; kNotFinite alone if a coordinate is NaN or infinite.
 std::uint16_t outside_of(const ClipVertex& v, float width_px, float height_px);
 
-// Clips a triangle against those of the near, far and guard planes that `planes` names, and returns the
-// polygon: no vertex, or three to nine, in the triangle's order. A cut is always interpolated from the inside
-// vertex to the outside one, so that both triangles at an edge get the bit-identical vertex.
+// Clips triangles against the near, far and guard planes.
 class Clipper {
  public:
-  static constexpr std::size_t kMaxVertices = 3 + 6;  // each plane adds at most one
+  static constexpr std::size_t kMaxVertices = 3 + 6;  // each plane adds at most one vertex
 
+  // Clips a triangle against the planes in `planes` (flags of Outside). Returns the polygon in the triangle's
+  // order: empty, or of 3 … kMaxVertices vertices. It is valid until the next call. A new vertex is always
+  // interpolated from the inside vertex to the outside one, so both triangles that share an edge get the same
+  // bits.
   std::span<const ClipVertex> clip(const ClipVertex (&triangle)[3], std::uint16_t planes);
 
  private:

@@ -1,7 +1,7 @@
-// The end of every kernel that makes triangles: those without area and those that face the wrong way are
-// dropped, and the rest is appended to a run's output. Shared by assemble.cpp and stream.cpp.
+// The last step of assemble.cpp and stream.cpp: drops triangles without area or with the wrong facing, and
+// appends the rest to a chunk's output.
 //
-// Compiled once a SIMD target, like lanes-inl.h.
+// Compiled once per SIMD target, like lanes-inl.h.
 #if defined(EDGEWISE_FRONTEND_CULL_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef EDGEWISE_FRONTEND_CULL_INL_H
 #undef EDGEWISE_FRONTEND_CULL_INL_H
@@ -24,7 +24,7 @@ struct TriangleVectors {
   VI x[3], y[3], z[3], payload;
 };
 
-// Negative, zero or positive, as the signed area is. Exact: a product of differences has at most 46 bits.
+// The sign of the area: -1, 0 or 1. Exact in double: a product of two differences has at most 46 bits.
 HWY_INLINE VI area_sign(const TriangleVectors& t) {
   const auto sign = [](auto dx1, auto dy1, auto dx2, auto dy2) HWY_ATTR {
     const hn::DFromV<decltype(dx1)> d;
@@ -35,8 +35,8 @@ HWY_INLINE VI area_sign(const TriangleVectors& t) {
                    hn::Sub(t.y[2], t.y[0]));
 }
 
-// Appends triangles that need no clipping, in order; `outside` are those beyond one side of the view. With
-// `kMarked`, `marks` are theirs.
+// Appends a vector of triangles that need no clipping, in order. `outside` selects those beyond a side of the
+// view, which are dropped. With `kMarked`, `marks` points to the triangles' flags.
 template <bool kMarked = false>
 HWY_INLINE void cull_and_append(const TriangleVectors& t, MI outside, Cull cull, RunOutput& out,
                                 const std::uint8_t* marks = nullptr) {
@@ -61,8 +61,8 @@ HWY_INLINE void cull_and_append(const TriangleVectors& t, MI outside, Cull cull,
   out.stats.emitted += kept;
   if (kept == 0) return;
 
-  // A lane that is dropped gets the place of the next one that is kept, which overwrites it. Highway's
-  // Compress() would do, but copies a table of 1 KB to the stack on AVX2.
+  // A dropped lane is stored where the next kept lane goes, which then overwrites it. Highway's Compress()
+  // copies a table of 1 KB to the stack on AVX2.
   std::uint8_t bits[8];
   hn::StoreMaskBits(d, keep, bits);
   std::uint32_t kept_lanes = 0;
@@ -78,7 +78,7 @@ HWY_INLINE void cull_and_append(const TriangleVectors& t, MI outside, Cull cull,
   };
   store_words({{t.x[0], t.x[1], t.x[2], t.y[0]}}, word(0));
   store_words({{t.y[1], t.y[2], t.z[0], t.z[1]}}, word(4));
-  store_words({{t.z[0], t.z[1], t.z[2], t.payload}}, word(6));  // ten words: two are written twice
+  store_words({{t.z[0], t.z[1], t.z[2], t.payload}}, word(6));  // writes words 6 and 7 again: ten in all
   out.count += kept;
 }
 

@@ -1,6 +1,9 @@
-// The order of the steps, each of which has a file of its own: vertices (transform.cpp), triangles
-// (assemble.cpp or stream.cpp, with one_by_one.cpp and clip.cpp for what is special), colours (shade.cpp),
-// and their places (in_order.h). Instances go through them in groups, cut into runs (runs.h).
+// Runs the steps of the front end. Each step has a file of its own:
+// - vertices: transform.cpp
+// - triangles: assemble.cpp for meshes, stream.cpp for streams; one_by_one.cpp and clip.cpp for special cases
+// - colours: shade.cpp
+// - output in submission order: in_order.h
+// Instances are processed in groups, and each group is cut into chunks (runs.h).
 #include "edgewise/frontend.h"
 
 #include <algorithm>
@@ -98,28 +101,27 @@ FrontendStats& FrontendStats::operator+=(const FrontendStats& o) {
   return *this;
 }
 
-// An instance's part in the work of a group.
+// One instance of a group.
 struct GroupMember {
-  GroupMember(const MeshTask& its_job, const ShadeJob& its_light, std::size_t vertices_before,
+  GroupMember(const MeshTask& its_task, const ShadeTask& its_light, std::size_t vertices_before,
               std::uint32_t id)
-      : job(its_job), light(its_light), first_vertex(vertices_before), first_id(id) {}
+      : task(its_task), light(its_light), first_vertex(vertices_before), first_id(id) {}
 
-  MeshTask job;
-  ShadeJob light;
-  std::size_t first_vertex;  // in the group's memory
+  MeshTask task;
+  ShadeTask light;
+  std::size_t first_vertex;  // index into the group's vertices
   std::uint32_t first_id;
   std::uint32_t common = kInvisible | kNotFinite;  // sides beyond which all finite vertices lie
 
-  // True if the mesh lies beyond one side of the view as a whole; no side is known of one without a finite
-  // vertex.
+  // True if the whole mesh lies beyond one side of the view. False for a mesh without a finite vertex.
   bool out_of_sight() const { return (common & kNotFinite) == 0 && common != 0; }
 };
 
 struct Frontend::State {
-  // Instances that follow one another, and are worked on together: alone most would not be worth threads.
+  // A group holds consecutive instances: most are too small to be worth several threads alone.
   static constexpr std::size_t kMaxVertices = 4 * kWorthThreads, kMaxMembers = kWorthThreads;
   std::vector<GroupMember> group;
-  Runs vertex_runs, triangle_runs;
+  Chunks vertex_chunks, triangle_chunks;
   Buffer<Vertex> vertices;
 
   InOrder order;
@@ -133,30 +135,31 @@ struct Frontend::State {
 
   void transform_group() {
     const TransformKernel transform = transform_kernel(options.target);
-    vertices.reserve(vertex_runs.total());
-    for (GroupMember& member : group) member.job.vertices = vertices.data() + member.first_vertex;
-    parallel_for(workers_for(vertex_runs.total(), options.threads), static_cast<int>(vertex_runs.size()),
-                 [&](int run) {
-                   for (const MeshPart& part : vertex_runs[static_cast<std::size_t>(run)]) {
+    vertices.reserve(vertex_chunks.total());
+    for (GroupMember& member : group) member.task.vertices = vertices.data() + member.first_vertex;
+    parallel_for(workers_for(vertex_chunks.total(), options.threads), static_cast<int>(vertex_chunks.size()),
+                 [&](int chunk) {
+                   for (const MeshPart& part : vertex_chunks[static_cast<std::size_t>(chunk)]) {
                      GroupMember& member = group[part.mesh];
-                     std::atomic_ref(member.common) &= transform(member.job, part.begin, part.end);
+                     std::atomic_ref(member.common) &= transform(member.task, part.begin, part.end);
                    }
                  });
   }
 
-  // Copies a run's output to its place, if there is room: if not, the frame is run again with more.
+  // Copies a chunk's output to its place in the frame's output. If there is no room, run() repeats the frame
+  // with more.
   void place(const RunOutput& out, std::size_t at) {
     if (at + out.count > screen.capacity()) return;
     std::copy_n(out.triangles.data(), out.count, screen.data() + at);
     if (options.keep_unsnapped) std::copy_n(out.unsnapped.data(), out.count, unsnapped.data() + at);
   }
 
-  // Turns the payload of the output's triangles from `first` on, their index in the mesh, into what is
-  // wanted.
+  // Replaces the payload of the output's triangles from `first` on, which is the index in the mesh, by the
+  // payload that the options select.
   void finish_payload(const GroupMember& member, std::size_t first, RunOutput& out, ShadeKernel shade) {
     ScreenTriangle* triangles = out.triangles.data() + first;
     const std::size_t count = out.count - first;
-    const Mesh& mesh = member.job.mesh;
+    const Mesh& mesh = member.task.mesh;
     if (options.payload == Payload::id)
       std::for_each_n(triangles, count, [&](ScreenTriangle& t) { t.payload += member.first_id; });
     else if (options.shade)
@@ -170,35 +173,36 @@ struct Frontend::State {
     for (const GroupMember& member : group)
       if (member.out_of_sight()) {
         ++stats.meshes_culled;
-        stats.whole_mesh += member.job.mesh.triangles.size();
+        stats.whole_mesh += member.task.mesh.triangles.size();
         if (options.keep_states)
-          std::fill_n(member.job.states, member.job.mesh.triangles.size(), TriangleState::outside_with_mesh);
+          std::fill_n(member.task.states, member.task.mesh.triangles.size(),
+                      TriangleState::outside_with_mesh);
       }
     const AssembleKernel assemble = assemble_kernel(options.target);
     const ShadeKernel shade = shade_kernel(options.target);
     std::atomic<bool> all_exist{true};
-    const auto make = [&](std::size_t run, RunOutput& out) {
-      for (const MeshPart& part : triangle_runs[run]) {
+    const auto make = [&](std::size_t chunk, RunOutput& out) {
+      for (const MeshPart& part : triangle_chunks[chunk]) {
         const GroupMember& member = group[part.mesh];
         const std::size_t first = out.count;
         if (member.out_of_sight()) continue;
-        if (assemble(member.job, part.begin, part.end, out))
+        if (assemble(member.task, part.begin, part.end, out))
           finish_payload(member, first, out, shade);
         else
           all_exist = false;
       }
     };
-    order.for_each_run(triangle_runs.size(), triangle_runs.total(), make,
-                       [&](const RunOutput& out, std::size_t at) { place(out, at); });
+    order.for_each_chunk(triangle_chunks.size(), triangle_chunks.total(), make,
+                         [&](const RunOutput& out, std::size_t at) { place(out, at); });
     if (all_exist) return;
     for (const GroupMember& member : group)
-      if (!member.out_of_sight()) throw_if_vertex_missing(member.job.mesh);
+      if (!member.out_of_sight()) throw_if_vertex_missing(member.task.mesh);
   }
 
   void start_group() {
     group.clear();
-    vertex_runs.clear();
-    triangle_runs.clear();
+    vertex_chunks.clear();
+    triangle_chunks.clear();
   }
 
   void run_group() {
@@ -215,17 +219,17 @@ struct Frontend::State {
     for (const auto& instance : scene.instances) {
       const Mesh& mesh = mesh_of(scene, instance);
       check(mesh);
-      if (vertex_runs.total() + mesh.positions.size() > kMaxVertices || group.size() == kMaxMembers)
+      if (vertex_chunks.total() + mesh.positions.size() > kMaxVertices || group.size() == kMaxMembers)
         run_group();
       const glm::mat4 model = model_matrix(instance);
-      const MeshTask job{options, mesh, glm::mat4(to_screen * glm::dmat4(model)), nullptr,
-                         options.keep_states ? states.data() + first_id : nullptr};
+      const MeshTask task{options, mesh, glm::mat4(to_screen * glm::dmat4(model)), nullptr,
+                          options.keep_states ? states.data() + first_id : nullptr};
       ++stats.meshes;
       stats.triangles += mesh.triangles.size();
-      vertex_runs.add(group.size(), mesh.positions.size());
-      triangle_runs.add(group.size(), mesh.triangles.size());
-      group.emplace_back(job, ShadeJob(mesh, model, scene.to_light),
-                         vertex_runs.total() - mesh.positions.size(), static_cast<std::uint32_t>(first_id));
+      vertex_chunks.add(group.size(), mesh.positions.size());
+      triangle_chunks.add(group.size(), mesh.triangles.size());
+      group.emplace_back(task, ShadeTask(mesh, model, scene.to_light),
+                         vertex_chunks.total() - mesh.positions.size(), static_cast<std::uint32_t>(first_id));
       first_id += mesh.triangles.size();
     }
     run_group();
@@ -233,14 +237,14 @@ struct Frontend::State {
 
   void run_stream(const TriangleStream& stream) {
     const StreamKernel kernel = stream_kernel(options.target);
-    const StreamTask job{options, stream, options.keep_states ? states.data() : nullptr};
+    const StreamTask task{options, stream, options.keep_states ? states.data() : nullptr};
     const std::size_t count = stream.triangles.size();
     stats.triangles = count;
-    order.for_each_run((count + kRun - 1) / kRun, count,
-                       [&](std::size_t run, RunOutput& out) {
-                         kernel(job, run * kRun, std::min(count, (run + 1) * kRun), out);
-                       },
-                       [&](const RunOutput& out, std::size_t at) { place(out, at); });
+    order.for_each_chunk((count + kRun - 1) / kRun, count,
+                         [&](std::size_t chunk, RunOutput& out) {
+                           kernel(task, chunk * kRun, std::min(count, (chunk + 1) * kRun), out);
+                         },
+                         [&](const RunOutput& out, std::size_t at) { place(out, at); });
   }
 
   void run_once(const Drawable& drawable, std::size_t room) {
@@ -259,7 +263,8 @@ struct Frontend::State {
     const std::size_t count = checked_count(submitted(drawable));
     if (options.keep_states) states.reserve(count);
     run_once(drawable, count);
-    // More pieces of cut triangles than triangles that were dropped: rare, and for one frame only.
+    // Clipping added more triangles than were dropped. This is rare, and the memory then suffices for the
+    // next frames of the kind.
     if (order.total() > screen.capacity()) run_once(drawable, checked_count(order.total()));
     if (options.keep_unsnapped) unsnapped_count = order.total();
     if (options.keep_states) state_count = count;

@@ -1,8 +1,9 @@
-// Runs of triangles in parallel, their output in order, without a second pass over it. Runs are handed out in
-// order, each worker fills a buffer of its own, and when all runs before it know how long they are, a run
-// knows its place, lets the next one know, and is copied there.
+// Processes chunks of triangles in parallel and keeps their output in order, without a second pass over it.
+// Workers take chunks in order, and each fills a buffer of its own. A worker then waits until all earlier
+// chunks have added their lengths to the total. It reads its chunk's position from the total, adds its own
+// length, passes the turn on, and copies its output to that position.
 //
-// The lowest run that is under way waits for nobody, so the others will get their turn.
+// The lowest unfinished chunk waits for no other, so there is no deadlock.
 #pragma once
 
 #include <hwy/cache_control.h>
@@ -30,22 +31,23 @@ class InOrder {
     }
   }
 
-  // Calls make(run, output) for each of so many runs, of `count` triangles together, which fills an empty
-  // output, and place(output, at) where `at` triangles come before it. Neither may throw.
+  // For each chunk, calls make(chunk, output), which must fill the empty output, and then place(output, at),
+  // where `at` is the number of triangles before the chunk's. The chunks have `count` input triangles in all.
+  // Neither function may throw.
   template <typename Make, typename Place>
-  void for_each_run(std::size_t runs, std::size_t count, Make&& make, Place&& place) {
+  void for_each_chunk(std::size_t chunks, std::size_t count, Make&& make, Place&& place) {
     const int workers = workers_for(count, threads_);
     std::atomic<std::size_t> next{0};
     std::atomic<std::uint32_t> turn{0};
     parallel_for(workers, workers, [&](int worker) {
       RunOutput& out = outputs_[static_cast<std::size_t>(worker)];
-      for (std::size_t run; (run = next.fetch_add(1, std::memory_order_relaxed)) < runs;) {
+      for (std::size_t chunk; (chunk = next.fetch_add(1, std::memory_order_relaxed)) < chunks;) {
         out.count = 0;
-        make(run, out);
-        wait_until(turn, static_cast<std::uint32_t>(run));
+        make(chunk, out);
+        wait_until(turn, static_cast<std::uint32_t>(chunk));
         const std::size_t at = total_;
         total_ += out.count;
-        turn.store(static_cast<std::uint32_t>(run + 1), std::memory_order_release);
+        turn.store(static_cast<std::uint32_t>(chunk + 1), std::memory_order_release);
         turn.notify_all();
         place(out, at);
         piece_done();
@@ -53,7 +55,7 @@ class InOrder {
     });
   }
 
-  std::size_t total() const { return total_; }  // triangles since the frame's start
+  std::size_t total() const { return total_; }  // output triangles since start_frame()
   FrontendStats stats() const {
     FrontendStats sum;
     for (const RunOutput& out : outputs_) sum += out.stats;
@@ -61,20 +63,20 @@ class InOrder {
   }
 
  private:
-  // Looks again and again for some 20 us before it sleeps: a run takes less, and waking a thread takes more.
-  static void wait_until(const std::atomic<std::uint32_t>& turn, std::uint32_t run) {
-    constexpr int kLooks = 2000;
-    for (int i = 0; i < kLooks; ++i) {
-      if (turn.load(std::memory_order_acquire) == run) return;
+  // Spins for about 20 us before it sleeps: a chunk takes less time, and waking a thread takes more.
+  static void wait_until(const std::atomic<std::uint32_t>& turn, std::uint32_t chunk) {
+    constexpr int kSpins = 2000;
+    for (int i = 0; i < kSpins; ++i) {
+      if (turn.load(std::memory_order_acquire) == chunk) return;
       hwy::Pause();
     }
-    for (std::uint32_t now; (now = turn.load(std::memory_order_acquire)) != run;)
+    for (std::uint32_t now; (now = turn.load(std::memory_order_acquire)) != chunk;)
       turn.wait(now, std::memory_order_acquire);
   }
 
   int threads_ = 1;
   std::size_t total_ = 0;
-  std::vector<RunOutput> outputs_;  // one a worker
+  std::vector<RunOutput> outputs_;  // one per worker
 };
 
 }  // namespace edgewise

@@ -1,8 +1,7 @@
-// Vectors in the front end's kernels: one lane a vertex or triangle. Records in memory become vectors and
-// back by 4 x 4 transpositions, for which gathers would take one memory access a number instead of one a
-// record.
+// Vectors of the front end's kernels, with one vertex or triangle per lane. 4 x 4 transpositions convert
+// between records in memory and vectors: one memory access per record, where gathers need one per number.
 //
-// Compiled once a SIMD target; include it after hwy/highway.h, inside foreach_target's scheme.
+// Compiled once per SIMD target. Include it after hwy/highway.h, in a file that uses foreach_target.h.
 #if defined(EDGEWISE_FRONTEND_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef EDGEWISE_FRONTEND_LANES_INL_H
 #undef EDGEWISE_FRONTEND_LANES_INL_H
@@ -27,12 +26,12 @@ using VI = hn::Vec<DI>;
 using VF = hn::Vec<DF>;
 constexpr std::size_t kLanes = hn::MaxLanes(DI{});
 
-// first, first + 1 ... Not Iota(first), see raster/simd/lanes-inl.h.
+// first, first + 1, … raster/simd/lanes-inl.h says why this is not Iota(first).
 HWY_INLINE VI counting_from(std::size_t first) {
   return hn::Add(hn::Iota(DI{}, 0), hn::Set(DI{}, static_cast<std::int32_t>(first)));
 }
 
-// Word k of the records of all lanes.
+// Four words of each lane's record: word[k] holds word k of all lanes.
 struct Words {
   VI word[4];
 };
@@ -61,7 +60,7 @@ HWY_INLINE hn::Vec<D> in_double(D d, F&& f, V... v) {
 
 #else
 
-// Record i of every four, for all groups of four lanes.
+// Loads the records of lanes 0, 4, 8, …, four words each, into consecutive blocks of four lanes.
 template <class D, typename At>
 HWY_INLINE hn::Vec<D> load_blocks(D d, At&& at) {
   if constexpr (hn::MaxLanes(D{}) == 4) {
@@ -115,7 +114,7 @@ HWY_INLINE void store_records(V first, V second, V third, V fourth, At&& at) {
   }
 }
 
-// In the order of the lanes: where two of them share a place, the later one stays.
+// Stores in the order of the lanes: if two lanes have the same address, the later one stays.
 template <typename At>
 HWY_INLINE void store_words(const Words& words, At&& at) {
   const Words records = transpose(words);
@@ -134,7 +133,7 @@ HWY_INLINE hn::Vec<D> in_double(D d, F&& f, V... v) {
 
 #endif
 
-// snap() and quantize_depth() of fixed.h.
+// snap() and quantize_depth() of fixed.h, for vectors.
 
 HWY_INLINE VI snap(VF px) {
   const DF d;

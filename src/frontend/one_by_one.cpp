@@ -16,7 +16,7 @@ UnsnappedTriangle unsnapped_triangle(const ClipVertex& a, const ClipVertex& b, c
   return {{a.x * wa, b.x * wb, c.x * wc}, {a.y * wa, b.y * wb, c.y * wc}, {a.z * wa, b.z * wb, c.z * wc}};
 }
 
-// True if the triangle is dropped for where its vertices lie.
+// True, and counted, if the triangle is not finite or lies beyond one side of the view.
 bool drop(const Vertex& a, const Vertex& b, const Vertex& c, FrontendStats& stats) {
   if ((a.outside | b.outside | c.outside) & kNotFinite) {
     ++stats.not_finite;
@@ -33,13 +33,12 @@ bool faces_away(std::int64_t area, Cull cull) {
   return cull == Cull::both || (cull == Cull::front && area > 0) || (cull == Cull::back && area < 0);
 }
 
-// What the steps below know of a triangle beside its vertices.
 struct Source {
   std::uint32_t payload;
-  Cull cull;  // none for two-sided ones
+  Cull cull;  // none for a two-sided triangle
 };
 
-// unsnapped() is called only where it is kept.
+// Appends a triangle unless it has no area or is culled. unsnapped() is called only with keep_unsnapped.
 template <typename Unsnapped>
 void emit(const Vertex& a, const Vertex& b, const Vertex& c, const Source& source,
           const FrontendOptions& options, RunOutput& out, Unsnapped&& unsnapped) {
@@ -86,7 +85,7 @@ void clip(const ClipVertex (&triangle)[3], std::uint32_t sides, const Source& so
   }
 }
 
-// clip_of(k) is corner k before the division.
+// Adds a triangle, clipped if necessary. clip_of(k) returns vertex k in clip space.
 template <typename ClipOf>
 void add(const Vertex& a, const Vertex& b, const Vertex& c, const Source& source,
          const FrontendOptions& options, RunOutput& out, ClipOf&& clip_of) {
@@ -109,39 +108,39 @@ TriangleState state_between(const FrontendStats& before, const FrontendStats& af
   return grew(&FrontendStats::not_finite) ? TriangleState::not_finite : TriangleState::outside;
 }
 
-// What became of a triangle is told by what add_it() counts.
-template <typename Job, typename AddIt>
-void add_and_tell(const Job& job, std::size_t triangle, RunOutput& out, AddIt&& add_it) {
-  if (job.states == nullptr) return add_it();
+// Calls add_it() and derives the triangle's state from the counts that it changed.
+template <typename Task, typename AddIt>
+void add_and_record_state(const Task& task, std::size_t triangle, RunOutput& out, AddIt&& add_it) {
+  if (task.states == nullptr) return add_it();
   const FrontendStats before = out.stats;
   add_it();
-  job.states[triangle] = state_between(before, out.stats);
+  task.states[triangle] = state_between(before, out.stats);
 }
 
 }  // namespace
 
-void add_one(const MeshTask& job, std::size_t triangle, RunOutput& out) {
-  const glm::uvec3 t = job.mesh.triangles[triangle];
-  const auto clip_of = [&](int k) { return transform(job.to_screen, job.mesh.positions[t[k]]); };
-  const Cull cull = job.mesh.has_mark(triangle, kTwoSided) ? Cull::none : job.options.cull;
-  add_and_tell(job, triangle, out, [&] {
-    add(job.vertices[t.x], job.vertices[t.y], job.vertices[t.z], {static_cast<std::uint32_t>(triangle), cull},
-        job.options, out, clip_of);
+void add_one(const MeshTask& task, std::size_t triangle, RunOutput& out) {
+  const glm::uvec3 t = task.mesh.triangles[triangle];
+  const auto clip_of = [&](int k) { return transform(task.to_screen, task.mesh.positions[t[k]]); };
+  const Cull cull = task.mesh.has_mark(triangle, kTwoSided) ? Cull::none : task.options.cull;
+  add_and_record_state(task, triangle, out, [&] {
+    add(task.vertices[t.x], task.vertices[t.y], task.vertices[t.z],
+        {static_cast<std::uint32_t>(triangle), cull}, task.options, out, clip_of);
   });
 }
 
-void add_one(const StreamTask& job, std::size_t triangle, RunOutput& out) {
-  const StreamTriangle& t = job.stream.triangles[triangle];
-  const auto width = static_cast<float>(job.options.width), height = static_cast<float>(job.options.height);
+void add_one(const StreamTask& task, std::size_t triangle, RunOutput& out) {
+  const StreamTriangle& t = task.stream.triangles[triangle];
+  const auto width = static_cast<float>(task.options.width), height = static_cast<float>(task.options.height);
   const auto clip_of = [&](int k) {
     const glm::vec3 v = t.vertex[k];
     return ClipVertex{v.x, v.y, v.z, 1.0f};
   };
   const auto vertex = [&](int k) { return make_vertex(clip_of(k), width, height); };
-  const bool ids = job.options.payload == Payload::id;
-  const Source source{ids ? static_cast<std::uint32_t>(triangle) : t.colour, job.options.cull};
-  add_and_tell(job, triangle, out,
-               [&] { add(vertex(0), vertex(1), vertex(2), source, job.options, out, clip_of); });
+  const bool ids = task.options.payload == Payload::id;
+  const Source source{ids ? static_cast<std::uint32_t>(triangle) : t.colour, task.options.cull};
+  add_and_record_state(task, triangle, out,
+                       [&] { add(vertex(0), vertex(1), vertex(2), source, task.options, out, clip_of); });
 }
 
 }  // namespace edgewise

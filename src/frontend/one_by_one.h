@@ -1,13 +1,17 @@
-// The way of a single triangle from clip space to the screen, whatever is wrong with it. The kernels take the
-// common case by the vector, and come here for the rest: triangles that need clipping, the last few of a run,
-// and all of them when the unsnapped positions are kept.
+// Handles a single triangle in any condition. The kernels process the common case in vectors and call
+// add_one() for the rest:
+// - all triangles of a vector in which one needs clipping or is not finite,
+// - the last triangles of a chunk, too few for a vector,
+// - every triangle with keep_unsnapped or keep_states.
 #pragma once
 
 #include "frontend/tasks.h"
 
 namespace edgewise {
 
-void add_one(const MeshTask& job, std::size_t triangle, RunOutput& out);
-void add_one(const StreamTask& job, std::size_t triangle, RunOutput& out);
+// Appends the visible pieces of a triangle to the output and counts them in its statistics. A mesh triangle's
+// payload is its index in the mesh; a stream triangle's is the one that the options select.
+void add_one(const MeshTask& task, std::size_t triangle, RunOutput& out);
+void add_one(const StreamTask& task, std::size_t triangle, RunOutput& out);
 
 }  // namespace edgewise

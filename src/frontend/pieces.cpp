@@ -1,6 +1,6 @@
-// Signed areas decide, and they are exact. The triangles' signed coverages add up to the polygon's winding
-// number at every sample, however it is split; if none is negative, each sample of a polygon that winds once
-// is in one triangle.
+// The split uses only signed areas, which are exact. However a polygon is split, the signed coverages of the
+// triangles add up to its winding number at every sample. So if no triangle is negative and the polygon winds
+// once, each of its samples lies in exactly one triangle.
 #include "frontend/pieces.h"
 
 namespace edgewise {
@@ -13,14 +13,16 @@ class Splitter {
  public:
   explicit Splitter(std::span<const Vertex> polygon) : polygon_(polygon) {}
 
+  // Splits the polygon into a fan about its first vertex. False if the fan has triangles of both windings.
   bool fan() {
     for (std::size_t i = 2; i < polygon_.size(); ++i) add(0, i - 1, i);
     return one_winding();
   }
 
-  // All vertices from `first` to `last`, and the edge that joins these two: what is beyond an edge of a
-  // triangle is a smaller polygon of the same kind (the dynamic program for optimal triangulations; Klincsek,
-  // "Minimal triangulations of polygonal domains", 1980).
+  // Splits the polygon into triangles of one winding. False if there is no such split. A dynamic program over
+  // sub-polygons: the vertices from `first` to `last`, closed by the edge between these two. A triangle on
+  // this edge leaves two smaller sub-polygons (Klincsek, "Minimal triangulations of polygonal domains",
+  // 1980).
   bool split(bool positive) {
     pieces_.count = 0;
     const std::size_t last = polygon_.size() - 1;
@@ -34,6 +36,7 @@ class Splitter {
 
   Pieces take() const { return pieces_; }
 
+  // Twice the signed area of a triangle; without arguments, that of the polygon.
   std::int64_t area(std::size_t a, std::size_t b, std::size_t c) const {
     const auto x = [&](std::size_t i) { return std::int64_t{polygon_[i].x_sub}; };
     const auto y = [&](std::size_t i) { return std::int64_t{polygon_[i].y_sub}; };
@@ -46,7 +49,8 @@ class Splitter {
   }
 
  private:
-  // 0 if there is none.
+  // The third vertex of a triangle on the edge from `first` to `last` that has the right winding and leaves
+  // sub-polygons that can be split; 0 if there is none.
   std::uint8_t find_apex(std::size_t first, std::size_t last, bool positive) const {
     const auto possible = [&](std::size_t from, std::size_t to) {
       return to - from == 1 || apex_[from][to] != 0;

@@ -1,4 +1,4 @@
-// The triangles that a clipped polygon falls into.
+// Splits a clipped polygon into triangles.
 #pragma once
 
 #include <array>
@@ -13,19 +13,19 @@ namespace edgewise {
 
 struct Pieces {
   std::array<std::array<std::uint8_t, 3>, Clipper::kMaxVertices - 2> corners;  // indices into the polygon
-  std::size_t count = 0;                                                       // two less than vertices
+  std::size_t count = 0;                                                       // the number of vertices - 2
 };
 
-// Splits a polygon of 3 … Clipper::kMaxVertices snapped vertices into triangles of one winding, so that they
-// cover what the polygon does, each sample once; a fan from the first vertex wherever that will do.
+// Splits a polygon of 3 … Clipper::kMaxVertices snapped vertices into triangles of one winding, which
+// together cover each sample of the polygon once. The split is a fan about the first vertex if that has one
+// winding.
 //
-// Snapping can bend a convex polygon inwards by a hairline, where a cut lies close to a corner or to another
-// cut. A fan may then hold a thin piece of the other winding: over it samples would be drawn twice, and
-// culling, which judges pieces, would leave pixels of a triangle that faces the wrong way.
+// Snapping can bend a convex polygon slightly inwards, where a clipped edge lies close to a vertex or to
+// another clipped edge. A fan may then contain a thin piece of the other winding. Its samples would be drawn
+// twice. And culling, which tests each piece, would keep this piece of a triangle that faces the wrong way.
 //
-// Where two edges came so close that they cross once snapped (they lie within a few 1/256 px of each other
-// there), no such triangles exist, and the polygon becomes the fan: no sample is lost, some may be drawn
-// twice.
+// Two edges within a few 1/256 px of each other may cross after snapping. Then no such split exists, and the
+// result is the fan: it loses no sample, but may draw some twice.
 Pieces split(std::span<const Vertex> polygon);
 
 }  // namespace edgewise

@@ -1,5 +1,5 @@
-// What several meshes have to do, cut into runs of about the same length: a large mesh becomes many, and many
-// small ones become one.
+// Cuts the vertices or triangles of several meshes into chunks of kRun: a large mesh spans many chunks, and
+// one chunk spans many small meshes.
 #pragma once
 
 #include <algorithm>
@@ -11,17 +11,19 @@
 
 namespace edgewise {
 
+// Elements begin … end - 1 of a mesh.
 struct MeshPart {
   std::size_t mesh, begin, end;
 };
 
-class Runs {
+class Chunks {
  public:
   void clear() {
     parts_.clear();
     ends_.clear();
     total_ = room_ = 0;
   }
+  // Appends the `count` elements of a mesh.
   void add(std::size_t mesh, std::size_t count) {
     for (std::size_t begin = 0, end; begin < count; begin = end) {
       if (room_ == 0) {
@@ -36,17 +38,17 @@ class Runs {
     total_ += count;
   }
 
-  std::size_t size() const { return ends_.size(); }
-  std::span<const MeshPart> operator[](std::size_t run) const {
-    const std::size_t first = run == 0 ? 0 : ends_[run - 1];
-    return {parts_.data() + first, ends_[run] - first};
+  std::size_t size() const { return ends_.size(); }  // chunks
+  std::span<const MeshPart> operator[](std::size_t chunk) const {
+    const std::size_t first = chunk == 0 ? 0 : ends_[chunk - 1];
+    return {parts_.data() + first, ends_[chunk] - first};
   }
-  std::size_t total() const { return total_; }
+  std::size_t total() const { return total_; }  // elements
 
  private:
   std::vector<MeshPart> parts_;
-  std::vector<std::size_t> ends_;  // of each run, in parts_
-  std::size_t total_ = 0, room_ = 0;
+  std::vector<std::size_t> ends_;     // the end of each chunk in parts_
+  std::size_t total_ = 0, room_ = 0;  // elements: in all chunks; that still fit the last chunk
 };
 
 }  // namespace edgewise

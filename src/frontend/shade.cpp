@@ -1,11 +1,11 @@
-// Lambert's law with the tutorials' floor. Transforming by the cofactor matrix keeps normals right under any
-// scale, and turns them with the winding where a scale mirrors. In double, since squares of squares of a
-// mesh's size leave the range of float.
+// Lambert's law with an ambient term of 0.15, as in the tutorials. The cofactor matrix transforms normals
+// correctly under any scale, and reverses them, like the winding, if the scale mirrors. In double, because
+// the fourth power of a mesh's size may exceed the range of float.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "frontend/shade.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-// After Highway, which it needs.
+// This needs Highway first.
 #include "frontend/lanes-inl.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ HWY_BEFORE_NAMESPACE();
 namespace edgewise {
 namespace HWY_NAMESPACE {
 
-// The sums below are glm's cross(), dot() and matrix product, in their order.
+// The functions below compute glm's cross(), dot() and matrix product, with glm's order of operations.
 template <class V>
 struct Vec3 {
   V x, y, z;
@@ -35,28 +35,28 @@ HWY_INLINE Vec3<V> cross(const Vec3<V>& a, const Vec3<V>& b) {
   return {minor(a.y, b.z, b.y, a.z), minor(a.z, b.x, b.z, a.x), minor(a.x, b.y, b.x, a.y)};
 }
 
-// The cosine between normal and light; NaN where there is no normal.
+// The cosine of the angle between a triangle's normal and the light; NaN if the triangle has no normal.
 template <class V>
-HWY_INLINE V lambert(const ShadeJob& job, const Vec3<V>& a, const Vec3<V>& b, const Vec3<V>& c) {
+HWY_INLINE V lambert(const ShadeTask& task, const Vec3<V>& a, const Vec3<V>& b, const Vec3<V>& c) {
   const hn::DFromV<V> d;
   const auto minus = [](const Vec3<V>& p, const Vec3<V>& q) HWY_ATTR {
     return Vec3<V>{hn::Sub(p.x, q.x), hn::Sub(p.y, q.y), hn::Sub(p.z, q.z)};
   };
   const Vec3<V> across = cross(minus(c, a), minus(b, a));
   const auto row = [&](int r) HWY_ATTR {
-    const auto& m = job.cofactor;
+    const auto& m = task.cofactor;
     return dot(Vec3<V>{hn::Set(d, m[0][r]), hn::Set(d, m[1][r]), hn::Set(d, m[2][r])}, across);
   };
   const Vec3<V> normal{row(0), row(1), row(2)};
-  const Vec3<V> light{hn::Set(d, job.to_light.x), hn::Set(d, job.to_light.y), hn::Set(d, job.to_light.z)};
+  const Vec3<V> light{hn::Set(d, task.to_light.x), hn::Set(d, task.to_light.y), hn::Set(d, task.to_light.z)};
   return hn::Div(dot(normal, light), hn::Sqrt(dot(normal, normal)));
 }
 
 HWY_INLINE VI lit(VI colour, VF cosine) {
   const DF d;
-  const VF floor = hn::Set(d, 0.15f);
+  const VF ambient = hn::Set(d, 0.15f);
   const VF light =
-      hn::IfThenElse(hn::Gt(cosine, floor), hn::Min(cosine, hn::Set(d, 1.0f)), floor);  // also for NaN
+      hn::IfThenElse(hn::Gt(cosine, ambient), hn::Min(cosine, hn::Set(d, 1.0f)), ambient);  // also for NaN
   const auto channel = [&](VI c) HWY_ATTR {
     const VF value = hn::ConvertTo(d, hn::And(c, hn::Set(DI{}, 255)));
     return hn::ConvertTo(DI{}, hn::Add(hn::Mul(value, light), hn::Set(d, 0.5f)));
@@ -67,7 +67,7 @@ HWY_INLINE VI lit(VI colour, VF cosine) {
   return hn::Or(hn::Or(red, hn::ShiftLeft<8>(green)), hn::Or(hn::ShiftLeft<16>(blue), alpha));
 }
 
-// Four words are read at each position, but nothing lies behind the last.
+// The positions of a mesh, readable as four words each. The last one is copied, as no memory follows it.
 class Positions {
  public:
   explicit Positions(const Mesh& mesh) : all_(mesh.positions.data()), last_(mesh.positions.size() - 1) {
@@ -81,7 +81,7 @@ class Positions {
   float padded_[4] = {};
 };
 
-HWY_INLINE VF cosines(const ShadeJob& job, const Positions& positions,
+HWY_INLINE VF cosines(const ShadeTask& task, const Positions& positions,
                       const glm::uvec3* const (&corners)[kLanes]) {
   const auto corner = [&](int k) HWY_ATTR {
     return load_words([&](std::size_t lane) { return positions[(*corners[lane])[k]]; });
@@ -92,24 +92,24 @@ HWY_INLINE VF cosines(const ShadeJob& job, const Positions& positions,
       DF{},
       [&](auto ax, auto ay, auto az, auto bx, auto by, auto bz, auto cx, auto cy, auto cz) HWY_ATTR {
         using V = decltype(ax);
-        return lambert(job, Vec3<V>{ax, ay, az}, Vec3<V>{bx, by, bz}, Vec3<V>{cx, cy, cz});
+        return lambert(task, Vec3<V>{ax, ay, az}, Vec3<V>{bx, by, bz}, Vec3<V>{cx, cy, cz});
       },
       real(a.word[0]), real(a.word[1]), real(a.word[2]), real(b.word[0]), real(b.word[1]), real(b.word[2]),
       real(c.word[0]), real(c.word[1]), real(c.word[2]));
 }
 
-// -1 for a two-sided triangle that is seen from behind, else 1.
+// -1 for a two-sided triangle seen from behind, else 1.
 float side_seen(const Mesh& mesh, std::uint32_t source, const ScreenTriangle& seen) {
   return mesh.has_mark(source, kTwoSided) && contract::signed_area(seen) < 0 ? -1.0f : 1.0f;
 }
 
 template <bool kMarked>
-void shade_all(const ShadeJob& job, RunOutput& run, std::size_t first) {
+void shade_all(const ShadeTask& task, RunOutput& out, std::size_t first) {
   const DI d;
-  const Positions positions(job.mesh);
-  ScreenTriangle* triangles = run.triangles.data();
-  for (std::size_t i = first; i < run.count; i += kLanes) {
-    const std::size_t count = std::min(kLanes, run.count - i);
+  const Positions positions(task.mesh);
+  ScreenTriangle* triangles = out.triangles.data();
+  for (std::size_t i = first; i < out.count; i += kLanes) {
+    const std::size_t count = std::min(kLanes, out.count - i);
     const glm::uvec3* corners[kLanes];
     std::uint32_t colours[kLanes];
     float sides[kLanes];
@@ -117,25 +117,25 @@ void shade_all(const ShadeJob& job, RunOutput& run, std::size_t first) {
       const ScreenTriangle& seen = triangles[i + std::min(lane, count - 1)];
       std::size_t source = seen.payload;
       if constexpr (kMarked) {
-        sides[lane] = side_seen(job.mesh, seen.payload, seen);
-        source = job.mesh.face_of(source);
+        sides[lane] = side_seen(task.mesh, seen.payload, seen);
+        source = task.mesh.face_of(source);
       }
-      corners[lane] = &job.mesh.triangles[source];
-      colours[lane] = job.mesh.colours[source];
+      corners[lane] = &task.mesh.triangles[source];
+      colours[lane] = task.mesh.colours[source];
     }
     const VI colour = hn::LoadU(d, reinterpret_cast<const std::int32_t*>(colours));
-    VF cosine = cosines(job, positions, corners);
+    VF cosine = cosines(task, positions, corners);
     if constexpr (kMarked) cosine = hn::Mul(cosine, hn::LoadU(DF{}, sides));
     hn::StoreU(lit(colour, cosine), d, reinterpret_cast<std::int32_t*>(colours));
     for (std::size_t lane = 0; lane < count; ++lane) triangles[i + lane].payload = colours[lane];
   }
 }
 
-void shade(const ShadeJob& job, RunOutput& run, std::size_t first) {
-  if (job.mesh.marks.empty())
-    shade_all<false>(job, run, first);
+void shade(const ShadeTask& task, RunOutput& out, std::size_t first) {
+  if (task.mesh.marks.empty())
+    shade_all<false>(task, out, first);
   else
-    shade_all<true>(job, run, first);
+    shade_all<true>(task, out, first);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -145,7 +145,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace edgewise {
 
-ShadeJob::ShadeJob(const Mesh& seen, const glm::dmat4& model, glm::dvec3 towards)
+ShadeTask::ShadeTask(const Mesh& seen, const glm::dmat4& model, glm::dvec3 towards)
     : mesh(seen),
       cofactor(glm::cross(glm::dvec3(model[1]), glm::dvec3(model[2])),
                glm::cross(glm::dvec3(model[2]), glm::dvec3(model[0])),
@@ -158,17 +158,18 @@ ShadeKernel shade_kernel(SimdTarget target) {
 
 namespace {
 
-// Some triangle that is wound on the screen as one of the mesh's is seen, or has no area.
+// A screen triangle with the same winding as a mesh's triangle has when seen by the camera, without area if
+// that one has none.
 ScreenTriangle wound_as_seen(const Scene& scene, const Mesh& mesh, const glm::dmat4& model,
                              std::size_t triangle) {
-  glm::dvec3 from_eye[3];
+  glm::dvec3 from_camera[3];
   for (int k = 0; k < 3; ++k)
-    from_eye[k] =
+    from_camera[k] =
         glm::dvec3(model * glm::dvec4(glm::dvec3(mesh.positions[mesh.triangles[triangle][k]]), 1.0)) -
         glm::dvec3(scene.camera.position);
-  // Clockwise is the front, so this points to where it is seen from.
-  const glm::dvec3 normal = glm::cross(from_eye[2] - from_eye[0], from_eye[1] - from_eye[0]);
-  const int tall = glm::dot(normal, from_eye[0]) < 0.0 ? 1 : -1;
+  // Points to the front, which is the clockwise side.
+  const glm::dvec3 normal = glm::cross(from_camera[2] - from_camera[0], from_camera[1] - from_camera[0]);
+  const int tall = glm::dot(normal, from_camera[0]) < 0.0 ? 1 : -1;
   return {{0, 1, 0}, {0, 0, tall}, {}, static_cast<std::uint32_t>(triangle)};
 }
 
@@ -177,18 +178,18 @@ ScreenTriangle wound_as_seen(const Scene& scene, const Mesh& mesh, const glm::dm
 std::vector<std::uint32_t> lit_colours(const Scene& scene) {
   const ShadeKernel kernel = shade_kernel(resolve(SimdTarget::best));
   std::vector<std::uint32_t> colours;
-  RunOutput run;
-  run.reserve(false);
+  RunOutput out;
+  out.reserve(false);
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes.at(instance.mesh);
     const glm::dmat4 model(model_matrix(instance));
-    const ShadeJob job(mesh, model, scene.to_light);
+    const ShadeTask task(mesh, model, scene.to_light);
     for (std::size_t begin = 0; begin < mesh.triangles.size(); begin += kRun) {
-      run.count = std::min(kRun, mesh.triangles.size() - begin);
-      for (std::size_t i = 0; i < run.count; ++i)
-        run.triangles.data()[i] = wound_as_seen(scene, mesh, model, begin + i);
-      kernel(job, run, 0);
-      for (std::size_t i = 0; i < run.count; ++i) colours.push_back(run.triangles.data()[i].payload);
+      out.count = std::min(kRun, mesh.triangles.size() - begin);
+      for (std::size_t i = 0; i < out.count; ++i)
+        out.triangles.data()[i] = wound_as_seen(scene, mesh, model, begin + i);
+      kernel(task, out, 0);
+      for (std::size_t i = 0; i < out.count; ++i) colours.push_back(out.triangles.data()[i].payload);
     }
   }
   return colours;

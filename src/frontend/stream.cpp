@@ -1,11 +1,12 @@
-// A vector of triangles at a time, as in assemble.cpp, from records of nine floats and a colour. With w = 1
-// there is nothing to divide, and what needs no clipping is within the guard band and has a depth in [0, 1].
+// Processes a vector of stream triangles at a time, like assemble.cpp. A record is nine floats and a colour.
+// As w = 1, there is no division. A triangle needs no clipping if its vertices lie in the guard band and have
+// depths in [0, 1].
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "frontend/stream.cpp"
 #include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-// After Highway, which they need.
+// These need Highway first.
 #include "frontend/cull-inl.h"
 #include "frontend/lanes-inl.h"
 
@@ -19,7 +20,7 @@ HWY_BEFORE_NAMESPACE();
 namespace edgewise {
 namespace HWY_NAMESPACE {
 
-// Forty bytes a triangle come faster than the hardware expects: asking for them early doubles the speed.
+// The hardware prefetcher falls behind at 40 bytes per triangle. This prefetch doubles the speed.
 HWY_INLINE void prefetch(const TriangleStream& stream, std::size_t first) {
   constexpr std::size_t kAhead = 96, kCacheLine = 64;
   const std::size_t target = std::min(first + kAhead, stream.triangles.size() - kLanes);
@@ -39,14 +40,14 @@ HWY_INLINE StreamVectors load(const StreamTriangle* triangles) {
     });
   };
   const auto real = [](VI v) HWY_ATTR { return hn::BitCast(DF{}, v); };
-  const Words a = words(0), b = words(4), c = words(6);  // ten words: two are read twice
+  const Words a = words(0), b = words(4), c = words(6);  // reads words 6 and 7 twice: ten in all
   return {{real(a.word[0]), real(a.word[3]), real(b.word[2])},
           {real(a.word[1]), real(b.word[0]), real(b.word[3])},
           {real(a.word[2]), real(b.word[1]), real(c.word[2])},
           c.word[3]};
 }
 
-// All in low … high; NaN is not.
+// True for lanes whose three values lie in low … high; false for NaN.
 HWY_INLINE hn::Mask<DF> within(const VF (&v)[3], float low, float high) {
   const DF d;
   const auto one = [&](VF f)
@@ -54,7 +55,7 @@ HWY_INLINE hn::Mask<DF> within(const VF (&v)[3], float low, float high) {
   return hn::And(one(v[0]), hn::And(one(v[1]), one(v[2])));
 }
 
-// All below 0, or all above `side_px`.
+// True for lanes whose three values are all below 0, or all above `side_px`.
 HWY_INLINE MI beyond(const VF (&v)[3], int side_px) {
   const DF d;
   const VF low = hn::Min(v[0], hn::Min(v[1], v[2])), high = hn::Max(v[0], hn::Max(v[1], v[2]));
@@ -62,13 +63,13 @@ HWY_INLINE MI beyond(const VF (&v)[3], int side_px) {
       DI{}, hn::Or(hn::Lt(high, hn::Zero(d)), hn::Gt(low, hn::Set(d, static_cast<float>(side_px)))));
 }
 
-// False if the triangles must go one by one.
-HWY_INLINE bool stream_vector(const StreamTask& job, std::size_t first, RunOutput& out) {
-  if (job.one_by_one()) return false;
+// Returns false and appends nothing if add_one() must handle these triangles.
+HWY_INLINE bool stream_vector(const StreamTask& task, std::size_t first, RunOutput& out) {
+  if (task.one_by_one()) return false;
   constexpr auto kGuardPx = static_cast<float>(contract::kMaxImageSide);
-  const FrontendOptions& options = job.options;
-  prefetch(job.stream, first);
-  const StreamVectors t = load(&job.stream.triangles[first]);
+  const FrontendOptions& options = task.options;
+  prefetch(task.stream, first);
+  const StreamVectors t = load(&task.stream.triangles[first]);
   const auto plain = hn::And(within(t.z, 0.0f, 1.0f),
                              hn::And(within(t.x, -kGuardPx, kGuardPx), within(t.y, -kGuardPx, kGuardPx)));
   if (!hn::AllTrue(DF{}, plain)) return false;
@@ -81,13 +82,13 @@ HWY_INLINE bool stream_vector(const StreamTask& job, std::size_t first, RunOutpu
   return true;
 }
 
-void stream(const StreamTask& job, std::size_t begin, std::size_t end, RunOutput& out) {
+void stream(const StreamTask& task, std::size_t begin, std::size_t end, RunOutput& out) {
   const auto one_by_one = [&](std::size_t from, std::size_t to) {
-    for (std::size_t i = from; i < to; ++i) add_one(job, i, out);
+    for (std::size_t i = from; i < to; ++i) add_one(task, i, out);
   };
   std::size_t i = begin;
   for (; i + kLanes <= end; i += kLanes)
-    if (!stream_vector(job, i, out)) one_by_one(i, i + kLanes);
+    if (!stream_vector(task, i, out)) one_by_one(i, i + kLanes);
   one_by_one(i, end);
 }
 

@@ -1,4 +1,4 @@
-// Triangles of a stream, whose positions are pixels already. See stream.cpp.
+// Screen triangles from a stream, whose positions are already in pixels. See stream.cpp.
 #pragma once
 
 #include "edgewise/simd_target.h"
@@ -6,8 +6,9 @@
 
 namespace edgewise {
 
-// Appends what is visible of triangles begin … end - 1 to the output, with its payload.
-using StreamKernel = void (*)(const StreamTask& job, std::size_t begin, std::size_t end, RunOutput& out);
+// Appends the visible pieces of triangles begin … end - 1 to the output, with the payload that the options
+// select.
+using StreamKernel = void (*)(const StreamTask& task, std::size_t begin, std::size_t end, RunOutput& out);
 
 // `target` must be resolved.
 StreamKernel stream_kernel(SimdTarget target);

@@ -1,5 +1,5 @@
-// What the steps of the front end hand each other: the job, the same for all runs of a mesh or stream, and
-// the output of one run of it.
+// The input and output of the front end's steps: a task, which is the same for all chunks of a mesh or
+// stream, and the output of one chunk.
 #pragma once
 
 #include <algorithm>
@@ -17,48 +17,49 @@ struct MeshTask {
   const FrontendOptions& options;
   const Mesh& mesh;
   glm::mat4 to_screen;              // model space → pixels and depth, both times w
-  Vertex* vertices;                 // one a position
-  TriangleState* states = nullptr;  // one a triangle, to be set; null: not wanted
+  Vertex* vertices;                 // one per position
+  TriangleState* states = nullptr;  // one per triangle, to be written; null: not needed
 
-  // What is asked for of each triangle alone.
+  // True if add_one() must handle every triangle.
   bool one_by_one() const { return options.keep_unsnapped || states != nullptr; }
 };
 
 struct StreamTask {
   const FrontendOptions& options;
   const TriangleStream& stream;
-  TriangleState* states = nullptr;  // as above
+  TriangleState* states = nullptr;  // as in MeshTask
 
   bool one_by_one() const { return options.keep_unsnapped || states != nullptr; }
 };
 
-// Work is cut into runs of this many vertices or triangles, whatever the thread count: small enough that a
-// run's output waits in the L2 cache for its turn.
+// The vertices or triangles of a chunk, whatever the thread count. Small enough that a chunk's output stays
+// in the L2 cache until it is copied.
 inline constexpr std::size_t kRun = 2048;
 
-// Below this many, waking another thread costs more than it saves.
+// Below this many vertices or triangles, waking another thread costs more than it saves.
 inline constexpr std::size_t kWorthThreads = 8192;
 
 inline int workers_for(std::size_t count, int threads) {
   return count < kWorthThreads ? 1 : threads;
 }
 
-// A run's visible triangles. Every worker has one and fills it again for each of its runs; two workers' share
-// no cache line, nor the pair of lines that processors fetch.
+// A chunk's visible triangles. Each worker has one and reuses it for all its chunks. The alignment keeps two
+// workers' outputs out of the same pair of cache lines, which processors fetch together.
 struct alignas(128) RunOutput {
-  // A triangle cut by six planes has nine corners, so it becomes seven at most; vectors are stored whole.
-  static constexpr std::size_t kRoom = kRun * 7 + 16;
-  static_assert(kRoom * std::max(sizeof(ScreenTriangle), sizeof(UnsnappedTriangle)) < 1'000'000);
+  // A triangle clipped by six planes has at most nine vertices, so it becomes at most seven triangles. The
+  // last vector is stored whole.
+  static constexpr std::size_t kCapacity = kRun * 7 + 16;
+  static_assert(kCapacity * std::max(sizeof(ScreenTriangle), sizeof(UnsnappedTriangle)) < 1'000'000);
 
   void reserve(bool with_unsnapped) {
-    triangles.reserve(kRoom);
-    if (with_unsnapped) unsnapped.reserve(kRoom);
+    triangles.reserve(kCapacity);
+    if (with_unsnapped) unsnapped.reserve(kCapacity);
   }
 
   Buffer<ScreenTriangle> triangles;
-  Buffer<UnsnappedTriangle> unsnapped;  // used with keep_unsnapped
+  Buffer<UnsnappedTriangle> unsnapped;  // with keep_unsnapped only
   std::size_t count = 0;
-  FrontendStats stats;  // of all its runs together
+  FrontendStats stats;  // the sum over all its chunks of the frame
 };
 
 }  // namespace edgewise

@@ -1,10 +1,10 @@
-// Vertices by the vector: a column of each coordinate, and no branch. Where a vertex is not finite or needs
-// clipping, its screen position is computed all the same and means nothing.
+// Transforms a vector of vertices at a time, with one vector per coordinate and no branch. If a vertex is not
+// finite or needs clipping, its screen position is computed too, but is meaningless.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "frontend/transform.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-// After Highway, which it needs.
+// This needs Highway first.
 #include "frontend/lanes-inl.h"
 
 #include <algorithm>
@@ -29,64 +29,64 @@ HWY_INLINE ClipVectors transform(const glm::mat4& m, VF x, VF y, VF z) {
   return {row(0), row(1), row(2), row(3)};
 }
 
-// outside_of() of clip.h. Float is exact here, too: 16384 w is, and where it overflows it compares as it
-// should.
+// outside_of() of clip.h. It gives the same results in float: 16384 w is exact, and if it overflows, the
+// infinity compares correctly.
 HWY_INLINE VI outside_of(const ClipVectors& v, float width_px, float height_px) {
   const DF df;
   const DI di;
   VI sides = hn::Zero(di);
-  const auto mark = [&](auto beyond, Outside side) HWY_ATTR {
+  const auto add_side = [&](auto beyond, Outside side) HWY_ATTR {
     sides = hn::Or(sides, hn::IfThenElseZero(hn::RebindMask(di, beyond), hn::Set(di, side)));
   };
   const VF zero = hn::Zero(df);
   const VF guard = hn::Mul(v.w, hn::Set(df, static_cast<float>(contract::kMaxImageSide)));
-  mark(hn::Lt(v.z, zero), kNear);
-  mark(hn::Gt(v.z, v.w), kFar);
-  mark(hn::Lt(v.x, hn::Neg(guard)), kGuardLeft);
-  mark(hn::Gt(v.x, guard), kGuardRight);
-  mark(hn::Lt(v.y, hn::Neg(guard)), kGuardTop);
-  mark(hn::Gt(v.y, guard), kGuardBottom);
-  mark(hn::Lt(v.x, zero), kLeft);
-  mark(hn::Gt(v.x, hn::Mul(hn::Set(df, width_px), v.w)), kRight);
-  mark(hn::Lt(v.y, zero), kTop);
-  mark(hn::Gt(v.y, hn::Mul(hn::Set(df, height_px), v.w)), kBottom);
+  add_side(hn::Lt(v.z, zero), kNear);
+  add_side(hn::Gt(v.z, v.w), kFar);
+  add_side(hn::Lt(v.x, hn::Neg(guard)), kGuardLeft);
+  add_side(hn::Gt(v.x, guard), kGuardRight);
+  add_side(hn::Lt(v.y, hn::Neg(guard)), kGuardTop);
+  add_side(hn::Gt(v.y, guard), kGuardBottom);
+  add_side(hn::Lt(v.x, zero), kLeft);
+  add_side(hn::Gt(v.x, hn::Mul(hn::Set(df, width_px), v.w)), kRight);
+  add_side(hn::Lt(v.y, zero), kTop);
+  add_side(hn::Gt(v.y, hn::Mul(hn::Set(df, height_px), v.w)), kBottom);
   const auto finite =
       hn::And(hn::And(hn::IsFinite(v.x), hn::IsFinite(v.y)), hn::And(hn::IsFinite(v.z), hn::IsFinite(v.w)));
   return hn::IfThenElse(hn::RebindMask(di, finite), sides, hn::Set(di, kNotFinite));
 }
 
-// A whole vector of vertices. Returns the sides beyond which each lies, all of them where it is not finite.
-HWY_INLINE VI transform_vector(const MeshTask& job, const float* positions, Vertex* out) {
+// Transforms a whole vector of vertices. Returns the sides that each lies beyond; all bits if not finite.
+HWY_INLINE VI transform_vector(const MeshTask& task, const float* positions, Vertex* out) {
   const DF df;
   const DI di;
   VF x, y, z;
   hn::LoadInterleaved3(df, positions, x, y, z);
-  const ClipVectors v = transform(job.to_screen, x, y, z);
-  VI outside = outside_of(v, static_cast<float>(job.options.width), static_cast<float>(job.options.height));
+  const ClipVectors v = transform(task.to_screen, x, y, z);
+  VI outside = outside_of(v, static_cast<float>(task.options.width), static_cast<float>(task.options.height));
   const VF inverse_w = hn::Div(hn::Set(df, 1.0f), v.w);
   const auto projectable = hn::And(hn::Gt(v.w, hn::Zero(df)), hn::IsFinite(inverse_w));
   const auto inside = hn::Eq(hn::And(outside, hn::Set(di, kMustClip | kNotFinite)), hn::Zero(di));
-  const auto judged_by_clipper = hn::AndNot(hn::RebindMask(di, projectable), inside);
-  outside = hn::Or(outside, hn::IfThenElseZero(judged_by_clipper, hn::Set(di, kNear)));
+  const auto needs_clipper = hn::AndNot(hn::RebindMask(di, projectable), inside);
+  outside = hn::Or(outside, hn::IfThenElseZero(needs_clipper, hn::Set(di, kNear)));
   hn::StoreInterleaved4(snap(hn::Mul(v.x, inverse_w)), snap(hn::Mul(v.y, inverse_w)),
                         quantize_depth(hn::Mul(v.z, inverse_w)), outside, di,
                         reinterpret_cast<std::int32_t*>(out));
   return hn::IfThenElse(hn::Eq(outside, hn::Set(di, kNotFinite)), hn::Set(di, -1), outside);
 }
 
-std::uint32_t transform_vertices(const MeshTask& job, std::size_t begin, std::size_t end) {
+std::uint32_t transform_vertices(const MeshTask& task, std::size_t begin, std::size_t end) {
   const DI d;
-  const glm::vec3* positions = job.mesh.positions.data();
+  const glm::vec3* positions = task.mesh.positions.data();
   VI common = hn::Set(d, -1);
   std::size_t i = begin;
   for (; i + kLanes <= end; i += kLanes)
-    common = hn::And(common, transform_vector(job, &positions[i].x, job.vertices + i));
+    common = hn::And(common, transform_vector(task, &positions[i].x, task.vertices + i));
   if (i < end) {
     glm::vec3 padded[kLanes];
     Vertex vertices[kLanes];
     for (std::size_t lane = 0; lane < kLanes; ++lane) padded[lane] = positions[std::min(i + lane, end - 1)];
-    common = hn::And(common, transform_vector(job, &padded[0].x, vertices));
-    std::copy_n(vertices, end - i, job.vertices + i);
+    common = hn::And(common, transform_vector(task, &padded[0].x, vertices));
+    std::copy_n(vertices, end - i, task.vertices + i);
   }
   std::int32_t lanes[kLanes];
   hn::StoreU(common, d, lanes);

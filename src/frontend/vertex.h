@@ -1,5 +1,5 @@
-// A vertex on its way to the screen: projected and snapped, with the sides of the view that it lies beyond.
-// Sixteen bytes, so that assembly fetches one with one load.
+// A transformed vertex: projected and snapped, with the sides of the view that it lies beyond. It has 16
+// bytes, so triangle assembly loads it with one instruction.
 #pragma once
 
 #include <cmath>
@@ -11,24 +11,25 @@
 namespace edgewise {
 
 struct Vertex {
-  std::int32_t x_sub, y_sub;  // these three are set where `outside` asks for no clipping
-  std::uint32_t z;
-  std::uint32_t outside;  // Outside
+  std::int32_t x_sub, y_sub;  // sub-units; x_sub, y_sub and z are valid only if the vertex needs no clipping
+  std::uint32_t z;            // contract units
+  std::uint32_t outside;      // flags of Outside
 };
 static_assert(sizeof(Vertex) == 16);
 
-// Only then is the division safe: w > 0, and no NaN can come of it.
+// True if the division is safe: w > 0, and it cannot give NaN.
 inline bool can_project(const ClipVertex& v) {
   return v.w > 0.0f && std::isfinite(1.0f / v.w) && std::isfinite(v.x) && std::isfinite(v.y) &&
          std::isfinite(v.z);
 }
 
+// Divides by w and snaps. Requires can_project().
 inline Vertex project(const ClipVertex& v) {
   const float inverse_w = 1.0f / v.w;
   return {snap(v.x * inverse_w), snap(v.y * inverse_w), quantize_depth(v.z * inverse_w), 0};
 }
 
-// What is inside but cannot be projected goes by kNear through the clipper, which judges its triangles.
+// A vertex that lies inside but cannot be projected gets kNear, so that its triangles go to the clipper.
 inline Vertex make_vertex(const ClipVertex& v, float width_px, float height_px) {
   const std::uint32_t outside = outside_of(v, width_px, height_px);
   if ((outside & (kMustClip | kNotFinite)) != 0) return {0, 0, 0, outside};

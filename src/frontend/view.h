@@ -1,4 +1,4 @@
-// The camera as a matrix.
+// The camera's matrix.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -7,7 +7,8 @@
 
 namespace edgewise {
 
-// World → pixels and depth in [0, 1], all times w. Throws std::invalid_argument for a camera out of range.
+// World space → pixels and depth in [0, 1], all times w. Throws std::invalid_argument if a value of the
+// camera is out of range.
 glm::dmat4 screen_matrix(const Camera& camera, int width_px, int height_px);
 
 }  // namespace edgewise
