@@ -1,5 +1,5 @@
-// The list of scenes, at the end, and most of them. A new one is a function and a line here; or a file
-// anywhere that defines scene_NAME, named to CMake by EDGEWISE_SCENES.
+// The built-in scenes, and their list at the end. To add a scene, write a function and a line in the list, or
+// define scene_NAME in a file of your own and pass the file to CMake in EDGEWISE_SCENES.
 #include "edgewise/builtin.h"
 
 #include <algorithm>
@@ -24,9 +24,10 @@ namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
 
-constexpr std::array kTwelve = {rgb(230, 57, 70),  rgb(244, 132, 95), rgb(255, 200, 87), rgb(233, 237, 110),
-                                rgb(144, 204, 90), rgb(54, 161, 107), rgb(64, 196, 196), rgb(78, 150, 230),
-                                rgb(76, 92, 214),  rgb(138, 86, 214), rgb(208, 92, 200), rgb(240, 150, 180)};
+constexpr std::array kTwelveColours = {rgb(230, 57, 70),   rgb(244, 132, 95), rgb(255, 200, 87),
+                                       rgb(233, 237, 110), rgb(144, 204, 90), rgb(54, 161, 107),
+                                       rgb(64, 196, 196),  rgb(78, 150, 230), rgb(76, 92, 214),
+                                       rgb(138, 86, 214),  rgb(208, 92, 200), rgb(240, 150, 180)};
 
 std::uint32_t blend(std::uint32_t from, std::uint32_t to, float t) {
   const auto channel = [&](int shift) {
@@ -36,7 +37,8 @@ std::uint32_t blend(std::uint32_t from, std::uint32_t to, float t) {
   return rgb(channel(0), channel(8), channel(16));
 }
 
-// The tutorials' cube: side 2 about the origin, eight vertices, twelve triangles of twelve colours.
+// The cube of the tutorials: side 2, centred on the origin, eight vertices, twelve triangles of twelve
+// colours.
 Mesh cube_mesh() {
   Mesh mesh;
   for (int i = 0; i < 8; ++i) mesh.positions.emplace_back(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
@@ -47,12 +49,12 @@ Mesh cube_mesh() {
     mesh.triangles.emplace_back(f[0], f[1], f[2]);
     mesh.triangles.emplace_back(f[0], f[2], f[3]);
   }
-  mesh.colours.assign(kTwelve.begin(), kTwelve.end());
+  mesh.colours.assign(kTwelveColours.begin(), kTwelveColours.end());
   return mesh;
 }
 
-// A sheet of `columns` x `rows` quads; position(u, v) with u, v in [0, 1]. Clockwise seen from the side from
-// which u runs right and v runs down.
+// A sheet of `columns` x `rows` cells of two triangles. position(u, v) and colour(u, v) get u and v in [0,
+// 1]. The front is the side from which u points right and v down.
 template <typename Position, typename Colour>
 Mesh sheet(unsigned columns, unsigned rows, Position&& position, Colour&& colour) {
   Mesh mesh;
@@ -102,11 +104,12 @@ Drawable cubes(const SceneRequest& request) {
   return scene;
 }
 
-// A cube's faces subdivided and pushed out to the sphere: near-uniform triangles and no poles. Neighbouring
-// faces get the same bits along their common edge, since a power of two of cells makes the angles symmetric.
+// The faces of a cube, subdivided and projected to a sphere: near-uniform triangles and no poles. The number
+// of cells is a power of two, so the angles are symmetric, and neighbouring faces get the same bits along
+// their common edge.
 Drawable sphere(const SceneRequest& request) {
-  constexpr unsigned kSide = 64;  // quads: 6 * 64^2 * 2 = 49,152 triangles
-  // Equal angles rather than equal lengths keep the cells alike; exactly -1 and 1 at the ends.
+  constexpr unsigned kSide = 64;  // cells: 6 * 64^2 * 2 = 49,152 triangles
+  // Equal angles, not equal lengths, keep the cells similar. The ends are exactly -1 and 1.
   const auto bend = [](float t) {
     const float d = 2.0f * t - 1.0f;
     return std::abs(d) == 1.0f ? d : std::tan(d * kPi / 4.0f);
@@ -122,7 +125,7 @@ Drawable sphere(const SceneRequest& request) {
         [&](float u, float v) { return glm::normalize(centre + bend(u) * right + bend(v) * down); },
         [&](float u, float v) {
           const bool odd = (static_cast<int>(u * 8.0f) + static_cast<int>(v * 8.0f)) % 2 != 0;
-          return odd ? kTwelve[2 * face] : blend(kTwelve[2 * face], rgb(255, 255, 255), 0.75f);
+          return odd ? kTwelveColours[2 * face] : blend(kTwelveColours[2 * face], rgb(255, 255, 255), 0.75f);
         }));
     scene.instances.push_back({.mesh = face, .axis = {0.2f, 1.0f, 0.0f}, .angle = 0.4f * request.time});
   }
@@ -131,8 +134,8 @@ Drawable sphere(const SceneRequest& request) {
 }
 
 Drawable torus_knot(const SceneRequest& request) {
-  constexpr unsigned kAlong = 1024, kAround = 24;  // 49,152 triangles
-  constexpr float kTube = 0.32f;
+  constexpr unsigned kAlong = 1024, kAround = 24;  // cells: 49,152 triangles
+  constexpr float kTube = 0.32f;                   // radius
   // The (2, 3) knot on a torus of radii 1.2 and 0.5.
   const auto curve = [](float t) {
     const float radius = 1.2f + 0.5f * std::cos(3.0f * t);
@@ -142,9 +145,10 @@ Drawable torus_knot(const SceneRequest& request) {
   scene.meshes.push_back(sheet(
       kAlong, kAround,
       [&](float u, float v) {
-        // The frame leans on the torus's normal, to which the curve is always perpendicular.
+        // The tube's cross-section is oriented by the torus's normal, which is always perpendicular to the
+        // curve.
         constexpr float kStep = 1e-2f;
-        // The seam's vertices must be the same bits on both sides.
+        // Vertices on the seam must have the same bits on both sides.
         const float t = u == 1.0f ? 0.0f : u * 2.0f * kPi, angle = v == 1.0f ? 0.0f : v * 2.0f * kPi;
         const glm::vec3 centre = curve(t), tangent = glm::normalize(curve(t + kStep) - curve(t - kStep));
         const float outward = std::cos(3.0f * t);
@@ -154,19 +158,20 @@ Drawable torus_knot(const SceneRequest& request) {
         return centre + kTube * (std::cos(angle) * side - std::sin(angle) * up);
       },
       [&](float u, float) {
-        const float place = u * 12.0f;
-        const auto hue = static_cast<std::size_t>(place);
-        return blend(kTwelve[hue % 12], kTwelve[(hue + 1) % 12], place - static_cast<float>(hue));
+        const float hue = u * 12.0f;
+        const auto first = static_cast<std::size_t>(hue);
+        return blend(kTwelveColours[first % 12], kTwelveColours[(first + 1) % 12],
+                     hue - static_cast<float>(first));
       }));
   scene.instances.push_back({.axis = {0.3f, 1.0f, 0.0f}, .angle = 0.3f + 0.5f * request.time});
   scene.camera = camera_at({0.0f, 0.4f, 4.6f}, {0.0f, 0.0f, 0.0f});
   return scene;
 }
 
-// What single meshes lack: instances that occlude one another, a million triangles and more.
+// Instanced knots: many instances that occlude each other, with more than a million triangles.
 Drawable knots(const SceneRequest& request) {
-  constexpr int kSide = 6;
-  constexpr float kSpacing = 2.6f;  // less than a knot is wide
+  constexpr int kSide = 6;          // knots per row and column at scale 1
+  constexpr float kSpacing = 2.6f;  // less than the width of a knot
   constexpr double kTrianglesOfKnot = 49'152;
   check_triangles(kSide * kSide * kTrianglesOfKnot * request.scale, request.scale);
   const int side = std::max(1, static_cast<int>(std::lround(kSide * std::sqrt(request.scale))));
@@ -206,9 +211,9 @@ float value_noise(float x, float y) {
   return upper + (lower - upper) * v;
 }
 
-// The camera stands in the middle, so that triangles cross the near plane and every side of the view.
+// The camera is in the middle, so triangles cross the near plane and every side of the view.
 Drawable terrain(const SceneRequest& request) {
-  constexpr unsigned kSide = 512;  // quads: 524,288 triangles
+  constexpr unsigned kSide = 512;  // cells: 524,288 triangles
   constexpr float kExtent = 40.0f, kHeight = 4.0f;
   const auto height = [](float x, float z) {
     float sum = 0.0f, amplitude = 0.5f, frequency = 0.15f;
@@ -216,13 +221,15 @@ Drawable terrain(const SceneRequest& request) {
       sum += amplitude * value_noise(x * frequency + 100.0f, z * frequency + 100.0f);
     return kHeight * sum;
   };
-  const auto place = [](float t) { return (t - 0.5f) * kExtent; };
+  const auto coordinate = [](float t) { return (t - 0.5f) * kExtent; };
   Scene scene;
   scene.meshes.push_back(sheet(
       kSide, kSide,
-      [&](float u, float v) { return glm::vec3(place(u), height(place(u), place(v)), place(v)); },
       [&](float u, float v) {
-        const float level = height(place(u), place(v)) / kHeight;
+        return glm::vec3(coordinate(u), height(coordinate(u), coordinate(v)), coordinate(v));
+      },
+      [&](float u, float v) {
+        const float level = height(coordinate(u), coordinate(v)) / kHeight;
         const float grain = 0.15f * value_noise(u * 300.0f, v * 300.0f);
         const std::uint32_t low =
             blend(rgb(64, 128, 72), rgb(150, 142, 100), std::clamp(level * 3.0f - 1.0f, 0.0f, 1.0f));
@@ -236,7 +243,7 @@ Drawable terrain(const SceneRequest& request) {
   return scene;
 }
 
-// Counts, areas and shapes are those of the peers' comparison, at 1920 x 1080.
+// Counts, areas and shapes are those of the comparison with peers, at 1920 x 1080.
 Drawable large(const SceneRequest& r) {
   return random_stream(r, 1'000, 45'000.0, 0.0, 1);
 }
@@ -267,10 +274,11 @@ Drawable quads(const SceneRequest& r) {
 std::span<const SceneInfo> builtin_scenes() {
 #define EDGEWISE_ENTRY(name) scene_##name,
   static const std::array kScenes = {
-      SceneInfo{"cube", "the tutorials' cube: twelve triangles of twelve colours, turning", false, cube},
+      SceneInfo{"cube", "the cube of the tutorials: twelve triangles of twelve colours, turning", false,
+                cube},
       SceneInfo{"cubes", "seven cubes that overlap and interpenetrate", false, cubes},
       SceneInfo{"sphere", "49,152 triangles of nearly one size", false, sphere},
-      SceneInfo{"torus-knot", "49,152 triangles that hide one another", false, torus_knot},
+      SceneInfo{"torus-knot", "49,152 triangles that occlude each other", false, torus_knot},
       SceneInfo{"terrain", "524,288 triangles around the camera, crossing the near plane and all sides",
                 false, terrain},
       SceneInfo{"large", "1,000 triangles of 45,000 px", true, large},
@@ -280,9 +288,9 @@ std::span<const SceneInfo> builtin_scenes() {
       SceneInfo{"sliver", "100,000 triangles of about 500 x 0.5 px in all directions", true, sliver},
       SceneInfo{"grid4", "a watertight jittered grid with cells of 4 px", true, grid4},
       SceneInfo{"grid64", "a watertight jittered grid with cells of 64 px", true, grid64},
-      SceneInfo{"quads", "squares of 16, 32 and 64 px on the pixel grid, one of each over every pixel", true,
+      SceneInfo{"quads", "squares of 16, 32 and 64 px on the pixel grid; each size covers every pixel", true,
                 quads},
-      SceneInfo{"knots", "36 instances of torus-knot that hide one another: 1,769,472 triangles", false,
+      SceneInfo{"knots", "36 instances of torus-knot that occlude each other: 1,769,472 triangles", false,
                 knots, true},
       EDGEWISE_MORE_SCENES(EDGEWISE_ENTRY)};
   return kScenes;

@@ -1,13 +1,13 @@
-// Cells of two triangles → faces of four vertices.
+// Joins pairs of triangles into faces of four vertices.
 #pragma once
 
 #include "edgewise/scene.h"
 
 namespace edgewise {
 
-// Makes each two triangles in a row of the scene's meshes one face, of the first one's colour. They must be
-// the halves p, q, s and q, r, s of a cell p, q, r, s, as those of the built-in sphere and torus knot are,
-// and have no marks.
+// Joins triangles 0 and 1, 2 and 3, … of every mesh into faces with the colour of the first triangle. Each
+// pair must be the halves p, q, s and q, r, s of a cell p, q, r, s, as in the built-in sphere and torus knot.
+// The meshes must have no triangle flags.
 void join_cells(Scene& scene);
 
 }  // namespace edgewise

@@ -1,5 +1,5 @@
-// The camera stands on a sphere around the bounding box's centre, far enough away that the cone of its field
-// of view holds all vertices.
+// The camera looks at the centre of the bounding box, from far enough away that the cone of its field of view
+// contains all vertices.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,7 +11,7 @@ namespace edgewise {
 namespace {
 
 constexpr float kFovY = 0.785398163f;  // 45 degrees
-constexpr double kMargin = 1.05;       // of the radius, left free around the meshes
+constexpr double kMargin = 1.05;       // factor on the radius of the sphere around all vertices
 
 template <typename Visit>
 void for_each_vertex(const Scene& scene, const Visit& visit) {
@@ -41,7 +41,7 @@ void frame_camera(Scene& scene) {
   Camera& camera = scene.camera;
   camera.position = glm::vec3(centre + distance * glm::normalize(glm::dvec3(0.4, 0.35, 1.0)));
   camera.fov_y = kFovY;
-  // The nearest vertex is more than half the distance away, the farthest less than one and a half.
+  // All vertices are between 0.5 and 1.5 times this distance away.
   camera.near_z = static_cast<float>(distance / 100.0);
   camera.far_z = static_cast<float>(distance * 4.0);
   camera.look_at(glm::vec3(centre));

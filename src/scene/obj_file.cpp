@@ -1,8 +1,8 @@
-// tinyobjloader never complains: it reads what is no number as 0, drops what it cannot use, and takes any
-// index. So each `v` and `f` line is checked first, with its line number, and only what was checked is handed
-// on, written plainly: positions and vertex indices.
-// Its callback interface is used because the other one cuts polygons at 255 corners and triangulates them
-// wrongly (see polygon.cpp).
+// tinyobjloader reports no errors: it reads a malformed number as 0, drops lines that it cannot use, and
+// accepts any index. So read_geometry() checks each `v` and `f` line, and reports faults with their line
+// number. It passes on only checked positions and vertex indices, in plain notation.
+// This file uses the callback interface of tinyobjloader. The other interface cuts polygons at 255 corners
+// and triangulates them wrongly (see polygon.cpp).
 #include "edgewise/obj_file.h"
 
 #include <algorithm>
@@ -40,7 +40,7 @@ std::string at_line(std::size_t line, const std::string& reason) {
   return "line " + std::to_string(line) + ": " + reason;
 }
 
-// Takes the next word off the front of a line; empty at its end.
+// Removes the next word from the front of a line and returns it; empty at the line's end.
 std::string_view next_word(std::string_view& line) {
   line.remove_prefix(std::min(line.find_first_not_of(kBlank), line.size()));
   const std::string_view word = line.substr(0, line.find_first_of(kBlank));
@@ -48,7 +48,7 @@ std::string_view next_word(std::string_view& line) {
   return word;
 }
 
-// What a message quotes of the file: short, and nothing a terminal would obey.
+// A word of the file for a message: shortened, and without control characters.
 std::string quoted(std::string_view word) {
   std::string text(word.substr(0, 32));
   for (char& c : text)
@@ -56,7 +56,7 @@ std::string quoted(std::string_view word) {
   return "'" + text + (word.size() > 32 ? "...'" : "'");
 }
 
-// from_chars leaves out a leading plus.
+// std::from_chars does not accept a leading plus.
 std::string_view without_plus(std::string_view word) {
   return word.starts_with('+') && !word.starts_with("+-") ? word.substr(1) : word;
 }
@@ -65,14 +65,14 @@ bool is_control(char c) {
   return static_cast<unsigned char>(c) < ' ' || c == '\x7F';
 }
 
-// NaN where the word is no number.
+// NaN if the word is not a number.
 double parse_number(std::string_view word) {
   word = without_plus(word);
   double value = 0.0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (end != word.data() + word.size() || error == std::errc::invalid_argument)
     return std::numeric_limits<double>::quiet_NaN();
-  // from_chars does not tell too small from too large.
+  // from_chars does not say whether the value is too small or too large.
   if (error == std::errc::result_out_of_range) return std::strtod(std::string(word).c_str(), nullptr);
   return value;
 }
@@ -84,7 +84,7 @@ float parse_coordinate(std::string_view word, std::size_t line) {
   return value;
 }
 
-// A corner is V, V/T, V//N or V/T/N; only V matters here.
+// A corner is V, V/T, V//N or V/T/N. Returns V; the others are not used.
 int parse_corner(std::string_view word, std::size_t line) {
   const std::string_view text = without_plus(word);
   int index = 0;
@@ -97,10 +97,10 @@ int parse_corner(std::string_view word, std::size_t line) {
   return index;
 }
 
-// The file's vertices and faces, checked as far as single lines allow it.
+// The file's vertices and faces, with all checks that need only one line.
 struct Geometry {
-  std::string text;                     // one line each
-  std::vector<std::size_t> face_lines;  // the line in the file of each face
+  std::string text;                     // one line per vertex or face
+  std::vector<std::size_t> face_lines;  // each face's line number in the file
 
   void add(std::string_view line, std::size_t number) {
     line = line.substr(0, line.find('#'));
@@ -137,7 +137,8 @@ struct Geometry {
     face_lines.push_back(line);
   }
 
-  // A negative index counts back from the vertex before the face. Positive ones may name a later vertex.
+  // A negative index counts back from the last vertex before the face. A positive one may name a later
+  // vertex.
   int checked(int index, std::size_t line) const {
     if (-std::int64_t{index} > vertices_)
       throw std::invalid_argument(at_line(line, "a face names vertex " + std::to_string(index) + " of the " +
@@ -154,13 +155,13 @@ struct Geometry {
 };
 
 Geometry read_geometry(std::string_view text) {
-  // Catches UTF-16 too, which has a zero byte in every ASCII character.
+  // This also rejects UTF-16, which has a zero byte in every ASCII character.
   if (text.find('\0') != text.npos) throw std::invalid_argument("is not a text file");
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
 
   Geometry geometry;
   geometry.text.reserve(text.size());
-  std::string joined;  // lines that a backslash continued
+  std::string joined;  // lines that end with a backslash, joined
   for (std::size_t number = 1, first = 1; !text.empty(); ++number) {
     const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
     std::string_view line = text.substr(0, end);
@@ -180,8 +181,8 @@ Geometry read_geometry(std::string_view text) {
 // Filled by tinyobjloader's callbacks.
 struct Builder {
   std::vector<glm::vec3> positions;
-  std::vector<std::int64_t> corners;  // zero-based; may be too large, since a vertex may follow its face
-  std::vector<std::size_t> face_ends{0};
+  std::vector<std::int64_t> corners;      // vertex indices from 0; not yet checked against the vertex count
+  std::vector<std::size_t> face_ends{0};  // face i has corners face_ends[i] … face_ends[i + 1] - 1
 
   static void vertex(void* self, float x, float y, float z, float) {
     static_cast<Builder*>(self)->positions.emplace_back(x, y, z);

@@ -1,10 +1,12 @@
-// Ear clipping (Meisters, "Polygons have ears", 1975; as in Eberly, "Triangulation by ear clipping"): a
-// corner is cut off when its triangle holds no concave corner of what remains. Cutting changes only its two
-// neighbours, so a corner once found blocked is not tested again until a neighbour goes. Concave corners are
-// searched in a list sorted along the longer axis, which keeps large round polygons near n log n.
+// Ear clipping (Meisters, "Polygons have ears", 1975; as in Eberly, "Triangulation by ear clipping"). A
+// corner is cut off if its triangle contains no concave corner of the remaining polygon. A cut changes only
+// the two neighbouring corners. So a corner that cannot be cut is tested again only after a neighbour is
+// removed. The concave corners are searched in a list sorted along the longer axis: large round polygons take
+// about n log n time.
 //
-// It stands here because tinyobjloader 2.0.0rc10 decides concavity by a corner's place relative to the
-// origin, splits concave quads on the outside, and loses the rest of a polygon it cannot finish.
+// tinyobjloader 2.0.0rc10 has a triangulation, but it decides concavity by a corner's position relative to
+// the origin, splits concave quads along the outer diagonal, and drops the rest of a polygon that it cannot
+// finish.
 #include "scene/polygon.h"
 
 #include <algorithm>
@@ -17,10 +19,10 @@ namespace edgewise {
 
 namespace {
 
-// Visits to corners; about two seconds.
+// Corners visited before triangulate() gives up; about two seconds.
 constexpr std::uint64_t kMaxWork = 1'000'000'000;
 
-// Newell's method: twice the area vector. It needs no convex corner to start from.
+// Twice the area vector, by Newell's method, which needs no convex corner to start from.
 glm::dvec3 area_vector(std::span<const glm::vec3> positions, std::span<const std::uint32_t> polygon) {
   glm::dvec3 sum(0.0);
   const glm::dvec3 origin(positions[polygon[0]]);
@@ -30,7 +32,7 @@ glm::dvec3 area_vector(std::span<const glm::vec3> positions, std::span<const std
   return sum;
 }
 
-// The polygon seen along the axis that its normal is closest to, turned counter-clockwise.
+// Projects the polygon along the axis closest to its normal, and makes it counter-clockwise.
 std::vector<glm::dvec2> flatten(std::span<const glm::vec3> positions,
                                 std::span<const std::uint32_t> polygon) {
   const glm::dvec3 normal = area_vector(positions, polygon), size = glm::abs(normal);
@@ -43,6 +45,7 @@ std::vector<glm::dvec2> flatten(std::span<const glm::vec3> positions,
   return points;
 }
 
+// Positive for a left turn at b, negative for a right turn.
 double turn_at(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
   return (b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x);
 }
@@ -59,24 +62,24 @@ class EarClipper {
     sort_concave();
   }
 
-  // Calls emit(a, b, c) for every triangle, with positions in the polygon.
+  // Calls emit(a, b, c) for every triangle, with indices into the polygon.
   template <typename Emit>
   void run(const Emit& emit) {
     auto remaining = static_cast<std::uint32_t>(points_.size());
-    std::uint32_t corner = 1, passed = 0;
+    std::uint32_t corner = 1, rejected = 0;
     while (remaining > 3) {
-      if (passed < remaining && !is_ear(corner)) {
+      if (rejected < remaining && !is_ear(corner)) {
         corner = next_[corner];
-        ++passed;
+        ++rejected;
         spend(1);
         continue;
       }
-      // A full round without an ear: the polygon crosses itself or is flat, and any corner is as good.
+      // If no corner is an ear, the polygon crosses itself or is flat, and any corner may be cut.
       emit(previous_[corner], corner, next_[corner]);
       remove(corner);
       --remaining;
-      passed = 0;
-      // Skipping a corner gives compact triangles where clipping on would make a fan of slivers.
+      rejected = 0;
+      // Skipping a corner gives compact triangles. Cutting the next corner would give a fan of slivers.
       corner = next_[next_[corner]];
     }
     emit(previous_[corner], corner, next_[corner]);
@@ -108,8 +111,8 @@ class EarClipper {
     return false;
   }
 
-  // No concave corner lies in the triangle or on its sides. Corners in the same place as one of the
-  // triangle's don't count: a bridge to a hole passes every point twice.
+  // True if no concave corner lies in the triangle or on its sides. Corners at the same position as one of
+  // the triangle's do not count: a bridge to a hole passes each of its points twice.
   bool is_empty(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
     const auto [low, high] = std::minmax({a[axis_], b[axis_], c[axis_]});
     auto i = std::lower_bound(concave_.begin(), concave_.end(), low,

@@ -1,4 +1,4 @@
-// Polygons in space → triangles.
+// Triangulates polygons in space.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,10 @@
 
 namespace edgewise {
 
-// Appends polygon.size() - 2 triangles that keep the polygon's winding and fill it, concave or not; holes may
-// be bridged by a doubled edge. A polygon that crosses itself or has no area still gets its triangles, in
-// some arrangement. All indices must lie in `positions`, which must be finite, and there must be at least
-// three. Throws std::invalid_argument for a polygon of so many concave corners that it would take minutes.
+// Appends polygon.size() - 2 triangles that fill the polygon and have its winding. The polygon may be concave
+// and may have holes that a doubled edge connects to its outline. If it crosses itself or has no area, it is
+// not necessarily filled. `polygon` holds at least three indices into `positions`, which must be finite.
+// Throws std::invalid_argument if the polygon has so many concave corners that it would take minutes.
 void triangulate(std::span<const glm::vec3> positions, std::span<const std::uint32_t> polygon,
                  std::vector<glm::uvec3>& triangles);
 

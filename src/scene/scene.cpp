@@ -48,7 +48,7 @@ void fit(Scene& scene) {
   if (!(longest > 0.0f)) return;
   const float factor = 2.0f / longest;
   const glm::vec3 centre = low + 0.5f * size, moved = centre * factor;
-  // Beyond it, products with the camera's matrix may overflow.
+  // Beyond this, products with the camera's matrix may overflow.
   constexpr float kLargest = 0x1p100f;
   if (!(factor > 0.0f &&
         std::max({factor, std::abs(moved.x), std::abs(moved.y), std::abs(moved.z)}) <= kLargest))

@@ -12,7 +12,7 @@ namespace edgewise {
 
 namespace {
 
-constexpr double kMaxTriangles = 1e8;
+constexpr double kMaxStreamTriangles = 1e8;
 
 std::uint32_t random_colour(Random& random) {
   const auto channel = [&] { return static_cast<std::uint32_t>(64 + random.below(192)); };
@@ -27,7 +27,7 @@ void shuffle(std::vector<StreamTriangle>& triangles, Random& random) {
 }  // namespace
 
 void check_triangles(double triangles, double scale) {
-  if (!(scale > 0.0) || !(triangles <= kMaxTriangles))
+  if (!(scale > 0.0) || !(triangles <= kMaxStreamTriangles))
     throw std::invalid_argument("scale " + std::to_string(scale) + " gives no triangle, or more than 10^8");
 }
 
@@ -39,8 +39,8 @@ TriangleStream random_stream(const SceneRequest& request, std::size_t count, dou
   TriangleStream stream{request.width, request.height, {}};
   stream.triangles.resize(static_cast<std::size_t>(wanted));
   for (auto& triangle : stream.triangles) {
-    // A base of some length, and a height that gives the area; the apex stands anywhere over the base or
-    // beside it.
+    // A base of random length, and the height that gives the area. The apex lies anywhere above the base or a
+    // little beside it.
     const float proportion =
         aspect > 0.0 ? static_cast<float>(aspect) * random.uniform(0.7f, 1.4f) : random.uniform(0.6f, 3.0f);
     const float base = static_cast<float>(std::sqrt(2.0 * area_px * proportion));
@@ -62,7 +62,8 @@ TriangleStream random_stream(const SceneRequest& request, std::size_t count, dou
 }
 
 TriangleStream jittered_grid(const SceneRequest& request, double cell_px, std::uint64_t seed) {
-  // Below a quarter of a cell no triangle can flip: its area stays above (1 - 2j)^2 - (2j)^2 = 1 - 4j cells.
+  // A jitter j below 1/4 of a cell flips no triangle: twice its area is at least (1 - 2j)^2 - (2j)^2 = 1 - 4j
+  // cells.
   constexpr float kJitter = 0.2f;
   const double cell = cell_px / std::sqrt(request.scale);
   check_triangles(2.0 * request.width / cell * request.height / cell, request.scale);
@@ -72,8 +73,8 @@ TriangleStream jittered_grid(const SceneRequest& request, double cell_px, std::u
 
   const auto coordinate = [&](int index, int count, int side) {
     if (index == 0 || index == count) return index == 0 ? 0.0f : static_cast<float>(side);
-    const float place = static_cast<float>(index) + random.uniform(-kJitter, kJitter);
-    return place * static_cast<float>(side) / static_cast<float>(count);
+    const float jittered = static_cast<float>(index) + random.uniform(-kJitter, kJitter);
+    return jittered * static_cast<float>(side) / static_cast<float>(count);
   };
   std::vector<glm::vec3> vertices;
   for (int row = 0; row <= rows; ++row)
@@ -102,10 +103,10 @@ TriangleStream jittered_grid(const SceneRequest& request, double cell_px, std::u
 TriangleStream aligned_squares(const SceneRequest& request, std::uint64_t seed) {
   constexpr int kSides_px[] = {16, 32, 64};
   const auto squares = [&](int length_px, int side_px) { return (length_px + side_px - 1) / side_px; };
-  double in_all = 0.0;
+  double at_scale_1 = 0.0;
   for (const int side_px : kSides_px)
-    in_all += 2.0 * squares(request.width, side_px) * squares(request.height, side_px);
-  const double wanted = std::ceil(in_all * request.scale);
+    at_scale_1 += 2.0 * squares(request.width, side_px) * squares(request.height, side_px);
+  const double wanted = std::ceil(at_scale_1 * request.scale);
   check_triangles(wanted, request.scale);
 
   Random random(seed);

@@ -1,4 +1,4 @@
-// The file's bytes are the vector's bytes, so both directions are one bulk copy.
+// The triangles have the same layout in the file and in memory, so each direction is one bulk copy.
 #include "edgewise/tri_file.h"
 
 #include <array>
