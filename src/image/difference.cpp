@@ -13,7 +13,7 @@ namespace edgewise {
 
 namespace {
 
-// Equal pixels keep a third of their brightness, so that even the faintest red, which has half, stands out.
+// Equal pixels have a third of their brightness, so even the faintest red, at half brightness, stands out.
 constexpr std::uint32_t kBrightestGrey = 85;
 constexpr double kFaintestRed = 128.0;
 
@@ -21,7 +21,8 @@ std::string size_text(int width, int height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
 
-// `delta(i)` is the difference at a pixel, `grey(i)` its brightness when equal, at most kBrightestGrey.
+// `delta(i)` is the difference at pixel i; `grey(i)` is the brightness of an equal pixel, at most
+// kBrightestGrey.
 template <typename Delta, typename Grey>
 Difference compare(int width, int height, const Delta& delta, const Grey& grey) {
   Difference result;

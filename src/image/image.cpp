@@ -1,4 +1,4 @@
-// PNG by libpng's simplified interface, which keeps its longjmp to itself, and PPM (P6) by hand.
+// PNG uses libpng's simplified interface, which needs no setjmp here. PPM (P6) is read and written directly.
 #include "edgewise/image.h"
 
 #include <png.h>
@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The bytes R, G, B, A of libpng are the integer 0xAABBGGRR.
+// libpng's bytes R, G, B, A are then the integer 0xAABBGGRR.
 static_assert(std::endian::native == std::endian::little);
 
 struct PngImage : png_image {

@@ -8,7 +8,7 @@ namespace edgewise::netpbm {
 
 namespace {
 
-// Longer than any honest word, and short enough to quote.
+// Longer than any valid word, and short enough for a message.
 constexpr std::size_t kMaxWord = 32;
 
 bool is_blank(int c) {

@@ -1,5 +1,5 @@
-// What PPM and PFM share: a header of words, then samples. Every size is checked before memory is taken for
-// it.
+// Reads files of the Netpbm kind (PPM and PFM): a header of words, then samples. Sizes are checked before
+// memory is allocated for them.
 #pragma once
 
 #include <cstddef>
@@ -18,13 +18,13 @@ struct Size {
   std::size_t pixels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
 };
 
-// Both throw std::runtime_error, naming the file: for a side out of range, and for pixels that don't fill the
-// size.
+// Both throw std::runtime_error with the file's name: for a side out of range, or if `pixels` is not
+// width x height.
 Size checked_size(const std::filesystem::path& path, std::uint64_t width, std::uint64_t height);
 void check_pixels(const std::filesystem::path& path, int width, int height, std::size_t pixels);
 
-// Reads a file word by word, then its samples; comments from # to the end of the line are skipped. Throws
-// std::runtime_error, naming the file.
+// Reads the words of a file's header, then its samples. Comments from # to the end of the line are skipped.
+// All functions throw std::runtime_error, with the file's name, if the file is malformed or truncated.
 class Reader {
  public:
   Reader(const std::filesystem::path& path, std::string_view magic);
@@ -33,7 +33,7 @@ class Reader {
   std::uint64_t integer();
   Size size();
 
-  // The samples follow one blank after the last word.
+  // Reads `count` samples. They begin one blank after the last word.
   template <typename Sample>
   std::vector<Sample> samples(std::size_t count) {
     check_rest(count * sizeof(Sample));

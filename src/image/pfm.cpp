@@ -1,6 +1,5 @@
-// PFM, as Debevec's HDRShop defined it: "Pf", width, height, a scale whose sign tells the byte order
-// (negative is little endian), then float rows, the bottom one first. The scale's size is a unit of light and
-// is ignored.
+// PFM, as defined by Debevec's HDRShop: "Pf", width, height, a scale, then rows of floats, the bottom row
+// first. A negative scale means little endian. The scale's size is a unit of light and is ignored.
 #include <algorithm>
 #include <bit>
 #include <charconv>

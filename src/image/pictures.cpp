@@ -6,8 +6,8 @@ namespace edgewise::app {
 
 namespace {
 
-// Odd, so multiplying by it permutes the 24-bit numbers: 2^24 over the golden ratio, which throws neighbours
-// far apart (Knuth, The Art of Computer Programming, volume 3, section 6.4).
+// 2^24 over the golden ratio. A multiplication by it moves neighbouring numbers far apart (Knuth, The Art of
+// Computer Programming, volume 3, section 6.4). It is odd, so it permutes the 24-bit numbers.
 constexpr std::uint32_t kSpread = 0x9E3779;
 static_assert(kSpread % 2 == 1);
 
@@ -24,7 +24,7 @@ Image build(int width, int height, PixelAt pixel_at) {
 
 Image picture_of(const Framebuffer& frame, Payload payload) {
   if (payload == Payload::colour) return to_image(frame);
-  // The background's id wraps to 0, which is black.
+  // The background's id + 1 wraps to 0, which is black.
   return build(frame.width(), frame.height(), [&](int x, int y) {
     const std::uint32_t code = ((frame.payload_row(y)[x] + 1u) * kSpread) & 0xFFFFFFu;
     return 0xFF000000u | code;

@@ -1,4 +1,4 @@
-// Frames as pictures for people.
+// Pictures of frames.
 #pragma once
 
 #include <cstdint>
@@ -11,19 +11,20 @@
 
 namespace edgewise::app {
 
-// What is drawn behind the triangles: black, and an id that no triangle has.
+// The background's payload: black, or an id that no triangle has.
 constexpr std::uint32_t background_of(Payload payload) {
   return payload == Payload::colour ? rgb(0, 0, 0) : 0xFFFFFFFFu;
 }
 
-// Colours as they are; ids as colours that differ for neighbouring ids and tell the id exactly below 2^24
-// - 1.
+// Colours are kept. An id becomes a colour that differs from its neighbours' and is unique below 2^24 - 1.
 Image picture_of(const Framebuffer& frame, Payload payload);
 
-// 0 black, 1 grey, 2 yellow, 3 and more red.
+// A picture of how many triangles hit each pixel: 0 is black, 1 grey, 2 yellow, 3 or more red. `hits` has
+// width x height entries, row by row, top first.
 Image picture_of_hits(std::span<const std::uint32_t> hits, int width, int height);
 
-// Red where the payloads differ, blue where only the depths do, and grey where all is equal.
+// Red where the payloads differ, blue where only the depths differ, grey where both are equal. The frames
+// must have the same size.
 Image picture_of_difference(const Framebuffer& a, const Framebuffer& b, Payload payload);
 
 }  // namespace edgewise::app
