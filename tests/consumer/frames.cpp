@@ -1,5 +1,5 @@
-// Draws a turning scene into one piece of the caller's memory, again and again: after the first frame nothing
-// is allocated, nothing beside the frame is written, and an empty frame leaves nothing of the one before.
+// Draws frames of a scene with a turning camera into the caller's memory. Checks that only the first frame
+// allocates, that no memory beside the frame is written, and that an empty frame overwrites the previous one.
 #include <edgewise/backend.h>
 #include <edgewise/builtin.h>
 #include <edgewise/frontend.h>

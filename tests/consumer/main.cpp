@@ -1,5 +1,5 @@
-// Draws a pyramid, or the OBJ file that is named, into memory of its own; then asks whose the middle pixel
-// is.
+// Draws a pyramid, or the OBJ file given as argument, into the program's own memory. Then prints which
+// triangle is visible in the middle pixel.
 #include <edgewise/backend.h>
 #include <edgewise/contract.h>
 #include <edgewise/frontend.h>
@@ -26,7 +26,7 @@ int main(int count, char** arguments) try {
   std::vector<std::uint32_t> depth(stride * height), payload(stride * height);
   const FrameView frame{depth.data(), payload.data(), width, height, stride};
 
-  Frontend frontend;  // this and the backend keep their memory: make them once, draw often
+  Frontend frontend;  // it and the backend keep their memory: make them once, draw often
   const auto backend = find_backend("tiled").make();
   backend->draw(frontend.run(scene, {.width = width, .height = height}), frame, rgb(30, 30, 40), {});
   write_image("picture.png", to_image(frame));
