@@ -1,4 +1,4 @@
-// A coverage method: vertices snapped to 1/64 px, then doubles, which hold every product exactly.
+// A coverage method: snaps vertices to 1/64 px, then computes in doubles, which hold every product exactly.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -20,7 +20,7 @@ struct DoubleSnapped {
     if (area < 0) std::swap(x[1], x[2]), std::swap(y[1], y[2]);
     const auto [left, right] = std::minmax({x[0], x[1], x[2]});
     const auto [top, bottom] = std::minmax({y[0], y[1], y[2]});
-    const auto pixel = [](double place) { return static_cast<int>(std::floor(place)); };
+    const auto pixel = [](double px) { return static_cast<int>(std::floor(px)); };
     plot.begin();
     for (int row = std::max(pixel(top), window.y0); row < std::min(pixel(bottom) + 1, window.y1()); ++row)
       for (int column = std::max(pixel(left), window.x0); column < std::min(pixel(right) + 1, window.x1());

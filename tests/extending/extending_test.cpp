@@ -1,4 +1,4 @@
-// The examples of README's "Extending" stand in the lists, and fit together.
+// The examples of README.md are in the lists and work together.
 #include <gtest/gtest.h>
 
 #include "edgewise/builtin.h"
@@ -26,7 +26,7 @@ TEST(Extending, EveryBackendDrawsTheExamplesScene) {
   }
 }
 
-TEST(Extending, WhatIsAddedStandsBehindOurs) {
+TEST(Extending, AdditionsFollowTheBuiltInEntries) {
   EXPECT_EQ(backends().back().name, "quadtree");
   EXPECT_EQ(builtin_scenes().back().name, "staircase");
   EXPECT_EQ(lab::coverage_methods().back().info.name, "double_snapped");

@@ -1,4 +1,4 @@
-// A backend: quarters a triangle's box until a part lies outside an edge, or is a pixel.
+// A backend: quarters a triangle's bounding box until a part lies outside an edge or is one pixel.
 #include <algorithm>
 
 #include "edgewise/backend.h"
@@ -18,7 +18,7 @@ struct Prepared {
 
 void draw_part(const Prepared& t, PixelBox part, FrameView frame) {
   if (part.empty()) return;
-  for (const Edge& edge : t.edges)  // asked where the part reaches farthest to its inner side
+  for (const Edge& edge : t.edges)  // evaluated at the part's corner that lies furthest inside
     if (edge.at(edge.a > 0 ? part.x1 - 1 : part.x0, edge.b > 0 ? part.y1 - 1 : part.y0) < 0) return;
   if (part.x1 - part.x0 == 1 && part.y1 - part.y0 == 1) {
     const std::ptrdiff_t pixel = part.y0 * frame.stride + part.x0;
@@ -52,7 +52,7 @@ class Quadtree final : public Backend {
 }  // namespace
 
 extern const std::string_view idea_quadtree;
-const std::string_view idea_quadtree = "quarters the bounding box until a part is outside, or a pixel";
+const std::string_view idea_quadtree = "quarters the bounding box until a part is outside or one pixel";
 std::unique_ptr<Backend> make_quadtree();
 std::unique_ptr<Backend> make_quadtree() {
   return std::make_unique<Quadtree>();

@@ -1,4 +1,4 @@
-// A scene: twenty steps up and away, two quads each.
+// A scene: a staircase of twenty steps, two rectangles each, that leads up and away from the camera.
 #include "edgewise/builtin.h"
 
 namespace edgewise {
@@ -31,6 +31,6 @@ Drawable make(const SceneRequest& request) {
 }  // namespace
 
 extern const SceneInfo scene_staircase;
-const SceneInfo scene_staircase{"staircase", "twenty steps up and away", false, make};
+const SceneInfo scene_staircase{"staircase", "a staircase of twenty steps", false, make};
 
 }  // namespace edgewise
