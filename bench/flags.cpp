@@ -11,7 +11,7 @@ namespace edgewise::bench {
 
 namespace {
 
-// Only to suggest them: Google Benchmark itself decides which it takes.
+// For suggestions only: Google Benchmark itself accepts or rejects its flags.
 constexpr const char* kGoogleBenchmarkOptions[] = {"--benchmark_color",
                                                    "--benchmark_context",
                                                    "--benchmark_counters_tabular",
@@ -39,34 +39,32 @@ std::optional<Flags> parse_flags(int argc, char** argv) {
                   "Only this scene, a name or an .obj or .tri file (repeatable)")
       ->allow_extra_args(false)
       ->type_name("NAME|FILE");
-  parser
-      .add_option("--add-scene", flags.suite.more_scenes, "The whole suite, and this scene too (repeatable)")
+  parser.add_option("--add-scene", flags.suite.more_scenes, "The whole suite and this scene (repeatable)")
       ->allow_extra_args(false)
       ->excludes("--scene")
       ->type_name("FILE");
   parser.add_flag("--fit", flags.suite.fit, "Centre a mesh from a file and scale its longest side to 2");
   bool no_peers = false;
-  auto* peers_flag =
-      parser.add_flag("--peers", flags.need_peers,
-                      "Fail where a rasterizer of another project is missing (else it is left out)");
-  parser.add_flag("--no-peers", no_peers, "Leave them out")->excludes(peers_flag);
+  auto* peers_flag = parser.add_flag(
+      "--peers", flags.need_peers, "Fail if another project's rasterizer is missing (default: leave it out)");
+  parser.add_flag("--no-peers", no_peers, "Leave out other projects' rasterizers")->excludes(peers_flag);
   parser.add_flag("--quick", flags.suite.quick,
                   "Fewer rows and repetitions, a tenth of the triangles of knots and streams");
   app::add_size(parser, size, "Image size (1920x1080; a .tri file has its own)");
   std::string format;
-  parser.add_option("--benchmark_out", flags.out, "Write the results there, complete or not at all")
+  parser.add_option("--benchmark_out", flags.out, "Write the results to this file, complete or not at all")
       ->type_name("FILE");
   parser
       .add_option("--model_out", flags.model_out,
-                  "Write estimates there: the cost model, and speed-ups on more cores")
+                  "Write estimates to this file: the cost model, and speed-ups on more cores")
       ->type_name("FILE");
   parser.add_option("--benchmark_out_format", format, "json only")->check(CLI::IsMember({"json"}));
   parser.footer(
       "Google Benchmark's other flags work too, among them --benchmark_filter=REGEX, "
       "--benchmark_list_tests,\n"
       "--benchmark_repetitions=N, --benchmark_min_time=SECONDS and --benchmark_format=console|json|csv.\n"
-      "Whatever the filter lets through, random reads are timed between: they tell whether the last cache "
-      "was ours.\n"
+      "With every filter, random reads are timed between the rows: they show whether other processes filled "
+      "the last-level cache.\n"
       "Exit status: 0 done, 1 a row drew other pixels, 2 bad input or failure, 130 after Ctrl-C.\n"
       "A reader that closes standard output early, as `head` does, is no failure.");
   try {

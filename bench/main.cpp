@@ -1,5 +1,5 @@
-// The benchmark: every row is drawn once and compared bit for bit, then all rows are timed in interleaved
-// repetitions, so that a busy moment of the machine does not fall on one row alone.
+// The benchmark draws every row once and compares it bit for bit, then times all rows in interleaved
+// repetitions, so that a burst of other load on the machine does not hit one row alone.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -29,27 +29,30 @@ constexpr const char* kProgram = "edgewise_bench";
 
 namespace {
 
-// How long a row may take. Noise comes in bursts, so many short repetitions tell more than a few long ones.
+// The time budget of a row. Noise comes in bursts, so many short repetitions measure better than a few long
+// ones.
 struct Effort {
-  // at_least for rows of a backend alone: charts judge the noise by them. Slow rungs are steps far above it;
-  // peers are repeated in full.
-  int repetitions, at_least;
-  int in_ablation;           // instead, and for its backend's own rows: steps are often below the noise
-  double repetition_s;       // at least, unless one iteration takes longer
-  double slow_repetition_s;  // where one takes longer, they become fewer
+  int repetitions;
+  // The minimum for rows of a backend alone, since charts estimate the noise from them. Slow ablation rows
+  // may have fewer: their steps are far above the noise. Peers always have `repetitions`.
+  int min_repetitions;
+  int ablation_repetitions;  // replaces `repetitions` for ablation rows and those of kAblationBackend: their
+                             // differences are often below the noise
+  double repetition_s;       // minimum duration of a repetition
+  double slow_repetition_s;  // rows with longer iterations have fewer repetitions
 };
 constexpr Effort kFull{5, 3, 9, 0.012, 0.07}, kQuick{3, 2, 3, 0.015, 0.1};
 
-// Memory is measured once a scene and backend.
+// Memory is measured once per scene and backend.
 bool needs_peak(const Row& row) {
   return row.timed == Timed::frame && row.backend != nullptr && row.cores == 0 &&
          row.execution.target == SimdTarget::best && row.execution.threads == 2 &&
          row.once_s < row.repeat_below_s;
 }
 
-// Hands Google Benchmark its flags behind our defaults, so that the user's win.
+// Passes Google Benchmark our defaults first, so that the user's flags override them.
 void initialize_benchmark(const Flags& flags) {
-  // Static, since it keeps a pointer to the program's name.
+  // Static, since Google Benchmark keeps a pointer to the program's name.
   static std::vector<std::string> words{"edgewise_bench", "--benchmark_enable_random_interleaving=true",
                                         "--benchmark_counters_tabular=true"};
   words.insert(words.end(), flags.benchmark.begin(), flags.benchmark.end());
@@ -60,32 +63,32 @@ void initialize_benchmark(const Flags& flags) {
   if (argc > 1) throw std::invalid_argument(app::unknown_option(argv[1], flags.known, kProgram));
 }
 
-class Mute final : public benchmark::BenchmarkReporter {
+class SilentReporter final : public benchmark::BenchmarkReporter {
   bool ReportContext(const Context&) override { return true; }
   void ReportRuns(const std::vector<Run>&) override {}
 };
 
-// The rows that --benchmark_filter lets through, in the suite's order. Google Benchmark itself is asked, with
-// rows that do nothing. It says so where none matches (none are returned then), and where it is to list them
-// it does (an empty list).
+// The rows that match --benchmark_filter, in the suite's order. Google Benchmark applies the filter to empty
+// benchmarks of the same names. None if it reported that no row matches; an empty list after
+// --benchmark_list_tests.
 std::optional<std::vector<Row>> select(std::vector<Row> suite) {
-  std::vector<char> wanted(suite.size(), 0);
+  std::vector<char> selected(suite.size(), 0);
   for (std::size_t i = 0; i < suite.size(); ++i)
-    benchmark::RegisterBenchmark(suite[i].name.c_str(), [&wanted, i](benchmark::State& state) {
-      wanted[i] = 1;
+    benchmark::RegisterBenchmark(suite[i].name.c_str(), [&selected, i](benchmark::State& state) {
+      selected[i] = 1;
       state.SkipWithError("only selected");
     });
-  Mute mute;
-  if (benchmark::RunSpecifiedBenchmarks(&mute) == 0) return std::nullopt;
+  SilentReporter silent;
+  if (benchmark::RunSpecifiedBenchmarks(&silent) == 0) return std::nullopt;
   benchmark::ClearRegisteredBenchmarks();
   std::vector<Row> rows;
   for (std::size_t i = 0; i < suite.size(); ++i)
-    if (wanted[i]) rows.push_back(std::move(suite[i]));
+    if (selected[i]) rows.push_back(std::move(suite[i]));
   return rows;
 }
 
-// Whether a frame takes long, and longer than another backend's: its future on more cores decides nothing.
-bool is_beaten(const Row& row, const std::vector<Row>& rows) {
+// Whether a frame is slow, and slower than another backend's: its estimate for more cores is of no interest.
+bool is_slow_and_not_fastest(const Row& row, const std::vector<Row>& rows) {
   constexpr double kLong_s = 0.03;
   double own_s = 0.0, best_s = std::numeric_limits<double>::infinity();
   for (const Row& other : rows) {
@@ -98,22 +101,22 @@ bool is_beaten(const Row& row, const std::vector<Row>& rows) {
   return own_s > std::max(kLong_s, best_s);
 }
 
-// A peer may have been built and still not start here, where its driver is missing.
+// A peer that was built cannot start on a machine without its driver.
 void leave_out_missing_peers(std::vector<Row>& rows, bool need_peers) {
   for (const PeerInfo& peer : peers()) {
-    const auto is_its = [&](const Row& row) { return row.peer == &peer; };
-    if (std::none_of(rows.begin(), rows.end(), is_its)) continue;
+    const auto is_of_peer = [&](const Row& row) { return row.peer == &peer; };
+    if (std::none_of(rows.begin(), rows.end(), is_of_peer)) continue;
     try {
       benchmark::AddCustomContext(std::string(peer.name), peer.version());
     } catch (const std::runtime_error& error) {
       if (need_peers) throw;
       std::cerr << "Left out: " << error.what() << '\n';
-      std::erase_if(rows, is_its);
+      std::erase_if(rows, is_of_peer);
     }
   }
 }
 
-// Whether the row before is the same backend's draw without the front end, and took too long already.
+// Whether the previous row is the same backend's draw without the front end, and was already too slow.
 bool is_too_slow_alone(std::span<const Row> rows, std::size_t i) {
   if (i == 0 || rows[i].timed != Timed::frame || rows[i].cores > 0) return false;
   const Row &row = rows[i], &alone = rows[i - 1];
@@ -121,8 +124,8 @@ bool is_too_slow_alone(std::span<const Row> rows, std::size_t i) {
          alone.execution.threads == row.execution.threads && alone.once_s > kTooSlowToRepeat_s;
 }
 
-// Workload by workload, so that only one reference picture is held at a time. Of the whole suite, frames that
-// will be left out for their length are not drawn.
+// Goes workload by workload, so that only one reference picture is in memory at a time. In the whole suite,
+// frames that leave_out_slow_frames() will drop are not drawn.
 void compare_all(std::vector<Row>& rows, Stage& stage, bool whole_suite) {
   app::Progress progress;
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -132,7 +135,7 @@ void compare_all(std::vector<Row>& rows, Stage& stage, bool whole_suite) {
       return row.workload.get() == &workload && row.timed != Timed::raster;
     };
     workload.prepare(std::any_of(rows.begin(), rows.end(), needs_scene));
-    if (rows[i].cores > 0 && is_beaten(rows[i], rows))
+    if (rows[i].cores > 0 && is_slow_and_not_fastest(rows[i], rows))
       rows[i].once_s = std::numeric_limits<double>::infinity();
     else if (whole_suite && is_too_slow_alone(rows, i))
       rows[i].once_s = rows[i - 1].once_s;
@@ -143,18 +146,18 @@ void compare_all(std::vector<Row>& rows, Stage& stage, bool whole_suite) {
   }
 }
 
-// Throws std::invalid_argument if no other rows were selected.
+// Throws std::invalid_argument if only estimates were selected.
 void leave_out_estimates(std::vector<Row>& rows) {
   std::erase_if(rows, [](const Row& row) { return row.cores > 0; });
   if (rows.empty())
     throw std::invalid_argument("these rows are estimates, not timed: --model_out=FILE writes them");
 }
 
-// Beside a draw of seconds the front end's milliseconds are lost in the noise.
+// If the draw takes seconds, the front end's milliseconds are lost in the noise.
 void leave_out_slow_frames(std::vector<Row>& rows) {
   std::erase_if(rows, [&](const Row& row) {
     const bool slow = row.timed == Timed::frame && row.once_s > kTooSlowToRepeat_s;
-    if (slow && row.cores <= 1) std::cerr << "Left out for its length: " << row.name << '\n';
+    if (slow && row.cores <= 1) std::cerr << "Left out as too slow: " << row.name << '\n';
     return slow;
   });
 }
@@ -164,7 +167,7 @@ void time_row(benchmark::State& state, const Row& row, Stage& stage) {
   if (row.once_s > row.repeat_below_s) {
     for (auto _ : state) state.SetIterationTime(row.once_s);
   } else {
-    // The caches were another row's; a long draw warms its own.
+    // The caches hold another row's data. A long draw needs no warm-up.
     if (row.once_s < kFull.repetition_s) stage.work(row);
     for (auto _ : state) stage.work(row);
   }
@@ -200,36 +203,36 @@ void register_rows(const std::vector<Row>& rows, Stage& stage, const Flags& flag
           time_row(state, row, stage);
         });
     registered->Unit(benchmark::kMillisecond);
-    // Such a row's time stands before it would be taken.
+    // The comparison has already timed a slow row.
     const bool known = row.once_s > row.repeat_below_s;
     if (known)
       registered->UseManualTime();
     else
       registered->UseRealTime();
     const double once_s = std::max(row.once_s, 1e-6);
-    const int at_least = row.peer != nullptr                       ? effort.repetitions
-                         : row.timed == Timed::raster && !row.step ? effort.at_least
-                                                                   : 1;
+    const int least = row.peer != nullptr                       ? effort.repetitions
+                      : row.timed == Timed::raster && !row.step ? effort.min_repetitions
+                                                                : 1;
     if (flags.own_iterations || known)
       registered->Iterations(known ? 1
                                    : std::max<std::int64_t>(1, std::llround(effort.repetition_s / once_s)));
-    const int most = row.step || row.wants_floor ? effort.in_ablation : effort.repetitions;
+    const int most = row.step || row.wants_floor ? effort.ablation_repetitions : effort.repetitions;
     const int repetitions =
-        known ? 1 : std::clamp(static_cast<int>(most * effort.slow_repetition_s / once_s), at_least, most);
+        known ? 1 : std::clamp(static_cast<int>(most * effort.slow_repetition_s / once_s), least, most);
     if (flags.own_repetitions || known) registered->Repetitions(repetitions);
     calls->expected += repetitions;
   }
 }
 
-// Whatever rows are wanted: they tell what the machine's caches gave while those were timed.
+// Registered whatever the filter: they show how fast the machine's caches were while the rows were timed.
 void register_random_reads(const Flags& flags) {
   constexpr std::size_t kReads = 10'000;
   constexpr int kIterations = 5;
   for (const ReadRow& row : random_read_rows()) {
     auto* registered = benchmark::RegisterBenchmark(
         row.name.data(), [reads = std::make_shared<RandomReads>(row.bytes), row](benchmark::State& state) {
-          if (row.fits_cache) benchmark::DoNotOptimize(reads->go_on(reads->lines()));  // back in
-          for (auto _ : state) benchmark::DoNotOptimize(reads->go_on(kReads));
+          if (row.fits_cache) benchmark::DoNotOptimize(reads->advance(reads->lines()));  // refills the cache
+          for (auto _ : state) benchmark::DoNotOptimize(reads->advance(kReads));
           state.counters["reads"] = kReads;
           state.counters["bytes"] = static_cast<double>(row.bytes);
         });

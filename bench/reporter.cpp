@@ -40,16 +40,15 @@ bool Reporter::ReportContext(const Context& context) {
   Context plain = context;
   plain.name_field_width = 10;
   for (const auto& name : names_) plain.name_field_width = std::max(plain.name_field_width, name.size());
-  const bool go_on = console_->ReportContext(plain) && json_.ReportContext(plain);
-  std::cerr << "Note: a warning that the library was built as DEBUG concerns Debian's libbenchmark, which "
-               "only takes "
-               "the time, not the timed code.\n";
-  return go_on;
+  const bool continues = console_->ReportContext(plain) && json_.ReportContext(plain);
+  std::cerr << "Note: a warning that the library was built as DEBUG concerns Debian's libbenchmark, "
+               "which only takes the time. The timed code is not affected.\n";
+  return continues;
 }
 
 void Reporter::ReportRuns(const std::vector<Run>& runs) {
   for (Run run : runs) {
-    // Mean and deviation can be had from the repetitions; the median is what charts and tables show.
+    // Charts and tables show the median. The file's repetitions give mean and deviation.
     if (run.run_type == Run::RT_Aggregate && !is_median(run)) continue;
     run.run_name = {run.run_name.function_name, "", "", "", "", "", "", ""};
     if (!run.error_occurred) derive_rates(run);
@@ -58,7 +57,7 @@ void Reporter::ReportRuns(const std::vector<Run>& runs) {
 }
 
 void Reporter::Finalize() {
-  std::vector<Run> shown;  // all at once: CSV's columns are the counters of its first report
+  std::vector<Run> shown;  // reported in one call: CSV's columns are the counters of the first call
   for (const auto& name : names_) {
     const auto& runs = runs_[name];
     std::copy_if(runs.begin(), runs.end(), std::back_inserter(shown), is_median);

@@ -1,6 +1,5 @@
-// Google Benchmark's own console and JSON output, tidied: rows bear their plain names and stand in the
-// suite's order however the repetitions were interleaved, rates are derived from the time, and no host name
-// is kept.
+// Google Benchmark's own console and JSON output, with plain row names in the suite's order (repetitions are
+// interleaved), rates derived from the times, and without the host name.
 #pragma once
 
 #include <benchmark/benchmark.h>
@@ -20,9 +19,9 @@ class Reporter final : public benchmark::BenchmarkReporter {
   void ReportRuns(const std::vector<Run>& runs) override;
   void Finalize() override;
 
-  // After Finalize(): of the rows that were timed, by name.
+  // After Finalize(): the timed rows' medians by row name.
   std::map<std::string, double> median_ms() const;
-  // After Finalize(): the JSON, one line a row.
+  // After Finalize(): the JSON, one line per row.
   std::string json() const;
 
  private:

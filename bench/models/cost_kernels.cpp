@@ -33,11 +33,11 @@ std::uint64_t read_all(const std::uint64_t* from, std::size_t count) {
   return sum;
 }
 
-void fill_all(std::uint32_t* to, std::size_t count, std::uint32_t value, bool past_caches) {
+void fill_all(std::uint32_t* to, std::size_t count, std::uint32_t value, bool streaming) {
   const D d;
   auto* at = reinterpret_cast<std::int32_t*>(to);
   const V v = hn::Set(d, static_cast<std::int32_t>(value));
-  if (past_caches) {
+  if (streaming) {
     for (std::size_t i = 0; i < count; i += kLanes) hn::Stream(v, d, at + i);
     hwy::FlushStream();
   } else {
@@ -62,7 +62,7 @@ void draw_blocks(L1Tile& tile, std::int32_t payload) {
     }
 }
 
-void clear_and_copy(L1Tile& tile, const FrameView& frame, int x0, int y0, bool past_caches) {
+void clear_and_copy(L1Tile& tile, const FrameView& frame, int x0, int y0, bool streaming) {
   const D d;
   constexpr int kSide = L1Tile::kSide;
   const int width = std::min<int>(kSide, static_cast<int>(frame.stride) - x0);
@@ -79,12 +79,12 @@ void clear_and_copy(L1Tile& tile, const FrameView& frame, int x0, int y0, bool p
   };
   for (int i = 0; i < kSide * kSide; i += kLanes)
     hn::Store(hn::Set(d, static_cast<std::int32_t>(contract::kDepthClear)), d, tile.depth + i);
-  if (past_caches) {
+  if (streaming) {
     copy([&](V v, std::int32_t* at) { hn::Stream(v, d, at); });
     hwy::FlushStream();
   } else {
     copy([&](V v, std::int32_t* at) {
-      __builtin_prefetch(at + kSide, 0, 2);  // the tile to the right, as the tiled backend does
+      __builtin_prefetch(at + kSide, 0, 2);  // the tile to the right, as `tiled` does
       hn::Store(v, d, at);
     });
   }
@@ -102,9 +102,9 @@ std::uint64_t read_all(const std::uint64_t* from, std::size_t count) {
   return kernel(from, count);
 }
 
-void fill_all(std::uint32_t* to, std::size_t count, std::uint32_t value, bool past_caches) {
+void fill_all(std::uint32_t* to, std::size_t count, std::uint32_t value, bool streaming) {
   static const auto kernel = EDGEWISE_KERNEL(fill_all, resolve(SimdTarget::best));
-  kernel(to, count, value, past_caches);
+  kernel(to, count, value, streaming);
 }
 
 void draw_blocks(L1Tile& tile, std::int32_t payload) {
@@ -112,9 +112,9 @@ void draw_blocks(L1Tile& tile, std::int32_t payload) {
   kernel(tile, payload);
 }
 
-void clear_and_copy(L1Tile& tile, const FrameView& frame, int x0, int y0, bool past_caches) {
+void clear_and_copy(L1Tile& tile, const FrameView& frame, int x0, int y0, bool streaming) {
   static const auto kernel = EDGEWISE_KERNEL(clear_and_copy, resolve(SimdTarget::best));
-  kernel(tile, frame, x0, y0, past_caches);
+  kernel(tile, frame, x0, y0, streaming);
 }
 
 }  // namespace edgewise::bench

@@ -1,4 +1,4 @@
-// What the floor is made of, in vectors of the best SIMD target. See limit.h.
+// The operations that the cost model times, in vectors of the best SIMD target. See cost_model.h.
 #pragma once
 
 #include <cstddef>
@@ -8,25 +8,25 @@
 
 namespace edgewise::bench {
 
-// Sums `count` integers, so that all are read.
+// Sums `count` integers, to read all of them.
 std::uint64_t read_all(const std::uint64_t* from, std::size_t count);
 
-// `to` is aligned to 64 bytes, `count` a multiple of 16.
-void fill_all(std::uint32_t* to, std::size_t count, std::uint32_t value, bool past_caches);
+// `to` is aligned to 64 bytes, `count` a multiple of 16. `streaming` uses stores that bypass the caches.
+void fill_all(std::uint32_t* to, std::size_t count, std::uint32_t value, bool streaming);
 
-// Blocks of a tile of 64 x 64 pixels, and all that a triangle needs to be drawn to them.
+// A tile of 64 x 64 pixels in blocks of 4 x 4, with a triangle's edge and depth values for every block.
 struct L1Tile {
   static constexpr int kSide = 64, kBlocks = 256, kBlockPixels = 16;
   alignas(64) std::int32_t depth[kBlocks * kBlockPixels], payload[kBlocks * kBlockPixels];
   alignas(64) std::int32_t in_block[4][kBlockPixels];  // three edges and depth, relative to the first pixel
-  std::int32_t at_block[4][kBlocks];                   // at the first pixel
+  std::int32_t at_block[4][kBlocks];                   // the same values at each block's first pixel
 };
 // Tests and writes every block once.
 void draw_blocks(L1Tile& tile, std::int32_t payload);
 
-// Clears the tile's depths, and copies the tile to the frame at (x0, y0), multiples of 64 px; a row of the
-// tile is 64 integers one after the other. Rows of the frame are aligned to 64 bytes, its stride is a
-// multiple of 16.
-void clear_and_copy(L1Tile& tile, const FrameView& frame, int x0, int y0, bool past_caches);
+// Clears the tile's depths, and copies the tile to the frame at (x0, y0), multiples of 64 px. Here the tile
+// is read row by row, 64 consecutive integers each. The frame's rows are aligned to 64 bytes, and its stride
+// is a multiple of 16.
+void clear_and_copy(L1Tile& tile, const FrameView& frame, int x0, int y0, bool streaming);
 
 }  // namespace edgewise::bench

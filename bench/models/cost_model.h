@@ -1,12 +1,14 @@
-// A cost model of a frame on this machine, no lower bound: work that runs side by side undercuts it. It is
-// the sum of
+// A cost model of a frame on this machine. It is no lower bound: parts that overlap in time undercut the sum
+// of
 //   - reading each triangle's record once,
-//   - testing and writing each block of 4 x 4 pixels once for each triangle that wins a pixel of it, out of
-//     the L1 cache and with vectors of the best target,
-//   - writing depth and payload of the frame once, by cached or streaming stores, whichever is faster,
-// each measured here, warm, on as many threads. A triangle's hidden blocks are free, as hierarchical depth
-// may reject them. With every covered block drawn, blocks_s grows by covered / won. A backend that draws into
-// tile buffers clears each buffer's depths and copies it to the frame: it has tiles_s instead of write_s.
+//   - testing and writing each block of 4 x 4 pixels once for each triangle that wins a pixel of it, in the
+//   L1
+//     cache, with vectors of the best SIMD target,
+//   - writing depth and payload of the frame once, by cached or streaming stores, whichever is faster.
+// Each part is measured here, with warm caches, on the frame's number of threads. A triangle's occluded
+// blocks are free, as hierarchical depth may reject them. If every covered block is drawn, blocks_s grows by
+// the factor covered / won. A backend with tile buffers clears each buffer's depths and copies it to the
+// frame: tiles_s then replaces write_s.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +23,7 @@ namespace edgewise::bench {
 
 struct BlockCounts {
   std::uint64_t covered = 0;  // pairs of a block and a triangle that covers a pixel of it
-  std::uint64_t won = 0;      // those where it is, at its turn, nearer than all before it in a pixel
+  std::uint64_t won = 0;      // of those, the pairs where it is nearer in a pixel than all earlier triangles
 };
 BlockCounts count_blocks(std::span<const ScreenTriangle> triangles, int width, int height);
 
@@ -32,12 +34,12 @@ struct FrameCost {
   double in_tiles_s() const { return read_s + blocks_s + tiles_s; }
 };
 
-// Measures, and remembers what other frames need too.
+// Measures block and write times once per thread count and frame size, and keeps them for later frames.
 class CostModel {
  public:
-  // `frame` is overwritten.
-  FrameCost under(std::span<const ScreenTriangle> triangles, const BlockCounts& blocks, Framebuffer& frame,
-                  int threads);
+  // Overwrites `frame`.
+  FrameCost estimate(std::span<const ScreenTriangle> triangles, const BlockCounts& blocks, Framebuffer& frame,
+                     int threads);
 
  private:
   struct Writing {

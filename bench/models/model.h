@@ -1,4 +1,4 @@
-// Estimates from models, which are kept apart from what is timed.
+// The JSON file of model estimates, which is separate from the timings.
 #pragma once
 
 #include <span>
@@ -8,8 +8,8 @@
 
 namespace edgewise::bench {
 
-// As JSON: "scheduled" has the rows of more cores than there are (see scaling.h), "costs" the cost model's
-// parts under a timed row (see limit.h). `barrier_s` as in FrameWork::time_s.
+// "scheduled" holds the estimates for more cores (see scaling.h), "costs" the cost model's parts for timed
+// rows (see cost_model.h). `barrier_s` is FrameWork::time_s's.
 std::string model_json(std::span<const Row> rows, double barrier_s);
 
 }  // namespace edgewise::bench

@@ -21,8 +21,9 @@ double longest(const std::vector<double>& values) {
   return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
 }
 
-// Tasks in their order, each to the core that is free first: a heap of the times at which cores get free.
-double handed_out_s(const std::vector<double>& tasks_s, int cores) {
+// Assigns the tasks in order, each to the core that is free first (the top of a heap of the times at which
+// cores become free), and returns when the last task ends.
+double schedule_s(const std::vector<double>& tasks_s, int cores) {
   std::vector<double> free_at_s(
       std::min(static_cast<std::size_t>(cores), std::max<std::size_t>(1, tasks_s.size())), 0.0);
   const auto later = std::greater<>();
@@ -34,7 +35,7 @@ double handed_out_s(const std::vector<double>& tasks_s, int cores) {
   return longest(free_at_s);
 }
 
-double own_s() {
+double thread_cpu_s() {
   timespec time;
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
@@ -60,33 +61,34 @@ PathPart FrameWork::longest_part() const {
     parts["serial code before " + section.name] += section.before_s;
     parts["the longest task of " + section.name] += longest(section.tasks_s);
   }
-  parts["serial code behind the last section"] += after_s;
+  parts["serial code after the last section"] += after_s;
   const auto found = std::max_element(parts.begin(), parts.end(),
                                       [](const auto& a, const auto& b) { return a.second < b.second; });
   return {found->first, found->second};
 }
 
-void FrameWork::take_least(const FrameWork& other) {
-  const auto same_cut = [](const Section& a, const Section& b) {
+void FrameWork::take_minima(const FrameWork& other) {
+  const auto same_tasks = [](const Section& a, const Section& b) {
     return a.name == b.name && a.tasks_s.size() == b.tasks_s.size();
   };
-  if (!std::equal(sections.begin(), sections.end(), other.sections.begin(), other.sections.end(), same_cut)) {
+  if (!std::equal(sections.begin(), sections.end(), other.sections.begin(), other.sections.end(),
+                  same_tasks)) {
     *this = other;
     return;
   }
-  const auto lessen = [](double& mine, double its) { mine = std::min(mine, its); };
+  const auto take = [](double& minimum, double time_s) { minimum = std::min(minimum, time_s); };
   for (std::size_t i = 0; i < sections.size(); ++i) {
-    lessen(sections[i].before_s, other.sections[i].before_s);
+    take(sections[i].before_s, other.sections[i].before_s);
     for (std::size_t task = 0; task < sections[i].tasks_s.size(); ++task)
-      lessen(sections[i].tasks_s[task], other.sections[i].tasks_s[task]);
+      take(sections[i].tasks_s[task], other.sections[i].tasks_s[task]);
   }
-  lessen(after_s, other.after_s);
+  take(after_s, other.after_s);
 }
 
 double FrameWork::time_s(int cores, double barrier_s) const {
   double total_s = after_s;
   for (const Section& section : sections) {
-    total_s += section.before_s + handed_out_s(section.tasks_s, cores);
+    total_s += section.before_s + schedule_s(section.tasks_s, cores);
     if (cores > 1 && section.tasks_s.size() > 1) total_s += barrier_s;
   }
   return total_s;
@@ -102,16 +104,16 @@ FrameWork FrameRecorder::finish() {
   return std::move(frame_);
 }
 
-// The thread's own clock is a system call, so it is read between laps.
+// Reading the thread's CPU clock is a system call, so it happens outside the lap.
 void FrameRecorder::start_lap() {
-  own_s_at_lap_ = own_s();
+  cpu_s_at_lap_ = thread_cpu_s();
   lap_began_ = std::chrono::steady_clock::now();
 }
 
 double FrameRecorder::lap_s() {
   const auto now = std::chrono::steady_clock::now();
   const double lap_s =
-      std::min(std::chrono::duration<double>(now - lap_began_).count(), own_s() - own_s_at_lap_);
+      std::min(std::chrono::duration<double>(now - lap_began_).count(), thread_cpu_s() - cpu_s_at_lap_);
   start_lap();
   return lap_s;
 }

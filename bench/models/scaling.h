@@ -1,9 +1,9 @@
-// What a frame's work and critical path allow on more cores than there are. The frame is drawn as if for that
-// many threads, but task by task on one thread; its tasks are then handed out to imagined cores.
+// Estimates a frame's time on N cores, more than the machine has. The frame is drawn as if for N threads, but
+// task by task on one thread. Its tasks are then scheduled on N imagined cores.
 //
-// Handing the next task to the core that is free first (Graham, "Bounds for certain multiprocessing
-// anomalies", 1966) takes at most work / cores + critical path, and no schedule takes less than the larger of
-// the two (Brent, 1974). Not in the model: cores that share memory bandwidth, caches and clock rate.
+// Each task goes to the core that is free first (Graham, "Bounds for certain multiprocessing anomalies",
+// 1966). This takes at most work / cores + critical path, and no schedule takes less than the larger of the
+// two (Brent, 1974). The model ignores shared memory bandwidth, shared caches and clock rate.
 #pragma once
 
 #include <chrono>
@@ -15,7 +15,7 @@
 
 namespace edgewise::bench {
 
-// Serial work, then tasks that may run at the same time; the next section waits for all of them.
+// Serial work, then tasks that may run in parallel. The next section starts when all of them have ended.
 struct Section {
   std::string name;  // "function in file"
   double before_s = 0.0;
@@ -30,24 +30,24 @@ struct PathPart {
 
 struct FrameWork {
   std::vector<Section> sections;
-  double after_s = 0.0;  // serial work behind the last section
+  double after_s = 0.0;  // serial work after the last section
 
   double work_s() const;
-  double path_s() const;  // the critical path: what is left with a core for each task
+  double path_s() const;  // the critical path: the time with one core per task
   PathPart longest_part() const;
 
-  // Each piece as short as in the shorter of two recordings of one frame: what interrupts a core falls on
-  // another piece each time. Recordings of other sections or tasks are taken as they are.
-  void take_least(const FrameWork& other);
+  // Takes the minimum of each task and serial part of two recordings of one frame, since interruptions hit
+  // different tasks each time. Replaces this recording by `other` if their sections or task counts differ.
+  void take_minima(const FrameWork& other);
 
-  // On so many cores, if starting and ending a section costs barrier_s where there is more than one.
+  // The frame's time on `cores`. On more than one, each section of several tasks costs barrier_s in addition.
   double time_s(int cores, double barrier_s) const;
 };
 
 // "draw in bins.cpp".
 std::string section_name(const CallSite& where);
 
-// Records the frame that is drawn from its making to finish().
+// Records the frame that is drawn between its construction and finish().
 class FrameRecorder final : public ParallelObserver {
  public:
   FrameRecorder() { start_lap(); }
@@ -58,16 +58,16 @@ class FrameRecorder final : public ParallelObserver {
   void section_ends() override;
 
  private:
-  double lap_s();  // since the last lap ended: the time, or this thread's own if others took some of it
+  double lap_s();  // seconds since the last lap: wall time, or this thread's CPU time if that is less
   void start_lap();
 
   FrameWork frame_;
   std::chrono::steady_clock::time_point lap_began_;
-  double own_s_at_lap_ = 0.0;
+  double cpu_s_at_lap_ = 0.0;
 };
 
-// What a section of two short tasks takes longer, on two threads of this machine, than one of them: starting
-// and waiting. The median of many; where others use a core, it has what waiting for them costs.
+// The time for starting and joining two threads on this machine: the duration of a section of two short tasks
+// minus that of one task, the median of many. If other processes use a core, it includes waiting for them.
 double measured_barrier_s();
 
 }  // namespace edgewise::bench

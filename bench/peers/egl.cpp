@@ -48,17 +48,17 @@ struct Context {
 };
 
 Context open(int threads) {
-  // Set whatever the user has set: the rows say what they time.
+  // Overrides the user's settings, since the rows' names promise these.
   setenv("GALLIUM_DRIVER", "llvmpipe", 1);
   setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
   setenv("MESA_SHADER_CACHE_DISABLE", "1", 1);
   unsetenv("LP_NATIVE_VECTOR_WIDTH");
-  // None beside the caller; with 2, the caller bins while they draw.
+  // 0: no worker thread beside the caller. 2: two workers draw while the caller bins.
   setenv("LP_NUM_THREADS", threads == 1 ? "0" : "2", 1);
   Context made;
   made.display = threads == 1 ? software_device_display() : surfaceless_display();
   if (!eglInitialize(made.display, nullptr, nullptr) || !eglBindAPI(EGL_OPENGL_API))
-    throw std::runtime_error("llvmpipe: EGL finds no display without a window");
+    throw std::runtime_error("llvmpipe: EGL offers no display without a window");
   constexpr EGLint kAttributes[] = {EGL_CONTEXT_MAJOR_VERSION,
                                     4,
                                     EGL_CONTEXT_MINOR_VERSION,
@@ -84,7 +84,7 @@ void use_llvmpipe(int threads) {
   if (context.context == EGL_NO_CONTEXT) context = open(threads);
   if (eglGetCurrentContext() == context.context) return;
   if (!eglMakeCurrent(context.display, EGL_NO_SURFACE, EGL_NO_SURFACE, context.context))
-    throw std::runtime_error("llvmpipe: its context cannot be used");
+    throw std::runtime_error("llvmpipe: cannot make its context current");
   if (!text_of(GL_RENDERER).starts_with("llvmpipe"))
     throw std::runtime_error("llvmpipe: EGL gives " + text_of(GL_RENDERER) + " instead");
 }

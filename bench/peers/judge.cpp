@@ -23,7 +23,7 @@ class Judge {
   Judge(const Framebuffer& ours, std::span<const ScreenTriangle> triangles)
       : ours_(ours), triangles_(triangles) {}
 
-  bool near_tie(std::uint32_t our_id, std::uint32_t their_id, int x, int y) const {
+  bool is_depth_tie(std::uint32_t our_id, std::uint32_t their_id, int x, int y) const {
     const ScreenTriangle *mine = find(our_id, x, y), *other = find(their_id, x, y);
     if (mine == nullptr || other == nullptr) return false;
     const double gap = double{1} * make_depth(orient(*other)).at(x, y) - ours_.depth_row(y)[x];
@@ -32,7 +32,7 @@ class Judge {
   }
 
  private:
-  // The piece of a triangle that covers a pixel.
+  // The piece of triangle `id` that covers the pixel, or null.
   const ScreenTriangle* find(std::uint32_t id, int x, int y) const {
     const auto [begin, end] =
         std::equal_range(triangles_.begin(), triangles_.end(), ScreenTriangle{{}, {}, {}, id},
@@ -49,7 +49,7 @@ class Judge {
 
 double float_plane_error(const ScreenTriangle& t, int width, int height) {
   constexpr double kRounding = 0x1p-24,
-                   kRoundings = 8.0;  // those that follow one another up to a pixel's depth
+                   kRoundings = 8.0;  // successive roundings in the computation of a pixel's depth
   const Oriented o = orient(t);
   const auto [low, high] = std::minmax({o.z[0], o.z[1], o.z[2]});
   const auto length = [](const std::int32_t(&v)[3]) {
@@ -72,11 +72,11 @@ PeerJudgement judge(const Framebuffer& ours, std::span<const std::uint32_t> thei
       if (mine == other) continue;
       if (mine == kNoTriangle || other == kNoTriangle) {
         ++result.coverage;
-      } else if (judge.near_tie(mine, other, x, y)) {
-        ++result.near_ties;
+      } else if (judge.is_depth_tie(mine, other, x, y)) {
+        ++result.depth_ties;
         continue;
       } else {
-        ++result.owners;
+        ++result.other_triangles;
       }
       if (result.first_x < 0) result.first_x = x, result.first_y = y;
     }

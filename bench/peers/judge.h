@@ -1,4 +1,4 @@
-// Is a peer's picture ours? Both are drawn with ids of triangles for payloads, over kNoTriangle.
+// Compares a peer's picture with ours. Both are drawn with triangle ids as payloads, over kNoTriangle.
 #pragma once
 
 #include <cstdint>
@@ -10,21 +10,22 @@
 namespace edgewise::bench {
 
 struct PeerJudgement {
-  std::uint64_t drawn = 0;      // pixels that either drew
-  std::uint64_t coverage = 0;   // drawn by one of the two only
-  std::uint64_t near_ties = 0;  // another triangle won, but it covers the pixel and is as near up to rounding
-  std::uint64_t owners = 0;     // another triangle won that must not
-  int first_x = -1, first_y = -1;  // the first pixel that counts as `coverage` or `owners`
+  // Numbers of pixels.
+  std::uint64_t drawn = 0;            // in at least one of the pictures
+  std::uint64_t coverage = 0;         // in exactly one
+  std::uint64_t depth_ties = 0;       // another triangle, which covers the pixel at a depth within tolerance
+  std::uint64_t other_triangles = 0;  // another triangle, not within tolerance
+  int first_x = -1, first_y = -1;     // the first pixel in `coverage` or `other_triangles`
 
-  std::uint64_t wrong() const { return coverage + owners; }
+  std::uint64_t wrong() const { return coverage + other_triangles; }
 };
 
-// By how much the depth that a peer computes for a triangle may be wrong, in contract depth units. It
-// evaluates z = a + x dz/dx + y dz/dy in 24-bit floats. Where the triangle is thin its gradients, and with
-// them every rounding of a product, grow by the square of its length over its area.
+// The bound on a peer's depth error for a triangle, in contract depth units. The peer evaluates
+// z = a + x dz/dx + y dz/dy in floats of 24-bit significand. A thin triangle's gradients, and with them the
+// rounding errors of the products, grow with the square of its length over its area.
 double float_plane_error(const ScreenTriangle& triangle, int width, int height);
 
-// `triangles` are those that `ours` was drawn from, by ascending payload; `theirs` is as large.
+// `ours` was drawn from `triangles`, which are sorted by payload. `theirs` has the same size, row by row.
 PeerJudgement judge(const Framebuffer& ours, std::span<const std::uint32_t> theirs,
                     std::span<const ScreenTriangle> triangles);
 

@@ -1,10 +1,10 @@
-// Mesa's llvmpipe, the software OpenGL that most Linux machines fall back on, at its best settings: data in
-// vertex buffers, one draw call a mesh, early depth test, payloads as flat integers.
+// Mesa's llvmpipe, the usual software OpenGL on Linux, with its fastest settings: data in vertex buffers, one
+// draw call per mesh, early depth test, payloads as flat integers.
 //
-// Its coverage is exact: 8 subpixel bits, half to even, top-left rule. So that its positions are the very
-// same floats as our front end's, the viewport is a square of a power of two of pixels about the image's top
-// left corner: clip coordinates are then our own, scaled exactly. It reaches far beyond the image, so that
-// nothing but the near plane clips.
+// Its coverage is exact: 8 subpixel bits, half to even, top-left rule. The viewport is a square whose side is
+// a power of two, centred on the image's top left corner. Clip coordinates are therefore our own, scaled
+// exactly, and llvmpipe's screen positions are the same floats as our front end's. The viewport reaches far
+// beyond the image, so that only the near and far planes clip.
 #define GL_GLEXT_PROTOTYPES
 #include <GL/glcorearb.h>
 #include <fmt/format.h>
@@ -23,21 +23,21 @@ namespace {
 
 constexpr int kHalfViewport_px = 8192;  // llvmpipe's viewports are at most 16384 wide
 
-// `precise` keeps the products and sums apart, as our front end has them.
+// `precise` forbids fused multiply-add, as in our front end.
 constexpr const char* kVertexShader = R"(#version 450 core
 layout(location = 0) uniform mat4 to_clip;
 layout(location = 0) in vec3 position;
 layout(location = 1) in uint payload;
-flat out uint owner;
+flat out uint flat_payload;
 void main() {
   precise vec4 p = to_clip[0] * position.x + to_clip[1] * position.y + to_clip[2] * position.z + to_clip[3];
   gl_Position = p;
-  owner = payload;
+  flat_payload = payload;
 })";
 constexpr const char* kFragmentShader = R"(#version 450 core
-flat in uint owner;
+flat in uint flat_payload;
 layout(location = 0) out uint colour;
-void main() { colour = owner; })";
+void main() { colour = flat_payload; })";
 
 GLuint compiled(GLenum stage, const char* text) {
   const GLuint shader = glCreateShader(stage);
@@ -73,7 +73,7 @@ GLuint make_target(int width, int height) {
   return target;
 }
 
-// What the frames of one context share.
+// The objects that the frames of one context share.
 struct Shared {
   GLuint program = 0;
   std::map<std::pair<int, int>, GLuint> targets;  // by width and height
@@ -85,11 +85,11 @@ Shared& shared(int threads) {
   if (s.program != 0) return s;
   s.program = make_program();
   glUseProgram(s.program);
-  // Memory order from the top, so that the tie rule is the same way up; depth in [0, 1].
+  // Row 0 is the image's top row, so that the top-left rule has our orientation. Depth is in [0, 1].
   glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   glViewport(-kHalfViewport_px, -kHalfViewport_px, 2 * kHalfViewport_px, 2 * kHalfViewport_px);
   glEnable(GL_DEPTH_TEST);
-  glFrontFace(GL_CCW);  // with y up: clockwise on our screen
+  glFrontFace(GL_CCW);  // OpenGL's y points up: clockwise on our screen
   glPixelStorei(GL_PACK_ALIGNMENT, 4);
   return s;
 }
@@ -103,7 +103,7 @@ struct Mesh {
 
 template <typename T>
 GLuint buffer_of(GLuint buffer, const std::vector<T>& data) {
-  // OpenGL refuses an empty one, and a scene may have no triangle in view.
+  // OpenGL rejects empty buffers, and a scene may have no triangle in view.
   const std::size_t bytes = std::max<std::size_t>(data.size() * sizeof(T), 1);
   glNamedBufferStorage(buffer, static_cast<GLsizeiptr>(bytes), data.empty() ? nullptr : data.data(), 0);
   return buffer;
@@ -150,7 +150,7 @@ class Frame final : public PeerFrame {
     for (const PeerMesh& mesh : scene.meshes) meshes_.push_back(load_mesh(mesh));
     glFinish();
     if (const GLenum error = glGetError(); error != GL_NO_ERROR)
-      throw std::runtime_error(fmt::format("llvmpipe: OpenGL error {:#x} where a scene is loaded", error));
+      throw std::runtime_error(fmt::format("llvmpipe: OpenGL error {:#x} while loading a scene", error));
   }
 
   ~Frame() override {

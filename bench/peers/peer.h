@@ -1,5 +1,5 @@
-// Rasterizers of other projects that draw the benchmark's scenes beside our backends, in the same run. A peer
-// is handed a scene before the clock starts, and draws it as often as asked.
+// Peers are other projects' rasterizers, which draw the benchmark's scenes in the same run as our backends. A
+// peer loads a scene before the clock starts, and then draws it repeatedly.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +12,12 @@
 
 namespace edgewise::bench {
 
-// One mesh as a peer's vertex buffers hold it. A triangle's payload is that of its last vertex.
+// One mesh for a peer's vertex buffers. A triangle's payload is that of its last vertex.
 struct PeerMesh {
   std::vector<glm::vec3> positions;
-  std::vector<std::uint32_t> payloads;  // one a position
-  std::vector<std::uint32_t> indices;   // three a triangle; none: three positions in a row are one
-  // Position → pixels and depth in [0, 1], all times w, as the front end's.
+  std::vector<std::uint32_t> payloads;  // one per position
+  std::vector<std::uint32_t> indices;   // three per triangle; empty: every three positions are a triangle
+  // Maps positions to pixels and depth in [0, 1], all multiplied by w, as the front end's matrix does.
   glm::mat4 to_screen{1.0f};
 };
 
@@ -28,7 +28,7 @@ struct PeerScene {
   std::vector<PeerMesh> meshes;
 };
 
-// A scene in the peer's memory.
+// A scene that a peer has loaded.
 class PeerFrame {
  public:
   virtual ~PeerFrame() = default;
@@ -39,13 +39,13 @@ class PeerFrame {
 };
 
 struct PeerInfo {
-  std::string_view name;  // as in row names; no backend's
+  std::string_view name;  // in row names; differs from every backend's
   std::string (*version)();
-  // `threads` is 1 or 2. Throws std::runtime_error where the peer cannot start.
+  // `threads` is 1 or 2. Throws std::runtime_error if the peer cannot start.
   std::unique_ptr<PeerFrame> (*load)(const PeerScene& scene, int threads);
 };
 
-// Those that were built.
+// The peers in this build.
 std::span<const PeerInfo> peers();
 
 }  // namespace edgewise::bench

@@ -1,4 +1,4 @@
-// How many times faster our backend is than each peer.
+// The speed of our backend relative to each peer.
 #pragma once
 
 #include <map>
@@ -8,8 +8,8 @@
 
 namespace edgewise::bench {
 
-// A line for each row of a peer that was timed beside one of ours with as many threads; empty if there is
-// none. `median_ms` is by row name.
+// One line per peer row with a timed row of kAblationBackend of the same work and thread count; empty if
+// there is none. `median_ms` is by row name.
 std::string ratio_table(const std::vector<Row>& rows, const std::map<std::string, double>& median_ms);
 
 }  // namespace edgewise::bench

@@ -7,17 +7,17 @@ namespace edgewise::bench {
 
 namespace {
 
-constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+constexpr std::uint32_t kNotNumbered = 0xFFFFFFFFu;
 
-// Each triangle needs a last vertex of its own to carry its payload. It takes the first of its three that no
-// earlier triangle took (turning keeps the winding), or a copy if all are taken. Vertices are numbered as
-// triangles first use them, which is the order in which caches like to meet them.
-class Provoking {
+// Gives each triangle a last (provoking) vertex that no other triangle has as its last, to carry its payload.
+// It takes the first of the triangle's three that is not taken (rotation keeps the winding), or a copy if all
+// are. Vertices are numbered in the order in which triangles first use them, which is good for caches.
+class ProvokingVertices {
  public:
-  explicit Provoking(const Mesh& mesh)
-      : mesh_(mesh), taken_(mesh.positions.size(), 0), number_(taken_.size(), kNone) {}
+  explicit ProvokingVertices(const Mesh& mesh)
+      : mesh_(mesh), taken_(mesh.positions.size(), 0), number_(taken_.size(), kNotNumbered) {}
 
-  PeerMesh run(std::span<const std::uint32_t> payloads) {
+  PeerMesh assign(std::span<const std::uint32_t> payloads) {
     for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
       const glm::uvec3 t = mesh_.triangles[i];
       int last = 0;
@@ -39,7 +39,7 @@ class Provoking {
     return static_cast<std::uint32_t>(out_.positions.size() - 1);
   }
   std::uint32_t number(std::uint32_t vertex) {
-    if (number_[vertex] == kNone) number_[vertex] = add(vertex);
+    if (number_[vertex] == kNotNumbered) number_[vertex] = add(vertex);
     return number_[vertex];
   }
 
@@ -49,7 +49,7 @@ class Provoking {
   PeerMesh out_;
 };
 
-// By id; those that the front end drops keep 0, since no peer may draw them either.
+// Colours by triangle id. Triangles that the front end drops keep 0, since peers must not draw them either.
 std::vector<std::uint32_t> colours_by_id(const Workload& workload, std::size_t count) {
   std::vector<std::uint32_t> colours(count, 0);
   const auto ids = triangles_by_id(workload, true);
@@ -69,7 +69,7 @@ std::vector<PeerMesh> scene_meshes(const Workload& workload, PeerPayload payload
   std::span<const std::uint32_t> rest = payloads;
   for (const auto& instance : scene.instances) {
     const Mesh& mesh = scene.meshes[instance.mesh];
-    meshes.push_back(Provoking(mesh).run(rest.first(mesh.triangles.size())));
+    meshes.push_back(ProvokingVertices(mesh).assign(rest.first(mesh.triangles.size())));
     meshes.back().to_screen = glm::mat4(to_screen * glm::dmat4(model_matrix(instance)));
     rest = rest.subspan(mesh.triangles.size());
   }
@@ -113,8 +113,8 @@ std::vector<ScreenTriangle> triangles_by_id(const Workload& workload, bool whole
     FrontendOptions options = workload.frontend_options(1);
     options.payload = Payload::id;
     Frontend frontend;
-    const auto found = frontend.run(workload.drawable(), options);
-    return {found.begin(), found.end()};
+    const auto triangles = frontend.run(workload.drawable(), options);
+    return {triangles.begin(), triangles.end()};
   }
   std::vector<ScreenTriangle> triangles(workload.triangles().begin(), workload.triangles().end());
   for (std::size_t i = 0; i < triangles.size(); ++i) triangles[i].payload = static_cast<std::uint32_t>(i);

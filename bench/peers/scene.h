@@ -1,4 +1,4 @@
-// What a peer is given to draw for a workload, and our own picture of the same, by triangle.
+// Converts a workload to a peer's scene, and gives our triangles by id to compare the pictures.
 #pragma once
 
 #include "bench/peers/peer.h"
@@ -10,15 +10,15 @@ inline constexpr std::uint32_t kNoTriangle = 0xFFFFFFFFu;
 
 enum class PeerPayload {
   colour,  // over kBackground, as our backends draw
-  id       // over kNoTriangle: Workload's ids
+  id       // over kNoTriangle, the ids of triangles_by_id()
 };
 
-// `whole_frame`: the scene's meshes with their matrices, so that the peer transforms, culls and clips; else
-// the front end's triangles, whose positions survive as they were snapped.
+// With `whole_frame`, the scene's meshes with their matrices, which the peer transforms, culls and clips.
+// Otherwise the front end's triangles, with their snapped positions unchanged.
 PeerScene peer_scene(const Workload& workload, bool whole_frame, PeerPayload payload);
 
-// The front end's triangles with ids for payloads: of a mesh's triangle in submission order if `whole_frame`
-// (pieces of a clipped one share theirs), else of the screen triangle.
+// The front end's triangles with ids as payloads. With `whole_frame` an id numbers the scene's triangles in
+// submission order (the pieces of a clipped triangle share its id), otherwise the screen triangles.
 std::vector<ScreenTriangle> triangles_by_id(const Workload& workload, bool whole_frame);
 
 }  // namespace edgewise::bench

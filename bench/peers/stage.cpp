@@ -9,15 +9,15 @@ namespace edgewise::bench {
 
 namespace {
 
-// Where both pictures name the same triangle, both must have its colour.
-std::uint64_t other_colours(const Framebuffer& ids, std::span<const std::uint32_t> their_ids,
-                            const Framebuffer& colours, std::span<const std::uint32_t> their_colours) {
-  std::uint64_t other = 0;
+// The pixels that show the same triangle in both pictures, but another colour.
+std::uint64_t differing_colours(const Framebuffer& ids, std::span<const std::uint32_t> their_ids,
+                                const Framebuffer& colours, std::span<const std::uint32_t> their_colours) {
+  std::uint64_t count = 0;
   std::size_t i = 0;
   for (int y = 0; y < ids.height(); ++y)
     for (int x = 0; x < ids.width(); ++x, ++i)
-      other += ids.payload_row(y)[x] == their_ids[i] && colours.payload_row(y)[x] != their_colours[i];
-  return other;
+      count += ids.payload_row(y)[x] == their_ids[i] && colours.payload_row(y)[x] != their_colours[i];
+  return count;
 }
 
 }  // namespace
@@ -38,14 +38,15 @@ void PeerStage::compare(Row& row) {
   auto& loaded = loaded_[row.name] = load(PeerPayload::colour);
 
   const PeerJudgement judgement = judge(ours, their_ids, triangles);
-  row.near_ties = judgement.near_ties;
+  row.near_ties = judgement.depth_ties;
   if (judgement.wrong() != 0)
     row.error = fmt::format(
-        "{} pixels are drawn by one of us only, {} belong to other triangles, the first at ({}, {})",
-        judgement.coverage, judgement.owners, judgement.first_x, judgement.first_y);
-  else if (const auto other = other_colours(ours, their_ids, row.workload->reference(), loaded->read());
-           other != 0)
-    row.error = fmt::format("{} pixels have other colours", other);
+        "{} pixels are drawn in only one of the two pictures, {} show another triangle, the first at ({}, "
+        "{})",
+        judgement.coverage, judgement.other_triangles, judgement.first_x, judgement.first_y);
+  else if (const auto count = differing_colours(ours, their_ids, row.workload->reference(), loaded->read());
+           count != 0)
+    row.error = fmt::format("{} pixels have other colours", count);
 }
 
 }  // namespace edgewise::bench

@@ -1,4 +1,4 @@
-// Where the rows of peers are compared and timed.
+// Compares and times the peers' rows.
 #pragma once
 
 #include <map>
@@ -11,12 +11,12 @@ namespace edgewise::bench {
 
 class PeerStage {
  public:
-  // Draws the row's scene twice, by triangle and by colour, and sets its near ties, and its error if another
-  // pixel is drawn, or belongs to another triangle without a near tie, or has another colour. Keeps the scene
-  // in the peer's memory. Needs the workload prepared.
+  // Draws the row's scene twice, with triangle ids and with colours. Sets the row's near_ties, and its error
+  // if the coverage differs, or a visible triangle beyond a depth tie within tolerance, or a colour. Keeps
+  // the scene loaded in the peer. Requires a prepared workload.
   void compare(Row& row);
 
-  // One frame of a row that was compared.
+  // Draws one frame of a row that compare() has loaded.
   void work(const Row& row) { loaded_.at(row.name)->draw(); }
 
  private:

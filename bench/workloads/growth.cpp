@@ -12,11 +12,11 @@ namespace edgewise::bench {
 
 namespace {
 
-// Small, so that it is triangles that cost; and 10^7 of them cover each pixel of the full image 48 times.
+// Small, so that the triangles dominate the cost. 10^7 of them cover each pixel of the full image 48 times.
 constexpr double kCountArea_px = 10;
-// Large, so that it is pixels that cost.
+// Large, so that the pixels dominate the cost.
 constexpr double kOverdrawArea_px = 1000;
-// Shows the same at every size, so that its triangles grow with the image.
+// The same picture at every size: its triangles grow with the image.
 constexpr const char* kSizeScene = "torus-knot";
 
 std::uint64_t memory_bytes() {

@@ -1,5 +1,5 @@
-// What the growth charts are made of: one quantity grows, from row to row by a constant factor, and nothing
-// else does.
+// The workloads of the growth charts: one quantity grows by a constant factor from row to row, the others
+// stay the same.
 #pragma once
 
 #include <cstddef>
@@ -16,12 +16,12 @@ struct GrowthStep {
   std::shared_ptr<Workload> workload;
 };
 
-// Triangles, of one size, in one image; pixels, under one scene; and how often large triangles cover each
-// pixel. `quick` leaves out the costly ends. So does a machine that two of the largest frames, the row's and
-// its reference, would fill more than half.
+// Three sweeps: the number of triangles of one size in one image; the pixels of an image of one scene; and
+// the overdraw by large triangles. `quick` leaves out the largest steps. Image sizes are also left out if two
+// frames (the row's and its reference) would fill more than half of the machine's memory.
 std::vector<GrowthStep> growth_steps(int width, int height, bool quick);
 
-// Triangles of one area at random places and depths.
+// `count` triangles of `area_px` at random positions and depths.
 app::Source random_source(int width, int height, std::size_t count, double area_px);
 
 }  // namespace edgewise::bench

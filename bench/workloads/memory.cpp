@@ -18,16 +18,16 @@ std::optional<double> status_bytes(const std::string& key) {
   return std::nullopt;
 }
 
-// From here on VmHWM is the highest that VmRSS has been.
-void forget_earlier_peaks() {
+// Resets VmHWM, the peak of VmRSS (proc(5), clear_refs).
+void reset_peak() {
   std::ofstream("/proc/self/clear_refs") << "5";
 }
 
 }  // namespace
 
 std::optional<double> peak_bytes(const Row& row) {
-  malloc_trim(0);  // else the frame would live in what others left behind, and seem to need nothing
-  forget_earlier_peaks();
+  malloc_trim(0);  // otherwise the frame would use freed memory that is still resident, and appear free
+  reset_peak();
   const auto before = status_bytes("VmRSS:"), peak_before = status_bytes("VmHWM:");
   Workload& workload = *row.workload;
   {
@@ -37,8 +37,8 @@ std::optional<double> peak_bytes(const Row& row) {
     row.backend->make()->draw(triangles, frame.view(), kBackground, row.execution);
   }
   const auto peak = status_bytes("VmHWM:");
-  constexpr double kOthers = 1 << 20;  // what other threads take meanwhile, and how coarsely Linux counts
-  if (!before || !peak_before || !peak || *peak_before > *before + kOthers) return std::nullopt;
+  constexpr double kTolerance = 1 << 20;  // bytes: other threads' allocations, and Linux's coarse counters
+  if (!before || !peak_before || !peak || *peak_before > *before + kTolerance) return std::nullopt;
   return *peak - *before;
 }
 

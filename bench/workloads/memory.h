@@ -1,4 +1,4 @@
-// How much memory a frame needs at its worst: the first one, by fresh objects.
+// The peak memory of a frame, measured on the first frame of newly made objects.
 #pragma once
 
 #include <optional>
@@ -7,9 +7,9 @@
 
 namespace edgewise::bench {
 
-// Bytes by which the process grows, at the most, while a fresh front end, frame and backend draw the row's
-// frame once; what is not touched does not count. None where Linux's /proc does not tell. Needs the workload
-// prepared with its scene.
+// The peak growth in bytes of the process's resident memory while a new front end, frame and backend draw the
+// row's frame once. Pages that are allocated but not written do not count. None if Linux's /proc does not
+// have the figures. Requires prepare(true) on the workload.
 std::optional<double> peak_bytes(const Row& row);
 
 }  // namespace edgewise::bench

@@ -17,16 +17,16 @@ RandomReads::RandomReads(std::size_t bytes) : lines_(std::max<std::size_t>(1, by
   for (std::size_t i = lines_ - 1; i > 0; --i) std::swap(lines[i].next, lines[random.below(i)].next);
 }
 
-std::uint64_t RandomReads::go_on(std::size_t count) {
+std::uint64_t RandomReads::advance(std::size_t count) {
   const Line* lines = memory_.data();
   for (std::size_t i = 0; i < count; ++i) at_ = lines[at_].next;
   return at_;
 }
 
 std::array<ReadRow, 2> random_read_rows() {
-  constexpr std::size_t kEnough = std::size_t{1} << 30;
+  constexpr std::size_t kMaxBytes = std::size_t{1} << 30;
   return {{{"random_read/half_last_cache", llc_bytes() / 2, true},
-           {"random_read/memory", std::min(llc_bytes() * 4, kEnough), false}}};
+           {"random_read/memory", std::min(llc_bytes() * 4, kMaxBytes), false}}};
 }
 
 }  // namespace edgewise::bench

@@ -42,21 +42,21 @@ double Stage::recorded_work_s(Row& row) {
     const ObserveParallel scope(recorder);
     work(row);
   }
-  const FrameWork found = recorder.finish();
-  row.recorded.take_least(found);
-  return found.work_s();
+  const FrameWork frame = recorder.finish();
+  row.recorded.take_minima(frame);
+  return frame.work_s();
 }
 
 void Stage::compare_ours(Row& row) {
-  // It still holds the picture of the row before, which is the right one.
+  // The frame still holds the previous row's picture, which may be the same.
   if (row.timed != Timed::frontend) lab::poison(frame(row));
   row.once_s = row.cores > 0 ? recorded_work_s(row) : timed_work_s(row);
   if (row.timed == Timed::frontend) {
     const auto expected = row.workload->triangles();
-    const auto found = row.workload->run(frontend_, row.execution.threads);
-    if (found.size() != expected.size() ||
-        std::memcmp(found.data(), expected.data(), expected.size_bytes()) != 0)
-      row.error = fmt::format("emits other triangles than on 1 thread ({} instead of {})", found.size(),
+    const auto actual = row.workload->run(frontend_, row.execution.threads);
+    if (actual.size() != expected.size() ||
+        std::memcmp(actual.data(), expected.data(), expected.size_bytes()) != 0)
+      row.error = fmt::format("emits other triangles than on 1 thread ({} instead of {})", actual.size(),
                               expected.size());
   } else {
     const auto difference = lab::compare(row.workload->reference(), frame(row));
@@ -79,12 +79,12 @@ void Stage::compare(Row& row) {
       if (row.once_s < limit_s) row.once_s = recorded_work_s(row);
     return;
   }
-  // The first draw allocates; later ones tell how long a row really takes, the shorter the more of them.
+  // The first draw also allocates memory. Later draws time the row, and short rows are drawn more often.
   for (const double limit_s : {row.repeat_below_s, 0.1, 0.1})
     if (row.once_s < limit_s) row.once_s = std::min(row.once_s, timed_work_s(row));
   if (row.wants_floor)
-    row.floor =
-        limit_.under(row.workload->triangles(), row.workload->blocks(), frame(row), row.execution.threads);
+    row.floor = cost_model_.estimate(row.workload->triangles(), row.workload->blocks(), frame(row),
+                                     row.execution.threads);
 }
 
 }  // namespace edgewise::bench

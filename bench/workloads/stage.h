@@ -1,4 +1,4 @@
-// Where rows are compared and timed: the frames and the backends that rows share.
+// Compares and times rows. Owns the frames and backends that rows share.
 #pragma once
 
 #include <map>
@@ -12,12 +12,12 @@ namespace edgewise::bench {
 
 class Stage {
  public:
-  // Draws the row once, compares every bit with the reference, and sets the row's once_s, and its error if
-  // they differ, and the floor under it where that is wanted; records its tasks, if it is to be scheduled.
-  // Needs the workload prepared.
+  // Draws the row and compares every bit with the reference. Sets once_s, `error` if a bit differs, the cost
+  // model's estimate if the row has wants_floor, and the recorded tasks if it has `cores`. Requires a
+  // prepared workload.
   void compare(Row& row);
 
-  // Does once what the row times.
+  // Performs the row's timed work once.
   void work(const Row& row);
 
  private:
@@ -28,12 +28,12 @@ class Stage {
   double recorded_work_s(Row& row);
 
   std::map<const BackendInfo*, std::unique_ptr<Backend>> backends_;
-  // One for each size, to the end: interleaved repetitions come back to all of them, and a fresh frame would
-  // put its page faults into a row's time.
+  // One per size, kept to the end: interleaved repetitions use all of them again, and a fresh frame's page
+  // faults would count in a row's time.
   std::map<std::pair<int, int>, Framebuffer> frames_;
   Frontend frontend_;
   PeerStage peers_;
-  CostModel limit_;
+  CostModel cost_model_;
 };
 
 }  // namespace edgewise::bench

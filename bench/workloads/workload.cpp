@@ -28,8 +28,8 @@ std::span<const ScreenTriangle> Workload::run(Frontend& frontend, int threads) {
 void Workload::drop_hidden(Frontend& frontend) {
   const Framebuffer exact = drawn();
   hidden_.emplace(std::get<Scene>(source_->drawable), *facing_);
-  const auto left = run(frontend, 1);
-  triangles_.assign(left.begin(), left.end());
+  const auto kept = run(frontend, 1);
+  triangles_.assign(kept.begin(), kept.end());
   wrong_px_ = lab::compare(exact, reference()).pixels;
 }
 

@@ -1,5 +1,5 @@
-// What is drawn by a row of the benchmark: one scene at one size and culling mode, loaded when a row first
-// needs it. The mode may be a facing test of the laboratory's, in the front end's place.
+// The input of a benchmark row: one scene at one size and culling mode, loaded when a row first needs it. One
+// of the laboratory's facing tests may replace the front end's culling.
 #pragma once
 
 #include <cstdint>
@@ -24,33 +24,33 @@ inline constexpr std::uint32_t kBackground = 0xFF000000u;
 class Workload {
  public:
   // Meshes are drawn with `mesh_cull` and shading, streams with neither.
-  // `facing` drops a mesh scene's hidden faces in place of `mesh_cull`; see lab::HiddenFaces for those it
-  // may be.
+  // `facing` drops a mesh scene's hidden faces in place of `mesh_cull`. lab::HiddenFaces says which methods
+  // it supports.
   Workload(int width, int height, Cull mesh_cull, std::function<app::Source()> load,
            const lab::FacingMethod* facing = nullptr);
 
-  // Loads the scene, runs the front end and counts the covered pixels; only the first call does anything.
-  // Rows that time the front end need the scene itself afterwards, others let its memory go.
+  // Loads the scene, runs the front end and counts the covered pixels. Later calls do nothing.
+  // `keep_scene` is needed by rows that time the front end; otherwise the scene's memory is freed.
   void prepare(bool keep_scene);
 
   // The picture that every row must reproduce: the first backend on one thread, slowest SIMD target.
   const Framebuffer& reference();
   void drop_reference() { reference_.reset(); }
 
-  // Counted when first asked for.
+  // Counted by the first call.
   const BlockCounts& blocks();
 
-  // Of a facing test: pixels of its reference that differ from the exact picture, which `mesh_cull` gives.
+  // With `facing`: the pixels of its reference that differ from the exact picture (culled by `mesh_cull`).
   std::optional<std::uint64_t> wrong_px() const { return wrong_px_; }
 
-  // What a row times of the front end: scene to screen triangles. Needs the scene kept.
+  // The timed work of a front end row: scene to screen triangles. Requires prepare(true).
   std::span<const ScreenTriangle> run(Frontend& frontend, int threads);
 
   FrontendOptions frontend_options(int threads) const;
   const Drawable& drawable() const { return source_->drawable; }
   std::span<const ScreenTriangle> triangles() const { return triangles_; }
   std::uint64_t submitted() const { return submitted_; }    // the scene's triangles
-  std::uint64_t covered_px() const { return covered_px_; }  // each pixel as often as triangles cover it
+  std::uint64_t covered_px() const { return covered_px_; }  // a pixel counts once per triangle that covers it
   int width() const { return width_; }
   int height() const { return height_; }
 

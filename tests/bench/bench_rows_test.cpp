@@ -1,4 +1,4 @@
-// The benchmark's rows: told apart by name, and never timed when they draw other pixels.
+// The benchmark's rows: their names differ, and rows that draw wrong pixels are never timed.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ Row row_of(const BackendInfo& backend, const std::shared_ptr<Workload>& workload
   return row;
 }
 
-TEST(BenchStage, FindsABackendThatLeavesTheFrameAsItWas) {
+TEST(BenchStage, FindsABackendThatDrawsNothing) {
   const auto workload = std::make_shared<Workload>(96, 64, Cull::back, [] {
     return app::load_source("cube", {96, 64, 0.0f, 1.0}, false);
   });
@@ -67,7 +67,7 @@ TEST(BenchSuite, RefusesTwoSourcesOfOneName) {
   EXPECT_NE(message_of([&] { make_suite(only({clash, colon})); }), "");
 }
 
-TEST(BenchSuite, NamesRowsSoThatTheirPartsCanBeTold) {
+TEST(BenchSuite, RowNamesCanBeSplitIntoTheirParts) {
   const TempDir folder;
   const std::string mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
   const std::string odd = folder.write("threads:1\x1b\xff.obj", mesh).string();
@@ -80,7 +80,7 @@ TEST(BenchSuite, NamesRowsSoThatTheirPartsCanBeTold) {
   EXPECT_EQ(names.size(), 2 + 4 * backends().size() + 2 * peers().size() + (narrower ? 2 : 0));
 }
 
-TEST(BenchStage, ComparesEdgesWithEdges) {
+TEST(BenchStage, ComparesWireframesWithWireframes) {
   const auto workload = std::make_shared<Workload>(96, 64, Cull::back, [] {
     return app::load_source("cube", {96, 64, 0.0f, 1.0}, false);
   });
@@ -99,7 +99,7 @@ TEST(BenchSuite, NamesAllRowsDifferently) {
   for (const Row& row : make_suite({})) EXPECT_TRUE(names.insert(row.name).second) << row.name;
 }
 
-TEST(BenchSuite, TimesOursAtThePeersVectorWidthToo) {
+TEST(BenchSuite, AlsoTimesOursAtThePeersVectorWidth) {
   std::map<std::string, int> count;
   for (const Row& row : make_suite({})) ++count[row.name];
   const bool wanted = !peers().empty() && resolve(SimdTarget::best) == SimdTarget::avx512;
@@ -107,7 +107,7 @@ TEST(BenchSuite, TimesOursAtThePeersVectorWidthToo) {
     for (const std::string threads : {"1", "2"}) {
       const std::string who = scene.stream ? "tiled/" : "tiled+frontend/";
       const std::string name = who + std::string(scene.name) + "/target:avx2/threads:" + threads;
-      // A row of the sweep over targets may bear the same name.
+      // A row of the sweep over SIMD targets may have the same name.
       if (wanted) {
         EXPECT_EQ(count[name], 1) << name;
       } else {
@@ -116,7 +116,7 @@ TEST(BenchSuite, TimesOursAtThePeersVectorWidthToo) {
     }
 }
 
-TEST(BenchSuite, TimesHiddenFacesDroppedInThreeWays) {
+TEST(BenchSuite, TimesThreeCullingModes) {
   SuiteOptions options;
   options.quick = true;
   options.width = 160, options.height = 90;
@@ -163,10 +163,10 @@ TEST(BenchAblation, AddsOneOptimizationPerStep) {
 
 TEST(BenchAblation, StandsBesideTheRowsThatAreItsEnds) {
   std::set<std::string> names;
-  std::size_t floors = 0;
+  std::size_t estimates = 0;
   for (const Row& row : make_suite({})) {
     names.insert(row.name);
-    floors += row.wants_floor;
+    estimates += row.wants_floor;
   }
   for (const SceneInfo& scene : builtin_scenes())
     for (const AblationStep& step : ablation_steps())
@@ -174,28 +174,28 @@ TEST(BenchAblation, StandsBesideTheRowsThatAreItsEnds) {
                             "/threads:1"),
                 in_ablation(scene.name) ? 1u : 0u);
   EXPECT_TRUE(names.count("naive/large/threads:1") && names.count("tiled/large/threads:2"));
-  EXPECT_EQ(floors, 2 * builtin_scenes().size());
+  EXPECT_EQ(estimates, 2 * builtin_scenes().size());
 }
 
-// Its right angle in the image's upper left corner.
+// The right angle lies in the image's upper left corner.
 ScreenTriangle right_triangle(int legs_px, std::uint32_t z) {
   return {{0, legs_px * 256, 0}, {0, 0, legs_px * 256}, {z, z, z}, 0};
 }
 
-TEST(BenchLimit, CountsEachBlockOnceForEachTriangleThatWinsAPixelOfIt) {
+TEST(CostModel, CountsABlockOncePerTriangleThatWinsAPixel) {
   // Legs of 8 px cover blocks (0,0), (1,0) and (0,1), legs of 12 px six blocks.
   const ScreenTriangle near_small = right_triangle(8, 5000), far_large = right_triangle(12, 6000);
   const ScreenTriangle order[2][2] = {{near_small, far_large}, {far_large, near_small}};
   const BlockCounts near_first = count_blocks(order[0], 16, 16), far_first = count_blocks(order[1], 16, 16);
   EXPECT_EQ(near_first.covered, 9u);
   EXPECT_EQ(far_first.covered, 9u);
-  // Block (0,0) of the far one lies behind the near one in every pixel; in (1,0) and (0,1) it looks out.
+  // The near triangle occludes the far one in all of block (0,0), but only in parts of (1,0) and (0,1).
   EXPECT_EQ(near_first.won, 8u);
   EXPECT_EQ(far_first.won, 9u);
 }
 
-TEST(BenchLimit, CountsWhatTheReferenceDraws) {
-  // One triangle a draw, so that blocks that are not background are those it won.
+TEST(CostModel, CountsTheBlocksThatTheReferenceDraws) {
+  // One triangle per draw, so that it won exactly the blocks that are not background.
   SceneRequest request;
   request.width = 173;
   request.height = 91;
@@ -214,12 +214,12 @@ TEST(BenchLimit, CountsWhatTheReferenceDraws) {
   }
 }
 
-TEST(BenchLimit, IsASumOfMeasuredPartsAndGrowsWithTheBlocks) {
+TEST(CostModel, AddsMeasuredPartsAndScalesWithBlocks) {
   const std::vector<ScreenTriangle> triangles(1000, right_triangle(8, 5000));
   Framebuffer frame(64, 64);
-  CostModel limit;
-  const FrameCost few = limit.under(triangles, {1000, 1000}, frame, 1);
-  const FrameCost many = limit.under(triangles, {2000, 2000}, frame, 1);
+  CostModel model;
+  const FrameCost few = model.estimate(triangles, {1000, 1000}, frame, 1);
+  const FrameCost many = model.estimate(triangles, {2000, 2000}, frame, 1);
   EXPECT_GT(few.read_s, 0.0);
   EXPECT_GT(few.write_s, 0.0);
   EXPECT_DOUBLE_EQ(many.blocks_s, 2 * few.blocks_s);
@@ -227,19 +227,19 @@ TEST(BenchLimit, IsASumOfMeasuredPartsAndGrowsWithTheBlocks) {
   EXPECT_DOUBLE_EQ(few.total_s(), few.read_s + few.blocks_s + few.write_s);
 }
 
-TEST(RandomReads, AllLinesAreReadBeforeOneIsReadAgain) {
+TEST(RandomReads, ReadAllLinesBeforeOneIsReadAgain) {
   for (const std::size_t bytes : {std::size_t{0}, std::size_t{64}, std::size_t{128}, std::size_t{1} << 16}) {
     RandomReads reads(bytes);
     EXPECT_EQ(reads.lines(), std::max<std::size_t>(1, bytes / 64));
     std::set<std::uint64_t> seen;
-    for (std::size_t i = 0; i < reads.lines(); ++i) seen.insert(reads.go_on(1));
+    for (std::size_t i = 0; i < reads.lines(); ++i) seen.insert(reads.advance(1));
     EXPECT_EQ(seen.size(), reads.lines());
     EXPECT_EQ(*seen.rbegin(), reads.lines() - 1);
-    EXPECT_EQ(reads.go_on(reads.lines()), 0u);
+    EXPECT_EQ(reads.advance(reads.lines()), 0u);
   }
 }
 
-TEST(BenchStage, FindsTheFloorOnlyWhereItIsWanted) {
+TEST(BenchStage, EstimatesTheCostOnlyIfRequested) {
   const auto workload = std::make_shared<Workload>(96, 64, Cull::back, [] {
     return app::load_source("cube", {96, 64, 0.0f, 1.0}, false);
   });
@@ -257,7 +257,7 @@ TEST(BenchStage, FindsTheFloorOnlyWhereItIsWanted) {
   EXPECT_EQ(with.error, "");
 }
 
-TEST(BenchModel, WritesEstimatesOfNoMoreThanACoreIsWorthEach) {
+TEST(BenchModel, WritesEstimatesOfAtMostLinearSpeedUp) {
   const auto workload = std::make_shared<Workload>(96, 64, Cull::back, [] {
     return app::load_source("cube", {96, 64, 0.0f, 1.0}, false);
   });

@@ -1,4 +1,4 @@
-// How a frame's tasks are recorded, and what time they would take on more cores.
+// Records a frame's tasks, and estimates their time on more cores.
 #include "bench/models/scaling.h"
 
 #include <gtest/gtest.h>
@@ -15,12 +15,12 @@ namespace {
 
 using Tasks = std::vector<double>;
 
-TEST(FrameWork, IsHandedToTheCoreThatIsFreeFirst) {
+TEST(FrameWork, AssignsTasksToTheCoreThatIsFreeFirst) {
   const FrameWork frame{{{"a", 1.0, Tasks{4, 3, 2, 2, 1}}, {"b", 0.5, Tasks{2, 2, 2}}}, 0.25};
   EXPECT_DOUBLE_EQ(frame.work_s(), 1 + 12 + 0.5 + 6 + 0.25);
   EXPECT_DOUBLE_EQ(frame.path_s(), 1 + 4 + 0.5 + 2 + 0.25);
   EXPECT_DOUBLE_EQ(frame.time_s(1, 9.0), frame.work_s());
-  // Of a, one core takes 4 and 2, the other 3, 2 and 1.
+  // In section a, one core runs tasks 4 and 2, the other 3, 2 and 1.
   EXPECT_DOUBLE_EQ(frame.time_s(2, 0.0), 1 + 6 + 0.5 + 4 + 0.25);
   EXPECT_DOUBLE_EQ(frame.time_s(100, 0.0), frame.path_s());
   EXPECT_DOUBLE_EQ(frame.time_s(100, 3.0), frame.path_s() + 2 * 3.0);
@@ -31,28 +31,29 @@ TEST(FrameWork, StaysWithinGrahamsBounds) {
   FrameWork frame{{{"a", 0.0, {}}}, 0.0};
   for (int i = 0; i < 500; ++i) frame.sections[0].tasks_s.push_back(random.uniform(0.0f, 1.0f));
   for (const int cores : {1, 2, 3, 4, 8, 64, 499, 500, 1000}) {
-    const double time_s = frame.time_s(cores, 0.0), share_s = frame.work_s() / cores;
-    EXPECT_GE(time_s, std::max(share_s, frame.path_s()) - 1e-9) << cores;
-    EXPECT_LE(time_s, share_s + frame.path_s() + 1e-9) << cores;
+    const double time_s = frame.time_s(cores, 0.0), average_s = frame.work_s() / cores;
+    EXPECT_GE(time_s, std::max(average_s, frame.path_s()) - 1e-9) << cores;
+    EXPECT_LE(time_s, average_s + frame.path_s() + 1e-9) << cores;
   }
 }
 
 TEST(FrameWork, NamesTheLongestPartOfItsPath) {
-  // Together the sections named a have the longest tasks, though b's task is longer than each of them.
+  // The longest tasks of the two sections named a take longer together than b's task, which is longer than
+  // each.
   FrameWork frame{{{"a", 1, Tasks{2, 2}}, {"b", 1, Tasks{3}}, {"a", 1, Tasks{2}}}, 0.5};
   EXPECT_EQ(frame.longest_part().name, "the longest task of a");
   EXPECT_DOUBLE_EQ(frame.longest_part().time_s, 4.0);
   frame.sections[1].before_s = 5;
   EXPECT_EQ(frame.longest_part().name, "serial code before b");
   frame.after_s = 6;
-  EXPECT_EQ(frame.longest_part().name, "serial code behind the last section");
+  EXPECT_EQ(frame.longest_part().name, "serial code after the last section");
 }
 
-TEST(FrameWork, TakesTheLeastOfEachPieceUnlessTheCutDiffers) {
+TEST(FrameWork, TakesMinimaUnlessTheTasksDiffer) {
   FrameWork frame{{{"a", 2, Tasks{1, 5}}}, 1};
-  frame.take_least({{{"a", 1, Tasks{2, 3}}}, 4});
+  frame.take_minima({{{"a", 1, Tasks{2, 3}}}, 4});
   EXPECT_DOUBLE_EQ(frame.work_s(), 1 + 1 + 3 + 1);
-  frame.take_least({{{"a", 1, Tasks{9, 9, 9}}}, 4});
+  frame.take_minima({{{"a", 1, Tasks{9, 9, 9}}}, 4});
   EXPECT_EQ(frame.sections[0].tasks_s, (Tasks{9, 9, 9}));
 }
 
@@ -61,7 +62,7 @@ TEST(SectionName, IsTheFunctionAndItsFile) {
   EXPECT_EQ(section_name({"make", "make.h"}), "make in make.h");
 }
 
-TEST(FrameRecorder, SeesTheTasksInOrderOnOneThread) {
+TEST(FrameRecorder, RecordsTasksInOrderOnOneThread) {
   FrameRecorder recorder;
   std::vector<int> order;
   std::set<std::thread::id> threads;
@@ -76,7 +77,7 @@ TEST(FrameRecorder, SeesTheTasksInOrderOnOneThread) {
       piece_done();
     });
   }
-  parallel_for(1, 3, [](int) {});  // nobody watches any more
+  parallel_for(1, 3, [](int) {});  // no longer observed
   const FrameWork frame = recorder.finish();
   EXPECT_EQ(order, (std::vector<int>{0, 1, 2, 3, 4}));
   EXPECT_EQ(threads, std::set{std::this_thread::get_id()});
@@ -86,7 +87,7 @@ TEST(FrameRecorder, SeesTheTasksInOrderOnOneThread) {
   EXPECT_EQ(frame.sections[1].tasks_s.size(), 6u) << "two pieces and the rest, for each of two tasks";
 }
 
-TEST(FrameRecorder, FindsTheTimeWhereItIsSpent) {
+TEST(FrameRecorder, FindsTheLongestTask) {
   FrameRecorder recorder;
   const auto spend = [](double for_s) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(for_s);
@@ -102,7 +103,7 @@ TEST(FrameRecorder, FindsTheTimeWhereItIsSpent) {
   EXPECT_GT(frame.sections[0].tasks_s[1], 10 * (frame.sections[0].tasks_s[0] + frame.sections[0].tasks_s[2]));
 }
 
-// An observer that counts, to see how a draw is cut.
+// Counts the tasks of each parallel section.
 class Counter final : public ParallelObserver {
  public:
   void section_begins(const CallSite&) override { tasks.push_back(0); }
@@ -113,7 +114,7 @@ class Counter final : public ParallelObserver {
 
 class ObservedBackend : public ::testing::TestWithParam<std::string_view> {};
 
-TEST_P(ObservedBackend, DrawsTheSameUnderAnObserverAndCutsItsWorkForItsThreads) {
+TEST_P(ObservedBackend, DrawsTheSameBitsAndSplitsItsWork) {
   const auto triangles = testing::adversarial("tiny", 20'000, 200, 150, 3);
   const auto backend = testing::find_drawer(GetParam()).make();
   Framebuffer expected(200, 150), actual(200, 150);
@@ -134,7 +135,7 @@ TEST_P(ObservedBackend, DrawsTheSameUnderAnObserverAndCutsItsWorkForItsThreads) 
 INSTANTIATE_TEST_SUITE_P(Registry, ObservedBackend, ::testing::ValuesIn(testing::all_drawers()),
                          [](const auto& param) { return testing::test_name(param); });
 
-TEST(BenchStage, RecordsWhatIsToBeScheduled) {
+TEST(BenchStage, RecordsTheTasksOfScheduledRows) {
   const auto workload = std::make_shared<Workload>(640, 480, Cull::back, [] {
     return app::load_source("torus-knot", {640, 480, 0.0f, 1.0}, false);
   });
