@@ -1,4 +1,4 @@
-// What an exception says, for tests of messages.
+// The message of an exception, for tests of messages.
 #pragma once
 
 #include <exception>
@@ -6,7 +6,7 @@
 
 namespace edgewise {
 
-// Empty if nothing was thrown.
+// The message of the exception that `action` throws; empty if it throws none.
 template <typename Action>
 std::string message_of(const Action& action) {
   try {

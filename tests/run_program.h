@@ -1,4 +1,4 @@
-// Runs a program of ours, in a shell to catch all that it says.
+// Runs one of the project's programs in a shell, and captures its output.
 #pragma once
 
 #include <sys/wait.h>

@@ -1,4 +1,4 @@
-// A folder of a test's own that goes away with it.
+// A temporary folder, which the destructor removes with its contents.
 #pragma once
 
 #include <stdlib.h>

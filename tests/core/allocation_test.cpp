@@ -1,5 +1,5 @@
-// Memory is kept from frame to frame: after the first, nothing is allocated. Counted by the global operator
-// new, which is replaced for the whole test program.
+// Memory is reused from frame to frame: after the first frame, nothing is allocated. A global operator new,
+// which replaces the standard one in the whole test program, counts the allocations.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ void* counted(std::size_t bytes, std::size_t alignment) {
 }
 }  // namespace
 
-// The forms that the others are made of.
+// By default, all other forms of new and delete call these.
 void* operator new(std::size_t bytes) {
   return counted(bytes, alignof(std::max_align_t));
 }
@@ -56,8 +56,8 @@ std::size_t allocations_in(Work&& work) {
   return allocations - before;
 }
 
-// Of a frame that is drawn again and again. oneTBB's workers come and go, and allocate when they do; what a
-// frame allocates by itself it allocates each time.
+// The number of allocations of one frame, the minimum of several: oneTBB's workers also allocate when they
+// start and end, but not in every frame.
 template <typename Frame>
 std::size_t allocations_of_each(Frame&& frame) {
   constexpr int kFrames = 6;

@@ -1,6 +1,6 @@
-// The program on processors that this machine is not: an emulator (qemu-user) runs it on ones without AVX,
-// and without AVX-512, where an instruction that leaked out of the dispatched kernels ends it, and the
-// pictures must still be the same files.
+// Runs the program on other processors in an emulator (qemu-user): without AVX, and without AVX-512. An
+// unsupported instruction outside the dispatched kernels ends the program. The pictures must be the same
+// files.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -14,13 +14,13 @@ namespace edgewise::testing {
 namespace {
 
 struct Processor {
-  const char* name;    // as qemu calls it
-  const char* target;  // the best that it must be found to have
+  const char* name;    // qemu's name
+  const char* target;  // the expected best SIMD target
   bool avx;
 };
 
 constexpr Processor kProcessors[] = {
-    {"Nehalem", "scalar", false},  // 2008: SSE4.2, but none of what Highway's SSE4 asks for besides
+    {"Nehalem", "scalar", false},  // 2008: SSE4.2, but not the other extensions of Highway's SSE4
     {"Westmere", "sse4", false},   // 2010
     {"Haswell", "avx2", true},     // 2013
 };
@@ -31,7 +31,7 @@ class EmulatedCpu : public ::testing::TestWithParam<Processor> {
  protected:
   void SetUp() override {
     if (std::system((std::string("command -v ") + kEmulator + " >/dev/null").c_str()) != 0)
-      GTEST_SKIP() << kEmulator << " is not here; on Debian: apt-get install qemu-user";
+      GTEST_SKIP() << kEmulator << " is not installed; on Debian: apt-get install qemu-user";
   }
 
   static Outcome emulate(const std::string& program, const std::string& arguments) {
@@ -40,12 +40,12 @@ class EmulatedCpu : public ::testing::TestWithParam<Processor> {
   }
 };
 
-TEST_P(EmulatedCpu, EndsAProgramThatUsesWhatItLacks) {
+TEST_P(EmulatedCpu, EndsAProgramThatUsesMissingInstructions) {
   const Outcome outcome = emulate(EDGEWISE_AVX_PROBE, "");
   EXPECT_EQ(outcome.status == 0, GetParam().avx) << outcome.err;
 }
 
-TEST_P(EmulatedCpu, GetsTheKernelsThatItCanRunAndNoBitDiffers) {
+TEST_P(EmulatedCpu, SelectsItsKernelsAndDrawsTheSameBits) {
   const Outcome list = emulate(EDGEWISE_PROGRAM, "machine");
   ASSERT_EQ(list.status, 0) << list.err;
   EXPECT_NE(list.out.find("\"simd_best\": \"" + std::string(GetParam().target) + '"'), std::string::npos)
@@ -56,7 +56,7 @@ TEST_P(EmulatedCpu, GetsTheKernelsThatItCanRunAndNoBitDiffers) {
   EXPECT_EQ(verify.status, 0) << verify.out << verify.err;
 }
 
-TEST_P(EmulatedCpu, DrawsTheFilesThatThisMachineDraws) {
+TEST_P(EmulatedCpu, WritesTheSameFilesAsThisMachine) {
   const TempDir here, there;
   const auto arguments = [](const TempDir& folder) {
     return "render torus-knot terrain --size 120x90 -o '" + folder.path().string() +

@@ -1,5 +1,5 @@
-// The library's limits: past them std::invalid_argument, before memory is touched. The programs' rows stand
-// in invalid_inputs.h.
+// The library's limits: beyond them it throws std::invalid_argument before it allocates or reads memory. The
+// programs' limits are in tests/cli/invalid_inputs.h.
 #include "edgewise/limits.h"
 
 #include <gtest/gtest.h>
@@ -30,11 +30,12 @@ Scene too_many() {
   return scene;
 }
 
-// In a process with hardly more address space than it has: an allocation in proportion would fail otherwise.
+// Exits with 0 if `action` throws std::invalid_argument. The address space is limited, so that an allocation
+// in proportion to the input fails.
 void exit_as_refused(const std::function<void()>& action) {
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-  constexpr rlim_t kEnough = rlim_t{1} << 30;
-  const rlimit limit{kEnough, kEnough};
+  constexpr rlim_t kBytes = rlim_t{1} << 30;
+  const rlimit limit{kBytes, kBytes};
   if (setrlimit(RLIMIT_AS, &limit) != 0) std::exit(1);
 #endif
   try {
@@ -72,7 +73,7 @@ TEST(LimitsDeathTest, NoImageIsLargerThanTheGuardBand) {
   expect_refused([] { Framebuffer(1'000'000, 1'000'000); });
 }
 
-// Exactly at the limits there is a picture.
+// Exactly at the limits, drawing succeeds.
 TEST(Limits, TheLargestSidesAndTheMostThreadsAreDrawn) {
   const TriangleStream stream{
       1, 1, {{{{-20'000, -20'000, 0.5f}, {60'000, -20'000, 0.5f}, {0, 60'000, 0.5f}}, 7}}};
@@ -87,7 +88,7 @@ TEST(Limits, TheLargestSidesAndTheMostThreadsAreDrawn) {
     }
 }
 
-// Both sides at once: 2 GiB of picture.
+// Both sides at the limit: a frame of 2 GiB.
 TEST(Limits, TheLargestImageIsDrawn) {
   if (!testing::full_size()) GTEST_SKIP() << "takes 2 GiB; scripts/test --full draws it";
   constexpr int kSide = contract::kMaxImageSide;

@@ -1,4 +1,4 @@
-// Which SIMD targets are listed, and which kernels run for them, whatever flags the build has.
+// The listed SIMD targets and their kernels do not depend on the build's flags.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/simd_target_test.cpp"
 #include <hwy/foreach_target.h>
@@ -40,7 +40,7 @@ HWY_AFTER_NAMESPACE();
 namespace edgewise {
 namespace {
 
-TEST(SimdTargets, AreThoseThatAreCompiledAndRunHere) {
+TEST(SimdTargets, AreThoseCompiledAndSupported) {
   const struct {
     SimdTarget target;
     std::int64_t highway;
@@ -62,7 +62,7 @@ TEST(SimdTargets, AreThoseThatAreCompiledAndRunHere) {
   EXPECT_EQ(listed.front(), SimdTarget::scalar) << "whatever flags the build has";
 }
 
-// Fails for a target whose kernel is missing or is another target's.
+// Fails if a target's kernel is missing or the same as another target's.
 template <typename Kernel>
 void expect_own_kernels(Kernel (*kernel_of)(SimdTarget), const char* name) {
   std::set<Kernel> kernels;
@@ -77,7 +77,7 @@ TEST(SimdTargets, EachHasKernelsOfItsOwn) {
   expect_own_kernels(tile_kernel, "tile");
   expect_own_kernels(scanline_kernel, "scanline");
   expect_own_kernels(cell_box_kernel, "cell boxes");
-  expect_own_kernels(mask_finder, "patches");
+  expect_own_kernels(mask_finder, "coverage masks");
   expect_own_kernels(transform_kernel, "transform");
   expect_own_kernels(assemble_kernel, "assemble");
   expect_own_kernels(shade_kernel, "shade");

@@ -1,6 +1,6 @@
-// A backend must not leave the upper halves of vector registers in use: the caller's SSE code would merge
-// into them at every write, and run at half speed until the next context switch. Results stay right, so no
-// other test can see it.
+// A backend must not leave the upper halves of vector registers in use: every write of the caller's SSE code
+// would merge into them, at half speed until the next context switch. The results do not change, so no other
+// test detects it.
 #include <gtest/gtest.h>
 
 #include <optional>
@@ -16,7 +16,8 @@ namespace {
 
 constexpr std::uint32_t kUpperHalves = 1u << 2 | 1u << 6;  // of YMM, of ZMM
 
-// Which of them the processor holds to be in use (XGETBV with ECX = 1); nothing where it does not say.
+// The state components that the processor reports as in use (XGETBV with ECX = 1); none if it cannot report
+// them.
 std::optional<std::uint32_t> upper_halves_in_use() {
   std::uint32_t a = 0, b = 0, c = 0, d = 0;
   constexpr std::uint32_t kOsxsave = 1u << 27, kXgetbv1 = 1u << 2;
@@ -26,7 +27,7 @@ std::optional<std::uint32_t> upper_halves_in_use() {
   return a & kUpperHalves;
 }
 
-// By hand, since the tests are compiled for SSE.
+// In assembly, since the tests are compiled for SSE.
 void clear_upper_halves() {
   asm volatile("vzeroupper" ::: "memory");
 }
@@ -34,8 +35,8 @@ void use_upper_halves() {
   asm volatile("vpcmpeqd %%ymm0, %%ymm0, %%ymm0" ::: "xmm0", "memory");
 }
 
-// Some processors call registers in use that are not.
-bool can_tell() {
+// Whether the processor's report is exact: some processors report unused registers as in use.
+bool reports_exactly() {
   if (!__builtin_cpu_supports("avx2") || !upper_halves_in_use()) return false;
   use_upper_halves();
   const bool sees_use = *upper_halves_in_use() != 0;
@@ -44,7 +45,8 @@ bool can_tell() {
 }
 
 TEST(VectorState, BackendsLeaveUpperHalvesUnused) {
-  if (!can_tell()) GTEST_SKIP() << "this processor does not tell";
+  if (!reports_exactly())
+    GTEST_SKIP() << "this processor does not report the use of vector registers exactly";
   constexpr int kWidth = 200, kHeight = 150;  // several tiles of every size
   const auto everywhere = testing::adversarial("subpixel", 200, kWidth, kHeight, 1);
   const auto in_a_corner = testing::adversarial("tiny", 5, 8, 8, 1);

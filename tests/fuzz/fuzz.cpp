@@ -25,7 +25,7 @@ void fail(const std::string& what) {
 
 MemoryFile::MemoryFile(const std::uint8_t* data, std::size_t size)
     : descriptor_(memfd_create("edgewise-fuzz", MFD_CLOEXEC)) {
-  // Not what is tested: without memory there is no file.
+  // Lack of memory is not an error that the fuzzer should report.
   if (descriptor_ < 0 || write(descriptor_, data, size) != static_cast<ssize_t>(size)) std::exit(2);
   path_ = "/proc/self/fd/" + std::to_string(descriptor_);
 }
@@ -45,7 +45,7 @@ std::string describe(const BackendInfo& backend, const AblatedExecution& how) {
          edgewise::describe(how.ablation);
 }
 
-// A plane of pixels in memory that is no larger, so that a sanitizer sees what leaves it.
+// A plane of pixels in an allocation of exactly its size, so that a sanitizer detects accesses outside it.
 class Plane {
  public:
   explicit Plane(const Placement& p)
@@ -56,14 +56,14 @@ class Plane {
   std::uint32_t* data() { return pixels_.data() + p_.start; }
   int stride() const { return stride_; }
 
-  // `expected(x, y)` in the frame, canaries beside it.
+  // Requires `expected(x, y)` in the frame and canaries outside it.
   template <typename Expected>
   void check(const Expected& expected, const std::string& what) const {
     for (int i = 0; i < static_cast<int>(pixels_.size()); ++i) {
       const int x = (i - p_.start) % stride_, y = (i - p_.start) / stride_;
       const bool beside = i < p_.start || x >= p_.width;
       if (pixels_[static_cast<std::size_t>(i)] != (beside ? kCanary : expected(x, y)))
-        fail(what + (beside ? ": wrote beside the frame at (" : ": wrong at (") + std::to_string(x) + ", " +
+        fail(what + (beside ? ": wrote outside the frame at (" : ": wrong at (") + std::to_string(x) + ", " +
              std::to_string(y) + ")");
     }
   }
@@ -74,7 +74,7 @@ class Plane {
   std::vector<std::uint32_t> pixels_;
 };
 
-// The picture that all must draw.
+// The picture that every backend must draw.
 Framebuffer reference(std::span<const ScreenTriangle> triangles, int width, int height) {
   constexpr std::size_t kOracleWork = 20'000;  // pixels times triangles
   Framebuffer frame(width, height);
@@ -115,7 +115,7 @@ void check_ranges(std::span<const ScreenTriangle> triangles) {
     }
 }
 
-// Nothing for a camera out of range.
+// None if the front end rejects its input.
 std::optional<std::span<const ScreenTriangle>> run(Frontend& frontend, const Drawable& drawable,
                                                    const FrontendOptions& options) {
   try {
@@ -132,7 +132,7 @@ void check_frontend(const Drawable& drawable, int width, int height) {
   FrontendOptions options;
   options.width = std::min(width, kLargestSide);
   options.height = std::min(height, kLargestSide);
-  static Frontend scalar, vectors;  // as programs keep them from frame to frame
+  static Frontend scalar, vectors;  // reused for all inputs, as programs reuse them for all frames
   options.shade = std::holds_alternative<Scene>(drawable);
   for (const Cull cull : {Cull::none, Cull::back}) {
     options.cull = cull;
@@ -142,7 +142,8 @@ void check_frontend(const Drawable& drawable, int width, int height) {
       options.target = target;
       const auto actual = run(vectors, drawable, options);
       const std::string name(name_of(target));
-      require(expected.has_value() == actual.has_value(), "only one of scalar and " + name + " refuses");
+      require(expected.has_value() == actual.has_value(),
+              "only one of scalar and " + name + " rejects the input");
       if (!expected) continue;
       require(expected->size() == actual->size() &&
                   (expected->empty() ||

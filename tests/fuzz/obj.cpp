@@ -1,4 +1,4 @@
-// Any bytes as an .obj file: either a message, or a mesh that is whole and can be drawn.
+// Reads any bytes as an .obj file: the result is either an error message, or a valid mesh that can be drawn.
 #include <cmath>
 #include <stdexcept>
 

@@ -1,5 +1,5 @@
-// Any bytes as a command line, a word a line: either a message that a terminal can show, or an action, which
-// is not taken.
+// Parses any bytes as a command line, one word per line: the result is either a message that a terminal can
+// show, or an action, which is not performed.
 #include <algorithm>
 #include <stdexcept>
 #include <string>
@@ -14,7 +14,7 @@ using namespace edgewise;
 
 namespace {
 
-// As main() gets them.
+// The words as main() gets them.
 std::vector<std::string> words_of(std::string_view text) {
   std::vector<std::string> words{"edgewise"};
   while (!text.empty()) {
@@ -38,11 +38,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   argv.push_back(nullptr);
   try {
     fuzz::require(app::parse(static_cast<int>(words.size()), argv.data()) != nullptr,
-                  "nothing to do, nothing wrong");
+                  "neither an action nor an error");
   } catch (const std::invalid_argument& error) {
     const std::string line = app::printable(error.what(), ' ');
     fuzz::require(!line.empty() && std::none_of(line.begin(), line.end(), is_control),
-                  "a message that is no line");
+                  "a message that is not one printable line");
   }
   return 0;
 }

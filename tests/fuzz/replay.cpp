@@ -1,5 +1,5 @@
-// Feeds files to a fuzz target: `fuzz_obj FOLDER…`, every file of each folder. A fuzzer's finds stay found
-// where there is no fuzzer.
+// Runs a fuzz target on files: `fuzz_obj FOLDER…` takes every file of each folder. So inputs that a fuzzer
+// found are tested without a fuzzer, too.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -24,9 +24,9 @@ std::vector<fs::path> files_in(const fs::path& folder) {
 void feed(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
   const std::vector<char> content(std::istreambuf_iterator<char>(in), {});
-  // An allocation of just this size: a sanitizer sees who reads past its end.
+  // An allocation of exactly this size, so that a sanitizer detects reads past its end.
   const std::vector<std::uint8_t> bytes(content.begin(), content.end());
-  std::fprintf(stderr, "%s\n", path.c_str());  // stays the last line if it ends the process
+  std::fprintf(stderr, "%s\n", path.c_str());  // the last line if the target aborts
   LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
 }
 

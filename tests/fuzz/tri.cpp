@@ -1,4 +1,5 @@
-// Any bytes as a .tri file: either a message, or a stream that writes the same bytes again and can be drawn.
+// Reads any bytes as a .tri file: the result is either an error message, or a stream that can be drawn and is
+// written as the same bytes.
 #include <sstream>
 #include <stdexcept>
 
@@ -18,7 +19,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::ostringstream again;
   write_tri(again, stream);
   fuzz::require(again.view() == std::string_view(reinterpret_cast<const char*>(data), size),
-                "what was read is written differently");
+                "the stream is written as other bytes than were read");
   const int width = stream.width, height = stream.height;
   fuzz::check_frontend(std::move(stream), width, height);
   return 0;

@@ -1,6 +1,6 @@
-// Any bytes as triangles, in any frame, drawn in any way: all backends write the same bits, and none beside
-// the frame. The bytes choose how each vertex is made, so that vertices on samples, shared ones, far ones and
-// equal depths are as near as any others.
+// Draws any bytes as triangles, in any frame layout and configuration: all backends write the same bits, and
+// none outside the frame. The bytes select how each vertex is made, so that vertices on samples, shared
+// vertices, far vertices and equal depths are as likely as any others.
 #include <algorithm>
 #include <vector>
 
@@ -40,7 +40,7 @@ Vertex place(fuzz::Bytes& bytes, int way, const std::vector<Vertex>& before) {
         const std::int32_t inwards = bytes.take<std::uint8_t>();
         return inwards % 2 == 0 ? kGuardSub - inwards / 2 : inwards / 2 - kGuardSub;
       });
-    default:  // at, or near, one that was there before
+    default:  // at, or near, an earlier vertex
       if (before.empty()) return {};
       const Vertex& old = before[bytes.take<std::uint8_t>() % before.size()];
       if (way == 5) return old;
@@ -80,7 +80,7 @@ std::vector<ScreenTriangle> take_triangles(fuzz::Bytes& bytes) {
   return triangles;
 }
 
-// Many, as far as time allows: some of a backend's ways begin only there.
+// Repeats the triangles within a work budget: some code paths of the backends need many triangles.
 void repeat(std::vector<ScreenTriangle>& triangles, int times, int pixels) {
   constexpr std::size_t kWork = 100'000;  // pixels times triangles
   const std::size_t once = triangles.size();

@@ -1,6 +1,6 @@
-// Two tasks of one parallel_for that write the same variable, which ThreadSanitizer must report; or, with the
-// argument "no", variables of their own, which it must not. Shows that what parallel.cpp tells it does not
-// make it blind, and suffices.
+// Two tasks of one parallel_for write the same variable, which ThreadSanitizer must report. With the argument
+// "no" they write different variables, which it must not report. This shows that parallel.cpp's annotations
+// are sufficient, and hide no race.
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -11,12 +11,12 @@
 
 namespace {
 
-// Whether both tasks were under way at once, each on a thread of its own.
+// Whether both tasks ran at the same time, on different threads.
 bool run_two_tasks(int& of_first, int& of_second) {
   std::atomic<int> arrived{0};
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(100);
   edgewise::parallel_for(2, 2, [&](int task) {
-    // Relaxed, so that meeting orders nothing.
+    // Relaxed, so that the rendezvous adds no happens-before order.
     arrived.fetch_add(1, std::memory_order_relaxed);
     while (arrived.load(std::memory_order_relaxed) < 2 && std::chrono::steady_clock::now() < deadline)
       std::this_thread::yield();
@@ -29,7 +29,7 @@ bool run_two_tasks(int& of_first, int& of_second) {
 
 int main(int argc, char** argv) {
   const bool race = argc < 2 || std::string_view(argv[1]) != "no";
-  // Many times, since oneTBB uses its memory again.
+  // Repeated, since oneTBB reuses its memory.
   int shared = 0, other = 0, met = 0;
   for (int attempt = 0; attempt < 200; ++attempt)
     if (run_two_tasks(shared, race ? shared : other)) ++met;

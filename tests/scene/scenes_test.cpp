@@ -1,4 +1,4 @@
-// The built-in scenes are what they claim to be.
+// The built-in scenes have their documented properties.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -32,7 +32,7 @@ double area_px(const StreamTriangle& t) {
   return std::abs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)) / 2.0;
 }
 
-TEST(Scenes, StreamsHaveTheCountsAndAreasOfThePeersComparison) {
+TEST(Scenes, StreamsHaveTheirTriangleCountsAndAreas) {
   const struct {
     const char* name;
     std::size_t count;
@@ -89,7 +89,7 @@ TEST(Scenes, EveryNameMakesTheSameSceneTwice) {
   }
 }
 
-TEST(Scenes, TheCubeHasEightVerticesAndTwelveTrianglesOfTwelveColoursAndTurns) {
+TEST(Scenes, CubeHasTwelveColouredTrianglesAndRotates) {
   const auto scene = std::get<Scene>(find_scene("cube").make({}));
   ASSERT_EQ(scene.meshes.size(), 1u);
   EXPECT_EQ(scene.meshes[0].positions.size(), 8u);
@@ -100,7 +100,7 @@ TEST(Scenes, TheCubeHasEightVerticesAndTwelveTrianglesOfTwelveColoursAndTurns) {
             scene.instances[0].angle);
 }
 
-// Signed volume: positive where triangles are counter-clockwise from outside, so ours is negative.
+// The signed volume is positive if triangles are counter-clockwise from outside. Ours are clockwise.
 TEST(Scenes, ClosedMeshesShowTheirFrontOutside) {
   for (const auto name : {"cube", "sphere", "torus-knot"}) {
     const auto scene = std::get<Scene>(find_scene(name).make({}));
@@ -114,7 +114,7 @@ TEST(Scenes, ClosedMeshesShowTheirFrontOutside) {
   }
 }
 
-// Every edge is used once in each direction, by position, since sheets repeat the vertices of their seams.
+// Every edge is used once in each direction. Edges are compared by position, since seams repeat vertices.
 TEST(Scenes, ClosedMeshesHaveNoSeam) {
   for (const auto name : {"cube", "sphere", "torus-knot"}) {
     const auto scene = std::get<Scene>(find_scene(name).make({}));
@@ -141,7 +141,7 @@ TEST(Scenes, TerrainSurroundsTheCameraAndCrossesTheNearPlane) {
   EXPECT_GT(s.emitted, 10'000u);
 }
 
-TEST(Scenes, QuadsLieOnThePixelGridAndCoverEachPixelThreeTimes) {
+TEST(Scenes, QuadsCoverEachPixelThreeTimes) {
   constexpr int kWidth = 200, kHeight = 100;
   const SceneInfo& quads = find_scene("quads");
   Frontend frontend;
@@ -160,7 +160,7 @@ TEST(Scenes, QuadsLieOnThePixelGridAndCoverEachPixelThreeTimes) {
   EXPECT_EQ(count(2.5), 635u);
 }
 
-TEST(Scenes, KnotsAreInstancesOfOneMeshThatScaleAddsAndLeavesOut) {
+TEST(Scenes, ScaleChangesTheNumberOfKnotInstances) {
   const auto instances = [](double scale) {
     const Scene scene = std::get<Scene>(find_scene("knots").make({.scale = scale}));
     EXPECT_EQ(scene.meshes.size(), 1u);
@@ -230,7 +230,7 @@ TEST(Fit, CentresAndScalesTheLongestSideToTwo) {
   EXPECT_NEAR(std::max({high.x - low.x, high.y - low.y, high.z - low.z}), 2.0f, 1e-4f);
 }
 
-TEST(Fit, RefusesSizesAndPlacesBeyondFloatsAndLeavesTheSceneAsItWas) {
+TEST(Fit, RefusesOverflowWithoutChangingTheScene) {
   const auto scene_of_size = [](float size) {
     Scene scene;
     scene.meshes.push_back({{{0, 0, 0}, {size, 0, 0}, {0, size, 0}}, {{0, 1, 2}}, {0}});
@@ -249,7 +249,7 @@ TEST(Fit, RefusesSizesAndPlacesBeyondFloatsAndLeavesTheSceneAsItWas) {
   EXPECT_THROW(fit(too_large), std::invalid_argument);
 }
 
-TEST(Fit, RefusesAnInstanceOfAMeshThatTheSceneLacks) {
+TEST(Fit, RefusesAnInstanceOfAMissingMesh) {
   Scene scene;
   scene.instances.push_back({.mesh = 1});
   scene.meshes.resize(1);
