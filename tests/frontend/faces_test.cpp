@@ -1,4 +1,4 @@
-// Faces of four vertices and two-sided ones, on their way through the front end.
+// Four-vertex faces and two-sided faces in the front end.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace edgewise {
 namespace {
 
-// Quads and triangles in turn, some two-sided, all around the eye, so that planes cut many of them.
+// Quads and triangles, some two-sided, all around the camera, so that many are clipped.
 Scene scene_of_quads(bool two_sided) {
   Random random(5);
   Scene scene;
@@ -58,7 +58,7 @@ bool same(const std::vector<ScreenTriangle>& a, const std::vector<ScreenTriangle
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(ScreenTriangle)) == 0;
 }
 
-TEST(Faces, AreAlikeOnEveryTargetAndThreadCountAndOneByOne) {
+TEST(Faces, AreAlikeOnEveryTargetAndThreadCount) {
   const Scene scene = scene_of_quads(true);
   for (const Cull cull : cull_modes())
     for (const Payload payload : {Payload::colour, Payload::id}) {
@@ -80,8 +80,8 @@ TEST(Faces, AreAlikeOnEveryTargetAndThreadCountAndOneByOne) {
     }
 }
 
-// Without marks a mesh of the same triangles has the same places on the screen, in the same order.
-TEST(Faces, LieWhereTheirTrianglesLie) {
+// Without the triangle flags, the same mesh gives the same screen positions in the same order.
+TEST(Faces, HaveThePositionsOfTheirTriangles) {
   const Scene scene = scene_of_quads(false);
   Scene plain = scene;
   plain.meshes[0].marks.clear();
@@ -96,7 +96,7 @@ TEST(Faces, LieWhereTheirTrianglesLie) {
   }
 }
 
-TEST(Faces, OfFourVerticesHaveOneColourAndAnIdForEachHalf) {
+TEST(Faces, OfFourVerticesHaveOneColourAndTwoIds) {
   const Scene scene = scene_of_quads(false);
   const Mesh& mesh = scene.meshes[0];
   FrontendOptions options = kOptions;
@@ -118,7 +118,7 @@ TEST(Faces, OfFourVerticesHaveOneColourAndAnIdForEachHalf) {
   EXPECT_GT(second_halves, 100u);
 }
 
-TEST(Faces, WithTwoSidesAreNeverCulledAndTheOthersAsEver) {
+TEST(Faces, WithTwoSidesAreNeverCulled) {
   const Scene scene = scene_of_quads(true);
   const Mesh& mesh = scene.meshes[0];
   const auto is_two_sided = [&](const ScreenTriangle& t) {
@@ -141,7 +141,7 @@ TEST(Faces, WithTwoSidesAreNeverCulledAndTheOthersAsEver) {
   }
 }
 
-// A square across the view, its light behind the eye or behind itself.
+// A square in front of the camera, lit from the camera's side or from behind.
 std::uint32_t colour_of_square(bool two_sided, bool turned, glm::vec3 to_light) {
   Scene scene;
   Mesh& mesh = scene.meshes.emplace_back();
@@ -158,7 +158,7 @@ std::uint32_t colour_of_square(bool two_sided, bool turned, glm::vec3 to_light) 
   return triangles.front().payload;
 }
 
-TEST(Faces, WithTwoSidesAreLitOnTheSideThatIsSeen) {
+TEST(Faces, WithTwoSidesAreLitOnTheVisibleSide) {
   const std::uint32_t light = rgb(200, 200, 200), dark = rgb(30, 30, 30);
   for (const bool turned : {false, true}) {
     EXPECT_EQ(colour_of_square(true, turned, {0, 0, 1}), light);
@@ -167,7 +167,7 @@ TEST(Faces, WithTwoSidesAreLitOnTheSideThatIsSeen) {
   }
 }
 
-TEST(Faces, AreRefusedWhereMarksDoNotFit) {
+TEST(Faces, AreRefusedIfTheirFlagsAreInvalid) {
   Scene scene = scene_of_quads(false);
   scene.meshes[0].marks.pop_back();
   EXPECT_NE(message_of([&] { run(scene, kOptions); }), "");

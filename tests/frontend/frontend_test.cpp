@@ -1,4 +1,4 @@
-// The front end: what it drops, what it cuts, and what it hands on.
+// The front end: culling, clipping, snapping and shading.
 #include "edgewise/frontend.h"
 
 #include <gtest/gtest.h>
@@ -20,8 +20,8 @@ namespace {
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInf = std::numeric_limits<float>::infinity();
 
-// A mesh of loose triangles, seen by a camera at the origin that looks along -z through a 90 degree field of
-// view.
+// A mesh of unconnected triangles. The camera is at the origin, looks along -z and has a field of view of 90
+// degrees.
 Scene loose(const std::vector<glm::vec3>& positions) {
   Scene scene;
   Mesh mesh;
@@ -37,7 +37,7 @@ Scene loose(const std::vector<glm::vec3>& positions) {
   return scene;
 }
 
-// Clockwise seen from the camera.
+// kFront is clockwise as seen from the camera.
 const std::vector<glm::vec3> kFront = {{-1, -1, -3}, {-1, 1, -3}, {1, -1, -3}};
 const std::vector<glm::vec3> kBack = {{-1, -1, -3}, {1, -1, -3}, {-1, 1, -3}};
 
@@ -55,7 +55,7 @@ FrontendOptions with_cull(Cull cull) {
   return {.width = 100, .height = 100, .cull = cull};
 }
 
-void expect_accounts_balance(const FrontendStats& s) {
+void expect_consistent(const FrontendStats& s) {
   EXPECT_EQ(s.pieces, s.culled + s.zero_area + s.emitted);
   EXPECT_LE(s.whole_mesh + s.not_finite + s.outside + s.not_in_front, s.triangles);
 }
@@ -126,18 +126,18 @@ TEST(Frontend, DropsNanAndInfiniteVerticesAndCountsThem) {
       }
 }
 
-TEST(Frontend, CutsWhatCrossesTheNearPlaneAndNeverProjectsWhatIsBehind) {
-  // A floor triangle from in front of the eye to behind it.
+TEST(Frontend, ClipsAtTheNearPlaneBeforeProjection) {
+  // A floor triangle from in front of the camera to behind it.
   const auto result = run(loose({{-1, -1, -5}, {1, -1, -5}, {0, -1, 5}}));
   EXPECT_EQ(result.stats.clipped_near, 1u);
   EXPECT_EQ(result.stats.emitted, 2u) << "one vertex is cut off, which leaves a quad";
   for (const auto& t : result.triangles)
     for (int i = 0; i < 3; ++i) EXPECT_GE(t.y_sub[i], 50 * 256) << "the floor stays below the horizon";
-  expect_accounts_balance(result.stats);
+  expect_consistent(result.stats);
   EXPECT_EQ(run(loose({{-1, -1, 5}, {1, -1, 5}, {0, 1, 5}})).stats.emitted, 0u) << "wholly behind";
 }
 
-TEST(Frontend, CutsAtTheFarPlane) {
+TEST(Frontend, ClipsAtTheFarPlane) {
   Scene scene = loose({{-1, -1, -5}, {1, -1, -5}, {0, 0, -500}});
   const auto result = run(scene);
   EXPECT_EQ(result.stats.clipped_far, 1u);
@@ -157,7 +157,7 @@ TEST(Frontend, EveryTriangleStaysWithinTheContract) {
   scene.camera.near_z = 1e-4f;
   scene.camera.far_z = 1e7f;
   const auto result = run(scene);
-  expect_accounts_balance(result.stats);
+  expect_consistent(result.stats);
   EXPECT_GT(result.stats.clipped_guard, 0u);
   EXPECT_GT(result.stats.clipped_near, 0u);
   for (const auto& t : result.triangles)
@@ -169,18 +169,18 @@ TEST(Frontend, EveryTriangleStaysWithinTheContract) {
     }
 }
 
-TEST(Frontend, HugeFiniteCoordinatesAreSurvived) {
+TEST(Frontend, AcceptsHugeFiniteCoordinates) {
   for (const float huge : {1e20f, 1e37f, 3e38f}) {
     const auto result = run(loose({{-huge, -huge, -huge}, {huge, -huge, -1}, {0, huge, -huge}}));
-    expect_accounts_balance(result.stats);
+    expect_consistent(result.stats);
     const TriangleStream stream{100, 100, {{{{-huge, 0, 0.5f}, {huge, -huge, 0.5f}, {0, huge, 0.5f}}, 7}}};
     for (const auto& t : run(stream).triangles)
       for (int i = 0; i < 3; ++i) ASSERT_LE(std::abs(t.x_sub[i]), contract::kGuardSub);
   }
 }
 
-// A floor of many triangles that runs under and behind the camera, crossing the near plane and all sides.
-TEST(Frontend, ACutPlaneIsWatertight) {
+// A floor of many triangles below and behind the camera, which crosses the near plane and all side planes.
+TEST(Frontend, AClippedFloorIsWatertight) {
   Random random(9);
   constexpr int kSide = 12;
   Mesh mesh;
@@ -209,16 +209,16 @@ TEST(Frontend, ACutPlaneIsWatertight) {
   }
 }
 
-// Corners within a sub-unit of the guard band: cut and snapped, their polygons bend inwards by a hairline,
-// and a fan holds a piece of the other winding with a sample in it.
-TEST(Frontend, NoPieceOfACutTriangleIsWoundTheOtherWay) {
+// Corners within a sub-unit of the guard band: clipping and snapping make the polygons slightly concave, so
+// that a fan would have a piece of opposite winding that covers a sample.
+TEST(Frontend, PiecesOfAClippedTriangleKeepItsWinding) {
   const auto at = [](float x, float y) { return glm::vec3(x, y, 0.5f); };
-  const StreamTriangle kHairlines[] = {
+  const StreamTriangle kTriangles[] = {
       {{at(64076, -60823), at(16383.9971f, -9145.52148f), at(-8121.66699f, 4625.58789f)}, 1},
       {{at(57852, -40315), at(16383.9961f, -7531.72461f), at(-8113.375f, 3816.67773f)}, 1},
       {{at(64909, -46252), at(16383.9951f, -12058.8828f), at(-8123.56445f, 6074.8125f)}, 1},
       {{at(86855, -61750), at(16383.9971f, -5470.03711f), at(-16296.7842f, 5526.59766f)}, 1}};
-  for (const StreamTriangle& triangle : kHairlines) {
+  for (const StreamTriangle& triangle : kTriangles) {
     const TriangleStream stream{96, 64, {triangle}};
     const auto drawn = [&](Cull cull) {
       const auto pieces = run(stream, {.width = 96, .height = 64, .cull = cull}).triangles;
@@ -231,7 +231,7 @@ TEST(Frontend, NoPieceOfACutTriangleIsWoundTheOtherWay) {
   }
 }
 
-TEST(Frontend, BothTrianglesAtACutEdgeGetTheBitIdenticalVertex) {
+TEST(Frontend, NeighboursGetTheSameVertexOnAClippedEdge) {
   Random random(17);
   const auto same = [](const ClipVertex& p, const ClipVertex& q) {
     return std::memcmp(&p, &q, sizeof p) == 0;
@@ -244,9 +244,9 @@ TEST(Frontend, BothTrianglesAtACutEdgeGetTheBitIdenticalVertex) {
                         random.uniform(-1.0f, 2.0f) * w, w};
     };
     const ClipVertex p = vertex(), q = vertex();
-    const auto plane = static_cast<std::uint16_t>(kNear << random.below(6));  // one of the six that cut
+    const auto plane = static_cast<std::uint16_t>(kNear << random.below(6));  // one of the six clip planes
     if ((outside_of(p, 100, 100) & plane) == (outside_of(q, 100, 100) & plane)) continue;
-    // Neighbours run through their common edge in opposite directions.
+    // Neighbours traverse their shared edge in opposite directions.
     const auto cut_of = [&](const ClipVertex& from, const ClipVertex& to) {
       Clipper clipper;
       const auto polygon = clipper.clip({from, to, vertex()}, plane);
@@ -289,7 +289,7 @@ TEST(Frontend, IdsAreSourceTrianglesInSubmissionOrder) {
     EXPECT_EQ(piece.payload, 0u);
 }
 
-TEST(Frontend, ShadesByTheLightWithAFloor) {
+TEST(Frontend, ShadesByTheLightWithAMinimum) {
   Scene scene = loose(kFront);
   const auto red = [&](glm::vec3 to_light) {
     scene.to_light = to_light;
@@ -297,7 +297,7 @@ TEST(Frontend, ShadesByTheLightWithAFloor) {
   };
   EXPECT_EQ(red({0, 0, 1}), 200u) << "light from the camera's side";
   EXPECT_EQ(red({0, 0, -1}), 30u) << "max(n.l, 0.15)";
-  EXPECT_EQ(red({0, 3, 4}), 160u) << "n.l = 0.8, whatever the length";
+  EXPECT_EQ(red({0, 3, 4}), 160u) << "n.l = 0.8 for every length";
   FrontendOptions flat{.width = 100, .height = 100, .cull = Cull::none, .shade = false};
   EXPECT_EQ(run(scene, flat).triangles.at(0).payload, rgb(200, 100, 50));
 }
@@ -314,7 +314,7 @@ TEST(Frontend, ShadesMeshesOfEverySizeAlike) {
   }
 }
 
-TEST(Frontend, DrawsATriangleWhoseCornersLieAtTheEdgeOfFloat) {
+TEST(Frontend, DrawsATriangleNearTheLargestFloats) {
   constexpr float kFar = 3e38f;
   const TriangleStream stream{100, 100, {{{{-kFar, -kFar, 0.5f}, {kFar, -kFar, 0.5f}, {50, kFar, 0.5f}}, 7}}};
   const auto result = run(stream);
@@ -323,7 +323,7 @@ TEST(Frontend, DrawsATriangleWhoseCornersLieAtTheEdgeOfFloat) {
 
 TEST(Frontend, ShadingFollowsRotationAndMirroring) {
   Scene scene = loose(kFront);
-  scene.instances[0].scale = {-1, 1, 1};  // mirrored: the winding turns, and with it the side that is lit
+  scene.instances[0].scale = {-1, 1, 1};  // mirroring reverses the winding and thereby the lit side
   const auto result = run(scene);
   EXPECT_EQ(result.triangles.at(0).payload & 255, 30u);
   EXPECT_LT(contract::signed_area(result.triangles.at(0)), 0);
@@ -352,7 +352,7 @@ TEST(Frontend, MirroringTurnsAClosedMeshInsideOut) {
   }
 }
 
-TEST(Frontend, ShadesStretchedInstancesAsIfTheirMeshesWereStretched) {
+TEST(Frontend, ShadesScaledInstancesLikeScaledMeshes) {
   Random random(23);
   for (int i = 0; i < 200; ++i) {
     std::vector<glm::vec3> corners(3);
@@ -389,7 +389,7 @@ TEST(Frontend, GivesTheSameTrianglesOnEveryThreadCount) {
   }
 }
 
-TEST(Frontend, UnsnappedTrianglesAreWhereTheSnappedOnesWereRoundedFrom) {
+TEST(Frontend, UnsnappedTrianglesRoundToTheSnappedOnes) {
   for (const auto name : {"terrain", "small"}) {
     const Drawable drawable = find_scene(name).make({.width = 300, .height = 200, .scale = 0.01});
     Frontend frontend;
@@ -397,7 +397,7 @@ TEST(Frontend, UnsnappedTrianglesAreWhereTheSnappedOnesWereRoundedFrom) {
     const auto triangles = frontend.run(drawable, options);
     const auto unsnapped = frontend.unsnapped();
     ASSERT_EQ(triangles.size(), unsnapped.size());
-    EXPECT_EQ(frontend.stats().zero_area, 0u) << "those without area are kept for judging";
+    EXPECT_EQ(frontend.stats().zero_area, 0u) << "triangles without area are kept";
     for (std::size_t i = 0; i < triangles.size(); ++i)
       for (int k = 0; k < 3; ++k) {
         ASSERT_EQ(snap(unsnapped[i].x_px[k]), triangles[i].x_sub[k]);

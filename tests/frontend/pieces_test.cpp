@@ -1,4 +1,4 @@
-// How clipped polygons are split: into triangles of one winding wherever such a split exists.
+// Clipped polygons are split into triangles of one winding if such a split exists.
 #include "frontend/pieces.h"
 
 #include <gtest/gtest.h>
@@ -13,9 +13,9 @@ namespace {
 
 using Polygon = std::vector<Vertex>;
 
-Polygon polygon_of(std::initializer_list<std::pair<int, int>> places) {
+Polygon polygon_of(std::initializer_list<std::pair<int, int>> positions) {
   Polygon polygon;
-  for (const auto& [x, y] : places) polygon.push_back({x, y, 0, 0});
+  for (const auto& [x, y] : positions) polygon.push_back({x, y, 0, 0});
   return polygon;
 }
 
@@ -48,8 +48,8 @@ TEST(Pieces, AConvexPolygonBecomesAFan) {
     EXPECT_EQ(pieces.corners[i], (std::array<std::uint8_t, 3>{0, std::uint8_t(i + 1), std::uint8_t(i + 2)}));
 }
 
-TEST(Pieces, ABentPolygonIsSplitWithoutAPieceOfTheOtherWinding) {
-  // Vertex 1 of each lies inside; a fan from vertex 0 turns over there.
+TEST(Pieces, PiecesOfAConcavePolygonKeepItsWinding) {
+  // Vertex 1 of each is concave, so a fan from vertex 0 has a triangle of the opposite winding.
   for (const Polygon& forward :
        {polygon_of({{0, 0}, {50, 1}, {100, 0}, {50, 90}}),
         polygon_of({{0, 0}, {1, 1}, {100, 0}, {100, 90}, {0, 90}}),
@@ -73,7 +73,7 @@ TEST(Pieces, ABentPolygonIsSplitWithoutAPieceOfTheOtherWinding) {
   }
 }
 
-TEST(Pieces, APolygonThatCrossesItselfKeepsAllItsArea) {
+TEST(Pieces, ASelfCrossingPolygonKeepsItsArea) {
   const Polygon bow = polygon_of({{0, 0}, {100, 10}, {100, 0}, {0, 9}});
   const Pieces pieces = split(bow);
   ASSERT_EQ(pieces.count, 2u);
