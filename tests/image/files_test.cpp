@@ -1,4 +1,4 @@
-// Mesh and stream files: what is read is what was meant, and what is malformed gets one clear line.
+// Mesh and stream files: valid files are read exactly, and invalid ones give a one-line error message.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -100,7 +100,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "too long: header promises 1 triangle (40 bytes), 41 bytes follow"}),
     [](const auto& p) { return std::string(p.param.name); });
 
-TEST(TriFile, WhatIsNoFileIsRefused) {
+TEST(TriFile, FoldersAndDevicesAreRefused) {
   const TempDir dir;
   EXPECT_EQ(message_of([&] { read_tri(dir.path()); }), dir.path().string() + ": is a directory");
   EXPECT_NE(message_of([&] { read_tri(dir.path() / "none.tri"); }).find("No such file"), std::string::npos);
@@ -123,7 +123,7 @@ struct GoodObj {
 
 class SameTriangle : public testing::TestWithParam<GoodObj> {};
 
-// Every way to write the triangle (1,2,3) (4,5,6) (7,8,10).
+// All notations of the triangle (1,2,3) (4,5,6) (7,8,10).
 TEST_P(SameTriangle, IsReadAlike) {
   const Mesh mesh = read_mesh(GetParam().text);
   ASSERT_EQ(mesh.triangles.size(), 1u);
@@ -159,8 +159,8 @@ INSTANTIATE_TEST_SUITE_P(
                                 kCorners + "f 1 2 3\ncurv 0 1\n"}),
     [](const auto& p) { return std::string(p.param.name); });
 
-// Of numbers that are awkward, the nearest float; 0 for what is smaller than any.
-TEST(ObjFile, AwkwardNumbersAreReadExactly) {
+// Extreme numbers become the nearest float, or 0 if they are too small.
+TEST(ObjFile, ExtremeNumbersBecomeTheNearestFloat) {
   const std::string zeros(400, '0');
   const Mesh mesh = read_mesh("v 1e-400 -1e-99999 0e400\nv 1" + zeros + "e-400 0." + zeros +
                               "1 1e-45\nv 0.1 16777217 -3.4028235e38\nf 1 2 3\n");
@@ -223,16 +223,16 @@ INSTANTIATE_TEST_SUITE_P(
                 "line 3: 'x' is not a finite coordinate"}),
     [](const auto& p) { return std::string(p.param.name); });
 
-TEST(ObjFile, WhatIsNoFileIsRefused) {
+TEST(ObjFile, FoldersAndMissingFilesAreRefused) {
   const TempDir dir;
   EXPECT_EQ(message_of([&] { read_obj(dir.path()); }), dir.path().string() + ": is a directory");
   EXPECT_NE(message_of([&] { read_obj(dir.path() / "none.obj"); }).find("No such file"), std::string::npos);
 }
 
-// The front end can tell what the camera sees: nothing may be outside or cut.
+// By the front end's statistics, no triangle is outside the view or clipped.
 TEST(ObjFile, TheCameraSeesTheWholeMeshFromItsFront) {
-  for (const char* place : {"0 0 0", "500 -20 3", "-0.001 0 0"}) {
-    std::istringstream words(place);
+  for (const char* position : {"0 0 0", "500 -20 3", "-0.001 0 0"}) {
+    std::istringstream words(position);
     double x = 0, y = 0, z = 0;
     words >> x >> y >> z;
     const double side = x < 0 ? 1e-4 : 10;
@@ -247,10 +247,10 @@ TEST(ObjFile, TheCameraSeesTheWholeMeshFromItsFront) {
     Frontend frontend;
     frontend.run(read_obj(dir.write("box.obj", text.str())), options);
     const FrontendStats& stats = frontend.stats();
-    EXPECT_EQ(stats.triangles, 12u) << place;
-    EXPECT_EQ(stats.whole_mesh + stats.outside + stats.not_in_front, 0u) << place;
-    EXPECT_EQ(stats.clipped_near + stats.clipped_far + stats.clipped_guard, 0u) << place;
-    EXPECT_EQ(stats.emitted, 6u) << place << ": the front, right and upper faces";
+    EXPECT_EQ(stats.triangles, 12u) << position;
+    EXPECT_EQ(stats.whole_mesh + stats.outside + stats.not_in_front, 0u) << position;
+    EXPECT_EQ(stats.clipped_near + stats.clipped_far + stats.clipped_guard, 0u) << position;
+    EXPECT_EQ(stats.emitted, 6u) << position << ": the front, right and upper faces";
   }
 }
 
@@ -262,7 +262,7 @@ double twice_area(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-// The triangles all turn as the polygon does and their areas add up to its own: they fill it once.
+// All triangles have the polygon's winding, and their areas add up to its area: they fill it exactly once.
 void expect_filled(const Polygon& polygon, const std::string& what) {
   double area = 0.0;
   for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
@@ -271,8 +271,8 @@ void expect_filled(const Polygon& polygon, const std::string& what) {
     std::vector<glm::vec3> positions;
     std::vector<std::uint32_t> indices;
     for (const glm::dvec2 p : polygon) {
-      const double place[3] = {p.x, p.y, 3.0};
-      positions.emplace_back(place[axis % 3], place[(axis + 1) % 3], place[(axis + 2) % 3]);
+      const double in_3d[3] = {p.x, p.y, 3.0};
+      positions.emplace_back(in_3d[axis % 3], in_3d[(axis + 1) % 3], in_3d[(axis + 2) % 3]);
       indices.push_back(static_cast<std::uint32_t>(indices.size()));
     }
     std::vector<glm::uvec3> triangles;
@@ -345,7 +345,7 @@ TEST(Polygon, RandomStarsAreFilledOnce) {
   }
 }
 
-TEST(Polygon, WithoutAreaOrCrossingItselfStillGetsItsTriangles) {
+TEST(Polygon, OfNoAreaOrSelfCrossingIsTriangulated) {
   const std::vector<glm::vec3> positions = {{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}, {2, 2, 0}, {3, 3, 0}};
   for (const std::vector<std::uint32_t>& polygon :
        {std::vector<std::uint32_t>{0, 1, 2, 3}, {0, 1, 4, 5}, {0, 0, 0, 0, 0}, {0, 2, 2, 1, 0, 3}}) {
@@ -355,7 +355,7 @@ TEST(Polygon, WithoutAreaOrCrossingItselfStillGetsItsTriangles) {
   }
 }
 
-TEST(Polygon, OnesOfManyCornersAreNoTrouble) {
+TEST(Polygon, OfManyCornersIsFilledOnce) {
   Polygon circle, comb{{20000, -1}, {0, -1}};
   for (int i = 0; i < 100000; ++i) {
     const double angle = 2 * std::numbers::pi * i / 100000;
@@ -366,7 +366,7 @@ TEST(Polygon, OnesOfManyCornersAreNoTrouble) {
   expect_filled(comb, "comb");
 }
 
-TEST(Polygon, AHopelessOneIsRefusedInsteadOfHanging) {
+TEST(Polygon, OfExcessiveCostIsRefused) {
   std::vector<glm::vec3> positions;
   std::vector<std::uint32_t> polygon;
   std::mt19937 random(1);

@@ -1,4 +1,4 @@
-// Pictures and depth maps on disk, their differences, and files that appear whole or not at all.
+// Picture and depth map files, their differences, and files that are written completely or not at all.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -59,7 +59,7 @@ TEST_P(ImageFormat, EveryTruncationIsRefused) {
   const fs::path path = dir.path() / (std::string("a") + GetParam());
   write_image(path, test_image(5, 4));
   const std::string whole = file_content(path);
-  // The last chunk of a PNG (12 bytes) carries no pixels, and libpng does without it.
+  // The last chunk of a PNG (12 bytes) has no pixels, and libpng reads files without it.
   for (std::size_t size = 0; size + 12 < whole.size(); ++size) {
     const fs::path cut = dir.write("cut" + path.extension().string(), whole.substr(0, size));
     EXPECT_NE(message_of([&] { read_image(cut); }).find(cut.string() + ": "), std::string::npos) << size;
@@ -80,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(Formats, ImageFormat, testing::Values(".png", ".ppm", "
                          [](const auto& p) { return "Format" + std::to_string(p.index); });
 
 TEST(Png, APaletteBecomesRgb) {
-  // 2x1 pixels that point to the second and the first of two colours; made with Python's zlib.
+  // 2x1 pixels with the second and the first colour of a palette of two; made with Python's zlib.
   const char content[] =
       "\x89\x50\x4e\x47\x0d\x0a\x1a\x0a\x00\x00\x00\x0d\x49\x48\x44\x52\x00\x00\x00\x02\x00\x00\x00\x01"
       "\x08\x03\x00\x00\x00\xc3\xfc\x8f\xb8\x00\x00\x00\x06\x50\x4c\x54\x45\x0a\x14\x1e\xc8\x64\x00\xbf"
@@ -192,7 +192,7 @@ TEST(Pfm, RowsLieBottomUpAndBothByteOrdersAreRead) {
   EXPECT_EQ(read_pfm(big).depth01, (std::vector<float>{1.0f, 2.0f}));
 }
 
-TEST(Frame, DepthUnitsBecomeZeroToOneAndPaddingIsLeftOut) {
+TEST(Frame, DepthBecomesZeroToOneWithoutThePadding) {
   Framebuffer frame(3, 2);
   const std::uint32_t units[2][3] = {
       {contract::kDepthHead, contract::kDepthHead + contract::kDepthRange, contract::kDepthClear},
@@ -216,7 +216,7 @@ bool is_grey(std::uint32_t pixel) {
   return (pixel & 255) == (pixel >> 8 & 255) && (pixel & 255) == (pixel >> 16 & 255);
 }
 
-TEST(Difference, OfAnImageAndItselfIsNothingOnDimmedGrey) {
+TEST(Difference, OfEqualImagesIsDimmedGrey) {
   const Image image = test_image(9, 7);
   const Difference d = difference(image, image);
   EXPECT_EQ(d.count, 0u);
@@ -243,7 +243,7 @@ TEST(Difference, CountsFindsAndGradesPixels) {
   EXPECT_EQ(d.picture.pixels[5], rgb(85, 85, 85));
 }
 
-TEST(Difference, OfDepthsSeesTheSmallestStepAndNan) {
+TEST(Difference, OfDepthsFindsTheSmallestStepAndNan) {
   const float nan = std::nanf("");
   const DepthMap a{5, 1, {0.5f, 0.25f, nan, nan, 1.0f}};
   const DepthMap b{5, 1, {std::nextafter(0.5f, 1.0f), 0.25f, nan, 0.5f, 1.0f}};
@@ -284,7 +284,7 @@ TEST(AtomicFile, AppearsOnCommitOnly) {
   EXPECT_EQ(dir.count(), 1u);
 }
 
-TEST(AtomicFile, WithoutCommitTheOldFileStaysAndNothingElse) {
+TEST(AtomicFile, WithoutCommitOnlyTheOldFileRemains) {
   const TempDir dir;
   const fs::path path = dir.write("a", "old");
   {
@@ -296,7 +296,7 @@ TEST(AtomicFile, WithoutCommitTheOldFileStaysAndNothingElse) {
   EXPECT_EQ(dir.count(), 1u);
 }
 
-TEST(AtomicFile, ReplacesWhatALinkPointsToAndKeepsItsMode) {
+TEST(AtomicFile, ReplacesALinksTargetAndKeepsItsMode) {
   const TempDir dir;
   const fs::path path = dir.write("a", "old"), link = dir.path() / "link";
   fs::permissions(path, fs::perms(0600));
@@ -309,7 +309,7 @@ TEST(AtomicFile, ReplacesWhatALinkPointsToAndKeepsItsMode) {
   EXPECT_EQ(fs::status(path).permissions(), fs::perms(0600));
 }
 
-TEST(AtomicFile, TwoOfOneNameDoNotDisturbEachOther) {
+TEST(AtomicFile, TwoOfOneNameAreIndependent) {
   const TempDir dir;
   const fs::path path = dir.path() / "a";
   AtomicFile first(path), second(path);
@@ -340,13 +340,13 @@ TEST(AtomicFile, ImpossibleTargetsAreRefusedAtOnce) {
   EXPECT_EQ(dir.count(), 1u);
 }
 
-TEST(AtomicFile, ADeviceIsWrittenStraight) {
+TEST(AtomicFile, WritesDevicesDirectly) {
   write_pfm("/dev/null", {1, 1, {0.0f}});
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
 }
 
-// Another thread may begin a file when the process is about to end, and must not leave it behind.
-TEST(AtomicFile, IsNotBegunWhereTheProcessEnds) {
+// If another thread opens a file while the process ends, the file must not be left behind.
+TEST(AtomicFile, IsNotOpenedWhileTheProcessEnds) {
   const TempDir dir;
   const pid_t child = fork();
   ASSERT_GE(child, 0);
@@ -370,7 +370,7 @@ TEST(AtomicFile, AFullDiskIsReported) {
               write_pfm("/dev/full", {1, 1, {0.0f}});
             }),
             "/dev/full: cannot be written: No space left on device");
-  // Fails while it is written, not when it is closed; and by way of a link.
+  // Through a link, and with enough data to fail during writing instead of at closing.
   const TempDir dir;
   fs::create_symlink("/dev/full", dir.path() / "a.pfm");
   EXPECT_EQ(message_of([&] {
@@ -381,7 +381,7 @@ TEST(AtomicFile, AFullDiskIsReported) {
 
 class Signalled : public testing::TestWithParam<int> {};
 
-TEST_P(Signalled, LeavesOnlyTheOldFileAndDiesOfTheSignal) {
+TEST_P(Signalled, LeavesOnlyTheOldFile) {
   const TempDir dir;
   const fs::path path = dir.write("a", "old");
   const pid_t child = fork();

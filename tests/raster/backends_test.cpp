@@ -1,4 +1,4 @@
-// Every backend in the registry, under every execution, against the brute-force oracle.
+// Compares every backend in the registry, in every configuration, with the brute-force oracle.
 #include <filesystem>
 #include <set>
 #include <stdexcept>
@@ -38,17 +38,17 @@ TEST_P(EveryBackend, DrawsTheOraclesPictureAtEverySize) {
                     std::to_string(width) + "x" + std::to_string(height));
 }
 
-TEST_P(EveryBackend, DrawsTheOraclesPictureWhenTrianglesFillManyChunks) {
-  // More than one bin chunk and bin block, in a small image so that the oracle can follow.
+TEST_P(EveryBackend, DrawsTheOraclesPictureForManyChunks) {
+  // More than one bin chunk and index block, in a small image because the oracle is slow.
   auto triangles = adversarial("tiny", 12'000, 40, 40, 3);
   const auto big = adversarial("subpixel", 20, 40, 40, 4);
   triangles.insert(triangles.begin() + 6'000, big.begin(), big.end());
   expect_oracle(triangles, 40, 40, "many chunks");
-  // Where all depths tie, the order of the chunks decides.
+  // If all depths are equal, the order of the chunks decides.
   expect_oracle(adversarial("equal-depth", 3'000, 40, 40, 5), 40, 40, "many chunks at one depth");
 }
 
-TEST_P(EveryBackend, ForgetsTheFrameBefore) {
+TEST_P(EveryBackend, KeepsNothingOfThePreviousFrame) {
   const int width = 150, height = 90;
   const auto small = adversarial("few-pixels", 40, width, height, 1);
   const auto large = adversarial("subpixel", 160, width, height, 2);
@@ -56,7 +56,7 @@ TEST_P(EveryBackend, ForgetsTheFrameBefore) {
     first.insert(first.end(), then.begin(), then.end());
     return first;
   };
-  // Small ones take another way than large ones.
+  // Small and large triangles take different code paths.
   const std::vector<ScreenTriangle> frames[] = {joined(small, large), joined(large, small), large, small};
   std::vector<Framebuffer> expected;
   for (const auto& triangles : frames) expected.push_back(oracle(triangles, width, height));
@@ -68,8 +68,9 @@ TEST_P(EveryBackend, ForgetsTheFrameBefore) {
     }
 }
 
-TEST_P(EveryBackend, DrawsTheOraclesPictureWhenPatchesTakeTooMuchMemory) {
-  // Eight pixels wide and high at most: small, but most of them in more than two windows of 8 x 8.
+TEST_P(EveryBackend, DrawsTheOraclesPictureBeyondTheMaskMemory) {
+  // At most 8 px wide and high, so that binning makes coverage masks, but most triangles span more than two
+  // mask quadrants of 8 x 8.
   std::vector<ScreenTriangle> triangles(12'000);
   std::uint32_t random = 1;
   const auto below = [&](int end) {
@@ -84,7 +85,7 @@ TEST_P(EveryBackend, DrawsTheOraclesPictureWhenPatchesTakeTooMuchMemory) {
          static_cast<std::uint32_t>(&t - triangles.data())};
     for (auto& z : t.z) z = kDepthHead + static_cast<std::uint32_t>(below(1000));
   }
-  expect_oracle(triangles, 97, 71, "patches of 8 x 8 pixels");
+  expect_oracle(triangles, 97, 71, "coverage masks of 8 x 8 pixels");
 }
 
 TEST_P(EveryBackend, ReachesTheFarCornerOfTheLargestImage) {
@@ -108,7 +109,7 @@ TEST_P(EveryBackend, KeepsTheEarlierTriangleAtATie) {
   }
 }
 
-// Small ones may lie in other lists than large ones, whose blocks end somewhere.
+// Small and large triangles may be in different lists, whose blocks fill up at different triangles.
 TEST_P(EveryBackend, KeepsTheEarlierOfASmallAndALargeTriangleAtATie) {
   const auto right_angled = [](int at_px, int side_px, std::uint32_t z, std::uint32_t payload) {
     const std::int32_t begin = at_px * kSub, end = (at_px + side_px) * kSub;
@@ -129,8 +130,8 @@ TEST_P(EveryBackend, KeepsTheEarlierOfASmallAndALargeTriangleAtATie) {
   }
 }
 
-// So many that parts of different lengths are given to threads.
-TEST_P(EveryBackend, DrawsTheSameOnThreadsThatShareManyTriangles) {
+// Enough triangles for a work partition into parts of different lengths.
+TEST_P(EveryBackend, DrawsManyTrianglesAlikeOnEveryThreadCount) {
   const int side = 64;
   std::vector<ScreenTriangle> triangles(1'000'000);
   for (std::size_t i = 0; i < triangles.size(); ++i) {
@@ -153,7 +154,7 @@ TEST_P(EveryBackend, DrawsTheSameOnThreadsThatShareManyTriangles) {
     testing::expect_same(alone, drawn(threads), std::to_string(threads) + " threads");
 }
 
-TEST_P(EveryBackend, DrawsTheSameHoweverTheVerticesAreRotatedOrWound) {
+TEST_P(EveryBackend, DoesNotDependOnVertexOrderOrWinding) {
   for (const auto family : testing::kFamilies) {
     const auto triangles = adversarial(family, 60, 90, 70, 21);
     Framebuffer expected(90, 70), actual(90, 70);
@@ -173,12 +174,12 @@ TEST_P(EveryBackend, DrawsTheSameHoweverTheVerticesAreRotatedOrWound) {
   }
 }
 
-TEST_P(EveryBackend, WritesEveryPixelOfACallersFrameAndNothingBesideIt) {
+TEST_P(EveryBackend, WritesEveryPixelOfTheFrameAndNoOther) {
   constexpr int kWidth = 75, kHeight = 66;
   constexpr std::uint32_t kCanary = 0xDEADBEEF;
   const auto triangles = adversarial("subpixel", 50, kWidth, kHeight, 9);
   const Framebuffer expected = oracle(triangles, kWidth, kHeight);
-  // Odd strides and starts defeat aligned stores; a multiple of four invites them.
+  // Odd strides and starts rule out aligned stores; multiples of four may allow them.
   for (const auto& [stride, offset] :
        {std::pair{kWidth, 0}, {kWidth + 2, 1}, {kWidth + 5, 0}, {kWidth + 5, 3}}) {
     for (const auto& execution : testing::executions()) {
@@ -200,7 +201,7 @@ TEST_P(EveryBackend, WritesEveryPixelOfACallersFrameAndNothingBesideIt) {
   }
 }
 
-TEST_P(EveryBackend, RefusesWhatItCannotDraw) {
+TEST_P(EveryBackend, RefusesInvalidArguments) {
   Framebuffer frame(8, 8);
   const auto draw = [&](FrameView view, Execution execution) { backend_->draw({}, view, 0, execution); };
   const FrameView good = frame.view();
@@ -219,7 +220,7 @@ TEST_P(EveryBackend, RefusesWhatItCannotDraw) {
   EXPECT_NO_THROW(draw(good, {}));
 }
 
-TEST_P(EveryBackend, RefusesAFrameOfAnotherSizeThanTheFrontEndsImage) {
+TEST_P(EveryBackend, RefusesAFrameOfAnotherSize) {
   Frontend frontend;
   const auto draw = [&](int width, int height) {
     Framebuffer frame(width, height);

@@ -1,5 +1,5 @@
-// Binning: a cell's list holds every triangle that covers one of its samples, once and in order; and of those
-// over few cells hardly any that does not.
+// Binning: a cell's list holds every triangle that covers one of its samples, once and in order. Of the
+// triangles that span few cells, it holds few others.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -47,8 +47,8 @@ ScreenTriangle triangle(std::int32_t x0, std::int32_t y0, std::int32_t x1, std::
   return t;
 }
 
-// A right triangle in a corner of 32 x 32 px: the upper left one, or mirrored to the right (1), down (2) or
-// both.
+// A right triangle in a corner of 32 x 32 px: the upper left corner, or mirrored to the right (1), down (2)
+// or both (3).
 ScreenTriangle in_corner(int from_px, int to_px, int mirrored) {
   const auto x = [&](int px) { return (mirrored & 1 ? 32 - px : px) * kSub; };
   const auto y = [&](int px) { return (mirrored & 2 ? 32 - px : px) * kSub; };
@@ -58,7 +58,8 @@ ScreenTriangle turned(const ScreenTriangle& t) {
   return triangle(t.x_sub[0], t.y_sub[0], t.x_sub[2], t.y_sub[2], t.x_sub[1], t.y_sub[1]);
 }
 
-// Edges in all directions that pass, within a few sub-units, samples next to where four cells meet.
+// Triangles with edges in all directions that pass within a few sub-units of the samples at the corner of
+// four cells.
 std::vector<ScreenTriangle> around_a_corner(int corner_px, std::int32_t reach_sub, int count) {
   Random random(7);
   const auto within = [&](std::int32_t reach) {
@@ -109,7 +110,7 @@ TEST_P(BinsOnTarget, LoseNoTriangle) {
     }
 }
 
-// Each owns the sample of the fourth cell that its longest side passes through, or leaves it to a neighbour.
+// The longest side passes exactly through a sample of the fourth cell, and owns it or not by the fill rule.
 TEST_P(BinsOnTarget, LoseNoTriangleWithASampleOnItsEdge) {
   const CellGrid grid{32, 32, 4, 4};
   std::vector<ScreenTriangle> triangles;
@@ -118,9 +119,9 @@ TEST_P(BinsOnTarget, LoseNoTriangleWithASampleOnItsEdge) {
   expect_no_loss(triangles, grid, lists(triangles, grid));
 }
 
-TEST_P(BinsOnTarget, LoseNoTriangleThatPassesTheCornerOfCells) {
+TEST_P(BinsOnTarget, LoseNoTriangleNearACellCorner) {
   const int count = full_size() ? 400'000 : 40'000;
-  for (const int log2 : {3, 6, 13}) {  // the last: edges as long as coordinates allow
+  for (const int log2 : {3, 6, 13}) {  // 13: edges of the maximum length
     const CellGrid grid{2 << log2, 2 << log2, log2, log2};
     const auto triangles =
         around_a_corner(1 << log2, ((1 << log2) - 4) * kSub, log2 == 13 ? count / 1000 : count);
@@ -129,9 +130,9 @@ TEST_P(BinsOnTarget, LoseNoTriangleThatPassesTheCornerOfCells) {
   }
 }
 
-// Long slivers whose long side touches a cell at its sample next to the corner, and whose orientation is lost
+// Long slivers whose long side touches only a cell's sample next to the corner. Their orientation is lost
 // when products are rounded to floats.
-TEST_P(BinsOnTarget, LoseNoSliverThatFloatsTakeForALine) {
+TEST_P(BinsOnTarget, LoseNoSliverOfUncertainOrientation) {
   const CellGrid grid{1 << 14, 1 << 14, 13, 13};
   const std::int32_t k = 2'000'000, corner = (1 << 13) * kSub;
   std::vector<ScreenTriangle> triangles;
@@ -145,16 +146,17 @@ TEST_P(BinsOnTarget, LoseNoSliverThatFloatsTakeForALine) {
   expect_no_loss(triangles, grid, lists(triangles, grid));
 }
 
-// Right triangles whose longest side passes the middle so that one cell of four has none of their samples.
+// Right triangles whose longest side passes near the centre, so that they cover no sample of one of the four
+// cells.
 TEST_P(BinsOnTarget, RejectACellOfFour) {
   const CellGrid grid{32, 32, 4, 4};
   std::vector<ScreenTriangle> triangles;
   for (int mirrored = 0; mirrored < 4; ++mirrored) triangles.push_back(in_corner(4, 27, mirrored));
   for (int mirrored = 0; mirrored < 4; ++mirrored) triangles.push_back(turned(in_corner(4, 27, mirrored)));
   using Lists = std::vector<std::vector<std::uint32_t>>;
-  // Triangle i misses the cell across: 3 - i.
+  // Triangle i covers no sample of the opposite cell, 3 - i.
   const Lists rejected = {{0, 1, 2, 4, 5, 6}, {0, 1, 3, 4, 5, 7}, {0, 2, 3, 4, 6, 7}, {1, 2, 3, 5, 6, 7}};
-  const Lists kept(4, {0, 1, 2, 3, 4, 5, 6, 7});  // without vectors, tiles alone reject
+  const Lists kept(4, {0, 1, 2, 3, 4, 5, 6, 7});  // without vectors, only the tiles reject
   EXPECT_EQ(lists(triangles, grid), GetParam() == SimdTarget::scalar ? kept : rejected);
 }
 

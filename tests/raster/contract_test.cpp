@@ -1,4 +1,4 @@
-// The contract's arithmetic against exact 128-bit truth.
+// Compares the contract's arithmetic with exact 128-bit arithmetic.
 #include "edgewise/contract.h"
 
 #include <gtest/gtest.h>
@@ -94,8 +94,8 @@ TEST(Contract, FrontIsClockwiseOnTheYDownScreen) {
   EXPECT_GT(signed_area(clockwise), 0);
 }
 
-TEST(Contract, TopAndLeftEdgesOwnTheirSamplesAndTheOthersDoNot) {
-  // A right-angled square of two triangles whose sides pass through sample points.
+TEST(Contract, OnlyTopAndLeftEdgesOwnTheirSamples) {
+  // Half of a square whose sides pass through sample points.
   const std::int32_t low = sample_sub(2), high = sample_sub(6);
   const ScreenTriangle upper{{low, high, low}, {low, low, high}, {200, 200, 200}, 0};
   const Oriented t = orient(upper);
@@ -110,7 +110,7 @@ TEST(Contract, TopAndLeftEdgesOwnTheirSamplesAndTheOthersDoNot) {
   EXPECT_FALSE(inside(2, 6));
 }
 
-TEST(Contract, OfAnEdgeAndItsReverseOneIsTopOrLeft) {
+TEST(Contract, EitherAnEdgeOrItsReverseIsTopLeft) {
   for (int a = -2; a <= 2; ++a)
     for (int b = -2; b <= 2; ++b) {
       if (a == 0 && b == 0) continue;

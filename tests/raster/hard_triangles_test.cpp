@@ -1,4 +1,4 @@
-// Triangles made by hand, or by number theory, so that the least mistake of a backend's arithmetic shows.
+// Triangles constructed, by hand or by number theory, to expose the smallest error in a backend's arithmetic.
 #include <array>
 #include <numeric>
 #include <tuple>
@@ -29,18 +29,18 @@ std::int32_t i32(std::int64_t v) {
 struct EdgeStart {
   std::int64_t x, y, dx;  // sub-units; dx to the edge's end
 };
-// Of an edge, `dy` sub-units high, that crosses a sample's height rest / (256 dy) px to its right: from
-// vertex p, n sub-units above, by (p.x - sample_x) dy + n dx = rest. `above`: the least n.
+// The start p of an edge of height `dy` sub-units that crosses the sample's row rest / (256 dy) px to the
+// right of the sample: (p.x - sample_x) dy + n dx = rest, where p is n >= `above` sub-units above the sample.
 EdgeStart edge_beside(std::int32_t sample_x, std::int32_t sample_y, std::int64_t rest, std::int32_t dy,
                       std::int64_t above) {
   std::int64_t n = above;
-  while (std::gcd(n, std::int64_t{dy}) != 1) ++n;  // puts p higher
+  while (std::gcd(n, std::int64_t{dy}) != 1) ++n;  // moves p up
   std::int64_t dx = (rest + dy) * inverse(n, dy) % dy;
   if (dx > dy / 2) dx -= dy;
   return {sample_x + (rest - n * dx) / dy, sample_y - n, dx};
 }
 
-TEST_P(EveryBackend, TellsTheLeastDistanceBetweenTheTallestEdgesAndASample) {
+TEST_P(EveryBackend, ResolvesTallEdgesNextToASample) {
   constexpr int kWidth = 80, kHeight = 70;
   std::vector<ScreenTriangle> triangles;
   std::uint32_t id = 0;
@@ -58,9 +58,9 @@ TEST_P(EveryBackend, TellsTheLeastDistanceBetweenTheTallestEdgesAndASample) {
   for (const auto& t : triangles) expect_oracle(std::span(&t, 1), kWidth, kHeight, std::to_string(t.payload));
 }
 
-TEST_P(EveryBackend, TellsTheLeastDistanceBetweenSmallTrianglesAndASample) {
-  // Sides just short of 16 px, of which an image of 8 x 8 px shows a part: as steep as edges
-  // of small triangles can be. An edge's value is cut to whole pixels: 0 … 255 count as 0.
+TEST_P(EveryBackend, ResolvesSmallTrianglesNextToASample) {
+  // Sides just below 16 px, in an image of 8 x 8 px: the steepest edges that small triangles can have. An
+  // edge's value is rounded down to whole pixels: 0 … 255 count as 0.
   constexpr int kSide = 8;
   std::vector<ScreenTriangle> triangles;
   for (const std::int32_t dy : {4'095, 4'093, 2'731})
@@ -83,8 +83,8 @@ TEST_P(EveryBackend, TellsTheLeastDistanceBetweenSmallTrianglesAndASample) {
   for (const auto& t : triangles) expect_oracle(std::span(&t, 1), kSide, kSide, std::to_string(t.payload));
 }
 
-// With a right angle at the upper left, where z(x, y) is the depth at a vertex; all in px. Over the whole
-// image, unless told.
+// A triangle with its right angle at the upper left and depth z(x, y) at its vertices; all in px. By default
+// it covers the whole image.
 template <typename Depth>
 ScreenTriangle right_triangle(const Depth& z, int id, int left = -100, int right = 400, int bottom = 400) {
   constexpr int kTop = -100;
@@ -97,9 +97,9 @@ auto at_depth(std::uint32_t z) {
   return [z](int, int) { return z; };
 }
 
-TEST_P(EveryBackend, TellsLayersThatAreOneUnitOfDepthApart) {
-  // Parallel planes over the whole image, every third nearer by one, then one behind it and one that ties: a
-  // bound on a block's depths that errs by one hides a layer.
+TEST_P(EveryBackend, ResolvesLayersOneDepthUnitApart) {
+  // Parallel planes over the whole image in groups of three: one nearer by one unit, one behind it, and one
+  // at equal depth. A block's zmax that is wrong by one occludes a layer.
   constexpr int kWidth = 97, kHeight = 71, kLayers = 12;
   for (const int slope : {0, 1, -3}) {
     std::vector<ScreenTriangle> layers;
@@ -113,10 +113,10 @@ TEST_P(EveryBackend, TellsLayersThatAreOneUnitOfDepthApart) {
   }
 }
 
-TEST_P(EveryBackend, ShowsWhatIsNearerInOneCornerOfATile) {
-  // A layer over the whole image, a triangle before the first blocks, or all but the last, and a plane that
-  // is nearer than the layer by one where it is nearest, in a corner or along a side of the first tile, or
-  // everywhere; it may begin inside the tile.
+TEST_P(EveryBackend, DrawsTrianglesVisibleInOneCornerOfATile) {
+  // A layer over the whole image, a triangle in front of the first blocks or of all but the last, and a
+  // plane. The plane's nearest depth is one unit nearer than the layer, in a corner or along a side of the
+  // first tile, or everywhere. It may begin inside the tile.
   constexpr int kWidth = 97, kHeight = 71, kLast = kMaxTile - 1;
   constexpr std::uint32_t kLayer = 1'000'000;
   for (const int reach : {50, 118})
@@ -127,7 +127,7 @@ TEST_P(EveryBackend, ShowsWhatIsNearerInOneCornerOfATile) {
           return static_cast<std::uint32_t>(static_cast<int>(kLayer) - 1 - (across + down) / 2 +
                                             across * (u - x) + down * (v - y));
         };
-        // The second one's third side is the line u + v = reach.
+        // The longest side of the second triangle is the line u + v = reach.
         const ScreenTriangle triangles[] = {
             right_triangle(at_depth(kLayer), 1),
             right_triangle(at_depth(kLayer / 2), 2, -100, reach + 100, reach + 100),
@@ -144,9 +144,9 @@ TEST_P(EveryBackend, ShowsWhatIsNearerInOneCornerOfATile) {
       }
 }
 
-TEST_P(EveryBackend, ShowsSteepTrianglesWhoseDepthPlanesLeaveTheirRange) {
-  // Thin triangles across a tile, from the nearest depth to the farthest within few pixels, before a layer:
-  // over the box their planes pass 32 bits many times.
+TEST_P(EveryBackend, DrawsSteepTrianglesWhoseDepthPlanesWrap) {
+  // Thin triangles across a tile, from the nearest to the farthest depth within few pixels, in front of a
+  // layer. In the bounding box their planes exceed 32 bits many times over.
   constexpr int kWidth = 64, kHeight = 64;
   Random random(17);
   const auto between = [&](int low, int high) {
@@ -164,7 +164,8 @@ TEST_P(EveryBackend, ShowsSteepTrianglesWhoseDepthPlanesLeaveTheirRange) {
 }
 
 TEST_P(EveryBackend, AnchorsDepthAtTheTopmostThenLeftmostVertex) {
-  // Gradients are rounded down, so over the width of the guard band another anchor gives another depth.
+  // Gradients are rounded down, so over the width of the guard band a different anchor gives different
+  // depths.
   constexpr int kWidth = 70, kHeight = 5;
   Random random(13);
   const auto between = [&](std::int32_t low, std::int32_t high) {
@@ -183,7 +184,7 @@ TEST_P(EveryBackend, AnchorsDepthAtTheTopmostThenLeftmostVertex) {
 }
 
 TEST_P(EveryBackend, DrawsEdgesThatAreAlmostHorizontal) {
-  // About as flat as 1 in 4096, where scanline turns to another way, and flatter.
+  // Slopes of about 1 in 4096, below which `scanline` takes another code path, and less.
   Random random(5);
   std::vector<ScreenTriangle> triangles;
   for (std::uint32_t id = 0; id < 400; ++id) {

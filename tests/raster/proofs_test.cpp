@@ -1,5 +1,5 @@
-// The definitions that the proofs reason about (src/raster/proofs/contract.smt2) against the functions of
-// contract.h: the solver computes them for many arguments and must find no other value than the code's.
+// Compares the proofs' definitions (src/raster/proofs/contract.smt2) with the functions of contract.h: for
+// many arguments, the solver must find the code's values.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -17,11 +17,11 @@ namespace {
 
 using namespace contract;
 
-bool have_solver() {
+bool has_solver() {
   return std::system("command -v z3 >/dev/null") == 0;
 }
 
-// SMT-LIB writes a negative number as an application of -.
+// SMT-LIB writes negative numbers as applications of `-`.
 std::string text(int128 v) {
   const bool negative = v < 0;
   std::string digits;
@@ -38,7 +38,7 @@ template <typename... Numbers>
 std::string call(std::string_view function, Numbers... v) {
   return call_text(function, text(v)...);
 }
-// Of functions over the reals.
+// The same for functions over the reals.
 template <typename... Numbers>
 std::string call_real(std::string_view function, Numbers... v) {
   return call_text(function, call("to_real", v)...);
@@ -50,7 +50,7 @@ class Equations {
   void add(const std::string& term, bool value) { add_text(term, value ? "true" : "false"); }
   int count() const { return count_; }
 
-  // What the solver says to: is one of the equations wrong?
+  // The solver's answer to: is one of the equations wrong?
   std::string solve() const {
     const TempDir folder;
     const std::string definitions = EDGEWISE_SOURCE_DIR "/src/raster/proofs/contract.smt2";
@@ -68,7 +68,7 @@ class Equations {
   int count_ = 0;
 };
 
-// Triangles of all sizes, many of them on the guard band's sides.
+// A random triangle. Sizes vary up to the guard band.
 ScreenTriangle draw_triangle(Random& random) {
   ScreenTriangle t{};
   const std::uint64_t bits = 1 + random.below(23);
@@ -134,9 +134,9 @@ void add_depth(Equations& equations, const ScreenTriangle& triangle, int px, int
   add_wrapped(call_text("depth_at", z, gx, gy, dx, dy, text(x), text(y)), plane.at(px, py), "two32");
 }
 
-// Without this, the claims would be proven of something else than the code.
+// Otherwise the proofs would not apply to the code.
 TEST(Proofs, DefinitionsAreTheContractsFunctions) {
-  if (!have_solver()) GTEST_SKIP() << "z3 is not installed";
+  if (!has_solver()) GTEST_SKIP() << "z3 is not installed";
   Random random(21);
   Equations equations;
   for (int i = 0; i < 1500; ++i) {
@@ -152,7 +152,7 @@ TEST(Proofs, DefinitionsAreTheContractsFunctions) {
 }
 
 TEST(Proofs, AWrongDefinitionIsSeen) {
-  if (!have_solver()) GTEST_SKIP() << "z3 is not installed";
+  if (!has_solver()) GTEST_SKIP() << "z3 is not installed";
   Equations equations;
   equations.add(call("first_sample", 128), int128{0});
   equations.add(call("first_sample", 129), int128{0});  // one too few

@@ -1,5 +1,5 @@
-// What the line rule promises beyond its pixels: shared edges, cut edges, outlines without gaps. The pixels
-// themselves are the oracle's (backends_test.cpp).
+// Properties of the line rule: shared edges, split edges, and outlines without gaps. backends_test.cpp
+// compares the pixels with the oracle.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -50,9 +50,8 @@ class Wireframe : public ::testing::Test {
   std::unique_ptr<Backend> backend_ = wireframe().make();
 };
 
-// The triangles' third vertices lie so far out that their other edges stay beside the ends of the edge that
-// they share.
-TEST_F(Wireframe, NeighboursDrawTheirEdgeInTheSamePixelsAtTheSameDepths) {
+// The third vertices lie so far away that the triangles' other edges touch only the ends of the shared edge.
+TEST_F(Wireframe, NeighboursDrawTheirSharedEdgeAlike) {
   for (int i = 0; i < 3000; ++i) {
     const std::int32_t x0 = between(0, kWidth * kSub - 1), y0 = between(0, kHeight * kSub - 1);
     const std::int32_t x1 = between(0, kWidth * kSub - 1), y1 = between(0, kHeight * kSub - 1);
@@ -81,24 +80,24 @@ bool touch(const Drawn& a, const Drawn& b) {
   return std::abs(a.x - b.x) <= 1 && std::abs(a.y - b.y) <= 1;
 }
 
-// All pixels can be reached from one of them.
+// Whether the pixels are 8-connected.
 bool connected(Pixels pixels) {
-  std::vector<Drawn> edge;
+  std::vector<Drawn> frontier;
   const auto visit = [&](Pixels::iterator p) {
-    edge.push_back(*p);
+    frontier.push_back(*p);
     return pixels.erase(p);
   };
   if (!pixels.empty()) visit(pixels.begin());
-  while (!edge.empty()) {
-    const Drawn at = edge.back();
-    edge.pop_back();
+  while (!frontier.empty()) {
+    const Drawn at = frontier.back();
+    frontier.pop_back();
     for (auto p = pixels.lower_bound({at.x - 1, at.y - 1, 0}); p != pixels.end() && p->x <= at.x + 1;)
       p = touch(*p, at) ? visit(p) : std::next(p);
   }
   return pixels.empty();
 }
 
-TEST_F(Wireframe, DrawsOutlinesWithoutGapsThroughThePixelsOfTheirVertices) {
+TEST_F(Wireframe, DrawsConnectedOutlinesThroughTheVertices) {
   for (int i = 0; i < 2000; ++i) {
     ScreenTriangle t{{}, {}, {}, 1};
     const std::int32_t reach = i % 3 == 0 ? 300 : i % 3 == 1 ? 2000 : 17'000;
@@ -121,8 +120,8 @@ TEST_F(Wireframe, DrawsOutlinesWithoutGapsThroughThePixelsOfTheirVertices) {
   }
 }
 
-// A vertex in the middle of an edge shares out its pixels and adds at most its own.
-TEST_F(Wireframe, DrawsAnEdgeThatIsCutAsItDrawsTheWhole) {
+// A vertex in the middle of an edge splits its pixels, and adds at most the vertex's pixel.
+TEST_F(Wireframe, DrawsASplitEdgeLikeTheWholeEdge) {
   for (int i = 0; i < 2000; ++i) {
     const std::int32_t ax = between(0, kWidth * kSub / 2), ay = between(0, kHeight * kSub / 2);
     const std::int32_t dx = between(1, kWidth * kSub / 4), dy = between(0, kHeight * kSub / 4);
@@ -145,8 +144,8 @@ TEST_F(Wireframe, DrawsAnEdgeThatIsCutAsItDrawsTheWhole) {
   }
 }
 
-// What lies outside a frame changes nothing in it: a frame is a window of any larger one.
-TEST_F(Wireframe, DrawsInAFrameWhatALargerOneShowsThere) {
+// Geometry outside a frame does not change it: a frame equals the same part of any larger frame.
+TEST_F(Wireframe, DrawsAFrameLikeThePartOfALargerOne) {
   for (const auto family : testing::kFamilies) {
     const auto triangles = testing::adversarial(family, 60, kWidth, kHeight, 3);
     Framebuffer large(kWidth, kHeight);

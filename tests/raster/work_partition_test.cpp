@@ -1,4 +1,5 @@
-// The parts that triangles are cut into to be binned: all of them, once, in parts that take about as long.
+// The work partition of triangles for binning: each triangle is in one part, and the parts take about the
+// same time.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,26 +13,26 @@
 namespace edgewise {
 namespace {
 
-// Its box is a square of so many pixels.
+// A triangle whose bounding box is a square of `px`.
 ScreenTriangle of_side(int px) {
   ScreenTriangle t{};
   t.x_sub[1] = t.y_sub[2] = px * contract::kSub;
   return t;
 }
-// So many of them, the last of which are of another side.
+// `count` triangles of `px`, of which the last `last` have `last_px` instead.
 std::vector<ScreenTriangle> triangles(std::size_t count, int px, std::size_t last, int last_px) {
   std::vector<ScreenTriangle> out(count, of_side(px));
   std::fill(out.end() - static_cast<std::ptrdiff_t>(last), out.end(), of_side(last_px));
   return out;
 }
 std::vector<std::size_t> bounds(const std::vector<ScreenTriangle>& triangles, std::size_t parts) {
-  WorkPartition shares;
-  shares.cut_by_work(triangles, 1024, 1024, parts);
-  return {shares.bounds().begin(), shares.bounds().end()};
+  WorkPartition partition;
+  partition.cut_by_work(triangles, 1024, 1024, parts);
+  return {partition.bounds().begin(), partition.bounds().end()};
 }
 using Bounds = std::vector<std::size_t>;
 
-TEST(WorkPartition, AreEqualWhereTrianglesAreFewOrAlike) {
+TEST(WorkPartition, HasEqualPartsForFewOrEqualTriangles) {
   EXPECT_EQ(bounds({}, 3), (Bounds{0, 0, 0, 0}));
   EXPECT_EQ(bounds(triangles(5, 4, 0, 4), 2), (Bounds{0, 2, 5}));
   EXPECT_EQ(bounds(triangles(10'000, 1, 5'000, 8), 2), (Bounds{0, 5'000, 10'000}));
@@ -39,8 +40,8 @@ TEST(WorkPartition, AreEqualWhereTrianglesAreFewOrAlike) {
   EXPECT_EQ(bounds(triangles(400'000, 4, 10'000, 8), 2), (Bounds{0, 200'000, 400'000}));
 }
 
-// 16 + 1 for a pixel, 16 + 64 for 8 x 8.
-TEST(WorkPartition, AreShorterWhereTrianglesTakeLonger) {
+// The cost is 16 + 1 for one pixel, 16 + 64 for 8 x 8.
+TEST(WorkPartition, HasShorterPartsOfCostlyTriangles) {
   const std::size_t half = 250'000;
   const Bounds cut = bounds(triangles(2 * half, 1, half, 8), 2);
   const double expected = static_cast<double>(half) * (1.0 + (80.0 - 17.0) / 2.0 / 80.0);
@@ -49,16 +50,16 @@ TEST(WorkPartition, AreShorterWhereTrianglesTakeLonger) {
   EXPECT_EQ(cut[2], 2 * half);
 }
 
-// Boxes of 8 x 8 px take 16 + 64, larger and empty ones 16.
-TEST(WorkPartition, TakeLargeTrianglesForQuick) {
+// Boxes of 8 x 8 px cost 16 + 64, larger and empty ones 16.
+TEST(WorkPartition, CountsLargeTrianglesAsCheap) {
   const std::size_t half = 250'000;
   const Bounds cut = bounds(triangles(2 * half, 8, half, 9), 2);
   EXPECT_NEAR(static_cast<double>(cut[1]), static_cast<double>(half) * (80.0 + 16.0) / 2.0 / 80.0, 500.0);
   EXPECT_EQ(bounds(triangles(2 * half, 0, half, 9), 2)[1], half);
 }
 
-// A tenth takes five times as long as the others.
-TEST(WorkPartition, AreEqualWhereTheOrderIsRandom) {
+// A tenth of the triangles costs five times as much as the others.
+TEST(WorkPartition, HasEqualPartsInRandomOrder) {
   auto all = triangles(1'000'000, 1, 100'000, 8);
   std::mt19937 random(3);
   for (int i = 0; i < 20; ++i) {
@@ -67,7 +68,7 @@ TEST(WorkPartition, AreEqualWhereTheOrderIsRandom) {
   }
 }
 
-TEST(WorkPartition, HoldEachTriangleOnce) {
+TEST(WorkPartition, HoldsEachTriangleOnce) {
   const Bounds cut = bounds(triangles(2'000'000, 1, 200'000, 8), 4);
   ASSERT_EQ(cut.size(), 5u);
   EXPECT_EQ(cut.front(), 0u);
