@@ -330,7 +330,7 @@ std::vector<float> borders(float w, float side_px) {
   return values;
 }
 
-TEST(FrontendKernels, VerticesOnPlanesMatchTheScalarCode) {
+TEST(FrontendKernels, VerticesOnPlanesMatchMakeVertex) {
   constexpr int kWidth = 640, kHeight = 480;
   const FrontendOptions options{.width = kWidth, .height = kHeight};
   for (const float w : {1.0f, 0.7f, 0.0f, -0.0f, -1.0f, 1e-45f, 1e-38f, 3e38f, kNan, kInf}) {
