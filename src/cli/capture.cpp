@@ -1,4 +1,4 @@
-// `edgewise capture`: what the front end hands to a backend, as a .tri stream.
+// `edgewise capture`: writes the front end's output, the input of a backend, as a .tri stream.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -47,8 +47,8 @@ constexpr const char* kCaptureFooter = R"(Examples:
   edgewise render terrain.tri -o terrain.png           (the same picture, bit for bit)
   edgewise verify terrain.tri
 
-The stream holds what is left after transforming, clipping, culling and shading. The format, little
-endian: "TRI1", uint32 width, height, count; then for each triangle nine float32 (x, y, z of three
+The stream holds the triangles that remain after transformation, clipping, culling and shading. The file is
+little-endian: "TRI1", uint32 width, height, count; then for each triangle nine float32 (x, y, z of three
 vertices: pixels, y down, z in [0, 1], smaller is nearer) and a uint32 colour, R in the lowest byte.)";
 
 }  // namespace
@@ -57,7 +57,7 @@ void add_capture(CLI::App& program, Action& action) {
   CLI::App& command = *program.add_subcommand("capture", "Write a scene's screen triangles as a .tri stream");
   const auto o = std::make_shared<CaptureOptions>();
   command.add_option("SCENE", o->scene, "A scene of `edgewise list`, or an .obj or .tri file")->required();
-  command.add_option("-o,--output", o->output, "The stream, .tri")->required()->type_name("FILE");
+  command.add_option("-o,--output", o->output, "Stream file, .tri")->required()->type_name("FILE");
   o->options.add_to(command);
   command.footer(kCaptureFooter);
   command.callback([o, &action] { action = [o] { return capture(*o); }; });

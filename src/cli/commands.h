@@ -1,5 +1,5 @@
-// The subcommands, one file each. Adding one declares its options and, once the command line names it, sets
-// `action`.
+// The subcommands, one file each. Each function declares a subcommand's options. When the command line names
+// the subcommand, parsing sets `action`.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// `edgewise demo`: the tutorials, each as a picture, as an animation, or alive in the viewer.
+// `edgewise demo`: shows the tutorials as text, as pictures, as animations, or in the viewer.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -37,7 +37,7 @@ struct DemoOptions {
   ExecutionOptions execution;
 };
 
-// Of those that are named, or of all.
+// The demos with these names; all if there are none.
 nlohmann::json as_json(const std::vector<std::string>& names) {
   auto list = nlohmann::json::array();
   for (const viewer::Demo& demo : viewer::demos()) {
@@ -69,7 +69,7 @@ viewer::Session session_of(const viewer::Demo& demo, const DemoOptions& o, bool 
   return viewer::Session(std::move(start));
 }
 
-// The steps one after the other, in equal distances; the last picture is what they lead to.
+// Plays all steps and writes `o.frames` pictures at equal time intervals. The last one shows the final state.
 void write_frames(const viewer::Demo& demo, const DemoOptions& o, const OutputPaths& paths,
                   Progress& progress) {
   const Size size = o.size.value_or(viewer::kDemoSize);
@@ -124,7 +124,7 @@ int demonstrate(const DemoOptions& o, viewer::ShowWindow show_window) {
   if (alive && o.output) throw std::invalid_argument("--view and --output exclude each other");
   if (o.frames > 1 && !o.output) throw std::invalid_argument("--frames needs --output");
   if (o.names.empty()) {
-    if (alive || o.output) throw std::invalid_argument("no TUTORIAL is named; edgewise demo lists them");
+    if (alive || o.output) throw std::invalid_argument("no TUTORIAL is named; `edgewise demo` lists them");
     print(o.json ? json_text(as_json({}), 2) + "\n" : list_of_all());
     return kDone;
   }
@@ -139,31 +139,32 @@ int demonstrate(const DemoOptions& o, viewer::ShowWindow show_window) {
 }
 
 constexpr const char* kDemoFooter = R"(Examples:
-  edgewise demo                                        names them
-  edgewise demo p5js-clipping                          its steps: what to notice, and the keys that lead there
-  edgewise demo p5js-clipping --view                   in a window; 5 takes the next step, h shows the keys
-  edgewise demo p5js-clipping --view --terminal        in half-block characters, over ssh for example
-  edgewise demo p5js-clipping -o clipping.png          what the last step leads to
-  edgewise demo p5js-clipping -o film/ --frames 120    all steps as an animation: film/p5js-clipping-0001.png, ...
+  edgewise demo                                        list all tutorials
+  edgewise demo p5js-clipping                          list its steps: what to notice, and the keys
+  edgewise demo p5js-clipping --view                   show it in a window; 5: next step, h: all keys
+  edgewise demo p5js-clipping --view --terminal        show it as half-block characters, for example over ssh
+  edgewise demo p5js-clipping -o clipping.png          picture of the last step
+  edgewise demo p5js-clipping -o film/ --frames 120    animation of all steps (p5js-clipping-0001.png, ...)
 
-Pictures are the same on every machine. An animation becomes a film with, for example,
+Pictures are identical on every machine. To encode an animation as a film, run for example
   ffmpeg -framerate 20 -i film/p5js-clipping-%04d.png clipping.webm)";
 
 }  // namespace
 
 void add_demo(CLI::App& program, Action& action, viewer::ShowWindow show_window) {
-  CLI::App& command = *program.add_subcommand("demo", "See the tutorials that this grew from");
+  CLI::App& command = *program.add_subcommand("demo", "Show the tutorials that Edgewise grew from");
   const auto o = std::make_shared<DemoOptions>();
-  command.add_option("TUTORIAL", o->names, "One of those that `edgewise demo` lists; several for --output");
+  command.add_option("TUTORIAL", o->names, "Tutorials that `edgewise demo` lists; only one with --view");
   command
       .add_option("-o,--output", o->output,
-                  "Write a picture, .png or .ppm; also a folder, made if missing, or a name with {scene}")
+                  "Picture file (.png, .ppm), a folder (created if missing), or a name with {scene}")
       ->type_name("FILE");
-  add_integer(command, "--frames", o->frames, 1, kMostFrames, "Numbered pictures of all its steps (1)");
+  add_integer(command, "--frames", o->frames, 1, kMostFrames,
+              "Number of pictures, spread over all steps (1)");
   command.add_flag("--view", o->view, "Show it in a window");
-  command.add_flag("--terminal", o->terminal, "Show it in this terminal, in true colour");
+  command.add_flag("--terminal", o->terminal, "Show it in this terminal (needs true colour)");
   command.add_flag("--json", o->json, "Print all tutorials and their steps as JSON");
-  add_size(command, o->size, "Size of window or pictures (960x540)");
+  add_size(command, o->size, "Size of the window or pictures (960x540)");
   o->execution.add_to(command);
   command.footer(kDemoFooter);
   command.callback(

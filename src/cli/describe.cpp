@@ -11,12 +11,12 @@ namespace {
 struct Field {
   const char* key;
   std::uint64_t FrontendStats::*value;
-  const char* meaning;  // in a sentence; null for those that every sentence names
+  const char* meaning;  // in stats_text(); null: not listed there
 };
 
 constexpr std::array kFields = {
     Field{"meshes", &FrontendStats::meshes, nullptr},
-    Field{"meshes_culled", &FrontendStats::meshes_culled, "meshes out of sight"},
+    Field{"meshes_culled", &FrontendStats::meshes_culled, "meshes outside the view"},
     Field{"triangles", &FrontendStats::triangles, nullptr},
     Field{"whole_mesh", &FrontendStats::whole_mesh, "dropped with their mesh"},
     Field{"not_finite", &FrontendStats::not_finite, "dropped for NaN or infinite vertices"},
@@ -26,8 +26,8 @@ constexpr std::array kFields = {
     Field{"clipped_far", &FrontendStats::clipped_far, "cut by the far plane"},
     Field{"clipped_guard", &FrontendStats::clipped_guard, "cut by the guard band"},
     Field{"pieces", &FrontendStats::pieces, nullptr},
-    Field{"culled", &FrontendStats::culled, "culled for their facing"},
-    Field{"zero_area", &FrontendStats::zero_area, "of no area"},
+    Field{"culled", &FrontendStats::culled, "culled by facing"},
+    Field{"zero_area", &FrontendStats::zero_area, "with zero area"},
     Field{"emitted", &FrontendStats::emitted, nullptr},
 };
 

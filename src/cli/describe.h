@@ -1,4 +1,4 @@
-// What the front end did, for people and for machines.
+// The front end's statistics as text and as JSON.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -10,7 +10,7 @@ namespace edgewise::app {
 
 nlohmann::json stats_json(const FrontendStats& stats);
 
-// "12 triangles, 6 drawn; 6 culled": what is zero is left out.
+// "12 triangles, 6 drawn; 6 culled by facing": zero counts are omitted.
 std::string stats_text(const FrontendStats& stats);
 
 }  // namespace edgewise::app

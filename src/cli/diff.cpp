@@ -1,4 +1,4 @@
-// `edgewise diff`: two pictures, or two depth files.
+// `edgewise diff`: compares two pictures, or two depth files.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -35,8 +35,8 @@ void check_kind(const std::string& path) {
 template <typename T>
 Difference checked_difference(const DiffOptions& o, const T& a, const T& b) {
   if (a.width != b.width || a.height != b.height)
-    throw std::invalid_argument(fmt::format("different sizes: {} has {}x{} pixels, {} has {}x{}", o.a,
-                                            a.width, a.height, o.b, b.width, b.height));
+    throw std::invalid_argument(fmt::format("different sizes: {} is {}x{} pixels, {} is {}x{}", o.a, a.width,
+                                            a.height, o.b, b.width, b.height));
   return difference(a, b);
 }
 
@@ -45,7 +45,8 @@ int diff(const DiffOptions& o) {
   check_kind(o.b);
   const bool depth = is_depth_path(o.a);
   if (depth != is_depth_path(o.b))
-    throw std::invalid_argument(fmt::format("{} and {}: a picture cannot be compared with depth", o.a, o.b));
+    throw std::invalid_argument(
+        fmt::format("{} and {}: a picture cannot be compared with a depth file", o.a, o.b));
   if (!o.output.empty() && !is_image_path(o.output))
     throw std::invalid_argument("--output " + o.output + ": the name must end in .png or .ppm");
   for (const std::string& input : {o.a, o.b}) check_output_is_not_input(o.output, input);
@@ -72,7 +73,7 @@ constexpr const char* kDiffFooter = R"(Examples:
   edgewise diff a.png b.ppm
   edgewise diff a.pfm b.pfm -o where.png     (grey where equal, red where not)
 
-Pictures are compared as 8-bit RGB: PNGs of 16 bits are read as 8-bit ones, and alpha is ignored.
+Pictures are compared as 8-bit RGB: 16-bit PNGs are reduced to 8 bits, and alpha is ignored.
 
 Exit status: 0 equal, 1 different, 2 cannot be compared.)";
 
@@ -81,10 +82,9 @@ Exit status: 0 equal, 1 different, 2 cannot be compared.)";
 void add_diff(CLI::App& program, Action& action) {
   CLI::App& command = *program.add_subcommand("diff", "Compare two pictures, or two depth files");
   const auto o = std::make_shared<DiffOptions>();
-  command.add_option("A", o->a, "A picture (.png, .ppm) or depth file (.pfm)")->required();
-  command.add_option("B", o->b, "Another of the same size")->required();
-  command.add_option("-o,--output", o->output, "A picture of the difference, .png or .ppm")
-      ->type_name("FILE");
+  command.add_option("A", o->a, "Picture (.png, .ppm) or depth file (.pfm)")->required();
+  command.add_option("B", o->b, "Another file of the same kind and size")->required();
+  command.add_option("-o,--output", o->output, "Picture of the difference, .png or .ppm")->type_name("FILE");
   command.add_flag("--json", o->json, "Print JSON");
   command.footer(kDiffFooter);
   command.callback([o, &action] { action = [o] { return diff(*o); }; });

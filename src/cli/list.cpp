@@ -1,4 +1,4 @@
-// `edgewise list`: scenes, backends, SIMD targets and culling modes.
+// `edgewise list`: lists scenes, backends, SIMD targets and culling modes.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -20,13 +20,13 @@ namespace {
 std::string_view idea_of(Cull cull) {
   switch (cull) {
     case Cull::none:
-      return "every face is drawn";
+      return "draws all faces";
     case Cull::back:
-      return "faces that turn away are dropped (counter-clockwise on the screen)";
+      return "culls back faces (counter-clockwise on the screen)";
     case Cull::front:
-      return "faces that look at the camera are dropped";
+      return "culls front faces (clockwise on the screen)";
     case Cull::both:
-      return "all faces are dropped";
+      return "culls all faces";
   }
   return {};
 }
@@ -54,7 +54,7 @@ std::string as_text() {
   text += "Scenes that are streams of screen triangles:\n";
   for (const SceneInfo& scene : builtin_scenes())
     if (scene.stream) text += line(scene.name, scene.idea);
-  text += "Files that can stand for a scene:\n" + line("*.obj", "Wavefront meshes");
+  text += "Files that can replace a scene name:\n" + line("*.obj", "Wavefront meshes");
   text += line("*.tri", "triangle streams, written by edgewise capture");
   text += "Backends, the reference first:\n";
   for (const BackendInfo& backend : backends()) text += line(backend.name, backend.idea);
@@ -70,7 +70,7 @@ std::string as_text() {
 
 void add_list(CLI::App& program, Action& action) {
   CLI::App& command =
-      *program.add_subcommand("list", "Name all scenes, backends, SIMD targets and culling modes");
+      *program.add_subcommand("list", "List all scenes, backends, SIMD targets and culling modes");
   const auto json = std::make_shared<bool>(false);
   command.add_flag("--json", *json, "Print JSON");
   command.callback([json, &action] {

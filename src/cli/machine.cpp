@@ -1,4 +1,4 @@
-// `edgewise machine`: the machine and the build, as every result records them.
+// `edgewise machine`: describes the machine and the build, as every result file does.
 #include "support/machine.h"
 
 #include <CLI/CLI.hpp>
@@ -12,9 +12,9 @@ namespace edgewise::app {
 
 void add_machine(CLI::App& program, Action& action) {
   CLI::App& command =
-      *program.add_subcommand("machine", "Describe this machine and build as JSON, as results do");
+      *program.add_subcommand("machine", "Describe this machine and build as JSON, as result files do");
   const auto name_only = std::make_shared<bool>(false);
-  command.add_flag("--name", *name_only, "Print only the name of its folder below results/");
+  command.add_flag("--name", *name_only, "Print only the name of this machine's folder below results/");
   command.callback([name_only, &action] {
     action = [name_only] {
       print((*name_only ? machine_name() : json_text(machine_description(), 2)) + "\n");

@@ -1,4 +1,4 @@
-// `edgewise render`: scenes to pictures.
+// `edgewise render`: draws scenes into pictures and depth files.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -30,7 +30,7 @@ namespace {
 
 constexpr int kMaxFrames = 100000;
 constexpr double kMaxFps = 1000;
-enum class What { colour, id, hits };
+enum class PixelKind { colour, id, hits };
 
 struct RenderOptions {
   std::vector<std::string> scenes;
@@ -38,7 +38,7 @@ struct RenderOptions {
   ExecutionOptions execution;
   std::string backend = "tiled";
   bool wireframe = false;
-  What what = What::colour;
+  PixelKind pixel_kind = PixelKind::colour;
   std::string output, depth;
   int frames = 1;
   std::optional<double> fps;
@@ -55,22 +55,21 @@ struct Picture {
   std::vector<std::string> files;
 };
 
-What parse_what(const std::string& text) {
+PixelKind parse_pixel_kind(const std::string& text) {
   constexpr std::array<std::string_view, 3> kNames{"colour", "id", "hits"};
   const auto found = std::find(kNames.begin(), kNames.end(), text);
   if (found == kNames.end()) throw std::invalid_argument(unknown_name("payload", text, kNames));
-  return static_cast<What>(found - kNames.begin());
+  return static_cast<PixelKind>(found - kNames.begin());
 }
 
-// Renders pictures one after the other and keeps its memory between them.
+// Renders pictures in sequence and reuses its buffers.
 class Renderer {
  public:
   explicit Renderer(const RenderOptions& options)
       : options_(options),
         backend_((options.wireframe ? wireframe() : find_backend(options.backend)).make()) {
-    if (options.what == What::hits && options.wireframe)
-      throw std::invalid_argument(
-          "--payload hits counts what triangles cover: --wireframe does not fill them");
+    if (options.pixel_kind == PixelKind::hits && options.wireframe)
+      throw std::invalid_argument("--payload hits counts covered pixels, but --wireframe does not fill triangles");
     std::vector<std::string> names;
     for (const auto& scene : options.scenes) {
       check_source(scene);
@@ -87,15 +86,16 @@ class Renderer {
   }
 
   void run() {
-    if (options_.scenes.size() > 1) rehearse();
+    if (options_.scenes.size() > 1) check_scenes();
     if (images_) images_->make_folder();
     if (depths_) depths_->make_folder();
     for (const std::string& scene : options_.scenes) render_frames(scene);
   }
 
  private:
-  // So that what is wrong with the last scene is known before the first picture is written.
-  void rehearse() {
+  // Runs the front end on every scene first, so that an invalid one is reported before any picture is
+  // written.
+  void check_scenes() {
     for (const std::string& scene : options_.scenes) {
       const Shot shot = load_shot(scene, options_.scene, options_.scene.time.value_or(0.0));
       frontend_.run(shot.source.drawable, shot.frontend);
@@ -107,9 +107,9 @@ class Renderer {
     for (int frame = 1; frame <= options_.frames; ++frame) {
       if (options_.frames > 1) show_progress(source_name(scene), frame, 0.0);
       const double time = options_.scene.time.value_or(0.0) + (frame - 1) / options_.fps.value_or(30.0);
-      // Files don't move, and reading them again would take most of the time.
+      // Files are not animated, and reading one per frame would dominate the time.
       if (!shot || shot->source.built_in != nullptr) shot = load_shot(scene, options_.scene, time);
-      shot->frontend.payload = options_.what == What::id ? Payload::id : Payload::colour;
+      shot->frontend.payload = options_.pixel_kind == PixelKind::id ? Payload::id : Payload::colour;
       shot->frontend.threads = options_.execution.execution.threads;
       shot->frontend.target = options_.execution.execution.target;
       report(render(*shot, time, frame));
@@ -139,7 +139,7 @@ class Renderer {
       picture.files.push_back(depths_->path(shot.source.name, frame).string());
       write_pfm(picture.files.back(), to_depth_map(*frame_));
     }
-    if (options_.what == What::hits) {
+    if (options_.pixel_kind == PixelKind::hits) {
       const auto hits = lab::count_hits(*backend_, triangles, width, height, execution, [&](double fraction) {
         show_progress(shot.source.name, frame, fraction);
       });
@@ -175,7 +175,7 @@ class Renderer {
                         {"frontend_ms", p.frontend_ms},
                         {"draw_ms", p.draw_ms},
                         {"files", p.files}};
-    if (options_.what == What::hits)
+    if (options_.pixel_kind == PixelKind::hits)
       json["hits"] = {{"0", p.hits[0]}, {"1", p.hits[1]}, {"2", p.hits[2]}, {"3+", p.hits[3]}};
     return json;
   }
@@ -183,7 +183,7 @@ class Renderer {
   std::string as_text(const Picture& p) const {
     std::string text = fmt::format("{} ({}x{}, {}): {}\n", printable(p.scene), p.frontend.width,
                                    p.frontend.height, drawn_by(), stats_text(p.stats));
-    if (options_.what == What::hits)
+    if (options_.pixel_kind == PixelKind::hits)
       text += fmt::format("  pixels hit: 0 times {}, once {}, twice {}, 3 times or more {}\n", p.hits[0],
                           p.hits[1], p.hits[2], p.hits[3]);
     return text + fmt::format("  front end {:.2f} ms, draw {:.2f} ms -> {}\n", p.frontend_ms, p.draw_ms,
@@ -206,11 +206,11 @@ constexpr const char* kRenderFooter = R"(Examples:
   edgewise render cube --frames 90 --fps 30 -o turn.png      (turn-0001.png, ...)
   edgewise render grid4 --payload hits -o hits.png           (is every pixel hit once?)
 
-The background is black, and 1 in a depth file (PFM, floats in [0, 1]).
---payload id writes (id + 1) * 0x9E3779 modulo 2^24 as a colour, R lowest: one colour for each
-  triangle, and the id can be recovered exactly below 16,777,215.
---payload hits paints how often a pixel is drawn: black never, grey once, yellow twice, red more.
-The times are those of one cold run; edgewise_bench measures.)";
+The background is black in pictures, and 1 in depth files (PFM, floats in [0, 1]).
+--payload id writes (id + 1) * 0x9E3779 modulo 2^24 as a colour, R in the lowest byte. Each triangle has
+  its own colour, and ids below 16,777,215 can be recovered exactly.
+--payload hits shows how often each pixel is drawn: black never, grey once, yellow twice, red more often.
+The printed times are of a single cold run; measure with edgewise_bench.)";
 
 }  // namespace
 
@@ -220,22 +220,25 @@ void add_render(CLI::App& program, Action& action) {
   command.add_option("SCENE", o->scenes, "Scenes of `edgewise list`, or .obj or .tri files")->required();
   command
       .add_option("-o,--output", o->output,
-                  "Picture, .png or .ppm; also a folder, made if missing, or a name with {scene}")
+                  "Picture file (.png, .ppm), a folder (created if missing), or a name with {scene}")
       ->type_name("FILE");
-  command.add_option("--depth", o->depth, "Depth as floats, .pfm; named as --output is")->type_name("FILE");
+  command
+      .add_option("--depth", o->depth,
+                  "Depth file (.pfm, floats), a folder, or a name with {scene}, as for --output")
+      ->type_name("FILE");
   command.add_option("--backend", o->backend, "Backend of `edgewise list` (tiled)")->type_name("NAME");
   command.add_flag("--wireframe", o->wireframe, "Draw only the edges of triangles, one pixel wide");
   command
       .add_option_function<std::string>(
-          "--payload", [o](const std::string& text) { o->what = parse_what(text); },
-          "What to paint: colour, id or hits (colour)")
-      ->type_name("WHAT");
+          "--payload", [o](const std::string& text) { o->pixel_kind = parse_pixel_kind(text); },
+          "Pixel values: colour, id or hits (colour)")
+      ->type_name("KIND");
   o->scene.add_to(command);
   o->execution.add_to(command);
   add_integer(command, "--frames", o->frames, 1, kMaxFrames,
-              "Numbered pictures of an animation from --time on (1)");
-  add_number(command, "--fps", o->fps, 0.001, kMaxFps, "Frames a second of the animation (30)");
-  command.add_flag("--json", o->json, "Print one JSON object a line for each picture");
+              "Number of animation frames, from --time on (1)");
+  add_number(command, "--fps", o->fps, 0.001, kMaxFps, "Frames per second of the animation (30)");
+  command.add_flag("--json", o->json, "Print one JSON object per picture, one per line");
   command.footer(kRenderFooter);
   command.callback([o, &action] {
     action = [o] {

@@ -22,15 +22,15 @@ namespace {
 constexpr const char* kProgramFooter = R"(Try:
   edgewise list                          scenes, backends, SIMD targets, culling modes
   edgewise render cube -o cube.png       a first picture
-  edgewise verify                        do all backends agree on every bit?
+  edgewise verify                        check that all backends write the same bits
   edgewise COMMAND --help                options and examples
 
-The folder of an output file must exist. An output that is a folder itself (-o pictures/) is made.
+The folder of an output file must exist. An output that names a folder (-o pictures/) is created.
 
-Exit status: 0 done, 1 a difference was found, 2 bad input or failure, 128 + N stopped by signal N (130: Ctrl-C).
-A reader that closes standard output early, as `head` does, is no failure.)";
+Exit status: 0 success, 1 a difference was found, 2 bad input or failure, 128 + N stopped by signal N
+(130: Ctrl-C). A reader that closes standard output early, as `head` does, is not an error.)";
 
-// CLI11 would only say that the word was not expected, or that a command is missing.
+// Replaces CLI11's messages, which don't suggest the nearest command or option.
 void check_first_word(const CLI::App& program, std::string_view word) {
   std::vector<std::string> words = option_names(program);
   for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
@@ -40,8 +40,8 @@ void check_first_word(const CLI::App& program, std::string_view word) {
   throw std::invalid_argument(unknown_name(word.starts_with('-') ? "option" : "command", word, known));
 }
 
-// The message of a command line that CLI11 refuses. A mistyped option explains errors that seem to be others:
-// its value stands for a positional argument, or a required option seems to be missing.
+// The message for a command line that CLI11 rejects. An unknown option comes first, because it causes other
+// errors: its value is taken for a positional argument, or a required option seems to be missing.
 std::string why_refused(const CLI::ParseError& error, const CLI::App& program) {
   for (const CLI::App* command : program.get_subcommands())
     for (const std::string& word : command->remaining())

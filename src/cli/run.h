@@ -5,12 +5,12 @@
 
 namespace edgewise::app {
 
-// What a command line asks for, without doing it; the arguments are not needed any more. Throws
-// std::invalid_argument, with a line that says what is wrong, where it asks for nothing that there is.
+// Parses a command line and returns its action without running it; argv may be freed afterwards. Throws
+// std::invalid_argument with a one-line reason for an invalid command line.
 Action parse(int argc, char** argv, viewer::ShowWindow show_window = nullptr);
 
-// Exit statuses: 0 done, 1 a difference was found, 2 bad input or failure (one line on stderr), 128 + N
-// stopped by signal N. `show_window` is null where the program was built without SDL.
+// Returns the exit status: 0 success, 1 a difference was found, 2 bad input or failure (one line on stderr),
+// 128 + N stopped by signal N. `show_window` is null if the program was built without SDL.
 int run(int argc, char** argv, viewer::ShowWindow show_window);
 
 }  // namespace edgewise::app

@@ -11,8 +11,8 @@ namespace edgewise::app {
 void check_windows(viewer::ShowWindow show_window) {
   if (show_window == nullptr)
     throw std::invalid_argument(
-        "this program was built without SDL2, which opens windows: try --terminal, or install libsdl2-dev "
-        "and build again");
+        "this program was built without SDL2 and cannot open a window: use --terminal, or install "
+        "libsdl2-dev and rebuild");
 }
 
 void write_screen(const std::filesystem::path& path, viewer::Screen& screen, int font_scale) {
@@ -20,7 +20,7 @@ void write_screen(const std::filesystem::path& path, viewer::Screen& screen, int
   write_image(path, screen.picture);
 }
 
-void write_seen(const std::filesystem::path& path, viewer::Session& session, Size size) {
+void write_picture(const std::filesystem::path& path, viewer::Session& session, Size size) {
   const int scale = viewer::font_scale(size.height);
   write_screen(path, session.draw(size, viewer::font_cell(scale)), scale);
 }

@@ -1,4 +1,4 @@
-// Sessions of the viewer as commands show them.
+// How the commands view and demo show a viewer session.
 #pragma once
 
 #include <filesystem>
@@ -9,16 +9,16 @@
 
 namespace edgewise::app {
 
-// Throws std::invalid_argument if this program was built without windows.
+// Throws std::invalid_argument if this program was built without window support.
 void check_windows(viewer::ShowWindow show_window);
 
-// Paints the texts into a screen that has been drawn, and writes it.
+// Paints the texts into a drawn screen and writes it as a picture.
 void write_screen(const std::filesystem::path& path, viewer::Screen& screen, int font_scale);
 
-// Draws what is seen, and writes it. The same as a window of this size shows.
-void write_seen(const std::filesystem::path& path, viewer::Session& session, Size size);
+// Draws the session and writes the picture that a window of this size would show.
+void write_picture(const std::filesystem::path& path, viewer::Session& session, Size size);
 
-// The names of the files that the session has saved.
+// Prints the names of the files that the session has saved.
 void print_saved(viewer::Session& session);
 
 }  // namespace edgewise::app

@@ -1,4 +1,4 @@
-// `edgewise view`: scenes alive, in a window, in a terminal, or as the picture that some keys lead to.
+// `edgewise view`: shows a scene in a window or a terminal, or writes the picture after some keys.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -35,7 +35,7 @@ struct ViewOptions {
   int frames = 0;
 };
 
-// `first` is the shot that is loaded already.
+// `first` is the shot that view() has already loaded; it is used once, unless the size has changed meanwhile.
 viewer::Session make_session(const ViewOptions& o, Shot first) {
   viewer::Start start;
   start.load = [&o, kept = std::make_shared<std::optional<Shot>>(std::move(first))](Size size) {
@@ -61,18 +61,18 @@ int view(const ViewOptions& o, viewer::ShowWindow show_window) {
   if (!o.output.empty() && !is_image_path(o.output))
     throw std::invalid_argument(fmt::format("--output {}: the name must end in .png or .ppm", o.output));
   if (o.terminal && (!o.output.empty() || o.frames > 0))
-    throw std::invalid_argument("--terminal goes with neither --output nor --frames");
+    throw std::invalid_argument("--terminal cannot be combined with --output or --frames");
   if (!o.output.empty() && o.frames > 0)
     throw std::invalid_argument("--output and --frames exclude each other");
   if (!o.terminal && o.output.empty()) check_windows(show_window);
-  // What is wrong with the scene is to be known before a window opens.
+  // Before a window opens, so that an invalid scene is reported first.
   Shot shot = load_shot(o.scene, o.options, o.options.time.value_or(0.0));
   const Size size{shot.frontend.width, shot.frontend.height};
   viewer::Session session = make_session(o, std::move(shot));
   if (!o.terminal || !strokes.empty())
     viewer::type(session, strokes, size, viewer::font_cell(viewer::font_scale(size.height)));
   if (!o.output.empty()) {
-    write_seen(o.output, session, size);
+    write_picture(o.output, session, size);
   } else if (o.terminal) {
     viewer::show_in_terminal(session);
   } else {
@@ -88,14 +88,14 @@ std::string footer() {
   std::string text = R"(Examples:
   edgewise view                                        the tutorials' cube; h shows the keys
   edgewise view terrain --size 1920x1080
-  edgewise view bunny.obj --fit --terminal             half-block characters, over ssh for example
-  edgewise view cube --coverage float_lt --keys ve     beside the exact picture, wrong pixels tinted
-  edgewise view cube --keys "bbbe<enter>" -o seen.png  what these keys lead to, without a window
-  edgewise view torus-knot --keys r --frames 600       how smoothly it turns here
+  edgewise view bunny.obj --fit --terminal             half-block characters, for example over ssh
+  edgewise view cube --coverage float_lt --keys ve     beside the exact picture, with wrong pixels tinted
+  edgewise view cube --keys "bbbe<enter>" -o seen.png  the picture after these keys, without a window
+  edgewise view torus-knot --keys r --frames 600       frame times while the knot rotates
 
---keys: names of keys that are no characters stand in brackets, as do names of methods, which they put at their
-stage, and seconds to wait: "v<tab><float_lt><1.5>".
-The names of the files that p saves are printed. They never replace others.
+--keys takes characters and, in angle brackets, other keys (<tab>), methods to select (<float_lt>) and seconds
+to wait (<1.5>). For example: "v<tab><float_lt><1.5>".
+The program prints the names of the files that p saves. They never replace existing files.
 
 Keys:
 )";
@@ -108,21 +108,21 @@ Keys:
 }  // namespace
 
 void add_view(CLI::App& program, Action& action, viewer::ShowWindow show_window) {
-  CLI::App& command = *program.add_subcommand("view", "Look at a scene: walk, switch methods, see errors");
+  CLI::App& command = *program.add_subcommand("view", "Explore a scene: move, switch methods, see errors");
   const auto o = std::make_shared<ViewOptions>();
   command.add_option("SCENE", o->scene, "A scene of `edgewise list`, or an .obj or .tri file (cube)");
   command.add_flag("--terminal", o->terminal,
-                   "Show it in this terminal, in true colour, instead of a window");
+                   "Show it in this terminal (needs true colour) instead of a window");
   const auto add_stage = [&](const char* option, const char* help, const auto& find,
                              auto lab::Choice::*stage) {
     command
         .add_option_function<std::string>(
             option, [o, find, stage](const std::string& name) { o->choice.*stage = &find(name); }, help)
         ->type_name("NAME")
-        ->group("Methods to begin with");
+        ->group("Initial methods");
   };
-  add_stage("--coverage", "A backend, or a coverage method of the laboratory (tiled)",
-            lab::find_drawing_method, &lab::Choice::coverage);
+  add_stage("--coverage", "Backend or coverage method (tiled)", lab::find_drawing_method,
+            &lab::Choice::coverage);
   add_stage("--clipping", "Clipping method (near_guard)", lab::find_clipping_method, &lab::Choice::clipping);
   add_stage("--visibility", "Visibility method (contract31)", lab::find_visibility_method,
             &lab::Choice::visibility);
@@ -130,14 +130,14 @@ void add_view(CLI::App& program, Action& action, viewer::ShowWindow show_window)
   command
       .add_option_function<std::string>(
           "--axis", [o](const std::string& text) { o->axis = parse_vector("--axis", text); },
-          "Axis that the objects turn about (the first object's own)")
+          "Rotation axis of the objects (the first object's)")
       ->type_name("X,Y,Z");
-  command.add_option("--keys", o->keys, "Keys that are pressed to begin with")->type_name("KEYS");
-  command.add_option("-o,--output", o->output, "Write what is seen then, .png or .ppm, and open no window")
+  command.add_option("--keys", o->keys, "Keys to press at the start")->type_name("KEYS");
+  command.add_option("-o,--output", o->output, "Write the resulting picture (.png, .ppm) and open no window")
       ->type_name("FILE");
   add_integer(command, "--frames", o->frames, 1, kMostFrames,
-              "Draw so many frames into the window, as fast as they go; print how long they took");
-  command.add_option("--save-to", o->folder, "Folder for the files that p saves (.)")->type_name("DIR");
+              "Draw N frames without a frame-rate limit, print their times and quit");
+  command.add_option("--save-to", o->folder, "Folder for files saved with p (.)")->type_name("DIR");
   o->options.add_to(command);
   o->execution.add_to(command);
   command.footer(footer());

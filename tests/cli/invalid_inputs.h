@@ -55,7 +55,7 @@ inline constexpr Hostile kHostile[] = {
     {"edgewise render cube --target avx9 -o $DIR/a.png", 2, "unknown SIMD target 'avx9'; did you mean 'avx"},
     {"edgewise render cube --cull bak -o $DIR/a.png", 2, "did you mean 'back'"},
     {"edgewise render cube --payload color -o $DIR/a.png", 2, "did you mean 'colour'"},
-    {"edgewise render cube --payload hits --wireframe -o $DIR/a.png", 2, "does not fill them"},
+    {"edgewise render cube --payload hits --wireframe -o $DIR/a.png", 2, "does not fill triangles"},
     {"edgewise capture cub -o $DIR/a.tri", 2, "did you mean 'cube'"},
     {"edgewise verify cub --json $DIR/a.json", 2, "did you mean 'cube'"},
     {"edgewise accuracy drtk_squad --json $DIR/a.json", 2, "did you mean 'drtk_quad'"},
@@ -76,7 +76,7 @@ inline constexpr Hostile kHostile[] = {
     {"edgewise view --axis 1,2 -o $DIR/a.png", 2, "X,Y,Z"},
     {"edgewise view -o $DIR/a.tri", 2, ".png or .ppm"},
     {"edgewise view -o $DIR/no/a.png", 2, "/no/a.png: cannot be written: there is no folder "},
-    {"edgewise view --terminal -o $DIR/a.png", 2, "neither"},
+    {"edgewise view --terminal -o $DIR/a.png", 2, "cannot be combined"},
     {"edgewise view --terminal </dev/null", 2, "needs a terminal"},
 
     {"edgewise demo p5-clipping", 2, "unknown tutorial 'p5-clipping'; did you mean 'p5js-clipping'"},
@@ -218,22 +218,22 @@ inline constexpr Hostile kHostile[] = {
     {"edgewise soak --cases 1 --resume $DIR/a.json --json $DIR/a.json", 0, "", "a.json"},  // begins it
     {"edgewise soak --cases 1 --resume $DIR/no/a.json", 2, "cannot be written"},
     {"edgewise soak --cases 1 --json $DIR/a.json && edgewise soak --cases 1 --json $DIR/a.json", 2,
-     "a.json: exists; --resume goes on from it", "a.json"},
+     "a.json: exists; use --resume to continue it", "a.json"},
     {"edgewise soak --cases 1 --json $DIR/a.json && edgewise soak --cases 1 --resume $DIR/b.json --json "
      "$DIR/a.json",
-     2, "a.json: exists; --resume goes on from it", "a.json"},
+     2, "a.json: exists; use --resume to continue it", "a.json"},
     {"edgewise soak --cases 1 --json $IN/cut.json", 2, "cut.json: exists"},
-    {"edgewise soak --resume $IN/text.png", 2, "is not a record of a soak"},
-    {"edgewise soak --merge $IN/depth.pfm -o $DIR/a.json", 2, "is not a record of a soak"},
-    {"edgewise soak --merge $IN/cut.json -o $DIR/a.json", 2, "is not a whole record"},
+    {"edgewise soak --resume $IN/text.png", 2, "is not a record of a soak test"},
+    {"edgewise soak --merge $IN/depth.pfm -o $DIR/a.json", 2, "is not a record of a soak test"},
+    {"edgewise soak --merge $IN/cut.json -o $DIR/a.json", 2, "is not a complete record"},
     {"edgewise soak --merge $IN/old.json", 2, "another sequence"},
     {"edgewise soak --merge $IN/cut.json --for 2m", 2, "--merge draws"},
     {"edgewise soak --cases 1 -o $IN/a.json; sed -i 's/\"frames\": [0-9]*/\"frames\": -3/' $IN/a.json; "
      "edgewise soak --merge $IN/a.json -o $DIR/a.json",
-     2, "not a whole record of a soak: 'frames' is no count"},
+     2, "not a complete record of a soak test: 'frames' is not a count"},
     {"edgewise soak --cases 1 -o $IN/a.json; sed -i 's/\"differ\": 0/\"differ\": 0.9/' $IN/a.json; "
      "edgewise soak --merge $IN/a.json -o $DIR/a.json",
-     2, "not a whole record of a soak: 'differ' is no count"},
+     2, "not a complete record of a soak test: 'differ' is not a count"},
     // NaN and infinity in a stream are no error: such triangles are dropped, and counted.
     {"edgewise render $IN/nan.tri -o $DIR/a.png", 0, "", "a.png"},
     {"edgewise verify $IN/nan.tri --json $DIR/a.json", 0, "", "a.json"},

@@ -263,7 +263,8 @@ TEST(SoakMerge, AndReadingRefuseARecordThatCannotBe) {
   for (const char* count : {"/seed", "/cases", "/frames", "/pixels", "/frames_differ", "/shards/0/cases",
                             "/shards/0/of", "/by/judge/scanline/compared", "/by/judge/scanline/differ"})
     for (const nlohmann::json& no_count : {nlohmann::json(-1), nlohmann::json(1.5), nlohmann::json("2")})
-      EXPECT_NE(refusal(count, no_count).find("is no count"), std::string::npos) << count << ' ' << no_count;
+      EXPECT_NE(refusal(count, no_count).find("is not a count"), std::string::npos)
+          << count << ' ' << no_count;
   const nlohmann::json shard{{"shard", 0}, {"of", 1}, {"cases", 1}};
   EXPECT_NE(refusal("/shards", {shard, shard}).find("drawn twice, in shards 0/1 and 0/1"), std::string::npos);
 }
@@ -336,7 +337,7 @@ TEST(SoakFindings, AreReportedReducedAndReplayed) {
   }
   EXPECT_EQ(replayed, static_cast<int>(record.findings.size()));
   const std::string text = report(record);
-  EXPECT_NE(text.find("see it again: '" EDGEWISE_PROGRAM "' verify '"), std::string::npos) << text;
+  EXPECT_NE(text.find("reproduce: '" EDGEWISE_PROGRAM "' verify '"), std::string::npos) << text;
   EXPECT_NE(text.find("DIFFER."), std::string::npos);
 
   // The same case alone, as the command draws it.

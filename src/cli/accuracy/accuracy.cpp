@@ -30,8 +30,9 @@ void check_method_names(const AccuracyPlan& plan) {
       throw std::invalid_argument(unknown_name("method", name, known));
 }
 
-// The exact methods' score against the snapped truth, and promises that hold on every scene.
-bool broken(const MethodResult& method) {
+// Whether a method broke a promise that holds on every scene: for exact coverage methods, no error against
+// the snapped reference.
+bool broke_promise(const MethodResult& method) {
   struct Visit {
     bool exact;
     bool operator()(const CoverageScores& s) const {
@@ -55,7 +56,7 @@ class Run {
                   [&](const AccuracyScene& scene) { return methods_.count(scene.family) == 0; });
     chosen_.turning_cube = chosen_.turning_cube && !methods_.coverage.empty();
     if (chosen_.scenes.empty() && !chosen_.turning_cube)
-      throw std::invalid_argument("nothing to do: none of these methods is of these scenes' family");
+      throw std::invalid_argument("nothing to do: no selected method belongs to a selected scene's family");
     for (const AccuracyScene& scene : chosen_.scenes) total_s_ += scene.cost_s;
     if (chosen_.turning_cube) total_s_ += kCube_s;
   }
@@ -126,7 +127,7 @@ bool AccuracyReport::ok() const {
     for (const CubeMethodResult& method : turning_cube->methods)
       if (method.exact && method.snapped.missing.total + method.snapped.extra.total != 0) return false;
   return std::all_of(scenes.begin(), scenes.end(), [](const SceneResult& scene) {
-    return std::none_of(scene.methods.begin(), scene.methods.end(), broken);
+    return std::none_of(scene.methods.begin(), scene.methods.end(), broke_promise);
   });
 }
 

@@ -1,4 +1,5 @@
-// How wrong is each method, and how fast? Every method of every family on every scene, against the truth.
+// Counts the errors of every method of every family on every scene against exact references, and times
+// methods.
 #pragma once
 
 #include <cstdint>
@@ -22,19 +23,19 @@ namespace edgewise::app {
 using lab::Family;
 
 struct AccuracyPlan {
-  std::vector<std::string> scenes;   // names or paths; none: all that are built in
+  std::vector<std::string> scenes;   // names or paths; none: the built-in default scenes
   std::vector<std::string> methods;  // none: all
   std::optional<Family> family;      // none: all
   bool quick = false;                // small sizes, few frames and repetitions
   bool fit = false;                  // see load_source
-  bool speed = true;                 // whether to time methods on the scenes that are meant for it
+  bool speed = true;                 // whether to time methods (on scenes with `timed`)
   bool pictures = false;             // whether to keep close-ups of errors
-  int threads = 1;                   // of the judging; what is timed has its own
+  int threads = 1;                   // for judging only; timed draws set their own
   std::function<void(double, std::string_view)> on_progress;  // fraction done, scene
 };
 
 struct CoverageScores {
-  lab::CoverageScore snapped, floats;  // against each truth
+  lab::CoverageScore snapped, floats;  // against each reference: positions after and before snapping
   lab::OwnerScore owners;
 };
 using Score = std::variant<CoverageScores, lab::VisibilityScores, lab::FacingScores, lab::ClippingScore>;
@@ -49,7 +50,7 @@ struct MethodResult {
   std::string name;
   bool exact;
   Score score;
-  std::vector<Speed> speed;  // only on scenes that are timed
+  std::vector<Speed> speed;  // empty unless the scene is timed
 };
 
 struct SceneResult {
@@ -58,14 +59,15 @@ struct SceneResult {
   bool smallest;  // see AccuracyScene
   int width, height;
   std::uint64_t triangles = 0;  // facing: polygons
-  // Coverage: pairs of triangle and pixel; visibility and clipping: pixels; facing: faces that own a pixel.
-  // All in truth; in that of the snapped positions where there are two, but facing's before snapping.
+  // Coverage: (triangle, pixel) pairs; visibility and clipping: pixels; facing: faces that cover a sample.
+  // Counted by the exact reference: the snapped one where there are two, but for facing the one before
+  // snapping.
   std::uint64_t covered = 0;
-  std::uint64_t crossings = 0;  // coverage only: edges with rows or columns of samples
+  std::uint64_t crossings = 0;  // coverage only: of edges with rows or columns of samples
   std::vector<MethodResult> methods;
   double seconds = 0;
 
-  // What errors are counted by.
+  // The denominator of error rates.
   std::uint64_t trials() const { return family == Family::coverage ? crossings : covered; }
 };
 
@@ -78,7 +80,7 @@ struct CubeCounts {
 struct CubeMethodResult {
   std::string name;
   bool exact;
-  CubeCounts snapped, floats;  // against each truth
+  CubeCounts snapped, floats;  // against each reference
 };
 struct CubeResult {
   int frames, width, height;
@@ -88,12 +90,13 @@ struct CubeResult {
 struct AccuracyReport {
   std::vector<SceneResult> scenes;
   std::optional<CubeResult> turning_cube;
-  std::vector<Closeup> closeups;  // only if asked for
+  std::vector<Closeup> closeups;  // empty unless the plan has `pictures`
 
-  bool ok() const;  // no method broke a promise that holds on every scene
+  bool ok() const;  // whether every method kept the promises that hold on every scene
 };
 
-// Throws std::invalid_argument for unknown names, and what load_source throws; both before work begins.
+// Before any work, throws std::invalid_argument for unknown names or an empty selection, and what
+// check_source throws; later, what load_source throws.
 AccuracyReport measure_accuracy(const AccuracyPlan& plan);
 
 }  // namespace edgewise::app

@@ -12,20 +12,21 @@ namespace edgewise::app {
 
 namespace {
 
-// Px of the picture that a close-up shows: more would make pixels too small to see. Where triangles are
-// smaller than pixels, fewer; where nearly all is wrong, all of it, or nobody could tell what it is.
-struct Reach {
+// The largest part of the picture that a close-up shows, in px. Common: pixels stay large enough to see.
+// Dense: triangles smaller than pixels. Vast: nearly all pixels are wrong, so only a large part can be
+// recognized.
+struct Extent {
   int width, height;
 };
-constexpr Reach kCommon{96, 72}, kDense{24, 18}, kVast{240, 240};
-constexpr int kWhole = 130;  // a picture so small is shown as a whole
+constexpr Extent kCommon{96, 72}, kDense{24, 18}, kVast{240, 240};
+constexpr int kWholeSide = 130;  // px; pictures up to this size are shown whole
 constexpr int kPictureSide = 960, kLargestPixel = 64;
-constexpr std::uint32_t kPaper = rgb(255, 255, 255), kInk = rgb(20, 20, 20), kDot = rgb(120, 120, 120);
-// Pale, so that marks stand out.
+constexpr std::uint32_t kBackground = rgb(255, 255, 255), kInk = rgb(20, 20, 20), kDot = rgb(120, 120, 120);
+// Colours of correct pixels, pale so that marked errors stand out.
 constexpr std::uint32_t kMuted[] = {rgb(222, 226, 230), rgb(203, 213, 209), rgb(226, 217, 203),
                                     rgb(207, 209, 224), rgb(217, 224, 207), rgb(224, 208, 212)};
 
-// How many marks lie above and to the left of each corner of a pixel (a summed-area table; Crow, 1984).
+// Counts error marks in any rectangle with a summed-area table (Crow, 1984).
 class MarkCount {
  public:
   explicit MarkCount(const lab::MarkedPicture& p) : stride_(p.window.width + 1) {
@@ -48,9 +49,9 @@ class MarkCount {
   std::vector<int> sums_;
 };
 
-// The part of at most this size with the most marks, moved so that they lie in its middle.
-lab::Window most_wrong(const lab::Window& all, MarkCount& count, Reach reach) {
-  lab::Window part{std::min(all.width, reach.width), std::min(all.height, reach.height)};
+// The part of at most this size with the most marks, centred on their bounding box.
+lab::Window most_wrong(const lab::Window& all, MarkCount& count, Extent most_px) {
+  lab::Window part{std::min(all.width, most_px.width), std::min(all.height, most_px.height)};
   int most = -1;
   for (int y = 0; y + part.height <= all.height; ++y)
     for (int x = 0; x + part.width <= all.width; ++x)
@@ -73,14 +74,14 @@ lab::Window part_of(const lab::MarkedPicture& picture) {
   const lab::Window& all = picture.window;
   MarkCount count(picture);
   if (picture.lines.size() > 2 * picture.marks.size()) return most_wrong(all, count, kDense);
-  if (all.width <= kWhole && all.height <= kWhole) return all;
+  if (all.width <= kWholeSide && all.height <= kWholeSide) return all;
   const lab::Window part = most_wrong(all, count, kCommon);
   const bool nearly_all =
       10 * count.in(part.x0, part.y0, part.width, part.height) > 9 * part.width * part.height;
   return nearly_all ? most_wrong(all, count, kVast) : part;
 }
 
-// Whether the box around a line meets the part.
+// Whether a line's bounding box overlaps the part.
 bool near(const lab::Line& line, lab::Window part) {
   return std::max(line.x0, line.x1) >= part.x0 && std::min(line.x0, line.x1) <= part.x1() &&
          std::max(line.y0, line.y1) >= part.y0 && std::min(line.y0, line.y1) <= part.y1();
@@ -93,7 +94,7 @@ class Drawing {
         scale_(std::clamp(kPictureSide / std::max(c.part.width, c.part.height), 2, kLargestPixel)) {
     image_.width = c.part.width * scale_ + 1;
     image_.height = c.part.height * scale_ + 1;
-    // What shows between the pixels.
+    // The grid lines between pixels.
     image_.pixels.assign(static_cast<std::size_t>(image_.width) * static_cast<std::size_t>(image_.height),
                          rgb(240, 240, 240));
   }
@@ -115,19 +116,19 @@ class Drawing {
     const lab::Mark mark = closeup_.marks[i];
     const std::uint32_t owner = closeup_.owner[i];
     const std::uint32_t colour = mark != lab::Mark::none ? lab::colour_of(mark)
-                                 : owner == lab::kNobody ? kPaper
+                                 : owner == lab::kNobody ? kBackground
                                                          : kMuted[owner % std::size(kMuted)];
     const int gap = scale_ < 6 ? 0 : 1;  // between pixels
     for (int y = gap; y < scale_; ++y)
       for (int x = gap; x < scale_; ++x) at(px * scale_ + x, py * scale_ + y) = colour;
-    // The sample.
+    // The sample point.
     const int reach = scale_ / 16, middle = scale_ / 2;
     for (int y = -reach; y <= reach; ++y)
       for (int x = -reach; x <= reach; ++x)
         if (x * x + y * y <= reach * reach)
           at(px * scale_ + middle + x, py * scale_ + middle + y) = mark == lab::Mark::none ? kDot : kInk;
   }
-  // Steps along the longer axis and shares the ink between the two pixels that the line runs between (Wu, "An
+  // Antialiased line: steps along the longer axis and splits the ink between the two nearest pixels (Wu, "An
   // efficient antialiasing technique", 1991).
   void draw(const lab::Line& line) {
     const auto to_x = [&](double x) { return (x - closeup_.part.x0) * scale_; };
@@ -148,13 +149,13 @@ class Drawing {
       ink(x, below + 1, y - below, steep);
     }
   }
-  void ink(int along, int across, double share, bool steep) {
+  void ink(int along, int across, double opacity, bool steep) {
     const int x = steep ? across : along, y = steep ? along : across;
     if (x < 0 || y < 0 || x >= image_.width || y >= image_.height) return;
     std::uint32_t& pixel = at(x, y);
     const auto channel = [&](int shift) {
       const double from = pixel >> shift & 255, to = kInk >> shift & 255;
-      return static_cast<std::uint32_t>(from + (to - from) * share + 0.5);
+      return static_cast<std::uint32_t>(from + (to - from) * opacity + 0.5);
     };
     pixel = rgb(channel(0), channel(8), channel(16));
   }

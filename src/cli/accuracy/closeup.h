@@ -1,4 +1,4 @@
-// What an error looks like: a part of the picture, enlarged, its wrong pixels in fixed colours.
+// Close-ups of errors: an enlarged part of the picture with its wrong pixels in fixed colours.
 #pragma once
 
 #include <cstdint>
@@ -15,21 +15,22 @@ namespace edgewise::app {
 struct Closeup {
   std::string name;                  // FAMILY-SCENE-METHOD
   lab::Window part;                  // of the picture
-  std::vector<std::uint32_t> owner;  // in truth; lab::kNobody shows as paper
+  std::vector<std::uint32_t> owner;  // the exact visible triangles; lab::kNobody: background
   std::vector<lab::Mark> marks;
   std::vector<lab::Line> lines;  // the triangles' exact edges
 };
 
-// The part where the most is wrong.
+// Cuts out the part with the most wrong pixels.
 Closeup closeup(const std::string& name, const lab::MarkedPicture& picture);
 
-// Appends a close-up unless one from `first` on shows the same: methods that draw alike need one picture.
+// Appends a close-up unless one from index `first` on is identical: methods with the same errors need one
+// picture.
 void add_unless_known(Closeup closeup, std::vector<Closeup>& closeups, std::size_t first);
 
 Image draw(const Closeup& closeup);
-// Throws std::runtime_error where no folder could be made or written to; makes none yet.
+// Throws std::runtime_error if the folder cannot be created or written to; creates nothing.
 void check_closeup_folder(const std::filesystem::path& folder);
-// FOLDER/NAME.png; makes the folder. Throws std::runtime_error where it cannot.
+// Writes FOLDER/NAME.png for each, and creates the folder. Throws std::runtime_error if that fails.
 void write_closeups(const std::filesystem::path& folder, std::span<const Closeup> closeups);
 
 }  // namespace edgewise::app

@@ -1,4 +1,4 @@
-// `edgewise accuracy`: how wrong is each method, and how fast?
+// `edgewise accuracy`: counts each method's errors and times it.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -47,7 +47,7 @@ int accuracy_command(AccuracyOptions& o) {
   const AccuracyReport report = measure_accuracy(plan);
   progress.erase();
 
-  // At the end, so that Ctrl-C during the minutes of work leaves nothing.
+  // At the end, so that Ctrl-C during minutes of work leaves no partial output.
   if (plan.pictures) write_closeups(o.pictures, report.closeups);
   if (!json_on_stdout) print(accuracy_tables(report));
   if (json_on_stdout || file) {
@@ -59,7 +59,7 @@ int accuracy_command(AccuracyOptions& o) {
     }
   }
   if (report.ok()) return kDone;
-  print_error("a method broke what it promises on every scene; the JSON says which");
+  print_error("a method broke a promise that must hold on every scene; the JSON output names it");
   return kDiffers;
 }
 
@@ -69,28 +69,33 @@ constexpr const char* kAccuracyFooter = R"(Examples:
   edgewise accuracy bunny.obj capture.tri    your own files
   edgewise accuracy turning-cube drtk_quad --method float_le --method float_lt
 
-Families: coverage, visibility, facing, clipping. The first three are judged twice: on the snapped positions and
-on those before snapping; so are the owners of pixels. On the snapped ones the exact methods cover no wrong
-pixel, and misjudge no face but those whose first three vertices lie about the rest. Errors are counted per 10^6
-crossings of an edge with a row or column of samples, per 10^6 pixels or per 10^6 faces; where none was seen,
-the rate is below the bound in brackets with 95 % confidence. A gap is farther inside the union of the triangles
-than the method's promise lets an edge move, or than 0.71 px if that is less.
+Families: coverage, visibility, facing, clipping. Coverage, visibility and facing are compared with two exact
+references: one for positions snapped to 1/256 px, one for the float positions before snapping. The same holds
+for the visible triangle of each pixel. Against the snapped reference, exact methods have no coverage errors.
+They misjudge only faces whose first three vertices turn the other way than the whole face.
 
-Of large streams a part is judged, the same each time: the JSON says how many triangles; less with --quick. Meshes,
-built in or yours, are judged in coverage and visibility, streams in coverage alone; facing and clipping have
-scenes of their own.
+Errors are counted per 10^6 crossings of an edge with a row or column of samples, per 10^6 pixels, or per 10^6
+faces. If no error was seen, the number in parentheses is the 95 % upper bound of the rate. A gap is a missing
+pixel that lies deeper inside the union of the triangles than the method's promise lets an edge move, or than
+0.71 px if that is less.
 
-Pictures, FAMILY-SCENE-METHOD.png: vermilion: nothing was drawn where something must be (of coverage: a gap, a
-crack between neighbours); blue: drawn twice, or by the wrong triangle; yellow: a triangle lacks a pixel that
-another one covers, or one on the outline; purple: drawn where nothing must be.)";
+Of a large stream only a part is judged, always the same part, and a smaller one with --quick; the JSON gives
+the number of triangles. Meshes, built in or yours, are judged in coverage and visibility, streams in coverage
+alone. Facing and clipping have scenes of their own.
+
+Pictures are named FAMILY-SCENE-METHOD.png. Their colours:
+  vermilion  nothing drawn where a triangle must be (coverage: a gap, a crack between neighbours)
+  blue       drawn twice, or by the wrong triangle
+  yellow     missing from a triangle, but covered by another one or on the outline
+  purple     drawn where no triangle must be)";
 
 }  // namespace
 
 void add_accuracy(CLI::App& program, Action& action) {
-  CLI::App& command = *program.add_subcommand("accuracy", "Count how wrong each method is, and time it");
+  CLI::App& command = *program.add_subcommand("accuracy", "Count each method's errors, and time it");
   const auto o = std::make_shared<AccuracyOptions>();
   command.add_option("SCENE", o->plan.scenes,
-                     "Scenes of `edgewise list`, small scenes by name, turning-cube, or .obj or .tri files "
+                     "Scenes of `edgewise list`, small test scenes, turning-cube, .obj or .tri files "
                      "(all but quads and knots)");
   command.add_flag("--quick", o->plan.quick, "Smaller scenes, fewer frames and repetitions");
   command.add_option("--family", o->family, "Only one family of methods")->type_name("NAME");
@@ -98,7 +103,7 @@ void add_accuracy(CLI::App& program, Action& action) {
       ->allow_extra_args(false)
       ->delimiter(',')
       ->type_name("NAME");
-  command.add_flag("--no-speed", o->no_speed, "Time nothing");
+  command.add_flag("--no-speed", o->no_speed, "Count errors only, without timing");
   command.add_flag("--fit", o->plan.fit, "Centre your meshes and scale their longest side to 2");
   command
       .add_option("--json", o->json, "Also write all results as JSON; - for stdout, instead of the tables")

@@ -1,4 +1,4 @@
-// Coverage: every method's pixels of every triangle against both truths.
+// Coverage: compares every method's pixels of every triangle with both references.
 #include <algorithm>
 #include <stdexcept>
 
@@ -11,15 +11,15 @@ namespace edgewise::app {
 
 namespace {
 
-// Before they are timed: the backends' pictures must be the same on any number of threads, or the times
-// compare different work.
-void compare_threads(const CoverageScene& scene, const lab::CoverageMethod& method, int threads) {
+// Throws std::runtime_error unless a backend draws the same picture on any number of threads; otherwise the
+// times would compare different work.
+void check_threads_agree(const CoverageScene& scene, const lab::CoverageMethod& method, int threads) {
   lab::Canvas one(scene.size.width, scene.size.height), more(scene.size.width, scene.size.height);
   method.draw(scene.input(), one, 1);
   method.draw(scene.input(), more, threads);
   if (lab::compare(one.frame, more.frame).pixels != 0)
     throw std::runtime_error(std::string(method.info.name) +
-                             " draws other pixels on two threads than on one");
+                             " draws different pixels on two threads than on one");
 }
 
 void time_methods(const CoverageScene& scene, const Bench& bench, SceneResult& result) {
@@ -30,7 +30,7 @@ void time_methods(const CoverageScene& scene, const Bench& bench, SceneResult& r
     const lab::CoverageMethod& method = *bench.methods.coverage[i];
     for (const int threads : {1, 2}) {
       if (threads > 1 && !method.threaded) continue;
-      if (threads > 1) compare_threads(scene, method, threads);
+      if (threads > 1) check_threads_agree(scene, method, threads);
       draws.push_back(
           {i, threads, [&method, &input, &canvas, threads] { method.draw(input, canvas, threads); }});
     }

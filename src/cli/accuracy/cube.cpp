@@ -1,5 +1,4 @@
-// The turning cube of the tutorials, frame by frame: they noticed its gaps and double hits, and did not
-// count.
+// Counts gaps and double hits in each frame of the tutorials' rotating cube.
 #include <algorithm>
 
 #include "cli/accuracy/score.h"
@@ -19,7 +18,7 @@ CoverageScene cube_at(int frame) {
   return coverage_scene(find_scene("cube").make(request), kTurningCubeSize);
 }
 
-// The middle of an even number of frames is the upper of the two.
+// The median of an even number of frames is the upper of the middle two.
 PerFrame per_frame(std::vector<std::uint64_t> counts) {
   PerFrame result;
   for (const std::uint64_t n : counts) result.total += n;
@@ -30,7 +29,7 @@ PerFrame per_frame(std::vector<std::uint64_t> counts) {
   return result;
 }
 
-using Scores = std::vector<CoverageScores>;  // frame by frame
+using Scores = std::vector<CoverageScores>;  // one per frame
 
 CubeCounts summary(const Scores& scores, lab::CoverageScore CoverageScores::*truth) {
   const auto of = [&](std::uint64_t lab::CoverageScore::*count) {
@@ -63,8 +62,8 @@ CubeResult judge_turning_cube(const AccuracyPlan& plan, const ChosenMethods& met
   std::vector<Scores> scores(methods.coverage.size(), Scores(static_cast<std::size_t>(frames)));
   std::mutex mutex;
   int done = 0;
-  parallel_for(plan.threads, frames / kFramesPerTask, [&](int share) {
-    for (int frame = share * kFramesPerTask; frame < (share + 1) * kFramesPerTask; ++frame) {
+  parallel_for(plan.threads, frames / kFramesPerTask, [&](int task) {
+    for (int frame = task * kFramesPerTask; frame < (task + 1) * kFramesPerTask; ++frame) {
       const CoverageScene scene = cube_at(frame);
       const auto snapped = lab::snapped_coverage(scene.input(), scene.window(), 1),
                  floats = lab::float_coverage(scene.input(), scene.window(), 1);

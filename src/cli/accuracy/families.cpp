@@ -1,4 +1,4 @@
-// Visibility, facing and clipping: what draws a picture or sorts faces, against the truths of its family.
+// Judges visibility, facing and clipping methods against the exact references of their family.
 #include <algorithm>
 
 #include "cli/accuracy/score.h"
@@ -9,7 +9,7 @@ namespace edgewise::app {
 
 namespace {
 
-// Calls score_one(method, index) for all methods, on several threads, and reports how far it is.
+// Calls score_one(method) for all methods, on several threads, and reports progress.
 template <typename Method, typename ScoreOne>
 void score_all(const std::vector<const Method*>& methods, const Bench& bench, SceneResult& result,
                ScoreOne&& score_one) {
@@ -36,7 +36,7 @@ void time_all(const std::vector<const Method*>& methods, const Bench& bench, Sce
   for (std::size_t i = 0; i < draws.size(); ++i) result.methods[i].speed.push_back(speeds[i]);
 }
 
-// A close-up of each method for which wrong(score) holds.
+// Adds a close-up for each method for which wrong(score) holds.
 template <typename Method, typename Wrong, typename Picture>
 void picture_all(const std::vector<const Method*>& methods, const Bench& bench, const SceneResult& result,
                  Wrong&& wrong, Picture&& picture) {
@@ -51,25 +51,26 @@ std::uint64_t pixels_of(lab::Size size) {
   return static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height);
 }
 
-std::uint64_t owned(const std::vector<std::uint32_t>& owners) {
+// Pixels that show a triangle.
+std::uint64_t covered_pixels(const std::vector<std::uint32_t>& visible) {
   return static_cast<std::uint64_t>(
-      std::count_if(owners.begin(), owners.end(), [](std::uint32_t id) { return id != lab::kNobody; }));
+      std::count_if(visible.begin(), visible.end(), [](std::uint32_t id) { return id != lab::kNobody; }));
 }
 
-// The faces' exact facts, on several threads.
+// Computes the exact facts of all faces, on several threads.
 std::vector<lab::FaceFacts> facts_of(const lab::FacingScene& scene, const Bench& bench) {
-  constexpr std::size_t kShare = 2000;
-  const std::size_t shares = (scene.faces.size() + kShare - 1) / kShare;
+  constexpr std::size_t kFacesPerTask = 2000;
+  const std::size_t tasks = (scene.faces.size() + kFacesPerTask - 1) / kFacesPerTask;
   const lab::FacingTruth truth(scene);
   std::vector<lab::FaceFacts> all(scene.faces.size());
   std::mutex mutex;
   std::size_t done = 0;
-  parallel_for(bench.plan.threads, static_cast<int>(shares), [&](int n) {
-    const auto first = static_cast<std::size_t>(n) * kShare;
-    for (std::size_t i = first; i < std::min(first + kShare, all.size()); ++i)
+  parallel_for(bench.plan.threads, static_cast<int>(tasks), [&](int n) {
+    const auto first = static_cast<std::size_t>(n) * kFacesPerTask;
+    for (std::size_t i = first; i < std::min(first + kFacesPerTask, all.size()); ++i)
       all[i] = truth.facts(scene.faces[i]);
     const std::lock_guard lock(mutex);
-    bench.progress(0.9 * static_cast<double>(++done) / static_cast<double>(shares));
+    bench.progress(0.9 * static_cast<double>(++done) / static_cast<double>(tasks));
   });
   return all;
 }
@@ -78,13 +79,13 @@ std::vector<lab::FaceFacts> facts_of(const lab::FacingScene& scene, const Bench&
 
 void judge(const lab::VisibilityScene& scene, const Bench& bench, SceneResult& result) {
   const auto& methods = bench.methods.visibility;
-  const auto owners = lab::true_owners(scene);
+  const auto truth = lab::true_owners(scene);
   result.width = scene.width;
   result.height = scene.height;
   result.triangles = scene.triangles.size();
-  result.covered = owned(owners.snapped);
+  result.covered = covered_pixels(truth.snapped);
   score_all(methods, bench, result,
-            [&](const lab::VisibilityMethod& method) { return lab::score(method, scene, owners); });
+            [&](const lab::VisibilityMethod& method) { return lab::score(method, scene, truth); });
   lab::VisibilityFrame frame;
   time_all(methods, bench, result, [&](const lab::VisibilityMethod& method) { method.draw(scene, frame); });
   picture_all(
@@ -93,7 +94,7 @@ void judge(const lab::VisibilityScene& scene, const Bench& bench, SceneResult& r
       [&](const lab::VisibilityMethod& method) {
         method.draw(scene, frame);
         lab::MarkedPicture picture =
-            lab::mark_owners(owners.snapped, frame.owner, {scene.width, scene.height});
+            lab::mark_owners(truth.snapped, frame.owner, {scene.width, scene.height});
         for (const lab::VisibilityTriangle& t : scene.triangles)
           for (int i = 0; i < 3; ++i) {
             const int j = (i + 1) % 3;
@@ -116,8 +117,8 @@ void judge(const lab::FacingScene& scene, const Bench& bench, SceneResult& resul
             [&](const lab::FacingMethod& method) { return lab::score(method, scene, facts); });
   std::vector<std::uint8_t> front(scene.faces.size());
   time_all(methods, bench, result, [&](const lab::FacingMethod& method) { method.classify(scene, front); });
-  constexpr std::size_t kFew = 20;  // more would hide one another
-  if (scene.faces.size() > kFew) return;
+  constexpr std::size_t kMostPictured = 20;  // more faces would occlude one another
+  if (scene.faces.size() > kMostPictured) return;
   picture_all(
       methods, bench, result,
       [](const Score& score) { return std::get<lab::FacingScores>(score).floats.misclassified != 0; },
@@ -133,7 +134,7 @@ void judge(const lab::ClippingScene& scene, const Bench& bench, SceneResult& res
   result.width = scene.size.width;
   result.height = scene.size.height;
   result.triangles = scene.mesh().triangles.size();
-  result.covered = owned(truth.owner);
+  result.covered = covered_pixels(truth.owner);
   bench.progress(0.5);
   score_all(methods, bench, result,
             [&](const lab::ClippingMethod& method) { return lab::score(method, scene, truth); });
@@ -141,18 +142,18 @@ void judge(const lab::ClippingScene& scene, const Bench& bench, SceneResult& res
   time_all(methods, bench, result, [&](const lab::ClippingMethod& method) { method.draw(scene, frame); });
   picture_all(
       methods, bench, result,
-      [](const Score& score) {  // of depths alone there is nothing to see
+      [](const Score& score) {  // the picture doesn't show wrong depths
         const auto& s = std::get<lab::ClippingScore>(score);
         return s.missing + s.extra + s.wrong_owner != 0;
       },
       [&](const lab::ClippingMethod& method) {
         method.draw(scene, frame);
-        std::vector<std::uint32_t> said;
-        said.reserve(pixels_of(scene.size));
+        std::vector<std::uint32_t> drawn;
+        drawn.reserve(pixels_of(scene.size));
         for (int y = 0; y < scene.size.height; ++y)
-          said.insert(said.end(), frame.picture.payload_row(y),
-                      frame.picture.payload_row(y) + scene.size.width);
-        return lab::mark_owners(truth.owner, said, {scene.size.width, scene.size.height});
+          drawn.insert(drawn.end(), frame.picture.payload_row(y),
+                       frame.picture.payload_row(y) + scene.size.width);
+        return lab::mark_owners(truth.owner, drawn, {scene.size.width, scene.size.height});
       });
 }
 

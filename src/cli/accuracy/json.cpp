@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::json;
 
-// The bound by which no error in so many trials limits the rate stands beside a zero only.
+// Writes the 95 % upper bound of the rate only if no error was observed.
 void add_rate(json& score, std::uint64_t errors, std::uint64_t trials) {
   score["errors_per_million"] = lab::per_million(errors, trials);
   if (errors == 0 && trials != 0) score["bound_per_million"] = 1e6 * lab::rate_bound(trials);
@@ -49,7 +49,7 @@ struct AddScore {
   json& method;
   const SceneResult& scene;
 
-  // Every pixel is a trial: the background may be shown wrong, too.
+  // Every pixel of the image is a trial, because background pixels may be wrong too.
   void add_owners(json& score, std::uint64_t wrong) const {
     score["wrong_owners"] = wrong;
     const auto pixels = static_cast<std::uint64_t>(scene.width) * static_cast<std::uint64_t>(scene.height);

@@ -16,15 +16,16 @@ namespace {
 constexpr lab::Size kFullHd{1920, 1080}, kUsual{960, 540}, kQuick{480, 270};
 enum class Timed { never, full, always };  // full: not in a quick run
 
-// How much of a built-in scene is judged: all methods and both truths on all of it would take too long.
-struct Share {
+// The size and scale at which a built-in scene is judged. Judging all methods on full scenes would take too
+// long.
+struct Extent {
   std::string_view name;
   lab::Size size, quick_size;
   double scale, quick_scale;  // of scalable scenes
   Timed timed;
   double cost_s, quick_cost_s;
 };
-constexpr Share kShares[] = {
+constexpr Extent kExtents[] = {
     {"torus-knot", kFullHd, kFullHd, 1, 1, Timed::always, 3.4, 2.2},
     {"medium", kFullHd, kUsual, 0.15, 0.1, Timed::never, 2, 0.5},
     {"small", kFullHd, kUsual, 0.15, 0.05, Timed::never, 2.5, 0.5},
@@ -33,16 +34,16 @@ constexpr Share kShares[] = {
     {"sliver", kFullHd, kUsual, 0.02, 0.02, Timed::never, 2, 1},
     {"knots", kFullHd, kUsual, 0.1, 0.02, Timed::never, 4, 1},
 };
-constexpr Share kUsualShare{"", kFullHd, kUsual, 1, 1, Timed::never, 1, 0.3};
+constexpr Extent kUsualExtent{"", kFullHd, kUsual, 1, 1, Timed::never, 1, 0.3};
 
-Share share_of(std::string_view name) {
-  for (const Share& share : kShares)
-    if (share.name == name) return share;
-  return kUsualShare;
+Extent extent_of(std::string_view name) {
+  for (const Extent& extent : kExtents)
+    if (extent.name == name) return extent;
+  return kUsualExtent;
 }
 
-// Triangles through one another, from near the eye to a thousand times as far: every order and every depth
-// format has something to get wrong.
+// Intersecting triangles at distances from 30 to 900: a hard case for every sort order and every depth
+// format.
 Scene deep_soup(int count) {
   Scene scene;
   scene.camera.near_z = 0.1f;
@@ -52,7 +53,7 @@ Scene deep_soup(int count) {
   Random random(11);
   for (int i = 0; i < count; ++i) {
     const auto within = [&](float reach) { return random.uniform(-reach, reach); };
-    // Far more of the far ones, which look smaller.
+    // Uniform in 1 / distance^2: the number of triangles per distance falls as 1 / distance^3.
     const float distance = 900.0f / std::sqrt(random.uniform(1.0f, 900.0f));
     const float centre_y = within(0.6f * distance);
     const glm::vec3 centre(within(distance), centre_y, -distance);
@@ -68,8 +69,8 @@ Scene deep_soup(int count) {
   return scene;
 }
 
-// Triangles on all sides of the eye: small ones, large ones that pass behind it and leave the view, tiny ones
-// before the near plane.
+// Triangles on all sides of the camera: small ones, large ones that reach behind it and out of the view, and
+// tiny ones in front of the near plane.
 lab::ClippingScene around_the_eye(int count, lab::Size size) {
   lab::ClippingScene s{{}, size};
   s.scene.meshes.resize(1);
@@ -100,7 +101,7 @@ class Catalogue {
   explicit Catalogue(const AccuracyPlan& plan) : plan_(plan) {}
 
   std::vector<AccuracyScene> built_in() {
-    // First what the charts of speed are drawn from: a scene on which both truths agree.
+    // First, because the speed charts use it: a scene on which both references agree.
     for (const lab::CoverageCase& c : lab::coverage_cases()) {
       const bool small = c.size.width < 1000;
       const Timed timed = c.name == "mesh_on_grid" ? Timed::always
@@ -114,8 +115,8 @@ class Catalogue {
       });
     }
     const lab::Size seen = plan_.quick ? kQuick : kUsual;
-    add(Family::visibility, "deep_soup", "20,000 triangles through one another, near and far", Timed::always,
-        false, plan_.quick ? 0.5 : 3.0, [seen] { return lab::visibility_scene(deep_soup(20'000), seen); });
+    add(Family::visibility, "deep_soup", "20,000 intersecting triangles, near and far", Timed::always, false,
+        plan_.quick ? 0.5 : 3.0, [seen] { return lab::visibility_scene(deep_soup(20'000), seen); });
     for (const SceneInfo& info : builtin_scenes()) add_built_in(info);
     for (const lab::VisibilityCase& c : lab::visibility_cases())
       add(Family::visibility, c.name, c.idea, Timed::never, true, 0.1, c.make);
@@ -128,13 +129,13 @@ class Catalogue {
     add(Family::clipping, "around_the_eye", "triangles on all sides, across the near and the far plane",
         Timed::always, false, quick ? 2.0 : 5.0,
         [quick] { return quick ? around_the_eye(5000, kQuick) : around_the_eye(20'000, kUsual); });
-    // Family by family, so that a table can be read from top to bottom.
+    // Group by family, in the order of the tables.
     std::stable_sort(list_.begin(), list_.end(),
                      [](const auto& a, const auto& b) { return a.family < b.family; });
     return std::move(list_);
   }
 
-  // A user's file; always timed, since it is what the user draws.
+  // The scenes of a user's file, always timed.
   std::vector<AccuracyScene> file(const std::string& path) {
     check_source(path);
     const bool mesh = !path.ends_with(".tri") && !path.ends_with(".TRI");
@@ -166,11 +167,12 @@ class Catalogue {
   }
 
   void add_built_in(const SceneInfo& info) {
-    const Share share = share_of(info.name);
-    const lab::Size size = plan_.quick ? share.quick_size : share.size;
-    const SceneRequest request{size.width, size.height, 0.0f, plan_.quick ? share.quick_scale : share.scale};
-    const double cost_s = plan_.quick ? share.quick_cost_s : share.cost_s;
-    add(Family::coverage, info.name, info.idea, share.timed, false, cost_s,
+    const Extent extent = extent_of(info.name);
+    const lab::Size size = plan_.quick ? extent.quick_size : extent.size;
+    const SceneRequest request{size.width, size.height, 0.0f,
+                               plan_.quick ? extent.quick_scale : extent.scale};
+    const double cost_s = plan_.quick ? extent.quick_cost_s : extent.cost_s;
+    add(Family::coverage, info.name, info.idea, extent.timed, false, cost_s,
         [&info, request, size] { return coverage_scene(info.make(request), size); });
     if (info.stream) return;
     const lab::Size seen = plan_.quick ? kQuick : kUsual;
@@ -197,8 +199,8 @@ class Catalogue {
   std::vector<AccuracyScene> list_;
 };
 
-// Scenes for speed, judged only when named: knots repeats torus-knot, and half the edges of quads pass
-// through pixel centres, which would decide every rate over all scenes.
+// False for two scenes made for speed. knots repeats torus-knot. Half the edges of quads pass through pixel
+// centres, so quads would dominate every rate summed over all scenes.
 bool is_judged_by_default(const AccuracyScene& scene) {
   return scene.name != "quads" && scene.name != "knots";
 }

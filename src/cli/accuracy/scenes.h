@@ -1,4 +1,4 @@
-// The scenes that accuracy is measured on: by name, made when their turn comes.
+// The scenes of `edgewise accuracy`, by name; each is built only when it is judged.
 #pragma once
 
 #include <functional>
@@ -25,23 +25,23 @@ struct AccuracyScene {
   Family family;
   std::string name, idea;
   bool timed;
-  bool smallest;  // one of those that show one failure each; pictures are made of these
-  double cost_s;  // about, for the progress bar
+  bool smallest;  // a small scene that shows a single failure; only these get close-ups
+  double cost_s;  // estimate for the progress bar
   std::function<AnyScene()> make;
 };
 
 inline constexpr std::string_view kTurningCube = "turning-cube";
 inline constexpr lab::Size kTurningCubeSize{640, 360};
 
-// What the plan names, in a fixed order, and whether the turning cube is among it.
+// The scenes that the plan names, family by family, and whether it includes the rotating cube.
 struct AccuracyScenes {
   std::vector<AccuracyScene> scenes;
   bool turning_cube = false;
 };
 AccuracyScenes scenes_of(const AccuracyPlan& plan);
 
-// A front end's triangles before and after snapping. Back faces of meshes are dropped by the exact sign of
-// their area before snapping, so that all methods get the same triangles.
+// The front end's triangles before and after snapping. Mesh triangles are culled by the exact sign of their
+// area before snapping, so that all methods get the same triangles.
 CoverageScene coverage_scene(const Drawable& drawable, lab::Size size);
 
 }  // namespace edgewise::app

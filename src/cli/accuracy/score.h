@@ -1,4 +1,4 @@
-// One scene of each family, judged.
+// Judges methods on one scene, per family.
 #pragma once
 
 #include <functional>
@@ -20,8 +20,8 @@ struct ChosenMethods {
 };
 ChosenMethods methods_of(const AccuracyPlan& plan);
 
-// Where a scene's judge works: what is asked for, and where it reports. `progress` may be called from several
-// threads, one at a time.
+// The inputs of judge() and its sinks for progress and close-ups. `progress` is called from several threads,
+// but never concurrently.
 struct Bench {
   const AccuracyPlan& plan;
   const ChosenMethods& methods;
@@ -30,7 +30,7 @@ struct Bench {
   std::vector<Closeup>& closeups;
 };
 
-// They fill in all but the scene's name and its seconds.
+// Fill in all of `result` except what identifies the scene (family, name, idea, smallest) and its seconds.
 void judge(const CoverageScene& scene, const Bench& bench, SceneResult& result);
 void judge(const lab::VisibilityScene& scene, const Bench& bench, SceneResult& result);
 void judge(const lab::FacingScene& scene, const Bench& bench, SceneResult& result);

@@ -8,7 +8,7 @@ namespace edgewise::app {
 
 namespace {
 
-// Of draws that follow one of the same method.
+// Mean time of `times` draws after one untimed draw.
 double warm_ms(const TimedDraw& timed, int times) {
   timed.draw();
   const auto start = std::chrono::steady_clock::now();
@@ -21,7 +21,7 @@ double warm_ms(const TimedDraw& timed, int times) {
 
 std::vector<Speed> time_in_turns(const std::vector<TimedDraw>& draws, bool quick) {
   const int repetitions = quick ? 5 : 11;
-  const double least_ms = quick ? 2.0 : 5.0;  // of a repetition: far above the clock's grain
+  const double least_ms = quick ? 2.0 : 5.0;  // per repetition; far above the clock's resolution
   std::vector<std::vector<double>> ms(draws.size());
   std::vector<int> times;
   for (const TimedDraw& timed : draws)

@@ -1,4 +1,4 @@
-// Times several ways to draw one scene beside one another.
+// Times several ways to draw one scene, interleaved.
 #pragma once
 
 #include <functional>
@@ -14,10 +14,10 @@ struct TimedDraw {
   std::function<void()> draw;
 };
 
-// In the order of `draws`. All take turns, so that a busy moment of the machine does not fall on one of them
-// alone. What is timed is a warm draw: an untimed one comes before each block of timed ones, so that caches
-// and branch predictor are as a draw of the same picture leaves them, whichever methods run beside it. A draw
-// straight after another method's takes a few percent longer.
+// Returns speeds in the order of `draws`. Repetitions are interleaved, so that load peaks of the machine hit
+// all methods alike. Timed draws are warm: an untimed draw of the same method precedes each repetition, so
+// that caches and branch predictor don't depend on the other methods. A draw straight after another method's
+// is a few percent slower.
 std::vector<Speed> time_in_turns(const std::vector<TimedDraw>& draws, bool quick);
 
 }  // namespace edgewise::app

@@ -9,7 +9,7 @@ namespace edgewise::app {
 
 namespace {
 
-// Three digits, or a whole number that fits the narrowest column.
+// Three significant digits, or a whole number, short enough for the narrowest column.
 std::string digits(double v) {
   if (v == 0.0) return "0";
   if (v >= 9'999'999.5) return fmt::format("{:.1e}", v);
@@ -24,7 +24,7 @@ std::string rate(std::uint64_t errors, std::uint64_t trials) {
   return digits(lab::per_million(errors, trials));
 }
 
-// A family's scenes, method by method.
+// Sums a family's scenes per method.
 class FamilyTable {
  public:
   FamilyTable(const AccuracyReport& report, Family family, bool smallest) {
@@ -48,7 +48,7 @@ class FamilyTable {
     for (const SceneResult* scene : scenes_) total += std::get<S>(scene->methods[method].score).*count;
     return total;
   }
-  // Against one truth, over all scenes.
+  // Sums over all scenes, against one reference.
   lab::VisibilityScore visibility(std::size_t method,
                                   lab::VisibilityScore lab::VisibilityScores::*truth) const {
     lab::VisibilityScore total;
@@ -91,7 +91,8 @@ class FamilyTable {
     return found == scenes_.end() ? nullptr : *found;
   }
   std::size_t scenes() const { return scenes_.size(); }
-  // The last column: on one thread, on the first scene that was timed; else the scene with the most errors.
+  // The last column: the time on one thread on the first timed scene, or without one, the scene with the
+  // highest error rate.
   std::string last(std::size_t method) const {
     if (timed_ == nullptr) return most_wrong_on(method);
     const bool facing = timed_->family == Family::facing;
@@ -104,10 +105,10 @@ class FamilyTable {
         fmt::format("\n{}: {}, {} {} in {} {}scene{}\n", name_of(first.family), what, trials_, trials,
                     scenes_.size(), first.smallest ? "small " : "", scenes_.size() == 1 ? "" : "s");
     if (timed_ != nullptr)
-      text += fmt::format("ns: on one thread, {}x{} {}\n", timed_->width, timed_->height, timed_->name);
+      text += fmt::format("ns: scene {} at {}x{}, one thread\n", timed_->name, timed_->width, timed_->height);
     return text;
   }
-  // What the last column holds.
+  // The last column's title.
   std::string last_title(std::string_view ns) const {
     return std::string(timed_ != nullptr ? ns : "most wrong on");
   }
@@ -137,27 +138,28 @@ class FamilyTable {
   std::uint64_t trials_ = 0;
 };
 
-// The last column is as wide as the names it holds.
+// The last column is as wide as its longest entry.
 std::size_t last_width(const FamilyTable& t) {
   std::size_t widest = t.timed() ? 7 : t.last_title("").size();
   for (std::size_t i = 0; i < t.methods(); ++i) widest = std::max(widest, t.last(i).size());
   return widest + 1;
 }
 
-// What shows of all that; and, where it was judged, what splitting an edge does for a T-junction.
-std::string owner_table(const FamilyTable& t) {
+// Pixels with the wrong visible triangle, and depth errors. If both T-junction scenes were judged, also their
+// gaps without and with the split edge.
+std::string visible_triangle_table(const FamilyTable& t) {
   const SceneResult *junction = t.scene("t_junction"), *split = t.scene("t_junction_split");
   const bool cracks = junction != nullptr && split != nullptr;
   std::string text = fmt::format(
-      "\ncoverage: pixels with the wrong owner, and the worst depths, in {} scene{}\n"
-      "last place of a depth: 2^-31 of the range for backends, a float's for others\n",
+      "\ncoverage: pixels with the wrong visible triangle, and depth errors, in {} scene{}\n"
+      "depth ulp: 2^-31 of the depth range for backends, a float's ulp for others\n",
       t.scenes(), t.scenes() == 1 ? "" : "s");
   constexpr const char *kLine = "{:<17}{:>10}{:>10}{:>12}{:>9}", *kCracks = "{:>12}{:>8}";
   const auto add = [&](const std::string& line, const auto& of_junction, const auto& of_split) {
     text += line + (cracks ? fmt::format(kCracks, of_junction, of_split) : "") + '\n';
   };
   add(fmt::format(kLine, "", "wrong", "wrong", "depth: max", "RMS"), "T-junction:", "split:");
-  add(fmt::format(kLine, "method", "snapped", "before", "last places", "places"), "gaps", "gaps");
+  add(fmt::format(kLine, "method", "snapped", "float", "ulp", "ulp"), "gaps", "gaps");
   const auto gaps = [&](const SceneResult* scene, std::size_t method) {
     return scene == nullptr ? 0 : std::get<CoverageScores>(scene->methods[method].score).floats.gaps;
   };
@@ -171,7 +173,7 @@ std::string owner_table(const FamilyTable& t) {
 
 std::string coverage_table(const FamilyTable& t) {
   std::string text = t.title("errors per 10^6 edge crossings", "crossings");
-  text += fmt::format("{:<17}{:>29}{:>28}\n", "", "against snapped positions", "against those before");
+  text += fmt::format("{:<17}{:>29}{:>28}\n", "", "snapped reference", "float reference");
   constexpr const char* kLine = "{:<17}{:>11}{:>9}{:>9}{:>11}{:>8}{:>9}{}\n";
   text += fmt::format(kLine, "method", "errors", "gaps", "doubles", "errors", "gaps", "doubles",
                       t.timed() ? " ns/px" : "");
@@ -182,13 +184,13 @@ std::string coverage_table(const FamilyTable& t) {
                         snapped.double_hits, rate(floats.errors(), t.trials()), floats.gaps,
                         floats.double_hits, t.timed() ? fmt::format("{:>6}", t.last(i)) : "");
   }
-  return text + owner_table(t);
+  return text + visible_triangle_table(t);
 }
 
 std::string visibility_table(const FamilyTable& t) {
   using S = lab::VisibilityScores;
-  std::string text = t.title("wrong owners per 10^6 pixels", "pixels");
-  text += fmt::format("{:<17}{:>25}{:>19}\n", "", "against snapped positions", "those before");
+  std::string text = t.title("wrong visible triangles per 10^6 pixels", "pixels");
+  text += fmt::format("{:<17}{:>25}{:>19}\n", "", "snapped reference", "float reference");
   constexpr const char* kLine = "{:<17}{:>10}{:>7}{:>8}{:>11}{:>8}{:>{}}\n";
   text += fmt::format(kLine, "method", "per 10^6", "beyond", "ulp", "per 10^6", "ulp", t.last_title("ns/px"),
                       last_width(t));
@@ -198,13 +200,13 @@ std::string visibility_table(const FamilyTable& t) {
                         digits(snapped.max_ulp), rate(floats.wrong_owner, floats.covered),
                         digits(floats.max_ulp), t.last(i), last_width(t));
   }
-  return text + "beyond: pixels outside the depths of their own triangle\n";
+  return text + "beyond: pixels whose depth is outside the depth range of their triangle\n";
 }
 
 std::string facing_table(const FamilyTable& t) {
   using S = lab::FacingScores;
-  std::string text = t.title("misjudged per 10^6 faces that own a pixel", "faces");
-  text += fmt::format("{:<20}{:>20}{:>20}\n", "", "against snapped", "those before");
+  std::string text = t.title("misjudged per 10^6 faces that cover a sample", "faces");
+  text += fmt::format("{:<20}{:>20}{:>20}\n", "", "snapped reference", "float reference");
   constexpr const char* kLine = "{:<20}{:>13}{:>7}{:>13}{:>7}{:>{}}\n";
   text += fmt::format(kLine, "method", "per 10^6", "faces", "per 10^6", "faces", t.last_title("ns/face"),
                       last_width(t));
@@ -221,23 +223,22 @@ std::string clipping_table(const FamilyTable& t) {
   using S = lab::ClippingScore;
   std::string text = t.title("wrong per 10^6 pixels", "pixels");
   constexpr const char* kLine = "{:<15}{:>9}{:>8}{:>7}{:>7}{:>7}{:>5}{:>4}{:>{}}\n";
-  text += fmt::format(kLine, "method", "per 10^6", "missing", "extra", "owner", "depth", "hair", "NaN",
+  text += fmt::format(kLine, "method", "per 10^6", "missing", "extra", "tri", "depth", "hair", "NaN",
                       t.last_title("ns/px"), last_width(t));
   for (std::size_t i = 0; i < t.methods(); ++i) {
     const std::uint64_t missing = t.sum(i, &S::missing), extra = t.sum(i, &S::extra),
-                        owner = t.sum(i, &S::wrong_owner), depth = t.sum(i, &S::wrong_depth);
-    text += fmt::format(kLine, t.name(i), rate(missing + extra + owner + depth, t.trials()), missing, extra,
-                        owner, depth, t.sum(i, &S::hairline), t.sum(i, &S::not_a_number), t.last(i),
+                        triangle = t.sum(i, &S::wrong_owner), depth = t.sum(i, &S::wrong_depth);
+    text += fmt::format(kLine, t.name(i), rate(missing + extra + triangle + depth, t.trials()), missing,
+                        extra, triangle, depth, t.sum(i, &S::hairline), t.sum(i, &S::not_a_number), t.last(i),
                         last_width(t));
   }
-  return text;
+  return text + "tri: wrong visible triangle; hair: right within 1/64 px of the sample\n";
 }
 
-// Gaps and double hits against the positions before snapping; in the last column, all that is wrong against
-// the snapped ones.
+// Gaps and double hits against the float reference; the last column sums all errors against the snapped one.
 std::string cube_table(const CubeResult& cube) {
-  std::string text = fmt::format("\nthe turning cube: wrong pixels a frame, {} frames of {}x{}\n",
-                                 cube.frames, cube.width, cube.height);
+  std::string text = fmt::format("\nrotating cube: wrong pixels per frame, {} frames of {}x{}\n", cube.frames,
+                                 cube.width, cube.height);
   text += fmt::format("{:<17}{:>25}{:>27}{:>11}\n", "", "gaps", "double hits", "snapped");
   constexpr const char* kLine = "{:<17}{:>8}{:>7}{:>10}{:>10}{:>7}{:>10}{:>11}\n";
   text += fmt::format(kLine, "method", "median", "worst", "total", "median", "worst", "total", "total");
@@ -245,7 +246,7 @@ std::string cube_table(const CubeResult& cube) {
     text += fmt::format(kLine, m.name, m.floats.gaps.median, m.floats.gaps.worst, m.floats.gaps.total,
                         m.floats.double_hits.median, m.floats.double_hits.worst, m.floats.double_hits.total,
                         m.snapped.missing.total + m.snapped.extra.total);
-  return text + fmt::format("0 in total: in less than {} of the frames, with 95 % confidence\n",
+  return text + fmt::format("total 0: occurs in fewer than {} of all frames, with 95 % confidence\n",
                             digits(lab::rate_bound(static_cast<std::uint64_t>(cube.frames))));
 }
 

@@ -36,22 +36,22 @@ class Soak {
         end_(campaign.cases ? next_ + *campaign.cases : std::numeric_limits<std::uint64_t>::max()) {}
 
   Record run() {
-    std::vector<std::thread> jobs;
-    start(jobs);
+    std::vector<std::thread> threads;
+    start(threads);
     watch();
-    for (std::thread& job : jobs) job.join();
+    for (std::thread& thread : threads) thread.join();
     if (failure_) give_up();
     campaign_.on_progress(record_);
     return std::move(record_);
   }
 
  private:
-  // Those that began must end before what kept others from beginning is told.
-  void start(std::vector<std::thread>& jobs) {
+  // If a thread fails to start, keeps the error: run() joins the started threads before it reports the error.
+  void start(std::vector<std::thread>& threads) {
     try {
       for (int i = 0; i < campaign_.jobs; ++i) {
         const std::lock_guard lock(mutex_);
-        jobs.emplace_back([this] { work(); });
+        threads.emplace_back([this] { work(); });
         ++working_;
       }
     } catch (...) {
@@ -60,7 +60,7 @@ class Soak {
     }
   }
 
-  // What cannot be saved either is no news.
+  // Saves the record and throws failure_; a failure to save is ignored in its favour.
   [[noreturn]] void give_up() {
     try {
       campaign_.on_failure(record_);
@@ -69,7 +69,7 @@ class Soak {
     std::rethrow_exception(failure_);
   }
 
-  // One job: takes the next case until there is none.
+  // One thread: draws cases until none is left.
   void work() {
     try {
       Checker checker(campaign_.judged);
@@ -80,13 +80,13 @@ class Soak {
     }
     const std::lock_guard lock(mutex_);
     --working_;
-    ended_.notify_one();
+    thread_ended_.notify_one();
   }
 
   void watch() {
     constexpr auto kPause = std::chrono::milliseconds(200);
     std::unique_lock lock(mutex_);
-    while (!ended_.wait_for(lock, kPause, [&] { return working_ == 0; })) {
+    while (!thread_ended_.wait_for(lock, kPause, [&] { return working_ == 0; })) {
       const Record now = record_;
       lock.unlock();
       try {
@@ -125,7 +125,7 @@ class Soak {
     }
   }
 
-  // Cases end in any order; the record takes them in theirs.
+  // Cases end in any order, but enter the record in the order of the sequence.
   void add(std::uint64_t k, Done done) {
     const std::lock_guard lock(mutex_);
     waiting_.emplace(k, std::move(done));
@@ -145,8 +145,8 @@ class Soak {
   const Campaign& campaign_;
   const Clock::time_point start_ = Clock::now();
   const Evidence evidence_{campaign_.program, campaign_.failure_folder, [this] { return must_end(); }};
-  std::mutex mutex_;  // of all that changes below
-  std::condition_variable ended_;
+  std::mutex mutex_;  // guards all non-const members below but the atomic one
+  std::condition_variable thread_ended_;
   Record record_;
   const double seconds_before_;
   std::atomic<std::size_t> found_ = record_.findings.size();

@@ -13,13 +13,13 @@ namespace edgewise::soak {
 
 namespace {
 
-// A hash of both, so that cases have nothing in common: states a step apart would give shifted copies of one
-// sequence.
+// Hashes seed and number, so that cases are independent. Generator states one step apart would give shifted
+// copies of one sequence.
 Random random_of(std::uint64_t seed, std::uint64_t number) {
   return Random(Random(Random(seed).next() ^ number).next());
 }
 
-// Mostly small, since a frame's seams are where it ends; some as wide as the contract allows.
+// Mostly small images, because many errors occur at image edges; some as large as the contract allows.
 std::pair<int, int> random_size(Random& random) {
   const auto up_to = [&](int most) {
     return 1 + static_cast<int>(random.below(static_cast<unsigned>(most)));
@@ -38,9 +38,9 @@ std::pair<int, int> random_size(Random& random) {
   return random.below(2) == 0 ? std::pair{along, across} : std::pair{across, along};
 }
 
-// As many as one picture's share of the time allows, by the pixels of their boxes.
+// Drops triangles once the pixels of all bounding boxes exceed a picture's time budget.
 void cut_to_budget(std::vector<ScreenTriangle>& triangles, int width, int height) {
-  constexpr std::int64_t kBudget = 1'000'000;
+  constexpr std::int64_t kBudget = 1'000'000;  // px
   std::int64_t cost = 0;
   const auto beyond = [&](const ScreenTriangle& t) {
     const contract::PixelBox box = contract::pixel_box(t, width, height);

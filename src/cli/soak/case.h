@@ -1,5 +1,5 @@
-// One picture of a soak: what it shows follows from the campaign's seed and the case's number alone, so that
-// any machine can draw any part of the sequence.
+// One picture of a soak test. It depends on the seed and the case's number alone, so any machine can draw any
+// part of the sequence.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace edgewise::soak {
 
-// Raised whenever a case's content changes: results of different sequences must not be added up.
+// Increment it whenever the content of a case changes: results of different sequences must not be merged.
 inline constexpr int kSequence = 2;
 
 struct Case {
@@ -20,14 +20,15 @@ struct Case {
   std::string_view family;
   int width = 0, height = 0;  // px
   std::uint32_t background = 0;
-  int threads = 2;  // the thread count that is tried beside 1
+  int threads = 2;  // the thread count of the multi-threaded draws
 
   std::vector<ScreenTriangle> triangles;  // of a triangle family; else
   std::optional<Drawable> drawable;       // of a scene family, with
   FrontendOptions frontend;               // its culling, payload and shading
 
-  bool patient_oracle = false;   // the oracle may take long in this one
-  std::uint64_t draws_seed = 0;  // for what may differ between machines: tile sizes, strides, ideas
+  bool patient_oracle = false;   // this case has a larger time budget for the oracle
+  std::uint64_t draws_seed = 0;  // for choices that depend on the machine's SIMD targets: tile sizes,
+                                 // strides, ablations
 };
 
 Case make_case(std::uint64_t seed, std::uint64_t number);

@@ -1,4 +1,4 @@
-// One case through every backend, SIMD target and two thread counts, and its verdict.
+// Draws one case with every backend, SIMD target and two thread counts, and compares the frames.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,9 @@
 
 namespace edgewise::soak {
 
-// What is judged. The first backend, on one thread and the scalar target, is the reference of all frames, and
-// is judged by the oracle itself; the front end's reference is the front end that takes one triangle at a
-// time, without vectors and threads.
+// The code under test. The first backend, on one thread and the scalar target, is the reference for all
+// frames; the oracle checks the reference itself. The front end's reference is its path for single triangles,
+// without SIMD and threads.
 struct Judged {
   std::vector<BackendInfo> backends;
   std::function<std::span<const ScreenTriangle>(Frontend&, const Drawable&, const FrontendOptions&)>
@@ -31,31 +31,31 @@ struct Draw {
   lab::GuardedFrame::Layout layout;
 };
 
-// The first frame, or list of the front end, of a case that differs.
+// The first frame, or triangle list of the front end, that differs in a case.
 struct Finding {
   std::string judge;  // the reference's name, "oracle" or "one triangle at a time"
-  bool of_frontend;   // then only target and threads of `draw` mean anything
+  bool of_frontend;   // if true, only target and threads of `draw` are valid
   Draw draw;
-  lab::FrameDifference difference;        // none for the front end
-  std::vector<ScreenTriangle> triangles;  // the frame's
+  lab::FrameDifference difference;        // empty for the front end
+  std::vector<ScreenTriangle> triangles;  // of the frame; empty for the front end
 };
 
 struct Verdict {
   Tally tally;
-  std::vector<Finding> findings;  // at most one of each judge and backend
+  std::vector<Finding> findings;  // at most one per judge and backend
 };
 
-// Keeps its memory between cases; one object must not work on two threads at once.
+// Reuses its buffers between cases. Not thread-safe.
 class Checker {
  public:
   explicit Checker(const Judged& judged);
 
   Verdict check(const Case& c);
 
-  // Does the draw of these triangles differ from its judge's? Of a fault that comes and goes with the
-  // threads' luck, several attempts are made.
+  // Whether a finding's draw of these triangles differs from its judge. Draws on several threads get several
+  // attempts, since a race may not show in the first.
   bool differs(const Finding& finding, const Case& c, std::span<const ScreenTriangle> triangles);
-  // The same for the front end, on any target and thread count.
+  // Whether the front end's list differs on any target and thread count.
   bool frontend_differs(const Case& c, const Drawable& drawable);
 
   const Judged& judged() const { return judged_; }

@@ -1,4 +1,4 @@
-// `edgewise soak`: the judge on random pictures, for as long as one likes and on as many machines.
+// `edgewise soak`: compares all backends on random pictures, on one machine or on shards of many.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -63,11 +63,11 @@ soak::Record first_record(const SoakOptions& o) {
   soak::Shard shard = o.shard.value_or(soak::Shard{});
   if (o.only_case) shard = {*o.only_case, *o.only_case + 1, 0};
   const std::uint64_t seed = o.seed.value_or(kDefaultSeed);
-  // A job that a scheduler starts again cannot know whether it got as far as a file.
-  std::error_code unknown;  // left to read_record
-  const bool begun =
+  // --resume accepts a missing file, so that a job that a scheduler restarts can always use the same command.
+  std::error_code unknown;  // read_record reports other errors
+  const bool exists =
       std::filesystem::status(o.resume, unknown).type() != std::filesystem::file_type::not_found;
-  if (o.resume.empty() || !begun) return soak::new_record(seed, shard, names);
+  if (o.resume.empty() || !exists) return soak::new_record(seed, shard, names);
   const soak::Record before = soak::read_record(o.resume);
   if (!o.shard && before.shards.size() == 1) shard = before.shards.front();
   shard.cases = 0;
@@ -97,23 +97,23 @@ int merge_command(const SoakOptions& o) {
       soak::merge(*all, record);
     } catch (const std::invalid_argument& error) {
       throw std::invalid_argument(
-          fmt::format("{} cannot be added to those before it: {}", path, error.what()));
+          fmt::format("{} cannot be merged with the files before it: {}", path, error.what()));
     }
   }
   return finish(o, o.json == "-" ? "" : o.json, *all, 0);
 }
 
-// Shows how far it is, and saves now and then what is done.
-class Watch {
+// Shows the progress and saves the record every 30 s.
+class ProgressSaver {
  public:
-  Watch(const SoakOptions& o, std::string path, const soak::Record& first)
+  ProgressSaver(const SoakOptions& o, std::string path, const soak::Record& first)
       : options_(o),
         path_(std::move(path)),
         cases_before_(first.tally.cases),
         seconds_before_(first.seconds) {
-    if (!path_.empty()) write(path_, first);  // hours of work must not end in "cannot be written"
+    if (!path_.empty()) write(path_, first);  // reports an unwritable file before hours of work
   }
-  ~Watch() { progress_.erase(); }
+  ~ProgressSaver() { progress_.erase(); }
 
   void operator()(const soak::Record& record) {
     constexpr auto kBetweenSaves = std::chrono::seconds(30);
@@ -141,11 +141,13 @@ class Watch {
   TimeLeft left_;
 };
 
-// Hours of work must not be lost to a command that is given twice.
-void check_nothing_is_lost(const SoakOptions& o) {
+// Rejects a --json file that holds a record, unless it is the resumed one: repeating a command must not
+// overwrite hours of work.
+void check_overwrites_no_record(const SoakOptions& o) {
   std::error_code missing;
   if (!o.resume.empty() && std::filesystem::equivalent(o.resume, o.json, missing)) return;
-  if (o.json != "-" && soak::is_record(o.json)) throw file_error(o.json, "exists; --resume goes on from it");
+  if (o.json != "-" && soak::is_record(o.json))
+    throw file_error(o.json, "exists; use --resume to continue it");
 }
 
 void check(const SoakOptions& o) {
@@ -153,13 +155,13 @@ void check(const SoakOptions& o) {
   if (o.only_case && draws_many)
     throw std::invalid_argument("--case and --shard, --for, --cases or --resume exclude each other");
   if (!o.merge.empty() && (o.seed || o.only_case || draws_many))
-    throw std::invalid_argument("--merge draws nothing: it goes with --json alone");
+    throw std::invalid_argument("--merge draws nothing: it can only be combined with --json");
 }
 
 int soak_command(const SoakOptions& o) {
   check(o);
   if (!o.merge.empty()) return merge_command(o);
-  check_nothing_is_lost(o);
+  check_overwrites_no_record(o);
   soak::Record record = first_record(o);
   const std::string path = o.json.empty() ? o.resume : o.json == "-" ? "" : o.json;
 
@@ -168,15 +170,15 @@ int soak_command(const SoakOptions& o) {
   campaign.seconds = o.seconds;
   campaign.cases = o.only_case ? 1 : o.cases;
   campaign.jobs = o.only_case ? 1 : o.jobs;
-  std::error_code unknown;  // the name alone must do then
+  std::error_code unknown;  // then the default name stays
   const auto self = std::filesystem::read_symlink("/proc/self/exe", unknown);
   if (!unknown) campaign.program = self.string();
   campaign.failure_folder = o.out;
   const StopRequest request;
   campaign.stop = [&] { return request.signal() != 0; };
   {
-    Watch watch(o, path, record);
-    campaign.on_progress = [&](const soak::Record& now) { watch(now); };
+    ProgressSaver saver(o, path, record);
+    campaign.on_progress = [&](const soak::Record& now) { saver(now); };
     campaign.on_failure = [&](const soak::Record& done) {
       if (!path.empty()) write(path, done);
     };
@@ -187,59 +189,57 @@ int soak_command(const SoakOptions& o) {
 
 constexpr const char* kSoakFooter = R"(Examples:
   edgewise soak --for 20m --json soak.json
-  edgewise soak --resume soak.json --for 2h               goes on where that ended, or begins
+  edgewise soak --resume soak.json --for 2h               continue that record, or start it
   edgewise soak --seed 7 --shard 3/16 --for 1h --json shard-3.json
   edgewise soak --merge shard-*.json -o soak.json
-  edgewise soak --seed 7 --case 123456                    one picture again
+  edgewise soak --seed 7 --case 123456                    reproduce one picture
 
-Random and adversarial pictures without end: triangle lists of many families, and scenes with the camera in
-their midst that go through the front end. Each is drawn by every backend, on every SIMD target of this
-machine, on one thread and on a random number of them, with random tile sizes, row strides, alignments and
-optimizations left out, and compared bit for bit, in depth and payload and in all memory around the picture, with the
-reference (the first backend of `edgewise list`, one thread, scalar). Wherever it can follow, the oracle
-judges the reference. The front end is compared with itself, one triangle at a time.
+A soak test draws random and adversarial pictures: triangle lists of many families, and scenes around the
+camera that go through the front end. Every backend draws each picture on every SIMD target of this machine,
+on one thread and on a random number of threads, with random tile sizes, row strides and alignments, and with
+random optimizations switched off. Every frame is compared bit for bit with the reference (the first backend
+of `edgewise list`, one thread, scalar): depth, payload, and all memory around the picture. If a picture is
+small enough, an exact oracle checks the reference. The front end is compared with its own path for single
+triangles.
 
-Case k of shard I/N is number I + k N of the seed's sequence, whatever the machine: shards have nothing in
-common and need not know of one another. --merge adds their results up, and refuses what does not belong
-together: other seeds, programs (version and commit) or sequences, cases that two files share.
+Case k of shard I/N is number I + k N of the seed's sequence on every machine, so shards are disjoint and
+independent. --merge adds up their results. It refuses results of different seeds, programs (version and
+commit) or sequences, and cases that two files share.
 
-Without --for or --cases it goes on until Ctrl-C. On Ctrl-C, SIGTERM or SIGHUP the cases in work are
-finished and all is written; twice ends it at once. With --json (or --resume) the file is also written every
-half a minute, so that little is lost when the machine goes down. --resume of a file that isn't there yet begins
-it, so that a job that may be started again names one file; --json alone refuses a record that exists.
-A difference leaves a .tri with as few triangles as still differ, and the commands that show it again.
+Without --for or --cases the test runs until Ctrl-C. On Ctrl-C, SIGTERM or SIGHUP it finishes the started
+cases and writes all results; the same signal again ends it at once. With --json (or --resume) it also saves
+the file every 30 s. --resume creates a missing file, so a restarted job can use the same command; --json
+alone refuses to overwrite a record. For each difference it writes a .tri file with as few triangles as still
+differ, and prints the commands that reproduce it.
 
-Exit status: 1 if anything differs; else 0, or 128 and the signal's number when stopped by one (130 after
-Ctrl-C).)";
+Exit status: 1 if anything differs; otherwise 0, or 128 + N if stopped by signal N (130: Ctrl-C).)";
 
 }  // namespace
 
 void add_soak(CLI::App& program, Action& action) {
-  CLI::App& command = *program.add_subcommand(
-      "soak", "Compare all backends on random pictures, for hours and on many machines");
+  CLI::App& command = *program.add_subcommand("soak", "Compare all backends on random pictures (soak test)");
   const auto o = std::make_shared<SoakOptions>();
   const auto add = [&](const char* name, const char* type, const char* help, auto parse) {
     command.add_option_function<std::string>(name, parse, help)->type_name(type);
   };
-  add("--seed", "S", "Which sequence of cases (1)",
+  add("--seed", "S", "Seed of the sequence of cases (1)",
       [o](const std::string& text) { o->seed = parse_count("--seed", text, 0, ~std::uint64_t{0}); });
-  add("--shard", "I/N", "Every N-th case from number I on (0/1: all)",
+  add("--shard", "I/N", "Draw every N-th case, starting at number I (0/1: all)",
       [o](const std::string& text) { o->shard = parse_shard(text); });
-  add("--for", "DURATION", "90s, 20m or 2h (until Ctrl-C)",
+  add("--for", "DURATION", "Time limit: 90s, 20m or 2h (until Ctrl-C)",
       [o](const std::string& text) { o->seconds = parse_duration("--for", text); });
-  add("--cases", "N", "Stop after so many cases",
+  add("--cases", "N", "Stop after N cases",
       [o](const std::string& text) { o->cases = parse_count("--cases", text, 1, kMostCases); });
-  add("--case", "NUMBER", "Only this case",
+  add("--case", "NUMBER", "Draw only this case",
       [o](const std::string& text) { o->only_case = parse_count("--case", text, 0, soak::kMostShards - 1); });
   add_integer(command, "--jobs", o->jobs, 1, kMaxThreads,
-              "Cases drawn at once (all cores); no count depends on it");
-  command.add_option("-o,--json", o->json, "Write the results as JSON; - for stdout, instead of the tables")
+              "Cases drawn concurrently; results don't depend on it (all cores)");
+  command.add_option("-o,--json", o->json, "Write all results as JSON; - for stdout, instead of the tables")
       ->type_name("FILE");
   command
-      .add_option("--resume", o->resume,
-                  "Go on from these results, if they exist, and write there (or to --json)")
+      .add_option("--resume", o->resume, "Continue these results if they exist; write there (or to --json)")
       ->type_name("FILE");
-  command.add_option("--merge", o->merge, "Add up results instead of drawing")->type_name("FILE");
+  command.add_option("--merge", o->merge, "Add up these results instead of drawing")->type_name("FILE");
   command.add_option("--out", o->out, "Folder for .tri files of differences (edgewise-soak-failures)")
       ->type_name("DIR");
   command.footer(kSoakFooter);

@@ -1,4 +1,4 @@
-// What a person needs to see a finding again: a small .tri, and commands.
+// Evidence to reproduce a finding: a reduced .tri file and shell commands.
 #pragma once
 
 #include <cstdint>
@@ -12,14 +12,14 @@
 namespace edgewise::soak {
 
 struct Evidence {
-  std::string program;           // what the commands call; a path or a name
-  std::filesystem::path folder;  // for .tri files, made when needed; empty: none are written
-  std::function<bool()> stop;    // then the file holds what is left by now
+  std::string program;           // path or name of the program in the commands
+  std::filesystem::path folder;  // for .tri files, created when needed; empty: write none
+  std::function<bool()> stop;    // true ends the reduction; the file then holds the triangles left
 };
 
-// Writes FOLDER/seed-S-case-N-BACKEND-vs-JUDGE.tri with as few of the frame's triangles as still differ, and
-// tells all about the finding, "replay" among it: the commands that show it, for a shell in any folder. Files
-// that cannot be written don't lose the finding: "trouble" says why.
+// Writes FOLDER/seed-S-case-N-BACKEND-vs-JUDGE.tri with as few of the frame's triangles as still differ.
+// Returns the finding as JSON; "replay" holds the commands that reproduce it, for a shell in any folder. If
+// the file cannot be written, the finding is kept and "trouble" holds the reason.
 nlohmann::json evidence_of(const Evidence& evidence, std::uint64_t seed, const Case& c,
                            const Finding& finding, Checker& checker);
 

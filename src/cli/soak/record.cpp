@@ -24,15 +24,15 @@ std::string program_of(const nlohmann::json& machine) {
                      machine.at("commit").get<std::string>());
 }
 
-nlohmann::json shares_json(const Tally& tally) {
+nlohmann::json counts_json(const Tally& tally) {
   nlohmann::json json = nlohmann::json::object();
-  for (const auto& [category, shares] : tally.by)
-    for (const auto& [label, share] : shares)
-      json[category][label] = {{"compared", share.compared}, {"differ", share.differ}};
+  for (const auto& [category, counts] : tally.by)
+    for (const auto& [label, count] : counts)
+      json[category][label] = {{"compared", count.compared}, {"differ", count.differ}};
   return json;
 }
 
-// Null once something differs: then the figures themselves are the estimate.
+// Null if anything differs: then the observed rates are the estimate.
 nlohmann::json bounds_json(const Tally& tally) {
   if (tally.differences() != 0 || tally.cases == 0) return nullptr;
   return {
@@ -40,16 +40,16 @@ nlohmann::json bounds_json(const Tally& tally) {
       {"per_frame", bound_on(tally.frames)},
       {"per_pixel", bound_on(tally.pixels)},
       {"assumes",
-       "no difference seen in n independent trials: the rate is below 3 / n with 95 % confidence; cases are "
-       "drawn independently from the soak's own distribution, while frames of one case, and pixels of one "
-       "frame, show the same triangles, so that the bounds per frame and per pixel also assume that they "
-       "fail independently"}};
+       "if n independent trials show no difference, the rate is below 3 / n with 95 % confidence; cases are "
+       "drawn independently from the soak test's own distribution, but frames of one case, and pixels of one "
+       "frame, show the same triangles, so the bounds per frame and per pixel also assume that these fail "
+       "independently"}};
 }
 
-// The library would turn a negative or fractional number into some count.
+// Rejects negative and fractional numbers, which the JSON library would convert silently.
 std::uint64_t count_in(const nlohmann::json& json, const char* key) {
   const nlohmann::json& value = json.at(key);
-  if (!value.is_number_unsigned()) throw std::invalid_argument(fmt::format("'{}' is no count", key));
+  if (!value.is_number_unsigned()) throw std::invalid_argument(fmt::format("'{}' is not a count", key));
   return value.get<std::uint64_t>();
 }
 
@@ -57,7 +57,7 @@ Shard shard_from(const nlohmann::json& json) {
   const Shard shard{count_in(json, "shard"), count_in(json, "of"), count_in(json, "cases")};
   constexpr std::uint64_t kEnd = std::uint64_t{1} << 63;
   if (shard.of == 0 || shard.of > kMostShards || shard.index >= shard.of || shard.cases >= kEnd / shard.of)
-    throw std::invalid_argument("a shard that cannot be");
+    throw std::invalid_argument("an impossible shard");
   return shard;
 }
 
@@ -83,9 +83,9 @@ Tally tally_from(const nlohmann::json& json) {
   tally.frontend_lists = count_in(json, "frontend_lists");
   tally.frames_differ = count_in(json, "frames_differ");
   tally.frontend_lists_differ = count_in(json, "frontend_lists_differ");
-  for (const auto& [category, shares] : json.at("by").items())
-    for (const auto& [label, share] : shares.items())
-      tally.by[category][label] = {count_in(share, "compared"), count_in(share, "differ")};
+  for (const auto& [category, counts] : json.at("by").items())
+    for (const auto& [label, count] : counts.items())
+      tally.by[category][label] = {count_in(count, "compared"), count_in(count, "differ")};
   return tally;
 }
 
@@ -102,7 +102,7 @@ Record record_from(const nlohmann::json& json) {
   json.at("findings").get_to(record.findings);
   json.at("machines").get_to(record.machines);
   if (record.shards.empty() || record.backends.empty() || record.machines.empty())
-    throw std::invalid_argument("nothing in it");
+    throw std::invalid_argument("it has no shards, no backends or no machines");
   for (const auto& machine : record.machines) program_of(machine);
   const auto cases = std::accumulate(record.shards.begin(), record.shards.end(), std::uint64_t{0},
                                      [](std::uint64_t sum, const Shard& s) { return sum + s.cases; });
@@ -110,7 +110,7 @@ Record record_from(const nlohmann::json& json) {
   return record;
 }
 
-// Null for what is no record of a soak at all.
+// Null if the file is not a record of a soak test.
 nlohmann::json parse(const std::filesystem::path& path) {
   InputFile file = open_input(path);
   nlohmann::json json = nlohmann::json::parse(file.stream, nullptr, false);
@@ -127,8 +127,8 @@ void check_alike(const Record& a, const Record& b) {
     throw std::invalid_argument(fmt::format("they have different seeds, {} and {}", a.seed, b.seed));
   const std::string program = program_of(a.machines.front()), other = program_of(b.machines.front());
   if (program != other)
-    throw std::invalid_argument(fmt::format("they are of different programs: {}, and {}", program, other));
-  if (a.backends != b.backends) throw std::invalid_argument("they judged different backends");
+    throw std::invalid_argument(fmt::format("they come from different programs: {}, and {}", program, other));
+  if (a.backends != b.backends) throw std::invalid_argument("they compared different backends");
 }
 
 }  // namespace
@@ -140,7 +140,7 @@ double bound_on(std::uint64_t trials) {
 bool overlap(const Shard& a, const Shard& b) {
   if (a.cases > b.cases) return overlap(b, a);
   const std::uint64_t apart = a.index > b.index ? a.index - b.index : b.index - a.index;
-  if (apart % std::gcd(a.of, b.of) != 0) return false;  // never meet
+  if (apart % std::gcd(a.of, b.of) != 0) return false;  // no common number
   const auto holds = [](const Shard& s, std::uint64_t number) {
     return number >= s.index && (number - s.index) % s.of == 0 && (number - s.index) / s.of < s.cases;
   };
@@ -176,7 +176,7 @@ nlohmann::json to_json(const Record& r) {
                       {"frontend_lists_differ", r.tally.frontend_lists_differ},
                       {"differences", r.tally.differences()},
                       {"bounds_95", bounds_json(r.tally)},
-                      {"by", shares_json(r.tally)},
+                      {"by", counts_json(r.tally)},
                       {"findings", r.findings},
                       {"machines", r.machines}};
   for (const Shard& s : r.shards)
@@ -191,23 +191,23 @@ bool is_record(const std::filesystem::path& path) {
 
 Record read_record(const std::filesystem::path& path) {
   const nlohmann::json json = parse(path);
-  if (json.is_null()) throw file_error(path, "is not a record of a soak");
+  if (json.is_null()) throw file_error(path, "is not a record of a soak test");
   if (!json.contains("sequence") || json["sequence"] != kSequence)
-    throw file_error(path, fmt::format("is of another sequence of cases; this program's is {}", kSequence));
+    throw file_error(path, fmt::format("has another sequence of cases; this program's is {}", kSequence));
   try {
     return record_from(json);
   } catch (const std::exception& error) {
-    throw file_error(path, fmt::format("is not a whole record of a soak: {}", error.what()));
+    throw file_error(path, fmt::format("is not a complete record of a soak test: {}", error.what()));
   }
 }
 
 Record continued(Record record, const Record& fresh) {
   if (record.shards.size() != 1)
-    throw std::invalid_argument("it was merged from several shards, none of which can be continued");
+    throw std::invalid_argument("it was merged from several shards and cannot be continued");
   check_alike(record, fresh);
   const Shard &mine = record.shards.front(), &wanted = fresh.shards.front();
   if (mine.index != wanted.index || mine.of != wanted.of)
-    throw std::invalid_argument(fmt::format("it is of shard {}, not {}", name_of(mine), name_of(wanted)));
+    throw std::invalid_argument(fmt::format("it holds shard {}, not {}", name_of(mine), name_of(wanted)));
   for (const auto& machine : fresh.machines) add_machine(record.machines, machine);
   return record;
 }

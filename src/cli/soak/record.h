@@ -1,5 +1,4 @@
-// What a soak leaves behind: which cases were drawn and what came out, as JSON that can be continued and
-// added up.
+// The record of a soak test: the cases drawn and their results, as JSON that can be continued and merged.
 #pragma once
 
 #include <cstdint>
@@ -22,41 +21,41 @@ struct Shard {
 };
 inline constexpr std::uint64_t kMostShards = std::uint64_t{1} << 40;
 
-// Have they a finished case in common?
+// Whether two shards share a finished case.
 bool overlap(const Shard& a, const Shard& b);
 
 struct Record {
   std::uint64_t seed = 1;
   std::vector<Shard> shards;
   Tally tally;
-  double seconds = 0.0;                  // of all runs together
+  double seconds = 0.0;                  // sum over all runs
   std::vector<std::string> backends;     // the reference first
   std::vector<nlohmann::json> findings;  // at most kMostFindings
-  std::vector<nlohmann::json> machines;  // those that drew, each once
+  std::vector<nlohmann::json> machines;  // descriptions of the machines that drew, without duplicates
 };
 inline constexpr std::size_t kMostFindings = 20;
 
-// A record of this program on this machine, with nothing done yet.
+// An empty record of this program on this machine.
 Record new_record(std::uint64_t seed, const Shard& shard, const std::vector<std::string>& backends);
 
 nlohmann::json to_json(const Record& record);
 
-// The rates of differences that none in `trials` excludes with 95 % confidence; at most 1.
+// The 95 % upper bound of the difference rate after no difference in `trials`; at most 1.
 double bound_on(std::uint64_t trials);
 
-// Is there a file that a soak wrote, whole or not, of whatever sequence?
+// Whether the file is a record of a soak test, complete or not, of any sequence.
 bool is_record(const std::filesystem::path& path);
 
-// Throws std::runtime_error that names the file: missing, no JSON, no record of a soak, or one of another
-// sequence of cases.
+// Throws std::runtime_error that names the file if it is missing, not JSON, not a complete record, or of
+// another sequence of cases.
 Record read_record(const std::filesystem::path& path);
 
-// Throws std::invalid_argument that says why two records don't add up: different seeds, programs (version and
-// commit) or backends, or cases that are in both.
+// Adds `other` to `record`. Throws std::invalid_argument with the reason if they cannot be merged: different
+// seeds, programs (version and commit) or backends, or shared cases.
 void merge(Record& record, const Record& other);
 
-// A record of one shard, to go on where it ended, with `fresh` (see new_record) saying who goes on. Throws
-// std::invalid_argument if that is not the same soak.
+// Prepares the record of one shard for continuation by the machine of `fresh` (see new_record). Throws
+// std::invalid_argument unless both have the same shard, seed, program and backends.
 Record continued(Record record, const Record& fresh);
 
 }  // namespace edgewise::soak

@@ -1,5 +1,5 @@
-// The smallest list that still fails, or nearly: delta debugging (Zeller and Hildebrandt, "Simplifying and
-// isolating failure-inducing input", 2002), without its complements.
+// Reduces a failing list to a nearly minimal one: delta debugging (Zeller and Hildebrandt, "Simplifying and
+// isolating failure-inducing input", 2002) that tests complements only, not the subsets themselves.
 #pragma once
 
 #include <algorithm>
@@ -8,9 +8,8 @@
 
 namespace edgewise::soak {
 
-// Leaves out ever smaller parts, half of the list first and single elements last, as long as fails(list)
-// holds without them. Order is kept. `list` itself must fail; at most `most_attempts` calls are made, and
-// none once stop() holds.
+// Removes parts while fails(list) holds without them: first halves of the list, at last single elements. The
+// order is kept. `list` itself must fail. Makes at most `most_attempts` calls, and none once stop() is true.
 template <typename T, typename Fails, typename Stop>
 std::vector<T> reduce(std::vector<T> list, int most_attempts, const Fails& fails, const Stop& stop) {
   for (std::size_t part = (list.size() + 1) / 2; part > 0; part = part == 1 ? 0 : (part + 1) / 2)

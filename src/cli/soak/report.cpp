@@ -30,9 +30,9 @@ std::string table(const Tally& tally, const std::string& category, const char* t
   const auto found = tally.by.find(category);
   if (found == tally.by.end()) return {};
   std::string text = fmt::format("{:<32} {:>15} {:>9}\n", title, "compared", "differ");
-  for (const auto& [label, share] : found->second)
-    text += fmt::format("  {:<30} {:>15} {:>9}\n", printable_within(label, 30), with_commas(share.compared),
-                        with_commas(share.differ));
+  for (const auto& [label, count] : found->second)
+    text += fmt::format("  {:<30} {:>15} {:>9}\n", printable_within(label, 30), with_commas(count.compared),
+                        with_commas(count.differ));
   return text;
 }
 
@@ -41,7 +41,7 @@ std::string text_of(const nlohmann::json& json, const char* key) {
   return printable(json[key].is_string() ? json[key].get<std::string>() : json[key].dump());
 }
 
-// Findings may come from a file that somebody edited: nothing is taken for granted.
+// Checks every key, because findings may come from an edited file.
 std::string explain(const nlohmann::json& f) {
   std::string text =
       fmt::format("case {} ({}, {}x{}): {} differs from {}\n", text_of(f, "case"), text_of(f, "family"),
@@ -49,19 +49,19 @@ std::string explain(const nlohmann::json& f) {
   text += fmt::format("  {} threads, {}", text_of(f, "threads"), text_of(f, "simd_target"));
   if (f.contains("pixels"))
     text += fmt::format(
-        ", tile {}, ablation: '{}', rows {} px apart and {} px off a cache line\n"
+        ", tile {}, ablation: '{}', row padding {} px, first row {} px off a cache line\n"
         "  in {} pixels, the first at {}; words written beside the image: {}",
         text_of(f, "tile_size"), text_of(f, "ablation"), text_of(f, "row_padding"), text_of(f, "row_offset"),
         text_of(f, "pixels"), text_of(f, "first"), text_of(f, "written_outside"));
   text += '\n';
   if (f.contains("file"))
-    text += fmt::format("  {} triangles of {} still differ: {}\n", text_of(f, "reduced_to"),
+    text += fmt::format("  reduced to {} of {} triangles: {}\n", text_of(f, "reduced_to"),
                         text_of(f, "triangles"), text_of(f, "file"));
   if (f.contains("trouble")) text += fmt::format("  no file: {}\n", text_of(f, "trouble"));
   if (f.contains("replay") && f["replay"].is_array())
     for (const auto& command : f["replay"])
       if (command.is_string())
-        text += fmt::format("  see it again: {}\n", printable(command.get<std::string>()));
+        text += fmt::format("  reproduce: {}\n", printable(command.get<std::string>()));
   return text;
 }
 
@@ -72,10 +72,8 @@ std::string shards_of(const Record& r) {
 
 std::string bounds(const Tally& t) {
   return fmt::format(
-      "With 95 % confidence a frame differs in fewer than {:.2g} of all, and a pixel in fewer than {:.2g}, "
-      "if "
-      "they\nfail independently (3/n for none in n); counted by cases alone, which are independent: "
-      "{:.2g}.\n",
+      "With 95 % confidence fewer than {:.2g} of all frames and {:.2g} of all pixels differ, if these fail\n"
+      "independently (3/n for none in n trials). Cases are independent: fewer than {:.2g} of them differ.\n",
       bound_on(t.frames), bound_on(t.pixels), bound_on(t.cases));
 }
 
@@ -89,10 +87,10 @@ std::string report(const Record& r) {
   for (const auto& finding : r.findings) text += explain(finding);
   text += fmt::format("Seed {}, {}: {} cases in {}.\n", r.seed, shards_of(r), with_commas(t.cases),
                       duration(r.seconds));
-  text += fmt::format("{} frames of {} triangles and {} pixels in all, compared bit for bit with {}\n",
+  text += fmt::format("{} frames ({} triangles and {} pixels in all) were compared bit for bit with {}\n",
                       with_commas(t.frames), with_commas(t.triangles), with_commas(t.pixels),
                       printable(r.backends.front()));
-  text += fmt::format("or, {} of them, with the oracle; and {} lists of the front end: ",
+  text += fmt::format("or, {} of them, with the oracle; also {} triangle lists of the front end: ",
                       with_commas(t.oracle_frames), with_commas(t.frontend_lists));
   if (t.differences() != 0) return text + fmt::format("{} DIFFER.\n", with_commas(t.differences()));
   text += "no bit differs.\n";

@@ -1,4 +1,4 @@
-// A soak's record for people.
+// The record of a soak test as text.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace edgewise::soak {
 
-// What was covered, in a table of the families and one of backends and SIMD targets; what differs and how to
-// see it again; how it ended, with the statistical bound.
+// Tables of comparisons per family, per backend and SIMD target, and per front-end SIMD target; the findings
+// with the commands that reproduce them; totals, and the 95 % upper bounds if nothing differs.
 std::string report(const Record& record);
 
 }  // namespace edgewise::soak

@@ -1,5 +1,5 @@
-// As in triangles.cpp, the same on every machine: powers of two instead of pow, and one random number a
-// statement.
+// Scenes are identical on every machine, as in triangles.cpp: powers of two instead of pow, and one random
+// number per statement.
 #include "cli/soak/scenes.h"
 
 #include <array>
@@ -11,7 +11,7 @@ namespace edgewise::soak {
 
 namespace {
 
-// From 2^low to 2^high, each power of two as likely as the others.
+// A number from 2^low to 2^high, uniform in its exponent.
 float magnitude(Random& random, int low, int high) {
   const int exponent = low + static_cast<int>(random.below(static_cast<std::uint64_t>(high - low)));
   return std::ldexp(random.uniform(1.0f, 2.0f), exponent);
@@ -30,7 +30,7 @@ std::uint32_t colour(Random& random) {
   return static_cast<std::uint32_t>(random.next() >> 32);
 }
 
-// Now and then not finite, or near the end of floats.
+// Sets a coordinate to NaN or infinity, or scales v to near the float maximum, with 1 % probability each.
 glm::vec3 spoiled(Random& random, glm::vec3 v) {
   const auto dice = random.below(100);
   const int axis = static_cast<int>(random.below(3));
@@ -40,8 +40,8 @@ glm::vec3 spoiled(Random& random, glm::vec3 v) {
   return v;
 }
 
-// Enough for threads and several runs in one of sixteen.
-std::size_t some(Random& random, std::size_t most) {
+// A triangle count. One in sixteen is large enough for several threads and chunks.
+std::size_t random_count(Random& random, std::size_t most) {
   return one_in(random, 16) ? 9000 + random.below(6000) : 1 + random.below(most);
 }
 
@@ -59,11 +59,11 @@ Camera random_camera(Random& random, glm::vec3 position) {
 Drawable stream(Random& random, int width, int height) {
   TriangleStream result{width, height, {}};
   const bool wild = one_in(random, 2);
-  for (std::size_t i = some(random, 300); i > 0; --i) {
+  for (std::size_t i = random_count(random, 300); i > 0; --i) {
     StreamTriangle& t = result.triangles.emplace_back();
     const float x = random.uniform(-20.0f, static_cast<float>(width) + 20.0f);
     const float y = random.uniform(-20.0f, static_cast<float>(height) + 20.0f);
-    const bool may_be_cut = wild && one_in(random, 4);  // by the guard band or the planes of depth
+    const bool may_be_cut = wild && one_in(random, 4);  // by the guard band or the near or far plane
     const float reach = magnitude(random, -7, may_be_cut ? 20 : 7);
     for (glm::vec3& v : t.vertex) {
       const glm::vec3 offset = in_cube(random, reach);
@@ -77,7 +77,7 @@ Drawable stream(Random& random, int width, int height) {
   return result;
 }
 
-// Triangles between vertices at all distances, which every plane of the view cuts.
+// Triangles between vertices at all distances, so that every frustum plane clips some.
 Mesh soup_mesh(Random& random, bool spoil) {
   Mesh mesh;
   const int low = -10 + static_cast<int>(random.below(10)),
@@ -86,7 +86,7 @@ Mesh soup_mesh(Random& random, bool spoil) {
     const glm::vec3 position = in_cube(random, magnitude(random, low, high));
     mesh.positions.push_back(spoil ? spoiled(random, position) : position);
   }
-  for (std::size_t i = some(random, 120); i > 0; --i) {
+  for (std::size_t i = random_count(random, 120); i > 0; --i) {
     const auto vertex = [&] { return static_cast<unsigned>(random.below(mesh.positions.size())); };
     const unsigned a = vertex(), b = vertex(), c = vertex();
     mesh.triangles.emplace_back(a, b, c);
@@ -100,7 +100,7 @@ Drawable soup(Random& random, int, int) {
   scene.meshes.push_back(soup_mesh(random, one_in(random, 4)));
   for (std::size_t i = 1 + random.below(3); i > 0; --i) {
     Instance& instance = scene.instances.emplace_back();
-    if (one_in(random, 2)) continue;  // as it is
+    if (one_in(random, 2)) continue;  // identity transform
     instance.scale = in_cube(random, 2.0f);
     instance.axis = in_cube(random, 1.0f);
     instance.angle = random.uniform(-4.0f, 4.0f);
@@ -111,7 +111,7 @@ Drawable soup(Random& random, int, int) {
   return scene;
 }
 
-// A bumpy sheet all around the camera, which stands a little over it, under it, or in one of its vertices.
+// A bumpy sheet around the camera, which is a little above it, below it, or at one of its vertices.
 Drawable inside(Random& random, int, int) {
   const unsigned side = 1 + static_cast<unsigned>(random.below(one_in(random, 16) ? 80 : 14));
   const float extent = magnitude(random, 0, 8), height = extent * random.uniform(0.0f, 0.5f);
@@ -119,10 +119,10 @@ Drawable inside(Random& random, int, int) {
   Mesh& mesh = scene.meshes.emplace_back();
   for (unsigned row = 0; row <= side; ++row)
     for (unsigned column = 0; column <= side; ++column) {
-      const auto place = [&](unsigned i) {
+      const auto coordinate = [&](unsigned i) {
         return extent * (static_cast<float>(i) / static_cast<float>(side) - 0.5f);
       };
-      mesh.positions.emplace_back(place(column), random.uniform(-height, height), place(row));
+      mesh.positions.emplace_back(coordinate(column), random.uniform(-height, height), coordinate(row));
     }
   for (unsigned row = 0; row < side; ++row)
     for (unsigned column = 0; column < side; ++column) {
@@ -132,15 +132,15 @@ Drawable inside(Random& random, int, int) {
       for (int i = 0; i < 2; ++i) mesh.colours.push_back(colour(random));
     }
   scene.instances.push_back({});
-  glm::vec3 eye = in_cube(random, 0.4f * extent);
-  eye.y = random.uniform(-1.5f, 1.5f) * height;
-  if (one_in(random, 8)) eye = mesh.positions[random.below(mesh.positions.size())];
-  scene.camera = random_camera(random, eye);
+  glm::vec3 camera = in_cube(random, 0.4f * extent);
+  camera.y = random.uniform(-1.5f, 1.5f) * height;
+  if (one_in(random, 8)) camera = mesh.positions[random.below(mesh.positions.size())];
+  scene.camera = random_camera(random, camera);
   scene.camera.pitch *= 0.3f;
   return scene;
 }
 
-// Boxes of all sizes, some around the camera, some of them flat or turned inside out by their scale.
+// Boxes of all sizes, some around the camera, some flattened or mirrored by their scale.
 Drawable boxes(Random& random, int, int) {
   Scene scene;
   Mesh& mesh = scene.meshes.emplace_back();
@@ -168,7 +168,7 @@ Drawable boxes(Random& random, int, int) {
 
 std::span<const SceneFamily> scene_families() {
   static constexpr std::array kFamilies = {
-      SceneFamily{"stream", stream},  // a stream that the guard band and both planes of depth cut, with NaN
+      SceneFamily{"stream", stream},  // cut by the guard band, near and far plane, with NaN
       SceneFamily{"soup", soup},      // triangles between vertices at all distances, with NaN
       SceneFamily{"inside", inside},  // a bumpy sheet around the camera
       SceneFamily{"boxes", boxes},    // boxes of all sizes, some around the camera

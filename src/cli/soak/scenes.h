@@ -1,4 +1,5 @@
-// Families of whole scenes, which go through the front end: the second half of what a soak draws.
+// Families of random scenes that go through the front end; the other pictures of a soak test are triangle
+// lists (triangles.h).
 #pragma once
 
 #include <span>

@@ -7,10 +7,10 @@ Tally& Tally::operator+=(const Tally& o) {
   frames += o.frames, triangles += o.triangles, pixels += o.pixels, oracle_frames += o.oracle_frames;
   frontend_lists += o.frontend_lists;
   frames_differ += o.frames_differ, frontend_lists_differ += o.frontend_lists_differ;
-  for (const auto& [category, shares] : o.by)
-    for (const auto& [label, share] : shares) {
-      Share& mine = by[category][label];
-      mine.compared += share.compared, mine.differ += share.differ;
+  for (const auto& [category, counts] : o.by)
+    for (const auto& [label, count] : counts) {
+      Count& sum = by[category][label];
+      sum.compared += count.compared, sum.differ += count.differ;
     }
   return *this;
 }

@@ -1,4 +1,4 @@
-// What a soak has counted. Adding up is all that merging and resuming need.
+// The counts of a soak test. Merging and resuming add them up.
 #pragma once
 
 #include <cstdint>
@@ -7,9 +7,9 @@
 
 namespace edgewise::soak {
 
-struct Share {
+struct Count {
   std::uint64_t compared = 0, differ = 0;  // frames, or triangle lists of the front end
-  bool operator==(const Share&) const = default;
+  bool operator==(const Count&) const = default;
 };
 
 struct Tally {
@@ -20,14 +20,14 @@ struct Tally {
   std::uint64_t oracle_frames = 0;   // of these frames, those that the oracle judged
   std::uint64_t frontend_lists = 0;  // made by the front end, and compared bit for bit
   std::uint64_t frames_differ = 0, frontend_lists_differ = 0;
-  // "family", "backend_simd_target", … → "tiled, avx2", … → how many of the above
-  std::map<std::string, std::map<std::string, Share>> by;
+  // "family", "backend_simd_target", … → "tiled, avx2", … → how many frames or lists
+  std::map<std::string, std::map<std::string, Count>> by;
 
   std::uint64_t differences() const { return frames_differ + frontend_lists_differ; }
   void count(const std::string& category, const std::string& label, bool differs) {
-    Share& share = by[category][label];
-    ++share.compared;
-    if (differs) ++share.differ;
+    Count& counted = by[category][label];
+    ++counted.compared;
+    if (differs) ++counted.differ;
   }
   Tally& operator+=(const Tally& other);
   bool operator==(const Tally&) const = default;

@@ -1,6 +1,6 @@
-// All arithmetic is whole numbers, or floats that every machine rounds alike, so that a list is the same
-// everywhere. What draws two random numbers does so in two statements: the order in which a function's
-// arguments are evaluated is the compiler's choice.
+// Lists are identical on every machine: all arithmetic is on integers, or on floats that every machine rounds
+// alike. Two random numbers are drawn in two statements, because the evaluation order of function arguments
+// is unspecified.
 #include "cli/soak/triangles.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ struct Point {
   std::uint32_t z;    // contract units
 };
 
-// How the depths of one list are spread.
+// The depth distribution of one list.
 enum class Depths { floats, units, few, close, ends };
 
 class ListMaker {
@@ -65,7 +65,7 @@ class ListMaker {
     };
     return {within(x), within(y), depth()};
   }
-  // Somewhere over the image, or up to `beyond` sub-units beside it.
+  // A point on the image or up to `beyond` sub-units outside it.
   Point over_image(std::int32_t beyond = 0) {
     const std::int32_t x = between(-beyond, width_sub_ + beyond);
     return at(x, between(-beyond, height_sub_ + beyond));
@@ -78,8 +78,8 @@ class ListMaker {
   void add(const Point& a, const Point& b, const Point& c) {
     list_.push_back({{a.x, b.x, c.x}, {a.y, b.y, c.y}, {a.z, b.z, c.z}, 0});
   }
-  // With the vertices in one of their six orders.
-  void add_turned(Point a, Point b, Point c) {
+  // Adds a triangle with its vertices in random order.
+  void add_permuted(Point a, Point b, Point c) {
     const int order = between(0, 5);
     if (order % 2 == 1) std::swap(b, c);
     if (order / 2 >= 1) std::swap(a, b);
@@ -113,7 +113,7 @@ void slivers(ListMaker& m) {
   const std::int32_t thickness = m.between(1, 40), beyond = m.between(0, 200) * kSub;
   for (int i = m.count(200); i > 0; --i) {
     const Point a = m.over_image(beyond), b = m.over_image(beyond);
-    m.add_turned(a, b, m.near(b, thickness));
+    m.add_permuted(a, b, m.near(b, thickness));
   }
 }
 
@@ -130,9 +130,9 @@ void huge(ListMaker& m) {
 
 void guard_band(ListMaker& m) {
   const auto extreme = [&](std::int32_t side_sub) {
-    const std::array<std::int32_t, 8> places{-kGuardSub, -kGuardSub + 1, kGuardSub,    kGuardSub - 1,
-                                             0,          side_sub,       side_sub / 2, side_sub - 1};
-    return places[static_cast<std::size_t>(m.between(0, 7))];
+    const std::array<std::int32_t, 8> extremes{-kGuardSub, -kGuardSub + 1, kGuardSub,    kGuardSub - 1,
+                                               0,          side_sub,       side_sub / 2, side_sub - 1};
+    return extremes[static_cast<std::size_t>(m.between(0, 7))];
   };
   const auto corner = [&] {
     const std::int32_t x = extreme(m.width_sub());
@@ -146,10 +146,12 @@ void guard_band(ListMaker& m) {
 
 // Vertices on multiples of `step` sub-units, `phase` away from the image's corner.
 void on_lattice(ListMaker& m, std::int32_t step, std::int32_t phase) {
-  const auto place = [&](std::int32_t side_sub) { return m.between(-2, side_sub / step + 2) * step + phase; };
+  const auto coordinate = [&](std::int32_t side_sub) {
+    return m.between(-2, side_sub / step + 2) * step + phase;
+  };
   const auto point = [&] {
-    const std::int32_t x = place(m.width_sub());
-    return m.at(x, place(m.height_sub()));
+    const std::int32_t x = coordinate(m.width_sub());
+    return m.at(x, coordinate(m.height_sub()));
   };
   for (int i = m.count(200); i > 0; --i) {
     const Point a = point(), b = point();
@@ -166,7 +168,7 @@ void pixel_centres(ListMaker& m) {
   on_lattice(m, kSub << m.between(0, 3), kHalf);
 }
 
-// Neighbours share their vertices; with much jitter the cells fold over one another.
+// Neighbouring cells share vertices; with large jitter they fold over one another.
 void grid(ListMaker& m) {
   const int columns = m.count(24), rows = m.count(24);
   const std::int32_t cell = std::max(m.width_sub() / columns, m.height_sub() / rows);
@@ -188,42 +190,42 @@ void grid(ListMaker& m) {
         return points[static_cast<std::size_t>((row + down) * (columns + 1) + column + right)];
       };
       const bool falling = m.one_in(2);
-      m.add_turned(corner(0, 0), corner(1, 0), falling ? corner(1, 1) : corner(0, 1));
-      m.add_turned(corner(1, 1), corner(0, 1), falling ? corner(0, 0) : corner(1, 0));
+      m.add_permuted(corner(0, 0), corner(1, 0), falling ? corner(1, 1) : corner(0, 1));
+      m.add_permuted(corner(1, 1), corner(0, 1), falling ? corner(0, 0) : corner(1, 0));
     }
   if (m.one_in(2)) m.shuffle();
 }
 
-// Spokes from one point to a square around it: many edges through one vertex.
+// A fan from one point to a square around it: many edges share one vertex.
 void fan(ListMaker& m) {
   const Point centre = m.over_image();
   const std::int64_t reach = std::int64_t{1} << m.between(2, 21);
-  std::vector<std::int32_t> places;
-  for (int i = 2 + m.count(60); i > 0; --i) places.push_back(m.between(0, 8 * reach - 1));
-  std::sort(places.begin(), places.end());
+  std::vector<std::int32_t> perimeter;  // positions along the square's outline
+  for (int i = 2 + m.count(60); i > 0; --i) perimeter.push_back(m.between(0, 8 * reach - 1));
+  std::sort(perimeter.begin(), perimeter.end());
   std::vector<Point> ring;
-  for (const std::int64_t place : places) {
-    const std::int64_t side = place / (2 * reach), along = place % (2 * reach) - reach;
+  for (const std::int64_t position : perimeter) {
+    const std::int64_t side = position / (2 * reach), along = position % (2 * reach) - reach;
     const std::int64_t dx = side == 0 ? along : side == 1 ? reach : side == 2 ? -along : -reach;
     const std::int64_t dy = side == 0 ? -reach : side == 1 ? along : side == 2 ? reach : -along;
     ring.push_back(m.at(centre.x + dx, centre.y + dy));
   }
-  for (std::size_t i = 0; i < ring.size(); ++i) m.add_turned(centre, ring[i], ring[(i + 1) % ring.size()]);
+  for (std::size_t i = 0; i < ring.size(); ++i) m.add_permuted(centre, ring[i], ring[(i + 1) % ring.size()]);
 }
 
-// The same triangle again and again, and others in its plane.
+// Repeated triangles, and others at equal depths.
 void ties(ListMaker& m) {
   m.depths() = m.one_in(2) ? Depths::few : Depths::ends;
   const std::uint32_t level = m.depth();
   for (int i = m.count(20); i > 0; --i) {
     Point a = m.over_image(10 * kSub), b = m.over_image(10 * kSub), c = m.over_image(10 * kSub);
     if (m.one_in(2)) a.z = b.z = c.z = level;
-    for (int copies = m.count(6); copies > 0; --copies) m.add_turned(a, b, c);
+    for (int copies = m.count(6); copies > 0; --copies) m.add_permuted(a, b, c);
   }
   m.shuffle();
 }
 
-// A depth range of all that there is within a few pixels, and within less than one.
+// The full depth range within a few pixels, and within less than one.
 void steep(ListMaker& m) {
   m.depths() = Depths::ends;
   const std::int32_t reach = kSub << m.between(0, 6) >> m.between(0, 6);
@@ -233,7 +235,7 @@ void steep(ListMaker& m) {
   }
 }
 
-// Few of them meet a sample. In one list of eight they fill several chunks of bins.
+// Few of these triangles cover a sample. One list in eight fills several chunks of the tiled backend.
 void cloud(ListMaker& m) {
   const std::int32_t reach = m.between(1, 700);
   for (int i = m.one_in(8) ? 8000 + m.count(12'000) : m.count(2000); i > 0; --i) {
@@ -246,12 +248,12 @@ void mixed(ListMaker& m) {
   for (int i = m.count(200); i > 0; --i) {
     const std::int32_t reach = 1 << m.between(0, 22);
     const Point a = m.over_image(kSub), b = m.near(a, reach);
-    m.add_turned(a, b, m.near(a, m.one_in(2) ? reach : 2 * kSub));
+    m.add_permuted(a, b, m.near(a, m.one_in(2) ? reach : 2 * kSub));
   }
 }
 
-// Points, doubled vertices, three in a row, some of them moved by the least that gives them area; and others
-// among them, whose places in a vector they must not take.
+// Points, doubled vertices, three collinear vertices, some of them moved by one sub-unit to get an area.
+// Triangles with area are mixed in: in a SIMD batch, a degenerate one must not displace them.
 void degenerate(ListMaker& m) {
   for (int i = m.count(300); i > 0; --i) {
     const Point a = m.over_image(5 * kSub);
@@ -262,12 +264,12 @@ void degenerate(ListMaker& m) {
     if (kind == 1) c = b;
     if (kind == 2) c = m.near(c, 1);
     if (kind == 3) c = m.near(c, 20 * kSub);
-    m.add_turned(a, b, c);
+    m.add_permuted(a, b, c);
   }
 }
 
-// Edges that cross few rows in many pixels, or few columns: about where stepping them gives way to another
-// way.
+// Edges almost parallel to a row or a column. Half of them have a slope around 4096 px per row, the limit
+// from which edges take another path (src/raster/README.md).
 void flat(ListMaker& m) {
   const bool upright = m.one_in(2);
   for (int i = m.count(150); i > 0; --i) {
@@ -275,7 +277,7 @@ void flat(ListMaker& m) {
     const std::int64_t rise = m.between(-600, 600);
     const std::int64_t run = rise * (m.one_in(2) ? m.between(4090, 4102) : m.between(1, 20'000));
     const Point b = upright ? m.at(a.x + rise, a.y + run) : m.at(a.x + run, a.y + rise);
-    m.add_turned(a, b, m.near(a, m.between(1, 60) * kSub));
+    m.add_permuted(a, b, m.near(a, m.between(1, 60) * kSub));
   }
 }
 
@@ -290,7 +292,7 @@ std::vector<ScreenTriangle> make(Random& random, int width, int height) {
 
 std::span<const TriangleFamily> triangle_families() {
   static constexpr std::array kFamilies = {
-      TriangleFamily{"uniform", make<uniform>},  // vertices anywhere over the image and a little beside it
+      TriangleFamily{"uniform", make<uniform>},  // vertices anywhere on the image and a little outside it
       TriangleFamily{"slivers", make<slivers>},  // long, and up to 40 sub-units thick
       TriangleFamily{"huge", make<huge>},        // vertices anywhere in the guard band
       TriangleFamily{"guard-band",
@@ -300,11 +302,11 @@ std::span<const TriangleFamily> triangle_families() {
       TriangleFamily{"grid", make<grid>},                    // shared edges: a grid, jittered or folded
       TriangleFamily{"fan", make<fan>},                      // shared edges: many through one vertex
       TriangleFamily{"ties", make<ties>},                    // equal depths, and triangles drawn again
-      TriangleFamily{"steep", make<steep>},                  // the whole range of depth within a few pixels
+      TriangleFamily{"steep", make<steep>},                  // the full depth range within a few pixels
       TriangleFamily{"cloud", make<cloud>},  // very many that are smaller than a pixel, or little larger
       TriangleFamily{"mixed", make<mixed>},  // all sizes from a sub-unit to the guard band
-      TriangleFamily{"degenerate", make<degenerate>},  // no area, or the least that there is
-      TriangleFamily{"flat", make<flat>},              // edges almost along a row or a column
+      TriangleFamily{"degenerate", make<degenerate>},  // no area, or a minimal one
+      TriangleFamily{"flat", make<flat>},              // edges almost parallel to a row or a column
   };
   return kFamilies;
 }

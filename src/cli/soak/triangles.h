@@ -1,4 +1,5 @@
-// Families of triangle lists that are hard for a rasterizer: the first half of what a soak draws.
+// Families of random triangle lists that are hard for a rasterizer; the other pictures of a soak test are
+// scenes (scenes.h).
 #pragma once
 
 #include <span>
@@ -12,7 +13,7 @@ namespace edgewise::soak {
 
 struct TriangleFamily {
   std::string_view name;
-  // For an image of that size in pixels. All vertices lie in the guard band; payloads are indices.
+  // Sizes in pixels. All vertices lie in the guard band; payloads are indices.
   std::vector<ScreenTriangle> (*make)(Random& random, int width, int height);
 };
 

@@ -1,4 +1,4 @@
-// `edgewise stability`: where does each method start to fail?
+// `edgewise stability`: finds where each method starts to fail.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
@@ -73,30 +73,30 @@ int stability_command(const StabilityOptions& o) {
 
 constexpr const char* kStabilityFooter = R"(Examples:
   edgewise stability --quick
-  edgewise stability --json stability.json       the whole run: minutes
+  edgewise stability --json stability.json       all sweeps (minutes)
   edgewise stability legs separation_at_100
 
-A sweep turns one thing about a scene from easy to hard and counts the errors of each method of a family,
-against the exact truth of the positions as they were given.
+A sweep varies one parameter of a scene from easy to hard. At each value it counts the errors of every method
+of a family against an exact reference for the given positions.
 
-Columns: the first place where the method fails, and how wrong it is there; the most wrong it is, and where
-that is; at how many places it fails. A method fails where it makes any error; where the truth knows positions
-before they are snapped to 1/256 px, where it makes more errors than an exact method does for having snapped.
-Where no error was seen at all, the rate at each place is below the bound after "<" with 95 % confidence (3
-over the least number of trials at a place).)";
+Columns: the first value where the method fails, and its error there; its largest error, and where; the number
+of values where it fails. A method fails where it makes any error. If the reference uses positions before
+snapping to 1/256 px, a method fails where it makes more errors than snapping alone causes.
+If no error was seen at all, the number after "<" is the 95 % upper bound of the rate at each value: 3 divided
+by the least number of trials at a value.)";
 
 }  // namespace
 
 void add_stability(CLI::App& program, Action& action) {
   CLI::App& command = *program.add_subcommand("stability", "Find where each method starts to fail");
   const auto o = std::make_shared<StabilityOptions>();
-  command.add_option("SWEEP", o->sweeps, "Sweeps of --list (all)");
-  command.add_flag("--quick", o->quick, "Fewer trials at each place");
-  command.add_flag("--list", o->list, "Name all sweeps");
+  command.add_option("SWEEP", o->sweeps, "Sweeps from --list (all)");
+  command.add_flag("--quick", o->quick, "Fewer trials per value");
+  command.add_flag("--list", o->list, "List all sweeps");
   command
       .add_option("--json", o->json, "Also write all results as JSON; - for stdout, instead of the tables")
       ->type_name("FILE");
-  add_integer(command, "--threads", o->threads, 1, kMaxThreads, "Threads (2); no result depends on them");
+  add_integer(command, "--threads", o->threads, 1, kMaxThreads, "Threads, which no result depends on (2)");
   command.footer(kStabilityFooter);
   command.callback([o, &action] { action = [o] { return stability_command(*o); }; });
 }

@@ -13,7 +13,7 @@ namespace {
 using lab::Measured;
 using lab::SweepResult;
 
-std::string place_text(double x) {
+std::string value_text(double x) {
   return x < 1.0 ? fmt::format("{:.4g}", x) : fmt::format("{:.7g}", x);
 }
 
@@ -34,7 +34,8 @@ struct Curve {
     for (std::size_t place = 0; place < result.at.size(); ++place) count += result.fails(method, place);
     return count;
   }
-  // Of the place with the fewest trials. They are not added up: the same scenes may stand at all places.
+  // 95 % upper bound of the rate, from the value with the fewest trials. Trials are not summed over values,
+  // because all values may use the same scenes.
   double bound() const {
     std::uint64_t fewest = result.at.front().methods[method].trials;
     for (const Measured& measured : result.at) fewest = std::min(fewest, measured.methods[method].trials);
@@ -55,11 +56,11 @@ std::string row(std::string_view name, const Curve& curve) {
         curve.y(static_cast<std::size_t>(std::find(places.begin(), places.end(), *start) - places.begin())));
   }
   const std::size_t worst = curve.worst();
-  const bool spotless = curve.y(worst) == 0.0;
+  const bool no_error = curve.y(worst) == 0.0;
   return fmt::format(
-      kRow, name, start ? place_text(*start) : "never", there,
-      spotless ? fmt::format("< {:.2g}", curve.bound()) : fmt::format("{:.4g}", curve.y(worst)),
-      spotless ? "" : place_text(result.sweep->places[worst]),
+      kRow, name, start ? value_text(*start) : "never", there,
+      no_error ? fmt::format("< {:.2g}", curve.bound()) : fmt::format("{:.4g}", curve.y(worst)),
+      no_error ? "" : value_text(result.sweep->places[worst]),
       fmt::format("{}/{}", curve.failing_places(), result.at.size()));
 }
 
@@ -68,16 +69,16 @@ std::string row(std::string_view name, const Curve& curve) {
 std::string stability_table(const SweepResult& result) {
   const lab::Sweep& sweep = *result.sweep;
   std::string text = fmt::format("{} ({}): {}\n", sweep.name, name_of(sweep.family), sweep.x.name);
-  text += fmt::format("  {}\n  {} to {}{}{}; {}\n", sweep.idea, place_text(sweep.places.front()),
-                      place_text(sweep.places.back()), sweep.x.unit.empty() ? "" : " ", sweep.x.unit,
+  text += fmt::format("  {}\n  {} to {}{}{}; {}\n", sweep.idea, value_text(sweep.places.front()),
+                      value_text(sweep.places.back()), sweep.x.unit.empty() ? "" : " ", sweep.x.unit,
                       sweep.y.name);
   double snapping = 0.0;
   for (const Measured& measured : result.at)
     snapping = std::max(snapping, result.y({measured.by_snapping, measured.methods.front().trials}));
   if (snapping > 0.0)
-    text += fmt::format("  up to {:.4g} by snapping to 1/256 px alone; only more than that is failing\n",
+    text += fmt::format("  snapping to 1/256 px alone causes up to {:.4g}; only more counts as failing\n",
                         snapping);
-  text += fmt::format(kRow, "method", "starts to fail", "there", "at most", "at", "places");
+  text += fmt::format(kRow, "method", "starts to fail", "error there", "max error", "at", "failing");
   const auto methods = methods_of(sweep.family);
   for (std::size_t i = 0; i < methods.size(); ++i) text += row(methods[i].name, {result, i});
   return text;

@@ -1,4 +1,4 @@
-// What sweeps found, for people (tables) and for machines (JSON).
+// Sweep results as tables and as JSON.
 #pragma once
 
 #include <nlohmann/json.hpp>
