@@ -1,4 +1,4 @@
-// Standard output and error: written without exceptions, judged once at the end.
+// Standard output and error. Writing throws nothing; errors are checked once at the end.
 #pragma once
 
 #include <string_view>
@@ -7,17 +7,17 @@ namespace edgewise::app {
 
 void print(std::string_view text);  // to stdout
 
-// Flushes stdout; false if anything since the start could not be written, as to a full disk. A reader that
-// has closed its end of a pipe wants no more: true.
+// Flushes stdout. False if any output since the start was lost, for example on a full disk. A pipe that its
+// reader has closed counts as success.
 bool stdout_is_whole();
 
-// "PROGRAM: MESSAGE" on stderr, always one line.
+// Prints "PROGRAM: MESSAGE" on stderr as one line; control characters become blanks.
 void print_error(std::string_view message, std::string_view program = "edgewise");
 
-// Whether a file descriptor leads to a terminal that obeys cursor controls; TERM=dumb names one that doesn't.
+// Whether a file descriptor is a terminal with cursor control; TERM=dumb or no TERM means none.
 bool moves_cursor(int descriptor);
 
-// Columns of the terminal behind a file descriptor; 80 where there is none.
+// The terminal's columns; 80 if the file descriptor is not a terminal.
 int terminal_width(int descriptor = 1);
 
 }  // namespace edgewise::app

@@ -1,12 +1,12 @@
-// JSON as text that can always be written.
+// JSON as valid UTF-8 text.
 #pragma once
 
 #include <string>
 
 namespace edgewise::app {
 
-// A file name may hold bytes that are not UTF-8, which dump() alone answers with an exception: they become
-// U+FFFD. `indent` as in dump().
+// Replaces bytes that are not UTF-8, as in file names, by U+FFFD, where plain dump() throws. `indent` as in
+// dump().
 template <typename Json>
 std::string json_text(const Json& json, int indent = -1) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);

@@ -26,7 +26,7 @@ namespace {
 
 constexpr const char* kUnknown = "unknown";
 
-// The standard output of a shell command, without the last newline; nothing if it failed.
+// The standard output of a shell command, without the last newline; none if the command fails.
 std::optional<std::string> output_of(const std::string& command) {
   FILE* pipe = popen((command + " 2>/dev/null").c_str(), "r");
   if (pipe == nullptr) return std::nullopt;
@@ -51,7 +51,7 @@ std::string first_line(const std::string& path) {
   return line;
 }
 
-// "key<separator>value" lines, the first of each key.
+// Reads "key<separator>value" lines; of repeated keys, the first counts.
 std::map<std::string, std::string> read_pairs(const std::string& path, char separator) {
   std::map<std::string, std::string> pairs;
   std::ifstream file(path);
@@ -59,9 +59,9 @@ std::map<std::string, std::string> read_pairs(const std::string& path, char sepa
     const auto at = line.find(separator);
     if (at == std::string::npos) continue;
     const auto trimmed = [](std::string text) {
-      const auto wanted = [](char c) { return c != ' ' && c != '\t' && c != '"'; };
-      text.erase(std::find_if(text.rbegin(), text.rend(), wanted).base(), text.end());
-      text.erase(text.begin(), std::find_if(text.begin(), text.end(), wanted));
+      const auto kept = [](char c) { return c != ' ' && c != '\t' && c != '"'; };
+      text.erase(std::find_if(text.rbegin(), text.rend(), kept).base(), text.end());
+      text.erase(text.begin(), std::find_if(text.begin(), text.end(), kept));
       return text;
     };
     pairs.emplace(trimmed(line.substr(0, at)), trimmed(line.substr(at + 1)));
@@ -78,15 +78,15 @@ long cores() {
   return std::max(1L, sysconf(_SC_NPROCESSORS_ONLN));
 }
 
-// Those that decide which kernels run and how fast.
+// The CPU features that affect the choice and speed of kernels.
 nlohmann::json cpu_features() {
-  constexpr std::array kOfInterest = {"sse4_1",   "sse4_2",   "avx",         "f16c",        "fma",
-                                      "bmi2",     "avx2",     "avx512f",     "avx512bw",    "avx512dq",
-                                      "avx512vl", "avx512cd", "avx512_vnni", "avx512_bf16", "gfni"};
+  constexpr std::array kRelevant = {"sse4_1",   "sse4_2",   "avx",         "f16c",        "fma",
+                                    "bmi2",     "avx2",     "avx512f",     "avx512bw",    "avx512dq",
+                                    "avx512vl", "avx512cd", "avx512_vnni", "avx512_bf16", "gfni"};
   std::istringstream words(value_of(read_pairs("/proc/cpuinfo", ':'), "flags"));
   const std::set<std::string> has{std::istream_iterator<std::string>(words), {}};
   nlohmann::json features = nlohmann::json::array();
-  for (const char* name : kOfInterest)
+  for (const char* name : kRelevant)
     if (has.contains(name)) features.push_back(name);
   return features;
 }
@@ -121,8 +121,8 @@ std::string compiler() {
 #endif
 }
 
-// Results are written while they are measured, so changes below results/ don't make the tree dirty.
-// A program that was installed cannot tell: the tree may have gone on, or be gone.
+// The commit of the source tree, or "unknown" for an installed program, whose source tree may have changed.
+// Changes below results/ don't count as dirty, because results are written during measurements.
 std::string commit() {
   namespace fs = std::filesystem;
   std::error_code failed;

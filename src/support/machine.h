@@ -1,4 +1,4 @@
-// The machine and the build that a result comes from.
+// Describes the machine and the build of a result.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -10,8 +10,8 @@ namespace edgewise::app {
 // source tree's git at run time, "-dirty" appended), package versions, SIMD targets. No host name.
 nlohmann::json machine_description();
 
-// As the system tells, and where it tells them with CPUID's family and model, since virtual machines have one
-// name for many: "AMD EPYC (family 25, model 17)".
+// The system's model name, with CPUID family and model if known, because virtual machines use one name for
+// many CPUs: "AMD EPYC (family 25, model 17)".
 std::string cpu_model(const std::string& cpuinfo = "/proc/cpuinfo");
 
 // The folder below results/ for this machine, for example "amd-epyc-family-25-model-17-2-cores": CPU model

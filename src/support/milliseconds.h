@@ -1,4 +1,4 @@
-// How long a piece of work took, by the clock on the wall.
+// Measures wall-clock time in ms.
 #pragma once
 
 #include <chrono>

@@ -19,12 +19,12 @@ namespace edgewise::app {
 
 namespace {
 
-constexpr double kFarthest = 1e6;     // world units, of a camera's places and planes
-constexpr double kLongestTime = 1e6;  // s, 11 days
+constexpr double kMostCoordinate = 1e6;  // world units; bound of camera positions and plane distances
+constexpr double kLongestTime = 1e6;     // s, 11 days
 constexpr double kLargestScale = 1e3;
 constexpr double kSmallest = 1e-6;  // what "more than zero" means on the command line
 
-// Nothing, unless all of the text is one.
+// The number that the whole text is; none if it isn't one.
 template <typename T>
 std::optional<T> parsed(std::string_view text) {
   T value{};
@@ -33,8 +33,8 @@ std::optional<T> parsed(std::string_view text) {
   return value;
 }
 
-[[noreturn]] void reject(std::string_view option, std::string_view text, std::string_view wanted) {
-  throw std::invalid_argument(fmt::format("{}: '{}' is not {}", option, text, wanted));
+[[noreturn]] void reject(std::string_view option, std::string_view text, std::string_view expected) {
+  throw std::invalid_argument(fmt::format("{}: '{}' is not {}", option, text, expected));
 }
 
 Cull parse_cull(std::string_view text) {
@@ -76,7 +76,7 @@ void place_camera(Camera& camera, const SceneOptions& o) {
   if (o.eye) camera.position = *o.eye;
   if (o.at && *o.at == camera.position)
     throw std::invalid_argument(
-        "--at is where the camera stands, which gives no direction to look in: change --eye or --at");
+        "--at equals the camera position, which gives no view direction: change --eye or --at");
   if (o.at) camera.look_at(*o.at);
   if (o.yaw_deg) camera.yaw = radians(*o.yaw_deg);
   if (o.pitch_deg) camera.pitch = radians(*o.pitch_deg);
@@ -117,7 +117,7 @@ Size parse_size(std::string_view option, std::string_view text) {
 
 double parse_number(std::string_view option, std::string_view text, double min, double max) {
   const auto value = parsed<double>(text);
-  // Written so that NaN fails as well.
+  // NaN fails too.
   if (!value || !(*value >= min && *value <= max))
     reject(option, text, fmt::format("a number from {} to {}", min, max));
   return *value;
@@ -155,8 +155,9 @@ glm::vec3 parse_vector(std::string_view option, std::string_view text) {
     const auto comma = rest.find(',');
     const auto value = parsed<double>(rest.substr(0, comma));
     const bool last = i == 2;
-    if (!value || !(std::abs(*value) <= kFarthest) || (comma == std::string_view::npos) != last)
-      reject(option, text, fmt::format("X,Y,Z with numbers from {} to {}", -kFarthest, kFarthest));
+    if (!value || !(std::abs(*value) <= kMostCoordinate) || (comma == std::string_view::npos) != last)
+      reject(option, text,
+             fmt::format("X,Y,Z with numbers from {} to {}", -kMostCoordinate, kMostCoordinate));
     v[i] = static_cast<float>(*value);
     rest.remove_prefix(last ? rest.size() : comma + 1);
   }
@@ -191,29 +192,31 @@ CLI::Option* add_size(CLI::App& command, std::optional<Size>& size, const std::s
 }
 
 void SceneOptions::add_to(CLI::App& command) {
-  add_size(command, size, "Image size (1280x720; .tri: its own; else cropped, not scaled)");
-  add_number(command, "--time", time, -kLongestTime, kLongestTime, "Seconds, for scenes that turn (0)");
+  add_size(command, size, "Image size (1280x720, or a .tri file's own; other sizes crop .tri files)");
+  add_number(command, "--time", time, -kLongestTime, kLongestTime, "Time of animated scenes in seconds (0)");
   add_number(command, "--scale", scale, kSmallest, kLargestScale,
-             "Multiply the number of triangles, to at most 10^8; knots and built-in streams only (1)");
+             "Factor on the number of triangles, at most 10^8 of them; knots and built-in streams only (1)");
   command
       .add_option_function<std::string>(
           "--cull",
           [this](const std::string& text) {
             if (text != "auto") cull = parse_cull(text);
           },
-          "Faces to drop: none, back, front, both (back; streams: none)")
+          "Faces to cull: none, back, front, both (back; streams: none)")
       ->type_name("MODE");
   command.add_flag("--no-shade", no_shade, "Draw meshes unlit, as streams always are");
   command.add_flag("--fit", fit, "Centre a mesh and scale its longest side to 2");
 
   constexpr const char* kGroup = "Camera (meshes only)";
-  add_vector(command, "--eye", eye, "Where the camera stands")->group(kGroup);
-  add_vector(command, "--at", at, "What it looks at")->group(kGroup);
-  add_number(command, "--yaw", yaw_deg, -3600, 3600, "Degrees to the left; 0 looks along -z")->group(kGroup);
-  add_number(command, "--pitch", pitch_deg, -90, 90, "Degrees upwards")->group(kGroup);
-  add_number(command, "--fov", fov_deg, 0.1, 179, "Vertical field of view, degrees")->group(kGroup);
-  add_number(command, "--near", near_z, kSmallest, kFarthest, "Distance of the near plane")->group(kGroup);
-  add_number(command, "--far", far_z, kSmallest, kFarthest, "Distance of the far plane")->group(kGroup);
+  add_vector(command, "--eye", eye, "Camera position")->group(kGroup);
+  add_vector(command, "--at", at, "Point that the camera looks at")->group(kGroup);
+  add_number(command, "--yaw", yaw_deg, -3600, 3600, "Camera yaw to the left in degrees; 0 looks along -z")
+      ->group(kGroup);
+  add_number(command, "--pitch", pitch_deg, -90, 90, "Camera pitch upwards in degrees")->group(kGroup);
+  add_number(command, "--fov", fov_deg, 0.1, 179, "Vertical field of view in degrees")->group(kGroup);
+  add_number(command, "--near", near_z, kSmallest, kMostCoordinate, "Distance of the near plane")
+      ->group(kGroup);
+  add_number(command, "--far", far_z, kSmallest, kMostCoordinate, "Distance of the far plane")->group(kGroup);
 }
 
 Shot load_shot(const std::string& name_or_path, const SceneOptions& options, double time) {
@@ -228,8 +231,7 @@ Shot load_shot(const std::string& name_or_path, const SceneOptions& options, dou
   shot.frontend.height = size.height;
   if (auto* stream = std::get_if<TriangleStream>(&source.drawable)) {
     if (moves_camera(options))
-      throw std::invalid_argument("'" + source.name +
-                                  "' is a stream of screen triangles: it has no camera to move");
+      throw std::invalid_argument("'" + source.name + "' is a stream of screen triangles and has no camera");
     if (!options.size) {
       shot.frontend.width = stream->width;
       shot.frontend.height = stream->height;

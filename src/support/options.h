@@ -1,5 +1,5 @@
-// Options that several subcommands share, and the one place where their text is judged. All parsers throw
-// std::invalid_argument with a line that names the option, the text and what would have been right.
+// Options shared by several subcommands, and their parsers. All parsers throw std::invalid_argument with one
+// line that names the option, the text and the expected form.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ struct Size {
 };
 inline constexpr Size kDefaultSize{1280, 720};
 
-// All names of a command's options, with their dashes.
+// The names of all options of a command, with dashes.
 std::vector<std::string> option_names(const CLI::App& command);
 
 // "unknown option 'WORD'; did you mean 'NEAREST'? (COMMAND --help lists all)". A value after "=" is ignored.
@@ -47,28 +47,28 @@ CLI::Option* add_integer(CLI::App& command, const std::string& name, int& value,
                          const std::string& help);
 CLI::Option* add_size(CLI::App& command, std::optional<Size>& size, const std::string& help);
 
-// What to draw: a scene at a size and time, its camera, what the front end does with it.
+// Options for the scene: size, time, camera, and the front end's work on it.
 struct SceneOptions {
   std::optional<Size> size;
   std::optional<double> time, scale;  // s; factor
   std::optional<glm::vec3> eye, at;
   std::optional<double> fov_deg, near_z, far_z, yaw_deg, pitch_deg;
-  std::optional<Cull> cull;  // none given: back for meshes, none for streams
+  std::optional<Cull> cull;  // not given: back for meshes, none for streams
   bool fit = false, no_shade = false;
 
   void add_to(CLI::App& command);
 };
 
-// A loaded scene with its camera as asked for, and the front end's options for it.
+// A loaded scene with its camera set by the options, and the front end's options for it.
 struct Shot {
   Source source;
   FrontendOptions frontend;
 };
 Shot load_shot(const std::string& name_or_path, const SceneOptions& options, double time);
 
-int all_cores();  // of this machine; 1 … kMaxThreads
+int all_cores();  // the number of this machine's cores; 1 … kMaxThreads
 
-// How to draw it.
+// Options for drawing: threads, SIMD target, tile size.
 struct ExecutionOptions {
   ExecutionOptions();
   Execution execution;

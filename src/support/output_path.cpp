@@ -61,7 +61,7 @@ void OutputPaths::make_folder() const {
 }
 
 void check_output_is_not_input(const std::string& output, const std::string& input) {
-  std::error_code not_there;  // then nothing is overwritten
+  std::error_code not_there;  // a missing file cannot be overwritten
   if (fs::equivalent(output, input, not_there))
     throw std::invalid_argument(fmt::format("--output {} would overwrite the input {}", output, input));
 }

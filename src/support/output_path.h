@@ -1,4 +1,4 @@
-// Where pictures go when one name has to serve several scenes or frames.
+// Output file names for several scenes or frames.
 #pragma once
 
 #include <filesystem>
@@ -7,10 +7,12 @@
 
 namespace edgewise::app {
 
-// `pattern` is a file, a name that contains "{scene}", or a folder (one that exists, or that ends in a slash
-// and is made if missing), in which files are named after their scenes, .png or .pfm. With more than one
-// frame, "-0001" and so on stands before the extension. Throws std::invalid_argument if several scenes would
-// write the same file, or for a file that is no picture (.png, .ppm) or depth file (.pfm).
+// `pattern` is a file, a name that contains "{scene}", or a folder: an existing one, or a name that ends in a
+// slash and is created if missing. Files in a folder are named after their scenes, .png or .pfm. With several
+// frames,
+// "-0001" and so on precedes the extension. The constructor throws std::invalid_argument if several scenes
+// would write the same file, or if the extension is not that of a picture (.png, .ppm) or a depth file
+// (.pfm).
 class OutputPaths {
  public:
   enum class Kind { picture, depth };
@@ -18,7 +20,7 @@ class OutputPaths {
               const std::vector<std::string>& scenes, int frames);
 
   std::filesystem::path path(const std::string& scene, int frame) const;
-  void make_folder() const;  // throws std::runtime_error where it cannot
+  void make_folder() const;  // throws std::runtime_error on failure
 
  private:
   std::filesystem::path pattern_;
@@ -26,7 +28,8 @@ class OutputPaths {
   bool own_folder_ = false;
 };
 
-// Throws std::invalid_argument if both paths name the same file, however they are spelled or linked.
+// Throws std::invalid_argument if both paths name the same file, even with different spellings or through
+// links.
 void check_output_is_not_input(const std::string& output, const std::string& input);
 
 }  // namespace edgewise::app

@@ -10,7 +10,7 @@ struct Character {
   bool valid;
 };
 
-// The first character of a text that is not empty; a single byte where there is no valid one. The Unicode
+// The first character of a non-empty text, or its first byte if that starts no valid character. The Unicode
 // Standard, table 3-7, "Well-Formed UTF-8 Byte Sequences".
 Character first_character(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
@@ -30,13 +30,13 @@ Character first_character(std::string_view text) {
   return {text.substr(0, length), code, true};
 }
 
-// Also those that turn the direction of writing, which would let a name rearrange what stands beside it.
+// Includes characters that change the writing direction, because they can reorder the text around them.
 bool is_control(char32_t code) {
   return code < 0x20 || (code >= 0x7F && code < 0xA0) || (code >= 0x2028 && code <= 0x202E) ||
          (code >= 0x2066 && code <= 0x2069);
 }
 
-// As {fmt} counts them: East Asian wide characters and pictographs take two.
+// Columns as {fmt} counts them: two for East Asian wide characters and pictographs.
 std::size_t columns_of(char32_t code) {
   const auto within = [code](char32_t first, char32_t last) { return code >= first && code <= last; };
   const bool wide = within(0x1100, 0x115F) || within(0x2E80, 0xA4CF) || within(0xAC00, 0xD7A3) ||

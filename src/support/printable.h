@@ -1,4 +1,4 @@
-// Text that is not ours (names of files and scenes, messages that quote them), made fit for a terminal.
+// Makes external text (file and scene names, messages that quote them) safe to print on a terminal.
 #pragma once
 
 #include <string>
@@ -6,11 +6,10 @@
 
 namespace edgewise::app {
 
-// Valid UTF-8 without control characters: each of those, and each byte that is not UTF-8, becomes
-// `replacement`.
+// Returns valid UTF-8 without control characters: replaces each control character and each invalid byte.
 std::string printable(std::string_view text, char replacement = '?');
 
-// The same, of at most so many columns; a longer text ends in "..". Only whole characters are kept.
+// The same, cut to a number of columns; a cut text ends in "..". Characters are never split.
 std::string printable_within(std::string_view text, std::size_t columns);
 
 }  // namespace edgewise::app

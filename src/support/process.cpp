@@ -31,7 +31,7 @@ extern "C" void stop(int signal) {
 const char* program_name = "";
 
 [[noreturn]] void give_up() {
-  // Where several threads fail at once, the first one speaks and ends the process.
+  // If several threads fail at once, only the first one prints and ends the process.
   static std::atomic_flag begun;
   while (begun.test_and_set()) pause();
   if (void (*const action)() = before_stopping) action();
@@ -46,7 +46,7 @@ const char* program_name = "";
   _exit(2);
 }
 
-// open() takes the lowest free number, which is the closed stream's own.
+// open() returns the lowest free descriptor, which is that of the closed stream.
 void occupy_closed_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (fcntl(stream, F_GETFD) < 0 && errno == EBADF && open("/dev/null", O_RDONLY) != stream) _exit(2);
@@ -61,10 +61,10 @@ void call_before_stopping(void (*action)()) {
 std::string reason_of(const std::exception& error) {
   if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) return "out of memory";
   const std::string_view what = error.what();
-  const auto* const system = dynamic_cast<const std::system_error*>(&error);  // which std::thread throws
+  const auto* const system = dynamic_cast<const std::system_error*>(&error);  // thrown by std::thread
   const bool again = system != nullptr && system->code() == std::errc::resource_unavailable_try_again;
   if (again || what.starts_with("pthread_create"))
-    return "no more threads can be started; ask for fewer, or allow more memory or processes";
+    return "no more threads can be started; use fewer, or raise the limits on memory or processes";
   return std::string(what);
 }
 

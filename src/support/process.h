@@ -1,4 +1,4 @@
-// What both programs need of the system before they do anything.
+// Process setup of both programs: standard streams, signals, uncaught exceptions.
 #pragma once
 
 #include <exception>
@@ -6,21 +6,25 @@
 
 namespace edgewise::app {
 
-// To be called first in main(), with the program's name for messages.
+// Must be called first in main(), with the program's name for messages.
 //
-// Closed standard streams are occupied, so that no file of ours gets their number and is written into by what
-// is meant for the terminal; writing to them fails. Writes into a closed pipe or beyond the largest file
-// allowed fail too, instead of ending the program. SIGINT, SIGTERM, SIGHUP and SIGQUIT remove unfinished
-// files and the progress bar, and exit with 128 + the signal, unless they were ignored (nohup). What nobody
-// can catch, since it is thrown on a thread of oneTBB's that cannot start another one, is said in one line
-// like other failures, and exits with 2.
+// - Opens closed standard streams on /dev/null, read-only, so that no output file gets their descriptor and
+// receives
+//   terminal output. Writing to these streams fails.
+// - Writing to a closed pipe or beyond the file size limit fails instead of ending the program.
+// - SIGINT, SIGTERM, SIGHUP and SIGQUIT remove unfinished files and the progress bar, and exit with 128 + the
+// signal,
+//   unless they were ignored at the start (nohup).
+// - An uncaught exception, such as one on a oneTBB thread that cannot start another thread, prints one line
+// and exits
+//   with 2.
 void prepare_process(const char* program);
 
-// What to tell the user of an exception.
+// The message for the user about an exception.
 std::string reason_of(const std::exception& error);
 
-// Has those signals call something first that puts right what the program has done to its surroundings; null:
-// nothing more. It must be async-signal-safe.
+// Sets a function that these signals and uncaught exceptions call first, for example to restore the terminal;
+// null: none. It must be async-signal-safe.
 void call_before_stopping(void (*action)());
 
 }  // namespace edgewise::app

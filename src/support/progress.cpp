@@ -16,7 +16,7 @@ namespace edgewise::app {
 namespace {
 
 constexpr int kBarWidth = 24;
-constexpr int kBesideBar = 8;  // columns: brackets, blanks, "100%"
+constexpr int kBesideBar = 8;  // columns of brackets, blanks and "100%"
 constexpr std::string_view kErase = "\r\033[K";
 volatile std::sig_atomic_t on_screen = 0;
 
@@ -33,7 +33,7 @@ void Progress::show(double fraction, std::string_view label) {
   const int percent = static_cast<int>(100.0 * std::clamp(fraction, 0.0, 1.0));
   if (percent == shown_percent_) return;
   shown_percent_ = percent;
-  // The last column stays free: some terminals wrap as soon as it is filled.
+  // Leave the last column free: some terminals wrap when it is filled.
   const int room = terminal_width(STDERR_FILENO) - 1;
   const int bar = std::clamp(room - kBesideBar, 0, kBarWidth);
   const auto label_room = static_cast<std::size_t>(std::max(0, room - kBesideBar - bar));

@@ -1,4 +1,4 @@
-// A progress bar: one line on stderr, redrawn in place, only on a terminal that moves its cursor.
+// A progress bar: one line on stderr, redrawn in place; only on a terminal with cursor control.
 #pragma once
 
 #include <chrono>
@@ -15,17 +15,17 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   void show(double fraction, std::string_view label);
-  void erase();  // before a line is printed beside it
+  void erase();  // call it before printing a line
 
  private:
   bool terminal_;
   int shown_percent_ = -1;
 };
 
-// Says how long work will still take, from how long it has taken so far.
+// Estimates the remaining time from the time spent.
 class TimeLeft {
  public:
-  // "2:05 left, LABEL"; LABEL alone until the guess is worth something.
+  // "2:05 left, LABEL"; LABEL alone during the first second and the first percent.
   std::string label(double fraction, std::string_view label) const;
 
  private:

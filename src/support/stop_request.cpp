@@ -12,15 +12,15 @@ namespace {
 
 constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
 std::array<struct sigaction, kSignals.size()> before;
-std::atomic<int> asked = 0;
+std::atomic<int> requested = 0;
 static_assert(std::atomic<int>::is_always_lock_free);
 
 void restore(std::size_t i) {
   if (before[i].sa_handler != SIG_IGN) sigaction(kSignals[i], &before[i], nullptr);
 }
 
-extern "C" void ask(int signal) {
-  asked = signal;
+extern "C" void request_stop(int signal) {
+  requested = signal;
   for (std::size_t i = 0; i < kSignals.size(); ++i)
     if (kSignals[i] == signal) restore(i);
 }
@@ -28,12 +28,12 @@ extern "C" void ask(int signal) {
 }  // namespace
 
 StopRequest::StopRequest() {
-  asked = 0;
+  requested = 0;
   for (std::size_t i = 0; i < kSignals.size(); ++i) {
     sigaction(kSignals[i], nullptr, &before[i]);
     if (before[i].sa_handler == SIG_IGN) continue;
     struct sigaction action {};
-    action.sa_handler = ask;
+    action.sa_handler = request_stop;
     action.sa_flags = SA_RESTART;
     sigaction(kSignals[i], &action, nullptr);
   }
@@ -44,7 +44,7 @@ StopRequest::~StopRequest() {
 }
 
 int StopRequest::signal() const {
-  return asked;
+  return requested;
 }
 
 }  // namespace edgewise::app

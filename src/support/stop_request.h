@@ -1,11 +1,11 @@
-// Ctrl-C as a request: for long work that has something to save first.
+// Turns Ctrl-C into a stop request, for long work that must save its results first.
 #pragma once
 
 namespace edgewise::app {
 
-// While it lives, the first SIGINT, SIGTERM or SIGHUP only asks; a second one of the kind does what it did
-// before (in our programs: removes unfinished files and exits). Ignored signals (nohup) stay ignored. One
-// object at a time.
+// During its lifetime the first SIGINT, SIGTERM or SIGHUP only sets signal(). The same signal again has its
+// previous effect (in both programs: removes unfinished files and exits). Ignored signals (nohup) stay
+// ignored. Only one object may exist at a time.
 class StopRequest {
  public:
   StopRequest();
@@ -13,7 +13,7 @@ class StopRequest {
   StopRequest(const StopRequest&) = delete;
   StopRequest& operator=(const StopRequest&) = delete;
 
-  int signal() const;  // the one that asked; 0 if none did
+  int signal() const;  // the last signal received; 0: none
 };
 
 }  // namespace edgewise::app

@@ -148,7 +148,7 @@ inline constexpr Hostile kHostile[] = {
     {"edgewise render cube --eye 1,2,3,4 -o $DIR/a.png", 2, "X,Y,Z"},
     {"edgewise render cube --eye 1,2,inf -o $DIR/a.png", 2, "X,Y,Z"},
     {"edgewise render cube --at 0,0,0 --yaw 5 -o $DIR/a.png", 2, "exclude"},
-    {"edgewise render cube --eye 1,2,3 --at 1,2,3 -o $DIR/a.png", 2, "--at is where the camera stands"},
+    {"edgewise render cube --eye 1,2,3 --at 1,2,3 -o $DIR/a.png", 2, "--at equals the camera position"},
     {"edgewise render cube --scale 2 -o $DIR/a.png", 2, "--scale"},
     {"edgewise render large --scale 0 -o $DIR/a.png", 2, "--scale"},
     {"edgewise render large --scale -1 -o $DIR/a.png", 2, "--scale"},

@@ -1,4 +1,4 @@
-// Names of others on our terminal and in our JSON.
+// External text on the terminal and in JSON.
 #include "support/printable.h"
 
 #include <gtest/gtest.h>
@@ -11,12 +11,12 @@
 namespace edgewise::app {
 namespace {
 
-TEST(Printable, KeepsWhatIsText) {
+TEST(Printable, KeepsValidText) {
   for (const std::string text : {"", "plain ~", "\u00e9\u03c9\u4e2d\U0001F600", "\U0010FFFF"})
     EXPECT_EQ(printable(text), text);
 }
 
-TEST(Printable, ReplacesWhatATerminalObeys) {
+TEST(Printable, ReplacesControlCharacters) {
   EXPECT_EQ(printable("a\x1b[31mb\n\r\t\x7f"), "a?[31mb????");
   EXPECT_EQ(printable("a\u009b31m", ' '), "a 31m");  // a control sequence in one character
   EXPECT_EQ(printable("a\u202eb\u2066"), "a?b?");    // writing direction
@@ -43,7 +43,7 @@ TEST(Printable, CutsBetweenCharacters) {
   EXPECT_EQ(printable_within("abc", 0), "");
 }
 
-TEST(JsonText, IsWrittenWhateverTheBytes) {
+TEST(JsonText, AcceptsAnyBytes) {
   const nlohmann::json json{{"name", "a\xff"}};
   EXPECT_EQ(nlohmann::json::parse(json_text(json)).at("name"), "a\xef\xbf\xbd");
   EXPECT_EQ(json_text(nlohmann::json{{"a", 1}}, 2), "{\n  \"a\": 1\n}");

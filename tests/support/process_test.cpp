@@ -1,4 +1,4 @@
-// What the programs prepare before they begin; what they make of it is in invalid_inputs.h.
+// Process setup: uncaught exceptions. invalid_inputs.h tests signals, streams and limits.
 #include "support/process.h"
 
 #include <gtest/gtest.h>
@@ -16,11 +16,11 @@ void throw_on_a_thread(const Error& error) {
   std::thread([&] { throw error; }).join();
 }
 
-// As oneTBB does where one of its threads cannot start another.
-TEST(ProcessDeathTest, WhatNobodyCanCatchIsSaidInOneLine) {
+// oneTBB throws like this if one of its threads cannot start another.
+TEST(ProcessDeathTest, PrintsAnUncaughtExceptionInOneLine) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   EXPECT_EXIT(throw_on_a_thread(std::runtime_error("pthread_create has failed: Resource unavailable")),
-              ::testing::ExitedWithCode(2), "^edgewise: no more threads can be started; ask for fewer.*\n$");
+              ::testing::ExitedWithCode(2), "^edgewise: no more threads can be started; use fewer.*\n$");
   EXPECT_EXIT(throw_on_a_thread(std::bad_alloc()), ::testing::ExitedWithCode(2),
               "^edgewise: out of memory\n$");
 }
