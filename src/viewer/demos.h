@@ -1,6 +1,5 @@
-// The tutorials that this project grew from, as demonstrations: a scene, the steps that lead through it, and
-// what to notice at each. All that is seen is done by the library and the laboratory, and by the keys that
-// anybody has.
+// The tutorials that Edgewise grew from, as demos: a scene, steps of keys, and what to notice after each
+// step. Demos use only the library, src/lab and the viewer's keys.
 #pragma once
 
 #include <optional>
@@ -14,24 +13,24 @@
 namespace edgewise::viewer {
 
 struct Demo {
-  std::string_view name;      // the key on the command line and in names of files
-  std::string_view tutorial;  // whose it is
+  std::string_view name;      // on the command line and in file names
+  std::string_view tutorial;  // the tutorial's title
   std::string_view idea;      // one line
   Scene (*scene)();
-  Cull cull;                        // to begin with
-  std::span<const Step> steps;      // as a picture, what the last one leads to
-  std::optional<glm::vec3> axis{};  // that objects turn about; none: the scene's own
+  Cull cull;                        // at the start
+  std::span<const Step> steps;      // a demo's picture shows the state after the last one
+  std::optional<glm::vec3> axis{};  // rotation axis of the objects; none: the first object's
 };
 
 std::span<const Demo> demos();
 
-// Throws std::invalid_argument, with the nearest known name, for an unknown one.
+// Throws std::invalid_argument with the nearest known name for an unknown name.
 const Demo& find_demo(std::string_view name);
 
-// The session's beginning, before the first step.
+// The session's start, before the first step.
 Start start_of(const Demo& demo);
 
-// The size that the scenes are arranged for.
+// The picture size for which the scenes are composed.
 inline constexpr app::Size kDemoSize{960, 540};
 
 }  // namespace edgewise::viewer

@@ -13,10 +13,13 @@ struct Kind {
   char letter;
   std::string_view name;
 };
-// What is rare is one kind.
-constexpr std::array kKinds{
-    Kind{'a', "active"},  Kind{'c', "clipped"},           Kind{'b', "culled by facing"},
-    Kind{'o', "outside"}, Kind{'-', "with their object"}, Kind{'x', "not drawable"}};
+// All rare states share the kind "not drawable".
+constexpr std::array kKinds{Kind{'a', "active"},
+                            Kind{'c', "clipped"},
+                            Kind{'b', "culled by facing"},
+                            Kind{'o', "outside"},
+                            Kind{'-', "culled with their object"},
+                            Kind{'x', "not drawable"}};
 
 char letter_of(TriangleState state) {
   switch (state) {

@@ -1,4 +1,5 @@
-// What became of each face of a scene: told by the front end of its triangles, shown as a letter.
+// The state of each face of a scene (active, clipped, culled, …), from the front end's triangle states, as
+// letters.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -18,14 +19,14 @@ struct FaceState {
   bool two_sided;
 };
 
-// Instance by instance, in the order of their triangles. Of the halves of a face of four vertices the one
-// that came further counts. `states` must be those of all triangles of the scene.
+// The faces of all instances, in the order of their triangles. A face of four vertices gets the later state
+// of its two triangles. `states` holds one state per triangle of the scene.
 std::vector<FaceState> face_states(const Scene& scene, std::span<const TriangleState> states);
 
-char letter_of(const FaceState& face);  // a capital if it is two-sided
-// A word for each instance with a letter for each of its faces.
+char letter_of(const FaceState& face);  // capital for a two-sided face
+// One word per instance, one letter per face.
 std::string letters_of(std::span<const FaceState> faces);
-// How many there are of each kind, with its letter.
+// The number of faces of each kind, with its letter.
 std::string summary_of(std::span<const FaceState> faces);
 
 }  // namespace edgewise::viewer

@@ -1,6 +1,6 @@
-// The letters of the overlay: "6x10" of the X Window System's miscellaneous fixed fonts, which are in the
-// public domain, but for . : , ; whose dots are squares here. One byte a row, six pixels wide, the leftmost
-// in bit 5; space to tilde.
+// The overlay's font: "6x10" of the X Window System's miscellaneous fixed fonts, which are in the public
+// domain; only . : , ; differ (square dots). One byte per row, six pixels, the leftmost in bit 5; space to
+// tilde.
 #pragma once
 
 #include <cstdint>

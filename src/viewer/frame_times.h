@@ -1,4 +1,4 @@
-// How long frames took, and what that says of smoothness.
+// Frame times and their statistics.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@ namespace edgewise::viewer {
 
 struct FrameTimes {
   std::vector<double> milliseconds;  // from each frame's events to its pixels in the window
-  double cpu_ms = 0;                 // of all threads, for all frames together
+  double cpu_ms = 0;                 // CPU time of all threads, summed over all frames
 };
 
 // "600 frames: median 3.10 ms, …".

@@ -1,5 +1,4 @@
 #include "viewer/inset.h"
-#include "lab/view_space.h"
 
 #include <algorithm>
 #include <array>
@@ -10,6 +9,7 @@
 #include "edgewise/contract.h"
 #include "edgewise/frontend.h"
 #include "frontend/view.h"
+#include "lab/view_space.h"
 #include "viewer/world.h"
 
 namespace edgewise::viewer {
@@ -32,7 +32,7 @@ void outline(Image& image, int x0, int y0, int size, std::uint32_t colour) {
       if (std::uint32_t* const at = pixel(image, p.x, p.y)) *at = colour;
 }
 
-// Three thin boxes along the axes, before a camera turned as the given one.
+// Three thin boxes along the axes, seen by a camera with the given one's orientation.
 Scene axes_scene(const Camera& camera) {
   constexpr float kHalfLength = 0.5f, kHalfWidth = 0.04f;
   const Drawable cube = find_scene("cube").make({});
@@ -53,9 +53,9 @@ Scene axes_scene(const Camera& camera) {
   return scene;
 }
 
-// How far the glass reaches around its focus, and how large it shows a pixel.
-struct Glass {
-  explicit Glass(app::Size picture) {
+// The magnifier's reach around its focus, and its size of a pixel.
+struct Magnifier {
+  explicit Magnifier(app::Size picture) {
     const int room = std::min(picture.width, picture.height) * 2 / 5;
     zoom = std::clamp(room / 15, 2, 24);
     reach = std::max(room / zoom / 2, 1);
@@ -89,13 +89,13 @@ void paste(const Image& from, int left, int top, Image& into) {
                       static_cast<std::size_t>(x)];
 }
 
-int glass_side(app::Size picture) {
-  const Glass glass(picture);
-  return glass.across() * glass.zoom;
+int magnifier_side(app::Size picture) {
+  const Magnifier magnifier(picture);
+  return magnifier.across() * magnifier.zoom;
 }
 
 void magnify(Image& image, Pixel focus) {
-  const auto [zoom, reach] = Glass({image.width, image.height});
+  const auto [zoom, reach] = Magnifier({image.width, image.height});
   const int across = 2 * reach + 1;
   Image part{across, across, std::vector<std::uint32_t>(static_cast<std::size_t>(across * across))};
   for (int y = 0; y < across; ++y)
@@ -103,7 +103,7 @@ void magnify(Image& image, Pixel focus) {
       if (const std::uint32_t* const at = pixel(image, focus.x - reach + x, focus.y - reach + y))
         *pixel(part, x, y) = *at;
   Image large = enlarge(part, zoom);
-  constexpr int kLeastForGrid = 6;
+  constexpr int kLeastForGrid = 6;  // px per pixel
   if (zoom >= kLeastForGrid)
     for (int y = 0; y < large.height; ++y)
       for (int x = 0; x < large.width; ++x)
@@ -149,7 +149,7 @@ std::size_t vertex_count(const Scene& scene) {
 
 namespace {
 
-// Centred on a point, if the camera sees its place.
+// Adds a label centred on a point, if the point is in front of the camera and on the panel.
 void add_label(Projected at, const Panel& panel, std::string words, std::uint32_t colour,
                std::vector<Text>& texts) {
   const bool seen = at.in_front && at.x_px >= 0.0f && at.x_px < static_cast<float>(panel.width) &&

@@ -34,7 +34,7 @@ Stroke parse_name(std::string_view name) {
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), seconds);
   if (error != std::errc{} || end != name.data() + name.size() || !(seconds >= 0 && seconds <= kLongestWait))
     throw std::invalid_argument("--keys: <" + std::string(name) +
-                                "> is no key, no method, and no time in seconds");
+                                "> is not a key, a method or a time in seconds");
   return seconds;
 }
 
@@ -57,37 +57,39 @@ std::span<const KeyRow> key_table() {
         {Key::down, Command::look_down},
         {Key::left, Command::look_left},
         {Key::right, Command::look_right}}},
-      {"m", "move along the view or the world", {{key_of('m'), Command::axes}}},
+      {"m", "move along camera or world axes", {{key_of('m'), Command::axes}}},
       {"3 4", "move slower, faster", {{key_of('3'), Command::slower}, {key_of('4'), Command::faster}}},
-      {"0", "back to where it began", {{key_of('0'), Command::home}}},
-      {"r", "turn the objects, or stop", {{key_of('r'), Command::spin}}},
-      {", .", "turn them by hand", {{key_of(','), Command::turn_back}, {key_of('.'), Command::turn_on}}},
-      {"l", "turn about the line of sight", {{key_of('l'), Command::axis_of_sight}}},
-      {"f", "freeze", {{key_of('f'), Command::freeze}}},
-      {"b", "backend or coverage method", {{key_of('b'), Command::coverage}}},
-      {"y", "edges only, or filled", {{key_of('y'), Command::edges}}},
-      {"x", "clipping method", {{key_of('x'), Command::clipping}}},
-      {"z", "visibility method", {{key_of('z'), Command::visibility}}},
-      {"n", "facing test", {{key_of('n'), Command::facing}}},
+      {"0", "reset camera and rotation", {{key_of('0'), Command::home}}},
+      {"r", "start, stop rotating the objects", {{key_of('r'), Command::spin}}},
+      {", .",
+       "rotate the objects by hand",
+       {{key_of(','), Command::turn_back}, {key_of('.'), Command::turn_on}}},
+      {"l", "rotate about the view direction", {{key_of('l'), Command::axis_of_sight}}},
+      {"f", "freeze the rotation", {{key_of('f'), Command::freeze}}},
+      {"b", "next backend or coverage method", {{key_of('b'), Command::coverage}}},
+      {"y", "edges only or filled", {{key_of('y'), Command::edges}}},
+      {"x", "next clipping method", {{key_of('x'), Command::clipping}}},
+      {"z", "next visibility method", {{key_of('z'), Command::visibility}}},
+      {"n", "next facing test", {{key_of('n'), Command::facing}}},
       {"1 2",
        "cull front, back faces",
        {{key_of('1'), Command::cull_front}, {key_of('2'), Command::cull_back}}},
-      {"k", "light on, off", {{key_of('k'), Command::light}}},
-      {"j", "threads", {{key_of('j'), Command::threads}}},
+      {"k", "lighting on, off", {{key_of('k'), Command::light}}},
+      {"j", "number of threads", {{key_of('j'), Command::threads}}},
       {"i", "SIMD target", {{key_of('i'), Command::target}}},
-      {"backspace", "the last of these one step back", {{Key::backspace, Command::switch_back}}},
+      {"backspace", "previous value of the last switch", {{Key::backspace, Command::switch_back}}},
       {"e", "errors: count, tint, off", {{key_of('e'), Command::errors}}},
-      {"u", "truth that they are counted against", {{key_of('u'), Command::truth}}},
-      {"g", "magnifying glass", {{key_of('g'), Command::magnifier}}},
-      {"enter", "glass to the next wrong pixel", {{Key::enter, Command::next_error}}},
-      {"v", "one, side by side, difference", {{key_of('v'), Command::arrangement}}},
-      {"tab", "keys go to the other side", {{Key::tab, Command::other_side}}},
-      {"t", "vertex labels", {{key_of('t'), Command::labels}}},
-      {"7", "what became of each face", {{key_of('7'), Command::face_states}}},
-      {"6", "outlines, white of what clipping cut in several", {{key_of('6'), Command::outlines}}},
+      {"u", "reference for counting errors", {{key_of('u'), Command::truth}}},
+      {"g", "magnifier", {{key_of('g'), Command::magnifier}}},
+      {"enter", "magnifier to the next wrong pixel", {{Key::enter, Command::next_error}}},
+      {"v", "one picture, side by side, difference", {{key_of('v'), Command::arrangement}}},
+      {"tab", "switch the side that keys change", {{Key::tab, Command::other_side}}},
+      {"t", "vertex numbers", {{key_of('t'), Command::labels}}},
+      {"7", "state of each face (culled, clipped)", {{key_of('7'), Command::face_states}}},
+      {"6", "outlines (white: cut by clipping)", {{key_of('6'), Command::outlines}}},
       {"o", "overlay: full, short, none", {{key_of('o'), Command::overlay}}},
-      {"p", "save a .png and a .tri", {{key_of('p'), Command::save}}},
-      {"5", "the next step of a demonstration", {{key_of('5'), Command::next_step}}},
+      {"p", "save a .png and a .tri file", {{key_of('p'), Command::save}}},
+      {"5", "next step of a demo", {{key_of('5'), Command::next_step}}},
       {"h", "this help", {{key_of('h'), Command::help}}},
       {"q, esc", "quit", {{key_of('q'), Command::quit}, {Key::escape, Command::quit}}},
   };
@@ -113,7 +115,8 @@ std::vector<Stroke> parse_keys(std::string_view text) {
     } else {
       const Key key = key_of(text.front());
       if (!command_of(key))
-        throw std::invalid_argument("--keys: '" + std::string(text.substr(0, 1)) + "' does nothing");
+        throw std::invalid_argument("--keys: no command is bound to '" + std::string(text.substr(0, 1)) +
+                                    "'");
       strokes.emplace_back(key);
     }
     text.remove_prefix(used);

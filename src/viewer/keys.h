@@ -1,5 +1,4 @@
-// The keys and what they do: one table, from which come the session's actions, the help on the screen and in
-// the command line, and the tests.
+// The table of keys. The session's actions, the help on screen and on the command line, and the tests use it.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +29,7 @@ constexpr Key key_of(char c) {
 }
 
 enum class Command : std::uint8_t {
-  // These work for as long as the key is held:
+  // Act while the key is held:
   forwards,
   backwards,
   step_left,
@@ -43,7 +42,7 @@ enum class Command : std::uint8_t {
   look_right,
   turn_back,
   turn_on,
-  // These at once:
+  // Act once per key press:
   axes,
   slower,
   faster,
@@ -86,7 +85,7 @@ struct Binding {
   Command command;
 };
 
-// A line of the help: some keys that belong together.
+// A line of the help: related keys and their effect.
 struct KeyRow {
   std::string_view keys, does;
   std::vector<Binding> bindings;
@@ -94,9 +93,9 @@ struct KeyRow {
 std::span<const KeyRow> key_table();
 std::optional<Command> command_of(Key key);
 
-// "wd<tab><1.5><float_lt>": characters are themselves, names of other keys stand in brackets (up, down, left,
-// right, shift, tab, space, enter, escape, backspace), a number is a time to wait, in seconds, and the name
-// of a method puts it at its stage. Throws std::invalid_argument for what is none of these.
+// Parses keys such as "wd<tab><1.5><float_lt>". Characters are keys; in angle brackets stand other keys (up,
+// down, left, right, shift, tab, space, enter, escape, backspace), times to wait in seconds, and methods to
+// select for their stage. Throws std::invalid_argument for anything else.
 struct Named {
   std::string method;
 };

@@ -20,8 +20,8 @@ constexpr std::uint32_t kPlain = rgb(225, 225, 225), kStrong = rgb(255, 255, 255
                         kNotice = rgb(140, 220, 255);
 constexpr int kRowsForFull = 30;
 
-// Writes line after line down a column of the screen, and leaves out empty ones and what would reach beyond
-// it.
+// Writes lines of text down a column of the screen. Skips empty lines and lines below the screen, and cuts
+// lines to the column's width.
 class Column {
  public:
   Column(Screen& screen, Cell cell, int x, int y, int width)
@@ -36,7 +36,7 @@ class Column {
     if (!fitted.empty()) screen_.texts.push_back({x_, y_, std::move(fitted), colour});
     y_ += cell_.height;
   }
-  // Parts of one line in colours of their own.
+  // One line whose parts have different colours.
   void line(std::initializer_list<std::pair<std::string, std::uint32_t>> parts) {
     const int x = x_, y = y_, letters = letters_;
     for (const auto& [words, colour] : parts) {
@@ -48,7 +48,7 @@ class Column {
     }
     x_ = x, letters_ = letters;
   }
-  // Several lines, broken at blanks.
+  // Text wrapped at blanks into several lines.
   void lines(std::string_view words, std::uint32_t colour) {
     const auto width = static_cast<std::size_t>(letters_);
     if (width == 0) return;
@@ -72,7 +72,7 @@ std::string count(std::uint64_t n, std::string_view what) {
 }
 
 std::string_view culling(const Side& side) {
-  if (side.cull_front && side.cull_back) return "[1] [2] front and back faces culled: nothing is left";
+  if (side.cull_front && side.cull_back) return "[1] [2] front and back faces culled: no faces left";
   if (side.cull_front) return "[1] front faces culled: diorama";
   return side.cull_back ? "[2] back faces culled" : "[1] [2] no faces culled";
 }
@@ -98,10 +98,10 @@ double hundredths(float length) {
   return std::round(double{length} * 100.0) / 100.0 + 0.0;
 }
 
-// When the count is from.
-std::string_view when(const State& state, const Side& side) {
-  if (side.judged != state.version) return "a while ago, to keep the pace";
-  return "in this frame";
+// Which frame the error count is from.
+std::string_view judged_frame(const State& state, const Side& side) {
+  if (side.judged != state.version) return "an earlier frame, to keep the frame rate";
+  return "this frame";
 }
 
 class Overlaying {
@@ -112,15 +112,15 @@ class Overlaying {
   void full() {
     Column common = column(0, notice());
     common.line(fmt::format("{} {}x{}{}", app::printable(state_.scene), panel_.width, panel_.height,
-                            unless_reproducible("   {:.1f} ms a frame", state_.frame_ms)),
+                            unless_reproducible("   {:.1f} ms per frame", state_.frame_ms)),
                 kStrong);
     common.line(unless_reproducible("[j] {}  [i] {}",
                                     count(static_cast<std::uint64_t>(state_.execution.threads), "thread"),
                                     edgewise::name_of(state_.execution.target)));
-    if (!state_.stream) place(common);
+    if (!state_.stream) camera_and_rotation(common);
     if (state_.errors == Errors::tint) legend(common);
     if (state_.arrangement == Arrangement::difference)
-      common.line(fmt::format("{} differ between both", count(state_.differing, "pixel")), kWrong);
+      common.line(fmt::format("{} differ between the sides", count(state_.differing, "pixel")), kWrong);
     const int y = common.y() + cell_.height / 2;
     if (state_.arrangement == Arrangement::difference) {
       Column both = column(0, y);
@@ -154,7 +154,7 @@ class Overlaying {
     }
   }
 
-  // The last line of the screen.
+  // The last line of the screen: the session's message, or else `otherwise`.
   void message(std::string_view otherwise) {
     Column last(screen_, cell_, cell_.width, (screen_.picture.height / cell_.height - 1) * cell_.height,
                 screen_.picture.width - cell_.width);
@@ -172,8 +172,8 @@ class Overlaying {
       if (state_.labels) add_vertex_labels(*scene, panel, screen_.texts);
       if (state_.face_states) add_face_letters(scene->camera, session_.side(i).faces, panel, screen_.texts);
     }
-    // The magnifying glass lies on top.
-    const int glass = state_.magnifier ? glass_side(panel_) : 0;
+    // The magnifier covers labels in its corner.
+    const int glass = state_.magnifier ? magnifier_side(panel_) : 0;
     std::erase_if(screen_.texts, [&](const Text& text) {
       const int x = text.x < panel_.width ? text.x : text.x - left_of(1);
       return x + cell_.width > panel_.width - glass && text.y + cell_.height > panel_.height - glass;
@@ -181,7 +181,7 @@ class Overlaying {
   }
 
   int help() {
-    constexpr int kKeys = 14, kBoth = 54;  // letters
+    constexpr int kKeys = 14, kBoth = 54;  // characters: the keys alone; a whole line
     const auto rows = key_table();
     const int letters = screen_.picture.width / cell_.width,
               lines = screen_.picture.height / cell_.height - 1;
@@ -205,7 +205,7 @@ class Overlaying {
   }
 
  private:
-  // Over the whole width; returns where it ends, px.
+  // Writes the demo's notice over the whole width. Returns its lower end in px.
   int notice() {
     Column lines(screen_, cell_, cell_.width, 0, screen_.picture.width - cell_.width);
     lines.lines(state_.notice, kNotice);
@@ -218,7 +218,7 @@ class Overlaying {
   std::size_t sides() const { return state_.arrangement == Arrangement::one ? 1 : 2; }
   int left_of(std::size_t i) const { return i == 0 ? 0 : screen_.picture.width - panel_.width; }
   Column column(std::size_t i, int y) {
-    // Texts stand on whole cells, so that a terminal can show them.
+    // Align texts to whole cells, so that a terminal can show them.
     const int x = (left_of(i) + 2 * cell_.width - 1) / cell_.width * cell_.width;
     return {screen_, cell_, x, y / cell_.height * cell_.height, left_of(i) + panel_.width - x};
   }
@@ -226,7 +226,7 @@ class Overlaying {
     if (state_.arrangement == Arrangement::one) return "";
     return i == state_.active ? "> " : "  ";
   }
-  std::string compared_with_the_other(const Side& s) const {
+  std::string compared_with_first(const Side& s) const {
     const Side& other = session_.side(0);
     const double ratio = (s.frontend_ms + s.raster_ms) / (other.frontend_ms + other.raster_ms);
     return unless_reproducible("{:.2f}x {} than the first side", ratio < 1 ? 1 / ratio : ratio,
@@ -236,24 +236,24 @@ class Overlaying {
     return s.judgement && s.judgement->wrong > 0 && state_.errors != Errors::off ? kWrong : kPlain;
   }
 
-  void place(Column& to) {
+  void camera_and_rotation(Column& to) {
     const Camera& camera = session_.world().scene()->camera;
-    to.line(fmt::format("eye {:.2f} {:.2f} {:.2f}  yaw {}  pitch {}", hundredths(camera.position.x),
+    to.line(fmt::format("camera {:.2f} {:.2f} {:.2f}  yaw {}  pitch {}", hundredths(camera.position.x),
                         hundredths(camera.position.y), hundredths(camera.position.z), degrees(camera.yaw),
                         degrees(camera.pitch)));
-    to.line(fmt::format("[m] moves along the {}, speed {:.2g}", state_.along_view ? "view" : "world's axes",
+    to.line(fmt::format("[m] moves along {} axes, speed {:.2g}", state_.along_view ? "camera" : "world",
                         state_.speed));
-    to.line(fmt::format("{} {} deg about {:.2f} {:.2f} {:.2f}{}", state_.spinning ? "[r] turning," : "turned",
-                        degrees(state_.angle), state_.axis.x, state_.axis.y, state_.axis.z,
-                        state_.frozen ? ", frozen [f]" : ""));
+    to.line(fmt::format("{} {} deg about {:.2f} {:.2f} {:.2f}{}",
+                        state_.spinning ? "[r] rotating," : "rotated", degrees(state_.angle), state_.axis.x,
+                        state_.axis.y, state_.axis.z, state_.frozen ? ", frozen [f]" : ""));
     if (state_.labels && session_.vertex_count() > kMostLabels)
       to.line(fmt::format("[t] {} vertices are too many for labels", session_.vertex_count()), kNotOurs);
   }
 
   void legend(Column& to) {
     to.line("nothing drawn", lab::colour_of(lab::Mark::gap));
-    to.line("drawn twice, or the wrong one shows", lab::colour_of(lab::Mark::twice));
-    to.line("drawn where nothing is", lab::colour_of(lab::Mark::extra));
+    to.line("drawn twice, or wrong triangle visible", lab::colour_of(lab::Mark::twice));
+    to.line("drawn outside all triangles", lab::colour_of(lab::Mark::extra));
   }
 
   void side(Column& to, std::size_t i) {
@@ -263,7 +263,7 @@ class Overlaying {
     const auto stage = [&](const char* key, bool ours, std::string_view name) {
       return std::pair(fmt::format("[{}] {}", key, name), ours ? kPlain : kNotOurs);
     };
-    // Coverage methods other than the backends bring a depth test of their own (lab/coverage/coverage.h).
+    // Coverage methods other than backends use their own depth test (lab/coverage/coverage.h).
     const bool own_depth = c.our_visibility() && !c.our_coverage();
     to.line({{marker(i), kStrong},
              stage("b", c.our_coverage(), c.coverage->info.name),
@@ -277,8 +277,8 @@ class Overlaying {
     to.line(fmt::format("{}{}", culling(s), state_.stream || state_.lit ? "" : "  [k] unlit"),
             s.cull_front ? kNotOurs : kPlain);
     to.line(unless_reproducible("front end {:.2f} ms, raster {:.2f} ms", s.frontend_ms, s.raster_ms));
-    if (i == 1) to.line(compared_with_the_other(s));
-    if (state_.outlines) to.line("[6] outlined; white: cut into several triangles");
+    if (i == 1) to.line(compared_with_first(s));
+    if (state_.outlines) to.line("[6] outlines; white: clipped into several triangles");
     to.line(fmt::format("{} in, {} outside, {} culled, {}{} drawn", n.triangles, n.whole_mesh + n.outside,
                         n.culled, c.our_clipping() ? fmt::format("{} clipped, ", n.clipped) : "", n.emitted));
     if (n.meshes > 0) to.line(fmt::format("{}, {} culled whole", count(n.meshes, "object"), n.meshes_culled));
@@ -286,17 +286,17 @@ class Overlaying {
     if (!s.because.empty()) to.line(s.because, kWrong);
     to.line(errors_of(state_, s, false), error_colour(s));
     if (s.judgement && state_.errors != Errors::off) {
-      to.line(fmt::format("  against [u] {}, {}", viewer::name_of(state_.truth), when(state_, s)));
+      to.line(fmt::format("  against [u] {}, {}", viewer::name_of(state_.truth), judged_frame(state_, s)));
     }
   }
 
   void faces(Column& to, const Side& s) {
-    if (state_.stream) return to.line("[7] a stream's triangles are no faces of objects", kNotOurs);
+    if (state_.stream) return to.line("[7] a stream of triangles has no faces", kNotOurs);
     if (!s.choice.our_clipping())
-      return to.line("[7] what this clipping does to each face is not known", kNotOurs);
+      return to.line("[7] this clipping method doesn't report face states", kNotOurs);
     to.lines(fmt::format("[7] faces: {}", summary_of(s.faces)), kPlain);
     if (s.faces.size() > kMostLabels)
-      to.line("    too many for a letter each", kNotOurs);
+      to.line("    too many faces for letters", kNotOurs);
     else
       to.lines(letters_of(s.faces), kStrong);
   }

@@ -26,7 +26,7 @@ lab::Window window_of(const View& view) {
   return {view.frontend.width, view.frontend.height};
 }
 
-// Keeps the triangles it is to draw.
+// A backend that records its input instead of drawing.
 class Recorder final : public Backend {
  public:
   std::vector<ScreenTriangle> triangles;
@@ -38,7 +38,7 @@ class Recorder final : public Backend {
   }
 };
 
-// Exact: 1/256 px is a power of two, and no coordinate has more than 24 bits.
+// Exact: 1/256 is a power of two, and coordinates have at most 24 bits.
 lab::FloatTriangle as_floats(const ScreenTriangle& t) {
   lab::FloatTriangle floats{{}, t.payload};
   for (int i = 0; i < 3; ++i) {
@@ -64,7 +64,7 @@ std::vector<std::uint32_t> colours_of(const Drawable& drawable, bool shade) {
   return colours;
 }
 
-// By index in the scene; empty where there is none.
+// Flags by index in the scene; empty if no face is two-sided.
 std::vector<bool> two_sided_faces(const Drawable& drawable) {
   const auto* scene = std::get_if<Scene>(&drawable);
   const auto has_marks = [](const Mesh& mesh) { return !mesh.marks.empty(); };
@@ -77,8 +77,8 @@ std::vector<bool> two_sided_faces(const Drawable& drawable) {
   return faces;
 }
 
-// The background's 0 becomes kNobody.
-std::vector<std::uint32_t> owners_in(const Framebuffer& frame) {
+// Payloads minus one: triangle indices; the background's 0 becomes lab::kNobody.
+std::vector<std::uint32_t> visible_ids_in(const Framebuffer& frame) {
   std::vector<std::uint32_t> ids;
   ids.reserve(static_cast<std::size_t>(frame.width()) * static_cast<std::size_t>(frame.height()));
   for (int y = 0; y < frame.height(); ++y)
@@ -140,19 +140,19 @@ void Pipeline::draw_composed(const lab::Choice& choice, const View& view, Pictur
     picture.stats.culled = triangles.culled;
     picture.stats.emitted = triangles.snapped.size();
   }
-  if (choice.our_clipping() && choice.facing->by_direction) run_dropped(*choice.facing, view, picture);
-  const Owners owners = owners_of(choice, view, triangles, picture.raster_ms);
+  if (choice.our_clipping() && choice.facing->by_direction)
+    run_without_hidden_faces(*choice.facing, view, picture);
+  const VisibleIds visible = visible_ids_of(choice, view, triangles, picture.raster_ms);
   const auto colours = colours_of(view.world.drawable(), view.frontend.shade);
   picture.image = {view.frontend.width, view.frontend.height, {}};
-  picture.image.pixels.reserve(owners.size());
-  for (const std::uint32_t owner : owners)
-    picture.image.pixels.push_back(owner == lab::kNobody ? app::background_of(Payload::colour)
-                                                         : colours[owner]);
+  picture.image.pixels.reserve(visible.size());
+  for (const std::uint32_t id : visible)
+    picture.image.pixels.push_back(id == lab::kNobody ? app::background_of(Payload::colour) : colours[id]);
 }
 
-void Pipeline::run_dropped(const lab::FacingMethod& method, const View& view, Picture& picture) {
+void Pipeline::run_without_hidden_faces(const lab::FacingMethod& method, const View& view, Picture& picture) {
   FrontendOptions options = view.frontend;
-  if (options.cull == Cull::front || options.cull == Cull::both) return;  // it drops back faces only
+  if (options.cull == Cull::front || options.cull == Cull::both) return;  // the methods drop back faces only
   const bool drops = std::exchange(options.cull, Cull::none) == Cull::back;
   const Scene& scene = *view.world.scene();
   if (drops && (hidden_of_ != &scene || &hidden_->method() != &method)) {
@@ -166,8 +166,8 @@ void Pipeline::run_dropped(const lab::FacingMethod& method, const View& view, Pi
 void Pipeline::outline(const lab::Choice& choice, const View& view, Image& image) {
   double unused_ms = 0;
   const Triangles triangles = triangles_of(choice, view, unused_ms);
-  const Owners owners = owners_of(choice, view, triangles, unused_ms);
-  add_outlines(triangles.snapped, owners, backend(wireframe().name), frame_->view(), view.execution, image);
+  const VisibleIds visible = visible_ids_of(choice, view, triangles, unused_ms);
+  add_outlines(triangles.snapped, visible, backend(wireframe().name), frame_->view(), view.execution, image);
 }
 
 std::vector<TriangleState> Pipeline::states(const lab::Choice& choice, const View& view) {
@@ -199,7 +199,7 @@ Pipeline::Triangles Pipeline::from_front_end(const View& view, Cull cull) {
   return triangles;
 }
 
-// The method's own backend is replaced by one that records what it is handed.
+// Replaces the method's backend by one that records its input.
 Pipeline::Triangles Pipeline::from_clipping(const lab::ClippingMethod& method, const View& view,
                                             double& spent_ms) {
   const lab::ClippingScene seen = lab::in_view_space(*view.world.scene(), size_of(view));
@@ -219,7 +219,7 @@ Pipeline::Triangles Pipeline::from_clipping(const lab::ClippingMethod& method, c
 
 void Pipeline::cull(const lab::FacingMethod& method, const View& view, Triangles& triangles,
                     double& spent_ms) {
-  std::vector<std::uint8_t> fronts;  // empty: the sign of the snapped area decides
+  std::vector<std::uint8_t> fronts;  // empty: the sign of the snapped area decides the facing
   lab::ClippingScene seen;
   if (&method != &lab::facing_methods().front()) {
     seen = lab::in_view_space(*view.world.scene(), size_of(view));
@@ -227,7 +227,8 @@ void Pipeline::cull(const lab::FacingMethod& method, const View& view, Triangles
   }
   const auto side_of = [&](const ScreenTriangle& t) -> std::int64_t {
     const std::size_t id = t.payload - 1;
-    // Tests of whole triangles know nothing of what lies behind the near plane.
+    // Facing methods test whole triangles; a triangle that crosses the near plane is judged by its clipped
+    // pieces.
     const auto before_near = [&](std::size_t vertex) {
       return seen.mesh().positions[vertex].z > -seen.scene.camera.near_z;
     };
@@ -264,74 +265,76 @@ Pipeline::Triangles Pipeline::triangles_of(const lab::Choice& choice, const View
   return triangles;
 }
 
-Pipeline::Owners Pipeline::owners_of(const lab::Choice& choice, const View& view, const Triangles& triangles,
-                                     double& spent_ms) {
-  if (!choice.our_visibility()) return owners_by_visibility(*choice.visibility, view, triangles, spent_ms);
+Pipeline::VisibleIds Pipeline::visible_ids_of(const lab::Choice& choice, const View& view,
+                                              const Triangles& triangles, double& spent_ms) {
+  if (!choice.our_visibility()) return visible_ids_by(*choice.visibility, view, triangles, spent_ms);
   spent_ms = milliseconds([&] {
     if (choice.our_coverage())
       backend(choice.coverage->info.name).draw(triangles.snapped, canvas_->frame.view(), 0, view.execution);
     else
       choice.coverage->draw({triangles.floats, triangles.snapped}, *canvas_, view.execution.threads);
   });
-  return owners_in(canvas_->frame);
+  return visible_ids_in(canvas_->frame);
 }
 
-Pipeline::Owners Pipeline::owners_by_visibility(const lab::VisibilityMethod& method, const View& view,
-                                                const Triangles& triangles, double& spent_ms) {
+Pipeline::VisibleIds Pipeline::visible_ids_by(const lab::VisibilityMethod& method, const View& view,
+                                              const Triangles& triangles, double& spent_ms) {
   std::vector<ScreenTriangle> by_id = triangles.snapped;
   std::vector<UnsnappedTriangle> at;
   for (ScreenTriangle& t : by_id) --t.payload;
   for (const lab::FloatTriangle& t : triangles.floats) at.push_back(t.at);
   const auto scene = lab::visibility_scene(by_id, at, *view.world.scene(), size_of(view));
   spent_ms = milliseconds([&] { method.draw(scene, visibility_frame_); });
-  Owners owners;
-  owners.reserve(visibility_frame_.owner.size());
+  VisibleIds visible;
+  visible.reserve(visibility_frame_.owner.size());
   for (const std::uint32_t i : visibility_frame_.owner)
-    owners.push_back(i == lab::kNobody ? lab::kNobody : by_id[i].payload);
-  return owners;
+    visible.push_back(i == lab::kNobody ? lab::kNobody : by_id[i].payload);
+  return visible;
 }
 
-Pipeline::Owners Pipeline::true_owners(const View& view, const Triangles& triangles, Truth truth,
-                                       std::string_view by) {
+Pipeline::VisibleIds Pipeline::true_visible_ids(const View& view, const Triangles& triangles, Truth truth,
+                                                std::string_view by) {
   if (truth == Truth::contract) {
     backend(by).draw(triangles.snapped, canvas_->frame.view(), 0, view.execution);
-    return owners_in(canvas_->frame);
+    return visible_ids_in(canvas_->frame);
   }
   const auto id_of = [&](std::uint32_t i) {
     return i == lab::kNobody ? lab::kNobody : triangles.snapped[i].payload - 1;
   };
   const int threads = view.execution.threads;
-  Owners owners = truth == Truth::snapped
-                      ? lab::exact_owners(std::span(triangles.snapped), window_of(view), threads).triangle
-                      : lab::exact_owners(std::span(triangles.floats), window_of(view), threads).triangle;
-  std::transform(owners.begin(), owners.end(), owners.begin(), id_of);
-  return owners;
+  VisibleIds visible =
+      truth == Truth::snapped
+          ? lab::exact_owners(std::span(triangles.snapped), window_of(view), threads).triangle
+          : lab::exact_owners(std::span(triangles.floats), window_of(view), threads).triangle;
+  std::transform(visible.begin(), visible.end(), visible.begin(), id_of);
+  return visible;
 }
 
 Judgement Pipeline::judge(const lab::Choice& choice, const View& view, Truth truth) {
   double unused_ms = 0;
   const Triangles triangles = triangles_of(choice, view, unused_ms);
-  const Owners said = owners_of(choice, view, triangles, unused_ms);
+  const VisibleIds drawn = visible_ids_of(choice, view, triangles, unused_ms);
 
-  // No backend is its own judge.
+  // The reference picture comes from a different backend than the judged one.
   const bool is_first = choice.coverage->info.name == backends().front().name;
   const std::string_view by = backends()[is_first ? 1 : 0].name;
-  const Owners shown = [&] {
-    if (choice.our_clipping() && choice.our_facing()) return true_owners(view, triangles, truth, by);
+  const VisibleIds expected = [&] {
+    if (choice.our_clipping() && choice.our_facing()) return true_visible_ids(view, triangles, truth, by);
     const lab::Choice exact = lab::our_choice(by);
-    if (choice.our_clipping()) return true_owners(view, triangles_of(exact, view, unused_ms), truth, by);
-    // In view space all clipping methods get the same, slightly rounded vertices: so must ours.
+    if (choice.our_clipping()) return true_visible_ids(view, triangles_of(exact, view, unused_ms), truth, by);
+    // Clipping methods work on slightly rounded view-space vertices, so the reference must clip the same
+    // vertices.
     Triangles clipped = from_clipping(*exact.clipping, view, unused_ms);
     cull(*exact.facing, view, clipped, unused_ms);
-    return true_owners(view, clipped, truth, by);
+    return true_visible_ids(view, clipped, truth, by);
   }();
 
   Judgement judgement;
-  for (std::size_t i = 0; i < shown.size(); ++i) {
-    if (shown[i] != lab::kNobody) ++judgement.covered;
-    if (shown[i] != said[i]) ++judgement.wrong;
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    if (expected[i] != lab::kNobody) ++judgement.covered;
+    if (expected[i] != drawn[i]) ++judgement.wrong;
   }
-  judgement.marks = lab::mark_owners(shown, said, window_of(view)).marks;
+  judgement.marks = lab::mark_owners(expected, drawn, window_of(view)).marks;
   if (choice.our_coverage()) return judgement;
 
   const lab::CoverageInput input{triangles.floats, triangles.snapped};

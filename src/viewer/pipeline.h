@@ -1,5 +1,5 @@
-// From a scene to a picture by the chosen methods, and the judgement of it. Composes the library's parts and
-// the laboratory's; what is measured is their work and not the composing.
+// Draws a scene by the chosen methods and judges the picture. Composes the stages of the library and of
+// src/lab. The times cover the stages only, not the composition.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ namespace edgewise::viewer {
 
 struct View {
   const World& world;
-  FrontendOptions frontend;  // payload and keep_unsnapped are the pipeline's business
+  FrontendOptions frontend;  // the pipeline sets payload and keep_unsnapped
   Execution execution;
 };
 
@@ -31,60 +31,63 @@ struct Picture {
   FrontendStats stats;
 };
 
-// What pictures are judged against. Each next one blames a picture for more: `contract` for what differs from
-// the library's bits, `snapped` for the rounding of depths too, `floats` for snapping too. (Clipping methods
-// hand on snapped positions only: for them the last two are one.)
+// The reference that pictures are compared with. `contract`: the library's picture. `snapped`: exact depths
+// for snapped positions, so rounded depths count as errors too. `floats`: exact for positions before
+// snapping, so snapping counts too. Clipping methods return snapped positions only: for them the last two are
+// the same.
 enum class Truth { contract, snapped, floats };
 inline constexpr Truth kTruths[] = {Truth::contract, Truth::snapped, Truth::floats};
 std::string_view name_of(Truth truth);
 
 struct Judgement {
-  std::uint64_t covered = 0;  // pixels that show a triangle, in truth
-  std::uint64_t wrong = 0;    // pixels that show another one, or none, or one where none is
-  // Of coverage methods other than the backends: pixels that nobody draws between neighbours, and pixels
-  // drawn twice where at most one triangle is, whatever is seen of it.
+  std::uint64_t covered = 0;  // pixels where the reference shows a triangle
+  std::uint64_t wrong = 0;    // pixels whose visible triangle (or background) differs from the reference
+  // Coverage methods other than backends only: pixels that no triangle draws between neighbours, and pixels
+  // drawn twice where at most one triangle is, visible or not.
   std::optional<std::uint64_t> gaps, double_hits;
   std::vector<lab::Mark> marks;  // row by row
 };
 
-// Keeps its memory between frames.
+// Reuses its buffers between frames.
 class Pipeline {
  public:
-  // The choice must be drawable (drawable_part).
+  // The choice must be drawable (lab::drawable_part).
   Picture draw(const lab::Choice& choice, const View& view);
-  // Of the same choice and view; the choice must be one that fills.
+  // Judges the picture of this choice and view; the choice must fill triangles.
   Judgement judge(const lab::Choice& choice, const View& view, Truth truth);
-  // Over the picture of the last draw, by the same choice and view.
+  // Adds outlines to the picture of the last draw; same choice and view.
   void outline(const lab::Choice& choice, const View& view, Image& image);
-  // What became of each triangle of a scene; none is known of what a clipping method of the laboratory cuts.
+  // The state of each triangle of a scene; empty for the clipping methods of src/lab, which don't report
+  // states.
   std::vector<TriangleState> states(const lab::Choice& choice, const View& view);
-  // What the last draw's front end would hand to a backend.
+  // The output of the last draw's front end.
   std::span<const ScreenTriangle> screen_triangles() const { return screen_; }
 
  private:
-  // Triangles that await coverage. Their payload is their index in the scene plus one, since 0 is the
-  // background of the laboratory's canvas.
+  // The input of the coverage stage. A payload is the triangle's index in the scene plus one, because 0 is
+  // the background of lab::Canvas.
   struct Triangles {
     std::vector<lab::FloatTriangle> floats;
     std::vector<ScreenTriangle> snapped;
     std::uint64_t culled = 0;  // dropped by cull()
   };
-  // Row by row, a triangle's index in the scene or lab::kNobody.
-  using Owners = std::vector<std::uint32_t>;
+  // Per pixel, row by row: the visible triangle's index in the scene, or lab::kNobody.
+  using VisibleIds = std::vector<std::uint32_t>;
 
   void draw_ours(const lab::Choice& choice, const View& view, Picture& picture);
-  // Times a method that drops hidden faces before anything is projected at its own work.
-  void run_dropped(const lab::FacingMethod& method, const View& view, Picture& picture);
+  // Runs the front end again after a facing method that drops back faces before projection, to get its times.
+  void run_without_hidden_faces(const lab::FacingMethod& method, const View& view, Picture& picture);
   void draw_composed(const lab::Choice& choice, const View& view, Picture& picture);
   Triangles triangles_of(const lab::Choice& choice, const View& view, double& spent_ms);
   Triangles from_front_end(const View& view, Cull cull);
   Triangles from_clipping(const lab::ClippingMethod& method, const View& view, double& spent_ms);
   void cull(const lab::FacingMethod& method, const View& view, Triangles& triangles, double& spent_ms);
-  Owners owners_of(const lab::Choice& choice, const View& view, const Triangles& triangles, double& spent_ms);
-  Owners owners_by_visibility(const lab::VisibilityMethod& method, const View& view,
-                              const Triangles& triangles, double& spent_ms);
-  // `by`: the backend that draws the contract's picture.
-  Owners true_owners(const View& view, const Triangles& triangles, Truth truth, std::string_view by);
+  VisibleIds visible_ids_of(const lab::Choice& choice, const View& view, const Triangles& triangles,
+                            double& spent_ms);
+  VisibleIds visible_ids_by(const lab::VisibilityMethod& method, const View& view, const Triangles& triangles,
+                            double& spent_ms);
+  // `by`: the backend that draws the picture for Truth::contract.
+  VisibleIds true_visible_ids(const View& view, const Triangles& triangles, Truth truth, std::string_view by);
   Backend& backend(std::string_view name);
 
   Frontend frontend_, frontend_of_ids_;
@@ -93,7 +96,7 @@ class Pipeline {
   std::optional<lab::Canvas> canvas_;
   lab::VisibilityFrame visibility_frame_;
   std::span<const ScreenTriangle> screen_;
-  std::optional<lab::HiddenFaces> hidden_;  // of the scene at this address
+  std::optional<lab::HiddenFaces> hidden_;  // for the scene *hidden_of_
   const Scene* hidden_of_ = nullptr;
 };
 

@@ -1,5 +1,4 @@
-// SDL, opened only once a window is wanted: loading it with the program would make every start of it,
-// whatever the command, several times as long.
+// Loads SDL only when a window opens: linking it would slow down every start of the program several times.
 #pragma once
 
 #include <SDL.h>
@@ -29,10 +28,10 @@ namespace edgewise::viewer {
   X(UpperBlit)                      \
   X(WaitEventTimeout)
 
-// SDL_NAME is the member NAME. Throws std::runtime_error where the library cannot be opened.
+// The member NAME is the function SDL_NAME. Throws std::runtime_error if the library cannot be loaded.
 class SdlLibrary {
  public:
-  // All of SDL 2 goes by this name.
+  // The soname of every SDL 2 version.
   SdlLibrary() : library_(dlopen("libSDL2-2.0.so.0", RTLD_NOW | RTLD_LOCAL)) {
     if (library_ == nullptr) fail();
 #define EDGEWISE_LOAD(name)                                               \
@@ -48,8 +47,8 @@ class SdlLibrary {
 
  private:
   [[noreturn]] static void fail() {
-    throw std::runtime_error(std::string("no window can be opened: ") + dlerror() +
-                             "; --terminal needs none");
+    throw std::runtime_error(std::string("cannot open a window: ") + dlerror() +
+                             "; --terminal works without one");
   }
 
   void* library_;  // stays open: SDL's drivers may leave threads and handlers behind

@@ -1,4 +1,4 @@
-// Events in, pictures out; everything else is the session's.
+// The SDL window: passes events to the session and shows its pictures.
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr auto kFrame = std::chrono::microseconds(1'000'000 / 60);
 constexpr int kIdle_ms = 100;            // between frames while nothing happens
-constexpr double kLongestStep_s = 0.25;  // after a hitch, movement does not jump farther than this
+constexpr double kLongestStep_s = 0.25;  // limits the jump of movement after a long frame
 
 const SdlLibrary& sdl() {
   static const SdlLibrary library;
@@ -30,23 +30,24 @@ const SdlLibrary& sdl() {
 }
 
 [[noreturn]] void fail(const char* what) {
-  throw std::runtime_error(std::string(what) + ": " + sdl().GetError() + "; --terminal needs no window");
+  throw std::runtime_error(std::string(what) + ": " + sdl().GetError() +
+                           "; --terminal works without a window");
 }
 
 struct Sdl {
   Sdl() {
     sdl().SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // the program has its own
     sdl().SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
-    // Pixels go straight to the window: without a GPU, OpenGL would take more time for them than we do.
+    // Copy pixels straight to the window: without a GPU, OpenGL would take longer for that than the drawing.
     sdl().SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
-    if (sdl().Init(SDL_INIT_VIDEO) != 0) fail("no window can be opened");
-    // Without a display SDL falls back on drivers that show nothing to anybody.
+    if (sdl().Init(SDL_INIT_VIDEO) != 0) fail("cannot open a window");
+    // Without a display SDL falls back to drivers that show nothing.
     const std::string_view driver = sdl().GetCurrentVideoDriver();
     const char* const asked_for = std::getenv("SDL_VIDEODRIVER");
     if ((asked_for == nullptr || *asked_for == 0) &&
         (driver == "offscreen" || driver == "dummy" || driver == "evdev")) {
       sdl().Quit();
-      throw std::runtime_error("no window can be opened: there is no display; --terminal needs none");
+      throw std::runtime_error("cannot open a window: there is no display; --terminal works without one");
     }
   }
   ~Sdl() { sdl().Quit(); }
@@ -73,7 +74,7 @@ std::optional<Key> key_of(const SDL_Keysym& pressed) {
     default:
       break;
   }
-  // SDL's other codes are ASCII's where ASCII has the key.
+  // SDL key codes below 128 are ASCII.
   if (pressed.sym > 0 && pressed.sym < 128) return viewer::key_of(static_cast<char>(pressed.sym));
   return std::nullopt;
 }
@@ -93,13 +94,13 @@ class Window {
       : window_(sdl().CreateWindow(o.title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
                                    o.size.width, o.size.height, SDL_WINDOW_RESIZABLE),
                 sdl().DestroyWindow) {
-    if (!window_) fail("no window can be opened");
+    if (!window_) fail("cannot open a window");
     sdl().SetWindowMinimumSize(window_.get(), 64, 48);
   }
 
   void show(Session& session) {
     SDL_Surface* const surface = sdl().GetWindowSurface(window_.get());
-    if (surface == nullptr) fail("the window cannot be drawn into");
+    if (surface == nullptr) fail("cannot draw into the window");
     const app::Size size{std::clamp(surface->w, 1, contract::kMaxImageSide),
                          std::clamp(surface->h, 1, contract::kMaxImageSide)};
     const int scale = font_scale(size.height);
@@ -109,9 +110,9 @@ class Window {
         sdl().CreateRGBSurfaceWithFormatFrom(screen.picture.pixels.data(), size.width, size.height, 32,
                                              size.width * 4, SDL_PIXELFORMAT_ABGR8888),
         sdl().FreeSurface);
-    if (!picture) fail("the window cannot be drawn into");
+    if (!picture) fail("cannot draw into the window");
     sdl().SetSurfaceBlendMode(picture.get(), SDL_BLENDMODE_NONE);
-    // A failure here means that the window has just changed; the next frame gets its new surface.
+    // Failures are ignored: the window has just changed size, and the next frame gets its new surface.
     sdl().UpperBlit(picture.get(), nullptr, surface, nullptr);
     sdl().UpdateWindowSurface(window_.get());
   }
@@ -120,7 +121,7 @@ class Window {
   std::unique_ptr<SDL_Window, decltype(&SDL_DestroyWindow)> window_;
 };
 
-// False once the window is to close.
+// Passes an event to the session. False if the window is to close.
 bool handle(const SDL_Event& event, Session& session) {
   switch (event.type) {
     case SDL_QUIT:
@@ -151,17 +152,17 @@ FrameTimes show_sdl_window(Session& session, const WindowOptions& options) {
   Window window(options);
   FrameTimes times;
   const double cpu_before = cpu_ms();
-  const bool hurried = options.frames > 0;
+  const bool unlimited = options.frames > 0;  // no frame-rate limit
   Clock::time_point last = Clock::now();
   for (bool open = true; open;) {
-    if (!hurried && session.still()) sdl().WaitEventTimeout(nullptr, kIdle_ms);
+    if (!unlimited && session.still()) sdl().WaitEventTimeout(nullptr, kIdle_ms);
     const Clock::time_point now = Clock::now();
     const double passed = std::chrono::duration<double>(now - last).count();
     last = now;
     for (SDL_Event event; open && sdl().PollEvent(&event) != 0;) open = handle(event, session);
     session.advance(std::min(passed, kLongestStep_s));
     window.show(session);
-    if (hurried) {
+    if (unlimited) {
       times.milliseconds.push_back(std::chrono::duration<double, std::milli>(Clock::now() - now).count());
       open = open && times.milliseconds.size() < static_cast<std::size_t>(options.frames);
     } else if (const auto left = kFrame - (Clock::now() - now); left.count() > 0) {

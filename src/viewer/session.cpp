@@ -12,6 +12,7 @@
 #include "core/atomic_file.h"
 #include "edgewise/tri_file.h"
 #include "lab/to_stream.h"
+#include "lab/view_space.h"
 #include "support/milliseconds.h"
 #include "support/printable.h"
 #include "viewer/typing.h"
@@ -22,9 +23,9 @@ namespace {
 
 constexpr float kTurnPerSecond = 0.6f, kLookPerSecond = 1.2f;  // rad
 constexpr float kSpeedStep = 1.5f, kSlowest = 0.01f, kFastest = 100.0f;
-// While something moves, errors are counted only if that is likely to leave the frame this short. What it
-// last took is forgotten by and by, so that it is tried again every few seconds.
-constexpr double kBudget_ms = 10.0, kRemembered = 0.995;
+// During movement, errors are counted only if the frame is expected to stay within kBudget_ms. The expected
+// judging time decays by kDecay per frame, so that counting is retried every few seconds.
+constexpr double kBudget_ms = 10.0, kDecay = 0.995;
 
 constexpr bool changes_picture(Command command) {
   switch (command) {
@@ -36,7 +37,7 @@ constexpr bool changes_picture(Command command) {
     case Command::other_side:
     case Command::labels:
     case Command::overlay:
-    case Command::next_step:  // as its keys do
+    case Command::next_step:  // its keys change the picture themselves
     case Command::help:
     case Command::save:
     case Command::quit:
@@ -46,7 +47,7 @@ constexpr bool changes_picture(Command command) {
   }
 }
 
-// The entry `step` further on, round and round.
+// The entry `step` places after the current one, cyclically.
 template <typename List, typename IsCurrent>
 const auto& next_in(const List& list, int step, IsCurrent&& is_current) {
   const auto count = static_cast<std::ptrdiff_t>(std::size(list));
@@ -59,7 +60,7 @@ void step_method(std::span<const Method> methods, const Method*& method, int ste
   method = &next_in(methods, step, [&](const Method& m) { return &m == method; });
 }
 
-// From a method that fills to one that draws edges, and back again.
+// Switches between a filling method and the wireframe.
 void switch_edges(Side& side) {
   const lab::CoverageMethod*& method = side.choice.coverage;
   const bool filled = method->fills;
@@ -73,8 +74,8 @@ void switch_edges(Side& side) {
   side.filled = before;
 }
 
-// Of a demonstration: what needs not be undone before its next step.
-constexpr bool leaves_the_way_clear(Command command) {
+// Whether a demo's next step can follow the command without a replay of the earlier steps.
+constexpr bool keeps_demo_state(Command command) {
   return command == Command::next_step || command == Command::help || command == Command::save ||
          command == Command::quit;
 }
@@ -84,7 +85,7 @@ Enum next_of_three(Enum value) {
   return static_cast<Enum>((static_cast<int>(value) + 1) % 3);
 }
 
-// 1, 2, 4 … and all cores.
+// 1, 2, 4, … and the number of cores.
 std::vector<int> thread_counts() {
   const int cores = app::all_cores();
   std::vector<int> counts;
@@ -93,9 +94,10 @@ std::vector<int> thread_counts() {
   return counts;
 }
 
-void take(double now, double& mean) {
-  constexpr double kShare = 0.1;
-  mean = mean == 0.0 ? now : mean + kShare * (now - mean);
+// Updates an exponential moving average; 0 means that there is no value yet.
+void update_mean(double now, double& mean) {
+  constexpr double kWeight = 0.1;
+  mean = mean == 0.0 ? now : mean + kWeight * (now - mean);
 }
 
 }  // namespace
@@ -111,7 +113,7 @@ Session::Session(Start start) : start_(std::move(start)) {
 void Session::press(Key key) {
   const auto command = command_of(key);
   if (!command) return;
-  strayed_ |= !leaves_the_way_clear(*command);
+  demo_left_ |= !keeps_demo_state(*command);
   if (is_held(*command))
     held_.insert(key);
   else
@@ -128,8 +130,8 @@ void Session::release_all() {
 
 void Session::point(Pixel to, bool held) {
   if (held && pointer_ && !state_.stream && panel_.height > 0) {
-    strayed_ = true;
-    // What is seen in the middle of the picture keeps up with the pointer.
+    demo_left_ = true;
+    // The centre of the picture follows the pointer.
     const float per_px = world_->scene()->camera.fov_y / static_cast<float>(panel_.height);
     look(world_->camera(), per_px * static_cast<float>(pointer_->x - to.x),
          per_px * static_cast<float>(pointer_->y - to.y));
@@ -154,11 +156,12 @@ void Session::advance(double seconds) {
 }
 
 void Session::move(Command command, float seconds) {
-  // Large scenes are crossed faster, but not in proportion.
-  const float way = state_.speed * std::sqrt(world_->radius()) * seconds, turn = kLookPerSecond * seconds;
+  // Speed grows with the square root of the scene's size.
+  const float distance = state_.speed * std::sqrt(world_->radius()) * seconds,
+              turn = kLookPerSecond * seconds;
   Camera& camera = world_->camera();
   const auto go = [&](float x, float y, float z) {
-    viewer::move(camera, way * glm::vec3(x, y, z), state_.along_view);
+    viewer::move(camera, distance * glm::vec3(x, y, z), state_.along_view);
   };
   switch (command) {
     case Command::forwards:
@@ -243,7 +246,7 @@ void Session::act(Command command) {
       break;
     case Command::other_side:
       if (state_.arrangement == Arrangement::one)
-        state_.message = "there is one side only; v shows two";
+        state_.message = "there is one side only; [v] shows two";
       else
         state_.active = 1 - state_.active;
       break;
@@ -263,7 +266,7 @@ void Session::act(Command command) {
       next_step();
       break;
     case Command::help:
-      ++state_.help_page;  // the overlay knows how many there are
+      ++state_.help_page;  // add_overlay() resets it after the last page
       break;
     case Command::save:
       save_next_ = true;
@@ -322,8 +325,7 @@ void Session::switch_by(Command command, int step) {
 
 void Session::choose(std::string_view method) {
   Side& side = sides_[state_.active];
-  if (!put(method, side.choice))
-    throw std::invalid_argument("no method is named '" + std::string(method) + "'");
+  if (!put(method, side.choice)) throw std::invalid_argument("unknown method '" + std::string(method) + "'");
   side.judgement.reset();
   reset_times();
   ++state_.version;
@@ -335,31 +337,32 @@ void Session::reset_times() {
   cold_ = true;
 }
 
-// At once: what takes time in its keys, such as walking, is a jump. Since the keys of a step lead on from the
-// step before, the way there is gone again where somebody left it.
+// Takes a step without animation: timed keys, such as walking, act as a jump. The keys of a step assume the
+// state after the previous one, so if the user has changed that state, all earlier steps are replayed from
+// the start.
 void Session::next_step() {
   if (next_step_ == start_.steps.size()) {
-    state_.message = start_.steps.empty() ? "only demonstrations have steps" : "that was the last step";
+    state_.message = start_.steps.empty() ? "only demos have steps" : "that was the last step";
     return;
   }
-  const auto take = [this](const Step& step, app::Size size, Cell cell) {
+  const auto take_step = [this](const Step& step, app::Size size, Cell cell) {
     say(step.notice);
     type(*this, parse_keys(step.keys), size, cell);
   };
   const std::size_t step = next_step_;
   const app::Size size = size_;
   const Cell cell = cell_;
-  if (strayed_) {
-    Session afresh{Start(start_)};
-    afresh.saved_ = std::move(saved_);
-    afresh.save_next_ = save_next_;
-    afresh.done_ = done_;
-    *this = std::move(afresh);
-    for (std::size_t i = 0; i < step; ++i) take(start_.steps[i], size, cell);
+  if (demo_left_) {
+    Session fresh{Start(start_)};
+    fresh.saved_ = std::move(saved_);
+    fresh.save_next_ = save_next_;
+    fresh.done_ = done_;
+    *this = std::move(fresh);
+    for (std::size_t i = 0; i < step; ++i) take_step(start_.steps[i], size, cell);
   }
-  take(start_.steps[step], size, cell);
+  take_step(start_.steps[step], size, cell);
   next_step_ = step + 1;
-  strayed_ = false;
+  demo_left_ = false;
 }
 
 void Session::load(app::Size size) {
@@ -401,13 +404,13 @@ Screen& Session::draw(app::Size size, Cell cell) {
     ++state_.version;
     reset_times();
   }
-  // The first frame also allocates memory and fills caches, so the times are those of the next one.
+  // Draw twice and time the second frame: the first one also allocates memory and fills caches.
   if (cold_ && !state_.reproducible) {
     draw_picture();
     reset_times();
   }
   cold_ = false;
-  take(app::milliseconds([&] { draw_picture(); }), state_.frame_ms);
+  update_mean(app::milliseconds([&] { draw_picture(); }), state_.frame_ms);
   if (save_next_) save();
   state_.shown_overlay = state_.overlay.value_or(overlay_that_fits(size, cell));
   state_.help_page = add_overlay(*this, panel_, cell, screen_);
@@ -449,8 +452,8 @@ Image Session::draw_side(std::size_t i, app::Size size, double& work_ms) {
   const auto [choice, because] = lab::drawable_part(side.choice, state_.stream);
   side.because = because;
   Picture picture = pipelines_[i].draw(choice, view);
-  take(picture.frontend_ms, side.frontend_ms);
-  take(picture.raster_ms, side.raster_ms);
+  update_mean(picture.frontend_ms, side.frontend_ms);
+  update_mean(picture.raster_ms, side.raster_ms);
   side.stats = picture.stats;
   work_ms += picture.frontend_ms + picture.raster_ms;
   judge_if_due(i, choice, view, work_ms);
@@ -469,7 +472,7 @@ void Session::judge_if_due(std::size_t i, const lab::Choice& choice, const View&
   if (state_.errors == Errors::off || !choice.fills() || fresh) return;
   const bool affordable = state_.reproducible || work_ms + side.judging_ms < kBudget_ms;
   if (side.judgement && !affordable && !still() && state_.errors != Errors::tint) {
-    side.judging_ms *= kRemembered;
+    side.judging_ms *= kDecay;
     return;
   }
   side.judging_ms =
@@ -477,7 +480,7 @@ void Session::judge_if_due(std::size_t i, const lab::Choice& choice, const View&
   side.judged = state_.version;
 }
 
-// What lies over one side's picture.
+// Draws tinted errors and the magnifier over one side's picture.
 void Session::finish(Image& panel, std::size_t i) {
   const Side& side = sides_[i];
   if (state_.errors == Errors::tint && side.judgement) tint(panel, side.judgement->marks);
@@ -499,7 +502,7 @@ void Session::show_next_error() {
   }
   const auto& judgement = sides_[state_.active].judgement;
   if (!judgement || state_.errors == Errors::off) {
-    state_.message = "no errors are counted; e counts them";
+    state_.message = "errors are not counted; [e] counts them";
     return;
   }
   const std::vector<lab::Mark>& marks = judgement->marks;
@@ -521,7 +524,7 @@ void Session::save() {
     return start_.folder / fmt::format("{}-{:04}{}", state_.scene, n, extension);
   };
   try {
-    std::error_code error;  // a missing folder fails the writing below
+    std::error_code error;  // ignored: write_image() fails below if there is no folder
     std::filesystem::create_directories(start_.folder, error);
     int n = 1;
     while (std::filesystem::exists(path(n, ".png")) || std::filesystem::exists(path(n, ".tri"))) ++n;

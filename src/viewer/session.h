@@ -1,5 +1,5 @@
-// The viewer without a window: its state, what keys and mouse do to it, and what is to be seen. A window or a
-// terminal hands in events and the time that has passed, and shows the screens it gets.
+// The viewer without a window: its state, its commands, and the screens to show. A window or a terminal
+// passes events and elapsed time to the session, and shows its screens.
 #pragma once
 
 #include <array>
@@ -22,40 +22,41 @@
 
 namespace edgewise::viewer {
 
-// A step of a demonstration: keys that lead on, as --keys takes them, and what to notice then.
+// A step of a demo: keys to press after the previous step, as in --keys, and a text on what to notice.
 struct Step {
   std::string_view keys, notice;
 };
 
 struct Start {
-  // What to look at, for a picture of this size. Asked again when the size changes, of streams that fill it.
+  // Loads the scene for a picture of this size. Called again after a change of size for built-in streams,
+  // which fill the picture.
   std::function<app::Shot(app::Size)> load;
-  lab::Choice choice = lab::our_choice("tiled");  // of the first side
+  lab::Choice choice = lab::our_choice("tiled");  // for the first side
   Execution execution;
-  std::optional<glm::vec3> axis;  // none: the scene's own
-  std::filesystem::path folder;   // where `p` saves
-  std::span<const Step> steps;    // of a demonstration; key by key
-  // Nothing is shown that differs from run to run or between machines, as times do; and errors are counted in
-  // every frame, however long that takes.
+  std::optional<glm::vec3> axis;  // rotation axis; none: the first object's
+  std::filesystem::path folder;   // for files saved with `p`
+  std::span<const Step> steps;    // of a demo
+  // Hides times and all else that differs between runs or machines, and counts errors in every frame, however
+  // long that takes.
   bool reproducible = false;
 };
 
 enum class Errors { count, tint, off };
 enum class Arrangement { one, side_by_side, difference };
 
-// What is known of one of the two pictures that can be compared.
+// One of the two pictures that can be compared.
 struct Side {
   lab::Choice choice;
-  const lab::CoverageMethod* filled = nullptr;  // what `choice` filled with before it drew edges
+  const lab::CoverageMethod* filled = nullptr;  // the filling method to return to from edges only
   bool cull_front = false, cull_back = false;
-  std::string because;                    // what of the choice cannot be drawn, and why
-  double frontend_ms = 0, raster_ms = 0;  // means of late
+  std::string because;                    // which part of the choice cannot be drawn, and why
+  double frontend_ms = 0, raster_ms = 0;  // moving averages
   FrontendStats stats;                    // of the last frame
-  std::vector<FaceState> faces;           // where wanted and known, of
-  std::uint64_t faces_of = 0;             // this version of the picture
-  std::optional<Judgement> judgement;     // none yet, of this choice
-  double judging_ms = 0;                  // what it took
-  std::uint64_t judged = 0;               // the version of the picture
+  std::vector<FaceState> faces;           // if shown and known
+  std::uint64_t faces_of = 0;             // State::version of `faces`
+  std::optional<Judgement> judgement;     // none: this choice is not judged yet
+  double judging_ms = 0;                  // expected time of a judgement
+  std::uint64_t judged = 0;               // State::version of `judgement`
 };
 
 struct State {
@@ -71,16 +72,16 @@ struct State {
   Errors errors = Errors::count;
   Truth truth = Truth::contract;
   Arrangement arrangement = Arrangement::one;
-  std::optional<Overlay> overlay;         // none: what there is room for
+  std::optional<Overlay> overlay;         // none: chosen by the screen's size
   Overlay shown_overlay = Overlay::full;  // in the last frame
-  std::size_t active = 0;                 // the side that keys go to
+  std::size_t active = 0;                 // the side that keys change
   bool magnifier = false, labels = false, face_states = false, outlines = false;
   int help_page = 0;            // from 1; 0: none
   std::uint64_t differing = 0;  // pixels, in the difference of both sides
-  double frame_ms = 0;          // mean of late
-  std::uint64_t version = 1;    // of the picture: changes with all that it depends on
+  double frame_ms = 0;          // moving average
+  std::uint64_t version = 1;    // of the picture; changes with everything that the picture depends on
   std::string message;
-  std::string notice;  // what to notice, of a demonstration
+  std::string notice;  // a demo's text on what to notice
   bool reproducible = false;
 };
 
@@ -91,26 +92,25 @@ class Session {
   void press(Key key);
   void release(Key key);
   void release_all();
-  // Puts a method at its stage, of the side that keys go to. Throws std::invalid_argument for an unknown
-  // name.
+  // Selects a method for its stage on the active side. Throws std::invalid_argument for an unknown name.
   void choose(std::string_view method);
-  // Shows what to notice.
+  // Shows a text on what to notice.
   void say(std::string_view notice) { state_.notice = notice; }
-  // The pointer moved to a place of the screen, with the button held or not.
+  // The pointer moved to a screen position, with the button held or not.
   void point(Pixel to, bool held);
-  // Lets this much time pass, in seconds.
+  // Advances movement and rotation by this time.
   void advance(double seconds);
-  // Draws; the caller may paint into the screen. Throws what loading and drawing throw.
+  // Draws a frame; the caller may paint into the returned screen. Throws what loading and drawing throw.
   Screen& draw(app::Size size, Cell cell);
 
   bool done() const { return done_; }
-  // Nothing changes until the next event.
+  // Whether nothing changes until the next event.
   bool still() const;
   const State& state() const { return state_; }
   const Side& side(std::size_t i) const { return sides_[i]; }
   const World& world() const { return *world_; }
   std::size_t vertex_count() const;  // of all objects
-  // The names of what `p` has saved since the last call.
+  // Returns the names of the files saved since the last call.
   std::vector<std::string> take_saved();
 
  private:
@@ -138,13 +138,13 @@ class Session {
   app::Size size_{0, 0}, panel_{0, 0};
   Cell cell_{1, 1};
   std::size_t next_step_ = 0;
-  bool strayed_ = false;  // from the demonstration's way, since its last step
+  bool demo_left_ = false;  // the user changed the state since the demo's last step
   std::set<Key> held_;
   std::optional<Command> last_switch_;
   std::optional<Pixel> pointer_, focus_;
   Pixel first_difference_{0, 0};
   bool done_ = false, save_next_ = false;
-  bool cold_ = true;  // this size and these methods were not drawn yet
+  bool cold_ = true;  // no frame of this size and these methods was drawn yet
   Screen screen_;
   std::vector<std::string> saved_;
 };

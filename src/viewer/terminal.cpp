@@ -1,4 +1,4 @@
-// Bytes in, bytes out; everything else is the session's.
+// Terminal input and output; the session does everything else.
 #include "viewer/terminal.h"
 
 #include <poll.h>
@@ -26,22 +26,22 @@ using Clock = std::chrono::steady_clock;
 using Milliseconds = std::chrono::milliseconds;
 
 constexpr Milliseconds kFrame(33), kIdle(200);
-// A terminal does not say when a key is let go: it counts as held until it has not been repeated for so long.
+// Terminals don't report key releases: a key counts as released once it has not repeated for this long.
 constexpr Milliseconds kHeld(200);
 constexpr Milliseconds kEscapeIsAlone(50);
 
-// Another screen, no cursor, mouse reports; and back, for the signal handler too.
+// Alternate screen, hidden cursor, mouse reports; and the way back, which the signal handler uses too.
 constexpr char kEnter[] = "\x1b[?1049h\x1b[?25l\x1b[?1002h\x1b[?1006h";
 constexpr char kLeave[] = "\x1b[0m\x1b[?1006l\x1b[?1002l\x1b[?25h\x1b[?1049l";
 termios mode_before;
 
 void leave() {
-  // What cannot be written now cannot be helped.
+  // A failed write is ignored: nothing can be done about it here.
   [[maybe_unused]] const auto written = write(STDOUT_FILENO, kLeave, sizeof(kLeave) - 1);
   tcsetattr(STDIN_FILENO, TCSANOW, &mode_before);
 }
 
-// False if the terminal is gone.
+// Writes all bytes. False if the terminal is gone.
 bool put(std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t written = write(STDOUT_FILENO, bytes.data(), bytes.size());
@@ -59,14 +59,14 @@ class RawTerminal {
  public:
   RawTerminal() {
     if (isatty(STDIN_FILENO) == 0 || isatty(STDOUT_FILENO) == 0 || tcgetattr(STDIN_FILENO, &mode_before) != 0)
-      throw std::runtime_error("--terminal needs a terminal to show pictures in and to read keys from");
+      throw std::runtime_error("--terminal needs a terminal as standard input and output");
     if (!app::moves_cursor(STDOUT_FILENO))
-      throw std::runtime_error("--terminal needs a terminal that moves its cursor: TERM is unset or 'dumb'");
+      throw std::runtime_error("--terminal needs a terminal with cursor control: TERM is unset or 'dumb'");
     app::call_before_stopping(leave);
     termios raw = mode_before;
     raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO | IEXTEN);
     raw.c_iflag &= ~static_cast<tcflag_t>(ICRNL | IXON);
-    raw.c_cc[VSUSP] = _POSIX_VDISABLE;  // it would leave the terminal as it is now
+    raw.c_cc[VSUSP] = _POSIX_VDISABLE;  // suspending would leave the terminal in raw mode
     raw.c_cc[VMIN] = raw.c_cc[VTIME] = 0;
     tcsetattr(STDIN_FILENO, TCSANOW, &raw);
     put(kEnter);
@@ -100,14 +100,14 @@ class Loop {
       if (!put(picture_.show(session_.draw(terminal_.size_px(), kTerminalCell)))) return;
       const bool busy = !session_.still();
       const auto until = now + (busy ? kFrame : kIdle);
-      // One event ends the pause, since there is something new to be seen.
+      // Any event ends the pause, because it may change the picture.
       if (!read_until(until)) return;
       release_old();
     }
   }
 
  private:
-  // False if the terminal is gone.
+  // Handles input until the first event or the time `until`. False if the terminal is gone.
   bool read_until(Clock::time_point until) {
     auto pause = std::chrono::duration_cast<Milliseconds>(until - Clock::now());
     if (input_.waits()) pause = std::min(pause, kEscapeIsAlone);

@@ -1,12 +1,12 @@
-// The viewer in a terminal, over ssh for example.
+// The viewer in a terminal, for example over ssh.
 #pragma once
 
 #include "viewer/session.h"
 
 namespace edgewise::viewer {
 
-// Until the session is done. Throws std::runtime_error where standard input and output are no terminal, or
-// one that cannot move its cursor. The terminal gets back what it showed before, also after a signal.
+// Returns when the session is done. Throws std::runtime_error if standard input and output are not a terminal
+// with cursor control. Restores the terminal's screen and mode, also after a signal.
 void show_in_terminal(Session& session);
 
 }  // namespace edgewise::viewer

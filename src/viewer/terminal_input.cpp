@@ -1,4 +1,4 @@
-// Sequences as xterm's documentation (ctlseqs) has them: CSI and SS3 cursor keys, SGR mouse reports.
+// Control sequences as in xterm's documentation (ctlseqs): CSI and SS3 cursor keys, SGR mouse reports.
 #include "viewer/terminal_input.h"
 
 #include <charconv>
@@ -60,7 +60,7 @@ std::vector<TerminalEvent> TerminalInput::feed(std::string_view bytes) {
       continue;
     }
     if (rest.size() < 2) break;
-    if (rest[1] != '[' && rest[1] != 'O') {  // two keys, or Alt and one
+    if (rest[1] != '[' && rest[1] != 'O') {  // Escape and another key, or Alt and a key
       events.emplace_back(Key::escape);
       rest.remove_prefix(1);
       continue;

@@ -1,4 +1,4 @@
-// What a terminal sends when keys are pressed and the mouse is moved: bytes → events.
+// Parses a terminal's input bytes into key and mouse events.
 #pragma once
 
 #include <string>
@@ -19,9 +19,9 @@ using TerminalEvent = std::variant<Key, Pointed>;
 
 class TerminalInput {
  public:
-  // What is complete; the beginning of a sequence waits for its rest.
+  // Returns the complete events; an incomplete sequence is kept for the next call.
   std::vector<TerminalEvent> feed(std::string_view bytes);
-  // Nothing has come for a while: an escape that waits was the key.
+  // To be called after a pause: a pending escape character was the Escape key.
   std::vector<TerminalEvent> settle();
   bool waits() const { return !pending_.empty(); }
 

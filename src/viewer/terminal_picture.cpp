@@ -36,7 +36,7 @@ std::string TerminalPicture::show(const Screen& screen) {
   for (int row = 0; row < rows; ++row)
     for (int x = 0; x < columns; ++x) {
       const std::uint32_t upper = pixel(x, 2 * row), lower = pixel(x, 2 * row + 1);
-      // Where both are alike a space will do, which is shorter.
+      // A space is shorter if both pixels have the same colour.
       now.push_back(upper == lower ? Character{' ', lower, lower} : Character{0, upper, lower});
     }
   for (const Text& text : screen.texts) {

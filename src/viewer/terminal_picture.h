@@ -1,4 +1,4 @@
-// A screen as characters: two pixels in each, one above the other, in true colour.
+// Shows a screen as half-block characters: each shows two pixels, one above the other, in true colour.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,8 @@ inline constexpr Cell kTerminalCell{1, 2};
 
 class TerminalPicture {
  public:
-  // The bytes that turn what was shown last into this. All of it the first time and when the size changes.
+  // Returns the bytes that change the last screen into this one. The first time and after a change of size,
+  // they redraw everything.
   std::string show(const Screen& screen);
 
  private:

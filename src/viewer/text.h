@@ -1,5 +1,5 @@
-// Text over a picture. A session says what stands where in pixels; a window paints it with the font of
-// font.h, a terminal prints characters.
+// Text over a picture. A session gives positions in pixels; a window paints the text with the font of font.h,
+// a terminal prints characters.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace edgewise::viewer {
 
-// The room a character takes, in pixels of the picture.
+// The size of a character in pixels of the picture.
 struct Cell {
   int width, height;
 };
@@ -21,18 +21,18 @@ struct Text {
   std::uint32_t colour;
 };
 
-// A picture and what is written over it.
+// A picture and the text over it.
 struct Screen {
   Image picture;
   std::vector<Text> texts;
 };
 
-// What text stands on: the picture, darkened so that the text can be read whatever lies behind.
+// The background of text: the picture's colour, darkened so that the text stays readable.
 constexpr std::uint32_t darkened(std::uint32_t colour) {
   return 0xFF000000u | (colour >> 2 & 0x3F3F3Fu);
 }
 
-// The font's pixels enlarged by a whole factor that suits the picture's height.
+// The integer factor by which the font is enlarged for a picture of this height.
 int font_scale(int height_px);
 Cell font_cell(int scale);
 

@@ -50,7 +50,7 @@ void Film::type(std::span<const Stroke> strokes) {
 }
 
 void Film::pass(double seconds) {
-  // Sums of tenths miss the frames' times by roundings.
+  // Tolerance for rounding errors of sums of 0.1 s.
   constexpr double kRounding_s = 1e-9;
   for (; to_next_s_ <= seconds + kRounding_s; to_next_s_ = frame_s_) {
     session_.advance(to_next_s_);

@@ -1,4 +1,4 @@
-// Keys typed into a session by nobody: to begin with, as a step of a demonstration, or for an animation.
+// Types keys into a session: the keys of --keys, of a demo's step, or of an animation.
 #pragma once
 
 #include <functional>
@@ -12,16 +12,16 @@ namespace edgewise::viewer {
 
 class Session;
 
-// How long these take: a tenth of a second for each key or method, and the times to wait.
+// The duration of these strokes: 0.1 s per key or method, plus the times to wait.
 double seconds_of(std::span<const Stroke> strokes);
 
-// Types them one after the other; draws before and after each, since some keys ask for what was seen.
+// Types the strokes in sequence. Draws before and after each, because some keys depend on the last frame.
 void type(Session& session, std::span<const Stroke> strokes, app::Size size, Cell cell);
 
-// The same as time goes by, with frames in equal distances, the first one distance after the beginning.
+// Types strokes and draws frames at equal time intervals, the first after one interval.
 class Film {
  public:
-  // `show` gets each frame, drawn, and may paint into it.
+  // `show` is called with each drawn frame and may paint into it.
   Film(Session& session, app::Size size, Cell cell, double frame_s, std::function<void(Screen&)> show);
   void type(std::span<const Stroke> strokes);
 

@@ -13,14 +13,14 @@ class Session;
 struct WindowOptions {
   std::string title;
   app::Size size;
-  int frames = 0;  // to draw, as fast as they go, and leave; 0: until the user quits
+  int frames = 0;  // to draw without a frame-rate limit before quitting; 0: run until the user quits
 };
 
-// Until the session is done or the window closed; returns how long each frame took. Throws std::runtime_error
-// where no window can be opened.
+// Returns when the session is done or the window is closed, with the frame times if options.frames > 0.
+// Throws std::runtime_error if no window can be opened.
 using ShowWindow = FrameTimes (*)(Session& session, const WindowOptions& options);
 
-// sdl_window.cpp, which only the program has, and only if SDL was found when it was built.
+// Defined in sdl_window.cpp, which is built only into the program, and only if SDL was found.
 FrameTimes show_sdl_window(Session& session, const WindowOptions& options);
 
 }  // namespace edgewise::viewer

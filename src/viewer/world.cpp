@@ -13,7 +13,7 @@ namespace edgewise::viewer {
 
 namespace {
 
-constexpr float kFarthest = 1e6f;  // world units, of the camera from the origin on each axis
+constexpr float kMostCoordinate = 1e6f;  // world units; bound of the camera's coordinates
 
 glm::quat rotation(glm::vec3 axis, float angle) {
   const float length = glm::length(axis);
@@ -54,7 +54,7 @@ void World::turn(glm::vec3 axis, float angle) {
   for (std::size_t i = 0; i < loaded_.size(); ++i) {
     const Instance& from = loaded_[i];
     if (angle == 0.0f) {
-      instances[i] = from;  // to the bit
+      instances[i] = from;  // bit-identical to the loaded scene
       continue;
     }
     const glm::quat both = by * rotation(from.axis, from.angle);
@@ -67,7 +67,7 @@ void World::turn(glm::vec3 axis, float angle) {
 void move(Camera& camera, glm::vec3 distance, bool along_view) {
   glm::dvec3 step(distance);
   if (along_view) step = glm::transpose(lab::to_camera_frame(camera)) * step;
-  camera.position = glm::clamp(camera.position + glm::vec3(step), -kFarthest, kFarthest);
+  camera.position = glm::clamp(camera.position + glm::vec3(step), -kMostCoordinate, kMostCoordinate);
 }
 
 void look(Camera& camera, float left, float up) {

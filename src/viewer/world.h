@@ -1,4 +1,4 @@
-// What is looked at: a scene as it was loaded, with its camera moved and its objects turned.
+// The viewer's scene or stream; a scene's camera can be moved and its objects rotated.
 #pragma once
 
 #include <cstdint>
@@ -16,16 +16,15 @@ class World {
   const Drawable& drawable() const { return drawable_; }
   // Null for a stream, which has no camera and no objects.
   const Scene* scene() const { return std::get_if<Scene>(&drawable_); }
-  // Of a scene only.
+  // For a scene only.
   Camera& camera() { return std::get<Scene>(drawable_).camera; }
   const Camera& home() const { return home_; }
-  // The axis about which the first object was turned when it was loaded.
+  // The first object's rotation axis as loaded.
   glm::vec3 first_axis() const;
-  // Half the diagonal of all objects' bounding box, world units.
+  // Half the diagonal of the bounding box of all objects, in world units; 1 if that is 0 or not finite.
   float radius() const { return radius_; }
 
-  // Turns all objects together about an axis through the middle of their bounding box, from where they were
-  // loaded.
+  // Rotates all objects as loaded about an axis through the middle of their bounding box. Radians.
   void turn(glm::vec3 axis, float angle);
 
  private:
@@ -36,9 +35,9 @@ class World {
   float radius_ = 1.0f;
 };
 
-// Moves and turns of a camera. Distances in world units, along the camera's own right, up and backwards, or
-// along the world's x, y and z.
+// Moves the camera by a distance in world units, along its own right, up and backward axes (along_view), or
+// along the world's x, y and z axes.
 void move(Camera& camera, glm::vec3 distance, bool along_view);
-// Radians; the pitch stops straight up and down.
+// Turns the camera. Radians; the pitch is clamped to straight up and straight down.
 void look(Camera& camera, float left, float up);
 }  // namespace edgewise::viewer

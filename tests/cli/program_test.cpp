@@ -101,7 +101,7 @@ TEST(Program, SendsNoCursorControlsToADumbTerminal) {
     const Outcome refused = on_terminal("dumb", viewer);
     EXPECT_EQ(refused.status, 2) << viewer;
     EXPECT_EQ(refused.out.find('\x1b'), std::string::npos) << refused.out;
-    EXPECT_NE(refused.out.find("moves its cursor"), std::string::npos) << refused.out;
+    EXPECT_NE(refused.out.find("cursor control"), std::string::npos) << refused.out;
   }
 }
 

@@ -156,7 +156,7 @@ TEST(P5jsClipping, CutsMovesTurnsAndComesBack) {
   const Screen& labelled = demo.step();
   EXPECT_GE(labels(labelled), 16);
   EXPECT_TRUE(says(labelled, "x") && says(labelled, "y") && says(labelled, "z"));
-  EXPECT_TRUE(says(labelled, "eye 0.00 0.00 0.00  yaw 0  pitch 0"));
+  EXPECT_TRUE(says(labelled, "camera 0.00 0.00 0.00  yaw 0  pitch 0"));
   EXPECT_TRUE(says(labelled, "about 1.00 1.00 1.00"));
   demo.step();
   EXPECT_TRUE(demo.state().along_view);

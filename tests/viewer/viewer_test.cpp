@@ -258,7 +258,7 @@ TEST(Viewer, TintsWrongPixelsAndFindsThemWithTheGlass) {
   type(session, "z<enter>");
   EXPECT_EQ(session.state().message, "no wrong pixel");
   type(session, "e<enter>");
-  EXPECT_NE(session.state().message.find("no errors are counted"), std::string::npos);
+  EXPECT_NE(session.state().message.find("errors are not counted"), std::string::npos);
 }
 
 TEST(Viewer, TheGlassShowsSinglePixels) {
@@ -267,7 +267,7 @@ TEST(Viewer, TheGlassShowsSinglePixels) {
   session.press(key_of('g'));
   session.point({120, 80}, false);
   const Image glass = session.draw(kTestSize, kTestCell).picture;
-  const int side = glass_side(kTestSize);
+  const int side = magnifier_side(kTestSize);
   const auto at = [](const Image& image, int x, int y) {
     return image.pixels[static_cast<std::size_t>(y * image.width + x)];
   };
@@ -410,7 +410,7 @@ TEST(Viewer, TakesTheStepsOfADemonstration) {
   EXPECT_EQ(session.state().message, "that was the last step");
   Session none = session_of("cubes");
   type(none, "5");
-  EXPECT_NE(none.state().message.find("only demonstrations"), std::string::npos);
+  EXPECT_NE(none.state().message.find("only demos have steps"), std::string::npos);
 }
 
 TEST(Viewer, BreaksWhatToNoticeAtBlanks) {
@@ -531,7 +531,7 @@ TEST(Viewer, TellsOfEachFaceWhatBecameOfIt) {
   EXPECT_TRUE(says(type(session, "2", kLarge), "a a - c"));
   // The same by a facing test of the laboratory, which knows no clipping.
   EXPECT_TRUE(says(type(session, "2<normal_dot_eye>", kLarge), "a b - c"));
-  EXPECT_TRUE(says(type(session, "<screen_linear>", kLarge), "not known"));
+  EXPECT_TRUE(says(type(session, "<screen_linear>", kLarge), "doesn't report"));
   EXPECT_FALSE(says(type(session, "7", kLarge), "[7]"));
   scene.meshes[1].marks = {kTwoSided, kTwoSided | kSecondHalf};
   Session two_sided = session_of(scene);
@@ -539,7 +539,7 @@ TEST(Viewer, TellsOfEachFaceWhatBecameOfIt) {
   EXPECT_FALSE(says(type(two_sided, "v", {12, 1000}), "a A")) << "no room for a letter";
   Session knot = session_of("torus-knot");
   EXPECT_TRUE(says(type(knot, "7", kLarge), "active"));
-  EXPECT_TRUE(says(knot.draw(kLarge, kTestCell), "too many for a letter each"));
+  EXPECT_TRUE(says(knot.draw(kLarge, kTestCell), "too many faces for letters"));
 }
 
 TEST(Viewer, HelpsWithEveryKeyOnAsManyPagesAsItTakes) {
@@ -606,7 +606,7 @@ TEST(Viewer, TimesNoColdFrame) {
   const double frame_ms = session.state().frame_ms;
   EXPECT_GT(frame_ms, 0.0);
   EXPECT_LT(frame_ms, kLoading_ms);
-  EXPECT_FALSE(says(session.draw({900, 600}, kTestCell), " 0.0 ms a frame"));
+  EXPECT_FALSE(says(session.draw({900, 600}, kTestCell), " 0.0 ms per frame"));
 }
 
 TEST(Viewer, QuitsByEitherKey) {
