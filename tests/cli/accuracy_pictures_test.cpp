@@ -1,4 +1,4 @@
-// What `edgewise accuracy --pictures` shows: each error in its colour, each failure once.
+// `edgewise accuracy --pictures`: each error has its colour, and identical close-ups are written once.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -51,7 +51,7 @@ TEST(AccuracyPictures, PicturesOfMethodsThatDrawAlikeAreMadeOnce) {
   }
 }
 
-// The crack is vermilion; where it is closed, pixels change hands, and another triangle covers them.
+// The crack is vermilion. Splitting the edge closes it: then another triangle covers its pixels.
 TEST(AccuracyPictures, PicturesShowTheTJunctionsCrackAndThatSplittingClosesIt) {
   AccuracyPlan plan;
   plan.scenes = {"t_junction", "t_junction_split"};

@@ -1,4 +1,4 @@
-// `edgewise accuracy` as a user meets it: the schema, the figures that theory foretells, clean failures.
+// The command `edgewise accuracy`: the JSON schema, and counts that theory predicts.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -41,7 +41,7 @@ void expect_keys(const json& object, std::initializer_list<const char*> keys) {
   for (const char* key : keys) EXPECT_TRUE(object.contains(key)) << key << " in " << object;
 }
 
-TEST(Accuracy, CountsTheDrtkQuadAndTheLatticeSquareAsForetold) {
+TEST(Accuracy, CountsTheDrtkQuadAndTheLatticeSquareAsPredicted) {
   const json report = json_of("drtk_quad lattice_square --no-speed");
   const auto count = [&](const char* scene, const char* method, const char* what) {
     return named(named(report.at("scenes"), scene).at("methods"), method).at("float").at(what).get<int>();

@@ -1,5 +1,5 @@
-// Bad input and faults, row by row of invalid_inputs.h: a clear message, the documented exit status, no file
-// under its final name that is not whole, and never a crash.
+// Runs the rows of invalid_inputs.h: each must give a clear message and the documented exit status, and leave
+// no incomplete file under its final name. No row may crash.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@
 
 namespace edgewise::testing {
 
-void PrintTo(const Hostile& row, std::ostream* out) {
+void PrintTo(const InvalidInputRow& row, std::ostream* out) {
   *out << row.script;
 }
 
@@ -28,12 +28,13 @@ namespace {
 
 constexpr int kSkipped = 77;
 
-// `stopped SIGNAL COMMAND…` runs a command until a file appears in $DIR (with awaited=NAME before it, that
-// one), and sends it the signal; its status is the command's. `unprivileged COMMAND…` runs it as somebody
-// whom permissions bind, or skips the row: another one each time, since limits count all that one runs.
+// `stopped SIGNAL COMMAND…` runs a command until a file appears in $DIR (with awaited=NAME before it, this
+// file), sends the signal, and returns the command's status. `unprivileged COMMAND…` runs a command as a user
+// without root's permissions, or skips the row. Each call takes another user, because process limits count
+// per user.
 constexpr const char* kWords = R"(
 set -m
-for descriptor in {3..20}; do eval "exec $descriptor>&-"; done  # what ctest leaves open
+for descriptor in {3..20}; do eval "exec $descriptor>&-"; done  # descriptors that ctest leaves open
 edgewise() { "$EDGEWISE" "$@"; }
 bench() { "$BENCH" "$@"; }
 SHORT='--no-peers --scene cube --size 32x32 --quick --benchmark_min_time=0.001'
@@ -88,7 +89,7 @@ void write_inputs(const TempDir& folder) {
   folder.write("other.tri", "NOPE............");
   folder.write("lies.tri", "TRI1" + le(4) + le(4) + le(0xFFFFFFFF) + "xxxx");
   folder.write("wide.tri", "TRI1" + le(16385) + le(4) + le(0));
-  std::string floats;  // of a triangle with an infinity, one with a NaN, and a good one
+  std::string floats;  // a triangle with infinity, one with NaN, a valid one
   for (const std::uint32_t first : {0x7F800000u, 0x7FC00000u, 0x3F800000u})
     floats +=
         le(first) + le(0) + le(0) + le(0x41000000) + le(0) + le(0) + le(0) + le(0x41000000) + le(0) + le(7);
@@ -131,7 +132,7 @@ void expect_whole(const std::filesystem::path& file) {
   }
 }
 
-// Sanitizers reserve more memory than the limits leave, and need files and a thread of their own.
+// Sanitizers reserve more memory than the limits allow, and need files and a thread of their own.
 bool starves_sanitizers([[maybe_unused]] const std::string& script) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   for (const auto limit : {"ulimit -v", "ulimit -n", "ulimit -u"})
@@ -142,7 +143,8 @@ bool starves_sanitizers([[maybe_unused]] const std::string& script) {
 #endif
 }
 
-// A signal that is ignored when a shell starts stays so; and nothing may hang.
+// Resets signals to their defaults, because a shell keeps ignored ones ignored, and kills a script that
+// hangs.
 Outcome run_script(const std::string& script, const TempDir& folder, const TempDir& input) {
   const auto file = input.write("script", kWords + script);
   return run_program("/usr/bin/env", "--default-signal=HUP,INT,QUIT,TERM DIR='" + folder.path().string() +
@@ -152,19 +154,19 @@ Outcome run_script(const std::string& script, const TempDir& folder, const TempD
                                          file.string() + "'");
 }
 
-class InvalidInput : public ::testing::TestWithParam<Hostile> {};
+class InvalidInput : public ::testing::TestWithParam<InvalidInputRow> {};
 
-TEST_P(InvalidInput, IsAnsweredAsTheTableSays) {
-  const Hostile& row = GetParam();
+TEST_P(InvalidInput, HasTheOutcomeInTheTable) {
+  const InvalidInputRow& row = GetParam();
   const std::string script = row.script;
   if (starves_sanitizers(script)) GTEST_SKIP() << "sanitizers need more than the limit";
   const TempDir folder, input;
   write_inputs(input);
   const Outcome outcome = run_script(script, folder, input);
-  if (outcome.status == kSkipped) GTEST_SKIP() << "nobody here whom permissions bind may run the program";
+  if (outcome.status == kSkipped) GTEST_SKIP() << "no unprivileged user can run the program here";
   EXPECT_EQ(outcome.status, row.status) << outcome.err;
   EXPECT_NE(outcome.err.find(row.said), std::string::npos) << outcome.err;
-  EXPECT_EQ(outcome.err.find('\x1b'), std::string::npos) << "nothing that a terminal obeys";
+  EXPECT_EQ(outcome.err.find('\x1b'), std::string::npos) << "no control characters";
   if (outcome.status == 2 && *row.said != '\0' && script.find("bench ") == std::string::npos) {
     EXPECT_TRUE(outcome.err.starts_with("edgewise: ")) << outcome.err;
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << "one line: " << outcome.err;
@@ -182,7 +184,7 @@ TEST_P(InvalidInput, IsAnsweredAsTheTableSays) {
 }
 
 // The row's number, which makes the name unique, and the first letters and digits of its script.
-std::string row_name(const ::testing::TestParamInfo<Hostile>& row) {
+std::string row_name(const ::testing::TestParamInfo<InvalidInputRow>& row) {
   constexpr std::size_t kLongest = 40;
   std::string name = std::to_string(row.index) + '_';
   std::string_view script = row.param.script;
@@ -197,10 +199,10 @@ std::string row_name(const ::testing::TestParamInfo<Hostile>& row) {
   return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Table, InvalidInput, ::testing::ValuesIn(kHostile), row_name);
+INSTANTIATE_TEST_SUITE_P(Table, InvalidInput, ::testing::ValuesIn(kInvalidInputs), row_name);
 
-// The exit status within so much address space: done, or 2 and one line. None where the system's loader,
-// which speaks for itself, finds no room for the program.
+// The exit status with a limited address space: 0, or 2 with a one-line message. None if the system's loader
+// cannot load the program (it prints its own message).
 std::optional<int> status_within(int kib, const std::string& command, const TempDir& folder) {
   const std::string limit = "ulimit -v " + std::to_string(kib) + "; ", script = limit + command;
   const TempDir input;
@@ -212,8 +214,8 @@ std::optional<int> status_within(int kib, const std::string& command, const Temp
   return outcome.status;
 }
 
-// Wherever memory runs out. On one thread, since oneTBB may not come back.
-TEST(HostileMemory, EndsInAFileOrInOneLineAtAnyLimit) {
+// Memory may run out anywhere. On one thread, because oneTBB may hang.
+TEST(LimitedMemory, EndsInAFileOrInOneLineAtAnyLimit) {
   if (starves_sanitizers("ulimit -v")) GTEST_SKIP() << "sanitizers need more than the limit";
   int done = 0, refused = 0;
   for (const std::string command : {"edgewise render torus-knot --size 1900x1900 --threads 1 -o $DIR/a.png",
@@ -230,8 +232,8 @@ TEST(HostileMemory, EndsInAFileOrInOneLineAtAnyLimit) {
   EXPECT_GT(refused, 3);
 }
 
-// A soak's record is there from the beginning, and stays whole.
-TEST(HostileMemory, LeavesAWholeRecordOfASoakAtAnyLimit) {
+// A soak test's record exists from the beginning and is always complete.
+TEST(LimitedMemory, LeavesAWholeRecordOfASoakAtAnyLimit) {
   if (starves_sanitizers("ulimit -v")) GTEST_SKIP() << "sanitizers need more than the limit";
   int done = 0;
   for (const int kib : {40'000, 60'000, 80'000, 150'000, 300'000, 2'000'000}) {

@@ -1,22 +1,22 @@
-// The table of bad input and faults: what is done to the two programs, and what they must answer.
+// Table of invalid inputs and injected faults: commands for the two programs, and the expected outcome.
 #pragma once
 
 namespace edgewise::testing {
 
-struct Hostile {
-  // Bash. `edgewise` and `bench` are the programs, $DIR is an empty folder for output, $IN has the files that
-  // invalid_input_test.cpp writes. More words are defined there: stopped, unprivileged.
+struct InvalidInputRow {
+  // Bash. `edgewise` and `bench` run the programs. $DIR is an empty folder for output; $IN holds the files
+  // that invalid_input_test.cpp writes. That file defines more commands: stopped, unprivileged.
   const char* script;
   int status;
-  const char* said;  // a part of stderr
-  // What is in $DIR afterwards, in the order of the alphabet, all of it whole; "partial" stands for an
-  // unfinished file, which has a hidden name. A file named older* must hold what it held before.
+  const char* said;  // substring of stderr
+  // The files in $DIR afterwards, sorted by name, all complete. "partial" stands for an unfinished file with
+  // a hidden name. A file named older* must have its old content.
   const char* left = "";
 };
 
-// Exit statuses: 0 done, 1 a difference was found, 2 bad input or failure, 128 + N stopped by signal N.
-inline constexpr Hostile kHostile[] = {
-    // ---- What is asked for
+// Exit statuses: 0 success, 1 a difference was found, 2 bad input or failure, 128 + N stopped by signal N.
+inline constexpr InvalidInputRow kInvalidInputs[] = {
+    // ---- Commands and options
     {"edgewise", 2, "no command given"},
     {"edgewise rendr cube", 2, "unknown command 'rendr'; did you mean 'render'"},
     {"edgewise help", 2, "unknown command 'help'; did you mean '--help'"},
@@ -121,7 +121,7 @@ inline constexpr Hostile kHostile[] = {
     {"bench --scene cube --size 1000000x9 --benchmark_out=$DIR/a", 2, "1 to 16384"},
     {"bench --scene cube --size nine --benchmark_out=$DIR/a", 2, "'nine'"},
 
-    // ---- Numbers out of range, or none
+    // ---- Numbers: invalid or out of range
     {"edgewise render cube --threads 0 -o $DIR/a.png", 2, "1 to 256"},
     {"edgewise render cube --threads -1 -o $DIR/a.png", 2, "1 to 256"},
     {"edgewise render cube --threads 257 -o $DIR/a.png", 2, "1 to 256"},
@@ -175,7 +175,7 @@ inline constexpr Hostile kHostile[] = {
     {"bench --scene cube --benchmark_out_format=csv --benchmark_out=$DIR/a", 2, "csv"},
     {"bench --scene cube --scene cube --benchmark_out=$DIR/a", 2, "would both be named 'cube'"},
 
-    // ---- Files that are read
+    // ---- Input files
     {"edgewise render $IN/none.obj -o $DIR/a.png", 2, "none.obj: no such file"},
     {"edgewise render cube ./cube.obj -o $DIR/", 2, "no such file"},
     {"edgewise verify $IN/none.tri --json $DIR/a.json", 2, "no such file"},
@@ -206,7 +206,7 @@ inline constexpr Hostile kHostile[] = {
     {"edgewise render $IN/lies.tri -o $DIR/a.png", 2, "header promises 4294967295 triangles"},
     {"edgewise render $IN/other.tri -o $DIR/a.png", 2, "is not a triangle stream"},
     {"edgewise render $IN/wide.tri -o $DIR/a.png", 2, "image size 16385x4 is outside 1 to 16384"},
-    // Holes take no room on the disk, and would take far more memory than is allowed.
+    // Sparse files: they take no disk space, but would need far more memory than the limit.
     {"ulimit -v 400000; truncate -s 42949673016 $IN/large.tri; edgewise render $IN/large.tri -o $DIR/a.png",
      2, "large.tri: has 1073741825 triangles, more than 1073741824"},
     {"ulimit -v 400000; truncate -s 17179869185 $IN/good.obj; edgewise render $IN/good.obj -o $DIR/a.png", 2,
@@ -215,7 +215,7 @@ inline constexpr Hostile kHostile[] = {
     {"ulimit -v 400000; edgewise render cube --size 16385x16384 -o $DIR/a.png", 2, "1 to 16384"},
     {"ulimit -v 400000; edgewise render micro --scale 60 -o $DIR/a.png", 2, "10^8"},
     {"edgewise verify $IN/cut.tri --json $DIR/a.json", 2, "truncated"},
-    {"edgewise soak --cases 1 --resume $DIR/a.json --json $DIR/a.json", 0, "", "a.json"},  // begins it
+    {"edgewise soak --cases 1 --resume $DIR/a.json --json $DIR/a.json", 0, "", "a.json"},  // creates it
     {"edgewise soak --cases 1 --resume $DIR/no/a.json", 2, "cannot be written"},
     {"edgewise soak --cases 1 --json $DIR/a.json && edgewise soak --cases 1 --json $DIR/a.json", 2,
      "a.json: exists; use --resume to continue it", "a.json"},
@@ -234,7 +234,7 @@ inline constexpr Hostile kHostile[] = {
     {"edgewise soak --cases 1 -o $IN/a.json; sed -i 's/\"differ\": 0/\"differ\": 0.9/' $IN/a.json; "
      "edgewise soak --merge $IN/a.json -o $DIR/a.json",
      2, "not a complete record of a soak test: 'differ' is not a count"},
-    // NaN and infinity in a stream are no error: such triangles are dropped, and counted.
+    // NaN and infinity in a stream are not errors: such triangles are dropped and counted.
     {"edgewise render $IN/nan.tri -o $DIR/a.png", 0, "", "a.png"},
     {"edgewise verify $IN/nan.tri --json $DIR/a.json", 0, "", "a.json"},
     {"edgewise diff $IN/text.png $IN/text.png -o $DIR/a.png", 2, "text.png"},
@@ -248,7 +248,7 @@ inline constexpr Hostile kHostile[] = {
     {"edgewise diff $IN/small.ppm $IN/mesh.stl -o $DIR/a.png", 2, "unknown kind of file"},
     {"edgewise diff $IN/small.ppm $IN/other.ppm -o $DIR/a.png", 1, "", "a.png"},
 
-    // ---- Files that are written: where they cannot be
+    // ---- Output files that cannot be written
     {"edgewise render cube sphere -o $DIR/a.png", 2, "{scene}"},
     {"edgewise render cube cube -o $DIR/", 2, "two scenes would be written to"},
     {"edgewise render grid4 cube --scale 2 -o $DIR/", 2, "--scale"},
@@ -325,7 +325,7 @@ inline constexpr Hostile kHostile[] = {
     {"printf older >$DIR/older.ppm; ulimit -f 64; edgewise render cube --size 640x480 -o $DIR/older.ppm", 2,
      "File too large", "older.ppm"},
 
-    // ---- Streams of the shell
+    // ---- Standard streams
     {"edgewise list >/dev/full", 2, "cannot write to standard output"},
     {"edgewise machine >/dev/full", 2, "cannot write to standard output"},
     {"edgewise render --help >/dev/full", 2, "cannot write to standard output"},
@@ -360,8 +360,9 @@ inline constexpr Hostile kHostile[] = {
     {"ulimit -u 3; unprivileged edgewise stability cycle --threads 8", 2, "no more threads can be started"},
     {"ulimit -u 3; unprivileged edgewise soak --jobs 8", 2, "no more threads can be started"},
 
-    // ---- Signals, once the first file has been begun. Nothing is left but by SIGKILL, which nobody can
-    // answer: and that is no file under its final name.
+    // ---- Signals after the first file was created. Only SIGKILL, which cannot be caught, leaves a file, and
+    // not
+    // under its final name.
     {"stopped INT edgewise verify --full --json $DIR/a.json", 130, ""},
     {"stopped TERM edgewise verify --full --json $DIR/a.json", 143, ""},
     {"stopped HUP edgewise verify --full --json $DIR/a.json", 129, ""},
@@ -373,7 +374,7 @@ inline constexpr Hostile kHostile[] = {
     {"stopped INT edgewise stability --json $DIR/a.json", 130, ""},
     {"stopped TERM edgewise stability --json $DIR/a.json", 143, ""},
     {"stopped KILL edgewise stability --json $DIR/a.json", 137, "", "partial"},
-    // What a soak has done is there, whatever stops it.
+    // A soak test's record survives any signal.
     {"stopped INT edgewise soak --json $DIR/a.json", 130, "", "a.json"},
     {"stopped TERM edgewise soak --json $DIR/a.json", 143, "", "a.json"},
     {"stopped HUP edgewise soak --json $DIR/a.json", 129, "", "a.json"},
@@ -382,7 +383,7 @@ inline constexpr Hostile kHostile[] = {
     {"stopped TERM bench --benchmark_out=$DIR/a.json", 143, ""},
     {"stopped QUIT bench --benchmark_out=$DIR/a.json", 131, ""},
     {"stopped KILL bench --benchmark_out=$DIR/a.json", 137, "", "partial"},
-    // Pictures are written one by one: whole ones may be there.
+    // Pictures are written one by one: complete ones may be left.
     {"stopped INT edgewise accuracy edge_on t_junction --no-speed --pictures $DIR/errors", 130, "", "errors"},
     {"stopped KILL edgewise accuracy edge_on t_junction --no-speed --pictures $DIR/errors", 137, "",
      "errors"},

@@ -1,4 +1,4 @@
-// The program as a user meets it. What it must refuse stands in invalid_inputs.h.
+// The program's commands on valid input; invalid_inputs.h has the invalid ones.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -73,7 +73,7 @@ TEST(Program, MachineIsDescribedWithoutAHostName) {
   EXPECT_TRUE(name.ends_with("-core\n") || name.ends_with("-cores\n")) << name;
 }
 
-// The sleep lets the reader go first.
+// The sleep lets the reader exit first.
 TEST(Program, EndsQuietlyAfterItsReader) {
   for (const std::string command : {EDGEWISE_PROGRAM " demo --json", EDGEWISE_PROGRAM " render --help",
                                     EDGEWISE_BENCH " --help", EDGEWISE_BENCH " --benchmark_list_tests"}) {
@@ -83,7 +83,7 @@ TEST(Program, EndsQuietlyAfterItsReader) {
   }
 }
 
-// What a program writes to a terminal, both streams together. script(1) makes the terminal.
+// Runs the program on a terminal made by script(1); `out` holds both streams.
 Outcome on_terminal(const std::string& term, const std::string& arguments) {
   return testing::run_program(
       "/usr/bin/env", "TERM=" + term + " script -qec \"" EDGEWISE_PROGRAM " " + arguments + "\" /dev/null");
@@ -105,8 +105,8 @@ TEST(Program, SendsNoCursorControlsToADumbTerminal) {
   }
 }
 
-// Results of different machines must not go to one folder.
-TEST(Program, TellsCpusApartThatGoByOneName) {
+// Results of different machines must not share a folder.
+TEST(Program, DistinguishesCpusWithTheSameModelName) {
   TempDir folder;
   const auto model_of = [&](const std::string& name, const std::string& more) {
     const std::string path = (folder.path() / "cpuinfo").string();
@@ -176,7 +176,7 @@ TEST_F(ProgramRenders, HitsOfAGridAsOnceEverywhere) {
 TEST_F(ProgramRenders, IdsThatCanBeReadBack) {
   ASSERT_EQ(edgewise_with("render grid64 --size 128x64 --payload id -o " + path("id.png")).status, 0);
   constexpr std::uint32_t kSpread = 0x9E3779;
-  std::uint32_t inverse = 1;  // Newton's iteration doubles the number of right bits
+  std::uint32_t inverse = 1;  // Newton's iteration doubles the number of correct bits
   for (int i = 0; i < 5; ++i) inverse *= 2 - kSpread * inverse;
   const TriangleStream stream = std::get<TriangleStream>(find_scene("grid64").make({128, 64, 0.0f, 1.0}));
   std::set<std::uint32_t> ids;
@@ -222,7 +222,7 @@ TEST_F(ProgramRenders, WhateverTheCaseOfItsExtension) {
   EXPECT_EQ(json.at("scenes")[0].at("width"), 40);
 }
 
-TEST_F(ProgramRenders, AFileOfAnyNameAndSaysNothingThatATerminalObeys) {
+TEST_F(ProgramRenders, AFileOfAnyNameAndPrintsNoControlCharacters) {
   const std::string name = path("x\x1b[31m\xff\xc3\xa9.tri");
   ASSERT_EQ(edgewise_with("capture grid4 --size 40x30 -o " + path("a.tri")).status, 0);
   std::filesystem::rename(path("a.tri"), name);

@@ -1,5 +1,5 @@
-// The soak: cases that depend on nothing but their number, shards that add up, and a judge that finds what is
-// planted.
+// The soak test: cases depend only on seed and number, shards add up, and deliberately wrong backends are
+// found.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -35,7 +35,7 @@ namespace {
 
 using testing::Outcome;
 
-// FNV-1a over all that a case shows.
+// FNV-1a hash of the content of a case.
 class Fingerprint {
  public:
   explicit Fingerprint(const Case& c) {
@@ -83,14 +83,15 @@ Campaign campaign_of(std::uint64_t cases) {
 }
 
 Record fresh(std::uint64_t seed, const Shard& shard) {
-  static const Record blank = new_record(0, {}, {"scanline", "naive", "tiled"});  // asks git for the commit
+  static const Record blank =
+      new_record(0, {}, {"scanline", "naive", "tiled"});  // once, because it calls git for the commit
   Record record = blank;
   record.seed = seed;
   record.shards = {shard};
   return record;
 }
 
-// Through its JSON, so that what is lost there is missed.
+// Runs a campaign and passes its record through JSON, so that tests notice what JSON loses.
 Record soaked(const Campaign& campaign, Record record, const TempDir& folder) {
   const Record done = run(campaign, std::move(record));
   return read_record(folder.write("record.json", to_json(done).dump()));
@@ -106,7 +107,7 @@ TEST(SoakCases, DependOnSeedAndNumberAlone) {
     EXPECT_TRUE(seen.insert(fingerprint(2, number)).second) << number;
     all = all * 31 + here;
   }
-  // On every machine and with every compiler. When this changes, kSequence must rise.
+  // The same on every machine and with every compiler. If this value changes, increment kSequence.
   EXPECT_EQ(kSequence, 2);
   EXPECT_EQ(all, 949901280796397582u);
 }
@@ -269,7 +270,7 @@ TEST(SoakMerge, AndReadingRefuseARecordThatCannotBe) {
   EXPECT_NE(refusal("/shards", {shard, shard}).find("drawn twice, in shards 0/1 and 0/1"), std::string::npos);
 }
 
-// Right but for pixel (0, 0), on several threads, and only if a triangle covers it.
+// Wrong only at pixel (0, 0), only on several threads, and only if a triangle covers it.
 class WrongInTheCorner : public Backend {
   void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
                     const Execution& execution) override {
@@ -288,7 +289,7 @@ class WritesBehindTheLastRow : public Backend {
   std::unique_ptr<Backend> right_ = backends()[0].make();
 };
 
-// Wrong in all that it draws: nobody but the oracle can tell.
+// As the reference, wrong in every frame: only the oracle can find it.
 class WrongReference : public Backend {
   void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
                     const Execution& execution) override {
@@ -301,14 +302,14 @@ class WrongReference : public Backend {
 };
 
 template <typename Wrong>
-BackendInfo planted() {
-  return {"planted", "", [] { return std::unique_ptr<Backend>(std::make_unique<Wrong>()); }};
+BackendInfo wrong_backend() {
+  return {"wrong", "", [] { return std::unique_ptr<Backend>(std::make_unique<Wrong>()); }};
 }
 
 TEST(SoakFindings, AreReportedReducedAndReplayed) {
   const TempDir folder;
   Campaign campaign = campaign_of(40);
-  campaign.judged.backends = {backends()[0], planted<WrongInTheCorner>()};
+  campaign.judged.backends = {backends()[0], wrong_backend<WrongInTheCorner>()};
   campaign.failure_folder = folder.path() / "the soak's failures";
   campaign.program = EDGEWISE_PROGRAM;
   const Record record = soaked(campaign, fresh(8, {}), folder);
@@ -318,7 +319,7 @@ TEST(SoakFindings, AreReportedReducedAndReplayed) {
   EXPECT_EQ(to_json(record).at("bounds_95"), nullptr);
   int replayed = 0;
   for (const auto& finding : record.findings) {
-    EXPECT_EQ(finding.at("backend"), "planted");
+    EXPECT_EQ(finding.at("backend"), "wrong");
     EXPECT_EQ(finding.at("judge"), backends()[0].name);
     EXPECT_GT(finding.at("threads"), 1);
     EXPECT_EQ(finding.at("pixels"), 1u);
@@ -331,7 +332,7 @@ TEST(SoakFindings, AreReportedReducedAndReplayed) {
     const auto commands = finding.at("replay").get<std::vector<std::string>>();
     EXPECT_EQ(commands.at(0), "'" EDGEWISE_PROGRAM "' soak --seed 8 --case " + finding.at("case").dump());
     replayed += commands.size() == 2;
-    // The program has no planted backend: it must only understand what it is told.
+    // The program lacks the wrong backend, so the command must run and find nothing.
     const auto script = folder.write("replay.sh", "cd / && " + commands.at(1));
     EXPECT_EQ(testing::run_program("/bin/sh", script.string()).status, 0) << commands.at(1);
   }
@@ -351,7 +352,7 @@ TEST(SoakFindings, AreReportedReducedAndReplayed) {
 TEST(SoakFindings, IncludeWhatIsWrittenBesideThePicture) {
   const TempDir folder;
   Campaign campaign = campaign_of(6);
-  campaign.judged.backends = {backends()[0], planted<WritesBehindTheLastRow>()};
+  campaign.judged.backends = {backends()[0], wrong_backend<WritesBehindTheLastRow>()};
   campaign.failure_folder = folder.path() / "failures";
   const Record record = soaked(campaign, fresh(9, {}), folder);
   ASSERT_FALSE(record.findings.empty());
@@ -359,7 +360,7 @@ TEST(SoakFindings, IncludeWhatIsWrittenBesideThePicture) {
   EXPECT_EQ(record.findings[0].at("written_outside"), 1u);
 }
 
-// Wrong only in the way that just one backend has.
+// Wrong only with stepped values.
 class WrongWhenStepped : public AblatableBackend {
   void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
                     const Execution& execution) override {
@@ -381,7 +382,7 @@ TEST(SoakFindings, IncludeValuesThatAreSteppedWrong) {
 
 TEST(SoakFindings, AreKeptWhereNoFileCanBeWritten) {
   Campaign campaign = campaign_of(6);
-  campaign.judged.backends = {backends()[0], planted<WritesBehindTheLastRow>()};
+  campaign.judged.backends = {backends()[0], wrong_backend<WritesBehindTheLastRow>()};
   campaign.failure_folder = "/dev/null/failures";
   const Record record = run(campaign, fresh(9, {}));
   ASSERT_FALSE(record.findings.empty());
@@ -393,7 +394,7 @@ TEST(SoakFindings, AreKeptWhereNoFileCanBeWritten) {
 
 TEST(SoakFindings, IncludeAReferenceThatIsWrong) {
   Campaign campaign = campaign_of(40);
-  campaign.judged.backends = {planted<WrongReference>()};
+  campaign.judged.backends = {wrong_backend<WrongReference>()};
   const Record record = run(campaign, fresh(10, {}));
   ASSERT_FALSE(record.findings.empty());
   for (const auto& finding : record.findings) EXPECT_EQ(finding.at("judge"), "oracle");
@@ -425,7 +426,7 @@ TEST(SoakFindings, IncludeAFrontEndThatIsWrong) {
 TEST(SoakFindings, AreNotReducedFurtherOnceAskedToStop) {
   const TempDir folder;
   Campaign campaign = campaign_of(1);
-  campaign.judged.backends = {backends()[0], planted<WrongInTheCorner>()};
+  campaign.judged.backends = {backends()[0], wrong_backend<WrongInTheCorner>()};
   campaign.jobs = 1;
   campaign.failure_folder = folder.path();
   std::uint64_t number = 0;
@@ -446,7 +447,7 @@ TEST(SoakFindings, AreNotReducedFurtherOnceAskedToStop) {
 TEST(SoakFindings, BeyondTheMostThatAreKeptLeaveNoFiles) {
   const TempDir folder;
   Campaign campaign = campaign_of(10);
-  campaign.judged.backends = {backends()[0], planted<WrongInTheCorner>()};
+  campaign.judged.backends = {backends()[0], wrong_backend<WrongInTheCorner>()};
   campaign.failure_folder = folder.path() / "failures";
   Record before = fresh(8, {});
   before.findings.resize(kMostFindings - 1, {{"case", 0}});
@@ -463,7 +464,7 @@ TEST(SoakFindings, ABackendThatThrowsEndsItWithTheCase) {
     }
   };
   Campaign campaign = campaign_of(4);
-  campaign.judged.backends = {backends()[0], planted<Throws>()};
+  campaign.judged.backends = {backends()[0], wrong_backend<Throws>()};
   campaign.jobs = 1;
   const std::string said = message_of([&] { run(campaign, fresh(12, {})); });
   EXPECT_TRUE(said.starts_with("seed 12, case 0 (")) << said;
@@ -471,7 +472,7 @@ TEST(SoakFindings, ABackendThatThrowsEndsItWithTheCase) {
 }
 
 TEST(SoakFindings, WhatWasDoneBeforeAFailureIsHandedOver) {
-  // Draws two cases, and has no memory for the third.
+  // Draws two cases and throws std::bad_alloc in the third.
   class Tires : public Backend {
     void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
                       const Execution& execution) override {
@@ -482,7 +483,7 @@ TEST(SoakFindings, WhatWasDoneBeforeAFailureIsHandedOver) {
     int drawn_ = 0;
   };
   Campaign campaign = campaign_of(4);
-  campaign.judged.backends = {backends()[0], planted<Tires>()};
+  campaign.judged.backends = {backends()[0], wrong_backend<Tires>()};
   campaign.jobs = 1;
   std::uint64_t done = 0;
   campaign.on_failure = [&](const Record& record) { done = record.tally.cases; };
@@ -588,7 +589,7 @@ TEST_F(SoakProgram, WritesWhatIsDoneOnCtrlCAndGoesOn) {
         execl(EDGEWISE_PROGRAM, "edgewise", "soak", "--resume", file.c_str(), nullptr);
       _exit(99);
     }
-    // The first record shows that the work is about to begin.
+    // The program writes the first record just before it starts drawing.
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
     while (!std::filesystem::exists(file) && std::chrono::steady_clock::now() < deadline)
       std::this_thread::sleep_for(std::chrono::milliseconds(5));

@@ -1,4 +1,4 @@
-// `edgewise stability` as a user meets it.
+// The command `edgewise stability`: list, tables and JSON.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -34,7 +34,7 @@ TEST(StabilityCommand, WritesTheSameAsTableAndAsJson) {
   EXPECT_EQ(table.err, "") << "no progress bar where there is no terminal";
   EXPECT_LT(table.out.find("cycle (visibility)"), table.out.find("legs (coverage)"));
   EXPECT_TRUE(std::regex_search(table.out, std::regex("\nfixed_8_int32 +182 "))) << table.out;
-  // Three over the 768 crossings of the smallest legs.
+  // 3 / 768: the smallest legs have 768 edge crossings.
   EXPECT_TRUE(std::regex_search(table.out, std::regex("\nfixed_8 +never +< 3\\.9e\\+03 +0/17\n")))
       << table.out;
 

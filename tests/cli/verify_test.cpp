@@ -1,5 +1,5 @@
-// The judge is judged: it must find what wrong backends do, and pass right ones. Captures must replay
-// exactly.
+// Tests `edgewise verify` with deliberately wrong backends: it must find their errors and pass correct
+// backends. Captures must replay exactly.
 #include "cli/verify/verify.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ namespace {
 
 constexpr int kWrongX = 7, kWrongY = 5;
 
-// Right but for one bit of depth at one pixel.
+// Flips one depth bit at one pixel.
 class OneBitOff : public Backend {
   void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
                     const Execution& execution) override {
@@ -40,7 +40,7 @@ class ForgetsBackground : public Backend {
   std::unique_ptr<Backend> right_ = backends()[0].make();
 };
 
-// Wrong only with three threads and ids.
+// Wrong only with three threads and id payloads.
 class WrongOnThreads : public Backend {
   void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
                     const Execution& execution) override {
@@ -50,7 +50,7 @@ class WrongOnThreads : public Backend {
   std::unique_ptr<Backend> right_ = backends()[0].make();
 };
 
-// The drawing of the last pixel of each row is skipped: a seam that leaves gaps in a grid.
+// Skips the last pixel of each row, which leaves gaps in a grid.
 class LeavesGaps : public Backend {
   void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
                     const Execution& execution) override {
@@ -63,7 +63,7 @@ class LeavesGaps : public Backend {
   std::unique_ptr<Backend> right_ = backends()[0].make();
 };
 
-// The picture is right, and the first pixel behind a row is gone.
+// Draws the picture correctly, but overwrites the first word behind a row.
 class WritesBesideTheImage : public Backend {
   void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
                     const Execution& execution) override {
@@ -115,7 +115,7 @@ TEST(Verify, FindsOneBitAndShowsIt) {
   const VerifyReport report = verify_quietly(plan);
   EXPECT_FALSE(report.ok());
   const SceneVerdict& verdict = report.scenes.at(0);
-  EXPECT_EQ(verdict.differing_pixels, verdict.configurations / 2);  // one a frame, of the wrong backend only
+  EXPECT_EQ(verdict.differing_pixels, verdict.configurations / 2);  // one per frame of the wrong backend
   EXPECT_EQ(verdict.oracle_differences, verdict.oracle_configurations / 2);
 
   ASSERT_EQ(verdict.mismatches.size(), 2u);  // against the reference, and against the oracle
@@ -221,8 +221,8 @@ bool same(const ScreenTriangle& a, const ScreenTriangle& b) {
          std::equal(a.z, a.z + 3, b.z) && a.payload == b.payload;
 }
 
-// Those that can reach a pixel. The front end tells that a triangle is outside before snapping in a scene and
-// after it in a stream, so some that draw nothing may be in one list only.
+// The triangles whose pixel box is not empty. The front end rejects outside triangles before snapping in a
+// scene, and after snapping in a stream, so triangles that draw nothing may be in only one list.
 std::vector<ScreenTriangle> visible(std::span<const ScreenTriangle> triangles,
                                     const FrontendOptions& options) {
   std::vector<ScreenTriangle> all;
