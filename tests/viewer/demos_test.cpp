@@ -1,4 +1,4 @@
-// The tutorials' demonstrations: that each shows what it says, and the same on every machine.
+// The tutorials' demos: each shows what its texts say, and the same picture on every machine.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ class Shown {
     start.execution = execution;
     session_.emplace(std::move(start));
   }
-  // What is seen after the next steps.
+  // Takes the next steps and draws.
   const Screen& step(std::size_t steps = 1) {
     for (std::size_t i = 0; i < steps; ++i) viewer::type(*session_, parse_keys("5"), kDemoSize, kTestCell);
     return session_->draw(kDemoSize, kTestCell);

@@ -1,4 +1,4 @@
-// What a terminal sends and gets.
+// Parsing of terminal input, and output of pictures to a terminal.
 #include <gtest/gtest.h>
 
 #include "viewer/terminal_input.h"

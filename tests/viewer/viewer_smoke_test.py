@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""`edgewise view` as a person meets it: a real window under Xvfb that gets key presses and mouse drags, and a terminal
-in tmux. What is seen is compared with the pictures that the same keys lead to without a window.
+"""Runs `edgewise view` in a window under Xvfb, with key presses and mouse drags, and in a terminal under tmux. Compares
+the pictures shown with those that the same keys give without a window.
 
 usage: viewer_smoke_test.py EDGEWISE
-Exit status 77, which ctest takes for "skipped", where what it needs is absent."""
+Exits with 77, which ctest counts as skipped, if a required program is missing."""
 import json
 import os
 import shutil
@@ -97,7 +97,7 @@ class InWindow(Viewer):
     def start(self, title, *words):
         self.screen = Screen(self.folder)
         self.addCleanup(self.screen.close)
-        # What a library below SDL keeps to the end is no leak of the program's, should a sanitizer look.
+        # libdbus, which SDL uses, keeps memory until exit; the leak sanitizer must ignore it.
         known_leaks = self.folder / "known_leaks"
         known_leaks.write_text("leak:libdbus-1.so\n")
         self.environment = {**os.environ, "DISPLAY": self.screen.display, "SDL_VIDEODRIVER": "x11",
@@ -136,7 +136,7 @@ class Demonstration(InWindow):
         demos = json.loads(subprocess.run([EDGEWISE, "demo", "--json"], check=True, capture_output=True).stdout)
         steps = next(demo["steps"] for demo in demos if demo["name"] == self.NAME)
 
-        def below_the_text(picture):  # where times stand, which differ
+        def below_the_text(picture):  # the text shows times, which differ
             return picture.part(0, 80, picture.width, picture.height - 80)
 
         expected = below_the_text(read_ppm(path))
@@ -161,8 +161,8 @@ class Window(InWindow):
         return expected
 
     def test_keys_mouse_sizes_and_files(self):
-        # The full overlay is on at this size, the short one on a small screen: o takes them away, and with them the
-        # times that would differ.
+        # The key o hides the overlay and its times, which differ: two presses hide the full overlay of this size, one
+        # hides the brief overlay of a small screen.
         home = self.expect("oo")
         self.xdo("key", "1", "2")
         self.assertNotEqual(self.expect("oo12"), home)
@@ -178,14 +178,14 @@ class Window(InWindow):
         self.xdo("key", "7")
         self.expect("oo")
 
-        # A drag turns the view, a held key moves the eye, and there is a way back.
+        # A drag turns the view, a held key moves the camera, and 0 resets both.
         self.xdo("mousemove", "--window", self.window, "300", "200", "mousedown", "1", "mousemove", "--window",
                  self.window, "360", "180", "mouseup", "1")
         wait_for(lambda: self.shown() != home, "the view to turn")
         self.xdo("key", "0")
         self.expect("oo")
         self.xdo("keydown", "w")
-        wait_for(lambda: self.shown() != home, "the eye to move")
+        wait_for(lambda: self.shown() != home, "the camera to move")
         self.xdo("keyup", "w")
         self.xdo("key", "0")
         self.expect("oo")

@@ -15,7 +15,8 @@ namespace edgewise::viewer {
 inline constexpr Cell kTestCell{6, 10};
 inline constexpr app::Size kTestSize{240, 160};
 
-// To the right of the line of sight: its left side is seen, though the z of that side's normal is 0.
+// A box to the right of the line of sight: its left side is visible, although the z of that side's normal is
+// 0.
 inline Scene box_aside() {
   Scene scene = std::get<Scene>(find_scene("cube").make({}));
   scene.instances[0] = {.scale = glm::vec3(0.5f), .translation = {2.0f, 0.0f, -4.0f}};

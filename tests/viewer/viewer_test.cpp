@@ -1,4 +1,5 @@
-// The viewer's session, driven by keys and mouse as a window would: what is seen, counted and saved.
+// Drives a viewer session by keys and mouse, as a window does, and checks pictures, error counts and saved
+// files.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -17,7 +18,7 @@
 namespace edgewise::viewer {
 namespace {
 
-constexpr std::string_view kNoOverlay = "o";  // at this size it begins with the short one
+constexpr std::string_view kNoOverlay = "o";  // at this size the brief overlay is the default
 
 Image rendered(std::string_view scene, Cull cull, app::Size size = kTestSize,
                std::string_view backend = "naive") {
@@ -39,7 +40,7 @@ void add_quad(Scene& scene, glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d, 
   scene.instances.push_back({.mesh = scene.meshes.size() - 1});
 }
 
-// A near square that is submitted first, before a farther one.
+// Two squares; the nearer one is submitted first.
 Scene near_then_far() {
   Scene scene;
   for (const float z : {-2.0f, -4.0f})
@@ -48,8 +49,8 @@ Scene near_then_far() {
   return scene;
 }
 
-// A floor that passes under the eye.
-Scene floor_under_the_eye() {
+// A floor that passes below the camera.
+Scene floor_below_the_camera() {
   Scene scene;
   add_quad(scene, {-9, -1, 9}, {9, -1, 9}, {9, -1, -9}, {-9, -1, -9}, rgb(200, 200, 200));
   std::swap(scene.meshes[0].triangles[0].y, scene.meshes[0].triangles[0].z);
@@ -172,7 +173,7 @@ TEST(Viewer, ReplacesEachStageAlone) {
   EXPECT_EQ(order.side(0).choice.visibility->info.name, "submission_order");
   EXPECT_GT(wrong(order), 500u);
 
-  Session floor = session_of(floor_under_the_eye(), Cull::none);
+  Session floor = session_of(floor_below_the_camera(), Cull::none);
   type(floor, "");
   EXPECT_EQ(wrong(floor), 0u);
   EXPECT_GT(floor.side(0).judgement->covered, 5000u);
@@ -502,9 +503,8 @@ TEST(Viewer, LabelsVerticesAndAxes) {
   EXPECT_TRUE(says(knot.draw({900, 600}, kTestCell), "too many for labels"));
 }
 
-// Three quads: one before the eye and turned to it, one that turns its back, one behind the eye; and a floor
-// that passes under it.
-TEST(Viewer, TellsOfEachFaceWhatBecameOfIt) {
+// Three quads (a front face, a back face, one behind the camera) and a floor that passes below the camera.
+TEST(Viewer, ShowsTheStateOfEachFace) {
   constexpr app::Size kLarge{640, 480};
   Scene scene;
   const auto add = [&](glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d) {
@@ -527,9 +527,9 @@ TEST(Viewer, TellsOfEachFaceWhatBecameOfIt) {
   };
   EXPECT_EQ(letters(session.draw(kLarge, kTestCell), "a"), 1);
   EXPECT_EQ(letters(session.draw(kLarge, kTestCell), "b"), 1);
-  EXPECT_EQ(letters(session.draw(kLarge, kTestCell), "-"), 0) << "behind the eye";
+  EXPECT_EQ(letters(session.draw(kLarge, kTestCell), "-"), 0) << "behind the camera";
   EXPECT_TRUE(says(type(session, "2", kLarge), "a a - c"));
-  // The same by a facing test of the laboratory, which knows no clipping.
+  // The same with a facing method of src/lab, which doesn't clip.
   EXPECT_TRUE(says(type(session, "2<normal_dot_eye>", kLarge), "a b - c"));
   EXPECT_TRUE(says(type(session, "<screen_linear>", kLarge), "doesn't report"));
   EXPECT_FALSE(says(type(session, "7", kLarge), "[7]"));
