@@ -57,8 +57,10 @@ std::uint32_t colour_of(Mark mark) {
 MarkedPicture mark_coverage(const CoverageTruth& truth, std::vector<Run> runs,
                             std::span<const FloatTriangle> triangles, double reach_px) {
   const Window w = truth.window;
-  MarkedPicture picture{
-      w, std::vector<std::uint32_t>(pixels_of(w), kNobody), std::vector<Mark>(pixels_of(w), Mark::none), {}};
+  MarkedPicture picture{w,
+                        std::vector<std::uint32_t>(pixels_of(w), kNoTriangle),
+                        std::vector<Mark>(pixels_of(w), Mark::none),
+                        {}};
   const auto row_at = [&](const Run& run) {
     return static_cast<std::size_t>(run.y - w.y0) * static_cast<std::size_t>(w.width);
   };
@@ -68,7 +70,7 @@ MarkedPicture mark_coverage(const CoverageTruth& truth, std::vector<Run> runs,
       visit(row_at(run) + static_cast<std::size_t>(x - w.x0));
   };
   for (const Run& run : truth.runs)
-    each_pixel(run, [&](std::size_t pixel) { picture.owner[pixel] = run.triangle; });
+    each_pixel(run, [&](std::size_t pixel) { picture.visible[pixel] = run.triangle; });
 
   const auto hits = hits_of(runs, w);
   std::sort(runs.begin(), runs.end());
@@ -85,14 +87,14 @@ MarkedPicture mark_coverage(const CoverageTruth& truth, std::vector<Run> runs,
   return picture;
 }
 
-MarkedPicture mark_owners(std::span<const std::uint32_t> truth, std::span<const std::uint32_t> said,
-                          Window window) {
+MarkedPicture mark_visible_triangles(std::span<const std::uint32_t> truth,
+                                     std::span<const std::uint32_t> drawn, Window window) {
   MarkedPicture picture{window, {truth.begin(), truth.end()}, {}, {}};
   for (std::size_t i = 0; i < truth.size(); ++i)
-    picture.marks.push_back(said[i] == truth[i]   ? Mark::none
-                            : said[i] == kNobody  ? Mark::gap
-                            : truth[i] == kNobody ? Mark::extra
-                                                  : Mark::twice);
+    picture.marks.push_back(drawn[i] == truth[i]      ? Mark::none
+                            : drawn[i] == kNoTriangle ? Mark::gap
+                            : truth[i] == kNoTriangle ? Mark::extra
+                                                      : Mark::twice);
   return picture;
 }
 
@@ -100,7 +102,7 @@ MarkedPicture mark_faces(const FacingScene& scene, std::span<const FaceFacts> fa
                          std::span<const std::uint8_t> kept) {
   const Window window{scene.view.size.width, scene.view.size.height};
   MarkedPicture picture{window,
-                        std::vector<std::uint32_t>(pixels_of(window), kNobody),
+                        std::vector<std::uint32_t>(pixels_of(window), kNoTriangle),
                         std::vector<Mark>(pixels_of(window), Mark::none),
                         {}};
   for (std::uint32_t i = 0; i < scene.faces.size(); ++i) {
@@ -110,13 +112,13 @@ MarkedPicture mark_faces(const FacingScene& scene, std::span<const FaceFacts> fa
       picture.lines.push_back({a.x, a.y, b.x, b.y});
     }
     const bool keep = kept[i] != 0, front = facts[i].floats.front;
-    if (!facts[i].floats.owns_pixel || (!front && !keep)) continue;
+    if (!facts[i].floats.covers_sample || (!front && !keep)) continue;
     for (int y = 0; y < window.height; ++y)
       for (int x = 0; x < window.width; ++x) {
         if (!contains(polygon, x + 0.5, y + 0.5)) continue;
         const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(window.width) +
                                   static_cast<std::size_t>(x);
-        if (front) picture.owner[pixel] = i;
+        if (front) picture.visible[pixel] = i;
         if (front != keep) picture.marks[pixel] = keep ? Mark::extra : Mark::gap;
       }
   }

@@ -31,14 +31,14 @@ struct Line {
 // The whole picture of a method, from which close-ups are cut.
 struct MarkedPicture {
   Window window;
-  std::vector<std::uint32_t> owner;
+  std::vector<std::uint32_t> visible;
   std::vector<Mark> marks;
   std::vector<Line> lines;
 };
 MarkedPicture mark_coverage(const CoverageTruth& truth, std::vector<Run> runs,
                             std::span<const FloatTriangle> triangles, double reach_px);
-MarkedPicture mark_owners(std::span<const std::uint32_t> truth, std::span<const std::uint32_t> said,
-                          Window window);
+MarkedPicture mark_visible_triangles(std::span<const std::uint32_t> truth,
+                                     std::span<const std::uint32_t> drawn, Window window);
 // Faces that look at the eye, over those that were kept or dropped by mistake.
 MarkedPicture mark_faces(const FacingScene& scene, std::span<const FaceFacts> facts,
                          std::span<const std::uint8_t> kept);

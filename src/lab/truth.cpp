@@ -166,14 +166,14 @@ std::vector<Run> all_runs(std::span<const Triangle> triangles, Window window, in
 }
 
 template <typename Triangle>
-class OwnerFinder {
+class VisibleTriangleFinder {
  public:
-  OwnerFinder(std::span<const Triangle> triangles, Window window)
+  VisibleTriangleFinder(std::span<const Triangle> triangles, Window window)
       : triangles_(triangles),
-        result_{window, std::vector(pixels(window), kNobody),
+        result_{window, std::vector(pixels(window), kNoTriangle),
                 std::vector(pixels(window), std::numeric_limits<double>::infinity())} {}
 
-  Owners run(int threads) && {
+  VisibleTriangles run(int threads) && {
     constexpr int kRows = 16;
     const Window& window = result_.window;
     parallel_for(threads, (window.height + kRows - 1) / kRows, [&](int band) {
@@ -211,15 +211,15 @@ class OwnerFinder {
   }
 
   template <typename Truth>
-  bool wins(const Truth& truth, const Ball& depth, std::uint32_t owner, const Ball& owners, int x,
+  bool wins(const Truth& truth, const Ball& depth, std::uint32_t visible_id, const Ball& nearest, int x,
             int y) const {
-    if (owner == kNobody) return true;
-    if (const int sign = (depth - owners).sign(); sign != 0) return sign < 0;
-    return truth.depth(x, y) < truth_of(triangles_[owner]).depth(x, y);
+    if (visible_id == kNoTriangle) return true;
+    if (const int sign = (depth - nearest).sign(); sign != 0) return sign < 0;
+    return truth.depth(x, y) < truth_of(triangles_[visible_id]).depth(x, y);
   }
 
   std::span<const Triangle> triangles_;
-  Owners result_;
+  VisibleTriangles result_;
 };
 
 }  // namespace
@@ -275,11 +275,13 @@ std::vector<Run> covered_runs(std::span<const ScreenTriangle> triangles, Window 
 std::vector<Run> covered_runs(std::span<const FloatTriangle> triangles, Window window, int threads) {
   return all_runs(triangles, window, threads);
 }
-Owners exact_owners(std::span<const ScreenTriangle> triangles, Window window, int threads) {
-  return OwnerFinder(triangles, window).run(threads);
+VisibleTriangles exact_visible_triangles(std::span<const ScreenTriangle> triangles, Window window,
+                                         int threads) {
+  return VisibleTriangleFinder(triangles, window).run(threads);
 }
-Owners exact_owners(std::span<const FloatTriangle> triangles, Window window, int threads) {
-  return OwnerFinder(triangles, window).run(threads);
+VisibleTriangles exact_visible_triangles(std::span<const FloatTriangle> triangles, Window window,
+                                         int threads) {
+  return VisibleTriangleFinder(triangles, window).run(threads);
 }
 
 }  // namespace edgewise::lab

@@ -47,18 +47,18 @@ class FillRule {
       const Y &from = y[i], &to = y[(i + 1) % 3], &third = y[(i + 2) % 3];
       // A clockwise triangle lies to the right of an edge that runs upwards.
       lean_[i] = from == to ? 0 : from > to ? facing : -facing;
-      owns_ties_[i] = lean_[i] > 0 || (lean_[i] == 0 && third > from);
+      accepts_ties_[i] = lean_[i] > 0 || (lean_[i] == 0 && third > from);
     }
   }
   int facing() const { return facing_; }
   // On which side of an edge the triangle lies: 1 right, -1 left, 0 above or below one that is horizontal.
   int lean(int edge) const { return lean_[edge]; }
   // `side` is the sign of cross(from, to, sample).
-  bool accepts(int edge, int side) const { return side == 0 ? owns_ties_[edge] : side == facing_; }
+  bool accepts(int edge, int side) const { return side == 0 ? accepts_ties_[edge] : side == facing_; }
 
  private:
   int facing_, lean_[3];
-  bool owns_ties_[3];
+  bool accepts_ties_[3];
 };
 
 // Both truths answer the same questions. Edge i runs from vertex i to the next one; a pixel's sample is its
@@ -106,14 +106,16 @@ class FloatTruth {
 std::vector<Run> covered_runs(std::span<const ScreenTriangle> triangles, Window window, int threads);
 std::vector<Run> covered_runs(std::span<const FloatTriangle> triangles, Window window, int threads);
 
-inline constexpr std::uint32_t kNobody = 0xFFFFFFFF;
+inline constexpr std::uint32_t kNoTriangle = 0xFFFFFFFF;
 // Who owns each pixel, row by row: the nearest triangle, the earlier one at a tie, all by exact comparison.
-struct Owners {
+struct VisibleTriangles {
   Window window;
-  std::vector<std::uint32_t> triangle;  // index, or kNobody
+  std::vector<std::uint32_t> triangle;  // index, or kNoTriangle
   std::vector<double> depth;            // of the owner, within 2^-40 of its size; infinity where nobody
 };
-Owners exact_owners(std::span<const ScreenTriangle> triangles, Window window, int threads);
-Owners exact_owners(std::span<const FloatTriangle> triangles, Window window, int threads);
+VisibleTriangles exact_visible_triangles(std::span<const ScreenTriangle> triangles, Window window,
+                                         int threads);
+VisibleTriangles exact_visible_triangles(std::span<const FloatTriangle> triangles, Window window,
+                                         int threads);
 
 }  // namespace edgewise::lab

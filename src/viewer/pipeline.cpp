@@ -77,7 +77,7 @@ std::vector<bool> two_sided_faces(const Drawable& drawable) {
   return faces;
 }
 
-// Payloads minus one: triangle indices; the background's 0 becomes lab::kNobody.
+// Payloads minus one: triangle indices; the background's 0 becomes lab::kNoTriangle.
 std::vector<std::uint32_t> visible_ids_in(const Framebuffer& frame) {
   std::vector<std::uint32_t> ids;
   ids.reserve(static_cast<std::size_t>(frame.width()) * static_cast<std::size_t>(frame.height()));
@@ -147,7 +147,7 @@ void Pipeline::draw_composed(const lab::Choice& choice, const View& view, Pictur
   picture.image = {view.frontend.width, view.frontend.height, {}};
   picture.image.pixels.reserve(visible.size());
   for (const std::uint32_t id : visible)
-    picture.image.pixels.push_back(id == lab::kNobody ? app::background_of(Payload::colour) : colours[id]);
+    picture.image.pixels.push_back(id == lab::kNoTriangle ? app::background_of(Payload::colour) : colours[id]);
 }
 
 void Pipeline::run_without_hidden_faces(const lab::FacingMethod& method, const View& view, Picture& picture) {
@@ -286,9 +286,9 @@ Pipeline::VisibleIds Pipeline::visible_ids_by(const lab::VisibilityMethod& metho
   const auto scene = lab::visibility_scene(by_id, at, *view.world.scene(), size_of(view));
   spent_ms = milliseconds([&] { method.draw(scene, visibility_frame_); });
   VisibleIds visible;
-  visible.reserve(visibility_frame_.owner.size());
-  for (const std::uint32_t i : visibility_frame_.owner)
-    visible.push_back(i == lab::kNobody ? lab::kNobody : by_id[i].payload);
+  visible.reserve(visibility_frame_.visible.size());
+  for (const std::uint32_t i : visibility_frame_.visible)
+    visible.push_back(i == lab::kNoTriangle ? lab::kNoTriangle : by_id[i].payload);
   return visible;
 }
 
@@ -299,13 +299,13 @@ Pipeline::VisibleIds Pipeline::true_visible_ids(const View& view, const Triangle
     return visible_ids_in(canvas_->frame);
   }
   const auto id_of = [&](std::uint32_t i) {
-    return i == lab::kNobody ? lab::kNobody : triangles.snapped[i].payload - 1;
+    return i == lab::kNoTriangle ? lab::kNoTriangle : triangles.snapped[i].payload - 1;
   };
   const int threads = view.execution.threads;
   VisibleIds visible =
       truth == Truth::snapped
-          ? lab::exact_owners(std::span(triangles.snapped), window_of(view), threads).triangle
-          : lab::exact_owners(std::span(triangles.floats), window_of(view), threads).triangle;
+          ? lab::exact_visible_triangles(std::span(triangles.snapped), window_of(view), threads).triangle
+          : lab::exact_visible_triangles(std::span(triangles.floats), window_of(view), threads).triangle;
   std::transform(visible.begin(), visible.end(), visible.begin(), id_of);
   return visible;
 }
@@ -331,10 +331,10 @@ Judgement Pipeline::judge(const lab::Choice& choice, const View& view, Truth tru
 
   Judgement judgement;
   for (std::size_t i = 0; i < expected.size(); ++i) {
-    if (expected[i] != lab::kNobody) ++judgement.covered;
+    if (expected[i] != lab::kNoTriangle) ++judgement.covered;
     if (expected[i] != drawn[i]) ++judgement.wrong;
   }
-  judgement.marks = lab::mark_owners(expected, drawn, window_of(view)).marks;
+  judgement.marks = lab::mark_visible_triangles(expected, drawn, window_of(view)).marks;
   if (choice.our_coverage()) return judgement;
 
   const lab::CoverageInput input{triangles.floats, triangles.snapped};

@@ -71,7 +71,7 @@ class Pipeline {
     std::vector<ScreenTriangle> snapped;
     std::uint64_t culled = 0;  // dropped by cull()
   };
-  // Per pixel, row by row: the visible triangle's index in the scene, or lab::kNobody.
+  // Per pixel, row by row: the visible triangle's index in the scene, or lab::kNoTriangle.
   using VisibleIds = std::vector<std::uint32_t>;
 
   void draw_ours(const lab::Choice& choice, const View& view, Picture& picture);

@@ -275,17 +275,17 @@ TEST_F(ConformanceClips, VerticesUpTo100000UnitsFromTheEye) {
 // Every direction, and the other smallest scenes of the laboratory, against its exact oracle.
 class ConformanceClippingScenes : public ConformanceClips {
  protected:
-  void expect_exact_owners(const lab::ClippingScene& scene, const std::string& what) {
+  void expect_exact_visible_triangles(const lab::ClippingScene& scene, const std::string& what) {
     const auto truth = lab::clipping_truth(scene);
     std::vector<bool> decided;
-    auto owner = truth.owner.begin();
+    auto visible_it = truth.visible.begin();
     for (int y = 0; y < scene.size.height; ++y)
-      for (int x = 0; x < scene.size.width; ++x, ++owner) {
+      for (int x = 0; x < scene.size.width; ++x, ++visible_it) {
         bool same = true;
         for (int k = 0; same && k < 8; ++k) {
           const double angle = k * 0.78539816339744831;
-          same = truth.oracle->owner_at(x + 0.5 + lab::kHairlinePx * std::cos(angle),
-                                        y + 0.5 + lab::kHairlinePx * std::sin(angle)) == *owner;
+          same = truth.oracle->visible_at(x + 0.5 + lab::kHairlinePx * std::cos(angle),
+                                          y + 0.5 + lab::kHairlinePx * std::sin(angle)) == *visible_it;
         }
         decided.push_back(same);
       }
@@ -296,7 +296,7 @@ class ConformanceClippingScenes : public ConformanceClips {
       for (int y = 0, i = 0; y < view.height; ++y)
         for (int x = 0; x < view.width; ++x, ++i)
           if (decided[static_cast<std::size_t>(i)]) {
-            ASSERT_EQ(frame.payload_row(y)[x], truth.owner[static_cast<std::size_t>(i)])
+            ASSERT_EQ(frame.payload_row(y)[x], truth.visible[static_cast<std::size_t>(i)])
                 << "pixel (" << x << ", " << y << ")";
           }
     });
@@ -305,11 +305,12 @@ class ConformanceClippingScenes : public ConformanceClips {
 
 TEST_F(ConformanceClippingScenes, EveryOutsideDirectionInBothWindings) {
   for (int direction = 0; direction < lab::kOutsideDirections; ++direction) {
-    expect_exact_owners(lab::outside_direction(direction, false), "direction " + std::to_string(direction));
+    expect_exact_visible_triangles(lab::outside_direction(direction, false),
+                                   "direction " + std::to_string(direction));
     lab::ClippingScene back = lab::outside_direction(direction, true);
     expect_nothing(back.scene, {back.size.width, back.size.height, Cull::back}, "reversed");
     back.cull_back = false;
-    expect_exact_owners(back, "reversed, direction " + std::to_string(direction));
+    expect_exact_visible_triangles(back, "reversed, direction " + std::to_string(direction));
     expect_nothing(lab::outside_direction(direction, false).scene,
                    {back.size.width, back.size.height, Cull::front}, "front culled");
   }
@@ -318,7 +319,7 @@ TEST_F(ConformanceClippingScenes, EveryOutsideDirectionInBothWindings) {
 TEST_F(ConformanceClippingScenes, TheLaboratorysSmallestScenes) {
   for (const lab::ClippingCase& c : lab::clipping_cases())
     if (c.name != "along_the_rows")  // where nearly all samples lie within a hair of an edge
-      expect_exact_owners(c.make(), std::string(c.name));
+      expect_exact_visible_triangles(c.make(), std::string(c.name));
 }
 
 // ---- Fans and neighbours

@@ -22,17 +22,17 @@ class ConformanceCulling : public Conformance {
   void expect_culled(const TriangleStream& stream, View view, const std::string& what) {
     for (const Cull cull : cull_modes()) {
       view.cull = cull;
-      std::vector<std::uint32_t> owners(
-          static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height), kNobody);
+      std::vector<std::uint32_t> visible(
+          static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height), kNoTriangle);
       for (std::uint32_t id = 0; id < stream.triangles.size(); ++id) {
         const auto places = snapped(stream.triangles[id].vertex);
         if (!is_kept(cull, area(places))) continue;
-        auto owner = owners.begin();
+        auto visible_it = visible.begin();
         for (int y = 0; y < view.height; ++y)
-          for (int x = 0; x < view.width; ++x, ++owner)
-            if (*owner == kNobody && winding(places, x, y) != 0) *owner = id;
+          for (int x = 0; x < view.width; ++x, ++visible_it)
+            if (*visible_it == kNoTriangle && winding(places, x, y) != 0) *visible_it = id;
       }
-      expect_owners(stream, view, owners, what + ", cull " + std::string(name_of(cull)));
+      expect_visible_triangles(stream, view, visible, what + ", cull " + std::string(name_of(cull)));
     }
   }
 
@@ -151,13 +151,13 @@ TEST_F(ConformanceCulling, OneTinyTriangleAPixelWithTheWindingsAlternating) {
         stream.triangles.push_back(t);
       }
     for (const Cull cull : cull_modes()) {
-      std::vector<std::uint32_t> owners;
+      std::vector<std::uint32_t> visible;
       for (int y = 0; y < view.height; ++y)
         for (int x = 0; x < view.width; ++x)
-          owners.push_back(is_kept(cull, (x + y) % 2 == 0 ? 1 : -1)
-                               ? static_cast<std::uint32_t>(y * view.width + x)
-                               : kNobody);
-      expect_owners(stream, {view.width, view.height, cull}, owners, std::string(name_of(cull)));
+          visible.push_back(is_kept(cull, (x + y) % 2 == 0 ? 1 : -1)
+                                ? static_cast<std::uint32_t>(y * view.width + x)
+                                : kNoTriangle);
+      expect_visible_triangles(stream, {view.width, view.height, cull}, visible, std::string(name_of(cull)));
     }
   }
 }

@@ -25,7 +25,7 @@
 
 namespace edgewise::conformance {
 
-inline constexpr std::uint32_t kNobody = 0xFFFFFFFF;  // payload where nothing was drawn
+inline constexpr std::uint32_t kNoTriangle = 0xFFFFFFFF;  // payload where nothing was drawn
 
 struct View {
   int width = 64, height = 64;  // px
@@ -57,7 +57,7 @@ class Pipeline {
     if (!frame_ || frame_->width() != view.width || frame_->height() != view.height)
       frame_ = std::make_unique<Framebuffer>(view.width, view.height);
     lab::poison(*frame_);
-    backend_->draw(triangles, frame_->view(), kNobody, {.target = target_});
+    backend_->draw(triangles, frame_->view(), kNoTriangle, {.target = target_});
     return *frame_;
   }
 
@@ -68,7 +68,7 @@ class Pipeline {
       const Framebuffer& frame = draw(std::span(&triangle, 1), view);
       auto hit = all.begin();
       for (int y = 0; y < view.height; ++y)
-        for (int x = 0; x < view.width; ++x, ++hit) *hit += frame.payload_row(y)[x] != kNobody;
+        for (int x = 0; x < view.width; ++x, ++hit) *hit += frame.payload_row(y)[x] != kNoTriangle;
     }
     return all;
   }
@@ -116,16 +116,17 @@ class Conformance : public ::testing::Test {
     });
   }
 
-  // Every pixel must have this payload; kNobody where nothing may be drawn.
-  void expect_owners(const Drawable& drawable, const View& view, const std::vector<std::uint32_t>& expected,
-                     const std::string& what) {
+  // Every pixel must have this payload; kNoTriangle where nothing may be drawn.
+  void expect_visible_triangles(const Drawable& drawable, const View& view,
+                                const std::vector<std::uint32_t>& expected, const std::string& what) {
     with_each(what, [&](Pipeline& pipeline) {
       const Framebuffer& frame = pipeline.draw(drawable, view);
-      auto owner = expected.begin();
+      auto visible_it = expected.begin();
       for (int y = 0; y < view.height; ++y)
-        for (int x = 0; x < view.width; ++x, ++owner) {
-          ASSERT_EQ(frame.payload_row(y)[x], *owner) << "owner of pixel (" << x << ", " << y << ")";
-          if (*owner == kNobody) {
+        for (int x = 0; x < view.width; ++x, ++visible_it) {
+          ASSERT_EQ(frame.payload_row(y)[x], *visible_it)
+              << "visible triangle at pixel (" << x << ", " << y << ")";
+          if (*visible_it == kNoTriangle) {
             ASSERT_EQ(frame.depth_row(y)[x], contract::kDepthClear);
           }
         }
@@ -134,7 +135,7 @@ class Conformance : public ::testing::Test {
 
   void expect_nothing(const Drawable& drawable, const View& view, const std::string& what) {
     const auto pixels = static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height);
-    expect_owners(drawable, view, std::vector<std::uint32_t>(pixels, kNobody), what);
+    expect_visible_triangles(drawable, view, std::vector<std::uint32_t>(pixels, kNoTriangle), what);
   }
 
  private:

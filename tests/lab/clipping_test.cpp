@@ -56,7 +56,7 @@ TEST(Clipping, AFloorUnderTheEye) {
     EXPECT_EQ(judge("near_guard", scene).wrong(), 0u);
     EXPECT_GT(judge("discard_behind", scene).missing, 500u);
     const auto divided = judge("none", scene);
-    EXPECT_GT(divided.missing + divided.extra + divided.wrong_owner, 500u);
+    EXPECT_GT(divided.missing + divided.extra + divided.wrong_triangle, 500u);
   }
 }
 
@@ -70,13 +70,13 @@ TEST(Clipping, DividingByZeroIsCaughtAndCounted) {
 TEST(Clipping, QuadsBeforeTheNearPlaneAreNotDrawn) {
   const ClippingScene scene = make_case("quads_before_near");
   const auto truth = clipping_truth(scene);
-  EXPECT_TRUE(std::all_of(truth.owner.begin(), truth.owner.end(),
-                          [](auto owner) { return owner < 2 || owner == kNobody; }));
+  EXPECT_TRUE(std::all_of(truth.visible.begin(), truth.visible.end(),
+                          [](auto triangle) { return triangle < 2 || triangle == kNoTriangle; }));
   for (const auto name : {"near_guard", "screen_edges", "discard_behind"})
     EXPECT_EQ(score(method(name), scene, truth).wrong(), 0u) << name;
   for (const auto name : {"near_too_near", "none"}) {
     const auto s = score(method(name), scene, truth);
-    EXPECT_GT(s.wrong_owner, 100u) << name;
+    EXPECT_GT(s.wrong_triangle, 100u) << name;
     EXPECT_EQ(s.out_of_range, 12u) << name;
   }
 }
@@ -191,17 +191,17 @@ TEST(Clipping, NearPlanesTooNearLeaveDepthNoSteps) {
   };
   double closest = 1;  // of 1 / z, between floor and wall, over rows of samples
   for (int y = 48; y < 96; ++y) closest = std::min(closest, std::abs((y + 0.5 - 48) / 96 - 0.1));
-  const double limit = kNearTie01 / closest;  // as depth is 1 - near / z
+  const double limit = kDepthTie01 / closest;  // as depth is 1 - near / z
   EXPECT_LT(limit, 0.001);
   for (const double inside : {1.01, 2.0, 5.0, 10.0, 100.0, 1000.0})
     EXPECT_EQ(judge("near_guard", seen(inside * limit)).wrong(), 0u) << inside * limit;
   std::uint64_t wrong = 0;
   for (const double beyond : {20.0, 50.0, 100.0, 200.0, 1000.0}) {
     const auto s = judge("near_guard", seen(limit / beyond));
-    EXPECT_EQ(s.wrong_owner, s.near_ties) << limit / beyond;
-    EXPECT_EQ(s.wrong(), s.wrong_owner) << limit / beyond;
+    EXPECT_EQ(s.wrong_triangle, s.depth_ties) << limit / beyond;
+    EXPECT_EQ(s.wrong(), s.wrong_triangle) << limit / beyond;
     EXPECT_EQ(s.broken, 0u);
-    wrong += s.wrong_owner;
+    wrong += s.wrong_triangle;
   }
   EXPECT_GT(wrong, 100u);
 }
@@ -220,7 +220,7 @@ TEST(Clipping, EveryDirectionKeepsItsWinding) {
         for (int y = 0; y < scene.size.height; ++y)
           EXPECT_TRUE(std::all_of(frame.picture.payload_row(y),
                                   frame.picture.payload_row(y) + scene.size.width,
-                                  [](auto owner) { return owner == kNobody; }));
+                                  [](auto triangle) { return triangle == kNoTriangle; }));
       }
     }
 }

@@ -52,7 +52,7 @@ TEST(Facing, OursIsTheSignOfTheSnappedAreaOnEveryScene) {
     EXPECT_EQ(s.snapped.misclassified, s.snapped.by_first_three) << c.name;
     std::uint64_t by_snapping = 0;
     for (const FaceFacts& f : facts)
-      by_snapping += f.floats.owns_pixel && !f.floats.first_three_lie && !f.snapped.first_three_lie &&
+      by_snapping += f.floats.covers_sample && !f.floats.first_three_lie && !f.snapped.first_three_lie &&
                      f.floats.front != f.snapped.front;
     EXPECT_EQ(s.floats.misclassified - s.floats.by_first_three, by_snapping) << c.name;
     turned += by_snapping;
@@ -74,7 +74,7 @@ TEST(Facing, TheSignBeforeSnappingIsWrongAboutWhatIsDrawn) {
 TEST(Facing, TheBoxBesideTheAxisIsMisjudgedByTheNormalsZAndByNoOther) {
   const FacingScene scene = make_case("box_beside_the_axis");
   const auto facts = facing_facts(scene);
-  EXPECT_TRUE(facts[0].floats.front && facts[0].floats.owns_pixel);
+  EXPECT_TRUE(facts[0].floats.front && facts[0].floats.covers_sample);
   for (const auto& m : facing_methods()) {
     const auto s = score(m, scene, facts);
     const bool by_z = m.info.name == "normal_z";
@@ -133,7 +133,7 @@ TEST(Facing, PolygonsAreJudgedByTheirFirstThreeVertices) {
     const auto facts = facing_facts(scene);
     std::uint64_t lying = 0, quads_lying = 0;
     for (std::size_t i = 0; i < facts.size(); ++i)
-      if (facts[i].floats.owns_pixel && facts[i].floats.first_three_lie) {
+      if (facts[i].floats.covers_sample && facts[i].floats.first_three_lie) {
         ++lying;
         quads_lying += scene.faces[i].count == 4;
         EXPECT_GT(scene.faces[i].count, 3u);

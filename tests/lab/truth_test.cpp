@@ -187,65 +187,65 @@ TEST(Depth, OfTheContractIsWithinItsBoundOfTheTruth) {
 }
 
 template <typename Triangle, typename TruthOf>
-void expect_owners(std::span<const Triangle> triangles, Window window, TruthOf&& truth_of,
-                   const std::string& what) {
+void expect_visible_triangles(std::span<const Triangle> triangles, Window window, TruthOf&& truth_of,
+                              const std::string& what) {
   for (const int threads : {1, 2}) {
-    const Owners owners = exact_owners(triangles, window, threads);
+    const VisibleTriangles visible = exact_visible_triangles(triangles, window, threads);
     std::size_t at = 0;
     for (int y = window.y0; y < window.y1(); ++y)
       for (int x = window.x0; x < window.x1(); ++x, ++at) {
-        std::uint32_t nearest = kNobody;
+        std::uint32_t nearest = kNoTriangle;
         mpq_class depth;
         for (std::size_t i = 0; i < triangles.size(); ++i) {
           const auto truth = truth_of(triangles[i]);
           if (!truth.covers(x, y)) continue;
           const mpq_class here = truth.depth(x, y);
-          if (nearest != kNobody && here >= depth) continue;
+          if (nearest != kNoTriangle && here >= depth) continue;
           nearest = static_cast<std::uint32_t>(i);
           depth = here;
         }
-        ASSERT_EQ(owners.triangle[at], nearest) << what << " at " << x << ", " << y;
-        if (nearest == kNobody)
-          ASSERT_TRUE(std::isinf(owners.depth[at]));
+        ASSERT_EQ(visible.triangle[at], nearest) << what << " at " << x << ", " << y;
+        if (nearest == kNoTriangle)
+          ASSERT_TRUE(std::isinf(visible.depth[at]));
         else
-          ASSERT_LE(abs(mpq_class(owners.depth[at]) - depth), abs(depth) * mpq_class(0x1p-40)) << what;
+          ASSERT_LE(abs(mpq_class(visible.depth[at]) - depth), abs(depth) * mpq_class(0x1p-40)) << what;
       }
   }
 }
 
-TEST(Owners, AreTheNearestByRationals) {
+TEST(VisibleTriangles, AreTheNearestByRationals) {
   const Window window{20, 37, 3, 2};
   for (const auto family : {"anywhere", "near-centres", "slivers", "small"}) {
     auto floats = hard_floats(family, 30, window, 14);
     floats.push_back(floats[3]);  // a tie all over
-    expect_owners(
+    expect_visible_triangles(
         std::span<const FloatTriangle>(floats), window,
         [](const FloatTriangle& t) { return FloatTruth(t.at); }, family);
   }
   for (const auto family : {"subpixel", "equal-depth", "slivers", "steep"}) {
     const auto snapped = adversarial(family, 30, 24, 40, 15);
-    expect_owners(
+    expect_visible_triangles(
         std::span<const ScreenTriangle>(snapped), window,
         [](const ScreenTriangle& t) { return SnappedTruth(t); }, family);
   }
 }
 
-TEST(Owners, OfABackendDifferOnlyWhereDepthsAreCloserThanTheContractsError) {
+TEST(VisibleTriangles, OfABackendDifferOnlyWhereDepthsAreCloserThanTheContractsError) {
   const Window window{120, 90};
   for (const auto family : testing::kFamilies) {
     const auto triangles = adversarial(family, 80, window.width, window.height, 16);  // payload is the index
-    const Owners owners = exact_owners(std::span(triangles), window, 2);
+    const VisibleTriangles visible = exact_visible_triangles(std::span(triangles), window, 2);
     Framebuffer frame(window.width, window.height);
-    find_backend("scanline").make()->draw(triangles, frame.view(), kNobody, {});
+    find_backend("scanline").make()->draw(triangles, frame.view(), kNoTriangle, {});
     for (int y = 0; y < window.height; ++y)
       for (int x = 0; x < window.width; ++x) {
         const std::uint32_t drawn = frame.payload_row(y)[x];
-        const std::uint32_t owner = owners.triangle[static_cast<std::size_t>(y * window.width + x)];
-        if (drawn == owner) continue;
-        ASSERT_NE(drawn, kNobody) << family;
-        ASSERT_NE(owner, kNobody) << family;
+        const std::uint32_t visible_id = visible.triangle[static_cast<std::size_t>(y * window.width + x)];
+        if (drawn == visible_id) continue;
+        ASSERT_NE(drawn, kNoTriangle) << family;
+        ASSERT_NE(visible_id, kNoTriangle) << family;
         const mpq_class behind =
-            SnappedTruth(triangles[drawn]).depth(x, y) - SnappedTruth(triangles[owner]).depth(x, y);
+            SnappedTruth(triangles[drawn]).depth(x, y) - SnappedTruth(triangles[visible_id]).depth(x, y);
         ASSERT_LT(behind.get_d(), 2.0 * contract::kDepthError) << family;
       }
   }

@@ -24,7 +24,7 @@ VisibilityScene make_case(std::string_view name) {
   return make_case_named(visibility_cases(), name);
 }
 VisibilityScore judge(std::string_view name, const VisibilityScene& scene) {
-  return score(method(name), scene, true_owners(scene)).snapped;
+  return score(method(name), scene, true_visible_triangles(scene)).snapped;
 }
 VisibilityScene seen_by_the_front_end(std::string_view name, Size size) {
   const auto drawable = find_scene(name).make({.width = size.width, .height = size.height});
@@ -47,12 +47,12 @@ TEST(Visibility, EveryMethodKeepsItsPromiseAndFailsSomewhere) {
   std::map<std::string_view, std::uint64_t> wrong;
   for (const auto& c : visibility_cases()) {
     const VisibilityScene scene = c.make();
-    const auto owners = true_owners(scene);
+    const auto visible = true_visible_triangles(scene);
     for (const auto& m : visibility_methods()) {
-      const auto s = score(m, scene, owners);
+      const auto s = score(m, scene, visible);
       EXPECT_GT(s.snapped.covered, 100u) << c.name;
       EXPECT_EQ(s.broken, 0u) << m.info.name << " on " << c.name;
-      wrong[m.info.name] += s.snapped.wrong_owner;
+      wrong[m.info.name] += s.snapped.wrong_triangle;
     }
   }
   for (const auto& m : visibility_methods()) EXPECT_GT(wrong[m.info.name], 0u) << m.info.name;
@@ -60,8 +60,8 @@ TEST(Visibility, EveryMethodKeepsItsPromiseAndFailsSomewhere) {
 
 TEST(Visibility, TrianglesApartInDepthAreSortedRight) {
   for (const auto& m : visibility_methods()) {
-    EXPECT_EQ(judge(m.info.name, make_case("back_to_front")).wrong_owner, 0u) << m.info.name;
-    EXPECT_EQ(judge(m.info.name, make_case("front_to_back")).wrong_owner == 0,
+    EXPECT_EQ(judge(m.info.name, make_case("back_to_front")).wrong_triangle, 0u) << m.info.name;
+    EXPECT_EQ(judge(m.info.name, make_case("front_to_back")).wrong_triangle == 0,
               m.info.name != "submission_order")
         << m.info.name;
   }
@@ -70,12 +70,12 @@ TEST(Visibility, TrianglesApartInDepthAreSortedRight) {
 TEST(Visibility, NoOrderPaintsACycleOrAnIntersectionButDepthDoes) {
   for (const auto name : {"bars_in_a_cycle", "interpenetrating"}) {
     const VisibilityScene scene = make_case(name);
-    const auto owners = true_owners(scene);
+    const auto visible = true_visible_triangles(scene);
     for (const auto& m : visibility_methods())
       if (m.stored01 == nullptr) {
-        EXPECT_GT(score(m, scene, owners).snapped.wrong_owner, 20u) << m.info.name << " on " << name;
+        EXPECT_GT(score(m, scene, visible).snapped.wrong_triangle, 20u) << m.info.name << " on " << name;
       } else {
-        EXPECT_LT(score(m, scene, owners).snapped.wrong_owner, 5u) << m.info.name << " on " << name;
+        EXPECT_LT(score(m, scene, visible).snapped.wrong_triangle, 5u) << m.info.name << " on " << name;
       }
   }
 }
@@ -83,31 +83,31 @@ TEST(Visibility, NoOrderPaintsACycleOrAnIntersectionButDepthDoes) {
 // The promise of one is broken by another: that is how it is seen to be judged.
 TEST(Visibility, OrdersAreHeldToTheirPromises) {
   const VisibilityScene scene = make_case("front_to_back");
-  const auto owners = true_owners(scene);
+  const auto visible = true_visible_triangles(scene);
   VisibilityMethod unsorted = method("submission_order");
-  EXPECT_EQ(score(unsorted, scene, owners).broken, 0u);
-  unsorted.may_hide = method("painter_mean").may_hide;
-  const auto s = score(unsorted, scene, owners);
+  EXPECT_EQ(score(unsorted, scene, visible).broken, 0u);
+  unsorted.may_occlude = method("painter_mean").may_occlude;
+  const auto s = score(unsorted, scene, visible);
   EXPECT_GT(s.broken, 0u);
-  EXPECT_EQ(s.broken, s.snapped.wrong_owner) << "all depth ranges are apart";
+  EXPECT_EQ(s.broken, s.snapped.wrong_triangle) << "all depth ranges are apart";
 
   const VisibilityScene floor = make_case("floor_under_box");  // the box is submitted last, and hidden
   VisibilityMethod mean = method("painter_mean");
-  mean.may_hide = method("submission_order").may_hide;
-  EXPECT_GT(score(mean, floor, true_owners(floor)).broken, 0u);
+  mean.may_occlude = method("submission_order").may_occlude;
+  EXPECT_GT(score(mean, floor, true_visible_triangles(floor)).broken, 0u);
 }
 
 TEST(Visibility, MeanDepthPutsTheFloorOverTheBox) {
   const VisibilityScene scene = make_case("floor_under_box");
-  EXPECT_GT(judge("painter_mean", scene).wrong_owner, 50u);
-  EXPECT_EQ(judge("painter_farthest", scene).wrong_owner, 0u);
-  EXPECT_EQ(judge("contract31", scene).wrong_owner, 0u);
+  EXPECT_GT(judge("painter_mean", scene).wrong_triangle, 50u);
+  EXPECT_EQ(judge("painter_farthest", scene).wrong_triangle, 0u);
+  EXPECT_EQ(judge("contract31", scene).wrong_triangle, 0u);
 }
 
 // Painters sort polygons, by all their corners, and paint them whole.
 TEST(Visibility, PaintersSortPolygonsByAllTheirCorners) {
   const auto wrong_pixels = [](std::string_view name, const VisibilityScene& scene) {
-    return judge(name, scene).wrong_owner;
+    return judge(name, scene).wrong_triangle;
   };
   const VisibilityScene pentagon = make_case("pentagon_under_wall");
   ASSERT_EQ(pentagon.faces.size(), 2u);
@@ -140,8 +140,8 @@ TEST(Visibility, DepthFormatsSeparateWhatTheFormulaSays) {
                   {"reversed_z", 1e-3, 2e-6},
                   {"contract31", 4e-2, 3e-3}};
   for (const auto& e : expected) {
-    EXPECT_EQ(judge(e.name, two_planes(100, e.separates, 0.1, 1000)).wrong_owner, 0u) << e.name;
-    EXPECT_GT(judge(e.name, two_planes(100, e.does_not, 0.1, 1000)).wrong_owner, 0u) << e.name;
+    EXPECT_EQ(judge(e.name, two_planes(100, e.separates, 0.1, 1000)).wrong_triangle, 0u) << e.name;
+    EXPECT_GT(judge(e.name, two_planes(100, e.does_not, 0.1, 1000)).wrong_triangle, 0u) << e.name;
   }
 }
 
@@ -150,7 +150,7 @@ TEST(Visibility, TwoPlanesFavourNoOrderOfSubmission) {
   for (const double separation : {1.0, 1e-5}) {
     const VisibilityScene scene = two_planes(100, separation, 0.1, 1000);
     const auto s = judge("submission_order", scene);
-    EXPECT_EQ(2 * s.wrong_owner, s.covered) << separation;
+    EXPECT_EQ(2 * s.wrong_triangle, s.covered) << separation;
   }
 }
 
@@ -170,15 +170,15 @@ TEST(Visibility, OursIsTheContractsPicture) {
       triangles.back().payload = static_cast<std::uint32_t>(triangles.size() - 1);
     }
     Framebuffer oracle(scene.width, scene.height);
-    draw_oracle(triangles, oracle, kNobody);
+    draw_oracle(triangles, oracle, kNoTriangle);
     VisibilityFrame frame;
     method("contract31").draw(scene, frame);
     for (int y = 0; y < scene.height; ++y) {
       const auto row = static_cast<std::ptrdiff_t>(y) * scene.width;
       EXPECT_TRUE(
           std::equal(oracle.depth_row(y), oracle.depth_row(y) + scene.width, frame.depth32.begin() + row));
-      EXPECT_TRUE(
-          std::equal(oracle.payload_row(y), oracle.payload_row(y) + scene.width, frame.owner.begin() + row));
+      EXPECT_TRUE(std::equal(oracle.payload_row(y), oracle.payload_row(y) + scene.width,
+                             frame.visible.begin() + row));
     }
   }
 }
@@ -225,9 +225,9 @@ TEST(Visibility, TheTruthOfAMeshHasTheDistancesOfItsPositions) {
 
 TEST(Visibility, JudgesWhatTheFrontEndMade) {
   const auto scene = seen_by_the_front_end("cube", {160, 120});
-  const auto owners = true_owners(scene);
-  EXPECT_EQ(score(method("contract31"), scene, owners).snapped.wrong_owner, 0u);
-  EXPECT_GT(score(method("submission_order"), scene, owners).snapped.wrong_owner, 100u);
+  const auto visible = true_visible_triangles(scene);
+  EXPECT_EQ(score(method("contract31"), scene, visible).snapped.wrong_triangle, 0u);
+  EXPECT_GT(score(method("submission_order"), scene, visible).snapped.wrong_triangle, 100u);
 }
 
 // The two truths of lab/truth.h know depth as rule 6 and as a float have it, ours as it was. They agree but
@@ -244,15 +244,16 @@ TEST(Visibility, BothTruthsAreThoseOfTheCoverageFamilyButForRoundedDepths) {
             static_cast<float>(scene.far_z / (scene.far_z - scene.near_z) * (1 - scene.near_z / t.view_z[i]));
       }
     }
-    const auto owners = true_owners(scene);
+    const auto visible = true_visible_triangles(scene);
     const Window window{scene.width, scene.height};
     const auto differ = [](const auto& a, const auto& b) {
       std::size_t count = 0;
       for (std::size_t i = 0; i < a.size(); ++i) count += a[i] != b[i];
       return count;
     };
-    EXPECT_LE(differ(owners.snapped, exact_owners(screen_of(scene), window, 1).triangle), 2u) << name;
-    EXPECT_LE(differ(owners.floats, exact_owners(floats, window, 1).triangle), 2u) << name;
+    EXPECT_LE(differ(visible.snapped, exact_visible_triangles(screen_of(scene), window, 1).triangle), 2u)
+        << name;
+    EXPECT_LE(differ(visible.floats, exact_visible_triangles(floats, window, 1).triangle), 2u) << name;
   }
 }
 
@@ -260,14 +261,15 @@ TEST(Visibility, BothTruthsAreThoseOfTheCoverageFamilyButForRoundedDepths) {
 // snapping costs, and by what they get wrong themselves.
 TEST(Visibility, AgainstTheFloatPositionsSnappingIsAddedAndNoMore) {
   const auto scene = seen_by_the_front_end("torus-knot", {320, 240});
-  const auto owners = true_owners(scene);
+  const auto visible = true_visible_triangles(scene);
   std::uint64_t by_snapping = 0;
-  for (std::size_t i = 0; i < owners.floats.size(); ++i) by_snapping += owners.snapped[i] != owners.floats[i];
+  for (std::size_t i = 0; i < visible.floats.size(); ++i)
+    by_snapping += visible.snapped[i] != visible.floats[i];
   EXPECT_GT(by_snapping, 0u);
   for (const auto& m : visibility_methods()) {
-    const auto s = score(m, scene, owners);
-    EXPECT_LE(s.floats.wrong_owner, by_snapping + s.snapped.wrong_owner) << m.info.name;
-    EXPECT_GE(s.floats.wrong_owner + s.snapped.wrong_owner, by_snapping) << m.info.name;
+    const auto s = score(m, scene, visible);
+    EXPECT_LE(s.floats.wrong_triangle, by_snapping + s.snapped.wrong_triangle) << m.info.name;
+    EXPECT_GE(s.floats.wrong_triangle + s.snapped.wrong_triangle, by_snapping) << m.info.name;
     // Moving a plane by up to 1/256 px costs far more than 31 bits resolve, and hardly anything of 16.
     if (m.info.name == "contract31") {
       EXPECT_GT(s.floats.max_ulp, 10 * s.snapped.max_ulp);
@@ -281,20 +283,20 @@ TEST(Visibility, OursErrsOnlyWhereDepthsAreNearerThanTwiceTheContractsError) {
   std::size_t wrong = 0;
   for (const auto& c : visibility_cases()) {
     const VisibilityScene scene = c.make();
-    const auto all = score(method("contract31"), scene, true_owners(scene));
-    EXPECT_EQ(all.snapped.wrong_owner, all.near_ties) << c.name;
+    const auto all = score(method("contract31"), scene, true_visible_triangles(scene));
+    EXPECT_EQ(all.snapped.wrong_triangle, all.depth_ties) << c.name;
     EXPECT_LE(all.snapped.max_ulp, kOurWorst_ulp) << c.name;
 
     const auto triangles = screen_of(scene);
-    const Owners exact = exact_owners(triangles, {scene.width, scene.height}, 2);
+    const VisibleTriangles exact = exact_visible_triangles(triangles, {scene.width, scene.height}, 2);
     VisibilityFrame frame;
     method("contract31").draw(scene, frame);
     for (std::size_t i = 0; i < exact.triangle.size(); ++i) {
-      const std::uint32_t said = frame.owner[i], truth = exact.triangle[i];
+      const std::uint32_t said = frame.visible[i], truth = exact.triangle[i];
       if (said == truth) continue;
       ++wrong;
-      ASSERT_NE(said, kNobody) << c.name;
-      ASSERT_NE(truth, kNobody) << c.name;
+      ASSERT_NE(said, kNoTriangle) << c.name;
+      ASSERT_NE(truth, kNoTriangle) << c.name;
       const int x = static_cast<int>(i) % scene.width, y = static_cast<int>(i) / scene.width;
       ASSERT_TRUE(SnappedTruth(triangles[said]).covers(x, y)) << c.name;
       const mpq_class apart =

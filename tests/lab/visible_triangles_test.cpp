@@ -14,20 +14,20 @@ namespace {
 using testing::Picture;
 using testing::picture_of;
 
-OwnerScore owners_of(std::string_view method, const Picture& picture) {
-  return OwnerJudge(picture.input, {picture.window.width, picture.window.height}, 2)
+VisibleTriangleScore visible_triangles_of(std::string_view method, const Picture& picture) {
+  return VisibleTriangleJudge(picture.input, {picture.window.width, picture.window.height}, 2)
       .score(find_coverage_method(method));
 }
 
-TEST(CoverageOwners, ShowWhoLosesTheTiesOfTheDrtkQuad) {
+TEST(CoverageVisibleTriangles, ShowWhoLosesTheTiesOfTheDrtkQuad) {
   const Picture& quad = picture_of("drtk_quad");
-  EXPECT_EQ(owners_of("float_lt", quad).wrong_floats, 6u) << "nobody owns the diagonal";
-  EXPECT_EQ(owners_of("float_le", quad).wrong_floats, 6u)
+  EXPECT_EQ(visible_triangles_of("float_lt", quad).wrong_floats, 6u) << "nobody owns the diagonal";
+  EXPECT_EQ(visible_triangles_of("float_le", quad).wrong_floats, 6u)
       << "the first of two owns the diagonal, not the second";
-  EXPECT_EQ(owners_of("float_top_left", quad), OwnerScore{});
+  EXPECT_EQ(visible_triangles_of("float_top_left", quad), VisibleTriangleScore{});
 }
 
-TEST(CoverageOwners, OfBackendsAreExactAndTheirDepthsKeepRuleSix) {
+TEST(CoverageVisibleTriangles, OfBackendsAreExactAndTheirDepthsKeepRuleSix) {
   for (const CoverageCase& c : coverage_cases()) {
     const Picture& picture = picture_of(c.name);
     const OwnerJudge judge(picture.input, c.size, 2);
@@ -41,7 +41,7 @@ TEST(CoverageOwners, OfBackendsAreExactAndTheirDepthsKeepRuleSix) {
 }
 
 // Triangles through one another: where two are nearer than rule 6 tells apart, the wrong one may win.
-TEST(CoverageOwners, OfBackendsAreWrongOnlyWhereRuleSixExplainsIt) {
+TEST(CoverageVisibleTriangles, OfBackendsAreWrongOnlyWhereRuleSixExplainsIt) {
   for (const auto family : testing::kFamilies) {
     const auto grid = testing::adversarial(family, 150, 120, 90, 8);
     const Picture picture(testing::as_floats(grid), {120, 90});
@@ -50,7 +50,7 @@ TEST(CoverageOwners, OfBackendsAreWrongOnlyWhereRuleSixExplainsIt) {
   }
 }
 
-TEST(CoverageOwners, DepthsErrByAsManyLastPlacesAsBruteForceFinds) {
+TEST(CoverageVisibleTriangles, DepthsErrByAsManyLastPlacesAsBruteForceFinds) {
   const Picture picture({{{{3.3f, 60.1f, 20.7f}, {2.9f, 13.2f, 58.8f}, {0.1f, 0.7f, 0.45f}}, 1}}, {64, 64});
   const CoverageMethod& method = find_coverage_method("float_top_left");
   Canvas canvas(64, 64);
@@ -69,7 +69,7 @@ TEST(CoverageOwners, DepthsErrByAsManyLastPlacesAsBruteForceFinds) {
       squares += (drawn - exact) * (drawn - exact) / (ulp * ulp);
       ++count;
     }
-  const OwnerScore score = owners_of("float_top_left", picture);
+  const VisibleTriangleScore score = visible_triangles_of("float_top_left", picture);
   EXPECT_GT(most, 0.5);
   EXPECT_NEAR(score.max_ulp, most, 1e-6);
   EXPECT_NEAR(score.rms_ulp, std::sqrt(squares / count), 1e-6);

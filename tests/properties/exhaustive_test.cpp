@@ -78,8 +78,8 @@ std::vector<AblatedExecution> all_targets() {
 Counterexample narrowed(const std::vector<ScreenTriangle>& batch, const Framebuffer& wrong, int x, int y,
                         const Property& property) {
   std::vector<ScreenTriangle> suspects;
-  const auto owner = static_cast<std::uint32_t>(y / kCellPx * kCellsASide + x / kCellPx);
-  for (const std::uint32_t cell : {owner, wrong.payload_row(y)[x]})
+  const auto at_pixel = static_cast<std::uint32_t>(y / kCellPx * kCellsASide + x / kCellPx);
+  for (const std::uint32_t cell : {at_pixel, wrong.payload_row(y)[x]})
     if (cell < batch.size()) suspects.push_back(batch[cell]);
   const TriangleStream few = lab::to_stream(suspects, kSidePx, kSidePx);
   if (!property(few).wrong.empty()) return smallest(shrinkable(few), property);

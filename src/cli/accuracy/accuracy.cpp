@@ -36,7 +36,7 @@ bool broke_promise(const MethodResult& method) {
   struct Visit {
     bool exact;
     bool operator()(const CoverageScores& s) const {
-      return s.owners.unexplained != 0 ||
+      return s.visible.unexplained != 0 ||
              (exact && (s.snapped.errors() != 0 || s.snapped.out_of_bounds != 0));
     }
     bool operator()(const lab::VisibilityScores& s) const { return s.broken != 0; }

@@ -36,7 +36,7 @@ struct AccuracyPlan {
 
 struct CoverageScores {
   lab::CoverageScore snapped, floats;  // against each reference: positions after and before snapping
-  lab::OwnerScore owners;
+  lab::VisibleTriangleScore visible;
 };
 using Score = std::variant<CoverageScores, lab::VisibilityScores, lab::FacingScores, lab::ClippingScore>;
 

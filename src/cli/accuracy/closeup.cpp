@@ -114,9 +114,9 @@ class Drawing {
     const std::size_t i = static_cast<std::size_t>(py) * static_cast<std::size_t>(closeup_.part.width) +
                           static_cast<std::size_t>(px);
     const lab::Mark mark = closeup_.marks[i];
-    const std::uint32_t owner = closeup_.owner[i];
+    const std::uint32_t owner = closeup_.visible[i];
     const std::uint32_t colour = mark != lab::Mark::none ? lab::colour_of(mark)
-                                 : owner == lab::kNobody ? kBackground
+                                 : owner == lab::kNoTriangle ? kBackground
                                                          : kMuted[owner % std::size(kMuted)];
     const int gap = scale_ < 6 ? 0 : 1;  // between pixels
     for (int y = gap; y < scale_; ++y)
@@ -174,7 +174,7 @@ Closeup closeup(const std::string& name, const lab::MarkedPicture& picture) {
     for (int x = part.x0; x < part.x1(); ++x) {
       const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.window.width) +
                             static_cast<std::size_t>(x);
-      result.owner.push_back(picture.owner[i]);
+      result.visible.push_back(picture.visible[i]);
       result.marks.push_back(picture.marks[i]);
     }
   std::copy_if(picture.lines.begin(), picture.lines.end(), std::back_inserter(result.lines),
@@ -184,7 +184,7 @@ Closeup closeup(const std::string& name, const lab::MarkedPicture& picture) {
 
 void add_unless_known(Closeup closeup, std::vector<Closeup>& closeups, std::size_t first) {
   const auto shows = [](const Closeup& c) {
-    return std::tie(c.part.x0, c.part.y0, c.part.width, c.part.height, c.owner, c.marks, c.lines);
+    return std::tie(c.part.x0, c.part.y0, c.part.width, c.part.height, c.visible, c.marks, c.lines);
   };
   const auto known = closeups.begin() + static_cast<std::ptrdiff_t>(first);
   if (std::none_of(known, closeups.end(), [&](const Closeup& c) { return shows(c) == shows(closeup); }))

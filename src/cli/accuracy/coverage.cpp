@@ -56,7 +56,7 @@ void judge(const CoverageScene& scene, const Bench& bench, SceneResult& result) 
   std::vector<Closeup> closeups(methods.size());
   std::mutex mutex;
   std::size_t done = 0;
-  const lab::OwnerJudge owners(input, scene.size, bench.plan.threads);
+  const lab::VisibleTriangleJudge visible(input, scene.size, bench.plan.threads);
   parallel_for(bench.plan.threads, static_cast<int>(methods.size()), [&](int n) {
     const auto i = static_cast<std::size_t>(n);
     const lab::CoverageMethod& method = *methods[i];
@@ -64,7 +64,7 @@ void judge(const CoverageScene& scene, const Bench& bench, SceneResult& result) 
     method.runs(input, scene.window(), runs);
     CoverageScores scores{lab::score_coverage(snapped, runs, scene.floats, lab::gap_reach_px(method)),
                           lab::score_coverage(floats, runs, scene.floats, lab::gap_reach_px(method)),
-                          owners.score(method)};
+                          visible.score(method)};
     result.methods[i] = {std::string(method.info.name), method.info.exact, scores, {}};
     if (bench.plan.pictures && bench.scene.smallest && scores.floats.errors() != 0)
       closeups[i] = closeup(closeup_name(Family::coverage, bench.scene.name, method.info.name),

@@ -54,7 +54,7 @@ std::uint64_t pixels_of(lab::Size size) {
 // Pixels that show a triangle.
 std::uint64_t covered_pixels(const std::vector<std::uint32_t>& visible) {
   return static_cast<std::uint64_t>(
-      std::count_if(visible.begin(), visible.end(), [](std::uint32_t id) { return id != lab::kNobody; }));
+      std::count_if(visible.begin(), visible.end(), [](std::uint32_t id) { return id != lab::kNoTriangle; }));
 }
 
 // Computes the exact facts of all faces, on several threads.
@@ -79,7 +79,7 @@ std::vector<lab::FaceFacts> facts_of(const lab::FacingScene& scene, const Bench&
 
 void judge(const lab::VisibilityScene& scene, const Bench& bench, SceneResult& result) {
   const auto& methods = bench.methods.visibility;
-  const auto truth = lab::true_owners(scene);
+  const auto truth = lab::true_visible_triangles(scene);
   result.width = scene.width;
   result.height = scene.height;
   result.triangles = scene.triangles.size();
@@ -90,11 +90,11 @@ void judge(const lab::VisibilityScene& scene, const Bench& bench, SceneResult& r
   time_all(methods, bench, result, [&](const lab::VisibilityMethod& method) { method.draw(scene, frame); });
   picture_all(
       methods, bench, result,
-      [](const Score& score) { return std::get<lab::VisibilityScores>(score).snapped.wrong_owner != 0; },
+      [](const Score& score) { return std::get<lab::VisibilityScores>(score).snapped.wrong_triangle != 0; },
       [&](const lab::VisibilityMethod& method) {
         method.draw(scene, frame);
         lab::MarkedPicture picture =
-            lab::mark_owners(truth.snapped, frame.owner, {scene.width, scene.height});
+            lab::mark_visible_triangles(truth.snapped, frame.visible, {scene.width, scene.height});
         for (const lab::VisibilityTriangle& t : scene.triangles)
           for (int i = 0; i < 3; ++i) {
             const int j = (i + 1) % 3;
@@ -111,8 +111,8 @@ void judge(const lab::FacingScene& scene, const Bench& bench, SceneResult& resul
   result.width = scene.view.size.width;
   result.height = scene.view.size.height;
   result.triangles = scene.faces.size();
-  result.covered = static_cast<std::uint64_t>(
-      std::count_if(facts.begin(), facts.end(), [](const lab::FaceFacts& f) { return f.floats.owns_pixel; }));
+  result.covered = static_cast<std::uint64_t>(std::count_if(
+      facts.begin(), facts.end(), [](const lab::FaceFacts& f) { return f.floats.covers_sample; }));
   score_all(methods, bench, result,
             [&](const lab::FacingMethod& method) { return lab::score(method, scene, facts); });
   std::vector<std::uint8_t> front(scene.faces.size());
@@ -134,7 +134,7 @@ void judge(const lab::ClippingScene& scene, const Bench& bench, SceneResult& res
   result.width = scene.size.width;
   result.height = scene.size.height;
   result.triangles = scene.mesh().triangles.size();
-  result.covered = covered_pixels(truth.owner);
+  result.covered = covered_pixels(truth.visible);
   bench.progress(0.5);
   score_all(methods, bench, result,
             [&](const lab::ClippingMethod& method) { return lab::score(method, scene, truth); });
@@ -144,7 +144,7 @@ void judge(const lab::ClippingScene& scene, const Bench& bench, SceneResult& res
       methods, bench, result,
       [](const Score& score) {  // the picture doesn't show wrong depths
         const auto& s = std::get<lab::ClippingScore>(score);
-        return s.missing + s.extra + s.wrong_owner != 0;
+        return s.missing + s.extra + s.wrong_triangle != 0;
       },
       [&](const lab::ClippingMethod& method) {
         method.draw(scene, frame);
@@ -153,7 +153,7 @@ void judge(const lab::ClippingScene& scene, const Bench& bench, SceneResult& res
         for (int y = 0; y < scene.size.height; ++y)
           drawn.insert(drawn.end(), frame.picture.payload_row(y),
                        frame.picture.payload_row(y) + scene.size.width);
-        return lab::mark_owners(truth.owner, drawn, {scene.size.width, scene.size.height});
+        return lab::mark_visible_triangles(truth.visible, drawn, {scene.size.width, scene.size.height});
       });
 }
 

@@ -31,11 +31,11 @@ json score_json(const lab::CoverageScore& s, std::uint64_t crossings) {
 
 json score_json(const lab::VisibilityScore& s) {
   json score{{"covered", s.covered},
-             {"wrong_owner", s.wrong_owner},
+             {"wrong_owner", s.wrong_triangle},
              {"out_of_range", s.out_of_range},
              {"max_ulp", s.max_ulp},
              {"rms_ulp", s.rms_ulp}};
-  add_rate(score, s.wrong_owner, s.covered);
+  add_rate(score, s.wrong_triangle, s.covered);
   return score;
 }
 
@@ -58,15 +58,15 @@ struct AddScore {
   void operator()(const CoverageScores& s) const {
     method["snapped"] = score_json(s.snapped, scene.crossings);
     method["float"] = score_json(s.floats, scene.crossings);
-    add_owners(method["snapped"], s.owners.wrong_snapped);
-    add_owners(method["float"], s.owners.wrong_floats);
+    add_wrong_pixels(method["snapped"], s.visible.wrong_snapped);
+    add_wrong_pixels(method["float"], s.visible.wrong_floats);
     if (lab::find_coverage_method(method["name"].get<std::string>()).contract_depth)
-      method["snapped"]["unexplained_owners"] = s.owners.unexplained;
-    method["depth"] = {{"max_ulp", s.owners.max_ulp}, {"rms_ulp", s.owners.rms_ulp}};
+      method["snapped"]["unexplained_owners"] = s.visible.unexplained;
+    method["depth"] = {{"max_ulp", s.visible.max_ulp}, {"rms_ulp", s.visible.rms_ulp}};
   }
   void operator()(const lab::VisibilityScores& s) const {
     method["snapped"] = score_json(s.snapped);
-    method["snapped"]["near_ties"] = s.near_ties;
+    method["snapped"]["near_ties"] = s.depth_ties;
     method["float"] = score_json(s.floats);
     method["broken"] = s.broken;
   }
@@ -79,8 +79,8 @@ struct AddScore {
   void operator()(const lab::ClippingScore& s) const {
     json& score = method["score"] = {{"missing", s.missing},
                                      {"extra", s.extra},
-                                     {"wrong_owner", s.wrong_owner},
-                                     {"near_ties", s.near_ties},
+                                     {"wrong_owner", s.wrong_triangle},
+                                     {"near_ties", s.depth_ties},
                                      {"wrong_depth", s.wrong_depth},
                                      {"worst_distance", s.worst_distance},
                                      {"hairline", s.hairline},

@@ -54,7 +54,8 @@ class FamilyTable {
     lab::VisibilityScore total;
     for (const SceneResult* scene : scenes_) {
       const lab::VisibilityScore& s = std::get<lab::VisibilityScores>(scene->methods[method].score).*truth;
-      total.covered += s.covered, total.wrong_owner += s.wrong_owner, total.out_of_range += s.out_of_range;
+      total.covered += s.covered, total.wrong_triangle += s.wrong_triangle,
+          total.out_of_range += s.out_of_range;
       total.max_ulp = std::max(total.max_ulp, s.max_ulp);
     }
     return total;
@@ -76,10 +77,10 @@ class FamilyTable {
     }
     return total;
   }
-  lab::OwnerScore owners(std::size_t method) const {
-    lab::OwnerScore worst;
+  lab::VisibleTriangleScore visible(std::size_t method) const {
+    lab::VisibleTriangleScore worst;
     for (const SceneResult* scene : scenes_) {
-      const lab::OwnerScore& s = std::get<CoverageScores>(scene->methods[method].score).owners;
+      const lab::VisibleTriangleScore& s = std::get<CoverageScores>(scene->methods[method].score).visible;
       worst.wrong_snapped += s.wrong_snapped, worst.wrong_floats += s.wrong_floats;
       worst.max_ulp = std::max(worst.max_ulp, s.max_ulp), worst.rms_ulp = std::max(worst.rms_ulp, s.rms_ulp);
     }
@@ -117,7 +118,7 @@ class FamilyTable {
   static std::uint64_t errors(const Score& score) {
     struct Visit {
       std::uint64_t operator()(const CoverageScores& s) const { return s.floats.errors(); }
-      std::uint64_t operator()(const lab::VisibilityScores& s) const { return s.snapped.wrong_owner; }
+      std::uint64_t operator()(const lab::VisibilityScores& s) const { return s.snapped.wrong_triangle; }
       std::uint64_t operator()(const lab::FacingScores& s) const { return s.floats.misclassified; }
       std::uint64_t operator()(const lab::ClippingScore& s) const { return s.wrong(); }
     };
@@ -164,7 +165,7 @@ std::string visible_triangle_table(const FamilyTable& t) {
     return scene == nullptr ? 0 : std::get<CoverageScores>(scene->methods[method].score).floats.gaps;
   };
   for (std::size_t i = 0; i < t.methods(); ++i) {
-    const lab::OwnerScore s = t.owners(i);
+    const lab::VisibleTriangleScore s = t.visible(i);
     add(fmt::format(kLine, t.name(i), s.wrong_snapped, s.wrong_floats, digits(s.max_ulp), digits(s.rms_ulp)),
         gaps(junction, i), gaps(split, i));
   }
@@ -196,8 +197,8 @@ std::string visibility_table(const FamilyTable& t) {
                       last_width(t));
   for (std::size_t i = 0; i < t.methods(); ++i) {
     const auto snapped = t.visibility(i, &S::snapped), floats = t.visibility(i, &S::floats);
-    text += fmt::format(kLine, t.name(i), rate(snapped.wrong_owner, snapped.covered), snapped.out_of_range,
-                        digits(snapped.max_ulp), rate(floats.wrong_owner, floats.covered),
+    text += fmt::format(kLine, t.name(i), rate(snapped.wrong_triangle, snapped.covered), snapped.out_of_range,
+                        digits(snapped.max_ulp), rate(floats.wrong_triangle, floats.covered),
                         digits(floats.max_ulp), t.last(i), last_width(t));
   }
   return text + "beyond: pixels whose depth is outside the depth range of their triangle\n";
@@ -227,7 +228,7 @@ std::string clipping_table(const FamilyTable& t) {
                       t.last_title("ns/px"), last_width(t));
   for (std::size_t i = 0; i < t.methods(); ++i) {
     const std::uint64_t missing = t.sum(i, &S::missing), extra = t.sum(i, &S::extra),
-                        triangle = t.sum(i, &S::wrong_owner), depth = t.sum(i, &S::wrong_depth);
+                        triangle = t.sum(i, &S::wrong_triangle), depth = t.sum(i, &S::wrong_depth);
     text += fmt::format(kLine, t.name(i), rate(missing + extra + triangle + depth, t.trials()), missing,
                         extra, triangle, depth, t.sum(i, &S::hairline), t.sum(i, &S::not_a_number), t.last(i),
                         last_width(t));

@@ -94,39 +94,39 @@ class Scorer {
  public:
   Scorer(const ClippingScene& scene, const ClippingTruth& truth) : scene_(scene), oracle_(*truth.oracle) {}
 
-  void add(int x, int y, std::uint32_t said, std::uint32_t truth, double stored01) {
-    if (truth != kNobody) ++score.covered;
-    if (said == truth) {
-      if (said != kNobody) add_depth(x, y, said, stored01);
+  void add(int x, int y, std::uint32_t drawn, std::uint32_t truth, double stored01) {
+    if (truth != kNoTriangle) ++score.covered;
+    if (drawn == truth) {
+      if (drawn != kNoTriangle) add_depth(x, y, drawn, stored01);
     } else if (around(x, y,
-                      [&](double x_px, double y_px) { return oracle_.shows(said, truth, x_px, y_px); })) {
+                      [&](double x_px, double y_px) { return oracle_.shows(drawn, truth, x_px, y_px); })) {
       ++score.hairline;
-    } else if (said == kNobody) {
+    } else if (drawn == kNoTriangle) {
       ++score.missing;
-    } else if (truth == kNobody) {
+    } else if (truth == kNoTriangle) {
       ++score.extra;
     } else {
-      ++score.wrong_owner;
+      ++score.wrong_triangle;
       const auto depth01 = [&](std::uint32_t id) { return oracle_.depth01(id, x + 0.5, y + 0.5); };
-      if (oracle_.covers(said, x + 0.5, y + 0.5) && std::abs(depth01(said) - depth01(truth)) <= kNearTie01)
-        ++score.near_ties;
+      if (oracle_.covers(drawn, x + 0.5, y + 0.5) && std::abs(depth01(drawn) - depth01(truth)) <= kDepthTie01)
+        ++score.depth_ties;
     }
   }
 
   ClippingScore score;
 
  private:
-  void add_depth(int x, int y, std::uint32_t owner, double stored01) {
+  void add_depth(int x, int y, std::uint32_t triangle, double stored01) {
     double low = 2, high = -1;
     around(x, y, [&](double x_px, double y_px) {
-      const double here = oracle_.depth01(owner, x_px, y_px);
+      const double here = oracle_.depth01(triangle, x_px, y_px);
       low = std::min(low, here), high = std::max(high, here);
       return false;
     });
     if (stored01 < low - 0x1p-20 || stored01 > high + 0x1p-20) ++score.wrong_depth;
     const double nearest_place = std::clamp(stored01, low, high);
     score.worst_distance =
-        std::max(score.worst_distance, distance_error(scene_, owner, stored01, nearest_place));
+        std::max(score.worst_distance, distance_error(scene_, triangle, stored01, nearest_place));
   }
 
   const ClippingScene& scene_;
@@ -140,18 +140,18 @@ ClippingScore score(const ClippingMethod& method, const ClippingScene& scene, co
   method.draw(scene, frame);
   clipping_methods().front().draw(scene, ours);
   Scorer scorer(scene, truth);
-  auto owner = truth.owner.begin();
+  auto visible_it = truth.visible.begin();
   for (int y = 0; y < scene.size.height; ++y)
-    for (int x = 0; x < scene.size.width; ++x, ++owner) {
-      const std::uint32_t said = frame.picture.payload_row(y)[x];
-      if (said != ours.picture.payload_row(y)[x]) ++scorer.score.differs_from_ours;
+    for (int x = 0; x < scene.size.width; ++x, ++visible_it) {
+      const std::uint32_t drawn = frame.picture.payload_row(y)[x];
+      if (drawn != ours.picture.payload_row(y)[x]) ++scorer.score.differs_from_ours;
       const double stored = static_cast<double>(frame.picture.depth_row(y)[x]) - contract::kDepthHead;
-      scorer.add(x, y, said, *owner, stored / contract::kDepthRange);
+      scorer.add(x, y, drawn, *visible_it, stored / contract::kDepthRange);
     }
   ClippingScore& score = scorer.score;
   score.not_a_number = frame.not_a_number;
   score.out_of_range = frame.out_of_range;
-  if (promises(method, scene)) score.broken = score.wrong() - score.near_ties;
+  if (promises(method, scene)) score.broken = score.wrong() - score.depth_ties;
   return score;
 }
 

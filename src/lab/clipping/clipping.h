@@ -33,7 +33,7 @@ struct ClippingScene {
 struct ClippingFrame {
   explicit ClippingFrame(Size size);
 
-  Framebuffer picture;  // payload: index of the triangle, or kNobody
+  Framebuffer picture;  // payload: index of the triangle, or kNoTriangle
   std::unique_ptr<Backend> backend;
   Frontend frontend;
   Clipper clipper;
@@ -60,7 +60,7 @@ std::span<const ClippingMethod> clipping_methods();
 
 class ClippingOracle;  // lab/clipping/truth.h
 struct ClippingTruth {
-  std::vector<std::uint32_t> owner;  // row by row
+  std::vector<std::uint32_t> visible;  // row by row
   std::shared_ptr<const ClippingOracle> oracle;
 };
 // The scene must outlive it.
@@ -72,7 +72,7 @@ inline constexpr double kHairlinePx = 1.0 / 64;
 // A near tie is a wrong owner whose true depth is no farther from the right one's: the front end's depth is a
 // float, which near 1 has steps of 2^-24, and is rounded four times on its way, to half a step each: 2^-23 a
 // triangle.
-inline constexpr double kNearTie01 = 0x1p-22;
+inline constexpr double kDepthTie01 = 0x1p-22;
 // How far out both ends of an edge across the screen may lie. Floats place them to 2^-24 of that distance,
 // and what lies between moves as much; hairline is 2^-6 px. So 2^18, if nothing else is rounded.
 inline constexpr double kReachPx = 1 << 18;
@@ -84,8 +84,8 @@ struct ClippingScore {
   std::uint64_t covered = 0;  // pixels, in truth
   std::uint64_t hairline = 0;
   // Pixels whose difference is more than hairline:
-  std::uint64_t missing = 0, extra = 0, wrong_owner = 0;
-  std::uint64_t near_ties = 0;  // of the wrong owners
+  std::uint64_t missing = 0, extra = 0, wrong_triangle = 0;
+  std::uint64_t depth_ties = 0;  // of the wrong owners
   std::uint64_t wrong_depth =
       0;  // the owner is right; its depth is none that it has within kHairlinePx, by 2^-20
   // Where the owner is right: the largest error of the distance that the depth stands for, as a fraction of
@@ -95,7 +95,7 @@ struct ClippingScore {
   std::uint64_t not_a_number = 0, out_of_range = 0;  // as in ClippingFrame
   std::uint64_t broken = 0;  // wrong pixels, beyond hairline, that the promise rules out
 
-  std::uint64_t wrong() const { return missing + extra + wrong_owner + wrong_depth; }
+  std::uint64_t wrong() const { return missing + extra + wrong_triangle + wrong_depth; }
 };
 ClippingScore score(const ClippingMethod& method, const ClippingScene& scene, const ClippingTruth& truth);
 

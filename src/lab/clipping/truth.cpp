@@ -129,20 +129,22 @@ void ClippingOracle::sort_into_tiles(int tile_x, int tile_y, int tiles,
     for (const int below : {0, half}) sort_into_tiles(tile_x + right, tile_y + below, half, kept);
 }
 
-std::uint32_t ClippingOracle::owner_at(double x_px, double y_px) const {
+std::uint32_t ClippingOracle::visible_at(double x_px, double y_px) const {
   const auto tile =
       static_cast<std::size_t>(static_cast<int>(y_px) / kTile * tiles_x_ + static_cast<int>(x_px) / kTile);
-  std::uint32_t owner = kNobody;
+  std::uint32_t visible_id = kNoTriangle;
   for (const std::uint32_t i : in_tile_[tile])
-    if (covers(i, x_px, y_px) && (owner == kNobody || nearer(i, owner, x_px, y_px))) owner = i;
-  return owner;
+    if (covers(i, x_px, y_px) && (visible_id == kNoTriangle || nearer(i, visible_id, x_px, y_px)))
+      visible_id = i;
+  return visible_id;
 }
 
-bool ClippingOracle::shows(std::uint32_t owner, std::uint32_t rival, double x_px, double y_px) const {
-  if (owner != kNobody && !covers(owner, x_px, y_px)) return false;
-  if (rival != kNobody && covers(rival, x_px, y_px) && (owner == kNobody || nearer(rival, owner, x_px, y_px)))
+bool ClippingOracle::shows(std::uint32_t triangle, std::uint32_t other, double x_px, double y_px) const {
+  if (triangle != kNoTriangle && !covers(triangle, x_px, y_px)) return false;
+  if (other != kNoTriangle && covers(other, x_px, y_px) &&
+      (triangle == kNoTriangle || nearer(other, triangle, x_px, y_px)))
     return false;
-  return owner_at(x_px, y_px) == owner;
+  return visible_at(x_px, y_px) == triangle;
 }
 
 double ClippingOracle::depth01(std::uint32_t triangle, double x_px, double y_px) const {
@@ -173,11 +175,11 @@ bool ClippingOracle::nearer(std::uint32_t a, std::uint32_t b, double x_px, doubl
 ClippingTruth clipping_truth(const ClippingScene& scene, int threads) {
   const auto width = static_cast<std::size_t>(scene.size.width);
   ClippingTruth truth{{}, std::make_shared<ClippingOracle>(scene)};
-  truth.owner.resize(width * static_cast<std::size_t>(scene.size.height));
+  truth.visible.resize(width * static_cast<std::size_t>(scene.size.height));
   parallel_for(threads, scene.size.height, [&](int y) {
     for (int x = 0; x < scene.size.width; ++x)
-      truth.owner[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] =
-          truth.oracle->owner_at(x + 0.5, y + 0.5);
+      truth.visible[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] =
+          truth.oracle->visible_at(x + 0.5, y + 0.5);
   });
   return truth;
 }

@@ -28,10 +28,10 @@ class ClippingOracle {
   ~ClippingOracle();
 
   // Places must lie in the image, less than half a pixel from a sample.
-  std::uint32_t owner_at(double x_px, double y_px) const;
-  // Whether `owner` shows there; needs not look at others where one look rules it out. `rival` is a good
+  std::uint32_t visible_at(double x_px, double y_px) const;
+  // Whether `visible_id` shows there; needs not look at others where one look rules it out. `other` is a good
   // guess of what shows instead.
-  bool shows(std::uint32_t owner, std::uint32_t rival, double x_px, double y_px) const;
+  bool shows(std::uint32_t triangle, std::uint32_t other, double x_px, double y_px) const;
   // Between near and far, whatever else lies before it.
   bool covers(std::uint32_t triangle, double x_px, double y_px) const;
   double depth01(std::uint32_t triangle, double x_px, double y_px) const;

@@ -64,14 +64,15 @@ void backend_runs(Backend& backend, std::span<const ScreenTriangle> snapped, Win
   for (const auto& group : disjoint_groups(triangles, window.width, window.height)) {
     members.clear();
     for (const std::uint32_t i : group) members.push_back(triangles[i]);
-    backend.draw(members, frame.view(), kNobody, {});
+    backend.draw(members, frame.view(), kNoTriangle, {});
     for (int y = 0; y < window.height; ++y) {
       const std::uint32_t* row = frame.payload_row(y);
       for (int x = 0; x < window.width;) {
         const int begin = x;
-        const std::uint32_t owner = row[x];
-        while (x < window.width && row[x] == owner) ++x;
-        if (owner != kNobody) runs.push_back({owner, y + window.y0, begin + window.x0, x + window.x0});
+        const std::uint32_t triangle = row[x];
+        while (x < window.width && row[x] == triangle) ++x;
+        if (triangle != kNoTriangle)
+          runs.push_back({triangle, y + window.y0, begin + window.x0, x + window.x0});
       }
     }
   }

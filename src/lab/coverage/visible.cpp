@@ -13,8 +13,8 @@ namespace {
 constexpr std::uint32_t kBackground = 0;
 
 // An owner as the pictures here show it.
-std::uint32_t shown(std::uint32_t owner) {
-  return owner == kNobody ? kBackground : owner + 1;
+std::uint32_t shown(std::uint32_t visible_id) {
+  return visible_id == kNoTriangle ? kBackground : visible_id + 1;
 }
 
 double float_ulp(double depth01) {
@@ -30,7 +30,7 @@ void each_pixel(Size size, Visit&& visit) {
     for (int x = 0; x < size.width; ++x) visit(x, y, pixel++);
 }
 
-std::uint64_t wrong_owners(const Canvas& canvas, const Owners& truth) {
+std::uint64_t wrong_pixels(const Canvas& canvas, const VisibleTriangles& truth) {
   std::uint64_t wrong = 0;
   each_pixel({truth.window.width, truth.window.height}, [&](int x, int y, std::size_t pixel) {
     wrong += canvas.frame.payload_row(y)[x] != shown(truth.triangle[pixel]);
@@ -40,12 +40,13 @@ std::uint64_t wrong_owners(const Canvas& canvas, const Owners& truth) {
 
 // error(x, y, exact): in last places.
 template <typename Error>
-void add_depth_errors(OwnerScore& score, const Canvas& canvas, const Owners& truth, Error&& error) {
+void add_depth_errors(VisibleTriangleScore& score, const Canvas& canvas, const VisibleTriangles& truth,
+                      Error&& error) {
   double squares = 0.0;
   std::uint64_t count = 0;
   each_pixel({truth.window.width, truth.window.height}, [&](int x, int y, std::size_t pixel) {
-    const std::uint32_t owner = truth.triangle[pixel];
-    if (owner == kNobody || canvas.frame.payload_row(y)[x] != shown(owner)) return;
+    const std::uint32_t visible_id = truth.triangle[pixel];
+    if (visible_id == kNoTriangle || canvas.frame.payload_row(y)[x] != shown(visible_id)) return;
     const double ulp = error(x, y, truth.depth[pixel]);
     score.max_ulp = std::max(score.max_ulp, ulp);
     squares += ulp * ulp;
@@ -64,18 +65,18 @@ std::vector<Triangle> numbered(std::span<const Triangle> triangles) {
 
 }  // namespace
 
-OwnerJudge::OwnerJudge(const CoverageInput& input, Size size, int threads)
+VisibleTriangleJudge::VisibleTriangleJudge(const CoverageInput& input, Size size, int threads)
     : size_(size),
       floats_(numbered(input.floats)),
       snapped_(numbered(input.snapped)),
-      by_grid_(exact_owners(snapped_, {size.width, size.height}, threads)),
-      by_floats_(exact_owners(floats_, {size.width, size.height}, threads)) {}
+      by_grid_(exact_visible_triangles(snapped_, {size.width, size.height}, threads)),
+      by_floats_(exact_visible_triangles(floats_, {size.width, size.height}, threads)) {}
 
-OwnerScore OwnerJudge::score(const CoverageMethod& method) const {
+VisibleTriangleScore VisibleTriangleJudge::score(const CoverageMethod& method) const {
   Canvas canvas(size_.width, size_.height);
   method.draw({floats_, snapped_}, canvas, 1);
-  OwnerScore score{.wrong_snapped = wrong_owners(canvas, by_grid_),
-                   .wrong_floats = wrong_owners(canvas, by_floats_)};
+  VisibleTriangleScore score{.wrong_snapped = wrong_pixels(canvas, by_grid_),
+                             .wrong_floats = wrong_pixels(canvas, by_floats_)};
   if (method.contract_depth) {
     add_depth_errors(score, canvas, by_grid_, [&](int x, int y, double exact) {
       return std::abs(static_cast<double>(canvas.frame.depth_row(y)[x]) - exact);
@@ -90,13 +91,13 @@ OwnerScore OwnerJudge::score(const CoverageMethod& method) const {
   return score;
 }
 
-std::uint64_t OwnerJudge::unexplained(const Canvas& canvas) const {
+std::uint64_t VisibleTriangleJudge::unexplained(const Canvas& canvas) const {
   std::uint64_t count = 0;
   each_pixel(size_, [&](int x, int y, std::size_t pixel) {
-    const std::uint32_t drawn = canvas.frame.payload_row(y)[x], owner = by_grid_.triangle[pixel];
-    if (drawn == shown(owner)) return;
+    const std::uint32_t drawn = canvas.frame.payload_row(y)[x], visible_id = by_grid_.triangle[pixel];
+    if (drawn == shown(visible_id)) return;
     const auto explains = [&] {
-      if (drawn == kBackground || owner == kNobody) return false;
+      if (drawn == kBackground || visible_id == kNoTriangle) return false;
       const SnappedTruth truth(snapped_[drawn - 1]);
       return truth.covers(x, y) &&
              truth.depth(x, y).get_d() - by_grid_.depth[pixel] <= 2.0 * contract::kDepthError;

@@ -10,7 +10,7 @@
 
 namespace edgewise::lab {
 
-struct OwnerScore {
+struct VisibleTriangleScore {
   // Pixels that do not show their exact owner, or show one where there is none; against each truth.
   std::uint64_t wrong_snapped = 0, wrong_floats = 0;
   // Of the backends' wrong_snapped, those whose depth is farther from the owner's than rule 6 lets both be.
@@ -20,14 +20,14 @@ struct OwnerScore {
   // before, in the last place that a float has at the exact depth, or at 2^-8 where that is nearer to 0.
   double max_ulp = 0.0, rms_ulp = 0.0;
 
-  bool operator==(const OwnerScore&) const = default;
+  bool operator==(const VisibleTriangleScore&) const = default;
 };
 
 // Knows the exact owners in a picture, by both truths.
-class OwnerJudge {
+class VisibleTriangleJudge {
  public:
-  OwnerJudge(const CoverageInput& input, Size size, int threads);
-  OwnerScore score(const CoverageMethod& method) const;
+  VisibleTriangleJudge(const CoverageInput& input, Size size, int threads);
+  VisibleTriangleScore score(const CoverageMethod& method) const;
 
  private:
   std::uint64_t unexplained(const Canvas& canvas) const;
@@ -35,7 +35,7 @@ class OwnerJudge {
   Size size_;
   std::vector<FloatTriangle> floats_;  // their payloads are their indices, from 1
   std::vector<ScreenTriangle> snapped_;
-  Owners by_grid_, by_floats_;
+  VisibleTriangles by_grid_, by_floats_;
 };
 
 }  // namespace edgewise::lab

@@ -98,7 +98,7 @@ std::int64_t crossing(const SnappedPoint& a, const SnappedPoint& b, std::int64_t
 
 // Even-odd rule along each row of samples; what lies between two crossings, the first included, is inside.
 template <typename P>
-bool owns_pixel(std::span<const P> polygon, Size size) {
+bool covers_sample(std::span<const P> polygon, Size size) {
   auto top = polygon[0].y, bottom = polygon[0].y;
   for (const P& p : polygon) top = std::min(top, p.y), bottom = std::max(bottom, p.y);
   std::vector<int> crossings;
@@ -129,7 +129,7 @@ FaceSide side_of(std::span<const P> polygon, Size size) {
   auto area = cross(polygon[0], polygon[1], polygon[2]);
   const int first_three = sign(area);
   for (std::size_t i = 3; i < polygon.size(); ++i) area += cross(polygon[0], polygon[i - 1], polygon[i]);
-  return {sign(area) != 0 && owns_pixel(polygon, size), sign(area) > 0, first_three != sign(area)};
+  return {sign(area) != 0 && covers_sample(polygon, size), sign(area) > 0, first_three != sign(area)};
 }
 
 // The signs are exact; these are measures of how close it was, for which long double does: 2^-64 against
@@ -206,16 +206,16 @@ std::vector<FaceFacts> facing_facts(const FacingScene& scene) {
 }
 
 FacingScores score(const FacingMethod& method, const FacingScene& scene, std::span<const FaceFacts> facts) {
-  std::vector<std::uint8_t> said(scene.faces.size()), ours(said.size());
-  method.classify(scene, said);
+  std::vector<std::uint8_t> kept(scene.faces.size()), ours(kept.size());
+  method.classify(scene, kept);
   facing_methods().front().classify(scene, ours);
   FacingScores scores;
   for (std::size_t i = 0; i < facts.size(); ++i) {
-    if (said[i] != ours[i]) ++scores.disagreements;
+    if (kept[i] != ours[i]) ++scores.disagreements;
     const auto add = [&](FacingScore& score, const FaceSide& side, bool may_err) {
-      if (!side.owns_pixel) return;
+      if (!side.covers_sample) return;
       ++score.faces;
-      if ((said[i] != 0) == side.front) return;
+      if ((kept[i] != 0) == side.front) return;
       ++score.misclassified;
       if (side.first_three_lie)
         ++score.by_first_three;

@@ -38,7 +38,7 @@ struct FacingScene {
 
 // In one truth.
 struct FaceSide {
-  bool owns_pixel;       // a sample lies in the projection
+  bool covers_sample;    // a sample lies in the projection
   bool front;            // the whole polygon
   bool first_three_lie;  // the first three vertices turn the other way than the polygon (they are a reflex
                          // corner, say)

@@ -26,7 +26,7 @@ struct View {
 using Picture = std::vector<std::uint32_t>;  // one triangle a pixel; the first that is drawn there
 
 Picture picture_of(std::span<const Run> runs, Window window) {
-  Picture picture(static_cast<std::size_t>(window.width * window.height), kNobody);
+  Picture picture(static_cast<std::size_t>(window.width * window.height), kNoTriangle);
   for (const Run& run : runs) {
     if (run.y < window.y0 || run.y >= window.y1()) continue;
     const auto row = picture.begin() + std::ptrdiff_t{run.y - window.y0} * window.width;

@@ -14,16 +14,16 @@ Sweep make_sweep_sliver_depth();
 
 namespace {
 
-constexpr YAxis kWrongOwners{"wrong owners per 10^6 covered pixels", true, 1e6};
+constexpr YAxis kWrongTriangles{"wrong owners per 10^6 covered pixels", true, 1e6};
 
 template <typename Errors>
 Measured measure_scene(const VisibilityScene& scene, Errors&& errors) {
   const auto methods = visibility_methods();
-  const auto owners = true_owners(scene);
+  const auto visible = true_visible_triangles(scene);
   Measured result(methods.size());
   for (std::size_t i = 0; i < methods.size(); ++i) {
     // All draw the same snapped positions, so what snapping costs is left to the sweeps of coverage.
-    const VisibilityScore s = score(methods[i], scene, owners).snapped;
+    const VisibilityScore s = score(methods[i], scene, visible).snapped;
     result.methods[i] = {errors(s), s.covered};
   }
   return result;
@@ -31,7 +31,7 @@ Measured measure_scene(const VisibilityScene& scene, Errors&& errors) {
 
 Measured measure_separation(double distance, double separation) {
   return measure_scene(two_planes(distance, separation, 0.1, 1000),
-                       [](const VisibilityScore& s) { return s.wrong_owner; });
+                       [](const VisibilityScore& s) { return s.wrong_triangle; });
 }
 
 // Bars laid round a ring, each broad and near the eye where it starts, over the far tip of the one before it.
@@ -62,12 +62,12 @@ VisibilityScene ring_of_bars(int bars) {
 
 Measured measure_cycle(double bars, bool) {
   return measure_scene(ring_of_bars(static_cast<int>(bars)),
-                       [](const VisibilityScore& s) { return s.wrong_owner; });
+                       [](const VisibilityScore& s) { return s.wrong_triangle; });
 }
 
 Measured measure_sliver_depth(double aspect, bool) {
   return measure_scene(slivers(aspect),
-                       [](const VisibilityScore& s) { return s.wrong_owner + s.out_of_range; });
+                       [](const VisibilityScore& s) { return s.wrong_triangle + s.out_of_range; });
 }
 
 }  // namespace
@@ -77,7 +77,7 @@ Sweep make_sweep_separation_at_10() {
           Family::visibility,
           "two tilted planes at z = 10, in either order; near 0.1, far 1000",
           {"separation", "", true},
-          kWrongOwners,
+          kWrongTriangles,
           0.1,
           decades(0, -8),
           [](double separation, bool) { return measure_separation(10, separation); }};
@@ -88,7 +88,7 @@ Sweep make_sweep_separation_at_100() {
           Family::visibility,
           "two tilted planes at z = 100, in either order; near 0.1, far 1000",
           {"separation", "", true},
-          kWrongOwners,
+          kWrongTriangles,
           0.1,
           decades(1, -7),
           [](double separation, bool) { return measure_separation(100, separation); }};
@@ -99,7 +99,7 @@ Sweep make_sweep_cycle() {
           Family::visibility,
           "bars, each over the end of the one before it; from three on in a cycle",
           {"bars", "", false},
-          kWrongOwners,
+          kWrongTriangles,
           0.1,
           {1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24},
           measure_cycle};

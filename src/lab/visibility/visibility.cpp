@@ -73,25 +73,26 @@ std::size_t pixel_at(const VisibilityScene& scene, int x, int y) {
   return static_cast<std::size_t>(y) * static_cast<std::size_t>(scene.width) + static_cast<std::size_t>(x);
 }
 
-std::vector<std::uint32_t> owners_of(const VisibilityScene& scene, std::span<const Run> runs, bool snapped) {
+std::vector<std::uint32_t> visible_triangles_of(const VisibilityScene& scene, std::span<const Run> runs,
+                                                bool snapped) {
   std::vector<Plane> planes;
   for (const auto& triangle : scene.triangles) planes.emplace_back(triangle, snapped);
   const auto pixels = static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height);
-  std::vector<std::uint32_t> owners(pixels, kNobody);
+  std::vector<std::uint32_t> visible(pixels, kNoTriangle);
   std::vector<Ball> nearness(pixels, Ball(0.0));
   for (const Run& run : runs)
     for (int x = run.x0; x < run.x1; ++x) {
       const std::size_t pixel = pixel_at(scene, x, run.y);
       const Ball mine = planes[run.triangle].nearness<Ball>(x, run.y);
-      if (owners[pixel] != kNobody) {
+      if (visible[pixel] != kNoTriangle) {
         const auto exact = [&](std::uint32_t id) { return planes[id].nearness<mpq_class>(x, run.y); };
         const int sign = (mine - nearness[pixel]).sign();
-        if (sign < 0 || (sign == 0 && exact(run.triangle) <= exact(owners[pixel]))) continue;
+        if (sign < 0 || (sign == 0 && exact(run.triangle) <= exact(visible[pixel]))) continue;
       }
-      owners[pixel] = run.triangle;
+      visible[pixel] = run.triangle;
       nearness[pixel] = mine;
     }
-  return owners;
+  return visible;
 }
 
 // A method's picture against one truth.
@@ -108,25 +109,26 @@ class Judge {
   }
   // The background's is 1. To 60 bits or more on snapped positions.
   long double depth01(std::uint32_t id, int x, int y) const {
-    if (id == kNobody) return 1.0L;
+    if (id == kNoTriangle) return 1.0L;
     return depth01_of(Plane(scene_.triangles[id], snapped_).nearness<long double>(x, y), scene_);
   }
   // Returns the error of the depth that is kept, in depth01.
-  long double add_depth(const VisibilityFrame& frame, std::uint32_t owner, int x, int y) {
-    const long double truth = depth01(owner, x, y), stored = method_.stored01(frame, pixel_at(scene_, x, y));
+  long double add_depth(const VisibilityFrame& frame, std::uint32_t triangle, int x, int y) {
+    const long double truth = depth01(triangle, x, y),
+                      stored = method_.stored01(frame, pixel_at(scene_, x, y));
     const long double error = std::abs(stored - truth), steps = error / method_.ulp01(truth);
     max_ = std::max(max_, steps);
     squares_ += steps * steps;
     ++count_;
-    const auto& z = scene_.triangles[owner].view_z;
+    const auto& z = scene_.triangles[triangle].view_z;
     const auto [nearest, farthest] = std::minmax({z[0], z[1], z[2]});
     const long double low = depth01_of(1.0L / nearest, scene_), high = depth01_of(1.0L / farthest, scene_);
     if (stored < low - 0x1p-16L || stored > high + 0x1p-16L) ++score_.out_of_range;
     return error;
   }
-  void add_owner(std::uint32_t said, std::uint32_t truth) {
-    if (truth != kNobody) ++score_.covered;
-    if (said != truth) ++score_.wrong_owner;
+  void add_visible(std::uint32_t drawn, std::uint32_t truth) {
+    if (truth != kNoTriangle) ++score_.covered;
+    if (drawn != truth) ++score_.wrong_triangle;
   }
   VisibilityScore report() {
     score_.max_ulp = static_cast<double>(max_);
@@ -151,11 +153,11 @@ class Scorer {
       : method_(method), scene_(scene), snapped_(method, scene, true), floats_(method, scene, false) {
     method.draw(scene, frame_);
   }
-  void add(int x, int y, const TrueOwners& owners) {
+  void add(int x, int y, const TrueVisibleTriangles& visible) {
     const std::size_t pixel = pixel_at(scene_, x, y);
-    const std::uint32_t said = frame_.owner[pixel];
-    add_float(said, owners.floats[pixel], x, y);
-    if (!keeps_promise(said, owners.snapped[pixel], x, y)) ++scores_.broken;
+    const std::uint32_t drawn = frame_.visible[pixel];
+    add_float(drawn, visible.floats[pixel], x, y);
+    if (!keeps_promise(drawn, visible.snapped[pixel], x, y)) ++scores_.broken;
   }
   VisibilityScores report() {
     scores_.snapped = snapped_.report();
@@ -166,24 +168,26 @@ class Scorer {
  private:
   bool keeps_depth() const { return method_.stored01 != nullptr; }
   double bound01(std::uint32_t id) const {
-    return id == kNobody ? 0.0 : method_.bound01(scene_.triangles[id], scene_);
+    return id == kNoTriangle ? 0.0 : method_.bound01(scene_.triangles[id], scene_);
   }
 
-  void add_float(std::uint32_t said, std::uint32_t truth, int x, int y) {
-    floats_.add_owner(said, truth);
-    if (said == kNobody || !keeps_depth()) return;
-    if (said == truth || floats_.covers(said, x, y)) floats_.add_depth(frame_, said, x, y);
+  void add_float(std::uint32_t drawn, std::uint32_t truth, int x, int y) {
+    floats_.add_visible(drawn, truth);
+    if (drawn == kNoTriangle || !keeps_depth()) return;
+    if (drawn == truth || floats_.covers(drawn, x, y)) floats_.add_depth(frame_, drawn, x, y);
   }
-  bool keeps_promise(std::uint32_t said, std::uint32_t truth, int x, int y) {
-    snapped_.add_owner(said, truth);
-    if (said != kNobody && said != truth && !snapped_.covers(said, x, y)) return false;
-    if (!keeps_depth()) return said == truth || (said != kNobody && method_.may_hide(scene_, said, truth));
-    const bool right_depth = said == kNobody || snapped_.add_depth(frame_, said, x, y) <= bound01(said);
-    if (said == truth) return right_depth;
+  bool keeps_promise(std::uint32_t drawn, std::uint32_t truth, int x, int y) {
+    snapped_.add_visible(drawn, truth);
+    if (drawn != kNoTriangle && drawn != truth && !snapped_.covers(drawn, x, y)) return false;
+    if (!keeps_depth())
+      return drawn == truth || (drawn != kNoTriangle && method_.may_occlude(scene_, drawn, truth));
+    const bool right_depth =
+        drawn == kNoTriangle || snapped_.add_depth(frame_, drawn, x, y) <= bound01(drawn);
+    if (drawn == truth) return right_depth;
     // Where a method shows the background, it says that the depth is 1.
-    const long double apart = std::abs(snapped_.depth01(said, x, y) - snapped_.depth01(truth, x, y));
-    if (apart > bound01(said) + bound01(truth)) return false;
-    ++scores_.near_ties;
+    const long double apart = std::abs(snapped_.depth01(drawn, x, y) - snapped_.depth01(truth, x, y));
+    if (apart > bound01(drawn) + bound01(truth)) return false;
+    ++scores_.depth_ties;
     return right_depth;
   }
 
@@ -196,7 +200,7 @@ class Scorer {
 
 }  // namespace
 
-TrueOwners true_owners(const VisibilityScene& scene) {
+TrueVisibleTriangles true_visible_triangles(const VisibilityScene& scene) {
   std::vector<ScreenTriangle> screen;
   std::vector<FloatTriangle> floats;
   for (const VisibilityTriangle& t : scene.triangles) {
@@ -204,15 +208,15 @@ TrueOwners true_owners(const VisibilityScene& scene) {
     floats.push_back({{{t.x_px[0], t.x_px[1], t.x_px[2]}, {t.y_px[0], t.y_px[1], t.y_px[2]}, {}}, 0});
   }
   const Window window{scene.width, scene.height};
-  return {owners_of(scene, covered_runs(screen, window, 1), true),
-          owners_of(scene, covered_runs(floats, window, 1), false)};
+  return {visible_triangles_of(scene, covered_runs(screen, window, 1), true),
+          visible_triangles_of(scene, covered_runs(floats, window, 1), false)};
 }
 
 VisibilityScores score(const VisibilityMethod& method, const VisibilityScene& scene,
-                       const TrueOwners& owners) {
+                       const TrueVisibleTriangles& visible) {
   Scorer scorer(method, scene);
   for (int y = 0; y < scene.height; ++y)
-    for (int x = 0; x < scene.width; ++x) scorer.add(x, y, owners);
+    for (int x = 0; x < scene.width; ++x) scorer.add(x, y, visible);
   return scorer.report();
 }
 

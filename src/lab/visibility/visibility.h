@@ -3,8 +3,8 @@
 // Every method draws the same snapped triangles with the same exact coverage (rules 2 and 4), so that what
 // differs is visibility alone. There are two truths, on the snapped positions and on those before snapping.
 // Both are rational: 1 / view_z is linear on the screen, the vertices' coordinates and distances are exact,
-// and the nearest plane wins; a tie keeps the earlier triangle. Neither rounds a distance as exact_owners()
-// does (lab/truth.h), since how depth is rounded is what the methods differ in.
+// and the nearest plane wins; a tie keeps the earlier triangle. Neither rounds a distance as
+// exact_visible_triangles() does (lab/truth.h), since how depth is rounded is what the methods differ in.
 #pragma once
 
 #include <cstdint>
@@ -38,7 +38,7 @@ struct VisibilityScene {
 
 // What a method draws into; keeps its memory between draws. A method uses the one depth buffer of its format.
 struct VisibilityFrame {
-  std::vector<std::uint32_t> owner;  // row by row: index of the triangle, or kNobody
+  std::vector<std::uint32_t> visible;  // row by row: index of the triangle, or kNoTriangle
   std::vector<std::uint16_t> depth16;
   std::vector<std::uint32_t> depth32;
   std::vector<float> depth_float;
@@ -58,22 +58,22 @@ struct VisibilityMethod {
   long double (*ulp01)(long double depth01);
   double (*bound01)(const VisibilityTriangle& triangle, const VisibilityScene& scene);
 
-  // Only where none is kept: the promise, whether triangle `said` may hide `truth`, the nearest.
-  bool (*may_hide)(const VisibilityScene& scene, std::uint32_t said, std::uint32_t truth) = nullptr;
+  // Only where none is kept: the promise, whether triangle `drawn` may hide `truth`, the nearest.
+  bool (*may_occlude)(const VisibilityScene& scene, std::uint32_t drawn, std::uint32_t truth) = nullptr;
 };
 
 std::span<const VisibilityMethod> visibility_methods();
 
 // The exact owner of each pixel, row by row, in both truths.
-struct TrueOwners {
+struct TrueVisibleTriangles {
   std::vector<std::uint32_t> snapped, floats;
 };
-TrueOwners true_owners(const VisibilityScene& scene);
+TrueVisibleTriangles true_visible_triangles(const VisibilityScene& scene);
 
 // Against one truth.
 struct VisibilityScore {
-  std::uint64_t covered = 0;      // pixels that a triangle covers, in truth
-  std::uint64_t wrong_owner = 0;  // pixels with another owner than the true one
+  std::uint64_t covered = 0;         // pixels that a triangle covers, in truth
+  std::uint64_t wrong_triangle = 0;  // pixels with another owner than the true one
   // Of the depths kept, each against the plane of the triangle that the method says it belongs to, where that
   // triangle covers the pixel in truth:
   std::uint64_t out_of_range = 0;  // pixels outside that triangle's own depths by more than 2^-16
@@ -83,13 +83,13 @@ struct VisibilityScores {
   VisibilityScore snapped, floats;
   // Methods know the snapped positions only, and so do their promises. Of the wrong owners against that
   // truth, those whose depth lies no farther from the right one's than both triangles' bounds:
-  std::uint64_t near_ties = 0;
+  std::uint64_t depth_ties = 0;
   // Promises broken: a pixel owned by a triangle that does not cover it, a depth beyond bound01, or a wrong
   // owner that is no near tie though depths are kept, or one that may not hide the right one.
   std::uint64_t broken = 0;
 };
 VisibilityScores score(const VisibilityMethod& method, const VisibilityScene& scene,
-                       const TrueOwners& owners);
+                       const TrueVisibleTriangles& visible);
 
 // The smallest scenes.
 struct VisibilityCase {

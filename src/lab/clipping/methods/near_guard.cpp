@@ -17,7 +17,7 @@ const ClippingMethod clipping_near_guard{
       options.height = scene.size.height;
       options.cull = scene.cull_back ? Cull::back : Cull::none;
       options.payload = Payload::id;
-      frame.backend->draw(frame.frontend.run(scene.scene, options), frame.picture.view(), kNobody, {});
+      frame.backend->draw(frame.frontend.run(scene.scene, options), frame.picture.view(), kNoTriangle, {});
     },
     0,
     kReachPx};

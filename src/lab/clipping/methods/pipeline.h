@@ -119,7 +119,7 @@ void draw_clipped(const ClippingScene& scene, ClippingFrame& frame, PerTriangle&
     const glm::uvec3 t = mesh.triangles[i];
     per_triangle({frame.vertices[t.x], frame.vertices[t.y], frame.vertices[t.z]}, i);
   }
-  frame.backend->draw(frame.triangles, frame.picture.view(), kNobody, {});
+  frame.backend->draw(frame.triangles, frame.picture.view(), kNoTriangle, {});
 }
 
 }  // namespace edgewise::lab

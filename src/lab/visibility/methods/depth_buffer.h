@@ -19,21 +19,21 @@ void draw_depth_buffer(const VisibilityScene& scene, VisibilityFrame& frame, std
                        Word clear) {
   const auto width = static_cast<std::size_t>(scene.width),
              pixels = width * static_cast<std::size_t>(scene.height);
-  frame.owner.assign(pixels, kNobody);
+  frame.visible.assign(pixels, kNoTriangle);
   depth.assign(pixels, clear);
   for (std::uint32_t id = 0; id < scene.triangles.size(); ++id) {
     const VisibilityTriangle& triangle = scene.triangles[id];
     if (contract::signed_area(triangle.screen) == 0) continue;
     Plane plane(triangle, scene);
     for_each_span(triangle.screen, scene.width, scene.height, [&](int y, int begin, int end) {
-      std::uint32_t* owner_row = frame.owner.data() + static_cast<std::size_t>(y) * width;
+      std::uint32_t* visible_row = frame.visible.data() + static_cast<std::size_t>(y) * width;
       Word* depth_row = depth.data() + static_cast<std::size_t>(y) * width;
       plane.row(begin, y);
       for (int x = begin; x < end; ++x) {
         const Word z = plane.value(x);
         if (!Plane::nearer(z, depth_row[x])) continue;
         depth_row[x] = z;
-        owner_row[x] = id;
+        visible_row[x] = id;
       }
     });
   }

@@ -12,13 +12,14 @@ namespace edgewise::lab {
 
 inline void paint(const VisibilityScene& scene, VisibilityFrame& frame, std::uint32_t id) {
   for_each_span(scene.triangles[id].screen, scene.width, scene.height, [&](int y, int begin, int end) {
-    const auto row = frame.owner.begin() + std::ptrdiff_t{y} * scene.width;
+    const auto row = frame.visible.begin() + std::ptrdiff_t{y} * scene.width;
     std::fill(row + begin, row + end, id);
   });
 }
 
-inline void clear_owners(const VisibilityScene& scene, VisibilityFrame& frame) {
-  frame.owner.assign(static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height), kNobody);
+inline void clear_visible(const VisibilityScene& scene, VisibilityFrame& frame) {
+  frame.visible.assign(static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height),
+                       kNoTriangle);
 }
 
 // Calls add(z) for the distance of each vertex of a face.
@@ -33,7 +34,7 @@ void for_each_distance(const VisibilityScene& scene, const VisibilityFace& face,
 // Farthest first by key(face); equal keys in submission order.
 template <typename Key>
 void draw_painter(const VisibilityScene& scene, VisibilityFrame& frame, Key&& key) {
-  clear_owners(scene, frame);
+  clear_visible(scene, frame);
   frame.key.resize(scene.faces.size());
   std::transform(scene.faces.begin(), scene.faces.end(), frame.key.begin(), key);
   frame.order.resize(scene.faces.size());
@@ -58,8 +59,8 @@ inline std::pair<double, double> depth_range(const VisibilityScene& scene, std::
 }
 
 // What the painters promise: of two faces whose depth ranges are apart, the nearer one is painted later.
-inline bool ranges_overlap(const VisibilityScene& scene, std::uint32_t said, std::uint32_t truth) {
-  const auto a = depth_range(scene, said), b = depth_range(scene, truth);
+inline bool ranges_overlap(const VisibilityScene& scene, std::uint32_t drawn, std::uint32_t truth) {
+  const auto a = depth_range(scene, drawn), b = depth_range(scene, truth);
   return a.first <= b.second && b.first <= a.second;
 }
 

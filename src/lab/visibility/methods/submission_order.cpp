@@ -8,12 +8,12 @@ const VisibilityMethod visibility_submission_order{
     {"submission_order", "no sort and no depth: the last one submitted wins",
      "Pico-8 inside test with culling off", "right where triangles are submitted back to front", false},
     [](const VisibilityScene& scene, VisibilityFrame& frame) {
-      clear_owners(scene, frame);
+      clear_visible(scene, frame);
       for (std::uint32_t id = 0; id < scene.triangles.size(); ++id) paint(scene, frame, id);
     },
     nullptr,
     nullptr,
     nullptr,
-    [](const VisibilityScene&, std::uint32_t said, std::uint32_t truth) { return truth < said; }};
+    [](const VisibilityScene&, std::uint32_t drawn, std::uint32_t truth) { return truth < drawn; }};
 
 }  // namespace edgewise::lab
