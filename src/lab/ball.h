@@ -1,9 +1,9 @@
-// A double that knows how far it may be from the truth: a value and a bound on its error (ball arithmetic;
-// van der Hoeven, "Ball arithmetic", 2010). Decides most signs and comparisons without rationals.
+// Ball arithmetic (van der Hoeven, "Ball arithmetic", 2010): a double and a bound on its error. Decides most
+// signs and comparisons without rationals.
 //
 // Rounding to nearest leaves |fl(v) - v| <= 2^-53 |fl(v)|, barring underflow. Floats are multiples of 2^-149,
-// so the products of four of them that are formed here stay far above the smallest double. The bounds are
-// themselves rounded a few times; a factor of 1 + 2^-50 covers that.
+// so products of up to four of them stay far above the smallest double. Computing a bound rounds a few times;
+// a factor of 1 + 2^-50 covers that.
 #pragma once
 
 #include <cmath>
@@ -16,7 +16,7 @@ struct Ball {
 
   Ball(double v) : value(v), error(0.0) {}  // NOLINT: a number is a ball
 
-  // 1 or -1; 0 if it cannot be told.
+  // 1 or -1; 0 if the error bound leaves the sign open.
   int sign() const { return std::abs(value) > error ? (value > 0.0 ? 1 : -1) : 0; }
 
   friend Ball operator+(const Ball& a, const Ball& b) {

@@ -1,6 +1,6 @@
-// Which method stands at each of the four stages from a scene to its picture: facing, clipping, coverage and
-// visibility. All exact is the pipeline of the library; each stage may be replaced by a method of the
-// laboratory.
+// One method for each of the four stages from a scene to its picture: facing, clipping, coverage and
+// visibility. The library's own pipeline uses the exact methods; any stage may use a laboratory method
+// instead.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ struct Choice {
   const VisibilityMethod* visibility = &visibility_methods().front();
   const FacingMethod* facing = &facing_methods().front();
 
-  // Those of the library.
+  // Whether the stage uses the library's method.
   bool our_coverage() const { return coverage->contract_depth; }
   bool our_clipping() const { return clipping == &clipping_methods().front(); }
   bool our_visibility() const { return visibility == &visibility_methods().front(); }
@@ -29,26 +29,27 @@ struct Choice {
   bool operator==(const Choice&) const = default;
 };
 
-// With this backend at the stage of coverage, and ours elsewhere.
+// This backend for coverage, and the library's methods for the other stages. Throws like the finders below.
 Choice our_choice(std::string_view backend);
-// All throw std::invalid_argument, with the nearest known name, for an unknown one.
+// All throw std::invalid_argument for an unknown name; the message suggests the nearest known one.
 const ClippingMethod& find_clipping_method(std::string_view name);
 const VisibilityMethod& find_visibility_method(std::string_view name);
 const FacingMethod& find_facing_method(std::string_view name);
 
-// Puts a method of any family at its stage; false if no method has this name.
+// Sets the stage of `choice` to which the named method belongs; false if no method has this name.
 bool put(std::string_view method, Choice& choice);
 
-// What can be drawn of a choice, and why not all of it.
+// The part of a choice that can be drawn, and the reason if that is not all of it.
 struct Drawn {
   Choice choice;
   std::string because;  // empty if it is all
 };
-// A stream has been clipped, and has no camera to judge faces and distances by. A visibility method covers
-// exactly, by itself; so it takes the place of a coverage method that does not.
+// Streams keep only the coverage method: they are clipped already, and have no camera for facing tests and
+// view distances. A visibility method brings exact coverage of its own, so it replaces an inexact coverage
+// method.
 Drawn drawable_part(const Choice& choice, bool stream);
 
-// The names of what is not ours; the backend's if all is.
+// The names of the methods that are not the library's, joined by " + "; the backend's name if there are none.
 std::string describe(const Choice& choice);
 
 }  // namespace edgewise::lab

@@ -1,4 +1,4 @@
-// Which pixels of a picture are wrong, and how.
+// Marks the wrong pixels of a picture by the kind of error.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +10,15 @@
 
 namespace edgewise::lab {
 
-// A pixel's error; where several apply, the first. Colours that people tell apart whatever their colour
+// A pixel's error; if several apply, the first one listed. The colours are distinguishable with any colour
 // vision (Okabe and Ito, "Color universal design", 2008).
 enum class Mark : std::uint8_t {
   none,
-  gap,      // vermilion: nothing is drawn between neighbours; of owners: where something must be
-  twice,    // blue: drawn twice where once is right; of owners: the wrong one shows
-  missing,  // yellow: a triangle lacks a pixel on the outline, or one that another covers; of depths: the
-            // wrong one
-  extra,    // purple: drawn where nothing must be, or beside the triangle
+  gap,      // vermilion: coverage: nothing is drawn between neighbours; visibility: nothing, not a triangle
+  twice,    // blue: coverage: drawn twice instead of once; visibility: the wrong triangle is visible
+  missing,  // yellow: a triangle lacks a pixel, on the outline or where another triangle is drawn; or a wrong
+            // depth
+  extra,    // purple: drawn outside the triangle, or where nothing must be drawn
 };
 
 std::uint32_t colour_of(Mark mark);  // none: paper
@@ -28,7 +28,7 @@ struct Line {
   bool operator==(const Line&) const = default;
 };
 
-// The whole picture of a method, from which close-ups are cut.
+// The whole picture of a method, from which close-ups are cut. Planes are row by row.
 struct MarkedPicture {
   Window window;
   std::vector<std::uint32_t> visible;
@@ -39,7 +39,7 @@ MarkedPicture mark_coverage(const CoverageTruth& truth, std::vector<Run> runs,
                             std::span<const FloatTriangle> triangles, double reach_px);
 MarkedPicture mark_visible_triangles(std::span<const std::uint32_t> truth,
                                      std::span<const std::uint32_t> drawn, Window window);
-// Faces that look at the eye, over those that were kept or dropped by mistake.
+// Shows the front faces, and marks the pixels of faces that a facing test kept or dropped by mistake.
 MarkedPicture mark_faces(const FacingScene& scene, std::span<const FaceFacts> facts,
                          std::span<const std::uint8_t> kept);
 

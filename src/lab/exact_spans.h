@@ -1,5 +1,4 @@
-// Rule 4 solved for x: the pixels of a row that a triangle covers are one span, found by one exact division
-// an edge.
+// Rule 4 solved for x: a triangle covers one span of pixels per row, found by one exact division per edge.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +8,7 @@
 
 namespace edgewise::lab {
 
-// Calls body(y, begin, end) for each row of which the triangle covers a pixel.
+// Calls body(y, begin, end) for each row in which the triangle covers a pixel.
 template <typename Body>
 void for_each_span(const ScreenTriangle& triangle, int width, int height, Body&& body) {
   using namespace contract;

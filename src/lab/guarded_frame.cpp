@@ -42,16 +42,16 @@ void GuardedFrame::poison() {
 }
 
 std::uint64_t GuardedFrame::written_outside(const Plane& plane) const {
-  const auto gone = [](const std::uint32_t* begin, const std::uint32_t* end) {
+  const auto overwritten = [](const std::uint32_t* begin, const std::uint32_t* end) {
     return static_cast<std::uint64_t>(end - begin - std::count(begin, end, kCanary));
   };
   const std::uint32_t* begin = plane.words.data();
   std::uint64_t count = 0;
   for (int y = 0; y < height_; ++y) {
-    count += gone(begin, row_of(plane, y));
+    count += overwritten(begin, row_of(plane, y));
     begin = row_of(plane, y) + width_;
   }
-  return count + gone(begin, plane.words.data() + plane.words.size());
+  return count + overwritten(begin, plane.words.data() + plane.words.size());
 }
 
 std::uint64_t GuardedFrame::written_outside() const {

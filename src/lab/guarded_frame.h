@@ -1,5 +1,5 @@
-// A frame to judge a backend with: memory of every stride and alignment, with canaries wherever a draw has no
-// business.
+// A frame for tests of backends: any stride and alignment, with canaries around the rows that detect writes
+// outside the image.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace edgewise::lab {
 
-// What no backend draws: its depth lies beyond every depth of the contract.
+// A value that no backend draws: as a depth it lies beyond every depth of the contract.
 inline constexpr std::uint32_t kCanary = 0xA5A5A5A5;
 
 class GuardedFrame {
@@ -22,7 +22,7 @@ class GuardedFrame {
   static Layout aligned(int width);  // every row starts on a 64-byte boundary, as in a Framebuffer
 
   GuardedFrame(int width, int height, Layout layout);  // poisoned
-  // A copied plane would be aligned by chance.
+  // A copy's planes would not keep the alignment.
   GuardedFrame(const GuardedFrame&) = delete;
   GuardedFrame& operator=(const GuardedFrame&) = delete;
 
@@ -32,8 +32,8 @@ class GuardedFrame {
   const std::uint32_t* depth_row(int y) const { return row_of(depth_, y); }
   const std::uint32_t* payload_row(int y) const { return row_of(payload_, y); }
 
-  void poison();  // fills all memory with canaries; to be done before each draw but the first
-  std::uint64_t written_outside() const;  // canaries that are gone before, between and after the rows
+  void poison();  // fills all memory with canaries; call it before each draw but the first
+  std::uint64_t written_outside() const;  // overwritten canaries before, between and after the rows
   Framebuffer copy() const;
 
  private:

@@ -11,7 +11,7 @@ namespace {
 
 template <typename T>
 void append(std::vector<T>& to, const std::vector<T>& from, std::size_t begin, std::size_t end) {
-  if (from.empty()) return;  // marks
+  if (from.empty()) return;  // a mesh without triangle flags
   const auto at = [&](std::size_t i) { return from.begin() + static_cast<std::ptrdiff_t>(i); };
   to.insert(to.end(), at(begin), at(end));
 }
@@ -22,8 +22,8 @@ void append(Mesh& to, const Mesh& from, std::size_t begin, std::size_t end) {
   append(to.marks, from.marks, begin, end);
 }
 
-// The view's direction as an instance's mesh sees it. The normal of a face that M moves is det M · M^-T · n,
-// so its product with the line of sight d is n times det M · M^-1 · d, whatever M scales or mirrors.
+// The view direction in the space of an instance's mesh. A matrix M maps a face's normal n to det M · M^-T ·
+// n, so its product with the line of sight d is n · (det M · M^-1 · d), also if M scales or mirrors.
 glm::vec3 sight_of(const Instance& instance, const Camera& camera) {
   const glm::dmat3 model(model_matrix(instance));
   const glm::dvec3 sight(line_of_sight(camera));
@@ -35,7 +35,7 @@ glm::vec3 sight_of(const Instance& instance, const Camera& camera) {
 HiddenFaces::HiddenFaces(const Scene& scene, const FacingMethod& method) : method_(&method) {
   if (!method.by_direction)
     throw std::invalid_argument(std::string(method.info.name) +
-                                " cannot judge faces before the eye is known");
+                                " needs the camera's position, not only its direction");
   for (const Mesh& mesh : scene.meshes) {
     Faces& faces = faces_.emplace_back();
     auto& positions = faces.scene.positions;
@@ -72,7 +72,7 @@ const Drawable& HiddenFaces::drop(const Scene& scene) {
 
     Mesh& kept = left.meshes[i];
     kept.triangles.clear(), kept.colours.clear(), kept.marks.clear();
-    std::size_t begin = 0, end = 0;  // of the triangles that are kept in a row
+    std::size_t begin = 0, end = 0;  // a run of consecutive kept triangles
     for (std::size_t face = 0; face < faces.front.size(); ++face) {
       const std::size_t first = end;
       end += faces.scene.faces[face].count - 2;

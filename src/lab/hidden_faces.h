@@ -1,5 +1,5 @@
-// What the tutorials' engines do that drop hidden faces before they project anything: a facing test of the
-// laboratory's, face by face, and a scene of what it leaves.
+// Drops hidden faces before projection, as the engines of many tutorials do: applies a facing test of the
+// laboratory to each face and returns a scene of the faces that remain.
 #pragma once
 
 #include <cstdint>
@@ -12,25 +12,26 @@ namespace edgewise::lab {
 
 class HiddenFaces {
  public:
-  // Throws std::invalid_argument for a method that asks more of the view than its direction, and
-  // std::out_of_range for an instance that names a mesh the scene lacks.
+  // Throws std::invalid_argument for a method that needs more than the view direction (by_direction is
+  // false), and std::out_of_range for an instance whose mesh the scene lacks.
   HiddenFaces(const Scene& scene, const FacingMethod& method);
 
-  // Of the same scene; its camera and its instances may have moved since. Judges each face of each instance
-  // once, by its first three vertices, on the calling thread. Instances must not be flat. Two-sided faces
-  // stay. What is left keeps its order; valid until the next call, which like this one allocates nothing.
+  // `scene` must be the constructor's, but the camera and the instances may have moved. Tests each face of
+  // each instance once, by its first three vertices, on the calling thread. Keeps two-sided faces, and the
+  // order of the faces. Instances must have an invertible matrix. Allocates nothing; the result is valid
+  // until the next call.
   const Drawable& drop(const Scene& scene);
   const FacingMethod& method() const { return *method_; }
 
  private:
-  // In the mesh's own space, where nothing moves: it is the view that is turned into it.
+  // In the mesh's own space: drop() transforms the view direction, not the vertices.
   struct Faces {
     FacingScene scene;
     std::vector<std::uint8_t> front;
   };
   const FacingMethod* method_;
-  std::vector<Faces> faces_;  // one a mesh
-  Drawable left_;             // a scene of one mesh an instance
+  std::vector<Faces> faces_;  // one per mesh
+  Drawable left_;             // a scene with one mesh per instance
 };
 
 }  // namespace edgewise::lab

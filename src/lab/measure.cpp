@@ -52,8 +52,7 @@ FrameDifference compare(const Framebuffer& expected, const GuardedFrame& found) 
 
 std::vector<std::vector<std::uint32_t>> disjoint_groups(std::span<const ScreenTriangle> triangles, int width,
                                                         int height) {
-  // Each triangle goes to the first group in which its box is still free: one past the latest group used
-  // there.
+  // Each triangle goes to the lowest group above all groups already used inside its box.
   std::vector<std::uint32_t> next_group(static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
                                         0);
   std::vector<std::vector<std::uint32_t>> groups;

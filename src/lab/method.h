@@ -1,5 +1,4 @@
-// What the laboratory says of every method, whatever its family: the methods people really use, and ours
-// among them.
+// What the methods of all families have in common. They are methods in real use, ours among them.
 #pragma once
 
 #include <cstdint>
@@ -11,31 +10,31 @@
 namespace edgewise::lab {
 
 struct MethodInfo {
-  std::string_view name;     // the one key in command line, tests, results and charts
+  std::string_view name;     // the same in the command line, tests, results and charts
   std::string_view idea;     // one line
-  std::string_view source;   // where it is used or described
-  std::string_view promise;  // one line: how wrong it may be, and never more; the tests hold it to that
-  bool exact;                // covers no wrong pixel against the snapped truth
+  std::string_view source;   // a program that uses it, or a publication that describes it
+  std::string_view promise;  // one line: an upper bound of its errors, which the tests check
+  bool exact;                // no errors against the snapped truth
 };
 
 struct Size {
   int width, height;  // px
 };
 
-// A triangle as a program has it that does not snap: pixels with y down, depth in [0, 1].
+// An unsnapped triangle: pixels with y down, depth in [0, 1].
 struct FloatTriangle {
   UnsnappedTriangle at;
   std::uint32_t payload;
 };
 
-// One pixel that a method drew for one triangle. May lie outside the image: that is what is counted.
+// One pixel that a method drew for one triangle. It may lie outside the image, which counts as an error.
 struct Hit {
   std::uint32_t triangle;  // index
   std::int32_t x, y;
   auto operator<=>(const Hit&) const = default;
 };
 
-// What rule of three says where no error was seen in n trials: with 95 % confidence the rate is below 3 / n.
+// Rule of three: if n trials show no error, the rate is below 3 / n with 95 % confidence.
 constexpr double rate_bound(std::uint64_t trials) {
   return trials == 0 ? std::numeric_limits<double>::infinity() : 3.0 / static_cast<double>(trials);
 }

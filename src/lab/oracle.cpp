@@ -1,6 +1,6 @@
-// Coverage by the snapped truth, sample by sample, wherever a pixel touches the triangle's box. Depth by the
-// contract's formula in exact integers, with no shared code and no shortcut. And the edges of triangles by
-// the definition of their rule, pixel by pixel.
+// Coverage: the snapped truth at every sample whose pixel touches the triangle's box. Depth: the contract's
+// formula in exact integers, with no shared code and no shortcut. Wireframe: the definition of its rule, at
+// every pixel.
 #include "lab/oracle.h"
 
 #include <algorithm>
@@ -22,13 +22,13 @@ Wide floor_divide(Wide n, Wide d) {
   return q;
 }
 
-// Needs area.
+// The triangle must have area.
 class ContractDepth {
  public:
   explicit ContractDepth(const ScreenTriangle& t) {
     for (int i = 0; i < 3; ++i) x_[i] = t.x_sub[i], y_[i] = t.y_sub[i], z_[i] = t.z[i];
     const Wide area = (x_[1] - x_[0]) * (y_[2] - y_[0]) - (y_[1] - y_[0]) * (x_[2] - x_[0]);
-    // Gradients a pixel, with 16 fraction bits, rounded down.
+    // Gradients per pixel, with 16 fraction bits, rounded down.
     const Wide nx = (z_[1] - z_[0]) * (y_[2] - y_[0]) - (z_[2] - z_[0]) * (y_[1] - y_[0]);
     const Wide ny = (z_[2] - z_[0]) * (x_[1] - x_[0]) - (z_[1] - z_[0]) * (x_[2] - x_[0]);
     gx_ = floor_divide(nx * 256 * 65536, area);
@@ -52,18 +52,18 @@ class ContractDepth {
   int top_ = 0;
 };
 
-// The pixels of an image, of `size` on an axis, whose squares touch [low, high] there; both ends included. A
-// sample elsewhere lies outside the triangle.
+// The candidate pixels on one axis of an image of `size` pixels: those whose squares touch the triangle's
+// extent; both ends included. All other samples lie outside the triangle.
 struct PixelRange {
   int first, last;
 };
-PixelRange touched(const std::int32_t (&sub)[3], int size) {
+PixelRange candidates(const std::int32_t (&sub)[3], int size) {
   const auto [low, high] = std::minmax({sub[0], sub[1], sub[2]});
   return {static_cast<int>(std::max<Wide>(floor_divide(low, 256), 0)),
           static_cast<int>(std::min<Wide>(floor_divide(high, 256), size - 1))};
 }
 
-// depth_of(triangle) makes a function of a pixel that has a depth where the triangle draws it.
+// depth_of(triangle) returns a function (x, y) → the depth, or nullopt where the triangle draws nothing.
 template <typename DepthOf>
 void draw(std::span<const ScreenTriangle> triangles, Framebuffer& frame, std::uint32_t background,
           DepthOf&& depth_of) {
@@ -76,8 +76,8 @@ void draw(std::span<const ScreenTriangle> triangles, Framebuffer& frame, std::ui
   for (const auto& triangle : triangles) {
     if (SnappedTruth(triangle).facing() == 0) continue;
     const auto depth_at = depth_of(triangle);
-    const PixelRange columns = touched(triangle.x_sub, view.width),
-                     rows = touched(triangle.y_sub, view.height);
+    const PixelRange columns = candidates(triangle.x_sub, view.width),
+                     rows = candidates(triangle.y_sub, view.height);
     for (int y = rows.first; y <= rows.last; ++y)
       for (int x = columns.first; x <= columns.last; ++x) {
         const std::optional<std::uint32_t> z = depth_at(x, y);
@@ -89,7 +89,8 @@ void draw(std::span<const ScreenTriangle> triangles, Framebuffer& frame, std::ui
   }
 }
 
-// An edge between its ends: the depth at a pixel, if it draws it.
+// The depth of the edge between vertices i and j at a pixel, if it draws that pixel. edge_depth() adds the
+// pixels that contain the vertices.
 std::optional<Wide> depth_between(const ScreenTriangle& t, int i, int j, int px, int py) {
   Wide u[2] = {t.x_sub[i], t.x_sub[j]}, v[2] = {t.y_sub[i], t.y_sub[j]}, z[2] = {t.z[i], t.z[j]};
   const auto length = [](const Wide(&at)[2]) { return at[0] < at[1] ? at[1] - at[0] : at[0] - at[1]; };

@@ -1,4 +1,4 @@
-// From screen triangles back to a stream that the front end turns into the same screen triangles.
+// Converts screen triangles to a stream that the front end converts back to the same screen triangles.
 #pragma once
 
 #include <span>
@@ -8,8 +8,8 @@
 
 namespace edgewise::lab {
 
-// The snapped positions are exact as floats. Depths came from floats in [0, 1] and return to the same floats,
-// or to neighbours that map to the same depth units.
+// Floats represent snapped positions exactly. Depths that came from floats in [0, 1] become the same floats,
+// or neighbours that map to the same depth units.
 TriangleStream to_stream(std::span<const ScreenTriangle> triangles, int width, int height);
 
 }  // namespace edgewise::lab

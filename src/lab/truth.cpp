@@ -13,13 +13,13 @@ namespace {
 
 __extension__ using Wide = __int128;
 
-// Twice the signed area of (o, a, b), in whatever arithmetic T is.
+// Twice the signed area of (o, a, b), in the arithmetic of T.
 template <typename T>
 T cross(const T& ox, const T& oy, const T& ax, const T& ay, const T& bx, const T& by) {
   return T((ax - ox) * (by - oy)) - T((ay - oy) * (bx - ox));
 }
 
-// Depth at s of the plane through three vertices: each weighs as much as the area opposite to it.
+// Depth at s of the plane through three vertices, each weighted by the area opposite to it.
 template <typename T>
 T plane(const T (&x)[3], const T (&y)[3], const T (&z)[3], const T& sx, const T& sy) {
   const T w0 = cross(x[1], y[1], x[2], y[2], sx, sy), w1 = cross(x[2], y[2], x[0], y[0], sx, sy),
@@ -55,8 +55,8 @@ constexpr double sample_px(int pixel) {
   return pixel + 0.5;
 }
 
-// The smallest k in [low, high] from which on `holds` holds; high if it never does below. `holds` must not go
-// back to false. A good guess saves the search.
+// The smallest k in [low, high] with holds(k); high if there is none below it. `holds` must be monotone:
+// false, then true. A correct guess saves the binary search.
 template <typename Predicate>
 int first_where(int low, int high, int guess, Predicate&& holds) {
   guess = std::clamp(guess, low, high);
@@ -76,8 +76,8 @@ int first_where(int low, int high, int guess, Predicate&& holds) {
   return low;
 }
 
-// The covered pixels of a row, as [first, second). Along a row each edge accepts all pixels to one side of
-// some place, or all, or none; where that is, is asked of the rule itself.
+// The covered pixels of a row, as [first, second). Along a row each edge accepts the pixels on one side of a
+// position. The crossing in double is only a guess for that position; the exact rule decides.
 template <typename Truth>
 std::pair<int, int> covered_in_row(const Truth& truth, int y, int low, int high) {
   for (int i = 0; i < 3 && low < high; ++i) {
@@ -101,7 +101,7 @@ struct Box {
   int x0, y0, x1, y1;
 };
 
-// All pixels whose sample the triangle may reach, inside the window.
+// The candidate pixels: those inside the window that overlap the triangle's bounding box.
 template <typename Truth>
 Box box_of(const Truth& truth, Window window) {
   const auto [low_x, high_x] = std::minmax({truth.x_px(0), truth.x_px(1), truth.x_px(2)});
@@ -131,12 +131,12 @@ FloatTruth truth_of(const FloatTriangle& t) {
   return FloatTruth(t.at);
 }
 
-// Cheaper than the truth itself: whether the triangle reaches these rows.
+// A cheap test before the exact truth: whether the triangle's bounding box reaches these rows.
 template <typename Y>
-bool reaches_rows(const Y (&y)[3], double units_a_px, Window rows) {
+bool reaches_rows(const Y (&y)[3], double units_per_px, Window rows) {
   const auto [low, high] = std::minmax({y[0], y[1], y[2]});
-  return static_cast<double>(high) >= rows.y0 * units_a_px &&
-         static_cast<double>(low) <= rows.y1() * units_a_px;
+  return static_cast<double>(high) >= rows.y0 * units_per_px &&
+         static_cast<double>(low) <= rows.y1() * units_per_px;
 }
 bool reaches_rows(const ScreenTriangle& t, Window rows) {
   return reaches_rows(t.y_sub, 256.0, rows);
@@ -147,12 +147,12 @@ bool reaches_rows(const FloatTriangle& t, Window rows) {
 
 template <typename Triangle>
 std::vector<Run> all_runs(std::span<const Triangle> triangles, Window window, int threads) {
-  constexpr std::size_t kChunk = 1024;
-  const std::size_t chunks = (triangles.size() + kChunk - 1) / kChunk;
+  constexpr std::size_t kChunkTriangles = 1024;
+  const std::size_t chunks = (triangles.size() + kChunkTriangles - 1) / kChunkTriangles;
   std::vector<std::vector<Run>> parts(chunks);
   parallel_for(threads, static_cast<int>(chunks), [&](int chunk) {
     const auto c = static_cast<std::size_t>(chunk);
-    for (std::size_t i = c * kChunk; i < std::min(triangles.size(), (c + 1) * kChunk); ++i)
+    for (std::size_t i = c * kChunkTriangles; i < std::min(triangles.size(), (c + 1) * kChunkTriangles); ++i)
       for_each_run(truth_of(triangles[i]), window, [&](int y, int begin, int end) {
         parts[c].push_back({static_cast<std::uint32_t>(i), y, begin, end});
       });

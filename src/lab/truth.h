@@ -1,7 +1,8 @@
-// The two truths that methods are judged by, exact and by brute force: the rule itself, sample by sample.
-//   SnappedTruth: on the snapped grid, by 128-bit integers. What is wrong against it is arithmetic.
-//   FloatTruth:   on the positions as they were before snapping, by doubles with an error bound, and by GMP's
-//                 rationals where those cannot tell. What is wrong against it is arithmetic and snapping.
+// The two exact truths against which methods are scored. Both apply the fill rule at each sample.
+//   SnappedTruth: on the snapped positions, in 128-bit integers. Errors against it are errors of arithmetic.
+//   FloatTruth:   on the positions before snapping, in doubles with an error bound, and in GMP's rationals
+//   where
+//                 the bound leaves a sign open. Errors against it are errors of arithmetic and of snapping.
 // They share no arithmetic with edgewise/contract.h or with any backend.
 #pragma once
 
@@ -19,8 +20,8 @@
 
 namespace edgewise::lab {
 
-// The part of the pixel plane that is looked at. Images begin at (0, 0); a window elsewhere shows what
-// happens far from the origin.
+// The part of the pixel plane that is drawn and compared. Images begin at (0, 0); windows elsewhere test
+// coordinates far from the origin.
 struct Window {
   int width, height;  // px
   int x0 = 0, y0 = 0;
@@ -51,7 +52,7 @@ class FillRule {
     }
   }
   int facing() const { return facing_; }
-  // On which side of an edge the triangle lies: 1 right, -1 left, 0 above or below one that is horizontal.
+  // The side of an edge on which the triangle lies: 1 right, -1 left, 0 if the edge is horizontal.
   int lean(int edge) const { return lean_[edge]; }
   // `side` is the sign of cross(from, to, sample).
   bool accepts(int edge, int side) const { return side == 0 ? accepts_ties_[edge] : side == facing_; }
@@ -61,7 +62,7 @@ class FillRule {
   bool accepts_ties_[3];
 };
 
-// Both truths answer the same questions. Edge i runs from vertex i to the next one; a pixel's sample is its
+// Both truths have the same interface. Edge i runs from vertex i to the next one; a pixel's sample is its
 // centre.
 class SnappedTruth {
  public:
@@ -69,7 +70,7 @@ class SnappedTruth {
   int facing() const { return rule_.facing(); }  // 1 front (clockwise), -1 back, 0 without area
   bool covers(int px, int py) const;
   bool accepts(int edge, int px, int py) const;
-  // In contract units (rule 6), on the exact plane. Needs area.
+  // On the exact plane, in depth units of rule 6. The triangle must have area.
   mpq_class depth(int px, int py) const;
   Ball depth_estimate(int px, int py) const;
 
@@ -89,7 +90,7 @@ class FloatTruth {
   int facing() const { return rule_.facing(); }
   bool covers(int px, int py) const;
   bool accepts(int edge, int px, int py) const;
-  // In [0, 1] like the vertices' own.
+  // On the exact plane, in the unit of z01. The triangle must have area.
   mpq_class depth(int px, int py) const;
   Ball depth_estimate(int px, int py) const;
 
@@ -102,16 +103,17 @@ class FloatTruth {
   FillRule rule_;
 };
 
-// All covered pixels, sorted by triangle and row; a triangle has at most one run in a row.
+// All covered pixels, sorted by triangle and row; a triangle has at most one run per row.
 std::vector<Run> covered_runs(std::span<const ScreenTriangle> triangles, Window window, int threads);
 std::vector<Run> covered_runs(std::span<const FloatTriangle> triangles, Window window, int threads);
 
 inline constexpr std::uint32_t kNoTriangle = 0xFFFFFFFF;
-// Who owns each pixel, row by row: the nearest triangle, the earlier one at a tie, all by exact comparison.
+// The visible triangle of each pixel, row by row: the nearest one, at a tie the earlier one, by exact
+// comparison.
 struct VisibleTriangles {
   Window window;
-  std::vector<std::uint32_t> triangle;  // index, or kNoTriangle
-  std::vector<double> depth;            // of the owner, within 2^-40 of its size; infinity where nobody
+  std::vector<std::uint32_t> triangle;  // its index, or kNoTriangle
+  std::vector<double> depth;            // of that triangle, within a relative error of 2^-40; else infinity
 };
 VisibleTriangles exact_visible_triangles(std::span<const ScreenTriangle> triangles, Window window,
                                          int threads);

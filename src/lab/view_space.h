@@ -1,4 +1,4 @@
-// A scene in the camera's frame: what the laboratory's facing and clipping methods take.
+// Converts a scene to view space, the input of the laboratory's facing and clipping methods.
 #pragma once
 
 #include <cstdint>
@@ -9,15 +9,16 @@
 
 namespace edgewise::lab {
 
-// One mesh seen from the origin along -z. Each triangle has its own three vertices; triangles keep their
-// order of submission.
+// All instances as one mesh; the camera is at the origin and looks along -z. Each triangle has its own three
+// vertices; triangles keep their order of submission. Throws std::out_of_range for an instance whose mesh the
+// scene lacks.
 ClippingScene in_view_space(const Scene& scene, Size size);
 
-// Whether each triangle faces the eye, as the method says. `seen` is a scene in view space.
+// The method's result per triangle: 1 if it faces the camera, else 0. `seen` is a scene in view space.
 std::vector<std::uint8_t> fronts_of(const FacingMethod& method, const ClippingScene& seen);
 
 glm::vec3 line_of_sight(const Camera& camera);
-// Turns vectors of the world into the camera's frame.
+// Rotates world-space vectors into view space.
 glm::dmat3 to_camera_frame(const Camera& camera);
 
 }  // namespace edgewise::lab
