@@ -30,7 +30,8 @@ Triangles numbered(std::initializer_list<std::array<Point, 3>> corners) {
   return list;
 }
 
-// From the issues of facebookresearch/DRTK, moved by half a pixel, since samples lie at whole pixels there.
+// From the issues of facebookresearch/DRTK, moved by half a pixel, since DRTK has its samples at whole
+// pixels.
 Triangles drtk_quad() {
   const Point p[4] = {{1.0f, 0.99993896484375f},
                       {1.0f, 7.0f},
@@ -44,7 +45,7 @@ Triangles lattice_square() {
   return numbered({{a, b, c}, {a, c, d}});
 }
 
-// A fan around a point: long edges in all directions, every pixel covered once.
+// A fan around a point: long edges in all directions. Covers every pixel once.
 Triangles fan() {
   constexpr int kSpokes = 480;
   constexpr float kWidth = 1920, kHeight = 1080;
@@ -72,8 +73,8 @@ Triangles mesh() {
   return float_triangles(jittered_grid({.width = 1920, .height = 1080}, 24.0, 7));
 }
 
-// Where both truths agree, so that what is wrong is arithmetic and the fill rule alone. Every fourth vertex
-// lies on a sample, as it does in tile maps and user interfaces.
+// Both truths agree here, so that all errors come from arithmetic or the fill rule. Every fourth vertex lies
+// on a sample, as vertices of tile maps and user interfaces do.
 Triangles mesh_on_grid() {
   auto stream = jittered_grid({.width = 1920, .height = 1080}, 24.0, 7);
   const auto on_grid = [](float v) { return std::nearbyint(v * 256.0f) / 256.0f; };
@@ -97,8 +98,8 @@ Triangles legs(float px) {
   return numbered({{Point{0, 0}, {px, 0}, {0, px}}});
 }
 
-// The lower triangle's edge is a line through 200 samples. The upper ones meet it at a point that lies on it
-// exactly, until y, 1/512 px off the grid, is snapped.
+// The lower triangle's edge runs through 200 samples. The upper triangles share a vertex that lies exactly on
+// that edge. Its y is 1/512 px off the grid, so snapping moves it off the edge.
 Triangles t_junction(bool split) {
   const Point from{0.5f, 10.5f}, to{400.5f, 210.5f}, on_edge{200.5f + 1.0f / 256, 110.5f + 1.0f / 512};
   const Point above{400.5f, 10.5f}, below{0.5f, 210.5f};
@@ -112,13 +113,13 @@ Triangles t_junction(bool split) {
   return list;
 }
 
-// Cells of 0.7 px: most of a rounded triangle's area is gone, or turned round.
+// Cells of 0.7 px: rounding to whole pixels removes or flips most triangles.
 Triangles small_triangles() {
   return float_triangles(jittered_grid({.width = 64, .height = 64}, 0.7, 3));
 }
 
-// A corner so near to (0, 0) that even a double's difference to the samples loses it; all of the diagonal's
-// samples lie beside the edge, by less than can be told.
+// A corner so near to (0, 0) that its difference to the samples rounds it away even in double. All samples on
+// the diagonal lie beside the edge, by less than a double can resolve.
 Triangles double_tie() {
   const Point corner{1e-30f, 0.0f}, far{64, 64};
   return numbered({{corner, {64, 0}, far}, {corner, far, {0, 64}}});

@@ -1,4 +1,4 @@
-// The smallest scenes that show where coverage fails, as screen triangles.
+// Small scenes on which coverage methods fail, as unsnapped screen triangles.
 #pragma once
 
 #include <span>
@@ -17,10 +17,10 @@ struct CoverageCase {
 };
 
 std::span<const CoverageCase> coverage_cases();
-// Throws std::invalid_argument, with the nearest known name, for an unknown one.
+// Throws std::invalid_argument for an unknown name; the message suggests the nearest known one.
 const CoverageCase& find_coverage_case(std::string_view name);
 
-// A triangle-stream's triangles as they are, without a front end.
+// Converts a stream's triangles without a front end: nothing is clipped, culled or snapped.
 std::vector<FloatTriangle> float_triangles(const TriangleStream& stream);
 
 }  // namespace edgewise::lab

@@ -1,5 +1,5 @@
-// The list of coverage methods. A new one is a file that defines make_coverage_NAME(): in coverage_methods/,
-// with a line here; or anywhere, named to CMake by EDGEWISE_COVERAGE_METHODS.
+// The registry of coverage methods. A method is a file that defines make_coverage_NAME(): either in methods/,
+// with a line here, or anywhere else, listed in the CMake variable EDGEWISE_COVERAGE_METHODS.
 #include "lab/coverage/coverage.h"
 
 #include <algorithm>
@@ -52,7 +52,7 @@ ScreenTriangle shifted(ScreenTriangle t, std::uint32_t payload, Window window) {
   return t;
 }
 
-// Draws the triangles in groups whose boxes don't meet, each triangle with its index as payload.
+// Draws the triangles in groups with disjoint bounding boxes, each triangle with its index as payload.
 void backend_runs(Backend& backend, std::span<const ScreenTriangle> snapped, Window window,
                   std::vector<Run>& runs) {
   std::vector<ScreenTriangle> triangles;

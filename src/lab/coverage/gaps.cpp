@@ -1,5 +1,5 @@
-// Tells cracks from outlines that moved: a lost sample is looked at together with a ring of points around it,
-// and every triangle says which of these it holds.
+// Distinguishes cracks from moved outlines: an undrawn sample is a gap if the triangles together contain all
+// points of a ring around it.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,8 +11,9 @@ namespace edgewise::lab {
 
 namespace {
 
-// Points of the ring, at the corners of a polygon around the circle of the reach. Where nothing is reached,
-// it is still wide enough that doubles tell inside from outside, which they do to 1e-9 px below 2^20 px.
+// The ring's points are the corners of a polygon around the circle whose radius is the reach. For a reach of
+// 0 the ring is still wide enough that doubles separate inside from outside: they err by 1e-9 px below 2^20
+// px.
 constexpr int kPoints = 16;
 constexpr std::uint32_t kAllPoints = (1u << kPoints) - 1;
 constexpr double kTolerance_px = 1e-9, kLeastReach_px = 1e-8;
@@ -29,7 +30,7 @@ class Ring {
   }
   double radius() const { return radius_; }
 
-  // Which points lie on the inner side of all lines, given how deep the middle lies inside of each.
+  // A bit per point that lies inside all three lines, given the centre's distance inside each.
   template <typename Lines>
   std::uint32_t inside(const Lines& lines, const std::array<double, 3>& depth_px) const {
     const double least = std::min({depth_px[0], depth_px[1], depth_px[2]});
@@ -85,7 +86,7 @@ class Inside {
   bool has_area_ = false;
 };
 
-// Lost samples, sorted by rows, so that a triangle meets those in its box only.
+// Undrawn samples, sorted by rows, so that a triangle visits only those in its bounding box.
 class LostSamples {
  public:
   LostSamples(const CoverageTruth& truth, std::span<const std::uint32_t> hits) : window_(truth.window) {
@@ -125,7 +126,7 @@ class LostSamples {
  private:
   struct Sample {
     int x;
-    std::uint32_t points;  // of its ring, those that some triangle holds
+    std::uint32_t points;  // a bit per ring point that some triangle contains
     std::size_t pixel;
   };
   int row_at(double y) const {

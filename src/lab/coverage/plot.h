@@ -1,10 +1,9 @@
-// What a coverage method does with the pixels it finds: draw them or record them. Both are compiled from the
-// method's one template,
+// The two outputs of a coverage method: draw the pixels, or record them. A method is one template,
 //   struct SomeMethod {
 //     template <class Plot> static void cover(const UnsnappedTriangle&, Window, Plot&);
 //   };
-// which calls plot.begin() once, as soon as it knows that the triangle may have pixels, and then
-// plot.pixel(x, y) or plot.span(y, x0, x1) for pixels inside the window.
+// It calls plot.begin() once if the triangle may have pixels, then plot.pixel(x, y) or plot.span(y, x0, x1)
+// for pixels inside the window.
 #pragma once
 
 #include <algorithm>
@@ -37,7 +36,7 @@ class RunRecorder {
   std::size_t first_;
 };
 
-// One float depth plane and "less", the same for all methods of the family.
+// A depth test with a float depth plane and "less", the same for all methods of the family.
 class DepthPlot {
  public:
   DepthPlot(const FloatTriangle& triangle, Canvas& canvas)
@@ -64,7 +63,7 @@ class DepthPlot {
     payload_[at] = triangle_.payload;
   }
 
-  // Selects rather than branches, so that the compiler makes vectors of it.
+  // Selects instead of branches let the compiler vectorize the loop.
   void span(int y, int x0, int x1) const {
     const float row_z = z_ + zy_ * static_cast<float>(y), step = zx_;
     float* __restrict depth = depth_ + y * stride_;
@@ -110,13 +109,13 @@ CoverageMethod make_coverage_method(const MethodInfo& info, const CoveragePromis
           }};
 }
 
-// Half to even, for |v| < 2^51: adding 1.5 * 2^52 leaves no fraction bits.
+// Rounds half to even, for |v| < 2^51: the sum with 1.5 * 2^52 has no fraction bits.
 inline std::int64_t round_half_even(double v) {
   constexpr double kMagic = 6755399441055744.0;
   return std::bit_cast<std::int64_t>(v + kMagic) - std::bit_cast<std::int64_t>(kMagic);
 }
 
-// Without SSE 4.1 std::floor is a call.
+// Without SSE 4.1, std::floor is a function call.
 inline int floor_int(float v) {
   const int whole = static_cast<int>(v);
   return whole - (static_cast<float>(whole) > v);

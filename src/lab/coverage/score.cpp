@@ -19,7 +19,7 @@ CoverageTruth truth_from(std::vector<Run> runs, Window window) {
   return truth;
 }
 
-// Cuts runs to the window and returns how many pixels that cost.
+// Clips runs to the window and returns the number of pixels removed.
 std::uint64_t cut(std::vector<Run>& runs, Window w) {
   std::uint64_t lost = 0;
   for (Run& run : runs) {
@@ -32,7 +32,7 @@ std::uint64_t cut(std::vector<Run>& runs, Window w) {
   return lost;
 }
 
-// Joins runs that overlap or touch, so that a pair counts once.
+// Merges runs that overlap or touch, so that each (triangle, pixel) pair counts once.
 std::vector<Run> joined(std::vector<Run> runs) {
   std::size_t count = 0;
   for (const Run& run : runs) {
@@ -46,7 +46,7 @@ std::vector<Run> joined(std::vector<Run> runs) {
   return runs;
 }
 
-// Samples on one axis strictly between two places, or at the first.
+// The number of samples on one axis in (a, b], or (b, a] if b is smaller.
 double samples_between(double a, double b) {
   return std::abs(std::floor(a + 0.5) - std::floor(b + 0.5));
 }
@@ -90,7 +90,7 @@ std::uint64_t edge_crossings(std::span<const FloatTriangle> triangles, Window w)
 
 void for_each_difference(std::span<const Run> truth, std::span<const Run> drawn,
                          const std::function<void(const Run&, bool missing)>& on_run) {
-  // Runs of one row, as places on a line: what the two lists don't share lies between neighbouring ends.
+  // Merges the ends of both lists' runs in one row; between two neighbouring ends the lists agree or differ.
   const auto row_of = [](const Run& run) { return std::pair(run.triangle, run.y); };
   auto t = truth.begin();
   auto d = drawn.begin();

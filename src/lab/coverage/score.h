@@ -1,4 +1,4 @@
-// How wrong a coverage is: a method's runs against a truth's.
+// Scores coverage: compares a method's pixel runs with those of a truth.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace edgewise::lab {
 
-// What a truth says of one picture; made once, compared with many methods.
+// A truth's pixels of one picture, computed once for all methods.
 struct CoverageTruth {
   Window window;
   std::vector<Run> runs;            // sorted
@@ -21,25 +21,24 @@ struct CoverageTruth {
 CoverageTruth snapped_coverage(const CoverageInput& input, Window window, int threads);
 CoverageTruth float_coverage(const CoverageInput& input, Window window, int threads);
 
-// For each edge of each triangle, the number of sample rows or of sample columns that it crosses inside the
-// window, whichever is more; summed. Errors are counted per 10^6 of these, since a long edge has more chances
+// The sum over all edges of all triangles: the larger of the numbers of sample rows and sample columns that
+// the edge crosses inside the window. Error rates are per 10^6 crossings, since a long edge has more chances
 // to be wrong.
 std::uint64_t edge_crossings(std::span<const FloatTriangle> triangles, Window window);
 
 struct CoverageScore {
   std::uint64_t triangles = 0, covered = 0;  // covered: (triangle, pixel) pairs, in truth
-  std::uint64_t missing = 0, extra = 0;      // such pairs in truth only, by the method only
+  std::uint64_t missing = 0, extra = 0;      // pairs only in the truth; pairs only of the method
   std::uint64_t gaps = 0;                    // cracks between neighbours; see gaps()
-  std::uint64_t double_hits = 0;  // pixels that at most one covers in truth, and that are drawn twice or more
-  std::uint64_t out_of_bounds = 0;  // pixels drawn outside the window; counted here only
+  std::uint64_t double_hits = 0;    // pixels drawn more than once that at most one triangle covers in truth
+  std::uint64_t out_of_bounds = 0;  // pixels drawn outside the window; not counted as extra
   std::uint64_t out_of_box = 0;     // extra pairs whose pixel does not touch the triangle's bounding box
-  double worst_px =
-      0.0;  // largest distance of a wrong pair's sample from the nearest line of an edge, or the box
+  double worst_px = 0.0;            // largest ErrorDistance::at() of a wrong pair
 
   std::uint64_t errors() const { return missing + extra; }
   bool operator==(const CoverageScore&) const = default;
 };
-// `runs` need not be sorted; a pixel drawn twice for one triangle is one pair, but two hits. `reach_px`: see
+// `runs` may be in any order; a pixel drawn twice for one triangle is one pair, but two hits. `reach_px`: see
 // gaps().
 CoverageScore score_coverage(const CoverageTruth& truth, std::vector<Run> runs,
                              std::span<const FloatTriangle> triangles, double reach_px);
@@ -50,38 +49,38 @@ constexpr double per_million(std::uint64_t count, std::uint64_t crossings) {
   return crossings == 0 ? 0.0 : 1e6 * static_cast<double>(count) / static_cast<double>(crossings);
 }
 
-// Calls on_run(run, missing) for every stretch of wrong pixels: missing, or else extra. Both inputs are
-// sorted.
+// Calls on_run(run, missing) for every run of wrong pixels; `missing` is false if they are extra. Both inputs
+// must be sorted.
 void for_each_difference(std::span<const Run> truth, std::span<const Run> drawn,
                          const std::function<void(const Run&, bool missing)>& on_run);
 
-// A gap is a pixel that one triangle covers in truth and nobody draws, though its sample lies farther inside
-// the union of the triangles than `reach_px`, by which the method may move an edge: so a pixel that is lost
-// where an outline moved is missing, and no gap. Watertight methods leave none where neighbours share
-// vertices. Indices into `hits`.
+// A gap is a pixel that exactly one triangle covers in truth, that is not drawn, and whose sample lies inside
+// the union of the triangles by more than `reach_px`, by which the method may move an edge. A pixel lost
+// where an outline moved is therefore missing, but no gap. Watertight methods leave no gaps between
+// neighbours that share vertices. Returns indices into `hits`.
 std::vector<std::size_t> gaps(const CoverageTruth& truth, std::span<const std::uint32_t> hits,
                               std::span<const FloatTriangle> triangles, double reach_px);
 
-// What is published excuses nobody for more than rounding to whole pixels does, so that a sloppier promise
-// hides no crack. A tighter one counts in full: such a method loses nothing else so near the outline, and the
-// cracks of the smallest scenes run up to theirs.
+// Reported gaps use at most the reach of rounding to whole pixels, so that a method with a loose promise
+// cannot hide cracks. Smaller promises are used as they are: such methods lose no other pixels that near the
+// outline, and the cracks of the smallest scenes extend to it.
 inline constexpr double kMostReach_px = 0.71;  // above sqrt(1/2)
 inline double gap_reach_px(const CoverageMethod& method) {
   return std::min(method.promise.reach_px, kMostReach_px);
 }
 
-// Hits at each pixel of the window, row by row; for pictures of errors. What lies outside is left out.
+// Hits at each pixel of the window, row by row. Pixels outside the window are ignored.
 std::vector<std::uint32_t> hits_of(std::span<const Run> runs, Window window);
 
-// How far a wrong sample is from where it could be doubted. An edge without length has no line, and no
-// distance.
+// How far a wrong sample lies from the triangle's edges and bounding box. An edge without length counts as
+// distance 0.
 class ErrorDistance {
  public:
   explicit ErrorDistance(const UnsnappedTriangle& triangle);
-  // From the nearest line through an edge, or from the bounding box if that is farther; within 1e-11 px below
-  // 4096 px.
+  // The distance from the nearest line through an edge, or from the bounding box if that is larger; accurate
+  // to 1e-11 px for coordinates below 4096 px.
   double at(int px, int py) const;
-  // Whether a pixel's square does not even touch the bounding box.
+  // Whether a pixel's square does not touch the bounding box.
   bool off_box(int px, int py) const {
     return px > high_x_ || px + 1 < low_x_ || py > high_y_ || py + 1 < low_y_;
   }

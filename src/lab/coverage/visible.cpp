@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t kBackground = 0;
 
-// An owner as the pictures here show it.
+// A triangle's index → its payload in the pictures here.
 std::uint32_t shown(std::uint32_t visible_id) {
   return visible_id == kNoTriangle ? kBackground : visible_id + 1;
 }
@@ -38,7 +38,7 @@ std::uint64_t wrong_pixels(const Canvas& canvas, const VisibleTriangles& truth) 
   return wrong;
 }
 
-// error(x, y, exact): in last places.
+// error(x, y, exact) returns an error in ulps.
 template <typename Error>
 void add_depth_errors(VisibleTriangleScore& score, const Canvas& canvas, const VisibleTriangles& truth,
                       Error&& error) {

@@ -1,6 +1,6 @@
-// What a coverage method's picture shows: whose each pixel is, and how exact its depth. Coverage alone does
-// not say that: a lost pixel of a hidden triangle costs nothing, and a plane of depths that is evaluated in
-// floats may let the wrong triangle win.
+// Scores a coverage method's whole picture: the visible triangle of each pixel, and its depth. Coverage alone
+// does not determine these: a lost pixel of an occluded triangle is invisible, and a depth plane evaluated in
+// floats may show the wrong triangle.
 #pragma once
 
 #include <cstdint>
@@ -11,19 +11,21 @@
 namespace edgewise::lab {
 
 struct VisibleTriangleScore {
-  // Pixels that do not show their exact owner, or show one where there is none; against each truth.
+  // Pixels that show another triangle than the truth does, or only one of both shows none; against each
+  // truth.
   std::uint64_t wrong_snapped = 0, wrong_floats = 0;
-  // Of the backends' wrong_snapped, those whose depth is farther from the owner's than rule 6 lets both be.
+  // For the backends: wrong_snapped pixels that the depth error of rule 6 does not explain. The drawn
+  // triangle does not cover them, or lies farther behind the visible one than both errors together.
   std::uint64_t unexplained = 0;
-  // Error of the depth where the owner is right, against the truth of the positions that it was computed
-  // from: for the backends the snapped ones, in units of rule 6, 2^-31 of the range; for all others those
-  // before, in the last place that a float has at the exact depth, or at 2^-8 where that is nearer to 0.
+  // Depth errors at pixels that show the right triangle. For the backends: against the snapped truth, in
+  // units of rule 6 (2^-31 of the range). For all others: against the float truth, in float ulps at the exact
+  // depth, or at 2^-8 if that is nearer to 0.
   double max_ulp = 0.0, rms_ulp = 0.0;
 
   bool operator==(const VisibleTriangleScore&) const = default;
 };
 
-// Knows the exact owners in a picture, by both truths.
+// Holds a picture's exact visible triangles by both truths, and scores methods against them.
 class VisibleTriangleJudge {
  public:
   VisibleTriangleJudge(const CoverageInput& input, Size size, int threads);
@@ -33,7 +35,7 @@ class VisibleTriangleJudge {
   std::uint64_t unexplained(const Canvas& canvas) const;
 
   Size size_;
-  std::vector<FloatTriangle> floats_;  // their payloads are their indices, from 1
+  std::vector<FloatTriangle> floats_;  // payloads number the triangles from 1
   std::vector<ScreenTriangle> snapped_;
   VisibleTriangles by_grid_, by_floats_;
 };

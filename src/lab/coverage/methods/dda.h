@@ -1,5 +1,5 @@
-// What the scanline methods share: a triangle's vertices from the top down, and the side on which the middle
-// one lies. A neighbour walks a shared edge by the same steps, whichever of its edges it is.
+// Shared by the scanline methods: the vertices sorted from top to bottom, and walks along the edges.
+// Neighbours walk a shared edge by the same steps, whether it is their long edge or a short one.
 #pragma once
 
 #include <utility>
@@ -22,8 +22,8 @@ struct DdaTriangle {
   }
 };
 
-// Fills rows [begin, end) between the long edge and one of the short ones; an edge knows the first pixel at
-// or after it in its row (`pixel`), and how to step.
+// Fills rows [begin, end) between the long edge and a short one. Edge: pixel(window) is the first pixel at or
+// after the edge in the current row; step() goes to the next row.
 template <class Edge, class Plot>
 void fill_rows(int begin, int end, Edge& long_edge, Edge& short_edge, bool middle_is_right, Window w,
                Plot& plot) {
@@ -34,8 +34,7 @@ void fill_rows(int begin, int end, Edge& long_edge, Edge& short_edge, bool middl
   }
 }
 
-// Fills rows [begin, end): the long edge on one side, the two short ones, which meet at row `split`, on the
-// other.
+// Fills rows [begin, end) between the long edge and the two short ones, which meet at row `split`.
 template <class Edge, class Triangle, class Plot>
 void walk_dda(const Triangle& t, int begin, int split, int end, bool middle_is_right, Window w, Plot& plot) {
   Edge long_edge(t.top.x, t.top.y, t.bottom.x, t.bottom.y, begin);

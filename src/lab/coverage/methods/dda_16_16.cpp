@@ -1,5 +1,5 @@
-// The scanline rasterizer of the 1990s: 16.16 fixed point in 32 bits. Slopes are cut to 1/65536, an error
-// that grows with the rows, and coordinates past 32767 px wrap.
+// The scanline rasterizer of the 1990s: 16.16 fixed point in 32 bits. Slopes are truncated to 1/65536, an
+// error that grows with the number of rows. Coordinates beyond 32767 px wrap.
 #include <cstdint>
 
 #include "lab/coverage/methods/dda.h"
@@ -14,7 +14,7 @@ std::int32_t wrapped(std::int64_t v) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(v));
 }
 
-// First row or column whose sample is at or after a coordinate.
+// The first row or column whose sample is at or after a coordinate.
 int first_at(std::int32_t v) {
   return static_cast<int>((v + kHalf - 1) >> 16);
 }
@@ -62,7 +62,7 @@ struct Dda1616 {
 
 CoverageMethod make_coverage_dda_16_16();
 CoverageMethod make_coverage_dda_16_16() {
-  // A slope is off by less than 2^-16 px a row, over up to 4096 rows, and the vertices by half of that.
+  // A slope errs by less than 2^-16 px per row, over up to 4096 rows; a vertex errs by half of 2^-16 px.
   return make_coverage_method<Dda1616>(
       {"dda_16_16", "scanline, x of an edge accumulated in 16.16 fixed point",
        "Byggmastar, \"Fast affine texture mapping II\", 1997",

@@ -1,6 +1,6 @@
-// The scanline rasterizer of many an engine, in floats: each edge's x grows by its slope from row to row, and
-// the rounding errors pile up with the rows. Neighbours share the errors, so few gaps show; the edges are off
-// all the same.
+// A scanline rasterizer in floats, as in many engines: each edge's x grows by its slope from row to row, and
+// rounding errors accumulate. Neighbours make the same errors at a shared edge, so there are no gaps, but
+// edges are displaced.
 #include "lab/coverage/methods/dda.h"
 
 namespace edgewise::lab {
@@ -13,7 +13,7 @@ class FloatEdge {
     slope_ = (qx - px) / (qy - py);
     x_ = px + slope_ * (static_cast<float>(first_row) + 0.5f - py) - 0.5f;
   }
-  // Clamps before it converts: a slope without limit makes an x without limit, or none.
+  // Clamps before the conversion to int: x may be infinite or NaN if a slope is infinite.
   int pixel(Window w) const {
     const float low = static_cast<float>(w.x0), high = static_cast<float>(w.x1());
     return ceil_int(x_ > low ? (x_ < high ? x_ : high) : low);
@@ -21,7 +21,7 @@ class FloatEdge {
   void step() { x_ += slope_; }
 
  private:
-  float slope_, x_;  // x_ is half a pixel less, so that samples stand at whole numbers
+  float slope_, x_;  // x_ is half a pixel less, so that samples lie at whole numbers
 };
 
 struct DdaFloat {
@@ -42,7 +42,8 @@ struct DdaFloat {
 
 CoverageMethod make_coverage_dda_float();
 CoverageMethod make_coverage_dda_float() {
-  // Up to 4096 steps, each off by half an ulp of a number below 4096, 2^-13 px; and little for the first row.
+  // Up to 4096 steps, each with an error of half an ulp of a number below 4096: 2^-13 px. The first row's
+  // error is small.
   return make_coverage_method<DdaFloat>(
       {"dda_float", "scanline, x of an edge accumulated in float from row to row",
        "Hecker, \"Perspective Texture Mapping\", part I, 1995",

@@ -1,5 +1,5 @@
-// The scanline rasterizer with vertices rounded to pixels and the "height + 1" that avoids a division by
-// zero. The short edges' slopes come out too small, rows and spans include both ends, and the middle row is
+// A scanline rasterizer with vertices rounded to pixels, and with the "height + 1" that avoids a division by
+// zero. The slopes of short edges are too small, rows and spans include both ends, and the middle row is
 // drawn twice.
 #include "lab/coverage/methods/dda.h"
 
@@ -8,7 +8,8 @@ namespace edgewise::lab {
 namespace {
 
 struct DdaRounded {
-  // Rows from one vertex down to another, both included. The long edge has no + 1: it is higher than nothing.
+  // Fills the rows from one vertex down to another, both included. The long edge needs no + 1: its height is
+  // not 0.
   template <class Plot>
   static void half(DdaTriangle<int>::Vertex top, float long_slope, DdaTriangle<int>::Vertex from,
                    DdaTriangle<int>::Vertex to, Window w, Plot& plot) {
@@ -39,7 +40,8 @@ struct DdaRounded {
 
 CoverageMethod make_coverage_dda_rounded();
 CoverageMethod make_coverage_dda_rounded() {
-  // Vertices move by 0.71 px at most, the + 1 bends an edge by less than a row, and x is cut to the pixel.
+  // Vertices move by at most 0.71 px, the + 1 moves an edge by less than a row, and x is truncated to a
+  // pixel.
   return make_coverage_method<DdaRounded>(
       {"dda_rounded", "scanline between vertices rounded to pixels, ends included, height + 1",
        "tinyrenderer's lesson 2 in its first form", "wrong only within 2.75 px of an edge", false},

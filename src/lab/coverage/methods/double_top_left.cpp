@@ -1,5 +1,5 @@
-// Double edge functions, vertices not snapped. The products of two floats are exact, the differences before
-// them not always.
+// Edge functions in double on unsnapped vertices. Products of two floats are exact in double, but the
+// differences before them may round.
 #include "lab/coverage/methods/float_edges.h"
 
 namespace edgewise::lab {

@@ -1,4 +1,4 @@
-// Sixteen subpixel bits: 64-bit edge values last to triangles of 16384 px.
+// Sixteen subpixel bits: 64-bit edge values suffice for triangles of up to 16384 px.
 #include "lab/coverage/methods/fixed_edges.h"
 
 namespace edgewise::lab {

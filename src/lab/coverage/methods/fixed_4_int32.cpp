@@ -1,6 +1,6 @@
-// Four subpixel bits and edge values of 32 bits, as many a software rasterizer has them: they hold while a
-// triangle's box is at most 2896 px on a side. Its area is then 46336^2 square units, below 2^31; with 2897
-// px it is above.
+// Four subpixel bits and 32-bit edge values, as in many software rasterizers. No value wraps while a
+// triangle's box is at most 2896 px per side: its area is then at most 46336^2 square units, below 2^31. With
+// 2897 px it is above.
 #include "lab/coverage/methods/fixed_edges.h"
 
 namespace edgewise::lab {

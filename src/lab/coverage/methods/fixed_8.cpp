@@ -1,4 +1,4 @@
-// Eight subpixel bits, as Direct3D asks: the snapping of our contract, in a loop of its own.
+// Eight subpixel bits, as Direct3D requires. Snaps like our contract, but shares no loop with the backends.
 #include "lab/coverage/methods/fixed_edges.h"
 
 namespace edgewise::lab {

@@ -1,6 +1,5 @@
-// Eight subpixel bits and edge values of 32 bits: they hold while a triangle's box is at most 181 px on a
-// side. Its doubled area is then below 2^31, and no value at a sample in the box is larger. Beyond that they
-// wrap.
+// Eight subpixel bits and 32-bit edge values. No value wraps while a triangle's box is at most 181 px per
+// side: the box's area in square units is then below 2^31, and no value at a sample in the box is larger.
 #include "lab/coverage/methods/fixed_edges.h"
 
 namespace edgewise::lab {

@@ -1,11 +1,11 @@
-// Fixed-point edge functions, stepped exactly by integer additions. SnapBits say how finely vertices are
-// snapped, Int how wide the edge values are: 64 bits hold them for triangles of up to 16384 px, 32 bits soon
+// Fixed-point edge functions, stepped exactly by integer additions. SnapBits is the number of subpixel bits,
+// Int the type of edge values: 64 bits hold them for triangles of up to 16384 px, 32 bits overflow early and
 // wrap.
 //
-// While no value wraps, it is the exact edge function less the bias, linear along a row: each edge accepts
-// the samples on one side of some place, and a row's accepted samples are one interval. A value at a sample
-// is twice the signed area of a triangle inside the bounding box, so none wraps where the box's own area, in
-// square units, is below 2^31 or 2^63. In larger boxes values may change sign anywhere, and every pixel is
+// While no value wraps, it is the exact edge function minus the bias, which is linear along a row: each edge
+// accepts the samples on one side of a crossing, so a row's accepted samples are one interval. A value at a
+// sample is twice the signed area of a triangle inside the bounding box, so none wraps if the box's area, in
+// square units, is below 2^31 or 2^63. In larger boxes values may change sign anywhere, so every pixel is
 // tested.
 #pragma once
 
@@ -20,9 +20,9 @@ namespace edgewise::lab {
 
 template <int SnapBits, typename Int>
 struct FixedEdges {
-  // A box no wider than this is sooner tested pixel by pixel, which costs one addition an edge.
+  // Testing every pixel, at one addition per edge, is faster for boxes up to this width.
   static constexpr int kNarrow_px = 10;
-  // A sample lies at half a pixel, so one bit is needed even where vertices have none.
+  // Samples lie at half a pixel, so one bit is needed even if vertices have none.
   static constexpr int kBits = SnapBits == 0 ? 1 : SnapBits;
   static constexpr std::int64_t kOne = std::int64_t{1} << kBits, kSample = kOne / 2;
   using Wrapping = std::make_unsigned_t<Int>;
@@ -34,7 +34,7 @@ struct FixedEdges {
   struct Edge {
     Wrapping value, step_x, step_y;  // value at the box's first sample, biased by the fill rule
     int x0, y0;                      // the box's first pixel
-    bool right;                      // where the triangle lies
+    bool right;                      // whether the triangle lies to the right
 
     struct Row {
       Wrapping value, step;
@@ -59,7 +59,7 @@ struct FixedEdges {
             a >= 0};
   }
 
-  // Whether all values, less the bias, fit; sides are in units.
+  // Whether no value, minus the bias, wraps; the box's sides are in units of 2^-kBits px.
   static bool holds(std::int64_t width, std::int64_t height) {
     constexpr auto kEnd = static_cast<double>(std::uint64_t{1} << std::numeric_limits<Int>::digits);
     return static_cast<double>(width) * static_cast<double>(height) < kEnd;
@@ -106,8 +106,8 @@ struct FixedEdges {
   }
 };
 
-// Snapping moves a vertex by up to half a unit on both axes, and no point of a triangle moves farther than a
-// vertex.
+// Snapping moves a vertex by up to half a unit on each axis: sqrt(1/2) units. No point of a triangle moves
+// farther than a vertex.
 constexpr double snap_reach_px(int snap_bits) {
   return 0.70711 / (1 << snap_bits);
 }

@@ -1,10 +1,10 @@
-// Edge functions evaluated anew at each sample that is asked about, in floats or doubles (Pineda, "A Parallel
+// Edge functions evaluated directly at each tested sample, in floats or doubles (Pineda, "A Parallel
 // Algorithm for Polygon Rasterization", 1988). The methods differ in which samples on an edge they accept.
 //
-// A row's accepted samples are one interval, whatever the rounding: as x grows, s.x - x does not fall, nor
-// does its rounded value, since rounding keeps order; times a, rounded, it does not fall or does not rise, by
-// the sign of a; what is added is the same all along the row, and the sum is rounded. So each edge function
-// is monotone along a row as computed, and exceeds its threshold from some sample on, or up to some sample.
+// A row's accepted samples are one interval despite rounding, since rounding is monotone. As s.x grows, the
+// rounded s.x - x does not fall; its rounded product with a is monotone, in the direction given by the sign
+// of a; and the rounded sum with the row's constant stays monotone. So each computed edge function is
+// monotone along a row, and exceeds its threshold on one side of a crossing only.
 #pragma once
 
 #include <limits>
@@ -29,12 +29,12 @@ struct RealEdge {
   bool faces_right() const { return a >= 0; }
 };
 
-// The largest number below zero as threshold makes ">" a ">=".
+// With the largest number below zero as threshold, ">" means ">= 0".
 template <typename Real>
 inline constexpr Real kAcceptZero = -std::numeric_limits<Real>::denorm_min();
 
 inline PixelRows real_box(const UnsnappedTriangle& t, Window w) {
-  // Two by two, which compiles to instructions that do not branch; a list does not.
+  // Nested std::min of two values compiles to branch-free instructions; an initializer list does not.
   const auto least = [](const float(&v)[3]) { return std::min(std::min(v[0], v[1]), v[2]); };
   const auto most = [](const float(&v)[3]) { return std::max(std::max(v[0], v[1]), v[2]); };
   const float min_x = least(t.x_px), max_x = most(t.x_px), min_y = least(t.y_px), max_y = most(t.y_px);
@@ -42,8 +42,8 @@ inline PixelRows real_box(const UnsnappedTriangle& t, Window w) {
           std::min(floor_int(max_x - 0.5f) + 1, w.x1()), std::min(floor_int(max_y - 0.5f) + 1, w.y1())};
 }
 
-// Calls body(edges), with vertices swapped where the winding asks for it; not at all for a triangle without
-// area.
+// Calls body(edges), with two vertices swapped for counter-clockwise triangles. Does not call it for a
+// triangle without area.
 template <typename Real, class Threshold, class Body>
 void with_edges(const UnsnappedTriangle& t, Body&& body) {
   Real x[3], y[3];
@@ -71,7 +71,7 @@ void test_every_pixel(const RealEdge<Real> (&edges)[3], const PixelRows& box, Pl
   }
 }
 
-// A box no wider than this is sooner tested pixel by pixel.
+// Testing every pixel is faster for boxes up to this width.
 inline constexpr int kNarrowForReals_px = 6;
 
 template <typename Real, class Threshold, class Plot>
@@ -106,9 +106,9 @@ struct TopLeft {
   }
 };
 
-// A float evaluation errs by less than 4 * 2^-24 of |a dx| + |b dy|, which is at most the edge's length times
-// the distance, up to 4096 sqrt(2) px: 0.0014 px off the edge's line, and twice that where it misjudges the
-// winding.
+// A float evaluation errs by less than 4 * 2^-24 (|a dx| + |b dy|), and |a dx| + |b dy| is at most the edge's
+// length times the distance, which is up to 4096 sqrt(2) px. That is 0.0014 px off the edge's line, and twice
+// that if the winding's sign is wrong.
 inline constexpr double kFloatReachPx = 0.0028;
 
 }  // namespace edgewise::lab

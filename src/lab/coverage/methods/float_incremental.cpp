@@ -1,9 +1,9 @@
-// Float edge functions stepped by additions from the corner of the bounding box, as integers are stepped:
-// every step rounds, and the errors pile up along rows and columns.
+// Float edge functions stepped by additions from the corner of the bounding box, as integers are stepped.
+// Every step rounds, and the errors accumulate along rows and columns.
 //
-// A row's accepted samples are one interval all the same: adding a number that is not negative and rounding
-// never gives less than before, since rounding keeps order, and correspondingly for negative ones. Where it
-// begins must be reached step by step.
+// A row's accepted samples are still one interval, since rounding is monotone: rounded additions of a number
+// of one sign never change direction. The interval's begin depends on the accumulated errors, so it is
+// reached step by step.
 #include "lab/coverage/methods/float_edges.h"
 
 namespace edgewise::lab {
@@ -43,9 +43,9 @@ struct FloatIncremental {
 
 CoverageMethod make_coverage_float_incremental();
 CoverageMethod make_coverage_float_incremental() {
-  // A step is off by 2^-24 of the value, which is the edge's length times the distance from its line. Down
-  // 4096 rows and along 4096 columns to a pixel on the line these distances sum to at most 4096^2 sqrt(1 / 4
-  // + 9 / 4) px.
+  // A step errs by 2^-24 of the value, which is the edge's length times the distance from its line. Over 4096
+  // rows and 4096 columns to a pixel on the line, these distances sum to at most 4096^2 sqrt(1 / 4 + 9 / 4)
+  // px.
   return make_coverage_method<FloatIncremental>(
       {"float_incremental", "float edge functions stepped by additions, top-left rule",
        "Pineda 1988, in floats", "wrong only within 1.6 px of an edge", false},

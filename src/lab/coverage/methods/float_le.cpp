@@ -1,4 +1,5 @@
-// The tutorials' inside test with "<= 0" on all three sides: every sample on a shared edge is drawn twice.
+// The inside test of many tutorials with "<= 0" for all three edges: samples on a shared edge are drawn
+// twice.
 #include "lab/coverage/methods/float_edges.h"
 
 namespace edgewise::lab {

@@ -1,4 +1,4 @@
-// The tutorials' inside test with "< 0" on all three sides: no triangle draws a sample on a shared edge.
+// The inside test of many tutorials with "< 0" for all three edges: samples on a shared edge are not drawn.
 #include "lab/coverage/methods/float_edges.h"
 
 namespace edgewise::lab {

@@ -1,5 +1,6 @@
-// Float edge functions on vertices snapped to 1/256 px. Differences are exact then; a product rounds where it
-// needs more than 24 bits, so two that differ may come out equal, and a false tie is decided by the tie rule.
+// Float edge functions on vertices snapped to 1/256 px, so that differences are exact. A product that needs
+// more than 24 bits is rounded: two different products may become equal, and the tie rule then decides a
+// false tie.
 #include "lab/coverage/methods/float_edges.h"
 
 namespace edgewise::lab {

@@ -1,5 +1,5 @@
-// Float without snapping: the right tie rule on rounded values. Two neighbours evaluate their shared edge
-// from different ends, and their rounding errors need not agree.
+// Float edge functions without snapping: the right tie rule on rounded values. Two neighbours evaluate their
+// shared edge from different ends, so their rounding errors may differ.
 #include "lab/coverage/methods/float_edges.h"
 
 namespace edgewise::lab {

@@ -1,7 +1,7 @@
-// Row by row between the edges on a triangle's left and those on its right, which is all that a row needs
-// where each edge accepts the samples on one side of some place. The places move little from row to row, so
-// each is looked for from where it was in the row before: as many tests as the box has rows and columns, not
-// pixels. The tests are the method's own, and so are the pixels.
+// Fills each row between the left and the right edges of a triangle. This is correct if each edge accepts
+// exactly the samples on one side of a crossing. A crossing moves little from row to row, so the search
+// starts at the previous row's: the number of tests is proportional to the box's rows plus columns, not to
+// its pixels. The tests are the method's own, so the pixels do not change.
 #pragma once
 
 namespace edgewise::lab {
@@ -10,11 +10,12 @@ struct PixelRows {
   int x0, y0, x1, y1;
 };
 
-// An Edge knows on which side the triangle lies, faces_right(); and by row(y) a test, accepts(x), which must
-// not go back from true to false along the row for edges that face right, and from false to true for others.
+// Edge: faces_right() is true if the triangle lies to its right; row(y).accepts(x) tests a sample. Along a
+// row accepts(x) must change at most once, from false to true for edges that face right, else from true to
+// false.
 template <class Edge, class Plot>
 void fill_between(const Edge (&edges)[3], const PixelRows& box, Plot& plot) {
-  // Some edge faces right and some other one left, or there is no area.
+  // A triangle with area has at least one edge that faces right and one that faces left.
   const Edge *left[3], *right[3];
   int lefts = 0, rights = 0;
   for (const Edge& edge : edges)

@@ -1,4 +1,4 @@
-// Vertices rounded to whole pixels: edges jitter as they move, and small triangles vanish or flip.
+// Vertices rounded to whole pixels: moving edges jitter, and small triangles vanish or flip.
 #include "lab/coverage/methods/fixed_edges.h"
 
 namespace edgewise::lab {
