@@ -1,4 +1,4 @@
-// The smallest scenes on which visibility methods fail, and the sweeps that say where they start to.
+// Small scenes on which visibility methods fail, and the scenes of the visibility sweeps.
 #include "lab/visibility/visibility.h"
 
 #include <algorithm>
@@ -18,13 +18,13 @@ namespace edgewise::lab {
 
 namespace {
 
-// As the front end has it: the matrix, the position and the quotient are floats.
+// Computed as in the front end: the matrix, the position and the quotient are floats.
 std::uint32_t front_end_depth(double view_z, double near_z, double far_z) {
   const glm::mat4 projection(glm::perspectiveRH_ZO(1.0, 1.0, near_z, far_z));
   return project(transform(projection, {0.0f, 0.0f, -static_cast<float>(view_z)})).z;
 }
 
-// View space: x to the right, y down, z away from the eye, which sees the image's height as 1 at distance 1.
+// View space: x to the right, y down, z away from the camera. The image's height is 1 at distance 1.
 class Builder {
  public:
   Builder(Size size, double near_z, double far_z) : scene_{size.width, size.height, near_z, far_z, {}, {}} {}
@@ -69,8 +69,8 @@ VisibilityScene floor_under_box() {
       .take();
 }
 
-// A floor of five corners, 46 away in the mean, under a wall at 50. By its triangles the floor's far part
-// would be painted first.
+// A floor with five corners and mean distance 46, under a wall at 50. Sorted by triangles instead of
+// polygons, the floor's far part would be painted first.
 VisibilityScene pentagon_under_wall() {
   return Builder(kSize, 0.5, 200)
       .polygon({{0, 8, 10}, {-20, 8, 30}, {-30, 8, 80}, {30, 8, 80}, {20, 8, 30}})
@@ -78,7 +78,7 @@ VisibilityScene pentagon_under_wall() {
       .take();
 }
 
-// A quad that is no plane, three corners of it before a second one and the fourth far behind it.
+// A quad that is not planar: three corners lie in front of a second quad, the fourth far behind it.
 VisibilityScene bent_quad() {
   return Builder(kSize, 0.5, 200)
       .quad({-8, -6, 20}, {8, -6, 20}, {24, 18, 60}, {-8, 6, 20})
@@ -86,7 +86,7 @@ VisibilityScene bent_quad() {
       .take();
 }
 
-// Each bar starts near the eye, over the end of the one before it.
+// Each bar begins near the camera and occludes the end of the previous one.
 VisibilityScene bars_in_a_cycle() {
   Builder builder(kSize, 0.5, 10);
   const auto at = [](double degrees, double radius, double z) {
@@ -113,21 +113,23 @@ VisibilityScene back_to_front() {
 }
 
 VisibilityScene front_to_back() {
-  VisibilityScene scene = back_to_front();  // of triangles, so that the faces stay as they are
+  VisibilityScene scene = back_to_front();  // every face is one triangle, so faces need no change
   std::reverse(scene.triangles.begin(), scene.triangles.end());
   return scene;
 }
 
 constexpr std::array kCases = {
-    VisibilityCase{"back_to_front", "apart in depth and submitted back to front: everyone is right",
+    VisibilityCase{"back_to_front", "disjoint in depth and submitted back to front: all methods are right",
                    back_to_front},
     VisibilityCase{"front_to_back", "the same, submitted front to back", front_to_back},
     VisibilityCase{"floor_under_box", "a floor from z = 1 to 100 under a box at z = 60", floor_under_box},
-    VisibilityCase{"pentagon_under_wall", "a pentagon, nearer than a wall in the mean of its corners alone",
+    VisibilityCase{"pentagon_under_wall",
+                   "a pentagon that is nearer than a wall only by the mean of its corners",
                    pentagon_under_wall},
-    VisibilityCase{"bent_quad", "a quad that is not planar, with one corner behind another quad", bent_quad},
-    VisibilityCase{"bars_in_a_cycle", "three bars, each over the end of the one before it", bars_in_a_cycle},
-    VisibilityCase{"interpenetrating", "two triangles through one another", interpenetrating},
+    VisibilityCase{"bent_quad", "a non-planar quad with one corner behind another quad", bent_quad},
+    VisibilityCase{"bars_in_a_cycle", "three bars, each in front of the end of the previous one",
+                   bars_in_a_cycle},
+    VisibilityCase{"interpenetrating", "two triangles that intersect", interpenetrating},
     VisibilityCase{"planes_1_apart", "two planes 1 apart at z = 100, near 0.1",
                    [] { return two_planes(100, 1, 0.1, 1000); }},
     VisibilityCase{"planes_3e-3_apart", "two planes 0.003 apart at z = 100, near 0.1",
@@ -163,7 +165,7 @@ VisibilityScene slivers(double aspect) {
   for (int dx = -4; dx <= 4; ++dx)
     for (int dy = 1; dy <= 4; ++dy) {
       if (std::gcd(dx, dy) != 1) continue;
-      // A left edge through samples, so that slivers of any width cover some.
+      // The left edge runs through samples, so that slivers of any width cover some.
       const int steps = kReach / std::max(std::abs(dx), dy);
       const double width_sub = std::hypot(dx, dy) * steps * kSub / aspect;
       const std::int32_t x = sample_sub(kSide / 2 + steps * dx), y = sample_sub(kSide / 2 + steps * dy);

@@ -1,5 +1,5 @@
-// What a front end made of a scene, beside how far off its vertices really are. The front end has depth as a
-// float; the truth takes the positions to the eye in double, without that detour.
+// Adds the true distances to the front end's triangles of a scene. The front end computes depths in float;
+// the true distances are transformed from the positions in double.
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
@@ -32,21 +32,21 @@ class SourceTriangle {
   }
 
  private:
-  // A vertex that clipping made lies on the plane of the corners, which are a weighted sum's terms: with
-  // weights such that sum(corner) = (x, y, 1), their sum is 1 / distance.
+  // A vertex that clipping made lies on the plane of the corners. For weights with sum(weight corner) = (x,
+  // y, 1), the sum of the weights is 1 / distance.
   double on_plane(double x_px, double y_px) const {
     const glm::dvec3 weights = glm::inverse(corner_) * glm::dvec3(x_px, y_px, 1.0);
     const double distance = 1.0 / (weights.x + weights.y + weights.z);
     const auto [nearest, farthest] = std::minmax({corner_[0].z, corner_[1].z, corner_[2].z});
-    // Exactly edge-on it has no such plane, and covers nothing.
+    // An exactly edge-on triangle has no such weights, and covers nothing.
     return std::isfinite(distance) ? std::clamp(distance, nearest, farthest) : farthest;
   }
 
-  glm::vec3 seen_[3];  // as the front end has the corners: px, px, depth01
+  glm::vec3 seen_[3];  // the front end's corners: px, px, depth01
   glm::dmat3 corner_;  // x w, y w, w
 };
 
-// Finds the source triangles; ids must ascend, as a front end's do.
+// Finds the source triangles. Ids must be requested in ascending order, the front end's order.
 class Sources {
  public:
   Sources(const Scene& scene, Size size)

@@ -1,5 +1,5 @@
-// The registry of visibility methods, the exact owners, and the score. A method is a file in
-// visibility_methods/ that defines visibility_NAME, and a line here.
+// The registry of visibility methods, the exact visible triangles, and the score. A method is a file in
+// methods/ that defines visibility_NAME, and a line here.
 #include "lab/visibility/visibility.h"
 
 #include <gmpxx.h>
@@ -34,7 +34,7 @@ std::span<const VisibilityMethod> visibility_methods() {
 
 namespace {
 
-// A triangle's plane in one truth, in whatever arithmetic T is.
+// A triangle's plane in one truth.
 class Plane {
  public:
   Plane(const VisibilityTriangle& t, bool snapped) {
@@ -44,8 +44,8 @@ class Plane {
       z_[i] = t.view_z[i];
     }
   }
-  // 1 / distance: the vertices', weighted by the areas opposite to them. Inside the triangle no two terms
-  // have opposite signs, so nothing cancels.
+  // 1 / distance, in the arithmetic of T: the mean of the vertices' 1 / view_z, weighted by the areas
+  // opposite to them. Inside the triangle no two terms have opposite signs, so nothing cancels.
   template <typename T>
   T nearness(int px, int py) const {
     const T x(px + 0.5), y(py + 0.5);
@@ -95,7 +95,7 @@ std::vector<std::uint32_t> visible_triangles_of(const VisibilityScene& scene, st
   return visible;
 }
 
-// A method's picture against one truth.
+// Scores a method's picture against one truth.
 class Judge {
  public:
   Judge(const VisibilityMethod& method, const VisibilityScene& scene, bool snapped)
@@ -107,12 +107,12 @@ class Judge {
     return FloatTruth({{t.x_px[0], t.x_px[1], t.x_px[2]}, {t.y_px[0], t.y_px[1], t.y_px[2]}, {}})
         .covers(x, y);
   }
-  // The background's is 1. To 60 bits or more on snapped positions.
+  // The background's depth is 1. Accurate to at least 60 bits on snapped positions.
   long double depth01(std::uint32_t id, int x, int y) const {
     if (id == kNoTriangle) return 1.0L;
     return depth01_of(Plane(scene_.triangles[id], snapped_).nearness<long double>(x, y), scene_);
   }
-  // Returns the error of the depth that is kept, in depth01.
+  // Returns the error of the stored depth, in depth01.
   long double add_depth(const VisibilityFrame& frame, std::uint32_t triangle, int x, int y) {
     const long double truth = depth01(triangle, x, y),
                       stored = method_.stored01(frame, pixel_at(scene_, x, y));
@@ -146,7 +146,7 @@ class Judge {
   std::uint64_t count_ = 0;
 };
 
-// Both truths at once, since a picture need be drawn only once.
+// Scores against both truths at once, so that the picture is drawn only once.
 class Scorer {
  public:
   Scorer(const VisibilityMethod& method, const VisibilityScene& scene)
@@ -184,7 +184,7 @@ class Scorer {
     const bool right_depth =
         drawn == kNoTriangle || snapped_.add_depth(frame_, drawn, x, y) <= bound01(drawn);
     if (drawn == truth) return right_depth;
-    // Where a method shows the background, it says that the depth is 1.
+    // A pixel that shows the background has depth 1.
     const long double apart = std::abs(snapped_.depth01(drawn, x, y) - snapped_.depth01(truth, x, y));
     if (apart > bound01(drawn) + bound01(truth)) return false;
     ++scores_.depth_ties;

@@ -1,10 +1,11 @@
-// Who owns a pixel: the painter's orders and the depth buffers, measured against the true view-space planes.
+// Visibility methods: painter's orders and depth buffers, scored against the true view-space planes.
 //
-// Every method draws the same snapped triangles with the same exact coverage (rules 2 and 4), so that what
-// differs is visibility alone. There are two truths, on the snapped positions and on those before snapping.
-// Both are rational: 1 / view_z is linear on the screen, the vertices' coordinates and distances are exact,
-// and the nearest plane wins; a tie keeps the earlier triangle. Neither rounds a distance as
-// exact_visible_triangles() does (lab/truth.h), since how depth is rounded is what the methods differ in.
+// Every method draws the same snapped triangles with the same exact coverage (rules 2 and 4), so that they
+// differ in visibility only. There are two truths, on the snapped positions and on those before snapping.
+// Both use rationals: 1 / view_z is linear on the screen, and the vertices' coordinates and distances are
+// exact. The nearest plane is visible; at a tie the earlier triangle. Unlike exact_visible_triangles()
+// (lab/truth.h) they use unrounded distances instead of the front end's depths, since the methods differ in
+// how they round depth.
 #pragma once
 
 #include <cstdint>
@@ -19,12 +20,13 @@
 namespace edgewise::lab {
 
 struct VisibilityTriangle {
-  ScreenTriangle screen;   // z: the depth (rule 6) that the front end makes of view_z, in float
+  ScreenTriangle screen;   // z: the front end's depth (rule 6) of view_z, computed in float
   float x_px[3], y_px[3];  // before snapping
   double view_z[3];        // distance along the view direction, near … far
 };
 
-// A polygon, as a fan of triangles that share their first vertex; of the next one on, only the third is new.
+// A polygon, as a fan of triangles around the first vertex. Each triangle after the first adds one vertex,
+// its third.
 struct VisibilityFace {
   std::uint32_t first, count;  // into VisibilityScene::triangles; count >= 1
 };
@@ -33,17 +35,18 @@ struct VisibilityScene {
   int width, height;  // px
   double near_z, far_z;
   std::vector<VisibilityTriangle> triangles;
-  std::vector<VisibilityFace> faces;  // all triangles, in order: painters sort these
+  std::vector<VisibilityFace> faces;  // cover all triangles, in order; painters sort them
 };
 
-// What a method draws into; keeps its memory between draws. A method uses the one depth buffer of its format.
+// The draw target of a method; keeps its memory between draws. A method uses the depth buffer of its format
+// only.
 struct VisibilityFrame {
   std::vector<std::uint32_t> visible;  // row by row: index of the triangle, or kNoTriangle
   std::vector<std::uint16_t> depth16;
   std::vector<std::uint32_t> depth32;
   std::vector<float> depth_float;
-  std::vector<double> key;           // the painter's, a face's
-  std::vector<std::uint32_t> order;  // the painter's, of faces
+  std::vector<double> key;           // painters: a sort key per face
+  std::vector<std::uint32_t> order;  // painters: the sorted faces
 };
 
 // Depths are compared in "depth01": 0 at the near plane, 1 at the far plane, linear on the screen.
@@ -52,61 +55,64 @@ struct VisibilityMethod {
   // The timed part: clear, cover, decide.
   void (*draw)(const VisibilityScene& scene, VisibilityFrame& frame);
 
-  // Only where a depth is kept, else null: the depth01 that the frame holds at a pixel; the format's step
-  // there; and the promise: how far a triangle's depth01 may be from the truth.
+  // For depth buffers, else null: the depth01 that the frame holds at a pixel; the format's step at a depth;
+  // and the promise: an upper bound of the error of a triangle's depth01.
   long double (*stored01)(const VisibilityFrame& frame, std::size_t pixel);
   long double (*ulp01)(long double depth01);
   double (*bound01)(const VisibilityTriangle& triangle, const VisibilityScene& scene);
 
-  // Only where none is kept: the promise, whether triangle `drawn` may hide `truth`, the nearest.
+  // For methods without a depth buffer, the promise: whether triangle `drawn` may wrongly occlude `truth`,
+  // the nearest.
   bool (*may_occlude)(const VisibilityScene& scene, std::uint32_t drawn, std::uint32_t truth) = nullptr;
 };
 
 std::span<const VisibilityMethod> visibility_methods();
 
-// The exact owner of each pixel, row by row, in both truths.
+// The exact visible triangle of each pixel or kNoTriangle, row by row, in both truths.
 struct TrueVisibleTriangles {
   std::vector<std::uint32_t> snapped, floats;
 };
 TrueVisibleTriangles true_visible_triangles(const VisibilityScene& scene);
 
-// Against one truth.
+// The score against one truth.
 struct VisibilityScore {
-  std::uint64_t covered = 0;         // pixels that a triangle covers, in truth
-  std::uint64_t wrong_triangle = 0;  // pixels with another owner than the true one
-  // Of the depths kept, each against the plane of the triangle that the method says it belongs to, where that
-  // triangle covers the pixel in truth:
-  std::uint64_t out_of_range = 0;  // pixels outside that triangle's own depths by more than 2^-16
+  std::uint64_t covered = 0;         // pixels that a triangle covers in truth
+  std::uint64_t wrong_triangle = 0;  // pixels that show another triangle than the true one
+  // Errors of the stored depths, each against the plane of the drawn triangle, at pixels that this triangle
+  // covers in truth:
+  std::uint64_t out_of_range = 0;  // pixels outside that triangle's depth range by more than 2^-16
   double max_ulp = 0, rms_ulp = 0;
 };
 struct VisibilityScores {
   VisibilityScore snapped, floats;
-  // Methods know the snapped positions only, and so do their promises. Of the wrong owners against that
-  // truth, those whose depth lies no farther from the right one's than both triangles' bounds:
+  // Promises concern the snapped positions, the methods' only input. wrong_triangle pixels against that truth
+  // that are depth ties within tolerance: the two depths differ by at most the sum of both triangles' bounds.
   std::uint64_t depth_ties = 0;
-  // Promises broken: a pixel owned by a triangle that does not cover it, a depth beyond bound01, or a wrong
-  // owner that is no near tie though depths are kept, or one that may not hide the right one.
+  // Pixels that break a promise: the drawn triangle does not cover the pixel; its depth errs by more than
+  // bound01; or it is the wrong one, and neither a depth tie within tolerance nor, without a depth buffer,
+  // allowed by may_occlude.
   std::uint64_t broken = 0;
 };
 VisibilityScores score(const VisibilityMethod& method, const VisibilityScene& scene,
                        const TrueVisibleTriangles& visible);
 
-// The smallest scenes.
+// Small scenes on which methods fail.
 struct VisibilityCase {
   std::string_view name, idea;
   VisibilityScene (*make)();
 };
 std::span<const VisibilityCase> visibility_cases();
 
-// Sweeps. Two planes `separation` apart, tilted about `distance`: in the upper half of the view the farther
-// one is submitted first, in the lower half the nearer one, so that no order of submission is favoured.
+// For sweeps: two planes `separation` apart, tilted about `distance`. In the upper half of the view the
+// farther one is submitted first, in the lower half the nearer one, so that no order of submission is
+// favoured.
 VisibilityScene two_planes(double distance, double separation, double near_z, double far_z);
-// Thin triangles in many directions, from distance 10 to 50 across their width; aspect is length over
-// (horizontal) width, at most 2^17: thinner ones have no area.
+// For sweeps: thin triangles in many directions, whose distance changes from 10 to 50 across their width.
+// `aspect` is length over horizontal width, at most 2^17: thinner triangles have no area.
 VisibilityScene slivers(double aspect);
-// What the front end makes of a scene, beside the true distances.
+// The front end's triangles of a scene, together with the true distances of their vertices.
 VisibilityScene visibility_scene(const Scene& scene, Size size, Cull cull = Cull::none);
-// The same of what was made of it already: payloads are ids, which ascend.
+// The same for triangles that the front end has made already. Payloads must be ids, in ascending order.
 VisibilityScene visibility_scene(std::span<const ScreenTriangle> triangles,
                                  std::span<const UnsnappedTriangle> unsnapped, const Scene& scene, Size size);
 

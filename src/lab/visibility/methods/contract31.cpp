@@ -1,4 +1,4 @@
-// Ours: 31-bit integers on a plane that is based anew every 64 pixels (rule 6).
+// Ours: 31-bit integers on a plane whose base is recomputed every 64 pixels (rule 6).
 #include "lab/visibility/methods/depth_buffer.h"
 
 namespace edgewise::lab {
@@ -31,7 +31,7 @@ class Plane {
 
 extern const VisibilityMethod visibility_contract31;
 const VisibilityMethod visibility_contract31{
-    {"contract31", "ours: 31-bit integer plane, based anew every 64 px", "edgewise/contract.h, rule 6",
+    {"contract31", "ours: 31-bit integer plane, base recomputed every 64 px", "edgewise/contract.h, rule 6",
      "depth within 66 steps of 2^-31 of the plane through the vertices' depths, which the front end has as "
      "floats, whatever the triangle's shape",
      false},
@@ -42,7 +42,8 @@ const VisibilityMethod visibility_contract31{
       return (static_cast<long double>(frame.depth32[pixel]) - contract::kDepthHead) / contract::kDepthRange;
     },
     [](long double) { return 1.0L / contract::kDepthRange; },
-    // Rule 6, and what the vertices' depths are off; inside, the planes are no farther apart than there.
+    // The error of rule 6, and the largest error of a vertex's depth: inside the triangle the two planes are
+    // no farther apart than at a vertex.
     [](const VisibilityTriangle& t, const VisibilityScene& s) {
       double worst = 0;
       for (int i = 0; i < 3; ++i) {

@@ -1,4 +1,4 @@
-// What the visibility methods share: planes of depth, and the depth buffer's loop.
+// Shared by the visibility methods: depth planes, and the depth buffer's loop.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +12,8 @@
 
 namespace edgewise::lab {
 
-// Plane: built from a triangle; row(x, y) starts a row, value(x) is the word to compare and store;
-// nearer(a, b) is the depth test.
+// Plane is constructed from a triangle. row(x, y) starts a row, value(x) is the depth to compare and store,
+// and nearer(a, b) is the depth test.
 template <typename Plane, typename Word>
 void draw_depth_buffer(const VisibilityScene& scene, VisibilityFrame& frame, std::vector<Word>& depth,
                        Word clear) {
@@ -39,7 +39,7 @@ void draw_depth_buffer(const VisibilityScene& scene, VisibilityFrame& frame, std
   }
 }
 
-// A plane through values at the three vertices, by its gradients, in floating point.
+// The plane through values at the three vertices, evaluated by its gradients in floating point.
 template <typename Real>
 class GradientPlane {
  public:
@@ -73,7 +73,7 @@ Real depth01(Real view_z, const VisibilityScene& scene) {
   return far_z / (far_z - near_z) * (1 - near_z / view_z);
 }
 
-// How much gradients magnify a rounding: the longest side squared over twice the area, at least 1.
+// The factor by which gradients magnify a rounding: the longest side squared over twice the area, at least 1.
 inline double magnification(const ScreenTriangle& t) {
   double longest = 0;
   for (int i = 0; i < 3; ++i) {
@@ -83,8 +83,8 @@ inline double magnification(const ScreenTriangle& t) {
   return std::max(1.0, longest / std::abs(static_cast<double>(contract::signed_area(t))));
 }
 
-// Depth as an unsigned fraction of `kBits` bits, as most APIs have it. The plane is evaluated in double,
-// since an author who wants 24 bits won't get them from float.
+// Depth as an unsigned normalized integer of `kBits` bits, as in most APIs. The plane is evaluated in double,
+// since float does not have 24 exact bits to spare.
 template <int kBits, typename Word>
 class UnormPlane {
  public:
@@ -99,7 +99,7 @@ class UnormPlane {
   }
   static bool nearer(Word a, Word b) { return a < b; }
   static long double ulp01(long double) { return 1.0L / kMax; }
-  // Half a step, and the double's own rounding.
+  // Half a step, and the rounding of double.
   static double bound01(const VisibilityTriangle& t, const VisibilityScene&) {
     return 0.5 / kMax + 0x1p-49 * magnification(t.screen);
   }
@@ -108,7 +108,7 @@ class UnormPlane {
   GradientPlane<double> plane_;
 };
 
-// The step of float at a value.
+// The distance between neighbouring floats at a value.
 inline long double float_ulp(long double value) {
   return std::ldexp(1.0L, std::max(std::ilogb(std::max(std::abs(value), 0x1p-126L)), -126) - 23);
 }

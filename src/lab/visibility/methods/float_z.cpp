@@ -1,4 +1,4 @@
-// A float depth buffer, 0 near and 1 far: most of float's precision lies where nothing is.
+// A float depth buffer, 0 near and 1 far: most floats lie near 0, where perspective puts few depths.
 #include "lab/visibility/methods/depth_buffer.h"
 
 namespace edgewise::lab {

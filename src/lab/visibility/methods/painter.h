@@ -31,7 +31,7 @@ void for_each_distance(const VisibilityScene& scene, const VisibilityFace& face,
   for (std::uint32_t i = 0; i < face.count; ++i) add(fan[i].view_z[2]);
 }
 
-// Farthest first by key(face); equal keys in submission order.
+// Paints faces in descending order of key(face); equal keys in submission order.
 template <typename Key>
 void draw_painter(const VisibilityScene& scene, VisibilityFrame& frame, Key&& key) {
   clear_visible(scene, frame);
@@ -58,7 +58,7 @@ inline std::pair<double, double> depth_range(const VisibilityScene& scene, std::
   return range;
 }
 
-// What the painters promise: of two faces whose depth ranges are apart, the nearer one is painted later.
+// The painters' promise: of two faces with disjoint depth ranges, the nearer one is painted later.
 inline bool ranges_overlap(const VisibilityScene& scene, std::uint32_t drawn, std::uint32_t truth) {
   const auto a = depth_range(scene, drawn), b = depth_range(scene, truth);
   return a.first <= b.second && b.first <= a.second;

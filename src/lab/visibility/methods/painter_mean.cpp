@@ -1,4 +1,4 @@
-// The painter's algorithm by the mean of the vertices' distances, as the p5.js engine sorts.
+// The painter's algorithm by the mean of the vertices' distances, the order of the p5.js engine.
 #include "lab/visibility/methods/painter.h"
 
 namespace edgewise::lab {

@@ -1,12 +1,13 @@
 // Reversed Z (Lapidous and Jiao, "Optimal depth buffer for low-cost graphics hardware", 1999): 1 near and 0
-// far, so that float's fine steps near 0 meet the distances that perspective squeezes together there.
+// far, so that the small steps of floats near 0 coincide with the far distances, which perspective
+// compresses.
 #include "lab/visibility/methods/depth_buffer.h"
 
 namespace edgewise::lab {
 
 namespace {
 
-// 1 - depth01, without the subtraction from 1 that would lose it all.
+// 1 - depth01, computed without the subtraction, which would cancel near the far plane.
 template <typename Real>
 Real reversed(Real view_z, const VisibilityScene& s) {
   const Real near_z = static_cast<Real>(s.near_z), far_z = static_cast<Real>(s.far_z);
@@ -43,7 +44,8 @@ const VisibilityMethod visibility_reversed_z{
     [](long double depth01) { return float_ulp(1.0L - depth01); },
     [](const VisibilityTriangle& t, const VisibilityScene& s) {
       const double nearest = std::min(std::min(t.view_z[0], t.view_z[1]), t.view_z[2]);
-      // far - view_z is rounded before it is scaled: near the far plane that costs steps of near / far.
+      // far - view_z is rounded before it is scaled, which near the far plane adds an error relative to near
+      // / far.
       return 16 * 0x1p-24 * magnification(t.screen) * (reversed(nearest, s) + s.near_z / s.far_z);
     }};
 
