@@ -1,4 +1,4 @@
-// The smallest scenes on which facing tests fail.
+// Small scenes on which facing methods fail.
 #include "lab/facing/facing.h"
 
 #include <array>
@@ -17,14 +17,14 @@ void add(FacingScene& scene, std::initializer_list<glm::vec3> polygon) {
   scene.positions.insert(scene.positions.end(), polygon);
 }
 
-// Seen from the origin along +z. Clockwise from outside.
+// The camera at the origin looks along +z. Faces are clockwise from outside.
 FacingScene box_beside_the_axis() {
   FacingScene scene;
   const auto v = [](int x, int y, int z) {
     return glm::vec3(x != 0 ? 2.5f : 1.5f, y != 0 ? 0.5f : -0.5f, z != 0 ? 4.5f : 3.5f);
   };
   add(scene,
-      {v(0, 0, 1), v(0, 0, 0), v(0, 1, 0), v(0, 1, 1)});  // normal (-1, 0, 0): seen, though its n.z is 0
+      {v(0, 0, 1), v(0, 0, 0), v(0, 1, 0), v(0, 1, 1)});  // normal (-1, 0, 0): visible although its n.z is 0
   add(scene, {v(1, 0, 0), v(1, 0, 1), v(1, 1, 1), v(1, 1, 0)});
   add(scene, {v(0, 0, 1), v(1, 0, 1), v(1, 0, 0), v(0, 0, 0)});
   add(scene, {v(0, 1, 0), v(1, 1, 0), v(1, 1, 1), v(0, 1, 1)});
@@ -40,7 +40,7 @@ FacingScene box_orthographic() {
   return scene;
 }
 
-// An arrowhead whose second corner is the notch: its first three vertices turn the wrong way.
+// An arrowhead whose second vertex is the notch: its first three vertices have the wrong orientation.
 FacingScene notch_second() {
   FacingScene scene;
   add(scene, {{-1.0f, 1.0f, 4.0f}, {0.0f, 0.25f, 4.0f}, {1.0f, 1.0f, 4.0f}, {0.0f, -1.0f, 4.0f}});
@@ -60,14 +60,17 @@ constexpr std::array kCases = {
                [] { return edge_on_faces(true, 2000, 2); }},
     FacingCase{"edge_on_orthographic", "the same under an orthographic camera",
                [] { return edge_on_faces(false, 2000, 2); }},
-    FacingCase{"polygons", "regular polygons all over the view",
+    FacingCase{"polygons", "regular polygons, spread over the view",
                [] { return polygons(Shape::regular, 500, 5); }},
-    FacingCase{"irregular_polygons", "polygons with reflex corners, now and then the second one",
+    FacingCase{"irregular_polygons", "polygons with reflex corners, some at the second vertex",
                [] { return polygons(Shape::irregular, 500, 6); }},
-    FacingCase{"bent_polygons", "polygons that are not planar: three vertices may lie",
+    FacingCase{"bent_polygons",
+               "non-planar polygons: the first three vertices may have the wrong orientation",
                [] { return polygons(Shape::bent, 500, 7); }},
-    FacingCase{"notch_second", "a concave polygon whose second vertex is its notch: three vertices lie",
-               notch_second},
+    FacingCase{
+        "notch_second",
+        "a concave polygon whose second vertex is its notch: the first three have the wrong orientation",
+        notch_second},
 };
 
 glm::vec3 unit_vector(Random& random) {
@@ -98,13 +101,13 @@ FacingScene tilted_faces(double tilt, bool perspective, std::size_t count, std::
   view.perspective = perspective;
   const auto sine = static_cast<float>(std::sin(tilt)), cosine = static_cast<float>(std::cos(tilt));
   constexpr float kRadius = 1.0f;
-  // So that the arc has the same place on the screen whatever the tilt's tangent.
+  // Keeps the arc at the same place on the screen for every tilt.
   view.focal_px = perspective ? 128.0f * cosine : 14.0f;
   const int side = 1 + static_cast<int>(2 * (128 * sine + 64));
   view.size = {side, side};
   Random random(seed);
   for (std::size_t i = 0; i < count; ++i) {
-    // A half turn about (1, 0) in the picture.
+    // A direction within 90 degrees of (1, 0) in the picture.
     glm::vec2 around = random.direction();
     around.x = std::abs(around.x);
     const glm::vec3 centre = random.uniform(8.0f, 10.0f) * glm::vec3(sine * around, cosine);

@@ -1,5 +1,5 @@
-// The registry of facing methods, the exact facts, and the score. A method is a file in facing_methods/ that
-// defines facing_NAME, and a line here.
+// The registry of facing methods, the exact facts, and the score. A method is a file in methods/ that defines
+// facing_NAME, and a line here.
 #include "lab/facing/facing.h"
 
 #include <gmpxx.h>
@@ -33,12 +33,12 @@ std::span<const FacingMethod> facing_methods() {
 
 namespace {
 
-// Pixels, or sub-units once snapped.
+// In pixels; snapped points are in sub-units.
 struct Point {
   mpq_class x, y;
 };
 struct SnappedPoint {
-  std::int64_t x, y;  // within the guard band, so that products of two differences fit
+  std::int64_t x, y;  // in the guard band, so that products of two differences fit
 };
 
 template <typename P>
@@ -86,8 +86,8 @@ std::int64_t sample(const SnappedPoint&, int pixel) {
   return contract::sample_sub(pixel);
 }
 
-// Where the edge from a to b, which is not horizontal, crosses a height; for pixels, all that counts of a
-// fraction of a sub-unit is that it is one.
+// The x at which the edge from a to b, which must not be horizontal, crosses height y. In sub-units it is
+// rounded up, which does not change first_pixel().
 mpq_class crossing(const Point& a, const Point& b, const mpq_class& y) {
   return a.x + (y - a.y) * (b.x - a.x) / (b.y - a.y);
 }
@@ -96,7 +96,7 @@ std::int64_t crossing(const SnappedPoint& a, const SnappedPoint& b, std::int64_t
   return a.x + n / d + (n % d != 0 && (n < 0) == (d < 0) ? 1 : 0);
 }
 
-// Even-odd rule along each row of samples; what lies between two crossings, the first included, is inside.
+// Even-odd rule along each row of samples: from an odd crossing, included, to the next one lies inside.
 template <typename P>
 bool covers_sample(std::span<const P> polygon, Size size) {
   auto top = polygon[0].y, bottom = polygon[0].y;
@@ -132,8 +132,8 @@ FaceSide side_of(std::span<const P> polygon, Size size) {
   return {sign(area) != 0 && covers_sample(polygon, size), sign(area) > 0, first_three != sign(area)};
 }
 
-// The signs are exact; these are measures of how close it was, for which long double does: 2^-64 against
-// bounds of 2^-24.
+// Orientations are exact. Long double suffices for the measures of how near a face is to edge-on: it rounds
+// to 2^-64, and the methods' bounds are multiples of 2^-24.
 using Real3 = glm::tvec3<long double>;
 
 void measure_rays(FaceFacts& facts, std::span<const glm::vec3> v, Real3 object, const FacingView& view) {
@@ -164,8 +164,8 @@ void measure_screen(FaceFacts& facts, std::span<const glm::vec3> v, std::span<co
     extent = std::max({extent, std::abs(p[i].x.get_d()), std::abs(p[i].y.get_d())});
   }
   facts.width_px = std::abs(cross(p[0], p[1], p[2]).get_d()) / longest;
-  // Three roundings a dot product, one a quotient, one a sum; each relative to the longest vector that takes
-  // part.
+  // Three roundings per dot product, one per quotient, one per sum; each relative to the longest vector
+  // involved.
   facts.rounding_px =
       0x1p-24 *
       (8 * double{view.focal_px} * reach * (view.perspective ? std::max(1.0, reach) : 1.0) + 2 * extent);

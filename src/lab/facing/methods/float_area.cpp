@@ -1,4 +1,4 @@
-// The sign of the projected area in float, before any snapping.
+// The sign of the projected area in float, before snapping.
 #include "lab/facing/methods/project.h"
 
 namespace edgewise::lab {

@@ -1,4 +1,4 @@
-// Normal times the ray to the mean of the vertices.
+// Dot product of the normal and the ray to the mean of the vertices.
 #include "lab/facing/methods/project.h"
 
 namespace edgewise::lab {

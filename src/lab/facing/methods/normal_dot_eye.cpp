@@ -1,4 +1,4 @@
-// World-space normal times the vector from the eye to the face: no projection needed.
+// Dot product of the world-space normal and the ray from the camera to a vertex: needs no projection.
 #include "lab/facing/methods/project.h"
 
 namespace edgewise::lab {

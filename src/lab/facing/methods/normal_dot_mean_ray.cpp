@@ -1,4 +1,4 @@
-// Normal times the mean of the directions in which the vertices are seen.
+// Dot product of the normal and the mean of the unit rays to the vertices.
 #include "lab/facing/methods/project.h"
 
 namespace edgewise::lab {

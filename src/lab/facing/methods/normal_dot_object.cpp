@@ -1,4 +1,4 @@
-// Normal times one direction for the whole object, as if it were far away.
+// Dot product of the normal and one ray for the whole object, as if the object were far away.
 #include "lab/facing/methods/project.h"
 
 namespace edgewise::lab {

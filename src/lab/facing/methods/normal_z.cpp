@@ -1,4 +1,4 @@
-// The sign of the z of the rotated normal, as if every ray ran along the view direction.
+// The sign of z of the rotated normal, as if every ray had the view direction.
 #include "lab/facing/methods/project.h"
 
 namespace edgewise::lab {

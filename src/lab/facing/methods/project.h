@@ -1,4 +1,4 @@
-// What the facing methods share: projection and normals in float, and the loop over faces.
+// Shared by the facing methods: projection and normals in float, and the loop over faces.
 #pragma once
 
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace edgewise::lab {
 
-// is_front(a, b, c) judges the first three vertices.
+// is_front(a, b, c) tests the first three vertices of a face.
 template <typename IsFront>
 void classify_each(const FacingScene& scene, std::span<std::uint8_t> front, IsFront&& is_front) {
   for (std::size_t i = 0; i < scene.faces.size(); ++i) {
@@ -33,18 +33,18 @@ class FloatProjector {
   glm::vec2 centre_px_;
 };
 
-// Outwards, of a face whose vertices are clockwise from outside.
+// The outward normal of a face whose vertices are clockwise from outside.
 inline glm::vec3 normal_of(glm::vec3 a, glm::vec3 b, glm::vec3 c) {
   return glm::cross(c - a, b - a);
 }
 
-// Rounding can turn the sign of a normal times a ray only where the face is that near to being seen edge-on.
+// Rounding can change the sign of the dot product of normal and ray only if FaceFacts::sine is at most this.
 inline double ray_rounding(const FaceFacts& face) {
   return 32 * 0x1p-24 * face.magnification;
 }
 
-// The methods that multiply a normal by its own ray are right in real arithmetic under perspective. Under an
-// orthographic camera the eye has no place, and they err by the tilt.
+// For methods that use a ray of the face itself: they are exact in real arithmetic under perspective. Under
+// an orthographic camera all rays are parallel, so they err by the tilt.
 inline bool ray_may_err(const FaceFacts& face, const FacingView& view) {
   return face.sine <= ray_rounding(face) + (view.perspective ? 0.0 : face.tilt_sine);
 }

@@ -1,4 +1,4 @@
-// Ours: the sign of the area that will be drawn, in integers (rule 2).
+// Ours: the sign of the snapped triangle's area, in integers (rule 2).
 #include "frontend/fixed.h"
 #include "lab/facing/methods/project.h"
 
@@ -23,7 +23,7 @@ const FacingMethod facing_snapped_area{
         return contract::signed_area(t) > 0;
       });
     },
-    // A vertex moves by at most sqrt(2) / 512 px, and so does the side opposite to it.
+    // Snapping moves a vertex, and the side opposite to it, by at most sqrt(2) / 512 px each.
     [](const FaceFacts& face, const FacingView&) {
       return face.width_px <= 1.0 / 128 + 4 * face.rounding_px;
     }};
