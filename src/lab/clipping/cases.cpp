@@ -1,4 +1,4 @@
-// The smallest scenes on which clipping fails.
+// Small scenes on which clipping methods fail.
 #include <algorithm>
 #include <array>
 #include <initializer_list>
@@ -10,7 +10,7 @@ namespace edgewise::lab {
 
 namespace {
 
-// The eye looks along -z and sees the image's height as 1 at distance 1.
+// The camera looks along -z; the image's height is 1 at distance 1.
 ClippingScene view(float near_z) {
   ClippingScene s{{}, {64, 48}};
   s.scene.meshes.resize(1);
@@ -72,22 +72,22 @@ ClippingScene over_the_screens_edges() {
   return s;
 }
 
-// Where on the screen, how far away.
-struct Place {
+// A point given by its screen position and its w.
+struct ScreenPoint {
   double x_px, y_px, w;
 };
 
-glm::vec3 unproject(const ClippingScene& s, Place p) {
-  const double scale = p.w / s.size.height;  // what view() sees at distance 1
+glm::vec3 unproject(const ClippingScene& s, ScreenPoint p) {
+  const double scale = p.w / s.size.height;  // of view(): height 1 at distance 1
   return glm::vec3(
       glm::dvec3((p.x_px - s.size.width / 2.0) * scale, (s.size.height / 2.0 - p.y_px) * scale, -p.w));
 }
 
-// Thin triangles that leave the screen far on both sides and cross a row of samples on it,
-// all on the grid of 1/256 px. Cut at the screen's edges and snapped again, they cross elsewhere or never.
+// Thin triangles on the grid of 1/256 px that leave the screen far on both sides and cross a row of samples
+// on it. If they are cut at the screen's edges and snapped again, they cross the row elsewhere or never.
 ClippingScene along_the_rows() {
   ClippingScene s = view(0.1f);
-  s.size = {128, 128};  // so that the places are floats
+  s.size = {128, 128};  // so that floats represent the positions exactly
   for (int i = 0; i < 15; ++i) {
     const double row = 8.5 + 8 * i, reach = 8192, rise = (i + 2) / 256.0, crossing = 64;
     add(s, {unproject(s, {crossing - reach, row - rise, 2}), unproject(s, {crossing + reach, row + rise, 2}),
@@ -96,7 +96,7 @@ ClippingScene along_the_rows() {
   return s;
 }
 
-// w runs from 1 to 10, and half of it, on the screen, lies outside.
+// w runs from 1 to 10; half of the road's projection lies outside the screen.
 ClippingScene road_from_the_side() {
   ClippingScene s = view(0.1f);
   s.size = {128, 96};
@@ -119,12 +119,14 @@ ClippingScene beyond_far() {
 }
 
 constexpr std::array kCases = {
-    ClippingCase{"in_view", "nothing to clip but at the screen's edges: everyone is right", in_view},
-    ClippingCase{"floor_behind_eye", "a floor that passes under the eye",
+    ClippingCase{"in_view", "nothing to clip except at the screen's edges: all methods are right", in_view},
+    ClippingCase{"floor_behind_eye", "a floor that passes under the camera",
                  [] { return floor_through_eye(0.1f); }},
     ClippingCase{"vertex_at_eye_plane", "vertices with w = 0", vertex_at_eye_plane},
-    ClippingCase{"quads_before_near", "quads at .03 and .06 before a near plane at 0.1", quads_before_near},
-    ClippingCase{"over_the_screens_edges", "150 triangles across the screen's edges", over_the_screens_edges},
+    ClippingCase{"quads_before_near", "quads at 0.03 and 0.06 in front of a near plane at 0.1",
+                 quads_before_near},
+    ClippingCase{"over_the_screens_edges", "150 triangles that cross the screen's edges",
+                 over_the_screens_edges},
     ClippingCase{"along_the_rows", "long edges nearly along rows of samples, far out on both sides",
                  along_the_rows},
     ClippingCase{"road_from_the_side", "a road from w = 1, beside the screen, to w = 10", road_from_the_side},
@@ -141,7 +143,7 @@ std::span<const ClippingCase> clipping_cases() {
 }
 
 ClippingScene outside_direction(int direction, bool reversed) {
-  const int index = direction < 13 ? direction : direction + 1;  // 13 is the one that is in
+  const int index = direction < 13 ? direction : direction + 1;  // 13 is inside on all axes
   const int right = index % 3 - 1, up = index / 3 % 3 - 1, away = index / 9 - 1;
   ClippingScene s = view(0.5f);
   s.cull_back = true;
@@ -149,11 +151,11 @@ ClippingScene outside_direction(int direction, bool reversed) {
   const float reach = std::max(distance, 3.0f);
   const glm::vec3 out(static_cast<float>(right) * 2.0f * reach + 0.2f,
                       static_cast<float>(up) * 1.7f * reach + 0.1f, -distance);
-  // The other two so that the triangle is never seen edge-on.
+  // The other two vertices, chosen so that the triangle is never edge-on.
   const float low = up == 0 ? -0.8f : 0.0f;
   const glm::vec3 a = right != 0 ? glm::vec3(0.1f, 0.9f, -4.0f) : glm::vec3(-1.1f, low - 0.3f, -4.0f);
   const glm::vec3 b = right != 0 ? glm::vec3(-0.2f, -1.0f, -3.5f) : glm::vec3(1.2f, low + 0.2f, -3.5f);
-  // The sign of the homogeneous determinant is the winding, also for what is behind the eye; down is -y.
+  // The sign of the homogeneous determinant is the winding, also for vertices behind the camera; down is -y.
   const bool front = glm::dot(glm::dvec3(a), glm::cross(glm::dvec3(b), glm::dvec3(out))) > 0;
   if (front != reversed)
     add(s, {a, b, out});

@@ -1,5 +1,5 @@
-// The registry of clipping methods, and the score. A method is a file in
-// clipping_methods/ that defines clipping_NAME, and a line here.
+// The registry of clipping methods, and the score. A method is a file in methods/ that defines clipping_NAME,
+// and a line here.
 #include "lab/clipping/clipping.h"
 
 #include <algorithm>
@@ -34,7 +34,8 @@ ClippingFrame::ClippingFrame(Size size)
 
 namespace {
 
-// Calls visit(x, y) for the sample and eight places around it, until it returns true; false if it never does.
+// Calls visit(x, y) for the sample and eight points around it until it returns true. Returns false if it
+// never does.
 template <typename Visit>
 bool around(int px, int py, Visit&& visit) {
   for (const int dx : {0, -1, 1})
@@ -45,8 +46,8 @@ bool around(int px, int py, Visit&& visit) {
   return false;
 }
 
-// How far out both ends of an edge lie, if it may cross the screen: where a rounding of one moves it. An edge
-// with one end at hand is held by that end.
+// The distance in px from the image's centre to the nearer end of an edge that may cross the screen, else 0.
+// Rounding the far ends moves the edge; a near end holds it in place.
 double reach_px(const ClipVertex& a, const ClipVertex& b, Size size) {
   const auto beyond = [&](double ax, double bx, int limit) {
     return (ax < 0 && bx < 0) || (ax > limit * double{a.w} && bx > limit * double{b.w});
@@ -78,7 +79,7 @@ bool promises(const ClippingMethod& method, const ClippingScene& scene) {
   });
 }
 
-// A place's error, of the distance that a depth stands for.
+// The error of the view distance that a depth encodes, as in ClippingScore::worst_distance.
 double distance_error(const ClippingScene& scene, std::uint32_t triangle, double stored01, double true01) {
   const double near_z = scene.scene.camera.near_z, far_z = scene.scene.camera.far_z;
   const glm::uvec3 t = scene.mesh().triangles[triangle];
@@ -89,7 +90,7 @@ double distance_error(const ClippingScene& scene, std::uint32_t triangle, double
   return std::abs(distance(stored01) - distance(true01)) / (farthest - nearest);
 }
 
-// What a method's picture is worth, pixel by pixel.
+// Scores a method's picture pixel by pixel.
 class Scorer {
  public:
   Scorer(const ClippingScene& scene, const ClippingTruth& truth) : scene_(scene), oracle_(*truth.oracle) {}
@@ -124,9 +125,9 @@ class Scorer {
       return false;
     });
     if (stored01 < low - 0x1p-20 || stored01 > high + 0x1p-20) ++score.wrong_depth;
-    const double nearest_place = std::clamp(stored01, low, high);
+    const double nearest01 = std::clamp(stored01, low, high);
     score.worst_distance =
-        std::max(score.worst_distance, distance_error(scene_, triangle, stored01, nearest_place));
+        std::max(score.worst_distance, distance_error(scene_, triangle, stored01, nearest01));
   }
 
   const ClippingScene& scene_;

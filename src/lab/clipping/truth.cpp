@@ -31,9 +31,9 @@ class Homogeneous {
       : Homogeneous(scene, vertex(scene, t.x), vertex(scene, t.y), vertex(scene, t.z)) {}
   int facing() const { return sign(det_); }
 
-  // 1 if the ray through a point of the screen hits the triangle between near and far, -1 if not. The edge
-  // functions are det times barycentric coordinates over w, so their sum is det / w, and w > 0 comes for
-  // free.
+  // 1 if the ray through a point of the screen hits the triangle between near and far, -1 if not, 0 if
+  // undecided or on a boundary. The edge functions are det times barycentric coordinates over w, so their sum
+  // is det / w, and w > 0 needs no test of its own.
   int hit(double x_px, double y_px, int front) const {
     int all = 1;
     for (const T& v : conditions(x_px, y_px)) {
@@ -42,7 +42,8 @@ class Homogeneous {
     }
     return all;
   }
-  // Whether one of the conditions, all linear on the screen, fails at all corners of a box, and so in it.
+  // Whether one of the conditions fails at all corners of a box. All are linear on the screen, so it then
+  // fails in the whole box.
   bool misses(const Box& box, int front) const {
     std::array<bool, 5> fails;
     fails.fill(true);
@@ -62,7 +63,7 @@ class Homogeneous {
 
  private:
   using Row = std::array<T, 3>;
-  // What must not have another sign than the triangle's facing.
+  // Values that must not have the sign opposite to the triangle's orientation.
   std::array<T, 5> conditions(double x_px, double y_px) const {
     const auto edge = [&](const Row& e) { return T(T(e[0] * T(x_px)) + T(e[1] * T(y_px)) + e[2]); };
     const T a = edge(edge_[0]), b = edge(edge_[1]), c = edge(edge_[2]), sum = T(a + b + c);
@@ -74,7 +75,7 @@ class Homogeneous {
         near_(scene.scene.camera.near_z),
         far_(scene.scene.camera.far_z) {}
 
-  // Pixels times w, and w.
+  // x and y in pixels times w, and w.
   static Row vertex(const ClippingScene& scene, unsigned index) {
     const glm::dvec3 v(scene.mesh().positions[index]);
     const T focal(focal_px(scene)), w(-v.z);
@@ -159,7 +160,7 @@ double ClippingOracle::depth01(std::uint32_t triangle, double x_px, double y_px)
 bool ClippingOracle::covers(std::uint32_t i, double x_px, double y_px) const {
   if (facing_[i] == 0 || (scene_.cull_back && facing_[i] < 0)) return false;
   const int guess = estimates_[i].hit(x_px, y_px, facing_[i]);
-  // A point exactly on an edge counts: which side it belongs to is a hairline matter.
+  // A point exactly on an edge counts as covered: its side is within hairline.
   return guess != 0 ? guess > 0 : Exact(scene_, scene_.mesh().triangles[i]).hit(x_px, y_px, facing_[i]) >= 0;
 }
 

@@ -1,4 +1,4 @@
-// The truth of clipping scenes, place by place: no plane is cut by anything.
+// The exact truth of clipping scenes at any point of the screen, computed without clipping.
 #pragma once
 
 #include <array>
@@ -15,24 +15,24 @@ struct Box {
   double x0, y0, x1, y1;  // px
 };
 
-// A triangle's homogeneous edge functions in whatever arithmetic T is: Ball, whose sign 0 means "cannot
-// tell", or rationals.
+// A triangle's homogeneous edge functions in the arithmetic of T: Ball, whose sign 0 means "undecided", or
+// rationals.
 template <typename T>
 class Homogeneous;
 
-// Which triangle shows at a place, and how far away it is. All signs are exact: balls decide most, rationals
-// the others. Triangles are sorted into tiles beforehand, by the same functions.
+// Finds the visible triangle at a point of the screen, and its depth. All signs are exact: balls decide most
+// of them, rationals the others. The constructor bins the triangles into tiles, by the same edge functions.
 class ClippingOracle {
  public:
   explicit ClippingOracle(const ClippingScene& scene);
   ~ClippingOracle();
 
-  // Places must lie in the image, less than half a pixel from a sample.
+  // The visible triangle or kNoTriangle. Points must lie in the image, less than half a pixel from a sample.
   std::uint32_t visible_at(double x_px, double y_px) const;
-  // Whether `visible_id` shows there; needs not look at others where one look rules it out. `other` is a good
-  // guess of what shows instead.
+  // Whether `triangle` (or kNoTriangle) is visible at the point. `other` is a guess of the visible triangle,
+  // which often answers without testing all triangles.
   bool shows(std::uint32_t triangle, std::uint32_t other, double x_px, double y_px) const;
-  // Between near and far, whatever else lies before it.
+  // Whether the triangle covers the point between near and far, occluded or not.
   bool covers(std::uint32_t triangle, double x_px, double y_px) const;
   double depth01(std::uint32_t triangle, double x_px, double y_px) const;
 

@@ -1,12 +1,11 @@
-// No near clipping: a triangle that has a vertex nearer than the near plane, or behind the eye, is left out
-// whole.
+// No near clipping: discards a triangle that has a vertex nearer than the near plane or behind the camera.
 #include "lab/clipping/methods/pipeline.h"
 
 namespace edgewise::lab {
 
 extern const ClippingMethod clipping_discard_behind;
 const ClippingMethod clipping_discard_behind{
-    {"discard_behind", "a triangle with a vertex before the near plane is left out", "many small engines",
+    {"discard_behind", "discards triangles that have a vertex before the near plane", "many small engines",
      "right where no vertex is nearer than the near plane", false},
     [](const ClippingScene& scene, ClippingFrame& frame) {
       draw_clipped(scene, frame, [&](const ClipVertex(&triangle)[3], std::uint32_t payload) {

@@ -1,5 +1,5 @@
-// Ours: the front end as it is. Near and far planes are clipped in homogeneous space, and so is what lies
-// beyond the guard band; the screen's edges are left to the backend, which never leaves the image.
+// Ours: the library's front end. Clips at the near and far planes and at the guard band, in homogeneous
+// space. The backend restricts triangles to the image.
 #include "lab/clipping/methods/pipeline.h"
 
 namespace edgewise::lab {
@@ -8,7 +8,7 @@ extern const ClippingMethod clipping_near_guard;
 const ClippingMethod clipping_near_guard{
     {"near_guard", "ours: near and far planes and guard band, in homogeneous space", "frontend/clip.h",
      "differences within 1/64 px, if no edge across the screen has both ends over 2^15 px out (2^18 where "
-     "the camera rounds no vertex); owners right if depths, from 0 to 1, are over 2^-22 apart: "
+     "the camera rounds no vertex); visible triangles right if depths, from 0 to 1, are over 2^-22 apart: "
      "z^2 / (2^22 near) at a distance z",
      true},
     [](const ClippingScene& scene, ClippingFrame& frame) {

@@ -1,5 +1,5 @@
-// Clipping at a tenth of the distance that the projection calls near: 0.01 under a near plane of 0.1. What
-// lies between has a depth below 0, which is clamped here and wraps elsewhere.
+// Clips at a tenth of the projection's near distance: at 0.01 for a near plane of 0.1. Points between have
+// depths below 0, which are clamped here; in other programs they wrap.
 #include "lab/clipping/methods/pipeline.h"
 
 namespace edgewise::lab {

@@ -1,4 +1,4 @@
-// No clipping at all: w is divided by, whatever its sign.
+// No clipping: divides by w whatever its sign.
 #include "lab/clipping/methods/pipeline.h"
 
 namespace edgewise::lab {

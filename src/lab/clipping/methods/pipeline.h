@@ -1,5 +1,5 @@
-// What the clipping methods share: transform, project, snap, draw. Every cast is guarded and what the guard
-// catches is counted.
+// Shared by the clipping methods: transform, project, snap, draw. Every conversion to an integer is guarded,
+// and values out of range are counted.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ inline double focal_px(const ClippingScene& s) {
   return s.size.height / 2.0 / std::tan(double{s.scene.camera.fov_y} / 2);
 }
 
-// World → pixels and depth, both times w, in float.
+// World position → pixels and depth, both times w, in float.
 class ToClip {
  public:
   explicit ToClip(const ClippingScene& s)
@@ -36,8 +36,8 @@ class ToClip {
   float focal_, half_width_, half_height_, near_, depth_scale_;
 };
 
-// Sutherland and Hodgman's step for one plane: keeps where distance >= 0; lerp(inside, outside, t) cuts. Both
-// arrays hold a vertex more than before.
+// Sutherland and Hodgman's clip at one plane: keeps vertices with distance >= 0; lerp(inside, outside, t)
+// makes the cut vertices. Returns the number of vertices in `to`, which needs room for one more than `from`.
 template <typename Vertex, typename Distance, typename Lerp>
 std::size_t cut(std::span<const Vertex> from, Vertex* to, Distance&& distance, Lerp&& lerp) {
   std::size_t kept = 0;
@@ -60,11 +60,11 @@ inline Projected divide(const ClipVertex& v) {
   return {v.x * inverse_w, v.y * inverse_w, v.z * inverse_w};
 }
 
-// Snaps a polygon and appends its fan; drops it if it has become NaN or infinite.
+// Snaps a polygon and appends it as a fan. Drops polygons with NaN or infinite coordinates, and counts them.
 inline void emit(std::span<const Projected> polygon, std::uint32_t payload, bool cull_back,
                  ClippingFrame& frame) {
   constexpr float kGuardPx = contract::kMaxImageSide;
-  // A cut vertex may miss its plane by a rounding.
+  // Rounding may put a cut vertex slightly outside its plane.
   constexpr float kSlackPx = 1.0f, kSlack01 = 1e-5f;
   for (const Projected& p : polygon) {
     if (!std::isfinite(p.x_px) || !std::isfinite(p.y_px) || !std::isfinite(p.z01)) {
@@ -96,8 +96,8 @@ inline void emit(std::span<const ClipVertex> polygon, std::uint32_t payload, boo
   emit(std::span<const Projected>(projected, polygon.size()), payload, cull_back, frame);
 }
 
-// The sides on which a vertex of the triangle lies; nothing if the triangle can be left out, because all its
-// vertices lie on one side together or one is not finite.
+// The sides on which vertices of the triangle lie. nullopt if the triangle draws nothing, because all its
+// vertices lie on the same side or one is not finite.
 inline std::optional<std::uint16_t> sides_of(const ClipVertex (&v)[3], Size size) {
   std::uint16_t sides[3];
   for (int i = 0; i < 3; ++i)

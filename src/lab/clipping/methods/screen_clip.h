@@ -1,12 +1,13 @@
-// Sutherland and Hodgman against the four edges of the screen, after near, far and projection.
+// Sutherland and Hodgman's clipping at the screen's four edges, after near and far clipping and projection.
 #pragma once
 
 #include "lab/clipping/methods/pipeline.h"
 
 namespace edgewise::lab {
 
-// Vertex: whatever is interpolated linearly on the screen, with x_px and y_px. project(clip_vertex) makes
-// one, lerp(inside, outside, t) cuts, and finish(vertex) says what is drawn.
+// Vertex holds x_px, y_px and the other values that are interpolated linearly on the screen.
+// project(clip_vertex) makes one, lerp(inside, outside, t) interpolates, and finish(vertex) converts it to
+// Projected.
 template <typename Project, typename Lerp, typename Finish>
 void draw_screen_clipped(const ClippingScene& scene, ClippingFrame& frame, Project&& project, Lerp&& lerp,
                          Finish&& finish) {

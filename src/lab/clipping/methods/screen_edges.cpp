@@ -1,5 +1,5 @@
-// Sutherland and Hodgman against the four edges of the screen, after projection: the new vertices are snapped
-// again, and so move the edges they lie on.
+// Sutherland and Hodgman's clipping at the screen's four edges, after projection. The new vertices are
+// snapped, which moves the edges on which they lie.
 #include "lab/clipping/methods/screen_clip.h"
 
 namespace edgewise::lab {

@@ -1,5 +1,5 @@
-// The same for a vertex that still carries its distance: on the screen 1 / w is linear and w is not, so a new
-// vertex gets the wrong one, as it gets any other attribute wrong that was not divided by w.
+// screen_edges for vertices that carry w: on the screen 1 / w is linear and w is not, so a new vertex gets a
+// wrong w. The same happens to any other attribute that was not divided by w.
 #include "lab/clipping/methods/screen_clip.h"
 
 namespace edgewise::lab {
