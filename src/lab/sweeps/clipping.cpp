@@ -1,4 +1,4 @@
-// Clipping: how near the near plane is, and how near to the eye a vertex.
+// Clipping sweeps: the distance of the near plane, and the distance of a vertex from the camera's plane.
 #include <cmath>
 
 #include "lab/clipping/clipping.h"
@@ -31,7 +31,8 @@ Measured measure_near_plane(double near_z, bool) {
   return measure_scene(scene);
 }
 
-// A floor and a wall beside the eye, triangles one vertex of which comes up to the eye's plane.
+// Triangles as a floor and a wall beside the camera, each with one vertex at distance w from the camera's
+// plane.
 Measured measure_vertex_w(double w, bool) {
   ClippingScene s{{}, kSize};
   Mesh& mesh = s.scene.meshes.emplace_back();
@@ -51,7 +52,7 @@ Measured measure_vertex_w(double w, bool) {
 Sweep make_sweep_near_plane() {
   return {"near_plane",
           Family::clipping,
-          "a floor under the eye, through a wall at 10: float depths run out of steps",
+          "a floor under the camera, through a wall at 10: float depths become too coarse",
           {"near plane's distance", "", true},
           kWrongPixels,
           0.2,
@@ -62,7 +63,7 @@ Sweep make_sweep_near_plane() {
 Sweep make_sweep_vertex_w() {
   return {"vertex_w",
           Family::clipping,
-          "a floor and a wall with a vertex near the eye's plane; near 0.1",
+          "a floor and a wall with a vertex near the camera's plane; near 0.1",
           {"w of the vertex", "", true},
           kWrongPixels,
           0.1,

@@ -1,4 +1,4 @@
-// Coverage: how far from the origin, how thin, how large, how tall.
+// Coverage sweeps: distance from the origin, aspect, size and height of triangles.
 #include "lab/sweeps/coverage.h"
 
 #include <algorithm>
@@ -53,10 +53,10 @@ FloatTriangle flat(const glm::vec2 (&corner)[3]) {
   return t;
 }
 
-// A float's last place is 1/256 px at 2^15 px and 1/8 px at 2^20 px: vertices stay on the grid, wherever.
+// An ulp is 1/256 px at 2^15 px and 1/8 px at 2^20 px, so vertices stay on the grid at every distance.
 Measured measure_distance(double distance, bool quick) {
   Measured sums(coverage_methods().size());
-  // Cells so small that float products are exact near the origin.
+  // Cells are so small that float products are exact near the origin.
   constexpr double kCellPx = 8;
   const int corner = static_cast<int>(distance);
   for (std::uint64_t seed = 1; seed <= (quick ? 4 : 64); ++seed)
@@ -65,13 +65,13 @@ Measured measure_distance(double distance, bool quick) {
   return sums;
 }
 
-// Pairs of triangles side by side; each shares a long edge with the next.
+// Pairs of triangles side by side; each pair shares a long edge with the next.
 struct Strip {
-  double length_px, width_px;  // of a pair, upwards and across
-  double skew_px;              // how far across the lower end is moved
+  double length_px, width_px;  // of a pair, along and across
+  double skew_px;              // offset of the lower end across
   static constexpr int kPairs = 6;
 
-  // Upright, or mirrored at the image's diagonal: lying.
+  // Vertical strips, or horizontal ones (`lying`), mirrored at the image's diagonal.
   std::vector<FloatTriangle> triangles(bool lying, Random& random) const {
     const double left = 2.0 + double{random.uniform(0, 1)}, top = 1.0 + double{random.uniform(0, 1)};
     const auto corner = [&](int edge, bool low) {
@@ -94,8 +94,9 @@ struct Strip {
   int width() const { return static_cast<int>(kPairs * width_px + skew_px) + 8; }
 };
 
-// Upright and lying strips in pictures that hold them, so that what accumulates along them is seen; diagonal
-// ones, whose products need the most bits, in three bands of rows, since their boxes are large.
+// Vertical and horizontal strips in pictures that contain all of them, to see errors that accumulate along
+// edges. Diagonal strips, whose products need the most bits, in three bands of rows only, since their boxes
+// are large.
 void add_strips(Measured& sums, double length_px, double width_px, int count, std::uint64_t seed) {
   Random random(seed);
   for (int i = 0; i < count; ++i) {
@@ -117,7 +118,7 @@ int strip_count(double length_px, bool quick) {
   return quick ? few : 8 * few;
 }
 
-// 16 px wide and as long as that needs, up to 4096 px; beyond that thinner, down to 1/256 px.
+// Strips 16 px wide with a length up to 4096 px; for higher aspects the width shrinks down to 1/256 px.
 Measured measure_aspect(double aspect, bool quick) {
   constexpr double kWidthPx = 16, kLongestPx = 4096;
   Measured sums(coverage_methods().size());
@@ -133,7 +134,7 @@ Measured measure_height(double rows, bool quick) {
   return sums;
 }
 
-// Squares of two right triangles, whole-numbered and off by a fraction; bands of rows see enough of them.
+// Squares of two right triangles, at whole pixels and at a fractional offset, in three bands of rows.
 Measured measure_legs(double legs, bool) {
   Measured sums(coverage_methods().size());
   constexpr int kRows = 24;
@@ -185,7 +186,7 @@ Sweep make_sweep_legs() {
 Sweep make_sweep_height() {
   return {"height",
           Family::coverage,
-          "long shared edges, on the 1/256 px grid: what accumulates drifts",
+          "long shared edges, on the 1/256 px grid: accumulated values drift",
           {"length of the edges", "px", true},
           kErrorsPerCrossing,
           5,

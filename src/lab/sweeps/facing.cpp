@@ -1,4 +1,4 @@
-// Facing: how far off the axis a face is seen, and how near to edge-on.
+// Facing sweeps: the tilt of the rays to the faces, and how near the faces are to edge-on.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -17,7 +17,8 @@ namespace {
 
 constexpr YAxis kMisjudged{"misjudged faces, %", false, 100};
 
-// The first method judges the exact sign of the snapped positions: all that it gets wrong is snapping.
+// The first method computes the exact orientation of the snapped positions, so all its errors come from
+// snapping.
 Measured measure_scene(const FacingScene& scene) {
   const auto methods = facing_methods();
   const auto facts = facing_facts(scene);
@@ -34,8 +35,8 @@ Measured measure_tilt(double degrees, bool perspective, bool quick) {
   return measure_scene(tilted_faces(degrees * std::numbers::pi / 180, perspective, quick ? 2000 : 40000, 1));
 }
 
-// Triangles of some 80 px that are `height_px` high on the screen, at random distances and places, with a
-// sample in them or on their edge.
+// Triangles about 80 px long and `height_px` high on the screen, at random distances and positions, each with
+// a sample inside or on an edge.
 Measured measure_edge_on(double height_px, bool quick) {
   FacingScene scene;
   const FacingView& view = scene.view;
@@ -90,7 +91,7 @@ Sweep make_sweep_tilt_orthographic() {
 Sweep make_sweep_edge_on() {
   return {"edge_on",
           Family::facing,
-          "triangles that are nearly edge-on and still own a pixel",
+          "triangles that are nearly edge-on and still cover a sample",
           {"height on the screen", "px", true},
           kMisjudged,
           11,

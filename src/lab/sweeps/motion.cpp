@@ -1,4 +1,4 @@
-// Coverage in motion: what flickers as a mesh moves slowly, and whether it stays watertight.
+// Coverage in motion: pixels that flicker while a mesh moves slowly, and whether the mesh stays watertight.
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +11,7 @@ Sweep make_sweep_translation();
 
 namespace {
 
-// A window into the middle of a mesh.
+// A window onto the middle of a mesh.
 struct View {
   int window_px, margin_px;
   double cell_px;
@@ -23,7 +23,7 @@ struct View {
   }
 };
 
-using Picture = std::vector<std::uint32_t>;  // one triangle a pixel; the first that is drawn there
+using Picture = std::vector<std::uint32_t>;  // per pixel the first triangle drawn there, or kNoTriangle
 
 Picture picture_of(std::span<const Run> runs, Window window) {
   Picture picture(static_cast<std::size_t>(window.width * window.height), kNoTriangle);
@@ -36,7 +36,7 @@ Picture picture_of(std::span<const Run> runs, Window window) {
   return picture;
 }
 
-// How often each pixel changes from one frame to the next.
+// Counts how often each pixel changes from one frame to the next.
 class Changes {
  public:
   void add(Picture picture) {
@@ -88,7 +88,8 @@ Measured measure_pan(double speed_px, bool quick) {
   return result;
 }
 
-// Pixels that are not drawn exactly once. The window goes along by whole pixels, so that the mesh covers it.
+// The number of pixels that are not drawn exactly once. The mesh covers the whole window, which moves with it
+// by whole pixels.
 std::uint64_t not_once(std::span<const Run> runs, Window window) {
   const auto hits = hits_of(runs, window);
   return static_cast<std::uint64_t>(
@@ -98,7 +99,7 @@ std::uint64_t not_once(std::span<const Run> runs, Window window) {
 Measured measure_translation(double step_px, bool quick) {
   const auto methods = coverage_methods();
   constexpr View kView{256, 48, 88.0};
-  constexpr int kPlaces = 4;  // so coarse that samples lie on edges
+  constexpr int kPlaces = 4;  // a grid so coarse that samples lie on edges
   Measured sums(methods.size());
   std::vector<Run> runs;
   for (int frame = 0; frame < (quick ? 8 : 256); ++frame) {

@@ -1,4 +1,4 @@
-// The list of sweeps. A new one is a function make_sweep_NAME() in one of the files sweeps_*.cpp, and a line
+// The registry of sweeps. A sweep is a function make_sweep_NAME() in one of this folder's files, and a line
 // here.
 #include "lab/sweeps/sweeps.h"
 
@@ -79,7 +79,7 @@ std::vector<double> powers_of_two(int from, int to) {
 }
 
 std::vector<double> decades(int from, int to) {
-  // Quotients of exact numbers, so that 0.002 is the double that is written so.
+  // Quotients of exact numbers are correctly rounded, so that 0.002 equals the literal.
   const auto place = [](int digit, int exponent) {
     double power = 1.0;
     for (int i = 0; i < std::abs(exponent); ++i) power *= 10.0;

@@ -1,5 +1,5 @@
-// Stability: one thing about a scene is turned from easy to hard, and every method of a family is counted at
-// each place. Where does each start to fail?
+// Stability sweeps: one parameter of a scene goes from easy to hard. At each position the errors of every
+// method of a family are counted, which shows where each method starts to fail.
 #pragma once
 
 #include <cstdint>
@@ -20,13 +20,13 @@ struct Tally {
   bool operator==(const Tally&) const = default;
 };
 
-// One place of a sweep.
+// The counts at one position of a sweep.
 struct Measured {
   explicit Measured(std::size_t method_count) : methods(method_count) {}
 
   std::vector<Tally> methods;  // in the order of the family's registry
-  // What the rounding of positions to 1/256 px costs by itself, where the truth knows the unrounded ones: a
-  // method fails where it makes more errors than that.
+  // The errors of exact methods on positions rounded to 1/256 px, if the truth uses the unrounded ones. A
+  // method fails where it makes more errors than these.
   std::uint64_t by_snapping = 0;
 };
 
@@ -46,22 +46,22 @@ struct Sweep {
   std::string_view idea;  // one line
   XAxis x;
   YAxis y;
-  double cost;                 // seconds of one core, roughly: for estimates of the time left
-  std::vector<double> places;  // on the x axis, from easy to hard
-  // All methods at one place, from the same scenes; `quick`: fewer of them. Deterministic; called from
-  // several threads at once.
+  double cost;                 // estimated seconds on one core, for estimates of the remaining time
+  std::vector<double> places;  // positions on the x axis, from easy to hard
+  // Scores all methods at one position on the same scenes, on fewer if `quick`. Deterministic and
+  // thread-safe.
   Measured (*measure)(double place, bool quick);
 };
 
 std::span<const Sweep> sweeps();
-// Throws std::invalid_argument, with the nearest known name, for an unknown one.
+// Throws std::invalid_argument for an unknown name; the message suggests the nearest known one.
 const Sweep& find_sweep(std::string_view name);
 
 struct SweepResult {
   const Sweep* sweep;
-  std::vector<Measured> at;  // one a place
+  std::vector<Measured> at;  // one per position
 
-  // The first place where a method makes more errors than snapping does by itself.
+  // The first position where a method makes more errors than snapping alone; nullopt if there is none.
   std::optional<double> starts_to_fail(std::size_t method) const;
   bool fails(std::size_t method, std::size_t place) const {
     return at[place].methods[method].errors > at[place].by_snapping;
@@ -69,12 +69,12 @@ struct SweepResult {
   double y(const Tally& tally) const;
 };
 
-// `on_place` is called after each place, by one thread at a time.
+// Calls `on_place` after each position, from one thread at a time.
 SweepResult run_sweep(const Sweep& sweep, bool quick, int threads, const std::function<void()>& on_place);
 
-// For the x axis: 2^from, 2^(from ± 1), … 2^to.
+// Positions for the x axis: 2^from, 2^(from ± 1), … 2^to.
 std::vector<double> powers_of_two(int from, int to);
-// 10^from … 10^to, up or down, with the places 2 and 5 between.
+// Positions 1, 2, 5 times powers of ten, from 10^from to 10^to, ascending or descending.
 std::vector<double> decades(int from, int to);
 
 }  // namespace edgewise::lab

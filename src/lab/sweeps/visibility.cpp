@@ -1,4 +1,4 @@
-// Visibility: how near two planes may lie, how many bars make a cycle, how thin a triangle's depth plane is.
+// Visibility sweeps: the distance between two planes, the number of bars in a cycle, the width of slivers.
 #include <cmath>
 #include <numbers>
 
@@ -14,7 +14,7 @@ Sweep make_sweep_sliver_depth();
 
 namespace {
 
-constexpr YAxis kWrongTriangles{"wrong owners per 10^6 covered pixels", true, 1e6};
+constexpr YAxis kWrongTriangles{"wrong visible triangles per 10^6 covered pixels", true, 1e6};
 
 template <typename Errors>
 Measured measure_scene(const VisibilityScene& scene, Errors&& errors) {
@@ -22,7 +22,7 @@ Measured measure_scene(const VisibilityScene& scene, Errors&& errors) {
   const auto visible = true_visible_triangles(scene);
   Measured result(methods.size());
   for (std::size_t i = 0; i < methods.size(); ++i) {
-    // All draw the same snapped positions, so what snapping costs is left to the sweeps of coverage.
+    // All methods draw the same snapped positions; the coverage sweeps measure the errors of snapping.
     const VisibilityScore s = score(methods[i], scene, visible).snapped;
     result.methods[i] = {errors(s), s.covered};
   }
@@ -34,8 +34,8 @@ Measured measure_separation(double distance, double separation) {
                        [](const VisibilityScore& s) { return s.wrong_triangle; });
 }
 
-// Bars laid round a ring, each broad and near the eye where it starts, over the far tip of the one before it.
-// With one or two the ring is open.
+// Bars around a ring. Each is broad and near the camera at its start, where it occludes the far tip of the
+// previous one. With one or two bars the ring is open.
 VisibilityScene ring_of_bars(int bars) {
   constexpr float kNear = 2, kFar = 4;
   const double step = 2 * std::numbers::pi / std::max(bars, 3);
@@ -45,7 +45,7 @@ VisibilityScene ring_of_bars(int bars) {
   Mesh& mesh = scene.meshes.emplace_back();
   scene.instances.emplace_back();
   for (int bar = 0; bar < bars; ++bar) {
-    // Angles in steps from bar to bar. Down the screen is -y.
+    // Angles in units of the step from bar to bar. Down the screen is -y.
     const auto add = [&](double angle, float radius, float z) {
       const auto turn = static_cast<float>((bar + angle) * step);
       mesh.positions.push_back(z * glm::vec3(radius * std::cos(turn), -radius * std::sin(turn), -1.0f));
@@ -97,7 +97,7 @@ Sweep make_sweep_separation_at_100() {
 Sweep make_sweep_cycle() {
   return {"cycle",
           Family::visibility,
-          "bars, each over the end of the one before it; from three on in a cycle",
+          "bars, each in front of the end of the previous one; three or more form a cycle",
           {"bars", "", false},
           kWrongTriangles,
           0.1,
@@ -108,9 +108,9 @@ Sweep make_sweep_cycle() {
 Sweep make_sweep_sliver_depth() {
   return {"sliver_depth",
           Family::visibility,
-          "slivers: owners, and depths outside the triangle's own range",
+          "slivers: visible triangles, and depths outside the triangle's own range",
           {"length over width", "", true},
-          {"wrong owners and depths per 10^6 covered pixels", true, 1e6},
+          {"wrong triangles and depths per 10^6 covered pixels", true, 1e6},
           0.4,
           decades(1, 5),
           measure_sliver_depth};
