@@ -64,13 +64,10 @@ constexpr std::array kCases = {
                [] { return polygons(Shape::regular, 500, 5); }},
     FacingCase{"irregular_polygons", "polygons with reflex corners, some at the second vertex",
                [] { return polygons(Shape::irregular, 500, 6); }},
-    FacingCase{"bent_polygons",
-               "non-planar polygons: the first three vertices may have the wrong orientation",
+    FacingCase{"bent_polygons", "polygons that are not planar: three vertices may mislead",
                [] { return polygons(Shape::bent, 500, 7); }},
-    FacingCase{
-        "notch_second",
-        "a concave polygon whose second vertex is its notch: the first three have the wrong orientation",
-        notch_second},
+    FacingCase{"notch_second", "a concave polygon with its notch at vertex 2: vertices 1 to 3 mislead",
+               notch_second},
 };
 
 glm::vec3 unit_vector(Random& random) {

@@ -97,7 +97,7 @@ Sweep make_sweep_separation_at_100() {
 Sweep make_sweep_cycle() {
   return {"cycle",
           Family::visibility,
-          "bars, each in front of the end of the previous one; three or more form a cycle",
+          "bars, each over the end of the previous one; three or more form a cycle",
           {"bars", "", false},
           kWrongTriangles,
           0.1,

@@ -119,12 +119,11 @@ VisibilityScene front_to_back() {
 }
 
 constexpr std::array kCases = {
-    VisibilityCase{"back_to_front", "disjoint in depth and submitted back to front: all methods are right",
+    VisibilityCase{"back_to_front", "disjoint in depth, submitted back to front: all methods are right",
                    back_to_front},
     VisibilityCase{"front_to_back", "the same, submitted front to back", front_to_back},
     VisibilityCase{"floor_under_box", "a floor from z = 1 to 100 under a box at z = 60", floor_under_box},
-    VisibilityCase{"pentagon_under_wall",
-                   "a pentagon that is nearer than a wall only by the mean of its corners",
+    VisibilityCase{"pentagon_under_wall", "a pentagon nearer than a wall only by the mean of its corners",
                    pentagon_under_wall},
     VisibilityCase{"bent_quad", "a non-planar quad with one corner behind another quad", bent_quad},
     VisibilityCase{"bars_in_a_cycle", "three bars, each in front of the end of the previous one",
