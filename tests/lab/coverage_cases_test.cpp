@@ -1,4 +1,4 @@
-// The smallest scenes of coverage show what they are said to show.
+// The small coverage scenes show the failures for which they were made.
 #include <gtest/gtest.h>
 
 #include "lab/coverage_support.h"
@@ -61,7 +61,7 @@ TEST(CoverageCases, LegsOf182PixelsWrap32Bits) {
   EXPECT_EQ(against_grid("fixed_8_int32", legs).missing, legs.by_grid.covered);
 }
 
-// Of pictures so large, a few rows at the top, where the legs are widest.
+// Scores only a few rows at the top, where the triangles are widest, since the pictures are large.
 TEST(CoverageCases, LegsOf2897PixelsWrap32BitsWithFourSubpixelBits) {
   const auto legs = [](float px) {
     return std::vector<FloatTriangle>{{{{0, px, 0}, {0, 0, px}, {0.5f, 0.5f, 0.5f}}, 1}};

@@ -1,5 +1,5 @@
-// What the tests of truths and of coverage methods share: float triangles that are hard to judge, and
-// pictures together with their truths.
+// Shared by the tests of truths and coverage methods: float triangles that are hard to decide, and pictures
+// together with their truths.
 #pragma once
 
 #include <algorithm>
@@ -49,7 +49,7 @@ inline std::vector<lab::FloatTriangle> hard_floats(std::string_view family, int 
         x = t.x_px[0] + random.uniform(-0.02f, 0.02f);
         y = t.y_px[0] + random.uniform(-0.02f, 0.02f);
       }
-      if (family == "in-a-row" && i == 2) {  // without area, but for the rounding
+      if (family == "in-a-row" && i == 2) {  // no area except by rounding
         const float along = random.uniform(-0.5f, 1.5f);
         x = t.x_px[0] + along * (t.x_px[1] - t.x_px[0]);
         y = t.y_px[0] + along * (t.y_px[1] - t.y_px[0]);
@@ -62,7 +62,7 @@ inline std::vector<lab::FloatTriangle> hard_floats(std::string_view family, int 
   return triangles;
 }
 
-// The same triangles as floats; their coordinates are exact.
+// Converts screen triangles to floats, which represent their coordinates exactly.
 inline std::vector<lab::FloatTriangle> as_floats(std::span<const ScreenTriangle> triangles) {
   std::vector<lab::FloatTriangle> floats(triangles.size());
   for (std::size_t i = 0; i < triangles.size(); ++i) {

@@ -40,8 +40,8 @@ TEST(Facing, EveryMethodKeepsItsPromiseAndFailsOnFloatInputSomewhere) {
   for (const auto& m : facing_methods()) EXPECT_GT(wrong[m.info.name], 0u) << m.info.name;
 }
 
-// Ours judges what is drawn. Where it misjudges a face against the positions before snapping, that face is
-// snapped to its other side, or a polygon's first three vertices lie.
+// Ours tests the snapped triangle. If it misjudges a face against the float truth, snapping has flipped that
+// face, or the polygon's first three vertices have another orientation than the polygon.
 TEST(Facing, OursIsTheSignOfTheSnappedAreaOnEveryScene) {
   std::uint64_t turned = 0;
   for (const auto& c : facing_cases()) {
@@ -60,7 +60,7 @@ TEST(Facing, OursIsTheSignOfTheSnappedAreaOnEveryScene) {
   EXPECT_GT(turned, 0u);
 }
 
-// The other way round: a sign taken before snapping is wrong about what snapping turns.
+// Conversely, a sign computed before snapping is wrong for faces that snapping flips.
 TEST(Facing, TheSignBeforeSnappingIsWrongAboutWhatIsDrawn) {
   const FacingScene scene = make_case("edge_on");
   const auto facts = facing_facts(scene);
@@ -96,7 +96,7 @@ TEST(Facing, TheNormalsZErrsByTheTiltOver180Degrees) {
     EXPECT_NEAR(static_cast<double>(perspective.misclassified) / static_cast<double>(perspective.faces), rate,
                 spread + 0.01);
     EXPECT_EQ(judge("normal_z", tilted_faces(tilt, false, 500, 7)).misclassified, 0u);
-    // And the other way round.
+    // Conversely for rays.
     EXPECT_EQ(judge("normal_dot_eye", tilted_faces(tilt, true, 500, 7)).misclassified, 0u);
     const auto orthographic = judge("normal_dot_eye", tilted_faces(tilt, false, 3000, 7));
     EXPECT_NEAR(static_cast<double>(orthographic.misclassified) / static_cast<double>(orthographic.faces),
@@ -116,7 +116,7 @@ TEST(Facing, TheProjectedAreaHasTheSignOfTheSideTheEyeIsOn) {
   }
 }
 
-// An object that spreads over the view has no one direction.
+// For an object that fills the view, no single ray fits all faces.
 TEST(Facing, OneRayForTheWholeObjectIsWrongUnderEitherCamera) {
   for (const bool perspective : {true, false}) {
     const auto s = judge("normal_dot_object", tilted_faces(0.5, perspective, 2000, 7));
@@ -125,8 +125,8 @@ TEST(Facing, OneRayForTheWholeObjectIsWrongUnderEitherCamera) {
   EXPECT_EQ(judge("normal_dot_object", tilted_faces(0, true, 2000, 7)).misclassified, 0u) << "all on one ray";
 }
 
-// Quads, pentagons and more: convex and planar ones are judged by any three vertices; of the others, all that
-// methods get wrong beyond what they get wrong of triangles are those whose first three lie.
+// Any three vertices determine the orientation of a convex planar polygon. For other polygons, methods make
+// additional errors only where the first three vertices have another orientation than the polygon.
 TEST(Facing, PolygonsAreJudgedByTheirFirstThreeVertices) {
   for (const auto shape : {Shape::regular, Shape::irregular, Shape::bent}) {
     const FacingScene scene = polygons(shape, 2000, 8);
@@ -154,8 +154,8 @@ TEST(Facing, PolygonsAreJudgedByTheirFirstThreeVertices) {
   }
 }
 
-// Its first three vertices are one of its two triangles; the other one, larger on the screen, looks the other
-// way.
+// The first three vertices are one of the quad's two triangles; the other one is larger on the screen and has
+// the opposite orientation.
 TEST(Facing, AQuadThatIsNotPlanarMayTurnTheOtherWay) {
   FacingScene scene;
   scene.positions = {{-1, 0, 4}, {0, 0.5f, 4}, {1, 0, 4}, {0, 1, 6}};

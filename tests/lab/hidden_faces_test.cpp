@@ -1,5 +1,5 @@
-// Hidden faces dropped by their normals in the benchmark: what is left of a scene, and how wrong its picture
-// is.
+// Dropping hidden faces by their normals in the benchmark: the faces that remain, and the errors of the
+// picture.
 #include "lab/hidden_faces.h"
 
 #include <gtest/gtest.h>
@@ -75,7 +75,8 @@ TEST(HiddenFaces, AreMoreThanTheWindingsUnderPerspective) {
 }
 
 TEST(HiddenFaces, AreJudgedOnceByTheirFirstThreeVerticesAndStayIfTwoSided) {
-  // The second half of each lies on the first, folded along their diagonal: it faces the other way.
+  // Each quad is folded along its diagonal, so that the second half lies on the first and faces the other
+  // way.
   Mesh mesh{{{0, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0.2f, 0.9f, 0}}, {}, {}};
   const auto add = [&](glm::uvec4 corners, std::uint32_t colour, bool two_sided) {
     mesh.add_quad(corners, colour, two_sided);

@@ -1,4 +1,5 @@
-// What the tests of the laboratory's families share: looking up by name, and the folder against the registry.
+// Shared by the tests of the laboratory's families: lookup by name, and a check of the registry against the
+// folder.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The sweeps against what is known of where methods fail.
+// Checks the sweeps against known points at which methods fail.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ SweepResult swept(std::string_view name, int threads = 2) {
   return run_sweep(find_sweep(name), true, threads, [] {});
 }
 
-// What a sweep found of one method.
+// A sweep's results for one method.
 struct Found {
   Found(const SweepResult& result, std::string_view method) : result_(result) {
     const auto methods = methods_of(result.sweep->family);
@@ -37,7 +37,7 @@ struct Found {
   const Tally& at(double place) const {
     const auto& places = result_.sweep->places;
     const auto found = std::find(places.begin(), places.end(), place);
-    if (found == places.end()) throw std::invalid_argument("no place " + std::to_string(place));
+    if (found == places.end()) throw std::invalid_argument("no position " + std::to_string(place));
     return result_.at[static_cast<std::size_t>(found - places.begin())].methods[index_];
   }
 
@@ -221,7 +221,7 @@ TEST(VisibilitySweeps, FewerBitsFailAtLargerSeparations) {
     const auto start = [&](std::string_view method) { return Found(separation, method).start().value(); };
     EXPECT_GT(start("unorm16"), 50 * start("unorm24")) << name;
     EXPECT_GT(start("unorm24"), 10 * start("reversed_z")) << name;
-    // Ours has its depths from the front end's floats, and so fails where those do.
+    // Our vertex depths are the front end's floats, so ours fails where those do.
     EXPECT_EQ(start("contract31"), start("float_z")) << name;
     EXPECT_EQ(start("submission_order"), separation.sweep->places.front()) << name;
   }
@@ -277,7 +277,7 @@ TEST(FacingSweeps, SnappingTurnsFacesOfASubUnitAndFloatsMuchThinnerOnes) {
 TEST(ClippingSweeps, AVertexBeforeTheNearPlaneBreaksAllButClipping) {
   const SweepResult vertex = swept("vertex_w");
   for (const auto method : {"near_too_near", "discard_behind", "none"})
-    EXPECT_EQ(Found(vertex, method).start(), 0.05) << method << ": the first place below 0.1";
+    EXPECT_EQ(Found(vertex, method).start(), 0.05) << method << ": the first position below 0.1";
   for (const auto method : {"near_guard", "screen_edges"})
     EXPECT_EQ(Found(vertex, method).start(), std::nullopt) << method;
 }

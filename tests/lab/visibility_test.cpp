@@ -1,4 +1,5 @@
-// The visibility methods: their promises, their failures, and where each depth format gives up.
+// The visibility methods: their promises, their failures, and the depth separation at which each format
+// fails.
 #include "lab/visibility/visibility.h"
 
 #include <gtest/gtest.h>
@@ -80,7 +81,7 @@ TEST(Visibility, NoOrderPaintsACycleOrAnIntersectionButDepthDoes) {
   }
 }
 
-// The promise of one is broken by another: that is how it is seen to be judged.
+// Gives one method another method's promise, to check that the score detects a broken promise.
 TEST(Visibility, OrdersAreHeldToTheirPromises) {
   const VisibilityScene scene = make_case("front_to_back");
   const auto visible = true_visible_triangles(scene);
@@ -91,7 +92,7 @@ TEST(Visibility, OrdersAreHeldToTheirPromises) {
   EXPECT_GT(s.broken, 0u);
   EXPECT_EQ(s.broken, s.snapped.wrong_triangle) << "all depth ranges are apart";
 
-  const VisibilityScene floor = make_case("floor_under_box");  // the box is submitted last, and hidden
+  const VisibilityScene floor = make_case("floor_under_box");  // the box is submitted last, and occluded
   VisibilityMethod mean = method("painter_mean");
   mean.may_occlude = method("submission_order").may_occlude;
   EXPECT_GT(score(mean, floor, true_visible_triangles(floor)).broken, 0u);
@@ -145,7 +146,7 @@ TEST(Visibility, DepthFormatsSeparateWhatTheFormulaSays) {
   }
 }
 
-// So that no method is flattered: half of the picture is submitted the wrong way round.
+// Half of the picture is submitted back to front, half front to back, so that no method is favoured.
 TEST(Visibility, TwoPlanesFavourNoOrderOfSubmission) {
   for (const double separation : {1.0, 1e-5}) {
     const VisibilityScene scene = two_planes(100, separation, 0.1, 1000);
@@ -183,7 +184,7 @@ TEST(Visibility, OursIsTheContractsPicture) {
   }
 }
 
-// Nobody has a finer depth than the pipeline in front of it hands on.
+// No method can have a finer depth than the front end provides.
 TEST(Visibility, TheSmallestScenesHaveTheFrontEndsDepths) {
   Scene scene;
   scene.camera.near_z = 0.1f, scene.camera.far_z = 1000.0f;

@@ -1,4 +1,5 @@
-// What coverage methods' pictures show: owners and depths, judged by hand, by brute force, and by rule 6.
+// The visible triangles and depths of coverage methods' pictures, checked by hand, by brute force, and by
+// rule 6.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,11 +20,11 @@ VisibleTriangleScore visible_triangles_of(std::string_view method, const Picture
       .score(find_coverage_method(method));
 }
 
-TEST(CoverageVisibleTriangles, ShowWhoLosesTheTiesOfTheDrtkQuad) {
+TEST(CoverageVisibleTriangles, TieRulesDecideTheDiagonalOfTheDrtkQuad) {
   const Picture& quad = picture_of("drtk_quad");
-  EXPECT_EQ(visible_triangles_of("float_lt", quad).wrong_floats, 6u) << "nobody owns the diagonal";
+  EXPECT_EQ(visible_triangles_of("float_lt", quad).wrong_floats, 6u) << "the diagonal is not drawn";
   EXPECT_EQ(visible_triangles_of("float_le", quad).wrong_floats, 6u)
-      << "the first of two owns the diagonal, not the second";
+      << "the first triangle draws the diagonal, which belongs to the second";
   EXPECT_EQ(visible_triangles_of("float_top_left", quad), VisibleTriangleScore{});
 }
 
@@ -40,7 +41,8 @@ TEST(CoverageVisibleTriangles, OfBackendsAreExactAndTheirDepthsKeepRuleSix) {
   }
 }
 
-// Triangles through one another: where two are nearer than rule 6 tells apart, the wrong one may win.
+// Intersecting triangles: if two depths differ by less than the error of rule 6, the wrong triangle may be
+// visible.
 TEST(CoverageVisibleTriangles, OfBackendsAreWrongOnlyWhereRuleSixExplainsIt) {
   for (const auto family : testing::kFamilies) {
     const auto grid = testing::adversarial(family, 150, 120, 90, 8);
