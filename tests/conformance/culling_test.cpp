@@ -96,8 +96,8 @@ TEST_F(ConformanceCulling, Fans) {
   }
 }
 
-// The same through a camera, where the front end culls meshes; which way a triangle faces is told by the
-// places that it gets when nothing is culled.
+// The same through a camera, where the front end culls meshes. The expected facing comes from the snapped
+// positions when nothing is culled.
 TEST_F(ConformanceCulling, Meshes) {
   Random random(4);
   for (const float mirror : {1.0f, -1.0f}) {
@@ -129,7 +129,7 @@ TEST_F(ConformanceCulling, Meshes) {
   }
 }
 
-// From the smallest triangle that can own a sample to one that nearly meets its neighbours.
+// From the smallest triangle that can cover a sample to one that nearly meets its neighbours.
 TEST_F(ConformanceCulling, OneTinyTriangleAPixelWithTheWindingsAlternating) {
   const View view{48, 40};
   // Sub-units around the sample, clockwise.

@@ -1,5 +1,5 @@
-// Triangles without area draw nothing, whatever else is true of them: points, lines, and what snapping
-// flattens. Those that keep a sliver of area draw exactly the samples that it holds.
+// Triangles without area draw nothing: points, lines, and triangles that snapping flattens. Slivers draw
+// exactly the samples inside them.
 #include <glm/glm.hpp>
 
 #include "conformance/pipeline.h"
@@ -60,7 +60,7 @@ TEST_F(ConformanceDegenerate, WhatSnappingFlattensDrawsNothing) {
   expect_flat(v, "flattened");
 }
 
-// Flat in space, and through every plane of the view: what is left after clipping has no area either.
+// Flat in space, and through every clipping plane: the clipped triangles have no area either.
 TEST_F(ConformanceDegenerate, FlatTrianglesThatAreClippedDrawNothing) {
   std::vector<glm::vec3> v;
   for (const glm::vec3 d :
@@ -73,7 +73,7 @@ TEST_F(ConformanceDegenerate, FlatTrianglesThatAreClippedDrawNothing) {
   expect_flat(v, "clipped");
 }
 
-TEST_F(ConformanceDegenerate, SliversOfOneSubUnitOwnExactlyTheSamplesInThem) {
+TEST_F(ConformanceDegenerate, SliversOfOneSubUnitCoverExactlyTheSamplesInThem) {
   int drawn = 0;
   for (int offset = -2; offset <= 2; ++offset)
     for (const int height : {1, 2}) {

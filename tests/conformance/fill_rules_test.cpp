@@ -83,7 +83,7 @@ TEST_F(ConformanceFillRules, QuadsAcrossTheImagesEdgesAreHitOnce) {
   }
 }
 
-// A wheel of triangles around one vertex, which lies on a sample: one of them owns it.
+// A fan of triangles around a vertex that lies on a sample: exactly one of them covers it.
 TEST_F(ConformanceFillRules, ASampleUnderTheHubOfAFanIsHitOnce) {
   for (int spokes = 3; spokes <= 40; ++spokes)
     for (const float corner : {0.0f, 0.5f}) {

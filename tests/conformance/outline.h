@@ -1,5 +1,5 @@
-// What of a triangle or convex polygon the view leaves, in double: clipped by the near and far planes and
-// divided by w, but neither cut by the guard band nor snapped, as if there were neither.
+// The visible part of a triangle or convex polygon, in double: clipped by the near and far planes and divided
+// by w, but neither cut by the guard band nor snapped.
 //
 // The front end rounds a cut vertex to float and all vertices to 1/256 px, so an edge may lie up to
 // kHairlinePx from where it belongs (lab/clipping/clipping.h derives that). A sample that is farther than

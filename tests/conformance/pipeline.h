@@ -1,8 +1,8 @@
-// What the conformance suite runs: every registered backend on every SIMD target of the machine, the front
-// end before it on the same one.
+// The conformance suite's pipelines: every registered backend on every SIMD target of the machine, with the
+// front end on the same target.
 //
-// The suite asks of this rasterizer what Khronos' conformance tests (KhronosGroup/VK-GL-CTS) ask of a
-// driver: their groups rasterization.fill_rules and rasterization.culling (modules/gles2/functional/
+// The suite checks this rasterizer as Khronos' conformance tests (KhronosGroup/VK-GL-CTS) check a driver:
+// their groups rasterization.fill_rules and rasterization.culling (modules/gles2/functional/
 // es2fRasterizationTests.cpp, external/vulkancts/modules/vulkan/rasterization/), clipping (es2fClippingTests.
 // cpp: triangle_vertex, polygon, polygon_edge; vulkan/clipping/vktClippingTests.cpp: clip_volume). Those
 // compare pictures with tolerances, since drivers are free to snap as they like. Here there is none, but that
@@ -41,7 +41,7 @@ class Pipeline {
 
   const std::string& name() const { return name_; }
 
-  // What the front end makes of it; payloads are the indices of the source triangles.
+  // The front end's screen triangles; payloads are the indices of the source triangles.
   std::span<const ScreenTriangle> triangles(const Drawable& drawable, const View& view) {
     FrontendOptions options{.width = view.width, .height = view.height, .cull = view.cull};
     options.payload = Payload::id;
@@ -61,7 +61,7 @@ class Pipeline {
     return *frame_;
   }
 
-  // How often each pixel is drawn if every triangle adds to it, row by row: each is drawn alone.
+  // The number of triangles that draw each pixel, row by row. Draws each triangle alone.
   std::vector<int> hits(const Drawable& drawable, const View& view) {
     std::vector<int> all(static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height), 0);
     for (const ScreenTriangle& triangle : triangles(drawable, view)) {
@@ -88,7 +88,7 @@ inline std::vector<Pipeline> pipelines() {
   return all;
 }
 
-// The pipelines, made once, and the number of pictures that were judged, which ends up in the test's report.
+// Creates the pipelines once, and counts the compared pictures for the test's report.
 class Conformance : public ::testing::Test {
  protected:
   ~Conformance() override { RecordProperty("cases", std::to_string(cases_)); }

@@ -1,5 +1,5 @@
 // The conformance suite's own truth: how often a polygon winds around a sample. It shares no arithmetic with
-// the contract, a backend or the laboratory: no edge function is biased and no triangle is asked.
+// the contract, a backend or the laboratory: it has no biased edge functions and no triangles.
 //
 // The top-left rule in one sentence: a sample counts as lying an infinitesimal step to the right of its
 // place, and an infinitely smaller one below it. There it lies on no edge. A ray to the right then crosses an
@@ -20,8 +20,8 @@ struct Place {
 // 1/256 px, as snapped positions are; up to 2^30.
 using SubPlace = Place<std::int64_t>;
 
-// Around the sample of a pixel: positive is clockwise on the y-down screen, that is front. Where triangles
-// share the polygon's orientation and fill it, this is how often they must draw the pixel, all together.
+// The winding number around a pixel's sample: positive is clockwise on the y-down screen, that is front.
+// Triangles that fill the polygon with its orientation must draw the pixel this many times in total.
 inline int winding(std::span<const SubPlace> polygon, int px, int py) {
   const std::int64_t sx = std::int64_t{px} * 256 + 128, sy = std::int64_t{py} * 256 + 128;
   int turns = 0;
@@ -53,7 +53,7 @@ inline std::int64_t area(std::span<const SubPlace> polygon) {
   return sum;
 }
 
-// Samples that lie exactly on the line between two places: where only a tie rule decides.
+// The samples exactly on the segment between two points, which only the tie rule decides.
 inline int ties(const SubPlace& p, const SubPlace& q, int width, int height) {
   int count = 0;
   for (std::int64_t y = 0; y < height; ++y)
