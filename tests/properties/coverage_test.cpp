@@ -1,4 +1,4 @@
-// Which samples each triangle covers, whatever the others do: counts of hits, each triangle drawn for itself.
+// Properties of coverage, checked on hit counts: each triangle is drawn without occlusion by the others.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -127,7 +127,7 @@ TEST_F(CoverageProperties, MovingByWholePixelsChangesNone) {
   check(rc::gen::oneOf(grid_streams(), float_streams()), 800, moving);
 }
 
-// ---- Not invariant: what differs is counted, and must lie where it may.
+// ---- Not invariant: differences are counted, and must lie near edges.
 
 // Whether a sample is within `reach` sub-units of the line of some edge.
 bool near_an_edge(std::span<const ScreenTriangle> triangles, int x, int y, double reach) {

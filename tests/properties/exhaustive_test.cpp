@@ -1,6 +1,6 @@
 // All triangles, in every orientation, whose vertices lie on a small lattice of sub-units inside a few
-// pixels: what every backend draws on every SIMD target, against the oracle's depth and ids. Thousands share
-// a frame, each in a cell of its own.
+// pixels: compares every backend on every SIMD target with the oracle's depths and ids. Thousands share a
+// frame, one per cell.
 #include <gtest/gtest.h>
 
 #include <ostream>
@@ -28,13 +28,14 @@ struct Lattice {
   friend std::ostream& operator<<(std::ostream& out, const Lattice& lattice) { return out << lattice.name; }
 };
 
-Lattice steps(std::string name, int px, int steps_a_px) {
+Lattice steps(std::string name, int px, int steps_per_px) {
   Lattice lattice{std::move(name), {}};
-  for (int i = 0; i <= px * steps_a_px; ++i) lattice.coordinates.push_back(i * contract::kSub / steps_a_px);
+  for (int i = 0; i <= px * steps_per_px; ++i)
+    lattice.coordinates.push_back(i * contract::kSub / steps_per_px);
   return lattice;
 }
 
-// The samples of some pixels in a row, and what lies a sub-unit before and after them.
+// The samples of consecutive pixels, and the positions one sub-unit before and after them.
 Lattice around_samples(int px) {
   Lattice lattice{"around_samples", {}};
   for (int i = 0; i < px; ++i)
@@ -42,7 +43,7 @@ Lattice around_samples(int px) {
   return lattice;
 }
 
-// Odd, so that the cells meet all places in a vector and lie across all borders of tiles.
+// An odd cell size, so that cells fall on all SIMD lanes and across all borders of tiles.
 constexpr int kCellPx = 5, kCellsASide = 128, kSidePx = kCellPx * kCellsASide;
 constexpr std::uint64_t kCells = std::uint64_t{kCellsASide} * kCellsASide;
 
@@ -73,8 +74,8 @@ std::vector<AblatedExecution> all_targets() {
   return ways;
 }
 
-// Of a batch that is drawn wrong, the triangles at the first wrong pixel, if they are drawn wrong for
-// themselves; else all.
+// Reduces a batch that is drawn wrong to the triangles at the first wrong pixel if these alone are drawn
+// wrong too; otherwise keeps the whole batch.
 Counterexample narrowed(const std::vector<ScreenTriangle>& batch, const Framebuffer& wrong, int x, int y,
                         const Property& property) {
   std::vector<ScreenTriangle> suspects;

@@ -1,4 +1,4 @@
-// What changes no bit of a picture, on streams that are hard to draw.
+// Transformations that must not change any bit of a picture, on streams that are hard to draw.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ class Properties : public ::testing::Test {
  protected:
   const std::vector<Painter> painters_ = painters(backends());
 
-  // Each painter's picture of the one list, in both ways, with its own plain picture of the other.
+  // Compares each painter's pictures of `changed`, in both ways, with its scalar picture of `triangles`.
   void compare_with_own(Verdict& verdict, std::span<const ScreenTriangle> triangles,
                         std::span<const ScreenTriangle> changed, const TriangleStream& stream,
                         const std::string& what) const {

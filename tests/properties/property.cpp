@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kFullFactor = 25;
 
-// A property that throws does not hold either.
+// A property that throws counts as violated.
 Verdict judge(const Property& property, const TriangleStream& stream) {
   try {
     return property(stream);

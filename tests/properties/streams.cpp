@@ -139,8 +139,8 @@ StreamTriangle duplicate(Random& random, const std::vector<StreamTriangle>& tria
   return copy;
 }
 
-// What a family seldom has: an edge along an axis, vertices a sub-unit beside where it puts them, or all of
-// them at samples or very near.
+// Adds cases that the families rarely contain: an edge along an axis, vertices moved by a sub-unit, or all
+// vertices at samples or very near.
 void vary(Random& random, ScreenTriangle& t) {
   const auto change = [&](auto&& coordinate) {
     for (auto* sub : {t.x_sub, t.y_sub})

@@ -34,8 +34,8 @@ std::int64_t doubled_area(const Point& a, const Point& b, const Point& c) {
   return std::int64_t{b.x - a.x} * (c.y - a.y) - std::int64_t{b.y - a.y} * (c.x - a.x);
 }
 
-// Into three, or, on an edge, both its neighbours into two.
-void put_in(std::vector<Triangle>& mesh, const Point& p) {
+// Inserts a point: splits its triangle into three, or both neighbours of its edge into two.
+void insert(std::vector<Triangle>& mesh, const Point& p) {
   std::vector<Triangle> result;
   for (const Triangle& t : mesh) {
     const std::array<std::int64_t, 3> opposite{doubled_area(p, t[1], t[2]), doubled_area(p, t[2], t[0]),
@@ -72,7 +72,7 @@ TriangleStream build(const Recipe& recipe) {
   const auto [right, bottom] = recipe.high;
   std::vector<Triangle> mesh{{Point{left, top}, {right, top}, {right, bottom}},
                              {Point{left, top}, {right, bottom}, {left, bottom}}};
-  for (const Point& p : recipe.points) put_in(mesh, p);
+  for (const Point& p : recipe.points) insert(mesh, p);
   for (const std::uint32_t edge : recipe.flips) flip(mesh, edge);
   TriangleStream stream{recipe.width, recipe.height, {}};
   for (const Triangle& t : mesh) {
