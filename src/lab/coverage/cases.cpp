@@ -113,7 +113,7 @@ Triangles t_junction(bool split) {
   return list;
 }
 
-// Cells of 0.7 px: rounding to whole pixels removes or flips most triangles.
+// Cells of 0.7 px: rounding to whole pixels removes or flips many triangles.
 Triangles small_triangles() {
   return float_triangles(jittered_grid({.width = 64, .height = 64}, 0.7, 3));
 }
