@@ -81,7 +81,7 @@ TEST(Clipping, QuadsBeforeTheNearPlaneAreNotDrawn) {
   }
 }
 
-// The pixels in which a method differs from ours, which leaves the screen's edges to the scissors.
+// The pixels in which a method differs from ours, which does not clip at the screen's edges.
 struct Moved {
   std::uint64_t pixels = 0;
   int longest_run = 0;  // along a row
@@ -108,7 +108,7 @@ std::uint64_t crossings(const ClippingScene& scene) {
   return edge_crossings(unsnapped(triangles, frontend.unsnapped()), {scene.size.width, scene.size.height});
 }
 
-// The scene's vertices lie on the 1/256 px grid, so ours moves nothing.
+// The scene's vertices lie on the 1/256 px grid, so ours moves no vertex.
 TEST(Clipping, EdgesThatAreCutAtTheScreensEdgesAndSnappedAgainMove) {
   const ClippingScene scene = make_case("along_the_rows");
   const auto truth = clipping_truth(scene);
@@ -167,8 +167,8 @@ TEST(Clipping, LinearAttributesAreWrongWhereAnEdgeIsCut) {
   }
 }
 
-// Within its promise on every scene: nothing where nothing is cut, else no distance off by more than the
-// bound, which grows with the ratio of a triangle's distances; far over near is 500 in all of them.
+// Keeps its promise on every scene: no error if nothing is cut, else no distance error above the bound, which
+// grows with the ratio of a triangle's distances; far over near is 500 in all of them.
 TEST(Clipping, LinearAttributesStayWithinTheirBound) {
   const double most = (std::sqrt(500.0) - 1) / (std::sqrt(500.0) + 1);
   for (const auto& c : clipping_cases()) {
@@ -181,8 +181,9 @@ TEST(Clipping, LinearAttributesStayWithinTheirBound) {
   }
 }
 
-// The front end's depths are floats. Down to where two steps of one no longer part the floor from the wall at
-// the nearest sample to where they meet, all is right; below, owners are wrong there, and nothing else is.
+// The front end's depths are floats. Pictures are right while the depths of floor and wall, at the sample
+// nearest to their intersection, differ by more than kDepthTie01. With nearer near planes only visible
+// triangles near the intersection are wrong.
 TEST(Clipping, NearPlanesTooNearLeaveDepthNoSteps) {
   const auto seen = [](double near_z) {
     ClippingScene scene = floor_through_eye(static_cast<float>(near_z));

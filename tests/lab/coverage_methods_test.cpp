@@ -1,4 +1,4 @@
-// Every coverage method against its promise.
+// Checks every coverage method against its promise.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -59,7 +59,7 @@ TEST_P(EveryCoverageMethod, IsWrongOnlyWithinItsReachOnTheGrid) {
     expect_reach(testing::as_floats(adversarial(family, 100, 160, 120, 4)), {160, 120}, std::string(family));
 }
 
-// Past its largest triangle a method may draw anything, but inside the bounding box.
+// For triangles above its size limit a method may draw any pixels inside the bounding box.
 TEST_P(EveryCoverageMethod, KeepsToTheBoxOfTrianglesTooLargeForIt) {
   const int largest = method_.promise.max_side_px, side = std::min(4096, 3 * largest);
   if (largest >= side) return;

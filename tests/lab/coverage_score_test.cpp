@@ -1,4 +1,4 @@
-// Scores of coverage on runs judged by hand, and what they are made of.
+// Coverage scores of runs with known results, and the functions from which scores are computed.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -11,7 +11,8 @@ namespace {
 using testing::adversarial;
 using testing::Picture;
 
-// A triangle of 15 pixels and one of a single pixel in a 5 x 5 window at (10, 20), judged by hand.
+// A triangle of 15 pixels and one of a single pixel in a 5 x 5 window at (10, 20), with expected scores by
+// hand.
 class Score : public ::testing::Test {
  protected:
   const Picture picture_{{{{{11.0f, 17.1f, 11.0f}, {21.0f, 21.0f, 27.1f}, {0, 0, 0}}, 1},

@@ -13,8 +13,8 @@ namespace {
 using testing::adversarial;
 using testing::hard_floats;
 
-// The rule in another form: a sample is covered if, moved to the right by an infinitesimal and down by a far
-// smaller one, it lies strictly inside.
+// Another form of the fill rule: a sample is covered if it lies strictly inside after a move to the right by
+// an infinitesimal and down by a far smaller one.
 bool covered_by_rationals(const UnsnappedTriangle& t, int px, int py) {
   const mpq_class sx(px + 0.5), sy(py + 0.5);
   mpq_class x[3], y[3];
@@ -217,7 +217,7 @@ TEST(VisibleTriangles, AreTheNearestByRationals) {
   const Window window{20, 37, 3, 2};
   for (const auto family : {"anywhere", "near-centres", "slivers", "small"}) {
     auto floats = hard_floats(family, 30, window, 14);
-    floats.push_back(floats[3]);  // a tie all over
+    floats.push_back(floats[3]);  // a depth tie at every pixel
     expect_visible_triangles(
         std::span<const FloatTriangle>(floats), window,
         [](const FloatTriangle& t) { return FloatTruth(t.at); }, family);

@@ -1,4 +1,4 @@
-// Backends with a planted mistake.
+// Deliberately wrong backends.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// The search is searched: mistakes are planted in a backend, and must come back as a very small .tri file
-// that shows them again.
+// Tests the property search itself with deliberately wrong backends: it must find each mistake and reduce it
+// to a very small .tri file that reproduces it.
 #include <gtest/gtest-spi.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ namespace {
 struct Plant {
   std::string_view name;
   BackendInfo wrong;
-  std::size_t triangles;  // that it takes to show the mistake
+  std::size_t triangles;  // the number needed to show the mistake
 
   friend std::ostream& operator<<(std::ostream& out, const Plant& plant) { return out << plant.name; }
 };
@@ -56,7 +56,8 @@ TEST_P(PlantedMistake, ComesBackAsASmallStreamThatShowsItAgain) {
   EXPECT_EQ(verdict.oracle_width, smallest.width);
   EXPECT_EQ(verdict.oracle_height, smallest.height);
 
-  const Outcome program = run_program(EDGEWISE_PROGRAM, "verify '" + path + "'");  // whose backends are right
+  const Outcome program =
+      run_program(EDGEWISE_PROGRAM, "verify '" + path + "'");  // the program has the correct backends
   EXPECT_EQ(program.status, 0) << program.out << program.err;
 }
 

@@ -1,4 +1,4 @@
-// How the generators are made.
+// Helpers of the generators.
 #pragma once
 
 #include <rapidcheck.h>
@@ -18,7 +18,8 @@ inline float pixels(std::int32_t sub) {
   return static_cast<float>(sub) / contract::kSub;
 }
 
-// `make` turns random numbers and a size of 1 to 100 into a value; `simpler` lists what to try in its place.
+// `make` turns random numbers and a size of 1 to 100 into a value; `simpler` lists simpler values to try
+// instead.
 template <typename Value, typename Make, typename Simpler>
 rc::Gen<Value> generator(Make make, Simpler simpler) {
   return [=](rc::Random source, int size) {

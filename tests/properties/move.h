@@ -1,4 +1,4 @@
-// Streams and what was made of them, moved by whole pixels to the right and down.
+// Moves streams to the right and down by whole pixels, and moves their pictures back.
 #pragma once
 
 #include <algorithm>
@@ -40,7 +40,7 @@ inline std::pair<TriangleStream, TriangleStream> before_and_after(const Triangle
   return both;
 }
 
-// What was seen before the move, out of rows that begin every `stride` values.
+// Copies the part of a moved picture that was in view before the move. Rows begin every `stride` values.
 inline void copy_moved_back(const std::uint32_t* from, std::ptrdiff_t stride, Move move, int width,
                             int height, std::uint32_t* to, std::ptrdiff_t to_stride) {
   for (int y = 0; y < height; ++y)
@@ -56,7 +56,7 @@ inline Framebuffer moved_back(const Framebuffer& frame, Move move) {
   return part;
 }
 
-// Of counts, row by row, of an image `width` wide.
+// The same for counts, row by row, of an image `width` px wide.
 inline std::vector<std::uint32_t> moved_back(const std::vector<std::uint32_t>& counts, int width, Move move) {
   const int part_width = width - move.x, height = static_cast<int>(counts.size()) / width - move.y;
   std::vector<std::uint32_t> part(static_cast<std::size_t>(part_width) * static_cast<std::size_t>(height));

@@ -1,5 +1,5 @@
-// A property is a claim about every triangle stream. RapidCheck makes streams and shrinks one that breaks the
-// claim; what is left is written as .tri files that the program replays.
+// A property is a claim about every triangle stream. RapidCheck generates streams and shrinks a
+// counterexample, which is written as .tri files that the program replays.
 #pragma once
 
 #include <rapidcheck.h>
@@ -15,10 +15,10 @@
 
 namespace edgewise::testing {
 
-// What a property says of one stream.
+// The result of a property for one stream.
 struct Verdict {
   std::uint64_t comparisons = 0;  // of pictures, or of planes of counts
-  std::string wrong = {};         // the first thing; empty if the property holds
+  std::string wrong = {};         // the first difference; empty if the property holds
   std::vector<TriangleStream>
       replay;                       // the streams to draw to see it: this one, and what it was compared with
   bool replay_by_pictures = false;  // each may be drawn faithfully, but the first two should look the same
@@ -37,7 +37,7 @@ struct Counterexample {
   std::size_t shrinks;
 };
 
-// The smallest that can be found of a stream that breaks the property.
+// Shrinks a stream that breaks the property, as far as the search succeeds.
 Counterexample smallest(const rc::Shrinkable<TriangleStream>& stream, const Property& property);
 
 struct SearchResult {
@@ -52,13 +52,13 @@ SearchResult search(const rc::Gen<TriangleStream>& streams, int cases, const Pro
 // where the files are, and the command that shows it again.
 std::string report(const Counterexample& found, const std::filesystem::path& folder, const std::string& name);
 
-// Where the files of failed properties go: property-failures, beside the program.
+// The folder for the files of failed properties: property-failures, beside the program.
 std::filesystem::path failure_folder();
 
 // Fails the running test with a report, whose files are named after the test.
 void fail(const Counterexample& found);
 
-// Searches, and fails if there is a counterexample. `cases` is the number for every day; the full size tries
+// Searches, and fails if there is a counterexample. `cases` is the default number; the full size tries
 // 25 times as many. --gtest_random_seed=N tries others. Records "cases" and "comparisons".
 void check(const rc::Gen<TriangleStream>& streams, int cases, const Property& property);
 

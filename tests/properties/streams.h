@@ -17,7 +17,7 @@ rc::Gen<TriangleStream> float_streams();
 // The same, with some vertices beyond the guard band, up to 10^5 px away.
 rc::Gen<TriangleStream> far_streams();
 
-// A stream from elsewhere, to be shrunk as these are.
+// Makes any stream shrinkable in the same way.
 rc::Shrinkable<TriangleStream> shrinkable(const TriangleStream& stream);
 
 // Triangulations, fans and slivers among them, of a rectangle whose samples are those of the image; every
