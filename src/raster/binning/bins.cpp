@@ -18,34 +18,36 @@ void Bins::Chunk::reset(std::size_t cells) {
 }
 
 std::uint32_t Bins::Chunk::begin_block(std::size_t cell, std::uint32_t end_of_last) {
-  if (used > kNone - kBlock) throw std::length_error("too many triangles over too many tiles for one frame");
+  if (used > kNone - kSlotsPerBlock)
+    throw std::length_error("too many triangles over too many tiles for one frame");
   const std::uint32_t block = used;
-  used += kBlock;
+  used += kSlotsPerBlock;
   if (slots.size() < used) slots.resize(std::max<std::size_t>(used, slots.size() * 2));
   (end_of_last == kNone ? first[cell] : slots[end_of_last]) = block;
   return block;
 }
 
-inline void Bins::Chunk::push(std::size_t cell, std::uint32_t index, bool wanted) {
+inline void Bins::Chunk::push(std::size_t cell, std::uint32_t index, bool is_candidate) {
   std::uint32_t slot = cursor[cell];
-  if (slot % kBlock == kRun) [[unlikely]] {  // a full block, or none yet (kNone ends in the same bits)
-    if (!wanted) return;
+  // The block is full, or there is none yet: kNone has the same low bits.
+  if (slot % kSlotsPerBlock == kIndicesPerBlock) [[unlikely]] {
+    if (!is_candidate) return;
     slot = begin_block(cell, slot);
   }
   slots[slot] = index;
-  cursor[cell] = slot + wanted;
+  cursor[cell] = slot + is_candidate;
 }
 
 inline void Bins::Chunk::bin(const ScreenTriangle& triangle, std::uint32_t index, const CellBox& box,
-                             int of_four, const CellGrid& grid) {
-  if (of_four == 0) return bin_in_many(triangle, index, box, grid);
+                             int candidate_cells, const CellGrid& grid) {
+  if (candidate_cells == 0) return bin_in_many(triangle, index, box, grid);
   const auto columns = static_cast<std::size_t>(grid.columns());
   const std::size_t upper = box.row0 * columns, lower = box.row1 * columns;
-  if (of_four == 0b0001) return push(upper + box.column0, index, true);
-  push(upper + box.column0, index, of_four & 0b0001);
-  push(upper + box.column1, index, of_four & 0b0010);
-  push(lower + box.column0, index, of_four & 0b0100);
-  push(lower + box.column1, index, of_four & 0b1000);
+  if (candidate_cells == 0b0001) return push(upper + box.column0, index, true);
+  push(upper + box.column0, index, candidate_cells & 0b0001);
+  push(upper + box.column1, index, candidate_cells & 0b0010);
+  push(lower + box.column0, index, candidate_cells & 0b0100);
+  push(lower + box.column1, index, candidate_cells & 0b1000);
 }
 
 [[gnu::noinline]] void Bins::Chunk::bin_in_many(const ScreenTriangle& triangle, std::uint32_t index,
@@ -56,8 +58,8 @@ inline void Bins::Chunk::bin(const ScreenTriangle& triangle, std::uint32_t index
   const Oriented oriented = orient(triangle);
   if (oriented.area == 0) return;
 
-  // An edge rejects a cell if even the sample where it is largest is outside. That corner's value steps
-  // linearly.
+  // An edge rejects a cell if it is negative at the corner sample where it is largest. The value at that
+  // corner is stepped from cell to cell.
   const std::int32_t cell_w = 1 << grid.cell_w_log2, cell_h = 1 << grid.cell_h_log2;
   std::int64_t row_value[3], step_x[3], step_y[3];
   for (int i = 0; i < 3; ++i) {
@@ -79,17 +81,18 @@ inline void Bins::Chunk::bin(const ScreenTriangle& triangle, std::uint32_t index
 
 namespace {
 
-// Takes back what was resolved of triangles that need more than two patches.
-[[gnu::noinline]] void keep_short(SortedTriangles& sorted, const ScreenTriangle* some, const CellGrid& grid) {
+// Replaces the masks of triangles that need more than two by cell boxes, so that they are binned as indices.
+[[gnu::noinline]] void demote_to_boxes(SortedTriangles& sorted, const ScreenTriangle* batch,
+                                       const CellGrid& grid) {
   std::size_t n = 0, kept = 0;
   for (std::uint64_t left = sorted.masked; left != 0; left &= left - 1, ++n) {
-    if (std::popcount(sorted.windows[n]) > 2) {
+    if (std::popcount(sorted.quadrants[n]) > 2) {
       const auto k = static_cast<std::size_t>(std::countr_zero(left));
       sorted.masked ^= left & -left;
       sorted.boxed |= left & -left;
-      sorted.boxes.set(k, pixel_box(some[k], grid.width, grid.height), grid);
+      sorted.boxes.set(k, pixel_box(batch[k], grid.width, grid.height), grid);
     } else {
-      sorted.windows[kept] = sorted.windows[n];
+      sorted.quadrants[kept] = sorted.quadrants[n];
       for (std::size_t w = 0; w < SortedTriangles::kQuadrants; ++w)
         sorted.first[w][kept] = sorted.first[w][n], sorted.second[w][kept] = sorted.second[w][n];
       ++kept;
@@ -97,9 +100,10 @@ namespace {
   }
 }
 
-// Calls sort(triangles + i, i) for every kBoxesAtOnce of them; empty triangles fill up what is missing.
+// Calls sort(batch, index of its first triangle) for batches of kBoxesAtOnce triangles. Triangles without
+// area fill up the last batch.
 template <typename Sort>
-void in_batches(std::span<const ScreenTriangle> triangles, Sort&& sort) {
+void for_each_batch(std::span<const ScreenTriangle> triangles, Sort&& sort) {
   const std::size_t whole = triangles.size() / kBoxesAtOnce * kBoxesAtOnce;
   for (std::size_t i = 0; i < whole; i += kBoxesAtOnce) sort(triangles.data() + i, i);
   if (whole == triangles.size()) return;
@@ -110,12 +114,12 @@ void in_batches(std::span<const ScreenTriangle> triangles, Sort&& sort) {
 
 }  // namespace
 
-// Bins those of some triangles that `boxed` selects. `begin`: index of the first.
-void Bins::Chunk::bin_boxed(const ScreenTriangle* some, std::uint64_t boxed, const CellBoxes& boxes,
+// Bins the triangles of a batch whose bit in `boxed` is set, as indices. `begin`: index of the batch's first.
+void Bins::Chunk::bin_boxed(const ScreenTriangle* batch, std::uint64_t boxed, const CellBoxes& boxes,
                             std::size_t begin, const CellGrid& grid) {
   for (std::uint64_t left = boxed; left != 0; left &= left - 1) {
     const auto k = static_cast<std::size_t>(std::countr_zero(left));
-    bin(some[k], static_cast<std::uint32_t>(begin + k), boxes.box[k], boxes.of_four[k], grid);
+    bin(batch[k], static_cast<std::uint32_t>(begin + k), boxes.box[k], boxes.candidate_cells[k], grid);
   }
 }
 
@@ -123,13 +127,13 @@ void Bins::Chunk::bin_boxed(const ScreenTriangle* some, std::uint64_t boxed, con
 void Bins::Chunk::bin_as_indices(std::span<const ScreenTriangle> triangles, std::size_t begin,
                                  const CellGrid& grid, bool prefetch, CellBoxKernel find_boxes) {
   CellBoxes boxes;
-  in_batches(triangles, [&](const ScreenTriangle* some, std::size_t at) {
-    bin_boxed(some, find_boxes(some, grid, prefetch, boxes), boxes, begin + at, grid);
+  for_each_batch(triangles, [&](const ScreenTriangle* batch, std::size_t at) {
+    bin_boxed(batch, find_boxes(batch, grid, prefetch, boxes), boxes, begin + at, grid);
   });
 }
 
-// Appends the patches of the n-th patched triangle to the one before the end-th. One loop for all of eight
-// triangles, since no branch could guess how many windows each has.
+// Appends the masks of masked triangles n … end - 1 of a batch. One loop goes over the quadrants of eight
+// triangles: a loop per triangle would be mispredicted, because the number of quadrants varies.
 void Bins::Chunk::append(const SortedTriangles& sorted, std::size_t n, std::size_t end) {
   for (; n < end; n += 8)
     for (std::uint32_t left = sorted.quadrants_of_eight(n, end); left != 0; left &= left - 1) {
@@ -137,52 +141,53 @@ void Bins::Chunk::append(const SortedTriangles& sorted, std::size_t n, std::size
       const std::size_t triangle = n + bit / SortedTriangles::kQuadrants,
                         w = bit % SortedTriangles::kQuadrants;
       const std::uint32_t cell = sorted.second[w][triangle].field[3];
-      patches.append(cell, cursor[cell] + 1, sorted.first[w][triangle], sorted.second[w][triangle]);
+      masks.append(cell, cursor[cell] + 1, sorted.first[w][triangle], sorted.second[w][triangle]);
     }
 }
 
-// `most_mask_bytes`: when patches have taken that much, triangles that need more than two become indices,
-// which are slower to draw, but shorter.
+// `max_mask_bytes`: once masks take more, triangles that need more than two masks are binned as indices,
+// which are slower to draw but take less memory.
 void Bins::Chunk::bin_with_masks(std::span<const ScreenTriangle> triangles, std::size_t begin,
                                  const CellGrid& grid, bool prefetch, MaskFinder find_masks,
-                                 std::size_t most_mask_bytes) {
+                                 std::size_t max_mask_bytes) {
   SortedTriangles sorted;
-  in_batches(triangles, [&](const ScreenTriangle* some, std::size_t at) {
-    find_masks(some, grid, prefetch, sorted);
-    // A scene of large triangles shall not pay for patches.
-    if (sorted.masked == 0) return bin_boxed(some, sorted.boxed, sorted.boxes, begin + at, grid);
-    if (patches.used_bytes() > most_mask_bytes) [[unlikely]]
-      keep_short(sorted, some, grid);
-    // Runs of one kind and of the other, in turns.
+  for_each_batch(triangles, [&](const ScreenTriangle* batch, std::size_t at) {
+    find_masks(batch, grid, prefetch, sorted);
+    // Scenes of large triangles skip the merge.
+    if (sorted.masked == 0) return bin_boxed(batch, sorted.boxed, sorted.boxes, begin + at, grid);
+    if (masks.used_bytes() > max_mask_bytes) [[unlikely]]
+      demote_to_boxes(sorted, batch, grid);
+    // Groups of consecutive masked and boxed triangles, in turn, to keep the order of submission.
     std::size_t n = 0;
     const auto below_lowest = [](std::uint64_t bits) { return (bits & -bits) - 1; };  // all, if none is set
     for (std::uint64_t boxed = sorted.boxed, masked = sorted.masked; (boxed | masked) != 0;) {
-      const std::uint64_t patch_run = masked & below_lowest(boxed);
-      const std::size_t end = n + static_cast<std::size_t>(std::popcount(patch_run));
+      const std::uint64_t masked_group = masked & below_lowest(boxed);
+      const std::size_t end = n + static_cast<std::size_t>(std::popcount(masked_group));
       append(sorted, n, end);
       n = end;
-      masked ^= patch_run;
-      const std::uint64_t boxed_run = boxed & below_lowest(masked);
-      bin_boxed(some, boxed_run, sorted.boxes, begin + at, grid);
-      boxed ^= boxed_run;
+      masked ^= masked_group;
+      const std::uint64_t boxed_group = boxed & below_lowest(masked);
+      bin_boxed(batch, boxed_group, sorted.boxes, begin + at, grid);
+      boxed ^= boxed_group;
     }
   });
 }
 
 void Bins::build(std::span<const ScreenTriangle> triangles, const CellGrid& grid, int threads,
                  SimdTarget target, Small small, bool prefetch) {
-  // Triangles. A thousand large ones are worth sharing; but the shorter a cell's lists, the emptier the
-  // vectors of who draws it.
-  constexpr std::size_t kLeastChunk = 500;
-  constexpr std::size_t kMaxHeads = std::size_t{1} << 24;  // of all chunks: 128 MB, 384 with patches
-  // With the triangles themselves and the frame, less than 100 bytes a small triangle and 16 a pixel.
-  constexpr std::size_t kPatchBytes = 40, kPatchBytesPerPixel = 8;
+  // Triangles per chunk: a thousand large ones are worth two threads, but short lists leave SIMD lanes of the
+  // tile kernel empty.
+  constexpr std::size_t kMinChunk = 500;
+  // List heads of all chunks: 128 MB, or 384 MB with masks.
+  constexpr std::size_t kMaxHeads = std::size_t{1} << 24;
+  // Together with triangles and frame, less than 100 bytes per small triangle and 16 per pixel.
+  constexpr std::size_t kMaskBytesPerTriangle = 40, kMaskBytesPerPixel = 8;
   const auto cells = static_cast<std::size_t>(grid.cells());
-  // A chunk a thread: the more lists a cell has, the more of them have to be found, begun and left half full.
+  // At most one chunk per thread: each further list of a cell costs a lookup and a partly filled block.
   const auto most = static_cast<std::size_t>(threads);
   const std::size_t pixels = static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height);
   const std::size_t affordable = std::max<std::size_t>(1, kMaxHeads / cells);
-  used_chunks_ = std::clamp<std::size_t>(triangles.size() / kLeastChunk, 1, std::min(most, affordable));
+  used_chunks_ = std::clamp<std::size_t>(triangles.size() / kMinChunk, 1, std::min(most, affordable));
   if (chunks_.size() < used_chunks_) chunks_.resize(used_chunks_);
 
   const CellBoxKernel find_boxes = cell_box_kernel(target);
@@ -196,19 +201,19 @@ void Bins::build(std::span<const ScreenTriangle> triangles, const CellGrid& grid
     Chunk& chunk = chunks_[c];
     chunk.reset(cells);
     const std::size_t begin = partition_.bounds()[c];
-    const auto some = triangles.subspan(begin, partition_.bounds()[c + 1] - begin);
+    const auto part = triangles.subspan(begin, partition_.bounds()[c + 1] - begin);
     if (find_masks != nullptr) {
-      chunk.patches.reset(cells, some.size());
-      const std::size_t most_mask_bytes =
-          some.size() * kPatchBytes + pixels * kPatchBytesPerPixel / used_chunks_;
-      chunk.bin_with_masks(some, begin, grid, prefetch, find_masks, most_mask_bytes);
+      chunk.masks.reset(cells, part.size());
+      const std::size_t max_mask_bytes =
+          part.size() * kMaskBytesPerTriangle + pixels * kMaskBytesPerPixel / used_chunks_;
+      chunk.bin_with_masks(part, begin, grid, prefetch, find_masks, max_mask_bytes);
     } else {
-      chunk.bin_as_indices(some, begin, grid, prefetch, find_boxes);
+      chunk.bin_as_indices(part, begin, grid, prefetch, find_boxes);
     }
   });
   has_masks_ = find_masks != nullptr &&
                std::any_of(chunks_.begin(), chunks_.begin() + static_cast<std::ptrdiff_t>(used_chunks_),
-                           [](const Chunk& chunk) { return chunk.patches.any(); });
+                           [](const Chunk& chunk) { return chunk.masks.any(); });
 }
 
 }  // namespace edgewise

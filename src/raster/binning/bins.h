@@ -1,12 +1,12 @@
-// Binning: which triangles can touch which cell of the image, in submission order.
+// Binning: lists for every cell of the image the triangles that may cover a pixel of it, in submission order.
 //
-// Small triangles may be resolved to patches at once (mask_finder.cpp), which lie in lists by value. Others
-// lie in lists of indices, and each patch knows its place among its cell's indices.
+// The triangles are cut into chunks (work_partition.h). Chunks are binned in parallel, each into its own
+// lists. A cell's triangles are its lists of chunks 0, 1, 2 …, which is the order of submission (rule 7), no
+// matter which thread binned which chunk.
 //
-// The triangles are cut into chunks (shares.h) that are binned in parallel, each into lists of its own; a
-// cell's triangles are its lists of chunk 0, 1, 2 …, which keeps the order of submission (rule 7) whatever
-// thread did which chunk. A list holds indices, not records, in blocks of two cache lines that are chained
-// and reused from frame to frame.
+// A list holds indices of triangles, in chained blocks of two cache lines that are reused from frame to
+// frame. Small triangles may become coverage masks instead (mask_finder.cpp), stored by value in lists of
+// their own (mask_lists.h). Each mask stores its rank among its cell's indices.
 #pragma once
 
 #include <cstdint>
@@ -26,40 +26,40 @@ class Bins {
  public:
   enum class Small { as_indices, as_masks };
 
-  // Replaces what was binned before. A triangle with no sample in its bounding box lands nowhere; one without
-  // area may land in up to four cells. Patches want cells of tiles; a target without vectors makes none.
-  // `prefetch`: triangles are asked for before they are needed. Throws std::length_error when a chunk's lists
-  // pass 2^32 entries.
+  // Replaces the previous contents. A triangle without a sample in its bounding box is dropped; one without
+  // area may be listed in up to four cells. as_masks needs cells that are tiles, and makes no masks on the
+  // scalar target. `prefetch`: prefetch triangles. Throws std::length_error when a chunk's lists exceed 2^32
+  // entries.
   void build(std::span<const ScreenTriangle> triangles, const CellGrid& grid, int threads, SimdTarget target,
              Small small, bool prefetch);
 
   bool empty(int cell) const {
     const auto c = static_cast<std::size_t>(cell);
     for (std::size_t i = 0; i < used_chunks_; ++i)
-      if (chunks_[i].first[c] != kNone || (has_masks_ && !chunks_[i].patches.empty(c))) return false;
+      if (chunks_[i].first[c] != kNone || (has_masks_ && !chunks_[i].masks.empty(c))) return false;
     return true;
   }
 
-  // Consecutive indices of a cell.
+  // Consecutive indices of a cell: one block of a list. `first_slot`: the slot of the first in the chunk.
   struct Run {
     std::span<const std::uint32_t> indices;
     std::size_t chunk;
     std::uint32_t first_slot;
   };
 
-  // visit(run) for a cell's triangle indices, in submission order.
+  // Calls visit(run) for the index blocks of a cell, in submission order.
   template <typename Visit>
   void for_each_run(int cell, Visit&& visit) const {
     const auto c = static_cast<std::size_t>(cell);
     for (std::size_t i = 0; i < used_chunks_; ++i) {
       const Chunk& chunk = chunks_[i];
       for (std::uint32_t slot = chunk.first[c]; slot != kNone;) {
-        const std::uint32_t block_end = slot + kRun;
+        const std::uint32_t block_end = slot + kIndicesPerBlock;
         const bool last = chunk.cursor[c] <= block_end && chunk.cursor[c] > slot;
         const std::uint32_t end = last ? chunk.cursor[c] : block_end;
-        if (!last) {  // the next block is anywhere: ask for it in time
+        if (!last) {  // the next block may lie anywhere: prefetch it
           const std::uint32_t* const next = &chunk.slots[chunk.slots[block_end]];
-          __builtin_prefetch(next), __builtin_prefetch(next + kRun);
+          __builtin_prefetch(next), __builtin_prefetch(next + kIndicesPerBlock);
         }
         visit(Run{{&chunk.slots[slot], end - slot}, i, slot});
         slot = last ? kNone : chunk.slots[block_end];
@@ -67,34 +67,34 @@ class Bins {
     }
   }
 
-  // Goes through the patches of a cell, in submission order. draw(patches, rank) draws the first of some
-  // consecutive patches, as many as have no higher rank, and returns how many these are.
+  // Reads the masks of a cell in submission order. The callback draw(masks, rank) draws the leading masks
+  // whose rank is at most `rank`, and returns their number.
   class MaskReader {
    public:
     MaskReader(const Bins& bins, int cell) : bins_(bins), cell_(static_cast<std::size_t>(cell)) {
       if (!bins_.has_masks_) return;
-      for (std::size_t i = 0; i < bins_.used_chunks_; ++i) bins_.chunks_[i].patches.prefetch_first(cell_);
-      reader_ = {bins_.chunks_[0].patches, cell_};
+      for (std::size_t i = 0; i < bins_.used_chunks_; ++i) bins_.chunks_[i].masks.prefetch_first(cell_);
+      reader_ = {bins_.chunks_[0].masks, cell_};
     }
-    // Draws what is left of those before one of a run's triangles.
+    // Draws the remaining masks that precede triangle `index` of a run.
     template <typename Draw>
-    void up_to(const Run& run, std::size_t index, Draw&& draw) {
-      go_on(run.chunk, run.first_slot + static_cast<std::uint32_t>(index) + 1, draw);
+    void draw_before(const Run& run, std::size_t index, Draw&& draw) {
+      advance_to(run.chunk, run.first_slot + static_cast<std::uint32_t>(index) + 1, draw);
     }
     template <typename Draw>
-    void to_the_end(Draw&& draw) {
-      go_on(bins_.used_chunks_ - 1, kNone, draw);
+    void draw_rest(Draw&& draw) {
+      advance_to(bins_.used_chunks_ - 1, kNone, draw);
     }
 
    private:
     template <typename Draw>
-    void go_on(std::size_t chunk, std::uint32_t rank, Draw&& draw) {
+    void advance_to(std::size_t chunk, std::uint32_t rank, Draw&& draw) {
       if (!bins_.has_masks_) return;
-      for (; chunk_ != chunk; reader_ = {bins_.chunks_[++chunk_].patches, cell_}) draw_some(kNone, draw);
-      draw_some(rank, draw);
+      for (; chunk_ != chunk; reader_ = {bins_.chunks_[++chunk_].masks, cell_}) draw_up_to_rank(kNone, draw);
+      draw_up_to_rank(rank, draw);
     }
     template <typename Draw>
-    void draw_some(std::uint32_t rank, Draw&& draw) {
+    void draw_up_to_rank(std::uint32_t rank, Draw&& draw) {
       for (auto ahead = reader_.ahead(); !ahead.empty() && ahead.front().rank <= rank;
            ahead = reader_.ahead())
         reader_.pass(draw(ahead, rank));
@@ -107,32 +107,33 @@ class Bins {
 
  private:
   static constexpr std::uint32_t kNone = 0xFFFFFFFF;
-  static constexpr std::uint32_t kBlock = 32;        // slots, a power of two
-  static constexpr std::uint32_t kRun = kBlock - 1;  // indices in a block; the last slot names the next block
+  static constexpr std::uint32_t kSlotsPerBlock = 32;                    // a power of two
+  static constexpr std::uint32_t kIndicesPerBlock = kSlotsPerBlock - 1;  // the last slot links to the next
 
-  // Two chunks share no cache line, nor the pair of lines that processors fetch: threads write to them.
+  // Different threads write to chunks. The alignment keeps them in different pairs of cache lines, which
+  // processors fetch together (false sharing).
   struct alignas(128) Chunk {
-    std::vector<std::uint32_t> slots;          // blocks of kBlock
+    std::vector<std::uint32_t> slots;          // blocks of kSlotsPerBlock
     std::vector<std::uint32_t> first, cursor;  // for each cell: slot of its first block, next slot to write
     std::uint32_t used = 0;                    // slots in use
-    MaskLists patches;
+    MaskLists masks;
 
     void reset(std::size_t cells);
-    // For a cell whose last block, if it has one, is full up to the slot that names the next.
+    // Appends a block to a cell's list. `end_of_last`: the link slot of its last block, or kNone.
     std::uint32_t begin_block(std::size_t cell, std::uint32_t end_of_last);
-    // Adds it if it is wanted; no branch could guess whether.
-    void push(std::size_t cell, std::uint32_t index, bool wanted);
-    void bin(const ScreenTriangle& triangle, std::uint32_t index, const CellBox& box, int of_four,
+    // Appends the index if it is a candidate, without a branch that would be mispredicted.
+    void push(std::size_t cell, std::uint32_t index, bool is_candidate);
+    void bin(const ScreenTriangle& triangle, std::uint32_t index, const CellBox& box, int candidate_cells,
              const CellGrid& grid);
     void bin_in_many(const ScreenTriangle& triangle, std::uint32_t index, const CellBox& box,
                      const CellGrid& grid);
-    void bin_boxed(const ScreenTriangle* some, std::uint64_t boxed, const CellBoxes& boxes, std::size_t begin,
-                   const CellGrid& grid);
+    void bin_boxed(const ScreenTriangle* batch, std::uint64_t boxed, const CellBoxes& boxes,
+                   std::size_t begin, const CellGrid& grid);
     void append(const SortedTriangles& sorted, std::size_t n, std::size_t end);
     void bin_as_indices(std::span<const ScreenTriangle> triangles, std::size_t begin, const CellGrid& grid,
                         bool prefetch, CellBoxKernel find_boxes);
     void bin_with_masks(std::span<const ScreenTriangle> triangles, std::size_t begin, const CellGrid& grid,
-                        bool prefetch, MaskFinder find_masks, std::size_t most_mask_bytes);
+                        bool prefetch, MaskFinder find_masks, std::size_t max_mask_bytes);
   };
 
   std::vector<Chunk> chunks_;

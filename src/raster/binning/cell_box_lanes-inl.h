@@ -1,4 +1,4 @@
-// From boxes of pixels to boxes of cells, in vectors; and of small ones the cells that are touched.
+// Converts pixel boxes to cell boxes, in vectors, and finds the candidate cells of boxes up to 2 x 2 cells.
 #include <hwy/highway.h>
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 #include "raster/binning/cell_boxes.h"
 #include "raster/simd/record_lanes-inl.h"
 
-// Included once a SIMD target.
+// Included once per SIMD target.
 #if defined(EDGEWISE_CELL_BOX_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef EDGEWISE_CELL_BOX_LANES_INL_H
 #undef EDGEWISE_CELL_BOX_LANES_INL_H
@@ -22,11 +22,11 @@ namespace edgewise {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Of boxes of 2 x 2 cells, those that no edge rejects: bit column + 2 row. `centre`: where the cells meet.
+// The cells of 2 x 2 cell boxes that no edge rejects: bit column + 2 row. `centre`: the cells' common corner.
 //
-// An edge rejects a cell where its value is negative in all of the box's part of it. Floats suffice, since
-// who draws a tile tests for itself, and what must stay does stay: factors are exact (rule 3), and where p +
-// q >= 0, rounding keeps the order of p and -q.
+// An edge rejects a cell if its value is negative in the whole part of the box in that cell. Floats suffice.
+// A cell that is kept needlessly does no harm, since the tile kernel tests again. No candidate is rejected:
+// factors are exact (rule 3), and where p + q >= 0, p >= -q also holds for the rounded p and q.
 HWY_NOINLINE inline V candidates_of_four(const RecordLanes& t, V centre_x, V centre_y) {
   const D d;
   const hn::RebindToFloat<D> df;
@@ -40,7 +40,7 @@ HWY_NOINLINE inline V candidates_of_four(const RecordLanes& t, V centre_x, V cen
   const F area = hn::Sub(hn::Mul(hn::Sub(x[1], x[0]), hn::Sub(y[2], y[0])),
                          hn::Mul(hn::Sub(y[1], y[0]), hn::Sub(x[2], x[0])));
   const F flip = hn::And(area, hn::SignBit(df));
-  F largest[4];  // in each cell, the least of the edges'
+  F largest[4];  // per cell, the least of the three edges' largest values
   for (int i = 0; i < 3; ++i) {
     const int j = i == 2 ? 0 : i + 1;
     const F a = hn::Xor(hn::Sub(y[i], y[j]), flip), b = hn::Xor(hn::Sub(x[j], x[i]), flip);
@@ -56,16 +56,16 @@ HWY_NOINLINE inline V candidates_of_four(const RecordLanes& t, V centre_x, V cen
     }
   }
   const F zero = hn::Zero(df);
-  const auto unsure = hn::Eq(area, zero);  // of the orientation
-  V touched = hn::Zero(d);
+  const auto unsure = hn::Eq(area, zero);  // the orientation is unknown: keep all
+  V candidates = hn::Zero(d);
   for (int cell = 0; cell < 4; ++cell) {
     const auto kept = hn::RebindMask(d, hn::Or(unsure, hn::Ge(largest[cell], zero)));
-    touched = hn::Or(touched, hn::IfThenElseZero(kept, hn::Set(d, 1 << cell)));
+    candidates = hn::Or(candidates, hn::IfThenElseZero(kept, hn::Set(d, 1 << cell)));
   }
-  return touched;
+  return candidates;
 }
 
-// An empty box leaves garbage.
+// Lanes with an empty box store unspecified values.
 HWY_INLINE void store_cell_boxes(const RecordLanes& t, const BoxLanes& box, const CellGrid& grid, int at,
                                  CellBoxes& out) {
   const D d;
@@ -83,16 +83,16 @@ HWY_INLINE void store_cell_boxes(const RecordLanes& t, const BoxLanes& box, cons
   const auto bits = [&](hn::Mask<D> where, int cells) {
     return hn::IfThenElseZero(where, hn::Set(d, cells));
   };
-  V touched = hn::Or(one, hn::Or(bits(wide, 0b0010), bits(high, 0b0100)));
+  V candidates = hn::Or(one, hn::Or(bits(wide, 0b0010), bits(high, 0b0100)));
   if (!hn::AllFalse(d, four)) {
     const auto end = [&](V cell, int log2) {
       return hn::ShiftLeft<kSubBits>(hn::ShiftLeftSame(hn::Add(cell, one), log2));
     };
-    const V inside = candidates_of_four(t, end(column0, grid.cell_w_log2), end(row0, grid.cell_h_log2));
-    touched = hn::IfThenElse(four, inside, touched);
+    const V in_four = candidates_of_four(t, end(column0, grid.cell_w_log2), end(row0, grid.cell_h_log2));
+    candidates = hn::IfThenElse(four, in_four, candidates);
   }
   const auto large = hn::Gt(hn::Or(columns, rows), one);
-  hn::Store(hn::IfThenZeroElse(large, touched), d, out.of_four + at);
+  hn::Store(hn::IfThenZeroElse(large, candidates), d, out.candidate_cells + at);
 }
 
 }  // namespace HWY_NAMESPACE

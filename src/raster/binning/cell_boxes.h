@@ -1,5 +1,5 @@
-// Which cells of a grid the bounding boxes of triangles touch, and of few cells the triangles themselves, a
-// vector of triangles at a time.
+// The cells of a grid that the bounding boxes of triangles overlap, and for boxes of up to 2 x 2 cells those
+// that the triangle itself may cover, a vector of triangles at a time.
 #pragma once
 
 #include <algorithm>
@@ -28,24 +28,24 @@ inline constexpr int kBoxesAtOnce = 64;
 
 struct CellBoxes {
   CellBox box[kBoxesAtOnce];
-  // Where a box is at most 2 x 2 cells, those that the triangle may touch: bit column + 2 row. Or 0: they
-  // have to be looked for.
-  alignas(64) std::int32_t of_four[kBoxesAtOnce];
+  // For a box of at most 2 x 2 cells, the cells of which the triangle may cover a pixel: bit column + 2 row.
+  // 0 for larger boxes.
+  alignas(64) std::int32_t candidate_cells[kBoxesAtOnce];
 
-  // The box of triangle i, which may touch all cells of it.
+  // Sets the box of triangle i. All its cells become candidates.
   void set(std::size_t i, const contract::PixelBox& px, const CellGrid& grid) {
     const auto cell = [](int at, int log2) { return static_cast<std::uint16_t>(at >> log2); };
     const CellBox b = {cell(px.x0, grid.cell_w_log2), cell(px.y0, grid.cell_h_log2),
                        cell(px.x1 - 1, grid.cell_w_log2), cell(px.y1 - 1, grid.cell_h_log2)};
     const int columns = b.column1 - b.column0, rows = b.row1 - b.row0;  // less one
     box[i] = b;
-    of_four[i] =
+    candidate_cells[i] =
         std::max(columns, rows) > 1 ? 0 : (columns == 0 ? 0b01 : 0b11) * (rows == 0 ? 0b0001 : 0b0101);
   }
 };
 
-// Writes the boxes of kBoxesAtOnce triangles and returns which of them hold a sample, bit by bit; the others'
-// boxes mean nothing. `prefetch`: the triangles that follow in memory are asked for.
+// Writes the boxes of kBoxesAtOnce triangles. Bit i of the result is set if the box of triangle i holds a
+// sample; the other boxes are unspecified. `prefetch`: prefetch the triangles that follow in memory.
 using CellBoxKernel = std::uint64_t (*)(const ScreenTriangle* triangles, const CellGrid& grid, bool prefetch,
                                         CellBoxes& out);
 

@@ -1,8 +1,8 @@
-// Which samples small triangles cover, and what their depth planes are made of: a lane belongs to a triangle,
-// and all that is known of it fits 32 bits.
+// Finds the samples that small triangles cover, and the inputs of their depth planes, one 32-bit lane per
+// triangle.
 //
-// A triangle is small if its box is less than 16 px wide and high, of which at most 8 x 8 lie in the image.
-// So steps and distances stay below 2^12 sub-units, and edge values below 2^25.
+// A triangle is small if its vertices are less than 16 px apart on both axes and its box in the image is at
+// most 8 x 8 px. So steps and distances stay below 2^12 sub-units, and edge values below 2^25.
 #include <hwy/highway.h>
 
 #include <bit>
@@ -11,7 +11,7 @@
 #include "raster/binning/mask_finder.h"
 #include "raster/simd/record_lanes-inl.h"
 
-// Included once a SIMD target.
+// Included once per SIMD target.
 #if defined(EDGEWISE_MASK_COVERAGE_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef EDGEWISE_MASK_COVERAGE_INL_H
 #undef EDGEWISE_MASK_COVERAGE_INL_H
@@ -26,25 +26,26 @@ namespace edgewise {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr std::int32_t kLongest = 1 << 12;  // sub-units, of a small triangle's sides along an axis
+constexpr std::int32_t kMaxSmallExtent = 1 << 12;  // sub-units: a small triangle is less wide and high
 
-// Small triangles that cover a sample, in their order. Vectors may be stored behind the last.
+// Small triangles that cover a sample, in submission order. Whole vectors may be stored past the last.
 struct Covering {
-  static constexpr int kRoom = kBoxesAtOnce + 16;
+  static constexpr int kCapacity = kBoxesAtOnce + 16;
   int count = 0;
-  alignas(64) std::int32_t name[kRoom];           // which of the triangles
-  alignas(64) std::int32_t x0[kRoom], y0[kRoom];  // first pixel of the box
-  alignas(64) std::int32_t rows[2][kRoom];        // as in CoverageMask, but from the box's first pixel on
-  alignas(64) std::int32_t payload[kRoom];
+  alignas(64) std::int32_t index[kCapacity];              // of the triangle in its batch
+  alignas(64) std::int32_t x0[kCapacity], y0[kCapacity];  // first pixel of the box
+  alignas(64) std::int32_t rows[2][kCapacity];  // as in CoverageMask, but from the box's first pixel on
+  alignas(64) std::int32_t payload[kCapacity];
   // depth_lanes-inl.h
-  alignas(64) std::int32_t dx1[kRoom], dx2[kRoom], dy1[kRoom], dy2[kRoom], dz1[kRoom], dz2[kRoom];
-  alignas(64) std::int32_t area[kRoom], from_x[kRoom], from_y[kRoom], anchor_z[kRoom];
+  alignas(64) std::int32_t dx1[kCapacity], dx2[kCapacity], dy1[kCapacity], dy2[kCapacity], dz1[kCapacity],
+      dz2[kCapacity];
+  alignas(64) std::int32_t area[kCapacity], from_x[kCapacity], from_y[kCapacity], anchor_z[kCapacity];
 };
 
 HWY_INLINE hn::Mask<D> is_small(const RecordLanes& t, const BoxLanes& box) {
   const D d;
-  const V side = hn::Set(d, kMaskSide), longest = hn::Set(d, kLongest);
-  // Differences fit (rule 3).
+  const V side = hn::Set(d, kMaskSide), longest = hn::Set(d, kMaxSmallExtent);
+  // Differences of coordinates fit 32 bits (rule 3).
   const auto fits = [&](V begin, V end, const V(&c)[3]) {
     return hn::AndNot(hn::Gt(hn::Sub(end, begin), side), hn::Lt(hn::Sub(most(c), least(c)), longest));
   };
@@ -54,12 +55,12 @@ HWY_INLINE hn::Mask<D> is_small(const RecordLanes& t, const BoxLanes& box) {
 using DF = hn::Rebind<float, D>;
 using VF = hn::Vec<DF>;
 
-// Where a row is crossed, in columns from the box's first sample on, is held as 17 more: rounded down that is
-// 16 + the next column, in a float of 16 … 32, whose bits from 19 on count whole columns.
+// The column at which an edge crosses a row, counted from the box's first sample, is stored plus 17. Rounded
+// down, that is 16 + the next column, in a float between 16 and 32, where bits 19 and up count whole columns.
 constexpr float kFirst = 16, kBefore = 17, kEnd = kFirst + kMaskSide + 1;
 static_assert(kEnd < 2 * kFirst);
 
-// The samples of a row that edges leave.
+// The samples of a row that lie inside all edges so far.
 class RowSpan {
  public:
   HWY_INLINE explicit RowSpan(V width) {
@@ -89,31 +90,31 @@ class RowSpan {
   VF begin_, end_;
 };
 
-// Where an edge crosses one row of samples after another: the integers of rule 5, told apart by floats.
+// The crossings of an edge with one row of samples after another, in floats that decide as the integers of
+// rule 5.
 //
-// At sample x of a row the edge's value is e + a x, |a| < 2^12, and the sample is inside if that is at least
-// 0, which is to say if e + a x + 1/2 is above 0. It never is 0, but 1/2 away from it or more: so the
-// crossing, where it would be, is more than 2^-13 of a column away from every sample. All sums are exact:
-// below 2^18, in halves or in 32nds. The reciprocal and the product move a crossing below 32 by less than
-// 2^-16, whatever the rounding mode, so never past a sample.
+// At sample x of a row the edge value is the integer e + a x, |a| < 2^12. The sample is inside if that is >=
+// 0, that is, if e + a x + 1/2 > 0. This sum is at least 1/2 away from 0, so the crossing, where it is 0, is
+// more than 2^-13 columns away from every sample. All sums are exact: below 2^18, in halves or 32nds. The
+// reciprocal and the product move a crossing below 32 by less than 2^-16 in any rounding mode, so never past
+// a sample.
 class Crossings {
  public:
   Crossings() = default;
   // `first`: at the box's first sample. `a`, `b`: steps to the next column and to the next row.
   HWY_INLINE Crossings(V a, V b, V first) {
-    static_assert(kLongest <= 1 << 12);
+    static_assert(kMaxSmallExtent <= 1 << 12);
     const DF df;
     const VF back = hn::ConvertTo(df, hn::Neg(a));
     rises_ = hn::Lt(back, hn::Zero(df));
-    // With 1/32 an edge along the row has its crossing at 33 or beyond if e is at least 0, else at 1 or
-    // before.
+    // With 1/32, a horizontal edge crosses at 33 or beyond if e >= 0, else at 1 or before.
     const VF nonzero = hn::IfThenElse(hn::Eq(back, hn::Zero(df)), hn::Set(df, 1.0f / 32), back);
     inverse_ = hn::Div(hn::Set(df, 1.0f), nonzero);
     step_y_ = hn::ConvertTo(df, b);
     value_ =
         hn::Add(hn::Add(hn::ConvertTo(df, first), hn::Set(df, 0.5f)), hn::Mul(nonzero, hn::Set(df, kBefore)));
   }
-  // Leaves the samples of the next row that are inside.
+  // Restricts `span` to the samples of the next row that are inside this edge.
   HWY_INLINE void cut_row(RowSpan& span) {
     const VF crossing = hn::Mul(value_, inverse_);
     span.begin_after(crossing, rises_);
@@ -126,9 +127,10 @@ class Crossings {
   hn::Mask<DF> rises_;
 };
 
-// Appends those of kLanes triangles that `small` selects and that cover a sample; returns which they are.
+// Appends the triangles of a vector that are small and cover a sample. Bit i of the result is set if triangle
+// i does. `index`: of the first, in the batch.
 HWY_INLINE std::uint32_t append_covering(const RecordLanes& t, const BoxLanes& box, hn::Mask<D> small,
-                                         int name, Covering& out) {
+                                         int index, Covering& out) {
   const D d;
   const V zero = hn::Zero(d);
   const auto minus = [](V a, V b) { return hn::Sub(a, b); };
@@ -163,8 +165,8 @@ HWY_INLINE std::uint32_t append_covering(const RecordLanes& t, const BoxLanes& b
     half = hn::Or(half, hn::ShiftLeftSame(span.bits(), y % 4 * 8));
   }
   const hn::RebindToUnsigned<D> du;
-  const auto row_bits = [&](V first_rows) {  // of 0 … 4 rows; shifts of 32 bits are none
-    const V left_out = hn::ShiftLeft<3>(minus(hn::Set(d, 4), first_rows));
+  const auto row_bits = [&](V row_count) {  // of 0 … 4 rows, in two shifts: no shift by 32 bits
+    const V left_out = hn::ShiftLeft<3>(minus(hn::Set(d, 4), row_count));
     const auto half = hn::BitCast(du, hn::ShiftRight<1>(left_out));
     return hn::BitCast(d, (hn::Set(du, 0xFFFFFFFF) >> half) >> half);
   };
@@ -186,7 +188,7 @@ HWY_INLINE std::uint32_t append_covering(const RecordLanes& t, const BoxLanes& b
   const Selection select(covers);
   const int at = out.count;
   const auto keep = [&](V v, std::int32_t* list) { hn::StoreU(select(v), d, list + at); };
-  keep(counting_from(name), out.name);
+  keep(counting_from(index), out.index);
   keep(box.x0, out.x0), keep(box.y0, out.y0);
   keep(inside[0], out.rows[0]), keep(inside[1], out.rows[1]);
   keep(t.payload, out.payload);

@@ -1,11 +1,12 @@
-// Small triangles are resolved where they are binned.
+// The kernel that turns small triangles into coverage masks during binning.
 //
-// 1. Binning goes through the triangles as they lie in memory. Whoever draws tiles goes through them in the
-//    order of tiles, all over the memory, and waits for it. So what a small triangle covers is found here,
-//    and put into the tiles' lists by value (mask_lists.h). A triangle that covers no sample vanishes.
-// 2. Small triangles take small numbers: samples are tested in 32-bit lanes, a triangle a lane
-//    (mask_coverage-inl.h), and only those that cover one get a depth plane.
-// 3. A patch is laid out as the tile's buffer is (mask_quadrants-inl.h), so that drawing it needs no branch.
+// 1. Binning reads triangles in the order of memory. A tile kernel reads them tile by tile, from all over
+//    memory, and waits for it. So the coverage of small triangles is found here, and stored in the tiles'
+//    lists by value (mask_lists.h). A triangle that covers no sample is dropped.
+// 2. Small triangles have small coordinates: samples are tested in 32-bit lanes, one triangle per lane
+//    (mask_coverage-inl.h). Only triangles that cover a sample get a depth plane.
+// 3. A mask is aligned to the blocks of the tile's buffer (mask_quadrants-inl.h), so drawing it needs
+//    no branch.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raster/binning/mask_finder.cpp"
 #include <hwy/foreach_target.h>
@@ -25,7 +26,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET == HWY_SCALAR
 
-void find_masks(const ScreenTriangle*, const CellGrid&, bool, SortedTriangles&) {}  // never chosen
+// Never called: mask_finder() returns null.
+void find_masks(const ScreenTriangle*, const CellGrid&, bool, SortedTriangles&) {}
 
 #else
 
@@ -43,7 +45,7 @@ void find_masks(const ScreenTriangle* triangles, const CellGrid& grid, bool pref
   }
   Planes planes;
   find_planes(triangles, covering, planes);
-  cut_into_patches(grid, covering, planes, out);
+  cut_into_quadrants(grid, covering, planes, out);
 }
 
 #endif

@@ -1,5 +1,4 @@
-// Sorts triangles for the bins: small ones become patches, of the others it tells which cells their boxes
-// touch. See mask_finder.cpp for how.
+// Sorts triangles for binning: small ones become coverage masks, the others get cell boxes (mask_finder.cpp).
 #pragma once
 
 #include <bit>
@@ -13,27 +12,28 @@
 
 namespace edgewise {
 
-// Up to kBoxesAtOnce triangles, sorted. Bit i of a set is triangle i's.
+// A batch of up to kBoxesAtOnce triangles, sorted. Bit i of `boxed` and `masked` belongs to triangle i.
 struct SortedTriangles {
-  std::uint64_t boxed;   // lie in boxes
-  std::uint64_t masked;  // small ones that cover a sample
+  std::uint64_t boxed;   // triangles with a cell box
+  std::uint64_t masked;  // small triangles that cover a sample
   CellBoxes boxes;
 
-  // The patches of the n-th patched triangle: of windows that lie at the box's upper left, upper right, lower
-  // left and lower right, those whose bits are set.
-  static constexpr int kQuadrants = 4, kRoom = kBoxesAtOnce;
-  std::uint8_t windows[kRoom + 7];  // four bits; are read eight at a time
-  // Halves of patches, but the last field is the cell.
+  // Bits of quadrants[n]: the masks of the n-th masked triangle, at the upper left, upper right, lower left
+  // and lower right of its box.
+  static constexpr int kQuadrants = 4, kCapacity = kBoxesAtOnce;
+  std::uint8_t quadrants[kCapacity + 7];  // 4 bits each; read eight at a time
+  // Halves of a CoverageMask. The last field of the second half is the cell instead of the rank.
   struct alignas(16) Half {
     std::uint32_t field[4];
   };
-  Half first[kQuadrants][kRoom], second[kQuadrants][kRoom];
+  Half first[kQuadrants][kCapacity], second[kQuadrants][kCapacity];
 
-  // Bit 4 i + w: window w of the (n + i)-th patched triangle, of eight, but of none from the end-th on.
+  // The quadrants of masked triangles n … n + 7, none from `end` on. Bit 4 i + q is quadrant q of triangle
+  // n + i.
   std::uint32_t quadrants_of_eight(std::size_t n, std::size_t end) const {
     static_assert(std::endian::native == std::endian::little);
     std::uint64_t bits;
-    std::memcpy(&bits, windows + n, sizeof bits);
+    std::memcpy(&bits, quadrants + n, sizeof bits);
     if (end - n < 8) bits &= (std::uint64_t{1} << (end - n) * 8) - 1;
     bits = (bits | bits >> 4) & 0x00FF00FF00FF00FF;
     bits = (bits | bits >> 8) & 0x0000FFFF0000FFFF;
@@ -41,11 +41,11 @@ struct SortedTriangles {
   }
 };
 
-// `triangles`: kBoxesAtOnce records. `prefetch`: those that follow in memory are asked for.
+// `triangles`: kBoxesAtOnce of them. `prefetch`: prefetch the triangles that follow in memory.
 using MaskFinder = void (*)(const ScreenTriangle* triangles, const CellGrid& grid, bool prefetch,
                             SortedTriangles& out);
 
-// Null where the target has no vectors. `target` must be resolved.
+// Null for the scalar target. `target` must be resolved.
 MaskFinder mask_finder(SimdTarget target);
 
 }  // namespace edgewise

@@ -4,15 +4,15 @@
 
 namespace edgewise {
 
-void MaskLists::reset(std::size_t cells, std::size_t patches) {
+void MaskLists::reset(std::size_t cells, std::size_t masks) {
   lists_.assign(cells, {});
   used_ = 0;
-  // What a list leaves empty of its last block should be little beside the rest.
-  constexpr std::size_t kBlocks = 4;
+  // Lists of about this many blocks: the unused part of the last block stays small.
+  constexpr std::size_t kBlocksPerList = 4;
   block_bytes_ = std::bit_ceil(
-      std::clamp(patches * sizeof(CoverageMask) / cells / kBlocks, kSmallestBlock, kLargestBlock));
-  // Few large slabs, since those get huge pages; but none much larger than what comes.
-  first_slab_ = std::bit_ceil(std::max<std::size_t>(1, patches * sizeof(CoverageMask) / kLargestBlock));
+      std::clamp(masks * sizeof(CoverageMask) / cells / kBlocksPerList, kSmallestBlock, kLargestBlock));
+  // Few large slabs, because they get huge pages; but none much larger than all masks.
+  first_slab_ = std::bit_ceil(std::max<std::size_t>(1, masks * sizeof(CoverageMask) / kLargestBlock));
 }
 
 CoverageMask* MaskLists::add_block(List& list) {

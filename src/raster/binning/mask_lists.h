@@ -1,8 +1,8 @@
-// For each cell of the image a list of patches, in the order in which they were appended.
+// For each cell of the image a list of coverage masks, in the order in which they were appended.
 //
-// Patches lie in the lists by value, in blocks that are chained: who draws a tile reads whole cache lines,
-// one after the other. The longer the lists, the larger the blocks: to find the next one costs the latency of
-// memory. Memory is kept from frame to frame, and grows without moving what it has.
+// Lists store masks by value, in chained blocks, so a tile reads consecutive cache lines. Longer lists have
+// larger blocks, because each step to the next block costs a memory latency. Memory is kept from frame to
+// frame, and grows without moving masks.
 #pragma once
 
 #include <algorithm>
@@ -22,9 +22,9 @@ class MaskLists {
   struct Header;
 
  public:
-  // Empties all lists; about `patches` are to come.
-  void reset(std::size_t cells, std::size_t patches);
-  // Two halves of a patch. `rank` takes the place of the second's last field.
+  // Empties all lists. `masks`: expected number of masks, for the block size.
+  void reset(std::size_t cells, std::size_t masks);
+  // Appends a mask given in two halves. `rank` replaces the last field of the second.
   template <typename Half>
   void append(std::size_t cell, std::uint32_t rank, const Half& first, const Half& second) {
     List& list = lists_[cell];
@@ -42,14 +42,14 @@ class MaskLists {
   std::size_t used_bytes() const { return used_; }
   bool empty(std::size_t cell) const { return lists_[cell].end == nullptr; }
 
-  // Goes through a list, a block at a time.
+  // Reads a list, a block at a time.
   class Reader {
    public:
     Reader() = default;
     Reader(const MaskLists& lists, std::size_t cell) : lists_(&lists), list_end_(lists.lists_[cell].end) {
       if (list_end_ != nullptr) enter(lists.lists_[cell].first);
     }
-    // Consecutive patches; none at the list's end.
+    // The unread masks of the current block; none at the end of the list.
     std::span<const CoverageMask> ahead() const { return {at_, block_end_}; }
     void pass(std::size_t count) {
       at_ += count;
@@ -57,7 +57,7 @@ class MaskLists {
     }
 
    private:
-    // The block after the next is asked for.
+    // Also prefetches the block after the next.
     void enter(const Header* block) {
       at_ = begin_of(block);
       block_end_ = lists_->block_of(list_end_) == block ? list_end_ : lists_->end_of(block);
@@ -68,7 +68,7 @@ class MaskLists {
     const MaskLists* lists_ = nullptr;
     const CoverageMask *at_ = nullptr, *block_end_ = nullptr, *list_end_ = nullptr;
   };
-  // Asks for the beginning of a list.
+  // Prefetches the beginning of a list.
   void prefetch_first(std::size_t cell) const {
     if (const Header* first = lists_[cell].first) prefetch_block(first, std::min(block_bytes_, kReadAhead));
   }
@@ -87,7 +87,7 @@ class MaskLists {
     Header* first = nullptr;
     CoverageMask* end = nullptr;
   };
-  // Of a position that is not null.
+  // The block of the mask before `at`, which must not be null.
   Header* block_of(const CoverageMask* at) const {
     return reinterpret_cast<Header*>((reinterpret_cast<std::uintptr_t>(at) - 1) & ~(block_bytes_ - 1));
   }
@@ -106,7 +106,7 @@ class MaskLists {
 
   std::array<Buffer<Page>, 40> slabs_;                   // slab i has first_slab_ << i pages
   std::size_t first_slab_ = 1;                           // a power of two
-  std::size_t block_bytes_ = kSmallestBlock, used_ = 0;  // bytes; of all slabs one after the other
+  std::size_t block_bytes_ = kSmallestBlock, used_ = 0;  // bytes; used_ counts over all slabs in order
   std::vector<List> lists_;
 };
 

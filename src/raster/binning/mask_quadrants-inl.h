@@ -1,6 +1,6 @@
-// Cuts small triangles into patches: a patch is 2 x 2 blocks of the tile's buffer, from a block on. So a box
-// of up to 8 x 8 pixels lies in up to 2 x 2 such windows, of which the right and the lower ones begin at the
-// next tile where one ends.
+// Cuts the coverage of small triangles into masks. A mask is 2 x 2 blocks of the tile's buffer, so a box of
+// up to 8 x 8 pixels at any position needs up to 2 x 2 masks, the quadrants. Where a tile ends, the right or
+// lower quadrants begin at the next tile.
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 #include "raster/binning/mask_coverage-inl.h"
 #include "raster/simd/depth_lanes-inl.h"
 
-// Included once a SIMD target.
+// Included once per SIMD target.
 #if defined(EDGEWISE_MASK_QUADRANTS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef EDGEWISE_MASK_QUADRANTS_INL_H
 #undef EDGEWISE_MASK_QUADRANTS_INL_H
@@ -25,15 +25,15 @@ namespace edgewise {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// The depth planes of small triangles, at the first pixel of the cell in which their boxes begin.
+// The depth planes of small triangles, at the first pixel of the depth cell in which their boxes begin.
 struct Planes {
-  alignas(64) std::int32_t zx[Covering::kRoom], zy[Covering::kRoom];
-  alignas(64) std::int64_t gx[Covering::kRoom], gy[Covering::kRoom];
-  alignas(64) std::int64_t start[Covering::kRoom];  // 2^24 (depth at the first pixel of the cell + 1/2)
+  alignas(64) std::int32_t zx[Covering::kCapacity], zy[Covering::kCapacity];
+  alignas(64) std::int64_t gx[Covering::kCapacity], gy[Covering::kCapacity];
+  alignas(64) std::int64_t start[Covering::kCapacity];  // 2^24 (depth at the first pixel of the cell + 1/2)
 
-  // From the base there to that of a cell to the right, below, or both.
+  // The base of the depth cell to the right, below, or both, less that of the triangle's first cell.
   std::uint32_t base_step(int k, std::uint32_t right, std::uint32_t below) const {
-    const auto bits = [&](const std::int64_t(&list)[Covering::kRoom]) {
+    const auto bits = [&](const std::int64_t(&list)[Covering::kCapacity]) {
       return static_cast<std::uint64_t>(list[k]);
     };
     constexpr std::uint64_t kCell = std::uint64_t{kDepthCell} << kSubBits;
@@ -60,7 +60,7 @@ inline void find_planes(const ScreenTriangle* triangles, const Covering& from, P
     const std::uint32_t live = (1u << std::min(from.count - k, kLanes64)) - 1;
     for (std::uint32_t left = live & ~mask_bits(depth.exact); left != 0; left &= left - 1) {
       const int at = k + std::countr_zero(left);
-      const DepthPlane plane = make_depth(orient(triangles[from.name[at]]));
+      const DepthPlane plane = make_depth(orient(triangles[from.index[at]]));
       const auto pixels = [](std::int32_t px) {
         return static_cast<std::uint64_t>(px & -kDepthCell) << kSubBits;
       };
@@ -72,8 +72,7 @@ inline void find_planes(const ScreenTriangle* triangles, const Covering& from, P
   }
 }
 
-// Along one axis: where the two windows of a box begin, and how many of the box's pixels lie before the
-// second.
+// Along one axis: the first blocks of a box's two quadrants, and the number of pixels before the second.
 struct Cut {
   V block;        // the box's first block
   V first_count;  // px
@@ -88,8 +87,8 @@ struct Cut {
   }
 };
 
-inline void cut_into_patches(const CellGrid& grid, const Covering& from, const Planes& planes,
-                             SortedTriangles& out) {
+inline void cut_into_quadrants(const CellGrid& grid, const Covering& from, const Planes& planes,
+                               SortedTriangles& out) {
   const D d;
   const hn::RebindToUnsigned<D> du;
   using U = hn::Vec<decltype(du)>;
@@ -102,11 +101,12 @@ inline void cut_into_patches(const CellGrid& grid, const Covering& from, const P
     const V x0 = read(from.x0), y0 = read(from.y0);
     const Cut across(x0, grid.cell_w_log2), down(y0, grid.cell_h_log2);
 
-    // Rows of four bytes: pixels of the left windows move to where those begin, the others to column 0.
+    // Four rows of 8 bits per word: shift the left quadrants' pixels to their columns, the right ones' to
+    // column 0.
     const U shift = bits(hn::And(x0, hn::Set(d, 3))), left_count = bits(across.first_count);
     const U all = hn::Set(du, 0xFF), eight = hn::Set(du, 8);
     const U left_bits = bytes(all >> (eight - left_count)), right_bits = bytes(all >> left_count);
-    // Then rows: y0 % 4 of them move from word to word.
+    // Then shift rows: y0 % 4 of them move to the next word.
     const U row_shift = bits(hn::ShiftLeft<3>(hn::And(y0, hn::Set(d, 3))));
     const U back = hn::Set(du, 24) - row_shift;
     const auto two_words = hn::Eq(hn::Sub(down.second_block, down.block), hn::Set(d, 2));
@@ -128,7 +128,7 @@ inline void cut_into_patches(const CellGrid& grid, const Covering& from, const P
     }
 
     const V payload = read(from.payload), zx = read(planes.zx), zy = read(planes.zy);
-    const auto upper_bits = [&](int at) {  // of 2^24 units a whole one has 24 bits of fraction
+    const auto upper_bits = [&](int at) {  // start has 24 fraction bits
       return hn::BitCast(d,
                          hn::ShiftRight<24>(hn::BitCast(Pairs64{}, hn::LoadU(Pairs{}, planes.start + at))));
     };
@@ -155,7 +155,7 @@ inline void cut_into_patches(const CellGrid& grid, const Covering& from, const P
                             reinterpret_cast<std::int32_t*>(out.first[w] + k));
       hn::StoreInterleaved4(z, zx, zy, cell, d, reinterpret_cast<std::int32_t*>(out.second[w] + k));
       if (w == 0) continue;
-      // A depth cell of its own has a base of its own.
+      // A quadrant in another depth cell has another base.
       const auto leaves = [&](V from_block, V to_block) {
         const V same_cell = hn::ShiftRight<4>(hn::Xor(from_block, to_block));
         return mask_bits(hn::And(filled, hn::Ne(same_cell, hn::Zero(d))));
@@ -168,7 +168,7 @@ inline void cut_into_patches(const CellGrid& grid, const Covering& from, const P
       }
     }
     const hn::Rebind<std::uint8_t, D> d8;
-    hn::StoreU(hn::DemoteTo(d8, present), d8, out.windows + k);
+    hn::StoreU(hn::DemoteTo(d8, present), d8, out.quadrants + k);
   }
 }
 

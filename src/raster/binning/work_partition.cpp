@@ -10,15 +10,16 @@ namespace edgewise {
 
 namespace {
 
-// How long it takes to bin a triangle, in units of a pixel that a small one's box holds (0.3 ns on Zen 5): in
-// a mesh whose triangles grow towards the eye, 1.6 times as long for the nearest as for the farthest. Large
-// ones in many cells take longer than is said here, but then drawing them takes much longer than binning.
+// Cost model of binning a triangle. The unit is the time per pixel of a small triangle's box (0.3 ns on Zen
+// 5). In a mesh whose triangles grow towards the camera, the nearest cost 1.6 times as much as the farthest.
+// The model underestimates large triangles in many cells, where drawing takes much longer than binning
+// anyway.
 std::uint32_t work(const ScreenTriangle& triangle, int width, int height) {
-  constexpr std::uint32_t kTriangle = 16;
+  constexpr std::uint32_t kWorkPerTriangle = 16;
   const contract::PixelBox box = contract::pixel_box(triangle, width, height);
   const int columns = box.x1 - box.x0, rows = box.y1 - box.y0;
-  if (box.empty() || std::max(columns, rows) > kMaskSide) return kTriangle;
-  return kTriangle + static_cast<std::uint32_t>(columns * rows);
+  if (box.empty() || std::max(columns, rows) > kMaskSide) return kWorkPerTriangle;
+  return kWorkPerTriangle + static_cast<std::uint32_t>(columns * rows);
 }
 
 }  // namespace
@@ -31,16 +32,16 @@ void WorkPartition::cut_equally(std::size_t count, std::size_t parts) {
 void WorkPartition::cut_by_work(std::span<const ScreenTriangle> triangles, int width, int height,
                                 std::size_t parts) {
   cut_equally(triangles.size(), parts);
-  // To look at its samples takes some 10 us a part, one part after the other: at most a hundredth of what it
-  // takes to bin one. Parts of triangles in random order differ by less than a tenth of their work in nearly
-  // all draws of so many samples.
-  constexpr std::size_t kWorthLooking = 100'000, kSamples = 512, kTolerance = 10;
-  if (parts < 2 || triangles.size() / parts < kWorthLooking * parts) return;
+  // Evaluating the samples takes about 10 us per part, one part after the other. From kMinPerPart triangles
+  // per part, times the number of parts, that is at most 1 % of the time to bin a part. Parts of triangles in
+  // random order differ by less than 1 / kTolerance of their work in nearly all draws of kSamples per part.
+  constexpr std::size_t kMinPerPart = 100'000, kSamples = 512, kTolerance = 10;
+  if (parts < 2 || triangles.size() / parts < kMinPerPart * parts) return;
 
   const std::size_t count = parts * kSamples;
-  const auto place = [&](std::size_t sample) { return triangles.size() * sample / count; };
+  const auto sample_index = [&](std::size_t sample) { return triangles.size() * sample / count; };
   work_.resize(count);
-  for (std::size_t i = 0; i < count; ++i) work_[i] = work(triangles[place(i)], width, height);
+  for (std::size_t i = 0; i < count; ++i) work_[i] = work(triangles[sample_index(i)], width, height);
   const auto sum = [&](std::size_t first, std::size_t samples) {
     const auto begin = work_.begin() + static_cast<std::ptrdiff_t>(first);
     return std::accumulate(begin, begin + static_cast<std::ptrdiff_t>(samples), std::size_t{0});
@@ -53,7 +54,7 @@ void WorkPartition::cut_by_work(std::span<const ScreenTriangle> triangles, int w
   std::size_t before = 0;
   for (std::size_t i = 0, part = 1; i < count; ++i) {
     before += work_[i];
-    for (; part < parts && before * parts >= total * part; ++part) bounds_[part] = place(i + 1);
+    for (; part < parts && before * parts >= total * part; ++part) bounds_[part] = sample_index(i + 1);
   }
 }
 

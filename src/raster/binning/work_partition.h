@@ -1,4 +1,4 @@
-// Cuts triangles into parts for the threads that bin them, so that none waits long for another.
+// Cuts triangles into parts of about equal binning time, one per thread.
 #pragma once
 
 #include <cstddef>
@@ -12,16 +12,17 @@ namespace edgewise {
 
 class WorkPartition {
  public:
-  // Part i is triangles [bounds()[i], bounds()[i + 1]) of `count`, all parts of the same length.
+  // Cuts `count` triangles into parts of equal length. Part i is [bounds()[i], bounds()[i + 1]).
   void cut_equally(std::size_t count, std::size_t parts);
-  // Parts that take about as long where small triangles become patches, if equal ones would not, and there
-  // are so many triangles that looking at some of them pays. `width`, `height`: of the image, px.
+  // Cuts by the estimated work of binning with coverage masks, from a sample of the triangles. Falls back to
+  // equal lengths where these are balanced, or where there are too few triangles for sampling to pay.
+  // `width`, `height`: of the image, px.
   void cut_by_work(std::span<const ScreenTriangle> triangles, int width, int height, std::size_t parts);
   std::span<const std::size_t> bounds() const { return bounds_; }
 
  private:
   std::vector<std::size_t> bounds_;
-  std::vector<std::uint32_t> work_;  // of the triangles that were looked at
+  std::vector<std::uint32_t> work_;  // estimated work of the sampled triangles
 };
 
 }  // namespace edgewise

@@ -5,7 +5,7 @@
 ; f + x a + y b is an edge value or a depth, by pixels from a box's first one, of which (last_x, last_y) is the last,
 ; (x, y) any.
 
-(define-const kBlock Real 4.0)         ; = kBlock of src/raster/tiled/tile_setup-inl.h
+(define-const kBlockSide Real 4.0)     ; = kBlockSide of src/raster/tiled/tile_setup-inl.h
 (define-const kSteep Int 16777216)     ; = kSteep of src/raster/simd/depth_lanes-inl.h
 
 (declare-const f Real) (declare-const a Real) (declare-const b Real)
@@ -40,17 +40,17 @@
 
 ;; claim rise_and_span: In a block, f + rise is the largest value and f + rise - span the least, and both are met: the
 ;;   block may be judged by them.
-(assert (and (= last_x (- kBlock 1.0)) (= last_y last_x)))
-(define-fun rise () Real (* (- kBlock 1.0) (+ (maxr a 0.0) (maxr b 0.0))))
-(define-fun span () Real (* (- kBlock 1.0) (+ (absr a) (absr b))))
+(assert (and (= last_x (- kBlockSide 1.0)) (= last_y last_x)))
+(define-fun rise () Real (* (- kBlockSide 1.0) (+ (maxr a 0.0) (maxr b 0.0))))
+(define-fun span () Real (* (- kBlockSide 1.0) (+ (absr a) (absr b))))
 (define-fun corner ((v Real)) Bool
   (or (= v (at 0.0 0.0)) (= v (at last_x 0.0)) (= v (at 0.0 last_y)) (= v (at last_x last_y))))
 (assert (not (and (between (- (+ f rise) span) (at x y) (+ f rise)) (corner (+ f rise)) (corner (- (+ f rise) span)))))
 
 ;; weakened rise_and_span: With steps for a pixel less.
-(assert (and (= last_x (- kBlock 1.0)) (= last_y last_x)))
-(define-fun rise () Real (* (- kBlock 2.0) (+ (maxr a 0.0) (maxr b 0.0))))
-(define-fun span () Real (* (- kBlock 2.0) (+ (absr a) (absr b))))
+(assert (and (= last_x (- kBlockSide 1.0)) (= last_y last_x)))
+(define-fun rise () Real (* (- kBlockSide 2.0) (+ (maxr a 0.0) (maxr b 0.0))))
+(define-fun span () Real (* (- kBlockSide 2.0) (+ (absr a) (absr b))))
 (assert (not (between (- (+ f rise) span) (at x y) (+ f rise))))
 
 ;; claim may_fill_blocks: An edge value falls by its span over a block that lies inside, and never rises above twice

@@ -1,6 +1,6 @@
-// The reference: walk the triangle's boundaries row by row and fill the spans between them. What surrounds
-// that is what `tiled` has (binning to tiles, tiles on threads), so the two differ in how they find and fill
-// a triangle's pixels. Drawing lives in scanline_kernel.cpp.
+// The backend `scanline`, the reference: walks a triangle's edges row by row and fills the spans between them
+// (scanline_kernel.cpp). It shares binning and threads with `tiled`, so the two differ only in how they find
+// and fill a triangle's pixels.
 #include "edgewise/contract.h"
 #include "raster/ablation.h"
 #include "raster/scanline/scanline_kernel.h"

@@ -1,10 +1,11 @@
 // The scanline kernel.
 //
-// 1. Triangles are set up a vector at a time (scanline_setup-inl.h), their spans are found a vector of rows
-//    at a time (scanline_rows-inl.h) and filled a vector of pixels at a time (scanline_list-inl.h).
-// 2. Rows end at the sides of a tile. Rows as long as the image would need fewer set-ups, but a band of them
-//    does not fit the L1 cache, where a tile's 32 KB do. The tile is written out once, the background where
-//    its depths are still clear, and lies in one cell of the depth grid (rule 6), so a span has one plane.
+// 1. Triangles are set up a vector at a time (scanline_setup-inl.h). Their spans are found a vector of rows
+//    at a time (scanline_rows-inl.h), and filled a vector of pixels at a time (scanline_list-inl.h).
+// 2. Spans end at the sides of a tile. Spans as long as the image would need fewer set-ups, but a band of
+//    rows does not fit the L1 cache, while a tile of 32 KB does. The tile is stored to the frame once, with
+//    the background where its depths are still clear. It lies in one depth cell (rule 6), so a span has one
+//    depth plane.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raster/scanline/scanline_kernel.cpp"
 #include <hwy/foreach_target.h>
@@ -33,17 +34,17 @@ namespace {
 
 class TilePainter {
  public:
-  explicit TilePainter(const TileTask& job) : job_(job) {
+  explicit TilePainter(const TileTask& task) : task_(task) {
     std::fill_n(depth_, kMaxTile * kMaxTile, static_cast<std::int32_t>(kDepthClear));
   }
-  void draw(std::span<const std::uint32_t> run) {
-    for (const std::uint32_t index : run) walk_triangle(job_, job_.triangles[index], depth_, payload_);
+  void draw(std::span<const std::uint32_t> indices) {
+    for (const std::uint32_t index : indices) walk_triangle(task_, task_.triangles[index], depth_, payload_);
   }
   const std::int32_t* depth() const { return depth_; }
   const std::int32_t* payload() const { return payload_; }
 
  private:
-  const TileTask& job_;
+  const TileTask& task_;
   std::int32_t depth_[kMaxTile * kMaxTile], payload_[kMaxTile * kMaxTile];
 };
 
@@ -51,17 +52,18 @@ class TilePainter {
 
 class TilePainter {
  public:
-  explicit TilePainter(const TileTask& job) : job_(job) {
+  explicit TilePainter(const TileTask& task) : task_(task) {
     std::fill_n(tile_.depth, std::size(tile_.depth), static_cast<std::int32_t>(kDepthClear));
-    tile_.hiz.clear(job.width(), job.height());
+    tile_.hiz.clear(task.width(), task.height());
   }
-  void draw(std::span<const std::uint32_t> run) {
-    const Alive alive = set_up(job_, run, batch_);
-    for (std::uint32_t left = alive.all; left != 0; left &= left - 1) {
+  void draw(std::span<const std::uint32_t> indices) {
+    const TriangleBits accepted = set_up(task_, indices, batch_);
+    for (std::uint32_t left = accepted.all; left != 0; left &= left - 1) {
       const int k = std::countr_zero(left);
-      if (alive.plain >> k & 1) {
+      if (accepted.integer_walk >> k & 1) {
         list_.draw();
-        walk_triangle(job_, job_.triangles[run[static_cast<std::size_t>(k)]], tile_.depth, tile_.payload);
+        walk_triangle(task_, task_.triangles[indices[static_cast<std::size_t>(k)]], tile_.depth,
+                      tile_.payload);
       } else {
         list_.add(batch_, k);
       }
@@ -72,7 +74,7 @@ class TilePainter {
   const std::int32_t* payload() const { return tile_.payload; }
 
  private:
-  const TileTask& job_;
+  const TileTask& task_;
   SpanTile tile_;
   SpanList list_{tile_};
   SpanBatch batch_;
@@ -95,14 +97,14 @@ void write_rows(const Place& to, const Pixels& pixels) {
 
 }  // namespace
 
-void draw_tile_in_spans(const TileTask& job) {
-  if (job.bins->empty(job.cell)) {
-    write_background(job);
+void draw_tile_in_spans(const TileTask& task) {
+  if (task.bins->empty(task.cell)) {
+    write_background(task);
     return clear_upper_halves();
   }
-  TilePainter painter(job);
-  draw_runs(job, [&](const Bins::Run& run) { painter.draw(run.indices); });
-  write_tile(job, painter.depth(), painter.payload(),
+  TilePainter painter(task);
+  draw_runs(task, [&](const Bins::Run& run) { painter.draw(run.indices); });
+  write_tile(task, painter.depth(), painter.payload(),
              [](const Place& to, const auto& pixels) { write_rows(to, pixels); });
   clear_upper_halves();
 }

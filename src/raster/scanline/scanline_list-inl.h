@@ -1,12 +1,11 @@
-// The spans of many triangles, waiting to be drawn.
+// A list of the spans of many triangles, and its drawing.
 //
-// 1. Spans are listed first and drawn later, many triangles' together: how many rows a triangle has is hard
-//    for a branch predictor to guess, and the loop over the list need not. Short spans are cut into aligned
-//    vectors of pixels, since how many of those a span needs is hard to guess, too.
-// 2. Where the long spans of a vector of rows overlap, they are a rectangle, drawn at once in blocks. A block
-//    keeps the depth of its farthest pixel and rejects what lies behind as a whole (hierarchical depth,
-//    hiz-inl.h); what lies behind all blocks has no spans. Blocks that a side of the frame cuts hide
-//    nothing.
+// 1. The spans of many triangles are listed first and drawn in one loop: the number of rows per triangle is
+//    hard to predict for a branch predictor, but a loop over a list is not. For the same reason, short spans
+//    are cut into aligned vectors of pixels.
+// 2. Where the long spans of a vector of rows overlap, they form a rectangle, which is drawn at once in
+//    blocks. A block stores zmax and rejects occluded triangles as a whole (HiZ, hiz-inl.h). A triangle that
+//    is occluded in all blocks is not cut into spans. Blocks cut by a side of the frame occlude nothing.
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -18,7 +17,7 @@
 #include "raster/simd/hiz-inl.h"
 #include "raster/simd/tile_store-inl.h"
 
-// Included once a SIMD target.
+// Included once per SIMD target.
 #if defined(EDGEWISE_SCANLINE_LIST_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef EDGEWISE_SCANLINE_LIST_INL_H
 #undef EDGEWISE_SCANLINE_LIST_INL_H
@@ -34,12 +33,12 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace contract;
 
-constexpr int kBlock = 16;  // px, of kRows rows
+constexpr int kSpanBlockWidth = 16;  // px; blocks have kRows rows
 
 struct SpanTile {
   alignas(64) std::int32_t depth[kMaxTile * kMaxTile];  // row by row
   alignas(64) std::int32_t payload[kMaxTile * kMaxTile];
-  HiZ<kMaxTile / kBlock, kMaxTile / kRows> hiz;
+  HiZ<kMaxTile / kSpanBlockWidth, kMaxTile / kRows> hiz;
 };
 
 constexpr std::int32_t wrapped_product(std::int32_t a, std::int32_t b) {
@@ -65,13 +64,13 @@ class SpanList {
   HWY_INLINE void draw() {
     const D d;
     const hn::RebindToUnsigned<D> du;
-    std::int32_t *const depth = tile_.depth, *const payload = tile_.payload;  // stores cannot change these
+    std::int32_t *const depth = tile_.depth, *const payload = tile_.payload;  // no store can change these
     const int end = length_;
     for (int n = 0; n < end; ++n) {
-      const int k = where_[2 * n] >> 16;
-      int at = where_[2 * n] & 0xFFFF, left = extent_[2 * n] + extent_[2 * n + 1];
+      const int k = position_and_depth_[2 * n] >> 16;
+      int at = position_and_depth_[2 * n] & 0xFFFF, left = extent_[2 * n] + extent_[2 * n + 1];
       V from = hn::Sub(hn::Iota(d, 0), hn::Set(d, extent_[2 * n]));
-      V z = hn::Add(hn::Load(d, in_vector_ + k * kLanes), hn::Set(d, where_[2 * n + 1]));
+      V z = hn::Add(hn::Load(d, in_vector_ + k * kLanes), hn::Set(d, position_and_depth_[2 * n + 1]));
       const auto length = hn::Set(du, static_cast<std::uint32_t>(extent_[2 * n + 1]));
       for (;;) {
         const V old_z = hn::Load(d, depth + at);
@@ -89,11 +88,11 @@ class SpanList {
   }
 
  private:
-  static constexpr int kNarrow = 3 * kLanes;       // px; wider boxes hold long spans
-  static constexpr int kMostSpans = 4 * kMaxTile;  // of one triangle: a narrow box lies in four vectors
+  static constexpr int kNarrow = 3 * kLanes;       // px; wider boxes have long spans
+  static constexpr int kMostSpans = 4 * kMaxTile;  // per triangle: a narrow box overlaps at most four vectors
   static constexpr int kCapacity = 2 * kMostSpans;
 
-  // One listed span for each vector that a span lies in.
+  // Appends a span for each vector of pixels that a row's span overlaps.
   HWY_INLINE void add_narrow(const SpanBatch& batch, int k) {
     RowLanes rows(batch, k, batch.y0[k]);
     for (int y = batch.y0[k];;) {
@@ -104,7 +103,7 @@ class SpanList {
     }
   }
 
-  // Where all rows' spans overlap, blocks are drawn at once, after the triangles before this one.
+  // Draws the blocks that all rows' spans cover at once, after the spans of earlier triangles (rule 7).
   HWY_INLINE void add_wide(const SpanBatch& batch, int k) {
     const D32 d32;
     draw();
@@ -113,11 +112,12 @@ class SpanList {
     for (int y = first_row;;) {
       const int last_begin = hn::GetLane(hn::MaxOfLanes(d32, hn::DupOdd(rows.begin)));
       const int first_end = hn::GetLane(hn::MinOfLanes(d32, hn::DupOdd(rows.end)));
-      const int begin = (last_begin + kBlock - 1) & -kBlock, end = first_end & -kBlock;
+      const int begin = (last_begin + kSpanBlockWidth - 1) & -kSpanBlockWidth,
+                end = first_end & -kSpanBlockWidth;
       if (begin < end) {
         if (last_begin > 0) append(batch, k, rows, rows.begin, set32(begin));
         if (first_end < kMaxTile) append(batch, k, rows, set32(end), rows.end);
-        for (int x = begin; x < end; x += kBlock) {
+        for (int x = begin; x < end; x += kSpanBlockWidth) {
           const V32 z = hn::Add(rows.z, set32(wrapped_product(x, batch.depth.x[k])));
           draw_block(batch, k, x, y, hn::GetLane(upper(as64(z))));
         }
@@ -129,15 +129,15 @@ class SpanList {
     }
   }
 
-  // All pixels of a block are the triangle's, so nothing wraps here; z is the depth at the first.
+  // The triangle covers the whole block, so no depth wraps. `z`: depth at the first pixel.
   HWY_INLINE void draw_block(const SpanBatch& batch, int k, int x, int y, std::int32_t z) {
     const D d;
     const std::int32_t zx = batch.depth.x[k], zy = batch.depth.y[k];
-    std::int32_t& hiz = *tile_.hiz.at(x / kBlock, y / kRows);
-    if (z + std::min(0, zx * (kBlock - 1)) + std::min(0, zy * (kRows - 1)) >= hiz) return;
+    std::int32_t& hiz = *tile_.hiz.at(x / kSpanBlockWidth, y / kRows);
+    if (z + std::min(0, zx * (kSpanBlockWidth - 1)) + std::min(0, zy * (kRows - 1)) >= hiz) return;
     V far = hn::Zero(d);
     const V payload = hn::Set(d, batch.payload[k]);
-    for (int p = 0; p < kBlock; p += kLanes) {
+    for (int p = 0; p < kSpanBlockWidth; p += kLanes) {
       V z_here = hn::Add(hn::Set(d, z + p * zx), hn::Load(d, in_vector_ + k * kLanes));
       for (int r = 0; r < kRows; ++r) {
         const int at = (y + r) * kMaxTile + x + p;
@@ -152,17 +152,17 @@ class SpanList {
     hiz = hn::GetLane(hn::MaxOfLanes(d, far));
   }
 
-  // Appends the rows' spans [begin, end) that are not empty.
+  // Appends the non-empty spans [begin, end) of the rows.
   HWY_INLINE void append(const SpanBatch& batch, int k, const RowLanes& rows, V32 begin, V32 end) {
     const D64 d;
     const V32 length = hn::Sub(end, begin), x = hn::And(begin, set32(-kLanes));
     const auto filled = hn::Gt(as64(length), hn::Set(d, 0xFFFFFFFF));
-    const V32 place = hn::Add(hn::Add(hn::ShiftLeft<6>(rows.row), x), set32(k << 16));
-    append(place, hn::Add(rows.z, hn::Mul(x, set32(batch.depth.x[k]))), where_, filled);
+    const V32 position = hn::Add(hn::Add(hn::ShiftLeft<6>(rows.row), x), set32(k << 16));
+    append(position, hn::Add(rows.z, hn::Mul(x, set32(batch.depth.x[k]))), position_and_depth_, filled);
     append(hn::Sub(begin, x), length, extent_, filled);
     length_ += std::popcount(mask_bits(filled));
   }
-  // Pairs of the upper halves, `first` below.
+  // Appends pairs of the lanes' upper halves, `first` in the lower half.
   HWY_INLINE void append(V32 first, V32 second, std::int32_t* list, hn::Mask<D64> mask) {
     const D64 d;
     const V64 pair = as64(hn::OddEven(second, upper(as64(first))));
@@ -171,10 +171,11 @@ class SpanList {
 
   SpanTile& tile_;
   int length_ = 0;
-  // Of each span: the place in the tile of the vector that it begins in | entry << 16, and the depth at that
-  // vector's first pixel; how far from there it begins, and its length in pixels.
-  alignas(64) std::int32_t where_[2 * (kCapacity + kRows)], extent_[2 * (kCapacity + kRows)];
-  // Of each entry: depth from a vector's first pixel, and from vector to vector.
+  // Two pairs per span. The first describes the aligned vector of pixels in which the span begins: its
+  // position in the tile | triangle of the batch << 16, and the depth at its first pixel. The second is the
+  // span's first pixel in that vector, and its length, px.
+  alignas(64) std::int32_t position_and_depth_[2 * (kCapacity + kRows)], extent_[2 * (kCapacity + kRows)];
+  // Per triangle of the batch: depths of a vector relative to its first pixel; step from vector to vector.
   alignas(64) std::int32_t in_vector_[SpanBatch::kSize * kLanes], step_[SpanBatch::kSize * kLanes];
   std::int32_t payload_[SpanBatch::kSize];
 };

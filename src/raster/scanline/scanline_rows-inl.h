@@ -1,4 +1,4 @@
-// A triangle's spans in one tile, a vector of rows at a time: a lane is a row, and what fits 32 bits lives in
+// A triangle's spans in one tile, a vector of rows at a time: one 64-bit lane per row, with 32-bit values in
 // its upper half.
 #include <hwy/highway.h>
 
@@ -8,7 +8,7 @@
 #include "edgewise/contract.h"
 #include "raster/scanline/scanline_setup-inl.h"
 
-// Included once a SIMD target.
+// Included once per SIMD target.
 #if defined(EDGEWISE_SCANLINE_ROWS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef EDGEWISE_SCANLINE_ROWS_INL_H
 #undef EDGEWISE_SCANLINE_ROWS_INL_H
@@ -27,15 +27,16 @@ using namespace contract;
 constexpr int kRows = static_cast<int>(hn::MaxLanes(D64{}));
 constexpr int kRowsLog2 = std::countr_zero(static_cast<unsigned>(kRows));
 
-// The selected 64-bit lanes, and then any. Highway 1.0.3 can do that, but with a table that GCC copies to the
-// stack at every call, except for 32-bit lanes under AVX-512.
+// Moves the selected 64-bit lanes to the front. The lanes behind them are unspecified. Compress() of
+// Highway 1.0.3 uses a table that GCC copies to the stack at every call, except for 32-bit lanes with
+// AVX-512.
 #if HWY_TARGET <= HWY_AVX3
 HWY_INLINE V64 selected_first(V64 v, hn::Mask<D64> mask) {
   const V32 both_halves = hn::DupOdd(lower(hn::VecFromMask(D64{}, mask)));
   return as64(hn::Compress(lower(v), hn::MaskFromVec(both_halves)));
 }
 #else
-constexpr auto kSelected = [] {
+constexpr auto kLanesOfRowMask = [] {
   struct {
     std::uint8_t half[1 << kRows][2 * kRows];
   } table{};
@@ -51,12 +52,12 @@ constexpr auto kSelected = [] {
 HWY_INLINE V64 selected_first(V64 v, hn::Mask<D64> mask) {
   const D32 d;
   const hn::Rebind<std::uint8_t, D32> d8;
-  const V32 halves = hn::PromoteTo(d, hn::LoadU(d8, kSelected.half[mask_bits(mask)]));
+  const V32 halves = hn::PromoteTo(d, hn::LoadU(d8, kLanesOfRowMask.half[mask_bits(mask)]));
   return as64(hn::TableLookupLanes(lower(v), hn::IndicesFromVec(d, halves)));
 }
 #endif
 
-// Where the spans of entry k of a batch begin and end, from a row of the tile on.
+// The ends of the spans of triangle k of a batch, for a vector of rows of the tile from `first_row` on.
 class RowLanes {
  public:
   HWY_INLINE RowLanes(const SpanBatch& batch, int k, int first_row)
@@ -83,8 +84,8 @@ class RowLanes {
     z = hn::Add(z, hn::ShiftLeft<kRowsLog2>(zy_));
     find_ends();
   }
-  V32 row, z;      // in the tile; at the row's first pixel
-  V32 begin, end;  // in the tile; end = 0 for rows that are not the triangle's
+  V32 row, z;      // row in the tile; depth at the row's first pixel
+  V32 begin, end;  // px in the tile; end = 0 for rows outside the triangle's box
 
  private:
   HWY_INLINE void find_ends() {

@@ -1,23 +1,24 @@
-// From triangles to spans, a vector of triangles at a time.
+// Sets triangles up for spans in one tile, a vector of triangles at a time.
 //
-// On the row whose sample lies at height s, the edge from p to q is at x = p.x + (s - p.y) dx / dy, and the
-// first pixel whose sample is not left of it is the ceiling of v = (x - 128) / 256. A span goes from the
-// largest of those of the left edges to the smallest of those of the right ones, over the rows whose samples
-// lie in the triangle's box: half open in both directions, which is the top-left rule (4). Where an edge has
-// ended, its line goes on outside the triangle, so no row needs to know which edges cross it.
+// Where a row's sample lies at height s, the edge from p to q is at x = p.x + (s - p.y) dx / dy. The first
+// pixel whose sample is not left of it is the ceiling of v = (x - 128) / 256. A span goes from the largest of
+// these pixels of the left edges to the smallest of the right ones, over the rows whose samples lie in the
+// triangle's box. It is half open in both directions, which is the top-left rule (rule 4). Past its end, an
+// edge's line continues outside the triangle, so every row uses all edges.
 //
-// Binary fractions walk an edge exactly, if they have enough bits. v is a multiple of 1 / (256 |dy|) >= 2^-31
-// px, or 2^12 units of 2^-43 px. Let u be the sum of a start and some steps, less than 1300 units away from
-// v. Then w = u + 1 px - 2^11 units lies between v + 1 px - 2^12 units and v + 1 px, and floor(w) is the
-// ceiling of v. Doubles are good enough for that:
-// - Steps a row below 2^12 px = 2^55 units are off by 2^-52 of that, and 1 for rounding: over 63 rows, below
-//   575 units.
+// Binary fractions with enough bits walk an edge exactly. v is a multiple of 1 / (256 |dy|) >= 2^-31 px, or
+// 2^12 units of 2^-43 px. Let u be the sum of a start and some steps, less than 1300 units away from v. Then
+// w = u + 1 px - 2^11 units lies between v + 1 px - 2^12 units and v + 1 px, and floor(w) is the ceiling of
+// v. Doubles are precise enough for that:
+// - Steps per row below 2^12 px = 2^55 units are off by 2^-52 of that, and 1 for rounding: over 63 rows,
+//   below 575 units.
 // - A start within 2^18 + 2^15 px (2^61.2 units) of the edge's vertex is off by 2^-52 of that: below 650. A
-//   line that starts farther away does not come back to the tile in 63 rows, and does not when its start is
-//   clamped to 2^18 + 2^17 px either.
+//   line that starts farther away does not reach the tile in 63 rows, not even with its start clamped to
+//   2^18 + 2^17 px.
 // - Start, steps and the at most 2^15 px from vertex to tile sum up to less than 2^20 px = 2^63 units.
-// An edge flatter than 2^12 px a row, but not horizontal, crosses 8 rows at the most. Its triangle is walked
-// by integers with a remainder (scanline_walk.h), and so is one whose depth gradient a double cannot hold.
+// An edge that moves 2^12 px per row or more, but is not horizontal, crosses at most 8 rows. Its triangle is
+// walked by integers with a remainder (scanline_walk.h). So is a triangle whose depth gradient is too large
+// for doubles. proofs/spans.smt2 proves these claims.
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -30,7 +31,7 @@
 #include "raster/simd/triangle_lanes-inl.h"
 #include "raster/tile_task.h"
 
-// Included once a SIMD target.
+// Included once per SIMD target.
 #if defined(EDGEWISE_SCANLINE_SETUP_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef EDGEWISE_SCANLINE_SETUP_INL_H
 #undef EDGEWISE_SCANLINE_SETUP_INL_H
@@ -46,15 +47,15 @@ using namespace contract;
 
 #if HWY_TARGET != HWY_SCALAR
 
-constexpr int kUnitBits = 43;                               // a unit is 2^-43 px
-constexpr double kSteepest = 0x1p55, kFarthest = 0x1.8p61;  // units a row, units
+constexpr int kUnitBits = 43;                              // a unit is 2^-43 px
+constexpr double kMaxStep = 0x1p55, kMaxStart = 0x1.8p61;  // units per row; units
 
-// To units, from doubles of units; within 1.
+// Converts doubles to integers, both in units; off by at most 1.
 HWY_INLINE V64 to_units(hn::Vec<F64> v) {
   const D64 d;
 #if HWY_TARGET <= HWY_AVX3
   return hn::ConvertTo(d, v);
-#else  // that is slow here, so round the upper and the lower 32 bits by adding a number whose unit is 1
+#else  // ConvertTo is slow here: round the upper and the lower 32 bits by adding a number whose ulp is 1
   const F64 df;
   const auto rounder = hn::Set(df, 0x1.8p52);
   const auto bits = [&](hn::Vec<F64> sum) { return hn::Sub(hn::BitCast(d, sum), hn::BitCast(d, rounder)); };
@@ -64,18 +65,18 @@ HWY_INLINE V64 to_units(hn::Vec<F64> v) {
 #endif
 }
 
-// The line of an edge, row after row.
+// The lines of a vector of edges.
 struct LineLanes {
-  V64 at;                 // in units, rounded so that floor() tells the pixel
-  V64 step;               // a row
-  V32 is_left, is_right;  // -1 where it is that side of the triangle; neither where it is horizontal
-  hn::Mask<D64> flat;     // too flat for this
+  V64 at;                 // on the first row, in units: w above, whose floor is the first pixel
+  V64 step;               // per row
+  V32 is_left, is_right;  // -1 for edges on that side of the triangle; 0 for both if horizontal
+  hn::Mask<D64> flat;     // too flat: needs the integer walk
 };
 HWY_INLINE LineLanes line_lanes(V32 px, V32 py, V32 qx, V32 qy, V32 flip, V32 first_sample) {
   const D64 d;
   const F64 df;
   const V32 zero = hn::Zero(D32{}), dx = hn::Sub(qx, px), dy = hn::Sub(qy, py);
-  // A horizontal edge bounds no row; a divisor this large keeps it from passing for one that is too flat.
+  // A horizontal edge bounds no row. The large divisor keeps it from being marked as too flat.
   const V32 not_zero_dy = hn::IfThenElse(hn::Eq(dy, zero), set32(kGuardSub), dy);
   const auto as_double = [](V64 v) { return hn::ConvertTo(F64{}, v); };
   const auto per_sub = hn::Div(hn::Set(df, 0x1p35), as_double(product(not_zero_dy, set32(1))));
@@ -88,12 +89,12 @@ HWY_INLINE LineLanes line_lanes(V32 px, V32 py, V32 qx, V32 qy, V32 flip, V32 fi
   const V64 ceiling = hn::Set(d, (std::int64_t{1} << kUnitBits) - (std::int64_t{1} << 11));
   // Clockwise on a y-down screen: an edge that goes up is on the left.
   const V32 down = flipped(dy, flip);
-  return {hn::Add(clamped(start, kFarthest), hn::Add(vertex, ceiling)), clamped(step, kSteepest),
+  return {hn::Add(clamped(start, kMaxStart), hn::Add(vertex, ceiling)), clamped(step, kMaxStep),
           hn::VecFromMask(D32{}, hn::Lt(down, zero)), hn::VecFromMask(D32{}, hn::Gt(down, zero)),
-          hn::RebindMask(d, hn::Ge(hn::Abs(step), hn::Set(df, kSteepest)))};
+          hn::RebindMask(d, hn::Ge(hn::Abs(step), hn::Set(df, kMaxStep)))};
 }
 
-// What triangles mean to one tile, in its pixels and rows.
+// A batch of triangles, set up for one tile. Rows and pixels are relative to the tile.
 struct alignas(64) SpanBatch {
   static constexpr int kSize = 32;
   struct Line {
@@ -104,40 +105,41 @@ struct alignas(64) SpanBatch {
     std::int32_t first[kSize];  // at the first pixel of the first row
     std::int32_t x[kSize], y[kSize];
   } depth;
-  std::int32_t nearest[kSize];  // no pixel of the box is nearer
+  std::int32_t nearest[kSize];  // lower bound of the depth of the triangle's pixels
   std::int32_t payload[kSize];
   std::int32_t x0[kSize], x1[kSize], y0[kSize], y1[kSize];  // the box
 };
 
-struct Alive {
-  std::uint32_t all;    // bit by bit: touches the tile
-  std::uint32_t plain;  // and has to be walked in the plain form
+struct TriangleBits {
+  std::uint32_t all;           // one bit per triangle: not rejected
+  std::uint32_t integer_walk;  // and walked by integers
 };
 
-// Sets up the triangles at run[k …), a vector of them, as entries k … of the batch.
-HWY_INLINE Alive set_up_vector(const TileTask& job, const std::uint32_t* run, SpanBatch& out, int k) {
+// Sets up a vector of triangles, from triangles[indices[k]] on, as entries k … of the batch.
+HWY_INLINE TriangleBits set_up_vector(const TileTask& task, const std::uint32_t* indices, SpanBatch& out,
+                                      int k) {
   const D64 d;
   const V64 zero = hn::Zero(d);
-  const TriangleLanes t = load(job.triangles, run + k);
-  const auto [x0, x1] = sample_range(t.x, job.x0, job.width());
-  const auto [y0, y1] = sample_range(t.y, job.y0, job.height());
+  const TriangleLanes t = load(task.triangles, indices + k);
+  const auto [x0, x1] = sample_range(t.x, task.x0, task.width());
+  const auto [y0, y1] = sample_range(t.y, task.y0, task.height());
   const Area area = area_of(t);
   const V32 filled = hn::VecFromMask(D32{}, hn::And(hn::Lt(x0, x1), hn::Lt(y0, y1)));
-  const auto alive = hn::And(hn::Gt(area.value, zero), hn::Lt(hn::ShiftLeft<32>(as64(filled)), zero));
+  const auto accepted = hn::And(hn::Gt(area.value, zero), hn::Lt(hn::ShiftLeft<32>(as64(filled)), zero));
 
-  const V32 first_sample = hn::Add(hn::ShiftLeft<kSubBits>(y0), set32(sample_sub(job.y0)));
-  auto plain = hn::FirstN(d, 0);
+  const V32 first_sample = hn::Add(hn::ShiftLeft<kSubBits>(y0), set32(sample_sub(task.y0)));
+  auto integer_walk = hn::FirstN(d, 0);
   for (int i = 0; i < 3; ++i) {
     const int j = i == 2 ? 0 : i + 1;
-    const V32 left = set32(job.x0 * kSub);
+    const V32 left = set32(task.x0 * kSub);
     const LineLanes line = line_lanes(hn::Sub(t.x[i], left), t.y[i], hn::Sub(t.x[j], left), t.y[j],
                                       lower(area.flip), first_sample);
     hn::Store(line.at, d, out.line[i].at + k);
     hn::Store(line.step, d, out.line[i].step + k);
     store(line.is_left, out.line[i].is_left + k), store(line.is_right, out.line[i].is_right + k);
-    plain = hn::Or(plain, line.flat);
+    integer_walk = hn::Or(integer_walk, line.flat);
   }
-  const DepthLanes depth = depth_lanes(t, area, job.x0, job.y0);
+  const DepthLanes depth = depth_lanes(t, area, task.x0, task.y0);
   const V32 first = hn::Add(depth.base(), hn::Mul(depth.y, y0));
   store(first, out.depth.first + k);
   store(depth.x, out.depth.x + k), store(depth.y, out.depth.y + k);
@@ -150,24 +152,24 @@ HWY_INLINE Alive set_up_vector(const TileTask& job, const std::uint32_t* run, Sp
   store(t.payload, out.payload + k);
   store(x0, out.x0 + k), store(x1, out.x1 + k);
   store(y0, out.y0 + k), store(y1, out.y1 + k);
-  plain = hn::Or(plain, hn::Not(depth.exact));
-  return {mask_bits(alive), mask_bits(hn::And(plain, alive))};
+  integer_walk = hn::Or(integer_walk, hn::Not(depth.exact));
+  return {mask_bits(accepted), mask_bits(hn::And(integer_walk, accepted))};
 }
 
-// Sets up triangles[run[i]] for all i.
-inline Alive set_up(const TileTask& job, std::span<const std::uint32_t> run, SpanBatch& out) {
-  const int count = static_cast<int>(run.size());
+// Sets up triangles[indices[i]] for all i.
+inline TriangleBits set_up(const TileTask& task, std::span<const std::uint32_t> indices, SpanBatch& out) {
+  const int count = static_cast<int>(indices.size());
   std::uint32_t padded[SpanBatch::kSize];
   for (int k = 0; k < SpanBatch::kSize; ++k)
-    padded[k] = run[static_cast<std::size_t>(std::min(k, count - 1))];
-  Alive alive{0, 0};
+    padded[k] = indices[static_cast<std::size_t>(std::min(k, count - 1))];
+  TriangleBits accepted{0, 0};
   for (int k = 0; k < count; k += static_cast<int>(hn::MaxLanes(D64{}))) {
-    const Alive some = set_up_vector(job, padded, out, k);
-    alive.all |= some.all << k;
-    alive.plain |= some.plain << k;
+    const TriangleBits some = set_up_vector(task, padded, out, k);
+    accepted.all |= some.all << k;
+    accepted.integer_walk |= some.integer_walk << k;
   }
-  alive.all &= static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1);
-  return alive;
+  accepted.all &= static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1);
+  return accepted;
 }
 
 #endif

@@ -1,9 +1,9 @@
 // One triangle's spans in one tile, by integers alone.
 //
-// A boundary is walked by a digital differential analyser with remainder (Bresenham, "Algorithm for computer
+// Edges are walked by a digital differential analyser with remainder (Bresenham, "Algorithm for computer
 // control of a digital plotter", 1965), so a row costs an addition and a comparison, and no division. This is
-// the plain form of the scanline kernel, which does many triangles at once, and leaves to this the few that
-// its doubles cannot do.
+// the scalar form of the scanline kernel. The SIMD form uses it for the few triangles for which doubles are
+// not precise enough.
 #pragma once
 
 #include <algorithm>
@@ -14,9 +14,10 @@
 
 namespace edgewise {
 
-// The first pixel not left of an edge from p down to q, for one row after the other:
+// The first pixel whose sample is not left of the edge from p down to q, row by row:
 //   ceil(((p.x - 128) dy + (s - p.y) dx) / (256 dy)), where s is the height of the row's sample.
-// Fits: dy <= 2^23 and |dx| <= 2^23, so numerators stay below 2^48, and the denominator is at most 2^31.
+// This fits 64 bits: dy <= 2^23 and |dx| <= 2^23, so numerators stay below 2^48, and the denominator is at
+// most 2^31.
 class EdgeWalk {
  public:
   EdgeWalk() = default;
@@ -34,7 +35,7 @@ class EdgeWalk {
   void next_row() {
     pixel_ += pixel_step_;
     rest_ += rest_step_;
-    const std::int64_t carry = rest_ >= denominator_;  // too hard to predict for a branch
+    const std::int64_t carry = rest_ >= denominator_;  // no branch: it would be mispredicted
     rest_ -= denominator_ & -carry;
     pixel_ += carry;
   }
@@ -47,7 +48,8 @@ class EdgeWalk {
   std::int64_t pixel_ = 0, rest_ = 0, denominator_ = 1, pixel_step_ = 0, rest_step_ = 0;
 };
 
-// Fills pixels [begin, end) of a row. Stores without a condition, which lets the compiler vectorise it.
+// Fills pixels [begin, end) of a row where they are nearer. Stores unconditionally, so that compilers
+// vectorise it.
 inline void fill_span(std::int32_t* depth, std::int32_t* payload, int begin, int end, std::uint32_t z,
                       std::uint32_t zx, std::uint32_t colour) {
   for (int x = begin; x < end; ++x) {
@@ -58,18 +60,18 @@ inline void fill_span(std::int32_t* depth, std::int32_t* payload, int begin, int
   }
 }
 
-// `depth` and `payload` are the tile's, in rows of kMaxTile pixels.
-inline void walk_triangle(const TileTask& job, const ScreenTriangle& triangle, std::int32_t* depth,
+// Draws a triangle into a tile. `depth`, `payload`: the tile's buffers, in rows of kMaxTile pixels.
+inline void walk_triangle(const TileTask& task, const ScreenTriangle& triangle, std::int32_t* depth,
                           std::int32_t* payload) {
   using namespace contract;
-  const PixelBox box = pixel_box(triangle, job.frame.width, job.frame.height);
-  const int first = std::max(box.y0, job.y0), last = std::min(box.y1, job.y0 + kMaxTile) - 1;
-  if (first > last || std::max(box.x0, job.x0) >= std::min(box.x1, job.x0 + kMaxTile)) return;
+  const PixelBox box = pixel_box(triangle, task.frame.width, task.frame.height);
+  const int first = std::max(box.y0, task.y0), last = std::min(box.y1, task.y0 + kMaxTile) - 1;
+  if (first > last || std::max(box.x0, task.x0) >= std::min(box.x1, task.x0 + kMaxTile)) return;
   const Oriented t = orient(triangle);
   if (t.area == 0) return;
 
-  // Clockwise on a y-down screen: an edge that goes up is on the left. A line goes on outside the triangle
-  // where its edge has ended, so no row needs to know which edges cross it.
+  // Clockwise on a y-down screen: an edge that goes up is on the left. Past its end, an edge's line continues
+  // outside the triangle, so every row may use all edges.
   EdgeWalk left[2], right[2];
   int lefts = 0, rights = 0;
   for (int i = 0; i < 3; ++i) {
@@ -81,12 +83,12 @@ inline void walk_triangle(const TileTask& job, const ScreenTriangle& triangle, s
   if (rights == 1) right[1] = right[0];
 
   const DepthPlane plane = make_depth(t);
-  std::uint32_t z = plane.at(job.x0, first);  // the tile is one depth cell
+  std::uint32_t z = plane.at(task.x0, first);  // the tile is one depth cell
   for (int y = first; y <= last; ++y, z += plane.zy) {
     const auto in_tile = [&](std::int64_t px) {
-      return static_cast<int>(std::clamp<std::int64_t>(px - job.x0, 0, kMaxTile));
+      return static_cast<int>(std::clamp<std::int64_t>(px - task.x0, 0, kMaxTile));
     };
-    const int row = (y - job.y0) * kMaxTile;
+    const int row = (y - task.y0) * kMaxTile;
     fill_span(depth + row, payload + row, in_tile(std::max(left[0].pixel(), left[1].pixel())),
               in_tile(std::min(right[0].pixel(), right[1].pixel())), z, plane.zx, triangle.payload);
     left[0].next_row(), left[1].next_row(), right[0].next_row(), right[1].next_row();

@@ -1,8 +1,8 @@
 // The depth planes of a vector of triangles (rule 6).
 //
-// The gradient's division is done in doubles and corrected by its remainder, as contract::gradient() does;
-// lanes whose quotient is too large for that are told, and the caller does them again by the contract's own
-// functions.
+// The gradients are divided in doubles and corrected by the remainder, as in contract::gradient(). Lanes
+// whose quotient is too large for that are not set in `exact`; the caller recomputes them by the functions of
+// contract.h.
 #include <hwy/highway.h>
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 #include "edgewise/contract.h"
 #include "raster/simd/triangle_lanes-inl.h"
 
-// Included once a SIMD target.
+// Included once per SIMD target.
 #if defined(EDGEWISE_DEPTH_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef EDGEWISE_DEPTH_LANES_INL_H
 #undef EDGEWISE_DEPTH_LANES_INL_H
@@ -23,9 +23,9 @@ namespace edgewise {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// For hierarchical depth. A plane whose steps are smaller than this stays, over a tile, within 2^31 of the
-// triangle's depths, so a wrapped value is negative and passes as near: the bound may be the plane itself. A
-// steeper one falls back to the nearest vertex.
+// Limit of the steps of a depth plane, below which HiZ may use the plane as the bound of nearest depth. Over
+// a tile such a plane stays within 2^31 of the triangle's depths, so a wrapped value is negative, which
+// counts as near and is conservative. For steeper planes the bound is the nearest vertex.
 constexpr std::int32_t kSteep = 1 << 24;
 
 #if HWY_TARGET != HWY_SCALAR
@@ -41,15 +41,15 @@ HWY_INLINE V64 product(V64 g, V64 n) {
 
 struct Gradient {
   V64 g;                // floor(2^24 n / area)
-  hn::Mask<D64> exact;  // where that holds
+  hn::Mask<D64> exact;  // where g is exact
 };
-// The double quotient q is within 3 2^-53 |q| < 1/4 of the truth and rounds to an integer within 1/2, so the
-// floor is that integer or the one below it; the remainder's sign tells which.
+// The double quotient q is within 3 2^-53 |q| < 1/4 of the exact one, and rounding to an integer adds at most
+// 1/2. So the floor is that integer or the one below it, depending on the sign of the remainder.
 HWY_INLINE Gradient gradient(V64 n, V64 area, hn::Vec<F64> scaled_inverse) {
   const F64 df;
   const D64 d;
   const auto q = hn::Mul(hn::ConvertTo(df, n), scaled_inverse);
-  const auto rounder = hn::Set(df, 0x1.8p52);  // its unit is 1: adding it rounds
+  const auto rounder = hn::Set(df, 0x1.8p52);  // one ulp is 1, so adding it rounds to integers
   const V64 g = hn::Sub(hn::BitCast(d, hn::Add(q, rounder)), hn::BitCast(d, rounder));
   const V64 rest = hn::Sub(hn::ShiftLeft<24>(n), product(g, area));
   return {hn::Sub(g, shift_right<63>(rest)), hn::RebindMask(d, hn::Lt(hn::Abs(q), hn::Set(df, 0x1p49)))};
@@ -58,7 +58,7 @@ HWY_INLINE Gradient gradient(V64 n, V64 area, hn::Vec<F64> scaled_inverse) {
 // Twice the signed area, made positive.
 struct Area {
   V64 value;
-  V64 flip;  // -1 where the winding has been turned round for that
+  V64 flip;  // -1 where the sign was changed, that is, for the other winding
 };
 HWY_INLINE Area area_of(const TriangleLanes& t) {
   const V64 area = hn::Sub(product(hn::Sub(t.x[1], t.x[0]), hn::Sub(t.y[2], t.y[0])),
@@ -68,23 +68,24 @@ HWY_INLINE Area area_of(const TriangleLanes& t) {
 }
 
 struct DepthLanes {
-  V32 x, y;             // steps a pixel
+  V32 x, y;             // steps per pixel
   V64 gx, gy;           // rule 6
   V64 start;            // 2^24 (depth at the first pixel of the cell + 1/2)
-  hn::Mask<D64> exact;  // where all that holds
+  hn::Mask<D64> exact;  // where the gradients are exact
   HWY_INLINE V32 base() const { return lower(shift_right<24>(start)); }
-  // Where no step is steep.
+  // Where both steps are below kSteep in size.
   HWY_INLINE hn::Mask<D32> is_flat() const {
     const auto gentle = [](V32 v) { return hn::And(hn::Lt(v, set32(kSteep)), hn::Gt(v, set32(-kSteep))); };
     return hn::And(gentle(x), gentle(y));
   }
 };
-// No pixel of the triangles is nearer.
+// A lower bound of the depth of a triangle's pixels.
 HWY_INLINE V32 nearest_vertex(const TriangleLanes& t) {
   return hn::Sub(hn::Min(hn::Min(t.z[0], t.z[1]), t.z[2]), set32(contract::kDepthError));
 }
-// What a depth plane is made of: from vertex 0 to the others, in sub-units with the sign of a positive area
-// and in depth; and from the anchor, the topmost, then leftmost vertex, to the first sample of a cell.
+// The inputs of a depth plane. dx, dy: from vertex 0 to vertices 1 and 2, in sub-units, with the sign that
+// makes the area positive; dz: the same in depth. from_x, from_y: from the anchor (the topmost, then leftmost
+// vertex) to the first sample of a depth cell.
 struct PlaneLanes {
   V32 dx1, dx2, dy1, dy2, dz1, dz2;
   V64 area;  // twice the area, > 0
@@ -108,7 +109,7 @@ HWY_INLINE DepthLanes depth_lanes(const PlaneLanes& p) {
           hn::And(gx.exact, gy.exact)};
 }
 
-// Over the cell whose first pixel is (cell_px, cell_py).
+// The planes over the depth cell whose first pixel is (cell_px, cell_py).
 HWY_INLINE DepthLanes depth_lanes(const TriangleLanes& t, const Area& area, int cell_px, int cell_py) {
   V32 x = t.x[0], y = t.y[0], z = t.z[0];
   for (int i = 1; i < 3; ++i) {

@@ -1,11 +1,11 @@
-// Vectors of up to sixteen 32-bit lanes: pixels, blocks or triangles. What they share: masks as bits, and
-// selected lanes moved to the front.
+// Vectors of up to sixteen 32-bit lanes, used for pixels, blocks and triangles: masks as bits, and selection
+// of lanes.
 #include <hwy/highway.h>
 
 #include <cstdint>
 #include <cstring>
 
-// Included once a SIMD target.
+// Included once per SIMD target.
 #if defined(EDGEWISE_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef EDGEWISE_LANES_INL_H
 #undef EDGEWISE_LANES_INL_H
@@ -22,8 +22,8 @@ using D = hn::CappedTag<std::int32_t, 16>;
 using V = hn::Vec<D>;
 constexpr int kLanes = static_cast<int>(hn::MaxLanes(D{}));
 
-// first, first + 1 ... Not Iota(first): Highway 1.0.3 stores its lanes one by one, and a vector that is
-// loaded from them waits for all.
+// first, first + 1 … Not Iota(first): Highway 1.0.3 builds it in memory lane by lane, and the vector load
+// waits for all of these stores.
 HWY_INLINE V counting_from(int first) {
   return hn::Add(hn::Iota(D{}, 0), hn::Set(D{}, first));
 }
@@ -37,8 +37,8 @@ HWY_INLINE std::uint32_t mask_bits(hn::Mask<D> mask) {
 }
 
 #if HWY_TARGET == HWY_SSE4 || HWY_TARGET == HWY_AVX2
-// For each mask, the lanes that it selects, and then any. Highway 1.0.3 has the same table in Compress(), but
-// GCC copies it to the stack at every call.
+// For each mask, the indices of its selected lanes, followed by 0s. Compress() of Highway 1.0.3 has the same
+// table, but GCC copies it to the stack at every call.
 constexpr auto kLanesOfMask = [] {
   struct {
     std::uint8_t lane[1 << kLanes][kLanes];
@@ -50,7 +50,7 @@ constexpr auto kLanesOfMask = [] {
   }
   return table;
 }();
-// Moves the lanes of a mask to the front; the others may become anything.
+// Moves the lanes of a mask to the front, in order. The lanes behind them are unspecified.
 class Selection {
  public:
   HWY_INLINE explicit Selection(hn::Mask<D> mask)

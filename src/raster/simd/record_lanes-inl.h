@@ -1,8 +1,8 @@
-// Triangles that follow one another in memory, in vectors of 32-bit lanes, and the pixels their boxes hold.
+// Loads triangles that are consecutive in memory into vectors of 32-bit lanes, and finds their pixel boxes.
 //
-// A record is five pairs of 32-bit fields. Five is odd and a vector's number of pairs a power of two, so
-// among the five vectors that hold as many records as one has pairs, a field's pairs lie in different lanes:
-// they blend into one vector, and a permutation orders them, which is much cheaper than gathers.
+// A triangle record is five pairs of 32-bit fields. kPairs records fill five vectors of kPairs pairs. kPairs
+// is a power of two and five is odd, so in these vectors the kPairs pairs of one field all lie in different
+// lanes. They are blended into one vector and ordered by a permutation, which is much cheaper than gathers.
 #include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
@@ -12,7 +12,7 @@
 #include "edgewise/screen_triangle.h"
 #include "raster/simd/lanes-inl.h"
 
-// Included once a SIMD target.
+// Included once per SIMD target.
 #if defined(EDGEWISE_RECORD_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef EDGEWISE_RECORD_LANES_INL_H
 #undef EDGEWISE_RECORD_LANES_INL_H
@@ -20,7 +20,7 @@
 #define EDGEWISE_RECORD_LANES_INL_H
 #endif
 
-#if HWY_TARGET != HWY_SCALAR  // a one-lane target has no halves of lanes
+#if HWY_TARGET != HWY_SCALAR  // the scalar target has no pairs of lanes
 
 HWY_BEFORE_NAMESPACE();
 namespace edgewise {
@@ -33,19 +33,19 @@ constexpr int kPairs = static_cast<int>(hn::MaxLanes(Pairs{}));
 constexpr int kFields = sizeof(ScreenTriangle) / sizeof(std::int64_t);
 static_assert(kFields == 5);
 
-// For each field its first lane, and the lanes of the records' pairs in the blend.
+// remainder: lane % kFields. lane: for each field, the lane of each record's pair in the blend.
 alignas(64) constexpr auto kPairTables = [] {
   struct {
-    std::int64_t remainder[kPairs], place[kFields][kPairs];
+    std::int64_t remainder[kPairs], lane[kFields][kPairs];
   } t{};
   for (int i = 0; i < kPairs; ++i) {
     t.remainder[i] = i % kFields;
-    for (int field = 0; field < kFields; ++field) t.place[field][i] = (kFields * i + field) % kPairs;
+    for (int field = 0; field < kFields; ++field) t.lane[field][i] = (kFields * i + field) % kPairs;
   }
   return t;
 }();
 
-// The pairs of kPairs records.
+// Loads kPairs records. field[f]: pair f of each record.
 HWY_INLINE void load_pairs(const std::int64_t* from, hn::Vec<Pairs> (&field)[kFields]) {
   const Pairs d;
   hn::Vec<Pairs> part[kFields];
@@ -59,21 +59,21 @@ HWY_INLINE void load_pairs(const std::int64_t* from, hn::Vec<Pairs> (&field)[kFi
       const int r = ((f - p * kPairs) % kFields + kFields) % kFields;
       if (r < kPairs) v = hn::IfThenElse(is[r], part[p], v);
     }
-    field[f] = hn::TableLookupLanes(v, hn::SetTableIndices(d, kPairTables.place[f]));
+    field[f] = hn::TableLookupLanes(v, hn::SetTableIndices(d, kPairTables.lane[f]));
   }
 }
 
-constexpr std::size_t kAhead = 2560;  // bytes
+constexpr std::size_t kPrefetchBytes = 2560;  // prefetch distance
 
 struct RecordLanes {
   V x[3], y[3], z[3], payload;
 
-  // Of kLanes triangles. `prefetch`: others that follow in memory are asked for.
+  // Loads kLanes triangles. `prefetch`: prefetch triangles that follow in memory.
   HWY_INLINE RecordLanes(const ScreenTriangle* triangles, bool prefetch) {
     const D d;
     if (prefetch)
       for (std::size_t i = 0; i < kLanes * sizeof(ScreenTriangle); i += 64)
-        hwy::Prefetch(reinterpret_cast<const char*>(triangles) + kAhead + i);
+        hwy::Prefetch(reinterpret_cast<const char*>(triangles) + kPrefetchBytes + i);
     hn::Vec<Pairs> first[kFields], second[kFields];
     load_pairs(reinterpret_cast<const std::int64_t*>(triangles), first);
     load_pairs(reinterpret_cast<const std::int64_t*>(triangles + kPairs), second);
@@ -101,7 +101,7 @@ HWY_INLINE V first_sample(V c) {
   return hn::ShiftRight<kSubBits>(hn::Add(c, hn::Set(D{}, kHalf - 1)));
 }
 
-// contract::pixel_box().
+// contract::pixel_box() for a vector of triangles.
 struct BoxLanes {
   V x0, y0, x1, y1;
   hn::Mask<D> filled;

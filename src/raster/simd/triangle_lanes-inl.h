@@ -1,4 +1,4 @@
-// Triangles in vectors: a 64-bit lane belongs to a triangle. What fits 32 bits (rule 3) lives in the lane's
+// Triangles in vectors, one 64-bit lane per triangle. Values that fit 32 bits (rule 3) lie in the lane's
 // lower half, so that one instruction multiplies two of them to a 64-bit product.
 #include <hwy/highway.h>
 
@@ -7,7 +7,7 @@
 #include "edgewise/contract.h"
 #include "edgewise/screen_triangle.h"
 
-// Included once a SIMD target.
+// Included once per SIMD target.
 #if defined(EDGEWISE_TRIANGLE_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef EDGEWISE_TRIANGLE_LANES_INL_H
 #undef EDGEWISE_TRIANGLE_LANES_INL_H
@@ -15,14 +15,14 @@
 #define EDGEWISE_TRIANGLE_LANES_INL_H
 #endif
 
-#if HWY_TARGET != HWY_SCALAR  // a one-lane target has no halves of lanes
+#if HWY_TARGET != HWY_SCALAR  // the scalar target has no halves of lanes
 
 HWY_BEFORE_NAMESPACE();
 namespace edgewise {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Names of lanes. I32 vectors have two for each triangle, of which the lower one counts.
+// D32 has two lanes per triangle, of which only the lower one is used.
 using D64 = hn::CappedTag<std::int64_t, 8>;
 using U64 = hn::RebindToUnsigned<D64>;
 using F64 = hn::RebindToFloat<D64>;
@@ -70,7 +70,7 @@ HWY_INLINE void store(V32 v, std::int32_t* at) {
   store(as64(v), at);
 }
 
-// Bit i is lane i's.
+// Bit i belongs to lane i.
 HWY_INLINE std::uint32_t mask_bits(hn::Mask<D64> mask) {
   std::uint8_t bytes[8] = {};
   hn::StoreMaskBits(D64{}, mask, bytes);
@@ -80,8 +80,8 @@ HWY_INLINE std::uint32_t mask_bits(hn::Mask<D64> mask) {
 struct TriangleLanes {
   V32 x[3], y[3], z[3], payload;
 };
-// The triangles of these indices, as many as V64 has lanes. Records are loaded whole and turned: that is
-// faster than gathers.
+// Loads the triangles with these indices, one per lane of V64. Loads whole records and transposes them, which
+// is faster than gathers.
 HWY_INLINE TriangleLanes load(const ScreenTriangle* triangles, const std::uint32_t* index) {
   const D64 d;
   V64 pair[5];  // of 32-bit fields, in their order

@@ -1,5 +1,5 @@
-// The tile's buffer, and what its ways of drawing share: blocks of 4 x 4 pixels, 16 consecutive integers
-// (one AVX-512 vector, two of AVX2, four of SSE4), and lists of those that a triangle touches.
+// The tile's buffer, and code shared by the ways of drawing into it. The buffer stores blocks of 4 x 4
+// pixels, each as 16 consecutive integers: one AVX-512 vector, two of AVX2, four of SSE4.
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 #include "raster/tile_task.h"
 #include "raster/tiled/tile_setup-inl.h"
 
-// Included once a SIMD target.
+// Included once per SIMD target.
 #if defined(EDGEWISE_TILE_BLOCKS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef EDGEWISE_TILE_BLOCKS_INL_H
 #undef EDGEWISE_TILE_BLOCKS_INL_H
@@ -27,9 +27,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 using namespace contract;
 
 constexpr int kBlockPixels = 16;
-constexpr int kVectors = kBlockPixels / kLanes;  // in a block
-constexpr int kMaxBlocks = kMaxTile / kBlock;    // a side of a tile
-constexpr int kBlocksAtOnce = 16;  // are sifted together, which as many lanes as they have pixels
+constexpr int kVectors = kBlockPixels / kLanes;    // per block
+constexpr int kMaxBlocks = kMaxTile / kBlockSide;  // per side of a tile
+constexpr int kBlocksAtOnce = 16;                  // tested together, one lane per block
 static_assert(kBlocksAtOnce == kMaxBlocks && kBlocksAtOnce == kBlockPixels);
 
 alignas(64) constexpr std::int32_t kLaneX[kBlockPixels] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
@@ -39,11 +39,12 @@ constexpr int kTilePixels = kMaxBlocks * kMaxBlocks * kBlockPixels;
 
 class Tile {
  public:
-  // Block by block, 16 pixels each. A patch at the end of a plane takes along blocks behind it, in which it
-  // has no pixel: they may be read and written back, whatever they hold, and are the payload's first ones, or
-  // spare.
+  // Block by block, 16 pixels each. A coverage mask at the end of a plane also reads and writes back blocks
+  // behind the plane, unchanged, because it covers no pixel there. These are the first payload blocks, or
+  // kSpare.
   HWY_INLINE std::int32_t* depth() { return planes_; }
-  HWY_INLINE std::int32_t* payload() { return planes_ + kTilePixels; }  // see Payloads
+  // Cleared only if the tile is not stored in whole vectors: else Payloads inserts the background.
+  HWY_INLINE std::int32_t* payload() { return planes_ + kTilePixels; }
 
  private:
   static constexpr int kSpare = (kMaxBlocks + 1) * kBlockPixels;
@@ -53,7 +54,7 @@ class Tile {
   HiZ<kMaxBlocks, kMaxBlocks> hiz;
 };
 
-// A list that a vector's selected lanes are appended to; it needs kLanes to spare.
+// A list to which the selected lanes of a vector are appended. The memory needs kLanes spare entries.
 struct List {
   std::int32_t* at;
   int length = 0;
@@ -63,21 +64,21 @@ struct List {
   }
 };
 
-// Values of a linear function over sixteen pixels, or the same over sixteen blocks.
-struct Sixteen {
+// The values of a linear function at the 16 pixels of a block.
+struct Values16 {
   V v[kVectors];
 };
-// Over one block, relative to its first pixel.
-HWY_INLINE Sixteen over_block(const std::int32_t* x, const std::int32_t* y) {
+// Relative to the value at the block's first pixel. `x`, `y`: steps per pixel.
+HWY_INLINE Values16 over_block(const std::int32_t* x, const std::int32_t* y) {
   const D d;
-  Sixteen out;
+  Values16 out;
   for (int i = 0; i < kVectors; ++i)
     out.v[i] = hn::Add(hn::Mul(hn::Load(d, kLaneX + i * kLanes), hn::Set(d, *x)),
                        hn::Mul(hn::Load(d, kLaneY + i * kLanes), hn::Set(d, *y)));
   return out;
 }
 
-// Stores the lanes of a mask. Where masks have registers of their own (AVX-512), a store under one is faster.
+// Stores the lanes of a mask. With AVX-512, which has mask registers, a masked store is faster.
 HWY_INLINE void replace(std::int32_t* at, hn::Mask<D> where, V v) {
 #if HWY_TARGET <= HWY_AVX3  // the better the target, the lower its number
   hn::BlendedStore(v, where, D{}, at);
@@ -88,14 +89,14 @@ HWY_INLINE void replace(std::int32_t* at, hn::Mask<D> where, V v) {
 HWY_INLINE hn::Mask<D> inside(V outside) {
   return hn::Gt(outside, hn::Set(D{}, -1));
 }
-// Tests and writes those of a vector of a block's pixels that are covered.
+// Depth-tests a vector of a block's pixels and writes those that are covered and nearer.
 HWY_INLINE void write(Tile& tile, int at, hn::Mask<D> covered, V z, V payload) {
   const auto wins = hn::And(covered, hn::Lt(z, hn::Load(D{}, tile.depth() + at)));
   replace(tile.depth() + at, wins, z);
   replace(tile.payload() + at, wins, payload);
 }
-// The same, but depths are stored whole: in a mesh, the next small triangle often wants the same block, and a
-// load has to wait until what was stored under a mask has reached the cache.
+// The same, but stores whole depth vectors. In a mesh, the next small triangle often loads the same block,
+// and a load cannot be forwarded from a masked store: it waits until the store has reached the cache.
 HWY_INLINE void write_whole(Tile& tile, int at, hn::Mask<D> covered, V z, V payload) {
   const V old_z = hn::Load(D{}, tile.depth() + at);
   const auto wins = hn::And(covered, hn::Lt(z, old_z));
@@ -104,15 +105,16 @@ HWY_INLINE void write_whole(Tile& tile, int at, hn::Mask<D> covered, V z, V payl
 }
 
 #if HWY_TARGET != HWY_SCALAR
-constexpr int kBlocksAcross = kLanes / kBlock;  // as many as fill a vector of a pixel row
+constexpr int kBlocksAcross = kLanes / kBlockSide;  // blocks whose pixel rows fill one vector
 
-// Two neighbouring pixel rows of neighbouring blocks; `from` is where the first block's part of them begins.
+// Two neighbouring pixel rows of kBlocksAcross neighbouring blocks. `from`: index of the first row's first
+// pixel.
 template <typename Pixels>
 HWY_INLINE void two_rows_of_blocks(const Pixels& pixels, int from, V& upper, V& lower) {
   const D d;
 #if HWY_TARGET == HWY_SSE4
   upper = pixels(d, from);
-  lower = pixels(d, from + kBlock);
+  lower = pixels(d, from + kBlockSide);
 #elif HWY_TARGET == HWY_AVX2
   const V left = pixels(d, from), right = pixels(d, from + kBlockPixels);
   upper = hn::ConcatLowerLower(d, right, left);
@@ -130,8 +132,8 @@ HWY_INLINE void two_rows_of_blocks(const Pixels& pixels, int from, V& upper, V& 
 }
 #endif
 
-// How much of a tile goes to the frame in whole vectors, two rows at a time. What is left is copied as it is:
-// who draws it has cleared its payloads.
+// The part of a tile that is stored to the frame in whole vectors, two rows at a time. The rest is copied
+// without a test for background, so the tile's payload must be cleared where `all` is false.
 struct InVectors {
   int width = 0, height = 0;  // px
   bool all;
@@ -141,12 +143,12 @@ struct InVectors {
   }
 };
 
-// Blocks back to rows. Rows are written whole, one after the other: processors bring neighbouring cache lines
-// together, and those of several rows at once often want the same places in the caches.
+// Stores blocks as rows. Each row is written to its end before the next: processors fetch neighbouring cache
+// lines together, and lines of several rows often compete for the same cache sets.
 template <typename Pixels>
 void write_blocks(const Place& to, const Pixels& pixels) {
   const auto part_of_row = [](int x, int y) {
-    return y / kBlock * kMaxBlocks * kBlockPixels + y % kBlock * kBlock + x * kBlock;
+    return y / kBlockSide * kMaxBlocks * kBlockPixels + y % kBlockSide * kBlockSide + x * kBlockSide;
   };
   const InVectors in_vectors(to.width, to.height);
 #if HWY_TARGET != HWY_SCALAR
@@ -167,9 +169,9 @@ void write_blocks(const Place& to, const Pixels& pixels) {
   });
 #endif
   for (int y = 0; y < to.height; ++y)
-    for (int x = y < in_vectors.height ? in_vectors.width : 0; x < to.width; x += kBlock)
+    for (int x = y < in_vectors.height ? in_vectors.width : 0; x < to.width; x += kBlockSide)
       std::memcpy(to.row(y) + x, pixels.buffer + part_of_row(x, y),
-                  sizeof(std::int32_t) * static_cast<std::size_t>(std::min(kBlock, to.width - x)));
+                  sizeof(std::int32_t) * static_cast<std::size_t>(std::min(kBlockSide, to.width - x)));
 }
 
 }  // namespace HWY_NAMESPACE

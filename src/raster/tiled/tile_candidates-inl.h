@@ -1,4 +1,4 @@
-// Drawing the blocks that a large triangle touches, from a list of them.
+// Draws the candidate blocks of a large triangle from a list.
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include "raster/tiled/tile_blocks-inl.h"
 #include "raster/tiled/tile_setup-inl.h"
 
-// Included once a SIMD target.
+// Included once per SIMD target.
 #if defined(EDGEWISE_TILE_CANDIDATES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef EDGEWISE_TILE_CANDIDATES_INL_H
 #undef EDGEWISE_TILE_CANDIDATES_INL_H
@@ -22,28 +22,29 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace contract;
 
-// The blocks that entry k of a batch touches, in the order of the tile's blocks, from the box's first one on.
+// The candidate blocks of triangle k of a batch, in the order of the tile's blocks. Offsets count blocks of
+// the tile from the first block of the triangle's box.
 struct Candidates {
-  alignas(64) std::int32_t place[kMaxBlocks * kMaxBlocks + kLanes];
+  alignas(64) std::int32_t offset[kMaxBlocks * kMaxBlocks + kLanes];
   int length, k;
 };
 
-HWY_NOINLINE void draw_candidates(Tile& tile, const Batch& batch, const Candidates& touched) {
-  const int length = touched.length, k = touched.k;
+HWY_NOINLINE void draw_candidates(Tile& tile, const Batch& batch, const Candidates& candidates) {
+  const int length = candidates.length, k = candidates.k;
   if (length == 0) return;
   const D d;
   const auto in_block = [&](const auto& f) { return over_block(f.x + k, f.y + k); };
-  const Sixteen edge_in[3] = {in_block(batch.edge[0]), in_block(batch.edge[1]), in_block(batch.edge[2])};
-  const Sixteen depth_in = in_block(batch.depth);
+  const Values16 edge_in[3] = {in_block(batch.edge[0]), in_block(batch.edge[1]), in_block(batch.edge[2])};
+  const Values16 depth_in = in_block(batch.depth);
   const V payload = hn::Set(d, batch.payload[k]);
-  const int first_place = batch.by0[k] * kMaxBlocks + batch.bx0[k];
+  const int first_block = batch.by0[k] * kMaxBlocks + batch.bx0[k];
   for (int begin = 0; begin < length; begin += kLanes) {
-    // Values at the blocks' first pixels. From AVX2 on, a load brings one to all lanes without the units for
-    // arithmetic and for moving lanes, which have enough to do.
-    const V place = hn::Load(d, touched.place + begin);
-    static_assert(kBlock == 1 << 2 && kMaxBlocks == 1 << 4);
-    const V x = hn::ShiftLeft<2>(hn::And(place, hn::Set(d, kMaxBlocks - 1)));
-    const V y = hn::ShiftLeft<2>(hn::ShiftRight<4>(place));
+    // Values at the blocks' first pixels, through memory: from AVX2 on, a load broadcasts one to all lanes
+    // without the execution units for arithmetic and shuffles, which are the bottleneck.
+    const V offset = hn::Load(d, candidates.offset + begin);
+    static_assert(kBlockSide == 1 << 2 && kMaxBlocks == 1 << 4);
+    const V x = hn::ShiftLeft<2>(hn::And(offset, hn::Set(d, kMaxBlocks - 1)));
+    const V y = hn::ShiftLeft<2>(hn::ShiftRight<4>(offset));
     alignas(64) std::int32_t edge_at[3][kLanes], depth_at[kLanes];
     const auto store_first = [&](const Batch::Linear& f, std::int32_t* at) {
       hn::Store(hn::Add(hn::Set(d, f.first[k]),
@@ -54,7 +55,7 @@ HWY_NOINLINE void draw_candidates(Tile& tile, const Batch& batch, const Candidat
     store_first(batch.depth, depth_at);
     const int count = std::min(kLanes, length - begin);
     for (int n = 0; n < count; ++n) {
-      const int block = first_place + touched.place[begin + n];
+      const int block = first_block + candidates.offset[begin + n];
       const V edge[3] = {hn::Set(d, edge_at[0][n]), hn::Set(d, edge_at[1][n]), hn::Set(d, edge_at[2][n])};
       const V depth = hn::Set(d, depth_at[n]);
       for (int p = 0; p < kVectors; ++p) {

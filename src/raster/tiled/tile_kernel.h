@@ -1,4 +1,4 @@
-// Draws one tile of the image, in a buffer that stays in the L1 cache. See tile_kernel.cpp.
+// The kernel that draws one tile of the image, in a buffer sized for the L1 cache. See tile_kernel.cpp.
 #pragma once
 
 #include "raster/tile_task.h"

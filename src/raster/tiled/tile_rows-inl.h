@@ -1,5 +1,5 @@
-// Sifting large triangles: which blocks of a row are touched, and not hidden, is found for all of them at
-// once.
+// Coarse rejection for large triangles: tests a row of blocks at once and lists the candidates, the blocks
+// that are neither outside an edge nor occluded.
 #include <hwy/highway.h>
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 #include "raster/tiled/tile_candidates-inl.h"
 #include "raster/tiled/tile_setup-inl.h"
 
-// Included once a SIMD target.
+// Included once per SIMD target.
 #if defined(EDGEWISE_TILE_ROWS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef EDGEWISE_TILE_ROWS_INL_H
 #undef EDGEWISE_TILE_ROWS_INL_H
@@ -32,8 +32,8 @@ HWY_INLINE std::size_t lane_of(std::size_t part) {
   return part * static_cast<std::size_t>(kLanes);
 }
 
-// Whether entry k may hold a whole block. Each edge's value rises from 0 to twice the area, and by its span
-// over a block.
+// Whether triangle k may cover a whole block: inside a triangle an edge value lies between 0 and twice the
+// area, so its span over the block must not exceed that (claim may_fill_blocks in proofs/tile_reject.smt2).
 HWY_INLINE bool may_fill_blocks(const Batch& batch, int k) {
   const auto has_room = [&](const Batch::Linear& edge) {
     return edge.span[k] >> kSubBits <= batch.twice_area_px[k];
@@ -41,7 +41,7 @@ HWY_INLINE bool may_fill_blocks(const Batch& batch, int k) {
   return has_room(batch.edge[0]) && has_room(batch.edge[1]) && has_room(batch.edge[2]);
 }
 
-// A linear function of the pixel's place, at a row of blocks, in kParts vectors.
+// A linear function of the pixel position, at the first pixels of a row of blocks, in kParts vectors.
 template <std::size_t kParts>
 struct Row {
   V v[kParts], step;
@@ -49,14 +49,15 @@ struct Row {
     const D d;
     for (std::size_t p = 0; p < kParts; ++p)
       v[p] = hn::Add(hn::Set(d, *first), hn::Mul(hn::Load(d, kBlockX + lane_of(p)), hn::Set(d, *x)));
-    step = hn::Mul(hn::Set(d, *y), hn::Set(d, kBlock));
+    step = hn::Mul(hn::Set(d, *y), hn::Set(d, kBlockSide));
   }
   HWY_INLINE void next() {
     for (V& part : v) part = hn::Add(part, step);
   }
 };
 
-// Lists the blocks of entry k of the batch, whose box is at most kParts vectors of blocks wide.
+// Lists the candidate blocks of triangle k, whose box is at most kParts vectors of blocks wide, and lowers
+// the zmax of the blocks that it covers.
 template <bool kHierarchicalDepth, std::size_t kParts>
 HWY_NOINLINE void find_candidates_by_rows(Tile& tile, const Batch& batch, int k, Candidates& out) {
   const D d;
@@ -67,30 +68,28 @@ HWY_NOINLINE void find_candidates_by_rows(Tile& tile, const Batch& batch, int k,
   Row<kParts> nearest(batch.nearest.x + k, batch.nearest.y + k, batch.nearest.first + k);
 
   const V last_column = hn::Set(d, batch.bx1[k] - batch.bx0[k]);
-  V before_end[kParts], place[kParts];  // the former is negative behind the box's last column
+  V before_end[kParts], offset[kParts];  // before_end < 0 behind the box's last column
   for (std::size_t p = 0; p < kParts; ++p) {
-    place[p] = hn::Load(d, kIota + lane_of(p));
-    before_end[p] = hn::Sub(last_column, place[p]);
+    offset[p] = hn::Load(d, kIota + lane_of(p));
+    before_end[p] = hn::Sub(last_column, offset[p]);
   }
   std::int32_t* hiz = tile.hiz.at(batch.bx0[k], batch.by0[k]);
-  List list{out.place};
+  List list{out.offset};
   for (int row = batch.by0[k]; row <= batch.by1[k]; ++row) {
     for (std::size_t p = 0; p < kParts; ++p) {
       const V most = hn::Or(hn::Or(edge[0].v[p], edge[1].v[p]), hn::Or(edge[2].v[p], before_end[p]));
-      auto seen = hn::Gt(most, minus_one);
+      auto candidate = hn::Gt(most, minus_one);
       if constexpr (kHierarchicalDepth) {
-        // No pixel of a block that lies inside is farther, from now on, than the triangle's own farthest
-        // there.
+        // In a block that the triangle covers, no pixel stays farther than the triangle's farthest depth.
         const auto low = [&](int i) { return hn::Sub(edge[i].v[p], hn::Set(d, batch.edge[i].span[k])); };
         const V least = hn::Or(hn::Or(low(0), low(1)), hn::Or(low(2), before_end[p]));
-        const V old_farthest = hn::LoadU(d, hiz + lane_of(p)), own_farthest = depth.v[p];
+        const V old_zmax = hn::LoadU(d, hiz + lane_of(p)), own_zmax = depth.v[p];
         const auto inside = hn::Gt(least, minus_one);
-        hn::StoreU(hn::IfThenElse(inside, hn::Min(old_farthest, own_farthest), old_farthest), d,
-                   hiz + lane_of(p));
-        seen = hn::And(seen, hn::Lt(nearest.v[p], old_farthest));
+        hn::StoreU(hn::IfThenElse(inside, hn::Min(old_zmax, own_zmax), old_zmax), d, hiz + lane_of(p));
+        candidate = hn::And(candidate, hn::Lt(nearest.v[p], old_zmax));
       }
-      list.append(place[p], seen);
-      place[p] = hn::Add(place[p], hn::Set(d, kMaxBlocks));
+      list.append(offset[p], candidate);
+      offset[p] = hn::Add(offset[p], hn::Set(d, kMaxBlocks));
     }
     for (Row<kParts>& e : edge) e.next();
     if constexpr (kHierarchicalDepth) depth.next(), nearest.next();

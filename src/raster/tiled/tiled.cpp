@@ -1,6 +1,5 @@
-// Every pixel independent, as on a GPU: triangles are binned to square tiles, and tiles are drawn in
-// parallel, each in a buffer of its own, by SIMD edge functions. Binning lives in bins.cpp, drawing in
-// tile_kernel.cpp.
+// The backend `tiled`: bins triangles to square tiles (bins.cpp) and draws tiles in parallel, each in a
+// buffer of its own, by SIMD edge functions (tile_kernel.cpp).
 #include "raster/ablation.h"
 #include "raster/tiled/tile_kernel.h"
 #include "raster/tiles.h"
