@@ -1,6 +1,6 @@
-// Signals: a handler may only touch lock-free atomics and call async-signal-safe functions, so the temporary
-// names stand in a fixed table. It unlinks them and lets the signal do what it would have done, so that the
-// exit status still tells of it.
+// A signal handler may only use lock-free atomics and async-signal-safe functions, so the names of the
+// temporary files are kept in a fixed table. The handler unlinks them and raises the signal again with its
+// default action, so that the exit status still reports it.
 #include "core/atomic_file.h"
 
 #include <fcntl.h>
@@ -33,7 +33,7 @@ std::array<Slot, 32> slots;
 std::atomic<bool> ending{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 
-// Whoever begins a file while another thread ends the process leaves none behind, and waits for the end.
+// If another thread is ending the process, removes the file just begun and waits for the end.
 void wait_if_ending(const fs::path& begun) {
   if (!ending) return;
   unlink(begun.c_str());
@@ -42,14 +42,14 @@ void wait_if_ending(const fs::path& begun) {
 
 extern "C" void remove_temporaries(int signal_number) {
   remove_unfinished_files();
-  // SA_RESETHAND has restored the default, which acts as soon as this handler returns.
+  // SA_RESETHAND has restored the default action, which runs as soon as this handler returns.
   raise(signal_number);
 }
 
 void install_handlers() {
   for (const int signal_number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) {
     struct sigaction action {};
-    // A signal that is ignored (nohup) or handled by somebody else stays so.
+    // Keeps signals that are ignored (nohup) or have another handler.
     if (sigaction(signal_number, nullptr, &action) != 0 || action.sa_handler != SIG_DFL) continue;
     action = {};
     action.sa_handler = remove_temporaries;
@@ -74,9 +74,9 @@ void release_slot(int slot) {
   if (slot >= 0) slots[static_cast<std::size_t>(slot)].state.store(SlotState::free);
 }
 
-// Devices and pipes are written straight: renaming over /dev/null would replace it. So are names such as
-// /dev/stdout, which may lead to a regular file that somebody else holds open.
-bool is_written_straight(const fs::path& path, const fs::file_status& status) {
+// Devices and pipes are written directly, because a rename over /dev/null would replace it. So are names such
+// as /dev/stdout, which may refer to a regular file that another process holds open.
+bool is_written_directly(const fs::path& path, const fs::file_status& status) {
   const std::string name = fs::absolute(path).lexically_normal().string();
   return name.starts_with("/dev/std") || name.starts_with("/dev/fd/") || name.starts_with("/proc/") ||
          (fs::exists(status) && !fs::is_regular_file(status));
@@ -125,19 +125,19 @@ AtomicFile::AtomicFile(const fs::path& path) : path_(path) {
   const fs::file_status status = fs::status(path_, error);
   if (status.type() == fs::file_type::none) throw file_error(path, "cannot be written: " + error.message());
   if (fs::is_directory(status)) throw file_error(path, "is a directory");
-  if (is_written_straight(path_, status)) {
+  if (is_written_directly(path_, status)) {
     errno = 0;
     if (buffer_.open(path_, std::ios::out | std::ios::binary) == nullptr) throw write_error(path_);
     return;
   }
 
   if (fs::exists(status)) {
-    path_ = fs::canonical(path_);  // a symbolic link stays one; what it points to is replaced
+    path_ = fs::canonical(path_);  // keep a symbolic link, replace its target
     if (access(path_.c_str(), W_OK) != 0) throw write_error(path_);
   }
   install_handlers();
 
-  // Not derived from the final name, which may already be as long as a name can be.
+  // Not derived from the final name, which may already have the maximum length.
   static std::atomic<unsigned> counter = 0;
   int descriptor = -1;
   do {

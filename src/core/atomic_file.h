@@ -1,4 +1,4 @@
-// A file that appears under its final name only when it is whole.
+// A file that appears under its final name only when it is complete.
 #pragma once
 
 #include <filesystem>
@@ -7,10 +7,10 @@
 
 namespace edgewise {
 
-// Streams don't tell why they fail; this keeps the reason.
+// Keeps errno of the first failure, which streams do not report.
 class FileBuffer final : public std::filebuf {
  public:
-  int error() const { return error_; }  // errno of the first failure; 0 if none is known
+  int error() const { return error_; }  // 0 if no failure is known
 
  private:
   std::streamsize xsputn(const char* text, std::streamsize size) override;
@@ -22,8 +22,8 @@ class FileBuffer final : public std::filebuf {
 };
 
 // Writes to a temporary file beside `path` and renames it on commit(). Without commit(), and on SIGINT,
-// SIGTERM, SIGHUP or SIGQUIT, the temporary file is removed and an older file under the final name stays as
-// it was.
+// SIGTERM, SIGHUP or SIGQUIT, the temporary file is removed and an older file under the final name stays
+// unchanged. Devices and pipes are written directly.
 class AtomicFile {
  public:
   // Throws std::runtime_error, naming the file and the reason, if the folder cannot be written.
@@ -40,11 +40,12 @@ class AtomicFile {
   std::filesystem::path path_, temporary_;
   FileBuffer buffer_;
   std::ostream stream_{&buffer_};
-  int slot_ = -1;  // in the list that the signal handler reads
+  int slot_ = -1;  // in the signal handler's table; -1: none
 };
 
-// Removes the temporary files of all AtomicFiles; whoever begins one from then on waits. To be called right
-// before the process ends. Async-signal-safe, for a program with signal handlers of its own.
+// Removes the temporary files of all AtomicFiles. A thread that begins another one afterwards blocks for
+// ever, so call this right before the process ends. Async-signal-safe, for programs with their own signal
+// handlers.
 void remove_unfinished_files();
 
 }  // namespace edgewise

@@ -1,5 +1,5 @@
-// Memory for many records. Unlike a vector it never initialises: pages that no record is written to are never
-// touched, so room for the worst case costs nothing but address space.
+// Uninitialised memory for many records. Pages without a record are never touched, so a capacity for the
+// worst case costs only address space.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +26,7 @@ class Buffer {
     return *this;
   }
 
-  // Room for `count`; what was in it is lost when it grows.
+  // Capacity for at least `count` records. Growing discards the contents.
   void reserve(std::size_t count) {
     if (count <= capacity_) return;
     data_.reset();  // first, so that both are never held at once

@@ -1,4 +1,4 @@
-// What a file name says about its content.
+// The extension of a file name.
 #pragma once
 
 #include <filesystem>

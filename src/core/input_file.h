@@ -1,5 +1,4 @@
-// Files that are read: opened with a clear reason when they cannot be, and sized before anything is allocated
-// for them.
+// Opens input files. Errors state the reason, and the size is known before anything is allocated.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +9,7 @@
 
 namespace edgewise {
 
-// "PATH: REASON", the form of every complaint about a file.
+// "PATH: REASON", the form of all messages about files.
 std::runtime_error file_error(const std::filesystem::path& path, const std::string& reason);
 
 struct InputFile {
@@ -18,8 +17,8 @@ struct InputFile {
   std::uint64_t size;    // bytes
 };
 
-// Throws what file_error makes unless the path is a regular file that can be read. Pipes and devices are
-// refused: they have no size to check a header's promise against, and may never end.
+// Throws file_error() unless the path is a regular file that can be read. Pipes and devices are refused: they
+// may never end, and have no size to check a header's counts against.
 InputFile open_input(const std::filesystem::path& path);
 
 }  // namespace edgewise

@@ -1,4 +1,4 @@
-// From a function that foreach_target compiled once per SIMD target to the one for a given target.
+// Selects the kernel for a SIMD target from the copies of a function that foreach_target compiled.
 #pragma once
 
 #include <hwy/highway.h>
@@ -9,9 +9,9 @@
 #error "CMakeLists.txt must compile this file with kernel_options"
 #endif
 
-// The kernel for a resolved target. Use where HWY_ONCE holds, in the namespace that encloses HWY_NAMESPACE.
-// It is never null: supported_targets() lists only targets that were compiled, and a build without the scalar
-// kernels doesn't compile.
+// The kernel for a resolved target, as a function pointer. Use where HWY_ONCE is set, in the namespace that
+// encloses HWY_NAMESPACE. It is never null: supported_targets() lists only targets that were compiled, and a
+// build without the scalar kernels doesn't compile.
 #define EDGEWISE_KERNEL(function, target)                                 \
   ((target) == ::edgewise::SimdTarget::avx512 ? HWY_CHOOSE_AVX3(function) \
    : (target) == ::edgewise::SimdTarget::avx2 ? HWY_CHOOSE_AVX2(function) \

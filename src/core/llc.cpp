@@ -8,12 +8,12 @@ namespace edgewise {
 
 namespace {
 
-// Not from sysconf(): glibc 2.36 takes all last caches of an AMD socket together.
-std::size_t find() {
-  constexpr std::size_t kUsual = std::size_t{8} << 20;
+// sysconf() is no alternative: glibc 2.36 adds up all last-level caches of an AMD socket.
+std::size_t detect_llc_bytes() {
+  constexpr std::size_t kFallback = std::size_t{8} << 20;
 #if defined(__x86_64__) || defined(__i386__)
-  // Cache parameters, in the same form at one leaf or the other (CPUID in Intel SDM volume 2 and AMD APM
-  // volume 3). Caches come from the first level up.
+  // Intel reports cache parameters at the first leaf, AMD in the same form at the second (CPUID in Intel SDM
+  // volume 2 and AMD APM volume 3). The last entry is the last level.
   constexpr unsigned kLeaves[] = {4, 0x8000001D};
   for (const unsigned leaf : kLeaves) {
     std::size_t last = 0;
@@ -25,13 +25,13 @@ std::size_t find() {
     if (last != 0) return last;
   }
 #endif
-  return kUsual;
+  return kFallback;
 }
 
 }  // namespace
 
 std::size_t llc_bytes() {
-  static const std::size_t bytes = find();
+  static const std::size_t bytes = detect_llc_bytes();
   return bytes;
 }
 

@@ -1,4 +1,5 @@
-// The size of the machine's last cache, as the processor tells it to whoever asks; others may use it, too.
+// The size of the last-level cache (LLC) as reported by the processor, or 8 MB if it reports none. Other
+// processes may share the cache.
 #pragma once
 
 #include <cstddef>

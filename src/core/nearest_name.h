@@ -1,4 +1,4 @@
-// Looking names up, with "did you mean …?" where there is none.
+// Looks names up in lists, and suggests the nearest name for an unknown one.
 #pragma once
 
 #include <functional>
@@ -10,15 +10,15 @@
 
 namespace edgewise {
 
-// "; did you mean 'NEAREST'?", by edit distance; empty if nothing is known.
+// "; did you mean 'NEAREST'?", by edit distance; empty if `known` is empty.
 std::string did_you_mean(std::string_view name, std::span<const std::string_view> known);
 
 // "unknown KIND 'NAME'; did you mean 'NEAREST'? (known: …)".
 std::string unknown_name(std::string_view kind, std::string_view name,
                          std::span<const std::string_view> known);
 
-// The entry of a list that lives on whose name_of, a member or a function, is `name`. Throws
-// std::invalid_argument, with the text above, if there is none.
+// The entry of `all` whose name is `name`; a reference into `all`. `name_of`: member or function that gives
+// an entry's name. Throws std::invalid_argument with the text of unknown_name() if there is none.
 template <typename Entry, typename NameOf>
 const Entry& find_named(std::string_view kind, std::string_view name, std::span<const Entry> all,
                         NameOf name_of) {

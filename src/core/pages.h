@@ -1,4 +1,4 @@
-// Memory that backends go through tile by tile, that is, all over it: large pieces ask for huge pages.
+// Memory that is accessed tile by tile, not in order: large allocations request huge pages.
 #pragma once
 
 #include <sys/mman.h>
@@ -11,17 +11,17 @@ namespace edgewise {
 
 inline constexpr std::size_t kHugePage = std::size_t{1} << 21;
 
-// What memory of so many bytes should begin at: a huge page if it fills some, else a cache line, or `least`.
+// The alignment for an allocation of `bytes`: a huge page from two huge pages on, else a cache line or
+// `least`, whichever is larger.
 inline std::align_val_t alignment_for(std::size_t bytes, std::size_t least = 1) {
   constexpr std::size_t kCacheLine = 64;
   return std::align_val_t{bytes >= 2 * kHugePage ? kHugePage : std::max(kCacheLine, least)};
 }
 
-// Throws std::bad_alloc for lack of memory. To be freed by ::operator delete with the same alignment.
+// Throws std::bad_alloc if memory is exhausted. Free with ::operator delete with the same alignment.
 inline void* allocate_aligned(std::size_t bytes, std::align_val_t alignment) {
   if (alignment != std::align_val_t{kHugePage}) return ::operator new(bytes, alignment);
-  // The last page is to be a whole one, too: what of it is not touched costs no memory where advice is not
-  // taken, and else less than a page.
+  // Rounded up to whole huge pages. The unused end costs less than a page, and no memory without huge pages.
   const std::size_t whole = (bytes + kHugePage - 1) / kHugePage * kHugePage;
   void* memory = ::operator new(whole, alignment);
 #ifdef MADV_HUGEPAGE

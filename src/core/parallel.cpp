@@ -19,24 +19,23 @@ constinit thread_local ParallelObserver* parallel_observer = nullptr;
 
 namespace {
 
-// One arena for each thread count, made on first use and kept: making one costs more than drawing a small
-// scene.
-tbb::task_arena& arena_of(int threads) {
+// One arena per thread count, made on first use and kept: making one takes longer than drawing a small scene.
+tbb::task_arena& arena_for(int threads) {
   static std::mutex mutex;
   static std::map<int, tbb::task_arena> arenas;
   static std::unique_ptr<tbb::global_control> more_threads_than_cores;
   const std::lock_guard lock(mutex);
   if (threads > tbb::info::default_concurrency() && !more_threads_than_cores) {
-    constexpr std::size_t kPlenty = 1024;
+    constexpr std::size_t kMaxParallelism = 1024;
     more_threads_than_cores =
-        std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, kPlenty);
+        std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, kMaxParallelism);
   }
   return arenas.try_emplace(threads, threads).first->second;
 }
 
-// ThreadSanitizer does not see into oneTBB, which is not built with it, and would take what oneTBB orders for
-// races. So it does not look at this file either, but is told what a section promises, and no more: tasks
-// begin after the section did, and end before it does. Two tasks that touch the same memory remain a race
+// oneTBB is not built with ThreadSanitizer, which would report accesses that oneTBB orders as races. So this
+// file is not instrumented either, and announces only the guaranteed order: tasks begin after their section
+// begins, and end before it ends. Two tasks that access the same memory are still reported
 // (tests/sanitizers/seeded_race.cpp).
 class Section {
  public:
@@ -66,7 +65,7 @@ class Section {
 
 void parallel_for(int threads, int count, void (*call)(void*, int), void* context) {
   Section section;
-  arena_of(threads).execute([&] {
+  arena_for(threads).execute([&] {
     tbb::parallel_for(
         0, count,
         [&](int i) {

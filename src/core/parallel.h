@@ -1,4 +1,4 @@
-// The one door to oneTBB, and to who wants to see what passes through it.
+// The only interface to oneTBB, with an optional observer.
 #pragma once
 
 #include <memory>
@@ -6,15 +6,15 @@
 
 namespace edgewise {
 
-// Where a section of parallel work starts. Clang 14 has no std::source_location.
+// The caller of parallel_for(). Clang 14 has no std::source_location.
 struct CallSite {
-  const char* function;  // its name alone, without scope and arguments
+  const char* function;  // unqualified name, without arguments
   const char* file;
 };
 
-// Is told of the sections of parallel work that its thread starts. While one watches, a section's tasks run
-// one after the other on that thread, so that each has the core to itself: what `threads` still decides is
-// how the work is cut. It may take the time at each call; nothing here does.
+// Observes the parallel sections (calls of parallel_for()) that its thread starts. While an observer is set,
+// the tasks of a section run one after the other on that thread, so that each has a core to itself; `threads`
+// then decides only how callers partition the work. Observers measure time themselves, at each call.
 class ParallelObserver {
  public:
   virtual ~ParallelObserver() = default;
@@ -28,7 +28,7 @@ extern constinit thread_local ParallelObserver* parallel_observer;
 void parallel_for(int threads, int count, void (*call)(void*, int), void* context);
 }  // namespace detail
 
-// Lets an observer watch the calling thread's sections for as long as the scope lives.
+// Sets the observer of the calling thread for the lifetime of this object.
 class ObserveParallel {
  public:
   explicit ObserveParallel(ParallelObserver& observer) : before_(detail::parallel_observer) {
@@ -43,7 +43,7 @@ class ObserveParallel {
 };
 
 // Calls body(0) … body(count - 1), each once, on up to `threads` threads, and returns when all are done.
-// Calls with different arguments must not touch the same memory. An exception thrown by one is rethrown here.
+// Calls must not write memory that another one accesses. An exception thrown by one is rethrown here.
 template <typename Body>
 void parallel_for(int threads, int count, Body&& body,
                   const CallSite& where = {__builtin_FUNCTION(), __builtin_FILE()}) {
@@ -66,8 +66,8 @@ void parallel_for(int threads, int count, Body&& body,
       const_cast<void*>(static_cast<const void*>(std::addressof(body))));
 }
 
-// For bodies that share out pieces of work among themselves: between pieces, says that any other thread could
-// have taken the one that is done.
+// For bodies that take pieces of work from a common queue: call it after each piece. The observer then counts
+// the piece as a task of its own, since any thread could have taken it.
 inline void piece_done() {
   if (ParallelObserver* const observer = detail::parallel_observer) observer->task_ends();
 }

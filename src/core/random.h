@@ -1,5 +1,5 @@
-// Random numbers that are the same on every machine and standard library. Compilers choose the order in which
-// they evaluate a call's arguments, so draw only one number per call.
+// Random numbers that are the same on every machine and standard library. The order in which a call's
+// arguments are evaluated depends on the compiler, so draw at most one number per argument list.
 #pragma once
 
 #include <cmath>
@@ -19,13 +19,13 @@ class Random {
     z = (z ^ z >> 27) * 0x94D049BB133111EBu;
     return z ^ z >> 31;
   }
-  // Below `end`, which must be small against 2^64.
+  // In [0, end). `end` must be much smaller than 2^64, or the result is biased.
   std::uint64_t below(std::uint64_t end) { return next() % end; }
   // A multiple of 2^-24 in [low, high).
   float uniform(float low, float high) {
     return low + (high - low) * (static_cast<float>(next() >> 40) * 0x1p-24f);
   }
-  // A unit vector, by rejection: no trigonometry, whose last bit differs between libraries.
+  // A unit vector, by rejection sampling: the last bit of trigonometric functions differs between libraries.
   glm::vec2 direction() {
     for (;;) {
       const float x = uniform(-1.0f, 1.0f), y = uniform(-1.0f, 1.0f), square = x * x + y * y;
