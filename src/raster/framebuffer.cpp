@@ -18,6 +18,7 @@ int checked_side(int side) {
   return side;
 }
 
+// Whole cache lines. Not a multiple of a page: then the rows of a tile would compete for the same cache sets.
 std::ptrdiff_t stride_for(int width) {
   constexpr int kPixelsPerPage = 1024;
   const int whole_lines = (width + kPixelsPerLine - 1) / kPixelsPerLine * kPixelsPerLine;

@@ -1,16 +1,16 @@
-; The contract's constants and functions (src/edgewise/contract.h), for the claims in the files beside this one.
+; The contract's constants and functions (src/edgewise/contract.h), for the claims in the other files of this folder.
 ;
-; The solver reasons about mathematical integers and reals, in which nothing wraps. What the code computes in 32 and
-; 64 bits is the same number wherever the claims say that every intermediate result fits, and the same number modulo
-; a power of two where the code wraps on purpose (lanes.smt2, depth.smt2). Polynomials are stated over the reals,
-; which hold the integers, since that theory is decidable; roundings are stated over integers.
+; The solver reasons about mathematical integers and reals, which never wrap. The code's 32-bit and 64-bit results are
+; the same numbers wherever the claims show that every intermediate result fits. Where the code wraps on purpose, they
+; are the same modulo a power of two (lanes.smt2, depth.smt2). Polynomials are stated over the reals, which contain
+; the integers, because that theory is decidable. Roundings are stated over integers.
 ;
-; A file is this text, its own introduction, and sections. A section "claim NAME" asserts what is given and the
-; negation of what is claimed: the solver must find that impossible. A section "weakened NAME" asserts the same of a
-; claim that is a little too bold: the solver must find a counterexample. `scripts/prove` runs all of them.
+; `scripts/prove` puts this text before every other file, which has an introduction and sections. A section "claim
+; NAME" asserts the premises and the negation of the claim: the solver must find that impossible. A section "weakened
+; NAME" asserts the same for a deliberately false variant of the claim: the solver must find a counterexample.
 ;
-; A constant whose comment begins with "=" is compared with the source it names by `scripts/prove`; the functions are
-; compared with those of contract.h, on many arguments, by tests/raster/proofs_test.cpp.
+; `scripts/prove` compares a constant whose comment begins with "=" with the named source. tests/raster/proofs_test.cpp
+; compares the functions with those of contract.h, on many arguments.
 
 (define-const kSubBits Int 8)              ; = kSubBits of src/edgewise/contract.h
 (define-const kSub Int 256)                ; = kSub of src/edgewise/contract.h
@@ -40,7 +40,7 @@
 (define-fun int64 ((v Int)) Bool (and (<= (- two63) v) (< v two63)))
 (define-fun int32r ((v Real)) Bool (and (<= (- (to_real two31)) v) (< v (to_real two31))))
 (define-fun int64r ((v Real)) Bool (and (<= (- (to_real two63)) v) (< v (to_real two63))))
-(define-fun signed32 ((v Int)) Int (- (mod (+ v two31) two32) two31)) ; the number that the lower 32 bits are
+(define-fun signed32 ((v Int)) Int (- (mod (+ v two31) two32) two31)) ; the lower 32 bits, as a signed number
 (define-fun between ((low Real) (v Real) (high Real)) Bool (and (<= low v) (<= v high)))
 (define-fun maxr ((u Real) (v Real)) Real (ite (< u v) v u))
 (define-fun minr ((u Real) (v Real)) Real (ite (< u v) u v))
@@ -68,8 +68,8 @@
   (- (* (- x1 x0) (- y2 y0)) (* (- y1 y0) (- x2 x0))))
 (define-fun first_sample ((c Int)) Int (div (+ c kHalf (- 1)) kSub))
 
-; Rule 6. gradient(), before it wraps; the rounded step a pixel; and depth, before it wraps, at the first pixel of a
-; cell whose sample is (dx, dy) from the anchor, and (x, y) pixels further.
+; Rule 6. gradient(), before it wraps; the rounded step per pixel; and depth, before it wraps, at the first pixel of a
+; cell whose sample is (dx, dy) from the anchor, and (x, y) pixels from there.
 (define-fun gradient ((n Int) (area Int)) Int (div (* two24 n) area))
 (define-fun depth_step ((g Int)) Int (div (+ g 32768) two16))
 (define-fun depth_base ((z Int) (gx Int) (gy Int) (dx Int) (dy Int)) Int

@@ -1,22 +1,22 @@
-; Rule 6: depth stays within 65 units of the exact plane at every sample that the triangle owns, so the head-room keeps
-; it from wrapping. The chain of claims is:
+; Rule 6: depth stays within 65 units of the exact plane at every sample that the triangle covers, so the head-room
+; keeps it from wrapping. The chain of claims:
 ;
 ;   numerator_width      |n| <= 2^54, and n is exact in 64 bits                    (nonlinear reals)
-;   plane_is_weighted,   at an owned sample the exact plane lies between the
+;   plane_is_weighted,   at a covered sample the exact plane lies between the
 ;   plane_between        least and the greatest z of the vertices                   (nonlinear reals)
-;   step_error           zx, zy are off by at most 1/2 unit a pixel                 (integers and reals)
+;   step_error           zx, zy are off by at most 1/2 unit per pixel                 (integers and reals)
 ;   gradient_gap         gx, gy, rounded down, shift the plane at the first sample
 ;                        of a cell by less than 1/2 unit each                       (nonlinear reals)
 ;   base_error           so base is off by less than 3/2                            (integers and reals)
 ;   sample_error         so z(x, y) is off by less than 65                          (nonlinear reals)
 ;   head_room            so z(x, y) lies in (0, kDepthClear), wrapped or not        (linear reals)
 ;   wrapped_base, wrapped_step, wrapped_sum: computed modulo 2^64 and 2^32, the
-;                        result is that number                                      (linear integers)
+;                        result is the same number                                      (linear integers)
 ;
-; In each, what is given is what the claims above it say.
+; The premises of each claim are the claims above it.
 
 ;; claim numerator_width: |n| <= 2^54 for both gradients, since n is twice the area of a triangle in a box of depths
-;;   and coordinates; each of its two products, and their difference before that is known, fit 64 bits.
+;;   and coordinates. Each of its two products, and their difference, fits 64 bits.
 (declare-const z0 Real) (declare-const z1 Real) (declare-const z2 Real)
 (declare-const y0 Real) (declare-const y1 Real) (declare-const y2 Real)
 (define-fun depth ((z Real)) Bool
@@ -53,7 +53,7 @@
                   (= (from_vertex x2 y2 z2) weighted)
                   (= area (+ (edge_at x0 y0 x1 y1 sx sy) (edge_at x1 y1 x2 y2 sx sy) (edge_at x2 y2 x0 y0 sx sy))))))
 
-;; weakened plane_is_weighted: With the edge values of the edges that begin at the vertices.
+;; weakened plane_is_weighted: The same with the edge values of the edges that begin at the vertices.
 (declare-const x0 Real) (declare-const x1 Real) (declare-const x2 Real)
 (declare-const y0 Real) (declare-const y1 Real) (declare-const y2 Real)
 (declare-const z0 Real) (declare-const z1 Real) (declare-const z2 Real)
@@ -64,8 +64,8 @@
                                 (* (edge_at x2 y2 x0 y0 sx sy) z2)))
 (assert (not (= (+ (* (signed_area x0 y0 x1 y1 x2 y2) z0) (* nx (- sx x0)) (* ny (- sy y0))) weighted)))
 
-;; claim plane_between: A mean with weights that are not negative, as an owned sample's edge values are, lies between
-;;   the least and the greatest.
+;; claim plane_between: A mean with non-negative weights, such as the edge values of a covered sample, lies between
+;;   the least and the greatest of its numbers.
 (declare-const w0 Real) (declare-const w1 Real) (declare-const w2 Real)
 (declare-const z0 Real) (declare-const z1 Real) (declare-const z2 Real)
 (declare-const plane Real)
@@ -73,7 +73,7 @@
 (assert (= (* (+ w0 w1 w2) plane) (+ (* w0 z0) (* w1 z1) (* w2 z2))))
 (assert (not (between (minr z0 (minr z1 z2)) plane (maxr z0 (maxr z1 z2)))))
 
-;; weakened plane_between: So does one at a sample just outside an edge.
+;; weakened plane_between: The same for a sample just outside an edge.
 (declare-const w0 Real) (declare-const w1 Real) (declare-const w2 Real)
 (declare-const z0 Real) (declare-const z1 Real) (declare-const z2 Real)
 (declare-const plane Real)
@@ -81,44 +81,45 @@
 (assert (= (* (+ w0 w1 w2) plane) (+ (* w0 z0) (* w1 z1) (* w2 z2))))
 (assert (not (between (minr z0 (minr z1 z2)) plane (maxr z0 (maxr z1 z2)))))
 
-;; claim step_error: |zx - G / 2^16| <= 1/2, for the true gradient G and gx = floor(G): rounding half up what was
-;;   rounded down is rounding half up.
+;; claim step_error: |zx - G / 2^16| <= 1/2, for the true gradient G and gx = floor(G): rounding floor(G) half up
+;;   gives the same as rounding G half up.
 (declare-const g Int) (declare-const true_g Real)
 (assert (and (<= (to_real g) true_g) (< true_g (to_real (+ g 1)))))
 (assert (not (<= (absr (- (* 65536.0 (to_real (depth_step g))) true_g)) 32768.0)))
 
-;; weakened step_error: < 1/2.
+;; weakened step_error: |zx - G / 2^16| < 1/2.
 (declare-const g Int) (declare-const true_g Real)
 (assert (and (<= (to_real g) true_g) (< true_g (to_real (+ g 1)))))
 (assert (not (< (absr (- (* 65536.0 (to_real (depth_step g))) true_g)) 32768.0)))
 
-;; claim gradient_gap: A gradient that is too small by less than 1 = 2^-24 units a sub-unit is off by less than
-;;   2^23 = 1/2 unit over the at most 2^23 sub-units from anchor to sample. One that is exact is not off.
+;; claim gradient_gap: A gradient that is too small by less than 1 (2^-24 units per sub-unit) shifts the plane by less
+;;   than 2^23 (1/2 unit) over the at most 2^23 sub-units from anchor to sample. An exact gradient does not shift it.
 (declare-const gap Real) (declare-const d Real)
 (assert (and (<= 0.0 gap) (< gap 1.0) (between (- 8388608.0) d 8388608.0)))
 (assert (not (< (absr (* gap d)) 8388608.0)))
 
-;; weakened gradient_gap: Over 2^23 + 1 sub-units.
+;; weakened gradient_gap: The same over 2^23 + 1 sub-units.
 (declare-const gap Real) (declare-const d Real)
 (assert (and (<= 0.0 gap) (< gap 1.0) (between (- 8388609.0) d 8388609.0)))
 (assert (not (< (absr (* gap d)) 8388608.0)))
 
-;; claim base_error: base is off by less than 3/2. s = gx dx + gy dy is what it computes, and off_x, off_y what the
-;;   gradients' gaps leave out; the plane is exact, in units of 2^-24.
+;; claim base_error: base is off by less than 3/2. s = gx dx + gy dy is the computed sum; off_x and off_y are the
+;;   shifts due to the gradients' rounding; the plane is exact, in units of 2^-24.
 (declare-const z Int) (declare-const s Int) (declare-const off_x Real) (declare-const off_y Real)
 (assert (and (< (absr off_x) 8388608.0) (< (absr off_y) 8388608.0)))
 (define-fun base () Int (div (+ (* two24 z) 8388608 s) two24))
 (define-fun plane () Real (+ (* 16777216.0 (to_real z)) (to_real s) off_x off_y))
 (assert (not (< (absr (- (* 16777216.0 (to_real base)) plane)) (* 1.5 16777216.0))))
 
-;; weakened base_error: By less than 5/4.
+;; weakened base_error: base is off by less than 5/4.
 (declare-const z Int) (declare-const s Int) (declare-const off_x Real) (declare-const off_y Real)
 (assert (and (< (absr off_x) 8388608.0) (< (absr off_y) 8388608.0)))
 (define-fun base () Int (div (+ (* two24 z) 8388608 s) two24))
 (define-fun plane () Real (+ (* 16777216.0 (to_real z)) (to_real s) off_x off_y))
 (assert (not (< (absr (- (* 16777216.0 (to_real base)) plane)) (* 1.25 16777216.0))))
 
-;; claim sample_error: Depth at pixel (x, y) of a cell is off by less than kDepthError: the base, and x and y steps.
+;; claim sample_error: Depth at pixel (x, y) of a cell, that is, base and x and y steps, is off by less than
+;;   kDepthError.
 (declare-const off_base Real) (declare-const off_zx Real) (declare-const off_zy Real)
 (declare-const x Real) (declare-const y Real)
 (define-fun in_cell ((p Real)) Bool (between 0.0 p (- (to_real kDepthCell) 1.0)))
@@ -126,7 +127,7 @@
 (assert (and (in_cell x) (in_cell y)))
 (assert (not (< (absr (+ off_base (* x off_zx) (* y off_zy))) (to_real kDepthError))))
 
-;; weakened sample_error: By less than 64.
+;; weakened sample_error: It is off by less than 64.
 (declare-const off_base Real) (declare-const off_zx Real) (declare-const off_zy Real)
 (declare-const x Real) (declare-const y Real)
 (define-fun in_cell ((p Real)) Bool (between 0.0 p (- (to_real kDepthCell) 1.0)))
@@ -141,28 +142,29 @@
 (assert (< (absr (- (to_real z) plane)) (to_real kDepthError)))
 (assert (not (and (< 0 z) (< z kDepthClear) (= (mod z two32) z) (= (signed32 z) z))))
 
-;; weakened head_room: With half the head-room.
+;; weakened head_room: The same with half the head-room.
 (declare-const z Int) (declare-const plane Real)
 (assert (between 64.0 plane (- (to_real kDepthClear) 64.0)))
 (assert (< (absr (- (to_real z) plane)) (to_real kDepthError)))
 (assert (not (and (< 0 z) (< z kDepthClear) (= (mod z two32) z) (= (signed32 z) z))))
 
-;; claim wrapped_base: The upper 40 bits of a sum modulo 2^64 are, modulo 2^32, those of the sum. v = s mod 2^64.
+;; claim wrapped_base: Taking a sum s modulo 2^64 keeps bits 24 to 55: floor(v / 2^24) = floor(s / 2^24) modulo 2^32,
+;;   with v = s mod 2^64.
 (declare-const s Int) (declare-const v Int) (declare-const k Int)
 (assert (and (= s (+ v (* two64 k))) (<= 0 v) (< v two64)))
 (assert (not (= (mod (div v two24) two32) (mod (div s two24) two32))))
 
-;; weakened wrapped_base: Modulo 2^41.
+;; weakened wrapped_base: They are equal modulo 2^41.
 (declare-const s Int) (declare-const v Int) (declare-const k Int)
 (assert (and (= s (+ v (* two64 k))) (<= 0 v) (< v two64)))
 (assert (not (= (mod (div v two24) 2199023255552) (mod (div s two24) 2199023255552))))
 
-;; claim wrapped_step: The upper 48 bits of a sum modulo 2^64 are, modulo 2^32, those of the sum.
+;; claim wrapped_step: Taking a sum s modulo 2^64 keeps bits 16 to 47: floor(v / 2^16) = floor(s / 2^16) modulo 2^32.
 (declare-const s Int) (declare-const v Int) (declare-const k Int)
 (assert (and (= s (+ v (* two64 k))) (<= 0 v) (< v two64)))
 (assert (not (= (mod (div v two16) two32) (mod (div s two16) two32))))
 
-;; weakened wrapped_step: Modulo 2^49.
+;; weakened wrapped_step: They are equal modulo 2^49.
 (declare-const s Int) (declare-const v Int) (declare-const k Int)
 (assert (and (= s (+ v (* two64 k))) (<= 0 v) (< v two64)))
 (assert (not (= (mod (div v two16) 562949953421312) (mod (div s two16) 562949953421312))))
@@ -174,7 +176,7 @@
                   (= (- (* g d) (* (- g (* two64 i)) (- d (* two64 j))))
                      (* two64 (- (+ (* i d) (* j g)) (* two64 i j)))))))
 
-;; weakened wrapped_sum: By that of the products.
+;; weakened wrapped_sum: The products differ by 2^64 (i d + j g).
 (declare-const g Int) (declare-const d Int) (declare-const i Int) (declare-const j Int)
 (assert (not (= (- (* g d) (* (- g (* two64 i)) (- d (* two64 j)))) (* two64 (+ (* i d) (* j g))))))
 (assert (and (= i 1) (= j 1)))

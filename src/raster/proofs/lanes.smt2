@@ -1,4 +1,4 @@
-; The SIMD set-up's products of fixed size (triangle_lanes-inl.h, depth_lanes-inl.h). Theories: integer
+; Products of fixed size in the SIMD set-up (triangle_lanes-inl.h, depth_lanes-inl.h). Theories: integer
 ; arithmetic and reals for widths, polynomial identities over integers for products, bit-vectors for splits and flips.
 
 ;; claim product_32_32: The product of two 32-bit numbers fits 64 bits.
@@ -6,26 +6,26 @@
 (assert (and (int32r a) (int32r b)))
 (assert (not (int64r (* a b))))
 
-;; weakened product_32_32: So does twice that.
+;; weakened product_32_32: So does twice that product.
 (declare-const a Real) (declare-const b Real)
 (assert (and (int32r a) (int32r b)))
 (assert (not (int64r (* 2.0 a b))))
 
-;; claim split_rounds: A 64-bit number is low + 2^32 high modulo 2^64, with low its signed lower half, and high the
-;;   signed upper half of it plus 2^31.
+;; claim split_rounds: A 64-bit number is low + 2^32 high modulo 2^64, where low is its lower half, signed, and high
+;;   is the upper half, signed, of the number plus 2^31.
 (declare-const g (_ BitVec 64))
 (define-fun low () (_ BitVec 64) ((_ sign_extend 32) ((_ extract 31 0) g)))
 (define-fun high () (_ BitVec 64) ((_ sign_extend 32) ((_ extract 63 32) (bvadd g #x0000000080000000))))
 (assert (not (= g (bvadd low (bvshl high (_ bv32 64))))))
 
-;; weakened split_rounds: With its own upper half, not rounded.
+;; weakened split_rounds: The same with the upper half of the number itself.
 (declare-const g (_ BitVec 64))
 (define-fun low () (_ BitVec 64) ((_ sign_extend 32) ((_ extract 31 0) g)))
 (define-fun high () (_ BitVec 64) ((_ sign_extend 32) ((_ extract 63 32) g)))
 (assert (not (= g (bvadd low (bvshl high (_ bv32 64))))))
 
-;; claim product_64_32: So g d is low d + 2^32 (high d) modulo 2^64: with g = low + 2^32 high + 2^64 k, the difference
-;;   is 2^64 k d.
+;; claim product_64_32: g d is low d + 2^32 (high d) modulo 2^64: with g = low + 2^32 high + 2^64 k, the difference is
+;;   2^64 k d.
 (declare-const low Int) (declare-const high Int) (declare-const k Int) (declare-const d Int)
 (define-fun g () Int (+ low (* two32 high) (* two64 k)))
 (assert (not (= (- (* g d) (+ (* low d) (* two32 (* high d)))) (* two64 (* k d)))))
@@ -36,13 +36,13 @@
 (assert (not (= (- (* g d) (+ (* low d) (* two32 (* high d)))) 0)))
 (assert (and (= low 0) (= high 0)))
 
-;; claim product_64_64: With unsigned halves, g n is gl nl + 2^32 (gl nh + gh nl) modulo 2^64, where the bracket may
-;;   wrap, too: the difference is 2^64 gh nh.
+;; claim product_64_64: With unsigned halves, g n is gl nl + 2^32 (gl nh + gh nl) modulo 2^64, where the sum in
+;;   brackets may wrap, too: the difference is 2^64 gh nh.
 (declare-const gl Int) (declare-const gh Int) (declare-const nl Int) (declare-const nh Int)
 (assert (not (= (- (* (+ gl (* two32 gh)) (+ nl (* two32 nh))) (+ (* gl nl) (* two32 (+ (* gl nh) (* gh nl)))))
                 (* two64 (* gh nh)))))
 
-;; weakened product_64_64: With one of the cross products.
+;; weakened product_64_64: The same with only one of the cross products.
 (declare-const gl Int) (declare-const gh Int) (declare-const nl Int) (declare-const nh Int)
 (assert (and (= gl 1) (= nl 1) (= gh 2) (= nh 3)))
 (assert (not (= (mod (* (+ gl (* two32 gh)) (+ nl (* two32 nh))) two64)
@@ -53,22 +53,22 @@
 (assert (or (= f (_ bv0 64)) (= f (bvnot (_ bv0 64)))))
 (assert (not (= (bvsub (bvxor v f) f) (ite (= f (_ bv0 64)) v (bvneg v)))))
 
-;; weakened flipped: Where f is 1 as well.
+;; weakened flipped: It is -v where f is 1 as well.
 (declare-const v (_ BitVec 64)) (declare-const f (_ BitVec 64))
 (assert (or (= f (_ bv0 64)) (= f (_ bv1 64))))
 (assert (not (= (bvsub (bvxor v f) f) (ite (= f (_ bv0 64)) v (bvneg v)))))
 
-;; claim logical_shift: The lower halves of a logical and an arithmetic shift right by 8 are the same, so the edges may
+;; claim logical_shift: The lower halves of a logical and an arithmetic shift right by 8 are equal, so edge values may
 ;;   be shifted as unsigned numbers.
 (declare-const v (_ BitVec 64))
 (assert (not (= ((_ extract 31 0) (bvlshr v (_ bv8 64))) ((_ extract 31 0) (bvashr v (_ bv8 64))))))
 
-;; weakened logical_shift: By 33.
+;; weakened logical_shift: They are equal for a shift by 33.
 (declare-const v (_ BitVec 64))
 (assert (not (= ((_ extract 31 0) (bvlshr v (_ bv33 64))) ((_ extract 31 0) (bvashr v (_ bv33 64))))))
 
-;; claim edge_products: In the set-up of a tile, every factor fits 32 bits and every sum 48: the first edge value, its
-;;   rise to the last pixel of a box in the tile, and the sum of both.
+;; claim edge_products: In the set-up for a tile, every factor fits 32 bits and every sum fits 48: the first edge
+;;   value, its rise to the last pixel of a box in the tile, and the sum of both.
 (declare-const px Real) (declare-const py Real) (declare-const qx Real) (declare-const qy Real)
 (declare-const sx Real) (declare-const sy Real) (declare-const last_x Real) (declare-const last_y Real)
 (assert (and (in_guard px) (in_guard py) (in_guard qx) (in_guard qy) (in_guard sx) (in_guard sy)))
@@ -80,7 +80,7 @@
 (assert (not (and (int32r a) (int32r b) (int32r (- sx px)) (int32r (- sy py)) (int32r rise)
                   (fits (+ (edge_at px py qx qy sx sy) (* 256.0 rise))))))
 
-;; weakened edge_products: Every sum 46.
+;; weakened edge_products: Every sum fits 46 bits.
 (declare-const px Real) (declare-const py Real) (declare-const qx Real) (declare-const qy Real)
 (declare-const sx Real) (declare-const sy Real) (declare-const last_x Real) (declare-const last_y Real)
 (assert (and (in_guard px) (in_guard py) (in_guard qx) (in_guard qy) (in_guard sx) (in_guard sy)))
@@ -91,12 +91,12 @@
 (assert (and (= px (- 4194304.0)) (= py 4194304.0) (= qy (- 4194304.0)) (= sx 4194304.0)))
 (assert (not (between (- 70368744177664.0) (+ (edge_at px py qx qy sx sy) (* 256.0 rise)) 70368744177664.0)))
 
-;; claim area_in_pixels: Twice the area, in whole pixels squared, fits 32 bits.
+;; claim area_in_pixels: Twice the area of a triangle, in whole square pixels, fits 32 bits.
 (declare-const area Int)
 (assert (and (<= 0 area) (<= area two46)))
 (assert (not (int32 (div area two16))))
 
-;; weakened area_in_pixels: In quarters of one.
+;; weakened area_in_pixels: In quarters of a square pixel it fits 32 bits.
 (declare-const area Int)
 (assert (and (<= 0 area) (<= area two46)))
 (assert (not (int32 (div (* 4 area) two16))))

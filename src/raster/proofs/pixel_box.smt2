@@ -1,7 +1,7 @@
-; pixel_box(): a sample outside the box, or on its right or lower side, belongs to no triangle. Theories: nonlinear
+; pixel_box(): a triangle covers no sample outside its box, or on the box's right or lower side. Theories: nonlinear
 ; real arithmetic for the sides, linear integer arithmetic for first_sample().
 ;
-; A triangle p q r of positive area, and a sample s that it owns.
+; Variables: a triangle p q r of positive area, and a sample s that it covers.
 
 (declare-const px Real) (declare-const py Real)
 (declare-const qx Real) (declare-const qy Real)
@@ -15,7 +15,7 @@
 (assert a_triangle_owns_s)
 (assert (and (< sx px) (< sx qx) (< sx rx)))
 
-;; weakened left: Nor straight below the leftmost.
+;; weakened left: Nor does s have the x of the leftmost vertex.
 (assert a_triangle_owns_s)
 (assert (and (<= sx px) (<= sx qx) (<= sx rx)))
 
@@ -23,41 +23,42 @@
 (assert a_triangle_owns_s)
 (assert (and (< sy py) (< sy qy) (< sy ry)))
 
-;; weakened top: Nor on the box's upper side.
+;; weakened top: Nor is it on the box's upper side.
 (assert a_triangle_owns_s)
 (assert (and (<= sy py) (<= sy qy) (<= sy ry)))
 
-;; claim right: s is not on the box's right side, nor beyond.
+;; claim right: s is not on the box's right side, nor right of it.
 (assert a_triangle_owns_s)
 (assert (and (>= sx px) (>= sx qx) (>= sx rx)))
 
-;; weakened right: Nor within half a pixel of it.
+;; weakened right: Nor is it within half a pixel of that side.
 (assert a_triangle_owns_s)
 (assert (and (>= (+ sx 128.0) px) (>= (+ sx 128.0) qx) (>= (+ sx 128.0) rx)))
 
-;; claim bottom: s is not on the box's lower side, nor beyond.
+;; claim bottom: s is not on the box's lower side, nor below it.
 (assert a_triangle_owns_s)
 (assert (and (>= sy py) (>= sy qy) (>= sy ry)))
 
-;; weakened bottom: Nor within half a pixel of it.
+;; weakened bottom: Nor is it within half a pixel of that side.
 (assert a_triangle_owns_s)
 (assert (and (>= (+ sy 128.0) py) (>= (+ sy 128.0) qy) (>= (+ sy 128.0) ry)))
 
-;; claim first_sample: A pixel's sample is at or after a coordinate exactly from first_sample() of it on, so the
-;;   pixels from first_sample(min) to before first_sample(max) are those with min <= sample < max.
+;; claim first_sample: The sample of a pixel is at or after a coordinate exactly if the pixel is at or after
+;;   first_sample() of it. So the pixels from first_sample(min) to before first_sample(max) are those with min <=
+;;   sample < max.
 (declare-const c Int) (declare-const pixel Int)
 (assert (not (= (<= c (sample_sub pixel)) (<= (first_sample c) pixel))))
 
-;; weakened first_sample: Exactly after it.
+;; weakened first_sample: The same for a sample strictly after the coordinate.
 (declare-const c Int) (declare-const pixel Int)
 (assert (not (= (< c (sample_sub pixel)) (<= (first_sample c) pixel))))
 
-;; claim empty_box: If a triangle owns a sample, its box is not empty, for min <= sample < max.
+;; claim empty_box: If a triangle covers a sample, its box is not empty, because min <= sample < max.
 (declare-const least Int) (declare-const most Int) (declare-const pixel Int)
 (assert (and (<= least (sample_sub pixel)) (< (sample_sub pixel) most)))
 (assert (not (< (first_sample least) (first_sample most))))
 
-;; weakened empty_box: If a vertex is left of another.
+;; weakened empty_box: If a vertex is left of another, its box is not empty.
 (declare-const least Int) (declare-const most Int)
 (assert (< least most))
 (assert (not (< (first_sample least) (first_sample most))))

@@ -1,35 +1,35 @@
 ; Rule 5: a tile steps the biased edge value, shifted right by 8, in 32 bits. Theories: linear integer arithmetic for
 ; the shift; nonlinear real arithmetic for the width.
 
-;; claim steps_commute: A shifted value may be stepped: floor((E + 256 k) / 256) = floor(E / 256) + k.
+;; claim steps_commute: Shifting and stepping commute: floor((E + 256 k) / 256) = floor(E / 256) + k.
 (declare-const e Int) (declare-const k Int)
 (assert (not (= (div (+ e (* kSub k)) kSub) (+ (div e kSub) k))))
 
-;; weakened steps_commute: By steps of half a pixel, too.
+;; weakened steps_commute: So do steps of half a pixel.
 (declare-const e Int) (declare-const k Int)
 (assert (not (= (div (+ e (* kHalf k)) kSub) (+ (div e kSub) (div k 2)))))
 
-;; claim shifted_sign: The shifted value is negative where the full one is, after any number of steps.
+;; claim shifted_sign: The shifted value is negative exactly where the full one is, after any number of steps.
 (declare-const e Int) (declare-const k Int)
 (assert (not (= (< (+ e (* kSub k)) 0) (< (+ (div e kSub) k) 0))))
 
-;; weakened shifted_sign: It is zero where the full one is.
+;; weakened shifted_sign: It is zero exactly where the full one is.
 (declare-const e Int) (declare-const k Int)
 (assert (not (= (= (+ e (* kSub k)) 0) (= (+ (div e kSub) k) 0))))
 
-;; claim bias_then_shift: With the bias first, the shifted value decides as the biased value does.
+;; claim bias_then_shift: If the bias is added before the shift, the shifted value decides as the biased value does.
 (declare-const e Int) (declare-const k Int) (declare-const bias_of_edge Int)
 (assert (or (= bias_of_edge 0) (= bias_of_edge (- 1))))
 (assert (not (= (>= (+ (div (+ e bias_of_edge) kSub) k) 0) (>= (+ e (* kSub k) bias_of_edge) 0))))
 
-;; weakened bias_then_shift: With the bias after the shift.
+;; weakened bias_then_shift: The same if the bias is added after the shift.
 (declare-const e Int) (declare-const k Int) (declare-const bias_of_edge Int)
 (assert (or (= bias_of_edge 0) (= bias_of_edge (- 1))))
 (assert (not (= (>= (+ (div e kSub) bias_of_edge k) 0) (>= (+ e (* kSub k) bias_of_edge) 0))))
 
 ;; claim crossed_tile_fits: In a tile of 64 x 64 pixels with a pixel on either side of the edge, the shifted values
-;;   stay within 2^30 of zero, at its pixels and a step beyond its last. (u, v): any pixel; f is the shifted value at
-;;   the first, (i, j) a pixel that is inside and (k, l) one that is outside.
+;;   stay within 2^30 of zero, at all pixels and one step beyond the last. (u, v) is any pixel, f the shifted value at
+;;   the first, (i, j) a pixel inside and (k, l) one outside.
 (declare-const a Real) (declare-const b Real) (declare-const f Real)
 (declare-const i Real) (declare-const j Real) (declare-const k Real) (declare-const l Real)
 (declare-const u Real) (declare-const v Real)
@@ -42,7 +42,7 @@
                   (between (- 1073741824.0) (+ (at u v) a) 1073741824.0)
                   (between (- 1073741824.0) (+ (at u v) b) 1073741824.0))))
 
-;; weakened crossed_tile_fits: In a tile of 256 x 256 pixels.
+;; weakened crossed_tile_fits: The same in a tile of 256 x 256 pixels, within 32 bits.
 (declare-const a Real) (declare-const b Real) (declare-const f Real)
 (declare-const i Real) (declare-const j Real) (declare-const k Real) (declare-const l Real)
 (declare-const u Real) (declare-const v Real)
@@ -54,12 +54,12 @@
 (assert (and (= a 8388608.0) (= b a)))
 (assert (not (int32r (at u v))))
 
-;; claim lower_half_is_enough: A shifted value that fits 32 bits is what its lower 32 bits are.
+;; claim lower_half_is_enough: If a shifted value fits 32 bits, its lower 32 bits, signed, equal it.
 (declare-const v Int)
 (assert (int32 v))
 (assert (not (= (signed32 (mod v two64)) v)))
 
-;; weakened lower_half_is_enough: So is one of 33 bits.
+;; weakened lower_half_is_enough: The same for a value that fits 33 bits.
 (declare-const v Int)
 (assert (and (<= (- two32) v) (< v two32)))
 (assert (not (= (signed32 (mod v two64)) v)))
