@@ -55,13 +55,13 @@ class TilePainter {
       if (waiting != nullptr) draw_candidates(tile_, batch_, *waiting);
       waiting = nullptr;
     };
-    const auto draw_some = [&](std::span<const CoverageMask> masks, std::uint32_t last) {
+    const auto draw_leading = [&](std::span<const CoverageMask> masks, std::uint32_t last) {
       draw_waiting();
       return draw(masks, last);
     };
     for (std::uint32_t left = set_up(task_, run.indices, batch_); left != 0; left &= left - 1) {
       const int k = std::countr_zero(left);
-      masks_.draw_before(run, static_cast<std::size_t>(k), draw_some);
+      masks_.draw_before(run, static_cast<std::size_t>(k), draw_leading);
       const int width = batch_.bx1[k] - batch_.bx0[k] + 1, height = batch_.by1[k] - batch_.by0[k] + 1;
       if (std::max(width, height) <= SmallTriangles::kSide) {
         draw_waiting();
