@@ -76,7 +76,7 @@ class Suite {
     for (const auto& backend : backends())
       for (const int threads : kThreads) {
         add(workload, Timed::raster, backend, name, threads);
-        rows_.back().wants_floor = backend.name == kAblationBackend;
+        rows_.back().wants_cost = backend.name == kAblationBackend;
         add(workload, Timed::frame, backend, name, threads);
       }
     if (options_.scenes.empty()) add_scheduled(workload, name);

@@ -35,7 +35,7 @@ struct Row {
   int cores = 0;          // if set, estimated for so many, not timed; execution.threads is the same
   FrameWork recorded;     // what is scheduled then
   double peak_bytes = 0;  // of a first frame; 0 where it was not measured
-  bool wants_floor = false;
+  bool wants_cost = false;
   bool step = false;               // of the ablation
   double once_s = 0.0;             // what it took when it was compared
   std::optional<FrameCost> floor;  // if wanted

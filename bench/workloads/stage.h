@@ -13,7 +13,7 @@ namespace edgewise::bench {
 class Stage {
  public:
   // Draws the row and compares every bit with the reference. Sets once_s, `error` if a bit differs, the cost
-  // model's estimate if the row has wants_floor, and the recorded tasks if it has `cores`. Requires a
+  // model's estimate if the row has wants_cost, and the recorded tasks if it has `cores`. Requires a
   // prepared workload.
   void compare(Row& row);
 

@@ -69,7 +69,8 @@ class Renderer {
       : options_(options),
         backend_((options.wireframe ? wireframe() : find_backend(options.backend)).make()) {
     if (options.pixel_kind == PixelKind::hits && options.wireframe)
-      throw std::invalid_argument("--payload hits counts covered pixels, but --wireframe does not fill triangles");
+      throw std::invalid_argument(
+          "--payload hits counts covered pixels, but --wireframe does not fill triangles");
     std::vector<std::string> names;
     for (const auto& scene : options.scenes) {
       check_source(scene);

@@ -21,7 +21,7 @@ namespace HWY_NAMESPACE {
 
 // Returns false and appends nothing if add_one() must handle these triangles.
 template <bool kMarked>
-HWY_INLINE bool assemble_vector(const MeshTask& task, std::size_t first, RunOutput& out) {
+HWY_INLINE bool assemble_vector(const MeshTask& task, std::size_t first, ChunkOutput& out) {
   if (task.one_by_one()) return false;
   const DI d;
   const std::uint32_t* index = &task.mesh.triangles[first].x;
@@ -57,7 +57,7 @@ bool vertices_exist(const Mesh& mesh, std::size_t begin, std::size_t end) {
 }
 
 template <bool kMarked>
-void assemble_all(const MeshTask& task, std::size_t begin, std::size_t end, RunOutput& out) {
+void assemble_all(const MeshTask& task, std::size_t begin, std::size_t end, ChunkOutput& out) {
   const auto one_by_one = [&](std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; ++i) add_one(task, i, out);
   };
@@ -67,7 +67,7 @@ void assemble_all(const MeshTask& task, std::size_t begin, std::size_t end, RunO
   one_by_one(i, end);
 }
 
-bool assemble(const MeshTask& task, std::size_t begin, std::size_t end, RunOutput& out) {
+bool assemble(const MeshTask& task, std::size_t begin, std::size_t end, ChunkOutput& out) {
   if (!vertices_exist(task.mesh, begin, end)) return false;
   if (task.mesh.marks.empty())
     assemble_all<false>(task, begin, end, out);

@@ -8,7 +8,7 @@ namespace edgewise {
 
 // Appends the visible pieces of triangles begin … end - 1 to the output, with the triangle's index in the
 // mesh as payload. Returns false and appends nothing if a triangle names a vertex that the mesh lacks.
-using AssembleKernel = bool (*)(const MeshTask& task, std::size_t begin, std::size_t end, RunOutput& out);
+using AssembleKernel = bool (*)(const MeshTask& task, std::size_t begin, std::size_t end, ChunkOutput& out);
 
 // `target` must be resolved.
 AssembleKernel assemble_kernel(SimdTarget target);

@@ -38,7 +38,7 @@ HWY_INLINE VI area_sign(const TriangleVectors& t) {
 // Appends a vector of triangles that need no clipping, in order. `outside` selects those beyond a side of the
 // view, which are dropped. With `kMarked`, `marks` points to the triangles' flags.
 template <bool kMarked = false>
-HWY_INLINE void cull_and_append(const TriangleVectors& t, MI outside, Cull cull, RunOutput& out,
+HWY_INLINE void cull_and_append(const TriangleVectors& t, MI outside, Cull cull, ChunkOutput& out,
                                 const std::uint8_t* marks = nullptr) {
   const DI d;
   const VI sign = area_sign(t);

@@ -16,8 +16,8 @@
 #include "edgewise/contract.h"
 #include "edgewise/limits.h"
 #include "frontend/assemble.h"
+#include "frontend/chunks.h"
 #include "frontend/in_order.h"
-#include "frontend/runs.h"
 #include "frontend/shade.h"
 #include "frontend/stream.h"
 #include "frontend/transform.h"
@@ -148,7 +148,7 @@ struct Frontend::State {
 
   // Copies a chunk's output to its place in the frame's output. If there is no room, run() repeats the frame
   // with more.
-  void place(const RunOutput& out, std::size_t at) {
+  void place(const ChunkOutput& out, std::size_t at) {
     if (at + out.count > screen.capacity()) return;
     std::copy_n(out.triangles.data(), out.count, screen.data() + at);
     if (options.keep_unsnapped) std::copy_n(out.unsnapped.data(), out.count, unsnapped.data() + at);
@@ -156,7 +156,7 @@ struct Frontend::State {
 
   // Replaces the payload of the output's triangles from `first` on, which is the index in the mesh, by the
   // payload that the options select.
-  void finish_payload(const GroupMember& member, std::size_t first, RunOutput& out, ShadeKernel shade) {
+  void finish_payload(const GroupMember& member, std::size_t first, ChunkOutput& out, ShadeKernel shade) {
     ScreenTriangle* triangles = out.triangles.data() + first;
     const std::size_t count = out.count - first;
     const Mesh& mesh = member.task.mesh;
@@ -181,7 +181,7 @@ struct Frontend::State {
     const AssembleKernel assemble = assemble_kernel(options.target);
     const ShadeKernel shade = shade_kernel(options.target);
     std::atomic<bool> all_exist{true};
-    const auto make = [&](std::size_t chunk, RunOutput& out) {
+    const auto make = [&](std::size_t chunk, ChunkOutput& out) {
       for (const MeshPart& part : triangle_chunks[chunk]) {
         const GroupMember& member = group[part.mesh];
         const std::size_t first = out.count;
@@ -193,7 +193,7 @@ struct Frontend::State {
       }
     };
     order.for_each_chunk(triangle_chunks.size(), triangle_chunks.total(), make,
-                         [&](const RunOutput& out, std::size_t at) { place(out, at); });
+                         [&](const ChunkOutput& out, std::size_t at) { place(out, at); });
     if (all_exist) return;
     for (const GroupMember& member : group)
       if (!member.out_of_sight()) throw_if_vertex_missing(member.task.mesh);
@@ -240,11 +240,12 @@ struct Frontend::State {
     const StreamTask task{options, stream, options.keep_states ? states.data() : nullptr};
     const std::size_t count = stream.triangles.size();
     stats.triangles = count;
-    order.for_each_chunk((count + kRun - 1) / kRun, count,
-                         [&](std::size_t chunk, RunOutput& out) {
-                           kernel(task, chunk * kRun, std::min(count, (chunk + 1) * kRun), out);
+    order.for_each_chunk((count + kChunkTriangles - 1) / kChunkTriangles, count,
+                         [&](std::size_t chunk, ChunkOutput& out) {
+                           kernel(task, chunk * kChunkTriangles,
+                                  std::min(count, (chunk + 1) * kChunkTriangles), out);
                          },
-                         [&](const RunOutput& out, std::size_t at) { place(out, at); });
+                         [&](const ChunkOutput& out, std::size_t at) { place(out, at); });
   }
 
   void run_once(const Drawable& drawable, std::size_t room) {

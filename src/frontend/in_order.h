@@ -25,7 +25,7 @@ class InOrder {
     total_ = 0;
     if (outputs_.size() < static_cast<std::size_t>(threads))
       outputs_.resize(static_cast<std::size_t>(threads));
-    for (RunOutput& out : outputs_) {
+    for (ChunkOutput& out : outputs_) {
       out.reserve(with_unsnapped);
       out.stats = {};
     }
@@ -40,7 +40,7 @@ class InOrder {
     std::atomic<std::size_t> next{0};
     std::atomic<std::uint32_t> turn{0};
     parallel_for(workers, workers, [&](int worker) {
-      RunOutput& out = outputs_[static_cast<std::size_t>(worker)];
+      ChunkOutput& out = outputs_[static_cast<std::size_t>(worker)];
       for (std::size_t chunk; (chunk = next.fetch_add(1, std::memory_order_relaxed)) < chunks;) {
         out.count = 0;
         make(chunk, out);
@@ -58,7 +58,7 @@ class InOrder {
   std::size_t total() const { return total_; }  // output triangles since start_frame()
   FrontendStats stats() const {
     FrontendStats sum;
-    for (const RunOutput& out : outputs_) sum += out.stats;
+    for (const ChunkOutput& out : outputs_) sum += out.stats;
     return sum;
   }
 
@@ -76,7 +76,7 @@ class InOrder {
 
   int threads_ = 1;
   std::size_t total_ = 0;
-  std::vector<RunOutput> outputs_;  // one per worker
+  std::vector<ChunkOutput> outputs_;  // one per worker
 };
 
 }  // namespace edgewise

@@ -41,7 +41,7 @@ struct Source {
 // Appends a triangle unless it has no area or is culled. unsnapped() is called only with keep_unsnapped.
 template <typename Unsnapped>
 void emit(const Vertex& a, const Vertex& b, const Vertex& c, const Source& source,
-          const FrontendOptions& options, RunOutput& out, Unsnapped&& unsnapped) {
+          const FrontendOptions& options, ChunkOutput& out, Unsnapped&& unsnapped) {
   FrontendStats& stats = out.stats;
   ++stats.pieces;
   const ScreenTriangle t{
@@ -59,7 +59,7 @@ void emit(const Vertex& a, const Vertex& b, const Vertex& c, const Source& sourc
 }
 
 void clip(const ClipVertex (&triangle)[3], std::uint32_t sides, const Source& source,
-          const FrontendOptions& options, RunOutput& out) {
+          const FrontendOptions& options, ChunkOutput& out) {
   FrontendStats& stats = out.stats;
   ++stats.clipped;
   if (sides & kNear) ++stats.clipped_near;
@@ -88,7 +88,7 @@ void clip(const ClipVertex (&triangle)[3], std::uint32_t sides, const Source& so
 // Adds a triangle, clipped if necessary. clip_of(k) returns vertex k in clip space.
 template <typename ClipOf>
 void add(const Vertex& a, const Vertex& b, const Vertex& c, const Source& source,
-         const FrontendOptions& options, RunOutput& out, ClipOf&& clip_of) {
+         const FrontendOptions& options, ChunkOutput& out, ClipOf&& clip_of) {
   if (drop(a, b, c, out.stats)) return;
   const std::uint32_t sides = (a.outside | b.outside | c.outside) & kMustClip;
   if (sides == 0)
@@ -110,7 +110,7 @@ TriangleState state_between(const FrontendStats& before, const FrontendStats& af
 
 // Calls add_it() and derives the triangle's state from the counts that it changed.
 template <typename Task, typename AddIt>
-void add_and_record_state(const Task& task, std::size_t triangle, RunOutput& out, AddIt&& add_it) {
+void add_and_record_state(const Task& task, std::size_t triangle, ChunkOutput& out, AddIt&& add_it) {
   if (task.states == nullptr) return add_it();
   const FrontendStats before = out.stats;
   add_it();
@@ -119,7 +119,7 @@ void add_and_record_state(const Task& task, std::size_t triangle, RunOutput& out
 
 }  // namespace
 
-void add_one(const MeshTask& task, std::size_t triangle, RunOutput& out) {
+void add_one(const MeshTask& task, std::size_t triangle, ChunkOutput& out) {
   const glm::uvec3 t = task.mesh.triangles[triangle];
   const auto clip_of = [&](int k) { return transform(task.to_screen, task.mesh.positions[t[k]]); };
   const Cull cull = task.mesh.has_mark(triangle, kTwoSided) ? Cull::none : task.options.cull;
@@ -129,7 +129,7 @@ void add_one(const MeshTask& task, std::size_t triangle, RunOutput& out) {
   });
 }
 
-void add_one(const StreamTask& task, std::size_t triangle, RunOutput& out) {
+void add_one(const StreamTask& task, std::size_t triangle, ChunkOutput& out) {
   const StreamTriangle& t = task.stream.triangles[triangle];
   const auto width = static_cast<float>(task.options.width), height = static_cast<float>(task.options.height);
   const auto clip_of = [&](int k) {

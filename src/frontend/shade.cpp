@@ -104,7 +104,7 @@ float side_seen(const Mesh& mesh, std::uint32_t source, const ScreenTriangle& se
 }
 
 template <bool kMarked>
-void shade_all(const ShadeTask& task, RunOutput& out, std::size_t first) {
+void shade_all(const ShadeTask& task, ChunkOutput& out, std::size_t first) {
   const DI d;
   const Positions positions(task.mesh);
   ScreenTriangle* triangles = out.triangles.data();
@@ -131,7 +131,7 @@ void shade_all(const ShadeTask& task, RunOutput& out, std::size_t first) {
   }
 }
 
-void shade(const ShadeTask& task, RunOutput& out, std::size_t first) {
+void shade(const ShadeTask& task, ChunkOutput& out, std::size_t first) {
   if (task.mesh.marks.empty())
     shade_all<false>(task, out, first);
   else
@@ -178,14 +178,14 @@ ScreenTriangle wound_as_seen(const Scene& scene, const Mesh& mesh, const glm::dm
 std::vector<std::uint32_t> lit_colours(const Scene& scene) {
   const ShadeKernel kernel = shade_kernel(resolve(SimdTarget::best));
   std::vector<std::uint32_t> colours;
-  RunOutput out;
+  ChunkOutput out;
   out.reserve(false);
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes.at(instance.mesh);
     const glm::dmat4 model(model_matrix(instance));
     const ShadeTask task(mesh, model, scene.to_light);
-    for (std::size_t begin = 0; begin < mesh.triangles.size(); begin += kRun) {
-      out.count = std::min(kRun, mesh.triangles.size() - begin);
+    for (std::size_t begin = 0; begin < mesh.triangles.size(); begin += kChunkTriangles) {
+      out.count = std::min(kChunkTriangles, mesh.triangles.size() - begin);
       for (std::size_t i = 0; i < out.count; ++i)
         out.triangles.data()[i] = wound_as_seen(scene, mesh, model, begin + i);
       kernel(task, out, 0);

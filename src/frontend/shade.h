@@ -20,7 +20,7 @@ struct ShadeTask {
 
 // Replaces the payload of the output's triangles from `first` on, which is the index in the mesh, by the lit
 // colour.
-using ShadeKernel = void (*)(const ShadeTask& task, RunOutput& out, std::size_t first);
+using ShadeKernel = void (*)(const ShadeTask& task, ChunkOutput& out, std::size_t first);
 
 // `target` must be resolved.
 ShadeKernel shade_kernel(SimdTarget target);

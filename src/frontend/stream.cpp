@@ -64,7 +64,7 @@ HWY_INLINE MI beyond(const VF (&v)[3], int side_px) {
 }
 
 // Returns false and appends nothing if add_one() must handle these triangles.
-HWY_INLINE bool stream_vector(const StreamTask& task, std::size_t first, RunOutput& out) {
+HWY_INLINE bool stream_vector(const StreamTask& task, std::size_t first, ChunkOutput& out) {
   if (task.one_by_one()) return false;
   constexpr auto kGuardPx = static_cast<float>(contract::kMaxImageSide);
   const FrontendOptions& options = task.options;
@@ -82,7 +82,7 @@ HWY_INLINE bool stream_vector(const StreamTask& task, std::size_t first, RunOutp
   return true;
 }
 
-void stream(const StreamTask& task, std::size_t begin, std::size_t end, RunOutput& out) {
+void stream(const StreamTask& task, std::size_t begin, std::size_t end, ChunkOutput& out) {
   const auto one_by_one = [&](std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; ++i) add_one(task, i, out);
   };

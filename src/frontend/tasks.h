@@ -34,7 +34,7 @@ struct StreamTask {
 
 // The vertices or triangles of a chunk, whatever the thread count. Small enough that a chunk's output stays
 // in the L2 cache until it is copied.
-inline constexpr std::size_t kRun = 2048;
+inline constexpr std::size_t kChunkTriangles = 2048;
 
 // Below this many vertices or triangles, waking another thread costs more than it saves.
 inline constexpr std::size_t kWorthThreads = 8192;
@@ -45,10 +45,10 @@ inline int workers_for(std::size_t count, int threads) {
 
 // A chunk's visible triangles. Each worker has one and reuses it for all its chunks. The alignment keeps two
 // workers' outputs out of the same pair of cache lines, which processors fetch together.
-struct alignas(128) RunOutput {
+struct alignas(128) ChunkOutput {
   // A triangle clipped by six planes has at most nine vertices, so it becomes at most seven triangles. The
   // last vector is stored whole.
-  static constexpr std::size_t kCapacity = kRun * 7 + 16;
+  static constexpr std::size_t kCapacity = kChunkTriangles * 7 + 16;
   static_assert(kCapacity * std::max(sizeof(ScreenTriangle), sizeof(UnsnappedTriangle)) < 1'000'000);
 
   void reserve(bool with_unsnapped) {

@@ -17,8 +17,8 @@ std::string describe(const Ablation& ablation) {
   return text;
 }
 
-void draw(Backend& backend, std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
-          const AblatedExecution& how) {
+void draw(Backend& backend, std::span<const ScreenTriangle> triangles, FrameView frame,
+          std::uint32_t background, const AblatedExecution& how) {
   auto* const switches = dynamic_cast<AblatableBackend*>(&backend);
   if (switches != nullptr) switches->ablation = how.ablation;
   backend.draw(triangles, frame, background, how.execution);

@@ -1,5 +1,5 @@
-// Optimizations of the library's own backends that can be switched off, to measure what each is worth and to test every
-// path. No switch changes a bit of the picture. Internal: not installed.
+// Optimizations of the library's own backends that can be switched off, to measure what each is worth and to
+// test every path. No switch changes a bit of the picture. Internal: not installed.
 #pragma once
 
 #include <array>
@@ -11,8 +11,9 @@
 
 namespace edgewise {
 
-// How finished tiles are copied to the frame. Streaming (non-temporal) stores save reading the frame's old content and
-// leave the caches to the triangles; a frame that stays in the last-level cache is written faster by cached stores.
+// How finished tiles are copied to the frame. Streaming (non-temporal) stores save reading the frame's old
+// content and leave the caches to the triangles; a frame that stays in the last-level cache is written faster
+// by cached stores.
 enum class TileStore {
   cached,
   streaming,
@@ -25,13 +26,14 @@ struct Ablation {
   bool coverage_masks = true;      // tiled: binning resolves small triangles to masks; needs vector_setup
   bool hierarchical_depth = true;  // tiled: triangles behind all that a block or tile shows are rejected
   TileStore tile_store = TileStore::automatic;  // tiled, scanline
-  bool stepped = false;            // naive: edges and depth are stepped along rows, not evaluated at each pixel
+  bool stepped = false;  // naive: edges and depth are stepped along rows, not evaluated at each pixel
 };
 
 // What differs from the default, as "no prefetch, …"; empty where nothing does.
 std::string describe(const Ablation& ablation);
 
-// Each optimization left out, both tile stores, all left out, and the stepped naive backend: what a test must compare.
+// Each optimization left out, both tile stores, all left out, and the stepped naive backend: what a test must
+// compare.
 constexpr std::array<Ablation, 8> kAblations{{{.vector_setup = false},
                                               {.prefetch = false},
                                               {.coverage_masks = false},
@@ -53,7 +55,7 @@ struct AblatedExecution {
 };
 
 // Backend::draw() with optimizations switched off; a backend without switches draws as usual.
-void draw(Backend& backend, std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
-          const AblatedExecution& how);
+void draw(Backend& backend, std::span<const ScreenTriangle> triangles, FrameView frame,
+          std::uint32_t background, const AblatedExecution& how);
 
 }  // namespace edgewise

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "raster/ablation.h"
 #include "edgewise/framebuffer.h"
 #include "edgewise/simd_target.h"
+#include "raster/ablation.h"
 #include "raster/binning/bins.h"
 
 namespace edgewise {

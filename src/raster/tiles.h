@@ -1,5 +1,5 @@
-// Drawing tile by tile, for backends that have a kernel for one tile: triangles are binned to tiles, and tiles are drawn
-// in parallel.
+// Drawing tile by tile, for backends that have a kernel for one tile: triangles are binned to tiles, and
+// tiles are drawn in parallel.
 #pragma once
 
 #include <bit>
@@ -15,16 +15,17 @@
 
 namespace edgewise {
 
-// TileStore::automatic. A tile with triangles is streamed: its copy overlaps with the drawing of the next tile, and LLC
-// residency is unpredictable, since other processes share the cache. An empty tile is a burst of stores that no work
-// overlaps; where the frame can stay in the LLC beside its reader's data, cached stores finish it sooner.
+// TileStore::automatic. A tile with triangles is streamed: its copy overlaps with the drawing of the next
+// tile, and LLC residency is unpredictable, since other processes share the cache. An empty tile is a burst
+// of stores that no work overlaps; where the frame can stay in the LLC beside its reader's data, cached
+// stores finish it sooner.
 constexpr TileStore tile_store_for(bool empty_tile, std::size_t frame_bytes, std::size_t llc) {
   return empty_tile && frame_bytes <= llc / 2 ? TileStore::cached : TileStore::streaming;
 }
 
-inline void draw_in_tiles(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
-                          const Execution& execution, const Ablation& ablation, int tile_size, Bins& bins,
-                          Bins::Small small, TileKernel draw_tile) {
+inline void draw_in_tiles(std::span<const ScreenTriangle> triangles, FrameView frame,
+                          std::uint32_t background, const Execution& execution, const Ablation& ablation,
+                          int tile_size, Bins& bins, Bins::Small small, TileKernel draw_tile) {
   const int size_log2 = std::countr_zero(static_cast<unsigned>(tile_size));
   const CellGrid grid{frame.width, frame.height, size_log2, size_log2};
   const SimdTarget binning = ablation.vector_setup ? execution.target : SimdTarget::scalar;

@@ -147,7 +147,8 @@ void Pipeline::draw_composed(const lab::Choice& choice, const View& view, Pictur
   picture.image = {view.frontend.width, view.frontend.height, {}};
   picture.image.pixels.reserve(visible.size());
   for (const std::uint32_t id : visible)
-    picture.image.pixels.push_back(id == lab::kNoTriangle ? app::background_of(Payload::colour) : colours[id]);
+    picture.image.pixels.push_back(id == lab::kNoTriangle ? app::background_of(Payload::colour)
+                                                          : colours[id]);
 }
 
 void Pipeline::run_without_hidden_faces(const lab::FacingMethod& method, const View& view, Picture& picture) {

@@ -166,7 +166,7 @@ TEST(BenchAblation, StandsBesideTheRowsThatAreItsEnds) {
   std::size_t estimates = 0;
   for (const Row& row : make_suite({})) {
     names.insert(row.name);
-    estimates += row.wants_floor;
+    estimates += row.wants_cost;
   }
   for (const SceneInfo& scene : builtin_scenes())
     for (const AblationStep& step : ablation_steps())
@@ -246,7 +246,7 @@ TEST(BenchStage, EstimatesTheCostOnlyIfRequested) {
   workload->prepare(false);
   Stage stage;
   Row with = row_of(backends()[0], workload), without = with;
-  with.wants_floor = true;
+  with.wants_cost = true;
   stage.compare(with);
   stage.compare(without);
   ASSERT_TRUE(with.floor.has_value());
@@ -266,7 +266,7 @@ TEST(BenchModel, WritesEstimatesOfAtMostLinearSpeedUp) {
   std::vector<Row> rows(3, row_of(find_backend("tiled"), workload));
   rows[0].cores = rows[0].execution.threads = 4;
   rows[0].timed = Timed::frame;
-  rows[1].wants_floor = true;
+  rows[1].wants_cost = true;
   for (Row& row : rows) stage.compare(row);
   const auto model = nlohmann::json::parse(model_json(rows, 1e-6));
   ASSERT_EQ(model["scheduled"].size(), 1u);

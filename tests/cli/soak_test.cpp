@@ -372,10 +372,10 @@ class WrongWhenStepped : public AblatableBackend {
 
 TEST(SoakFindings, IncludeValuesThatAreSteppedWrong) {
   Campaign campaign = campaign_of(40);
-  campaign.judged.backends = {backends()[0], planted<WrongWhenStepped>()};
+  campaign.judged.backends = {backends()[0], wrong_backend<WrongWhenStepped>()};
   const Record record = run(campaign, fresh(13, {}));
   EXPECT_GT(record.tally.frames_differ, 0u);
-  EXPECT_EQ(record.tally.by.at("backend_ablation").at("planted, stepped").differ, record.tally.frames_differ);
+  EXPECT_EQ(record.tally.by.at("backend_ablation").at("wrong, stepped").differ, record.tally.frames_differ);
   EXPECT_EQ(record.findings.at(0).at("ablation"), "stepped");
   EXPECT_NE(report(record).find("ablation: 'stepped'"), std::string::npos) << report(record);
 }

@@ -163,13 +163,13 @@ class DepthRounding {
  public:
   DepthRounding() {
     const StreamTriangle triangle{{{0, 0, 0}, {50, 0, 0}, {0, 50, 0}}, 0};
-    stream_.triangles.assign(kRun, triangle);
+    stream_.triangles.assign(kChunkTriangles, triangle);
     out_.reserve(false);
     for (const SimdTarget target : supported_targets()) kernels_.push_back(stream_kernel(target));
   }
   void add(float z01) {
     stream_.triangles[count_ / 3].vertex[count_ % 3].z = z01;
-    if (++count_ == 3 * kRun) check();
+    if (++count_ == 3 * kChunkTriangles) check();
   }
   // Checks the depths added since the last check.
   void check() {
@@ -180,8 +180,8 @@ class DepthRounding {
     }
     for (std::size_t k = 0; k < kernels_.size(); ++k) {
       out_.count = 0;
-      kernels_[k]({options_, stream_}, 0, kRun, out_);
-      ASSERT_EQ(out_.count, kRun);
+      kernels_[k]({options_, stream_}, 0, kChunkTriangles, out_);
+      ASSERT_EQ(out_.count, kChunkTriangles);
       for (std::size_t i = 0; i < count_; ++i)
         compare(out_.triangles.data()[i / 3].z[i % 3], i, name_of(supported_targets()[k]));
     }
@@ -200,8 +200,8 @@ class DepthRounding {
   FrontendOptions options_{.width = 64, .height = 64, .cull = Cull::none};
   TriangleStream stream_{64, 64, {}};
   std::vector<StreamKernel> kernels_;
-  std::vector<std::uint32_t> expected_ = std::vector<std::uint32_t>(3 * kRun);
-  RunOutput out_;
+  std::vector<std::uint32_t> expected_ = std::vector<std::uint32_t>(3 * kChunkTriangles);
+  ChunkOutput out_;
   std::size_t count_ = 0, wrong_ = 0;
 };
 
@@ -374,9 +374,9 @@ TEST(FrontendKernels, StreamsOnPlanesAreAlikeOnEveryTarget) {
 
 // Streams of lengths around those of a vector and a chunk: no triangle is lost, duplicated or reordered.
 TEST(FrontendKernels, StreamsOfAnyLengthKeepTheOrder) {
-  for (const std::size_t count :
-       {std::size_t{0}, std::size_t{1}, std::size_t{15}, std::size_t{16}, std::size_t{17}, kRun - 1, kRun,
-        kRun + 1, kWorthThreads - 1, kWorthThreads, 3 * kWorthThreads + 5}) {
+  for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{15}, std::size_t{16},
+                                  std::size_t{17}, kChunkTriangles - 1, kChunkTriangles, kChunkTriangles + 1,
+                                  kWorthThreads - 1, kWorthThreads, 3 * kWorthThreads + 5}) {
     TriangleStream stream{100, 100, {}};
     for (std::size_t i = 0; i < count; ++i)
       stream.triangles.push_back({{{1, 1, 0.5f}, {50, 1, 0.5f}, {1, 50, 0.5f}}, 0});
@@ -389,7 +389,7 @@ TEST(FrontendKernels, StreamsOfAnyLengthKeepTheOrder) {
 
 // Each triangle is clipped into two pieces, which exceed the initial buffer.
 TEST(FrontendKernels, GrowsForPiecesOfClippedTriangles) {
-  constexpr std::size_t kCount = 3 * kRun;
+  constexpr std::size_t kCount = 3 * kChunkTriangles;
   Scene scene;
   Mesh& mesh = scene.meshes.emplace_back();
   mesh.positions = {{-1, -1, -5}, {1, -1, -5}, {0, -1, 5}};

@@ -31,9 +31,9 @@ TEST(CoverageVisibleTriangles, TieRulesDecideTheDiagonalOfTheDrtkQuad) {
 TEST(CoverageVisibleTriangles, OfBackendsAreExactAndTheirDepthsKeepRuleSix) {
   for (const CoverageCase& c : coverage_cases()) {
     const Picture& picture = picture_of(c.name);
-    const OwnerJudge judge(picture.input, c.size, 2);
+    const VisibleTriangleJudge judge(picture.input, c.size, 2);
     for (const auto& backend : backends()) {
-      const OwnerScore score = judge.score(find_coverage_method(backend.name));
+      const VisibleTriangleScore score = judge.score(find_coverage_method(backend.name));
       EXPECT_EQ(score.wrong_snapped, 0u) << backend.name << " in " << c.name;
       EXPECT_LT(score.max_ulp, contract::kDepthError) << backend.name << " in " << c.name;
       EXPECT_LE(score.rms_ulp, score.max_ulp) << backend.name << " in " << c.name;
@@ -48,7 +48,8 @@ TEST(CoverageVisibleTriangles, OfBackendsAreWrongOnlyWhereRuleSixExplainsIt) {
     const auto grid = testing::adversarial(family, 150, 120, 90, 8);
     const Picture picture(testing::as_floats(grid), {120, 90});
     for (const auto& backend : backends())
-      EXPECT_EQ(owners_of(backend.name, picture).unexplained, 0u) << backend.name << " in " << family;
+      EXPECT_EQ(visible_triangles_of(backend.name, picture).unexplained, 0u)
+          << backend.name << " in " << family;
   }
 }
 

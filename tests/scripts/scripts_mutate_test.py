@@ -33,8 +33,8 @@ class MutateTest(unittest.TestCase):
     def test_the_table_reaches_every_part(self):
         files = {m.file for m in read_mutations(ROOT / "tests/mutations.toml")}
         for part in ("contract.h", "naive.cpp", "tile_", "scanline_", "bins", "assemble.cpp", "one_by_one.cpp", "clip.cpp",
-                     "shade.cpp", "oracle.cpp", "patch_coverage", "patch_windows", "patch_lists", "tile_patches",
-                     "record_lanes", "runs.h", "pieces.cpp"):
+                     "shade.cpp", "oracle.cpp", "mask_coverage", "mask_quadrants", "mask_lists", "tile_masks",
+                     "record_lanes", "chunks.h", "pieces.cpp"):
             self.assertTrue(any(part in file for file in files), part)
 
     def test_a_mistake_is_planted_once(self):

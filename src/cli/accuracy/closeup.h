@@ -13,8 +13,8 @@
 namespace edgewise::app {
 
 struct Closeup {
-  std::string name;                  // FAMILY-SCENE-METHOD
-  lab::Window part;                  // of the picture
+  std::string name;                    // FAMILY-SCENE-METHOD
+  lab::Window part;                    // of the picture
   std::vector<std::uint32_t> visible;  // the exact visible triangles; lab::kNoTriangle: background
   std::vector<lab::Mark> marks;
   std::vector<lab::Line> lines;  // the triangles' exact edges

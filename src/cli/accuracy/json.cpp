@@ -50,7 +50,7 @@ struct AddScore {
   const SceneResult& scene;
 
   // Every pixel of the image is a trial, because background pixels may be wrong too.
-  void add_owners(json& score, std::uint64_t wrong) const {
+  void add_wrong_pixels(json& score, std::uint64_t wrong) const {
     score["wrong_owners"] = wrong;
     const auto pixels = static_cast<std::uint64_t>(scene.width) * static_cast<std::uint64_t>(scene.height);
     if (wrong == 0) score["wrong_owners_bound_per_million"] = 1e6 * lab::rate_bound(pixels);

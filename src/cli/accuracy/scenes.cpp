@@ -18,14 +18,14 @@ enum class Timed { never, full, always };  // full: not in a quick run
 
 // The size and scale at which a built-in scene is judged. Judging all methods on full scenes would take too
 // long.
-struct Extent {
+struct SceneExtent {
   std::string_view name;
   lab::Size size, quick_size;
   double scale, quick_scale;  // of scalable scenes
   Timed timed;
   double cost_s, quick_cost_s;
 };
-constexpr Extent kExtents[] = {
+constexpr SceneExtent kExtents[] = {
     {"torus-knot", kFullHd, kFullHd, 1, 1, Timed::always, 3.4, 2.2},
     {"medium", kFullHd, kUsual, 0.15, 0.1, Timed::never, 2, 0.5},
     {"small", kFullHd, kUsual, 0.15, 0.05, Timed::never, 2.5, 0.5},
@@ -34,10 +34,10 @@ constexpr Extent kExtents[] = {
     {"sliver", kFullHd, kUsual, 0.02, 0.02, Timed::never, 2, 1},
     {"knots", kFullHd, kUsual, 0.1, 0.02, Timed::never, 4, 1},
 };
-constexpr Extent kUsualExtent{"", kFullHd, kUsual, 1, 1, Timed::never, 1, 0.3};
+constexpr SceneExtent kUsualExtent{"", kFullHd, kUsual, 1, 1, Timed::never, 1, 0.3};
 
-Extent extent_of(std::string_view name) {
-  for (const Extent& extent : kExtents)
+SceneExtent extent_of(std::string_view name) {
+  for (const SceneExtent& extent : kExtents)
     if (extent.name == name) return extent;
   return kUsualExtent;
 }
@@ -167,7 +167,7 @@ class Catalogue {
   }
 
   void add_built_in(const SceneInfo& info) {
-    const Extent extent = extent_of(info.name);
+    const SceneExtent extent = extent_of(info.name);
     const lab::Size size = plan_.quick ? extent.quick_size : extent.size;
     const SceneRequest request{size.width, size.height, 0.0f,
                                plan_.quick ? extent.quick_scale : extent.scale};

@@ -38,15 +38,16 @@ struct Place {
         width(job.width()),
         height(job.height()),
         streaming(job.ablation.tile_store == TileStore::streaming &&
-                    reinterpret_cast<std::uintptr_t>(plane) % sizeof(V) == 0 && stride % kLanes == 0),
+                  reinterpret_cast<std::uintptr_t>(plane) % sizeof(V) == 0 && stride % kLanes == 0),
         ahead(job.x0 + 2 * job.size() <= job.frame.width ? job.size() : 0) {}
 
   HWY_INLINE std::int32_t* row(int y) const { return at + y * stride; }
 };
 
-// Calls write(store), where store(v, pixels) writes a vector of pixels to the frame. Cached stores also prefetch the tile
-// to the right, which is usually drawn next: its rows are too short for the hardware prefetcher, and a few stores that
-// wait for memory stall all others. The scalar target stores pixel by pixel, where a prefetch costs more than it saves.
+// Calls write(store), where store(v, pixels) writes a vector of pixels to the frame. Cached stores also
+// prefetch the tile to the right, which is usually drawn next: its rows are too short for the hardware
+// prefetcher, and a few stores that wait for memory stall all others. The scalar target stores pixel by
+// pixel, where a prefetch costs more than it saves.
 template <typename Write>
 HWY_INLINE void write_to(const Place& to, Write&& write) {
   if (to.streaming) {
@@ -92,7 +93,8 @@ HWY_INLINE void draw_runs(const TileTask& job, Draw&& draw) {
   if (!asked_for.indices.empty()) draw(asked_for);
 }
 
-// Calls write(depth, payload) with the tile's places in the frame, and orders streaming stores before later ones.
+// Calls write(depth, payload) with the tile's places in the frame, and orders streaming stores before later
+// ones.
 template <typename Write>
 HWY_INLINE void write_planes(const TileTask& job, Write&& write) {
   const Place depth(job, job.frame.depth), payload(job, job.frame.payload);

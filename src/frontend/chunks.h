@@ -1,5 +1,5 @@
-// Cuts the vertices or triangles of several meshes into chunks of kRun: a large mesh spans many chunks, and
-// one chunk spans many small meshes.
+// Cuts the vertices or triangles of several meshes into chunks of kChunkTriangles: a large mesh spans many
+// chunks, and one chunk spans many small meshes.
 #pragma once
 
 #include <algorithm>
@@ -28,7 +28,7 @@ class Chunks {
     for (std::size_t begin = 0, end; begin < count; begin = end) {
       if (room_ == 0) {
         ends_.push_back(parts_.size());
-        room_ = kRun;
+        room_ = kChunkTriangles;
       }
       end = std::min(count, begin + room_);
       parts_.push_back({mesh, begin, end});
