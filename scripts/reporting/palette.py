@@ -1,4 +1,4 @@
-"""The colours and markers of all charts, drawn or interactive. A colour has one meaning in all of them."""
+"""The colours and markers of all charts. A colour has one meaning in all of them."""
 
 # Okabe and Ito, "Color Universal Design", 2008.
 BLUE, ORANGE, GREEN, VERMILION, PURPLE, SKY = "#0072B2", "#E69F00", "#009E73", "#D55E00", "#CC79A7", "#56B4E9"

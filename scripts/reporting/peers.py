@@ -41,12 +41,6 @@ def pairs(bench, target=None):
     return {key: found for key in keys if (found := pair(bench, *key, target))}
 
 
-def over_backend(bench, found, backend):
-    """The speed-up of one of our backends over the peer of a Pair; None if it was not timed."""
-    ours = found and bench.find(found.ours.name.replace(found.ours.backend, backend, 1))
-    return found.peer.median_ms / ours.median_ms if ours else None
-
-
 def with_ratios(bench, header, lines):
     """A scene table with a further column for each peer, on the most threads."""
     found = pairs(bench)

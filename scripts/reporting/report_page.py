@@ -1,157 +1,141 @@
-"""The report as one HTML file: text, static charts for readers without JavaScript, figures, pictures, and the script."""
-import base64
-import io
-import json
+"""The report as one HTML file: findings, the charts of the results folder, and tables."""
 import re
+from fnmatch import fnmatch
 from html import escape
 from pathlib import Path
 from string import Template
-from urllib.parse import quote
 
-from PIL import Image
-
-from accuracy_rows import FAMILIES
-from bench_rows import BadInput
+from accuracy_rows import read_accuracy, read_stability
+from accuracy_tables import fails_tables, method_tables
+from bench_rows import BadInput, read_json
+from cost_model import estimate_columns
 from findings import findings
-from palette import VERDICTS, backend_looks, kind_looks
-from peers import pairs, peer_table
-from report_data import families, results_data
-from scaling import scaling_table
-from tables import scene_table
+from peers import peer_tables, with_ratios
+from report_rows import rows_section
+from tables import markdown, random_reads_sentence, scene_table, verify_sentence
+from verification_summary import verification_table
 
 SOURCE = Path(__file__).resolve().parents[1] / "web"
 
-# (id, heading, description)
-SECTIONS = (
-    ("accuracy", "Speed against accuracy", "Errors and time of each method. The dashed line joins the methods that no other "
-     "beats in both on one thread; hollow marks err given the snapped positions, too; bars reach from the fastest "
-     "repetition to the slowest."),
-    ("area", "Cost against triangle area", "Random triangles of one area that together cover the same number of pixels. "
-     "Lower is better. Rings: settled crossings of two curves. Bands: fastest to slowest repetition."),
-    ("ablation", "Ablation: what each optimization gains", "Each line adds one optimization; all but the last run on one "
-     "thread. Figures: speed-up over the line above. Black: faster; red: slower; grey: not settled. Grey ticks: the cost "
-     "model's estimate."),
-    ("stability", "Stability: the points at which methods start to fail", "Each chart leads from easy on the left to hard on the right. "
-     "A hollow mark shows the first failure of a method. Methods with equal curves share one line."),
-    ("peers", "Peers and cost model", "Milliseconds per frame beside an estimate for reading, drawing and writing, and the "
-     "speed-up of ours over other projects' rasterizers."),
-    ("scaling", "Scaling: estimated speed-up on more cores", "Whole frames, front end included: the speed-up estimated from "
-     "recorded tasks and barriers (line), and as measured on two threads (ring). Dotted: ideal. The estimate ignores shared "
-     "bandwidth, caches and clock rate. Text: the longest serial part on the most cores, for the backend estimated to be "
-     "fastest."),
-)
-CHANGES = ("changes", "What changed", "Rows that became faster or slower between two results: all repetitions of one lie on one "
-           "side of all of the other's. Choose one under “Compare with” above.")
+# Heading by id, and the names of the charts below it.
+SECTIONS = {
+    "accuracy": ("Speed against accuracy", ("accuracy-coverage*", "accuracy-*", "errors-*", "turning-cube")),
+    "stability": ("Stability", ("stability-grid", "stability-*")),
+    "speed": ("Speed of the backends", ("scenes", "area", "threads", "simd", "culling", "growth")),
+    "ablation": ("Ablation", ("ablation",)),
+    "peers": ("Peers", ("against-*",)),
+    "scaling": ("More cores, an estimate", ("scaling",)),
+    "others": ("Other charts", ("*",)),
+}
 
 
-def png(path):
-    """A data URI with a palette of up to 256 colours: most pictures have fewer."""
+def read(path):
     try:
-        with Image.open(path) as image:
-            small = image.convert("RGB").quantize(256, dither=Image.Dither.NONE)
-            buffer = io.BytesIO()
-            small.save(buffer, "PNG", optimize=True)
-    except OSError as error:
-        raise BadInput(f"{path}: {error.strerror or 'not a picture'}") from None
-    return "data:image/png;base64," + base64.b64encode(buffer.getvalue()).decode()
-
-
-def svg(path):
-    """A data URI."""
-    try:
-        text = path.read_text(encoding="utf-8")
+        return path.read_text(encoding="utf-8")
     except OSError as error:
         raise BadInput(f"{path}: {error.strerror}") from None
-    return "data:image/svg+xml," + quote(" ".join(text.split()), safe=" =:/,.;()?!'*+-[]@$|^~")
 
 
-def pictures(folder):
-    """The close-ups: {name: index}, and the distinct pictures; methods with equal errors share one."""
-    named, different = {}, {}
-    for path in sorted(folder.glob("*.png")):
-        data = png(path)
-        named[path.stem] = different.setdefault(data, len(different))
-    return {"named": named, "images": list(different)}
+def shrunk(svg):
+    """The same picture without metadata, comments and unused ids, and coordinates in steps of 1/100 pt."""
+    svg = re.sub(r"<metadata>.*?</metadata>|<!--.*?-->", "", svg[svg.index("<svg"):], flags=re.DOTALL)
+    svg = " ".join(svg.split()).replace("> <", "><")
+    svg = re.sub(r"(scale\([^)]*\)|\.\d\d)\d*", r"\1", svg).replace("xlink:href", "href")
+    svg = re.sub(r'style="[^"]*"', lambda style: style[0].replace("; ", ";").replace(": ", ":"), svg)
+    short = {name: f"i{i}" for i, name in enumerate(dict.fromkeys(re.findall(r'(?:href="|url\()#([^")]+)', svg)))}
+    svg = re.sub(r' id="([^"]+)"', lambda found: f' id="{short[found[1]]}"' if found[1] in short else "", svg)
+    return re.sub(r'(href="|url\()#([^")]+)', lambda found: f"{found[1]}#{short[found[2]]}", svg)
 
 
-def static_chart(path, heading):
-    words = escape(f"{heading}: {path.stem.replace('-', ' ').replace('_', ' ')}")
-    return f'<img src="{svg(path)}" alt="{words}" loading="lazy">'
+def image(path, heading):
+    """An SVG as an element of its own document: ids of different charts may be equal."""
+    svg = read(path)
+    if "<svg" not in svg:
+        raise BadInput(f"{path}: not an SVG file")
+    uri = "data:image/svg+xml," + shrunk(svg).replace("%", "%25").replace("#", "%23")
+    # Apostrophes around it: SVG has many quotation marks, each of which would need an escape.
+    uri = uri.replace("&", "&amp;").replace("'", "&#39;")
+    words = f"{heading}: {path.stem.replace('-', ' ').replace('_', ' ')}"
+    return f'<img alt="{escape(words)}" src=\'{uri}\'>'
 
 
-def static_table(caption, header, lines):
-    def row(cells, tag):
-        return "<tr>" + "".join(f"<{tag}>{escape(cell)}</{tag}>" for cell in cells) + "</tr>"
-
-    body = "".join(row(line, "td") for line in lines)
-    return (f'<div class="wide"><table><caption>{escape(caption)}</caption><thead>{row(header, "th")}</thead>'
-            f"<tbody>{body}</tbody></table></div>")
-
-
-def static_charts(result):
-    """{section: names of its static charts}."""
-    accuracy = result.accuracy
-    timed = [name for family in FAMILIES for name, _ in accuracy.timed_charts(family)] if accuracy else []
-    return {"accuracy": [*timed, *(f"errors-{family}" for family in FAMILIES)], "area": ["area"], "ablation": ["ablation"],
-            "stability": [f"stability-{sweep.name}" for sweep in result.sweeps],
-            "peers": ["scenes", *(f"against-{peer}" for peer in result.bench.peers)], "scaling": ["scaling"]}
+def chart_groups(folder):
+    """{section: paths of its charts}"""
+    left = sorted(folder.glob("*.svg"))
+    groups = {}
+    for section, (_, patterns) in SECTIONS.items():
+        for pattern in patterns:
+            found = [path for path in left if fnmatch(path.stem, pattern)]
+            left = [path for path in left if path not in found]
+            groups.setdefault(section, []).extend(found)
+    return groups
 
 
-def static_tables(bench):
-    """{section: its figures without JavaScript}."""
-    peers = [static_table(f"ms per frame: {peer} and ours", *peer_table(bench, peer))
-             for peer in dict.fromkeys(peer for peer, _, _ in pairs(bench))]
-    return {"peers": static_table("ms per frame, backend alone", *scene_table(bench)) + "".join(peers),
-            "scaling": static_table("Estimated speed-up on more cores", *scaling_table(bench)) if bench.sweep("cores") else ""}
-
-
-def section(name, heading, shows, static):
-    return (f'<section aria-labelledby="{name}"><h2 id="{name}">{heading}</h2>\n<p>{shows}</p>\n'
-            f'<div class="charts js-only" data-charts="{name}"></div>\n<noscript>{static}</noscript></section>')
-
-
-def html(markdown):
-    """HTML of a finding, which uses bold and code only."""
-    text = re.sub(r"\*\*(.+?)\*\*", r"<strong>\1</strong>", escape(markdown))
+def inline_html(text):
+    """HTML of Markdown that uses bold and code only."""
+    text = re.sub(r"\*\*(.+?)\*\*", r"<strong>\1</strong>", escape(text))
     return re.sub(r"`(.+?)`", r"<code>\1</code>", text)
 
 
-def finding_list(result, hidden):
-    items = "".join(f"<li>{html(found)}</li>" for found in findings(result.bench, result.accuracy))
-    return f'<ul data-findings{" hidden" if hidden else ""}>{items}</ul>'
+def table_html(text):
+    header, alignment, *lines = text.splitlines()
+    numbers = [column.endswith(":") for column in alignment.strip("|").split("|")]
+
+    def row(cells, tag):
+        kinds = (' class="number"' if number else "" for number in numbers)
+        return "<tr>" + "".join(f"<{tag}{kind}>{inline_html(cell)}</{tag}>"
+                                for kind, cell in zip(kinds, cells[2:-2].split(" | "))) + "</tr>"
+
+    body = "\n".join(row(cells, "td") for cells in lines)
+    return f'<div class="wide"><table><thead>{row(header, "th")}</thead>\n<tbody>\n{body}\n</tbody></table></div>'
 
 
-def embedded(data):
-    """JSON that can't end the element that it stands in."""
-    text = json.dumps(data, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
-    return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
+def html(text):
+    """HTML of the Markdown in READMEs' generated blocks: paragraphs and tables."""
+    return "\n".join(table_html(block) if block.startswith("| ") else f"<p>{inline_html(block)}</p>"
+                     for block in text.strip().split("\n\n"))
 
 
-def page(folder, results, script):
-    """`folder` is that of the first result, whose pictures and static charts are shown; `script` is the path of what
-    scripts/web/build.js made."""
-    first = results[0]
-    try:
-        template, style = ((SOURCE / name).read_text(encoding="utf-8") for name in ("page.html", "page.css"))
-        bundle = script.read_text(encoding="utf-8")
-    except OSError as error:
-        raise BadInput(f"{error.filename}: {error.strerror}") from None
-    backends = dict.fromkeys(backend for result in results for backend in result.bench.backends)
-    looks = {"backends": backend_looks(list(backends)), "verdicts": VERDICTS,
-             "kinds": {name: kind_looks(family) for name, family in FAMILIES.items()}}
-    found = results_data(results)
-    data = {"looks": looks, "families": families(), "results": found, "pictures": pictures(folder / "errors")}
-    charts, tables = static_charts(first), static_tables(first.bench)
+def verification(folder):
+    """Markdown; empty if nothing was verified for these results."""
+    verify, (header, lines) = folder / "verify.json", verification_table(folder)
+    return "\n\n".join([*([verify_sentence(read_json(verify))] if verify.exists() else []),
+                        *([markdown(header, lines, "|---|---|---|")] if lines else [])])
 
-    def static_part(name, heading):
-        paths = (folder / "charts" / f"{chart}.svg" for chart in charts.get(name, ()))
-        return "\n".join([*(static_chart(path, heading) for path in paths if path.exists()), tables.get(name, "")])
 
-    shown = (*SECTIONS, CHANGES) if len(results) > 1 else SECTIONS
-    return Template(template).substitute(
-        name=escape(first.name), findings="\n".join(finding_list(result, result is not first) for result in results),
-        machine=escape(found[0]["machine"]), style=style.rstrip(), data=embedded(data),
-        script=bundle.rstrip().replace("</script", "<\\/script"),
-        links="".join(f'<li><a href="#{name}">{heading.partition(":")[0]}</a></li>' for name, heading, _ in shown),
-        sections="\n".join(section(name, heading, shows, static_part(name, heading))
-                           for name, heading, shows in shown))
+def tables(bench, accuracy, sweeps):
+    """{section: Markdown below its charts}"""
+    found = {"peers": peer_tables(bench, markdown)}
+    if bench.scenes:
+        found["speed"] = ("Median milliseconds per frame, backend alone, on 1 and on 2 threads:\n\n"
+                          + markdown(*with_ratios(bench, *scene_table(bench, estimate_columns(bench)))))
+    if accuracy:
+        found["accuracy"] = method_tables(accuracy)
+        if sweeps:
+            found["stability"] = fails_tables(sweeps, accuracy)
+    return found
+
+
+def sections(folder, accuracy, first, others):
+    """(id, heading, HTML) of each section that holds something."""
+    if verified := verification(folder):
+        yield "verification", "Verification", html(verified)
+    below = tables(first.bench, accuracy, read_stability(folder))
+    for name, paths in chart_groups(folder / "charts").items():
+        heading = SECTIONS[name][0]
+        parts = [*(image(path, heading) for path in paths), *([html(below[name])] if name in below else [])]
+        if parts:
+            yield name, heading, "\n".join(parts)
+    yield "rows", "All benchmark rows", rows_section(first, others)
+
+
+def page(folder, first, others):
+    """`folder` is that of the first result, whose charts and tables are shown; the others are compared with it."""
+    accuracy = read_accuracy(folder)
+    parts = list(sections(folder, accuracy, first, others))
+    machine = f"{first.description}. {random_reads_sentence(first.bench)}".rstrip()
+    return Template(read(SOURCE / "report.html")).substitute(
+        name=escape(first.name), machine=escape(machine), style=read(SOURCE / "report.css"), script=read(SOURCE / "report.js"),
+        findings="\n".join(f"<li>{inline_html(found)}</li>" for found in findings(first.bench, accuracy)),
+        links="\n".join(f'<li><a href="#{name}">{heading}</a></li>' for name, heading, _ in parts),
+        sections="\n".join(f'<section id="{name}"><h2>{heading}</h2>\n{body}\n</section>' for name, heading, body in parts))

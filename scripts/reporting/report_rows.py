@@ -1,0 +1,68 @@
+"""The table of all benchmark rows in report.html, each compared with the same row of other results."""
+from html import escape
+from string import ascii_uppercase
+
+from compare_rows import judge, other_work, spread
+from speedups import about
+from tables import number
+
+LEAST = 0.03  # the smallest change of a median that counts as one
+EMPTY = '<td class="number" data-value="">–</td>'
+
+
+def number_cell(text, value):
+    """The page sorts by `value`."""
+    return f'<td class="number" data-value="{value:.6g}">{escape(text)}</td>'
+
+
+def text_cell(text):
+    return f"<td>{escape(text)}</td>"
+
+
+def compared(row, other):
+    """Two cells: the median there, and the speed-up of `row` over it."""
+    there = other.find(row.name)
+    if there is None:
+        return EMPTY * 2
+    time = number_cell(number(there.median_ms), there.median_ms)
+    if not row.times_ms:
+        return time + EMPTY
+    if other_work(there, row):
+        return f'{time}<td data-value="">other work</td>'
+    ratio, verdict = judge(there, row, LEAST)
+    said = f"{about(max(ratio, 1 / ratio))} {'faster' if ratio < 1 else 'slower'}"
+    if verdict == "within noise":
+        said, ratio = "no significant difference", 1.0
+    elif verdict == "one draw only":
+        said += ", one repetition only"
+    return time + f'<td data-value="{1 / ratio:.6g}">{said}</td>'
+
+
+def line(row, others):
+    times = (number_cell(number(row.median_ms), row.median_ms) + number_cell(f"{spread(row):.0f}", spread(row))
+             if row.times_ms else f'<td data-value="">error: {escape(row.error)}</td>{EMPTY}')
+    return ("<tr>" + text_cell(row.name) + text_cell(row.scene) + number_cell(str(row.threads), row.threads) + times
+            + "".join(compared(row, other) for other in others) + "</tr>")
+
+
+def rows_table(first, others):
+    """The rows of the first result."""
+    header = [("row", ""), ("scene", ""), ("threads", "number"), ("ms", "number"), ("± %", "number")]
+    for letter, _ in zip(ascii_uppercase, others):
+        header += [(f"{letter}, ms", "number"), (f"compared with {letter}", "")]
+    names = "".join(f'<th scope="col" class="{kind}">{name}</th>' if kind else f'<th scope="col">{name}</th>'
+                    for name, kind in header)
+    lines = "\n".join(line(row, [other.bench for other in others]) for row in first.bench.rows.values())
+    return f'<div class="wide"><table><thead><tr>{names}</tr></thead>\n<tbody>\n{lines}\n</tbody></table></div>'
+
+
+def rows_section(first, others):
+    text = ["Each row times one backend, another rasterizer or the front end on one scene, or on random triangles. Times are "
+            "medians. “± %” is half the range of the repetitions."]
+    text += [f"{letter} is {other.name} ({other.description})." for letter, other in zip(ascii_uppercase, others)]
+    if others:
+        text.append(f"A row counts as faster or slower where all its repetitions lie on one side of all of the other's, and "
+                    f"the medians differ by at least {LEAST:.0%}.")
+    return (f"<p>{escape(' '.join(text))}</p>\n"
+            '<p id="filter" hidden><label>Rows with all these words: <input type="search"></label> <output></output></p>\n'
+            + rows_table(first, others))
