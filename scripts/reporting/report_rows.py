@@ -7,7 +7,12 @@ from speedups import about
 from tables import number
 
 LEAST = 0.03  # the smallest change of a median that counts as one
-EMPTY = '<td class="number" data-value="">–</td>'
+NO_NUMBER = '<td class="number" data-value="">–</td>'
+
+
+def words_cell(text, value=None):
+    """The page sorts by `value`; cells without one come last."""
+    return f'<td data-value="{"" if value is None else f"{value:.6g}"}">{escape(text)}</td>'
 
 
 def number_cell(text, value):
@@ -23,24 +28,24 @@ def compared(row, other):
     """Two cells: the median there, and the speed-up of `row` over it."""
     there = other.find(row.name)
     if there is None:
-        return EMPTY * 2
+        return NO_NUMBER + words_cell("–")
     time = number_cell(number(there.median_ms), there.median_ms)
     if not row.times_ms:
-        return time + EMPTY
+        return time + words_cell("–")
     if other_work(there, row):
-        return f'{time}<td data-value="">other work</td>'
+        return time + words_cell("other work")
     ratio, verdict = judge(there, row, LEAST)
     said = f"{about(max(ratio, 1 / ratio))} {'faster' if ratio < 1 else 'slower'}"
     if verdict == "within noise":
         said, ratio = "no significant difference", 1.0
     elif verdict == "one draw only":
         said += ", one repetition only"
-    return time + f'<td data-value="{1 / ratio:.6g}">{said}</td>'
+    return time + words_cell(said, 1 / ratio)
 
 
 def line(row, others):
     times = (number_cell(number(row.median_ms), row.median_ms) + number_cell(f"{spread(row):.0f}", spread(row))
-             if row.times_ms else f'<td data-value="">error: {escape(row.error)}</td>{EMPTY}')
+             if row.times_ms else words_cell(f"error: {row.error}") + NO_NUMBER)
     return ("<tr>" + text_cell(row.name) + text_cell(row.scene) + number_cell(str(row.threads), row.threads) + times
             + "".join(compared(row, other) for other in others) + "</tr>")
 
