@@ -190,7 +190,7 @@ std::string coverage_table(const FamilyTable& t) {
 
 std::string visibility_table(const FamilyTable& t) {
   using S = lab::VisibilityScores;
-  std::string text = t.title("wrong visible triangles per 10^6 pixels", "pixels");
+  std::string text = t.title("wrong triangles per 10^6 pixels", "pixels");
   text += fmt::format("{:<17}{:>25}{:>19}\n", "", "snapped reference", "float reference");
   constexpr const char* kLine = "{:<17}{:>10}{:>7}{:>8}{:>11}{:>8}{:>{}}\n";
   text += fmt::format(kLine, "method", "per 10^6", "beyond", "ulp", "per 10^6", "ulp", t.last_title("ns/px"),
