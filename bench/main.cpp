@@ -184,7 +184,7 @@ void time_row(benchmark::State& state, const Row& row, Stage& stage) {
   counters["covered_px"] = covered_px;
   counters["overdraw"] = covered_px / (static_cast<double>(workload.width()) * workload.height());
   if (row.peer == nullptr) return;
-  counters["near_ties"] = static_cast<double>(row.near_ties);
+  counters["near_ties"] = static_cast<double>(row.depth_ties);
   state.SetLabel(row.peer->version());
 }
 

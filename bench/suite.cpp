@@ -20,7 +20,7 @@ namespace {
 constexpr int kThreads[] = {1, 2};
 constexpr int kSweepThreads = 2;
 
-// Beyond what any desktop has, to see where a frame stops to profit.
+// Up to more cores than a desktop has, to show where a frame stops scaling.
 constexpr int kScheduledCores[] = {1, 2, 4, 8, 16, 32, 64, 128};
 
 using WorkloadPtr = std::shared_ptr<Workload>;
@@ -34,8 +34,8 @@ SceneRequest request(const SuiteOptions& options, int width, int height) {
   return r;
 }
 
-// Large triangles lose much of their area at the image's borders, so their number is corrected by what the
-// first attempt covers.
+// Large triangles lose much of their area at the image's borders, so the count is corrected by the coverage
+// of a first attempt.
 app::Source area_source(const SuiteOptions& options, double area_px) {
   constexpr double kWanted_px = 4e6;
   const auto at_least_a_few = [](double count) {
@@ -51,7 +51,7 @@ app::Source area_source(const SuiteOptions& options, double area_px) {
                        at_least_a_few(static_cast<double>(count) * kWanted_px / covered_px), area_px);
 }
 
-// What stands for a source in row names, where ':' is a mark of theirs (as '/' is, which no name has).
+// A source's name in row names, where ':' and '/' are separators. No source name has a '/'.
 std::string name_in_rows(const app::Source& source) {
   std::string name = app::printable(source.name);
   std::replace(name.begin(), name.end(), ':', '_');
@@ -70,7 +70,7 @@ class Suite {
  public:
   explicit Suite(const SuiteOptions& options) : options_(options) {}
 
-  // A peer's vertices are its own, so it draws a mesh as a whole frame, and a stream as a backend does.
+  // A peer transforms meshes itself, so it draws them as whole frames; streams are timed like our backends'.
   void add_scene(const WorkloadPtr& workload, const std::string& name, bool stream) {
     for (const int threads : kThreads) add_frontend(workload, name, threads);
     for (const auto& backend : backends())
@@ -84,14 +84,14 @@ class Suite {
     const Timed timed = stream ? Timed::raster : Timed::frame;
     for (const auto& peer : peers())
       for (const int threads : kThreads) add_peer(workload, timed, peer, name, threads);
-    // Peers may use vectors of 256 bits at most, so ours is timed with as many too.
+    // Peers use vectors of at most 256 bits, so ours is timed with 256 bits, too.
     if (!peers().empty() && resolve(SimdTarget::best) == SimdTarget::avx512)
       for (const int threads : kThreads)
         add(workload, timed, find_backend(kAblationBackend), fmt::format("{}/target:avx2", name), threads,
             SimdTarget::avx2);
   }
 
-  // Beside the scene's own rows, which are its ends: one reference picture serves them all.
+  // Directly after the scene's own rows, its first and last step, so that they share one reference picture.
   void add_ablation(const WorkloadPtr& workload, const std::string& scene) {
     if (!in_ablation(scene)) return;
     for (const AblationStep& step : ablation_steps()) {
@@ -115,7 +115,7 @@ class Suite {
     }
   }
 
-  // The last steps take some backends a second, where one draw tells enough.
+  // In the last steps one draw of some backends takes a second, so one draw suffices.
   void add_growth() {
     for (const auto& [what, workload] : growth_steps(options_.width, options_.height, options_.quick))
       for (const auto& backend : backends()) {
@@ -124,7 +124,7 @@ class Suite {
       }
   }
 
-  // So little work that starting a thread shows.
+  // So little work that starting a thread is visible.
   void add_tiny() {
     constexpr int kSide_px = 256;
     const auto workload = scene_workload("cube", kSide_px, kSide_px);
@@ -133,7 +133,7 @@ class Suite {
         add(workload, Timed::raster, backend, fmt::format("cube/tiny:{}x{}", kSide_px, kSide_px), threads);
   }
 
-  // Whole frames, since culling costs the front end what it saves the backend.
+  // Whole frames, since culling costs time in the front end and saves it in the backend.
   void add_cull_sweep() {
     const SceneRequest wanted = request(options_, options_.width, options_.height);
     const lab::FacingMethod& trainers = lab::find_facing_method("normal_z");
@@ -159,7 +159,7 @@ class Suite {
         for (const SimdTarget target : supported_targets()) {
           add(workload, Timed::raster, backend, fmt::format("{}/target:{}", scene, name_of(target)), 1,
               target);
-          if (is_repeated(rows_.back())) rows_.pop_back();  // the row beside a peer
+          if (is_repeated(rows_.back())) rows_.pop_back();  // already timed beside a peer
         }
     }
   }
@@ -233,7 +233,7 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
   Suite suite(options);
   std::map<std::string, std::string> taken;  // name in rows, source
   const auto add_named = [&](const std::string& scene) {
-    // Loaded at once: a bad file must be known before anything is timed.
+    // Load now, so that an invalid file fails before anything is timed.
     const app::Source source =
         app::load_source(scene, request(options, options.width, options.height), options.fit);
     const std::string name = name_in_rows(source);

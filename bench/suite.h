@@ -1,4 +1,4 @@
-// Which rows there are: scenes × backends × threads, and the sweeps. Nothing is loaded or drawn here.
+// The list of benchmark rows: scenes × backends × threads, and the sweeps. Nothing is loaded or drawn here.
 #pragma once
 
 #include <memory>
@@ -19,11 +19,11 @@ enum class Timed {
   frame      // both
 };
 
-// A row whose one draw takes longer is not drawn again: the compared draw is the timed one.
+// Rows that take longer are drawn once: the draw that is compared is also the one that is timed.
 inline constexpr double kTooSlowToRepeat_s = 1.5;
 
 struct Row {
-  // WHO/what/key:value…/threads:N, WHO being BACKEND, frontend or BACKEND+frontend, and a peer a BACKEND
+  // WHO/what/key:value…/threads:N, where WHO is BACKEND, frontend, BACKEND+frontend, or a peer's name
   std::string name;
   std::shared_ptr<Workload> workload;
   Timed timed = Timed::raster;
@@ -32,29 +32,29 @@ struct Row {
   Execution execution;
   Ablation ablation{};
   double repeat_below_s = kTooSlowToRepeat_s;
-  int cores = 0;          // if set, estimated for so many, not timed; execution.threads is the same
-  FrameWork recorded;     // what is scheduled then
-  double peak_bytes = 0;  // of a first frame; 0 where it was not measured
+  int cores = 0;          // if set, the row is estimated for this many cores, not timed
+  FrameWork recorded;     // the tasks of that estimate
+  double peak_bytes = 0;  // of a first frame; 0: not measured
   bool wants_cost = false;
-  bool step = false;               // of the ablation
-  double once_s = 0.0;             // what it took when it was compared
-  std::optional<FrameCost> floor;  // if wanted
-  std::uint64_t near_ties = 0;     // peers: pixels where another triangle is as near up to rounding
-  std::string error;               // why it must not be timed
+  bool step = false;               // one step of the ablation
+  double once_s = 0.0;             // duration of the compared draw
+  std::optional<FrameCost> cost;  // if wants_cost
+  std::uint64_t depth_ties = 0;     // peers: depth ties within tolerance, px
+  std::string error;               // why the row must not be timed
 };
 
 struct SuiteOptions {
   bool quick = false;
   int width = 1920, height = 1080;       // px
-  bool size_asked = false;               // else a .tri file is drawn at the size it was made for
+  bool size_asked = false;               // otherwise a .tri file is drawn at its own size
   std::vector<std::string> scenes;       // names or files; empty: the whole suite
   std::vector<std::string> more_scenes;  // beside the whole suite
   bool fit = false;                      // for meshes in `scenes` and `more_scenes`
-  bool peers = true;                     // those that were built
+  bool peers = true;                     // if built
 };
 
-// Throws what load_source throws for a name or file that cannot be used, and std::invalid_argument for two
-// whose rows would bear the same names.
+// Throws as load_source does for an invalid name or file, and std::invalid_argument for two sources whose
+// rows would have the same names.
 std::vector<Row> make_suite(const SuiteOptions& options);
 
 }  // namespace edgewise::bench

@@ -1,4 +1,4 @@
-// What several tests share: adversarial triangles, all ways to execute, and pictures to compare.
+// Shared by tests: adversarial triangles, executions, comparison of frames.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -19,13 +19,13 @@ namespace edgewise::testing {
 
 inline constexpr std::uint32_t kBackground = 0xABCD1234;
 
-// True under `scripts/test --full`: tests that can do more then do all.
+// Whether tests run at full size (scripts/test --full).
 inline bool full_size() {
   return std::getenv("EDGEWISE_FULL") != nullptr;
 }
 
-// Under the thread sanitizer, which slows tests down tenfold, a choice of executions holds only those that
-// can have races: several threads, with the best SIMD target.
+// The thread sanitizer slows tests down tenfold, so it runs only executions that can race: several threads,
+// with the best SIMD target.
 #ifdef __SANITIZE_THREAD__
 inline constexpr bool kRacesOnly = true;
 #else
@@ -66,13 +66,13 @@ inline std::vector<ScreenTriangle> adversarial(std::string_view family, int coun
       if (family == "guardband") x = between(0, 1) ? kGuardSub : -kGuardSub, y = between(0, 2) == 0 ? y : x;
       if (family == "tiny") x = cx + between(-300, 300), y = cy + between(-300, 300);
       if (family == "degenerate" && i == 2) {
-        const int copy = between(0, 2);  // a point, a repeated vertex, or three in a row
+        const int copy = between(0, 2);  // a point, a repeated vertex, or three collinear vertices
         x = copy == 2 ? 2 * t.x_sub[1] - t.x_sub[0] : t.x_sub[copy];
         y = copy == 2 ? 2 * t.y_sub[1] - t.y_sub[0] : t.y_sub[copy];
       }
       if (family == "equal-depth") z = kDepthHead + 1000;
       if (family == "few-pixels") x = cx + between(-1100, 1100), y = cy + between(-1100, 1100);
-      if (family == "mixed-sizes") {  // at one depth, so that the order of submission decides
+      if (family == "mixed-sizes") {  // equal depths, so that submission order decides
         const std::int32_t reach = id % 3 == 0 ? 40 * kSub : 4 * kSub;
         x = cx + between(-reach, reach), y = cy + between(-reach, reach), z = kDepthHead + 1000;
       }
@@ -113,7 +113,7 @@ inline std::string describe(const AblatedExecution& how) {
   return describe(how.execution) + (left_out.empty() ? "" : ", " + left_out);
 }
 
-// Empty where the frames are the same.
+// Empty if the frames are equal.
 inline std::string difference_text(const Framebuffer& expected, const Framebuffer& actual) {
   const auto difference = lab::compare(expected, actual);
   if (difference.pixels == 0) return {};

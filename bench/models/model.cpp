@@ -24,7 +24,7 @@ nlohmann::ordered_json scheduled_json(const Row& row, double barrier_s) {
 }
 
 nlohmann::ordered_json cost_json(const Row& row) {
-  const FrameCost& cost = *row.floor;
+  const FrameCost& cost = *row.cost;
   return {{"name", row.name},
           {"covered_blocks", cost.blocks.covered},
           {"won_blocks", cost.blocks.won},
@@ -48,7 +48,7 @@ std::string model_json(std::span<const Row> rows, double barrier_s) {
   for (const Row& row : rows) {
     if (!row.error.empty()) continue;
     if (row.cores > 0) scheduled.push_back(scheduled_json(row, barrier_s));
-    if (row.floor) costs.push_back(cost_json(row));
+    if (row.cost) costs.push_back(cost_json(row));
   }
   return "{\n\"scheduled\": [" + lines_of(scheduled) + "],\n\"costs\": [" + lines_of(costs) + "]\n}\n";
 }

@@ -38,7 +38,7 @@ void PeerStage::compare(Row& row) {
   auto& loaded = loaded_[row.name] = load(PeerPayload::colour);
 
   const PeerJudgement judgement = judge(ours, their_ids, triangles);
-  row.near_ties = judgement.depth_ties;
+  row.depth_ties = judgement.depth_ties;
   if (judgement.wrong() != 0)
     row.error = fmt::format(
         "{} pixels are drawn in only one of the two pictures, {} show another triangle, the first at ({}, "

@@ -11,7 +11,7 @@ namespace edgewise::bench {
 
 class PeerStage {
  public:
-  // Draws the row's scene twice, with triangle ids and with colours. Sets the row's near_ties, and its error
+  // Draws the row's scene twice, with triangle ids and with colours. Sets the row's depth_ties, and its error
   // if the coverage differs, or a visible triangle beyond a depth tie within tolerance, or a colour. Keeps
   // the scene loaded in the peer. Requires a prepared workload.
   void compare(Row& row);

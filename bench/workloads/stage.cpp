@@ -83,7 +83,7 @@ void Stage::compare(Row& row) {
   for (const double limit_s : {row.repeat_below_s, 0.1, 0.1})
     if (row.once_s < limit_s) row.once_s = std::min(row.once_s, timed_work_s(row));
   if (row.wants_cost)
-    row.floor = cost_model_.estimate(row.workload->triangles(), row.workload->blocks(), frame(row),
+    row.cost = cost_model_.estimate(row.workload->triangles(), row.workload->blocks(), frame(row),
                                      row.execution.threads);
 }
 

@@ -19,33 +19,34 @@ namespace edgewise {
 // How to draw. No choice here changes a bit of the picture.
 struct Execution {
   int threads = 1;     // 1 … kMaxThreads
-  int tile_size = 64;  // px; 16, 32 or 64; only the tiled backend looks at it
+  int tile_size = 64;  // px; 16, 32 or 64; used by the tiled backend only
   SimdTarget target = SimdTarget::best;
 };
 
-// A backend keeps its scratch memory between frames, until it is destroyed: with triangles and frame less
-// than 100 bytes a triangle and 16 a pixel where triangles are small, and up to 8 bytes more for each tile or
-// band that a larger one touches. One object must not draw on two threads at once; two objects may.
+// A backend keeps its scratch memory between frames, until it is destroyed. Triangles, frame and scratch
+// memory together take less than 100 bytes per triangle and 16 per pixel if triangles are small, and up to 8
+// bytes more per tile or band that a larger triangle overlaps. A backend object is not thread-safe; different
+// objects may draw on different threads.
 class Backend {
  public:
   virtual ~Backend() = default;
 
-  // Draws a whole frame: every pixel of `frame` is written, with `background` and contract::kDepthClear where
-  // no triangle wins. Neither `triangles` nor `frame` is kept. `triangles` must keep to the ranges in
-  // screen_triangle.h, which are not checked. Throws std::invalid_argument for an impossible frame or
-  // execution, or more than kMaxTriangles (before anything is touched or allocated), std::bad_alloc for lack
-  // of memory, std::length_error where large triangles fill more than 2^32 places in the lists of tiles;
-  // after the last two the frame's content is undefined, and the backend may be used again. Thousands of
-  // frames of a kind allocate only in the first.
+  // Draws a whole frame: writes every pixel of `frame`, with `background` and contract::kDepthClear where no
+  // triangle is visible. Keeps no reference to its arguments. Requires the ranges of screen_triangle.h, which
+  // are not checked. Frames of similar size and content allocate memory only in the first.
+  // Throws, before it writes or allocates anything, std::invalid_argument for an invalid frame or execution,
+  // or for more than kMaxTriangles triangles. Throws std::bad_alloc if memory runs out, and std::length_error
+  // if the tiles' triangle lists exceed 2^32 entries; then the content of the frame is undefined, and the
+  // backend remains usable.
   void draw(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
             const Execution& execution);
-  // The same for what a front end made. Throws std::invalid_argument, too, if it was made for a frame of
+  // The same for a front end's output. Also throws std::invalid_argument if that was made for a frame of
   // another size.
   void draw(const ScreenTriangles& triangles, FrameView frame, std::uint32_t background,
             const Execution& execution);
 
  private:
-  // `execution.target` is resolved, all arguments are checked.
+  // Called with checked arguments and a resolved `execution.target`.
   virtual void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame,
                             std::uint32_t background, const Execution& execution) = 0;
 };

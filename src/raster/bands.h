@@ -1,5 +1,5 @@
-// Drawing in horizontal bands, for a backend without tiles: alone, one band is the whole image; on
-// threads, the triangles are binned to bands of kBandRows, which are drawn in parallel.
+// Drawing in horizontal bands, for a backend without tiles. On one thread, the whole image is one band. On
+// several threads, triangles are binned to bands, which are drawn in parallel.
 #pragma once
 
 #include <algorithm>
@@ -23,8 +23,8 @@ inline void clear_rows(FrameView frame, RowRange rows, std::uint32_t background)
   }
 }
 
-// Clears the frame and calls draw(triangle, rows) for every triangle that can touch a band, in submission
-// order.
+// Clears the frame. Calls draw(triangle, rows) for every band and every triangle that may cover a sample in
+// it, in submission order.
 template <typename Draw>
 void draw_in_bands(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
                    const Execution& execution, Bins& bins, Draw&& draw) {

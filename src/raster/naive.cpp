@@ -1,6 +1,6 @@
-// The tutorials' rasterizer: ask every pixel of the bounding box whether it is inside. Three edge functions
-// (rule 4) and the depth plane (rule 6) are evaluated anew at each pixel; or, to see what that costs, stepped
-// along a row (Ablation::stepped).
+// The tutorials' rasterizer: tests for every pixel of the bounding box whether it is inside. Three edge
+// functions (rule 4) and the depth plane (rule 6) are evaluated at each pixel, or, with Ablation::stepped,
+// stepped along a row.
 #include "raster/ablation.h"
 #include "raster/bands.h"
 
@@ -28,7 +28,7 @@ void draw_triangle(const ScreenTriangle& triangle, RowRange rows, FrameView fram
       payload[x] = triangle.payload;
     };
     if constexpr (kStepped) {
-      // Depth begins anew with each cell (rule 6).
+      // Depth is re-based in each cell (rule 6).
       for (int x = box.x0, end; x < box.x1; x = end) {
         end = std::min(box.x1, (x / kDepthCell + 1) * kDepthCell);
         std::int64_t e0 = edge[0].at(x, y), e1 = edge[1].at(x, y), e2 = edge[2].at(x, y);
@@ -60,7 +60,7 @@ class Naive final : public AblatableBackend {
 }  // namespace
 
 extern const std::string_view idea_naive;
-const std::string_view idea_naive = "asks every pixel of the bounding box: inside?";
+const std::string_view idea_naive = "tests every pixel of the bounding box";
 std::unique_ptr<Backend> make_naive() {
   return std::make_unique<Naive>();
 }

@@ -1,4 +1,4 @@
-// One tile of the image to draw, for the backends that draw by tiles.
+// The task of drawing one tile, for backends that draw by tiles.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace edgewise {
 struct TileTask {
   const ScreenTriangle* triangles;
   const Bins* bins;
-  int cell;       // which of the bins
+  int cell;       // index of the tile in `bins`
   int x0, y0;     // px, the tile's first pixel; multiples of the tile's size
   int size_log2;  // px; at most 6
   FrameView frame;
@@ -22,7 +22,7 @@ struct TileTask {
   Ablation ablation;  // tile_store is resolved
 
   int size() const { return 1 << size_log2; }  // px
-  // What of it lies in the frame, px.
+  // The part inside the frame, px.
   int width() const { return std::min(size(), frame.width - x0); }
   int height() const { return std::min(size(), frame.height - y0); }
 };

@@ -1,26 +1,24 @@
-// The edges of triangles, and nothing between them: one pixel wide, by an exact integer rule.
+// Draws the edges of triangles only, one pixel wide, by an exact integer rule.
 //
-// An edge runs along its major axis u, that of its larger extent (x, if both are the same), and v is the
-// other axis. In sub-units (rules 1 and 2), with u0 <= u1 and du = u1 - u0, it draws
+// The major axis u of an edge is the axis of its larger extent (x if both are equal); v is the other axis. In
+// sub-units (rules 1 and 2), with u0 <= u1 and du = u1 - u0, it draws
 //   - in each pixel row or column whose sample s lies in [u0, u1) the pixel floor(v(s) / 256), where
 //     v(s) = v0 + (v1 - v0) (s - u0) / du, at the depth floor(z0 + (z1 - z0) (s - u0) / du + 1/2);
-//   - the pixels that its two ends lie in, floor(u / 256) and floor(v / 256), at their depths.
-// Depth test, ties and payload are the contract's (rules 7 and 8), as is that a triangle without area draws
-// nothing.
+//   - the pixels that contain its two ends, floor(u / 256) and floor(v / 256), at their depths.
+// Depth test, ties and payload follow the contract (rules 7 and 8). A triangle without area draws nothing.
 //
-// Why these: nothing depends on which end comes first, so that neighbours draw their edge in the same pixels
-// at the same depths. Samples of a half-open range are shared out among the parts of an edge that a vertex
-// cuts, none twice, none lost. And no outline has a gap: from a sample's pixel to the next, and from the
-// outermost one to that of the end, it is one step along u and, as |dv| <= du, at most one along v. Between
-// its ends an edge is what Bresenham ("Algorithm for computer control of a digital plotter", 1965) draws, and
-// D3D11.3 (functional specification 3.4, aliased lines): there a line draws a pixel if it leaves the diamond
-// |x| + |y| < 1/2 around its sample, and so never the one that it ends in. That joins the lines of a strip
-// but depends on the direction, and triangles that share an edge run along it in opposite ones.
+// The rule does not depend on which end comes first, so neighbours draw their shared edge in the same pixels
+// at the same depths. Ranges are half-open, so if a vertex splits an edge, its parts share the samples, none
+// twice and none lost. Outlines have no gaps: from one sample's pixel to the next, and from the outermost one
+// to the end's pixel, it is one step along u and, since |dv| <= du, at most one along v. Between its ends an
+// edge equals Bresenham's line ("Algorithm for computer control of a digital plotter", 1965) and that of
+// D3D11.3 (functional specification 3.4, aliased lines). D3D draws a pixel if the line leaves the diamond |x|
+// + |y| < 1/2 around its sample, so never the pixel that the line ends in. That suits line strips but depends
+// on the direction, and triangles traverse a shared edge in opposite directions.
 //
 // Widths: v0 du, dv (s - u0) and a frame's rows times 256 du are at most 2^46 each, wherever in the band s
-// lies, and twice z du is at most 2^55. int64 does, and quotients are stepped with their remainders, exactly,
-// so where the drawing of an edge begins changes nothing: parts outside the frame or the band are skipped by
-// division.
+// lies, and twice z du is at most 2^55, so int64 suffices. Quotients are stepped exactly, with their
+// remainders, so the start of the drawing changes nothing: division skips the parts outside frame or band.
 //
 // On threads, bands of the frame are drawn in parallel, and each looks at all triangles: a comparison of y is
 // cheap beside what an edge takes, and bins (raster/binning/bins.h) know triangles by the samples in their
@@ -57,7 +55,7 @@ constexpr std::int64_t ceil_divide(std::int64_t n, std::int64_t d) {
   return -floor_divide(-n, d);
 }
 
-// floor(n / d), and what it becomes as n grows by the same step again and again.
+// floor(n / d), stepped as n grows by a constant.
 class Quotient {
  public:
   constexpr Quotient(std::int64_t n, std::int64_t d, std::int64_t step)
@@ -81,7 +79,7 @@ struct PixelRange {
   std::int64_t begin, end;
 };
 
-// Those of a range of u where floor((n0 + 256 dv u) / (256 du)) lies in `rows`.
+// The part of a range of u where floor((n0 + 256 dv u) / (256 du)) lies in `rows`.
 PixelRange clip_to(PixelRange u, RowRange rows, std::int64_t n0, std::int64_t dv, std::int64_t du) {
   const std::int64_t low = rows.begin * du * kSub - n0, high = rows.end * du * kSub - n0, step = dv * kSub;
   if (dv > 0) return {std::max(u.begin, ceil_divide(low, step)), std::min(u.end, ceil_divide(high, step))};
@@ -152,7 +150,7 @@ class Edges {
 class Wireframe final : public Backend {
   void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
                     const Execution& execution) override {
-    // Several for each thread, as edges gather here and there.
+    // Several per thread, because edges are not evenly distributed.
     constexpr int kBandsPerThread = 4;
     const int bands =
         execution.threads == 1 ? 1 : std::min(execution.threads * kBandsPerThread, frame.height);

@@ -18,7 +18,7 @@ constexpr const char* kOracle = "oracle";
 constexpr const char* kOneByOne = "one triangle at a time";
 constexpr Execution kPlainest{1, 64, SimdTarget::scalar};
 
-// Pixels times triangles: about 5 ms, and a tenth of a second.
+// Pixels times triangles that take the oracle about 5 ms and 100 ms.
 constexpr double kOracleBudget = 1.5e5, kPatientBudget = 3e6;
 
 bool oracle_can_follow(const Case& c, std::size_t triangles) {
@@ -26,7 +26,7 @@ bool oracle_can_follow(const Case& c, std::size_t triangles) {
   return cost <= (c.patient_oracle ? kPatientBudget : kOracleBudget);
 }
 
-// Odd strides and starts defeat aligned stores; those of a Framebuffer invite them.
+// Odd strides and offsets prevent aligned stores; a Framebuffer's layout allows them.
 lab::GuardedFrame::Layout random_layout(Random& random, int width) {
   if (random.below(2) == 0) return lab::GuardedFrame::aligned(width);
   const int padding = static_cast<int>(random.below(40));
@@ -73,7 +73,7 @@ Verdict Checker::check(const Case& c) {
 std::span<const ScreenTriangle> Checker::check_frontend(const Case& c, Verdict& verdict) {
   FrontendOptions options = c.frontend;
   options.target = SimdTarget::scalar;
-  options.keep_unsnapped = true;  // which takes the triangles one by one, and keeps those without area
+  options.keep_unsnapped = true;  // uses the path for single triangles, which keeps those without area
   const auto plain = plain_.run(*c.drawable, options);
   expected_list_.assign(plain.begin(), plain.end());
   std::erase_if(expected_list_, [](const ScreenTriangle& t) { return contract::signed_area(t) == 0; });

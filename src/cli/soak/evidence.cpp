@@ -20,7 +20,7 @@ namespace {
 
 constexpr int kMostAttempts = 500;
 
-// What a stream of these triangles becomes when it is read again: depths that no float holds are rounded.
+// The triangles after writing and reading them as a stream, which rounds depths to floats.
 std::vector<ScreenTriangle> replayed(std::span<const ScreenTriangle> triangles, const Case& c) {
   Frontend frontend;
   const auto again = frontend.run(lab::to_stream(triangles, c.width, c.height),
@@ -28,7 +28,7 @@ std::vector<ScreenTriangle> replayed(std::span<const ScreenTriangle> triangles, 
   return {again.begin(), again.end()};
 }
 
-// As few triangles as still differ. Those of the file if they do, else those of the frame.
+// As few triangles as still differ: of the file if those differ, otherwise of the frame.
 TriangleStream smallest_frame(const Case& c, const Finding& finding, Checker& checker,
                               const std::function<bool()>& stop) {
   const auto fails = [&](const std::vector<ScreenTriangle>& list) {
@@ -55,14 +55,14 @@ void write(const std::filesystem::path& path, const TriangleStream& stream) {
   file.commit();
 }
 
-// `verify` draws in configurations of its own, which may miss what this one did.
+// Whether `verify` reproduces the difference: its configurations are fewer.
 bool verify_finds(const std::filesystem::path& path, const Judged& judged) {
   app::VerifyPlan plan;
   plan.backends = judged.backends;
   return !app::verify_scene(plan, path.string(), [](double) {}).ok();
 }
 
-// Taken by a shell as it stands.
+// Quoted for a shell.
 std::string quoted(const std::string& word) {
   std::string text = "'";
   for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);

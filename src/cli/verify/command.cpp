@@ -1,4 +1,4 @@
-// `edgewise verify`: the judge on the command line.
+// `edgewise verify`: compares all backends.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -34,7 +34,7 @@ int verify_command(VerifyOptions& o) {
   plan.failure_folder = o.out;
 
   const bool json_on_stdout = o.json == "-";
-  std::optional<AtomicFile> file;  // opened first: minutes of work must not end in "cannot be written"
+  std::optional<AtomicFile> file;  // opened first, so that an unwritable path fails before minutes of work
   if (!o.json.empty() && !json_on_stdout) file.emplace(o.json);
 
   Progress progress;
@@ -46,7 +46,7 @@ int verify_command(VerifyOptions& o) {
     print(text);
     std::fflush(stdout);
   };
-  std::string header = table.header();  // not before a scene could be read
+  std::string header = table.header();  // printed only after the first scene was read
   const VerifyReport report = verify(plan, [&](const SceneVerdict& verdict) {
     show(std::exchange(header, {}) + table.line(verdict) + explain(verdict));
   });

@@ -13,7 +13,7 @@ namespace edgewise::app {
 
 namespace {
 
-// About the width of a screen: pixels become large enough to see and the picture still fits.
+// About the width of a screen: enlarged pixels are visible and the picture fits.
 int enlargement(int width, int height) {
   constexpr int kWide = 2048, kMost = 8;
   return std::clamp(kWide / std::max(width, height), 1, kMost);
@@ -42,7 +42,7 @@ void write_failure(const std::filesystem::path& folder, const std::string& scene
   file.commit();
   mismatch.files.push_back(path_for(".tri").string());
 } catch (const std::exception& error) {
-  // The finding must not be lost because its pictures cannot be written.
+  // Report the mismatch even if its pictures cannot be written.
   mismatch.file_error = error.what();
 }
 

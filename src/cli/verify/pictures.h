@@ -1,4 +1,4 @@
-// What a person needs to look into a difference: pictures, and a stream that shows it again.
+// Evidence of a difference: pictures, and a stream that reproduces it.
 #pragma once
 
 #include <filesystem>
@@ -16,8 +16,8 @@ struct FailureFrames {
 };
 
 // Writes FOLDER/SCENE-CULL-BACKEND-vs-JUDGE: expected, found and difference (enlarged) as .png, and the
-// triangles as .tri. Names them in the mismatch, or says there why they are not written; nothing happens for
-// an empty folder name.
+// triangles as .tri. Lists the files, or the reason why one was not written, in the mismatch. Does nothing if
+// the folder name is empty.
 void write_failure(const std::filesystem::path& folder, const std::string& scene, Mismatch& mismatch,
                    const FailureFrames& frames);
 

@@ -1,4 +1,4 @@
-// A verify report for people (a table) and for machines (JSON).
+// The report of `edgewise verify`: a table and JSON.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -8,7 +8,7 @@
 
 namespace edgewise::app {
 
-// One line a scene. In less than 80 columns those that a person misses least are left out; 60 are enough.
+// One line per scene. Below 80 columns, leaves out size, emitted and seconds; 60 columns suffice.
 class VerifyTable {
  public:
   explicit VerifyTable(int terminal_columns) : wide_(terminal_columns >= 80) {}
@@ -22,10 +22,10 @@ class VerifyTable {
 // "2 threads, avx2, tile 64, no prefetch"
 std::string describe(const AblatedExecution& how);
 
-// All that is known about the differences of a scene; empty if there are none.
+// The differences of a scene in detail; empty if there are none.
 std::string explain(const SceneVerdict& verdict);
 
-// What was compared in all, and how it ended.
+// The number of comparisons and the result.
 std::string summary(const VerifyReport& report, const VerifyPlan& plan);
 
 nlohmann::json report_json(const VerifyReport& report, const VerifyPlan& plan);

@@ -41,7 +41,7 @@ bool is_affordable(const TriangleStream& stream) {
   return static_cast<double>(stream.triangles.size()) * stream.width * stream.height <= kOracleBudget;
 }
 
-// A stream from a file, shrunk to a size, with every n-th of its triangles.
+// Every n-th triangle of a file's stream, scaled to a smaller image.
 TriangleStream shrunk(const TriangleStream& stream, Size size, std::size_t most) {
   const std::size_t step = (stream.triangles.size() + most - 1) / most;
   const glm::vec3 factor(static_cast<float>(size.width) / static_cast<float>(stream.width),
@@ -54,7 +54,8 @@ TriangleStream shrunk(const TriangleStream& stream, Size size, std::size_t most)
   return small;
 }
 
-// The image size at which a scene's triangles fit the oracle's budget. Fewer of them reach a smaller image.
+// The image size at which a scene's triangles fit the oracle's budget. A smaller image also has fewer
+// triangles.
 Size affordable_size(const Shot& shot) {
   Frontend frontend;
   FrontendOptions options = shot.frontend;
@@ -81,7 +82,7 @@ Shot shot_for_comparison(const VerifyPlan& plan, const std::string& name) {
   const Size size = plan.size.value_or(plan.full ? kFullSize : kQuickSize);
   const bool scaled = built_in != nullptr && built_in->scalable && !plan.full;
   if (scaled && !built_in->stream) return load(plan, name, size, kQuickMeshScale);
-  if (scaled && !name.starts_with("grid"))  // a grid's count goes with the image
+  if (scaled && !name.starts_with("grid"))  // a grid's triangle count depends on the image size
     return load_thinned(plan, name, size, kQuickScale, kEnoughTriangles);
   const bool own_size = !plan.size && extension_of(name) == ".tri";
   return load(plan, name, own_size ? std::nullopt : std::optional(size), std::nullopt);
@@ -96,7 +97,7 @@ Shot shot_for_oracle(const VerifyPlan& plan, const std::string& name) {
                   ? load_thinned(plan, name, kOracleSize, kScale, kEnoughTriangles)
                   : load(plan, name, kOracleSize, scaled_mesh ? std::optional(kScale) : std::nullopt);
   if (const TriangleStream* stream = stream_of(shot); stream != nullptr && !built_in_stream) {
-    if (is_affordable(*stream)) {  // a counterexample must stay one
+    if (is_affordable(*stream)) {  // keep a counterexample unchanged
       shot.frontend.width = stream->width;
       shot.frontend.height = stream->height;
     } else {

@@ -1,4 +1,4 @@
-// The scenes that verify looks at: scaled down so that much can be compared in little time.
+// The scenes of `edgewise verify`, scaled down so that many configurations can be compared in little time.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,10 @@ namespace edgewise::app {
 // The scene at the plan's size.
 Shot shot_for_comparison(const VerifyPlan& plan, const std::string& name);
 
-// The scene so small that the oracle can draw it: pixels times triangles stay within its budget.
+// The scene scaled down for the oracle: pixels times triangles stay within its budget.
 Shot shot_for_oracle(const VerifyPlan& plan, const std::string& name);
 
-// Watertight over the whole image, so that each pixel has exactly one triangle.
+// Whether the scene is watertight over the whole image, so that each pixel is covered exactly once.
 bool covers_each_pixel_once(const Source& source);
 
 }  // namespace edgewise::app

@@ -23,7 +23,7 @@ struct Judgement {
   const Framebuffer& expected;
 };
 
-// Small tiles, many threads and the widest vectors: the configuration with the most seams.
+// Small tiles, several threads and the widest vectors: the most boundaries between tiles, threads and lanes.
 constexpr Execution kMostSeams{3, 16, SimdTarget::best};
 constexpr Execution kPlainest{1, 64, SimdTarget::scalar};
 
@@ -51,7 +51,7 @@ class SceneCheck {
   SceneCheck(const VerifyPlan& plan, const std::string& name, const std::function<void(double)>& progress)
       : plan_(plan), name_(name), progress_(progress), executions_(executions(plan)) {
     for (const BackendInfo& info : plan.backends) backends_.push_back(info.make());
-    // Per culling mode: all configurations and one of each backend for ids.
+    // Per culling mode: all configurations with colours, and one per backend with ids.
     steps_ = cull_modes().size() * plan.backends.size() * (executions_.size() + 1);
   }
 
@@ -101,7 +101,7 @@ class SceneCheck {
       }
   }
 
-  // Ids tell more than colours, which may be equal by chance.
+  // Compares ids, because colours may be equal by chance.
   void check_against_oracle() {
     Shot shot = shot_for_oracle(plan_, name_);
     shot.frontend.payload = Payload::id;
@@ -129,8 +129,8 @@ class SceneCheck {
     }
   }
 
-  // The number of pixels that differ; the first difference of each backend and judge is kept with all that
-  // helps.
+  // Returns the number of pixels that differ. Keeps the first difference per backend and judge, with
+  // evidence.
   std::uint64_t compare(const Judgement& j, std::size_t backend, const AblatedExecution& how) {
     draw(j, backend, how);
     const lab::FrameDifference found = lab::compare(j.expected, *candidate_);

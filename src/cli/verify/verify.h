@@ -1,6 +1,5 @@
-// The judge: does every backend, in every configuration, write the bits that the reference writes, and does
-// the reference write those of the oracle? Those that don't fill have a reference of their own, the first of
-// them, and an oracle.
+// Checks that every backend writes the same bits as the reference in every configuration, and the same bits
+// as the oracle in one.
 #pragma once
 
 #include <cstdint>
@@ -19,13 +18,13 @@ namespace edgewise::app {
 
 struct VerifyPlan {
   std::vector<std::string> scenes;    // names or paths
-  std::vector<BackendInfo> backends;  // the first of those that fill is their reference, and so of others
+  std::vector<BackendInfo> backends;  // the first is the reference
   std::vector<int> threads{1, 2, 3};
-  std::optional<Size> size;  // none: one that nothing divides; for .tri files their own
+  std::optional<Size> size;  // none: prime sides, or the size of a .tri file
   bool full = false;         // 1920×1080, and built-in streams with all their triangles
   bool fit = false;          // see load_source
   std::filesystem::path
-      failure_folder;  // for pictures of differences; made when needed; empty: none are written
+      failure_folder;  // for pictures of differences; created when needed; empty: no pictures
   std::function<void(double, std::string_view)> on_progress;  // fraction done, scene
 };
 
@@ -34,7 +33,7 @@ struct PixelValue {
   std::uint32_t depth, payload;
 };
 
-// A configuration that differs from what it is judged by.
+// A configuration whose frame differs from the expected one.
 struct Mismatch {
   Cull cull;
   Payload payload;
@@ -43,12 +42,12 @@ struct Mismatch {
   std::string backend;
   AblatedExecution how;
   std::uint64_t pixels;   // that differ
-  std::uint64_t outside;  // words written beside the image
-  int x, y;               // the first pixel that differs; -1 if none does
+  std::uint64_t outside;  // words written outside the image
+  int x, y;               // the first pixel that differs, or -1
   std::vector<PixelValue>
-      values;  // there: the judge's, this configuration's, then each backend's on one thread
+      values;  // at that pixel: the judge's, this configuration's, then each backend's on one thread
   std::vector<std::string> files;
-  std::string file_error;  // why `files` is not whole
+  std::string file_error;  // why `files` is incomplete
 };
 
 struct HitCount {
@@ -62,18 +61,18 @@ struct SceneVerdict {
   std::uint64_t triangles = 0;         // submitted, in one culling mode
   std::uint64_t emitted = 0;           // by the front end, over all culling modes
   std::uint64_t configurations = 0;    // compared with the reference
-  std::uint64_t differing_pixels = 0;  // over all of them
-  std::uint64_t written_outside = 0;   // words beside the image, over all frames
+  std::uint64_t differing_pixels = 0;  // in all configurations
+  std::uint64_t written_outside = 0;   // words outside the image, in all frames
   int oracle_width = 0, oracle_height = 0;
   std::uint64_t oracle_configurations = 0, oracle_differences = 0;
   std::vector<HitCount> hits;        // built-in grids only
-  std::vector<Mismatch> mismatches;  // the first of each backend and judge
+  std::vector<Mismatch> mismatches;  // the first per backend and judge
   double seconds = 0;
 
   bool ok() const;
 };
 
-// One scene of the plan; `progress` is called with the fraction done. Throws what load_source throws.
+// Checks one scene. Calls `progress` with the fraction done. Throws as load_source does.
 SceneVerdict verify_scene(const VerifyPlan& plan, const std::string& name,
                           const std::function<void(double)>& progress);
 
@@ -82,7 +81,7 @@ struct VerifyReport {
   bool ok() const;
 };
 
-// All scenes of the plan, in order; `on_scene` is called after each.
+// Checks all scenes of the plan in order; calls `on_scene` after each.
 VerifyReport verify(const VerifyPlan& plan, const std::function<void(const SceneVerdict&)>& on_scene);
 
 }  // namespace edgewise::app

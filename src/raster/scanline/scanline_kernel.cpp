@@ -83,7 +83,7 @@ class TilePainter {
 #endif
 
 template <typename Pixels>
-void write_rows(const Place& to, const Pixels& pixels) {
+void write_rows(const FramePlane& to, const Pixels& pixels) {
   write_to(to, [&](const auto& store) {
     for (int y = 0; y < to.height; ++y) {
       std::int32_t* const row = to.row(y);
@@ -105,7 +105,7 @@ void draw_tile_in_spans(const TileTask& task) {
   TilePainter painter(task);
   draw_runs(task, [&](const Bins::Run& run) { painter.draw(run.indices); });
   write_tile(task, painter.depth(), painter.payload(),
-             [](const Place& to, const auto& pixels) { write_rows(to, pixels); });
+             [](const FramePlane& to, const auto& pixels) { write_rows(to, pixels); });
   clear_upper_halves();
 }
 

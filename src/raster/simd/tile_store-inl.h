@@ -11,7 +11,7 @@
 #include "raster/simd/lanes-inl.h"
 #include "raster/tile_task.h"
 
-// Included once a SIMD target.
+// Included once per SIMD target.
 #if defined(EDGEWISE_TILE_STORE_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef EDGEWISE_TILE_STORE_INL_H
 #undef EDGEWISE_TILE_STORE_INL_H
@@ -24,22 +24,22 @@ namespace edgewise {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Where a tile lies in a plane of the frame.
-struct Place {
+// A tile's part of a plane (depth or payload) of the frame.
+struct FramePlane {
   std::int32_t* at;
   std::ptrdiff_t stride;
   int width, height;  // px
-  bool streaming;     // wanted, and the frame's alignment allows it
-  int ahead;          // px, to where the frame goes on at the right; or 0
+  bool streaming;     // requested, and possible with the frame's alignment
+  int ahead;          // px to the tile at the right; 0 if there is none
 
-  Place(const TileTask& job, std::uint32_t* plane)
-      : at(reinterpret_cast<std::int32_t*>(plane + job.y0 * job.frame.stride + job.x0)),
-        stride(job.frame.stride),
-        width(job.width()),
-        height(job.height()),
-        streaming(job.ablation.tile_store == TileStore::streaming &&
+  FramePlane(const TileTask& task, std::uint32_t* plane)
+      : at(reinterpret_cast<std::int32_t*>(plane + task.y0 * task.frame.stride + task.x0)),
+        stride(task.frame.stride),
+        width(task.width()),
+        height(task.height()),
+        streaming(task.ablation.tile_store == TileStore::streaming &&
                   reinterpret_cast<std::uintptr_t>(plane) % sizeof(V) == 0 && stride % kLanes == 0),
-        ahead(job.x0 + 2 * job.size() <= job.frame.width ? job.size() : 0) {}
+        ahead(task.x0 + 2 * task.size() <= task.frame.width ? task.size() : 0) {}
 
   HWY_INLINE std::int32_t* row(int y) const { return at + y * stride; }
 };
@@ -49,7 +49,7 @@ struct Place {
 // prefetcher, and a few stores that wait for memory stall all others. The scalar target stores pixel by
 // pixel, where a prefetch costs more than it saves.
 template <typename Write>
-HWY_INLINE void write_to(const Place& to, Write&& write) {
+HWY_INLINE void write_to(const FramePlane& to, Write&& write) {
   if (to.streaming) {
     write([](V v, std::int32_t* pixels) { hn::Stream(v, D{}, pixels); });
   } else {
@@ -60,8 +60,8 @@ HWY_INLINE void write_to(const Place& to, Write&& write) {
   }
 }
 
-// For a tile that holds `value` everywhere.
-inline void write_value(const Place& to, std::int32_t value) {
+// Fills the tile with `value`.
+inline void write_value(const FramePlane& to, std::int32_t value) {
   write_to(to, [&](const auto& store) {
     const V v = hn::Set(D{}, value);
     for (int y = 0; y < to.height; ++y) {
@@ -72,37 +72,36 @@ inline void write_value(const Place& to, std::int32_t value) {
   });
 }
 
-HWY_INLINE void prefetch_triangles(const TileTask& job, std::span<const std::uint32_t> run) {
+HWY_INLINE void prefetch_triangles(const TileTask& task, std::span<const std::uint32_t> run) {
   for (const std::uint32_t index : run) {
-    const auto* record = reinterpret_cast<const char*>(job.triangles + index);
+    const auto* record = reinterpret_cast<const char*>(task.triangles + index);
     hwy::Prefetch(record);
     hwy::Prefetch(record + sizeof(ScreenTriangle) - 1);
   }
 }
 
-// draw(run) for the tile's runs of indices (Bins::Run). The records lie anywhere: each run's are asked for
-// while the run before it is drawn.
+// Calls draw(run) for each of the tile's runs of indices. Records are scattered in memory, so each run's are
+// prefetched while the previous run is drawn.
 template <typename Draw>
-HWY_INLINE void draw_runs(const TileTask& job, Draw&& draw) {
-  Bins::Run asked_for{};
-  job.bins->for_each_run(job.cell, [&](const Bins::Run& run) {
-    if (job.ablation.prefetch) prefetch_triangles(job, run.indices);
-    if (!asked_for.indices.empty()) draw(asked_for);
-    asked_for = run;
+HWY_INLINE void draw_runs(const TileTask& task, Draw&& draw) {
+  Bins::Run prefetched{};
+  task.bins->for_each_run(task.cell, [&](const Bins::Run& run) {
+    if (task.ablation.prefetch) prefetch_triangles(task, run.indices);
+    if (!prefetched.indices.empty()) draw(prefetched);
+    prefetched = run;
   });
-  if (!asked_for.indices.empty()) draw(asked_for);
+  if (!prefetched.indices.empty()) draw(prefetched);
 }
 
-// Calls write(depth, payload) with the tile's places in the frame, and orders streaming stores before later
-// ones.
+// Calls write(depth, payload) with the tile's planes, and orders streaming stores before later stores.
 template <typename Write>
-HWY_INLINE void write_planes(const TileTask& job, Write&& write) {
-  const Place depth(job, job.frame.depth), payload(job, job.frame.payload);
+HWY_INLINE void write_planes(const TileTask& task, Write&& write) {
+  const FramePlane depth(task, task.frame.depth), payload(task, task.frame.payload);
   write(depth, payload);
   hwy::FlushStream();
 }
 
-// What goes to the frame from a tile's buffers: vectors of pixels from the i-th on.
+// Vectors of pixels from a tile's buffers, from the i-th pixel on, as they are stored to the frame.
 struct Depths {
   const std::int32_t* buffer;
   template <typename DX>
@@ -110,7 +109,7 @@ struct Depths {
     return hn::Load(d, buffer + i);
   }
 };
-// Their buffer needs no clear: it counts where something was drawn, which is nearer than kDepthClear.
+// The payload buffer needs no clear: it is used only at pixels whose depth is nearer than kDepthClear.
 struct Payloads {
   const std::int32_t *buffer, *depth;
   std::int32_t background;
@@ -122,27 +121,26 @@ struct Payloads {
   }
 };
 
-// Calls write(place, pixels) for both.
+// Calls write(plane, pixels) for depth and payload.
 template <typename Write>
-HWY_INLINE void write_tile(const TileTask& job, const std::int32_t* depth, const std::int32_t* payload,
+HWY_INLINE void write_tile(const TileTask& task, const std::int32_t* depth, const std::int32_t* payload,
                            Write&& write) {
-  write_planes(job, [&](const Place& depth_place, const Place& payload_place) {
-    write(depth_place, Depths{depth});
-    write(payload_place, Payloads{payload, depth, static_cast<std::int32_t>(job.background)});
+  write_planes(task, [&](const FramePlane& depth_plane, const FramePlane& payload_plane) {
+    write(depth_plane, Depths{depth});
+    write(payload_plane, Payloads{payload, depth, static_cast<std::int32_t>(task.background)});
   });
 }
 
-// A tile without triangles needs no buffer.
-HWY_INLINE void write_background(const TileTask& job) {
-  write_planes(job, [&](const Place& depth, const Place& payload) {
+// Stores an empty tile, without a buffer.
+HWY_INLINE void write_background(const TileTask& task) {
+  write_planes(task, [&](const FramePlane& depth, const FramePlane& payload) {
     write_value(depth, static_cast<std::int32_t>(contract::kDepthClear));
-    write_value(payload, static_cast<std::int32_t>(job.background));
+    write_value(payload, static_cast<std::int32_t>(task.background));
   });
 }
 
-// Where a tile has no triangle, GCC 12 forgets this instruction between the clear and the return. The
-// caller's code is SSE, and writes to registers whose upper halves are in use merge: it would run at half
-// speed, until the next context switch.
+// For an empty tile, GCC 12 omits this instruction before the return. The caller's SSE code would then merge
+// into registers whose upper halves are in use, and run at half speed until the next context switch.
 HWY_INLINE void clear_upper_halves() {
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2  // the better the target, the lower its number
   _mm256_zeroupper();

@@ -146,7 +146,7 @@ struct InVectors {
 // Stores blocks as rows. Each row is written to its end before the next: processors fetch neighbouring cache
 // lines together, and lines of several rows often compete for the same cache sets.
 template <typename Pixels>
-void write_blocks(const Place& to, const Pixels& pixels) {
+void write_blocks(const FramePlane& to, const Pixels& pixels) {
   const auto part_of_row = [](int x, int y) {
     return y / kBlockSide * kMaxBlocks * kBlockPixels + y % kBlockSide * kBlockSide + x * kBlockSide;
   };

@@ -128,7 +128,7 @@ void draw_tile(const TileTask& task) {
   draw_runs(task, [&](const Bins::Run& run) { painter.draw_run(run); });
   painter.draw_rest();
   write_tile(task, tile.depth(), tile.payload(),
-             [](const Place& to, const auto& pixels) { write_blocks(to, pixels); });
+             [](const FramePlane& to, const auto& pixels) { write_blocks(to, pixels); });
   clear_upper_halves();
 }
 
