@@ -20,9 +20,9 @@
 // lies, and twice z du is at most 2^55, so int64 suffices. Quotients are stepped exactly, with their
 // remainders, so the start of the drawing changes nothing: division skips the parts outside frame or band.
 //
-// On threads, bands of the frame are drawn in parallel, and each looks at all triangles: a comparison of y is
-// cheap beside what an edge takes, and bins (raster/binning/bins.h) know triangles by the samples in their
-// box, which an edge's pixels may lie beside.
+// On several threads, bands of the frame are drawn in parallel, and each band visits all triangles: comparing
+// y is cheap beside drawing an edge. Bins are no help, since they drop triangles without a sample in their
+// box, and an edge may draw pixels outside it.
 #include <algorithm>
 #include <utility>
 

@@ -249,11 +249,11 @@ TEST(BenchStage, EstimatesTheCostOnlyIfRequested) {
   with.wants_cost = true;
   stage.compare(with);
   stage.compare(without);
-  ASSERT_TRUE(with.floor.has_value());
-  EXPECT_EQ(with.floor->blocks.won, workload->blocks().won);
-  EXPECT_GT(with.floor->blocks_s, 0.0);
-  EXPECT_GT(with.floor->in_tiles_s(), with.floor->read_s + with.floor->blocks_s);
-  EXPECT_FALSE(without.floor.has_value());
+  ASSERT_TRUE(with.cost.has_value());
+  EXPECT_EQ(with.cost->blocks.won, workload->blocks().won);
+  EXPECT_GT(with.cost->blocks_s, 0.0);
+  EXPECT_GT(with.cost->in_tiles_s(), with.cost->read_s + with.cost->blocks_s);
+  EXPECT_FALSE(without.cost.has_value());
   EXPECT_EQ(with.error, "");
 }
 
