@@ -1,14 +1,13 @@
-// A cost model of a frame on this machine. It is no lower bound: parts that overlap in time undercut the sum
-// of
-//   - reading each triangle's record once,
-//   - testing and writing each block of 4 x 4 pixels once for each triangle that wins a pixel of it, in the
-//   L1
-//     cache, with vectors of the best SIMD target,
-//   - writing depth and payload of the frame once, by cached or streaming stores, whichever is faster.
-// Each part is measured here, with warm caches, on the frame's number of threads. A triangle's occluded
-// blocks are free, as hierarchical depth may reject them. If every covered block is drawn, blocks_s grows by
-// the factor covered / won. A backend with tile buffers clears each buffer's depths and copies it to the
-// frame: tiles_s then replaces write_s.
+// A cost model of a frame on this machine, the sum of three parts:
+// - reading each triangle's record once,
+// - testing and writing each block of 4 x 4 pixels once for each triangle that wins a pixel of it, in the L1
+//   cache, with vectors of the best SIMD target,
+// - writing depth and payload of the frame once, by cached or streaming stores, whichever is faster.
+//
+// It is no lower bound: parts that overlap in time undercut it. Each part is measured here, with warm caches,
+// on the frame's number of threads. A triangle's occluded blocks are free, as hierarchical depth may reject
+// them. If every covered block is drawn, blocks_s grows by the factor covered / won. A backend with tile
+// buffers clears each buffer's depths and copies it to the frame: tiles_s then replaces write_s.
 #pragma once
 
 #include <cstdint>

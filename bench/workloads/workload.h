@@ -19,8 +19,6 @@ namespace edgewise::bench {
 
 inline constexpr std::uint32_t kBackground = 0xFF000000u;
 
-// The first of the registry that fill, or of those that don't.
-
 class Workload {
  public:
   // Meshes are drawn with `mesh_cull` and shading, streams with neither.

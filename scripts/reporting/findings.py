@@ -84,7 +84,7 @@ def peer_finding(bench):
             (width, said), *narrower = sentences
             text = (f"**Against {peer}** ({bench.context.get(peer, 'unknown version')}): on {max(THREADS)} threads, `{OURS}` with "
                     f"{width}, {said}.")
-            texts.append(" ".join([text, *(f"With {width} it {said}." for width, said in narrower)]))
+            texts.append(" ".join([text, *(f"With {width}, it {said}." for width, said in narrower)]))
     return " ".join(texts)
 
 

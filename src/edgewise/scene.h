@@ -22,7 +22,7 @@ constexpr std::uint32_t rgb(std::uint32_t r, std::uint32_t g, std::uint32_t b) {
   return 0xFF000000u | b << 16 | g << 8 | r;
 }
 
-// Triangle flags (Mesh::marks).
+// Triangle flags (Mesh::flags).
 inline constexpr std::uint8_t kTwoSided = 1;    // never culled, and lit on the side that the camera sees
 inline constexpr std::uint8_t kSecondHalf = 2;  // forms a face of four vertices with the triangle before it
 
@@ -30,14 +30,14 @@ struct Mesh {
   std::vector<glm::vec3> positions;    // model space
   std::vector<glm::uvec3> triangles;   // indices into positions; the side seen clockwise is the front
   std::vector<std::uint32_t> colours;  // one per triangle
-  std::vector<std::uint8_t> marks{};   // flags, one sum per triangle; or empty: no triangle has a flag
+  std::vector<std::uint8_t> flags{};   // one set of flags per triangle; empty if no triangle has any
 
-  bool has_mark(std::size_t triangle, std::uint8_t mark) const {
-    return !marks.empty() && (marks[triangle] & mark) != 0;
+  bool has_flag(std::size_t triangle, std::uint8_t flag) const {
+    return !flags.empty() && (flags[triangle] & flag) != 0;
   }
   // The index of the first triangle of a triangle's face. Both halves of a face use the colour and the normal
   // of the first.
-  std::size_t face_of(std::size_t triangle) const { return triangle - has_mark(triangle, kSecondHalf); }
+  std::size_t face_of(std::size_t triangle) const { return triangle - has_flag(triangle, kSecondHalf); }
   // Appends a face of four vertices a, b, c, d as two triangles: a, b, c and then a, c, d.
   void add_quad(glm::uvec4 corners, std::uint32_t colour, bool two_sided = false);
 };

@@ -20,7 +20,7 @@ namespace edgewise {
 namespace HWY_NAMESPACE {
 
 // Returns false and appends nothing if add_one() must handle these triangles.
-template <bool kMarked>
+template <bool kFlagged>
 HWY_INLINE bool assemble_vector(const MeshTask& task, std::size_t first, ChunkOutput& out) {
   if (task.one_by_one()) return false;
   const DI d;
@@ -34,11 +34,11 @@ HWY_INLINE bool assemble_vector(const MeshTask& task, std::size_t first, ChunkOu
   const VI any = hn::Or(a.word[3], hn::Or(b.word[3], c.word[3]));
   const MI special = hn::Ne(hn::And(any, hn::Set(d, kMustClip | kNotFinite)), hn::Zero(d));
   if (!hn::AllFalse(d, hn::AndNot(outside, special))) return false;
-  cull_and_append<kMarked>({{a.word[0], b.word[0], c.word[0]},
+  cull_and_append<kFlagged>({{a.word[0], b.word[0], c.word[0]},
                             {a.word[1], b.word[1], c.word[1]},
                             {a.word[2], b.word[2], c.word[2]},
                             counting_from(first)},
-                           outside, task.options.cull, out, task.mesh.marks.data() + (kMarked ? first : 0));
+                           outside, task.options.cull, out, task.mesh.flags.data() + (kFlagged ? first : 0));
   return true;
 }
 
@@ -56,20 +56,20 @@ bool vertices_exist(const Mesh& mesh, std::size_t begin, std::size_t end) {
   return *std::max_element(lanes, lanes + kLanes) < mesh.positions.size();
 }
 
-template <bool kMarked>
+template <bool kFlagged>
 void assemble_all(const MeshTask& task, std::size_t begin, std::size_t end, ChunkOutput& out) {
   const auto one_by_one = [&](std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; ++i) add_one(task, i, out);
   };
   std::size_t i = begin;
   for (; i + kLanes <= end; i += kLanes)
-    if (!assemble_vector<kMarked>(task, i, out)) one_by_one(i, i + kLanes);
+    if (!assemble_vector<kFlagged>(task, i, out)) one_by_one(i, i + kLanes);
   one_by_one(i, end);
 }
 
 bool assemble(const MeshTask& task, std::size_t begin, std::size_t end, ChunkOutput& out) {
   if (!vertices_exist(task.mesh, begin, end)) return false;
-  if (task.mesh.marks.empty())
+  if (task.mesh.flags.empty())
     assemble_all<false>(task, begin, end, out);
   else
     assemble_all<true>(task, begin, end, out);

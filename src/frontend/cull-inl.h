@@ -36,17 +36,17 @@ HWY_INLINE VI area_sign(const TriangleVectors& t) {
 }
 
 // Appends a vector of triangles that need no clipping, in order. `outside` selects those beyond a side of the
-// view, which are dropped. With `kMarked`, `marks` points to the triangles' flags.
-template <bool kMarked = false>
+// view, which are dropped. With `kFlagged`, `flags` points to the triangles' flags.
+template <bool kFlagged = false>
 HWY_INLINE void cull_and_append(const TriangleVectors& t, MI outside, Cull cull, ChunkOutput& out,
-                                const std::uint8_t* marks = nullptr) {
+                                const std::uint8_t* flags = nullptr) {
   const DI d;
   const VI sign = area_sign(t);
   const VI front = hn::Set(d, cull == Cull::none || cull == Cull::back ? 1 : 2);
   const VI back = hn::Set(d, cull == Cull::none || cull == Cull::front ? -1 : 2);
   MI faces = hn::Or(hn::Eq(sign, front), hn::Eq(sign, back));
-  if constexpr (kMarked) {
-    const VI mark = hn::PromoteTo(d, hn::LoadU(hn::Rebind<std::uint8_t, DI>{}, marks));
+  if constexpr (kFlagged) {
+    const VI mark = hn::PromoteTo(d, hn::LoadU(hn::Rebind<std::uint8_t, DI>{}, flags));
     const MI two_sided = hn::Ne(hn::And(mark, hn::Set(d, kTwoSided)), hn::Zero(d));
     faces = hn::Or(faces, hn::And(two_sided, hn::Ne(sign, hn::Zero(d))));
   }

@@ -33,10 +33,10 @@ void check(const Mesh& mesh) {
   if (mesh.colours.size() != mesh.triangles.size())
     throw std::invalid_argument("a mesh has " + std::to_string(mesh.triangles.size()) + " triangles and " +
                                 std::to_string(mesh.colours.size()) + " colours");
-  if (!mesh.marks.empty() && mesh.marks.size() != mesh.triangles.size())
+  if (!mesh.flags.empty() && mesh.flags.size() != mesh.triangles.size())
     throw std::invalid_argument("a mesh has " + std::to_string(mesh.triangles.size()) + " triangles and " +
-                                std::to_string(mesh.marks.size()) + " marks");
-  if (!mesh.marks.empty() && mesh.has_mark(0, kSecondHalf))
+                                std::to_string(mesh.flags.size()) + " flags");
+  if (!mesh.flags.empty() && mesh.has_flag(0, kSecondHalf))
     throw std::invalid_argument("a mesh begins with the second half of a face");
 }
 

@@ -122,7 +122,7 @@ void add_and_record_state(const Task& task, std::size_t triangle, ChunkOutput& o
 void add_one(const MeshTask& task, std::size_t triangle, ChunkOutput& out) {
   const glm::uvec3 t = task.mesh.triangles[triangle];
   const auto clip_of = [&](int k) { return transform(task.to_screen, task.mesh.positions[t[k]]); };
-  const Cull cull = task.mesh.has_mark(triangle, kTwoSided) ? Cull::none : task.options.cull;
+  const Cull cull = task.mesh.has_flag(triangle, kTwoSided) ? Cull::none : task.options.cull;
   add_and_record_state(task, triangle, out, [&] {
     add(task.vertices[t.x], task.vertices[t.y], task.vertices[t.z],
         {static_cast<std::uint32_t>(triangle), cull}, task.options, out, clip_of);

@@ -100,10 +100,10 @@ HWY_INLINE VF cosines(const ShadeTask& task, const Positions& positions,
 
 // -1 for a two-sided triangle seen from behind, else 1.
 float side_seen(const Mesh& mesh, std::uint32_t source, const ScreenTriangle& seen) {
-  return mesh.has_mark(source, kTwoSided) && contract::signed_area(seen) < 0 ? -1.0f : 1.0f;
+  return mesh.has_flag(source, kTwoSided) && contract::signed_area(seen) < 0 ? -1.0f : 1.0f;
 }
 
-template <bool kMarked>
+template <bool kFlagged>
 void shade_all(const ShadeTask& task, ChunkOutput& out, std::size_t first) {
   const DI d;
   const Positions positions(task.mesh);
@@ -116,7 +116,7 @@ void shade_all(const ShadeTask& task, ChunkOutput& out, std::size_t first) {
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       const ScreenTriangle& seen = triangles[i + std::min(lane, count - 1)];
       std::size_t source = seen.payload;
-      if constexpr (kMarked) {
+      if constexpr (kFlagged) {
         sides[lane] = side_seen(task.mesh, seen.payload, seen);
         source = task.mesh.face_of(source);
       }
@@ -125,14 +125,14 @@ void shade_all(const ShadeTask& task, ChunkOutput& out, std::size_t first) {
     }
     const VI colour = hn::LoadU(d, reinterpret_cast<const std::int32_t*>(colours));
     VF cosine = cosines(task, positions, corners);
-    if constexpr (kMarked) cosine = hn::Mul(cosine, hn::LoadU(DF{}, sides));
+    if constexpr (kFlagged) cosine = hn::Mul(cosine, hn::LoadU(DF{}, sides));
     hn::StoreU(lit(colour, cosine), d, reinterpret_cast<std::int32_t*>(colours));
     for (std::size_t lane = 0; lane < count; ++lane) triangles[i + lane].payload = colours[lane];
   }
 }
 
 void shade(const ShadeTask& task, ChunkOutput& out, std::size_t first) {
-  if (task.mesh.marks.empty())
+  if (task.mesh.flags.empty())
     shade_all<false>(task, out, first);
   else
     shade_all<true>(task, out, first);

@@ -19,7 +19,7 @@ void append(std::vector<T>& to, const std::vector<T>& from, std::size_t begin, s
 void append(Mesh& to, const Mesh& from, std::size_t begin, std::size_t end) {
   append(to.triangles, from.triangles, begin, end);
   append(to.colours, from.colours, begin, end);
-  append(to.marks, from.marks, begin, end);
+  append(to.flags, from.flags, begin, end);
 }
 
 // The view direction in the space of an instance's mesh. A matrix M maps a face's normal n to det M · M^-T ·
@@ -41,7 +41,7 @@ HiddenFaces::HiddenFaces(const Scene& scene, const FacingMethod& method) : metho
     auto& positions = faces.scene.positions;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
       const glm::uvec3 corners = mesh.triangles[i];
-      if (mesh.has_mark(i, kSecondHalf) && i > 0) {
+      if (mesh.has_flag(i, kSecondHalf) && i > 0) {
         positions.push_back(mesh.positions.at(corners.z));
         ++faces.scene.faces.back().count;
         continue;
@@ -71,12 +71,12 @@ const Drawable& HiddenFaces::drop(const Scene& scene) {
     method_->classify(faces.scene, faces.front);
 
     Mesh& kept = left.meshes[i];
-    kept.triangles.clear(), kept.colours.clear(), kept.marks.clear();
+    kept.triangles.clear(), kept.colours.clear(), kept.flags.clear();
     std::size_t begin = 0, end = 0;  // a run of consecutive kept triangles
     for (std::size_t face = 0; face < faces.front.size(); ++face) {
       const std::size_t first = end;
       end += faces.scene.faces[face].count - 2;
-      if (faces.front[face] != 0 || mesh.has_mark(first, kTwoSided)) continue;
+      if (faces.front[face] != 0 || mesh.has_flag(first, kTwoSided)) continue;
       append(kept, mesh, begin, first);
       begin = end;
     }

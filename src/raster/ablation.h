@@ -1,5 +1,5 @@
-// Optimizations of the library's own backends that can be switched off, to measure what each is worth and to
-// test every path. No switch changes a bit of the picture. Internal: not installed.
+// Switches for the optimizations of the library's backends, to measure the gain of each and to test every path.
+// No switch changes a bit of the picture. Internal: not installed.
 #pragma once
 
 #include <array>
@@ -29,11 +29,11 @@ struct Ablation {
   bool stepped = false;  // naive: edges and depth are stepped along rows, not evaluated at each pixel
 };
 
-// What differs from the default, as "no prefetch, …"; empty where nothing does.
+// The switches that differ from the default, as "no prefetch, …"; empty if none does.
 std::string describe(const Ablation& ablation);
 
-// Each optimization left out, both tile stores, all left out, and the stepped naive backend: what a test must
-// compare.
+// The variants that tests compare: each optimization left out, both tile stores, all left out, and the stepped
+// naive backend.
 constexpr std::array<Ablation, 8> kAblations{{{.vector_setup = false},
                                               {.prefetch = false},
                                               {.coverage_masks = false},

@@ -1,5 +1,5 @@
-// The list of backends. A new one is a file that defines make_NAME() and idea_NAME: in src/raster, with a
-// line in the list here; or anywhere, named to CMake by EDGEWISE_BACKENDS.
+// The list of backends. A backend is a file that defines make_NAME() and idea_NAME. Put it in src/raster and
+// add a line below, or pass it to CMake in EDGEWISE_BACKENDS.
 #include <array>
 
 #include "core/nearest_name.h"

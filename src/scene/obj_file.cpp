@@ -223,8 +223,8 @@ Mesh make_mesh(Builder built, const std::vector<std::size_t>& face_lines) {
   for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
   mesh.positions = std::move(built.positions);
   mesh.colours.assign(mesh.triangles.size(), kGrey);
-  if (!second_halves.empty()) mesh.marks.resize(mesh.triangles.size());
-  for (const std::size_t triangle : second_halves) mesh.marks[triangle] = kSecondHalf;
+  if (!second_halves.empty()) mesh.flags.resize(mesh.triangles.size());
+  for (const std::size_t triangle : second_halves) mesh.flags[triangle] = kSecondHalf;
   return mesh;
 }
 

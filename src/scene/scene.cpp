@@ -10,10 +10,10 @@ namespace edgewise {
 
 void Mesh::add_quad(glm::uvec4 corners, std::uint32_t colour, bool two_sided) {
   const std::uint8_t sides = two_sided ? kTwoSided : 0;
-  marks.resize(triangles.size());
+  flags.resize(triangles.size());
   triangles.emplace_back(corners.x, corners.y, corners.z);
   triangles.emplace_back(corners.x, corners.z, corners.w);
-  marks.insert(marks.end(), {sides, static_cast<std::uint8_t>(sides | kSecondHalf)});
+  flags.insert(flags.end(), {sides, static_cast<std::uint8_t>(sides | kSecondHalf)});
   colours.insert(colours.end(), 2, colour);
 }
 

@@ -53,13 +53,13 @@ std::vector<FaceState> face_states(const Scene& scene, std::span<const TriangleS
     const Mesh& mesh = scene.meshes.at(scene.instances[i].mesh);
     const glm::mat4 model = model_matrix(scene.instances[i]);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t, ++id) {
-      if (mesh.has_mark(t, kSecondHalf)) {
+      if (mesh.has_flag(t, kSecondHalf)) {
         faces.back().state = std::max(faces.back().state, states[id]);
         continue;
       }
-      const bool quad = t + 1 < mesh.triangles.size() && mesh.has_mark(t + 1, kSecondHalf);
+      const bool quad = t + 1 < mesh.triangles.size() && mesh.has_flag(t + 1, kSecondHalf);
       const glm::vec3 centre(model * glm::vec4(centre_of(mesh, t, quad), 1.0f));
-      faces.push_back({i, centre, states[id], mesh.has_mark(t, kTwoSided)});
+      faces.push_back({i, centre, states[id], mesh.has_flag(t, kTwoSided)});
     }
   }
   return faces;

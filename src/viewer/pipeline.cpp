@@ -67,12 +67,12 @@ std::vector<std::uint32_t> colours_of(const Drawable& drawable, bool shade) {
 // Flags by index in the scene; empty if no face is two-sided.
 std::vector<bool> two_sided_faces(const Drawable& drawable) {
   const auto* scene = std::get_if<Scene>(&drawable);
-  const auto has_marks = [](const Mesh& mesh) { return !mesh.marks.empty(); };
-  if (scene == nullptr || std::none_of(scene->meshes.begin(), scene->meshes.end(), has_marks)) return {};
+  const auto has_flags = [](const Mesh& mesh) { return !mesh.flags.empty(); };
+  if (scene == nullptr || std::none_of(scene->meshes.begin(), scene->meshes.end(), has_flags)) return {};
   std::vector<bool> faces;
   for (const Instance& instance : scene->instances) {
     const Mesh& mesh = scene->meshes.at(instance.mesh);
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) faces.push_back(mesh.has_mark(i, kTwoSided));
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) faces.push_back(mesh.has_flag(i, kTwoSided));
   }
   return faces;
 }

@@ -58,7 +58,7 @@ TEST(FrameWork, TakesMinimaUnlessTheTasksDiffer) {
 }
 
 TEST(SectionName, IsTheFunctionAndItsFile) {
-  EXPECT_EQ(section_name({"build", "/x/raster/bins.cpp"}), "build in bins.cpp");
+  EXPECT_EQ(section_name({"build", "/x/raster/binning/bins.cpp"}), "build in bins.cpp");
   EXPECT_EQ(section_name({"make", "make.h"}), "make in make.h");
 }
 

@@ -35,7 +35,7 @@ Scene scene_of_quads(bool two_sided) {
     if (i % 5 != 0) continue;
     mesh.triangles.emplace_back(first, first + 2, first + 1);
     mesh.colours.push_back(rgb(10, i % 256, 20));
-    mesh.marks.push_back(both ? kTwoSided : 0);
+    mesh.flags.push_back(both ? kTwoSided : 0);
   }
   scene.instances.push_back({});
   scene.instances.push_back({.scale = {-1, 1, 1}, .angle = 1.0f, .translation = {0, 0, -6}});
@@ -84,7 +84,7 @@ TEST(Faces, AreAlikeOnEveryTargetAndThreadCount) {
 TEST(Faces, HaveThePositionsOfTheirTriangles) {
   const Scene scene = scene_of_quads(false);
   Scene plain = scene;
-  plain.meshes[0].marks.clear();
+  plain.meshes[0].flags.clear();
   for (const Cull cull : cull_modes()) {
     FrontendOptions options = kOptions;
     options.cull = cull;
@@ -111,7 +111,7 @@ TEST(Faces, OfFourVerticesHaveOneColourAndTwoIds) {
   for (std::size_t i = 0; i < ids.size(); ++i) {
     const std::uint32_t id = ids[i].payload;
     EXPECT_EQ(colours[i].payload, lit[id]);
-    if (!mesh.has_mark(id % mesh.triangles.size(), kSecondHalf)) continue;
+    if (!mesh.has_flag(id % mesh.triangles.size(), kSecondHalf)) continue;
     EXPECT_EQ(lit[id], lit[id - 1]);
     ++second_halves;
   }
@@ -122,7 +122,7 @@ TEST(Faces, WithTwoSidesAreNeverCulled) {
   const Scene scene = scene_of_quads(true);
   const Mesh& mesh = scene.meshes[0];
   const auto is_two_sided = [&](const ScreenTriangle& t) {
-    return mesh.has_mark(t.payload % mesh.triangles.size(), kTwoSided);
+    return mesh.has_flag(t.payload % mesh.triangles.size(), kTwoSided);
   };
   FrontendOptions options = kOptions;
   options.payload = Payload::id;
@@ -169,10 +169,10 @@ TEST(Faces, WithTwoSidesAreLitOnTheVisibleSide) {
 
 TEST(Faces, AreRefusedIfTheirFlagsAreInvalid) {
   Scene scene = scene_of_quads(false);
-  scene.meshes[0].marks.pop_back();
+  scene.meshes[0].flags.pop_back();
   EXPECT_NE(message_of([&] { run(scene, kOptions); }), "");
   scene = scene_of_quads(false);
-  scene.meshes[0].marks[0] = kSecondHalf;
+  scene.meshes[0].flags[0] = kSecondHalf;
   EXPECT_EQ(message_of([&] { run(scene, kOptions); }), "a mesh begins with the second half of a face");
 }
 

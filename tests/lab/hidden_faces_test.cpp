@@ -32,7 +32,7 @@ std::shared_ptr<Workload> workload_of(const Scene& scene, const lab::FacingMetho
 TEST(HiddenFaces, FromFarAwayAreThoseOfTheWinding) {
   Scene scene = std::get<Scene>(find_scene("cube").make({}));
   Mesh quads = scene.meshes[0];
-  for (int i = 0; i < 12; ++i) quads.marks.push_back(i % 2 == 0 ? 0 : kSecondHalf);
+  for (int i = 0; i < 12; ++i) quads.flags.push_back(i % 2 == 0 ? 0 : kSecondHalf);
   scene.meshes.push_back(std::move(quads));
   scene.instances.clear();
   for (int i = 0; i < 8; ++i) {
@@ -87,14 +87,14 @@ TEST(HiddenFaces, AreJudgedOnceByTheirFirstThreeVerticesAndStayIfTwoSided) {
   add(away, 3, true);
   add(towards, 4, true);
   add(away, 5, false);
-  mesh.triangles.emplace_back(0, 1, 2), mesh.colours.push_back(6), mesh.marks.push_back(0);
-  mesh.triangles.emplace_back(2, 1, 0), mesh.colours.push_back(7), mesh.marks.push_back(0);
+  mesh.triangles.emplace_back(0, 1, 2), mesh.colours.push_back(6), mesh.flags.push_back(0);
+  mesh.triangles.emplace_back(2, 1, 0), mesh.colours.push_back(7), mesh.flags.push_back(0);
   const Scene scene{.meshes = {mesh}, .instances = {{}}, .camera = {}};  // seen along -z
   lab::HiddenFaces hidden(scene, normal_z());
   for (int frame = 0; frame < 2; ++frame) {
     const Mesh& left = std::get<Scene>(hidden.drop(scene)).meshes.at(0);
     EXPECT_EQ(left.colours, (std::vector<std::uint32_t>{1, 1, 3, 3, 4, 4, 6}));
-    EXPECT_EQ(left.marks, (std::vector<std::uint8_t>{0, kSecondHalf, kTwoSided, kTwoSided | kSecondHalf,
+    EXPECT_EQ(left.flags, (std::vector<std::uint8_t>{0, kSecondHalf, kTwoSided, kTwoSided | kSecondHalf,
                                                      kTwoSided, kTwoSided | kSecondHalf, 0}));
     ASSERT_EQ(left.triangles.size(), 7u);
     EXPECT_EQ(left.triangles[1], glm::uvec3(0, 2, 3));

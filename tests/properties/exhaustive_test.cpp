@@ -133,7 +133,7 @@ std::vector<Lattice> lattices() {
 INSTANTIATE_TEST_SUITE_P(Lattices, EveryTriangle, ::testing::ValuesIn(lattices()),
                          [](const auto& lattice) { return lattice.param.name; });
 
-TEST(EveryTriangle, FindsAPlantedMistake) {
+TEST(EveryTriangle, FindsAWrongBackend) {
   for (const BackendInfo& wrong : {mistaken<Mistake::samples_on_all_edges_are_inside>(),
                                    mistaken<Mistake::one_lane_is_a_unit_deeper>()}) {
     const SearchResult result =

@@ -18,17 +18,17 @@
 namespace edgewise::testing {
 namespace {
 
-struct Plant {
+struct Variant {
   std::string_view name;
   BackendInfo wrong;
   std::size_t triangles;  // the number needed to show the mistake
 
-  friend std::ostream& operator<<(std::ostream& out, const Plant& plant) { return out << plant.name; }
+  friend std::ostream& operator<<(std::ostream& out, const Variant& plant) { return out << plant.name; }
 };
 
-class PlantedMistake : public ::testing::TestWithParam<Plant> {};
+class WrongBackend : public ::testing::TestWithParam<Variant> {};
 
-TEST_P(PlantedMistake, ComesBackAsASmallStreamThatShowsItAgain) {
+TEST_P(WrongBackend, ComesBackAsASmallStreamThatShowsItAgain) {
   const auto wrong = painters(std::span(&GetParam().wrong, 1));
   const SearchResult result = search(grid_streams(), 300, like_the_oracles(wrong, {AblatedExecution{}}));
   ASSERT_TRUE(result.found.has_value());
@@ -38,8 +38,8 @@ TEST_P(PlantedMistake, ComesBackAsASmallStreamThatShowsItAgain) {
   EXPECT_LE(smallest.width * smallest.height, 8);
 
   const TempDir folder;
-  const std::string message = report(*result.found, folder.path(), "planted"),
-                    path = (folder.path() / "planted.tri").string();
+  const std::string message = report(*result.found, folder.path(), "wrong"),
+                    path = (folder.path() / "wrong.tri").string();
   EXPECT_NE(message.find("'" EDGEWISE_PROGRAM "' verify '" + path + "'"), std::string::npos) << message;
   const TriangleStream read = read_tri(path);
   ASSERT_EQ(read.triangles.size(), smallest.triangles.size());
@@ -62,11 +62,11 @@ TEST_P(PlantedMistake, ComesBackAsASmallStreamThatShowsItAgain) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    All, PlantedMistake,
-    ::testing::Values(Plant{"samples_on_all_edges_are_inside",
+    All, WrongBackend,
+    ::testing::Values(Variant{"samples_on_all_edges_are_inside",
                             mistaken<Mistake::samples_on_all_edges_are_inside>(), 1},
-                      Plant{"later_wins_a_tie", mistaken<Mistake::later_wins_a_tie>(), 2},
-                      Plant{"one_lane_is_a_unit_deeper", mistaken<Mistake::one_lane_is_a_unit_deeper>(), 1}),
+                      Variant{"later_wins_a_tie", mistaken<Mistake::later_wins_a_tie>(), 2},
+                      Variant{"one_lane_is_a_unit_deeper", mistaken<Mistake::one_lane_is_a_unit_deeper>(), 1}),
     [](const auto& plant) { return std::string(plant.param.name); });
 
 TEST(PropertyCheck, FailsWithTheFileAndTheCommand) {

@@ -24,7 +24,7 @@ SVG = """<?xml version="1.0"?>
  <desc>it's 50% &amp; "#1" &lt;</desc>
 </svg>
 """
-HOSTILE = "</script><script>hacked = 1</script><img src=x onerror=hacked=1>'\"&"
+MARKUP = "</script><script>hacked = 1</script><img src=x onerror=hacked=1>'\"&"
 
 
 class Page(HTMLParser):
@@ -146,21 +146,21 @@ class ReportTest(unittest.TestCase):
         self.assertIn("A is test, commit abc", page.text)
 
     def test_names_are_text_and_never_more(self):
-        def hostile(data, name):
-            return json.loads(json.dumps(data).replace(json.dumps(name), json.dumps(HOSTILE)))
+        def with_markup(data, name):
+            return json.loads(json.dumps(data).replace(json.dumps(name), json.dumps(MARKUP)))
 
-        bench = hostile(scripts_test.bench_with_peer(), "test")
-        bench["benchmarks"] += scripts_test.entries(f"tiled/{HOSTILE.replace('/', '')}/threads:1", [1.0])
-        folder = self.write("hostile", bench, hostile(scripts_test.accuracy(), "float_le"))
-        (folder / "machine.json").write_text(json.dumps({**scripts_test.MACHINE, "cpu_model": HOSTILE}))
+        bench = with_markup(scripts_test.bench_with_peer(), "test")
+        bench["benchmarks"] += scripts_test.entries(f"tiled/{MARKUP.replace('/', '')}/threads:1", [1.0])
+        folder = self.write("with_markup", bench, with_markup(scripts_test.accuracy(), "float_le"))
+        (folder / "machine.json").write_text(json.dumps({**scripts_test.MACHINE, "cpu_model": MARKUP}))
         (folder / "charts" / "<img src=x>.svg").write_text(SVG)
         page = self.made(folder, "--compare", folder)
         self.assertEqual(len(page.all("script")), 1)
         self.assertEqual(len(page.charts()), len(CHARTS) + 1)
-        for words in (f"measured on {HOSTILE}, commit", f"{HOSTILE}, 2 cores", f"A is {HOSTILE}, commit"):
+        for words in (f"measured on {MARKUP}, commit", f"{MARKUP}, 2 cores", f"A is {MARKUP}, commit"):
             self.assertIn(words, page.text)
-        self.assertIn([HOSTILE], [cells[:1] for cells in page.cells])
-        self.assertIn(HOSTILE.replace("/", ""), [cells[1] for cells in page.cells])
+        self.assertIn([MARKUP], [cells[:1] for cells in page.cells])
+        self.assertIn(MARKUP.replace("/", ""), [cells[1] for cells in page.cells])
 
     def test_bad_input_is_told_and_leaves_no_file(self):
         bad = self.write("bad", scripts_test.bench())

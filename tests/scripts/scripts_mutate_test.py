@@ -26,7 +26,7 @@ class MutateTest(unittest.TestCase):
         path.write_text(text)
         return read_mutations(path)
 
-    def test_every_mistake_of_the_table_can_be_planted(self):
+    def test_every_mutant_of_the_table_applies(self):
         result = subprocess.run([ROOT / "scripts/mutate", "--check"], capture_output=True, text=True, check=False)
         self.assertEqual(result.returncode, 0, result.stderr)
 
@@ -37,7 +37,7 @@ class MutateTest(unittest.TestCase):
                      "record_lanes", "chunks.h", "pieces.cpp"):
             self.assertTrue(any(part in file for file in files), part)
 
-    def test_a_mistake_is_planted_once(self):
+    def test_a_mutant_is_applied_once(self):
         mutation, = self.read(ENTRY.format("less"))
         self.assertEqual(mutated(mutation, self.folder), "return x <= y;\n")
 

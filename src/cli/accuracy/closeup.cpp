@@ -114,10 +114,10 @@ class Drawing {
     const std::size_t i = static_cast<std::size_t>(py) * static_cast<std::size_t>(closeup_.part.width) +
                           static_cast<std::size_t>(px);
     const lab::Mark mark = closeup_.marks[i];
-    const std::uint32_t owner = closeup_.visible[i];
+    const std::uint32_t visible = closeup_.visible[i];
     const std::uint32_t colour = mark != lab::Mark::none     ? lab::colour_of(mark)
-                                 : owner == lab::kNoTriangle ? kBackground
-                                                             : kMuted[owner % std::size(kMuted)];
+                                 : visible == lab::kNoTriangle ? kBackground
+                                                             : kMuted[visible % std::size(kMuted)];
     const int gap = scale_ < 6 ? 0 : 1;  // between pixels
     for (int y = gap; y < scale_; ++y)
       for (int x = gap; x < scale_; ++x) at(px * scale_ + x, py * scale_ + y) = colour;

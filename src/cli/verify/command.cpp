@@ -69,16 +69,16 @@ constexpr const char* kVerifyFooter = R"(Examples:
   edgewise verify bunny.obj capture.tri --fit  your own files
   edgewise verify --json verify.json
 
-Every backend draws every scene in every culling mode, with 1, 2 and 3 threads, each SIMD target of this
-machine and each tile size. Each frame is compared bit for bit, in depth and payload (colours, and
-triangle ids), with the reference (the first backend of `edgewise list`, one thread, scalar; backends that
-don't fill with the first of them). On a small image all backends are compared with an oracle, exact
-128-bit arithmetic for each pixel and triangle; a .tri file that is small enough (pixels times triangles up
-to 7.5 million) keeps its own size there.
+Verify draws every scene with every backend in every culling mode: on 1, 2 and 3 threads, on each SIMD target
+of this machine, with other tile sizes on the best target, and with optimizations switched off. It compares
+each frame bit for bit, depth and payload (colours, and triangle ids), with the reference: the first backend
+of `edgewise list`, on one thread, in scalar code. On a small image it also compares all backends with an
+oracle, which computes each pixel in exact 128-bit arithmetic. A .tri file keeps its own size there if pixels
+times triangles are at most 7.5 million.
 
 Columns: triangles submitted; emitted by the front end, over all culling modes; frames compared; pixels
 that differ; pixels that differ from the oracle.
-On a difference, pictures and a .tri file that shows it again are written, and the exit status is 1.)";
+On a difference, it writes pictures and a .tri file that reproduces it, and exits with 1.)";
 
 }  // namespace
 

@@ -124,7 +124,7 @@ Sweep make_sweep_pan() {
   return {"pan",
           Family::coverage,
           "a mesh pans slowly: pixels that change though the truth does not",
-          {"speed", "px a frame", true},
+          {"speed", "px per frame", true},
           {"superfluous changes per 10^6 true ones", true, 1e6},
           10,
           powers_of_two(-1, -10),

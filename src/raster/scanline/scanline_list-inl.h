@@ -15,7 +15,7 @@
 #include "edgewise/contract.h"
 #include "raster/scanline/scanline_rows-inl.h"
 #include "raster/simd/hiz-inl.h"
-#include "raster/simd/tile_store-inl.h"
+#include "raster/tile_store-inl.h"
 
 // Included once per SIMD target.
 #if defined(EDGEWISE_SCANLINE_LIST_INL_H) == defined(HWY_TARGET_TOGGLE)

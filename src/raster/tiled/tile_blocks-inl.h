@@ -8,7 +8,7 @@
 
 #include "edgewise/contract.h"
 #include "raster/simd/hiz-inl.h"
-#include "raster/simd/tile_store-inl.h"
+#include "raster/tile_store-inl.h"
 #include "raster/tile_task.h"
 #include "raster/tiled/tile_setup-inl.h"
 

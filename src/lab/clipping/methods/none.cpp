@@ -5,7 +5,7 @@ namespace edgewise::lab {
 
 extern const ClippingMethod clipping_none;
 const ClippingMethod clipping_none{
-    {"none", "divide by w whatever it is", "the trainer's first steps",
+    {"none", "no clipping: divides by w even if w ≤ 0", "the trainer's first steps",
      "right where every vertex lies between near and far and within the guard band", false},
     [](const ClippingScene& scene, ClippingFrame& frame) {
       draw_clipped(scene, frame, [&](const ClipVertex(&triangle)[3], std::uint32_t payload) {

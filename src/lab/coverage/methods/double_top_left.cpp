@@ -19,7 +19,7 @@ CoverageMethod make_coverage_double_top_left();
 CoverageMethod make_coverage_double_top_left() {
   return make_coverage_method<DoubleTopLeft>(
       {"double_top_left", "double edge functions with the top-left rule, vertices not snapped",
-       "what one tries when float fails", "wrong only within 1e-11 px of an edge", false},
+       "the usual remedy for float errors", "wrong only within 1e-11 px of an edge", false},
       {.reach_px = 1e-11});  // as kFloatReachPx, with 2^-53 for 2^-24
 }
 

@@ -24,7 +24,7 @@ class Plane {
 
 extern const VisibilityMethod visibility_float_z;
 const VisibilityMethod visibility_float_z{
-    {"float_z", "float depth buffer, 1 is far, plane in float", "what a software renderer does first",
+    {"float_z", "float depth buffer, 1 is far, plane in float", "most software renderers",
      "depth within 16 steps of 2^-24, times length over width of the triangle", false},
     [](const VisibilityScene& scene, VisibilityFrame& frame) {
       draw_depth_buffer<Plane, float>(scene, frame, frame.depth_float, 2.0f);

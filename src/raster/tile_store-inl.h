@@ -1,5 +1,5 @@
-// What tile kernels share around the drawing: prefetching triangles, and copying a finished tile to the
-// frame by cached or streaming stores (raster/ablation.h).
+// Shared by the tile kernels: prefetches triangles, and copies a finished tile to the frame by cached or
+// streaming stores (raster/ablation.h).
 #include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
