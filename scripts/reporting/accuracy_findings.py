@@ -88,7 +88,7 @@ def cost_sentence(scene, machine):
         same = fastest(exact)[0]
         settled = "" if not same.costs[1].overlaps(other.costs[1]) else " (not settled)"
         text += (f"; our rule in scalar code (`{same.method.name}`) is {about(same.costs[1].ns / other.costs[1].ns)} "
-                 f"slower than that{settled}")
+                 f"slower than `{other.method.name}`{settled}")
     return text + "."
 
 

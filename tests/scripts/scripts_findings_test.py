@@ -83,7 +83,7 @@ class FindingsTest(unittest.TestCase):
         text = exactness_finding(accuracy(measured("tiled", True, 0, 1.0), measured("float_lt", False, 9, 4.0, 0.5),
                                           measured("fixed_8", True, 0, 4.4, 0.5)))
         self.assertIn("`tiled` with AVX-512 is 4.0× faster than `float_lt` in scalar code, the fastest other; our rule in scalar code "
-                      "(`fixed_8`) is 1.1× slower than that (not settled).", text)
+                      "(`fixed_8`) is 1.1× slower than `float_lt` (not settled).", text)
         slower = accuracy(measured("tiled", True, 0, 2.1, 0.3), measured("float_lt", False, 9, 2.0, 0.3))
         self.assertIn("`tiled` with AVX-512 is 1.05× slower than `float_lt` in scalar code (ranges overlap: not settled)",
                       speed_sentence(slower.scenes[0], slower.machine))
@@ -97,7 +97,7 @@ class FindingsTest(unittest.TestCase):
                       "faster.", text)
         self.assertNotIn("AVX2", text)
         narrow = bench({**rows, "tiled/a/target:avx2/threads:2": 2.0, "m/threads:2": 1.0}, peers="ext", ext="Ext 1, 256 bits")
-        self.assertIn("With AVX2, 256 bits it wins all 1 streams from screen triangles to picture, 4.0× faster.", peer_finding(narrow))
+        self.assertIn("With AVX2, 256 bits, it wins all 1 streams from screen triangles to picture, 4.0× faster.", peer_finding(narrow))
         table = peer_tables(narrow, markdown)
         self.assertIn("| speed-up with AVX-512, 512 bits | speed-up with AVX2, 256 bits |", table)
         self.assertIn("| – / 8.0× | – / 4.0× |", table)
