@@ -36,11 +36,11 @@ struct Row {
   FrameWork recorded;     // the tasks of that estimate
   double peak_bytes = 0;  // of a first frame; 0: not measured
   bool wants_cost = false;
-  bool step = false;               // one step of the ablation
-  double once_s = 0.0;             // duration of the compared draw
+  bool step = false;              // one step of the ablation
+  double once_s = 0.0;            // duration of the compared draw
   std::optional<FrameCost> cost;  // if wants_cost
-  std::uint64_t depth_ties = 0;     // peers: depth ties within tolerance, px
-  std::string error;               // why the row must not be timed
+  std::uint64_t depth_ties = 0;   // peers: depth ties within tolerance, px
+  std::string error;              // why the row must not be timed
 };
 
 struct SuiteOptions {

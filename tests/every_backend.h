@@ -31,7 +31,8 @@ class EveryBackend : public ::testing::TestWithParam<std::string_view> {
     const Framebuffer expected = oracle(triangles, width, height);
     Framebuffer actual(width, height);
     for (const auto& execution : executions()) {
-      lab::poison(actual);  // otherwise pixels that a draw leaves out would still be right from the previous draw
+      lab::poison(
+          actual);  // otherwise pixels that a draw leaves out would still be right from the previous draw
       draw(*backend_, triangles, actual.view(), kBackground, execution);
       expect_same(expected, actual, what + ", " + describe(execution));
     }

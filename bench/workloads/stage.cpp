@@ -84,7 +84,7 @@ void Stage::compare(Row& row) {
     if (row.once_s < limit_s) row.once_s = std::min(row.once_s, timed_work_s(row));
   if (row.wants_cost)
     row.cost = cost_model_.estimate(row.workload->triangles(), row.workload->blocks(), frame(row),
-                                     row.execution.threads);
+                                    row.execution.threads);
 }
 
 }  // namespace edgewise::bench

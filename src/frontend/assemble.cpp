@@ -35,10 +35,10 @@ HWY_INLINE bool assemble_vector(const MeshTask& task, std::size_t first, ChunkOu
   const MI special = hn::Ne(hn::And(any, hn::Set(d, kMustClip | kNotFinite)), hn::Zero(d));
   if (!hn::AllFalse(d, hn::AndNot(outside, special))) return false;
   cull_and_append<kFlagged>({{a.word[0], b.word[0], c.word[0]},
-                            {a.word[1], b.word[1], c.word[1]},
-                            {a.word[2], b.word[2], c.word[2]},
-                            counting_from(first)},
-                           outside, task.options.cull, out, task.mesh.flags.data() + (kFlagged ? first : 0));
+                             {a.word[1], b.word[1], c.word[1]},
+                             {a.word[2], b.word[2], c.word[2]},
+                             counting_from(first)},
+                            outside, task.options.cull, out, task.mesh.flags.data() + (kFlagged ? first : 0));
   return true;
 }
 

@@ -1,5 +1,5 @@
-// Switches for the optimizations of the library's backends, to measure the gain of each and to test every path.
-// No switch changes a bit of the picture. Internal: not installed.
+// Switches for the optimizations of the library's backends, to measure the gain of each and to test every
+// path. No switch changes a bit of the picture. Internal: not installed.
 #pragma once
 
 #include <array>
@@ -32,8 +32,8 @@ struct Ablation {
 // The switches that differ from the default, as "no prefetch, …"; empty if none does.
 std::string describe(const Ablation& ablation);
 
-// The variants that tests compare: each optimization left out, both tile stores, all left out, and the stepped
-// naive backend.
+// The variants that tests compare: each optimization left out, both tile stores, all left out, and the
+// stepped naive backend.
 constexpr std::array<Ablation, 8> kAblations{{{.vector_setup = false},
                                               {.prefetch = false},
                                               {.coverage_masks = false},

@@ -61,13 +61,14 @@ TEST_P(WrongBackend, ComesBackAsASmallStreamThatShowsItAgain) {
   EXPECT_EQ(program.status, 0) << program.out << program.err;
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    All, WrongBackend,
-    ::testing::Values(Variant{"samples_on_all_edges_are_inside",
-                            mistaken<Mistake::samples_on_all_edges_are_inside>(), 1},
-                      Variant{"later_wins_a_tie", mistaken<Mistake::later_wins_a_tie>(), 2},
-                      Variant{"one_lane_is_a_unit_deeper", mistaken<Mistake::one_lane_is_a_unit_deeper>(), 1}),
-    [](const auto& plant) { return std::string(plant.param.name); });
+INSTANTIATE_TEST_SUITE_P(All, WrongBackend,
+                         ::testing::Values(Variant{"samples_on_all_edges_are_inside",
+                                                   mistaken<Mistake::samples_on_all_edges_are_inside>(), 1},
+                                           Variant{"later_wins_a_tie", mistaken<Mistake::later_wins_a_tie>(),
+                                                   2},
+                                           Variant{"one_lane_is_a_unit_deeper",
+                                                   mistaken<Mistake::one_lane_is_a_unit_deeper>(), 1}),
+                         [](const auto& plant) { return std::string(plant.param.name); });
 
 TEST(PropertyCheck, FailsWithTheFileAndTheCommand) {
   const auto file = failure_folder() / "PropertyCheck.FailsWithTheFileAndTheCommand.tri";

@@ -115,9 +115,9 @@ class Drawing {
                           static_cast<std::size_t>(px);
     const lab::Mark mark = closeup_.marks[i];
     const std::uint32_t visible = closeup_.visible[i];
-    const std::uint32_t colour = mark != lab::Mark::none     ? lab::colour_of(mark)
+    const std::uint32_t colour = mark != lab::Mark::none       ? lab::colour_of(mark)
                                  : visible == lab::kNoTriangle ? kBackground
-                                                             : kMuted[visible % std::size(kMuted)];
+                                                               : kMuted[visible % std::size(kMuted)];
     const int gap = scale_ < 6 ? 0 : 1;  // between pixels
     for (int y = gap; y < scale_; ++y)
       for (int x = gap; x < scale_; ++x) at(px * scale_ + x, py * scale_ + y) = colour;
