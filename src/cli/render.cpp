@@ -67,7 +67,8 @@ class Renderer {
  public:
   explicit Renderer(const RenderOptions& options)
       : options_(options),
-        backend_((options.wireframe ? wireframe() : find_backend(options.backend)).make()) {
+        info_(options.wireframe ? wireframe() : find_backend(options.backend)),
+        backend_(info_.make()) {
     if (options.pixel_kind == PixelKind::hits && options.wireframe)
       throw std::invalid_argument(
           "--payload hits counts covered pixels, but --wireframe does not fill triangles");
@@ -117,8 +118,6 @@ class Renderer {
     }
   }
 
-  std::string_view drawn_by() const { return options_.wireframe ? wireframe().name : options_.backend; }
-
   void show_progress(const std::string& scene, int frame, double frame_fraction) {
     progress_.show((frame - 1 + frame_fraction) / options_.frames, scene);
   }
@@ -164,7 +163,7 @@ class Renderer {
 
   nlohmann::json as_json(const Picture& p) const {
     nlohmann::json json{{"scene", p.scene},
-                        {"backend", drawn_by()},
+                        {"backend", info_.name},
                         {"width", p.frontend.width},
                         {"height", p.frontend.height},
                         {"cull", name_of(p.frontend.cull)},
@@ -183,7 +182,7 @@ class Renderer {
 
   std::string as_text(const Picture& p) const {
     std::string text = fmt::format("{} ({}x{}, {}): {}\n", printable(p.scene), p.frontend.width,
-                                   p.frontend.height, drawn_by(), stats_text(p.stats));
+                                   p.frontend.height, info_.name, stats_text(p.stats));
     if (options_.pixel_kind == PixelKind::hits)
       text += fmt::format("  pixels hit: 0 times {}, once {}, twice {}, 3 times or more {}\n", p.hits[0],
                           p.hits[1], p.hits[2], p.hits[3]);
@@ -192,6 +191,7 @@ class Renderer {
   }
 
   const RenderOptions& options_;
+  const BackendInfo& info_;
   std::unique_ptr<Backend> backend_;
   Frontend frontend_;
   std::optional<Framebuffer> frame_;

@@ -19,10 +19,17 @@ std::string describe(const Ablation& ablation) {
 
 void draw(Backend& backend, std::span<const ScreenTriangle> triangles, FrameView frame,
           std::uint32_t background, const AblatedExecution& how) {
-  auto* const switches = dynamic_cast<AblatableBackend*>(&backend);
-  if (switches != nullptr) switches->ablation = how.ablation;
+  struct Switched {  // for one frame, even if it throws
+    Switched(AblatableBackend* b, const Ablation& ablation) : backend(b) {
+      if (backend != nullptr) backend->ablation = ablation;
+    }
+    ~Switched() {
+      if (backend != nullptr) backend->ablation = {};
+    }
+    AblatableBackend* backend;
+  };
+  const Switched switched(dynamic_cast<AblatableBackend*>(&backend), how.ablation);
   backend.draw(triangles, frame, background, how.execution);
-  if (switches != nullptr) switches->ablation = {};
 }
 
 }  // namespace edgewise

@@ -21,16 +21,14 @@ namespace {
 constexpr std::string_view kNoOverlay = "o";  // at this size the brief overlay is the default
 
 Image rendered(std::string_view scene, Cull cull, app::Size size = kTestSize,
-               std::string_view backend = "naive") {
+               const BackendInfo& backend = find_backend("naive")) {
   Frontend frontend;
   FrontendOptions options;
   options.width = size.width, options.height = size.height;
   options.cull = cull;
   Framebuffer frame(size.width, size.height);
-  (backend == wireframe().name ? wireframe() : find_backend(backend))
-      .make()
-      ->draw(frontend.run(find_scene(scene).make({size.width, size.height}), options), frame.view(),
-             rgb(0, 0, 0), {});
+  backend.make()->draw(frontend.run(find_scene(scene).make({size.width, size.height}), options), frame.view(),
+                       rgb(0, 0, 0), {});
   return to_image(frame);
 }
 
@@ -105,9 +103,9 @@ TEST(Viewer, DrawsEdgesOfWhatIsCulledAndLitLikeFacesAndBack) {
   Session session = session_of("cubes");
   const Image filled = type(session, kNoOverlay).picture, edges = type(session, "y").picture;
   EXPECT_FALSE(session.side(0).choice.fills());
-  EXPECT_EQ(edges.pixels, rendered("cubes", Cull::back, kTestSize, "wireframe").pixels);
-  EXPECT_EQ(type(session, "1").picture.pixels, rendered("cubes", Cull::both, kTestSize, "wireframe").pixels);
-  EXPECT_EQ(type(session, "2").picture.pixels, rendered("cubes", Cull::front, kTestSize, "wireframe").pixels);
+  EXPECT_EQ(edges.pixels, rendered("cubes", Cull::back, kTestSize, wireframe()).pixels);
+  EXPECT_EQ(type(session, "1").picture.pixels, rendered("cubes", Cull::both, kTestSize, wireframe()).pixels);
+  EXPECT_EQ(type(session, "2").picture.pixels, rendered("cubes", Cull::front, kTestSize, wireframe()).pixels);
   EXPECT_EQ(type(session, "12y").picture.pixels, filled.pixels);
   EXPECT_EQ(session.side(0).choice.coverage->info.name, "tiled");  // as before the edges
   // A painter covers by itself.
