@@ -31,7 +31,7 @@ constexpr const char* kGoogleBenchmarkOptions[] = {"--benchmark_color",
 
 std::optional<Flags> parse_flags(int argc, char** argv) {
   Flags flags;
-  std::optional<app::Size> size;
+  std::optional<tools::Size> size;
   CLI::App parser{"Times the front end and every backend, after comparing their pictures.", "edgewise_bench"};
   parser.allow_extras();
   parser
@@ -50,7 +50,7 @@ std::optional<Flags> parse_flags(int argc, char** argv) {
   parser.add_flag("--no-peers", no_peers, "Leave out other projects' rasterizers")->excludes(peers_flag);
   parser.add_flag("--quick", flags.suite.quick,
                   "Fewer rows and repetitions, a tenth of the triangles of knots and streams");
-  app::add_size(parser, size, "Image size (1920x1080; a .tri file has its own)");
+  tools::add_size(parser, size, "Image size (1920x1080; a .tri file has its own)");
   std::string format;
   parser.add_option("--benchmark_out", flags.out, "Write the results to this file, complete or not at all")
       ->type_name("FILE");
@@ -84,7 +84,7 @@ std::optional<Flags> parse_flags(int argc, char** argv) {
     throw std::invalid_argument(
         "--peers: none was built, since EGL or OpenGL was not found (scripts/run --peers installs them)");
   flags.benchmark = parser.remaining();
-  flags.known = app::option_names(parser);
+  flags.known = tools::option_names(parser);
   flags.known.insert(flags.known.end(), std::begin(kGoogleBenchmarkOptions),
                      std::end(kGoogleBenchmarkOptions));
   for (const auto& flag : flags.benchmark) {

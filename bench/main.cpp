@@ -60,7 +60,7 @@ void initialize_benchmark(const Flags& flags) {
   for (auto& word : words) argv.push_back(word.data());
   int argc = static_cast<int>(argv.size());
   benchmark::Initialize(&argc, argv.data());
-  if (argc > 1) throw std::invalid_argument(app::unknown_option(argv[1], flags.known, kProgram));
+  if (argc > 1) throw std::invalid_argument(tools::unknown_option(argv[1], flags.known, kProgram));
 }
 
 class SilentReporter final : public benchmark::BenchmarkReporter {
@@ -127,7 +127,7 @@ bool is_too_slow_alone(std::span<const Row> rows, std::size_t i) {
 // Goes workload by workload, so that only one reference picture is in memory at a time. In the whole suite,
 // frames that leave_out_slow_frames() will drop are not drawn.
 void compare_all(std::vector<Row>& rows, Stage& stage, bool whole_suite) {
-  app::Progress progress;
+  tools::Progress progress;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     progress.show(static_cast<double>(i) / static_cast<double>(rows.size()), "comparing " + rows[i].name);
     Workload& workload = *rows[i].workload;
@@ -184,11 +184,12 @@ void time_row(benchmark::State& state, const Row& row, Stage& stage) {
   counters["covered_px"] = covered_px;
   counters["overdraw"] = covered_px / (static_cast<double>(workload.width()) * workload.height());
   if (row.peer == nullptr) return;
-  counters["near_ties"] = static_cast<double>(row.depth_ties);
+  counters["depth_ties"] = static_cast<double>(row.depth_ties);
   state.SetLabel(row.peer->version());
 }
 
-void register_rows(const std::vector<Row>& rows, Stage& stage, const Flags& flags, app::Progress& progress) {
+void register_rows(const std::vector<Row>& rows, Stage& stage, const Flags& flags,
+                   tools::Progress& progress) {
   const Effort effort = flags.suite.quick ? kQuick : kFull;
   struct Calls {
     int made = 0, expected = 0;
@@ -249,8 +250,8 @@ std::string names_of(std::span<const Info> infos) {
 }
 
 void add_context(const Flags& flags) {
-  const auto machine = app::machine_description();
-  benchmark::AddCustomContext("machine", app::machine_name());
+  const auto machine = tools::machine_description();
+  benchmark::AddCustomContext("machine", tools::machine_name());
   for (const char* key : {"build_type", "commit"})
     if (machine.contains(key) && machine[key].is_string())
       benchmark::AddCustomContext(key, machine[key].get<std::string>());
@@ -289,7 +290,7 @@ int run(int argc, char** argv) {
   for (const auto& row : random_read_rows()) names.emplace_back(row.name);
   Reporter reporter(names);
   {
-    app::Progress progress;
+    tools::Progress progress;
     register_rows(rows, stage, flags, progress);
     register_random_reads(flags);
     benchmark::RunSpecifiedBenchmarks(&reporter, ".");
@@ -307,7 +308,7 @@ int run(int argc, char** argv) {
 }
 
 int failed(std::string_view why) {
-  app::print_error(why, kProgram);
+  tools::print_error(why, kProgram);
   return 2;
 }
 
@@ -315,7 +316,7 @@ int guarded(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const std::exception& error) {
-    return failed(app::reason_of(error));
+    return failed(tools::reason_of(error));
   }
 }
 
@@ -324,8 +325,8 @@ int guarded(int argc, char** argv) {
 }  // namespace edgewise::bench
 
 int main(int argc, char** argv) {
-  edgewise::app::prepare_process(edgewise::bench::kProgram);
+  edgewise::tools::prepare_process(edgewise::bench::kProgram);
   const int status = edgewise::bench::guarded(argc, argv);
-  if (edgewise::app::stdout_is_whole() || status == 2) return status;
+  if (edgewise::tools::stdout_is_whole() || status == 2) return status;
   return edgewise::bench::failed("cannot write to standard output");
 }

@@ -88,10 +88,10 @@ std::string Reporter::json() const {
   auto& context = result["context"];
   context.erase("host_name");
   context["executable"] = std::filesystem::path(context.value("executable", "")).filename().string();
-  std::string text = "{\n\"context\": " + app::json_text(context, 2) + ",\n\"benchmarks\": [";
+  std::string text = "{\n\"context\": " + tools::json_text(context, 2) + ",\n\"benchmarks\": [";
   const char* separator = "\n";
   for (const auto& row : result["benchmarks"]) {
-    text += separator + app::json_text(row);
+    text += separator + tools::json_text(row);
     separator = ",\n";
   }
   return text + "\n]\n}\n";

@@ -36,7 +36,7 @@ SceneRequest request(const SuiteOptions& options, int width, int height) {
 
 // Large triangles lose much of their area at the image's borders, so the count is corrected by the coverage
 // of a first attempt.
-app::Source area_source(const SuiteOptions& options, double area_px) {
+tools::Source area_source(const SuiteOptions& options, double area_px) {
   constexpr double kWanted_px = 4e6;
   const auto at_least_a_few = [](double count) {
     return static_cast<std::size_t>(std::max(4.0, std::round(count)));
@@ -52,15 +52,15 @@ app::Source area_source(const SuiteOptions& options, double area_px) {
 }
 
 // A source's name in row names, where ':' and '/' are separators. No source name has a '/'.
-std::string name_in_rows(const app::Source& source) {
-  std::string name = app::printable(source.name);
+std::string name_in_rows(const tools::Source& source) {
+  std::string name = tools::printable(source.name);
   std::replace(name.begin(), name.end(), ':', '_');
   return name;
 }
 
 constexpr const char* kSphereQuadsName = "sphere-quads";
 
-app::Source sphere_quads(const SceneRequest& request) {
+tools::Source sphere_quads(const SceneRequest& request) {
   Scene scene = std::get<Scene>(find_scene("sphere").make(request));
   join_cells(scene);
   return {kSphereQuadsName, std::move(scene), false};
@@ -139,7 +139,7 @@ class Suite {
     const lab::FacingMethod& trainers = lab::find_facing_method("normal_z");
     for (const std::string scene : {"cube", "cubes", "sphere", kSphereQuadsName, "torus-knot"}) {
       const auto load = [scene, wanted] {
-        return scene == kSphereQuadsName ? sphere_quads(wanted) : app::load_source(scene, wanted, false);
+        return scene == kSphereQuadsName ? sphere_quads(wanted) : tools::load_source(scene, wanted, false);
       };
       const auto add_mode = [&](Cull cull, std::string_view name, const lab::FacingMethod* facing = nullptr) {
         const auto workload = std::make_shared<Workload>(options_.width, options_.height, cull, load, facing);
@@ -164,14 +164,14 @@ class Suite {
     }
   }
 
-  WorkloadPtr make_workload(std::function<app::Source()> load) const {
+  WorkloadPtr make_workload(std::function<tools::Source()> load) const {
     return std::make_shared<Workload>(options_.width, options_.height, Cull::back, std::move(load));
   }
 
   WorkloadPtr scene_workload(const std::string& scene, int width, int height) const {
     const SceneRequest wanted = request(options_, width, height);
     return std::make_shared<Workload>(width, height, Cull::back,
-                                      [scene, wanted] { return app::load_source(scene, wanted, false); });
+                                      [scene, wanted] { return tools::load_source(scene, wanted, false); });
   }
 
   std::vector<Row> take() { return std::move(rows_); }
@@ -234,8 +234,8 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
   std::map<std::string, std::string> taken;  // name in rows, source
   const auto add_named = [&](const std::string& scene) {
     // Load now, so that an invalid file fails before anything is timed.
-    const app::Source source =
-        app::load_source(scene, request(options, options.width, options.height), options.fit);
+    const tools::Source source =
+        tools::load_source(scene, request(options, options.width, options.height), options.fit);
     const std::string name = name_in_rows(source);
     if (const auto [other, is_new] = taken.emplace(name, scene); !is_new)
       throw std::invalid_argument(

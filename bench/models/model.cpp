@@ -37,7 +37,7 @@ nlohmann::ordered_json cost_json(const Row& row) {
 // One line per element.
 std::string lines_of(const nlohmann::ordered_json& list) {
   std::string text;
-  for (const auto& element : list) text += (text.empty() ? "\n" : ",\n") + app::json_text(element);
+  for (const auto& element : list) text += (text.empty() ? "\n" : ",\n") + tools::json_text(element);
   return text + "\n";
 }
 

@@ -38,12 +38,12 @@ std::shared_ptr<Workload> scene_of_side(int side) {
   SceneRequest request;
   request.width = request.height = side;
   return std::make_shared<Workload>(side, side, Cull::back,
-                                    [request] { return app::load_source(kSizeScene, request, false); });
+                                    [request] { return tools::load_source(kSizeScene, request, false); });
 }
 
 }  // namespace
 
-app::Source random_source(int width, int height, std::size_t count, double area_px) {
+tools::Source random_source(int width, int height, std::size_t count, double area_px) {
   SceneRequest request;
   request.width = width;
   request.height = height;

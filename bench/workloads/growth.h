@@ -22,6 +22,6 @@ struct GrowthStep {
 std::vector<GrowthStep> growth_steps(int width, int height, bool quick);
 
 // `count` triangles of `area_px` at random positions and depths.
-app::Source random_source(int width, int height, std::size_t count, double area_px);
+tools::Source random_source(int width, int height, std::size_t count, double area_px);
 
 }  // namespace edgewise::bench

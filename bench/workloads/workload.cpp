@@ -4,7 +4,7 @@
 
 namespace edgewise::bench {
 
-Workload::Workload(int width, int height, Cull mesh_cull, std::function<app::Source()> load,
+Workload::Workload(int width, int height, Cull mesh_cull, std::function<tools::Source()> load,
                    const lab::FacingMethod* facing)
     : width_(width), height_(height), mesh_cull_(mesh_cull), facing_(facing), load_(std::move(load)) {}
 

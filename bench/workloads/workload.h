@@ -24,7 +24,7 @@ class Workload {
   // Meshes are drawn with `mesh_cull` and shading, streams with neither.
   // `facing` drops a mesh scene's hidden faces in place of `mesh_cull`. lab::HiddenFaces says which methods
   // it supports.
-  Workload(int width, int height, Cull mesh_cull, std::function<app::Source()> load,
+  Workload(int width, int height, Cull mesh_cull, std::function<tools::Source()> load,
            const lab::FacingMethod* facing = nullptr);
 
   // Loads the scene, runs the front end and counts the covered pixels. Later calls do nothing.
@@ -59,8 +59,8 @@ class Workload {
   int width_, height_;
   Cull mesh_cull_;
   const lab::FacingMethod* facing_;
-  std::function<app::Source()> load_;
-  std::optional<app::Source> source_;
+  std::function<tools::Source()> load_;
+  std::optional<tools::Source> source_;
   std::optional<lab::HiddenFaces> hidden_;
   bool stream_ = false, prepared_ = false;
   std::vector<ScreenTriangle> triangles_;

@@ -10,14 +10,14 @@ from dataclasses import dataclass
 from bench_rows import BadInput
 
 COPIED = ("CMakeLists.txt", "README.md", "bench", "results", "scripts", "src", "tests")
-KEYS = {"name", "mistake", "file", "tests", "before", "after"}
+KEYS = {"name", "change", "file", "tests", "before", "after"}
 OPTIONAL = {"sanitizer": {"thread"}}  # keys that an entry may have, and the values allowed
 
 
 @dataclass(frozen=True)
 class Mutation:
     name: str
-    mistake: str  # the change, in words
+    change: str  # in words
     file: str
     tests: str  # a filter of GoogleTest's: the tests to run first
     before: str

@@ -167,7 +167,7 @@ def ours_fail_sentence(sweeps, accuracy):
              if all(tuple(y for _, y in curve.points) == sweep.by_snapping for curve in curves)]
     rounding = [f"up to {most_errors(sweep, curve)} in `{sweep.name}` ({what(sweep)})" for sweep, curve in alike
                 if max(sweep.by_snapping) > 0]
-    more = [f"`{sweep.name}` ({sweep.idea}): `{curve.method}` from {tidy(curve.starts_to_fail)}, up to "
+    more = [f"`{sweep.name}` ({sweep.summary}): `{curve.method}` from {tidy(curve.starts_to_fail)}, up to "
             f"{most_errors(sweep, curve)} {what(sweep)}"
             for sweep, curves in own for curve in curves if curve.starts_to_fail is not None]
     text = (f"In {len(alike)} of {len(own)} sweeps ours err exactly as much as rounding to 1/256 px does by itself: "

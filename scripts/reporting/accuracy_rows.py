@@ -82,7 +82,7 @@ class Measured:
 class Scene:
     name: str
     family: str
-    idea: str
+    summary: str
     trials: int
     measured: tuple
 
@@ -131,7 +131,7 @@ class Curve:
 class Sweep:
     name: str
     family: str
-    idea: str
+    summary: str
     x: dict
     y: dict
     curves: tuple
@@ -175,7 +175,7 @@ def parse_accuracy(data):
     scenes = []
     for scene in data["scenes"]:
         family = FAMILIES[scene["family"]]
-        scenes.append(Scene(scene["name"], family.name, scene["idea"], int(scene[family.trials]),
+        scenes.append(Scene(scene["name"], family.name, scene["summary"], int(scene[family.trials]),
                             tuple(parse_measured(entry, family.name, methods[family.name, entry["name"]])
                                   for entry in scene["methods"])))
     by_family = {name: [method for (family, _), method in methods.items() if family == name] for name in FAMILIES}
@@ -191,7 +191,7 @@ def parse_curve(entry):
 
 def parse_stability(data):
     axes = ("name", "log")
-    return tuple(Sweep(sweep["name"], FAMILIES[sweep["family"]].name, sweep["idea"],
+    return tuple(Sweep(sweep["name"], FAMILIES[sweep["family"]].name, sweep["summary"],
                        {"unit": sweep["x"].get("unit", ""), **{key: sweep["x"][key] for key in axes}},
                        {key: sweep["y"][key] for key in axes}, tuple(map(parse_curve, sweep["curves"])),
                        tuple(float(y) for _, y in sweep["by_snapping"]))

@@ -76,8 +76,8 @@ def peer_table(bench, peer):
 def ties_sentence(bench, peer):
     """Depth ties within tolerance, at which the pictures may differ."""
     found = [p for (name, _, _), p in pairs(bench).items() if name == peer]
-    most = max(found, key=lambda p: p.peer.counters.get("near_ties", 0))
-    ties = most.peer.counters.get("near_ties", 0)
+    most = max(found, key=lambda p: p.peer.counters.get("depth_ties", 0))
+    ties = most.peer.counters.get("depth_ties", 0)
     return (f"Figures are for {' / '.join(map(str, THREADS))} threads. A mesh is drawn from vertices to picture. The pictures "
             + (f"agree in all pixels but depth ties within tolerance, at most {ties:,.0f} (`{most.peer.scene}`)." if ties else
                "agree in all pixels."))

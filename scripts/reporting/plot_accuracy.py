@@ -109,7 +109,7 @@ def speed_chart(scene, name, machine, folder, caption):
     labels, lines, open_question = draw_points(axes, scene, kinds)
     axes.set_ylabel(family.cost)
     axes.set_xlabel(family.errors)
-    axes.set_title(f"{scene.name}: {scene.idea}; {short(scene.trials)} {TRIALS[family.name]}", fontsize=10)
+    axes.set_title(f"{scene.name}: {scene.summary}; {short(scene.trials)} {TRIALS[family.name]}", fontsize=10)
     label_points(axes, labels, lines)
     extra = [plt.Line2D([], [], **FRONT, label="best on one thread"),
              plt.Line2D([], [], color=FAINT, **WHISKER, label="fastest to slowest")]

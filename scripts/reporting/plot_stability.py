@@ -91,7 +91,7 @@ def sweep_chart(sweep, methods, folder, caption):
         return None
     kinds = Kinds(FAMILIES[sweep.family])
     lines = sum(1 + sum(map(line_count, names_of(members))) for members, _ in groups)
-    subtitle = f"{sweep.idea[0].upper()}{sweep.idea[1:]}. From easy on the left to hard on the right."
+    subtitle = f"{sweep.summary[0].upper()}{sweep.summary[1:]}. From easy on the left to hard on the right."
     figure, axes = plt.subplots(figsize=(WIDTH_IN, 1.25 + head_in(subtitle) + max(3.4, 0.07 * len(groups) + 0.16 * lines)))
     height = figure.get_figheight()
     title = f"{sweep.name.replace('_', ' ').capitalize()}: {summary(sweep, groups)}"

@@ -17,7 +17,7 @@
 #include "support/output_path.h"
 #include "support/printable.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 namespace {
 
@@ -63,4 +63,4 @@ void add_capture(CLI::App& program, Action& action) {
   command.callback([o, &action] { action = [o] { return capture(*o); }; });
 }
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

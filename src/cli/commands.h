@@ -10,7 +10,7 @@ namespace CLI {
 class App;
 }
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 inline constexpr int kDone = 0, kDiffers = 1, kFailed = 2;  // exit statuses
 
@@ -28,4 +28,4 @@ void add_view(CLI::App& program, Action& action, viewer::ShowWindow show_window)
 void add_demo(CLI::App& program, Action& action, viewer::ShowWindow show_window);
 void add_machine(CLI::App& program, Action& action);
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

@@ -22,7 +22,7 @@
 #include "viewer/terminal.h"
 #include "viewer/typing.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 namespace {
 
@@ -45,19 +45,21 @@ nlohmann::json as_json(const std::vector<std::string>& names) {
     auto steps = nlohmann::json::array();
     for (const viewer::Step& step : demo.steps)
       steps.push_back({{"keys", step.keys}, {"notice", step.notice}});
-    list.push_back({{"name", demo.name}, {"tutorial", demo.tutorial}, {"idea", demo.idea}, {"steps", steps}});
+    list.push_back(
+        {{"name", demo.name}, {"tutorial", demo.tutorial}, {"summary", demo.summary}, {"steps", steps}});
   }
   return list;
 }
 
 std::string list_of_all() {
   std::string text;
-  for (const viewer::Demo& demo : viewer::demos()) text += fmt::format("{:<20} {}\n", demo.name, demo.idea);
+  for (const viewer::Demo& demo : viewer::demos())
+    text += fmt::format("{:<20} {}\n", demo.name, demo.summary);
   return text;
 }
 
 std::string steps_of(const viewer::Demo& demo) {
-  std::string text = fmt::format("{}: {}\n", demo.tutorial, demo.idea);
+  std::string text = fmt::format("{}: {}\n", demo.tutorial, demo.summary);
   for (const viewer::Step& step : demo.steps) text += fmt::format("\n{}\n    {}\n", step.notice, step.keys);
   return text;
 }
@@ -171,4 +173,4 @@ void add_demo(CLI::App& program, Action& action, viewer::ShowWindow show_window)
       [o, &action, show_window] { action = [o, show_window] { return demonstrate(*o, show_window); }; });
 }
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

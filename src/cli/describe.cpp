@@ -4,7 +4,7 @@
 
 #include <array>
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 namespace {
 
@@ -50,4 +50,4 @@ std::string stats_text(const FrontendStats& stats) {
   return text;
 }
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

@@ -6,11 +6,11 @@
 
 #include "edgewise/frontend.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 nlohmann::json stats_json(const FrontendStats& stats);
 
 // "12 triangles, 6 drawn; 6 culled by facing": zero counts are omitted.
 std::string stats_text(const FrontendStats& stats);
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

@@ -14,7 +14,7 @@
 #include "support/json_text.h"
 #include "support/output_path.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 namespace {
 
@@ -90,4 +90,4 @@ void add_diff(CLI::App& program, Action& action) {
   command.callback([o, &action] { action = [o] { return diff(*o); }; });
 }
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

@@ -13,11 +13,11 @@
 #include "support/console.h"
 #include "support/json_text.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 namespace {
 
-std::string_view idea_of(Cull cull) {
+std::string_view summary_of(Cull cull) {
   switch (cull) {
     case Cull::none:
       return "draws all faces";
@@ -34,35 +34,35 @@ std::string_view idea_of(Cull cull) {
 nlohmann::json as_json() {
   nlohmann::json json;
   for (const SceneInfo& scene : builtin_scenes())
-    json["scenes"].push_back({{"name", scene.name}, {"idea", scene.idea}, {"stream", scene.stream}});
+    json["scenes"].push_back({{"name", scene.name}, {"summary", scene.summary}, {"stream", scene.stream}});
   for (const BackendInfo& backend : backends())
-    json["backends"].push_back({{"name", backend.name}, {"idea", backend.idea}});
+    json["backends"].push_back({{"name", backend.name}, {"summary", backend.summary}});
   for (const SimdTarget target : supported_targets()) json["simd_targets"].push_back(name_of(target));
   json["simd_best"] = name_of(resolve(SimdTarget::best));
   for (const Cull cull : cull_modes())
-    json["cull_modes"].push_back({{"name", name_of(cull)}, {"idea", idea_of(cull)}});
+    json["cull_modes"].push_back({{"name", name_of(cull)}, {"summary", summary_of(cull)}});
   return json;
 }
 
 std::string as_text() {
-  const auto line = [](std::string_view name, std::string_view idea) {
-    return idea.empty() ? fmt::format("  {}\n", name) : fmt::format("  {:<12} {}\n", name, idea);
+  const auto line = [](std::string_view name, std::string_view summary) {
+    return summary.empty() ? fmt::format("  {}\n", name) : fmt::format("  {:<12} {}\n", name, summary);
   };
   std::string text = "Scenes:\n";
   for (const SceneInfo& scene : builtin_scenes())
-    if (!scene.stream) text += line(scene.name, scene.idea);
+    if (!scene.stream) text += line(scene.name, scene.summary);
   text += "Scenes that are streams of screen triangles:\n";
   for (const SceneInfo& scene : builtin_scenes())
-    if (scene.stream) text += line(scene.name, scene.idea);
+    if (scene.stream) text += line(scene.name, scene.summary);
   text += "Files that can replace a scene name:\n" + line("*.obj", "Wavefront meshes");
   text += line("*.tri", "triangle streams, written by edgewise capture");
   text += "Backends, the reference first:\n";
-  for (const BackendInfo& backend : backends()) text += line(backend.name, backend.idea);
+  for (const BackendInfo& backend : backends()) text += line(backend.name, backend.summary);
   text += "SIMD targets of this machine:\n";
   for (const SimdTarget target : supported_targets())
     text += line(name_of(target), target == resolve(SimdTarget::best) ? "best" : "");
   text += "Culling modes:\n";
-  for (const Cull cull : cull_modes()) text += line(name_of(cull), idea_of(cull));
+  for (const Cull cull : cull_modes()) text += line(name_of(cull), summary_of(cull));
   return text;
 }
 
@@ -81,4 +81,4 @@ void add_list(CLI::App& program, Action& action) {
   });
 }
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

@@ -8,7 +8,7 @@
 #include "support/console.h"
 #include "support/json_text.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 void add_machine(CLI::App& program, Action& action) {
   CLI::App& command =
@@ -23,4 +23,4 @@ void add_machine(CLI::App& program, Action& action) {
   });
 }
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

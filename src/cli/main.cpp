@@ -3,8 +3,8 @@
 
 int main(int argc, char** argv) {
 #ifdef EDGEWISE_SDL
-  return edgewise::app::run(argc, argv, edgewise::viewer::show_sdl_window);
+  return edgewise::tools::run(argc, argv, edgewise::viewer::show_sdl_window);
 #else
-  return edgewise::app::run(argc, argv, nullptr);
+  return edgewise::tools::run(argc, argv, nullptr);
 #endif
 }

@@ -24,7 +24,7 @@
 #include "support/printable.h"
 #include "support/progress.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 namespace {
 
@@ -249,4 +249,4 @@ void add_render(CLI::App& program, Action& action) {
   });
 }
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

@@ -15,7 +15,7 @@
 #include "support/options.h"
 #include "support/process.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 namespace {
 
@@ -103,4 +103,4 @@ int run(int argc, char** argv, viewer::ShowWindow show_window) {
   return kFailed;
 }
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

@@ -3,7 +3,7 @@
 
 #include "cli/commands.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 // Parses a command line and returns its action without running it; argv may be freed afterwards. Throws
 // std::invalid_argument with a one-line reason for an invalid command line.
@@ -13,4 +13,4 @@ Action parse(int argc, char** argv, viewer::ShowWindow show_window = nullptr);
 // 128 + N stopped by signal N. `show_window` is null if the program was built without SDL.
 int run(int argc, char** argv, viewer::ShowWindow show_window);
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

@@ -6,7 +6,7 @@
 #include "support/console.h"
 #include "support/printable.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 void check_windows(viewer::ShowWindow show_window) {
   if (show_window == nullptr)
@@ -29,4 +29,4 @@ void print_saved(viewer::Session& session) {
   for (const std::string& path : session.take_saved()) print(printable(path) + "\n");
 }
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

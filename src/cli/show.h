@@ -7,7 +7,7 @@
 #include "viewer/session.h"
 #include "viewer/window.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 // Throws std::invalid_argument if this program was built without window support.
 void check_windows(viewer::ShowWindow show_window);
@@ -21,4 +21,4 @@ void write_picture(const std::filesystem::path& path, viewer::Session& session, 
 // Prints the names of the files that the session has saved.
 void print_saved(viewer::Session& session);
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

@@ -19,7 +19,7 @@
 #include "viewer/typing.h"
 #include "viewer/window.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 namespace {
 
@@ -145,4 +145,4 @@ void add_view(CLI::App& program, Action& action, viewer::ShowWindow show_window)
       [o, &action, show_window] { action = [o, show_window] { return view(*o, show_window); }; });
 }
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

@@ -52,8 +52,8 @@ class Backend {
 };
 
 struct BackendInfo {
-  std::string_view name;  // the key in command line, tests, results and charts
-  std::string_view idea;  // one line
+  std::string_view name;     // the key in command line, tests, results and charts
+  std::string_view summary;  // one line
   std::unique_ptr<Backend> (*make)();
 };
 

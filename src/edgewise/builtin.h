@@ -20,9 +20,9 @@ struct SceneRequest {
 };
 
 struct SceneInfo {
-  std::string_view name;  // the key in the command line, tests, results and charts
-  std::string_view idea;  // a description in one line
-  bool stream;            // true: make() returns a TriangleStream, to be drawn without culling
+  std::string_view name;     // the key in the command line, tests, results and charts
+  std::string_view summary;  // a description in one line
+  bool stream;               // true: make() returns a TriangleStream, to be drawn without culling
   // Throws std::invalid_argument if it cannot make the requested size or scale.
   Drawable (*make)(const SceneRequest&);
   bool scalable = stream;  // true: SceneRequest::scale changes the number of triangles

@@ -49,11 +49,11 @@ bool vertices_exist(const Mesh& mesh, std::size_t begin, std::size_t end) {
   const std::size_t count = 3 * (end - begin);
   auto largest = hn::Zero(d);
   std::size_t i = 0;
-  for (; i + kLanes <= count; i += kLanes) largest = hn::Max(largest, hn::LoadU(d, index + i));
-  std::uint32_t lanes[kLanes];
+  for (; i + kBatch <= count; i += kBatch) largest = hn::Max(largest, hn::LoadU(d, index + i));
+  std::uint32_t lanes[kBatch];
   hn::StoreU(largest, d, lanes);
   for (; i < count; ++i) lanes[0] = std::max(lanes[0], index[i]);
-  return *std::max_element(lanes, lanes + kLanes) < mesh.positions.size();
+  return *std::max_element(lanes, lanes + kBatch) < mesh.positions.size();
 }
 
 template <bool kFlagged>
@@ -62,8 +62,8 @@ void assemble_all(const MeshTask& task, std::size_t begin, std::size_t end, Chun
     for (std::size_t i = from; i < to; ++i) add_one(task, i, out);
   };
   std::size_t i = begin;
-  for (; i + kLanes <= end; i += kLanes)
-    if (!assemble_vector<kFlagged>(task, i, out)) one_by_one(i, i + kLanes);
+  for (; i + kBatch <= end; i += kBatch)
+    if (!assemble_vector<kFlagged>(task, i, out)) one_by_one(i, i + kBatch);
   one_by_one(i, end);
 }
 

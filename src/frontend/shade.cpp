@@ -82,7 +82,7 @@ class Positions {
 };
 
 HWY_INLINE VF cosines(const ShadeTask& task, const Positions& positions,
-                      const glm::uvec3* const (&corners)[kLanes]) {
+                      const glm::uvec3* const (&corners)[kBatch]) {
   const auto corner = [&](int k) HWY_ATTR {
     return load_words([&](std::size_t lane) { return positions[(*corners[lane])[k]]; });
   };
@@ -108,12 +108,12 @@ void shade_all(const ShadeTask& task, ChunkOutput& out, std::size_t first) {
   const DI d;
   const Positions positions(task.mesh);
   ScreenTriangle* triangles = out.triangles.data();
-  for (std::size_t i = first; i < out.count; i += kLanes) {
-    const std::size_t count = std::min(kLanes, out.count - i);
-    const glm::uvec3* corners[kLanes];
-    std::uint32_t colours[kLanes];
-    float sides[kLanes];
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+  for (std::size_t i = first; i < out.count; i += kBatch) {
+    const std::size_t count = std::min(kBatch, out.count - i);
+    const glm::uvec3* corners[kBatch];
+    std::uint32_t colours[kBatch];
+    float sides[kBatch];
+    for (std::size_t lane = 0; lane < kBatch; ++lane) {
       const ScreenTriangle& seen = triangles[i + std::min(lane, count - 1)];
       std::size_t source = seen.payload;
       if constexpr (kFlagged) {

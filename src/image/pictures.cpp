@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 namespace {
 
@@ -54,4 +54,4 @@ Image picture_of_difference(const Framebuffer& a, const Framebuffer& b, Payload 
   return image;
 }
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

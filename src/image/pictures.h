@@ -9,7 +9,7 @@
 #include "edgewise/frontend.h"
 #include "edgewise/image.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 // The background's payload: black, or an id that no triangle has.
 constexpr std::uint32_t background_of(Payload payload) {
@@ -27,4 +27,4 @@ Image picture_of_hits(std::span<const std::uint32_t> hits, int width, int height
 // must have the same size.
 Image picture_of_difference(const Framebuffer& a, const Framebuffer& b, Payload payload);
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

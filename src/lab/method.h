@@ -11,7 +11,7 @@ namespace edgewise::lab {
 
 struct MethodInfo {
   std::string_view name;     // the same in the command line, tests, results and charts
-  std::string_view idea;     // one line
+  std::string_view summary;  // one line
   std::string_view source;   // a program that uses it, or a publication that describes it
   std::string_view promise;  // one line: an upper bound of its errors, which the tests check
   bool exact;                // no errors against the snapped truth

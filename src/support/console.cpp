@@ -11,7 +11,7 @@
 
 #include "support/printable.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 void print(std::string_view text) {
   std::fwrite(text.data(), 1, text.size(), stdout);
@@ -39,4 +39,4 @@ int terminal_width(int descriptor) {
   return 80;
 }
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

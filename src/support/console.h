@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 void print(std::string_view text);  // to stdout
 
@@ -20,4 +20,4 @@ bool moves_cursor(int descriptor);
 // The terminal's columns; 80 if the file descriptor is not a terminal.
 int terminal_width(int descriptor = 1);
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 // Replaces bytes that are not UTF-8, as in file names, by U+FFFD, where plain dump() throws. `indent` as in
 // dump().
@@ -12,4 +12,4 @@ std::string json_text(const Json& json, int indent = -1) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

@@ -20,7 +20,7 @@
 
 #include "edgewise/simd_target.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 namespace {
 
@@ -196,4 +196,4 @@ std::string machine_name() {
   return name;
 }
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

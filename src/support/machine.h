@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 // CPU model, features, cores, caches, memory, kernel, compiler and flags, build type, commit (read from the
 // source tree's git at run time, "-dirty" appended), package versions, SIMD targets. No host name.
@@ -18,4 +18,4 @@ std::string cpu_model(const std::string& cpuinfo = "/proc/cpuinfo");
 // and core count, lower case.
 std::string machine_name();
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 template <typename Work>
 double milliseconds(Work&& work) {
@@ -12,4 +12,4 @@ double milliseconds(Work&& work) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

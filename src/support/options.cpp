@@ -15,7 +15,7 @@
 #include "core/nearest_name.h"
 #include "edgewise/contract.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 namespace {
 
@@ -271,4 +271,4 @@ void ExecutionOptions::add_to(CLI::App& command) {
       ->type_name("PX");
 }
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

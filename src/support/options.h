@@ -19,7 +19,7 @@ class App;
 class Option;
 }  // namespace CLI
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 struct Size {
   int width, height;  // px
@@ -76,4 +76,4 @@ struct ExecutionOptions {
   void add_to(CLI::App& command);
 };
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

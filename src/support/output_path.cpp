@@ -10,7 +10,7 @@
 #include "core/file_extension.h"
 #include "edgewise/image.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 namespace fs = std::filesystem;
 
@@ -66,4 +66,4 @@ void check_output_is_not_input(const std::string& output, const std::string& inp
     throw std::invalid_argument(fmt::format("--output {} would overwrite the input {}", output, input));
 }
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 // `pattern` is a file, a name that contains "{scene}", or a folder: an existing one, or a name that ends in a
 // slash and is created if missing. Files in a folder are named after their scenes, .png or .pfm. With several
@@ -32,4 +32,4 @@ class OutputPaths {
 // links.
 void check_output_is_not_input(const std::string& output, const std::string& input);
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

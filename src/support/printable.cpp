@@ -1,6 +1,6 @@
 #include "support/printable.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 namespace {
 
@@ -76,4 +76,4 @@ std::string printable_within(std::string_view text, std::size_t columns) {
   return whole;
 }
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

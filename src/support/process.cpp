@@ -14,7 +14,7 @@
 #include "support/console.h"
 #include "support/progress.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 namespace {
 
@@ -77,4 +77,4 @@ void prepare_process(const char* program) {
     if (std::signal(signal, stop) == SIG_IGN) std::signal(signal, SIG_IGN);
 }
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

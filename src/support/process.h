@@ -4,7 +4,7 @@
 #include <exception>
 #include <string>
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 // Must be called first in main(), with the program's name for messages.
 //
@@ -27,4 +27,4 @@ std::string reason_of(const std::exception& error);
 // null: none. It must be async-signal-safe.
 void call_before_stopping(void (*action)());
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

@@ -11,7 +11,7 @@
 #include "support/console.h"
 #include "support/printable.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 namespace {
 
@@ -64,4 +64,4 @@ void erase_progress_on_signal() {
   if (on_screen != 0 && write(STDERR_FILENO, kErase.data(), kErase.size()) < 0) on_screen = 0;
 }
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 class Progress {
  public:
@@ -35,4 +35,4 @@ class TimeLeft {
 // For the signal handler: erases a bar if one is on the screen. Async-signal-safe.
 void erase_progress_on_signal();
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

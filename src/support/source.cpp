@@ -9,7 +9,7 @@
 #include "edgewise/obj_file.h"
 #include "edgewise/tri_file.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 namespace {
 
@@ -59,4 +59,4 @@ Source load_source(const std::string& name_or_path, const SceneRequest& request,
   return {source_name(name_or_path), std::move(scene), false};
 }
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

@@ -5,7 +5,7 @@
 
 #include "edgewise/builtin.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 struct Source {
   std::string name;  // the scene's name, or the file's name without folder and extension
@@ -27,4 +27,4 @@ void check_source(const std::string& name_or_path);
 // with the nearest known one, and what read_obj and read_tri throw.
 Source load_source(const std::string& name_or_path, const SceneRequest& request, bool fit);
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

@@ -6,7 +6,7 @@
 #include <atomic>
 #include <cstddef>
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 namespace {
 
@@ -47,4 +47,4 @@ int StopRequest::signal() const {
   return requested;
 }
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

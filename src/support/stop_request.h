@@ -1,7 +1,7 @@
 // Turns Ctrl-C into a stop request, for long work that must save its results first.
 #pragma once
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 // During its lifetime the first SIGINT, SIGTERM or SIGHUP only sets signal(). The same signal again has its
 // previous effect (in both programs: removes unfinished files and exits). Ignored signals (nohup) stay
@@ -16,4 +16,4 @@ class StopRequest {
   int signal() const;  // the last signal received; 0: none
 };
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

@@ -189,8 +189,8 @@ const Demo& find_demo(std::string_view name) {
 
 Start start_of(const Demo& demo) {
   Start start;
-  start.load = [&demo](app::Size) {
-    app::Shot shot{{std::string(demo.name), demo.scene(), false}, {}};
+  start.load = [&demo](tools::Size) {
+    tools::Shot shot{{std::string(demo.name), demo.scene(), false}, {}};
     shot.frontend.cull = demo.cull;
     return shot;
   };

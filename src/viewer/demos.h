@@ -15,7 +15,7 @@ namespace edgewise::viewer {
 struct Demo {
   std::string_view name;      // on the command line and in file names
   std::string_view tutorial;  // the tutorial's title
-  std::string_view idea;      // one line
+  std::string_view summary;   // one line
   Scene (*scene)();
   Cull cull;                        // at the start
   std::span<const Step> steps;      // a demo's picture shows the state after the last one
@@ -31,6 +31,6 @@ const Demo& find_demo(std::string_view name);
 Start start_of(const Demo& demo);
 
 // The picture size for which the scenes are composed.
-inline constexpr app::Size kDemoSize{960, 540};
+inline constexpr tools::Size kDemoSize{960, 540};
 
 }  // namespace edgewise::viewer

@@ -55,7 +55,7 @@ Scene axes_scene(const Camera& camera) {
 
 // The magnifier's reach around its focus, and its size of a pixel.
 struct Magnifier {
-  explicit Magnifier(app::Size picture) {
+  explicit Magnifier(tools::Size picture) {
     const int room = std::min(picture.width, picture.height) * 2 / 5;
     zoom = std::clamp(room / 15, 2, 24);
     reach = std::max(room / zoom / 2, 1);
@@ -89,7 +89,7 @@ void paste(const Image& from, int left, int top, Image& into) {
                       static_cast<std::size_t>(x)];
 }
 
-int magnifier_side(app::Size picture) {
+int magnifier_side(tools::Size picture) {
   const Magnifier magnifier(picture);
   return magnifier.across() * magnifier.zoom;
 }

@@ -23,7 +23,7 @@ void tint(Image& image, std::span<const lab::Mark> marks);
 
 // Draws the magnifier, a framed enlargement of the pixels around `focus`, into the lower right corner.
 void magnify(Image& image, Pixel focus);
-int magnifier_side(app::Size picture);  // px
+int magnifier_side(tools::Size picture);  // px
 
 // Pastes `from` with its upper left corner at (x, y), clipped to `into`.
 void paste(const Image& from, int x, int y, Image& into);

@@ -30,7 +30,7 @@ class Column {
   void line(std::string_view words, std::uint32_t colour = kPlain) {
     if (y_ + cell_.height > screen_.picture.height) return;
     if (words.empty()) return;
-    std::string fitted = app::printable_within(words, static_cast<std::size_t>(letters_));
+    std::string fitted = tools::printable_within(words, static_cast<std::size_t>(letters_));
     std::replace_if(
         fitted.begin(), fitted.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
     if (!fitted.empty()) screen_.texts.push_back({x_, y_, std::move(fitted), colour});
@@ -106,12 +106,12 @@ std::string_view judged_frame(const State& state, const Side& side) {
 
 class Overlaying {
  public:
-  Overlaying(const Session& session, app::Size panel, Cell cell, Screen& screen)
+  Overlaying(const Session& session, tools::Size panel, Cell cell, Screen& screen)
       : session_(session), state_(session.state()), panel_(panel), cell_(cell), screen_(screen) {}
 
   void full() {
     Column common = column(0, notice());
-    common.line(fmt::format("{} {}x{}{}", app::printable(state_.scene), panel_.width, panel_.height,
+    common.line(fmt::format("{} {}x{}{}", tools::printable(state_.scene), panel_.width, panel_.height,
                             unless_reproducible("   {:.1f} ms per frame", state_.frame_ms)),
                 kStrong);
     common.line(unless_reproducible("[j] {}  [i] {}",
@@ -303,18 +303,18 @@ class Overlaying {
 
   const Session& session_;
   const State& state_;
-  app::Size panel_;
+  tools::Size panel_;
   Cell cell_;
   Screen& screen_;
 };
 
 }  // namespace
 
-Overlay overlay_that_fits(app::Size size, Cell cell) {
+Overlay overlay_that_fits(tools::Size size, Cell cell) {
   return size.height / cell.height >= kRowsForFull ? Overlay::full : Overlay::brief;
 }
 
-int add_overlay(const Session& session, app::Size panel, Cell cell, Screen& screen) {
+int add_overlay(const Session& session, tools::Size panel, Cell cell, Screen& screen) {
   const State& state = session.state();
   Overlaying overlay(session, panel, cell, screen);
   const Overlay level = state.shown_overlay;

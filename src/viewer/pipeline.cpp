@@ -16,7 +16,7 @@ namespace edgewise::viewer {
 
 namespace {
 
-using app::milliseconds;
+using tools::milliseconds;
 
 lab::Size size_of(const View& view) {
   return {view.frontend.width, view.frontend.height};
@@ -127,7 +127,7 @@ Picture Pipeline::draw(const lab::Choice& choice, const View& view) {
 
 void Pipeline::draw_ours(const lab::Choice& choice, const View& view, Picture& picture) {
   Backend& by = backend(choice.coverage->info.name);
-  const std::uint32_t background = app::background_of(Payload::colour);
+  const std::uint32_t background = tools::background_of(Payload::colour);
   picture.raster_ms = milliseconds([&] { by.draw(screen_, frame_->view(), background, view.execution); });
   picture.image = to_image(*frame_);
 }
@@ -147,7 +147,7 @@ void Pipeline::draw_composed(const lab::Choice& choice, const View& view, Pictur
   picture.image = {view.frontend.width, view.frontend.height, {}};
   picture.image.pixels.reserve(visible.size());
   for (const std::uint32_t id : visible)
-    picture.image.pixels.push_back(id == lab::kNoTriangle ? app::background_of(Payload::colour)
+    picture.image.pixels.push_back(id == lab::kNoTriangle ? tools::background_of(Payload::colour)
                                                           : colours[id]);
 }
 

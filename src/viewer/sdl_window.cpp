@@ -101,8 +101,8 @@ class Window {
   void show(Session& session) {
     SDL_Surface* const surface = sdl().GetWindowSurface(window_.get());
     if (surface == nullptr) fail("cannot draw into the window");
-    const app::Size size{std::clamp(surface->w, 1, contract::kMaxImageSide),
-                         std::clamp(surface->h, 1, contract::kMaxImageSide)};
+    const tools::Size size{std::clamp(surface->w, 1, contract::kMaxImageSide),
+                           std::clamp(surface->h, 1, contract::kMaxImageSide)};
     const int scale = font_scale(size.height);
     Screen& screen = session.draw(size, font_cell(scale));
     paint(screen, scale);

@@ -87,7 +87,7 @@ Enum next_of_three(Enum value) {
 
 // 1, 2, 4, … and the number of cores.
 std::vector<int> thread_counts() {
-  const int cores = app::all_cores();
+  const int cores = tools::all_cores();
   std::vector<int> counts;
   for (int n = 1; n < cores; n *= 2) counts.push_back(n);
   counts.push_back(cores);
@@ -345,12 +345,12 @@ void Session::next_step() {
     state_.message = start_.steps.empty() ? "only demos have steps" : "that was the last step";
     return;
   }
-  const auto take_step = [this](const Step& step, app::Size size, Cell cell) {
+  const auto take_step = [this](const Step& step, tools::Size size, Cell cell) {
     say(step.notice);
     type(*this, parse_keys(step.keys), size, cell);
   };
   const std::size_t step = next_step_;
-  const app::Size size = size_;
+  const tools::Size size = size_;
   const Cell cell = cell_;
   if (demo_left_) {
     Session fresh{Start(start_)};
@@ -365,10 +365,10 @@ void Session::next_step() {
   demo_left_ = false;
 }
 
-void Session::load(app::Size size) {
+void Session::load(tools::Size size) {
   const bool first = !world_;
   if (!first && !fills_its_size_) return;
-  app::Shot shot = start_.load(size);
+  tools::Shot shot = start_.load(size);
   fills_its_size_ = shot.source.stream && shot.source.built_in != nullptr;
   world_.emplace(std::move(shot.source.drawable));
   if (!first) return;
@@ -383,7 +383,7 @@ void Session::load(app::Size size) {
   state_.axis = start_.axis.value_or(world_->first_axis());
 }
 
-View Session::view_of(std::size_t i, app::Size size) const {
+View Session::view_of(std::size_t i, tools::Size size) const {
   const Side& side = sides_[i];
   View view{*world_, frontend_, state_.execution};
   view.frontend.width = size.width;
@@ -396,7 +396,7 @@ View Session::view_of(std::size_t i, app::Size size) const {
   return view;
 }
 
-Screen& Session::draw(app::Size size, Cell cell) {
+Screen& Session::draw(tools::Size size, Cell cell) {
   cell_ = cell;
   if (size.width != size_.width || size.height != size_.height) {
     load(size);
@@ -410,7 +410,7 @@ Screen& Session::draw(app::Size size, Cell cell) {
     reset_times();
   }
   cold_ = false;
-  update_mean(app::milliseconds([&] { draw_picture(); }), state_.frame_ms);
+  update_mean(tools::milliseconds([&] { draw_picture(); }), state_.frame_ms);
   if (save_next_) save();
   state_.shown_overlay = state_.overlay.value_or(overlay_that_fits(size, cell));
   state_.help_page = add_overlay(*this, panel_, cell, screen_);
@@ -446,7 +446,7 @@ void Session::draw_picture() {
   }
 }
 
-Image Session::draw_side(std::size_t i, app::Size size, double& work_ms) {
+Image Session::draw_side(std::size_t i, tools::Size size, double& work_ms) {
   Side& side = sides_[i];
   const View view = view_of(i, size);
   const auto [choice, because] = lab::drawable_part(side.choice, state_.stream);
@@ -476,7 +476,7 @@ void Session::judge_if_due(std::size_t i, const lab::Choice& choice, const View&
     return;
   }
   side.judging_ms =
-      app::milliseconds([&] { side.judgement = pipelines_[i].judge(choice, view, state_.truth); });
+      tools::milliseconds([&] { side.judgement = pipelines_[i].judge(choice, view, state_.truth); });
   side.judged = state_.version;
 }
 
@@ -534,9 +534,9 @@ void Session::save() {
               lab::to_stream(pipelines_[state_.active].screen_triangles(), panel_.width, panel_.height));
     stream.commit();
     for (const char* extension : {".png", ".tri"}) saved_.push_back(path(n, extension).string());
-    state_.message = fmt::format("saved {} and .tri", app::printable(path(n, ".png").string()));
+    state_.message = fmt::format("saved {} and .tri", tools::printable(path(n, ".png").string()));
   } catch (const std::exception& error) {
-    state_.message = fmt::format("not saved: {}", app::printable(error.what()));
+    state_.message = fmt::format("not saved: {}", tools::printable(error.what()));
   }
 }
 

@@ -30,7 +30,7 @@ struct Step {
 struct Start {
   // Loads the scene for a picture of this size. Called again after a change of size for built-in streams,
   // which fill the picture.
-  std::function<app::Shot(app::Size)> load;
+  std::function<tools::Shot(tools::Size)> load;
   lab::Choice choice = lab::our_choice("tiled");  // for the first side
   Execution execution;
   std::optional<glm::vec3> axis;  // rotation axis; none: the first object's
@@ -101,7 +101,7 @@ class Session {
   // Advances movement and rotation by this time.
   void advance(double seconds);
   // Draws a frame; the caller may paint into the returned screen. Throws what loading and drawing throw.
-  Screen& draw(app::Size size, Cell cell);
+  Screen& draw(tools::Size size, Cell cell);
 
   bool done() const { return done_; }
   // Whether nothing changes until the next event.
@@ -117,10 +117,10 @@ class Session {
   void act(Command command);
   void switch_by(Command command, int step);
   void move(Command command, float seconds);
-  void load(app::Size size);
+  void load(tools::Size size);
   void draw_picture();
-  View view_of(std::size_t side, app::Size size) const;
-  Image draw_side(std::size_t side, app::Size size, double& work_ms);
+  View view_of(std::size_t side, tools::Size size) const;
+  Image draw_side(std::size_t side, tools::Size size, double& work_ms);
   void judge_if_due(std::size_t side, const lab::Choice& choice, const View& view, double work_ms);
   void finish(Image& panel, std::size_t side);
   void reset_times();
@@ -135,7 +135,7 @@ class Session {
   std::optional<World> world_;
   FrontendOptions frontend_;
   bool fills_its_size_ = false;
-  app::Size size_{0, 0}, panel_{0, 0};
+  tools::Size size_{0, 0}, panel_{0, 0};
   Cell cell_{1, 1};
   std::size_t next_step_ = 0;
   bool demo_left_ = false;  // the user changed the state since the demo's last step

@@ -60,9 +60,9 @@ class RawTerminal {
   RawTerminal() {
     if (isatty(STDIN_FILENO) == 0 || isatty(STDOUT_FILENO) == 0 || tcgetattr(STDIN_FILENO, &mode_before) != 0)
       throw std::runtime_error("--terminal needs a terminal as standard input and output");
-    if (!app::moves_cursor(STDOUT_FILENO))
+    if (!tools::moves_cursor(STDOUT_FILENO))
       throw std::runtime_error("--terminal needs a terminal with cursor control: TERM is unset or 'dumb'");
-    app::call_before_stopping(leave);
+    tools::call_before_stopping(leave);
     termios raw = mode_before;
     raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO | IEXTEN);
     raw.c_iflag &= ~static_cast<tcflag_t>(ICRNL | IXON);
@@ -73,12 +73,12 @@ class RawTerminal {
   }
   ~RawTerminal() {
     leave();
-    app::call_before_stopping(nullptr);
+    tools::call_before_stopping(nullptr);
   }
   RawTerminal(const RawTerminal&) = delete;
   RawTerminal& operator=(const RawTerminal&) = delete;
 
-  app::Size size_px() const {
+  tools::Size size_px() const {
     winsize size{};
     if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0 || size.ws_row == 0)
       size.ws_col = 80, size.ws_row = 24;

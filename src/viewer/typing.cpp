@@ -24,11 +24,11 @@ double seconds_of(std::span<const Stroke> strokes) {
   return seconds;
 }
 
-void type(Session& session, std::span<const Stroke> strokes, app::Size size, Cell cell) {
+void type(Session& session, std::span<const Stroke> strokes, tools::Size size, Cell cell) {
   Film(session, size, cell, std::numeric_limits<double>::infinity(), nullptr).type(strokes);
 }
 
-Film::Film(Session& session, app::Size size, Cell cell, double frame_s, std::function<void(Screen&)> show)
+Film::Film(Session& session, tools::Size size, Cell cell, double frame_s, std::function<void(Screen&)> show)
     : session_(session),
       size_(size),
       cell_(cell),

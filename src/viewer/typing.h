@@ -16,20 +16,20 @@ class Session;
 double seconds_of(std::span<const Stroke> strokes);
 
 // Types the strokes in sequence. Draws before and after each, because some keys depend on the last frame.
-void type(Session& session, std::span<const Stroke> strokes, app::Size size, Cell cell);
+void type(Session& session, std::span<const Stroke> strokes, tools::Size size, Cell cell);
 
 // Types strokes and draws frames at equal time intervals, the first after one interval.
 class Film {
  public:
   // `show` is called with each drawn frame and may paint into it.
-  Film(Session& session, app::Size size, Cell cell, double frame_s, std::function<void(Screen&)> show);
+  Film(Session& session, tools::Size size, Cell cell, double frame_s, std::function<void(Screen&)> show);
   void type(std::span<const Stroke> strokes);
 
  private:
   void pass(double seconds);
 
   Session& session_;
-  app::Size size_;
+  tools::Size size_;
   Cell cell_;
   double frame_s_, to_next_s_;
   std::function<void(Screen&)> show_;

@@ -12,7 +12,7 @@ class Session;
 
 struct WindowOptions {
   std::string title;
-  app::Size size;
+  tools::Size size;
   int frames = 0;  // to draw without a frame-rate limit before quitting; 0: run until the user quits
 };
 

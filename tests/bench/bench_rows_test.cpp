@@ -34,7 +34,7 @@ Row row_of(const BackendInfo& backend, const std::shared_ptr<Workload>& workload
 
 TEST(BenchStage, FindsABackendThatDrawsNothing) {
   const auto workload = std::make_shared<Workload>(96, 64, Cull::back, [] {
-    return app::load_source("cube", {96, 64, 0.0f, 1.0}, false);
+    return tools::load_source("cube", {96, 64, 0.0f, 1.0}, false);
   });
   workload->prepare(false);
   const BackendInfo lazy{"lazy", "draws nothing",
@@ -82,7 +82,7 @@ TEST(BenchSuite, RowNamesCanBeSplitIntoTheirParts) {
 
 TEST(BenchStage, ComparesWireframesWithWireframes) {
   const auto workload = std::make_shared<Workload>(96, 64, Cull::back, [] {
-    return app::load_source("cube", {96, 64, 0.0f, 1.0}, false);
+    return tools::load_source("cube", {96, 64, 0.0f, 1.0}, false);
   });
   workload->prepare(false);
   Stage stage;
@@ -241,7 +241,7 @@ TEST(RandomReads, ReadAllLinesBeforeOneIsReadAgain) {
 
 TEST(BenchStage, EstimatesTheCostOnlyIfRequested) {
   const auto workload = std::make_shared<Workload>(96, 64, Cull::back, [] {
-    return app::load_source("cube", {96, 64, 0.0f, 1.0}, false);
+    return tools::load_source("cube", {96, 64, 0.0f, 1.0}, false);
   });
   workload->prepare(false);
   Stage stage;
@@ -259,7 +259,7 @@ TEST(BenchStage, EstimatesTheCostOnlyIfRequested) {
 
 TEST(BenchModel, WritesEstimatesOfAtMostLinearSpeedUp) {
   const auto workload = std::make_shared<Workload>(96, 64, Cull::back, [] {
-    return app::load_source("cube", {96, 64, 0.0f, 1.0}, false);
+    return tools::load_source("cube", {96, 64, 0.0f, 1.0}, false);
   });
   workload->prepare(true);
   Stage stage;

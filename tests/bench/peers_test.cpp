@@ -69,7 +69,7 @@ TEST(PeerJudge, RejectsATriangleThatMissesThePixel) {
 std::shared_ptr<Workload> workload_of(const std::string& scene) {
   const SceneRequest request{320, 180, 0.0f, 0.02};
   auto workload = std::make_shared<Workload>(request.width, request.height, Cull::back,
-                                             [=] { return app::load_source(scene, request, false); });
+                                             [=] { return tools::load_source(scene, request, false); });
   workload->prepare(true);
   return workload;
 }
@@ -183,7 +183,7 @@ TEST(PeerStage, AcceptsARightPictureAndRejectsAWrongOne) {
 }
 
 TEST(Ratios, ComparePeersWithTheDefaultBackend) {
-  const auto workload = std::make_shared<Workload>(8, 8, Cull::back, [] { return app::Source{}; });
+  const auto workload = std::make_shared<Workload>(8, 8, Cull::back, [] { return tools::Source{}; });
   const PeerInfo peer = mirror(false);
   std::vector<Row> rows{row_of(peer, workload, Timed::raster, 1)};
   std::map<std::string, double> median_ms{{rows[0].name, 30.0}};
@@ -226,7 +226,7 @@ std::shared_ptr<Workload> hard_workload(const std::string& family) {
     stream.triangles.push_back(out);
   }
   auto workload = std::make_shared<Workload>(stream.width, stream.height, Cull::none, [=] {
-    return app::Source{family, stream, true};
+    return tools::Source{family, stream, true};
   });
   workload->prepare(true);
   return workload;

@@ -137,7 +137,7 @@ INSTANTIATE_TEST_SUITE_P(Registry, ObservedBackend, ::testing::ValuesIn(testing:
 
 TEST(BenchStage, RecordsTheTasksOfScheduledRows) {
   const auto workload = std::make_shared<Workload>(640, 480, Cull::back, [] {
-    return app::load_source("torus-knot", {640, 480, 0.0f, 1.0}, false);
+    return tools::load_source("torus-knot", {640, 480, 0.0f, 1.0}, false);
   });
   workload->prepare(true);
   Row row;

@@ -12,7 +12,7 @@
 #include "run_program.h"
 #include "temp_dir.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 namespace {
 
 // The colours that README and --help name.
@@ -87,4 +87,4 @@ TEST(AccuracyPictures, PicturesCanBeMadeForEveryFamily) {
 }
 
 }  // namespace
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

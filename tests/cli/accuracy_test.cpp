@@ -17,7 +17,7 @@
 #include "run_program.h"
 #include "temp_dir.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 namespace {
 
 using nlohmann::json;
@@ -75,14 +75,14 @@ TEST(Accuracy, WritesTheAgreedKeys) {
   EXPECT_TRUE(report.at("machine").contains("cpu_model"));
   std::set<std::string> families;
   for (const json& method : report.at("methods")) {
-    expect_keys(method, {"family", "name", "idea", "source", "promise", "exact"});
+    expect_keys(method, {"family", "name", "summary", "source", "promise", "exact"});
     families.insert(method.at("family"));
   }
   EXPECT_EQ(families, (std::set<std::string>{"coverage", "visibility", "facing", "clipping"}));
 
   ASSERT_EQ(report.at("scenes").size(), 4u);
   for (const json& scene : report.at("scenes")) {
-    expect_keys(scene, {"name", "family", "idea", "width", "height", "triangles", "covered", "methods"});
+    expect_keys(scene, {"name", "family", "summary", "width", "height", "triangles", "covered", "methods"});
     const std::string family = scene.at("family");
     const json& first = scene.at("methods").at(0);
     if (family == "coverage") {
@@ -90,7 +90,7 @@ TEST(Accuracy, WritesTheAgreedKeys) {
       for (const char* truth : {"snapped", "float"}) {
         expect_keys(first.at(truth),
                     {"missing", "extra", "gaps", "double_hits", "out_of_bounds", "out_of_box", "worst_px",
-                     "errors", "errors_per_million", "bound_per_million", "wrong_owners"});
+                     "errors", "errors_per_million", "bound_per_million", "wrong_pixels"});
         expect_keys(first.at("depth"), {"max_ulp", "rms_ulp"});
         const json& wrong = named(scene.at("methods"), "float_le").at("float");
         EXPECT_GT(wrong.at("errors_per_million"), 0);
@@ -105,15 +105,15 @@ TEST(Accuracy, WritesTheAgreedKeys) {
   }
   const json& scenes = report.at("scenes");
   const json& bars = named(scenes, "bars_in_a_cycle").at("methods").at(0);
-  expect_keys(bars.at("snapped"), {"covered", "wrong_owner", "out_of_range", "max_ulp", "rms_ulp",
-                                   "near_ties", "bound_per_million"});
-  expect_keys(bars.at("float"), {"covered", "wrong_owner", "out_of_range", "max_ulp", "rms_ulp"});
+  expect_keys(bars.at("snapped"), {"covered", "wrong_triangle", "out_of_range", "max_ulp", "rms_ulp",
+                                   "depth_ties", "bound_per_million"});
+  expect_keys(bars.at("float"), {"covered", "wrong_triangle", "out_of_range", "max_ulp", "rms_ulp"});
   const json& box = named(scenes, "box_beside_the_axis").at("methods").at(0);
   expect_keys(box, {"disagreements"});
   for (const char* truth : {"snapped", "float"})
     expect_keys(box.at(truth), {"faces", "misclassified", "by_first_three"});
   expect_keys(named(scenes, "in_view").at("methods").at(0).at("score"),
-              {"missing", "extra", "wrong_owner", "wrong_depth", "hairline", "differs_from_ours",
+              {"missing", "extra", "wrong_triangle", "wrong_depth", "hairline", "differs_from_ours",
                "not_a_number", "out_of_range"});
 
   const json& cube = report.at("turning_cube");
@@ -145,10 +145,10 @@ TEST(Accuracy, ExactMethodsScoreZeroAgainstTheSnappedTruth) {
       EXPECT_EQ(method.at("snapped").at("errors"), 0) << scene.at("name") << ' ' << name;
       EXPECT_EQ(method.at("snapped").at("out_of_bounds"), 0) << scene.at("name") << ' ' << name;
       if (lab::find_coverage_method(name).contract_depth) {
-        EXPECT_EQ(method.at("snapped").at("unexplained_owners"), 0) << scene.at("name") << ' ' << name;
-        EXPECT_EQ(method.at("snapped").at("wrong_owners"), 0) << scene.at("name") << ' ' << name;
+        EXPECT_EQ(method.at("snapped").at("unexplained_pixels"), 0) << scene.at("name") << ' ' << name;
+        EXPECT_EQ(method.at("snapped").at("wrong_pixels"), 0) << scene.at("name") << ' ' << name;
         const double pixels = scene.at("width").get<double>() * scene.at("height").get<double>();
-        EXPECT_DOUBLE_EQ(method.at("snapped").at("wrong_owners_bound_per_million"), 3e6 / pixels);
+        EXPECT_DOUBLE_EQ(method.at("snapped").at("wrong_pixels_bound_per_million"), 3e6 / pixels);
         EXPECT_LT(method.at("depth").at("max_ulp"), contract::kDepthError) << scene.at("name") << ' ' << name;
       }
       if (scene.at("name") == "t_junction") cracks.insert(method.at("float").at("gaps").get<int>());
@@ -220,4 +220,4 @@ TEST(Accuracy, MeshesLoseTheirBackFacesByTheExactSign) {
 }
 
 }  // namespace
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

@@ -111,12 +111,12 @@ TEST(Program, DistinguishesCpusWithTheSameModelName) {
   const auto model_of = [&](const std::string& name, const std::string& more) {
     const std::string path = (folder.path() / "cpuinfo").string();
     std::ofstream(path) << "processor\t: 0\n" + more + "model name\t: " + name + "\nstepping\t: 1\n";
-    return app::cpu_model(path);
+    return tools::cpu_model(path);
   };
   EXPECT_EQ(model_of("AMD EPYC", "cpu family\t: 25\nmodel\t\t: 17\n"), "AMD EPYC (family 25, model 17)");
   EXPECT_EQ(model_of("AMD EPYC", "cpu family\t: 26\nmodel\t\t: 2\n"), "AMD EPYC (family 26, model 2)");
   EXPECT_EQ(model_of("Some core", ""), "Some core");
-  EXPECT_EQ(app::cpu_model((folder.path() / "missing").string()), "unknown");
+  EXPECT_EQ(tools::cpu_model((folder.path() / "missing").string()), "unknown");
 }
 
 class ProgramRenders : public ::testing::Test {

@@ -530,9 +530,9 @@ TEST(GuardedFrame, SeesEveryWordThatIsWrittenBesideThePicture) {
 }
 
 TEST(SoakOptions, DurationsHaveUnits) {
-  EXPECT_EQ(app::parse_duration("--for", "90s"), 90.0);
-  EXPECT_EQ(app::parse_duration("--for", "20m"), 1200.0);
-  EXPECT_EQ(app::parse_duration("--for", "1.5h"), 5400.0);
+  EXPECT_EQ(tools::parse_duration("--for", "90s"), 90.0);
+  EXPECT_EQ(tools::parse_duration("--for", "20m"), 1200.0);
+  EXPECT_EQ(tools::parse_duration("--for", "1.5h"), 5400.0);
 }
 
 class SoakProgram : public ::testing::Test {

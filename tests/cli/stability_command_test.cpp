@@ -10,7 +10,7 @@
 #include "run_program.h"
 #include "temp_dir.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 namespace {
 
 using testing::Outcome;
@@ -47,4 +47,4 @@ TEST(StabilityCommand, WritesTheSameAsTableAndAsJson) {
 }
 
 }  // namespace
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

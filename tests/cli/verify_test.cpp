@@ -16,7 +16,7 @@
 #include "lab/to_stream.h"
 #include "temp_dir.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 namespace {
 
 constexpr int kWrongX = 7, kWrongY = 5;
@@ -270,4 +270,4 @@ INSTANTIATE_TEST_SUITE_P(AllScenes, Capture, ::testing::ValuesIn(scene_names()),
 });
 
 }  // namespace
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

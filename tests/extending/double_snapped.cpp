@@ -43,7 +43,7 @@ CoverageMethod make_coverage_double_snapped();
 CoverageMethod make_coverage_double_snapped() {
   return make_coverage_method<DoubleSnapped>(
       {.name = "double_snapped",
-       .idea = "vertices snapped to 1/64 px, edge functions in doubles",
+       .summary = "vertices snapped to 1/64 px, edge functions in doubles",
        .source = "tests/extending",
        .promise = "wrong only within 0.0111 px of an edge; watertight",
        .exact = false},

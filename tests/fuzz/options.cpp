@@ -37,10 +37,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
   try {
-    fuzz::require(app::parse(static_cast<int>(words.size()), argv.data()) != nullptr,
+    fuzz::require(tools::parse(static_cast<int>(words.size()), argv.data()) != nullptr,
                   "neither an action nor an error");
   } catch (const std::invalid_argument& error) {
-    const std::string line = app::printable(error.what(), ' ');
+    const std::string line = tools::printable(error.what(), ' ');
     fuzz::require(!line.empty() && std::none_of(line.begin(), line.end(), is_control),
                   "a message that is not one printable line");
   }

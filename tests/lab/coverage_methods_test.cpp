@@ -173,7 +173,7 @@ TEST_P(EveryCoverageMethod, FindsTheSameFarFromTheOriginWhileItsNumbersHold) {
 }
 
 TEST_P(EveryCoverageMethod, SaysWhatItIs) {
-  for (const auto text : {method_.info.name, method_.info.idea, method_.info.source, method_.info.promise})
+  for (const auto text : {method_.info.name, method_.info.summary, method_.info.source, method_.info.promise})
     EXPECT_FALSE(text.empty());
 }
 

@@ -22,7 +22,7 @@ std::shared_ptr<Workload> workload_of(const Scene& scene, const lab::FacingMetho
   const auto workload = std::make_shared<Workload>(
       width, height, Cull::back,
       [scene] {
-        return app::Source{"test", scene, false};
+        return tools::Source{"test", scene, false};
       },
       facing);
   workload->prepare(true);

@@ -34,11 +34,11 @@ struct Found {
     index_ = static_cast<std::size_t>(at - methods.begin());
   }
   std::optional<double> start() const { return result_.starts_to_fail(index_); }
-  const Tally& at(double place) const {
-    const auto& places = result_.sweep->places;
-    const auto found = std::find(places.begin(), places.end(), place);
-    if (found == places.end()) throw std::invalid_argument("no position " + std::to_string(place));
-    return result_.at[static_cast<std::size_t>(found - places.begin())].methods[index_];
+  const Tally& at(double position) const {
+    const auto& positions = result_.sweep->positions;
+    const auto found = std::find(positions.begin(), positions.end(), position);
+    if (found == positions.end()) throw std::invalid_argument("no position " + std::to_string(position));
+    return result_.at[static_cast<std::size_t>(found - positions.begin())].methods[index_];
   }
 
  private:
@@ -62,7 +62,7 @@ void expect_schema(const nlohmann::json& json, const SweepResult& result) {
   const Sweep& sweep = *result.sweep;
   EXPECT_EQ(json.at("name"), sweep.name);
   EXPECT_EQ(json.at("family"), name_of(sweep.family));
-  EXPECT_FALSE(json.at("idea").get<std::string>().empty());
+  EXPECT_FALSE(json.at("summary").get<std::string>().empty());
   for (const char* key : {"name", "unit"}) EXPECT_TRUE(json.at("x").at(key).is_string());
   EXPECT_TRUE(json.at("y").at("name").is_string());
   for (const char* axis : {"x", "y"}) EXPECT_TRUE(json.at(axis).at("log").is_boolean());
@@ -72,16 +72,16 @@ void expect_schema(const nlohmann::json& json, const SweepResult& result) {
   for (std::size_t i = 0; i < methods.size(); ++i) {
     EXPECT_EQ(curves[i].at("method"), methods[i].name);
     EXPECT_EQ(curves[i].at("exact"), methods[i].exact);
-    ASSERT_EQ(curves[i].at("points").size(), sweep.places.size());
-    ASSERT_EQ(curves[i].at("trials").size(), sweep.places.size());
+    ASSERT_EQ(curves[i].at("points").size(), sweep.positions.size());
+    ASSERT_EQ(curves[i].at("trials").size(), sweep.positions.size());
     const auto start = result.starts_to_fail(i);
     EXPECT_EQ(curves[i].at("starts_to_fail"), start ? nlohmann::json(*start) : nlohmann::json());
-    for (std::size_t place = 0; place < sweep.places.size(); ++place) {
-      const Tally& tally = result.at[place].methods[i];
-      EXPECT_EQ(curves[i]["points"][place][0], sweep.places[place]);
-      EXPECT_EQ(curves[i]["trials"][place], tally.trials);
-      EXPECT_GT(tally.trials, 0u) << methods[i].name << " at " << sweep.places[place];
-      EXPECT_DOUBLE_EQ(curves[i]["points"][place][1].get<double>(), sweep.y.scale * rate(tally));
+    for (std::size_t position = 0; position < sweep.positions.size(); ++position) {
+      const Tally& tally = result.at[position].methods[i];
+      EXPECT_EQ(curves[i]["points"][position][0], sweep.positions[position]);
+      EXPECT_EQ(curves[i]["trials"][position], tally.trials);
+      EXPECT_GT(tally.trials, 0u) << methods[i].name << " at " << sweep.positions[position];
+      EXPECT_DOUBLE_EQ(curves[i]["points"][position][1].get<double>(), sweep.y.scale * rate(tally));
     }
   }
 }
@@ -90,25 +90,25 @@ TEST_P(EverySweep, HasACurveForEveryMethodAndOneThatFails) {
   const Sweep& sweep = find_sweep(GetParam());
   int calls = 0;
   const SweepResult result = run_sweep(sweep, true, 2, [&] { ++calls; });
-  EXPECT_EQ(calls, static_cast<int>(sweep.places.size()));
-  ASSERT_EQ(result.at.size(), sweep.places.size());
-  const bool up = sweep.places.front() < sweep.places.back();
-  EXPECT_TRUE(up ? std::is_sorted(sweep.places.begin(), sweep.places.end())
-                 : std::is_sorted(sweep.places.rbegin(), sweep.places.rend()));
-  expect_schema(app::sweep_json(result), result);
+  EXPECT_EQ(calls, static_cast<int>(sweep.positions.size()));
+  ASSERT_EQ(result.at.size(), sweep.positions.size());
+  const bool up = sweep.positions.front() < sweep.positions.back();
+  EXPECT_TRUE(up ? std::is_sorted(sweep.positions.begin(), sweep.positions.end())
+                 : std::is_sorted(sweep.positions.rbegin(), sweep.positions.rend()));
+  expect_schema(tools::sweep_json(result), result);
 
   const auto methods = methods_of(sweep.family);
   bool some_fail = false;
   for (std::size_t i = 0; i < methods.size(); ++i) {
     some_fail = some_fail || result.starts_to_fail(i);
     if (sweep.family != Family::coverage || !methods[i].exact) continue;
-    for (std::size_t place = 0; place < sweep.places.size(); ++place)
-      EXPECT_EQ(result.at[place].methods[i].errors, result.at[place].by_snapping)
-          << methods[i].name << " differs from the snapped truth at " << sweep.places[place];
+    for (std::size_t position = 0; position < sweep.positions.size(); ++position)
+      EXPECT_EQ(result.at[position].methods[i].errors, result.at[position].by_snapping)
+          << methods[i].name << " differs from the snapped truth at " << sweep.positions[position];
   }
   EXPECT_TRUE(some_fail);
 
-  std::istringstream table(app::stability_table(result));
+  std::istringstream table(tools::stability_table(result));
   std::size_t rows = 0;
   for (std::string line; std::getline(table, line);) {
     EXPECT_LE(line.size(), 80u) << line;
@@ -143,16 +143,16 @@ TEST(SweepRegistry, SuggestsTheNearestName) {
 TEST(Sweeps, DoNotDependOnThreads) {
   for (const auto name : {"legs", "cycle", "vertex_w"}) {
     const SweepResult one = swept(name, 1), three = swept(name, 3);
-    for (std::size_t place = 0; place < one.at.size(); ++place) {
-      EXPECT_EQ(one.at[place].methods, three.at[place].methods) << name;
-      EXPECT_EQ(one.at[place].by_snapping, three.at[place].by_snapping) << name;
+    for (std::size_t position = 0; position < one.at.size(); ++position) {
+      EXPECT_EQ(one.at[position].methods, three.at[position].methods) << name;
+      EXPECT_EQ(one.at[position].by_snapping, three.at[position].by_snapping) << name;
     }
   }
 }
 
 TEST(Sweeps, StartToFailWhereErrorsExceedThoseOfSnapping) {
   Sweep sweep{};
-  sweep.places = {8, 4, 2};
+  sweep.positions = {8, 4, 2};
   SweepResult result{&sweep, std::vector<Measured>(3, Measured(3))};
   for (Measured& measured : result.at) measured.by_snapping = 5;
   result.at[1].methods[1] = {6, 100};
@@ -223,7 +223,7 @@ TEST(VisibilitySweeps, FewerBitsFailAtLargerSeparations) {
     EXPECT_GT(start("unorm24"), 10 * start("reversed_z")) << name;
     // Our vertex depths are the front end's floats, so ours fails where those do.
     EXPECT_EQ(start("contract31"), start("float_z")) << name;
-    EXPECT_EQ(start("submission_order"), separation.sweep->places.front()) << name;
+    EXPECT_EQ(start("submission_order"), separation.sweep->positions.front()) << name;
   }
   // z^2 / (near 2^bits) lies between two planes that can be told apart: 1.5 and 0.006.
   const SweepResult separation = swept("separation_at_100");
@@ -248,7 +248,7 @@ TEST(VisibilitySweeps, FloatDepthPlanesLeaveTheirTrianglesInSlivers) {
 TEST(FacingSweeps, NormalZErrsByTheTiltUnderPerspectiveAlone) {
   const SweepResult perspective = swept("tilt_perspective"), orthographic = swept("tilt_orthographic");
   const Found normal_z(perspective, "normal_z"), eye(orthographic, "normal_dot_eye");
-  for (const double tilt : perspective.sweep->places) {
+  for (const double tilt : perspective.sweep->positions) {
     const double expected = tilt / 180;
     for (const Tally& tally : {normal_z.at(tilt), eye.at(tilt)}) {
       const double sigma = std::sqrt(expected * (1 - expected) / static_cast<double>(tally.trials));
@@ -265,13 +265,13 @@ TEST(FacingSweeps, SnappingTurnsFacesOfASubUnitAndFloatsMuchThinnerOnes) {
   const auto& at = edge_on.at;
   const auto first = std::find_if(at.begin(), at.end(), [](const Measured& m) { return m.by_snapping > 0; });
   ASSERT_NE(first, at.end());
-  const double snapped = edge_on.sweep->places[static_cast<std::size_t>(first - at.begin())];
+  const double snapped = edge_on.sweep->positions[static_cast<std::size_t>(first - at.begin())];
   EXPECT_LE(snapped, 1.0 / 128);
   EXPECT_GE(snapped, 1.0 / 1024);
   const Found floats(edge_on, "float_area");
   EXPECT_EQ(floats.at(snapped).errors, 0u);
   EXPECT_EQ(floats.at(snapped / 16).errors, 0u);
-  EXPECT_GT(floats.at(edge_on.sweep->places.back()).errors, 0u);
+  EXPECT_GT(floats.at(edge_on.sweep->positions.back()).errors, 0u);
 }
 
 TEST(ClippingSweeps, AVertexBeforeTheNearPlaneBreaksAllButClipping) {

@@ -47,10 +47,10 @@ TEST_P(WrongBackend, ComesBackAsASmallStreamThatShowsItAgain) {
                         read.triangles.size() * sizeof(StreamTriangle)),
             0);
 
-  app::VerifyPlan plan;
+  tools::VerifyPlan plan;
   plan.scenes = {path};
   plan.backends = {backends()[0], GetParam().wrong};
-  const app::SceneVerdict verdict = app::verify(plan, {}).scenes.at(0);
+  const tools::SceneVerdict verdict = tools::verify(plan, {}).scenes.at(0);
   EXPECT_GT(verdict.differing_pixels, 0u);
   EXPECT_GT(verdict.oracle_differences, 0u);
   EXPECT_EQ(verdict.oracle_width, smallest.width);

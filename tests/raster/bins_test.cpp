@@ -30,9 +30,9 @@ class BinsOnTarget : public ::testing::TestWithParam<SimdTarget> {
     bins_.build(triangles, grid, 2, GetParam(), Bins::Small::as_indices, true);
     std::vector<std::vector<std::uint32_t>> out(static_cast<std::size_t>(grid.cells()));
     for (int cell = 0; cell < grid.cells(); ++cell)
-      bins_.for_each_run(cell, [&](const Bins::Run& run) {
+      bins_.for_each_index_block(cell, [&](const Bins::IndexBlock& block) {
         auto& list = out[static_cast<std::size_t>(cell)];
-        list.insert(list.end(), run.indices.begin(), run.indices.end());
+        list.insert(list.end(), block.indices.begin(), block.indices.end());
       });
     return out;
   }

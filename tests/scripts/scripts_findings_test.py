@@ -112,7 +112,7 @@ class OursFailTest(unittest.TestCase):
 
     def sweep(self, name, ours, by_snapping, fails=None):
         curve = Curve("tiled", True, tuple(enumerate(ours)), (1,) * len(ours), fails)
-        return Sweep(name, "coverage", "an idea", {"unit": ""}, {"name": "misjudged faces, %"}, (curve,), tuple(by_snapping))
+        return Sweep(name, "coverage", "a summary", {"unit": ""}, {"name": "misjudged faces, %"}, (curve,), tuple(by_snapping))
 
     def test_only_equal_curves_count_as_rounding(self):
         told = accuracy(measured("tiled", True, 0, 1.0))
@@ -120,7 +120,7 @@ class OursFailTest(unittest.TestCase):
                                    self.sweep("deep", (0.0, 7.0), (0.0, 0.0), 1.0)], told)
         self.assertIn("In 2 of 3 sweeps ours err exactly as much as rounding to 1/256 px does by itself: up to 50.9 % in `edge` "
                       "(misjudged faces); 0 in the others.", text)
-        self.assertIn("They err more in `deep` (an idea): `tiled` from 1, up to 7 % misjudged faces.", text)
+        self.assertIn("They err more in `deep` (a summary): `tiled` from 1, up to 7 % misjudged faces.", text)
         self.assertEqual(ours_fail_sentence([], told), "")
 
 

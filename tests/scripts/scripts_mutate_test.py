@@ -10,7 +10,7 @@ sys.path[:0] = [str(ROOT / "scripts" / folder) for folder in ("reporting", "chec
 from bench_rows import BadInput  # noqa: E402
 from mutations import Mutation, copy_tree, failed_tests, files_of, mutated, read_mutations  # noqa: E402
 
-ENTRY = '[[mutation]]\nname = "{}"\nmistake = "m"\nfile = "src/a.cpp"\ntests = "*"\nbefore = "x < y"\nafter = "x <= y"\n'
+ENTRY = '[[mutation]]\nname = "{}"\nchange = "m"\nfile = "src/a.cpp"\ntests = "*"\nbefore = "x < y"\nafter = "x <= y"\n'
 
 
 class MutateTest(unittest.TestCase):
@@ -59,7 +59,7 @@ class MutateTest(unittest.TestCase):
 
     def test_a_bad_table_is_told(self):
         for text, message in ((ENTRY.format("a") + ENTRY.format("a"), "twice: a"),
-                              (ENTRY.format("a").replace("mistake", "idea"), "a must have exactly"),
+                              (ENTRY.format("a").replace("change", "summary"), "a must have exactly"),
                               (ENTRY.format("a") + 'sanitizer = "memory"\n', "a: sanitizer must be one of thread"),
                               ("", "mutation"), ("[[", "Invalid|Expected")):
             with self.assertRaisesRegex(BadInput, message):

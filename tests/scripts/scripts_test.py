@@ -80,7 +80,7 @@ def accuracy(spread=0.1):
             "methods": [{"family": family, "name": name, "source": source, "promise": "as told", "exact": exact}
                         for family in families
                         for name, source, exact in (("ours", "src/raster", True), ("float_le", "a book", False))],
-            "scenes": [{"name": scene, "family": family, "idea": "many faces", "covered": 1000, "crossings": 1000,
+            "scenes": [{"name": scene, "family": family, "summary": "many faces", "covered": 1000, "crossings": 1000,
                         "methods": [measured(family, "ours", 0, 2.0 * timed), measured(family, "float_le", 5, 1.5 * timed)]}
                        for family in families for scene, timed in (("knot", 1), ("small", 0))],
             "turning_cube": {"frames": 9, "methods": [
@@ -106,7 +106,7 @@ def stability():
               {"method": "float_le", "exact": False, "points": [[1, 0], [0.1, 7]], "trials": [50, 50],
                "starts_to_fail": 0.1}]
     return {"machine": MACHINE, "quick": False, "sweeps": [
-        {"name": "nearer", "family": "visibility", "by_snapping": [[1, 0], [0.1, 0]], "idea": "ever nearer", "x": {"name": "gap", "unit": "px", "log": True},
+        {"name": "nearer", "family": "visibility", "by_snapping": [[1, 0], [0.1, 0]], "summary": "ever nearer", "x": {"name": "gap", "unit": "px", "log": True},
          "y": {"name": "wrong", "log": True}, "curves": curves}]}
 
 
@@ -118,8 +118,8 @@ def bench_with_peer():
         for backend, ms in (("slow", 12.0), ("tiled", 3.0)):
             data["benchmarks"] += entries(f"{backend}+frontend/knot/threads:{threads}", [ms / threads] * 3)
             data["benchmarks"] += entries(f"{backend}/knot/threads:{threads}", [ms / 2 / threads] * 3)
-        data["benchmarks"] += entries(f"ext/cube/threads:{threads}", [16.8 / threads] * 3, near_ties=7.0)
-        data["benchmarks"] += entries(f"ext+frontend/knot/threads:{threads}", [12.0 / threads] * 3, near_ties=0.0)
+        data["benchmarks"] += entries(f"ext/cube/threads:{threads}", [16.8 / threads] * 3, depth_ties=7.0)
+        data["benchmarks"] += entries(f"ext+frontend/knot/threads:{threads}", [12.0 / threads] * 3, depth_ties=0.0)
     return data
 
 
@@ -182,7 +182,7 @@ class ScriptsTest(unittest.TestCase):
         self.fails(run("summary", self.folder), "bench.json")
 
     def test_readme_shows_the_tutorials_and_what_culling_gains(self):
-        demo = {"name": "turn", "tutorial": "A trainer", "idea": "it turns",
+        demo = {"name": "turn", "tutorial": "A trainer", "summary": "it turns",
                 "steps": [{"keys": "1", "notice": "First."}, {"keys": "2", "notice": "Now look."}]}
         (self.results / "demos.json").write_text(json.dumps([demo]))
         readme = self.folder / "README.md"

@@ -8,7 +8,7 @@
 
 #include "support/json_text.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 namespace {
 
 TEST(Printable, KeepsValidText) {
@@ -50,4 +50,4 @@ TEST(JsonText, AcceptsAnyBytes) {
 }
 
 }  // namespace
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

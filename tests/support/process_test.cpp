@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <thread>
 
-namespace edgewise::app {
+namespace edgewise::tools {
 namespace {
 
 template <typename Error>
@@ -26,4 +26,4 @@ TEST(ProcessDeathTest, PrintsAnUncaughtExceptionInOneLine) {
 }
 
 }  // namespace
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

@@ -13,7 +13,7 @@
 namespace edgewise::viewer {
 
 inline constexpr Cell kTestCell{6, 10};
-inline constexpr app::Size kTestSize{240, 160};
+inline constexpr tools::Size kTestSize{240, 160};
 
 // A box to the right of the line of sight: its left side is visible, although the z of that side's normal is
 // 0.
@@ -26,8 +26,8 @@ inline Scene box_aside() {
 
 inline Start start_with(Drawable drawable, Cull cull) {
   Start start;
-  start.load = [drawable = std::move(drawable), cull](app::Size) {
-    app::Shot shot{{"test", drawable, std::holds_alternative<TriangleStream>(drawable), nullptr}, {}};
+  start.load = [drawable = std::move(drawable), cull](tools::Size) {
+    tools::Shot shot{{"test", drawable, std::holds_alternative<TriangleStream>(drawable), nullptr}, {}};
     shot.frontend.cull = cull;
     shot.frontend.shade = !shot.source.stream;
     return shot;
@@ -44,7 +44,7 @@ inline Session session_of(std::string_view scene) {
 }
 
 // Types keys as --keys takes them.
-inline Screen& type(Session& session, std::string_view keys, app::Size size = kTestSize) {
+inline Screen& type(Session& session, std::string_view keys, tools::Size size = kTestSize) {
   type(session, parse_keys(keys), size, kTestCell);
   return session.draw(size, kTestCell);
 }

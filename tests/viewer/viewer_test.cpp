@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::string_view kNoOverlay = "o";  // at this size the brief overlay is the default
 
-Image rendered(std::string_view scene, Cull cull, app::Size size = kTestSize,
+Image rendered(std::string_view scene, Cull cull, tools::Size size = kTestSize,
                const BackendInfo& backend = find_backend("naive")) {
   Frontend frontend;
   FrontendOptions options;
@@ -368,7 +368,7 @@ TEST(Viewer, ComparesTwoSides) {
 }
 
 TEST(Viewer, CullsEachSideAlone) {
-  constexpr app::Size kHalf{kTestSize.width / 2, kTestSize.height};
+  constexpr tools::Size kHalf{kTestSize.width / 2, kTestSize.height};
   Session session = session_of("cubes");
   const Screen& screen = type(session, std::string(kNoOverlay) + "v<tab>12");
   const Image left = rendered("cubes", Cull::back, kHalf), right = rendered("cubes", Cull::front, kHalf);
@@ -503,7 +503,7 @@ TEST(Viewer, LabelsVerticesAndAxes) {
 
 // Three quads (a front face, a back face, one behind the camera) and a floor that passes below the camera.
 TEST(Viewer, ShowsTheStateOfEachFace) {
-  constexpr app::Size kLarge{640, 480};
+  constexpr tools::Size kLarge{640, 480};
   Scene scene;
   const auto add = [&](glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d) {
     Mesh mesh{{a, b, c, d}, {}, {}};
@@ -541,7 +541,7 @@ TEST(Viewer, ShowsTheStateOfEachFace) {
 }
 
 TEST(Viewer, HelpsWithEveryKeyOnAsManyPagesAsItTakes) {
-  for (const app::Size size : {app::Size{320, 200}, app::Size{1280, 720}, app::Size{120, 60}}) {
+  for (const tools::Size size : {tools::Size{320, 200}, tools::Size{1280, 720}, tools::Size{120, 60}}) {
     Session session = session_of("cube");
     std::set<std::string> seen;
     type(session, "h", size);
@@ -561,8 +561,8 @@ TEST(Viewer, HelpsWithEveryKeyOnAsManyPagesAsItTakes) {
 
 TEST(Viewer, FitsAnySize) {
   const TempDir folder;
-  for (const app::Size size : {app::Size{1, 1}, app::Size{2, 3}, app::Size{33, 9}, app::Size{320, 200},
-                               app::Size{700, 20}, app::Size{20, 700}}) {
+  for (const tools::Size size : {tools::Size{1, 1}, tools::Size{2, 3}, tools::Size{33, 9},
+                                 tools::Size{320, 200}, tools::Size{700, 20}, tools::Size{20, 700}}) {
     Start start = start_with(find_scene("cube").make({}), Cull::back);
     start.folder = folder.path();
     Session session(std::move(start));
@@ -595,7 +595,7 @@ TEST(Viewer, WaitsWithTheCountWhereItWouldCostFrames) {
 TEST(Viewer, TimesNoColdFrame) {
   static constexpr double kLoading_ms = 300;
   Start start = start_with(find_scene("cube").make({}), Cull::back);
-  start.load = [load = start.load](app::Size size) {
+  start.load = [load = start.load](tools::Size size) {
     std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(kLoading_ms));
     return load(size);
   };

@@ -18,7 +18,7 @@
 #include "lab/family.h"
 #include "lab/visibility/visibility.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 using lab::Family;
 
@@ -55,7 +55,7 @@ struct MethodResult {
 
 struct SceneResult {
   Family family;
-  std::string name, idea;
+  std::string name, summary;
   bool smallest;  // see AccuracyScene
   int width, height;
   std::uint64_t triangles = 0;  // facing: polygons
@@ -99,4 +99,4 @@ struct AccuracyReport {
 // check_source throws; later, what load_source throws.
 AccuracyReport measure_accuracy(const AccuracyPlan& plan);
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

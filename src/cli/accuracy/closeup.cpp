@@ -8,7 +8,7 @@
 #include <system_error>
 #include <tuple>
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 namespace {
 
@@ -213,4 +213,4 @@ void write_closeups(const std::filesystem::path& folder, std::span<const Closeup
   for (const Closeup& c : closeups) write_image(folder / (c.name + ".png"), draw(c));
 }
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

@@ -10,7 +10,7 @@
 #include "edgewise/image.h"
 #include "lab/error_marks.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 struct Closeup {
   std::string name;                    // FAMILY-SCENE-METHOD
@@ -33,4 +33,4 @@ void check_closeup_folder(const std::filesystem::path& folder);
 // Writes FOLDER/NAME.png for each, and creates the folder. Throws std::runtime_error if that fails.
 void write_closeups(const std::filesystem::path& folder, std::span<const Closeup> closeups);
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

@@ -17,7 +17,7 @@
 #include "support/options.h"
 #include "support/progress.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 namespace {
 
@@ -114,4 +114,4 @@ void add_accuracy(CLI::App& program, Action& action) {
   command.callback([o, &action] { action = [o] { return accuracy_command(*o); }; });
 }
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

@@ -7,7 +7,7 @@
 #include "core/parallel.h"
 #include "lab/measure.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 namespace {
 
@@ -78,4 +78,4 @@ void judge(const CoverageScene& scene, const Bench& bench, SceneResult& result) 
   if (bench.scene.timed) time_methods(scene, bench, result);
 }
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

@@ -5,7 +5,7 @@
 #include "core/parallel.h"
 #include "edgewise/builtin.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 namespace {
 
@@ -95,4 +95,4 @@ CubeResult judge_turning_cube(const AccuracyPlan& plan, const ChosenMethods& met
   return result;
 }
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

@@ -5,7 +5,7 @@
 #include "cli/accuracy/speed.h"
 #include "core/parallel.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 namespace {
 
@@ -157,4 +157,4 @@ void judge(const lab::ClippingScene& scene, const Bench& bench, SceneResult& res
       });
 }
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

@@ -4,7 +4,7 @@
 #include "cli/accuracy/score.h"
 #include "support/machine.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 namespace {
 
@@ -31,7 +31,7 @@ json score_json(const lab::CoverageScore& s, std::uint64_t crossings) {
 
 json score_json(const lab::VisibilityScore& s) {
   json score{{"covered", s.covered},
-             {"wrong_owner", s.wrong_triangle},
+             {"wrong_triangle", s.wrong_triangle},
              {"out_of_range", s.out_of_range},
              {"max_ulp", s.max_ulp},
              {"rms_ulp", s.rms_ulp}};
@@ -51,9 +51,9 @@ struct AddScore {
 
   // Every pixel of the image is a trial, because background pixels may be wrong too.
   void add_wrong_pixels(json& score, std::uint64_t wrong) const {
-    score["wrong_owners"] = wrong;
+    score["wrong_pixels"] = wrong;
     const auto pixels = static_cast<std::uint64_t>(scene.width) * static_cast<std::uint64_t>(scene.height);
-    if (wrong == 0) score["wrong_owners_bound_per_million"] = 1e6 * lab::rate_bound(pixels);
+    if (wrong == 0) score["wrong_pixels_bound_per_million"] = 1e6 * lab::rate_bound(pixels);
   }
   void operator()(const CoverageScores& s) const {
     method["snapped"] = score_json(s.snapped, scene.crossings);
@@ -61,12 +61,12 @@ struct AddScore {
     add_wrong_pixels(method["snapped"], s.visible.wrong_snapped);
     add_wrong_pixels(method["float"], s.visible.wrong_floats);
     if (lab::find_coverage_method(method["name"].get<std::string>()).contract_depth)
-      method["snapped"]["unexplained_owners"] = s.visible.unexplained;
+      method["snapped"]["unexplained_pixels"] = s.visible.unexplained;
     method["depth"] = {{"max_ulp", s.visible.max_ulp}, {"rms_ulp", s.visible.rms_ulp}};
   }
   void operator()(const lab::VisibilityScores& s) const {
     method["snapped"] = score_json(s.snapped);
-    method["snapped"]["near_ties"] = s.depth_ties;
+    method["snapped"]["depth_ties"] = s.depth_ties;
     method["float"] = score_json(s.floats);
     method["broken"] = s.broken;
   }
@@ -79,8 +79,8 @@ struct AddScore {
   void operator()(const lab::ClippingScore& s) const {
     json& score = method["score"] = {{"missing", s.missing},
                                      {"extra", s.extra},
-                                     {"wrong_owner", s.wrong_triangle},
-                                     {"near_ties", s.depth_ties},
+                                     {"wrong_triangle", s.wrong_triangle},
+                                     {"depth_ties", s.depth_ties},
                                      {"wrong_depth", s.wrong_depth},
                                      {"worst_distance", s.worst_distance},
                                      {"hairline", s.hairline},
@@ -107,7 +107,7 @@ json speed_json(const Speed& speed, const SceneResult& scene) {
 }
 
 json scene_json(const SceneResult& scene) {
-  json result{{"name", scene.name},       {"family", name_of(scene.family)}, {"idea", scene.idea},
+  json result{{"name", scene.name},       {"family", name_of(scene.family)}, {"summary", scene.summary},
               {"width", scene.width},     {"height", scene.height},          {"triangles", scene.triangles},
               {"covered", scene.covered}, {"smallest", scene.smallest},      {"seconds", scene.seconds},
               {"methods", json::array()}};
@@ -156,7 +156,7 @@ json accuracy_json(const AccuracyReport& report, const AccuracyPlan& plan) {
   for (const auto& [family, info] : methods_of(plan).all())
     result["methods"].push_back({{"family", name_of(family)},
                                  {"name", info->name},
-                                 {"idea", info->idea},
+                                 {"summary", info->summary},
                                  {"source", info->source},
                                  {"promise", info->promise},
                                  {"exact", info->exact}});
@@ -165,4 +165,4 @@ json accuracy_json(const AccuracyReport& report, const AccuracyPlan& plan) {
   return result;
 }
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

@@ -6,7 +6,7 @@
 
 #include "cli/accuracy/accuracy.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 // At most 80 columns. A table sums all scenes of a family, small test scenes apart. Where no error was
 // observed, it prints the 95 % upper bound of the rate.
@@ -14,4 +14,4 @@ std::string accuracy_tables(const AccuracyReport& report);
 
 nlohmann::json accuracy_json(const AccuracyReport& report, const AccuracyPlan& plan);
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

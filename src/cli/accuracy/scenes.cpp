@@ -9,7 +9,7 @@
 #include "lab/coverage/cases.h"
 #include "support/options.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 namespace {
 
@@ -108,7 +108,7 @@ class Catalogue {
                           : c.name == "mesh"       ? Timed::full
                                                    : Timed::never;
       const double cost_s = small ? 0.1 : plan_.quick ? 1.0 : 6.0;
-      add(Family::coverage, c.name, c.idea, timed, small, cost_s, [&c] {
+      add(Family::coverage, c.name, c.summary, timed, small, cost_s, [&c] {
         auto floats = c.make();
         auto snapped = lab::snapped(floats);
         return CoverageScene{c.size, std::move(floats), std::move(snapped)};
@@ -119,12 +119,12 @@ class Catalogue {
         plan_.quick ? 0.5 : 3.0, [seen] { return lab::visibility_scene(deep_soup(20'000), seen); });
     for (const SceneInfo& info : builtin_scenes()) add_built_in(info);
     for (const lab::VisibilityCase& c : lab::visibility_cases())
-      add(Family::visibility, c.name, c.idea, Timed::never, true, 0.1, c.make);
+      add(Family::visibility, c.name, c.summary, Timed::never, true, 0.1, c.make);
     for (const lab::FacingCase& c : lab::facing_cases())
-      add(Family::facing, c.name, c.idea, Timed::never, true, 0.1, c.make);
+      add(Family::facing, c.name, c.summary, Timed::never, true, 0.1, c.make);
     add_facing();
     for (const lab::ClippingCase& c : lab::clipping_cases())
-      add(Family::clipping, c.name, c.idea, Timed::never, true, 0.2, c.make);
+      add(Family::clipping, c.name, c.summary, Timed::never, true, 0.2, c.make);
     const bool quick = plan_.quick;
     add(Family::clipping, "around_the_eye", "triangles on all sides, across the near and the far plane",
         Timed::always, false, quick ? 2.0 : 5.0,
@@ -159,10 +159,10 @@ class Catalogue {
 
  private:
   template <typename Make>
-  void add(Family family, std::string_view name, std::string_view idea, Timed timed, bool small,
+  void add(Family family, std::string_view name, std::string_view summary, Timed timed, bool small,
            double cost_s, Make make) {
     const bool now = plan_.speed && (timed == Timed::always || (timed == Timed::full && !plan_.quick));
-    list_.push_back({family, std::string(name), std::string(idea), now, small, cost_s,
+    list_.push_back({family, std::string(name), std::string(summary), now, small, cost_s,
                      [make] { return AnyScene(make()); }});
   }
 
@@ -172,12 +172,12 @@ class Catalogue {
     const SceneRequest request{size.width, size.height, 0.0f,
                                plan_.quick ? extent.quick_scale : extent.scale};
     const double cost_s = plan_.quick ? extent.quick_cost_s : extent.cost_s;
-    add(Family::coverage, info.name, info.idea, extent.timed, false, cost_s,
+    add(Family::coverage, info.name, info.summary, extent.timed, false, cost_s,
         [&info, request, size] { return coverage_scene(info.make(request), size); });
     if (info.stream) return;
     const lab::Size seen = plan_.quick ? kQuick : kUsual;
     const SceneRequest for_visibility{seen.width, seen.height, 0.0f, request.scale};
-    add(Family::visibility, info.name, info.idea, Timed::never, false, cost_s / 2,
+    add(Family::visibility, info.name, info.summary, Timed::never, false, cost_s / 2,
         [&info, for_visibility, seen] {
           return lab::visibility_scene(std::get<Scene>(info.make(for_visibility)), seen, Cull::back);
         });
@@ -262,4 +262,4 @@ AccuracyScenes scenes_of(const AccuracyPlan& plan) {
   return chosen;
 }
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

@@ -9,7 +9,7 @@
 #include "cli/accuracy/accuracy.h"
 #include "lab/coverage/coverage.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 struct CoverageScene {
   lab::Size size;
@@ -23,7 +23,7 @@ using AnyScene = std::variant<CoverageScene, lab::VisibilityScene, lab::FacingSc
 
 struct AccuracyScene {
   Family family;
-  std::string name, idea;
+  std::string name, summary;
   bool timed;
   bool smallest;  // a small scene that shows a single failure; only these get close-ups
   double cost_s;  // estimate for the progress bar
@@ -44,4 +44,4 @@ AccuracyScenes scenes_of(const AccuracyPlan& plan);
 // area before snapping, so that all methods get the same triangles.
 CoverageScene coverage_scene(const Drawable& drawable, lab::Size size);
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

@@ -6,7 +6,7 @@
 
 #include "cli/accuracy/scenes.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 // The methods that the plan names, in registry order.
 struct ChosenMethods {
@@ -30,7 +30,7 @@ struct Bench {
   std::vector<Closeup>& closeups;
 };
 
-// Fill in all of `result` except what identifies the scene (family, name, idea, smallest) and its seconds.
+// Fill in all of `result` except what identifies the scene (family, name, summary, smallest) and its seconds.
 void judge(const CoverageScene& scene, const Bench& bench, SceneResult& result);
 void judge(const lab::VisibilityScene& scene, const Bench& bench, SceneResult& result);
 void judge(const lab::FacingScene& scene, const Bench& bench, SceneResult& result);
@@ -42,4 +42,4 @@ CubeResult judge_turning_cube(const AccuracyPlan& plan, const ChosenMethods& met
 // "coverage-drtk_quad-float_le"
 std::string closeup_name(Family family, std::string_view scene, std::string_view method);
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

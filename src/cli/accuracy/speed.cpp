@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cmath>
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 namespace {
 
@@ -38,4 +38,4 @@ std::vector<Speed> time_in_turns(const std::vector<TimedDraw>& draws, bool quick
   return speeds;
 }
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

@@ -6,7 +6,7 @@
 
 #include "cli/accuracy/accuracy.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 struct TimedDraw {
   std::size_t method;  // index, for the caller
@@ -20,4 +20,4 @@ struct TimedDraw {
 // is a few percent slower.
 std::vector<Speed> time_in_turns(const std::vector<TimedDraw>& draws, bool quick);
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

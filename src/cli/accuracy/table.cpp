@@ -5,7 +5,7 @@
 
 #include "cli/accuracy/report.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 namespace {
 
@@ -265,4 +265,4 @@ std::string accuracy_tables(const AccuracyReport& report) {
   return text.substr(text.starts_with('\n') ? 1 : 0);
 }
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

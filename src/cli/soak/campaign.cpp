@@ -121,7 +121,7 @@ class Soak {
       return done;
     } catch (const std::exception& error) {
       throw std::runtime_error(
-          fmt::format("seed {}, case {} ({}): {}", seed_, number, c.family, app::reason_of(error)));
+          fmt::format("seed {}, case {} ({}): {}", seed_, number, c.family, tools::reason_of(error)));
     }
   }
 

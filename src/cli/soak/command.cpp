@@ -25,7 +25,7 @@
 #include "support/progress.h"
 #include "support/stop_request.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 namespace {
 
@@ -246,4 +246,4 @@ void add_soak(CLI::App& program, Action& action) {
   command.callback([o, &action] { action = [o] { return soak_command(*o); }; });
 }
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

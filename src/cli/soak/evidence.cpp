@@ -57,9 +57,9 @@ void write(const std::filesystem::path& path, const TriangleStream& stream) {
 
 // Whether `verify` reproduces the difference: its configurations are fewer.
 bool verify_finds(const std::filesystem::path& path, const Judged& judged) {
-  app::VerifyPlan plan;
+  tools::VerifyPlan plan;
   plan.backends = judged.backends;
-  return !app::verify_scene(plan, path.string(), [](double) {}).ok();
+  return !tools::verify_scene(plan, path.string(), [](double) {}).ok();
 }
 
 // Quoted for a shell.
@@ -112,7 +112,7 @@ nlohmann::json evidence_of(const Evidence& evidence, std::uint64_t seed, const C
       json["replay"].push_back(
           fmt::format("{} verify {}", quoted(evidence.program), quoted(absolute(path).string())));
   } catch (const std::exception& error) {
-    json["trouble"] = app::reason_of(error);
+    json["trouble"] = tools::reason_of(error);
   }
   return json;
 }

@@ -155,7 +155,7 @@ Record new_record(std::uint64_t seed, const Shard& shard, const std::vector<std:
   record.seed = seed;
   record.shards = {shard};
   record.backends = backends;
-  record.machines = {app::machine_description()};
+  record.machines = {tools::machine_description()};
   return record;
 }
 

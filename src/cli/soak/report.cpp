@@ -10,8 +10,8 @@ namespace edgewise::soak {
 
 namespace {
 
-using app::printable;
-using app::printable_within;
+using tools::printable;
+using tools::printable_within;
 
 std::string with_commas(std::uint64_t n) {
   std::string text = std::to_string(n);

@@ -14,7 +14,7 @@
 #include "support/options.h"
 #include "support/progress.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 namespace {
 
@@ -50,7 +50,7 @@ int stability_command(const StabilityOptions& o) {
   std::vector<lab::SweepResult> results;
   for (const lab::Sweep* sweep : sweeps) {
     results.push_back(lab::run_sweep(*sweep, o.quick, o.threads, [&] {
-      done += sweep->cost / static_cast<double>(sweep->places.size());
+      done += sweep->cost / static_cast<double>(sweep->positions.size());
       progress.show(done / all, left.label(done / all, sweep->name));
     }));
     if (json_on_stdout) continue;
@@ -101,4 +101,4 @@ void add_stability(CLI::App& program, Action& action) {
   command.callback([o, &action] { action = [o] { return stability_command(*o); }; });
 }
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

@@ -6,7 +6,7 @@
 
 #include "support/machine.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 namespace {
 
@@ -22,16 +22,17 @@ struct Curve {
   const SweepResult& result;
   std::size_t method;
 
-  double y(std::size_t place) const { return result.y(result.at[place].methods[method]); }
+  double y(std::size_t position) const { return result.y(result.at[position].methods[method]); }
   std::size_t worst() const {
     std::size_t worst = 0;
-    for (std::size_t place = 1; place < result.at.size(); ++place)
-      if (y(place) > y(worst)) worst = place;
+    for (std::size_t position = 1; position < result.at.size(); ++position)
+      if (y(position) > y(worst)) worst = position;
     return worst;
   }
   std::size_t failing_places() const {
     std::size_t count = 0;
-    for (std::size_t place = 0; place < result.at.size(); ++place) count += result.fails(method, place);
+    for (std::size_t position = 0; position < result.at.size(); ++position)
+      count += result.fails(method, position);
     return count;
   }
   // 95 % upper bound of the rate, from the value with the fewest trials. Trials are not summed over values,
@@ -50,17 +51,17 @@ std::string row(std::string_view name, const Curve& curve) {
   const auto start = result.starts_to_fail(curve.method);
   std::string there;
   if (start) {
-    const auto& places = result.sweep->places;
+    const auto& positions = result.sweep->positions;
     there = fmt::format(
-        "{:.4g}",
-        curve.y(static_cast<std::size_t>(std::find(places.begin(), places.end(), *start) - places.begin())));
+        "{:.4g}", curve.y(static_cast<std::size_t>(std::find(positions.begin(), positions.end(), *start) -
+                                                   positions.begin())));
   }
   const std::size_t worst = curve.worst();
   const bool no_error = curve.y(worst) == 0.0;
   return fmt::format(
       kRow, name, start ? value_text(*start) : "never", there,
       no_error ? fmt::format("< {:.2g}", curve.bound()) : fmt::format("{:.4g}", curve.y(worst)),
-      no_error ? "" : value_text(result.sweep->places[worst]),
+      no_error ? "" : value_text(result.sweep->positions[worst]),
       fmt::format("{}/{}", curve.failing_places(), result.at.size()));
 }
 
@@ -69,8 +70,8 @@ std::string row(std::string_view name, const Curve& curve) {
 std::string stability_table(const SweepResult& result) {
   const lab::Sweep& sweep = *result.sweep;
   std::string text = fmt::format("{} ({}): {}\n", sweep.name, name_of(sweep.family), sweep.x.name);
-  text += fmt::format("  {}\n  {} to {}{}{}; {}\n", sweep.idea, value_text(sweep.places.front()),
-                      value_text(sweep.places.back()), sweep.x.unit.empty() ? "" : " ", sweep.x.unit,
+  text += fmt::format("  {}\n  {} to {}{}{}; {}\n", sweep.summary, value_text(sweep.positions.front()),
+                      value_text(sweep.positions.back()), sweep.x.unit.empty() ? "" : " ", sweep.x.unit,
                       sweep.y.name);
   double snapping = 0.0;
   for (const Measured& measured : result.at)
@@ -95,23 +96,23 @@ nlohmann::json sweep_json(const SweepResult& result) {
   const lab::Sweep& sweep = *result.sweep;
   nlohmann::json json{{"name", sweep.name},
                       {"family", name_of(sweep.family)},
-                      {"idea", sweep.idea},
+                      {"summary", sweep.summary},
                       {"x", {{"name", sweep.x.name}, {"unit", sweep.x.unit}, {"log", sweep.x.log}}},
                       {"y", {{"name", sweep.y.name}, {"log", sweep.y.log}}},
                       {"curves", nlohmann::json::array()},
                       {"by_snapping", nlohmann::json::array()}};
-  const std::size_t places = result.at.size();
-  for (std::size_t place = 0; place < places; ++place) {
-    const Measured& measured = result.at[place];
+  const std::size_t positions = result.at.size();
+  for (std::size_t position = 0; position < positions; ++position) {
+    const Measured& measured = result.at[position];
     json["by_snapping"].push_back(
-        {sweep.places[place], result.y({measured.by_snapping, measured.methods.front().trials})});
+        {sweep.positions[position], result.y({measured.by_snapping, measured.methods.front().trials})});
   }
   const auto methods = methods_of(sweep.family);
   for (std::size_t i = 0; i < methods.size(); ++i) {
     nlohmann::json curve{{"method", methods[i].name}, {"exact", methods[i].exact}};
-    for (std::size_t place = 0; place < places; ++place) {
-      curve["points"].push_back({sweep.places[place], Curve{result, i}.y(place)});
-      curve["trials"].push_back(result.at[place].methods[i].trials);
+    for (std::size_t position = 0; position < positions; ++position) {
+      curve["points"].push_back({sweep.positions[position], Curve{result, i}.y(position)});
+      curve["trials"].push_back(result.at[position].methods[i].trials);
     }
     const auto start = result.starts_to_fail(i);
     curve["starts_to_fail"] = start ? nlohmann::json(*start) : nlohmann::json(nullptr);
@@ -127,4 +128,4 @@ nlohmann::json stability_json(std::span<const SweepResult> results, bool quick) 
   return json;
 }
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

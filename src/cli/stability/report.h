@@ -7,7 +7,7 @@
 
 #include "lab/sweeps/sweeps.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 // At most 80 columns.
 std::string stability_table(const lab::SweepResult& result);
@@ -16,4 +16,4 @@ std::string list_of_sweeps();
 nlohmann::json sweep_json(const lab::SweepResult& result);
 nlohmann::json stability_json(std::span<const lab::SweepResult> results, bool quick);
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

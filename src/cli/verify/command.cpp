@@ -16,7 +16,7 @@
 #include "support/json_text.h"
 #include "support/progress.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 namespace {
 
@@ -98,4 +98,4 @@ void add_verify(CLI::App& program, Action& action) {
   command.callback([o, &action] { action = [o] { return verify_command(*o); }; });
 }
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

@@ -9,7 +9,7 @@
 #include "image/pictures.h"
 #include "lab/to_stream.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 namespace {
 
@@ -46,4 +46,4 @@ void write_failure(const std::filesystem::path& folder, const std::string& scene
   mismatch.file_error = error.what();
 }
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

@@ -7,7 +7,7 @@
 
 #include "cli/verify/verify.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 struct FailureFrames {
   std::span<const ScreenTriangle> triangles;
@@ -21,4 +21,4 @@ struct FailureFrames {
 void write_failure(const std::filesystem::path& folder, const std::string& scene, Mismatch& mismatch,
                    const FailureFrames& frames);
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

@@ -5,7 +5,7 @@
 #include "support/machine.h"
 #include "support/printable.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 namespace {
 
@@ -146,4 +146,4 @@ nlohmann::json report_json(const VerifyReport& report, const VerifyPlan& plan) {
   return json;
 }
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

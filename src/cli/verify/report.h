@@ -6,7 +6,7 @@
 
 #include "cli/verify/verify.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 // One line per scene. Below 80 columns, leaves out size, emitted and seconds; 60 columns suffice.
 class VerifyTable {
@@ -30,4 +30,4 @@ std::string summary(const VerifyReport& report, const VerifyPlan& plan);
 
 nlohmann::json report_json(const VerifyReport& report, const VerifyPlan& plan);
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

@@ -5,7 +5,7 @@
 
 #include "core/file_extension.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 namespace {
 
@@ -110,4 +110,4 @@ Shot shot_for_oracle(const VerifyPlan& plan, const std::string& name) {
   return shot;
 }
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

@@ -5,7 +5,7 @@
 
 #include "cli/verify/verify.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 // The scene at the plan's size.
 Shot shot_for_comparison(const VerifyPlan& plan, const std::string& name);
@@ -16,4 +16,4 @@ Shot shot_for_oracle(const VerifyPlan& plan, const std::string& name);
 // Whether the scene is watertight over the whole image, so that each pixel is covered exactly once.
 bool covers_each_pixel_once(const Source& source);
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

@@ -11,7 +11,7 @@
 #include "lab/measure.h"
 #include "lab/oracle.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 namespace {
 
@@ -226,4 +226,4 @@ VerifyReport verify(const VerifyPlan& plan, const std::function<void(const Scene
   return report;
 }
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

@@ -14,7 +14,7 @@
 #include "raster/ablation.h"
 #include "support/options.h"
 
-namespace edgewise::app {
+namespace edgewise::tools {
 
 struct VerifyPlan {
   std::vector<std::string> scenes;    // names or paths
@@ -84,4 +84,4 @@ struct VerifyReport {
 // Checks all scenes of the plan in order; calls `on_scene` after each.
 VerifyReport verify(const VerifyPlan& plan, const std::function<void(const SceneVerdict&)>& on_scene);
 
-}  // namespace edgewise::app
+}  // namespace edgewise::tools

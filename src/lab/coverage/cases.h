@@ -11,7 +11,7 @@ namespace edgewise::lab {
 
 struct CoverageCase {
   std::string_view name;
-  std::string_view idea;  // one line
+  std::string_view summary;  // one line
   Size size;
   std::vector<FloatTriangle> (*make)();
 };

@@ -85,18 +85,18 @@ std::int32_t to_sub(float px) {
 
 CoverageMethod make_from(const BackendInfo& backend, bool fills) {
   constexpr double kSnap = 0.00277;  // half a sub-unit on both axes: sqrt(2) / 512
-  return {
-      {backend.name, backend.idea, "src/raster", "exact coverage of the positions snapped to 1/256 px", true},
-      {.reach_px = kSnap, .no_gaps = true, .no_double_hits = true},
-      [&backend](const CoverageInput& input, Canvas& canvas, int threads) {
-        canvas.backend(backend).draw(input.snapped, canvas.frame.view(), 0, {.threads = threads});
-      },
-      [&backend](const CoverageInput& input, Window window, std::vector<Run>& runs) {
-        backend_runs(*backend.make(), input.snapped, window, runs);
-      },
-      true,
-      true,
-      fills};
+  return {{backend.name, backend.summary, "src/raster", "exact coverage of the positions snapped to 1/256 px",
+           true},
+          {.reach_px = kSnap, .no_gaps = true, .no_double_hits = true},
+          [&backend](const CoverageInput& input, Canvas& canvas, int threads) {
+            canvas.backend(backend).draw(input.snapped, canvas.frame.view(), 0, {.threads = threads});
+          },
+          [&backend](const CoverageInput& input, Window window, std::vector<Run>& runs) {
+            backend_runs(*backend.make(), input.snapped, window, runs);
+          },
+          true,
+          true,
+          fills};
 }
 
 const CoverageMethod& find(std::span<const CoverageMethod> all, std::string_view kind,

@@ -97,7 +97,7 @@ FacingScores score(const FacingMethod& method, const FacingScene& scene, std::sp
 
 // Small scenes on which methods fail.
 struct FacingCase {
-  std::string_view name, idea;
+  std::string_view name, summary;
   FacingScene (*make)();
 };
 std::span<const FacingCase> facing_cases();

@@ -27,16 +27,18 @@ void add_picture(Measured& sums, const std::vector<FloatTriangle>& triangles, Wi
   sums.by_snapping += score_coverage(truth, covered_runs(grid, window, 1), triangles, 0.0).errors();
 }
 
-float on_grid(double px, int places) {
-  return static_cast<float>(std::nearbyint(px * places) / places);
+float on_grid(double px, int steps_per_px) {
+  return static_cast<float>(std::nearbyint(px * steps_per_px) / steps_per_px);
 }
 
-std::vector<FloatTriangle> moved_mesh(int side_px, double cell_px, std::uint64_t seed, int places, double x,
-                                      double y) {
+std::vector<FloatTriangle> moved_mesh(int side_px, double cell_px, std::uint64_t seed, int steps_per_px,
+                                      double x, double y) {
   auto mesh = float_triangles(jittered_grid({.width = side_px, .height = side_px}, cell_px, seed));
   for (auto& [at, payload] : mesh)
     for (int i = 0; i < 3; ++i) {
-      const auto place = [&](float px) { return double{places > 0 ? on_grid(double{px}, places) : px}; };
+      const auto place = [&](float px) {
+        return double{steps_per_px > 0 ? on_grid(double{px}, steps_per_px) : px};
+      };
       at.x_px[i] = static_cast<float>(place(at.x_px[i]) + x);
       at.y_px[i] = static_cast<float>(place(at.y_px[i]) + y);
     }

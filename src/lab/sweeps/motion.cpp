@@ -15,8 +15,8 @@ namespace {
 struct View {
   int window_px, margin_px;
   double cell_px;
-  std::vector<FloatTriangle> mesh(int places, double x, double y) const {
-    return moved_mesh(window_px + 2 * margin_px, cell_px, 1, places, x, y);
+  std::vector<FloatTriangle> mesh(int steps_per_px, double x, double y) const {
+    return moved_mesh(window_px + 2 * margin_px, cell_px, 1, steps_per_px, x, y);
   }
   Window window(int moved_px) const {
     return {window_px, window_px, margin_px + moved_px, margin_px + moved_px};

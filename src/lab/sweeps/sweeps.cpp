@@ -48,8 +48,8 @@ const Sweep& find_sweep(std::string_view name) {
 }
 
 std::optional<double> SweepResult::starts_to_fail(std::size_t method) const {
-  for (std::size_t place = 0; place < at.size(); ++place)
-    if (fails(method, place)) return sweep->places[place];
+  for (std::size_t position = 0; position < at.size(); ++position)
+    if (fails(method, position)) return sweep->positions[position];
   return std::nullopt;
 }
 
@@ -59,11 +59,11 @@ double SweepResult::y(const Tally& tally) const {
 }
 
 SweepResult run_sweep(const Sweep& sweep, bool quick, int threads, const std::function<void()>& on_place) {
-  SweepResult result{&sweep, std::vector<Measured>(sweep.places.size(), Measured(0))};
+  SweepResult result{&sweep, std::vector<Measured>(sweep.positions.size(), Measured(0))};
   std::mutex mutex;
-  parallel_for(threads, static_cast<int>(sweep.places.size()), [&](int i) {
-    const auto place = static_cast<std::size_t>(i);
-    result.at[place] = sweep.measure(sweep.places[place], quick);
+  parallel_for(threads, static_cast<int>(sweep.positions.size()), [&](int i) {
+    const auto position = static_cast<std::size_t>(i);
+    result.at[position] = sweep.measure(sweep.positions[position], quick);
     const std::lock_guard lock(mutex);
     on_place();
   });
@@ -71,26 +71,26 @@ SweepResult run_sweep(const Sweep& sweep, bool quick, int threads, const std::fu
 }
 
 std::vector<double> powers_of_two(int from, int to) {
-  std::vector<double> places;
+  std::vector<double> positions;
   const int step = from < to ? 1 : -1;
   for (int exponent = from; exponent != to + step; exponent += step)
-    places.push_back(std::ldexp(1.0, exponent));
-  return places;
+    positions.push_back(std::ldexp(1.0, exponent));
+  return positions;
 }
 
 std::vector<double> decades(int from, int to) {
   // Quotients of exact numbers are correctly rounded, so that 0.002 equals the literal.
-  const auto place = [](int digit, int exponent) {
+  const auto position = [](int digit, int exponent) {
     double power = 1.0;
     for (int i = 0; i < std::abs(exponent); ++i) power *= 10.0;
     return exponent < 0 ? digit / power : digit * power;
   };
-  std::vector<double> places;
+  std::vector<double> positions;
   for (int exponent = std::min(from, to); exponent < std::max(from, to); ++exponent)
-    for (const int digit : {1, 2, 5}) places.push_back(place(digit, exponent));
-  places.push_back(place(1, std::max(from, to)));
-  if (from > to) std::reverse(places.begin(), places.end());
-  return places;
+    for (const int digit : {1, 2, 5}) positions.push_back(position(digit, exponent));
+  positions.push_back(position(1, std::max(from, to)));
+  if (from > to) std::reverse(positions.begin(), positions.end());
+  return positions;
 }
 
 }  // namespace edgewise::lab

@@ -43,14 +43,14 @@ struct YAxis {
 struct Sweep {
   std::string_view name;
   Family family;
-  std::string_view idea;  // one line
+  std::string_view summary;  // one line
   XAxis x;
   YAxis y;
-  double cost;                 // estimated seconds on one core, for estimates of the remaining time
-  std::vector<double> places;  // positions on the x axis, from easy to hard
+  double cost;                    // estimated seconds on one core, for estimates of the remaining time
+  std::vector<double> positions;  // positions on the x axis, from easy to hard
   // Scores all methods at one position on the same scenes, on fewer if `quick`. Deterministic and
   // thread-safe.
-  Measured (*measure)(double place, bool quick);
+  Measured (*measure)(double position, bool quick);
 };
 
 std::span<const Sweep> sweeps();
@@ -63,8 +63,8 @@ struct SweepResult {
 
   // The first position where a method makes more errors than snapping alone; nullopt if there is none.
   std::optional<double> starts_to_fail(std::size_t method) const;
-  bool fails(std::size_t method, std::size_t place) const {
-    return at[place].methods[method].errors > at[place].by_snapping;
+  bool fails(std::size_t method, std::size_t position) const {
+    return at[position].methods[method].errors > at[position].by_snapping;
   }
   double y(const Tally& tally) const;
 };

@@ -98,7 +98,7 @@ VisibilityScores score(const VisibilityMethod& method, const VisibilityScene& sc
 
 // Small scenes on which methods fail.
 struct VisibilityCase {
-  std::string_view name, idea;
+  std::string_view name, summary;
   VisibilityScene (*make)();
 };
 std::span<const VisibilityCase> visibility_cases();

@@ -41,15 +41,15 @@ class Bins {
   }
 
   // Consecutive indices of a cell: one block of a list. `first_slot`: the slot of the first in the chunk.
-  struct Run {
+  struct IndexBlock {
     std::span<const std::uint32_t> indices;
     std::size_t chunk;
     std::uint32_t first_slot;
   };
 
-  // Calls visit(run) for the index blocks of a cell, in submission order.
+  // Calls visit(block) for the index blocks of a cell, in submission order.
   template <typename Visit>
-  void for_each_run(int cell, Visit&& visit) const {
+  void for_each_index_block(int cell, Visit&& visit) const {
     const auto c = static_cast<std::size_t>(cell);
     for (std::size_t i = 0; i < used_chunks_; ++i) {
       const Chunk& chunk = chunks_[i];
@@ -61,7 +61,7 @@ class Bins {
           const std::uint32_t* const next = &chunk.slots[chunk.slots[block_end]];
           __builtin_prefetch(next), __builtin_prefetch(next + kIndicesPerBlock);
         }
-        visit(Run{{&chunk.slots[slot], end - slot}, i, slot});
+        visit(IndexBlock{{&chunk.slots[slot], end - slot}, i, slot});
         slot = last ? kNone : chunk.slots[block_end];
       }
     }
@@ -76,10 +76,10 @@ class Bins {
       for (std::size_t i = 0; i < bins_.used_chunks_; ++i) bins_.chunks_[i].masks.prefetch_first(cell_);
       reader_ = {bins_.chunks_[0].masks, cell_};
     }
-    // Draws the remaining masks that precede triangle `index` of a run.
+    // Draws the remaining masks that precede triangle `index` of an index block.
     template <typename Draw>
-    void draw_before(const Run& run, std::size_t index, Draw&& draw) {
-      advance_to(run.chunk, run.first_slot + static_cast<std::uint32_t>(index) + 1, draw);
+    void draw_before(const IndexBlock& block, std::size_t index, Draw&& draw) {
+      advance_to(block.chunk, block.first_slot + static_cast<std::uint32_t>(index) + 1, draw);
     }
     template <typename Draw>
     void draw_rest(Draw&& draw) {

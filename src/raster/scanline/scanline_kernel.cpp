@@ -103,7 +103,7 @@ void draw_tile_in_spans(const TileTask& task) {
     return clear_upper_halves();
   }
   TilePainter painter(task);
-  draw_runs(task, [&](const Bins::Run& run) { painter.draw(run.indices); });
+  draw_index_blocks(task, [&](const Bins::IndexBlock& block) { painter.draw(block.indices); });
   write_tile(task, painter.depth(), painter.payload(),
              [](const FramePlane& to, const auto& pixels) { write_rows(to, pixels); });
   clear_upper_halves();
