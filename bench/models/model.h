@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "bench/suite.h"
+#include "bench/row.h"
 
 namespace edgewise::bench {
 

@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "bench/suite.h"
+#include "bench/row.h"
 
 namespace edgewise::bench {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "bench/suite.h"
+#include "bench/row.h"
 
 namespace edgewise::bench {
 

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "bench/suite.h"
+#include "bench/row.h"
 
 namespace edgewise::bench {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "bench/peers/stage.h"
-#include "bench/suite.h"
+#include "bench/row.h"
 
 namespace edgewise::bench {
 

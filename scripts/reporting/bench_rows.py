@@ -116,17 +116,7 @@ def read_json(path):
         raise BadInput(f"{path}: not JSON: {error}") from None
 
 
-# Results without model.json have the estimates among the timed rows and their counters.
-OLD_COSTS = {"covered_blocks": "covered_blocks", "won_blocks": "won_blocks", "floor_read_ms": "read_ms",
-             "floor_blocks_ms": "blocks_ms", "floor_write_ms": "write_ms", "floor_tiles_ms": "tiles_ms"}
-
-
-def old_models(rows):
-    """Moves the estimates out of the rows."""
-    scheduled = {name: rows.pop(name) for name, row in list(rows.items()) if "cores" in row.keys}
-    costs = {name: {new: row.counters[old] for old, new in OLD_COSTS.items()} for name, row in rows.items()
-             if OLD_COSTS.keys() <= row.counters.keys()}
-    return scheduled, costs
+COSTS = ("covered_blocks", "won_blocks", "read_ms", "blocks_ms", "write_ms", "tiles_ms")
 
 
 def read_model(path):
@@ -137,7 +127,7 @@ def read_model(path):
             row = scheduled[entry["name"]] = parse_name(entry["name"])
             row.times_ms, row.label = [float(entry["estimate_ms"])], entry["longest"]
             row.counters = {key: float(entry[key]) for key in ("work_ms", "path_ms", "longest_ms", "barrier_ms")}
-        return scheduled, {entry["name"]: {key: float(entry[key]) for key in OLD_COSTS.values()} for entry in data["costs"]}
+        return scheduled, {entry["name"]: {key: float(entry[key]) for key in COSTS} for entry in data["costs"]}
     except (KeyError, TypeError, ValueError, AttributeError) as error:
         raise BadInput(f"{path}: not what 'edgewise_bench --model_out' writes: {type(error).__name__} {error}") from None
 
@@ -166,7 +156,7 @@ def read_bench(folder_or_file):
         raise BadInput(f"{path}: not a Google Benchmark result: {error}") from None
     reads = {row.scene: rows.pop(name) for name, row in list(rows.items()) if row.backend == "random_read"}
     model = path.parent / "model.json"
-    scheduled, costs = read_model(model) if path.name == "bench.json" and model.exists() else old_models(rows)
+    scheduled, costs = read_model(model) if path.name == "bench.json" and model.exists() else ({}, {})
     return Bench(data.get("context", {}), rows, reads, scheduled, costs)
 
 

@@ -59,8 +59,8 @@ class Naive final : public AblatableBackend {
 
 }  // namespace
 
-extern const std::string_view idea_naive;
-const std::string_view idea_naive = "tests every pixel of the bounding box";
+extern const std::string_view summary_naive;
+const std::string_view summary_naive = "tests every pixel of the bounding box";
 std::unique_ptr<Backend> make_naive() {
   return std::make_unique<Naive>();
 }

@@ -1,4 +1,4 @@
-// The list of backends. A backend is a file that defines make_NAME() and idea_NAME. Put it in src/raster and
+// The list of backends. A backend is a file that defines make_NAME() and summary_NAME. Put it in src/raster and
 // add a line below, or pass it to CMake in EDGEWISE_BACKENDS.
 #include <array>
 
@@ -18,13 +18,13 @@
 namespace edgewise {
 
 #define EDGEWISE_DECLARE(name)               \
-  extern const std::string_view idea_##name; \
+  extern const std::string_view summary_##name; \
   std::unique_ptr<Backend> make_##name();
 EDGEWISE_BACKENDS(EDGEWISE_DECLARE)
 EDGEWISE_DECLARE(wireframe)
 
 std::span<const BackendInfo> backends() {
-#define EDGEWISE_ENTRY(name) BackendInfo{#name, idea_##name, make_##name},
+#define EDGEWISE_ENTRY(name) BackendInfo{#name, summary_##name, make_##name},
   static const std::array list{EDGEWISE_BACKENDS(EDGEWISE_ENTRY)};
   return list;
 }
@@ -34,7 +34,7 @@ const BackendInfo& find_backend(std::string_view name) {
 }
 
 const BackendInfo& wireframe() {
-  static const BackendInfo info{"wireframe", idea_wireframe, make_wireframe};
+  static const BackendInfo info{"wireframe", summary_wireframe, make_wireframe};
   return info;
 }
 

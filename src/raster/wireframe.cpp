@@ -166,8 +166,8 @@ class Wireframe final : public Backend {
 
 }  // namespace
 
-extern const std::string_view idea_wireframe;
-const std::string_view idea_wireframe = "draws the edges only, by an exact line rule";
+extern const std::string_view summary_wireframe;
+const std::string_view summary_wireframe = "draws the edges only, by an exact line rule";
 std::unique_ptr<Backend> make_wireframe() {
   return std::make_unique<Wireframe>();
 }

@@ -79,6 +79,7 @@ TEST(Accuracy, WritesTheAgreedKeys) {
     families.insert(method.at("family"));
   }
   EXPECT_EQ(families, (std::set<std::string>{"coverage", "visibility", "facing", "clipping"}));
+  EXPECT_EQ(named(report.at("methods"), "fixed_8_int32").at("max_side_px"), 181);
 
   ASSERT_EQ(report.at("scenes").size(), 4u);
   for (const json& scene : report.at("scenes")) {
@@ -86,7 +87,9 @@ TEST(Accuracy, WritesTheAgreedKeys) {
     const std::string family = scene.at("family");
     const json& first = scene.at("methods").at(0);
     if (family == "coverage") {
-      EXPECT_TRUE(scene.contains("crossings"));
+      EXPECT_EQ(scene.at("crossings"), 36);
+      EXPECT_EQ(scene.at("shared_crossings"), 6) << "of the diagonal";
+      EXPECT_EQ(scene.at("largest_side_px"), 6);
       for (const char* truth : {"snapped", "float"}) {
         expect_keys(first.at(truth),
                     {"missing", "extra", "gaps", "double_hits", "out_of_bounds", "out_of_box", "worst_px",

@@ -51,8 +51,8 @@ class Quadtree final : public Backend {
 
 }  // namespace
 
-extern const std::string_view idea_quadtree;
-const std::string_view idea_quadtree = "quarters the bounding box until a part is outside or one pixel";
+extern const std::string_view summary_quadtree;
+const std::string_view summary_quadtree = "quarters the bounding box until a part is outside or one pixel";
 std::unique_ptr<Backend> make_quadtree();
 std::unique_ptr<Backend> make_quadtree() {
   return std::make_unique<Quadtree>();

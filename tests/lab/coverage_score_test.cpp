@@ -56,6 +56,23 @@ TEST_F(Score, CountsEachErrorByItself) {
   EXPECT_NEAR(score(runs).worst_px, 14.5 - 12.1, 1e-5);
 }
 
+// Two triangles that share an edge, and one in front of them that shares no vertex with them.
+TEST(DoubleHits, AreOfNeighboursOrOfOneTriangle) {
+  const Picture picture{{{{{1, 7, 7}, {1, 1, 7}, {0, 0, 0}}, 1},
+                         {{{1, 7, 1}, {1, 7, 7}, {0, 0, 0}}, 2},
+                         {{{3, 9, 3}, {8, 8, 9}, {0, 0, 0}}, 3}},
+                        {10, 10}};
+  const auto double_hits = [&](const lab::Run& also) {
+    auto runs = picture.by_floats.runs;
+    runs.push_back(also);
+    return score_coverage(picture.by_floats, std::move(runs), picture.floats, 0.1).double_hits;
+  };
+  ASSERT_EQ(picture.by_floats.hits[6 * 10 + 2], 1u);
+  EXPECT_EQ(double_hits({0, 6, 2, 4}), 2u) << "the first triangle in the second";
+  EXPECT_EQ(double_hits({1, 6, 2, 4}), 2u) << "the second triangle again";
+  EXPECT_EQ(double_hits({2, 6, 2, 4}), 0u) << "no neighbour";
+}
+
 // A square whose corners, and whose diagonal, lie on samples: what "<" rejects on the diagonal is a crack,
 // what it rejects on the outline is not.
 TEST(Gaps, LieBetweenNeighboursAndNotOnTheOutline) {
@@ -80,6 +97,15 @@ TEST(Gaps, AreNotWhatAWatertightMethodLosesOnTheOutline) {
     EXPECT_EQ(score.missing, 4u) << method.info.name;
     EXPECT_EQ(score.gaps, 0u) << method.info.name;
   }
+}
+
+TEST(Crossings, OfSharedEdgesCountOncePerEdge) {
+  const FloatTriangle one{{{0, 30, 30}, {0, 10, 0}, {}}, 1}, two{{{0, 30, 0}, {0, 10, 9}, {}}, 2},
+      moved{{{0, 30, 0}, {1, 10, 9}, {}}, 3};
+  EXPECT_EQ(shared_edge_crossings(std::vector{one, two}, {100, 50}), 30u);
+  EXPECT_EQ(shared_edge_crossings(std::vector{one, two, two}, {100, 50}), 30u + 30u + 9u);
+  EXPECT_EQ(shared_edge_crossings(std::vector{one, moved}, {100, 50}), 0u);
+  EXPECT_EQ(largest_side_px(std::vector{one, two}), 30.0f);
 }
 
 TEST(Crossings, AreSampleRowsOrColumnsWhicheverIsMore) {

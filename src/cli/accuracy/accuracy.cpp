@@ -67,7 +67,7 @@ class Run {
       const auto start = std::chrono::steady_clock::now();
       const Bench bench{plan_, methods_, scene, progress(scene.name, scene.cost_s), report.closeups};
       bench.progress(0.0);
-      SceneResult result{scene.family, scene.name, scene.summary, scene.smallest, 0, 0, 0, 0, 0, {}, 0};
+      SceneResult result{scene.family, scene.name, scene.summary, scene.smallest, 0, 0, 0, 0, 0, 0, 0, {}, 0};
       std::visit([&](const auto& made) { judge(made, bench, result); }, scene.make());
       result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       report.scenes.push_back(std::move(result));

@@ -63,7 +63,9 @@ struct SceneResult {
   // Counted by the exact reference: the snapped one where there are two, but for facing the one before
   // snapping.
   std::uint64_t covered = 0;
-  std::uint64_t crossings = 0;  // coverage only: of edges with rows or columns of samples
+  std::uint64_t crossings = 0;         // coverage only: of edges with rows or columns of samples
+  std::uint64_t shared_crossings = 0;  // coverage only: of edges that triangles share
+  float largest_side_px = 0;           // coverage only: of the triangles' bounding boxes
   std::vector<MethodResult> methods;
   double seconds = 0;
 

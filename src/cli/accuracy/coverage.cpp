@@ -51,6 +51,8 @@ void judge(const CoverageScene& scene, const Bench& bench, SceneResult& result) 
   result.triangles = scene.floats.size();
   result.covered = snapped.covered;
   result.crossings = lab::edge_crossings(scene.floats, scene.window());
+  result.shared_crossings = lab::shared_edge_crossings(scene.floats, scene.window());
+  result.largest_side_px = lab::largest_side_px(scene.floats);
 
   result.methods.resize(methods.size());
   std::vector<Closeup> closeups(methods.size());

@@ -111,7 +111,11 @@ json scene_json(const SceneResult& scene) {
               {"width", scene.width},     {"height", scene.height},          {"triangles", scene.triangles},
               {"covered", scene.covered}, {"smallest", scene.smallest},      {"seconds", scene.seconds},
               {"methods", json::array()}};
-  if (scene.family == Family::coverage) result["crossings"] = scene.crossings;
+  if (scene.family == Family::coverage) {
+    result["crossings"] = scene.crossings;
+    result["shared_crossings"] = scene.shared_crossings;
+    result["largest_side_px"] = scene.largest_side_px;
+  }
   if (scene.family == Family::facing) result["faces"] = scene.triangles;
   for (const MethodResult& method : scene.methods) {
     json& entry = result["methods"].emplace_back(json{{"name", method.name}});
@@ -153,13 +157,16 @@ json accuracy_json(const AccuracyReport& report, const AccuracyPlan& plan) {
               {"ok", report.ok()},
               {"methods", json::array()},
               {"scenes", json::array()}};
-  for (const auto& [family, info] : methods_of(plan).all())
-    result["methods"].push_back({{"family", name_of(family)},
-                                 {"name", info->name},
-                                 {"summary", info->summary},
-                                 {"source", info->source},
-                                 {"promise", info->promise},
-                                 {"exact", info->exact}});
+  for (const auto& [family, info] : methods_of(plan).all()) {
+    json& method = result["methods"].emplace_back(json{{"family", name_of(family)},
+                                                       {"name", info->name},
+                                                       {"summary", info->summary},
+                                                       {"source", info->source},
+                                                       {"promise", info->promise},
+                                                       {"exact", info->exact}});
+    if (family == Family::coverage)
+      method["max_side_px"] = lab::find_coverage_method(info->name).promise.max_side_px;
+  }
   for (const SceneResult& scene : report.scenes) result["scenes"].push_back(scene_json(scene));
   if (report.turning_cube) result["turning_cube"] = cube_json(*report.turning_cube);
   return result;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace edgewise::lab {
 
@@ -51,6 +52,66 @@ double samples_between(double a, double b) {
   return std::abs(std::floor(a + 0.5) - std::floor(b + 0.5));
 }
 
+using Point = std::pair<float, float>;
+
+Point vertex(const UnsnappedTriangle& t, int i) {
+  return {t.x_px[i], t.y_px[i]};
+}
+
+// The larger of the numbers of sample rows and sample columns that the segment crosses inside the window.
+double crossings_of(Point from, Point to, Window w) {
+  const double x = double{from.first}, y = double{from.second}, dx = double{to.first} - x,
+               dy = double{to.second} - y;
+  // The part inside the window (Liang and Barsky, 1984), as parameters of x + t dx, y + t dy.
+  double begin = 0.0, end = 1.0;
+  const auto clip = [&](double start, double step, double low, double high) {
+    if (step == 0.0) {
+      if (start < low || start > high) end = -1.0;
+      return;
+    }
+    const double a = (low - start) / step, b = (high - start) / step;
+    begin = std::max(begin, std::min(a, b));
+    end = std::min(end, std::max(a, b));
+  };
+  clip(x, dx, w.x0, w.x1());
+  clip(y, dy, w.y0, w.y1());
+  if (begin >= end) return 0.0;
+  return std::max(samples_between(x + begin * dx, x + end * dx),
+                  samples_between(y + begin * dy, y + end * dy));
+}
+
+bool share_a_vertex(const UnsnappedTriangle& a, const UnsnappedTriangle& b) {
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      if (vertex(a, i) == vertex(b, j)) return true;
+  return false;
+}
+
+// Pixels that at most one triangle covers in truth, but that the runs of two neighbours contain.
+std::uint64_t count_double_hits(const CoverageTruth& truth, std::span<const std::uint32_t> hits,
+                                std::span<const Run> runs, std::span<const FloatTriangle> triangles) {
+  const Window w = truth.window;
+  std::vector<std::pair<std::size_t, std::uint32_t>> drawn;  // pixel and triangle
+  for (const Run& run : runs)
+    for (int x = run.x0; x < run.x1; ++x) {
+      const auto pixel = static_cast<std::size_t>(run.y - w.y0) * static_cast<std::size_t>(w.width) +
+                         static_cast<std::size_t>(x - w.x0);
+      if (hits[pixel] >= 2 && truth.hits[pixel] <= 1) drawn.emplace_back(pixel, run.triangle);
+    }
+  std::sort(drawn.begin(), drawn.end());
+  std::uint64_t count = 0;
+  for (auto first = drawn.begin(); first != drawn.end();) {
+    const auto end = std::find_if(first, drawn.end(), [&](const auto& d) { return d.first != first->first; });
+    bool twice = false;
+    for (auto a = first; a != end; ++a)
+      for (auto b = first; b != a && !twice; ++b)
+        twice = a->second == b->second || share_a_vertex(triangles[a->second].at, triangles[b->second].at);
+    count += twice;
+    first = end;
+  }
+  return count;
+}
+
 }  // namespace
 
 CoverageTruth snapped_coverage(const CoverageInput& input, Window window, int threads) {
@@ -61,31 +122,38 @@ CoverageTruth float_coverage(const CoverageInput& input, Window window, int thre
   return truth_from(covered_runs(input.floats, window, threads), window);
 }
 
-std::uint64_t edge_crossings(std::span<const FloatTriangle> triangles, Window w) {
+std::uint64_t edge_crossings(std::span<const FloatTriangle> triangles, Window window) {
   double crossings = 0.0;
   for (const auto& [t, payload] : triangles)
-    for (int i = 0; i < 3; ++i) {
-      const int j = (i + 1) % 3;
-      const double x = double{t.x_px[i]}, y = double{t.y_px[i]}, dx = double{t.x_px[j]} - x,
-                   dy = double{t.y_px[j]} - y;
-      // The part of the edge inside the window (Liang and Barsky, 1984), as parameters of x + t dx, y + t dy.
-      double begin = 0.0, end = 1.0;
-      const auto clip = [&](double start, double step, double low, double high) {
-        if (step == 0.0) {
-          if (start < low || start > high) end = -1.0;
-          return;
-        }
-        const double a = (low - start) / step, b = (high - start) / step;
-        begin = std::max(begin, std::min(a, b));
-        end = std::min(end, std::max(a, b));
-      };
-      clip(x, dx, w.x0, w.x1());
-      clip(y, dy, w.y0, w.y1());
-      if (begin >= end) continue;
-      crossings += std::max(samples_between(x + begin * dx, x + end * dx),
-                            samples_between(y + begin * dy, y + end * dy));
-    }
+    for (int i = 0; i < 3; ++i) crossings += crossings_of(vertex(t, i), vertex(t, (i + 1) % 3), window);
   return static_cast<std::uint64_t>(crossings);
+}
+
+std::uint64_t shared_edge_crossings(std::span<const FloatTriangle> triangles, Window window) {
+  using ScreenEdge = std::pair<Point, Point>;
+  std::vector<ScreenEdge> edges;
+  edges.reserve(3 * triangles.size());
+  for (const auto& [t, payload] : triangles)
+    for (int i = 0; i < 3; ++i) {
+      const auto [a, b] = std::minmax(vertex(t, i), vertex(t, (i + 1) % 3));
+      edges.emplace_back(a, b);
+    }
+  std::sort(edges.begin(), edges.end());
+  double crossings = 0.0;
+  for (auto edge = edges.begin(); edge != edges.end();) {
+    const auto next = std::upper_bound(edge, edges.end(), *edge);
+    if (next - edge > 1) crossings += crossings_of(edge->first, edge->second, window);
+    edge = next;
+  }
+  return static_cast<std::uint64_t>(crossings);
+}
+
+float largest_side_px(std::span<const FloatTriangle> triangles) {
+  float largest = 0.0f;
+  for (const auto& [t, payload] : triangles)
+    for (const auto& v : {t.x_px, t.y_px})
+      largest = std::max(largest, std::max({v[0], v[1], v[2]}) - std::min({v[0], v[1], v[2]}));
+  return largest;
 }
 
 void for_each_difference(std::span<const Run> truth, std::span<const Run> drawn,
@@ -154,7 +222,7 @@ CoverageScore score_coverage(const CoverageTruth& truth, std::vector<Run> runs,
   score.out_of_bounds = cut(runs, truth.window);
   const auto hits = hits_of(runs, truth.window);
   score.gaps = gaps(truth, hits, triangles, reach_px).size();
-  for (std::size_t i = 0; i < hits.size(); ++i) score.double_hits += truth.hits[i] <= 1 && hits[i] >= 2;
+  score.double_hits = count_double_hits(truth, hits, runs, triangles);
   if (!std::is_sorted(runs.begin(), runs.end())) std::sort(runs.begin(), runs.end());
   for_each_difference(truth.runs, joined(std::move(runs)), [&](const Run& run, bool missing) {
     (missing ? score.missing : score.extra) += length(run);

@@ -25,12 +25,18 @@ CoverageTruth float_coverage(const CoverageInput& input, Window window, int thre
 // the edge crosses inside the window. Error rates are per 10^6 crossings, since a long edge has more chances
 // to be wrong.
 std::uint64_t edge_crossings(std::span<const FloatTriangle> triangles, Window window);
+// The same for edges that at least two triangles share: bit-identical end points. Each such edge counts once.
+std::uint64_t shared_edge_crossings(std::span<const FloatTriangle> triangles, Window window);
+// The largest side of the triangles' bounding boxes, for comparison with CoveragePromise::max_side_px.
+float largest_side_px(std::span<const FloatTriangle> triangles);
 
 struct CoverageScore {
   std::uint64_t triangles = 0, covered = 0;  // covered: (triangle, pixel) pairs, in truth
   std::uint64_t missing = 0, extra = 0;      // pairs only in the truth; pairs only of the method
   std::uint64_t gaps = 0;                    // cracks between neighbours; see gaps()
-  std::uint64_t double_hits = 0;    // pixels drawn more than once that at most one triangle covers in truth
+  // Pixels that at most one triangle covers in truth, drawn by two neighbours (triangles with a bit-identical
+  // vertex) or twice by one triangle. Where an outline moved over another object, no edge was drawn twice.
+  std::uint64_t double_hits = 0;
   std::uint64_t out_of_bounds = 0;  // pixels drawn outside the window; not counted as extra
   std::uint64_t out_of_box = 0;     // extra pairs whose pixel does not touch the triangle's bounding box
   double worst_px = 0.0;            // largest ErrorDistance::at() of a wrong pair

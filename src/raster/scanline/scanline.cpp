@@ -21,8 +21,8 @@ class Scanline final : public AblatableBackend {
 
 }  // namespace
 
-extern const std::string_view idea_scanline;
-const std::string_view idea_scanline =
+extern const std::string_view summary_scanline;
+const std::string_view summary_scanline =
     "walks the edges row by row and fills the spans between them; the reference";
 std::unique_ptr<Backend> make_scanline() {
   return std::make_unique<Scanline>();

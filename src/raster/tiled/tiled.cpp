@@ -20,8 +20,8 @@ class Tiled final : public AblatableBackend {
 
 }  // namespace
 
-extern const std::string_view idea_tiled;
-const std::string_view idea_tiled =
+extern const std::string_view summary_tiled;
+const std::string_view summary_tiled =
     "SIMD edge functions over tiles, tiles on threads, every pixel independent";
 std::unique_ptr<Backend> make_tiled() {
   return std::make_unique<Tiled>();

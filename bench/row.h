@@ -1,0 +1,46 @@
+// One row of the benchmark.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "bench/models/scaling.h"
+#include "bench/peers/peer.h"
+#include "bench/workloads/workload.h"
+#include "raster/ablation.h"
+
+namespace edgewise::bench {
+
+enum class Timed {
+  raster,    // the draw of prepared screen triangles, clear included
+  frontend,  // scene to screen triangles
+  frame      // both
+};
+
+// Rows that take longer are drawn once: the draw that is compared is also the one that is timed.
+inline constexpr double kTooSlowToRepeat_s = 1.5;
+
+struct Row {
+  // WHO/what/key:value…/threads:N, where WHO is BACKEND, frontend, BACKEND+frontend, or a peer's name
+  std::string name;
+  std::shared_ptr<Workload> workload;
+  Timed timed = Timed::raster;
+  const BackendInfo* backend = nullptr;  // null for front end rows and peers
+  const PeerInfo* peer = nullptr;
+  Execution execution;
+  Ablation ablation{};
+  double repeat_below_s = kTooSlowToRepeat_s;
+  int cores = 0;          // if set, the row is estimated for this many cores, not timed
+  FrameWork recorded;     // the tasks of that estimate
+  double peak_bytes = 0;  // of a first frame; 0: not measured
+  bool wants_cost = false;
+  bool step = false;              // one step of the ablation
+  double once_s = 0.0;            // duration of the compared draw
+  std::optional<FrameCost> cost;  // if wants_cost
+  std::uint64_t depth_ties = 0;   // peers: depth ties within tolerance, px
+  std::string error;              // why the row must not be timed
+};
+
+}  // namespace edgewise::bench
