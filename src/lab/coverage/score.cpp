@@ -135,7 +135,7 @@ std::uint64_t shared_edge_crossings(std::span<const FloatTriangle> triangles, Wi
   edges.reserve(3 * triangles.size());
   for (const auto& [t, payload] : triangles)
     for (int i = 0; i < 3; ++i) {
-      const auto [a, b] = std::minmax(vertex(t, i), vertex(t, (i + 1) % 3));
+      const auto [a, b] = std::minmax({vertex(t, i), vertex(t, (i + 1) % 3)});  // by value
       edges.emplace_back(a, b);
     }
   std::sort(edges.begin(), edges.end());
