@@ -87,27 +87,37 @@ bool share_a_vertex(const UnsnappedTriangle& a, const UnsnappedTriangle& b) {
   return false;
 }
 
-// Pixels that at most one triangle covers in truth, but that the runs of two neighbours contain.
+// Counts pixels that at most one triangle covers in truth, but that are in the runs of two neighbours, or
+// twice in those of one triangle. Each triangle is compared with the last kRemembered ones at its pixel, so
+// that the cost stays linear where overflow lets hundreds of triangles cover a pixel.
 std::uint64_t count_double_hits(const CoverageTruth& truth, std::span<const std::uint32_t> hits,
                                 std::span<const Run> runs, std::span<const FloatTriangle> triangles) {
-  const Window w = truth.window;
-  std::vector<std::pair<std::size_t, std::uint32_t>> drawn;  // pixel and triangle
-  for (const Run& run : runs)
-    for (int x = run.x0; x < run.x1; ++x) {
-      const auto pixel = static_cast<std::size_t>(run.y - w.y0) * static_cast<std::size_t>(w.width) +
-                         static_cast<std::size_t>(x - w.x0);
-      if (hits[pixel] >= 2 && truth.hits[pixel] <= 1) drawn.emplace_back(pixel, run.triangle);
-    }
-  std::sort(drawn.begin(), drawn.end());
-  std::uint64_t count = 0;
-  for (auto first = drawn.begin(); first != drawn.end();) {
-    const auto end = std::find_if(first, drawn.end(), [&](const auto& d) { return d.first != first->first; });
+  constexpr std::uint32_t kRemembered = 8, kNone = std::numeric_limits<std::uint32_t>::max();
+  struct Suspect {
+    std::uint32_t triangles[kRemembered], seen = 0;
     bool twice = false;
-    for (auto a = first; a != end; ++a)
-      for (auto b = first; b != a && !twice; ++b)
-        twice = a->second == b->second || share_a_vertex(triangles[a->second].at, triangles[b->second].at);
-    count += twice;
-    first = end;
+  };
+  std::vector<Suspect> suspects;
+  std::vector<std::uint32_t> suspect_of(hits.size(), kNone);
+  for (std::size_t i = 0; i < hits.size(); ++i)
+    if (hits[i] >= 2 && truth.hits[i] <= 1) {
+      suspect_of[i] = static_cast<std::uint32_t>(suspects.size());
+      suspects.emplace_back();
+    }
+  std::uint64_t count = 0;
+  const Window w = truth.window;
+  for (const Run& run : runs) {
+    const std::uint32_t* const row =
+        &suspect_of[static_cast<std::size_t>(run.y - w.y0) * static_cast<std::size_t>(w.width)];
+    for (int x = run.x0; x < run.x1; ++x) {
+      if (row[x - w.x0] == kNone) continue;
+      Suspect& suspect = suspects[row[x - w.x0]];
+      if (suspect.twice) continue;
+      for (std::uint32_t i = 0; i < std::min(suspect.seen, kRemembered) && !suspect.twice; ++i)
+        suspect.twice = share_a_vertex(triangles[suspect.triangles[i]].at, triangles[run.triangle].at);
+      count += suspect.twice;
+      suspect.triangles[suspect.seen++ % kRemembered] = run.triangle;
+    }
   }
   return count;
 }
