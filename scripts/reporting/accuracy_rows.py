@@ -49,6 +49,7 @@ class Method:
     source: str
     promise: str
     exact: bool
+    max_side_px: float | None = None  # coverage: triangles with larger boxes overflow
 
     @property
     def ours(self):
@@ -76,6 +77,8 @@ class Measured:
     snapped_rate: float | None  # the same against the snapped truth; coverage and facing only
     costs: dict  # by threads; empty where the scene is not timed
     gaps: int | None = None  # pixels; coverage only
+    cracks: int | None = None  # gaps and double hits, pixels; coverage only
+    rounds: dict = field(default_factory=dict)  # by threads and SIMD target: ms of each round, all methods interleaved
 
 
 @dataclass(frozen=True)
@@ -85,6 +88,8 @@ class Scene:
     summary: str
     trials: int
     measured: tuple
+    shared_crossings: int = 0  # of edges that triangles share with sample rows or columns; coverage only
+    largest_side_px: float = 0.0  # of the triangles' boxes; coverage only
 
     @property
     def timed(self):
@@ -149,9 +154,13 @@ def parse_measured(entry, family, method):
     cost = "ns_per_face" if family == "facing" else "ns_per_covered_pixel"
     costs = {int(speed["threads"]): parse_cost(speed, cost) for speed in entry.get("speed") or () if cost in speed}
     bound = scores[0].get("bound_per_million")
+    coverage = family == "coverage"
     return Measured(method, float(scores[0]["errors_per_million"]), None if bound is None else float(bound),
                     float(scores[1]["errors_per_million"]) if len(scores) > 1 else None, costs,
-                    int(scores[0]["gaps"]) if family == "coverage" else None)
+                    int(scores[0]["gaps"]) if coverage else None,
+                    int(scores[0]["gaps"]) + int(scores[0]["double_hits"]) if coverage else None,
+                    {(int(speed["threads"]), speed["simd"]): tuple(map(float, speed["rounds_ms"]))
+                     for speed in entry.get("speed") or () if "rounds_ms" in speed})
 
 
 def parse_cube(data, methods):
@@ -170,14 +179,15 @@ def parse_cube(data, methods):
 
 
 def parse_accuracy(data):
-    methods = {(m["family"], m["name"]): Method(m["name"], m["source"], m["promise"], bool(m["exact"]))
+    methods = {(m["family"], m["name"]): Method(m["name"], m["source"], m["promise"], bool(m["exact"]), m.get("max_side_px"))
                for m in data["methods"]}
     scenes = []
     for scene in data["scenes"]:
         family = FAMILIES[scene["family"]]
         scenes.append(Scene(scene["name"], family.name, scene["summary"], int(scene[family.trials]),
                             tuple(parse_measured(entry, family.name, methods[family.name, entry["name"]])
-                                  for entry in scene["methods"])))
+                                  for entry in scene["methods"]),
+                            int(scene.get("shared_crossings", 0)), float(scene.get("largest_side_px", 0.0))))
     by_family = {name: [method for (family, _), method in methods.items() if family == name] for name in FAMILIES}
     return Accuracy(data["machine"], bool(data["quick"]), by_family, tuple(scenes), parse_cube(data, methods))
 

@@ -33,12 +33,15 @@ def main():
     import plot_stability_grid
     import plot_area
     import plot_displacement
+    import plot_frontier
     charts = (*plot_area.CHARTS, *plot_scenes.CHARTS, *plot_ablation.CHARTS)
     drawn = [name for chart in charts if (name := chart(bench, folder, caption))]
     drawn += [name for name in (plot_growth.growth(bench, machine, folder, caption),
                                 plot_scaling.scaling(bench, folder, caption)) if name]
     drawn += plot_peers.against(bench, folder, caption)
     drawn += [*plot_accuracy.draw(accuracy, folder, caption), *plot_stability.draw(sweeps, accuracy, folder, caption)]
+    if main_chart := plot_frontier.frontier(accuracy, folder, caption):
+        drawn.append(main_chart)
     if strip := plot_displacement.strip(accuracy, folder, caption):
         drawn.append(strip)
     if grid := plot_stability_grid.grid(sweeps, accuracy, folder, caption):

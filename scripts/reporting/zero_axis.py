@@ -8,13 +8,14 @@ from tables import short
 class ZeroAxis:
     """Positions, in decades, of values ≥ 0 on a log axis that begins with a band for 0."""
 
-    def __init__(self, values):
+    def __init__(self, values, band=0.18):
+        """`band`: the width of the band, as a part of the log axis."""
         seen = [math.log10(v) for v in values if v > 0] or [0.0, 1.0]
         self.low, self.high = math.floor(min(seen)), max(seen)
         self.high = max(self.high, self.low + 1)
         decades = self.high - self.low
         self.end = self.low - 0.035 * decades  # of the band
-        self.start = self.end - 0.18 * decades
+        self.start = self.end - band * decades
         self.zero = (self.start + self.end) / 2
         self.limit = self.high + 0.04 * decades
 

@@ -1,0 +1,95 @@
+"""The figures of the main chart: how often each coverage method cracks, and how fast it is in scalar code and with SIMD."""
+import random
+from typing import NamedTuple
+
+from noise import CONFIDENCE, median, ratios
+
+LEAST_CROSSINGS = 10_000  # of shared edges; in smaller scenes a single crossing decides the rate
+T_JUNCTIONS = ("t_junction", "t_junction_split")  # cracks of the mesh, not of the method
+RESAMPLES = 400
+
+
+class Cracks(NamedTuple):
+    """Gaps and double hits per 10⁶ crossings of shared edges."""
+    rate: float  # all scenes pooled
+    worst: float  # of one scene
+    worst_scene: str
+    crossings: int
+    scenes: int
+
+
+class SpeedUp(NamedTuple):
+    """Over the reference, the median of the scenes, with its interval."""
+    middle: float
+    low: float
+    high: float
+
+
+def within_range(scene, method):
+    """Beyond its range a method's integers overflow. That is another fault than a crack."""
+    return method.max_side_px is None or scene.largest_side_px <= method.max_side_px
+
+
+def cracks_of(accuracy, method):
+    """None if no scene shows it."""
+    found = [(m.cracks, scene) for scene in accuracy.of("coverage") for m in scene.measured
+             if m.method == method and scene.name not in T_JUNCTIONS and scene.shared_crossings >= LEAST_CROSSINGS
+             and within_range(scene, method)]
+    if not found:
+        return None
+    crossings = sum(scene.shared_crossings for _, scene in found)
+    worst, worst_scene = max(((1e6 * cracks / scene.shared_crossings, scene.name) for cracks, scene in found),
+                             key=lambda pair: pair[0])
+    return Cracks(1e6 * sum(cracks for cracks, _ in found) / crossings, worst, worst_scene, crossings, len(found))
+
+
+def scalar_form(m):
+    return m.rounds.get((1, "scalar"))
+
+
+def simd_form(m):
+    """(name of the target, rounds), or None for a method with a scalar form alone."""
+    return next(((target, rounds) for (threads, target), rounds in m.rounds.items() if threads == 1 and target != "scalar"), None)
+
+
+def timed_scenes(accuracy):
+    return [scene for scene in accuracy.of("coverage") if any(m.rounds for m in scene.measured)]
+
+
+def reference(accuracy):
+    """The fastest method of others in scalar code: the one with the smallest product of its medians in all timed scenes."""
+    scenes = timed_scenes(accuracy)
+    products = {}
+    for method in accuracy.methods.get("coverage", ()):
+        times = [median(scalar_form(m)) for scene in scenes for m in scene.measured if m.method == method and scalar_form(m)]
+        if times and len(times) == len(scenes) and not method.ours:
+            product = 1.0
+            for time in times:
+                product *= time
+            products[method] = product
+    return min(products, key=products.get) if products else None
+
+
+def speed_up(groups):
+    """Of ratios grouped by scene."""
+    generator = random.Random(1)  # the same result each time
+    again = sorted(median([median(generator.choices(group, k=len(group))) for group in groups]) for _ in range(RESAMPLES))
+    outside = int(RESAMPLES * (1 - CONFIDENCE) / 2)
+    return SpeedUp(median([median(group) for group in groups]), again[outside], again[-1 - outside])
+
+
+def speed_ups(accuracy):
+    """({method: {"scalar": SpeedUp, "simd": SpeedUp}}, the reference, number of scenes). Round i of all methods is a pair."""
+    base, scenes = reference(accuracy), timed_scenes(accuracy)
+    if base is None:
+        return {}, None, 0
+    groups = {}
+    for scene in scenes:
+        base_rounds = next(scalar_form(m) for m in scene.measured if m.method == base)
+        for m in scene.measured:
+            simd = simd_form(m)
+            for form, rounds in (("scalar", scalar_form(m)), ("simd", simd and simd[1])):
+                if rounds:
+                    groups.setdefault(m.method, {}).setdefault(form, []).append(ratios(rounds, base_rounds))
+    return ({method: {form: speed_up(of) for form, of in forms.items() if len(of) == len(scenes)}
+             for method, forms in groups.items()}, base, len(scenes))

@@ -1,0 +1,104 @@
+"""The main chart: cracks against speed, each coverage method in scalar code and with SIMD."""
+from accuracy_rows import FAMILIES
+from frontier import LEAST_CROSSINGS, cracks_of, speed_ups, timed_scenes
+from palette import FAINT, GREEN, INK
+from plot_kinds import Kinds
+from plot_labels import Label, label_points
+from plot_style import WIDTH_IN, head_in, headline, plt, save
+from speedups import about, kernels
+from tables import number, short
+from zero_axis import ZeroAxis
+
+NEAR = 1.15  # ratio of speeds below which points at one x share a label
+INTERVAL = {"linewidth": 3.0, "alpha": 0.3, "solid_capstyle": "butt"}
+WORST = {"linewidth": 0.9, "linestyle": (0, (1.5, 1.5))}
+
+
+def best(ups):
+    """The faster form of a method."""
+    return max(ups.values(), key=lambda up: up.middle)
+
+
+def frontier_title(found, base, machine):
+    """Our fastest against the fastest other method of each kind: watertight or not."""
+    simd = {method: ups["simd"] for method, (ups, _) in found.items() if "simd" in ups}
+    ours = [m for m in simd if m.ours]
+    if not ours:
+        return "Coverage: cracks against speed"
+    first = max(ours, key=lambda m: simd[m].middle)
+    others = [m for m in simd if not m.ours]
+    text = f"{first.name}, watertight, is {about(simd[first].middle)} faster than {base.name} in scalar code"
+    if others:
+        other = max(others, key=lambda m: simd[m].middle)
+        ratio = simd[first].middle / simd[other].middle
+        said = f"{about(ratio)} faster" if ratio >= 1 else f"{about(1 / ratio)} slower"
+        text += f", {said} than {other.name} with {kernels(machine.get('simd_best'))}"
+    return text
+
+
+def labels_of(found, x_of):
+    """Ours by themselves; others that lie close together at one x share a label, by the faster form."""
+    labels, groups = [], []
+    for method, (ups, cracks) in sorted(found.items(), key=lambda item: (item[1][1].rate, best(item[1][0]).middle)):
+        x, y = x_of(cracks.rate), best(ups).middle
+        if method.ours:
+            labels.append(Label(x, y, method.name, bold=True))
+        elif groups and groups[-1][0] == x and y < NEAR * groups[-1][1][-1][0]:
+            groups[-1][1].append((y, method.name))
+        else:
+            groups.append((x, [(y, method.name)]))
+    return labels + [Label(x, members[len(members) // 2][0], "\n".join(name for _, name in reversed(members)))
+                     for x, members in groups]
+
+
+def frontier(accuracy, folder, caption):
+    ups, base, scenes = speed_ups(accuracy) if accuracy else ({}, None, 0)
+    found = {method: (forms, cracks) for method, forms in ups.items() if forms and (cracks := cracks_of(accuracy, method))}
+    if base is None or not found:
+        return None
+    kinds = Kinds(FAMILIES["coverage"])
+    scale = ZeroAxis([rate for _, cracks in found.values() for rate in (cracks.rate, cracks.worst)], band=0.4)
+    most = max(found.values(), key=lambda item: item[1].crossings)[1]
+    subtitle = (f"Further left: fewer cracks; further up: faster on one thread, median of {scenes} scenes "
+                f"({', '.join(scene.name for scene in timed_scenes(accuracy))}). Cracks are gaps and double hits between neighbours, "
+                f"{most.scenes} scenes and {short(most.crossings)} crossings of shared edges pooled; the dotted line ends at the worst "
+                f"scene. Hollow: scalar code; filled: {kernels(accuracy.machine.get('simd_best'))}.")
+    above, below = 0.75 + head_in(subtitle), 1.0
+    figure, axes = plt.subplots(figsize=(WIDTH_IN, above + below + 5.0))
+    height = figure.get_figheight()
+    top = headline(figure, frontier_title(found, base, accuracy.machine), subtitle)
+    figure.subplots_adjust(left=0.07, right=0.985, bottom=below / height, top=1 - above / height)
+    scale.apply_x(axes, "0")
+    axes.set_yscale("log")
+    speeds = [edge for forms, _ in found.values() for up in forms.values() for edge in (up.low, up.high)]
+    axes.set_ylim(min(speeds) / 1.25, max(speeds) * 1.35)
+    ticks = [tick for tick in (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50) if min(speeds) / 1.25 <= tick <= max(speeds) * 1.35]
+    axes.set_yticks(ticks, [f"{tick:g}×" for tick in ticks])
+    axes.set_yticks([], minor=True)
+    axes.axhline(1, color=FAINT, linewidth=0.8, zorder=1)
+    lines = []
+    for method, (forms, cracks) in found.items():
+        x, (colour, marker) = scale.at(cracks.rate), kinds.of(method)
+        axes.plot([x] * len(forms), [up.middle for up in forms.values()], color=colour, linewidth=1.0, zorder=2)
+        if cracks.worst > cracks.rate:
+            lines.append([(x, best(forms).middle), (scale.at(cracks.worst), best(forms).middle)])
+            axes.plot(*zip(*lines[-1]), color=colour, **WORST, zorder=1.6)
+        for form, up in forms.items():
+            lines.append([(x, up.low), (x, up.high)])
+            axes.plot(*zip(*lines[-1]), color=colour, **INTERVAL, zorder=1.8)
+            face, edge = (colour, "white") if form == "simd" else ("white", colour)
+            axes.plot([x], [up.middle], marker=marker, linestyle="", zorder=3, markersize=7, markerfacecolor=face,
+                      markeredgecolor=edge, markeredgewidth=0.8 if form == "simd" else 1.5)
+    axes.text(scale.start, max(speeds) * 1.3, " fast and watertight", color=GREEN, fontsize=9.5, va="top", fontweight="bold")
+    axes.set_ylabel(f"speed, {base.name} in scalar code = 1×")
+    axes.set_xlabel("cracks per 10⁶ crossings of shared edges")
+    label_points(axes, labels_of(found, scale.at), lines)
+    extra = [plt.Line2D([], [], color=FAINT, **INTERVAL, label="95 % interval, paired rounds"),
+             plt.Line2D([], [], color=FAINT, **WORST, label="worst scene"),
+             plt.Line2D([], [], color=INK, marker="o", markerfacecolor="white", linestyle="", markersize=7, label="scalar"),
+             plt.Line2D([], [], color=INK, marker="o", linestyle="", markersize=7, label="SIMD")]
+    kinds.legend(figure, top, list(found), extra)
+    bound = 3e6 / most.crossings
+    save(figure, folder, "frontier", f"0: no crack seen; the 95 % upper bound is {number(bound, 2)} per 10⁶. Left out: T-junctions, "
+         f"scenes with fewer than {short(LEAST_CROSSINGS)} crossings, and for 32-bit methods scenes beyond their range.\n{caption}")
+    return "frontier"
