@@ -151,6 +151,29 @@ def cube_sentence(accuracy):
             f"`{name}` is the worst, with up to {gaps:,.0f} gaps and up to {doubles:,.0f} double hits per frame.")
 
 
+OUR_DEPTH, PLAIN_DEPTHS = "contract31", ("unorm24", "float_z")
+
+
+def depth_sentence(accuracy, sweeps):
+    """Whether our depth errs more than a plain depth buffer in any scene or at any point of a sweep; empty if not judged."""
+    scenes = [(scene.name, {m.method.name: m.rate for m in scene.measured}) for scene in accuracy.of("visibility")]
+    points = [(f"{sweep.name} at {tidy(x)}", {curve.method: curve.points[i][1] for curve in sweep.curves})
+              for sweep in sweeps if sweep.family == "visibility"
+              for i, (x, _) in enumerate(sweep.curves[0].points if sweep.curves else ())]
+    judged = [(where, rates) for where, rates in scenes + points if rates.keys() >= {OUR_DEPTH, *PLAIN_DEPTHS}]
+    if not judged:
+        return ""
+    worse = [(rates[OUR_DEPTH] - rates[plain], where, rates, plain) for where, rates in judged for plain in PLAIN_DEPTHS
+             if rates[OUR_DEPTH] > rates[plain]]
+    said = f"In {len(scenes)} scenes and at {len(points)} points of the sweeps, our 31-bit depth (`{OUR_DEPTH}`)"
+    if not worse:
+        return f"{said} shows the wrong triangle at most as often as depth buffers of {listed(PLAIN_DEPTHS)}."
+    _, where, rates, plain = max(worse, key=lambda found: found[0])
+    return (f"{said} shows the wrong triangle more often than {listed(PLAIN_DEPTHS)} in {len({w[1] for w in worse})} of "
+            f"{len(judged)}, most in {where}: {number(rates[OUR_DEPTH])} wrong pixels per 10⁶ against {number(rates[plain])} "
+            f"(`{plain}`).")
+
+
 def most_errors(sweep, curve):
     worst = max(y for _, y in curve.points)
     return number(worst) + (" %" if sweep.y["name"].endswith("%") else "")

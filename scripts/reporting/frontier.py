@@ -78,6 +78,21 @@ def speed_up(groups):
     return SpeedUp(median([median(group) for group in groups]), again[outside], again[-1 - outside])
 
 
+def measured_in(scene, name):
+    return next((m for m in scene.measured if m.method.name == name), None)
+
+
+def simd_speed_up(accuracy, name, other):
+    """Of one method over another, both with SIMD on one thread; None if a scene lacks one of them."""
+    groups = []
+    for scene in timed_scenes(accuracy):
+        forms = [m and simd_form(m) for m in (measured_in(scene, name), measured_in(scene, other))]
+        if not all(forms):
+            return None
+        groups.append(ratios(forms[0][1], forms[1][1]))
+    return speed_up(groups) if groups else None
+
+
 def speed_ups(accuracy):
     """({method: {"scalar": SpeedUp, "simd": SpeedUp}}, the reference, number of scenes). Round i of all methods is a pair."""
     base, scenes = reference(accuracy), timed_scenes(accuracy)

@@ -60,21 +60,38 @@ def fuzz_lines(data):
                none_or(len(target["crashes"]), "crash", "crashes")]
 
 
+def brief_test_lines(data):
+    families = data["families"].values()
+    cases, comparisons = (short(sum(totals[key] for totals in families)) for key in ("cases", "comparisons"))
+    yield ["Tests at full size", f"{ran(data['all'])}; {cases} random or exhaustive cases, {comparisons} comparisons",
+           none_or(data["all"]["failed"], "failure")]
+    if runs := data["sanitized"]:
+        yield [f"Again with the sanitizers ({', '.join(run['name'] for run in runs)})",
+               how_many(sum(run["tests"] for run in runs), "test"), none_or(sum(run["failed"] for run in runs), "failure")]
+
+
+def brief_fuzz_lines(data):
+    targets = data["targets"]
+    yield ["Fuzzing", f"{how_many(len(targets), 'target')}, {short(sum(target['executions'] for target in targets))} executions",
+           none_or(sum(len(target["crashes"]) for target in targets), "crash", "crashes")]
+
+
 LINES = {"tests": test_lines, "prove": prove_lines, "mutate": mutate_lines, "fuzz": fuzz_lines}
+BRIEF_LINES = {**LINES, "tests": brief_test_lines, "fuzz": brief_fuzz_lines}
 
 
-def verification_table(folder):
+def verification_table(folder, all_lines=LINES):
     """Header and lines; no lines if nothing was run."""
     lines = []
-    for name, lines_of in LINES.items():
+    for name, lines_of in all_lines.items():
         path = folder / f"{name}.json"
         if path.exists():
             lines += lines_of(read_json(path))
     return HEADER, lines
 
 
-def verification_markdown(folder):
-    header, lines = verification_table(folder)
+def verification_markdown(folder, all_lines=LINES):
+    header, lines = verification_table(folder, all_lines)
     return markdown(header, lines, "|---|---|---|") if lines else "None of this was run for these results."
 
 
