@@ -32,16 +32,15 @@ namespace {
 // The time budget of a row. Noise comes in bursts, so many short repetitions measure better than a few long
 // ones.
 struct Effort {
+  // The minimum for all but ablation rows. The rank-sum test of scripts/reporting/noise.py needs five on both
+  // sides. Slow ablation rows may have fewer: their steps are far above the noise.
   int repetitions;
-  // The minimum for rows of a backend alone, since charts estimate the noise from them. Slow ablation rows
-  // may have fewer: their steps are far above the noise. Peers always have `repetitions`.
-  int min_repetitions;
   int ablation_repetitions;  // replaces `repetitions` for ablation rows and those of kAblationBackend: their
                              // differences are often below the noise
   double repetition_s;       // minimum duration of a repetition
-  double slow_repetition_s;  // rows with longer iterations have fewer repetitions
+  double slow_repetition_s;  // rows with longer iterations have fewer of the ablation's repetitions
 };
-constexpr Effort kFull{5, 3, 9, 0.012, 0.07}, kQuick{3, 2, 3, 0.015, 0.1};
+constexpr Effort kFull{5, 9, 0.012, 0.07}, kQuick{5, 5, 0.01, 0.1};
 
 // Memory is measured once per scene and backend.
 bool needs_peak(const Row& row) {
@@ -211,9 +210,7 @@ void register_rows(const std::vector<Row>& rows, Stage& stage, const Flags& flag
     else
       registered->UseRealTime();
     const double once_s = std::max(row.once_s, 1e-6);
-    const int least = row.peer != nullptr                       ? effort.repetitions
-                      : row.timed == Timed::raster && !row.step ? effort.min_repetitions
-                                                                : 1;
+    const int least = row.step ? 1 : effort.repetitions;
     if (flags.own_iterations || known)
       registered->Iterations(known ? 1
                                    : std::max<std::int64_t>(1, std::llround(effort.repetition_s / once_s)));

@@ -56,16 +56,16 @@ def before_snapping_clause(accuracy, name):
 
 
 def fastest(measured):
-    """The fastest by the median on one thread, and the methods whose range of repetitions overlaps its range."""
+    """The fastest by the median on one thread, and the methods too close to it to call."""
     first = min(measured, key=lambda m: m.costs[1].ns)
-    return first, [m for m in measured if m is not first and m.costs[1].overlaps(first.costs[1])]
+    return first, [m for m in measured if m is not first and m.costs[1].order(first.costs[1]) == 0]
 
 
 def compared(ours, other, machine):
     """"`tiled` with AVX-512 is 4.1× faster than `dda_16_16` in scalar code", marked if not settled."""
     ours_ns, other_ns = ours.costs[1].ns, other.costs[1].ns
     ratio, word = (other_ns / ours_ns, "faster") if ours_ns <= other_ns else (ours_ns / other_ns, "slower")
-    open_question = " (ranges overlap: not settled)" if ours.costs[1].overlaps(other.costs[1]) else ""
+    open_question = "" if ours.costs[1].order(other.costs[1]) else " (not settled)"
     return (f"`{ours.method.name}` with {kernels(machine.get('simd_best'))} is {about(ratio)} {word} than "
             f"`{other.method.name}` in scalar code{open_question}")
 
@@ -86,14 +86,14 @@ def cost_sentence(scene, machine):
     exact = [m for m in others if m.method.exact and m is not other]
     if exact:
         same = fastest(exact)[0]
-        settled = "" if not same.costs[1].overlaps(other.costs[1]) else " (not settled)"
+        settled = "" if same.costs[1].order(other.costs[1]) else " (not settled)"
         text += (f"; our rule in scalar code (`{same.method.name}`) is {about(same.costs[1].ns / other.costs[1].ns)} "
                  f"slower than `{other.method.name}`{settled}")
     return text + "."
 
 
 def leader(measured, unit, role):
-    """"`tiled` (1.3 ns, 0 wrong per 10⁶) is our fastest; `naive` is too close to call": their ranges overlap."""
+    """"`tiled` (1.3 ns, 0 wrong per 10⁶) is our fastest; `naive` is too close to call"."""
     first, close = fastest(measured)
     text = f"`{first.method.name}` ({first.costs[1].ns:.2g} {unit}, {number(first.rate)} wrong per 10⁶) is {role}"
     names = listed(m.method.name for m in close) if len(close) < 4 else f"{len(close)} others"

@@ -3,6 +3,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
 
+import noise
 from bench_rows import BadInput, read_json
 
 
@@ -57,15 +58,23 @@ class Method:
 
 
 class Cost(NamedTuple):
-    """The median, the fastest and the slowest repetition."""
+    """The median of a scene's rounds, in which all methods take turns."""
     ns: float
-    low: float
+    low: float  # fastest and slowest round
     high: float
     mtri: float  # 10⁶ triangles per second, median
+    repetitions: int
+    rounds: tuple = ()  # in order; empty in older results
 
-    def overlaps(self, other):
-        """Whether the order of the two is not settled."""
-        return self.low <= other.high and other.low <= self.high
+    @property
+    def interval(self):
+        return noise.interval(self.rounds) if self.rounds else (self.low, self.high)
+
+    def order(self, other):
+        """-1 where this is faster, 1 where it is slower, 0 where the two are too close to call."""
+        if self.rounds and len(self.rounds) == len(other.rounds):
+            return noise.paired_order(other.rounds, self.rounds)
+        return noise.order_of_ranges((self.low, self.high, self.repetitions), (other.low, other.high, other.repetitions))
 
 
 @dataclass(frozen=True)
@@ -146,7 +155,9 @@ class Sweep:
 def parse_cost(speed, key):
     ns, ms = float(speed[key]), speed["ms"]
     median = float(ms["median"])
-    return Cost(ns, ns * float(ms["min"]) / median, ns * float(ms["max"]) / median, float(speed["mtri_per_s"]))
+    low, high = (ns * float(ms[end]) / median for end in ("min", "max"))
+    return Cost(ns, low, high, float(speed["mtri_per_s"]), int(ms["repetitions"]),
+                tuple(ns * float(one) / median for one in speed.get("rounds_ms", ())))
 
 
 def parse_measured(entry, family, method):

@@ -29,8 +29,7 @@ def crossings(first, second):
     shared = [(x, row, by_x[x], scale) for x, row, scale in first if x in by_x]
     logs = [(math.log(x), math.log(a.median_ms * scale), math.log(b.median_ms * scale)) for x, a, b, scale in shared]
     for index, (_, a, b, _) in enumerate(shared):
-        repeated = min(len(a.times_ms), len(b.times_ms)) > 1
-        side = repeated * order(a, b)
+        side = order(a, b)
         if side and decided and side != decided[0]:
             for (x0, a0, b0), (x1, a1, b1) in reversed(list(zip(logs[decided[1]:index], logs[decided[1] + 1:index + 1]))):
                 before, after = a0 - b0, a1 - b1

@@ -4,11 +4,11 @@ A row's name is DRAWER/scene/key:value…/threads:N. DRAWER is a backend, a peer
 "frontend" or BACKEND+frontend. Rows random_read/WHERE measure the machine and draw nothing.
 """
 import json
-import math
-import statistics
 import sys
 from dataclasses import dataclass, field
 from pathlib import Path
+
+import noise
 
 MS = {"ns": 1e-6, "us": 1e-3, "ms": 1.0, "s": 1e3}
 
@@ -31,7 +31,7 @@ class Row:
 
     @property
     def median_ms(self):
-        return statistics.median(self.times_ms)
+        return noise.median(self.times_ms)
 
     @property
     def low_ms(self):
@@ -41,10 +41,9 @@ class Row:
     def high_ms(self):
         return max(self.times_ms)
 
-    def quarter_ms(self, quarter):
-        """First and third bound the middle half of the repetitions."""
-        ordered = sorted(self.times_ms)
-        return ordered[round((len(ordered) - 1) * quarter / 4)]
+    @property
+    def interval_ms(self):
+        return noise.interval(self.times_ms)
 
     @property
     def threads(self):
@@ -52,16 +51,8 @@ class Row:
 
 
 def order(a, b):
-    """-1 where row a is faster than b, 1 where it is slower, 0 where the repetitions do not settle the order.
-
-    Counts the pairs of repetitions, one of each, that a wins (Mann and Whitney, "On a test of whether one of two random
-    variables is stochastically larger than the other", 1947). Two that are equally fast would pass for different once in
-    a hundred times, or more often where both have fewer than five repetitions, of which all pairs must be won.
-    """
-    n, m = len(a.times_ms), len(b.times_ms)
-    won = sum((x < y) - (x > y) for x in a.times_ms for y in b.times_ms)
-    clear = min(n * m, 2.58 * math.sqrt(n * m * (n + m + 1) / 3))
-    return (won <= -clear) - (won >= clear)
+    """-1 where row a is faster than b, 1 where it is slower, 0 where their repetitions are too close to call."""
+    return noise.order(a.times_ms, b.times_ms)
 
 
 def parse_name(name):

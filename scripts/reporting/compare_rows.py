@@ -1,19 +1,22 @@
-"""Compares one row of two results: faster, slower, or within noise."""
+"""Compares one row of two results that were made at different times."""
+import noise
 
 
 def judge(before, after, least):
-    """Ratio of medians, and whether the repetitions of the two leave a gap between them."""
+    """The ratio of medians, and the verdict. Both rows need enough repetitions, and changes below `least` don't count."""
     ratio = after.median_ms / before.median_ms
-    apart = after.low_ms > before.high_ms or after.high_ms < before.low_ms
-    repeated = len(before.times_ms) > 1 and len(after.times_ms) > 1
-    if apart and repeated and abs(ratio - 1) >= least:
-        return ratio, "slower" if ratio > 1 else "faster"
-    return ratio, "within noise" if repeated or abs(ratio - 1) < least else "one draw only"
+    if abs(ratio - 1) >= least:
+        if settled := noise.order(after.times_ms, before.times_ms):
+            return ratio, "slower" if settled > 0 else "faster"
+        if not noise.enough(len(before.times_ms), len(after.times_ms)):
+            return ratio, "too few repetitions"
+    return ratio, "no significant difference"
 
 
 def spread(row):
-    """Half the range of the repetitions, in per cent of the median."""
-    return 50 * (row.high_ms - row.low_ms) / row.median_ms
+    """Half the 95 % interval, in per cent of the median."""
+    low, high = row.interval_ms
+    return 50 * (high - low) / row.median_ms
 
 
 def other_work(before, after):

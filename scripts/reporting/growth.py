@@ -3,6 +3,7 @@ import math
 import re
 from dataclasses import dataclass
 
+from noise import order, ratio_interval
 from tables import short
 
 LINEAR = 0.1  # exponents within this distance of 1 are called linear
@@ -50,24 +51,23 @@ QUANTITIES = (Quantity("count", "triangles", lambda row: int(row.keys["count"]),
 
 @dataclass(frozen=True)
 class Step:
-    """From one row to the next: time grows like x to the power of `exponent`; low to high is the range that the
-    middle halves of the repetitions allow."""
+    """From one row to the next: time grows like x to the power of `exponent`, which has the interval low to high."""
     start: float
     end: float
     exponent: float
     low: float
     high: float
-    repeated: bool
+    kind: str
 
-    @property
-    def kind(self):
-        if abs(self.exponent - 1) <= LINEAR:
-            return "linear"
-        if self.repeated and self.high < 1 - LINEAR:
-            return "less than linear"
-        if self.repeated and self.low > 1 + LINEAR:
-            return "more than linear"
-        return "not settled"
+
+def kind_of(exponent, growth, before_ms, after_ms):
+    """`growth`: of x. Whether a time that grows with another power would be longer or shorter than `after_ms`."""
+    def against(power):
+        return order([ms * growth ** power for ms in before_ms], after_ms)
+
+    if abs(exponent - 1) <= LINEAR:
+        return "linear"
+    return "less than linear" if against(1 - LINEAR) > 0 else "more than linear" if against(1 + LINEAR) < 0 else "not settled"
 
 
 def steps(quantity, rows):
@@ -75,13 +75,12 @@ def steps(quantity, rows):
     for before, after in zip(rows, rows[1:]):
         start, end = quantity.x_of(before), quantity.x_of(after)
 
-        def exponent(first_ms, then_ms):
-            return math.log(then_ms / first_ms) / math.log(end / start)
+        def exponent(ratio):
+            return math.log(ratio) / math.log(end / start)
 
-        found.append(Step(start, end, exponent(before.median_ms, after.median_ms),
-                          exponent(before.quarter_ms(3), after.quarter_ms(1)),
-                          exponent(before.quarter_ms(1), after.quarter_ms(3)),
-                          min(len(before.times_ms), len(after.times_ms)) > 1))
+        middle = exponent(after.median_ms / before.median_ms)
+        low, high = map(exponent, ratio_interval(before.times_ms, after.times_ms))
+        found.append(Step(start, end, middle, low, high, kind_of(middle, end / start, before.times_ms, after.times_ms)))
     return found
 
 

@@ -8,8 +8,7 @@ from plot_style import WIDTH_IN, head_in, headline, log_axis, plt, save
 
 COLUMNS = 3
 SUBTITLE = ("Each line adds one optimization; all but the last run on one thread. Figures: speed-up over the line above. Black: "
-            "faster; red: slower; grey: not settled. Light bars: fastest to slowest repetition. Grey ticks: the cost model's "
-            "estimate.")
+            "faster; red: slower; grey: not settled. Light bars: 95 % intervals. Grey ticks: the cost model's estimate.")
 
 
 def panel(axes, bench, scene, named):
@@ -19,7 +18,7 @@ def panel(axes, bench, scene, named):
     for place, (time, (_, row)) in enumerate(zip(times, named)):
         before = named[place - 1][1] if place else None
         colour = VERDICTS[verdict(before, row)] if before else INK
-        axes.plot([row.low_ms, row.high_ms], [place, place], color=colour, linewidth=5, alpha=0.2, solid_capstyle="butt")
+        axes.plot(row.interval_ms, [place, place], color=colour, linewidth=5, alpha=0.2, solid_capstyle="butt")
         axes.plot([time], [place], marker="o", markersize=5, color=colour, zorder=3)
         axes.text(1.02, place, said(before, row), transform=axes.get_yaxis_transform(), va="center", fontsize=8.3, color=colour)
     for place, (_, row) in zip(places, named):
@@ -48,7 +47,7 @@ def ablation(bench, folder, caption):
         axes.set_visible(False)
     panels[0].set_xscale("log")
     log_axis(panels[0].xaxis)
-    times = [ms for steps_ in named.values() for _, row in steps_ for ms in (row.low_ms, row.high_ms)]
+    times = [ms for steps_ in named.values() for _, row in steps_ for ms in row.interval_ms]
     estimates = [found[0] for steps_ in named.values() for _, row in steps_ if (found := estimates_ms(bench, row))]
     panels[0].set_xlim(min(times + estimates) / 1.3, max(times) * 1.3)
     panels[0].set_yticks(range(len(labels)), labels)

@@ -56,7 +56,7 @@ def draw_points(axes, scene, kinds):
         if m in open_question:
             axes.plot([x], [m.costs[1].ns], **RING, zorder=2.8)
         for threads, cost in by_threads:
-            lines.append([(x, cost.low), (x, cost.high)])
+            lines.append([(x, end) for end in cost.interval])
             axes.plot(*zip(*lines[-1]), color=colour, **WHISKER, zorder=1.8)
             face, edge = ("white", colour) if m.snapped_rate else (colour, "white")
             axes.plot([x], [cost.ns], marker=marker, linestyle="", zorder=3, markersize=7 if threads == 1 else 5,
@@ -111,10 +111,11 @@ def speed_chart(scene, name, machine, folder, caption):
     axes.set_xlabel(family.errors)
     axes.set_title(f"{scene.name}: {scene.summary}; {short(scene.trials)} {TRIALS[family.name]}", fontsize=10)
     label_points(axes, labels, lines)
+    whisker = "95 % interval" if all(c.rounds for m in scene.measured for c in m.costs.values()) else "fastest to slowest"
     extra = [plt.Line2D([], [], **FRONT, label="best on one thread"),
-             plt.Line2D([], [], color=FAINT, **WHISKER, label="fastest to slowest")]
+             plt.Line2D([], [], color=FAINT, **WHISKER, label=whisker)]
     if open_question:
-        extra.append(plt.Line2D([], [], **RING, label="ringed: ranges overlap, not settled"))
+        extra.append(plt.Line2D([], [], **RING, label="ringed: not settled"))
     if any(m.snapped_rate for m in scene.measured):
         extra.append(plt.Line2D([], [], color=FAINT, marker="o", markerfacecolor="white", markeredgewidth=1.4,
                                 linestyle="", markersize=7, label="hollow: errs given the snapped positions"))

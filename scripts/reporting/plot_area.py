@@ -12,7 +12,7 @@ def draw_curves(axes, points, look):
     for backend, found in points.items():
         x, rows, scales = zip(*found)
         median, low, high = ([t * scale for t, scale in zip(times, scales)] for times in
-                             zip(*((row.median_ms, row.low_ms, row.high_ms) for row in rows)))
+                             zip(*((row.median_ms, *row.interval_ms) for row in rows)))
         axes.fill_between(x, low, high, color=look.colour(backend), alpha=0.18, linewidth=0)
         axes.plot(x, median, color=look.colour(backend), marker=look.marker(backend), markeredgecolor="white",
                   markeredgewidth=0.6)
@@ -88,8 +88,8 @@ def area(bench, folder, caption):
     rings = any(all_crossings(points) for points in curves.values())
     figure, panels = plt.subplots(1, len(all_threads), sharey=True, squeeze=False, figsize=(WIDTH_IN, 5.2))
     top = headline(figure, title(curves[all_threads[-1]], all_threads[-1]),
-                   "Random triangles of one area that together cover the same number of pixels; lower is better. Bands: fastest "
-                   "to slowest repetition." + (" Rings: settled crossings of two curves." if rings else ""))
+                   "Random triangles of one area that together cover the same number of pixels; lower is better. Bands: 95 % "
+                   "intervals." + (" Rings: settled crossings of two curves." if rings else ""))
     figure.subplots_adjust(left=0.07, right=0.925, bottom=0.145, top=top - 0.06, wspace=0.24)
     drawn = []
     for axes, threads in zip(panels[0], all_threads):

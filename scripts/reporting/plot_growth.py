@@ -60,9 +60,9 @@ def growth(bench, machine, folder, caption):
     if not drawn:
         return None
     threads = next(iter(drawn[0][1].values()))[0].threads
-    subtitle = (f"Backend alone, clear included, {threads} threads. Top: ms per frame, lower is better; bands from the fastest to "
-                "the slowest repetition. Bottom: the exponent from point to point, 1 is linear and 0 no growth; light bars "
-                "from the middle half of the repetitions. Dotted: triangle records or the frame fill a cache.")
+    subtitle = (f"Backend alone, clear included, {threads} threads. Top: ms per frame, lower is better; bands are 95 % "
+                "intervals. Bottom: the exponent from point to point, 1 is linear and 0 no growth; light bars are 95 % "
+                "intervals. Dotted: triangle records or the frame fill a cache.")
     figure, panels = plt.subplots(2, len(drawn), squeeze=False, sharex="col", figsize=(WIDTH_IN, 5.9 + head_in(subtitle)),
                                   height_ratios=(3, 2))
     height = figure.get_figheight()

@@ -11,7 +11,7 @@ COLUMNS = 4
 
 
 SUBTITLE = ("Whole frames, front end included. Lines: estimated from recorded tasks and barriers; the estimate ignores shared "
-            "bandwidth, caches and clock rate. Rings: measured on two threads, with the middle half of the repetitions. "
+            "bandwidth, caches and clock rate. Rings: measured on two threads, with 95 % intervals. "
             "Dotted: ideal. Text: the longest serial part on the most cores.")
 
 

@@ -1,11 +1,12 @@
 """Charts by scene: the time, and the speed-up by threads, SIMD and culling."""
-from statistics import median
-
 from bench_rows import order
+from noise import median, ratio_interval
 from peers import OURS
 from plot_style import FAINT, INK, WIDTH_IN, Look, head_in, headline, log_axis, plt, save
 from speedups import VECTORS, about, kernels, outcome, spread
 from tables import NORMAL_Z, THREADS, culling_rows, pixels_wrong
+
+INTERVALS = "Light bars: 95 % intervals."
 
 
 def room_for(names):
@@ -39,7 +40,7 @@ def scene_time(bench, folder, caption):
             rows = [row for threads in (1, 2) if (row := bench.find(f"{backend}/{scene}/threads:{threads}"))]
             axes.plot([row.median_ms for row in rows], [y] * len(rows), color=look.colour(backend), linewidth=1.6)
             for row in rows:
-                axes.plot([row.low_ms, row.high_ms], [y, y], color=look.colour(backend), linewidth=5, alpha=0.2,
+                axes.plot(row.interval_ms, [y, y], color=look.colour(backend), linewidth=5, alpha=0.2,
                           solid_capstyle="butt")
                 filled = row.threads > 1
                 axes.plot([row.median_ms], [y], marker=look.marker(backend), markersize=6.5, linestyle="",
@@ -55,7 +56,7 @@ def scene_time(bench, folder, caption):
     axes.set_xlabel("ms per frame, backend alone, clear included")
     height = figure.get_figheight()
     top = headline(figure, time_title(bench), "Screen triangles to finished picture; lower is better. "
-                   "Hollow: 1 thread, filled: 2. Light bars: fastest to slowest repetition.")
+                   f"Hollow: 1 thread, filled: 2. {INTERVALS}")
     look.legend(figure, top - 0.02 / height)
     figure.subplots_adjust(left=room_for(scenes), right=0.975, bottom=0.78 / height, top=top - 0.42 / height)
     save(figure, folder, "scenes", caption)
@@ -73,8 +74,8 @@ def ratio_axis(axis, low, high):
 
 
 def ends_of(before, after):
-    """A speed-up's spread: the middle half of the repetitions of one over that of the other."""
-    return before.quarter_ms(1) / after.quarter_ms(3), before.quarter_ms(3) / after.quarter_ms(1)
+    """The interval of a speed-up."""
+    return ratio_interval(after.times_ms, before.times_ms)
 
 
 def dots(axes, look, groups, rows_of, hollow_of=None):
@@ -122,7 +123,7 @@ def gain_chart(bench, folder, caption, name, groups, rows_of, title, subtitle, l
     look.legend(figure, top - 0.02 / height)
     figure.subplots_adjust(left=room_for(groups), right=0.86 if notes else 0.975, bottom=0.95 / height,
                            top=top - 0.42 / height)
-    save(figure, folder, name, f"Light bars: the middle half of the repetitions.\n{caption}")
+    save(figure, folder, name, f"{INTERVALS}\n{caption}")
     return name
 
 
@@ -203,7 +204,7 @@ def simd(bench, folder, caption):
              f"Speed-up by {kernels(targets[-1])} over {kernels(targets[0])}")
     top = headline(figure, title,
                    f"Time with {kernels(targets[0])} over time with each target, backend alone, 1 thread; higher is better. "
-                   "Light bars: the middle half of the repetitions.")
+                   f"{INTERVALS}")
     look.legend(figure, top - 0.02 / height)
     figure.subplots_adjust(left=0.06, right=0.985, bottom=0.6 / height, top=top - 0.72 / height, wspace=0.12)
     save(figure, folder, "simd", caption)

@@ -3,10 +3,10 @@ from html import escape
 from string import ascii_uppercase
 
 from compare_rows import judge, other_work, spread
+from noise import DRIFT, LEVEL
 from speedups import about
 from tables import number
 
-LEAST = 0.03  # the smallest change of a median that counts as one
 NO_NUMBER = '<td class="number" data-value="">–</td>'
 
 
@@ -34,12 +34,12 @@ def compared(row, other):
         return time + words_cell("–")
     if other_work(there, row):
         return time + words_cell("other work")
-    ratio, verdict = judge(there, row, LEAST)
+    ratio, verdict = judge(there, row, DRIFT)
     said = f"{about(max(ratio, 1 / ratio))} {'faster' if ratio < 1 else 'slower'}"
-    if verdict == "within noise":
-        said, ratio = "no significant difference", 1.0
-    elif verdict == "one draw only":
-        said += ", one repetition only"
+    if verdict == "no significant difference":
+        said, ratio = verdict, 1.0
+    elif verdict == "too few repetitions":
+        said += f", {verdict}"
     return time + words_cell(said, 1 / ratio)
 
 
@@ -63,11 +63,12 @@ def rows_table(first, others):
 
 def rows_section(first, others):
     text = ["Each row times one backend, another rasterizer or the front end on one scene, or on random triangles. Times are "
-            "medians. “± %” is half the range of the repetitions."]
+            "medians. “± %” is half the 95 % interval."]
     text += [f"{letter} is {other.name} ({other.description})." for letter, other in zip(ascii_uppercase, others)]
     if others:
-        text.append(f"A row counts as faster or slower where all its repetitions lie on one side of all of the other's, and "
-                    f"the medians differ by at least {LEAST:.0%}.")
+        text.append(f"A row counts as faster or slower where a rank-sum test at the {LEVEL:.0%} level tells the repetitions of "
+                    f"the two apart, and the medians differ by at least {DRIFT:.0%}. That is a weak test, since the machine "
+                    "drifts between runs.")
     return (f"<p>{escape(' '.join(text))}</p>\n"
             '<p id="filter" hidden><label>Rows with all these words: <input type="search"></label> <output></output></p>\n'
             + rows_table(first, others))

@@ -32,17 +32,16 @@ def front_line(points, right, top):
 
 def cost_range(measured):
     """Both ends of the axis of costs."""
-    costs = [cost for m in measured for c in m.costs.values() for cost in (c.low, c.high)]
+    costs = [cost for m in measured for c in m.costs.values() for cost in c.interval]
     return min(costs) / 1.3, max(costs) * 1.3
 
 
 def unsettled(measured):
-    """The methods for which the spread leaves open whether another one beats them in both errors and speed."""
+    """The methods for which noise leaves open whether another one beats them in both errors and speed."""
     found = []
     for m in measured:
-        others = [other.costs[1] for other in measured if other is not m and other.rate <= m.rate]
-        beaten = any(cost.high < m.costs[1].low for cost in others)
-        if not beaten and any(cost.overlaps(m.costs[1]) for cost in others):
+        orders = {m.costs[1].order(other.costs[1]) for other in measured if other is not m and other.rate <= m.rate}
+        if 0 in orders and 1 not in orders:
             found.append(m)
     return found
 

@@ -131,7 +131,7 @@ class ReportTest(unittest.TestCase):
     def test_all_rows_are_in_the_table_beside_those_of_other_results(self):
         bench = scripts_test.bench_with_peer()
         bench["benchmarks"].append({"name": "tiled/broken/threads:1", "error_occurred": True, "error_message": "no <memory>"})
-        other = scripts_test.bench(tiled=(4.0, 4.1, 4.2))
+        other = scripts_test.bench(tiled=(4.0, 4.1, 4.2, 4.05, 4.15))
         for row in other["benchmarks"]:
             if row["name"] == "slow/cube/threads:2":
                 row["triangles"] = 13.0

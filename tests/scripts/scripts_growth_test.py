@@ -100,9 +100,9 @@ class GrowthTest(unittest.TestCase):
             rows = [Row("", "", False, "", {"count": str(10 ** i)}, list(times)) for i, times in enumerate(repetitions)]
             return [(run[0].kind, len(run)) for run in runs(steps(QUANTITIES[0], rows))]
 
-        self.assertEqual(kinds([1.0] * 3, [2.0] * 3, [4.0] * 3, [40.0] * 3), [("less than linear", 2), ("linear", 1)])
-        self.assertEqual(kinds([1.0] * 3, [20.0] * 3), [("more than linear", 1)])
-        self.assertEqual(kinds([1.0, 1.0, 3.0], [8.0, 20.0, 30.0]), [("not settled", 1)])
+        self.assertEqual(kinds([1.0] * 5, [2.0] * 5, [4.0] * 5, [40.0] * 5), [("less than linear", 2), ("linear", 1)])
+        self.assertEqual(kinds([1.0] * 5, [20.0] * 5), [("more than linear", 1)])
+        self.assertEqual(kinds([1.0, 1.0, 3.0, 1.0, 3.0], [8.0, 20.0, 30.0, 8.0, 30.0]), [("not settled", 1)])
         self.assertEqual(kinds([1.0], [20.0]), [("not settled", 1)], "one draw decides nothing")
 
 

@@ -6,7 +6,6 @@ import subprocess
 import sys
 import tempfile
 import unittest
-from itertools import combinations
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -28,7 +27,7 @@ def entries(name, times_ms, **counters):
              **COUNTERS, **counters} for t in times_ms]
 
 
-def bench(slow=(10.0, 10.2, 10.1), tiled=(2.0, 2.1, 2.2)):
+def bench(slow=(10.0, 10.2, 10.1, 10.05, 10.15), tiled=(2.0, 2.1, 2.2, 2.05, 2.15)):
     rows = entries("frontend/cube/threads:1", [0.5])
     for backend, times in (("slow", slow), ("tiled", tiled)):
         for threads in (1, 2):
@@ -69,7 +68,7 @@ def accuracy(spread=0.1):
     def measured(family, method, wrong, cost_ns):
         cost = "ns_per_face" if family == "facing" else "ns_per_covered_pixel"
         speed = [{"threads": threads, cost: cost_ns / threads, "mtri_per_s": 7.5 * threads,
-                  "ms": {"median": 2.0, "min": 1.9, "max": 2.0 + spread}}
+                  "ms": {"median": 2.0, "min": 1.9, "max": 2.0 + spread, "repetitions": 11}}
                  for threads in ((1, 2) if wrong == 0 else (1,))]
         score = judged(wrong, 1000)
         scores = {"score": score} if family == "clipping" else {"float": score, "snapped": score}
@@ -92,7 +91,7 @@ def bench_with_normals():
     """Faces dropped by the z of their normals, which gains half as much, and costs 1,234 pixels."""
     data = bench()
     for backend, ms in (("slow", 20.2 / 1.5), ("tiled", 2.8)):
-        data["benchmarks"] += entries(f"{backend}+frontend/cube/cull:normal_z/threads:2", [ms] * 3, wrong_px=1234.0)
+        data["benchmarks"] += entries(f"{backend}+frontend/cube/cull:normal_z/threads:2", [ms] * 5, wrong_px=1234.0)
     return data
 
 
@@ -116,10 +115,10 @@ def bench_with_peer():
     data["context"].update(peers="ext", ext="Ext 1.2")
     for threads in (1, 2):
         for backend, ms in (("slow", 12.0), ("tiled", 3.0)):
-            data["benchmarks"] += entries(f"{backend}+frontend/knot/threads:{threads}", [ms / threads] * 3)
-            data["benchmarks"] += entries(f"{backend}/knot/threads:{threads}", [ms / 2 / threads] * 3)
-        data["benchmarks"] += entries(f"ext/cube/threads:{threads}", [16.8 / threads] * 3, depth_ties=7.0)
-        data["benchmarks"] += entries(f"ext+frontend/knot/threads:{threads}", [12.0 / threads] * 3, depth_ties=0.0)
+            data["benchmarks"] += entries(f"{backend}+frontend/knot/threads:{threads}", [ms / threads] * 5)
+            data["benchmarks"] += entries(f"{backend}/knot/threads:{threads}", [ms / 2 / threads] * 5)
+        data["benchmarks"] += entries(f"ext/cube/threads:{threads}", [16.8 / threads] * 5, depth_ties=7.0)
+        data["benchmarks"] += entries(f"ext+frontend/knot/threads:{threads}", [12.0 / threads] * 5, depth_ties=0.0)
     return data
 
 
@@ -153,7 +152,7 @@ class ScriptsTest(unittest.TestCase):
             self.assertIn(word, result.stderr)
 
     def test_compare_names_what_changed_and_only_that(self):
-        after = self.write("after", bench(tiled=(3.0, 3.1, 3.2), slow=(10.1, 9.9, 10.3)))
+        after = self.write("after", bench(tiled=(3.0, 3.1, 3.2, 3.05, 3.15), slow=(10.1, 9.9, 10.3, 10.2, 10.0)))
         result = run("compare", self.results, after / "bench.json")
         self.assertEqual(result.returncode, 0, result.stderr)
         slower = result.stdout.split("\nSlower\n")[1]
@@ -368,7 +367,7 @@ class ScriptsTest(unittest.TestCase):
         readme = self.folder / "README.md"
         readme.write_text("<!-- results: results -->\n<!-- generated:lessons -->\n<!-- /generated -->\n")
         self.assertEqual(run("readme", "--file", readme).returncode, 0)
-        self.assertIn("`ours` with AVX2 is 1.3× slower than `float_le` in scalar code (ranges overlap: not settled).", readme.read_text())
+        self.assertIn("`ours` with AVX2 is 1.3× slower than `float_le` in scalar code (not settled).", readme.read_text())
 
     def test_a_summary_fits_on_a_screen(self):
         def summary(folder):
@@ -458,19 +457,7 @@ class AblationTest(unittest.TestCase):
         between = row(30.0, 31.0, 32.0, 33.0, 40.5)  # 24 of 25 pairs
         self.assertEqual([verdict(slow, between), verdict(between, slow)], ["neither", "neither"])
         seldom = row(40.0, 41.0, 42.0, 43.0)  # large steps only
-        self.assertEqual([verdict(seldom, fast), verdict(seldom, row(25.0))], ["neither", "gain"])
-
-    def test_rows_that_are_equally_fast_seldom_pass_for_different(self):
-        from bench_rows import order
-        row = self.row
-        for repetitions in (5, 6, 7):  # in each order that chance may give, once
-            every = set(range(2 * repetitions))
-            claims = [order(row(*some), row(*(every - set(some)))) for some in combinations(sorted(every), repetitions)]
-            self.assertLess(sum(map(abs, claims)), 0.012 * len(claims))
-            self.assertEqual(sum(claims), 0)
-            self.assertIn(1, claims)
-        # One repetition in nine that others slowed down hides nothing.
-        self.assertEqual(order(row(*range(8), 99), row(*range(10, 19))), -1)
+        self.assertEqual([verdict(seldom, fast), verdict(seldom, row(19.0))], ["neither", "gain"])
 
 
 class CrossingsTest(unittest.TestCase):
@@ -487,15 +474,15 @@ class CrossingsTest(unittest.TestCase):
         return [(10.0 ** i, self.row("", "", False, "", {}, list(times)), 1.0) for i, times in enumerate(repetitions)]
 
     def test_straight_lines_cross_where_they_should(self):
-        falling = self.curve(*[[time] * 3 for time in (1000.0, 100.0, 10.0, 1.0)])
-        level = self.curve(*[[30.0] * 3] * 4)
+        falling = self.curve(*[[time] * 5 for time in (1000.0, 100.0, 10.0, 1.0)])
+        level = self.curve(*[[30.0] * 5] * 4)
         [(x, y)] = self.crossings(falling, level)
         self.assertAlmostEqual(x, 1000 / 30, places=6)
         self.assertAlmostEqual(y, 30.0, places=6)
 
     def test_noise_is_no_crossing(self):
-        noisy = self.curve([8.0, 10.5, 12.0], [8.0, 9.5, 12.0], [8.0, 10.5, 12.0])
-        level = self.curve([8.5, 10.0, 11.5], [8.5, 10.0, 11.5], [8.5, 10.0, 11.5])
+        noisy = self.curve(*[[8.0, middle, 12.0, 8.0, 12.0] for middle in (10.5, 9.5, 10.5)])
+        level = self.curve(*[[8.5, 10.0, 11.5, 8.5, 11.5]] * 3)
         self.assertEqual(list(self.crossings(noisy, level)), [])
 
     def test_one_draw_decides_nothing(self):
@@ -511,7 +498,7 @@ class UnsettledTest(unittest.TestCase):
         from speed_accuracy import unsettled
 
         def at(name, rate, *cost):
-            return Measured(Method(name, "", "", False), rate, None, None, {1: Cost(*cost, 1.0)})
+            return Measured(Method(name, "", "", False), rate, None, None, {1: Cost(*cost, 1.0, 11)})
 
         right, level = at("right", 0, 3.0, 2.9, 3.2), at("level", 10, 2.9, 2.8, 3.0)
         fast, beaten = at("fast", 20, 1.0, 0.9, 1.1), at("beaten", 30, 2.0, 1.9, 2.9)

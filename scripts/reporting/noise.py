@@ -1,0 +1,144 @@
+"""The one rule for noise: whether two timings differ, and the interval of a figure.
+
+`order` judges unpaired repetitions, such as two rows of one Google Benchmark run whose repetitions are interleaved. It is
+the exact rank-sum test (Mann and Whitney, "On a test of whether one of two random variables is stochastically larger than
+the other", 1947). `paired_order` judges rounds in which both sides ran next to each other. It is the exact signed-rank test
+(Wilcoxon, "Individual comparisons by ranking methods", 1945) on the logarithms of the rounds' ratios. Both count ties
+against the claim.
+
+Guarantee: if neither side is faster, a test claims a difference in at most LEVEL of all cases. `order` needs repetitions
+that are exchangeable, `paired_order` rounds that are independent of one another. Neither needs a normal distribution.
+
+Some pairs are too small for the rank-sum test to reach LEVEL, for example three repetitions against three. They count as
+different only across a gap of GAP: the slowest repetition of one side, times GAP, is below the fastest of the other. No
+test without an assumption can settle them. The assumption is that noise seldom doubles a time, and a unit test checks it
+against the repetitions in results/.
+"""
+import math
+import random
+import statistics
+from functools import cache
+
+LEVEL = 0.01  # of false alarms
+CONFIDENCE = 0.95  # of intervals
+GAP = 2.0
+# The machine drifts between runs at different times, so smaller changes of a median are not reported.
+DRIFT = 0.03
+RESAMPLES = 2000
+
+median = statistics.median
+
+
+def most_against(counts):
+    """The largest value of a statistic that still rejects equality, two-sided, at LEVEL; -1 if none does. `counts`: the
+    number of equally probable cases with each value."""
+    total, cases = sum(counts), 0
+    for value, count in enumerate(counts):
+        cases += count
+        if 2 * cases / total > LEVEL:
+            return value - 1
+    raise ValueError("a distribution is complete at 1, above LEVEL")
+
+
+@cache
+def most_pairs_lost(n, m):
+    """Of the n·m pairs of repetitions, one of each side, the most that the faster side may fail to win."""
+    counts = [1] + [0] * (n * m)  # by generating functions: the product of (1 - q^(m+i)) / (1 - q^i) for i up to n
+    for i in range(1, n + 1):
+        for lost in range(n * m, m + i - 1, -1):
+            counts[lost] -= counts[lost - m - i]
+        for lost in range(i, n * m + 1):
+            counts[lost] += counts[lost - i]
+    return most_against(counts)
+
+
+@cache
+def most_ranks_lost(rounds):
+    """The largest sum of the ranks of the rounds that contradict the claim."""
+    counts = [1]
+    for rank in range(1, rounds + 1):
+        counts = [a + b for a, b in zip(counts + [0] * rank, [0] * rank + counts)]
+    return most_against(counts)
+
+
+def enough(n, m):
+    """Whether the rank-sum test can settle so many repetitions."""
+    return most_pairs_lost(n, m) >= 0
+
+
+def order_of_ranges(a, b):
+    """As order() below, where only (fastest, slowest, repetitions) of each side are known: ranges that overlap settle nothing."""
+    (a_low, a_high, n), (b_low, b_high, m) = a, b
+    if n + m < 3:  # one repetition each
+        return 0
+    gap = 1.0 if enough(n, m) else GAP
+    return (b_high * gap < a_low) - (a_high * gap < b_low)
+
+
+def order(a, b):
+    """-1 if the times `a` are shorter than `b`, 1 if longer, 0 if too close to call."""
+    n, m = len(a), len(b)
+    if not enough(n, m):
+        return order_of_ranges(*((min(times), max(times), len(times)) for times in (a, b)))
+    won = sum(x < y for x in a for y in b)
+    lost = sum(x > y for x in a for y in b)
+    most = most_pairs_lost(n, m)
+    return (n * m - lost <= most) - (n * m - won <= most)
+
+
+def ratios(before, after):
+    """Of each round: the time after over the time before."""
+    return [b / a for a, b in zip(before, after, strict=True)]
+
+
+def paired_order(before, after):
+    """-1 if `after` is the shorter of two lists of times of the same rounds, 1 if the longer, 0 if too close to call. Fewer
+    rounds than the signed-rank test needs are judged as repetitions."""
+    if len(before) < fewest_rounds():
+        return order(after, before)
+    logs = [math.log(ratio) for ratio in ratios(before, after)]
+    most = most_ranks_lost(len(logs))
+
+    def holds(sign):
+        """Whether the rounds support that sign * log > 0. Of equal distances from 0, contradictions have the higher ranks."""
+        ranked = sorted((sign * log for log in logs), key=lambda log: (abs(log), log <= 0))
+        return sum(rank for rank, log in enumerate(ranked, 1) if log <= 0) <= most
+
+    return holds(1) - holds(-1)
+
+
+@cache
+def fewest_rounds():
+    """The fewest rounds that can settle a pair."""
+    return next(rounds for rounds in range(1, 100) if most_ranks_lost(rounds) >= 0)
+
+
+def middle_of(figures):
+    """The interval that leaves out equally many of the figures at both ends, CONFIDENCE within."""
+    ordered = sorted(figures)
+    outside = int(len(ordered) * (1 - CONFIDENCE) / 2)
+    return ordered[outside], ordered[-1 - outside]
+
+
+def resampled(values, generator):
+    return median(generator.choices(values, k=len(values)))
+
+
+@cache
+def bootstrap(*samples):
+    """The interval of the median of one sample (a tuple), or of the ratio of the second's median to the first's."""
+    generator = random.Random(1)  # the same result each time
+    figures = ([resampled(sample, generator) for _ in range(RESAMPLES)] for sample in samples)
+    first = next(figures)
+    return middle_of([b / a for a, b in zip(first, *figures)] if len(samples) > 1 else first)
+
+
+def interval(values):
+    """The bootstrap interval of the median; with up to five repetitions, from the fastest to the slowest. Of the ratios of
+    paired rounds it is the interval of their median."""
+    return bootstrap(tuple(values))
+
+
+def ratio_interval(before, after):
+    """The bootstrap interval of the ratio of medians, after over before, of unpaired repetitions."""
+    return bootstrap(tuple(before), tuple(after))
