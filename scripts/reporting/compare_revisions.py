@@ -88,13 +88,12 @@ def extract(of):
 
 
 def build(of):
-    """The path of the revision's benchmark. The folders lie as in a clone, so that ccache finds objects of other builds."""
+    """The path of the revision's benchmark."""
     source, folder = extract(of) if of.commit else ROOT, of.folder / "build"
     print(f"Building {of.title}", flush=True)
     configure = ["cmake", "-S", source, "-B", folder, "-DCMAKE_BUILD_TYPE=Release"]
     if not (folder / "CMakeCache.txt").is_file():
         configure += ["-G", "Ninja"] if shutil.which("ninja") else []
-        configure += ["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
     run(configure, f"the configuration of {of.title}")
     run(["cmake", "--build", folder, "--parallel", str(os.cpu_count()), "--target", PROGRAM], f"the build of {of.title}")
     return folder / PROGRAM
