@@ -74,8 +74,10 @@ inline constexpr int kMaxTile = 64;
 static_assert(std::int64_t{kMaxTile} * 2 * (2 * kGuardSub) <= std::int64_t{1} << 30);
 
 // Rule 6, depth. A vertex has z in [kDepthHead, kDepthHead + kDepthRange]. The front end maps depth 0 and 1
-// to the ends of this range and rounds half to even. Inside a triangle, depth is the plane through its
-// vertices, in fixed point with wrap-around:
+// to the ends of this range and rounds half to even. A stream states its depths. A scene's depth follows from
+// the float distance w along the view direction:
+//   depth = far (w - near) / ((far - near) w)                   within 1/2 + 2^-19 units (frontend/fixed.h)
+// Inside a triangle, depth is the plane through its vertices, in fixed point with wrap-around:
 //   gx, gy   = floor(2^16 dz/dpx), floor(2^16 dz/dpy)           per pixel step, 16 fraction bits, mod 2^64
 //   base     = floor(plane at the first sample of the pixel's 64 x 64 cell + 1/2)           mod 2^32
 //   z(x, y)  = base + (x mod 64) zx + (y mod 64) zy,  zx = floor(gx / 2^16 + 1/2)           mod 2^32
@@ -88,7 +90,7 @@ static_assert(std::int64_t{kMaxTile} * 2 * (2 * kGuardSub) <= std::int64_t{1} <<
 // wraps, and each is below kDepthClear: the background never wins.
 //
 // The range is a multiple of 4, so it has 29 significant bits. Its product with a float (24 bits) is exact in
-// a double (53 bits), so the front end rounds a depth only once.
+// a double (53 bits), so the front end rounds the depth of a stream only once.
 //
 // The cells are fixed in the image. A triangle that is moved by whole pixels keeps its samples. It keeps its
 // depths only if it moves by multiples of 64 px; else they may change by two errors, under 2 * 65 units.
