@@ -74,29 +74,31 @@ inline constexpr int kMaxTile = 64;
 static_assert(std::int64_t{kMaxTile} * 2 * (2 * kGuardSub) <= std::int64_t{1} << 30);
 
 // Rule 6, depth. A vertex has z in [kDepthHead, kDepthHead + kDepthRange]. The front end maps depth 0 and 1
-// to the ends of this range and rounds half to even. Inside a triangle, depth is the plane through its
-// vertices, in fixed point with wrap-around:
+// to the ends of this range and rounds half to even. A stream states its depths. A scene's depth follows from
+// the float distance w along the view direction:
+//   depth = far (w - near) / ((far - near) w)                   within 1/2 + 2^-19 units (frontend/fixed.h)
+// Inside a triangle, depth is the plane through its vertices, in fixed point with wrap-around:
 //   gx, gy   = floor(2^16 dz/dpx), floor(2^16 dz/dpy)           per pixel step, 16 fraction bits, mod 2^64
-//   base     = floor(plane at the first sample of the pixel's 64 x 64 cell + 1/2)           mod 2^32
-//   z(x, y)  = base + (x mod 64) zx + (y mod 64) zy,  zx = floor(gx / 2^16 + 1/2)           mod 2^32
+//   middle   = floor(plane at the sample (32, 32) of the pixel's 64 x 64 cell + 1/2)        mod 2^32
+//   z(x, y)  = middle + (x mod 64 - 32) zx + (y mod 64 - 32) zy,  zx = floor(gx / 2^16 + 1/2)    mod 2^32
 // The plane is anchored at the topmost vertex (the leftmost of several), so the order of the vertices changes
-// no bit.
+// no bit. Backends step from a cell's first sample, whose depth is base = middle - 32 (zx + zy).
 //
 // Error at a sample inside the triangle, in units: gx and gy are off by less than 2^-16 each over at most
-// 2^15 px, base rounds by 1/2, and 63 steps on each axis are off by at most 1/2 each. The sum is under
-// 2 (1/2) + 1/2 + 126 (1/2) < 65. At least 128 units stay free at both ends of the 31 bits. So no drawn depth
-// wraps, and each is below kDepthClear: the background never wins.
+// 2^15 px, middle rounds by 1/2, and up to 32 steps on each axis are off by at most 1/2 each. The sum is
+// under 2 (1/2) + 1/2 + 64 (1/2) < 34. At least 128 units stay free at both ends of the 31 bits. So no drawn
+// depth wraps, and each is below kDepthClear: the background never wins.
 //
 // The range is a multiple of 4, so it has 29 significant bits. Its product with a float (24 bits) is exact in
-// a double (53 bits), so the front end rounds a depth only once.
+// a double (53 bits), so the front end rounds the depth of a stream only once.
 //
 // The cells are fixed in the image. A triangle that is moved by whole pixels keeps its samples. It keeps its
-// depths only if it moves by multiples of 64 px; else they may change by two errors, under 2 * 65 units.
+// depths only if it moves by multiples of 64 px; else they may change by two errors, under 2 * 34 units.
 inline constexpr int kDepthCell = 64;
 inline constexpr std::uint32_t kDepthHead = 128;
 inline constexpr std::uint32_t kDepthClear = 0x7FFFFFFF;
 inline constexpr std::uint32_t kDepthRange = kDepthClear - 2 * kDepthHead - 3;
-inline constexpr std::uint32_t kDepthError = 65;
+inline constexpr std::uint32_t kDepthError = 34;
 static_assert(kDepthHead > kDepthError && kDepthCell == kMaxTile);
 static_assert(kDepthRange % 4 == 0 && kDepthRange < std::uint32_t{1} << 31);
 
@@ -110,7 +112,7 @@ static_assert(depth01(kDepthHead) == 0 && depth01(kDepthHead + kDepthRange) == 1
 // The depth plane of a triangle (rule 6).
 struct DepthPlane {
   std::uint64_t gx, gy;  // 48.16 fixed point per pixel, wrapped
-  std::uint64_t origin;  // 2^24 (plane at pixel (0, 0) + 1/2), wrapped
+  std::uint64_t origin;  // 2^24 (depth at pixel (0, 0) + 1/2 before it is rounded down), wrapped
   std::uint32_t zx, zy;  // gx, gy rounded to whole units
 
   // Depth at a cell's first pixel. Both coordinates must be multiples of kDepthCell.
@@ -200,20 +202,29 @@ constexpr Edge make_edge(const Oriented& t, int i) {
   return {a, b, (is_top_left(a, b) ? 0 : -1) - std::int64_t{a} * t.x[i] - std::int64_t{b} * t.y[i]};
 }
 
+// What makes a cell's base middle - 32 (zx + zy) instead of the plane at its first sample, as 2^24 units:
+// 32 (gx / 2^16 - zx) and the same for y. `fractions` is the sum of the lower 16 bits of gx + 2^15 and
+// gy + 2^15.
+constexpr std::uint64_t middle_shift(std::uint64_t fractions) {
+  return (fractions - 0x10000) * (kDepthCell / 2 * kSub);
+}
+
 // The depth plane (rule 6) of a triangle. Its area must not be zero.
 inline DepthPlane make_depth(const Oriented& t) {
   const std::int64_t dz1 = t.z[1] - t.z[0], dz2 = t.z[2] - t.z[0];
   DepthPlane d;
   d.gx = gradient(dz1 * (t.y[2] - t.y[0]) - dz2 * (t.y[1] - t.y[0]), t.area);
   d.gy = gradient(dz2 * (t.x[1] - t.x[0]) - dz1 * (t.x[2] - t.x[0]), t.area);
-  d.zx = static_cast<std::uint32_t>((d.gx + 0x8000) >> 16);
-  d.zy = static_cast<std::uint32_t>((d.gy + 0x8000) >> 16);
+  const std::uint64_t rounded_x = d.gx + 0x8000, rounded_y = d.gy + 0x8000;
+  d.zx = static_cast<std::uint32_t>(rounded_x >> 16);
+  d.zy = static_cast<std::uint32_t>(rounded_y >> 16);
   int top = 0;
   for (int i = 1; i < 3; ++i)
     if (t.y[i] < t.y[top] || (t.y[i] == t.y[top] && t.x[i] < t.x[top])) top = i;
   d.origin = (static_cast<std::uint64_t>(t.z[top]) << 24) + (std::uint64_t{1} << 23) +
              d.gx * static_cast<std::uint64_t>(std::int64_t{kHalf} - t.x[top]) +
-             d.gy * static_cast<std::uint64_t>(std::int64_t{kHalf} - t.y[top]);
+             d.gy * static_cast<std::uint64_t>(std::int64_t{kHalf} - t.y[top]) +
+             middle_shift((rounded_x & 0xFFFF) + (rounded_y & 0xFFFF));
   return d;
 }
 

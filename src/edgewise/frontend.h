@@ -53,7 +53,8 @@ struct FrontendOptions {
   SimdTarget target = SimdTarget::best;
 };
 
-// The vertices of a screen triangle before snapping: x and y in pixels, depth in [0, 1].
+// The vertices of a screen triangle before snapping: x and y in pixels, depth in [0, 1]. A scene's z01 is the
+// float z / w that most renderers use. ScreenTriangle::z is finer: it does not come from z01 (rule 6).
 struct UnsnappedTriangle {
   float x_px[3], y_px[3], z01[3];
 };

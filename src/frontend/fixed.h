@@ -25,13 +25,34 @@ inline std::int32_t snap(float px) {
   return round_half_even(std::clamp(px * static_cast<float>(contract::kSub), -kLimit, kLimit));
 }
 
-// Depth, clamped to [0, 1] → contract units, half to even for every float. The product is exact (rule 6), so
-// only the addition rounds. The sum lies between 2^52 and 2^53, so it rounds to whole units.
-inline std::uint32_t quantize_depth(float depth01) {
-  const double units = static_cast<double>(std::clamp(depth01, 0.0f, 1.0f)) * contract::kDepthRange;
-  return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(units + kRoundDouble) -
+// Units above depth 0, clamped to the range → contract units, half to even. The sum lies between 2^52 and
+// 2^53, so it rounds to whole units.
+inline std::uint32_t round_depth(double units) {
+  const double clamped = std::clamp(units, 0.0, double{contract::kDepthRange});
+  return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(clamped + kRoundDouble) -
                                     std::bit_cast<std::uint64_t>(kRoundDouble)) +
          contract::kDepthHead;
 }
+
+// Depth, clamped to [0, 1] → contract units, half to even for every float: the product is exact (rule 6), so
+// only one operation rounds.
+inline std::uint32_t quantize_depth(float depth01) {
+  return round_depth(double{depth01} * contract::kDepthRange);
+}
+
+// Distance along the view direction, which is w → contract units, clamped to near … far:
+//   depth = far / (far - near) (1 - near / w) = far (w - near) / ((far - near) w)
+// A float z / w would be too coarse: far from the near plane it is close to 1, where floats are 2^-24 apart,
+// 128 units. The second form is used because the first one cancels near the near plane. Its rounding errors
+// in double add up to less than 2^-19 units, so the result is within 1/2 + 2^-19 units of the exact depth.
+struct ViewDepth {
+  ViewDepth(double near_distance, double far_distance)
+      : near_z(near_distance),
+        scale(contract::kDepthRange * (far_distance / (far_distance - near_distance))) {}
+
+  std::uint32_t units(float w) const { return round_depth((double{w} - near_z) * scale / double{w}); }
+
+  double near_z, scale;
+};
 
 }  // namespace edgewise

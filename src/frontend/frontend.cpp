@@ -214,6 +214,7 @@ struct Frontend::State {
 
   void run_scene(const Scene& scene) {
     const glm::dmat4 to_screen = screen_matrix(scene.camera, options.width, options.height);
+    const ViewDepth depth(double{scene.camera.near_z}, double{scene.camera.far_z});
     std::size_t first_id = 0;
     start_group();
     for (const auto& instance : scene.instances) {
@@ -222,8 +223,12 @@ struct Frontend::State {
       if (vertex_chunks.total() + mesh.positions.size() > kMaxVertices || group.size() == kMaxMembers)
         run_group();
       const glm::mat4 model = model_matrix(instance);
-      const MeshTask task{options, mesh, glm::mat4(to_screen * glm::dmat4(model)), nullptr,
-                          options.keep_states ? states.data() + first_id : nullptr};
+      const MeshTask task{.options = options,
+                          .mesh = mesh,
+                          .to_screen = glm::mat4(to_screen * glm::dmat4(model)),
+                          .depth = depth,
+                          .vertices = nullptr,
+                          .states = options.keep_states ? states.data() + first_id : nullptr};
       ++stats.meshes;
       stats.triangles += mesh.triangles.size();
       vertex_chunks.add(group.size(), mesh.positions.size());

@@ -134,7 +134,7 @@ HWY_INLINE hn::Vec<D> in_double(D d, F&& f, V... v) {
 
 #endif
 
-// snap() and quantize_depth() of fixed.h, for vectors.
+// snap(), quantize_depth() and ViewDepth::units() of fixed.h, for vectors.
 
 HWY_INLINE VI snap(VF px) {
   const DF d;
@@ -145,15 +145,31 @@ HWY_INLINE VI snap(VF px) {
   return hn::Sub(hn::BitCast(DI{}, rounded), hn::BitCast(DI{}, magic));
 }
 
-HWY_INLINE VI quantize_depth(VF depth01) {
-  const DF d;
-  const VF clamped = hn::Min(hn::Max(depth01, hn::Zero(d)), hn::Set(d, 1.0f));
-  const auto whole_units = [](auto v) HWY_ATTR {
-    const hn::DFromV<decltype(v)> wide;
-    const auto magic = hn::Set(wide, kRoundDouble);
-    return hn::Sub(hn::Add(hn::Mul(v, hn::Set(wide, double{contract::kDepthRange})), magic), magic);
+// units(v) in double, rounded half to even, above the head-room.
+template <typename Units>
+HWY_INLINE VI round_depth(Units&& units, VF v) {
+  const auto whole_units = [&](auto wide_v) HWY_ATTR {
+    const auto magic = hn::Set(hn::DFromV<decltype(wide_v)>{}, kRoundDouble);
+    return hn::Sub(hn::Add(units(wide_v), magic), magic);
   };
-  return hn::Add(in_double(DI{}, whole_units, clamped), hn::Set(DI{}, contract::kDepthHead));
+  return hn::Add(in_double(DI{}, whole_units, v), hn::Set(DI{}, contract::kDepthHead));
+}
+
+// depth01 must lie in [0, 1].
+HWY_INLINE VI quantize_depth(VF depth01) {
+  const auto units = [](auto v) HWY_ATTR {
+    return hn::Mul(v, hn::Set(hn::DFromV<decltype(v)>{}, double{contract::kDepthRange}));
+  };
+  return round_depth(units, depth01);
+}
+
+HWY_INLINE VI view_depth(const ViewDepth& depth, VF w) {
+  const auto units = [&](auto v) HWY_ATTR {
+    const hn::DFromV<decltype(v)> d;
+    const auto exact = hn::Div(hn::Mul(hn::Sub(v, hn::Set(d, depth.near_z)), hn::Set(d, depth.scale)), v);
+    return hn::Min(hn::Max(exact, hn::Zero(d)), hn::Set(d, double{contract::kDepthRange}));
+  };
+  return round_depth(units, w);
 }
 
 }  // namespace HWY_NAMESPACE

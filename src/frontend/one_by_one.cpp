@@ -58,8 +58,10 @@ void emit(const Vertex& a, const Vertex& b, const Vertex& c, const Source& sourc
   }
 }
 
+// depth_of(vertex) returns the depth of a vertex in clip space, in contract units.
+template <typename DepthOf>
 void clip(const ClipVertex (&triangle)[3], std::uint32_t sides, const Source& source,
-          const FrontendOptions& options, ChunkOutput& out) {
+          const FrontendOptions& options, ChunkOutput& out, DepthOf&& depth_of) {
   FrontendStats& stats = out.stats;
   ++stats.clipped;
   if (sides & kNear) ++stats.clipped_near;
@@ -76,7 +78,8 @@ void clip(const ClipVertex (&triangle)[3], std::uint32_t sides, const Source& so
     return;
   }
   std::array<Vertex, Clipper::kMaxVertices> snapped;
-  std::transform(polygon.begin(), polygon.end(), snapped.begin(), project);
+  std::transform(polygon.begin(), polygon.end(), snapped.begin(),
+                 [&](const ClipVertex& v) { return project(v, depth_of(v)); });
   const Pieces pieces = split({snapped.data(), polygon.size()});
   for (std::size_t i = 0; i < pieces.count; ++i) {
     const auto [a, b, c] = pieces.corners[i];
@@ -86,16 +89,16 @@ void clip(const ClipVertex (&triangle)[3], std::uint32_t sides, const Source& so
 }
 
 // Adds a triangle, clipped if necessary. clip_of(k) returns vertex k in clip space.
-template <typename ClipOf>
+template <typename ClipOf, typename DepthOf>
 void add(const Vertex& a, const Vertex& b, const Vertex& c, const Source& source,
-         const FrontendOptions& options, ChunkOutput& out, ClipOf&& clip_of) {
+         const FrontendOptions& options, ChunkOutput& out, ClipOf&& clip_of, DepthOf&& depth_of) {
   if (drop(a, b, c, out.stats)) return;
   const std::uint32_t sides = (a.outside | b.outside | c.outside) & kMustClip;
   if (sides == 0)
     emit(a, b, c, source, options, out,
          [&] { return unsnapped_triangle(clip_of(0), clip_of(1), clip_of(2)); });
   else
-    clip({clip_of(0), clip_of(1), clip_of(2)}, sides, source, options, out);
+    clip({clip_of(0), clip_of(1), clip_of(2)}, sides, source, options, out, depth_of);
 }
 
 TriangleState state_between(const FrontendStats& before, const FrontendStats& after) {
@@ -122,10 +125,11 @@ void add_and_record_state(const Task& task, std::size_t triangle, ChunkOutput& o
 void add_one(const MeshTask& task, std::size_t triangle, ChunkOutput& out) {
   const glm::uvec3 t = task.mesh.triangles[triangle];
   const auto clip_of = [&](int k) { return transform(task.to_screen, task.mesh.positions[t[k]]); };
+  const auto depth_of = [&](const ClipVertex& v) { return task.depth.units(v.w); };
   const Cull cull = task.mesh.has_flag(triangle, kTwoSided) ? Cull::none : task.options.cull;
   add_and_record_state(task, triangle, out, [&] {
     add(task.vertices[t.x], task.vertices[t.y], task.vertices[t.z],
-        {static_cast<std::uint32_t>(triangle), cull}, task.options, out, clip_of);
+        {static_cast<std::uint32_t>(triangle), cull}, task.options, out, clip_of, depth_of);
   });
 }
 
@@ -136,11 +140,16 @@ void add_one(const StreamTask& task, std::size_t triangle, ChunkOutput& out) {
     const glm::vec3 v = t.vertex[k];
     return ClipVertex{v.x, v.y, v.z, 1.0f};
   };
-  const auto vertex = [&](int k) { return make_vertex(clip_of(k), width, height); };
+  const auto depth_of = [](const ClipVertex& v) { return quantize_depth(v.z); };  // w is 1
+  const auto vertex = [&](int k) {
+    const ClipVertex v = clip_of(k);
+    return make_vertex(v, depth_of(v), width, height);
+  };
   const bool ids = task.options.payload == Payload::id;
   const Source source{ids ? static_cast<std::uint32_t>(triangle) : t.colour, task.options.cull};
-  add_and_record_state(task, triangle, out,
-                       [&] { add(vertex(0), vertex(1), vertex(2), source, task.options, out, clip_of); });
+  add_and_record_state(task, triangle, out, [&] {
+    add(vertex(0), vertex(1), vertex(2), source, task.options, out, clip_of, depth_of);
+  });
 }
 
 }  // namespace edgewise

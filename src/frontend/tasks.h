@@ -17,6 +17,7 @@ struct MeshTask {
   const FrontendOptions& options;
   const Mesh& mesh;
   glm::mat4 to_screen;              // model space → pixels and depth, both times w
+  ViewDepth depth;                  // w → contract units
   Vertex* vertices;                 // one per position
   TriangleState* states = nullptr;  // one per triangle, to be written; null: not needed
 

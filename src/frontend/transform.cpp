@@ -69,8 +69,7 @@ HWY_INLINE VI transform_vector(const MeshTask& task, const float* positions, Ver
   const auto needs_clipper = hn::AndNot(hn::RebindMask(di, projectable), inside);
   outside = hn::Or(outside, hn::IfThenElseZero(needs_clipper, hn::Set(di, kNear)));
   hn::StoreInterleaved4(snap(hn::Mul(v.x, inverse_w)), snap(hn::Mul(v.y, inverse_w)),
-                        quantize_depth(hn::Mul(v.z, inverse_w)), outside, di,
-                        reinterpret_cast<std::int32_t*>(out));
+                        view_depth(task.depth, v.w), outside, di, reinterpret_cast<std::int32_t*>(out));
   return hn::IfThenElse(hn::Eq(outside, hn::Set(di, kNotFinite)), hn::Set(di, -1), outside);
 }
 

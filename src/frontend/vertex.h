@@ -23,18 +23,18 @@ inline bool can_project(const ClipVertex& v) {
          std::isfinite(v.z);
 }
 
-// Divides by w and snaps. Requires can_project().
-inline Vertex project(const ClipVertex& v) {
+// Divides by w and snaps. Requires can_project(). z: contract units.
+inline Vertex project(const ClipVertex& v, std::uint32_t z) {
   const float inverse_w = 1.0f / v.w;
-  return {snap(v.x * inverse_w), snap(v.y * inverse_w), quantize_depth(v.z * inverse_w), 0};
+  return {snap(v.x * inverse_w), snap(v.y * inverse_w), z, 0};
 }
 
 // A vertex that lies inside but cannot be projected gets kNear, so that its triangles go to the clipper.
-inline Vertex make_vertex(const ClipVertex& v, float width_px, float height_px) {
+inline Vertex make_vertex(const ClipVertex& v, std::uint32_t z, float width_px, float height_px) {
   const std::uint32_t outside = outside_of(v, width_px, height_px);
   if ((outside & (kMustClip | kNotFinite)) != 0) return {0, 0, 0, outside};
   if (!can_project(v)) return {0, 0, 0, outside | kNear};
-  Vertex vertex = project(v);
+  Vertex vertex = project(v, z);
   vertex.outside = outside;
   return vertex;
 }

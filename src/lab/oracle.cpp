@@ -38,12 +38,12 @@ class ContractDepth {
   }
 
   std::uint32_t at(int px, int py) const {
-    const int cell_x = px / 64 * 64, cell_y = py / 64 * 64;
-    const Wide dx = Wide{cell_x} * 256 + 128 - x_[top_], dy = Wide{cell_y} * 256 + 128 - y_[top_];
+    const int middle_x = px / 64 * 64 + 32, middle_y = py / 64 * 64 + 32;
+    const Wide dx = Wide{middle_x} * 256 + 128 - x_[top_], dy = Wide{middle_y} * 256 + 128 - y_[top_];
     // z has 24 fraction bits here: 16 of the gradients and 8 of the sub-units.
-    const Wide base = floor_divide(z_[top_] * (1 << 24) + gx_ * dx + gy_ * dy + (1 << 23), 1 << 24);
+    const Wide middle = floor_divide(z_[top_] * (1 << 24) + gx_ * dx + gy_ * dy + (1 << 23), 1 << 24);
     const Wide step_x = floor_divide(gx_ + 32768, 65536), step_y = floor_divide(gy_ + 32768, 65536);
-    return static_cast<std::uint32_t>(base + step_x * (px - cell_x) + step_y * (py - cell_y));
+    return static_cast<std::uint32_t>(middle + step_x * (px - middle_x) + step_y * (py - middle_y));
   }
 
  private:

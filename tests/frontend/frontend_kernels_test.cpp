@@ -339,12 +339,13 @@ TEST(FrontendKernels, VerticesOnPlanesMatchMakeVertex) {
       for (const float y : borders(w, kHeight))
         for (const float z : borders(w, 2.0f)) mesh.positions.emplace_back(x, y, z);
     std::vector<Vertex> vertices(mesh.positions.size());
-    MeshTask job{options, mesh, glm::mat4(1.0f), vertices.data()};
+    MeshTask job{options, mesh, glm::mat4(1.0f), ViewDepth(0.5, 0.9), vertices.data()};
     job.to_screen[3][3] = w;
     for (const SimdTarget target : supported_targets()) {
       transform_kernel(target)(job, 0, vertices.size());
       for (std::size_t i = 0; i < vertices.size(); ++i) {
-        const Vertex expected = make_vertex(transform(job.to_screen, mesh.positions[i]), kWidth, kHeight);
+        const ClipVertex v = transform(job.to_screen, mesh.positions[i]);
+        const Vertex expected = make_vertex(v, job.depth.units(v.w), kWidth, kHeight);
         ASSERT_EQ(vertices[i].outside, expected.outside) << name_of(target) << ", w = " << w << ", " << i;
         if ((expected.outside & (kMustClip | kNotFinite)) != 0) continue;
         ASSERT_EQ(std::memcmp(&vertices[i], &expected, sizeof expected), 0) << name_of(target) << ", " << i;

@@ -221,8 +221,8 @@ TEST(VisibilitySweeps, FewerBitsFailAtLargerSeparations) {
     const auto start = [&](std::string_view method) { return Found(separation, method).start().value(); };
     EXPECT_GT(start("unorm16"), 50 * start("unorm24")) << name;
     EXPECT_GT(start("unorm24"), 10 * start("reversed_z")) << name;
-    // Our vertex depths are the front end's floats, so ours fails where those do.
-    EXPECT_EQ(start("contract31"), start("float_z")) << name;
+    EXPECT_GT(start("unorm24"), 10 * start("contract31")) << name;
+    EXPECT_GT(start("float_z"), 10 * start("contract31")) << name;
     EXPECT_EQ(start("submission_order"), separation.sweep->positions.front()) << name;
   }
   // z^2 / (near 2^bits) lies between two planes that can be told apart: 1.5 and 0.006.

@@ -128,9 +128,10 @@ void add_depth(Equations& equations, const ScreenTriangle& triangle, int px, int
   for (int i = 1; i < 3; ++i)
     if (t.y[i] < t.y[top] || (t.y[i] == t.y[top] && t.x[i] < t.x[top])) top = i;
   const int x = px % kDepthCell, y = py % kDepthCell;
-  const std::string z = text(t.z[top]), dx = text(sample_sub(px - x) - t.x[top]),
-                    dy = text(sample_sub(py - y) - t.y[top]);
-  add_wrapped(call_text("depth_base", z, gx, gy, dx, dy), plane.base(px - x, py - y), "two32");
+  const std::string z = text(t.z[top]), dx = text(sample_sub(px - x + kDepthCell / 2) - t.x[top]),
+                    dy = text(sample_sub(py - y + kDepthCell / 2) - t.y[top]);
+  add_wrapped(call_text("depth_at", z, gx, gy, dx, dy, text(0), text(0)), plane.base(px - x, py - y),
+              "two32");
   add_wrapped(call_text("depth_at", z, gx, gy, dx, dy, text(x), text(y)), plane.at(px, py), "two32");
 }
 

@@ -72,8 +72,8 @@ ClippingTruth clipping_truth(const ClippingScene& scene, int threads = 1);
 // sample: snapping moves edges by up to sqrt(2) / 512 px, and a cut vertex is rounded once more.
 inline constexpr double kHairlinePx = 1.0 / 64;
 // A wrong triangle is a depth tie within tolerance if its true depth differs from the right one's by at most
-// this. The front end's depth is a float, with steps of 2^-24 near 1, and is rounded four times by half a
-// step: 2^-23 per triangle.
+// this. A method's depth is a float, with steps of 2^-24 near 1, and is rounded four times by half a step:
+// 2^-23 per triangle. Ours is finer.
 inline constexpr double kDepthTie01 = 0x1p-22;
 // How far out both ends of an edge that crosses the screen may lie. Floats round the ends by 2^-24 of that
 // distance, and the edge between them moves as much. Hairline is 2^-6 px, so the bound is 2^18 px if nothing

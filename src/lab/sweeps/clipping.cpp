@@ -52,7 +52,7 @@ Measured measure_vertex_w(double w, bool) {
 Sweep make_sweep_near_plane() {
   return {"near_plane",
           Family::clipping,
-          "a floor under the camera, through a wall at 10: float depths get too coarse",
+          "a floor under the camera, through a wall at 10: depths get too coarse",
           {"near plane's distance", "", true},
           kWrongPixels,
           0.2,

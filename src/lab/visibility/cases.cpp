@@ -5,23 +5,19 @@
 #include <array>
 #include <cmath>
 #include <glm/glm.hpp>
-#include <glm/gtc/matrix_transform.hpp>
 #include <initializer_list>
 #include <numeric>
 
 #include "edgewise/contract.h"
 #include "frontend/fixed.h"
-#include "frontend/transform.h"
-#include "frontend/vertex.h"
 
 namespace edgewise::lab {
 
 namespace {
 
-// Computed as in the front end: the matrix, the position and the quotient are floats.
+// As in the front end, which has the distance as a float.
 std::uint32_t front_end_depth(double view_z, double near_z, double far_z) {
-  const glm::mat4 projection(glm::perspectiveRH_ZO(1.0, 1.0, near_z, far_z));
-  return project(transform(projection, {0.0f, 0.0f, -static_cast<float>(view_z)})).z;
+  return ViewDepth(near_z, far_z).units(static_cast<float>(view_z));
 }
 
 // View space: x to the right, y down, z away from the camera. The image's height is 1 at distance 1.

@@ -1,5 +1,5 @@
-// Adds the true distances to the front end's triangles of a scene. The front end computes depths in float;
-// the true distances are transformed from the positions in double.
+// Adds the true distances to the front end's triangles of a scene. The front end transforms positions to
+// distances in float; the true distances are transformed in double.
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>

@@ -20,7 +20,7 @@
 namespace edgewise::lab {
 
 struct VisibilityTriangle {
-  ScreenTriangle screen;   // z: the front end's depth (rule 6) of view_z, computed in float
+  ScreenTriangle screen;   // z: the front end's depth (rule 6), of view_z as a float
   float x_px[3], y_px[3];  // before snapping
   double view_z[3];        // distance along the view direction, near … far
 };

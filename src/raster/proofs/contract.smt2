@@ -23,7 +23,7 @@
 (define-const kDepthHead Int 128)          ; = kDepthHead of src/edgewise/contract.h
 (define-const kDepthClear Int 2147483647)  ; = kDepthClear of src/edgewise/contract.h
 (define-const kDepthRange Int 2147483388)  ; = kDepthRange of src/edgewise/contract.h
-(define-const kDepthError Int 65)          ; = kDepthError of src/edgewise/contract.h
+(define-const kDepthError Int 34)          ; = kDepthError of src/edgewise/contract.h
 
 (define-const two8 Int 256)
 (define-const two16 Int 65536)
@@ -68,11 +68,11 @@
   (- (* (- x1 x0) (- y2 y0)) (* (- y1 y0) (- x2 x0))))
 (define-fun first_sample ((c Int)) Int (div (+ c kHalf (- 1)) kSub))
 
-; Rule 6. gradient(), before it wraps; the rounded step per pixel; and depth, before it wraps, at the first pixel of a
-; cell whose sample is (dx, dy) from the anchor, and (x, y) pixels from there.
+; Rule 6. gradient(), before it wraps; the rounded step per pixel; and depth, before it wraps, at the middle pixel of a
+; cell whose sample is (dx, dy) from the anchor, and at pixel (x, y) of the cell.
 (define-fun gradient ((n Int) (area Int)) Int (div (* two24 n) area))
 (define-fun depth_step ((g Int)) Int (div (+ g 32768) two16))
-(define-fun depth_base ((z Int) (gx Int) (gy Int) (dx Int) (dy Int)) Int
+(define-fun depth_middle ((z Int) (gx Int) (gy Int) (dx Int) (dy Int)) Int
   (div (+ (* two24 z) 8388608 (* gx dx) (* gy dy)) two24))
 (define-fun depth_at ((z Int) (gx Int) (gy Int) (dx Int) (dy Int) (x Int) (y Int)) Int
-  (+ (depth_base z gx gy dx dy) (* x (depth_step gx)) (* y (depth_step gy))))
+  (+ (depth_middle z gx gy dx dy) (* (- x 32) (depth_step gx)) (* (- y 32) (depth_step gy))))

@@ -1,14 +1,16 @@
-; Rule 6: depth stays within 65 units of the exact plane at every sample that the triangle covers, so the head-room
+; Rule 6: depth stays within 34 units of the exact plane at every sample that the triangle covers, so the head-room
 ; keeps it from wrapping. The chain of claims:
 ;
 ;   numerator_width      |n| <= 2^54, and n is exact in 64 bits                    (nonlinear reals)
 ;   plane_is_weighted,   at a covered sample the exact plane lies between the
 ;   plane_between        least and the greatest z of the vertices                   (nonlinear reals)
 ;   step_error           zx, zy are off by at most 1/2 unit per pixel                 (integers and reals)
-;   gradient_gap         gx, gy, rounded down, shift the plane at the first sample
+;   gradient_gap         gx, gy, rounded down, shift the plane at the middle sample
 ;                        of a cell by less than 1/2 unit each                       (nonlinear reals)
-;   base_error           so base is off by less than 3/2                            (integers and reals)
-;   sample_error         so z(x, y) is off by less than 65                          (nonlinear reals)
+;   middle_error         so the depth there is off by less than 3/2                 (integers and reals)
+;   sample_error         so z(x, y) is off by less than 34                          (nonlinear reals)
+;   base_of_middle       the base that the code computes is that depth less 32 steps on
+;                        each axis                                                  (integers)
 ;   head_room            so z(x, y) lies in (0, kDepthClear), wrapped or not        (linear reals)
 ;   wrapped_base, wrapped_step, wrapped_sum: computed modulo 2^64 and 2^32, the
 ;                        result is the same number                                      (linear integers)
@@ -103,37 +105,48 @@
 (assert (and (<= 0.0 gap) (< gap 1.0) (between (- 8388609.0) d 8388609.0)))
 (assert (not (< (absr (* gap d)) 8388608.0)))
 
-;; claim base_error: base is off by less than 3/2. s = gx dx + gy dy is the computed sum; off_x and off_y are the
-;;   shifts due to the gradients' rounding; the plane is exact, in units of 2^-24.
+;; claim middle_error: The depth at the middle sample is off by less than 3/2. s = gx dx + gy dy is the computed sum; off_x
+;;   and off_y are the shifts due to the gradients' rounding; the plane is exact, in units of 2^-24.
 (declare-const z Int) (declare-const s Int) (declare-const off_x Real) (declare-const off_y Real)
 (assert (and (< (absr off_x) 8388608.0) (< (absr off_y) 8388608.0)))
-(define-fun base () Int (div (+ (* two24 z) 8388608 s) two24))
+(define-fun middle () Int (div (+ (* two24 z) 8388608 s) two24))
 (define-fun plane () Real (+ (* 16777216.0 (to_real z)) (to_real s) off_x off_y))
-(assert (not (< (absr (- (* 16777216.0 (to_real base)) plane)) (* 1.5 16777216.0))))
+(assert (not (< (absr (- (* 16777216.0 (to_real middle)) plane)) (* 1.5 16777216.0))))
 
-;; weakened base_error: base is off by less than 5/4.
+;; weakened middle_error: It is off by less than 5/4.
 (declare-const z Int) (declare-const s Int) (declare-const off_x Real) (declare-const off_y Real)
 (assert (and (< (absr off_x) 8388608.0) (< (absr off_y) 8388608.0)))
-(define-fun base () Int (div (+ (* two24 z) 8388608 s) two24))
+(define-fun middle () Int (div (+ (* two24 z) 8388608 s) two24))
 (define-fun plane () Real (+ (* 16777216.0 (to_real z)) (to_real s) off_x off_y))
-(assert (not (< (absr (- (* 16777216.0 (to_real base)) plane)) (* 1.25 16777216.0))))
+(assert (not (< (absr (- (* 16777216.0 (to_real middle)) plane)) (* 1.25 16777216.0))))
 
-;; claim sample_error: Depth at pixel (x, y) of a cell, that is, base and x and y steps, is off by less than
+;; claim sample_error: Depth at a pixel of a cell, that is, x and y steps from the middle one, is off by less than
 ;;   kDepthError.
-(declare-const off_base Real) (declare-const off_zx Real) (declare-const off_zy Real)
+(declare-const off_middle Real) (declare-const off_zx Real) (declare-const off_zy Real)
 (declare-const x Real) (declare-const y Real)
-(define-fun in_cell ((p Real)) Bool (between 0.0 p (- (to_real kDepthCell) 1.0)))
-(assert (and (< (absr off_base) 1.5) (<= (absr off_zx) 0.5) (<= (absr off_zy) 0.5)))
+(define-fun in_cell ((p Real)) Bool (between (- (/ (to_real kDepthCell) 2.0)) p (- (/ (to_real kDepthCell) 2.0) 1.0)))
+(assert (and (< (absr off_middle) 1.5) (<= (absr off_zx) 0.5) (<= (absr off_zy) 0.5)))
 (assert (and (in_cell x) (in_cell y)))
-(assert (not (< (absr (+ off_base (* x off_zx) (* y off_zy))) (to_real kDepthError))))
+(assert (not (< (absr (+ off_middle (* x off_zx) (* y off_zy))) (to_real kDepthError))))
 
-;; weakened sample_error: It is off by less than 64.
-(declare-const off_base Real) (declare-const off_zx Real) (declare-const off_zy Real)
+;; weakened sample_error: It is off by less than 33.
+(declare-const off_middle Real) (declare-const off_zx Real) (declare-const off_zy Real)
 (declare-const x Real) (declare-const y Real)
-(define-fun in_cell ((p Real)) Bool (between 0.0 p (- (to_real kDepthCell) 1.0)))
-(assert (and (< (absr off_base) 1.5) (<= (absr off_zx) 0.5) (<= (absr off_zy) 0.5)))
+(define-fun in_cell ((p Real)) Bool (between (- (/ (to_real kDepthCell) 2.0)) p (- (/ (to_real kDepthCell) 2.0) 1.0)))
+(assert (and (< (absr off_middle) 1.5) (<= (absr off_zx) 0.5) (<= (absr off_zy) 0.5)))
 (assert (and (in_cell x) (in_cell y)))
-(assert (not (< (absr (+ off_base (* x off_zx) (* y off_zy))) (- (to_real kDepthError) 1.0))))
+(assert (not (< (absr (+ off_middle (* x off_zx) (* y off_zy))) (- (to_real kDepthError) 1.0))))
+
+;; claim base_of_middle: 2^13 (gx - 2^16 zx) more than the sum s at the first sample, rounded down, is the sum at the
+;;   middle, s + 2^13 gx, rounded down, less 32 zx. gx - 2^16 zx is the lower 16 bits of gx + 2^15, less 2^15.
+(declare-const s Int) (declare-const g Int)
+(define-fun shift () Int (* 8192 (- (mod (+ g 32768) two16) 32768)))
+(assert (not (= (div (+ s shift) two24) (- (div (+ s (* 8192 g)) two24) (* 32 (depth_step g))))))
+
+;; weakened base_of_middle: The same without the 2^15.
+(declare-const s Int) (declare-const g Int)
+(define-fun shift () Int (* 8192 (mod (+ g 32768) two16)))
+(assert (not (= (div (+ s shift) two24) (- (div (+ s (* 8192 g)) two24) (* 32 (depth_step g))))))
 
 ;; claim head_room: A number within kDepthError of a plane between vertex depths neither wraps nor reaches
 ;;   kDepthClear.
@@ -142,9 +155,9 @@
 (assert (< (absr (- (to_real z) plane)) (to_real kDepthError)))
 (assert (not (and (< 0 z) (< z kDepthClear) (= (mod z two32) z) (= (signed32 z) z))))
 
-;; weakened head_room: The same with half the head-room.
+;; weakened head_room: The same with a quarter of the head-room.
 (declare-const z Int) (declare-const plane Real)
-(assert (between 64.0 plane (- (to_real kDepthClear) 64.0)))
+(assert (between 32.0 plane (- (to_real kDepthClear) 32.0)))
 (assert (< (absr (- (to_real z) plane)) (to_real kDepthError)))
 (assert (not (and (< 0 z) (< z kDepthClear) (= (mod z two32) z) (= (signed32 z) z))))
 

@@ -70,7 +70,7 @@ HWY_INLINE Area area_of(const TriangleLanes& t) {
 struct DepthLanes {
   V32 x, y;             // steps per pixel
   V64 gx, gy;           // rule 6
-  V64 start;            // 2^24 (depth at the first pixel of the cell + 1/2)
+  V64 start;            // 2^24 (base of the cell + 1/2), before it is rounded down
   hn::Mask<D64> exact;  // where the gradients are exact
   HWY_INLINE V32 base() const { return lower(shift_right<24>(start)); }
   // Where both steps are below kSteep in size.
@@ -99,13 +99,15 @@ HWY_INLINE DepthLanes depth_lanes(const PlaneLanes& p) {
   const auto scaled_inverse = hn::Div(hn::Set(df, 0x1p24), hn::ConvertTo(df, p.area));
   const Gradient gx = gradient(nx, p.area, scaled_inverse), gy = gradient(ny, p.area, scaled_inverse);
   const V64 anchor = shift_right<8>(hn::ShiftLeft<32>(as64(p.anchor_z)));  // 2^24 z, whatever the upper half
-  const V64 half = hn::Set(d, std::int64_t{1} << 23), round = hn::Set(d, 0x8000);
-  const V64 start = hn::Add(hn::Add(anchor, half), hn::Add(product(gx.g, p.from_x), product(gy.g, p.from_y)));
-  return {lower(shift_right<16>(hn::Add(gx.g, round))),
-          lower(shift_right<16>(hn::Add(gy.g, round))),
-          gx.g,
-          gy.g,
-          start,
+  const V64 round = hn::Set(d, 0x8000), fraction = hn::Set(d, 0xFFFF);
+  const V64 rounded_x = hn::Add(gx.g, round), rounded_y = hn::Add(gy.g, round);
+  // middle_shift() of contract.h
+  static_assert(contract::kDepthCell / 2 * contract::kSub == 1 << 13);
+  const V64 shift = hn::ShiftLeft<13>(hn::Add(hn::And(rounded_x, fraction), hn::And(rounded_y, fraction)));
+  const V64 half = hn::Set(d, (std::int64_t{1} << 23) - (std::int64_t{0x10000} << 13));
+  const V64 start = hn::Add(hn::Add(hn::Add(anchor, half), shift),
+                            hn::Add(product(gx.g, p.from_x), product(gy.g, p.from_y)));
+  return {lower(shift_right<16>(rounded_x)), lower(shift_right<16>(rounded_y)), gx.g, gy.g, start,
           hn::And(gx.exact, gy.exact)};
 }
 

@@ -32,8 +32,8 @@ class Plane {
 extern const VisibilityMethod visibility_contract31;
 const VisibilityMethod visibility_contract31{
     {"contract31", "ours: 31-bit integer plane, base recomputed every 64 px", "edgewise/contract.h, rule 6",
-     "depth within 66 steps of 2^-31 of the plane through the vertices' depths, which the front end has as "
-     "floats, whatever the triangle's shape",
+     "depth within 35 steps of 2^-31 of the plane through the vertices' depths, which follow from float "
+     "distances, whatever the triangle's shape",
      false},
     [](const VisibilityScene& scene, VisibilityFrame& frame) {
       draw_depth_buffer<Plane, std::uint32_t>(scene, frame, frame.depth32, contract::kDepthClear);
