@@ -155,13 +155,17 @@ json accuracy_json(const AccuracyReport& report, const AccuracyPlan& plan) {
               {"ok", report.ok()},
               {"methods", json::array()},
               {"scenes", json::array()}};
-  for (const auto& [family, info] : methods_of(plan).all())
-    result["methods"].push_back({{"family", name_of(family)},
-                                 {"name", info->name},
-                                 {"summary", info->summary},
-                                 {"source", info->source},
-                                 {"promise", info->promise},
-                                 {"exact", info->exact}});
+  for (const auto& [family, info] : methods_of(plan).all()) {
+    json& method = result["methods"].emplace_back(json{{"family", name_of(family)},
+                                                       {"name", info->name},
+                                                       {"summary", info->summary},
+                                                       {"source", info->source},
+                                                       {"promise", info->promise},
+                                                       {"exact", info->exact}});
+    if (family != Family::coverage) continue;
+    if (const auto& coverage = lab::find_coverage_method(info->name); !coverage.simd)
+      method["simd_note"] = coverage.simd_note;
+  }
   for (const SceneResult& scene : report.scenes) result["scenes"].push_back(scene_json(scene));
   if (report.turning_cube) result["turning_cube"] = cube_json(*report.turning_cube);
   return result;

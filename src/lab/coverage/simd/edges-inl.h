@@ -57,14 +57,12 @@ class RealLanes {
     if constexpr (kParts == 1) {
       return part_of(0);
     } else {
-      std::uint8_t low[8] = {}, high[8] = {};
+      std::uint8_t low[8] = {}, high[8] = {}, both[8] = {};
       hn::StoreMaskBits(D{}, part_of(0), low);
       hn::StoreMaskBits(D{}, part_of(1), high);
-      if constexpr (kPerPart < 8)
-        low[0] = static_cast<std::uint8_t>(low[0] | high[0] << kPerPart);
-      else
-        low[1] = high[0];
-      return hn::LoadMaskBits(DF{}, low);
+      const std::uint32_t bits = low[0] | std::uint32_t{high[0]} << kPerPart;
+      std::memcpy(both, &bits, sizeof bits);
+      return hn::LoadMaskBits(DF{}, both);
     }
   }
 
@@ -75,7 +73,8 @@ class RealLanes {
 
   // The coordinates of the samples of a part.
   static HWY_INLINE V samples(int first, int part) {
-    return hn::Add(hn::Iota(D{}, static_cast<Real>(first + part * kPerPart)), hn::Set(D{}, Real{0.5f}));
+    const V numbers = hn::Add(hn::Iota(D{}, 0), hn::Set(D{}, static_cast<Real>(first + part * kPerPart)));
+    return hn::Add(numbers, hn::Set(D{}, Real{0.5f}));
   }
 
   const RealEdge<Real> (&edges_)[3];
@@ -90,30 +89,32 @@ class IntLanes {
   template <typename Int>
   IntLanes(const FixedEdge<Int> (&edges)[3], const PixelRows& box, int shift) : box_(box) {
     for (int i = 0; i < 3; ++i) {
-      const auto short_of = [&](auto v) { return static_cast<std::int32_t>(static_cast<Int>(v) >> shift); };
+      const auto short_of = [&](auto v) { return static_cast<std::uint32_t>(static_cast<Int>(v) >> shift); };
       first_[i] = short_of(edges[i].value);
       step_x_[i] = short_of(edges[i].step_x);
       step_y_[i] = short_of(edges[i].step_y);
     }
   }
 
-  HWY_INLINE void rows_from(int y) { y_ = y; }
+  HWY_INLINE void rows_from(int y) {
+    const auto down = static_cast<std::uint32_t>(y - box_.y0);
+    for (int i = 0; i < 3; ++i) row_[i] = first_[i] + step_y_[i] * down;
+  }
   HWY_INLINE void columns_from(int x) {
-    const VI columns = counting_from(x - box_.x0), rows = hn::Set(DI{}, y_ - box_.y0);
-    for (int i = 0; i < 3; ++i)
-      value_[i] = hn::Add(hn::Set(DI{}, first_[i]), hn::Add(hn::Mul(hn::Set(DI{}, step_x_[i]), columns),
-                                                            hn::Mul(hn::Set(DI{}, step_y_[i]), rows)));
+    const VI columns = counting_from(x - box_.x0);
+    for (int i = 0; i < 3; ++i) value_[i] = hn::Add(all(row_[i]), hn::Mul(all(step_x_[i]), columns));
   }
   HWY_INLINE Lanes accepted(int) {
     const VI outside = hn::Or(hn::Or(value_[0], value_[1]), value_[2]);  // negative if one of them is
-    for (int i = 0; i < 3; ++i) value_[i] = hn::Add(value_[i], hn::Set(DI{}, step_y_[i]));
+    for (int i = 0; i < 3; ++i) value_[i] = hn::Add(value_[i], all(step_y_[i]));
     return hn::RebindMask(DF{}, hn::Gt(outside, hn::Set(DI{}, -1)));
   }
 
  private:
+  static HWY_INLINE VI all(std::uint32_t v) { return hn::Set(DI{}, static_cast<std::int32_t>(v)); }
+
   PixelRows box_;
-  std::int32_t first_[3], step_x_[3], step_y_[3];
-  int y_ = 0;
+  std::uint32_t first_[3], step_x_[3], step_y_[3], row_[3] = {};  // two's complement
   VI value_[3];
 };
 
