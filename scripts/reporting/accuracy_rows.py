@@ -44,6 +44,9 @@ FAMILIES = {family.name: family for family in (
 )}
 
 
+SCALAR = "scalar"  # the name of the form without SIMD
+
+
 @dataclass(frozen=True)
 class Method:
     name: str
@@ -64,7 +67,7 @@ class Cost(NamedTuple):
     high: float
     mtri: float  # 10⁶ triangles per second, median
     repetitions: int
-    rounds: tuple = ()  # in order; empty in older results
+    rounds: tuple = ()  # ns of each repetition, in order; repetition i of all forms and methods ran in one round
 
     @property
     def interval(self):
@@ -84,10 +87,20 @@ class Measured:
     rate: float  # errors per 10⁶
     bound: float | None  # 95 % upper bound per 10⁶, only where no error was seen
     snapped_rate: float | None  # the same against the snapped truth; coverage and facing only
-    costs: dict  # by threads; empty where the scene is not timed
+    costs: dict  # by threads: the SIMD form of ours, the scalar form of others; empty where the scene is not timed
     gaps: int | None = None  # pixels; coverage only
     cracks: int | None = None  # gaps and double hits, pixels; coverage only
-    rounds: dict = field(default_factory=dict)  # by threads and SIMD target: ms of each round, all methods interleaved
+    forms: dict = field(default_factory=dict)  # costs by (SIMD target, threads); empty in old results
+
+    @property
+    def scalar(self):
+        """The cost of the scalar form on one thread, or None."""
+        return self.forms.get((SCALAR, 1))
+
+    @property
+    def simd(self):
+        """The cost of the SIMD form on one thread, or None."""
+        return next((cost for (target, threads), cost in self.forms.items() if target != SCALAR and threads == 1), None)
 
 
 @dataclass(frozen=True)
@@ -163,15 +176,18 @@ def parse_cost(speed, key):
 def parse_measured(entry, family, method):
     scores = [entry[truth] for truth in FAMILIES[family].truths]
     cost = "ns_per_face" if family == "facing" else "ns_per_covered_pixel"
-    costs = {int(speed["threads"]): parse_cost(speed, cost) for speed in entry.get("speed") or () if cost in speed}
+    forms = {(speed.get("simd"), int(speed["threads"])): parse_cost(speed, cost) for speed in entry.get("speed") or ()
+             if cost in speed}
+    targets = {target for target, _ in forms}
+    shown = next(iter(targets - {SCALAR} if method.ours and targets != {SCALAR} else targets & {SCALAR, None}), None)
+    costs = {threads: cost for (target, threads), cost in forms.items() if target == shown}
     bound = scores[0].get("bound_per_million")
     coverage = family == "coverage"
     return Measured(method, float(scores[0]["errors_per_million"]), None if bound is None else float(bound),
                     float(scores[1]["errors_per_million"]) if len(scores) > 1 else None, costs,
                     int(scores[0]["gaps"]) if coverage else None,
                     int(scores[0]["gaps"]) + int(scores[0]["double_hits"]) if coverage else None,
-                    {(int(speed["threads"]), speed["simd"]): tuple(map(float, speed["rounds_ms"]))
-                     for speed in entry.get("speed") or () if "rounds_ms" in speed})
+                    {} if None in targets else forms)
 
 
 def parse_cube(data, methods):

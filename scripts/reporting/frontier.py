@@ -43,17 +43,8 @@ def cracks_of(accuracy, method):
     return Cracks(1e6 * sum(cracks for cracks, _ in found) / crossings, worst, worst_scene, crossings, len(found))
 
 
-def scalar_form(m):
-    return m.rounds.get((1, "scalar"))
-
-
-def simd_form(m):
-    """(name of the target, rounds), or None for a method with a scalar form alone."""
-    return next(((target, rounds) for (threads, target), rounds in m.rounds.items() if threads == 1 and target != "scalar"), None)
-
-
 def timed_scenes(accuracy):
-    return [scene for scene in accuracy.of("coverage") if any(m.rounds for m in scene.measured)]
+    return [scene for scene in accuracy.of("coverage") if any(m.scalar for m in scene.measured)]
 
 
 def reference(accuracy):
@@ -61,7 +52,7 @@ def reference(accuracy):
     scenes = timed_scenes(accuracy)
     products = {}
     for method in accuracy.methods.get("coverage", ()):
-        times = [median(scalar_form(m)) for scene in scenes for m in scene.measured if m.method == method and scalar_form(m)]
+        times = [m.scalar.ns for scene in scenes for m in scene.measured if m.method == method and m.scalar]
         if times and len(times) == len(scenes) and not method.ours:
             product = 1.0
             for time in times:
@@ -86,10 +77,10 @@ def simd_speed_up(accuracy, name, other):
     """Of one method over another, both with SIMD on one thread; None if a scene lacks one of them."""
     groups = []
     for scene in timed_scenes(accuracy):
-        forms = [m and simd_form(m) for m in (measured_in(scene, name), measured_in(scene, other))]
-        if not all(forms):
+        costs = [m and m.simd for m in (measured_in(scene, name), measured_in(scene, other))]
+        if not all(costs):
             return None
-        groups.append(ratios(forms[0][1], forms[1][1]))
+        groups.append(ratios(costs[0].rounds, costs[1].rounds))
     return speed_up(groups) if groups else None
 
 
@@ -100,11 +91,10 @@ def speed_ups(accuracy):
         return {}, None, 0
     groups = {}
     for scene in scenes:
-        base_rounds = next(scalar_form(m) for m in scene.measured if m.method == base)
+        base_rounds = next(m.scalar.rounds for m in scene.measured if m.method == base)
         for m in scene.measured:
-            simd = simd_form(m)
-            for form, rounds in (("scalar", scalar_form(m)), ("simd", simd and simd[1])):
-                if rounds:
-                    groups.setdefault(m.method, {}).setdefault(form, []).append(ratios(rounds, base_rounds))
+            for form, cost in (("scalar", m.scalar), ("simd", m.simd)):
+                if cost:
+                    groups.setdefault(m.method, {}).setdefault(form, []).append(ratios(cost.rounds, base_rounds))
     return ({method: {form: speed_up(of) for form, of in forms.items() if len(of) == len(scenes)}
              for method, forms in groups.items()}, base, len(scenes))

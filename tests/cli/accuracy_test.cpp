@@ -169,7 +169,7 @@ TEST(Accuracy, ExactMethodsScoreZeroAgainstTheSnappedTruth) {
   }
 }
 
-TEST(Accuracy, TimesExactMethodsOnOneAndTwoThreads) {
+TEST(Accuracy, TimesBothFormsOfEachMethod) {
   const TempDir folder;
   const std::string path = (folder.path() / "mine.tri").string();
   ASSERT_EQ(testing::run_program(EDGEWISE_PROGRAM, "capture cube --size 64x48 -o " + path).status, 0);
@@ -180,13 +180,22 @@ TEST(Accuracy, TimesExactMethodsOnOneAndTwoThreads) {
     if (entry.at("family") != "coverage") continue;
     const std::string name = entry.at("name");
     const json& speed = named(scene.at("methods"), name).at("speed");
-    ASSERT_EQ(speed.size(), lab::find_coverage_method(name).threaded ? 2u : 1u) << name;
+    const lab::CoverageMethod& method = lab::find_coverage_method(name);
+    EXPECT_EQ(entry.contains("simd_note"), !method.simd) << name;
+    std::set<std::pair<std::string, int>> expected, found;
+    for (const SimdTarget target : {SimdTarget::scalar, method.simd ? SimdTarget::best : SimdTarget::scalar})
+      for (int threads = 1; threads <= (method.threaded ? 2 : 1); ++threads)
+        expected.emplace(name_of(resolve(target)), threads);
+    for (const json& one : speed) found.emplace(one.at("simd"), one.at("threads"));
+    EXPECT_EQ(found, expected) << name;
+    EXPECT_EQ(speed.size(), expected.size()) << name;
     for (const json& one : speed) {
       EXPECT_GT(one.at("ns_per_covered_pixel"), 0);
       EXPECT_GT(one.at("mtri_per_s"), 0);
       EXPECT_LE(one.at("ms").at("min"), one.at("ms").at("median"));
       EXPECT_LE(one.at("ms").at("median"), one.at("ms").at("max"));
       EXPECT_GT(one.at("ms").at("repetitions"), 1);
+      EXPECT_EQ(one.at("rounds_ms").size(), one.at("ms").at("repetitions").get<std::size_t>());
     }
   }
 }

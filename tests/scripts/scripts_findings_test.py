@@ -5,7 +5,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts/reporting"))
 from accuracy_findings import ours_fail_sentence, speed_sentence  # noqa: E402
-from accuracy_rows import Accuracy, Cost, Curve, Measured, Method, Scene, Sweep  # noqa: E402
+from accuracy_rows import Accuracy, Cost, Curve, Measured, Method, Scene, Sweep, parse_measured  # noqa: E402
 from bench_rows import Bench, parse_name  # noqa: E402
 from findings import crack_finding, exactness_finding, findings, peer_finding, speed_finding  # noqa: E402
 from peers import peer_tables  # noqa: E402
@@ -47,6 +47,26 @@ def turning(*counts):
 
 
 class FindingsTest(unittest.TestCase):
+    def test_charts_show_the_simd_form_of_ours_and_the_scalar_form_of_others(self):
+        def timed(simd, threads, ms):
+            return {**({"simd": simd, "rounds_ms": [1.5 * ms, ms, 0.5 * ms]} if simd else {}), "threads": threads,
+                    "ns_per_covered_pixel": 10.0 * ms, "mtri_per_s": 1.0, "ms": {"median": ms, "min": ms, "max": ms}}
+
+        def read(source, *speed):
+            score = {"errors_per_million": 0.0, "gaps": 0}
+            return parse_measured({"float": score, "snapped": score, "speed": list(speed)}, "coverage",
+                                  Method("m", source, "", True))
+
+        forms = timed("scalar", 1, 4.0), timed("scalar", 2, 3.0), timed("avx512", 1, 2.0), timed("avx512", 2, 1.0)
+        ours, other = read("src/raster", *forms), read("a book", *forms)
+        self.assertEqual({threads: cost.ns for threads, cost in ours.costs.items()}, {1: 20.0, 2: 10.0})
+        self.assertEqual({threads: cost.ns for threads, cost in other.costs.items()}, {1: 40.0, 2: 30.0})
+        self.assertEqual((ours.scalar.ns, ours.simd.ns, ours.simd.rounds), (40.0, 20.0, (30.0, 20.0, 10.0)))
+
+        naive, old = read("src/raster", timed("scalar", 1, 4.0)), read("src/raster", timed(None, 1, 4.0))
+        self.assertEqual((naive.costs[1].ns, naive.scalar.ns, naive.simd), (40.0, 40.0, None))
+        self.assertEqual((old.costs[1].ns, old.scalar, old.simd, old.costs[1].rounds), (40.0, None, None, ()))
+
     def test_who_wins_how_often_and_by_how_much(self):
         text = speed_finding(bench({**scene("a", 2.0, 8.0, 1.0), **scene("b", 3.0, 4.0, 2.0), **scene("c", 1.0, 5.0, 4.0)}))
         self.assertIn("On 2 threads, with AVX-512 in all backends, `tiled` wins 2 of 3 scenes against `scanline`, 1.5× to 2.0× "

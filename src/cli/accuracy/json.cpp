@@ -96,11 +96,13 @@ json speed_json(const Speed& speed, const SceneResult& scene) {
   const bool facing = scene.family == Family::facing;
   const auto count = static_cast<double>(facing ? scene.triangles : scene.covered);
   json result{{"threads", speed.threads},
+              {"simd", name_of(speed.target)},
               {"ms",
                {{"median", speed.median_ms},
                 {"min", speed.min_ms},
                 {"max", speed.max_ms},
-                {"repetitions", speed.repetitions}}},
+                {"repetitions", speed.rounds_ms.size()}}},
+              {"rounds_ms", speed.rounds_ms},
               {"mtri_per_s", static_cast<double>(scene.triangles) / speed.median_ms / 1e3}};
   if (count > 0) result[facing ? "ns_per_face" : "ns_per_covered_pixel"] = 1e6 * speed.median_ms / count;
   return result;
@@ -164,8 +166,10 @@ json accuracy_json(const AccuracyReport& report, const AccuracyPlan& plan) {
                                                        {"source", info->source},
                                                        {"promise", info->promise},
                                                        {"exact", info->exact}});
-    if (family == Family::coverage)
-      method["max_side_px"] = lab::find_coverage_method(info->name).promise.max_side_px;
+    if (family != Family::coverage) continue;
+    const lab::CoverageMethod& coverage = lab::find_coverage_method(info->name);
+    method["max_side_px"] = coverage.promise.max_side_px;
+    if (!coverage.simd) method["simd_note"] = coverage.simd_note;
   }
   for (const SceneResult& scene : report.scenes) result["scenes"].push_back(scene_json(scene));
   if (report.turning_cube) result["turning_cube"] = cube_json(*report.turning_cube);

@@ -20,7 +20,7 @@ double warm_ms(const TimedDraw& timed, int times) {
 }  // namespace
 
 std::vector<Speed> time_in_turns(const std::vector<TimedDraw>& draws, bool quick) {
-  const int repetitions = quick ? 5 : 11;
+  const int repetitions = quick ? 5 : 9;
   const double least_ms = quick ? 2.0 : 5.0;  // per repetition; far above the clock's resolution
   std::vector<std::vector<double>> ms(draws.size());
   std::vector<int> times;
@@ -32,8 +32,10 @@ std::vector<Speed> time_in_turns(const std::vector<TimedDraw>& draws, bool quick
 
   std::vector<Speed> speeds;
   for (std::size_t i = 0; i < draws.size(); ++i) {
-    std::sort(ms[i].begin(), ms[i].end());
-    speeds.push_back({draws[i].threads, ms[i][ms[i].size() / 2], ms[i].front(), ms[i].back(), repetitions});
+    std::vector<double> sorted = ms[i];
+    std::sort(sorted.begin(), sorted.end());
+    speeds.push_back({draws[i].threads, draws[i].target, sorted[sorted.size() / 2], sorted.front(),
+                      sorted.back(), std::move(ms[i])});
   }
   return speeds;
 }
