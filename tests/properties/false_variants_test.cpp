@@ -68,7 +68,7 @@ INSTANTIATE_TEST_SUITE_P(All, WrongBackend,
                                                    2},
                                            Variant{"one_lane_is_a_unit_deeper",
                                                    mistaken<Mistake::one_lane_is_a_unit_deeper>(), 1}),
-                         [](const auto& plant) { return std::string(plant.param.name); });
+                         [](const auto& variant) { return std::string(variant.param.name); });
 
 TEST(PropertyCheck, FailureNamesTheFileAndTheCommand) {
   const auto file = failure_folder() / "PropertyCheck.FailureNamesTheFileAndTheCommand.tri";
