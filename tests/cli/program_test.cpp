@@ -4,6 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -36,13 +37,15 @@ std::vector<std::string> names_of(const Registry& registry) {
   return names;
 }
 
-TEST(Program, HelpsOnEveryCommand) {
-  for (const char* command : {"", "list", "render", "verify", "accuracy", "stability", "diff", "capture",
-                              "view", "demo", "machine"}) {
+TEST(Program, HelpOnEveryCommandFits100Columns) {
+  for (const char* command : {"", "list", "render", "verify", "soak", "accuracy", "stability", "diff",
+                              "capture", "view", "demo", "machine"}) {
     const Outcome outcome = edgewise_with(std::string(command) + " --help");
     EXPECT_EQ(outcome.status, 0) << command;
     EXPECT_NE(outcome.out.find("edgewise"), std::string::npos) << command;
     EXPECT_EQ(outcome.err, "") << command;
+    std::istringstream lines(outcome.out);
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
   }
 }
 
