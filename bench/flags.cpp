@@ -32,7 +32,7 @@ constexpr const char* kGoogleBenchmarkOptions[] = {"--benchmark_color",
 std::optional<Flags> parse_flags(int argc, char** argv) {
   Flags flags;
   std::optional<tools::Size> size;
-  CLI::App parser{"Times the front end and every backend, after comparing their pictures.", "edgewise_bench"};
+  CLI::App parser{"Compare the pictures of all backends, then time them and the front end", "edgewise_bench"};
   parser.allow_extras();
   parser
       .add_option("--scene", flags.suite.scenes,
@@ -45,28 +45,28 @@ std::optional<Flags> parse_flags(int argc, char** argv) {
       ->type_name("FILE");
   parser.add_flag("--fit", flags.suite.fit, "Centre a mesh from a file and scale its longest side to 2");
   bool no_peers = false;
-  auto* peers_flag = parser.add_flag(
-      "--peers", flags.need_peers, "Fail if another project's rasterizer is missing (default: leave it out)");
+  auto* peers_flag = parser.add_flag("--peers", flags.need_peers,
+                                     "Fail if another project's rasterizer is missing (default: skip)");
   parser.add_flag("--no-peers", no_peers, "Leave out other projects' rasterizers")->excludes(peers_flag);
   parser.add_flag("--quick", flags.suite.quick,
-                  "Fewer rows and repetitions, a tenth of the triangles of knots and streams");
+                  "Fewer rows and repetitions; fewer triangles in knots and streams");
   tools::add_size(parser, size, "Image size (1920x1080; a .tri file has its own)");
   std::string format;
   parser.add_option("--benchmark_out", flags.out, "Write the results to this file, complete or not at all")
       ->type_name("FILE");
   parser
       .add_option("--model_out", flags.model_out,
-                  "Write estimates to this file: the cost model, and speed-ups on more cores")
+                  "Write estimates to this file: cost model, speed-ups on more cores")
       ->type_name("FILE");
   parser.add_option("--benchmark_out_format", format, "json only")->check(CLI::IsMember({"json"}));
   parser.footer(
-      "Google Benchmark's other flags work too, among them --benchmark_filter=REGEX, "
-      "--benchmark_list_tests,\n"
-      "--benchmark_repetitions=N, --benchmark_min_time=SECONDS and --benchmark_format=console|json|csv.\n"
-      "With every filter, random reads are timed between the rows: they show whether other processes filled "
-      "the last-level cache.\n"
-      "Exit status: 0 done, 1 a row drew other pixels, 2 bad input or failure, 130 after Ctrl-C.\n"
-      "A reader that closes standard output early, as `head` does, is no failure.");
+      "Google Benchmark's other flags work too, for example --benchmark_filter=REGEX,\n"
+      "--benchmark_list_tests, --benchmark_repetitions=N, --benchmark_min_time=SECONDS and\n"
+      "--benchmark_format=console|json|csv.\n"
+      "With every filter, random reads are timed between the rows. They show whether other processes\n"
+      "filled the last-level cache.\n"
+      "Exit status: 0 done, 1 a row drew wrong pixels, 2 bad input or failure, 130 after Ctrl-C.\n"
+      "If a reader such as `head` closes standard output early, that is no error.");
   try {
     parser.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {

@@ -86,9 +86,9 @@ std::optional<std::vector<Row>> select(std::vector<Row> suite) {
   return rows;
 }
 
-// Whether a frame is slow, and slower than another backend's: its estimate for more cores is of no interest.
+// Whether a frame is slow, and slower than another backend's. Such frames get no estimate for more cores.
 bool is_slow_and_not_fastest(const Row& row, const std::vector<Row>& rows) {
-  constexpr double kLong_s = 0.03;
+  constexpr double kSlow_s = 0.03;
   double own_s = 0.0, best_s = std::numeric_limits<double>::infinity();
   for (const Row& other : rows) {
     if (other.workload != row.workload || other.timed != Timed::frame || other.peer != nullptr ||
@@ -97,7 +97,7 @@ bool is_slow_and_not_fastest(const Row& row, const std::vector<Row>& rows) {
     best_s = std::min(best_s, other.once_s);
     if (other.backend == row.backend) own_s = other.once_s;
   }
-  return own_s > std::max(kLong_s, best_s);
+  return own_s > std::max(kSlow_s, best_s);
 }
 
 // A peer that was built cannot start on a machine without its driver.

@@ -37,18 +37,18 @@ SceneRequest request(const SuiteOptions& options, int width, int height) {
 // Large triangles lose much of their area at the image's borders, so the count is corrected by the coverage
 // of a first attempt.
 tools::Source area_source(const SuiteOptions& options, double area_px) {
-  constexpr double kWanted_px = 4e6;
+  constexpr double kTargetArea_px = 4e6;
   const auto at_least_a_few = [](double count) {
     return static_cast<std::size_t>(std::max(4.0, std::round(count)));
   };
-  const std::size_t count = at_least_a_few(kWanted_px / area_px);
+  const std::size_t count = at_least_a_few(kTargetArea_px / area_px);
   if (area_px < 1e3) return random_source(options.width, options.height, count, area_px);
   Workload attempt(options.width, options.height, Cull::none,
                    [&] { return random_source(options.width, options.height, count, area_px); });
   attempt.prepare(false);
   const double covered_px = std::max(1.0, static_cast<double>(attempt.covered_px()));
   return random_source(options.width, options.height,
-                       at_least_a_few(static_cast<double>(count) * kWanted_px / covered_px), area_px);
+                       at_least_a_few(static_cast<double>(count) * kTargetArea_px / covered_px), area_px);
 }
 
 // A source's name in row names, where ':' and '/' are separators. No source name has a '/'.

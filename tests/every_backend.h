@@ -32,7 +32,7 @@ class EveryBackend : public ::testing::TestWithParam<std::string_view> {
     Framebuffer actual(width, height);
     for (const auto& execution : executions()) {
       lab::poison(
-          actual);  // otherwise pixels that a draw leaves out would still be right from the previous draw
+          actual);  // otherwise pixels that a draw omits would still be correct from the previous draw
       draw(*backend_, triangles, actual.view(), kBackground, execution);
       expect_same(expected, actual, what + ", " + describe(execution));
     }

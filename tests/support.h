@@ -32,7 +32,7 @@ inline constexpr bool kRacesOnly = true;
 inline constexpr bool kRacesOnly = false;
 #endif
 
-// Families of triangles that are hard for a rasterizer.
+// Families of triangles that are hard to rasterize.
 inline constexpr std::string_view kFamilies[] = {"lattice",     "pixel-centres", "subpixel",   "slivers",
                                                  "huge",        "guardband",     "tiny",       "degenerate",
                                                  "equal-depth", "steep",         "few-pixels", "mixed-sizes"};

@@ -134,12 +134,12 @@ void FrameRecorder::section_ends() {
 
 double measured_barrier_s() {
   constexpr double kTask_s = 20e-6;
-  constexpr int kTimes = 2001;
+  constexpr int kRepetitions = 2001;
   const auto now_s = [] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
   };
   std::vector<double> times_s;
-  for (int i = 0; i < kTimes; ++i) {
+  for (int i = 0; i < kRepetitions; ++i) {
     const double begin_s = now_s();
     parallel_for(2, 2, [&](int) {
       for (const double task_began_s = now_s(); now_s() < task_began_s + kTask_s;) {
@@ -147,8 +147,8 @@ double measured_barrier_s() {
     });
     times_s.push_back(now_s() - begin_s - kTask_s);
   }
-  std::nth_element(times_s.begin(), times_s.begin() + kTimes / 2, times_s.end());
-  return times_s[kTimes / 2];
+  std::nth_element(times_s.begin(), times_s.begin() + kRepetitions / 2, times_s.end());
+  return times_s[kRepetitions / 2];
 }
 
 }  // namespace edgewise::bench

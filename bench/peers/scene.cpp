@@ -7,7 +7,7 @@ namespace edgewise::bench {
 
 namespace {
 
-constexpr std::uint32_t kNotNumbered = 0xFFFFFFFFu;
+constexpr std::uint32_t kNoId = 0xFFFFFFFFu;
 
 // Gives each triangle a last (provoking) vertex that no other triangle has as its last, to carry its payload.
 // It takes the first of the triangle's three that is not taken (rotation keeps the winding), or a copy if all
@@ -15,7 +15,7 @@ constexpr std::uint32_t kNotNumbered = 0xFFFFFFFFu;
 class ProvokingVertices {
  public:
   explicit ProvokingVertices(const Mesh& mesh)
-      : mesh_(mesh), taken_(mesh.positions.size(), 0), number_(taken_.size(), kNotNumbered) {}
+      : mesh_(mesh), taken_(mesh.positions.size(), 0), number_(taken_.size(), kNoId) {}
 
   PeerMesh assign(std::span<const std::uint32_t> payloads) {
     for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
@@ -39,7 +39,7 @@ class ProvokingVertices {
     return static_cast<std::uint32_t>(out_.positions.size() - 1);
   }
   std::uint32_t number(std::uint32_t vertex) {
-    if (number_[vertex] == kNotNumbered) number_[vertex] = add(vertex);
+    if (number_[vertex] == kNoId) number_[vertex] = add(vertex);
     return number_[vertex];
   }
 

@@ -47,9 +47,10 @@ constexpr const char* kCaptureFooter = R"(Examples:
   edgewise render terrain.tri -o terrain.png           (the same picture, bit for bit)
   edgewise verify terrain.tri
 
-The stream holds the triangles that remain after transformation, clipping, culling and shading. The file is
-little-endian: "TRI1", uint32 width, height, count; then for each triangle nine float32 (x, y, z of three
-vertices: pixels, y down, z in [0, 1], smaller is nearer) and a uint32 colour, R in the lowest byte.)";
+The stream holds the triangles that remain after transformation, clipping, culling and shading. The
+file is little-endian: "TRI1", uint32 width, height, count; then for each triangle nine float32
+(x, y, z of three vertices: pixels, y down, z in [0, 1], smaller is nearer) and a uint32 colour, R
+in the lowest byte.)";
 
 }  // namespace
 

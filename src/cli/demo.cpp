@@ -141,12 +141,12 @@ int demonstrate(const DemoOptions& o, viewer::ShowWindow show_window) {
 }
 
 constexpr const char* kDemoFooter = R"(Examples:
-  edgewise demo                                        list all tutorials
-  edgewise demo p5js-clipping                          list its steps: what to notice, and the keys
-  edgewise demo p5js-clipping --view                   show it in a window; 5: next step, h: all keys
-  edgewise demo p5js-clipping --view --terminal        show it as half-block characters, for example over ssh
-  edgewise demo p5js-clipping -o clipping.png          picture of the last step
-  edgewise demo p5js-clipping -o film/ --frames 120    animation of all steps (p5js-clipping-0001.png, ...)
+  edgewise demo                                      list all tutorials
+  edgewise demo p5js-clipping                        list its steps, with explanations and keys
+  edgewise demo p5js-clipping --view                 show it in a window; 5: next step, h: all keys
+  edgewise demo p5js-clipping --view --terminal      show it in half-block characters, as over ssh
+  edgewise demo p5js-clipping -o clipping.png        picture of the last step
+  edgewise demo p5js-clipping -o film/ --frames 120  all steps (p5js-clipping-0001.png, ...)
 
 Pictures are identical on every machine. To encode an animation as a film, run for example
   ffmpeg -framerate 20 -i film/p5js-clipping-%04d.png clipping.webm)";
@@ -159,7 +159,7 @@ void add_demo(CLI::App& program, Action& action, viewer::ShowWindow show_window)
   command.add_option("TUTORIAL", o->names, "Tutorials that `edgewise demo` lists; only one with --view");
   command
       .add_option("-o,--output", o->output,
-                  "Picture file (.png, .ppm), a folder (created if missing), or a name with {scene}")
+                  "Picture (.png, .ppm), folder (made if missing), or name with {scene}")
       ->type_name("FILE");
   add_integer(command, "--frames", o->frames, 1, kMostFrames,
               "Number of pictures, spread over all steps (1)");

@@ -208,10 +208,10 @@ constexpr const char* kRenderFooter = R"(Examples:
   edgewise render grid4 --payload hits -o hits.png           (is every pixel hit once?)
 
 The background is black in pictures, and 1 in depth files (PFM, floats in [0, 1]).
---payload id writes (id + 1) * 0x9E3779 modulo 2^24 as a colour, R in the lowest byte. Each triangle has
-  its own colour, and ids below 16,777,215 can be recovered exactly.
---payload hits shows how often each pixel is drawn: black never, grey once, yellow twice, red more often.
-The printed times are of a single cold run; measure with edgewise_bench.)";
+--payload id writes (id + 1) * 0x9E3779 modulo 2^24 as a colour, R in the lowest byte. Each triangle
+  has its own colour, and ids below 16,777,215 can be recovered exactly.
+--payload hits shows how often each pixel is drawn: black never, grey once, yellow twice, red more.
+The printed times are of a single cold run. To measure, use edgewise_bench.)";
 
 }  // namespace
 
@@ -221,11 +221,9 @@ void add_render(CLI::App& program, Action& action) {
   command.add_option("SCENE", o->scenes, "Scenes of `edgewise list`, or .obj or .tri files")->required();
   command
       .add_option("-o,--output", o->output,
-                  "Picture file (.png, .ppm), a folder (created if missing), or a name with {scene}")
+                  "Picture (.png, .ppm), folder (made if missing), or name with {scene}")
       ->type_name("FILE");
-  command
-      .add_option("--depth", o->depth,
-                  "Depth file (.pfm, floats), a folder, or a name with {scene}, as for --output")
+  command.add_option("--depth", o->depth, "Depth file (.pfm, floats), folder, or name with {scene}")
       ->type_name("FILE");
   command.add_option("--backend", o->backend, "Backend of `edgewise list` (tiled)")->type_name("NAME");
   command.add_flag("--wireframe", o->wireframe, "Draw only the edges of triangles, one pixel wide");

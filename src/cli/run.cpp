@@ -27,8 +27,8 @@ constexpr const char* kProgramFooter = R"(Try:
 
 The folder of an output file must exist. An output that names a folder (-o pictures/) is created.
 
-Exit status: 0 success, 1 a difference was found, 2 bad input or failure, 128 + N stopped by signal N
-(130: Ctrl-C). A reader that closes standard output early, as `head` does, is not an error.)";
+Exit status: 0 success, 1 a difference was found, 2 bad input or failure, 128 + N stopped by
+signal N (130: Ctrl-C). If a reader such as `head` closes standard output early, that is no error.)";
 
 // Replaces CLI11's messages, which don't suggest the nearest command or option.
 void check_first_word(const CLI::App& program, std::string_view word) {

@@ -89,12 +89,12 @@ std::string footer() {
   edgewise view                                        the tutorials' cube; h shows the keys
   edgewise view terrain --size 1920x1080
   edgewise view bunny.obj --fit --terminal             half-block characters, for example over ssh
-  edgewise view cube --coverage float_lt --keys ve     beside the exact picture, with wrong pixels tinted
-  edgewise view cube --keys "bbbe<enter>" -o seen.png  the picture after these keys, without a window
+  edgewise view cube --coverage float_lt --keys ve     beside the exact picture, wrong pixels tinted
+  edgewise view cube --keys "bbbe<enter>" -o seen.png  the picture after these keys, no window
   edgewise view torus-knot --keys r --frames 600       frame times while the knot rotates
 
---keys takes characters and, in angle brackets, other keys (<tab>), methods to select (<float_lt>) and seconds
-to wait (<1.5>). For example: "v<tab><float_lt><1.5>".
+--keys takes characters and, in angle brackets, other keys (<tab>), methods to select (<float_lt>)
+and seconds to wait (<1.5>). For example: "v<tab><float_lt><1.5>".
 The program prints the names of the files that p saves. They never replace existing files.
 
 Keys:

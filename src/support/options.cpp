@@ -192,10 +192,10 @@ CLI::Option* add_size(CLI::App& command, std::optional<Size>& size, const std::s
 }
 
 void SceneOptions::add_to(CLI::App& command) {
-  add_size(command, size, "Image size (1280x720, or a .tri file's own; other sizes crop .tri files)");
+  add_size(command, size, "Image size (1280x720, or a .tri file's own, which other sizes crop)");
   add_number(command, "--time", time, -kLongestTime, kLongestTime, "Time of animated scenes in seconds (0)");
   add_number(command, "--scale", scale, kSmallest, kLargestScale,
-             "Factor on the number of triangles, at most 10^8 of them; knots and built-in streams only (1)");
+             "Factor on the triangle count of knots and built-in streams (1)");
   command
       .add_option_function<std::string>(
           "--cull",

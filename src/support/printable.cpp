@@ -62,14 +62,14 @@ std::string printable(std::string_view text, char replacement) {
 }
 
 std::string printable_within(std::string_view text, std::size_t columns) {
-  constexpr std::string_view kCut = "..";
+  constexpr std::string_view kEllipsis = "..";
   const std::string whole = printable(text);
-  const std::size_t room = columns > kCut.size() ? columns - kCut.size() : 0;
-  std::size_t used = 0, fitting = 0;  // columns; bytes that leave room for kCut
+  const std::size_t room = columns > kEllipsis.size() ? columns - kEllipsis.size() : 0;
+  std::size_t used = 0, fitting = 0;  // columns; bytes that leave room for kEllipsis
   for (std::string_view rest = whole; !rest.empty();) {
     const Character c = first_character(rest);
     used += columns_of(c.code);
-    if (used > columns) return whole.substr(0, fitting) + std::string(kCut.substr(0, columns));
+    if (used > columns) return whole.substr(0, fitting) + std::string(kEllipsis.substr(0, columns));
     rest.remove_prefix(c.bytes.size());
     if (used <= room) fitting = whole.size() - rest.size();
   }

@@ -16,7 +16,7 @@ namespace edgewise::tools {
 namespace {
 
 constexpr int kBarWidth = 24;
-constexpr int kBesideBar = 8;  // columns of brackets, blanks and "100%"
+constexpr int kColumnsBesideBar = 8;  // columns of brackets, blanks and "100%"
 constexpr std::string_view kErase = "\r\033[K";
 volatile std::sig_atomic_t on_screen = 0;
 
@@ -35,8 +35,8 @@ void Progress::show(double fraction, std::string_view label) {
   shown_percent_ = percent;
   // Leave the last column free: some terminals wrap when it is filled.
   const int room = terminal_width(STDERR_FILENO) - 1;
-  const int bar = std::clamp(room - kBesideBar, 0, kBarWidth);
-  const auto label_room = static_cast<std::size_t>(std::max(0, room - kBesideBar - bar));
+  const int bar = std::clamp(room - kColumnsBesideBar, 0, kBarWidth);
+  const auto label_room = static_cast<std::size_t>(std::max(0, room - kColumnsBesideBar - bar));
   const auto filled = static_cast<std::size_t>(percent * bar / 100);
   const std::string line = fmt::format("{}[{:<{}}] {:3}% {}", kErase, std::string(filled, '#'), bar, percent,
                                        printable_within(label, label_room));

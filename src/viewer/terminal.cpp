@@ -27,8 +27,8 @@ using Milliseconds = std::chrono::milliseconds;
 
 constexpr Milliseconds kFrame(33), kIdle(200);
 // Terminals don't report key releases: a key counts as released once it has not repeated for this long.
-constexpr Milliseconds kHeld(200);
-constexpr Milliseconds kEscapeIsAlone(50);
+constexpr Milliseconds kKeyTimeout(200);
+constexpr Milliseconds kEscapeTimeout(50);
 
 // Alternate screen, hidden cursor, mouse reports; and the way back, which the signal handler uses too.
 constexpr char kEnter[] = "\x1b[?1049h\x1b[?25l\x1b[?1002h\x1b[?1006h";
@@ -110,7 +110,7 @@ class Loop {
   // Handles input until the first event or the time `until`. False if the terminal is gone.
   bool read_until(Clock::time_point until) {
     auto pause = std::chrono::duration_cast<Milliseconds>(until - Clock::now());
-    if (input_.waits()) pause = std::min(pause, kEscapeIsAlone);
+    if (input_.waits()) pause = std::min(pause, kEscapeTimeout);
     pollfd in{STDIN_FILENO, POLLIN, 0};
     const int ready = poll(&in, 1, static_cast<int>(std::max<std::int64_t>(pause.count(), 0)));
     if (ready < 0) return errno == EINTR;
@@ -129,7 +129,7 @@ class Loop {
     for (const TerminalEvent& event : events) {
       if (const Key* const key = std::get_if<Key>(&event)) {
         session_.press(*key);
-        held_until_[*key] = Clock::now() + kHeld;
+        held_until_[*key] = Clock::now() + kKeyTimeout;
       } else {
         const Pointed& to = std::get<Pointed>(event);
         session_.point({to.column, to.row * 2}, to.held);

@@ -1,4 +1,4 @@
-// The benchmark's rows: their names differ, and rows that draw wrong pixels are never timed.
+// The benchmark's rows have different names, and rows that draw wrong pixels are never timed.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -161,7 +161,7 @@ TEST(BenchAblation, AddsOneOptimizationPerStep) {
   }
 }
 
-TEST(BenchAblation, StandsBesideTheRowsThatAreItsEnds) {
+TEST(BenchAblation, ReusesItsFirstAndLastRows) {
   std::set<std::string> names;
   std::size_t estimates = 0;
   for (const Row& row : make_suite({})) {

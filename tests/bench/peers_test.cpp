@@ -1,4 +1,4 @@
-// Peers (other projects' rasterizers) in the benchmark: they get our scenes, and wrong pictures are found.
+// Peers (other projects' rasterizers) in the benchmark draw our scenes, and wrong pictures are found.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -114,7 +114,7 @@ TEST(PeerScene, KeepsSnappedPositionsExactly) {
   }
 }
 
-// A peer that draws with one of our backends, and may do so wrongly.
+// A peer that draws with one of our backends, correctly or with a deliberate error.
 class Mirror final : public PeerFrame {
  public:
   Mirror(const PeerScene& scene, bool is_wrong)
@@ -170,7 +170,7 @@ Row row_of(const PeerInfo& peer, const std::shared_ptr<Workload>& workload, Time
   return row;
 }
 
-TEST(PeerStage, AcceptsARightPictureAndRejectsAWrongOne) {
+TEST(PeerStage, AcceptsACorrectPictureAndRejectsAWrongOne) {
   const auto workload = workload_of("medium");
   const PeerInfo right = mirror(false), wrong = mirror(true);
   PeerStage stage;

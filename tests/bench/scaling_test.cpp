@@ -38,8 +38,7 @@ TEST(FrameWork, StaysWithinGrahamsBounds) {
 }
 
 TEST(FrameWork, NamesTheLongestPartOfItsPath) {
-  // The longest tasks of the two sections named a take longer together than b's task, which is longer than
-  // each.
+  // Each of a's two sections has a shorter longest task than b, but their sum is longer.
   FrameWork frame{{{"a", 1, Tasks{2, 2}}, {"b", 1, Tasks{3}}, {"a", 1, Tasks{2}}}, 0.5};
   EXPECT_EQ(frame.longest_part().name, "the longest task of a");
   EXPECT_DOUBLE_EQ(frame.longest_part().time_s, 4.0);

@@ -18,7 +18,7 @@ namespace {
 // The colours that README and --help name.
 constexpr std::uint32_t kVermilion = rgb(213, 94, 0), kBlue = rgb(0, 114, 178);
 
-TEST(AccuracyPictures, PicturesShowEachErrorInItsColour) {
+TEST(AccuracyPictures, ShowEachErrorInItsColour) {
   const TempDir folder;
   const std::string pictures = (folder.path() / "errors").string();
   ASSERT_EQ(
@@ -30,14 +30,14 @@ TEST(AccuracyPictures, PicturesShowEachErrorInItsColour) {
                          [&](std::uint32_t pixel) { return (pixel & 0xFFFFFF) == (colour & 0xFFFFFF); });
   };
   const auto twice = pixels_of_colour("float_le", kBlue), gaps = pixels_of_colour("float_lt", kVermilion);
-  EXPECT_GT(twice, 6 * 32 * 32);  // six of 64 x 64, less edges and samples
+  EXPECT_GT(twice, 6 * 32 * 32);  // six squares of 64 x 64, without edges and samples
   EXPECT_EQ(twice, gaps);
   EXPECT_EQ(pixels_of_colour("float_le", kVermilion), 0);
   EXPECT_EQ(pixels_of_colour("float_lt", kBlue), 0);
   EXPECT_FALSE(std::filesystem::exists(pictures + "/coverage-drtk_quad-float_top_left.png"));
 }
 
-TEST(AccuracyPictures, PicturesOfMethodsThatDrawAlikeAreMadeOnce) {
+TEST(AccuracyPictures, IdenticalPicturesAreWrittenOnce) {
   AccuracyPlan plan;
   plan.scenes = {"t_junction", "t_junction_split"};
   plan.pictures = true;
@@ -46,13 +46,13 @@ TEST(AccuracyPictures, PicturesOfMethodsThatDrawAlikeAreMadeOnce) {
   for (const Closeup& closeup : measure_accuracy(plan).closeups) names.push_back(closeup.name);
   const auto made = [&](const char* name) { return std::count(names.begin(), names.end(), name); };
   for (const std::string scene : {"coverage-t_junction-", "coverage-t_junction_split-"}) {
-    EXPECT_EQ(made((scene + "scanline").c_str()), 1) << "a scene of its own, a picture of its own";
+    EXPECT_EQ(made((scene + "scanline").c_str()), 1) << "one picture per scene";
     for (const char* same : {"naive", "tiled", "fixed_8"}) EXPECT_EQ(made((scene + same).c_str()), 0) << same;
   }
 }
 
-// The crack is vermilion. Splitting the edge closes it: then another triangle covers its pixels.
-TEST(AccuracyPictures, PicturesShowTheTJunctionsCrackAndThatSplittingClosesIt) {
+// The crack is vermilion. Splitting the edge closes it, since another triangle then covers its pixels.
+TEST(AccuracyPictures, ShowTheTJunctionsCrackAndThatSplittingClosesIt) {
   AccuracyPlan plan;
   plan.scenes = {"t_junction", "t_junction_split"};
   plan.methods = {"scanline"};
@@ -69,7 +69,7 @@ TEST(AccuracyPictures, PicturesShowTheTJunctionsCrackAndThatSplittingClosesIt) {
   EXPECT_EQ(count(1, lab::Mark::extra), 0);
 }
 
-TEST(AccuracyPictures, PicturesCanBeMadeForEveryFamily) {
+TEST(AccuracyPictures, CanBeMadeForEveryFamily) {
   AccuracyPlan plan;
   plan.scenes = {"t_junction", "interpenetrating", "box_beside_the_axis", "floor_behind_eye"};
   plan.pictures = true;

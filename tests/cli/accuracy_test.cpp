@@ -68,7 +68,7 @@ TEST(Accuracy, JudgesQuadsAndKnotsOnlyWhenNamed) {
   EXPECT_EQ(count({"quads", "knots"}), 3);  // knots in coverage and in visibility
 }
 
-TEST(Accuracy, WritesTheAgreedKeys) {
+TEST(Accuracy, WritesTheDocumentedKeys) {
   const json report = json_of("drtk_quad bars_in_a_cycle box_beside_the_axis in_view turning-cube --quick");
   expect_keys(report, {"machine", "quick", "methods", "scenes", "turning_cube"});
   EXPECT_EQ(report.at("quick"), true);
@@ -88,7 +88,7 @@ TEST(Accuracy, WritesTheAgreedKeys) {
     const json& first = scene.at("methods").at(0);
     if (family == "coverage") {
       EXPECT_EQ(scene.at("crossings"), 36);
-      EXPECT_EQ(scene.at("shared_crossings"), 6) << "of the diagonal";
+      EXPECT_EQ(scene.at("shared_crossings"), 6) << "crossings of the diagonal";
       EXPECT_NEAR(scene.at("largest_side_px").get<double>(), 6.0, 1e-4);
       for (const char* truth : {"snapped", "float"}) {
         expect_keys(first.at(truth),
@@ -162,10 +162,10 @@ TEST(Accuracy, ExactMethodsScoreZeroAgainstTheSnappedTruth) {
     const json& counts = named(report.at("turning_cube").at("methods"), name);
     EXPECT_EQ(counts.at("snapped").at("missing").at("total"), 0) << name;
     EXPECT_EQ(counts.at("snapped").at("missing").at("bound_per_frame"), 3.0 / 120);
-    EXPECT_FALSE(counts.at("missing").contains("bound_per_frame")) << "some were seen";
+    EXPECT_FALSE(counts.at("missing").contains("bound_per_frame")) << "no bound, since errors were observed";
     EXPECT_EQ(counts.at("snapped").at("extra").at("total"), 0) << name;
     EXPECT_GT(counts.at("missing").at("total"), 0) << name << ": snapping moves the outline";
-    EXPECT_EQ(counts.at("gaps").at("total"), 0) << name << ": and opens no crack";
+    EXPECT_EQ(counts.at("gaps").at("total"), 0) << name << ": snapping opens no crack";
   }
 }
 
@@ -200,7 +200,7 @@ TEST(Accuracy, TimesBothFormsOfEachMethod) {
   }
 }
 
-TEST(Accuracy, KeepsToTheMethodsAndTheFamilyAskedFor) {
+TEST(Accuracy, RunsOnlyTheRequestedMethodsAndFamily) {
   const json report = json_of("cube --quick --no-speed --method float_le,painter_mean --method float_lt");
   ASSERT_EQ(report.at("methods").size(), 3u);
   ASSERT_EQ(report.at("scenes").size(), 2u);
@@ -223,7 +223,7 @@ TEST(Accuracy, TablesFitEightyColumns) {
   }
 }
 
-TEST(Accuracy, MeshesLoseTheirBackFacesByTheExactSign) {
+TEST(Accuracy, BackFacesOfMeshesAreCulledByTheExactSign) {
   const lab::Size size{200, 150};
   const CoverageScene scene = coverage_scene(find_scene("cube").make({size.width, size.height}), size);
   ASSERT_EQ(scene.floats.size(), scene.snapped.size());

@@ -1,5 +1,5 @@
-// Runs the rows of invalid_inputs.h: each must give a clear message and the documented exit status, and leave
-// no incomplete file under its final name. No row may crash.
+// Runs the rows of invalid_inputs.h: each must print a clear message, return the documented exit status, and
+// leave no incomplete file under its final name. No row may crash.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,8 +30,8 @@ constexpr int kSkipped = 77;
 
 // `stopped SIGNAL COMMAND…` runs a command until a file appears in $DIR (with awaited=NAME before it, this
 // file), sends the signal, and returns the command's status. `unprivileged COMMAND…` runs a command as a user
-// without root's permissions, or skips the row. Each call takes another user, because process limits count
-// per user.
+// without root's permissions, or skips the row. Each call uses another user, because process limits count per
+// user.
 constexpr const char* kWords = R"(
 set -m
 for descriptor in {3..20}; do eval "exec $descriptor>&-"; done  # descriptors that ctest leaves open
@@ -215,7 +215,7 @@ std::optional<int> status_within(int kib, const std::string& command, const Temp
 }
 
 // Memory may run out anywhere. On one thread, because oneTBB may hang.
-TEST(LimitedMemory, EndsInAFileOrInOneLineAtAnyLimit) {
+TEST(LimitedMemory, WritesAFileOrOneLineOfErrorAtEveryLimit) {
   if (starves_sanitizers("ulimit -v")) GTEST_SKIP() << "sanitizers need more than the limit";
   int done = 0, refused = 0;
   for (const std::string command : {"edgewise render torus-knot --size 1900x1900 --threads 1 -o $DIR/a.png",
@@ -233,7 +233,7 @@ TEST(LimitedMemory, EndsInAFileOrInOneLineAtAnyLimit) {
 }
 
 // A soak test's record exists from the beginning and is always complete.
-TEST(LimitedMemory, LeavesAWholeRecordOfASoakAtAnyLimit) {
+TEST(LimitedMemory, LeavesACompleteSoakRecordAtEveryLimit) {
   if (starves_sanitizers("ulimit -v")) GTEST_SKIP() << "sanitizers need more than the limit";
   int done = 0;
   for (const int kib : {40'000, 60'000, 80'000, 150'000, 300'000, 2'000'000}) {

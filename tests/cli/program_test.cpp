@@ -4,6 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -36,13 +37,15 @@ std::vector<std::string> names_of(const Registry& registry) {
   return names;
 }
 
-TEST(Program, HelpsOnEveryCommand) {
-  for (const char* command : {"", "list", "render", "verify", "accuracy", "stability", "diff", "capture",
-                              "view", "demo", "machine"}) {
+TEST(Program, HelpOnEveryCommandFits100Columns) {
+  for (const char* command : {"", "list", "render", "verify", "soak", "accuracy", "stability", "diff",
+                              "capture", "view", "demo", "machine"}) {
     const Outcome outcome = edgewise_with(std::string(command) + " --help");
     EXPECT_EQ(outcome.status, 0) << command;
     EXPECT_NE(outcome.out.find("edgewise"), std::string::npos) << command;
     EXPECT_EQ(outcome.err, "") << command;
+    std::istringstream lines(outcome.out);
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
   }
 }
 
@@ -74,7 +77,7 @@ TEST(Program, MachineIsDescribedWithoutAHostName) {
 }
 
 // The sleep lets the reader exit first.
-TEST(Program, EndsQuietlyAfterItsReader) {
+TEST(Program, EndsQuietlyWhenItsPipeIsClosed) {
   for (const std::string command : {EDGEWISE_PROGRAM " demo --json", EDGEWISE_PROGRAM " render --help",
                                     EDGEWISE_BENCH " --help", EDGEWISE_BENCH " --benchmark_list_tests"}) {
     const Outcome outcome =
@@ -148,7 +151,7 @@ TEST_F(ProgramRenders, TheSamePictureInEveryFormatAndByEveryBackend) {
   }
 }
 
-TEST_F(ProgramRenders, SeveralScenesIntoAFolderThatItMakes) {
+TEST_F(ProgramRenders, SeveralScenesIntoANewFolder) {
   ASSERT_EQ(edgewise_with("render cube sphere --size 32x32 -o " + path("new/")).status, 0);
   EXPECT_TRUE(std::filesystem::exists(path("new/cube.png")));
   EXPECT_TRUE(std::filesystem::exists(path("new/sphere.png")));
@@ -162,7 +165,7 @@ TEST_F(ProgramRenders, NumberedFramesOfAnAnimation) {
   EXPECT_NE(read_image(path("cube-0001.png")).pixels, read_image(path("one.png")).pixels);
 }
 
-TEST_F(ProgramRenders, HitsOfAGridAsOnceEverywhere) {
+TEST_F(ProgramRenders, OneHitPerPixelOfAGrid) {
   const Outcome outcome =
       edgewise_with("render grid4 --size 101x67 --payload hits --json -o " + path("hits.png"));
   ASSERT_EQ(outcome.status, 0) << outcome.err;
@@ -212,7 +215,7 @@ TEST_F(ProgramRenders, AStreamCroppedNotScaled) {
   EXPECT_EQ(part.pixels[31 + 64 * 32] & 0xFFFFFFu, 0u);
 }
 
-TEST_F(ProgramRenders, WhateverTheCaseOfItsExtension) {
+TEST_F(ProgramRenders, FilesWithUpperCaseExtensions) {
   ASSERT_EQ(
       edgewise_with("render cube --size 40x30 -o " + path("a.PNG") + " --depth " + path("a.PFM")).status, 0);
   EXPECT_EQ(edgewise_with("diff " + path("a.PNG") + " " + path("a.PNG")).status, 0);
@@ -222,7 +225,7 @@ TEST_F(ProgramRenders, WhateverTheCaseOfItsExtension) {
   EXPECT_EQ(json.at("scenes")[0].at("width"), 40);
 }
 
-TEST_F(ProgramRenders, AFileOfAnyNameAndPrintsNoControlCharacters) {
+TEST_F(ProgramRenders, FilesOfAnyNameAndPrintsNoControlCharacters) {
   const std::string name = path("x\x1b[31m\xff\xc3\xa9.tri");
   ASSERT_EQ(edgewise_with("capture grid4 --size 40x30 -o " + path("a.tri")).status, 0);
   std::filesystem::rename(path("a.tri"), name);
@@ -240,7 +243,7 @@ TEST_F(ProgramRenders, AFileOfAnyNameAndPrintsNoControlCharacters) {
   EXPECT_EQ(edgewise_with("diff '" + name + "' a").err.find('\x1b'), std::string::npos);
 }
 
-TEST_F(ProgramRenders, WhatDiffTellsApart) {
+TEST_F(ProgramRenders, FilesThatDiffCompares) {
   ASSERT_EQ(
       edgewise_with("render cube --size 64x64 -o " + path("a.png") + " --depth " + path("a.pfm")).status, 0);
   ASSERT_EQ(
@@ -258,7 +261,7 @@ TEST_F(ProgramRenders, WhatDiffTellsApart) {
   EXPECT_EQ(read_image(path("d.png")).width, 64);
 }
 
-TEST_F(ProgramRenders, AVerdictAsJson) {
+TEST_F(ProgramRenders, ScenesThatVerifyReportsAsJson) {
   const Outcome outcome = edgewise_with("verify cube grid64 --size 65x33 --json - --out " + path("out"));
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   const auto json = nlohmann::json::parse(outcome.out);

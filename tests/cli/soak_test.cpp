@@ -84,7 +84,7 @@ Campaign campaign_of(std::uint64_t cases) {
 
 Record fresh(std::uint64_t seed, const Shard& shard) {
   static const Record blank =
-      new_record(0, {}, {"scanline", "naive", "tiled"});  // once, because it calls git for the commit
+      new_record(0, {}, {"scanline", "naive", "tiled"});  // only once, because it calls git for the commit
   Record record = blank;
   record.seed = seed;
   record.shards = {shard};
@@ -112,7 +112,7 @@ TEST(SoakCases, DependOnSeedAndNumberAlone) {
   EXPECT_EQ(all, 949901280796397582u);
 }
 
-TEST(SoakCases, KeepTheContractAndShowEachFamily) {
+TEST(SoakCases, KeepTheContractAndIncludeEachFamily) {
   std::map<std::string_view, std::uint64_t> cases, drawn;
   std::set<int> threads;
   bool wide = false, single = false;
@@ -144,7 +144,7 @@ TEST(SoakCases, KeepTheContractAndShowEachFamily) {
   EXPECT_TRUE(single);
 }
 
-TEST(SoakShards, AreDisjointAndMakeUpTheWhole) {
+TEST(SoakShards, AreDisjointAndCoverAllCases) {
   std::set<std::uint64_t> numbers;
   for (std::uint64_t index = 0; index < 7; ++index)
     for (std::uint64_t k = 0; k < 10; ++k) EXPECT_TRUE(numbers.insert((Shard{index, 7, 0}.number(k))).second);
@@ -152,8 +152,8 @@ TEST(SoakShards, AreDisjointAndMakeUpTheWhole) {
   EXPECT_EQ(*numbers.rbegin(), 69u);
 }
 
-TEST(SoakShards, TellWhetherTheyOverlap) {
-  // Against all their numbers, for shards of every small kind.
+TEST(SoakShards, OverlapsAreFound) {
+  // Compares with the shards' case numbers, for all small shards.
   std::vector<Shard> all;
   for (std::uint64_t of = 1; of <= 6; ++of)
     for (std::uint64_t index = 0; index < of; ++index)
@@ -167,7 +167,7 @@ TEST(SoakShards, TellWhetherTheyOverlap) {
     }
 }
 
-TEST(Soak, FindsNothingAndAddsUpWhateverTheShardsAndJobs) {
+TEST(Soak, FindsNoDifferenceAndTalliesAddUpOverShards) {
   const TempDir folder;
   const Record whole = soaked(campaign_of(60), fresh(5, {}), folder);
   EXPECT_EQ(whole.tally.differences(), 0u) << report(whole);
@@ -195,7 +195,7 @@ TEST(Soak, FindsNothingAndAddsUpWhateverTheShardsAndJobs) {
   EXPECT_EQ(sum.machines.size(), 1u);
 }
 
-TEST(Soak, GoesOnWhereItEnded) {
+TEST(Soak, ResumesARecord) {
   const TempDir folder;
   const Record whole = soaked(campaign_of(16), fresh(6, {1, 2, 0}), folder);
   Record part = soaked(campaign_of(7), fresh(6, {1, 2, 0}), folder);
@@ -210,7 +210,7 @@ TEST(Soak, GoesOnWhereItEnded) {
   EXPECT_NE(message_of([&] { continued(part, fresh(6, {1, 2, 0})); }), "");
 }
 
-TEST(Soak, StopsWhenAskedAndWhenTimeIsUp) {
+TEST(Soak, StopsOnRequestAndAtTheTimeLimit) {
   Campaign campaign = campaign_of(1'000'000);
   campaign.seconds = 0.05;
   const Record late = run(campaign, fresh(1, {}));
@@ -222,7 +222,7 @@ TEST(Soak, StopsWhenAskedAndWhenTimeIsUp) {
   EXPECT_EQ(run(campaign, fresh(1, {})).tally.cases, 10u);
 }
 
-TEST(SoakMerge, RefusesWhatDoesNotBelongTogether) {
+TEST(SoakMerge, RefusesRecordsThatCannotBeAdded) {
   const auto with = [](std::uint64_t seed, const Shard& shard) {
     Record record = fresh(seed, shard);
     record.tally.cases = shard.cases;
@@ -251,7 +251,7 @@ TEST(SoakMerge, RefusesWhatDoesNotBelongTogether) {
   EXPECT_NE(refusal(other).find("backends"), std::string::npos);
 }
 
-TEST(SoakMerge, AndReadingRefuseARecordThatCannotBe) {
+TEST(SoakMerge, ReadingRefusesAnInvalidRecord) {
   const TempDir folder;
   const nlohmann::json whole = to_json(run(campaign_of(2), fresh(1, {})));
   const auto refusal = [&](const char* change, const nlohmann::json& value) {
@@ -289,7 +289,7 @@ class WritesBehindTheLastRow : public Backend {
   std::unique_ptr<Backend> right_ = backends()[0].make();
 };
 
-// As the reference, wrong in every frame: only the oracle can find it.
+// Wrong in every frame, and used as the reference: only the oracle can find it.
 class WrongReference : public Backend {
   void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
                     const Execution& execution) override {
@@ -349,7 +349,7 @@ TEST(SoakFindings, AreReportedReducedAndReplayed) {
   EXPECT_EQ(again.findings.at(0).at("case"), number);
 }
 
-TEST(SoakFindings, IncludeWhatIsWrittenBesideThePicture) {
+TEST(SoakFindings, IncludeWritesOutsideThePicture) {
   const TempDir folder;
   Campaign campaign = campaign_of(6);
   campaign.judged.backends = {backends()[0], wrong_backend<WritesBehindTheLastRow>()};
@@ -370,7 +370,7 @@ class WrongWhenStepped : public AblatableBackend {
   std::unique_ptr<Backend> right_ = backends()[0].make();
 };
 
-TEST(SoakFindings, IncludeValuesThatAreSteppedWrong) {
+TEST(SoakFindings, IncludeWrongSteppedValues) {
   Campaign campaign = campaign_of(40);
   campaign.judged.backends = {backends()[0], wrong_backend<WrongWhenStepped>()};
   const Record record = run(campaign, fresh(13, {}));
@@ -380,7 +380,7 @@ TEST(SoakFindings, IncludeValuesThatAreSteppedWrong) {
   EXPECT_NE(report(record).find("ablation: 'stepped'"), std::string::npos) << report(record);
 }
 
-TEST(SoakFindings, AreKeptWhereNoFileCanBeWritten) {
+TEST(SoakFindings, AreKeptIfNoFileCanBeWritten) {
   Campaign campaign = campaign_of(6);
   campaign.judged.backends = {backends()[0], wrong_backend<WritesBehindTheLastRow>()};
   campaign.failure_folder = "/dev/null/failures";
@@ -392,7 +392,7 @@ TEST(SoakFindings, AreKeptWhereNoFileCanBeWritten) {
   EXPECT_NE(report(record).find("no file: "), std::string::npos);
 }
 
-TEST(SoakFindings, IncludeAReferenceThatIsWrong) {
+TEST(SoakFindings, IncludeAWrongReference) {
   Campaign campaign = campaign_of(40);
   campaign.judged.backends = {wrong_backend<WrongReference>()};
   const Record record = run(campaign, fresh(10, {}));
@@ -400,7 +400,7 @@ TEST(SoakFindings, IncludeAReferenceThatIsWrong) {
   for (const auto& finding : record.findings) EXPECT_EQ(finding.at("judge"), "oracle");
 }
 
-TEST(SoakFindings, IncludeAFrontEndThatIsWrong) {
+TEST(SoakFindings, IncludeAWrongFrontEnd) {
   const TempDir folder;
   Campaign campaign = campaign_of(60);
   campaign.judged.frontend = [](Frontend& frontend, const Drawable& drawable,
@@ -423,7 +423,7 @@ TEST(SoakFindings, IncludeAFrontEndThatIsWrong) {
   EXPECT_GT(files, 0);
 }
 
-TEST(SoakFindings, AreNotReducedFurtherOnceAskedToStop) {
+TEST(SoakFindings, AreNotReducedAfterARequestToStop) {
   const TempDir folder;
   Campaign campaign = campaign_of(1);
   campaign.judged.backends = {backends()[0], wrong_backend<WrongInTheCorner>()};
@@ -444,7 +444,7 @@ TEST(SoakFindings, AreNotReducedFurtherOnceAskedToStop) {
   EXPECT_EQ(asked, 3) << "before the first case, the first attempt and the search for another command";
 }
 
-TEST(SoakFindings, BeyondTheMostThatAreKeptLeaveNoFiles) {
+TEST(SoakFindings, BeyondTheMaximumLeaveNoFiles) {
   const TempDir folder;
   Campaign campaign = campaign_of(10);
   campaign.judged.backends = {backends()[0], wrong_backend<WrongInTheCorner>()};
@@ -457,7 +457,7 @@ TEST(SoakFindings, BeyondTheMostThatAreKeptLeaveNoFiles) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(campaign.failure_folder), {}), 1);
 }
 
-TEST(SoakFindings, ABackendThatThrowsEndsItWithTheCase) {
+TEST(SoakFindings, AnExceptionEndsTheTestAndNamesTheCase) {
   class Throws : public Backend {
     void draw_checked(std::span<const ScreenTriangle>, FrameView, std::uint32_t, const Execution&) override {
       throw std::length_error("too much");
@@ -471,7 +471,7 @@ TEST(SoakFindings, ABackendThatThrowsEndsItWithTheCase) {
   EXPECT_TRUE(said.ends_with("): too much")) << said;
 }
 
-TEST(SoakFindings, WhatWasDoneBeforeAFailureIsHandedOver) {
+TEST(SoakFindings, AFailureKeepsTheResultsOfFinishedCases) {
   // Draws two cases and throws std::bad_alloc in the third.
   class Tires : public Backend {
     void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
@@ -506,14 +506,14 @@ TEST(SoakReduce, KeepsOnlyWhatIsNeeded) {
   EXPECT_TRUE(fails(reduce(list, 5, fails, never)));
 }
 
-TEST(SoakReduce, EndsWhenAsked) {
+TEST(SoakReduce, StopsOnRequest) {
   int attempts = 0;
   const auto fails = [&](const std::vector<int>& l) { return ++attempts, !l.empty(); };
   EXPECT_EQ(reduce(std::vector<int>(64), 1000, fails, [&] { return attempts == 3; }).size(), 16u);
   EXPECT_EQ(attempts, 3);
 }
 
-TEST(GuardedFrame, SeesEveryWordThatIsWrittenBesideThePicture) {
+TEST(GuardedFrame, CountsWordsWrittenOutsideThePicture) {
   for (const lab::GuardedFrame::Layout layout : {lab::GuardedFrame::Layout{0, 0}, {3, 5}, {40, 15}}) {
     lab::GuardedFrame frame(5, 4, layout);
     const FrameView view = frame.view();
@@ -547,7 +547,7 @@ class SoakProgram : public ::testing::Test {
   TempDir folder_;
 };
 
-TEST_F(SoakProgram, DrawsOneCaseAgain) {
+TEST_F(SoakProgram, ReplaysOneCase) {
   const Outcome outcome = soak("--seed 7 --case 123456 -o " + path("a.json"));
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(json("a.json").at("cases"), 1);
@@ -577,7 +577,7 @@ TEST_F(SoakProgram, MergesShards) {
   EXPECT_EQ(soak("--merge " + path("a.json") + " " + path("d.json")).status, 1);
 }
 
-TEST_F(SoakProgram, WritesWhatIsDoneOnCtrlCAndGoesOn) {
+TEST_F(SoakProgram, WritesItsRecordOnCtrlCAndResumesIt) {
   const std::string file = path("a.json");
   for (const int signal_number : {SIGINT, SIGTERM}) {
     const auto cases_before = std::filesystem::exists(file) ? json("a.json").at("cases").get<int>() : 0;

@@ -26,7 +26,7 @@ TEST(StabilityCommand, ListsAllSweeps) {
     EXPECT_NE(outcome.out.find(std::string(sweep.name) + ' '), std::string::npos) << sweep.name;
 }
 
-TEST(StabilityCommand, WritesTheSameAsTableAndAsJson) {
+TEST(StabilityCommand, TableAndJsonHaveTheSameResults) {
   const TempDir folder;
   const std::string path = (folder.path() / "stability.json").string();
   const Outcome table = stability("cycle legs --quick --json '" + path + "'");

@@ -31,7 +31,7 @@ class OneBitOff : public Backend {
   std::unique_ptr<Backend> right_ = backends()[0].make();
 };
 
-// Leaves the frame as it was when there is nothing to draw.
+// Leaves the frame unchanged if there are no triangles.
 class ForgetsBackground : public Backend {
   void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
                     const Execution& execution) override {
@@ -147,18 +147,18 @@ TEST(Verify, FindsOneBitAndShowsIt) {
   EXPECT_FALSE(report_json(report, plan).at("ok"));
 }
 
-TEST(Verify, FindsAForgottenBackground) {
+TEST(Verify, FindsAMissingBackground) {
   EXPECT_FALSE(verify_quietly(small_plan({"cube"}, wrong_backend<ForgetsBackground>())).ok());
 }
 
-TEST(Verify, FindsWhatOnlyOneConfigurationDoes) {
+TEST(Verify, FindsAnErrorInASingleConfiguration) {
   const VerifyReport report = verify_quietly(small_plan({"cube"}, wrong_backend<WrongOnThreads>()));
   ASSERT_FALSE(report.ok());
   EXPECT_EQ(report.scenes[0].mismatches[0].how.execution.threads, 3);
   EXPECT_EQ(report.scenes[0].mismatches[0].payload, Payload::id);
 }
 
-TEST(Verify, FindsWhatIsWrittenBesideTheImage) {
+TEST(Verify, FindsWritesOutsideTheImage) {
   const VerifyReport report = verify_quietly(small_plan({"cube"}, wrong_backend<WritesBesideTheImage>()));
   ASSERT_FALSE(report.ok());
   const SceneVerdict& verdict = report.scenes[0];
@@ -177,7 +177,7 @@ TEST(Verify, FindsGapsInAGrid) {
   EXPECT_EQ(hits[1].not_once, 41u);
 }
 
-TEST(Verify, KeepsAFindingWhosePicturesCannotBeWritten) {
+TEST(Verify, KeepsFindingsIfPicturesCannotBeWritten) {
   VerifyPlan plan = small_plan({"cube"}, wrong_backend<OneBitOff>());
   plan.failure_folder = "/dev/null/failures";
   const VerifyReport report = verify_quietly(plan);
@@ -185,7 +185,7 @@ TEST(Verify, KeepsAFindingWhosePicturesCannotBeWritten) {
   EXPECT_NE(report.scenes[0].mismatches.at(0).file_error, "");
 }
 
-TEST(Verify, ShowsASmallStreamToTheOracleAsItIs) {
+TEST(Verify, ComparesSmallStreamsWithTheOracleAtFullSize) {
   const TempDir folder;
   for (const std::size_t count : {1u, 2'000u}) {
     const TriangleStream stream{
@@ -221,8 +221,9 @@ bool same(const ScreenTriangle& a, const ScreenTriangle& b) {
          std::equal(a.z, a.z + 3, b.z) && a.payload == b.payload;
 }
 
-// The triangles whose pixel box is not empty. The front end rejects outside triangles before snapping in a
-// scene, and after snapping in a stream, so triangles that draw nothing may be in only one list.
+// The triangles whose pixel box is not empty. The front end rejects triangles outside the image before
+// snapping in a scene, and after snapping in a stream, so triangles that draw nothing may be in only one
+// list.
 std::vector<ScreenTriangle> visible(std::span<const ScreenTriangle> triangles,
                                     const FrontendOptions& options) {
   std::vector<ScreenTriangle> all;

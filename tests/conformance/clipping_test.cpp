@@ -1,11 +1,12 @@
 // Clipping of one, two and three vertices by each of the six planes and by several of them.
 //
-// The planes are near, far and the four sides of the guard band: the image's own sides cut nothing. What is
-// asserted where clipping makes new vertices:
-// - Where the cuts fall on the grid of 1/256 px, nothing is rounded: every pixel is the exact polygon's.
-// - Elsewhere every decided sample is (outline.h), and no sample is hit twice by one triangle.
-// - Neighbours that share a cut edge, or fill the image, hit every pixel once along it: no sample is excused.
-// - What lies beyond a plane draws nothing.
+// The planes are near, far and the four sides of the guard band. The image's sides clip nothing. The tests
+// assert:
+// - If the new vertices lie on the 1/256 px grid, nothing is rounded: every pixel matches the exact polygon.
+// - Otherwise every decided sample matches (outline.h), and one triangle hits no sample twice.
+// - Neighbours that share a clipped edge, or fill the image, hit every pixel along it once, without
+// exception.
+// - Triangles beyond a plane draw nothing.
 #include <gmpxx.h>
 
 #include <array>
@@ -80,8 +81,8 @@ class ConformanceClips : public Conformance {
   std::uint64_t judged_ = 0, undecided_ = 0, inside_ = 0;
 };
 
-// A triangle with one or two vertices beyond a plane, whose edges are cut where floats and the grid are
-// exact: at 1/2, 3/4 or 7/8 of the way out. All other planes leave it alone.
+// A triangle with one or two vertices beyond a plane. The plane cuts its edges where floats and the grid are
+// exact: at 1/2, 3/4 or 7/8 of the edge. No other plane cuts it.
 Triangle exactly_cut(const Plane& plane, int outside, Random& random) {
   const auto pick = [&](int low, int high) {
     return static_cast<float>(low +
@@ -90,7 +91,7 @@ Triangle exactly_cut(const Plane& plane, int outside, Random& random) {
   constexpr float kRatios[] = {1, 3, 7};  // distance inside over distance outside
   const auto ratio = [&](std::uint64_t kinds) { return kRatios[random.below(kinds)]; };
   const bool depth = plane.axis == 2;
-  // Of a vertex on the screen; all ratios divide it.
+  // The distance of vertices on the screen from the plane; exactly divisible by all ratios.
   const float inside = depth ? 21.0f / 32 : 21 * (plane.inward > 0 ? 782.0f : 779.0f);
   float distance[3];
   if (outside == 1) {
@@ -111,8 +112,8 @@ Triangle exactly_cut(const Plane& plane, int outside, Random& random) {
 }
 
 // In rationals. Every corner must lie on the grid.
-std::vector<SubPlace> exact_polygon(const Triangle& t, const Plane& plane) {
-  std::vector<SubPlace> polygon;
+std::vector<SubPosition> exact_polygon(const Triangle& t, const Plane& plane) {
+  std::vector<SubPosition> polygon;
   const auto add = [&](const mpq_class& x, const mpq_class& y) {
     const mpq_class sx(x * 256), sy(y * 256);
     EXPECT_TRUE(sx.get_den() == 1 && sy.get_den() == 1);
@@ -131,7 +132,7 @@ std::vector<SubPlace> exact_polygon(const Triangle& t, const Plane& plane) {
 
 class ConformanceExactClips : public ConformanceClips, public ::testing::WithParamInterface<Plane> {};
 
-TEST_P(ConformanceExactClips, OneOrTwoVerticesBeyondAPlane) {
+TEST_P(ConformanceExactClips, OneOrTwoVerticesBeyondAPlaneLeaveTheExactPolygon) {
   Random random(17);
   const View view{};
   int covered = 0;
@@ -146,7 +147,7 @@ TEST_P(ConformanceExactClips, OneOrTwoVerticesBeyondAPlane) {
         auto expected = windings(polygon, view.width, view.height);
         for (int& turns : expected) covered += turns = std::abs(turns);
         expect_hits(stream_of(t), view, expected, "trial " + std::to_string(trial));
-        // Its facing is the polygon's.
+        // The triangle has the polygon's facing.
         const bool front = area(polygon) > 0;
         if (area(polygon) != 0)
           expect_nothing(stream_of(t), {.cull = front ? Cull::front : Cull::back}, "culled");
@@ -178,15 +179,15 @@ int outside_of(const Plane& plane, const Triangle& t) {
       std::count_if(t.begin(), t.end(), [&](glm::vec3 v) { return plane.distance(v) < 0; }));
 }
 
-// Each coordinate of each vertex in the view, or to either side of it up to 100,000 px away; two triangles in
-// three hold a place in the image.
+// Each coordinate of each vertex is in view, or up to 100,000 px outside on either side. Two triangles in
+// three contain a point of the image.
 Triangle anywhere(Random& random) {
   Triangle t;
   for (glm::vec3& v : t) {
     for (int axis = 0; axis < 2; ++axis) {
       const float beyond = 16384 * std::pow(6.1f, random.uniform(0.0f, 1.0f));
-      const float place[] = {random.uniform(-30.0f, 94.0f), -beyond, beyond};
-      v[axis] = place[random.below(3)];
+      const float coordinate[] = {random.uniform(-30.0f, 94.0f), -beyond, beyond};
+      v[axis] = coordinate[random.below(3)];
     }
     const float depth[] = {random.uniform(0.0f, 1.0f), -random.uniform(0.0f, 2.0f),
                            1 + random.uniform(0.0f, 2.0f)};
@@ -198,7 +199,7 @@ Triangle anywhere(Random& random) {
   return t;
 }
 
-TEST_F(ConformanceClips, VerticesUpTo100000PixelsAwayBeyondSeveralPlanes) {
+TEST_F(ConformanceClips, VerticesUpTo100000PixelsAwayAreClippedCorrectly) {
   Random random(19);
   int with_outside[6][4] = {}, with_planes[7] = {};
   for (int trial = 0; trial < 1500 && !HasFailure(); ++trial) {
@@ -223,7 +224,7 @@ TEST_F(ConformanceClips, VerticesUpTo100000PixelsAwayBeyondSeveralPlanes) {
 
 constexpr lab::Size kSize{64, 48};
 
-// The eye at the origin looks along -z.
+// The camera is at the origin and looks along -z.
 Scene seen(const std::vector<glm::vec3>& positions, const std::vector<glm::uvec3>& triangles,
            float far_z = 5000.0f) {
   Scene scene;
@@ -243,7 +244,7 @@ Homogeneous homogeneous(const Scene& scene, glm::vec3 v) {
           scale * (w - camera.near_z), w};
 }
 
-TEST_F(ConformanceClips, VerticesUpTo100000UnitsFromTheEye) {
+TEST_F(ConformanceClips, VerticesUpTo100000UnitsFromTheCameraAreClippedCorrectly) {
   Random random(20);
   int used = 0, behind[4] = {};
   for (int trial = 0; trial < 900 && !HasFailure(); ++trial) {
@@ -260,7 +261,7 @@ TEST_F(ConformanceClips, VerticesUpTo100000UnitsFromTheEye) {
     }
     const Scene scene = seen({t.begin(), t.end()}, {{0, 1, 2}});
     const Outline outline({homogeneous(scene, t[0]), homogeneous(scene, t[1]), homogeneous(scene, t[2])});
-    // Where both ends of an edge are so far out on the screen, floats no longer place its middle to 1/64 px.
+    // If both ends of an edge are this far off the screen, floats no longer position its middle to 1/64 px.
     if (outline.reaches_beyond(lab::kCameraReachPx)) continue;
     ++used;
     ++behind[std::count_if(t.begin(), t.end(), [](glm::vec3 v) { return v.z > -0.5f; })];
@@ -272,7 +273,7 @@ TEST_F(ConformanceClips, VerticesUpTo100000UnitsFromTheEye) {
   expect_most_decided();
 }
 
-// Every direction, and the other smallest scenes of the laboratory, against its exact oracle.
+// Compares every direction, and the laboratory's other smallest scenes, with its exact oracle.
 class ConformanceClippingScenes : public ConformanceClips {
  protected:
   void expect_exact_visible_triangles(const lab::ClippingScene& scene, const std::string& what) {
@@ -303,7 +304,7 @@ class ConformanceClippingScenes : public ConformanceClips {
   }
 };
 
-TEST_F(ConformanceClippingScenes, EveryOutsideDirectionInBothWindings) {
+TEST_F(ConformanceClippingScenes, EveryOutsideDirectionMatchesTheOracleInBothWindings) {
   for (int direction = 0; direction < lab::kOutsideDirections; ++direction) {
     expect_exact_visible_triangles(lab::outside_direction(direction, false),
                                    "direction " + std::to_string(direction));
@@ -316,16 +317,16 @@ TEST_F(ConformanceClippingScenes, EveryOutsideDirectionInBothWindings) {
   }
 }
 
-TEST_F(ConformanceClippingScenes, TheLaboratorysSmallestScenes) {
+TEST_F(ConformanceClippingScenes, TheLaboratorysSmallestScenesMatchTheOracle) {
   for (const lab::ClippingCase& c : lab::clipping_cases())
-    if (c.name != "along_the_rows")  // where nearly all samples lie within a hair of an edge
+    if (c.name != "along_the_rows")  // there, nearly all samples lie within kHairlinePx of an edge
       expect_exact_visible_triangles(c.make(), std::string(c.name));
 }
 
 // ---- Fans and neighbours
 
-// A fan on a tilted plane around a hub in view. Its rim lies beyond all six planes, so that every triangle
-// is cut by some; the screen sees none of the rim, and every pixel must be hit once.
+// A fan on a tilted plane around a hub in view. Its rim lies beyond all six planes, so every triangle is
+// clipped. The rim is out of view, so every pixel must be hit once.
 struct Fan {
   std::vector<glm::vec3> vertices;
   std::vector<glm::uvec3> triangles;
@@ -369,7 +370,7 @@ class ConformanceFans : public ConformanceClips {
   }
 };
 
-TEST_F(ConformanceFans, OnTheScreenThroughAllSixPlanes) {
+TEST_F(ConformanceFans, ScreenFansCutByAllSixPlanesHitEachPixelOnce) {
   Random random(21);
   for (int trial = 0; trial < 60 && !HasFailure(); ++trial) {
     const glm::vec3 hub(random.uniform(1.0f, 63.0f), random.uniform(1.0f, 63.0f), 0.5f);
@@ -383,13 +384,13 @@ TEST_F(ConformanceFans, OnTheScreenThroughAllSixPlanes) {
   }
 }
 
-TEST_F(ConformanceFans, InSpaceThroughAllSixPlanes) {
+TEST_F(ConformanceFans, CameraFansCutByAllSixPlanesHitEachPixelOnce) {
   Random random(22);
   for (int trial = 0; trial < 60 && !HasFailure(); ++trial) {
     const float distance = random.uniform(2.0f, 20.0f), reach = random.uniform(50'000.0f, 100'000.0f);
     const glm::vec3 hub(random.uniform(-0.4f, 0.4f) * distance, random.uniform(-0.4f, 0.4f) * distance,
                         -distance);
-    // Tilted so that it runs behind the eye on one side and beyond far on the other, out of sight.
+    // Tilted: outside the view, one side lies behind the camera and the other beyond the far plane.
     const glm::vec3 u(reach, 0, reach * random.uniform(0.1f, 0.7f)),
         v(0, reach, reach * random.uniform(0.1f, 0.7f));
     const Fan fan = make_fan(hub, u, v, 4 + trial % 21, random.uniform(0.0f, 6.0f), trial % 2 == 0);
@@ -398,16 +399,16 @@ TEST_F(ConformanceFans, InSpaceThroughAllSixPlanes) {
   }
 }
 
-// Two triangles of a flat quad whose shared edge crosses the image and leaves through planes on both ends.
-// Every sample away from the quad's own outline is hit once, those on the shared edge too.
-TEST_F(ConformanceClips, NeighboursAtACutEdgeLeaveNoGap) {
+// Two triangles of a flat quad. Their shared edge crosses the image, and planes clip both its ends. Every
+// sample away from the quad's outline is hit once, also those on the shared edge.
+TEST_F(ConformanceClips, NeighboursLeaveNoGapAtAClippedSharedEdge) {
   Random random(23);
   int ends_outside[3] = {}, seam = 0;
   for (int trial = 0; trial < 600 && !HasFailure(); ++trial) {
     const glm::vec2 held(random.uniform(10.0f, 54.0f), random.uniform(10.0f, 54.0f));
     const glm::vec2 along(random.direction()), across(-along.y, along.x);
     const auto reach = [&] { return std::pow(10.0f, random.uniform(1.0f, 5.0f)); };
-    // So gentle that the near and far planes cut beyond the image.
+    // The slope is so small that the near and far planes cut the quad outside the image.
     const glm::vec2 slope(random.uniform(-2e-4f, 2e-4f), random.uniform(-2e-4f, 2e-4f));
     const auto at = [&](glm::vec2 p) { return glm::vec3(p, 0.5f + glm::dot(slope, p - held)); };
     const glm::vec3 a = at(held - reach() * along), b = at(held + reach() * along),
@@ -428,7 +429,7 @@ TEST_F(ConformanceClips, NeighboursAtACutEdgeLeaveNoGap) {
                    "trial " + std::to_string(trial));
   }
   for (const int ends : {0, 1, 2}) EXPECT_GT(ends_outside[ends], 20);
-  EXPECT_GT(seam, 300) << "samples within a hair of the shared edge";
+  EXPECT_GT(seam, 300) << "samples within kHairlinePx of the shared edge";
   expect_most_decided();
 }
 

@@ -1,7 +1,7 @@
-// Culling: every mode against every winding, for triangle lists, strips and fans (as lists: a
-// strip turns every second triangle round, so that all face the same way), and one tiny triangle a pixel with
-// the windings alternating. Which triangles are left is told by exact areas, what they cover by winding
-// numbers.
+// Culling: every mode with every winding, for triangle lists, strips and fans, and for one tiny triangle per
+// pixel with alternating windings. Strips and fans are given as lists; in a strip every second triangle is
+// reversed, so that all have one facing. Exact areas decide which triangles remain, winding numbers what they
+// cover.
 #include <array>
 #include <glm/glm.hpp>
 
@@ -18,25 +18,25 @@ class ConformanceCulling : public Conformance {
                           : twice_area < 0 && (cull == Cull::none || cull == Cull::front);
   }
 
-  // Every mode. Where triangles overlap the first is seen: all have the same depth.
+  // Checks every mode. All depths are equal, so the first of overlapping triangles is visible.
   void expect_culled(const TriangleStream& stream, View view, const std::string& what) {
     for (const Cull cull : cull_modes()) {
       view.cull = cull;
       std::vector<std::uint32_t> visible(
           static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height), kNoTriangle);
       for (std::uint32_t id = 0; id < stream.triangles.size(); ++id) {
-        const auto places = snapped(stream.triangles[id].vertex);
-        if (!is_kept(cull, area(places))) continue;
+        const auto positions = snapped(stream.triangles[id].vertex);
+        if (!is_kept(cull, area(positions))) continue;
         auto visible_it = visible.begin();
         for (int y = 0; y < view.height; ++y)
           for (int x = 0; x < view.width; ++x, ++visible_it)
-            if (*visible_it == kNoTriangle && winding(places, x, y) != 0) *visible_it = id;
+            if (*visible_it == kNoTriangle && winding(positions, x, y) != 0) *visible_it = id;
       }
       expect_visible_triangles(stream, view, visible, what + ", cull " + std::string(name_of(cull)));
     }
   }
 
-  // As a list, as it is and with every triangle reversed.
+  // Checks the list, and the list with every triangle reversed.
   void expect_culled_both_ways(const std::vector<glm::vec3>& vertices, std::vector<glm::uvec3> triangles,
                                const std::string& what) {
     expect_culled(stream_of(vertices, triangles), {}, what);
@@ -53,7 +53,7 @@ std::vector<glm::vec3> zigzag(Random& random) {
   return v;
 }
 
-TEST_F(ConformanceCulling, Lists) {
+TEST_F(ConformanceCulling, ListsKeepTheFacesThatTheModeSelects) {
   Random random(1);
   for (int trial = 0; trial < 4; ++trial) {
     std::vector<glm::vec3> v;
@@ -66,7 +66,7 @@ TEST_F(ConformanceCulling, Lists) {
   }
 }
 
-TEST_F(ConformanceCulling, Strips) {
+TEST_F(ConformanceCulling, StripsKeepTheFacesThatTheModeSelects) {
   Random random(2);
   for (int trial = 0; trial < 4; ++trial) {
     const auto v = zigzag(random);
@@ -80,7 +80,7 @@ TEST_F(ConformanceCulling, Strips) {
   }
 }
 
-TEST_F(ConformanceCulling, Fans) {
+TEST_F(ConformanceCulling, FansKeepTheFacesThatTheModeSelects) {
   Random random(3);
   for (int trial = 0; trial < 4; ++trial) {
     std::vector<glm::vec3> v{{random.uniform(20.0f, 44.0f), random.uniform(20.0f, 44.0f), 0.5f}};
@@ -96,9 +96,9 @@ TEST_F(ConformanceCulling, Fans) {
   }
 }
 
-// The same through a camera, where the front end culls meshes. The expected facing comes from the snapped
-// positions when nothing is culled.
-TEST_F(ConformanceCulling, Meshes) {
+// The same through a camera: the front end culls meshes. The snapped positions without culling give the
+// expected facing.
+TEST_F(ConformanceCulling, MeshesKeepTheFacesThatTheModeSelects) {
   Random random(4);
   for (const float mirror : {1.0f, -1.0f}) {
     Scene scene;
@@ -118,9 +118,9 @@ TEST_F(ConformanceCulling, Meshes) {
       for (const Cull cull : cull_modes()) {
         std::vector<std::uint32_t> expected, ids;
         for (const ScreenTriangle& t : all) {
-          const std::array places{SubPlace{t.x_sub[0], t.y_sub[0]}, SubPlace{t.x_sub[1], t.y_sub[1]},
-                                  SubPlace{t.x_sub[2], t.y_sub[2]}};
-          if (is_kept(cull, area(places))) expected.push_back(t.payload);
+          const std::array positions{SubPosition{t.x_sub[0], t.y_sub[0]}, SubPosition{t.x_sub[1], t.y_sub[1]},
+                                     SubPosition{t.x_sub[2], t.y_sub[2]}};
+          if (is_kept(cull, area(positions))) expected.push_back(t.payload);
         }
         for (const ScreenTriangle& t : pipeline.triangles(scene, {.cull = cull})) ids.push_back(t.payload);
         ASSERT_EQ(ids, expected) << name_of(cull);
@@ -129,8 +129,8 @@ TEST_F(ConformanceCulling, Meshes) {
   }
 }
 
-// From the smallest triangle that can cover a sample to one that nearly meets its neighbours.
-TEST_F(ConformanceCulling, OneTinyTriangleAPixelWithTheWindingsAlternating) {
+// The triangles grow from the smallest that can cover a sample to nearly the size of a pixel.
+TEST_F(ConformanceCulling, TinyTrianglesOfAlternatingWindingsFollowTheMode) {
   const View view{48, 40};
   // Sub-units around the sample, clockwise.
   const glm::ivec2 kShapes[][3] = {{{0, 0}, {1, 0}, {0, 1}},

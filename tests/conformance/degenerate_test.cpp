@@ -44,8 +44,8 @@ TEST_F(ConformanceDegenerate, LinesDrawNothing) {
   expect_flat(v, "lines");
 }
 
-// Float area, but three places in a row, or one, once rounded to 1/256 px.
-TEST_F(ConformanceDegenerate, WhatSnappingFlattensDrawsNothing) {
+// Triangles with area in float, whose vertices are collinear or equal after rounding to 1/256 px.
+TEST_F(ConformanceDegenerate, TrianglesThatSnappingFlattensDrawNothing) {
   Random random(5);
   std::vector<glm::vec3> v;
   const auto jitter = [&] { return random.uniform(-0.0019f, 0.0019f); };  // less than 1/512 px
@@ -60,8 +60,8 @@ TEST_F(ConformanceDegenerate, WhatSnappingFlattensDrawsNothing) {
   expect_flat(v, "flattened");
 }
 
-// Flat in space, and through every clipping plane: the clipped triangles have no area either.
-TEST_F(ConformanceDegenerate, FlatTrianglesThatAreClippedDrawNothing) {
+// Triangles without area that cross every clipping plane: the clipped parts have no area either.
+TEST_F(ConformanceDegenerate, ClippedFlatTrianglesDrawNothing) {
   std::vector<glm::vec3> v;
   for (const glm::vec3 d :
        {glm::vec3(1, 0, 0), {0, 1, 0}, {1, 1, 0}, {1, -1, 1}, {-1, 0.5f, 1}, {0.25f, 1, -1}}) {
@@ -73,7 +73,7 @@ TEST_F(ConformanceDegenerate, FlatTrianglesThatAreClippedDrawNothing) {
   expect_flat(v, "clipped");
 }
 
-TEST_F(ConformanceDegenerate, SliversOfOneSubUnitCoverExactlyTheSamplesInThem) {
+TEST_F(ConformanceDegenerate, SliversOfOneSubUnitCoverExactlyTheSamplesInside) {
   int drawn = 0;
   for (int offset = -2; offset <= 2; ++offset)
     for (const int height : {1, 2}) {
@@ -92,7 +92,7 @@ TEST_F(ConformanceDegenerate, SliversOfOneSubUnitCoverExactlyTheSamplesInThem) {
   EXPECT_GT(drawn, 100);
 }
 
-// In a mesh and through a camera: a seam of flat triangles between two that are not changes nothing.
+// In a mesh seen through a camera, triangles without area between two others change nothing.
 TEST_F(ConformanceDegenerate, FlatTrianglesAmongOthersChangeNothing) {
   Scene scene;
   Mesh mesh;

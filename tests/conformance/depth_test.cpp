@@ -1,5 +1,5 @@
-// Depth at the near and far planes: on them a triangle is drawn, beyond them it is not, and
-// between them it has the depths of its exact plane.
+// Depth at the near and far planes: triangles on the planes are drawn, triangles beyond them are not, and
+// triangles between them have the depths of their exact plane.
 #include <gmpxx.h>
 
 #include <cmath>
@@ -33,20 +33,20 @@ class ConformanceDepth : public Conformance {
   }
 };
 
-TEST_F(ConformanceDepth, WallsOnThePlanesAreDrawnWithTheRangesEnds) {
+TEST_F(ConformanceDepth, WallsOnThePlanesHaveTheEndsOfTheDepthRange) {
   expect_wall(wall(0.0f), kDepthHead, "on the near plane");
   expect_wall(wall(-0.0f), kDepthHead, "on the near plane, minus zero");
   expect_wall(wall(1.0f), kDepthHead + kDepthRange, "on the far plane");
 }
 
-TEST_F(ConformanceDepth, WallsBetweenThePlanesHaveTheNearestDepth) {
+TEST_F(ConformanceDepth, WallsBetweenThePlanesHaveTheCorrectlyRoundedDepth) {
   Random random(31);
   for (int trial = 0; trial < 300; ++trial) {
     const float z = trial == 0   ? std::nextafter(0.0f, 1.0f)
                     : trial == 1 ? std::nextafter(1.0f, 0.0f)
                     : trial == 2 ? 0.5f
                                  : random.uniform(0.0f, 1.0f);
-    // Half to even, in whole numbers: z is n / 2^149 at the finest.
+    // Rounds half to even, in exact arithmetic.
     mpq_class units(z);
     units *= kDepthRange;
     const mpz_class whole = units.get_num() / units.get_den();
@@ -63,7 +63,7 @@ TEST_F(ConformanceDepth, WallsBeyondThePlanesDrawNothing) {
 }
 
 // With near 1 and far 2 the projection is exact: depth is 2 - 2 / w, times w.
-TEST_F(ConformanceDepth, WallsThroughACameraToo) {
+TEST_F(ConformanceDepth, CameraWallsHaveTheExpectedDepth) {
   const auto wall_at = [](float distance) {
     Scene scene;
     Mesh mesh;
@@ -89,8 +89,8 @@ TEST_F(ConformanceDepth, WallsThroughACameraToo) {
     expect_nothing(wall_at(beyond), {}, std::to_string(beyond));
 }
 
-// A slope from before the near plane to behind the far one, cut where floats and the grid are exact. The cut
-// runs along a column of samples, which belongs to the side that a left edge gives it to.
+// A slope from nearer than the near plane to beyond the far plane, clipped where floats and the grid are
+// exact. The clipped edge runs along a column of samples, which are covered if it is a left edge.
 TEST_F(ConformanceDepth, ASlopeThroughBothPlanesIsDrawnBetweenThem) {
   for (const float start : {8.5f, 8.0f, 8.25f})
     for (const bool falls : {false, true}) {
@@ -120,9 +120,9 @@ TEST_F(ConformanceDepth, ASlopeThroughBothPlanesIsDrawnBetweenThem) {
     }
 }
 
-// Drawn depths keep within the contract's error of the exact plane through the places as they were handed
-// in, up to the very ends of the range, and never leave it.
-TEST_F(ConformanceDepth, SteepTrianglesBetweenThePlanesStayOnTheirPlane) {
+// Drawn depths stay within the contract's error of the exact plane through the input positions, and within
+// the depth range, up to its ends.
+TEST_F(ConformanceDepth, SteepTrianglesKeepTheContractsDepthError) {
   Random random(32);
   for (int trial = 0; trial < 150 && !HasFailure(); ++trial) {
     std::vector<glm::vec3> v;

@@ -1,6 +1,6 @@
-// Fill rules: quads of two triangles, rotated and added up. Every pixel of the union is hit once, whichever
-// way the quad is cut, wound and started. The union's outline follows the same rule, so what is expected is
-// the winding number of the outline.
+// Fill rules: rotated quads of two triangles, with hit counts added up. Every pixel of the quad is hit once,
+// for both diagonals, both windings and every first vertex. The quad's outline follows the same rule, so its
+// winding number is the expected count.
 #include <array>
 #include <glm/glm.hpp>
 #include <numbers>
@@ -13,7 +13,7 @@ namespace {
 
 class ConformanceFillRules : public Conformance {
  protected:
-  // In all ways to make two triangles of it.
+  // Checks all ways to split the quad into two triangles.
   void expect_filled(const std::array<glm::vec3, 4>& quad, const View& view, const std::string& what) {
     const auto expected = windings(snapped(quad), view.width, view.height);
     const std::vector<glm::vec3> v(quad.begin(), quad.end());
@@ -22,7 +22,7 @@ class ConformanceFillRules : public Conformance {
                                     {"started elsewhere", {2, 0, 1}, {3, 0, 2}},
                                     {"last one first", {2, 3, 1}, {3, 0, 1}}})
       expect_hits(stream_of(v, {a, b}), view, expected, what + ", " + cut);
-    // Counter-clockwise, one of the two and both.
+    // Reverses the first triangle, the second, or both.
     expect_hits(stream_of(v, {{0, 2, 1}, {0, 2, 3}}), view, expected, what + ", first reversed");
     expect_hits(stream_of(v, {{0, 2, 1}, {0, 3, 2}}), view, expected, what + ", both reversed");
     ties_ += ties(snapped(quad[0]), snapped(quad[2]), view.width, view.height) +
@@ -43,7 +43,7 @@ std::array<glm::vec3, 4> rotated(glm::dvec2 centre, double half, glm::dvec2 alon
 
 // Directions with whole coordinates, so that corners stay on the lattice and the diagonals pass through
 // samples.
-TEST_F(ConformanceFillRules, QuadsOnTheLatticeAreHitOnceWhateverTheirAngle) {
+TEST_F(ConformanceFillRules, QuadsOnTheLatticeAreHitOnceAtEveryAngle) {
   for (const auto& [x, y] :
        {std::pair{1, 0}, {1, 1}, {2, 1}, {3, 1}, {3, 2}, {3, 4}, {5, 12}, {7, 1}, {1, 9}})
     for (const double corner : {0.0, 0.5}) {
@@ -52,7 +52,7 @@ TEST_F(ConformanceFillRules, QuadsOnTheLatticeAreHitOnceWhateverTheirAngle) {
       expect_filled(rotated(glm::dvec2(32 + corner), half, along), {},
                     "direction " + std::to_string(x) + ":" + std::to_string(y));
     }
-  EXPECT_GT(ties_, 500) << "or nothing here was decided by a tie rule";
+  EXPECT_GT(ties_, 500) << "too few samples on edges to test the tie rule";
   RecordProperty("ties", ties_);
 }
 
@@ -66,7 +66,8 @@ TEST_F(ConformanceFillRules, QuadsAtAnyAngleAreHitOnce) {
   }
 }
 
-// Larger than the image, in part and wholly: there the hit count is 1 in every pixel, without any oracle.
+// Quads that leave the image. If a quad contains the image, the hit count is 1 in every pixel, without an
+// oracle.
 TEST_F(ConformanceFillRules, QuadsAcrossTheImagesEdgesAreHitOnce) {
   for (int step = 0; step < 12; ++step) {
     const double angle = 0.1 + step * std::numbers::pi / 6;
@@ -102,8 +103,8 @@ TEST_F(ConformanceFillRules, ASampleUnderTheHubOfAFanIsHitOnce) {
     }
 }
 
-// All vertices on samples, every edge of every cell through some.
-TEST_F(ConformanceFillRules, ATessellationOnSamplesHitsEachOnce) {
+// All vertices lie on samples, and every edge of every cell passes through samples.
+TEST_F(ConformanceFillRules, ATessellationWithVerticesOnSamplesHitsEachOnce) {
   for (const int cell : {1, 2, 3, 7}) {
     const View view{40, 40};
     std::vector<glm::vec3> v;
@@ -124,8 +125,7 @@ TEST_F(ConformanceFillRules, ATessellationOnSamplesHitsEachOnce) {
   }
 }
 
-// Through a camera: both triangles get the same four positions, wherever these come to lie, and the outline
-// is made of them.
+// Through a camera: both triangles use the same four projected positions, and so does the outline.
 TEST_F(ConformanceFillRules, QuadsInPerspectiveAreHitOnce) {
   Random random(11);
   for (int trial = 0; trial < 60; ++trial) {
@@ -143,7 +143,7 @@ TEST_F(ConformanceFillRules, QuadsInPerspectiveAreHitOnce) {
     with_each("trial " + std::to_string(trial), [&](Pipeline& pipeline) {
       const auto t = pipeline.triangles(scene, view);
       ASSERT_EQ(t.size(), 2u);
-      const auto at = [](const ScreenTriangle& s, int i) { return SubPlace{s.x_sub[i], s.y_sub[i]}; };
+      const auto at = [](const ScreenTriangle& s, int i) { return SubPosition{s.x_sub[i], s.y_sub[i]}; };
       const std::array outline{at(t[0], 0), at(t[0], 1), at(t[0], 2), at(t[1], 2)};
       ASSERT_EQ(t[0].x_sub[0], t[1].x_sub[0]);
       ASSERT_EQ(t[0].x_sub[2], t[1].x_sub[1]);

@@ -1,10 +1,10 @@
 // The visible part of a triangle or convex polygon, in double: clipped by the near and far planes and divided
 // by w, but neither cut by the guard band nor snapped.
 //
-// The front end rounds a cut vertex to float and all vertices to 1/256 px, so an edge may lie up to
-// kHairlinePx from where it belongs (lab/clipping/clipping.h derives that). A sample that is farther than
-// that from every edge is decided: there the picture must agree, without tolerance. The others, fewer than
-// one in 500, are judged by hit counts only.
+// The front end rounds a new vertex to float and all vertices to 1/256 px, so an edge may lie up to
+// kHairlinePx from its exact position (lab/clipping/clipping.h derives this). A sample farther than that from
+// every edge is decided: there the picture must agree exactly. The other samples, fewer than one in 500, are
+// judged by hit counts only.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 
 namespace edgewise::conformance {
 
-// Pixels and depth, both times w, and w.
+// Pixel coordinates and depth, both multiplied by w, and w.
 using Homogeneous = glm::dvec4;
 
 class Outline {
@@ -34,12 +34,12 @@ class Outline {
       }
       polygon = kept;
     }
-    for (const Homogeneous& v : polygon) places_.emplace_back(v.x / v.w, v.y / v.w);
+    for (const Homogeneous& v : polygon) positions_.emplace_back(v.x / v.w, v.y / v.w);
   }
 
-  bool empty() const { return places_.size() < 3; }
+  bool empty() const { return positions_.size() < 3; }
 
-  // As conformance::winding(), for samples that are decided.
+  // Like conformance::winding(), but only for decided samples.
   int winding(int px, int py) const {
     const glm::dvec2 s(px + 0.5, py + 0.5);
     int turns = 0;
@@ -64,8 +64,8 @@ class Outline {
     return far_from_all;
   }
 
-  // Whether floats can place all edges well: not where both ends lie this far out on either side of the
-  // image.
+  // Whether both ends of some edge lie at least this far off the image. If so, floats are too coarse to
+  // position the edge.
   bool reaches_beyond(double px) const {
     bool beyond = false;
     for_each_edge([&](glm::dvec2 p, glm::dvec2 q) {
@@ -78,10 +78,11 @@ class Outline {
  private:
   template <typename Visit>
   void for_each_edge(Visit&& visit) const {
-    for (std::size_t i = 0; i < places_.size(); ++i) visit(places_[i], places_[(i + 1) % places_.size()]);
+    for (std::size_t i = 0; i < positions_.size(); ++i)
+      visit(positions_[i], positions_[(i + 1) % positions_.size()]);
   }
 
-  std::vector<glm::dvec2> places_;
+  std::vector<glm::dvec2> positions_;
 };
 
 }  // namespace edgewise::conformance

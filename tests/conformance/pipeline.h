@@ -5,8 +5,8 @@
 // their groups rasterization.fill_rules and rasterization.culling (modules/gles2/functional/
 // es2fRasterizationTests.cpp, external/vulkancts/modules/vulkan/rasterization/), clipping (es2fClippingTests.
 // cpp: triangle_vertex, polygon, polygon_edge; vulkan/clipping/vktClippingTests.cpp: clip_volume). Those
-// compare pictures with tolerances, since drivers are free to snap as they like. Here there is none, but that
-// samples within 1/64 px of an edge that clipping has rounded are judged by hit counts only (outline.h).
+// compare pictures with tolerances, since drivers may snap differently. Here the comparison is exact, except
+// that samples within 1/64 px of an edge that clipping has rounded are judged by hit counts only (outline.h).
 #pragma once
 
 #include <gtest/gtest.h>
@@ -143,14 +143,14 @@ class Conformance : public ::testing::Test {
   std::uint64_t cases_ = 0;
 };
 
-// Where a float position is snapped to: half to even, exactly (a float times 256 is a double). In range only.
-inline SubPlace snapped(glm::vec3 v) {
+// The snapped position of a float: half to even, exact (a float times 256 is a double). Only in range.
+inline SubPosition snapped(glm::vec3 v) {
   const auto one = [](float px) { return std::llrint(static_cast<double>(px) * 256.0); };
   return {one(v.x), one(v.y)};
 }
 
-inline std::vector<SubPlace> snapped(std::span<const glm::vec3> polygon) {
-  std::vector<SubPlace> all;
+inline std::vector<SubPosition> snapped(std::span<const glm::vec3> polygon) {
+  std::vector<SubPosition> all;
   for (const glm::vec3 v : polygon) all.push_back(snapped(v));
   return all;
 }

@@ -1,9 +1,9 @@
-// The conformance suite's own truth: how often a polygon winds around a sample. It shares no arithmetic with
-// the contract, a backend or the laboratory: it has no biased edge functions and no triangles.
+// The conformance suite's own truth: the winding number of a polygon around a sample. It shares no arithmetic
+// with the contract, a backend or the laboratory: it has no biased edge functions and no triangles.
 //
-// The top-left rule in one sentence: a sample counts as lying an infinitesimal step to the right of its
-// place, and an infinitely smaller one below it. There it lies on no edge. A ray to the right then crosses an
-// edge where the edge runs past the sample's height, the upper end included, strictly to the right of it.
+// The top-left rule: move each sample right by an infinitesimal step, and down by an infinitely smaller one.
+// The moved sample lies on no edge. A ray from it to the right crosses an edge if the edge spans the sample's
+// height, upper end included and lower end excluded, strictly to the right of the sample.
 #pragma once
 
 #include <cstdint>
@@ -13,20 +13,20 @@
 namespace edgewise::conformance {
 
 template <typename T>
-struct Place {
+struct Position {
   T x, y;
 };
 
 // 1/256 px, as snapped positions are; up to 2^30.
-using SubPlace = Place<std::int64_t>;
+using SubPosition = Position<std::int64_t>;
 
 // The winding number around a pixel's sample: positive is clockwise on the y-down screen, that is front.
 // Triangles that fill the polygon with its orientation must draw the pixel this many times in total.
-inline int winding(std::span<const SubPlace> polygon, int px, int py) {
+inline int winding(std::span<const SubPosition> polygon, int px, int py) {
   const std::int64_t sx = std::int64_t{px} * 256 + 128, sy = std::int64_t{py} * 256 + 128;
   int turns = 0;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const SubPlace &p = polygon[i], &q = polygon[i + 1 == polygon.size() ? 0 : i + 1];
+    const SubPosition &p = polygon[i], &q = polygon[i + 1 == polygon.size() ? 0 : i + 1];
     const bool down = p.y <= sy && sy < q.y, up = q.y <= sy && sy < p.y;
     if (!down && !up) continue;
     const std::int64_t side = (q.x - p.x) * (sy - p.y) - (q.y - p.y) * (sx - p.x);
@@ -36,7 +36,7 @@ inline int winding(std::span<const SubPlace> polygon, int px, int py) {
   return turns;
 }
 
-inline std::vector<int> windings(std::span<const SubPlace> polygon, int width, int height) {
+inline std::vector<int> windings(std::span<const SubPosition> polygon, int width, int height) {
   std::vector<int> all;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) all.push_back(winding(polygon, x, y));
@@ -44,17 +44,17 @@ inline std::vector<int> windings(std::span<const SubPlace> polygon, int width, i
 }
 
 // Twice the area; positive is clockwise.
-inline std::int64_t area(std::span<const SubPlace> polygon) {
+inline std::int64_t area(std::span<const SubPosition> polygon) {
   std::int64_t sum = 0;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const SubPlace &p = polygon[i], &q = polygon[i + 1 == polygon.size() ? 0 : i + 1];
+    const SubPosition &p = polygon[i], &q = polygon[i + 1 == polygon.size() ? 0 : i + 1];
     sum += p.x * q.y - p.y * q.x;
   }
   return sum;
 }
 
 // The samples exactly on the segment between two points, which only the tie rule decides.
-inline int ties(const SubPlace& p, const SubPlace& q, int width, int height) {
+inline int ties(const SubPosition& p, const SubPosition& q, int width, int height) {
   int count = 0;
   for (std::int64_t y = 0; y < height; ++y)
     for (std::int64_t x = 0; x < width; ++x) {

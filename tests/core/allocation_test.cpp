@@ -68,7 +68,7 @@ std::size_t allocations_of_each(Frame&& frame) {
 
 class Allocations : public ::testing::TestWithParam<std::string_view> {};
 
-TEST_P(Allocations, OfABackendEndWithTheFirstFrame) {
+TEST_P(Allocations, OfABackendHappenInTheFirstFrameOnly) {
   constexpr int kWidth = 320, kHeight = 200;
   const auto backend = testing::find_drawer(GetParam()).make();
   Framebuffer frame(kWidth, kHeight);
@@ -86,7 +86,7 @@ TEST_P(Allocations, OfABackendEndWithTheFirstFrame) {
 INSTANTIATE_TEST_SUITE_P(Registry, Allocations, ::testing::ValuesIn(testing::all_drawers()),
                          [](const auto& param) { return testing::test_name(param); });
 
-TEST(FrontendAllocations, EndWithTheFirstFrame) {
+TEST(FrontendAllocations, HappenInTheFirstFrameOnly) {
   for (const SceneInfo& info : builtin_scenes()) {
     const Drawable drawable = info.make({.width = 640, .height = 480, .scale = 0.02});
     for (const int threads : {1, 2, 8}) {
@@ -99,7 +99,7 @@ TEST(FrontendAllocations, EndWithTheFirstFrame) {
   }
 }
 
-TEST(HiddenFacesAllocations, AreNone) {
+TEST(HiddenFacesAllocations, DoNotHappen) {
   const Scene scene = std::get<Scene>(find_scene("cubes").make({}));
   lab::HiddenFaces hidden(scene, lab::find_facing_method("normal_z"));
   EXPECT_EQ(allocations_in([&] { hidden.drop(scene); }), 0u);

@@ -40,7 +40,7 @@ class EmulatedCpu : public ::testing::TestWithParam<Processor> {
   }
 };
 
-TEST_P(EmulatedCpu, EndsAProgramThatUsesMissingInstructions) {
+TEST_P(EmulatedCpu, EndsProgramsThatUseMissingInstructions) {
   const Outcome outcome = emulate(EDGEWISE_AVX_PROBE, "");
   EXPECT_EQ(outcome.status == 0, GetParam().avx) << outcome.err;
 }

@@ -73,7 +73,7 @@ TEST(LimitsDeathTest, NoImageIsLargerThanTheGuardBand) {
   expect_refused([] { Framebuffer(1'000'000, 1'000'000); });
 }
 
-// Exactly at the limits, drawing succeeds.
+// At the limits, drawing succeeds.
 TEST(Limits, TheLargestSidesAndTheMostThreadsAreDrawn) {
   const TriangleStream stream{
       1, 1, {{{{-20'000, -20'000, 0.5f}, {60'000, -20'000, 0.5f}, {0, 60'000, 0.5f}}, 7}}};

@@ -59,7 +59,7 @@ TEST(SimdTargets, AreThoseCompiledAndSupported) {
   }
   const auto listed = supported_targets();
   EXPECT_EQ(std::vector(listed.begin(), listed.end()), expected);
-  EXPECT_EQ(listed.front(), SimdTarget::scalar) << "whatever flags the build has";
+  EXPECT_EQ(listed.front(), SimdTarget::scalar) << "for every build flag";
 }
 
 // Fails if a target's kernel is missing or the same as another target's.
@@ -73,7 +73,7 @@ void expect_own_kernels(Kernel (*kernel_of)(SimdTarget), const char* name) {
   }
 }
 
-TEST(SimdTargets, EachHasKernelsOfItsOwn) {
+TEST(SimdTargets, HaveDifferentKernels) {
   expect_own_kernels(tile_kernel, "tile");
   expect_own_kernels(scanline_kernel, "scanline");
   expect_own_kernels(cell_box_kernel, "cell boxes");

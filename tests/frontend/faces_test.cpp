@@ -58,7 +58,7 @@ bool same(const std::vector<ScreenTriangle>& a, const std::vector<ScreenTriangle
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(ScreenTriangle)) == 0;
 }
 
-TEST(Faces, AreAlikeOnEveryTargetAndThreadCount) {
+TEST(Faces, AreTheSameOnEveryTargetAndThreadCount) {
   const Scene scene = scene_of_quads(true);
   for (const Cull cull : cull_modes())
     for (const Payload payload : {Payload::colour, Payload::id}) {
@@ -96,7 +96,7 @@ TEST(Faces, HaveThePositionsOfTheirTriangles) {
   }
 }
 
-TEST(Faces, OfFourVerticesHaveOneColourAndTwoIds) {
+TEST(Faces, WithFourVerticesHaveOneColourAndTwoIds) {
   const Scene scene = scene_of_quads(false);
   const Mesh& mesh = scene.meshes[0];
   FrontendOptions options = kOptions;

@@ -1,5 +1,5 @@
-// The front end's kernels emit the same triangles on every SIMD target and thread count, and as the code for
-// one triangle at a time.
+// The front end's kernels emit the same triangles on every SIMD target and thread count, and the same as the
+// code for one triangle at a time.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -128,7 +128,7 @@ void expect_all_alike(const Drawable& drawable, FrontendOptions options) {
     }
 }
 
-TEST(FrontendKernels, MeshesAreAlikeOnEveryTargetAndThreadCount) {
+TEST(FrontendKernels, MeshesAreTheSameOnEveryTargetAndThreadCount) {
   for (const bool spoil : {false, true})
     for (const Cull cull : {Cull::none, Cull::back, Cull::front})
       for (const Payload payload : {Payload::colour, Payload::id})
@@ -137,7 +137,7 @@ TEST(FrontendKernels, MeshesAreAlikeOnEveryTargetAndThreadCount) {
   expect_all_alike(random_scene(true), {.width = 300, .height = 200, .shade = false});
 }
 
-TEST(FrontendKernels, StreamsAreAlikeOnEveryTargetAndThreadCount) {
+TEST(FrontendKernels, StreamsAreTheSameOnEveryTargetAndThreadCount) {
   for (const Cull cull : {Cull::none, Cull::back, Cull::front})
     for (const Payload payload : {Payload::colour, Payload::id})
       expect_all_alike(random_triangles(), {.width = 640, .height = 480, .cull = cull, .payload = payload});
@@ -219,7 +219,7 @@ TEST(FrontendKernels, DepthsAreRoundedHalfToEven) {
   EXPECT_EQ(rounding.wrong(), 0u);
 }
 
-TEST(FrontendKernels, BuiltInScenesAreAlikeOnEveryTarget) {
+TEST(FrontendKernels, BuiltInScenesAreTheSameOnEveryTarget) {
   for (const SceneInfo& info : builtin_scenes()) {
     SCOPED_TRACE(info.name);
     expect_all_alike(info.make({.width = 640, .height = 480, .scale = 0.01}), {.width = 640, .height = 480});
@@ -256,7 +256,7 @@ Scene scene_of_many_meshes() {
   return scene;
 }
 
-TEST(FrontendKernels, ManyMeshesAreAlikeOnEveryTargetAndThreadCount) {
+TEST(FrontendKernels, ManyMeshesAreTheSameOnEveryTargetAndThreadCount) {
   const Scene scene = scene_of_many_meshes();
   const auto stats = run(scene, {.width = 300, .height = 200}).stats;
   for (const auto count : {stats.meshes_culled, stats.not_finite, stats.clipped_near, stats.culled})
@@ -354,7 +354,7 @@ TEST(FrontendKernels, VerticesOnPlanesMatchMakeVertex) {
   }
 }
 
-TEST(FrontendKernels, StreamsOnPlanesAreAlikeOnEveryTarget) {
+TEST(FrontendKernels, StreamsOnPlanesAreTheSameOnEveryTarget) {
   constexpr int kWidth = 640, kHeight = 480;
   Random random(3);
   const auto one_of = [&](float side_px) {
@@ -494,7 +494,7 @@ TEST(FrontendKernels, StatesAgreeWithTheStatistics) {
     }
 }
 
-TEST(FrontendKernels, StatesOfSingleTriangles) {
+TEST(FrontendKernels, StatesOfSingleTrianglesAreAsExpected) {
   const auto state = [](glm::vec3 a, glm::vec3 b, glm::vec3 c, Cull cull = Cull::back) {
     const TriangleStream stream{64, 64, {{{a, b, c}, 0xFFFFFFFFu}}};
     Frontend frontend;

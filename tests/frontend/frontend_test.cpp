@@ -302,7 +302,7 @@ TEST(Frontend, ShadesByTheLightWithAMinimum) {
   EXPECT_EQ(run(scene, flat).triangles.at(0).payload, rgb(200, 100, 50));
 }
 
-TEST(Frontend, ShadesMeshesOfEverySizeAlike) {
+TEST(Frontend, ShadesMeshesOfEverySizeTheSame) {
   for (const float size : {1e-12f, 1e-6f, 1.0f, 1e6f, 1e12f}) {
     auto positions = kFront;
     for (auto& p : positions) p *= size;
@@ -413,7 +413,7 @@ TEST(Frontend, UnsnappedTrianglesRoundToTheSnappedOnes) {
   }
 }
 
-TEST(Frontend, RefusesImpossibleInput) {
+TEST(Frontend, RefusesInvalidInput) {
   const auto expect_refused = [](auto change) {
     Scene scene = loose(kFront);
     FrontendOptions options{.width = 64, .height = 64};

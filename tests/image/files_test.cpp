@@ -124,7 +124,7 @@ struct GoodObj {
 class SameTriangle : public testing::TestWithParam<GoodObj> {};
 
 // All notations of the triangle (1,2,3) (4,5,6) (7,8,10).
-TEST_P(SameTriangle, IsReadAlike) {
+TEST_P(SameTriangle, IsReadTheSame) {
   const Mesh mesh = read_mesh(GetParam().text);
   ASSERT_EQ(mesh.triangles.size(), 1u);
   const glm::uvec3 t = mesh.triangles[0];
@@ -298,7 +298,7 @@ void expect_filled_both_ways(Polygon polygon, const std::string& what) {
   }
 }
 
-TEST(Polygon, ConcaveShapesAreFilledOnceWhereverTheyLie) {
+TEST(Polygon, ConcaveShapesAreFilledOnceAtEveryPosition) {
   for (const glm::dvec2 at : {glm::dvec2(0, 0), glm::dvec2(100, 50), glm::dvec2(-30, 7)}) {
     const auto moved = [&](Polygon polygon) {
       for (glm::dvec2& p : polygon) p += at;

@@ -225,7 +225,7 @@ TEST(Difference, OfEqualImagesIsDimmedGrey) {
   for (const std::uint32_t pixel : d.picture.pixels) EXPECT_TRUE(is_grey(pixel) && red_of(pixel) <= 85);
 }
 
-TEST(Difference, CountsFindsAndGradesPixels) {
+TEST(Difference, CountsDifferingPixelsAndFindsTheLargestDifference) {
   const Image a{3, 2, {rgb(9, 9, 9), 0, 0, 0, 0, rgb(255, 255, 255)}};
   Image b = a;
   b.pixels[0] ^= 0xFF000000u;  // alpha is ignored

@@ -50,7 +50,7 @@ TEST(Clipping, EveryMethodKeepsItsPromiseAndTheImpreciseFailSomewhere) {
   }
 }
 
-TEST(Clipping, AFloorUnderTheEye) {
+TEST(Clipping, AFloorUnderTheCameraNeedsClipping) {
   for (const float near_z : {0.5f, 0.1f, 0.001f}) {
     const ClippingScene scene = floor_through_eye(near_z);
     EXPECT_EQ(judge("near_guard", scene).wrong(), 0u);
@@ -67,7 +67,7 @@ TEST(Clipping, DividingByZeroIsCaughtAndCounted) {
   EXPECT_GT(judge("none", make_case("beyond_the_guard_band")).out_of_range, 0u);
 }
 
-TEST(Clipping, QuadsBeforeTheNearPlaneAreNotDrawn) {
+TEST(Clipping, QuadsNearerThanTheNearPlaneAreNotDrawn) {
   const ClippingScene scene = make_case("quads_before_near");
   const auto truth = clipping_truth(scene);
   EXPECT_TRUE(std::all_of(truth.visible.begin(), truth.visible.end(),
@@ -109,7 +109,7 @@ std::uint64_t crossings(const ClippingScene& scene) {
 }
 
 // The scene's vertices lie on the 1/256 px grid, so ours moves no vertex.
-TEST(Clipping, EdgesThatAreCutAtTheScreensEdgesAndSnappedAgainMove) {
+TEST(Clipping, ClippingAtTheScreenAndSnappingAgainMovesEdges) {
   const ClippingScene scene = make_case("along_the_rows");
   const auto truth = clipping_truth(scene);
   const Moved found = moved("screen_edges", scene);
@@ -122,8 +122,9 @@ TEST(Clipping, EdgesThatAreCutAtTheScreensEdgesAndSnappedAgainMove) {
   EXPECT_GT(s.hairline, found.pixels / 2);
 }
 
-// What an edge both ends of which are far out promises, and no more.
-TEST(Clipping, FarOutOnBothSidesFloatsMoveEdges) {
+// Floats move an edge if both its ends are far beyond the method's reach, and the promise excludes such
+// edges.
+TEST(Clipping, FloatsMoveEdgesWhoseEndsAreFarOutOnBothSides) {
   const struct {
     std::string_view name;
     double reach_px;
@@ -141,14 +142,14 @@ TEST(Clipping, FarOutOnBothSidesFloatsMoveEdges) {
   EXPECT_GT(judge("screen_edges", between).wrong(), 100u);
 }
 
-// How wrong an attribute is that runs from 0 to 1 along an edge and is interpolated linearly on the screen at
-// `fraction` of the way, where w runs from w0 to w1.
+// The error of an attribute from 0 to 1 along an edge that is interpolated linearly on the screen, at
+// `fraction` of the edge. w changes from w0 to w1.
 double linear_attribute_error(double w0, double w1, double fraction) {
   return std::abs(fraction - fraction / w1 / ((1 - fraction) / w0 + fraction / w1));
 }
 
-// Wrong by .41 half-way, and at most by (sqrt 10 - 1) / (sqrt 10 + 1).
-TEST(Clipping, LinearAttributesAreWrongWhereAnEdgeIsCut) {
+// The error is .41 half-way, and at most (sqrt 10 - 1) / (sqrt 10 + 1).
+TEST(Clipping, ScreenLinearAttributesAreWrongAlongClippedEdges) {
   const double most = (std::sqrt(10.0) - 1) / (std::sqrt(10.0) + 1);
   double worst = 0;
   for (int i = 0; i <= 1000; ++i) worst = std::max(worst, linear_attribute_error(1, 10, i / 1000.0));
@@ -167,9 +168,9 @@ TEST(Clipping, LinearAttributesAreWrongWhereAnEdgeIsCut) {
   }
 }
 
-// Keeps its promise on every scene: no error if nothing is cut, else no distance error above the bound, which
-// grows with the ratio of a triangle's distances; far over near is 500 in all of them.
-TEST(Clipping, LinearAttributesStayWithinTheirBound) {
+// The promise holds on every scene: no error if nothing is clipped, otherwise no distance error above the
+// bound. The bound grows with the ratio of a triangle's distances. Far over near is 500 in all scenes.
+TEST(Clipping, ScreenLinearAttributesStayWithinTheirBound) {
   const double most = (std::sqrt(500.0) - 1) / (std::sqrt(500.0) + 1);
   for (const auto& c : clipping_cases()) {
     const ClippingScene scene = c.make();
@@ -184,13 +185,13 @@ TEST(Clipping, LinearAttributesStayWithinTheirBound) {
 // The front end's depths are floats. Pictures are right while the depths of floor and wall, at the sample
 // nearest to their intersection, differ by more than kDepthTie01. With nearer near planes only visible
 // triangles near the intersection are wrong.
-TEST(Clipping, NearPlanesTooNearLeaveDepthNoSteps) {
+TEST(Clipping, ATooNearNearPlaneLeavesTooFewDepthSteps) {
   const auto seen = [](double near_z) {
     ClippingScene scene = floor_through_eye(static_cast<float>(near_z));
     scene.size = {128, 96};
     return scene;
   };
-  double closest = 1;  // of 1 / z, between floor and wall, over rows of samples
+  double closest = 1;  // the smallest difference of 1 / z between floor and wall, over rows of samples
   for (int y = 48; y < 96; ++y) closest = std::min(closest, std::abs((y + 0.5 - 48) / 96 - 0.1));
   const double limit = kDepthTie01 / closest;  // as depth is 1 - near / z
   EXPECT_LT(limit, 0.001);
@@ -207,7 +208,7 @@ TEST(Clipping, NearPlanesTooNearLeaveDepthNoSteps) {
   EXPECT_GT(wrong, 100u);
 }
 
-TEST(Clipping, EveryDirectionKeepsItsWinding) {
+TEST(Clipping, TrianglesClippedInEveryDirectionKeepTheirWinding) {
   for (int direction = 0; direction < kOutsideDirections; ++direction)
     for (const bool reversed : {false, true}) {
       const ClippingScene scene = outside_direction(direction, reversed);

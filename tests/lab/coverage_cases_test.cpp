@@ -20,7 +20,7 @@ TEST(CoverageCases, TheDrtkQuadShowsTheTieRules) {
   EXPECT_EQ(against_floats("float_top_left", quad).errors(), 0u);
 }
 
-TEST(CoverageCases, ASquareOnTheLatticeTiesAlongItsWholeDiagonal) {
+TEST(CoverageCases, TheDiagonalOfALatticeSquareConsistsOfTies) {
   const Picture& square = picture_of("lattice_square");
   EXPECT_EQ(against_floats("float_le", square).double_hits, 64u);
   EXPECT_EQ(against_floats("float_lt", square).gaps, 64u);
@@ -37,7 +37,7 @@ TEST(CoverageCases, FloatsOpenGapsInAFan) {
             10 * against_floats("float_top_left", fan).errors());
 }
 
-TEST(CoverageCases, FinerSnappingIsLessWrong) {
+TEST(CoverageCases, FinerSnappingMakesFewerErrors) {
   for (const auto name : {"fan", "mesh"}) {
     std::uint64_t coarser = ~std::uint64_t{0};
     for (const auto method : {"whole_pixel", "fixed_4", "fixed_8", "fixed_12", "fixed_16"}) {
@@ -73,7 +73,7 @@ TEST(CoverageCases, LegsOf2897PixelsWrap32BitsWithFourSubpixelBits) {
   EXPECT_EQ(against_grid("fixed_4", wraps).errors(), 0u);
 }
 
-TEST(CoverageCases, ATJunctionCracksAlikeInAllExactBackends) {
+TEST(CoverageCases, AllBackendsLeaveTheSameGapsAtATJunction) {
   const Picture &cracked = picture_of("t_junction"), &split = picture_of("t_junction_split");
   for (const auto& backend : backends()) {
     EXPECT_EQ(against_floats(backend.name, cracked).gaps, 199u) << backend.name;
@@ -89,7 +89,7 @@ TEST(CoverageCases, WholePixelVerticesLoseAndFlipSmallTriangles) {
             10 * against_floats("fixed_4", small).errors() / 2);
 }
 
-TEST(CoverageCases, AnEdgeBesideItsSamplesBeatsDoubles) {
+TEST(CoverageCases, DoublesMisjudgeAnEdgeNextToItsSamples) {
   const Picture& tie = picture_of("double_tie");
   EXPECT_EQ(against_floats("double_top_left", tie).missing, 64u);
   EXPECT_EQ(against_floats("double_top_left", tie).extra, 64u);

@@ -45,7 +45,7 @@ class EveryCoverageMethod : public ::testing::TestWithParam<std::string_view> {
   }
 };
 
-TEST_P(EveryCoverageMethod, IsWrongOnlyWithinItsReach) {
+TEST_P(EveryCoverageMethod, ErrsOnlyWithinItsReach) {
   for (const Window window : {Window{120, 90}, {64, 48, 4020, 4030}, {4096, 3, 0, 50}, {3, 4096, 4000, 0}})
     for (const auto family : testing::kFloatFamilies)
       for (const std::uint64_t seed : {1u, 2u})
@@ -54,7 +54,7 @@ TEST_P(EveryCoverageMethod, IsWrongOnlyWithinItsReach) {
                          std::to_string(window.height));
 }
 
-TEST_P(EveryCoverageMethod, IsWrongOnlyWithinItsReachOnTheGrid) {
+TEST_P(EveryCoverageMethod, ErrsOnlyWithinItsReachOnTheGrid) {
   for (const auto family : testing::kFamilies)
     expect_reach(testing::as_floats(adversarial(family, 100, 160, 120, 4)), {160, 120}, std::string(family));
 }
@@ -75,10 +75,10 @@ TEST_P(EveryCoverageMethod, KeepsToTheBoxOfTrianglesTooLargeForIt) {
       EXPECT_EQ(score.out_of_box, 0u) << x << ", " << y;
       extra += score.extra;
     }
-  EXPECT_GT(extra, 1000u) << "nothing wraps";
+  EXPECT_GT(extra, 1000u) << "no method overflows";
 }
 
-TEST_P(EveryCoverageMethod, LeavesNoGapOrDoubleHitInAMeshIfItSaysSo) {
+TEST_P(EveryCoverageMethod, LeavesNoGapOrDoubleHitInAMeshIfItPromisesThat) {
   const CoveragePromise& promise = method_.promise;
   if (!promise.no_gaps && !promise.no_double_hits) return;
   for (const double cell_px : {9.0, 40.0, 150.0})
@@ -110,7 +110,7 @@ TEST_P(EveryCoverageMethod, DiffersFromTheTruthSomewhereUnlessItIsExact) {
   EXPECT_GT(off_float_truth, 0u);
 }
 
-TEST_P(EveryCoverageMethod, IsWrongBySnappingAloneIfItIsExact) {
+TEST_P(EveryCoverageMethod, ErrsBySnappingAloneIfItIsExact) {
   if (!method_.info.exact) return;
   const auto expect_exact = [&](const Picture& picture, std::string_view what) {
     CoverageScore perfect{.triangles = picture.floats.size(), .covered = picture.by_grid.covered};
@@ -129,9 +129,8 @@ TEST_P(EveryCoverageMethod, IsWrongBySnappingAloneIfItIsExact) {
     expect_exact({hard_floats(family, 120, {97, 71}, 7), {97, 71}}, family);
 }
 
-// Triangles of constant depth, so that the nearest is known without rounding; few depths, so that ties are
-// many.
-TEST_P(EveryCoverageMethod, DrawsTheNearestOfItsOwnRuns) {
+// Triangles of constant depth, so that the nearest is known without rounding. Few depths cause many ties.
+TEST_P(EveryCoverageMethod, DrawsTheNearestTriangleThatItCovers) {
   constexpr int kWidth = 90, kHeight = 70;
   auto triangles = hard_floats("anywhere", 60, {kWidth, kHeight}, 3);
   for (auto& t : triangles) t.at.z01[0] = t.at.z01[1] = t.at.z01[2] = std::floor(t.at.z01[0] * 8.0f) / 8.0f;
@@ -159,8 +158,8 @@ TEST_P(EveryCoverageMethod, DrawsTheNearestOfItsOwnRuns) {
     }
 }
 
-TEST_P(EveryCoverageMethod, FindsTheSameFarFromTheOriginWhileItsNumbersHold) {
-  // A square off the samples; every coordinate and every product is exact in every method's numbers.
+TEST_P(EveryCoverageMethod, DrawsTheSameFarFromTheOriginIfNothingIsRounded) {
+  // No edge of the square touches a sample. Every coordinate and product is exact in every method.
   const auto square = [](float x, float y) {
     std::vector<FloatTriangle> list(
         2, {{{x + 2, x + 10, x + 10}, {y + 3, y + 3, y + 11}, {0.5f, 0.5f, 0.5f}}, 1});
@@ -173,7 +172,7 @@ TEST_P(EveryCoverageMethod, FindsTheSameFarFromTheOriginWhileItsNumbersHold) {
   EXPECT_EQ(far.by_grid.covered, 64u);
 }
 
-TEST_P(EveryCoverageMethod, SaysWhatItIs) {
+TEST_P(EveryCoverageMethod, IsDescribed) {
   for (const auto text : {method_.info.name, method_.info.summary, method_.info.source, method_.info.promise})
     EXPECT_FALSE(text.empty());
 }
@@ -189,7 +188,7 @@ TEST(CoverageRegistry, HoldsEveryFileInTheFolderAndEveryBackendOnce) {
   for (const auto& backend : backends()) expected.emplace(backend.name);
   for (const auto& method : coverage_methods()) names.emplace(method.info.name);
   EXPECT_TRUE(std::includes(names.begin(), names.end(), expected.begin(), expected.end()));
-  EXPECT_EQ(names.size(), coverage_methods().size()) << "a name stands there twice";
+  EXPECT_EQ(names.size(), coverage_methods().size()) << "two methods have the same name";
 }
 
 TEST(CoverageRegistry, SuggestsTheNearestName) {

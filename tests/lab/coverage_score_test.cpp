@@ -11,8 +11,8 @@ namespace {
 using testing::adversarial;
 using testing::Picture;
 
-// A triangle of 15 pixels and one of a single pixel in a 5 x 5 window at (10, 20), with expected scores by
-// hand.
+// A triangle of 15 pixels and one of a single pixel in a 5 x 5 window at (10, 20). The expected scores are
+// computed by hand.
 class Score : public ::testing::Test {
  protected:
   const Picture picture_{{{{{11.0f, 17.1f, 11.0f}, {21.0f, 21.0f, 27.1f}, {0, 0, 0}}, 1},
@@ -23,7 +23,7 @@ class Score : public ::testing::Test {
   }
 };
 
-TEST_F(Score, CountsEachErrorByItself) {
+TEST_F(Score, CountsEachKindOfErrorSeparately) {
   const std::vector<lab::Run> truth{{0, 21, 11, 15}, {0, 22, 11, 15}, {0, 23, 11, 15}, {0, 24, 11, 14}};
   ASSERT_EQ(picture_.by_floats.runs.size(), 4u + 1u);
   ASSERT_TRUE(std::equal(truth.begin(), truth.end(), picture_.by_floats.runs.begin()));
@@ -32,7 +32,7 @@ TEST_F(Score, CountsEachErrorByItself) {
 
   auto runs = truth;
   EXPECT_EQ(score(runs).missing, 1u);
-  EXPECT_EQ(score(runs).gaps, 0u) << "the other triangle is there";
+  EXPECT_EQ(score(runs).gaps, 0u) << "the other triangle draws the pixel";
   runs[0].x1 = 13;
   EXPECT_EQ(score(runs).missing, 3u);
   EXPECT_EQ(score(runs).gaps, 2u);
@@ -46,7 +46,7 @@ TEST_F(Score, CountsEachErrorByItself) {
   EXPECT_EQ(score(runs).extra, 2u);
   runs.push_back({0, 20, 10, 12});
   EXPECT_EQ(score(runs).extra, 4u);
-  EXPECT_EQ(score(runs).out_of_box, 2u) << "the other triangle's; the last ones' squares touch the box";
+  EXPECT_EQ(score(runs).out_of_box, 2u) << "the last run's pixels touch the box, so they do not count";
   runs.push_back({1, 24, 14, 15});
   EXPECT_EQ(score(runs).out_of_box, 3u);
   runs.push_back({1, 30, 10, 15});
@@ -57,7 +57,7 @@ TEST_F(Score, CountsEachErrorByItself) {
 }
 
 // Two triangles that share an edge, and one in front of them that shares no vertex with them.
-TEST(DoubleHits, AreOfNeighboursOrOfOneTriangle) {
+TEST(DoubleHits, AreBetweenNeighboursOrWithinOneTriangle) {
   const Picture picture{{{{{1, 7, 7}, {1, 1, 7}, {0, 0, 0}}, 1},
                          {{{1, 7, 1}, {1, 7, 7}, {0, 0, 0}}, 2},
                          {{{3, 9, 3}, {8, 8, 9}, {0, 0, 0}}, 3}},
@@ -73,8 +73,8 @@ TEST(DoubleHits, AreOfNeighboursOrOfOneTriangle) {
   EXPECT_EQ(double_hits({2, 6, 2, 4}), 0u) << "no neighbour";
 }
 
-// A square whose corners, and whose diagonal, lie on samples: what "<" rejects on the diagonal is a crack,
-// what it rejects on the outline is not.
+// A square whose corners and diagonal lie on samples. Pixels that "<" rejects on the diagonal are a gap,
+// those on the outline are not.
 TEST(Gaps, LieBetweenNeighboursAndNotOnTheOutline) {
   const Picture square{{{{{1.5f, 5.5f, 5.5f}, {1.5f, 1.5f, 5.5f}, {0, 0, 0}}, 1},
                         {{{1.5f, 5.5f, 1.5f}, {1.5f, 5.5f, 5.5f}, {0, 0, 0}}, 2}},
@@ -86,8 +86,9 @@ TEST(Gaps, LieBetweenNeighboursAndNotOnTheOutline) {
   EXPECT_EQ(testing::against_floats("float_top_left", square).errors(), 0u);
 }
 
-// The right edge is less than half a unit right of a column of samples; snapping puts it on them.
-TEST(Gaps, AreNotWhatAWatertightMethodLosesOnTheOutline) {
+// The right edge lies less than half a sub-unit to the right of a column of samples. Snapping moves it onto
+// them.
+TEST(Gaps, DoNotIncludeOutlinePixelsThatSnappingUncovers) {
   const float right = 4.5f + 1.0f / 1024;
   const Picture square{
       {{{{1, right, right}, {1, 1, 5}, {0, 0, 0}}, 1}, {{{1, right, 1}, {1, 5, 5}, {0, 0, 0}}, 2}}, {8, 8}};
@@ -108,7 +109,7 @@ TEST(Crossings, OfSharedEdgesCountOncePerEdge) {
   EXPECT_EQ(largest_side_px(std::vector{one, two}), 30.0f);
 }
 
-TEST(Crossings, AreSampleRowsOrColumnsWhicheverIsMore) {
+TEST(Crossings, AreTheLargerOfSampleRowsAndColumns) {
   const auto crossings = [](UnsnappedTriangle t) {
     return edge_crossings(std::vector{FloatTriangle{t, 1}}, {100, 50});
   };
@@ -118,7 +119,7 @@ TEST(Crossings, AreSampleRowsOrColumnsWhicheverIsMore) {
   EXPECT_EQ(crossings({{-9, -2, -5}, {1, 8, 30}, {}}), 0u) << "outside";
 }
 
-TEST(Differences, AreWhatTheListsDoNotShare) {
+TEST(Differences, AreHitsOfOnlyOneList) {
   Random random(17);
   for (int trial = 0; trial < 300; ++trial) {
     std::set<Hit> in_truth, in_drawn, missing, extra;
@@ -147,7 +148,7 @@ TEST(Differences, AreWhatTheListsDoNotShare) {
   }
 }
 
-TEST(DisjointGroups, KeepTrianglesThatTouchNoCommonPixelTogetherAndAllOthersApart) {
+TEST(DisjointGroups, HoldTrianglesWithoutCommonPixels) {
   const auto triangles = adversarial("tiny", 400, 80, 60, 2);
   std::set<std::uint32_t> seen;
   for (const auto& group : disjoint_groups(triangles, 80, 60)) {

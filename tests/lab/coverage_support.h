@@ -49,7 +49,7 @@ inline std::vector<lab::FloatTriangle> hard_floats(std::string_view family, int 
         x = t.x_px[0] + random.uniform(-0.02f, 0.02f);
         y = t.y_px[0] + random.uniform(-0.02f, 0.02f);
       }
-      if (family == "in-a-row" && i == 2) {  // no area except by rounding
+      if (family == "in-a-row" && i == 2) {  // collinear vertices: only rounding gives an area
         const float along = random.uniform(-0.5f, 1.5f);
         x = t.x_px[0] + along * (t.x_px[1] - t.x_px[0]);
         y = t.y_px[0] + along * (t.y_px[1] - t.y_px[0]);

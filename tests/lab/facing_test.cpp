@@ -61,7 +61,7 @@ TEST(Facing, OursIsTheSignOfTheSnappedAreaOnEveryScene) {
 }
 
 // Conversely, a sign computed before snapping is wrong for faces that snapping flips.
-TEST(Facing, TheSignBeforeSnappingIsWrongAboutWhatIsDrawn) {
+TEST(Facing, TheSignBeforeSnappingMisjudgesSnappedFaces) {
   const FacingScene scene = make_case("edge_on");
   const auto facts = facing_facts(scene);
   const auto ours = score(method("snapped_area"), scene, facts),
@@ -71,7 +71,7 @@ TEST(Facing, TheSignBeforeSnappingIsWrongAboutWhatIsDrawn) {
   EXPECT_EQ(ours.snapped.misclassified, 0u);
 }
 
-TEST(Facing, TheBoxBesideTheAxisIsMisjudgedByTheNormalsZAndByNoOther) {
+TEST(Facing, OnlyNormalZMisjudgesTheBoxBesideTheAxis) {
   const FacingScene scene = make_case("box_beside_the_axis");
   const auto facts = facing_facts(scene);
   EXPECT_TRUE(facts[0].floats.front && facts[0].floats.covers_sample);
@@ -87,7 +87,7 @@ TEST(Facing, TheBoxBesideTheAxisIsMisjudgedByTheNormalsZAndByNoOther) {
   EXPECT_EQ(front[0], 0);
 }
 
-TEST(Facing, TheNormalsZErrsByTheTiltOver180Degrees) {
+TEST(Facing, TheErrorRateOfNormalZIsTheTiltOver180Degrees) {
   for (const int degrees : {0, 15, 30, 60}) {
     const double tilt = degrees * 3.141592653589793 / 180;
     const auto perspective = judge("normal_z", tilted_faces(tilt, true, 3000, 7));
@@ -104,7 +104,7 @@ TEST(Facing, TheNormalsZErrsByTheTiltOver180Degrees) {
   }
 }
 
-TEST(Facing, TheProjectedAreaHasTheSignOfTheSideTheEyeIsOn) {
+TEST(Facing, TheSignOfTheProjectedAreaTellsTheCamerasSide) {
   const FacingScene scene = tilted_faces(0.5, true, 500, 3);
   const auto facts = facing_facts(scene);
   for (std::size_t i = 0; i < facts.size(); ++i) {
@@ -117,12 +117,13 @@ TEST(Facing, TheProjectedAreaHasTheSignOfTheSideTheEyeIsOn) {
 }
 
 // For an object that fills the view, no single ray fits all faces.
-TEST(Facing, OneRayForTheWholeObjectIsWrongUnderEitherCamera) {
+TEST(Facing, OneViewRayPerObjectErrsUnderBothProjections) {
   for (const bool perspective : {true, false}) {
     const auto s = judge("normal_dot_object", tilted_faces(0.5, perspective, 2000, 7));
     EXPECT_GT(20 * s.misclassified, s.faces) << (perspective ? "perspective" : "orthographic");
   }
-  EXPECT_EQ(judge("normal_dot_object", tilted_faces(0, true, 2000, 7)).misclassified, 0u) << "all on one ray";
+  EXPECT_EQ(judge("normal_dot_object", tilted_faces(0, true, 2000, 7)).misclassified, 0u)
+      << "one ray fits all faces";
 }
 
 // Any three vertices determine the orientation of a convex planar polygon. For other polygons, methods make
@@ -147,7 +148,7 @@ TEST(Facing, PolygonsAreJudgedByTheirFirstThreeVertices) {
     for (const auto& m : facing_methods()) {
       const auto s = score(m, scene, facts);
       EXPECT_EQ(s.broken, 0u) << m.info.name;
-      if (m.info.name == "normal_z" || m.info.name == "normal_dot_object") continue;  // err by the tilt
+      if (m.info.name == "normal_z" || m.info.name == "normal_dot_object") continue;  // they err by the tilt
       EXPECT_NEAR(static_cast<double>(s.floats.misclassified), static_cast<double>(lying), 2) << m.info.name;
       EXPECT_LE(s.floats.by_first_three, lying) << m.info.name;
     }
@@ -156,7 +157,7 @@ TEST(Facing, PolygonsAreJudgedByTheirFirstThreeVertices) {
 
 // The first three vertices are one of the quad's two triangles; the other one is larger on the screen and has
 // the opposite orientation.
-TEST(Facing, AQuadThatIsNotPlanarMayTurnTheOtherWay) {
+TEST(Facing, ANonPlanarQuadCanFaceOppositeToItsFirstTriangle) {
   FacingScene scene;
   scene.positions = {{-1, 0, 4}, {0, 0.5f, 4}, {1, 0, 4}, {0, 1, 6}};
   scene.faces = {{0, 4}};
@@ -170,7 +171,7 @@ TEST(Facing, AQuadThatIsNotPlanarMayTurnTheOtherWay) {
   }
 }
 
-TEST(Facing, NoMethodSurvivesAPolygonWhoseSecondVertexIsItsNotch) {
+TEST(Facing, EveryMethodMisjudgesAPolygonWithAConcaveSecondVertex) {
   const FacingScene scene = make_case("notch_second");
   for (const auto& m : facing_methods())
     EXPECT_EQ(judge(m.info.name, scene).misclassified, 1u) << m.info.name;

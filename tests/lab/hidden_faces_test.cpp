@@ -29,7 +29,7 @@ std::shared_ptr<Workload> workload_of(const Scene& scene, const lab::FacingMetho
   return workload;
 }
 
-TEST(HiddenFaces, FromFarAwayAreThoseOfTheWinding) {
+TEST(HiddenFaces, MatchWindingCullingFromFarAway) {
   Scene scene = std::get<Scene>(find_scene("cube").make({}));
   Mesh quads = scene.meshes[0];
   for (int i = 0; i < 12; ++i) quads.flags.push_back(i % 2 == 0 ? 0 : kSecondHalf);
@@ -55,7 +55,7 @@ TEST(HiddenFaces, FromFarAwayAreThoseOfTheWinding) {
   EXPECT_FALSE(exact->wrong_px());
 }
 
-TEST(HiddenFaces, AreMoreThanTheWindingsUnderPerspective) {
+TEST(HiddenFaces, ExceedWindingCullingUnderPerspective) {
   const auto workload = workload_of(viewer::box_aside(), &normal_z());
   EXPECT_EQ(workload->triangles().size(), 2u);  // its front; not its left side
   viewer::Session session = viewer::session_of(viewer::box_aside());
@@ -74,7 +74,7 @@ TEST(HiddenFaces, AreMoreThanTheWindingsUnderPerspective) {
   }
 }
 
-TEST(HiddenFaces, AreJudgedOnceByTheirFirstThreeVerticesAndStayIfTwoSided) {
+TEST(HiddenFaces, AreFoundByTheirFirstThreeVerticesAndNeverTwoSided) {
   // Each quad is folded along its diagonal, so that the second half lies on the first and faces the other
   // way.
   Mesh mesh{{{0, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0.2f, 0.9f, 0}}, {}, {}};

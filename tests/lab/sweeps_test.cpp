@@ -163,7 +163,7 @@ TEST(Sweeps, StartToFailWhereErrorsExceedThoseOfSnapping) {
   EXPECT_EQ(result.starts_to_fail(2), std::nullopt);
 }
 
-TEST(Sweeps, PlacesAreTheNumbersTheyAreWrittenAs) {
+TEST(Sweeps, PositionsAreTheNearestDoublesToTheirDecimals) {
   EXPECT_EQ(decades(-2, 0), (std::vector<double>{0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1}));
   EXPECT_EQ(decades(1, 0), (std::vector<double>{10, 5, 2, 1}));
   EXPECT_EQ(powers_of_two(-1, 2), (std::vector<double>{0.5, 1, 2, 4}));
@@ -182,11 +182,11 @@ TEST(CoverageSweeps, LegsOf182PixelsAreTheFirstThatWrap32Bits) {
   EXPECT_EQ(Found(legs, "float_le").start(), 64) << "ties on the diagonal";
 }
 
-TEST(CoverageSweeps, DistanceBreaksWhatAccumulatesAndWhatWraps) {
+TEST(CoverageSweeps, DistanceFromTheOriginBreaksDdas) {
   const SweepResult distance = swept("distance");
   const Found dda(distance, "dda_16_16"), floats(distance, "dda_float");
   EXPECT_LT(rate(dda.at(16384)), 1e-3);
-  EXPECT_GT(rate(dda.at(32768)), 1.0) << "nothing is where it should be past 32767 px";
+  EXPECT_GT(rate(dda.at(32768)), 1.0) << "no sample is right beyond 32767 px";
   EXPECT_GT(rate(floats.at(1 << 20)), 0.05);
   EXPECT_LT(rate(floats.at(256)), 1e-3);
   EXPECT_EQ(Found(distance, "fixed_16").start(), std::nullopt);
@@ -199,7 +199,7 @@ TEST(CoverageSweeps, DdaDriftsWithTheHeight) {
   EXPECT_EQ(Found(height, "fixed_12").start(), std::nullopt);
 }
 
-TEST(CoverageSweeps, WholePixelsFlickerMoreTheSlowerThePan) {
+TEST(CoverageSweeps, WholePixelVerticesFlickerMoreInSlowPans) {
   const SweepResult pan = swept("pan");
   const Found whole(pan, "whole_pixel");
   EXPECT_EQ(whole.start(), 0.5);
@@ -207,7 +207,7 @@ TEST(CoverageSweeps, WholePixelsFlickerMoreTheSlowerThePan) {
   EXPECT_EQ(Found(pan, "float_top_left").start(), std::nullopt);
 }
 
-TEST(CoverageSweeps, AMovingMeshShowsTiesAndHeightPlusOne) {
+TEST(CoverageSweeps, AMovingMeshBreaksFloatsWithoutTieRulesAndRoundedDdas) {
   const SweepResult translation = swept("translation");
   for (const auto method : {"float_le", "float_lt", "dda_rounded"})
     EXPECT_EQ(Found(translation, method).start(), 8) << method;
@@ -225,13 +225,13 @@ TEST(VisibilitySweeps, FewerBitsFailAtLargerSeparations) {
     EXPECT_GT(start("float_z"), 10 * start("contract31")) << name;
     EXPECT_EQ(start("submission_order"), separation.sweep->positions.front()) << name;
   }
-  // z^2 / (near 2^bits) lies between two planes that can be told apart: 1.5 and 0.006.
+  // The smallest separable distance z^2 / (near 2^bits) is 1.5 and 0.006.
   const SweepResult separation = swept("separation_at_100");
   EXPECT_NEAR(Found(separation, "unorm16").start().value(), 1.5, 1.0);
   EXPECT_NEAR(Found(separation, "unorm24").start().value(), 0.006, 0.004);
 }
 
-TEST(VisibilitySweeps, ThreeBarsMakeACycleThatNoOrderPaints) {
+TEST(VisibilitySweeps, NoOrderPaintsACycleOfThreeBars) {
   const SweepResult cycle = swept("cycle");
   for (const auto method : {"painter_farthest", "painter_mean", "submission_order"})
     EXPECT_EQ(Found(cycle, method).start(), 3) << method;
@@ -239,13 +239,13 @@ TEST(VisibilitySweeps, ThreeBarsMakeACycleThatNoOrderPaints) {
     EXPECT_EQ(Found(cycle, method).start(), std::nullopt) << method;
 }
 
-TEST(VisibilitySweeps, FloatDepthPlanesLeaveTheirTrianglesInSlivers) {
+TEST(VisibilitySweeps, FloatDepthPlanesExceedTheDepthsOfSlivers) {
   const SweepResult slivers = swept("sliver_depth");
   EXPECT_EQ(Found(slivers, "contract31").start(), std::nullopt);
   EXPECT_GE(Found(slivers, "float_z").start().value(), 1000);
 }
 
-TEST(FacingSweeps, NormalZErrsByTheTiltUnderPerspectiveAlone) {
+TEST(FacingSweeps, NormalZErrsInProportionToTheTiltUnderPerspectiveOnly) {
   const SweepResult perspective = swept("tilt_perspective"), orthographic = swept("tilt_orthographic");
   const Found normal_z(perspective, "normal_z"), eye(orthographic, "normal_dot_eye");
   for (const double tilt : perspective.sweep->positions) {
@@ -259,7 +259,7 @@ TEST(FacingSweeps, NormalZErrsByTheTiltUnderPerspectiveAlone) {
   EXPECT_EQ(Found(perspective, "normal_dot_eye").start(), std::nullopt);
 }
 
-TEST(FacingSweeps, SnappingTurnsFacesOfASubUnitAndFloatsMuchThinnerOnes) {
+TEST(FacingSweeps, SnappingFlipsFacesOneSubUnitThinAndFloatsMuchThinnerOnes) {
   const SweepResult edge_on = swept("edge_on");
   EXPECT_EQ(Found(edge_on, "snapped_area").start(), std::nullopt) << "it errs as snapping does";
   const auto& at = edge_on.at;
@@ -274,7 +274,7 @@ TEST(FacingSweeps, SnappingTurnsFacesOfASubUnitAndFloatsMuchThinnerOnes) {
   EXPECT_GT(floats.at(edge_on.sweep->positions.back()).errors, 0u);
 }
 
-TEST(ClippingSweeps, AVertexBeforeTheNearPlaneBreaksAllButClipping) {
+TEST(ClippingSweeps, OnlyClippingDrawsTrianglesAcrossTheNearPlane) {
   const SweepResult vertex = swept("vertex_w");
   for (const auto method : {"near_too_near", "discard_behind", "none"})
     EXPECT_EQ(Found(vertex, method).start(), 0.05) << method << ": the first position below 0.1";
@@ -282,7 +282,7 @@ TEST(ClippingSweeps, AVertexBeforeTheNearPlaneBreaksAllButClipping) {
     EXPECT_EQ(Found(vertex, method).start(), std::nullopt) << method;
 }
 
-TEST(ClippingSweeps, ANearPlaneTooNearLeavesNoDepth) {
+TEST(ClippingSweeps, ATooNearNearPlaneLeavesTooFewDepthSteps) {
   const SweepResult near_plane = swept("near_plane");
   EXPECT_LE(Found(near_plane, "near_guard").start().value(), 1e-4);
   for (const auto method : {"discard_behind", "none", "near_too_near"})

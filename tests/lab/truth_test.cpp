@@ -1,4 +1,4 @@
-// The two truths against rationals alone, against each other and against the contract's depth.
+// Compares the two truths with rational arithmetic, with each other and with the contract's depth.
 #include "lab/truth.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ bool covered_by_rationals(const UnsnappedTriangle& t, int px, int py) {
   return true;
 }
 
-TEST(FloatTruth, AgreesWithRationalsAlone) {
+TEST(FloatTruth, AgreesWithRationalArithmetic) {
   constexpr int kSide = 24;
   int covered = 0;
   for (const auto family : testing::kFloatFamilies)
@@ -63,7 +63,7 @@ TEST(FloatTruth, AgreesWithTheSnappedTruthOnTheGrid) {
   }
 }
 
-TEST(FloatTruth, KnowsTheFacingOfTrianglesThatDoublesCannotJudge) {
+TEST(FloatTruth, FindsTheFacingOfTrianglesThatDoublesCannotJudge) {
   const auto facing = [](float x, float y) {
     return FloatTruth({{0.0f, 3000.0f, x}, {0.0f, 3000.0f, y}, {0, 0, 0}}).facing();
   };
@@ -95,7 +95,7 @@ void expect_runs_of(std::span<const Triangle> triangles, Window window, const st
   for (const int threads : {1, 2}) EXPECT_EQ(covered_runs(triangles, window, threads), expected) << what;
 }
 
-TEST(CoveredRuns, AreThePixelsThatTheTruthsCover) {
+TEST(CoveredRuns, HoldThePixelsThatTheTruthsCover) {
   for (const Window window : {Window{40, 30}, {17, 23, 60, 300}}) {
     for (const auto family : testing::kFloatFamilies) {
       const auto floats = hard_floats(family, 120, window, 9);
@@ -108,7 +108,7 @@ TEST(CoveredRuns, AreThePixelsThatTheTruthsCover) {
   }
 }
 
-TEST(CoveredRuns, FollowManyTrianglesInOrder) {
+TEST(CoveredRuns, HoldThePixelsOfManyTrianglesInOrder) {
   const auto triangles = adversarial("tiny", 5'000, 60, 60, 1);
   expect_runs_of<SnappedTruth>(std::span(triangles), {60, 60}, "more than one chunk");
 }
@@ -120,7 +120,7 @@ void expect_inside(const Ball& ball, const mpq_class& exact) {
   ASSERT_LE(off, mpq_class(ball.error));
 }
 
-TEST(Ball, HoldsTheTruthAfterEveryOperation) {
+TEST(Ball, HoldsTheExactValueAfterEveryOperation) {
   Random random(3);
   for (int trial = 0; trial < 5'000; ++trial) {
     const auto number = [&] {
@@ -153,7 +153,7 @@ TEST(Ball, HoldsTheTruthAfterEveryOperation) {
   }
 }
 
-TEST(Depth, EstimatesHoldTheExactDepthAndMeetTheVertices) {
+TEST(Depth, EstimatesHoldTheExactDepthAndEqualItAtVertices) {
   for (const auto family : testing::kFloatFamilies)
     for (const auto& triangle : hard_floats(family, 60, {30, 30}, 12)) {
       const FloatTruth truth(triangle.at);
@@ -167,7 +167,7 @@ TEST(Depth, EstimatesHoldTheExactDepthAndMeetTheVertices) {
               mpq_class(double{at.z01[i]}));
 }
 
-TEST(Depth, OfTheContractIsWithinItsBoundOfTheTruth) {
+TEST(Depth, OfTheContractIsWithinItsStatedError) {
   double worst = 0.0;
   for (const auto family : testing::kFamilies)
     for (const auto& t : adversarial(family, 60, 90, 80, 13)) {

@@ -60,7 +60,7 @@ TEST(Visibility, EveryMethodKeepsItsPromiseAndFailsSomewhere) {
   for (const auto& m : visibility_methods()) EXPECT_GT(wrong[m.info.name], 0u) << m.info.name;
 }
 
-TEST(Visibility, TrianglesApartInDepthAreSortedRight) {
+TEST(Visibility, TrianglesOfDisjointDepthsAreSortedCorrectly) {
   for (const auto& m : visibility_methods()) {
     EXPECT_EQ(judge(m.info.name, make_case("back_to_front")).wrong_triangle, 0u) << m.info.name;
     EXPECT_EQ(judge(m.info.name, make_case("front_to_back")).wrong_triangle == 0,
@@ -69,7 +69,7 @@ TEST(Visibility, TrianglesApartInDepthAreSortedRight) {
   }
 }
 
-TEST(Visibility, NoOrderPaintsACycleOrAnIntersectionButDepthDoes) {
+TEST(Visibility, OnlyDepthMethodsDrawCyclesAndIntersections) {
   for (const auto name : {"bars_in_a_cycle", "interpenetrating"}) {
     const VisibilityScene scene = make_case(name);
     const auto visible = true_visible_triangles(scene);
@@ -83,7 +83,7 @@ TEST(Visibility, NoOrderPaintsACycleOrAnIntersectionButDepthDoes) {
 }
 
 // Gives one method another method's promise, to check that the score detects a broken promise.
-TEST(Visibility, OrdersAreHeldToTheirPromises) {
+TEST(Visibility, BrokenPromisesOfSortingMethodsAreCounted) {
   const VisibilityScene scene = make_case("front_to_back");
   const auto visible = true_visible_triangles(scene);
   VisibilityMethod unsorted = method("submission_order");
@@ -99,14 +99,14 @@ TEST(Visibility, OrdersAreHeldToTheirPromises) {
   EXPECT_GT(score(mean, floor, true_visible_triangles(floor)).broken, 0u);
 }
 
-TEST(Visibility, MeanDepthPutsTheFloorOverTheBox) {
+TEST(Visibility, MeanDepthPaintsTheFloorOverTheBox) {
   const VisibilityScene scene = make_case("floor_under_box");
   EXPECT_GT(judge("painter_mean", scene).wrong_triangle, 50u);
   EXPECT_EQ(judge("painter_farthest", scene).wrong_triangle, 0u);
   EXPECT_EQ(judge("contract31", scene).wrong_triangle, 0u);
 }
 
-// Painters sort polygons, by all their corners, and paint them whole.
+// Painter's methods sort polygons by all corners, and paint each polygon as a whole.
 TEST(Visibility, PaintersSortPolygonsByAllTheirCorners) {
   const auto wrong_pixels = [](std::string_view name, const VisibilityScene& scene) {
     return judge(name, scene).wrong_triangle;
@@ -114,7 +114,7 @@ TEST(Visibility, PaintersSortPolygonsByAllTheirCorners) {
   const VisibilityScene pentagon = make_case("pentagon_under_wall");
   ASSERT_EQ(pentagon.faces.size(), 2u);
   EXPECT_EQ(pentagon.faces[0].count, 3u);
-  // 46 is nearer than 50, so the pentagon is painted last: over all of the wall that stands before it.
+  // 46 is nearer than 50, so the pentagon is painted last, over the whole wall in front of it.
   EXPECT_GT(wrong_pixels("painter_mean", pentagon), 100u);
   EXPECT_EQ(wrong_pixels("painter_farthest", pentagon), 0u);
   VisibilityScene pieces = pentagon;
@@ -130,9 +130,9 @@ TEST(Visibility, PaintersSortPolygonsByAllTheirCorners) {
   }
 }
 
-// Near 0.1 at z = 100 separates z^2 / (near 2^bits), .006 with 24 bits and 1.5 with 16. The
-// planes reach from z = 90 to 110.
-TEST(Visibility, DepthFormatsSeparateWhatTheFormulaSays) {
+// At near 0.1 and z = 100, the smallest separable distance z^2 / (near 2^bits) is .006 with 24 bits and 1.5
+// with 16. The planes extend from z = 90 to 110.
+TEST(Visibility, DepthFormatsSeparatePlanesAsTheFormulaPredicts) {
   const struct {
     std::string_view name;
     double separates, does_not;
@@ -148,7 +148,7 @@ TEST(Visibility, DepthFormatsSeparateWhatTheFormulaSays) {
 }
 
 // Half of the picture is submitted back to front, half front to back, so that no method is favoured.
-TEST(Visibility, TwoPlanesFavourNoOrderOfSubmission) {
+TEST(Visibility, TwoPlanesFavourNoSubmissionOrder) {
   for (const double separation : {1.0, 1e-5}) {
     const VisibilityScene scene = two_planes(100, separation, 0.1, 1000);
     const auto s = judge("submission_order", scene);
@@ -156,14 +156,14 @@ TEST(Visibility, TwoPlanesFavourNoOrderOfSubmission) {
   }
 }
 
-TEST(Visibility, FloatPlanesLeaveASliversDepthAndOursDoesNot) {
+TEST(Visibility, FloatPlanesExceedASliversDepthAndOursDoesNot) {
   const VisibilityScene scene = make_case("slivers");
   EXPECT_EQ(judge("contract31", scene).out_of_range, 0u);
   EXPECT_LE(judge("contract31", scene).max_ulp, kOurWorst_ulp);
   for (const auto name : {"float_z", "reversed_z"}) EXPECT_GT(judge(name, scene).out_of_range, 0u) << name;
 }
 
-TEST(Visibility, OursIsTheContractsPicture) {
+TEST(Visibility, OursMatchesTheOracle) {
   for (const auto& c : visibility_cases()) {
     const VisibilityScene scene = c.make();
     std::vector<ScreenTriangle> triangles;
@@ -186,7 +186,7 @@ TEST(Visibility, OursIsTheContractsPicture) {
 }
 
 // No method can have a finer depth than the front end provides.
-TEST(Visibility, TheSmallestScenesHaveTheFrontEndsDepths) {
+TEST(Visibility, TheSmallestScenesHaveTheDepthsOfTheFrontEnd) {
   Scene scene;
   scene.camera.near_z = 0.1f, scene.camera.far_z = 1000.0f;
   scene.instances.resize(1);
@@ -205,14 +205,15 @@ TEST(Visibility, TheSmallestScenesHaveTheFrontEndsDepths) {
   EXPECT_GE(found, 12u);
 }
 
-// The distances are those of the positions, of clipped triangles, too, and not what a float depth gives back.
-TEST(Visibility, TheTruthOfAMeshHasTheDistancesOfItsPositions) {
+// The truth's distances come from the positions, also for clipped triangles, and not from float depths.
+TEST(Visibility, TheTruthOfAMeshHasUnroundedDistances) {
   Scene scene;
   scene.camera.near_z = 0.5f, scene.camera.far_z = 1000.0f;
   scene.instances.resize(2);
-  scene.instances[0].mesh = 1;  // so that ids and meshes run apart
+  scene.instances[0].mesh = 1;  // so that mesh order differs from instance order
   scene.meshes.push_back({{{-30, -20, -700.1f}, {30, -20, -700.3f}, {0, 20, -700.7f}}, {{0, 1, 2}}, {0}});
-  scene.meshes.push_back({{{0, -1, 5}, {-2, -1, -40}, {2, -1, -40}}, {{0, 1, 2}}, {0}});  // behind the eye
+  scene.meshes.push_back(
+      {{{0, -1, 5}, {-2, -1, -40}, {2, -1, -40}}, {{0, 1, 2}}, {0}});  // partly behind the camera
   const auto seen = visibility_scene(scene, {128, 96});
   ASSERT_EQ(seen.triangles.size(), 3u);
   for (std::size_t piece = 0; piece < 2; ++piece)
@@ -243,16 +244,16 @@ TEST(Visibility, OursIsNeverWorseThanAPlainDepthBuffer) {
       expect_never_worse("two planes", two_planes(distance, relative * distance, 0.1, 1000));
 }
 
-TEST(Visibility, JudgesWhatTheFrontEndMade) {
+TEST(Visibility, TrianglesOfTheFrontEndCanBeJudged) {
   const auto scene = seen_by_the_front_end("cube", {160, 120});
   const auto visible = true_visible_triangles(scene);
   EXPECT_EQ(score(method("contract31"), scene, visible).snapped.wrong_triangle, 0u);
   EXPECT_GT(score(method("submission_order"), scene, visible).snapped.wrong_triangle, 100u);
 }
 
-// The two truths of lab/truth.h know depth as rule 6 and as a float have it, ours as it was. They agree but
-// for depths that these roundings exchange.
-TEST(Visibility, BothTruthsAreThoseOfTheCoverageFamilyButForRoundedDepths) {
+// The two truths of lab/truth.h use depths rounded as in rule 6 and to float. This family's truths use the
+// unrounded distances. They may differ only where rounding swaps two depths.
+TEST(Visibility, BothTruthsMatchTheCoverageFamilysUpToDepthRounding) {
   for (const auto name : {"cube", "torus-knot"}) {
     const auto scene = seen_by_the_front_end(name, {160, 120});
     std::vector<FloatTriangle> floats;
@@ -277,9 +278,9 @@ TEST(Visibility, BothTruthsAreThoseOfTheCoverageFamilyButForRoundedDepths) {
   }
 }
 
-// All methods draw the snapped triangles, so that against the positions before snapping they err by what
-// snapping costs, and by what they get wrong themselves.
-TEST(Visibility, AgainstTheFloatPositionsSnappingIsAddedAndNoMore) {
+// All methods draw the snapped triangles. Against the positions before snapping, their errors are therefore
+// those of snapping and their own.
+TEST(Visibility, TheFloatTruthAddsOnlyTheErrorsOfSnapping) {
   const auto scene = seen_by_the_front_end("torus-knot", {320, 240});
   const auto visible = true_visible_triangles(scene);
   std::uint64_t by_snapping = 0;
@@ -290,16 +291,16 @@ TEST(Visibility, AgainstTheFloatPositionsSnappingIsAddedAndNoMore) {
     const auto s = score(m, scene, visible);
     EXPECT_LE(s.floats.wrong_triangle, by_snapping + s.snapped.wrong_triangle) << m.info.name;
     EXPECT_GE(s.floats.wrong_triangle + s.snapped.wrong_triangle, by_snapping) << m.info.name;
-    // Moving a plane by up to 1/256 px costs far more than 31 bits resolve, and hardly anything of 16.
+    // Moving a plane by up to 1/256 px changes depths by far more than a unit of 31 bits.
     if (m.info.name == "contract31") {
       EXPECT_GT(s.floats.max_ulp, 10 * s.snapped.max_ulp);
     }
   }
 }
 
-// Rule 6: each depth is within kDepthError of the exact plane through the vertices' depths, so the wrong
-// owner can only win where the two planes are nearer to one another than twice that.
-TEST(Visibility, OursErrsOnlyWhereDepthsAreNearerThanTwiceTheContractsError) {
+// Rule 6: each depth is within kDepthError of the exact plane through the vertices' depths. A wrong triangle
+// can be visible only where the two planes are closer than twice that error.
+TEST(Visibility, OursErrsOnlyBetweenDepthsWithinTwiceTheContractsError) {
   std::size_t wrong = 0;
   for (const auto& c : visibility_cases()) {
     const VisibilityScene scene = c.make();

@@ -28,7 +28,7 @@ TEST(CoverageVisibleTriangles, TieRulesDecideTheDiagonalOfTheDrtkQuad) {
   EXPECT_EQ(visible_triangles_of("float_top_left", quad), VisibleTriangleScore{});
 }
 
-TEST(CoverageVisibleTriangles, OfBackendsAreExactAndTheirDepthsKeepRuleSix) {
+TEST(CoverageVisibleTriangles, OfBackendsAreExactAndDepthsSatisfyRuleSix) {
   for (const CoverageCase& c : coverage_cases()) {
     const Picture& picture = picture_of(c.name);
     const VisibleTriangleJudge judge(picture.input, c.size, 2);
@@ -43,7 +43,7 @@ TEST(CoverageVisibleTriangles, OfBackendsAreExactAndTheirDepthsKeepRuleSix) {
 
 // Intersecting triangles: if two depths differ by less than the error of rule 6, the wrong triangle may be
 // visible.
-TEST(CoverageVisibleTriangles, OfBackendsAreWrongOnlyWhereRuleSixExplainsIt) {
+TEST(CoverageVisibleTriangles, OfBackendsErrOnlyWithinTheDepthErrorOfRuleSix) {
   for (const auto family : testing::kFamilies) {
     const auto grid = testing::adversarial(family, 150, 120, 90, 8);
     const Picture picture(testing::as_floats(grid), {120, 90});
@@ -53,7 +53,7 @@ TEST(CoverageVisibleTriangles, OfBackendsAreWrongOnlyWhereRuleSixExplainsIt) {
   }
 }
 
-TEST(CoverageVisibleTriangles, DepthsErrByAsManyLastPlacesAsBruteForceFinds) {
+TEST(CoverageVisibleTriangles, DepthErrorsInUlpMatchBruteForce) {
   const Picture picture({{{{3.3f, 60.1f, 20.7f}, {2.9f, 13.2f, 58.8f}, {0.1f, 0.7f, 0.45f}}, 1}}, {64, 64});
   const CoverageMethod& method = find_coverage_method("float_top_left");
   Canvas canvas(64, 64);

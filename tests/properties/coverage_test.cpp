@@ -83,7 +83,7 @@ std::vector<StreamTriangle> neighbour(const StreamTriangle& t, int edge) {
   return {{{b, a, glm::vec3(opposite, 0.5f)}, t.colour}};
 }
 
-TEST_F(CoverageProperties, SplittingASharedEdgeInBothNeighboursChangesNone) {
+TEST_F(CoverageProperties, SplittingASharedEdgeInBothNeighboursKeepsHitCounts) {
   check(grid_streams(), 300, [&](const TriangleStream& stream) {
     Verdict verdict;
     const auto split = [&](const StreamTriangle& whole, int edge, int tenths) {
@@ -107,7 +107,7 @@ TEST_F(CoverageProperties, SplittingASharedEdgeInBothNeighboursChangesNone) {
   });
 }
 
-TEST_F(CoverageProperties, MovingByWholePixelsChangesNone) {
+TEST_F(CoverageProperties, MovingByWholePixelsKeepsHitCounts) {
   const auto moving = [&](const TriangleStream& stream) {
     Verdict verdict;
     for (const Move move : {Move{1, 0}, Move{0, 1}, Move{63, 17}, Move{5, 130}}) {
@@ -190,7 +190,7 @@ TEST_F(CoverageProperties, MirroringChangesSamplesOnEdgesOnly) {
   EXPECT_GT(difference.differing, 0u);
 }
 
-TEST_F(CoverageProperties, ClippingAtTheGuardBandChangesSamplesVeryNearEdgesOnly) {
+TEST_F(CoverageProperties, ClippingAtTheGuardBandChangesSamplesNearEdgesOnly) {
   constexpr double kReachSub = 1.0;
   Difference difference;
   Frontend frontend;

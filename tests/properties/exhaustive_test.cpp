@@ -87,7 +87,7 @@ Counterexample narrowed(const std::vector<ScreenTriangle>& batch, const Framebuf
   return {property(lab::to_stream(batch, kSidePx, kSidePx)), 0};
 }
 
-// Up to the first difference. Counts the triangles drawn, by all painters in all ways.
+// Stops at the first difference. Counts the triangles drawn, over all backends and executions.
 SearchResult draw_all(const Lattice& lattice, const std::vector<Painter>& painters,
                       const std::vector<AblatedExecution>& ways) {
   SearchResult result;
@@ -116,7 +116,7 @@ SearchResult draw_all(const Lattice& lattice, const std::vector<Painter>& painte
 
 class EveryTriangle : public ::testing::TestWithParam<Lattice> {};
 
-TEST_P(EveryTriangle, OfTheLatticeIsDrawnLikeTheOracles) {
+TEST_P(EveryTriangle, OnTheLatticeMatchesTheOracle) {
   const SearchResult result = draw_all(GetParam(), painters(backends()), all_targets());
   RecordProperty("cases", std::to_string(result.cases));
   RecordProperty("comparisons", std::to_string(result.comparisons));
@@ -133,7 +133,7 @@ std::vector<Lattice> lattices() {
 INSTANTIATE_TEST_SUITE_P(Lattices, EveryTriangle, ::testing::ValuesIn(lattices()),
                          [](const auto& lattice) { return lattice.param.name; });
 
-TEST(EveryTriangle, FindsAWrongBackend) {
+TEST(EveryTriangle, ComparisonFindsAWrongBackend) {
   for (const BackendInfo& wrong : {mistaken<Mistake::samples_on_all_edges_are_inside>(),
                                    mistaken<Mistake::one_lane_is_a_unit_deeper>()}) {
     const SearchResult result =

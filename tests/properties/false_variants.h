@@ -25,7 +25,7 @@ class Mistaken : public Backend {
         for (contract::Edge& edge : edges)
           if (!contract::is_top_left(edge.a, edge.b)) ++edge.c;
       const contract::DepthPlane plane = contract::make_depth(t);
-      // The box holds every sample that the triangle touches, even where the mistake is to take too many.
+      // The box holds every sample that the triangle touches, since some variants cover too many samples.
       const auto [min_x, max_x] = std::minmax({t.x[0], t.x[1], t.x[2]});
       const auto [min_y, max_y] = std::minmax({t.y[0], t.y[1], t.y[2]});
       for (int y = std::max(min_y / contract::kSub, 0);

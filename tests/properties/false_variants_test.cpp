@@ -28,7 +28,7 @@ struct Variant {
 
 class WrongBackend : public ::testing::TestWithParam<Variant> {};
 
-TEST_P(WrongBackend, ComesBackAsASmallStreamThatShowsItAgain) {
+TEST_P(WrongBackend, IsFoundAndReducedToASmallStreamThatReproducesIt) {
   const auto wrong = painters(std::span(&GetParam().wrong, 1));
   const SearchResult result = search(grid_streams(), 300, like_the_oracles(wrong, {AblatedExecution{}}));
   ASSERT_TRUE(result.found.has_value());
@@ -68,10 +68,10 @@ INSTANTIATE_TEST_SUITE_P(All, WrongBackend,
                                                    2},
                                            Variant{"one_lane_is_a_unit_deeper",
                                                    mistaken<Mistake::one_lane_is_a_unit_deeper>(), 1}),
-                         [](const auto& plant) { return std::string(plant.param.name); });
+                         [](const auto& variant) { return std::string(variant.param.name); });
 
-TEST(PropertyCheck, FailsWithTheFileAndTheCommand) {
-  const auto file = failure_folder() / "PropertyCheck.FailsWithTheFileAndTheCommand.tri";
+TEST(PropertyCheck, FailureNamesTheFileAndTheCommand) {
+  const auto file = failure_folder() / "PropertyCheck.FailureNamesTheFileAndTheCommand.tri";
   EXPECT_NONFATAL_FAILURE(
       check(grid_streams(), 10,
             [](const TriangleStream& stream) {
@@ -82,7 +82,7 @@ TEST(PropertyCheck, FailsWithTheFileAndTheCommand) {
   std::filesystem::remove(file);
 }
 
-TEST(PropertyCheck, ComparesPicturesThatShouldBeTheSame) {
+TEST(PropertyCheck, FailureComparesPicturesThatShouldBeEqual) {
   TriangleStream stream{9, 9, {{{{0, 0, 0}, {8, 0, 0}, {0, 8, 0}}, 0xFF00FF00}}};
   Counterexample found{{1, "look different", {stream, stream}, true}, 0};
   const TempDir folder;
@@ -95,7 +95,7 @@ TEST(PropertyCheck, ComparesPicturesThatShouldBeTheSame) {
   EXPECT_EQ(status(), 1);
 }
 
-TEST(PropertyCheck, TakesAnExceptionForAFailure) {
+TEST(PropertyCheck, CountsAnExceptionAsAFailure) {
   const auto refuse = [](const TriangleStream& stream) -> Verdict {
     if (stream.triangles.size() > 1) throw std::runtime_error("cannot draw two");
     return {};

@@ -22,8 +22,8 @@ inline std::string text(Move move) {
   return "moved by " + std::to_string(move.x) + ", " + std::to_string(move.y) + " px";
 }
 
-// A stream and the moved one, whose image is larger by the move. Both lack the triangles that would leave the
-// guard band.
+// A stream and its moved copy, whose image is larger by the move. Triangles that would leave the guard band
+// are removed from both.
 inline std::pair<TriangleStream, TriangleStream> before_and_after(const TriangleStream& stream, Move move) {
   std::pair<TriangleStream, TriangleStream> both{{stream.width, stream.height, {}},
                                                  {stream.width + move.x, stream.height + move.y, {}}};

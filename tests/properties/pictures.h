@@ -15,7 +15,7 @@
 
 namespace edgewise::testing {
 
-// Pixels → sub-units, half to even; by doubles, apart from the front end.
+// Pixels → sub-units, half to even; computed in double, independently of the front end.
 std::int32_t snapped_to_grid(float px);
 
 // Positions by snapped_to_grid(). Unlike the front end's, triangles stay that lie outside the image or have
@@ -29,19 +29,19 @@ struct Painter {
 };
 std::vector<Painter> painters(std::span<const BackendInfo> infos);
 
-// The plainest way to execute, and the fastest on one thread.
+// On one thread: the scalar target, and the best SIMD target.
 std::span<const AblatedExecution> two_executions();
 
 Framebuffer drawn(const Painter& painter, std::span<const ScreenTriangle> triangles, int width, int height,
                   const AblatedExecution& execution);
 
-// Compares the picture that each painter makes in each way with `expected`.
+// Compares each painter's picture in each execution with `expected`.
 void compare_pictures(Verdict& verdict, const Framebuffer& expected, std::span<const Painter> painters,
                       std::span<const ScreenTriangle> triangles, std::span<const AblatedExecution> ways,
                       const std::string& what);
 
-// The oracle's picture is every painter's, with ids and with colours, in every way to execute; `painters`
-// must outlive the property.
+// Every painter draws the oracle's picture, with ids and with colours, in every execution. `painters` must
+// outlive the property.
 Property like_the_oracles(const std::vector<Painter>& painters, std::vector<AblatedExecution> ways);
 
 }  // namespace edgewise::testing

@@ -18,7 +18,7 @@ class Properties : public ::testing::Test {
  protected:
   const std::vector<Painter> painters_ = painters(backends());
 
-  // Compares each painter's pictures of `changed`, in both ways, with its scalar picture of `triangles`.
+  // Compares each painter's pictures of `changed`, in both executions, with its scalar one of `triangles`.
   void compare_with_own(Verdict& verdict, std::span<const ScreenTriangle> triangles,
                         std::span<const ScreenTriangle> changed, const TriangleStream& stream,
                         const std::string& what) const {
@@ -30,7 +30,7 @@ class Properties : public ::testing::Test {
   }
 };
 
-TEST_F(Properties, EveryBackendDrawsTheOraclesDepthIdsAndColoursInEveryWay) {
+TEST_F(Properties, EveryBackendMatchesTheOracleInEveryExecution) {
   check(grid_streams(), 1'500, like_the_oracles(painters_, executions()));
 }
 
@@ -42,7 +42,7 @@ TriangleStream on_grid(const TriangleStream& stream) {
   return result;
 }
 
-TEST_F(Properties, StreamsOffTheGridAreSnappedToTheNearestPointHalfToEven) {
+TEST_F(Properties, VerticesOffTheGridAreSnappedHalfToEven) {
   Frontend frontend;
   check(float_streams(), 2'000, [&](const TriangleStream& stream) {
     Verdict verdict{.replay = {stream, on_grid(stream)}, .replay_by_pictures = true};
@@ -63,14 +63,14 @@ StreamTriangle reordered(const StreamTriangle& t, const std::array<int, 3>& orde
   return {{t.vertex[order[0]], t.vertex[order[1]], t.vertex[order[2]]}, t.colour};
 }
 
-TEST_F(Properties, RotatingOrFlippingTheVerticesChangesNothing) {
+TEST_F(Properties, RotatingOrReversingTheVertexOrderChangesNothing) {
   constexpr std::array<std::array<int, 3>, 5> kOrders{
       {{1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
   check(grid_streams(), 1'500, [&](const TriangleStream& stream) {
     Verdict verdict{.replay = {stream}, .replay_by_pictures = true};
     for (std::size_t order = 0; order <= kOrders.size(); ++order) {
       TriangleStream changed = stream;
-      for (std::size_t i = 0; i < changed.triangles.size(); ++i)  // at last each in its own way
+      for (std::size_t i = 0; i < changed.triangles.size(); ++i)  // finally, each triangle differently
         changed.triangles[i] =
             reordered(stream.triangles[i], kOrders[order == kOrders.size() ? i % order : order]);
       compare_with_own(verdict, snapped(stream, Payload::id), snapped(changed, Payload::id), stream,
@@ -84,7 +84,7 @@ TEST_F(Properties, RotatingOrFlippingTheVerticesChangesNothing) {
   });
 }
 
-TEST_F(Properties, TrianglesWithoutAreaMayStayOrGo) {
+TEST_F(Properties, TrianglesWithoutAreaChangeNothing) {
   check(grid_streams(), 2'000, [&](const TriangleStream& stream) {
     TriangleStream more{stream.width, stream.height, {}};
     for (const StreamTriangle& t : stream.triangles) {
@@ -105,7 +105,7 @@ TEST_F(Properties, TrianglesWithoutAreaMayStayOrGo) {
   });
 }
 
-TEST_F(Properties, TheEarlierTriangleIsKeptAtATie) {
+TEST_F(Properties, DepthTiesKeepTheEarlierTriangle) {
   check(grid_streams(), 2'000, [&](const TriangleStream& stream) {
     TriangleStream twice = stream;
     for (const StreamTriangle& t : stream.triangles) twice.triangles.push_back(reordered(t, {2, 1, 0}));
@@ -116,7 +116,7 @@ TEST_F(Properties, TheEarlierTriangleIsKeptAtATie) {
   });
 }
 
-TEST_F(Properties, TheFirstTriangleOfAPixelIsKeptWhereAllDepthsAreEqual) {
+TEST_F(Properties, EqualDepthsKeepTheFirstTriangleOfEachPixel) {
   check(grid_streams(), 500, [&](const TriangleStream& stream) {
     TriangleStream flat = stream;
     for (StreamTriangle& t : flat.triangles)
@@ -161,7 +161,7 @@ TEST_F(Properties, MovingByMultiplesOf64PixelsChangesNothing) {  // the cell of 
   });
 }
 
-// Empty if both show the same payloads, and depths whose errors (rule 6) may explain how they differ.
+// Empty if both show the same payloads, and depths that differ by no more than rule 6 allows.
 std::string difference_beyond_rounding(const Framebuffer& a, const Framebuffer& b) {
   int payloads = 0, depths = 0;
   for (int y = 0; y < a.height(); ++y)
@@ -174,7 +174,7 @@ std::string difference_beyond_rounding(const Framebuffer& a, const Framebuffer& 
   return std::to_string(payloads) + " payloads and " + std::to_string(depths) + " depths differ";
 }
 
-TEST_F(Properties, MovingATriangleByWholePixelsKeepsItsSamplesAndNearlyItsDepths) {
+TEST_F(Properties, MovingByWholePixelsKeepsSamplesAndBoundsTheDepthChange) {
   check(grid_streams(), 100, [&](const TriangleStream& stream) {
     Verdict verdict;
     for (const Move move : {Move{1, 0}, Move{0, 63}, Move{29, 101}}) {

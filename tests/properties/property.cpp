@@ -33,7 +33,7 @@ std::filesystem::path write(const TriangleStream& stream, const std::filesystem:
   return path;
 }
 
-// A run of the program, for a shell.
+// A shell command that runs the program.
 std::string command(const std::string& options, const std::vector<std::string>& files) {
   std::string text = "'" EDGEWISE_PROGRAM "' ";
   text += options;

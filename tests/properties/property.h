@@ -21,7 +21,7 @@ struct Verdict {
   std::string wrong = {};         // the first difference; empty if the property holds
   std::vector<TriangleStream>
       replay;                       // the streams to draw to see it: this one, and what it was compared with
-  bool replay_by_pictures = false;  // each may be drawn faithfully, but the first two should look the same
+  bool replay_by_pictures = false;  // each may match the oracle, but the first two should look the same
 
   // Counts a comparison; `difference` is empty if it found none.
   void compare(const std::string& difference, const std::string& what) {
@@ -48,14 +48,14 @@ struct SearchResult {
 // Tries `cases` streams of growing size, up to the first that breaks the property.
 SearchResult search(const rc::Gen<TriangleStream>& streams, int cases, const Property& property);
 
-// Writes what is to be replayed as FOLDER/NAME.tri, NAME-2.tri … and returns the message: what is wrong,
-// where the files are, and the command that shows it again.
+// Writes the streams to replay as FOLDER/NAME.tri, NAME-2.tri … and returns the message: the difference, the
+// files, and the command that reproduces it.
 std::string report(const Counterexample& found, const std::filesystem::path& folder, const std::string& name);
 
 // The folder for the files of failed properties: property-failures, beside the program.
 std::filesystem::path failure_folder();
 
-// Fails the running test with a report, whose files are named after the test.
+// Fails the current test with a report. Its files are named after the test.
 void fail(const Counterexample& found);
 
 // Searches, and fails if there is a counterexample. `cases` is the default number; the full size tries

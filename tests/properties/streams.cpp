@@ -20,7 +20,7 @@ using contract::kSub;
 
 // How streams shrink: fewer triangles, a smaller image, nearer to the origin, rounder numbers.
 
-// To the grid first, then towards 0.
+// Snapped to the grid first, then towards 0.
 rc::Seq<float> simpler_positions(float px) {
   const std::int32_t sub = snapped_to_grid(px);
   if (pixels(sub) != px) return rc::seq::just(pixels(sub));
@@ -73,7 +73,7 @@ rc::Seq<TriangleStream> cropped(const TriangleStream& stream, int axis) {
   });
 }
 
-// One coordinate, wherever it occurs: shared vertices and copies stay what they are.
+// Changes one coordinate everywhere it occurs, so that shared vertices and copies stay equal.
 rc::Seq<TriangleStream> simpler_shared_coordinates(const TriangleStream& stream, int axis) {
   std::vector<float> values;
   for (const StreamTriangle& t : stream.triangles)
@@ -186,20 +186,21 @@ TriangleStream make_grid_stream(Random& random, int size) {
 }
 
 TriangleStream make_float_stream(Random& random, int size) {
-  constexpr int kFraction = 8;            // of a sub-unit
-  constexpr float kRoomForIt = 4'096.0f;  // px; farther out floats are too coarse
+  constexpr int kStepsPerSubUnit = 8;
+  constexpr float kFinePositions_px = 4'096.0f;  // beyond, floats are coarser than such a step
   TriangleStream stream = make_grid_stream(random, size);
   for (StreamTriangle& t : stream.triangles)
     for (glm::vec3& v : t.vertex) {
       for (const int axis : {0, 1})
-        if (std::abs(v[axis]) < kRoomForIt)
-          v[axis] += static_cast<float>(between(random, -kFraction, kFraction)) / (kFraction * kSub);
+        if (std::abs(v[axis]) < kFinePositions_px)
+          v[axis] += static_cast<float>(between(random, -kStepsPerSubUnit, kStepsPerSubUnit)) /
+                     (kStepsPerSubUnit * kSub);
       if (random.below(8) == 0) v.z = random.below(2) == 0 ? 1.0f : 1e-40f;
     }
   return stream;
 }
 
-// Half of the triangles get one vertex far away, half an edge from far away to far away through the image.
+// Half of the triangles get one distant vertex, half an edge with two distant ends that crosses the image.
 TriangleStream make_far_stream(Random& random, int size) {
   TriangleStream stream = make_float_stream(random, size);
   const auto far = [&](glm::vec3& v, glm::vec2 direction) {

@@ -1,5 +1,5 @@
-// Triangulations: a rectangle of two triangles into which points are put, one after another, and in which
-// edges are flipped at last. All by exact integers, so that neighbours share whole edges and none overlap.
+// Triangulations: starts with a rectangle of two triangles, inserts points one by one, and finally flips
+// edges. All arithmetic is on exact integers, so neighbours share whole edges and no triangles overlap.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -66,7 +66,7 @@ void flip(std::vector<Triangle>& mesh, std::uint32_t edge) {
     }
 }
 
-// Depths and colours are of no account to coverage; they make a picture in which triangles can be told apart.
+// Coverage ignores depths and colours. They only make triangles distinguishable in a picture.
 TriangleStream build(const Recipe& recipe) {
   const auto [left, top] = recipe.low;
   const auto [right, bottom] = recipe.high;
@@ -86,8 +86,8 @@ TriangleStream build(const Recipe& recipe) {
 Recipe make_recipe(Random& random, int size) {
   const int width = between(random, 1, 90), height = between(random, 1, 90);
   Recipe recipe{width, height, {}, {}, {}, {}};
-  // From the lattice, from sample to sample (the right and lower side then lie on samples of the next pixels,
-  // the left and upper on our own), from anywhere around, or over the whole guard band.
+  // The rectangle's corners lie on pixel corners, on samples (the lower right ones on samples of the next
+  // pixels), at random points around the image, or on the guard band.
   const std::int32_t out = between(random, 0, 3);
   const auto below = [&] {
     return out == 0 ? 0 : out == 1 ? 128 : out == 2 ? -between(random, 0, 999) : -kGuardSub;

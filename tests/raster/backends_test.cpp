@@ -15,14 +15,14 @@ using testing::adversarial;
 using testing::EveryBackend;
 using testing::kBackground;
 
-TEST_P(EveryBackend, DrawsTheOraclesPictureForEveryFamily) {
+TEST_P(EveryBackend, MatchesTheOracleForEveryFamily) {
   for (const auto family : testing::kFamilies)
     for (const int count : {1, 7, 200})
       expect_oracle(adversarial(family, count, 97, 71, static_cast<std::uint64_t>(count)), 97, 71,
                     std::string(family));
 }
 
-TEST_P(EveryBackend, DrawsTheOraclesPictureAtEverySize) {
+TEST_P(EveryBackend, MatchesTheOracleAtEverySize) {
   for (const auto& [width, height] : {std::pair{1, 1},
                                       {1, 64},
                                       {64, 1},
@@ -38,7 +38,7 @@ TEST_P(EveryBackend, DrawsTheOraclesPictureAtEverySize) {
                     std::to_string(width) + "x" + std::to_string(height));
 }
 
-TEST_P(EveryBackend, DrawsTheOraclesPictureForManyChunks) {
+TEST_P(EveryBackend, MatchesTheOracleForManyChunks) {
   // More than one bin chunk and index block, in a small image because the oracle is slow.
   auto triangles = adversarial("tiny", 12'000, 40, 40, 3);
   const auto big = adversarial("subpixel", 20, 40, 40, 4);
@@ -68,7 +68,7 @@ TEST_P(EveryBackend, KeepsNothingOfThePreviousFrame) {
     }
 }
 
-TEST_P(EveryBackend, DrawsTheOraclesPictureBeyondTheMaskMemory) {
+TEST_P(EveryBackend, MatchesTheOracleWhenMasksExceedTheirMemory) {
   // At most 8 px wide and high, so that binning makes coverage masks, but most triangles span more than two
   // mask quadrants of 8 x 8.
   std::vector<ScreenTriangle> triangles(12'000);
@@ -93,11 +93,11 @@ TEST_P(EveryBackend, ReachesTheFarCornerOfTheLargestImage) {
     expect_oracle(adversarial("subpixel", 6, width, height, 2), width, height, "largest side");
 }
 
-TEST_P(EveryBackend, DrawsNothingButBackgroundWithoutTriangles) {
+TEST_P(EveryBackend, DrawsOnlyBackgroundWithoutTriangles) {
   expect_oracle({}, 70, 70, "no triangles");
 }
 
-TEST_P(EveryBackend, KeepsTheEarlierTriangleAtATie) {
+TEST_P(EveryBackend, TiesKeepTheEarlierTriangle) {
   const ScreenTriangle first{{0, 40 * 256, 3 * 256}, {0, 0, 40 * 256}, {5000, 5000, 5000}, 1};
   ScreenTriangle second = first;
   second.payload = 2;
@@ -110,7 +110,7 @@ TEST_P(EveryBackend, KeepsTheEarlierTriangleAtATie) {
 }
 
 // Small and large triangles may be in different lists, whose blocks fill up at different triangles.
-TEST_P(EveryBackend, KeepsTheEarlierOfASmallAndALargeTriangleAtATie) {
+TEST_P(EveryBackend, TiesKeepTheEarlierOfASmallAndALargeTriangle) {
   const auto right_angled = [](int at_px, int side_px, std::uint32_t z, std::uint32_t payload) {
     const std::int32_t begin = at_px * kSub, end = (at_px + side_px) * kSub;
     return ScreenTriangle{{begin, end, begin}, {begin, begin, end}, {z, z, z}, payload};
@@ -122,16 +122,16 @@ TEST_P(EveryBackend, KeepsTheEarlierOfASmallAndALargeTriangleAtATie) {
     const auto add_small = [&](int at_px) { triangles.push_back(right_angled(at_px, 3, z, 2)); };
     for (std::uint32_t i = 0; i < before; ++i, z -= 10) add_large(0);
     z += 10;
-    add_small(2);  // behind the last large one
+    add_small(2);  // submitted after the last large one
     z -= 10;
-    add_small(6);  // before the next
+    add_small(6);  // submitted before the next large one
     add_large(6);
     expect_oracle(triangles, 20, 20, "after " + std::to_string(before) + " large ones");
   }
 }
 
 // Enough triangles for a work partition into parts of different lengths.
-TEST_P(EveryBackend, DrawsManyTrianglesAlikeOnEveryThreadCount) {
+TEST_P(EveryBackend, DrawsManyTrianglesTheSameOnEveryThreadCount) {
   const int side = 64;
   std::vector<ScreenTriangle> triangles(1'000'000);
   for (std::size_t i = 0; i < triangles.size(); ++i) {

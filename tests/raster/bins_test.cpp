@@ -110,7 +110,8 @@ TEST_P(BinsOnTarget, LoseNoTriangle) {
     }
 }
 
-// The longest side passes exactly through a sample of the fourth cell, and owns it or not by the fill rule.
+// The longest side passes exactly through a sample of the fourth cell. The fill rule decides whether it is
+// covered.
 TEST_P(BinsOnTarget, LoseNoTriangleWithASampleOnItsEdge) {
   const CellGrid grid{32, 32, 4, 4};
   std::vector<ScreenTriangle> triangles;
@@ -148,7 +149,7 @@ TEST_P(BinsOnTarget, LoseNoSliverOfUncertainOrientation) {
 
 // Right triangles whose longest side passes near the centre, so that they cover no sample of one of the four
 // cells.
-TEST_P(BinsOnTarget, RejectACellOfFour) {
+TEST_P(BinsOnTarget, RejectTheUncoveredCellOfFour) {
   const CellGrid grid{32, 32, 4, 4};
   std::vector<ScreenTriangle> triangles;
   for (int mirrored = 0; mirrored < 4; ++mirrored) triangles.push_back(in_corner(4, 27, mirrored));

@@ -50,7 +50,7 @@ class Equations {
   void add(const std::string& term, bool value) { add_text(term, value ? "true" : "false"); }
   int count() const { return count_; }
 
-  // The solver's answer to: is one of the equations wrong?
+  // Asks the solver whether one of the equations is wrong.
   std::string solve() const {
     const TempDir folder;
     const std::string definitions = EDGEWISE_SOURCE_DIR "/src/raster/proofs/contract.smt2";
@@ -135,8 +135,8 @@ void add_depth(Equations& equations, const ScreenTriangle& triangle, int px, int
   add_wrapped(call_text("depth_at", z, gx, gy, dx, dy, text(x), text(y)), plane.at(px, py), "two32");
 }
 
-// Otherwise the proofs would not apply to the code.
-TEST(Proofs, DefinitionsAreTheContractsFunctions) {
+// The proofs apply to the code only if this holds.
+TEST(Proofs, DefinitionsMatchTheContractsFunctions) {
   if (!has_solver()) GTEST_SKIP() << "z3 is not installed";
   Random random(21);
   Equations equations;
@@ -152,7 +152,7 @@ TEST(Proofs, DefinitionsAreTheContractsFunctions) {
   RecordProperty("comparisons", equations.count());
 }
 
-TEST(Proofs, AWrongDefinitionIsSeen) {
+TEST(Proofs, AWrongDefinitionIsFound) {
   if (!has_solver()) GTEST_SKIP() << "z3 is not installed";
   Equations equations;
   equations.add(call("first_sample", 128), int128{0});

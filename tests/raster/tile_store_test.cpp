@@ -1,5 +1,5 @@
-// Which stores copy a tile to the frame. That both kinds write the same bits is part of every backend test
-// (kAblations).
+// Selection of the stores that copy a tile to the frame. Every backend test checks that cached and streaming
+// stores write the same bits (kAblations).
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -17,7 +17,7 @@ TEST(TileStore, IsCachedOnlyForEmptyTilesOfFramesThatFitHalfTheCache) {
   EXPECT_EQ(tile_store_for(false, kLlc / 2, kLlc), TileStore::streaming);
 }
 
-TEST(TileStore, IsChosenForEachTileUnlessAsked) {
+TEST(TileStore, IsChosenPerTileUnlessTheCallerChooses) {
   const int side = 8 * contract::kMaxTile;
   const auto triangles = testing::adversarial("mixed-sizes", 400, side / 2 - 1, side, 5);
   Framebuffer frame(side, side);

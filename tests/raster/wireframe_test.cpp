@@ -51,7 +51,7 @@ class Wireframe : public ::testing::Test {
 };
 
 // The third vertices lie so far away that the triangles' other edges touch only the ends of the shared edge.
-TEST_F(Wireframe, NeighboursDrawTheirSharedEdgeAlike) {
+TEST_F(Wireframe, NeighboursDrawTheirSharedEdgeTheSame) {
   for (int i = 0; i < 3000; ++i) {
     const std::int32_t x0 = between(0, kWidth * kSub - 1), y0 = between(0, kHeight * kSub - 1);
     const std::int32_t x1 = between(0, kWidth * kSub - 1), y1 = between(0, kHeight * kSub - 1);
@@ -144,7 +144,7 @@ TEST_F(Wireframe, DrawsASplitEdgeLikeTheWholeEdge) {
   }
 }
 
-// Geometry outside a frame does not change it: a frame equals the same part of any larger frame.
+// A frame equals the same part of any larger frame.
 TEST_F(Wireframe, DrawsAFrameLikeThePartOfALargerOne) {
   for (const auto family : testing::kFamilies) {
     const auto triangles = testing::adversarial(family, 60, kWidth, kHeight, 3);

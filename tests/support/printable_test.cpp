@@ -24,12 +24,12 @@ TEST(Printable, ReplacesControlCharacters) {
 
 TEST(Printable, ReplacesEachByteThatIsNotUtf8) {
   EXPECT_EQ(printable("\xff\x80z"), "??z");
-  EXPECT_EQ(printable("\xc3"), "?");                   // cut
-  EXPECT_EQ(printable("\xc0\xaf"), "??");              // too long a form of '/'
+  EXPECT_EQ(printable("\xc3"), "?");                   // incomplete
+  EXPECT_EQ(printable("\xc0\xaf"), "??");              // overlong encoding of '/'
   EXPECT_EQ(printable("\xe0\x80\xaf"), "???");         // the same
   EXPECT_EQ(printable("\xed\xa0\x80"), "???");         // a surrogate
   EXPECT_EQ(printable("\xf4\x90\x80\x80"), "????");    // beyond Unicode
-  EXPECT_EQ(printable("\xe4\xb8z\xe4\xb8"), "??z??");  // cut in the middle
+  EXPECT_EQ(printable("\xe4\xb8z\xe4\xb8"), "??z??");  // incomplete in the middle
 }
 
 TEST(Printable, CutsBetweenCharacters) {

@@ -1,4 +1,4 @@
-// The tutorials' demos: each shows what its texts say, and the same picture on every machine.
+// The tutorials' demos: each shows what its texts describe, and the same picture on every machine.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -47,7 +47,7 @@ TEST(Demos, AreWellFormed) {
     EXPECT_GE(demo.steps.size(), 3u) << demo.name;
     for (const Step& step : demo.steps) {
       EXPECT_FALSE(step.notice.empty()) << demo.name;
-      // Nothing that saves, quits, or depends on the size of the screen.
+      // No command that saves, quits, or depends on the size of the screen.
       for (const Stroke& stroke : parse_keys(step.keys))
         if (const Key* const key = std::get_if<Key>(&stroke)) {
           const auto command = command_of(*key);
@@ -82,7 +82,7 @@ TEST(Demos, LookTheSameOnAllTargetsAndThreads) {
   RecordProperty("comparisons", std::to_string(compared));
 }
 
-TEST(Demos, AStepLeadsToTheSameFromWherever) {
+TEST(Demos, AStepShowsTheSameAfterOtherKeys) {
   Shown straight("p5js-clipping"), strayed("p5js-clipping");
   straight.step(2);
   strayed.step();
@@ -103,7 +103,7 @@ TEST(Pico8Culling, SwitchesFrontAndBackFacesSeparately) {
   EXPECT_LE(drawn(), 6u);
   const std::uint64_t survive = drawn();
   EXPECT_TRUE(says(demo.step(), "[1] front faces culled: diorama"));
-  EXPECT_NEAR(static_cast<double>(drawn()), static_cast<double>(12 - survive), 4.0);  // it turns
+  EXPECT_NEAR(static_cast<double>(drawn()), static_cast<double>(12 - survive), 4.0);  // the object rotates
   demo.step();
   EXPECT_TRUE(demo.side(0).choice.ours());
   const Screen& last = demo.step();
@@ -112,7 +112,7 @@ TEST(Pico8Culling, SwitchesFrontAndBackFacesSeparately) {
   EXPECT_EQ(demo.side(1).choice.coverage->info.name, "wireframe");
 }
 
-TEST(Pico8InsideTest, CountsGapsAndDoubleHitsAndCuresTheOrder) {
+TEST(Pico8InsideTest, CountsGapsAndDoubleHitsAndCullsByWinding) {
   Shown demo("pico8-inside-test");
   demo.step();
   EXPECT_GT(demo.side(0).judgement->double_hits.value(), 150u);
@@ -135,7 +135,7 @@ TEST(Pico8InsideTest, CountsGapsAndDoubleHitsAndCuresTheOrder) {
   EXPECT_NE(demo.state().message.find("wrong pixel"), std::string::npos);
 }
 
-TEST(P5jsClipping, CutsMovesTurnsAndComesBack) {
+TEST(P5jsClipping, ClipsMovesRotatesAndReturnsToTheStart) {
   Shown demo("p5js-clipping");
   demo.step();
   const lab::Choice& choice = demo.side(0).choice;
@@ -193,7 +193,7 @@ TEST(RealbasicBackface, CullsFacesAndWholeObjectsButNoTwoSidedFace) {
   EXPECT_EQ(demo.side(0).judgement->wrong, 0u);
 }
 
-TEST(OutlawTriad, DrawsHalfOfTheFacesOfFourVertices) {
+TEST(OutlawTriad, CullsAboutHalfOfTheQuads) {
   const Scene scene = find_demo("outlaw-triad").scene();
   for (const Mesh& mesh : scene.meshes)
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
@@ -213,7 +213,7 @@ TEST(OutlawTriad, DrawsHalfOfTheFacesOfFourVertices) {
   EXPECT_LE(demo.side(0).stats.emitted, demo.side(1).stats.emitted * 6 / 10);
 }
 
-TEST(DemoCommand, ListsThemAndTheirSteps) {
+TEST(DemoCommand, ListsDemosAndTheirSteps) {
   const std::string list = testing::run_program(EDGEWISE_PROGRAM, "demo").out;
   const auto json = nlohmann::json::parse(testing::run_program(EDGEWISE_PROGRAM, "demo --json").out);
   ASSERT_EQ(json.size(), demos().size());

@@ -22,7 +22,7 @@ TEST(TerminalInput, ReadsKeys) {
   EXPECT_FALSE(input.waits());
 }
 
-TEST(TerminalInput, PutsTogetherWhatComesInPieces) {
+TEST(TerminalInput, JoinsSequencesThatArriveInPieces) {
   TerminalInput input;
   EXPECT_TRUE(input.feed("\x1b").empty());
   EXPECT_TRUE(input.waits());
@@ -30,7 +30,7 @@ TEST(TerminalInput, PutsTogetherWhatComesInPieces) {
   EXPECT_EQ(keys_in(input.feed("Cq")), (std::vector<Key>{Key::right, key_of('q')}));
 }
 
-TEST(TerminalInput, TakesAnEscapeThatStaysAloneForTheKey) {
+TEST(TerminalInput, ReadsALoneEscapeAsTheKey) {
   TerminalInput input;
   EXPECT_TRUE(input.feed("\x1b").empty());
   EXPECT_EQ(keys_in(input.settle()), std::vector<Key>{Key::escape});
@@ -39,14 +39,14 @@ TEST(TerminalInput, TakesAnEscapeThatStaysAloneForTheKey) {
   EXPECT_TRUE(input.settle().empty());
 }
 
-TEST(TerminalInput, IgnoresWhatItDoesNotKnow) {
+TEST(TerminalInput, IgnoresUnknownSequences) {
   TerminalInput input;
   EXPECT_EQ(keys_in(input.feed("\x1b[15~\x1b[1;5Zb\x1b[<0;1M")), std::vector<Key>{key_of('b')});
   EXPECT_TRUE(input.feed("\x1b[" + std::string(1000, '1')).empty());
   EXPECT_FALSE(input.waits());
 }
 
-TEST(TerminalInput, FollowsTheMouse) {
+TEST(TerminalInput, ReadsMouseEvents) {
   TerminalInput input;
   const auto events = input.feed("\x1b[<0;5;7M\x1b[<32;6;7M\x1b[<0;6;7m\x1b[<65;1;1M");
   ASSERT_EQ(events.size(), 4u);
@@ -57,7 +57,7 @@ TEST(TerminalInput, FollowsTheMouse) {
   EXPECT_TRUE(at(1).held);
   EXPECT_EQ(at(1).column, 5);
   EXPECT_FALSE(at(2).held);
-  EXPECT_FALSE(at(3).held);  // a wheel
+  EXPECT_FALSE(at(3).held);  // the mouse wheel
 }
 
 TEST(TerminalPicture, ShowsTwoPixelsInEachCharacterAndTextOverThem) {
@@ -71,7 +71,7 @@ TEST(TerminalPicture, ShowsTwoPixelsInEachCharacterAndTextOverThem) {
   EXPECT_EQ(bytes.find("?"), std::string::npos);  // beyond the right border
 }
 
-TEST(TerminalPicture, SendsOnlyWhatHasChanged) {
+TEST(TerminalPicture, SendsOnlyChangedCells) {
   TerminalPicture picture;
   Screen screen{{40, 20, std::vector<std::uint32_t>(800, rgb(9, 9, 9))}, {}};
   EXPECT_NE(picture.show(screen).find("\x1b[2J"), std::string::npos);

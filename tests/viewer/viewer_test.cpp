@@ -99,7 +99,7 @@ TEST(Viewer, ShowsTheLibrarysBits) {
   EXPECT_EQ(type(session, "1o").picture.pixels, rendered("cubes", Cull::none).pixels);
 }
 
-TEST(Viewer, DrawsEdgesOfWhatIsCulledAndLitLikeFacesAndBack) {
+TEST(Viewer, WireframesAreCulledAndLitLikeFaces) {
   Session session = session_of("cubes");
   const Image filled = type(session, kNoOverlay).picture, edges = type(session, "y").picture;
   EXPECT_FALSE(session.side(0).choice.fills());
@@ -107,14 +107,14 @@ TEST(Viewer, DrawsEdgesOfWhatIsCulledAndLitLikeFacesAndBack) {
   EXPECT_EQ(type(session, "1").picture.pixels, rendered("cubes", Cull::both, kTestSize, wireframe()).pixels);
   EXPECT_EQ(type(session, "2").picture.pixels, rendered("cubes", Cull::front, kTestSize, wireframe()).pixels);
   EXPECT_EQ(type(session, "12y").picture.pixels, filled.pixels);
-  EXPECT_EQ(session.side(0).choice.coverage->info.name, "tiled");  // as before the edges
-  // A painter covers by itself.
+  EXPECT_EQ(session.side(0).choice.coverage->info.name, "tiled");  // as before the wireframe
+  // Painter's methods draw filled triangles only, so the wireframe key changes nothing.
   EXPECT_EQ(type(session, "z").picture.pixels, type(session, "y").picture.pixels);
   type(session, "o");
   EXPECT_TRUE(says(session.draw({900, 600}, kTestCell), "no wireframe"));
 }
 
-TEST(Viewer, GoesThroughAllCoverageMethodsAndTheExactOnesAreRight) {
+TEST(Viewer, CyclesThroughAllCoverageMethodsAndExactOnesHaveNoErrors) {
   Session session = session_of("cubes");
   type(session, "ei<backspace>");
   for (std::size_t i = 0; i < lab::drawing_methods().size(); ++i) {
@@ -185,12 +185,12 @@ TEST(Viewer, ReplacesEachStageAlone) {
   EXPECT_GT(wrong(box), 100u);
   type(box, "<backspace>");
   EXPECT_EQ(box.side(0).choice.facing->info.name, "normal_dot_object");
-  // A method that is right under perspective, and the composition itself.
+  // normal_dot_eye is correct under perspective.
   while (box.side(0).choice.facing->info.name != "normal_dot_eye") type(box, "<backspace>");
   EXPECT_EQ(wrong(box), 0u);
 }
 
-TEST(Viewer, ComposesAllMethodsOfAllStagesOnAScene) {
+TEST(Viewer, CombinesEveryMethodOfEveryStage) {
   Session session = session_of("cubes");
   for (const auto& [key, count] : {std::pair{'x', lab::clipping_methods().size()},
                                    {'z', lab::visibility_methods().size()},
@@ -200,7 +200,7 @@ TEST(Viewer, ComposesAllMethodsOfAllStagesOnAScene) {
       EXPECT_EQ(screen.picture.width, kTestSize.width);
       ASSERT_TRUE(session.side(0).judgement);
       const lab::Choice& choice = session.side(0).choice;
-      // Nothing of this scene leaves the view, and its depths are far apart.
+      // The whole scene is in view, and its depths differ clearly.
       const bool sorts = choice.visibility->stored01 == nullptr;
       if (!sorts && choice.facing->info.name != "normal_z" &&
           choice.facing->info.name != "normal_dot_object") {
@@ -210,7 +210,7 @@ TEST(Viewer, ComposesAllMethodsOfAllStagesOnAScene) {
   EXPECT_TRUE(session.side(0).choice.ours());
 }
 
-TEST(Viewer, SaysWhatCannotBeCombined) {
+TEST(Viewer, ExplainsWhichMethodsCannotBeCombined) {
   Session session = session_of("cubes");
   type(session, "bbz");
   EXPECT_NE(session.side(0).because.find("covers exactly by itself"), std::string::npos);
@@ -222,7 +222,7 @@ TEST(Viewer, SaysWhatCannotBeCombined) {
   type(stream, "x");
   EXPECT_NE(stream.side(0).because.find("no camera"), std::string::npos);
   EXPECT_EQ(wrong(stream), 0u);
-  type(stream, "wr,<up>l0t");  // nothing of this is for a stream
+  type(stream, "wr,<up>l0t");  // these keys do nothing for a stream
 }
 
 TEST(Viewer, JudgesAgainstEachTruth) {
@@ -237,7 +237,7 @@ TEST(Viewer, JudgesAgainstEachTruth) {
   }
 }
 
-TEST(Viewer, TintsWrongPixelsAndFindsThemWithTheGlass) {
+TEST(Viewer, TintsWrongPixelsAndMovesTheMagnifierToThem) {
   Session session = session_of(near_then_far());
   const Image plain = type(session, std::string(kNoOverlay) + "z<backspace><backspace>").picture;
   const Screen& screen = type(session, "e");
@@ -260,7 +260,7 @@ TEST(Viewer, TintsWrongPixelsAndFindsThemWithTheGlass) {
   EXPECT_NE(session.state().message.find("errors are not counted"), std::string::npos);
 }
 
-TEST(Viewer, TheGlassShowsSinglePixels) {
+TEST(Viewer, TheMagnifierShowsSinglePixels) {
   Session session = session_of("cube");
   const Image plain = type(session, kNoOverlay).picture;
   session.press(key_of('g'));
@@ -274,7 +274,7 @@ TEST(Viewer, TheGlassShowsSinglePixels) {
   EXPECT_EQ(at(glass, 2, 2), at(plain, 2, 2));
 }
 
-TEST(Viewer, LooksWhereItIsDragged) {
+TEST(Viewer, DraggingTurnsTheCamera) {
   Session session = session_of("cube");
   const Image home = type(session, kNoOverlay).picture;
   const float yaw = session.world().scene()->camera.yaw, pitch = session.world().scene()->camera.pitch;
@@ -303,7 +303,7 @@ TEST(Viewer, MovesAlongTheViewOrTheWorld) {
     return by;
   };
   EXPECT_LT(moved("w").z, -0.05f);
-  EXPECT_LT(moved("w").y, -0.01f);  // it looks down
+  EXPECT_LT(moved("w").y, -0.01f);  // the camera looks down
   EXPECT_GT(moved("d").x, 0.05f);
   EXPECT_LT(moved("<shift>").y, -0.05f);
   EXPECT_EQ(moved("c"), moved("<shift>"));
@@ -313,7 +313,7 @@ TEST(Viewer, MovesAlongTheViewOrTheWorld) {
   EXPECT_EQ(moved("<space>").z, 0.0f);
   const float slow = moved("<space>").y;
   EXPECT_GT(moved("44<space>").y, 2.0f * slow);
-  // All keys at once, and none after they are let go.
+  // All keys pressed at once, then released.
   for (const char key : {'w', 'd'}) session.press(key_of(key));
   EXPECT_FALSE(session.still());
   session.release_all();
@@ -331,7 +331,7 @@ TEST(Viewer, TurnsObjectsAboutAnyAxis) {
   EXPECT_EQ(session.state().angle, angle);
   EXPECT_EQ(type(session, "0").picture.pixels, home.pixels);
   type(session, "fr");  // no longer frozen, no longer turning
-  // About the line of sight everything keeps its distance: the middle of the cube stays where it is.
+  // A rotation about the line of sight keeps the centre of the cube in place.
   type(session, "l,,,");
   EXPECT_LT(session.state().angle, 0.0f);
   const glm::vec3 seen = lab::line_of_sight(session.world().scene()->camera);
@@ -384,7 +384,7 @@ TEST(Viewer, CullsEachSideAlone) {
   EXPECT_TRUE(says(session.draw({900, 600}, kTestCell), "er than the first side"));
 }
 
-TEST(Viewer, PutsNamedMethodsAtTheirStages) {
+TEST(Viewer, SelectsMethodsByName) {
   Session session = session_of("cubes");
   type(session, "<float_lt><none><painter_mean>v<tab><normal_z>");
   const lab::Choice first = session.side(0).choice, second = session.side(1).choice;
@@ -394,7 +394,7 @@ TEST(Viewer, PutsNamedMethodsAtTheirStages) {
   EXPECT_NE(message_of([&] { session.choose("float"); }).find("'float'"), std::string::npos);
 }
 
-TEST(Viewer, TakesTheStepsOfADemonstration) {
+TEST(Viewer, GoesThroughTheStepsOfADemo) {
   constexpr Step kSteps[] = {{"2", "Nothing is culled."}, {"v<tab><float_lt>", "Another test on the right."}};
   Start start = start_with(find_scene("cubes").make({}), Cull::back);
   start.steps = kSteps;
@@ -412,7 +412,7 @@ TEST(Viewer, TakesTheStepsOfADemonstration) {
   EXPECT_NE(none.state().message.find("only demos have steps"), std::string::npos);
 }
 
-TEST(Viewer, BreaksWhatToNoticeAtBlanks) {
+TEST(Viewer, WrapsNoticesAtBlanks) {
   Session session = session_of("cubes");
   type(session, "");
   session.say("twenty-one letters in and a good deal more to be read than one line of this screen has");
@@ -429,7 +429,7 @@ TEST(Viewer, BreaksWhatToNoticeAtBlanks) {
   EXPECT_GT(lines, 2);
 }
 
-TEST(Viewer, ShowsNothingThatDiffersWhereItIsToBeReproducible) {
+TEST(Viewer, ReproducibleScreensAreTheSameOnEveryTargetAndThreadCount) {
   const auto seen = [](int threads, SimdTarget target, std::string_view keys) {
     Start start = start_with(find_scene("cubes").make({}), Cull::back);
     start.reproducible = true;
@@ -447,7 +447,7 @@ TEST(Viewer, ShowsNothingThatDiffersWhereItIsToBeReproducible) {
   }
 }
 
-TEST(Film, ShowsFramesAsTimeGoesBy) {
+TEST(Film, WritesFramesAtEqualIntervals) {
   Session session = session_of("cube");
   const auto strokes = parse_keys("r<1>");
   EXPECT_NEAR(seconds_of(strokes), 1.1, 1e-12);
@@ -463,7 +463,7 @@ TEST(Film, ShowsFramesAsTimeGoesBy) {
   EXPECT_EQ(angles.size(), 5u);
 }
 
-TEST(Viewer, SavesWhatRendersTheSameAndReplacesNothing) {
+TEST(Viewer, SavedStreamsRenderTheSamePictureAndReplaceNoFile) {
   const TempDir folder;
   folder.write("test-0001.png", "older");
   folder.write("test-0002.tri", "older");
@@ -483,7 +483,7 @@ TEST(Viewer, SavesWhatRendersTheSameAndReplacesNothing) {
   EXPECT_EQ(type(replay, kNoOverlay).picture.pixels, picture.pixels);
 }
 
-TEST(Viewer, SaysWhenItCannotSave) {
+TEST(Viewer, ReportsAFailedSave) {
   Start start = start_with(find_scene("cube").make({}), Cull::back);
   start.folder = "/proc/none";
   Session session(std::move(start));
@@ -540,7 +540,7 @@ TEST(Viewer, ShowsTheStateOfEachFace) {
   EXPECT_TRUE(says(knot.draw(kLarge, kTestCell), "too many faces for letters"));
 }
 
-TEST(Viewer, HelpsWithEveryKeyOnAsManyPagesAsItTakes) {
+TEST(Viewer, HelpPagesListEveryKey) {
   for (const tools::Size size : {tools::Size{320, 200}, tools::Size{1280, 720}, tools::Size{120, 60}}) {
     Session session = session_of("cube");
     std::set<std::string> seen;
@@ -575,7 +575,7 @@ TEST(Viewer, FitsAnySize) {
   }
 }
 
-TEST(Viewer, WaitsWithTheCountWhereItWouldCostFrames) {
+TEST(Viewer, CountsErrorsOfMovingScenesOnlyIfThereIsTime) {
   Session session = session_of("cubes");
   type(session, "ur");  // turning
   EXPECT_FALSE(session.still());
@@ -592,7 +592,7 @@ TEST(Viewer, WaitsWithTheCountWhereItWouldCostFrames) {
   EXPECT_EQ(session.side(0).judged, session.state().version);
 }
 
-TEST(Viewer, TimesNoColdFrame) {
+TEST(Viewer, FrameTimesExcludeLoading) {
   static constexpr double kLoading_ms = 300;
   Start start = start_with(find_scene("cube").make({}), Cull::back);
   start.load = [load = start.load](tools::Size size) {
@@ -616,7 +616,7 @@ TEST(Viewer, QuitsByEitherKey) {
   }
 }
 
-TEST(LitColours, AreTheFrontEndsOwn) {
+TEST(LitColours, MatchTheFrontEnd) {
   const Drawable drawable = find_scene("cubes").make({200, 100, 1.0f});
   const auto lit = lit_colours(std::get<Scene>(drawable));
   FrontendOptions options;

@@ -12,19 +12,20 @@ namespace edgewise::tools {
 
 namespace {
 
-// The largest part of the picture that a close-up shows, in px. Common: pixels stay large enough to see.
-// Dense: triangles smaller than pixels. Vast: nearly all pixels are wrong, so only a large part can be
+// The largest part of the picture that a close-up shows, in px. Default: pixels stay large enough to see.
+// Fine: for triangles smaller than pixels. Large: nearly all pixels are wrong, so only a large part can be
 // recognized.
 struct Extent {
   int width, height;
 };
-constexpr Extent kCommon{96, 72}, kDense{24, 18}, kVast{240, 240};
-constexpr int kWholeSide = 130;  // px; pictures up to this size are shown whole
+constexpr Extent kDefaultExtent{96, 72}, kFineExtent{24, 18}, kLargeExtent{240, 240};
+constexpr int kLargestUncropped = 130;  // px; pictures up to this size are shown whole
 constexpr int kPictureSide = 960, kLargestPixel = 64;
-constexpr std::uint32_t kBackground = rgb(255, 255, 255), kInk = rgb(20, 20, 20), kDot = rgb(120, 120, 120);
+constexpr std::uint32_t kBackground = rgb(255, 255, 255), kLineColour = rgb(20, 20, 20),
+                        kDot = rgb(120, 120, 120);
 // Colours of correct pixels, pale so that marked errors stand out.
-constexpr std::uint32_t kMuted[] = {rgb(222, 226, 230), rgb(203, 213, 209), rgb(226, 217, 203),
-                                    rgb(207, 209, 224), rgb(217, 224, 207), rgb(224, 208, 212)};
+constexpr std::uint32_t kPaleColours[] = {rgb(222, 226, 230), rgb(203, 213, 209), rgb(226, 217, 203),
+                                          rgb(207, 209, 224), rgb(217, 224, 207), rgb(224, 208, 212)};
 
 // Counts error marks in any rectangle with a summed-area table (Crow, 1984).
 class MarkCount {
@@ -73,12 +74,12 @@ lab::Window most_wrong(const lab::Window& all, MarkCount& count, Extent most_px)
 lab::Window part_of(const lab::MarkedPicture& picture) {
   const lab::Window& all = picture.window;
   MarkCount count(picture);
-  if (picture.lines.size() > 2 * picture.marks.size()) return most_wrong(all, count, kDense);
-  if (all.width <= kWholeSide && all.height <= kWholeSide) return all;
-  const lab::Window part = most_wrong(all, count, kCommon);
+  if (picture.lines.size() > 2 * picture.marks.size()) return most_wrong(all, count, kFineExtent);
+  if (all.width <= kLargestUncropped && all.height <= kLargestUncropped) return all;
+  const lab::Window part = most_wrong(all, count, kDefaultExtent);
   const bool nearly_all =
       10 * count.in(part.x0, part.y0, part.width, part.height) > 9 * part.width * part.height;
-  return nearly_all ? most_wrong(all, count, kVast) : part;
+  return nearly_all ? most_wrong(all, count, kLargeExtent) : part;
 }
 
 // Whether a line's bounding box overlaps the part.
@@ -115,9 +116,10 @@ class Drawing {
                           static_cast<std::size_t>(px);
     const lab::Mark mark = closeup_.marks[i];
     const std::uint32_t visible = closeup_.visible[i];
-    const std::uint32_t colour = mark != lab::Mark::none       ? lab::colour_of(mark)
-                                 : visible == lab::kNoTriangle ? kBackground
-                                                               : kMuted[visible % std::size(kMuted)];
+    const std::uint32_t colour = mark != lab::Mark::none ? lab::colour_of(mark)
+                                 : visible == lab::kNoTriangle
+                                     ? kBackground
+                                     : kPaleColours[visible % std::size(kPaleColours)];
     const int gap = scale_ < 6 ? 0 : 1;  // between pixels
     for (int y = gap; y < scale_; ++y)
       for (int x = gap; x < scale_; ++x) at(px * scale_ + x, py * scale_ + y) = colour;
@@ -126,7 +128,8 @@ class Drawing {
     for (int y = -reach; y <= reach; ++y)
       for (int x = -reach; x <= reach; ++x)
         if (x * x + y * y <= reach * reach)
-          at(px * scale_ + middle + x, py * scale_ + middle + y) = mark == lab::Mark::none ? kDot : kInk;
+          at(px * scale_ + middle + x, py * scale_ + middle + y) =
+              mark == lab::Mark::none ? kDot : kLineColour;
   }
   // Antialiased line: steps along the longer axis and splits the ink between the two nearest pixels (Wu, "An
   // efficient antialiasing technique", 1991).
@@ -154,7 +157,7 @@ class Drawing {
     if (x < 0 || y < 0 || x >= image_.width || y >= image_.height) return;
     std::uint32_t& pixel = at(x, y);
     const auto channel = [&](int shift) {
-      const double from = pixel >> shift & 255, to = kInk >> shift & 255;
+      const double from = pixel >> shift & 255, to = kLineColour >> shift & 255;
       return static_cast<std::uint32_t>(from + (to - from) * opacity + 0.5);
     };
     pixel = rgb(channel(0), channel(8), channel(16));

@@ -69,19 +69,21 @@ constexpr const char* kAccuracyFooter = R"(Examples:
   edgewise accuracy bunny.obj capture.tri    your own files
   edgewise accuracy turning-cube drtk_quad --method float_le --method float_lt
 
-Families: coverage, visibility, facing, clipping. Coverage, visibility and facing are compared with two exact
-references: one for positions snapped to 1/256 px, one for the float positions before snapping. The same holds
-for the visible triangle of each pixel. Against the snapped reference, exact methods have no coverage errors.
-They misjudge only faces whose first three vertices turn the other way than the whole face.
+Families: coverage, visibility, facing, clipping. Coverage, visibility and facing are compared with
+two exact references: one for positions snapped to 1/256 px, one for the float positions before
+snapping. The same holds for the visible triangle of each pixel. Against the snapped reference,
+exact methods have no coverage errors. They misjudge only faces whose first three vertices have
+another winding than the whole face.
 
-Errors are counted per 10^6 crossings of an edge with a row or column of samples, per 10^6 pixels, or per 10^6
-faces. If no error was seen, the number in parentheses is the 95 % upper bound of the rate. A gap is a missing
-pixel that lies deeper inside the union of the triangles than the method's promise lets an edge move, or than
-0.71 px if that is less.
+Errors are counted per 10^6 crossings of an edge with a row or column of samples, per 10^6 pixels,
+or per 10^6 faces. If no error was observed, the number in parentheses is the 95 % upper bound of
+the rate. A gap is a missing pixel inside the union of the triangles, farther from the outline than
+the method's promise lets an edge move, or than 0.71 px if that is less.
 
-Of a large stream only a part is judged, always the same part, and a smaller one with --quick; the JSON gives
-the number of triangles. Meshes, built in or yours, are judged in coverage and visibility, streams in coverage
-alone. Facing and clipping have scenes of their own.
+SCENE is a scene of `edgewise list`, a small test scene (the tables name them), turning-cube, or an
+.obj or .tri file. Large streams are judged in part, always the same part, and a smaller one with
+--quick. The JSON gives the number of triangles. Meshes are judged in coverage and visibility,
+streams in coverage only. Facing and clipping use their own scenes.
 
 Pictures are named FAMILY-SCENE-METHOD.png. Their colours:
   vermilion  nothing drawn where a triangle must be (coverage: a gap, a crack between neighbours)
@@ -94,9 +96,7 @@ Pictures are named FAMILY-SCENE-METHOD.png. Their colours:
 void add_accuracy(CLI::App& program, Action& action) {
   CLI::App& command = *program.add_subcommand("accuracy", "Count each method's errors, and time it");
   const auto o = std::make_shared<AccuracyOptions>();
-  command.add_option("SCENE", o->plan.scenes,
-                     "Scenes of `edgewise list`, small test scenes, turning-cube, .obj or .tri files "
-                     "(all but quads and knots)");
+  command.add_option("SCENE", o->plan.scenes, "Scenes or files, see below (all scenes but quads and knots)");
   command.add_flag("--quick", o->plan.quick, "Smaller scenes, fewer frames and repetitions");
   command.add_option("--family", o->family, "Only one family of methods")->type_name("NAME");
   command.add_option("--method", o->plan.methods, "Only this method (repeatable)")

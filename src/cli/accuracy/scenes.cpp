@@ -13,7 +13,7 @@ namespace edgewise::tools {
 
 namespace {
 
-constexpr lab::Size kFullHd{1920, 1080}, kUsual{960, 540}, kQuick{480, 270};
+constexpr lab::Size kFullHd{1920, 1080}, kNormalSize{960, 540}, kQuick{480, 270};
 enum class Timed { never, full, always };  // full: not in a quick run
 
 // The size and scale at which a built-in scene is judged. Judging all methods on full scenes would take too
@@ -27,19 +27,19 @@ struct SceneExtent {
 };
 constexpr SceneExtent kExtents[] = {
     {"torus-knot", kFullHd, kFullHd, 1, 1, Timed::always, 3.4, 2.2},
-    {"medium", kFullHd, kUsual, 0.15, 0.1, Timed::never, 2, 0.5},
-    {"small", kFullHd, kUsual, 0.15, 0.05, Timed::never, 2.5, 0.5},
-    {"micro", kFullHd, kUsual, 0.15, 0.05, Timed::never, 2, 0.5},
-    {"large", kFullHd, kUsual, 0.4, 0.1, Timed::never, 1, 0.3},
-    {"sliver", kFullHd, kUsual, 0.02, 0.02, Timed::never, 2, 1},
-    {"knots", kFullHd, kUsual, 0.1, 0.02, Timed::never, 4, 1},
+    {"medium", kFullHd, kNormalSize, 0.15, 0.1, Timed::never, 2, 0.5},
+    {"small", kFullHd, kNormalSize, 0.15, 0.05, Timed::never, 2.5, 0.5},
+    {"micro", kFullHd, kNormalSize, 0.15, 0.05, Timed::never, 2, 0.5},
+    {"large", kFullHd, kNormalSize, 0.4, 0.1, Timed::never, 1, 0.3},
+    {"sliver", kFullHd, kNormalSize, 0.02, 0.02, Timed::never, 2, 1},
+    {"knots", kFullHd, kNormalSize, 0.1, 0.02, Timed::never, 4, 1},
 };
-constexpr SceneExtent kUsualExtent{"", kFullHd, kUsual, 1, 1, Timed::never, 1, 0.3};
+constexpr SceneExtent kNormalExtent{"", kFullHd, kNormalSize, 1, 1, Timed::never, 1, 0.3};
 
 SceneExtent extent_of(std::string_view name) {
   for (const SceneExtent& extent : kExtents)
     if (extent.name == name) return extent;
-  return kUsualExtent;
+  return kNormalExtent;
 }
 
 // Intersecting triangles at distances from 30 to 900: a hard case for every sort order and every depth
@@ -71,7 +71,7 @@ Scene deep_soup(int count) {
 
 // Triangles on all sides of the camera: small ones, large ones that reach behind it and out of the view, and
 // tiny ones in front of the near plane.
-lab::ClippingScene around_the_eye(int count, lab::Size size) {
+lab::ClippingScene around_the_camera(int count, lab::Size size) {
   lab::ClippingScene s{{}, size};
   s.scene.meshes.resize(1);
   s.scene.instances.resize(1);
@@ -114,7 +114,7 @@ class Catalogue {
         return CoverageScene{c.size, std::move(floats), std::move(snapped)};
       });
     }
-    const lab::Size seen = plan_.quick ? kQuick : kUsual;
+    const lab::Size seen = plan_.quick ? kQuick : kNormalSize;
     add(Family::visibility, "deep_soup", "20,000 intersecting triangles, near and far", Timed::always, false,
         plan_.quick ? 0.5 : 3.0, [seen] { return lab::visibility_scene(deep_soup(20'000), seen); });
     for (const SceneInfo& info : builtin_scenes()) add_built_in(info);
@@ -128,7 +128,7 @@ class Catalogue {
     const bool quick = plan_.quick;
     add(Family::clipping, "around_the_eye", "triangles on all sides, across the near and the far plane",
         Timed::always, false, quick ? 2.0 : 5.0,
-        [quick] { return quick ? around_the_eye(5000, kQuick) : around_the_eye(20'000, kUsual); });
+        [quick] { return quick ? around_the_camera(5000, kQuick) : around_the_camera(20'000, kNormalSize); });
     // Group by family, in the order of the tables.
     std::stable_sort(list_.begin(), list_.end(),
                      [](const auto& a, const auto& b) { return a.family < b.family; });
@@ -175,7 +175,7 @@ class Catalogue {
     add(Family::coverage, info.name, info.summary, extent.timed, false, cost_s,
         [&info, request, size] { return coverage_scene(info.make(request), size); });
     if (info.stream) return;
-    const lab::Size seen = plan_.quick ? kQuick : kUsual;
+    const lab::Size seen = plan_.quick ? kQuick : kNormalSize;
     const SceneRequest for_visibility{seen.width, seen.height, 0.0f, request.scale};
     add(Family::visibility, info.name, info.summary, Timed::never, false, cost_s / 2,
         [&info, for_visibility, seen] {

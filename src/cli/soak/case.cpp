@@ -28,11 +28,11 @@ std::pair<int, int> random_size(Random& random) {
     const int width = up_to(1000);
     return {width, up_to(1000)};
   }
-  constexpr std::array kMost{4, 20, 80, 80, 150, 150, 300};
-  const auto kind = random.below(kMost.size() + 1);
-  if (kind < kMost.size()) {
-    const int width = up_to(kMost[kind]);
-    return {width, up_to(kMost[kind])};
+  constexpr std::array kLargestSides{4, 20, 80, 80, 150, 150, 300};
+  const auto kind = random.below(kLargestSides.size() + 1);
+  if (kind < kLargestSides.size()) {
+    const int width = up_to(kLargestSides[kind]);
+    return {width, up_to(kLargestSides[kind])};
   }
   const int along = up_to(random.below(8) == 0 ? contract::kMaxImageSide : 2048), across = up_to(8);
   return random.below(2) == 0 ? std::pair{along, across} : std::pair{across, along};
@@ -60,7 +60,7 @@ Case make_case(std::uint64_t seed, std::uint64_t number) {
   c.background = static_cast<std::uint32_t>(random.next() >> 32);
   constexpr std::array kThreads{2, 2, 2, 3, 3, 4, 5, 8};
   c.threads = kThreads[random.below(kThreads.size())];
-  c.patient_oracle = random.below(16) == 0;
+  c.large_oracle_budget = random.below(16) == 0;
   c.draws_seed = random.next();
 
   const auto lists = triangle_families();

@@ -26,9 +26,9 @@ struct Case {
   std::optional<Drawable> drawable;       // of a scene family, with
   FrontendOptions frontend;               // its culling, payload and shading
 
-  bool patient_oracle = false;   // this case has a larger time budget for the oracle
-  std::uint64_t draws_seed = 0;  // for choices that depend on the machine's SIMD targets: tile sizes,
-                                 // strides, ablations
+  bool large_oracle_budget = false;  // the oracle may take longer in this case
+  std::uint64_t draws_seed = 0;      // for choices that depend on the machine's SIMD targets: tile sizes,
+                                     // strides, ablations
 };
 
 Case make_case(std::uint64_t seed, std::uint64_t number);

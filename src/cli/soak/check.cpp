@@ -16,14 +16,14 @@ namespace {
 
 constexpr const char* kOracle = "oracle";
 constexpr const char* kOneByOne = "one triangle at a time";
-constexpr Execution kPlainest{1, 64, SimdTarget::scalar};
+constexpr Execution kReferenceExecution{1, 64, SimdTarget::scalar};
 
 // Pixels times triangles that take the oracle about 5 ms and 100 ms.
-constexpr double kOracleBudget = 1.5e5, kPatientBudget = 3e6;
+constexpr double kOracleBudget = 1.5e5, kLargeOracleBudget = 3e6;
 
 bool oracle_can_follow(const Case& c, std::size_t triangles) {
   const double cost = static_cast<double>(triangles) * c.width * c.height;
-  return cost <= (c.patient_oracle ? kPatientBudget : kOracleBudget);
+  return cost <= (c.large_oracle_budget ? kLargeOracleBudget : kOracleBudget);
 }
 
 // Odd strides and offsets prevent aligned stores; a Framebuffer's layout allows them.
@@ -52,7 +52,8 @@ Verdict Checker::check(const Case& c) {
     Framebuffer exact(c.width, c.height);
     lab::draw_oracle(triangles, exact, c.background);
     ++verdict.tally.oracle_frames;
-    check_frame(c, kOracle, exact, {0, {kPlainest}, lab::GuardedFrame::aligned(c.width)}, triangles, verdict);
+    check_frame(c, kOracle, exact, {0, {kReferenceExecution}, lab::GuardedFrame::aligned(c.width)}, triangles,
+                verdict);
   }
 
   const Framebuffer expected = reference_frame(c, triangles);
@@ -124,7 +125,7 @@ void Checker::check_frame(const Case& c, const std::string& judge, const Framebu
 Framebuffer Checker::reference_frame(const Case& c, std::span<const ScreenTriangle> triangles) {
   Framebuffer frame(c.width, c.height);
   lab::poison(frame);
-  backends_[0]->draw(triangles, frame.view(), c.background, kPlainest);
+  backends_[0]->draw(triangles, frame.view(), c.background, kReferenceExecution);
   return frame;
 }
 

@@ -194,23 +194,23 @@ constexpr const char* kSoakFooter = R"(Examples:
   edgewise soak --merge shard-*.json -o soak.json
   edgewise soak --seed 7 --case 123456                    reproduce one picture
 
-A soak test draws random and adversarial pictures: triangle lists of many families, and scenes around the
-camera that go through the front end. Every backend draws each picture on every SIMD target of this machine,
-on one thread and on a random number of threads, with random tile sizes, row strides and alignments, and with
-random optimizations switched off. Every frame is compared bit for bit with the reference (the first backend
-of `edgewise list`, one thread, scalar): depth, payload, and all memory around the picture. If a picture is
-small enough, an exact oracle checks the reference. The front end is compared with its own path for single
-triangles.
+A soak test draws random and adversarial pictures: triangle lists of many families, and scenes
+around the camera that go through the front end. Every backend draws each picture on every SIMD
+target of this machine, on one thread and on a random number of threads, with random tile sizes, row
+strides and alignments, and with random optimizations switched off. Every frame is compared bit for
+bit with the reference (the first backend of `edgewise list`, one thread, scalar): depth, payload,
+and all memory around the picture. If a picture is small enough, an exact oracle checks the
+reference. The front end is compared with its own code for single triangles.
 
-Case k of shard I/N is number I + k N of the seed's sequence on every machine, so shards are disjoint and
-independent. --merge adds up their results. It refuses results of different seeds, programs (version and
-commit) or sequences, and cases that two files share.
+Case k of shard I/N is number I + k N of the seed's sequence on every machine, so shards are
+disjoint and independent. --merge adds up their results. It refuses results of different seeds,
+programs (version and commit) or sequences, and cases that two files share.
 
-Without --for or --cases the test runs until Ctrl-C. On Ctrl-C, SIGTERM or SIGHUP it finishes the started
-cases and writes all results; the same signal again ends it at once. With --json (or --resume) it also saves
-the file every 30 s. --resume creates a missing file, so a restarted job can use the same command; --json
-alone refuses to overwrite a record. For each difference it writes a .tri file with as few triangles as still
-differ, and prints the commands that reproduce it.
+Without --for or --cases the test runs until Ctrl-C. On Ctrl-C, SIGTERM or SIGHUP it finishes the
+started cases and writes all results. The same signal again ends it at once. With --json (or
+--resume) it also saves the file every 30 s. --resume creates a missing file, so a restarted job can
+use the same command. --json alone refuses to overwrite a record. For each difference it writes a
+.tri file with as few triangles as possible, and prints the commands that reproduce it.
 
 Exit status: 1 if anything differs; otherwise 0, or 128 + N if stopped by signal N (130: Ctrl-C).)";
 

@@ -76,14 +76,15 @@ constexpr const char* kStabilityFooter = R"(Examples:
   edgewise stability --json stability.json       all sweeps (minutes)
   edgewise stability legs separation_at_100
 
-A sweep varies one parameter of a scene from easy to hard. At each value it counts the errors of every method
-of a family against an exact reference for the given positions.
+A sweep varies one parameter of a scene from easy to hard. At each value it counts the errors of
+every method of a family against an exact reference for the given positions.
 
-Columns: the first value where the method fails, and its error there; its largest error, and where; the number
-of values where it fails. A method fails where it makes any error. If the reference uses positions before
-snapping to 1/256 px, a method fails where it makes more errors than snapping alone causes.
-If no error was seen at all, the number after "<" is the 95 % upper bound of the rate at each value: 3 divided
-by the least number of trials at a value.)";
+Columns: the first value where the method fails, and its error there; its largest error, and the
+value where it occurs; the number of values where it fails. A method fails where it makes any error.
+If the reference uses positions before snapping to 1/256 px, a method fails where it makes more
+errors than snapping alone causes.
+If no error was observed at any value, the number after "<" is the 95 % upper bound of the rate at
+each value: 3 divided by the smallest number of trials at a value.)";
 
 }  // namespace
 
@@ -96,7 +97,7 @@ void add_stability(CLI::App& program, Action& action) {
   command
       .add_option("--json", o->json, "Also write all results as JSON; - for stdout, instead of the tables")
       ->type_name("FILE");
-  add_integer(command, "--threads", o->threads, 1, kMaxThreads, "Threads, which no result depends on (2)");
+  add_integer(command, "--threads", o->threads, 1, kMaxThreads, "Threads; results don't depend on it (2)");
   command.footer(kStabilityFooter);
   command.callback([o, &action] { action = [o] { return stability_command(*o); }; });
 }

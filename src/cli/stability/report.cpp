@@ -29,7 +29,7 @@ struct Curve {
       if (y(position) > y(worst)) worst = position;
     return worst;
   }
-  std::size_t failing_places() const {
+  std::size_t failing_positions() const {
     std::size_t count = 0;
     for (std::size_t position = 0; position < result.at.size(); ++position)
       count += result.fails(method, position);
@@ -62,7 +62,7 @@ std::string row(std::string_view name, const Curve& curve) {
       kRow, name, start ? value_text(*start) : "never", there,
       no_error ? fmt::format("< {:.2g}", curve.bound()) : fmt::format("{:.4g}", curve.y(worst)),
       no_error ? "" : value_text(result.sweep->positions[worst]),
-      fmt::format("{}/{}", curve.failing_places(), result.at.size()));
+      fmt::format("{}/{}", curve.failing_positions(), result.at.size()));
 }
 
 }  // namespace

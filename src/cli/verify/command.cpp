@@ -69,16 +69,18 @@ constexpr const char* kVerifyFooter = R"(Examples:
   edgewise verify bunny.obj capture.tri --fit  your own files
   edgewise verify --json verify.json
 
-Verify draws every scene with every backend in every culling mode: on 1, 2 and 3 threads, on each SIMD target
-of this machine, with other tile sizes on the best target, and with optimizations switched off. It compares
-each frame bit for bit, depth and payload (colours, and triangle ids), with the reference: the first backend
-of `edgewise list`, on one thread, in scalar code. On a small image it also compares all backends with an
-oracle, which computes each pixel in exact 128-bit arithmetic. A .tri file keeps its own size there if pixels
-times triangles are at most 7.5 million.
+Verify draws every scene with every backend in every culling mode: on 1, 2 and 3 threads, on each
+SIMD target of this machine, with other tile sizes on the best target, and with optimizations
+switched off. It compares depth and payload (colours, and triangle ids) of each frame bit for bit
+with the reference: the first backend of `edgewise list`, on one thread, in scalar code.
 
-Columns: triangles submitted; emitted by the front end, over all culling modes; frames compared; pixels
-that differ; pixels that differ from the oracle.
-On a difference, it writes pictures and a .tri file that reproduces it, and exits with 1.)";
+Verify also compares all backends with an oracle, which computes each pixel in exact 128-bit
+arithmetic. It does so on a small image, or at the size of a .tri file whose pixels times triangles
+are at most 7.5 million.
+
+Columns: triangles submitted; triangles emitted by the front end, over all culling modes; frames
+compared; pixels that differ; pixels that differ from the oracle.
+On a difference, verify writes pictures and a .tri file that reproduces it, and exits with 1.)";
 
 }  // namespace
 

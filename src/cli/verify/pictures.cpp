@@ -15,8 +15,8 @@ namespace {
 
 // About the width of a screen: enlarged pixels are visible and the picture fits.
 int enlargement(int width, int height) {
-  constexpr int kWide = 2048, kMost = 8;
-  return std::clamp(kWide / std::max(width, height), 1, kMost);
+  constexpr int kLargestSide_px = 2048, kLargestFactor = 8;
+  return std::clamp(kLargestSide_px / std::max(width, height), 1, kLargestFactor);
 }
 
 }  // namespace

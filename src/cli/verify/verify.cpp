@@ -24,8 +24,8 @@ struct Judgement {
 };
 
 // Small tiles, several threads and the widest vectors: the most boundaries between tiles, threads and lanes.
-constexpr Execution kMostSeams{3, 16, SimdTarget::best};
-constexpr Execution kPlainest{1, 64, SimdTarget::scalar};
+constexpr Execution kSmallestTiles{3, 16, SimdTarget::best};
+constexpr Execution kReferenceExecution{1, 64, SimdTarget::scalar};
 
 // Other tile sizes run on the best target, other targets with the usual tile, and optimizations are left out
 // on one thread count: the full product would mostly repeat itself, since only tiled backends use tile size
@@ -80,7 +80,7 @@ class SceneCheck {
         const auto triangles = frontend_.run(shot.source.drawable, shot.frontend);
         if (payload == Payload::colour) count(frontend_.stats());
         lab::poison(expected);
-        backends_.front()->draw(triangles, expected.view(), background_of(payload), kPlainest);
+        backends_.front()->draw(triangles, expected.view(), background_of(payload), kReferenceExecution);
         compare_all({plan_.backends.front().name, shot.frontend, triangles, expected});
         if (cull == Cull::none && payload == Payload::id && covers_each_pixel_once(shot.source))
           check_hits(triangles, width, height);
@@ -89,10 +89,10 @@ class SceneCheck {
   }
 
   void compare_all(const Judgement& judgement) {
-    const AblatedExecution seams[] = {{kMostSeams}};
+    const AblatedExecution small_tiles[] = {{kSmallestTiles}};
     const std::span<const AblatedExecution> all = judgement.frontend.payload == Payload::colour
                                                       ? std::span<const AblatedExecution>(executions_)
-                                                      : seams;
+                                                      : small_tiles;
     for (std::size_t b = 0; b < backends_.size(); ++b)
       for (const AblatedExecution& how : all) {
         verdict_.differing_pixels += compare(judgement, b, how);
@@ -115,7 +115,7 @@ class SceneCheck {
       lab::draw_oracle(triangles, expected, background_of(Payload::id));
       for (std::size_t b = 0; b < backends_.size(); ++b) {
         verdict_.oracle_differences +=
-            compare({"oracle", shot.frontend, triangles, expected}, b, {kMostSeams});
+            compare({"oracle", shot.frontend, triangles, expected}, b, {kSmallestTiles});
         ++verdict_.oracle_configurations;
       }
     }
@@ -123,7 +123,7 @@ class SceneCheck {
 
   void check_hits(std::span<const ScreenTriangle> triangles, int width, int height) {
     for (std::size_t b = 0; b < backends_.size(); ++b) {
-      const auto hits = lab::count_hits(*backends_[b], triangles, width, height, kMostSeams);
+      const auto hits = lab::count_hits(*backends_[b], triangles, width, height, kSmallestTiles);
       const auto wrong = std::count_if(hits.begin(), hits.end(), [](std::uint32_t n) { return n != 1; });
       verdict_.hits.push_back({std::string(plan_.backends[b].name), static_cast<std::uint64_t>(wrong)});
     }

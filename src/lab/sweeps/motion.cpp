@@ -99,12 +99,12 @@ std::uint64_t not_once(std::span<const Run> runs, Window window) {
 Measured measure_translation(double step_px, bool quick) {
   const auto methods = coverage_methods();
   constexpr View kView{256, 48, 88.0};
-  constexpr int kPlaces = 4;  // a grid so coarse that samples lie on edges
+  constexpr int kStepsPerPx = 4;  // a grid so coarse that samples lie on edges
   Measured sums(methods.size());
   std::vector<Run> runs;
   for (int frame = 0; frame < (quick ? 8 : 256); ++frame) {
     const double way = frame * step_px;
-    const auto triangles = kView.mesh(kPlaces, way, way);
+    const auto triangles = kView.mesh(kStepsPerPx, way, way);
     const auto grid = snapped(triangles);
     const Window window = kView.window(static_cast<int>(way));
     const std::uint64_t crossings = edge_crossings(triangles, window);

@@ -58,14 +58,14 @@ double SweepResult::y(const Tally& tally) const {
   return sweep->y.scale * static_cast<double>(tally.errors) / static_cast<double>(tally.trials);
 }
 
-SweepResult run_sweep(const Sweep& sweep, bool quick, int threads, const std::function<void()>& on_place) {
+SweepResult run_sweep(const Sweep& sweep, bool quick, int threads, const std::function<void()>& on_position) {
   SweepResult result{&sweep, std::vector<Measured>(sweep.positions.size(), Measured(0))};
   std::mutex mutex;
   parallel_for(threads, static_cast<int>(sweep.positions.size()), [&](int i) {
     const auto position = static_cast<std::size_t>(i);
     result.at[position] = sweep.measure(sweep.positions[position], quick);
     const std::lock_guard lock(mutex);
-    on_place();
+    on_position();
   });
   return result;
 }

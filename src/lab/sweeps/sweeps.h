@@ -69,8 +69,8 @@ struct SweepResult {
   double y(const Tally& tally) const;
 };
 
-// Calls `on_place` after each position, from one thread at a time.
-SweepResult run_sweep(const Sweep& sweep, bool quick, int threads, const std::function<void()>& on_place);
+// Calls `on_position` after each position, from one thread at a time.
+SweepResult run_sweep(const Sweep& sweep, bool quick, int threads, const std::function<void()>& on_position);
 
 // Positions for the x axis: 2^from, 2^(from ± 1), … 2^to.
 std::vector<double> powers_of_two(int from, int to);
