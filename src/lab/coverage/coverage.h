@@ -14,6 +14,7 @@
 #include "edgewise/framebuffer.h"
 #include "lab/method.h"
 #include "lab/truth.h"
+#include "raster/binning/bins.h"
 
 namespace edgewise::lab {
 
@@ -32,8 +33,9 @@ class Canvas {
   Window window() const { return {frame.width(), frame.height()}; }
   Backend& backend(const BackendInfo& info);
 
-  Framebuffer frame;         // all methods write payloads, only the backends write depths
+  Framebuffer frame;         // all methods write payloads; backends and the engine also write depths
   std::vector<float> depth;  // depths of all other methods; rows are frame.stride() apart
+  Bins bins;                 // of the engine (lab/engine)
 
  private:
   std::map<std::string_view, std::unique_ptr<Backend>> backends_;
@@ -67,7 +69,8 @@ struct CoverageMethod {
 
 // The backends first.
 std::span<const CoverageMethod> coverage_methods();
-// Throws std::invalid_argument for an unknown name; the message suggests the nearest known one.
+// Also finds those of the engine. Throws std::invalid_argument for an unknown name; the message suggests the
+// nearest known one.
 const CoverageMethod& find_coverage_method(std::string_view name);
 
 // All methods that the viewer can draw: the coverage methods, then wireframe().
