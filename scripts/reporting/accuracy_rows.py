@@ -30,7 +30,8 @@ class Family:
 FAMILIES = {family.name: family for family in (
     Family("coverage", "wrong pixels per 10⁶ edge crossings", "crossings", "ns per covered pixel",
            ("float", "snapped"),
-           {"floating point": ("float", "double"), "fixed point": ("fixed", "whole"), "scanline DDA": ("dda",)},
+           {"floating point": ("float", "double"), "fixed point": ("fixed", "whole"), "scanline DDA": ("dda",),
+            "our SIMD engine, other numbers": ("engine",)},
            "More than 10⁶: one crossing can cost many pixels, most where a triangle fills its bounding box"),
     Family("visibility", "pixels that show the wrong triangle, per 10⁶ covered", "covered", "ns per covered pixel",
            ("snapped",),  # all methods draw the same snapped triangles, so the other truth adds the same to each
@@ -54,6 +55,11 @@ class Method:
     promise: str
     exact: bool
     max_side_px: float | None = None  # coverage: triangles with larger boxes overflow
+
+    @property
+    def engine(self):
+        """Whether it is the SIMD engine with one kind of numbers. These are compared with one another."""
+        return self.name.startswith("engine_")
 
     @property
     def ours(self):
@@ -110,6 +116,7 @@ class Scene:
     summary: str
     trials: int
     measured: tuple
+    engine: tuple = ()  # the measurements of the SIMD engine with each kind of numbers; coverage only
     shared_crossings: int = 0  # of edges that triangles share with sample rows or columns; coverage only
     largest_side_px: float = 0.0  # of the triangles' boxes; coverage only
 
@@ -211,11 +218,12 @@ def parse_accuracy(data):
     scenes = []
     for scene in data["scenes"]:
         family = FAMILIES[scene["family"]]
+        measured = [parse_measured(entry, family.name, methods[family.name, entry["name"]]) for entry in scene["methods"]]
         scenes.append(Scene(scene["name"], family.name, scene["summary"], int(scene[family.trials]),
-                            tuple(parse_measured(entry, family.name, methods[family.name, entry["name"]])
-                                  for entry in scene["methods"]),
+                            tuple(m for m in measured if not m.method.engine), tuple(m for m in measured if m.method.engine),
                             int(scene.get("shared_crossings", 0)), float(scene.get("largest_side_px", 0.0))))
-    by_family = {name: [method for (family, _), method in methods.items() if family == name] for name in FAMILIES}
+    by_family = {name: [method for (family, _), method in methods.items() if family == name and not method.engine]
+                 for name in FAMILIES}
     return Accuracy(data["machine"], bool(data["quick"]), by_family, tuple(scenes), parse_cube(data, methods))
 
 

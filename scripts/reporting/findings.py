@@ -1,7 +1,7 @@
 """The findings on README's first screen, each in a sentence or two, made from the results."""
 from accuracy_findings import before_snapping_clause, listed, numbered
 from bench_rows import order
-from frontier import cracks_of, simd_speed_up, timed_scenes
+from frontier import cracks_of, measured_in, simd_speed_up, timed_scenes
 from speedups import kernels, outcome, spread, with_width
 from peers import OURS, pairs
 from tables import THREADS, number
@@ -66,9 +66,8 @@ def crack_finding(accuracy):
 def engine_sentence(accuracy):
     """The cost of exact edges in the engine that runs both kinds of numbers; empty if not measured."""
     exact, loose = ENGINES
-    methods = {m.name: m for m in accuracy.methods.get("coverage", ())}
     found = simd_speed_up(accuracy, exact, loose)
-    if found is None or not (cracks := cracks_of(accuracy, methods[loose])):
+    if found is None or not (cracks := cracks_of(accuracy, measured_in(timed_scenes(accuracy)[0], loose).method)):
         return ""
     middle, low, high = (100 * (1 / up - 1) for up in (found.middle, found.high, found.low))
     cost = (f"costs {middle:.0f} % more time than float edges" if low > 0 else

@@ -32,7 +32,7 @@ def within_range(scene, method):
 
 def cracks_of(accuracy, method):
     """None if no scene shows it."""
-    found = [(m.cracks, scene) for scene in accuracy.of("coverage") for m in scene.measured
+    found = [(m.cracks, scene) for scene in accuracy.of("coverage") for m in (*scene.measured, *scene.engine)
              if m.method == method and scene.name not in T_JUNCTIONS and scene.shared_crossings >= LEAST_CROSSINGS
              and within_range(scene, method)]
     if not found:
@@ -70,7 +70,7 @@ def speed_up(groups):
 
 
 def measured_in(scene, name):
-    return next((m for m in scene.measured if m.method.name == name), None)
+    return next((m for m in (*scene.measured, *scene.engine) if m.method.name == name), None)
 
 
 def simd_speed_up(accuracy, name, other):
@@ -92,7 +92,7 @@ def speed_ups(accuracy):
     groups = {}
     for scene in scenes:
         base_rounds = next(m.scalar.rounds for m in scene.measured if m.method == base)
-        for m in scene.measured:
+        for m in (*scene.measured, *scene.engine):
             for form, cost in (("scalar", m.scalar), ("simd", m.simd)):
                 if cost:
                     groups.setdefault(m.method, {}).setdefault(form, []).append(ratios(cost.rounds, base_rounds))

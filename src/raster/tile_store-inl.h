@@ -72,21 +72,13 @@ inline void write_value(const FramePlane& to, std::int32_t value) {
   });
 }
 
-HWY_INLINE void prefetch_triangles(const TileTask& task, std::span<const std::uint32_t> indices) {
-  for (const std::uint32_t index : indices) {
-    const auto* record = reinterpret_cast<const char*>(task.triangles + index);
-    hwy::Prefetch(record);
-    hwy::Prefetch(record + sizeof(ScreenTriangle) - 1);
-  }
-}
-
 // Calls draw(block) for each of the tile's index blocks. Records are scattered in memory, so each block's are
 // prefetched while the previous one is drawn.
-template <typename Draw>
-HWY_INLINE void draw_index_blocks(const TileTask& task, Draw&& draw) {
+template <class Task, typename Draw>
+HWY_INLINE void draw_index_blocks(const Task& task, Draw&& draw) {
   Bins::IndexBlock prefetched{};
   task.bins->for_each_index_block(task.cell, [&](const Bins::IndexBlock& block) {
-    if (task.ablation.prefetch) prefetch_triangles(task, block.indices);
+    if (task.ablation.prefetch) task.prefetch(block.indices);
     if (!prefetched.indices.empty()) draw(prefetched);
     prefetched = block;
   });

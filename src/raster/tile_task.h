@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 
 #include "edgewise/framebuffer.h"
 #include "edgewise/simd_target.h"
@@ -10,6 +11,15 @@
 #include "raster/binning/bins.h"
 
 namespace edgewise {
+
+template <typename Record>
+inline void prefetch_records(const Record* records, std::span<const std::uint32_t> indices) {
+  for (const std::uint32_t index : indices) {
+    const auto* record = reinterpret_cast<const char*>(records + index);
+    __builtin_prefetch(record);
+    __builtin_prefetch(record + sizeof(Record) - 1);
+  }
+}
 
 struct TileTask {
   const ScreenTriangle* triangles;
@@ -22,6 +32,7 @@ struct TileTask {
   Ablation ablation;  // tile_store is resolved
 
   int size() const { return 1 << size_log2; }  // px
+  void prefetch(std::span<const std::uint32_t> indices) const { prefetch_records(triangles, indices); }
   // The part inside the frame, px.
   int width() const { return std::min(size(), frame.width - x0); }
   int height() const { return std::min(size(), frame.height - y0); }

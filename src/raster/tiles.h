@@ -4,6 +4,7 @@
 
 #include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "core/llc.h"
@@ -23,11 +24,13 @@ constexpr TileStore tile_store_for(bool empty_tile, std::size_t frame_bytes, std
   return empty_tile && frame_bytes <= llc / 2 ? TileStore::cached : TileStore::streaming;
 }
 
-inline void draw_in_tiles(std::span<const ScreenTriangle> triangles, FrameView frame,
-                          std::uint32_t background, const Execution& execution, const Ablation& ablation,
-                          int tile_size, Bins& bins, Bins::Small small, TileKernel draw_tile) {
+// `margin`: CellGrid::margin.
+template <typename DrawTile>
+void draw_in_tiles(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
+                   const Execution& execution, const Ablation& ablation, int tile_size, Bins& bins,
+                   Bins::Small small, DrawTile&& draw_tile, std::int32_t margin = 0) {
   const int size_log2 = std::countr_zero(static_cast<unsigned>(tile_size));
-  const CellGrid grid{frame.width, frame.height, size_log2, size_log2};
+  const CellGrid grid{frame.width, frame.height, size_log2, size_log2, margin};
   const SimdTarget binning = ablation.vector_setup ? execution.target : SimdTarget::scalar;
   bins.build(triangles, grid, execution.threads, binning, small, ablation.prefetch);
   const auto pixels = static_cast<std::size_t>(frame.stride) * static_cast<std::size_t>(frame.height);

@@ -8,6 +8,7 @@
 #include "lab/coverage/cases.h"
 #include "lab/coverage/score.h"
 #include "lab/coverage_support.h"
+#include "lab/engine/engine.h"
 #include "scene/streams.h"
 
 namespace edgewise::lab {
@@ -28,6 +29,7 @@ float side_px(const UnsnappedTriangle& t) {
 std::vector<std::string_view> method_names() {
   std::vector<std::string_view> names;
   for (const auto& method : coverage_methods()) names.push_back(method.info.name);
+  for (const auto& method : engine_methods()) names.push_back(method.info.name);
   return names;
 }
 

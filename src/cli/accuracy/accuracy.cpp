@@ -6,6 +6,7 @@
 
 #include "cli/accuracy/score.h"
 #include "core/nearest_name.h"
+#include "lab/engine/engine.h"
 
 namespace edgewise::tools {
 
@@ -112,6 +113,7 @@ std::vector<std::pair<Family, const lab::MethodInfo*>> ChosenMethods::all() cons
 ChosenMethods methods_of(const AccuracyPlan& plan) {
   ChosenMethods chosen;
   choose(plan, Family::coverage, lab::coverage_methods(), chosen.coverage);
+  choose(plan, Family::coverage, lab::engine_methods(), chosen.coverage);
   choose(plan, Family::visibility, lab::visibility_methods(), chosen.visibility);
   choose(plan, Family::facing, lab::facing_methods(), chosen.facing);
   choose(plan, Family::clipping, lab::clipping_methods(), chosen.clipping);

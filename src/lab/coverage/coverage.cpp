@@ -9,7 +9,8 @@
 
 #include "core/nearest_name.h"
 #include "frontend/fixed.h"
-#include "lab/measure.h"
+#include "lab/coverage/group_runs.h"
+#include "lab/engine/engine.h"
 
 #ifndef EDGEWISE_MORE_COVERAGE_METHODS
 #define EDGEWISE_MORE_COVERAGE_METHODS(X)
@@ -41,42 +42,15 @@ EDGEWISE_COVERAGE_METHODS(EDGEWISE_DECLARE)
 
 namespace {
 
-ScreenTriangle shifted(ScreenTriangle t, std::uint32_t payload, Window window) {
-  for (int i = 0; i < 3; ++i) {
-    const std::int64_t x = t.x_sub[i] - std::int64_t{window.x0} * contract::kSub,
-                       y = t.y_sub[i] - std::int64_t{window.y0} * contract::kSub;
-    if (std::max(std::abs(x), std::abs(y)) > contract::kGuardSub)
-      throw std::invalid_argument("triangle " + std::to_string(payload) + " lies beyond the guard band");
-    t.x_sub[i] = static_cast<std::int32_t>(x), t.y_sub[i] = static_cast<std::int32_t>(y);
-  }
-  t.payload = payload;
-  return t;
-}
-
-// Draws the triangles in groups with disjoint bounding boxes, each triangle with its index as payload.
 void backend_runs(Backend& backend, std::span<const ScreenTriangle> snapped, Window window,
                   std::vector<Run>& runs) {
-  std::vector<ScreenTriangle> triangles;
-  triangles.reserve(snapped.size());
-  for (const auto& t : snapped)
-    triangles.push_back(shifted(t, static_cast<std::uint32_t>(triangles.size()), window));
-  Framebuffer frame(window.width, window.height);
+  const std::vector<ScreenTriangle> triangles = shifted(snapped, window);
   std::vector<ScreenTriangle> members;
-  for (const auto& group : disjoint_groups(triangles, window.width, window.height)) {
+  group_runs(triangles, window, runs, [&](std::span<const std::uint32_t> group, Framebuffer& frame) {
     members.clear();
     for (const std::uint32_t i : group) members.push_back(triangles[i]);
     backend.draw(members, frame.view(), kNoTriangle, {});
-    for (int y = 0; y < window.height; ++y) {
-      const std::uint32_t* row = frame.payload_row(y);
-      for (int x = 0; x < window.width;) {
-        const int begin = x;
-        const std::uint32_t triangle = row[x];
-        while (x < window.width && row[x] == triangle) ++x;
-        if (triangle != kNoTriangle)
-          runs.push_back({triangle, y + window.y0, begin + window.x0, x + window.x0});
-      }
-    }
-  }
+  });
 }
 
 // Rule 2; the current rounding mode is half to even.
@@ -152,11 +126,31 @@ bool same_picture(const CoverageMethod& method, const Canvas& a, const Canvas& b
 }
 
 const CoverageMethod& find_coverage_method(std::string_view name) {
-  return find(coverage_methods(), "coverage method", name);
+  static const std::vector<CoverageMethod> all = [] {
+    std::vector<CoverageMethod> methods(coverage_methods().begin(), coverage_methods().end());
+    methods.insert(methods.end(), engine_methods().begin(), engine_methods().end());
+    return methods;
+  }();
+  return find(all, "coverage method", name);
 }
 
 const CoverageMethod& find_drawing_method(std::string_view name) {
   return find(drawing_methods(), "backend or coverage method", name);
+}
+
+std::vector<ScreenTriangle> shifted(std::span<const ScreenTriangle> triangles, Window window) {
+  std::vector<ScreenTriangle> list(triangles.begin(), triangles.end());
+  for (std::uint32_t index = 0; ScreenTriangle & t : list) {
+    for (int i = 0; i < 3; ++i) {
+      const std::int64_t x = t.x_sub[i] - std::int64_t{window.x0} * contract::kSub,
+                         y = t.y_sub[i] - std::int64_t{window.y0} * contract::kSub;
+      if (std::max(std::abs(x), std::abs(y)) > contract::kGuardSub)
+        throw std::invalid_argument("triangle " + std::to_string(index) + " lies beyond the guard band");
+      t.x_sub[i] = static_cast<std::int32_t>(x), t.y_sub[i] = static_cast<std::int32_t>(y);
+    }
+    t.payload = index++;
+  }
+  return list;
 }
 
 std::vector<ScreenTriangle> snapped(std::span<const FloatTriangle> triangles) {

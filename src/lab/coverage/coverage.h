@@ -15,6 +15,7 @@
 #include "edgewise/framebuffer.h"
 #include "lab/method.h"
 #include "lab/truth.h"
+#include "raster/binning/bins.h"
 
 namespace edgewise::lab {
 
@@ -43,8 +44,9 @@ class Canvas {
   Window window() const { return {frame.width(), frame.height()}; }
   Backend& backend(const BackendInfo& info);
 
-  Framebuffer frame;  // all methods write payloads, only the backends write depths
+  Framebuffer frame;  // all methods write payloads; backends and the engine also write depths
   std::vector<float, LineAllocator<float>> depth;  // of all other methods; rows are frame.stride() apart
+  Bins bins;                                       // of the engine (lab/engine)
 
  private:
   std::map<std::string_view, std::unique_ptr<Backend>> backends_;
@@ -77,13 +79,15 @@ struct CoverageMethod {
   // Whether draw uses the execution's SIMD target. If not, `simd_note` says why a SIMD form is missing.
   bool simd = false;
   std::string_view simd_note = {};
+  bool scalar_of_interest = true;  // whether speed comparisons include the scalar form
 };
 
 // The backends first.
 std::span<const CoverageMethod> coverage_methods();
 // Whether two draws of a method gave the same payloads and the same depths, bit for bit.
 bool same_picture(const CoverageMethod& method, const Canvas& a, const Canvas& b);
-// Throws std::invalid_argument for an unknown name; the message suggests the nearest known one.
+// Also finds those of the engine. Throws std::invalid_argument for an unknown name; the message suggests the
+// nearest known one.
 const CoverageMethod& find_coverage_method(std::string_view name);
 
 // All methods that the viewer can draw: the coverage methods, then wireframe().

@@ -81,7 +81,7 @@ VisibleTriangleScore VisibleTriangleJudge::score(const CoverageMethod& method) c
     add_depth_errors(score, canvas, by_grid_, [&](int x, int y, double exact) {
       return std::abs(static_cast<double>(canvas.frame.depth_row(y)[x]) - exact);
     });
-    score.unexplained = unexplained(canvas);
+    if (method.info.exact) score.unexplained = unexplained(canvas);
   } else {
     add_depth_errors(score, canvas, by_floats_, [&](int x, int y, double exact) {
       return std::abs(double{canvas.depth[static_cast<std::size_t>(y * canvas.frame.stride() + x)]} - exact) /

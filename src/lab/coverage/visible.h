@@ -14,12 +14,13 @@ struct VisibleTriangleScore {
   // Pixels that show another triangle than the truth does, or only one of both shows none; against each
   // truth.
   std::uint64_t wrong_snapped = 0, wrong_floats = 0;
-  // For the backends: wrong_snapped pixels that the depth error of rule 6 does not explain. The drawn
-  // triangle does not cover them, or lies farther behind the visible one than both errors together.
+  // For exact methods that write contract depths: wrong_snapped pixels that the depth error of rule 6 does
+  // not explain. The drawn triangle does not cover them, or lies farther behind the visible one than both
+  // errors together.
   std::uint64_t unexplained = 0;
-  // Depth errors at pixels that show the right triangle. For the backends: against the snapped truth, in
-  // units of rule 6 (2^-31 of the range). For all others: against the float truth, in float ulps at the exact
-  // depth, or at 2^-8 if that is nearer to 0.
+  // Depth errors at pixels that show the right triangle. For methods that write contract depths: against the
+  // snapped truth, in units of rule 6 (2^-31 of the range). For all others: against the float truth, in float
+  // ulps at the exact depth, or at 2^-8 if that is nearer to 0.
   double max_ulp = 0.0, rms_ulp = 0.0;
 
   bool operator==(const VisibleTriangleScore&) const = default;

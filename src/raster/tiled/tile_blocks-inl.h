@@ -65,16 +65,18 @@ struct List {
 };
 
 // The values of a linear function at the 16 pixels of a block.
+template <class Lanes>
 struct Values16 {
-  V v[kVectors];
+  typename Lanes::Vector v[kVectors];
 };
 // Relative to the value at the block's first pixel. `x`, `y`: steps per pixel.
-HWY_INLINE Values16 over_block(const std::int32_t* x, const std::int32_t* y) {
+template <class Lanes>
+HWY_INLINE Values16<Lanes> over_block(const typename Lanes::Value* x, const typename Lanes::Value* y) {
   const D d;
-  Values16 out;
+  Values16<Lanes> out;
   for (int i = 0; i < kVectors; ++i)
-    out.v[i] = hn::Add(hn::Mul(hn::Load(d, kLaneX + i * kLanes), hn::Set(d, *x)),
-                       hn::Mul(hn::Load(d, kLaneY + i * kLanes), hn::Set(d, *y)));
+    out.v[i] = Lanes::add(Lanes::times(hn::Load(d, kLaneX + i * kLanes), *x),
+                          Lanes::times(hn::Load(d, kLaneY + i * kLanes), *y));
   return out;
 }
 

@@ -38,7 +38,8 @@ constexpr std::ptrdiff_t kMasksAhead = 32;  // prefetch distance
 
 // Draws masks up to the first with a rank above `last`, and returns their number. Writes all four blocks of
 // every mask: a branch that skips blocks without a covered pixel would be mispredicted too often.
-HWY_NOINLINE std::size_t draw_masks(Tile& tile, std::span<const CoverageMask> masks, std::uint32_t last) {
+HWY_NOINLINE inline std::size_t draw_masks(Tile& tile, std::span<const CoverageMask> masks,
+                                           std::uint32_t last) {
   const D d;
   static_assert(kMaskSide == 2 * kBlockSide);
   std::size_t n = 0;

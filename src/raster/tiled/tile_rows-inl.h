@@ -34,38 +34,42 @@ HWY_INLINE std::size_t lane_of(std::size_t part) {
 
 // Whether triangle k may cover a whole block: inside a triangle an edge value lies between 0 and twice the
 // area, so its span over the block must not exceed that (claim may_fill_blocks in proofs/tile_reject.smt2).
-HWY_INLINE bool may_fill_blocks(const Batch& batch, int k) {
-  const auto has_room = [&](const Batch::Linear& edge) {
-    return edge.span[k] >> kSubBits <= batch.twice_area_px[k];
+template <class Numbers>
+HWY_INLINE bool may_fill_blocks(const Batch<Numbers>& batch, int k) {
+  const auto has_room = [&](const auto& edge) {
+    return !Numbers::spans_more(edge.span[k], batch.twice_area_px[k]);
   };
   return has_room(batch.edge[0]) && has_room(batch.edge[1]) && has_room(batch.edge[2]);
 }
 
 // A linear function of the pixel position, at the first pixels of a row of blocks, in kParts vectors.
-template <std::size_t kParts>
+template <class Lanes, std::size_t kParts>
 struct Row {
-  V v[kParts], step;
-  HWY_INLINE Row(const std::int32_t* x, const std::int32_t* y, const std::int32_t* first) {
-    const D d;
+  using Value = typename Lanes::Value;
+  typename Lanes::Vector v[kParts], step;
+  HWY_INLINE Row(const Value* x, const Value* y, const Value* first) {
     for (std::size_t p = 0; p < kParts; ++p)
-      v[p] = hn::Add(hn::Set(d, *first), hn::Mul(hn::Load(d, kBlockX + lane_of(p)), hn::Set(d, *x)));
-    step = hn::Mul(hn::Set(d, *y), hn::Set(d, kBlockSide));
+      v[p] = Lanes::add(Lanes::set(*first), Lanes::times(hn::Load(D{}, kBlockX + lane_of(p)), *x));
+    step = Lanes::times(hn::Set(D{}, kBlockSide), *y);
   }
   HWY_INLINE void next() {
-    for (V& part : v) part = hn::Add(part, step);
+    for (auto& part : v) part = Lanes::add(part, step);
   }
 };
 
 // Lists the candidate blocks of triangle k, whose box is at most kParts vectors of blocks wide, and lowers
 // the zmax of the blocks that it covers.
-template <bool kHierarchicalDepth, std::size_t kParts>
-HWY_NOINLINE void find_candidates_by_rows(Tile& tile, const Batch& batch, int k, Candidates& out) {
+template <class Numbers, bool kHierarchicalDepth, std::size_t kParts>
+HWY_NOINLINE void find_candidates_by_rows(Tile& tile, const Batch<Numbers>& batch, int k, Candidates& out) {
   const D d;
   const V minus_one = hn::Set(d, -1);
-  const auto largest = [&](const Batch::Linear& f) { return Row<kParts>(f.x + k, f.y + k, f.most + k); };
-  Row<kParts> edge[3] = {largest(batch.edge[0]), largest(batch.edge[1]), largest(batch.edge[2])};
-  Row<kParts> depth = largest(batch.depth);
-  Row<kParts> nearest(batch.nearest.x + k, batch.nearest.y + k, batch.nearest.first + k);
+  const auto largest = [&](const auto& edge) {
+    return Row<Numbers, kParts>(edge.x + k, edge.y + k, edge.most + k);
+  };
+  Row<Numbers, kParts> edge[3] = {largest(batch.edge[0]), largest(batch.edge[1]), largest(batch.edge[2])};
+  const typename Numbers::Rule rule = Numbers::rule(batch.edge, k);
+  Row<Int32Lanes, kParts> depth(batch.depth.x + k, batch.depth.y + k, batch.depth.most + k);
+  Row<Int32Lanes, kParts> nearest(batch.nearest.x + k, batch.nearest.y + k, batch.nearest.first + k);
 
   const V last_column = hn::Set(d, batch.bx1[k] - batch.bx0[k]);
   V before_end[kParts], offset[kParts];  // before_end < 0 behind the box's last column
@@ -77,12 +81,14 @@ HWY_NOINLINE void find_candidates_by_rows(Tile& tile, const Batch& batch, int k,
   List list{out.offset};
   for (int row = batch.by0[k]; row <= batch.by1[k]; ++row) {
     for (std::size_t p = 0; p < kParts; ++p) {
-      const V most = hn::Or(hn::Or(edge[0].v[p], edge[1].v[p]), hn::Or(edge[2].v[p], before_end[p]));
+      const V most = hn::Or(Numbers::negative(edge[0].v[p], edge[1].v[p], edge[2].v[p]), before_end[p]);
       auto candidate = hn::Gt(most, minus_one);
       if constexpr (kHierarchicalDepth) {
         // In a block that the triangle covers, no pixel stays farther than the triangle's farthest depth.
-        const auto low = [&](int i) { return hn::Sub(edge[i].v[p], hn::Set(d, batch.edge[i].span[k])); };
-        const V least = hn::Or(hn::Or(low(0), low(1)), hn::Or(low(2), before_end[p]));
+        const auto low = [&](int i) {
+          return Numbers::subtract(edge[i].v[p], Numbers::set(batch.edge[i].span[k]));
+        };
+        const V least = hn::Or(Numbers::outside(low(0), low(1), low(2), rule), before_end[p]);
         const V old_zmax = hn::LoadU(d, hiz + lane_of(p)), own_zmax = depth.v[p];
         const auto inside = hn::Gt(least, minus_one);
         hn::StoreU(hn::IfThenElse(inside, hn::Min(old_zmax, own_zmax), old_zmax), d, hiz + lane_of(p));
@@ -91,7 +97,7 @@ HWY_NOINLINE void find_candidates_by_rows(Tile& tile, const Batch& batch, int k,
       list.append(offset[p], candidate);
       offset[p] = hn::Add(offset[p], hn::Set(d, kMaxBlocks));
     }
-    for (Row<kParts>& e : edge) e.next();
+    for (auto& e : edge) e.next();
     if constexpr (kHierarchicalDepth) depth.next(), nearest.next();
     hiz += kMaxBlocks;
   }

@@ -34,34 +34,39 @@ alignas(64) constexpr auto kSquareEntries = [] {
 // Triangles whose boxes are at most 4 x 4 blocks. All blocks of a triangle are tested at once, one lane per
 // block. The candidate blocks of many triangles go into one list: the number per triangle is hard to predict
 // for a branch predictor, but a loop over a list is not.
+template <class Numbers>
 class SmallTriangles {
  public:
   static constexpr int kSide = 4;  // blocks
   explicit SmallTriangles(Tile& tile) : tile_(tile) {}
 
-  HWY_INLINE void add(const Batch& batch, int k) {
+  HWY_INLINE void add(const Batch<Numbers>& batch, int k) {
     const D d;
     if (used_ == kSlots) draw();
     const int slot = used_++ * kBlockPixels;
     const V bx = hn::Set(d, batch.bx1[k] - batch.bx0[k]), by = hn::Set(d, batch.by1[k] - batch.by0[k]);
-    const Values16 in[4] = {over_block(batch.edge[0].x + k, batch.edge[0].y + k),
-                            over_block(batch.edge[1].x + k, batch.edge[1].y + k),
-                            over_block(batch.edge[2].x + k, batch.edge[2].y + k),
-                            over_block(batch.depth.x + k, batch.depth.y + k)};
+    const auto in_block = [&](int i) {
+      return over_block<Numbers>(batch.edge[i].x + k, batch.edge[i].y + k);
+    };
+    const Values16<Numbers> edge_in[3] = {in_block(0), in_block(1), in_block(2)};
+    const auto depth_in = over_block<Int32Lanes>(batch.depth.x + k, batch.depth.y + k);
     const V entry = hn::Set(d, (batch.by0[k] * kMaxBlocks + batch.bx0[k]) << 16 | slot);
     for (int p = 0; p < kVectors; ++p) {
       const int lane = p * kLanes;
-      V most = hn::Zero(d);
       // The blocks of the square are arranged like the pixels of a block, at four times the distance.
-      const auto at_block = [&](int i, const std::int32_t* first) {
-        const V at = hn::Add(hn::Set(d, *first), hn::ShiftLeft<2>(in[i].v[p]));
-        hn::Store(in[i].v[p], d, in_block_[i] + slot + lane);
-        hn::Store(at, d, at_block_[i] + slot + lane);
+      const auto store_values = [&](auto lanes, auto offset, auto first, auto& values) {
+        const auto at = lanes.add(lanes.set(first), lanes.four_times(offset));
+        lanes.store(offset, values.in_block + slot + lane);
+        lanes.store(at, values.at_block + slot + lane);
         return at;
       };
-      for (int i = 0; i < 3; ++i)
-        most = hn::Or(most, hn::Add(at_block(i, batch.edge[i].first + k), hn::Set(d, batch.edge[i].rise[k])));
-      at_block(3, batch.depth.first + k);
+      const auto most_of = [&](int i) {
+        const auto at = store_values(Numbers{}, edge_in[i].v[p], batch.edge[i].first[k], edge_[i]);
+        return Numbers::add(at, Numbers::set(batch.edge[i].rise[k]));
+      };
+      const typename Numbers::Vector most_values[3] = {most_of(0), most_of(1), most_of(2)};
+      const V most = Numbers::negative(most_values[0], most_values[1], most_values[2]);
+      store_values(Int32Lanes{}, depth_in.v[p], batch.depth.first[k], depth_);
       const auto beside =
           hn::Or(hn::Gt(hn::Load(d, kLaneX + lane), bx), hn::Gt(hn::Load(d, kLaneY + lane), by));
       const auto candidate = hn::Not(hn::Or(beside, hn::Lt(most, hn::Zero(d))));
@@ -69,6 +74,7 @@ class SmallTriangles {
       list_.append(entries, candidate);
     }
     payload_[slot / kBlockPixels] = batch.payload[k];
+    rule_[slot / kBlockPixels] = Numbers::rule(batch.edge, k);
   }
 
   HWY_INLINE void draw() {
@@ -77,13 +83,14 @@ class SmallTriangles {
       const int block = list_.at[n] >> 16, value_index = list_.at[n] & 0xFFFF,
                 slot = value_index / kBlockPixels;
       for (int p = 0; p < kVectors; ++p) {
-        const auto value = [&](int i) {
-          return hn::Add(hn::Set(d, at_block_[i][value_index]),
-                         hn::Load(d, in_block_[i] + slot * kBlockPixels + p * kLanes));
+        const auto value = [&](auto lanes, const auto& values) {
+          return lanes.add(lanes.set(values.at_block[value_index]),
+                           lanes.load(values.in_block + slot * kBlockPixels + p * kLanes));
         };
+        const auto edge = [&](int i) { return value(Numbers{}, edge_[i]); };
         write_whole(tile_, block * kBlockPixels + p * kLanes,
-                    inside(hn::Or(hn::Or(value(0), value(1)), value(2))), value(3),
-                    hn::Set(d, payload_[slot]));
+                    inside(Numbers::outside(edge(0), edge(1), edge(2), rule_[slot])),
+                    value(Int32Lanes{}, depth_), hn::Set(d, payload_[slot]));
       }
     }
     used_ = list_.length = 0;
@@ -93,7 +100,13 @@ class SmallTriangles {
   static constexpr int kSlots = 16;
   Tile& tile_;
   int used_ = 0;
-  alignas(64) std::int32_t at_block_[4][kSlots * kBlocksAtOnce], in_block_[4][kSlots * kBlockPixels];
+  template <typename Value>
+  struct alignas(64) SlotValues {
+    Value at_block[kSlots * kBlocksAtOnce], in_block[kSlots * kBlockPixels];
+  };
+  SlotValues<typename Numbers::Value> edge_[3];
+  SlotValues<std::int32_t> depth_;
+  typename Numbers::Rule rule_[kSlots];
   std::int32_t payload_[kSlots];
   // the block in the tile << 16 | slot * 16 + the block's index in the square
   std::int32_t candidates_[(kSlots + 1) * kBlocksAtOnce];

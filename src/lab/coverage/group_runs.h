@@ -1,0 +1,39 @@
+// Records the pixels of each triangle with code that draws whole frames: triangles are drawn in groups with
+// disjoint bounding boxes.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "edgewise/framebuffer.h"
+#include "lab/measure.h"
+#include "lab/truth.h"
+
+namespace edgewise::lab {
+
+// Triangles relative to the window's corner, each with its index as payload. Throws std::invalid_argument for
+// one that then lies beyond the guard band.
+std::vector<ScreenTriangle> shifted(std::span<const ScreenTriangle> triangles, Window window);
+
+// Calls draw(group, frame) for groups of triangles. It must draw all of a group, over a background of
+// kNoTriangle, each with its index as payload and inside its box. Only the boxes of `boxes` count; they are
+// relative to the window's corner.
+template <typename Draw>
+void group_runs(std::span<const ScreenTriangle> boxes, Window window, std::vector<Run>& runs, Draw&& draw) {
+  Framebuffer frame(window.width, window.height);
+  for (const auto& group : disjoint_groups(boxes, window.width, window.height)) {
+    draw(std::span(group), frame);
+    for (int y = 0; y < window.height; ++y) {
+      const std::uint32_t* row = frame.payload_row(y);
+      for (int x = 0; x < window.width;) {
+        const int begin = x;
+        const std::uint32_t triangle = row[x];
+        while (x < window.width && row[x] == triangle) ++x;
+        if (triangle != kNoTriangle)
+          runs.push_back({triangle, y + window.y0, begin + window.x0, x + window.x0});
+      }
+    }
+  }
+}
+
+}  // namespace edgewise::lab

@@ -1,0 +1,45 @@
+// The tile kernel of the backend `tiled`, with other numbers in its edge functions.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "lab/method.h"
+#include "raster/tile_task.h"
+
+namespace edgewise::lab {
+
+enum class EngineNumbers {
+  exact,
+  float_lt,
+  float_le,
+  float_top_left,
+  float_rebased,
+  fixed_4_int32,
+  fixed_8_int32,
+  fixed_8_int64,
+  double_top_left
+};
+
+// `triangles` and `floats` are the same triangles, snapped and not.
+struct EngineTask : TileTask {
+  const FloatTriangle* floats;
+  int origin_x, origin_y;  // px, the frame's first pixel in the coordinates of `floats`
+  bool reads_floats;
+
+  void prefetch(std::span<const std::uint32_t> indices) const {
+    TileTask::prefetch(indices);
+    if (reads_floats) prefetch_records(floats, indices);
+  }
+};
+
+struct EngineKernel {
+  void (*draw_tile)(const EngineTask&);
+  std::int32_t margin;  // CellGrid::margin
+  bool reads_floats;
+};
+
+// `target` must be resolved.
+EngineKernel engine_kernel(EngineNumbers numbers, SimdTarget target);
+
+}  // namespace edgewise::lab

@@ -1,0 +1,221 @@
+// The numbers of edge functions: a policy on which the tile kernel is a template.
+//
+// The library has one policy, ContractNumbers. The laboratory has others (lab/engine), to measure what the
+// choice costs. Boxes and depth are the same for all.
+//
+// The contract's edge values are sums of 32 x 32 -> 64 bit products (triangle_lanes-inl.h).
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <cstdint>
+
+#include "edgewise/contract.h"
+#include "raster/simd/depth_lanes-inl.h"
+#include "raster/simd/lanes-inl.h"
+#include "raster/simd/triangle_lanes-inl.h"
+#include "raster/tile_task.h"
+
+// Included once per SIMD target.
+#if defined(EDGEWISE_TILE_NUMBERS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef EDGEWISE_TILE_NUMBERS_INL_H
+#undef EDGEWISE_TILE_NUMBERS_INL_H
+#else
+#define EDGEWISE_TILE_NUMBERS_INL_H
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace edgewise {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+using namespace contract;
+
+constexpr int kBlockSide = 4;  // px; the kernel draws and rejects in blocks of 4 x 4 px
+
+constexpr std::int32_t wrap(std::uint32_t v) {
+  return static_cast<std::int32_t>(v);
+}
+
+constexpr int kBatch = 32;  // triangles
+
+// Linear functions of the pixel position, one per triangle of a batch.
+template <typename Value>
+struct Linear {
+  Value x[kBatch], y[kBatch];  // steps per pixel
+  Value first[kBatch];         // at the first pixel of block (bx0, by0)
+  Value most[kBatch];          // the largest value in that block: first + rise
+  Value rise[kBatch];          // the largest value in a block less that at its first pixel
+  Value span[kBatch];          // the largest value in a block less the smallest
+};
+
+// A triangle's box in a tile, extended to whole blocks, so that an edge that accepts it accepts every lane
+// that is tested. From the tile's first pixel, px.
+struct BlockBox {
+  int left, top;
+  int last_x, last_y;  // the box's last pixel, from its first
+};
+
+inline void set_linear(Linear<std::int32_t>& f, int k, std::int32_t x, std::int32_t y, std::int32_t first) {
+  const auto up = [](std::int32_t step) { return step > 0 ? static_cast<std::uint32_t>(step) : 0u; };
+  const auto down = [](std::int32_t step) { return step < 0 ? 0u - static_cast<std::uint32_t>(step) : 0u; };
+  const std::uint32_t rise = (kBlockSide - 1) * (up(x) + up(y)),
+                      fall = (kBlockSide - 1) * (down(x) + down(y));
+  f.x[k] = x, f.y[k] = y, f.first[k] = first, f.most[k] = wrap(static_cast<std::uint32_t>(first) + rise);
+  f.rise[k] = wrap(rise), f.span[k] = wrap(rise + fall);
+}
+
+#if HWY_TARGET != HWY_SCALAR
+
+// Half a vector of triangles, one per 64-bit lane. In V32 only the lower half of each 64-bit lane counts.
+struct HalfLinear {
+  V32 x, y, first;
+};
+
+// BlockBox for half a vector of triangles.
+struct BlockBoxLanes {
+  V32 left, top, last_x, last_y;
+};
+HWY_INLINE V both(V32 left, V32 right) {
+  return hn::ConcatEven(D{}, right, left);
+}
+
+HWY_INLINE V32 thrice(V32 v) {
+  static_assert(kBlockSide - 1 == 3);
+  return hn::Add(v, hn::Add(v, v));
+}
+
+HWY_INLINE void store_linear(const HalfLinear& left, const HalfLinear& right, Linear<std::int32_t>& f,
+                             int k) {
+  const D d;
+  const V x = both(left.x, right.x), y = both(left.y, right.y), first = both(left.first, right.first);
+  const V rise = thrice(hn::Add(hn::Max(x, hn::Zero(d)), hn::Max(y, hn::Zero(d))));
+  hn::Store(x, d, f.x + k), hn::Store(y, d, f.y + k), hn::Store(first, d, f.first + k);
+  hn::Store(rise, d, f.rise + k), hn::Store(hn::Add(first, rise), d, f.most + k);
+  hn::Store(thrice(hn::Add(hn::Abs(x), hn::Abs(y))), d, f.span + k);
+}
+
+#endif
+
+// Vectors of kLanes values of a linear function, in wrapping int32.
+struct Int32Lanes {
+  using Value = std::int32_t;
+  using Vector = V;
+  static HWY_INLINE V set(Value v) { return hn::Set(D{}, v); }
+  static HWY_INLINE V load(const Value* at) { return hn::Load(D{}, at); }
+  static HWY_INLINE void store(V v, Value* at) { hn::Store(v, D{}, at); }
+  static HWY_INLINE V add(V a, V b) { return hn::Add(a, b); }
+  static HWY_INLINE V subtract(V a, V b) { return hn::Sub(a, b); }
+  static HWY_INLINE V times(V count, Value step) { return hn::Mul(count, hn::Set(D{}, step)); }
+  static HWY_INLINE V four_times(V v) { return hn::ShiftLeft<2>(v); }
+};
+
+// Edge i of a triangle at a box: a and b of rule 4, the biased value at the box's first sample, and whether
+// the edge rejects or accepts the box.
+struct EdgeInBox {
+  std::int32_t a, b;
+  std::int64_t first;
+  bool rejects, accepts;
+
+  EdgeInBox(const TileTask& task, const Oriented& t, const BlockBox& box, int i) {
+    const Edge edge = make_edge(t, i);
+    a = edge.a, b = edge.b;
+    first = edge.at(task.x0 + box.left, task.y0 + box.top);
+    const std::int64_t across = std::int64_t{a} * kSub * box.last_x,
+                       down = std::int64_t{b} * kSub * box.last_y;
+    rejects = first + std::max<std::int64_t>(across, 0) + std::max<std::int64_t>(down, 0) < 0;
+    accepts = first + std::min<std::int64_t>(across, 0) + std::min<std::int64_t>(down, 0) >= 0;
+  }
+};
+
+#if HWY_TARGET != HWY_SCALAR
+// The same for half a vector of triangles.
+struct EdgeInBoxLanes {
+  V32 a, b;
+  V64 first, most;        // most: the largest value in the box; if negative, the edge rejects the box
+  hn::Mask<D64> crossed;  // where the edge does not accept the box
+
+  HWY_INLINE EdgeInBoxLanes(const TileTask& task, const TriangleLanes& t, const Area& area,
+                            const BlockBoxLanes& box, int i) {
+    const auto& [x, y, z, payload] = t;
+    const int j = i == 2 ? 0 : i + 1;
+    const auto sample = [](V32 px, int origin) {
+      return hn::Add(hn::ShiftLeft<kSubBits>(px), set32(sample_sub(origin)));
+    };
+    const V32 zero = hn::Zero(D32{}), flip = lower(area.flip);
+    a = flipped(hn::Sub(y[i], y[j]), flip), b = flipped(hn::Sub(x[j], x[i]), flip);
+    const auto top_left = hn::Or(hn::Gt(a, zero), hn::And(hn::Eq(a, zero), hn::Gt(b, zero)));
+    const V64 bias = hn::AndNot(as64(hn::VecFromMask(D32{}, top_left)), hn::Set(D64{}, 1));
+    first = hn::Sub(hn::Add(product(a, hn::Sub(sample(box.left, task.x0), x[i])),
+                            product(b, hn::Sub(sample(box.top, task.y0), y[i]))),
+                    bias);
+    // rise: the largest edge value less that at the first sample, over 256. across - rise: the same for the
+    // least.
+    const V64 rise = hn::Add(product(hn::Max(a, zero), box.last_x), product(hn::Max(b, zero), box.last_y));
+    most = hn::Add(first, hn::ShiftLeft<kSubBits>(rise));
+    const V64 across = hn::Add(product(a, box.last_x), product(b, box.last_y));
+    const V64 least = hn::Add(first, hn::ShiftLeft<kSubBits>(hn::Sub(across, rise)));
+    crossed = hn::Lt(least, hn::Zero(D64{}));
+  }
+};
+#endif
+
+// The contract's edge functions, shifted (rule 5) in wrapping int32. A pixel is inside where all three are
+// >= 0. A policy for other numbers has the same members.
+struct ContractNumbers : Int32Lanes {
+  using Task = TileTask;
+  using Edge = Linear<std::int32_t>;
+  static constexpr std::int32_t kMargin = 0;  // sub-units; the box of snapped positions is widened by it
+  struct Rule {};                             // of the samples on edges; here it is part of the edge values
+
+  static Rule rule(const Edge (&)[3], int) { return {}; }
+  // The sign bit is set where a sample is outside an edge.
+  static HWY_INLINE V outside(V e0, V e1, V e2, const Rule&) { return hn::Or(hn::Or(e0, e1), e2); }
+  // The sign bit is set where a value is negative. It may ignore the rule: a block is then kept needlessly.
+  static HWY_INLINE V negative(V e0, V e1, V e2) { return hn::Or(hn::Or(e0, e1), e2); }
+  // Whether a value's span over a block, in square pixels, exceeds twice the triangle's area.
+  static HWY_INLINE bool spans_more(Value span, std::int32_t twice_area_px) {
+    return span >> kSubBits > twice_area_px;
+  }
+
+  // Returns false if an edge rejects the box.
+  static bool set_up_one(const TileTask& task, std::uint32_t, const Oriented& t, const BlockBox& box,
+                         Edge (&out)[3], int k) {
+    for (int i = 0; i < 3; ++i) {
+      const EdgeInBox e(task, t, box, i);
+      if (e.rejects) return false;
+      e.accepts ? set_linear(out[i], k, 0, 0, 0)
+                : set_linear(out[i], k, e.a, e.b, wrap(static_cast<std::uint32_t>(e.first >> kSubBits)));
+    }
+    return true;
+  }
+
+#if HWY_TARGET != HWY_SCALAR
+  struct HalfEdges {
+    HalfLinear edge[3];
+  };
+  // The sign bit of a lane is set if an edge rejects the box.
+  static HWY_INLINE V64 set_up_half(const TileTask& task, const std::uint32_t*, const TriangleLanes& t,
+                                    const Area& area, const BlockBoxLanes& box, HalfEdges& out) {
+    V64 rejected = hn::Zero(D64{});
+    for (int i = 0; i < 3; ++i) {
+      const EdgeInBoxLanes e(task, t, area, box, i);
+      rejected = hn::Or(rejected, e.most);
+      const auto unless_accepted = [&](V64 v) { return lower(hn::IfThenElseZero(e.crossed, v)); };
+      out.edge[i] = {unless_accepted(as64(e.a)), unless_accepted(as64(e.b)),
+                     unless_accepted(shift_right<kSubBits>(e.first))};
+    }
+    return rejected;
+  }
+  // Bit i of the result is 0 if an edge rejects the box of lane i and set_up_half() did not report it.
+  static HWY_INLINE std::uint32_t store_edges(const TileTask&, const HalfEdges& left, const HalfEdges& right,
+                                              Edge (&out)[3], int k) {
+    for (int i = 0; i < 3; ++i) store_linear(left.edge[i], right.edge[i], out[i], k);
+    return ~0u;
+  }
+#endif
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace edgewise
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,128 @@
+// Draws a tile: its triangles, through a batch at a time, and its coverage masks. See tile_kernel.cpp.
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <span>
+
+#include "edgewise/contract.h"
+#include "raster/tiled/tile_blocks-inl.h"
+#include "raster/tiled/tile_candidates-inl.h"
+#include "raster/tiled/tile_masks-inl.h"
+#include "raster/tiled/tile_rows-inl.h"
+#include "raster/tiled/tile_setup-inl.h"
+#include "raster/tiled/tile_small-inl.h"
+
+// Included once per SIMD target.
+#if defined(EDGEWISE_TILE_PAINTER_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef EDGEWISE_TILE_PAINTER_INL_H
+#undef EDGEWISE_TILE_PAINTER_INL_H
+#else
+#define EDGEWISE_TILE_PAINTER_INL_H
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace edgewise {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+using namespace contract;
+
+// Draws a tile's triangles and coverage masks, in submission order.
+template <class Numbers>
+class TilePainter {
+ public:
+  TilePainter(const typename Numbers::Task& task, Tile& tile)
+      : task_(task), tile_(tile), small_(tile), masks_(*task.bins, task.cell) {}
+
+  HWY_NOINLINE void draw_index_block(const Bins::IndexBlock& block) {
+    Candidates* next = candidates_;
+    const Candidates* waiting = nullptr;
+    const auto draw_waiting = [&] {
+      if (waiting != nullptr) draw_candidates(tile_, batch_, *waiting);
+      waiting = nullptr;
+    };
+    const auto draw_leading = [&](std::span<const CoverageMask> masks, std::uint32_t last) {
+      draw_waiting();
+      return draw(masks, last);
+    };
+    for (std::uint32_t left = set_up(task_, block.indices, batch_); left != 0; left &= left - 1) {
+      const int k = std::countr_zero(left);
+      masks_.draw_before(block, static_cast<std::size_t>(k), draw_leading);
+      const int width = batch_.bx1[k] - batch_.bx0[k] + 1, height = batch_.by1[k] - batch_.by0[k] + 1;
+      if (std::max(width, height) <= SmallTriangles<Numbers>::kSide) {
+        draw_waiting();
+        small_.add(batch_, k);
+      } else {
+        small_.draw();
+        // Thin triangles fill no block, so they occlude none.
+        occludes_ = occludes_ || (task_.ablation.hierarchical_depth && may_fill_blocks(batch_, k));
+        if (occludes_ && tile_.hiz.occludes(batch_.nearest.least[k])) [[unlikely]]  // in most scenes
+          continue;
+        occludes_ ? find_candidates<true>(k, width, *next) : find_candidates<false>(k, width, *next);
+        draw_waiting();
+        waiting = next;
+        next = next == candidates_ ? candidates_ + 1 : candidates_;
+      }
+    }
+    draw_waiting();
+  }
+
+  void draw_rest() {
+    small_.draw();
+    masks_.draw_rest(
+        [&](std::span<const CoverageMask> masks, std::uint32_t last) { return draw(masks, last); });
+  }
+
+ private:
+  HWY_INLINE std::size_t draw(std::span<const CoverageMask> masks, std::uint32_t last) {
+    small_.draw();
+    return draw_masks(tile_, masks, last);
+  }
+  template <bool kHierarchicalDepth>
+  HWY_INLINE void find_candidates(int k, int width, Candidates& out) {
+    constexpr std::size_t kAll = kVectors, kHalf = std::max(kVectors / 2, 1);
+    width <= kMaxBlocks / 2
+        ? find_candidates_by_rows<Numbers, kHierarchicalDepth, kHalf>(tile_, batch_, k, out)
+        : find_candidates_by_rows<Numbers, kHierarchicalDepth, kAll>(tile_, batch_, k, out);
+  }
+
+  const typename Numbers::Task& task_;
+  Tile& tile_;
+  Batch<Numbers> batch_;
+  SmallTriangles<Numbers> small_;
+  Candidates candidates_[2];  // one is filled while the other waits
+  Bins::MaskReader masks_;
+  bool occludes_ = false;
+};
+
+template <class Numbers>
+void draw_tile_in(const typename Numbers::Task& task) {
+  if (task.bins->empty(task.cell)) {
+    write_background(task);
+    return clear_upper_halves();
+  }
+  const int size = task.size();
+  Tile tile;
+  const auto clear = [&](std::int32_t* plane, std::uint32_t value) {
+    for (int y = 0; y < size; y += kBlockSide)
+      for (int i = 0; i < size * kBlockSide; i += kLanes)
+        hn::Store(hn::Set(D{}, wrap(value)), D{}, plane + y * kMaxTile + i);
+  };
+  clear(tile.depth(), kDepthClear);
+  if (!InVectors(task.width(), task.height()).all) clear(tile.payload(), task.background);
+  tile.hiz.clear(task.width(), task.height());
+
+  TilePainter<Numbers> painter(task, tile);
+  draw_index_blocks(task, [&](const Bins::IndexBlock& block) { painter.draw_index_block(block); });
+  painter.draw_rest();
+  write_tile(task, tile.depth(), tile.payload(),
+             [](const FramePlane& to, const auto& pixels) { write_blocks(to, pixels); });
+  clear_upper_halves();
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace edgewise
+HWY_AFTER_NAMESPACE();
+
+#endif
