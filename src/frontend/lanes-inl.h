@@ -155,12 +155,13 @@ HWY_INLINE VI round_depth(Units&& units, VF v) {
   return hn::Add(in_double(DI{}, whole_units, v), hn::Set(DI{}, contract::kDepthHead));
 }
 
-// depth01 must lie in [0, 1].
 HWY_INLINE VI quantize_depth(VF depth01) {
+  const DF d;
+  const VF clamped = hn::Min(hn::Max(depth01, hn::Zero(d)), hn::Set(d, 1.0f));
   const auto units = [](auto v) HWY_ATTR {
     return hn::Mul(v, hn::Set(hn::DFromV<decltype(v)>{}, double{contract::kDepthRange}));
   };
-  return round_depth(units, depth01);
+  return round_depth(units, clamped);
 }
 
 HWY_INLINE VI view_depth(const ViewDepth& depth, VF w) {
