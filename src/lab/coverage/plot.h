@@ -122,7 +122,8 @@ CoverageMethod make_coverage_method(const MethodInfo& info, const CoveragePromis
                   Method::cover(input.floats[i].at, window, plot);
                 }
               },
-          .simd = forms != nullptr};
+          .simd = forms != nullptr,
+          .simd_note = forms != nullptr ? "" : "no SIMD form is written"};
 }
 
 // Rounds half to even, for |v| < 2^51: the sum with 1.5 * 2^52 has no fraction bits.
