@@ -58,12 +58,12 @@ void engine_runs(EngineNumbers numbers, const CoverageInput& input, Window windo
 CoverageMethod make(EngineNumbers numbers, const MethodInfo& info, const CoveragePromise& promise) {
   return {.info = info,
           .promise = promise,
-          .draw = [numbers](const CoverageInput& input, Canvas& canvas, const Execution& execution) {
-            draw_engine(numbers, input, canvas.window(), canvas.frame.view(), 0, execution, canvas.bins);
-          },
-          .runs = [numbers](const CoverageInput& input, Window window, std::vector<Run>& runs) {
-            engine_runs(numbers, input, window, runs);
-          },
+          .draw =
+              [numbers](const CoverageInput& input, Canvas& canvas, const Execution& execution) {
+                draw_engine(numbers, input, canvas.window(), canvas.frame.view(), 0, execution, canvas.bins);
+              },
+          .runs = [numbers](const CoverageInput& input, Window window,
+                            std::vector<Run>& runs) { engine_runs(numbers, input, window, runs); },
           .threaded = true,
           .contract_depth = true,
           .simd = true,
