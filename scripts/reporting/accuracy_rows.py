@@ -169,7 +169,21 @@ def parse_cube(data, methods):
     return {"frames": int(cube["frames"]), "methods": rows}
 
 
+def without_engine(data):
+    """Leaves out the methods that are our engine with other numbers: a comparison of their own."""
+    engine = {method["name"] for method in data["methods"] if method.get("engine")}
+    if not engine:
+        return data
+
+    def others(holder):
+        return {**holder, "methods": [method for method in holder["methods"] if method["name"] not in engine]}
+    cube = data.get("turning_cube")
+    return {**others(data), "scenes": [others(scene) for scene in data["scenes"]],
+            **({"turning_cube": others(cube)} if cube else {})}
+
+
 def parse_accuracy(data):
+    data = without_engine(data)
     methods = {(m["family"], m["name"]): Method(m["name"], m["source"], m["promise"], bool(m["exact"]))
                for m in data["methods"]}
     scenes = []

@@ -2,6 +2,7 @@
 
 #include "cli/accuracy/report.h"
 #include "cli/accuracy/score.h"
+#include "lab/engine/engine.h"
 #include "support/machine.h"
 
 namespace edgewise::tools {
@@ -60,7 +61,8 @@ struct AddScore {
     method["float"] = score_json(s.floats, scene.crossings);
     add_wrong_pixels(method["snapped"], s.visible.wrong_snapped);
     add_wrong_pixels(method["float"], s.visible.wrong_floats);
-    if (lab::find_coverage_method(method["name"].get<std::string>()).contract_depth)
+    const lab::CoverageMethod& scored = lab::find_coverage_method(method["name"].get<std::string>());
+    if (scored.contract_depth && scored.info.exact)
       method["snapped"]["unexplained_pixels"] = s.visible.unexplained;
     method["depth"] = {{"max_ulp", s.visible.max_ulp}, {"rms_ulp", s.visible.rms_ulp}};
   }
@@ -154,12 +156,14 @@ json accuracy_json(const AccuracyReport& report, const AccuracyPlan& plan) {
               {"methods", json::array()},
               {"scenes", json::array()}};
   for (const auto& [family, info] : methods_of(plan).all())
-    result["methods"].push_back({{"family", name_of(family)},
-                                 {"name", info->name},
-                                 {"summary", info->summary},
-                                 {"source", info->source},
-                                 {"promise", info->promise},
-                                 {"exact", info->exact}});
+    result["methods"].push_back(
+        {{"family", name_of(family)},
+         {"name", info->name},
+         {"summary", info->summary},
+         {"source", info->source},
+         {"promise", info->promise},
+         {"exact", info->exact},
+         {"engine", family == Family::coverage && lab::is_engine_method(info->name)}});
   for (const SceneResult& scene : report.scenes) result["scenes"].push_back(scene_json(scene));
   if (report.turning_cube) result["turning_cube"] = cube_json(*report.turning_cube);
   return result;
