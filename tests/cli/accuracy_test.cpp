@@ -75,7 +75,7 @@ TEST(Accuracy, WritesTheDocumentedKeys) {
   EXPECT_TRUE(report.at("machine").contains("cpu_model"));
   std::set<std::string> families;
   for (const json& method : report.at("methods")) {
-    expect_keys(method, {"family", "name", "summary", "source", "promise", "exact"});
+    expect_keys(method, {"family", "name", "summary", "source", "promise", "exact", "engine"});
     families.insert(method.at("family"));
   }
   EXPECT_EQ(families, (std::set<std::string>{"coverage", "visibility", "facing", "clipping"}));

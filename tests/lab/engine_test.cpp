@@ -114,6 +114,28 @@ TEST(Engine, BinsUnsnappedTrianglesToEveryTileTheyTouch) {
   EXPECT_GT(testing::against_floats("engine_exact", picture).errors(), 0u);
 }
 
+TEST(Engine, KeepsToTheBlocksOfEachTrianglesBox) {
+  for (const CoverageMethod& method : engine_methods())
+    for (const auto family : testing::kFloatFamilies) {
+      const auto floats = hard_floats(family, 100, kWindow, 29);
+      const auto grid = snapped(floats);
+      std::vector<lab::Run> runs;
+      method.runs({floats, grid}, kWindow, runs);
+      for (const lab::Run& run : runs) {
+        const ScreenTriangle& t = grid[run.triangle];
+        const auto blocks = [](const std::int32_t(&v)[3], int margin) {
+          const auto [low, high] = std::minmax({v[0], v[1], v[2]});
+          return std::pair((low - margin) / contract::kSub / 4 * 4,
+                           (high + margin) / contract::kSub / 4 * 4 + 4);
+        };
+        const auto [x0, x1] = blocks(t.x_sub, 8);  // the largest margin
+        const auto [y0, y1] = blocks(t.y_sub, 8);
+        ASSERT_TRUE(run.x0 >= x0 && run.x1 <= x1 && run.y >= y0 && run.y < y1)
+            << method.info.name << " " << family << " " << run.triangle;
+      }
+    }
+}
+
 TEST(Engine, OverflowsWhereItSaysSo) {
   for (const auto& [name, side_px, wraps] : {std::tuple{"engine_fixed_8_int32", 178, false},
                                              {"engine_fixed_8_int32", 190, true},

@@ -489,6 +489,23 @@ class CrossingsTest(unittest.TestCase):
         self.assertEqual(list(self.crossings(self.curve([9.0], [1.0]), self.curve([3.0], [3.0]))), [])
 
 
+class EngineTest(unittest.TestCase):
+    """accuracy_rows.parse_accuracy(): methods that the charts leave out."""
+
+    def test_the_engine_with_other_numbers_is_no_method_of_the_charts(self):
+        sys.path.insert(0, str(SCRIPTS / "reporting"))
+        from accuracy_rows import parse_accuracy
+
+        plain, with_engine = accuracy(), accuracy()
+        with_engine["methods"].append({**with_engine["methods"][0], "name": "engine_exact", "engine": True})
+        for holder in (with_engine["scenes"][0], with_engine["turning_cube"]):
+            holder["methods"].append({**holder["methods"][0], "name": "engine_exact"})
+        found, expected = parse_accuracy(with_engine), parse_accuracy(plain)
+        self.assertEqual((found.methods, found.cube), (expected.methods, expected.cube))
+        self.assertEqual(found.scenes[0].measured, expected.scenes[0].measured)
+        self.assertEqual([m.method.name for m in found.scenes[0].engine], ["engine_exact"])
+
+
 class UnsettledTest(unittest.TestCase):
     """speed_accuracy.unsettled(): of which points the spread leaves open whether they are on the front."""
 

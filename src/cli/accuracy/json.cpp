@@ -2,6 +2,7 @@
 
 #include "cli/accuracy/report.h"
 #include "cli/accuracy/score.h"
+#include "lab/engine/engine.h"
 #include "support/machine.h"
 
 namespace edgewise::tools {
@@ -60,7 +61,8 @@ struct AddScore {
     method["float"] = score_json(s.floats, scene.crossings);
     add_wrong_pixels(method["snapped"], s.visible.wrong_snapped);
     add_wrong_pixels(method["float"], s.visible.wrong_floats);
-    if (lab::find_coverage_method(method["name"].get<std::string>()).contract_depth)
+    const lab::CoverageMethod& scored = lab::find_coverage_method(method["name"].get<std::string>());
+    if (scored.contract_depth && scored.info.exact)
       method["snapped"]["unexplained_pixels"] = s.visible.unexplained;
     method["depth"] = {{"max_ulp", s.visible.max_ulp}, {"rms_ulp", s.visible.rms_ulp}};
   }
@@ -169,6 +171,7 @@ json accuracy_json(const AccuracyReport& report, const AccuracyPlan& plan) {
     if (family != Family::coverage) continue;
     const lab::CoverageMethod& coverage = lab::find_coverage_method(info->name);
     method["max_side_px"] = coverage.promise.max_side_px;
+    method["engine"] = lab::is_engine_method(info->name);
     if (!coverage.simd) method["simd_note"] = coverage.simd_note;
   }
   for (const SceneResult& scene : report.scenes) result["scenes"].push_back(scene_json(scene));

@@ -27,7 +27,7 @@ struct EngineTask : TileTask {
   int origin_x, origin_y;  // px, the frame's first pixel in the coordinates of `floats`
   bool reads_floats;
 
-  void prefetch(std::span<const std::uint32_t> indices) const {
+  [[gnu::always_inline]] void prefetch(std::span<const std::uint32_t> indices) const {
     TileTask::prefetch(indices);
     if (reads_floats) prefetch_records(floats, indices);
   }
@@ -39,7 +39,10 @@ struct EngineKernel {
   bool reads_floats;
 };
 
-// `target` must be resolved.
+// `target` must be resolved. The kernels are compiled in several files, since each takes long.
 EngineKernel engine_kernel(EngineNumbers numbers, SimdTarget target);
+EngineKernel fixed_engine_kernel(EngineNumbers numbers, SimdTarget target);
+EngineKernel float_engine_kernel(EngineNumbers numbers, SimdTarget target);
+EngineKernel top_left_engine_kernel(EngineNumbers numbers, SimdTarget target);
 
 }  // namespace edgewise::lab

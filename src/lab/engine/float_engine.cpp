@@ -1,0 +1,40 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "lab/engine/float_engine.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include <stdexcept>
+
+#include "core/kernel_table.h"
+#include "lab/engine/engine_kernel.h"
+#include "lab/engine/engine_tile-inl.h"
+#include "lab/engine/real_numbers-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace edgewise {
+namespace HWY_NAMESPACE {
+
+lab::EngineKernel float_engine(lab::EngineNumbers numbers) {
+  switch (numbers) {
+    case lab::EngineNumbers::float_lt:
+      return kernel_of<RealNumbers<FloatLanes, OnEdge::rejected, false>>(true);
+    case lab::EngineNumbers::float_le:
+      return kernel_of<RealNumbers<FloatLanes, OnEdge::accepted, false>>(true);
+    default:
+      throw std::invalid_argument("these numbers are in another file");
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace edgewise
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace edgewise {
+
+lab::EngineKernel lab::float_engine_kernel(EngineNumbers numbers, SimdTarget target) {
+  return EDGEWISE_KERNEL(float_engine, target)(numbers);
+}
+
+}  // namespace edgewise
+#endif

@@ -1,0 +1,42 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "lab/engine/top_left_engine.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include <stdexcept>
+
+#include "core/kernel_table.h"
+#include "lab/engine/engine_kernel.h"
+#include "lab/engine/engine_tile-inl.h"
+#include "lab/engine/real_numbers-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace edgewise {
+namespace HWY_NAMESPACE {
+
+lab::EngineKernel top_left_engine(lab::EngineNumbers numbers) {
+  switch (numbers) {
+    case lab::EngineNumbers::float_top_left:
+      return kernel_of<RealNumbers<FloatLanes, OnEdge::top_left, false>>(true);
+    case lab::EngineNumbers::float_rebased:
+      return kernel_of<RealNumbers<FloatLanes, OnEdge::top_left, true>>(true);
+    case lab::EngineNumbers::double_top_left:
+      return kernel_of<RealNumbers<DoubleLanes, OnEdge::top_left, false>>(true);
+    default:
+      throw std::invalid_argument("these numbers are in another file");
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace edgewise
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace edgewise {
+
+lab::EngineKernel lab::top_left_engine_kernel(EngineNumbers numbers, SimdTarget target) {
+  return EDGEWISE_KERNEL(top_left_engine, target)(numbers);
+}
+
+}  // namespace edgewise
+#endif
