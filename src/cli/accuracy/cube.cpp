@@ -4,6 +4,7 @@
 #include "cli/accuracy/score.h"
 #include "core/parallel.h"
 #include "edgewise/builtin.h"
+#include "lab/engine/engine.h"
 
 namespace edgewise::tools {
 
@@ -58,8 +59,10 @@ Closeup worst_frame(const lab::CoverageMethod& method, const Scores& scores) {
 
 CubeResult judge_turning_cube(const AccuracyPlan& plan, const ChosenMethods& methods,
                               const std::function<void(double)>& progress, std::vector<Closeup>& closeups) {
+  std::vector<const lab::CoverageMethod*> judged = methods.coverage;
+  std::erase_if(judged, [](const auto* method) { return lab::is_engine_method(method->info.name); });
   const int frames = plan.quick ? kQuickFrames : kFrames;
-  std::vector<Scores> scores(methods.coverage.size(), Scores(static_cast<std::size_t>(frames)));
+  std::vector<Scores> scores(judged.size(), Scores(static_cast<std::size_t>(frames)));
   std::mutex mutex;
   int done = 0;
   parallel_for(plan.threads, frames / kFramesPerTask, [&](int task) {
@@ -67,8 +70,8 @@ CubeResult judge_turning_cube(const AccuracyPlan& plan, const ChosenMethods& met
       const CoverageScene scene = cube_at(frame);
       const auto snapped = lab::snapped_coverage(scene.input(), scene.window(), 1),
                  floats = lab::float_coverage(scene.input(), scene.window(), 1);
-      for (std::size_t i = 0; i < methods.coverage.size(); ++i) {
-        const lab::CoverageMethod& method = *methods.coverage[i];
+      for (std::size_t i = 0; i < judged.size(); ++i) {
+        const lab::CoverageMethod& method = *judged[i];
         std::vector<lab::Run> runs;
         method.runs(scene.input(), scene.window(), runs);
         scores[i][static_cast<std::size_t>(frame)] = {
@@ -83,8 +86,8 @@ CubeResult judge_turning_cube(const AccuracyPlan& plan, const ChosenMethods& met
 
   const std::size_t first_closeup = closeups.size();
   CubeResult result{frames, kTurningCubeSize.width, kTurningCubeSize.height, {}};
-  for (std::size_t i = 0; i < methods.coverage.size(); ++i) {
-    const lab::CoverageMethod& method = *methods.coverage[i];
+  for (std::size_t i = 0; i < judged.size(); ++i) {
+    const lab::CoverageMethod& method = *judged[i];
     result.methods.push_back({std::string(method.info.name), method.info.exact,
                               summary(scores[i], &CoverageScores::snapped),
                               summary(scores[i], &CoverageScores::floats)});
