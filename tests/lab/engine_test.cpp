@@ -44,6 +44,7 @@ std::vector<ScreenTriangle> exact_for(EngineNumbers numbers, std::vector<ScreenT
   switch (numbers) {
     case EngineNumbers::float_top_left:
     case EngineNumbers::float_rebased:
+    case EngineNumbers::float_snapped:
       on_grid(64, 256 * contract::kSub);
       break;
     case EngineNumbers::fixed_4_int32:
@@ -64,7 +65,7 @@ TEST(Engine, DrawsTiledsPictureWhereItsNumbersHold) {
   for (const auto numbers :
        {EngineNumbers::exact, EngineNumbers::fixed_8_int64, EngineNumbers::double_top_left,
         EngineNumbers::fixed_8_int32, EngineNumbers::fixed_4_int32, EngineNumbers::float_top_left,
-        EngineNumbers::float_rebased})
+        EngineNumbers::float_rebased, EngineNumbers::float_snapped})
     for (const auto family : testing::kFamilies) {
       const auto triangles = exact_for(numbers, adversarial(family, 300, kWindow.width, kWindow.height, 17));
       const auto floats = as_floats(triangles);

@@ -6,6 +6,7 @@
 
 #include "edgewise/contract.h"
 #include "lab/coverage/group_runs.h"
+#include "lab/coverage/methods/float_edges.h"
 #include "lab/engine/engine_kernel.h"
 #include "raster/ablation.h"
 #include "raster/tiles.h"
@@ -21,6 +22,7 @@ EngineKernel engine_kernel(EngineNumbers numbers, SimdTarget target) {
       return fixed_engine_kernel(numbers, target);
     case EngineNumbers::float_lt:
     case EngineNumbers::float_le:
+    case EngineNumbers::float_snapped:
       return float_engine_kernel(numbers, target);
     case EngineNumbers::float_top_left:
     case EngineNumbers::float_rebased:
@@ -90,10 +92,11 @@ CoverageMethod make(EngineNumbers numbers, const MethodInfo& info, const Coverag
 }
 
 constexpr std::string_view kSource = "the SIMD engine of src/raster/tiled";
-// Snapping errs by half a unit on each axis; as kFloatReachPx, with three more roundings in screen
-// coordinates.
-constexpr double kSnap_px = 0.00277, kFloat_px = 0.011;
-constexpr std::string_view kFloatPromise = "wrong only within 0.011 px of an edge's line";
+// Snapping errs by half a unit on each axis: sqrt(2) / 512.
+constexpr double kSnap_px = 0.00277;
+// E is the difference of two sums that round as those of kFloatReachPx, and is then stepped.
+constexpr double kFloat_px = 4 * kFloatReachPx;
+constexpr std::string_view kFloatPromise = "wrong only within 0.0112 px of an edge's line";
 
 }  // namespace
 
@@ -119,6 +122,10 @@ std::span<const CoverageMethod> engine_methods() {
            {"engine_float_rebased", "the SIMD engine with float edges relative to the tile's corner", kSource,
             kFloatPromise, false},
            {.reach_px = kFloat_px}),
+      make(EngineNumbers::float_snapped,
+           {"engine_float_snapped", "the SIMD engine with float edges of the snapped vertices", kSource,
+            "wrong only within 0.014 px of an edge's line", false},
+           {.reach_px = kFloat_px + kSnap_px}),
       make(EngineNumbers::fixed_4_int32,
            {"engine_fixed_4_int32", "the SIMD engine with vertices at 1/16 px and 32-bit edges that wrap",
             kSource,

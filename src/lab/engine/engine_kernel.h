@@ -15,6 +15,7 @@ enum class EngineNumbers {
   float_le,
   float_top_left,
   float_rebased,
+  float_snapped,
   fixed_4_int32,
   fixed_8_int32,
   fixed_8_int64,

@@ -17,9 +17,11 @@ namespace HWY_NAMESPACE {
 lab::EngineKernel float_engine(lab::EngineNumbers numbers) {
   switch (numbers) {
     case lab::EngineNumbers::float_lt:
-      return kernel_of<RealNumbers<FloatLanes, OnEdge::rejected, false>>(true);
+      return kernel_of<RealNumbers<FloatLanes, OnEdge::rejected, Vertices::unsnapped>>(true);
     case lab::EngineNumbers::float_le:
-      return kernel_of<RealNumbers<FloatLanes, OnEdge::accepted, false>>(true);
+      return kernel_of<RealNumbers<FloatLanes, OnEdge::accepted, Vertices::unsnapped>>(true);
+    case lab::EngineNumbers::float_snapped:
+      return kernel_of<RealNumbers<FloatLanes, OnEdge::top_left, Vertices::snapped>>(false);
     default:
       throw std::invalid_argument("these numbers are in another file");
   }

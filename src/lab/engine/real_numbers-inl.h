@@ -1,4 +1,4 @@
-// Edge functions in floats or doubles, from unsnapped vertices:
+// Edge functions in floats or doubles, mostly from unsnapped vertices:
 //   E(s) = (a s.x + b s.y) - (a p.x + b p.y),  a = p.y - q.y,  b = q.x - p.x
 // at the box's first sample, in screen coordinates, as engines compute it that keep three coefficients per
 // edge (Olano and Greer, "Triangle scan conversion using 2D homogeneous coordinates", 1997). Re-based, the
@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "edgewise/contract.h"
 #include "lab/engine/engine_kernel.h"
 #include "lab/engine/wide_lanes-inl.h"
 
@@ -29,6 +30,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 // Samples with E = 0.
 enum class OnEdge { accepted, rejected, top_left };
+// Unsnapped ones come from a second record. Re-based ones are unsnapped, and relative to the tile's corner.
+enum class Vertices { unsnapped, rebased, snapped };
 
 struct FloatLanes {
   using Value = float;
@@ -60,14 +63,15 @@ struct DoubleLanes : WideLanes<double> {
   }
 };
 
-template <class Lanes, OnEdge kOnEdge, bool kRebased>
+template <class Lanes, OnEdge kOnEdge, Vertices kVertices>
 struct RealNumbers : Lanes {
   using typename Lanes::Value;
   using typename Lanes::Vector;
   using Bits = typename Lanes::Bits;
   using Task = lab::EngineTask;
   // An unsnapped vertex lies within half a sub-unit of the snapped one, on each axis.
-  static constexpr std::int32_t kMargin = 1;
+  static constexpr std::int32_t kMargin = kVertices == Vertices::snapped ? 0 : 1;
+  static constexpr bool kRebased = kVertices == Vertices::rebased;
 
   // `bias`: -1 where samples on the edge are outside, so that the bits of E = 0 become negative; else 0.
   struct Edge : Linear<Value> {
@@ -115,7 +119,10 @@ struct RealNumbers : Lanes {
     using F = hn::Vec<DF>;
     const F zero = hn::Zero(df);
     const auto px = [&](int v) { return hn::Set(df, static_cast<Value>(v)); };
-    const F corner_x = px(task.origin_x + task.x0), corner_y = px(task.origin_y + task.y0);
+    // Snapped vertices are relative to the frame's corner.
+    constexpr int kFromOrigin = kVertices == Vertices::snapped ? 0 : 1;
+    const F corner_x = px(kFromOrigin * task.origin_x + task.x0),
+            corner_y = px(kFromOrigin * task.origin_y + task.y0);
     const F half = hn::Set(df, Value{0.5f});
     F x[3], y[3], sample_x = hn::Add(t.left, half), sample_y = hn::Add(t.top, half);
     for (int i = 0; i < 3; ++i) {
@@ -159,25 +166,35 @@ struct RealNumbers : Lanes {
     }
   }
 
+  // From sub-units.
+  template <class DF>
+  static HWY_INLINE hn::Vec<DF> in_px(DF df, hn::Vec<DF> v) {
+    return hn::Mul(v, hn::Set(df, Value{1} / contract::kSub));
+  }
+
   static bool set_up_one(const Task& task, std::uint32_t index, const contract::Oriented&,
                          const BlockBox& box, Edge (&out)[3], int k) {
     const hn::CappedTag<Value, 1> df;
     const auto set = [&](auto v) { return hn::Set(df, static_cast<Value>(v)); };
-    const UnsnappedTriangle& t = task.floats[index].at;
-    const Triangles<hn::CappedTag<Value, 1>> one{{set(t.x_px[0]), set(t.x_px[1]), set(t.x_px[2])},
-                                                 {set(t.y_px[0]), set(t.y_px[1]), set(t.y_px[2])},
-                                                 set(box.left),
-                                                 set(box.top),
-                                                 set(box.last_x),
-                                                 set(box.last_y)};
-    return hn::AllFalse(df, set_up_edges(df, task, one, out, k));
+    Triangles<hn::CappedTag<Value, 1>> t;
+    for (int i = 0; i < 3; ++i) {
+      if constexpr (kVertices == Vertices::snapped) {
+        t.x[i] = in_px(df, set(task.triangles[index].x_sub[i]));
+        t.y[i] = in_px(df, set(task.triangles[index].y_sub[i]));
+      } else {
+        t.x[i] = set(task.floats[index].at.x_px[i]), t.y[i] = set(task.floats[index].at.y_px[i]);
+      }
+    }
+    t.left = set(box.left), t.top = set(box.top), t.last_x = set(box.last_x), t.last_y = set(box.last_y);
+    return hn::AllFalse(df, set_up_edges(df, task, t, out, k));
   }
 
 #if HWY_TARGET != HWY_SCALAR
   using HalfEdges = HalfPositions;
-  static HWY_INLINE V64 set_up_half(const Task& task, const std::uint32_t* indices, const TriangleLanes&,
-                                    const Area&, const BlockBoxLanes& box, HalfEdges& out) {
-    const TriangleLanes t = load(task.floats, indices);
+  static HWY_INLINE V64 set_up_half(const Task& task, const std::uint32_t* indices,
+                                    const TriangleLanes& snapped, const Area&, const BlockBoxLanes& box,
+                                    HalfEdges& out) {
+    const TriangleLanes t = kVertices == Vertices::snapped ? snapped : load(task.floats, indices);
     for (int i = 0; i < 3; ++i) out.x[i] = t.x[i], out.y[i] = t.y[i];
     out.box = box;
     return hn::Zero(D64{});
@@ -186,8 +203,13 @@ struct RealNumbers : Lanes {
                                               Edge (&out)[3], int k) {
     if constexpr (std::is_same_v<Value, float>) {
       const FloatLanes::Floats df;
-      const auto real = [&](V32 l, V32 r) { return hn::BitCast(df, both(l, r)); };
       const auto whole = [&](V32 l, V32 r) { return hn::ConvertTo(df, both(l, r)); };
+      const auto real = [&](V32 l, V32 r) {
+        if constexpr (kVertices == Vertices::snapped)
+          return in_px(df, whole(l, r));
+        else
+          return hn::BitCast(df, both(l, r));
+      };
       Triangles<FloatLanes::Floats> t;
       for (int i = 0; i < 3; ++i) t.x[i] = real(left.x[i], right.x[i]), t.y[i] = real(left.y[i], right.y[i]);
       t.left = whole(left.box.left, right.box.left), t.top = whole(left.box.top, right.box.top);
@@ -200,6 +222,7 @@ struct RealNumbers : Lanes {
   }
 
  private:
+  static_assert(std::is_same_v<Value, float> || kVertices != Vertices::snapped);
   static HWY_INLINE std::uint32_t store_half(const Task& task, const HalfEdges& half, Edge (&out)[3], int k) {
     const F64 df;
     const auto packed = [](V32 v) { return hn::TruncateTo(Low32{}, hn::BitCast(U64{}, as64(v))); };

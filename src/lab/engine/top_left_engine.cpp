@@ -17,11 +17,11 @@ namespace HWY_NAMESPACE {
 lab::EngineKernel top_left_engine(lab::EngineNumbers numbers) {
   switch (numbers) {
     case lab::EngineNumbers::float_top_left:
-      return kernel_of<RealNumbers<FloatLanes, OnEdge::top_left, false>>(true);
+      return kernel_of<RealNumbers<FloatLanes, OnEdge::top_left, Vertices::unsnapped>>(true);
     case lab::EngineNumbers::float_rebased:
-      return kernel_of<RealNumbers<FloatLanes, OnEdge::top_left, true>>(true);
+      return kernel_of<RealNumbers<FloatLanes, OnEdge::top_left, Vertices::rebased>>(true);
     case lab::EngineNumbers::double_top_left:
-      return kernel_of<RealNumbers<DoubleLanes, OnEdge::top_left, false>>(true);
+      return kernel_of<RealNumbers<DoubleLanes, OnEdge::top_left, Vertices::unsnapped>>(true);
     default:
       throw std::invalid_argument("these numbers are in another file");
   }
