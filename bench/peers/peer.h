@@ -40,12 +40,14 @@ class PeerFrame {
 
 struct PeerInfo {
   std::string_view name;  // in row names; differs from every backend's
+  int most_threads;
   std::string (*version)();
-  // `threads` is 1 or 2. Throws std::runtime_error if the peer cannot start.
+  // `threads` is at most most_threads. Throws std::runtime_error if the peer cannot start.
   std::unique_ptr<PeerFrame> (*load)(const PeerScene& scene, int threads);
 };
 
-// The peers in this build.
+// The peers in this build, and those of them that have rows in the benchmark.
 std::span<const PeerInfo> peers();
+std::span<const PeerInfo> benchmark_peers();
 
 }  // namespace edgewise::bench
