@@ -273,7 +273,7 @@ Pipeline::VisibleIds Pipeline::visible_ids_of(const lab::Choice& choice, const V
     if (choice.our_coverage())
       backend(choice.coverage->info.name).draw(triangles.snapped, canvas_->frame.view(), 0, view.execution);
     else
-      choice.coverage->draw({triangles.floats, triangles.snapped}, *canvas_, view.execution.threads);
+      choice.coverage->draw({triangles.floats, triangles.snapped}, *canvas_, view.execution);
   });
   return visible_ids_in(canvas_->frame);
 }

@@ -149,13 +149,14 @@ TEST_P(EveryCoverageMethod, DrawsTheNearestOfItsOwnRuns) {
       if (nearest == 0 || rank(payload) < rank(nearest)) nearest = payload;
     }
   Canvas canvas(kWidth, kHeight);
-  for (const int threads : {1, 2, 1}) {
-    method_.draw(input, canvas, threads);
-    for (int y = 0; y < kHeight; ++y)
-      for (int x = 0; x < kWidth; ++x)
-        ASSERT_EQ(canvas.frame.payload_row(y)[x], expected[static_cast<std::size_t>(y * kWidth + x)])
-            << x << ", " << y;
-  }
+  for (const SimdTarget target : {SimdTarget::scalar, SimdTarget::best})
+    for (const int threads : {1, 2, 1}) {
+      method_.draw(input, canvas, {.threads = threads, .target = target});
+      for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x)
+          ASSERT_EQ(canvas.frame.payload_row(y)[x], expected[static_cast<std::size_t>(y * kWidth + x)])
+              << x << ", " << y;
+    }
 }
 
 TEST_P(EveryCoverageMethod, FindsTheSameFarFromTheOriginWhileItsNumbersHold) {

@@ -42,8 +42,9 @@ using Score = std::variant<CoverageScores, lab::VisibilityScores, lab::FacingSco
 
 struct Speed {
   int threads;
+  SimdTarget target;  // scalar for methods of one form
   double median_ms, min_ms, max_ms;
-  int repetitions;
+  std::vector<double> rounds_ms;  // of each repetition, in order
 };
 
 struct MethodResult {

@@ -5,21 +5,36 @@
 #include "cli/accuracy/score.h"
 #include "cli/accuracy/speed.h"
 #include "core/parallel.h"
-#include "lab/measure.h"
 
 namespace edgewise::tools {
 
 namespace {
 
-// Throws std::runtime_error unless a backend draws the same picture on any number of threads; otherwise the
-// times would compare different work.
-void check_threads_agree(const CoverageScene& scene, const lab::CoverageMethod& method, int threads) {
-  lab::Canvas one(scene.size.width, scene.size.height), more(scene.size.width, scene.size.height);
-  method.draw(scene.input(), one, 1);
-  method.draw(scene.input(), more, threads);
-  if (lab::compare(one.frame, more.frame).pixels != 0)
-    throw std::runtime_error(std::string(method.info.name) +
-                             " draws different pixels on two threads than on one");
+constexpr Execution kPlainest{.threads = 1, .target = SimdTarget::scalar};
+
+// The two forms of a method, scalar and with the widest SIMD of this machine, on one thread and on two.
+std::vector<Execution> executions_of(const lab::CoverageMethod& method) {
+  std::vector<SimdTarget> targets{SimdTarget::scalar};
+  const SimdTarget best = resolve(SimdTarget::best);
+  if (method.simd && best != SimdTarget::scalar) targets.push_back(best);
+  std::vector<Execution> list;
+  for (const SimdTarget target : targets)
+    for (int threads = 1; threads <= (method.threaded ? 2 : 1); ++threads)
+      list.push_back({.threads = threads, .target = target});
+  return list;
+}
+
+// Throws std::runtime_error unless a method draws the picture of its plainest execution; otherwise the times
+// would compare different work.
+void check_same_picture(const CoverageScene& scene, const lab::CoverageMethod& method,
+                        const Execution& execution) {
+  lab::Canvas plain(scene.size.width, scene.size.height), other(scene.size.width, scene.size.height);
+  method.draw(scene.input(), plain, kPlainest);
+  method.draw(scene.input(), other, execution);
+  if (!lab::same_picture(method, plain, other))
+    throw std::runtime_error(std::string(method.info.name) + " (" + std::string(name_of(execution.target)) +
+                             ", " + std::to_string(execution.threads) +
+                             " threads) draws other pixels than its scalar form on one thread");
 }
 
 void time_methods(const CoverageScene& scene, const Bench& bench, SceneResult& result) {
@@ -28,11 +43,11 @@ void time_methods(const CoverageScene& scene, const Bench& bench, SceneResult& r
   std::vector<TimedDraw> draws;
   for (std::size_t i = 0; i < bench.methods.coverage.size(); ++i) {
     const lab::CoverageMethod& method = *bench.methods.coverage[i];
-    for (const int threads : {1, 2}) {
-      if (threads > 1 && !method.threaded) continue;
-      if (threads > 1) check_threads_agree(scene, method, threads);
-      draws.push_back(
-          {i, threads, [&method, &input, &canvas, threads] { method.draw(input, canvas, threads); }});
+    const std::vector<Execution> executions = executions_of(method);
+    for (const Execution& execution : executions) {
+      if (&execution != &executions.front()) check_same_picture(scene, method, execution);
+      draws.push_back({i, execution.threads, execution.target,
+                       [&method, &input, &canvas, execution] { method.draw(input, canvas, execution); }});
     }
   }
   const auto speeds = time_in_turns(draws, bench.plan.quick);

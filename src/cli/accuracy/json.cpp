@@ -96,11 +96,13 @@ json speed_json(const Speed& speed, const SceneResult& scene) {
   const bool facing = scene.family == Family::facing;
   const auto count = static_cast<double>(facing ? scene.triangles : scene.covered);
   json result{{"threads", speed.threads},
+              {"simd", name_of(speed.target)},
               {"ms",
                {{"median", speed.median_ms},
                 {"min", speed.min_ms},
                 {"max", speed.max_ms},
-                {"repetitions", speed.repetitions}}},
+                {"repetitions", speed.rounds_ms.size()}}},
+              {"rounds_ms", speed.rounds_ms},
               {"mtri_per_s", static_cast<double>(scene.triangles) / speed.median_ms / 1e3}};
   if (count > 0) result[facing ? "ns_per_face" : "ns_per_covered_pixel"] = 1e6 * speed.median_ms / count;
   return result;

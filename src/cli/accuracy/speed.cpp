@@ -32,8 +32,10 @@ std::vector<Speed> time_in_turns(const std::vector<TimedDraw>& draws, bool quick
 
   std::vector<Speed> speeds;
   for (std::size_t i = 0; i < draws.size(); ++i) {
-    std::sort(ms[i].begin(), ms[i].end());
-    speeds.push_back({draws[i].threads, ms[i][ms[i].size() / 2], ms[i].front(), ms[i].back(), repetitions});
+    std::vector<double> sorted = ms[i];
+    std::sort(sorted.begin(), sorted.end());
+    speeds.push_back({draws[i].threads, draws[i].target, sorted[sorted.size() / 2], sorted.front(),
+                      sorted.back(), std::move(ms[i])});
   }
   return speeds;
 }

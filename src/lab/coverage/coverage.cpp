@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <stdexcept>
 
 #include "core/nearest_name.h"
@@ -84,19 +85,22 @@ std::int32_t to_sub(float px) {
 }
 
 CoverageMethod make_from(const BackendInfo& backend, bool fills) {
-  constexpr double kSnap = 0.00277;  // half a sub-unit on both axes: sqrt(2) / 512
+  const bool scalar_only = backend.name == "naive";  // ignores Execution::target
+  constexpr double kSnap = 0.00277;                  // half a sub-unit on both axes: sqrt(2) / 512
   return {{backend.name, backend.summary, "src/raster", "exact coverage of the positions snapped to 1/256 px",
            true},
           {.reach_px = kSnap, .no_gaps = true, .no_double_hits = true},
-          [&backend](const CoverageInput& input, Canvas& canvas, int threads) {
-            canvas.backend(backend).draw(input.snapped, canvas.frame.view(), 0, {.threads = threads});
+          [&backend](const CoverageInput& input, Canvas& canvas, const Execution& execution) {
+            canvas.backend(backend).draw(input.snapped, canvas.frame.view(), 0, execution);
           },
           [&backend](const CoverageInput& input, Window window, std::vector<Run>& runs) {
             backend_runs(*backend.make(), input.snapped, window, runs);
           },
           true,
           true,
-          fills};
+          fills,
+          !scalar_only,
+          scalar_only ? "scalar on purpose: the plainest implementation of the contract" : ""};
 }
 
 const CoverageMethod& find(std::span<const CoverageMethod> all, std::string_view kind,
@@ -130,6 +134,21 @@ std::span<const CoverageMethod> drawing_methods() {
 
 std::span<const CoverageMethod> coverage_methods() {
   return drawing_methods().first(drawing_methods().size() - 1);
+}
+
+bool same_picture(const CoverageMethod& method, const Canvas& a, const Canvas& b) {
+  const auto equal = [width = static_cast<std::size_t>(a.frame.width())](const auto* row, const auto* other) {
+    return std::memcmp(row, other, width * sizeof *row) == 0;
+  };
+  if (a.frame.width() != b.frame.width() || a.frame.height() != b.frame.height()) return false;
+  for (int y = 0; y < a.frame.height(); ++y) {
+    const std::ptrdiff_t at = y * a.frame.stride();
+    if (!equal(a.frame.payload_row(y), b.frame.payload_row(y)) ||
+        !(method.contract_depth ? equal(a.frame.depth_row(y), b.frame.depth_row(y))
+                                : equal(a.depth.data() + at, b.depth.data() + at)))
+      return false;
+  }
+  return true;
 }
 
 const CoverageMethod& find_coverage_method(std::string_view name) {

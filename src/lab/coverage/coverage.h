@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <new>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -25,6 +26,16 @@ struct CoverageInput {
   std::span<const ScreenTriangle> snapped;
 };
 
+// Memory that begins on a cache line, as rows of a Framebuffer do.
+template <typename T>
+struct LineAllocator {
+  using value_type = T;
+  static constexpr std::align_val_t kLine{64};
+  T* allocate(std::size_t count) { return static_cast<T*>(::operator new(count * sizeof(T), kLine)); }
+  void deallocate(T* p, std::size_t) { ::operator delete(p, kLine); }
+  bool operator==(const LineAllocator&) const = default;
+};
+
 // The draw target of a coverage method, with the backends' memory between draws. Use one per thread.
 class Canvas {
  public:
@@ -32,8 +43,8 @@ class Canvas {
   Window window() const { return {frame.width(), frame.height()}; }
   Backend& backend(const BackendInfo& info);
 
-  Framebuffer frame;         // all methods write payloads, only the backends write depths
-  std::vector<float> depth;  // depths of all other methods; rows are frame.stride() apart
+  Framebuffer frame;  // all methods write payloads, only the backends write depths
+  std::vector<float, LineAllocator<float>> depth;  // of all other methods; rows are frame.stride() apart
 
  private:
   std::map<std::string_view, std::unique_ptr<Backend>> backends_;
@@ -55,18 +66,23 @@ struct CoverageMethod {
   MethodInfo info;
   CoveragePromise promise;
   // The timed part: clear, coverage, depth test, colour. All methods but the backends use the same float
-  // depth test.
-  std::function<void(const CoverageInput&, Canvas&, int threads)> draw;
+  // depth test. All SIMD targets draw the same pixels and depths.
+  std::function<void(const CoverageInput&, Canvas&, const Execution&)> draw;
   // Appends, in any order, each triangle's pixels before the depth test, found by the same code as in
   // draw().
   std::function<void(const CoverageInput&, Window, std::vector<Run>&)> runs;
-  bool threaded = false;        // draw uses `threads`
+  bool threaded = false;        // draw uses the execution's threads
   bool contract_depth = false;  // draw writes the frame's depths, in units of rule 6
   bool fills = true;            // false for backends that do not fill triangles; these are not scored
+  // Whether draw uses the execution's SIMD target. If not, `simd_note` says why a SIMD form is missing.
+  bool simd = false;
+  std::string_view simd_note = {};
 };
 
 // The backends first.
 std::span<const CoverageMethod> coverage_methods();
+// Whether two draws of a method gave the same payloads and the same depths, bit for bit.
+bool same_picture(const CoverageMethod& method, const Canvas& a, const Canvas& b);
 // Throws std::invalid_argument for an unknown name; the message suggests the nearest known one.
 const CoverageMethod& find_coverage_method(std::string_view name);
 

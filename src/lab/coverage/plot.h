@@ -63,7 +63,7 @@ class DepthPlot {
     payload_[at] = triangle_.payload;
   }
 
-  // Selects instead of branches let the compiler vectorize the loop.
+  // Selects instead of branches let the compiler vectorize the loop, for the baseline instructions.
   void span(int y, int x0, int x1) const {
     const float row_z = z_ + zy_ * static_cast<float>(y), step = zx_;
     float* __restrict depth = depth_ + y * stride_;
@@ -78,7 +78,7 @@ class DepthPlot {
     }
   }
 
- private:
+ protected:
   FloatTriangle triangle_;
   float* depth_;
   std::uint32_t* payload_;
@@ -86,27 +86,43 @@ class DepthPlot {
   float zx_ = 0, zy_ = 0, z_ = 0;
 };
 
+template <class Method, class Plot>
+void draw_with(const CoverageInput& input, Canvas& canvas) {
+  const Window window = canvas.window();
+  std::fill(canvas.depth.begin(), canvas.depth.end(), std::numeric_limits<float>::infinity());
+  for (int y = 0; y < window.height; ++y) {
+    std::uint32_t* row = canvas.frame.view().payload + y * canvas.frame.stride();
+    std::fill(row, row + window.width, 0u);
+  }
+  for (const auto& triangle : input.floats) {
+    Plot plot(triangle, canvas);
+    Method::cover(triangle.at, window, plot);
+  }
+}
+
+// The form of a method's draw() for a target. A method without SIMD form has one for all targets.
+using DrawForm = void (*)(const CoverageInput&, Canvas&);
+using DrawForms = DrawForm (*)(SimdTarget);
+
+// `forms` is null for a method without SIMD form.
 template <class Method>
-CoverageMethod make_coverage_method(const MethodInfo& info, const CoveragePromise& promise) {
-  return {info, promise,
-          [](const CoverageInput& input, Canvas& canvas, int) {
-            const Window window = canvas.window();
-            std::fill(canvas.depth.begin(), canvas.depth.end(), std::numeric_limits<float>::infinity());
-            for (int y = 0; y < window.height; ++y) {
-              std::uint32_t* row = canvas.frame.view().payload + y * canvas.frame.stride();
-              std::fill(row, row + window.width, 0u);
-            }
-            for (const auto& triangle : input.floats) {
-              DepthPlot plot(triangle, canvas);
-              Method::cover(triangle.at, window, plot);
-            }
-          },
-          [](const CoverageInput& input, Window window, std::vector<Run>& runs) {
-            for (std::size_t i = 0; i < input.floats.size(); ++i) {
-              RunRecorder plot(static_cast<std::uint32_t>(i), runs);
-              Method::cover(input.floats[i].at, window, plot);
-            }
-          }};
+CoverageMethod make_coverage_method(const MethodInfo& info, const CoveragePromise& promise,
+                                    DrawForms forms = nullptr) {
+  return {.info = info,
+          .promise = promise,
+          .draw =
+              [forms](const CoverageInput& input, Canvas& canvas, const Execution& execution) {
+                const SimdTarget target = resolve(execution.target);
+                (forms == nullptr ? draw_with<Method, DepthPlot> : forms(target))(input, canvas);
+              },
+          .runs =
+              [](const CoverageInput& input, Window window, std::vector<Run>& runs) {
+                for (std::size_t i = 0; i < input.floats.size(); ++i) {
+                  RunRecorder plot(static_cast<std::uint32_t>(i), runs);
+                  Method::cover(input.floats[i].at, window, plot);
+                }
+              },
+          .simd = forms != nullptr};
 }
 
 // Rounds half to even, for |v| < 2^51: the sum with 1.5 * 2^52 has no fraction bits.

@@ -74,7 +74,7 @@ VisibleTriangleJudge::VisibleTriangleJudge(const CoverageInput& input, Size size
 
 VisibleTriangleScore VisibleTriangleJudge::score(const CoverageMethod& method) const {
   Canvas canvas(size_.width, size_.height);
-  method.draw({floats_, snapped_}, canvas, 1);
+  method.draw({floats_, snapped_}, canvas, {});
   VisibleTriangleScore score{.wrong_snapped = wrong_pixels(canvas, by_grid_),
                              .wrong_floats = wrong_pixels(canvas, by_floats_)};
   if (method.contract_depth) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "lab/coverage/plot.h"
+#include "lab/coverage/simd/forms.h"
 
 namespace edgewise::lab {
 

@@ -7,11 +7,13 @@ namespace edgewise::lab {
 
 CoverageMethod make_coverage_fixed_4_int32();
 CoverageMethod make_coverage_fixed_4_int32() {
-  return make_coverage_method<FixedEdges<4, std::int32_t>>(
+  using Method = FixedEdges<4, std::int32_t>;
+  return make_coverage_method<Method>(
       {"fixed_4_int32", "vertices snapped to 1/16 px, 32-bit edge functions that wrap",
        "Giesen, \"Triangle rasterization in practice\", at the range it states",
        "as fixed_4 for triangles of at most 2896 px; anything inside the bounding box beyond", false},
-      {.reach_px = snap_reach_px(4), .max_side_px = 2896, .no_gaps = true, .no_double_hits = true});
+      {.reach_px = snap_reach_px(4), .max_side_px = 2896, .no_gaps = true, .no_double_hits = true},
+      simd_forms<Method>);
 }
 
 }  // namespace edgewise::lab

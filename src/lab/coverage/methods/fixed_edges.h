@@ -15,37 +15,75 @@
 
 #include "lab/coverage/methods/row_spans.h"
 #include "lab/coverage/plot.h"
+#include "lab/coverage/simd/forms.h"
 
 namespace edgewise::lab {
 
+template <typename Int>
+struct FixedEdge {
+  using Wrapping = std::make_unsigned_t<Int>;
+  Wrapping value, step_x, step_y;  // value at the box's first sample, biased by the fill rule
+  int x0, y0;                      // the box's first pixel
+  bool right;                      // whether the triangle lies to the right
+
+  struct Row {
+    Wrapping value, step;
+    int x0;
+    bool accepts(int x) const { return static_cast<Int>(value + step * static_cast<Wrapping>(x - x0)) >= 0; }
+  };
+  Row row(int y) const { return {value + step_y * static_cast<Wrapping>(y - y0), step_x, x0}; }
+  bool faces_right() const { return right; }
+};
+
+struct FixedBox {
+  PixelRows pixels;
+  double area;  // of the triangle's whole box, in square units of 2^-bits px
+  int bits;
+
+  // Whether no value, minus the bias, wraps.
+  template <typename Int>
+  bool holds() const {
+    return area < static_cast<double>(std::uint64_t{1} << std::numeric_limits<Int>::digits);
+  }
+};
+
+template <typename Int, class Plot>
+void test_every_pixel(const FixedEdge<Int> (&e)[3], const PixelRows& box, Plot& plot) {
+  auto row0 = e[0].value, row1 = e[1].value, row2 = e[2].value;
+  for (int py = box.y0; py < box.y1; ++py) {
+    auto v0 = row0, v1 = row1, v2 = row2;
+    for (int px = box.x0; px < box.x1; ++px) {
+      if (static_cast<Int>(v0 | v1 | v2) >= 0) plot.pixel(px, py);
+      v0 += e[0].step_x, v1 += e[1].step_x, v2 += e[2].step_x;
+    }
+    row0 += e[0].step_y, row1 += e[1].step_y, row2 += e[2].step_y;
+  }
+}
+
+// Testing every pixel, at one addition per edge, is faster for boxes up to this width.
+inline constexpr int kNarrowForIntegers_px = 10;
+
+// simd/edges-inl.h has the overload for plots in lanes.
+template <typename Int, class Plot>
+void fill(const FixedEdge<Int> (&edges)[3], const FixedBox& box, Plot& plot) {
+  if (box.pixels.x1 - box.pixels.x0 > kNarrowForIntegers_px && box.holds<Int>())
+    fill_between(edges, box.pixels, plot);
+  else
+    test_every_pixel(edges, box.pixels, plot);
+}
+
 template <int SnapBits, typename Int>
 struct FixedEdges {
-  // Testing every pixel, at one addition per edge, is faster for boxes up to this width.
-  static constexpr int kNarrow_px = 10;
   // Samples lie at half a pixel, so one bit is needed even if vertices have none.
   static constexpr int kBits = SnapBits == 0 ? 1 : SnapBits;
   static constexpr std::int64_t kOne = std::int64_t{1} << kBits, kSample = kOne / 2;
-  using Wrapping = std::make_unsigned_t<Int>;
+  using Edge = FixedEdge<Int>;
+  using Wrapping = typename Edge::Wrapping;
 
   static std::int64_t snap(float px) {
     return round_half_even(double{px} * (1 << SnapBits)) * (1 << (kBits - SnapBits));
   }
 
-  struct Edge {
-    Wrapping value, step_x, step_y;  // value at the box's first sample, biased by the fill rule
-    int x0, y0;                      // the box's first pixel
-    bool right;                      // whether the triangle lies to the right
-
-    struct Row {
-      Wrapping value, step;
-      int x0;
-      bool accepts(int x) const {
-        return static_cast<Int>(value + step * static_cast<Wrapping>(x - x0)) >= 0;
-      }
-    };
-    Row row(int y) const { return {value + step_y * static_cast<Wrapping>(y - y0), step_x, x0}; }
-    bool faces_right() const { return right; }
-  };
   static Edge edge(std::int64_t px, std::int64_t py, std::int64_t qx, std::int64_t qy, int x0, int y0) {
     const std::int64_t sx = x0 * kOne + kSample, sy = y0 * kOne + kSample;
     const std::int64_t a = py - qy, b = qx - px;
@@ -57,25 +95,6 @@ struct FixedEdges {
             x0,
             y0,
             a >= 0};
-  }
-
-  // Whether no value, minus the bias, wraps; the box's sides are in units of 2^-kBits px.
-  static bool holds(std::int64_t width, std::int64_t height) {
-    constexpr auto kEnd = static_cast<double>(std::uint64_t{1} << std::numeric_limits<Int>::digits);
-    return static_cast<double>(width) * static_cast<double>(height) < kEnd;
-  }
-
-  template <class Plot>
-  static void test_every_pixel(const Edge (&e)[3], const PixelRows& box, Plot& plot) {
-    Wrapping row0 = e[0].value, row1 = e[1].value, row2 = e[2].value;
-    for (int py = box.y0; py < box.y1; ++py) {
-      Wrapping v0 = row0, v1 = row1, v2 = row2;
-      for (int px = box.x0; px < box.x1; ++px) {
-        if (static_cast<Int>(v0 | v1 | v2) >= 0) plot.pixel(px, py);
-        v0 += e[0].step_x, v1 += e[1].step_x, v2 += e[2].step_x;
-      }
-      row0 += e[0].step_y, row1 += e[1].step_y, row2 += e[2].step_y;
-    }
   }
 
   template <class Plot>
@@ -99,10 +118,8 @@ struct FixedEdges {
     const Edge edges[3] = {edge(x[0], y[0], x[1], y[1], box.x0, box.y0),
                            edge(x[1], y[1], x[2], y[2], box.x0, box.y0),
                            edge(x[2], y[2], x[0], y[0], box.x0, box.y0)};
-    if (box.x1 - box.x0 > kNarrow_px && holds(max_x - min_x, max_y - min_y))
-      fill_between(edges, box, plot);
-    else
-      test_every_pixel(edges, box, plot);
+    fill(edges, FixedBox{box, static_cast<double>(max_x - min_x) * static_cast<double>(max_y - min_y), kBits},
+         plot);
   }
 };
 
@@ -114,8 +131,10 @@ constexpr double snap_reach_px(int snap_bits) {
 
 template <int SnapBits>
 CoverageMethod make_fixed_method(const MethodInfo& info) {
-  return make_coverage_method<FixedEdges<SnapBits, std::int64_t>>(
-      info, {.reach_px = snap_reach_px(SnapBits), .no_gaps = true, .no_double_hits = true});
+  using Method = FixedEdges<SnapBits, std::int64_t>;
+  return make_coverage_method<Method>(
+      info, {.reach_px = snap_reach_px(SnapBits), .no_gaps = true, .no_double_hits = true},
+      simd_forms<Method>);
 }
 
 }  // namespace edgewise::lab

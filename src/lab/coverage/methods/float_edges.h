@@ -11,6 +11,7 @@
 
 #include "lab/coverage/methods/row_spans.h"
 #include "lab/coverage/plot.h"
+#include "lab/coverage/simd/forms.h"
 
 namespace edgewise::lab {
 
@@ -74,18 +75,27 @@ void test_every_pixel(const RealEdge<Real> (&edges)[3], const PixelRows& box, Pl
 // Testing every pixel is faster for boxes up to this width.
 inline constexpr int kNarrowForReals_px = 6;
 
-template <typename Real, class Threshold, class Plot>
-void cover_directly(const UnsnappedTriangle& t, Window window, Plot& plot) {
-  const PixelRows box = real_box(t, window);
-  if (box.x0 >= box.x1 || box.y0 >= box.y1) return;
-  with_edges<Real, Threshold>(t, [&](const RealEdge<Real>(&edges)[3]) {
-    plot.begin();
-    if (box.x1 - box.x0 <= kNarrowForReals_px)
-      test_every_pixel(edges, box, plot);
-    else
-      fill_between(edges, box, plot);
-  });
+// simd/edges-inl.h has the overload for plots in lanes.
+template <typename Real, class Plot>
+void fill(const RealEdge<Real> (&edges)[3], const PixelRows& box, Plot& plot) {
+  if (box.x1 - box.x0 <= kNarrowForReals_px)
+    test_every_pixel(edges, box, plot);
+  else
+    fill_between(edges, box, plot);
 }
+
+template <typename Real, class Threshold>
+struct RealEdges {
+  template <class Plot>
+  static void cover(const UnsnappedTriangle& t, Window window, Plot& plot) {
+    const PixelRows box = real_box(t, window);
+    if (box.x0 >= box.x1 || box.y0 >= box.y1) return;
+    with_edges<Real, Threshold>(t, [&](const RealEdge<Real>(&edges)[3]) {
+      plot.begin();
+      fill(edges, box, plot);
+    });
+  }
+};
 
 struct AcceptEdges {
   template <typename Real>
@@ -103,6 +113,27 @@ struct TopLeft {
   template <typename Real>
   static Real of(Real a, Real b) {
     return a > 0 || (a == 0 && b > 0) ? kAcceptZero<Real> : 0;
+  }
+};
+
+using FloatLe = RealEdges<float, AcceptEdges>;
+using FloatLt = RealEdges<float, RejectEdges>;
+using FloatTopLeft = RealEdges<float, TopLeft>;
+using DoubleTopLeft = RealEdges<double, TopLeft>;
+
+// Vertices snapped to 1/256 px.
+struct FloatSnapped {
+  template <class Plot>
+  static void cover(const UnsnappedTriangle& t, Window window, Plot& plot) {
+    const auto snap = [](float px) {
+      return static_cast<float>(round_half_even(double{px} * 256.0)) / 256.0f;
+    };
+    UnsnappedTriangle on_grid = t;
+    for (int i = 0; i < 3; ++i) {
+      on_grid.x_px[i] = snap(t.x_px[i]);
+      on_grid.y_px[i] = snap(t.y_px[i]);
+    }
+    FloatTopLeft::cover(on_grid, window, plot);
   }
 };
 

@@ -4,23 +4,12 @@
 
 namespace edgewise::lab {
 
-namespace {
-
-struct FloatLe {
-  template <class Plot>
-  static void cover(const UnsnappedTriangle& t, Window window, Plot& plot) {
-    cover_directly<float, AcceptEdges>(t, window, plot);
-  }
-};
-
-}  // namespace
-
 CoverageMethod make_coverage_float_le();
 CoverageMethod make_coverage_float_le() {
   return make_coverage_method<FloatLe>(
       {"float_le", "float inside test that accepts all edges (<= 0)", "the Pico-8 engine's \"inside test\"",
        "wrong only within 0.0028 px of an edge; no gaps if all vertices lie on the 1/256 px grid", false},
-      {.reach_px = kFloatReachPx, .no_gaps = true, .if_on_grid = true});
+      {.reach_px = kFloatReachPx, .no_gaps = true, .if_on_grid = true}, simd_forms<FloatLe>);
 }
 
 }  // namespace edgewise::lab

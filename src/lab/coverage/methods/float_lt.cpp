@@ -3,24 +3,13 @@
 
 namespace edgewise::lab {
 
-namespace {
-
-struct FloatLt {
-  template <class Plot>
-  static void cover(const UnsnappedTriangle& t, Window window, Plot& plot) {
-    cover_directly<float, RejectEdges>(t, window, plot);
-  }
-};
-
-}  // namespace
-
 CoverageMethod make_coverage_float_lt();
 CoverageMethod make_coverage_float_lt() {
   return make_coverage_method<FloatLt>(
       {"float_lt", "float inside test that rejects all edges (< 0)", "the Pico-8 engine's \"culling\"",
        "wrong only within 0.0028 px of an edge; no double hits if all vertices lie on the 1/256 px grid",
        false},
-      {.reach_px = kFloatReachPx, .no_double_hits = true, .if_on_grid = true});
+      {.reach_px = kFloatReachPx, .no_double_hits = true, .if_on_grid = true}, simd_forms<FloatLt>);
 }
 
 }  // namespace edgewise::lab

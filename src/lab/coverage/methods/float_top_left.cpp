@@ -4,24 +4,13 @@
 
 namespace edgewise::lab {
 
-namespace {
-
-struct FloatTopLeft {
-  template <class Plot>
-  static void cover(const UnsnappedTriangle& t, Window window, Plot& plot) {
-    cover_directly<float, TopLeft>(t, window, plot);
-  }
-};
-
-}  // namespace
-
 CoverageMethod make_coverage_float_top_left();
 CoverageMethod make_coverage_float_top_left() {
   return make_coverage_method<FloatTopLeft>(
       {"float_top_left", "float edge functions with the top-left rule, vertices not snapped",
        "Scratchapixel, \"Rasterization: a Practical Implementation\"",
        "wrong only within 0.0028 px of an edge", false},
-      {.reach_px = kFloatReachPx});
+      {.reach_px = kFloatReachPx}, simd_forms<FloatTopLeft>);
 }
 
 }  // namespace edgewise::lab
