@@ -1,6 +1,7 @@
 #include "bench/peers/peer.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <vector>
 
 namespace edgewise::bench {
@@ -21,6 +22,12 @@ std::span<const PeerInfo> peers() {
 
 std::span<const PeerInfo> benchmark_peers() {
   return peers().first(std::min<std::size_t>(peers().size(), 1));  // softpipe is far slower
+}
+
+void require_peers() {
+  if (peers().empty())
+    throw std::invalid_argument(
+        "--peers: none was built, since EGL or OpenGL was not found (scripts/run --peers installs them)");
 }
 
 }  // namespace edgewise::bench

@@ -36,6 +36,8 @@ class PeerFrame {
   virtual void draw() = 0;
   // The payloads of the last frame, row by row from the top.
   virtual std::vector<std::uint32_t> read() = 0;
+  // Its depths in [0, 1], in the same order.
+  virtual std::vector<float> read_depths() = 0;
 };
 
 struct PeerInfo {
@@ -49,5 +51,7 @@ struct PeerInfo {
 // The peers in this build, and those of them that have rows in the benchmark.
 std::span<const PeerInfo> peers();
 std::span<const PeerInfo> benchmark_peers();
+// Throws std::invalid_argument if this build has none.
+void require_peers();
 
 }  // namespace edgewise::bench

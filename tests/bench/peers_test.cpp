@@ -141,6 +141,7 @@ class Mirror final : public PeerFrame {
       pixels.insert(pixels.end(), frame_.payload_row(y), frame_.payload_row(y) + frame_.width());
     return pixels;
   }
+  std::vector<float> read_depths() override { return {}; }
 
  private:
   PeerScene scene_;

@@ -66,16 +66,9 @@ void backend_runs(Backend& backend, std::span<const ScreenTriangle> snapped, Win
     members.clear();
     for (const std::uint32_t i : group) members.push_back(triangles[i]);
     backend.draw(members, frame.view(), kNoTriangle, {});
-    for (int y = 0; y < window.height; ++y) {
-      const std::uint32_t* row = frame.payload_row(y);
-      for (int x = 0; x < window.width;) {
-        const int begin = x;
-        const std::uint32_t triangle = row[x];
-        while (x < window.width && row[x] == triangle) ++x;
-        if (triangle != kNoTriangle)
-          runs.push_back({triangle, y + window.y0, begin + window.x0, x + window.x0});
-      }
-    }
+    for (int y = 0; y < window.height; ++y)
+      append_runs({frame.payload_row(y), static_cast<std::size_t>(window.width)}, y + window.y0, window.x0,
+                  runs);
   }
 }
 
@@ -157,6 +150,17 @@ const CoverageMethod& find_coverage_method(std::string_view name) {
 
 const CoverageMethod& find_drawing_method(std::string_view name) {
   return find(drawing_methods(), "backend or coverage method", name);
+}
+
+void append_runs(std::span<const std::uint32_t> row, int y, int x0, std::vector<Run>& runs) {
+  for (auto begin = row.begin(); begin != row.end();) {
+    const std::uint32_t triangle = *begin;
+    const auto end = std::find_if(begin, row.end(), [&](std::uint32_t other) { return other != triangle; });
+    if (triangle != kNoTriangle)
+      runs.push_back({triangle, y, x0 + static_cast<int>(begin - row.begin()),
+                      x0 + static_cast<int>(end - row.begin())});
+    begin = end;
+  }
 }
 
 std::vector<ScreenTriangle> snapped(std::span<const FloatTriangle> triangles) {
