@@ -102,7 +102,7 @@ bool is_slow_and_not_fastest(const Row& row, const std::vector<Row>& rows) {
 
 // A peer that was built cannot start on a machine without its driver.
 void leave_out_missing_peers(std::vector<Row>& rows, bool need_peers) {
-  for (const PeerInfo& peer : peers()) {
+  for (const PeerInfo& peer : benchmark_peers()) {
     const auto is_of_peer = [&](const Row& row) { return row.peer == &peer; };
     if (std::none_of(rows.begin(), rows.end(), is_of_peer)) continue;
     try {
@@ -257,7 +257,7 @@ void add_context(const Flags& flags) {
                                        : flags.suite.scenes.empty() ? "full"
                                                                     : "scenes");
   benchmark::AddCustomContext("backends", names_of(backends()));
-  benchmark::AddCustomContext("peers", names_of(peers()));
+  benchmark::AddCustomContext("peers", names_of(benchmark_peers()));
 }
 
 int run(int argc, char** argv) {

@@ -82,10 +82,10 @@ class Suite {
     if (options_.scenes.empty()) add_scheduled(workload, name);
     if (!options_.peers) return;
     const Timed timed = stream ? Timed::raster : Timed::frame;
-    for (const auto& peer : peers())
+    for (const auto& peer : benchmark_peers())
       for (const int threads : kThreads) add_peer(workload, timed, peer, name, threads);
     // Peers use vectors of at most 256 bits, so ours is timed with 256 bits, too.
-    if (!peers().empty() && resolve(SimdTarget::best) == SimdTarget::avx512)
+    if (!benchmark_peers().empty() && resolve(SimdTarget::best) == SimdTarget::avx512)
       for (const int threads : kThreads)
         add(workload, timed, find_backend(kAblationBackend), fmt::format("{}/target:avx2", name), threads,
             SimdTarget::avx2);

@@ -7,8 +7,9 @@
 #include <stdlib.h>
 
 #include <array>
+#include <map>
 #include <stdexcept>
-#include <string_view>
+#include <utility>
 
 namespace edgewise::bench {
 
@@ -17,16 +18,11 @@ namespace {
 template <typename Function>
 Function egl_function(const char* name) {
   const auto found = reinterpret_cast<Function>(eglGetProcAddress(name));
-  if (found == nullptr) throw std::runtime_error(std::string("llvmpipe: EGL lacks ") + name);
+  if (found == nullptr) throw std::runtime_error(fmt::format("EGL lacks {}", name));
   return found;
 }
 
-EGLDisplay surfaceless_display() {
-  return egl_function<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT")(
-      EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-}
-
-EGLDisplay software_device_display() {
+EGLDeviceEXT software_device() {
   std::array<EGLDeviceEXT, 16> devices{};
   EGLint count = 0;
   egl_function<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT")(static_cast<EGLint>(devices.size()),
@@ -36,10 +32,22 @@ EGLDisplay software_device_display() {
     EGLDeviceEXT device = devices[static_cast<std::size_t>(i)];
     const char* has = extensions(device, EGL_EXTENSIONS);
     if (has != nullptr && std::string_view(has).find("EGL_MESA_device_software") != std::string_view::npos)
-      return egl_function<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT")(
-          EGL_PLATFORM_DEVICE_EXT, device, nullptr);
+      return device;
   }
-  throw std::runtime_error("llvmpipe: EGL has no software device");
+  throw std::runtime_error("EGL has no software device");
+}
+
+// Mesa reads the driver's name and its number of threads once per display, so every context needs a display
+// of its own. EGL offers two without a window: the software device and the surfaceless platform
+// (EGL_MESA_platform_surfaceless). Mesa also distinguishes an empty list of attributes from none, which gives
+// a third.
+EGLDisplay display_for(MesaDriver driver, int threads) {
+  constexpr EGLint kNoAttributes[] = {EGL_NONE};
+  const auto get = egl_function<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
+  if (driver == MesaDriver::softpipe)
+    return get(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, kNoAttributes);
+  if (threads == 1) return get(EGL_PLATFORM_DEVICE_EXT, software_device(), nullptr);
+  return get(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
 }
 
 struct Context {
@@ -47,27 +55,29 @@ struct Context {
   EGLContext context = EGL_NO_CONTEXT;
 };
 
-Context open(int threads) {
+Context open(MesaDriver driver, int threads) {
   // Overrides the user's settings, since the rows' names promise these.
-  setenv("GALLIUM_DRIVER", "llvmpipe", 1);
+  setenv("GALLIUM_DRIVER", std::string(name_of(driver)).c_str(), 1);
   setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
   setenv("MESA_SHADER_CACHE_DISABLE", "1", 1);
   unsetenv("LP_NATIVE_VECTOR_WIDTH");
   // 0: no worker thread beside the caller. 2: two workers draw while the caller bins.
   setenv("LP_NUM_THREADS", threads == 1 ? "0" : "2", 1);
   Context made;
-  made.display = threads == 1 ? software_device_display() : surfaceless_display();
+  made.display = display_for(driver, threads);
   if (!eglInitialize(made.display, nullptr, nullptr) || !eglBindAPI(EGL_OPENGL_API))
-    throw std::runtime_error("llvmpipe: EGL offers no display without a window");
-  constexpr EGLint kAttributes[] = {EGL_CONTEXT_MAJOR_VERSION,
-                                    4,
-                                    EGL_CONTEXT_MINOR_VERSION,
-                                    5,
-                                    EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                    EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                    EGL_NONE};
-  made.context = eglCreateContext(made.display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, kAttributes);
-  if (made.context == EGL_NO_CONTEXT) throw std::runtime_error("llvmpipe: no OpenGL 4.5 context");
+    throw std::runtime_error("EGL offers no display without a window");
+  const bool newest = driver == MesaDriver::llvmpipe;  // softpipe has OpenGL 3.3, with the extensions we need
+  const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
+                               newest ? 4 : 3,
+                               EGL_CONTEXT_MINOR_VERSION,
+                               newest ? 5 : 3,
+                               EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                               EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                               EGL_NONE};
+  made.context = eglCreateContext(made.display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
+  if (made.context == EGL_NO_CONTEXT)
+    throw std::runtime_error(fmt::format("no OpenGL {} context", newest ? "4.5" : "3.3"));
   return made;
 }
 
@@ -76,29 +86,39 @@ std::string text_of(GLenum what) {
   return reinterpret_cast<const char*>(get(what));
 }
 
-}  // namespace
-
-void use_llvmpipe(int threads) {
-  static std::array<Context, 2> contexts;
-  Context& context = contexts.at(static_cast<std::size_t>(threads - 1));
-  if (context.context == EGL_NO_CONTEXT) context = open(threads);
+void use(MesaDriver driver, int threads) {
+  static std::map<std::pair<MesaDriver, int>, Context> contexts;
+  Context& context = contexts[{driver, threads}];
+  if (context.context == EGL_NO_CONTEXT) context = open(driver, threads);
   if (eglGetCurrentContext() == context.context) return;
   if (!eglMakeCurrent(context.display, EGL_NO_SURFACE, EGL_NO_SURFACE, context.context))
-    throw std::runtime_error("llvmpipe: cannot make its context current");
-  if (!text_of(GL_RENDERER).starts_with("llvmpipe"))
-    throw std::runtime_error("llvmpipe: EGL gives " + text_of(GL_RENDERER) + " instead");
+    throw std::runtime_error("cannot make its context current");
+  if (!text_of(GL_RENDERER).starts_with(name_of(driver)))
+    throw std::runtime_error("EGL gives " + text_of(GL_RENDERER) + " instead");
 }
 
-std::string llvmpipe_version() {
-  static const std::string version = [] {
-    use_llvmpipe(1);
-    // "4.5 (Core Profile) Mesa 22.3.6" and "llvmpipe (LLVM 15.0.6, 256 bits)"
-    const std::string opengl = text_of(GL_VERSION), renderer = text_of(GL_RENDERER);
-    const auto mesa = opengl.find("Mesa"), llvm = renderer.find("LLVM");
-    if (mesa == std::string::npos || llvm == std::string::npos) return opengl;
-    return fmt::format("{}, {}", opengl.substr(mesa), renderer.substr(llvm, renderer.rfind(')') - llvm));
-  }();
-  return version;
+}  // namespace
+
+std::string_view name_of(MesaDriver driver) {
+  return driver == MesaDriver::llvmpipe ? "llvmpipe" : "softpipe";
+}
+
+void use_mesa(MesaDriver driver, int threads) {
+  try {
+    use(driver, threads);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(fmt::format("{}: {}", name_of(driver), error.what()));
+  }
+}
+
+std::string mesa_version(MesaDriver driver) {
+  use_mesa(driver, 1);
+  // "4.5 (Core Profile) Mesa 22.3.6"; "llvmpipe (LLVM 15.0.6, 256 bits)" or "softpipe"
+  const std::string opengl = text_of(GL_VERSION), renderer = text_of(GL_RENDERER);
+  const auto mesa = opengl.find("Mesa"), llvm = renderer.find("LLVM");
+  if (mesa == std::string::npos) return opengl;
+  if (llvm == std::string::npos) return opengl.substr(mesa) + ", scalar";
+  return fmt::format("{}, {}", opengl.substr(mesa), renderer.substr(llvm, renderer.rfind(')') - llvm));
 }
 
 }  // namespace edgewise::bench

@@ -1,17 +1,20 @@
-// OpenGL contexts of Mesa's llvmpipe without a window, one per thread count.
+// OpenGL contexts of Mesa's software drivers without a window, one per driver and thread count.
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace edgewise::bench {
 
-// Makes the context for 1 or 2 threads current. llvmpipe reads its thread count once per display, so each
-// count has one of the two displays that EGL offers without a window: the software device (1), and the
-// surfaceless platform (2, EGL_MESA_platform_surfaceless). Throws std::runtime_error if EGL or llvmpipe is
-// missing.
-void use_llvmpipe(int threads);
+enum class MesaDriver { llvmpipe, softpipe };
+std::string_view name_of(MesaDriver driver);
 
-// Mesa's and LLVM's versions. Throws as use_llvmpipe does.
-std::string llvmpipe_version();
+// Makes a driver's context current: llvmpipe's for 1 or 2 threads, or softpipe's for 1. Throws
+// std::runtime_error if EGL or the driver is missing.
+void use_mesa(MesaDriver driver, int threads);
+
+// The version of Mesa, and how the driver computes: "Mesa 22.3.6, LLVM 15.0.6, 256 bits". Throws as use_mesa
+// does.
+std::string mesa_version(MesaDriver driver);
 
 }  // namespace edgewise::bench

@@ -36,16 +36,22 @@ class PeerFrame {
   virtual void draw() = 0;
   // The payloads of the last frame, row by row from the top.
   virtual std::vector<std::uint32_t> read() = 0;
+  // Its depths in [0, 1], in the same order.
+  virtual std::vector<float> read_depths() = 0;
 };
 
 struct PeerInfo {
   std::string_view name;  // in row names; differs from every backend's
+  int most_threads;
   std::string (*version)();
-  // `threads` is 1 or 2. Throws std::runtime_error if the peer cannot start.
+  // `threads` is at most most_threads. Throws std::runtime_error if the peer cannot start.
   std::unique_ptr<PeerFrame> (*load)(const PeerScene& scene, int threads);
 };
 
-// The peers in this build.
+// The peers in this build, and those of them that have rows in the benchmark.
 std::span<const PeerInfo> peers();
+std::span<const PeerInfo> benchmark_peers();
+// Throws std::invalid_argument if this build has none.
+void require_peers();
 
 }  // namespace edgewise::bench

@@ -1,7 +1,10 @@
 #include "lab/measure.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
+#include <functional>
+#include <numeric>
 #include <stdexcept>
 
 #include "edgewise/contract.h"
@@ -51,21 +54,38 @@ FrameDifference compare(const Framebuffer& expected, const GuardedFrame& found) 
 }
 
 std::vector<std::vector<std::uint32_t>> disjoint_groups(std::span<const ScreenTriangle> triangles, int width,
-                                                        int height) {
-  // Each triangle goes to the lowest group above all groups already used inside its box.
-  std::vector<std::uint32_t> next_group(static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
-                                        0);
+                                                        int height, int margin_px) {
+  // Each triangle goes to the first group that is free in its whole box. A pixel's bits say which groups of a
+  // pass use it; triangles that find no free group wait for the next pass.
+  constexpr std::size_t kGroupsPerPass = 64;
+  constexpr std::uint64_t kAll = ~std::uint64_t{0};
+  std::vector<std::uint64_t> used;
   std::vector<std::vector<std::uint32_t>> groups;
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    const PixelBox box = pixel_box(triangles[i], width, height);
-    if (box.empty()) continue;
-    std::uint32_t group = 0;
-    const auto row_at = [&](int y) { return next_group.begin() + std::ptrdiff_t{y} * width; };
-    for (int y = box.y0; y < box.y1; ++y)
-      group = std::max(group, *std::max_element(row_at(y) + box.x0, row_at(y) + box.x1));
-    for (int y = box.y0; y < box.y1; ++y) std::fill(row_at(y) + box.x0, row_at(y) + box.x1, group + 1);
-    if (groups.size() <= group) groups.resize(group + 1);
-    groups[group].push_back(static_cast<std::uint32_t>(i));
+  std::vector<std::uint32_t> pending(triangles.size()), later;
+  std::iota(pending.begin(), pending.end(), 0u);
+  for (std::size_t first = 0; !pending.empty(); first += kGroupsPerPass) {
+    used.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0);
+    later.clear();
+    for (const std::uint32_t i : pending) {
+      PixelBox box = pixel_box(triangles[i], width, height);
+      box = {std::max(box.x0 - margin_px, 0), std::max(box.y0 - margin_px, 0),
+             std::min(box.x1 + margin_px, width), std::min(box.y1 + margin_px, height)};
+      if (box.empty()) continue;
+      const auto row_at = [&](int y) { return used.begin() + std::ptrdiff_t{y} * width; };
+      std::uint64_t taken = 0;
+      for (int y = box.y0; y < box.y1 && taken != kAll; ++y)
+        taken = std::reduce(row_at(y) + box.x0, row_at(y) + box.x1, taken, std::bit_or{});
+      if (taken == kAll) {
+        later.push_back(i);
+        continue;
+      }
+      const auto slot = static_cast<std::size_t>(std::countr_one(taken));
+      for (int y = box.y0; y < box.y1; ++y)
+        for (auto p = row_at(y) + box.x0; p != row_at(y) + box.x1; ++p) *p |= std::uint64_t{1} << slot;
+      if (groups.size() <= first + slot) groups.resize(first + slot + 1);
+      groups[first + slot].push_back(i);
+    }
+    pending.swap(later);
   }
   return groups;
 }

@@ -76,8 +76,8 @@ TEST(BenchSuite, RowNamesCanBeSplitIntoTheirParts) {
     EXPECT_TRUE(names.insert(row.name).second) << row.name;
     EXPECT_NE(row.name.find("/threads_1\?\?/"), std::string::npos) << row.name;
   }
-  const bool narrower = !peers().empty() && resolve(SimdTarget::best) == SimdTarget::avx512;
-  EXPECT_EQ(names.size(), 2 + 4 * backends().size() + 2 * peers().size() + (narrower ? 2 : 0));
+  const bool narrower = !benchmark_peers().empty() && resolve(SimdTarget::best) == SimdTarget::avx512;
+  EXPECT_EQ(names.size(), 2 + 4 * backends().size() + 2 * benchmark_peers().size() + (narrower ? 2 : 0));
 }
 
 TEST(BenchStage, ComparesWireframesWithWireframes) {
@@ -102,7 +102,7 @@ TEST(BenchSuite, NamesAllRowsDifferently) {
 TEST(BenchSuite, AlsoTimesOursAtThePeersVectorWidth) {
   std::map<std::string, int> count;
   for (const Row& row : make_suite({})) ++count[row.name];
-  const bool wanted = !peers().empty() && resolve(SimdTarget::best) == SimdTarget::avx512;
+  const bool wanted = !benchmark_peers().empty() && resolve(SimdTarget::best) == SimdTarget::avx512;
   for (const SceneInfo& scene : builtin_scenes())
     for (const std::string threads : {"1", "2"}) {
       const std::string who = scene.stream ? "tiled/" : "tiled+frontend/";

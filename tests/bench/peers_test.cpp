@@ -141,6 +141,7 @@ class Mirror final : public PeerFrame {
       pixels.insert(pixels.end(), frame_.payload_row(y), frame_.payload_row(y) + frame_.width());
     return pixels;
   }
+  std::vector<float> read_depths() override { return {}; }
 
  private:
   PeerScene scene_;
@@ -150,11 +151,11 @@ class Mirror final : public PeerFrame {
 
 PeerInfo mirror(bool is_wrong) {
   if (is_wrong)
-    return {"mirror", [] { return std::string("1"); },
+    return {"mirror", 2, [] { return std::string("1"); },
             [](const PeerScene& scene, int) {
               return std::unique_ptr<PeerFrame>(std::make_unique<Mirror>(scene, true));
             }};
-  return {"mirror", [] { return std::string("1"); },
+  return {"mirror", 2, [] { return std::string("1"); },
           [](const PeerScene& scene, int) {
             return std::unique_ptr<PeerFrame>(std::make_unique<Mirror>(scene, false));
           }};
@@ -213,7 +214,7 @@ TEST(Ratios, ComparePeersWithTheDefaultBackend) {
   EXPECT_EQ(slower.find("faster"), std::string::npos) << slower;
 }
 
-// The peers in this build draw our pictures, of hard triangle families and of whole scenes.
+// The benchmark's peers draw our pictures, of hard triangle families and of whole scenes.
 class BuiltPeer : public ::testing::TestWithParam<std::string> {};
 
 std::shared_ptr<Workload> hard_workload(const std::string& family) {
@@ -236,7 +237,7 @@ TEST_P(BuiltPeer, DrawsOurPictures) {
   const bool family = std::ranges::find(testing::kFamilies, GetParam()) != std::end(testing::kFamilies);
   const auto workload = family ? hard_workload(GetParam()) : workload_of(GetParam());
   const bool stream = std::holds_alternative<TriangleStream>(workload->drawable());
-  for (const PeerInfo& peer : peers()) {
+  for (const PeerInfo& peer : benchmark_peers()) {
     try {
       peer.version();
     } catch (const std::runtime_error& error) {
@@ -249,7 +250,30 @@ TEST_P(BuiltPeer, DrawsOurPictures) {
       EXPECT_EQ(row.error, "") << peer.name << ", threads " << threads;
     }
   }
-  if (peers().empty()) GTEST_SKIP() << "no peer was built";
+  if (benchmark_peers().empty()) GTEST_SKIP() << "no peer was built";
+}
+
+// The other peers may differ in a few pixels. All are loaded at once, to show that their contexts are apart.
+TEST(AllPeers, DrawNearlyOurPictures) {
+  const auto workload = workload_of("torus-knot");
+  const auto triangles = triangles_by_id(*workload, false);
+  Framebuffer ours(workload->width(), workload->height());
+  backends().front().make()->draw(triangles, ours.view(), kNoTriangle, {});
+  std::vector<std::unique_ptr<PeerFrame>> frames;
+  for (const PeerInfo& peer : peers()) {
+    try {
+      for (int threads = 1; threads <= peer.most_threads; ++threads)
+        frames.push_back(peer.load(peer_scene(*workload, false, PeerPayload::id), threads));
+    } catch (const std::runtime_error& error) {
+      GTEST_SKIP() << error.what();
+    }
+  }
+  for (const auto& frame : frames) frame->draw();
+  for (const auto& frame : frames) {
+    const PeerJudgement judgement = judge(ours, frame->read(), triangles);
+    EXPECT_LE(1000 * judgement.wrong(), judgement.drawn);
+  }
+  if (frames.empty()) GTEST_SKIP() << "no peer was built";
 }
 
 std::vector<std::string> compared_names() {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <stdexcept>
 
+#include "cli/accuracy/peers.h"
 #include "cli/accuracy/score.h"
 #include "core/nearest_name.h"
 #include "lab/engine/engine.h"
@@ -24,6 +25,7 @@ void choose(const AccuracyPlan& plan, Family family, const Methods& all, Chosen&
 void check_method_names(const AccuracyPlan& plan) {
   AccuracyPlan everything;
   everything.family = plan.family;
+  everything.peers = plan.peers;
   std::vector<std::string_view> known;
   for (const auto& [family, info] : methods_of(everything).all()) known.push_back(info->name);
   for (const std::string& name : plan.methods)
@@ -55,7 +57,11 @@ class Run {
     chosen_ = scenes_of(plan);
     std::erase_if(chosen_.scenes,
                   [&](const AccuracyScene& scene) { return methods_.count(scene.family) == 0; });
-    chosen_.turning_cube = chosen_.turning_cube && !methods_.coverage.empty();
+    // Its frames are drawn on several threads, which a peer cannot do.
+    in_cube_ = methods_;
+    std::erase_if(in_cube_.coverage,
+                  [](const lab::CoverageMethod* method) { return method->load != nullptr; });
+    chosen_.turning_cube = chosen_.turning_cube && !in_cube_.coverage.empty();
     if (chosen_.scenes.empty() && !chosen_.turning_cube)
       throw std::invalid_argument("nothing to do: no selected method belongs to a selected scene's family");
     for (const AccuracyScene& scene : chosen_.scenes) total_s_ += scene.cost_s;
@@ -76,7 +82,7 @@ class Run {
     }
     if (chosen_.turning_cube)
       report.turning_cube =
-          judge_turning_cube(plan_, methods_, progress(std::string(kTurningCube), kCube_s), report.closeups);
+          judge_turning_cube(plan_, in_cube_, progress(std::string(kTurningCube), kCube_s), report.closeups);
     return report;
   }
 
@@ -89,7 +95,7 @@ class Run {
 
   const AccuracyPlan& plan_;
   const double kCube_s = plan_.quick ? 1.5 : 45.0;
-  ChosenMethods methods_;
+  ChosenMethods methods_, in_cube_;
   AccuracyScenes chosen_;
   double done_s_ = 0.0, total_s_ = 0.0;
 };
@@ -110,10 +116,16 @@ std::vector<std::pair<Family, const lab::MethodInfo*>> ChosenMethods::all() cons
   return list;
 }
 
+const lab::CoverageMethod& ChosenMethods::find_coverage(std::string_view name) const {
+  return **std::find_if(coverage.begin(), coverage.end(),
+                        [&](const lab::CoverageMethod* method) { return method->info.name == name; });
+}
+
 ChosenMethods methods_of(const AccuracyPlan& plan) {
   ChosenMethods chosen;
   choose(plan, Family::coverage, lab::coverage_methods(), chosen.coverage);
   choose(plan, Family::coverage, lab::engine_methods(), chosen.coverage);
+  if (plan.peers) choose(plan, Family::coverage, peer_methods(), chosen.coverage);
   choose(plan, Family::visibility, lab::visibility_methods(), chosen.visibility);
   choose(plan, Family::facing, lab::facing_methods(), chosen.facing);
   choose(plan, Family::clipping, lab::clipping_methods(), chosen.clipping);

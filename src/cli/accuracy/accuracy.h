@@ -30,6 +30,7 @@ struct AccuracyPlan {
   bool fit = false;                  // see load_source
   bool speed = true;                 // whether to time methods (on scenes with `timed`)
   bool pictures = false;             // whether to keep close-ups of errors
+  bool peers = false;                // whether to measure the rasterizers of other projects, too
   int threads = 1;                   // for judging only; timed draws set their own
   std::function<void(double, std::string_view)> on_progress;  // fraction done, scene
 };

@@ -48,8 +48,10 @@ void time_methods(const CoverageScene& scene, const Bench& bench, SceneResult& r
     const std::vector<Execution> executions = executions_of(method);
     for (const Execution& execution : executions) {
       if (&execution != &executions.front()) check_same_picture(scene, method, execution);
-      draws.push_back({i, execution.threads, execution.target,
-                       [&method, &input, &canvas, execution] { method.draw(input, canvas, execution); }});
+      draws.push_back(
+          {i, execution.threads, execution.target,
+           method.load ? method.load(input, scene.window(), execution)
+                       : [&method, &input, &canvas, execution] { method.draw(input, canvas, execution); }});
     }
   }
   const auto speeds = time_in_turns(draws, bench.plan.quick);
@@ -76,8 +78,7 @@ void judge(const CoverageScene& scene, const Bench& bench, SceneResult& result) 
   std::mutex mutex;
   std::size_t done = 0;
   const lab::VisibleTriangleJudge visible(input, scene.size, bench.plan.threads);
-  parallel_for(bench.plan.threads, static_cast<int>(methods.size()), [&](int n) {
-    const auto i = static_cast<std::size_t>(n);
+  const auto judge_one = [&](std::size_t i) {
     const lab::CoverageMethod& method = *methods[i];
     std::vector<lab::Run> runs;
     method.runs(input, scene.window(), runs);
@@ -90,7 +91,12 @@ void judge(const CoverageScene& scene, const Bench& bench, SceneResult& result) 
                             mark_coverage(floats, std::move(runs), scene.floats, lab::gap_reach_px(method)));
     const std::lock_guard lock(mutex);
     bench.progress(static_cast<double>(++done) / static_cast<double>(methods.size() + 1));
+  };
+  parallel_for(bench.plan.threads, static_cast<int>(methods.size()), [&](int n) {
+    if (const auto i = static_cast<std::size_t>(n); !methods[i]->load) judge_one(i);
   });
+  for (std::size_t i = 0; i < methods.size(); ++i)
+    if (methods[i]->load) judge_one(i);
   const std::size_t first = bench.closeups.size();
   for (Closeup& c : closeups)
     if (!c.name.empty()) add_unless_known(std::move(c), bench.closeups, first);

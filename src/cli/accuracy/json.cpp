@@ -49,6 +49,7 @@ json score_json(const lab::FacingScore& s) {
 struct AddScore {
   json& method;
   const SceneResult& scene;
+  const ChosenMethods& methods;
 
   // Every pixel of the image is a trial, because background pixels may be wrong too.
   void add_wrong_pixels(json& score, std::uint64_t wrong) const {
@@ -61,7 +62,7 @@ struct AddScore {
     method["float"] = score_json(s.floats, scene.crossings);
     add_wrong_pixels(method["snapped"], s.visible.wrong_snapped);
     add_wrong_pixels(method["float"], s.visible.wrong_floats);
-    const lab::CoverageMethod& scored = lab::find_coverage_method(method["name"].get<std::string>());
+    const lab::CoverageMethod& scored = methods.find_coverage(method["name"].get<std::string>());
     if (scored.contract_depth && scored.info.exact)
       method["snapped"]["unexplained_pixels"] = s.visible.unexplained;
     method["depth"] = {{"max_ulp", s.visible.max_ulp}, {"rms_ulp", s.visible.rms_ulp}};
@@ -110,7 +111,7 @@ json speed_json(const Speed& speed, const SceneResult& scene) {
   return result;
 }
 
-json scene_json(const SceneResult& scene) {
+json scene_json(const SceneResult& scene, const ChosenMethods& methods) {
   json result{{"name", scene.name},       {"family", name_of(scene.family)}, {"summary", scene.summary},
               {"width", scene.width},     {"height", scene.height},          {"triangles", scene.triangles},
               {"covered", scene.covered}, {"smallest", scene.smallest},      {"seconds", scene.seconds},
@@ -123,7 +124,7 @@ json scene_json(const SceneResult& scene) {
   if (scene.family == Family::facing) result["faces"] = scene.triangles;
   for (const MethodResult& method : scene.methods) {
     json& entry = result["methods"].emplace_back(json{{"name", method.name}});
-    std::visit(AddScore{entry, scene}, method.score);
+    std::visit(AddScore{entry, scene, methods}, method.score);
     for (const Speed& speed : method.speed) entry["speed"].push_back(speed_json(speed, scene));
   }
   return result;
@@ -161,7 +162,8 @@ json accuracy_json(const AccuracyReport& report, const AccuracyPlan& plan) {
               {"ok", report.ok()},
               {"methods", json::array()},
               {"scenes", json::array()}};
-  for (const auto& [family, info] : methods_of(plan).all()) {
+  const ChosenMethods methods = methods_of(plan);
+  for (const auto& [family, info] : methods.all()) {
     json& method = result["methods"].emplace_back(json{{"family", name_of(family)},
                                                        {"name", info->name},
                                                        {"summary", info->summary},
@@ -169,12 +171,12 @@ json accuracy_json(const AccuracyReport& report, const AccuracyPlan& plan) {
                                                        {"promise", info->promise},
                                                        {"exact", info->exact}});
     if (family != Family::coverage) continue;
-    const lab::CoverageMethod& coverage = lab::find_coverage_method(info->name);
+    const lab::CoverageMethod& coverage = methods.find_coverage(info->name);
     method["max_side_px"] = coverage.promise.max_side_px;
     method["engine"] = lab::is_engine_method(info->name);
     if (!coverage.simd) method["simd_note"] = coverage.simd_note;
   }
-  for (const SceneResult& scene : report.scenes) result["scenes"].push_back(scene_json(scene));
+  for (const SceneResult& scene : report.scenes) result["scenes"].push_back(scene_json(scene, methods));
   if (report.turning_cube) result["turning_cube"] = cube_json(*report.turning_cube);
   return result;
 }

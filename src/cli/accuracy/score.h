@@ -17,6 +17,7 @@ struct ChosenMethods {
 
   std::size_t count(Family family) const;
   std::vector<std::pair<Family, const lab::MethodInfo*>> all() const;
+  const lab::CoverageMethod& find_coverage(std::string_view name) const;  // of a chosen method
 };
 ChosenMethods methods_of(const AccuracyPlan& plan);
 

@@ -153,6 +153,17 @@ std::vector<ScreenTriangle> shifted(std::span<const ScreenTriangle> triangles, W
   return list;
 }
 
+void append_runs(std::span<const std::uint32_t> row, int y, int x0, std::vector<Run>& runs) {
+  for (auto begin = row.begin(); begin != row.end();) {
+    const std::uint32_t triangle = *begin;
+    const auto end = std::find_if(begin, row.end(), [&](std::uint32_t other) { return other != triangle; });
+    if (triangle != kNoTriangle)
+      runs.push_back({triangle, y, x0 + static_cast<int>(begin - row.begin()),
+                      x0 + static_cast<int>(end - row.begin())});
+    begin = end;
+  }
+}
+
 std::vector<ScreenTriangle> snapped(std::span<const FloatTriangle> triangles) {
   std::vector<ScreenTriangle> result(triangles.size());
   for (std::size_t i = 0; i < triangles.size(); ++i) {

@@ -80,6 +80,9 @@ struct CoverageMethod {
   bool simd = false;
   std::string_view simd_note = {};
   bool scalar_of_interest = true;  // whether speed comparisons include the scalar form
+  // Only for rasterizers that keep scenes loaded: loads one, and returns the timed part of its draw. All
+  // functions of such a method must run on one thread, since an OpenGL context belongs to a thread.
+  std::function<std::function<void()>(const CoverageInput&, Window, const Execution&)> load = {};
 };
 
 // The backends first.
@@ -93,6 +96,10 @@ const CoverageMethod& find_coverage_method(std::string_view name);
 // All methods that the viewer can draw: the coverage methods, then wireframe().
 std::span<const CoverageMethod> drawing_methods();
 const CoverageMethod& find_drawing_method(std::string_view name);
+
+// Appends the runs of one row of a picture whose pixels hold triangle indices, or kNoTriangle. Its first
+// pixel is at (x0, y).
+void append_runs(std::span<const std::uint32_t> row, int y, int x0, std::vector<Run>& runs);
 
 // Snaps as the front end does (rule 2). Does not clamp to the guard band, which is relative to a window's
 // corner; |x|, |y| < 2^22 px.

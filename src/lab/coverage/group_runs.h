@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "edgewise/framebuffer.h"
+#include "lab/coverage/coverage.h"
 #include "lab/measure.h"
 #include "lab/truth.h"
 
@@ -23,16 +24,9 @@ void group_runs(std::span<const ScreenTriangle> boxes, Window window, std::vecto
   Framebuffer frame(window.width, window.height);
   for (const auto& group : disjoint_groups(boxes, window.width, window.height)) {
     draw(std::span(group), frame);
-    for (int y = 0; y < window.height; ++y) {
-      const std::uint32_t* row = frame.payload_row(y);
-      for (int x = 0; x < window.width;) {
-        const int begin = x;
-        const std::uint32_t triangle = row[x];
-        while (x < window.width && row[x] == triangle) ++x;
-        if (triangle != kNoTriangle)
-          runs.push_back({triangle, y + window.y0, begin + window.x0, x + window.x0});
-      }
-    }
+    for (int y = 0; y < window.height; ++y)
+      append_runs({frame.payload_row(y), static_cast<std::size_t>(window.width)}, y + window.y0, window.x0,
+                  runs);
   }
 }
 

@@ -1,10 +1,10 @@
-// Mesa's llvmpipe, the usual software OpenGL on Linux, with its fastest settings: data in vertex buffers, one
-// draw call per mesh, early depth test, payloads as flat integers.
+// Mesa's software drivers, with their fastest settings: data in vertex buffers, one draw call per mesh, early
+// depth test, payloads as flat integers. llvmpipe is the usual software OpenGL on Linux; its coverage is
+// exact: 8 subpixel bits, half to even, top-left rule. softpipe is Mesa's reference driver, in plain C.
 //
-// Its coverage is exact: 8 subpixel bits, half to even, top-left rule. The viewport is a square whose side is
-// a power of two, centred on the image's top left corner. Clip coordinates are therefore our own, scaled
-// exactly, and llvmpipe's screen positions are the same floats as our front end's. The viewport reaches far
-// beyond the image, so that only the near and far planes clip.
+// The viewport is a square whose side is a power of two, centred on the image's top left corner. Clip
+// coordinates are therefore our own, scaled exactly, and the drivers' screen positions are the same floats as
+// our front end's. The viewport reaches far beyond the image, so that only the near and far planes clip.
 #define GL_GLEXT_PROTOTYPES
 #include <GL/glcorearb.h>
 #include <fmt/format.h>
@@ -21,10 +21,12 @@ namespace edgewise::bench {
 
 namespace {
 
-constexpr int kHalfViewport_px = 8192;  // llvmpipe's viewports are at most 16384 wide
+constexpr int kHalfViewport_px = 8192;  // both drivers' viewports are at most 16384 wide
 
-// `precise` forbids fused multiply-add, as in our front end.
-constexpr const char* kVertexShader = R"(#version 450 core
+// `precise` forbids fused multiply-add, as in our front end. OpenGL 3.3 has it as an extension.
+constexpr const char* kVertexShader = R"(#version 330 core
+#extension GL_ARB_gpu_shader5 : require
+#extension GL_ARB_explicit_uniform_location : require
 layout(location = 0) uniform mat4 to_clip;
 layout(location = 0) in vec3 position;
 layout(location = 1) in uint payload;
@@ -34,7 +36,7 @@ void main() {
   gl_Position = p;
   flat_payload = payload;
 })";
-constexpr const char* kFragmentShader = R"(#version 450 core
+constexpr const char* kFragmentShader = R"(#version 330 core
 flat in uint flat_payload;
 layout(location = 0) out uint colour;
 void main() { colour = flat_payload; })";
@@ -45,7 +47,7 @@ GLuint compiled(GLenum stage, const char* text) {
   glCompileShader(shader);
   GLint done = 0;
   glGetShaderiv(shader, GL_COMPILE_STATUS, &done);
-  if (!done) throw std::runtime_error("llvmpipe: a shader does not compile");
+  if (!done) throw std::runtime_error("Mesa: a shader does not compile");
   return shader;
 }
 
@@ -56,7 +58,7 @@ GLuint make_program() {
   glLinkProgram(program);
   GLint done = 0;
   glGetProgramiv(program, GL_LINK_STATUS, &done);
-  if (!done) throw std::runtime_error("llvmpipe: its program does not link");
+  if (!done) throw std::runtime_error("Mesa: a program does not link");
   return program;
 }
 
@@ -69,7 +71,7 @@ GLuint make_target(int width, int height) {
   glNamedFramebufferRenderbuffer(target, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, planes[0]);
   glNamedFramebufferRenderbuffer(target, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, planes[1]);
   if (glCheckNamedFramebufferStatus(target, GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-    throw std::runtime_error("llvmpipe: cannot draw into integers");
+    throw std::runtime_error("Mesa: cannot draw into integers");
   return target;
 }
 
@@ -79,9 +81,9 @@ struct Shared {
   std::map<std::pair<int, int>, GLuint> targets;  // by width and height
 };
 
-Shared& shared(int threads) {
-  static std::map<int, Shared> all;
-  Shared& s = all[threads];
+Shared& shared(MesaDriver driver, int threads) {
+  static std::map<std::pair<MesaDriver, int>, Shared> all;
+  Shared& s = all[{driver, threads}];
   if (s.program != 0) return s;
   s.program = make_program();
   glUseProgram(s.program);
@@ -136,25 +138,27 @@ Mesh load_mesh(const PeerMesh& given) {
 
 class Frame final : public PeerFrame {
  public:
-  Frame(const PeerScene& scene, int threads)
-      : threads_(threads),
+  Frame(MesaDriver driver, const PeerScene& scene, int threads)
+      : driver_(driver),
+        threads_(threads),
         width_(scene.width),
         height_(scene.height),
         cull_(scene.cull_back),
         background_(scene.background) {
-    use_llvmpipe(threads);
-    auto& targets = shared(threads).targets;
+    use_mesa(driver, threads);
+    auto& targets = shared(driver, threads).targets;
     const auto [at, is_new] = targets.try_emplace({width_, height_}, 0);
     if (is_new) at->second = make_target(width_, height_);
     target_ = at->second;
     for (const PeerMesh& mesh : scene.meshes) meshes_.push_back(load_mesh(mesh));
     glFinish();
     if (const GLenum error = glGetError(); error != GL_NO_ERROR)
-      throw std::runtime_error(fmt::format("llvmpipe: OpenGL error {:#x} while loading a scene", error));
+      throw std::runtime_error(
+          fmt::format("{}: OpenGL error {:#x} while loading a scene", name_of(driver), error));
   }
 
   ~Frame() override {
-    use_llvmpipe(threads_);
+    use_mesa(driver_, threads_);
     for (const Mesh& mesh : meshes_) {
       glDeleteVertexArrays(1, &mesh.vertices);
       glDeleteBuffers(3, mesh.buffers);
@@ -164,7 +168,7 @@ class Frame final : public PeerFrame {
   Frame& operator=(const Frame&) = delete;
 
   void draw() override {
-    use_llvmpipe(threads_);
+    use_mesa(driver_, threads_);
     glBindFramebuffer(GL_FRAMEBUFFER, target_);
     const GLuint background[4] = {background_, 0, 0, 0};
     const GLfloat far = 1.0f;
@@ -183,14 +187,21 @@ class Frame final : public PeerFrame {
   }
 
   std::vector<std::uint32_t> read() override {
-    use_llvmpipe(threads_);
-    glBindFramebuffer(GL_FRAMEBUFFER, target_);
-    std::vector<std::uint32_t> payloads(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
-    glReadPixels(0, 0, width_, height_, GL_RED_INTEGER, GL_UNSIGNED_INT, payloads.data());
-    return payloads;
+    return pixels<std::uint32_t>(GL_RED_INTEGER, GL_UNSIGNED_INT);
   }
+  std::vector<float> read_depths() override { return pixels<float>(GL_DEPTH_COMPONENT, GL_FLOAT); }
 
  private:
+  template <typename T>
+  std::vector<T> pixels(GLenum format, GLenum type) const {
+    use_mesa(driver_, threads_);
+    glBindFramebuffer(GL_FRAMEBUFFER, target_);
+    std::vector<T> list(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+    glReadPixels(0, 0, width_, height_, format, type, list.data());
+    return list;
+  }
+
+  MesaDriver driver_;
   int threads_, width_, height_;
   bool cull_;
   std::uint32_t background_;
@@ -198,10 +209,21 @@ class Frame final : public PeerFrame {
   std::vector<Mesh> meshes_;
 };
 
+template <MesaDriver driver>
+PeerInfo mesa_peer(int most_threads) {
+  return {name_of(driver), most_threads, [] { return mesa_version(driver); },
+          [](const PeerScene& scene, int threads) -> std::unique_ptr<PeerFrame> {
+            return std::make_unique<Frame>(driver, scene, threads);
+          }};
+}
+
 }  // namespace
 
-std::unique_ptr<PeerFrame> load_llvmpipe(const PeerScene& scene, int threads) {
-  return std::make_unique<Frame>(scene, threads);
+PeerInfo llvmpipe() {
+  return mesa_peer<MesaDriver::llvmpipe>(2);
+}
+PeerInfo softpipe() {
+  return mesa_peer<MesaDriver::softpipe>(1);
 }
 
 }  // namespace edgewise::bench
