@@ -57,7 +57,7 @@ TEST(CoverageVisibleTriangles, DepthErrorsInUlpMatchBruteForce) {
   const Picture picture({{{{3.3f, 60.1f, 20.7f}, {2.9f, 13.2f, 58.8f}, {0.1f, 0.7f, 0.45f}}, 1}}, {64, 64});
   const CoverageMethod& method = find_coverage_method("float_top_left");
   Canvas canvas(64, 64);
-  method.draw(picture.input, canvas, 1);
+  method.draw(picture.input, canvas, {});
   const FloatTruth truth(picture.floats[0].at);
   double most = 0.0, squares = 0.0;
   int count = 0;
