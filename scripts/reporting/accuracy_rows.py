@@ -31,7 +31,7 @@ FAMILIES = {family.name: family for family in (
     Family("coverage", "wrong pixels per 10⁶ edge crossings", "crossings", "ns per covered pixel",
            ("float", "snapped"),
            {"floating point": ("float", "double"), "fixed point": ("fixed", "whole"), "scanline DDA": ("dda",),
-            "our SIMD engine, other numbers": ("engine",)},
+            "our SIMD engine, other numbers": ("engine",), "peers": ("llvmpipe", "softpipe")},
            "More than 10⁶: one crossing can cost many pixels, most where a triangle fills its bounding box"),
     Family("visibility", "pixels that show the wrong triangle, per 10⁶ covered", "covered", "ns per covered pixel",
            ("snapped",),  # all methods draw the same snapped triangles, so the other truth adds the same to each
@@ -55,7 +55,17 @@ class Method:
     promise: str
     exact: bool
     max_side_px: float | None = None  # coverage: triangles with larger boxes overflow
-    engine: bool = False  # our SIMD engine with one kind of numbers; these are compared with one another
+    engine: bool = False  # our SIMD engine with one kind of numbers
+
+    @property
+    def peer(self):
+        """Another project's rasterizer; the source is its version."""
+        return self.source.startswith("Mesa ")
+
+    @property
+    def apart(self):
+        """Whether only the main chart shows it, not the charts of methods."""
+        return self.engine or self.peer
 
     @property
     def ours(self):
@@ -112,7 +122,7 @@ class Scene:
     summary: str
     trials: int
     measured: tuple
-    engine: tuple = ()  # the measurements of the SIMD engine with each kind of numbers; coverage only
+    apart: tuple = ()  # the measurements of methods that are `apart`; coverage only
     shared_crossings: int = 0  # of edges that triangles share with sample rows or columns; coverage only
     largest_side_px: float = 0.0  # of the triangles' boxes; coverage only
 
@@ -204,7 +214,7 @@ def parse_cube(data, methods):
                 **{f"total_{key}": int(entry[key]["total"]) for key in counts}}
 
     rows = [(methods["coverage", entry["name"]], {**worst_of(entry), "snapped": worst_of(entry["snapped"])})
-            for entry in cube["methods"] if not methods["coverage", entry["name"]].engine]
+            for entry in cube["methods"] if not methods["coverage", entry["name"]].apart]
     return {"frames": int(cube["frames"]), "methods": rows}
 
 
@@ -217,9 +227,9 @@ def parse_accuracy(data):
         family = FAMILIES[scene["family"]]
         measured = [parse_measured(entry, family.name, methods[family.name, entry["name"]]) for entry in scene["methods"]]
         scenes.append(Scene(scene["name"], family.name, scene["summary"], int(scene[family.trials]),
-                            tuple(m for m in measured if not m.method.engine), tuple(m for m in measured if m.method.engine),
+                            tuple(m for m in measured if not m.method.apart), tuple(m for m in measured if m.method.apart),
                             int(scene.get("shared_crossings", 0)), float(scene.get("largest_side_px", 0.0))))
-    by_family = {name: [method for (family, _), method in methods.items() if family == name and not method.engine]
+    by_family = {name: [method for (family, _), method in methods.items() if family == name and not method.apart]
                  for name in FAMILIES}
     return Accuracy(data["machine"], bool(data["quick"]), by_family, tuple(scenes), parse_cube(data, methods))
 

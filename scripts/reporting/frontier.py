@@ -32,7 +32,7 @@ def within_range(scene, method):
 
 def cracks_of(accuracy, method):
     """None if no scene shows it."""
-    found = [(m.cracks, scene) for scene in accuracy.of("coverage") for m in (*scene.measured, *scene.engine)
+    found = [(m.cracks, scene) for scene in accuracy.of("coverage") for m in (*scene.measured, *scene.apart)
              if m.method == method and scene.name not in T_JUNCTIONS and scene.shared_crossings >= LEAST_CROSSINGS
              and within_range(scene, method)]
     if not found:
@@ -70,7 +70,7 @@ def speed_up(groups):
 
 
 def measured_in(scene, name):
-    return next((m for m in (*scene.measured, *scene.engine) if m.method.name == name), None)
+    return next((m for m in (*scene.measured, *scene.apart) if m.method.name == name), None)
 
 
 def simd_speed_up(accuracy, name, other):
@@ -92,8 +92,9 @@ def speed_ups(accuracy):
     groups = {}
     for scene in scenes:
         base_rounds = next(m.scalar.rounds for m in scene.measured if m.method == base)
-        for m in (*scene.measured, *scene.engine):
-            for form, cost in (("scalar", m.scalar), ("simd", m.simd)):
+        for m in (*scene.measured, *scene.apart):
+            # A peer has one form, with vectors of its own.
+            for form, cost in (("scalar", m.scalar), ("simd", m.simd)) if not m.method.peer else (("simd", m.scalar),):
                 if cost:
                     groups.setdefault(m.method, {}).setdefault(form, []).append(ratios(cost.rounds, base_rounds))
     return ({method: {form: speed_up(of) for form, of in forms.items() if len(of) == len(scenes)}

@@ -9,7 +9,7 @@ BACKENDS = {"scanline": (BLUE, "o"), "naive": (ORANGE, "s"), "tiled": (GREEN, "^
 ADDED = (("#7f5539", "D"), ("#8a8f00", "v"), ("#5c4d9a", "P"), ("#6b705c", "X"))  # for backends that a user adds
 
 OURS = (BLACK, "o")  # a method of the library that is no backend, or several that share a curve
-KINDS = ((VERMILION, "D"), (SKY, "v"), (PURPLE, "P"), ("#8b1e3f", "*"))
+KINDS = ((VERMILION, "D"), (SKY, "v"), (PURPLE, "P"), ("#8b1e3f", "*"), ("#6b705c", "X"))
 OTHER = ("#8c959f", "X")
 
 # Whether a step of the ablation made the backend faster; see ablation.verdict().

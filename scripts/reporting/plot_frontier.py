@@ -26,7 +26,7 @@ def frontier_title(found, base, machine):
     if not ours:
         return "Coverage: cracks against speed"
     first = max(ours, key=lambda m: simd[m].middle)
-    others = [m for m in simd if not m.ours]
+    others = [m for m in simd if not m.ours and not m.apart]
     text = f"{first.name}, watertight, is {about(simd[first].middle)} faster than {base.name} in scalar code"
     if others:
         other = max(others, key=lambda m: simd[m].middle)
@@ -34,6 +34,12 @@ def frontier_title(found, base, machine):
         said = f"{about(ratio)} faster" if ratio >= 1 else f"{about(1 / ratio)} slower"
         text += f", {said} than {other.name} with {kernels(machine.get('simd_best'))}"
     return text
+
+
+def called(method):
+    """Of a peer with its vector width: "llvmpipe, 256 bits"."""
+    width = method.source.rpartition(", ")[2] if method.peer else ""
+    return f"{method.name}, {width}" if width.endswith("bits") else method.name
 
 
 def labels_of(found, x_of):
@@ -44,9 +50,9 @@ def labels_of(found, x_of):
         if method.ours:
             labels.append(Label(x, y, method.name, bold=True))
         elif groups and groups[-1][0] == x and y < NEAR * groups[-1][1][-1][0]:
-            groups[-1][1].append((y, method.name))
+            groups[-1][1].append((y, called(method)))
         else:
-            groups.append((x, [(y, method.name)]))
+            groups.append((x, [(y, called(method))]))
     return labels + [Label(x, members[len(members) // 2][0], "\n".join(name for _, name in reversed(members)))
                      for x, members in groups]
 
@@ -99,6 +105,7 @@ def frontier(accuracy, folder, caption):
              plt.Line2D([], [], color=INK, marker="o", linestyle="", markersize=7, label="SIMD")]
     kinds.legend(figure, top, list(found), extra)
     bound = 3e6 / most.crossings
-    save(figure, folder, "frontier", f"0: no crack seen; the 95 % upper bound is {number(bound, 2)} per 10⁶. Left out: T-junctions, "
+    peers = [f"{method.name}: {method.source}." for method in found if method.peer]
+    save(figure, folder, "frontier", f"{' '.join([*peers, ''])}0: no crack seen; the 95 % upper bound is {number(bound, 2)} per 10⁶. Left out: T-junctions, "
          f"scenes with fewer than {short(LEAST_CROSSINGS)} crossings, and for 32-bit methods scenes beyond their range.\n{caption}")
     return "frontier"

@@ -81,7 +81,8 @@ class ReportTest(unittest.TestCase):
         """All that the report reads, with charts."""
         folder = self.folder / name
         (folder / "charts").mkdir(parents=True)
-        for file, data in (("bench", bench), ("machine", scripts_test.MACHINE), ("verify", scripts_test.VERIFY),
+        timed, model = scripts_test.timed_and_model(bench)
+        for file, data in (("bench", timed), ("model", model), ("machine", scripts_test.MACHINE), ("verify", scripts_test.VERIFY),
                            ("accuracy", laboratory or scripts_test.accuracy()), ("stability", scripts_test.stability())):
             (folder / f"{file}.json").write_text(json.dumps(data))
         for chart in CHARTS:

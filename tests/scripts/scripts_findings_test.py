@@ -50,10 +50,10 @@ class FindingsTest(unittest.TestCase):
     def test_charts_show_the_simd_form_of_ours_and_the_scalar_form_of_others(self):
         def timed(simd, threads, ms):
             return {**({"simd": simd, "rounds_ms": [1.5 * ms, ms, 0.5 * ms]} if simd else {}), "threads": threads,
-                    "ns_per_covered_pixel": 10.0 * ms, "mtri_per_s": 1.0, "ms": {"median": ms, "min": ms, "max": ms}}
+                    "ns_per_covered_pixel": 10.0 * ms, "mtri_per_s": 1.0, "ms": {"median": ms, "min": ms, "max": ms, "repetitions": 3}}
 
         def read(source, *speed):
-            score = {"errors_per_million": 0.0, "gaps": 0}
+            score = {"errors_per_million": 0.0, "gaps": 0, "double_hits": 0}
             return parse_measured({"float": score, "snapped": score, "speed": list(speed)}, "coverage",
                                   Method("m", source, "", True))
 
@@ -100,10 +100,6 @@ class FindingsTest(unittest.TestCase):
         self.assertNotIn("errs less", exactness_finding(wrong))
 
     def test_simd_and_scalar_code_are_told_apart_and_noise_is_named(self):
-        text = exactness_finding(accuracy(measured("tiled", True, 0, 1.0), measured("float_lt", False, 9, 4.0, 0.5),
-                                          measured("fixed_8", True, 0, 4.4, 0.5)))
-        self.assertIn("`tiled` with AVX-512 is 4.0× faster than `float_lt` in scalar code, the fastest other; our rule in scalar code "
-                      "(`fixed_8`) is 1.1× slower than `float_lt` (not settled).", text)
         slower = accuracy(measured("tiled", True, 0, 2.1, 0.3), measured("float_lt", False, 9, 2.0, 0.3))
         self.assertIn("`tiled` with AVX-512 is 1.05× slower than `float_lt` in scalar code (not settled)",
                       speed_sentence(slower.scenes[0], slower.machine))

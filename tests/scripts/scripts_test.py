@@ -58,11 +58,26 @@ def bench(slow=(10.0, 10.2, 10.1, 10.05, 10.15), tiled=(2.0, 2.1, 2.2, 2.05, 2.1
     return {"context": {"backends": "slow tiled", "machine": "test"}, "benchmarks": rows}
 
 
+def timed_and_model(data):
+    """bench.json and model.json from rows that hold the estimates as well."""
+    rows = data["benchmarks"]
+    scheduled = {row["name"]: row for row in rows if "/cores:" in row["name"]}
+    costs = {row["name"]: row for row in rows if "floor_ms" in row}
+    model = {"scheduled": [{"name": name, "cores": 1, "estimate_ms": row["real_time"], "longest": row["label"],
+                            **{key: row[key] for key in ("work_ms", "path_ms", "longest_ms", "barrier_ms")}}
+                           for name, row in scheduled.items()],
+             "costs": [{"name": name, "covered_blocks": row["covered_blocks"], "won_blocks": row["won_blocks"],
+                        **{f"{part}_ms": row[f"floor_{part}_ms"] for part in ("read", "blocks", "write", "tiles")}}
+                       for name, row in costs.items()]}
+    timed = [{key: value for key, value in row.items() if key not in FLOOR} for row in rows if row["name"] not in scheduled]
+    return {**data, "benchmarks": timed}, model
+
+
 def accuracy(spread=0.1):
     """Two methods a family, the second inexact, on a scene that is timed and on one that is not. `spread`: of 2, what
     the slowest repetition takes longer than the median."""
     def judged(wrong, crossings):
-        score = {"errors_per_million": 1e6 * wrong / crossings, "gaps": wrong}
+        score = {"errors_per_million": 1e6 * wrong / crossings, "gaps": wrong, "double_hits": 0}
         return score if wrong else {**score, "bound_per_million": 3e6 / crossings}
 
     def measured(family, method, wrong, cost_ns):
@@ -137,7 +152,8 @@ class ScriptsTest(unittest.TestCase):
     def write(self, name, benchmark):
         folder = self.folder / name
         folder.mkdir()
-        for file, data in (("bench", benchmark), ("machine", MACHINE), ("verify", VERIFY)):
+        timed, model = timed_and_model(benchmark)
+        for file, data in (("bench", timed), ("model", model), ("machine", MACHINE), ("verify", VERIFY)):
             (folder / f"{file}.json").write_text(json.dumps(data))
         return folder
 
@@ -232,7 +248,7 @@ class ScriptsTest(unittest.TestCase):
             benchmark = bench()
             for where, times in (("half_last_cache", cache_ms), ("memory", (1.8, 1.7, 1.9))):
                 benchmark["benchmarks"] += entries(f"random_read/{where}", times, reads=10e3)
-            (self.results / "bench.json").write_text(json.dumps(benchmark))
+            (self.results / "bench.json").write_text(json.dumps(timed_and_model(benchmark)[0]))
             readme.write_text("<!-- results: results -->\n<!-- generated:machine -->\n<!-- /generated -->\n")
             self.assertEqual(run("readme", "--file", readme).returncode, 0)
             return readme.read_text()
@@ -251,7 +267,7 @@ class ScriptsTest(unittest.TestCase):
         for folder, slow in ((mine, bench_with_peer()), (other, bench())):
             folder.mkdir()
             (folder / "machine.json").write_text(json.dumps(MACHINE))
-            (folder / "bench.json").write_text(json.dumps(slow))
+            (folder / "bench.json").write_text(json.dumps(timed_and_model(slow)[0]))
         empty.mkdir()
         self.assertEqual(run("readme", "--file", readme).returncode, 0)
         text = readme.read_text()
@@ -503,7 +519,7 @@ class EngineTest(unittest.TestCase):
         found, expected = parse_accuracy(with_engine), parse_accuracy(plain)
         self.assertEqual((found.methods, found.cube), (expected.methods, expected.cube))
         self.assertEqual(found.scenes[0].measured, expected.scenes[0].measured)
-        self.assertEqual([m.method.name for m in found.scenes[0].engine], ["engine_exact"])
+        self.assertEqual([m.method.name for m in found.scenes[0].apart], ["engine_exact"])
 
 
 class UnsettledTest(unittest.TestCase):
