@@ -210,8 +210,8 @@ class Frame final : public PeerFrame {
 };
 
 template <MesaDriver driver>
-PeerInfo mesa_peer(int most_threads) {
-  return {name_of(driver), most_threads, [] { return mesa_version(driver); },
+PeerInfo mesa_peer(std::string_view summary, int most_threads) {
+  return {name_of(driver), summary, most_threads, [] { return mesa_version(driver); },
           [](const PeerScene& scene, int threads) -> std::unique_ptr<PeerFrame> {
             return std::make_unique<Frame>(driver, scene, threads);
           }};
@@ -220,10 +220,10 @@ PeerInfo mesa_peer(int most_threads) {
 }  // namespace
 
 PeerInfo llvmpipe() {
-  return mesa_peer<MesaDriver::llvmpipe>(2);
+  return mesa_peer<MesaDriver::llvmpipe>("Mesa's OpenGL for processors, SIMD code generated at run time", 2);
 }
 PeerInfo softpipe() {
-  return mesa_peer<MesaDriver::softpipe>(1);
+  return mesa_peer<MesaDriver::softpipe>("Mesa's reference driver of OpenGL, in plain C", 1);
 }
 
 }  // namespace edgewise::bench

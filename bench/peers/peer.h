@@ -41,7 +41,8 @@ class PeerFrame {
 };
 
 struct PeerInfo {
-  std::string_view name;  // in row names; differs from every backend's
+  std::string_view name;     // in row names; differs from every backend's
+  std::string_view summary;  // one line
   int most_threads;
   std::string (*version)();
   // `threads` is at most most_threads. Throws std::runtime_error if the peer cannot start.

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/peers/peer.h"
 #include "cli/accuracy/accuracy.h"
 #include "cli/accuracy/report.h"
 #include "cli/accuracy/scenes.h"
@@ -198,6 +199,43 @@ TEST(Accuracy, TimesBothFormsOfEachMethod) {
       EXPECT_EQ(one.at("rounds_ms").size(), one.at("ms").at("repetitions").get<std::size_t>());
     }
   }
+}
+
+TEST(Accuracy, MeasuresPeersLikeOtherMethods) {
+  const TempDir folder;
+  const std::string path = (folder.path() / "mine.tri").string();
+  ASSERT_EQ(testing::run_program(EDGEWISE_PROGRAM, "capture cube --size 64x48 -o " + path).status, 0);
+  const Outcome outcome = accuracy(path + " --peers --quick --method fixed_8,llvmpipe,softpipe --json -");
+  if (bench::peers().empty()) {
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_NE(outcome.err.find("--peers: none was built"), std::string::npos) << outcome.err;
+    return;
+  }
+  if (outcome.status == 2) GTEST_SKIP() << outcome.err;
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json report = json::parse(outcome.out);
+  const json& methods = report.at("scenes").at(0).at("methods");
+  const json& ours = named(methods, "fixed_8");
+  ASSERT_EQ(methods.size(), 1 + bench::peers().size());
+  for (const bench::PeerInfo& peer : bench::peers()) {
+    const json& info = named(report.at("methods"), peer.name);
+    EXPECT_TRUE(info.at("source").get<std::string>().starts_with("Mesa")) << info;
+    EXPECT_EQ(info.at("exact"), false);
+    const json& theirs = named(methods, peer.name);
+    for (const auto& [key, value] : ours.items())
+      EXPECT_TRUE(theirs.contains(key)) << peer.name << ' ' << key;
+    EXPECT_LE(theirs.at("snapped").at("errors"), 10) << peer.name;
+    EXPECT_LE(theirs.at("snapped").at("wrong_pixels"), 10) << peer.name;
+    EXPECT_LE(theirs.at("depth").at("max_ulp"), 1000) << peer.name;
+    EXPECT_EQ(theirs.at("speed").size(), static_cast<std::size_t>(peer.most_threads)) << peer.name;
+  }
+  EXPECT_EQ(named(methods, "llvmpipe").at("snapped").at("errors"), 0);
+}
+
+TEST(Accuracy, KnowsPeersOnlyWithTheirFlag) {
+  const Outcome outcome = accuracy("drtk_quad --method llvmpipe");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("unknown method 'llvmpipe'"), std::string::npos) << outcome.err;
 }
 
 TEST(Accuracy, RunsOnlyTheRequestedMethodsAndFamily) {

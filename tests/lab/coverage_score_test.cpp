@@ -164,5 +164,19 @@ TEST(DisjointGroups, HoldTrianglesWithoutCommonPixels) {
     EXPECT_EQ(seen.count(i) == 0, contract::pixel_box(triangles[i], 80, 60).empty());
 }
 
+TEST(DisjointGroups, AreAsFewAsTheDeepestOverlapOfBoxes) {
+  const auto square_at = [](int x) {
+    using contract::kSub;
+    return ScreenTriangle{{x * kSub, (x + 8) * kSub, x * kSub}, {0, 0, 8 * kSub}, {1, 1, 1}, 0};
+  };
+  std::vector<ScreenTriangle> triangles(200, square_at(0));
+  for (int i = 1; i < 200; ++i) triangles.push_back(square_at(9 * i));
+  EXPECT_EQ(disjoint_groups(triangles, 2000, 8).size(), 200u);
+  const std::span<const ScreenTriangle> row = std::span(triangles).last(199);
+  EXPECT_EQ(disjoint_groups(row, 2000, 8).size(), 1u);
+  EXPECT_EQ(disjoint_groups(row, 2000, 8, 1).size(), 2u)
+      << "one pixel apart, with a margin of one on each side";
+}
+
 }  // namespace
 }  // namespace edgewise::lab

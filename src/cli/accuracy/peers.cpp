@@ -64,8 +64,7 @@ void append_runs(const bench::PeerInfo& peer, const CoverageInput& input, Window
 lab::CoverageMethod method_of(const bench::PeerInfo& peer, std::string_view version) {
   // OpenGL prescribes at least 4 subpixel bits: half of 1/16 px on both axes.
   constexpr double kSnap_px = 0.0442;
-  return {.info = {peer.name, "a rasterizer of another project, drawing the same triangles", version,
-                   "none; errors are measured only", false},
+  return {.info = {peer.name, peer.summary, version, "none; errors are measured only", false},
           .promise = {.reach_px = kSnap_px},
           .draw = [&peer](const CoverageInput& input, lab::Canvas& canvas,
                           const Execution& execution) { draw(peer, input, canvas, execution); },
