@@ -192,6 +192,37 @@ TEST(Accuracy, TimesExactMethodsOnOneAndTwoThreads) {
   }
 }
 
+TEST(Accuracy, KeepsToTheMethodsAndTheFamilyAskedFor) {
+  const json report = json_of("cube --quick --no-speed --method float_le,painter_mean --method float_lt");
+  ASSERT_EQ(report.at("methods").size(), 3u);
+  ASSERT_EQ(report.at("scenes").size(), 2u);
+  EXPECT_EQ(report.at("scenes")[0].at("methods").size(), 2u);
+  EXPECT_EQ(report.at("scenes")[1].at("methods").at(0).at("name"), "painter_mean");
+  EXPECT_EQ(json_of("cube --quick --no-speed --family visibility").at("scenes").size(), 1u);
+}
+
+TEST(Accuracy, TablesFitEightyColumns) {
+  AccuracyPlan plan;
+  plan.scenes = {"cube", "legs_182", "planes_1e-5_apart", "edge_on", "floor_behind_eye", "turning-cube"};
+  plan.quick = true;
+  plan.speed = false;
+  std::string text = accuracy_tables(measure_accuracy(plan));
+  EXPECT_NE(text.find("0 (<"), std::string::npos);
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    EXPECT_LE(end, 80u) << text.substr(0, end);
+    text.erase(0, end + 1);
+  }
+}
+
+TEST(Accuracy, MeshesLoseTheirBackFacesByTheExactSign) {
+  const lab::Size size{200, 150};
+  const CoverageScene scene = coverage_scene(find_scene("cube").make({size.width, size.height}), size);
+  ASSERT_EQ(scene.floats.size(), scene.snapped.size());
+  EXPECT_EQ(scene.floats.size(), 6u);
+  for (const lab::FloatTriangle& triangle : scene.floats) EXPECT_EQ(lab::FloatTruth(triangle.at).facing(), 1);
+}
+
 TEST(Accuracy, MeasuresPeersLikeOtherMethods) {
   const TempDir folder;
   const std::string path = (folder.path() / "mine.tri").string();
@@ -227,37 +258,6 @@ TEST(Accuracy, KnowsPeersOnlyWithTheirFlag) {
   const Outcome outcome = accuracy("drtk_quad --method llvmpipe");
   EXPECT_EQ(outcome.status, 2);
   EXPECT_NE(outcome.err.find("unknown method 'llvmpipe'"), std::string::npos) << outcome.err;
-}
-
-TEST(Accuracy, KeepsToTheMethodsAndTheFamilyAskedFor) {
-  const json report = json_of("cube --quick --no-speed --method float_le,painter_mean --method float_lt");
-  ASSERT_EQ(report.at("methods").size(), 3u);
-  ASSERT_EQ(report.at("scenes").size(), 2u);
-  EXPECT_EQ(report.at("scenes")[0].at("methods").size(), 2u);
-  EXPECT_EQ(report.at("scenes")[1].at("methods").at(0).at("name"), "painter_mean");
-  EXPECT_EQ(json_of("cube --quick --no-speed --family visibility").at("scenes").size(), 1u);
-}
-
-TEST(Accuracy, TablesFitEightyColumns) {
-  AccuracyPlan plan;
-  plan.scenes = {"cube", "legs_182", "planes_1e-5_apart", "edge_on", "floor_behind_eye", "turning-cube"};
-  plan.quick = true;
-  plan.speed = false;
-  std::string text = accuracy_tables(measure_accuracy(plan));
-  EXPECT_NE(text.find("0 (<"), std::string::npos);
-  while (!text.empty()) {
-    const std::size_t end = text.find('\n');
-    EXPECT_LE(end, 80u) << text.substr(0, end);
-    text.erase(0, end + 1);
-  }
-}
-
-TEST(Accuracy, MeshesLoseTheirBackFacesByTheExactSign) {
-  const lab::Size size{200, 150};
-  const CoverageScene scene = coverage_scene(find_scene("cube").make({size.width, size.height}), size);
-  ASSERT_EQ(scene.floats.size(), scene.snapped.size());
-  EXPECT_EQ(scene.floats.size(), 6u);
-  for (const lab::FloatTriangle& triangle : scene.floats) EXPECT_EQ(lab::FloatTruth(triangle.at).facing(), 1);
 }
 
 }  // namespace
