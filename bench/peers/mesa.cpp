@@ -209,9 +209,14 @@ class Frame final : public PeerFrame {
   std::vector<Mesh> meshes_;
 };
 
+// The subpixel bits are OpenGL's GL_SUBPIXEL_BITS.
 template <MesaDriver driver>
-PeerInfo mesa_peer(std::string_view summary, int most_threads) {
-  return {name_of(driver), summary, most_threads, [] { return mesa_version(driver); },
+PeerInfo mesa_peer(std::string_view summary, int most_threads, int subpixel_bits) {
+  return {name_of(driver),
+          summary,
+          most_threads,
+          subpixel_bits,
+          [] { return mesa_version(driver); },
           [](const PeerScene& scene, int threads) -> std::unique_ptr<PeerFrame> {
             return std::make_unique<Frame>(driver, scene, threads);
           }};
@@ -220,10 +225,11 @@ PeerInfo mesa_peer(std::string_view summary, int most_threads) {
 }  // namespace
 
 PeerInfo llvmpipe() {
-  return mesa_peer<MesaDriver::llvmpipe>("Mesa's OpenGL for processors, SIMD code generated at run time", 2);
+  return mesa_peer<MesaDriver::llvmpipe>("Mesa's OpenGL for processors, SIMD code generated at run time", 2,
+                                         8);
 }
 PeerInfo softpipe() {
-  return mesa_peer<MesaDriver::softpipe>("Mesa's reference driver of OpenGL, in plain C", 1);
+  return mesa_peer<MesaDriver::softpipe>("Mesa's reference driver of OpenGL, in plain C", 1, 4);
 }
 
 }  // namespace edgewise::bench

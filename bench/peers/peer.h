@@ -44,6 +44,7 @@ struct PeerInfo {
   std::string_view name;     // in row names; differs from every backend's
   std::string_view summary;  // one line
   int most_threads;
+  int subpixel_bits;  // it snaps vertices at most this coarsely
   std::string (*version)();
   // `threads` is at most most_threads. Throws std::runtime_error if the peer cannot start.
   std::unique_ptr<PeerFrame> (*load)(const PeerScene& scene, int threads);

@@ -151,11 +151,19 @@ class Mirror final : public PeerFrame {
 
 PeerInfo mirror(bool is_wrong) {
   if (is_wrong)
-    return {"mirror", "our backend", 2, [] { return std::string("1"); },
+    return {"mirror",
+            "our backend",
+            2,
+            8,
+            [] { return std::string("1"); },
             [](const PeerScene& scene, int) {
               return std::unique_ptr<PeerFrame>(std::make_unique<Mirror>(scene, true));
             }};
-  return {"mirror", "our backend", 2, [] { return std::string("1"); },
+  return {"mirror",
+          "our backend",
+          2,
+          8,
+          [] { return std::string("1"); },
           [](const PeerScene& scene, int) {
             return std::unique_ptr<PeerFrame>(std::make_unique<Mirror>(scene, false));
           }};

@@ -1,6 +1,7 @@
 #include "cli/accuracy/peers.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
@@ -62,10 +63,9 @@ void append_runs(const bench::PeerInfo& peer, const CoverageInput& input, Window
 }
 
 lab::CoverageMethod method_of(const bench::PeerInfo& peer, std::string_view version) {
-  // OpenGL prescribes at least 4 subpixel bits: half of 1/16 px on both axes.
-  constexpr double kSnap_px = 0.0442;
+  const double snap_px = std::sqrt(2.0) / 2 / (1 << peer.subpixel_bits);  // half a unit on both axes
   return {.info = {peer.name, peer.summary, version, "none; errors are measured only", false},
-          .promise = {.reach_px = kSnap_px},
+          .promise = {.reach_px = snap_px},
           .draw = [&peer](const CoverageInput& input, lab::Canvas& canvas,
                           const Execution& execution) { draw(peer, input, canvas, execution); },
           .runs = [&peer](const CoverageInput& input, Window window,
