@@ -44,7 +44,7 @@ int capture(const CaptureOptions& o) {
 
 constexpr const char* kCaptureFooter = R"(Examples:
   edgewise capture terrain --size 1920x1080 -o terrain.tri
-  edgewise render terrain.tri -o terrain.png           (the same picture, bit for bit)
+  edgewise render terrain.tri -o terrain.png           (the same coverage; depths rounded to floats)
   edgewise verify terrain.tri
 
 The stream holds the triangles that remain after transformation, clipping, culling and shading. The

@@ -1,4 +1,4 @@
-// Converts screen triangles to a stream that the front end converts back to the same screen triangles.
+// Converts screen triangles to a stream. The front end converts it back to the same coverage and colours.
 #pragma once
 
 #include <span>
@@ -8,8 +8,8 @@
 
 namespace edgewise::lab {
 
-// Floats represent snapped positions exactly. Depths that came from floats in [0, 1] become the same floats,
-// or neighbours that map to the same depth units.
+// Floats represent snapped positions exactly. Depths are rounded to floats in [0, 1], by at most 64 units.
+// Those that came from such floats become the same depths again.
 TriangleStream to_stream(std::span<const ScreenTriangle> triangles, int width, int height);
 
 }  // namespace edgewise::lab

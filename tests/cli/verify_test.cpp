@@ -216,9 +216,13 @@ TEST(Verify, TableFitsItsTerminal) {
   }
 }
 
-bool same(const ScreenTriangle& a, const ScreenTriangle& b) {
+// Rounding to a float below 1 moves a depth by up to 2^-25 of the range.
+bool same_but_for_rounded_depths(const ScreenTriangle& a, const ScreenTriangle& b) {
+  const auto near = [](std::uint32_t z, std::uint32_t other) {
+    return std::abs(std::int64_t{z} - std::int64_t{other}) <= 64;
+  };
   return std::equal(a.x_sub, a.x_sub + 3, b.x_sub) && std::equal(a.y_sub, a.y_sub + 3, b.y_sub) &&
-         std::equal(a.z, a.z + 3, b.z) && a.payload == b.payload;
+         std::equal(a.z, a.z + 3, b.z, near) && a.payload == b.payload;
 }
 
 // The triangles whose pixel box is not empty. The front end rejects triangles outside the image before
@@ -235,7 +239,7 @@ std::vector<ScreenTriangle> visible(std::span<const ScreenTriangle> triangles,
 
 class Capture : public ::testing::TestWithParam<std::string_view> {};
 
-TEST_P(Capture, ReplaysToTheSameScreenTriangles) {
+TEST_P(Capture, ReplaysTheSameCoverageAndDepthsAsFloats) {
   const SceneInfo& scene = find_scene(GetParam());
   const SceneRequest request{317, 211, 0.7f, 0.01};
   const TempDir folder;
@@ -254,7 +258,8 @@ TEST_P(Capture, ReplaysToTheSameScreenTriangles) {
     options.shade = false;
     const auto replayed = visible(second.run(read_tri(path), options), options);
     ASSERT_EQ(captured.size(), replayed.size());
-    EXPECT_TRUE(std::equal(captured.begin(), captured.end(), replayed.begin(), same)) << name_of(cull);
+    EXPECT_TRUE(std::equal(captured.begin(), captured.end(), replayed.begin(), same_but_for_rounded_depths))
+        << name_of(cull);
   }
 }
 

@@ -120,7 +120,7 @@ class ShellTest(unittest.TestCase):
         self.assert_usage_error(self.run_script("test", "--full", "-R", "a"), "no options of ctest")
         self.assert_usage_error(self.run_script("fuzz", "eight"), "'eight'")
         self.assert_usage_error(self.run_script("run", "--mesh", str(self.folder)), "not a file")
-        self.assert_usage_error(self.run_script("compare", "a"), "required: after")
+        self.assert_usage_error(self.run_script("compare", "a"), "no such file, and no revision")
 
     def test_plot_names_the_nearest_option(self):
         result = self.run_script("plot", "--oot")
