@@ -71,10 +71,11 @@ def engine_sentence(accuracy):
         return ""
     middle, low, high = (100 * (1 / up - 1) for up in (found.middle, found.high, found.low))
     cost = (f"costs {middle:.0f} % more time than float edges" if low > 0 else
-            f"takes {-middle:.0f} % less time than float edges" if high < 0 else "and float edges differ by no more than noise")
+            f"takes {-middle:.0f} % less time than float edges" if high < 0 else
+            "takes as long as float edges, within the noise")
     return (f"In the same SIMD engine ({kernels(accuracy.machine.get('simd_best'))}, one thread, median of "
-            f"{len(timed_scenes(accuracy))} scenes) exact coverage {cost} (95 % interval {low:+.0f} to {high:+.0f} %), and leaves no "
-            f"crack where they leave {number(cracks.rate, 2)} per 10⁶ crossings of shared edges.")
+            f"{len(timed_scenes(accuracy))} scenes) exact coverage {cost} (95 % interval {round(low)} to {round(high)} %). Those float "
+            f"edges (`{loose}`) leave {number(cracks.rate, 2)} cracks per 10⁶ crossings of shared edges, exact ones none.")
 
 
 def exactness_finding(accuracy):

@@ -3,6 +3,7 @@ import random
 from typing import NamedTuple
 
 from noise import CONFIDENCE, median, ratios
+from tables import number, short
 
 LEAST_CROSSINGS = 10_000  # of shared edges; in smaller scenes a single crossing decides the rate
 T_JUNCTIONS = ("t_junction", "t_junction_split")  # cracks of the mesh, not of the method
@@ -99,3 +100,20 @@ def speed_ups(accuracy):
                     groups.setdefault(m.method, {}).setdefault(form, []).append(ratios(cost.rounds, base_rounds))
     return ({method: {form: speed_up(of) for form, of in forms.items() if len(of) == len(scenes)}
              for method, forms in groups.items()}, base, len(scenes))
+
+
+def frontier_table(accuracy):
+    """Header and lines: every method's cracks and its two speed-ups with their intervals, the fastest first."""
+    ups, base, _ = speed_ups(accuracy)
+    found = [(method, forms, cracks) for method, forms in ups.items() if forms and (cracks := cracks_of(accuracy, method))]
+    if not found:
+        return [], []
+
+    def said(up):
+        return f"{up.middle:.2f}× ({up.low:.2f} to {up.high:.2f})" if up else "–"
+
+    header = ["method", "cracks per 10⁶ crossings", "worst scene", "crossings", f"scalar, `{base.name}` = 1×", "SIMD"]
+    lines = [[f"`{method.name}`", number(cracks.rate, 2), f"{number(cracks.worst, 2)} (`{cracks.worst_scene}`)" if cracks.worst else "–",
+              short(cracks.crossings), said(forms.get("scalar")), said(forms.get("simd"))]
+             for method, forms, cracks in sorted(found, key=lambda row: -max(up.middle for up in row[1].values()))]
+    return header, lines

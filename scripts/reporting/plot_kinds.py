@@ -3,6 +3,9 @@ from palette import BACKENDS, kind_looks
 from plot_style import plt
 
 
+IN_A_ROW = 7  # of the legend
+
+
 class Kinds:
     """Colour and marker of the methods of a family."""
 
@@ -19,6 +22,7 @@ class Kinds:
         names = {"ours": "ours (bold)", "other": "others", **{name: f"{name} (ours)" for name in BACKENDS}}
         handles = [plt.Line2D([], [], color=colour, marker=marker, linestyle="", markersize=7, label=names.get(kind, kind))
                    for kind, (colour, marker) in sorted(found.items(), key=lambda item: item[0] == "other")]
-        for line, row in enumerate((handles, extra)):
+        rows = [handles[i:i + IN_A_ROW] for i in range(0, len(handles), IN_A_ROW)]
+        for line, row in enumerate((*rows, extra)):
             figure.legend(handles=row, loc="upper left", bbox_to_anchor=(0.005, y - 0.2 * line / figure.get_figheight()),
                           ncol=len(row), frameon=False, handletextpad=0.4, columnspacing=1.3, fontsize=9.5)
