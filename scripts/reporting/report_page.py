@@ -19,7 +19,7 @@ SOURCE = Path(__file__).resolve().parents[1] / "web"
 
 # Heading by id, and the names of the charts below it.
 SECTIONS = {
-    "accuracy": ("Speed against accuracy", ("accuracy-coverage*", "accuracy-*", "errors-*", "turning-cube")),
+    "accuracy": ("Speed against accuracy", ("frontier", "displacement", "accuracy-coverage*", "accuracy-*", "errors-*", "turning-cube")),
     "stability": ("Stability", ("stability-grid", "stability-*")),
     "speed": ("Speed of the backends", ("scenes", "area", "threads", "simd", "culling", "growth")),
     "ablation": ("Ablation", ("ablation",)),
