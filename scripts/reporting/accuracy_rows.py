@@ -99,7 +99,7 @@ class Measured:
     rate: float  # errors per 10⁶
     bound: float | None  # 95 % upper bound per 10⁶, only where no error was seen
     snapped_rate: float | None  # the same against the snapped truth; coverage and facing only
-    costs: dict  # by threads: the SIMD form of ours, the scalar form of others; empty where the scene is not timed
+    costs: dict  # by threads: the SIMD form if there is one; empty where the scene is not timed
     gaps: int | None = None  # pixels; coverage only
     cracks: int | None = None  # gaps and double hits, pixels; coverage only
     forms: dict = field(default_factory=dict)  # costs by (SIMD target, threads); empty in old results
@@ -192,7 +192,7 @@ def parse_measured(entry, family, method):
     forms = {(speed.get("simd"), int(speed["threads"])): parse_cost(speed, cost) for speed in entry.get("speed") or ()
              if cost in speed}
     targets = {target for target, _ in forms}
-    shown = next(iter(targets - {SCALAR} if method.ours and targets != {SCALAR} else targets & {SCALAR, None}), None)
+    shown = next(iter(targets - {SCALAR} or targets), None)
     costs = {threads: cost for (target, threads), cost in forms.items() if target == shown}
     bound = scores[0].get("bound_per_million")
     coverage = family == "coverage"

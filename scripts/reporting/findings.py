@@ -1,10 +1,10 @@
 """The findings on README's first screen, each in a sentence or two, made from the results."""
 from accuracy_findings import before_snapping_clause, listed, numbered
 from bench_rows import order
-from frontier import cracks_of, measured_in, simd_speed_up, timed_scenes
-from speedups import kernels, outcome, spread, with_width
+from frontier import cracks_of, measured_in, simd_outcome, timed_scenes
+from speedups import about, kernels, outcome, spread, with_width
 from peers import OURS, pairs
-from tables import THREADS, number
+from tables import THREADS, number, short
 
 # The tutorials' inside tests, and the scene with shared edges through pixel centres.
 TUTORIAL_TESTS = ("float_lt", "float_le")
@@ -66,16 +66,17 @@ def crack_finding(accuracy):
 def engine_sentence(accuracy):
     """The cost of exact edges in the engine that runs both kinds of numbers; empty if not measured."""
     exact, loose = ENGINES
-    found = simd_speed_up(accuracy, exact, loose)
+    found = simd_outcome(accuracy, exact, loose)
     if found is None or not (cracks := cracks_of(accuracy, measured_in(timed_scenes(accuracy)[0], loose).method)):
         return ""
-    middle, low, high = (100 * (1 / up - 1) for up in (found.middle, found.high, found.low))
-    cost = (f"costs {middle:.0f} % more time than float edges" if low > 0 else
-            f"takes {-middle:.0f} % less time than float edges" if high < 0 else
-            "takes as long as float edges, within the noise")
-    return (f"In the same SIMD engine ({kernels(accuracy.machine.get('simd_best'))}, one thread, median of "
-            f"{len(timed_scenes(accuracy))} scenes) exact coverage {cost} (95 % interval {round(low)} to {round(high)} %). Those float "
-            f"edges (`{loose}`) leave {number(cracks.rate, 2)} cracks per 10⁶ crossings of shared edges, exact ones none.")
+    won, lost, close = found
+    said = [f"{about(1 / ratio)} slower on `{name}`" for name, ratio in lost.items()]
+    said += [f"{about(ratio)} faster on `{name}`" for name, ratio in won.items()]
+    said += [f"no significant difference on {listed(close)}"] if close else []
+    return (f"In the same SIMD engine ({kernels(accuracy.machine.get('simd_best'))}, one thread), exact coverage against float edges "
+            f"(`{loose}`): {', '.join(said)}. Those float edges leave {number(cracks.rate, 2)} cracks per 10⁶ crossings of shared edges "
+            f"in {cracks.scenes} scenes ({short(cracks.crossings)} crossings), {number(cracks.worst, 2)} on `{cracks.worst_scene}`; exact "
+            "ones leave none.")
 
 
 def exactness_finding(accuracy):

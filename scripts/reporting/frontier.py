@@ -1,13 +1,12 @@
 """The figures of the main chart: how often each coverage method cracks, and how fast it is in scalar code and with SIMD."""
-import random
 from typing import NamedTuple
 
-from noise import CONFIDENCE, median, ratios
+from noise import geometric_mean, ratios
 from tables import number, short
 
 LEAST_CROSSINGS = 10_000  # of shared edges; in smaller scenes a single crossing decides the rate
+UNLIMITED_PX = 4096  # the largest triangles for which any method promises anything
 T_JUNCTIONS = ("t_junction", "t_junction_split")  # cracks of the mesh, not of the method
-RESAMPLES = 400
 
 
 class Cracks(NamedTuple):
@@ -20,7 +19,7 @@ class Cracks(NamedTuple):
 
 
 class SpeedUp(NamedTuple):
-    """Over the reference, the median of the scenes, with its interval."""
+    """Over the reference, the geometric mean of the scenes' medians, with its interval."""
     middle: float
     low: float
     high: float
@@ -28,7 +27,8 @@ class SpeedUp(NamedTuple):
 
 def within_range(scene, method):
     """Beyond its range a method's integers overflow. That is another fault than a crack."""
-    return method.max_side_px is None or scene.largest_side_px <= method.max_side_px
+    limited = method.max_side_px is not None and method.max_side_px < UNLIMITED_PX
+    return not limited or scene.largest_side_px <= method.max_side_px
 
 
 def cracks_of(accuracy, method):
@@ -62,27 +62,21 @@ def reference(accuracy):
     return min(products, key=products.get) if products else None
 
 
-def speed_up(groups):
-    """Of ratios grouped by scene."""
-    generator = random.Random(1)  # the same result each time
-    again = sorted(median([median(generator.choices(group, k=len(group))) for group in groups]) for _ in range(RESAMPLES))
-    outside = int(RESAMPLES * (1 - CONFIDENCE) / 2)
-    return SpeedUp(median([median(group) for group in groups]), again[outside], again[-1 - outside])
-
-
 def measured_in(scene, name):
     return next((m for m in (*scene.measured, *scene.apart) if m.method.name == name), None)
 
 
-def simd_speed_up(accuracy, name, other):
-    """Of one method over another, both with SIMD on one thread; None if a scene lacks one of them."""
-    groups = []
-    for scene in timed_scenes(accuracy):
-        costs = [m and m.simd for m in (measured_in(scene, name), measured_in(scene, other))]
-        if not all(costs):
+def simd_outcome(accuracy, name, other):
+    """Of one method against another, both with SIMD on one thread: the scenes where it is faster, slower, and too close to
+    call, each with its speed-up; None if a scene lacks one of them, or none is timed."""
+    outcome = {-1: {}, 1: {}, 0: {}}
+    scenes = timed_scenes(accuracy)
+    for scene in scenes:
+        a, b = (m and m.simd for m in (measured_in(scene, name), measured_in(scene, other)))
+        if not a or not b:
             return None
-        groups.append(ratios(costs[0].rounds, costs[1].rounds))
-    return speed_up(groups) if groups else None
+        outcome[a.order(b)][scene.name] = b.ns / a.ns
+    return (outcome[-1], outcome[1], outcome[0]) if scenes else None
 
 
 def speed_ups(accuracy):
@@ -95,10 +89,11 @@ def speed_ups(accuracy):
         base_rounds = next(m.scalar.rounds for m in scene.measured if m.method == base)
         for m in (*scene.measured, *scene.apart):
             # A peer has one form, with vectors of its own.
-            for form, cost in (("scalar", m.scalar), ("simd", m.simd)) if not m.method.peer else (("simd", m.scalar),):
+            peer = (("scalar" if m.method.source.endswith("scalar") else "simd", m.scalar),)
+            for form, cost in peer if m.method.peer else (("scalar", m.scalar), ("simd", m.simd)):
                 if cost:
                     groups.setdefault(m.method, {}).setdefault(form, []).append(ratios(cost.rounds, base_rounds))
-    return ({method: {form: speed_up(of) for form, of in forms.items() if len(of) == len(scenes)}
+    return ({method: {form: SpeedUp(*geometric_mean(of)) for form, of in forms.items() if len(of) == len(scenes)}
              for method, forms in groups.items()}, base, len(scenes))
 
 
@@ -110,7 +105,7 @@ def frontier_table(accuracy):
         return [], []
 
     def said(up):
-        return f"{up.middle:.2f}× ({up.low:.2f} to {up.high:.2f})" if up else "–"
+        return f"{up.middle:.2g}× ({up.low:.2g} to {up.high:.2g})" if up else "–"
 
     header = ["method", "cracks per 10⁶ crossings", "worst scene", "crossings", f"scalar, `{base.name}` = 1×", "SIMD"]
     lines = [[f"`{method.name}`", number(cracks.rate, 2), f"{number(cracks.worst, 2)} (`{cracks.worst_scene}`)" if cracks.worst else "–",

@@ -133,6 +133,17 @@ def bootstrap(*samples):
     return middle_of([b / a for a, b in zip(first, *figures)] if len(samples) > 1 else first)
 
 
+def geometric_mean(groups):
+    """The geometric mean of the groups' medians, and its bootstrap interval. The groups are those of the scenes: the mean of
+    a quotient is the quotient of the means, which does not hold for medians of scenes."""
+    def mean(medians):
+        return math.exp(sum(map(math.log, medians)) / len(groups))
+
+    generator = random.Random(1)
+    found = [mean([resampled(group, generator) for group in groups]) for _ in range(RESAMPLES)]
+    return mean([median(group) for group in groups]), *middle_of(found)
+
+
 def interval(values):
     """The bootstrap interval of the median; with up to five repetitions, from the fastest to the slowest. Of the ratios of
     paired rounds it is the interval of their median."""

@@ -30,7 +30,7 @@ def strip_title(rates):
 
 def strip(accuracy, folder, caption):
     rates, scenes, trials = displacement(accuracy) if accuracy else ({}, 0, 0)
-    if rates.keys() != METHODS.keys() or not all(rates.values()):
+    if rates.keys() != METHODS.keys() or not all(rates.values()):  # a log axis has no 0
         return None
     subtitle = (f"Pixels that change because vertices are rounded, per 10⁶ edge crossings; {scenes} scenes, {short(trials)} "
                 "crossings.")

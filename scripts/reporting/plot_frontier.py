@@ -1,11 +1,11 @@
 """The main chart: cracks against speed, each coverage method in scalar code and with SIMD."""
 from accuracy_rows import FAMILIES
-from frontier import LEAST_CROSSINGS, cracks_of, speed_ups, timed_scenes
+from frontier import LEAST_CROSSINGS, cracks_of, simd_outcome, speed_ups, timed_scenes
 from palette import FAINT, GREEN, INK
 from plot_kinds import Kinds
 from plot_labels import Label, label_points
 from plot_style import WIDTH_IN, head_in, headline, plt, save
-from speedups import about, kernels
+from speedups import kernels, spread
 from tables import number, short
 from zero_axis import ZeroAxis
 
@@ -22,21 +22,20 @@ def best(ups):
     return max(ups.values(), key=lambda up: up.middle)
 
 
-def frontier_title(found, machine):
-    """Our fastest against the fastest other method with SIMD, and the cracks of the tutorials' test."""
-    simd = {method: ups["simd"] for method, (ups, _) in found.items() if "simd" in ups and not method.apart}
+def frontier_title(found, accuracy):
+    """Our fastest against the fastest other method with SIMD, scene by scene."""
+    simd = {method: ups["simd"].middle for method, (ups, _) in found.items() if "simd" in ups and not method.apart}
     ours, others = ([m for m in simd if m.ours == whose] for whose in (True, False))
     if not ours or not others:
         return "Coverage: cracks against speed"
-    first, other = (max(side, key=lambda method: simd[method].middle) for side in (ours, others))
-    ratio = simd[first].middle / simd[other].middle
-    said = f"{about(ratio)} faster" if ratio >= 1 else f"{about(1 / ratio)} slower"
-    if simd[first].low <= simd[other].high and simd[other].low <= simd[first].high:
-        said += " (not settled)"
-    target = kernels(machine.get("simd_best"))
+    first, other = max(ours, key=simd.get), max(others, key=simd.get)
+    won, lost, close = simd_outcome(accuracy, first.name, other.name)
     cracks = found[first][1].rate
-    return (f"{first.name} leaves {number(cracks, 2) if cracks else 'no'} cracks; with {target} it is {said} than {other.name}, the fastest "
-            "other method")
+    said = [f"faster on {len(won)} ({spread(won.values())})"] if won else []
+    said += [f"slower on {len(lost)} ({spread([1 / ratio for ratio in lost.values()])})"] if lost else []
+    said += [f"{len(close)} too close to call"] if close else []
+    return (f"{first.name} leaves {number(cracks, 2) if cracks else 'no'} cracks; against {other.name}, both SIMD: "
+            f"{', '.join(said)} of {len(won) + len(lost) + len(close)} scenes")
 
 
 def called(method):
@@ -70,14 +69,14 @@ def frontier(accuracy, folder, caption):
     kinds = Kinds(FAMILIES["coverage"])
     scale = ZeroAxis([rate for _, cracks in found.values() for rate in (cracks.rate, cracks.worst)], band=0.4)
     most = max(found.values(), key=lambda item: item[1].crossings)[1]
-    subtitle = (f"Further left: fewer cracks; further up: faster on one thread, median of {scenes} scenes "
+    subtitle = (f"Further left: fewer cracks; further up: faster on one thread, geometric mean of {scenes} scenes "
                 f"({', '.join(scene.name for scene in timed_scenes(accuracy))}). Cracks are gaps and double hits between neighbours, "
                 f"{most.scenes} scenes and {short(most.crossings)} crossings of shared edges pooled; the dotted line ends at the worst "
-                f"scene. Hollow: scalar code; filled: {kernels(accuracy.machine.get('simd_best'))}.")
+                f"scene. Hollow: scalar code; filled: {kernels(accuracy.machine.get('simd_best'))}, of peers their own vectors.")
     above, below = 0.95 + head_in(subtitle), 1.0
     figure, axes = plt.subplots(figsize=(WIDTH_IN, above + below + 5.0))
     height = figure.get_figheight()
-    top = headline(figure, frontier_title(found, accuracy.machine), subtitle)
+    top = headline(figure, frontier_title(found, accuracy), subtitle)
     figure.subplots_adjust(left=0.07, right=0.985, bottom=below / height, top=1 - above / height)
     scale.apply_x(axes, "0")
     axes.set_yscale("log")
@@ -109,8 +108,8 @@ def frontier(accuracy, folder, caption):
              plt.Line2D([], [], color=INK, marker="o", markerfacecolor="white", linestyle="", markersize=7, label="scalar"),
              plt.Line2D([], [], color=INK, marker="o", linestyle="", markersize=7, label="SIMD")]
     kinds.legend(figure, top, list(found), extra)
-    bound = 3e6 / most.crossings
+    bound = max((3e6 / cracks.crossings for _, cracks in found.values() if cracks.rate == 0), default=3e6 / most.crossings)
     peers = [f"{method.name}: {method.source}." for method in found if method.peer]
-    save(figure, folder, "frontier", f"{' '.join([*peers, ''])}0: no crack seen; the 95 % upper bound is {number(bound, 2)} per 10⁶. Left out: T-junctions, "
+    save(figure, folder, "frontier", f"{' '.join([*peers, ''])}0: no crack seen; the 95 % upper bound is at most {number(bound, 2)} per 10⁶. Left out: T-junctions, "
          f"scenes with fewer than {short(LEAST_CROSSINGS)} crossings, and for 32-bit methods scenes beyond their range.\n{caption}")
     return "frontier"

@@ -7,7 +7,7 @@ TRIALS = {"coverage": "edge crossings", "visibility": "covered pixels", "facing"
           "clipping": "covered pixels"}
 SUBTITLES = {
     "coverage": "Further left: fewer errors; further down: faster. Errors are counted against the exact picture of the "
-                "unsnapped positions. Filled: none given the snapped positions. Ours use SIMD, the others scalar code; the "
+                "unsnapped positions. Filled: none given the snapped positions. All but naive use SIMD; the "
                 "title is about one thread.",
     "visibility": "Further left: fewer errors; further down: faster. The visible triangle of a pixel is judged by exact "
                   "planes on the snapped positions. All methods share the same exact coverage.",

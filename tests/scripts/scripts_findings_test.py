@@ -8,6 +8,7 @@ from accuracy_findings import ours_fail_sentence, speed_sentence  # noqa: E402
 from accuracy_rows import Accuracy, Cost, Curve, Measured, Method, Scene, Sweep, parse_measured  # noqa: E402
 from bench_rows import Bench, parse_name  # noqa: E402
 from findings import crack_finding, exactness_finding, findings, peer_finding, speed_finding  # noqa: E402
+from frontier import cracks_of, simd_outcome, speed_ups  # noqa: E402
 from peers import peer_tables  # noqa: E402
 from tables import markdown  # noqa: E402
 
@@ -47,7 +48,7 @@ def turning(*counts):
 
 
 class FindingsTest(unittest.TestCase):
-    def test_charts_show_the_simd_form_of_ours_and_the_scalar_form_of_others(self):
+    def test_charts_show_the_simd_form_where_there_is_one(self):
         def timed(simd, threads, ms):
             return {**({"simd": simd, "rounds_ms": [1.5 * ms, ms, 0.5 * ms]} if simd else {}), "threads": threads,
                     "ns_per_covered_pixel": 10.0 * ms, "mtri_per_s": 1.0, "ms": {"median": ms, "min": ms, "max": ms, "repetitions": 3}}
@@ -60,7 +61,7 @@ class FindingsTest(unittest.TestCase):
         forms = timed("scalar", 1, 4.0), timed("scalar", 2, 3.0), timed("avx512", 1, 2.0), timed("avx512", 2, 1.0)
         ours, other = read("src/raster", *forms), read("a book", *forms)
         self.assertEqual({threads: cost.ns for threads, cost in ours.costs.items()}, {1: 20.0, 2: 10.0})
-        self.assertEqual({threads: cost.ns for threads, cost in other.costs.items()}, {1: 40.0, 2: 30.0})
+        self.assertEqual({threads: cost.ns for threads, cost in other.costs.items()}, {1: 20.0, 2: 10.0})
         self.assertEqual((ours.scalar.ns, ours.simd.ns, ours.simd.rounds), (40.0, 20.0, (30.0, 20.0, 10.0)))
 
         naive, old = read("src/raster", timed("scalar", 1, 4.0)), read("src/raster", timed(None, 1, 4.0))
@@ -121,6 +122,41 @@ class FindingsTest(unittest.TestCase):
 
     def test_what_was_not_measured_is_not_found(self):
         self.assertEqual(findings(bench({}), Accuracy({}, False, {}, (), None)), [])
+
+
+class FrontierTest(unittest.TestCase):
+    """frontier.py: cracks and speed of methods that take turns in each round."""
+
+    ROUNDS = (0.98, 1.0, 1.01, 0.99, 1.02, 1.0, 1.0, 0.995, 1.005)
+
+    def timed(self, name, ns, cracks=0, most_px=4096):
+        method = Method(name, "src/raster" if name == "tiled" else "a book", "", True, most_px)
+        costs = {("avx512", 1): Cost(ns, ns, ns, 1.0, 9, tuple(ns * noise for noise in self.ROUNDS)),
+                 ("scalar", 1): Cost(4 * ns, ns, ns, 1.0, 9, tuple(4 * ns * noise for noise in self.ROUNDS))}
+        return Measured(method, 0, None, 0, {}, 0, cracks, costs)
+
+    def accuracy(self, **scenes):
+        """From the methods of each scene; every scene has 10⁵ crossings of shared edges and triangles of 200 px."""
+        made = tuple(Scene(name, "coverage", "", 10 ** 6, methods, (), 10 ** 5, 200.0) for name, methods in scenes.items())
+        return Accuracy({"simd_best": "avx512"}, False, {"coverage": [m.method for m in made[0].measured]}, made, None)
+
+    def test_cracks_are_pooled_without_t_junctions_and_overflow(self):
+        found = self.accuracy(a=(self.timed("x", 1.0, 3), self.timed("y", 1.0, 9, 181)), b=(self.timed("x", 1.0, 1),),
+                              t_junction=(self.timed("x", 1.0, 99),))
+        pooled = cracks_of(found, found.methods["coverage"][0])
+        self.assertEqual((pooled.rate, pooled.worst, pooled.worst_scene, pooled.crossings), (20.0, 30.0, "a", 2 * 10 ** 5))
+        self.assertIsNone(cracks_of(found, found.methods["coverage"][1]))
+
+    def test_speed_is_the_geometric_mean_of_scenes_and_outcomes_are_by_scene(self):
+        found = self.accuracy(a=(self.timed("tiled", 1.0), self.timed("x", 4.0)), b=(self.timed("tiled", 2.0), self.timed("x", 1.0)),
+                              c=(self.timed("tiled", 1.0), self.timed("x", 1.0)))
+        ups, base, scenes = speed_ups(found)
+        self.assertEqual((base.name, scenes), ("x", 3))
+        tiled = ups[found.methods["coverage"][0]]
+        self.assertAlmostEqual(tiled["scalar"].middle, 2 ** (1 / 3))
+        self.assertAlmostEqual(tiled["simd"].middle, 4 * 2 ** (1 / 3))
+        won, lost, close = simd_outcome(found, "tiled", "x")
+        self.assertEqual((won, lost, close), ({"a": 4.0}, {"b": 0.5}, {"c": 1.0}))
 
 
 class OursFailTest(unittest.TestCase):

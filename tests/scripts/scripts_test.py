@@ -370,7 +370,7 @@ class ScriptsTest(unittest.TestCase):
         self.assertIn("| float_le | a book | as told | 5,000 | 5,000 | 2 of 2 |", text)
         self.assertIn("| **ours** | src/raster | as told | 0 (<3,000) | 7.5 | 0 | 0 of 2 |", text)  # coverage
         self.assertIn("`ours` (2 ns per covered pixel, 0 wrong per 10⁶) is our fastest", text)
-        self.assertIn("`float_le` (1.5 ns per covered pixel, 5,000 wrong per 10⁶) is the fastest other method, in scalar code. "
+        self.assertIn("`float_le` (1.5 ns per covered pixel, 5,000 wrong per 10⁶) is the fastest other method. "
                       "`ours` with AVX2 is 1.3× slower than `float_le` in scalar code.", text)
         self.assertIn("2 scenes pooled, given the snapped positions): `ours` errs least, 0 (in 0 of 2); `float_le` errs most, 5,000 (in 2 "
                       "of 2).", text)
