@@ -1,5 +1,5 @@
-// The list of backends. A backend is a file that defines make_NAME() and summary_NAME. Put it in src/raster and
-// add a line below, or pass it to CMake in EDGEWISE_BACKENDS.
+// The list of backends. A backend is a file that defines make_NAME() and summary_NAME. Put it in src/raster
+// and add a line below, or pass it to CMake in EDGEWISE_BACKENDS.
 #include <array>
 
 #include "core/nearest_name.h"
@@ -17,7 +17,7 @@
 
 namespace edgewise {
 
-#define EDGEWISE_DECLARE(name)               \
+#define EDGEWISE_DECLARE(name)                  \
   extern const std::string_view summary_##name; \
   std::unique_ptr<Backend> make_##name();
 EDGEWISE_BACKENDS(EDGEWISE_DECLARE)
