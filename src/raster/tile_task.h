@@ -14,7 +14,8 @@ namespace edgewise {
 
 // Always inline: GCC 12 takes a function that only prefetches for one without effect, and drops calls of it.
 template <typename Record>
-[[gnu::always_inline]] inline void prefetch_records(const Record* records, std::span<const std::uint32_t> indices) {
+[[gnu::always_inline]] inline void prefetch_records(const Record* records,
+                                                    std::span<const std::uint32_t> indices) {
   for (const std::uint32_t index : indices) {
     const auto* record = reinterpret_cast<const char*>(records + index);
     __builtin_prefetch(record);
@@ -33,7 +34,9 @@ struct TileTask {
   Ablation ablation;  // tile_store is resolved
 
   int size() const { return 1 << size_log2; }  // px
-  [[gnu::always_inline]] void prefetch(std::span<const std::uint32_t> indices) const { prefetch_records(triangles, indices); }
+  [[gnu::always_inline]] void prefetch(std::span<const std::uint32_t> indices) const {
+    prefetch_records(triangles, indices);
+  }
   // The part inside the frame, px.
   int width() const { return std::min(size(), frame.width - x0); }
   int height() const { return std::min(size(), frame.height - y0); }
