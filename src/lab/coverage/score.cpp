@@ -104,6 +104,7 @@ std::uint64_t count_double_hits(const CoverageTruth& truth, std::span<const std:
       suspect_of[i] = static_cast<std::uint32_t>(suspects.size());
       suspects.emplace_back();
     }
+  if (suspects.empty()) return 0;  // of most methods, the runs need no look
   std::uint64_t count = 0;
   const Window w = truth.window;
   for (const Run& run : runs) {
