@@ -72,7 +72,8 @@ def compared(ours, other, machine):
     ours_ns, other_ns = ours.costs[1].ns, other.costs[1].ns
     ratio, word = (other_ns / ours_ns, "faster") if ours_ns <= other_ns else (ours_ns / other_ns, "slower")
     open_question = "" if ours.costs[1].order(other.costs[1]) else " (not settled)"
-    return f"`{ours.method.name}` {form(ours, machine)} is {about(ratio)} {word} than `{other.method.name}` {form(other, machine)}{open_question}"
+    return (f"`{ours.method.name}` {form(ours, machine)} is {about(ratio)} {word} than `{other.method.name}` "
+            f"{form(other, machine)}{open_question}")
 
 
 def sides(scene):

@@ -1,4 +1,5 @@
 """The figures of the main chart: how often each coverage method cracks, and how fast it is in scalar code and with SIMD."""
+import math
 from typing import NamedTuple
 
 from noise import geometric_mean, ratios
@@ -55,10 +56,7 @@ def reference(accuracy):
     for method in accuracy.methods.get("coverage", ()):
         times = [m.scalar.ns for scene in scenes for m in scene.measured if m.method == method and m.scalar]
         if times and len(times) == len(scenes) and not method.ours:
-            product = 1.0
-            for time in times:
-                product *= time
-            products[method] = product
+            products[method] = math.prod(times)
     return min(products, key=products.get) if products else None
 
 
@@ -97,10 +95,21 @@ def speed_ups(accuracy):
              for method, forms in groups.items()}, base, len(scenes))
 
 
+def best(forms):
+    """The faster form of a method."""
+    return max(forms.values(), key=lambda up: up.middle)
+
+
+def frontier_figures(accuracy):
+    """({method: (its speed_ups(), Cracks)}, the reference, number of scenes) of the methods with both figures."""
+    ups, base, scenes = speed_ups(accuracy)
+    return ({method: (forms, cracks) for method, forms in ups.items() if forms and (cracks := cracks_of(accuracy, method))},
+            base, scenes)
+
+
 def frontier_table(accuracy):
     """Header and lines: every method's cracks and its two speed-ups with their intervals, the fastest first."""
-    ups, base, _ = speed_ups(accuracy)
-    found = [(method, forms, cracks) for method, forms in ups.items() if forms and (cracks := cracks_of(accuracy, method))]
+    found, base, _ = frontier_figures(accuracy)
     if not found:
         return [], []
 
@@ -110,5 +119,5 @@ def frontier_table(accuracy):
     header = ["method", "cracks per 10⁶ crossings", "worst scene", "crossings", f"scalar, `{base.name}` = 1×", "SIMD"]
     lines = [[f"`{method.name}`", number(cracks.rate, 2), f"{number(cracks.worst, 2)} (`{cracks.worst_scene}`)" if cracks.worst else "–",
               short(cracks.crossings), said(forms.get("scalar")), said(forms.get("simd"))]
-             for method, forms, cracks in sorted(found, key=lambda row: -max(up.middle for up in row[1].values()))]
+             for method, (forms, cracks) in sorted(found.items(), key=lambda item: -best(item[1][0]).middle)]
     return header, lines

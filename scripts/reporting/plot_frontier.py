@@ -1,6 +1,6 @@
 """The main chart: cracks against speed, each coverage method in scalar code and with SIMD."""
 from accuracy_rows import FAMILIES
-from frontier import LEAST_CROSSINGS, cracks_of, simd_outcome, speed_ups, timed_scenes
+from frontier import LEAST_CROSSINGS, best, frontier_figures, simd_outcome, timed_scenes
 from palette import FAINT, GREEN, INK
 from plot_kinds import Kinds
 from plot_labels import Label, label_points
@@ -15,11 +15,6 @@ LABELLED = ("dda_16_16", "dda_float", "dda_rounded", "fixed_8", "float_lt", "flo
             "engine_exact", "engine_float_lt", "engine_double")
 INTERVAL = {"linewidth": 3.0, "alpha": 0.3, "solid_capstyle": "butt"}
 WORST = {"linewidth": 0.9, "linestyle": (0, (1.5, 1.5))}
-
-
-def best(ups):
-    """The faster form of a method."""
-    return max(ups.values(), key=lambda up: up.middle)
 
 
 def frontier_title(found, accuracy):
@@ -62,9 +57,8 @@ def labels_of(found, x_of):
 
 
 def frontier(accuracy, folder, caption):
-    ups, base, scenes = speed_ups(accuracy) if accuracy else ({}, None, 0)
-    found = {method: (forms, cracks) for method, forms in ups.items() if forms and (cracks := cracks_of(accuracy, method))}
-    if base is None or not found:
+    found, base, scenes = frontier_figures(accuracy) if accuracy else ({}, None, 0)
+    if not found:
         return None
     kinds = Kinds(FAMILIES["coverage"])
     scale = ZeroAxis([rate for _, cracks in found.values() for rate in (cracks.rate, cracks.worst)], band=0.4)
@@ -110,6 +104,6 @@ def frontier(accuracy, folder, caption):
     kinds.legend(figure, top, list(found), extra)
     bound = max((3e6 / cracks.crossings for _, cracks in found.values() if cracks.rate == 0), default=3e6 / most.crossings)
     peers = [f"{method.name}: {method.source}." for method in found if method.peer]
-    save(figure, folder, "frontier", f"{' '.join([*peers, ''])}0: no crack seen; the 95 % upper bound is at most {number(bound, 2)} per 10⁶. Left out: T-junctions, "
-         f"scenes with fewer than {short(LEAST_CROSSINGS)} crossings, and for 32-bit methods scenes beyond their range.\n{caption}")
+    save(figure, folder, "frontier", f"{' '.join([*peers, ''])}0: no crack seen; the 95 % upper bound is at most "
+         f"{number(bound, 2)} per 10⁶. Left out: T-junctions, scenes with fewer than {short(LEAST_CROSSINGS)} crossings, and for 32-bit methods scenes beyond their range.\n{caption}")
     return "frontier"

@@ -3,7 +3,7 @@ import re
 
 from bench_rows import order
 from speedups import about, mark
-from tables import milliseconds, number, short
+from tables import number, short
 
 
 def scheduled(bench):
