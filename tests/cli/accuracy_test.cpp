@@ -15,7 +15,7 @@
 #include "edgewise/builtin.h"
 #include "edgewise/contract.h"
 #include "lab/coverage/cases.h"
-#include "lab/engine/engine.h"
+#include "lab/coverage_support.h"
 #include "run_program.h"
 #include "temp_dir.h"
 
@@ -151,7 +151,7 @@ TEST(Accuracy, ExactMethodsScoreZeroAgainstTheSnappedTruth) {
       const json& method = named(scene.at("methods"), name);
       EXPECT_EQ(method.at("snapped").at("errors"), 0) << scene.at("name") << ' ' << name;
       EXPECT_EQ(method.at("snapped").at("out_of_bounds"), 0) << scene.at("name") << ' ' << name;
-      if (lab::find_coverage_method(name).contract_depth) {
+      if (testing::find_coverage_method(name).contract_depth) {
         EXPECT_EQ(method.at("snapped").at("unexplained_pixels"), 0) << scene.at("name") << ' ' << name;
         EXPECT_EQ(method.at("snapped").at("wrong_pixels"), 0) << scene.at("name") << ' ' << name;
         const double pixels = scene.at("width").get<double>() * scene.at("height").get<double>();
@@ -163,7 +163,7 @@ TEST(Accuracy, ExactMethodsScoreZeroAgainstTheSnappedTruth) {
   EXPECT_EQ(cracks.size(), 1u);
   EXPECT_GT(*cracks.begin(), 0);
   for (const std::string& name : exact) {
-    if (lab::is_engine_method(name)) continue;  // the turning cube leaves the engine out
+    if (testing::find_coverage_method(name).engine) continue;  // the turning cube leaves the engine out
     const json& counts = named(report.at("turning_cube").at("methods"), name);
     EXPECT_EQ(counts.at("snapped").at("missing").at("total"), 0) << name;
     EXPECT_EQ(counts.at("snapped").at("missing").at("bound_per_frame"), 3.0 / 120);
@@ -185,10 +185,10 @@ TEST(Accuracy, TimesBothFormsOfEachMethod) {
     if (entry.at("family") != "coverage") continue;
     const std::string name = entry.at("name");
     const json& speed = named(scene.at("methods"), name).at("speed");
-    const lab::CoverageMethod& method = lab::find_coverage_method(name);
+    const lab::CoverageMethod& method = testing::find_coverage_method(name);
     EXPECT_EQ(entry.contains("simd_note"), !method.simd) << name;
     std::set<std::pair<std::string, int>> expected, found;
-    if (method.scalar_of_interest)
+    if (!method.engine)
       for (const SimdTarget target :
            {SimdTarget::scalar, method.simd ? SimdTarget::best : SimdTarget::scalar})
         for (int threads = 1; threads <= (method.threaded ? 2 : 1); ++threads)

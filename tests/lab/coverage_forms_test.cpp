@@ -8,6 +8,7 @@
 namespace edgewise::lab {
 namespace {
 
+using testing::find_coverage_method;
 using testing::hard_floats;
 
 class EveryCoverageForm : public ::testing::TestWithParam<std::string_view> {

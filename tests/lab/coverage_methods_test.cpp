@@ -16,6 +16,7 @@ namespace {
 
 using testing::adversarial;
 using testing::against_floats;
+using testing::find_coverage_method;
 using testing::hard_floats;
 using testing::Picture;
 using testing::picture_of;
@@ -64,7 +65,7 @@ TEST_P(EveryCoverageMethod, ErrsOnlyWithinItsReachOnTheGrid) {
 // For triangles above its size limit a method may draw any pixels inside the bounding box. The engine tests
 // whole blocks (engine_test.cpp).
 TEST_P(EveryCoverageMethod, KeepsToTheBoxOfTrianglesTooLargeForIt) {
-  if (is_engine_method(GetParam())) return;
+  if (method_.engine) return;
   const int largest = method_.promise.max_side_px, side = std::min(4096, 3 * largest);
   if (largest >= side) return;
   auto triangles = hard_floats("anywhere", 100, {side, side}, 5);
@@ -198,7 +199,7 @@ TEST(CoverageRegistry, HoldsEveryFileInTheFolderAndEveryBackendOnce) {
 TEST(CoverageRegistry, SuggestsTheNearestName) {
   EXPECT_THROW(find_coverage_case("drtk"), std::invalid_argument);
   try {
-    find_coverage_method("float_el");
+    find_drawing_method("float_el");
     FAIL() << "an unknown method was found";
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find("did you mean 'float_le'?"), std::string::npos) << error.what();

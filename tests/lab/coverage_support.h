@@ -10,12 +10,25 @@
 #include <string_view>
 #include <vector>
 
+#include "core/nearest_name.h"
 #include "lab/coverage/cases.h"
 #include "lab/coverage/coverage.h"
 #include "lab/coverage/score.h"
+#include "lab/engine/engine.h"
 #include "support.h"
 
 namespace edgewise::testing {
+
+// Of coverage_methods() or of the engine.
+inline const lab::CoverageMethod& find_coverage_method(std::string_view name) {
+  static const std::vector<lab::CoverageMethod> all = [] {
+    std::vector<lab::CoverageMethod> methods(lab::coverage_methods().begin(), lab::coverage_methods().end());
+    methods.insert(methods.end(), lab::engine_methods().begin(), lab::engine_methods().end());
+    return methods;
+  }();
+  return find_named("coverage method", name, std::span<const lab::CoverageMethod>(all),
+                    [](const lab::CoverageMethod& m) { return m.info.name; });
+}
 
 inline constexpr std::string_view kFloatFamilies[] = {"anywhere", "near-centres", "near-lattice", "denormal",
                                                       "slivers",  "small",        "in-a-row"};
@@ -106,10 +119,10 @@ inline const Picture& picture_of(std::string_view name) {
 }
 
 inline lab::CoverageScore against_grid(std::string_view method, const Picture& picture) {
-  return lab::score_coverage(picture.by_grid, lab::find_coverage_method(method), picture.input);
+  return lab::score_coverage(picture.by_grid, find_coverage_method(method), picture.input);
 }
 inline lab::CoverageScore against_floats(std::string_view method, const Picture& picture) {
-  return lab::score_coverage(picture.by_floats, lab::find_coverage_method(method), picture.input);
+  return lab::score_coverage(picture.by_floats, find_coverage_method(method), picture.input);
 }
 
 }  // namespace edgewise::testing

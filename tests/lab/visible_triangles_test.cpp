@@ -12,6 +12,7 @@
 namespace edgewise::lab {
 namespace {
 
+using testing::find_coverage_method;
 using testing::Picture;
 using testing::picture_of;
 

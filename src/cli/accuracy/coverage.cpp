@@ -13,10 +13,10 @@ namespace {
 constexpr Execution kPlainest{.threads = 1, .target = SimdTarget::scalar};
 
 // The two forms of a method, scalar and with the widest SIMD of this machine, on one thread and on two. Of
-// methods whose scalar form is of no interest, SIMD on one thread.
+// the engine, SIMD on one thread.
 std::vector<Execution> executions_of(const lab::CoverageMethod& method) {
   const SimdTarget best = resolve(SimdTarget::best);
-  if (!method.scalar_of_interest) return {{.threads = 1, .target = best}};
+  if (method.engine) return {{.threads = 1, .target = best}};
   std::vector<SimdTarget> targets{SimdTarget::scalar};
   if (method.simd && best != SimdTarget::scalar) targets.push_back(best);
   std::vector<Execution> list;

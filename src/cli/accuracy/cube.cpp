@@ -4,7 +4,6 @@
 #include "cli/accuracy/score.h"
 #include "core/parallel.h"
 #include "edgewise/builtin.h"
-#include "lab/engine/engine.h"
 
 namespace edgewise::tools {
 
@@ -60,7 +59,7 @@ Closeup worst_frame(const lab::CoverageMethod& method, const Scores& scores) {
 CubeResult judge_turning_cube(const AccuracyPlan& plan, const ChosenMethods& methods,
                               const std::function<void(double)>& progress, std::vector<Closeup>& closeups) {
   std::vector<const lab::CoverageMethod*> judged = methods.coverage;
-  std::erase_if(judged, [](const auto* method) { return lab::is_engine_method(method->info.name); });
+  std::erase_if(judged, [](const auto* method) { return method->engine; });
   const int frames = plan.quick ? kQuickFrames : kFrames;
   std::vector<Scores> scores(judged.size(), Scores(static_cast<std::size_t>(frames)));
   std::mutex mutex;

@@ -2,7 +2,6 @@
 
 #include "cli/accuracy/report.h"
 #include "cli/accuracy/score.h"
-#include "lab/engine/engine.h"
 #include "support/machine.h"
 
 namespace edgewise::tools {
@@ -173,7 +172,7 @@ json accuracy_json(const AccuracyReport& report, const AccuracyPlan& plan) {
     if (family != Family::coverage) continue;
     const lab::CoverageMethod& coverage = methods.find_coverage(info->name);
     method["max_side_px"] = coverage.promise.max_side_px;
-    method["engine"] = lab::is_engine_method(info->name);
+    method["engine"] = coverage.engine;
     if (!coverage.simd) method["simd_note"] = coverage.simd_note;
   }
   for (const SceneResult& scene : report.scenes) result["scenes"].push_back(scene_json(scene, methods));

@@ -10,7 +10,6 @@
 #include "core/nearest_name.h"
 #include "frontend/fixed.h"
 #include "lab/coverage/group_runs.h"
-#include "lab/engine/engine.h"
 
 #ifndef EDGEWISE_MORE_COVERAGE_METHODS
 #define EDGEWISE_MORE_COVERAGE_METHODS(X)
@@ -77,11 +76,6 @@ CoverageMethod make_from(const BackendInfo& backend, bool fills) {
           scalar_only ? "scalar on purpose: the plainest implementation of the contract" : ""};
 }
 
-const CoverageMethod& find(std::span<const CoverageMethod> all, std::string_view kind,
-                           std::string_view name) {
-  return find_named(kind, name, all, [](const CoverageMethod& m) { return m.info.name; });
-}
-
 }  // namespace
 
 Canvas::Canvas(int width, int height)
@@ -125,17 +119,9 @@ bool same_picture(const CoverageMethod& method, const Canvas& a, const Canvas& b
   return true;
 }
 
-const CoverageMethod& find_coverage_method(std::string_view name) {
-  static const std::vector<CoverageMethod> all = [] {
-    std::vector<CoverageMethod> methods(coverage_methods().begin(), coverage_methods().end());
-    methods.insert(methods.end(), engine_methods().begin(), engine_methods().end());
-    return methods;
-  }();
-  return find(all, "coverage method", name);
-}
-
 const CoverageMethod& find_drawing_method(std::string_view name) {
-  return find(drawing_methods(), "backend or coverage method", name);
+  return find_named("backend or coverage method", name, drawing_methods(),
+                    [](const CoverageMethod& m) { return m.info.name; });
 }
 
 std::vector<ScreenTriangle> shifted(std::span<const ScreenTriangle> triangles, Window window) {

@@ -79,7 +79,8 @@ struct CoverageMethod {
   // Whether draw uses the execution's SIMD target. If not, `simd_note` says why a SIMD form is missing.
   bool simd = false;
   std::string_view simd_note = {};
-  bool scalar_of_interest = true;  // whether speed comparisons include the scalar form
+  // The SIMD engine with one kind of numbers: timed with SIMD only, and left out of the turning cube.
+  bool engine = false;
   // Only for rasterizers that keep scenes loaded: loads one, and returns the timed part of its draw. All
   // functions of such a method must run on one thread, since an OpenGL context belongs to a thread.
   std::function<std::function<void()>(const CoverageInput&, Window, const Execution&)> load = {};
@@ -89,12 +90,10 @@ struct CoverageMethod {
 std::span<const CoverageMethod> coverage_methods();
 // Whether two draws of a method gave the same payloads and the same depths, bit for bit.
 bool same_picture(const CoverageMethod& method, const Canvas& a, const Canvas& b);
-// Also finds those of the engine. Throws std::invalid_argument for an unknown name; the message suggests the
-// nearest known one.
-const CoverageMethod& find_coverage_method(std::string_view name);
 
 // All methods that the viewer can draw: the coverage methods, then wireframe().
 std::span<const CoverageMethod> drawing_methods();
+// Throws std::invalid_argument for an unknown name; the message suggests the nearest known one.
 const CoverageMethod& find_drawing_method(std::string_view name);
 
 // Appends the runs of one row of a picture whose pixels hold triangle indices, or kNoTriangle. Its first

@@ -13,24 +13,16 @@
 
 namespace edgewise::lab {
 
+namespace {
+
 EngineKernel engine_kernel(EngineNumbers numbers, SimdTarget target) {
-  switch (numbers) {
-    case EngineNumbers::exact:
-    case EngineNumbers::fixed_4_int32:
-    case EngineNumbers::fixed_8_int32:
-    case EngineNumbers::fixed_8_int64:
-      return fixed_engine_kernel(numbers, target);
-    case EngineNumbers::float_lt:
-    case EngineNumbers::float_le:
-    case EngineNumbers::float_snapped:
-      return float_engine_kernel(numbers, target);
-    case EngineNumbers::float_top_left:
-    case EngineNumbers::float_rebased:
-    case EngineNumbers::double_top_left:
-      return top_left_engine_kernel(numbers, target);
-  }
+  for (const auto kernel_in_file : {fixed_engine_kernel, float_engine_kernel, top_left_engine_kernel})
+    if (const EngineKernel kernel = kernel_in_file(numbers, target); kernel.draw_tile != nullptr)
+      return kernel;
   throw std::invalid_argument("not numbers of the engine");
 }
+
+}  // namespace
 
 void draw_engine(EngineNumbers numbers, const CoverageInput& input, Window window, FrameView frame,
                  std::uint32_t background, const Execution& execution, Bins& bins) {
@@ -88,7 +80,7 @@ CoverageMethod make(EngineNumbers numbers, const MethodInfo& info, const Coverag
           .threaded = true,
           .contract_depth = true,
           .simd = true,
-          .scalar_of_interest = false};
+          .engine = true};
 }
 
 constexpr std::string_view kSource = "the SIMD engine of src/raster/tiled";
@@ -145,12 +137,6 @@ std::span<const CoverageMethod> engine_methods() {
             "wrong only within 0.003 px of an edge's line; exact for vertices on the 1/256 px grid", false},
            {.reach_px = kSnap_px, .no_gaps = true, .no_double_hits = true, .if_on_grid = true})};
   return methods;
-}
-
-bool is_engine_method(std::string_view name) {
-  const auto methods = engine_methods();
-  return std::any_of(methods.begin(), methods.end(),
-                     [&](const CoverageMethod& method) { return method.info.name == name; });
 }
 
 }  // namespace edgewise::lab

@@ -19,6 +19,5 @@ void draw_engine(EngineNumbers numbers, const CoverageInput& input, Window windo
 // The engine with each kind of numbers, the contract's first. Apart from coverage_methods(), because sweeps
 // and the viewer leave them out.
 std::span<const CoverageMethod> engine_methods();
-bool is_engine_method(std::string_view name);
 
 }  // namespace edgewise::lab

@@ -35,13 +35,13 @@ struct EngineTask : TileTask {
 };
 
 struct EngineKernel {
-  void (*draw_tile)(const EngineTask&);
-  std::int32_t margin;  // CellGrid::margin
-  bool reads_floats;
+  void (*draw_tile)(const EngineTask&) = nullptr;
+  std::int32_t margin = 0;  // CellGrid::margin
+  bool reads_floats = false;
 };
 
-// `target` must be resolved. The kernels are compiled in several files, since each takes long.
-EngineKernel engine_kernel(EngineNumbers numbers, SimdTarget target);
+// `target` must be resolved. The kernels are compiled in several files, since each takes long. Without
+// draw_tile: the numbers are in another file.
 EngineKernel fixed_engine_kernel(EngineNumbers numbers, SimdTarget target);
 EngineKernel float_engine_kernel(EngineNumbers numbers, SimdTarget target);
 EngineKernel top_left_engine_kernel(EngineNumbers numbers, SimdTarget target);

@@ -21,9 +21,18 @@ void draw_engine_tile(const lab::EngineTask& task) {
   draw_tile_in<Numbers>(task);
 }
 
+// The contract's numbers have no kReadsFloats.
 template <class Numbers>
-lab::EngineKernel kernel_of(bool reads_floats) {
-  return {draw_engine_tile<Numbers>, Numbers::kMargin, reads_floats};
+constexpr bool reads_floats() {
+  if constexpr (requires { Numbers::kReadsFloats; })
+    return Numbers::kReadsFloats;
+  else
+    return false;
+}
+
+template <class Numbers>
+lab::EngineKernel kernel_of() {
+  return {draw_engine_tile<Numbers>, Numbers::kMargin, reads_floats<Numbers>()};
 }
 
 }  // namespace HWY_NAMESPACE

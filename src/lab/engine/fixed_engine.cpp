@@ -3,8 +3,6 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include <stdexcept>
-
 #include "core/kernel_table.h"
 #include "lab/engine/engine_kernel.h"
 #include "lab/engine/engine_tile-inl.h"
@@ -17,15 +15,15 @@ namespace HWY_NAMESPACE {
 lab::EngineKernel fixed_engine(lab::EngineNumbers numbers) {
   switch (numbers) {
     case lab::EngineNumbers::exact:
-      return kernel_of<ContractNumbers>(false);
+      return kernel_of<ContractNumbers>();
     case lab::EngineNumbers::fixed_4_int32:
-      return kernel_of<WrappingNumbers<4>>(false);
+      return kernel_of<WrappingNumbers<4>>();
     case lab::EngineNumbers::fixed_8_int32:
-      return kernel_of<WrappingNumbers<8>>(false);
+      return kernel_of<WrappingNumbers<8>>();
     case lab::EngineNumbers::fixed_8_int64:
-      return kernel_of<Int64Numbers>(false);
+      return kernel_of<Int64Numbers>();
     default:
-      throw std::invalid_argument("these numbers are in another file");
+      return {};
   }
 }
 

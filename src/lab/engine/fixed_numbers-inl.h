@@ -80,22 +80,11 @@ struct WrappingNumbers : Int32Lanes {
       const I least = hn::Add(first, across(hn::Min(a, zero), hn::Min(b, zero)));
       rejected = hn::Or(rejected, hn::Lt(most, zero));
       const auto unless_accepted = [&](I v) { return hn::IfThenElseZero(hn::Lt(least, zero), v); };
-      store_edge(di, unless_accepted(hn::ShiftLeft<kBits>(a)), unless_accepted(hn::ShiftLeft<kBits>(b)),
-                 unless_accepted(first), out[i], k);
+      store_functions(di, unless_accepted(hn::ShiftLeft<kBits>(a)), unless_accepted(hn::ShiftLeft<kBits>(b)),
+                      unless_accepted(first), out[i], k);
     }
     return rejected;
   }
-  template <class DI>
-  static HWY_INLINE void store_edge(DI di, hn::Vec<DI> x, hn::Vec<DI> y, hn::Vec<DI> first, Edge& out,
-                                    int k) {
-    using I = hn::Vec<DI>;
-    const I zero = hn::Zero(di), three = hn::Set(di, kBlockSide - 1);
-    const I rise = hn::Mul(three, hn::Add(hn::Max(x, zero), hn::Max(y, zero)));
-    hn::StoreU(x, di, out.x + k), hn::StoreU(y, di, out.y + k), hn::StoreU(first, di, out.first + k);
-    hn::StoreU(rise, di, out.rise + k), hn::StoreU(hn::Add(first, rise), di, out.most + k);
-    hn::StoreU(hn::Mul(three, hn::Add(hn::Abs(x), hn::Abs(y))), di, out.span + k);
-  }
-
   static bool set_up_one(const Task& task, std::uint32_t index, const contract::Oriented&,
                          const BlockBox& box, Edge (&out)[3], int k) {
     const hn::CappedTag<std::int32_t, 1> di;

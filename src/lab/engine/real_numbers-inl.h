@@ -69,8 +69,9 @@ struct RealNumbers : Lanes {
   using typename Lanes::Vector;
   using Bits = typename Lanes::Bits;
   using Task = lab::EngineTask;
+  static constexpr bool kReadsFloats = kVertices != Vertices::snapped;
   // An unsnapped vertex lies within half a sub-unit of the snapped one, on each axis.
-  static constexpr std::int32_t kMargin = kVertices == Vertices::snapped ? 0 : 1;
+  static constexpr std::int32_t kMargin = kReadsFloats ? 1 : 0;
   static constexpr bool kRebased = kVertices == Vertices::rebased;
 
   // `bias`: -1 where samples on the edge are outside, so that the bits of E = 0 become negative; else 0.
@@ -151,16 +152,11 @@ struct RealNumbers : Lanes {
   template <class DF>
   static HWY_INLINE void store_edge(DF df, hn::Vec<DF> a, hn::Vec<DF> b, hn::Vec<DF> first,
                                     hn::Mask<DF> accepted, Edge& out, int k) {
-    using F = hn::Vec<DF>;
-    const F zero = hn::Zero(df), three = hn::Set(df, Value{kBlockSide - 1});
-    const F x = hn::IfThenZeroElse(accepted, a), y = hn::IfThenZeroElse(accepted, b);
-    const F at = hn::IfThenElse(accepted, hn::Set(df, Value{1}), first);
-    const F rise = hn::Mul(three, hn::Add(hn::Max(x, zero), hn::Max(y, zero)));
-    hn::StoreU(x, df, out.x + k), hn::StoreU(y, df, out.y + k), hn::StoreU(at, df, out.first + k);
-    hn::StoreU(rise, df, out.rise + k), hn::StoreU(hn::Add(at, rise), df, out.most + k);
-    hn::StoreU(hn::Mul(three, hn::Add(hn::Abs(x), hn::Abs(y))), df, out.span + k);
+    store_functions(df, hn::IfThenZeroElse(accepted, a), hn::IfThenZeroElse(accepted, b),
+                    hn::IfThenElse(accepted, hn::Set(df, Value{1}), first), out, k);
     if constexpr (kOnEdge == OnEdge::top_left) {
       const hn::RebindToSigned<DF> di;
+      const auto zero = hn::Zero(df);
       const auto top_left = hn::Or(hn::Gt(a, zero), hn::And(hn::Eq(a, zero), hn::Gt(b, zero)));
       hn::StoreU(hn::IfThenZeroElse(hn::RebindMask(di, top_left), hn::Set(di, -1)), di, out.bias + k);
     }

@@ -80,6 +80,17 @@ HWY_INLINE V any_sign(const WideLanes<std::int64_t>::Vector& a, const WideLanes<
       WideLanes<std::int64_t>::each([&](int i) { return hn::Or(hn::Or(a.part[i], b.part[i]), c.part[i]); }));
 }
 
+// Stores linear functions, from f.x[k] on. Steps are in units of the values.
+template <class Tag, typename Value>
+HWY_INLINE void store_functions(Tag d, hn::Vec<Tag> x, hn::Vec<Tag> y, hn::Vec<Tag> first, Linear<Value>& f,
+                                int k) {
+  const auto zero = hn::Zero(d), three = hn::Set(d, Value{kBlockSide - 1});
+  const auto rise = hn::Mul(three, hn::Add(hn::Max(x, zero), hn::Max(y, zero)));
+  hn::StoreU(x, d, f.x + k), hn::StoreU(y, d, f.y + k), hn::StoreU(first, d, f.first + k);
+  hn::StoreU(rise, d, f.rise + k), hn::StoreU(hn::Add(first, rise), d, f.most + k);
+  hn::StoreU(hn::Mul(three, hn::Add(hn::Abs(x), hn::Abs(y))), d, f.span + k);
+}
+
 #if HWY_TARGET != HWY_SCALAR
 // The inputs of a policy's set-up for half a vector of triangles, in its own units or as bits of floats.
 struct HalfPositions {
