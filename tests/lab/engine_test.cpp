@@ -1,8 +1,10 @@
-// Checks that the engine with other numbers is the backend `tiled` but for its edge functions.
+// Checks that the engine with other numbers is the backend `tiled` but for its edge functions or depths.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cstdlib>
+#include <random>
 
 #include "lab/coverage_support.h"
 #include "lab/engine/engine.h"
@@ -84,7 +86,7 @@ TEST(Engine, DrawsTiledsPictureWhereItsNumbersHold) {
 }
 
 TEST(Engine, DrawsTheSamePictureOnEveryTargetAndNumberOfThreads) {
-  for (int numbers = 0; numbers <= static_cast<int>(EngineNumbers::double_top_left); ++numbers)
+  for (int numbers = 0; numbers < static_cast<int>(EngineNumbers::kCount); ++numbers)
     for (const auto family : testing::kFloatFamilies) {
       const auto floats = hard_floats(family, 300, kWindow, 23);
       const auto grid = snapped(floats);
@@ -97,6 +99,55 @@ TEST(Engine, DrawsTheSamePictureOnEveryTargetAndNumberOfThreads) {
           ASSERT_EQ(compare(draw({threads, 64, target}), expected).pixels, 0u)
               << numbers << " " << family << " " << name_of(target) << " " << threads << " threads";
     }
+}
+
+std::vector<std::uint32_t> depths_of(const Framebuffer& frame) {
+  std::vector<std::uint32_t> depths;
+  for (int y = 0; y < frame.height(); ++y)
+    depths.insert(depths.end(), frame.depth_row(y), frame.depth_row(y) + frame.width());
+  return depths;
+}
+
+// The smallest of all depths, with bits dropped, is the smallest of the depths with bits dropped.
+TEST(Engine, KeepsTheUpperBitsOfTheDepths) {
+  for (const auto& [numbers, bits] : {std::pair{EngineNumbers::depth_24, 24}, {EngineNumbers::depth_16, 16}})
+    for (const auto family : testing::kFamilies) {
+      const auto triangles = adversarial(family, 300, kWindow.width, kWindow.height, 31);
+      const auto floats = as_floats(triangles);
+      auto expected = depths_of(engine_picture(EngineNumbers::exact, {floats, triangles}, {}));
+      for (std::uint32_t& z : expected)
+        if (z != contract::kDepthClear) z >>= 31 - bits;
+      for (const int tile_size : {16, 64})
+        EXPECT_EQ(depths_of(engine_picture(numbers, {floats, triangles}, {1, tile_size})), expected)
+            << bits << " bits, " << family << ", tiles of " << tile_size;
+    }
+}
+
+TEST(Engine, EvaluatesDepthsInFloatsCloseToTheContracts) {
+  std::mt19937 random(37);
+  const auto in = [&](std::uint32_t low, std::uint32_t high) {
+    return std::uniform_int_distribution(low, high)(random);
+  };
+  std::vector<ScreenTriangle> triangles;
+  for (std::uint32_t i = 0; i < 200; ++i) {
+    const auto x = static_cast<std::int32_t>(in(0, 150) * contract::kSub),
+               y = static_cast<std::int32_t>(in(0, 80) * contract::kSub), side = 50 * contract::kSub;
+    ScreenTriangle t{{x, x + side, x}, {y, y, y + side}, {}, i};
+    if (i % 2 == 0) std::swap(t.x_sub[1], t.x_sub[2]), std::swap(t.y_sub[1], t.y_sub[2]);
+    for (std::uint32_t& z : t.z) z = contract::kDepthHead + in(0, contract::kDepthRange);
+    triangles.push_back(t);
+  }
+  const auto floats = as_floats(triangles);
+  const auto expected = depths_of(engine_picture(EngineNumbers::exact, {floats, triangles}, {}));
+  for (const SimdTarget target : supported_targets()) {
+    const auto drawn =
+        depths_of(engine_picture(EngineNumbers::depth_float, {floats, triangles}, {1, 64, target}));
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      ASSERT_EQ(drawn[i] == contract::kDepthClear, expected[i] == contract::kDepthClear) << i;
+      if (expected[i] == contract::kDepthClear) continue;
+      ASSERT_NEAR(std::bit_cast<float>(drawn[i]), contract::depth01(expected[i]), 1e-5) << i;
+    }
+  }
 }
 
 // A vertex that snaps across a sample or a tile's border must not lose the triangle's pixels.

@@ -54,7 +54,7 @@ void time_methods(const CoverageScene& scene, const Bench& bench, SceneResult& r
                        : [&method, &input, &canvas, execution] { method.draw(input, canvas, execution); }});
     }
   }
-  const auto speeds = time_in_turns(draws, bench.plan.quick);
+  const auto speeds = time_interleaved(draws, bench.plan.quick);
   for (std::size_t i = 0; i < draws.size(); ++i) result.methods[draws[i].method].speed.push_back(speeds[i]);
 }
 

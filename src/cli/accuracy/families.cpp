@@ -32,7 +32,7 @@ void time_all(const std::vector<const Method*>& methods, const Bench& bench, Sce
   std::vector<TimedDraw> draws;
   for (std::size_t i = 0; i < methods.size(); ++i)
     draws.push_back({i, 1, SimdTarget::scalar, [&draw, method = methods[i]] { draw(*method); }});
-  const auto speeds = time_in_turns(draws, bench.plan.quick);
+  const auto speeds = time_interleaved(draws, bench.plan.quick);
   for (std::size_t i = 0; i < draws.size(); ++i) result.methods[i].speed.push_back(speeds[i]);
 }
 

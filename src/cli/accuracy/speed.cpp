@@ -19,8 +19,8 @@ double warm_ms(const TimedDraw& timed, int times) {
 
 }  // namespace
 
-std::vector<Speed> time_in_turns(const std::vector<TimedDraw>& draws, bool quick) {
-  const int repetitions = quick ? 5 : 9;
+std::vector<Speed> time_interleaved(const std::vector<TimedDraw>& draws, bool quick) {
+  const int repetitions = quick ? 5 : 21;
   const double least_ms = quick ? 2.0 : 5.0;  // per repetition; far above the clock's resolution
   std::vector<std::vector<double>> ms(draws.size());
   std::vector<int> times;

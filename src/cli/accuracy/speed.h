@@ -19,6 +19,6 @@ struct TimedDraw {
 // all methods alike, and round i of two draws is a pair. Timed draws are warm: an untimed draw of the same
 // method precedes each repetition, so that caches and branch predictor don't depend on the other methods. A
 // draw straight after another method's is a few percent slower.
-std::vector<Speed> time_in_turns(const std::vector<TimedDraw>& draws, bool quick);
+std::vector<Speed> time_interleaved(const std::vector<TimedDraw>& draws, bool quick);
 
 }  // namespace edgewise::tools

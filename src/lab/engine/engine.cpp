@@ -16,7 +16,7 @@ namespace edgewise::lab {
 namespace {
 
 EngineKernel engine_kernel(EngineNumbers numbers, SimdTarget target) {
-  for (const auto kernel_in_file : {fixed_engine_kernel, float_engine_kernel, top_left_engine_kernel})
+  for (const auto kernel_in_file : {fixed_engine_kernel, real_engine_kernel})
     if (const EngineKernel kernel = kernel_in_file(numbers, target); kernel.draw_tile != nullptr)
       return kernel;
   throw std::invalid_argument("not numbers of the engine");

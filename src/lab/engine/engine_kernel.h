@@ -1,4 +1,4 @@
-// The tile kernel of the backend `tiled`, with other numbers in its edge functions.
+// The tile kernel of the backend `tiled`, with other numbers in its edge functions or depths.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,12 @@ enum class EngineNumbers {
   fixed_4_int32,
   fixed_8_int32,
   fixed_8_int64,
-  double_top_left
+  double_top_left,
+  // Exact coverage, other depths.
+  depth_float,
+  depth_24,
+  depth_16,
+  kCount
 };
 
 // `triangles` and `floats` are the same triangles, snapped and not.
@@ -40,10 +45,9 @@ struct EngineKernel {
   bool reads_floats = false;
 };
 
-// `target` must be resolved. The kernels are compiled in several files, since each takes long. Without
-// draw_tile: the numbers are in another file.
+// `target` must be resolved. The kernels are compiled in two files, since each takes long. Without
+// draw_tile: the numbers are in the other file.
 EngineKernel fixed_engine_kernel(EngineNumbers numbers, SimdTarget target);
-EngineKernel float_engine_kernel(EngineNumbers numbers, SimdTarget target);
-EngineKernel top_left_engine_kernel(EngineNumbers numbers, SimdTarget target);
+EngineKernel real_engine_kernel(EngineNumbers numbers, SimdTarget target);
 
 }  // namespace edgewise::lab

@@ -4,6 +4,7 @@
 #include <hwy/highway.h>
 
 #include "core/kernel_table.h"
+#include "lab/engine/depth_numbers-inl.h"
 #include "lab/engine/engine_kernel.h"
 #include "lab/engine/engine_tile-inl.h"
 #include "lab/engine/fixed_numbers-inl.h"
@@ -22,6 +23,12 @@ lab::EngineKernel fixed_engine(lab::EngineNumbers numbers) {
       return kernel_of<WrappingNumbers<8>>();
     case lab::EngineNumbers::fixed_8_int64:
       return kernel_of<Int64Numbers>();
+    case lab::EngineNumbers::depth_float:
+      return kernel_of<DepthNumbers<FloatDepth>>();
+    case lab::EngineNumbers::depth_24:
+      return kernel_of<DepthNumbers<DepthOfBits<24>>>();
+    case lab::EngineNumbers::depth_16:
+      return kernel_of<DepthNumbers<DepthOfBits<16>>>();
     default:
       return {};
   }

@@ -26,6 +26,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 template <int kBits>
 struct WrappingNumbers : Int32Lanes {
   using Task = lab::EngineTask;
+  using Depth = ContractDepth;
   using Edge = Linear<std::int32_t>;
   using Rule = ContractNumbers::Rule;
   static constexpr int kDropped = contract::kSubBits - kBits;
@@ -122,6 +123,7 @@ struct WrappingNumbers : Int32Lanes {
 // that they fit 32 bits.
 struct Int64Numbers : WideLanes<std::int64_t> {
   using Task = lab::EngineTask;
+  using Depth = ContractDepth;
   using Edge = Linear<std::int64_t>;
   using Rule = ContractNumbers::Rule;
   static constexpr std::int32_t kMargin = 0;

@@ -33,23 +33,6 @@ enum class OnEdge { accepted, rejected, top_left };
 // Unsnapped ones come from a second record. Re-based ones are unsnapped, and relative to the tile's corner.
 enum class Vertices { unsnapped, rebased, snapped };
 
-struct FloatLanes {
-  using Value = float;
-  using Floats = hn::RebindToFloat<D>;
-  using Vector = hn::Vec<Floats>;
-  using Bits = Int32Lanes;
-  static HWY_INLINE Vector set(Value v) { return hn::Set(Floats{}, v); }
-  static HWY_INLINE Vector load(const Value* at) { return hn::Load(Floats{}, at); }
-  static HWY_INLINE void store(Vector v, Value* at) { hn::Store(v, Floats{}, at); }
-  static HWY_INLINE Vector add(Vector a, Vector b) { return hn::Add(a, b); }
-  static HWY_INLINE Vector subtract(Vector a, Vector b) { return hn::Sub(a, b); }
-  static HWY_INLINE Vector times(V count, Value step) {
-    return hn::Mul(hn::ConvertTo(Floats{}, count), hn::Set(Floats{}, step));
-  }
-  static HWY_INLINE Vector four_times(Vector v) { return hn::Mul(v, hn::Set(Floats{}, 4.0f)); }
-  static HWY_INLINE V bits(Vector v) { return hn::BitCast(D{}, v); }
-};
-
 struct DoubleLanes : WideLanes<double> {
   using Bits = WideLanes<std::int64_t>;
   static HWY_INLINE Vector times(V count, Value step) {
@@ -69,6 +52,7 @@ struct RealNumbers : Lanes {
   using typename Lanes::Vector;
   using Bits = typename Lanes::Bits;
   using Task = lab::EngineTask;
+  using Depth = ContractDepth;
   static constexpr bool kReadsFloats = kVertices != Vertices::snapped;
   // An unsnapped vertex lies within half a sub-unit of the snapped one, on each axis.
   static constexpr std::int32_t kMargin = kReadsFloats ? 1 : 0;

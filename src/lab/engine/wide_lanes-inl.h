@@ -1,5 +1,5 @@
-// Vectors of kLanes 64-bit numbers: two vectors of the target, one for the scalar target. And what the
-// policies of this folder share.
+// Vectors of kLanes floats, or of 64-bit numbers: two vectors of the target, one for the scalar target. And
+// what the policies of this folder share.
 #include <hwy/highway.h>
 
 #include <cstdint>
@@ -79,6 +79,23 @@ HWY_INLINE V any_sign(const WideLanes<std::int64_t>::Vector& a, const WideLanes<
   return sign_words(
       WideLanes<std::int64_t>::each([&](int i) { return hn::Or(hn::Or(a.part[i], b.part[i]), c.part[i]); }));
 }
+
+struct FloatLanes {
+  using Value = float;
+  using Floats = hn::RebindToFloat<D>;
+  using Vector = hn::Vec<Floats>;
+  using Bits = Int32Lanes;
+  static HWY_INLINE Vector set(Value v) { return hn::Set(Floats{}, v); }
+  static HWY_INLINE Vector load(const Value* at) { return hn::Load(Floats{}, at); }
+  static HWY_INLINE void store(Vector v, Value* at) { hn::Store(v, Floats{}, at); }
+  static HWY_INLINE Vector add(Vector a, Vector b) { return hn::Add(a, b); }
+  static HWY_INLINE Vector subtract(Vector a, Vector b) { return hn::Sub(a, b); }
+  static HWY_INLINE Vector times(V count, Value step) {
+    return hn::Mul(hn::ConvertTo(Floats{}, count), hn::Set(Floats{}, step));
+  }
+  static HWY_INLINE Vector four_times(Vector v) { return hn::Mul(v, hn::Set(Floats{}, 4.0f)); }
+  static HWY_INLINE V bits(Vector v) { return hn::BitCast(D{}, v); }
+};
 
 // Stores linear functions, from f.x[k] on. Steps are in units of the values.
 template <class Tag, typename Value>

@@ -5,7 +5,7 @@
 ; f + x a + y b is an edge value or a depth at pixel (x, y) of a box, counted from its first pixel; (last_x, last_y)
 ; is the last.
 
-(define-const kBlockSide Real 4.0)     ; = kBlockSide of src/raster/tiled/tile_numbers-inl.h
+(define-const kBlockSide Real 4.0)     ; = kBlockSide of src/raster/tiled/tile_linear-inl.h
 (define-const kSteep Int 16777216)     ; = kSteep of src/raster/simd/depth_lanes-inl.h
 
 (declare-const f Real) (declare-const a Real) (declare-const b Real)

@@ -1,7 +1,7 @@
 // The numbers of edge functions: a policy on which the tile kernel is a template.
 //
 // The library has one policy, ContractNumbers. The laboratory has others (lab/engine), to measure what the
-// choice costs. Boxes and depth are the same for all.
+// choice costs. A policy names the policy of its depths (tile_depth-inl.h). Boxes are the same for all.
 //
 // The contract's edge values are sums of 32 x 32 -> 64 bit products (triangle_lanes-inl.h).
 #include <hwy/highway.h>
@@ -10,10 +10,10 @@
 #include <cstdint>
 
 #include "edgewise/contract.h"
-#include "raster/simd/depth_lanes-inl.h"
 #include "raster/simd/lanes-inl.h"
 #include "raster/simd/triangle_lanes-inl.h"
 #include "raster/tile_task.h"
+#include "raster/tiled/tile_depth-inl.h"
 
 // Included once per SIMD target.
 #if defined(EDGEWISE_TILE_NUMBERS_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -28,85 +28,6 @@ namespace edgewise {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace contract;
-
-constexpr int kBlockSide = 4;  // px; the kernel draws and rejects in blocks of 4 x 4 px
-
-constexpr std::int32_t wrap(std::uint32_t v) {
-  return static_cast<std::int32_t>(v);
-}
-
-constexpr int kBatch = 32;  // triangles
-
-// Linear functions of the pixel position, one per triangle of a batch.
-template <typename Value>
-struct Linear {
-  Value x[kBatch], y[kBatch];  // steps per pixel
-  Value first[kBatch];         // at the first pixel of block (bx0, by0)
-  Value most[kBatch];          // the largest value in that block: first + rise
-  Value rise[kBatch];          // the largest value in a block less that at its first pixel
-  Value span[kBatch];          // the largest value in a block less the smallest
-};
-
-// A triangle's box in a tile, extended to whole blocks, so that an edge that accepts it accepts every lane
-// that is tested. From the tile's first pixel, px.
-struct BlockBox {
-  int left, top;
-  int last_x, last_y;  // the box's last pixel, from its first
-};
-
-inline void set_linear(Linear<std::int32_t>& f, int k, std::int32_t x, std::int32_t y, std::int32_t first) {
-  const auto up = [](std::int32_t step) { return step > 0 ? static_cast<std::uint32_t>(step) : 0u; };
-  const auto down = [](std::int32_t step) { return step < 0 ? 0u - static_cast<std::uint32_t>(step) : 0u; };
-  const std::uint32_t rise = (kBlockSide - 1) * (up(x) + up(y)),
-                      fall = (kBlockSide - 1) * (down(x) + down(y));
-  f.x[k] = x, f.y[k] = y, f.first[k] = first, f.most[k] = wrap(static_cast<std::uint32_t>(first) + rise);
-  f.rise[k] = wrap(rise), f.span[k] = wrap(rise + fall);
-}
-
-#if HWY_TARGET != HWY_SCALAR
-
-// Half a vector of triangles, one per 64-bit lane. In V32 only the lower half of each 64-bit lane counts.
-struct HalfLinear {
-  V32 x, y, first;
-};
-
-// BlockBox for half a vector of triangles.
-struct BlockBoxLanes {
-  V32 left, top, last_x, last_y;
-};
-HWY_INLINE V both(V32 left, V32 right) {
-  return hn::ConcatEven(D{}, right, left);
-}
-
-HWY_INLINE V32 thrice(V32 v) {
-  static_assert(kBlockSide - 1 == 3);
-  return hn::Add(v, hn::Add(v, v));
-}
-
-HWY_INLINE void store_linear(const HalfLinear& left, const HalfLinear& right, Linear<std::int32_t>& f,
-                             int k) {
-  const D d;
-  const V x = both(left.x, right.x), y = both(left.y, right.y), first = both(left.first, right.first);
-  const V rise = thrice(hn::Add(hn::Max(x, hn::Zero(d)), hn::Max(y, hn::Zero(d))));
-  hn::Store(x, d, f.x + k), hn::Store(y, d, f.y + k), hn::Store(first, d, f.first + k);
-  hn::Store(rise, d, f.rise + k), hn::Store(hn::Add(first, rise), d, f.most + k);
-  hn::Store(thrice(hn::Add(hn::Abs(x), hn::Abs(y))), d, f.span + k);
-}
-
-#endif
-
-// Vectors of kLanes values of a linear function, in wrapping int32.
-struct Int32Lanes {
-  using Value = std::int32_t;
-  using Vector = V;
-  static HWY_INLINE V set(Value v) { return hn::Set(D{}, v); }
-  static HWY_INLINE V load(const Value* at) { return hn::Load(D{}, at); }
-  static HWY_INLINE void store(V v, Value* at) { hn::Store(v, D{}, at); }
-  static HWY_INLINE V add(V a, V b) { return hn::Add(a, b); }
-  static HWY_INLINE V subtract(V a, V b) { return hn::Sub(a, b); }
-  static HWY_INLINE V times(V count, Value step) { return hn::Mul(count, hn::Set(D{}, step)); }
-  static HWY_INLINE V four_times(V v) { return hn::ShiftLeft<2>(v); }
-};
 
 // Edge i of a triangle at a box: a and b of rule 4, the biased value at the box's first sample, and whether
 // the edge rejects or accepts the box.
@@ -162,6 +83,7 @@ struct EdgeInBoxLanes {
 // >= 0. A policy for other numbers has the same members.
 struct ContractNumbers : Int32Lanes {
   using Task = TileTask;
+  using Depth = ContractDepth;
   using Edge = Linear<std::int32_t>;
   static constexpr std::int32_t kMargin = 0;  // sub-units; the box of snapped positions is widened by it
   struct Rule {};                             // of the samples on edges; here it is part of the edge values

@@ -57,7 +57,8 @@ class TilePainter {
         small_.draw();
         // Thin triangles fill no block, so they occlude none.
         occludes_ = occludes_ || (task_.ablation.hierarchical_depth && may_fill_blocks(batch_, k));
-        if (occludes_ && tile_.hiz.occludes(batch_.nearest.least[k])) [[unlikely]]  // in most scenes
+        if (occludes_ && tile_.hiz.occludes(Numbers::Depth::stored(batch_.nearest.least[k])))
+            [[unlikely]]  // in most scenes
           continue;
         occludes_ ? find_candidates<true>(k, width, *next) : find_candidates<false>(k, width, *next);
         draw_waiting();

@@ -1,7 +1,6 @@
 // Sets triangles up for one tile, a vector of triangles at a time.
 //
-// A policy sets up the edges (tile_numbers-inl.h). The scalar functions of contract.h recompute lanes whose
-// depth gradient is too large for doubles (depth_lanes-inl.h).
+// A policy sets up the edges (tile_numbers-inl.h), and its own policy the depths (tile_depth-inl.h).
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -11,7 +10,6 @@
 
 #include "edgewise/contract.h"
 #include "raster/binning/cell_boxes.h"
-#include "raster/simd/depth_lanes-inl.h"
 #include "raster/simd/lanes-inl.h"
 #include "raster/simd/triangle_lanes-inl.h"
 #include "raster/tile_task.h"
@@ -31,17 +29,12 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace contract;
 
-// A batch of triangles, set up for one tile. Depth is stepped in wrapping int32.
+// A batch of triangles, set up for one tile.
 template <class Numbers>
 struct alignas(64) Batch {
   typename Numbers::Edge edge[3];
-  Linear<std::int32_t> depth;
-  // For HiZ: no pixel that the triangle covers in a block is nearer than this linear function of the block's
-  // first pixel.
-  struct Bound {
-    std::int32_t x[kBatch], y[kBatch], first[kBatch];
-    std::int32_t least[kBatch];  // over all blocks of the box
-  } nearest;
+  Linear<typename Numbers::Depth::Value> depth;
+  NearestDepth<typename Numbers::Depth::Value> nearest;
   std::int32_t payload[kBatch];
   std::int32_t twice_area_px[kBatch];
   std::int32_t bx0[kBatch], by0[kBatch], bx1[kBatch], by1[kBatch];  // the box in blocks, inclusive
@@ -64,22 +57,7 @@ bool set_up_one(const typename Numbers::Task& task, std::uint32_t index, Batch<N
   const int left = bx0 * kBlockSide, top = by0 * kBlockSide;
   const BlockBox blocks{left, top, (bx1 - bx0 + 1) * kBlockSide - 1, (by1 - by0 + 1) * kBlockSide - 1};
   if (!Numbers::set_up_one(task, index, t, blocks, out.edge, k)) return false;
-  const DepthPlane plane = make_depth(t);
-  const std::int32_t zx = wrap(plane.zx), zy = wrap(plane.zy),
-                     z = wrap(plane.at(task.x0 + left, task.y0 + top));
-  set_linear(out.depth, k, zx, zy, z);
-  const bool flat = std::max(std::abs(std::int64_t{zx}), std::abs(std::int64_t{zy})) < kSteep;
-  const std::int64_t nearest = std::min({t.z[0], t.z[1], t.z[2]}) - kDepthError;
-  out.nearest.x[k] = flat ? zx : 0;
-  out.nearest.y[k] = flat ? zy : 0;
-  const auto bits = [](std::int32_t v) { return static_cast<std::uint32_t>(v); };
-  out.nearest.first[k] = flat ? wrap(bits(z) + bits(out.depth.rise[k]) - bits(out.depth.span[k]))
-                              : static_cast<std::int32_t>(nearest);
-  const auto falls = [&](std::int32_t step, int count) {
-    return bits(std::min(step, 0)) * static_cast<std::uint32_t>(kBlockSide * count);
-  };
-  out.nearest.least[k] = wrap(bits(out.nearest.first[k]) + falls(out.nearest.x[k], bx1 - bx0) +
-                              falls(out.nearest.y[k], by1 - by0));
+  Numbers::Depth::set_up_one(task, t, left, top, bx1 - bx0, by1 - by0, out, k);
   out.payload[k] = wrap(triangle.payload);
   out.twice_area_px[k] = static_cast<std::int32_t>(t.area >> 2 * kSubBits);
   out.bx0[k] = bx0, out.by0[k] = by0, out.bx1[k] = bx1, out.by1[k] = by1;
@@ -91,27 +69,10 @@ bool set_up_one(const typename Numbers::Task& task, std::uint32_t index, Batch<N
 template <class Numbers>
 struct HalfBatch {
   typename Numbers::HalfEdges edges;
-  HalfLinear depth, nearest;
+  typename Numbers::Depth::Half depth;
   V32 payload, twice_area_px, bx0, by0, bx1, by1;
-  std::uint32_t alive, exact;  // one bit per triangle: not rejected; gradients exact in doubles
+  std::uint32_t alive, exact;  // one bit per triangle: not rejected; depth is valid
 };
-template <class Numbers>
-HWY_INLINE void set_up_depth(const TileTask& task, const TriangleLanes& t, const Area& area, V32 left,
-                             V32 top, HalfBatch<Numbers>& out) {
-  const int in_cell_x = task.x0 % kDepthCell, in_cell_y = task.y0 % kDepthCell;
-  const DepthLanes depth = depth_lanes(t, area, task.x0 - in_cell_x, task.y0 - in_cell_y);
-  const V32 zx = depth.x, zy = depth.y;
-  const V32 first = lower(hn::Add(as64(depth.base()), hn::Add(product(zx, hn::Add(left, set32(in_cell_x))),
-                                                              product(zy, hn::Add(top, set32(in_cell_y))))));
-  out.depth = {zx, zy, first};
-
-  const auto flat = depth.is_flat();
-  const V32 least =
-      hn::Add(first, thrice(hn::Add(hn::Min(zx, hn::Zero(D32{})), hn::Min(zy, hn::Zero(D32{})))));
-  out.nearest = {hn::IfThenElseZero(flat, zx), hn::IfThenElseZero(flat, zy),
-                 hn::IfThenElse(flat, least, nearest_vertex(t))};
-  out.exact = mask_bits(depth.exact);
-}
 
 // set_up_one() for half a vector of triangles. Lanes whose bit in `exact` is 0 have no valid depth.
 template <class Numbers>
@@ -141,7 +102,7 @@ HWY_INLINE void set_up_half(const typename Numbers::Task& task, const std::uint3
   const BlockBoxLanes blocks{left, top, last(bx0, bx1), last(by0, by1)};
   dead = hn::Or(dead, Numbers::set_up_half(task, indices, t, area, blocks, out.edges));
 
-  set_up_depth(task, t, area, left, top, out);
+  out.exact = Numbers::Depth::set_up_half(task, t, area, left, top, out.depth);
   out.payload = payload, out.twice_area_px = lower(shift_right<2 * kSubBits>(area.value));
   out.bx0 = bx0, out.by0 = by0, out.bx1 = bx1, out.by1 = by1;
   out.alive = mask_bits(hn::Not(hn::Lt(dead, zero)));
@@ -161,23 +122,16 @@ HWY_INLINE std::uint32_t set_up_vector(const typename Numbers::Task& task, const
     right = left, right.alive = 0;
 
   const std::uint32_t kept = Numbers::store_edges(task, left.edges, right.edges, out.edge, k);
-  store_linear(left.depth, right.depth, out.depth, k);
   const auto store_both = [&](V32 l, V32 r, std::int32_t* list) {
     const V v = both(l, r);
     hn::Store(v, D{}, list + k);
     return v;
   };
-  const V x = store_both(left.nearest.x, right.nearest.x, out.nearest.x);
-  const V y = store_both(left.nearest.y, right.nearest.y, out.nearest.y);
-  const V first = store_both(left.nearest.first, right.nearest.first, out.nearest.first);
   store_both(left.payload, right.payload, out.payload);
   store_both(left.twice_area_px, right.twice_area_px, out.twice_area_px);
   const V bx0 = store_both(left.bx0, right.bx0, out.bx0), bx1 = store_both(left.bx1, right.bx1, out.bx1);
   const V by0 = store_both(left.by0, right.by0, out.by0), by1 = store_both(left.by1, right.by1, out.by1);
-  const auto falls = [](V step, V blocks) { return hn::Mul(hn::Min(step, hn::Zero(D{})), blocks); };
-  const V fall = hn::Add(falls(x, hn::Sub(bx1, bx0)), falls(y, hn::Sub(by1, by0)));
-  static_assert(kBlockSide == 1 << 2);
-  hn::Store(hn::Add(first, hn::ShiftLeft<2>(fall)), D{}, out.nearest.least + k);
+  Numbers::Depth::store_planes(left.depth, right.depth, hn::Sub(bx1, bx0), hn::Sub(by1, by0), out, k);
 
   const std::uint32_t alive = (left.alive | right.alive << kInHalf) & kept;
   const std::uint32_t exact = left.exact | right.exact << kInHalf;

@@ -36,6 +36,8 @@ alignas(64) constexpr auto kSquareEntries = [] {
 // for a branch predictor, but a loop over a list is not.
 template <class Numbers>
 class SmallTriangles {
+  using Depth = typename Numbers::Depth;
+
  public:
   static constexpr int kSide = 4;  // blocks
   explicit SmallTriangles(Tile& tile) : tile_(tile) {}
@@ -49,7 +51,7 @@ class SmallTriangles {
       return over_block<Numbers>(batch.edge[i].x + k, batch.edge[i].y + k);
     };
     const Values16<Numbers> edge_in[3] = {in_block(0), in_block(1), in_block(2)};
-    const auto depth_in = over_block<Int32Lanes>(batch.depth.x + k, batch.depth.y + k);
+    const auto depth_in = over_block<Depth>(batch.depth.x + k, batch.depth.y + k);
     const V entry = hn::Set(d, (batch.by0[k] * kMaxBlocks + batch.bx0[k]) << 16 | slot);
     for (int p = 0; p < kVectors; ++p) {
       const int lane = p * kLanes;
@@ -66,7 +68,7 @@ class SmallTriangles {
       };
       const typename Numbers::Vector most_values[3] = {most_of(0), most_of(1), most_of(2)};
       const V most = Numbers::negative(most_values[0], most_values[1], most_values[2]);
-      store_values(Int32Lanes{}, depth_in.v[p], batch.depth.first[k], depth_);
+      store_values(Depth{}, depth_in.v[p], batch.depth.first[k], depth_);
       const auto beside =
           hn::Or(hn::Gt(hn::Load(d, kLaneX + lane), bx), hn::Gt(hn::Load(d, kLaneY + lane), by));
       const auto candidate = hn::Not(hn::Or(beside, hn::Lt(most, hn::Zero(d))));
@@ -90,7 +92,7 @@ class SmallTriangles {
         const auto edge = [&](int i) { return value(Numbers{}, edge_[i]); };
         write_whole(tile_, block * kBlockPixels + p * kLanes,
                     inside(Numbers::outside(edge(0), edge(1), edge(2), rule_[slot])),
-                    value(Int32Lanes{}, depth_), hn::Set(d, payload_[slot]));
+                    Depth::stored(value(Depth{}, depth_)), hn::Set(d, payload_[slot]));
       }
     }
     used_ = list_.length = 0;
@@ -105,7 +107,7 @@ class SmallTriangles {
     Value at_block[kSlots * kBlocksAtOnce], in_block[kSlots * kBlockPixels];
   };
   SlotValues<typename Numbers::Value> edge_[3];
-  SlotValues<std::int32_t> depth_;
+  SlotValues<typename Depth::Value> depth_;
   typename Numbers::Rule rule_[kSlots];
   std::int32_t payload_[kSlots];
   // the block in the tile << 16 | slot * 16 + the block's index in the square

@@ -1,5 +1,5 @@
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "lab/engine/float_engine.cpp"
+#define HWY_TARGET_INCLUDE "lab/engine/real_engine.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -12,7 +12,7 @@ HWY_BEFORE_NAMESPACE();
 namespace edgewise {
 namespace HWY_NAMESPACE {
 
-lab::EngineKernel float_engine(lab::EngineNumbers numbers) {
+lab::EngineKernel real_engine(lab::EngineNumbers numbers) {
   switch (numbers) {
     case lab::EngineNumbers::float_lt:
       return kernel_of<RealNumbers<FloatLanes, OnEdge::rejected, Vertices::unsnapped>>();
@@ -20,6 +20,12 @@ lab::EngineKernel float_engine(lab::EngineNumbers numbers) {
       return kernel_of<RealNumbers<FloatLanes, OnEdge::accepted, Vertices::unsnapped>>();
     case lab::EngineNumbers::float_snapped:
       return kernel_of<RealNumbers<FloatLanes, OnEdge::top_left, Vertices::snapped>>();
+    case lab::EngineNumbers::float_top_left:
+      return kernel_of<RealNumbers<FloatLanes, OnEdge::top_left, Vertices::unsnapped>>();
+    case lab::EngineNumbers::float_rebased:
+      return kernel_of<RealNumbers<FloatLanes, OnEdge::top_left, Vertices::rebased>>();
+    case lab::EngineNumbers::double_top_left:
+      return kernel_of<RealNumbers<DoubleLanes, OnEdge::top_left, Vertices::unsnapped>>();
     default:
       return {};
   }
@@ -32,8 +38,8 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace edgewise {
 
-lab::EngineKernel lab::float_engine_kernel(EngineNumbers numbers, SimdTarget target) {
-  return EDGEWISE_KERNEL(float_engine, target)(numbers);
+lab::EngineKernel lab::real_engine_kernel(EngineNumbers numbers, SimdTarget target) {
+  return EDGEWISE_KERNEL(real_engine, target)(numbers);
 }
 
 }  // namespace edgewise
