@@ -56,10 +56,10 @@ int diff(const DiffOptions& o) {
   if (!o.output.empty()) write_image(o.output, d.picture);
   const auto pixels = std::uint64_t(d.picture.width) * std::uint64_t(d.picture.height);
   if (o.json) {
-    nlohmann::json json{
+    nlohmann::json result{
         {"pixels", pixels}, {"differing", d.count}, {"largest", d.largest}, {"first", nullptr}};
-    if (d.count > 0) json["first"] = {d.first_x, d.first_y};
-    print(json_text(json) + "\n");
+    if (d.count > 0) result["first"] = {d.first_x, d.first_y};
+    print(json_text(result) + "\n");
   } else if (d.count == 0) {
     print(fmt::format("equal: {} pixels\n", pixels));
   } else {

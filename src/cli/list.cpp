@@ -32,16 +32,16 @@ std::string_view summary_of(Cull cull) {
 }
 
 nlohmann::json as_json() {
-  nlohmann::json json;
+  nlohmann::json lists;
   for (const SceneInfo& scene : builtin_scenes())
-    json["scenes"].push_back({{"name", scene.name}, {"summary", scene.summary}, {"stream", scene.stream}});
+    lists["scenes"].push_back({{"name", scene.name}, {"summary", scene.summary}, {"stream", scene.stream}});
   for (const BackendInfo& backend : backends())
-    json["backends"].push_back({{"name", backend.name}, {"summary", backend.summary}});
-  for (const SimdTarget target : supported_targets()) json["simd_targets"].push_back(name_of(target));
-  json["simd_best"] = name_of(resolve(SimdTarget::best));
+    lists["backends"].push_back({{"name", backend.name}, {"summary", backend.summary}});
+  for (const SimdTarget target : supported_targets()) lists["simd_targets"].push_back(name_of(target));
+  lists["simd_best"] = name_of(resolve(SimdTarget::best));
   for (const Cull cull : cull_modes())
-    json["cull_modes"].push_back({{"name", name_of(cull)}, {"summary", summary_of(cull)}});
-  return json;
+    lists["cull_modes"].push_back({{"name", name_of(cull)}, {"summary", summary_of(cull)}});
+  return lists;
 }
 
 std::string as_text() {
@@ -71,11 +71,11 @@ std::string as_text() {
 void add_list(CLI::App& program, Action& action) {
   CLI::App& command =
       *program.add_subcommand("list", "List all scenes, backends, SIMD targets and culling modes");
-  const auto json = std::make_shared<bool>(false);
-  command.add_flag("--json", *json, "Print JSON");
-  command.callback([json, &action] {
-    action = [json] {
-      print(*json ? json_text(as_json(), 2) + "\n" : as_text());
+  const auto in_json = std::make_shared<bool>(false);
+  command.add_flag("--json", *in_json, "Print JSON");
+  command.callback([in_json, &action] {
+    action = [in_json] {
+      print(*in_json ? json_text(as_json(), 2) + "\n" : as_text());
       return kDone;
     };
   });

@@ -16,7 +16,7 @@ namespace edgewise::viewer {
 
 namespace {
 
-constexpr std::uint32_t kFrame = rgb(255, 255, 255), kFocus = rgb(255, 255, 0);
+constexpr std::uint32_t kOutline = rgb(255, 255, 255), kFocus = rgb(255, 255, 0);
 constexpr std::array kAxisColours{rgb(235, 70, 60), rgb(80, 200, 80), rgb(90, 130, 255)};
 constexpr std::array<const char*, 3> kAxisLetters{"x", "y", "z"};
 
@@ -109,8 +109,8 @@ void magnify(Image& image, Pixel focus) {
       for (int x = 0; x < large.width; ++x)
         if (x % zoom == 0 || y % zoom == 0) *pixel(large, x, y) = darkened(*pixel(large, x, y));
   outline(large, reach * zoom, reach * zoom, zoom + 1, kFocus);
-  outline(large, 0, 0, large.width, kFrame);
-  outline(image, focus.x - reach - 1, focus.y - reach - 1, across + 2, kFrame);
+  outline(large, 0, 0, large.width, kOutline);
+  outline(image, focus.x - reach - 1, focus.y - reach - 1, across + 2, kOutline);
   paste(large, image.width - large.width, image.height - large.height, image);
 }
 
