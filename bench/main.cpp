@@ -277,7 +277,7 @@ int run(int argc, char** argv) {
   leave_out_missing_peers(rows, flags.need_peers);
   if (rows.empty()) return 2;
   if (flags.model_out.empty()) leave_out_estimates(rows);
-  Stage stage;
+  Stage stage(!flags.model_out.empty());
   compare_all(rows, stage, flags.suite.scenes.empty());
   if (flags.suite.scenes.empty()) leave_out_slow_frames(rows);
   add_context(flags);

@@ -12,9 +12,12 @@ namespace edgewise::bench {
 
 class Stage {
  public:
+  // `estimates`: whether rows get the cost model's estimates, which take longer than a draw.
+  explicit Stage(bool estimates = true) : estimates_(estimates) {}
+
   // Draws the row and compares every bit with the reference. Sets once_s, `error` if a bit differs, the cost
-  // model's estimate if the row has wants_cost, and the recorded tasks if it has `cores`. Requires a
-  // prepared workload.
+  // model's estimate if the row has wants_cost and this stage estimates, and the recorded tasks if it has
+  // `cores`. Requires a prepared workload.
   void compare(Row& row);
 
   // Performs the row's timed work once.
@@ -34,6 +37,7 @@ class Stage {
   Frontend frontend_;
   PeerStage peers_;
   CostModel cost_model_;
+  bool estimates_;
 };
 
 }  // namespace edgewise::bench
