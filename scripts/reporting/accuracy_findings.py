@@ -2,7 +2,7 @@
 from accuracy_rows import FAMILIES
 from speedups import about, kernels
 from stability_curves import tidy
-from tables import number
+from tables import number, short
 
 
 def listed(names):
@@ -17,15 +17,23 @@ def scenes_with_errors(accuracy, family):
 
 
 def rates_together(accuracy, family):
-    """Errors per 10⁶ of each method, all scenes taken together."""
+    """Errors per 10⁶ of each method, its pooled scenes together."""
     rates = {}
     for method in accuracy.methods.get(family, ()):
-        found = [(m.rate * scene.trials, scene.trials) for scene in accuracy.of(family)
-                 for m in scene.measured if m.method == method]
+        found = [(m.rate * scene.trials, scene.trials) for scene in accuracy.pooled(family)
+                 for m in scene.measured if m.method == method and scene.in_range_of(method)]
         trials = sum(n for _, n in found)
         if trials:
             rates[method.name] = sum(errors for errors, _ in found) / trials
     return rates
+
+
+def pooled_clause(accuracy, family):
+    """"13 scenes pooled, 14M edge crossings, 23 % of them in `grid4`"."""
+    scenes = accuracy.pooled(family)
+    trials, largest = sum(scene.trials for scene in scenes), max(scenes, key=lambda scene: scene.trials)
+    share = f", {largest.trials / trials:.0%} of them in `{largest.name}`".replace("%", " %") if len(scenes) > 1 else ""
+    return f"{numbered(len(scenes), 'scene')} pooled, {short(trials)} {FAMILIES[family].counted}{share}"
 
 
 def exact_sentence(accuracy):
@@ -45,14 +53,13 @@ def numbered(count, noun):
 
 
 def before_snapping_clause(accuracy, name):
-    """Says that a method errs less than ours against positions before snapping, all scenes pooled; empty otherwise."""
+    """Says that a method errs less than ours against positions before snapping; empty otherwise."""
     rates = rates_together(accuracy, "coverage")
     ours = [rates[m.name] for m in accuracy.methods.get("coverage", ()) if m.ours and m.name in rates]
     if not ours or name not in rates or rates[name] >= min(ours):
         return ""
     return (f"Against the positions before snapping, `{name}` errs less than ours: {number(rates[name])} wrong pixels per 10⁶ "
-            f"edge crossings against {number(min(ours))}, all {len(accuracy.of('coverage'))} scenes pooled. Ours round "
-            "vertices to 1/256 px.")
+            f"edge crossings against {number(min(ours))} ({pooled_clause(accuracy, 'coverage')}). Ours round vertices to 1/256 px.")
 
 
 def fastest(measured):
@@ -121,7 +128,7 @@ def family_sentence(accuracy, family):
     total = len(accuracy.of(family.name))
     truth = {"float": ", against the positions before snapping", "snapped": ", given the snapped positions"}
     least, most = (said(pick(rates.values()), how) for pick, how in ((min, "least"), (max, "most")))
-    return (f"{family.name.capitalize()} ({family.errors}, {total} scenes pooled{truth.get(family.truths[0], '')}): "
+    return (f"{family.name.capitalize()} ({family.errors}; {pooled_clause(accuracy, family.name)}{truth.get(family.truths[0], '')}): "
             f"{least}; {most}.")
 
 

@@ -17,6 +17,7 @@ class Family:
     truths: tuple = ("score",)  # keys of the scores: the main truth first
     kinds: dict = field(default_factory=dict)  # kind of method: prefixes of its methods' names
     beyond: str = ""  # why a rate can exceed 10⁶ per 10⁶
+    counted: str = "covered pixels"  # the trials
 
     def beyond_note(self, rates):
         return f". {self.beyond}" if any(rate > 1e6 for rate in rates) else ""
@@ -32,20 +33,22 @@ FAMILIES = {family.name: family for family in (
            ("float", "snapped"),
            {"floating point": ("float", "double"), "fixed point": ("fixed", "whole"), "scanline DDA": ("dda",),
             "tiled, other numbers": ("engine",), "peers": ("llvmpipe", "softpipe")},
-           "More than 10⁶: one crossing can cost many pixels, most where a triangle fills its bounding box"),
+           "More than 10⁶: one crossing can cost many pixels, most where a triangle fills its bounding box", "edge crossings"),
     Family("visibility", "pixels that show the wrong triangle, per 10⁶ covered", "covered", "ns per covered pixel",
            ("snapped",),  # all methods draw the same snapped triangles, so the other truth adds the same to each
            {"drawing in order": ("painter", "submission"),
             "depth buffer": ("float", "reversed", "unorm")}),
     Family("facing", "misjudged faces per 10⁶ visible ones", "covered", "ns per face",
            ("float", "snapped"),
-           {"signed area": ("float_area",), "normal": ("normal",)}),
+           {"signed area": ("float_area",), "normal": ("normal",)}, counted="visible faces"),
     Family("clipping", "wrong pixels per 10⁶ covered", "covered", "ns per covered pixel",
            beyond="More than 10⁶: pixels drawn where nothing should be count as well"),
 )}
 
 
 SCALAR = "scalar"  # the name of the form without SIMD
+LEAST_SHARE = 0.01  # of the trials of a family's largest scene
+UNLIMITED_PX = 4096  # the largest triangles for which any method promises anything
 
 
 @dataclass(frozen=True)
@@ -55,7 +58,13 @@ class Method:
     promise: str
     exact: bool
     max_side_px: float | None = None  # coverage: triangles with larger boxes overflow
+    simd_note: str = ""  # coverage: why there is no SIMD form
     engine: bool = False  # our SIMD engine with one kind of numbers
+
+    @property
+    def limit_px(self):
+        """Beyond triangles of this size the method's integers overflow; None if every triangle on a screen is in range."""
+        return self.max_side_px if self.max_side_px and self.max_side_px < UNLIMITED_PX else None
 
     @property
     def peer(self):
@@ -126,6 +135,10 @@ class Scene:
     shared_crossings: int = 0  # of edges that triangles share with sample rows or columns; coverage only
     largest_side_px: float = 0.0  # of the triangles' boxes; coverage only
 
+    def in_range_of(self, method):
+        """Beyond its range a method's integers overflow, which is another fault than the one that is counted."""
+        return method.limit_px is None or self.largest_side_px <= method.limit_px
+
     @property
     def timed(self):
         return any(m.costs for m in self.measured)
@@ -147,6 +160,11 @@ class Accuracy:
 
     def of(self, family):
         return [scene for scene in self.scenes if scene.family == family]
+
+    def pooled(self, family):
+        """The scenes that count in rates of the whole family: in smaller ones a single trial decides."""
+        scenes = self.of(family)
+        return [scene for scene in scenes if scene.trials >= LEAST_SHARE * max(s.trials for s in scenes)]
 
     def main_charts(self, family):
         """The first timed chart; of coverage two, since the vertices of the first scene already lie on the snapping grid."""
@@ -220,7 +238,7 @@ def parse_cube(data, methods):
 
 def parse_accuracy(data):
     methods = {(m["family"], m["name"]): Method(m["name"], m["source"], m["promise"], bool(m["exact"]), m.get("max_side_px"),
-                                                   bool(m.get("engine")))
+                                                   m.get("simd_note", ""), bool(m.get("engine")))
                for m in data["methods"]}
     scenes = []
     for scene in data["scenes"]:

@@ -22,7 +22,7 @@ def bold(method):
 
 def method_table(accuracy, family):
     scene = next((scene for _, scene in accuracy.main_charts(family)), None)
-    header = ["method", "as in", "promise", f"on {scene.name}" if scene else "–", "on all scenes together",
+    header = ["method", "as in", "promise", f"on {scene.name}" if scene else "–", "pooled",
               "scenes with errors"]
     at_main = {m.method.name: m for m in scene.measured} if scene else {}
     together = rates_together(accuracy, family)

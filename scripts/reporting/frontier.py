@@ -6,7 +6,6 @@ from noise import geometric_mean, ratios
 from tables import number, short
 
 LEAST_CROSSINGS = 10_000  # of shared edges; in smaller scenes a single crossing decides the rate
-UNLIMITED_PX = 4096  # the largest triangles for which any method promises anything
 T_JUNCTIONS = ("t_junction", "t_junction_split")  # cracks of the mesh, not of the method
 
 
@@ -26,17 +25,11 @@ class SpeedUp(NamedTuple):
     high: float
 
 
-def within_range(scene, method):
-    """Beyond its range a method's integers overflow. That is another fault than a crack."""
-    limited = method.max_side_px is not None and method.max_side_px < UNLIMITED_PX
-    return not limited or scene.largest_side_px <= method.max_side_px
-
-
 def cracks_of(accuracy, method):
     """None if no scene shows it."""
     found = [(m.cracks, scene) for scene in accuracy.of("coverage") for m in (*scene.measured, *scene.apart)
              if m.method == method and scene.name not in T_JUNCTIONS and scene.shared_crossings >= LEAST_CROSSINGS
-             and within_range(scene, method)]
+             and scene.in_range_of(method)]
     if not found:
         return None
     crossings = sum(scene.shared_crossings for _, scene in found)
@@ -114,10 +107,17 @@ def frontier_table(accuracy):
         return [], []
 
     def said(up):
-        return f"{up.middle:.2g}× ({up.low:.2g} to {up.high:.2g})" if up else "–"
+        return f"{up.middle:.2g}× ({up.low:.2g} to {up.high:.2g})"
+
+    def title(method):
+        return f"`{method.name}`" + (f", to {method.limit_px:.0f} px" if method.limit_px else "")
+
+    def form(method, forms, name):
+        return said(forms[name]) if name in forms else method.simd_note * (name == "simd") or "–"
 
     header = ["method", "cracks per 10⁶ crossings", "worst scene", "crossings", f"scalar, `{base.name}` = 1×", "SIMD"]
-    lines = [[f"`{method.name}`", number(cracks.rate, 2), f"{number(cracks.worst, 2)} (`{cracks.worst_scene}`)" if cracks.worst else "–",
-              short(cracks.crossings), said(forms.get("scalar")), said(forms.get("simd"))]
+    lines = [[title(method), number(cracks.rate, 2),
+              f"{number(cracks.worst, 2)} (`{cracks.worst_scene}`)" if cracks.worst else "–",
+              short(cracks.crossings), form(method, forms, "scalar"), form(method, forms, "simd")]
              for method, (forms, cracks) in sorted(found.items(), key=lambda item: -best(item[1][0]).middle)]
     return header, lines

@@ -8,12 +8,11 @@ from tables import number, short
 # Exact coverage of vertices rounded to so many bits: all that differs from the unsnapped truth is displaced.
 METHODS = {0: "whole_pixel", 4: "fixed_4", 8: "fixed_8", 12: "fixed_12", 16: "fixed_16"}
 OURS = 8
-LEAST_TRIALS = 100_000  # in smaller scenes a single crossing decides
 
 
 def displacement(accuracy):
     """({bits: wrong pixels per 10⁶ edge crossings}, number of scenes, number of crossings)."""
-    scenes = [scene for scene in accuracy.of("coverage") if scene.trials >= LEAST_TRIALS]
+    scenes = accuracy.pooled("coverage")
     trials = sum(scene.trials for scene in scenes)
     rates = {}
     for bits, name in METHODS.items():

@@ -4,7 +4,7 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts/reporting"))
-from accuracy_findings import ours_fail_sentence, speed_sentence  # noqa: E402
+from accuracy_findings import ours_fail_sentence, pooled_clause, rates_together, speed_sentence  # noqa: E402
 from accuracy_rows import Accuracy, Cost, Curve, Measured, Method, Scene, Sweep, parse_measured  # noqa: E402
 from bench_rows import Bench, parse_name  # noqa: E402
 from findings import crack_finding, exactness_finding, findings, peer_finding, speed_finding  # noqa: E402
@@ -95,10 +95,24 @@ class FindingsTest(unittest.TestCase):
 
     def test_that_a_float_test_errs_less_before_snapping_is_said_only_if_so(self):
         right = accuracy(measured("tiled", True, 873, 3.0), measured("float_lt", False, 216, 2.0))
-        self.assertIn("`float_lt` errs less than ours: 216 wrong pixels per 10⁶ edge crossings against 873, all 1 scenes pooled.",
+        self.assertIn("`float_lt` errs less than ours: 216 wrong pixels per 10⁶ edge crossings against 873 (1 scene pooled, ",
                       exactness_finding(right))
         wrong = accuracy(measured("tiled", True, 216, 3.0), measured("float_lt", False, 873, 2.0))
         self.assertNotIn("errs less", exactness_finding(wrong))
+
+    def test_rates_are_pooled_over_large_scenes_within_a_methods_range(self):
+        limited = Method("y", "a book", "", False, 181)
+
+        def scene_of(name, trials, side_px, *rates):
+            methods = (Method("x", "a book", "", False), limited)
+            return Scene(name, "coverage", "", trials, tuple(Measured(method, rate, None, rate, {}) for method, rate in
+                                                             zip(methods, rates)), largest_side_px=side_px)
+
+        scenes = (scene_of("large", 30000, 500.0, 10.0, 9e6), scene_of("medium", 10000, 100.0, 50.0, 4.0),
+                  scene_of("tiny", 100, 1.0, 1e6, 1e6))
+        told = Accuracy({}, False, {"coverage": [m.method for m in scenes[0].measured]}, scenes, None)
+        self.assertEqual(rates_together(told, "coverage"), {"x": 20.0, "y": 4.0})
+        self.assertEqual(pooled_clause(told, "coverage"), "2 scenes pooled, 40k edge crossings, 75 % of them in `large`")
 
     def test_simd_and_scalar_code_are_told_apart_and_noise_is_named(self):
         slower = accuracy(measured("tiled", True, 0, 2.1, 0.3), measured("float_lt", False, 9, 2.0, 0.3))

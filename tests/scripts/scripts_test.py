@@ -372,8 +372,8 @@ class ScriptsTest(unittest.TestCase):
         self.assertIn("`ours` (2 ns per covered pixel, 0 wrong per 10⁶) is our fastest", text)
         self.assertIn("`float_le` (1.5 ns per covered pixel, 5,000 wrong per 10⁶) is the fastest other method. "
                       "`ours` with AVX2 is 1.3× slower than `float_le` in scalar code.", text)
-        self.assertIn("2 scenes pooled, given the snapped positions): `ours` errs least, 0 (in 0 of 2); `float_le` errs most, 5,000 (in 2 "
-                      "of 2).", text)
+        self.assertIn("2 scenes pooled, 2k covered pixels, 50 % of them in `knot`, given the snapped positions): `ours` errs least, "
+                      "0 (in 0 of 2); `float_le` errs most, 5,000 (in 2 of 2).", text)
         self.assertIn("| method | nearer, px |\n|---|--:|\n| **ours** | 0 |\n| float_le | **0.1**: 7 |", text)
         self.assertEqual(run("readme", "--check", "--file", readme).returncode, 0)
         self.assertIn("ours cover no wrong pixel in 2 scenes", run("summary", self.results).stdout)
