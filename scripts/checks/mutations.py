@@ -19,10 +19,15 @@ class Mutation:
     name: str
     change: str  # in words
     file: str
-    tests: str  # a filter of GoogleTest's: the tests to run first
+    tests: str  # a filter of GoogleTest's: the tests to run first; of a script: the file in tests/scripts, without .py
     before: str
     after: str
     sanitizer: str = ""  # the build whose tests must catch it; "": the usual one
+
+    @property
+    def in_script(self):
+        """Whether it changes Python, which needs no build."""
+        return self.file.endswith(".py")
 
 
 def read_mutations(path):
@@ -78,8 +83,8 @@ def copy_tree(root, tree):
 
 
 def failed_tests(output):
-    """Of GoogleTest's output: the tests that failed, or the one that ran when the program died."""
-    failed = list(dict.fromkeys(re.findall(r"^\[  FAILED  \] (\S+?)(?:,| \()", output, re.MULTILINE)))
+    """Of GoogleTest's or unittest's output: the tests that failed, or GoogleTest's test that ran when the program died."""
+    failed = list(dict.fromkeys(re.findall(r"^(?:\[  FAILED  \]|FAIL:|ERROR:) (\S+?)(?:,| \()", output, re.MULTILINE)))
     if failed:
         return failed
     started = re.findall(r"^\[ RUN      \] (\S+)", output, re.MULTILINE)

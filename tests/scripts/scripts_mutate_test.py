@@ -34,7 +34,7 @@ class MutateTest(unittest.TestCase):
         files = {m.file for m in read_mutations(ROOT / "tests/mutations.toml")}
         for part in ("contract.h", "naive.cpp", "tile_", "scanline_", "bins", "assemble.cpp", "one_by_one.cpp", "clip.cpp",
                      "shade.cpp", "oracle.cpp", "mask_coverage", "mask_quadrants", "mask_lists", "tile_masks",
-                     "record_lanes", "chunks.h", "pieces.cpp"):
+                     "record_lanes", "chunks.h", "pieces.cpp", "noise.py"):
             self.assertTrue(any(part in file for file in files), part)
 
     def test_a_mutant_is_applied_once(self):
@@ -91,6 +91,17 @@ class MutateTest(unittest.TestCase):
         self.assertEqual(failed_tests("[  FAILED  ] A.Three (3 ms)\n"), ["A.Three"])
         self.assertEqual(failed_tests("[ RUN      ] A.One\n[       OK ] A.One (0 ms)\n[ RUN      ] A.Four\n"), ["A.Four"])
         self.assertEqual(failed_tests(""), [])
+
+    def test_failed_tests_are_read_from_what_unittest_says(self):
+        said = ("..F.E\n======\nFAIL: test_one (__main__.NoiseTest.test_one)\n------\nAssertionError\n"
+                "======\nERROR: test_two (__main__.NoiseTest.test_two)\n------\nFAILED (failures=1, errors=1)\n")
+        self.assertEqual(failed_tests(said), ["test_one", "test_two"])
+
+    def test_a_mutant_of_a_script_needs_no_build(self):
+        mutation, = self.read(ENTRY.format("less"))
+        self.assertFalse(mutation.in_script)
+        mutation, = self.read(ENTRY.format("less").replace("a.cpp", "a.py"))
+        self.assertTrue(mutation.in_script)
 
 
 if __name__ == "__main__":
