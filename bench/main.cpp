@@ -35,8 +35,8 @@ struct Effort {
   // The minimum for all but ablation rows. The rank-sum test of scripts/reporting/noise.py needs five on both
   // sides. Slow ablation rows may have fewer: their steps are far above the noise.
   int repetitions;
-  int ablation_repetitions;  // replaces `repetitions` for ablation rows and those of kAblationBackend: their
-                             // differences are often below the noise
+  int ablation_repetitions;  // replaces `repetitions` for ablation rows and close ones: their differences are
+                             // often below the noise
   double repetition_s;       // minimum duration of a repetition
   double slow_repetition_s;  // rows with longer iterations have fewer of the ablation's repetitions
 };
@@ -131,7 +131,7 @@ void compare_all(std::vector<Row>& rows, Stage& stage, bool whole_suite) {
     progress.show(static_cast<double>(i) / static_cast<double>(rows.size()), "comparing " + rows[i].name);
     Workload& workload = *rows[i].workload;
     const auto needs_scene = [&](const Row& row) {
-      return row.workload.get() == &workload && row.timed != Timed::raster;
+      return row.workload.get() == &workload && (row.timed != Timed::raster || row.numbers);
     };
     workload.prepare(std::any_of(rows.begin(), rows.end(), needs_scene));
     if (rows[i].cores > 0 && is_slow_and_not_fastest(rows[i], rows))
@@ -177,7 +177,8 @@ void time_row(benchmark::State& state, const Row& row, Stage& stage) {
   counters["triangles"] =
       static_cast<double>(row.timed == Timed::raster ? workload.triangles().size() : workload.submitted());
   if (row.peak_bytes > 0.0) counters["peak_bytes"] = row.peak_bytes;
-  if (workload.wrong_px()) counters["wrong_px"] = static_cast<double>(*workload.wrong_px());
+  if (const auto wrong_px = row.wrong_px ? row.wrong_px : workload.wrong_px())
+    counters["wrong_px"] = static_cast<double>(*wrong_px);
   if (row.timed == Timed::frontend) return;
   const auto covered_px = static_cast<double>(workload.covered_px());
   counters["covered_px"] = covered_px;
@@ -214,7 +215,7 @@ void register_rows(const std::vector<Row>& rows, Stage& stage, const Flags& flag
     if (flags.own_iterations || known)
       registered->Iterations(known ? 1
                                    : std::max<std::int64_t>(1, std::llround(effort.repetition_s / once_s)));
-    const int most = row.step || row.wants_cost ? effort.ablation_repetitions : effort.repetitions;
+    const int most = row.step || row.close ? effort.ablation_repetitions : effort.repetitions;
     const int repetitions =
         known ? 1 : std::clamp(static_cast<int>(most * effort.slow_repetition_s / once_s), least, most);
     if (flags.own_repetitions || known) registered->Repetitions(repetitions);

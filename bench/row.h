@@ -9,6 +9,7 @@
 #include "bench/models/scaling.h"
 #include "bench/peers/peer.h"
 #include "bench/workloads/workload.h"
+#include "lab/engine/engine_kernel.h"
 #include "raster/ablation.h"
 
 namespace edgewise::bench {
@@ -31,16 +32,19 @@ struct Row {
   const PeerInfo* peer = nullptr;
   Execution execution;
   Ablation ablation{};
+  std::optional<lab::EngineNumbers> numbers;  // if set, the laboratory's engine draws, in place of `backend`
   double repeat_below_s = kTooSlowToRepeat_s;
   int cores = 0;          // if set, the row is estimated for this many cores, not timed
   FrameWork recorded;     // the tasks of that estimate
   double peak_bytes = 0;  // of a first frame; 0: not measured
   bool wants_cost = false;
-  bool step = false;              // one step of the ablation
-  double once_s = 0.0;            // duration of the compared draw
-  std::optional<FrameCost> cost;  // if wants_cost
-  std::uint64_t depth_ties = 0;   // peers: depth ties within tolerance, px
-  std::string error;              // why the row must not be timed
+  bool step = false;                      // one step of the ablation
+  bool close = false;                     // differs little from other rows, so it is timed more often
+  double once_s = 0.0;                    // duration of the compared draw
+  std::optional<FrameCost> cost;          // if wants_cost
+  std::uint64_t depth_ties = 0;           // peers: depth ties within tolerance, px
+  std::optional<std::uint64_t> wrong_px;  // if the row may draw another picture: pixels of another colour
+  std::string error;                      // why the row must not be timed
 };
 
 }  // namespace edgewise::bench

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "bench/workloads/ablation.h"
+#include "bench/workloads/engine_runs.h"
 #include "bench/workloads/growth.h"
 #include "lab/choice.h"
 #include "scene/cells.h"
@@ -76,7 +77,7 @@ class Suite {
     for (const auto& backend : backends())
       for (const int threads : kThreads) {
         add(workload, Timed::raster, backend, name, threads);
-        rows_.back().wants_cost = backend.name == kAblationBackend;
+        rows_.back().wants_cost = rows_.back().close = backend.name == kAblationBackend;
         add(workload, Timed::frame, backend, name, threads);
       }
     if (options_.scenes.empty()) add_scheduled(workload, name);
@@ -99,6 +100,17 @@ class Suite {
           step.target);
       rows_.back().ablation = step.ablation;
       rows_.back().step = true;
+    }
+  }
+
+  void add_engine_runs(const WorkloadPtr& workload, const std::string& scene) {
+    if (!in_engine_runs(scene)) return;
+    for (const EngineRun& run : engine_runs()) {
+      add(workload, Timed::raster, find_backend(kAblationBackend),
+          fmt::format("{}/engine:{}", scene, run.name), 1);
+      rows_.back().ablation = run.ablation;
+      rows_.back().numbers = run.numbers;
+      rows_.back().close = true;
     }
   }
 
@@ -256,6 +268,7 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
     const auto workload = suite.scene_workload(name, options.width, options.height);
     suite.add_scene(workload, name, scene.stream);
     suite.add_ablation(workload, name);
+    suite.add_engine_runs(workload, name);
   }
   for (const auto& scene : options.more_scenes) add_named(scene);
   suite.add_area_sweep();

@@ -6,9 +6,21 @@
 #include <chrono>
 #include <cstring>
 
+#include "lab/engine/engine.h"
 #include "lab/measure.h"
 
 namespace edgewise::bench {
+
+namespace {
+
+std::uint64_t pixels_of_another_colour(const Framebuffer& a, const Framebuffer& b) {
+  std::uint64_t pixels = 0;
+  for (int y = 0; y < a.height(); ++y)
+    for (int x = 0; x < a.width(); ++x) pixels += a.payload_row(y)[x] != b.payload_row(y)[x];
+  return pixels;
+}
+
+}  // namespace
 
 Backend& Stage::backend(const Row& row) {
   auto& made = backends_[row.backend];
@@ -26,7 +38,10 @@ void Stage::work(const Row& row) {
   Workload& workload = *row.workload;
   auto triangles = workload.triangles();
   if (row.timed != Timed::raster) triangles = workload.run(frontend_, row.execution.threads);
-  if (row.timed != Timed::frontend)
+  if (row.numbers)
+    lab::draw_engine(*row.numbers, {workload.unsnapped(), triangles}, {workload.width(), workload.height()},
+                     frame(row).view(), kBackground, row.execution, bins_);
+  else if (row.timed != Timed::frontend)
     draw(backend(row), triangles, frame(row).view(), kBackground, {row.execution, row.ablation});
 }
 
@@ -58,6 +73,8 @@ void Stage::compare_ours(Row& row) {
         std::memcmp(actual.data(), expected.data(), expected.size_bytes()) != 0)
       row.error = fmt::format("emits other triangles than on 1 thread ({} instead of {})", actual.size(),
                               expected.size());
+  } else if (row.numbers.value_or(lab::EngineNumbers::exact) != lab::EngineNumbers::exact) {
+    row.wrong_px = pixels_of_another_colour(row.workload->reference(), frame(row));
   } else {
     const auto difference = lab::compare(row.workload->reference(), frame(row));
     if (difference.pixels != 0)

@@ -7,6 +7,7 @@
 
 #include "bench/peers/stage.h"
 #include "bench/row.h"
+#include "raster/binning/bins.h"
 
 namespace edgewise::bench {
 
@@ -35,6 +36,7 @@ class Stage {
   // faults would count in a row's time.
   std::map<std::pair<int, int>, Framebuffer> frames_;
   Frontend frontend_;
+  Bins bins_;  // of the engine
   PeerStage peers_;
   CostModel cost_model_;
   bool estimates_;

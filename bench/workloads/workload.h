@@ -13,6 +13,7 @@
 #include "edgewise/backend.h"
 #include "edgewise/frontend.h"
 #include "lab/hidden_faces.h"
+#include "lab/method.h"
 #include "support/source.h"
 
 namespace edgewise::bench {
@@ -37,6 +38,9 @@ class Workload {
 
   // Counted by the first call.
   const BlockCounts& blocks();
+
+  // triangles() before they were snapped. Made by the first call, which requires prepare(true).
+  std::span<const lab::FloatTriangle> unsnapped();
 
   // With `facing`: the pixels of its reference that differ from the exact picture (culled by `mesh_cull`).
   std::optional<std::uint64_t> wrong_px() const { return wrong_px_; }
@@ -64,6 +68,7 @@ class Workload {
   std::optional<lab::HiddenFaces> hidden_;
   bool stream_ = false, prepared_ = false;
   std::vector<ScreenTriangle> triangles_;
+  std::vector<lab::FloatTriangle> unsnapped_;
   std::uint64_t submitted_ = 0, covered_px_ = 0;
   std::optional<std::uint64_t> wrong_px_;
   std::optional<BlockCounts> blocks_;

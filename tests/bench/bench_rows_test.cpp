@@ -116,6 +116,30 @@ TEST(BenchSuite, AlsoTimesOursAtThePeersVectorWidth) {
     }
 }
 
+// Float edges skip the samples on shared edges, 16 bits merge depths; the rest must draw every bit.
+TEST(BenchSuite, TimesTheEngineWithOtherNumbers) {
+  SuiteOptions options;
+  options.quick = true;
+  options.width = 480, options.height = 270;
+  std::map<std::string, Row> rows;
+  for (Row& row : make_suite(options)) rows.emplace(row.name, std::move(row));
+  Stage stage;
+  const auto wrong_px = [&](const std::string& scene, const std::string& run) {
+    Row& row = rows.at("tiled/" + scene + "/engine:" + run + "/threads:1");
+    row.workload->prepare(true);
+    stage.compare(row);
+    EXPECT_EQ(row.error, "") << row.name;
+    return row.wrong_px;
+  };
+  for (const std::string scene : {"large", "medium", "small", "grid64"}) {
+    for (const std::string run : {"no-masks", "exact"}) EXPECT_FALSE(wrong_px(scene, run).has_value());
+    for (const std::string run : {"float_top_left", "depth_float", "depth_24"})
+      EXPECT_LT(wrong_px(scene, run).value(), 480u * 270 / 100) << scene << ' ' << run;
+  }
+  EXPECT_GT(wrong_px("small", "float_lt").value(), 0u);
+  EXPECT_GT(wrong_px("small", "depth_16").value(), 0u);
+}
+
 TEST(BenchSuite, TimesThreeCullingModes) {
   SuiteOptions options;
   options.quick = true;

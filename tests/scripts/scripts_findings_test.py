@@ -7,6 +7,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts/reporting"
 from accuracy_findings import ours_fail_sentence, pooled_clause, rates_together, speed_sentence  # noqa: E402
 from accuracy_rows import Accuracy, Cost, Curve, Measured, Method, Scene, Sweep, parse_measured  # noqa: E402
 from bench_rows import Bench, parse_name  # noqa: E402
+from engine import engine_note, engine_table  # noqa: E402
 from findings import crack_finding, exactness_finding, findings, peer_finding, speed_finding  # noqa: E402
 from frontier import cracks_of, simd_outcome, speed_ups  # noqa: E402
 from peers import peer_tables  # noqa: E402
@@ -48,6 +49,23 @@ def turning(*counts):
 
 
 class FindingsTest(unittest.TestCase):
+    def test_the_engine_is_compared_with_its_exact_numbers(self):
+        self.assertEqual((engine_table(bench({})), engine_note(bench({}))), ((["numbers"], []), ""))
+        timed = bench({"tiled/large/threads:1": 9.0, "tiled/large/engine:no-masks/threads:1": 9.8, "tiled/large/engine:exact/threads:1": 10.0,
+                       "tiled/large/engine:float_lt/threads:1": 8.0, "tiled/large/engine:depth_24/threads:1": 10.01,
+                       "tiled/small/engine:float_lt/threads:1": 1.0})  # without the base: left out
+        timed.rows["tiled/large/engine:float_lt/threads:1"].counters["wrong_px"] = 1234.0
+        header, lines = engine_table(timed)
+        self.assertEqual(header, ["numbers", "`large`"])
+        self.assertEqual(lines, [["exact, the base", "10.0 ms"],
+                                 ["`tiled` with coverage masks", "**1.11** (1.09 to 1.13)"],
+                                 ["`tiled` without coverage masks", "**1.02** (1.01 to 1.04)"],
+                                 ["float edges, `<`", "**1.25** (1.23 to 1.27); 1,230 px"],
+                                 ["exact coverage, depths of 24 bits", "1.00 (0.98 to 1.01)"]])
+        self.assertIn("differ by at most 2.0% from those of `tiled` without coverage masks, settled on `large`.", engine_note(timed))
+        timed.rows["tiled/large/engine:no-masks/threads:1"].times_ms = timed.rows["tiled/large/engine:exact/threads:1"].times_ms
+        self.assertIn("settled on none of the scenes", engine_note(timed))
+
     def test_charts_show_the_simd_form_where_there_is_one(self):
         def timed(simd, threads, ms):
             return {**({"simd": simd, "rounds_ms": [1.5 * ms, ms, 0.5 * ms]} if simd else {}), "threads": threads,
