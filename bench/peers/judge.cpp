@@ -6,6 +6,7 @@
 
 #include "bench/peers/scene.h"
 #include "edgewise/contract.h"
+#include "lab/portable/conformance.h"
 
 namespace edgewise::bench {
 
@@ -48,16 +49,13 @@ class Judge {
 }  // namespace
 
 double float_plane_error(const ScreenTriangle& t, int width, int height) {
-  constexpr double kRounding = 0x1p-24,
-                   kRoundings = 8.0;  // successive roundings in the computation of a pixel's depth
   const Oriented o = orient(t);
   const auto [low, high] = std::minmax({o.z[0], o.z[1], o.z[2]});
-  const auto length = [](const std::int32_t(&v)[3]) {
-    return static_cast<double>(std::abs(v[1] - v[0]) + std::abs(v[2] - v[0]));
+  const auto length_px = [](const std::int32_t(&v)[3]) {
+    return static_cast<double>(std::abs(v[1] - v[0]) + std::abs(v[2] - v[0])) / kSub;
   };
-  const double span = static_cast<double>(high - low);
-  const double steps = (length(o.y) * width + length(o.x) * height) * kSub / static_cast<double>(o.area);
-  return kRoundings * kRounding * (static_cast<double>(high) + span * steps);
+  return lab::float_plane_error(static_cast<double>(high), static_cast<double>(high - low), length_px(o.x),
+                                length_px(o.y), static_cast<double>(o.area) / (kSub * kSub), width, height);
 }
 
 PeerJudgement judge(const Framebuffer& ours, std::span<const std::uint32_t> theirs,

@@ -4,6 +4,7 @@ from pathlib import Path
 from accuracy_rows import read_accuracy, read_stability
 from bench_rows import BadInput, describe_machine, main_guard, read_bench, read_json
 from options import Parser
+from portable import read_portable
 
 
 def main():
@@ -34,6 +35,7 @@ def main():
     import plot_area
     import plot_displacement
     import plot_frontier
+    import plot_portable
     charts = (*plot_area.CHARTS, *plot_scenes.CHARTS, *plot_ablation.CHARTS)
     drawn = [name for chart in charts if (name := chart(bench, folder, caption))]
     drawn += [name for name in (plot_growth.growth(bench, machine, folder, caption),
@@ -44,6 +46,8 @@ def main():
         drawn.append(main_chart)
     if strip := plot_displacement.strip(accuracy, folder, caption):
         drawn.append(strip)
+    if shares := plot_portable.portable(read_portable(options.results), folder, caption):
+        drawn.append(shares)
     if grid := plot_stability_grid.grid(sweeps, accuracy, folder, caption):
         drawn.append(grid)
     if not drawn:

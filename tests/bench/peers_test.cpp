@@ -10,6 +10,7 @@
 #include "bench/peers/scene.h"
 #include "bench/peers/stage.h"
 #include "edgewise/contract.h"
+#include "lab/portable/portable.h"
 #include "support.h"
 
 namespace edgewise::bench {
@@ -241,9 +242,13 @@ std::shared_ptr<Workload> hard_workload(const std::string& family) {
   return workload;
 }
 
+std::shared_ptr<Workload> named_workload(const std::string& name) {
+  const bool family = std::ranges::find(testing::kFamilies, name) != std::end(testing::kFamilies);
+  return family ? hard_workload(name) : workload_of(name);
+}
+
 TEST_P(BuiltPeer, DrawsOurPictures) {
-  const bool family = std::ranges::find(testing::kFamilies, GetParam()) != std::end(testing::kFamilies);
-  const auto workload = family ? hard_workload(GetParam()) : workload_of(GetParam());
+  const auto workload = named_workload(GetParam());
   const bool stream = std::holds_alternative<TriangleStream>(workload->drawable());
   for (const PeerInfo& peer : benchmark_peers()) {
     try {
@@ -259,6 +264,67 @@ TEST_P(BuiltPeer, DrawsOurPictures) {
     }
   }
   if (benchmark_peers().empty()) GTEST_SKIP() << "no peer was built";
+}
+
+std::vector<lab::PortableTriangle> portable_triangles_of(const Workload& workload) {
+  if (std::holds_alternative<Scene>(workload.drawable()))
+    return lab::portable_triangles(workload.drawable(), workload.frontend_options(1));
+  std::vector<lab::PortableTriangle> result;  // peers get streams as snapped positions
+  for (const ScreenTriangle& t : triangles_by_id(workload, false)) {
+    lab::PortableTriangle made{{}, t.payload, true, false};
+    for (int i = 0; i < 3; ++i) {
+      made.at.x_px[i] = static_cast<float>(t.x_sub[i]) / kSub;
+      made.at.y_px[i] = static_cast<float>(t.y_sub[i]) / kSub;
+      made.at.z01[i] =
+          static_cast<float>((double{1} * t.z[i] - contract::kDepthHead) / contract::kDepthRange);
+    }
+    result.push_back(made);
+  }
+  return result;
+}
+
+// The pixels in which the peer's triangle is not ours, although every conformant rasterizer with so many
+// subpixel bits should show the same one.
+std::uint64_t wrong_portable_px(const Workload& workload, const PeerInfo& peer, int subpixel_bits) {
+  const bool mesh = std::holds_alternative<Scene>(workload.drawable());
+  Framebuffer ours(workload.width(), workload.height());
+  backends().front().make()->draw(triangles_by_id(workload, mesh), ours.view(), kNoTriangle, {});
+  const auto mask = lab::portable_pixels(
+      portable_triangles_of(workload), ours.width(), ours.height(),
+      {.subpixel_bits = subpixel_bits, .depth = lab::find_depth_format("d32_sfloat")}, 2);
+  const auto frame = peer.load(peer_scene(workload, mesh, PeerPayload::id), 1);
+  frame->draw();
+  const auto theirs = frame->read();
+  std::uint64_t wrong = 0;
+  for (std::size_t i = 0; i < theirs.size(); ++i) {
+    const int x = static_cast<int>(i) % ours.width(), y = static_cast<int>(i) / ours.width();
+    wrong += theirs[i] != ours.payload_row(y)[x] && mask.reasons[i] == lab::Unstable::no;
+  }
+  return wrong;
+}
+
+// llvmpipe has 8 subpixel bits. softpipe claims 4, and computes edges in floats.
+TEST_P(BuiltPeer, DiffersFromUsOnlyInPixelsThatAreNotPortable) {
+  const auto workload = named_workload(GetParam());
+  for (const PeerInfo& peer : peers()) {
+    try {
+      EXPECT_EQ(wrong_portable_px(*workload, peer, peer.subpixel_bits), 0u) << peer.name;
+    } catch (const std::runtime_error& error) {
+      GTEST_SKIP() << error.what();
+    }
+  }
+  if (peers().empty()) GTEST_SKIP() << "no peer was built";
+}
+
+// Otherwise the test above would pass for any mask.
+TEST(AllPeers, ShowAMaskThatIsTooSmall) {
+  const auto softpipe = std::ranges::find(peers(), "softpipe", &PeerInfo::name);
+  if (softpipe == peers().end()) GTEST_SKIP() << "no peer was built";
+  try {
+    EXPECT_GT(wrong_portable_px(*workload_of("torus-knot"), *softpipe, 12), 0u);
+  } catch (const std::runtime_error& error) {
+    GTEST_SKIP() << error.what();
+  }
 }
 
 // The other peers may differ in a few pixels. All are loaded at once, to show that their contexts are apart.

@@ -39,7 +39,7 @@ std::vector<std::string> names_of(const Registry& registry) {
 
 TEST(Program, HelpOnEveryCommandFits100Columns) {
   for (const char* command : {"", "list", "render", "verify", "soak", "accuracy", "stability", "diff",
-                              "capture", "view", "demo", "machine"}) {
+                              "portable", "capture", "view", "demo", "machine"}) {
     const Outcome outcome = edgewise_with(std::string(command) + " --help");
     EXPECT_EQ(outcome.status, 0) << command;
     EXPECT_NE(outcome.out.find("edgewise"), std::string::npos) << command;
@@ -264,6 +264,41 @@ TEST_F(ProgramRenders, FilesThatDiffCompares) {
   EXPECT_EQ(json.at("pixels"), 64 * 64);
   EXPECT_GT(json.at("differing"), 0);
   EXPECT_EQ(read_image(path("d.png")).width, 64);
+}
+
+TEST_F(ProgramRenders, PicturesThatDiffComparesOutsideTheMask) {
+  const std::string golden = path("golden.png"), mask = path("mask.png");
+  const Outcome found =
+      edgewise_with("portable cube --size 64x64 --bits 1 --ids --json -o " + mask + " --picture " + golden);
+  ASSERT_EQ(found.status, 0) << found.err;
+  const auto portable = nlohmann::json::parse(found.out);
+  EXPECT_EQ(portable.at("pixels"), 64 * 64);
+  EXPECT_GT(portable.at("unstable"), 0);
+  EXPECT_EQ(portable.at("reasons").at("edge"), portable.at("unstable"));
+
+  ASSERT_EQ(edgewise_with("render cube --size 64x64 --payload id -o " + path("ids.png")).status, 0);
+  EXPECT_EQ(edgewise_with("diff " + golden + " " + path("ids.png")).status, 0);
+  // A change of one pixel in the mask, and of one outside.
+  Image ids = read_image(path("ids.png"));
+  const Image marked = read_image(mask);
+  const auto masked = [](std::uint32_t pixel) { return (pixel & 0xFFFFFF) != 0; };
+  const auto inside = std::ranges::find_if(marked.pixels, masked) - marked.pixels.begin();
+  const auto outside = std::ranges::find_if_not(marked.pixels, masked) - marked.pixels.begin();
+  ids.pixels[static_cast<std::size_t>(inside)] ^= 1;
+  write_image(path("ids.png"), ids);
+  const std::string compared = "diff " + golden + " " + path("ids.png");
+  EXPECT_EQ(edgewise_with(compared).status, 1);
+  EXPECT_EQ(edgewise_with(compared + " --mask " + mask).status, 0);
+  const auto in_mask = nlohmann::json::parse(edgewise_with(compared + " --json --mask " + mask).out);
+  EXPECT_EQ(in_mask.at("masked"), portable.at("unstable"));
+  EXPECT_EQ(in_mask.at("differing_in_mask"), 1);
+  ids.pixels[static_cast<std::size_t>(outside)] ^= 1;
+  write_image(path("ids.png"), ids);
+  const Outcome both = edgewise_with(compared + " --mask " + mask);
+  EXPECT_EQ(both.status, 1);
+  EXPECT_NE(both.out.find("1 of "), std::string::npos) << both.out;
+  EXPECT_NE(both.out.find(" pixels outside the mask differ, by up to 1 of 255"), std::string::npos)
+      << both.out;
 }
 
 TEST_F(ProgramRenders, ScenesThatVerifyReportsAsJson) {

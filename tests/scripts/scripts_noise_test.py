@@ -1,6 +1,8 @@
 """noise.py: how often it takes noise for a difference, and whether it finds known ones."""
+import json
 import random
 import sys
+import tempfile
 import unittest
 from itertools import combinations, product
 from pathlib import Path
@@ -9,7 +11,8 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts/reporting"))
 import noise  # noqa: E402
 from accuracy_rows import Cost  # noqa: E402
-from bench_rows import read_bench  # noqa: E402
+from bench_rows import BadInput, read_bench  # noqa: E402
+from noise_check import noise_check  # noqa: E402
 
 
 def noisy(generator):
@@ -141,6 +144,32 @@ class IntervalTest(unittest.TestCase):
         self.assertGreater(high, 2.0)
         self.assertGreater(low, 1.6)
         self.assertEqual(noise.ratios([1.0, 2.0], [3.0, 1.0]), [3.0, 0.5])
+
+
+class NoiseCheckTest(unittest.TestCase):
+    def check(self, data):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "same.json"
+            path.write_text(json.dumps(data))
+            return noise_check(path)
+
+    def test_false_alarms_and_found_slowdowns_are_counted(self):
+        even, steady = [1.0, 1.01] * 8, [1.0, 1.001] * 8
+
+        def row(before, after):
+            return {"before_ms": before, "after_ms": after}
+
+        rows = [row(even, even[::-1]), row(steady, steady[::-1]), row(steady, [1.1 * ms for ms in steady])]
+        said = self.check({"before": "a", "after": "a", "filter": "x", "rounds": 16, "rows": rows})
+        self.assertIn("`scripts/compare HEAD HEAD --filter 'x'`, 16 rounds: 1 false alarms in 3 rows, and 2 in 6 tests of 8 rounds", said)
+        self.assertIn("With 2% added to the times of one side, 3 of 3 rows are found slower.", said)
+
+    def test_other_files_are_refused(self):
+        self.assertEqual(noise_check(Path("/none/same.json")), "")
+        with self.assertRaisesRegex(BadInput, "two different revisions"):
+            self.check({"before": "a", "after": "b", "rows": []})
+        with self.assertRaisesRegex(BadInput, "compare --json"):
+            self.check({"before": "a", "after": "a"})
 
 
 if __name__ == "__main__":

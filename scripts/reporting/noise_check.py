@@ -1,0 +1,35 @@
+"""What the one rule for noise says of one program compared with itself: same.json, written by `scripts/compare REV REV --json`."""
+from bench_rows import BadInput, read_json
+from noise import fewest_rounds, paired_order
+
+PLANTED = 1.02
+
+
+def count(pairs):
+    """(pairs that differ, pairs)"""
+    found = [paired_order(before, after) for before, after in pairs]
+    return sum(map(bool, found)), len(found)
+
+
+def in_blocks(pairs, rounds):
+    return [(before[i:i + rounds], after[i:i + rounds]) for before, after in pairs for i in range(0, len(before) - rounds + 1, rounds)]
+
+
+def noise_check(path):
+    """False alarms, and how often a planted slowdown is found; empty if not measured."""
+    if not path.exists():
+        return ""
+    data = read_json(path)
+    try:
+        if data["before"] != data["after"]:
+            raise BadInput(f"{path}: two different revisions")
+        pairs = [(row["before_ms"], row["after_ms"]) for row in data["rows"]]
+        filtered, rounds = data["filter"], data["rounds"]
+    except (KeyError, TypeError) as error:
+        raise BadInput(f"{path}: not what 'scripts/compare --json' writes: {type(error).__name__} {error}") from None
+    alarms, rows = count(pairs)
+    in_few, few = count(in_blocks(pairs, fewest_rounds()))
+    found = sum(paired_order(before, [PLANTED * ms for ms in after]) > 0 for before, after in pairs)
+    return (f"`scripts/compare HEAD HEAD --filter '{filtered}'`, {rounds} rounds: {alarms} false alarms in {rows} rows, and {in_few} in "
+            f"{few} tests of {fewest_rounds()} rounds each. With {PLANTED - 1:.0%} added to the times of one side, {found} of {rows} "
+            "rows are found slower.")

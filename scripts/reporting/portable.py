@@ -1,0 +1,47 @@
+"""The pixels that conformant rasterizers may draw differently: portable.json, what `edgewise portable --json` prints."""
+from bench_rows import BadInput, read_json
+from tables import number
+
+BITS = range(4, 9)
+OURS = 8
+REASONS = ("edge", "tie", "clip", "depth")
+
+
+def read_portable(folder):
+    """{subpixel bits: {scene: entry}}; empty if not measured."""
+    path = folder / "portable.json"
+    found = {}
+    if path.exists():
+        try:
+            for entry in read_json(path):
+                found.setdefault(int(entry["subpixel_bits"]), {})[entry["scene"]] = entry
+        except (KeyError, TypeError, ValueError) as error:
+            raise BadInput(f"{path}: not what 'edgewise portable' prints: {type(error).__name__} {error}") from None
+    return found
+
+
+def share(entry):
+    """Percent of the picture's pixels."""
+    return 100 * entry["unstable"] / entry["pixels"]
+
+
+def percent(value):
+    return f"{number(value, 2)} %"
+
+
+def sentence(found):
+    def extremes(bits):
+        ordered = sorted(found[bits], key=lambda scene: share(found[bits][scene]))
+        return [f"{percent(share(found[bits][scene]))} (`{scene}`)" for scene in (ordered[0], ordered[-1])]
+
+    (least, most), (_, coarse) = extremes(OURS), extremes(min(found))
+    return (f"Rasterizers with at least {OURS} subpixel bits may differ in {least} to {most} of the pixels of a built-in scene; with "
+            f"at least {min(found)} bits, which Vulkan allows, in up to {coarse}.")
+
+
+def portable_table(found):
+    """Header and lines, a line per scene."""
+    header = ["scene", f"may differ at {OURS} bits", *(f"{reason}, px" for reason in REASONS), f"at {min(found)} bits"]
+    lines = [[scene, percent(share(entry)), *(f"{entry['reasons'][reason]:,}" for reason in REASONS),
+              percent(share(found[min(found)][scene]))] for scene, entry in found[OURS].items()]
+    return header, lines
