@@ -19,7 +19,7 @@ class Mutation:
     name: str
     change: str  # in words
     file: str
-    tests: str  # a filter of GoogleTest's: the tests to run first; of a script: the file in tests/scripts, without .py
+    tests: str  # GoogleTest filter of the tests to run first; for a script, a file name in tests/scripts without .py
     before: str
     after: str
     sanitizer: str = ""  # the build whose tests must catch it; "": the usual one

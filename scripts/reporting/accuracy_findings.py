@@ -2,7 +2,7 @@
 from accuracy_rows import FAMILIES
 from speedups import about, kernels
 from stability_curves import tidy
-from tables import number, short
+from tables import number, percent, short
 
 
 def listed(names):
@@ -32,7 +32,7 @@ def pooled_clause(accuracy, family):
     """"13 scenes pooled, 14M edge crossings, 23 % of them in `grid4`"."""
     scenes = accuracy.pooled(family)
     trials, largest = sum(scene.trials for scene in scenes), max(scenes, key=lambda scene: scene.trials)
-    share = f", {largest.trials / trials:.0%} of them in `{largest.name}`".replace("%", " %") if len(scenes) > 1 else ""
+    share = f", {percent(largest.trials / trials)} of them in `{largest.name}`" if len(scenes) > 1 else ""
     return f"{numbered(len(scenes), 'scene')} pooled, {short(trials)} {FAMILIES[family].counted}{share}"
 
 

@@ -110,14 +110,14 @@ def frontier_table(accuracy):
         return f"{up.middle:.2g}× ({up.low:.2g} to {up.high:.2g})"
 
     def title(method):
-        return f"`{method.name}`" + (f", to {method.limit_px:.0f} px" if method.limit_px else "")
+        return f"`{method.name}`" + (f", up to {method.limit_px:.0f} px" if method.limit_px else "")
 
-    def form(method, forms, name):
-        return said(forms[name]) if name in forms else method.simd_note * (name == "simd") or "–"
+    def form(forms, name, otherwise):
+        return said(forms[name]) if name in forms else otherwise
 
     header = ["method", "cracks per 10⁶ crossings", "worst scene", "crossings", f"scalar, `{base.name}` = 1×", "SIMD"]
     lines = [[title(method), number(cracks.rate, 2),
               f"{number(cracks.worst, 2)} (`{cracks.worst_scene}`)" if cracks.worst else "–",
-              short(cracks.crossings), form(method, forms, "scalar"), form(method, forms, "simd")]
+              short(cracks.crossings), form(forms, "scalar", "–"), form(forms, "simd", "–" if method.peer else method.simd_note or "–")]
              for method, (forms, cracks) in sorted(found.items(), key=lambda item: -best(item[1][0]).middle)]
     return header, lines

@@ -1,6 +1,8 @@
-"""What the one rule for noise says of one program compared with itself: same.json, written by `scripts/compare REV REV --json`."""
+"""False alarms and detection rate of noise.py, measured on one program against itself: same.json, written by
+`scripts/compare REV REV --json`."""
 from bench_rows import BadInput, read_json
 from noise import fewest_rounds, paired_order
+from tables import percent
 
 PLANTED = 1.02
 
@@ -30,6 +32,6 @@ def noise_check(path):
     alarms, rows = count(pairs)
     in_few, few = count(in_blocks(pairs, fewest_rounds()))
     found = sum(paired_order(before, [PLANTED * ms for ms in after]) > 0 for before, after in pairs)
-    return (f"`scripts/compare HEAD HEAD --filter '{filtered}'`, {rounds} rounds: {alarms} false alarms in {rows} rows, and {in_few} in "
-            f"{few} tests of {fewest_rounds()} rounds each. With {PLANTED - 1:.0%} added to the times of one side, {found} of {rows} "
+    return (f"`scripts/compare HEAD HEAD --filter '{filtered}'`, {rounds} rounds: false alarms in {alarms} of {rows} rows, and in {in_few} of "
+            f"{few} tests of {fewest_rounds()} rounds each. With {percent(PLANTED - 1)} added to the times of one side, {found} of {rows} "
             "rows are found slower.")

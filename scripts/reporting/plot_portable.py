@@ -1,21 +1,22 @@
 """The share of pixels that conformant rasterizers may draw differently, by the number of subpixel bits."""
 from palette import BLACK, SKY
 from plot_style import INK, WIDTH_IN, headline, log_axis, plt, save, spread_labels
-from portable import OURS, percent, share
+from portable import OURS, share
+from tables import percent
 
 
 def portable(found, folder, caption):
-    if OURS not in found or len(found) < 2:
+    bits = sorted(found)
+    scenes = [scene for scene in found.get(OURS, ()) if all(share(found[b][scene]) > 0 for b in bits)]  # a log axis has no 0
+    if len(found) < 2 or not scenes:
         return None
-    most = max(found[OURS], key=lambda scene: share(found[OURS][scene]))
+    most = max(scenes, key=lambda scene: share(found[OURS][scene]))
     factor = share(found[min(found)][most]) / share(found[OURS][most])
     figure, axes = plt.subplots(figsize=(WIDTH_IN, 4.6))
     top = headline(figure, f"{OURS - min(found)} subpixel bits more, and {factor:.0f}× fewer pixels of `{most}` may differ",
                    "Pixels that two conformant rasterizers may draw differently, in percent of the picture, by the subpixel bits that "
-                   "both have at least.")
+                   "both have at least. Scenes without such a pixel are left out.")
     figure.subplots_adjust(left=0.09, right=0.86, bottom=0.17, top=top)
-    bits = sorted(found)
-    scenes = [scene for scene in found[OURS] if all(share(found[b][scene]) > 0 for b in bits)]  # a log axis has no 0
     for scene in scenes:
         axes.plot(bits, [share(found[b][scene]) for b in bits], color=BLACK if scene == most else SKY, marker="o", markersize=4,
                   linewidth=2.0 if scene == most else 1.2)

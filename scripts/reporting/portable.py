@@ -1,8 +1,7 @@
 """The pixels that conformant rasterizers may draw differently: portable.json, what `edgewise portable --json` prints."""
 from bench_rows import BadInput, read_json
-from tables import number
+from tables import percent
 
-BITS = range(4, 9)
 OURS = 8
 REASONS = ("edge", "tie", "clip", "depth")
 
@@ -14,19 +13,18 @@ def read_portable(folder):
     if path.exists():
         try:
             for entry in read_json(path):
+                if not (0 <= entry["unstable"] <= entry["pixels"] and {*REASONS} <= {*entry["reasons"]}):
+                    raise ValueError(f"scene {entry['scene']}")
                 found.setdefault(int(entry["subpixel_bits"]), {})[entry["scene"]] = entry
         except (KeyError, TypeError, ValueError) as error:
             raise BadInput(f"{path}: not what 'edgewise portable' prints: {type(error).__name__} {error}") from None
+    if len({frozenset(scenes) for scenes in found.values()}) > 1:
+        raise BadInput(f"{path}: not the same scenes for all subpixel bits")
     return found
 
 
 def share(entry):
-    """Percent of the picture's pixels."""
-    return 100 * entry["unstable"] / entry["pixels"]
-
-
-def percent(value):
-    return f"{number(value, 2)} %"
+    return entry["unstable"] / entry["pixels"]
 
 
 def sentence(found):

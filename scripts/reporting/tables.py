@@ -18,6 +18,10 @@ def number(value, digits=3):
     return f"{float(f'{value:.{digits}g}'):,.10g}"
 
 
+def percent(share, digits=2):
+    return f"{number(100 * share, digits)} %"
+
+
 def milliseconds(row):
     if row is None:
         return "–"

@@ -146,8 +146,8 @@ constexpr const char* kPortableFooter = R"(Examples:
 
 Two rasterizers that follow Direct3D, Vulkan or WebGPU may draw some pixels differently: positions
 are rounded, and so are depths. Outside the mask all of them show the same triangle, whatever their
-rounding. The mask is conservative: some of its pixels are the same everywhere, too. It knows
-nothing of colours: where two triangles of one colour meet, the picture may be the same.
+rounding. The mask is conservative: some of its pixels are the same everywhere, too. It
+compares triangles, not colours: where two triangles of one colour meet, pictures may be equal.
 
 The mask is black where all must agree. Its other colours name the reason:
   orange  edge   rounding decides whether a triangle covers the sample

@@ -161,8 +161,8 @@ class NoiseCheckTest(unittest.TestCase):
 
         rows = [row(even, even[::-1]), row(steady, steady[::-1]), row(steady, [1.1 * ms for ms in steady])]
         said = self.check({"before": "a", "after": "a", "filter": "x", "rounds": 16, "rows": rows})
-        self.assertIn("`scripts/compare HEAD HEAD --filter 'x'`, 16 rounds: 1 false alarms in 3 rows, and 2 in 6 tests of 8 rounds", said)
-        self.assertIn("With 2% added to the times of one side, 3 of 3 rows are found slower.", said)
+        self.assertIn("`scripts/compare HEAD HEAD --filter 'x'`, 16 rounds: false alarms in 1 of 3 rows, and in 2 of 6 tests of 8 rounds", said)
+        self.assertIn("With 2 % added to the times of one side, 3 of 3 rows are found slower.", said)
 
     def test_other_files_are_refused(self):
         self.assertEqual(noise_check(Path("/none/same.json")), "")

@@ -1,17 +1,24 @@
 // What a conformant rasterizer may do, as a model with numbers. It allows more than any one of the
 // specifications, so that two programs that follow any of them agree wherever the model leaves no choice.
+// Positions in clip space are taken as given: they are the application's.
 //
-// - One sample at the centre of each pixel. A sample inside a triangle is covered; for a sample on an edge,
-// any
-//   rule may decide. Direct3D 11.3 functional specification, 3.4.2; Vulkan 1.3, 28.12.1 "Basic Polygon
-//   Rasterization"; WebGPU, "Polygon Rasterization".
-// - Positions are rounded to at least `subpixel_bits` bits in any direction, so by less than one step.
-// Direct3D
-//   demands 8 bits (3.4.1); Vulkan's subPixelPrecisionBits is at least 4, and 8 on desktop GPUs.
-// - Before that, the viewport transform in floats errs by up to `transform_ulps` of the largest coordinate.
-//   Vulkan 1.3, 27.9 "Controlling the Viewport" gives the formula, not its precision.
-// - Depth planes are evaluated in floats, from one corner of the image, and rounded to the format. A fragment
-//   passes if it is nearer than the depth that is stored.
+// Sample: one at the centre of each pixel. A sample inside a triangle is covered. For a sample on an edge,
+// any rule may decide. Direct3D 11.3 functional specification, 3.4.2; Vulkan 1.3, 28.12.1 "Basic Polygon
+// Rasterization"; WebGPU, "Polygon Rasterization".
+//
+// Snapping: positions are rounded to at least `subpixel_bits` bits in any direction, so by less than one
+// step. Direct3D demands 8 bits (3.4.1). Vulkan's subPixelPrecisionBits is at least 4, and 8 on desktop GPUs.
+//
+// Viewport: before that, the transform in floats errs by up to `transform_ulps` of the largest coordinate.
+// Vulkan 1.3, 27.9 "Controlling the Viewport" gives the formula, not its precision.
+//
+// Clipping: a vertex where an edge meets a plane of the view volume is interpolated in floats, with an error
+// of at most kClipError times the largest coordinates of the clipped triangle. Not modelled: whether a
+// triangle that only touches the near or far plane is clipped at all.
+//
+// Depth: vertex depths err by at most kVertexDepthError. Planes are evaluated in floats, from one corner of
+// the image, for the rounded positions. Depths are rounded to the format. The buffer is cleared to 1, and a
+// fragment passes if it is nearer than the depth that is stored.
 #pragma once
 
 #include <cstdint>
@@ -19,6 +26,9 @@
 #include <string_view>
 
 namespace edgewise::lab {
+
+inline constexpr double kVertexDepthError = 0x1p-22;  // of a float z / w: a few units in the last place
+inline constexpr double kClipError = 0x1p-21;         // eight roundings of floats
 
 struct DepthFormat {
   std::string_view name;  // Vulkan's, in lower case
@@ -34,11 +44,11 @@ struct Conformance {
   DepthFormat depth = find_depth_format("d24_unorm");
 };
 
-// An upper bound of the error of a depth plane in floats that is extrapolated from a corner of the image, in
-// the unit of the depths. `largest_z` bounds the depths, `span_z` their differences. `dx_px` and `dy_px` are
-// the absolute distances of vertices 1 and 2 from vertex 0, added up; the area is twice the triangle's, in
-// px².
+// An upper bound of the error of a depth plane in floats, in the unit of the depths. `largest_z` bounds the
+// depths, `span_z` their differences. `dx_px` and `dy_px` are the absolute distances of vertices 1 and 2 from
+// vertex 0, added up. `reach_x_px` and `reach_y_px` bound the distances of vertices and samples from the
+// corner of the image. `area_px` is twice the triangle's area, in px²; infinity if it is not positive.
 double float_plane_error(double largest_z, double span_z, double dx_px, double dy_px, double area_px,
-                         int width, int height);
+                         double reach_x_px, double reach_y_px);
 
 }  // namespace edgewise::lab

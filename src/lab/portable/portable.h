@@ -35,11 +35,13 @@ struct PortableTriangle {
   std::uint32_t id;
   bool drawn;    // false: culled for its facing, which rounding may reverse
   bool clipped;  // a piece of a triangle that the view volume cuts
+  // How much further than the model's roundings the vertices may be off.
+  double position_error_px = 0.0, depth_error = 0.0;
 };
 
 // Conservative: a pixel is `no` only if every choice that the model allows shows the same triangle, or the
-// background. Coordinates and depths must be finite. Throws std::invalid_argument for a size or a model out
-// of range.
+// background. Depths must be finite, and coordinates within 2^20 px. Throws std::invalid_argument for a
+// coordinate, a size or a model out of range.
 PortablePixels portable_pixels(std::span<const PortableTriangle> triangles, int width, int height,
                                const Conformance& model, int threads);
 

@@ -6,6 +6,7 @@
 
 #include "frontend/transform.h"
 #include "frontend/view.h"
+#include "lab/source_triangles.h"
 #include "lab/visibility/visibility.h"
 
 namespace edgewise::lab {
@@ -46,26 +47,6 @@ class SourceTriangle {
   glm::dmat3 corner_;  // x w, y w, w
 };
 
-// Finds the source triangles. Ids must be requested in ascending order, the front end's order.
-class Sources {
- public:
-  Sources(const Scene& scene, Size size)
-      : scene_(scene), to_screen_(screen_matrix(scene.camera, size.width, size.height)) {}
-
-  SourceTriangle at(std::uint32_t id) {
-    while (id - first_ >= mesh().triangles.size()) first_ += mesh().triangles.size(), ++instance_;
-    const glm::dmat4 model(model_matrix(scene_.instances[instance_]));
-    return {to_screen_ * model, mesh(), id - first_};
-  }
-
- private:
-  const Mesh& mesh() const { return scene_.meshes[scene_.instances.at(instance_).mesh]; }
-
-  const Scene& scene_;
-  glm::dmat4 to_screen_;
-  std::size_t instance_ = 0, first_ = 0;
-};
-
 }  // namespace
 
 VisibilityScene visibility_scene(std::span<const ScreenTriangle> triangles,
@@ -74,11 +55,13 @@ VisibilityScene visibility_scene(std::span<const ScreenTriangle> triangles,
   const double near_z = scene.camera.near_z, far_z = scene.camera.far_z;
   VisibilityScene result{size.width, size.height, near_z, far_z, {}, {}};
   result.triangles.reserve(triangles.size());
-  Sources sources(scene, size);
+  const glm::dmat4 to_screen = screen_matrix(scene.camera, size.width, size.height);
+  SourceTriangles sources(scene);
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const UnsnappedTriangle& at = unsnapped[i];
     VisibilityTriangle t{triangles[i], {}, {}, {}};
-    const SourceTriangle source = sources.at(triangles[i].payload);
+    const auto [instance, mesh, index] = sources.at(triangles[i].payload);
+    const SourceTriangle source(to_screen * glm::dmat4(model_matrix(instance)), mesh, index);
     for (int k = 0; k < 3; ++k) {
       t.x_px[k] = at.x_px[k];
       t.y_px[k] = at.y_px[k];
