@@ -10,6 +10,7 @@ from accuracy_tables import fails_tables, method_tables
 from bench_rows import BadInput, read_json
 from cost_model import estimate_columns
 from findings import findings
+from needs import needs_table, read_needs, tutorials_table
 from peers import peer_tables, with_ratios
 from portable import OURS, portable_table, read_portable, sentence
 from report_rows import rows_section
@@ -23,6 +24,7 @@ SECTIONS = {
     "accuracy": ("Speed against accuracy", ("frontier", "displacement", "accuracy-coverage*", "accuracy-*", "errors-*", "turning-cube")),
     "stability": ("Stability", ("stability-grid", "stability-*")),
     "speed": ("Speed of the backends", ("scenes", "area", "threads", "simd", "culling", "growth")),
+    "needs": ("What scenes need", ()),
     "portable": ("Portable pixels", ("portable",)),
     "ablation": ("Ablation", ("ablation",)),
     "peers": ("Peers", ("against-*",)),
@@ -105,11 +107,13 @@ def verification(folder):
                         *([markdown(header, lines, "|---|---|---|")] if lines else [])])
 
 
-def tables(bench, accuracy, sweeps, portable):
+def tables(bench, accuracy, sweeps, portable, needs):
     """{section: Markdown below its charts}"""
     found = {"peers": peer_tables(bench, markdown)}
     if OURS in portable:
         found["portable"] = f"{sentence(portable)}\n\n{markdown(*portable_table(portable))}"
+    if needs:
+        found["needs"] = "\n\n".join(markdown(*table) for table in (needs_table(needs), tutorials_table(needs)))
     if bench.scenes:
         found["speed"] = ("Median milliseconds per frame, backend alone, on 1 and on 2 threads:\n\n"
                           + markdown(*with_ratios(bench, *scene_table(bench, estimate_columns(bench)))))
@@ -124,7 +128,8 @@ def sections(folder, accuracy, first, others):
     """(id, heading, HTML) of each section that holds something."""
     if verified := verification(folder):
         yield "verification", "Verification", html(verified)
-    below = tables(first.bench, accuracy, read_stability(folder), read_portable(folder))
+    below = tables(first.bench, accuracy, read_stability(folder), read_portable(folder),
+                   read_needs(folder))
     for name, paths in chart_groups(folder / "charts").items():
         heading = SECTIONS[name][0]
         parts = [*(image(path, heading) for path in paths), *([html(below[name])] if name in below else [])]

@@ -23,6 +23,7 @@ void add_soak(CLI::App& program, Action& action);
 void add_accuracy(CLI::App& program, Action& action);
 void add_stability(CLI::App& program, Action& action);
 void add_diff(CLI::App& program, Action& action);
+void add_needs(CLI::App& program, Action& action);
 void add_portable(CLI::App& program, Action& action);
 void add_capture(CLI::App& program, Action& action);
 void add_view(CLI::App& program, Action& action, viewer::ShowWindow show_window);

@@ -45,6 +45,14 @@ Image mask_of(const lab::PortablePixels& found) {
   return mask;
 }
 
+// "N" or "N-M". Positions rounded to more bits than the fewest are within their step, too.
+int fewest_bits(const std::string& text) {
+  const auto dash = text.find('-', 1);
+  const int fewest = parse_integer("--bits", text.substr(0, dash), 1, 16);
+  if (dash != std::string::npos) parse_integer("--bits", text.substr(dash + 1), fewest, 16);
+  return fewest;
+}
+
 class PortableCommand {
  public:
   explicit PortableCommand(const PortableOptions& options) : options_(options) {
@@ -141,7 +149,7 @@ class PortableCommand {
 constexpr const char* kPortableFooter = R"(Examples:
   edgewise portable cube -o mask.png --picture golden.png
   edgewise diff golden.png yours.png --mask mask.png    (fails only where all must agree)
-  edgewise portable terrain --bits 4          (whatever Vulkan allows)
+  edgewise portable terrain --bits 4-8        (whatever Vulkan allows)
   edgewise portable bunny.obj --fit --ids -o mask.png --picture ids.png
 
 Two rasterizers that follow Direct3D, Vulkan or WebGPU may draw some pixels differently: positions
@@ -169,8 +177,11 @@ void add_portable(CLI::App& program, Action& action) {
       ->type_name("FILE");
   command.add_option("--picture", o->picture, "Reference picture, named like the mask")->type_name("FILE");
   command.add_flag("--ids", o->ids, "The reference picture shows triangle ids, as `render --payload id`");
-  add_integer(command, "--bits", o->model.subpixel_bits, 1, 16,
-              "Subpixel bits that rasterizers have at least (8)");
+  command
+      .add_option_function<std::string>(
+          "--bits", [o](const std::string& text) { o->model.subpixel_bits = fewest_bits(text); },
+          "Subpixel bits of the rasterizers, as 8 or 4-8; the fewest decide (8)")
+      ->type_name("N");
   add_integer(command, "--ulps", o->model.transform_ulps, 0, 1000,
               "Error of the viewport transform, in units in the last place (2)");
   command

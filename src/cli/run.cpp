@@ -75,6 +75,7 @@ Action parse(int argc, char** argv, viewer::ShowWindow show_window) {
   add_stability(program, action);
   add_diff(program, action);
   add_portable(program, action);
+  add_needs(program, action);
   add_capture(program, action);
   add_view(program, action, show_window);
   add_demo(program, action, show_window);

@@ -323,7 +323,8 @@ TEST_P(BuiltPeer, DiffersFromUsOnlyInPixelsThatAreNotPortable) {
 // Otherwise the test above would pass for any mask.
 TEST(AllPeers, ShowAMaskThatIsTooSmall) {
   const auto softpipe = std::ranges::find(peers(), "softpipe", &PeerInfo::name);
-  if (softpipe == peers().end() || !runs_here(*softpipe)) GTEST_SKIP() << "softpipe was not built or does not run";
+  if (softpipe == peers().end() || !runs_here(*softpipe))
+    GTEST_SKIP() << "softpipe was not built or does not run";
   EXPECT_GT(wrong_portable_px(*workload_of("torus-knot"), *softpipe, 12), 0u);
 }
 

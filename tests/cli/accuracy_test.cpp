@@ -271,7 +271,8 @@ TEST(Accuracy, TablesFitEightyColumns) {
 
 TEST(Accuracy, BackFacesOfMeshesAreCulledByTheExactSign) {
   const lab::Size size{200, 150};
-  const CoverageScene scene = coverage_scene(find_scene("cube").make({size.width, size.height}), size);
+  const lab::CoverageScene scene = lab::coverage_scene(find_scene("cube").make({size.width, size.height}),
+                                                       {size.width, size.height, Cull::back, false});
   ASSERT_EQ(scene.floats.size(), scene.snapped.size());
   EXPECT_EQ(scene.floats.size(), 6u);
   for (const lab::FloatTriangle& triangle : scene.floats) EXPECT_EQ(lab::FloatTruth(triangle.at).facing(), 1);

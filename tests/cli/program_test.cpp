@@ -39,7 +39,7 @@ std::vector<std::string> names_of(const Registry& registry) {
 
 TEST(Program, HelpOnEveryCommandFits100Columns) {
   for (const char* command : {"", "list", "render", "verify", "soak", "accuracy", "stability", "diff",
-                              "portable", "capture", "view", "demo", "machine"}) {
+                              "portable", "needs", "capture", "view", "demo", "machine"}) {
     const Outcome outcome = edgewise_with(std::string(command) + " --help");
     EXPECT_EQ(outcome.status, 0) << command;
     EXPECT_NE(outcome.out.find("edgewise"), std::string::npos) << command;
@@ -299,6 +299,48 @@ TEST_F(ProgramRenders, PicturesThatDiffComparesOutsideTheMask) {
   EXPECT_NE(both.out.find("1 of "), std::string::npos) << both.out;
   EXPECT_NE(both.out.find(" pixels outside the mask differ, by up to 1 of 255"), std::string::npos)
       << both.out;
+}
+
+TEST(Program, NeedsFits80ColumnsAndGivesItsEvidence) {
+  const Outcome outcome = edgewise_with("needs cube cubes --size 160x90 --threads 1");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  std::istringstream lines(outcome.out);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << line;
+  for (const char* part : {"proven: the nearest vertex is at ", "seen in 14400 pixels", "not enough: ",
+                           "smallest pipeline", "culling them: ", " wrong pixels in frame 0; at ("})
+    EXPECT_NE(outcome.out.find(part), std::string::npos) << part;
+}
+
+TEST(Program, NeedsFollowsMotionAndOrbit) {
+  const auto frames = [](const std::string& options) {
+    const auto json = nlohmann::json::parse(edgewise_with("needs cube --size 96x54 --json " + options).out);
+    return json.at("frames").get<int>();
+  };
+  EXPECT_EQ(frames(""), 1);
+  EXPECT_EQ(frames("--frames 4"), 4);
+  const auto orbit = nlohmann::json::parse(edgewise_with("needs cube --size 96x54 --json --orbit 5").out);
+  EXPECT_EQ(orbit.at("frames"), 5);
+  // From all sides the cube's faces need another test than the one for faces in the middle.
+  for (const auto& question : orbit.at("questions")) {
+    EXPECT_TRUE(question.at("answer").is_string()) << question;
+    EXPECT_TRUE(question.at("proven") == true || question.at("trials").at("count") > 0) << question;
+  }
+}
+
+TEST(Program, NeedsByRangesAlone) {
+  const Outcome text = edgewise_with("needs terrain grid64 --ranges --size 160x90");
+  ASSERT_EQ(text.status, 0) << text.err;
+  EXPECT_NE(text.out.find(" reach beyond it"), std::string::npos) << text.out;
+  const auto json = nlohmann::json::parse(edgewise_with("needs cube --ranges --json").out);
+  EXPECT_EQ(json.at("reach").at("near plane").at("beyond"), 0);
+  EXPECT_EQ(json.at("edge_value_bits").size(), 17u);
+}
+
+TEST_F(ProgramRenders, WhatIsNotEnoughAsCloseups) {
+  const Outcome outcome = edgewise_with("needs cubes --size 96x54 --pictures " + path("errors"));
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(std::filesystem::exists(path("errors/cubes-visibility-submission_order.png")));
+  EXPECT_TRUE(std::filesystem::exists(path("errors/cubes-facing_test-normal_z.png")));
 }
 
 TEST_F(ProgramRenders, ScenesThatVerifyReportsAsJson) {

@@ -28,7 +28,7 @@ std::vector<Execution> executions_of(const lab::CoverageMethod& method) {
 
 // Throws std::runtime_error unless a method draws the picture of its plainest execution; otherwise the times
 // would compare different work.
-void check_same_picture(const CoverageScene& scene, const lab::CoverageMethod& method,
+void check_same_picture(const lab::CoverageScene& scene, const lab::CoverageMethod& method,
                         const Execution& execution) {
   lab::Canvas plain(scene.size.width, scene.size.height), other(scene.size.width, scene.size.height);
   method.draw(scene.input(), plain, kPlainest);
@@ -39,7 +39,7 @@ void check_same_picture(const CoverageScene& scene, const lab::CoverageMethod& m
                              " threads) draws other pixels than its scalar form on one thread");
 }
 
-void time_methods(const CoverageScene& scene, const Bench& bench, SceneResult& result) {
+void time_methods(const lab::CoverageScene& scene, const Bench& bench, SceneResult& result) {
   lab::Canvas canvas(scene.size.width, scene.size.height);
   const auto input = scene.input();
   std::vector<TimedDraw> draws;
@@ -60,7 +60,7 @@ void time_methods(const CoverageScene& scene, const Bench& bench, SceneResult& r
 
 }  // namespace
 
-void judge(const CoverageScene& scene, const Bench& bench, SceneResult& result) {
+void judge(const lab::CoverageScene& scene, const Bench& bench, SceneResult& result) {
   const auto& methods = bench.methods.coverage;
   const auto input = scene.input();
   const auto snapped = lab::snapped_coverage(input, scene.window(), bench.plan.threads),

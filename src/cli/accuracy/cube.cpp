@@ -12,10 +12,11 @@ namespace {
 constexpr int kFrames = 3600, kQuickFrames = 120, kFramesPerSecond = 60;
 constexpr int kFramesPerTask = 20;
 
-CoverageScene cube_at(int frame) {
+lab::CoverageScene cube_at(int frame) {
   const SceneRequest request{kTurningCubeSize.width, kTurningCubeSize.height,
                              static_cast<float>(frame) / static_cast<float>(kFramesPerSecond)};
-  return coverage_scene(find_scene("cube").make(request), kTurningCubeSize);
+  return lab::coverage_scene(find_scene("cube").make(request),
+                             {kTurningCubeSize.width, kTurningCubeSize.height, Cull::back, false});
 }
 
 // The median of an even number of frames is the upper of the middle two.
@@ -46,7 +47,7 @@ Closeup worst_frame(const lab::CoverageMethod& method, const Scores& scores) {
   const auto worst = std::max_element(scores.begin(), scores.end(), [](const auto& a, const auto& b) {
     return a.floats.gaps + a.floats.double_hits < b.floats.gaps + b.floats.double_hits;
   });
-  const CoverageScene scene = cube_at(static_cast<int>(worst - scores.begin()));
+  const lab::CoverageScene scene = cube_at(static_cast<int>(worst - scores.begin()));
   const auto truth = lab::float_coverage(scene.input(), scene.window(), 1);
   std::vector<lab::Run> runs;
   method.runs(scene.input(), scene.window(), runs);
@@ -66,7 +67,7 @@ CubeResult judge_turning_cube(const AccuracyPlan& plan, const ChosenMethods& met
   int done = 0;
   parallel_for(plan.threads, frames / kFramesPerTask, [&](int task) {
     for (int frame = task * kFramesPerTask; frame < (task + 1) * kFramesPerTask; ++frame) {
-      const CoverageScene scene = cube_at(frame);
+      const lab::CoverageScene scene = cube_at(frame);
       const auto snapped = lab::snapped_coverage(scene.input(), scene.window(), 1),
                  floats = lab::float_coverage(scene.input(), scene.window(), 1);
       for (std::size_t i = 0; i < judged.size(); ++i) {

@@ -96,6 +96,11 @@ lab::ClippingScene around_the_camera(int count, lab::Size size) {
   return s;
 }
 
+lab::CoverageScene scene_of(const Drawable& drawable, lab::Size size) {
+  const Cull cull = std::holds_alternative<TriangleStream>(drawable) ? Cull::none : Cull::back;
+  return lab::coverage_scene(drawable, {size.width, size.height, cull, false});
+}
+
 class Catalogue {
  public:
   explicit Catalogue(const AccuracyPlan& plan) : plan_(plan) {}
@@ -111,7 +116,7 @@ class Catalogue {
       add(Family::coverage, c.name, c.summary, timed, small, cost_s, [&c] {
         auto floats = c.make();
         auto snapped = lab::snapped(floats);
-        return CoverageScene{c.size, std::move(floats), std::move(snapped)};
+        return lab::CoverageScene{c.size, std::move(floats), std::move(snapped)};
       });
     }
     const lab::Size seen = plan_.quick ? kQuick : kNormalSize;
@@ -146,7 +151,7 @@ class Catalogue {
     };
     add(Family::coverage, source_name(path), "your file", Timed::always, false, 5.0, [load] {
       const Shot shot = load();
-      return coverage_scene(shot.source.drawable, {shot.frontend.width, shot.frontend.height});
+      return scene_of(shot.source.drawable, {shot.frontend.width, shot.frontend.height});
     });
     if (mesh)
       add(Family::visibility, source_name(path), "your file", Timed::always, false, 5.0, [load] {
@@ -173,7 +178,7 @@ class Catalogue {
                                plan_.quick ? extent.quick_scale : extent.scale};
     const double cost_s = plan_.quick ? extent.quick_cost_s : extent.cost_s;
     add(Family::coverage, info.name, info.summary, extent.timed, false, cost_s,
-        [&info, request, size] { return coverage_scene(info.make(request), size); });
+        [&info, request, size] { return scene_of(info.make(request), size); });
     if (info.stream) return;
     const lab::Size seen = plan_.quick ? kQuick : kNormalSize;
     const SceneRequest for_visibility{seen.width, seen.height, 0.0f, request.scale};
@@ -214,23 +219,6 @@ bool is_judged_by_default(const AccuracyScene& scene) {
 }
 
 }  // namespace
-
-CoverageScene coverage_scene(const Drawable& drawable, lab::Size size) {
-  FrontendOptions options{size.width, size.height, Cull::none, false, Payload::colour, 1, true};
-  Frontend frontend;
-  const auto screen = frontend.run(drawable, options);
-  CoverageScene scene{size, lab::unsnapped(screen, frontend.unsnapped()), {screen.begin(), screen.end()}};
-  if (std::holds_alternative<TriangleStream>(drawable)) return scene;
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < screen.size(); ++i) {
-    if (lab::FloatTruth(scene.floats[i].at).facing() <= 0) continue;
-    scene.floats[kept] = scene.floats[i];
-    scene.snapped[kept++] = scene.snapped[i];
-  }
-  scene.floats.resize(kept);
-  scene.snapped.resize(kept);
-  return scene;
-}
 
 AccuracyScenes scenes_of(const AccuracyPlan& plan) {
   const std::vector<AccuracyScene> known = Catalogue(plan).built_in();

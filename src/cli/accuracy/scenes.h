@@ -7,19 +7,11 @@
 #include <vector>
 
 #include "cli/accuracy/accuracy.h"
-#include "lab/coverage/coverage.h"
+#include "lab/coverage/scene.h"
 
 namespace edgewise::tools {
 
-struct CoverageScene {
-  lab::Size size;
-  std::vector<lab::FloatTriangle> floats;
-  std::vector<ScreenTriangle> snapped;
-
-  lab::CoverageInput input() const { return {floats, snapped}; }
-  lab::Window window() const { return {size.width, size.height}; }
-};
-using AnyScene = std::variant<CoverageScene, lab::VisibilityScene, lab::FacingScene, lab::ClippingScene>;
+using AnyScene = std::variant<lab::CoverageScene, lab::VisibilityScene, lab::FacingScene, lab::ClippingScene>;
 
 struct AccuracyScene {
   Family family;
@@ -39,9 +31,5 @@ struct AccuracyScenes {
   bool turning_cube = false;
 };
 AccuracyScenes scenes_of(const AccuracyPlan& plan);
-
-// The front end's triangles before and after snapping. Mesh triangles are culled by the exact sign of their
-// area before snapping, so that all methods get the same triangles.
-CoverageScene coverage_scene(const Drawable& drawable, lab::Size size);
 
 }  // namespace edgewise::tools

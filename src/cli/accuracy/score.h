@@ -32,7 +32,7 @@ struct Bench {
 };
 
 // Fill in all of `result` except what identifies the scene (family, name, summary, smallest) and its seconds.
-void judge(const CoverageScene& scene, const Bench& bench, SceneResult& result);
+void judge(const lab::CoverageScene& scene, const Bench& bench, SceneResult& result);
 void judge(const lab::VisibilityScene& scene, const Bench& bench, SceneResult& result);
 void judge(const lab::FacingScene& scene, const Bench& bench, SceneResult& result);
 void judge(const lab::ClippingScene& scene, const Bench& bench, SceneResult& result);

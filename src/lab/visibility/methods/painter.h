@@ -31,20 +31,44 @@ void for_each_distance(const VisibilityScene& scene, const VisibilityFace& face,
   for (std::uint32_t i = 0; i < face.count; ++i) add(fan[i].view_z[2]);
 }
 
-// Paints faces in descending order of key(face); equal keys in submission order.
+// The keys of the usual sorts.
+inline double mean_distance(const VisibilityScene& scene, const VisibilityFace& face) {
+  double sum = 0;
+  for_each_distance(scene, face, [&](double z) { sum += z; });
+  return sum / (face.count + 2);
+}
+inline double farthest_distance(const VisibilityScene& scene, const VisibilityFace& face) {
+  double farthest = 0;
+  for_each_distance(scene, face, [&](double z) { farthest = std::max(farthest, z); });
+  return farthest;
+}
+
+// Sorts faces by descending key(scene, face), equal keys in submission order, into frame.order.
 template <typename Key>
-void draw_painter(const VisibilityScene& scene, VisibilityFrame& frame, Key&& key) {
-  clear_visible(scene, frame);
+void sort_faces(const VisibilityScene& scene, VisibilityFrame& frame, Key&& key) {
   frame.key.resize(scene.faces.size());
-  std::transform(scene.faces.begin(), scene.faces.end(), frame.key.begin(), key);
+  std::transform(scene.faces.begin(), scene.faces.end(), frame.key.begin(),
+                 [&](const VisibilityFace& face) { return key(scene, face); });
   frame.order.resize(scene.faces.size());
   std::iota(frame.order.begin(), frame.order.end(), 0u);
   std::stable_sort(frame.order.begin(), frame.order.end(),
                    [&](std::uint32_t a, std::uint32_t b) { return frame.key[a] > frame.key[b]; });
+}
+
+// Calls draw(triangle) for all triangles of the sorted faces.
+template <typename Draw>
+void for_each_sorted(const VisibilityScene& scene, const VisibilityFrame& frame, Draw&& draw) {
   for (const std::uint32_t id : frame.order) {
     const VisibilityFace face = scene.faces[id];
-    for (std::uint32_t i = 0; i < face.count; ++i) paint(scene, frame, face.first + i);
+    for (std::uint32_t i = 0; i < face.count; ++i) draw(face.first + i);
   }
+}
+
+template <typename Key>
+void draw_painter(const VisibilityScene& scene, VisibilityFrame& frame, Key&& key) {
+  clear_visible(scene, frame);
+  sort_faces(scene, frame, key);
+  for_each_sorted(scene, frame, [&](std::uint32_t id) { paint(scene, frame, id); });
 }
 
 inline std::pair<double, double> depth_range(const VisibilityScene& scene, std::uint32_t triangle) {

@@ -9,11 +9,7 @@ const VisibilityMethod visibility_painter_farthest{
      "Newell, Newell and Sancha 1972, their first sort only",
      "right where any two polygons that meet on the screen have depth ranges apart", false},
     [](const VisibilityScene& scene, VisibilityFrame& frame) {
-      draw_painter(scene, frame, [&](const VisibilityFace& face) {
-        double farthest = 0;
-        for_each_distance(scene, face, [&](double z) { farthest = std::max(farthest, z); });
-        return farthest;
-      });
+      draw_painter(scene, frame, farthest_distance);
     },
     nullptr,
     nullptr,

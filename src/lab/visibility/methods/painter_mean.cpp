@@ -7,13 +7,7 @@ extern const VisibilityMethod visibility_painter_mean;
 const VisibilityMethod visibility_painter_mean{
     {"painter_mean", "farthest mean distance first, later ones overwrite", "p5.js engine",
      "right where any two polygons that meet on the screen have depth ranges apart", false},
-    [](const VisibilityScene& scene, VisibilityFrame& frame) {
-      draw_painter(scene, frame, [&](const VisibilityFace& face) {
-        double sum = 0;
-        for_each_distance(scene, face, [&](double z) { sum += z; });
-        return sum / (face.count + 2);
-      });
-    },
+    [](const VisibilityScene& scene, VisibilityFrame& frame) { draw_painter(scene, frame, mean_distance); },
     nullptr,
     nullptr,
     nullptr,

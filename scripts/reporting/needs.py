@@ -1,0 +1,100 @@
+"""What scenes need, and what the tutorials' engines have: needs.json, what `edgewise needs --json` prints."""
+from accuracy_findings import numbered
+from bench_rows import BadInput, read_json
+
+PLANES = ("near plane", "far plane", "guard band")
+FACING, VISIBILITY, DEPTH, FLOATS = "facing test", "visibility", "depth buffer", "float edges without a crack"
+NO_CRACK, AS_TRUE = "subpixel bits without a crack", "subpixel bits, as true as 8 bits"
+EDGE_VALUES = "edge values"
+
+# The tutorials' engines by stage: the question, and their answer.
+TUTORIALS = (("Pico-8 software renderer", FLOATS, "float_le"), ("Pico-8 software renderer", VISIBILITY, "submission_order"),
+             ("p5.js engine", "near plane", "clip"), ("p5.js engine", VISIBILITY, "painter_mean"),
+             ("REALbasic engine", FACING, "normal_dot_eye"), ("Outlaw Triad trainer", FACING, "normal_z"),
+             ("Outlaw Triad trainer", "near plane", "nothing"))
+TUTORIAL_SCENES = ("cube", "cubes")
+METHODS = ("submission_order", "painter_", "float_", "reversed_z", "contract31", "normal_", "snapped_area", "double_")
+
+
+def read_needs(folder):
+    """{scene: (entry, {question: its entry})}; empty if not measured."""
+    path = folder / "needs.json"
+    found = {}
+    if path.exists():
+        try:
+            for entry in read_json(path):
+                questions = {question["question"]: question for question in entry["questions"]}
+                entry["smallest"]["speedup"]["median"] > 0, entry["frames"] > 0  # the keys that the tables use
+                found[entry["scene"]] = (entry, questions)
+        except (KeyError, TypeError) as error:
+            raise BadInput(f"{path}: not what 'edgewise needs' prints: {type(error).__name__} {error}") from None
+    return found
+
+
+def titled(answer):
+    return f"`{answer}`" if answer.startswith(METHODS) else answer
+
+
+def answer(questions, start):
+    """The cheapest answer to the question that begins so; a dash if it was not asked."""
+    question = next((q for name, q in questions.items() if name.startswith(start)), None)
+    return "–" if question is None else titled(question["answer"] or "none is enough")
+
+
+def clipping(questions):
+    if PLANES[0] not in questions:
+        return "–"
+    needed = [f"{plane}: {questions[plane]['answer']}" for plane in PLANES if questions[plane]["answer"] != "nothing"]
+    return ", ".join(needed) or "nothing"
+
+
+def speed_up(entry):
+    ratio = entry["smallest"]["speedup"]
+    median, low, high = (ratio[key] for key in ("median", "low", "high"))
+    if low <= 1 <= high:
+        return f"no significant difference ({low:.2f} to {high:.2f})"
+    if median < 1:
+        return f"{1 / median:.2f}× slower ({1 / high:.2f} to {1 / low:.2f})"
+    return f"{median:.2f}× faster ({low:.2f} to {high:.2f})"
+
+
+def needs_table(found):
+    """Header and lines, a line per scene."""
+    header = ["scene, frames", "clipping", "facing test", "visibility", "depth", "no crack", "as true as 8 bits", "edge values",
+              "smallest pipeline"]
+    lines = [[f"{scene}, {entry['frames']}", clipping(questions),
+              *(answer(questions, start) for start in (FACING, VISIBILITY, DEPTH, NO_CRACK, AS_TRUE, EDGE_VALUES)), speed_up(entry)]
+             for scene, (entry, questions) in found.items()]
+    return header, lines
+
+
+def verdict(question, used):
+    """Whether a tutorial's answer is enough, and whether a cheaper one would be."""
+    if question is None:
+        return "–"
+    tried = next(a for a in question["answers"] if a["answer"] == used)
+    if not tried["enough"]:
+        witness = tried["witness"]
+        return f"**not enough**: {numbered(witness['wrong_px'], question['error'])} in frame {witness['frame']}"
+    return "enough" if question["answer"] == used else f"more than needed: {titled(question['answer'])}"
+
+
+def tutorials_table(found):
+    """Header and lines: what each tutorial's engine could have left out of these scenes, and what it lacks."""
+    scenes = [scene for scene in TUTORIAL_SCENES if scene in found]
+    header = ["engine", "stage", "its answer", *(f"`{scene}`" for scene in scenes)]
+    lines = [[engine, stage, titled(used), *(verdict(found[scene][1].get(stage), used) for scene in scenes)]
+             for engine, stage, used in TUTORIALS]
+    return header, lines if scenes else []
+
+
+def cube_sentence(found):
+    """What the tutorials' cube needs; empty if not measured."""
+    if TUTORIAL_SCENES[0] not in found:
+        return ""
+    entry, questions = found[TUTORIAL_SCENES[0]]
+    clip = clipping(questions)
+    return (f"In {entry['frames']:,} frames, the tutorials' cube needs {'no clipping' if clip == 'nothing' else clip}, no better facing "
+            f"test than {answer(questions, FACING)}, {answer(questions, VISIBILITY)} for visibility, and {answer(questions, NO_CRACK)} of "
+            f"subpixel precision against cracks. A plain rasterizer that does no more, against one with 8 subpixel bits, 64-bit edge "
+            f"values and 30-bit depths: {speed_up(entry)}.")

@@ -1,0 +1,87 @@
+#include "lab/needs/clipping.h"
+
+#include <fmt/format.h>
+
+#include "lab/clipping/methods/pipeline.h"
+#include "lab/view_space.h"
+
+namespace edgewise::lab {
+
+namespace {
+
+constexpr std::uint16_t kPlanes[kViewPlanes] = {kNear, kFar, kGuard};
+enum Level { kNothing, kDrop, kClip };
+
+// Draws a frame that treats the vertices beyond one plane at this level, and clips at the others.
+std::vector<std::uint32_t> draw_at(Level level, std::uint16_t plane, const ClippingScene& scene,
+                                   ClippingFrame& frame) {
+  draw_clipped(scene, frame, [&](const ClipVertex(&triangle)[3], std::uint32_t id) {
+    std::uint16_t any = 0, all = kInvisible;
+    for (const ClipVertex& v : triangle) {
+      const std::uint16_t sides =
+          outside_of(v, static_cast<float>(scene.size.width), static_cast<float>(scene.size.height));
+      any |= sides, all &= sides;
+    }
+    if (level == kNothing && (any & plane) != 0) all = 0;
+    if ((any & kNotFinite) != 0 || all != 0) return;
+    auto planes = static_cast<std::uint16_t>(any & kMustClip);
+    // Clipping at the sides would hide the lack of a near plane: a point between two of them has w >= 0.
+    if (level != kClip && (any & plane) != 0) planes &= plane == kNear ? 0 : ~plane;
+    const auto polygon =
+        planes == 0 ? std::span<const ClipVertex>(triangle) : frame.clipper.clip(triangle, planes);
+    emit(polygon, id, scene.cull_back, frame);
+  });
+  std::vector<std::uint32_t> ids;
+  for (int y = 0; y < scene.size.height; ++y) {
+    const std::uint32_t* row = frame.picture.view().payload + y * frame.picture.stride();
+    ids.insert(ids.end(), row, row + scene.size.width);
+  }
+  return ids;
+}
+
+}  // namespace
+
+ClippingNeeds::ClippingNeeds() {
+  constexpr const char* kNames[] = {"near plane", "far plane", "guard band"};
+  for (std::size_t i = 0; i < questions_.size(); ++i) {
+    questions_[i] = {kNames[i], {{"nothing"}, {"drop whole triangles"}, {"clip"}}};
+    questions_[i].trial = "pixels";
+  }
+}
+
+void ClippingNeeds::add(const StudiedFrame& frame, const std::array<Reach, kViewPlanes>& reach) {
+  std::optional<ClippingScene> seen;
+  std::optional<ClippingFrame> canvas;
+  for (std::size_t i = 0; i < questions_.size(); ++i) {
+    Question& question = questions_[i];
+    question.trials += frame.pixels();
+    const bool doubts[] = {reach[i].beyond != 0, reach[i].crossing != 0};
+    for (const Level level : {kNothing, kDrop}) {
+      if (!doubts[level] || !question.answers[level].enough()) continue;
+      if (!seen) {
+        seen = in_view_space(std::get<Scene>(frame.drawable), frame.size());
+        seen->cull_back = frame.options.cull == Cull::back;
+        canvas.emplace(frame.size());
+      }
+      const auto drawn = draw_at(level, kPlanes[i], *seen, *canvas);
+      compare_pictures(draw_at(kClip, kPlanes[i], *seen, *canvas), drawn, frame, question.answers[level]);
+    }
+  }
+}
+
+std::vector<Question> ClippingNeeds::questions(const Ranges& ranges) const {
+  std::vector<Question> result(questions_.begin(), questions_.end());
+  for (int i = 0; i < kViewPlanes; ++i) {
+    const auto plane = static_cast<ViewPlane>(i);
+    const Reach& reach = ranges.reach(plane);
+    Question& question = result[static_cast<std::size_t>(i)];
+    if (reach.beyond == 0)
+      question.proof = ranges.describe(plane);
+    else if (reach.crossing == 0 && !question.answers[kNothing].enough())
+      question.proof =
+          fmt::format("all {} triangles beyond it lie beyond one side of the view", reach.beyond);
+  }
+  return result;
+}
+
+}  // namespace edgewise::lab

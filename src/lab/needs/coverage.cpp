@@ -1,0 +1,144 @@
+#include "lab/needs/coverage.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/parallel.h"
+#include "lab/coverage/methods/fixed_edges.h"
+#include "lab/coverage/score.h"
+
+namespace edgewise::lab {
+
+namespace {
+
+template <int kBits>
+void record(std::span<const FloatTriangle> triangles, Window window, std::vector<Run>& runs) {
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    RunRecorder plot(static_cast<std::uint32_t>(i), runs);
+    FixedEdges<kBits, std::int64_t>::cover(triangles[i].at, window, plot);
+  }
+}
+using Record = void (*)(std::span<const FloatTriangle>, Window, std::vector<Run>&);
+constexpr auto kRecord = []<int... kBits>(std::integer_sequence<int, kBits...>) {
+  return std::array<Record, sizeof...(kBits)>{record<kBits>...};
+}
+(std::make_integer_sequence<int, kMostSubpixelBits + 1>());
+
+constexpr const char* kFloatMethods[] = {"float_lt", "float_le", "float_top_left", "double_top_left"};
+const CoverageMethod& method_of(std::string_view name) {
+  for (const CoverageMethod& method : coverage_methods())
+    if (method.info.name == name) return method;
+  throw std::out_of_range("no such coverage method");
+}
+
+std::vector<std::uint32_t> triangles_at(std::span<const Run> runs, int x, int y,
+                                        std::span<const FloatTriangle> triangles) {
+  std::vector<std::uint32_t> ids;
+  for (const Run& run : runs)
+    if (run.y == y && run.x0 <= x && x < run.x1) ids.push_back(triangles[run.triangle].payload);
+  return ids;
+}
+
+// Makes the first pixel with one of these marks the witness.
+void add_witness(const MarkedPicture& marked, std::span<const Mark> kinds, const StudiedFrame& frame,
+                 const CoverageScene& scene, const CoverageTruth& truth, std::span<const Run> runs,
+                 std::uint64_t wrong_px, Answer& answer) {
+  const auto at = std::find_first_of(marked.marks.begin(), marked.marks.end(), kinds.begin(), kinds.end());
+  if (at == marked.marks.end()) return;
+  const int i = static_cast<int>(at - marked.marks.begin()), x = i % scene.size.width,
+            y = i / scene.size.width;
+  answer.witness = Witness{frame.index, x, y, triangles_at(truth.runs, x, y, scene.floats),
+                           triangles_at(runs, x, y, scene.floats)};
+  answer.wrong_px = wrong_px;
+  if (frame.keep_pictures) answer.picture = marked;
+}
+
+}  // namespace
+
+CoverageNeeds::CoverageNeeds(std::optional<double> displacement) : displacement_(displacement) {
+  for (int bits = 0; bits <= kMostSubpixelBits; ++bits) {
+    const std::string name = std::to_string(bits) + (bits == 1 ? " bit" : " bits");
+    bits_.push_back({{name}, {name}});
+  }
+  for (const char* name : kFloatMethods) floats_.push_back({{name}, {name}});
+}
+
+void CoverageNeeds::add(const StudiedFrame& frame, const CoverageScene& scene, int threads) {
+  constexpr Mark kCracks[] = {Mark::gap, Mark::twice};
+  constexpr Mark kAny[] = {Mark::gap, Mark::twice, Mark::missing, Mark::extra};
+  const Window window = scene.window();
+  const CoverageTruth truth = float_coverage(scene.input(), window, threads);
+  crossings_ += edge_crossings(scene.floats, window);
+  shared_crossings_ += shared_edge_crossings(scene.floats, window);
+  const int fixed = static_cast<int>(bits_.size());
+  parallel_for(threads, fixed + static_cast<int>(floats_.size()), [&](int i) {
+    const auto n = static_cast<std::size_t>(i < fixed ? i : i - fixed);
+    Tried& tried = i < fixed ? bits_[n] : floats_[n];
+    std::vector<Run> runs;
+    double reach_px = std::min(snap_reach_px(i), kMostReach_px);
+    if (i < fixed) {
+      kRecord[n](scene.floats, window, runs);
+    } else {
+      const CoverageMethod& method = method_of(tried.cracks.name);
+      method.runs(scene.input(), window, runs);
+      reach_px = gap_reach_px(method);
+    }
+    const CoverageScore score = score_coverage(truth, runs, scene.floats, reach_px);
+    tried.wrong += score.errors();
+    const std::uint64_t cracked = score.gaps + score.double_hits;
+    const bool new_crack = cracked != 0 && tried.cracks.enough(),
+               new_error = score.errors() != 0 && tried.displaced.enough();
+    if (!new_crack && !new_error) return;
+    const MarkedPicture marked = mark_coverage(truth, runs, scene.floats, reach_px);
+    if (new_crack) add_witness(marked, kCracks, frame, scene, truth, runs, cracked, tried.cracks);
+    if (new_error) add_witness(marked, kAny, frame, scene, truth, runs, score.errors(), tried.displaced);
+  });
+}
+
+std::uint64_t CoverageNeeds::allowed() const {
+  if (!displacement_) return bits_[8].wrong;
+  return static_cast<std::uint64_t>(*displacement_ * static_cast<double>(crossings_) / 1e6);
+}
+
+Question CoverageNeeds::cracks() const {
+  Question question{"subpixel bits without a crack", {},     {}, shared_crossings_,
+                    "crossings of shared edges",     "crack"};
+  for (const Tried& tried : bits_) question.answers.push_back(tried.cracks);
+  return question;
+}
+
+Question CoverageNeeds::displaced() const {
+  const std::string limit =
+      displacement_ ? fmt::format("displacing {:g} per 10^6", *displacement_) : "as true as 8 bits";
+  Question question{"subpixel bits, " + limit, {}, {}, crossings_, "edge crossings", "displaced pixel"};
+  for (const Tried& tried : bits_) {
+    question.answers.push_back(tried.displaced);
+    if (tried.wrong <= allowed()) question.answers.back() = {tried.displaced.name};
+  }
+  return question;
+}
+
+Question CoverageNeeds::floats() const {
+  Question question{"float edges without a crack", {},     {}, shared_crossings_,
+                    "crossings of shared edges",   "crack"};
+  for (const Tried& tried : floats_) question.answers.push_back(tried.cracks);
+  return question;
+}
+
+std::vector<Question> CoverageNeeds::questions() const {
+  if (shared_crossings_ == 0) return {displaced()};
+  return {cracks(), displaced(), floats()};
+}
+
+int CoverageNeeds::fewest_subpixel_bits() const {
+  const Question a = cracks(), b = displaced();
+  for (std::size_t bits = 0; bits < bits_.size(); ++bits)
+    if ((shared_crossings_ == 0 || a.answers[bits].enough()) && b.answers[bits].enough())
+      return static_cast<int>(bits);
+  return kMostSubpixelBits;
+}
+
+}  // namespace edgewise::lab

@@ -1,0 +1,43 @@
+#include "lab/needs/facing.h"
+
+#include <algorithm>
+
+#include "lab/view_space.h"
+
+namespace edgewise::lab {
+
+FacingNeeds::FacingNeeds()
+    : back_faces_{"back faces", {{"may be drawn"}, {"must be culled"}}}, test_{"facing test", {}} {
+  // The registry begins with ours, the dearest.
+  for (const FacingMethod& method : facing_methods())
+    test_.answers.insert(test_.answers.begin(), {std::string(method.info.name)});
+  back_faces_.trial = test_.trial = "pixels";
+}
+
+void FacingNeeds::add(const StudiedFrame& frame) {
+  Frontend frontend;
+  const auto culled = frontend.run(frame.drawable, frame.options);
+  const auto right = picture_of_ids(culled, frame.size());
+  FrontendOptions options = frame.options;
+  options.cull = Cull::none;
+  const auto run = frontend.run(frame.drawable, options);
+  const std::vector<ScreenTriangle> all(run.begin(), run.end());
+  back_faces_.trials += frame.pixels();
+  test_.trials += frame.pixels();
+  if (Answer& draw = back_faces_.answers.front(); draw.enough())
+    compare_pictures(right, picture_of_ids(all, frame.size()), frame, draw);
+
+  const ClippingScene seen = in_view_space(std::get<Scene>(frame.drawable), frame.size());
+  for (const FacingMethod& method : facing_methods()) {
+    const auto answer = std::find_if(test_.answers.begin(), test_.answers.end(),
+                                     [&](const Answer& a) { return a.name == method.info.name; });
+    if (!answer->enough()) continue;
+    const auto fronts = fronts_of(method, seen);
+    std::vector<ScreenTriangle> kept;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(kept),
+                 [&](const ScreenTriangle& t) { return fronts[t.payload] != 0; });
+    compare_pictures(right, picture_of_ids(kept, frame.size()), frame, *answer);
+  }
+}
+
+}  // namespace edgewise::lab

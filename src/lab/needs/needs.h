@@ -1,0 +1,57 @@
+// What a scene needs: for each stage of a rasterizer the cheapest answer that draws the frames given without
+// an error, what speaks against cheaper ones, and a plain rasterizer that does no more.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lab/needs/clipping.h"
+#include "lab/needs/coverage.h"
+#include "lab/needs/facing.h"
+#include "lab/needs/pipeline.h"
+#include "lab/needs/question.h"
+#include "lab/needs/visibility.h"
+
+namespace edgewise::lab {
+
+struct NeedsOptions {
+  std::optional<double> displacement = {};  // see CoverageNeeds
+  bool keep_pictures = false;               // see StudiedFrame
+  bool ranges_only = false;                 // draws nothing; then only ranges() has a result
+  int threads = 1;
+};
+
+class Needs {
+ public:
+  explicit Needs(const NeedsOptions& options) : options_(options), coverage_(options.displacement) {}
+
+  // Studies the next frame. All frames must be of one size and of one kind, scenes or streams.
+  void add(const Drawable& drawable, FrontendOptions options);
+
+  std::uint64_t frames() const { return frames_; }
+  std::uint64_t most_triangles() const { return most_triangles_; }  // drawn in one frame
+  const Ranges& ranges() const { return ranges_; }
+  // Those about clipping and facing only for scenes with back faces culled.
+  std::vector<Question> questions() const;
+
+  static constexpr Pipeline kFull{8, 64, Pipeline::Order::depth, 30};
+  // Made of the cheapest answers. What no answer is enough for is as in the full one.
+  Pipeline smallest() const;
+
+ private:
+  NeedsOptions options_;
+  Ranges ranges_;
+  std::optional<ClippingNeeds> clipping_;
+  std::optional<FacingNeeds> facing_;
+  VisibilityNeeds visibility_;
+  CoverageNeeds coverage_;
+  std::uint64_t frames_ = 0, most_triangles_ = 0;
+};
+
+// Pixels of a frame at which a pipeline does not show the nearest triangle, by the positions before snapping.
+std::uint64_t wrong_px(const Pipeline& pipeline, const VisibilityScene& scene,
+                       const TrueVisibleTriangles& truth);
+
+}  // namespace edgewise::lab

@@ -1,0 +1,328 @@
+// What a scene needs: scenes made to need exactly so much, and witnesses that are checked.
+#include "lab/needs/needs.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "edgewise/builtin.h"
+#include "lab/coverage/methods/fixed_edges.h"
+#include "message_of.h"
+#include "support.h"
+
+namespace edgewise::lab {
+namespace {
+
+constexpr int kWidth = 24, kHeight = 16;
+
+int scenes_to_try(int quick) {
+  return testing::full_size() ? 100'000 : quick;
+}
+
+class Random {
+ public:
+  explicit Random(std::uint32_t seed) : engine_(seed) {}
+  double real(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
+  int whole(int low, int high) { return std::uniform_int_distribution<int>(low, high)(engine_); }
+
+ private:
+  std::mt19937 engine_;
+};
+
+StreamTriangle triangle(glm::vec3 a, glm::vec3 b, glm::vec3 c) {
+  return {{a, b, c}, rgb(200, 100, 50)};
+}
+
+TriangleStream stream_of(std::vector<StreamTriangle> triangles) {
+  return {kWidth, kHeight, std::move(triangles)};
+}
+
+Needs studied(const Drawable& drawable, const NeedsOptions& options = {}, Cull cull = Cull::none) {
+  Needs needs(options);
+  needs.add(drawable, {kWidth, kHeight, cull});
+  return needs;
+}
+
+Question question_of(const Needs& needs, std::string_view start) {
+  const auto all = needs.questions();
+  const auto found = std::ranges::find_if(all, [&](const Question& q) { return q.name.starts_with(start); });
+  if (found == all.end()) throw std::out_of_range("no such question");
+  return *found;
+}
+
+std::string answer_to(const Needs& needs, std::string_view start) {
+  const Question question = question_of(needs, start);
+  return question.cheapest() == nullptr ? "none" : question.cheapest()->name;
+}
+
+std::string bits_name(int bits) {
+  return std::to_string(bits) + (bits == 1 ? " bit" : " bits");
+}
+
+// A triangle whose left edge is vertical, at this x.
+StreamTriangle left_edge_at(double x, int right) {
+  return triangle({x, 0, 0.5}, {right, kHeight / 2, 0.5}, {x, kHeight, 0.5});
+}
+
+// The triangles that cover a sample if vertices are rounded to so many bits.
+std::vector<std::uint32_t> covering(const TriangleStream& stream, int bits, int x, int y) {
+  std::vector<std::uint32_t> ids;
+  for (std::uint32_t i = 0; i < stream.triangles.size(); ++i) {
+    UnsnappedTriangle t{};
+    const double scale = std::ldexp(1.0, bits);
+    for (int k = 0; k < 3; ++k) {
+      const glm::vec3 v = stream.triangles[i].vertex[k];
+      t.x_px[k] = static_cast<float>(std::nearbyint(double{v.x} * scale) / scale);
+      t.y_px[k] = static_cast<float>(std::nearbyint(double{v.y} * scale) / scale);
+    }
+    if (const FloatTruth truth(t); truth.facing() != 0 && truth.covers(x, y)) ids.push_back(i);
+  }
+  return ids;
+}
+
+// An edge 2^-k px to the right of a column of samples needs k bits: with fewer, k - 1 down to 1, it is
+// rounded onto the samples, or beyond. Without any, an edge on an odd column of samples is rounded away from
+// them.
+TEST(Needs, FindsExactlyTheSubpixelBitsThatASceneNeeds) {
+  Random random(1);
+  for (int i = 0; i < scenes_to_try(1500); ++i) {
+    const int bits = random.whole(3, kMostSubpixelBits);
+    const int x = random.whole(1, 10);
+    const TriangleStream scene =
+        stream_of({left_edge_at(x + 0.5 + std::ldexp(1.0, -bits), random.whole(14, 30)),
+                   left_edge_at(2 * random.whole(0, 5) + 1.5, random.whole(14, 30))});
+    const Question question =
+        question_of(studied(scene, {.displacement = 0.0}), "subpixel bits, displacing 0");
+    ASSERT_NE(question.cheapest(), nullptr);
+    ASSERT_EQ(question.cheapest()->name, bits_name(bits)) << "scene " << i;
+    for (int fewer = 0; fewer < bits; ++fewer) {
+      const Answer& answer = question.answers[static_cast<std::size_t>(fewer)];
+      ASSERT_FALSE(answer.enough());
+      const Witness& w = *answer.witness;
+      EXPECT_EQ(w.right, covering(scene, 24, w.x_px, w.y_px)) << "scene " << i << ", " << fewer << " bits";
+      EXPECT_EQ(w.drawn, covering(scene, fewer, w.x_px, w.y_px)) << "scene " << i << ", " << fewer << " bits";
+      EXPECT_NE(w.right, w.drawn);
+    }
+  }
+}
+
+// Covers the whole picture.
+StreamTriangle wall(float z) {
+  return triangle({-100, -100, z}, {300, -100, z}, {-100, 300, z});
+}
+
+TEST(Needs, FindsExactlyTheDepthBitsThatASceneNeeds) {
+  Random random(2);
+  for (int i = 0; i < scenes_to_try(1500); ++i) {
+    const float near_z = static_cast<float>(random.real(0.01, 0.9));
+    const float far_z =
+        static_cast<float>(double{near_z} + std::ldexp(random.real(0.5, 1.0), -random.whole(2, 22)));
+    if (near_z == far_z) continue;
+    // The nearer wall is drawn later, so it stays invisible if both get the same depth.
+    const Needs needs = studied(stream_of({wall(far_z), wall(near_z)}));
+    int bits = 1;
+    const auto stored = [&](float z) { return std::floor(double{z} * (std::ldexp(1.0, bits) - 1) + 0.5); };
+    while (stored(near_z) >= stored(far_z)) ++bits;
+    ASSERT_EQ(answer_to(needs, "depth buffer"), bits_name(bits)) << near_z << ' ' << far_z;
+    ASSERT_EQ(answer_to(needs, "visibility"), "submission_order");
+    const Question question = question_of(needs, "depth buffer");
+    for (int fewer = 1; fewer < bits; ++fewer) {
+      const auto& witness = question.answers[static_cast<std::size_t>(fewer) - 1].witness;
+      ASSERT_TRUE(witness);
+      EXPECT_EQ(witness->right, std::vector<std::uint32_t>{1});
+      EXPECT_NE(witness->drawn, std::vector<std::uint32_t>{1});
+    }
+  }
+}
+
+TEST(Needs, FindsTheCheapestOrderThatIsEnough) {
+  const auto visibility = [](const TriangleStream& stream) {
+    return answer_to(studied(stream), "visibility");
+  };
+  EXPECT_EQ(visibility(stream_of({wall(0.7f), wall(0.3f)})), "submission_order");
+  EXPECT_EQ(visibility(stream_of({wall(0.3f), wall(0.7f)})), "painter_mean");
+  // Nearer than the wall in the upper half of the picture only.
+  const StreamTriangle tilted = triangle({-100, -100, 0.0}, {300, -100, 0.0}, {-100, 300, 0.9});
+  EXPECT_EQ(visibility(stream_of({wall(0.243f), tilted})), "depth buffer");
+}
+
+// One triangle and a camera at the origin that looks along -z.
+Scene scene_of(std::vector<glm::vec3> corners) {
+  Scene scene;
+  scene.camera.near_z = 1.0f, scene.camera.far_z = 50.0f;
+  scene.instances.resize(1);
+  Mesh& mesh = scene.meshes.emplace_back();
+  mesh.positions = std::move(corners);
+  for (unsigned i = 0; i + 2 < mesh.positions.size(); i += 3) {
+    mesh.triangles.emplace_back(i, i + 1, i + 2);
+    mesh.colours.push_back(rgb(200, 100, 50));
+  }
+  return scene;
+}
+
+TEST(Needs, FindsWhatTheNearPlaneNeeds) {
+  Random random(3);
+  for (int i = 0; i < scenes_to_try(600); ++i) {
+    const auto within = [&](double reach) { return static_cast<float>(random.real(-reach, reach)); };
+    std::vector<glm::vec3> in_front;
+    for (int k = 0; k < 3; ++k)
+      in_front.push_back({within(2), within(1), static_cast<float>(random.real(-9, -4))});
+    const Needs easy = studied(scene_of(in_front));
+    ASSERT_EQ(answer_to(easy, "near plane"), "nothing");
+    EXPECT_NE(question_of(easy, "near plane").proof, "");
+
+    // Mirrored by the division: it would cover the middle of the picture.
+    std::vector<glm::vec3> behind = {
+        {-9, -9, 4}, {9, -9, 4}, {within(2), 9, static_cast<float>(random.real(3, 5))}};
+    const Needs mirrored = studied(scene_of(behind));
+    ASSERT_EQ(answer_to(mirrored, "near plane"), "drop whole triangles");
+    const Question dropped = question_of(mirrored, "near plane");
+    EXPECT_TRUE(dropped.answers[0].witness->right.empty());
+    EXPECT_EQ(dropped.answers[0].witness->drawn, std::vector<std::uint32_t>{0});
+    EXPECT_NE(dropped.proof, "");
+
+    // A floor that passes below the camera.
+    const std::vector<glm::vec3> floor = {
+        {-9, -1, 6}, {9, -1, static_cast<float>(random.real(2, 6))}, {within(2), -1, -30}};
+    const Needs through = studied(scene_of(floor));
+    ASSERT_EQ(answer_to(through, "near plane"), "clip");
+    const auto witness = question_of(through, "near plane").answers[1].witness;
+    ASSERT_TRUE(witness);
+    EXPECT_NE(witness->right, witness->drawn);
+    EXPECT_EQ(answer_to(through, "far plane"), "nothing");
+  }
+}
+
+TEST(Needs, FindsWhatTheFarPlaneNeeds) {
+  const std::vector<glm::vec3> beyond = {{-90, -90, -60}, {90, -90, -60}, {0, 90, -60}};
+  EXPECT_EQ(answer_to(studied(scene_of(beyond)), "far plane"), "drop whole triangles");
+  const std::vector<glm::vec3> through = {{-9, -9, -10}, {9, -9, -10}, {0, 90, -200}};
+  EXPECT_EQ(answer_to(studied(scene_of(through)), "far plane"), "clip");
+}
+
+// The largest edge value at all samples of the box, by brute force.
+int width_at_every_sample(const UnsnappedTriangle& t, int bits) {
+  long long x[3], y[3], largest = 0;
+  const int scale = 1 << bits;
+  for (int i = 0; i < 3; ++i)
+    x[i] = std::llrint(double{t.x_px[i]} * scale), y[i] = std::llrint(double{t.y_px[i]} * scale);
+  const auto [low_x, high_x] = std::minmax({x[0], x[1], x[2]});
+  const auto [low_y, high_y] = std::minmax({y[0], y[1], y[2]});
+  bool sampled = false;
+  for (int py = 0; py < kHeight; ++py)
+    for (int px = 0; px < kWidth; ++px) {
+      const long long sx = px * scale + scale / 2, sy = py * scale + scale / 2;
+      if (sx < low_x || sx > high_x || sy < low_y || sy > high_y) continue;
+      sampled = true;
+      for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3;
+        largest = std::max(largest, std::abs((x[j] - x[i]) * (sy - y[i]) - (y[j] - y[i]) * (sx - x[i])));
+      }
+    }
+  const long long area = std::abs((x[1] - x[0]) * (y[2] - y[0]) - (y[1] - y[0]) * (x[2] - x[0]));
+  if (!sampled || area == 0) return 1;
+  return 65 - std::countl_zero(static_cast<std::uint64_t>(std::max(largest, area)));
+}
+
+TEST(Needs, ComputesTheExactWidthOfEdgeValues) {
+  Random random(4);
+  for (int i = 0; i < scenes_to_try(1000); ++i) {
+    const double reach = std::exp(random.real(0.0, 6.0));
+    StreamTriangle t = wall(0.5f);
+    UnsnappedTriangle at{};
+    for (int k = 0; k < 3; ++k) {
+      t.vertex[k].x = at.x_px[k] = static_cast<float>(random.real(-reach, reach));
+      t.vertex[k].y = at.y_px[k] = static_cast<float>(random.real(-reach, reach));
+    }
+    const Needs needs = studied(stream_of({t}), {.ranges_only = true});
+    for (const int bits : {1, 4, 8, 16})
+      ASSERT_EQ(needs.ranges().edge_value_bits(bits), width_at_every_sample(at, bits)) << i << ' ' << bits;
+  }
+}
+
+TEST(Needs, KnowsWhatTheTutorialsCubeNeeds) {
+  Needs needs({.threads = 2});
+  for (int frame = 0; frame < 3; ++frame)
+    needs.add(find_scene("cube").make({320, 180, static_cast<float>(frame)}), {320, 180});
+  EXPECT_EQ(needs.frames(), 3u);
+  for (const char* plane : {"near plane", "far plane", "guard band"}) {
+    EXPECT_EQ(answer_to(needs, plane), "nothing");
+    EXPECT_NE(question_of(needs, plane).proof, "");
+  }
+  EXPECT_EQ(answer_to(needs, "visibility"), "submission_order") << "convex, and back faces are culled";
+  EXPECT_EQ(question_of(needs, "visibility").trials, 3u * 320 * 180);
+  EXPECT_EQ(needs.smallest().order, Pipeline::Order::submission);
+}
+
+TEST(Needs, CubesThatIntersectNeedADepthBuffer) {
+  const Drawable cubes = find_scene("cubes").make({320, 180, 0.5f});
+  Needs needs({.keep_pictures = true, .threads = 2});
+  needs.add(cubes, {320, 180});
+  EXPECT_EQ(answer_to(needs, "visibility"), "depth buffer");
+  const Question tests = question_of(needs, "facing test");
+  EXPECT_EQ(tests.answers.back().name, "snapped_area");
+  EXPECT_TRUE(tests.answers.back().enough());
+  const Answer& plain = tests.of("normal_z");
+  ASSERT_FALSE(plain.enough()) << "the cubes lie beside the axis of the view";
+  EXPECT_EQ(plain.picture.marks.size(), 320u * 180);
+  EXPECT_EQ(plain.wrong_px, static_cast<std::uint64_t>(std::ranges::count_if(
+                                plain.picture.marks, [](Mark mark) { return mark != Mark::none; })));
+  EXPECT_EQ(needs.smallest().order, Pipeline::Order::depth);
+}
+
+TEST(Needs, PipelinesDrawWhatTheirAnswersPromise) {
+  using Order = Pipeline::Order;
+  const FrontendOptions options{320, 180};
+  for (const char* name : {"cube", "cubes", "torus-knot"}) {
+    const Drawable drawable = find_scene(name).make({320, 180, 0.3f, 0.2});
+    Needs needs({.threads = 2});
+    needs.add(drawable, options);
+    const VisibilityScene scene = visibility_scene(drawable, options);
+    const auto truth = true_visible_triangles(scene);
+    const std::uint64_t full = wrong_px(Needs::kFull, scene, truth);
+    EXPECT_LE(full, 320u * 180 / 500) << name;
+    EXPECT_LE(wrong_px(needs.smallest(), scene, truth), full) << name << ": " << needs.smallest().describe();
+    // 32 bits suffice for triangles of up to 181 px.
+    if (std::string_view(name) == "torus-knot") {
+      VisibilityFrame narrow, wide;
+      draw({8, 32, Order::depth, 24}, scene, narrow);
+      draw({8, 64, Order::depth, 24}, scene, wide);
+      EXPECT_EQ(narrow.visible, wide.visible);
+    }
+  }
+  VisibilityFrame frame;
+  const VisibilityScene none{8, 8, 1.0, 2.0, {}, {}};
+  EXPECT_EQ(message_of([&] {
+              draw({5, 32, Order::submission}, none, frame);
+            }),
+            "a pipeline has 0, 4, 8 or 16 subpixel bits");
+  EXPECT_EQ(message_of([&] {
+              draw({8, 32, Order::depth, 20}, none, frame);
+            }),
+            "a pipeline's depth buffer has 16, 24 or 30 bits");
+}
+
+TEST(Needs, PipelinesGetTheNextLargerNumberOfSubpixelBits) {
+  EXPECT_EQ(pipeline_subpixel_bits(0), 0);
+  EXPECT_EQ(pipeline_subpixel_bits(1), 4);
+  EXPECT_EQ(pipeline_subpixel_bits(8), 8);
+  EXPECT_EQ(pipeline_subpixel_bits(9), 16);
+}
+
+// A frame that needs more than the ones before it decides.
+TEST(Needs, TheHardestFrameDecides) {
+  Needs needs({.displacement = 0.0});
+  for (const int bits : {3, 7, 5})
+    needs.add(stream_of({left_edge_at(4.5 + std::ldexp(1.0, -bits), 20), left_edge_at(7.5, 20)}),
+              {kWidth, kHeight, Cull::none});
+  const Question question = question_of(needs, "subpixel bits, displacing 0");
+  EXPECT_EQ(question.cheapest()->name, "7 bits");
+  EXPECT_EQ(question.of("4 bits").witness->frame, 1u);
+  EXPECT_EQ(question.of("2 bits").witness->frame, 0u);
+  EXPECT_EQ(needs.smallest().subpixel_bits, 8);
+}
+
+}  // namespace
+}  // namespace edgewise::lab
