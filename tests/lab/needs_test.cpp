@@ -311,6 +311,32 @@ TEST(Needs, PipelinesGetTheNextLargerNumberOfSubpixelBits) {
   EXPECT_EQ(pipeline_subpixel_bits(9), 16);
 }
 
+// The second triangle lies just above the edge that both share. Rounded to whole pixels, its third vertex
+// lies below.
+TEST(Needs, CountsFoldsAsCracks) {
+  const Needs needs = studied(stream_of({triangle({0, 7, 0.5}, {24, 7.8, 0.5}, {12, 16, 0.5}),
+                                         triangle({0, 7, 0.5}, {24, 7.8, 0.5}, {18, 7.55, 0.5})}));
+  const Question question = question_of(needs, "subpixel bits without a crack");
+  ASSERT_FALSE(question.answers[0].enough());
+  const Witness& w = *question.answers[0].witness;
+  EXPECT_EQ(w.right, std::vector<std::uint32_t>{0});
+  EXPECT_EQ(w.drawn, (std::vector<std::uint32_t>{0, 1}));
+  EXPECT_TRUE(question.of("8 bits").enough());
+}
+
+TEST(Needs, PipelinesHaveIntegersThatHoldTheEdgeValues) {
+  // With 8 subpixel bits, twice the area of a triangle with legs of 181 px is just below 2^31.
+  for (const auto& [legs, bits] : {std::pair{181, 32}, {182, 64}}) {
+    const float far = static_cast<float>(legs);
+    const Needs needs = studied(stream_of({triangle({0, 0, 0.5}, {far, 0, 0.5}, {0, far, 0.5}),
+                                           left_edge_at(4.5 + std::ldexp(1.0, -8), 20)}),
+                                {.displacement = 0.0});
+    EXPECT_EQ(needs.smallest().subpixel_bits, 8);
+    EXPECT_EQ(needs.smallest().edge_bits, bits) << legs;
+    EXPECT_EQ(answer_to(needs, "edge values"), std::to_string(bits) + "-bit integers");
+  }
+}
+
 // A frame that needs more than the ones before it decides.
 TEST(Needs, TheHardestFrameDecides) {
   Needs needs({.displacement = 0.0});

@@ -9,6 +9,7 @@
 
 #include "edgewise/builtin.h"
 #include "lab/truth.h"
+#include "lab/view_space.h"
 #include "message_of.h"
 #include "support.h"
 
@@ -280,15 +281,18 @@ TEST(Portable, WitnessesFindAMaskThatIsTooSmall) {
 
 // Of meshes, our own picture too must lie within the model.
 TEST(Portable, OursIsTheReferenceOfMeshes) {
-  // Far from the origin, floats give distances and depths of few digits.
+  // Far from the mesh's origin, floats give distances and depths of few digits.
   constexpr std::pair<const char*, float> kScenes[] = {
       {"cube", 0}, {"cubes", 0}, {"cubes", 1000}, {"torus-knot", 0}, {"terrain", 0}};
   for (const auto& [name, shift] : kScenes) {
     const SceneRequest request{320, 180, 0.3f, 0.2};
-    Drawable drawable = find_scene(name).make(request);
-    auto& scene = std::get<Scene>(drawable);
-    scene.camera.position += shift;
-    for (Instance& instance : scene.instances) instance.translation += shift;
+    Scene scene = std::get<Scene>(find_scene(name).make(request));
+    if (shift != 0) {
+      scene = in_view_space(scene, {request.width, request.height}).scene;
+      for (glm::vec3& p : scene.meshes.front().positions) p += shift;
+      scene.camera.position += shift;
+    }
+    const Drawable drawable = scene;
     FrontendOptions options{request.width, request.height};
     const auto triangles = portable_triangles(drawable, options);
     const PortablePixels mask = portable_pixels(triangles, options.width, options.height, {}, 2);
