@@ -226,9 +226,9 @@ TEST(Ratios, ComparePeersWithTheDefaultBackend) {
 // The benchmark's peers draw our pictures, of hard triangle families and of whole scenes.
 class BuiltPeer : public ::testing::TestWithParam<std::string> {};
 
-std::shared_ptr<Workload> hard_workload(const std::string& family) {
+std::shared_ptr<Workload> hard_workload(const std::string& family, std::uint64_t seed = 7) {
   TriangleStream stream{192, 128, {}};
-  for (const ScreenTriangle& t : testing::adversarial(family, 400, stream.width, stream.height, 7)) {
+  for (const ScreenTriangle& t : testing::adversarial(family, 400, stream.width, stream.height, seed)) {
     StreamTriangle out{{}, t.payload};
     for (int k = 0; k < 3; ++k)
       out.vertex[k] = {static_cast<float>(t.x_sub[k]) / kSub, static_cast<float>(t.y_sub[k]) / kSub,
@@ -320,7 +320,23 @@ TEST_P(BuiltPeer, DiffersFromUsOnlyInPixelsThatAreNotPortable) {
   if (compared == 0) GTEST_SKIP() << "no peer was built that runs here";
 }
 
-// Otherwise the test above would pass for any mask.
+TEST(AllPeers, DifferFromUsOnlyInPixelsOfRandomScenesThatAreNotPortable) {
+  const int scenes = testing::full_size() ? 1000 : 24;
+  int compared = 0;
+  for (const PeerInfo& peer : peers()) {
+    if (!runs_here(peer)) continue;
+    for (int i = 0; i < scenes; ++i, ++compared) {
+      const std::string family(
+          testing::kFamilies[static_cast<std::size_t>(i) % std::size(testing::kFamilies)]);
+      const auto workload = hard_workload(family, 1000 + static_cast<std::uint64_t>(i));
+      EXPECT_EQ(wrong_portable_px(*workload, peer, peer.subpixel_bits), 0u)
+          << peer.name << ' ' << family << ' ' << i;
+    }
+  }
+  if (compared == 0) GTEST_SKIP() << "no peer was built that runs here";
+}
+
+// Otherwise the tests above would pass for any mask.
 TEST(AllPeers, ShowAMaskThatIsTooSmall) {
   const auto softpipe = std::ranges::find(peers(), "softpipe", &PeerInfo::name);
   if (softpipe == peers().end() || !runs_here(*softpipe))
