@@ -17,6 +17,11 @@ struct MethodInfo {
   bool exact;                // no errors against the snapped truth
 };
 
+// Whether culling keeps a triangle whose area has this sign: 1 clockwise on the screen, the front.
+constexpr bool keeps(Cull cull, int facing) {
+  return cull == Cull::none || (cull == Cull::back && facing > 0) || (cull == Cull::front && facing < 0);
+}
+
 struct Size {
   int width, height;  // px
 };

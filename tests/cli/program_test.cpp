@@ -330,7 +330,7 @@ TEST(Program, NeedsFollowsMotionAndOrbit) {
 TEST(Program, NeedsByRangesAlone) {
   const Outcome text = edgewise_with("needs terrain grid64 --ranges --size 160x90");
   ASSERT_EQ(text.status, 0) << text.err;
-  EXPECT_NE(text.out.find(" reach beyond it"), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("triangles beyond it: "), std::string::npos) << text.out;
   const auto json = nlohmann::json::parse(edgewise_with("needs cube --ranges --json").out);
   EXPECT_EQ(json.at("reach").at("near plane").at("beyond"), 0);
   EXPECT_EQ(json.at("edge_value_bits").size(), 17u);
@@ -339,8 +339,8 @@ TEST(Program, NeedsByRangesAlone) {
 TEST_F(ProgramRenders, WhatIsNotEnoughAsCloseups) {
   const Outcome outcome = edgewise_with("needs cubes --size 96x54 --pictures " + path("errors"));
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_TRUE(std::filesystem::exists(path("errors/cubes-visibility-submission_order.png")));
-  EXPECT_TRUE(std::filesystem::exists(path("errors/cubes-facing_test-normal_z.png")));
+  EXPECT_TRUE(std::filesystem::exists(path("errors/cubes-visibility-painter_farthest.png")));
+  EXPECT_TRUE(std::filesystem::exists(path("errors/cubes-facing_test-normal_dot_object.png")));
 }
 
 TEST_F(ProgramRenders, ScenesThatVerifyReportsAsJson) {

@@ -93,8 +93,7 @@ TEST(Needs, FindsExactlyTheSubpixelBitsThatASceneNeeds) {
     const TriangleStream scene =
         stream_of({left_edge_at(x + 0.5 + std::ldexp(1.0, -bits), random.whole(14, 30)),
                    left_edge_at(2 * random.whole(0, 5) + 1.5, random.whole(14, 30))});
-    const Question question =
-        question_of(studied(scene, {.displacement = 0.0}), "subpixel bits, displacing 0");
+    const Question question = question_of(studied(scene, {.displacement = 0.0}), "subpixel bits, at most 0");
     ASSERT_NE(question.cheapest(), nullptr);
     ASSERT_EQ(question.cheapest()->name, bits_name(bits)) << "scene " << i;
     for (int fewer = 0; fewer < bits; ++fewer) {
@@ -195,6 +194,21 @@ TEST(Needs, FindsWhatTheNearPlaneNeeds) {
   }
 }
 
+// Front faces that are culled do not hide what clipping is missing.
+TEST(Needs, SeesOnlyTheFacesThatAreDrawn) {
+  const std::vector<glm::vec3> wall_and_floor = {{-3, -3, -1.05f}, {3, -3, -1.05f}, {0, 6, -1.05f},
+                                                 {-9, -1, 6},      {0, -1, -30},    {9, -1, 6}};
+  const Scene scene = scene_of(wall_and_floor);
+  EXPECT_EQ(answer_to(studied(scene, {}, Cull::back), "near plane"), "clip");
+  EXPECT_EQ(answer_to(studied(scene, {}, Cull::front), "near plane"), "nothing");
+}
+
+TEST(Needs, RangesLeaveOutVerticesThatNoTriangleUses) {
+  Scene scene = scene_of({{0, 0, -4}, {1, 0, -4}, {0, 1, -4}});
+  scene.meshes.front().positions.push_back({0, 0, 50});
+  EXPECT_EQ(question_of(studied(scene), "near plane").proof, "the nearest vertex is at 4, the plane at 1");
+}
+
 TEST(Needs, FindsWhatTheFarPlaneNeeds) {
   const std::vector<glm::vec3> beyond = {{-90, -90, -60}, {90, -90, -60}, {0, 90, -60}};
   EXPECT_EQ(answer_to(studied(scene_of(beyond)), "far plane"), "drop whole triangles");
@@ -280,7 +294,7 @@ TEST(Needs, PipelinesDrawWhatTheirAnswersPromise) {
     Needs needs({.threads = 2});
     needs.add(drawable, options);
     const VisibilityScene scene = visibility_scene(drawable, options);
-    const auto truth = true_visible_triangles(scene);
+    const auto truth = unsnapped_visible_triangles(scene);
     const std::uint64_t full = wrong_px(Needs::kFull, scene, truth);
     EXPECT_LE(full, 320u * 180 / 500) << name;
     EXPECT_LE(wrong_px(needs.smallest(), scene, truth), full) << name << ": " << needs.smallest().describe();
@@ -304,11 +318,18 @@ TEST(Needs, PipelinesDrawWhatTheirAnswersPromise) {
             "a pipeline's depth buffer has 16, 24 or 30 bits");
 }
 
-TEST(Needs, PipelinesGetTheNextLargerNumberOfSubpixelBits) {
-  EXPECT_EQ(pipeline_subpixel_bits(0), 0);
-  EXPECT_EQ(pipeline_subpixel_bits(1), 4);
-  EXPECT_EQ(pipeline_subpixel_bits(8), 8);
-  EXPECT_EQ(pipeline_subpixel_bits(9), 16);
+TEST(Needs, PipelinesRoundBitsUpToOnesThatAreEnough) {
+  const auto bits_for = [](int bits) {
+    return studied(stream_of({left_edge_at(4.5 + std::ldexp(1.0, -bits), 20), left_edge_at(7.5, 20)}),
+                   {.displacement = 0.0})
+        .smallest()
+        .subpixel_bits;
+  };
+  EXPECT_EQ(bits_for(3), 4);
+  EXPECT_EQ(bits_for(8), 8);
+  EXPECT_EQ(bits_for(9), 16);
+  const TriangleStream on_pixels = stream_of({triangle({2, 2, 0.5}, {9, 2, 0.5}, {2, 9, 0.5})});
+  EXPECT_EQ(studied(on_pixels, {.displacement = 0.0}).smallest().subpixel_bits, 0);
 }
 
 // The second triangle lies just above the edge that both share. Rounded to whole pixels, its third vertex
@@ -343,7 +364,7 @@ TEST(Needs, TheHardestFrameDecides) {
   for (const int bits : {3, 7, 5})
     needs.add(stream_of({left_edge_at(4.5 + std::ldexp(1.0, -bits), 20), left_edge_at(7.5, 20)}),
               {kWidth, kHeight, Cull::none});
-  const Question question = question_of(needs, "subpixel bits, displacing 0");
+  const Question question = question_of(needs, "subpixel bits, at most 0");
   EXPECT_EQ(question.cheapest()->name, "7 bits");
   EXPECT_EQ(question.of("4 bits").witness->frame, 1u);
   EXPECT_EQ(question.of("2 bits").witness->frame, 0u);

@@ -19,7 +19,8 @@ def question(name, *answers, cheapest):
 
 
 def entry(scene, near="nothing", facing="normal_z", visibility="submission_order", median=2.0):
-    return {"scene": scene, "frames": 3, "smallest": {"speedup": {"median": median, "low": median - 0.1, "high": median + 0.1}},
+    return {"scene": scene, "frames": 3, "smallest": {"pipeline": "4 subpixel bits", "wrong_px": 1, "full_wrong_px": 1234,
+                         "speedup": {"median": median, "low": median - 0.1, "high": median + 0.1}},
             "questions": [
                 question("near plane", "nothing", "drop whole triangles", "clip", cheapest=near),
                 question("far plane", "nothing", "clip", cheapest="nothing"),
@@ -28,7 +29,7 @@ def entry(scene, near="nothing", facing="normal_z", visibility="submission_order
                 question("visibility", "submission_order", "painter_mean", "depth buffer", cheapest=visibility),
                 question("depth buffer", "1 bit", "2 bits", cheapest="2 bits"),
                 question("subpixel bits without a crack", "0 bits", "1 bit", cheapest="1 bit"),
-                question("subpixel bits, as true as 8 bits", "8 bits", cheapest="8 bits"),
+                question("subpixel bits, no worse than 8 bits", "8 bits", cheapest="8 bits"),
                 question("edge values at 8 subpixel bits", "32-bit integers", cheapest="32-bit integers"),
                 question("float edges without a crack", "float_lt", "float_le", cheapest="float_le")]}
 
@@ -78,9 +79,16 @@ class Needs(unittest.TestCase):
 
     def test_the_tutorials_cube_in_a_sentence(self):
         self.assertEqual(cube_sentence(self.read(entry("cube"))),
-                         "In 3 frames, the tutorials' cube needs no clipping, no better facing test than `normal_z`, `submission_order` for "
-                         "visibility, and 1 bit of subpixel precision against cracks. A plain rasterizer that does no more, against one "
-                         "with 8 subpixel bits, 64-bit edge values and 30-bit depths: 2.00× faster (1.90 to 2.10).")
+                         "Stage by stage, 3 frames of the tutorials' cube need: clipping: nothing; facing test: `normal_z`; visibility: "
+                         "`submission_order`; against cracks: 1 bit of subpixel precision. On one thread, a plain rasterizer with 4 subpixel "
+                         "bits is 2.00× faster (1.90 to 2.10) than one with 8 subpixel bits, 64-bit edges and 30-bit depth; wrong pixels by "
+                         "the positions before snapping: 1 and 1,234.")
+
+    def test_an_answer_that_no_longer_exists_is_refused(self):
+        found = self.read(entry("cube"))
+        found["cube"][1]["visibility"]["answers"].clear()
+        with self.assertRaises(BadInput):
+            tutorials_table(found)
 
 
 if __name__ == "__main__":

@@ -2,14 +2,6 @@
 
 namespace edgewise::lab {
 
-namespace {
-
-bool keeps(Cull cull, int facing) {
-  return cull == Cull::none || (cull == Cull::back && facing > 0) || (cull == Cull::front && facing < 0);
-}
-
-}  // namespace
-
 CoverageScene coverage_scene(const Drawable& drawable, FrontendOptions options) {
   const Cull cull = options.cull;
   options.cull = Cull::none;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "lab/clipping/methods/pipeline.h"
 #include "lab/view_space.h"
 
@@ -12,8 +14,8 @@ namespace {
 constexpr std::uint16_t kPlanes[kViewPlanes] = {kNear, kFar, kGuard};
 enum Level { kNothing, kDrop, kClip };
 
-// Draws a frame that treats the vertices beyond one plane at this level, and clips at the others.
-std::vector<std::uint32_t> draw_at(Level level, std::uint16_t plane, const ClippingScene& scene,
+// Draws a frame that treats triangles beyond one plane at this level, and clips at the others.
+std::vector<std::uint32_t> draw_at(Level level, std::uint16_t plane, const ClippingScene& scene, Cull cull,
                                    ClippingFrame& frame) {
   draw_clipped(scene, frame, [&](const ClipVertex(&triangle)[3], std::uint32_t id) {
     std::uint16_t any = 0, all = kInvisible;
@@ -29,7 +31,14 @@ std::vector<std::uint32_t> draw_at(Level level, std::uint16_t plane, const Clipp
     if (level != kClip && (any & plane) != 0) planes &= plane == kNear ? 0 : ~plane;
     const auto polygon =
         planes == 0 ? std::span<const ClipVertex>(triangle) : frame.clipper.clip(triangle, planes);
-    emit(polygon, id, scene.cull_back, frame);
+    const auto before = static_cast<std::ptrdiff_t>(frame.triangles.size());
+    emit(polygon, id, false, frame);
+    frame.triangles.erase(std::remove_if(frame.triangles.begin() + before, frame.triangles.end(),
+                                         [&](const ScreenTriangle& t) {
+                                           const std::int64_t area = contract::signed_area(t);
+                                           return !keeps(cull, (area > 0) - (area < 0));
+                                         }),
+                          frame.triangles.end());
   });
   std::vector<std::uint32_t> ids;
   for (int y = 0; y < scene.size.height; ++y) {
@@ -45,13 +54,17 @@ ClippingNeeds::ClippingNeeds() {
   constexpr const char* kNames[] = {"near plane", "far plane", "guard band"};
   for (std::size_t i = 0; i < questions_.size(); ++i) {
     questions_[i] = {kNames[i], {{"nothing"}, {"drop whole triangles"}, {"clip"}}};
-    questions_[i].trial = "pixels";
+    questions_[i].trial = "pixel";
   }
 }
 
 void ClippingNeeds::add(const StudiedFrame& frame, const std::array<Reach, kViewPlanes>& reach) {
   std::optional<ClippingScene> seen;
   std::optional<ClippingFrame> canvas;
+  std::vector<std::uint32_t> right;
+  const auto draw = [&](Level level, std::uint16_t plane) {
+    return draw_at(level, plane, *seen, frame.options.cull, *canvas);
+  };
   for (std::size_t i = 0; i < questions_.size(); ++i) {
     Question& question = questions_[i];
     question.trials += frame.pixels();
@@ -60,11 +73,10 @@ void ClippingNeeds::add(const StudiedFrame& frame, const std::array<Reach, kView
       if (!doubts[level] || !question.answers[level].enough()) continue;
       if (!seen) {
         seen = in_view_space(std::get<Scene>(frame.drawable), frame.size());
-        seen->cull_back = frame.options.cull == Cull::back;
         canvas.emplace(frame.size());
+        right = draw(kClip, kNear);
       }
-      const auto drawn = draw_at(level, kPlanes[i], *seen, *canvas);
-      compare_pictures(draw_at(kClip, kPlanes[i], *seen, *canvas), drawn, frame, question.answers[level]);
+      compare_pictures(right, draw(level, kPlanes[i]), frame, question.answers[level]);
     }
   }
 }
@@ -78,8 +90,8 @@ std::vector<Question> ClippingNeeds::questions(const Ranges& ranges) const {
     if (reach.beyond == 0)
       question.proof = ranges.describe(plane);
     else if (reach.crossing == 0 && !question.answers[kNothing].enough())
-      question.proof =
-          fmt::format("all {} triangles beyond it lie beyond one side of the view", reach.beyond);
+      question.proof = fmt::format(
+          "of the {} triangles that reach beyond it, each lies outside one side of the view", reach.beyond);
   }
   return result;
 }

@@ -60,7 +60,7 @@ void add_witness(const MarkedPicture& marked, std::span<const Mark> kinds, const
 
 CoverageNeeds::CoverageNeeds(std::optional<double> displacement) : displacement_(displacement) {
   for (int bits = 0; bits <= kMostSubpixelBits; ++bits) {
-    const std::string name = std::to_string(bits) + (bits == 1 ? " bit" : " bits");
+    const std::string name = bits_name(bits);
     bits_.push_back({{name}, {name}});
   }
   for (const char* name : kFloatMethods) floats_.push_back({{name}, {name}});
@@ -105,15 +105,15 @@ std::uint64_t CoverageNeeds::allowed() const {
 
 Question CoverageNeeds::cracks() const {
   Question question{"subpixel bits without a crack", {},     {}, shared_crossings_,
-                    "crossings of shared edges",     "crack"};
+                    "shared-edge crossing",          "crack"};
   for (const Tried& tried : bits_) question.answers.push_back(tried.cracks);
   return question;
 }
 
 Question CoverageNeeds::displaced() const {
   const std::string limit =
-      displacement_ ? fmt::format("displacing {:g} per 10^6", *displacement_) : "as true as 8 bits";
-  Question question{"subpixel bits, " + limit, {}, {}, crossings_, "edge crossings", "displaced pixel"};
+      displacement_ ? fmt::format("at most {:g} per 10^6", *displacement_) : "no worse than 8 bits";
+  Question question{"subpixel bits, " + limit, {}, {}, crossings_, "edge crossing", "displaced pixel"};
   for (const Tried& tried : bits_) {
     question.answers.push_back(tried.displaced);
     if (tried.wrong <= allowed()) question.answers.back() = {tried.displaced.name};
@@ -123,7 +123,7 @@ Question CoverageNeeds::displaced() const {
 
 Question CoverageNeeds::floats() const {
   Question question{"float edges without a crack", {},     {}, shared_crossings_,
-                    "crossings of shared edges",   "crack"};
+                    "shared-edge crossing",        "crack"};
   for (const Tried& tried : floats_) question.answers.push_back(tried.cracks);
   return question;
 }
@@ -133,12 +133,9 @@ std::vector<Question> CoverageNeeds::questions() const {
   return {cracks(), displaced(), floats()};
 }
 
-int CoverageNeeds::fewest_subpixel_bits() const {
-  const Question a = cracks(), b = displaced();
-  for (std::size_t bits = 0; bits < bits_.size(); ++bits)
-    if ((shared_crossings_ == 0 || a.answers[bits].enough()) && b.answers[bits].enough())
-      return static_cast<int>(bits);
-  return kMostSubpixelBits;
+bool CoverageNeeds::enough_subpixel_bits(int bits) const {
+  const Tried& tried = bits_[static_cast<std::size_t>(bits)];
+  return (shared_crossings_ == 0 || tried.cracks.enough()) && tried.wrong <= allowed();
 }
 
 }  // namespace edgewise::lab

@@ -20,8 +20,7 @@ void Needs::add(const Drawable& drawable, FrontendOptions options) {
     }
   }
   const VisibilityScene scene = visibility_scene(drawable, options);
-  most_triangles_ = std::max<std::uint64_t>(most_triangles_, scene.triangles.size());
-  visibility_.add(frame, scene, true_visible_triangles(scene), options_.threads);
+  visibility_.add(frame, scene, options_.threads);
   coverage_.add(frame, coverage_scene(drawable, options), options_.threads);
 }
 
@@ -34,34 +33,37 @@ std::vector<Question> Needs::questions() const {
   if (facing_) append(facing_->questions());
   append(visibility_.questions());
   append(coverage_.questions());
-  all.push_back(ranges_.edge_values(coverage_.fewest_subpixel_bits()));
+  all.push_back(ranges_.edge_values(smallest().subpixel_bits));
   return all;
 }
 
 Pipeline Needs::smallest() const {
   using Order = Pipeline::Order;
-  Pipeline result{};
-  result.subpixel_bits = pipeline_subpixel_bits(coverage_.fewest_subpixel_bits());
+  Pipeline result = kFull;
+  const auto fewest = [](std::span<const int> available, int otherwise, auto&& enough) {
+    const auto found = std::find_if(available.begin(), available.end(), enough);
+    return found == available.end() ? otherwise : *found;
+  };
+  result.subpixel_bits = fewest(kPipelineSubpixelBits, kFull.subpixel_bits,
+                                [&](int bits) { return coverage_.enough_subpixel_bits(bits); });
   result.edge_bits = ranges_.edge_value_bits(result.subpixel_bits) <= 32 ? 32 : 64;
   const Question visibility = visibility_.questions().front();
   const Answer* const cheapest = visibility.cheapest();
-  const auto index = cheapest == nullptr ? visibility.answers.size() - 1
-                                         : static_cast<std::size_t>(cheapest - visibility.answers.data());
   constexpr Order kOrders[] = {Order::submission, Order::mean, Order::farthest, Order::depth};
-  result.order = kOrders[index];
-  if (result.order == Order::depth) {
-    const int fewest = visibility_.fewest_depth_bits();
-    result.depth_bits = fewest == 0 ? kFull.depth_bits : fewest <= 16 ? 16 : fewest <= 24 ? 24 : 30;
-  }
+  if (cheapest != nullptr) result.order = kOrders[cheapest - visibility.answers.data()];
+  result.depth_bits =
+      result.order != Order::depth ? 0 : fewest(kPipelineDepthBits, kFull.depth_bits, [&](int bits) {
+        return visibility_.enough_depth_bits(bits);
+      });
   return result;
 }
 
 std::uint64_t wrong_px(const Pipeline& pipeline, const VisibilityScene& scene,
-                       const TrueVisibleTriangles& truth) {
+                       std::span<const std::uint32_t> truth) {
   VisibilityFrame frame;
   draw(pipeline, scene, frame);
   std::uint64_t wrong = 0;
-  for (std::size_t i = 0; i < frame.visible.size(); ++i) wrong += frame.visible[i] != truth.floats[i];
+  for (std::size_t i = 0; i < frame.visible.size(); ++i) wrong += frame.visible[i] != truth[i];
   return wrong;
 }
 

@@ -1,8 +1,8 @@
-// What a scene needs: for each stage of a rasterizer the cheapest answer that draws the frames given without
-// an error, what speaks against cheaper ones, and a plain rasterizer that does no more.
+// What a scene needs: for each stage of a rasterizer the cheapest answer that draws the given frames without
+// an error while all other stages are exact, a witness against cheaper ones, and a plain rasterizer made of
+// these answers. Triangle flags are ignored.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,13 +31,12 @@ class Needs {
   void add(const Drawable& drawable, FrontendOptions options);
 
   std::uint64_t frames() const { return frames_; }
-  std::uint64_t most_triangles() const { return most_triangles_; }  // drawn in one frame
   const Ranges& ranges() const { return ranges_; }
   // Those about clipping and facing only for scenes with back faces culled.
   std::vector<Question> questions() const;
 
   static constexpr Pipeline kFull{8, 64, Pipeline::Order::depth, 30};
-  // Made of the cheapest answers. What no answer is enough for is as in the full one.
+  // Made of the cheapest answers that a Pipeline offers. Where none is enough, it is as the full one.
   Pipeline smallest() const;
 
  private:
@@ -47,11 +46,12 @@ class Needs {
   std::optional<FacingNeeds> facing_;
   VisibilityNeeds visibility_;
   CoverageNeeds coverage_;
-  std::uint64_t frames_ = 0, most_triangles_ = 0;
+  std::uint64_t frames_ = 0;
 };
 
-// Pixels of a frame at which a pipeline does not show the nearest triangle, by the positions before snapping.
+// Pixels of a frame at which a pipeline does not show the nearest triangle by the positions before snapping.
+// `truth` is unsnapped_visible_triangles(scene).
 std::uint64_t wrong_px(const Pipeline& pipeline, const VisibilityScene& scene,
-                       const TrueVisibleTriangles& truth);
+                       std::span<const std::uint32_t> truth);
 
 }  // namespace edgewise::lab

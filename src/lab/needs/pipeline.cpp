@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <optional>
 #include <stdexcept>
 
 #include "lab/coverage/methods/fixed_edges.h"
@@ -106,13 +108,6 @@ void draw_with_bits(const Pipeline& pipeline, const VisibilityScene& scene, Visi
     draw_with_edges<FixedEdges<kSubpixelBits, std::int64_t>>(pipeline, scene, frame);
 }
 
-struct Bits {
-  int subpixel;
-  void (*draw)(const Pipeline& pipeline, const VisibilityScene& scene, VisibilityFrame& frame);
-};
-constexpr Bits kBits[] = {
-    {0, draw_with_bits<0>}, {4, draw_with_bits<4>}, {8, draw_with_bits<8>}, {16, draw_with_bits<16>}};
-
 }  // namespace
 
 std::string Pipeline::describe() const {
@@ -123,16 +118,19 @@ std::string Pipeline::describe() const {
   return fmt::format("{} subpixel bits, {}-bit edges, {}", subpixel_bits, edge_bits, visibility);
 }
 
-int pipeline_subpixel_bits(int fewest) {
-  return std::find_if(std::begin(kBits), std::prev(std::end(kBits)),
-                      [&](const Bits& bits) { return bits.subpixel >= fewest; })
-      ->subpixel;
-}
-
 void draw(const Pipeline& pipeline, const VisibilityScene& scene, VisibilityFrame& frame) {
-  for (const Bits& bits : kBits)
-    if (bits.subpixel == pipeline.subpixel_bits) return bits.draw(pipeline, scene, frame);
-  throw std::invalid_argument("a pipeline has 0, 4, 8 or 16 subpixel bits");
+  switch (pipeline.subpixel_bits) {
+    case 0:
+      return draw_with_bits<0>(pipeline, scene, frame);
+    case 4:
+      return draw_with_bits<4>(pipeline, scene, frame);
+    case 8:
+      return draw_with_bits<8>(pipeline, scene, frame);
+    case 16:
+      return draw_with_bits<16>(pipeline, scene, frame);
+    default:
+      throw std::invalid_argument("a pipeline has 0, 4, 8 or 16 subpixel bits");
+  }
 }
 
 }  // namespace edgewise::lab

@@ -1,4 +1,4 @@
-// Plain rasterizers of one thread that do no more than a scene needs.
+// Plain rasterizers of one thread, for triangles that the front end has clipped and culled.
 #pragma once
 
 #include <string>
@@ -9,16 +9,17 @@ namespace edgewise::lab {
 
 struct Pipeline {
   enum class Order { submission, mean, farthest, depth };
-  int subpixel_bits;   // 0, 4, 8 or 16
+  int subpixel_bits;   // of kPipelineSubpixelBits
   int edge_bits;       // 32 or 64, of integers that hold edge values
   Order order;         // mean, farthest: painter's algorithm
-  int depth_bits = 0;  // Order::depth only: 16, 24 or 30
+  int depth_bits = 0;  // Order::depth only: of kPipelineDepthBits
 
-  std::string describe() const;  // "4 subpixel bits, 32-bit edges, no depth buffer"
+  bool operator==(const Pipeline&) const = default;
+  std::string describe() const;  // "4 subpixel bits, 32-bit edges, submission order"
 };
 
-// The next larger number of subpixel bits that a Pipeline has.
-int pipeline_subpixel_bits(int fewest);
+// The bits that a Pipeline may have.
+inline constexpr int kPipelineSubpixelBits[] = {0, 4, 8, 16}, kPipelineDepthBits[] = {16, 24, 30};
 
 // Draws the scene's visible triangles. Throws std::invalid_argument for bits that a Pipeline does not have.
 void draw(const Pipeline& pipeline, const VisibilityScene& scene, VisibilityFrame& frame);

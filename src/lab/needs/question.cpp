@@ -21,6 +21,11 @@ const Answer& Question::of(std::string_view wanted) const {
   return *found;
 }
 
+std::string bits_name(int bits, std::string_view kind) {
+  return std::to_string(bits) + " " + std::string(kind) + (kind.empty() ? "bit" : " bit") +
+         (bits == 1 ? "" : "s");
+}
+
 void compare_pictures(std::span<const std::uint32_t> right, std::span<const std::uint32_t> drawn,
                       const StudiedFrame& frame, Answer& answer) {
   const auto ids = [](std::uint32_t id) {

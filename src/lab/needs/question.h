@@ -48,12 +48,15 @@ struct Question {
   // Why the cheapest answer is enough. Empty `proof`: it was seen to be, in so many trials of all frames.
   std::string proof = {};
   std::uint64_t trials = 0;
-  std::string trial = {};             // "pixels"
+  std::string trial = {};             // "pixel"
   std::string error = "wrong pixel";  // what Answer::wrong_px counts
 
   const Answer* cheapest() const;                 // null: none is enough
   const Answer& of(std::string_view name) const;  // throws std::out_of_range
 };
+
+// "1 bit", "8 subpixel bits".
+std::string bits_name(int bits, std::string_view kind = {});
 
 // Adds a witness to `answer` if the pictures of ids, row by row, differ. The answer must have none.
 void compare_pictures(std::span<const std::uint32_t> right, std::span<const std::uint32_t> drawn,

@@ -66,27 +66,25 @@ std::array<Reach, kViewPlanes> Ranges::add(const StudiedFrame& frame) {
   const auto [width, height] = frame.size();
   near_z_ = double{scene.camera.near_z}, far_z_ = double{scene.camera.far_z};
   const glm::dmat4 to_screen = screen_matrix(scene.camera, width, height);
-  std::vector<std::uint16_t> sides;
+  std::vector<ClipVertex> vertices;
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes.at(instance.mesh);
     const glm::mat4 matrix(to_screen * glm::dmat4(model_matrix(instance)));
-    sides.clear();
-    for (const glm::vec3 p : mesh.positions) {
-      const ClipVertex v = transform(matrix, p);
-      sides.push_back(outside_of(v, static_cast<float>(width), static_cast<float>(height)));
-      if ((sides.back() & kNotFinite) != 0) continue;
-      nearest_ = std::min(nearest_, double{v.w}), farthest_ = std::max(farthest_, double{v.w});
-      if ((sides.back() & kNear) == 0)
-        largest_px_ =
-            std::max({largest_px_, std::abs(double{v.x} / double{v.w}), std::abs(double{v.y} / double{v.w})});
-    }
+    vertices.clear();
+    for (const glm::vec3 p : mesh.positions) vertices.push_back(transform(matrix, p));
     for (const glm::uvec3 t : mesh.triangles) {
-      const std::uint16_t a = sides.at(t.x), b = sides.at(t.y), c = sides.at(t.z);
-      if (((a | b | c) & kNotFinite) != 0) continue;
+      std::uint16_t any = 0, all = kInvisible;
+      for (int k = 0; k < 3; ++k) {
+        const std::uint16_t sides =
+            outside_of(vertices.at(t[k]), static_cast<float>(width), static_cast<float>(height));
+        any |= sides, all &= sides;
+      }
+      if ((any & kNotFinite) != 0) continue;
+      for (int k = 0; k < 3; ++k) add_vertex(vertices[t[k]]);
       for (std::size_t i = 0; i < reach.size(); ++i) {
-        if (((a | b | c) & kSides[i]) == 0) continue;
+        if ((any & kSides[i]) == 0) continue;
         ++reach[i].beyond;
-        if ((a & b & c & kInvisible) == 0) ++reach[i].crossing;
+        if (all == 0) ++reach[i].crossing;
       }
     }
   }
@@ -95,13 +93,19 @@ std::array<Reach, kViewPlanes> Ranges::add(const StudiedFrame& frame) {
   return reach;
 }
 
+void Ranges::add_vertex(const ClipVertex& v) {
+  const double w = double{v.w};
+  nearest_ = std::min(nearest_, w), farthest_ = std::max(farthest_, w);
+  if (w >= near_z_)
+    largest_px_ = std::max({largest_px_, std::abs(double{v.x} / w), std::abs(double{v.y} / w)});
+}
+
 void Ranges::add_edge_values(const StudiedFrame& frame) {
   FrontendOptions options = frame.options;
   options.keep_unsnapped = true;
   Frontend frontend;
   frontend.run(frame.drawable, options);
   const Window window{options.width, options.height};
-  triangles_ += frontend.unsnapped().size();
   for (int bits = 0; bits <= kMostSubpixelBits; ++bits) {
     int128 largest = 0;
     for (const UnsnappedTriangle& t : frontend.unsnapped())
@@ -126,12 +130,12 @@ std::string Ranges::describe(ViewPlane plane) const {
 
 Question Ranges::edge_values(int subpixel_bits) const {
   const auto n = static_cast<std::size_t>(subpixel_bits);
-  Question question{fmt::format("edge values at {} subpixel bits", subpixel_bits), {}};
+  Question question{"edge values at " + bits_name(subpixel_bits, "subpixel"), {}};
   question.answers.push_back({fmt::format("{}-bit integers", width_[n] <= 16   ? 16
                                                              : width_[n] <= 32 ? 32
                                                                                : 64)});
-  question.proof = fmt::format("the largest of {} triangles is {:.3g}: {} bits with its sign", triangles_,
-                               largest_[n], width_[n]);
+  question.proof =
+      fmt::format("the largest in all frames is {:.3g}: {} with its sign", largest_[n], bits_name(width_[n]));
   return question;
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "frontend/clip.h"
 #include "lab/needs/question.h"
 
 namespace edgewise::lab {
@@ -36,6 +37,7 @@ class Ranges {
   Question edge_values(int subpixel_bits) const;
 
  private:
+  void add_vertex(const ClipVertex& v);
   void add_edge_values(const StudiedFrame& frame);
 
   std::array<Reach, kViewPlanes> reach_{};
@@ -43,7 +45,6 @@ class Ranges {
   double near_z_ = 0.0, far_z_ = 0.0;
   std::array<double, kMostSubpixelBits + 1> largest_{};  // rounded
   std::array<int, kMostSubpixelBits + 1> width_{};
-  std::uint64_t triangles_ = 0;
 };
 
 }  // namespace edgewise::lab

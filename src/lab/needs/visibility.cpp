@@ -26,10 +26,6 @@ constexpr auto kUnorm = []<int... kBits>(std::integer_sequence<int, kBits...>) {
 constexpr const char* kInOrder[] = {"submission_order", "painter_mean", "painter_farthest"};
 constexpr const char* kOtherFormats[] = {"float_z", "reversed_z", "contract31"};
 
-std::string bits_name(int bits) {
-  return std::to_string(bits) + (bits == 1 ? " bit" : " bits");
-}
-
 Draw draw_of(std::string_view method) {
   for (const VisibilityMethod& m : visibility_methods())
     if (m.info.name == method) return m.draw;
@@ -50,18 +46,15 @@ VisibilityNeeds::VisibilityNeeds() : method_{"visibility", {}}, bits_{"depth buf
   method_.answers.push_back({"depth buffer"});
   for (int bits = 1; bits <= kMostBits; ++bits) bits_.answers.push_back({bits_name(bits)});
   for (const char* name : kOtherFormats) bits_.answers.push_back({name});
-  method_.trial = bits_.trial = "pixels";
+  method_.trial = bits_.trial = "pixel";
 }
 
-int VisibilityNeeds::fewest_depth_bits() const {
-  for (int bits = 1; bits <= kMostBits; ++bits)
-    if (bits_.answers[static_cast<std::size_t>(bits) - 1].enough()) return bits;
-  return 0;
+bool VisibilityNeeds::enough_depth_bits(int bits) const {
+  return bits_.answers[static_cast<std::size_t>(bits) - 1].enough();
 }
 
-void VisibilityNeeds::add(const StudiedFrame& frame, const VisibilityScene& scene,
-                          const TrueVisibleTriangles& truth, int threads) {
-  const auto right = ids_of(truth.snapped, scene);
+void VisibilityNeeds::add(const StudiedFrame& frame, const VisibilityScene& scene, int threads) {
+  const auto right = ids_of(snapped_visible_triangles(scene), scene);
   std::vector<std::pair<Answer*, Draw>> trials;
   for (std::size_t i = 0; i + 1 < method_.answers.size(); ++i)
     trials.emplace_back(&method_.answers[i], draw_of(method_.answers[i].name));

@@ -10,10 +10,9 @@ class VisibilityNeeds {
  public:
   VisibilityNeeds();
   // `scene` holds the triangles of the frame; payloads are ids.
-  void add(const StudiedFrame& frame, const VisibilityScene& scene, const TrueVisibleTriangles& truth,
-           int threads);
+  void add(const StudiedFrame& frame, const VisibilityScene& scene, int threads);
   std::vector<Question> questions() const { return {method_, bits_}; }
-  int fewest_depth_bits() const;  // 0: no integer format is enough
+  bool enough_depth_bits(int bits) const;  // 1 … 30
 
  private:
   Question method_, bits_;

@@ -200,16 +200,21 @@ class Scorer {
 
 }  // namespace
 
-TrueVisibleTriangles true_visible_triangles(const VisibilityScene& scene) {
+std::vector<std::uint32_t> snapped_visible_triangles(const VisibilityScene& scene) {
   std::vector<ScreenTriangle> screen;
+  for (const VisibilityTriangle& t : scene.triangles) screen.push_back(t.screen);
+  return visible_triangles_of(scene, covered_runs(screen, {scene.width, scene.height}, 1), true);
+}
+
+std::vector<std::uint32_t> unsnapped_visible_triangles(const VisibilityScene& scene) {
   std::vector<FloatTriangle> floats;
-  for (const VisibilityTriangle& t : scene.triangles) {
-    screen.push_back(t.screen);
+  for (const VisibilityTriangle& t : scene.triangles)
     floats.push_back({{{t.x_px[0], t.x_px[1], t.x_px[2]}, {t.y_px[0], t.y_px[1], t.y_px[2]}, {}}, 0});
-  }
-  const Window window{scene.width, scene.height};
-  return {visible_triangles_of(scene, covered_runs(screen, window, 1), true),
-          visible_triangles_of(scene, covered_runs(floats, window, 1), false)};
+  return visible_triangles_of(scene, covered_runs(floats, {scene.width, scene.height}, 1), false);
+}
+
+TrueVisibleTriangles true_visible_triangles(const VisibilityScene& scene) {
+  return {snapped_visible_triangles(scene), unsnapped_visible_triangles(scene)};
 }
 
 VisibilityScores score(const VisibilityMethod& method, const VisibilityScene& scene,

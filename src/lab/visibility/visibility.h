@@ -73,6 +73,8 @@ struct TrueVisibleTriangles {
   std::vector<std::uint32_t> snapped, floats;
 };
 TrueVisibleTriangles true_visible_triangles(const VisibilityScene& scene);
+std::vector<std::uint32_t> snapped_visible_triangles(const VisibilityScene& scene);
+std::vector<std::uint32_t> unsnapped_visible_triangles(const VisibilityScene& scene);
 
 // The score against one truth.
 struct VisibilityScore {
