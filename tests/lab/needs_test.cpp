@@ -196,11 +196,11 @@ TEST(Needs, FindsWhatTheNearPlaneNeeds) {
 
 // Front faces that are culled do not hide what clipping is missing.
 TEST(Needs, SeesOnlyTheFacesThatAreDrawn) {
-  const std::vector<glm::vec3> wall_and_floor = {{-3, -3, -1.05f}, {3, -3, -1.05f}, {0, 6, -1.05f},
-                                                 {-9, -1, 6},      {0, -1, -30},    {9, -1, 6}};
-  const Scene scene = scene_of(wall_and_floor);
-  EXPECT_EQ(answer_to(studied(scene, {}, Cull::back), "near plane"), "clip");
-  EXPECT_EQ(answer_to(studied(scene, {}, Cull::front), "near plane"), "nothing");
+  const std::vector<glm::vec3> wall_and_floor = {{-3, -3, -1.05f}, {0, 6, -1.05f}, {3, -3, -1.05f},
+                                                 {-9, -1, 6},      {9, -1, 6},     {0, -1, -30}};
+  const Scene scene = scene_of(wall_and_floor);  // the floor is a back face
+  EXPECT_EQ(answer_to(studied(scene, {}, Cull::front), "near plane"), "clip");
+  EXPECT_EQ(answer_to(studied(scene, {}, Cull::back), "near plane"), "nothing");
 }
 
 TEST(Needs, RangesLeaveOutVerticesThatNoTriangleUses) {
