@@ -51,7 +51,7 @@ def clipping(questions):
 def speed_up(entry):
     ratio = entry["smallest"]["speedup"]
     median, low, high = (ratio[key] for key in ("median", "low", "high"))
-    if low <= 1 <= high:
+    if not ratio["settled"]:
         return f"no significant difference ({low:.2f} to {high:.2f})"
     if median < 1:
         return f"{1 / median:.2f}× slower ({1 / high:.2f} to {1 / low:.2f})"
@@ -95,8 +95,8 @@ def cube_sentence(found):
     if TUTORIAL_SCENES[0] not in found:
         return ""
     entry, questions = found[TUTORIAL_SCENES[0]]
-    return (f"Stage by stage, {entry['frames']:,} frames of the tutorials' cube need: clipping: {clipping(questions)}; facing test: "
-            f"{answer(questions, FACING)}; visibility: {answer(questions, VISIBILITY)}; against cracks: {answer(questions, NO_CRACK)} of "
-            f"subpixel precision. On one thread, a plain rasterizer with {entry['smallest']['pipeline']} is {speed_up(entry)} than one with 8 "
-            f"subpixel bits, 64-bit edges and 30-bit depth; wrong pixels by the positions before snapping: "
-            f"{entry['smallest']['wrong_px']:,} and {entry['smallest']['full_wrong_px']:,}.")
+    clip = clipping(questions)
+    return (f"Stage by stage, {entry['frames']:,} frames of the tutorials' cube need {'no clipping' if clip == 'nothing' else clip}, "
+            f"{answer(questions, FACING)} to cull, {answer(questions, VISIBILITY)}, and {answer(questions, NO_CRACK)} of subpixel "
+            f"precision against cracks. On one thread, plain code with {entry['smallest']['pipeline']} is {speed_up(entry)} than with "
+            "64-bit edges and 30-bit depth.")

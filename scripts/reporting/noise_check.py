@@ -17,21 +17,27 @@ def in_blocks(pairs, rounds):
     return [(before[i:i + rounds], after[i:i + rounds]) for before, after in pairs for i in range(0, len(before) - rounds + 1, rounds)]
 
 
-def noise_check(path):
-    """False alarms, and how often a planted slowdown is found; empty if not measured."""
-    if not path.exists():
-        return ""
+def read_same(path):
+    """(the command and its rounds, pairs of milliseconds before and after)"""
     data = read_json(path)
     try:
         if data["before"] != data["after"]:
             raise BadInput(f"{path}: two different revisions")
-        pairs = [(row["before_ms"], row["after_ms"]) for row in data["rows"]]
-        filtered, rounds = data["filter"], data["rounds"]
+        command = f"`scripts/compare HEAD HEAD --filter '{data['filter']}'`, {data['rounds']} rounds"
+        return command, [(row["before_ms"], row["after_ms"]) for row in data["rows"]]
     except (KeyError, TypeError) as error:
         raise BadInput(f"{path}: not what 'scripts/compare --json' writes: {type(error).__name__} {error}") from None
+
+
+def noise_check(folder):
+    """False alarms, and how often a planted slowdown is found; empty if not measured."""
+    runs = [read_same(path) for path in sorted(folder.glob("same*.json"))]
+    if not runs:
+        return ""
+    pairs = [pair for _, found in runs for pair in found]
     alarms, rows = count(pairs)
     in_few, few = count(in_blocks(pairs, fewest_rounds()))
     found = sum(paired_order(before, [PLANTED * ms for ms in after]) > 0 for before, after in pairs)
-    return (f"`scripts/compare HEAD HEAD --filter '{filtered}'`, {rounds} rounds: false alarms in {alarms} of {rows} rows, and in {in_few} of "
-            f"{few} tests of {fewest_rounds()} rounds each. With {percent(PLANTED - 1)} added to the times of one side, {found} of {rows} "
-            "rows are found slower.")
+    return (f"{'; '.join(command for command, _ in runs)}: false alarms in {alarms} of {rows} rows, and in {in_few} of {few} tests of "
+            f"{fewest_rounds()} rounds each. With {percent(PLANTED - 1)} added to the times of one side, {found} of {rows} rows are found "
+            "slower.")

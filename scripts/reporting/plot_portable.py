@@ -10,12 +10,13 @@ def portable(found, folder, caption):
     scenes = [scene for scene in found.get(OURS, ()) if all(share(found[b][scene]) > 0 for b in bits)]  # a log axis has no 0
     if len(found) < 2 or not scenes:
         return None
+    left_out = " Scenes without such a pixel are left out." if len(scenes) < len(found[OURS]) else ""
     most = max(scenes, key=lambda scene: share(found[OURS][scene]))
     factor = share(found[min(found)][most]) / share(found[OURS][most])
     figure, axes = plt.subplots(figsize=(WIDTH_IN, 4.6))
     top = headline(figure, f"{OURS - min(found)} subpixel bits more, and {factor:.0f}× fewer pixels of `{most}` may differ",
                    "Pixels that two conformant rasterizers may draw differently, in percent of the picture, by the subpixel bits that "
-                   "both have at least. Scenes without such a pixel are left out.")
+                   f"both have at least.{left_out}")
     figure.subplots_adjust(left=0.09, right=0.86, bottom=0.17, top=top)
     for scene in scenes:
         axes.plot(bits, [share(found[b][scene]) for b in bits], color=BLACK if scene == most else SKY, marker="o", markersize=4,

@@ -147,11 +147,11 @@ class IntervalTest(unittest.TestCase):
 
 
 class NoiseCheckTest(unittest.TestCase):
-    def check(self, data):
+    def check(self, *runs):
         with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder) / "same.json"
-            path.write_text(json.dumps(data))
-            return noise_check(path)
+            for i, data in enumerate(runs):
+                (Path(folder) / f"same-{i}.json").write_text(json.dumps(data))
+            return noise_check(Path(folder))
 
     def test_false_alarms_and_found_slowdowns_are_counted(self):
         even, steady = [1.0, 1.01] * 8, [1.0, 1.001] * 8
@@ -160,12 +160,14 @@ class NoiseCheckTest(unittest.TestCase):
             return {"before_ms": before, "after_ms": after}
 
         rows = [row(even, even[::-1]), row(steady, steady[::-1]), row(steady, [1.1 * ms for ms in steady])]
-        said = self.check({"before": "a", "after": "a", "filter": "x", "rounds": 16, "rows": rows})
-        self.assertIn("`scripts/compare HEAD HEAD --filter 'x'`, 16 rounds: false alarms in 1 of 3 rows, and in 2 of 6 tests of 8 rounds", said)
-        self.assertIn("With 2 % added to the times of one side, 3 of 3 rows are found slower.", said)
+        run = {"before": "a", "after": "a", "filter": "x", "rounds": 16}
+        said = self.check({**run, "rows": rows}, {**run, "rows": rows[1:], "filter": "y"})
+        self.assertIn("--filter 'x'`, 16 rounds; `scripts/compare HEAD HEAD --filter 'y'`, 16 rounds: false alarms in 2 of 5 rows, and in "
+                      "4 of 10 tests of 8 rounds", said)
+        self.assertIn("With 2 % added to the times of one side, 5 of 5 rows are found slower.", said)
 
     def test_other_files_are_refused(self):
-        self.assertEqual(noise_check(Path("/none/same.json")), "")
+        self.assertEqual(noise_check(Path("/none")), "")
         with self.assertRaisesRegex(BadInput, "two different revisions"):
             self.check({"before": "a", "after": "b", "rows": []})
         with self.assertRaisesRegex(BadInput, "compare --json"):
