@@ -23,7 +23,7 @@ std::uint64_t pixels_of_another_colour(const Framebuffer& a, const Framebuffer& 
 }  // namespace
 
 Backend& Stage::backend(const Row& row) {
-  auto& made = backends_[row.backend];
+  auto& made = backends_[{row.backend, row.ablation.coverage_masks}];
   if (!made) made = row.backend->make();
   return *made;
 }

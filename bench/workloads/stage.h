@@ -31,7 +31,9 @@ class Stage {
   double timed_work_s(const Row& row);
   double recorded_work_s(Row& row);
 
-  std::map<const BackendInfo*, std::unique_ptr<Backend>> backends_;
+  // With and without coverage masks, which the engine is compared with. Its memory must be as young as the
+  // engine's: older memory, which grew with the scenes, may have fewer huge pages.
+  std::map<std::pair<const BackendInfo*, bool>, std::unique_ptr<Backend>> backends_;
   // One per size, kept to the end: interleaved repetitions use all of them again, and a fresh frame's page
   // faults would count in a row's time.
   std::map<std::pair<int, int>, Framebuffer> frames_;
