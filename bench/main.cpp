@@ -167,7 +167,7 @@ void time_row(benchmark::State& state, const Row& row, Stage& stage) {
     for (auto _ : state) state.SetIterationTime(row.once_s);
   } else {
     // The caches hold another row's data. A long draw needs no warm-up.
-    if (row.once_s < kFull.repetition_s) stage.work(row);
+    if (stage.renew_memory(row) || row.once_s < kFull.repetition_s) stage.work(row);
     for (auto _ : state) stage.work(row);
   }
   const Workload& workload = *row.workload;

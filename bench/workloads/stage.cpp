@@ -28,6 +28,13 @@ Backend& Stage::backend(const Row& row) {
   return *made;
 }
 
+bool Stage::renew_memory(const Row& row) {
+  if (!row.numbers && row.ablation.coverage_masks) return false;
+  bins_ = Bins();
+  backends_.erase({row.backend, false});
+  return true;
+}
+
 Framebuffer& Stage::frame(const Row& row) {
   const int width = row.workload->width(), height = row.workload->height();
   return frames_.try_emplace({width, height}, width, height).first->second;

@@ -21,6 +21,11 @@ class Stage {
   // `cores`. Requires a prepared workload.
   void compare(Row& row);
 
+  // Drops the memory of the engine and of the backend without coverage masks, with which it is compared, so
+  // that both get the same addresses. Others can change a row's time by 10 %. Returns whether the row needs a
+  // warm-up.
+  bool renew_memory(const Row& row);
+
   // Performs the row's timed work once.
   void work(const Row& row);
 
@@ -31,8 +36,7 @@ class Stage {
   double timed_work_s(const Row& row);
   double recorded_work_s(Row& row);
 
-  // With and without coverage masks, which the engine is compared with. Its memory must be as young as the
-  // engine's: older memory, which grew with the scenes, may have fewer huge pages.
+  // With and without coverage masks.
   std::map<std::pair<const BackendInfo*, bool>, std::unique_ptr<Backend>> backends_;
   // One per size, kept to the end: interleaved repetitions use all of them again, and a fresh frame's page
   // faults would count in a row's time.
