@@ -7,7 +7,8 @@ BASE = "exact"
 NO_MASKS = "no-masks"
 TOLERANCE = 0.05  # up to this difference from the backend, the engine compares numbers and not programs
 WITH_MASKS = "with-masks"  # the backend's own row
-RUNS = {WITH_MASKS: "`tiled` with coverage masks", NO_MASKS: "`tiled` without coverage masks", "float_lt": "float edges, `<`", "float_top_left": "float edges, top-left rule",
+RUNS = {WITH_MASKS: "`tiled` with coverage masks", NO_MASKS: "`tiled` without coverage masks",
+        "float_lt": "float edges, `<`", "float_top_left": "float edges, top-left rule",
         "depth_float": "exact coverage, depth planes in floats", "depth_24": "exact coverage, depths of 24 bits",
         "depth_16": "exact coverage, depths of 16 bits"}
 

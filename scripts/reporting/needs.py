@@ -24,9 +24,10 @@ def read_needs(folder):
         try:
             for entry in read_json(path):
                 questions = {question["question"]: question for question in entry["questions"]}
-                entry["smallest"]["speedup"]["median"] > 0, entry["frames"] > 0  # the keys that the tables use
+                if not (entry["smallest"]["speedup"].keys() >= {"median", "low", "high", "settled"} and entry["frames"] > 0):
+                    raise ValueError(f"scene {entry['scene']}")
                 found[entry["scene"]] = (entry, questions)
-        except (KeyError, TypeError) as error:
+        except (AttributeError, KeyError, TypeError, ValueError) as error:
             raise BadInput(f"{path}: not what 'edgewise needs' prints: {type(error).__name__} {error}") from None
     return found
 

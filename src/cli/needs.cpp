@@ -29,7 +29,6 @@ namespace {
 
 constexpr double kFramesPerSecond = 60.0;
 constexpr int kMostFrames = 100'000;
-constexpr const char* kPlaneNames[] = {"near plane", "far plane", "guard band"};  // by lab::ViewPlane
 constexpr int kRangeBits[] = {4, 8, 16};
 
 struct NeedsCommandOptions {
@@ -335,7 +334,7 @@ class NeedsCommand {
     for (int i = 0; !shot.source.stream && i < lab::kViewPlanes; ++i) {
       const auto plane = static_cast<lab::ViewPlane>(i);
       const lab::Reach& reach = needs.ranges().reach(plane);
-      text += line(kPlaneNames[i],
+      text += line(name_of(plane),
                    reach.beyond == 0 ? "nothing" : fmt::format("triangles beyond it: {}", reach.beyond));
       text += indented(needs.ranges().describe(plane));
       if (reach.beyond != 0)
@@ -348,8 +347,9 @@ class NeedsCommand {
   static nlohmann::json ranges_json(const Shot& shot, const lab::Needs& needs) {
     nlohmann::json result = json_heading(shot, needs);
     for (int i = 0; !shot.source.stream && i < lab::kViewPlanes; ++i) {
-      const lab::Reach& reach = needs.ranges().reach(static_cast<lab::ViewPlane>(i));
-      result["reach"][kPlaneNames[i]] = {{"beyond", reach.beyond}, {"crossing", reach.crossing}};
+      const auto plane = static_cast<lab::ViewPlane>(i);
+      const lab::Reach& reach = needs.ranges().reach(plane);
+      result["reach"][std::string(name_of(plane))] = {{"beyond", reach.beyond}, {"crossing", reach.crossing}};
     }
     for (int bits = 0; bits <= lab::kMostSubpixelBits; ++bits)
       result["edge_value_bits"].push_back(needs.ranges().edge_value_bits(bits));

@@ -52,6 +52,12 @@ Question question_of(const Needs& needs, std::string_view start) {
   return *found;
 }
 
+const Answer& answer_of(const Question& question, std::string_view name) {
+  const auto found = std::ranges::find(question.answers, name, &Answer::name);
+  if (found == question.answers.end()) throw std::out_of_range("no such answer");
+  return *found;
+}
+
 std::string answer_to(const Needs& needs, std::string_view start) {
   const Question question = question_of(needs, start);
   return question.cheapest() == nullptr ? "none" : question.cheapest()->name;
@@ -278,7 +284,7 @@ TEST(Needs, CubesThatIntersectNeedADepthBuffer) {
   const Question tests = question_of(needs, "facing test");
   EXPECT_EQ(tests.answers.back().name, "snapped_area");
   EXPECT_TRUE(tests.answers.back().enough());
-  const Answer& plain = tests.of("normal_z");
+  const Answer& plain = answer_of(tests, "normal_z");
   ASSERT_FALSE(plain.enough()) << "the cubes lie beside the axis of the view";
   EXPECT_EQ(plain.picture.marks.size(), 320u * 180);
   EXPECT_EQ(plain.wrong_px, static_cast<std::uint64_t>(std::ranges::count_if(
@@ -342,7 +348,7 @@ TEST(Needs, CountsFoldsAsCracks) {
   const Witness& w = *question.answers[0].witness;
   EXPECT_EQ(w.right, std::vector<std::uint32_t>{0});
   EXPECT_EQ(w.drawn, (std::vector<std::uint32_t>{0, 1}));
-  EXPECT_TRUE(question.of("8 bits").enough());
+  EXPECT_TRUE(answer_of(question, "8 bits").enough());
 }
 
 TEST(Needs, PipelinesHaveIntegersThatHoldTheEdgeValues) {
@@ -366,8 +372,8 @@ TEST(Needs, TheHardestFrameDecides) {
               {kWidth, kHeight, Cull::none});
   const Question question = question_of(needs, "subpixel bits, at most 0");
   EXPECT_EQ(question.cheapest()->name, "7 bits");
-  EXPECT_EQ(question.of("4 bits").witness->frame, 1u);
-  EXPECT_EQ(question.of("2 bits").witness->frame, 0u);
+  EXPECT_EQ(answer_of(question, "4 bits").witness->frame, 1u);
+  EXPECT_EQ(answer_of(question, "2 bits").witness->frame, 0u);
   EXPECT_EQ(needs.smallest().subpixel_bits, 8);
 }
 

@@ -40,20 +40,15 @@ std::vector<std::uint32_t> draw_at(Level level, std::uint16_t plane, const Clipp
                                          }),
                           frame.triangles.end());
   });
-  std::vector<std::uint32_t> ids;
-  for (int y = 0; y < scene.size.height; ++y) {
-    const std::uint32_t* row = frame.picture.view().payload + y * frame.picture.stride();
-    ids.insert(ids.end(), row, row + scene.size.width);
-  }
-  return ids;
+  return payloads_of(frame.picture);
 }
 
 }  // namespace
 
 ClippingNeeds::ClippingNeeds() {
-  constexpr const char* kNames[] = {"near plane", "far plane", "guard band"};
   for (std::size_t i = 0; i < questions_.size(); ++i) {
-    questions_[i] = {kNames[i], {{"nothing"}, {"drop whole triangles"}, {"clip"}}};
+    const std::string name(name_of(static_cast<ViewPlane>(i)));
+    questions_[i] = {name, {{"nothing"}, {"drop whole triangles"}, {"clip"}}};
     questions_[i].trial = "pixel";
   }
 }

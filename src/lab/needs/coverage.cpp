@@ -28,11 +28,6 @@ constexpr auto kRecord = []<int... kBits>(std::integer_sequence<int, kBits...>) 
 (std::make_integer_sequence<int, kMostSubpixelBits + 1>());
 
 constexpr const char* kFloatMethods[] = {"float_lt", "float_le", "float_top_left", "double_top_left"};
-const CoverageMethod& method_of(std::string_view name) {
-  for (const CoverageMethod& method : coverage_methods())
-    if (method.info.name == name) return method;
-  throw std::out_of_range("no such coverage method");
-}
 
 std::vector<std::uint32_t> triangles_at(std::span<const Run> runs, int x, int y,
                                         std::span<const FloatTriangle> triangles) {
@@ -78,11 +73,12 @@ void CoverageNeeds::add(const StudiedFrame& frame, const CoverageScene& scene, i
     const auto n = static_cast<std::size_t>(i < fixed ? i : i - fixed);
     Tried& tried = i < fixed ? bits_[n] : floats_[n];
     std::vector<Run> runs;
-    double reach_px = std::min(snap_reach_px(i), kMostReach_px);
+    double reach_px;
     if (i < fixed) {
+      reach_px = std::min(snap_reach_px(i), kMostReach_px);
       kRecord[n](scene.floats, window, runs);
     } else {
-      const CoverageMethod& method = method_of(tried.cracks.name);
+      const CoverageMethod& method = find_drawing_method(tried.cracks.name);
       method.runs(scene.input(), window, runs);
       reach_px = gap_reach_px(method);
     }

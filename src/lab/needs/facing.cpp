@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "lab/choice.h"
 #include "lab/view_space.h"
 
 namespace edgewise::lab {
@@ -22,23 +23,20 @@ void FacingNeeds::add(const StudiedFrame& frame) {
   const auto right = picture_of_ids(culled, frame.size());
   FrontendOptions options = frame.options;
   options.cull = Cull::none;
-  const auto run = frontend.run(frame.drawable, options);
-  const std::vector<ScreenTriangle> all(run.begin(), run.end());
+  const auto all = frontend.run(frame.drawable, options);
   back_faces_.trials += frame.pixels();
   test_.trials += frame.pixels();
   if (Answer& draw = back_faces_.answers.front(); draw.enough())
     compare_pictures(right, picture_of_ids(all, frame.size()), frame, draw);
 
   const ClippingScene seen = in_view_space(std::get<Scene>(frame.drawable), frame.size());
-  for (const FacingMethod& method : facing_methods()) {
-    const auto answer = std::find_if(test_.answers.begin(), test_.answers.end(),
-                                     [&](const Answer& a) { return a.name == method.info.name; });
-    if (answer == test_.answers.end() || !answer->enough()) continue;
-    const auto fronts = fronts_of(method, seen);
+  for (Answer& answer : test_.answers) {
+    if (!answer.enough()) continue;
+    const auto fronts = fronts_of(find_facing_method(answer.name), seen);
     std::vector<ScreenTriangle> kept;
     std::copy_if(all.begin(), all.end(), std::back_inserter(kept),
                  [&](const ScreenTriangle& t) { return fronts[t.payload] != 0; });
-    compare_pictures(right, picture_of_ids(kept, frame.size()), frame, *answer);
+    compare_pictures(right, picture_of_ids(kept, frame.size()), frame, answer);
   }
 }
 

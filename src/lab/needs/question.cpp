@@ -1,10 +1,8 @@
 #include "lab/needs/question.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "edgewise/backend.h"
-#include "edgewise/framebuffer.h"
 #include "lab/truth.h"
 
 namespace edgewise::lab {
@@ -12,13 +10,6 @@ namespace edgewise::lab {
 const Answer* Question::cheapest() const {
   const auto found = std::find_if(answers.begin(), answers.end(), [](const Answer& a) { return a.enough(); });
   return found == answers.end() ? nullptr : &*found;
-}
-
-const Answer& Question::of(std::string_view wanted) const {
-  const auto found =
-      std::find_if(answers.begin(), answers.end(), [&](const Answer& a) { return a.name == wanted; });
-  if (found == answers.end()) throw std::out_of_range("no such answer");
-  return *found;
 }
 
 std::string bits_name(int bits, std::string_view kind) {
@@ -43,16 +34,20 @@ void compare_pictures(std::span<const std::uint32_t> right, std::span<const std:
     answer.picture = mark_visible_triangles(right, drawn, {frame.options.width, frame.options.height});
 }
 
+std::vector<std::uint32_t> payloads_of(const Framebuffer& frame) {
+  std::vector<std::uint32_t> payloads;
+  payloads.reserve(static_cast<std::size_t>(frame.width()) * static_cast<std::size_t>(frame.height()));
+  for (int y = 0; y < frame.height(); ++y) {
+    const std::uint32_t* row = frame.payload_row(y);
+    payloads.insert(payloads.end(), row, row + frame.width());
+  }
+  return payloads;
+}
+
 std::vector<std::uint32_t> picture_of_ids(std::span<const ScreenTriangle> triangles, Size size) {
   Framebuffer frame(size.width, size.height);
   find_backend("tiled").make()->draw(triangles, frame.view(), kNoTriangle, {});
-  std::vector<std::uint32_t> ids;
-  ids.reserve(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
-  for (int y = 0; y < size.height; ++y) {
-    const std::uint32_t* row = frame.view().payload + y * frame.stride();
-    ids.insert(ids.end(), row, row + size.width);
-  }
-  return ids;
+  return payloads_of(frame);
 }
 
 }  // namespace edgewise::lab

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "edgewise/framebuffer.h"
 #include "edgewise/scene.h"
 #include "lab/error_marks.h"
 #include "lab/method.h"
@@ -51,8 +52,7 @@ struct Question {
   std::string trial = {};             // "pixel"
   std::string error = "wrong pixel";  // what Answer::wrong_px counts
 
-  const Answer* cheapest() const;                 // null: none is enough
-  const Answer& of(std::string_view name) const;  // throws std::out_of_range
+  const Answer* cheapest() const;  // null: none is enough
 };
 
 // "1 bit", "8 subpixel bits".
@@ -62,6 +62,8 @@ std::string bits_name(int bits, std::string_view kind = {});
 void compare_pictures(std::span<const std::uint32_t> right, std::span<const std::uint32_t> drawn,
                       const StudiedFrame& frame, Answer& answer);
 
+// A frame's payloads, row by row without padding.
+std::vector<std::uint32_t> payloads_of(const Framebuffer& frame);
 // The exact picture of ids that `tiled` draws, or kNoTriangle.
 std::vector<std::uint32_t> picture_of_ids(std::span<const ScreenTriangle> triangles, Size size);
 

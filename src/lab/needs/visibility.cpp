@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/parallel.h"
+#include "lab/choice.h"
 #include "lab/visibility/methods/depth_buffer.h"
 
 namespace edgewise::lab {
@@ -25,12 +26,6 @@ constexpr auto kUnorm = []<int... kBits>(std::integer_sequence<int, kBits...>) {
 (std::make_integer_sequence<int, kMostBits>());
 constexpr const char* kInOrder[] = {"submission_order", "painter_mean", "painter_farthest"};
 constexpr const char* kOtherFormats[] = {"float_z", "reversed_z", "contract31"};
-
-Draw draw_of(std::string_view method) {
-  for (const VisibilityMethod& m : visibility_methods())
-    if (m.info.name == method) return m.draw;
-  throw std::out_of_range("no such visibility method");
-}
 
 std::vector<std::uint32_t> ids_of(std::span<const std::uint32_t> visible, const VisibilityScene& scene) {
   std::vector<std::uint32_t> ids(visible.begin(), visible.end());
@@ -57,9 +52,10 @@ void VisibilityNeeds::add(const StudiedFrame& frame, const VisibilityScene& scen
   const auto right = ids_of(snapped_visible_triangles(scene), scene);
   std::vector<std::pair<Answer*, Draw>> trials;
   for (std::size_t i = 0; i + 1 < method_.answers.size(); ++i)
-    trials.emplace_back(&method_.answers[i], draw_of(method_.answers[i].name));
+    trials.emplace_back(&method_.answers[i], find_visibility_method(method_.answers[i].name).draw);
   for (std::size_t i = 0; i < bits_.answers.size(); ++i)
-    trials.emplace_back(&bits_.answers[i], i < kUnorm.size() ? kUnorm[i] : draw_of(bits_.answers[i].name));
+    trials.emplace_back(&bits_.answers[i],
+                        i < kUnorm.size() ? kUnorm[i] : find_visibility_method(bits_.answers[i].name).draw);
   std::erase_if(trials, [](const auto& trial) { return !trial.first->enough(); });
   parallel_for(threads, static_cast<int>(trials.size()), [&](int i) {
     const auto& [answer, draw] = trials[static_cast<std::size_t>(i)];
