@@ -1,10 +1,6 @@
 // Mesa's software drivers, with their fastest settings: data in vertex buffers, one draw call per mesh, early
 // depth test, payloads as flat integers. llvmpipe is the usual software OpenGL on Linux; its coverage is
 // exact: 8 subpixel bits, half to even, top-left rule. softpipe is Mesa's reference driver, in plain C.
-//
-// The viewport is a square whose side is a power of two, centred on the image's top left corner. Clip
-// coordinates are therefore our own, scaled exactly, and the drivers' screen positions are the same floats as
-// our front end's. The viewport reaches far beyond the image, so that only the near and far planes clip.
 #define GL_GLEXT_PROTOTYPES
 #include <GL/glcorearb.h>
 #include <fmt/format.h>
@@ -20,8 +16,6 @@
 namespace edgewise::bench {
 
 namespace {
-
-constexpr int kHalfViewport_px = 8192;  // both drivers' viewports are at most 16384 wide
 
 // `precise` forbids fused multiply-add, as in our front end. OpenGL 3.3 has it as an extension.
 constexpr const char* kVertexShader = R"(#version 330 core
@@ -130,9 +124,7 @@ Mesh load_mesh(const PeerMesh& given) {
     mesh.indices = buffer_of(mesh.buffers[2], given.indices);
     glVertexArrayElementBuffer(mesh.vertices, mesh.indices);
   }
-  mesh.to_clip = given.to_screen;
-  for (int column = 0; column < 4; ++column)
-    for (const int row : {0, 1}) mesh.to_clip[column][row] /= kHalfViewport_px;
+  mesh.to_clip = to_clip(given.to_screen);
   return mesh;
 }
 
@@ -209,13 +201,17 @@ class Frame final : public PeerFrame {
   std::vector<Mesh> meshes_;
 };
 
-// The subpixel bits are OpenGL's GL_SUBPIXEL_BITS.
 template <MesaDriver driver>
-PeerInfo mesa_peer(std::string_view summary, int most_threads, int subpixel_bits) {
+PeerInfo mesa_peer(std::string_view summary, int most_threads) {
   return {name_of(driver),
           summary,
           most_threads,
-          subpixel_bits,
+          [] {
+            use_mesa(driver, 1);
+            GLint bits = 0;
+            glGetIntegerv(GL_SUBPIXEL_BITS, &bits);
+            return int{bits};
+          },
           [] { return mesa_version(driver); },
           [](const PeerScene& scene, int threads) -> std::unique_ptr<PeerFrame> {
             return std::make_unique<Frame>(driver, scene, threads);
@@ -225,11 +221,10 @@ PeerInfo mesa_peer(std::string_view summary, int most_threads, int subpixel_bits
 }  // namespace
 
 PeerInfo llvmpipe() {
-  return mesa_peer<MesaDriver::llvmpipe>("Mesa's OpenGL for processors, SIMD code generated at run time", 2,
-                                         8);
+  return mesa_peer<MesaDriver::llvmpipe>("Mesa's OpenGL for processors, SIMD code generated at run time", 2);
 }
 PeerInfo softpipe() {
-  return mesa_peer<MesaDriver::softpipe>("Mesa's reference driver of OpenGL, in plain C", 1, 4);
+  return mesa_peer<MesaDriver::softpipe>("Mesa's reference driver of OpenGL, in plain C", 1);
 }
 
 }  // namespace edgewise::bench

@@ -1,6 +1,6 @@
 #include "bench/peers/peer.h"
 
-#include <algorithm>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -10,24 +10,48 @@ namespace edgewise::bench {
 PeerInfo llvmpipe();
 PeerInfo softpipe();
 #endif
+#ifdef EDGEWISE_PEER_VULKAN
+PeerInfo lavapipe();
+std::optional<PeerInfo> vulkan_gpu();
+#endif
+
+glm::mat4 to_clip(const glm::mat4& to_screen) {
+  glm::mat4 result = to_screen;
+  for (int column = 0; column < 4; ++column)
+    for (const int row : {0, 1}) result[column][row] /= kHalfViewport_px;
+  return result;
+}
 
 std::span<const PeerInfo> peers() {
-  static const std::vector<PeerInfo> all{
+  static const std::vector<PeerInfo> all = [] {
+    std::vector<PeerInfo> list;
 #ifdef EDGEWISE_PEER_MESA
-      llvmpipe(), softpipe()
+    list.push_back(llvmpipe());
+    list.push_back(softpipe());
 #endif
-  };
+#ifdef EDGEWISE_PEER_VULKAN
+    list.push_back(lavapipe());
+    if (const auto gpu = vulkan_gpu()) list.push_back(*gpu);
+#endif
+    return list;
+  }();
   return all;
 }
 
 std::span<const PeerInfo> benchmark_peers() {
-  return peers().first(std::min<std::size_t>(peers().size(), 1));  // softpipe is far slower
+  static const std::vector<PeerInfo> timed{
+#ifdef EDGEWISE_PEER_MESA
+      llvmpipe()  // softpipe is far slower, and lavapipe has llvmpipe's rasterizer
+#endif
+  };
+  return timed;
 }
 
 void require_peers() {
   if (peers().empty())
     throw std::invalid_argument(
-        "--peers: none was built, since EGL or OpenGL was not found (scripts/run --peers installs them)");
+        "--peers: none was built, since neither OpenGL with EGL nor Vulkan was found (scripts/run --peers "
+        "installs them)");
 }
 
 }  // namespace edgewise::bench

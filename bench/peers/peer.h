@@ -28,6 +28,13 @@ struct PeerScene {
   std::vector<PeerMesh> meshes;
 };
 
+// Every peer's viewport: a square whose side is a power of two, centred on the image's top left corner. Clip
+// coordinates are therefore our own, scaled exactly, and the drivers' screen positions are the same floats as
+// our front end's. The viewport reaches far beyond the image, so that only the near and far planes clip. The
+// drivers' viewports are at most 16384 wide.
+inline constexpr int kHalfViewport_px = 8192;
+glm::mat4 to_clip(const glm::mat4& to_screen);
+
 // A scene that a peer has loaded.
 class PeerFrame {
  public:
@@ -44,13 +51,13 @@ struct PeerInfo {
   std::string_view name;     // in row names; differs from every backend's
   std::string_view summary;  // one line
   int most_threads;
-  int subpixel_bits;  // it snaps vertices at most this coarsely
+  // These throw std::runtime_error if the peer cannot start. `threads` is at most most_threads.
+  int (*subpixel_bits)();  // it snaps vertices at most this coarsely
   std::string (*version)();
-  // `threads` is at most most_threads. Throws std::runtime_error if the peer cannot start.
   std::unique_ptr<PeerFrame> (*load)(const PeerScene& scene, int threads);
 };
 
-// The peers in this build, and those of them that have rows in the benchmark.
+// The peers in this build, with a GPU if there is one, and those that have rows in the benchmark.
 std::span<const PeerInfo> peers();
 std::span<const PeerInfo> benchmark_peers();
 // Throws std::invalid_argument if this build has none.

@@ -32,7 +32,7 @@ FAMILIES = {family.name: family for family in (
     Family("coverage", "wrong pixels per 10⁶ edge crossings", "crossings", "ns per covered pixel",
            ("float", "snapped"),
            {"floating point": ("float", "double"), "fixed point": ("fixed", "whole"), "scanline DDA": ("dda",),
-            "tiled, other numbers": ("engine",), "peers": ("llvmpipe", "softpipe")},
+            "tiled, other numbers": ("engine",), "peers": ("llvmpipe", "softpipe", "lavapipe", "gpu")},
            "More than 10⁶: one crossing can cost many pixels, most where a triangle fills its bounding box", "edge crossings"),
     Family("visibility", "pixels that show the wrong triangle, per 10⁶ covered", "covered", "ns per covered pixel",
            ("snapped",),  # all methods draw the same snapped triangles, so the other truth adds the same to each

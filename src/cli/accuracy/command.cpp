@@ -103,7 +103,7 @@ void add_accuracy(CLI::App& program, Action& action) {
       ->allow_extra_args(false)
       ->delimiter(',')
       ->type_name("NAME");
-  command.add_flag("--peers", o->plan.peers, "Also measure Mesa's llvmpipe and softpipe as coverage methods");
+  command.add_flag("--peers", o->plan.peers, "Also measure other projects' rasterizers as coverage methods");
   command.add_flag("--no-speed", o->no_speed, "Count errors only, without timing");
   command.add_flag("--fit", o->plan.fit, "Centre your meshes and scale their longest side to 2");
   command

@@ -63,7 +63,7 @@ void append_runs(const bench::PeerInfo& peer, const CoverageInput& input, Window
 }
 
 lab::CoverageMethod method_of(const bench::PeerInfo& peer, std::string_view version) {
-  const double snap_px = std::sqrt(2.0) / 2 / (1 << peer.subpixel_bits);  // half a unit on both axes
+  const double snap_px = std::sqrt(2.0) / 2 / (1 << peer.subpixel_bits());  // half a unit on both axes
   return {.info = {peer.name, peer.summary, version, "none; errors are measured only", false},
           .promise = {.reach_px = snap_px},
           .draw = [&peer](const CoverageInput& input, lab::Canvas& canvas,
