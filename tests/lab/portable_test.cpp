@@ -111,6 +111,17 @@ TEST(Portable, WidensTheBoundsOfVerticesThatClippingMade) {
   }
 }
 
+TEST(Portable, AllowsTheClippingOfTrianglesThatTouchTheNearOrFarPlane) {
+  for (const float z : {0.0f, 0.5f, 1.0f}) {
+    TriangleStream stream{320, 180, {}};
+    stream.triangles.push_back({{{10, 10, z}, {300, 10, 0.5f}, {10, 170, 0.5f}}, 0});
+    const auto triangles = portable_triangles(stream, {stream.width, stream.height, Cull::none});
+    ASSERT_EQ(triangles.size(), 1u);
+    EXPECT_FALSE(triangles[0].clipped);
+    EXPECT_EQ(triangles[0].position_error_px > 0.0, z != 0.5f) << z;
+  }
+}
+
 TEST(Portable, CountsCulledTrianglesOnlyIfRoundingMayTurnThem) {
   PortableTriangle back = wall(0.5f, 0);
   back.drawn = false;

@@ -13,8 +13,8 @@
 // Vulkan 1.3, 27.9 "Controlling the Viewport" gives the formula, not its precision.
 //
 // Clipping: a vertex where an edge meets a plane of the view volume is interpolated in floats, with an error
-// of at most kClipError times the largest coordinates of the clipped triangle. Not modelled: whether a
-// triangle that only touches the near or far plane is clipped at all.
+// of at most kClipError times the largest coordinates of the clipped triangle. A triangle in the view volume
+// that touches the near or far plane may be clipped or not. One outside that touches it must not be drawn.
 //
 // Depth: vertex depths err by at most kVertexDepthError. Planes are evaluated in floats, from one corner of
 // the image, for the rounded positions. Depths are rounded to the format. The buffer is cleared to 1, and a
