@@ -80,7 +80,7 @@ std::optional<Flags> parse_flags(int argc, char** argv) {
     flags.suite.size_asked = true;
   }
   flags.suite.peers = !no_peers;
-  if (flags.need_peers) bench::require_peers();
+  if (flags.need_peers) bench::require_peers(bench::benchmark_peers());
   flags.benchmark = parser.remaining();
   flags.known = tools::option_names(parser);
   flags.known.insert(flags.known.end(), std::begin(kGoogleBenchmarkOptions),

@@ -17,7 +17,8 @@ namespace edgewise::bench {
 
 namespace {
 
-// `precise` forbids fused multiply-add, as in our front end. OpenGL 3.3 has it as an extension.
+// The position equals that of transform() in frontend/transform.h: `precise` forbids fused multiply-add.
+// OpenGL 3.3 has it as an extension.
 constexpr const char* kVertexShader = R"(#version 330 core
 #extension GL_ARB_gpu_shader5 : require
 #extension GL_ARB_explicit_uniform_location : require

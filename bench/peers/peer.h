@@ -30,8 +30,8 @@ struct PeerScene {
 
 // Every peer's viewport: a square whose side is a power of two, centred on the image's top left corner. Clip
 // coordinates are therefore our own, scaled exactly, and the drivers' screen positions are the same floats as
-// our front end's. The viewport reaches far beyond the image, so that only the near and far planes clip. The
-// drivers' viewports are at most 16384 wide.
+// our front end's. The viewport reaches far beyond the image, so that only the near and far planes clip. Most
+// drivers allow no larger one.
 inline constexpr int kHalfViewport_px = 8192;
 glm::mat4 to_clip(const glm::mat4& to_screen);
 
@@ -51,16 +51,18 @@ struct PeerInfo {
   std::string_view name;     // in row names; differs from every backend's
   std::string_view summary;  // one line
   int most_threads;
-  // These throw std::runtime_error if the peer cannot start. `threads` is at most most_threads.
-  int (*subpixel_bits)();  // it snaps vertices at most this coarsely
+  // All three throw std::runtime_error if the peer cannot start.
+  int (*subpixel_bits)();  // the fewest bits to which it rounds positions
   std::string (*version)();
+  // `threads` is at most most_threads.
   std::unique_ptr<PeerFrame> (*load)(const PeerScene& scene, int threads);
 };
 
-// The peers in this build, with a GPU if there is one, and those that have rows in the benchmark.
+// The peers: those of this build's OpenGL drivers, and those that Vulkan finds here. The second call has only
+// those with rows in the benchmark, and opens no driver.
 std::span<const PeerInfo> peers();
 std::span<const PeerInfo> benchmark_peers();
-// Throws std::invalid_argument if this build has none.
-void require_peers();
+// Throws std::invalid_argument if the list is empty.
+void require_peers(std::span<const PeerInfo> peers);
 
 }  // namespace edgewise::bench

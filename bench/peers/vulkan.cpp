@@ -1,10 +1,10 @@
-// Vulkan on the processor (Mesa's lavapipe, which has llvmpipe's rasterizer behind other clipping and other
-// shaders), and on a GPU where there is one. They draw the same meshes as the OpenGL drivers of mesa.cpp, and
-// wait for the device after each frame: they are witnesses of what conformant rasterizers draw, not rows of
-// the benchmark.
+// Draws the meshes of mesa.cpp through Vulkan 1.3, with Mesa's lavapipe and with the first GPU. lavapipe has
+// llvmpipe's rasterizer behind other clipping and other shaders. draw() waits for the device, and vertices
+// lie in memory that the processor sees, so these peers have no rows in the benchmark.
 #include <fmt/format.h>
 #include <stdlib.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <optional>
@@ -12,40 +12,59 @@
 #include <vulkan/vulkan_raii.hpp>
 
 #include "bench/peers/peer.h"
-#include "peers/vulkan.frag.h"
-#include "peers/vulkan.vert.h"
+#include "vulkan.frag.h"
+#include "vulkan.vert.h"
 
 namespace edgewise::bench {
 
 namespace {
 
-enum class Processor { cpu, gpu };
+enum class Driver { lavapipe, gpu };
 
 constexpr auto kColour = vk::Format::eR32Uint, kDepth = vk::Format::eD32Sfloat;
 
+// Never destroyed, like the devices: drivers are known to crash when a process unloads them at its end.
 const vk::raii::Instance& instance() {
-  static const vk::raii::Context context;
-  static const vk::raii::Instance made = [] {
+  static const auto& context = *new vk::raii::Context;
+  static const auto& made = *new auto([] {
     setenv("LP_NUM_THREADS", "0", 1);  // lavapipe draws in its queue's thread alone
     const vk::ApplicationInfo application("edgewise", 1, nullptr, 0, VK_API_VERSION_1_3);
     return vk::raii::Instance(context, vk::InstanceCreateInfo({}, &application));
-  }();
+  }());
   return made;
 }
 
-std::optional<vk::raii::PhysicalDevice> find_device(Processor processor) {
-  for (auto& device : vk::raii::PhysicalDevices(instance())) {
-    const auto properties = device.getProperties();
-    const bool is_cpu = properties.deviceType == vk::PhysicalDeviceType::eCpu;
-    if (is_cpu == (processor == Processor::cpu) && properties.apiVersion >= VK_API_VERSION_1_3)
-      return std::move(device);
-  }
+std::optional<std::uint32_t> graphics_family(const vk::raii::PhysicalDevice& physical) {
+  const auto families = physical.getQueueFamilyProperties();
+  for (std::uint32_t i = 0; i < families.size(); ++i)
+    if (families[i].queueFlags & vk::QueueFlagBits::eGraphics) return i;
   return {};
 }
 
-vk::raii::PhysicalDevice physical_device(Processor processor) {
-  if (auto found = find_device(processor)) return std::move(*found);
-  throw std::runtime_error("Vulkan offers no such device of version 1.3");
+// Whether it is the driver, and can draw our frames.
+bool fits(const vk::raii::PhysicalDevice& physical, Driver driver) {
+  const auto properties = physical.getProperties();
+  if (properties.apiVersion < VK_API_VERSION_1_3 || !graphics_family(physical)) return false;
+  const auto id = physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>()
+                      .get<vk::PhysicalDeviceDriverProperties>()
+                      .driverID;
+  const bool is_gpu = properties.deviceType == vk::PhysicalDeviceType::eDiscreteGpu ||
+                      properties.deviceType == vk::PhysicalDeviceType::eIntegratedGpu ||
+                      properties.deviceType == vk::PhysicalDeviceType::eVirtualGpu;
+  if (driver == Driver::gpu ? !is_gpu : id != vk::DriverId::eMesaLlvmpipe) return false;
+  const auto& side = properties.limits.maxViewportDimensions;
+  const auto usable = [&](vk::Format format, vk::FormatFeatureFlagBits use) {
+    return bool{physical.getFormatProperties(format).optimalTilingFeatures & use};
+  };
+  return std::min(side[0], side[1]) >= 2 * kHalfViewport_px &&
+         usable(kColour, vk::FormatFeatureFlagBits::eColorAttachment) &&
+         usable(kDepth, vk::FormatFeatureFlagBits::eDepthStencilAttachment);
+}
+
+std::optional<vk::raii::PhysicalDevice> find_device(Driver driver) {
+  for (auto& device : vk::raii::PhysicalDevices(instance()))
+    if (fits(device, driver)) return std::move(device);
+  return {};
 }
 
 vk::raii::Device make_device(const vk::raii::PhysicalDevice& physical, std::uint32_t family) {
@@ -56,16 +75,9 @@ vk::raii::Device make_device(const vk::raii::PhysicalDevice& physical, std::uint
   return {physical, vk::DeviceCreateInfo({}, queue, {}, {}, nullptr, &features)};
 }
 
-std::uint32_t graphics_family(const vk::raii::PhysicalDevice& physical) {
-  const auto families = physical.getQueueFamilyProperties();
-  for (std::uint32_t i = 0; i < families.size(); ++i)
-    if (families[i].queueFlags & vk::QueueFlagBits::eGraphics) return i;
-  throw std::runtime_error("Vulkan's device draws nothing");
-}
-
 vk::raii::Pipeline make_pipeline(const vk::raii::Device& device, const vk::raii::PipelineLayout& layout) {
-  const vk::raii::ShaderModule vertex(device, vk::ShaderModuleCreateInfo({}, kVulkanVertexShader));
-  const vk::raii::ShaderModule fragment(device, vk::ShaderModuleCreateInfo({}, kVulkanFragmentShader));
+  const vk::raii::ShaderModule vertex(device, vk::ShaderModuleCreateInfo({}, kVulkan_vert));
+  const vk::raii::ShaderModule fragment(device, vk::ShaderModuleCreateInfo({}, kVulkan_frag));
   const std::array stages{
       vk::PipelineShaderStageCreateInfo({}, vk::ShaderStageFlagBits::eVertex, *vertex, "main"),
       vk::PipelineShaderStageCreateInfo({}, vk::ShaderStageFlagBits::eFragment, *fragment, "main")};
@@ -86,8 +98,8 @@ vk::raii::Pipeline make_pipeline(const vk::raii::Device& device, const vk::raii:
   vk::PipelineColorBlendAttachmentState attachment;
   attachment.colorWriteMask = vk::ColorComponentFlagBits::eR;
   const vk::PipelineColorBlendStateCreateInfo blend({}, false, {}, attachment);
-  const std::array changing{vk::DynamicState::eScissor, vk::DynamicState::eCullMode};
-  const vk::PipelineDynamicStateCreateInfo dynamic({}, changing);
+  const std::array dynamic_states{vk::DynamicState::eScissor, vk::DynamicState::eCullMode};
+  const vk::PipelineDynamicStateCreateInfo dynamic({}, dynamic_states);
   const vk::PipelineRenderingCreateInfo formats(0, kColour, kDepth);
   return {
       device, nullptr,
@@ -109,9 +121,18 @@ struct Image {
 // A device, and what its frames share.
 class Device {
  public:
-  explicit Device(Processor processor) : physical_(physical_device(processor)) {}
+  explicit Device(Driver driver) : physical_(find_device(driver).value()) {}
 
-  vk::PhysicalDeviceProperties properties() const { return physical_.getProperties(); }
+  int subpixel_bits() const {
+    return static_cast<int>(physical_.getProperties().limits.subPixelPrecisionBits);
+  }
+  std::string version() const {
+    const auto about =
+        physical_.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
+    const auto& driver = about.get<vk::PhysicalDeviceDriverProperties>();
+    return fmt::format("{}, {} {}", about.get<vk::PhysicalDeviceProperties2>().properties.deviceName.data(),
+                       driver.driverName.data(), driver.driverInfo.data());
+  }
   const vk::raii::PipelineLayout& layout() const { return layout_; }
   const vk::raii::Pipeline& pipeline() const { return pipeline_; }
 
@@ -163,7 +184,7 @@ class Device {
   }
 
   vk::raii::PhysicalDevice physical_;
-  std::uint32_t family_ = graphics_family(physical_);
+  std::uint32_t family_ = graphics_family(physical_).value();
   vk::raii::Device device_ = make_device(physical_, family_);
   vk::raii::Queue queue_{device_, family_, 0};
   vk::raii::CommandPool pool_{device_, vk::CommandPoolCreateInfo({}, family_)};
@@ -172,9 +193,9 @@ class Device {
   vk::raii::Pipeline pipeline_ = make_pipeline(device_, layout_);
 };
 
-template <Processor processor>
+template <Driver driver>
 const Device& device() {
-  static const Device made(processor);
+  static const auto& made = *new Device(driver);
   return made;
 }
 
@@ -201,9 +222,9 @@ LoadedMesh load_mesh(const Device& device, const PeerMesh& mesh) {
           to_clip(mesh.to_screen)};
 }
 
-class Frame final : public PeerFrame {
+class VulkanFrame final : public PeerFrame {
  public:
-  Frame(const Device& device, const PeerScene& scene)
+  VulkanFrame(const Device& device, const PeerScene& scene)
       : device_(device),
         width_(scene.width),
         height_(scene.height),
@@ -230,15 +251,15 @@ class Frame final : public PeerFrame {
     using Access = vk::AccessFlagBits;
     using Stage = vk::PipelineStageFlagBits;
     drawing_.begin(vk::CommandBufferBeginInfo());
-    const auto cleared = [](vk::Image image, Aspect aspect, Access access) {
+    const auto to_attachment = [](vk::Image image, Aspect aspect, Access access) {
       return vk::ImageMemoryBarrier({}, access, vk::ImageLayout::eUndefined, vk::ImageLayout::eGeneral,
                                     VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, image,
                                     {aspect, 0, 1, 0, 1});
     };
-    drawing_.pipelineBarrier(Stage::eTopOfPipe, Stage::eColorAttachmentOutput | Stage::eEarlyFragmentTests,
-                             {}, {}, {},
-                             {cleared(*colours_.image, Aspect::eColor, Access::eColorAttachmentWrite),
-                              cleared(*depths_.image, Aspect::eDepth, Access::eDepthStencilAttachmentWrite)});
+    drawing_.pipelineBarrier(
+        Stage::eTopOfPipe, Stage::eColorAttachmentOutput | Stage::eEarlyFragmentTests, {}, {}, {},
+        {to_attachment(*colours_.image, Aspect::eColor, Access::eColorAttachmentWrite),
+         to_attachment(*depths_.image, Aspect::eDepth, Access::eDepthStencilAttachmentWrite)});
     const vk::Rect2D all({0, 0}, {static_cast<std::uint32_t>(width_), static_cast<std::uint32_t>(height_)});
     const auto attachment = [](const Image& image, vk::ClearValue clear) {
       return vk::RenderingAttachmentInfo(*image.view, vk::ImageLayout::eGeneral, {}, {}, {},
@@ -291,33 +312,30 @@ class Frame final : public PeerFrame {
   vk::raii::CommandBuffer drawing_;
 };
 
-template <Processor processor>
-PeerInfo vulkan_peer(std::string_view name, std::string_view summary) {
-  return {name,
-          summary,
-          1,
-          [] { return static_cast<int>(device<processor>().properties().limits.subPixelPrecisionBits); },
-          [] {
-            const auto of = device<processor>().properties();
-            return fmt::format("{}, Vulkan {}.{}", of.deviceName.data(), VK_API_VERSION_MAJOR(of.apiVersion),
-                               VK_API_VERSION_MINOR(of.apiVersion));
-          },
-          [](const PeerScene& scene, int) -> std::unique_ptr<PeerFrame> {
-            return std::make_unique<Frame>(device<processor>(), scene);
-          }};
+template <Driver driver>
+std::optional<PeerInfo> peer_if_found(std::string_view name, std::string_view summary) try {
+  if (!find_device(driver)) return {};
+  return PeerInfo{name,
+                  summary,
+                  1,
+                  [] { return device<driver>().subpixel_bits(); },
+                  [] { return device<driver>().version(); },
+                  [](const PeerScene& scene, int) -> std::unique_ptr<PeerFrame> {
+                    return std::make_unique<VulkanFrame>(device<driver>(), scene);
+                  }};
+} catch (const std::runtime_error&) {
+  return {};  // no loader, or no driver
 }
 
 }  // namespace
 
-PeerInfo lavapipe() {
-  return vulkan_peer<Processor::cpu>("lavapipe", "Mesa's Vulkan for processors, with llvmpipe's rasterizer");
+std::optional<PeerInfo> lavapipe() {
+  return peer_if_found<Driver::lavapipe>("lavapipe",
+                                         "Mesa's Vulkan for processors, with llvmpipe's rasterizer");
 }
 
-std::optional<PeerInfo> vulkan_gpu() try {
-  if (!find_device(Processor::gpu)) return {};
-  return vulkan_peer<Processor::gpu>("gpu", "the first GPU that Vulkan offers");
-} catch (const std::runtime_error&) {
-  return {};  // no loader, or no driver
+std::optional<PeerInfo> vulkan_gpu() {
+  return peer_if_found<Driver::gpu>("gpu", "the first GPU that Vulkan offers; times include waiting for it");
 }
 
 }  // namespace edgewise::bench

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
@@ -11,6 +12,7 @@
 #include "bench/peers/ratios.h"
 #include "bench/peers/scene.h"
 #include "bench/peers/stage.h"
+#include "core/random.h"
 #include "edgewise/contract.h"
 #include "lab/portable/portable.h"
 #include "support.h"
@@ -290,9 +292,10 @@ std::vector<lab::PortableTriangle> portable_triangles_of(const Workload& workloa
   return result;
 }
 
+enum class Ties { in_the_mask, not_in_the_mask };
+
 // The pixels in which the peer's triangle is not ours, although every conformant rasterizer with so many
 // subpixel bits should show the same one.
-enum class Ties { in_the_mask, ignored };
 std::uint64_t wrong_portable_px(const Workload& workload, const PeerInfo& peer, int subpixel_bits,
                                 Ties ties = Ties::in_the_mask) {
   const bool mesh = std::holds_alternative<Scene>(workload.drawable());
@@ -309,64 +312,109 @@ std::uint64_t wrong_portable_px(const Workload& workload, const PeerInfo& peer, 
     const int x = static_cast<int>(i) % ours.width(), y = static_cast<int>(i) / ours.width();
     wrong += theirs[i] != ours.payload_row(y)[x] &&
              (mask.reasons[i] == lab::Unstable::no ||
-              (ties == Ties::ignored && mask.reasons[i] == lab::Unstable::tie));
+              (ties == Ties::not_in_the_mask && mask.reasons[i] == lab::Unstable::tie));
   }
   return wrong;
 }
 
-// llvmpipe and lavapipe have 8 subpixel bits. softpipe claims 4, and computes edges in floats.
-TEST_P(BuiltPeer, DiffersFromUsOnlyInPixelsThatAreNotPortable) {
-  const auto workload = named_workload(GetParam());
+// Fails if a peer that runs here differs from us in a portable pixel. Returns the number of such peers.
+int expect_portable(const Workload& workload, const std::string& name) {
   int compared = 0;
   for (const PeerInfo& peer : peers()) {
     if (!runs_here(peer)) continue;
-    EXPECT_EQ(wrong_portable_px(*workload, peer, peer.subpixel_bits()), 0u) << peer.name;
+    EXPECT_EQ(wrong_portable_px(workload, peer, peer.subpixel_bits()), 0u) << peer.name << ' ' << name;
     ++compared;
   }
-  if (compared == 0) GTEST_SKIP() << "no peer was built that runs here";
+  return compared;
 }
 
-TEST(AllPeers, DifferFromUsOnlyInPixelsOfRandomScenesThatAreNotPortable) {
-  const int scenes = testing::full_size() ? 1000 : 24;
-  int compared = 0;
-  for (const PeerInfo& peer : peers()) {
-    if (!runs_here(peer)) continue;
-    for (int i = 0; i < scenes; ++i, ++compared) {
-      const std::string family(
-          testing::kFamilies[static_cast<std::size_t>(i) % std::size(testing::kFamilies)]);
-      const auto workload = hard_workload(family, 1000 + static_cast<std::uint64_t>(i));
-      EXPECT_EQ(wrong_portable_px(*workload, peer, peer.subpixel_bits()), 0u)
-          << peer.name << ' ' << family << ' ' << i;
+// llvmpipe and lavapipe have 8 subpixel bits. softpipe claims 4, and computes edges in floats.
+TEST_P(BuiltPeer, DiffersFromUsOnlyInPixelsThatAreNotPortable) {
+  if (expect_portable(*named_workload(GetParam()), GetParam()) == 0) GTEST_SKIP() << "no peer runs here";
+}
+
+// Triangles of every size and distance. About a third of them cross the near or far plane.
+std::shared_ptr<Workload> random_mesh(std::uint64_t seed) {
+  Random random(seed);
+  Scene scene;
+  Mesh& mesh = scene.meshes.emplace_back();
+  scene.instances.resize(1);
+  scene.camera.near_z = random.uniform(0.05f, 1.0f);
+  scene.camera.far_z = random.uniform(5.0f, 50.0f);
+  for (unsigned i = 0; i < 60; ++i) {
+    const float distance = random.uniform(0.0f, 1.2f) * scene.camera.far_z;
+    const float size = std::exp2(random.uniform(-6.0f, 1.0f)) * (distance + 1.0f);
+    const float x = random.uniform(-1.0f, 1.0f) * distance, y = random.uniform(-0.6f, 0.6f) * distance;
+    for (int k = 0; k < 3; ++k) {
+      glm::vec3 at(x, y, -distance);
+      for (int axis = 0; axis < 3; ++axis) at[axis] += random.uniform(-size, size);
+      mesh.positions.push_back(at);
     }
+    mesh.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
+    mesh.colours.push_back(0);
   }
-  if (compared == 0) GTEST_SKIP() << "no peer was built that runs here";
+  auto workload = std::make_shared<Workload>(192, 128, seed % 2 == 0 ? Cull::none : Cull::back, [=] {
+    return tools::Source{"random", scene, false};
+  });
+  workload->prepare(true);
+  return workload;
+}
+
+// Beyond their viewport, peers clip triangles, which the model leaves out. llvmpipe then errs by whole
+// pixels.
+bool fits_the_viewport(const Workload& workload) {
+  return std::ranges::all_of(portable_triangles_of(workload), [](const lab::PortableTriangle& t) {
+    const auto inside = [](float px) { return std::abs(px) < kHalfViewport_px; };
+    return std::ranges::all_of(t.at.x_px, inside) && std::ranges::all_of(t.at.y_px, inside);
+  });
+}
+
+TEST(AllPeers, DifferFromUsOnlyInPixelsOfRandomMeshesThatAreNotPortable) {
+  const int meshes = testing::full_size() ? 1000 : 24;
+  int compared = 0;
+  std::uint64_t seed = 0;
+  for (int i = 0; i < meshes; ++seed) {
+    const auto workload = random_mesh(seed);
+    if (!fits_the_viewport(*workload)) continue;
+    compared += expect_portable(*workload, std::to_string(seed));
+    ++i;
+  }
+  EXPECT_LT(seed, 4u * static_cast<unsigned>(meshes));
+  if (compared == 0) GTEST_SKIP() << "no peer runs here";
+}
+
+TEST(AllPeers, DifferFromUsOnlyInPixelsOfHardTrianglesThatAreNotPortable) {
+  const std::size_t scenes = testing::full_size() ? 1000 : 24;
+  int compared = 0;
+  for (std::size_t i = 0; i < scenes; ++i) {
+    const std::string family(testing::kFamilies[i % std::size(testing::kFamilies)]);
+    compared += expect_portable(*hard_workload(family, 1000 + i), family + " " + std::to_string(i));
+  }
+  if (compared == 0) GTEST_SKIP() << "no peer runs here";
 }
 
 // Any .obj files, from the folder that EDGEWISE_MESHES names. The project ships none.
 TEST(AllPeers, DifferFromUsOnlyInPixelsOfYourMeshesThatAreNotPortable) {
   const char* folder = std::getenv("EDGEWISE_MESHES");
   if (folder == nullptr) GTEST_SKIP() << "EDGEWISE_MESHES names no folder of .obj files";
-  int compared = 0;
+  int meshes = 0, compared = 0;
   for (const auto& file : std::filesystem::directory_iterator(folder)) {
     if (file.path().extension() != ".obj") continue;
-    const auto workload = workload_of(file.path().string(), true);
-    for (const PeerInfo& peer : peers()) {
-      if (!runs_here(peer)) continue;
-      EXPECT_EQ(wrong_portable_px(*workload, peer, peer.subpixel_bits()), 0u) << peer.name << ' ' << file;
-      ++compared;
-    }
+    ++meshes;
+    compared += expect_portable(*workload_of(file.path().string(), true), file.path().string());
   }
-  if (compared == 0) GTEST_SKIP() << "no .obj file, or no peer was built that runs here";
+  ASSERT_GT(meshes, 0) << "no .obj file in " << folder;
+  if (compared == 0) GTEST_SKIP() << "no peer runs here";
 }
 
-// Otherwise the tests above would pass for any mask. Rounding to the nearest of 8 bits errs by less than one
-// step of 9 bits, so only 10 bits are too many.
+// Otherwise the tests above would pass for any mask. Rounding to the nearest of 8 bits errs by at most half a
+// step, which a mask for 9 bits still covers. A mask for 10 bits is too small.
 TEST(AllPeers, ShowAMaskThatIsTooSmall) {
   const auto softpipe = std::ranges::find(peers(), "softpipe", &PeerInfo::name);
   if (softpipe == peers().end() || !runs_here(*softpipe))
     GTEST_SKIP() << "softpipe was not built or does not run";
   EXPECT_GT(wrong_portable_px(*workload_of("torus-knot"), *softpipe, 10), 0u);
-  EXPECT_GT(wrong_portable_px(*workload_of("quads"), *softpipe, 8, Ties::ignored), 0u);
+  EXPECT_GT(wrong_portable_px(*workload_of("quads"), *softpipe, 8, Ties::not_in_the_mask), 0u);
 }
 
 // The other peers may differ in a few pixels. All are loaded at once, to show that their contexts are apart.
@@ -380,8 +428,8 @@ TEST(AllPeers, DrawNearlyOurPictures) {
     try {
       for (int threads = 1; threads <= peer.most_threads; ++threads)
         frames.push_back(peer.load(peer_scene(*workload, false, PeerPayload::id), threads));
-    } catch (const std::runtime_error& error) {
-      GTEST_SKIP() << error.what();
+    } catch (const std::runtime_error&) {
+      continue;  // it does not run here
     }
   }
   for (const auto& frame : frames) frame->draw();
@@ -389,7 +437,7 @@ TEST(AllPeers, DrawNearlyOurPictures) {
     const PeerJudgement judgement = judge(ours, frame->read(), triangles);
     EXPECT_LE(1000 * judgement.wrong(), judgement.drawn);
   }
-  if (frames.empty()) GTEST_SKIP() << "no peer was built";
+  if (frames.empty()) GTEST_SKIP() << "no peer runs here";
 }
 
 std::vector<std::string> compared_names() {

@@ -117,9 +117,17 @@ TEST(Portable, AllowsTheClippingOfTrianglesThatTouchTheNearOrFarPlane) {
     stream.triangles.push_back({{{10, 10, z}, {300, 10, 0.5f}, {10, 170, 0.5f}}, 0});
     const auto triangles = portable_triangles(stream, {stream.width, stream.height, Cull::none});
     ASSERT_EQ(triangles.size(), 1u);
-    EXPECT_FALSE(triangles[0].clipped);
+    EXPECT_EQ(triangles[0].clipped, z != 0.5f) << z;
     EXPECT_EQ(triangles[0].position_error_px > 0.0, z != 0.5f) << z;
   }
+  // For w = 41, z / w is less than 1 where z is w.
+  Scene scene;
+  scene.instances.resize(1);
+  scene.camera = {.position = {0, 0, 41}, .near_z = 1.0f, .far_z = 41.0f};
+  scene.meshes.push_back({{{-9, -9, 0}, {9, -9, 9}, {-9, 9, 9}}, {{0, 1, 2}}, {rgb(1, 2, 3)}});
+  const auto triangles = portable_triangles(scene, {320, 180, Cull::none});
+  ASSERT_EQ(triangles.size(), 1u);
+  EXPECT_TRUE(triangles[0].clipped) << triangles[0].at.z01[0];
 }
 
 TEST(Portable, CountsCulledTrianglesOnlyIfRoundingMayTurnThem) {

@@ -83,7 +83,7 @@ lab::CoverageMethod method_of(const bench::PeerInfo& peer, std::string_view vers
 
 std::span<const lab::CoverageMethod> peer_methods() {
   static const std::vector<std::string> versions = [] {
-    bench::require_peers();
+    bench::require_peers(bench::peers());
     std::vector<std::string> list;
     for (const bench::PeerInfo& peer : bench::peers()) list.push_back(peer.version());
     return list;

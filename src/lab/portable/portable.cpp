@@ -234,8 +234,12 @@ class ClipErrors {
   double least_w_ = 1.0;
 };
 
-bool touches_near_or_far(const UnsnappedTriangle& t) {
-  return std::ranges::any_of(t.z01, [](float z) { return z <= 0.0f || z >= 1.0f; });
+// Or nearly so: rounding decides whether z / w is 1 where z is w.
+bool touches_near(const UnsnappedTriangle& t) {
+  return std::ranges::any_of(t.z01, [](float z) { return double{z} <= kVertexDepthError; });
+}
+bool touches_far(const UnsnappedTriangle& t) {
+  return std::ranges::any_of(t.z01, [](float z) { return double{z} >= 1.0 - kVertexDepthError; });
 }
 
 }  // namespace
@@ -299,7 +303,8 @@ std::vector<PortableTriangle> portable_triangles(const Drawable& drawable, Front
     const std::uint32_t id = triangles[i].payload;
     PortableTriangle t{frontend.unsnapped()[i], id, id < drawn.size() && drawn[id],
                        frontend.states()[id] == TriangleState::clipped};
-    if (t.clipped || touches_near_or_far(t.at)) clip_errors.add_to(t);
+    t.clipped = t.clipped || touches_near(t.at) || touches_far(t.at);
+    if (t.clipped) clip_errors.add_to(t);
     // Our depth comes from the view distance, not from z / w.
     for (int k = 0; k < 3; ++k)
       t.depth_error =

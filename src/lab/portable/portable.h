@@ -17,7 +17,7 @@ enum class Unstable : std::uint8_t {
   depth,  // two triangles cover the pixel in every case, but rounding decides which one is nearer
   edge,   // an edge passes so closely that rounding decides whether its triangle covers the sample
   tie,    // as `edge`, with the sample exactly on it
-  clip    // as `edge`, of a triangle that the view volume cuts
+  clip    // as `edge`, of a triangle that the near or far plane cuts or touches
 };
 inline constexpr int kUnstableKinds = 5;
 std::string_view name_of(Unstable reason);  // "portable", "depth", "edge", "tie", "clip"
@@ -34,7 +34,7 @@ struct PortableTriangle {
   UnsnappedTriangle at;
   std::uint32_t id;
   bool drawn;    // false: culled for its facing, which rounding may reverse
-  bool clipped;  // a piece of a triangle that the view volume cuts
+  bool clipped;  // a piece of a triangle that the near or far plane cuts or touches
   // How much further than the model's roundings the vertices may be off.
   double position_error_px = 0.0, depth_error = 0.0;
 };
