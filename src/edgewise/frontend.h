@@ -30,7 +30,7 @@ enum class Payload {
 // The outcome of a submitted triangle, in the order of the steps. The state of a clipped triangle is that of
 // its piece that got furthest.
 enum class TriangleState : std::uint8_t {
-  outside_with_mesh,  // dropped: the whole mesh lies beyond one side of the view volume
+  outside_with_mesh,  // dropped: its mesh, or a part, lies beyond one side of the view volume
   not_finite,         // dropped: a vertex is NaN or infinite, before or after the transform
   outside,            // dropped: beyond one side of the view volume, or nothing left after clipping
   not_in_front,       // dropped: a vertex still has w ≤ 0 after clipping
@@ -67,7 +67,7 @@ struct FrontendStats {
   std::uint64_t meshes = 0;         // instances submitted
   std::uint64_t meshes_culled = 0;  // instances that lie beyond one side of the view volume as a whole
   std::uint64_t triangles = 0;      // submitted
-  std::uint64_t whole_mesh = 0;     // dropped with their instance
+  std::uint64_t whole_mesh = 0;     // dropped with their instance, or with a part of a large mesh
   std::uint64_t not_finite = 0;     // dropped: a vertex is NaN or infinite, before or after the transform
   std::uint64_t outside = 0;        // dropped: beyond a side of the view volume, or nothing left by clipping
   std::uint64_t not_in_front = 0;   // dropped: a vertex still has w ≤ 0 after clipping

@@ -7,9 +7,8 @@
 #include <hwy/highway.h>
 // These need Highway first.
 #include "frontend/cull-inl.h"
+#include "frontend/index_range-inl.h"
 #include "frontend/lanes-inl.h"
-
-#include <algorithm>
 
 #include "core/kernel_table.h"
 #include "frontend/assemble.h"
@@ -42,20 +41,6 @@ HWY_INLINE bool assemble_vector(const MeshTask& task, std::size_t first, ChunkOu
   return true;
 }
 
-// True if the mesh has every vertex that triangles begin … end - 1 name.
-bool vertices_exist(const Mesh& mesh, std::size_t begin, std::size_t end) {
-  const hn::RebindToUnsigned<DI> d;
-  const std::uint32_t* index = &mesh.triangles[begin].x;
-  const std::size_t count = 3 * (end - begin);
-  auto largest = hn::Zero(d);
-  std::size_t i = 0;
-  for (; i + kBatch <= count; i += kBatch) largest = hn::Max(largest, hn::LoadU(d, index + i));
-  std::uint32_t lanes[kBatch];
-  hn::StoreU(largest, d, lanes);
-  for (; i < count; ++i) lanes[0] = std::max(lanes[0], index[i]);
-  return *std::max_element(lanes, lanes + kBatch) < mesh.positions.size();
-}
-
 template <bool kFlagged>
 void assemble_all(const MeshTask& task, std::size_t begin, std::size_t end, ChunkOutput& out) {
   const auto one_by_one = [&](std::size_t from, std::size_t to) {
@@ -68,7 +53,7 @@ void assemble_all(const MeshTask& task, std::size_t begin, std::size_t end, Chun
 }
 
 bool assemble(const MeshTask& task, std::size_t begin, std::size_t end, ChunkOutput& out) {
-  if (!vertices_exist(task.mesh, begin, end)) return false;
+  if (index_range(task.mesh, begin, end).last >= task.mesh.positions.size()) return false;
   if (task.mesh.flags.empty())
     assemble_all<false>(task, begin, end, out);
   else

@@ -3,13 +3,15 @@
 // - triangles: assemble.cpp for meshes, stream.cpp for streams; one_by_one.cpp and clip.cpp for special cases
 // - colours: shade.cpp
 // - output in submission order: in_order.h
-// Instances are processed in groups, and each group is cut into chunks (runs.h).
+// A large mesh is cut into runs of triangles (mesh_runs.h). Meshes and runs are processed in groups, and each
+// group is cut into chunks (chunks.h).
 #include "edgewise/frontend.h"
 
 #include <algorithm>
 #include <atomic>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/parallel.h"
@@ -18,6 +20,7 @@
 #include "frontend/assemble.h"
 #include "frontend/chunks.h"
 #include "frontend/in_order.h"
+#include "frontend/mesh_runs.h"
 #include "frontend/shade.h"
 #include "frontend/stream.h"
 #include "frontend/transform.h"
@@ -101,19 +104,17 @@ FrontendStats& FrontendStats::operator+=(const FrontendStats& o) {
   return *this;
 }
 
-// One instance of a group.
+// One run of an instance's mesh.
 struct GroupMember {
-  GroupMember(const MeshTask& its_task, const ShadeTask& its_light, std::size_t vertices_before,
-              std::uint32_t id)
-      : task(its_task), light(its_light), first_vertex(vertices_before), first_id(id) {}
-
   MeshTask task;
   ShadeTask light;
-  std::size_t first_vertex;  // index into the group's vertices
-  std::uint32_t first_id;
+  MeshRun run;
+  bool ends_mesh;                                  // whether it is the mesh's last run
+  std::size_t first_vertex;                        // index of the run's first vertex into the group's
+  std::uint32_t first_id;                          // of the mesh
   std::uint32_t common = kInvisible | kNotFinite;  // sides beyond which all finite vertices lie
 
-  // True if the whole mesh lies beyond one side of the view. False for a mesh without a finite vertex.
+  // True if the whole run lies beyond one side of the view. False for a run without a finite vertex.
   bool out_of_sight() const { return (common & kNotFinite) == 0 && common != 0; }
 };
 
@@ -121,6 +122,8 @@ struct Frontend::State {
   // A group holds consecutive instances: most are too small to be worth several threads alone.
   static constexpr std::size_t kMaxVertices = 4 * kWorthThreads, kMaxMembers = kWorthThreads;
   std::vector<GroupMember> group;
+  MeshRuns runs;
+  bool mesh_is_out_of_sight = true;  // its runs so far
   Chunks vertex_chunks, triangle_chunks;
   Buffer<Vertex> vertices;
 
@@ -136,12 +139,15 @@ struct Frontend::State {
   void transform_group() {
     const TransformKernel transform = transform_kernel(options.target);
     vertices.reserve(vertex_chunks.total());
-    for (GroupMember& member : group) member.task.vertices = vertices.data() + member.first_vertex;
+    for (GroupMember& member : group)
+      member.task.vertices = vertices.data() + member.first_vertex - member.run.first_vertex;
     parallel_for(workers_for(vertex_chunks.total(), options.threads), static_cast<int>(vertex_chunks.size()),
                  [&](int chunk) {
                    for (const MeshPart& part : vertex_chunks[static_cast<std::size_t>(chunk)]) {
                      GroupMember& member = group[part.mesh];
-                     std::atomic_ref(member.common) &= transform(member.task, part.begin, part.end);
+                     const std::size_t first = member.run.first_vertex;
+                     std::atomic_ref(member.common) &=
+                         transform(member.task, first + part.begin, first + part.end);
                    }
                  });
   }
@@ -170,23 +176,26 @@ struct Frontend::State {
   }
 
   void assemble_group() {
-    for (const GroupMember& member : group)
+    for (const GroupMember& member : group) {
       if (member.out_of_sight()) {
-        ++stats.meshes_culled;
-        stats.whole_mesh += member.task.mesh.triangles.size();
+        stats.whole_mesh += member.run.triangles();
         if (options.keep_states)
-          std::fill_n(member.task.states, member.task.mesh.triangles.size(),
+          std::fill_n(member.task.states + member.run.first_triangle, member.run.triangles(),
                       TriangleState::outside_with_mesh);
+      } else {
+        mesh_is_out_of_sight = false;
       }
+      if (member.ends_mesh) stats.meshes_culled += std::exchange(mesh_is_out_of_sight, true);
+    }
     const AssembleKernel assemble = assemble_kernel(options.target);
     const ShadeKernel shade = shade_kernel(options.target);
     std::atomic<bool> all_exist{true};
     const auto make = [&](std::size_t chunk, ChunkOutput& out) {
       for (const MeshPart& part : triangle_chunks[chunk]) {
         const GroupMember& member = group[part.mesh];
-        const std::size_t first = out.count;
+        const std::size_t first = out.count, begin = member.run.first_triangle;
         if (member.out_of_sight()) continue;
-        if (assemble(member.task, part.begin, part.end, out))
+        if (assemble(member.task, begin + part.begin, begin + part.end, out))
           finish_payload(member, first, out, shade);
         else
           all_exist = false;
@@ -216,12 +225,11 @@ struct Frontend::State {
     const glm::dmat4 to_screen = screen_matrix(scene.camera, options.width, options.height);
     const ViewDepth depth(double{scene.camera.near_z}, double{scene.camera.far_z});
     std::size_t first_id = 0;
+    mesh_is_out_of_sight = true;
     start_group();
     for (const auto& instance : scene.instances) {
       const Mesh& mesh = mesh_of(scene, instance);
       check(mesh);
-      if (vertex_chunks.total() + mesh.positions.size() > kMaxVertices || group.size() == kMaxMembers)
-        run_group();
       const glm::mat4 model = model_matrix(instance);
       const MeshTask task{.options = options,
                           .mesh = mesh,
@@ -231,10 +239,14 @@ struct Frontend::State {
                           .states = options.keep_states ? states.data() + first_id : nullptr};
       ++stats.meshes;
       stats.triangles += mesh.triangles.size();
-      vertex_chunks.add(group.size(), mesh.positions.size());
-      triangle_chunks.add(group.size(), mesh.triangles.size());
-      group.emplace_back(task, ShadeTask(mesh, model, scene.to_light),
-                         vertex_chunks.total() - mesh.positions.size(), static_cast<std::uint32_t>(first_id));
+      const ShadeTask light(mesh, model, scene.to_light);
+      for (const MeshRun& run : runs.cut(mesh, options.threads, options.target)) {
+        if (vertex_chunks.total() + run.vertices() > kMaxVertices || group.size() == kMaxMembers) run_group();
+        group.push_back({task, light, run, run.end_triangle == mesh.triangles.size(), vertex_chunks.total(),
+                         static_cast<std::uint32_t>(first_id)});
+        vertex_chunks.add(group.size() - 1, run.vertices());
+        triangle_chunks.add(group.size() - 1, run.triangles());
+      }
       first_id += mesh.triangles.size();
     }
     run_group();
