@@ -24,6 +24,11 @@ namespace edgewise {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+// Streaming stores need aligned addresses.
+HWY_INLINE bool may_stream(const std::uint32_t* plane, std::ptrdiff_t stride) {
+  return reinterpret_cast<std::uintptr_t>(plane) % sizeof(V) == 0 && stride % kLanes == 0;
+}
+
 // A tile's part of a plane (depth or payload) of the frame.
 struct FramePlane {
   std::int32_t* at;
@@ -37,8 +42,7 @@ struct FramePlane {
         stride(task.frame.stride),
         width(task.width()),
         height(task.height()),
-        streaming(task.ablation.tile_store == TileStore::streaming &&
-                  reinterpret_cast<std::uintptr_t>(plane) % sizeof(V) == 0 && stride % kLanes == 0),
+        streaming(task.ablation.tile_store == TileStore::streaming && may_stream(plane, stride)),
         ahead(task.x0 + 2 * task.size() <= task.frame.width ? task.size() : 0) {}
 
   HWY_INLINE std::int32_t* row(int y) const { return at + y * stride; }
@@ -60,18 +64,6 @@ HWY_INLINE void write_to(const FramePlane& to, Write&& write) {
   }
 }
 
-// Fills the tile with `value`.
-inline void write_value(const FramePlane& to, std::int32_t value) {
-  write_to(to, [&](const auto& store) {
-    const V v = hn::Set(D{}, value);
-    for (int y = 0; y < to.height; ++y) {
-      std::int32_t *at = to.row(y), *const end = at + to.width;
-      for (; at + kLanes <= end; at += kLanes) store(v, at);
-      std::fill(at, end, value);
-    }
-  });
-}
-
 // Calls draw(block) for each of the tile's index blocks. Records are scattered in memory, so each block's are
 // prefetched while the previous one is drawn.
 template <class Task, typename Draw>
@@ -83,14 +75,6 @@ HWY_INLINE void draw_index_blocks(const Task& task, Draw&& draw) {
     prefetched = block;
   });
   if (!prefetched.indices.empty()) draw(prefetched);
-}
-
-// Calls write(depth, payload) with the tile's planes, and orders streaming stores before later stores.
-template <typename Write>
-HWY_INLINE void write_planes(const TileTask& task, Write&& write) {
-  const FramePlane depth(task, task.frame.depth), payload(task, task.frame.payload);
-  write(depth, payload);
-  hwy::FlushStream();
 }
 
 // Vectors of pixels from a tile's buffers, from the i-th pixel on, as they are stored to the frame.
@@ -113,26 +97,18 @@ struct Payloads {
   }
 };
 
-// Calls write(plane, pixels) for depth and payload.
+// Calls write(plane, pixels) for depth and payload, and orders streaming stores before later stores.
 template <typename Write>
 HWY_INLINE void write_tile(const TileTask& task, const std::int32_t* depth, const std::int32_t* payload,
                            Write&& write) {
-  write_planes(task, [&](const FramePlane& depth_plane, const FramePlane& payload_plane) {
-    write(depth_plane, Depths{depth});
-    write(payload_plane, Payloads{payload, depth, static_cast<std::int32_t>(task.background)});
-  });
+  write(FramePlane(task, task.frame.depth), Depths{depth});
+  write(FramePlane(task, task.frame.payload),
+        Payloads{payload, depth, static_cast<std::int32_t>(task.background)});
+  hwy::FlushStream();
 }
 
-// Stores an empty tile, without a buffer.
-HWY_INLINE void write_background(const TileTask& task) {
-  write_planes(task, [&](const FramePlane& depth, const FramePlane& payload) {
-    write_value(depth, static_cast<std::int32_t>(contract::kDepthClear));
-    write_value(payload, static_cast<std::int32_t>(task.background));
-  });
-}
-
-// For an empty tile, GCC 12 omits this instruction before the return. The caller's SSE code would then merge
-// into registers whose upper halves are in use, and run at half speed until the next context switch.
+// Some kernels end without this instruction (GCC 12). The caller's SSE code would then merge into registers
+// whose upper halves are in use, and run at half speed until the next context switch.
 HWY_INLINE void clear_upper_halves() {
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2  // the better the target, the lower its number
   _mm256_zeroupper();

@@ -12,16 +12,21 @@
 #include "edgewise/backend.h"
 #include "raster/ablation.h"
 #include "raster/binning/bins.h"
+#include "raster/empty_tiles.h"
 #include "raster/tile_task.h"
 
 namespace edgewise {
 
-// TileStore::automatic. A tile with triangles is streamed: its copy overlaps with the drawing of the next
-// tile, and LLC residency is unpredictable, since other processes share the cache. An empty tile is a burst
-// of stores that no work overlaps; where the frame can stay in the LLC beside its reader's data, cached
-// stores finish it sooner.
-constexpr TileStore tile_store_for(bool empty_tile, std::size_t frame_bytes, std::size_t llc) {
-  return empty_tile && frame_bytes <= llc / 2 ? TileStore::cached : TileStore::streaming;
+// TileStore::automatic. A frame of up to half the LLC can stay there beside its reader's data. Empty tiles
+// then get cached stores, since no work overlaps with filling them. On one thread, a tile with triangles is
+// streamed while the next one is drawn. Several threads together would wait for the memory's bandwidth, so
+// they stream only where the triangles need the LLC, because they fill more than an L2 cache.
+constexpr TileStore tile_store_for(bool empty_tile, std::size_t triangles, int threads,
+                                   std::size_t frame_bytes, std::size_t llc) {
+  constexpr std::size_t kL2 = 1 << 20;
+  const bool streamed_in_passing = threads == 1 || triangles * sizeof(ScreenTriangle) > kL2;
+  return frame_bytes <= llc / 2 && (empty_tile || !streamed_in_passing) ? TileStore::cached
+                                                                        : TileStore::streaming;
 }
 
 // `margin`: CellGrid::margin.
@@ -35,20 +40,25 @@ void draw_in_tiles(std::span<const ScreenTriangle> triangles, FrameView frame, s
   bins.build(triangles, grid, execution.threads, binning, small, ablation.prefetch);
   const auto pixels = static_cast<std::size_t>(frame.stride) * static_cast<std::size_t>(frame.height);
   const std::size_t frame_bytes = pixels * (sizeof(*frame.depth) + sizeof(*frame.payload));
-  const int columns = grid.columns();
-  parallel_for(execution.threads, grid.cells(), [&](int cell) {
-    TileTask task{triangles.data(),
-                  &bins,
-                  cell,
-                  cell % columns << size_log2,
-                  cell / columns << size_log2,
-                  size_log2,
-                  frame,
-                  background,
-                  ablation};
-    if (ablation.tile_store == TileStore::automatic)
-      task.ablation.tile_store = tile_store_for(bins.empty(cell), frame_bytes, llc_bytes());
-    draw_tile(task);
+  const auto store_for = [&](bool empty_tile) {
+    return ablation.tile_store != TileStore::automatic
+               ? ablation.tile_store
+               : tile_store_for(empty_tile, triangles.size(), execution.threads, frame_bytes, llc_bytes());
+  };
+  Ablation resolved = ablation;
+  resolved.tile_store = store_for(false);
+  const bool streaming = store_for(true) == TileStore::streaming;
+  const EmptyTilesKernel fill = empty_tiles_kernel(execution.target);
+  const int columns = grid.columns(), filled = static_cast<int>(bins.filled_cells().size());
+  parallel_for(execution.threads, filled + grid.rows(), [&](int task) {
+    if (task >= filled) {
+      const int row = task - filled;
+      fill({bins.empty_cells(row), row << size_log2, size_log2, frame, background, streaming});
+    } else {
+      const int cell = bins.filled_cells()[static_cast<std::size_t>(task)];
+      draw_tile(TileTask{triangles.data(), &bins, cell, cell % columns << size_log2,
+                         cell / columns << size_log2, size_log2, frame, background, resolved});
+    }
   });
 }
 

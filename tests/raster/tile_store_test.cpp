@@ -4,41 +4,70 @@
 
 #include <atomic>
 
+#include "raster/tiled/tile_kernel.h"
 #include "raster/tiles.h"
 #include "support.h"
 
 namespace edgewise {
 namespace {
 
-TEST(TileStore, IsCachedOnlyForEmptyTilesOfFramesThatFitHalfTheCache) {
-  constexpr std::size_t kLlc = 1 << 20;
-  EXPECT_EQ(tile_store_for(true, kLlc / 2, kLlc), TileStore::cached);
-  EXPECT_EQ(tile_store_for(true, kLlc / 2 + 1, kLlc), TileStore::streaming);
-  EXPECT_EQ(tile_store_for(false, kLlc / 2, kLlc), TileStore::streaming);
+TEST(TileStore, IsCachedOnlyInFramesThatFitHalfTheCache) {
+  constexpr std::size_t kLlc = 8 << 20;
+  for (const bool empty : {false, true})
+    for (const int threads : {1, 2})
+      EXPECT_EQ(tile_store_for(empty, 10, threads, kLlc / 2 + 1, kLlc), TileStore::streaming);
+  for (const std::size_t triangles : {std::size_t{10}, std::size_t{1} << 20})
+    for (const int threads : {1, 2}) {
+      EXPECT_EQ(tile_store_for(true, triangles, threads, kLlc / 2, kLlc), TileStore::cached);
+      EXPECT_EQ(tile_store_for(false, triangles, threads, kLlc / 2, kLlc) == TileStore::cached,
+                triangles == 10 && threads == 2);
+    }
 }
 
-TEST(TileStore, IsChosenPerTileUnlessTheCallerChooses) {
-  const int side = 8 * contract::kMaxTile;
+TEST(TileStore, IsTheCallersChoiceIfItMakesOne) {
+  const int side = 4 * contract::kMaxTile;
   const auto triangles = testing::adversarial("mixed-sizes", 400, side / 2 - 1, side, 5);
   Framebuffer frame(side, side);
-  static std::atomic<int> streamed, empty;
+  static std::atomic<int> streamed, drawn;
   const TileKernel count = [](const TileTask& task) {
     streamed += task.ablation.tile_store == TileStore::streaming;
-    empty += task.bins->empty(task.cell);
+    ++drawn;
   };
-  const auto tiles_streamed = [&](TileStore store) {
-    streamed = empty = 0;
+  const auto tiles_streamed = [&](TileStore store, int threads) {
+    streamed = drawn = 0;
     Bins bins;
-    draw_in_tiles(triangles, frame.view(), 0, {2, 64, resolve(SimdTarget::best)}, {.tile_store = store}, 64,
-                  bins, Bins::Small::as_indices, count);
+    draw_in_tiles(triangles, frame.view(), 0, {threads, 64, resolve(SimdTarget::best)}, {.tile_store = store},
+                  64, bins, Bins::Small::as_indices, count);
     return streamed.load();
   };
-  EXPECT_EQ(tiles_streamed(TileStore::streaming), 64);
-  EXPECT_EQ(tiles_streamed(TileStore::cached), 0);
-  const int automatic = tiles_streamed(TileStore::automatic);
-  EXPECT_GT(empty, 0);
-  EXPECT_LT(empty, 64);
-  EXPECT_EQ(automatic, 64 - empty);
+  EXPECT_EQ(tiles_streamed(TileStore::cached, 1), 0);
+  EXPECT_EQ(tiles_streamed(TileStore::automatic, 2), 0);
+  EXPECT_GT(tiles_streamed(TileStore::streaming, 2), 0);
+  EXPECT_EQ(streamed, drawn);
+  EXPECT_EQ(tiles_streamed(TileStore::automatic, 1), drawn);
+  EXPECT_LT(drawn, 16) << "empty tiles do not reach the kernel";
+}
+
+// Empty tiles at the right and lower end, beside and between tiles with triangles, by either store.
+TEST(TileStore, FillsEveryEmptyTile) {
+  const auto corner = [](int x, int y, std::uint32_t payload) {
+    const int x0 = x * contract::kSub, y0 = y * contract::kSub, size = 8 * contract::kSub;
+    return ScreenTriangle{{x0, x0 + size, x0}, {y0, y0, y0 + size}, {9, 9, 9}, payload};
+  };
+  const std::vector<ScreenTriangle> triangles{corner(70, 3, 5), corner(270, 3, 6), corner(130, 130, 7)};
+  for (const TileStore store : {TileStore::cached, TileStore::streaming})
+    for (const int width : {333, 320}) {
+      Framebuffer expected(width, 200), frame(width, 200);
+      backends().front().make()->draw(triangles, expected.view(), 42, {});
+      Bins bins;
+      draw_in_tiles(triangles, frame.view(), 42, {2, 64, resolve(SimdTarget::best)}, {.tile_store = store},
+                    64, bins, Bins::Small::as_indices, tile_kernel(resolve(SimdTarget::best)));
+      for (int y = 0; y < 200; ++y)
+        for (int x = 0; x < width; ++x) {
+          ASSERT_EQ(frame.payload_row(y)[x], expected.payload_row(y)[x]) << x << ' ' << y;
+          ASSERT_EQ(frame.depth_row(y)[x], expected.depth_row(y)[x]) << x << ' ' << y;
+        }
+    }
 }
 
 }  // namespace

@@ -98,10 +98,6 @@ void write_rows(const FramePlane& to, const Pixels& pixels) {
 }  // namespace
 
 void draw_tile_in_spans(const TileTask& task) {
-  if (task.bins->empty(task.cell)) {
-    write_background(task);
-    return clear_upper_halves();
-  }
   TilePainter painter(task);
   draw_index_blocks(task, [&](const Bins::IndexBlock& block) { painter.draw(block.indices); });
   write_tile(task, painter.depth(), painter.payload(),

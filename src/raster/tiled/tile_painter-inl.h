@@ -99,10 +99,6 @@ class TilePainter {
 
 template <class Numbers>
 void draw_tile_in(const typename Numbers::Task& task) {
-  if (task.bins->empty(task.cell)) {
-    write_background(task);
-    return clear_upper_halves();
-  }
   const int size = task.size();
   Tile tile;
   const auto clear = [&](std::int32_t* plane, std::uint32_t value) {

@@ -1,0 +1,56 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "raster/empty_tiles.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include <algorithm>
+
+#include "core/kernel_table.h"
+#include "edgewise/contract.h"
+#include "raster/empty_tiles.h"
+#include "raster/tile_store-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace edgewise {
+namespace HWY_NAMESPACE {
+
+template <typename Store>
+void fill_plane(const EmptyTiles& task, std::uint32_t* plane, std::uint32_t value, Store&& store) {
+  const V v = hn::Set(D{}, static_cast<std::int32_t>(value));
+  const int end_y = std::min(task.y0 + (1 << task.size_log2), task.frame.height);
+  for (int y = task.y0; y < end_y; ++y)
+    for (const Bins::Run& run : task.runs) {
+      std::uint32_t* const row = plane + y * task.frame.stride;
+      std::uint32_t* at = row + (run.begin << task.size_log2);
+      std::uint32_t* const end = row + std::min(run.end << task.size_log2, task.frame.width);
+      for (; at + kLanes <= end; at += kLanes) store(v, reinterpret_cast<std::int32_t*>(at));
+      std::fill(at, end, value);
+    }
+}
+
+void fill_empty_tiles(const EmptyTiles& task) {
+  const auto fill = [&](std::uint32_t* plane, std::uint32_t value) {
+    if (task.streaming && may_stream(plane, task.frame.stride))
+      fill_plane(task, plane, value, [](V v, std::int32_t* at) { hn::Stream(v, D{}, at); });
+    else
+      fill_plane(task, plane, value, [](V v, std::int32_t* at) { hn::StoreU(v, D{}, at); });
+  };
+  fill(task.frame.depth, contract::kDepthClear);
+  fill(task.frame.payload, task.background);
+  hwy::FlushStream();
+  clear_upper_halves();
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace edgewise
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace edgewise {
+
+EmptyTilesKernel empty_tiles_kernel(SimdTarget target) {
+  return EDGEWISE_KERNEL(fill_empty_tiles, target);
+}
+
+}  // namespace edgewise
+#endif
