@@ -49,16 +49,15 @@ void draw_in_tiles(std::span<const ScreenTriangle> triangles, FrameView frame, s
   resolved.tile_store = store_for(false);
   const bool streaming = store_for(true) == TileStore::streaming;
   const EmptyTilesKernel fill = empty_tiles_kernel(execution.target);
-  const int columns = grid.columns(), filled = static_cast<int>(bins.filled_cells().size());
-  parallel_for(execution.threads, filled + grid.rows(), [&](int task) {
-    if (task >= filled) {
-      const int row = task - filled;
+  const int columns = grid.columns();
+  const auto order = bins.filled_cells_and_rows();
+  parallel_for(execution.threads, static_cast<int>(order.size()), [&](int i) {
+    const int cell = order[static_cast<std::size_t>(i)], row = ~cell;
+    if (cell < 0)
       fill({bins.empty_cells(row), row << size_log2, size_log2, frame, background, streaming});
-    } else {
-      const int cell = bins.filled_cells()[static_cast<std::size_t>(task)];
+    else
       draw_tile(TileTask{triangles.data(), &bins, cell, cell % columns << size_log2,
                          cell / columns << size_log2, size_log2, frame, background, resolved});
-    }
   });
 }
 

@@ -227,20 +227,21 @@ bool Bins::empty(std::size_t cell) const {
 
 void Bins::find_empty_cells(const CellGrid& grid) {
   const int columns = grid.columns(), rows = grid.rows();
-  filled_cells_.clear(), empty_cells_.clear(), row_begin_.clear();
+  filled_cells_and_rows_.clear(), empty_cells_.clear(), row_begin_.clear();
   for (int row = 0, cell = 0; row < rows; ++row) {
     row_begin_.push_back(empty_cells_.size());
     bool was_empty = false;
     for (int column = 0; column < columns; ++column, ++cell) {
       const bool is_empty = empty(static_cast<std::size_t>(cell));
       if (!is_empty)
-        filled_cells_.push_back(cell);
+        filled_cells_and_rows_.push_back(cell);
       else if (was_empty)
         ++empty_cells_.back().end;
       else
         empty_cells_.push_back({column, column + 1});
       was_empty = is_empty;
     }
+    if (empty_cells_.size() != row_begin_.back()) filled_cells_and_rows_.push_back(~row);
   }
   row_begin_.push_back(empty_cells_.size());
 }

@@ -33,8 +33,8 @@ class Bins {
   void build(std::span<const ScreenTriangle> triangles, const CellGrid& grid, int threads, SimdTarget target,
              Small small, bool prefetch);
 
-  // The cells with triangles, row by row.
-  std::span<const int> filled_cells() const { return filled_cells_; }
+  // Row by row: the cells with triangles, and then ~row if the row also has empty cells.
+  std::span<const int> filled_cells_and_rows() const { return filled_cells_and_rows_; }
   // The cells of a row without triangles: columns begin … end - 1.
   struct Run {
     int begin, end;
@@ -144,7 +144,7 @@ class Bins {
   void find_empty_cells(const CellGrid& grid);
 
   std::vector<Chunk> chunks_;
-  std::vector<int> filled_cells_;
+  std::vector<int> filled_cells_and_rows_;
   std::vector<Run> empty_cells_;
   std::vector<std::size_t> row_begin_;  // the first run of each row in empty_cells_, and their number
   WorkPartition partition_;
