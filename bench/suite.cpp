@@ -71,8 +71,7 @@ class Suite {
  public:
   explicit Suite(const SuiteOptions& options) : options_(options) {}
 
-  // A peer transforms meshes itself, so it draws them as whole frames; streams are timed like our backends'.
-  void add_scene(const WorkloadPtr& workload, const std::string& name, bool stream) {
+  void add_scene(const WorkloadPtr& workload, const std::string& name) {
     for (const int threads : kThreads) add_frontend(workload, name, threads);
     for (const auto& backend : backends())
       for (const int threads : kThreads) {
@@ -82,14 +81,13 @@ class Suite {
       }
     if (options_.scenes.empty()) add_scheduled(workload, name);
     if (!options_.peers) return;
-    const Timed timed = stream ? Timed::raster : Timed::frame;
     for (const auto& peer : benchmark_peers())
-      for (const int threads : kThreads) add_peer(workload, timed, peer, name, threads);
+      for (const int threads : kThreads) add_peer(workload, peer, name, threads);
     // Peers use vectors of at most 256 bits, so ours is timed with 256 bits, too.
     if (!benchmark_peers().empty() && resolve(SimdTarget::best) == SimdTarget::avx512)
       for (const int threads : kThreads)
-        add(workload, timed, find_backend(kAblationBackend), fmt::format("{}/target:avx2", name), threads,
-            SimdTarget::avx2);
+        add(workload, Timed::frame, find_backend(kAblationBackend), fmt::format("{}/target:avx2", name),
+            threads, SimdTarget::avx2);
   }
 
   // Directly after the scene's own rows, its first and last step, so that they share one reference picture.
@@ -214,13 +212,11 @@ class Suite {
       }
   }
 
-  void add_peer(const WorkloadPtr& workload, Timed timed, const PeerInfo& peer, const std::string& scene,
-                int threads) {
-    const char* with = timed == Timed::frame ? "+frontend" : "";
+  void add_peer(const WorkloadPtr& workload, const PeerInfo& peer, const std::string& scene, int threads) {
     Row row;
-    row.name = fmt::format("{}{}/{}/threads:{}", peer.name, with, scene, threads);
+    row.name = fmt::format("{}+frontend/{}/threads:{}", peer.name, scene, threads);
     row.workload = workload;
-    row.timed = timed;
+    row.timed = Timed::frame;
     row.peer = &peer;
     row.execution.threads = threads;
     rows_.push_back(std::move(row));
@@ -257,7 +253,7 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
     suite.add_scene(std::make_shared<Workload>(own_size ? stream->width : options.width,
                                                own_size ? stream->height : options.height, Cull::back,
                                                [source] { return source; }),
-                    name, source.stream);
+                    name);
   };
   for (const auto& scene : options.scenes) add_named(scene);
   if (!options.scenes.empty()) return suite.take();
@@ -266,7 +262,7 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
     const std::string name(scene.name);
     taken.emplace(name, name);
     const auto workload = suite.scene_workload(name, options.width, options.height);
-    suite.add_scene(workload, name, scene.stream);
+    suite.add_scene(workload, name);
     suite.add_ablation(workload, name);
     suite.add_engine_runs(workload, name);
   }

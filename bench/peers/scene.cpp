@@ -1,6 +1,8 @@
 #include "bench/peers/scene.h"
 
-#include "edgewise/contract.h"
+#include <numeric>
+
+#include "frontend/fixed.h"
 #include "frontend/view.h"
 
 namespace edgewise::bench {
@@ -49,76 +51,67 @@ class ProvokingVertices {
   PeerMesh out_;
 };
 
-// Colours by triangle id. Triangles that the front end drops keep 0, since peers must not draw them either.
-std::vector<std::uint32_t> colours_by_id(const Workload& workload, std::size_t count) {
-  std::vector<std::uint32_t> colours(count, 0);
-  const auto ids = triangles_by_id(workload, true);
-  for (std::size_t i = 0; i < ids.size(); ++i) colours[ids[i].payload] = workload.triangles()[i].payload;
-  return colours;
+// The colour or id of each submitted triangle. Triangles that the front end drops have colour 0, since peers
+// must not draw them either.
+std::vector<std::uint32_t> payloads_of(const Workload& workload, PeerPayload payload) {
+  std::vector<std::uint32_t> payloads(workload.submitted(), 0);
+  if (payload == PeerPayload::id) {
+    std::iota(payloads.begin(), payloads.end(), 0u);
+    return payloads;
+  }
+  const auto ids = triangles_by_id(workload);
+  for (std::size_t i = 0; i < ids.size(); ++i) payloads[ids[i].payload] = workload.triangles()[i].payload;
+  return payloads;
 }
 
-std::vector<PeerMesh> scene_meshes(const Workload& workload, PeerPayload payload) {
-  const auto& scene = std::get<Scene>(workload.drawable());
-  std::vector<std::uint32_t> payloads(workload.submitted());
-  if (payload == PeerPayload::colour)
-    payloads = colours_by_id(workload, payloads.size());
-  else
-    for (std::size_t i = 0; i < payloads.size(); ++i) payloads[i] = static_cast<std::uint32_t>(i);
+std::vector<PeerMesh> scene_meshes(const Scene& scene, const Workload& workload,
+                                   std::span<const std::uint32_t> payloads) {
   const glm::dmat4 to_screen = screen_matrix(scene.camera, workload.width(), workload.height());
   std::vector<PeerMesh> meshes;
-  std::span<const std::uint32_t> rest = payloads;
   for (const auto& instance : scene.instances) {
     const Mesh& mesh = scene.meshes[instance.mesh];
-    meshes.push_back(ProvokingVertices(mesh).assign(rest.first(mesh.triangles.size())));
+    meshes.push_back(ProvokingVertices(mesh).assign(payloads.first(mesh.triangles.size())));
     meshes.back().to_screen = glm::mat4(to_screen * glm::dmat4(model_matrix(instance)));
-    rest = rest.subspan(mesh.triangles.size());
+    payloads = payloads.subspan(mesh.triangles.size());
   }
   return meshes;
 }
 
-PeerMesh screen_mesh(const Workload& workload, PeerPayload payload) {
+// Positions are rounded as the front end does: peers may compute depth planes from positions before rounding,
+// and those of slivers would differ.
+PeerMesh stream_mesh(const TriangleStream& stream, std::span<const std::uint32_t> payloads) {
   PeerMesh mesh;
-  std::uint32_t id = 0;
-  for (const auto& t : workload.triangles()) {
-    for (int k = 0; k < 3; ++k) {
-      const auto units = static_cast<double>(t.z[k] - contract::kDepthHead);
-      mesh.positions.emplace_back(static_cast<float>(t.x_sub[k]) / contract::kSub,
-                                  static_cast<float>(t.y_sub[k]) / contract::kSub,
-                                  static_cast<float>(units / contract::kDepthRange));
-      mesh.payloads.push_back(payload == PeerPayload::id ? id : t.payload);
+  for (std::size_t i = 0; i < stream.triangles.size(); ++i)
+    for (const glm::vec3 vertex : stream.triangles[i].vertex) {
+      mesh.positions.emplace_back(static_cast<float>(snap(vertex.x)) / contract::kSub,
+                                  static_cast<float>(snap(vertex.y)) / contract::kSub, vertex.z);
+      mesh.payloads.push_back(payloads[i]);
     }
-    ++id;
-  }
   return mesh;
 }
 
 }  // namespace
 
-PeerScene peer_scene(const Workload& workload, bool whole_frame, PeerPayload payload) {
-  PeerScene scene;
-  scene.width = workload.width();
-  scene.height = workload.height();
-  scene.background = payload == PeerPayload::id ? kNoTriangle : kBackground;
-  if (whole_frame) {
-    scene.cull_back = workload.frontend_options(1).cull == Cull::back;
-    scene.meshes = scene_meshes(workload, payload);
-  } else {
-    scene.meshes.push_back(screen_mesh(workload, payload));
-  }
-  return scene;
+PeerScene peer_scene(const Workload& workload, PeerPayload payload) {
+  PeerScene result;
+  result.width = workload.width();
+  result.height = workload.height();
+  result.background = payload == PeerPayload::id ? kNoTriangle : kBackground;
+  result.cull_back = workload.frontend_options(1).cull == Cull::back;
+  const auto payloads = payloads_of(workload, payload);
+  if (const auto* scene = std::get_if<Scene>(&workload.drawable()))
+    result.meshes = scene_meshes(*scene, workload, payloads);
+  else
+    result.meshes.push_back(stream_mesh(std::get<TriangleStream>(workload.drawable()), payloads));
+  return result;
 }
 
-std::vector<ScreenTriangle> triangles_by_id(const Workload& workload, bool whole_frame) {
-  if (whole_frame) {
-    FrontendOptions options = workload.frontend_options(1);
-    options.payload = Payload::id;
-    Frontend frontend;
-    const auto triangles = frontend.run(workload.drawable(), options);
-    return {triangles.begin(), triangles.end()};
-  }
-  std::vector<ScreenTriangle> triangles(workload.triangles().begin(), workload.triangles().end());
-  for (std::size_t i = 0; i < triangles.size(); ++i) triangles[i].payload = static_cast<std::uint32_t>(i);
-  return triangles;
+std::vector<ScreenTriangle> triangles_by_id(const Workload& workload) {
+  FrontendOptions options = workload.frontend_options(1);
+  options.payload = Payload::id;
+  Frontend frontend;
+  const auto triangles = frontend.run(workload.drawable(), options);
+  return {triangles.begin(), triangles.end()};
 }
 
 }  // namespace edgewise::bench

@@ -13,12 +13,12 @@ enum class PeerPayload {
   id       // over kNoTriangle, the ids of triangles_by_id()
 };
 
-// With `whole_frame`, the scene's meshes with their matrices, which the peer transforms, culls and clips.
-// Otherwise the front end's triangles, with their snapped positions unchanged.
-PeerScene peer_scene(const Workload& workload, bool whole_frame, PeerPayload payload);
+// The scene's meshes with their matrices, which the peer transforms, culls and clips, or a stream's
+// triangles. The stream's positions are rounded to 1/256 px.
+PeerScene peer_scene(const Workload& workload, PeerPayload payload);
 
-// The front end's triangles with ids as payloads. With `whole_frame` an id numbers the scene's triangles in
-// submission order (the pieces of a clipped triangle share its id), otherwise the screen triangles.
-std::vector<ScreenTriangle> triangles_by_id(const Workload& workload, bool whole_frame);
+// The front end's triangles with ids as payloads. An id numbers the submitted triangles; the pieces of a
+// clipped triangle share its id.
+std::vector<ScreenTriangle> triangles_by_id(const Workload& workload);
 
 }  // namespace edgewise::bench

@@ -24,14 +24,13 @@ std::uint64_t differing_colours(const Framebuffer& ids, std::span<const std::uin
 
 void PeerStage::compare(Row& row) {
   const Workload& workload = *row.workload;
-  const bool whole_frame = row.timed == Timed::frame;
   const auto load = [&](PeerPayload payload) {
-    auto frame = row.peer->load(peer_scene(workload, whole_frame, payload), row.execution.threads);
+    auto frame = row.peer->load(peer_scene(workload, payload), row.execution.threads);
     frame->draw();
     return frame;
   };
 
-  const auto triangles = triangles_by_id(workload, whole_frame);
+  const auto triangles = triangles_by_id(workload);
   Framebuffer ours(workload.width(), workload.height());
   backends().front().make()->draw(triangles, ours.view(), kNoTriangle, {});
   const auto their_ids = load(PeerPayload::id)->read();

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <stdlib.h>
 
+#include <vulkan.frag.h>  // made from the shaders beside this file
+#include <vulkan.vert.h>
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -12,8 +14,6 @@
 #include <vulkan/vulkan_raii.hpp>
 
 #include "bench/peers/peer.h"
-#include "vulkan.frag.h"
-#include "vulkan.vert.h"
 
 namespace edgewise::bench {
 

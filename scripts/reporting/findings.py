@@ -17,7 +17,7 @@ NARROW_ENGINE = "engine_fixed_8_int32"
 def speed_finding(bench):
     """Parallel or scanline? Over the scenes that all backends drew, on the most threads."""
     threads = max(THREADS)
-    drawn = [{b: row for b in (OURS, "scanline", "naive") if (row := bench.find(f"{b}/{scene}/threads:{threads}"))}
+    drawn = [{b: row for b in (OURS, "scanline", "naive") if (row := bench.frame(b, scene, threads))}
              for scene in bench.scenes]
     drawn = [rows for rows in drawn if len(rows) == 3]
     if not drawn:
@@ -109,11 +109,8 @@ def peer_finding(bench):
         sentences = []
         for target, found in ((bench.context.get("simd_target"), pairs(bench)), ("avx2", pairs(bench, "avx2"))):
             of = [p for (name, _, threads), p in found.items() if name == peer and threads == max(THREADS)]
-            said = [outcome([(p.ours, p.peer) for p in of if p.peer.frontend == whole], what) for whole, what in
-                    ((True, "meshes from vertices to picture"), (False, "streams from screen triangles to picture"))
-                    if any(p.peer.frontend == whole for p in of)]
-            if said:
-                sentences.append((with_width(target), "; it ".join(said)))
+            if of:
+                sentences.append((with_width(target), outcome([(p.ours, p.peer) for p in of], "scenes, from floats to picture")))
         if sentences:
             (width, said), *narrower = sentences
             text = (f"**Against {peer}** ({bench.context.get(peer, 'unknown version')}): on {max(THREADS)} threads, `{OURS}` with "

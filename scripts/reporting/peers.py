@@ -24,15 +24,12 @@ class Pair:
 
 
 def pair(bench, peer, scene, threads, target=None):
-    """None if either side was not timed. Peers draw meshes as whole frames only, so ours do, too; with the kernels of
-    `target`, or the widest."""
+    """None if either side was not timed. Whole frames, or the backend alone where the peer's row has no more; with the
+    kernels of `target`, or the widest."""
     kernels = f"target:{target}/" if target else ""
-    for with_frontend in ("", "+frontend"):
-        row = bench.find(f"{peer}{with_frontend}/{scene}/threads:{threads}")
-        ours = bench.find(f"{OURS}{with_frontend}/{scene}/{kernels}threads:{threads}")
-        if row and ours:
-            return Pair(row, ours)
-    return None
+    row = bench.frame(peer, scene, threads)
+    ours = row and bench.find(f"{OURS}{'+frontend' if row.frontend else ''}/{scene}/{kernels}threads:{threads}")
+    return Pair(row, ours) if ours else None
 
 
 def pairs(bench, target=None):
@@ -55,7 +52,7 @@ def peer_table(bench, peer):
     """Header and lines: one line per scene that the peer drew; a cell has a figure for each number of threads."""
     widest, narrow = pairs(bench), pairs(bench, "avx2")
     compared = [(bench.context.get("simd_target"), widest), *([("avx2", narrow)] if any(key[2] == max(THREADS) for key in narrow) else [])]
-    header = ["scene", "draws", f"{peer}, ms", f"{OURS}, ms", *(f"speed-up with {with_width(target)}" for target, _ in compared)]
+    header = ["scene", f"{peer}, ms", f"{OURS}, ms", *(f"speed-up with {with_width(target)}" for target, _ in compared)]
 
     def joined(cells):
         return " / ".join(cells)
@@ -69,7 +66,7 @@ def peer_table(bench, peer):
         cells = [joined(milliseconds(p and p.peer) for p in timed), joined(milliseconds(p and p.ours) for p in timed)]
         for _, found in compared:
             cells.append(joined(mark(p.ratio, p.settled) if (p := found.get((peer, scene, n))) else "–" for n in THREADS))
-        lines.append([scene, "mesh" if some.peer.frontend else "screen triangles", *cells])
+        lines.append([f"{scene}{'' if some.peer.frontend else ' (screen triangles)'}", *cells])
     return header, lines
 
 
@@ -78,7 +75,7 @@ def ties_sentence(bench, peer):
     found = [p for (name, _, _), p in pairs(bench).items() if name == peer]
     most = max(found, key=lambda p: p.peer.counters.get("depth_ties", 0))
     ties = most.peer.counters.get("depth_ties", 0)
-    return (f"Figures are for {' / '.join(map(str, THREADS))} threads. A mesh is drawn from vertices to picture. The pictures "
+    return (f"Figures are for {' / '.join(map(str, THREADS))} threads. Whole frames, from floats to picture. The pictures "
             + (f"agree in all pixels but depth ties within tolerance, at most {ties:,.0f} (`{most.peer.scene}`)." if ties else
                "agree in all pixels."))
 

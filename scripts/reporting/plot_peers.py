@@ -19,6 +19,6 @@ def against(bench, folder, caption):
         title = f"{OURS} with {kernels(bench.context.get('simd_target'))} {said}"
         gain_chart(bench, folder, caption, f"against-{peer}", list(compared), rows_of, title,
                    f"{bench.context.get(peer, peer)}, against our backends with {with_width(bench.context.get('simd_target'))}; "
-                   f"{threads} threads. Meshes from vertices to picture, streams from screen triangles to picture.",
+                   f"{threads} threads. From the scene's floats to the picture.",
                    f"speed-up over {peer}")
         yield f"against-{peer}"

@@ -18,7 +18,7 @@ def time_title(bench):
     """On the most threads: our backend against the best of the others on each scene."""
     compared = []
     for scene in bench.scenes:
-        rows = {b: row for b in bench.backends if (row := bench.find(f"{b}/{scene}/threads:{max(THREADS)}"))}
+        rows = {b: row for b in bench.backends if (row := bench.frame(b, scene, max(THREADS)))}
         if OURS in rows and len(rows) > 1:
             compared.append((rows[OURS], min((row for b, row in rows.items() if b != OURS), key=lambda row: row.median_ms)))
     return f"On {max(THREADS)} threads, {OURS} {outcome(compared, 'scenes')}" if compared else "Time per scene"
@@ -37,7 +37,7 @@ def scene_time(bench, folder, caption):
             axes.axhspan(line - 0.5, line + 0.5, color="#f6f8fa", zorder=0)
         for place, backend in enumerate(bench.backends):
             y = line + (place - (len(bench.backends) - 1) / 2) * step
-            rows = [row for threads in (1, 2) if (row := bench.find(f"{backend}/{scene}/threads:{threads}"))]
+            rows = [row for threads in (1, 2) if (row := bench.frame(backend, scene, threads))]
             axes.plot([row.median_ms for row in rows], [y] * len(rows), color=look.colour(backend), linewidth=1.6)
             for row in rows:
                 axes.plot(row.interval_ms, [y, y], color=look.colour(backend), linewidth=5, alpha=0.2,
@@ -53,9 +53,9 @@ def scene_time(bench, folder, caption):
     axes.tick_params(axis="y", length=0)
     axes.set_ylim(len(scenes) - 0.5, -0.5)
     axes.grid(axis="y", visible=False)
-    axes.set_xlabel("ms per frame, backend alone, clear included")
+    axes.set_xlabel("ms per frame, clear included")
     height = figure.get_figheight()
-    top = headline(figure, time_title(bench), "Screen triangles to finished picture; lower is better. "
+    top = headline(figure, time_title(bench), "From the scene's floats to the finished picture; lower is better. "
                    f"Hollow: 1 thread, filled: 2. {INTERVALS}")
     look.legend(figure, top - 0.02 / height)
     figure.subplots_adjust(left=room_for(scenes), right=0.975, bottom=0.78 / height, top=top - 0.42 / height)

@@ -29,11 +29,17 @@ void fill_plane(const EmptyTiles& task, std::uint32_t* plane, std::uint32_t valu
 }
 
 void fill_empty_tiles(const EmptyTiles& task) {
+  // A run goes on in the next pixel row, which no hardware prefetcher expects.
+  const auto cached = [below = task.frame.stride](V v, std::int32_t* at) {
+    __builtin_prefetch(at + below, 1);
+    hn::StoreU(v, D{}, at);
+  };
+  const auto streamed = [](V v, std::int32_t* at) { hn::Stream(v, D{}, at); };
   const auto fill = [&](std::uint32_t* plane, std::uint32_t value) {
     if (task.streaming && may_stream(plane, task.frame.stride))
-      fill_plane(task, plane, value, [](V v, std::int32_t* at) { hn::Stream(v, D{}, at); });
+      fill_plane(task, plane, value, streamed);
     else
-      fill_plane(task, plane, value, [](V v, std::int32_t* at) { hn::StoreU(v, D{}, at); });
+      fill_plane(task, plane, value, cached);
   };
   fill(task.frame.depth, contract::kDepthClear);
   fill(task.frame.payload, task.background);

@@ -105,14 +105,9 @@ TEST(BenchSuite, AlsoTimesOursAtThePeersVectorWidth) {
   const bool wanted = !benchmark_peers().empty() && resolve(SimdTarget::best) == SimdTarget::avx512;
   for (const SceneInfo& scene : builtin_scenes())
     for (const std::string threads : {"1", "2"}) {
-      const std::string who = scene.stream ? "tiled/" : "tiled+frontend/";
-      const std::string name = who + std::string(scene.name) + "/target:avx2/threads:" + threads;
-      // A row of the sweep over SIMD targets may have the same name.
-      if (wanted) {
-        EXPECT_EQ(count[name], 1) << name;
-      } else {
-        EXPECT_LE(count[name], threads == "1" ? 1 : 0) << name;
-      }
+      const std::string name =
+          "tiled+frontend/" + std::string(scene.name) + "/target:avx2/threads:" + threads;
+      EXPECT_EQ(count[name], wanted ? 1 : 0) << name;
     }
 }
 

@@ -83,7 +83,7 @@ TEST(PeerScene, GivesEachTriangleItsOwnLastVertex) {
   for (const std::string scene : {"cube", "torus-knot", "sphere"}) {
     const auto workload = workload_of(scene);
     const auto& given = std::get<Scene>(workload->drawable());
-    const PeerScene made = peer_scene(*workload, true, PeerPayload::id);
+    const PeerScene made = peer_scene(*workload, PeerPayload::id);
     ASSERT_EQ(made.meshes.size(), given.instances.size());
     std::uint32_t id = 0;
     for (std::size_t m = 0; m < made.meshes.size(); ++m) {
@@ -105,18 +105,18 @@ TEST(PeerScene, GivesEachTriangleItsOwnLastVertex) {
   }
 }
 
-TEST(PeerScene, KeepsSnappedPositionsExactly) {
+TEST(PeerScene, RoundsAStreamsPositionsAsTheFrontEndDoes) {
   const auto workload = workload_of("small");
-  const PeerScene made = peer_scene(*workload, false, PeerPayload::colour);
+  const PeerScene made = peer_scene(*workload, PeerPayload::colour);
   ASSERT_EQ(made.meshes.size(), 1u);
   const auto& positions = made.meshes[0].positions;
-  ASSERT_EQ(positions.size(), 3 * workload->triangles().size());
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    const ScreenTriangle& t = workload->triangles()[i / 3];
-    ASSERT_EQ(positions[i].x * kSub, static_cast<float>(t.x_sub[i % 3]));
-    ASSERT_EQ(positions[i].y * kSub, static_cast<float>(t.y_sub[i % 3]));
-    ASSERT_EQ(made.meshes[0].payloads[i], t.payload);
-  }
+  const auto rounded = [](glm::vec3 v) {
+    return glm::vec3(std::nearbyint(v.x * kSub) / kSub, std::nearbyint(v.y * kSub) / kSub, v.z);
+  };
+  const auto& given = std::get<TriangleStream>(workload->drawable()).triangles;
+  ASSERT_EQ(positions.size(), 3 * given.size());
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    ASSERT_EQ(positions[i], rounded(given[i / 3].vertex[i % 3]));
 }
 
 // A peer that draws with one of our backends, correctly or with a deliberate error.
@@ -130,8 +130,8 @@ class Mirror final : public PeerFrame {
     for (std::size_t i = 0; i < mesh.positions.size(); i += 3) {
       ScreenTriangle t{{}, {}, {}, mesh.payloads[i + 2]};
       for (std::size_t k = 0; k < 3; ++k) {
-        t.x_sub[k] = static_cast<std::int32_t>(mesh.positions[i + k].x * kSub);
-        t.y_sub[k] = static_cast<std::int32_t>(mesh.positions[i + k].y * kSub);
+        t.x_sub[k] = static_cast<std::int32_t>(std::nearbyint(mesh.positions[i + k].x * kSub));
+        t.y_sub[k] = static_cast<std::int32_t>(std::nearbyint(mesh.positions[i + k].y * kSub));
         t.z[k] = static_cast<std::uint32_t>(double{mesh.positions[i + k].z} * contract::kDepthRange) +
                  contract::kDepthHead;
       }
@@ -174,11 +174,11 @@ PeerInfo mirror(bool is_wrong) {
           }};
 }
 
-Row row_of(const PeerInfo& peer, const std::shared_ptr<Workload>& workload, Timed timed, int threads) {
+Row row_of(const PeerInfo& peer, const std::shared_ptr<Workload>& workload, int threads) {
   Row row;
   row.name = std::string(peer.name) + std::to_string(threads);
   row.workload = workload;
-  row.timed = timed;
+  row.timed = Timed::frame;
   row.peer = &peer;
   row.execution.threads = threads;
   return row;
@@ -188,7 +188,7 @@ TEST(PeerStage, AcceptsACorrectPictureAndRejectsAWrongOne) {
   const auto workload = workload_of("medium");
   const PeerInfo right = mirror(false), wrong = mirror(true);
   PeerStage stage;
-  Row good = row_of(right, workload, Timed::raster, 1), bad = row_of(wrong, workload, Timed::raster, 2);
+  Row good = row_of(right, workload, 1), bad = row_of(wrong, workload, 2);
   stage.compare(good);
   stage.compare(bad);
   EXPECT_EQ(good.error, "");
@@ -199,7 +199,7 @@ TEST(PeerStage, AcceptsACorrectPictureAndRejectsAWrongOne) {
 TEST(Ratios, ComparePeersWithTheDefaultBackend) {
   const auto workload = std::make_shared<Workload>(8, 8, Cull::back, [] { return tools::Source{}; });
   const PeerInfo peer = mirror(false);
-  std::vector<Row> rows{row_of(peer, workload, Timed::raster, 1)};
+  std::vector<Row> rows{row_of(peer, workload, 1)};
   std::map<std::string, double> median_ms{{rows[0].name, 30.0}};
   EXPECT_EQ(ratio_table(rows, median_ms), "");
   const auto add = [&](const char* name, std::string_view backend, int threads, SimdTarget target,
@@ -207,6 +207,7 @@ TEST(Ratios, ComparePeersWithTheDefaultBackend) {
     Row row;
     row.name = name;
     row.workload = workload;
+    row.timed = Timed::frame;
     row.backend = &find_backend(backend);
     row.execution.threads = threads;
     row.execution.target = target;
@@ -262,34 +263,16 @@ bool runs_here(const PeerInfo& peer) {
 
 TEST_P(BuiltPeer, DrawsOurPictures) {
   const auto workload = named_workload(GetParam());
-  const bool stream = std::holds_alternative<TriangleStream>(workload->drawable());
   for (const PeerInfo& peer : benchmark_peers()) {
     if (!runs_here(peer)) GTEST_SKIP() << peer.name << " does not run here";
     for (const int threads : {1, 2}) {
       PeerStage stage;
-      Row row = row_of(peer, workload, stream ? Timed::raster : Timed::frame, threads);
+      Row row = row_of(peer, workload, threads);
       stage.compare(row);
       EXPECT_EQ(row.error, "") << peer.name << ", threads " << threads;
     }
   }
   if (benchmark_peers().empty()) GTEST_SKIP() << "no peer was built";
-}
-
-std::vector<lab::PortableTriangle> portable_triangles_of(const Workload& workload) {
-  if (std::holds_alternative<Scene>(workload.drawable()))
-    return lab::portable_triangles(workload.drawable(), workload.frontend_options(1));
-  std::vector<lab::PortableTriangle> result;  // peers get streams as snapped positions
-  for (const ScreenTriangle& t : triangles_by_id(workload, false)) {
-    lab::PortableTriangle made{{}, t.payload, true, false};
-    for (int i = 0; i < 3; ++i) {
-      made.at.x_px[i] = static_cast<float>(t.x_sub[i]) / kSub;
-      made.at.y_px[i] = static_cast<float>(t.y_sub[i]) / kSub;
-      made.at.z01[i] =
-          static_cast<float>((double{1} * t.z[i] - contract::kDepthHead) / contract::kDepthRange);
-    }
-    result.push_back(made);
-  }
-  return result;
 }
 
 enum class Ties { in_the_mask, not_in_the_mask };
@@ -298,13 +281,12 @@ enum class Ties { in_the_mask, not_in_the_mask };
 // subpixel bits should show the same one.
 std::uint64_t wrong_portable_px(const Workload& workload, const PeerInfo& peer, int subpixel_bits,
                                 Ties ties = Ties::in_the_mask) {
-  const bool mesh = std::holds_alternative<Scene>(workload.drawable());
   Framebuffer ours(workload.width(), workload.height());
-  backends().front().make()->draw(triangles_by_id(workload, mesh), ours.view(), kNoTriangle, {});
+  backends().front().make()->draw(triangles_by_id(workload), ours.view(), kNoTriangle, {});
   const auto mask = lab::portable_pixels(
-      portable_triangles_of(workload), ours.width(), ours.height(),
+      lab::portable_triangles(workload.drawable(), workload.frontend_options(1)), ours.width(), ours.height(),
       {.subpixel_bits = subpixel_bits, .depth = lab::find_depth_format("d32_sfloat")}, 2);
-  const auto frame = peer.load(peer_scene(workload, mesh, PeerPayload::id), 1);
+  const auto frame = peer.load(peer_scene(workload, PeerPayload::id), 1);
   frame->draw();
   const auto theirs = frame->read();
   std::uint64_t wrong = 0;
@@ -363,10 +345,12 @@ std::shared_ptr<Workload> random_mesh(std::uint64_t seed) {
 // Beyond their viewport, peers clip triangles, which the model leaves out. llvmpipe then errs by whole
 // pixels.
 bool fits_the_viewport(const Workload& workload) {
-  return std::ranges::all_of(portable_triangles_of(workload), [](const lab::PortableTriangle& t) {
-    const auto inside = [](float px) { return std::abs(px) < kHalfViewport_px; };
-    return std::ranges::all_of(t.at.x_px, inside) && std::ranges::all_of(t.at.y_px, inside);
-  });
+  return std::ranges::all_of(lab::portable_triangles(workload.drawable(), workload.frontend_options(1)),
+                             [](const lab::PortableTriangle& t) {
+                               const auto inside = [](float px) { return std::abs(px) < kHalfViewport_px; };
+                               return std::ranges::all_of(t.at.x_px, inside) &&
+                                      std::ranges::all_of(t.at.y_px, inside);
+                             });
 }
 
 TEST(AllPeers, DifferFromUsOnlyInPixelsOfRandomMeshesThatAreNotPortable) {
@@ -419,15 +403,15 @@ TEST(AllPeers, ShowAMaskThatIsTooSmall) {
 
 // The other peers may differ in a few pixels. All are loaded at once, to show that their contexts are apart.
 TEST(AllPeers, DrawNearlyOurPictures) {
-  const auto workload = workload_of("torus-knot");
-  const auto triangles = triangles_by_id(*workload, false);
+  const auto workload = workload_of("medium");
+  const auto triangles = triangles_by_id(*workload);
   Framebuffer ours(workload->width(), workload->height());
   backends().front().make()->draw(triangles, ours.view(), kNoTriangle, {});
   std::vector<std::unique_ptr<PeerFrame>> frames;
   for (const PeerInfo& peer : peers()) {
     try {
       for (int threads = 1; threads <= peer.most_threads; ++threads)
-        frames.push_back(peer.load(peer_scene(*workload, false, PeerPayload::id), threads));
+        frames.push_back(peer.load(peer_scene(*workload, PeerPayload::id), threads));
     } catch (const std::runtime_error&) {
       continue;  // it does not run here
     }

@@ -59,6 +59,8 @@ TEST(TileStore, FillsEveryEmptyTile) {
     for (const int width : {333, 320}) {
       Framebuffer expected(width, 200), frame(width, 200);
       backends().front().make()->draw(triangles, expected.view(), 42, {});
+      for (const FrameView view = frame.view(); std::uint32_t * plane : {view.depth, view.payload})
+        std::fill_n(plane, view.stride * view.height, 0xABu);
       Bins bins;
       draw_in_tiles(triangles, frame.view(), 42, {2, 64, resolve(SimdTarget::best)}, {.tile_store = store},
                     64, bins, Bins::Small::as_indices, tile_kernel(resolve(SimdTarget::best)));

@@ -228,6 +228,10 @@ bool Bins::empty(std::size_t cell) const {
 void Bins::find_empty_cells(const CellGrid& grid) {
   const int columns = grid.columns(), rows = grid.rows();
   filled_cells_and_rows_.clear(), empty_cells_.clear(), row_begin_.clear();
+  // For any frame of this size, so that later ones allocate nothing.
+  filled_cells_and_rows_.reserve(static_cast<std::size_t>((columns + 1) * rows));
+  empty_cells_.reserve(static_cast<std::size_t>((columns + 1) / 2 * rows));
+  row_begin_.reserve(static_cast<std::size_t>(rows) + 1);
   for (int row = 0, cell = 0; row < rows; ++row) {
     row_begin_.push_back(empty_cells_.size());
     bool was_empty = false;
