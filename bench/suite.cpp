@@ -166,11 +166,9 @@ class Suite {
     for (const std::string scene : {"torus-knot", "large", "medium", "grid4"}) {
       const auto workload = scene_workload(scene, options_.width, options_.height);
       for (const auto& backend : backends())
-        for (const SimdTarget target : supported_targets()) {
+        for (const SimdTarget target : supported_targets())
           add(workload, Timed::raster, backend, fmt::format("{}/target:{}", scene, name_of(target)), 1,
               target);
-          if (is_repeated(rows_.back())) rows_.pop_back();  // already timed beside a peer
-        }
     }
   }
 
@@ -198,10 +196,6 @@ class Suite {
     row.execution.threads = threads;
     row.execution.target = target;
     rows_.push_back(std::move(row));
-  }
-
-  bool is_repeated(const Row& last) const {
-    return std::any_of(rows_.begin(), rows_.end() - 1, [&](const Row& row) { return row.name == last.name; });
   }
 
   void add_scheduled(const WorkloadPtr& workload, const std::string& name) {

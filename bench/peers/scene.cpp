@@ -1,8 +1,9 @@
 #include "bench/peers/scene.h"
 
+#include <cmath>
 #include <numeric>
 
-#include "frontend/fixed.h"
+#include "edgewise/contract.h"
 #include "frontend/view.h"
 
 namespace edgewise::bench {
@@ -81,10 +82,10 @@ std::vector<PeerMesh> scene_meshes(const Scene& scene, const Workload& workload,
 // and those of slivers would differ.
 PeerMesh stream_mesh(const TriangleStream& stream, std::span<const std::uint32_t> payloads) {
   PeerMesh mesh;
+  const auto rounded = [](float px) { return std::nearbyint(px * contract::kSub) / contract::kSub; };
   for (std::size_t i = 0; i < stream.triangles.size(); ++i)
     for (const glm::vec3 vertex : stream.triangles[i].vertex) {
-      mesh.positions.emplace_back(static_cast<float>(snap(vertex.x)) / contract::kSub,
-                                  static_cast<float>(snap(vertex.y)) / contract::kSub, vertex.z);
+      mesh.positions.emplace_back(rounded(vertex.x), rounded(vertex.y), vertex.z);
       mesh.payloads.push_back(payloads[i]);
     }
   return mesh;

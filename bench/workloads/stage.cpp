@@ -30,7 +30,7 @@ Backend& Stage::backend(const Row& row) {
 
 bool Stage::renew_memory(const Row& row) {
   if (!row.numbers && row.ablation.coverage_masks) return false;
-  bins_ = Bins();
+  scratch_ = TileScratch();
   backends_.erase({row.backend, false});
   return true;
 }
@@ -47,7 +47,7 @@ void Stage::work(const Row& row) {
   if (row.timed != Timed::raster) triangles = workload.run(frontend_, row.execution.threads);
   if (row.numbers)
     lab::draw_engine(*row.numbers, {workload.unsnapped(), triangles}, {workload.width(), workload.height()},
-                     frame(row).view(), kBackground, row.execution, bins_);
+                     frame(row).view(), kBackground, row.execution, scratch_);
   else if (row.timed != Timed::frontend)
     draw(backend(row), triangles, frame(row).view(), kBackground, {row.execution, row.ablation});
 }

@@ -7,7 +7,7 @@
 
 #include "bench/peers/stage.h"
 #include "bench/row.h"
-#include "raster/binning/bins.h"
+#include "raster/tile_list.h"
 
 namespace edgewise::bench {
 
@@ -42,7 +42,7 @@ class Stage {
   // faults would count in a row's time.
   std::map<std::pair<int, int>, Framebuffer> frames_;
   Frontend frontend_;
-  Bins bins_;  // of the engine
+  TileScratch scratch_;  // of the engine
   PeerStage peers_;
   CostModel cost_model_;
   bool estimates_;

@@ -86,10 +86,9 @@ class Bench:
         row = self.rows.get(name)
         return row if row and row.times_ms else None
 
-    def frame(self, who, scene, threads, step=""):
-        """The whole frame's row of a backend or peer, from floats to picture; in old results, some are of the backend alone."""
-        rows = (self.find(f"{who}{frontend}/{scene}/{step}threads:{threads}") for frontend in ("+frontend", ""))
-        return next(filter(None, rows), None)
+    def frame(self, who, scene, threads):
+        """The row of a backend's or peer's whole frame: front end and backend."""
+        return self.find(f"{who}+frontend/{scene}/threads:{threads}")
 
     def sweep(self, key):
         """The rows that have this key: timed ones, or estimates for `cores`."""

@@ -110,7 +110,7 @@ def peer_finding(bench):
         for target, found in ((bench.context.get("simd_target"), pairs(bench)), ("avx2", pairs(bench, "avx2"))):
             of = [p for (name, _, threads), p in found.items() if name == peer and threads == max(THREADS)]
             if of:
-                sentences.append((with_width(target), outcome([(p.ours, p.peer) for p in of], "scenes, from floats to picture")))
+                sentences.append((with_width(target), outcome([(p.ours, p.peer) for p in of], "scenes, in whole frames")))
         if sentences:
             (width, said), *narrower = sentences
             text = (f"**Against {peer}** ({bench.context.get(peer, 'unknown version')}): on {max(THREADS)} threads, `{OURS}` with "

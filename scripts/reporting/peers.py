@@ -24,12 +24,9 @@ class Pair:
 
 
 def pair(bench, peer, scene, threads, target=None):
-    """None if either side was not timed. Whole frames, or the backend alone where the peer's row has no more; with the
-    kernels of `target`, or the widest."""
-    kernels = f"target:{target}/" if target else ""
-    row = bench.frame(peer, scene, threads)
-    ours = row and bench.find(f"{OURS}{'+frontend' if row.frontend else ''}/{scene}/{kernels}threads:{threads}")
-    return Pair(row, ours) if ours else None
+    """Of whole frames, with the kernels of `target` or the widest; None if either side was not timed."""
+    row, ours = bench.frame(peer, scene, threads), bench.frame(OURS, f"{scene}/target:{target}" if target else scene, threads)
+    return Pair(row, ours) if row and ours else None
 
 
 def pairs(bench, target=None):
@@ -42,7 +39,7 @@ def with_ratios(bench, header, lines):
     """A scene table with a further column for each peer, on the most threads."""
     found = pairs(bench)
     for peer in dict.fromkeys(peer for peer, _, _ in found):
-        header = [*header, f"{OURS} over {peer}"]
+        header = [*header, f"whole frame: {OURS} over {peer}"]
         lines = [[*line, mark(p.ratio, p.settled) if (p := found.get((peer, line[0], max(THREADS)))) else "–"]
                  for line in lines]
     return header, lines
@@ -60,13 +57,12 @@ def peer_table(bench, peer):
     lines = []
     for scene in bench.scenes:
         timed = [widest.get((peer, scene, n)) for n in THREADS]
-        some = next((p for p in reversed(timed) if p), None)
-        if not some:
+        if not any(timed):
             continue
         cells = [joined(milliseconds(p and p.peer) for p in timed), joined(milliseconds(p and p.ours) for p in timed)]
         for _, found in compared:
             cells.append(joined(mark(p.ratio, p.settled) if (p := found.get((peer, scene, n))) else "–" for n in THREADS))
-        lines.append([f"{scene}{'' if some.peer.frontend else ' (screen triangles)'}", *cells])
+        lines.append([scene, *cells])
     return header, lines
 
 
@@ -75,7 +71,7 @@ def ties_sentence(bench, peer):
     found = [p for (name, _, _), p in pairs(bench).items() if name == peer]
     most = max(found, key=lambda p: p.peer.counters.get("depth_ties", 0))
     ties = most.peer.counters.get("depth_ties", 0)
-    return (f"Figures are for {' / '.join(map(str, THREADS))} threads. Whole frames, from floats to picture. The pictures "
+    return (f"Figures are for {' / '.join(map(str, THREADS))} threads. They are whole frames: front end and backend. The pictures "
             + (f"agree in all pixels but depth ties within tolerance, at most {ties:,.0f} (`{most.peer.scene}`)." if ties else
                "agree in all pixels."))
 

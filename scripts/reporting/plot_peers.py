@@ -19,6 +19,6 @@ def against(bench, folder, caption):
         title = f"{OURS} with {kernels(bench.context.get('simd_target'))} {said}"
         gain_chart(bench, folder, caption, f"against-{peer}", list(compared), rows_of, title,
                    f"{bench.context.get(peer, peer)}, against our backends with {with_width(bench.context.get('simd_target'))}; "
-                   f"{threads} threads. From the scene's floats to the picture.",
+                   f"{threads} threads. Whole frames: front end and backend.",
                    f"speed-up over {peer}")
         yield f"against-{peer}"

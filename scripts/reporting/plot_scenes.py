@@ -55,7 +55,7 @@ def scene_time(bench, folder, caption):
     axes.grid(axis="y", visible=False)
     axes.set_xlabel("ms per frame, clear included")
     height = figure.get_figheight()
-    top = headline(figure, time_title(bench), "From the scene's floats to the finished picture; lower is better. "
+    top = headline(figure, time_title(bench), "Whole frames: front end and backend; lower is better. "
                    f"Hollow: 1 thread, filled: 2. {INTERVALS}")
     look.legend(figure, top - 0.02 / height)
     figure.subplots_adjust(left=room_for(scenes), right=0.975, bottom=0.78 / height, top=top - 0.42 / height)

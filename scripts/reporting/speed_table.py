@@ -1,4 +1,4 @@
-"""README's table of speed: times of ours and of peers from floats to picture."""
+"""README's table of speed: times of ours and of peers for whole frames."""
 from bench_rows import order
 from tables import THREADS, milliseconds, scene_facts
 

@@ -18,7 +18,7 @@ constexpr std::array kFields = {
     Field{"meshes", &FrontendStats::meshes, nullptr},
     Field{"meshes_culled", &FrontendStats::meshes_culled, "meshes outside the view"},
     Field{"triangles", &FrontendStats::triangles, nullptr},
-    Field{"whole_mesh", &FrontendStats::whole_mesh, "dropped with their mesh"},
+    Field{"whole_mesh", &FrontendStats::whole_mesh, "dropped with their mesh or cluster"},
     Field{"not_finite", &FrontendStats::not_finite, "dropped for NaN or infinite vertices"},
     Field{"outside", &FrontendStats::outside, "outside the view"},
     Field{"not_in_front", &FrontendStats::not_in_front, "behind the camera"},

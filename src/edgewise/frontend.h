@@ -84,7 +84,8 @@ struct FrontendStats {
 };
 
 // A front end keeps its memory between frames and allocates only in the first frame of a kind. It keeps
-// - 16 bytes per vertex of the largest mesh, or up to 3 MB for a group of small meshes,
+// - 16 bytes per vertex of the largest mesh, or up to 4 MB for a group of small meshes,
+// - of a large mesh, 8 bytes per 2048 triangles,
 // - 40 bytes per visible triangle (and address space for as many per submitted one),
 // - less than 1 MB per thread,
 // - with keep_unsnapped, 36 bytes more per visible triangle and less than 1 MB more per thread,

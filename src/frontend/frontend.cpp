@@ -3,8 +3,8 @@
 // - triangles: assemble.cpp for meshes, stream.cpp for streams; one_by_one.cpp and clip.cpp for special cases
 // - colours: shade.cpp
 // - output in submission order: in_order.h
-// A large mesh is cut into runs of triangles (mesh_runs.h). Meshes and runs are processed in groups, and each
-// group is cut into chunks (chunks.h).
+// A large mesh is cut into clusters (mesh_clusters.h). Clusters and small meshes are processed in groups, and
+// each group is cut into chunks (chunks.h).
 #include "edgewise/frontend.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@
 #include "frontend/assemble.h"
 #include "frontend/chunks.h"
 #include "frontend/in_order.h"
-#include "frontend/mesh_runs.h"
+#include "frontend/mesh_clusters.h"
 #include "frontend/shade.h"
 #include "frontend/stream.h"
 #include "frontend/transform.h"
@@ -104,26 +104,30 @@ FrontendStats& FrontendStats::operator+=(const FrontendStats& o) {
   return *this;
 }
 
-// One run of an instance's mesh.
+// One cluster of an instance's mesh, or the whole mesh.
 struct GroupMember {
   MeshTask task;
   ShadeTask light;
-  MeshRun run;
-  bool ends_mesh;                                  // whether it is the mesh's last run
-  std::size_t first_vertex;                        // index of the run's first vertex into the group's
+  MeshCluster cluster;
+  bool ends_mesh;                                  // whether it is the mesh's last cluster
+  std::size_t first_vertex;                        // index of the cluster's first vertex in State::vertices
   std::uint32_t first_id;                          // of the mesh
   std::uint32_t common = kInvisible | kNotFinite;  // sides beyond which all finite vertices lie
 
-  // True if the whole run lies beyond one side of the view. False for a run without a finite vertex.
+  // True if all of it lies beyond one side of the view. False without a finite vertex.
   bool out_of_sight() const { return (common & kNotFinite) == 0 && common != 0; }
 };
 
 struct Frontend::State {
-  // A group holds consecutive instances: most are too small to be worth several threads alone.
-  static constexpr std::size_t kMaxVertices = 4 * kWorthThreads, kMaxMembers = kWorthThreads;
+  // A group holds consecutive members: most are too small to be worth several threads alone.
+  static constexpr std::size_t kMaxMembers = kWorthThreads;
+  std::size_t max_vertices() const {
+    const auto eights = static_cast<std::size_t>(options.threads / 8);
+    return std::max(4 * kWorthThreads, eights * MeshClusters::kMaxVertices);
+  }
   std::vector<GroupMember> group;
-  MeshRuns runs;
-  bool mesh_is_out_of_sight = true;  // its runs so far
+  MeshClusters clusters;
+  bool mesh_is_out_of_sight = true;  // true while every cluster of the current mesh was
   Chunks vertex_chunks, triangle_chunks;
   Buffer<Vertex> vertices;
 
@@ -136,16 +140,21 @@ struct Frontend::State {
   FrontendStats stats;
   FrontendOptions options;
 
+  // Tasks index vertices as the mesh does, but only the cluster's are there.
+  Vertex* vertices_of(const GroupMember& member) {
+    const auto first = reinterpret_cast<std::uintptr_t>(vertices.data() + member.first_vertex);
+    return reinterpret_cast<Vertex*>(first - member.cluster.first_vertex * sizeof(Vertex));
+  }
+
   void transform_group() {
     const TransformKernel transform = transform_kernel(options.target);
     vertices.reserve(vertex_chunks.total());
-    for (GroupMember& member : group)
-      member.task.vertices = vertices.data() + member.first_vertex - member.run.first_vertex;
+    for (GroupMember& member : group) member.task.vertices = vertices_of(member);
     parallel_for(workers_for(vertex_chunks.total(), options.threads), static_cast<int>(vertex_chunks.size()),
                  [&](int chunk) {
                    for (const MeshPart& part : vertex_chunks[static_cast<std::size_t>(chunk)]) {
                      GroupMember& member = group[part.mesh];
-                     const std::size_t first = member.run.first_vertex;
+                     const std::size_t first = member.cluster.first_vertex;
                      std::atomic_ref(member.common) &=
                          transform(member.task, first + part.begin, first + part.end);
                    }
@@ -178,9 +187,9 @@ struct Frontend::State {
   void assemble_group() {
     for (const GroupMember& member : group) {
       if (member.out_of_sight()) {
-        stats.whole_mesh += member.run.triangles();
+        stats.whole_mesh += member.cluster.triangles();
         if (options.keep_states)
-          std::fill_n(member.task.states + member.run.first_triangle, member.run.triangles(),
+          std::fill_n(member.task.states + member.cluster.first_triangle, member.cluster.triangles(),
                       TriangleState::outside_with_mesh);
       } else {
         mesh_is_out_of_sight = false;
@@ -193,7 +202,7 @@ struct Frontend::State {
     const auto make = [&](std::size_t chunk, ChunkOutput& out) {
       for (const MeshPart& part : triangle_chunks[chunk]) {
         const GroupMember& member = group[part.mesh];
-        const std::size_t first = out.count, begin = member.run.first_triangle;
+        const std::size_t first = out.count, begin = member.cluster.first_triangle;
         if (member.out_of_sight()) continue;
         if (assemble(member.task, begin + part.begin, begin + part.end, out))
           finish_payload(member, first, out, shade);
@@ -240,12 +249,13 @@ struct Frontend::State {
       ++stats.meshes;
       stats.triangles += mesh.triangles.size();
       const ShadeTask light(mesh, model, scene.to_light);
-      for (const MeshRun& run : runs.cut(mesh, options.threads, options.target)) {
-        if (vertex_chunks.total() + run.vertices() > kMaxVertices || group.size() == kMaxMembers) run_group();
-        group.push_back({task, light, run, run.end_triangle == mesh.triangles.size(), vertex_chunks.total(),
-                         static_cast<std::uint32_t>(first_id)});
-        vertex_chunks.add(group.size() - 1, run.vertices());
-        triangle_chunks.add(group.size() - 1, run.triangles());
+      for (const MeshCluster& cluster : clusters.cut(mesh, options.threads, options.target)) {
+        if (vertex_chunks.total() + cluster.vertices() > max_vertices() || group.size() == kMaxMembers)
+          run_group();
+        group.push_back({task, light, cluster, cluster.end_triangle == mesh.triangles.size(),
+                         vertex_chunks.total(), static_cast<std::uint32_t>(first_id)});
+        vertex_chunks.add(group.size() - 1, cluster.vertices());
+        triangle_chunks.add(group.size() - 1, cluster.triangles());
       }
       first_id += mesh.triangles.size();
     }

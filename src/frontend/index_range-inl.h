@@ -11,7 +11,7 @@
 #include <algorithm>
 
 #include "frontend/lanes-inl.h"
-#include "frontend/mesh_runs.h"
+#include "frontend/mesh_clusters.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace edgewise {

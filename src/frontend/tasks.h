@@ -18,7 +18,7 @@ struct MeshTask {
   const Mesh& mesh;
   glm::mat4 to_screen;              // model space → pixels and depth, both times w
   ViewDepth depth;                  // w → contract units
-  Vertex* vertices;                 // one per position
+  Vertex* vertices;                 // by the mesh's indices
   TriangleState* states = nullptr;  // one per triangle, to be written; null: not needed
 
   // True if add_one() must handle every triangle.

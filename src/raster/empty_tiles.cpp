@@ -14,27 +14,28 @@ HWY_BEFORE_NAMESPACE();
 namespace edgewise {
 namespace HWY_NAMESPACE {
 
+// Calls store(v, at, ahead): the same columns of the next pixel row, which no hardware prefetcher expects,
+// lie `ahead` px further.
 template <typename Store>
 void fill_plane(const EmptyTiles& task, std::uint32_t* plane, std::uint32_t value, Store&& store) {
   const V v = hn::Set(D{}, static_cast<std::int32_t>(value));
-  const int end_y = std::min(task.y0 + (1 << task.size_log2), task.frame.height);
-  for (int y = task.y0; y < end_y; ++y)
-    for (const Bins::Run& run : task.runs) {
+  for (int y = task.y0; y < task.y1; ++y)
+    for (const TileSpan& tiles : task.tiles) {
       std::uint32_t* const row = plane + y * task.frame.stride;
-      std::uint32_t* at = row + (run.begin << task.size_log2);
-      std::uint32_t* const end = row + std::min(run.end << task.size_log2, task.frame.width);
-      for (; at + kLanes <= end; at += kLanes) store(v, reinterpret_cast<std::int32_t*>(at));
+      std::uint32_t* at = row + (tiles.begin << task.size_log2);
+      std::uint32_t* const end = row + std::min(tiles.end << task.size_log2, task.frame.width);
+      const std::ptrdiff_t ahead = y + 1 < task.y1 ? task.frame.stride : 0;
+      for (; at + kLanes <= end; at += kLanes) store(v, reinterpret_cast<std::int32_t*>(at), ahead);
       std::fill(at, end, value);
     }
 }
 
 void fill_empty_tiles(const EmptyTiles& task) {
-  // A run goes on in the next pixel row, which no hardware prefetcher expects.
-  const auto cached = [below = task.frame.stride](V v, std::int32_t* at) {
-    __builtin_prefetch(at + below, 1);
+  const auto cached = [](V v, std::int32_t* at, std::ptrdiff_t ahead) {
+    if (kLanes > 1) __builtin_prefetch(at + ahead, 1);  // pixel by pixel, it would cost more than it saves
     hn::StoreU(v, D{}, at);
   };
-  const auto streamed = [](V v, std::int32_t* at) { hn::Stream(v, D{}, at); };
+  const auto streamed = [](V v, std::int32_t* at, std::ptrdiff_t) { hn::Stream(v, D{}, at); };
   const auto fill = [&](std::uint32_t* plane, std::uint32_t value) {
     if (task.streaming && may_stream(plane, task.frame.stride))
       fill_plane(task, plane, value, streamed);

@@ -1,5 +1,5 @@
-// Fills the tiles that no triangle may cover. All such tiles of a row are filled together, pixel row by pixel
-// row: memory takes long runs of consecutive stores twice as fast as one tile after the other.
+// Fills the tiles without triangles. All those of a row are filled together, pixel row by pixel row: long
+// consecutive stores use the memory's bandwidth better than the short rows of one tile after the other.
 #pragma once
 
 #include <cstdint>
@@ -7,14 +7,14 @@
 
 #include "edgewise/framebuffer.h"
 #include "edgewise/simd_target.h"
-#include "raster/binning/bins.h"
+#include "raster/tile_list.h"
 
 namespace edgewise {
 
 struct EmptyTiles {
-  std::span<const Bins::Run> runs;  // of one row of tiles
-  int y0;                           // px, the row's first pixel
-  int size_log2;                    // px
+  std::span<const TileSpan> tiles;  // of one row
+  int y0, y1;                       // the pixel rows y0 … y1 - 1
+  int size_log2;                    // px, of a tile
   FrameView frame;
   std::uint32_t background;
   bool streaming;  // requested

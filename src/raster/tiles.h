@@ -13,18 +13,21 @@
 #include "raster/ablation.h"
 #include "raster/binning/bins.h"
 #include "raster/empty_tiles.h"
+#include "raster/tile_list.h"
 #include "raster/tile_task.h"
 
 namespace edgewise {
 
-// TileStore::automatic. A frame of up to half the LLC can stay there beside its reader's data. Empty tiles
-// then get cached stores, since no work overlaps with filling them. On one thread, a tile with triangles is
-// streamed while the next one is drawn. Several threads together would wait for the memory's bandwidth, so
-// they stream only where the triangles need the LLC, because they fill more than an L2 cache.
+// TileStore::automatic:
+// - A frame larger than half the LLC is streamed: it cannot stay there beside its reader's data.
+// - Empty tiles of other frames get cached stores, since no work overlaps with filling them.
+// - A tile with triangles is streamed on one thread, while the next one is drawn, or if the triangles exceed
+// an
+//   L2 cache, so that they need the LLC.
+// - Else it gets cached stores: several threads that stream would wait for the memory's bandwidth.
 constexpr TileStore tile_store_for(bool empty_tile, std::size_t triangles, int threads,
                                    std::size_t frame_bytes, std::size_t llc) {
-  constexpr std::size_t kL2 = 1 << 20;
-  const bool streamed_in_passing = threads == 1 || triangles * sizeof(ScreenTriangle) > kL2;
+  const bool streamed_in_passing = threads == 1 || triangles * sizeof(ScreenTriangle) > kL2Bytes;
   return frame_bytes <= llc / 2 && (empty_tile || !streamed_in_passing) ? TileStore::cached
                                                                         : TileStore::streaming;
 }
@@ -32,11 +35,12 @@ constexpr TileStore tile_store_for(bool empty_tile, std::size_t triangles, int t
 // `margin`: CellGrid::margin.
 template <typename DrawTile>
 void draw_in_tiles(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
-                   const Execution& execution, const Ablation& ablation, int tile_size, Bins& bins,
+                   const Execution& execution, const Ablation& ablation, int tile_size, TileScratch& scratch,
                    Bins::Small small, DrawTile&& draw_tile, std::int32_t margin = 0) {
   const int size_log2 = std::countr_zero(static_cast<unsigned>(tile_size));
   const CellGrid grid{frame.width, frame.height, size_log2, size_log2, margin};
   const SimdTarget binning = ablation.vector_setup ? execution.target : SimdTarget::scalar;
+  auto& [bins, list] = scratch;
   bins.build(triangles, grid, execution.threads, binning, small, ablation.prefetch);
   const auto pixels = static_cast<std::size_t>(frame.stride) * static_cast<std::size_t>(frame.height);
   const std::size_t frame_bytes = pixels * (sizeof(*frame.depth) + sizeof(*frame.payload));
@@ -50,14 +54,14 @@ void draw_in_tiles(std::span<const ScreenTriangle> triangles, FrameView frame, s
   const bool streaming = store_for(true) == TileStore::streaming;
   const EmptyTilesKernel fill = empty_tiles_kernel(execution.target);
   const int columns = grid.columns();
-  const auto order = bins.filled_cells_and_rows();
-  parallel_for(execution.threads, static_cast<int>(order.size()), [&](int i) {
-    const int cell = order[static_cast<std::size_t>(i)], row = ~cell;
-    if (cell < 0)
-      fill({bins.empty_cells(row), row << size_log2, size_log2, frame, background, streaming});
+  list.build(bins, grid, execution.threads);
+  parallel_for(execution.threads, static_cast<int>(list.tasks().size()), [&](int i) {
+    const TileList::Task& task = list.tasks()[static_cast<std::size_t>(i)];
+    if (task.cell == TileList::kEmptyTiles)
+      fill({list.empty_tiles(task.row), task.y0, task.y1, size_log2, frame, background, streaming});
     else
-      draw_tile(TileTask{triangles.data(), &bins, cell, cell % columns << size_log2,
-                         cell / columns << size_log2, size_log2, frame, background, resolved});
+      draw_tile(TileTask{triangles.data(), &bins, task.cell, task.cell % columns << size_log2, task.y0,
+                         size_log2, frame, background, resolved});
   });
 }
 

@@ -18,7 +18,7 @@ constexpr std::array kKinds{Kind{'a', "active"},
                             Kind{'c', "clipped"},
                             Kind{'b', "culled by facing"},
                             Kind{'o', "outside"},
-                            Kind{'-', "culled with their object"},
+                            Kind{'-', "culled with their object or part"},
                             Kind{'x', "not drawable"}};
 
 char letter_of(TriangleState state) {

@@ -22,8 +22,8 @@ constexpr Window kWindow{203, 131};
 
 Framebuffer engine_picture(EngineNumbers numbers, const CoverageInput& input, const Execution& execution) {
   Framebuffer frame(kWindow.width, kWindow.height);
-  Bins bins;
-  draw_engine(numbers, input, kWindow, frame.view(), kBackground, execution, bins);
+  TileScratch scratch;
+  draw_engine(numbers, input, kWindow, frame.view(), kBackground, execution, scratch);
   return frame;
 }
 

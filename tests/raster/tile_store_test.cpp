@@ -35,9 +35,9 @@ TEST(TileStore, IsTheCallersChoiceIfItMakesOne) {
   };
   const auto tiles_streamed = [&](TileStore store, int threads) {
     streamed = drawn = 0;
-    Bins bins;
+    TileScratch scratch;
     draw_in_tiles(triangles, frame.view(), 0, {threads, 64, resolve(SimdTarget::best)}, {.tile_store = store},
-                  64, bins, Bins::Small::as_indices, count);
+                  64, scratch, Bins::Small::as_indices, count);
     return streamed.load();
   };
   EXPECT_EQ(tiles_streamed(TileStore::cached, 1), 0);
@@ -61,9 +61,9 @@ TEST(TileStore, FillsEveryEmptyTile) {
       backends().front().make()->draw(triangles, expected.view(), 42, {});
       for (const FrameView view = frame.view(); std::uint32_t * plane : {view.depth, view.payload})
         std::fill_n(plane, view.stride * view.height, 0xABu);
-      Bins bins;
+      TileScratch scratch;
       draw_in_tiles(triangles, frame.view(), 42, {2, 64, resolve(SimdTarget::best)}, {.tile_store = store},
-                    64, bins, Bins::Small::as_indices, tile_kernel(resolve(SimdTarget::best)));
+                    64, scratch, Bins::Small::as_indices, tile_kernel(resolve(SimdTarget::best)));
       for (int y = 0; y < 200; ++y)
         for (int x = 0; x < width; ++x) {
           ASSERT_EQ(frame.payload_row(y)[x], expected.payload_row(y)[x]) << x << ' ' << y;

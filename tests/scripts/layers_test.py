@@ -18,7 +18,7 @@ BELOW = {
     "src/cli": ["edgewise", "core", "scene", "image", "frontend", "raster", "lab", "support", "viewer",
                 "bench"],  # its peers
 }
-TILES = ["ablation.h", "tile_store-inl.h", "tile_task.h", "tiles.h"]  # shared by the rooms that draw tiles
+TILES = ["ablation.h", "tile_list.h", "tile_store-inl.h", "tile_task.h", "tiles.h"]  # shared by the rooms that draw tiles
 ROOMS_BELOW = {  # inside src/raster: rooms and headers
     "simd": [],
     "binning": ["simd"],

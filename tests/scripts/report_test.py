@@ -142,7 +142,7 @@ class ReportTest(unittest.TestCase):
         self.assertEqual(page.row("tiled/cube/threads:1"), ["tiled/cube/threads:1", "cube", "1", "2.1", "5", "4.1", "2.0× faster"])
         self.assertEqual(page.row("slow/cube/threads:1")[-1], "no significant difference")
         self.assertEqual(page.row("slow/cube/threads:2")[-1], "other work")
-        self.assertEqual(page.row("ext/cube/threads:1")[-2:], ["–", "–"])
+        self.assertEqual(page.row("ext+frontend/cube/threads:1")[-2:], ["–", "–"])
         self.assertIn("error: no <memory>", page.row("tiled/broken/threads:1"))
         self.assertIn("A is test, commit abc", page.text)
 

@@ -26,7 +26,7 @@ def bench(times_ms, **context):
 
 
 def scene(name, scanline, naive, tiled):
-    return {f"{backend}/{name}/threads:2": ms
+    return {f"{backend}+frontend/{name}/threads:2": ms
             for backend, ms in (("scanline", scanline), ("naive", naive), ("tiled", tiled))}
 
 
@@ -138,14 +138,14 @@ class FindingsTest(unittest.TestCase):
                       speed_sentence(slower.scenes[0], slower.machine))
 
     def test_peers_are_compared_with_one_backend_at_both_widths(self):
-        rows = {**scene("a", 2.0, 8.0, 1.0), **scene("b", 1.0, 5.0, 4.0), "ext/a/threads:2": 8.0, "ext/b/threads:2": 30.0,
+        rows = {**scene("a", 2.0, 8.0, 1.0), **scene("b", 1.0, 5.0, 4.0), "ext+frontend/a/threads:2": 8.0, "ext+frontend/b/threads:2": 30.0,
                 "tiled+frontend/m/threads:2": 3.0, "ext+frontend/m/threads:2": 1.5}
         text = peer_finding(bench(rows, peers="ext", ext="Ext 1, 256 bits"))
-        self.assertIn("**Against ext** (Ext 1, 256 bits): on 2 threads, `tiled` with AVX-512, 512 bits, wins 2 of 3 scenes, from floats to "
-                      "picture, 7.5× to 8.0× faster; it loses 1, 2.0× slower.", text)
+        self.assertIn("**Against ext** (Ext 1, 256 bits): on 2 threads, `tiled` with AVX-512, 512 bits, wins 2 of 3 scenes, in whole "
+                      "frames, 7.5× to 8.0× faster; it loses 1, 2.0× slower.", text)
         self.assertNotIn("AVX2", text)
-        narrow = bench({**rows, "tiled/a/target:avx2/threads:2": 2.0, "m/threads:2": 1.0}, peers="ext", ext="Ext 1, 256 bits")
-        self.assertIn("With AVX2, 256 bits, it wins all 1 scenes, from floats to picture, 4.0× faster.", peer_finding(narrow))
+        narrow = bench({**rows, "tiled+frontend/a/target:avx2/threads:2": 2.0, "m/threads:2": 1.0}, peers="ext", ext="Ext 1, 256 bits")
+        self.assertIn("With AVX2, 256 bits, it wins all 1 scenes, in whole frames, 4.0× faster.", peer_finding(narrow))
         table = peer_tables(narrow, markdown)
         self.assertIn("| speed-up with AVX-512, 512 bits | speed-up with AVX2, 256 bits |", table)
         self.assertIn("| – / 8.0× | – / 4.0× |", table)

@@ -15,7 +15,7 @@
 #include "edgewise/framebuffer.h"
 #include "lab/method.h"
 #include "lab/truth.h"
-#include "raster/binning/bins.h"
+#include "raster/tile_list.h"
 
 namespace edgewise::lab {
 
@@ -46,7 +46,7 @@ class Canvas {
 
   Framebuffer frame;  // all methods write payloads; backends and the engine also write depths
   std::vector<float, LineAllocator<float>> depth;  // of all other methods; rows are frame.stride() apart
-  Bins bins;                                       // of the engine (lab/engine)
+  TileScratch scratch;                             // of the engine (lab/engine)
 
  private:
   std::map<std::string_view, std::unique_ptr<Backend>> backends_;

@@ -25,12 +25,12 @@ EngineKernel engine_kernel(EngineNumbers numbers, SimdTarget target) {
 }  // namespace
 
 void draw_engine(EngineNumbers numbers, const CoverageInput& input, Window window, FrameView frame,
-                 std::uint32_t background, const Execution& execution, Bins& bins) {
+                 std::uint32_t background, const Execution& execution, TileScratch& scratch) {
   Execution resolved = execution;
   resolved.target = resolve(execution.target);
   const EngineKernel kernel = engine_kernel(numbers, resolved.target);
   draw_in_tiles(
-      input.snapped, frame, background, resolved, {.coverage_masks = false}, resolved.tile_size, bins,
+      input.snapped, frame, background, resolved, {.coverage_masks = false}, resolved.tile_size, scratch,
       Bins::Small::as_indices,
       [&](const TileTask& task) {
         kernel.draw_tile({task, input.floats.data(), window.x0, window.y0, kernel.reads_floats});
@@ -55,7 +55,7 @@ void engine_runs(EngineNumbers numbers, const CoverageInput& input, Window windo
   // At one depth no plane is steep: float coverage outside the snapped triangle then keeps its depth.
   for (ScreenTriangle& t : triangles) t.z[0] = t.z[1] = t.z[2] = contract::kDepthHead;
   for (const ScreenTriangle& t : triangles) boxes.push_back(with_wider_box(t));
-  Bins bins;
+  TileScratch scratch;
   std::vector<ScreenTriangle> snapped;
   std::vector<FloatTriangle> floats;
   group_runs(boxes, window, runs, [&](std::span<const std::uint32_t> group, Framebuffer& frame) {
@@ -64,7 +64,7 @@ void engine_runs(EngineNumbers numbers, const CoverageInput& input, Window windo
       snapped.push_back(triangles[i]);
       floats.push_back(input.floats[i]);
     }
-    draw_engine(numbers, {floats, snapped}, window, frame.view(), kNoTriangle, {}, bins);
+    draw_engine(numbers, {floats, snapped}, window, frame.view(), kNoTriangle, {}, scratch);
   });
 }
 
@@ -73,7 +73,8 @@ CoverageMethod make(EngineNumbers numbers, const MethodInfo& info, const Coverag
           .promise = promise,
           .draw =
               [numbers](const CoverageInput& input, Canvas& canvas, const Execution& execution) {
-                draw_engine(numbers, input, canvas.window(), canvas.frame.view(), 0, execution, canvas.bins);
+                draw_engine(numbers, input, canvas.window(), canvas.frame.view(), 0, execution,
+                            canvas.scratch);
               },
           .runs = [numbers](const CoverageInput& input, Window window,
                             std::vector<Run>& runs) { engine_runs(numbers, input, window, runs); },

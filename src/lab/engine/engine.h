@@ -11,10 +11,10 @@
 
 namespace edgewise::lab {
 
-// Draws a frame. input.snapped is relative to the window's corner, input.floats is not. `bins` is scratch
-// memory. For exact numbers this is the backend `tiled` without coverage masks.
+// Draws a frame. input.snapped is relative to the window's corner, input.floats is not. `scratch` is kept
+// between frames. For exact numbers this is the backend `tiled` without coverage masks.
 void draw_engine(EngineNumbers numbers, const CoverageInput& input, Window window, FrameView frame,
-                 std::uint32_t background, const Execution& execution, Bins& bins);
+                 std::uint32_t background, const Execution& execution, TileScratch& scratch);
 
 // The engine with each kind of numbers, the contract's first. Apart from coverage_methods(), because sweeps
 // and the viewer leave them out.

@@ -216,38 +216,6 @@ void Bins::build(std::span<const ScreenTriangle> triangles, const CellGrid& grid
   has_masks_ = find_masks != nullptr &&
                std::any_of(chunks_.begin(), chunks_.begin() + static_cast<std::ptrdiff_t>(used_chunks_),
                            [](const Chunk& chunk) { return chunk.masks.any(); });
-  find_empty_cells(grid);
-}
-
-bool Bins::empty(std::size_t cell) const {
-  for (std::size_t i = 0; i < used_chunks_; ++i)
-    if (chunks_[i].first[cell] != kNone || (has_masks_ && !chunks_[i].masks.empty(cell))) return false;
-  return true;
-}
-
-void Bins::find_empty_cells(const CellGrid& grid) {
-  const int columns = grid.columns(), rows = grid.rows();
-  filled_cells_and_rows_.clear(), empty_cells_.clear(), row_begin_.clear();
-  // For any frame of this size, so that later ones allocate nothing.
-  filled_cells_and_rows_.reserve(static_cast<std::size_t>((columns + 1) * rows));
-  empty_cells_.reserve(static_cast<std::size_t>((columns + 1) / 2 * rows));
-  row_begin_.reserve(static_cast<std::size_t>(rows) + 1);
-  for (int row = 0, cell = 0; row < rows; ++row) {
-    row_begin_.push_back(empty_cells_.size());
-    bool was_empty = false;
-    for (int column = 0; column < columns; ++column, ++cell) {
-      const bool is_empty = empty(static_cast<std::size_t>(cell));
-      if (!is_empty)
-        filled_cells_and_rows_.push_back(cell);
-      else if (was_empty)
-        ++empty_cells_.back().end;
-      else
-        empty_cells_.push_back({column, column + 1});
-      was_empty = is_empty;
-    }
-    if (empty_cells_.size() != row_begin_.back()) filled_cells_and_rows_.push_back(~row);
-  }
-  row_begin_.push_back(empty_cells_.size());
 }
 
 }  // namespace edgewise

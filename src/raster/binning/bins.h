@@ -33,15 +33,11 @@ class Bins {
   void build(std::span<const ScreenTriangle> triangles, const CellGrid& grid, int threads, SimdTarget target,
              Small small, bool prefetch);
 
-  // Row by row: the cells with triangles, and then ~row if the row also has empty cells.
-  std::span<const int> filled_cells_and_rows() const { return filled_cells_and_rows_; }
-  // The cells of a row without triangles: columns begin … end - 1.
-  struct Run {
-    int begin, end;
-  };
-  std::span<const Run> empty_cells(int row) const {
-    const auto r = static_cast<std::size_t>(row);
-    return {empty_cells_.data() + row_begin_[r], row_begin_[r + 1] - row_begin_[r]};
+  bool empty(int cell) const {
+    const auto c = static_cast<std::size_t>(cell);
+    for (std::size_t i = 0; i < used_chunks_; ++i)
+      if (chunks_[i].first[c] != kNone || (has_masks_ && !chunks_[i].masks.empty(c))) return false;
+    return true;
   }
 
   // Consecutive indices of a cell: one block of a list. `first_slot`: the slot of the first in the chunk.
@@ -140,13 +136,7 @@ class Bins {
                         bool prefetch, MaskFinder find_masks, std::size_t max_mask_bytes);
   };
 
-  bool empty(std::size_t cell) const;
-  void find_empty_cells(const CellGrid& grid);
-
   std::vector<Chunk> chunks_;
-  std::vector<int> filled_cells_and_rows_;
-  std::vector<Run> empty_cells_;
-  std::vector<std::size_t> row_begin_;  // the first run of each row in empty_cells_, and their number
   WorkPartition partition_;
   std::size_t used_chunks_ = 0;
   bool has_masks_ = false;

@@ -13,10 +13,10 @@ namespace {
 class Scanline final : public AblatableBackend {
   void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
                     const Execution& execution) override {
-    draw_in_tiles(triangles, frame, background, execution, ablation, contract::kMaxTile, bins_,
+    draw_in_tiles(triangles, frame, background, execution, ablation, contract::kMaxTile, scratch_,
                   Bins::Small::as_indices, scanline_kernel(execution.target));
   }
-  Bins bins_;
+  TileScratch scratch_;
 };
 
 }  // namespace

@@ -11,11 +11,11 @@ namespace {
 class Tiled final : public AblatableBackend {
   void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
                     const Execution& execution) override {
-    draw_in_tiles(triangles, frame, background, execution, ablation, execution.tile_size, bins_,
+    draw_in_tiles(triangles, frame, background, execution, ablation, execution.tile_size, scratch_,
                   ablation.coverage_masks ? Bins::Small::as_masks : Bins::Small::as_indices,
                   tile_kernel(execution.target));
   }
-  Bins bins_;
+  TileScratch scratch_;
 };
 
 }  // namespace

@@ -1,0 +1,76 @@
+// The tasks of drawing a frame in tiles. A row of tiles has a task for each tile with triangles, and then
+// one, or several on many threads, for all its empty tiles.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "raster/binning/bins.h"
+
+namespace edgewise {
+
+// Tiles of one row, columns begin … end - 1.
+struct TileSpan {
+  int begin, end;
+};
+
+class TileList {
+ public:
+  struct Task {
+    int cell;    // in the bins; kEmptyTiles: fill the pixel rows y0 … y1 - 1 of a row's empty tiles
+    int row;     // of tiles
+    int y0, y1;  // px
+  };
+  static constexpr int kEmptyTiles = -1;
+
+  void build(const Bins& bins, const CellGrid& grid, int threads) {
+    const int columns = grid.columns(), rows = grid.rows(), side = 1 << grid.cell_h_log2;
+    const int parts = std::clamp(4 * threads / rows, 1, side / kLeastRows);
+    tasks_.clear(), empty_.clear(), row_begin_.clear();
+    // For any frame of this size, so that later ones allocate nothing.
+    tasks_.reserve(static_cast<std::size_t>((columns + parts) * rows));
+    empty_.reserve(static_cast<std::size_t>((columns + 1) / 2 * rows));
+    row_begin_.reserve(static_cast<std::size_t>(rows) + 1);
+    for (int row = 0, cell = 0; row < rows; ++row) {
+      const int y0 = row * side, y1 = std::min(y0 + side, grid.height);
+      row_begin_.push_back(empty_.size());
+      bool after_empty = false;
+      for (int column = 0; column < columns; ++column, ++cell) {
+        const bool is_empty = bins.empty(cell);
+        if (!is_empty)
+          tasks_.push_back({cell, row, y0, y1});
+        else if (after_empty)
+          ++empty_.back().end;
+        else
+          empty_.push_back({column, column + 1});
+        after_empty = is_empty;
+      }
+      if (empty_.size() == row_begin_.back()) continue;
+      for (int y = y0; y < y1; y += side / parts)
+        tasks_.push_back({kEmptyTiles, row, y, std::min(y + side / parts, y1)});
+    }
+    row_begin_.push_back(empty_.size());
+  }
+
+  std::span<const Task> tasks() const { return tasks_; }
+  std::span<const TileSpan> empty_tiles(int row) const {
+    const auto r = static_cast<std::size_t>(row);
+    return {empty_.data() + row_begin_[r], row_begin_[r + 1] - row_begin_[r]};
+  }
+
+ private:
+  static constexpr int kLeastRows = 8;  // px, of a task that fills empty tiles
+  std::vector<Task> tasks_;
+  std::vector<TileSpan> empty_;
+  std::vector<std::size_t> row_begin_;  // the first of each row in empty_, and their number
+};
+
+// What drawing in tiles keeps between frames.
+struct TileScratch {
+  Bins bins;
+  TileList list;
+};
+
+}  // namespace edgewise
