@@ -48,8 +48,8 @@ std::span<const MeshCluster> MeshClusters::cut(const Mesh& mesh, int threads, Si
     begin = end;
     range = kNone;
   };
-  // In random order, clusters share most vertices, or are tiny. Up to twice as many as the vertices fill still
-  // gain: transforming a vertex twice costs less than fetching it from memory once.
+  // In random order, clusters share most vertices, or are tiny. Up to twice as many as the vertices fill
+  // still gain: transforming a vertex twice costs less than fetching it from memory once.
   const auto gains_nothing = [&] { return clusters_.size() > 2 * (vertices / kMaxVertices + 1); };
   const auto fits = [&](IndexRange next) { return range.with(next).size() <= kMaxVertices; };
   for (std::size_t chunk = 0; chunk < ranges_.size(); ++chunk) {
