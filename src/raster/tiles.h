@@ -40,7 +40,8 @@ void draw_in_tiles(std::span<const ScreenTriangle> triangles, FrameView frame, s
   const int size_log2 = std::countr_zero(static_cast<unsigned>(tile_size));
   const CellGrid grid{frame.width, frame.height, size_log2, size_log2, margin};
   const SimdTarget binning = ablation.vector_setup ? execution.target : SimdTarget::scalar;
-  auto& [bins, list] = scratch;
+  Bins& bins = scratch.bins;
+  TileList& list = scratch.list;
   bins.build(triangles, grid, execution.threads, binning, small, ablation.prefetch);
   const auto pixels = static_cast<std::size_t>(frame.stride) * static_cast<std::size_t>(frame.height);
   const std::size_t frame_bytes = pixels * (sizeof(*frame.depth) + sizeof(*frame.payload));
