@@ -149,14 +149,12 @@ class Device {
     return {std::move(made), std::move(memory)};
   }
 
-  Image image(int width, int height, vk::Format format, vk::ImageUsageFlags use,
+  Image image(vk::Extent2D size, vk::Format format, vk::ImageUsageFlags use,
               vk::ImageAspectFlags aspect) const {
-    vk::raii::Image made(
-        device_,
-        vk::ImageCreateInfo({}, vk::ImageType::e2D, format,
-                            {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), 1}, 1, 1,
-                            vk::SampleCountFlagBits::e1, vk::ImageTiling::eOptimal,
-                            use | vk::ImageUsageFlagBits::eTransferSrc));
+    vk::raii::Image made(device_,
+                         vk::ImageCreateInfo({}, vk::ImageType::e2D, format, vk::Extent3D(size, 1), 1, 1,
+                                             vk::SampleCountFlagBits::e1, vk::ImageTiling::eOptimal,
+                                             use | vk::ImageUsageFlagBits::eTransferSrc));
     auto memory = allocate(made.getMemoryRequirements(), vk::MemoryPropertyFlagBits::eDeviceLocal);
     made.bindMemory(*memory, 0);
     vk::raii::ImageView view(device_, vk::ImageViewCreateInfo({}, *made, vk::ImageViewType::e2D, format, {},
@@ -226,11 +224,10 @@ class VulkanFrame final : public PeerFrame {
  public:
   VulkanFrame(const Device& device, const PeerScene& scene)
       : device_(device),
-        width_(scene.width),
-        height_(scene.height),
-        colours_(device.image(width_, height_, kColour, vk::ImageUsageFlagBits::eColorAttachment,
+        size_(static_cast<std::uint32_t>(scene.width), static_cast<std::uint32_t>(scene.height)),
+        colours_(device.image(size_, kColour, vk::ImageUsageFlagBits::eColorAttachment,
                               vk::ImageAspectFlagBits::eColor)),
-        depths_(device.image(width_, height_, kDepth, vk::ImageUsageFlagBits::eDepthStencilAttachment,
+        depths_(device.image(size_, kDepth, vk::ImageUsageFlagBits::eDepthStencilAttachment,
                              vk::ImageAspectFlagBits::eDepth)),
         drawing_(device.commands()) {
     for (const PeerMesh& mesh : scene.meshes) meshes_.push_back(load_mesh(device, mesh));
@@ -260,7 +257,7 @@ class VulkanFrame final : public PeerFrame {
         Stage::eTopOfPipe, Stage::eColorAttachmentOutput | Stage::eEarlyFragmentTests, {}, {}, {},
         {to_attachment(*colours_.image, Aspect::eColor, Access::eColorAttachmentWrite),
          to_attachment(*depths_.image, Aspect::eDepth, Access::eDepthStencilAttachmentWrite)});
-    const vk::Rect2D all({0, 0}, {static_cast<std::uint32_t>(width_), static_cast<std::uint32_t>(height_)});
+    const vk::Rect2D all({0, 0}, size_);
     const auto attachment = [](const Image& image, vk::ClearValue clear) {
       return vk::RenderingAttachmentInfo(*image.view, vk::ImageLayout::eGeneral, {}, {}, {},
                                          vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore, clear);
@@ -285,17 +282,15 @@ class VulkanFrame final : public PeerFrame {
   std::vector<T> pixels(vk::Image image, vk::ImageAspectFlags aspect) const {
     using Access = vk::AccessFlagBits;
     using Stage = vk::PipelineStageFlagBits;
-    std::vector<T> list(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+    std::vector<T> list(std::size_t{size_.width} * size_.height);
     const std::size_t bytes = list.size() * sizeof(T);
     const Buffer copy = device_.buffer(bytes, vk::BufferUsageFlagBits::eTransferDst);
     const auto copying = device_.commands();
     copying.begin(vk::CommandBufferBeginInfo());
     copying.pipelineBarrier(Stage::eAllGraphics, Stage::eTransfer, {},
                             vk::MemoryBarrier(Access::eMemoryWrite, Access::eTransferRead), {}, {});
-    copying.copyImageToBuffer(
-        image, vk::ImageLayout::eGeneral, *copy.buffer,
-        vk::BufferImageCopy(0, 0, 0, {aspect, 0, 0, 1}, {},
-                            {static_cast<std::uint32_t>(width_), static_cast<std::uint32_t>(height_), 1}));
+    copying.copyImageToBuffer(image, vk::ImageLayout::eGeneral, *copy.buffer,
+                              vk::BufferImageCopy(0, 0, 0, {aspect, 0, 0, 1}, {}, vk::Extent3D(size_, 1)));
     copying.pipelineBarrier(Stage::eTransfer, Stage::eHost, {},
                             vk::MemoryBarrier(Access::eTransferWrite, Access::eHostRead), {}, {});
     copying.end();
@@ -306,7 +301,7 @@ class VulkanFrame final : public PeerFrame {
   }
 
   const Device& device_;
-  int width_, height_;
+  vk::Extent2D size_;
   Image colours_, depths_;
   std::vector<LoadedMesh> meshes_;
   vk::raii::CommandBuffer drawing_;

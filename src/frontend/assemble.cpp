@@ -53,7 +53,8 @@ void assemble_all(const MeshTask& task, std::size_t begin, std::size_t end, Chun
 }
 
 bool assemble(const MeshTask& task, std::size_t begin, std::size_t end, ChunkOutput& out) {
-  if (index_range(task.mesh, begin, end).last >= task.mesh.positions.size()) return false;
+  if (!task.vertices_exist && index_range(task.mesh, begin, end).last >= task.mesh.positions.size())
+    return false;
   if (task.mesh.flags.empty())
     assemble_all<false>(task, begin, end, out);
   else

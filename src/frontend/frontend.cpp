@@ -240,16 +240,18 @@ struct Frontend::State {
       const Mesh& mesh = mesh_of(scene, instance);
       check(mesh);
       const glm::mat4 model = model_matrix(instance);
+      const auto cut = clusters.cut(mesh, options.threads, options.target);
       const MeshTask task{.options = options,
                           .mesh = mesh,
                           .to_screen = glm::mat4(to_screen * glm::dmat4(model)),
                           .depth = depth,
                           .vertices = nullptr,
-                          .states = options.keep_states ? states.data() + first_id : nullptr};
+                          .states = options.keep_states ? states.data() + first_id : nullptr,
+                          .vertices_exist = cut.size() > 1};
       ++stats.meshes;
       stats.triangles += mesh.triangles.size();
       const ShadeTask light(mesh, model, scene.to_light);
-      for (const MeshCluster& cluster : clusters.cut(mesh, options.threads, options.target)) {
+      for (const MeshCluster& cluster : cut) {
         if (vertex_chunks.total() + cluster.vertices() > max_vertices() || group.size() == kMaxMembers)
           run_group();
         group.push_back({task, light, cluster, cluster.end_triangle == mesh.triangles.size(),

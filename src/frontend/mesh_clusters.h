@@ -37,7 +37,7 @@ class MeshClusters {
   // stays whole if
   // - it has at most kMaxVertices vertices,
   // - its triangles name vertices in random order,
-  // - a triangle names a missing vertex.
+  // - a triangle names a missing vertex; so all vertices of several clusters exist.
   // Valid until the next call. `target` must be resolved.
   std::span<const MeshCluster> cut(const Mesh& mesh, int threads, SimdTarget target);
 

@@ -20,6 +20,7 @@ struct MeshTask {
   ViewDepth depth;                  // w → contract units
   Vertex* vertices;                 // by the mesh's indices
   TriangleState* states = nullptr;  // one per triangle, to be written; null: not needed
+  bool vertices_exist = false;      // known of all that triangles name; else assemble() checks it
 
   // True if add_one() must handle every triangle.
   bool one_by_one() const { return options.keep_unsnapped || states != nullptr; }

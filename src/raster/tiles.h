@@ -21,9 +21,8 @@ namespace edgewise {
 // TileStore::automatic:
 // - A frame larger than half the LLC is streamed: it cannot stay there beside its reader's data.
 // - Empty tiles of other frames get cached stores, since no work overlaps with filling them.
-// - A tile with triangles is streamed on one thread, while the next one is drawn, or if the triangles exceed
-// an
-//   L2 cache, so that they need the LLC.
+// - A tile with triangles is streamed on one thread, while the next one is drawn. It is also streamed if the
+//   triangles exceed an L2 cache, so that they need the LLC.
 // - Else it gets cached stores: several threads that stream would wait for the memory's bandwidth.
 constexpr TileStore tile_store_for(bool empty_tile, std::size_t triangles, int threads,
                                    std::size_t frame_bytes, std::size_t llc) {

@@ -115,8 +115,13 @@ TEST(PeerScene, RoundsAStreamsPositionsAsTheFrontEndDoes) {
   };
   const auto& given = std::get<TriangleStream>(workload->drawable()).triangles;
   ASSERT_EQ(positions.size(), 3 * given.size());
-  for (std::size_t i = 0; i < positions.size(); ++i)
+  std::vector<std::uint32_t> colours(given.size(), 0);  // 0: the front end drops the triangle
+  const auto ids = triangles_by_id(*workload);
+  for (std::size_t i = 0; i < ids.size(); ++i) colours[ids[i].payload] = workload->triangles()[i].payload;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
     ASSERT_EQ(positions[i], rounded(given[i / 3].vertex[i % 3]));
+    ASSERT_EQ(made.meshes[0].payloads[i], colours[i / 3]);
+  }
 }
 
 // A peer that draws with one of our backends, correctly or with a deliberate error.
