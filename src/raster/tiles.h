@@ -55,8 +55,9 @@ void draw_in_tiles(std::span<const ScreenTriangle> triangles, FrameView frame, s
   const EmptyTilesKernel fill = empty_tiles_kernel(execution.target);
   const int columns = grid.columns();
   list.build(bins, grid, execution.threads);
-  parallel_for(execution.threads, static_cast<int>(list.tasks().size()), [&](int i) {
-    const TileList::Task& task = list.tasks()[static_cast<std::size_t>(i)];
+  const std::span<const TileList::Task> tasks = list.tasks();
+  parallel_in_runs(execution.threads, static_cast<int>(tasks.size()), [&](int i) {
+    const TileList::Task& task = tasks[static_cast<std::size_t>(i)];
     if (task.cell == TileList::kEmptyTiles)
       fill({list.empty_tiles(task.row), task.y0, task.y1, size_log2, frame, background, streaming});
     else
