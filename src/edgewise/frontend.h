@@ -85,7 +85,7 @@ struct FrontendStats {
 
 // A front end keeps its memory between frames and allocates only in the first frame of a kind. It keeps
 // - 16 bytes per vertex of the largest mesh, or up to 4 MB for a group of small meshes,
-// - of a large mesh, 8 bytes per 2048 triangles,
+// - of a mesh with clusters, up to 16 bytes per cluster,
 // - 40 bytes per visible triangle (and address space for as many per submitted one),
 // - less than 1 MB per thread,
 // - with keep_unsnapped, 36 bytes more per visible triangle and less than 1 MB more per thread,
@@ -108,6 +108,8 @@ class Frontend {
   // - a mesh without one colour per triangle, or whose flags are neither empty nor one per triangle, or whose
   //   first triangle has kSecondHalf,
   // - a triangle, of an instance in view, whose vertex index the mesh lacks,
+  // - a mesh whose clusters are fewer or more than its triangles need, or name other vertices than the
+  //   triangles in view,
   // - more than kMaxTriangles triangles (before memory is allocated for them),
   // - a SIMD target that this machine cannot run.
   // The object may be used again after an exception.

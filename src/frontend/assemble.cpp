@@ -7,8 +7,9 @@
 #include <hwy/highway.h>
 // These need Highway first.
 #include "frontend/cull-inl.h"
-#include "frontend/index_range-inl.h"
 #include "frontend/lanes-inl.h"
+
+#include <algorithm>
 
 #include "core/kernel_table.h"
 #include "frontend/assemble.h"
@@ -52,9 +53,28 @@ void assemble_all(const MeshTask& task, std::size_t begin, std::size_t end, Chun
   one_by_one(i, end);
 }
 
-bool assemble(const MeshTask& task, std::size_t begin, std::size_t end, ChunkOutput& out) {
-  if (!task.vertices_exist && index_range(task.mesh, begin, end).last >= task.mesh.positions.size())
-    return false;
+// The range of the vertices that triangles begin … end - 1 name, at least one.
+HWY_INLINE VertexRange index_range(const Mesh& mesh, std::size_t begin, std::size_t end) {
+  const hn::RebindToUnsigned<DI> d;
+  const std::uint32_t* index = &mesh.triangles[begin].x;
+  const std::size_t count = 3 * (end - begin);
+  auto least = hn::Set(d, index[0]), most = least;
+  std::size_t i = 0;
+  for (; i + kBatch <= count; i += kBatch) {
+    const auto indices = hn::LoadU(d, index + i);
+    least = hn::Min(least, indices), most = hn::Max(most, indices);
+  }
+  std::uint32_t leasts[kBatch], mosts[kBatch];
+  hn::StoreU(least, d, leasts), hn::StoreU(most, d, mosts);
+  std::uint32_t first = *std::min_element(leasts, leasts + kBatch),
+                last = *std::max_element(mosts, mosts + kBatch);
+  for (; i < count; ++i) first = std::min(first, index[i]), last = std::max(last, index[i]);
+  return {first, std::size_t{last} + 1};
+}
+
+bool assemble(const MeshTask& task, std::size_t begin, std::size_t end, VertexRange allowed,
+              ChunkOutput& out) {
+  if (!allowed.contains(index_range(task.mesh, begin, end))) return false;
   if (task.mesh.flags.empty())
     assemble_all<false>(task, begin, end, out);
   else

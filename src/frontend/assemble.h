@@ -2,13 +2,15 @@
 #pragma once
 
 #include "edgewise/simd_target.h"
+#include "frontend/mesh_clusters.h"
 #include "frontend/tasks.h"
 
 namespace edgewise {
 
 // Appends the visible pieces of triangles begin … end - 1 to the output, with the triangle's index in the
-// mesh as payload. Returns false and appends nothing if a triangle names a vertex that the mesh lacks.
-using AssembleKernel = bool (*)(const MeshTask& task, std::size_t begin, std::size_t end, ChunkOutput& out);
+// mesh as payload. Returns false and appends nothing if a triangle names a vertex that is not `allowed`.
+using AssembleKernel = bool (*)(const MeshTask& task, std::size_t begin, std::size_t end, VertexRange allowed,
+                                ChunkOutput& out);
 
 // `target` must be resolved.
 AssembleKernel assemble_kernel(SimdTarget target);

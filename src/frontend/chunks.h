@@ -7,31 +7,34 @@
 #include <span>
 #include <vector>
 
+#include "frontend/mesh_clusters.h"
 #include "frontend/tasks.h"
 
 namespace edgewise {
 
 // Elements begin … end - 1 of a mesh.
-struct MeshPart {
-  std::size_t mesh, begin, end;
+struct MeshRun {
+  std::size_t member, begin, end;
+  VertexRange allowed;  // vertices that triangles may name
 };
 
 class Chunks {
  public:
   void clear() {
-    parts_.clear();
+    runs_.clear();
     ends_.clear();
     total_ = room_ = 0;
   }
-  // Appends the `count` elements of a mesh.
-  void add(std::size_t mesh, std::size_t count) {
-    for (std::size_t begin = 0, end; begin < count; begin = end) {
+  // Appends `count` elements from index `first` on.
+  void add(std::size_t member, std::size_t first, std::size_t count, VertexRange allowed = {}) {
+    const std::size_t last = first + count;
+    for (std::size_t begin = first, end; begin < last; begin = end) {
       if (room_ == 0) {
-        ends_.push_back(parts_.size());
+        ends_.push_back(runs_.size());
         room_ = kChunkTriangles;
       }
-      end = std::min(count, begin + room_);
-      parts_.push_back({mesh, begin, end});
+      end = std::min(last, begin + room_);
+      runs_.push_back({member, begin, end, allowed});
       ++ends_.back();
       room_ -= end - begin;
     }
@@ -39,15 +42,15 @@ class Chunks {
   }
 
   std::size_t size() const { return ends_.size(); }  // chunks
-  std::span<const MeshPart> operator[](std::size_t chunk) const {
+  std::span<const MeshRun> operator[](std::size_t chunk) const {
     const std::size_t first = chunk == 0 ? 0 : ends_[chunk - 1];
-    return {parts_.data() + first, ends_[chunk] - first};
+    return {runs_.data() + first, ends_[chunk] - first};
   }
   std::size_t total() const { return total_; }  // elements
 
  private:
-  std::vector<MeshPart> parts_;
-  std::vector<std::size_t> ends_;     // the end of each chunk in parts_
+  std::vector<MeshRun> runs_;
+  std::vector<std::size_t> ends_;     // the end of each chunk in runs_
   std::size_t total_ = 0, room_ = 0;  // elements: in all chunks; that still fit the last chunk
 };
 

@@ -3,8 +3,8 @@
 // - triangles: assemble.cpp for meshes, stream.cpp for streams; one_by_one.cpp and clip.cpp for special cases
 // - colours: shade.cpp
 // - output in submission order: in_order.h
-// A large mesh is cut into clusters (mesh_clusters.h). Clusters and small meshes are processed in groups, and
-// each group is cut into chunks (chunks.h).
+// A mesh with clusters is cut into parts (mesh_clusters.h). Parts and whole meshes are processed in groups,
+// and each group is cut into chunks (chunks.h).
 #include "edgewise/frontend.h"
 
 #include <algorithm>
@@ -48,6 +48,14 @@ const Mesh& mesh_of(const Scene& scene, const Instance& instance) {
     throw std::invalid_argument("an instance names mesh " + std::to_string(instance.mesh) + " of " +
                                 std::to_string(scene.meshes.size()));
   return scene.meshes[instance.mesh];
+}
+
+void check_clusters(const Mesh& mesh) {
+  const std::size_t expected = (mesh.triangles.size() + kClusterTriangles - 1) / kClusterTriangles;
+  if (!mesh.clusters.empty() && mesh.clusters.size() != expected)
+    throw std::invalid_argument("a mesh has " + std::to_string(mesh.triangles.size()) + " triangles and " +
+                                std::to_string(mesh.clusters.size()) + " clusters, not " +
+                                std::to_string(expected));
 }
 
 void throw_if_vertex_missing(const Mesh& mesh) {
@@ -104,15 +112,14 @@ FrontendStats& FrontendStats::operator+=(const FrontendStats& o) {
   return *this;
 }
 
-// One cluster of an instance's mesh, or the whole mesh.
+// An instance's mesh, or a part of it.
 struct GroupMember {
   MeshTask task;
   ShadeTask light;
-  MeshCluster cluster;
-  bool ends_mesh;                                  // whether it is the mesh's last cluster
-  std::size_t first_vertex;                        // index of the cluster's first vertex in State::vertices
-  std::uint32_t first_id;                          // of the mesh
-  std::uint32_t common = kInvisible | kNotFinite;  // sides beyond which all finite vertices lie
+  std::size_t first_vertex;  // in State::vertices, of the mesh or part
+  std::uint32_t first_id;    // of the mesh
+  // Sides beyond which all finite vertices lie. 0 for a part, which is in view.
+  std::uint32_t common;
 
   // True if all of it lies beyond one side of the view. False without a finite vertex.
   bool out_of_sight() const { return (common & kNotFinite) == 0 && common != 0; }
@@ -123,12 +130,12 @@ struct Frontend::State {
   static constexpr std::size_t kMaxMembers = kWorthThreads;
   std::size_t max_vertices() const {
     const auto eights = static_cast<std::size_t>(options.threads / 8);
-    return std::max(4 * kWorthThreads, eights * MeshClusters::kMaxVertices);
+    return std::max(4 * kWorthThreads, eights * ClusterPart::kMaxVertices);
   }
   std::vector<GroupMember> group;
-  MeshClusters clusters;
-  bool mesh_is_out_of_sight = true;  // true while every cluster of the current mesh was
+  ClusterPart part;
   Chunks vertex_chunks, triangle_chunks;
+  std::size_t group_vertices = 0;  // room for them, in `vertices`
   Buffer<Vertex> vertices;
 
   InOrder order;
@@ -140,23 +147,20 @@ struct Frontend::State {
   FrontendStats stats;
   FrontendOptions options;
 
-  // Tasks index vertices as the mesh does, but only the cluster's are there.
-  Vertex* vertices_of(const GroupMember& member) {
-    const auto first = reinterpret_cast<std::uintptr_t>(vertices.data() + member.first_vertex);
-    return reinterpret_cast<Vertex*>(first - member.cluster.first_vertex * sizeof(Vertex));
-  }
-
   void transform_group() {
     const TransformKernel transform = transform_kernel(options.target);
-    vertices.reserve(vertex_chunks.total());
-    for (GroupMember& member : group) member.task.vertices = vertices_of(member);
+    vertices.reserve(group_vertices);
+    // Tasks index vertices as the mesh does, but only the part's are there.
+    for (GroupMember& member : group) {
+      const auto first = reinterpret_cast<std::uintptr_t>(vertices.data() + member.first_vertex);
+      member.task.vertices =
+          reinterpret_cast<Vertex*>(first - member.task.vertex_range.first * sizeof(Vertex));
+    }
     parallel_for(workers_for(vertex_chunks.total(), options.threads), static_cast<int>(vertex_chunks.size()),
                  [&](int chunk) {
-                   for (const MeshPart& part : vertex_chunks[static_cast<std::size_t>(chunk)]) {
-                     GroupMember& member = group[part.mesh];
-                     const std::size_t first = member.cluster.first_vertex;
-                     std::atomic_ref(member.common) &=
-                         transform(member.task, first + part.begin, first + part.end);
+                   for (const MeshRun& run : vertex_chunks[static_cast<std::size_t>(chunk)]) {
+                     GroupMember& member = group[run.member];
+                     std::atomic_ref(member.common) &= transform(member.task, run.begin, run.end);
                    }
                  });
   }
@@ -186,25 +190,19 @@ struct Frontend::State {
 
   void assemble_group() {
     for (const GroupMember& member : group) {
-      if (member.out_of_sight()) {
-        stats.whole_mesh += member.cluster.triangles();
-        if (options.keep_states)
-          std::fill_n(member.task.states + member.cluster.first_triangle, member.cluster.triangles(),
-                      TriangleState::outside_with_mesh);
-      } else {
-        mesh_is_out_of_sight = false;
-      }
-      if (member.ends_mesh) stats.meshes_culled += std::exchange(mesh_is_out_of_sight, true);
+      if (!member.out_of_sight()) continue;
+      ++stats.meshes_culled;
+      drop(member.task, 0, member.task.mesh.triangles.size());
     }
     const AssembleKernel assemble = assemble_kernel(options.target);
     const ShadeKernel shade = shade_kernel(options.target);
     std::atomic<bool> all_exist{true};
     const auto make = [&](std::size_t chunk, ChunkOutput& out) {
-      for (const MeshPart& part : triangle_chunks[chunk]) {
-        const GroupMember& member = group[part.mesh];
-        const std::size_t first = out.count, begin = member.cluster.first_triangle;
+      for (const MeshRun& run : triangle_chunks[chunk]) {
+        const GroupMember& member = group[run.member];
+        const std::size_t first = out.count;
         if (member.out_of_sight()) continue;
-        if (assemble(member.task, begin + part.begin, begin + part.end, out))
+        if (assemble(member.task, run.begin, run.end, run.allowed, out))
           finish_payload(member, first, out, shade);
         else
           all_exist = false;
@@ -215,12 +213,20 @@ struct Frontend::State {
     if (all_exist) return;
     for (const GroupMember& member : group)
       if (!member.out_of_sight()) throw_if_vertex_missing(member.task.mesh);
+    throw std::invalid_argument("a mesh's clusters were made for other triangles");
+  }
+
+  // Drops triangles of a mesh without looking at them.
+  void drop(const MeshTask& task, std::size_t first, std::size_t count) {
+    stats.whole_mesh += count;
+    if (options.keep_states) std::fill_n(task.states + first, count, TriangleState::outside_with_mesh);
   }
 
   void start_group() {
     group.clear();
     vertex_chunks.clear();
     triangle_chunks.clear();
+    group_vertices = 0;
   }
 
   void run_group() {
@@ -230,35 +236,75 @@ struct Frontend::State {
     start_group();
   }
 
+  // Returns the new member's index. add_runs(member) adds its vertices and triangles to the chunks.
+  template <typename AddRuns>
+  void add_member(const MeshTask& task, const ShadeTask& light, std::size_t first_id, std::uint32_t common,
+                  AddRuns&& add_runs) {
+    if (group_vertices + task.vertex_range.size() > max_vertices() || group.size() == kMaxMembers)
+      run_group();
+    group.push_back({task, light, group_vertices, static_cast<std::uint32_t>(first_id), common});
+    group_vertices += task.vertex_range.size();
+    add_runs(group.size() - 1);
+  }
+
+  void add_whole(const MeshTask& task, const ShadeTask& light, std::size_t first_id) {
+    const Mesh& mesh = task.mesh;
+    add_member(task, light, first_id, kInvisible | kNotFinite, [&](std::size_t member) {
+      vertex_chunks.add(member, 0, mesh.positions.size());
+      triangle_chunks.add(member, 0, mesh.triangles.size(), task.vertex_range);
+    });
+  }
+
+  void add_parts(MeshTask task, const ShadeTask& light, std::size_t first_id) {
+    const Mesh& mesh = task.mesh;
+    const ViewSides view(task.to_screen, options.width, options.height);
+    const std::uint64_t dropped_before = stats.whole_mesh;
+    const auto is_excluded = [&](std::size_t cluster) { return view.exclude(mesh.clusters[cluster]); };
+    for (std::size_t cluster = 0, next; cluster < mesh.clusters.size(); cluster = next) {
+      next = part.take(mesh, mesh.clusters, cluster, is_excluded);
+      std::size_t kept = 0;
+      for (std::size_t i = cluster; i < next; ++i) {
+        if (kept < part.clusters().size() && part.clusters()[kept] == i) {
+          ++kept;
+          continue;
+        }
+        const ClusterTriangles out = triangles_of(mesh, i);
+        drop(task, out.first, out.count);
+      }
+      if (kept == 0) continue;
+      task.vertex_range = part.range();
+      add_member(task, light, first_id, 0, [&](std::size_t member) {
+        part.for_each_vertex_run(
+            [&](std::size_t first, std::size_t count) { vertex_chunks.add(member, first, count); });
+        part.for_each_triangle_run(mesh, [&](std::size_t first, std::size_t count, VertexRange range) {
+          triangle_chunks.add(member, first, count, range);
+        });
+      });
+    }
+    stats.meshes_culled += stats.whole_mesh - dropped_before == mesh.triangles.size();
+  }
+
   void run_scene(const Scene& scene) {
     const glm::dmat4 to_screen = screen_matrix(scene.camera, options.width, options.height);
     const ViewDepth depth(double{scene.camera.near_z}, double{scene.camera.far_z});
     std::size_t first_id = 0;
-    mesh_is_out_of_sight = true;
     start_group();
     for (const auto& instance : scene.instances) {
       const Mesh& mesh = mesh_of(scene, instance);
       check(mesh);
       const glm::mat4 model = model_matrix(instance);
-      const auto cut = clusters.cut(mesh, options.threads, options.target);
+      check_clusters(mesh);
       const MeshTask task{.options = options,
                           .mesh = mesh,
                           .to_screen = glm::mat4(to_screen * glm::dmat4(model)),
                           .depth = depth,
                           .vertices = nullptr,
-                          .states = options.keep_states ? states.data() + first_id : nullptr,
-                          .vertices_exist = cut.size() > 1};
+                          .vertex_range = {0, mesh.positions.size()},
+                          .states = options.keep_states ? states.data() + first_id : nullptr};
       ++stats.meshes;
       stats.triangles += mesh.triangles.size();
       const ShadeTask light(mesh, model, scene.to_light);
-      for (const MeshCluster& cluster : cut) {
-        if (vertex_chunks.total() + cluster.vertices() > max_vertices() || group.size() == kMaxMembers)
-          run_group();
-        group.push_back({task, light, cluster, cluster.end_triangle == mesh.triangles.size(),
-                         vertex_chunks.total(), static_cast<std::uint32_t>(first_id)});
-        vertex_chunks.add(group.size() - 1, cluster.vertices());
-        triangle_chunks.add(group.size() - 1, cluster.triangles());
-      }
+      mesh.clusters.empty() ? add_whole(task, light, first_id) : add_parts(task, light, first_id);
       first_id += mesh.triangles.size();
     }
     run_group();

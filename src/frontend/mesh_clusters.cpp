@@ -1,76 +1,112 @@
-// Finds the range of vertices of each chunk of triangles in parallel, and then joins consecutive chunks.
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "frontend/mesh_clusters.cpp"
-#include <hwy/foreach_target.h>
-#include <hwy/highway.h>
-// This needs Highway first.
-#include "frontend/index_range-inl.h"
-
-#include "core/kernel_table.h"
-#include "core/parallel.h"
 #include "frontend/mesh_clusters.h"
-#include "frontend/tasks.h"
 
-HWY_BEFORE_NAMESPACE();
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
 namespace edgewise {
-namespace HWY_NAMESPACE {
 
-IndexRange range_of_chunk(const Mesh& mesh, std::size_t begin, std::size_t end) {
-  return index_range(mesh, begin, end);
+namespace {
+
+bool is_finite(glm::vec3 v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace edgewise
-HWY_AFTER_NAMESPACE();
+// Requires that all vertices exist.
+MeshCluster make_cluster(const Mesh& mesh, ClusterTriangles triangles) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  MeshCluster c{glm::vec3(kInfinity), glm::vec3(-kInfinity), ~0u, 0};
+  bool all_finite = true;
+  for (std::size_t i = 0; i < triangles.count; ++i)
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t index = mesh.triangles[triangles.first + i][k];
+      const glm::vec3 v = mesh.positions[index];
+      c.first_vertex = std::min(c.first_vertex, index);
+      c.end_vertex = std::max(c.end_vertex, index + 1);
+      c.low = glm::min(c.low, v), c.high = glm::max(c.high, v);
+      all_finite = all_finite && is_finite(v);
+    }
+  if (!all_finite) c.low = glm::vec3(-kInfinity), c.high = glm::vec3(kInfinity);
+  return c;
+}
 
-#if HWY_ONCE
-namespace edgewise {
+}  // namespace
 
-std::span<const MeshCluster> MeshClusters::cut(const Mesh& mesh, int threads, SimdTarget target) {
+std::vector<MeshCluster> clusters_of(const Mesh& mesh) {
+  // The test of the clusters costs more than it gains on small meshes.
+  constexpr std::size_t kLeastTriangles = 1 << 16;
   const std::size_t count = mesh.triangles.size(), vertices = mesh.positions.size();
-  const auto whole = [&] {
-    clusters_.assign(1, {0, count, 0, vertices});
-    return std::span<const MeshCluster>(clusters_);
+  const auto exists = [&](glm::uvec3 t) { return std::max({t.x, t.y, t.z}) < vertices; };
+  if (count < kLeastTriangles || !std::all_of(mesh.triangles.begin(), mesh.triangles.end(), exists))
+    return {};
+  std::vector<MeshCluster> clusters((count + kClusterTriangles - 1) / kClusterTriangles);
+  for (std::size_t i = 0; i < clusters.size(); ++i) clusters[i] = make_cluster(mesh, triangles_of(mesh, i));
+  // In random order, parts share most vertices. Twice as many as the mesh has still gain: transforming a
+  // vertex twice costs less than fetching it from memory once.
+  ClusterPart part;
+  std::size_t transformed = 0;
+  for (std::size_t next = 0; next < clusters.size();) {
+    next = part.take(mesh, clusters, next, [](std::size_t) { return false; });
+    part.for_each_vertex_run([&](std::size_t, std::size_t run) { transformed += run; });
+    if (transformed > 2 * vertices) return {};
+  }
+  return clusters;
+}
+
+ViewSides::ViewSides(const glm::mat4& to_screen, int width_px, int height_px) {
+  const auto row = [&](int r) {
+    return glm::dvec4(to_screen[0][r], to_screen[1][r], to_screen[2][r], to_screen[3][r]);
   };
-  if (vertices <= kMaxVertices || count == 0) return whole();
-  const auto range_of = EDGEWISE_KERNEL(range_of_chunk, target);
-  ranges_.resize((count + kChunkTriangles - 1) / kChunkTriangles);
-  parallel_for(workers_for(count, threads), static_cast<int>(ranges_.size()), [&](int i) {
-    const std::size_t begin = static_cast<std::size_t>(i) * kChunkTriangles;
-    ranges_[static_cast<std::size_t>(i)] = range_of(mesh, begin, std::min(count, begin + kChunkTriangles));
-  });
-  clusters_.clear();
-  constexpr IndexRange kNone{~0u, 0};
-  IndexRange range = kNone;
-  std::size_t begin = 0;
-  const auto end_cluster = [&](std::size_t end) {
-    clusters_.push_back({begin, end, range.first, std::size_t{range.last} + 1});
-    begin = end;
-    range = kNone;
-  };
-  // In random order, clusters share most vertices, or are tiny. Up to twice as many as the vertices fill
-  // still gain: transforming a vertex twice costs less than fetching it from memory once.
-  const auto gains_nothing = [&] { return clusters_.size() > 2 * (vertices / kMaxVertices + 1); };
-  const auto fits = [&](IndexRange next) { return range.with(next).size() <= kMaxVertices; };
-  for (std::size_t chunk = 0; chunk < ranges_.size(); ++chunk) {
-    if (ranges_[chunk].last >= vertices || gains_nothing()) return whole();
-    if (fits(ranges_[chunk])) {
-      range = range.with(ranges_[chunk]);
+  const glm::dvec4 x = row(0), y = row(1), z = row(2), w = row(3);
+  const glm::dvec4 ends[3] = {w * double(width_px), w * double(height_px), w};
+  const glm::dvec4 starts[3] = {x, y, z};
+  // A sum of four products has five roundings on the way of each product, and the comparison one more.
+  constexpr double kRelativeError = 0x1p-20;
+  for (int i = 0; i < 3; ++i) {
+    sides_[i] = {starts[i], kRelativeError * glm::abs(starts[i])};
+    sides_[3 + i] = {ends[i] - starts[i], kRelativeError * (glm::abs(ends[i]) + glm::abs(starts[i]))};
+  }
+}
+
+bool ViewSides::exclude(const MeshCluster& box) const {
+  const glm::dvec3 low(box.low), high(box.high);
+  const glm::dvec3 centre = 0.5 * (low + high), half = 0.5 * (high - low);
+  const glm::dvec3 farthest = glm::max(glm::abs(low), glm::abs(high));
+  for (const Side& side : sides_) {
+    const double largest = glm::dot(glm::dvec3(side.plane), centre) + side.plane.w +
+                           glm::dot(glm::abs(glm::dvec3(side.plane)), half);
+    const double error = glm::dot(glm::dvec3(side.error), farthest) + side.error.w;
+    // Values near the ends of float's range may overflow, or lose bits.
+    if (largest + error < 0 && error > 0x1p-100 && error < 0x1p100) return true;
+  }
+  return false;
+}
+
+VertexRange ClusterPart::checked_vertices(const Mesh& mesh, const MeshCluster& cluster) {
+  const VertexRange range = vertices_of(cluster);
+  if (range.first < range.end && range.end <= mesh.positions.size()) return range;
+  throw std::invalid_argument("a mesh's cluster has vertices " + std::to_string(range.first) + " to " +
+                              std::to_string(range.end) + " of " + std::to_string(mesh.positions.size()));
+}
+
+void ClusterPart::mark_vertices(const Mesh& mesh, std::span<const MeshCluster> clusters) {
+  blocks_.assign((range_.size() + kBlock - 1) / kBlock, 0);
+  const auto block_of = [&](std::size_t vertex) { return (vertex - range_.first) / kBlock; };
+  for (const std::size_t cluster : clusters_) {
+    const VertexRange range = vertices_of(clusters[cluster]);
+    const ClusterTriangles triangles = triangles_of(mesh, cluster);
+    if (!is_wide(range)) {
+      std::fill(blocks_.begin() + static_cast<std::ptrdiff_t>(block_of(range.first)),
+                blocks_.begin() + static_cast<std::ptrdiff_t>(block_of(range.end - 1)) + 1, std::uint8_t{1});
       continue;
     }
-    // Two clusters meet in this chunk, or its triangles are in random order.
-    const std::size_t first = chunk * kChunkTriangles;
-    for (std::size_t i = first; i < std::min(count, first + kChunkTriangles); ++i) {
-      const glm::uvec3 t = mesh.triangles[i];
-      const IndexRange next{std::min({t.x, t.y, t.z}), std::max({t.x, t.y, t.z})};
-      if (i > begin && !fits(next)) end_cluster(i);
-      range = range.with(next);
-    }
+    for (std::size_t i = 0; i < triangles.count; ++i)
+      for (int k = 0; k < 3; ++k) {
+        const std::size_t vertex = mesh.triangles[triangles.first + i][k];
+        if (range.contains({vertex, vertex + 1})) blocks_[block_of(vertex)] = 1;  // else assemble() fails
+      }
   }
-  end_cluster(count);
-  if (gains_nothing()) return whole();
-  return clusters_;
 }
 
 }  // namespace edgewise
-#endif

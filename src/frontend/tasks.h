@@ -9,6 +9,7 @@
 
 #include "core/buffer.h"
 #include "edgewise/frontend.h"
+#include "frontend/mesh_clusters.h"
 #include "frontend/vertex.h"
 
 namespace edgewise {
@@ -19,8 +20,8 @@ struct MeshTask {
   glm::mat4 to_screen;              // model space → pixels and depth, both times w
   ViewDepth depth;                  // w → contract units
   Vertex* vertices;                 // by the mesh's indices
+  VertexRange vertex_range{};       // of those in `vertices`
   TriangleState* states = nullptr;  // one per triangle, to be written; null: not needed
-  bool vertices_exist = false;      // known of all that triangles name; else assemble() checks it
 
   // True if add_one() must handle every triangle.
   bool one_by_one() const { return options.keep_unsnapped || states != nullptr; }

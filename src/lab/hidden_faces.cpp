@@ -71,7 +71,7 @@ const Drawable& HiddenFaces::drop(const Scene& scene) {
     method_->classify(faces.scene, faces.front);
 
     Mesh& kept = left.meshes[i];
-    kept.triangles.clear(), kept.colours.clear(), kept.flags.clear();
+    kept.triangles.clear(), kept.colours.clear(), kept.flags.clear(), kept.clusters.clear();
     std::size_t begin = 0, end = 0;  // a run of consecutive kept triangles
     for (std::size_t face = 0; face < faces.front.size(); ++face) {
       const std::size_t first = end;

@@ -70,6 +70,7 @@ Mesh sheet(unsigned columns, unsigned rows, Position&& position, Colour&& colour
       const std::uint32_t c = colour(fraction(column, columns), fraction(row, rows));
       mesh.colours.insert(mesh.colours.end(), {c, c});
     }
+  mesh.clusters = clusters_of(mesh);
   return mesh;
 }
 

@@ -225,6 +225,7 @@ Mesh make_mesh(Builder built, const std::vector<std::size_t>& face_lines) {
   mesh.colours.assign(mesh.triangles.size(), kGrey);
   if (!second_halves.empty()) mesh.flags.resize(mesh.triangles.size());
   for (const std::size_t triangle : second_halves) mesh.flags[triangle] = kSecondHalf;
+  mesh.clusters = clusters_of(mesh);
   return mesh;
 }
 

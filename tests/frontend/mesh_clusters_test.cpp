@@ -1,20 +1,24 @@
-// Large meshes are cut into clusters, with the same output.
+// Clusters let the front end skip parts of a mesh, with the same output.
 #include "frontend/mesh_clusters.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
+#include <stdexcept>
 
 #include "core/random.h"
 #include "edgewise/frontend.h"
+#include "frontend/transform.h"
+#include "frontend/view.h"
 
 namespace edgewise {
 namespace {
 
-constexpr unsigned kSide = 300;  // vertices: more than one cluster's
+constexpr unsigned kSide = 300;  // vertices: more than one part's
 
-// A level grid around the camera, row by row.
+// A level grid around the camera, row by row, with clusters.
 Scene grid() {
   Scene scene;
   scene.instances.resize(1);
@@ -32,10 +36,27 @@ Scene grid() {
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) mesh.colours.push_back(i);
   // Two faces of two halves each: at the first triangles, and where clusters meet.
   mesh.flags.assign(mesh.triangles.size(), 0);
-  MeshClusters clusters;
-  const std::size_t meet = clusters.cut(mesh, 1, SimdTarget::scalar)[0].end_triangle;
-  mesh.flags[1] = mesh.flags[meet] = kSecondHalf;
+  mesh.flags[1] = mesh.flags[kClusterTriangles * 5] = kSecondHalf;
+  mesh.clusters = clusters_of(mesh);
   scene.camera.near_z = 0.5f;
+  return scene;
+}
+
+// Two grids in one mesh, the second in reverse order. They meet within a cluster, whose vertices are those of
+// the first grid's end and the second one's.
+Scene two_grids() {
+  Scene scene = grid();
+  Mesh& mesh = scene.meshes[0];
+  const auto vertices = static_cast<std::uint32_t>(mesh.positions.size());
+  const std::size_t triangles = mesh.triangles.size();
+  EXPECT_NE(triangles % kClusterTriangles, 0u);
+  for (std::size_t i = 0; i < vertices; ++i) mesh.positions.push_back(-mesh.positions[i]);
+  for (std::size_t i = 0; i < triangles; ++i) {
+    mesh.triangles.push_back(mesh.triangles[triangles - 1 - i] + vertices);
+    mesh.colours.push_back(mesh.colours[i] + 1'000'000);
+    mesh.flags.push_back(0);
+  }
+  mesh.clusters = clusters_of(mesh);
   return scene;
 }
 
@@ -44,62 +65,60 @@ void shuffle(std::vector<glm::uvec3>& triangles) {
   for (std::size_t i = triangles.size(); i > 1; --i) std::swap(triangles[i - 1], triangles[random.below(i)]);
 }
 
-std::span<const MeshCluster> clusters_of(MeshClusters& clusters, const Mesh& mesh, int threads = 2) {
-  return clusters.cut(mesh, threads, resolve(SimdTarget::best));
-}
-
-TEST(MeshClusters, HoldEveryTriangleAndItsVertices) {
-  const Mesh mesh = grid().meshes[0];
-  ASSERT_GT(mesh.positions.size(), MeshClusters::kMaxVertices);
-  MeshClusters clusters;
-  std::size_t next = 0;
-  for (const MeshCluster& cluster : clusters_of(clusters, mesh)) {
-    EXPECT_EQ(cluster.first_triangle, next);
-    EXPECT_LE(cluster.vertices(), MeshClusters::kMaxVertices);
-    for (; next < cluster.end_triangle; ++next)
-      for (int k = 0; k < 3; ++k) {
-        ASSERT_GE(mesh.triangles[next][k], cluster.first_vertex);
-        ASSERT_LT(mesh.triangles[next][k], cluster.end_vertex);
-      }
-  }
-  EXPECT_EQ(next, mesh.triangles.size());
-}
-
-TEST(MeshClusters, AreOneForMeshesThatGainNothing) {
+TEST(MeshClusters, HoldTheirTrianglesVertices) {
   Mesh mesh = grid().meshes[0];
-  MeshClusters clusters;
-  EXPECT_EQ(clusters_of(clusters, mesh).size(), 2u);
+  ASSERT_EQ(mesh.clusters.size(), (mesh.triangles.size() + kClusterTriangles - 1) / kClusterTriangles);
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const MeshCluster& cluster = mesh.clusters[i / kClusterTriangles];
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t vertex = mesh.triangles[i][k];
+      ASSERT_GE(vertex, cluster.first_vertex);
+      ASSERT_LT(vertex, cluster.end_vertex);
+      ASSERT_EQ(glm::clamp(mesh.positions[vertex], cluster.low, cluster.high), mesh.positions[vertex]);
+    }
+  }
+  EXPECT_LE(mesh.clusters[0].end_vertex - mesh.clusters[0].first_vertex, 2 * kSide);
+  EXPECT_LT(mesh.clusters[0].high.x - mesh.clusters[0].low.x, 0.3f * kSide / 2);
+
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  mesh.positions[mesh.triangles[300].y].y = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(clusters_of(mesh)[1].low, glm::vec3(-kInfinity));
+  EXPECT_EQ(clusters_of(mesh)[1].high, glm::vec3(kInfinity));
+}
+
+TEST(MeshClusters, AreNoneForMeshesThatGainNothing) {
+  Mesh mesh = grid().meshes[0];
   mesh.triangles[7].y = kSide * kSide;
-  EXPECT_EQ(clusters_of(clusters, mesh).size(), 1u) << "a vertex is missing";
+  EXPECT_TRUE(clusters_of(mesh).empty()) << "a vertex is missing";
+  mesh = grid().meshes[0];
+  mesh.triangles.resize(65'536);
+  EXPECT_FALSE(clusters_of(mesh).empty());
+  mesh.triangles.resize(65'535);
+  EXPECT_TRUE(clusters_of(mesh).empty()) << "small";
   mesh = grid().meshes[0];
   shuffle(mesh.triangles);
-  EXPECT_EQ(clusters_of(clusters, mesh).size(), 1u) << "in random order";
+  EXPECT_TRUE(clusters_of(mesh).empty()) << "in random order";
   Mesh soup;
-  for (unsigned i = 0; i < 30'000; ++i) soup.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
+  for (unsigned i = 0; i < 70'000; ++i) soup.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
   soup.positions.resize(3 * soup.triangles.size());
-  EXPECT_EQ(clusters_of(clusters, soup).size(), 2u);
+  EXPECT_FALSE(clusters_of(soup).empty());
   shuffle(soup.triangles);
-  EXPECT_EQ(clusters_of(clusters, soup).size(), 1u) << "no shared vertices, in random order";
-  mesh.triangles.clear();
-  EXPECT_EQ(clusters_of(clusters, mesh).size(), 1u);
+  EXPECT_TRUE(clusters_of(soup).empty()) << "no shared vertices, in random order";
 }
 
-// Two meshes in one, whose triangles are no multiple of a chunk: the clusters meet within a chunk.
-TEST(MeshClusters, MeetWithinAChunk) {
-  Mesh mesh;
-  mesh.positions.resize(80'000);
-  Random random(3);
-  for (unsigned part : {0u, 40'000u})
-    for (int i = 0; i < 3001; ++i) {
-      glm::uvec3 t;
-      for (int k = 0; k < 3; ++k) t[k] = part + static_cast<unsigned>(random.below(40'000));
-      mesh.triangles.push_back(t);
+// Where two grids meet, a cluster names a few vertices of a wide range: no others are transformed for it.
+TEST(MeshClusters, TransformFewMoreVerticesThanTheMeshHas) {
+  for (const Scene& scene : {grid(), two_grids()}) {
+    const Mesh& mesh = scene.meshes[0];
+    ClusterPart part;
+    std::size_t parts = 0, transformed = 0;
+    for (std::size_t next = 0; next < mesh.clusters.size(); ++parts) {
+      next = part.take(mesh, mesh.clusters, next, [](std::size_t) { return false; });
+      part.for_each_vertex_run([&](std::size_t, std::size_t count) { transformed += count; });
     }
-  MeshClusters clusters;
-  const auto cut = clusters_of(clusters, mesh);
-  ASSERT_EQ(cut.size(), 2u);
-  EXPECT_GE(cut[1].first_triangle, 3001u);
-  EXPECT_LT(cut[1].first_triangle, 3010u);
+    EXPECT_GT(parts, 1u);
+    EXPECT_LT(transformed, mesh.positions.size() + mesh.positions.size() / 50);
+  }
 }
 
 std::vector<ScreenTriangle> output(const Scene& scene, Payload payload, int threads) {
@@ -110,48 +129,44 @@ std::vector<ScreenTriangle> output(const Scene& scene, Payload payload, int thre
                                               .shade = false,
                                               .payload = payload,
                                               .threads = threads});
+  EXPECT_EQ(frontend.stats().whole_mesh == 0, scene.meshes[0].clusters.empty());
+  EXPECT_EQ(frontend.stats().triangles, scene.meshes[0].triangles.size());
   return {triangles.begin(), triangles.end()};
 }
 
 TEST(MeshClusters, GiveTheTrianglesOfTheWholeMesh) {
-  const Scene in_clusters = grid();
-  Scene whole = in_clusters;  // many triangles without area, in random order, keep it whole
-  Mesh& mesh = whole.meshes[0];
-  Random random(2);
-  for (int i = 0; i < 20'000; ++i) {
-    const auto v = static_cast<unsigned>(random.below(mesh.positions.size()));
-    mesh.triangles.emplace_back(v, v, static_cast<unsigned>(random.below(mesh.positions.size())));
-  }
-  mesh.colours.resize(mesh.triangles.size());
-  mesh.flags.resize(mesh.triangles.size());
-  MeshClusters clusters;
-  ASSERT_GT(clusters_of(clusters, in_clusters.meshes[0]).size(), 1u);
-  ASSERT_EQ(clusters_of(clusters, mesh).size(), 1u);
-  for (const Payload payload : {Payload::colour, Payload::id}) {
-    const auto expected = output(whole, payload, 1);
-    ASSERT_GT(expected.size(), 1000u);
-    for (const int threads : {1, 2, 5, 16}) {
-      const auto given = output(in_clusters, payload, threads);
-      ASSERT_EQ(given.size(), expected.size());
-      EXPECT_EQ(std::memcmp(given.data(), expected.data(), expected.size() * sizeof expected[0]), 0);
+  for (const Scene& scene : {grid(), two_grids()})
+    for (const float yaw : {0.0f, 2.0f}) {
+      Scene in_clusters = scene;
+      in_clusters.camera.yaw = yaw;
+      Scene whole = in_clusters;
+      whole.meshes[0].clusters.clear();
+      for (const Payload payload : {Payload::colour, Payload::id}) {
+        const auto expected = output(whole, payload, 1);
+        ASSERT_GT(expected.size(), 1000u);
+        for (const int threads : {1, 2, 5, 16}) {
+          const auto given = output(in_clusters, payload, threads);
+          ASSERT_EQ(given.size(), expected.size());
+          EXPECT_EQ(std::memcmp(given.data(), expected.data(), expected.size() * sizeof expected[0]), 0);
+        }
+      }
     }
-  }
 }
 
-TEST(MeshClusters, AreDroppedOneByOneOutsideTheView) {
+TEST(MeshClusters, AreDroppedOutsideTheView) {
   Scene scene = grid();
-  scene.camera.position.z = -10.0f;  // behind it lies a whole cluster
   Frontend frontend;
   const FrontendOptions options{.width = 320, .height = 200, .cull = Cull::none, .keep_states = true};
-  Scene small = scene;  // its states are in memory when the next frame begins
-  small.camera.position.y = 1e6f;
-  small.camera.far_z = 1e7f;
-  small.camera.pitch = -1.5f;
-  frontend.run(small, options);
+  Scene above = scene;  // its states are in memory when the next frame begins
+  above.camera.position.y = 1e6f;
+  above.camera.far_z = 1e7f;
+  above.camera.pitch = -1.5f;
+  frontend.run(above, options);
+  EXPECT_EQ(frontend.stats().whole_mesh, 0u);
   frontend.run(scene, options);
   FrontendStats stats = frontend.stats();
   EXPECT_EQ(stats.meshes_culled, 0u);
-  EXPECT_GT(stats.whole_mesh, 0u);
+  EXPECT_GT(stats.whole_mesh, stats.triangles / 2);
   EXPECT_LT(stats.whole_mesh, stats.triangles);
   EXPECT_EQ(
       static_cast<std::uint64_t>(std::ranges::count(frontend.states(), TriangleState::outside_with_mesh)),
@@ -161,6 +176,77 @@ TEST(MeshClusters, AreDroppedOneByOneOutsideTheView) {
   stats = frontend.stats();
   EXPECT_EQ(stats.meshes_culled, 1u);
   EXPECT_EQ(stats.whole_mesh, stats.triangles);
+}
+
+// A box of one vertex is excluded only if transform.cpp finds the vertex beyond a side, although that rounds
+// to floats. The vertices lie as close to a side as floats can.
+TEST(MeshClusters, ExcludeNoVertexThatFloatsFindInView) {
+  Random random(5);
+  const auto real = [&](float low, float high) {
+    return low + (high - low) * static_cast<float>(random.below(1 << 20)) * 0x1p-20f;
+  };
+  int sides = 0, excluded = 0, in_view = 0;
+  for (int i = 0; i < 100'000; ++i) {
+    Camera camera;
+    camera.position = {real(-3, 3), real(-3, 3), real(-3, 3)};
+    camera.yaw = real(-3, 3), camera.pitch = real(-1, 1);
+    const glm::mat4 to_screen(screen_matrix(camera, 320, 200));
+    const ViewSides view(to_screen, 320, 200);
+    const auto outside = [&](glm::vec3 v) {
+      return outside_of(transform(to_screen, v), 320, 200) & kInvisible;
+    };
+    const auto vertex = [&] { return glm::vec3{real(-200, 200), real(-200, 200), real(-200, 200)}; };
+    const auto excludes = [&](glm::vec3 v) { return view.exclude({v, v, 0, 1}); };
+    glm::vec3 in = vertex(), out = vertex();
+    if (outside(in) != 0 || outside(out) == 0) continue;
+    const glm::vec3 outwards = out - in;
+    for (int step = 0; step < 40; ++step) {
+      const glm::vec3 middle = 0.5f * (in + out);
+      (outside(middle) == 0 ? in : out) = middle;
+    }
+    for (int step = 0; step < 100; ++step) {
+      glm::vec3 v = in;
+      for (int k = 0; k < 3; ++k) v[k] *= 1 + real(-1, 1) * 0x1p-22f;
+      in_view += outside(v) == 0;
+      EXPECT_FALSE(outside(v) == 0 && excludes(v));
+    }
+    ++sides;
+    excluded += excludes(out + 0.01f * outwards);
+  }
+  EXPECT_GT(in_view, 10 * sides);
+  EXPECT_GT(sides, 500);
+  EXPECT_GT(excluded, sides * 9 / 10);
+}
+
+TEST(MeshClusters, OfOtherTrianglesAreRefused) {
+  const auto expect_refused = [](const char* part_of_message, auto&& change) {
+    Scene scene = grid();
+    change(scene.meshes[0]);
+    try {
+      Frontend().run(scene, {});
+      ADD_FAILURE() << part_of_message;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find(part_of_message), std::string::npos) << error.what();
+    }
+  };
+  expect_refused("clusters, not", [](Mesh& mesh) { mesh.clusters.pop_back(); });
+  expect_refused("a mesh's cluster has vertices",
+                 [](Mesh& mesh) { mesh.clusters[200].end_vertex = kSide * kSide + 1; });
+  expect_refused("a mesh's cluster has vertices",
+                 [](Mesh& mesh) { mesh.clusters[200].first_vertex = mesh.clusters[200].end_vertex; });
+  expect_refused("made for other triangles",
+                 [](Mesh& mesh) { mesh.triangles[51'300].y = kSide * kSide - 1; });
+  expect_refused("made for other triangles", [](Mesh& mesh) {  // a vertex between those of two clusters
+    mesh = {};
+    constexpr unsigned kMeet = 100 * kClusterTriangles, kUnused = 1000;
+    for (unsigned i = 0; i < 70'000; ++i)
+      mesh.triangles.push_back(3 * i + (i < kMeet ? 0 : kUnused) + glm::uvec3{0, 1, 2});
+    mesh.positions.assign(3 * mesh.triangles.size() + kUnused, {0, 0, -5});
+    mesh.colours.resize(mesh.triangles.size());
+    mesh.clusters = clusters_of(mesh);
+    mesh.triangles[kMeet].x -= kUnused / 2;
+  });
+  expect_refused("names vertex", [](Mesh& mesh) { mesh.triangles[51'300].y = kSide * kSide; });
 }
 
 }  // namespace
