@@ -21,14 +21,17 @@ namespace edgewise {
 // TileStore::automatic:
 // - A frame larger than half the LLC is streamed: it cannot stay there beside its reader's data.
 // - Empty tiles of other frames get cached stores, since no work overlaps with filling them.
-// - A tile with triangles is streamed on one thread, while the next one is drawn. It is also streamed if the
-//   triangles exceed an L2 cache, so that they need the LLC.
-// - Else it gets cached stores: several threads that stream would wait for the memory's bandwidth.
-constexpr TileStore tile_store_for(bool empty_tile, std::size_t triangles, int threads,
+// - If the triangles exceed an L2 cache, they need the LLC, and a tile with triangles is streamed.
+// - On one thread, a tile with many triangles is streamed while the next one is drawn. Several threads that
+//   stream would wait for the memory's bandwidth.
+// - Other tiles get cached stores.
+enum class TileContent { nothing, few, many };  // triangles
+constexpr TileStore tile_store_for(TileContent content, std::size_t triangles, int threads,
                                    std::size_t frame_bytes, std::size_t llc) {
-  const bool streamed_in_passing = threads == 1 || triangles * sizeof(ScreenTriangle) > kL2Bytes;
-  return frame_bytes <= llc / 2 && (empty_tile || !streamed_in_passing) ? TileStore::cached
-                                                                        : TileStore::streaming;
+  const bool fits_llc = frame_bytes <= llc / 2, fits_l2 = triangles * sizeof(ScreenTriangle) <= kL2Bytes;
+  const bool cached =
+      content == TileContent::nothing || (fits_l2 && (content == TileContent::few || threads > 1));
+  return fits_llc && cached ? TileStore::cached : TileStore::streaming;
 }
 
 // `margin`: CellGrid::margin.
@@ -44,14 +47,12 @@ void draw_in_tiles(std::span<const ScreenTriangle> triangles, FrameView frame, s
   bins.build(triangles, grid, execution.threads, binning, small, ablation.prefetch);
   const auto pixels = static_cast<std::size_t>(frame.stride) * static_cast<std::size_t>(frame.height);
   const std::size_t frame_bytes = pixels * (sizeof(*frame.depth) + sizeof(*frame.payload));
-  const auto store_for = [&](bool empty_tile) {
+  const auto store_for = [&](TileContent content) {
     return ablation.tile_store != TileStore::automatic
                ? ablation.tile_store
-               : tile_store_for(empty_tile, triangles.size(), execution.threads, frame_bytes, llc_bytes());
+               : tile_store_for(content, triangles.size(), execution.threads, frame_bytes, llc_bytes());
   };
-  Ablation resolved = ablation;
-  resolved.tile_store = store_for(false);
-  const bool streaming = store_for(true) == TileStore::streaming;
+  const bool streaming = store_for(TileContent::nothing) == TileStore::streaming;
   const EmptyTilesKernel fill = empty_tiles_kernel(execution.target);
   const int columns = grid.columns();
   list.build(bins, grid, execution.threads);
@@ -59,10 +60,11 @@ void draw_in_tiles(std::span<const ScreenTriangle> triangles, FrameView frame, s
   parallel_in_runs(execution.threads, static_cast<int>(tasks.size()), [&](int i) {
     const TileList::Task& task = tasks[static_cast<std::size_t>(i)];
     if (task.cell == TileList::kEmptyTiles)
-      fill({list.empty_tiles(task.row), task.y0, task.y1, size_log2, frame, background, streaming});
-    else
-      draw_tile(TileTask{triangles.data(), &bins, task.cell, task.cell % columns << size_log2, task.y0,
-                         size_log2, frame, background, resolved});
+      return fill({list.empty_tiles(task.row), task.y0, task.y1, size_log2, frame, background, streaming});
+    Ablation resolved = ablation;
+    resolved.tile_store = store_for(bins.few(task.cell) ? TileContent::few : TileContent::many);
+    draw_tile(TileTask{triangles.data(), &bins, task.cell, task.cell % columns << size_log2, task.y0,
+                       size_log2, frame, background, resolved});
   });
 }
 

@@ -40,6 +40,16 @@ class Bins {
     return true;
   }
 
+  // True if each chunk lists at most kIndicesPerBlock triangles for the cell, and has no masks there.
+  bool few(int cell) const {
+    const auto c = static_cast<std::size_t>(cell);
+    for (const Chunk& chunk : std::span(chunks_).first(used_chunks_)) {
+      const bool one_block = chunk.first[c] == kNone || chunk.cursor[c] - chunk.first[c] < kSlotsPerBlock;
+      if (!one_block || (has_masks_ && !chunk.masks.empty(c))) return false;
+    }
+    return true;
+  }
+
   // Consecutive indices of a cell: one block of a list. `first_slot`: the slot of the first in the chunk.
   struct IndexBlock {
     std::span<const std::uint32_t> indices;
