@@ -30,7 +30,7 @@ enum class Payload {
 // The outcome of a submitted triangle, in the order of the steps. The state of a clipped triangle is that of
 // its piece that got furthest.
 enum class TriangleState : std::uint8_t {
-  outside_with_mesh,  // dropped: its mesh, or a part, lies beyond one side of the view volume
+  outside_with_mesh,  // dropped: its mesh or cluster lies beyond one side of the view volume
   not_finite,         // dropped: a vertex is NaN or infinite, before or after the transform
   outside,            // dropped: beyond one side of the view volume, or nothing left after clipping
   not_in_front,       // dropped: a vertex still has w ≤ 0 after clipping
@@ -64,10 +64,11 @@ struct UnsnappedTriangle {
 //   pieces    = culled + zero_area + emitted
 // An unclipped triangle is one piece.
 struct FrontendStats {
-  std::uint64_t meshes = 0;         // instances submitted
-  std::uint64_t meshes_culled = 0;  // instances that lie beyond one side of the view volume as a whole
+  std::uint64_t meshes = 0;  // instances submitted
+  std::uint64_t meshes_culled =
+      0;  // instances that lie, or each cluster of which lies, beyond one side of the view
   std::uint64_t triangles = 0;      // submitted
-  std::uint64_t whole_mesh = 0;     // dropped with their instance, or with a part of a large mesh
+  std::uint64_t whole_mesh = 0;     // dropped with their instance or cluster
   std::uint64_t not_finite = 0;     // dropped: a vertex is NaN or infinite, before or after the transform
   std::uint64_t outside = 0;        // dropped: beyond a side of the view volume, or nothing left by clipping
   std::uint64_t not_in_front = 0;   // dropped: a vertex still has w ≤ 0 after clipping
@@ -84,8 +85,9 @@ struct FrontendStats {
 };
 
 // A front end keeps its memory between frames and allocates only in the first frame of a kind. It keeps
-// - 16 bytes per vertex of the largest mesh, or up to 4 MB for a group of small meshes,
-// - of a mesh with clusters, up to 16 bytes per cluster,
+// - 16 bytes per vertex of the largest mesh, or up to 4 MB for a group of small meshes (from 48 threads on
+// 0.8 MB per 8 threads),
+// - of a mesh with clusters, less than 150 bytes per cluster and 1 byte per 64 vertices,
 // - 40 bytes per visible triangle (and address space for as many per submitted one),
 // - less than 1 MB per thread,
 // - with keep_unsnapped, 36 bytes more per visible triangle and less than 1 MB more per thread,
@@ -107,12 +109,13 @@ class Frontend {
   // - an instance whose mesh index the scene lacks,
   // - a mesh without one colour per triangle, or whose flags are neither empty nor one per triangle, or whose
   //   first triangle has kSecondHalf,
-  // - a triangle, of an instance in view, whose vertex index the mesh lacks,
-  // - a mesh whose clusters are fewer or more than its triangles need, or name other vertices than the
-  //   triangles in view,
+  // - a triangle, of an instance or cluster in view, whose vertex index the mesh lacks,
+  // - a mesh with another number of clusters than clusters_of() gives, or a cluster in view that names other
+  //   vertices than its triangles,
   // - more than kMaxTriangles triangles (before memory is allocated for them),
   // - a SIMD target that this machine cannot run.
-  // The object may be used again after an exception.
+  // The object may be used again after an exception. Boxes of clusters are not checked: if positions have
+  // changed since clusters_of(), triangles may be missing.
   ScreenTriangles run(const Drawable& drawable, const FrontendOptions& options);
   // Counts of the last call of run().
   const FrontendStats& stats() const;

@@ -12,10 +12,10 @@
 
 namespace edgewise {
 
-// Elements begin … end - 1 of a mesh.
+// Vertices or triangles begin … end - 1 of a group's member.
 struct MeshRun {
   std::size_t member, begin, end;
-  VertexRange allowed;  // vertices that triangles may name
+  VertexRange allowed;  // of triangles: vertices that they may name
 };
 
 class Chunks {

@@ -41,6 +41,10 @@ void check(const Mesh& mesh) {
                                 std::to_string(mesh.flags.size()) + " flags");
   if (!mesh.flags.empty() && mesh.has_flag(0, kSecondHalf))
     throw std::invalid_argument("a mesh begins with the second half of a face");
+  const std::size_t clusters = (mesh.triangles.size() + kClusterTriangles - 1) / kClusterTriangles;
+  if (!mesh.clusters.empty() && mesh.clusters.size() != clusters)
+    throw std::invalid_argument("a mesh has " + std::to_string(mesh.clusters.size()) +
+                                " clusters instead of " + std::to_string(clusters));
 }
 
 const Mesh& mesh_of(const Scene& scene, const Instance& instance) {
@@ -48,14 +52,6 @@ const Mesh& mesh_of(const Scene& scene, const Instance& instance) {
     throw std::invalid_argument("an instance names mesh " + std::to_string(instance.mesh) + " of " +
                                 std::to_string(scene.meshes.size()));
   return scene.meshes[instance.mesh];
-}
-
-void check_clusters(const Mesh& mesh) {
-  const std::size_t expected = (mesh.triangles.size() + kClusterTriangles - 1) / kClusterTriangles;
-  if (!mesh.clusters.empty() && mesh.clusters.size() != expected)
-    throw std::invalid_argument("a mesh has " + std::to_string(mesh.triangles.size()) + " triangles and " +
-                                std::to_string(mesh.clusters.size()) + " clusters, not " +
-                                std::to_string(expected));
 }
 
 void throw_if_vertex_missing(const Mesh& mesh) {
@@ -258,30 +254,28 @@ struct Frontend::State {
   void add_parts(MeshTask task, const ShadeTask& light, std::size_t first_id) {
     const Mesh& mesh = task.mesh;
     const ViewSides view(task.to_screen, options.width, options.height);
-    const std::uint64_t dropped_before = stats.whole_mesh;
-    const auto is_excluded = [&](std::size_t cluster) { return view.exclude(mesh.clusters[cluster]); };
-    for (std::size_t cluster = 0, next; cluster < mesh.clusters.size(); cluster = next) {
-      next = part.take(mesh, mesh.clusters, cluster, is_excluded);
-      std::size_t kept = 0;
-      for (std::size_t i = cluster; i < next; ++i) {
-        if (kept < part.clusters().size() && part.clusters()[kept] == i) {
-          ++kept;
-          continue;
-        }
-        const ClusterTriangles out = triangles_of(mesh, i);
-        drop(task, out.first, out.count);
-      }
-      if (kept == 0) continue;
+    const auto drop_if_outside = [&](std::size_t cluster) {
+      if (!view.exclude(mesh.clusters[cluster])) return false;
+      const ClusterTriangles outside = triangles_of(mesh, cluster);
+      drop(task, outside.first, outside.count);
+      return true;
+    };
+    // For any part of this mesh, so that a camera that turns allocates nothing.
+    vertices.reserve(std::max(max_vertices(), mesh.positions.size()));
+    part.start(mesh, mesh.clusters);
+    bool in_view = false;
+    while (part.take(drop_if_outside)) {
+      in_view = true;
       task.vertex_range = part.range();
       add_member(task, light, first_id, 0, [&](std::size_t member) {
         part.for_each_vertex_run(
             [&](std::size_t first, std::size_t count) { vertex_chunks.add(member, first, count); });
-        part.for_each_triangle_run(mesh, [&](std::size_t first, std::size_t count, VertexRange range) {
+        part.for_each_triangle_run([&](std::size_t first, std::size_t count, VertexRange range) {
           triangle_chunks.add(member, first, count, range);
         });
       });
     }
-    stats.meshes_culled += stats.whole_mesh - dropped_before == mesh.triangles.size();
+    stats.meshes_culled += !in_view;
   }
 
   void run_scene(const Scene& scene) {
@@ -293,7 +287,6 @@ struct Frontend::State {
       const Mesh& mesh = mesh_of(scene, instance);
       check(mesh);
       const glm::mat4 model = model_matrix(instance);
-      check_clusters(mesh);
       const MeshTask task{.options = options,
                           .mesh = mesh,
                           .to_screen = glm::mat4(to_screen * glm::dmat4(model)),

@@ -33,21 +33,25 @@ MeshCluster make_cluster(const Mesh& mesh, ClusterTriangles triangles) {
 
 }  // namespace
 
-std::vector<MeshCluster> clusters_of(const Mesh& mesh) {
-  // The test of the clusters costs more than it gains on small meshes.
-  constexpr std::size_t kLeastTriangles = 1 << 16;
-  const std::size_t count = mesh.triangles.size(), vertices = mesh.positions.size();
-  const auto exists = [&](glm::uvec3 t) { return std::max({t.x, t.y, t.z}) < vertices; };
-  if (count < kLeastTriangles || !std::all_of(mesh.triangles.begin(), mesh.triangles.end(), exists))
-    return {};
-  std::vector<MeshCluster> clusters((count + kClusterTriangles - 1) / kClusterTriangles);
+std::vector<MeshCluster> make_clusters(const Mesh& mesh) {
+  std::vector<MeshCluster> clusters((mesh.triangles.size() + kClusterTriangles - 1) / kClusterTriangles);
   for (std::size_t i = 0; i < clusters.size(); ++i) clusters[i] = make_cluster(mesh, triangles_of(mesh, i));
+  return clusters;
+}
+
+std::vector<MeshCluster> clusters_of(const Mesh& mesh) {
+  constexpr std::size_t kLeastTriangles = 1 << 16;
+  const std::size_t vertices = mesh.positions.size();
+  const auto exists = [&](glm::uvec3 t) { return std::max({t.x, t.y, t.z}) < vertices; };
+  if (mesh.triangles.size() < kLeastTriangles && vertices <= ClusterPart::kMaxVertices) return {};
+  if (!std::all_of(mesh.triangles.begin(), mesh.triangles.end(), exists)) return {};
+  std::vector<MeshCluster> clusters = make_clusters(mesh);
   // In random order, parts share most vertices. Twice as many as the mesh has still gain: transforming a
   // vertex twice costs less than fetching it from memory once.
   ClusterPart part;
+  part.start(mesh, clusters);
   std::size_t transformed = 0;
-  for (std::size_t next = 0; next < clusters.size();) {
-    next = part.take(mesh, clusters, next, [](std::size_t) { return false; });
+  while (part.take([](std::size_t) { return false; })) {
     part.for_each_vertex_run([&](std::size_t, std::size_t run) { transformed += run; });
     if (transformed > 2 * vertices) return {};
   }
@@ -61,7 +65,8 @@ ViewSides::ViewSides(const glm::mat4& to_screen, int width_px, int height_px) {
   const glm::dvec4 x = row(0), y = row(1), z = row(2), w = row(3);
   const glm::dvec4 ends[3] = {w * double(width_px), w * double(height_px), w};
   const glm::dvec4 starts[3] = {x, y, z};
-  // A sum of four products has five roundings on the way of each product, and the comparison one more.
+  // transform.cpp rounds each term at most four times, and the comparison once more: 5 · 2^-24 of the terms'
+  // sum.
   constexpr double kRelativeError = 0x1p-20;
   for (int i = 0; i < 3; ++i) {
     sides_[i] = {starts[i], kRelativeError * glm::abs(starts[i])};
@@ -74,6 +79,7 @@ bool ViewSides::exclude(const MeshCluster& box) const {
   const glm::dvec3 centre = 0.5 * (low + high), half = 0.5 * (high - low);
   const glm::dvec3 farthest = glm::max(glm::abs(low), glm::abs(high));
   for (const Side& side : sides_) {
+    // Of plane · v in the box.
     const double largest = glm::dot(glm::dvec3(side.plane), centre) + side.plane.w +
                            glm::dot(glm::abs(glm::dvec3(side.plane)), half);
     const double error = glm::dot(glm::dvec3(side.error), farthest) + side.error.w;
@@ -83,27 +89,29 @@ bool ViewSides::exclude(const MeshCluster& box) const {
   return false;
 }
 
-VertexRange ClusterPart::checked_vertices(const Mesh& mesh, const MeshCluster& cluster) {
-  const VertexRange range = vertices_of(cluster);
-  if (range.first < range.end && range.end <= mesh.positions.size()) return range;
-  throw std::invalid_argument("a mesh's cluster has vertices " + std::to_string(range.first) + " to " +
-                              std::to_string(range.end) + " of " + std::to_string(mesh.positions.size()));
+VertexRange ClusterPart::checked_vertices(std::size_t cluster) const {
+  const VertexRange range = vertices_of(all_[cluster]);
+  if (range.first < range.end && range.end <= mesh_->positions.size()) return range;
+  throw std::invalid_argument("cluster " + std::to_string(cluster) + " of a mesh names vertices from " +
+                              std::to_string(range.first) + " to before " + std::to_string(range.end) +
+                              " of " + std::to_string(mesh_->positions.size()));
 }
 
-void ClusterPart::mark_vertices(const Mesh& mesh, std::span<const MeshCluster> clusters) {
+void ClusterPart::mark_vertices() {
   blocks_.assign((range_.size() + kBlock - 1) / kBlock, 0);
   const auto block_of = [&](std::size_t vertex) { return (vertex - range_.first) / kBlock; };
   for (const std::size_t cluster : clusters_) {
-    const VertexRange range = vertices_of(clusters[cluster]);
-    const ClusterTriangles triangles = triangles_of(mesh, cluster);
-    if (!is_wide(range)) {
+    const VertexRange range = vertices_of(all_[cluster]);
+    if (range.size() <= kMaxVertices) {
       std::fill(blocks_.begin() + static_cast<std::ptrdiff_t>(block_of(range.first)),
                 blocks_.begin() + static_cast<std::ptrdiff_t>(block_of(range.end - 1)) + 1, std::uint8_t{1});
       continue;
     }
+    // Two parts of the mesh meet in this cluster, or it names vertices in random order.
+    const ClusterTriangles triangles = triangles_of(*mesh_, cluster);
     for (std::size_t i = 0; i < triangles.count; ++i)
       for (int k = 0; k < 3; ++k) {
-        const std::size_t vertex = mesh.triangles[triangles.first + i][k];
+        const std::size_t vertex = mesh_->triangles[triangles.first + i][k];
         if (range.contains({vertex, vertex + 1})) blocks_[block_of(vertex)] = 1;  // else assemble() fails
       }
   }

@@ -1,6 +1,8 @@
-// Selects the clusters of a large mesh (Mesh::clusters) that may be in view, and joins them into parts whose
-// vertices fit the L2 cache. The front end processes one part after the other, and only the vertices that the
-// part's triangles name.
+// Clusters of a mesh (Mesh::clusters), and how the front end uses them:
+// - View-frustum culling: a cluster whose bounding box lies beyond one side of the view is dropped.
+// - The others are joined into parts whose vertices fit the L2 cache. One part is processed after the other,
+// and
+//   only the vertices that its triangles may name are transformed.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +24,7 @@ struct VertexRange {
 
   std::size_t size() const { return end - first; }
   bool contains(VertexRange o) const { return first <= o.first && o.end <= end; }
-  bool overlaps(VertexRange o) const { return first < o.end && o.first < end; }
+  bool touches(VertexRange o) const { return first <= o.end && o.first <= end; }
   VertexRange with(VertexRange o) const { return {std::min(first, o.first), std::max(end, o.end)}; }
 };
 
@@ -39,18 +41,21 @@ inline ClusterTriangles triangles_of(const Mesh& mesh, std::size_t cluster) {
   return {first, std::min(kClusterTriangles, mesh.triangles.size() - first)};
 }
 
+// The clusters of a mesh of any size, all of whose vertices must exist.
+std::vector<MeshCluster> make_clusters(const Mesh& mesh);
+
 // The six sides of the view, in a mesh's model space.
 class ViewSides {
  public:
   // `to_screen`: as in MeshTask.
   ViewSides(const glm::mat4& to_screen, int width_px, int height_px);
-  // True if all vertices in the box are beyond one side. Then transform.cpp, whose floats are rounded, finds
-  // them there too. False for a box that is not finite.
+  // True only if all vertices in the box are beyond one side, and transform.cpp, which rounds to floats,
+  // finds them there too. False for a box that is not finite.
   bool exclude(const MeshCluster& box) const;
 
  private:
-  // x, y, z, 1: a vertex v is beyond the side if plane · v < 0. The rounding errors of transform.cpp are less
-  // than error · |v|.
+  // A vertex v = (x, y, z, 1) is beyond the side if plane · v < 0. The rounding errors of transform.cpp are
+  // less than error · |v|.
   struct Side {
     glm::dvec4 plane, error;
   };
@@ -62,39 +67,46 @@ class ClusterPart {
   // A part has at most this many vertices, unless a single cluster has more.
   static constexpr std::size_t kMaxVertices = kL2Bytes / 4 * 3 / sizeof(Vertex);
 
-  // Replaces the contents by clusters from index `next` on, for which is_excluded(index) is false. Returns
-  // the first index that was not looked at. Throws std::invalid_argument if a cluster names a vertex that the
-  // mesh lacks.
+  // Takes parts of this mesh from now on. Both must outlive the parts.
+  void start(const Mesh& mesh, std::span<const MeshCluster> clusters) {
+    mesh_ = &mesh;
+    all_ = clusters;
+    next_ = 0;
+    clusters_.reserve(clusters.size());
+    blocks_.reserve(mesh.positions.size() / kBlock + 1);
+  }
+  // Replaces the contents by the next clusters for which is_excluded(index) is false; it may be called twice
+  // for those. Returns false if there is none. Throws std::invalid_argument if a cluster names a vertex that
+  // the mesh lacks.
   template <typename IsExcluded>
-  std::size_t take(const Mesh& mesh, std::span<const MeshCluster> clusters, std::size_t next,
-                   IsExcluded&& is_excluded) {
+  bool take(IsExcluded&& is_excluded) {
     clusters_.clear();
-    for (; next < clusters.size(); ++next) {
-      if (is_excluded(next)) continue;
-      const VertexRange more = checked_vertices(mesh, clusters[next]);
+    for (; next_ < all_.size(); ++next_) {
+      if (is_excluded(next_)) continue;
+      const VertexRange more = checked_vertices(next_);
       const VertexRange both = clusters_.empty() ? more : range_.with(more);
       if (!clusters_.empty() && both.size() > kMaxVertices) break;
       range_ = both;
-      clusters_.push_back(next);
+      clusters_.push_back(next_);
     }
-    if (!clusters_.empty()) mark_vertices(mesh, clusters);
-    return next;
+    if (clusters_.empty()) return false;
+    mark_vertices();
+    return true;
   }
-  std::span<const std::size_t> clusters() const { return clusters_; }
-  VertexRange range() const { return range_; }  // of all its vertices; invalid without clusters
+  VertexRange range() const { return range_; }  // of all its vertices
   // Calls visit(first, count, range) for runs of its triangles, in order. All vertices of the range are
   // marked, or all that the triangles name.
   template <typename Visit>
-  void for_each_triangle_run(const Mesh& mesh, Visit&& visit) const {
+  void for_each_triangle_run(Visit&& visit) const {
     for (std::size_t i = 0; i < clusters_.size();) {
       const std::size_t begin = i;
-      VertexRange range = vertices_of(mesh.clusters[clusters_[i]]);
+      VertexRange range = vertices_of(all_[clusters_[i]]);
       for (++i; i < clusters_.size() && clusters_[i] == clusters_[i - 1] + 1; ++i) {
-        const VertexRange more = vertices_of(mesh.clusters[clusters_[i]]);
-        if (!range.overlaps(more) || is_wide(range) || is_wide(more)) break;
+        const VertexRange more = vertices_of(all_[clusters_[i]]);
+        if (!range.touches(more)) break;
         range = range.with(more);
       }
-      const ClusterTriangles last = triangles_of(mesh, clusters_[i - 1]);
+      const ClusterTriangles last = triangles_of(*mesh_, clusters_[i - 1]);
       const std::size_t first = clusters_[begin] * kClusterTriangles;
       visit(first, last.first + last.count - first, range);
     }
@@ -114,14 +126,15 @@ class ClusterPart {
  private:
   static constexpr std::size_t kBlock = 64;  // vertices
 
-  // True if two parts of the mesh meet in a cluster, or it names vertices in random order.
-  static bool is_wide(VertexRange range) { return range.size() > kMaxVertices; }
-  static VertexRange checked_vertices(const Mesh& mesh, const MeshCluster& cluster);
-  void mark_vertices(const Mesh& mesh, std::span<const MeshCluster> clusters);
+  VertexRange checked_vertices(std::size_t cluster) const;
+  void mark_vertices();
 
+  const Mesh* mesh_ = nullptr;
+  std::span<const MeshCluster> all_;
+  std::size_t next_ = 0;  // of all_
   std::vector<std::size_t> clusters_;
   VertexRange range_{};
-  std::vector<std::uint8_t> blocks_;  // nonzero: triangles may name a vertex of this block of range_
+  std::vector<std::uint8_t> blocks_;  // nonzero: the vertices of this block of range_ are marked
 };
 
 }  // namespace edgewise

@@ -18,6 +18,9 @@
 
 namespace edgewise {
 
+// The triangles of a tile; few: Bins::few().
+enum class TileContent { nothing, few, many };
+
 // TileStore::automatic:
 // - A frame larger than half the LLC is streamed: it cannot stay there beside its reader's data.
 // - Empty tiles of other frames get cached stores, since no work overlaps with filling them.
@@ -25,7 +28,6 @@ namespace edgewise {
 // - On one thread, a tile with many triangles is streamed while the next one is drawn. Several threads that
 //   stream would wait for the memory's bandwidth.
 // - Other tiles get cached stores.
-enum class TileContent { nothing, few, many };  // triangles
 constexpr TileStore tile_store_for(TileContent content, std::size_t triangles, int threads,
                                    std::size_t frame_bytes, std::size_t llc) {
   const bool fits_llc = frame_bytes <= llc / 2, fits_l2 = triangles * sizeof(ScreenTriangle) <= kL2Bytes;
@@ -53,6 +55,7 @@ void draw_in_tiles(std::span<const ScreenTriangle> triangles, FrameView frame, s
                : tile_store_for(content, triangles.size(), execution.threads, frame_bytes, llc_bytes());
   };
   const bool streaming = store_for(TileContent::nothing) == TileStore::streaming;
+  const TileStore few = store_for(TileContent::few), many = store_for(TileContent::many);
   const EmptyTilesKernel fill = empty_tiles_kernel(execution.target);
   const int columns = grid.columns();
   list.build(bins, grid, execution.threads);
@@ -62,7 +65,7 @@ void draw_in_tiles(std::span<const ScreenTriangle> triangles, FrameView frame, s
     if (task.cell == TileList::kEmptyTiles)
       return fill({list.empty_tiles(task.row), task.y0, task.y1, size_log2, frame, background, streaming});
     Ablation resolved = ablation;
-    resolved.tile_store = store_for(bins.few(task.cell) ? TileContent::few : TileContent::many);
+    resolved.tile_store = few != many && bins.few(task.cell) ? few : many;
     draw_tile(TileTask{triangles.data(), &bins, task.cell, task.cell % columns << size_log2, task.y0,
                        size_log2, frame, background, resolved});
   });

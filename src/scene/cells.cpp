@@ -11,6 +11,7 @@ void join_cells(Scene& scene) {
       const glm::uvec3 upper = mesh.triangles[i], lower = mesh.triangles[i + 1];
       quads.add_quad({upper.x, upper.y, lower.y, upper.z}, mesh.colours[i]);
     }
+    quads.clusters = clusters_of(quads);
     mesh = std::move(quads);
   }
 }

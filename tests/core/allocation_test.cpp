@@ -99,6 +99,26 @@ TEST(FrontendAllocations, HappenInTheFirstFrameOnly) {
   }
 }
 
+TEST(FrontendAllocations, DoNotHappenWhenTheCameraTurns) {
+  Drawable drawable = find_scene("terrain").make({});
+  Scene& scene = std::get<Scene>(drawable);
+  ASSERT_FALSE(scene.meshes[0].clusters.empty());
+  for (const int threads : {1, 2}) {
+    Frontend frontend;
+    const auto run = [&] { frontend.run(drawable, {.width = 64, .height = 48, .threads = threads}); };
+    scene.camera.pitch = 1.5f;  // the sky
+    run();
+    scene.camera.pitch = 0;
+    run();  // output of a new size
+    std::size_t least = 1000;
+    for (int i = 0; i < 6; ++i) {
+      scene.camera.yaw += 1;
+      least = std::min(least, allocations_in(run));
+    }
+    EXPECT_EQ(least, 0u) << threads << " threads";
+  }
+}
+
 TEST(HiddenFacesAllocations, DoNotHappen) {
   const Scene scene = std::get<Scene>(find_scene("cubes").make({}));
   lab::HiddenFaces hidden(scene, lab::find_facing_method("normal_z"));

@@ -91,10 +91,14 @@ TEST(MeshClusters, AreNoneForMeshesThatGainNothing) {
   mesh.triangles[7].y = kSide * kSide;
   EXPECT_TRUE(clusters_of(mesh).empty()) << "a vertex is missing";
   mesh = grid().meshes[0];
-  mesh.triangles.resize(65'536);
-  EXPECT_FALSE(clusters_of(mesh).empty());
   mesh.triangles.resize(65'535);
+  EXPECT_FALSE(clusters_of(mesh).empty()) << "many vertices";
+  const auto fewer_vertices = static_cast<std::uint32_t>(ClusterPart::kMaxVertices);
+  for (glm::uvec3& t : mesh.triangles) t = glm::min(t, fewer_vertices - 1);
+  mesh.positions.resize(fewer_vertices);
   EXPECT_TRUE(clusters_of(mesh).empty()) << "small";
+  mesh.triangles.push_back(mesh.triangles[0]);
+  EXPECT_FALSE(clusters_of(mesh).empty()) << "many triangles";
   mesh = grid().meshes[0];
   shuffle(mesh.triangles);
   EXPECT_TRUE(clusters_of(mesh).empty()) << "in random order";
@@ -111,11 +115,10 @@ TEST(MeshClusters, TransformFewMoreVerticesThanTheMeshHas) {
   for (const Scene& scene : {grid(), two_grids()}) {
     const Mesh& mesh = scene.meshes[0];
     ClusterPart part;
+    part.start(mesh, mesh.clusters);
     std::size_t parts = 0, transformed = 0;
-    for (std::size_t next = 0; next < mesh.clusters.size(); ++parts) {
-      next = part.take(mesh, mesh.clusters, next, [](std::size_t) { return false; });
+    for (; part.take([](std::size_t) { return false; }); ++parts)
       part.for_each_vertex_run([&](std::size_t, std::size_t count) { transformed += count; });
-    }
     EXPECT_GT(parts, 1u);
     EXPECT_LT(transformed, mesh.positions.size() + mesh.positions.size() / 50);
   }
@@ -153,6 +156,39 @@ TEST(MeshClusters, GiveTheTrianglesOfTheWholeMesh) {
     }
 }
 
+// Among other instances, mirrored and not; with shading, culling, a vertex that is not finite, and states.
+TEST(MeshClusters, GiveTheTrianglesOfScenesOfManyInstances) {
+  Scene scene = two_grids();
+  scene.meshes[0].positions[kSide * 100 + 140].y = std::numeric_limits<float>::infinity();
+  scene.meshes[0].clusters = clusters_of(scene.meshes[0]);
+  scene.meshes.push_back({{{-1, 0, -5}, {1, 0, -5}, {0, 1, -5}}, {{0, 1, 2}, {0, 2, 1}}, {1, 2}});
+  scene.instances = {{.mesh = 1}, {}, {.mesh = 1}, {.scale = {-1, 2, 0.5f}, .angle = 1}, {.mesh = 1}};
+  Scene whole = scene;
+  whole.meshes[0].clusters.clear();
+  for (const Cull cull : cull_modes())
+    for (const SimdTarget target : supported_targets())
+      for (const bool keep : {false, true}) {
+        Frontend expected, given;
+        const FrontendOptions options{.width = 320,
+                                      .height = 200,
+                                      .cull = cull,
+                                      .threads = 3,
+                                      .keep_unsnapped = keep,
+                                      .keep_states = keep,
+                                      .target = target};
+        const auto e = expected.run(whole, options), g = given.run(scene, options);
+        ASSERT_EQ(e.size(), g.size());
+        EXPECT_TRUE(e.empty() || std::memcmp(e.data(), g.data(), e.size_bytes()) == 0);
+        EXPECT_GT(given.stats().whole_mesh, 0u);
+        EXPECT_EQ(given.stats().meshes_culled, 0u);
+        EXPECT_EQ(given.stats().whole_mesh + given.stats().outside, expected.stats().outside);
+        for (std::size_t i = 0; i < given.states().size(); ++i)
+          ASSERT_TRUE(given.states()[i] == expected.states()[i] ||
+                      (given.states()[i] == TriangleState::outside_with_mesh &&
+                       expected.states()[i] == TriangleState::outside));
+      }
+}
+
 TEST(MeshClusters, AreDroppedOutsideTheView) {
   Scene scene = grid();
   Frontend frontend;
@@ -171,6 +207,14 @@ TEST(MeshClusters, AreDroppedOutsideTheView) {
   EXPECT_EQ(
       static_cast<std::uint64_t>(std::ranges::count(frontend.states(), TriangleState::outside_with_mesh)),
       stats.whole_mesh);
+  // In the same group lies a mesh out of view with as many triangles as are kept.
+  scene.meshes.push_back({{{0, 0, 500}}, std::vector<glm::uvec3>(stats.triangles - stats.whole_mesh), {}});
+  scene.meshes[1].colours.resize(scene.meshes[1].triangles.size());
+  scene.instances.insert(scene.instances.begin(), {.mesh = 1});
+  frontend.run(scene, options);
+  EXPECT_EQ(frontend.stats().meshes_culled, 1u);
+  scene.instances.erase(scene.instances.begin());
+
   scene.camera.position.z = -1000.0f;
   frontend.run(scene, options);
   stats = frontend.stats();
@@ -218,6 +262,33 @@ TEST(MeshClusters, ExcludeNoVertexThatFloatsFindInView) {
   EXPECT_GT(excluded, sides * 9 / 10);
 }
 
+TEST(MeshClusters, ExcludeNoBoxThatOverflowsOrIsNotFinite) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  const glm::mat4 to_screen(screen_matrix({}, 320, 200));  // looks along -z
+  const auto excludes = [](const glm::mat4& m, glm::vec3 low, glm::vec3 high) {
+    return ViewSides(m, 320, 200).exclude({low, high, 0, 1});
+  };
+  EXPECT_TRUE(excludes(to_screen, {-1, -1, 5}, {1, 1, 9}));
+  EXPECT_FALSE(excludes(to_screen, {-1, -1, -5}, {1, 1, 9})) << "reaches into the view";
+  EXPECT_FALSE(excludes(to_screen, {-90, -90, -1}, {-0.2f, -0.2f, -1})) << "a corner is in view";
+  EXPECT_FALSE(excludes(to_screen, glm::vec3(-kInfinity), glm::vec3(kInfinity)));
+  EXPECT_FALSE(excludes(to_screen, glm::vec3(std::numeric_limits<float>::quiet_NaN()), {1, 1, 9}));
+  for (const float scale : {1e-38f, 1e-44f, 1e37f})
+    EXPECT_FALSE(excludes(to_screen * scale, {-1, -1, 5}, {1, 1, 9})) << scale;
+}
+
+// The first half of a face is shaded with the second, and may lie in a cluster out of view or another chunk.
+TEST(MeshClusters, LeaveNoVertexUncheckedThatShadingReads) {
+  Scene scene = grid();
+  Mesh& mesh = scene.meshes[0];
+  const ViewSides view(glm::mat4(screen_matrix(scene.camera, 1920, 1080)), 1920, 1080);
+  std::size_t seen = 1;
+  while (view.exclude(mesh.clusters[seen]) || !view.exclude(mesh.clusters[seen - 1])) ++seen;
+  mesh.flags[seen * kClusterTriangles] = kSecondHalf;
+  mesh.triangles[seen * kClusterTriangles - 1].y = ~0u;
+  EXPECT_THROW(Frontend().run(scene, {.cull = Cull::none}), std::invalid_argument);
+}
+
 TEST(MeshClusters, OfOtherTrianglesAreRefused) {
   const auto expect_refused = [](const char* part_of_message, auto&& change) {
     Scene scene = grid();
@@ -229,10 +300,10 @@ TEST(MeshClusters, OfOtherTrianglesAreRefused) {
       EXPECT_NE(std::string(error.what()).find(part_of_message), std::string::npos) << error.what();
     }
   };
-  expect_refused("clusters, not", [](Mesh& mesh) { mesh.clusters.pop_back(); });
-  expect_refused("a mesh's cluster has vertices",
+  expect_refused("clusters instead of", [](Mesh& mesh) { mesh.clusters.pop_back(); });
+  expect_refused("cluster 200 of a mesh names vertices",
                  [](Mesh& mesh) { mesh.clusters[200].end_vertex = kSide * kSide + 1; });
-  expect_refused("a mesh's cluster has vertices",
+  expect_refused("cluster 200 of a mesh names vertices",
                  [](Mesh& mesh) { mesh.clusters[200].first_vertex = mesh.clusters[200].end_vertex; });
   expect_refused("made for other triangles",
                  [](Mesh& mesh) { mesh.triangles[51'300].y = kSide * kSide - 1; });

@@ -13,6 +13,7 @@
 
 #include "edgewise/contract.h"
 #include "edgewise/frontend.h"
+#include "frontend/mesh_clusters.h"
 #include "lab/measure.h"
 #include "lab/oracle.h"
 
@@ -132,6 +133,9 @@ void check_frontend(const Drawable& drawable, int width, int height) {
   FrontendOptions options;
   options.width = std::min(width, kLargestSide);
   options.height = std::min(height, kLargestSide);
+  Drawable in_clusters = drawable;
+  if (auto* scene = std::get_if<Scene>(&in_clusters))
+    for (Mesh& mesh : scene->meshes) mesh.clusters = make_clusters(mesh);
   static Frontend scalar, vectors;  // reused for all inputs, as programs reuse them for all frames
   options.shade = std::holds_alternative<Scene>(drawable);
   for (const Cull cull : {Cull::none, Cull::back}) {
@@ -140,7 +144,7 @@ void check_frontend(const Drawable& drawable, int width, int height) {
     const auto expected = run(scalar, drawable, options);
     for (const SimdTarget target : supported_targets().subspan(1)) {
       options.target = target;
-      const auto actual = run(vectors, drawable, options);
+      const auto actual = run(vectors, in_clusters, options);
       const std::string name(name_of(target));
       require(expected.has_value() == actual.has_value(),
               "only one of scalar and " + name + " rejects the input");

@@ -89,6 +89,7 @@ TEST(HiddenFaces, AreFoundByTheirFirstThreeVerticesAndNeverTwoSided) {
   add(away, 5, false);
   mesh.triangles.emplace_back(0, 1, 2), mesh.colours.push_back(6), mesh.flags.push_back(0);
   mesh.triangles.emplace_back(2, 1, 0), mesh.colours.push_back(7), mesh.flags.push_back(0);
+  mesh.clusters.resize(1);
   const Scene scene{.meshes = {mesh}, .instances = {{}}, .camera = {}};  // seen along -z
   lab::HiddenFaces hidden(scene, normal_z());
   for (int frame = 0; frame < 2; ++frame) {
@@ -100,6 +101,7 @@ TEST(HiddenFaces, AreFoundByTheirFirstThreeVerticesAndNeverTwoSided) {
     EXPECT_EQ(left.triangles[1], glm::uvec3(0, 2, 3));
     EXPECT_EQ(left.triangles[2], glm::uvec3(2, 1, 0));
     EXPECT_EQ(left.positions, mesh.positions);
+    EXPECT_TRUE(left.clusters.empty());
   }
 }
 

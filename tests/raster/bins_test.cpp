@@ -47,6 +47,21 @@ ScreenTriangle triangle(std::int32_t x0, std::int32_t y0, std::int32_t x1, std::
   return t;
 }
 
+TEST(Bins, CountATileAsFewUpToOneBlockOfIndices) {
+  Bins bins;
+  const CellGrid grid{64, 64, 6, 6};
+  const auto is_few = [&](int count, std::int32_t size_px, Bins::Small small) {
+    const std::vector<ScreenTriangle> triangles(static_cast<std::size_t>(count),
+                                                triangle(0, 0, size_px * kSub, 0, 0, size_px * kSub));
+    bins.build(triangles, grid, 1, resolve(SimdTarget::best), small, true);
+    return bins.few(0);
+  };
+  EXPECT_TRUE(is_few(31, 40, Bins::Small::as_masks));
+  EXPECT_FALSE(is_few(32, 40, Bins::Small::as_masks));
+  EXPECT_TRUE(is_few(1, 4, Bins::Small::as_indices));
+  EXPECT_EQ(is_few(1, 4, Bins::Small::as_masks), resolve(SimdTarget::best) == SimdTarget::scalar);
+}
+
 // A right triangle in a corner of 32 x 32 px: the upper left corner, or mirrored to the right (1), down (2)
 // or both (3).
 ScreenTriangle in_corner(int from_px, int to_px, int mirrored) {

@@ -8,6 +8,7 @@
 
 #include "core/random.h"
 #include "edgewise/contract.h"
+#include "frontend/mesh_clusters.h"
 #include "lab/oracle.h"
 
 namespace edgewise::soak {
@@ -79,12 +80,17 @@ std::span<const ScreenTriangle> Checker::check_frontend(const Case& c, Verdict& 
   expected_list_.assign(plain.begin(), plain.end());
   std::erase_if(expected_list_, [](const ScreenTriangle& t) { return contract::signed_area(t) == 0; });
 
+  Drawable in_clusters = *c.drawable;
+  if (auto* scene = std::get_if<Scene>(&in_clusters))
+    for (Mesh& mesh : scene->meshes) mesh.clusters = make_clusters(mesh);
   options.keep_unsnapped = false;
   for (const SimdTarget target : supported_targets())
     for (const int threads : {1, c.threads}) {
       options.target = target;
       options.threads = threads;
-      const bool differs = !same(expected_list_, judged_.frontend(candidate_, *c.drawable, options));
+      // Clusters in one of the two runs, by turns.
+      const Drawable& drawable = (threads == 1) == (c.number % 2 == 0) ? in_clusters : *c.drawable;
+      const bool differs = !same(expected_list_, judged_.frontend(candidate_, drawable, options));
       ++verdict.tally.frontend_lists;
       if (differs) ++verdict.tally.frontend_lists_differ;
       verdict.tally.count("frontend_simd_target", std::string(name_of(target)), differs);
