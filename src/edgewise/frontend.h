@@ -64,9 +64,8 @@ struct UnsnappedTriangle {
 //   pieces    = culled + zero_area + emitted
 // An unclipped triangle is one piece.
 struct FrontendStats {
-  std::uint64_t meshes = 0;  // instances submitted
-  std::uint64_t meshes_culled =
-      0;  // instances that lie, or each cluster of which lies, beyond one side of the view
+  std::uint64_t meshes = 0;         // instances submitted
+  std::uint64_t meshes_culled = 0;  // instances beyond a side of the view, or each of whose clusters is
   std::uint64_t triangles = 0;      // submitted
   std::uint64_t whole_mesh = 0;     // dropped with their instance or cluster
   std::uint64_t not_finite = 0;     // dropped: a vertex is NaN or infinite, before or after the transform
@@ -85,8 +84,7 @@ struct FrontendStats {
 };
 
 // A front end keeps its memory between frames and allocates only in the first frame of a kind. It keeps
-// - 16 bytes per vertex of the largest mesh, or up to 4 MB for a group of small meshes (from 48 threads on
-// 0.8 MB per 8 threads),
+// - 16 bytes per vertex of the largest mesh, or for small meshes 0.5 MB, or 0.8 MB per 8 threads,
 // - of a mesh with clusters, less than 150 bytes per cluster and 1 byte per 64 vertices,
 // - 40 bytes per visible triangle (and address space for as many per submitted one),
 // - less than 1 MB per thread,
@@ -109,9 +107,12 @@ class Frontend {
   // - an instance whose mesh index the scene lacks,
   // - a mesh without one colour per triangle, or whose flags are neither empty nor one per triangle, or whose
   //   first triangle has kSecondHalf,
-  // - a triangle, of an instance or cluster in view, whose vertex index the mesh lacks,
-  // - a mesh with another number of clusters than clusters_of() gives, or a cluster in view that names other
-  //   vertices than its triangles,
+  // - a triangle whose vertex index the mesh lacks, if its instance and cluster, or the other half of its
+  // face, are
+  //   in view,
+  // - a mesh whose clusters are not one per kClusterTriangles triangles,
+  // - a cluster in view whose vertices the mesh lacks, or whose triangles name others (not found in all
+  // cases),
   // - more than kMaxTriangles triangles (before memory is allocated for them),
   // - a SIMD target that this machine cannot run.
   // The object may be used again after an exception. Boxes of clusters are not checked: if positions have

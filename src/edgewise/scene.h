@@ -56,8 +56,8 @@ struct Mesh {
 
 // The clusters of a mesh, for Mesh::clusters: 32 bytes per 256 triangles. With them the front end drops the
 // clusters that are out of view, and transforms the others in parts that fit the L2 cache. Empty where that
-// gains nothing: for meshes below 65,536 triangles and 49,153 vertices, and if triangles name vertices in
-// random order, or a missing one.
+// gains nothing: for meshes of fewer than 65,536 triangles whose vertices fit L2, and if triangles name
+// vertices in random order, or a missing one.
 std::vector<MeshCluster> clusters_of(const Mesh& mesh);
 
 // A mesh placed in the world: scaled, then rotated about an axis through its origin, then translated. A scale

@@ -262,6 +262,9 @@ struct Frontend::State {
     };
     // For any part of this mesh, so that a camera that turns allocates nothing.
     vertices.reserve(std::max(max_vertices(), mesh.positions.size()));
+    vertex_chunks.reserve(mesh.positions.size(), mesh.clusters.size());
+    triangle_chunks.reserve(mesh.triangles.size(), mesh.clusters.size());
+    group.reserve(group.size() + 8);  // a group rarely holds more parts
     part.start(mesh, mesh.clusters);
     bool in_view = false;
     while (part.take(drop_if_outside)) {

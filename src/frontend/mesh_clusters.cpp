@@ -65,8 +65,8 @@ ViewSides::ViewSides(const glm::mat4& to_screen, int width_px, int height_px) {
   const glm::dvec4 x = row(0), y = row(1), z = row(2), w = row(3);
   const glm::dvec4 ends[3] = {w * double(width_px), w * double(height_px), w};
   const glm::dvec4 starts[3] = {x, y, z};
-  // transform.cpp rounds each term at most four times, and the comparison once more: 5 · 2^-24 of the terms'
-  // sum.
+  // transform.cpp rounds each term at most four times, and the product with the width or height once more: at
+  // most 5 · 2^-24 of the sum of the terms' absolute values. This is three times that.
   constexpr double kRelativeError = 0x1p-20;
   for (int i = 0; i < 3; ++i) {
     sides_[i] = {starts[i], kRelativeError * glm::abs(starts[i])};
@@ -79,7 +79,7 @@ bool ViewSides::exclude(const MeshCluster& box) const {
   const glm::dvec3 centre = 0.5 * (low + high), half = 0.5 * (high - low);
   const glm::dvec3 farthest = glm::max(glm::abs(low), glm::abs(high));
   for (const Side& side : sides_) {
-    // Of plane · v in the box.
+    // The largest value of plane · v in the box.
     const double largest = glm::dot(glm::dvec3(side.plane), centre) + side.plane.w +
                            glm::dot(glm::abs(glm::dvec3(side.plane)), half);
     const double error = glm::dot(glm::dvec3(side.error), farthest) + side.error.w;

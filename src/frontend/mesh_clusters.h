@@ -1,8 +1,7 @@
 // Clusters of a mesh (Mesh::clusters), and how the front end uses them:
 // - View-frustum culling: a cluster whose bounding box lies beyond one side of the view is dropped.
-// - The others are joined into parts whose vertices fit the L2 cache. One part is processed after the other,
-// and
-//   only the vertices that its triangles may name are transformed.
+// - The others are joined into parts whose vertices fit the L2 cache, and processed part by part.
+// - Only the vertices that a part's triangles may name are transformed.
 #pragma once
 
 #include <algorithm>
@@ -55,7 +54,7 @@ class ViewSides {
 
  private:
   // A vertex v = (x, y, z, 1) is beyond the side if plane · v < 0. The rounding errors of transform.cpp are
-  // less than error · |v|.
+  // less than the product of `error` and v's absolute coordinates.
   struct Side {
     glm::dvec4 plane, error;
   };
@@ -75,9 +74,9 @@ class ClusterPart {
     clusters_.reserve(clusters.size());
     blocks_.reserve(mesh.positions.size() / kBlock + 1);
   }
-  // Replaces the contents by the next clusters for which is_excluded(index) is false; it may be called twice
-  // for those. Returns false if there is none. Throws std::invalid_argument if a cluster names a vertex that
-  // the mesh lacks.
+  // Replaces the contents by the next clusters for which is_excluded(index) is false. Calls it once for each
+  // excluded cluster, and at most twice for any other. Returns false if no cluster is left. Throws
+  // std::invalid_argument if a cluster names a vertex that the mesh lacks.
   template <typename IsExcluded>
   bool take(IsExcluded&& is_excluded) {
     clusters_.clear();
@@ -95,7 +94,8 @@ class ClusterPart {
   }
   VertexRange range() const { return range_; }  // of all its vertices
   // Calls visit(first, count, range) for runs of its triangles, in order. All vertices of the range are
-  // marked, or all that the triangles name.
+  // marked. A cluster of more than kMaxVertices is a part of its own; of its range, only the vertices that
+  // its triangles name are marked.
   template <typename Visit>
   void for_each_triangle_run(Visit&& visit) const {
     for (std::size_t i = 0; i < clusters_.size();) {

@@ -18,7 +18,7 @@
 
 namespace edgewise {
 
-// The triangles of a tile; few: Bins::few().
+// How many triangles a tile has. Bins::few() defines `few`.
 enum class TileContent { nothing, few, many };
 
 // TileStore::automatic:

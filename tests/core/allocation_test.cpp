@@ -109,13 +109,13 @@ TEST(FrontendAllocations, DoNotHappenWhenTheCameraTurns) {
     scene.camera.pitch = 1.5f;  // the sky
     run();
     scene.camera.pitch = 0;
-    run();  // output of a new size
-    std::size_t least = 1000;
-    for (int i = 0; i < 6; ++i) {
-      scene.camera.yaw += 1;
-      least = std::min(least, allocations_in(run));
+    std::size_t least = 1000, sum = 0;
+    for (int i = 0; i < 12; ++i) {
+      const std::size_t count = allocations_in(run);
+      least = std::min(least, count), sum += count;
+      scene.camera.yaw += 0.5f;
     }
-    EXPECT_EQ(least, 0u) << threads << " threads";
+    EXPECT_EQ(threads == 1 ? sum : least, 0u) << threads << " threads";  // oneTBB's workers allocate, too
   }
 }
 

@@ -10,6 +10,7 @@
 
 #include "core/random.h"
 #include "edgewise/frontend.h"
+#include "frontend/tasks.h"
 #include "frontend/transform.h"
 #include "frontend/view.h"
 
@@ -207,8 +208,11 @@ TEST(MeshClusters, AreDroppedOutsideTheView) {
   EXPECT_EQ(
       static_cast<std::uint64_t>(std::ranges::count(frontend.states(), TriangleState::outside_with_mesh)),
       stats.whole_mesh);
-  // In the same group lies a mesh out of view with as many triangles as are kept.
-  scene.meshes.push_back({{{0, 0, 500}}, std::vector<glm::uvec3>(stats.triangles - stats.whole_mesh), {}});
+  // A mesh out of view, with as many triangles as are kept, fills a group. So that group is dropped while the
+  // clusters' parts are added.
+  scene.meshes.push_back({std::vector<glm::vec3>(4 * kWorthThreads - 1, {0, 0, 500}),
+                          std::vector<glm::uvec3>(stats.triangles - stats.whole_mesh),
+                          {}});
   scene.meshes[1].colours.resize(scene.meshes[1].triangles.size());
   scene.instances.insert(scene.instances.begin(), {.mesh = 1});
   frontend.run(scene, options);
@@ -283,7 +287,10 @@ TEST(MeshClusters, LeaveNoVertexUncheckedThatShadingReads) {
   Mesh& mesh = scene.meshes[0];
   const ViewSides view(glm::mat4(screen_matrix(scene.camera, 1920, 1080)), 1920, 1080);
   std::size_t seen = 1;
-  while (view.exclude(mesh.clusters[seen]) || !view.exclude(mesh.clusters[seen - 1])) ++seen;
+  while (seen < mesh.clusters.size() &&
+         (view.exclude(mesh.clusters[seen]) || !view.exclude(mesh.clusters[seen - 1])))
+    ++seen;
+  ASSERT_LT(seen, mesh.clusters.size());
   mesh.flags[seen * kClusterTriangles] = kSecondHalf;
   mesh.triangles[seen * kClusterTriangles - 1].y = ~0u;
   EXPECT_THROW(Frontend().run(scene, {.cull = Cull::none}), std::invalid_argument);

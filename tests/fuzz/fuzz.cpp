@@ -152,7 +152,7 @@ void check_frontend(const Drawable& drawable, int width, int height) {
       require(expected->size() == actual->size() &&
                   (expected->empty() ||
                    std::memcmp(expected->data(), actual->data(), expected->size_bytes()) == 0),
-              "the front end's triangles differ from scalar to " + name);
+              "the front end's triangles differ from scalar to " + name + " with clusters");
     }
     if (!expected) return;
     check_ranges(*expected);
