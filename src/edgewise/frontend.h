@@ -107,12 +107,11 @@ class Frontend {
   // - an instance whose mesh index the scene lacks,
   // - a mesh without one colour per triangle, or whose flags are neither empty nor one per triangle, or whose
   //   first triangle has kSecondHalf,
-  // - a triangle whose vertex index the mesh lacks, if its instance and cluster, or the other half of its
-  // face, are
-  //   in view,
+  // - a triangle whose vertex index the mesh lacks, if its instance and cluster are in view, or it is half of
+  //   a face in view,
   // - a mesh whose clusters are not one per kClusterTriangles triangles,
-  // - a cluster in view whose vertices the mesh lacks, or whose triangles name others (not found in all
-  // cases),
+  // - a cluster in view whose vertices the mesh lacks,
+  // - a triangle in view that names other vertices than its cluster (not found in all cases),
   // - more than kMaxTriangles triangles (before memory is allocated for them),
   // - a SIMD target that this machine cannot run.
   // The object may be used again after an exception. Boxes of clusters are not checked: if positions have

@@ -41,10 +41,9 @@ void check(const Mesh& mesh) {
                                 std::to_string(mesh.flags.size()) + " flags");
   if (!mesh.flags.empty() && mesh.has_flag(0, kSecondHalf))
     throw std::invalid_argument("a mesh begins with the second half of a face");
-  const std::size_t clusters = (mesh.triangles.size() + kClusterTriangles - 1) / kClusterTriangles;
-  if (!mesh.clusters.empty() && mesh.clusters.size() != clusters)
+  if (!mesh.clusters.empty() && mesh.clusters.size() != cluster_count(mesh))
     throw std::invalid_argument("a mesh has " + std::to_string(mesh.clusters.size()) +
-                                " clusters instead of " + std::to_string(clusters));
+                                " clusters instead of " + std::to_string(cluster_count(mesh)));
 }
 
 const Mesh& mesh_of(const Scene& scene, const Instance& instance) {
@@ -232,23 +231,20 @@ struct Frontend::State {
     start_group();
   }
 
-  // Returns the new member's index. add_runs(member) adds its vertices and triangles to the chunks.
-  template <typename AddRuns>
-  void add_member(const MeshTask& task, const ShadeTask& light, std::size_t first_id, std::uint32_t common,
-                  AddRuns&& add_runs) {
+  // Returns the new member's index. Its vertices and triangles must then be added to the chunks.
+  std::size_t add_member(const MeshTask& task, const ShadeTask& light, std::size_t first_id,
+                         std::uint32_t common) {
     if (group_vertices + task.vertex_range.size() > max_vertices() || group.size() == kMaxMembers)
       run_group();
     group.push_back({task, light, group_vertices, static_cast<std::uint32_t>(first_id), common});
     group_vertices += task.vertex_range.size();
-    add_runs(group.size() - 1);
+    return group.size() - 1;
   }
 
   void add_whole(const MeshTask& task, const ShadeTask& light, std::size_t first_id) {
-    const Mesh& mesh = task.mesh;
-    add_member(task, light, first_id, kInvisible | kNotFinite, [&](std::size_t member) {
-      vertex_chunks.add(member, 0, mesh.positions.size());
-      triangle_chunks.add(member, 0, mesh.triangles.size(), task.vertex_range);
-    });
+    const std::size_t member = add_member(task, light, first_id, kInvisible | kNotFinite);
+    vertex_chunks.add(member, 0, task.mesh.positions.size());
+    triangle_chunks.add(member, 0, task.mesh.triangles.size(), task.vertex_range);
   }
 
   void add_parts(MeshTask task, const ShadeTask& light, std::size_t first_id) {
@@ -270,12 +266,11 @@ struct Frontend::State {
     while (part.take(drop_if_outside)) {
       in_view = true;
       task.vertex_range = part.range();
-      add_member(task, light, first_id, 0, [&](std::size_t member) {
-        part.for_each_vertex_run(
-            [&](std::size_t first, std::size_t count) { vertex_chunks.add(member, first, count); });
-        part.for_each_triangle_run([&](std::size_t first, std::size_t count, VertexRange range) {
-          triangle_chunks.add(member, first, count, range);
-        });
+      const std::size_t member = add_member(task, light, first_id, 0);
+      part.for_each_vertex_run(
+          [&](std::size_t first, std::size_t count) { vertex_chunks.add(member, first, count); });
+      part.for_each_triangle_run([&](std::size_t first, std::size_t count, VertexRange range) {
+        triangle_chunks.add(member, first, count, range);
       });
     }
     stats.meshes_culled += !in_view;

@@ -1,17 +1,14 @@
 #include "frontend/mesh_clusters.h"
 
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
 
+#include "core/finite.h"
+
 namespace edgewise {
 
 namespace {
-
-bool is_finite(glm::vec3 v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 // Requires that all vertices exist.
 MeshCluster make_cluster(const Mesh& mesh, ClusterTriangles triangles) {
@@ -34,9 +31,14 @@ MeshCluster make_cluster(const Mesh& mesh, ClusterTriangles triangles) {
 }  // namespace
 
 std::vector<MeshCluster> make_clusters(const Mesh& mesh) {
-  std::vector<MeshCluster> clusters((mesh.triangles.size() + kClusterTriangles - 1) / kClusterTriangles);
+  std::vector<MeshCluster> clusters(cluster_count(mesh));
   for (std::size_t i = 0; i < clusters.size(); ++i) clusters[i] = make_cluster(mesh, triangles_of(mesh, i));
   return clusters;
+}
+
+void make_clusters(Drawable& drawable) {
+  if (auto* scene = std::get_if<Scene>(&drawable))
+    for (Mesh& mesh : scene->meshes) mesh.clusters = make_clusters(mesh);
 }
 
 std::vector<MeshCluster> clusters_of(const Mesh& mesh) {

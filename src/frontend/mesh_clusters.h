@@ -31,6 +31,10 @@ inline VertexRange vertices_of(const MeshCluster& cluster) {
   return {cluster.first_vertex, cluster.end_vertex};
 }
 
+inline std::size_t cluster_count(const Mesh& mesh) {
+  return (mesh.triangles.size() + kClusterTriangles - 1) / kClusterTriangles;
+}
+
 // The first triangle of a cluster, and the number of its triangles.
 struct ClusterTriangles {
   std::size_t first, count;
@@ -42,6 +46,8 @@ inline ClusterTriangles triangles_of(const Mesh& mesh, std::size_t cluster) {
 
 // The clusters of a mesh of any size, all of whose vertices must exist.
 std::vector<MeshCluster> make_clusters(const Mesh& mesh);
+// Gives them to every mesh of a scene, for tests.
+void make_clusters(Drawable& drawable);
 
 // The six sides of the view, in a mesh's model space.
 class ViewSides {

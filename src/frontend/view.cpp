@@ -5,15 +5,14 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "core/finite.h"
+
 namespace edgewise {
 
 namespace {
 
 void check(const Camera& camera) {
-  const auto finite = [](glm::vec3 v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-  };
-  if (!finite(camera.position) || !std::isfinite(camera.yaw) || !std::isfinite(camera.pitch))
+  if (!is_finite(camera.position) || !std::isfinite(camera.yaw) || !std::isfinite(camera.pitch))
     throw std::invalid_argument("the camera's position, yaw and pitch must be finite");
   if (!(camera.fov_y > 0.0f && camera.fov_y < std::numbers::pi_v<float>))
     throw std::invalid_argument("the camera's field of view must be between 0 and 180 degrees");

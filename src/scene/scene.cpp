@@ -6,6 +6,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "core/finite.h"
+
 namespace edgewise {
 
 void Mesh::add_quad(glm::uvec4 corners, std::uint32_t colour, bool two_sided) {
@@ -38,7 +40,7 @@ void fit(Scene& scene) {
     const glm::mat4 model = model_matrix(instance);
     for (const auto& position : scene.meshes.at(instance.mesh).positions) {
       const glm::vec3 p(model * glm::vec4(position, 1.0f));
-      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) continue;
+      if (!is_finite(p)) continue;
       low = glm::min(low, p);
       high = glm::max(high, p);
     }

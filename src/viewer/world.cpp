@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/finite.h"
 #include "lab/view_space.h"
 
 namespace edgewise::viewer {
@@ -33,7 +34,7 @@ World::World(Drawable drawable) : drawable_(std::move(drawable)) {
     const glm::mat4 model = model_matrix(instance);
     for (const glm::vec3& position : seen->meshes.at(instance.mesh).positions) {
       const glm::vec3 p(model * glm::vec4(position, 1.0f));
-      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) continue;
+      if (!is_finite(p)) continue;
       low = glm::min(low, p);
       high = glm::max(high, p);
     }

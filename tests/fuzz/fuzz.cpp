@@ -134,26 +134,26 @@ void check_frontend(const Drawable& drawable, int width, int height) {
   options.width = std::min(width, kLargestSide);
   options.height = std::min(height, kLargestSide);
   Drawable in_clusters = drawable;
-  if (auto* scene = std::get_if<Scene>(&in_clusters))
-    for (Mesh& mesh : scene->meshes) mesh.clusters = make_clusters(mesh);
+  make_clusters(in_clusters);
   static Frontend scalar, vectors;  // reused for all inputs, as programs reuse them for all frames
   options.shade = std::holds_alternative<Scene>(drawable);
   for (const Cull cull : {Cull::none, Cull::back}) {
     options.cull = cull;
     options.target = SimdTarget::scalar;
     const auto expected = run(scalar, drawable, options);
-    for (const SimdTarget target : supported_targets().subspan(1)) {
-      options.target = target;
-      const auto actual = run(vectors, in_clusters, options);
-      const std::string name(name_of(target));
-      require(expected.has_value() == actual.has_value(),
-              "only one of scalar and " + name + " rejects the input");
-      if (!expected) continue;
-      require(expected->size() == actual->size() &&
-                  (expected->empty() ||
-                   std::memcmp(expected->data(), actual->data(), expected->size_bytes()) == 0),
-              "the front end's triangles differ from scalar to " + name + " with clusters");
-    }
+    for (const SimdTarget target : supported_targets().subspan(1))
+      for (const bool clustered : {false, true}) {
+        options.target = target;
+        const auto actual = run(vectors, clustered ? in_clusters : drawable, options);
+        const std::string name = std::string(name_of(target)) + (clustered ? " with clusters" : "");
+        require(expected.has_value() == actual.has_value(),
+                "only one of scalar and " + name + " rejects the input");
+        if (!expected) continue;
+        require(expected->size() == actual->size() &&
+                    (expected->empty() ||
+                     std::memcmp(expected->data(), actual->data(), expected->size_bytes()) == 0),
+                "the front end's triangles differ from scalar to " + name);
+      }
     if (!expected) return;
     check_ranges(*expected);
     if (cull == Cull::none) check_backends(*expected, {options.width, options.height, 0, 0}, {});

@@ -81,8 +81,7 @@ std::span<const ScreenTriangle> Checker::check_frontend(const Case& c, Verdict& 
   std::erase_if(expected_list_, [](const ScreenTriangle& t) { return contract::signed_area(t) == 0; });
 
   Drawable in_clusters = *c.drawable;
-  if (auto* scene = std::get_if<Scene>(&in_clusters))
-    for (Mesh& mesh : scene->meshes) mesh.clusters = make_clusters(mesh);
+  make_clusters(in_clusters);
   // One of the two runs on each target uses clusters. Which one depends on the case.
   const bool clusters_on_one_thread = Random(c.draws_seed).below(2) == 0;
   options.keep_unsnapped = false;
