@@ -26,6 +26,14 @@ std::span<const ScreenTriangle> Workload::run(Frontend& frontend, int threads) {
   return frontend.run(hidden_->drop(std::get<Scene>(source_->drawable)), options);
 }
 
+void Workload::draw(Frontend& frontend, Backend& backend, FrameView frame, const Execution& execution) {
+  if (hidden_)
+    backend.draw(run(frontend, execution.threads), frame, kBackground, execution);
+  else
+    edgewise::draw(source_->drawable, frontend, frontend_options(execution.threads), backend, frame,
+                   kBackground, execution);
+}
+
 void Workload::drop_hidden(Frontend& frontend) {
   const Framebuffer exact = drawn();
   hidden_.emplace(std::get<Scene>(source_->drawable), *facing_);

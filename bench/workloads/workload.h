@@ -48,6 +48,9 @@ class Workload {
   // The timed work of a front end row: scene to screen triangles. Requires prepare(true).
   std::span<const ScreenTriangle> run(Frontend& frontend, int threads);
 
+  // The timed work of a frame row. Requires prepare(true).
+  void draw(Frontend& frontend, Backend& backend, FrameView frame, const Execution& execution);
+
   FrontendOptions frontend_options(int threads) const;
   const Drawable& drawable() const { return source_->drawable; }
   std::span<const ScreenTriangle> triangles() const { return triangles_; }

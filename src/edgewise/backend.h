@@ -11,10 +11,15 @@
 
 #include "edgewise/framebuffer.h"
 #include "edgewise/limits.h"
+#include "edgewise/scene.h"
 #include "edgewise/screen_triangle.h"
 #include "edgewise/simd_target.h"
 
 namespace edgewise {
+
+class Frontend;
+struct FrontendOptions;
+class TriangleSource;  // internal
 
 // How to draw. No choice here changes a bit of the picture.
 struct Execution {
@@ -46,10 +51,21 @@ class Backend {
             const Execution& execution);
 
  private:
+  friend void draw(const Drawable& drawable, Frontend& frontend, const FrontendOptions& options,
+                   Backend& backend, FrameView frame, std::uint32_t background, const Execution& execution);
+  // Draws the triangles of a source. Returns false if it cannot; then draw_checked() is called. Arguments
+  // are as there.
+  virtual bool draw_source(TriangleSource&, FrameView, std::uint32_t, const Execution&) { return false; }
   // Called with checked arguments and a resolved `execution.target`.
   virtual void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame,
                             std::uint32_t background, const Execution& execution) = 0;
 };
+
+// Frontend::run() and Backend::draw() in one call: the same picture and Frontend::stats(). Streams of small
+// triangles are drawn faster, and with less memory, since most of their screen triangles are not kept.
+// Throws what the two throw, and std::invalid_argument if `options` state another size than `frame` has.
+void draw(const Drawable& drawable, Frontend& frontend, const FrontendOptions& options, Backend& backend,
+          FrameView frame, std::uint32_t background, const Execution& execution);
 
 struct BackendInfo {
   std::string_view name;     // the key in command line, tests, results and charts

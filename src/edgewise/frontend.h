@@ -83,6 +83,11 @@ struct FrontendStats {
   FrontendStats& operator+=(const FrontendStats& other);
 };
 
+class Backend;
+struct Execution;
+struct FrameView;
+class TriangleSource;  // internal
+
 // A front end keeps its memory between frames and allocates only in the first frame of a kind. It keeps
 // - 16 bytes per vertex of the largest mesh, or for small meshes 0.5 MB, or 0.8 MB per 8 threads,
 // - of a mesh with clusters, less than 150 bytes per cluster and 1 byte per 64 vertices,
@@ -117,7 +122,7 @@ class Frontend {
   // The object may be used again after an exception. Boxes of clusters are not checked: if positions have
   // changed since clusters_of(), triangles may be missing.
   ScreenTriangles run(const Drawable& drawable, const FrontendOptions& options);
-  // Counts of the last call of run().
+  // Counts of the last call of run(), or of draw().
   const FrontendStats& stats() const;
   // One entry per triangle that run() returned, if keep_unsnapped was set. Empty otherwise and after an
   // exception. Valid as long as those triangles.
@@ -127,6 +132,12 @@ class Frontend {
   std::span<const TriangleState> states() const;
 
  private:
+  friend void draw(const Drawable& drawable, Frontend& frontend, const FrontendOptions& options,
+                   Backend& backend, FrameView frame, std::uint32_t background, const Execution& execution);
+  // Returns a source for up to `workers` workers, or null if run() must be called. Throws what that throws.
+  TriangleSource* start_source(const Drawable& drawable, const FrontendOptions& options, int workers);
+  void end_source();
+
   struct State;
   std::unique_ptr<State> state_;
 };

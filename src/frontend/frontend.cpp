@@ -9,12 +9,14 @@
 
 #include <algorithm>
 #include <atomic>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/parallel.h"
+#include "core/triangle_source.h"
 #include "edgewise/contract.h"
 #include "edgewise/limits.h"
 #include "frontend/assemble.h"
@@ -120,6 +122,26 @@ struct GroupMember {
   bool out_of_sight() const { return (common & kNotFinite) == 0 && common != 0; }
 };
 
+// Makes the screen triangles of a stream.
+class StreamSource final : public TriangleSource {
+ public:
+  StreamSource(const FrontendOptions& options, const TriangleStream& stream, InOrder& order)
+      : task_{options, stream}, kernel_(stream_kernel(options.target)), order_(order) {}
+  std::size_t size() const override { return task_.stream.triangles.size(); }
+  std::span<const ScreenTriangle> make(int worker, std::size_t begin, std::size_t end) override {
+    ChunkOutput& out = order_.output(worker);
+    out.count = 0;
+    kernel_(task_, begin, end, out);
+    return {out.triangles.data(), out.count};
+  }
+
+ private:
+  StreamTask task_;
+  StreamKernel kernel_;
+  InOrder& order_;
+};
+static_assert(TriangleSource::kRun <= kChunkTriangles);
+
 struct Frontend::State {
   // A group holds consecutive members: most are too small to be worth several threads alone.
   static constexpr std::size_t kMaxMembers = kWorthThreads;
@@ -141,6 +163,21 @@ struct Frontend::State {
   std::size_t state_count = 0;  // valid ones
   FrontendStats stats;
   FrontendOptions options;
+  std::optional<StreamSource> source;
+
+  // Throws std::invalid_argument.
+  void set(const FrontendOptions& o) {
+    unsnapped_count = state_count = 0;
+    for (const int side : {o.width, o.height})
+      if (side < 1 || side > contract::kMaxImageSide)
+        throw std::invalid_argument("image side " + std::to_string(side) + " is outside 1 to " +
+                                    std::to_string(contract::kMaxImageSide));
+    if (o.threads < 1 || o.threads > kMaxThreads)
+      throw std::invalid_argument(std::to_string(o.threads) + " threads are outside 1 to " +
+                                  std::to_string(kMaxThreads));
+    options = o;
+    options.target = resolve(o.target);
+  }
 
   void transform_group() {
     const TransformKernel transform = transform_kernel(options.target);
@@ -345,18 +382,26 @@ Frontend& Frontend::operator=(Frontend&&) noexcept = default;
 
 ScreenTriangles Frontend::run(const Drawable& drawable, const FrontendOptions& options) {
   State& s = *state_;
-  s.unsnapped_count = s.state_count = 0;
-  for (const int side : {options.width, options.height})
-    if (side < 1 || side > contract::kMaxImageSide)
-      throw std::invalid_argument("image side " + std::to_string(side) + " is outside 1 to " +
-                                  std::to_string(contract::kMaxImageSide));
-  if (options.threads < 1 || options.threads > kMaxThreads)
-    throw std::invalid_argument(std::to_string(options.threads) + " threads are outside 1 to " +
-                                std::to_string(kMaxThreads));
-  s.options = options;
-  s.options.target = resolve(options.target);
+  s.set(options);
   s.run(drawable);
   return {{s.screen.data(), s.order.total()}, options.width, options.height};
+}
+
+TriangleSource* Frontend::start_source(const Drawable& drawable, const FrontendOptions& options,
+                                       int workers) {
+  State& s = *state_;
+  const auto* stream = std::get_if<TriangleStream>(&drawable);
+  if (stream == nullptr || options.keep_unsnapped || options.keep_states) return nullptr;
+  s.set(options);
+  s.stats = {};
+  s.stats.triangles = checked_count(stream->triangles.size());
+  s.order.start_frame(workers, false);
+  return &s.source.emplace(s.options, *stream, s.order);
+}
+
+void Frontend::end_source() {
+  state_->source.reset();
+  state_->stats += state_->order.stats();
 }
 
 const FrontendStats& Frontend::stats() const {

@@ -55,6 +55,8 @@ class InOrder {
     });
   }
 
+  // A worker's own, for callers that need no order.
+  ChunkOutput& output(int worker) { return outputs_[static_cast<std::size_t>(worker)]; }
   std::size_t total() const { return total_; }  // output triangles since start_frame()
   FrontendStats stats() const {
     FrontendStats sum;

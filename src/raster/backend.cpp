@@ -3,12 +3,16 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/triangle_source.h"
 #include "edgewise/contract.h"
+#include "edgewise/frontend.h"
 
 namespace edgewise {
 
-void Backend::draw(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
-                   const Execution& execution) {
+namespace {
+
+// `execution` with a resolved target. Throws std::invalid_argument.
+Execution checked(const FrameView& frame, const Execution& execution) {
   const auto in_range = [](int side) { return side >= 1 && side <= contract::kMaxImageSide; };
   if (!in_range(frame.width) || !in_range(frame.height) || frame.stride < frame.width || !frame.depth ||
       !frame.payload)
@@ -20,23 +24,45 @@ void Backend::draw(std::span<const ScreenTriangle> triangles, FrameView frame, s
                                 std::to_string(kMaxThreads));
   if (execution.tile_size != 16 && execution.tile_size != 32 && execution.tile_size != 64)
     throw std::invalid_argument("tile size " + std::to_string(execution.tile_size) + " is not 16, 32 or 64");
+  Execution resolved = execution;
+  resolved.target = resolve(execution.target);
+  return resolved;
+}
+
+void throw_if_of_another_size(int width, int height, const FrameView& frame) {
+  const auto size = [](int w, int h) { return std::to_string(w) + " x " + std::to_string(h) + " px"; };
+  if (width != frame.width || height != frame.height)
+    throw std::invalid_argument("triangles made for " + size(width, height) +
+                                " cannot be drawn into a frame of " + size(frame.width, frame.height));
+}
+
+}  // namespace
+
+void Backend::draw(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
+                   const Execution& execution) {
+  const Execution resolved = checked(frame, execution);
   if (triangles.size() > kMaxTriangles)
     throw std::invalid_argument(std::to_string(triangles.size()) + " triangles are more than " +
                                 std::to_string(kMaxTriangles));
-  Execution checked = execution;
-  checked.target = resolve(execution.target);
-  draw_checked(triangles, frame, background, checked);
+  draw_checked(triangles, frame, background, resolved);
 }
 
 void Backend::draw(const ScreenTriangles& triangles, FrameView frame, std::uint32_t background,
                    const Execution& execution) {
-  const auto size = [](int width, int height) {
-    return std::to_string(width) + " x " + std::to_string(height) + " px";
-  };
-  if (triangles.width() != frame.width || triangles.height() != frame.height)
-    throw std::invalid_argument("triangles made for " + size(triangles.width(), triangles.height()) +
-                                " cannot be drawn into a frame of " + size(frame.width, frame.height));
+  throw_if_of_another_size(triangles.width(), triangles.height(), frame);
   draw(std::span(triangles), frame, background, execution);
+}
+
+void draw(const Drawable& drawable, Frontend& frontend, const FrontendOptions& options, Backend& backend,
+          FrameView frame, std::uint32_t background, const Execution& execution) {
+  throw_if_of_another_size(options.width, options.height, frame);
+  const Execution resolved = checked(frame, execution);
+  if (TriangleSource* const source = frontend.start_source(drawable, options, resolved.threads)) {
+    const bool drawn = backend.draw_source(*source, frame, background, resolved);
+    frontend.end_source();
+    if (drawn) return;
+  }
+  backend.draw(frontend.run(drawable, options), frame, background, resolved);
 }
 
 }  // namespace edgewise

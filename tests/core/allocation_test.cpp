@@ -99,6 +99,21 @@ TEST(FrontendAllocations, HappenInTheFirstFrameOnly) {
   }
 }
 
+TEST_P(Allocations, OfAFrameHappenInTheFirstFrameOnly) {
+  const Drawable stream = find_scene("micro").make({.width = 320, .height = 200, .scale = 0.01});
+  const auto backend = testing::find_drawer(GetParam()).make();
+  Framebuffer frame(320, 200);
+  for (const int threads : {1, 2}) {
+    Frontend frontend;
+    const FrontendOptions options{.width = 320, .height = 200, .cull = Cull::none, .threads = threads};
+    const auto draw_it = [&] {
+      draw(stream, frontend, options, *backend, frame.view(), testing::kBackground, {.threads = threads});
+    };
+    draw_it();
+    EXPECT_EQ(allocations_of_each(draw_it), 0u) << threads << " threads";
+  }
+}
+
 TEST(FrontendAllocations, DoNotHappenWhenTheCameraTurns) {
   Drawable drawable = find_scene("terrain").make({});
   Scene& scene = std::get<Scene>(drawable);

@@ -3,6 +3,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "edgewise/builtin.h"
 #include "edgewise/frontend.h"
 #include "every_backend.h"
 #include "message_of.h"
@@ -232,6 +233,58 @@ TEST_P(EveryBackend, RefusesAFrameOfAnotherSize) {
             "triangles made for 80 x 60 px cannot be drawn into a frame of 81 x 60 px");
   EXPECT_EQ(message_of([&] { draw(80, 59); }),
             "triangles made for 80 x 60 px cannot be drawn into a frame of 80 x 59 px");
+}
+
+// A stream's small and large triangles, some beyond the image. Those for which clip(i) is true cross both
+// depth planes, so each becomes several triangles.
+template <typename Clip>
+TriangleStream stream_to_clip(std::size_t count, Clip&& clip) {
+  constexpr int kWidth = 150, kHeight = 90;
+  TriangleStream stream = random_stream({.width = kWidth, .height = kHeight}, count, 20, 0, 3);
+  for (std::size_t i = 0; i < count; ++i) {
+    auto& vertex = stream.triangles[i].vertex;
+    if (i % 7 == 0) vertex[i % 3].x += 60.0f;
+    if (clip(i)) vertex[0] = {10, 10, -1}, vertex[1] = {140, 20, 0.5f}, vertex[2] = {60, 80, 2};
+  }
+  return stream;
+}
+
+TEST_P(EveryBackend, DrawsADrawableAsTheFrontEndsTriangles) {
+  const Drawable drawables[] = {stream_to_clip(5'000, [](std::size_t i) { return i % 500 == 1; }),
+                                stream_to_clip(5'000, [](std::size_t) { return true; }),  // do not fit
+                                stream_to_clip(3, [](std::size_t) { return false; }), TriangleStream{},
+                                find_scene("cubes").make({})};
+  Frontend plain, frontend;
+  for (const Drawable& drawable : drawables)
+    for (const auto& how : testing::executions()) {
+      FrontendOptions options{.width = 150, .height = 90, .cull = Cull::none, .threads = 2};
+      Framebuffer expected(150, 90), actual(150, 90);
+      backend_->draw(plain.run(drawable, options), expected.view(), kBackground, how.execution);
+      lab::poison(actual);
+      draw(drawable, frontend, options, *backend_, actual.view(), kBackground, how.execution);
+      const std::string what = std::to_string(&drawable - drawables) + ", " + testing::describe(how);
+      testing::expect_same(expected, actual, what);
+      EXPECT_EQ(frontend.stats().triangles, plain.stats().triangles) << what;
+      EXPECT_EQ(frontend.stats().emitted, plain.stats().emitted) << what;
+      EXPECT_EQ(frontend.stats().clipped, plain.stats().clipped) << what;
+    }
+}
+
+TEST_P(EveryBackend, RefusesADrawableForAnotherSizeOrWithInvalidOptions) {
+  const Drawable stream = stream_to_clip(3, [](std::size_t) { return false; });
+  Frontend frontend;
+  Framebuffer frame(150, 90);
+  const auto draw_with = [&](const FrontendOptions& options, const Execution& execution) {
+    draw(stream, frontend, options, *backend_, frame.view(), kBackground, execution);
+  };
+  EXPECT_THROW(draw_with({.width = 151, .height = 90}, {}), std::invalid_argument);
+  EXPECT_THROW(draw_with({.width = 150, .height = 90, .threads = 0}, {}), std::invalid_argument);
+  EXPECT_THROW(draw_with({.width = 150, .height = 90}, {.threads = 0}), std::invalid_argument);
+  EXPECT_THROW(draw_with({.width = 150, .height = 90}, {.tile_size = 17}), std::invalid_argument);
+  draw_with({.width = 150, .height = 90, .keep_states = true}, {});
+  EXPECT_EQ(frontend.states().size(), 3u);
+  draw_with({.width = 150, .height = 90}, {});
+  EXPECT_TRUE(frontend.states().empty());
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, EveryBackend, ::testing::ValuesIn(testing::all_drawers()),

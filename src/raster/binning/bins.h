@@ -4,6 +4,9 @@
 // lists. A cell's triangles are its lists of chunks 0, 1, 2 …, which is the order of submission (rule 7), no
 // matter which thread binned which chunk.
 //
+// The triangles may also come from a source (triangle_source.h), which makes a run of them at a time. A chunk
+// then keeps only those that it lists as indices.
+//
 // A list holds indices of triangles, in chained blocks of two cache lines that are reused from frame to
 // frame. Small triangles may become coverage masks instead (mask_finder.cpp), stored by value in lists of
 // their own (mask_lists.h). Each mask stores its rank among its cell's indices.
@@ -13,6 +16,8 @@
 #include <span>
 #include <vector>
 
+#include "core/buffer.h"
+#include "core/triangle_source.h"
 #include "edgewise/screen_triangle.h"
 #include "edgewise/simd_target.h"
 #include "raster/binning/cell_boxes.h"
@@ -32,6 +37,12 @@ class Bins {
   // entries.
   void build(std::span<const ScreenTriangle> triangles, const CellGrid& grid, int threads, SimdTarget target,
              Small small, bool prefetch);
+
+  // The same for the triangles of a source. Triangles that become masks are not kept. Indices are those of
+  // kept(), which holds the others. Returns false if clipping adds so many triangles that they do not fit.
+  [[nodiscard]] bool build(TriangleSource& source, const CellGrid& grid, int threads, SimdTarget target,
+                           Small small);
+  const ScreenTriangle* kept() const { return kept_.data(); }
 
   bool empty(int cell) const {
     const auto c = static_cast<std::size_t>(cell);
@@ -127,6 +138,8 @@ class Bins {
     std::vector<std::uint32_t> first, cursor;  // for each cell: slot of its first block, next slot to write
     std::uint32_t used = 0;                    // slots in use
     MaskLists masks;
+    ScreenTriangle* kept = nullptr;  // where triangles that are binned as indices are kept; null: nowhere
+    std::size_t next_kept = 0;       // index there
 
     void reset(std::size_t cells);
     // Appends a block to a cell's list. `end_of_last`: the link slot of its last block, or kNone.
@@ -146,7 +159,13 @@ class Bins {
                         bool prefetch, MaskFinder find_masks, std::size_t max_mask_bytes);
   };
 
+  void set_chunk_count(std::size_t triangles, const CellGrid& grid, int threads);
+  template <typename BinPart>
+  void bin_chunks(const CellGrid& grid, int threads, bool prefetch, CellBoxKernel find_boxes,
+                  MaskFinder find_masks, BinPart&& bin_part);
+
   std::vector<Chunk> chunks_;
+  Buffer<ScreenTriangle> kept_;
   WorkPartition partition_;
   std::size_t used_chunks_ = 0;
   bool has_masks_ = false;

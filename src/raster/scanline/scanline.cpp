@@ -16,6 +16,11 @@ class Scanline final : public AblatableBackend {
     draw_in_tiles(triangles, frame, background, execution, ablation, contract::kMaxTile, scratch_,
                   Bins::Small::as_indices, scanline_kernel(execution.target));
   }
+  bool draw_source(TriangleSource& source, FrameView frame, std::uint32_t background,
+                   const Execution& execution) override {
+    return draw_in_tiles(source, frame, background, execution, ablation, contract::kMaxTile, scratch_,
+                         Bins::Small::as_indices, scanline_kernel(execution.target));
+  }
   TileScratch scratch_;
 };
 

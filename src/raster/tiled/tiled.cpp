@@ -15,6 +15,12 @@ class Tiled final : public AblatableBackend {
                   ablation.coverage_masks ? Bins::Small::as_masks : Bins::Small::as_indices,
                   tile_kernel(execution.target));
   }
+  bool draw_source(TriangleSource& source, FrameView frame, std::uint32_t background,
+                   const Execution& execution) override {
+    return draw_in_tiles(source, frame, background, execution, ablation, execution.tile_size, scratch_,
+                         ablation.coverage_masks ? Bins::Small::as_masks : Bins::Small::as_indices,
+                         tile_kernel(execution.target));
+  }
   TileScratch scratch_;
 };
 
