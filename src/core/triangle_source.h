@@ -1,5 +1,6 @@
-// Makes screen triangles where binning needs them. A run of them is binned while it lies in the L2 cache, so
-// small triangles never go through memory.
+// Screen triangles as binning reads them: a run at a time. They may lie in memory, or be made where binning
+// needs them. A run that has just been made is binned while it lies in the L2 cache, so small triangles never
+// go through memory.
 #pragma once
 
 #include <cstddef>
@@ -20,6 +21,21 @@ class TriangleSource {
   // Returns the screen triangles of inputs begin … end - 1, in order. They are valid until the next call with
   // the same `worker`. Calls with different workers may run at once. Does not throw.
   virtual std::span<const ScreenTriangle> make(int worker, std::size_t begin, std::size_t end) = 0;
+  // The screen triangles if they lie in memory, one per input. Else null.
+  virtual const ScreenTriangle* stored() const { return nullptr; }
+};
+
+class StoredTriangles final : public TriangleSource {
+ public:
+  explicit StoredTriangles(std::span<const ScreenTriangle> triangles) : triangles_(triangles) {}
+  std::size_t size() const override { return triangles_.size(); }
+  std::span<const ScreenTriangle> make(int, std::size_t begin, std::size_t end) override {
+    return triangles_.subspan(begin, end - begin);
+  }
+  const ScreenTriangle* stored() const override { return triangles_.data(); }
+
+ private:
+  std::span<const ScreenTriangle> triangles_;
 };
 
 }  // namespace edgewise

@@ -9,6 +9,7 @@
 
 #include "core/llc.h"
 #include "core/parallel.h"
+#include "core/triangle_source.h"
 #include "edgewise/backend.h"
 #include "raster/ablation.h"
 #include "raster/binning/bins.h"
@@ -36,24 +37,28 @@ constexpr TileStore tile_store_for(TileContent content, std::size_t triangles, i
   return fits_llc && cached ? TileStore::cached : TileStore::streaming;
 }
 
-// Draws what is in scratch.bins. `triangles`: what its indices refer to. `count`: of all triangles.
+// Returns false if Bins::build() does; then nothing is drawn. `margin`: CellGrid::margin.
 template <typename DrawTile>
-void draw_binned(const ScreenTriangle* triangles, std::size_t count, const CellGrid& grid, FrameView frame,
-                 std::uint32_t background, const Execution& execution, const Ablation& ablation,
-                 TileScratch& scratch, DrawTile&& draw_tile) {
-  const Bins& bins = scratch.bins;
+bool draw_in_tiles(TriangleSource& triangles, FrameView frame, std::uint32_t background,
+                   const Execution& execution, const Ablation& ablation, int tile_size, TileScratch& scratch,
+                   Bins::Small small, DrawTile&& draw_tile, std::int32_t margin = 0) {
+  const int size_log2 = std::countr_zero(static_cast<unsigned>(tile_size));
+  const CellGrid grid{frame.width, frame.height, size_log2, size_log2, margin};
+  const SimdTarget binning = ablation.vector_setup ? execution.target : SimdTarget::scalar;
+  Bins& bins = scratch.bins;
   TileList& list = scratch.list;
+  if (!bins.build(triangles, grid, execution.threads, binning, small, ablation.prefetch)) return false;
   const auto pixels = static_cast<std::size_t>(frame.stride) * static_cast<std::size_t>(frame.height);
   const std::size_t frame_bytes = pixels * (sizeof(*frame.depth) + sizeof(*frame.payload));
   const auto store_for = [&](TileContent content) {
     return ablation.tile_store != TileStore::automatic
                ? ablation.tile_store
-               : tile_store_for(content, count, execution.threads, frame_bytes, llc_bytes());
+               : tile_store_for(content, triangles.size(), execution.threads, frame_bytes, llc_bytes());
   };
   const bool streaming = store_for(TileContent::nothing) == TileStore::streaming;
   const TileStore few = store_for(TileContent::few), many = store_for(TileContent::many);
   const EmptyTilesKernel fill = empty_tiles_kernel(execution.target);
-  const int columns = grid.columns(), size_log2 = grid.cell_w_log2;
+  const int columns = grid.columns();
   list.build(bins, grid, execution.threads);
   const std::span<const TileList::Task> tasks = list.tasks();
   parallel_in_runs(execution.threads, static_cast<int>(tasks.size()), [&](int i) {
@@ -62,43 +67,21 @@ void draw_binned(const ScreenTriangle* triangles, std::size_t count, const CellG
       return fill({list.empty_tiles(task.row), task.y0, task.y1, size_log2, frame, background, streaming});
     Ablation resolved = ablation;
     resolved.tile_store = few != many && bins.few(task.cell) ? few : many;
-    draw_tile(TileTask{triangles, &bins, task.cell, task.cell % columns << size_log2, task.y0, size_log2,
-                       frame, background, resolved});
+    draw_tile(TileTask{bins.triangles(), &bins, task.cell, task.cell % columns << size_log2, task.y0,
+                       size_log2, frame, background, resolved});
   });
-}
-
-inline SimdTarget binning_target(const Execution& execution, const Ablation& ablation) {
-  return ablation.vector_setup ? execution.target : SimdTarget::scalar;
-}
-
-inline CellGrid tile_grid(const FrameView& frame, int tile_size, std::int32_t margin = 0) {
-  const int size_log2 = std::countr_zero(static_cast<unsigned>(tile_size));
-  return {frame.width, frame.height, size_log2, size_log2, margin};
-}
-
-// `margin`: CellGrid::margin.
-template <typename DrawTile>
-void draw_in_tiles(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
-                   const Execution& execution, const Ablation& ablation, int tile_size, TileScratch& scratch,
-                   Bins::Small small, DrawTile&& draw_tile, std::int32_t margin = 0) {
-  const CellGrid grid = tile_grid(frame, tile_size, margin);
-  scratch.bins.build(triangles, grid, execution.threads, binning_target(execution, ablation), small,
-                     ablation.prefetch);
-  draw_binned(triangles.data(), triangles.size(), grid, frame, background, execution, ablation, scratch,
-              draw_tile);
-}
-
-// The same for a source. Returns false if Bins::build() does; then nothing is drawn.
-template <typename DrawTile>
-bool draw_in_tiles(TriangleSource& source, FrameView frame, std::uint32_t background,
-                   const Execution& execution, const Ablation& ablation, int tile_size, TileScratch& scratch,
-                   Bins::Small small, DrawTile&& draw_tile) {
-  const CellGrid grid = tile_grid(frame, tile_size);
-  if (!scratch.bins.build(source, grid, execution.threads, binning_target(execution, ablation), small))
-    return false;
-  draw_binned(scratch.bins.kept(), source.size(), grid, frame, background, execution, ablation, scratch,
-              draw_tile);
   return true;
 }
+
+// A backend that draws tile by tile overrides draw_source().
+class TileBackend : public AblatableBackend {
+  bool draw_source(TriangleSource& triangles, FrameView frame, std::uint32_t background,
+                   const Execution& execution) override = 0;
+  void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
+                    const Execution& execution) final {
+    StoredTriangles stored(triangles);
+    draw_source(stored, frame, background, execution);
+  }
+};
 
 }  // namespace edgewise

@@ -40,9 +40,9 @@ TEST(TileStore, IsTheCallersChoiceIfItMakesOne) {
   const auto tiles_streamed = [&](TileStore store, int threads, std::size_t count_triangles = 400) {
     streamed = drawn = 0;
     TileScratch scratch;
-    draw_in_tiles(std::span(triangles).first(count_triangles), frame.view(), 0,
-                  {threads, 64, resolve(SimdTarget::best)}, {.tile_store = store}, 64, scratch,
-                  Bins::Small::as_indices, count);
+    StoredTriangles first{std::span(triangles).first(count_triangles)};
+    draw_in_tiles(first, frame.view(), 0, {threads, 64, resolve(SimdTarget::best)}, {.tile_store = store}, 64,
+                  scratch, Bins::Small::as_indices, count);
     return streamed.load();
   };
   EXPECT_EQ(tiles_streamed(TileStore::cached, 1), 0);
@@ -69,8 +69,9 @@ TEST(TileStore, FillsEveryEmptyTile) {
       for (const FrameView view = frame.view(); std::uint32_t * plane : {view.depth, view.payload})
         std::fill_n(plane, view.stride * view.height, 0xABu);
       TileScratch scratch;
-      draw_in_tiles(triangles, frame.view(), 42, {2, 64, resolve(SimdTarget::best)}, {.tile_store = store},
-                    64, scratch, Bins::Small::as_indices, tile_kernel(resolve(SimdTarget::best)));
+      StoredTriangles stored(triangles);
+      draw_in_tiles(stored, frame.view(), 42, {2, 64, resolve(SimdTarget::best)}, {.tile_store = store}, 64,
+                    scratch, Bins::Small::as_indices, tile_kernel(resolve(SimdTarget::best)));
       for (int y = 0; y < 200; ++y)
         for (int x = 0; x < width; ++x) {
           ASSERT_EQ(frame.payload_row(y)[x], expected.payload_row(y)[x]) << x << ' ' << y;

@@ -29,8 +29,9 @@ void draw_engine(EngineNumbers numbers, const CoverageInput& input, Window windo
   Execution resolved = execution;
   resolved.target = resolve(execution.target);
   const EngineKernel kernel = engine_kernel(numbers, resolved.target);
+  StoredTriangles triangles(input.snapped);
   draw_in_tiles(
-      input.snapped, frame, background, resolved, {.coverage_masks = false}, resolved.tile_size, scratch,
+      triangles, frame, background, resolved, {.coverage_masks = false}, resolved.tile_size, scratch,
       Bins::Small::as_indices,
       [&](const TileTask& task) {
         kernel.draw_tile({task, input.floats.data(), window.x0, window.y0, kernel.reads_floats});

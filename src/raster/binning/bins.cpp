@@ -182,89 +182,67 @@ void Bins::Chunk::bin_with_masks(std::span<const ScreenTriangle> triangles, std:
   });
 }
 
-void Bins::set_chunk_count(std::size_t triangles, const CellGrid& grid, int threads) {
+bool Bins::build(TriangleSource& source, const CellGrid& grid, int threads, SimdTarget target, Small small,
+                 bool prefetch) {
   // Triangles per chunk: a thousand large ones are worth two threads, but short lists leave SIMD lanes of the
   // tile kernel empty.
   constexpr std::size_t kMinChunk = 500;
   // List heads of all chunks: 128 MB, or 384 MB with masks.
   constexpr std::size_t kMaxHeads = std::size_t{1} << 24;
-  const auto cells = static_cast<std::size_t>(grid.cells());
-  // At most one chunk per thread: each further list of a cell costs a lookup and a partly filled block.
-  const auto most = static_cast<std::size_t>(threads);
-  const std::size_t affordable = std::max<std::size_t>(1, kMaxHeads / cells);
-  used_chunks_ = std::clamp<std::size_t>(triangles / kMinChunk, 1, std::min(most, affordable));
-  if (chunks_.size() < used_chunks_) chunks_.resize(used_chunks_);
-}
-
-// Calls bin_part(chunk, its index, bin) in parallel, which calls bin(triangles, index of the first).
-// `find_masks`: null for no masks.
-template <typename BinPart>
-void Bins::bin_chunks(const CellGrid& grid, int threads, bool prefetch, CellBoxKernel find_boxes,
-                      MaskFinder find_masks, BinPart&& bin_part) {
   // Together with triangles and frame, less than 100 bytes per small triangle and 16 per pixel.
   constexpr std::size_t kMaskBytesPerTriangle = 40, kMaskBytesPerPixel = 8;
   const auto cells = static_cast<std::size_t>(grid.cells());
+  // At most one chunk per thread: each further list of a cell costs a lookup and a partly filled block.
+  const auto most = static_cast<std::size_t>(threads);
   const std::size_t pixels = static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height);
+  const std::size_t affordable = std::max<std::size_t>(1, kMaxHeads / cells);
+  used_chunks_ = std::clamp<std::size_t>(source.size() / kMinChunk, 1, std::min(most, affordable));
+  if (chunks_.size() < used_chunks_) chunks_.resize(used_chunks_);
+
+  const CellBoxKernel find_boxes = cell_box_kernel(target);
+  const MaskFinder find_masks = small == Small::as_masks ? mask_finder(target) : nullptr;
+  const ScreenTriangle* const stored = source.stored();
+  if (find_masks != nullptr && stored != nullptr)
+    partition_.cut_by_work({stored, source.size()}, grid.width, grid.height, used_chunks_);
+  else
+    partition_.cut_equally(source.size(), used_chunks_);
+  // Where a chunk that begins with this input keeps its triangles. An eighth more than inputs.
+  const auto kept_at = [](std::size_t input) { return input + input / 8; };
+  if (stored == nullptr) kept_.reserve(kept_at(source.size()));
+  triangles_ = stored != nullptr ? stored : kept_.data();
+  std::atomic<bool> all_fit{true};
   parallel_for(threads, static_cast<int>(used_chunks_), [&](int i) {
     const auto c = static_cast<std::size_t>(i);
+    const std::size_t begin = partition_.bounds()[c], end = partition_.bounds()[c + 1];
     Chunk& chunk = chunks_[c];
     chunk.reset(cells);
-    const std::size_t count = partition_.bounds()[c + 1] - partition_.bounds()[c];
-    if (find_masks != nullptr) chunk.masks.reset(cells, count);
+    chunk.kept = stored != nullptr ? nullptr : kept_.data();
+    chunk.next_kept = kept_at(begin);
+    if (find_masks != nullptr) chunk.masks.reset(cells, end - begin);
     const std::size_t max_mask_bytes =
-        count * kMaskBytesPerTriangle + pixels * kMaskBytesPerPixel / used_chunks_;
-    bin_part(chunk, c, [&](std::span<const ScreenTriangle> triangles, std::size_t first) {
+        (end - begin) * kMaskBytesPerTriangle + pixels * kMaskBytesPerPixel / used_chunks_;
+    for (std::size_t at = begin; at < end; at += TriangleSource::kRun) {
+      const auto run = source.make(i, at, std::min(end, at + TriangleSource::kRun));
+      if (chunk.kept != nullptr && chunk.next_kept + run.size() > kept_at(end)) {
+        all_fit = false;
+        return;
+      }
       if (find_masks != nullptr)
-        chunk.bin_with_masks(triangles, first, grid, prefetch, find_masks, max_mask_bytes);
+        chunk.bin_with_masks(run, at, grid, prefetch, find_masks, max_mask_bytes);
       else
-        chunk.bin_as_indices(triangles, first, grid, prefetch, find_boxes);
-    });
+        chunk.bin_as_indices(run, at, grid, prefetch, find_boxes);
+    }
   });
   has_masks_ = find_masks != nullptr &&
                std::any_of(chunks_.begin(), chunks_.begin() + static_cast<std::ptrdiff_t>(used_chunks_),
                            [](const Chunk& chunk) { return chunk.masks.any(); });
+  return all_fit;
 }
 
 void Bins::build(std::span<const ScreenTriangle> triangles, const CellGrid& grid, int threads,
                  SimdTarget target, Small small, bool prefetch) {
-  const MaskFinder find_masks = small == Small::as_masks ? mask_finder(target) : nullptr;
-  set_chunk_count(triangles.size(), grid, threads);
-  if (find_masks != nullptr)
-    partition_.cut_by_work(triangles, grid.width, grid.height, used_chunks_);
-  else
-    partition_.cut_equally(triangles.size(), used_chunks_);
-  bin_chunks(grid, threads, prefetch, cell_box_kernel(target), find_masks,
-             [&](Chunk& chunk, std::size_t c, auto&& bin) {
-               const std::size_t begin = partition_.bounds()[c], end = partition_.bounds()[c + 1];
-               chunk.kept = nullptr;
-               bin(triangles.subspan(begin, end - begin), begin);
-             });
-}
-
-bool Bins::build(TriangleSource& source, const CellGrid& grid, int threads, SimdTarget target, Small small) {
-  const MaskFinder find_masks = small == Small::as_masks ? mask_finder(target) : nullptr;
-  set_chunk_count(source.size(), grid, threads);
-  partition_.cut_equally(source.size(), used_chunks_);
-  // Where the triangles of a chunk are kept that begins with this input. An eighth more than inputs.
-  const auto kept_at = [](std::size_t input) { return input + input / 8; };
-  kept_.reserve(kept_at(source.size()));
-  std::atomic<bool> all_fit{true};
-  bin_chunks(grid, threads, false, cell_box_kernel(target), find_masks,
-             [&](Chunk& chunk, std::size_t c, auto&& bin) {
-               const std::size_t begin = partition_.bounds()[c], end = partition_.bounds()[c + 1];
-               chunk.kept = kept_.data();
-               chunk.next_kept = kept_at(begin);
-               for (std::size_t i = begin; i < end; i += TriangleSource::kRun) {
-                 const auto run =
-                     source.make(static_cast<int>(c), i, std::min(end, i + TriangleSource::kRun));
-                 if (chunk.next_kept + run.size() > kept_at(end)) {
-                   all_fit = false;
-                   return;
-                 }
-                 bin(run, 0);
-               }
-             });
-  return all_fit;
+  StoredTriangles stored(triangles);
+  (void)build(stored, grid, threads, target, small, prefetch);
 }
 
 }  // namespace edgewise

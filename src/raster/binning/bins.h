@@ -4,8 +4,8 @@
 // lists. A cell's triangles are its lists of chunks 0, 1, 2 …, which is the order of submission (rule 7), no
 // matter which thread binned which chunk.
 //
-// The triangles may also come from a source (triangle_source.h), which makes a run of them at a time. A chunk
-// then keeps only those that it lists as indices.
+// If a source makes the triangles while they are binned (triangle_source.h), a chunk keeps only those that it
+// lists as indices.
 //
 // A list holds indices of triangles, in chained blocks of two cache lines that are reused from frame to
 // frame. Small triangles may become coverage masks instead (mask_finder.cpp), stored by value in lists of
@@ -34,15 +34,15 @@ class Bins {
   // Replaces the previous contents. A triangle without a sample in its bounding box is dropped; one without
   // area may be listed in up to four cells. as_masks needs cells that are tiles, and makes no masks on the
   // scalar target. `prefetch`: prefetch triangles. Throws std::length_error when a chunk's lists exceed 2^32
-  // entries.
+  // entries. Returns false if the source makes so many triangles more than it has inputs that they cannot be
+  // kept: then the contents are not those of all triangles.
+  [[nodiscard]] bool build(TriangleSource& source, const CellGrid& grid, int threads, SimdTarget target,
+                           Small small, bool prefetch);
   void build(std::span<const ScreenTriangle> triangles, const CellGrid& grid, int threads, SimdTarget target,
              Small small, bool prefetch);
 
-  // The same for the triangles of a source. Triangles that become masks are not kept. Indices are those of
-  // kept(), which holds the others. Returns false if clipping adds so many triangles that they do not fit.
-  [[nodiscard]] bool build(TriangleSource& source, const CellGrid& grid, int threads, SimdTarget target,
-                           Small small);
-  const ScreenTriangle* kept() const { return kept_.data(); }
+  // What indices refer to: the stored triangles of the source, or those that were kept of it.
+  const ScreenTriangle* triangles() const { return triangles_; }
 
   bool empty(int cell) const {
     const auto c = static_cast<std::size_t>(cell);
@@ -159,13 +159,9 @@ class Bins {
                         bool prefetch, MaskFinder find_masks, std::size_t max_mask_bytes);
   };
 
-  void set_chunk_count(std::size_t triangles, const CellGrid& grid, int threads);
-  template <typename BinPart>
-  void bin_chunks(const CellGrid& grid, int threads, bool prefetch, CellBoxKernel find_boxes,
-                  MaskFinder find_masks, BinPart&& bin_part);
-
   std::vector<Chunk> chunks_;
   Buffer<ScreenTriangle> kept_;
+  const ScreenTriangle* triangles_ = nullptr;
   WorkPartition partition_;
   std::size_t used_chunks_ = 0;
   bool has_masks_ = false;

@@ -10,15 +10,10 @@ namespace edgewise {
 
 namespace {
 
-class Scanline final : public AblatableBackend {
-  void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
-                    const Execution& execution) override {
-    draw_in_tiles(triangles, frame, background, execution, ablation, contract::kMaxTile, scratch_,
-                  Bins::Small::as_indices, scanline_kernel(execution.target));
-  }
-  bool draw_source(TriangleSource& source, FrameView frame, std::uint32_t background,
+class Scanline final : public TileBackend {
+  bool draw_source(TriangleSource& triangles, FrameView frame, std::uint32_t background,
                    const Execution& execution) override {
-    return draw_in_tiles(source, frame, background, execution, ablation, contract::kMaxTile, scratch_,
+    return draw_in_tiles(triangles, frame, background, execution, ablation, contract::kMaxTile, scratch_,
                          Bins::Small::as_indices, scanline_kernel(execution.target));
   }
   TileScratch scratch_;

@@ -8,16 +8,10 @@ namespace edgewise {
 
 namespace {
 
-class Tiled final : public AblatableBackend {
-  void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
-                    const Execution& execution) override {
-    draw_in_tiles(triangles, frame, background, execution, ablation, execution.tile_size, scratch_,
-                  ablation.coverage_masks ? Bins::Small::as_masks : Bins::Small::as_indices,
-                  tile_kernel(execution.target));
-  }
-  bool draw_source(TriangleSource& source, FrameView frame, std::uint32_t background,
+class Tiled final : public TileBackend {
+  bool draw_source(TriangleSource& triangles, FrameView frame, std::uint32_t background,
                    const Execution& execution) override {
-    return draw_in_tiles(source, frame, background, execution, ablation, execution.tile_size, scratch_,
+    return draw_in_tiles(triangles, frame, background, execution, ablation, execution.tile_size, scratch_,
                          ablation.coverage_masks ? Bins::Small::as_masks : Bins::Small::as_indices,
                          tile_kernel(execution.target));
   }
