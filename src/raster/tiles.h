@@ -80,7 +80,7 @@ class TileBackend : public AblatableBackend {
   void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
                     const Execution& execution) final {
     StoredTriangles stored(triangles);
-    draw_source(stored, frame, background, execution);
+    draw_source(stored, frame, background, execution);  // true: stored triangles need no room
   }
 };
 

@@ -210,6 +210,7 @@ bool Bins::build(TriangleSource& source, const CellGrid& grid, int threads, Simd
   const auto kept_at = [](std::size_t input) { return input + input / 8; };
   if (stored == nullptr) kept_.reserve(kept_at(source.size()));
   triangles_ = stored != nullptr ? stored : kept_.data();
+  prefetch &= stored != nullptr;  // what has just been made lies in a cache
   std::atomic<bool> all_fit{true};
   parallel_for(threads, static_cast<int>(used_chunks_), [&](int i) {
     const auto c = static_cast<std::size_t>(i);
