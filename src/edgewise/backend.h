@@ -62,7 +62,8 @@ class Backend {
 };
 
 // Frontend::run() and Backend::draw() in one call: the same picture and Frontend::stats(). Streams of small
-// triangles are drawn faster, and with less memory, since most of their screen triangles are not kept.
+// triangles are drawn faster, and with less memory, since most of their screen triangles are not kept. They are
+// made on the threads of `execution`, not on those of `options`.
 // Throws what the two throw, and std::invalid_argument if `options` state another size than `frame` has.
 void draw(const Drawable& drawable, Frontend& frontend, const FrontendOptions& options, Backend& backend,
           FrameView frame, std::uint32_t background, const Execution& execution);

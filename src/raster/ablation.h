@@ -26,7 +26,9 @@ struct Ablation {
   bool coverage_masks = true;      // tiled: binning resolves small triangles to masks; needs vector_setup
   bool hierarchical_depth = true;  // tiled: triangles behind all that a block or tile shows are rejected
   TileStore tile_store = TileStore::automatic;  // tiled, scanline
-  bool stepped = false;  // naive: edges and depth are stepped along rows, not evaluated at each pixel
+  bool empty_rows = true;  // tiled, scanline: all empty tiles of a row are filled together
+  bool tile_runs = true;   // tiled, scanline: a task draws several tiles
+  bool stepped = false;    // naive: edges and depth are stepped along rows, not evaluated at each pixel
 };
 
 // The switches that differ from the default, as "no prefetch, …"; empty if none does.
@@ -34,14 +36,16 @@ std::string describe(const Ablation& ablation);
 
 // The variants that tests compare: each optimization left out, both tile stores, all left out, and the
 // stepped naive backend.
-constexpr std::array<Ablation, 8> kAblations{{{.vector_setup = false},
-                                              {.prefetch = false},
-                                              {.coverage_masks = false},
-                                              {.hierarchical_depth = false},
-                                              {.tile_store = TileStore::cached},
-                                              {.tile_store = TileStore::streaming},
-                                              {false, false, false, false, TileStore::cached},
-                                              {.stepped = true}}};
+constexpr std::array<Ablation, 10> kAblations{{{.vector_setup = false},
+                                               {.prefetch = false},
+                                               {.coverage_masks = false},
+                                               {.hierarchical_depth = false},
+                                               {.tile_store = TileStore::cached},
+                                               {.tile_store = TileStore::streaming},
+                                               {.empty_rows = false},
+                                               {.tile_runs = false},
+                                               {false, false, false, false, TileStore::cached, false, false},
+                                               {.stepped = true}}};
 
 // A backend that has such switches.
 class AblatableBackend : public Backend {
@@ -54,8 +58,11 @@ struct AblatedExecution {
   Ablation ablation{};
 };
 
-// Backend::draw() with optimizations switched off; a backend without switches draws as usual.
+// Backend::draw() and draw(drawable, …) with optimizations switched off. A backend without switches draws as
+// usual.
 void draw(Backend& backend, std::span<const ScreenTriangle> triangles, FrameView frame,
           std::uint32_t background, const AblatedExecution& how);
+void draw(const Drawable& drawable, Frontend& frontend, const FrontendOptions& options, Backend& backend,
+          FrameView frame, std::uint32_t background, const AblatedExecution& how);
 
 }  // namespace edgewise

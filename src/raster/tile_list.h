@@ -25,7 +25,8 @@ class TileList {
   };
   static constexpr int kEmptyTiles = -1;
 
-  void build(const Bins& bins, const CellGrid& grid, int threads) {
+  // `empty_rows`: Ablation::empty_rows.
+  void build(const Bins& bins, const CellGrid& grid, int threads, bool empty_rows) {
     const int columns = grid.columns(), rows = grid.rows(), side = 1 << grid.cell_h_log2;
     const int parts = std::clamp(4 * threads / rows, 1, side / kLeastRows);
     tasks_.clear(), empty_.clear(), row_begin_.clear();
@@ -38,7 +39,7 @@ class TileList {
       row_begin_.push_back(empty_.size());
       bool after_empty = false;
       for (int column = 0; column < columns; ++column, ++cell) {
-        const bool is_empty = bins.empty(cell);
+        const bool is_empty = empty_rows && bins.empty(cell);
         if (!is_empty)
           tasks_.push_back({cell, row, y0, y1});
         else if (after_empty)

@@ -301,6 +301,20 @@ class WrongReference : public Backend {
   std::unique_ptr<Backend> right_ = backends()[0].make();
 };
 
+// Wrong only if it draws from a source: it draws nothing.
+class IgnoresSources : public Backend {
+  void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
+                    const Execution& execution) override {
+    right_->draw(triangles, frame, background, execution);
+  }
+  bool draw_source(TriangleSource&, FrameView frame, std::uint32_t background,
+                   const Execution& execution) override {
+    right_->draw(std::span<const ScreenTriangle>(), frame, background, execution);
+    return true;
+  }
+  std::unique_ptr<Backend> right_ = backends()[0].make();
+};
+
 template <typename Wrong>
 BackendInfo wrong_backend() {
   return {"wrong", "", [] { return std::unique_ptr<Backend>(std::make_unique<Wrong>()); }};
@@ -421,6 +435,27 @@ TEST(SoakFindings, IncludeAWrongFrontEnd) {
     EXPECT_EQ(read_tri(finding["file"].get<std::string>()).triangles.size(), 1u);
   }
   EXPECT_GT(files, 0);
+}
+
+TEST(SoakFindings, IncludeAWrongWholeFrame) {
+  const TempDir folder;
+  Campaign campaign = campaign_of(120);
+  campaign.judged.backends = {backends()[0], wrong_backend<IgnoresSources>()};
+  campaign.failure_folder = folder.path() / "failures";
+  campaign.program = EDGEWISE_PROGRAM;
+  const Record record = soaked(campaign, fresh(14, {}), folder);
+  ASSERT_FALSE(record.findings.empty());
+  const auto& by = record.tally.by.at("backend_input");
+  EXPECT_EQ(by.at("wrong, scene or stream").differ, record.tally.frames_differ);
+  EXPECT_EQ(by.at("wrong, screen triangles").differ, 0u);
+  EXPECT_GT(by.at("wrong, screen triangles").compared, 0u);
+  for (const auto& finding : record.findings) {
+    EXPECT_EQ(finding.at("family"), "stream");
+    EXPECT_EQ(finding.at("input"), "scene or stream");
+    EXPECT_EQ(finding.at("reduced_to"), 1u) << finding;
+    EXPECT_EQ(finding.at("replay").size(), 2u) << "verify draws whole frames, too";
+  }
+  EXPECT_NE(report(record).find(", scene or stream, tile "), std::string::npos) << report(record);
 }
 
 TEST(SoakFindings, AreNotReducedAfterARequestToStop) {

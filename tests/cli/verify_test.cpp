@@ -73,6 +73,20 @@ class WritesBesideTheImage : public Backend {
   std::unique_ptr<Backend> right_ = backends()[0].make();
 };
 
+// Wrong only if it draws from a source: it draws nothing.
+class IgnoresSources : public Backend {
+  void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
+                    const Execution& execution) override {
+    right_->draw(triangles, frame, background, execution);
+  }
+  bool draw_source(TriangleSource&, FrameView frame, std::uint32_t background,
+                   const Execution& execution) override {
+    right_->draw(std::span<const ScreenTriangle>(), frame, background, execution);
+    return true;
+  }
+  std::unique_ptr<Backend> right_ = backends()[0].make();
+};
+
 template <typename Wrong>
 BackendInfo wrong_backend() {
   return {"wrong", "a wrong backend", [] { return std::unique_ptr<Backend>(std::make_unique<Wrong>()); }};
@@ -156,6 +170,15 @@ TEST(Verify, FindsAnErrorInASingleConfiguration) {
   ASSERT_FALSE(report.ok());
   EXPECT_EQ(report.scenes[0].mismatches[0].how.execution.threads, 3);
   EXPECT_EQ(report.scenes[0].mismatches[0].payload, Payload::id);
+}
+
+TEST(Verify, FindsAnErrorInWholeFramesAlone) {
+  const VerifyReport report = verify_quietly(small_plan({"large"}, wrong_backend<IgnoresSources>()));
+  const SceneVerdict& verdict = report.scenes.at(0);
+  EXPECT_GT(verdict.differing_pixels, 0u);
+  ASSERT_EQ(verdict.mismatches.size(), 1u);
+  EXPECT_TRUE(verdict.mismatches[0].whole_frame);
+  EXPECT_NE(explain(verdict).find(", whole frame) differs from"), std::string::npos) << explain(verdict);
 }
 
 TEST(Verify, FindsWritesOutsideTheImage) {

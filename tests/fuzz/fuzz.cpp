@@ -86,20 +86,28 @@ Framebuffer reference(std::span<const ScreenTriangle> triangles, int width, int 
   return frame;
 }
 
-}  // namespace
-
-void check_backends(std::span<const ScreenTriangle> triangles, const Placement& p, AblatedExecution how) {
-  const Framebuffer expected = reference(triangles, p.width, p.height);
+// Calls draw(backend, frame, how) for every backend and SIMD target, and requires the expected picture.
+template <typename Draw>
+void check_pictures(const Framebuffer& expected, const Placement& p, AblatedExecution how,
+                    const std::string& what, const Draw& draw) {
   for (const BackendInfo& info : backends())
     for (const SimdTarget target : supported_targets()) {
       how.execution.target = target;
       Plane depth(p), payload(p);
-      draw(*info.make(), triangles, {depth.data(), payload.data(), p.width, p.height, depth.stride()},
-           kBackground, how);
-      const std::string what = describe(info, how);
-      depth.check([&](int x, int y) { return expected.depth_row(y)[x]; }, what + ", depth");
-      payload.check([&](int x, int y) { return expected.payload_row(y)[x]; }, what + ", payload");
+      draw(*info.make(), FrameView{depth.data(), payload.data(), p.width, p.height, depth.stride()}, how);
+      const std::string where = what + describe(info, how);
+      depth.check([&](int x, int y) { return expected.depth_row(y)[x]; }, where + ", depth");
+      payload.check([&](int x, int y) { return expected.payload_row(y)[x]; }, where + ", payload");
     }
+}
+
+}  // namespace
+
+void check_backends(std::span<const ScreenTriangle> triangles, const Placement& p, AblatedExecution how) {
+  check_pictures(reference(triangles, p.width, p.height), p, how, "",
+                 [&](Backend& backend, const FrameView& frame, const AblatedExecution& ablated) {
+                   draw(backend, triangles, frame, kBackground, ablated);
+                 });
 }
 
 namespace {
@@ -156,7 +164,14 @@ void check_frontend(const Drawable& drawable, int width, int height) {
       }
     if (!expected) return;
     check_ranges(*expected);
-    if (cull == Cull::none) check_backends(*expected, {options.width, options.height, 0, 0}, {});
+    if (cull != Cull::none) continue;
+    const Placement placement{options.width, options.height, 0, 0};
+    check_backends(*expected, placement, {});
+    check_pictures(reference(*expected, options.width, options.height), placement, {}, "whole frame, ",
+                   [&](Backend& backend, const FrameView& frame, const AblatedExecution& how) {
+                     options.target = how.execution.target;
+                     draw(drawable, vectors, options, backend, frame, kBackground, how);
+                   });
   }
 }
 

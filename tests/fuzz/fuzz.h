@@ -73,8 +73,8 @@ void check_backends(std::span<const ScreenTriangle> triangles, const Placement& 
                     AblatedExecution how);
 
 // Checks that the front end emits the same triangles with every SIMD target, in the contract's ranges, and
-// draws them with the backends. Image sides are limited to 64 px. The front end may throw
-// std::invalid_argument, but then with every SIMD target.
+// draws them with the backends, also in one call with the front end. Image sides are limited to 64 px. The
+// front end may throw std::invalid_argument, but then with every SIMD target.
 void check_frontend(const Drawable& drawable, int width, int height);
 
 }  // namespace edgewise::fuzz

@@ -40,6 +40,10 @@ bool same(std::span<const ScreenTriangle> a, std::span<const ScreenTriangle> b) 
 
 }  // namespace
 
+const char* input_of(const Draw& draw) {
+  return draw.whole_frame ? "scene or stream" : "screen triangles";
+}
+
 Checker::Checker(const Judged& judged) : judged_(judged) {
   for (const BackendInfo& info : judged.backends) backends_.push_back(info.make());
 }
@@ -67,6 +71,7 @@ Verdict Checker::check(const Case& c) {
         Draw draw{b, {{threads, kTiles[random.below(kTiles.size())], target}}, {}};
         if (random.below(2) == 0) draw.how.ablation = kAblations[random.below(kAblations.size())];
         draw.layout = random_layout(random, c.width);
+        draw.whole_frame = c.drawable && random.below(2) == 0;
         check_frame(c, reference, expected, draw, triangles, verdict);
       }
   return verdict;
@@ -118,6 +123,7 @@ void Checker::check_frame(const Case& c, const std::string& judge, const Framebu
   tally.count("backend_simd_target", fmt::format("{}, {}", name, name_of(e.target)), found.any());
   tally.count("backend_threads", fmt::format("{}, {}", name, e.threads), found.any());
   tally.count("backend_tile_size", fmt::format("{}, {}", name, e.tile_size), found.any());
+  tally.count("backend_input", fmt::format("{}, {}", name, input_of(draw)), found.any());
   tally.count("backend_ablation", fmt::format("{}, {}", name, left_out.empty() ? "all" : left_out),
               found.any());
 
@@ -138,7 +144,15 @@ Framebuffer Checker::reference_frame(const Case& c, std::span<const ScreenTriang
 lab::FrameDifference Checker::compare(const Case& c, const Framebuffer& expected, const Draw& draw,
                                       std::span<const ScreenTriangle> triangles) {
   lab::GuardedFrame frame(c.width, c.height, draw.layout);
-  edgewise::draw(*backends_[draw.backend], triangles, frame.view(), c.background, draw.how);
+  Backend& backend = *backends_[draw.backend];
+  if (draw.whole_frame) {
+    FrontendOptions options = c.frontend;
+    options.threads = draw.how.execution.threads;
+    options.target = draw.how.execution.target;
+    edgewise::draw(*c.drawable, candidate_, options, backend, frame.view(), c.background, draw.how);
+  } else {
+    edgewise::draw(backend, triangles, frame.view(), c.background, draw.how);
+  }
   return lab::compare(expected, frame);
 }
 
@@ -151,12 +165,12 @@ bool Checker::differs(const Finding& finding, const Case& c, std::span<const Scr
   return false;
 }
 
-bool Checker::frontend_differs(const Case& c, const Drawable& drawable) {
+bool Checker::differs(const Finding& finding, const Case& c, const TriangleStream& stream) {
   Case other = c;
-  other.drawable = drawable;
+  other.drawable = stream;
   Verdict verdict;
-  check_frontend(other, verdict);
-  return verdict.tally.frontend_lists_differ != 0;
+  const auto triangles = check_frontend(other, verdict);
+  return finding.of_frontend ? verdict.tally.frontend_lists_differ != 0 : differs(finding, other, triangles);
 }
 
 }  // namespace edgewise::soak

@@ -29,7 +29,10 @@ struct Draw {
   std::size_t backend;  // index
   AblatedExecution how;
   lab::GuardedFrame::Layout layout;
+  bool whole_frame = false;  // by draw(drawable, …), which includes the front end
 };
+// What a backend is given.
+const char* input_of(const Draw& draw);
 
 // The first frame, or triangle list of the front end, that differs in a case.
 struct Finding {
@@ -55,8 +58,9 @@ class Checker {
   // Whether a finding's draw of these triangles differs from its judge. Draws on several threads get several
   // attempts, since a race may not show in the first.
   bool differs(const Finding& finding, const Case& c, std::span<const ScreenTriangle> triangles);
-  // Whether the front end's list differs on any target and thread count.
-  bool frontend_differs(const Case& c, const Drawable& drawable);
+  // The same for a finding of the front end, on any target and thread count, or of a whole frame, with
+  // another stream than the case has.
+  bool differs(const Finding& finding, const Case& c, const TriangleStream& stream);
 
   const Judged& judged() const { return judged_; }
 

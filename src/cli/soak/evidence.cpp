@@ -39,11 +39,11 @@ TriangleStream smallest_frame(const Case& c, const Finding& finding, Checker& ch
   return lab::to_stream(reduce(std::move(list), kMostAttempts, fails, stop), c.width, c.height);
 }
 
-TriangleStream smallest_stream(const Case& c, TriangleStream stream, Checker& checker,
+TriangleStream smallest_stream(const Case& c, const Finding& finding, TriangleStream stream, Checker& checker,
                                const std::function<bool()>& stop) {
   const int width = stream.width, height = stream.height;
   const auto fails = [&](const std::vector<StreamTriangle>& triangles) {
-    return checker.frontend_differs(c, TriangleStream{width, height, triangles});
+    return checker.differs(finding, c, TriangleStream{width, height, triangles});
   };
   return {width, height, reduce(std::move(stream.triangles), kMostAttempts, fails, stop)};
 }
@@ -79,6 +79,7 @@ nlohmann::json description(const Case& c, const Finding& f, const Judged& judged
                       {"width", c.width},
                       {"height", c.height}};
   if (f.of_frontend) return json;
+  json["input"] = input_of(f.draw);
   json["tile_size"] = f.draw.how.execution.tile_size;
   json["ablation"] = edgewise::describe(f.draw.how.ablation);
   json["row_padding"] = f.draw.layout.padding;
@@ -92,15 +93,20 @@ nlohmann::json description(const Case& c, const Finding& f, const Judged& judged
 
 }  // namespace
 
-nlohmann::json evidence_of(const Evidence& evidence, std::uint64_t seed, const Case& c,
-                           const Finding& finding, Checker& checker) {
+nlohmann::json evidence_of(const Evidence& evidence, std::uint64_t seed, const Case& c, const Finding& found,
+                           Checker& checker) {
+  Finding finding = found;
+  finding.draw.whole_frame = false;
+  // If the front end's triangles in memory show no difference, it takes a whole frame to show it.
+  finding.draw.whole_frame = found.draw.whole_frame && !checker.differs(finding, c, finding.triangles);
   nlohmann::json json = description(c, finding, checker.judged());
   json["replay"] = {fmt::format("{} soak --seed {} --case {}", quoted(evidence.program), seed, c.number)};
   const auto* stream = c.drawable ? std::get_if<TriangleStream>(&*c.drawable) : nullptr;
-  if (evidence.folder.empty() || (finding.of_frontend && stream == nullptr)) return json;
+  const bool of_drawable = finding.of_frontend || finding.draw.whole_frame;
+  if (evidence.folder.empty() || (of_drawable && stream == nullptr)) return json;
   try {
-    const TriangleStream smallest = finding.of_frontend ? smallest_stream(c, *stream, checker, evidence.stop)
-                                                        : smallest_frame(c, finding, checker, evidence.stop);
+    const TriangleStream smallest = of_drawable ? smallest_stream(c, finding, *stream, checker, evidence.stop)
+                                                : smallest_frame(c, finding, checker, evidence.stop);
     std::string name = fmt::format("seed-{}-case-{}-{}-vs-{}.tri", seed, c.number,
                                    json["backend"].get<std::string>(), finding.judge);
     std::replace(name.begin(), name.end(), ' ', '-');

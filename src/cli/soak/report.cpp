@@ -49,10 +49,10 @@ std::string explain(const nlohmann::json& f) {
   text += fmt::format("  {} threads, {}", text_of(f, "threads"), text_of(f, "simd_target"));
   if (f.contains("pixels"))
     text += fmt::format(
-        ", tile {}, ablation: '{}', row padding {} px, first row {} px off a cache line\n"
+        ", {}, tile {}, ablation: '{}', row padding {} px, first row {} px off a cache line\n"
         "  in {} pixels, the first at {}; words written beside the image: {}",
-        text_of(f, "tile_size"), text_of(f, "ablation"), text_of(f, "row_padding"), text_of(f, "row_offset"),
-        text_of(f, "pixels"), text_of(f, "first"), text_of(f, "written_outside"));
+        text_of(f, "input"), text_of(f, "tile_size"), text_of(f, "ablation"), text_of(f, "row_padding"),
+        text_of(f, "row_offset"), text_of(f, "pixels"), text_of(f, "first"), text_of(f, "written_outside"));
   text += '\n';
   if (f.contains("file"))
     text += fmt::format("  reduced to {} of {} triangles: {}\n", text_of(f, "reduced_to"),

@@ -16,9 +16,9 @@ std::string_view name_of_payload(Payload payload) {
 }
 
 std::string explain(const Mismatch& m) {
-  std::string text = fmt::format("  {} ({}) differs from {} in {} of {}x{} pixels, cull {}, payload {}\n",
-                                 m.backend, describe(m.how), m.judge, m.pixels, m.width, m.height,
-                                 name_of(m.cull), name_of_payload(m.payload));
+  std::string text = fmt::format("  {} ({}{}) differs from {} in {} of {}x{} pixels, cull {}, payload {}\n",
+                                 m.backend, describe(m.how), m.whole_frame ? ", whole frame" : "", m.judge,
+                                 m.pixels, m.width, m.height, name_of(m.cull), name_of_payload(m.payload));
   if (m.outside != 0) text += fmt::format("    words written beside the image: {}\n", m.outside);
   if (!m.values.empty())
     text += fmt::format("    the first is x {}, y {}, where depth and payload are\n", m.x, m.y);
@@ -43,6 +43,7 @@ nlohmann::json mismatch_json(const Mismatch& m) {
                       {"tile_size", m.how.execution.tile_size},
                       {"simd_target", name_of(resolve(m.how.execution.target))},
                       {"ablation", edgewise::describe(m.how.ablation)},
+                      {"whole_frame", m.whole_frame},
                       {"cull", name_of(m.cull)},
                       {"payload", name_of_payload(m.payload)},
                       {"width", m.width},

@@ -18,9 +18,15 @@ namespace {
 // What a frame is compared with: the triangles, and the frame they must become.
 struct Judgement {
   std::string_view judge;
-  const FrontendOptions& frontend;
+  const Shot& shot;
   std::span<const ScreenTriangle> triangles;
   const Framebuffer& expected;
+};
+
+// How a frame is drawn. A whole frame is drawn by draw(drawable, …), which includes the front end.
+struct Configuration {
+  AblatedExecution how;
+  bool whole_frame = false;
 };
 
 // Small tiles, several threads and the widest vectors: the most boundaries between tiles, threads and lanes.
@@ -30,14 +36,15 @@ constexpr Execution kReferenceExecution{1, 64, SimdTarget::scalar};
 // Other tile sizes run on the best target, other targets with the usual tile, and optimizations are left out
 // on one thread count: the full product would mostly repeat itself, since only tiled backends use tile size
 // and target.
-std::vector<AblatedExecution> executions(const VerifyPlan& plan) {
-  std::vector<AblatedExecution> all;
+std::vector<Configuration> configurations(const VerifyPlan& plan) {
+  std::vector<Configuration> all;
   for (const int threads : plan.threads) {
-    for (const SimdTarget target : supported_targets()) all.push_back({{threads, 64, target}});
-    for (const int tile : {16, 32}) all.push_back({{threads, tile, resolve(SimdTarget::best)}});
+    for (const SimdTarget target : supported_targets()) all.push_back({{{threads, 64, target}}});
+    for (const int tile : {16, 32}) all.push_back({{{threads, tile, resolve(SimdTarget::best)}}});
+    all.push_back({{{threads, 64, resolve(SimdTarget::best)}}, true});
   }
   for (const Ablation& ablation : kAblations)
-    all.push_back({{plan.threads.front(), 64, resolve(SimdTarget::best)}, ablation});
+    all.push_back({{{plan.threads.front(), 64, resolve(SimdTarget::best)}, ablation}});
   return all;
 }
 
@@ -49,10 +56,10 @@ PixelValue value_at(const Frame& frame, std::string_view drawn_by, int x, int y)
 class SceneCheck {
  public:
   SceneCheck(const VerifyPlan& plan, const std::string& name, const std::function<void(double)>& progress)
-      : plan_(plan), name_(name), progress_(progress), executions_(executions(plan)) {
+      : plan_(plan), name_(name), progress_(progress), configurations_(configurations(plan)) {
     for (const BackendInfo& info : plan.backends) backends_.push_back(info.make());
     // Per culling mode: all configurations with colours, and one per backend with ids.
-    steps_ = cull_modes().size() * plan.backends.size() * (executions_.size() + 1);
+    steps_ = cull_modes().size() * plan.backends.size() * (configurations_.size() + 1);
   }
 
   SceneVerdict run() {
@@ -81,7 +88,7 @@ class SceneCheck {
         if (payload == Payload::colour) count(frontend_.stats());
         lab::poison(expected);
         backends_.front()->draw(triangles, expected.view(), background_of(payload), kReferenceExecution);
-        compare_all({plan_.backends.front().name, shot.frontend, triangles, expected});
+        compare_all({plan_.backends.front().name, shot, triangles, expected});
         if (cull == Cull::none && payload == Payload::id && covers_each_pixel_once(shot.source))
           check_hits(triangles, width, height);
       }
@@ -89,13 +96,13 @@ class SceneCheck {
   }
 
   void compare_all(const Judgement& judgement) {
-    const AblatedExecution small_tiles[] = {{kSmallestTiles}};
-    const std::span<const AblatedExecution> all = judgement.frontend.payload == Payload::colour
-                                                      ? std::span<const AblatedExecution>(executions_)
-                                                      : small_tiles;
+    const Configuration small_tiles[] = {{{kSmallestTiles}}};
+    const std::span<const Configuration> all = judgement.shot.frontend.payload == Payload::colour
+                                                   ? std::span<const Configuration>(configurations_)
+                                                   : small_tiles;
     for (std::size_t b = 0; b < backends_.size(); ++b)
-      for (const AblatedExecution& how : all) {
-        verdict_.differing_pixels += compare(judgement, b, how);
+      for (const Configuration& configuration : all) {
+        verdict_.differing_pixels += compare(judgement, b, configuration);
         ++verdict_.configurations;
         progress_(static_cast<double>(++steps_done_) / static_cast<double>(steps_));
       }
@@ -114,8 +121,7 @@ class SceneCheck {
       const auto triangles = frontend_.run(shot.source.drawable, shot.frontend);
       lab::draw_oracle(triangles, expected, background_of(Payload::id));
       for (std::size_t b = 0; b < backends_.size(); ++b) {
-        verdict_.oracle_differences +=
-            compare({"oracle", shot.frontend, triangles, expected}, b, {kSmallestTiles});
+        verdict_.oracle_differences += compare({"oracle", shot, triangles, expected}, b, {{kSmallestTiles}});
         ++verdict_.oracle_configurations;
       }
     }
@@ -131,35 +137,42 @@ class SceneCheck {
 
   // Returns the number of pixels that differ. Keeps the first difference per backend and judge, with
   // evidence.
-  std::uint64_t compare(const Judgement& j, std::size_t backend, const AblatedExecution& how) {
-    draw(j, backend, how);
+  std::uint64_t compare(const Judgement& j, std::size_t backend, const Configuration& configuration) {
+    draw(j, backend, configuration);
     const lab::FrameDifference found = lab::compare(j.expected, *candidate_);
     const std::string_view name = plan_.backends[backend].name;
     const bool known =
         std::any_of(verdict_.mismatches.begin(), verdict_.mismatches.end(),
                     [&](const Mismatch& m) { return m.backend == name && m.judge == j.judge; });
     verdict_.written_outside += found.outside;
-    if (found.any() && !known) keep(j, backend, how, found);
+    if (found.any() && !known) keep(j, backend, configuration, found);
     return found.pixels;
   }
 
-  void draw(const Judgement& j, std::size_t backend, const AblatedExecution& how) {
+  void draw(const Judgement& j, std::size_t backend, const Configuration& configuration) {
     candidate_->poison();
-    edgewise::draw(*backends_[backend], j.triangles, candidate_->view(), background_of(j.frontend.payload),
-                   how);
+    const AblatedExecution& how = configuration.how;
+    const std::uint32_t background = background_of(j.shot.frontend.payload);
+    if (configuration.whole_frame)
+      edgewise::draw(j.shot.source.drawable, whole_frames_, j.shot.frontend, *backends_[backend],
+                     candidate_->view(), background, how);
+    else
+      edgewise::draw(*backends_[backend], j.triangles, candidate_->view(), background, how);
   }
 
-  void keep(const Judgement& j, std::size_t backend, const AblatedExecution& how,
+  void keep(const Judgement& j, std::size_t backend, const Configuration& configuration,
             const lab::FrameDifference& found) {
     const int x = found.first_x, y = found.first_y;
     const std::string_view name = plan_.backends[backend].name;
-    Mismatch mismatch{j.frontend.cull,
-                      j.frontend.payload,
-                      j.frontend.width,
-                      j.frontend.height,
+    const FrontendOptions& frontend = j.shot.frontend;
+    Mismatch mismatch{frontend.cull,
+                      frontend.payload,
+                      frontend.width,
+                      frontend.height,
                       std::string(j.judge),
                       std::string(name),
-                      how,
+                      configuration.how,
+                      configuration.whole_frame,
                       found.pixels,
                       found.outside,
                       x,
@@ -173,7 +186,7 @@ class SceneCheck {
       mismatch.values = {value_at(j.expected, j.judge, x, y),
                          value_at(*candidate_, std::string(name) + " (so configured)", x, y)};
       for (std::size_t b = 0; b < backends_.size(); ++b) {
-        draw(j, b, {{1, 64, resolve(SimdTarget::best)}});
+        draw(j, b, {{{1, 64, resolve(SimdTarget::best)}}});
         mismatch.values.push_back(value_at(*candidate_, plan_.backends[b].name, x, y));
       }
     }
@@ -188,9 +201,9 @@ class SceneCheck {
   const VerifyPlan& plan_;
   const std::string& name_;
   const std::function<void(double)>& progress_;
-  const std::vector<AblatedExecution> executions_;
+  const std::vector<Configuration> configurations_;
   std::vector<std::unique_ptr<Backend>> backends_;
-  Frontend frontend_;
+  Frontend frontend_, whole_frames_;  // the triangles of a judgement are the first one's
   std::optional<lab::GuardedFrame> candidate_;
   SceneVerdict verdict_{};
   std::size_t steps_, steps_done_ = 0;

@@ -41,6 +41,7 @@ struct Mismatch {
   std::string judge;  // the reference's name, or "oracle"
   std::string backend;
   AblatedExecution how;
+  bool whole_frame;       // drawn by draw(drawable, …), not from the judge's triangles
   std::uint64_t pixels;   // that differ
   std::uint64_t outside;  // words written outside the image
   int x, y;               // the first pixel that differs, or -1
