@@ -16,7 +16,6 @@
 #include <vector>
 
 #include "core/parallel.h"
-#include "core/triangle_source.h"
 #include "edgewise/contract.h"
 #include "edgewise/limits.h"
 #include "frontend/assemble.h"
@@ -25,6 +24,7 @@
 #include "frontend/mesh_clusters.h"
 #include "frontend/shade.h"
 #include "frontend/stream.h"
+#include "frontend/stream_source.h"
 #include "frontend/transform.h"
 #include "frontend/view.h"
 
@@ -121,26 +121,6 @@ struct GroupMember {
   // True if all of it lies beyond one side of the view. False without a finite vertex.
   bool out_of_sight() const { return (common & kNotFinite) == 0 && common != 0; }
 };
-
-// Makes the screen triangles of a stream.
-class StreamSource final : public TriangleSource {
- public:
-  StreamSource(const FrontendOptions& options, const TriangleStream& stream, InOrder& order)
-      : task_{options, stream}, kernel_(stream_kernel(options.target)), order_(order) {}
-  std::size_t size() const override { return task_.stream.triangles.size(); }
-  std::span<const ScreenTriangle> make(int worker, std::size_t begin, std::size_t end) override {
-    ChunkOutput& out = order_.output(worker);
-    out.count = 0;
-    kernel_(task_, begin, end, out);
-    return {out.triangles.data(), out.count};
-  }
-
- private:
-  StreamTask task_;
-  StreamKernel kernel_;
-  InOrder& order_;
-};
-static_assert(TriangleSource::kRun <= kChunkTriangles);
 
 struct Frontend::State {
   // A group holds consecutive members: most are too small to be worth several threads alone.

@@ -1,0 +1,32 @@
+// Makes the screen triangles of a stream where a backend needs them (core/triangle_source.h).
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "core/triangle_source.h"
+#include "frontend/in_order.h"
+#include "frontend/stream.h"
+
+namespace edgewise {
+
+class StreamSource final : public TriangleSource {
+ public:
+  StreamSource(const FrontendOptions& options, const TriangleStream& stream, InOrder& order)
+      : task_{options, stream}, kernel_(stream_kernel(options.target)), order_(order) {}
+  std::size_t size() const override { return task_.stream.triangles.size(); }
+  std::span<const ScreenTriangle> make(int worker, std::size_t begin, std::size_t end) override {
+    ChunkOutput& out = order_.output(worker);
+    out.count = 0;
+    kernel_(task_, begin, end, out);
+    return {out.triangles.data(), out.count};
+  }
+
+ private:
+  StreamTask task_;
+  StreamKernel kernel_;
+  InOrder& order_;
+};
+static_assert(TriangleSource::kRun <= kChunkTriangles);
+
+}  // namespace edgewise
