@@ -44,7 +44,7 @@ constexpr Effort kFull{5, 9, 0.012, 0.07}, kQuick{5, 5, 0.01, 0.1};
 
 // Memory is measured once per scene and backend.
 bool needs_peak(const Row& row) {
-  return row.timed == Timed::frame && row.backend != nullptr && row.cores == 0 &&
+  return row.timed == Timed::frame && row.backend != nullptr && row.cores == 0 && !row.step &&
          row.execution.target == SimdTarget::best && row.execution.threads == 2 &&
          row.once_s < row.repeat_below_s;
 }

@@ -39,6 +39,7 @@ struct Row {
   double peak_bytes = 0;  // of a first frame; 0: not measured
   bool wants_cost = false;
   bool step = false;                      // one step of the ablation
+  bool two_calls = false;                 // a frame by Frontend::run() and Backend::draw()
   bool close = false;                     // differs little from other rows, so it is timed more often
   double once_s = 0.0;                    // duration of the compared draw
   std::optional<FrameCost> cost;          // if wants_cost

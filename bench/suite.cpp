@@ -78,25 +78,29 @@ class Suite {
         add(workload, Timed::raster, backend, name, threads);
         rows_.back().wants_cost = rows_.back().close = backend.name == kAblationBackend;
         add(workload, Timed::frame, backend, name, threads);
+        rows_.back().close = backend.name == kAblationBackend;
       }
+    for (const SimdTarget target : supported_targets())
+      if (target != SimdTarget::scalar && target != resolve(SimdTarget::best))
+        for (const int threads : kThreads)
+          add(workload, Timed::frame, find_backend(kAblationBackend),
+              fmt::format("{}/target:{}", name, name_of(target)), threads, target);
     if (options_.scenes.empty()) add_scheduled(workload, name);
     if (!options_.peers) return;
     for (const auto& peer : benchmark_peers())
       for (const int threads : kThreads) add_peer(workload, peer, name, threads);
-    // Peers use vectors of at most 256 bits, so ours is timed with 256 bits, too.
-    if (!benchmark_peers().empty() && resolve(SimdTarget::best) == SimdTarget::avx512)
-      for (const int threads : kThreads)
-        add(workload, Timed::frame, find_backend(kAblationBackend), fmt::format("{}/target:avx2", name),
-            threads, SimdTarget::avx2);
   }
 
   // Directly after the scene's own rows, its first and last step, so that they share one reference picture.
   void add_ablation(const WorkloadPtr& workload, const std::string& scene) {
     if (!in_ablation(scene)) return;
     for (const AblationStep& step : ablation_steps()) {
-      add(workload, Timed::raster, find_backend(step.backend), fmt::format("{}/step:{}", scene, step.name), 1,
-          step.target);
+      const bool without_clusters = step.two_calls && !find_scene(scene).stream;
+      add(without_clusters ? scene_without_clusters(scene) : workload,
+          step.whole_frame ? Timed::frame : Timed::raster, find_backend(step.backend),
+          fmt::format("{}/step:{}", scene, step.name), step.threads, step.target);
       rows_.back().ablation = step.ablation;
+      rows_.back().two_calls = step.two_calls;
       rows_.back().step = true;
     }
   }
@@ -180,6 +184,15 @@ class Suite {
     const SceneRequest wanted = request(options_, width, height);
     return std::make_shared<Workload>(width, height, Cull::back,
                                       [scene, wanted] { return tools::load_source(scene, wanted, false); });
+  }
+
+  WorkloadPtr scene_without_clusters(const std::string& scene) const {
+    const SceneRequest wanted = request(options_, options_.width, options_.height);
+    return make_workload([scene, wanted] {
+      tools::Source source = tools::load_source(scene, wanted, false);
+      for (Mesh& mesh : std::get<Scene>(source.drawable).meshes) mesh.clusters.clear();
+      return source;
+    });
   }
 
   std::vector<Row> take() { return std::move(rows_); }

@@ -6,7 +6,7 @@ namespace edgewise::bench {
 
 std::vector<AblationStep> ablation_steps() {
   std::vector<AblationStep> steps{{"stepped", "naive", SimdTarget::best, {.stepped = true}}};
-  Ablation ablation{false, false, false, false, TileStore::cached};
+  Ablation ablation{false, false, false, false, TileStore::cached, false, false};
   for (const SimdTarget target : supported_targets())
     steps.push_back({target == SimdTarget::scalar ? "tiles" : std::string(name_of(target)), kAblationBackend,
                      target, ablation});
@@ -18,6 +18,11 @@ std::vector<AblationStep> ablation_steps() {
   add("prefetch", &Ablation::prefetch);
   add("coverage-masks", &Ablation::coverage_masks);
   add("hierarchical-depth", &Ablation::hierarchical_depth);
+  ablation.tile_store = TileStore::automatic;
+  steps.push_back({"tile-store", kAblationBackend, SimdTarget::best, ablation});
+  steps.push_back({"two-calls", kAblationBackend, SimdTarget::best, {}, true, true, 1});
+  steps.push_back(
+      {"one-tile-per-task", kAblationBackend, SimdTarget::best, {.tile_runs = false}, true, false, 2});
   return steps;
 }
 

@@ -43,8 +43,8 @@ Framebuffer& Stage::frame(const Row& row) {
 void Stage::work(const Row& row) {
   if (row.peer != nullptr) return peers_.work(row);
   Workload& workload = *row.workload;
-  if (row.timed == Timed::frame && !row.numbers)
-    return workload.draw(frontend_, backend(row), frame(row).view(), row.execution);
+  if (row.timed == Timed::frame && !row.numbers && !row.two_calls)
+    return workload.draw(frontend_, backend(row), frame(row).view(), {row.execution, row.ablation});
   auto triangles = workload.triangles();
   if (row.timed != Timed::raster) triangles = workload.run(frontend_, row.execution.threads);
   if (row.numbers)

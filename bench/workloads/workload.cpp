@@ -26,12 +26,12 @@ std::span<const ScreenTriangle> Workload::run(Frontend& frontend, int threads) {
   return frontend.run(hidden_->drop(std::get<Scene>(source_->drawable)), options);
 }
 
-void Workload::draw(Frontend& frontend, Backend& backend, FrameView frame, const Execution& execution) {
+void Workload::draw(Frontend& frontend, Backend& backend, FrameView frame, const AblatedExecution& how) {
+  const int threads = how.execution.threads;
   if (hidden_)
-    backend.draw(run(frontend, execution.threads), frame, kBackground, execution);
+    edgewise::draw(backend, run(frontend, threads), frame, kBackground, how);
   else
-    edgewise::draw(source_->drawable, frontend, frontend_options(execution.threads), backend, frame,
-                   kBackground, execution);
+    edgewise::draw(source_->drawable, frontend, frontend_options(threads), backend, frame, kBackground, how);
 }
 
 void Workload::drop_hidden(Frontend& frontend) {

@@ -14,6 +14,7 @@
 #include "edgewise/frontend.h"
 #include "lab/hidden_faces.h"
 #include "lab/method.h"
+#include "raster/ablation.h"
 #include "support/source.h"
 
 namespace edgewise::bench {
@@ -49,7 +50,7 @@ class Workload {
   std::span<const ScreenTriangle> run(Frontend& frontend, int threads);
 
   // The timed work of a frame row. Requires prepare(true).
-  void draw(Frontend& frontend, Backend& backend, FrameView frame, const Execution& execution);
+  void draw(Frontend& frontend, Backend& backend, FrameView frame, const AblatedExecution& how);
 
   FrontendOptions frontend_options(int threads) const;
   const Drawable& drawable() const { return source_->drawable; }

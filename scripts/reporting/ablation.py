@@ -1,4 +1,4 @@
-"""The ablation: from the plainest backend to the fastest, one optimization more in each step."""
+"""The ablation: one optimization more in each step, first of a backend's draw, then of the whole frame."""
 from bench_rows import order
 from noise import median
 from speedups import about, kernels, speed_up
@@ -6,18 +6,26 @@ from tables import milliseconds
 
 START = "naive"
 NAMES = {"vector-setup": "+ SIMD set-up", "prefetch": "+ prefetch", "coverage-masks": "+ coverage masks",
-         "hierarchical-depth": "+ HiZ", "stepped": "+ incremental edges", "tiles": "+ tiles"}
+         "hierarchical-depth": "+ HiZ", "stepped": "+ incremental edges", "tiles": "+ tiles",
+         "tile-store": "+ choice of tile store", "two-calls": "whole frame, 1 thread", "one-tile-per-task": "+ second thread"}
 
 
-def steps(bench, scene):
-    """[(label, row)] from the plainest to the last: rows of the suite at both ends, those of the ablation between them."""
+def parts(bench, scene):
+    """Two lists of (label, row), each from the plainest to the last: draws of prepared triangles on one thread, and whole
+    frames. The suite's own rows stand at the ends, those of the ablation between them."""
     rows = [row for row in bench.sweep("step") if row.scene == scene]
     backend = rows[-1].backend
-    named = [(f"{START}, 1 thread", bench.find(f"{START}/{scene}/threads:1"))]
-    named += [(NAMES.get(row.keys["step"], f"… with {kernels(row.keys['step'])}"), row) for row in rows]
-    named += [("+ choice of tile store", bench.find(f"{backend}/{scene}/threads:1")),
-              ("+ second thread", bench.find(f"{backend}/{scene}/threads:2"))]
-    return [(label, row) for label, row in named if row]
+
+    def named(of_frames):
+        return [(NAMES.get(row.keys["step"], f"… with {kernels(row.keys['step'])}"), row) for row in rows if row.frontend == of_frames]
+
+    of_older_commits = all(row.keys["step"] != "tile-store" for row in rows)
+    draws = [(f"{START}, 1 thread", bench.find(f"{START}/{scene}/threads:1")), *named(False),
+             (NAMES["tile-store"] if of_older_commits else "+ rows of empty tiles", bench.find(f"{backend}/{scene}/threads:1"))]
+    one, two = (bench.find(f"{backend}+frontend/{scene}/threads:{threads}") for threads in (1, 2))
+    two_calls, one_tile = (*named(True), None, None)[:2]
+    frames = [two_calls, ("+ fusion, clusters", one), one_tile, ("+ runs of tiles", two)]
+    return [[step for step in part if step and step[1]] for part in (draws, frames)]
 
 
 def said(before, row):
@@ -31,12 +39,11 @@ def verdict(before, after):
 
 
 def summary(named):
-    """All steps on one thread together, and the one that gains most; `named` are the steps of each scene."""
+    """All steps of the draws together, and the one that gains most; `named` are the draws of each scene."""
     totals, gains = [], {}
     for found in named.values():
-        single = [(label, row) for label, row in found if row.threads == 1]
-        totals.append(single[0][1].median_ms / single[-1][1].median_ms)
-        for (_, before), (label, row) in zip(single, single[1:]):
+        totals.append(found[0][1].median_ms / found[-1][1].median_ms)
+        for (_, before), (label, row) in zip(found, found[1:]):
             gains.setdefault(label, []).append(before.median_ms / row.median_ms)
     if not gains:
         return "Ablation"

@@ -1,63 +1,74 @@
 """Chart of the ablation: the speed-up by each optimization on each scene, beside the cost model's estimate."""
 import math
 
-from ablation import said, steps, summary, verdict
+from ablation import parts, said, summary, verdict
 from cost_model import estimates_ms
 from palette import FAINT, INK, VERDICTS
 from plot_style import WIDTH_IN, head_in, headline, log_axis, plt, save
 
 COLUMNS = 3
-SUBTITLE = ("Each line adds one optimization; all but the last run on one thread. Figures: speed-up over the line above. Black: "
-            "faster; red: slower; grey: not settled. Light bars: 95 % intervals. Grey ticks: the cost model's estimate.")
+SUBTITLE = ("Each line adds one optimization: above, to the draw of prepared triangles on one thread; below, to the whole frame. "
+            "Fusion is for streams, clusters for meshes that have them. Figures: speed-up over the line above. Black: faster; red: "
+            "slower; grey: not settled. Light bars: 95 % intervals. Grey ticks: the cost model's estimate.")
+GAP = 0.7  # lines between the two parts
 
 
-def panel(axes, bench, scene, named):
+def places_of(named):
+    """{label: y} of the parts that have the most labels."""
+    draws, frames = (max((parts_[i] for parts_ in named.values()), key=len) for i in (0, 1))
+    return {**{label: y for y, (label, _) in enumerate(draws)}, **{label: len(draws) + GAP + y for y, (label, _) in enumerate(frames)}}
+
+
+def panel(axes, bench, named, place_of):
     times = [row.median_ms for _, row in named]
-    places = range(len(named))
+    places = [place_of[label] for label, _ in named]
     axes.plot(times, places, color="#d0d7de", linewidth=1.4, zorder=2)
-    for place, (time, (_, row)) in enumerate(zip(times, named)):
-        before = named[place - 1][1] if place else None
+    for i, (time, place, (_, row)) in enumerate(zip(times, places, named)):
+        before = named[i - 1][1] if i else None
         colour = VERDICTS[verdict(before, row)] if before else INK
         axes.plot(row.interval_ms, [place, place], color=colour, linewidth=5, alpha=0.2, solid_capstyle="butt")
         axes.plot([time], [place], marker="o", markersize=5, color=colour, zorder=3)
         axes.text(1.02, place, said(before, row), transform=axes.get_yaxis_transform(), va="center", fontsize=8.3, color=colour)
-    for place, (_, row) in zip(places, named):
+    for time, place, (_, row) in zip(times, places, named):
         if estimates := estimates_ms(bench, row):
-            axes.plot([estimates[0], times[place]], [place, place], color=FAINT, linewidth=1.0, linestyle=":", zorder=1)
+            axes.plot([estimates[0], time], [place, place], color=FAINT, linewidth=1.0, linestyle=":", zorder=1)
             axes.plot([estimates[0]], [place], marker="|", markersize=11, markeredgewidth=2.2, color=FAINT, zorder=3)
-    axes.set_title(scene, color=INK, fontweight="bold", pad=3)
-    axes.grid(axis="y", visible=False)
-    axes.tick_params(axis="y", length=0, labelsize=9)
-    axes.tick_params(axis="x", labelsize=9)
 
 
 def ablation(bench, folder, caption):
     scenes = list(dict.fromkeys(row.scene for row in bench.sweep("step")))
     if not scenes:
         return None
-    named = {scene: steps(bench, scene) for scene in scenes}
-    labels = max(([label for label, _ in steps_] for steps_ in named.values()), key=len)
+    named = {scene: parts(bench, scene) for scene in scenes}
+    place_of = places_of(named)
+    bottom = max(place_of.values()) + 0.6
     lines = math.ceil(len(scenes) / COLUMNS)
     figure, grid = plt.subplots(lines, COLUMNS, sharex=True, sharey=True, squeeze=False,
-                                figsize=(WIDTH_IN, 0.8 + head_in(SUBTITLE) + lines * (0.55 + 0.2 * len(labels))))
+                                figsize=(WIDTH_IN, 0.8 + head_in(SUBTITLE) + lines * (0.55 + 0.2 * bottom)))
     panels = list(grid.flat)
     for axes, scene in zip(panels, scenes):
-        panel(axes, bench, scene, named[scene])
+        axes.set_title(scene, color=INK, fontweight="bold", pad=3)
+        axes.grid(axis="y", visible=False)
+        axes.tick_params(axis="y", length=0, labelsize=9)
+        axes.tick_params(axis="x", labelsize=9)
+        for part in named[scene]:
+            panel(axes, bench, part, place_of)
     for axes in panels[len(scenes):]:
         axes.set_visible(False)
     panels[0].set_xscale("log")
     log_axis(panels[0].xaxis)
-    times = [ms for steps_ in named.values() for _, row in steps_ for ms in row.interval_ms]
-    estimates = [found[0] for steps_ in named.values() for _, row in steps_ if (found := estimates_ms(bench, row))]
+    rows = [row for parts_ in named.values() for part in parts_ for _, row in part]
+    times = [ms for row in rows for ms in row.interval_ms]
+    estimates = [found[0] for row in rows if (found := estimates_ms(bench, row))]
     panels[0].set_xlim(min(times + estimates) / 1.3, max(times) * 1.3)
-    panels[0].set_yticks(range(len(labels)), labels)
-    panels[0].set_ylim(len(labels) - 0.4, -0.6)
+    panels[0].set_yticks(list(place_of.values()), list(place_of))
+    panels[0].set_ylim(bottom, -0.6)
     for axes in grid[-1]:
         axes.set_xlabel("ms per frame", fontsize=9.5)
     height = figure.get_figheight()
-    top = headline(figure, summary(named), SUBTITLE)
+    top = headline(figure, summary({scene: draws for scene, (draws, _) in named.items()}), SUBTITLE)
     figure.subplots_adjust(left=0.165, right=0.905, bottom=0.72 / height, top=top - 0.3 / height, wspace=0.46,
-                           hspace=0.55 / (0.2 * len(labels)))
+                           hspace=0.55 / (0.2 * bottom))
     save(figure, folder, "ablation", caption)
     return "ablation"
 

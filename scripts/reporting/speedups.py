@@ -40,6 +40,18 @@ def outcome(compared, what):
     return text
 
 
+def narrower_sentence(bench):
+    """What narrower vectors cost in whole frames: "with AVX2 1.2× to 1.7× (28 rows), …"; empty if no such row was timed."""
+    slower = {}
+    for row in bench.sweep("target"):
+        widest = bench.frame(row.backend, row.scene, row.threads)
+        if row.frontend and widest:
+            slower.setdefault(row.keys["target"], []).append(row.median_ms / widest.median_ms)
+    said = [f"with {kernels(target)} {spread(ratios)} ({len(ratios)} rows)" for target in reversed(VECTORS)
+            if (ratios := slower.get(target))]
+    return f"Whole frames are slower with narrower vectors than with {kernels(bench.context.get('simd_target'))}: {', '.join(said)}." if said else ""
+
+
 def speed_up(ratio):
     """A speed-up in a table, "2.6× slower" if below 1."""
     return about(ratio) if ratio >= 1 else f"{about(1 / ratio)} slower"

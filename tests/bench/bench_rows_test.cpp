@@ -76,8 +76,12 @@ TEST(BenchSuite, RowNamesCanBeSplitIntoTheirParts) {
     EXPECT_TRUE(names.insert(row.name).second) << row.name;
     EXPECT_NE(row.name.find("/threads_1\?\?/"), std::string::npos) << row.name;
   }
-  const bool narrower = !benchmark_peers().empty() && resolve(SimdTarget::best) == SimdTarget::avx512;
-  EXPECT_EQ(names.size(), 2 + 4 * backends().size() + 2 * benchmark_peers().size() + (narrower ? 2 : 0));
+  const auto targets = supported_targets();
+  const auto narrower = std::count_if(targets.begin(), targets.end(), [](SimdTarget target) {
+    return target != SimdTarget::scalar && target != resolve(SimdTarget::best);
+  });
+  EXPECT_EQ(names.size(), 2 + 4 * backends().size() + 2 * benchmark_peers().size() +
+                              2 * static_cast<std::size_t>(narrower));
 }
 
 TEST(BenchStage, ComparesWireframesWithWireframes) {
@@ -165,19 +169,28 @@ TEST(BenchSuite, TimesThreeCullingModes) {
 TEST(BenchAblation, AddsOneOptimizationPerStep) {
   const auto steps = ablation_steps();
   const auto count = supported_targets().size();
-  ASSERT_EQ(steps.size(), 1 + count + 4);
+  const std::size_t of_draws = count + 5, last = of_draws - 1;
+  ASSERT_EQ(steps.size(), 1 + of_draws + 2);
   EXPECT_EQ(steps[0].backend, "naive");
   EXPECT_TRUE(steps[0].ablation.stepped);
-  for (std::size_t i = 0; i < steps.size() - 1; ++i) {
+  for (std::size_t i = 0; i < of_draws; ++i) {
     const AblationStep& step = steps[i + 1];
     EXPECT_EQ(step.backend, "tiled");
+    EXPECT_FALSE(step.whole_frame);
+    EXPECT_EQ(step.threads, 1);
     EXPECT_EQ(step.target, i < count ? supported_targets()[i] : SimdTarget::best);
     EXPECT_EQ(step.ablation.vector_setup, i >= count);
     EXPECT_EQ(step.ablation.prefetch, i >= count + 1);
     EXPECT_EQ(step.ablation.coverage_masks, i >= count + 2);
     EXPECT_EQ(step.ablation.hierarchical_depth, i >= count + 3);
-    EXPECT_EQ(step.ablation.tile_store, TileStore::cached);
+    EXPECT_EQ(step.ablation.tile_store, i < last ? TileStore::cached : TileStore::automatic);
+    EXPECT_FALSE(step.ablation.empty_rows);
   }
+  const AblationStep &two_calls = steps[of_draws + 1], &one_tile = steps[of_draws + 2];
+  EXPECT_TRUE(two_calls.whole_frame && two_calls.two_calls && two_calls.threads == 1);
+  EXPECT_TRUE(one_tile.whole_frame && !one_tile.two_calls && one_tile.threads == 2);
+  EXPECT_EQ(describe(two_calls.ablation), "");
+  EXPECT_EQ(describe(one_tile.ablation), "one tile per task");
 }
 
 TEST(BenchAblation, ReusesItsFirstAndLastRows) {
@@ -189,11 +202,29 @@ TEST(BenchAblation, ReusesItsFirstAndLastRows) {
   }
   for (const SceneInfo& scene : builtin_scenes())
     for (const AblationStep& step : ablation_steps())
-      EXPECT_EQ(names.count(std::string(step.backend) + "/" + std::string(scene.name) + "/step:" + step.name +
-                            "/threads:1"),
+      EXPECT_EQ(names.count(std::string(step.backend) + (step.whole_frame ? "+frontend/" : "/") +
+                            std::string(scene.name) + "/step:" + step.name +
+                            "/threads:" + std::to_string(step.threads)),
                 in_ablation(scene.name) ? 1u : 0u);
-  EXPECT_TRUE(names.count("naive/large/threads:1") && names.count("tiled/large/threads:2"));
+  EXPECT_TRUE(names.count("naive/large/threads:1") && names.count("tiled+frontend/large/threads:2"));
   EXPECT_EQ(estimates, 2 * builtin_scenes().size());
+}
+
+TEST(BenchAblation, DrawsTwoCallsWithoutClusters) {
+  SuiteOptions options;
+  options.quick = true;
+  options.width = 480, options.height = 270;
+  std::map<std::string, Row> rows;
+  for (Row& row : make_suite(options)) rows.emplace(row.name, std::move(row));
+  Stage stage;
+  for (const std::string step : {"/step:two-calls/threads:1", "/threads:1"}) {
+    Row& row = rows.at("tiled+frontend/terrain" + step);
+    row.workload->prepare(true);
+    stage.compare(row);
+    EXPECT_EQ(row.error, "") << row.name;
+    EXPECT_EQ(std::get<Scene>(row.workload->drawable()).meshes[0].clusters.empty(), row.two_calls);
+  }
+  EXPECT_TRUE(rows.at("tiled+frontend/small/step:two-calls/threads:1").two_calls);
 }
 
 // The right angle lies in the image's upper left corner.
