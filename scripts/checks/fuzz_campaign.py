@@ -59,7 +59,7 @@ class Target:
             text, status = self.run(*self.corpus(), f"-max_total_time={left}", "-print_final_stats=1")
             executions += int(last(r"stat::number_of_executed_units: (\d+)", text) or last(r"^#(\d+)\s", text) or 0)
             if status != 0 and set(self.crashes.iterdir()) == before:
-                raise SystemExit(f"fuzz: {self.name} failed without a crash; see {self.log}")
+                fail(f"{self.name} failed without a crash; see {self.log}")
             if status == 0 or len(set(self.crashes.iterdir()) - before) >= 10:
                 break
         reproducers = sorted(set(self.crashes.iterdir()) - before)
@@ -86,8 +86,43 @@ class Target:
         # Edges only, not their counts: the corpus must stay small.
         _, status = self.run(corpus, *self.corpus(), "-set_cover_merge=1", "-use_counters=0")
         if status != 0:
-            raise SystemExit(f"fuzz: {self.name} could not be merged; see {self.log}")
+            fail(f"{self.name} could not be merged; see {self.log}")
         return len(list(corpus.iterdir())) - before
+
+
+def commit():
+    """Of the sources; ends in -dirty if they have changed, as in src/support/machine.cpp."""
+    def git(*arguments):
+        return subprocess.run(["git", "--no-optional-locks", "-C", ROOT, *arguments], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                              text=True, check=False).stdout.strip()
+
+    changes = git("status", "--porcelain", "--", ":/", ":(top,exclude)results")
+    return git("rev-parse", "--short=12", "HEAD") + ("-dirty" if changes else "") or "unknown"
+
+
+def fail(what):
+    print(f"fuzz: {what}", file=sys.stderr)
+    sys.exit(2)
+
+
+def read_record(path, now):
+    """The results to which this run of commit `now` adds, by target; none if the file does not exist."""
+    if path is None or not path.exists():
+        return {}
+    try:
+        record = json.loads(path.read_text())
+        known = [(row["name"], row["seconds"], row["executions"], row["crashes"]) for row in record["targets"]]
+        of = record["commit"]
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        fail(f"{path} is not a record of fuzzing: {error!r}")
+    if of != now:
+        fail(f"{path} is of commit {of}, and this is {now}")
+    return {name: {"seconds": seconds, "executions": executions, "crashes": crashes} for name, seconds, executions, crashes in known}
+
+
+def added(row, before):
+    """A target's results after those of earlier runs. Its coverage is that of the inputs that this run has."""
+    return {**row, **{key: round(before[key] + row[key], 1) if key == "seconds" else before[key] + row[key] for key in before}}
 
 
 def last(pattern, text):
@@ -100,9 +135,12 @@ def main():
     parser.add_argument("build", type=Path)
     parser.add_argument("--minutes", type=float, required=True)
     parser.add_argument("--json", type=Path)
+    parser.add_argument("--resume", type=Path)
     parser.add_argument("--keep", action="store_true")
     options = parser.parse_args()
 
+    now = commit()
+    before = read_record(options.resume, now)
     targets = [Target(name, options.build) for name in TARGETS]
     slots = min(len(targets), os.cpu_count() or 1)
     seconds = max(1, round(60 * options.minutes * slots / len(targets)))
@@ -117,8 +155,12 @@ def main():
     if options.keep:
         for target in targets:
             print(f"{target.name:<10} {target.keep()} inputs kept in {target.seeds[0].relative_to(ROOT)}/")
-    if options.json:
-        options.json.write_text(json.dumps({"minutes": options.minutes, "targets": rows}, indent=2) + "\n")
+    if out := options.resume or options.json:
+        total = [added(row, before.get(row["name"], {})) for row in rows]
+        cpu_hours = round(sum(row["seconds"] for row in total) / 3600, 2)  # each target runs on one core
+        partial = out.with_name(out.name + ".partial")
+        partial.write_text(json.dumps({"commit": now, "cpu_hours": cpu_hours, "targets": total}, indent=2) + "\n")
+        os.replace(partial, out)
     if any(row["crashes"] for row in rows):
         print("Crashes found: build-fuzz/fuzz_TARGET FILE reproduces one; after the fix, add FILE to "
               "tests/fuzz/regressions/TARGET/ under a name that says what it broke.", file=sys.stderr)

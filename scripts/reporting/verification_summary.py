@@ -72,7 +72,8 @@ def brief_test_lines(data):
 
 def brief_fuzz_lines(data):
     targets = data["targets"]
-    yield ["Fuzzing", f"{how_many(len(targets), 'target')}, {short(sum(target['executions'] for target in targets))} executions",
+    yield ["Fuzzing", f"{how_many(len(targets), 'target')}, {short(sum(target['executions'] for target in targets))} executions in "
+           f"{data['cpu_hours']:.1f} CPU hours",
            none_or(sum(len(target["crashes"]) for target in targets), "crash", "crashes")]
 
 

@@ -465,7 +465,7 @@ class ScriptsTest(unittest.TestCase):
 
 
 class AblationTest(unittest.TestCase):
-    """ablation.steps(): from the plainest backend over the steps to the last row."""
+    """ablation.parts(): from the plainest backend over the steps to the last row, of draws and of whole frames."""
 
     @classmethod
     def setUpClass(cls):
@@ -473,15 +473,21 @@ class AblationTest(unittest.TestCase):
 
     def test_steps_stand_between_the_suites_own_rows(self):
         from bench_rows import Bench, parse_name
-        from ablation import steps
+        from ablation import parts
         rows = {}
         for name, times in (("naive/cube/threads:1", [9.0]), ("tiled/cube/threads:1", [2.0]), ("tiled/cube/threads:2", [1.0]),
                             ("naive/cube/step:stepped/threads:1", [8.5]),
                             ("tiled/cube/step:tiles/threads:1", [8.0]), ("tiled/knot/step:tiles/threads:1", [5.0]),
-                            ("tiled/cube/step:avx2/threads:1", [4.0])):
+                            ("tiled/cube/step:avx2/threads:1", [4.0]),
+                            ("tiled+frontend/cube/threads:1", [6.0]), ("tiled+frontend/cube/threads:2", [3.0]),
+                            ("tiled+frontend/cube/step:two-calls/threads:1", [7.0]),
+                            ("tiled+frontend/cube/step:one-tile-per-task/threads:2", [3.5])):
             rows[name] = parse_name(name)
             rows[name].times_ms = times
-        self.assertEqual([row.median_ms for _, row in steps(Bench({}, rows), "cube")], [9.0, 8.5, 8.0, 4.0, 2.0, 1.0])
+        draws, frames = ([(label, row.median_ms) for label, row in part] for part in parts(Bench({}, rows), "cube"))
+        self.assertEqual([ms for _, ms in draws], [9.0, 8.5, 8.0, 4.0, 2.0])
+        self.assertEqual(frames, [("whole frame, 1 thread", 7.0), ("+ fusion, clusters", 6.0), ("+ second thread", 3.5),
+                                  ("+ runs of tiles", 3.0)])
 
     @staticmethod
     def row(*times_ms):

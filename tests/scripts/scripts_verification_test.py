@@ -39,7 +39,7 @@ GOOD = {"tests": {"all": totals(500), "families": {"lattices": totals(5, cases=2
                   "sanitized": [{"name": "address", **totals(499, 0, 2)}]},
         "prove": {"claims": 9, "proven": 9, "premises_hold": 9, "refuted": 9},
         "mutate": {"mutations": 25, "caught": 25},
-        "fuzz": {"targets": [{"what": "any bytes", "executions": 12_345, "lines_reached": 90, "lines": 100, "crashes": []}]}}
+        "fuzz": {"cpu_hours": 4.0, "targets": [{"what": "any bytes", "executions": 12_345, "lines_reached": 90, "lines": 100, "crashes": []}]}}
 
 
 class CollectTest(unittest.TestCase):
