@@ -92,7 +92,8 @@ bool is_slow_and_not_fastest(const Row& row, const std::vector<Row>& rows) {
   double own_s = 0.0, best_s = std::numeric_limits<double>::infinity();
   for (const Row& other : rows) {
     if (other.workload != row.workload || other.timed != Timed::frame || other.peer != nullptr ||
-        other.cores > 0 || other.execution.threads != 1 || other.execution.target != SimdTarget::best)
+        other.cores > 0 || other.step || other.execution.threads != 1 ||
+        other.execution.target != SimdTarget::best)
       continue;
     best_s = std::min(best_s, other.once_s);
     if (other.backend == row.backend) own_s = other.once_s;

@@ -98,7 +98,7 @@ PeerScene peer_scene(const Workload& workload, PeerPayload payload) {
   result.width = workload.width();
   result.height = workload.height();
   result.background = payload == PeerPayload::id ? kNoTriangle : kBackground;
-  result.cull_back = workload.frontend_options(1).cull == Cull::back;
+  result.cull_back = workload.frontend_options({}).cull == Cull::back;
   const auto payloads = payloads_of(workload, payload);
   if (const auto* scene = std::get_if<Scene>(&workload.drawable()))
     result.meshes = scene_meshes(*scene, workload, payloads);
@@ -108,7 +108,7 @@ PeerScene peer_scene(const Workload& workload, PeerPayload payload) {
 }
 
 std::vector<ScreenTriangle> triangles_by_id(const Workload& workload) {
-  FrontendOptions options = workload.frontend_options(1);
+  FrontendOptions options = workload.frontend_options({});
   options.payload = Payload::id;
   Frontend frontend;
   const auto triangles = frontend.run(workload.drawable(), options);

@@ -21,8 +21,13 @@ std::vector<AblationStep> ablation_steps() {
   ablation.tile_store = TileStore::automatic;
   steps.push_back({"tile-store", kAblationBackend, SimdTarget::best, ablation});
   steps.push_back({"two-calls", kAblationBackend, SimdTarget::best, {}, true, true, 1});
-  steps.push_back(
-      {"one-tile-per-task", kAblationBackend, SimdTarget::best, {.tile_runs = false}, true, false, 2});
+  steps.push_back({"one-tile-per-task",
+                   kAblationBackend,
+                   SimdTarget::best,
+                   {.several_tiles_per_task = false},
+                   true,
+                   false,
+                   2});
   return steps;
 }
 

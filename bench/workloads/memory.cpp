@@ -32,9 +32,8 @@ std::optional<double> peak_bytes(const Row& row) {
   Workload& workload = *row.workload;
   {
     Frontend frontend;
-    const auto triangles = workload.run(frontend, row.execution.threads);
     Framebuffer frame(workload.width(), workload.height());
-    row.backend->make()->draw(triangles, frame.view(), kBackground, row.execution);
+    workload.draw(frontend, *row.backend->make(), frame.view(), {row.execution, row.ablation});
   }
   const auto peak = status_bytes("VmHWM:");
   constexpr double kTolerance = 1 << 20;  // bytes: other threads' allocations, and Linux's coarse counters

@@ -46,7 +46,7 @@ void Stage::work(const Row& row) {
   if (row.timed == Timed::frame && !row.numbers && !row.two_calls)
     return workload.draw(frontend_, backend(row), frame(row).view(), {row.execution, row.ablation});
   auto triangles = workload.triangles();
-  if (row.timed != Timed::raster) triangles = workload.run(frontend_, row.execution.threads);
+  if (row.timed != Timed::raster) triangles = workload.run(frontend_, row.execution);
   if (row.numbers)
     lab::draw_engine(*row.numbers, {workload.unsnapped(), triangles}, {workload.width(), workload.height()},
                      frame(row).view(), kBackground, row.execution, scratch_);
@@ -77,7 +77,7 @@ void Stage::compare_ours(Row& row) {
   row.once_s = row.cores > 0 ? recorded_work_s(row) : timed_work_s(row);
   if (row.timed == Timed::frontend) {
     const auto expected = row.workload->triangles();
-    const auto actual = row.workload->run(frontend_, row.execution.threads);
+    const auto actual = row.workload->run(frontend_, row.execution);
     if (actual.size() != expected.size() ||
         std::memcmp(actual.data(), expected.data(), expected.size_bytes()) != 0)
       row.error = fmt::format("emits other triangles than on 1 thread ({} instead of {})", actual.size(),

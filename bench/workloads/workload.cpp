@@ -9,35 +9,36 @@ Workload::Workload(int width, int height, Cull mesh_cull, std::function<tools::S
                    const lab::FacingMethod* facing)
     : width_(width), height_(height), mesh_cull_(mesh_cull), facing_(facing), load_(std::move(load)) {}
 
-FrontendOptions Workload::frontend_options(int threads) const {
+FrontendOptions Workload::frontend_options(const Execution& execution) const {
   FrontendOptions options;
   options.width = width_;
   options.height = height_;
   options.cull = stream_ ? Cull::none : mesh_cull_;
   options.shade = !stream_;
-  options.threads = threads;
+  options.threads = execution.threads;
+  options.target = execution.target;
   return options;
 }
 
-std::span<const ScreenTriangle> Workload::run(Frontend& frontend, int threads) {
-  FrontendOptions options = frontend_options(threads);
+std::span<const ScreenTriangle> Workload::run(Frontend& frontend, const Execution& execution) {
+  FrontendOptions options = frontend_options(execution);
   if (!hidden_) return frontend.run(source_->drawable, options);
   options.cull = Cull::none;
   return frontend.run(hidden_->drop(std::get<Scene>(source_->drawable)), options);
 }
 
 void Workload::draw(Frontend& frontend, Backend& backend, FrameView frame, const AblatedExecution& how) {
-  const int threads = how.execution.threads;
   if (hidden_)
-    edgewise::draw(backend, run(frontend, threads), frame, kBackground, how);
+    edgewise::draw(backend, run(frontend, how.execution), frame, kBackground, how);
   else
-    edgewise::draw(source_->drawable, frontend, frontend_options(threads), backend, frame, kBackground, how);
+    edgewise::draw(source_->drawable, frontend, frontend_options(how.execution), backend, frame, kBackground,
+                   how);
 }
 
 void Workload::drop_hidden(Frontend& frontend) {
   const Framebuffer exact = drawn();
   hidden_.emplace(std::get<Scene>(source_->drawable), *facing_);
-  const auto kept = run(frontend, 1);
+  const auto kept = run(frontend, {});
   triangles_.assign(kept.begin(), kept.end());
   wrong_px_ = lab::compare(exact, reference()).pixels;
 }
@@ -47,7 +48,7 @@ void Workload::prepare(bool keep_scene) {
   source_ = load_();
   stream_ = source_->stream;
   Frontend frontend;
-  const auto emitted = frontend.run(source_->drawable, frontend_options(1));
+  const auto emitted = frontend.run(source_->drawable, frontend_options({}));
   triangles_.assign(emitted.begin(), emitted.end());
   submitted_ = frontend.stats().triangles;
   if (facing_ != nullptr) drop_hidden(frontend);
@@ -58,7 +59,7 @@ void Workload::prepare(bool keep_scene) {
 
 std::span<const lab::FloatTriangle> Workload::unsnapped() {
   if (unsnapped_.empty()) {
-    FrontendOptions options = frontend_options(1);
+    FrontendOptions options = frontend_options({});
     options.keep_unsnapped = true;
     Frontend frontend;
     const auto screen = frontend.run(source_->drawable, options);

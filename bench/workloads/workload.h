@@ -47,12 +47,13 @@ class Workload {
   std::optional<std::uint64_t> wrong_px() const { return wrong_px_; }
 
   // The timed work of a front end row: scene to screen triangles. Requires prepare(true).
-  std::span<const ScreenTriangle> run(Frontend& frontend, int threads);
+  std::span<const ScreenTriangle> run(Frontend& frontend, const Execution& execution);
 
   // The timed work of a frame row. Requires prepare(true).
   void draw(Frontend& frontend, Backend& backend, FrameView frame, const AblatedExecution& how);
 
-  FrontendOptions frontend_options(int threads) const;
+  // With the execution's threads and SIMD target.
+  FrontendOptions frontend_options(const Execution& execution) const;
   const Drawable& drawable() const { return source_->drawable; }
   std::span<const ScreenTriangle> triangles() const { return triangles_; }
   std::uint64_t submitted() const { return submitted_; }    // the scene's triangles

@@ -107,7 +107,11 @@ def fail(what):
 
 def read_record(path, now):
     """The results to which this run of commit `now` adds, by target; none if the file does not exist."""
-    if path is None or not path.exists():
+    if path is None:
+        return {}
+    if now == "unknown" or now.endswith("-dirty"):
+        fail(f"only results of one commit add up; the sources are of {now}")
+    if not path.exists():
         return {}
     try:
         record = json.loads(path.read_text())
@@ -134,8 +138,9 @@ def main():
     parser = argparse.ArgumentParser(prog="fuzz", description=__doc__)
     parser.add_argument("build", type=Path)
     parser.add_argument("--minutes", type=float, required=True)
-    parser.add_argument("--json", type=Path)
-    parser.add_argument("--resume", type=Path)
+    record = parser.add_mutually_exclusive_group()
+    record.add_argument("--json", type=Path)
+    record.add_argument("--resume", type=Path)
     parser.add_argument("--keep", action="store_true")
     options = parser.parse_args()
 

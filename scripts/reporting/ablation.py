@@ -7,25 +7,21 @@ from tables import milliseconds
 START = "naive"
 NAMES = {"vector-setup": "+ SIMD set-up", "prefetch": "+ prefetch", "coverage-masks": "+ coverage masks",
          "hierarchical-depth": "+ HiZ", "stepped": "+ incremental edges", "tiles": "+ tiles",
-         "tile-store": "+ choice of tile store", "two-calls": "whole frame, 1 thread", "one-tile-per-task": "+ second thread"}
+         "tile-store": "+ choice of tile store"}
 
 
 def parts(bench, scene):
     """Two lists of (label, row), each from the plainest to the last: draws of prepared triangles on one thread, and whole
     frames. The suite's own rows stand at the ends, those of the ablation between them."""
-    rows = [row for row in bench.sweep("step") if row.scene == scene]
-    backend = rows[-1].backend
-
-    def named(of_frames):
-        return [(NAMES.get(row.keys["step"], f"… with {kernels(row.keys['step'])}"), row) for row in rows if row.frontend == of_frames]
-
-    of_older_commits = all(row.keys["step"] != "tile-store" for row in rows)
-    draws = [(f"{START}, 1 thread", bench.find(f"{START}/{scene}/threads:1")), *named(False),
-             (NAMES["tile-store"] if of_older_commits else "+ rows of empty tiles", bench.find(f"{backend}/{scene}/threads:1"))]
+    rows = {row.keys["step"]: row for row in bench.sweep("step") if row.scene == scene}
+    backend = list(rows.values())[-1].backend
     one, two = (bench.find(f"{backend}+frontend/{scene}/threads:{threads}") for threads in (1, 2))
-    two_calls, one_tile = (*named(True), None, None)[:2]
-    frames = [two_calls, ("+ fusion, clusters", one), one_tile, ("+ runs of tiles", two)]
-    return [[step for step in part if step and step[1]] for part in (draws, frames)]
+    draws = [(f"{START}, 1 thread", bench.find(f"{START}/{scene}/threads:1")),
+             *((NAMES.get(step, f"… with {kernels(step)}"), row) for step, row in rows.items() if not row.frontend),
+             ("+ rows of empty tiles", bench.find(f"{backend}/{scene}/threads:1"))]
+    frames = [("whole frame, 1 thread", rows.get("two-calls")), ("+ fusion, clusters", one),
+              ("+ second thread", rows.get("one-tile-per-task")), ("+ several tiles per task", two)]
+    return [[(label, row) for label, row in part if row] for part in (draws, frames)]
 
 
 def said(before, row):

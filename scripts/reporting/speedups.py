@@ -41,15 +41,13 @@ def outcome(compared, what):
 
 
 def narrower_sentence(bench):
-    """What narrower vectors cost in whole frames: "with AVX2 1.2× to 1.7× (28 rows), …"; empty if no such row was timed."""
-    slower = {}
+    """How much faster whole frames are with the widest vectors than with narrower ones; empty if these were not timed."""
+    of_target = {}
     for row in bench.sweep("target"):
-        widest = bench.frame(row.backend, row.scene, row.threads)
-        if row.frontend and widest:
-            slower.setdefault(row.keys["target"], []).append(row.median_ms / widest.median_ms)
-    said = [f"with {kernels(target)} {spread(ratios)} ({len(ratios)} rows)" for target in reversed(VECTORS)
-            if (ratios := slower.get(target))]
-    return f"Whole frames are slower with narrower vectors than with {kernels(bench.context.get('simd_target'))}: {', '.join(said)}." if said else ""
+        if row.frontend and (widest := bench.frame(row.backend, row.scene, row.threads)):
+            of_target.setdefault(row.keys["target"], []).append((widest, row))
+    said = [f"against {kernels(target)} it {outcome(of_target[target], 'rows')}" for target in reversed(VECTORS) if target in of_target]
+    return f"Whole frames on one and on two threads with {kernels(bench.context.get('simd_target'))}: {'; '.join(said)}." if said else ""
 
 
 def speed_up(ratio):

@@ -76,13 +76,13 @@ inline void piece_done() {
 // parallel_for() for many short calls. A thread takes up to four consecutive calls at once, since taking work
 // costs oneTBB about 0.1 us.
 template <typename Body>
-void parallel_in_runs(int threads, int count, Body&& body,
-                      const CallSite& where = {__builtin_FUNCTION(), __builtin_FILE()}) {
-  const int run = std::clamp(count / (16 * threads), 1, 4);
+void parallel_in_chunks(int threads, int count, Body&& body,
+                        const CallSite& where = {__builtin_FUNCTION(), __builtin_FILE()}) {
+  const int chunk = std::clamp(count / (16 * threads), 1, 4);
   parallel_for(
-      threads, (count + run - 1) / run,
+      threads, (count + chunk - 1) / chunk,
       [&](int i) {
-        for (int k = i * run; k < std::min(count, (i + 1) * run); ++k) body(k);
+        for (int k = i * chunk; k < std::min(count, (i + 1) * chunk); ++k) body(k);
       },
       where);
 }

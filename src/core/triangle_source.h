@@ -1,6 +1,6 @@
-// Screen triangles as binning reads them: a run at a time. They may lie in memory, or be made where binning
-// needs them. A run that has just been made is binned while it lies in the L2 cache, so small triangles never
-// go through memory.
+// Screen triangles as binning reads them. They lie in memory, or are made when binning needs them. Then they
+// are binned while they lie in the L2 cache, and those that become coverage masks are never written to
+// memory.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@ namespace edgewise {
 
 class TriangleSource {
  public:
-  static constexpr std::size_t kRun = 2048;  // inputs, the most of one call of make()
+  static constexpr std::size_t kInputsAtOnce = 2048;  // the most of one call of make()
 
   virtual ~TriangleSource() = default;
 
@@ -21,6 +21,9 @@ class TriangleSource {
   // Returns the screen triangles of inputs begin … end - 1, in order. They are valid until the next call with
   // the same `worker`. Calls with different workers may run at once. Does not throw.
   virtual std::span<const ScreenTriangle> make(int worker, std::size_t begin, std::size_t end) = 0;
+  // Returns the screen triangles of one input, for an estimate of its work. They are valid until the next
+  // call of this or of make(). The front end does not count them. Does not throw.
+  virtual std::span<const ScreenTriangle> sample(std::size_t input) = 0;
   // The screen triangles if they lie in memory, one per input. Else null.
   virtual const ScreenTriangle* stored() const { return nullptr; }
 };
@@ -32,6 +35,7 @@ class StoredTriangles final : public TriangleSource {
   std::span<const ScreenTriangle> make(int, std::size_t begin, std::size_t end) override {
     return triangles_.subspan(begin, end - begin);
   }
+  std::span<const ScreenTriangle> sample(std::size_t input) override { return triangles_.subspan(input, 1); }
   const ScreenTriangle* stored() const override { return triangles_.data(); }
 
  private:

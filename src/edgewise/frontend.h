@@ -81,6 +81,7 @@ struct FrontendStats {
   std::uint64_t emitted = 0;        // pieces returned
 
   FrontendStats& operator+=(const FrontendStats& other);
+  bool operator==(const FrontendStats&) const = default;
 };
 
 class Backend;
@@ -91,7 +92,8 @@ class TriangleSource;  // internal
 // A front end keeps its memory between frames and allocates only in the first frame of a kind. It keeps
 // - 16 bytes per vertex of the largest mesh, or for small meshes 0.5 MB, or 0.8 MB per 8 threads,
 // - of a mesh with clusters, less than 150 bytes per cluster and 1 byte per 64 vertices,
-// - 40 bytes per visible triangle (and address space for as many per submitted one),
+// - 40 bytes per visible triangle (and address space for as many per submitted one), unless draw() draws a
+//   stream,
 // - less than 1 MB per thread,
 // - with keep_unsnapped, 36 bytes more per visible triangle and less than 1 MB more per thread,
 // - with keep_states, 1 byte per submitted triangle.
@@ -128,13 +130,14 @@ class Frontend {
   // exception. Valid as long as those triangles.
   std::span<const UnsnappedTriangle> unsnapped() const;
   // One entry per submitted triangle, in order, if keep_states was set. Empty otherwise and after an
-  // exception. Valid until the next call of run().
+  // exception. Valid until the next call of run() or draw().
   std::span<const TriangleState> states() const;
 
  private:
   friend void draw(const Drawable& drawable, Frontend& frontend, const FrontendOptions& options,
                    Backend& backend, FrameView frame, std::uint32_t background, const Execution& execution);
   // Returns a source for up to `workers` workers, or null if run() must be called. Throws what that throws.
+  // The source refers to `drawable`, and is valid until end_source(), which completes stats().
   TriangleSource* start_source(const Drawable& drawable, const FrontendOptions& options, int workers);
   void end_source();
 

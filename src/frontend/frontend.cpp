@@ -370,9 +370,9 @@ ScreenTriangles Frontend::run(const Drawable& drawable, const FrontendOptions& o
 TriangleSource* Frontend::start_source(const Drawable& drawable, const FrontendOptions& options,
                                        int workers) {
   State& s = *state_;
+  s.set(options);
   const auto* stream = std::get_if<TriangleStream>(&drawable);
   if (stream == nullptr || options.keep_unsnapped || options.keep_states) return nullptr;
-  s.set(options);
   s.stats = {};
   s.stats.triangles = checked_count(stream->triangles.size());
   s.order.start_frame(workers, false);

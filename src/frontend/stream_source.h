@@ -21,12 +21,18 @@ class StreamSource final : public TriangleSource {
     kernel_(task_, begin, end, out);
     return {out.triangles.data(), out.count};
   }
+  std::span<const ScreenTriangle> sample(std::size_t input) override {
+    const FrontendStats before = order_.output(0).stats;
+    const auto triangles = make(0, input, input + 1);
+    order_.output(0).stats = before;
+    return triangles;
+  }
 
  private:
   StreamTask task_;
   StreamKernel kernel_;
   InOrder& order_;
 };
-static_assert(TriangleSource::kRun <= kChunkTriangles);
+static_assert(TriangleSource::kInputsAtOnce <= kChunkTriangles);
 
 }  // namespace edgewise

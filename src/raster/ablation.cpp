@@ -32,7 +32,7 @@ std::string describe(const Ablation& ablation) {
   add(ablation.tile_store == TileStore::cached, "cached stores");
   add(ablation.tile_store == TileStore::streaming, "streaming stores");
   add(!ablation.empty_rows, "no rows of empty tiles");
-  add(!ablation.tile_runs, "one tile per task");
+  add(!ablation.several_tiles_per_task, "one tile per task");
   add(ablation.stepped, "stepped");
   return text;
 }

@@ -26,9 +26,9 @@ struct Ablation {
   bool coverage_masks = true;      // tiled: binning resolves small triangles to masks; needs vector_setup
   bool hierarchical_depth = true;  // tiled: triangles behind all that a block or tile shows are rejected
   TileStore tile_store = TileStore::automatic;  // tiled, scanline
-  bool empty_rows = true;  // tiled, scanline: all empty tiles of a row are filled together
-  bool tile_runs = true;   // tiled, scanline: a task draws several tiles
-  bool stepped = false;    // naive: edges and depth are stepped along rows, not evaluated at each pixel
+  bool empty_rows = true;              // tiled, scanline: all empty tiles of a row are filled together
+  bool several_tiles_per_task = true;  // tiled, scanline
+  bool stepped = false;  // naive: edges and depth are stepped along rows, not evaluated at each pixel
 };
 
 // The switches that differ from the default, as "no prefetch, …"; empty if none does.
@@ -43,7 +43,7 @@ constexpr std::array<Ablation, 10> kAblations{{{.vector_setup = false},
                                                {.tile_store = TileStore::cached},
                                                {.tile_store = TileStore::streaming},
                                                {.empty_rows = false},
-                                               {.tile_runs = false},
+                                               {.several_tiles_per_task = false},
                                                {false, false, false, false, TileStore::cached, false, false},
                                                {.stepped = true}}};
 

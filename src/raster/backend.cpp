@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <variant>
 
 #include "core/triangle_source.h"
 #include "edgewise/contract.h"
@@ -29,11 +30,11 @@ Execution checked(const FrameView& frame, const Execution& execution) {
   return resolved;
 }
 
-void throw_if_of_another_size(int width, int height, const FrameView& frame) {
+void throw_if_of_another_size(const char* what, int width, int height, const FrameView& frame) {
   const auto size = [](int w, int h) { return std::to_string(w) + " x " + std::to_string(h) + " px"; };
   if (width != frame.width || height != frame.height)
-    throw std::invalid_argument("triangles made for " + size(width, height) +
-                                " cannot be drawn into a frame of " + size(frame.width, frame.height));
+    throw std::invalid_argument(what + (" for " + size(width, height)) + " cannot be drawn into a frame of " +
+                                size(frame.width, frame.height));
 }
 
 }  // namespace
@@ -49,20 +50,25 @@ void Backend::draw(std::span<const ScreenTriangle> triangles, FrameView frame, s
 
 void Backend::draw(const ScreenTriangles& triangles, FrameView frame, std::uint32_t background,
                    const Execution& execution) {
-  throw_if_of_another_size(triangles.width(), triangles.height(), frame);
+  throw_if_of_another_size("triangles made", triangles.width(), triangles.height(), frame);
   draw(std::span(triangles), frame, background, execution);
 }
 
 void draw(const Drawable& drawable, Frontend& frontend, const FrontendOptions& options, Backend& backend,
           FrameView frame, std::uint32_t background, const Execution& execution) {
-  throw_if_of_another_size(options.width, options.height, frame);
+  throw_if_of_another_size("a drawable with options", options.width, options.height, frame);
   const Execution resolved = checked(frame, execution);
   if (TriangleSource* const source = frontend.start_source(drawable, options, resolved.threads)) {
-    const bool drawn = backend.draw_source(*source, frame, background, resolved);
-    frontend.end_source();
-    if (drawn) return;
+    struct End {  // also if drawing throws
+      Frontend& frontend;
+      ~End() { frontend.end_source(); }
+    };
+    const End end{frontend};
+    if (backend.draw_source(*source, frame, background, resolved)) return;
   }
-  backend.draw(frontend.run(drawable, options), frame, background, resolved);
+  FrontendOptions in_two_calls = options;
+  if (std::holds_alternative<TriangleStream>(drawable)) in_two_calls.threads = resolved.threads;
+  backend.draw(frontend.run(drawable, in_two_calls), frame, background, resolved);
 }
 
 }  // namespace edgewise

@@ -29,6 +29,7 @@ enum class TileContent { nothing, few, many };
 // - On one thread, a tile with many triangles is streamed while the next one is drawn. Several threads that
 //   stream would wait for the memory's bandwidth.
 // - Other tiles get cached stores.
+// `triangles`: submitted ones.
 constexpr TileStore tile_store_for(TileContent content, std::size_t triangles, int threads,
                                    std::size_t frame_bytes, std::size_t llc) {
   const bool fits_llc = frame_bytes <= llc / 2, fits_l2 = triangles * sizeof(ScreenTriangle) <= kL2Bytes;
@@ -71,8 +72,8 @@ bool draw_in_tiles(TriangleSource& triangles, FrameView frame, std::uint32_t bac
                        size_log2, frame, background, resolved});
   };
   const int count = static_cast<int>(tasks.size());
-  if (ablation.tile_runs)
-    parallel_in_runs(execution.threads, count, do_task);
+  if (ablation.several_tiles_per_task)
+    parallel_in_chunks(execution.threads, count, do_task);
   else
     parallel_for(execution.threads, count, do_task);
   return true;
@@ -85,7 +86,7 @@ class TileBackend : public AblatableBackend {
   void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
                     const Execution& execution) final {
     StoredTriangles stored(triangles);
-    draw_source(stored, frame, background, execution);  // true: stored triangles need no room
+    draw_source(stored, frame, background, execution);  // always true: stored triangles are not copied
   }
 };
 

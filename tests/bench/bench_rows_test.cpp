@@ -166,6 +166,16 @@ TEST(BenchSuite, TimesThreeCullingModes) {
   EXPECT_TRUE(std::get<Scene>(quads.workload->drawable()).meshes[0].has_flag(1, kSecondHalf));
 }
 
+TEST(BenchWorkload, FrontEndRunsOnTheTargetOfTheExecution) {
+  Workload workload(96, 64, Cull::back, [] {
+    return tools::load_source("cube", {96, 64, 0.0f, 1.0}, false);
+  });
+  workload.prepare(true);
+  const FrontendOptions options = workload.frontend_options({3, 64, SimdTarget::scalar});
+  EXPECT_EQ(options.target, SimdTarget::scalar);
+  EXPECT_EQ(options.threads, 3);
+}
+
 TEST(BenchAblation, AddsOneOptimizationPerStep) {
   const auto steps = ablation_steps();
   const auto count = supported_targets().size();

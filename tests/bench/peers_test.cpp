@@ -289,8 +289,8 @@ std::uint64_t wrong_portable_px(const Workload& workload, const PeerInfo& peer, 
   Framebuffer ours(workload.width(), workload.height());
   backends().front().make()->draw(triangles_by_id(workload), ours.view(), kNoTriangle, {});
   const auto mask = lab::portable_pixels(
-      lab::portable_triangles(workload.drawable(), workload.frontend_options(1)), ours.width(), ours.height(),
-      {.subpixel_bits = subpixel_bits, .depth = lab::find_depth_format("d32_sfloat")}, 2);
+      lab::portable_triangles(workload.drawable(), workload.frontend_options({})), ours.width(),
+      ours.height(), {.subpixel_bits = subpixel_bits, .depth = lab::find_depth_format("d32_sfloat")}, 2);
   const auto frame = peer.load(peer_scene(workload, PeerPayload::id), 1);
   frame->draw();
   const auto theirs = frame->read();
@@ -350,7 +350,7 @@ std::shared_ptr<Workload> random_mesh(std::uint64_t seed) {
 // Beyond their viewport, peers clip triangles, which the model leaves out. llvmpipe then errs by whole
 // pixels.
 bool fits_the_viewport(const Workload& workload) {
-  return std::ranges::all_of(lab::portable_triangles(workload.drawable(), workload.frontend_options(1)),
+  return std::ranges::all_of(lab::portable_triangles(workload.drawable(), workload.frontend_options({})),
                              [](const lab::PortableTriangle& t) {
                                const auto inside = [](float px) { return std::abs(px) < kHalfViewport_px; };
                                return std::ranges::all_of(t.at.x_px, inside) &&

@@ -87,21 +87,21 @@ TEST(FrameRecorder, RecordsTasksInOrderOnOneThread) {
   EXPECT_EQ(frame.sections[1].tasks_s.size(), 6u) << "two pieces and the rest, for each of two tasks";
 }
 
-TEST(ParallelInRuns, CallsEachIndexOnce) {
+TEST(ParallelInChunks, CallsEachIndexOnce) {
   for (const int threads : {1, 2, 8})
     for (const int count : {0, 1, 63, 64, 65, 129, 1000}) {
       std::vector<std::atomic<int>> calls(static_cast<std::size_t>(count));
-      parallel_in_runs(threads, count, [&](int i) { ++calls[static_cast<std::size_t>(i)]; });
+      parallel_in_chunks(threads, count, [&](int i) { ++calls[static_cast<std::size_t>(i)]; });
       EXPECT_TRUE(std::ranges::all_of(calls, [](const auto& n) { return n == 1; })) << count;
     }
 }
 
-TEST(ParallelInRuns, MakesARunOneTask) {
+TEST(ParallelInChunks, MakesARunOneTask) {
   FrameRecorder recorder;
   {
     const ObserveParallel scope(recorder);
-    parallel_in_runs(2, 130, [](int) {});
-    parallel_in_runs(2, 32, [](int) {});
+    parallel_in_chunks(2, 130, [](int) {});
+    parallel_in_chunks(2, 32, [](int) {});
   }
   const FrameWork frame = recorder.finish();
   EXPECT_EQ(frame.sections[0].tasks_s.size(), 33u) << "runs of four";

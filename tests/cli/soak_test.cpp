@@ -25,6 +25,7 @@
 #include "cli/soak/triangles.h"
 #include "edgewise/contract.h"
 #include "edgewise/tri_file.h"
+#include "ignores_sources.h"
 #include "message_of.h"
 #include "run_program.h"
 #include "support/options.h"
@@ -301,20 +302,6 @@ class WrongReference : public Backend {
   std::unique_ptr<Backend> right_ = backends()[0].make();
 };
 
-// Wrong only if it draws from a source: it draws nothing.
-class IgnoresSources : public Backend {
-  void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
-                    const Execution& execution) override {
-    right_->draw(triangles, frame, background, execution);
-  }
-  bool draw_source(TriangleSource&, FrameView frame, std::uint32_t background,
-                   const Execution& execution) override {
-    right_->draw(std::span<const ScreenTriangle>(), frame, background, execution);
-    return true;
-  }
-  std::unique_ptr<Backend> right_ = backends()[0].make();
-};
-
 template <typename Wrong>
 BackendInfo wrong_backend() {
   return {"wrong", "", [] { return std::unique_ptr<Backend>(std::make_unique<Wrong>()); }};
@@ -440,7 +427,7 @@ TEST(SoakFindings, IncludeAWrongFrontEnd) {
 TEST(SoakFindings, IncludeAWrongWholeFrame) {
   const TempDir folder;
   Campaign campaign = campaign_of(120);
-  campaign.judged.backends = {backends()[0], wrong_backend<IgnoresSources>()};
+  campaign.judged.backends = {backends()[0], wrong_backend<testing::IgnoresSources>()};
   campaign.failure_folder = folder.path() / "failures";
   campaign.program = EDGEWISE_PROGRAM;
   const Record record = soaked(campaign, fresh(14, {}), folder);

@@ -13,6 +13,7 @@
 #include "edgewise/contract.h"
 #include "edgewise/image.h"
 #include "edgewise/tri_file.h"
+#include "ignores_sources.h"
 #include "lab/to_stream.h"
 #include "temp_dir.h"
 
@@ -69,20 +70,6 @@ class WritesBesideTheImage : public Backend {
                     const Execution& execution) override {
     right_->draw(triangles, frame, background, execution);
     frame.payload[kWrongY * frame.stride + frame.width] = background;
-  }
-  std::unique_ptr<Backend> right_ = backends()[0].make();
-};
-
-// Wrong only if it draws from a source: it draws nothing.
-class IgnoresSources : public Backend {
-  void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
-                    const Execution& execution) override {
-    right_->draw(triangles, frame, background, execution);
-  }
-  bool draw_source(TriangleSource&, FrameView frame, std::uint32_t background,
-                   const Execution& execution) override {
-    right_->draw(std::span<const ScreenTriangle>(), frame, background, execution);
-    return true;
   }
   std::unique_ptr<Backend> right_ = backends()[0].make();
 };
@@ -173,7 +160,7 @@ TEST(Verify, FindsAnErrorInASingleConfiguration) {
 }
 
 TEST(Verify, FindsAnErrorInWholeFramesAlone) {
-  const VerifyReport report = verify_quietly(small_plan({"large"}, wrong_backend<IgnoresSources>()));
+  const VerifyReport report = verify_quietly(small_plan({"large"}, wrong_backend<testing::IgnoresSources>()));
   const SceneVerdict& verdict = report.scenes.at(0);
   EXPECT_GT(verdict.differing_pixels, 0u);
   ASSERT_EQ(verdict.mismatches.size(), 1u);

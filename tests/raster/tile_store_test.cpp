@@ -4,6 +4,7 @@
 
 #include <atomic>
 
+#include "core/parallel.h"
 #include "raster/tiled/tile_kernel.h"
 #include "raster/tiles.h"
 #include "support.h"
@@ -53,6 +54,39 @@ TEST(TileStore, IsTheCallersChoiceIfItMakesOne) {
   EXPECT_EQ(tiles_streamed(TileStore::automatic, 1, 30), 0) << "few triangles in each tile";
   EXPECT_GT(drawn, 0);
   EXPECT_LT(drawn, 16) << "empty tiles do not reach the kernel";
+}
+
+class TaskCounter final : public ParallelObserver {
+ public:
+  int tasks = 0;
+  void section_begins(const CallSite&) override { tasks = 0; }
+  void task_ends() override { ++tasks; }
+  void section_ends() override {}
+};
+
+// Counts the calls of the kernel and the tasks of the last section.
+TEST(TileTasks, FollowTheSwitches) {
+  const int side = 16 * contract::kMaxTile;
+  const ScreenTriangle corner{{0, 9000, 0}, {0, 0, 9000}, {9, 9, 9}, 5};
+  Framebuffer frame(side, side);
+  static int drawn;
+  const TileKernel count = [](const TileTask&) { ++drawn; };
+  const auto draw_with = [&](const Ablation& ablation) {
+    drawn = 0;
+    TaskCounter counter;
+    TileScratch scratch;
+    StoredTriangles stored({&corner, 1});
+    const ObserveParallel observed(counter);
+    draw_in_tiles(stored, frame.view(), 0, {2, 64, resolve(SimdTarget::best)}, ablation, 64, scratch,
+                  Bins::Small::as_indices, count);
+    return counter.tasks;
+  };
+  const int tiles_with_triangles = 1;
+  draw_with({});
+  EXPECT_EQ(drawn, tiles_with_triangles);
+  EXPECT_EQ(draw_with({.empty_rows = false}), 16 * 16 / 4) << "four tiles per task";
+  EXPECT_EQ(drawn, 16 * 16);
+  EXPECT_EQ(draw_with({.empty_rows = false, .several_tiles_per_task = false}), 16 * 16);
 }
 
 // Empty tiles at the right and lower end, beside and between tiles with triangles, by either store.

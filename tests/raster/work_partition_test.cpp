@@ -27,7 +27,8 @@ std::vector<ScreenTriangle> triangles(std::size_t count, int px, std::size_t las
 }
 std::vector<std::size_t> bounds(const std::vector<ScreenTriangle>& triangles, std::size_t parts) {
   WorkPartition partition;
-  partition.cut_by_work(triangles, 1024, 1024, parts);
+  StoredTriangles source(triangles);
+  partition.cut_by_work(source, 1024, 1024, true, parts);
   return {partition.bounds().begin(), partition.bounds().end()};
 }
 using Bounds = std::vector<std::size_t>;
@@ -48,6 +49,26 @@ TEST(WorkPartition, HasShorterPartsOfCostlyTriangles) {
   EXPECT_NEAR(static_cast<double>(cut[1]), expected, 500.0);
   EXPECT_EQ(cut[0], 0u);
   EXPECT_EQ(cut[2], 2 * half);
+}
+
+// Inputs that become no triangle cost 8, others 16 and more.
+TEST(WorkPartition, HasLongerPartsOfInputsWithoutTriangles) {
+  static constexpr std::size_t half = 250'000;
+  class HalfEmpty final : public TriangleSource {
+   public:
+    std::size_t size() const override { return 2 * half; }
+    std::span<const ScreenTriangle> make(int, std::size_t, std::size_t) override { return {}; }
+    std::span<const ScreenTriangle> sample(std::size_t input) override {
+      return {&triangle, input < half ? 0u : 1u};
+    }
+    ScreenTriangle triangle = of_side(9);
+  };
+  HalfEmpty source;
+  WorkPartition partition;
+  for (const bool masks : {false, true}) {
+    partition.cut_by_work(source, 1024, 1024, masks, 2);
+    EXPECT_NEAR(static_cast<double>(partition.bounds()[1]), 1.25 * half, 500.0);
+  }
 }
 
 // Boxes of 8 x 8 px cost 16 + 64, larger and empty ones 16.

@@ -40,6 +40,11 @@ class FuzzRecordTest(unittest.TestCase):
         self.assertEqual(read_record(None, "abc"), {})
         self.assertEqual(added(ROW, {}), ROW)
 
+    def test_changed_sources_are_refused(self):
+        for now in ("abc-dirty", "unknown"):
+            with self.assertRaises(SystemExit), contextlib.redirect_stderr(io.StringIO()):
+                read_record(self.path, now)
+
     def test_other_records_are_refused(self):
         self.assert_refused(json.dumps({"commit": "old", "targets": [ROW]}), "is of commit old, and this is abc")
         for text in ("no JSON", "[]", json.dumps({"commit": "abc"}), json.dumps({"commit": "abc", "targets": [{"name": "obj"}]})):

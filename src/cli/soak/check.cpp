@@ -65,13 +65,15 @@ Verdict Checker::check(const Case& c) {
   const std::string reference(judged_.backends[0].name);
   constexpr std::array kTiles{16, 32, 64};
   Random random(c.draws_seed);
+  // Only streams are drawn in another way as a whole frame than as screen triangles.
+  const bool is_stream = c.drawable && std::holds_alternative<TriangleStream>(*c.drawable);
   for (std::size_t b = 0; b < backends_.size(); ++b)
     for (const SimdTarget target : supported_targets())
       for (const int threads : {1, c.threads}) {
         Draw draw{b, {{threads, kTiles[random.below(kTiles.size())], target}}, {}};
         if (random.below(2) == 0) draw.how.ablation = kAblations[random.below(kAblations.size())];
         draw.layout = random_layout(random, c.width);
-        draw.whole_frame = c.drawable && random.below(2) == 0;
+        draw.whole_frame = c.drawable && random.below(is_stream ? 2 : 16) == 0;
         check_frame(c, reference, expected, draw, triangles, verdict);
       }
   return verdict;

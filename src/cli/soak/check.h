@@ -31,7 +31,7 @@ struct Draw {
   lab::GuardedFrame::Layout layout;
   bool whole_frame = false;  // by draw(drawable, …), which includes the front end
 };
-// What a backend is given.
+// The input of the backend, in words.
 const char* input_of(const Draw& draw);
 
 // The first frame, or triangle list of the front end, that differs in a case.

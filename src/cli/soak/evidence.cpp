@@ -97,7 +97,7 @@ nlohmann::json evidence_of(const Evidence& evidence, std::uint64_t seed, const C
                            Checker& checker) {
   Finding finding = found;
   finding.draw.whole_frame = false;
-  // If the front end's triangles in memory show no difference, it takes a whole frame to show it.
+  // If the front end's triangles in memory show no difference, only a whole frame shows the difference.
   finding.draw.whole_frame = found.draw.whole_frame && !checker.differs(finding, c, finding.triangles);
   nlohmann::json json = description(c, finding, checker.judged());
   json["replay"] = {fmt::format("{} soak --seed {} --case {}", quoted(evidence.program), seed, c.number)};

@@ -35,13 +35,14 @@ constexpr Execution kReferenceExecution{1, 64, SimdTarget::scalar};
 
 // Other tile sizes run on the best target, other targets with the usual tile, and optimizations are left out
 // on one thread count: the full product would mostly repeat itself, since only tiled backends use tile size
-// and target.
+// and target. Whole frames run on every target, since streams are drawn in another way by draw(drawable, …).
 std::vector<Configuration> configurations(const VerifyPlan& plan) {
   std::vector<Configuration> all;
+  for (const SimdTarget target : supported_targets())
+    all.push_back({{{plan.threads.back(), 64, target}}, true});
   for (const int threads : plan.threads) {
     for (const SimdTarget target : supported_targets()) all.push_back({{{threads, 64, target}}});
     for (const int tile : {16, 32}) all.push_back({{{threads, tile, resolve(SimdTarget::best)}}});
-    all.push_back({{{threads, 64, resolve(SimdTarget::best)}}, true});
   }
   for (const Ablation& ablation : kAblations)
     all.push_back({{{plan.threads.front(), 64, resolve(SimdTarget::best)}, ablation}});
@@ -58,8 +59,8 @@ class SceneCheck {
   SceneCheck(const VerifyPlan& plan, const std::string& name, const std::function<void(double)>& progress)
       : plan_(plan), name_(name), progress_(progress), configurations_(configurations(plan)) {
     for (const BackendInfo& info : plan.backends) backends_.push_back(info.make());
-    // Per culling mode: all configurations with colours, and one per backend with ids.
-    steps_ = cull_modes().size() * plan.backends.size() * (configurations_.size() + 1);
+    // Per culling mode: all configurations with colours, and two per backend with ids.
+    steps_ = cull_modes().size() * plan.backends.size() * (configurations_.size() + 2);
   }
 
   SceneVerdict run() {
@@ -96,7 +97,7 @@ class SceneCheck {
   }
 
   void compare_all(const Judgement& judgement) {
-    const Configuration small_tiles[] = {{{kSmallestTiles}}};
+    const Configuration small_tiles[] = {{{kSmallestTiles}}, {{kSmallestTiles}, true}};
     const std::span<const Configuration> all = judgement.shot.frontend.payload == Payload::colour
                                                    ? std::span<const Configuration>(configurations_)
                                                    : small_tiles;
@@ -153,11 +154,14 @@ class SceneCheck {
     candidate_->poison();
     const AblatedExecution& how = configuration.how;
     const std::uint32_t background = background_of(j.shot.frontend.payload);
-    if (configuration.whole_frame)
-      edgewise::draw(j.shot.source.drawable, whole_frames_, j.shot.frontend, *backends_[backend],
-                     candidate_->view(), background, how);
-    else
+    if (configuration.whole_frame) {
+      FrontendOptions frontend = j.shot.frontend;
+      frontend.target = how.execution.target;
+      edgewise::draw(j.shot.source.drawable, whole_frames_, frontend, *backends_[backend], candidate_->view(),
+                     background, how);
+    } else {
       edgewise::draw(*backends_[backend], j.triangles, candidate_->view(), background, how);
+    }
   }
 
   void keep(const Judgement& j, std::size_t backend, const Configuration& configuration,

@@ -118,7 +118,7 @@ void for_each_batch(std::span<const ScreenTriangle> triangles, Sort&& sort) {
 }  // namespace
 
 // Bins the triangles of a batch whose bit in `boxed` is set, as indices. `begin`: index of the batch's first,
-// unless triangles are kept.
+// ignored if triangles are kept.
 void Bins::Chunk::bin_boxed(const ScreenTriangle* batch, std::uint64_t boxed, const CellBoxes& boxes,
                             std::size_t begin, const CellGrid& grid) {
   for (std::uint64_t left = boxed; left != 0; left &= left - 1) {
@@ -132,7 +132,7 @@ void Bins::Chunk::bin_boxed(const ScreenTriangle* batch, std::uint64_t boxed, co
   }
 }
 
-// `begin`: index of the first triangle, unless triangles are kept.
+// `begin`: index of the first triangle, ignored if triangles are kept.
 void Bins::Chunk::bin_as_indices(std::span<const ScreenTriangle> triangles, std::size_t begin,
                                  const CellGrid& grid, bool prefetch, CellBoxKernel find_boxes) {
   CellBoxes boxes;
@@ -202,15 +202,18 @@ bool Bins::build(TriangleSource& source, const CellGrid& grid, int threads, Simd
   const CellBoxKernel find_boxes = cell_box_kernel(target);
   const MaskFinder find_masks = small == Small::as_masks ? mask_finder(target) : nullptr;
   const ScreenTriangle* const stored = source.stored();
-  if (find_masks != nullptr && stored != nullptr)
-    partition_.cut_by_work({stored, source.size()}, grid.width, grid.height, used_chunks_);
+  if (find_masks != nullptr || stored == nullptr)
+    partition_.cut_by_work(source, grid.width, grid.height, find_masks != nullptr, used_chunks_);
   else
     partition_.cut_equally(source.size(), used_chunks_);
-  // Where a chunk that begins with this input keeps its triangles. An eighth more than inputs.
-  const auto kept_at = [](std::size_t input) { return input + input / 8; };
-  if (stored == nullptr) kept_.reserve(kept_at(source.size()));
+  // Index in kept_ of the first triangle of a chunk. Clipping may add an eighth to a chunk's triangles, and
+  // 2048.
+  const auto kept_at = [](std::size_t chunk, std::size_t input) {
+    return input + input / 8 + chunk * TriangleSource::kInputsAtOnce;
+  };
+  if (stored == nullptr) kept_.reserve(kept_at(used_chunks_, source.size()));
   triangles_ = stored != nullptr ? stored : kept_.data();
-  prefetch &= stored != nullptr;  // what has just been made lies in a cache
+  prefetch &= stored != nullptr;  // made triangles are still cached
   std::atomic<bool> all_fit{true};
   parallel_for(threads, static_cast<int>(used_chunks_), [&](int i) {
     const auto c = static_cast<std::size_t>(i);
@@ -218,20 +221,20 @@ bool Bins::build(TriangleSource& source, const CellGrid& grid, int threads, Simd
     Chunk& chunk = chunks_[c];
     chunk.reset(cells);
     chunk.kept = stored != nullptr ? nullptr : kept_.data();
-    chunk.next_kept = kept_at(begin);
+    chunk.next_kept = kept_at(c, begin);
     if (find_masks != nullptr) chunk.masks.reset(cells, end - begin);
     const std::size_t max_mask_bytes =
         (end - begin) * kMaskBytesPerTriangle + pixels * kMaskBytesPerPixel / used_chunks_;
-    for (std::size_t at = begin; at < end; at += TriangleSource::kRun) {
-      const auto run = source.make(i, at, std::min(end, at + TriangleSource::kRun));
-      if (chunk.kept != nullptr && chunk.next_kept + run.size() > kept_at(end)) {
+    for (std::size_t at = begin; at < end; at += TriangleSource::kInputsAtOnce) {
+      const auto triangles = source.make(i, at, std::min(end, at + TriangleSource::kInputsAtOnce));
+      if (chunk.kept != nullptr && chunk.next_kept + triangles.size() > kept_at(c + 1, end)) {
         all_fit = false;
         return;
       }
       if (find_masks != nullptr)
-        chunk.bin_with_masks(run, at, grid, prefetch, find_masks, max_mask_bytes);
+        chunk.bin_with_masks(triangles, at, grid, prefetch, find_masks, max_mask_bytes);
       else
-        chunk.bin_as_indices(run, at, grid, prefetch, find_boxes);
+        chunk.bin_as_indices(triangles, at, grid, prefetch, find_boxes);
     }
   });
   has_masks_ = find_masks != nullptr &&

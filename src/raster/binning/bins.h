@@ -34,15 +34,15 @@ class Bins {
   // Replaces the previous contents. A triangle without a sample in its bounding box is dropped; one without
   // area may be listed in up to four cells. as_masks needs cells that are tiles, and makes no masks on the
   // scalar target. `prefetch`: prefetch triangles that lie in memory. Throws std::length_error when a chunk's
-  // lists exceed 2^32 entries. Returns false if the source makes so many triangles more than it has inputs
-  // that they cannot be kept: then the contents are not those of all triangles.
+  // lists exceed 2^32 entries. Returns false if the source makes more triangles than can be
+  // kept. The contents are then incomplete.
   [[nodiscard]] bool build(TriangleSource& source, const CellGrid& grid, int threads, SimdTarget target,
                            Small small, bool prefetch);
   // The same for triangles that lie in memory, which need not be kept.
   void build(std::span<const ScreenTriangle> triangles, const CellGrid& grid, int threads, SimdTarget target,
              Small small, bool prefetch);
 
-  // What indices refer to: the stored triangles of the source, or those that were kept of it.
+  // Indices refer to these triangles: the stored ones of the source, or those that were kept of it.
   const ScreenTriangle* triangles() const { return triangles_; }
 
   bool empty(int cell) const {

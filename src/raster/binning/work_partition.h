@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "edgewise/screen_triangle.h"
+#include "core/triangle_source.h"
 
 namespace edgewise {
 
@@ -14,15 +14,15 @@ class WorkPartition {
  public:
   // Cuts `count` triangles into parts of equal length. Part i is [bounds()[i], bounds()[i + 1]).
   void cut_equally(std::size_t count, std::size_t parts);
-  // Cuts by the estimated work of binning with coverage masks, from a sample of the triangles. Falls back to
-  // equal lengths where these are balanced, or where there are too few triangles for sampling to pay.
-  // `width`, `height`: of the image, px.
-  void cut_by_work(std::span<const ScreenTriangle> triangles, int width, int height, std::size_t parts);
+  // Cuts by the estimated work of making and binning the triangles of a sample of the inputs. Falls back to
+  // equal lengths where these are balanced, or where there are too few inputs for sampling to pay.
+  // `width`, `height`: of the image, px. `masks`: small triangles become coverage masks.
+  void cut_by_work(TriangleSource& source, int width, int height, bool masks, std::size_t parts);
   std::span<const std::size_t> bounds() const { return bounds_; }
 
  private:
   std::vector<std::size_t> bounds_;
-  std::vector<std::uint32_t> work_;  // estimated work of the sampled triangles
+  std::vector<std::uint32_t> work_;  // estimated work of the sampled inputs
 };
 
 }  // namespace edgewise

@@ -1,0 +1,25 @@
+// A deliberately wrong backend.
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "edgewise/backend.h"
+
+namespace edgewise::testing {
+
+// Wrong only if it draws from a source: it draws nothing.
+class IgnoresSources : public Backend {
+  void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
+                    const Execution& execution) override {
+    right_->draw(triangles, frame, background, execution);
+  }
+  bool draw_source(TriangleSource&, FrameView frame, std::uint32_t background,
+                   const Execution& execution) override {
+    right_->draw(std::span<const ScreenTriangle>(), frame, background, execution);
+    return true;
+  }
+  std::unique_ptr<Backend> right_ = backends()[0].make();
+};
+
+}  // namespace edgewise::testing
