@@ -1,4 +1,4 @@
-// The only interface to oneTBB, with an optional observer.
+// The only interface to oneTBB, with an optional observer and an optional timer.
 #pragma once
 
 #include <algorithm>
@@ -24,8 +24,29 @@ class ParallelObserver {
   virtual void section_ends() = 0;
 };
 
+// Times the parallel sections that its thread starts and several threads run. In contrast to an observer, it
+// leaves every task on the thread that runs it. Sections inside tasks are not reported. `thread` is 0 for the
+// caller of the section and less than `threads`. Calls for different threads may be concurrent.
+class ParallelTimer {
+ public:
+  virtual ~ParallelTimer() = default;
+  virtual void section_begins() = 0;
+  virtual void task_begins(int thread) = 0;
+  virtual void wait_begins(int thread) = 0;  // inside a task: see TimeWait
+  virtual void wait_ends(int thread) = 0;
+  virtual void task_ends(int thread) = 0;
+  virtual void section_ends() = 0;
+};
+
 namespace detail {
 extern constinit thread_local ParallelObserver* parallel_observer;
+
+struct Timing {
+  ParallelTimer* timer = nullptr;
+  int thread = -1;  // that runs the task; -1 outside of tasks
+};
+extern constinit thread_local Timing timing;
+
 void parallel_for(int threads, int count, void (*call)(void*, int), void* context);
 }  // namespace detail
 
@@ -41,6 +62,35 @@ class ObserveParallel {
 
  private:
   ParallelObserver* before_;
+};
+
+// Sets the timer of the calling thread for the lifetime of this object. Observed sections are not timed.
+class TimeParallel {
+ public:
+  explicit TimeParallel(ParallelTimer& timer) : before_(detail::timing) { detail::timing = {&timer, -1}; }
+  ~TimeParallel() { detail::timing = before_; }
+  TimeParallel(const TimeParallel&) = delete;
+  TimeParallel& operator=(const TimeParallel&) = delete;
+
+ private:
+  detail::Timing before_;
+};
+
+// Reports to the timer, if there is one, that the calling task waits for another task of its section for the
+// lifetime of this object.
+class TimeWait {
+ public:
+  TimeWait() : timing_(detail::timing) {
+    if (timing_.thread >= 0) timing_.timer->wait_begins(timing_.thread);
+  }
+  ~TimeWait() {
+    if (timing_.thread >= 0) timing_.timer->wait_ends(timing_.thread);
+  }
+  TimeWait(const TimeWait&) = delete;
+  TimeWait& operator=(const TimeWait&) = delete;
+
+ private:
+  detail::Timing timing_;
 };
 
 // Calls body(0) … body(count - 1), each once, on up to `threads` threads, and returns when all are done.

@@ -67,9 +67,12 @@ class InOrder {
  private:
   // Spins for about 20 us before it sleeps: a chunk takes less time, and waking a thread takes more.
   static void wait_until(const std::atomic<std::uint32_t>& turn, std::uint32_t chunk) {
+    const auto has_come = [&] { return turn.load(std::memory_order_acquire) == chunk; };
+    if (has_come()) return;
+    const TimeWait timed;
     constexpr int kSpins = 2000;
     for (int i = 0; i < kSpins; ++i) {
-      if (turn.load(std::memory_order_acquire) == chunk) return;
+      if (has_come()) return;
       hwy::Pause();
     }
     for (std::uint32_t now; (now = turn.load(std::memory_order_acquire)) != chunk;)
