@@ -35,8 +35,8 @@ struct Effort {
   // The minimum for all but ablation rows. The rank-sum test of scripts/reporting/noise.py needs five on both
   // sides. Slow ablation rows may have fewer: their steps are far above the noise.
   int repetitions;
-  int ablation_repetitions;  // replaces `repetitions` for ablation rows and close ones: their differences are
-                             // often below the noise
+  int ablation_repetitions;  // replaces `repetitions` for ablation rows, close ones, and those with rounds on
+                             // one and two threads: their differences are often below the noise
   double repetition_s;       // minimum duration of a repetition
   double slow_repetition_s;  // rows with longer iterations have fewer of the ablation's repetitions
 };
@@ -162,7 +162,7 @@ void leave_out_slow_frames(std::vector<Row>& rows) {
   });
 }
 
-void time_row(benchmark::State& state, const Row& row, Stage& stage) {
+void time_row(benchmark::State& state, Row& row, Stage& stage) {
   if (!row.error.empty()) return state.SkipWithError(row.error.c_str());
   if (row.once_s > row.repeat_below_s) {
     for (auto _ : state) state.SetIterationTime(row.once_s);
@@ -170,6 +170,7 @@ void time_row(benchmark::State& state, const Row& row, Stage& stage) {
     // The caches hold another row's data. A long draw needs no warm-up.
     if (stage.renew_memory(row) || row.once_s < kFull.repetition_s) stage.work(row);
     for (auto _ : state) stage.work(row);
+    stage.add_round(row);  // here, so that the rounds are spread over the whole run
   }
   const Workload& workload = *row.workload;
   auto& counters = state.counters;
@@ -189,14 +190,13 @@ void time_row(benchmark::State& state, const Row& row, Stage& stage) {
   state.SetLabel(row.peer->version());
 }
 
-void register_rows(const std::vector<Row>& rows, Stage& stage, const Flags& flags,
-                   tools::Progress& progress) {
+void register_rows(std::vector<Row>& rows, Stage& stage, const Flags& flags, tools::Progress& progress) {
   const Effort effort = flags.suite.quick ? kQuick : kFull;
   struct Calls {
     int made = 0, expected = 0;
   };
   const auto calls = std::make_shared<Calls>();
-  for (const Row& row : rows) {
+  for (Row& row : rows) {
     if (row.cores > 0) continue;  // estimated, not timed
     auto* registered = benchmark::RegisterBenchmark(
         row.name.c_str(), [&row, &stage, &progress, calls](benchmark::State& state) {
@@ -216,7 +216,8 @@ void register_rows(const std::vector<Row>& rows, Stage& stage, const Flags& flag
     if (flags.own_iterations || known)
       registered->Iterations(known ? 1
                                    : std::max<std::int64_t>(1, std::llround(effort.repetition_s / once_s)));
-    const int most = row.step || row.close ? effort.ablation_repetitions : effort.repetitions;
+    const int most =
+        row.step || row.close || row.wants_second_thread ? effort.ablation_repetitions : effort.repetitions;
     const int repetitions =
         known ? 1 : std::clamp(static_cast<int>(most * effort.slow_repetition_s / once_s), least, most);
     if (flags.own_repetitions || known) registered->Repetitions(repetitions);

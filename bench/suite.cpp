@@ -79,6 +79,7 @@ class Suite {
         rows_.back().wants_cost = rows_.back().close = backend.name == kAblationBackend;
         add(workload, Timed::frame, backend, name, threads);
         rows_.back().close = backend.name == kAblationBackend;
+        rows_.back().wants_second_thread = backend.name == kAblationBackend && threads == 2;
       }
     for (const SimdTarget target : supported_targets())
       if (target != SimdTarget::scalar && target != resolve(SimdTarget::best))

@@ -29,6 +29,9 @@ class Stage {
   // Performs the row's timed work once.
   void work(const Row& row);
 
+  // Adds a round to second_thread if the row has wants_second_thread and this stage estimates.
+  void add_round(Row& row);
+
  private:
   void compare_ours(Row& row);
   Backend& backend(const Row& row);
