@@ -216,8 +216,7 @@ void register_rows(std::vector<Row>& rows, Stage& stage, const Flags& flags, too
     if (flags.own_iterations || known)
       registered->Iterations(known ? 1
                                    : std::max<std::int64_t>(1, std::llround(effort.repetition_s / once_s)));
-    const int most =
-        row.step || row.close || row.wants_second_thread ? effort.ablation_repetitions : effort.repetitions;
+    const int most = row.step || row.close ? effort.ablation_repetitions : effort.repetitions;
     const int repetitions =
         known ? 1 : std::clamp(static_cast<int>(most * effort.slow_repetition_s / once_s), least, most);
     if (flags.own_repetitions || known) registered->Repetitions(repetitions);

@@ -71,6 +71,7 @@ class Bench:
     random_reads: dict = field(default_factory=dict)  # rows that measure the machine, by what is read
     scheduled: dict = field(default_factory=dict)  # by name: estimates for more cores, not timed
     costs: dict = field(default_factory=dict)  # by the name of the timed row: the parts of the cost model
+    second_thread: dict = field(default_factory=dict)  # by the name of the row on two threads: times of each round, in ms
 
     @property
     def backends(self):
@@ -113,6 +114,15 @@ def read_json(path):
 
 COSTS = ("covered_blocks", "won_blocks", "read_ms", "blocks_ms", "write_ms", "tiles_ms")
 
+ROUNDS = ("one_ms", "two_ms", "serial_ms", "start_ms", "between_ms", "turn_ms", "end_ms")
+
+
+def read_rounds(entry):
+    rounds = {key: [float(ms) for ms in entry[key]] for key in ROUNDS}
+    if len({len(times) for times in rounds.values()}) != 1 or not rounds["one_ms"]:
+        raise ValueError(f"rounds of {entry['name']}")
+    return rounds
+
 
 def read_model(path):
     data = read_json(path)
@@ -122,7 +132,9 @@ def read_model(path):
             row = scheduled[entry["name"]] = parse_name(entry["name"])
             row.times_ms, row.label = [float(entry["estimate_ms"])], entry["longest"]
             row.counters = {key: float(entry[key]) for key in ("work_ms", "path_ms", "longest_ms", "barrier_ms")}
-        return scheduled, {entry["name"]: {key: float(entry[key]) for key in COSTS} for entry in data["costs"]}
+        costs = {entry["name"]: {key: float(entry[key]) for key in COSTS} for entry in data["costs"]}
+        # Older results lack the list.
+        return scheduled, costs, {entry["name"]: read_rounds(entry) for entry in data.get("second_thread", ())}
     except (KeyError, TypeError, ValueError, AttributeError) as error:
         raise BadInput(f"{path}: not what 'edgewise_bench --model_out' writes: {type(error).__name__} {error}") from None
 
@@ -151,8 +163,8 @@ def read_bench(folder_or_file):
         raise BadInput(f"{path}: not a Google Benchmark result: {error}") from None
     reads = {row.scene: rows.pop(name) for name, row in list(rows.items()) if row.backend == "random_read"}
     model = path.parent / "model.json"
-    scheduled, costs = read_model(model) if path.name == "bench.json" and model.exists() else ({}, {})
-    return Bench(data.get("context", {}), rows, reads, scheduled, costs)
+    models = read_model(model) if path.name == "bench.json" and model.exists() else ({}, {}, {})
+    return Bench(data.get("context", {}), rows, reads, *models)
 
 
 def describe_machine(machine):

@@ -28,7 +28,7 @@ SECTIONS = {
     "portable": ("Portable pixels", ("portable",)),
     "ablation": ("Ablation", ("ablation",)),
     "peers": ("Peers", ("against-*",)),
-    "scaling": ("More cores, an estimate", ("scaling",)),
+    "scaling": ("More cores, an estimate", ("second-thread", "scaling")),
     "others": ("Other charts", ("*",)),
 }
 
