@@ -35,8 +35,8 @@ struct Effort {
   // The minimum for all but ablation rows. The rank-sum test of scripts/reporting/noise.py needs five on both
   // sides. Slow ablation rows may have fewer: their steps are far above the noise.
   int repetitions;
-  int ablation_repetitions;  // replaces `repetitions` for ablation rows, close ones, and those with rounds on
-                             // one and two threads: their differences are often below the noise
+  int ablation_repetitions;  // replaces `repetitions` for ablation rows and close ones: their differences are
+                             // often below the noise
   double repetition_s;       // minimum duration of a repetition
   double slow_repetition_s;  // rows with longer iterations have fewer of the ablation's repetitions
 };

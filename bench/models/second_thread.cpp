@@ -55,29 +55,27 @@ void WaitTimer::section_ends() {
   serial_since_s_ = now_s;
 }
 
-ThreadRound time_round(const std::function<void(int threads)>& draw, bool two_first) {
-  constexpr double kLong_s = 0.02;
+ThreadRound time_round(const std::function<void(int threads)>& draw, bool is_short, bool two_first) {
   ThreadRound round;
   const auto draw_s = [&](int threads) {
     const auto begin = std::chrono::steady_clock::now();
     draw(threads);
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   };
-  const auto on_one = [&] { round.one_s = draw_s(1); };
+  const auto on_one = [&] {
+    if (is_short) draw(1);
+    round.one_s = draw_s(1);
+  };
   const auto on_two = [&] {
+    if (is_short) draw(2);
     WaitTimer timer;
     const TimeParallel scope(timer);
     round.two_s = draw_s(2);
     round.waits = timer.finish();
   };
-  // The first of two short draws wakes the second thread and fills the caches.
-  const auto time = [&](const auto& once, const double& time_s) {
-    once();
-    if (time_s < kLong_s) once();
-  };
-  if (two_first) time(on_two, round.two_s);
-  time(on_one, round.one_s);
-  if (!two_first) time(on_two, round.two_s);
+  if (two_first) on_two();
+  on_one();
+  if (!two_first) on_two();
   return round;
 }
 

@@ -51,7 +51,8 @@ struct ThreadRound {
   Waits waits;  // on two
 };
 
-// Draws the frame by calls of draw(threads).
-ThreadRound time_round(const std::function<void(int threads)>& draw, bool two_first);
+// Draws the frame by calls of draw(threads). If it is short, an untimed draw before each timed one wakes the
+// second thread and fills the caches.
+ThreadRound time_round(const std::function<void(int threads)>& draw, bool is_short, bool two_first);
 
 }  // namespace edgewise::bench

@@ -114,13 +114,14 @@ void Stage::compare(Row& row) {
 }
 
 void Stage::add_round(Row& row) {
-  constexpr double kTooLong_s = 0.5;
+  constexpr double kShort_s = 0.02, kTooLong_s = 0.5;
   if (!row.wants_second_thread || !estimates_ || row.once_s > kTooLong_s) return;
   Row on_one = row;
   on_one.execution.threads = 1;
   // Alternating orders, so that drift of the machine favours neither.
   const bool two_first = row.second_thread.size() % 2 == 0;
-  row.second_thread.push_back(time_round([&](int threads) { work(threads == 1 ? on_one : row); }, two_first));
+  row.second_thread.push_back(
+      time_round([&](int threads) { work(threads == 1 ? on_one : row); }, row.once_s < kShort_s, two_first));
 }
 
 }  // namespace edgewise::bench

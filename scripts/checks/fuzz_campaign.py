@@ -143,6 +143,8 @@ def main():
     record.add_argument("--resume", type=Path)
     parser.add_argument("--keep", action="store_true")
     options = parser.parse_args()
+    if options.keep and options.resume:
+        parser.error("--keep changes the sources, so the results of further runs could not be added: leave out --resume")
 
     now = commit()
     before = read_record(options.resume, now)

@@ -1,5 +1,5 @@
 """What two threads lose of their time in a frame, scene by scene."""
-from palette import FAINT, INK, LOSSES as COLOURS
+from palette import INK, LOSSES as COLOURS
 from plot_scenes import room_for
 from plot_style import WIDTH_IN, head_in, headline, plt, save
 from second_thread import LOSSES, SHORT_MS, TARGET, divisions, largest_loss
@@ -11,8 +11,8 @@ def second_thread(bench, folder, caption):
     found = divisions(bench)
     if not found:
         return None
-    subtitle = (f"Whole frames of `tiled` that take more than {SHORT_MS:g} ms on one thread. Bars: the share of two threads' time that is not "
-                "useful work. Useful work takes as long as the same frame on one thread, drawn by turns. "
+    subtitle = (f"Whole frames of `tiled` that take more than {SHORT_MS:g} ms on one thread. Bars: what two threads lose of their time. "
+                "The rest, useful work, is the time of the same frame on one thread, drawn by turns. "
                 "Right: speed-up, 95 % interval, and what the rounds settle.")
     figure, axes = plt.subplots(figsize=(WIDTH_IN, 1.85 + head_in(subtitle) + 0.4 * len(found)))
     for line, division in enumerate(found):
@@ -26,9 +26,6 @@ def second_thread(bench, folder, caption):
         axes.text(1.012, line, f"{division.speed_up:.2f}× ({low:.2f} to {high:.2f}), {VERDICTS[division.order]}",
                   transform=axes.get_yaxis_transform(), fontsize=9, va="center", color=INK,
                   fontweight="bold" if division.order > 0 else "normal")
-    axes.axvline(100 * (1 - TARGET / 2), color=FAINT, linewidth=1.2, linestyle=(0, (2, 2)), zorder=3)
-    axes.annotate(f"{TARGET}×", (100 * (1 - TARGET / 2), 1), xycoords=axes.get_xaxis_transform(), xytext=(0, 2),
-                  textcoords="offset points", ha="center", fontsize=9, color=FAINT)
     axes.set_xlim(left=0)
     axes.xaxis.set_major_formatter(lambda value, _: f"{value:g} %")
     axes.set_yticks(range(len(found)), [division.scene for division in found])
@@ -39,7 +36,7 @@ def second_thread(bench, folder, caption):
     above, below = (sum(division.order == order for division in found) for order in (1, -1))
     height = figure.get_figheight()
     top = headline(figure, f"A second thread gains more than {TARGET}× on {above} of {len(found)} scenes, less on {below}; "
-                   f"most is lost to {LOSSES[largest_loss(found)]}", subtitle)
+                   f"largest loss: {LOSSES[largest_loss(found)]}", subtitle)
     handles = [plt.Rectangle((0, 0), 1, 1, color=COLOURS[cause], label=words) for cause, words in LOSSES.items()]
     figure.legend(handles=handles, loc="upper left", bbox_to_anchor=(0.005, top - 0.02 / height), ncol=len(handles), frameon=False,
                   handlelength=1.0, handleheight=1.0, handletextpad=0.4, columnspacing=1.3, fontsize=9.5)

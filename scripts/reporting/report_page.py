@@ -28,7 +28,8 @@ SECTIONS = {
     "portable": ("Portable pixels", ("portable",)),
     "ablation": ("Ablation", ("ablation",)),
     "peers": ("Peers", ("against-*",)),
-    "scaling": ("More cores, an estimate", ("second-thread", "scaling")),
+    "second-thread": ("The second thread", ("second-thread",)),
+    "scaling": ("More cores, an estimate", ("scaling",)),
     "others": ("Other charts", ("*",)),
 }
 

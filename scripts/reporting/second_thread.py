@@ -20,7 +20,8 @@ LOSSES = {
 
 @dataclass
 class Division:
-    """Of a scene's frame. `losses` are shares of the time of both threads; the rest is useful work."""
+    """Of a scene's frame. `losses` are shares of the time of both threads; the rest is useful work. Where tasks are faster on
+    two threads, "slower" is 0, and the other losses add up to more than the speed-up lacks."""
     scene: str
     rounds: dict
 
@@ -66,8 +67,9 @@ def second_thread_sentence(found):
             if division.order == order:
                 cause = largest_loss([division])
                 yield (f"`{division.scene}` {division.speed_up:.2f}×"
-                       + (f" (mostly {LOSSES[cause]}, {percent(division.losses[cause])})" if loss else ""))
+                       + (f" (largest loss: {LOSSES[cause]}, {percent(division.losses[cause])})" if loss else ""))
 
     groups = ((f"above {TARGET}×", of(1, False)), (f"below {TARGET}×", of(-1, True)), ("not settled", of(0, True)))
     said = [f"{verdict}: {', '.join(scenes)}" for verdict, names in groups if (scenes := list(names))]
-    return f"Speed-up of whole frames of `tiled` by a second thread, {'; '.join(said)}."
+    return (f"Speed-up by a second thread of the whole frames of `tiled` that take more than {SHORT_MS:g} ms on one, "
+            f"{'; '.join(said)}.")

@@ -46,8 +46,9 @@ def narrower_sentence(bench):
     for row in bench.sweep("target"):
         if row.frontend and (widest := bench.frame(row.backend, row.scene, row.threads)):
             of_target.setdefault(row.keys["target"], []).append((widest, row))
-    said = [f"against {kernels(target)} it {outcome(of_target[target], 'rows')}" for target in reversed(VECTORS) if target in of_target]
-    return f"Whole frames on one and on two threads with {kernels(bench.context.get('simd_target'))}: {'; '.join(said)}." if said else ""
+    best = kernels(bench.context.get("simd_target"))
+    said = [f"Against {kernels(target)}, {best} {outcome(of_target[target], 'rows')}." for target in reversed(VECTORS) if target in of_target]
+    return f"Whole frames of `tiled` on one and on two threads: {' '.join(said)}" if said else ""
 
 
 def speed_up(ratio):

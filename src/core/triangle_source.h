@@ -1,5 +1,5 @@
-// Screen triangles as binning reads them. They lie in memory, or are made when binning needs them. Then they
-// are binned while they lie in the L2 cache, and those that become coverage masks are never written to
+// Screen triangles as binning reads them. They lie in memory, or are made when binning needs them. Made
+// triangles are binned while they lie in the L2 cache, so those that become coverage masks need no room in
 // memory.
 #pragma once
 

@@ -92,8 +92,8 @@ class TriangleSource;  // internal
 // A front end keeps its memory between frames and allocates only in the first frame of a kind. It keeps
 // - 16 bytes per vertex of the largest mesh, or for small meshes 0.5 MB, or 0.8 MB per 8 threads,
 // - of a mesh with clusters, less than 150 bytes per cluster and 1 byte per 64 vertices,
-// - 40 bytes per visible triangle (and address space for as many per submitted one), unless draw() draws a
-//   stream,
+// - 40 bytes per visible triangle (and address space for as many per submitted one), unless draw() makes a
+//   stream's triangles while the backend bins them,
 // - less than 1 MB per thread,
 // - with keep_unsnapped, 36 bytes more per visible triangle and less than 1 MB more per thread,
 // - with keep_states, 1 byte per submitted triangle.

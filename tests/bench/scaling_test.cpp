@@ -96,7 +96,7 @@ TEST(ParallelInChunks, CallsEachIndexOnce) {
     }
 }
 
-TEST(ParallelInChunks, MakesARunOneTask) {
+TEST(ParallelInChunks, MakesAChunkOneTask) {
   FrameRecorder recorder;
   {
     const ObserveParallel scope(recorder);
@@ -104,7 +104,7 @@ TEST(ParallelInChunks, MakesARunOneTask) {
     parallel_in_chunks(2, 32, [](int) {});
   }
   const FrameWork frame = recorder.finish();
-  EXPECT_EQ(frame.sections[0].tasks_s.size(), 33u) << "runs of four";
+  EXPECT_EQ(frame.sections[0].tasks_s.size(), 33u) << "chunks of four";
   EXPECT_EQ(frame.sections[1].tasks_s.size(), 32u) << "too few for runs";
 }
 

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <thread>
@@ -69,51 +70,62 @@ void spin(double for_s) {
   }
 }
 
+// Whether a measurement succeeds in one of a few attempts: the machine may suspend a thread at any time.
+bool succeeds(const std::function<bool()>& attempt) {
+  for (int i = 0; i < 10; ++i)
+    if (attempt()) return true;
+  return false;
+}
+
 TEST(SecondThread, FindsSerialCodeAndALongLastTask) {
-  const auto [one_s, two_s, waits] = time_round(
-      [](int threads) {
-        spin(2e-3);
-        parallel_for(threads, 2, [](int i) { spin(i == 0 ? 0.0 : 4e-3); });
-      },
-      true);
-  EXPECT_GE(one_s, 6e-3);
-  EXPECT_GE(two_s, 6e-3);
-  EXPECT_GE(waits.serial_s, 2e-3);
-  EXPECT_GE(waits.start_s + waits.between_s + waits.end_s, 3.9e-3) << "one thread has no more to do";
-  EXPECT_EQ(waits.turn_s, 0.0);
-  EXPECT_LE(waits.serial_s + waits.start_s + waits.between_s + waits.end_s, 2 * two_s);
+  EXPECT_TRUE(succeeds([] {
+    const auto [one_s, two_s, waits] = time_round(
+        [](int threads) {
+          spin(2e-3);
+          parallel_for(threads, 2, [](int i) { spin(i == 0 ? 0.0 : 4e-3); });
+        },
+        false, true);
+    EXPECT_GE(one_s, 6e-3);
+    EXPECT_GE(two_s, 6e-3);
+    EXPECT_GE(waits.serial_s, 2e-3);
+    EXPECT_EQ(waits.turn_s, 0.0);
+    EXPECT_LE(waits.serial_s + waits.start_s + waits.between_s + waits.end_s, 2 * two_s);
+    return waits.start_s + waits.between_s + waits.end_s >= 3.9e-3;  // one thread has no more to do
+  }));
 }
 
 TEST(SecondThread, DrawsShortFramesTwiceAndInEitherOrder) {
-  const auto drawn = [](bool two_first, double frame_s) {
+  const auto drawn = [](bool is_short, bool two_first) {
     std::vector<int> threads;
-    time_round([&](int n) { threads.push_back(n), spin(frame_s); }, two_first);
+    time_round([&](int n) { threads.push_back(n); }, is_short, two_first);
     return threads;
   };
-  EXPECT_EQ(drawn(true, 0), (std::vector{2, 2, 1, 1}));
-  EXPECT_EQ(drawn(false, 0), (std::vector{1, 1, 2, 2}));
-  EXPECT_EQ(drawn(true, 0.03), (std::vector{2, 1}));
+  EXPECT_EQ(drawn(true, true), (std::vector{2, 2, 1, 1}));
+  EXPECT_EQ(drawn(true, false), (std::vector{1, 1, 2, 2}));
+  EXPECT_EQ(drawn(false, true), (std::vector{2, 1}));
 }
 
 // Chunk 0 ends last, so the thread of chunk 1 waits for its turn.
 TEST(SecondThread, FindsWaitsForTheTurnInTheFrontEnd) {
-  InOrder order;
-  order.start_frame(2, false);
-  WaitTimer timer;
-  {
-    const TimeParallel scope(timer);
-    std::atomic<bool> later_made{false};
-    order.for_each_chunk(
-        2, kWorthThreads,
-        [&](std::size_t chunk, ChunkOutput&) {
-          if (chunk == 1) later_made = true;
-          const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
-          while (!later_made && std::chrono::steady_clock::now() < deadline) std::this_thread::yield();
-          if (chunk == 0) spin(5e-3);
-        },
-        [](const ChunkOutput&, std::size_t) {});
-  }
-  EXPECT_GE(timer.finish().turn_s, 4e-3);
+  EXPECT_TRUE(succeeds([] {
+    InOrder order;
+    order.start_frame(2, false);
+    WaitTimer timer;
+    {
+      const TimeParallel scope(timer);
+      std::atomic<bool> later_made{false};
+      order.for_each_chunk(
+          2, kWorthThreads,
+          [&](std::size_t chunk, ChunkOutput&) {
+            if (chunk == 1) later_made = true;
+            const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+            while (!later_made && std::chrono::steady_clock::now() < deadline) std::this_thread::yield();
+            if (chunk == 0) spin(5e-3);
+          },
+          [](const ChunkOutput&, std::size_t) {});
+    }
+    return timer.finish().turn_s >= 4e-3;
+  }));
 }
 
 TEST(BenchSuite, DividesTheFramesOfTiledOnTwoThreads) {

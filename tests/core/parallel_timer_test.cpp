@@ -72,7 +72,7 @@ TEST(ParallelTimer, SeesEveryTaskOnce) {
   {
     const TimeParallel scope(log);
     parallel_for(2, 100, [](int) {});
-    parallel_in_chunks(2, 130, [](int) {});  // 33 runs of four
+    parallel_in_chunks(2, 130, [](int) {});  // 33 chunks of four
   }
   EXPECT_EQ(log.tasks(), 133);
   EXPECT_EQ(std::ranges::count(log.calls[0], 'S'), 2);

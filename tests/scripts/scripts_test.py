@@ -501,7 +501,7 @@ class NarrowerTest(unittest.TestCase):
             rows[name] = parse_name(name)
             rows[name].times_ms = [ms + 1e-3 * i for i in range(5)]
         self.assertEqual(narrower_sentence(Bench({"simd_target": "avx512"}, rows)),
-                         "Whole frames on one and on two threads with AVX-512: against AVX2 it wins 1 of 2 rows, 1.5× faster; "
+                         "Whole frames of `tiled` on one and on two threads: Against AVX2, AVX-512 wins 1 of 2 rows, 1.5× faster; "
                          "1 is too close to call.")
         self.assertEqual(narrower_sentence(Bench({}, {})), "")
 

@@ -65,7 +65,7 @@ Verdict Checker::check(const Case& c) {
   const std::string reference(judged_.backends[0].name);
   constexpr std::array kTiles{16, 32, 64};
   Random random(c.draws_seed);
-  // Only streams are drawn in another way as a whole frame than as screen triangles.
+  // For streams only, draw(drawable, …) takes another path than Backend::draw(). Scenes repeat the front end.
   const bool is_stream = c.drawable && std::holds_alternative<TriangleStream>(*c.drawable);
   for (std::size_t b = 0; b < backends_.size(); ++b)
     for (const SimdTarget target : supported_targets())

@@ -35,7 +35,7 @@ constexpr Execution kReferenceExecution{1, 64, SimdTarget::scalar};
 
 // Other tile sizes run on the best target, other targets with the usual tile, and optimizations are left out
 // on one thread count: the full product would mostly repeat itself, since only tiled backends use tile size
-// and target. Whole frames run on every target, since streams are drawn in another way by draw(drawable, …).
+// and target. Whole frames run on every target, since draw(drawable, …) takes another path for streams.
 std::vector<Configuration> configurations(const VerifyPlan& plan) {
   std::vector<Configuration> all;
   for (const SimdTarget target : supported_targets())

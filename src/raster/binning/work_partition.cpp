@@ -10,7 +10,7 @@ namespace edgewise {
 
 namespace {
 
-// Cost model of binning a triangle, and of making it. The unit is the time per pixel of a small triangle's
+// Cost model of an input and of binning its triangles. The unit is the time per pixel of a small triangle's
 // box (0.3 ns on Zen 5). In a mesh whose triangles grow towards the camera, the nearest cost 1.6 times as
 // much as the farthest. The model underestimates large triangles in many cells, where drawing takes much
 // longer than binning anyway.
@@ -35,8 +35,8 @@ void WorkPartition::cut_by_work(TriangleSource& source, int width, int height, b
   cut_equally(source.size(), parts);
   // Evaluating the samples takes about 10 us per part, or 50 us if triangles are made, one part after the
   // other. From kMinPerPart inputs per part, times the number of parts, that is at most 1 % of the time to
-  // make and bin a part. Parts of triangles in random order differ by less than 1 / kTolerance of their work
-  // in nearly all draws of kSamples per part.
+  // bin a part, or 3 % of the time to make and bin it. Parts of triangles in random order differ by less than
+  // 1 / kTolerance of their work in nearly all draws of kSamples per part.
   constexpr std::size_t kMinPerPart = 100'000, kSamples = 512, kTolerance = 10;
   if (parts < 2 || source.size() / parts < kMinPerPart * parts) return;
 

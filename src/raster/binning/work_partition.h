@@ -1,4 +1,5 @@
-// Cuts triangles into parts of about equal binning time, one per thread.
+// Cuts the inputs of a triangle source into parts that take about the same time to make and bin, one per
+// thread.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +13,7 @@ namespace edgewise {
 
 class WorkPartition {
  public:
-  // Cuts `count` triangles into parts of equal length. Part i is [bounds()[i], bounds()[i + 1]).
+  // Cuts `count` inputs into parts of equal length. Part i is [bounds()[i], bounds()[i + 1]).
   void cut_equally(std::size_t count, std::size_t parts);
   // Cuts by the estimated work of making and binning the triangles of a sample of the inputs. Falls back to
   // equal lengths where these are balanced, or where there are too few inputs for sampling to pay.
