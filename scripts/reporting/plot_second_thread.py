@@ -3,6 +3,7 @@ from palette import INK, LOSSES as COLOURS
 from plot_scenes import room_for
 from plot_style import WIDTH_IN, head_in, headline, plt, save
 from second_thread import LOSSES, SHORT_MS, TARGET, divisions, largest_loss
+from speedups import spread
 
 VERDICTS = {1: f"above {TARGET}×", -1: f"below {TARGET}×", 0: "not settled"}
 
@@ -11,7 +12,7 @@ def second_thread(bench, folder, caption):
     found = divisions(bench)
     if not found:
         return None
-    subtitle = (f"Whole frames of `tiled` that take more than {SHORT_MS:g} ms on one thread. Bars: what two threads lose of their time. "
+    subtitle = (f"Whole frames of tiled that take more than {SHORT_MS:g} ms on one thread. Bars: what two threads lose of their time. "
                 "The rest, useful work, is the time of the same frame on one thread, drawn by turns. "
                 "Right: speed-up, 95 % interval, and what the rounds settle.")
     figure, axes = plt.subplots(figsize=(WIDTH_IN, 1.85 + head_in(subtitle) + 0.4 * len(found)))
@@ -33,9 +34,8 @@ def second_thread(bench, folder, caption):
     axes.set_ylim(len(found) - 0.5, -0.5)
     axes.grid(axis="y", visible=False)
     axes.set_xlabel("lost share of two threads' time")
-    above, below = (sum(division.order == order for division in found) for order in (1, -1))
     height = figure.get_figheight()
-    top = headline(figure, f"A second thread gains more than {TARGET}× on {above} of {len(found)} scenes, less on {below}; "
+    top = headline(figure, f"A second thread gains {spread([division.speed_up for division in found])}; "
                    f"largest loss: {LOSSES[largest_loss(found)]}", subtitle)
     handles = [plt.Rectangle((0, 0), 1, 1, color=COLOURS[cause], label=words) for cause, words in LOSSES.items()]
     figure.legend(handles=handles, loc="upper left", bbox_to_anchor=(0.005, top - 0.02 / height), ncol=len(handles), frameon=False,
