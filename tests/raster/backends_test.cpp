@@ -237,7 +237,8 @@ TEST_P(EveryBackend, RefusesAFrameOfAnotherSize) {
 }
 
 // A stream's small and large triangles, some beyond the image. Those for which clip(i) is true cross both
-// depth planes, so each becomes several triangles.
+// depth planes, so each becomes several triangles, too large for coverage masks. Many of any part are
+// visible.
 template <typename Clip>
 TriangleStream stream_to_clip(std::size_t count, Clip&& clip) {
   constexpr int kWidth = 150, kHeight = 90;
@@ -245,14 +246,17 @@ TriangleStream stream_to_clip(std::size_t count, Clip&& clip) {
   for (std::size_t i = 0; i < count; ++i) {
     auto& vertex = stream.triangles[i].vertex;
     if (i % 7 == 0) vertex[i % 3].x += 60.0f;
-    if (clip(i)) vertex[0] = {10, 10, -1}, vertex[1] = {140, 20, 0.5f}, vertex[2] = {60, 80, 2};
+    if (!clip(i)) continue;
+    const auto below = [&](std::size_t factor, std::size_t n) { return static_cast<float>(i * factor % n); };
+    const float x = below(37, 141), y = below(53, 83), z = below(7919, 1000) / 1000;
+    vertex[0] = {x, y, -z - 0.1f}, vertex[1] = {x + 18, y + 3, z}, vertex[2] = {x + 6, y + 18, 1.5f};
   }
   return stream;
 }
 
 TEST_P(EveryBackend, DrawsADrawableAsTheFrontEndsTriangles) {
   const Drawable drawables[] = {stream_to_clip(5'000, [](std::size_t i) { return i % 500 == 1; }),
-                                stream_to_clip(5'000, [](std::size_t) { return true; }),  // do not fit
+                                stream_to_clip(12'000, [](std::size_t) { return true; }),  // do not fit
                                 stream_to_clip(3, [](std::size_t) { return false; }), TriangleStream{},
                                 find_scene("cubes").make({})};
   Frontend plain, frontend;
