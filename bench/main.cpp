@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <iostream>
 #include <limits>
@@ -162,6 +163,13 @@ void leave_out_slow_frames(std::vector<Row>& rows) {
   });
 }
 
+// Unlike sleeping, this keeps the core's clock rate.
+void spin(double seconds) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  while (std::chrono::steady_clock::now() < end) {
+  }
+}
+
 void time_row(benchmark::State& state, Row& row, Stage& stage) {
   if (!row.error.empty()) return state.SkipWithError(row.error.c_str());
   if (row.once_s > row.repeat_below_s) {
@@ -169,7 +177,14 @@ void time_row(benchmark::State& state, Row& row, Stage& stage) {
   } else {
     // The caches hold another row's data. A long draw needs no warm-up.
     if (stage.renew_memory(row) || row.once_s < kFull.repetition_s) stage.work(row);
-    for (auto _ : state) stage.work(row);
+    for (auto _ : state) {
+      if (row.pause_s > 0.0) {
+        state.PauseTiming();
+        spin(row.pause_s);
+        state.ResumeTiming();
+      }
+      stage.work(row);
+    }
     stage.add_round(row);  // here, so that the rounds are spread over the whole run
   }
   const Workload& workload = *row.workload;

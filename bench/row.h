@@ -36,6 +36,7 @@ struct Row {
   Ablation ablation{};
   std::optional<lab::EngineNumbers> numbers;  // if set, the laboratory's engine draws, in place of `backend`
   double repeat_below_s = kTooSlowToRepeat_s;
+  double pause_s = 0.0;   // before each frame, not timed
   int cores = 0;          // if set, the row is estimated for this many cores, not timed
   FrameWork recorded;     // the tasks of that estimate
   double peak_bytes = 0;  // of a first frame; 0: not measured

@@ -20,6 +20,7 @@ namespace {
 
 constexpr int kThreads[] = {1, 2};
 constexpr int kSweepThreads = 2;
+constexpr int kPause_ms = 2;
 
 // Up to more cores than a desktop has, to show where a frame stops scaling.
 constexpr int kScheduledCores[] = {1, 2, 4, 8, 16, 32, 64, 128};
@@ -177,6 +178,25 @@ class Suite {
     }
   }
 
+  // Back to back, a small frame may find its memory in the LLC. In a pause, other processes may fill the LLC.
+  void add_tile_stores() {
+    for (const std::string scene : {"cube", "sphere", "grid64", "large"}) {
+      const auto workload = scene_workload(scene, options_.width, options_.height);
+      const auto add_stores = [&](int pause_ms, bool streaming) {
+        std::string what = scene;
+        if (pause_ms > 0) what += fmt::format("/pause:{}ms", pause_ms);
+        if (streaming) what += "/stores:streaming";
+        add(workload, Timed::frame, find_backend(kAblationBackend), what, kSweepThreads);
+        rows_.back().pause_s = 1e-3 * pause_ms;
+        rows_.back().close = true;
+        if (streaming) rows_.back().ablation.tile_store = TileStore::streaming;
+      };
+      add_stores(0, true);
+      add_stores(kPause_ms, false);
+      add_stores(kPause_ms, true);
+    }
+  }
+
   WorkloadPtr make_workload(std::function<tools::Source()> load) const {
     return std::make_shared<Workload>(options_.width, options_.height, Cull::back, std::move(load));
   }
@@ -280,6 +300,7 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
   suite.add_tiny();
   suite.add_cull_sweep();
   suite.add_target_sweep();
+  suite.add_tile_stores();
   return suite.take();
 }
 

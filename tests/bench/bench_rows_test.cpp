@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -15,6 +16,7 @@
 #include "bench/workloads/stage.h"
 #include "edgewise/contract.h"
 #include "message_of.h"
+#include "run_program.h"
 #include "temp_dir.h"
 
 namespace edgewise::bench {
@@ -235,6 +237,39 @@ TEST(BenchAblation, DrawsTwoCallsWithoutClusters) {
     EXPECT_EQ(std::get<Scene>(row.workload->drawable()).meshes[0].clusters.empty(), row.two_calls);
   }
   EXPECT_TRUE(rows.at("tiled+frontend/small/step:two-calls/threads:1").two_calls);
+}
+
+TEST(BenchSuite, TimesTileStoresBackToBackAndAfterPauses) {
+  const std::map<std::string, Row> rows = quick_rows(160, 90);
+  for (const std::string scene : {"cube", "sphere", "grid64", "large"})
+    for (const std::string pause : {"", "/pause:2ms"})
+      for (const std::string stores : {"", "/stores:streaming"}) {
+        const Row& row = rows.at("tiled+frontend/" + scene + pause + stores + "/threads:2");
+        EXPECT_EQ(row.pause_s, pause.empty() ? 0.0 : 2e-3) << row.name;
+        EXPECT_EQ(describe(row.ablation), stores.empty() ? "" : "streaming stores") << row.name;
+      }
+}
+
+TEST(BenchProgram, PausesAreMadeButNotTimed) {
+  const TempDir folder;
+  const std::string out = (folder.path() / "bench.json").string();
+  const auto begin = std::chrono::steady_clock::now();
+  const auto outcome = testing::run_program(
+      EDGEWISE_BENCH,
+      "--no-peers --quick --size 64x64 --benchmark_min_time=0.01 --benchmark_repetitions=1 --benchmark_out=" +
+          out + " --benchmark_filter=/cube/pause:2ms/threads:2");
+  const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - begin;
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  double frames = 0.0, fastest_ms = 1e9;
+  const auto json = nlohmann::json::parse(file_content(out));
+  for (const auto& entry : json["benchmarks"]) {
+    if (!entry["name"].get<std::string>().starts_with("tiled") || entry["run_type"] != "iteration") continue;
+    frames += entry["iterations"].get<double>();
+    fastest_ms = std::min(fastest_ms, entry["real_time"].get<double>());
+  }
+  EXPECT_GT(frames, 0.0);
+  EXPECT_GT(elapsed.count(), 2.0 * frames);
+  EXPECT_LT(fastest_ms, 2.0);
 }
 
 // The right angle lies in the image's upper left corner.

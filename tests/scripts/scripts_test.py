@@ -506,6 +506,26 @@ class NarrowerTest(unittest.TestCase):
         self.assertEqual(narrower_sentence(Bench({}, {})), "")
 
 
+class TileStoresTest(unittest.TestCase):
+    """tile_stores.tile_stores_table(): frames back to back and after pauses, each beside streaming stores for all tiles."""
+
+    def test_compares_stores_back_to_back_and_after_pauses(self):
+        sys.path.insert(0, str(SCRIPTS / "reporting"))
+        from bench_rows import Bench, parse_name
+        from tile_stores import tile_stores_table
+        rows = {}
+        for keys, ms in (("", 1.0), ("/stores:streaming", 2.0), ("/pause:2ms", 3.0), ("/pause:2ms/stores:streaming", 3.0)):
+            row = parse_name(f"tiled+frontend/cube{keys}/threads:2")
+            row.times_ms = [ms + 1e-3 * i for i in range(5)]
+            rows[row.name] = row
+        header, lines = tile_stores_table(Bench({}, rows))
+        self.assertEqual(header, ["scene", "back to back, ms", "all streamed", "after 2 ms, ms", "all streamed"])
+        self.assertEqual(lines, [["cube", "1.00", "2.00, 2.0× slower", "3.00", "3.00, 1.00× (not settled)"]])
+        del rows["tiled+frontend/cube/pause:2ms/stores:streaming/threads:2"]
+        self.assertEqual(tile_stores_table(Bench({}, rows))[1], [["cube", "1.00", "2.00, 2.0× slower", "–", "–"]])
+        self.assertEqual(tile_stores_table(Bench({}, {}))[1], [])
+
+
 class AblationTest(unittest.TestCase):
     """ablation.parts(): from the plainest backend over the steps to the last row, of draws and of whole frames."""
 
