@@ -18,6 +18,7 @@
 #include "bench/workloads/random_reads.h"
 #include "bench/workloads/stage.h"
 #include "core/atomic_file.h"
+#include "core/parallel.h"
 #include "support/console.h"
 #include "support/machine.h"
 #include "support/options.h"
@@ -45,8 +46,7 @@ constexpr Effort kFull{5, 9, 0.012, 0.07}, kQuick{5, 5, 0.01, 0.1};
 
 // Memory is measured once per scene and backend.
 bool needs_peak(const Row& row) {
-  return row.timed == Timed::frame && row.backend != nullptr && row.cores == 0 && !row.step &&
-         row.execution.target == SimdTarget::best && row.execution.threads == 2 &&
+  return row.timed == Timed::frame && row.backend != nullptr && is_plain(row) && row.execution.threads == 2 &&
          row.once_s < row.repeat_below_s;
 }
 
@@ -163,11 +163,13 @@ void leave_out_slow_frames(std::vector<Row>& rows) {
   });
 }
 
-// Unlike sleeping, this keeps the core's clock rate.
-void spin(double seconds) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
-  while (std::chrono::steady_clock::now() < end) {
-  }
+// Keeps all threads of the row awake, so that only the caches differ from frames back to back.
+void pause_before(const Row& row) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(row.pause_s);
+  parallel_for(row.execution.threads, row.execution.threads, [end](int) {
+    while (std::chrono::steady_clock::now() < end) {
+    }
+  });
 }
 
 void time_row(benchmark::State& state, Row& row, Stage& stage) {
@@ -180,7 +182,7 @@ void time_row(benchmark::State& state, Row& row, Stage& stage) {
     for (auto _ : state) {
       if (row.pause_s > 0.0) {
         state.PauseTiming();
-        spin(row.pause_s);
+        pause_before(row);
         state.ResumeTiming();
       }
       stage.work(row);

@@ -53,4 +53,10 @@ struct Row {
   std::string error;                       // why the row must not be timed
 };
 
+// Whether all but the row's threads is the default.
+inline bool is_plain(const Row& row) {
+  return !row.step && row.cores == 0 && row.pause_s == 0.0 && row.execution.target == SimdTarget::best &&
+         row.ablation.tile_store == TileStore::automatic;
+}
+
 }  // namespace edgewise::bench

@@ -118,6 +118,26 @@ class Suite {
     }
   }
 
+  // Back to back, a frame may find its memory in the LLC. In a pause, other processes may fill the LLC.
+  void add_tile_stores(const WorkloadPtr& workload, const std::string& scene) {
+    constexpr std::string_view kScenes[] = {"cube", "sphere", "large", "grid64"};
+    if (std::find(std::begin(kScenes), std::end(kScenes), scene) == std::end(kScenes)) return;
+    const auto add_stores = [&](int threads, int pause_ms, bool streaming) {
+      std::string what = scene;
+      if (pause_ms > 0) what += fmt::format("/pause:{}ms", pause_ms);
+      if (streaming) what += "/stores:streaming";
+      add(workload, Timed::frame, find_backend(kAblationBackend), what, threads);
+      rows_.back().pause_s = 1e-3 * pause_ms;
+      rows_.back().close = true;
+      if (streaming) rows_.back().ablation.tile_store = TileStore::streaming;
+    };
+    for (const int threads : kThreads) {
+      add_stores(threads, 0, true);
+      add_stores(threads, kPause_ms, false);
+      add_stores(threads, kPause_ms, true);
+    }
+  }
+
   void add_area_sweep() {
     const std::vector<double> areas_px =
         options_.quick ? std::vector<double>{1, 10, 100, 1e3, 1e4, 1e5, 1e6}
@@ -175,25 +195,6 @@ class Suite {
         for (const SimdTarget target : supported_targets())
           add(workload, Timed::raster, backend, fmt::format("{}/target:{}", scene, name_of(target)), 1,
               target);
-    }
-  }
-
-  // Back to back, a small frame may find its memory in the LLC. In a pause, other processes may fill the LLC.
-  void add_tile_stores() {
-    for (const std::string scene : {"cube", "sphere", "grid64", "large"}) {
-      const auto workload = scene_workload(scene, options_.width, options_.height);
-      const auto add_stores = [&](int pause_ms, bool streaming) {
-        std::string what = scene;
-        if (pause_ms > 0) what += fmt::format("/pause:{}ms", pause_ms);
-        if (streaming) what += "/stores:streaming";
-        add(workload, Timed::frame, find_backend(kAblationBackend), what, kSweepThreads);
-        rows_.back().pause_s = 1e-3 * pause_ms;
-        rows_.back().close = true;
-        if (streaming) rows_.back().ablation.tile_store = TileStore::streaming;
-      };
-      add_stores(0, true);
-      add_stores(kPause_ms, false);
-      add_stores(kPause_ms, true);
     }
   }
 
@@ -293,6 +294,7 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
     suite.add_scene(workload, name);
     suite.add_ablation(workload, name);
     suite.add_engine_runs(workload, name);
+    suite.add_tile_stores(workload, name);
   }
   for (const auto& scene : options.more_scenes) add_named(scene);
   suite.add_area_sweep();
@@ -300,7 +302,6 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
   suite.add_tiny();
   suite.add_cull_sweep();
   suite.add_target_sweep();
-  suite.add_tile_stores();
   return suite.take();
 }
 

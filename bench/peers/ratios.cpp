@@ -12,9 +12,9 @@ namespace {
 
 // Whether our row does the peer row's work on as many threads, with the default switches.
 bool is_comparable(const Row& ours, const Row& peer) {
-  return ours.backend != nullptr && ours.backend->name == kAblationBackend && !ours.step && ours.cores == 0 &&
-         ours.execution.target == SimdTarget::best && ours.workload == peer.workload &&
-         ours.timed == peer.timed && ours.execution.threads == peer.execution.threads;
+  return ours.backend != nullptr && ours.backend->name == kAblationBackend && is_plain(ours) &&
+         ours.workload == peer.workload && ours.timed == peer.timed &&
+         ours.execution.threads == peer.execution.threads;
 }
 
 // Our speed relative to the peer's: "7.50× faster" or "2.00× slower".

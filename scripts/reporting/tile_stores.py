@@ -1,21 +1,26 @@
 """Whole frames back to back and after pauses, with the rule's tile stores and with streaming ones for all tiles."""
 from bench_rows import order
-from speedups import mark
+from speedups import speed_up
 from tables import milliseconds
 
 
+def cells(rule, streaming):
+    """The two times; behind the second, the speed-up of streaming over the rule."""
+    ms = milliseconds(streaming)
+    if rule and streaming:
+        settled = order(rule, streaming) != 0
+        ms += f" ({speed_up(rule.median_ms / streaming.median_ms)})" if settled else " (not settled)"
+    return [milliseconds(rule), ms]
+
+
 def tile_stores_table(bench):
-    """Header and lines; no lines if the rows were not timed. The speed-up of streaming stores stands behind their time."""
-    pauses = {(row.scene, row.keys.get("stores")): row for row in bench.sweep("pause")}
-    streamed = {row.scene: row for row in bench.sweep("stores") if "pause" not in row.keys}
-
-    def cells(automatic, streaming):
-        if automatic is None or streaming is None:
-            return ["–", "–"]
-        speed_up = mark(automatic.median_ms / streaming.median_ms, order(automatic, streaming) != 0)
-        return [milliseconds(automatic), f"{milliseconds(streaming)}, {speed_up}"]
-
-    lines = [[scene, *cells(bench.frame(row.backend, scene, row.threads), streamed.get(scene)), *cells(row, pauses.get((scene, "streaming")))]
-             for (scene, stores), row in pauses.items() if stores is None]
-    pause = next((row.keys["pause"].replace("ms", " ms") for row in pauses.values()), "")
-    return ["scene", "back to back, ms", "all streamed", f"after {pause}, ms", "all streamed"], lines
+    """Header and lines; no lines if the rows were not timed."""
+    lines, pause = [], ""
+    for row in bench.sweep("pause"):
+        if "stores" not in row.keys:
+            pause = row.keys["pause"]
+            find = lambda keys: bench.frame(row.backend, row.scene + keys, row.threads)  # noqa: E731
+            lines.append([row.scene, str(row.threads), *cells(find(""), find("/stores:streaming")),
+                          *cells(row, find(f"/pause:{pause}/stores:streaming"))])
+    after = f"after {pause.replace('ms', ' ms')}"
+    return ["scene", "threads", "back to back: rule, ms", "streaming, ms", f"{after}: rule, ms", "streaming, ms"], lines

@@ -25,7 +25,7 @@ class ReadmeTest(unittest.TestCase):
 
     def test_growth_more_cores_and_memory_fill_the_readme(self):
         readme = self.folder / "README.md"
-        names = ("growth", "scaling", "second_thread", "small_draws", "memory")
+        names = ("growth", "scaling", "second_thread", "tile_stores", "small_draws", "memory")
         readme.write_text("<!-- results: results -->\n"
                           + "".join(f"<!-- generated:{name} -->\n<!-- /generated -->\n" for name in names))
         result = scripts_test.run("readme", "--file", readme)
@@ -38,6 +38,8 @@ class ReadmeTest(unittest.TestCase):
         self.assertIn("charged 2 µs", text)
         self.assertIn("charts/second-thread.svg)\n\nSpeed-up by a second thread of the whole frames of `tiled` that take more than 2 ms on one, "
                       "above 1.9×: `knot` 1.92×; below 1.9×: `cube` 1.82× (largest loss: serial code, 5 %).\n", text)
+        self.assertIn("| cube | 2 | ", text)
+        self.assertIn("| after 2 ms: rule, ms | streaming, ms |\n|---|--:|", text)
         self.assertIn("at 1920 × 1080: `slow` 20.2 µs on one thread, 20.2 on two (10.1 would be ideal)", text)
         self.assertIn("9.6 bytes per pixel", text)
         self.assertIn("no scene needs more than 60%", text)
@@ -71,11 +73,11 @@ class ReadmeTest(unittest.TestCase):
         readme = self.folder / "README.md"
         model = self.folder / "few" / "model.json"
         model.write_text(json.dumps({key: rows for key, rows in json.loads(model.read_text()).items() if key != "second_thread"}))
-        names = ("growth", "scaling", "second_thread")
+        names = ("growth", "scaling", "second_thread", "tile_stores")
         readme.write_text("<!-- results: few -->\n"
                           + "".join(f"<!-- generated:{name} -->\n<!-- /generated -->\n" for name in names))
         self.assertEqual(scripts_test.run("readme", "--file", readme).returncode, 0)
-        self.assertEqual(readme.read_text().count("hold none of the rows"), 3)
+        self.assertEqual(readme.read_text().count("hold none of the rows"), 4)
 
 
 class GrowthTest(unittest.TestCase):

@@ -51,6 +51,8 @@ def bench(slow=(10.0, 10.2, 10.1, 10.05, 10.15), tiled=(2.0, 2.1, 2.2, 2.05, 2.1
             rows += entries(f"{backend}+frontend/cube/cull:{mode}/threads:2", [t * factor for t in times])
         if backend == "tiled":
             rows += entries("naive/cube/threads:1", [9 * t for t in times])
+            for keys, factor in (("/stores:streaming", 2), ("/pause:2ms", 3), ("/pause:2ms/stores:streaming", 1.5)):
+                rows += entries(f"tiled+frontend/cube{keys}/threads:2", [t * factor for t in times])
             for step, factor in (("tiles", 4), ("avx2", 2)):
                 rows += entries(f"tiled/cube/step:{step}/threads:1", [t * factor for t in times])
         for target, factor in (("scalar", 4), ("avx2", 1)):
@@ -519,10 +521,10 @@ class TileStoresTest(unittest.TestCase):
             row.times_ms = [ms + 1e-3 * i for i in range(5)]
             rows[row.name] = row
         header, lines = tile_stores_table(Bench({}, rows))
-        self.assertEqual(header, ["scene", "back to back, ms", "all streamed", "after 2 ms, ms", "all streamed"])
-        self.assertEqual(lines, [["cube", "1.00", "2.00, 2.0× slower", "3.00", "3.00, 1.00× (not settled)"]])
+        self.assertEqual(header, ["scene", "threads", "back to back: rule, ms", "streaming, ms", "after 2 ms: rule, ms", "streaming, ms"])
+        self.assertEqual(lines, [["cube", "2", "1.00", "2.00 (2.0× slower)", "3.00", "3.00 (not settled)"]])
         del rows["tiled+frontend/cube/pause:2ms/stores:streaming/threads:2"]
-        self.assertEqual(tile_stores_table(Bench({}, rows))[1], [["cube", "1.00", "2.00, 2.0× slower", "–", "–"]])
+        self.assertEqual(tile_stores_table(Bench({}, rows))[1], [["cube", "2", "1.00", "2.00 (2.0× slower)", "3.00", "–"]])
         self.assertEqual(tile_stores_table(Bench({}, {}))[1], [])
 
 
