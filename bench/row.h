@@ -53,10 +53,11 @@ struct Row {
   std::string error;                       // why the row must not be timed
 };
 
-// Whether all but the row's threads is the default.
+// Whether the row is timed as a user would draw: with all optimizations, on the best SIMD target, without
+// pauses.
 inline bool is_plain(const Row& row) {
   return !row.step && row.cores == 0 && row.pause_s == 0.0 && row.execution.target == SimdTarget::best &&
-         row.ablation.tile_store == TileStore::automatic;
+         describe(row.ablation).empty();
 }
 
 }  // namespace edgewise::bench

@@ -15,12 +15,12 @@ def cells(rule, streaming):
 
 def tile_stores_table(bench):
     """Header and lines; no lines if the rows were not timed."""
-    lines, pause = [], ""
-    for row in bench.sweep("pause"):
-        if "stores" not in row.keys:
-            pause = row.keys["pause"]
-            find = lambda keys: bench.frame(row.backend, row.scene + keys, row.threads)  # noqa: E731
-            lines.append([row.scene, str(row.threads), *cells(find(""), find("/stores:streaming")),
-                          *cells(row, find(f"/pause:{pause}/stores:streaming"))])
-    after = f"after {pause.replace('ms', ' ms')}"
+    def find(row, keys):
+        return bench.frame(row.backend, row.scene + keys, row.threads)
+
+    streaming = "/stores:streaming"
+    paused = [row for row in bench.sweep("pause") if "stores" not in row.keys]
+    lines = [[row.scene, str(row.threads), *cells(find(row, ""), find(row, streaming)),
+              *cells(row, find(row, f"/pause:{row.keys['pause']}{streaming}"))] for row in paused]
+    after = f"after {paused[0].keys['pause'].replace('ms', ' ms')}" if paused else "after a pause"
     return ["scene", "threads", "back to back: rule, ms", "streaming, ms", f"{after}: rule, ms", "streaming, ms"], lines
