@@ -15,20 +15,20 @@ NARROW_ENGINE = "engine_fixed_8_int32"
 
 
 def speed_finding(bench):
-    """Parallel or scanline? Over the scenes that all backends drew, on the most threads."""
+    """Parallel or scanline? Over the scenes that both drew, on the most threads."""
     threads = max(THREADS)
     drawn = [{b: row for b in (OURS, "scanline", "naive") if (row := bench.frame(b, scene, threads))}
              for scene in bench.scenes]
-    drawn = [rows for rows in drawn if len(rows) == 3]
+    drawn = [rows for rows in drawn if OURS in rows and "scanline" in rows]
     if not drawn:
         return ""
     text = (f"**Parallel or scanline?** On {threads} threads, with {kernels(bench.context.get('simd_target'))} in all backends, "
             f"`{OURS}` {outcome([(rows[OURS], rows['scanline']) for rows in drawn], 'scenes against `scanline`')}.")
-    boxed = [(rows["naive"], min(rows[OURS], rows["scanline"], key=lambda row: row.median_ms)) for rows in drawn]
+    boxed = [(rows["naive"], min(rows[OURS], rows["scanline"], key=lambda row: row.median_ms)) for rows in drawn if "naive" in rows]
     slower = [slow.median_ms / fast.median_ms for slow, fast in boxed if order(fast, slow) < 0]
     if slower:
         text += (f" `naive`, which tests every pixel of the bounding box, is {spread(slower)} slower than the faster of the "
-                 f"two on {len(slower)} of {len(drawn)} scenes.")
+                 f"two on {len(slower)} of {len(boxed)} scenes.")
     return text
 
 
