@@ -15,7 +15,7 @@ NARROW_ENGINE = "engine_fixed_8_int32"
 
 
 def speed_finding(bench):
-    """Parallel or scanline? Over the scenes that both drew, on the most threads."""
+    """Parallel or scanline? Over the scenes that `tiled` and `scanline` drew, on the most threads."""
     threads = max(THREADS)
     drawn = [{b: row for b in (OURS, "scanline", "naive") if (row := bench.frame(b, scene, threads))}
              for scene in bench.scenes]
