@@ -8,7 +8,7 @@ namespace edgewise {
 
 std::size_t llc_bytes();
 
-// Assumed of every processor: most have 0.5 to 2 MB per core.
+// The L2 size that is assumed for every processor: most have 0.5 to 2 MB per core.
 inline constexpr std::size_t kL2Bytes = std::size_t{1} << 20;
 
 }  // namespace edgewise

@@ -24,9 +24,9 @@ class ParallelObserver {
   virtual void section_ends() = 0;
 };
 
-// Times the parallel sections that its thread starts and several threads run. In contrast to an observer, it
-// leaves every task on the thread that runs it. Sections inside tasks are not reported. `thread` is 0 for the
-// caller of the section and less than `threads`. Calls for different threads may be concurrent.
+// Times the parallel sections that its thread starts, if they may use several threads. In contrast to an
+// observer, it leaves every task on the thread that runs it. Sections inside tasks are not reported. `thread`
+// is 0 for the caller of the section and less than `threads`. Calls for different threads may be concurrent.
 class ParallelTimer {
  public:
   virtual ~ParallelTimer() = default;

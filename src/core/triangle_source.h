@@ -1,6 +1,6 @@
 // Screen triangles as binning reads them. They lie in memory, or are made when binning needs them. Made
 // triangles are binned while they lie in the L2 cache, so those that become coverage masks need no room in
-// memory.
+// memory. In core/, since the front end makes them and the backends bin them.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@ namespace edgewise {
 
 class TriangleSource {
  public:
-  static constexpr std::size_t kInputsAtOnce = 2048;  // the most of one call of make()
+  static constexpr std::size_t kInputsAtOnce = 2048;  // make() takes at most this many inputs per call
 
   virtual ~TriangleSource() = default;
 

@@ -63,7 +63,8 @@ class Backend {
 
 // Frontend::run() and Backend::draw() in one call: the same picture and Frontend::stats(). `tiled` draws
 // streams of small triangles faster and with less memory: it does not keep screen triangles that become
-// coverage masks. A stream's triangles are made on the threads of `execution`, not on those of `options`.
+// coverage masks. A stream's triangles are made on the threads of `execution`, not on those of `options`. If
+// clipping adds more than about an eighth to them, they are made twice in every frame.
 // Throws what the two throw, and std::invalid_argument if `options` state another size than `frame` has.
 void draw(const Drawable& drawable, Frontend& frontend, const FrontendOptions& options, Backend& backend,
           FrameView frame, std::uint32_t background, const Execution& execution);

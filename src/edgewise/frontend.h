@@ -59,13 +59,13 @@ struct UnsnappedTriangle {
   float x_px[3], y_px[3], z01[3];
 };
 
-// Counts of one call of Frontend::run.
+// Counts of one call of Frontend::run() or draw().
 //   triangles = whole_mesh + not_finite + outside + not_in_front + (triangles that are split into pieces)
 //   pieces    = culled + zero_area + emitted
 // An unclipped triangle is one piece.
 struct FrontendStats {
   std::uint64_t meshes = 0;         // instances submitted
-  std::uint64_t meshes_culled = 0;  // instances beyond a side of the view, or each of whose clusters is
+  std::uint64_t meshes_culled = 0;  // instances out of view: as a whole, or cluster by cluster
   std::uint64_t triangles = 0;      // submitted
   std::uint64_t whole_mesh = 0;     // dropped with their instance or cluster
   std::uint64_t not_finite = 0;     // dropped: a vertex is NaN or infinite, before or after the transform
@@ -91,7 +91,9 @@ class TriangleSource;  // internal
 
 // A front end keeps its memory between frames and allocates only in the first frame of a kind. It keeps
 // - 16 bytes per vertex of the largest mesh, or for small meshes 0.5 MB, or 0.8 MB per 8 threads,
-// - of a mesh with clusters, less than 150 bytes per cluster and 1 byte per 64 vertices,
+// - of meshes with clusters, less than 400 bytes per cluster of each instance, and 1 byte per vertex of the
+//   largest mesh,
+// - up to 3 MB for many small meshes,
 // - 40 bytes per visible triangle (and address space for as many per submitted one), unless draw() makes a
 //   stream's triangles while the backend bins them,
 // - less than 1 MB per thread,
@@ -106,16 +108,17 @@ class Frontend {
   Frontend& operator=(Frontend&&) noexcept;
 
   // Returns the visible triangles in submission order. They lie in this object's memory and are valid until
-  // the next call or the object's destruction. Backend::draw() throws if the frame is not options.width x
-  // options.height pixels. Neither argument is kept. Several front ends may run one drawable at once.
+  // the next call of this or of draw(), or the object's destruction. Backend::draw() throws if the frame is
+  // not options.width x options.height pixels. Neither argument is kept. Several front ends may run one
+  // drawable at once.
   //
   // Throws std::bad_alloc if memory runs out, and std::invalid_argument for
   // - a camera, image size or thread count out of range,
   // - an instance whose mesh index the scene lacks,
   // - a mesh without one colour per triangle, or whose flags are neither empty nor one per triangle, or whose
   //   first triangle has kSecondHalf,
-  // - a triangle whose vertex index the mesh lacks, if its instance and cluster are in view, or it is half of
-  //   a face in view,
+  // - a vertex index that the mesh lacks, in a triangle whose instance and cluster are in view, or in the
+  //   first half of a face whose second half is in view,
   // - a mesh whose clusters are not one per kClusterTriangles triangles,
   // - a cluster in view whose vertices the mesh lacks,
   // - a triangle in view that names other vertices than its cluster (not found in all cases),
@@ -127,7 +130,7 @@ class Frontend {
   // Counts of the last call of run(), or of draw().
   const FrontendStats& stats() const;
   // One entry per triangle that run() returned, if keep_unsnapped was set. Empty otherwise and after an
-  // exception. Valid as long as those triangles.
+  // exception. Valid until the next call of run() or draw().
   std::span<const UnsnappedTriangle> unsnapped() const;
   // One entry per submitted triangle, in order, if keep_states was set. Empty otherwise and after an
   // exception. Valid until the next call of run() or draw().

@@ -1,6 +1,6 @@
 // The two kinds of input: a scene (meshes, a camera and a light), or a stream of triangles that are already
-// on the screen. All types here are plain values that own their data. Frontend::run checks them; nothing is
-// checked before.
+// on the screen. All types here are plain values that own their data. Frontend::run and draw() check them;
+// nothing is checked before.
 #pragma once
 
 #include "edgewise/cxx20.h"

@@ -25,11 +25,11 @@ class Chunks {
     ends_.clear();
     total_ = room_ = 0;
   }
-  // Memory for `count` further elements in up to `runs` runs.
+  // Memory for `count` elements in up to `runs` runs.
   void reserve(std::size_t count, std::size_t runs) {
     const std::size_t chunks = count / kChunkTriangles + 1;
-    runs_.reserve(runs_.size() + runs + chunks);
-    ends_.reserve(ends_.size() + chunks);
+    runs_.reserve(runs + chunks);
+    ends_.reserve(chunks);
   }
   // Appends `count` elements from index `first` on.
   void add(std::size_t member, std::size_t first, std::size_t count, VertexRange allowed = {}) {

@@ -12,7 +12,6 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/parallel.h"
@@ -125,6 +124,8 @@ struct GroupMember {
 struct Frontend::State {
   // A group holds consecutive members: most are too small to be worth several threads alone.
   static constexpr std::size_t kMaxMembers = kWorthThreads;
+  // More threads get larger groups, since they meet at each group's end. All vertices of a group must fit the
+  // caches.
   std::size_t max_vertices() const {
     const auto eights = static_cast<std::size_t>(options.threads / 8);
     return std::max(4 * kWorthThreads, eights * ClusterPart::kMaxVertices);
@@ -273,11 +274,6 @@ struct Frontend::State {
       drop(task, outside.first, outside.count);
       return true;
     };
-    // For any part of this mesh, so that a camera that turns allocates nothing.
-    vertices.reserve(std::max(max_vertices(), mesh.positions.size()));
-    vertex_chunks.reserve(mesh.positions.size(), mesh.clusters.size());
-    triangle_chunks.reserve(mesh.triangles.size(), mesh.clusters.size());
-    group.reserve(group.size() + 8);  // a group rarely holds more parts
     part.start(mesh, mesh.clusters);
     bool in_view = false;
     while (part.take(drop_if_outside)) {
@@ -293,7 +289,25 @@ struct Frontend::State {
     stats.meshes_culled += !in_view;
   }
 
+  // For any view of the scene, so that a camera that turns allocates nothing.
+  void reserve_for_clusters(const Scene& scene) {
+    std::size_t clusters = 0, triangles = 0, most_vertices = max_vertices();
+    for (const Instance& instance : scene.instances) {
+      const Mesh& mesh = mesh_of(scene, instance);
+      clusters += mesh.clusters.size();
+      triangles += mesh.triangles.size();
+      most_vertices = std::max(most_vertices, mesh.positions.size());
+    }
+    if (clusters == 0) return;
+    const std::size_t runs = clusters + scene.instances.size(), members = std::min(runs, kMaxMembers);
+    vertices.reserve(most_vertices);
+    group.reserve(members);
+    vertex_chunks.reserve(most_vertices, members + most_vertices / ClusterPart::kBlock);
+    triangle_chunks.reserve(triangles, runs);
+  }
+
   void run_scene(const Scene& scene) {
+    reserve_for_clusters(scene);
     const glm::dmat4 to_screen = screen_matrix(scene.camera, options.width, options.height);
     const ViewDepth depth(double{scene.camera.near_z}, double{scene.camera.far_z});
     std::size_t first_id = 0;

@@ -48,8 +48,9 @@ std::vector<MeshCluster> clusters_of(const Mesh& mesh) {
   if (mesh.triangles.size() < kLeastTriangles && vertices <= ClusterPart::kMaxVertices) return {};
   if (!std::all_of(mesh.triangles.begin(), mesh.triangles.end(), exists)) return {};
   std::vector<MeshCluster> clusters = make_clusters(mesh);
-  // In random order, parts share most vertices. Twice as many as the mesh has still gain: transforming a
-  // vertex twice costs less than fetching it from memory once.
+  // If triangles name vertices in random order, most vertices belong to several parts, and each part
+  // transforms them. Clusters still gain at two transforms per vertex: a second one costs less than fetching
+  // a vertex from memory.
   ClusterPart part;
   part.start(mesh, clusters);
   std::size_t transformed = 0;
@@ -109,7 +110,7 @@ void ClusterPart::mark_vertices() {
                 blocks_.begin() + static_cast<std::ptrdiff_t>(block_of(range.end - 1)) + 1, std::uint8_t{1});
       continue;
     }
-    // Two parts of the mesh meet in this cluster, or it names vertices in random order.
+    // The cluster spans two distant ranges of vertices, or it names vertices in random order.
     const ClusterTriangles triangles = triangles_of(*mesh_, cluster);
     for (std::size_t i = 0; i < triangles.count; ++i)
       for (int k = 0; k < 3; ++k) {

@@ -46,7 +46,7 @@ inline ClusterTriangles triangles_of(const Mesh& mesh, std::size_t cluster) {
 
 // The clusters of a mesh of any size, all of whose vertices must exist.
 std::vector<MeshCluster> make_clusters(const Mesh& mesh);
-// Gives them to every mesh of a scene, for tests.
+// Sets the clusters of every mesh of a scene, whatever its size. For the soak test and fuzzing.
 void make_clusters(Drawable& drawable);
 
 // The six sides of the view, in a mesh's model space.
@@ -71,6 +71,8 @@ class ClusterPart {
  public:
   // A part has at most this many vertices, unless a single cluster has more.
   static constexpr std::size_t kMaxVertices = kL2Bytes / 4 * 3 / sizeof(Vertex);
+  // Vertices. They are marked block by block, so runs of marked vertices are as far apart.
+  static constexpr std::size_t kBlock = 64;
 
   // Takes parts of this mesh from now on. Both must outlive the parts.
   void start(const Mesh& mesh, std::span<const MeshCluster> clusters) {
@@ -100,8 +102,8 @@ class ClusterPart {
   }
   VertexRange range() const { return range_; }  // of all its vertices
   // Calls visit(first, count, range) for runs of its triangles, in order. All vertices of the range are
-  // marked. A cluster of more than kMaxVertices is a part of its own; of its range, only the vertices that
-  // its triangles name are marked.
+  // marked, except for a cluster of more than kMaxVertices. That is a part of its own, and only the vertices
+  // that its triangles name are marked.
   template <typename Visit>
   void for_each_triangle_run(Visit&& visit) const {
     for (std::size_t i = 0; i < clusters_.size();) {
@@ -130,8 +132,6 @@ class ClusterPart {
   }
 
  private:
-  static constexpr std::size_t kBlock = 64;  // vertices
-
   VertexRange checked_vertices(std::size_t cluster) const;
   void mark_vertices();
 

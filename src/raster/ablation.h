@@ -26,8 +26,10 @@ struct Ablation {
   bool coverage_masks = true;      // tiled: binning resolves small triangles to masks; needs vector_setup
   bool hierarchical_depth = true;  // tiled: triangles behind all that a block or tile shows are rejected
   TileStore tile_store = TileStore::automatic;  // tiled, scanline
-  bool empty_rows = true;              // tiled, scanline: all empty tiles of a row are filled together
-  bool several_tiles_per_task = true;  // tiled, scanline
+  // tiled, scanline: all empty tiles of a row are filled together. Else each is drawn like a tile with few
+  // triangles: in a buffer, and with that tile's store.
+  bool empty_rows = true;
+  bool several_tiles_per_task = true;  // tiled, scanline: oneTBB gets up to four tiles at once
   bool stepped = false;  // naive: edges and depth are stepped along rows, not evaluated at each pixel
 };
 

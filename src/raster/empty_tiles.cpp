@@ -14,8 +14,8 @@ HWY_BEFORE_NAMESPACE();
 namespace edgewise {
 namespace HWY_NAMESPACE {
 
-// Calls store(v, at, ahead): the same columns of the next pixel row, which no hardware prefetcher expects,
-// lie `ahead` px further.
+// Calls store(v, at, ahead) for each vector. The next pixel row, which no hardware prefetcher expects, lies
+// `ahead` px further.
 template <typename Store>
 void fill_plane(const EmptyTiles& task, std::uint32_t* plane, std::uint32_t value, Store&& store) {
   const V v = hn::Set(D{}, static_cast<std::int32_t>(value));

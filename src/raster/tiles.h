@@ -29,7 +29,7 @@ enum class TileContent { nothing, few, many };
 // - On one thread, a tile with many triangles is streamed while the next one is drawn. Several threads that
 //   stream would wait for the memory's bandwidth.
 // - Other tiles get cached stores.
-// `triangles`: submitted ones.
+// `triangles`: the inputs of the source, which for Backend::draw() are screen triangles.
 constexpr TileStore tile_store_for(TileContent content, std::size_t triangles, int threads,
                                    std::size_t frame_bytes, std::size_t llc) {
   const bool fits_llc = frame_bytes <= llc / 2, fits_l2 = triangles * sizeof(ScreenTriangle) <= kL2Bytes;

@@ -87,16 +87,19 @@ std::span<const ScreenTriangle> Checker::check_frontend(const Case& c, Verdict& 
   expected_list_.assign(plain.begin(), plain.end());
   std::erase_if(expected_list_, [](const ScreenTriangle& t) { return contract::signed_area(t) == 0; });
 
-  Drawable in_clusters = *c.drawable;
+  const bool is_scene = std::holds_alternative<Scene>(*c.drawable);
+  Drawable in_clusters;
+  if (is_scene) in_clusters = *c.drawable;
   make_clusters(in_clusters);
-  // One of the two runs on each target uses clusters. Which one depends on the case.
+  // Of a scene, one of the two runs on each target uses clusters. Which one depends on the case.
   const bool clusters_on_one_thread = Random(c.draws_seed).below(2) == 0;
   options.keep_unsnapped = false;
   for (const SimdTarget target : supported_targets())
     for (const int threads : {1, c.threads}) {
       options.target = target;
       options.threads = threads;
-      const Drawable& drawable = (threads == 1) == clusters_on_one_thread ? in_clusters : *c.drawable;
+      const bool clusters = is_scene && (threads == 1) == clusters_on_one_thread;
+      const Drawable& drawable = clusters ? in_clusters : *c.drawable;
       const bool differs = !same(expected_list_, judged_.frontend(candidate_, drawable, options));
       ++verdict.tally.frontend_lists;
       if (differs) ++verdict.tally.frontend_lists_differ;

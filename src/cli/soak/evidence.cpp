@@ -96,15 +96,16 @@ nlohmann::json description(const Case& c, const Finding& f, const Judged& judged
 nlohmann::json evidence_of(const Evidence& evidence, std::uint64_t seed, const Case& c, const Finding& found,
                            Checker& checker) {
   Finding finding = found;
-  finding.draw.whole_frame = false;
-  // If the front end's triangles in memory show no difference, only a whole frame shows the difference.
-  finding.draw.whole_frame = found.draw.whole_frame && !checker.differs(finding, c, finding.triangles);
   nlohmann::json json = description(c, finding, checker.judged());
   json["replay"] = {fmt::format("{} soak --seed {} --case {}", quoted(evidence.program), seed, c.number)};
   const auto* stream = c.drawable ? std::get_if<TriangleStream>(&*c.drawable) : nullptr;
-  const bool of_drawable = finding.of_frontend || finding.draw.whole_frame;
-  if (evidence.folder.empty() || (of_drawable && stream == nullptr)) return json;
   try {
+    // Keeps whole_frame only if the front end's triangles in memory show no difference.
+    finding.draw.whole_frame = false;
+    finding.draw.whole_frame = found.draw.whole_frame && !checker.differs(finding, c, finding.triangles);
+    if (!finding.of_frontend) json["input"] = input_of(finding.draw);
+    const bool of_drawable = finding.of_frontend || finding.draw.whole_frame;
+    if (evidence.folder.empty() || (of_drawable && stream == nullptr)) return json;
     const TriangleStream smallest = of_drawable ? smallest_stream(c, finding, *stream, checker, evidence.stop)
                                                 : smallest_frame(c, finding, checker, evidence.stop);
     std::string name = fmt::format("seed-{}-case-{}-{}-vs-{}.tri", seed, c.number,

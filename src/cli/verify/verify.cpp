@@ -207,7 +207,8 @@ class SceneCheck {
   const std::function<void(double)>& progress_;
   const std::vector<Configuration> configurations_;
   std::vector<std::unique_ptr<Backend>> backends_;
-  Frontend frontend_, whole_frames_;  // the triangles of a judgement are the first one's
+  // frontend_ owns the triangles of a Judgement, so whole frames need a front end of their own.
+  Frontend frontend_, whole_frames_;
   std::optional<lab::GuardedFrame> candidate_;
   SceneVerdict verdict_{};
   std::size_t steps_, steps_done_ = 0;
