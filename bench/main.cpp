@@ -34,15 +34,17 @@ namespace {
 // The time budget of a row. Noise comes in bursts, so many short repetitions measure better than a few long
 // ones.
 struct Effort {
-  // The minimum for all but ablation rows. The rank-sum test of scripts/reporting/noise.py needs five on both
-  // sides. Slow ablation rows may have fewer: their steps are far above the noise.
+  // The minimum for all but ablation rows of the backend alone: the rank-sum test of
+  // scripts/reporting/noise.py needs five on both sides. Those rows may have fewer, since their steps are far
+  // above the noise.
   int repetitions;
   int ablation_repetitions;  // replaces `repetitions` for ablation rows and close ones: their differences are
                              // often below the noise
+  int rounds;  // replaces `repetitions` for rows whose second thread is timed: one round in each repetition
   double repetition_s;       // minimum duration of a repetition
   double slow_repetition_s;  // rows with longer iterations have fewer of the ablation's repetitions
 };
-constexpr Effort kFull{5, 9, 0.012, 0.07}, kQuick{5, 5, 0.01, 0.1};
+constexpr Effort kFull{5, 9, 24, 0.012, 0.07}, kQuick{5, 5, 5, 0.01, 0.1};
 
 // Memory is measured once per scene and backend.
 bool needs_peak(const Row& row) {
@@ -93,8 +95,7 @@ bool is_slow_and_not_fastest(const Row& row, const std::vector<Row>& rows) {
   double own_s = 0.0, best_s = std::numeric_limits<double>::infinity();
   for (const Row& other : rows) {
     if (other.workload != row.workload || other.timed != Timed::frame || other.peer != nullptr ||
-        other.cores > 0 || other.step || other.execution.threads != 1 ||
-        other.execution.target != SimdTarget::best)
+        other.execution.threads != 1 || !is_plain(other))
       continue;
     best_s = std::min(best_s, other.once_s);
     if (other.backend == row.backend) own_s = other.once_s;
@@ -229,11 +230,13 @@ void register_rows(std::vector<Row>& rows, Stage& stage, const Flags& flags, too
     else
       registered->UseRealTime();
     const double once_s = std::max(row.once_s, 1e-6);
-    const int least = row.step ? 1 : effort.repetitions;
+    const int least = row.step && row.timed == Timed::raster ? 1 : effort.repetitions;
     if (flags.own_iterations || known)
       registered->Iterations(known ? 1
                                    : std::max<std::int64_t>(1, std::llround(effort.repetition_s / once_s)));
-    const int most = row.step || row.close ? effort.ablation_repetitions : effort.repetitions;
+    const int most = row.wants_second_thread && !flags.model_out.empty() ? effort.rounds
+                     : row.step || row.close                             ? effort.ablation_repetitions
+                                                                         : effort.repetitions;
     const int repetitions =
         known ? 1 : std::clamp(static_cast<int>(most * effort.slow_repetition_s / once_s), least, most);
     if (flags.own_repetitions || known) registered->Repetitions(repetitions);

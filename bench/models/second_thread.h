@@ -1,5 +1,5 @@
-// Where the second thread waits: divides the time of two threads that draw a frame, paired with the same
-// frame on one thread.
+// What two threads lose: divides the time of two threads that draw a frame, paired with the same frame on one
+// thread.
 #pragma once
 
 #include <array>

@@ -106,7 +106,7 @@ TEST(BenchSuite, NamesAllRowsDifferently) {
   for (const Row& row : make_suite({})) EXPECT_TRUE(names.insert(row.name).second) << row.name;
 }
 
-// Peers or not. Scalar code has no rows, and the best target has the scene's own.
+// With or without peers. There are no rows for the scalar target. The best target's row is the scene's own.
 TEST(BenchSuite, TimesWholeFramesOfOursWithEachNarrowerTarget) {
   std::map<std::string, int> count;
   for (const Row& row : make_suite({})) ++count[row.name];

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "bench/workloads/stage.h"
+#include "spin.h"
 #include "support.h"
 
 namespace edgewise::bench {
@@ -105,19 +106,14 @@ TEST(ParallelInChunks, MakesAChunkOneTask) {
   }
   const FrameWork frame = recorder.finish();
   EXPECT_EQ(frame.sections[0].tasks_s.size(), 33u) << "chunks of four";
-  EXPECT_EQ(frame.sections[1].tasks_s.size(), 32u) << "too few for runs";
+  EXPECT_EQ(frame.sections[1].tasks_s.size(), 32u) << "too few for chunks of several calls";
 }
 
 TEST(FrameRecorder, FindsTheLongestTask) {
   FrameRecorder recorder;
-  const auto spend = [](double for_s) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(for_s);
-    while (std::chrono::steady_clock::now() < end) {
-    }
-  };
   {
     const ObserveParallel scope(recorder);
-    parallel_for(4, 3, [&](int i) { spend(i == 1 ? 0.02 : 0.0); });
+    parallel_for(4, 3, [&](int i) { spin(i == 1 ? 0.02 : 0.0); });
   }
   const FrameWork frame = recorder.finish();
   EXPECT_EQ(frame.longest_part().name, "the longest task of TestBody in scaling_test.cpp");

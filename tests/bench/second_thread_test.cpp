@@ -16,6 +16,7 @@
 #include "bench/workloads/stage.h"
 #include "edgewise/builtin.h"
 #include "frontend/in_order.h"
+#include "spin.h"
 
 namespace edgewise::bench {
 namespace {
@@ -62,12 +63,6 @@ TEST(WaitTimer, StartsAnewInEachSection) {
   EXPECT_DOUBLE_EQ(waits.start_s, 2 * (1 + 9));
   EXPECT_DOUBLE_EQ(waits.between_s, 0);
   EXPECT_DOUBLE_EQ(waits.end_s, 2 * 2);
-}
-
-void spin(double for_s) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(for_s);
-  while (std::chrono::steady_clock::now() < end) {
-  }
 }
 
 // Whether a measurement succeeds in one of a few attempts: the machine may suspend a thread at any time.

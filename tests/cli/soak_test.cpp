@@ -25,11 +25,11 @@
 #include "cli/soak/triangles.h"
 #include "edgewise/contract.h"
 #include "edgewise/tri_file.h"
-#include "ignores_sources.h"
 #include "message_of.h"
 #include "run_program.h"
 #include "support/options.h"
 #include "temp_dir.h"
+#include "wrong_backend.h"
 
 namespace edgewise::soak {
 namespace {
@@ -302,15 +302,10 @@ class WrongReference : public Backend {
   std::unique_ptr<Backend> right_ = backends()[0].make();
 };
 
-template <typename Wrong>
-BackendInfo wrong_backend() {
-  return {"wrong", "", [] { return std::unique_ptr<Backend>(std::make_unique<Wrong>()); }};
-}
-
 TEST(SoakFindings, AreReportedReducedAndReplayed) {
   const TempDir folder;
   Campaign campaign = campaign_of(40);
-  campaign.judged.backends = {backends()[0], wrong_backend<WrongInTheCorner>()};
+  campaign.judged.backends = {backends()[0], testing::wrong_backend<WrongInTheCorner>()};
   campaign.failure_folder = folder.path() / "the soak's failures";
   campaign.program = EDGEWISE_PROGRAM;
   const Record record = soaked(campaign, fresh(8, {}), folder);
@@ -353,7 +348,7 @@ TEST(SoakFindings, AreReportedReducedAndReplayed) {
 TEST(SoakFindings, IncludeWritesOutsideThePicture) {
   const TempDir folder;
   Campaign campaign = campaign_of(6);
-  campaign.judged.backends = {backends()[0], wrong_backend<WritesBehindTheLastRow>()};
+  campaign.judged.backends = {backends()[0], testing::wrong_backend<WritesBehindTheLastRow>()};
   campaign.failure_folder = folder.path() / "failures";
   const Record record = soaked(campaign, fresh(9, {}), folder);
   ASSERT_FALSE(record.findings.empty());
@@ -373,7 +368,7 @@ class WrongWhenStepped : public AblatableBackend {
 
 TEST(SoakFindings, IncludeWrongSteppedValues) {
   Campaign campaign = campaign_of(40);
-  campaign.judged.backends = {backends()[0], wrong_backend<WrongWhenStepped>()};
+  campaign.judged.backends = {backends()[0], testing::wrong_backend<WrongWhenStepped>()};
   const Record record = run(campaign, fresh(13, {}));
   EXPECT_GT(record.tally.frames_differ, 0u);
   EXPECT_EQ(record.tally.by.at("backend_ablation").at("wrong, stepped").differ, record.tally.frames_differ);
@@ -383,7 +378,7 @@ TEST(SoakFindings, IncludeWrongSteppedValues) {
 
 TEST(SoakFindings, AreKeptIfNoFileCanBeWritten) {
   Campaign campaign = campaign_of(6);
-  campaign.judged.backends = {backends()[0], wrong_backend<WritesBehindTheLastRow>()};
+  campaign.judged.backends = {backends()[0], testing::wrong_backend<WritesBehindTheLastRow>()};
   campaign.failure_folder = "/dev/null/failures";
   const Record record = run(campaign, fresh(9, {}));
   ASSERT_FALSE(record.findings.empty());
@@ -395,7 +390,7 @@ TEST(SoakFindings, AreKeptIfNoFileCanBeWritten) {
 
 TEST(SoakFindings, IncludeAWrongReference) {
   Campaign campaign = campaign_of(40);
-  campaign.judged.backends = {wrong_backend<WrongReference>()};
+  campaign.judged.backends = {testing::wrong_backend<WrongReference>()};
   const Record record = run(campaign, fresh(10, {}));
   ASSERT_FALSE(record.findings.empty());
   for (const auto& finding : record.findings) EXPECT_EQ(finding.at("judge"), "oracle");
@@ -427,7 +422,7 @@ TEST(SoakFindings, IncludeAWrongFrontEnd) {
 TEST(SoakFindings, IncludeAWrongWholeFrame) {
   const TempDir folder;
   Campaign campaign = campaign_of(120);
-  campaign.judged.backends = {backends()[0], wrong_backend<testing::IgnoresSources>()};
+  campaign.judged.backends = {backends()[0], testing::wrong_backend<testing::IgnoresSources>()};
   campaign.failure_folder = folder.path() / "failures";
   campaign.program = EDGEWISE_PROGRAM;
   const Record record = soaked(campaign, fresh(14, {}), folder);
@@ -448,7 +443,7 @@ TEST(SoakFindings, IncludeAWrongWholeFrame) {
 TEST(SoakFindings, AreNotReducedAfterARequestToStop) {
   const TempDir folder;
   Campaign campaign = campaign_of(1);
-  campaign.judged.backends = {backends()[0], wrong_backend<WrongInTheCorner>()};
+  campaign.judged.backends = {backends()[0], testing::wrong_backend<WrongInTheCorner>()};
   campaign.jobs = 1;
   campaign.failure_folder = folder.path();
   std::uint64_t number = 0;
@@ -469,7 +464,7 @@ TEST(SoakFindings, AreNotReducedAfterARequestToStop) {
 TEST(SoakFindings, BeyondTheMaximumLeaveNoFiles) {
   const TempDir folder;
   Campaign campaign = campaign_of(10);
-  campaign.judged.backends = {backends()[0], wrong_backend<WrongInTheCorner>()};
+  campaign.judged.backends = {backends()[0], testing::wrong_backend<WrongInTheCorner>()};
   campaign.failure_folder = folder.path() / "failures";
   Record before = fresh(8, {});
   before.findings.resize(kMostFindings - 1, {{"case", 0}});
@@ -486,7 +481,7 @@ TEST(SoakFindings, AnExceptionEndsTheTestAndNamesTheCase) {
     }
   };
   Campaign campaign = campaign_of(4);
-  campaign.judged.backends = {backends()[0], wrong_backend<Throws>()};
+  campaign.judged.backends = {backends()[0], testing::wrong_backend<Throws>()};
   campaign.jobs = 1;
   const std::string said = message_of([&] { run(campaign, fresh(12, {})); });
   EXPECT_TRUE(said.starts_with("seed 12, case 0 (")) << said;
@@ -505,7 +500,7 @@ TEST(SoakFindings, AFailureKeepsTheResultsOfFinishedCases) {
     int drawn_ = 0;
   };
   Campaign campaign = campaign_of(4);
-  campaign.judged.backends = {backends()[0], wrong_backend<Tires>()};
+  campaign.judged.backends = {backends()[0], testing::wrong_backend<Tires>()};
   campaign.jobs = 1;
   std::uint64_t done = 0;
   campaign.on_failure = [&](const Record& record) { done = record.tally.cases; };

@@ -13,9 +13,9 @@
 #include "edgewise/contract.h"
 #include "edgewise/image.h"
 #include "edgewise/tri_file.h"
-#include "ignores_sources.h"
 #include "lab/to_stream.h"
 #include "temp_dir.h"
+#include "wrong_backend.h"
 
 namespace edgewise::tools {
 namespace {
@@ -74,11 +74,6 @@ class WritesBesideTheImage : public Backend {
   std::unique_ptr<Backend> right_ = backends()[0].make();
 };
 
-template <typename Wrong>
-BackendInfo wrong_backend() {
-  return {"wrong", "a wrong backend", [] { return std::unique_ptr<Backend>(std::make_unique<Wrong>()); }};
-}
-
 VerifyPlan small_plan(std::vector<std::string> scenes, const BackendInfo& second) {
   VerifyPlan plan;
   plan.scenes = std::move(scenes);
@@ -111,7 +106,7 @@ TEST(Verify, PassesEveryBackendOnEveryScene) {
 
 TEST(Verify, FindsOneBitAndShowsIt) {
   const TempDir folder;
-  VerifyPlan plan = small_plan({"cube"}, wrong_backend<OneBitOff>());
+  VerifyPlan plan = small_plan({"cube"}, testing::wrong_backend<OneBitOff>());
   plan.failure_folder = folder.path() / "failures";
   const VerifyReport report = verify_quietly(plan);
   EXPECT_FALSE(report.ok());
@@ -149,18 +144,19 @@ TEST(Verify, FindsOneBitAndShowsIt) {
 }
 
 TEST(Verify, FindsAMissingBackground) {
-  EXPECT_FALSE(verify_quietly(small_plan({"cube"}, wrong_backend<ForgetsBackground>())).ok());
+  EXPECT_FALSE(verify_quietly(small_plan({"cube"}, testing::wrong_backend<ForgetsBackground>())).ok());
 }
 
 TEST(Verify, FindsAnErrorInASingleConfiguration) {
-  const VerifyReport report = verify_quietly(small_plan({"cube"}, wrong_backend<WrongOnThreads>()));
+  const VerifyReport report = verify_quietly(small_plan({"cube"}, testing::wrong_backend<WrongOnThreads>()));
   ASSERT_FALSE(report.ok());
   EXPECT_EQ(report.scenes[0].mismatches[0].how.execution.threads, 3);
   EXPECT_EQ(report.scenes[0].mismatches[0].payload, Payload::id);
 }
 
 TEST(Verify, FindsAnErrorInWholeFramesAlone) {
-  const VerifyReport report = verify_quietly(small_plan({"large"}, wrong_backend<testing::IgnoresSources>()));
+  const VerifyReport report =
+      verify_quietly(small_plan({"large"}, testing::wrong_backend<testing::IgnoresSources>()));
   const SceneVerdict& verdict = report.scenes.at(0);
   EXPECT_GT(verdict.differing_pixels, 0u);
   ASSERT_EQ(verdict.mismatches.size(), 1u);
@@ -169,7 +165,8 @@ TEST(Verify, FindsAnErrorInWholeFramesAlone) {
 }
 
 TEST(Verify, FindsWritesOutsideTheImage) {
-  const VerifyReport report = verify_quietly(small_plan({"cube"}, wrong_backend<WritesBesideTheImage>()));
+  const VerifyReport report =
+      verify_quietly(small_plan({"cube"}, testing::wrong_backend<WritesBesideTheImage>()));
   ASSERT_FALSE(report.ok());
   const SceneVerdict& verdict = report.scenes[0];
   EXPECT_EQ(verdict.differing_pixels, 0u);
@@ -180,7 +177,7 @@ TEST(Verify, FindsWritesOutsideTheImage) {
 }
 
 TEST(Verify, FindsGapsInAGrid) {
-  const VerifyReport report = verify_quietly(small_plan({"grid4"}, wrong_backend<LeavesGaps>()));
+  const VerifyReport report = verify_quietly(small_plan({"grid4"}, testing::wrong_backend<LeavesGaps>()));
   const auto& hits = report.scenes.at(0).hits;
   ASSERT_EQ(hits.size(), 2u);
   EXPECT_EQ(hits[0].not_once, 0u);
@@ -188,7 +185,7 @@ TEST(Verify, FindsGapsInAGrid) {
 }
 
 TEST(Verify, KeepsFindingsIfPicturesCannotBeWritten) {
-  VerifyPlan plan = small_plan({"cube"}, wrong_backend<OneBitOff>());
+  VerifyPlan plan = small_plan({"cube"}, testing::wrong_backend<OneBitOff>());
   plan.failure_folder = "/dev/null/failures";
   const VerifyReport report = verify_quietly(plan);
   ASSERT_FALSE(report.ok());

@@ -17,7 +17,7 @@
 namespace edgewise {
 namespace {
 
-constexpr unsigned kSide = 300;  // vertices: more than one part's
+constexpr unsigned kSide = 300;  // vertices per side; kSide² are more than ClusterPart::kMaxVertices
 
 // A level grid around the camera, row by row, with clusters.
 Scene grid() {
@@ -155,6 +155,16 @@ TEST(MeshClusters, GiveTheTrianglesOfTheWholeMesh) {
         }
       }
     }
+}
+
+TEST(MeshClusters, AreInfiniteAroundAVertexThatIsNotFinite) {
+  Mesh mesh = grid().meshes[0];
+  mesh.positions[1].z = std::numeric_limits<float>::quiet_NaN();
+  const std::vector<MeshCluster> clusters = make_clusters(mesh);
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  EXPECT_EQ(clusters.front().low, glm::vec3(-kInfinity));
+  EXPECT_EQ(clusters.front().high, glm::vec3(kInfinity));
+  EXPECT_LT(clusters.back().high.x, kInfinity);
 }
 
 // Among other instances, mirrored and not; with shading, culling, a vertex that is not finite, and states.

@@ -237,8 +237,8 @@ TEST_P(EveryBackend, RefusesAFrameOfAnotherSize) {
 }
 
 // A stream's small and large triangles, some beyond the image. Those for which clip(i) is true cross both
-// depth planes, so each becomes several triangles, too large for coverage masks. Many of any part are
-// visible.
+// depth planes, so each becomes several triangles, too large for coverage masks. Each kind has many visible
+// triangles.
 template <typename Clip>
 TriangleStream stream_to_clip(std::size_t count, Clip&& clip) {
   constexpr int kWidth = 150, kHeight = 90;

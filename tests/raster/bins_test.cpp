@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/random.h"
+#include "core/triangle_source.h"
 #include "edgewise/contract.h"
 #include "edgewise/simd_target.h"
 #include "lab/exact_spans.h"
@@ -60,6 +61,38 @@ TEST(Bins, CountATileAsFewUpToOneBlockOfIndices) {
   EXPECT_FALSE(is_few(32, 40, Bins::Small::as_masks));
   EXPECT_TRUE(is_few(1, 4, Bins::Small::as_indices));
   EXPECT_EQ(is_few(1, 4, Bins::Small::as_masks), resolve(SimdTarget::best) == SimdTarget::scalar);
+}
+
+// Makes copies of one triangle of each input.
+class Copies final : public TriangleSource {
+ public:
+  Copies(std::size_t inputs, std::size_t copies)
+      : inputs_(inputs), copies_(copies), made_(kInputsAtOnce * copies, triangle(0, 0, 9000, 0, 0, 9000)) {}
+  std::size_t size() const override { return inputs_; }
+  std::span<const ScreenTriangle> make(int, std::size_t begin, std::size_t end) override {
+    return std::span(made_).first((end - begin) * copies_);
+  }
+  std::span<const ScreenTriangle> sample(std::size_t) override { return std::span(made_).first(copies_); }
+
+ private:
+  std::size_t inputs_, copies_;
+  std::vector<ScreenTriangle> made_;
+};
+
+TEST(Bins, KeepASourcesTrianglesUpToAnEighthMoreThanItsInputs) {
+  Bins bins;
+  const auto fits = [&](std::size_t copies, int threads) {
+    Copies source(20'000, copies);
+    return bins.build(source, {64, 64, 6, 6}, threads, resolve(SimdTarget::best), Bins::Small::as_masks,
+                      true);
+  };
+  for (const int threads : {1, 2}) {
+    EXPECT_TRUE(fits(1, threads));
+    std::size_t kept = 0;
+    bins.for_each_index_block(0, [&](const Bins::IndexBlock& block) { kept += block.indices.size(); });
+    EXPECT_EQ(kept, 20'000u);
+    EXPECT_FALSE(fits(2, threads));
+  }
 }
 
 // A right triangle in a corner of 32 x 32 px: the upper left corner, or mirrored to the right (1), down (2)

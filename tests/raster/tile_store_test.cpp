@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <string>
 
+#include "core/llc.h"
 #include "core/parallel.h"
+#include "lab/measure.h"
 #include "raster/tiled/tile_kernel.h"
 #include "raster/tiles.h"
 #include "support.h"
@@ -47,6 +50,7 @@ TEST(TileStore, IsTheCallersChoiceIfItMakesOne) {
     return streamed.load();
   };
   EXPECT_EQ(tiles_streamed(TileStore::cached, 1), 0);
+  ASSERT_GE(llc_bytes(), std::size_t{1} << 20) << "half of it holds the frame";
   EXPECT_EQ(tiles_streamed(TileStore::automatic, 2), 0);
   EXPECT_GT(tiles_streamed(TileStore::streaming, 2), 0);
   EXPECT_EQ(streamed, drawn);
@@ -71,22 +75,25 @@ TEST(TileTasks, FollowTheSwitches) {
   Framebuffer frame(side, side);
   static int drawn;
   const TileKernel count = [](const TileTask&) { ++drawn; };
-  const auto draw_with = [&](const Ablation& ablation) {
+  const auto draw_with = [&](const Ablation& ablation, int height = 16 * contract::kMaxTile) {
     drawn = 0;
     TaskCounter counter;
     TileScratch scratch;
     StoredTriangles stored({&corner, 1});
+    FrameView view = frame.view();
+    view.height = height;
     const ObserveParallel observed(counter);
-    draw_in_tiles(stored, frame.view(), 0, {2, 64, resolve(SimdTarget::best)}, ablation, 64, scratch,
+    draw_in_tiles(stored, view, 0, {2, 64, resolve(SimdTarget::best)}, ablation, 64, scratch,
                   Bins::Small::as_indices, count);
     return counter.tasks;
   };
   const int tiles_with_triangles = 1;
-  draw_with({});
+  EXPECT_EQ(draw_with({}), tiles_with_triangles + 16) << "and one for the empty tiles of each row";
   EXPECT_EQ(drawn, tiles_with_triangles);
   EXPECT_EQ(draw_with({.empty_rows = false}), 16 * 16 / 4) << "four tiles per task";
   EXPECT_EQ(drawn, 16 * 16);
   EXPECT_EQ(draw_with({.empty_rows = false, .several_tiles_per_task = false}), 16 * 16);
+  EXPECT_EQ(draw_with({}, 64), tiles_with_triangles + 8) << "a single row's empty tiles, by 8 px of height";
 }
 
 // Empty tiles at the right and lower end, beside and between tiles with triangles, by either store.
@@ -100,17 +107,12 @@ TEST(TileStore, FillsEveryEmptyTile) {
     for (const int width : {333, 320}) {
       Framebuffer expected(width, 200), frame(width, 200);
       backends().front().make()->draw(triangles, expected.view(), 42, {});
-      for (const FrameView view = frame.view(); std::uint32_t * plane : {view.depth, view.payload})
-        std::fill_n(plane, view.stride * view.height, 0xABu);
+      lab::poison(frame);
       TileScratch scratch;
       StoredTriangles stored(triangles);
       draw_in_tiles(stored, frame.view(), 42, {2, 64, resolve(SimdTarget::best)}, {.tile_store = store}, 64,
                     scratch, Bins::Small::as_indices, tile_kernel(resolve(SimdTarget::best)));
-      for (int y = 0; y < 200; ++y)
-        for (int x = 0; x < width; ++x) {
-          ASSERT_EQ(frame.payload_row(y)[x], expected.payload_row(y)[x]) << x << ' ' << y;
-          ASSERT_EQ(frame.depth_row(y)[x], expected.depth_row(y)[x]) << x << ' ' << y;
-        }
+      testing::expect_same(expected, frame, std::to_string(width) + " px wide");
     }
 }
 

@@ -1,4 +1,4 @@
-// A deliberately wrong backend.
+// Deliberately wrong backends.
 #pragma once
 
 #include <memory>
@@ -21,5 +21,10 @@ class IgnoresSources : public Backend {
   }
   std::unique_ptr<Backend> right_ = backends()[0].make();
 };
+
+template <typename Wrong>
+BackendInfo wrong_backend() {
+  return {"wrong", "a wrong backend", [] { return std::unique_ptr<Backend>(std::make_unique<Wrong>()); }};
+}
 
 }  // namespace edgewise::testing
