@@ -12,16 +12,28 @@ NAMES = {"vector-setup": "+ SIMD set-up", "prefetch": "+ prefetch", "coverage-ma
 
 def parts(bench, scene):
     """Two lists of (label, row), each from the plainest to the last: draws of prepared triangles on one thread, and whole
-    frames. The suite's own rows stand at the ends, those of the ablation between them."""
+    frames. The suite's own rows stand at the ends, those of the ablation between them. If a row is missing, the next one's
+    label names both steps."""
     rows = {row.keys["step"]: row for row in bench.sweep("step") if row.scene == scene}
     backend = list(rows.values())[-1].backend
     one, two = (bench.find(f"{backend}+frontend/{scene}/threads:{threads}") for threads in (1, 2))
     draws = [(f"{START}, 1 thread", bench.find(f"{START}/{scene}/threads:1")),
              *((NAMES.get(step, f"… with {kernels(step)}"), row) for step, row in rows.items() if not row.frontend),
              ("+ rows of empty tiles", bench.find(f"{backend}/{scene}/threads:1"))]
-    frames = [("whole frame, 1 thread", rows.get("two-calls")), ("+ fusion, clusters", one),
-              ("+ second thread", rows.get("one-tile-per-task")), ("+ several tiles per task", two)]
-    return [[(label, row) for label, row in part if row] for part in (draws, frames)]
+    frames = [("whole frame, 1 thread", rows["two-calls"]), ("+ fusion, clusters", one),
+              ("+ second thread", rows.get("one-tile-per-task")), ("+ several tiles per task", two)] if "two-calls" in rows else []
+    return [with_steps_joined(part) for part in (draws, frames)]
+
+
+def with_steps_joined(part):
+    named, missing = [], []
+    for label, row in part:
+        if row:
+            named.append((" ".join([*missing, label]), row))
+            missing = []
+        elif named:
+            missing.append(label)
+    return named
 
 
 def said(before, row):

@@ -22,13 +22,18 @@ def speed_finding(bench):
     drawn = [rows for rows in drawn if OURS in rows and "scanline" in rows]
     if not drawn:
         return ""
-    text = (f"**Parallel or scanline?** On {threads} threads, with {kernels(bench.context.get('simd_target'))} in all backends, "
-            f"`{OURS}` {outcome([(rows[OURS], rows['scanline']) for rows in drawn], 'scenes against `scanline`')}.")
+    text = (f"**Parallel or scanline?** In whole frames on {threads} threads, with {kernels(bench.context.get('simd_target'))} in all "
+            f"backends, `{OURS}` {outcome([(rows[OURS], rows['scanline']) for rows in drawn], 'scenes against `scanline`')}.")
     boxed = [(rows["naive"], min(rows[OURS], rows["scanline"], key=lambda row: row.median_ms)) for rows in drawn if "naive" in rows]
     slower = [slow.median_ms / fast.median_ms for slow, fast in boxed if order(fast, slow) < 0]
     if slower:
         text += (f" `naive`, which tests every pixel of the bounding box, is {spread(slower)} slower than the faster of the "
                  f"two on {len(slower)} of {len(boxed)} scenes.")
+    alone = {scene: [row and row.median_ms for b in (OURS, "scanline", "naive") if (row := bench.find(f"{b}/{scene}/threads:{threads}"))]
+             for scene in bench.scenes if not bench.frame("naive", scene, threads)}
+    said = [f"{about(times[-1] / min(times))} on `{scene}`" for scene, times in alone.items() if len(times) == 3]
+    if said:
+        text += f" Where whole frames are too slow to repeat, its draws alone are slower: {', '.join(said)}."
     return text
 
 

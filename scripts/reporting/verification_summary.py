@@ -3,6 +3,7 @@ import argparse
 from pathlib import Path
 
 from bench_rows import main_guard, read_json
+from soak import targets_of
 from tables import markdown, plain, short
 
 HEADER = ["method", "extent", "found"]
@@ -55,8 +56,7 @@ def mutate_lines(data):
 
 def fuzz_lines(data):
     for target in data["targets"]:
-        reached = 100 * target["lines_reached"] / target["lines"] if target["lines"] else 0
-        yield [f"Fuzzing: {target['what']}", f"{short(target['executions'])} executions, {reached:.0f}% of the lines",
+        yield [f"Fuzzing: {target['what']}", f"{short(target['executions'])} executions",
                none_or(len(target["crashes"]), "crash", "crashes")]
 
 
@@ -77,18 +77,32 @@ def brief_fuzz_lines(data):
            none_or(sum(len(target["crashes"]) for target in targets), "crash", "crashes")]
 
 
-LINES = {"tests": test_lines, "prove": prove_lines, "mutate": mutate_lines, "fuzz": fuzz_lines}
+def soak_lines(data):
+    yield ["Soak test", f"{short(data['cases'])} random pictures in {targets_of(data)}, {short(data['pixels'])} pixels compared",
+           none_or(data["differences"], "difference")]
+
+
+LINES = {"tests": test_lines, "prove": prove_lines, "mutate": mutate_lines, "fuzz": fuzz_lines, "soak": soak_lines}
 BRIEF_LINES = {**LINES, "tests": brief_test_lines, "fuzz": brief_fuzz_lines}
 
 
 def verification_table(folder, all_lines=LINES):
-    """Header and lines; no lines if nothing was run."""
+    """Header and lines; no lines if nothing was run. What was not run on this machine is taken from another one's results."""
     lines = []
     for name, lines_of in all_lines.items():
-        path = folder / f"{name}.json"
-        if path.exists():
-            lines += lines_of(read_json(path))
+        found = records(folder, name)
+        for path in found if name == "soak" else found[:1]:  # processors have different SIMD targets
+            for method, extent, found in lines_of(read_json(path)):
+                lines.append([method, extent if path.parent == folder else f"{extent}, on `{path.parent.name}`", found])
     return HEADER, lines
+
+
+def records(folder, name):
+    """The files of this name in results/, of all machines: this folder's first."""
+    machines = folder.resolve().parent
+    own = folder / f"{name}.json"
+    beside = sorted(machines.glob(f"*/{name}.json")) if machines.name == "results" else []
+    return [*([own] if own.exists() else []), *(path for path in beside if path != own.resolve())]
 
 
 def verification_markdown(folder, all_lines=LINES):

@@ -134,8 +134,6 @@ TEST(FrontendAllocations, DoNotHappenWhenTheCameraTurns) {
       scene.camera.yaw = 0.5f * float(i);
       const std::size_t before = of_this_thread;
       run();
-      printf("%d %d: %zu culled %zu clusters %zu\n", threads, i, of_this_thread - before,
-             frontend.stats().meshes_culled, scene.meshes[0].clusters.size());
       EXPECT_EQ(of_this_thread - before, 0u) << threads << " threads, frame " << i;
     }
   }

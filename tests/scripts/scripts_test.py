@@ -369,10 +369,10 @@ class ScriptsTest(unittest.TestCase):
         readme = self.folder / "README.md"
         soak = {"backends": ["slow", "tiled"], "seconds": 1320.0, "shards": [{"shard": 0, "of": 1, "cases": 6000}],
                 "cases": 6000, "frames": 150000, "triangles": 5, "pixels": 3 * 10**9, "oracle_frames": 7,
-                "frontend_lists": 8, "differences": 0,
+                "frontend_lists": 8, "differences": 0, "by": {"backend_simd_target": {"tiled, sse4": {}, "slow, scalar": {}}},
                 "bounds_95": {"per_case": 3 / 6000, "per_frame": 3 / 150000, "per_pixel": 1e-9}}
         for record, said in ((soak, "**No bit differs.** With 95 % confidence fewer than one picture in 2,000"),
-                             (soak, "one frame in 50,000, and one pixel in 1.0e+09"), (soak, "In 22 minutes, 6,000"),
+                             (soak, "one frame in 50,000, and one pixel in 1.0e+09"), (soak, "In 22 minutes, 6,000"), (soak, "in scalar code and SSE4, on one"),
                              ({**soak, "differences": 4, "bounds_95": None}, "**4 differ**")):
             (self.folder / "results/soak.json").write_text(json.dumps(record))
             readme.write_text("<!-- results: results -->\n<!-- generated:soak -->\n<!-- /generated -->\n")
@@ -553,6 +553,11 @@ class AblationTest(unittest.TestCase):
         self.assertEqual([label for label, _ in draws][-2:], ["+ choice of tile store", "+ rows of empty tiles"])
         self.assertEqual(frames, [("whole frame, 1 thread", 7.0), ("+ fusion, clusters", 6.0), ("+ second thread", 3.5),
                                   ("+ several tiles per task", 3.0)])
+
+        del rows["tiled+frontend/cube/step:one-tile-per-task/threads:2"]
+        self.assertEqual(parts(Bench({}, rows), "cube")[1][-1][0], "+ second thread + several tiles per task")
+        del rows["tiled+frontend/cube/step:two-calls/threads:1"]
+        self.assertEqual(parts(Bench({}, rows), "cube")[1], [])
 
     @staticmethod
     def row(*times_ms):
