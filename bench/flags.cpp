@@ -56,7 +56,7 @@ std::optional<Flags> parse_flags(int argc, char** argv) {
       ->type_name("FILE");
   parser
       .add_option("--model_out", flags.model_out,
-                  "Write estimates to this file: cost model, speed-ups on more cores, waits of two threads")
+                  "Write to this file: cost model, estimates for more cores, what two threads lose")
       ->type_name("FILE");
   parser.add_option("--benchmark_out_format", format, "json only")->check(CLI::IsMember({"json"}));
   parser.footer(
