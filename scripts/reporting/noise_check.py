@@ -3,6 +3,7 @@
 from bench_rows import BadInput, read_json
 from noise import fewest_rounds, paired_order
 from tables import percent
+from verification_summary import records
 
 PLANTED = 1.02
 
@@ -30,14 +31,18 @@ def read_same(path):
 
 
 def noise_check(folder):
-    """False alarms, and how often a planted slowdown is found; empty if not measured."""
-    runs = [read_same(path) for path in sorted(folder.glob("same*.json"))]
-    if not runs:
+    """False alarms, and how often a planted slowdown is found; empty if not measured. What was not measured on this machine
+    is taken from another one's results."""
+    paths = records(folder, "same*")
+    if not paths:
         return ""
+    machine = paths[0].parent
+    runs = [read_same(path) for path in paths if path.parent == machine]
     pairs = [pair for _, found in runs for pair in found]
     alarms, rows = count(pairs)
     in_few, few = count(in_blocks(pairs, fewest_rounds()))
     found = sum(paired_order(before, [PLANTED * ms for ms in after]) > 0 for before, after in pairs)
-    return (f"{'; '.join(command for command, _ in runs)}: false alarms in {alarms} of {rows} rows, and in {in_few} of {few} tests of "
+    where = "" if machine == folder else f"On `{machine.name}`: "
+    return (f"{where}{'; '.join(command for command, _ in runs)}: false alarms in {alarms} of {rows} rows, and in {in_few} of {few} tests of "
             f"{fewest_rounds()} rounds each. With {percent(PLANTED - 1)} added to the times of one side, {found} of {rows} rows are found "
             "slower.")

@@ -8,7 +8,7 @@ NORMAL_Z = "normal_z"  # the Outlaw Triad trainer's facing test
 
 def short(value, _=None):
     """1000 → 1k, 1e6 → 1M; small numbers as they are."""
-    for limit, unit in ((1e9, "G"), (1e6, "M"), (1e3, "k")):
+    for limit, unit in ((1e12, "T"), (1e9, "G"), (1e6, "M"), (1e3, "k")):
         if abs(value) >= limit * 0.9995:
             return f"{value / limit:.3g}{unit}"
     return f"{value:.3g}"

@@ -98,11 +98,10 @@ def verification_table(folder, all_lines=LINES):
 
 
 def records(folder, name):
-    """The files of this name in results/, of all machines: this folder's first."""
+    """The files of this name, which may be a pattern, in results/, of all machines: this folder's first."""
     machines = folder.resolve().parent
-    own = folder / f"{name}.json"
     beside = sorted(machines.glob(f"*/{name}.json")) if machines.name == "results" else []
-    return [*([own] if own.exists() else []), *(path for path in beside if path != own.resolve())]
+    return [*sorted(folder.glob(f"{name}.json")), *(path for path in beside if path.parent != folder.resolve())]
 
 
 def verification_markdown(folder, all_lines=LINES):
