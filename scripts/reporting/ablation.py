@@ -1,4 +1,6 @@
 """The ablation: one optimization more in each step, first of a backend's draw, then of the whole frame."""
+from itertools import takewhile
+
 from bench_rows import order
 from noise import median
 from speedups import about, kernels, speed_up
@@ -12,28 +14,17 @@ NAMES = {"vector-setup": "+ SIMD set-up", "prefetch": "+ prefetch", "coverage-ma
 
 def parts(bench, scene):
     """Two lists of (label, row), each from the plainest to the last: draws of prepared triangles on one thread, and whole
-    frames. The suite's own rows stand at the ends, those of the ablation between them. If a row is missing, the next one's
-    label names both steps."""
+    frames. The suite's own rows stand at the ends, those of the ablation between them. A part ends where a row is missing,
+    since each label names the step from the row before."""
     rows = {row.keys["step"]: row for row in bench.sweep("step") if row.scene == scene}
     backend = list(rows.values())[-1].backend
     one, two = (bench.find(f"{backend}+frontend/{scene}/threads:{threads}") for threads in (1, 2))
     draws = [(f"{START}, 1 thread", bench.find(f"{START}/{scene}/threads:1")),
              *((NAMES.get(step, f"… with {kernels(step)}"), row) for step, row in rows.items() if not row.frontend),
              ("+ rows of empty tiles", bench.find(f"{backend}/{scene}/threads:1"))]
-    frames = [("whole frame, 1 thread", rows["two-calls"]), ("+ fusion, clusters", one),
-              ("+ second thread", rows.get("one-tile-per-task")), ("+ several tiles per task", two)] if "two-calls" in rows else []
-    return [with_steps_joined(part) for part in (draws, frames)]
-
-
-def with_steps_joined(part):
-    named, missing = [], []
-    for label, row in part:
-        if row:
-            named.append((" ".join([*missing, label]), row))
-            missing = []
-        elif named:
-            missing.append(label)
-    return named
+    frames = [("whole frame, 1 thread", rows.get("two-calls")), ("+ fusion, clusters", one),
+              ("+ second thread", rows.get("one-tile-per-task")), ("+ several tiles per task", two)]
+    return [list(takewhile(lambda named: named[1], part)) for part in (draws, frames)]
 
 
 def said(before, row):
@@ -49,7 +40,7 @@ def verdict(before, after):
 def summary(named):
     """All steps of the draws together, and the one that gains most; `named` are the draws of each scene."""
     totals, gains = [], {}
-    for found in named.values():
+    for found in filter(None, named.values()):
         totals.append(found[0][1].median_ms / found[-1][1].median_ms)
         for (_, before), (label, row) in zip(found, found[1:]):
             gains.setdefault(label, []).append(before.median_ms / row.median_ms)

@@ -112,6 +112,19 @@ def read_json(path):
         raise BadInput(f"{path}: not JSON: {error}") from None
 
 
+def records(folder, name):
+    """The files NAME.json in results/, of all machines: this folder's first. The name may be a pattern."""
+    machines = folder.resolve().parent
+    beside = sorted(machines.glob(f"*/{name}.json")) if machines.name == "results" else []
+    return [*sorted(folder.glob(f"{name}.json")), *(path for path in beside if path.parent != folder.resolve())]
+
+
+def source_of(path, data):
+    """The machine of a record in results/, and the commit if it holds one."""
+    commit = data.get("commit") or data.get("before") or next((one.get("commit") for one in data.get("machines", ())), None)
+    return f"`{path.parent.name}`" + (f", commit {commit}" if commit else "")
+
+
 COSTS = ("covered_blocks", "won_blocks", "read_ms", "blocks_ms", "write_ms", "tiles_ms")
 
 ROUNDS = ("one_ms", "two_ms", "serial_ms", "start_ms", "between_ms", "turn_ms", "end_ms")

@@ -52,6 +52,7 @@ def engine_note(bench):
         return ""
     furthest = max(abs(exact.median_ms / backend.median_ms - 1) for exact, backend in pairs.values())
     settled = [f"`{scene}`" for scene, pair in pairs.items() if order(*pair)]
+    # Rounded as it is printed.
     fair = "" if round(furthest, 2) <= TOLERANCE else f" That is more than {percent(TOLERANCE)}: the comparison is not fair."
     return (f"With exact numbers the engine draws the bits of `tiled`. It is at most {percent(furthest)} faster or slower than `tiled` without "
             f"coverage masks; the difference is settled on {', '.join(settled) or 'no scene'}.{fair}")

@@ -1,9 +1,8 @@
 """False alarms and detection rate of noise.py, measured on one program against itself: same.json, written by
 `scripts/compare REV REV --json`."""
-from bench_rows import BadInput, read_json
+from bench_rows import BadInput, read_json, records
 from noise import fewest_rounds, paired_order
 from tables import percent
-from verification_summary import records
 
 PLANTED = 1.02
 

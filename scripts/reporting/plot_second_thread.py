@@ -13,8 +13,8 @@ def second_thread(bench, folder, caption):
     if not found:
         return None
     subtitle = (f"Whole frames of tiled that take more than {SHORT_MS:g} ms on one thread. Bars: what two threads lose of their time. "
-                "The rest, useful work, is the time of the same frame on one thread, drawn by turns. Slower tasks: the rest of the "
-                "loss, with the cost of recording; 0 where tasks are faster. "
+                "The rest, useful work, is the time of the same frame on one thread; the two are drawn alternately. Slower tasks: what "
+                "no other cause explains, with the cost of recording; 0 where tasks are faster. "
                 "Right: speed-up, 95 % interval, and what the rounds settle.")
     figure, axes = plt.subplots(figsize=(WIDTH_IN, 1.85 + head_in(subtitle) + 0.4 * len(found)))
     for line, division in enumerate(found):
@@ -36,9 +36,9 @@ def second_thread(bench, folder, caption):
     axes.grid(axis="y", visible=False)
     axes.set_xlabel("lost share of two threads' time")
     height = figure.get_figheight()
-    settled = sum(division.order != 0 for division in found)
-    top = headline(figure, f"A second thread gains {spread([division.speed_up for division in found])}; {settled} of {len(found)} "
-                   f"scenes are settled above or below {TARGET}×", subtitle)
+    above, below = (sum(division.order == order for division in found) for order in (1, -1))
+    top = headline(figure, f"A second thread gains {spread([division.speed_up for division in found])}: of {len(found)} scenes, "
+                   f"{above} reach {TARGET}×, {below} do not", subtitle)
     handles = [plt.Rectangle((0, 0), 1, 1, color=COLOURS[cause], label=words) for cause, words in LOSSES.items()]
     figure.legend(handles=handles, loc="upper left", bbox_to_anchor=(0.005, top - 0.02 / height), ncol=len(handles), frameon=False,
                   handlelength=1.0, handleheight=1.0, handletextpad=0.4, columnspacing=1.3, fontsize=9.5)

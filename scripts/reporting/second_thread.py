@@ -55,17 +55,12 @@ def divisions(bench):
             if median(rounds["one_ms"]) > SHORT_MS]
 
 
-def largest_loss(found):
-    """The cause with the largest sum over some divisions."""
-    return max(LOSSES, key=lambda cause: sum(division.losses[cause] for division in found))
-
-
 def second_thread_sentence(found):
     """Which scenes reach TARGET, and what the others lose most to."""
     def of(order, loss):
         for division in found:
             if division.order == order:
-                cause = largest_loss([division])
+                cause = max(division.losses, key=division.losses.get)
                 yield (f"`{division.scene}` {division.speed_up:.2f}×"
                        + (f" (largest loss: {LOSSES[cause]}, {percent(division.losses[cause])})" if loss else ""))
 

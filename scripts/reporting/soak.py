@@ -10,11 +10,12 @@ def targets_of(soak):
 
 
 def soak_sentence(soak):
-    backends = ", ".join(soak["backends"])
+    *first, last = (f"`{backend}`" for backend in soak["backends"])
+    backends = f"{', '.join(first)} and {last}"
     minutes = soak["seconds"] / 60
     shards = len(soak["shards"])
     drawn = (f"In {minutes:,.0f} minutes{f' of {shards} shards' if shards > 1 else ''}, {soak['cases']:,} random and "
-             f"adversarial pictures were drawn by {backends} in {targets_of(soak)}, on one and on several threads, with "
+             f"adversarial pictures were drawn by {backends}, each in {targets_of(soak)}, on one and on several threads, with "
              f"random tile sizes, row strides and alignments: {soak['frames']:,} frames of {soak['triangles']:,} triangles "
              f"and {soak['pixels']:,} pixels in all were compared bit for bit, {soak['oracle_frames']:,} of them with the "
              f"oracle, and {soak['frontend_lists']:,} triangle lists of the front end. ")

@@ -2,7 +2,7 @@
 import argparse
 from pathlib import Path
 
-from bench_rows import main_guard, read_json
+from bench_rows import main_guard, read_json, records, source_of
 from soak import targets_of
 from tables import markdown, plain, short
 
@@ -90,18 +90,13 @@ def verification_table(folder, all_lines=LINES):
     """Header and lines; no lines if nothing was run. What was not run on this machine is taken from another one's results."""
     lines = []
     for name, lines_of in all_lines.items():
-        found = records(folder, name)
-        for path in found if name == "soak" else found[:1]:  # processors have different SIMD targets
-            for method, extent, found in lines_of(read_json(path)):
-                lines.append([method, extent if path.parent == folder else f"{extent}, on `{path.parent.name}`", found])
+        paths = records(folder, name)
+        # Of soak tests all: each machine runs its own SIMD targets.
+        for path in paths if name == "soak" else paths[:1]:
+            data = read_json(path)
+            where = f" ({source_of(path, data)})" if path.parent != folder else ""
+            lines += [[method, extent + where, found] for method, extent, found in lines_of(data)]
     return HEADER, lines
-
-
-def records(folder, name):
-    """The files of this name, which may be a pattern, in results/, of all machines: this folder's first."""
-    machines = folder.resolve().parent
-    beside = sorted(machines.glob(f"*/{name}.json")) if machines.name == "results" else []
-    return [*sorted(folder.glob(f"{name}.json")), *(path for path in beside if path.parent != folder.resolve())]
 
 
 def verification_markdown(folder, all_lines=LINES):

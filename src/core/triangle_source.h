@@ -1,6 +1,6 @@
 // Screen triangles as binning reads them. They lie in memory, or are made when binning needs them. Made
 // triangles are binned while they lie in the L2 cache, so those that become coverage masks need no room in
-// memory. In core/, since the front end makes them and the backends bin them.
+// memory. This lies in core/, because the front end makes the triangles and the backends bin them.
 #pragma once
 
 #include <cstddef>

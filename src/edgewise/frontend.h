@@ -92,8 +92,8 @@ class TriangleSource;  // internal
 // A front end keeps its memory between frames and allocates only in the first frame of a kind. It keeps
 // - 16 bytes per vertex of the largest mesh, or for small meshes 0.5 MB, or 0.8 MB per 8 threads,
 // - of meshes with clusters, less than 400 bytes per cluster of each instance, and 1 byte per vertex of the
-//   largest mesh,
-// - up to 3 MB for many small meshes,
+//   largest mesh or group,
+// - up to 4 MB for many small meshes,
 // - 40 bytes per visible triangle (and address space for as many per submitted one), unless draw() makes a
 //   stream's triangles while the backend bins them,
 // - less than 1 MB per thread,
@@ -108,9 +108,9 @@ class Frontend {
   Frontend& operator=(Frontend&&) noexcept;
 
   // Returns the visible triangles in submission order. They lie in this object's memory and are valid until
-  // the next call of this or of draw(), or the object's destruction. Backend::draw() throws if the frame is
-  // not options.width x options.height pixels. Neither argument is kept. Several front ends may run one
-  // drawable at once.
+  // the next run() or draw() with this object, or its destruction. Backend::draw() throws if the frame is not
+  // options.width x options.height pixels. Neither argument is kept. Several front ends may run one drawable
+  // at once.
   //
   // Throws std::bad_alloc if memory runs out, and std::invalid_argument for
   // - a camera, image size or thread count out of range,

@@ -25,7 +25,7 @@ class Chunks {
     ends_.clear();
     total_ = room_ = 0;
   }
-  // Memory for `count` elements in up to `runs` runs.
+  // Makes room for `count` elements from up to `runs` calls of add().
   void reserve(std::size_t count, std::size_t runs) {
     const std::size_t chunks = count / kChunkTriangles + 1;
     runs_.reserve(runs + chunks);

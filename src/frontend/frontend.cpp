@@ -289,7 +289,8 @@ struct Frontend::State {
     stats.meshes_culled += !in_view;
   }
 
-  // For any view of the scene, so that a camera that turns allocates nothing.
+  // Makes room for any view of the scene, so that a camera that turns allocates nothing. At least one block
+  // of vertices lies between two runs of a part.
   void reserve_for_clusters(const Scene& scene) {
     std::size_t clusters = 0, triangles = 0, most_vertices = max_vertices();
     for (const Instance& instance : scene.instances) {
@@ -299,19 +300,19 @@ struct Frontend::State {
       most_vertices = std::max(most_vertices, mesh.positions.size());
     }
     if (clusters == 0) return;
-    const std::size_t runs = clusters + scene.instances.size(), members = std::min(runs, kMaxMembers);
+    const std::size_t members = std::min(clusters + scene.instances.size(), kMaxMembers);
     vertices.reserve(most_vertices);
     group.reserve(members);
-    vertex_chunks.reserve(most_vertices, members + most_vertices / ClusterPart::kBlock);
-    triangle_chunks.reserve(triangles, runs);
+    vertex_chunks.reserve(most_vertices, members + most_vertices / (2 * ClusterPart::kBlock));
+    triangle_chunks.reserve(triangles, clusters + members);
   }
 
   void run_scene(const Scene& scene) {
+    start_group();
     reserve_for_clusters(scene);
     const glm::dmat4 to_screen = screen_matrix(scene.camera, options.width, options.height);
     const ViewDepth depth(double{scene.camera.near_z}, double{scene.camera.far_z});
     std::size_t first_id = 0;
-    start_group();
     for (const auto& instance : scene.instances) {
       const Mesh& mesh = mesh_of(scene, instance);
       check(mesh);

@@ -71,8 +71,7 @@ class ClusterPart {
  public:
   // A part has at most this many vertices, unless a single cluster has more.
   static constexpr std::size_t kMaxVertices = kL2Bytes / 4 * 3 / sizeof(Vertex);
-  // Vertices. They are marked block by block, so runs of marked vertices are as far apart.
-  static constexpr std::size_t kBlock = 64;
+  static constexpr std::size_t kBlock = 64;  // vertices, which are marked block by block
 
   // Takes parts of this mesh from now on. Both must outlive the parts.
   void start(const Mesh& mesh, std::span<const MeshCluster> clusters) {

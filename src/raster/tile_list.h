@@ -1,5 +1,5 @@
-// The list of what there is to draw in a frame. A row of tiles has an entry for each tile with triangles, and
-// then one, or several on many threads, for all its empty tiles. Up to four entries form a task of oneTBB
+// The tasks of drawing a frame in tiles. A row of tiles has a task for each tile with triangles, and then
+// one, or several on many threads, for all its empty tiles. oneTBB gets up to four of these tasks at once
 // (Ablation::several_tiles_per_task).
 #pragma once
 
@@ -63,7 +63,7 @@ class TileList {
   }
 
  private:
-  static constexpr int kLeastRows = 8;  // px, aimed at for a task that fills empty tiles
+  static constexpr int kLeastRows = 8;  // px, of a task that fills empty tiles; a row's last may have fewer
   std::vector<Task> tasks_;
   std::vector<TileSpan> empty_;
   std::vector<std::size_t> row_begin_;  // index in empty_ of each row's first span; then empty_.size()

@@ -153,8 +153,10 @@ nlohmann::json packages() {
 
 std::string cpu_model(const std::string& cpuinfo) {
   const auto pairs = read_pairs(cpuinfo, ':');
-  const std::string model = value_of(pairs, "model name"), family = value_of(pairs, "cpu family"),
-                    number = value_of(pairs, "model");
+  std::string model = value_of(pairs, "model name");
+  for (const std::string_view filler : {"(R)", "(TM)", " CPU", " Processor"})
+    for (std::size_t at; (at = model.find(filler)) != std::string::npos;) model.erase(at, filler.size());
+  const std::string family = value_of(pairs, "cpu family"), number = value_of(pairs, "model");
   if (model.empty()) return kUnknown;
   return family.empty() || number.empty() ? model
                                           : fmt::format("{} (family {}, model {})", model, family, number);

@@ -10,8 +10,8 @@ namespace edgewise::tools {
 // source tree's git at run time, "-dirty" appended), package versions, SIMD targets. No host name.
 nlohmann::json machine_description();
 
-// The system's model name, with CPUID family and model if known, because virtual machines use one name for
-// many CPUs: "AMD EPYC (family 25, model 17)".
+// The system's model name without "(R)" and the like, with CPUID family and model if known, because virtual
+// machines use one name for many CPUs: "AMD EPYC (family 25, model 17)".
 std::string cpu_model(const std::string& cpuinfo = "/proc/cpuinfo");
 
 // The folder below results/ for this machine, for example "amd-epyc-family-25-model-17-2-cores": CPU model

@@ -118,6 +118,8 @@ TEST(Program, DistinguishesCpusWithTheSameModelName) {
   };
   EXPECT_EQ(model_of("AMD EPYC", "cpu family\t: 25\nmodel\t\t: 17\n"), "AMD EPYC (family 25, model 17)");
   EXPECT_EQ(model_of("AMD EPYC", "cpu family\t: 26\nmodel\t\t: 2\n"), "AMD EPYC (family 26, model 2)");
+  EXPECT_EQ(model_of("Intel(R) Xeon(R) Processor", "cpu family\t: 6\nmodel\t\t: 207\n"),
+            "Intel Xeon (family 6, model 207)");
   EXPECT_EQ(model_of("Some core", ""), "Some core");
   EXPECT_EQ(tools::cpu_model((folder.path() / "missing").string()), "unknown");
 }

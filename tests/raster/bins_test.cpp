@@ -63,35 +63,37 @@ TEST(Bins, CountATileAsFewUpToOneBlockOfIndices) {
   EXPECT_EQ(is_few(1, 4, Bins::Small::as_masks), resolve(SimdTarget::best) == SimdTarget::scalar);
 }
 
-// Makes copies of one triangle of each input.
-class Copies final : public TriangleSource {
+// Makes so many equal triangles of eight inputs.
+class Equal final : public TriangleSource {
  public:
-  Copies(std::size_t inputs, std::size_t copies)
-      : inputs_(inputs), copies_(copies), made_(kInputsAtOnce * copies, triangle(0, 0, 9000, 0, 0, 9000)) {}
+  Equal(std::size_t inputs, std::size_t of_eight)
+      : inputs_(inputs),
+        of_eight_(of_eight),
+        made_(kInputsAtOnce * of_eight, triangle(0, 0, 9000, 0, 0, 9000)) {}
   std::size_t size() const override { return inputs_; }
   std::span<const ScreenTriangle> make(int, std::size_t begin, std::size_t end) override {
-    return std::span(made_).first((end - begin) * copies_);
+    return std::span(made_).first(end * of_eight_ / 8 - begin * of_eight_ / 8);
   }
-  std::span<const ScreenTriangle> sample(std::size_t) override { return std::span(made_).first(copies_); }
+  std::span<const ScreenTriangle> sample(std::size_t) override { return std::span(made_).first(1); }
 
  private:
-  std::size_t inputs_, copies_;
+  std::size_t inputs_, of_eight_;
   std::vector<ScreenTriangle> made_;
 };
 
 TEST(Bins, KeepASourcesTrianglesUpToAnEighthMoreThanItsInputs) {
   Bins bins;
-  const auto fits = [&](std::size_t copies, int threads) {
-    Copies source(20'000, copies);
+  const auto fits = [&](std::size_t of_eight, int threads) {
+    Equal source(100'000, of_eight);
     return bins.build(source, {64, 64, 6, 6}, threads, resolve(SimdTarget::best), Bins::Small::as_masks,
                       true);
   };
   for (const int threads : {1, 2}) {
-    EXPECT_TRUE(fits(1, threads));
+    EXPECT_TRUE(fits(9, threads));
     std::size_t kept = 0;
     bins.for_each_index_block(0, [&](const Bins::IndexBlock& block) { kept += block.indices.size(); });
-    EXPECT_EQ(kept, 20'000u);
-    EXPECT_FALSE(fits(2, threads));
+    EXPECT_EQ(kept, 112'500u);
+    EXPECT_FALSE(fits(10, threads));
   }
 }
 

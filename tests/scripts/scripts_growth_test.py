@@ -129,10 +129,11 @@ class SecondThreadTest(unittest.TestCase):
         few.rounds = {key: times[:4] for key, times in few.rounds.items()}
         self.assertEqual(few.order, 0, "four rounds settle nothing")
 
-    def test_the_largest_loss_is_that_of_all_scenes(self):
-        from second_thread import largest_loss
-        self.assertEqual(largest_loss([self.division()]), "serial")
-        self.assertEqual(largest_loss([self.division(), self.division(end_ms=0.4)]), "end")
+    def test_the_largest_loss_is_named(self):
+        from second_thread import second_thread_sentence
+        for end_ms, loss in ((None, "serial code"), (0.4, "end of sections")):
+            division = self.division(two_ms=2.2, **({"end_ms": end_ms} if end_ms else {}))
+            self.assertIn(f"(largest loss: {loss}, ", second_thread_sentence([division]))
 
 
 if __name__ == "__main__":

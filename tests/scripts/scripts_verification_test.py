@@ -91,14 +91,14 @@ class VerificationTest(unittest.TestCase):
         soak = {"cases": 6000, "pixels": 2 * 10**9, "differences": 0, "by": {"backend_simd_target": {"tiled, sse4": {}}}}
         with tempfile.TemporaryDirectory() as name:
             here, there = Path(name, "results/here"), Path(name, "results/there")
-            for folder, found in ((here, {"soak": soak}), (there, {"soak": {**soak, "differences": 1}, "mutate": GOOD["mutate"]})):
+            for folder, found in ((here, {"soak": soak}), (there, {"soak": {**soak, "differences": 1, "machines": [{"commit": "abc"}]}, "mutate": GOOD["mutate"]})):
                 folder.mkdir(parents=True)
                 for key, data in found.items():
                     (folder / f"{key}.json").write_text(json.dumps(data))
             self.assertEqual([line[1:] for line in verification_table(here)[1]], [
-                ["25 mutants, one at a time, on `there`", "all caught"],
+                ["25 mutants, one at a time (`there`)", "all caught"],
                 ["6k random pictures in SSE4, 2G pixels compared", "no difference"],
-                ["6k random pictures in SSE4, 2G pixels compared, on `there`", "**1 difference**"]])
+                ["6k random pictures in SSE4, 2G pixels compared (`there`, commit abc)", "**1 difference**"]])
 
     def test_what_failed_is_bold(self):
         bad = {"tests": TOTALS, "prove": {"claims": 9, "proven": 8, "premises_hold": 6, "refuted": 7},

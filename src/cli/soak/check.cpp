@@ -89,8 +89,10 @@ std::span<const ScreenTriangle> Checker::check_frontend(const Case& c, Verdict& 
 
   const bool is_scene = std::holds_alternative<Scene>(*c.drawable);
   Drawable in_clusters;
-  if (is_scene) in_clusters = *c.drawable;
-  make_clusters(in_clusters);
+  if (is_scene) {
+    in_clusters = *c.drawable;
+    make_clusters(in_clusters);
+  }
   // Of a scene, one of the two runs on each target uses clusters. Which one depends on the case.
   const bool clusters_on_one_thread = Random(c.draws_seed).below(2) == 0;
   options.keep_unsnapped = false;

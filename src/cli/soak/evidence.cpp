@@ -100,7 +100,7 @@ nlohmann::json evidence_of(const Evidence& evidence, std::uint64_t seed, const C
   json["replay"] = {fmt::format("{} soak --seed {} --case {}", quoted(evidence.program), seed, c.number)};
   const auto* stream = c.drawable ? std::get_if<TriangleStream>(&*c.drawable) : nullptr;
   try {
-    // Keeps whole_frame only if the front end's triangles in memory show no difference.
+    // Blames the whole frame only if the front end's triangles, drawn from memory, show no difference.
     finding.draw.whole_frame = false;
     finding.draw.whole_frame = found.draw.whole_frame && !checker.differs(finding, c, finding.triangles);
     if (!finding.of_frontend) json["input"] = input_of(finding.draw);

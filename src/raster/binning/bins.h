@@ -34,8 +34,8 @@ class Bins {
   // Replaces the previous contents. A triangle without a sample in its bounding box is dropped; one without
   // area may be listed in up to four cells. as_masks needs cells that are tiles, and makes no masks on the
   // scalar target. `prefetch`: prefetch triangles that lie in memory. Throws std::length_error when a chunk's
-  // lists exceed 2^32 entries. Returns false if a chunk might need
-  // more room than it has to keep triangles. The contents are then incomplete.
+  // lists exceed 2^32 entries. Returns false, with incomplete
+  // contents, if a chunk's room for made triangles might not suffice.
   [[nodiscard]] bool build(TriangleSource& source, const CellGrid& grid, int threads, SimdTarget target,
                            Small small, bool prefetch);
   // The same for triangles that lie in memory, which need not be kept.
