@@ -128,8 +128,10 @@ TEST(FrontendAllocations, DoNotHappenWhenTheCameraTurns) {
     Scene& scene = std::get<Scene>(drawable);
     if (scene.instances.size() > 1) scene.camera.position = glm::vec3(0);
     for (const int threads : {1, 2}) {
+      const FrontendOptions options{.width = 64, .height = 48, .threads = threads};
+      Frontend().run(drawable, options);  // oneTBB allocates when it starts
       Frontend frontend;
-      const auto run = [&] { frontend.run(drawable, {.width = 64, .height = 48, .threads = threads}); };
+      const auto run = [&] { frontend.run(drawable, options); };
       scene.camera.pitch = 1.5f;  // up, where few clusters are
       run();
       scene.camera.pitch = 0;
