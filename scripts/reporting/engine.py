@@ -50,9 +50,10 @@ def engine_note(bench):
     pairs = {scene: (rows[BASE], rows[NO_MASKS]) for scene, rows in by_scene(bench).items() if NO_MASKS in rows}
     if not pairs:
         return ""
-    furthest = max(abs(exact.median_ms / backend.median_ms - 1) for exact, backend in pairs.values())
-    settled = [f"`{scene}`" for scene, pair in pairs.items() if order(*pair)]
-    # Rounded as it is printed.
-    fair = "" if round(furthest, 2) <= TOLERANCE else f" That is more than {percent(TOLERANCE)}: the comparison is not fair."
+    apart = {scene: round(abs(exact.median_ms / backend.median_ms - 1), 2) for scene, (exact, backend) in pairs.items()}
+    furthest = max(apart.values())
+    settled = [scene for scene, pair in pairs.items() if order(*pair)]
+    unfair = [f"`{scene}`" for scene in settled if apart[scene] > TOLERANCE]
+    fair = f" More than {percent(TOLERANCE)}, on {', '.join(unfair)}, make the comparison unfair." if unfair else ""
     return (f"With exact numbers the engine draws the bits of `tiled`. It is at most {percent(furthest)} faster or slower than `tiled` without "
-            f"coverage masks; the difference is settled on {', '.join(settled) or 'no scene'}.{fair}")
+            f"coverage masks; the difference is settled on {', '.join(f'`{scene}`' for scene in settled) or 'no scene'}.{fair}")

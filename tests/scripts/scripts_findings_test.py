@@ -65,6 +65,9 @@ class FindingsTest(unittest.TestCase):
         self.assertIn("at most 2 % faster or slower than `tiled` without coverage masks; the difference is settled on `large`.", engine_note(timed))
         timed.rows["tiled/large/engine:no-masks/threads:1"].times_ms = timed.rows["tiled/large/engine:exact/threads:1"].times_ms
         self.assertIn("settled on no scene", engine_note(timed))
+        for ms, said in ((9.53, False), (9.4, True)):  # 4.9 % and 6.4 % apart
+            timed.rows["tiled/large/engine:no-masks/threads:1"].times_ms = [ms * noise for noise in NOISE]
+            self.assertEqual("unfair" in engine_note(timed), said, ms)
 
     def test_charts_show_the_simd_form_where_there_is_one(self):
         def timed(simd, threads, ms):
