@@ -40,9 +40,9 @@ struct Effort {
   int repetitions;
   int ablation_repetitions;  // replaces `repetitions` for ablation rows and close ones: their differences are
                              // often below the noise
-  int rounds;  // replaces `repetitions` for rows that --model_out divides between two threads: each
-               // repetition adds a round
-  double repetition_s;       // minimum duration of a repetition
+  int rounds;           // replaces `repetitions` for rows that --model_out divides between two threads: each
+                        // repetition adds a round
+  double repetition_s;  // minimum duration of a repetition
   double slow_repetition_s;  // rows with longer iterations have fewer repetitions, but at least `repetitions`
 };
 constexpr Effort kFull{5, 9, 24, 0.012, 0.07}, kQuick{5, 5, 5, 0.01, 0.1};

@@ -2,12 +2,11 @@
 from accuracy_rows import FAMILIES
 from speedups import about, kernels
 from stability_curves import tidy
-from tables import number, percent, short
+from tables import enumerated, number, percent, short
 
 
 def listed(names):
-    names = [f"`{name}`" for name in names]
-    return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
+    return enumerated([f"`{name}`" for name in names])
 
 
 def scenes_with_errors(accuracy, family):

@@ -54,6 +54,6 @@ def engine_note(bench):
     furthest = max(apart.values())
     settled = [scene for scene, pair in pairs.items() if order(*pair)]
     unfair = [f"`{scene}`" for scene in settled if apart[scene] > TOLERANCE]
-    fair = f" More than {percent(TOLERANCE)}, on {', '.join(unfair)}, make the comparison unfair." if unfair else ""
+    fair = f" More than {percent(TOLERANCE)} makes the comparison unfair: {', '.join(unfair)}." if unfair else ""
     return (f"With exact numbers the engine draws the bits of `tiled`. It is at most {percent(furthest)} faster or slower than `tiled` without "
             f"coverage masks; the difference is settled on {', '.join(f'`{scene}`' for scene in settled) or 'no scene'}.{fair}")

@@ -42,6 +42,6 @@ def noise_check(folder):
     in_few, few = count(in_blocks(pairs, fewest_rounds()))
     found = sum(paired_order(before, [PLANTED * ms for ms in after]) > 0 for before, after in pairs)
     where = "" if machine == folder else f"On `{machine.name}`: "
-    return (f"{where}{'; '.join(command for command, _ in runs)}: false alarms in {alarms} of {rows} rows, and in {in_few} of {few} tests of "
-            f"{fewest_rounds()} rounds each. With {percent(PLANTED - 1)} added to the times of one side, {found} of {rows} rows are found "
+    return (f"{where}{'; '.join(command for command, _ in runs)}: false alarms in {alarms} of {rows} rows, and in {in_few} of {few} "
+            f"tests of {fewest_rounds()} rounds each. With {percent(PLANTED - 1)} added to the times of one side, {found} of {rows} rows are found "
             "slower.")

@@ -1,21 +1,20 @@
 """The result of a soak test (`edgewise soak --json`) in a sentence."""
+from accuracy_findings import listed
 from speedups import VECTORS, kernels
+from tables import enumerated
 
 
 def targets_of(soak):
     """"scalar code, SSE4 and AVX2": what the soak's machine could run."""
     ran = {backend_and_target.rpartition(", ")[2] for backend_and_target in soak["by"]["backend_simd_target"]}
-    names = [kernels(target) for target in ("scalar", *VECTORS) if target in ran]
-    return " and ".join([", ".join(names[:-1]), names[-1]]) if len(names) > 1 else names[0]
+    return enumerated([kernels(target) for target in ("scalar", *VECTORS) if target in ran])
 
 
 def soak_sentence(soak):
-    *first, last = (f"`{backend}`" for backend in soak["backends"])
-    backends = f"{', '.join(first)} and {last}"
     minutes = soak["seconds"] / 60
     shards = len(soak["shards"])
     drawn = (f"In {minutes:,.0f} minutes{f' of {shards} shards' if shards > 1 else ''}, {soak['cases']:,} random and "
-             f"adversarial pictures were drawn by {backends}, each in {targets_of(soak)}, on one and on several threads, with "
+             f"adversarial pictures were drawn by {listed(soak['backends'])}, each in {targets_of(soak)}, on one and on several threads, with "
              f"random tile sizes, row strides and alignments: {soak['frames']:,} frames of {soak['triangles']:,} triangles "
              f"and {soak['pixels']:,} pixels in all were compared bit for bit, {soak['oracle_frames']:,} of them with the "
              f"oracle, and {soak['frontend_lists']:,} triangle lists of the front end. ")

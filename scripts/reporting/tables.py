@@ -14,6 +14,11 @@ def short(value, _=None):
     return f"{value:.3g}"
 
 
+def enumerated(words):
+    """"a, b and c"."""
+    return " and ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)
+
+
 def number(value, digits=3):
     return f"{float(f'{value:.{digits}g}'):,.10g}"
 

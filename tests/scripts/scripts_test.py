@@ -372,7 +372,8 @@ class ScriptsTest(unittest.TestCase):
                 "frontend_lists": 8, "differences": 0, "by": {"backend_simd_target": {"tiled, sse4": {}, "slow, scalar": {}}},
                 "bounds_95": {"per_case": 3 / 6000, "per_frame": 3 / 150000, "per_pixel": 1e-9}}
         for record, said in ((soak, "**No bit differs.** With 95 % confidence fewer than one picture in 2,000"),
-                             (soak, "one frame in 50,000, and one pixel in 1.0e+09"), (soak, "In 22 minutes, 6,000"), (soak, "`slow` and `tiled`, each in scalar code and SSE4, on one"),
+                             (soak, "one frame in 50,000, and one pixel in 1.0e+09"), (soak, "In 22 minutes, 6,000"),
+                             (soak, "`slow` and `tiled`, each in scalar code and SSE4, on one"),
                              ({**soak, "differences": 4, "bounds_95": None}, "**4 differ**")):
             (self.folder / "results/soak.json").write_text(json.dumps(record))
             readme.write_text("<!-- results: results -->\n<!-- generated:soak -->\n<!-- /generated -->\n")

@@ -91,7 +91,8 @@ class VerificationTest(unittest.TestCase):
         soak = {"cases": 6000, "pixels": 2 * 10**9, "differences": 0, "by": {"backend_simd_target": {"tiled, sse4": {}}}}
         with tempfile.TemporaryDirectory() as name:
             here, there = Path(name, "results/here"), Path(name, "results/there")
-            for folder, found in ((here, {"soak": soak}), (there, {"soak": {**soak, "differences": 1, "machines": [{"commit": "abc"}]}, "mutate": GOOD["mutate"]})):
+            wrong = {**soak, "differences": 1, "machines": [{"commit": "abc"}]}
+            for folder, found in ((here, {"soak": soak}), (there, {"soak": wrong, "mutate": GOOD["mutate"]})):
                 folder.mkdir(parents=True)
                 for key, data in found.items():
                     (folder / f"{key}.json").write_text(json.dumps(data))
