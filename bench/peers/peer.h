@@ -14,7 +14,7 @@ namespace edgewise::bench {
 
 // One mesh for a peer's vertex buffers. A triangle's payload is that of its last vertex.
 struct PeerMesh {
-  std::vector<glm::vec3> positions;
+  std::vector<glm::vec3> positions;     // relative to the camera, as the front end makes them
   std::vector<std::uint32_t> payloads;  // one per position
   std::vector<std::uint32_t> indices;   // three per triangle; empty: every three positions are a triangle
   // Maps positions to pixels and depth in [0, 1], all multiplied by w, as the front end's matrix does.

@@ -67,12 +67,20 @@ std::vector<std::uint32_t> payloads_of(const Workload& workload, PeerPayload pay
 
 std::vector<PeerMesh> scene_meshes(const Scene& scene, const Workload& workload,
                                    std::span<const std::uint32_t> payloads) {
-  const glm::dmat4 to_screen = screen_matrix(scene.camera, workload.width(), workload.height());
+  const double near_z = scene.camera.near_z, far_z = scene.camera.far_z;
+  const auto depth_scale = static_cast<float>(far_z / (far_z - near_z));
   std::vector<PeerMesh> meshes;
   for (const auto& instance : scene.instances) {
     const Mesh& mesh = scene.meshes[instance.mesh];
     meshes.push_back(ProvokingVertices(mesh).assign(payloads.first(mesh.triangles.size())));
-    meshes.back().to_screen = glm::mat4(to_screen * glm::dmat4(model_matrix(instance)));
+    const ScreenTransform transform(scene.camera, instance, workload.width(), workload.height());
+    PeerMesh& peers = meshes.back();
+    for (glm::vec3& position : peers.positions) position -= transform.origin;
+    for (int i = 0; i < 4; ++i) {
+      const glm::vec3 v = transform.rounded[i];
+      peers.to_screen[i] = {v.x, v.y, depth_scale * v.z, v.z};
+    }
+    peers.to_screen[3].z -= depth_scale * scene.camera.near_z;
     payloads = payloads.subspan(mesh.triangles.size());
   }
   return meshes;

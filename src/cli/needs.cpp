@@ -40,24 +40,16 @@ struct NeedsCommandOptions {
   bool ranges = false, json = false;
 };
 
-// The centre of the bounding box of all vertices.
-glm::vec3 centre_of(const Scene& scene) {
-  glm::vec3 low(std::numeric_limits<float>::infinity()), high(-low);
-  for (const Instance& instance : scene.instances) {
-    const glm::mat4 to_world = model_matrix(instance);
-    for (const glm::vec3 p : scene.meshes.at(instance.mesh).positions) {
-      const glm::vec3 world(to_world * glm::vec4(p, 1.0f));
-      low = glm::min(low, world), high = glm::max(high, world);
-    }
-  }
-  return (low + high) * 0.5f;
+glm::dvec3 centre_of(const Scene& scene) {
+  const auto [low, high] = bounds_of(scene);
+  return low + 0.5 * (high - low);
 }
 
 // Moves the camera along a circle about the vertical axis through `centre`.
-void turn_camera(Camera& camera, glm::vec3 centre, double radians) {
-  const glm::vec3 from = camera.position - centre;
-  const float c = static_cast<float>(std::cos(radians)), s = static_cast<float>(std::sin(radians));
-  camera.position = centre + glm::vec3(c * from.x + s * from.z, from.y, c * from.z - s * from.x);
+void turn_camera(Camera& camera, glm::dvec3 centre, double radians) {
+  const glm::dvec3 from = camera.position - centre;
+  const double c = std::cos(radians), s = std::sin(radians);
+  camera.position = centre + glm::dvec3(c * from.x + s * from.z, from.y, c * from.z - s * from.x);
   camera.look_at(centre);
 }
 
@@ -260,7 +252,7 @@ class NeedsCommand {
       Shot shot = first;
       Camera& camera = std::get<Scene>(shot.source.drawable).camera;
       const Camera start = camera;
-      const glm::vec3 centre = centre_of(std::get<Scene>(shot.source.drawable));
+      const glm::dvec3 centre = centre_of(std::get<Scene>(shot.source.drawable));
       constexpr double kTurn = 6.283185307179586;
       for (int frame = 1; frame < options_.orbit; ++frame) {
         camera = start;
@@ -282,7 +274,7 @@ class NeedsCommand {
     Shot shot = load(scene, 0);
     if (options_.orbit == 0) return shot;
     auto& loaded = std::get<Scene>(shot.source.drawable);
-    const glm::vec3 centre = centre_of(loaded), from = loaded.camera.position - centre;
+    const glm::dvec3 centre = centre_of(loaded), from = loaded.camera.position - centre;
     if (from.x == 0.0f && from.z == 0.0f)
       throw std::invalid_argument("--orbit: the camera is straight above or below the centre of '" +
                                   shot.source.name + "'");

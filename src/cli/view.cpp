@@ -129,7 +129,11 @@ void add_view(CLI::App& program, Action& action, viewer::ShowWindow show_window)
   add_stage("--facing", "Facing test (snapped_area)", lab::find_facing_method, &lab::Choice::facing);
   command
       .add_option_function<std::string>(
-          "--axis", [o](const std::string& text) { o->axis = parse_vector("--axis", text); },
+          "--axis",
+          [o](const std::string& text) {
+            const glm::dvec3 axis = parse_vector("--axis", text), size = glm::abs(axis);
+            o->axis = axis / std::max({size.x, size.y, size.z, 1.0});
+          },
           "Rotation axis of the objects (the first object's)")
       ->type_name("X,Y,Z");
   command.add_option("--keys", o->keys, "Keys to press at the start")->type_name("KEYS");

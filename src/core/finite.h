@@ -6,7 +6,8 @@
 
 namespace edgewise {
 
-inline bool is_finite(glm::vec3 v) {
+template <typename T>
+bool is_finite(const glm::tvec3<T>& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 

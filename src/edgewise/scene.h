@@ -66,14 +66,14 @@ std::vector<MeshCluster> clusters_of(const Mesh& mesh);
 // that side too. To draw the outside, use a mesh whose triangles list their vertices in reverse order.
 struct Instance {
   std::size_t mesh = 0;  // index into Scene::meshes
-  glm::vec3 scale{1.0f};
+  glm::dvec3 scale{1.0};
   glm::vec3 axis{0.0f, 1.0f, 0.0f};  // any length; length 0 means no rotation
   float angle = 0.0f;                // radians about the axis, counter-clockwise seen from its tip
-  glm::vec3 translation{0.0f};
+  glm::dvec3 translation{0.0};
 };
 
 struct Camera {
-  glm::vec3 position{0.0f};
+  glm::dvec3 position{0.0};
   float yaw = 0.0f;     // radians about +y; positive turns left
   float pitch = 0.0f;   // radians; positive looks up
   float fov_y = 1.0f;   // vertical field of view in radians, 0 < fov_y < pi
@@ -81,7 +81,7 @@ struct Camera {
   float far_z = 100.0f;
 
   // Turns the camera towards a point. Does nothing if the point is the camera's own position.
-  void look_at(glm::vec3 target);
+  void look_at(glm::dvec3 target);
 };
 
 struct Scene {
@@ -105,20 +105,25 @@ struct TriangleStream {
 
 using Drawable = std::variant<Scene, TriangleStream>;
 
-// Moves and scales the instances so that the bounding box of all finite vertices is centred on the origin and
-// its longest side is 2. Does nothing if that side is 0 or no vertex is finite. Throws std::out_of_range for
-// an instance whose mesh index the scene lacks. Throws std::invalid_argument if the longest side is below
-// about 10^-30 or above 10^38, or if the box is so far from the origin that its scaled centre would have a
-// coordinate beyond 2^100.
+// The bounding box, in world space, of the finite vertices that triangles name. No box: low > high.
+struct Bounds {
+  glm::dvec3 low, high;
+};
+// Throws std::out_of_range for an instance whose mesh index the scene lacks.
+Bounds bounds_of(const Scene& scene);
+
+// Moves and scales the instances so that the bounding box is centred on the origin and its longest side is 2.
+// Does nothing if that side is 0 or there is no box. Throws what bounds_of() throws, and
+// std::invalid_argument if the longest side is below about 10^-30 or above 10^38, or if the centre is more
+// than 2^35 times that side away from the origin.
 void fit(Scene& scene);
 
-// Places the camera in front of all finite vertices, a little to the right and above, so that it sees all of
-// them. Sets a vertical field of view of 45 degrees, and near and far planes around the vertices. The image
-// should be at least as wide as high. Throws std::out_of_range for an instance whose mesh index the scene
-// lacks.
-void frame_camera(Scene& scene);
+// Places the camera in front of the bounding box, a little to the right and above, so that an image whose
+// width is `aspect` times its height shows all of it. Sets a vertical field of view of 45 degrees, and near
+// and far planes around the box. Throws what bounds_of() throws.
+void frame_camera(Scene& scene, double aspect = 1.0);
 
 // The matrix from an instance's model space to world space.
-glm::mat4 model_matrix(const Instance& instance);
+glm::dmat4 model_matrix(const Instance& instance);
 
 }  // namespace edgewise

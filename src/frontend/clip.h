@@ -7,10 +7,17 @@
 
 namespace edgewise {
 
-// A vertex in clip space with the viewport already applied: x / w and y / w are pixels, z / w is depth in
-// [0, 1].
+// A vertex in clip space with the viewport already applied: x / w and y / w are pixels. The near and far
+// planes are planes of constant z: a scene's z is w, the distance along the view direction, so that no matrix
+// rounds it twice. A stream's z is its depth, and its w is 1.
 struct ClipVertex {
-  float x, y, z, w;
+  double x, y, z, w;
+  // 0, 1 or 2: this corner of the triangle, which counts as inside all planes; a new vertex has none.
+  int corner = -1;
+};
+
+struct ViewVolume {
+  double width_px, height_px, near_z, far_z;
 };
 
 // The sides of the view that a vertex lies beyond, as flags. Every test is linear in the vertex. So if all
@@ -33,7 +40,7 @@ enum Outside : std::uint16_t {
 };
 
 // The flags of a vertex; kNotFinite alone if a coordinate is NaN or infinite.
-std::uint16_t outside_of(const ClipVertex& v, float width_px, float height_px);
+std::uint16_t outside_of(const ClipVertex& v, const ViewVolume& view);
 
 // Clips triangles against the near, far and guard planes.
 class Clipper {
@@ -44,7 +51,8 @@ class Clipper {
   // order: empty, or of 3 … kMaxVertices vertices. It is valid until the next call. A new vertex is always
   // interpolated from the inside vertex to the outside one, so both triangles that share an edge get the same
   // bits.
-  std::span<const ClipVertex> clip(const ClipVertex (&triangle)[3], std::uint16_t planes);
+  std::span<const ClipVertex> clip(const ClipVertex (&triangle)[3], std::uint16_t planes,
+                                   const ViewVolume& view);
 
  private:
   std::array<ClipVertex, kMaxVertices> from_, to_;

@@ -50,7 +50,8 @@ struct ViewDepth {
       : near_z(near_distance),
         scale(contract::kDepthRange * (far_distance / (far_distance - near_distance))) {}
 
-  std::uint32_t units(float w) const { return round_depth((double{w} - near_z) * scale / double{w}); }
+  double above_near(double w) const { return (w - near_z) * scale / w; }  // in units
+  std::uint32_t units(double w) const { return round_depth(above_near(w)); }
 
   double near_z, scale;
 };

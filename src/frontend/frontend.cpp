@@ -267,9 +267,9 @@ struct Frontend::State {
 
   void add_parts(MeshTask task, const ShadeTask& light, std::size_t first_id) {
     const Mesh& mesh = task.mesh;
-    const ViewSides view(task.to_screen, options.width, options.height);
+    const ViewSides sides(task.to_screen, task.view);
     const auto drop_if_outside = [&](std::size_t cluster) {
-      if (!view.exclude(mesh.clusters[cluster])) return false;
+      if (!sides.exclude(mesh.clusters[cluster])) return false;
       const ClusterTriangles outside = triangles_of(mesh, cluster);
       drop(task, outside.first, outside.count);
       return true;
@@ -310,23 +310,23 @@ struct Frontend::State {
   void run_scene(const Scene& scene) {
     start_group();
     reserve_for_clusters(scene);
-    const glm::dmat4 to_screen = screen_matrix(scene.camera, options.width, options.height);
-    const ViewDepth depth(double{scene.camera.near_z}, double{scene.camera.far_z});
+    const ViewVolume view = view_volume(scene.camera, options.width, options.height);
+    const ViewDepth depth(view.near_z, view.far_z);
     std::size_t first_id = 0;
     for (const auto& instance : scene.instances) {
       const Mesh& mesh = mesh_of(scene, instance);
       check(mesh);
-      const glm::mat4 model = model_matrix(instance);
       const MeshTask task{.options = options,
                           .mesh = mesh,
-                          .to_screen = glm::mat4(to_screen * glm::dmat4(model)),
+                          .view = view,
+                          .to_screen = {scene.camera, instance, options.width, options.height},
                           .depth = depth,
                           .vertices = nullptr,
                           .vertex_range = {0, mesh.positions.size()},
                           .states = options.keep_states ? states.data() + first_id : nullptr};
       ++stats.meshes;
       stats.triangles += mesh.triangles.size();
-      const ShadeTask light(mesh, model, scene.to_light);
+      const ShadeTask light(mesh, model_matrix(instance), scene.to_light);
       mesh.clusters.empty() ? add_whole(task, light, first_id) : add_parts(task, light, first_id);
       first_id += mesh.triangles.size();
     }

@@ -61,24 +61,24 @@ std::vector<MeshCluster> clusters_of(const Mesh& mesh) {
   return clusters;
 }
 
-ViewSides::ViewSides(const glm::mat4& to_screen, int width_px, int height_px) {
-  const auto row = [&](int r) {
-    return glm::dvec4(to_screen[0][r], to_screen[1][r], to_screen[2][r], to_screen[3][r]);
-  };
-  const glm::dvec4 x = row(0), y = row(1), z = row(2), w = row(3);
-  const glm::dvec4 ends[3] = {w * double(width_px), w * double(height_px), w};
-  const glm::dvec4 starts[3] = {x, y, z};
-  // transform.cpp rounds each term at most four times, and the product with the width or height once more: at
-  // most 5 · 2^-24 of the sum of the terms' absolute values. This is three times that.
+ViewSides::ViewSides(const ScreenTransform& to_screen, const ViewVolume& view) : origin_(to_screen.origin) {
+  const glm::mat4x3& m = to_screen.rounded;
+  const auto row = [&](int r) { return glm::dvec4(m[0][r], m[1][r], m[2][r], m[3][r]); };
+  const glm::dvec4 w = row(2);
+  // transform.cpp rounds each term at most five times, and the product with the width or height once more: at
+  // most 6 · 2^-24 of the sum of the terms' absolute values. This is over twice that.
   constexpr double kRelativeError = 0x1p-20;
-  for (int i = 0; i < 3; ++i) {
-    sides_[i] = {starts[i], kRelativeError * glm::abs(starts[i])};
-    sides_[3 + i] = {ends[i] - starts[i], kRelativeError * (glm::abs(ends[i]) + glm::abs(starts[i]))};
-  }
+  const auto side = [](const glm::dvec4& start, const glm::dvec4& end) {
+    return Side{end - start, kRelativeError * (glm::abs(end) + glm::abs(start))};
+  };
+  const glm::dvec4 nothing(0.0);
+  sides_[0] = side(nothing, row(0)), sides_[1] = side(row(0), view.width_px * w);
+  sides_[2] = side(nothing, row(1)), sides_[3] = side(row(1), view.height_px * w);
+  sides_[4] = side({0, 0, 0, view.near_z}, w), sides_[5] = side(w, {0, 0, 0, view.far_z});
 }
 
 bool ViewSides::exclude(const MeshCluster& box) const {
-  const glm::dvec3 low(box.low), high(box.high);
+  const glm::dvec3 low = glm::dvec3(box.low) - origin_, high = glm::dvec3(box.high) - origin_;
   const glm::dvec3 centre = 0.5 * (low + high), half = 0.5 * (high - low);
   const glm::dvec3 farthest = glm::max(glm::abs(low), glm::abs(high));
   for (const Side& side : sides_) {

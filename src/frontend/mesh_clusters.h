@@ -14,6 +14,7 @@
 #include "core/llc.h"
 #include "edgewise/scene.h"
 #include "frontend/vertex.h"
+#include "frontend/view.h"
 
 namespace edgewise {
 
@@ -52,18 +53,18 @@ void make_clusters(Drawable& drawable);
 // The six sides of the view, in a mesh's model space.
 class ViewSides {
  public:
-  // `to_screen`: as in MeshTask.
-  ViewSides(const glm::mat4& to_screen, int width_px, int height_px);
+  ViewSides(const ScreenTransform& to_screen, const ViewVolume& view);
   // True only if all vertices in the box are beyond one side, and transform.cpp, which rounds to floats,
   // finds them there too. False for a box that is not finite.
   bool exclude(const MeshCluster& box) const;
 
  private:
-  // A vertex v = (x, y, z, 1) is beyond the side if plane · v < 0. The rounding errors of transform.cpp are
-  // less than the product of `error` and v's absolute coordinates.
+  // With v = (position - origin, 1), a vertex is beyond the side if plane · v < 0. The rounding errors of
+  // transform.cpp are less than the product of `error` and v's absolute coordinates.
   struct Side {
     glm::dvec4 plane, error;
   };
+  glm::dvec3 origin_;
   Side sides_[6];
 };
 

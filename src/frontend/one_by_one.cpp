@@ -11,9 +11,13 @@ namespace edgewise {
 
 namespace {
 
-UnsnappedTriangle unsnapped_triangle(const ClipVertex& a, const ClipVertex& b, const ClipVertex& c) {
-  const float wa = 1.0f / a.w, wb = 1.0f / b.w, wc = 1.0f / c.w;
-  return {{a.x * wa, b.x * wb, c.x * wc}, {a.y * wa, b.y * wb, c.y * wc}, {a.z * wa, b.z * wb, c.z * wc}};
+// A vertex before snapping.
+struct Unsnapped {
+  float x_px, y_px, z01;
+};
+
+UnsnappedTriangle triangle_of(const Unsnapped& a, const Unsnapped& b, const Unsnapped& c) {
+  return {{a.x_px, b.x_px, c.x_px}, {a.y_px, b.y_px, c.y_px}, {a.z01, b.z01, c.z01}};
 }
 
 // True, and counted, if the triangle is not finite or lies beyond one side of the view.
@@ -58,47 +62,61 @@ void emit(const Vertex& a, const Vertex& b, const Vertex& c, const Source& sourc
   }
 }
 
-// depth_of(vertex) returns the depth of a vertex in clip space, in contract units.
-template <typename DepthOf>
-void clip(const ClipVertex (&triangle)[3], std::uint32_t sides, const Source& source,
-          const FrontendOptions& options, ChunkOutput& out, DepthOf&& depth_of) {
+// The three corners of a triangle that must be clipped. A corner that is inside keeps its snapped position,
+// which it has in other triangles too.
+template <typename Geometry>
+void clip(const Vertex (&corners)[3], std::uint32_t sides, const Source& source,
+          const FrontendOptions& options, ChunkOutput& out, const Geometry& geometry) {
   FrontendStats& stats = out.stats;
   ++stats.clipped;
   if (sides & kNear) ++stats.clipped_near;
   if (sides & kFar) ++stats.clipped_far;
   if (sides & kGuard) ++stats.clipped_guard;
+  ClipVertex triangle[3];
+  std::uint32_t planes = 0, common = kInvisible;
+  for (int k = 0; k < 3; ++k) {
+    triangle[k] = geometry.clip_vertex(k);
+    if (is_inside(corners[k])) triangle[k].corner = k;
+    const std::uint32_t outside = is_inside(corners[k]) ? 0 : outside_of(triangle[k], geometry.view);
+    planes |= outside, common &= outside;
+  }
   Clipper clipper;
-  const auto polygon = clipper.clip(triangle, static_cast<std::uint16_t>(sides));
-  if (polygon.size() < 3) {
+  const auto polygon = clipper.clip(triangle, static_cast<std::uint16_t>(planes), geometry.view);
+  if (common != 0 || polygon.size() < 3) {
     ++stats.outside;
     return;
   }
-  if (!std::all_of(polygon.begin(), polygon.end(), can_project)) {
+  const auto is_projectable = [](const ClipVertex& v) { return v.corner >= 0 || can_project(v); };
+  if (!std::all_of(polygon.begin(), polygon.end(), is_projectable)) {
     ++stats.not_in_front;
     return;
   }
   std::array<Vertex, Clipper::kMaxVertices> snapped;
-  std::transform(polygon.begin(), polygon.end(), snapped.begin(),
-                 [&](const ClipVertex& v) { return project(v, depth_of(v)); });
+  std::transform(polygon.begin(), polygon.end(), snapped.begin(), [&](const ClipVertex& v) {
+    return v.corner >= 0 ? corners[v.corner] : Vertex{snap(x_px(v)), snap(y_px(v)), geometry.depth(v.z), 0};
+  });
+  const auto unsnapped = [&](const ClipVertex& v) {
+    return v.corner >= 0 ? geometry.unsnapped(v.corner) : Unsnapped{x_px(v), y_px(v), geometry.depth01(v.z)};
+  };
   const Pieces pieces = split({snapped.data(), polygon.size()});
   for (std::size_t i = 0; i < pieces.count; ++i) {
     const auto [a, b, c] = pieces.corners[i];
-    emit(snapped[a], snapped[b], snapped[c], source, options, out,
-         [&, a = a, b = b, c = c] { return unsnapped_triangle(polygon[a], polygon[b], polygon[c]); });
+    emit(snapped[a], snapped[b], snapped[c], source, options, out, [&, a = a, b = b, c = c] {
+      return triangle_of(unsnapped(polygon[a]), unsnapped(polygon[b]), unsnapped(polygon[c]));
+    });
   }
 }
 
-// Adds a triangle, clipped if necessary. clip_of(k) returns vertex k in clip space.
-template <typename ClipOf, typename DepthOf>
-void add(const Vertex& a, const Vertex& b, const Vertex& c, const Source& source,
-         const FrontendOptions& options, ChunkOutput& out, ClipOf&& clip_of, DepthOf&& depth_of) {
+// Adds a triangle, clipped if necessary.
+template <typename Geometry>
+void add(const Vertex (&corners)[3], const Source& source, const FrontendOptions& options, ChunkOutput& out,
+         const Geometry& geometry) {
+  const auto& [a, b, c] = corners;
   if (drop(a, b, c, out.stats)) return;
   const std::uint32_t sides = (a.outside | b.outside | c.outside) & kMustClip;
-  if (sides == 0)
-    emit(a, b, c, source, options, out,
-         [&] { return unsnapped_triangle(clip_of(0), clip_of(1), clip_of(2)); });
-  else
-    clip({clip_of(0), clip_of(1), clip_of(2)}, sides, source, options, out, depth_of);
+  if (sides != 0) return clip(corners, sides, source, options, out, geometry);
+  emit(a, b, c, source, options, out,
+       [&] { return triangle_of(geometry.unsnapped(0), geometry.unsnapped(1), geometry.unsnapped(2)); });
 }
 
 TriangleState state_between(const FrontendStats& before, const FrontendStats& after) {
@@ -120,35 +138,66 @@ void add_and_record_state(const Task& task, std::size_t triangle, ChunkOutput& o
   task.states[triangle] = state_between(before, out.stats);
 }
 
+// The vertices of one triangle of a mesh, by corner.
+struct MeshGeometry {
+  const MeshTask& task;
+  const ViewVolume& view = task.view;
+  glm::uvec3 triangle;
+
+  glm::vec3 position(int k) const { return task.mesh.positions[triangle[k]]; }
+  ClipVertex clip_vertex(int k) const { return task.to_screen(position(k)); }
+  std::uint32_t depth(double w) const { return task.depth.units(w); }
+  float depth01(double w) const {
+    return static_cast<float>(task.depth.above_near(w) / contract::kDepthRange);
+  }
+  Unsnapped unsnapped(int k) const {
+    const glm::vec3 v = transform(task.to_screen, position(k));
+    const float inverse_w = 1.0f / v.z;
+    return {v.x * inverse_w, v.y * inverse_w, depth01(double{v.z})};
+  }
+};
+
+struct StreamGeometry {
+  const StreamTriangle& triangle;
+  ViewVolume view;
+
+  ClipVertex clip_vertex(int k) const {
+    const glm::dvec3 v(triangle.vertex[k]);
+    return {v.x, v.y, v.z, 1.0};
+  }
+  std::uint32_t depth(double z) const { return quantize_depth(depth01(z)); }
+  float depth01(double z) const { return static_cast<float>(z); }
+  Unsnapped unsnapped(int k) const {
+    const glm::vec3 v = triangle.vertex[k];
+    return {v.x, v.y, v.z};
+  }
+  Vertex vertex(int k) const {
+    const std::uint32_t outside = outside_of(clip_vertex(k), view);
+    const glm::vec3 v = triangle.vertex[k];
+    if ((outside & (kMustClip | kNotFinite)) != 0) return {0, 0, 0, outside};
+    return {snap(v.x), snap(v.y), quantize_depth(v.z), outside};
+  }
+};
+
 }  // namespace
 
 void add_one(const MeshTask& task, std::size_t triangle, ChunkOutput& out) {
   const glm::uvec3 t = task.mesh.triangles[triangle];
-  const auto clip_of = [&](int k) { return transform(task.to_screen, task.mesh.positions[t[k]]); };
-  const auto depth_of = [&](const ClipVertex& v) { return task.depth.units(v.w); };
   const Cull cull = task.mesh.has_flag(triangle, kTwoSided) ? Cull::none : task.options.cull;
   add_and_record_state(task, triangle, out, [&] {
-    add(task.vertices[t.x], task.vertices[t.y], task.vertices[t.z],
-        {static_cast<std::uint32_t>(triangle), cull}, task.options, out, clip_of, depth_of);
+    add({task.vertices[t.x], task.vertices[t.y], task.vertices[t.z]},
+        {static_cast<std::uint32_t>(triangle), cull}, task.options, out,
+        MeshGeometry{.task = task, .triangle = t});
   });
 }
 
 void add_one(const StreamTask& task, std::size_t triangle, ChunkOutput& out) {
   const StreamTriangle& t = task.stream.triangles[triangle];
-  const auto width = static_cast<float>(task.options.width), height = static_cast<float>(task.options.height);
-  const auto clip_of = [&](int k) {
-    const glm::vec3 v = t.vertex[k];
-    return ClipVertex{v.x, v.y, v.z, 1.0f};
-  };
-  const auto depth_of = [](const ClipVertex& v) { return quantize_depth(v.z); };  // w is 1
-  const auto vertex = [&](int k) {
-    const ClipVertex v = clip_of(k);
-    return make_vertex(v, depth_of(v), width, height);
-  };
+  const StreamGeometry geometry{t, {double(task.options.width), double(task.options.height), 0.0, 1.0}};
   const bool ids = task.options.payload == Payload::id;
   const Source source{ids ? static_cast<std::uint32_t>(triangle) : t.colour, task.options.cull};
   add_and_record_state(task, triangle, out, [&] {
-    add(vertex(0), vertex(1), vertex(2), source, task.options, out, clip_of, depth_of);
+    add({geometry.vertex(0), geometry.vertex(1), geometry.vertex(2)}, source, task.options, out, geometry);
   });
 }
 

@@ -166,7 +166,7 @@ ScreenTriangle wound_as_seen(const Scene& scene, const Mesh& mesh, const glm::dm
   for (int k = 0; k < 3; ++k)
     from_camera[k] =
         glm::dvec3(model * glm::dvec4(glm::dvec3(mesh.positions[mesh.triangles[triangle][k]]), 1.0)) -
-        glm::dvec3(scene.camera.position);
+        scene.camera.position;
   // Points to the front, which is the clockwise side.
   const glm::dvec3 normal = glm::cross(from_camera[2] - from_camera[0], from_camera[1] - from_camera[0]);
   const int tall = glm::dot(normal, from_camera[0]) < 0.0 ? 1 : -1;
@@ -182,7 +182,7 @@ std::vector<std::uint32_t> lit_colours(const Scene& scene) {
   out.reserve(false);
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes.at(instance.mesh);
-    const glm::dmat4 model(model_matrix(instance));
+    const glm::dmat4 model = model_matrix(instance);
     const ShadeTask task(mesh, model, scene.to_light);
     for (std::size_t begin = 0; begin < mesh.triangles.size(); begin += kChunkTriangles) {
       out.count = std::min(kChunkTriangles, mesh.triangles.size() - begin);

@@ -11,13 +11,15 @@
 #include "edgewise/frontend.h"
 #include "frontend/mesh_clusters.h"
 #include "frontend/vertex.h"
+#include "frontend/view.h"
 
 namespace edgewise {
 
 struct MeshTask {
   const FrontendOptions& options;
   const Mesh& mesh;
-  glm::mat4 to_screen;              // model space → pixels and depth, both times w
+  ViewVolume view;
+  ScreenTransform to_screen;        // model space → pixels times w, and w
   ViewDepth depth;                  // w → contract units
   Vertex* vertices;                 // by the mesh's indices
   VertexRange vertex_range{};       // of those in `vertices`

@@ -17,21 +17,25 @@ namespace edgewise {
 namespace HWY_NAMESPACE {
 
 struct ClipVectors {
-  VF x, y, z, w;
+  VF x, y, w;
 };
 
-HWY_INLINE ClipVectors transform(const glm::mat4& m, VF x, VF y, VF z) {
+HWY_INLINE ClipVectors transform(const ScreenTransform& to_screen, VF x, VF y, VF z) {
   const DF d;
+  const glm::mat4x3& m = to_screen.rounded;
+  x = hn::Sub(x, hn::Set(d, to_screen.origin.x));
+  y = hn::Sub(y, hn::Set(d, to_screen.origin.y));
+  z = hn::Sub(z, hn::Set(d, to_screen.origin.z));
   const auto row = [&](int r) HWY_ATTR {
     const VF xy = hn::Add(hn::Mul(hn::Set(d, m[0][r]), x), hn::Mul(hn::Set(d, m[1][r]), y));
     return hn::Add(hn::Add(xy, hn::Mul(hn::Set(d, m[2][r]), z)), hn::Set(d, m[3][r]));
   };
-  return {row(0), row(1), row(2), row(3)};
+  return {row(0), row(1), row(2)};
 }
 
-// outside_of() of clip.h. It gives the same results in float: 16384 w is exact, and if it overflows, the
-// infinity compares correctly.
-HWY_INLINE VI outside_of(const ClipVectors& v, float width_px, float height_px) {
+// outside_of() of clip.h, for float coordinates. 16384 w is exact, and if it overflows, the infinity compares
+// correctly.
+HWY_INLINE VI outside_of(const ClipVectors& v, const ViewVolume& view) {
   const DF df;
   const DI di;
   VI sides = hn::Zero(di);
@@ -40,18 +44,17 @@ HWY_INLINE VI outside_of(const ClipVectors& v, float width_px, float height_px) 
   };
   const VF zero = hn::Zero(df);
   const VF guard = hn::Mul(v.w, hn::Set(df, static_cast<float>(contract::kMaxImageSide)));
-  add_side(hn::Lt(v.z, zero), kNear);
-  add_side(hn::Gt(v.z, v.w), kFar);
+  add_side(hn::Lt(v.w, hn::Set(df, static_cast<float>(view.near_z))), kNear);
+  add_side(hn::Gt(v.w, hn::Set(df, static_cast<float>(view.far_z))), kFar);
   add_side(hn::Lt(v.x, hn::Neg(guard)), kGuardLeft);
   add_side(hn::Gt(v.x, guard), kGuardRight);
   add_side(hn::Lt(v.y, hn::Neg(guard)), kGuardTop);
   add_side(hn::Gt(v.y, guard), kGuardBottom);
   add_side(hn::Lt(v.x, zero), kLeft);
-  add_side(hn::Gt(v.x, hn::Mul(hn::Set(df, width_px), v.w)), kRight);
+  add_side(hn::Gt(v.x, hn::Mul(hn::Set(df, static_cast<float>(view.width_px)), v.w)), kRight);
   add_side(hn::Lt(v.y, zero), kTop);
-  add_side(hn::Gt(v.y, hn::Mul(hn::Set(df, height_px), v.w)), kBottom);
-  const auto finite =
-      hn::And(hn::And(hn::IsFinite(v.x), hn::IsFinite(v.y)), hn::And(hn::IsFinite(v.z), hn::IsFinite(v.w)));
+  add_side(hn::Gt(v.y, hn::Mul(hn::Set(df, static_cast<float>(view.height_px)), v.w)), kBottom);
+  const auto finite = hn::And(hn::And(hn::IsFinite(v.x), hn::IsFinite(v.y)), hn::IsFinite(v.w));
   return hn::IfThenElse(hn::RebindMask(di, finite), sides, hn::Set(di, kNotFinite));
 }
 
@@ -62,9 +65,10 @@ HWY_INLINE VI transform_vector(const MeshTask& task, const float* positions, Ver
   VF x, y, z;
   hn::LoadInterleaved3(df, positions, x, y, z);
   const ClipVectors v = transform(task.to_screen, x, y, z);
-  VI outside = outside_of(v, static_cast<float>(task.options.width), static_cast<float>(task.options.height));
+  VI outside = outside_of(v, task.view);
   const VF inverse_w = hn::Div(hn::Set(df, 1.0f), v.w);
-  const auto projectable = hn::And(hn::Gt(v.w, hn::Zero(df)), hn::IsFinite(inverse_w));
+  // Not where near_z is subnormal.
+  const auto projectable = hn::IsFinite(inverse_w);
   const auto inside = hn::Eq(hn::And(outside, hn::Set(di, kMustClip | kNotFinite)), hn::Zero(di));
   const auto needs_clipper = hn::AndNot(hn::RebindMask(di, projectable), inside);
   outside = hn::Or(outside, hn::IfThenElseZero(needs_clipper, hn::Set(di, kNear)));

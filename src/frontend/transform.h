@@ -10,10 +10,17 @@
 
 namespace edgewise {
 
-// Transforms one vertex, with the same order of operations as every SIMD target.
-inline ClipVertex transform(const glm::mat4& m, glm::vec3 p) {
+// x and y in pixels times w, and w, of one vertex, with the same order of operations as every SIMD target.
+inline glm::vec3 transform(const ScreenTransform& to_screen, glm::vec3 position) {
+  const glm::mat4x3& m = to_screen.rounded;
+  const glm::vec3 p = position - to_screen.origin;
   const auto row = [&](int r) { return m[0][r] * p.x + m[1][r] * p.y + m[2][r] * p.z + m[3][r]; };
-  return {row(0), row(1), row(2), row(3)};
+  return {row(0), row(1), row(2)};
+}
+
+inline ClipVertex as_clip_vertex(glm::vec3 transformed) {
+  const glm::dvec3 v(transformed);
+  return {v.x, v.y, v.z, v.z};
 }
 
 // Transforms vertices begin … end - 1. Returns the sides (flags of Outside) that all finite vertices lie

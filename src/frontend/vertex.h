@@ -17,26 +17,21 @@ struct Vertex {
 };
 static_assert(sizeof(Vertex) == 16);
 
+inline float x_px(const ClipVertex& v) {
+  return static_cast<float>(v.x / v.w);
+}
+inline float y_px(const ClipVertex& v) {
+  return static_cast<float>(v.y / v.w);
+}
+
 // True if the division is safe: w > 0, and it cannot give NaN.
 inline bool can_project(const ClipVertex& v) {
-  return v.w > 0.0f && std::isfinite(1.0f / v.w) && std::isfinite(v.x) && std::isfinite(v.y) &&
-         std::isfinite(v.z);
+  return v.w > 0.0 && std::isfinite(x_px(v)) && std::isfinite(y_px(v));
 }
 
-// Divides by w and snaps. Requires can_project(). z: contract units.
-inline Vertex project(const ClipVertex& v, std::uint32_t z) {
-  const float inverse_w = 1.0f / v.w;
-  return {snap(v.x * inverse_w), snap(v.y * inverse_w), z, 0};
-}
-
-// A vertex that lies inside but cannot be projected gets kNear, so that its triangles go to the clipper.
-inline Vertex make_vertex(const ClipVertex& v, std::uint32_t z, float width_px, float height_px) {
-  const std::uint32_t outside = outside_of(v, width_px, height_px);
-  if ((outside & (kMustClip | kNotFinite)) != 0) return {0, 0, 0, outside};
-  if (!can_project(v)) return {0, 0, 0, outside | kNear};
-  Vertex vertex = project(v, z);
-  vertex.outside = outside;
-  return vertex;
+// True if x_sub, y_sub and z are valid.
+inline bool is_inside(const Vertex& v) {
+  return (v.outside & (kMustClip | kNotFinite)) == 0;
 }
 
 }  // namespace edgewise

@@ -1,5 +1,6 @@
 #include "frontend/view.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
@@ -20,23 +21,61 @@ void check(const Camera& camera) {
     throw std::invalid_argument("the camera needs 0 < near < far");
 }
 
+// World directions → x, y in pixels times w, and w. A point has the same, relative to the camera.
+glm::dmat3 pixels_of(const Camera& camera, int width_px, int height_px) {
+  const double half_w = width_px / 2.0, half_h = height_px / 2.0;
+  const double focal_px = half_h / std::tan(double{camera.fov_y} / 2.0);
+  glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), -double{camera.pitch}, glm::dvec3(1, 0, 0));
+  turn = glm::rotate(turn, -double{camera.yaw}, glm::dvec3(0, 1, 0));
+  return glm::dmat3(focal_px, 0, 0, 0, -focal_px, 0, -half_w, -half_h, -1) * glm::dmat3(turn);
+}
+
+// The point that an instance puts at `world`. Any point near it will do: 0 stands for a coordinate that no
+// point has, because the instance is flat, or that exceeds floats.
+glm::vec3 model_point(const glm::dmat4& model, glm::dvec3 world) {
+  glm::vec3 point(0.0f);
+  for (int i = 0; i < 3; ++i) {
+    const glm::dvec3 axis(model[i]);  // the axes are orthogonal
+    const double at = glm::dot(axis, world - glm::dvec3(model[3])) / glm::dot(axis, axis);
+    if (std::abs(at) < 0x1p126) point[i] = static_cast<float>(at);
+  }
+  return point;
+}
+
 }  // namespace
 
-glm::dmat4 screen_matrix(const Camera& camera, int width_px, int height_px) {
+ViewVolume view_volume(const Camera& camera, int width_px, int height_px) {
   check(camera);
-  const double half_w = width_px / 2.0, half_h = height_px / 2.0;
-  glm::dmat4 viewport(1.0);
-  viewport[0][0] = half_w;
-  viewport[1][1] = -half_h;
-  viewport[3][0] = half_w;
-  viewport[3][1] = half_h;
-  const glm::dmat4 projection =
-      glm::perspectiveRH_ZO(double{camera.fov_y}, static_cast<double>(width_px) / height_px,
-                            double{camera.near_z}, double{camera.far_z});
-  glm::dmat4 view = glm::rotate(glm::dmat4(1.0), -double{camera.pitch}, glm::dvec3(1, 0, 0));
-  view = glm::rotate(view, -double{camera.yaw}, glm::dvec3(0, 1, 0));
-  view = glm::translate(view, -glm::dvec3(camera.position));
-  return viewport * projection * view;
+  return {double(width_px), double(height_px), double{camera.near_z}, double{camera.far_z}};
+}
+
+ScreenTransform::ScreenTransform(const Camera& camera, const Instance& instance, int width_px,
+                                 int height_px) {
+  const glm::dmat4 model = model_matrix(instance);
+  origin = model_point(model, camera.position);
+  const glm::dmat3 pixels = pixels_of(camera, width_px, height_px), axes(model);
+  const glm::dvec3 offset =
+      glm::clamp(axes * glm::dvec3(origin) + (glm::dvec3(model[3]) - camera.position), -0x1p200, 0x1p200);
+  const glm::dmat3 linear = pixels * axes;
+  exact = glm::dmat4x3(linear[0], linear[1], linear[2], pixels * offset);
+  // A vertex at such a distance is beyond every far plane, and must not become infinite or NaN.
+  constexpr double kLargest = 0x1p125;
+  for (int i = 0; i < 4; ++i) rounded[i] = glm::vec3(glm::clamp(exact[i], -kLargest, kLargest));
+}
+
+ClipVertex ScreenTransform::operator()(glm::vec3 position) const {
+  const glm::dvec3 v = exact * glm::dvec4(glm::dvec3(position) - glm::dvec3(origin), 1.0);
+  return {v.x, v.y, v.z, v.z};
+}
+
+glm::dmat4 screen_matrix(const Camera& camera, int width_px, int height_px) {
+  const ViewVolume view = view_volume(camera, width_px, height_px);
+  const glm::dmat3 pixels = pixels_of(camera, width_px, height_px);
+  const double depth_scale = view.far_z / (view.far_z - view.near_z);
+  const auto column = [&](glm::dvec3 v) { return glm::dvec4(v.x, v.y, depth_scale * v.z, v.z); };
+  glm::dmat4 m(column(pixels[0]), column(pixels[1]), column(pixels[2]), column(pixels * -camera.position));
+  m[3].z -= depth_scale * view.near_z;
+  return m;
 }
 
 }  // namespace edgewise

@@ -5,29 +5,43 @@
 
 namespace edgewise::lab {
 
-ClippingScene in_view_space(const Scene& scene, Size size) {
+namespace {
+
+template <typename Place>
+ClippingScene as_one_mesh(const Scene& scene, Size size, const Place& place) {
   ClippingScene seen{{}, size};
   seen.scene.meshes.resize(1);
   seen.scene.instances.resize(1);
   seen.scene.camera = scene.camera;
-  seen.scene.camera.position = glm::vec3(0.0f);
-  seen.scene.camera.yaw = seen.scene.camera.pitch = 0.0f;
   Mesh& all = seen.scene.meshes.front();
-  const glm::dmat3 turn = to_camera_frame(scene.camera);
-  const glm::dvec3 eye(scene.camera.position);
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes.at(instance.mesh);
-    const glm::dmat4 model(model_matrix(instance));
+    const glm::dmat4 model = model_matrix(instance);
     for (const glm::uvec3 triangle : mesh.triangles) {
       const auto first = static_cast<unsigned>(all.positions.size());
-      for (int k = 0; k < 3; ++k) {
-        const glm::dvec3 world(model * glm::dvec4(glm::dvec3(mesh.positions.at(triangle[k])), 1.0));
-        all.positions.emplace_back(turn * (world - eye));
-      }
+      for (int k = 0; k < 3; ++k)
+        all.positions.emplace_back(
+            place(glm::dmat3(model) * glm::dvec3(mesh.positions.at(triangle[k])), glm::dvec3(model[3])));
       all.triangles.emplace_back(first, first + 1, first + 2);
     }
     all.colours.insert(all.colours.end(), mesh.colours.begin(), mesh.colours.end());
   }
+  return seen;
+}
+
+}  // namespace
+
+ClippingScene in_world_space(const Scene& scene, Size size) {
+  return as_one_mesh(scene, size, [](glm::dvec3 turned, glm::dvec3 offset) { return turned + offset; });
+}
+
+ClippingScene in_view_space(const Scene& scene, Size size) {
+  const glm::dmat3 turn = to_camera_frame(scene.camera);
+  ClippingScene seen = as_one_mesh(scene, size, [&](glm::dvec3 turned, glm::dvec3 offset) {
+    return turn * (turned + (offset - scene.camera.position));
+  });
+  seen.scene.camera.position = glm::dvec3(0.0);
+  seen.scene.camera.yaw = seen.scene.camera.pitch = 0.0f;
   return seen;
 }
 

@@ -1,4 +1,4 @@
-// Converts a scene to view space, the input of the laboratory's facing and clipping methods.
+// Converts a scene to one mesh, the input of the laboratory's facing and clipping methods.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,10 @@
 
 namespace edgewise::lab {
 
-// All instances as one mesh; the camera is at the origin and looks along -z. Each triangle has its own three
-// vertices; triangles keep their order of submission. Throws std::out_of_range for an instance whose mesh the
-// scene lacks.
+// All instances as one mesh. Each triangle has its own three vertices, rounded to float; triangles keep their
+// order of submission. In view space, the camera is at the origin and looks along -z. Both throw
+// std::out_of_range for an instance whose mesh the scene lacks.
+ClippingScene in_world_space(const Scene& scene, Size size);
 ClippingScene in_view_space(const Scene& scene, Size size);
 
 // The method's result per triangle: 1 if it faces the camera, else 0. `seen` is a scene in view space.

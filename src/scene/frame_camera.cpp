@@ -1,9 +1,10 @@
-// The camera looks at the centre of the bounding box, from far enough away that the cone of its field of view
-// contains all vertices.
+// Where a scene lies, and a camera that sees all of it. In double: a scene may lie far from the origin.
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
+#include "core/finite.h"
 #include "edgewise/scene.h"
 
 namespace edgewise {
@@ -13,38 +14,67 @@ namespace {
 constexpr float kFovY = 0.785398163f;  // 45 degrees
 constexpr double kMargin = 1.05;       // factor on the radius of the sphere around all vertices
 
+// Visits the vertices that triangles name, so that no stray one counts.
 template <typename Visit>
-void for_each_vertex(const Scene& scene, const Visit& visit) {
+void for_each_corner(const Scene& scene, const Visit& visit) {
   for (const Instance& instance : scene.instances) {
-    const glm::dmat4 model(model_matrix(instance));
-    for (const glm::vec3& position : scene.meshes.at(instance.mesh).positions) {
-      const glm::dvec3 world(model * glm::dvec4(position, 1.0));
-      if (std::isfinite(world.x) && std::isfinite(world.y) && std::isfinite(world.z)) visit(world);
-    }
+    const Mesh& mesh = scene.meshes.at(instance.mesh);
+    const glm::dmat4 model = model_matrix(instance);
+    for (const glm::uvec3& triangle : mesh.triangles)
+      for (int k = 0; k < 3; ++k) {
+        if (triangle[k] >= mesh.positions.size()) continue;  // Frontend::run() reports it
+        const glm::dvec3 world(model * glm::dvec4(mesh.positions[triangle[k]], 1.0));
+        if (is_finite(world)) visit(world);
+      }
   }
 }
 
 }  // namespace
 
-void frame_camera(Scene& scene) {
-  glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
-  for_each_vertex(scene, [&](const glm::dvec3& p) {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
+Bounds bounds_of(const Scene& scene) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Bounds box{glm::dvec3(kInfinity), glm::dvec3(-kInfinity)};
+  for_each_corner(scene, [&](const glm::dvec3& p) {
+    box.low = glm::min(box.low, p);
+    box.high = glm::max(box.high, p);
   });
-  const glm::dvec3 centre = low.x <= high.x ? (low + high) * 0.5 : glm::dvec3(0.0);
+  return box;
+}
+
+void frame_camera(Scene& scene, double aspect) {
+  const auto [low, high] = bounds_of(scene);
+  const glm::dvec3 centre = low.x <= high.x ? low + 0.5 * (high - low) : glm::dvec3(0.0);
   double radius = 0.0;
-  for_each_vertex(scene, [&](const glm::dvec3& p) { radius = std::max(radius, glm::distance(centre, p)); });
+  for_each_corner(scene, [&](const glm::dvec3& p) { radius = std::max(radius, glm::distance(centre, p)); });
   if (radius == 0.0) radius = 1.0;
 
-  const double distance = kMargin * radius / std::sin(0.5 * double{kFovY});
+  const double half_fov = std::atan(std::tan(0.5 * double{kFovY}) * std::min(aspect, 1.0));
+  const double distance = kMargin * radius / std::sin(half_fov);
   Camera& camera = scene.camera;
-  camera.position = glm::vec3(centre + distance * glm::normalize(glm::dvec3(0.4, 0.35, 1.0)));
+  camera.position = centre + distance * glm::normalize(glm::dvec3(0.4, 0.35, 1.0));
   camera.fov_y = kFovY;
   // All vertices are between 0.5 and 1.5 times this distance away.
   camera.near_z = static_cast<float>(distance / 100.0);
   camera.far_z = static_cast<float>(distance * 4.0);
-  camera.look_at(glm::vec3(centre));
+  camera.look_at(centre);
+}
+
+void fit(Scene& scene) {
+  const auto [low, high] = bounds_of(scene);
+  const glm::dvec3 size = high - low;
+  const double longest = std::max({size.x, size.y, size.z});
+  if (!(longest > 0.0)) return;
+  const double factor = 2.0 / longest;
+  const glm::dvec3 centre = low + 0.5 * size, moved = glm::abs(centre * factor);
+  // Beyond the first two, products with the camera's matrix may leave the range of float. Beyond the third,
+  // doubles round the moved vertices by over 2^-17.
+  if (!(factor >= 0x1p-126 && factor <= 0x1p100 && std::max({moved.x, moved.y, moved.z}) <= 0x1p36))
+    throw std::invalid_argument(
+        "too small, too large, or too far from the origin to be scaled to a size of 2");
+  for (auto& instance : scene.instances) {
+    instance.scale *= factor;
+    instance.translation = (instance.translation - centre) * factor;
+  }
 }
 
 }  // namespace edgewise

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <glm/trigonometric.hpp>
 #include <stdexcept>
 #include <thread>
@@ -19,8 +20,8 @@ namespace edgewise::tools {
 
 namespace {
 
-constexpr double kMostCoordinate = 1e6;  // world units; bound of camera positions and plane distances
-constexpr double kLongestTime = 1e6;     // s, 11 days
+constexpr double kMostDistance = 1e30;  // world units; bound of the near and far planes
+constexpr double kLongestTime = 1e6;    // s, 11 days
 constexpr double kLargestScale = 1e3;
 constexpr double kSmallest = 1e-6;  // what "more than zero" means on the command line
 
@@ -57,7 +58,7 @@ SimdTarget parse_target(std::string_view text) {
   throw std::invalid_argument(unknown_name("SIMD target", text, known));
 }
 
-CLI::Option* add_vector(CLI::App& command, const std::string& name, std::optional<glm::vec3>& value,
+CLI::Option* add_vector(CLI::App& command, const std::string& name, std::optional<glm::dvec3>& value,
                         const std::string& help) {
   return command
       .add_option_function<std::string>(
@@ -148,20 +149,19 @@ double parse_duration(std::string_view option, std::string_view text) {
   reject(option, text, fmt::format("a duration such as 90s, 20m or 2h, of at most {} s", kLongestTime));
 }
 
-glm::vec3 parse_vector(std::string_view option, std::string_view text) {
-  std::array<float, 3> v{};
+glm::dvec3 parse_vector(std::string_view option, std::string_view text) {
+  glm::dvec3 v;
   std::string_view rest = text;
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (int i = 0; i < 3; ++i) {
     const auto comma = rest.find(',');
     const auto value = parsed<double>(rest.substr(0, comma));
     const bool last = i == 2;
-    if (!value || !(std::abs(*value) <= kMostCoordinate) || (comma == std::string_view::npos) != last)
-      reject(option, text,
-             fmt::format("X,Y,Z with numbers from {} to {}", -kMostCoordinate, kMostCoordinate));
-    v[i] = static_cast<float>(*value);
+    if (!value || !std::isfinite(*value) || (comma == std::string_view::npos) != last)
+      reject(option, text, "X,Y,Z with finite numbers");
+    v[i] = *value;
     rest.remove_prefix(last ? rest.size() : comma + 1);
   }
-  return {v[0], v[1], v[2]};
+  return v;
 }
 
 CLI::Option* add_number(CLI::App& command, const std::string& name, std::optional<double>& value, double min,
@@ -214,9 +214,9 @@ void SceneOptions::add_to(CLI::App& command) {
       ->group(kGroup);
   add_number(command, "--pitch", pitch_deg, -90, 90, "Camera pitch upwards in degrees")->group(kGroup);
   add_number(command, "--fov", fov_deg, 0.1, 179, "Vertical field of view in degrees")->group(kGroup);
-  add_number(command, "--near", near_z, kSmallest, kMostCoordinate, "Distance of the near plane")
+  add_number(command, "--near", near_z, kSmallest, kMostDistance, "Distance of the near plane")
       ->group(kGroup);
-  add_number(command, "--far", far_z, kSmallest, kMostCoordinate, "Distance of the far plane")->group(kGroup);
+  add_number(command, "--far", far_z, kSmallest, kMostDistance, "Distance of the far plane")->group(kGroup);
 }
 
 Shot load_shot(const std::string& name_or_path, const SceneOptions& options, double time) {

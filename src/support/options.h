@@ -39,7 +39,7 @@ int parse_integer(std::string_view option, std::string_view text, int min, int m
 std::uint64_t parse_count(std::string_view option, std::string_view text, std::uint64_t min,
                           std::uint64_t max);
 double parse_duration(std::string_view option, std::string_view text);  // "90s", "20m", "2h" → s
-glm::vec3 parse_vector(std::string_view option, std::string_view text);
+glm::dvec3 parse_vector(std::string_view option, std::string_view text);
 
 CLI::Option* add_number(CLI::App& command, const std::string& name, std::optional<double>& value, double min,
                         double max, const std::string& help);
@@ -51,7 +51,7 @@ CLI::Option* add_size(CLI::App& command, std::optional<Size>& size, const std::s
 struct SceneOptions {
   std::optional<Size> size;
   std::optional<double> time, scale;  // s; factor
-  std::optional<glm::vec3> eye, at;
+  std::optional<glm::dvec3> eye, at;
   std::optional<double> fov_deg, near_z, far_z, yaw_deg, pitch_deg;
   std::optional<Cull> cull;  // not given: back for meshes, none for streams
   bool fit = false, no_shade = false;

@@ -54,8 +54,8 @@ Source load_source(const std::string& name_or_path, const SceneRequest& request,
     } catch (const std::invalid_argument& error) {
       throw file_error(name_or_path, error.what());
     }
-    frame_camera(scene);
   }
+  frame_camera(scene, static_cast<double>(request.width) / request.height);
   return {source_name(name_or_path), std::move(scene), false};
 }
 

@@ -38,10 +38,10 @@ char letter_of(TriangleState state) {
   }
 }
 
-glm::vec3 centre_of(const Mesh& mesh, std::size_t triangle, bool quad) {
-  const auto corner = [&](std::size_t t, int k) { return mesh.positions[mesh.triangles[t][k]]; };
-  const glm::vec3 three = corner(triangle, 0) + corner(triangle, 1) + corner(triangle, 2);
-  return quad ? (three + corner(triangle + 1, 2)) / 4.0f : three / 3.0f;
+glm::dvec3 centre_of(const Mesh& mesh, std::size_t triangle, bool quad) {
+  const auto corner = [&](std::size_t t, int k) { return glm::dvec3(mesh.positions[mesh.triangles[t][k]]); };
+  const glm::dvec3 three = corner(triangle, 0) + corner(triangle, 1) + corner(triangle, 2);
+  return quad ? (three + corner(triangle + 1, 2)) / 4.0 : three / 3.0;
 }
 
 }  // namespace
@@ -51,14 +51,14 @@ std::vector<FaceState> face_states(const Scene& scene, std::span<const TriangleS
   std::size_t id = 0;
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
     const Mesh& mesh = scene.meshes.at(scene.instances[i].mesh);
-    const glm::mat4 model = model_matrix(scene.instances[i]);
+    const glm::dmat4 model = model_matrix(scene.instances[i]);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t, ++id) {
       if (mesh.has_flag(t, kSecondHalf)) {
         faces.back().state = std::max(faces.back().state, states[id]);
         continue;
       }
       const bool quad = t + 1 < mesh.triangles.size() && mesh.has_flag(t + 1, kSecondHalf);
-      const glm::vec3 centre(model * glm::vec4(centre_of(mesh, t, quad), 1.0f));
+      const glm::dvec3 centre(model * glm::dvec4(centre_of(mesh, t, quad), 1.0));
       faces.push_back({i, centre, states[id], mesh.has_flag(t, kTwoSided)});
     }
   }

@@ -14,7 +14,7 @@ namespace edgewise::viewer {
 
 struct FaceState {
   std::size_t instance;
-  glm::vec3 centre;  // in the world
+  glm::dvec3 centre;  // in the world
   TriangleState state;
   bool two_sided;
 };

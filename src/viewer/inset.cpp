@@ -68,8 +68,8 @@ struct Projected {
   float x_px, y_px;
   bool in_front;
 };
-Projected project(const glm::dmat4& to_screen, glm::vec3 world) {
-  const glm::dvec4 p = to_screen * glm::dvec4(glm::dvec3(world), 1.0);
+Projected project(const glm::dmat4& to_screen, glm::dvec3 world) {
+  const glm::dvec4 p = to_screen * glm::dvec4(world, 1.0);
   if (!(p.w > 0.0) || !(p.z >= 0.0)) return {0.0f, 0.0f, false};
   return {static_cast<float>(p.x / p.w), static_cast<float>(p.y / p.w), true};
 }
@@ -177,7 +177,7 @@ void add_vertex_labels(const Scene& scene, const Panel& panel, std::vector<Text>
   if (vertex_count(scene) > kMostLabels) return;
   const glm::dmat4 to_screen = screen_matrix(scene.camera, panel.width, panel.height);
   for (const Instance& instance : scene.instances) {
-    const glm::dmat4 to_pixels = to_screen * glm::dmat4(model_matrix(instance));
+    const glm::dmat4 to_pixels = to_screen * model_matrix(instance);
     const auto& positions = scene.meshes[instance.mesh].positions;
     for (std::size_t i = 0; i < positions.size(); ++i)
       add_label(project(to_pixels, positions[i]), panel, std::to_string(i), rgb(255, 255, 255), texts);

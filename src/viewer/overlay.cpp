@@ -94,8 +94,8 @@ int degrees(float radians) {
 }
 
 // Rounded, never "-0.00".
-double hundredths(float length) {
-  return std::round(double{length} * 100.0) / 100.0 + 0.0;
+double hundredths(double length) {
+  return std::round(length * 100.0) / 100.0 + 0.0;
 }
 
 // Which frame the error count is from.

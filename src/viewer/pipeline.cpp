@@ -203,7 +203,7 @@ Pipeline::Triangles Pipeline::from_front_end(const View& view, Cull cull) {
 // Replaces the method's backend by one that records its input.
 Pipeline::Triangles Pipeline::from_clipping(const lab::ClippingMethod& method, const View& view,
                                             double& spent_ms) {
-  const lab::ClippingScene seen = lab::in_view_space(*view.world.scene(), size_of(view));
+  const lab::ClippingScene seen = lab::in_world_space(*view.world.scene(), size_of(view));
   lab::ClippingFrame frame(seen.size);
   auto recorder = std::make_unique<Recorder>();
   Triangles triangles;
@@ -323,7 +323,7 @@ Judgement Pipeline::judge(const lab::Choice& choice, const View& view, Truth tru
     if (choice.our_clipping() && choice.our_facing()) return true_visible_ids(view, triangles, truth, by);
     const lab::Choice exact = lab::our_choice(by);
     if (choice.our_clipping()) return true_visible_ids(view, triangles_of(exact, view, unused_ms), truth, by);
-    // Clipping methods work on slightly rounded view-space vertices, so the reference must clip the same
+    // Clipping methods work on slightly rounded world-space vertices, so the reference must clip the same
     // vertices.
     Triangles clipped = from_clipping(*exact.clipping, view, unused_ms);
     cull(*exact.facing, view, clipped, unused_ms);

@@ -4,17 +4,15 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
-#include <limits>
 #include <numbers>
 
-#include "core/finite.h"
 #include "lab/view_space.h"
 
 namespace edgewise::viewer {
 
 namespace {
 
-constexpr float kMostCoordinate = 1e6f;  // world units; bound of the camera's coordinates
+constexpr double kMostCoordinate = 1e12;  // world units; bound of the camera's coordinates
 
 glm::quat rotation(glm::vec3 axis, float angle) {
   const float length = glm::length(axis);
@@ -29,20 +27,11 @@ World::World(Drawable drawable) : drawable_(std::move(drawable)) {
   if (seen == nullptr) return;
   loaded_ = seen->instances;
   home_ = seen->camera;
-  glm::vec3 low(std::numeric_limits<float>::infinity()), high(-low);
-  for (const Instance& instance : loaded_) {
-    const glm::mat4 model = model_matrix(instance);
-    for (const glm::vec3& position : seen->meshes.at(instance.mesh).positions) {
-      const glm::vec3 p(model * glm::vec4(position, 1.0f));
-      if (!is_finite(p)) continue;
-      low = glm::min(low, p);
-      high = glm::max(high, p);
-    }
-  }
-  const float diagonal = glm::distance(low, high);
+  const auto [low, high] = bounds_of(*seen);
+  const double diagonal = glm::distance(low, high);
   if (!std::isfinite(diagonal)) return;
-  middle_ = low + 0.5f * (high - low);
-  if (diagonal > 0.0f) radius_ = 0.5f * diagonal;
+  middle_ = low + 0.5 * (high - low);
+  if (diagonal > 0.0) radius_ = static_cast<float>(0.5 * diagonal);
 }
 
 glm::vec3 World::first_axis() const {
@@ -61,14 +50,14 @@ void World::turn(glm::vec3 axis, float angle) {
     const glm::quat both = by * rotation(from.axis, from.angle);
     instances[i].axis = glm::axis(both);
     instances[i].angle = glm::angle(both);
-    instances[i].translation = middle_ + by * (from.translation - middle_);
+    instances[i].translation = middle_ + glm::dquat(by) * (from.translation - middle_);
   }
 }
 
 void move(Camera& camera, glm::vec3 distance, bool along_view) {
   glm::dvec3 step(distance);
   if (along_view) step = glm::transpose(lab::to_camera_frame(camera)) * step;
-  camera.position = glm::clamp(camera.position + glm::vec3(step), -kMostCoordinate, kMostCoordinate);
+  camera.position = glm::clamp(camera.position + step, -kMostCoordinate, kMostCoordinate);
 }
 
 void look(Camera& camera, float left, float up) {

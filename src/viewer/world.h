@@ -31,7 +31,7 @@ class World {
   Drawable drawable_;
   std::vector<Instance> loaded_;
   Camera home_;
-  glm::vec3 middle_{0.0f};
+  glm::dvec3 middle_{0.0};
   float radius_ = 1.0f;
 };
 

@@ -16,7 +16,9 @@
   X(screen_edges)                    \
   X(screen_linear)                   \
   X(discard_behind)                  \
-  X(none)
+  X(none)                            \
+  X(matrix_relative)                 \
+  X(matrix_float)
 
 namespace edgewise::lab {
 
@@ -50,29 +52,28 @@ bool around(int px, int py, Visit&& visit) {
 // Rounding the far ends moves the edge; a near end holds it in place.
 double reach_px(const ClipVertex& a, const ClipVertex& b, Size size) {
   const auto beyond = [&](double ax, double bx, int limit) {
-    return (ax < 0 && bx < 0) || (ax > limit * double{a.w} && bx > limit * double{b.w});
+    return (ax < 0 && bx < 0) || (ax > limit * a.w && bx > limit * b.w);
   };
   if (beyond(a.x, b.x, size.width) || beyond(a.y, b.y, size.height)) return 0;
   const auto far_out = [&](const ClipVertex& v) {
-    return std::max(std::abs(double{v.x} / v.w - size.width / 2.0),
-                    std::abs(double{v.y} / v.w - size.height / 2.0));
+    return std::max(std::abs(v.x / v.w - size.width / 2.0), std::abs(v.y / v.w - size.height / 2.0));
   };
   return std::min(far_out(a), far_out(b));
 }
 
 bool promises(const ClippingMethod& method, const ClippingScene& scene) {
+  if (!method.anywhere && scene.scene.camera.position != glm::dvec3(0.0)) return false;
   const ToClip to_clip(scene);
-  const auto width = static_cast<float>(scene.size.width), height = static_cast<float>(scene.size.height);
+  const ViewVolume view = view_of(scene);
   Clipper clipper;
   return std::all_of(scene.mesh().triangles.begin(), scene.mesh().triangles.end(), [&](glm::uvec3 t) {
     const auto& p = scene.mesh().positions;
     const ClipVertex vertices[3] = {to_clip(p[t.x]), to_clip(p[t.y]), to_clip(p[t.z])};
     unsigned sides = 0;
-    for (const ClipVertex& v : vertices)
-      sides |= outside_of(v, width, height) & unsigned{kNear | kFar | kNotFinite};
-    const auto polygon = clipper.clip(vertices, kNear | kFar);
+    for (const ClipVertex& v : vertices) sides |= outside_of(v, view) & unsigned{kNear | kFar | kNotFinite};
+    const auto polygon = clipper.clip(vertices, kNear | kFar, view);
     for (std::size_t i = 0; i < polygon.size(); ++i) {
-      sides |= outside_of(polygon[i], width, height);
+      sides |= outside_of(polygon[i], view);
       if (reach_px(polygon[i], polygon[(i + 1) % polygon.size()], scene.size) > method.reach_px) return false;
     }
     return (sides & method.fails_on) == 0;
@@ -83,7 +84,8 @@ bool promises(const ClippingMethod& method, const ClippingScene& scene) {
 double distance_error(const ClippingScene& scene, std::uint32_t triangle, double stored01, double true01) {
   const double near_z = scene.scene.camera.near_z, far_z = scene.scene.camera.far_z;
   const glm::uvec3 t = scene.mesh().triangles[triangle];
-  const auto w = [&](unsigned i) { return std::clamp(-double{scene.mesh().positions[i].z}, near_z, far_z); };
+  const ToClip to_clip(scene);
+  const auto w = [&](unsigned i) { return std::clamp(to_clip(scene.mesh().positions[i]).w, near_z, far_z); };
   const auto [nearest, farthest] = std::minmax({w(t.x), w(t.y), w(t.z)});
   if (farthest - nearest < 0.01 * farthest) return 0;
   const auto distance = [&](double depth01) { return near_z * far_z / (far_z - depth01 * (far_z - near_z)); };

@@ -21,7 +21,7 @@
 
 namespace edgewise::lab {
 
-// One mesh, one instance with the identity transform, and the camera at the origin with yaw and pitch 0.
+// One mesh, and one instance with the identity transform.
 struct ClippingScene {
   Scene scene;
   Size size;
@@ -38,6 +38,7 @@ struct ClippingFrame {
   std::unique_ptr<Backend> backend;
   Frontend frontend;
   Clipper clipper;
+  ViewVolume view{};
   std::vector<ClipVertex> vertices;
   std::vector<ScreenTriangle> triangles;
   // Counts of one draw: values that an unguarded program would write out of bounds or draw as noise.
@@ -55,6 +56,7 @@ struct ClippingMethod {
   // these two planes.
   std::uint16_t fails_on;
   double reach_px;
+  bool anywhere = true;  // false: the promise holds only for a camera at the origin
 };
 
 // Ours first.

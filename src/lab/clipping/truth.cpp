@@ -1,13 +1,12 @@
 #include "lab/clipping/truth.h"
 
-#include <gmpxx.h>
-
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "core/parallel.h"
-#include "lab/clipping/methods/pipeline.h"
 #include "lab/truth.h"
+#include "lab/view_space.h"
 
 namespace edgewise::lab {
 
@@ -27,8 +26,9 @@ int sign(const mpq_class& v) {
 template <typename T>
 class Homogeneous {
  public:
-  Homogeneous(const ClippingScene& scene, glm::uvec3 t)
-      : Homogeneous(scene, vertex(scene, t.x), vertex(scene, t.y), vertex(scene, t.z)) {}
+  Homogeneous(const Scene& scene, Size size, const Instance& instance, std::size_t triangle)
+      : Homogeneous(scene.camera, vertex(scene, size, instance, triangle, 0),
+                    vertex(scene, size, instance, triangle, 1), vertex(scene, size, instance, triangle, 2)) {}
   int facing() const { return sign(det_); }
 
   // 1 if the ray through a point of the screen hits the triangle between near and far, -1 if not, 0 if
@@ -69,18 +69,30 @@ class Homogeneous {
     const T a = edge(edge_[0]), b = edge(edge_[1]), c = edge(edge_[2]), sum = T(a + b + c);
     return {a, b, c, T(det_ - near_ * sum), T(far_ * sum - det_)};
   }
-  Homogeneous(const ClippingScene& scene, const Row& a, const Row& b, const Row& c)
+  Homogeneous(const Camera& camera, const Row& a, const Row& b, const Row& c)
       : edge_{cross(b, c), cross(c, a), cross(a, b)},
         det_(a[0] * edge_[0][0] + a[1] * edge_[0][1] + a[2] * edge_[0][2]),
-        near_(scene.scene.camera.near_z),
-        far_(scene.scene.camera.far_z) {}
+        near_(camera.near_z),
+        far_(camera.far_z) {}
 
-  // x and y in pixels times w, and w.
-  static Row vertex(const ClippingScene& scene, unsigned index) {
-    const glm::dvec3 v(scene.mesh().positions[index]);
-    const T focal(focal_px(scene)), w(-v.z);
-    return {T(focal * T(v.x) + T(scene.size.width / 2.0) * w),
-            T(T(scene.size.height / 2.0) * w - focal * T(v.y)), w};
+  // A vertex: x and y in pixels times w, and w.
+  static Row vertex(const Scene& scene, Size size, const Instance& instance, std::size_t triangle, int k) {
+    const Mesh& mesh = scene.meshes.at(instance.mesh);
+    const glm::dmat4 model = model_matrix(instance);
+    const glm::dmat3 turn = to_camera_frame(scene.camera);
+    const auto times = [](const auto& m, const Row& v, int row) {
+      return T(T(m[0][row]) * v[0] + T(m[1][row]) * v[1] + T(m[2][row]) * v[2]);
+    };
+    const glm::dvec3 p(mesh.positions.at(mesh.triangles[triangle][k]));
+    const Row position{T(p.x), T(p.y), T(p.z)};
+    const auto from_camera = [&](int i) {
+      return T(times(model, position, i) + T(T(model[3][i]) - T(scene.camera.position[i])));
+    };
+    const Row seen{from_camera(0), from_camera(1), from_camera(2)};
+    const T focal(size.height / 2.0 / std::tan(double{scene.camera.fov_y} / 2));
+    const T w(T(0.0) - times(turn, seen, 2));
+    return {T(focal * times(turn, seen, 0) + T(size.width / 2.0) * w),
+            T(T(size.height / 2.0) * w - focal * times(turn, seen, 1)), w};
   }
   static Row cross(const Row& a, const Row& b) {
     return {T(a[1] * b[2] - a[2] * b[1]), T(a[2] * b[0] - a[0] * b[2]), T(a[0] * b[1] - a[1] * b[0])};
@@ -93,21 +105,34 @@ class Homogeneous {
 using Estimate = Homogeneous<Ball>;
 using Exact = Homogeneous<mpq_class>;
 
-ClippingOracle::ClippingOracle(const ClippingScene& scene)
-    : scene_(scene), tiles_x_((scene.size.width + kTile - 1) / kTile) {
-  const int tiles_y = (scene.size.height + kTile - 1) / kTile;
+ClippingOracle::ClippingOracle(const Scene& scene, Size size, Cull cull)
+    : scene_(scene), size_(size), tiles_x_((size.width + kTile - 1) / kTile) {
+  const int tiles_y = (size.height + kTile - 1) / kTile;
   in_tile_.resize(static_cast<std::size_t>(tiles_x_) * static_cast<std::size_t>(tiles_y));
-  for (const auto& t : scene.mesh().triangles) {
-    estimates_.emplace_back(scene, t);
-    const int guess = estimates_.back().facing();
-    facing_.push_back(static_cast<std::int8_t>(guess != 0 ? guess : Exact(scene, t).facing()));
+  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+    const Instance& instance = scene.instances[i];
+    const Mesh& mesh = scene.meshes.at(instance.mesh);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      sources_.emplace_back(i, t);
+      estimates_.emplace_back(scene, size, instance, t);
+      int facing = estimates_.back().facing();
+      if (facing == 0) facing = exact(static_cast<std::uint32_t>(facing_.size())).facing();
+      const bool culled =
+          cull == Cull::both || (cull == Cull::back && facing < 0) || (cull == Cull::front && facing > 0);
+      facing_.push_back(static_cast<std::int8_t>(culled && !mesh.has_flag(t, kTwoSided) ? 0 : facing));
+    }
   }
   std::vector<std::uint32_t> all(estimates_.size());
   std::iota(all.begin(), all.end(), 0u);
-  std::erase_if(all, [&](std::uint32_t i) { return facing_[i] == 0 || (scene.cull_back && facing_[i] < 0); });
+  std::erase_if(all, [&](std::uint32_t i) { return facing_[i] == 0; });
   int tiles = 1;
   while (tiles < std::max(tiles_x_, tiles_y)) tiles *= 2;
   sort_into_tiles(0, 0, tiles, all);
+}
+
+Exact ClippingOracle::exact(std::uint32_t triangle) const {
+  const auto [instance, index] = sources_[triangle];
+  return {scene_, size_, scene_.instances[instance], index};
 }
 
 ClippingOracle::~ClippingOracle() = default;
@@ -149,33 +174,30 @@ bool ClippingOracle::shows(std::uint32_t triangle, std::uint32_t other, double x
 }
 
 double ClippingOracle::depth01(std::uint32_t triangle, double x_px, double y_px) const {
-  const double near_z = scene_.scene.camera.near_z, far_z = scene_.scene.camera.far_z;
+  const double near_z = scene_.camera.near_z, far_z = scene_.camera.far_z;
   const Ball estimate = estimates_[triangle].nearness(x_px, y_px);
-  const double nearness = estimate.error * near_z < 0x1p-34
-                              ? estimate.value
-                              : Exact(scene_, scene_.mesh().triangles[triangle]).nearness(x_px, y_px).get_d();
+  const double nearness =
+      estimate.error * near_z < 0x1p-34 ? estimate.value : exact(triangle).nearness(x_px, y_px).get_d();
   return far_z / (far_z - near_z) * (1 - near_z * nearness);
 }
 
 bool ClippingOracle::covers(std::uint32_t i, double x_px, double y_px) const {
-  if (facing_[i] == 0 || (scene_.cull_back && facing_[i] < 0)) return false;
+  if (facing_[i] == 0) return false;
   const int guess = estimates_[i].hit(x_px, y_px, facing_[i]);
   // A point exactly on an edge counts as covered: its side is within hairline.
-  return guess != 0 ? guess > 0 : Exact(scene_, scene_.mesh().triangles[i]).hit(x_px, y_px, facing_[i]) >= 0;
+  return guess != 0 ? guess > 0 : exact(i).hit(x_px, y_px, facing_[i]) >= 0;
 }
 
 bool ClippingOracle::nearer(std::uint32_t a, std::uint32_t b, double x_px, double y_px) const {
   const int guess = sign(estimates_[a].nearness(x_px, y_px) - estimates_[b].nearness(x_px, y_px));
   if (guess != 0) return guess > 0;
-  const auto exact = [&](std::uint32_t i) {
-    return Exact(scene_, scene_.mesh().triangles[i]).nearness(x_px, y_px);
-  };
-  return exact(a) > exact(b);
+  return exact(a).nearness(x_px, y_px) > exact(b).nearness(x_px, y_px);
 }
 
 ClippingTruth clipping_truth(const ClippingScene& scene, int threads) {
   const auto width = static_cast<std::size_t>(scene.size.width);
-  ClippingTruth truth{{}, std::make_shared<ClippingOracle>(scene)};
+  const Cull cull = scene.cull_back ? Cull::back : Cull::none;
+  ClippingTruth truth{{}, std::make_shared<ClippingOracle>(scene.scene, scene.size, cull)};
   truth.visible.resize(width * static_cast<std::size_t>(scene.size.height));
   parallel_for(threads, scene.size.height, [&](int y) {
     for (int x = 0; x < scene.size.width; ++x)

@@ -1,9 +1,13 @@
-// The exact truth of clipping scenes at any point of the screen, computed without clipping.
+// The exact picture of a scene at any point of the screen, from its vertices, instances and camera: it shares
+// no stage with the front end, and clips nothing.
 #pragma once
+
+#include <gmpxx.h>
 
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "lab/ball.h"
@@ -24,7 +28,9 @@ class Homogeneous;
 // of them, rationals the others. The constructor bins the triangles into tiles, by the same edge functions.
 class ClippingOracle {
  public:
-  explicit ClippingOracle(const ClippingScene& scene);
+  // The scene must outlive the oracle. Triangles are numbered in submission order. The camera's rotation and
+  // the instances' matrices are those that doubles hold; from there on, all is exact.
+  ClippingOracle(const Scene& scene, Size size, Cull cull);
   ~ClippingOracle();
 
   // The visible triangle or kNoTriangle. Points must lie in the image, less than half a pixel from a sample.
@@ -40,9 +46,13 @@ class ClippingOracle {
   bool nearer(std::uint32_t a, std::uint32_t b, double x_px, double y_px) const;
   void sort_into_tiles(int tile_x, int tile_y, int tiles, std::span<const std::uint32_t> candidates);
 
-  const ClippingScene& scene_;
+  Homogeneous<mpq_class> exact(std::uint32_t triangle) const;
+
+  const Scene& scene_;
+  Size size_;
+  std::vector<std::pair<std::size_t, std::size_t>> sources_;  // by triangle: instance, triangle of its mesh
   std::vector<Homogeneous<Ball>> estimates_;
-  std::vector<std::int8_t> facing_;  // exact; 1 front, -1 back, 0 edge-on
+  std::vector<std::int8_t> facing_;  // exact; 1 front, -1 back, 0 edge-on or culled
   int tiles_x_;
   std::vector<std::vector<std::uint32_t>> in_tile_;
 };

@@ -20,8 +20,7 @@ std::vector<std::uint32_t> draw_at(Level level, std::uint16_t plane, const Clipp
   draw_clipped(scene, frame, [&](const ClipVertex(&triangle)[3], std::uint32_t id) {
     std::uint16_t any = 0, all = kInvisible;
     for (const ClipVertex& v : triangle) {
-      const std::uint16_t sides =
-          outside_of(v, static_cast<float>(scene.size.width), static_cast<float>(scene.size.height));
+      const std::uint16_t sides = outside_of(v, frame.view);
       any |= sides, all &= sides;
     }
     if (level == kNothing && (any & plane) != 0) all = 0;
@@ -29,8 +28,8 @@ std::vector<std::uint32_t> draw_at(Level level, std::uint16_t plane, const Clipp
     auto planes = static_cast<std::uint16_t>(any & kMustClip);
     // Clipping at the sides would hide the lack of a near plane: a point between two of them has w >= 0.
     if (level != kClip && (any & plane) != 0) planes &= plane == kNear ? 0 : ~plane;
-    const auto polygon =
-        planes == 0 ? std::span<const ClipVertex>(triangle) : frame.clipper.clip(triangle, planes);
+    const auto polygon = planes == 0 ? std::span<const ClipVertex>(triangle)
+                                     : frame.clipper.clip(triangle, planes, frame.view);
     const auto before = static_cast<std::ptrdiff_t>(frame.triangles.size());
     emit(polygon, id, false, frame);
     frame.triangles.erase(std::remove_if(frame.triangles.begin() + before, frame.triangles.end(),
@@ -67,7 +66,7 @@ void ClippingNeeds::add(const StudiedFrame& frame, const std::array<Reach, kView
     for (const Level level : {kNothing, kDrop}) {
       if (!doubts[level] || !question.answers[level].enough()) continue;
       if (!seen) {
-        seen = in_view_space(std::get<Scene>(frame.drawable), frame.size());
+        seen = in_world_space(std::get<Scene>(frame.drawable), frame.size());
         canvas.emplace(frame.size());
         right = draw(kClip, kNear);
       }

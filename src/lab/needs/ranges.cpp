@@ -64,19 +64,18 @@ std::array<Reach, kViewPlanes> Ranges::add(const StudiedFrame& frame) {
   if (!std::holds_alternative<Scene>(frame.drawable)) return reach;
   const auto& scene = std::get<Scene>(frame.drawable);
   const auto [width, height] = frame.size();
-  near_z_ = double{scene.camera.near_z}, far_z_ = double{scene.camera.far_z};
-  const glm::dmat4 to_screen = screen_matrix(scene.camera, width, height);
+  const ViewVolume view = view_volume(scene.camera, width, height);
+  near_z_ = view.near_z, far_z_ = view.far_z;
   std::vector<ClipVertex> vertices;
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes.at(instance.mesh);
-    const glm::mat4 matrix(to_screen * glm::dmat4(model_matrix(instance)));
+    const ScreenTransform to_screen(scene.camera, instance, width, height);
     vertices.clear();
-    for (const glm::vec3 p : mesh.positions) vertices.push_back(transform(matrix, p));
+    for (const glm::vec3 p : mesh.positions) vertices.push_back(as_clip_vertex(transform(to_screen, p)));
     for (const glm::uvec3 t : mesh.triangles) {
       std::uint16_t any = 0, all = kInvisible;
       for (int k = 0; k < 3; ++k) {
-        const std::uint16_t sides =
-            outside_of(vertices.at(t[k]), static_cast<float>(width), static_cast<float>(height));
+        const std::uint16_t sides = outside_of(vertices.at(t[k]), view);
         any |= sides, all &= sides;
       }
       if ((any & kNotFinite) != 0) continue;
@@ -94,10 +93,9 @@ std::array<Reach, kViewPlanes> Ranges::add(const StudiedFrame& frame) {
 }
 
 void Ranges::add_vertex(const ClipVertex& v) {
-  const double w = double{v.w};
+  const double w = v.w;
   nearest_ = std::min(nearest_, w), farthest_ = std::max(farthest_, w);
-  if (w >= near_z_)
-    largest_px_ = std::max({largest_px_, std::abs(double{v.x} / w), std::abs(double{v.y} / w)});
+  if (w >= near_z_) largest_px_ = std::max({largest_px_, std::abs(v.x / w), std::abs(v.y / w)});
 }
 
 void Ranges::add_edge_values(const StudiedFrame& frame) {

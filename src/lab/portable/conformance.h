@@ -30,7 +30,7 @@
 namespace edgewise::lab {
 
 inline constexpr double kVertexDepthError = 0x1p-22;  // of a float z / w: a few units in the last place
-inline constexpr double kClipError = 0x1p-21;         // eight roundings of floats
+inline constexpr double kClipError = 0x1p-20;         // sixteen roundings of floats, with the transform's
 
 struct DepthFormat {
   std::string_view name;  // Vulkan's, in lower case

@@ -197,17 +197,19 @@ class ClipErrors {
     const auto* scene = std::get_if<Scene>(&drawable);
     if (scene == nullptr) return;
     sources_ = std::make_unique<SourceTriangles>(*scene);
-    to_screen_ = screen_matrix(scene->camera, options.width, options.height);
-    least_w_ = double{scene->camera.near_z};
+    camera_ = scene->camera;
+    width_ = options.width, height_ = options.height;
+    least_w_ = double{camera_.near_z};
   }
   void add_to(PortableTriangle& t) {
     Largest of{};
     if (sources_) {
       const auto [instance, mesh, index] = sources_->at(t.id);
-      const glm::mat4 matrix(to_screen_ * glm::dmat4(model_matrix(instance)));
+      const ScreenTransform to_screen(camera_, instance, width_, height_);
+      const double depth_scale = double{camera_.far_z} / (double{camera_.far_z} - least_w_);
       for (int i = 0; i < 3; ++i) {
-        const ClipVertex v = transform(matrix, mesh.positions[mesh.triangles[index][i]]);
-        of.add({v.x, v.y, v.z, v.w});
+        const ClipVertex v = to_screen(mesh.positions[mesh.triangles[index][i]]);
+        of.add({v.x, v.y, depth_scale * (v.w - least_w_), v.w});
       }
     } else {
       for (const glm::vec3 v : std::get<TriangleStream>(drawable_).triangles[t.id].vertex)
@@ -230,7 +232,8 @@ class ClipErrors {
   };
   const Drawable& drawable_;
   std::unique_ptr<SourceTriangles> sources_;  // null for streams
-  glm::dmat4 to_screen_{1.0};
+  Camera camera_;
+  int width_ = 0, height_ = 0;
   double least_w_ = 1.0;
 };
 

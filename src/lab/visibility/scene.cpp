@@ -15,18 +15,17 @@ namespace {
 
 class SourceTriangle {
  public:
-  SourceTriangle(const glm::dmat4& to_screen, const Mesh& mesh, std::size_t triangle) {
-    const glm::mat4 as_front_end(to_screen);
+  SourceTriangle(const ScreenTransform& to_screen, const Mesh& mesh, std::size_t triangle) {
     for (int i = 0; i < 3; ++i) {
       const glm::vec3 p = mesh.positions[mesh.triangles[triangle][i]];
-      const ClipVertex v = transform(as_front_end, p);
-      const float inverse_w = 1.0f / v.w;
-      seen_[i] = {v.x * inverse_w, v.y * inverse_w, v.z * inverse_w};
-      const glm::dvec4 exact = to_screen * glm::dvec4(glm::dvec3(p), 1.0);
+      const glm::vec3 v = transform(to_screen, p);
+      const float inverse_w = 1.0f / v.z;
+      seen_[i] = {v.x * inverse_w, v.y * inverse_w};
+      const ClipVertex exact = to_screen(p);
       corner_[i] = {exact.x, exact.y, exact.w};
     }
   }
-  double distance(glm::vec3 seen) const {
+  double distance(glm::vec2 seen) const {
     for (int i = 0; i < 3; ++i)
       if (seen == seen_[i]) return corner_[i].z;
     return on_plane(seen.x, seen.y);
@@ -43,7 +42,7 @@ class SourceTriangle {
     return std::isfinite(distance) ? std::clamp(distance, nearest, farthest) : farthest;
   }
 
-  glm::vec3 seen_[3];  // the front end's corners: px, px, depth01
+  glm::vec2 seen_[3];  // the front end's corners, px
   glm::dmat3 corner_;  // x w, y w, w
 };
 
@@ -55,17 +54,16 @@ VisibilityScene visibility_scene(std::span<const ScreenTriangle> triangles,
   const double near_z = scene.camera.near_z, far_z = scene.camera.far_z;
   VisibilityScene result{size.width, size.height, near_z, far_z, {}, {}};
   result.triangles.reserve(triangles.size());
-  const glm::dmat4 to_screen = screen_matrix(scene.camera, size.width, size.height);
   SourceTriangles sources(scene);
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const UnsnappedTriangle& at = unsnapped[i];
     VisibilityTriangle t{triangles[i], {}, {}, {}};
     const auto [instance, mesh, index] = sources.at(triangles[i].payload);
-    const SourceTriangle source(to_screen * glm::dmat4(model_matrix(instance)), mesh, index);
+    const SourceTriangle source({scene.camera, instance, size.width, size.height}, mesh, index);
     for (int k = 0; k < 3; ++k) {
       t.x_px[k] = at.x_px[k];
       t.y_px[k] = at.y_px[k];
-      t.view_z[k] = std::clamp(source.distance({at.x_px[k], at.y_px[k], at.z01[k]}), near_z, far_z);
+      t.view_z[k] = std::clamp(source.distance({at.x_px[k], at.y_px[k]}), near_z, far_z);
     }
     result.faces.push_back({static_cast<std::uint32_t>(i), 1});
     result.triangles.push_back(t);

@@ -9,9 +9,10 @@ const ClippingMethod clipping_discard_behind{
      "right where no vertex is nearer than the near plane", false},
     [](const ClippingScene& scene, ClippingFrame& frame) {
       draw_clipped(scene, frame, [&](const ClipVertex(&triangle)[3], std::uint32_t payload) {
-        const auto sides = sides_of(triangle, scene.size);
+        const auto sides = sides_of(triangle, frame.view);
         if (!sides || (*sides & kNear) != 0) return;
-        emit(frame.clipper.clip(triangle, *sides & (kFar | kGuard)), payload, scene.cull_back, frame);
+        emit(frame.clipper.clip(triangle, *sides & (kFar | kGuard), frame.view), payload, scene.cull_back,
+             frame);
       });
     },
     kNear,

@@ -13,14 +13,10 @@ const ClippingMethod clipping_near_too_near{
       draw_clipped(scene, frame, [&](const ClipVertex(&triangle)[3], std::uint32_t payload) {
         ClipVertex polygon[4];
         const auto count = cut<ClipVertex>(
-            triangle, polygon, [&](const ClipVertex& v) { return v.w - clip_w; },
-            [](const ClipVertex& a, const ClipVertex& b, float t) {
-              return ClipVertex{a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.z + t * (b.z - a.z),
-                                a.w + t * (b.w - a.w)};
-            });
+            triangle, polygon, [&](const ClipVertex& v) { return v.w - clip_w; }, lerp);
         for (std::size_t i = 2; i < count; ++i) {
           const ClipVertex piece[3] = {polygon[0], polygon[i - 1], polygon[i]};
-          emit(frame.clipper.clip(piece, kFar | kGuard), payload, scene.cull_back, frame);
+          emit(frame.clipper.clip(piece, kFar | kGuard, frame.view), payload, scene.cull_back, frame);
         }
       });
     },

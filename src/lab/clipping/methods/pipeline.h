@@ -9,31 +9,24 @@
 
 #include "edgewise/contract.h"
 #include "frontend/fixed.h"
+#include "frontend/transform.h"
 #include "lab/clipping/clipping.h"
 #include "lab/truth.h"
 
 namespace edgewise::lab {
 
-inline double focal_px(const ClippingScene& s) {
-  return s.size.height / 2.0 / std::tan(double{s.scene.camera.fov_y} / 2);
+inline ViewVolume view_of(const ClippingScene& s) {
+  return view_volume(s.scene.camera, s.size.width, s.size.height);
 }
 
-// World position → pixels and depth, both times w, in float.
+// World position → pixels times w, and w, in float, relative to the camera.
 class ToClip {
  public:
-  explicit ToClip(const ClippingScene& s)
-      : focal_(static_cast<float>(focal_px(s))),
-        half_width_(static_cast<float>(s.size.width) * 0.5f),
-        half_height_(static_cast<float>(s.size.height) * 0.5f),
-        near_(s.scene.camera.near_z),
-        depth_scale_(s.scene.camera.far_z / (s.scene.camera.far_z - near_)) {}
-  ClipVertex operator()(glm::vec3 p) const {
-    const float w = -p.z;
-    return {focal_ * p.x + half_width_ * w, -focal_ * p.y + half_height_ * w, depth_scale_ * (w - near_), w};
-  }
+  explicit ToClip(const ClippingScene& s) : to_screen_(s.scene.camera, {}, s.size.width, s.size.height) {}
+  ClipVertex operator()(glm::vec3 p) const { return as_clip_vertex(transform(to_screen_, p)); }
 
  private:
-  float focal_, half_width_, half_height_, near_, depth_scale_;
+  ScreenTransform to_screen_;
 };
 
 // Sutherland and Hodgman's clip at one plane: keeps vertices with distance >= 0; lerp(inside, outside, t)
@@ -43,7 +36,7 @@ std::size_t cut(std::span<const Vertex> from, Vertex* to, Distance&& distance, L
   std::size_t kept = 0;
   for (std::size_t i = 0; i < from.size(); ++i) {
     const Vertex &a = from[i], &b = from[i + 1 == from.size() ? 0 : i + 1];
-    const float da = distance(a), db = distance(b);
+    const auto da = static_cast<float>(distance(a)), db = static_cast<float>(distance(b));
     if (da >= 0.0f) to[kept++] = a;
     if (da >= 0.0f && db < 0.0f) to[kept++] = lerp(a, b, da / (da - db));
     if (da < 0.0f && db >= 0.0f) to[kept++] = lerp(b, a, db / (db - da));
@@ -51,13 +44,24 @@ std::size_t cut(std::span<const Vertex> from, Vertex* to, Distance&& distance, L
   return kept;
 }
 
+// The point between two vertices, rounded to float.
+inline ClipVertex lerp(const ClipVertex& a, const ClipVertex& b, float t) {
+  const auto between = [&](double from, double to) {
+    return double{static_cast<float>(from) + t * static_cast<float>(to - from)};
+  };
+  return {between(a.x, b.x), between(a.y, b.y), between(a.z, b.z), between(a.w, b.w)};
+}
+
 struct Projected {
   float x_px, y_px, z01;
 };
 
-inline Projected divide(const ClipVertex& v) {
-  const float inverse_w = 1.0f / v.w;
-  return {v.x * inverse_w, v.y * inverse_w, v.z * inverse_w};
+// In float, like most renderers.
+inline Projected divide(const ClipVertex& v, const ViewVolume& view) {
+  const auto w = static_cast<float>(v.w), near_z = static_cast<float>(view.near_z);
+  const float inverse_w = 1.0f / w, depth_scale = static_cast<float>(view.far_z / (view.far_z - view.near_z));
+  return {static_cast<float>(v.x) * inverse_w, static_cast<float>(v.y) * inverse_w,
+          depth_scale * (w - near_z) * inverse_w};
 }
 
 // Snaps a polygon and appends it as a fan. Drops polygons with NaN or infinite coordinates, and counts them.
@@ -92,34 +96,41 @@ inline void emit(std::span<const Projected> polygon, std::uint32_t payload, bool
 inline void emit(std::span<const ClipVertex> polygon, std::uint32_t payload, bool cull_back,
                  ClippingFrame& frame) {
   Projected projected[16];
-  std::transform(polygon.begin(), polygon.end(), projected, divide);
+  std::transform(polygon.begin(), polygon.end(), projected,
+                 [&](const ClipVertex& v) { return divide(v, frame.view); });
   emit(std::span<const Projected>(projected, polygon.size()), payload, cull_back, frame);
 }
 
 // The sides on which vertices of the triangle lie. nullopt if the triangle draws nothing, because all its
 // vertices lie on the same side or one is not finite.
-inline std::optional<std::uint16_t> sides_of(const ClipVertex (&v)[3], Size size) {
+inline std::optional<std::uint16_t> sides_of(const ClipVertex (&v)[3], const ViewVolume& view) {
   std::uint16_t sides[3];
-  for (int i = 0; i < 3; ++i)
-    sides[i] = outside_of(v[i], static_cast<float>(size.width), static_cast<float>(size.height));
+  for (int i = 0; i < 3; ++i) sides[i] = outside_of(v[i], view);
   const unsigned any = sides[0] | sides[1] | sides[2], all = sides[0] & sides[1] & sides[2];
   if ((any & kNotFinite) != 0 || (all & kInvisible) != 0) return std::nullopt;
   return static_cast<std::uint16_t>(any);
 }
 
-// A whole draw; per_triangle(vertices, payload) clips and emits.
-template <typename PerTriangle>
-void draw_clipped(const ClippingScene& scene, ClippingFrame& frame, PerTriangle&& per_triangle) {
+// A whole draw: to_clip(position) transforms a vertex, per_triangle(vertices, payload) clips and emits.
+template <typename Transform, typename PerTriangle>
+void draw_transformed(const ClippingScene& scene, ClippingFrame& frame, Transform&& to_clip,
+                      PerTriangle&& per_triangle) {
   frame.not_a_number = frame.out_of_range = 0;
+  frame.view = view_of(scene);
   frame.triangles.clear();
   const Mesh& mesh = scene.mesh();
   frame.vertices.resize(mesh.positions.size());
-  std::transform(mesh.positions.begin(), mesh.positions.end(), frame.vertices.begin(), ToClip(scene));
+  std::transform(mesh.positions.begin(), mesh.positions.end(), frame.vertices.begin(), to_clip);
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
     const glm::uvec3 t = mesh.triangles[i];
     per_triangle({frame.vertices[t.x], frame.vertices[t.y], frame.vertices[t.z]}, i);
   }
   frame.backend->draw(frame.triangles, frame.picture.view(), kNoTriangle, {});
+}
+
+template <typename PerTriangle>
+void draw_clipped(const ClippingScene& scene, ClippingFrame& frame, PerTriangle&& per_triangle) {
+  draw_transformed(scene, frame, ToClip(scene), per_triangle);
 }
 
 }  // namespace edgewise::lab

@@ -14,9 +14,9 @@ void draw_screen_clipped(const ClippingScene& scene, ClippingFrame& frame, Proje
   using Vertex = decltype(project(ClipVertex{}));
   const auto width = static_cast<float>(scene.size.width), height = static_cast<float>(scene.size.height);
   draw_clipped(scene, frame, [&](const ClipVertex(&triangle)[3], std::uint32_t payload) {
-    const auto sides = sides_of(triangle, scene.size);
+    const auto sides = sides_of(triangle, frame.view);
     if (!sides) return;
-    const auto in_front = frame.clipper.clip(triangle, *sides & (kNear | kFar));
+    const auto in_front = frame.clipper.clip(triangle, *sides & (kNear | kFar), frame.view);
     Vertex a[9], b[9];
     std::size_t count = in_front.size();
     std::transform(in_front.begin(), in_front.end(), a, project);

@@ -12,11 +12,12 @@ const ClippingMethod clipping_screen_edges{
      "long runs of pixels if they are nearly horizontal",
      false},
     [](const ClippingScene& scene, ClippingFrame& frame) {
-      const auto lerp = [](const Projected& a, const Projected& b, float t) {
+      const auto between = [](const Projected& a, const Projected& b, float t) {
         return Projected{a.x_px + t * (b.x_px - a.x_px), a.y_px + t * (b.y_px - a.y_px),
                          a.z01 + t * (b.z01 - a.z01)};
       };
-      draw_screen_clipped(scene, frame, divide, lerp, [](const Projected& p) { return p; });
+      const auto project = [&](const ClipVertex& v) { return divide(v, frame.view); };
+      draw_screen_clipped(scene, frame, project, between, [](const Projected& p) { return p; });
     },
     0,
     kReachPx / 2};

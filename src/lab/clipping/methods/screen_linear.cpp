@@ -22,15 +22,15 @@ const ClippingMethod clipping_screen_linear{
     [](const ClippingScene& scene, ClippingFrame& frame) {
       const float near_z = scene.scene.camera.near_z, far_z = scene.scene.camera.far_z;
       const float depth_scale = far_z / (far_z - near_z);
-      const auto project = [](const ClipVertex& v) {
-        const float inverse_w = 1.0f / v.w;
-        return AtDistance{v.x * inverse_w, v.y * inverse_w, v.w};
+      const auto project = [&](const ClipVertex& v) {
+        const Projected p = divide(v, frame.view);
+        return AtDistance{p.x_px, p.y_px, static_cast<float>(v.w)};
       };
-      const auto lerp = [](const AtDistance& a, const AtDistance& b, float t) {
+      const auto between = [](const AtDistance& a, const AtDistance& b, float t) {
         return AtDistance{a.x_px + t * (b.x_px - a.x_px), a.y_px + t * (b.y_px - a.y_px),
                           a.w + t * (b.w - a.w)};
       };
-      draw_screen_clipped(scene, frame, project, lerp, [&](const AtDistance& v) {
+      draw_screen_clipped(scene, frame, project, between, [&](const AtDistance& v) {
         return Projected{v.x_px, v.y_px, depth_scale * (1.0f - near_z / v.w)};
       });
     },
