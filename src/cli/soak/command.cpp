@@ -23,6 +23,7 @@
 #include "support/json_text.h"
 #include "support/options.h"
 #include "support/progress.h"
+#include "support/source.h"
 #include "support/stop_request.h"
 
 namespace edgewise::tools {
@@ -88,7 +89,7 @@ int finish(const SoakOptions& o, const std::string& path, const soak::Record& re
 int merge_command(const SoakOptions& o) {
   std::optional<soak::Record> all;
   for (const std::string& path : o.merge) {
-    const soak::Record record = soak::read_record(path);
+    const soak::Record record = soak::read_record(input_path(path));
     if (!all) {
       all = record;
       continue;
