@@ -84,8 +84,9 @@ InputFile open_input(const fs::path& path) {
   fs::path file = path;
   if (!fs::is_regular_file(status)) {
     const auto descriptor = descriptor_of(path);
-    if (!descriptor || (!fs::is_fifo(status) && !fs::is_socket(status) && isatty(*descriptor) == 0))
-      throw file_error(path, "is not a regular file");
+    if (!descriptor) throw file_error(path, "is not a regular file");
+    if (!fs::is_fifo(status) && !fs::is_socket(status) && isatty(*descriptor) == 0)
+      throw file_error(path, "is neither a regular file, a pipe nor a terminal");
     file = kept(*descriptor, path);
   }
   errno = 0;

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "core/atomic_file.h"
+#include "core/file_extension.h"
 #include "core/input_file.h"
 #include "core/nearest_name.h"
 #include "support/console.h"
@@ -153,11 +154,22 @@ void check_files(const std::vector<Output>& outputs, const std::vector<std::stri
   for (const std::string& input : inputs) {
     std::error_code not_there;  // a missing file cannot be overwritten
     const fs::path path = input_path(input);
-    if (!fs::is_regular_file(path, not_there)) continue;
+    if (!is_file_path(input) || !fs::is_regular_file(path, not_there)) continue;
     if (const auto output = taken.find(id_of(path).value()); output != taken.end())
       throw std::invalid_argument(fmt::format("{} {} would overwrite the input {}", output->second->option,
                                               output->second->path.string(), path.string()));
   }
+}
+
+void check_json_file(const std::string& json, const std::string& folder,
+                     const std::vector<std::string>& inputs) {
+  if (json.empty() || json == "-") return;
+  check_files({{"--json", json}}, inputs);
+  const std::string extension = extension_of(json);
+  if ((extension == ".png" || extension == ".tri") && !folder.empty() &&
+      id_of(folder) == id_of(fs::absolute(json).parent_path()))
+    throw std::invalid_argument(
+        fmt::format("--json {}: a file of the folder {} may have this name", json, folder));
 }
 
 }  // namespace edgewise::tools

@@ -60,4 +60,8 @@ class OutputPaths {
 // device and inode, or, if it does not exist yet, the same folder and name.
 void check_files(const std::vector<Output>& outputs, const std::vector<std::string>& inputs);
 
+// check_files() for --json of a command that also writes files to `folder` (.png, .tri), or to none if empty.
+void check_json_file(const std::string& json, const std::string& folder,
+                     const std::vector<std::string>& inputs);
+
 }  // namespace edgewise::tools
