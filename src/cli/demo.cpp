@@ -163,7 +163,7 @@ void add_demo(CLI::App& program, Action& action, viewer::ShowWindow show_window)
   command.add_option("TUTORIAL", o->names, "Tutorials that `edgewise demo` lists; only one with --view");
   command
       .add_option("-o,--output", o->output,
-                  "Picture (.png, .ppm), folder (made if missing), name with {scene}, or - for stdout")
+                  "Picture (.png, .ppm), folder (may be new), name with {scene}, or -")
       ->type_name("FILE");
   add_format(command, o->format, {Format::png, Format::ppm});
   add_integer(command, "--frames", o->frames, 1, kMostFrames,

@@ -122,7 +122,6 @@ constexpr const char* kDiffFooter = R"(Examples:
   edgewise diff a.png b.ppm
   edgewise diff a.pfm b.pfm -o where.png     (grey where equal, red where not)
   edgewise diff golden.png now.png --mask mask.png    (the mask of `edgewise portable`)
-
   edgewise render cube -o - | edgewise diff - golden.png
 
 Pictures are compared sample by sample, as RGB: palettes are looked up, grey is R = G = B, and alpha

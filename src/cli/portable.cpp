@@ -175,8 +175,7 @@ void add_portable(CLI::App& program, Action& action) {
   const auto o = std::make_shared<PortableOptions>();
   command.add_option("SCENE", o->scenes, "Scenes of `edgewise list`, or .obj or .tri files")->required();
   command
-      .add_option("-o,--output", o->mask,
-                  "Mask (.png, .ppm), folder (made if missing), name with {scene}, or - for stdout")
+      .add_option("-o,--output", o->mask, "Mask (.png, .ppm), folder (may be new), name with {scene}, or -")
       ->type_name("FILE");
   command.add_option("--picture", o->picture, "Reference picture, named like the mask")->type_name("FILE");
   add_format(command, o->format, {Format::png, Format::ppm});

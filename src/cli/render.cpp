@@ -226,8 +226,9 @@ The background is black in pictures, and 1 in depth files (PFM, floats in [0, 1]
 --payload hits shows how often each pixel is drawn: black never, grey once, yellow twice, red more.
 The printed times are of a single cold run. To measure, use edgewise_bench.
 
-SCENE may be standard input (- or /dev/stdin), an .obj or a .tri file. -o - writes to standard output,
-and messages go to stderr. --format pfm makes -o the depth file. Several pictures follow each other.)";
+SCENE may be standard input (- or /dev/stdin), as an .obj or .tri file. -o - writes to standard
+output; messages then go to stderr. With --format pfm, -o is the depth file. Several pictures on
+standard output follow each other.)";
 
 }  // namespace
 
@@ -237,7 +238,7 @@ void add_render(CLI::App& program, Action& action) {
   command.add_option("SCENE", o->scenes, "Scenes of `edgewise list`, or .obj or .tri files")->required();
   command
       .add_option("-o,--output", o->output,
-                  "Picture (.png, .ppm), folder (made if missing), name with {scene}, or - for stdout")
+                  "Picture (.png, .ppm), folder (may be new), name with {scene}, or -")
       ->type_name("FILE");
   command.add_option("--depth", o->depth, "Depth file (.pfm, floats), folder, name with {scene}, or -")
       ->type_name("FILE");

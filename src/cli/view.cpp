@@ -143,7 +143,7 @@ void add_view(CLI::App& program, Action& action, viewer::ShowWindow show_window)
   command.add_option("--keys", o->keys, "Keys to press at the start")->type_name("KEYS");
   command
       .add_option("-o,--output", o->output,
-                  "Write the resulting picture (.png, .ppm; - for stdout) and open no window")
+                  "Write the resulting picture (.png, .ppm, or -) and open no window")
       ->type_name("FILE");
   add_format(command, o->format, {Format::png, Format::ppm});
   add_integer(command, "--frames", o->frames, 1, kMostFrames,

@@ -64,7 +64,9 @@ void write_png(std::ostream& out, const fs::path& path, const Image& image) {
 class PngReader {
  public:
   explicit PngReader(const fs::path& path) : path_(path), file_(open_input(path)) {
-    if (png_ == nullptr || info_ == nullptr) throw std::bad_alloc();
+    if (png_ != nullptr && info_ != nullptr) return;
+    png_destroy_read_struct(&png_, &info_, nullptr);
+    throw std::bad_alloc();
   }
   ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
   PngReader(const PngReader&) = delete;

@@ -68,7 +68,7 @@ void add_format(CLI::App& command, std::optional<Format>& format, const std::vec
             format = static_cast<Format>(std::find(kFormatNames.begin(), kFormatNames.end(), text) -
                                          kFormatNames.begin());
           },
-          fmt::format("Format of an output without an extension: {} (png)", fmt::join(names, ", ")))
+          fmt::format("Format for - and for folders: {} (png)", fmt::join(names, ", ")))
       ->type_name("FORMAT");
 }
 

@@ -16,7 +16,7 @@ namespace edgewise::tools {
 
 enum class OutputKind { picture, depth };
 
-// Adds --format with these values, for outputs whose name does not tell the format.
+// Adds --format with these values, for outputs whose names do not give the format.
 void add_format(CLI::App& command, std::optional<Format>& format, const std::vector<Format>& choices);
 
 struct OutputFile {

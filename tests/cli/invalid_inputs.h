@@ -281,12 +281,12 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
     {"true | edgewise render - -o $DIR/a.png", 2, "/dev/stdin: has no faces"},
     {"cat $IN/index.obj | edgewise render - -o $DIR/a.png", 2,
      "/dev/stdin: line 4: a face names vertex 9 of 3"},
-    {"cat $IN/cut.tri | edgewise render - -o $DIR/a.png", 2, "/dev/stdin: is not a text file"},
+    {"cat $IN/cut.tri | edgewise render - -o $DIR/a.png", 2, "/dev/stdin: truncated: the header has 16"},
     {"cat $IN/lies.tri | edgewise render - -o $DIR/a.png", 2, "header promises 4294967295 triangles"},
     {"cat $IN/cut.ppm | edgewise diff - $IN/small.ppm", 2, "/dev/stdin: truncated"},
     {"cat $IN/good.obj | edgewise diff - $IN/small.ppm", 2, "/dev/stdin: unknown kind of file"},
     {"cat $IN/depth.pfm | edgewise diff - $IN/small.ppm", 2, "cannot be compared"},
-    {"cat $IN/cut.json | edgewise soak --merge -", 2, "/dev/stdin is not a complete record"},
+    {"cat $IN/cut.json | edgewise soak --merge -", 2, "/dev/stdin: is not a complete record"},
 
     // ---- Two outputs that are one file, and outputs that are inputs
     {"cd $DIR; edgewise portable cube --picture ./a.png -o a.png", 2, "would write the same file"},
