@@ -22,6 +22,7 @@
 #include "support/console.h"
 #include "support/machine.h"
 #include "support/options.h"
+#include "support/output_path.h"
 #include "support/process.h"
 #include "support/progress.h"
 
@@ -288,6 +289,12 @@ int run(int argc, char** argv) {
   if (!parsed) return 0;
   const Flags& flags = *parsed;
   initialize_benchmark(flags);
+  std::vector<tools::Output> files;
+  if (!flags.out.empty()) files.push_back({"--benchmark_out", flags.out});
+  if (!flags.model_out.empty()) files.push_back({"--model_out", flags.model_out});
+  std::vector<std::string> inputs = flags.suite.scenes;
+  inputs.insert(inputs.end(), flags.suite.more_scenes.begin(), flags.suite.more_scenes.end());
+  tools::check_files(files, inputs);
   std::optional<AtomicFile> out;
   if (!flags.out.empty()) out.emplace(flags.out);
   std::optional<AtomicFile> model_out;

@@ -27,18 +27,21 @@ struct CaptureOptions {
 };
 
 int capture(const CaptureOptions& o) {
-  if (extension_of(o.output) != ".tri")
+  const bool on_stdout = o.output == "-";
+  if (!on_stdout && extension_of(o.output) != ".tri")
     throw std::invalid_argument("--output " + o.output + ": the name must end in .tri");
-  check_output_is_not_input(o.output, o.scene);
+  const std::string output = on_stdout ? "/dev/stdout" : o.output;
+  if (on_stdout) print_to_stderr();
+  check_files({{"--output", output}}, {o.scene});
   const Shot shot = load_shot(o.scene, o.options, o.options.time.value_or(0.0));
   Frontend frontend;
   const auto triangles = frontend.run(shot.source.drawable, shot.frontend);
 
-  AtomicFile file(o.output);
+  AtomicFile file(output);
   write_tri(file.stream(), lab::to_stream(triangles, shot.frontend.width, shot.frontend.height));
   file.commit();
   print(fmt::format("{} ({}x{}): {}\n  -> {}\n", printable(shot.source.name), shot.frontend.width,
-                    shot.frontend.height, stats_text(frontend.stats()), printable(o.output)));
+                    shot.frontend.height, stats_text(frontend.stats()), printable(output)));
   return kDone;
 }
 
@@ -58,7 +61,9 @@ void add_capture(CLI::App& program, Action& action) {
   CLI::App& command = *program.add_subcommand("capture", "Write a scene's screen triangles as a .tri stream");
   const auto o = std::make_shared<CaptureOptions>();
   command.add_option("SCENE", o->scene, "A scene of `edgewise list`, or an .obj or .tri file")->required();
-  command.add_option("-o,--output", o->output, "Stream file, .tri")->required()->type_name("FILE");
+  command.add_option("-o,--output", o->output, "Stream file, .tri; - for stdout")
+      ->required()
+      ->type_name("FILE");
   o->options.add_to(command);
   command.footer(kCaptureFooter);
   command.callback([o, &action] { action = [o] { return capture(*o); }; });

@@ -31,6 +31,7 @@ constexpr int kMostFrames = 100000;
 struct DemoOptions {
   std::vector<std::string> names;
   std::optional<std::string> output;
+  std::optional<Format> format;
   int frames = 1;
   bool view = false, terminal = false, json = false;
   std::optional<Size> size;
@@ -82,10 +83,10 @@ void write_frames(const viewer::Demo& demo, const DemoOptions& o, const OutputPa
   const int scale = viewer::font_scale(size.height);
   const viewer::Cell cell = viewer::font_cell(scale);
   const auto write_next = [&](viewer::Screen& screen) {
-    const std::string path = paths.path(std::string(demo.name), ++frame).string();
-    write_screen(path, screen, scale);
+    const OutputFile file = paths.file(std::string(demo.name), ++frame);
+    write_screen(file, screen, scale);
     progress.erase();
-    print(printable(path) + "\n");
+    print(printable(file.path.string()) + "\n");
     progress.show(static_cast<double>(frame) / o.frames, demo.name);
   };
   viewer::Film film(session, size, cell, seconds / o.frames, [&](viewer::Screen& screen) {
@@ -99,7 +100,10 @@ void write_frames(const viewer::Demo& demo, const DemoOptions& o, const OutputPa
 }
 
 int write_all(const DemoOptions& o) {
-  const OutputPaths paths("--output", *o.output, OutputPaths::Kind::picture, o.names, o.frames);
+  const OutputPaths paths("--output", *o.output, OutputKind::picture, o.names, o.frames, o.format);
+  std::vector<Output> files;
+  paths.append_to(files);
+  check_files(files, {});
   paths.make_folder();
   Progress progress;
   for (const std::string& name : o.names) write_frames(viewer::find_demo(name), o, paths, progress);
@@ -159,8 +163,9 @@ void add_demo(CLI::App& program, Action& action, viewer::ShowWindow show_window)
   command.add_option("TUTORIAL", o->names, "Tutorials that `edgewise demo` lists; only one with --view");
   command
       .add_option("-o,--output", o->output,
-                  "Picture (.png, .ppm), folder (made if missing), or name with {scene}")
+                  "Picture (.png, .ppm), folder (may be new), name with {scene}, or -")
       ->type_name("FILE");
+  add_format(command, o->format, {Format::png, Format::ppm});
   add_integer(command, "--frames", o->frames, 1, kMostFrames,
               "Number of pictures, spread over all steps (1)");
   command.add_flag("--view", o->view, "Show it in a window");

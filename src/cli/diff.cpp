@@ -4,16 +4,18 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
 #include "cli/commands.h"
-#include "core/file_extension.h"
 #include "edgewise/image.h"
+#include "image/samples.h"
 #include "support/console.h"
 #include "support/json_text.h"
 #include "support/output_path.h"
+#include "support/source.h"
 
 namespace edgewise::tools {
 
@@ -21,16 +23,15 @@ namespace {
 
 struct DiffOptions {
   std::string a, b, mask, output;
+  std::optional<Format> format;
   bool json = false;
 };
 
-bool is_depth_path(const std::string& path) {
-  return extension_of(path) == ".pfm";
-}
-
-void check_kind(const std::string& path) {
-  if (!is_depth_path(path) && !is_image_path(path))
+bool is_depth(const std::string& path) {
+  const auto format = format_of_input(path);
+  if (!format)
     throw std::invalid_argument(path + ": unknown kind of file; .png, .ppm and .pfm can be compared");
+  return format == Format::pfm;
 }
 
 template <typename A, typename B>
@@ -42,27 +43,35 @@ void check_sizes(const std::string& a_path, const A& a, const std::string& b_pat
 
 struct MaskedDifference {
   Difference outside;         // of the mask
+  int scale;                  // the largest sample; 1 for depths
   std::uint64_t masked = 0;   // pixels of the mask that are not black
   std::uint64_t ignored = 0;  // of those, the pixels that differ
 };
 
-std::vector<std::uint32_t>& pixels_of(Image& image) {
+auto& pixels_of(Samples& image) {
   return image.pixels;
 }
-std::vector<float>& pixels_of(DepthMap& map) {
+auto& pixels_of(DepthMap& map) {
   return map.depth01;
+}
+
+int scale_of(const Samples& a, const Samples& b) {
+  return a.deep || b.deep ? 65535 : 255;
+}
+int scale_of(const DepthMap&, const DepthMap&) {
+  return 1;
 }
 
 template <typename T>
 MaskedDifference masked_difference(const DiffOptions& o, T a, T b) {
   check_sizes(o.a, a, o.b, b);
-  if (o.mask.empty()) return {difference(a, b)};
-  const Image mask = read_image(o.mask);
+  MaskedDifference result{difference(a, b), scale_of(a, b)};
+  if (o.mask.empty()) return result;
+  const Samples mask = read_samples(o.mask);
   check_sizes(o.a, a, o.mask, mask);
-  const std::uint64_t all = difference(a, b).count;
-  MaskedDifference result;
+  const std::uint64_t all = result.outside.count;
   for (std::size_t i = 0; i < mask.pixels.size(); ++i) {
-    if ((mask.pixels[i] & 0xFFFFFF) == 0) continue;
+    if (mask.pixels[i] == Samples::Pixel{}) continue;
     ++result.masked;
     pixels_of(b)[i] = pixels_of(a)[i];
   }
@@ -71,27 +80,27 @@ MaskedDifference masked_difference(const DiffOptions& o, T a, T b) {
   return result;
 }
 
-int diff(const DiffOptions& o) {
-  check_kind(o.a);
-  check_kind(o.b);
-  const bool depth = is_depth_path(o.a);
-  if (depth != is_depth_path(o.b))
+int diff(DiffOptions o) {
+  for (std::string* input : {&o.a, &o.b, &o.mask}) *input = input_path(*input);
+  const bool depth = is_depth(o.a);
+  if (depth != is_depth(o.b))
     throw std::invalid_argument(
         fmt::format("{} and {}: a picture cannot be compared with a depth file", o.a, o.b));
-  if (!o.output.empty() && !is_image_path(o.output))
-    throw std::invalid_argument("--output " + o.output + ": the name must end in .png or .ppm");
-  if (!o.mask.empty() && !is_image_path(o.mask))
-    throw std::invalid_argument("--mask " + o.mask + ": the name must end in .png or .ppm");
-  for (const std::string& input : {o.a, o.b, o.mask}) check_output_is_not_input(o.output, input);
+  std::optional<OutputFile> output;
+  if (!o.output.empty()) {
+    output = output_file("--output", o.output, OutputKind::picture, o.format);
+    check_files({{"--output", output->path}}, {o.a, o.b, o.mask});
+  }
 
   const MaskedDifference masked = depth ? masked_difference(o, read_pfm(o.a), read_pfm(o.b))
-                                        : masked_difference(o, read_image(o.a), read_image(o.b));
+                                        : masked_difference(o, read_samples(o.a), read_samples(o.b));
   const Difference& d = masked.outside;
-  if (!o.output.empty()) write_image(o.output, d.picture);
+  if (output) write_image(output->path, d.picture, output->format);
   const auto pixels = std::uint64_t(d.picture.width) * std::uint64_t(d.picture.height);
   if (o.json) {
     nlohmann::json result{
         {"pixels", pixels}, {"differing", d.count}, {"largest", d.largest}, {"first", nullptr}};
+    if (!depth) result["scale"] = masked.scale;
     if (d.count > 0) result["first"] = {d.first_x, d.first_y};
     if (!o.mask.empty()) result["masked"] = masked.masked, result["differing_in_mask"] = masked.ignored;
     print(json_text(result) + "\n");
@@ -99,10 +108,10 @@ int diff(const DiffOptions& o) {
     const std::string_view where = o.mask.empty() ? "" : " outside the mask";
     const std::uint64_t compared = pixels - masked.masked;
     std::string text =
-        d.count == 0
-            ? fmt::format("equal: {} pixels{}", compared, where)
-            : fmt::format("{} of {} pixels{} differ, by up to {:.9g}{}; the first at x {}, y {}", d.count,
-                          compared, where, d.largest, depth ? "" : " of 255", d.first_x, d.first_y);
+        d.count == 0 ? fmt::format("equal: {} pixels{}", compared, where)
+                     : fmt::format("{} of {} pixels{} differ, by up to {:.9g}{}; the first at x {}, y {}",
+                                   d.count, compared, where, d.largest,
+                                   depth ? "" : fmt::format(" of {}", masked.scale), d.first_x, d.first_y);
     if (!o.mask.empty()) text += fmt::format("; {} of {} in the mask differ", masked.ignored, masked.masked);
     print(text + "\n");
   }
@@ -113,9 +122,15 @@ constexpr const char* kDiffFooter = R"(Examples:
   edgewise diff a.png b.ppm
   edgewise diff a.pfm b.pfm -o where.png     (grey where equal, red where not)
   edgewise diff golden.png now.png --mask mask.png    (the mask of `edgewise portable`)
+  edgewise render cube -o - | edgewise diff - golden.png
 
-Pictures are compared as 8-bit RGB: 16-bit PNGs are reduced to 8 bits, and alpha is ignored.
-With --mask, pixels count as equal where the mask is not black.
+Pictures are compared sample by sample, as RGB: palettes are looked up, grey is R = G = B, and alpha
+and transparent colours (tRNS) are ignored. Nothing converts colours: gAMA, iCCP, sRGB and cHRM are
+ignored. An 8-bit sample v equals the 16-bit sample 257 v. If one of the pictures has 16 bits, the
+difference is given of 65535, otherwise of 255. Samples of a PPM with another maximum are scaled to
+255 or 65535 and rounded. With --mask, pixels count as equal where the mask is not black.
+
+A, B and --mask may be standard input: - or /dev/stdin. With -o -, messages go to stderr.
 
 Exit status: 0 equal, 1 different, 2 cannot be compared.)";
 
@@ -126,9 +141,11 @@ void add_diff(CLI::App& program, Action& action) {
   const auto o = std::make_shared<DiffOptions>();
   command.add_option("A", o->a, "Picture (.png, .ppm) or depth file (.pfm)")->required();
   command.add_option("B", o->b, "Another file of the same kind and size")->required();
-  command.add_option("-o,--output", o->output, "Picture of the difference, .png or .ppm")->type_name("FILE");
+  command.add_option("-o,--output", o->output, "Picture of the difference (.png, .ppm; - for stdout)")
+      ->type_name("FILE");
   command.add_option("--mask", o->mask, "Picture that is not black where A and B may differ")
       ->type_name("FILE");
+  add_format(command, o->format, {Format::png, Format::ppm});
   command.add_flag("--json", o->json, "Print JSON");
   command.footer(kDiffFooter);
   command.callback([o, &action] { action = [o] { return diff(*o); }; });

@@ -56,6 +56,7 @@ std::string as_text() {
     if (scene.stream) text += line(scene.name, scene.summary);
   text += "Files that can replace a scene name:\n" + line("*.obj", "Wavefront meshes");
   text += line("*.tri", "triangle streams, written by edgewise capture");
+  text += line("-", "standard input, with either of them");
   text += "Backends, the reference first:\n";
   for (const BackendInfo& backend : backends()) text += line(backend.name, backend.summary);
   text += "SIMD targets of this machine:\n";

@@ -16,7 +16,6 @@
 #include "cli/accuracy/closeup.h"
 #include "cli/accuracy/speed.h"
 #include "cli/commands.h"
-#include "core/file_extension.h"
 #include "support/console.h"
 #include "support/json_text.h"
 #include "support/options.h"
@@ -227,7 +226,7 @@ class NeedsCommand {
     for (const std::string& scene : options.scenes) {
       check_source(scene);
       const std::string name = source_name(scene);
-      const bool stream = is_file_path(scene) ? extension_of(scene) == ".tri" : find_scene(scene).stream;
+      const bool stream = is_file_path(scene) ? is_stream_file(scene) : find_scene(scene).stream;
       if (options.orbit > 0 && stream)
         throw std::invalid_argument("--orbit: '" + name + "' is a stream of triangles and has no camera");
       if (options.frames > 1 && is_file_path(scene))

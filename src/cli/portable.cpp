@@ -31,6 +31,7 @@ struct PortableOptions {
   lab::Conformance model;
   bool ids = false, json = false;
   std::string mask, picture;
+  std::optional<Format> format;
 };
 
 // By lab::Unstable.
@@ -62,12 +63,14 @@ class PortableCommand {
       names.push_back(source_name(scene));
     }
     const auto outputs = [&](const char* option, const std::string& path) {
-      return OutputPaths(option, path, OutputPaths::Kind::picture, names, 1);
+      return OutputPaths(option, path, OutputKind::picture, names, 1, options.format);
     };
     if (!options.mask.empty()) masks_ = outputs("--output", options.mask);
     if (!options.picture.empty()) pictures_ = outputs("--picture", options.picture);
-    if (masks_ && pictures_ && masks_->path(names.front(), 1) == pictures_->path(names.front(), 1))
-      throw std::invalid_argument("--output and --picture would write the same file");
+    std::vector<Output> files;
+    if (masks_) masks_->append_to(files);
+    if (pictures_) pictures_->append_to(files);
+    check_files(files, options.scenes);
   }
 
   void run() {
@@ -87,14 +90,13 @@ class PortableCommand {
         lab::portable_pixels(lab::portable_triangles(shot.source.drawable, frontend), frontend.width,
                              frontend.height, options_.model, options_.execution.execution.threads);
     std::vector<std::string> files;
-    if (masks_) {
-      files.push_back(masks_->path(shot.source.name, 1).string());
-      write_image(files.back(), mask_of(found));
-    }
-    if (pictures_) {
-      files.push_back(pictures_->path(shot.source.name, 1).string());
-      write_image(files.back(), reference(shot));
-    }
+    const auto write = [&](const OutputPaths& paths, const Image& image) {
+      const OutputFile file = paths.file(shot.source.name, 1);
+      files.push_back(file.path.string());
+      write_image(file.path, image, file.format);
+    };
+    if (masks_) write(*masks_, mask_of(found));
+    if (pictures_) write(*pictures_, reference(shot));
     progress_.erase();
     report(shot, found, files);
   }
@@ -173,9 +175,10 @@ void add_portable(CLI::App& program, Action& action) {
   const auto o = std::make_shared<PortableOptions>();
   command.add_option("SCENE", o->scenes, "Scenes of `edgewise list`, or .obj or .tri files")->required();
   command
-      .add_option("-o,--output", o->mask, "Mask (.png, .ppm), folder (made if missing), or name with {scene}")
+      .add_option("-o,--output", o->mask, "Mask (.png, .ppm), folder (may be new), name with {scene}, or -")
       ->type_name("FILE");
   command.add_option("--picture", o->picture, "Reference picture, named like the mask")->type_name("FILE");
+  add_format(command, o->format, {Format::png, Format::ppm});
   command.add_flag("--ids", o->ids, "The reference picture shows triangle ids, as `render --payload id`");
   command
       .add_option_function<std::string>(

@@ -40,6 +40,7 @@ struct RenderOptions {
   bool wireframe = false;
   PixelKind pixel_kind = PixelKind::colour;
   std::string output, depth;
+  std::optional<Format> format;
   int frames = 1;
   std::optional<double> fps;
   bool json = false;
@@ -77,14 +78,24 @@ class Renderer {
       check_source(scene);
       names.push_back(source_name(scene));
     }
-    const auto outputs = [&](const char* option, const std::string& path, bool depth) {
-      return OutputPaths(option, path, depth ? OutputPaths::Kind::depth : OutputPaths::Kind::picture, names,
-                         options.frames);
+    const auto outputs = [&](const char* option, const std::string& path, OutputKind kind,
+                             std::optional<Format> format) {
+      return OutputPaths(option, path, kind, names, options.frames, format);
     };
-    if (!options.output.empty()) images_ = outputs("--output", options.output, false);
-    if (!options.depth.empty()) depths_ = outputs("--depth", options.depth, true);
+    const bool output_is_depth = options.format == Format::pfm;
+    if (output_is_depth && !options.depth.empty())
+      throw std::invalid_argument("--format pfm and --depth exclude each other");
+    if (!options.depth.empty()) depths_ = outputs("--depth", options.depth, OutputKind::depth, {});
+    if (!options.output.empty())
+      (output_is_depth ? depths_ : images_) =
+          outputs("--output", options.output, output_is_depth ? OutputKind::depth : OutputKind::picture,
+                  options.format);
     if (!images_ && !depths_)
       throw std::invalid_argument("nothing to write: give --output FILE or --depth FILE");
+    std::vector<Output> files;
+    if (images_) images_->append_to(files);
+    if (depths_) depths_->append_to(files);
+    check_files(files, options.scenes);
   }
 
   void run() {
@@ -136,7 +147,7 @@ class Renderer {
         [&] { backend_->draw(triangles, frame_->view(), background_of(shot.frontend.payload), execution); });
 
     if (depths_) {
-      picture.files.push_back(depths_->path(shot.source.name, frame).string());
+      picture.files.push_back(depths_->file(shot.source.name, frame).path.string());
       write_pfm(picture.files.back(), to_depth_map(*frame_));
     }
     if (options_.pixel_kind == PixelKind::hits) {
@@ -152,8 +163,9 @@ class Renderer {
   }
 
   void write_picture(Picture& picture, int frame, const Image& image) {
-    picture.files.push_back(images_->path(picture.scene, frame).string());
-    write_image(picture.files.back(), image);
+    const OutputFile file = images_->file(picture.scene, frame);
+    picture.files.push_back(file.path.string());
+    write_image(file.path, image, file.format);
   }
 
   void report(const Picture& picture) {
@@ -206,12 +218,17 @@ constexpr const char* kRenderFooter = R"(Examples:
   edgewise render cube sphere torus-knot -o pictures/        (pictures/cube.png, ...)
   edgewise render cube --frames 90 --fps 30 -o turn.png      (turn-0001.png, ...)
   edgewise render grid4 --payload hits -o hits.png           (is every pixel hit once?)
+  edgewise render - --fit -o - --format ppm <bunny.obj | display
 
 The background is black in pictures, and 1 in depth files (PFM, floats in [0, 1]).
 --payload id writes (id + 1) * 0x9E3779 modulo 2^24 as a colour, R in the lowest byte. Each triangle
   has its own colour, and ids below 16,777,215 can be recovered exactly.
 --payload hits shows how often each pixel is drawn: black never, grey once, yellow twice, red more.
-The printed times are of a single cold run. To measure, use edgewise_bench.)";
+The printed times are of a single cold run. To measure, use edgewise_bench.
+
+SCENE may be standard input (- or /dev/stdin), as an .obj or .tri file. -o - writes to standard
+output; messages then go to stderr. With --format pfm, -o is the depth file. Several pictures on
+standard output follow each other.)";
 
 }  // namespace
 
@@ -221,10 +238,11 @@ void add_render(CLI::App& program, Action& action) {
   command.add_option("SCENE", o->scenes, "Scenes of `edgewise list`, or .obj or .tri files")->required();
   command
       .add_option("-o,--output", o->output,
-                  "Picture (.png, .ppm), folder (made if missing), or name with {scene}")
+                  "Picture (.png, .ppm), folder (may be new), name with {scene}, or -")
       ->type_name("FILE");
-  command.add_option("--depth", o->depth, "Depth file (.pfm, floats), folder, or name with {scene}")
+  command.add_option("--depth", o->depth, "Depth file (.pfm, floats), folder, name with {scene}, or -")
       ->type_name("FILE");
+  add_format(command, o->format, {Format::png, Format::ppm, Format::pfm});
   command.add_option("--backend", o->backend, "Backend of `edgewise list` (tiled)")->type_name("NAME");
   command.add_flag("--wireframe", o->wireframe, "Draw only the edges of triangles, one pixel wide");
   command

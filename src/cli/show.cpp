@@ -15,14 +15,14 @@ void check_windows(viewer::ShowWindow show_window) {
         "libsdl2-dev and rebuild");
 }
 
-void write_screen(const std::filesystem::path& path, viewer::Screen& screen, int font_scale) {
+void write_screen(const OutputFile& file, viewer::Screen& screen, int font_scale) {
   viewer::paint(screen, font_scale);
-  write_image(path, screen.picture);
+  write_image(file.path, screen.picture, file.format);
 }
 
-void write_picture(const std::filesystem::path& path, viewer::Session& session, Size size) {
+void write_picture(const OutputFile& file, viewer::Session& session, Size size) {
   const int scale = viewer::font_scale(size.height);
-  write_screen(path, session.draw(size, viewer::font_cell(scale)), scale);
+  write_screen(file, session.draw(size, viewer::font_cell(scale)), scale);
 }
 
 void print_saved(viewer::Session& session) {

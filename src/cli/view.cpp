@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "cli/commands.h"
 #include "cli/show.h"
@@ -31,6 +32,7 @@ struct ViewOptions {
   SceneOptions options;
   ExecutionOptions execution;
   std::optional<glm::vec3> axis;
+  std::optional<Format> format;
   bool terminal = false;
   int frames = 0;
 };
@@ -58,8 +60,11 @@ viewer::Session make_session(const ViewOptions& o, Shot first) {
 
 int view(const ViewOptions& o, viewer::ShowWindow show_window) {
   const auto strokes = viewer::parse_keys(o.keys);
-  if (!o.output.empty() && !is_image_path(o.output))
-    throw std::invalid_argument(fmt::format("--output {}: the name must end in .png or .ppm", o.output));
+  std::optional<OutputFile> output;
+  if (!o.output.empty()) {
+    output = output_file("--output", o.output, OutputKind::picture, o.format);
+    check_files({{"--output", output->path}}, {o.scene});
+  }
   if (o.terminal && (!o.output.empty() || o.frames > 0))
     throw std::invalid_argument("--terminal cannot be combined with --output or --frames");
   if (!o.output.empty() && o.frames > 0)
@@ -71,8 +76,11 @@ int view(const ViewOptions& o, viewer::ShowWindow show_window) {
   viewer::Session session = make_session(o, std::move(shot));
   if (!o.terminal || !strokes.empty())
     viewer::type(session, strokes, size, viewer::font_cell(viewer::font_scale(size.height)));
-  if (!o.output.empty()) {
-    write_picture(o.output, session, size);
+  if (output) {
+    std::vector<Output> files{{"--output", output->path}};
+    for (const std::string& saved : session.saved()) files.push_back({"the key p", saved});
+    check_files(files, {});
+    write_picture(*output, session, size);
   } else if (o.terminal) {
     viewer::show_in_terminal(session);
   } else {
@@ -137,8 +145,11 @@ void add_view(CLI::App& program, Action& action, viewer::ShowWindow show_window)
           "Rotation axis of the objects (the first object's)")
       ->type_name("X,Y,Z");
   command.add_option("--keys", o->keys, "Keys to press at the start")->type_name("KEYS");
-  command.add_option("-o,--output", o->output, "Write the resulting picture (.png, .ppm) and open no window")
+  command
+      .add_option("-o,--output", o->output,
+                  "Write the resulting picture (.png, .ppm, or -) and open no window")
       ->type_name("FILE");
+  add_format(command, o->format, {Format::png, Format::ppm});
   add_integer(command, "--frames", o->frames, 1, kMostFrames,
               "Draw N frames without a frame-rate limit, print their times and quit");
   command.add_option("--save-to", o->folder, "Folder for files saved with p (.)")->type_name("DIR");

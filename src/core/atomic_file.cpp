@@ -4,7 +4,10 @@
 #include "core/atomic_file.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
+#include <sys/mman.h>
+#include <sys/sendfile.h>
 #include <unistd.h>
 
 #include <array>
@@ -13,6 +16,7 @@
 #include <climits>
 #include <cstring>
 #include <string>
+#include <utility>
 
 #include "core/input_file.h"
 
@@ -31,7 +35,10 @@ struct Slot {
 };
 std::array<Slot, 32> slots;
 std::atomic<bool> ending{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
+std::atomic<int> overwriting{0};  // files
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
+
+constexpr std::array kEndSignals{SIGINT, SIGTERM, SIGHUP, SIGQUIT};
 
 // If another thread is ending the process, removes the file just begun and waits for the end.
 void wait_if_ending(const fs::path& begun) {
@@ -47,7 +54,7 @@ extern "C" void remove_temporaries(int signal_number) {
 }
 
 void install_handlers() {
-  for (const int signal_number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) {
+  for (const int signal_number : kEndSignals) {
     struct sigaction action {};
     // Keeps signals that are ignored (nohup) or have another handler.
     if (sigaction(signal_number, nullptr, &action) != 0 || action.sa_handler != SIG_DFL) continue;
@@ -74,13 +81,27 @@ void release_slot(int slot) {
   if (slot >= 0) slots[static_cast<std::size_t>(slot)].state.store(SlotState::free);
 }
 
-// Devices and pipes are written directly, because a rename over /dev/null would replace it. So are names such
-// as /dev/stdout, which may refer to a regular file that another process holds open.
-bool is_written_directly(const fs::path& path, const fs::file_status& status) {
-  const std::string name = fs::absolute(path).lexically_normal().string();
-  return name.starts_with("/dev/std") || name.starts_with("/dev/fd/") || name.starts_with("/proc/") ||
-         (fs::exists(status) && !fs::is_regular_file(status));
-}
+// While one exists, signals that end the process wait.
+class Overwriting {
+ public:
+  Overwriting() {
+    sigset_t ends;
+    sigemptyset(&ends);
+    for (const int signal_number : kEndSignals) sigaddset(&ends, signal_number);
+    pthread_sigmask(SIG_BLOCK, &ends, &before_);
+    ++overwriting;
+    while (ending) pause();
+  }
+  ~Overwriting() {
+    --overwriting;
+    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
+  Overwriting(const Overwriting&) = delete;
+  Overwriting& operator=(const Overwriting&) = delete;
+
+ private:
+  sigset_t before_;
+};
 
 std::runtime_error write_error(const fs::path& path, int error = errno) {
   return file_error(path, error != 0 ? std::string("cannot be written: ") + std::strerror(error)
@@ -89,35 +110,50 @@ std::runtime_error write_error(const fs::path& path, int error = errno) {
 
 }  // namespace
 
+fs::path after_links(fs::path path) {
+  constexpr int kMostLinks = 40;
+  std::error_code error;
+  for (int i = 0; i < kMostLinks && !descriptor_of(path) && fs::is_symlink(path, error); ++i)
+    path = path.parent_path() / fs::read_symlink(path);
+  return path;
+}
+
 void remove_unfinished_files() {
   ending = true;
+  while (overwriting > 0) poll(nullptr, 0, 1);
   for (Slot& slot : slots)
     if (slot.state.load() == SlotState::live) unlink(slot.path);
 }
 
-void FileBuffer::note(bool failed) {
-  if (failed && error_ == 0) error_ = errno;
+void FileBuffer::attach(int descriptor) {
+  close();
+  descriptor_ = descriptor;
+  setp(buffer_.data(), buffer_.data() + buffer_.size());
 }
 
-std::streamsize FileBuffer::xsputn(const char* text, std::streamsize size) {
-  errno = 0;
-  const std::streamsize written = std::filebuf::xsputn(text, size);
-  note(written != size);
-  return written;
+bool FileBuffer::close() {
+  sync();
+  if (descriptor_ >= 0 && ::close(descriptor_) != 0 && error_ == 0) error_ = errno;
+  descriptor_ = -1;
+  return error_ == 0;
 }
 
 FileBuffer::int_type FileBuffer::overflow(int_type c) {
-  errno = 0;
-  const int_type result = std::filebuf::overflow(c);
-  note(traits_type::eq_int_type(result, traits_type::eof()));
-  return result;
+  if (sync() != 0) return traits_type::eof();
+  return traits_type::eq_int_type(c, traits_type::eof()) ? traits_type::not_eof(c)
+                                                         : sputc(traits_type::to_char_type(c));
 }
 
 int FileBuffer::sync() {
-  errno = 0;
-  const int result = std::filebuf::sync();
-  note(result != 0);
-  return result;
+  for (const char* at = pbase(); at < pptr() && error_ == 0;) {
+    const ssize_t written = write(descriptor_, at, static_cast<std::size_t>(pptr() - at));
+    if (written >= 0)
+      at += written;
+    else if (errno != EINTR)
+      error_ = errno;
+  }
+  setp(pbase(), epptr());
+  return error_ == 0 ? 0 : -1;
 }
 
 AtomicFile::AtomicFile(const fs::path& path) : path_(path) {
@@ -125,64 +161,103 @@ AtomicFile::AtomicFile(const fs::path& path) : path_(path) {
   const fs::file_status status = fs::status(path_, error);
   if (status.type() == fs::file_type::none) throw file_error(path, "cannot be written: " + error.message());
   if (fs::is_directory(status)) throw file_error(path, "is a directory");
-  if (is_written_directly(path_, status)) {
-    errno = 0;
-    if (buffer_.open(path_, std::ios::out | std::ios::binary) == nullptr) throw write_error(path_);
+  target_ = after_links(path_);
+  if (open_directly(status)) return;
+
+  const bool exists = fs::exists(status);
+  if (exists && access(target_.c_str(), W_OK) != 0) throw write_error(path_);
+  install_handlers();
+  if (make_temporary()) {
+    if (exists) fs::permissions(temporary_, status.permissions(), error);
     return;
   }
-
-  if (fs::exists(status)) {
-    path_ = fs::canonical(path_);  // keep a symbolic link, replace its target
-    if (access(path_.c_str(), W_OK) != 0) throw write_error(path_);
+  const int reason = errno;
+  if (exists) {
+    buffer_.attach(memfd_create("edgewise", MFD_CLOEXEC));
+    if (buffer_.descriptor() < 0) throw write_error(path_);
+    return;
   }
-  install_handlers();
+  const fs::path folder = target_.parent_path();
+  if (folder.empty() || fs::exists(folder, error)) throw write_error(path_, reason);
+  throw file_error(path, "cannot be written: there is no folder " + folder.string());
+}
 
+// A rename over /dev/null would replace it, and one over /dev/stdout a file that another process holds open.
+bool AtomicFile::open_directly(const fs::file_status& status) {
+  const auto descriptor = descriptor_of(target_);
+  const bool in_proc = fs::absolute(target_).lexically_normal().string().starts_with("/proc/");
+  direct_ = descriptor || in_proc || (fs::exists(status) && !fs::is_regular_file(status));
+  if (!direct_) return false;
+  buffer_.attach(descriptor ? fcntl(*descriptor, F_DUPFD_CLOEXEC, 0)
+                            : open(target_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+  if (buffer_.descriptor() < 0) throw write_error(path_);
+  return true;
+}
+
+bool AtomicFile::make_temporary() {
   // Not derived from the final name, which may already have the maximum length.
   static std::atomic<unsigned> counter = 0;
   int descriptor = -1;
   do {
     release_slot(slot_);
-    temporary_ = path_.parent_path() / (".edgewise." + std::to_string(getpid()) + "." +
-                                        std::to_string(counter.fetch_add(1)) + ".partial");
+    temporary_ = target_.parent_path() / (".edgewise." + std::to_string(getpid()) + "." +
+                                          std::to_string(counter.fetch_add(1)) + ".partial");
     slot_ = claim_slot(temporary_.string());
     if (slot_ < 0)
-      throw file_error(path, "cannot be written: the path is too long, or too many files are open");
+      throw file_error(path_, "cannot be written: the path is too long, or too many files are open");
     wait_if_ending(temporary_);
     descriptor = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   } while (descriptor < 0 && errno == EEXIST);
   if (descriptor < 0) {
-    const int reason = errno;
-    release_slot(slot_);
-    const fs::path folder = path_.parent_path();
-    if (folder.empty() || fs::exists(folder, error)) throw write_error(path, reason);
-    throw file_error(path, "cannot be written: there is no folder " + folder.string());
+    release_slot(std::exchange(slot_, -1));
+    return false;
   }
-  close(descriptor);
-  if (buffer_.open(temporary_, std::ios::out | std::ios::binary) == nullptr) {
-    const int reason = errno;
-    unlink(temporary_.c_str());
-    release_slot(slot_);
-    throw write_error(path, reason);
-  }
+  buffer_.attach(descriptor);
   wait_if_ending(temporary_);
-  if (fs::exists(status)) fs::permissions(temporary_, status.permissions(), error);
+  return true;
 }
 
 AtomicFile::~AtomicFile() {
   if (slot_ < 0) return;
-  buffer_.close();
   unlink(temporary_.c_str());
   release_slot(slot_);
 }
 
 void AtomicFile::commit() {
-  errno = 0;
-  const bool closed = buffer_.close() != nullptr;
-  if (!closed || !stream_) throw write_error(path_, buffer_.error() != 0 ? buffer_.error() : errno);
-  if (slot_ < 0) return;
-  if (std::rename(temporary_.c_str(), path_.c_str()) != 0) throw write_error(path_);
-  release_slot(slot_);
-  slot_ = -1;
+  stream_.flush();
+  const bool renames = slot_ >= 0;
+  if (direct_ || renames) buffer_.close();
+  if (direct_ && buffer_.error() == EPIPE) return;
+  if (!stream_ || buffer_.error() != 0) throw write_error(path_, buffer_.error());
+  if (direct_) return;
+  if (renames) {
+    if (std::rename(temporary_.c_str(), target_.c_str()) == 0) {
+      release_slot(std::exchange(slot_, -1));
+      return;
+    }
+    const int reason = errno;
+    if (access(target_.c_str(), F_OK) != 0) throw write_error(path_, reason);
+    buffer_.attach(open(temporary_.c_str(), O_RDONLY | O_CLOEXEC));
+  }
+  overwrite();
+}
+
+void AtomicFile::overwrite() {
+  const Overwriting signals_wait;
+  const int from = buffer_.descriptor();
+  FileBuffer to;
+  to.attach(open(target_.c_str(), O_WRONLY | O_CLOEXEC));
+  if (from < 0 || to.descriptor() < 0) throw write_error(path_);
+  const off_t size = lseek(from, 0, SEEK_END), older = lseek(to.descriptor(), 0, SEEK_END);
+  if (const int full = size > older ? posix_fallocate(to.descriptor(), older, size - older) : 0; full != 0) {
+    [[maybe_unused]] const int shrunk = ftruncate(to.descriptor(), older);
+    throw write_error(path_, full);
+  }
+  lseek(to.descriptor(), 0, SEEK_SET);
+  for (off_t done = 0; done < size;)
+    if (sendfile(to.descriptor(), from, &done, static_cast<std::size_t>(size - done)) <= 0)
+      throw write_error(path_);
+  if (ftruncate(to.descriptor(), size) != 0 || !to.close()) throw write_error(path_);
 }
 
 }  // namespace edgewise

@@ -1,15 +1,79 @@
 #include "core/input_file.h"
 
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <array>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
+#include <map>
+#include <mutex>
+#include <string_view>
 #include <system_error>
+
+#include "edgewise/limits.h"
 
 namespace edgewise {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+std::runtime_error system_error(const fs::path& path) {
+  return file_error(path, std::strerror(errno));
+}
+
+void copy(int from, int to, const fs::path& path) {
+  std::array<char, 1 << 16> block;
+  std::uint64_t size = 0;
+  for (;;) {
+    const ssize_t count = read(from, block.data(), block.size());
+    if (count == 0) return;
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) throw system_error(path);
+    if ((size += static_cast<std::uint64_t>(count)) > kMaxObjBytes)
+      throw file_error(path, "has more than " + std::to_string(kMaxObjBytes) + " bytes");
+    for (ssize_t done = 0; done < count;) {
+      const ssize_t written = write(to, block.data() + done, static_cast<std::size_t>(count - done));
+      if (written < 0) throw system_error(path);
+      done += written;
+    }
+  }
+}
+
+// A file in memory with all that can be read from the descriptor.
+fs::path kept(int descriptor, const fs::path& path) {
+  static std::mutex mutex;
+  static std::map<int, fs::path> files;
+  const std::lock_guard lock(mutex);
+  fs::path& file = files[descriptor];
+  if (!file.empty()) return file;
+  const int memory = memfd_create("edgewise", MFD_CLOEXEC);
+  if (memory < 0) throw system_error(path);
+  copy(descriptor, memory, path);
+  return file = "/proc/self/fd/" + std::to_string(memory);
+}
+
+}  // namespace
+
 std::runtime_error file_error(const fs::path& path, const std::string& reason) {
   return std::runtime_error(path.string() + ": " + reason);
+}
+
+std::optional<int> descriptor_of(const fs::path& path) {
+  const std::string name = fs::absolute(path).lexically_normal().string();
+  constexpr std::array<std::string_view, 3> kStreams{"/dev/stdin", "/dev/stdout", "/dev/stderr"};
+  for (std::size_t i = 0; i < kStreams.size(); ++i)
+    if (name == kStreams[i]) return static_cast<int>(i);
+  for (const std::string_view folder : {"/dev/fd/", "/proc/self/fd/"}) {
+    if (!name.starts_with(folder)) continue;
+    int descriptor = 0;
+    const char* const end = name.data() + name.size();
+    const auto parsed = std::from_chars(name.data() + folder.size(), end, descriptor);
+    if (parsed.ec == std::errc() && parsed.ptr == end) return descriptor;
+  }
+  return {};
 }
 
 InputFile open_input(const fs::path& path) {
@@ -17,13 +81,26 @@ InputFile open_input(const fs::path& path) {
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status)) throw file_error(path, error ? error.message() : "no such file");
   if (fs::is_directory(status)) throw file_error(path, "is a directory");
-  if (!fs::is_regular_file(status)) throw file_error(path, "is not a regular file");
+  fs::path file = path;
+  if (!fs::is_regular_file(status)) {
+    const auto descriptor = descriptor_of(path);
+    if (!descriptor) throw file_error(path, "is not a regular file");
+    if (!fs::is_fifo(status) && !fs::is_socket(status) && isatty(*descriptor) == 0)
+      throw file_error(path, "is neither a regular file, a pipe nor a terminal");
+    file = kept(*descriptor, path);
+  }
   errno = 0;
-  InputFile file{std::ifstream(path, std::ios::binary), 0};
-  if (!file.stream) throw file_error(path, errno != 0 ? std::strerror(errno) : "cannot be opened");
-  file.size = fs::file_size(path, error);
+  InputFile opened{std::ifstream(file, std::ios::binary), 0};
+  if (!opened.stream) throw file_error(path, errno != 0 ? std::strerror(errno) : "cannot be opened");
+  opened.size = fs::file_size(file, error);
   if (error) throw file_error(path, error.message());
-  return file;
+  return opened;
+}
+
+bool starts_with(const fs::path& path, std::string_view text) {
+  std::string start(text.size(), '\0');
+  return open_input(path).stream.read(start.data(), static_cast<std::streamsize>(start.size())) &&
+         start == text;
 }
 
 }  // namespace edgewise

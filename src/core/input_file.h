@@ -4,21 +4,30 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace edgewise {
 
 // "PATH: REASON", the form of all messages about files.
 std::runtime_error file_error(const std::filesystem::path& path, const std::string& reason);
 
+// The open descriptor that a name stands for: 0 for /dev/stdin, 3 for /dev/fd/3 or /proc/self/fd/3.
+std::optional<int> descriptor_of(const std::filesystem::path& path);
+
 struct InputFile {
   std::ifstream stream;  // binary, at its start
   std::uint64_t size;    // bytes
 };
 
-// Throws file_error() unless the path is a regular file that can be read. Pipes and devices are refused: they
-// may never end, and have no size to check a header's counts against.
+// Throws file_error() unless the path is a regular file that can be read, or a descriptor_of() a pipe, a
+// socket or a terminal. Those are read to their end once and kept, so that they can be opened again. Other
+// pipes and devices are refused: they may never end, and have no size to check a header's counts against.
 InputFile open_input(const std::filesystem::path& path);
+
+// Whether the file starts with this text. Throws what open_input throws.
+bool starts_with(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace edgewise

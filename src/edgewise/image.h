@@ -29,12 +29,13 @@ DepthMap to_depth_map(const ConstFrameView& frame);  // contract units (rule 6) 
 
 // The next four functions throw std::runtime_error, with the file's name and the reason, if
 // - the file cannot be opened, read or written,
-// - it is malformed, truncated or of another format,
+// - it is malformed, truncated, too long or of another format,
 // - a side is outside 1 … contract::kMaxImageSide,
 // - the picture to write does not have width x height pixels.
-// A written file appears under its name only when it is complete.
+// A written file appears under its name only when it is complete, unless it can only be written in place.
 
-// PNG or PPM (P6), by the extension .png or .ppm.
+// PNG or PPM (P6), by the extension .png or .ppm. Samples are read as stored, without colour conversion;
+// alpha is ignored, and 16-bit samples v become 255 v / 65535, rounded.
 void write_image(const std::filesystem::path& path, const Image& image);
 Image read_image(const std::filesystem::path& path);
 

@@ -8,6 +8,7 @@
 #include "edgewise/contract.h"
 #include "edgewise/image.h"
 #include "edgewise/scene.h"
+#include "image/samples.h"
 
 namespace edgewise {
 
@@ -80,6 +81,23 @@ Difference difference(const Image& a, const Image& b) {
       [&](std::size_t i) {
         const std::uint32_t p = a.pixels[i], sum = (p & 255) + (p >> 8 & 255) + (p >> 16 & 255);
         return sum * kBrightestGrey / (3 * 255);
+      });
+}
+
+Difference difference(const Samples& a, const Samples& b) {
+  require_same_size(a, b);
+  const double unit = a.deep || b.deep ? 1.0 : 257.0;
+  return compare(
+      a.width, a.height,
+      [&](std::size_t i) {
+        int largest = 0;
+        for (std::size_t c = 0; c < 3; ++c)
+          largest = std::max(largest, std::abs(a.pixels[i][c] - b.pixels[i][c]));
+        return largest / unit;
+      },
+      [&](std::size_t i) {
+        const auto& [r, g, blue] = a.pixels[i];
+        return (std::uint32_t{r} + g + blue) * kBrightestGrey / (3 * 65535);
       });
 }
 

@@ -39,19 +39,25 @@ Reader::Reader(const std::filesystem::path& path, std::string_view magic)
     : path_(path), file_(open_input(path)) {
   std::string start(magic.size(), '\0');
   file_.stream.read(start.data(), static_cast<std::streamsize>(start.size()));
-  if (start != magic || !is_blank(file_.stream.peek()))
-    throw file_error(path_, "does not start with " + std::string(magic));
+  if (start == magic) end_ = next();
+  if (!is_blank(end_)) throw file_error(path_, "does not start with " + std::string(magic));
+}
+
+// The next character. A comment counts as the line end behind it, even if it begins inside a word.
+int Reader::next() {
+  int c = file_.stream.get();
+  if (c != '#') return c;
+  while (c != '\n' && c != '\r' && file_.stream) c = file_.stream.get();
+  return c;
 }
 
 std::string Reader::word() {
-  std::istream& in = file_.stream;
-  while (is_blank(in.peek()) || in.peek() == '#')
-    if (in.get() == '#')
-      for (int c = in.get(); c != '\n' && in;) c = in.get();
   std::string word;
-  while (word.size() < kMaxWord && in.peek() > ' ' && in.peek() <= '~')
-    word.push_back(static_cast<char>(in.get()));
-  if (word.empty() || !is_blank(in.peek())) throw file_error(path_, "malformed or truncated header");
+  do end_ = next();
+  while (is_blank(end_));
+  for (; word.size() < kMaxWord && end_ > ' ' && end_ <= '~'; end_ = next())
+    word.push_back(static_cast<char>(end_));
+  if (word.empty() || !is_blank(end_)) throw file_error(path_, "malformed or truncated header");
   return word;
 }
 
@@ -70,12 +76,16 @@ Size Reader::size() {
 }
 
 void Reader::check_rest(std::uint64_t bytes) {
-  file_.stream.get();
-  const auto position = static_cast<std::uint64_t>(file_.stream.tellg());
-  const std::uint64_t rest = file_.size - position;
-  if (rest < bytes)
-    throw file_error(path_, "truncated: header promises " + std::to_string(bytes) + " bytes, " +
-                                std::to_string(rest) + " follow");
+  std::istream& in = file_.stream;
+  std::uint64_t rest = file_.size - static_cast<std::uint64_t>(in.tellg());
+  // The header may end in CR LF, and the samples may begin with the byte LF: their number decides.
+  if (rest == bytes + 1 && end_ == '\r' && in.peek() == '\n') {
+    in.get();
+    --rest;
+  }
+  if (rest != bytes)
+    throw file_error(path_, (rest < bytes ? "truncated" : "too long") + std::string(": header promises ") +
+                                std::to_string(bytes) + " bytes, " + std::to_string(rest) + " follow");
 }
 
 void Reader::read(void* samples, std::size_t bytes) {

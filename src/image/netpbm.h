@@ -24,7 +24,8 @@ Size checked_size(const std::filesystem::path& path, std::uint64_t width, std::u
 void check_pixels(const std::filesystem::path& path, int width, int height, std::size_t pixels);
 
 // Reads the words of a file's header, then its samples. Comments from # to the end of the line are skipped.
-// All functions throw std::runtime_error, with the file's name, if the file is malformed or truncated.
+// All functions throw std::runtime_error, with the file's name, if the file is malformed, truncated or too
+// long.
 class Reader {
  public:
   Reader(const std::filesystem::path& path, std::string_view magic);
@@ -33,7 +34,8 @@ class Reader {
   std::uint64_t integer();
   Size size();
 
-  // Reads `count` samples. They begin one blank after the last word.
+  // Reads `count` samples, which must be the rest of the file. They begin one blank or CR LF after the last
+  // word.
   template <typename Sample>
   std::vector<Sample> samples(std::size_t count) {
     check_rest(count * sizeof(Sample));
@@ -43,11 +45,13 @@ class Reader {
   }
 
  private:
+  int next();
   void check_rest(std::uint64_t bytes);
   void read(void* samples, std::size_t bytes);
 
   const std::filesystem::path& path_;
   InputFile file_;
+  int end_ = 0;  // the character behind the last word
 };
 
 }  // namespace edgewise::netpbm

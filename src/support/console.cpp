@@ -13,8 +13,16 @@
 
 namespace edgewise::tools {
 
+namespace {
+std::FILE* printed = stdout;
+}
+
 void print(std::string_view text) {
-  std::fwrite(text.data(), 1, text.size(), stdout);
+  std::fwrite(text.data(), 1, text.size(), printed);
+}
+
+void print_to_stderr() {
+  printed = stderr;
 }
 
 bool stdout_is_whole() {

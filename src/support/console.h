@@ -5,7 +5,10 @@
 
 namespace edgewise::tools {
 
-void print(std::string_view text);  // to stdout
+void print(std::string_view text);  // to stdout, or after print_to_stderr() to stderr
+
+// For commands that write a file's data to stdout.
+void print_to_stderr();
 
 // Flushes stdout. False if any output since the start was lost, for example on a full disk. A pipe that its
 // reader has closed counts as success.

@@ -1,35 +1,67 @@
-// Output file names for several scenes or frames.
+// Output file names: pictures and depth files, of one or of several scenes and frames.
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "image/format.h"
+
+namespace CLI {
+class App;
+}
+
 namespace edgewise::tools {
 
-// `pattern` is a file, a name that contains "{scene}", or a folder: an existing one, or a name that ends in a
-// slash and is created if missing. Files in a folder are named after their scenes, .png or .pfm. With several
-// frames,
-// "-0001" and so on precedes the extension. The constructor throws std::invalid_argument if several scenes
-// would write the same file, or if the extension is not that of a picture (.png, .ppm) or a depth file
-// (.pfm).
-class OutputPaths {
- public:
-  enum class Kind { picture, depth };
-  OutputPaths(const std::string& option, const std::string& pattern, Kind kind,
-              const std::vector<std::string>& scenes, int frames);
+enum class OutputKind { picture, depth };
 
-  std::filesystem::path path(const std::string& scene, int frame) const;
-  void make_folder() const;  // throws std::runtime_error on failure
+// Adds --format with these values, for outputs whose names do not give the format.
+void add_format(CLI::App& command, std::optional<Format>& format, const std::vector<Format>& choices);
 
- private:
-  std::filesystem::path pattern_;
-  int frames_;
-  bool own_folder_ = false;
+struct OutputFile {
+  std::filesystem::path path;
+  Format format;
 };
 
-// Throws std::invalid_argument if both paths name the same file, even with different spellings or through
-// links.
-void check_output_is_not_input(const std::string& output, const std::string& input);
+// The file that an option names; "-" is standard output, and then print() writes to stderr. The extension
+// gives the format, and must not contradict `format`. Standard output has none: there `format` decides, and
+// by default it is PNG or PFM. Throws std::invalid_argument.
+OutputFile output_file(const std::string& option, const std::string& text, OutputKind kind,
+                       std::optional<Format> format);
+
+struct Output {
+  std::string option;
+  std::filesystem::path path;
+};
+
+// `pattern` is what output_file() takes, a name that contains "{scene}", or a folder: an existing one, or a
+// name that ends in a slash and is created if missing. Files in a folder are named after their scenes. With
+// several frames, "-0001" and so on precedes the extension; on standard output they follow each other. The
+// constructor throws std::invalid_argument for several scenes and one name, and what output_file() throws.
+class OutputPaths {
+ public:
+  OutputPaths(const std::string& option, const std::string& pattern, OutputKind kind,
+              std::vector<std::string> scenes, int frames, std::optional<Format> format = {});
+
+  OutputFile file(const std::string& scene, int frame) const;
+  void append_to(std::vector<Output>& outputs) const;  // all files
+  void make_folder() const;                            // throws std::runtime_error on failure
+
+ private:
+  std::string option_;
+  OutputFile pattern_;
+  std::vector<std::string> scenes_;
+  int frames_;
+  bool on_descriptor_ = false, own_folder_ = false;
+};
+
+// Throws std::invalid_argument if two outputs are one file, or an output is one of the inputs: the same
+// device and inode, or, if it does not exist yet, the same folder and name.
+void check_files(const std::vector<Output>& outputs, const std::vector<std::string>& inputs);
+
+// check_files() for --json of a command that also writes files to `folder` (.png, .tri), or to none if empty.
+void check_json_file(const std::string& json, const std::string& folder,
+                     const std::vector<std::string>& inputs);
 
 }  // namespace edgewise::tools

@@ -22,12 +22,23 @@ Source load_built_in(const std::string& name, const SceneRequest& request, bool 
 
 }  // namespace
 
+std::string input_path(const std::string& text) {
+  return text == "-" ? "/dev/stdin" : text;
+}
+
 bool is_file_path(const std::string& name_or_path) {
-  return name_or_path.find('/') != std::string::npos || std::filesystem::path(name_or_path).has_extension();
+  return name_or_path == "-" || name_or_path.find('/') != std::string::npos ||
+         std::filesystem::path(name_or_path).has_extension();
+}
+
+bool is_stream_file(const std::string& path) {
+  const std::string file = input_path(path);
+  return descriptor_of(file) ? starts_with(file, "TRI1") : extension_of(file) == ".tri";
 }
 
 std::string source_name(const std::string& name_or_path) {
-  return is_file_path(name_or_path) ? std::filesystem::path(name_or_path).stem().string() : name_or_path;
+  return is_file_path(name_or_path) ? std::filesystem::path(input_path(name_or_path)).stem().string()
+                                    : name_or_path;
 }
 
 void check_source(const std::string& name_or_path) {
@@ -35,28 +46,28 @@ void check_source(const std::string& name_or_path) {
     find_scene(name_or_path);
     return;
   }
+  const std::string path = input_path(name_or_path);
   std::error_code ignored;
-  if (!std::filesystem::exists(name_or_path, ignored))
-    throw std::invalid_argument(name_or_path + ": no such file");
-  const std::string extension = extension_of(name_or_path);
-  if (extension != ".tri" && extension != ".obj")
-    throw std::invalid_argument(name_or_path + ": unknown kind of file; .obj and .tri can be read");
+  if (!std::filesystem::exists(path, ignored)) throw std::invalid_argument(path + ": no such file");
+  if (!descriptor_of(path) && extension_of(path) != ".obj" && !is_stream_file(path))
+    throw std::invalid_argument(path + ": unknown kind of file; .obj and .tri can be read");
 }
 
 Source load_source(const std::string& name_or_path, const SceneRequest& request, bool fit_mesh) {
   check_source(name_or_path);
   if (!is_file_path(name_or_path)) return load_built_in(name_or_path, request, fit_mesh);
-  if (extension_of(name_or_path) == ".tri") return {source_name(name_or_path), read_tri(name_or_path), true};
-  Scene scene = read_obj(name_or_path);
+  const std::string path = input_path(name_or_path);
+  if (is_stream_file(path)) return {source_name(path), read_tri(path), true};
+  Scene scene = read_obj(path);
   if (fit_mesh) {
     try {
       fit(scene);
     } catch (const std::invalid_argument& error) {
-      throw file_error(name_or_path, error.what());
+      throw file_error(path, error.what());
     }
   }
   frame_camera(scene, static_cast<double>(request.width) / request.height);
-  return {source_name(name_or_path), std::move(scene), false};
+  return {source_name(path), std::move(scene), false};
 }
 
 }  // namespace edgewise::tools

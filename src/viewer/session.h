@@ -110,7 +110,8 @@ class Session {
   const Side& side(std::size_t i) const { return sides_[i]; }
   const World& world() const { return *world_; }
   std::size_t vertex_count() const;  // of all objects
-  // Returns the names of the files saved since the last call.
+  // The names of the files saved since the last take_saved().
+  const std::vector<std::string>& saved() const { return saved_; }
   std::vector<std::string> take_saved();
 
  private:

@@ -31,7 +31,7 @@ constexpr int kSkipped = 77;
 // `stopped SIGNAL COMMAND…` runs a command until a file appears in $DIR (with awaited=NAME before it, this
 // file), sends the signal, and returns the command's status. `unprivileged COMMAND…` runs a command as a user
 // without root's permissions, or skips the row. Each call uses another user, because process limits count per
-// user.
+// user. `isolated SCRIPT` runs a script whose mounts end with it, or skips the row.
 constexpr const char* kWords = R"(
 set -m
 for descriptor in {3..20}; do eval "exec $descriptor>&-"; done  # descriptors that ctest leaves open
@@ -54,6 +54,10 @@ stopped() {
   done
   kill -s "$signal" $!
   wait $!
+}
+isolated() {
+  unshare -m true 2>/dev/null || exit 77
+  unshare -m bash -c "$1"
 }
 unprivileged() {
   local somebody="--reuid=$((100000 + $$)) --regid=65534 --clear-groups"

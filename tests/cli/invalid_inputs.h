@@ -5,7 +5,7 @@ namespace edgewise::testing {
 
 struct InvalidInputRow {
   // Bash. `edgewise` and `bench` run the programs. $DIR is an empty folder for output; $IN holds the files
-  // that invalid_input_test.cpp writes. That file defines more commands: stopped, unprivileged.
+  // that invalid_input_test.cpp writes. That file defines more commands: stopped, unprivileged, isolated.
   const char* script;
   int status;
   const char* said;  // substring of stderr
@@ -36,7 +36,7 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
     {"edgewise render cube -o $DIR/a.png --colour", 2, "--colour"},
     {"edgewise capture cube", 2, "--output is required"},
     {"edgewise diff $IN/small.ppm", 2, "B is required"},
-    {"edgewise diff $IN/small.ppm $IN/small.ppm --mask $IN/good.obj", 2, "must end in .png or .ppm"},
+    {"edgewise diff $IN/small.ppm $IN/small.ppm --mask $IN/good.obj", 2, "is neither a .png nor a .ppm"},
     {"edgewise diff $IN/small.ppm $IN/small.ppm --mask $IN/none.png", 2, "none.png: No such file"},
     {"edgewise needs", 2, "SCENE is required"},
     {"edgewise needs cub", 2, "did you mean 'cube'"},
@@ -56,6 +56,11 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
     {"edgewise portable cube --depth d32", 2, "did you mean 'd32_sfloat'"},
     {"edgewise portable cube -o $DIR/a.png --picture $DIR/a.png", 2, "would write the same file"},
     {"edgewise portable cube cubes -o $DIR/a.png", 2, "a.png"},
+    {"edgewise render cube -o - --format jpg", 2, "unknown format 'jpg'; did you mean 'png'"},
+    {"edgewise portable cube -o - --format pfm", 2, "unknown format 'pfm'"},
+    {"edgewise render cube -o $DIR/a.png --format ppm", 2, "with --format ppm the name must end in .ppm"},
+    {"edgewise render cube -o $DIR/a.png --format pfm", 2, "must end in .pfm"},
+    {"edgewise render cube -o - --format pfm --depth $DIR/a.pfm", 2, "exclude each other"},
     {"edgewise diff $IN/small.ppm $IN/small.ppm $IN/small.ppm", 2, "small.ppm"},
     {"bench --sizee 5", 2,
      "unknown option '--sizee'; did you mean '--size'? (edgewise_bench --help lists all)"},
@@ -268,9 +273,83 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
     {"edgewise diff $IN/small.ppm $IN/mesh.stl -o $DIR/a.png", 2, "unknown kind of file"},
     {"edgewise diff $IN/small.ppm $IN/other.ppm -o $DIR/a.png", 1, "", "a.png"},
 
+    // ---- Standard input
+    {"edgewise render - -o $DIR/a.png <&-", 2,
+     "/dev/stdin: is neither a regular file, a pipe nor a terminal"},
+    {"edgewise render - -o $DIR/a.png </dev/zero", 2, "nor a terminal"},
+    {"edgewise render /dev/fd/99 -o $DIR/a.png", 2, "/dev/fd/99: no such file"},
+    {"true | edgewise render - -o $DIR/a.png", 2, "/dev/stdin: has no faces"},
+    {"cat $IN/index.obj | edgewise render - -o $DIR/a.png", 2,
+     "/dev/stdin: line 4: a face names vertex 9 of 3"},
+    {"cat $IN/cut.tri | edgewise render - -o $DIR/a.png", 2, "/dev/stdin: truncated: the header has 16"},
+    {"cat $IN/lies.tri | edgewise render - -o $DIR/a.png", 2, "header promises 4294967295 triangles"},
+    {"cat $IN/cut.ppm | edgewise diff - $IN/small.ppm", 2, "/dev/stdin: truncated"},
+    {"cat $IN/good.obj | edgewise diff - $IN/small.ppm", 2, "/dev/stdin: unknown kind of file"},
+    {"cat $IN/depth.pfm | edgewise diff - $IN/small.ppm", 2, "cannot be compared"},
+    {"cat $IN/cut.json | edgewise soak --merge -", 2, "/dev/stdin: is not a complete record"},
+
+    // ---- Two outputs that are one file, and outputs that are inputs
+    {"cd $DIR; edgewise portable cube --picture ./a.png -o a.png", 2, "would write the same file"},
+    {"mkdir $IN/a; edgewise portable cube --picture $IN/a/../a/b.png -o $IN/a/b.png", 2, "the same file"},
+    {"edgewise portable cube --picture $DIR/a/ -o $DIR/./a/", 2, "would write the same file"},
+    {"ln -s $DIR $IN/a; edgewise portable cube --picture $IN/a/b.png -o $DIR/b.png", 2, "the same file"},
+    {"ln -s $DIR/b.png $IN/a.png; edgewise portable cube --picture $IN/a.png -o $DIR/b.png", 2,
+     "the same file"},
+    {"printf older >$DIR/older.png; ln $DIR/older.png $IN/a.png;"
+     "edgewise portable cube --picture $IN/a.png -o $DIR/older.png",
+     2, "would write the same file", "older.png"},
+    {"edgewise portable sphere cube --picture $DIR/{scene}.png -o $DIR/", 2, "would write the same file"},
+    {"ln -s $DIR/a.pfm $IN/a.png; edgewise render cube -o $IN/a.png --depth $DIR/a.pfm", 2, "the same file"},
+    {"ln -s $IN/a-0002.png $IN/a-0001.png; edgewise render cube --frames 2 -o $IN/a.png", 2,
+     "two pictures would be written to "},
+    {"ln -s sphere.png $IN/cube.png; edgewise render cube sphere -o $IN/", 2,
+     "two pictures would be written"},
+    {"ln -s a-0003.png $IN/a-0001.png; edgewise demo outlaw-triad --frames 3 -o $IN/a.png", 2,
+     "two pictures"},
+    {"edgewise render cube -o - --depth -", 2, "--output and --depth would write the same file"},
+    {"edgewise portable cube -o - --picture /dev/stdout | cat; exit ${PIPESTATUS[0]}", 2, "the same file"},
+    {"printf older >$DIR/older.json; ln -s $DIR/older.json $IN/a.json; bench $SHORT "
+     "--benchmark_out=$DIR/older.json --model_out=$IN/a.json",
+     2, "--benchmark_out and --model_out would write the same file", "older.json"},
+    {"bench $SHORT --benchmark_out=/dev/null --model_out=/dev/null", 0, ""},
+    {"edgewise view cube --keys p --save-to $IN -o $IN/cube-0001.png", 2, "would write the same file"},
+    {"ln -s good.obj $IN/a.png; edgewise render $IN/good.obj -o $IN/a.png", 2, "would overwrite the input"},
+    {"ln -s good.obj $IN/a.png; edgewise portable $IN/good.obj -o $IN/a.png", 2, "would overwrite the input"},
+    {"ln -s good.obj $IN/a.png; edgewise view $IN/good.obj -o $IN/a.png", 2, "would overwrite the input"},
+    {"cp $IN/good.obj $IN/a.png; edgewise render - -o $IN/a.png <$IN/a.png", 2, "would overwrite the input"},
+    {"edgewise verify $IN/good.obj --json $IN/good.obj", 2, "would overwrite the input"},
+    {"edgewise accuracy $IN/good.obj --json $IN/good.obj", 2, "would overwrite the input"},
+    {"bench --scene $IN/good.obj --benchmark_out=$IN/good.obj", 2, "would overwrite the input"},
+    {"edgewise accuracy --pictures $IN --json $DIR/../$(basename $IN)/coverage-a-b.png", 2, "this name"},
+    {"edgewise verify cube --out $DIR/no --json $DIR/no/a.tri", 2, "may have this name"},
+
+    // ---- Files that can only be written in place
+    {"printf older >$DIR/a.png; chmod 666 $DIR/a.png; chmod 555 $DIR;"
+     "unprivileged edgewise render cube -o $DIR/a.png",
+     0, "", "a.png"},
+    {"printf older >$DIR/a.json; chmod 666 $DIR/a.json; chmod 555 $DIR;"
+     "unprivileged edgewise verify cube --size 65x33 --json $DIR/a.json",
+     0, "", "a.json"},
+    {"printf '%9999s' older >$DIR/a.tri; chmod 666 $DIR/a.tri; chmod 1777 $DIR;"  // shorter than before
+     "unprivileged edgewise capture cube -o $DIR/a.tri",
+     0, "", "a.tri"},
+    {"printf older >$DIR/a.json; chmod 666 $DIR/a.json; chmod 1777 $DIR;"
+     "unprivileged bench $SHORT --benchmark_out=$DIR/a.json",
+     0, "", "a.json"},
+    {"printf older >$DIR/older.ppm; chmod 666 $DIR/older.ppm; chmod 555 $DIR; ulimit -f 64;"
+     "unprivileged edgewise render cube --size 640x480 -o $DIR/older.ppm",
+     2, "older.ppm: cannot be written: File too large", "older.ppm"},
+    {"touch $DIR/a.png; isolated 'printf older >$IN/b; mount --bind $IN/b $DIR/a.png;"
+     "\"$EDGEWISE\" render cube -o $DIR/a.png' && cp $IN/b $DIR/a.png",
+     0, "", "a.png"},
+    {"printf older >$DIR/older.ppm; isolated 'mount -t tmpfs -o size=64k none $IN; printf older >$IN/b;"
+     "mount --bind $IN/b $DIR/older.ppm; \"$EDGEWISE\" render cube --size 640x480 -o $DIR/older.ppm;"
+     "status=$?; cat $IN/b >&3; exit $status' 3>$DIR/older",
+     2, "older.ppm: cannot be written: No space left on device", "older older.ppm"},
+
     // ---- Output files that cannot be written
     {"edgewise render cube sphere -o $DIR/a.png", 2, "{scene}"},
-    {"edgewise render cube cube -o $DIR/", 2, "two scenes would be written to"},
+    {"edgewise render cube cube -o $DIR/", 2, "two pictures would be written to"},
     {"edgewise render grid4 cube --scale 2 -o $DIR/", 2, "--scale"},
     {"edgewise render cube -o $DIR/a.jpg", 2, ".png or .ppm"},
     {"edgewise render cube -o $DIR/a.png --depth $DIR/a.png", 2, ".pfm"},

@@ -268,6 +268,125 @@ TEST_F(ProgramRenders, FilesThatDiffCompares) {
   EXPECT_EQ(read_image(path("d.png")).width, 64);
 }
 
+// Bash in the test's folder; `edgewise` runs the program.
+Outcome script_in(const TempDir& folder, const std::string& script) {
+  const auto file = folder.write("script", "cd '" + folder.path().string() +
+                                               "'; edgewise() { '" EDGEWISE_PROGRAM "' \"$@\"; }\n" + script);
+  return testing::run_program("/bin/bash", "'" + file.string() + "'");
+}
+
+TEST_F(ProgramRenders, ToStandardOutputWithMessagesOnStandardError) {
+  const std::string scene = "cube --size 60x40";
+  ASSERT_EQ(script_in(folder_, "edgewise render " + scene +
+                                   " -o a.png --depth a.pfm\n"
+                                   "edgewise portable " +
+                                   scene +
+                                   " -o mask.png\n"
+                                   "edgewise capture " +
+                                   scene +
+                                   " -o a.tri\n"
+                                   "edgewise diff a.png mask.png -o difference.png\n"
+                                   "edgewise view " +
+                                   scene +
+                                   " -o view.png\n"
+                                   "edgewise demo outlaw-triad -o demo.png\n")
+                .status,
+            0);
+  struct Row {
+    std::string command, file;
+  };
+  for (const Row& row : std::vector<Row>{{"render " + scene + " -o -", "a.png"},
+                                         {"render " + scene + " -o - --format png --json", "a.png"},
+                                         {"render " + scene + " -o /dev/stdout", "a.png"},
+                                         {"render " + scene + " -o - --format pfm", "a.pfm"},
+                                         {"render " + scene + " --depth -", "a.pfm"},
+                                         {"portable " + scene + " -o -", "mask.png"},
+                                         {"capture " + scene + " -o -", "a.tri"},
+                                         {"diff a.png mask.png -o -", "difference.png"},
+                                         {"view " + scene + " -o -", "view.png"},
+                                         {"demo outlaw-triad -o -", "demo.png"}}) {
+    const Outcome piped = script_in(folder_, "edgewise " + row.command + " | cat");
+    EXPECT_EQ(piped.out, file_content(path(row.file))) << row.command;
+    EXPECT_EQ(piped.err.empty(), row.command.starts_with("view")) << row.command << piped.err;
+    const Outcome appended =
+        script_in(folder_, "echo before >out; edgewise " + row.command + " >>out; echo after >>out");
+    EXPECT_EQ(file_content(path("out")), "before\n" + file_content(path(row.file)) + "after\n")
+        << row.command;
+  }
+}
+
+TEST_F(ProgramRenders, FormatsOfStandardOutputAndOfFolders) {
+  ASSERT_EQ(script_in(folder_,
+                      "edgewise render cube --size 60x40 -o a.ppm\n"
+                      "edgewise render cube --size 60x40 -o new/ --format ppm\n"
+                      "edgewise render cube --size 60x40 -o - --format ppm >b.ppm\n"
+                      "edgewise render cube --size 60x40 --frames 2 -o - --format ppm >film\n")
+                .status,
+            0);
+  const std::string picture = file_content(path("a.ppm"));
+  EXPECT_EQ(file_content(path("new/cube.ppm")), picture);
+  EXPECT_EQ(file_content(path("b.ppm")), picture);
+  EXPECT_EQ(file_content(path("film")).size(), 2 * picture.size());
+  EXPECT_TRUE(file_content(path("film")).starts_with(picture));
+}
+
+TEST_F(ProgramRenders, EndsQuietlyWhenTheReaderOfAPictureLeaves) {
+  const Outcome outcome = script_in(folder_,
+                                    "{ sleep 0.2; edgewise render cube --size 600x400 -o - --format ppm "
+                                    "2>err; } | true; echo ${PIPESTATUS[0]}");
+  EXPECT_EQ(outcome.out, "0\n");
+  EXPECT_EQ(file_content(path("err")).find("edgewise: "), std::string::npos);
+}
+
+TEST_F(ProgramRenders, FilesFromStandardInput) {
+  ASSERT_EQ(script_in(folder_,
+                      "printf 'v 0 0 0\\nv 1 0 0\\nv 0 1 0\\nf 1 2 3\\n' >stdin.obj\n"
+                      "edgewise render stdin.obj --size 60x40 -o obj.png --depth obj.pfm\n"
+                      "edgewise render stdin.obj --size 60x40 -o obj.ppm\n"
+                      "edgewise capture stdin.obj --size 60x40 -o stdin.tri\n"
+                      "edgewise render stdin.tri -o tri.png\n")
+                .status,
+            0);
+  for (const std::string read : {"cat $file | edgewise render -", "edgewise render - <$file",
+                                 "edgewise render /dev/stdin <$file", "edgewise render <(cat $file)"})
+    for (const std::string kind : {"obj", "tri"}) {
+      const Outcome outcome =
+          script_in(folder_, "file=stdin." + kind + "; " + read +
+                                 " --size 60x40 -o a.png && edgewise diff a.png " + kind + ".png");
+      EXPECT_EQ(outcome.status, 0) << read << outcome.err;
+    }
+  for (const std::string compared :
+       {"cat obj.png | edgewise diff - obj.ppm", "cat obj.ppm | edgewise diff obj.png /dev/stdin",
+        "cat obj.pfm | edgewise diff - obj.pfm", "edgewise diff - obj.png <obj.png",
+        "edgewise diff <(cat obj.ppm) <(cat obj.png)",
+        "cat tri.png | edgewise diff tri.png obj.png --mask -"})
+    EXPECT_EQ(script_in(folder_, compared).status, 0) << compared;
+  // Commands that load a scene more than once, or ask for its kind first.
+  for (const std::string command :
+       {"verify - --size 65x33", "verify -", "needs - --size 65x33", "portable - --size 65x33",
+        "capture - -o a.tri", "accuracy - --quick --no-speed --family coverage", "view - -o a.png"})
+    for (const std::string kind : {"obj", "tri"}) {
+      const Outcome outcome = script_in(folder_, "cat stdin." + kind + " | edgewise " + command);
+      EXPECT_EQ(outcome.status, 0) << command << outcome.err;
+    }
+}
+
+// The cases of bug reports on comparers of pictures.
+TEST_F(ProgramRenders, FilesWhoseSamplesAreEqualOrDiffer) {
+  using namespace std::string_literals;
+  folder_.write("a.ppm", "P6\n2 1\n255\n\1\2\3\xff\0\x80"s);
+  folder_.write("b.ppm", "P6 2# width\n1 65535\r\n\1\1\2\2\3\3\xff\xff\0\0\x80\x80"s);
+  folder_.write("c.ppm", "P6 2 1 65535\n\1\1\2\2\3\3\xff\xff\0\0\x80\x81"s);
+  EXPECT_EQ(script_in(folder_, "edgewise diff a.ppm b.ppm").out, "equal: 2 pixels\n");
+  EXPECT_EQ(script_in(folder_, "edgewise diff a.ppm c.ppm").out,
+            "1 of 2 pixels differ, by up to 1 of 65535; the first at x 1, y 0\n");
+  EXPECT_EQ(script_in(folder_, "edgewise diff --json a.ppm c.ppm").out,
+            "{\"differing\":1,\"first\":[1,0],\"largest\":1.0,\"pixels\":2,\"scale\":65535}\n");
+  // A mask of 16 bits counts by its samples, which 8 bits would round to black.
+  folder_.write("mask.ppm", "P6 2 1 65535\n\0\0\0\0\0\0\0\0\0\0\0\1"s);
+  EXPECT_EQ(script_in(folder_, "edgewise diff a.ppm c.ppm --mask mask.ppm").status, 0);
+}
+
 TEST_F(ProgramRenders, PicturesThatDiffComparesOutsideTheMask) {
   const std::string golden = path("golden.png"), mask = path("mask.png");
   const Outcome found =

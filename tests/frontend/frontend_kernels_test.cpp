@@ -330,24 +330,31 @@ std::vector<float> borders(float w, float side_px) {
   return values;
 }
 
-TEST(FrontendKernels, VerticesOnPlanesMatchMakeVertex) {
+TEST(FrontendKernels, VerticesOnPlanesMatchTheScalarFlags) {
   constexpr int kWidth = 640, kHeight = 480;
   const FrontendOptions options{.width = kWidth, .height = kHeight};
-  for (const float w : {1.0f, 0.7f, 0.0f, -0.0f, -1.0f, 1e-45f, 1e-38f, 3e38f, kNan, kInf}) {
+  for (const float w : {1.0f, 0.7f, 0.5f, 0.9f, 0.0f, -0.0f, -1.0f, 1e-45f, 1e-38f, 3e38f, kNan, kInf}) {
     Mesh mesh;
     for (const float x : borders(w, kWidth))
       for (const float y : borders(w, kHeight))
         for (const float z : borders(w, 2.0f)) mesh.positions.emplace_back(x, y, z);
     std::vector<Vertex> vertices(mesh.positions.size());
-    MeshTask job{options, mesh, glm::mat4(1.0f), ViewDepth(0.5, 0.9), vertices.data()};
-    job.to_screen[3][3] = w;
+    MeshTask job{
+        options,        mesh, {kWidth, kHeight, 0.5, 0.9}, {{}, {}, kWidth, kHeight}, ViewDepth(0.5, 0.9),
+        vertices.data()};
+    job.to_screen.origin = glm::vec3(0.0f);
+    job.to_screen.rounded = glm::mat4x3(1.0f);
+    job.to_screen.rounded[3] = {0.0f, 0.0f, w};
     for (const SimdTarget target : supported_targets()) {
       transform_kernel(target)(job, 0, vertices.size());
       for (std::size_t i = 0; i < vertices.size(); ++i) {
-        const ClipVertex v = transform(job.to_screen, mesh.positions[i]);
-        const Vertex expected = make_vertex(v, job.depth.units(v.w), kWidth, kHeight);
-        ASSERT_EQ(vertices[i].outside, expected.outside) << name_of(target) << ", w = " << w << ", " << i;
-        if ((expected.outside & (kMustClip | kNotFinite)) != 0) continue;
+        const glm::vec3 v = transform(job.to_screen, mesh.positions[i]);
+        const std::uint32_t outside = outside_of(as_clip_vertex(v), job.view);
+        ASSERT_EQ(vertices[i].outside, outside) << name_of(target) << ", w = " << w << ", " << i;
+        if ((outside & (kMustClip | kNotFinite)) != 0) continue;
+        const float inverse_w = 1.0f / v.z;
+        const Vertex expected{snap(v.x * inverse_w), snap(v.y * inverse_w), job.depth.units(double{v.z}),
+                              outside};
         ASSERT_EQ(std::memcmp(&vertices[i], &expected, sizeof expected), 0) << name_of(target) << ", " << i;
       }
     }

@@ -234,22 +234,22 @@ TEST(Frontend, PiecesOfAClippedTriangleKeepItsWinding) {
 TEST(Frontend, NeighboursGetTheSameVertexOnAClippedEdge) {
   Random random(17);
   const auto same = [](const ClipVertex& p, const ClipVertex& q) {
-    return std::memcmp(&p, &q, sizeof p) == 0;
+    return p.x == q.x && p.y == q.y && p.z == q.z && p.w == q.w;
   };
+  constexpr ViewVolume kView{100, 100, 0.5, 2.0};
   int cuts = 0;
   for (int i = 0; i < 4000; ++i) {
     const auto vertex = [&] {
       const float w = random.uniform(0.1f, 3.0f), reach = 20'000.0f * w;
-      return ClipVertex{random.uniform(-reach, reach), random.uniform(-reach, reach),
-                        random.uniform(-1.0f, 2.0f) * w, w};
+      return ClipVertex{random.uniform(-reach, reach), random.uniform(-reach, reach), w, w};
     };
     const ClipVertex p = vertex(), q = vertex();
     const auto plane = static_cast<std::uint16_t>(kNear << random.below(6));  // one of the six clip planes
-    if ((outside_of(p, 100, 100) & plane) == (outside_of(q, 100, 100) & plane)) continue;
+    if ((outside_of(p, kView) & plane) == (outside_of(q, kView) & plane)) continue;
     // Neighbours traverse their shared edge in opposite directions.
     const auto cut_of = [&](const ClipVertex& from, const ClipVertex& to) {
       Clipper clipper;
-      const auto polygon = clipper.clip({from, to, vertex()}, plane);
+      const auto polygon = clipper.clip({from, to, vertex()}, plane, kView);
       for (std::size_t k = 0; k < polygon.size(); ++k) {
         const ClipVertex &here = polygon[k], &next = polygon[(k + 1) % polygon.size()];
         if (same(here, from) && !same(next, to)) return next;
@@ -336,17 +336,17 @@ TEST(Frontend, MirroringTurnsAClosedMeshInsideOut) {
   for (const glm::vec3 scale :
        {glm::vec3(1, 1, 1), {-1, 1, 1}, {1, -1, 1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, -1}}) {
     scene.instances.at(0).scale = scale;
-    const glm::mat4 model = model_matrix(scene.instances[0]);
+    const glm::dmat4 model = model_matrix(scene.instances[0]);
     const auto seen = run(scene, options).triangles;
     EXPECT_GE(seen.size(), 2u);
     for (const ScreenTriangle& t : seen) {
-      glm::vec3 at[3];
+      glm::dvec3 at[3];
       for (int k = 0; k < 3; ++k)
-        at[k] = glm::vec3(model * glm::vec4(cube.positions[cube.triangles.at(t.payload)[k]], 1.0f));
-      const glm::vec3 normal = glm::cross(at[1] - at[0], at[2] - at[0]);
-      const float centre_side = glm::dot(normal, glm::vec3(model[3]) - at[0]);
-      const float camera_side = glm::dot(normal, scene.camera.position - at[0]);
-      const bool outside = centre_side * camera_side < 0.0f;
+        at[k] = glm::dvec3(model * glm::dvec4(cube.positions[cube.triangles.at(t.payload)[k]], 1.0));
+      const glm::dvec3 normal = glm::cross(at[1] - at[0], at[2] - at[0]);
+      const double centre_side = glm::dot(normal, glm::dvec3(model[3]) - at[0]);
+      const double camera_side = glm::dot(normal, scene.camera.position - at[0]);
+      const bool outside = centre_side * camera_side < 0.0;
       EXPECT_EQ(outside, scale.x * scale.y * scale.z > 0.0f) << "triangle " << t.payload;
     }
   }
@@ -363,7 +363,7 @@ TEST(Frontend, ShadesScaledInstancesLikeScaledMeshes) {
                           .axis = {random.uniform(-1, 1), random.uniform(-1, 1), 1.0f},
                           .angle = random.uniform(0, 6),
                           .translation = {0, 0, -6}};
-    for (auto& c : corners) c = glm::vec3(model_matrix(scene.instances[0]) * glm::vec4(c, 1.0f));
+    for (auto& c : corners) c = glm::vec3(model_matrix(scene.instances[0]) * glm::dvec4(c, 1.0));
     Scene stretched = loose(corners);
     scene.to_light = stretched.to_light = {0.3f, 0.5f, 0.8f};
     const auto red = [](const Scene& s) { return static_cast<double>(run(s).triangles.at(0).payload & 255); };

@@ -246,14 +246,16 @@ TEST(MeshClusters, ExcludeNoVertexThatFloatsFindInView) {
   int sides = 0, excluded = 0, in_view = 0;
   for (int i = 0; i < 100'000; ++i) {
     Camera camera;
-    camera.position = {real(-3, 3), real(-3, 3), real(-3, 3)};
+    const float away = i % 2 == 0 ? 0.0f : 1e6f;  // from the origin
+    camera.position = {away + real(-3, 3), real(-3, 3), real(-3, 3)};
     camera.yaw = real(-3, 3), camera.pitch = real(-1, 1);
-    const glm::mat4 to_screen(screen_matrix(camera, 320, 200));
-    const ViewSides view(to_screen, 320, 200);
+    const ScreenTransform to_screen(camera, {}, 320, 200);
+    const ViewVolume volume = view_volume(camera, 320, 200);
+    const ViewSides view(to_screen, volume);
     const auto outside = [&](glm::vec3 v) {
-      return outside_of(transform(to_screen, v), 320, 200) & kInvisible;
+      return outside_of(as_clip_vertex(transform(to_screen, v)), volume) & kInvisible;
     };
-    const auto vertex = [&] { return glm::vec3{real(-200, 200), real(-200, 200), real(-200, 200)}; };
+    const auto vertex = [&] { return glm::vec3{away + real(-200, 200), real(-200, 200), real(-200, 200)}; };
     const auto excludes = [&](glm::vec3 v) { return view.exclude({v, v, 0, 1}); };
     glm::vec3 in = vertex(), out = vertex();
     if (outside(in) != 0 || outside(out) == 0) continue;
@@ -278,24 +280,26 @@ TEST(MeshClusters, ExcludeNoVertexThatFloatsFindInView) {
 
 TEST(MeshClusters, ExcludeNoBoxThatOverflowsOrIsNotFinite) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  const glm::mat4 to_screen(screen_matrix({}, 320, 200));  // looks along -z
-  const auto excludes = [](const glm::mat4& m, glm::vec3 low, glm::vec3 high) {
-    return ViewSides(m, 320, 200).exclude({low, high, 0, 1});
+  const ScreenTransform to_screen({}, {}, 320, 200);  // looks along -z
+  const auto excludes = [](const ScreenTransform& m, glm::vec3 low, glm::vec3 high) {
+    return ViewSides(m, view_volume({}, 320, 200)).exclude({low, high, 0, 1});
   };
   EXPECT_TRUE(excludes(to_screen, {-1, -1, 5}, {1, 1, 9}));
   EXPECT_FALSE(excludes(to_screen, {-1, -1, -5}, {1, 1, 9})) << "reaches into the view";
   EXPECT_FALSE(excludes(to_screen, {-90, -90, -1}, {-0.2f, -0.2f, -1})) << "a corner is in view";
   EXPECT_FALSE(excludes(to_screen, glm::vec3(-kInfinity), glm::vec3(kInfinity)));
   EXPECT_FALSE(excludes(to_screen, glm::vec3(std::numeric_limits<float>::quiet_NaN()), {1, 1, 9}));
-  for (const float scale : {1e-38f, 1e-44f, 1e37f})
-    EXPECT_FALSE(excludes(to_screen * scale, {-1, -1, 5}, {1, 1, 9})) << scale;
+  for (const double scale : {1e-38, 1e-44, 1e37}) {
+    const ScreenTransform scaled({}, {.scale = glm::dvec3(scale)}, 320, 200);
+    EXPECT_FALSE(excludes(scaled, glm::vec3(-3e38f), glm::vec3(3e38f))) << scale;
+  }
 }
 
 // The first half of a face is shaded with the second, and may lie in a cluster out of view or another chunk.
 TEST(MeshClusters, LeaveNoVertexUncheckedThatShadingReads) {
   Scene scene = grid();
   Mesh& mesh = scene.meshes[0];
-  const ViewSides view(glm::mat4(screen_matrix(scene.camera, 1920, 1080)), 1920, 1080);
+  const ViewSides view({scene.camera, scene.instances[0], 1920, 1080}, view_volume(scene.camera, 1920, 1080));
   std::size_t seen = 1;
   while (seen < mesh.clusters.size() &&
          (view.exclude(mesh.clusters[seen]) || !view.exclude(mesh.clusters[seen - 1])))

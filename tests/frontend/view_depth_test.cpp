@@ -90,20 +90,21 @@ TEST(ViewDepth, BeyondThePlanesItIsThatOfThePlane) {
 
 TEST(ViewDepth, IsTheSameInEveryKernel) {
   const FrontendOptions options;
-  glm::mat4 w_is_x(0.0f);
-  w_is_x[0][3] = 1.0f;
+  ScreenTransform w_is_x({}, {}, 1, 1);
+  w_is_x.rounded = glm::mat4x3(0.0f);
+  w_is_x.rounded[0] = {0.0f, 0.0f, 1.0f};
   for (const Planes& p : planes()) {
     const ViewDepth depth(double{p.near_z}, double{p.far_z});
     const std::vector<float> w = distances(p, 101);
     Mesh mesh;
     for (const float distance : w) mesh.positions.emplace_back(distance, 0.0f, 0.0f);
     std::vector<Vertex> vertices(w.size());
-    const MeshTask task{options, mesh, w_is_x, depth, vertices.data()};
+    const MeshTask task{options, mesh, {1, 1, p.near_z, p.far_z}, w_is_x, depth, vertices.data()};
     for (const SimdTarget target : supported_targets()) {
       transform_kernel(target)(task, 0, w.size());
       for (std::size_t i = 0; i < w.size(); ++i) {
         if (vertices[i].outside != 0) continue;  // 1 / w overflows
-        ASSERT_EQ(vertices[i].z, depth.units(w[i])) << name_of(target) << ", w = " << w[i];
+        ASSERT_EQ(vertices[i].z, depth.units(double{w[i]})) << name_of(target) << ", w = " << w[i];
       }
     }
   }
@@ -134,16 +135,17 @@ TEST(ViewDepth, OfAClippedVertexIsThatOfItsDistanceToo) {
   for (int trial = 0; trial < 2000; ++trial) {
     const Scene scene = scene_to_clip(random);
     const Camera& camera = scene.camera;
-    const glm::mat4 to_screen(screen_matrix(camera, kSide, kSide));
+    const ScreenTransform to_screen(camera, {}, kSide, kSide);
+    const ViewVolume view = view_volume(camera, kSide, kSide);
     ClipVertex corner[3];
     std::uint16_t sides = 0;
     for (int i = 0; i < 3; ++i) {
-      corner[i] = transform(to_screen, scene.meshes[0].positions[static_cast<std::size_t>(i)]);
-      sides |= outside_of(corner[i], kSide, kSide);
+      corner[i] = to_screen(scene.meshes[0].positions[static_cast<std::size_t>(i)]);
+      sides |= outside_of(corner[i], view);
     }
     std::set<std::uint32_t> allowed;
     Clipper clipper;
-    for (const ClipVertex& v : clipper.clip(corner, sides & kMustClip)) {
+    for (const ClipVertex& v : clipper.clip(corner, sides & kMustClip, view)) {
       const mpq_class exact = exact_units(double{camera.near_z}, double{camera.far_z}, v.w);
       const mpz_class below = exact.get_num() / exact.get_den();
       const auto unit = static_cast<std::uint32_t>(below.get_ui());

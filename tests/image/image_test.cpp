@@ -1,4 +1,5 @@
 // Picture and depth map files, their differences, and files that are written completely or not at all.
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -14,6 +15,7 @@
 #include "edgewise/contract.h"
 #include "edgewise/image.h"
 #include "edgewise/scene.h"
+#include "image/samples.h"
 #include "message_of.h"
 #include "temp_dir.h"
 
@@ -59,8 +61,7 @@ TEST_P(ImageFormat, EveryTruncationIsRefused) {
   const fs::path path = dir.path() / (std::string("a") + GetParam());
   write_image(path, test_image(5, 4));
   const std::string whole = file_content(path);
-  // The last chunk of a PNG (12 bytes) has no pixels, and libpng reads files without it.
-  for (std::size_t size = 0; size + 12 < whole.size(); ++size) {
+  for (std::size_t size = 0; size < whole.size(); ++size) {
     const fs::path cut = dir.write("cut" + path.extension().string(), whole.substr(0, size));
     EXPECT_NE(message_of([&] { read_image(cut); }).find(cut.string() + ": "), std::string::npos) << size;
   }
@@ -121,6 +122,25 @@ TEST(Ppm, HeaderMayHaveCommentsAndFewerLevels) {
   EXPECT_EQ(image.pixels, (std::vector<std::uint32_t>{rgb(0, 85, 170), rgb(255, 255, 255)}));
 }
 
+TEST(Ppm, ACommentMayBeginInsideAWord) {
+  const TempDir dir;
+  for (const char* header : {"P6\n1# width\n2# # height\n255\n", "P6#\n1#\n#\n2#\n255#\n", "P6 1 2 255#\r",
+                             "P6\r\n1 # w\r\n2\r\n255# d\r\n", "P6\r\n1 2\r\n255\r\n"})
+    EXPECT_EQ(read_image(dir.write("a.ppm", header + std::string("\n\1\2\r\n#", 6))).pixels,
+              (std::vector<std::uint32_t>{rgb('\n', 1, 2), rgb('\r', '\n', '#')}))
+        << header;
+}
+
+TEST(Ppm, SamplesMayHaveUpTo16Bits) {
+  const TempDir dir;
+  const auto sample_of = [&](const std::string& maximum, const std::string& sample) {
+    const auto path = dir.write("a.ppm", "P6\n1 1\n" + maximum + "\n" + sample + sample + sample);
+    return std::pair(read_samples(path).pixels.at(0).at(1), read_image(path).pixels.at(0) & 255);
+  };
+  EXPECT_EQ(sample_of("65535", "\x12\x34"), std::pair(std::uint16_t{0x1234}, 18u));
+  EXPECT_EQ(sample_of("1023", "\3\xff"), std::pair(std::uint16_t{65535}, 255u));
+}
+
 struct BadFile {
   const char *name, *extension;
   std::string content, message;
@@ -153,7 +173,22 @@ INSTANTIATE_TEST_SUITE_P(
                 "malformed header: '99999999999999999999' is not a size"},
         BadFile{"PpmEndlessWord", ".ppm", "P6\n" + std::string(100, '1'), "malformed or truncated header"},
         BadFile{"PpmOpenComment", ".ppm", "P6\n# no end", "malformed or truncated header"},
-        BadFile{"Ppm16Bits", ".ppm", "P6\n1 1\n65535\n123456", "has samples that are not of 8 bits"},
+        BadFile{"Ppm17Bits", ".ppm", "P6\n1 1\n65536\n123456",
+                "has samples of more than 16 bits, or of none"},
+        BadFile{"PpmSampleTooLarge", ".ppm", "P6\n1 1\n3\n\1\4\1",
+                "has a sample of 4, more than its maximum of 3"},
+        BadFile{"PpmDeepSampleTooLarge", ".ppm", "P6\n1 1\n256\n\1\1\1\1\1\1",
+                "has a sample of 257, more than its maximum of 256"},
+        BadFile{"PpmTooLong", ".ppm", "P6\n1 1\n255\n1234", "too long: header promises 3 bytes, 4 follow"},
+        BadFile{"PpmCrLfTooLong", ".ppm", "P6\n1 1\n255\r\n1234",
+                "too long: header promises 3 bytes, 5 follow"},
+        BadFile{"PpmLfLfTooLong", ".ppm", "P6\n1 1\n255\n\n123",
+                "too long: header promises 3 bytes, 4 follow"},
+        BadFile{"PpmCrLfTruncated", ".ppm", "P6\r\n1 1\r\n255\r\n1",
+                "truncated: header promises 3 bytes, 2 follow"},
+        BadFile{"PfmTooLong", ".pfm", "Pf\n1 1\n-1.0\n12345", "too long: header promises 4 bytes, 5 follow"},
+        BadFile{"PfmCrLfTooLong", ".pfm", "Pf\r\n1 1\r\n-1.0\r\n12345",
+                "too long: header promises 4 bytes, 6 follow"},
         BadFile{"PpmTruncated", ".ppm", "P6\n16384 16384\n255\n1234",
                 "truncated: header promises 805306368 bytes, 4 follow"},
         BadFile{"PfmColour", ".pfm", "PF\n1 1\n-1.0\n1234", "does not start with Pf"},
@@ -190,6 +225,17 @@ TEST(Pfm, RowsLieBottomUpAndBothByteOrdersAreRead) {
   EXPECT_EQ(file_content(path), std::string("Pf\n1 2\n-1.0\n\0\0\0\x40\0\0\x80\x3F", 20));
   const fs::path big = dir.write("b.pfm", std::string("Pf\n1 2\n1.0\n\x40\0\0\0\x3F\x80\0\0", 19));
   EXPECT_EQ(read_pfm(big).depth01, (std::vector<float>{1.0f, 2.0f}));
+}
+
+TEST(Pfm, LinesMayEndInCrLf) {
+  const TempDir dir;
+  const std::string samples("\n\0\0\x40\n\r\n\r", 8);
+  const auto depths_after = [&](const std::string& header) {
+    return read_pfm(dir.write("a.pfm", header + samples)).depth01;
+  };
+  const auto expected = depths_after("Pf\n2 1\n-1.0\n");
+  for (const char* header : {"Pf\r\n2 1\r\n-1.0\r\n", "Pf\r2 1\r-1.0\r", "Pf\r\n2 1\n-1.0\n"})
+    EXPECT_EQ(depths_after(header), expected) << header;
 }
 
 TEST(Frame, DepthBecomesZeroToOneWithoutThePadding) {
@@ -307,6 +353,65 @@ TEST(AtomicFile, ReplacesALinksTargetAndKeepsItsMode) {
   EXPECT_TRUE(fs::is_symlink(link));
   EXPECT_EQ(file_content(path), "new");
   EXPECT_EQ(fs::status(path).permissions(), fs::perms(0600));
+}
+
+TEST(AtomicFile, MakesTheTargetOfADanglingLink) {
+  const TempDir dir;
+  fs::create_directory(dir.path() / "folder");
+  fs::create_symlink("folder/second", dir.path() / "first");
+  fs::create_symlink("../target", dir.path() / "folder" / "second");
+  {
+    AtomicFile file(dir.path() / "first");
+    file.stream() << "new";
+  }
+  EXPECT_FALSE(fs::exists(dir.path() / "target"));
+  AtomicFile file(dir.path() / "first");
+  file.stream() << "new";
+  file.commit();
+  EXPECT_EQ(file_content(dir.path() / "target"), "new");
+  EXPECT_EQ(fs::read_symlink(dir.path() / "first"), "folder/second");
+  EXPECT_EQ(fs::read_symlink(dir.path() / "folder" / "second"), "../target");
+  EXPECT_EQ(dir.count(), 3u);
+}
+
+TEST(AtomicFile, RefusesALinkIntoAMissingFolderAndALoop) {
+  const TempDir dir;
+  const fs::path link = dir.path() / "link", loop = dir.path() / "loop";
+  fs::create_symlink("none/target", link);
+  fs::create_symlink("loop", loop);
+  EXPECT_EQ(message_of([&] { AtomicFile{link}; }),
+            link.string() + ": cannot be written: there is no folder " + (dir.path() / "none").string());
+  EXPECT_EQ(message_of([&] { AtomicFile{loop}; }),
+            loop.string() + ": cannot be written: Too many levels of symbolic links");
+}
+
+// Also through a link; the file keeps its place, and what follows is appended.
+TEST(AtomicFile, WritesToOpenDescriptorsWhereTheyStand) {
+  const TempDir dir;
+  const fs::path path = dir.write("a", "older "), link = dir.path() / "link";
+  const int descriptor = open(path.c_str(), O_WRONLY | O_APPEND);
+  const std::string name = "/dev/fd/" + std::to_string(descriptor);
+  fs::create_symlink(name, link);
+  for (const fs::path& output : {fs::path(name), link}) {
+    AtomicFile file(output);
+    file.stream() << "new ";
+    file.commit();
+  }
+  close(descriptor);
+  EXPECT_EQ(file_content(path), "older new new ");
+  EXPECT_TRUE(fs::is_symlink(link));
+}
+
+TEST(AtomicFile, LosesNothingLargerThanItsBuffer) {
+  const TempDir dir;
+  std::string text;
+  for (int i = 0; i < 30000; ++i) text += std::to_string(i);
+  AtomicFile file(dir.path() / "a");
+  file.stream() << text.substr(0, 5);
+  file.stream().write(text.data() + 5, static_cast<std::streamsize>(text.size() - 10));
+  for (const char c : text.substr(text.size() - 5)) file.stream().put(c);
+  file.commit();
+  EXPECT_EQ(file_content(dir.path() / "a"), text);
 }
 
 TEST(AtomicFile, TwoOfOneNameAreIndependent) {

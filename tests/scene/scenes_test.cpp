@@ -239,9 +239,9 @@ TEST(Fit, RefusesOverflowWithoutChangingTheScene) {
   };
   Scene small = scene_of_size(1e-29f), too_small = scene_of_size(1e-38f);
   EXPECT_NO_THROW(fit(small));
-  EXPECT_FLOAT_EQ(small.instances[0].scale.x * 1e-29f, 2.0f);
+  EXPECT_DOUBLE_EQ(small.instances[0].scale.x * 1e-29f, 2.0);
   EXPECT_THROW(fit(too_small), std::invalid_argument);
-  EXPECT_EQ(too_small.instances[0].scale, glm::vec3(1.0f));
+  EXPECT_EQ(too_small.instances[0].scale, glm::dvec3(1.0));
   Scene far = scene_of_size(1e-20f), too_large = scene_of_size(3e38f);
   for (glm::vec3& p : far.meshes[0].positions) p.z = 1e20f;
   too_large.meshes[0].positions[0].x = -3e38f;

@@ -295,10 +295,10 @@ TEST(Viewer, DraggingTurnsTheCamera) {
 TEST(Viewer, MovesAlongTheViewOrTheWorld) {
   Session session = session_of("cube");
   type(session, "");
-  const glm::vec3 home = session.world().scene()->camera.position;
+  const glm::dvec3 home = session.world().scene()->camera.position;
   const auto moved = [&](std::string_view keys) {
     type(session, keys);
-    const glm::vec3 by = session.world().scene()->camera.position - home;
+    const glm::dvec3 by = session.world().scene()->camera.position - home;
     type(session, "0");
     return by;
   };

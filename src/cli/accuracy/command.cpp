@@ -15,6 +15,7 @@
 #include "support/console.h"
 #include "support/json_text.h"
 #include "support/options.h"
+#include "support/output_path.h"
 #include "support/progress.h"
 
 namespace edgewise::tools {
@@ -34,6 +35,7 @@ int accuracy_command(AccuracyOptions& o) {
   plan.pictures = !o.pictures.empty();
   plan.threads = all_cores();
 
+  check_json_file(o.json, o.pictures, plan.scenes);
   if (plan.pictures) check_closeup_folder(o.pictures);
   const bool json_on_stdout = o.json == "-";
   std::optional<AtomicFile> file;  // opened first: minutes of work must not end in "cannot be written"

@@ -143,7 +143,7 @@ class Catalogue {
   // The scenes of a user's file, always timed.
   std::vector<AccuracyScene> file(const std::string& path) {
     check_source(path);
-    const bool mesh = !path.ends_with(".tri") && !path.ends_with(".TRI");
+    const bool mesh = !is_stream_file(path);
     const auto load = [path, fit = plan_.fit] {
       SceneOptions options;
       options.fit = fit;

@@ -22,7 +22,9 @@
 #include "support/console.h"
 #include "support/json_text.h"
 #include "support/options.h"
+#include "support/output_path.h"
 #include "support/progress.h"
+#include "support/source.h"
 #include "support/stop_request.h"
 
 namespace edgewise::tools {
@@ -88,7 +90,7 @@ int finish(const SoakOptions& o, const std::string& path, const soak::Record& re
 int merge_command(const SoakOptions& o) {
   std::optional<soak::Record> all;
   for (const std::string& path : o.merge) {
-    const soak::Record record = soak::read_record(path);
+    const soak::Record record = soak::read_record(input_path(path));
     if (!all) {
       all = record;
       continue;
@@ -162,6 +164,7 @@ int soak_command(const SoakOptions& o) {
   check(o);
   if (!o.merge.empty()) return merge_command(o);
   check_overwrites_no_record(o);
+  check_json_file(o.json.empty() ? o.resume : o.json, o.out, {});
   soak::Record record = first_record(o);
   const std::string path = o.json.empty() ? o.resume : o.json == "-" ? "" : o.json;
 

@@ -14,6 +14,7 @@
 #include "core/atomic_file.h"
 #include "support/console.h"
 #include "support/json_text.h"
+#include "support/output_path.h"
 #include "support/progress.h"
 
 namespace edgewise::tools {
@@ -33,6 +34,7 @@ int verify_command(VerifyOptions& o) {
   plan.backends.assign(backends().begin(), backends().end());
   plan.failure_folder = o.out;
 
+  check_json_file(o.json, o.out, plan.scenes);
   const bool json_on_stdout = o.json == "-";
   std::optional<AtomicFile> file;  // opened first, so that an unwritable path fails before minutes of work
   if (!o.json.empty() && !json_on_stdout) file.emplace(o.json);

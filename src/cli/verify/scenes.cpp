@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/file_extension.h"
-
 namespace edgewise::tools {
 
 namespace {
@@ -84,7 +82,7 @@ Shot shot_for_comparison(const VerifyPlan& plan, const std::string& name) {
   if (scaled && !built_in->stream) return load(plan, name, size, kQuickMeshScale);
   if (scaled && !name.starts_with("grid"))  // a grid's triangle count depends on the image size
     return load_thinned(plan, name, size, kQuickScale, kEnoughTriangles);
-  const bool own_size = !plan.size && extension_of(name) == ".tri";
+  const bool own_size = !plan.size && is_stream_file(name);
   return load(plan, name, own_size ? std::nullopt : std::optional(size), std::nullopt);
 }
 

@@ -1,0 +1,30 @@
+// The samples of picture files, for comparisons.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "edgewise/image.h"
+
+namespace edgewise {
+
+// R, G and B as stored: no colour conversion (gAMA, iCCP, sRGB, cHRM), and alpha is ignored. Colours come
+// from the palette. Grey is R = G = B. An 8-bit sample v is 257 v, so that it equals the 16-bit sample of the
+// same value.
+struct Samples {
+  using Pixel = std::array<std::uint16_t, 3>;
+  int width = 0, height = 0;  // px
+  bool deep = false;          // more than 8 bits in the file
+  std::vector<Pixel> pixels;  // row by row, top first
+};
+
+// Reads a PNG or a PPM. Throws what read_image throws.
+Samples read_samples(const std::filesystem::path& path);
+
+// As difference() of images. The largest difference is of 65535 if one of the pictures is deep, otherwise of
+// 255.
+Difference difference(const Samples& a, const Samples& b);
+
+}  // namespace edgewise

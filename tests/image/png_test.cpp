@@ -1,0 +1,205 @@
+// PNGs of every kind are read as their samples, whatever colour space they name.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "edgewise/image.h"
+#include "edgewise/scene.h"
+#include "image/samples.h"
+#include "message_of.h"
+#include "temp_dir.h"
+
+namespace edgewise {
+namespace {
+
+using namespace std::string_literals;
+
+std::string be32(std::uint32_t value) {
+  std::string bytes;
+  for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 255);
+  return bytes;
+}
+
+std::string chunk(const std::string& name, const std::string& data) {
+  std::uint32_t crc = 0xFFFFFFFFu;
+  for (const char c : name + data) {
+    crc ^= static_cast<unsigned char>(c);
+    for (int bit = 0; bit < 8; ++bit) crc = crc >> 1 ^ (crc & 1 ? 0xEDB88320u : 0);
+  }
+  return be32(static_cast<std::uint32_t>(data.size())) + name + data + be32(~crc);
+}
+
+// zlib's format, uncompressed.
+std::string stored(const std::string& data) {
+  std::string bytes = "\x78\x01";
+  std::uint32_t a = 1, b = 0;
+  for (const char c : data) {
+    a = (a + static_cast<unsigned char>(c)) % 65521;
+    b = (b + a) % 65521;
+  }
+  constexpr std::size_t kBlock = 65535;
+  for (std::size_t at = 0; at < data.size(); at += kBlock) {
+    const std::string block = data.substr(at, kBlock);
+    const auto size = static_cast<std::uint32_t>(block.size());
+    bytes += at + kBlock >= data.size() ? '\1' : '\0';
+    for (const std::uint32_t half : {size, ~size})
+      bytes += {static_cast<char>(half & 255), static_cast<char>(half >> 8 & 255)};
+    bytes += block;
+  }
+  return bytes + be32(b << 16 | a);
+}
+
+constexpr char kGrey = 0, kRgb = 2, kPalette = 3, kGreyAlpha = 4, kRgba = 6;
+
+struct Png {
+  std::uint32_t width, height;
+  char bits, colour;
+  std::string rows;    // each with its filter byte before it
+  std::string chunks;  // before the pixels
+  char interlaced = 0;
+
+  std::string file() const {
+    const std::string header =
+        be32(width) + be32(height) + std::string({bits, colour, '\0', '\0', interlaced});
+    return "\x89PNG\r\n\x1a\n" + chunk("IHDR", header) + chunks + chunk("IDAT", stored(rows)) +
+           chunk("IEND", "");
+  }
+};
+
+Samples samples_of(const Png& png) {
+  const TempDir dir;
+  return read_samples(dir.write("a.png", png.file()));
+}
+
+std::vector<std::uint32_t> pixels_of(const Png& png) {
+  const TempDir dir;
+  return read_image(dir.write("a.png", png.file())).pixels;
+}
+
+const std::string kEight = "\0\x0a\x14\x1e\xc8\x64\x01\xff\x80\x7f"s;  // three pixels of RGB
+const std::vector<std::uint32_t> kEightPixels{rgb(10, 20, 30), rgb(200, 100, 1), rgb(255, 128, 127)};
+
+TEST(PngSamples, AreNotConvertedByAnyColourSpace) {
+  const std::string white = be32(31270) + be32(32900);
+  const std::string primaries =
+      be32(70000) + be32(30000) + be32(20000) + be32(70000) + be32(15000) + be32(6000);
+  for (const std::string& colour_space :
+       {""s, chunk("gAMA", be32(100000)), chunk("gAMA", be32(45455)), chunk("gAMA", be32(220000)),
+        chunk("sRGB", "\0"s), chunk("cHRM", white + primaries), chunk("sBIT", "\5\6\5"),
+        chunk("gAMA", be32(100000)) + chunk("cHRM", white + primaries), chunk("bKGD", "\0\1\0\2\0\3"s),
+        chunk("iCCP", "profile\0\0"s + stored(std::string(200, 'x')))}) {
+    EXPECT_EQ(pixels_of({3, 1, 8, kRgb, kEight, colour_space}), kEightPixels) << colour_space.substr(4, 4);
+    const Samples deep = samples_of({1, 1, 16, kRgb, "\0\1\2\3\4\xff\xfe"s, colour_space});
+    EXPECT_EQ(deep.pixels.at(0), (Samples::Pixel{0x0102, 0x0304, 0xFFFE}));
+    EXPECT_TRUE(deep.deep);
+  }
+}
+
+TEST(PngSamples, IgnoreAlphaAndTransparentColours) {
+  EXPECT_EQ(pixels_of({3, 1, 8, kRgba, "\0\x0a\x14\x1e\0\xc8\x64\x01\x80\xff\x80\x7f\xff"s, ""}),
+            kEightPixels);
+  EXPECT_EQ(pixels_of({3, 1, 8, kRgb, kEight, chunk("tRNS", "\0\x0a\0\x14\0\x1e"s)}), kEightPixels);
+  EXPECT_EQ(pixels_of({2, 1, 8, kGreyAlpha, "\0\x0a\0\xc8\x80"s, ""}),
+            (std::vector<std::uint32_t>{rgb(10, 10, 10), rgb(200, 200, 200)}));
+  EXPECT_EQ(samples_of({1, 1, 16, kGreyAlpha, "\0\x12\x34\0\0"s, ""}).pixels.at(0),
+            (Samples::Pixel{0x1234, 0x1234, 0x1234}));
+  EXPECT_EQ(samples_of({1, 1, 16, kRgba, "\0\x12\x34\x56\x78\x9a\xbc\0\0"s, ""}).pixels.at(0),
+            (Samples::Pixel{0x1234, 0x5678, 0x9ABC}));
+}
+
+TEST(PngSamples, OfGreyHaveTheirWholeRange) {
+  EXPECT_EQ(pixels_of({4, 1, 1, kGrey, "\0\x50"s, ""}),
+            (std::vector<std::uint32_t>{rgb(0, 0, 0), rgb(255, 255, 255), rgb(0, 0, 0), rgb(255, 255, 255)}));
+  EXPECT_EQ(
+      pixels_of({4, 1, 2, kGrey, "\0\x1b"s, ""}),
+      (std::vector<std::uint32_t>{rgb(0, 0, 0), rgb(85, 85, 85), rgb(170, 170, 170), rgb(255, 255, 255)}));
+  EXPECT_EQ(pixels_of({2, 1, 4, kGrey, "\0\x1e"s, ""}),
+            (std::vector<std::uint32_t>{rgb(17, 17, 17), rgb(238, 238, 238)}));
+  EXPECT_EQ(pixels_of({2, 1, 8, kGrey, "\0\x7b\xff"s, chunk("tRNS", "\0\x7b"s)}),
+            (std::vector<std::uint32_t>{rgb(123, 123, 123), rgb(255, 255, 255)}));
+}
+
+TEST(PngSamples, OfPalettesAreItsColours) {
+  const std::string palette = chunk("PLTE", "\x0a\x14\x1e\xc8\x64\x01"s);
+  for (const std::string& transparent : {""s, chunk("tRNS", "\0\x80"s)})
+    for (const auto& [bits, row] : std::vector<std::pair<char, std::string>>{
+             {'\1', "\0\x40"s}, {'\2', "\0\x10"s}, {'\4', "\0\1"s}, {'\10', "\0\0\1"s}})
+      EXPECT_EQ(pixels_of({2, 1, bits, kPalette, row, palette + transparent}),
+                (std::vector<std::uint32_t>{rgb(10, 20, 30), rgb(200, 100, 1)}));
+}
+
+TEST(PngSamples, OfInterlacedFilesAreInTheirPlaces) {
+  constexpr std::uint32_t kWidth = 11, kHeight = 9;
+  struct Pass {
+    std::uint32_t x, y, dx, dy;
+  };
+  constexpr std::array<Pass, 7> kPasses{
+      {{0, 0, 8, 8}, {4, 0, 8, 8}, {0, 4, 4, 8}, {2, 0, 4, 4}, {0, 2, 2, 4}, {1, 0, 2, 2}, {0, 1, 1, 2}}};
+  std::string rows;
+  for (const Pass& pass : kPasses)
+    for (std::uint32_t y = pass.y; y < kHeight; y += pass.dy) {
+      rows += '\0';
+      for (std::uint32_t x = pass.x; x < kWidth; x += pass.dx) rows += static_cast<char>(16 * y + x);
+    }
+  const Samples image = samples_of({kWidth, kHeight, 8, kGrey, rows, "", 1});
+  for (std::uint32_t y = 0; y < kHeight; ++y)
+    for (std::uint32_t x = 0; x < kWidth; ++x)
+      EXPECT_EQ(image.pixels.at(y * kWidth + x).at(0), 257 * (16 * y + x)) << x << ", " << y;
+}
+
+Png all_deep_samples() {
+  Png png{256, 256, 16, kGrey, "", ""};
+  for (int y = 0; y < 256; ++y) {
+    png.rows += '\0';
+    for (int x = 0; x < 256; ++x) png.rows += {static_cast<char>(y), static_cast<char>(x)};
+  }
+  return png;
+}
+
+TEST(PngSamples, Of16BitsAreKeptAndRoundedTo8InImages) {
+  const Png png = all_deep_samples();
+  const Samples samples = samples_of(png);
+  const auto pixels = pixels_of(png);
+  for (std::uint32_t v = 0; v < 65536; ++v) {
+    EXPECT_EQ(samples.pixels.at(v).at(2), v);
+    EXPECT_EQ(pixels.at(v) & 255, static_cast<std::uint32_t>(v * 255.0 / 65535.0 + 0.5)) << v;
+  }
+}
+
+TEST(PngSamples, Of8BitsEqualTheSameValuesOf16) {
+  std::string eight = "\0"s, sixteen = "\0"s;
+  for (int v = 0; v < 256; ++v) {
+    eight += static_cast<char>(v);
+    sixteen += std::string(2, static_cast<char>(v));
+  }
+  const Samples a = samples_of({256, 1, 8, kGrey, eight, ""}),
+                b = samples_of({256, 1, 16, kGrey, sixteen, ""});
+  EXPECT_EQ(difference(a, b).count, 0u);
+  sixteen[1 + 2 * 7 + 1] ^= 1;  // the lowest bit of one sample
+  const Samples c = samples_of({256, 1, 16, kGrey, sixteen, ""});
+  EXPECT_EQ(difference(a, c).count, 1u);
+  EXPECT_EQ(difference(a, c).largest, 1.0);
+  EXPECT_EQ(difference(a, c).first_x, 7);
+  eight[1 + 7] ^= 1;
+  EXPECT_EQ(difference(a, samples_of({256, 1, 8, kGrey, eight, ""})).largest, 1.0);
+}
+
+TEST(Png, DamageIsRefusedWithTheReason) {
+  const std::string whole = Png{3, 1, 8, kRgb, kEight, ""}.file();
+  const TempDir dir;
+  for (std::size_t i = 8; i < whole.size(); ++i) {
+    std::string damaged = whole;
+    damaged[i] ^= 0x20;
+    const auto path = dir.write("a.png", damaged);
+    const std::string message = message_of([&] { read_image(path); });
+
+    EXPECT_TRUE(message.starts_with(path.string() + ": ")) << i << message;
+  }
+}
+
+}  // namespace
+}  // namespace edgewise
