@@ -20,8 +20,8 @@ namespace edgewise {
 namespace {
 
 // far (w - near) / ((far - near) w), clamped to near … far, in contract units.
-mpq_class exact_units(double near_z, double far_z, float w) {
-  const mpq_class n(near_z), f(far_z), at(std::clamp(double{w}, near_z, far_z));
+mpq_class exact_units(double near_z, double far_z, double w) {
+  const mpq_class n(near_z), f(far_z), at(std::clamp(w, near_z, far_z));
   return f * (at - n) / ((f - n) * at) * contract::kDepthRange + contract::kDepthHead;
 }
 
@@ -60,7 +60,7 @@ std::vector<float> distances(const Planes& p, std::size_t count) {
 double worst_error(const Planes& p, const std::vector<float>& w, const std::vector<std::uint32_t>& units) {
   double worst = 0;
   for (std::size_t i = 0; i < w.size(); ++i) {
-    const mpq_class error = exact_units(double{p.near_z}, double{p.far_z}, w[i]) - units[i];
+    const mpq_class error = exact_units(double{p.near_z}, double{p.far_z}, double{w[i]}) - units[i];
     worst = std::max(worst, std::abs(error.get_d()));
   }
   return worst;

@@ -311,8 +311,8 @@ TEST(Viewer, MovesAlongTheViewOrTheWorld) {
   EXPECT_LT(moved("w").z, -0.05f);
   EXPECT_EQ(moved("w").y, 0.0f);
   EXPECT_EQ(moved("<space>").z, 0.0f);
-  const float slow = moved("<space>").y;
-  EXPECT_GT(moved("44<space>").y, 2.0f * slow);
+  const double slow = moved("<space>").y;
+  EXPECT_GT(moved("44<space>").y, 2.0 * slow);
   // All keys pressed at once, then released.
   for (const char key : {'w', 'd'}) session.press(key_of(key));
   EXPECT_FALSE(session.still());
