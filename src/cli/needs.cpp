@@ -431,7 +431,8 @@ For each stage of a rasterizer: the cheapest method that draws all these frames 
 other stages are exact, and the first pixel at which the next cheaper one fails. Triangles are
 numbered in submission order, from 0. "proven" follows from the ranges of the vertices. "seen" was
 compared with the exact result in so many pixels, or crossings of edges with rows and columns of
-samples. Both hold for these frames only.
+samples. Both hold for these frames only. Answers don't combine: where two stages are weakened
+together, pixels may be wrong.
 
   near, far plane, guard band  what to do with triangles beyond it: nothing, drop them, or clip them
   back faces                   whether drawing them changes the picture; how much faster culling is
