@@ -46,7 +46,7 @@ std::optional<Flags> parse_flags(int argc, char** argv) {
   parser.add_flag("--fit", flags.suite.fit, "Centre a mesh from a file and scale its longest side to 2");
   bool no_peers = false;
   auto* peers_flag = parser.add_flag("--peers", flags.need_peers,
-                                     "Fail if another project's rasterizer is missing (default: skip)");
+                                     "Fail if no other project's rasterizer starts (default: skip)");
   parser.add_flag("--no-peers", no_peers, "Leave out other projects' rasterizers")->excludes(peers_flag);
   parser.add_flag("--quick", flags.suite.quick,
                   "Fewer rows and repetitions; fewer triangles in knots and streams");

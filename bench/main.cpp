@@ -107,17 +107,16 @@ bool is_slow_and_not_fastest(const Row& row, const std::vector<Row>& rows) {
 
 // A peer that was built cannot start on a machine without its driver.
 void leave_out_missing_peers(std::vector<Row>& rows, bool need_peers) {
-  for (const PeerInfo& peer : benchmark_peers()) {
-    const auto is_of_peer = [&](const Row& row) { return row.peer == &peer; };
-    if (std::none_of(rows.begin(), rows.end(), is_of_peer)) continue;
-    try {
-      benchmark::AddCustomContext(std::string(peer.name), peer.version());
-    } catch (const std::runtime_error& error) {
-      if (need_peers) throw;
-      std::cerr << "Left out: " << error.what() << '\n';
-      std::erase_if(rows, is_of_peer);
-    }
-  }
+  if (std::none_of(rows.begin(), rows.end(), [](const Row& row) { return row.peer != nullptr; })) return;
+  const StartedPeers started = start_peers(benchmark_peers());
+  if (need_peers) started.require_one();
+  for (const auto& [peer, version] : started.peers)
+    benchmark::AddCustomContext(std::string(peer->name), version);
+  for (const std::string& reason : started.left_out) std::cerr << "Left out: " << reason << '\n';
+  std::erase_if(rows, [&](const Row& row) {
+    return row.peer != nullptr &&
+           std::ranges::none_of(started.peers, [&](const auto& of) { return of.first == row.peer; });
+  });
 }
 
 // Whether the previous row is the same backend's draw without the front end, and was already too slow.

@@ -11,6 +11,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "bench/peers/gl_context.h"
+
 namespace edgewise::bench {
 
 namespace {
@@ -38,21 +40,31 @@ EGLDeviceEXT software_device() {
 }
 
 // Mesa reads the driver's name and its number of threads once per display, so every context needs a display
-// of its own. EGL offers two without a window: the software device and the surfaceless platform
-// (EGL_MESA_platform_surfaceless). Mesa also distinguishes an empty list of attributes from none, which gives
-// a third.
+// of its own. The software device is Mesa's own, and gives two: Mesa distinguishes an empty list of
+// attributes from none. The third, of the surfaceless platform, may be another vendor's.
 EGLDisplay display_for(MesaDriver driver, int threads) {
   constexpr EGLint kNoAttributes[] = {EGL_NONE};
   const auto get = egl_function<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
-  if (driver == MesaDriver::softpipe)
-    return get(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, kNoAttributes);
-  if (threads == 1) return get(EGL_PLATFORM_DEVICE_EXT, software_device(), nullptr);
-  return get(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+  if (driver == MesaDriver::softpipe) return get(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+  return get(EGL_PLATFORM_DEVICE_EXT, software_device(), threads == 1 ? nullptr : kNoAttributes);
 }
 
-struct Context {
+std::string text_of(GLenum what) {
+  const auto get = egl_function<PFNGLGETSTRINGPROC>("glGetString");
+  const auto* const text = reinterpret_cast<const char*>(get(what));
+  return text == nullptr ? "no OpenGL" : text;
+}
+
+struct Context final : GlContext {
   EGLDisplay display = EGL_NO_DISPLAY;
   EGLContext context = EGL_NO_CONTEXT;
+
+  bool is_current() const override { return eglGetCurrentContext() == context; }
+  bool make_current() override {
+    return eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context) == EGL_TRUE;
+  }
+  void release() override { eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT); }
+  std::string renderer() const override { return text_of(GL_RENDERER); }
 };
 
 Context open(MesaDriver driver, int threads) {
@@ -81,20 +93,11 @@ Context open(MesaDriver driver, int threads) {
   return made;
 }
 
-std::string text_of(GLenum what) {
-  const auto get = egl_function<PFNGLGETSTRINGPROC>("glGetString");
-  return reinterpret_cast<const char*>(get(what));
-}
-
 void use(MesaDriver driver, int threads) {
   static std::map<std::pair<MesaDriver, int>, Context> contexts;
   Context& context = contexts[{driver, threads}];
   if (context.context == EGL_NO_CONTEXT) context = open(driver, threads);
-  if (eglGetCurrentContext() == context.context) return;
-  if (!eglMakeCurrent(context.display, EGL_NO_SURFACE, EGL_NO_SURFACE, context.context))
-    throw std::runtime_error("cannot make its context current");
-  if (!text_of(GL_RENDERER).starts_with(name_of(driver)))
-    throw std::runtime_error("EGL gives " + text_of(GL_RENDERER) + " instead");
+  use_context(context, name_of(driver));
 }
 
 }  // namespace

@@ -9,8 +9,8 @@ namespace edgewise::bench {
 enum class MesaDriver { llvmpipe, softpipe };
 std::string_view name_of(MesaDriver driver);
 
-// Makes a driver's context current: llvmpipe's for 1 or 2 threads, or softpipe's for 1. Throws
-// std::runtime_error if EGL or the driver is missing.
+// Makes a driver's context current, and checks at each call that it is this driver's: llvmpipe's for 1 or 2
+// threads, or softpipe's for 1. Throws std::runtime_error if EGL or the driver is missing.
 void use_mesa(MesaDriver driver, int threads);
 
 // The version of Mesa, and how the driver computes: "Mesa 22.3.6, LLVM 15.0.6, 256 bits". Throws as use_mesa

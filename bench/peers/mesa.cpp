@@ -202,8 +202,8 @@ class Frame final : public PeerFrame {
   std::vector<Mesh> meshes_;
 };
 
-template <MesaDriver driver>
-PeerInfo mesa_peer(std::string_view summary, int most_threads) {
+template <MesaDriver driver, int most_threads>
+PeerInfo mesa_peer(std::string_view summary) {
   return {name_of(driver),
           summary,
           most_threads,
@@ -213,7 +213,10 @@ PeerInfo mesa_peer(std::string_view summary, int most_threads) {
             glGetIntegerv(GL_SUBPIXEL_BITS, &bits);
             return int{bits};
           },
-          [] { return mesa_version(driver); },
+          [] {
+            for (int threads = most_threads; threads > 1; --threads) use_mesa(driver, threads);
+            return mesa_version(driver);
+          },
           [](const PeerScene& scene, int threads) -> std::unique_ptr<PeerFrame> {
             return std::make_unique<Frame>(driver, scene, threads);
           }};
@@ -222,10 +225,10 @@ PeerInfo mesa_peer(std::string_view summary, int most_threads) {
 }  // namespace
 
 PeerInfo llvmpipe() {
-  return mesa_peer<MesaDriver::llvmpipe>("Mesa's OpenGL for processors, SIMD code generated at run time", 2);
+  return mesa_peer<MesaDriver::llvmpipe, 2>("Mesa's OpenGL for processors, SIMD code generated at run time");
 }
 PeerInfo softpipe() {
-  return mesa_peer<MesaDriver::softpipe>("Mesa's reference driver of OpenGL, in plain C", 1);
+  return mesa_peer<MesaDriver::softpipe, 1>("Mesa's reference driver of OpenGL, in plain C");
 }
 
 }  // namespace edgewise::bench

@@ -52,4 +52,21 @@ void require_peers(std::span<const PeerInfo> peers) {
         "--peers: there is none, since OpenGL or EGL was not found (scripts/run --peers installs them)");
 }
 
+void StartedPeers::require_one() const {
+  if (!peers.empty()) return;
+  std::string why;
+  for (const std::string& reason : left_out) why += (why.empty() ? "" : "; ") + reason;
+  throw std::runtime_error("--peers: none starts: " + why);
+}
+
+StartedPeers start_peers(std::span<const PeerInfo> peers) {
+  StartedPeers started;
+  for (const PeerInfo& peer : peers) try {
+      started.peers.emplace_back(&peer, peer.version());
+    } catch (const std::runtime_error& error) {
+      started.left_out.emplace_back(error.what());
+    }
+  return started;
+}
+
 }  // namespace edgewise::bench

@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace edgewise::bench {
@@ -51,7 +52,7 @@ struct PeerInfo {
   std::string_view name;     // in row names; differs from every backend's
   std::string_view summary;  // one line
   int most_threads;
-  // All three throw std::runtime_error if the peer cannot start.
+  // All three throw std::runtime_error if the peer cannot start. version() tries every number of threads.
   int (*subpixel_bits)();  // the fewest bits to which it rounds positions
   std::string (*version)();
   // `threads` is at most most_threads.
@@ -64,5 +65,14 @@ std::span<const PeerInfo> peers();
 std::span<const PeerInfo> benchmark_peers();
 // Throws std::invalid_argument if the list is empty.
 void require_peers(std::span<const PeerInfo> peers);
+
+struct StartedPeers {
+  std::vector<std::pair<const PeerInfo*, std::string>> peers;  // with their versions
+  std::vector<std::string> left_out;                           // why each of the others cannot start
+
+  // Throws std::runtime_error, which says why, if no peer starts.
+  void require_one() const;
+};
+StartedPeers start_peers(std::span<const PeerInfo> peers);
 
 }  // namespace edgewise::bench

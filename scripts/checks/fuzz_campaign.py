@@ -149,7 +149,7 @@ def main():
     now = commit()
     before = read_record(options.resume, now)
     targets = [Target(name, options.build) for name in TARGETS]
-    slots = min(len(targets), os.cpu_count() or 1)
+    slots = min(len(targets), len(os.sched_getaffinity(0)))
     seconds = max(1, round(60 * options.minutes * slots / len(targets)))
     rows = []
     with concurrent.futures.ThreadPoolExecutor(slots) as pool:

@@ -183,7 +183,9 @@ def read_bench(folder_or_file):
 def describe_machine(machine):
     """One line under every figure and table."""
     cores = machine.get("cores", "?")
-    return (f"{machine.get('cpu_model', 'unknown CPU')}, {cores} core{'' if cores == 1 else 's'}, "
+    usable = machine.get("usable_cores", cores)
+    part = "" if usable == cores else f"{usable} usable of "
+    return (f"{machine.get('cpu_model', 'unknown CPU')}, {part}{cores} core{'' if cores == 1 else 's'}, "
             f"{machine.get('simd_best', 'unknown SIMD')}, {machine.get('memory_gib', '?')} GiB; "
             f"{machine.get('os', 'unknown system')}; {machine.get('compiler', 'unknown compiler')}, "
             f"{machine.get('build_type', 'unknown build')}; commit {machine.get('commit', 'unknown')}")

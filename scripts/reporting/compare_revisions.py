@@ -95,7 +95,7 @@ def build(of):
     if not (folder / "CMakeCache.txt").is_file():
         configure += ["-G", "Ninja"] if shutil.which("ninja") else []
     run(configure, f"the configuration of {of.title}")
-    run(["cmake", "--build", folder, "--parallel", str(os.cpu_count()), "--target", PROGRAM], f"the build of {of.title}")
+    run(["cmake", "--build", folder, "--parallel", str(len(os.sched_getaffinity(0))), "--target", PROGRAM], f"the build of {of.title}")
     return folder / PROGRAM
 
 

@@ -1,10 +1,10 @@
 """The findings on README's first screen, each in a sentence or two, made from the results."""
 from accuracy_findings import before_snapping_clause, listed, numbered
 from bench_rows import order
-from frontier import cracks_of, measured_in, simd_outcome, timed_scenes
+from frontier import simd_outcome
 from speedups import about, kernels, outcome, spread, with_width
 from peers import OURS, pairs
-from tables import THREADS, number, short
+from tables import THREADS, number
 
 # The tutorials' inside tests, and the scene with shared edges through pixel centres.
 TUTORIAL_TESTS = ("float_lt", "float_le")
@@ -94,12 +94,8 @@ def engine_sentence(accuracy):
     """The cost of exact edges in the engine that runs both kinds of numbers; empty if not measured."""
     exact, loose = ENGINES
     said = engine_outcome(accuracy, exact, loose)
-    if not said or not (cracks := cracks_of(accuracy, measured_in(timed_scenes(accuracy)[0], loose).method)):
-        return ""
     return (f"In the same SIMD engine ({kernels(accuracy.machine.get('simd_best'))}, one thread), exact coverage against float edges "
-            f"(`{loose}`): {said}. Those float edges leave {number(cracks.rate, 2)} cracks per 10⁶ crossings of shared edges "
-            f"in {cracks.scenes} scenes ({short(cracks.crossings)} crossings), {number(cracks.worst, 2)} on `{cracks.worst_scene}`; exact "
-            "ones leave none.")
+            f"(`{loose}`): {said}.") if said else ""
 
 
 def exactness_finding(accuracy):

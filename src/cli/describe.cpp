@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <utility>
 
 namespace edgewise::tools {
 
@@ -47,6 +48,24 @@ std::string stats_text(const FrontendStats& stats) {
       text += fmt::format("{}{} {}", separator, stats.*field.value, field.meaning);
       separator = ", ";
     }
+  return text;
+}
+
+std::string why_empty(const FrontendStats& stats) {
+  if (stats.triangles == 0) return "there are no triangles";
+  const std::pair<std::uint64_t, const char*> causes[] = {
+      {stats.whole_mesh + stats.outside, "outside the view"},
+      {stats.not_in_front, "behind the camera"},
+      {stats.not_finite, "with NaN or infinite vertices"},
+      {stats.culled, "culled by facing"},
+      {stats.zero_area, "with zero area"},
+      {stats.emitted, stats.emitted == 1 ? "that covers no pixel centre" : "that cover no pixel centre"}};
+  std::string text;
+  for (const auto& [count, cause] : causes) {
+    if (count == 0) continue;
+    const char* const noun = !text.empty() ? "" : count == 1 ? " triangle" : " triangles";
+    text += fmt::format("{}{}{} {}", text.empty() ? "" : ", ", count, noun, cause);
+  }
   return text;
 }
 

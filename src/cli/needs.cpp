@@ -33,7 +33,7 @@ constexpr int kRangeBits[] = {4, 8, 16};
 struct NeedsCommandOptions {
   std::vector<std::string> scenes;
   SceneOptions scene;
-  int frames = 1, orbit = 0, threads = all_cores();
+  int frames = 1, orbit = 0, threads = default_threads();
   std::optional<double> displacement;
   std::string pictures;
   bool ranges = false, json = false;
@@ -44,12 +44,14 @@ glm::dvec3 centre_of(const Scene& scene) {
   return low + 0.5 * (high - low);
 }
 
-// Moves the camera along a circle about the vertical axis through `centre`.
+// Moves the camera along a circle about the vertical axis through `centre`, which it looks at. A camera on
+// that axis turns by yaw.
 void turn_camera(Camera& camera, glm::dvec3 centre, double radians) {
   const glm::dvec3 from = camera.position - centre;
   const double c = std::cos(radians), s = std::sin(radians);
   camera.position = centre + glm::dvec3(c * from.x + s * from.z, from.y, c * from.z - s * from.x);
   camera.look_at(centre);
+  if (from.x == 0.0 && from.z == 0.0) camera.yaw = static_cast<float>(radians);
 }
 
 // The median of the paired rounds' ratios a / b, and an interval that holds the true one with at least 95 %
@@ -273,10 +275,9 @@ class NeedsCommand {
     Shot shot = load(scene, 0);
     if (options_.orbit == 0) return shot;
     auto& loaded = std::get<Scene>(shot.source.drawable);
-    const glm::dvec3 centre = centre_of(loaded), from = loaded.camera.position - centre;
-    if (from.x == 0.0f && from.z == 0.0f)
-      throw std::invalid_argument("--orbit: the camera is straight above or below the centre of '" +
-                                  shot.source.name + "'");
+    const glm::dvec3 centre = centre_of(loaded);
+    if (loaded.camera.position == centre)
+      throw std::invalid_argument("--orbit: the camera is at the centre of '" + shot.source.name + "'");
     turn_camera(loaded.camera, centre, 0.0);
     return shot;
   }
@@ -422,7 +423,8 @@ For each stage of a rasterizer: the cheapest method that draws all these frames 
 other stages are exact, and the first pixel at which the next cheaper one fails. Triangles are
 numbered in submission order, from 0. "proven" follows from the ranges of the vertices. "seen" was
 compared with the exact result in so many pixels, or crossings of edges with rows and columns of
-samples. Both hold for these frames only.
+samples. Both hold for these frames only. Answers don't combine: where two stages are weakened
+together, pixels may be wrong.
 
   near, far plane, guard band  what to do with triangles beyond it: nothing, drop them, or clip them
   back faces                   whether drawing them changes the picture; how much faster culling is
@@ -449,13 +451,14 @@ void add_needs(CLI::App& program, Action& action) {
   command.add_option("SCENE", o->scenes, "Scenes of `edgewise list`, or .obj or .tri files")->required();
   add_integer(command, "--frames", o->frames, 1, kMostFrames,
               "Frames of a built-in scene's motion, 60 per second (1)");
-  add_integer(command, "--orbit", o->orbit, 1, kMostFrames, "Frames of a camera that circles the scene once");
+  add_integer(command, "--orbit", o->orbit, 1, kMostFrames,
+              "Frames of a camera that circles the scene, or spins straight above it");
   add_number(command, "--displacement", o->displacement, 0, 1e6,
              "Pixels per 10^6 edge crossings that rounding may move (as with 8 bits)");
   command.add_option("--pictures", o->pictures, "Folder for close-ups of wrong pixels")->type_name("DIR");
   o->scene.add_to(command);
   add_integer(command, "--threads", o->threads, 1, kMaxThreads,
-              "Threads; answers don't depend on it (all cores)");
+              "Threads; answers don't depend on it (usable cores)");
   command.add_flag("--ranges", o->ranges, "Print only what vertex ranges prove, without drawing");
   command.add_flag("--json", o->json, "Print one JSON object per scene, one per line");
   command.footer(kNeedsFooter);

@@ -14,6 +14,7 @@
 #include "cli/commands.h"
 #include "cli/describe.h"
 #include "core/nearest_name.h"
+#include "edgewise/contract.h"
 #include "image/pictures.h"
 #include "lab/measure.h"
 #include "support/console.h"
@@ -168,8 +169,20 @@ class Renderer {
     write_image(file.path, image, file.format);
   }
 
+  // A drawn pixel is nearer than the cleared depth.
+  bool is_empty() const {
+    for (int y = 0; y < frame_->height(); ++y) {
+      const auto* const row = frame_->depth_row(y);
+      if (std::any_of(row, row + frame_->width(), [](auto z) { return z != contract::kDepthClear; }))
+        return false;
+    }
+    return true;
+  }
+
   void report(const Picture& picture) {
     progress_.erase();
+    if (is_empty())
+      print_error(fmt::format("the picture of '{}' is empty: {}", picture.scene, why_empty(picture.stats)));
     print(options_.json ? json_text(as_json(picture)) + "\n" : as_text(picture));
   }
 
@@ -221,6 +234,7 @@ constexpr const char* kRenderFooter = R"(Examples:
   edgewise render - --fit -o - --format ppm <bunny.obj | display
 
 The background is black in pictures, and 1 in depth files (PFM, floats in [0, 1]).
+If a picture came out empty, a line on standard error says why.
 --payload id writes (id + 1) * 0x9E3779 modulo 2^24 as a colour, R in the lowest byte. Each triangle
   has its own colour, and ids below 16,777,215 can be recovered exactly.
 --payload hits shows how often each pixel is drawn: black never, grey once, yellow twice, red more.

@@ -75,12 +75,13 @@ struct Instance {
 struct Camera {
   glm::dvec3 position{0.0};
   float yaw = 0.0f;     // radians about +y; positive turns left
-  float pitch = 0.0f;   // radians; positive looks up
+  float pitch = 0.0f;   // radians; positive looks up. At ±pi/2, yaw still turns the image
   float fov_y = 1.0f;   // vertical field of view in radians, 0 < fov_y < pi
   float near_z = 0.1f;  // distances along the view direction, 0 < near_z < far_z
   float far_z = 100.0f;
 
-  // Turns the camera towards a point. Does nothing if the point is the camera's own position.
+  // Turns the camera towards a point. Straight up and straight down, yaw becomes 0: the image's top then
+  // points along +z (up) or -z (down). Does nothing if the point is the camera's own position.
   void look_at(glm::dvec3 target);
 };
 

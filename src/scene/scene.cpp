@@ -15,10 +15,11 @@ void Mesh::add_quad(glm::uvec4 corners, std::uint32_t colour, bool two_sided) {
 }
 
 void Camera::look_at(glm::dvec3 target) {
-  const glm::dvec3 d = target - position;
-  if (d == glm::dvec3(0.0)) return;
-  yaw = static_cast<float>(std::atan2(-d.x, -d.z));
-  pitch = static_cast<float>(std::atan2(d.y, std::hypot(d.x, d.z)));
+  // Adding 0 turns -0 into 0: atan2 tells them apart.
+  const glm::dvec3 back = position - target + 0.0;
+  if (back == glm::dvec3(0.0)) return;
+  yaw = static_cast<float>(std::atan2(back.x, back.z));
+  pitch = static_cast<float>(std::atan2(0.0 - back.y, std::hypot(back.x, back.z)));
 }
 
 glm::dmat4 model_matrix(const Instance& instance) {

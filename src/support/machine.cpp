@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "edgewise/simd_target.h"
+#include "support/cores.h"
 
 namespace edgewise::tools {
 
@@ -72,10 +73,6 @@ std::map<std::string, std::string> read_pairs(const std::string& path, char sepa
 std::string value_of(const std::map<std::string, std::string>& pairs, const std::string& key) {
   const auto found = pairs.find(key);
   return found == pairs.end() ? std::string() : found->second;
-}
-
-long cores() {
-  return std::max(1L, sysconf(_SC_NPROCESSORS_ONLN));
 }
 
 // The CPU features that affect the choice and speed of kernels.
@@ -166,7 +163,8 @@ nlohmann::json machine_description() {
   nlohmann::json json;
   json["cpu_model"] = cpu_model();
   json["cpu_features"] = cpu_features();
-  json["cores"] = cores();
+  json["cores"] = machine_cores();
+  json["usable_cores"] = usable_cores();
   const std::string max_khz = first_line("/sys/devices/system/cpu/cpu0/cpufreq/cpuinfo_max_freq");
   if (!max_khz.empty()) json["cpu_mhz_max"] = std::strtol(max_khz.c_str(), nullptr, 10) / 1000;
   json["caches"] = caches();
@@ -186,9 +184,10 @@ nlohmann::json machine_description() {
 }
 
 std::string machine_name() {
-  const long n = cores();
+  const int all = machine_cores(), usable = usable_cores();
+  const std::string part = usable == all ? "" : fmt::format("{} of ", usable);
   std::string name;
-  for (const char c : fmt::format("{} {} {}", cpu_model(), n, n == 1 ? "core" : "cores")) {
+  for (const char c : fmt::format("{} {}{} {}", cpu_model(), part, all, all == 1 ? "core" : "cores")) {
     const auto u = static_cast<unsigned char>(c);
     if (std::isalnum(u))
       name += static_cast<char>(std::tolower(u));

@@ -9,12 +9,12 @@
 #include <cmath>
 #include <glm/trigonometric.hpp>
 #include <stdexcept>
-#include <thread>
 #include <utility>
 #include <vector>
 
 #include "core/nearest_name.h"
 #include "edgewise/contract.h"
+#include "support/cores.h"
 
 namespace edgewise::tools {
 
@@ -209,7 +209,8 @@ void SceneOptions::add_to(CLI::App& command) {
 
   constexpr const char* kGroup = "Camera (meshes only)";
   add_vector(command, "--eye", eye, "Camera position")->group(kGroup);
-  add_vector(command, "--at", at, "Point that the camera looks at")->group(kGroup);
+  add_vector(command, "--at", at, "Point that the camera looks at; if straight up or down, yaw is 0")
+      ->group(kGroup);
   add_number(command, "--yaw", yaw_deg, -3600, 3600, "Camera yaw to the left in degrees; 0 looks along -z")
       ->group(kGroup);
   add_number(command, "--pitch", pitch_deg, -90, 90, "Camera pitch upwards in degrees")->group(kGroup);
@@ -244,16 +245,17 @@ Shot load_shot(const std::string& name_or_path, const SceneOptions& options, dou
   return shot;
 }
 
-int all_cores() {
-  return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMaxThreads);
+int default_threads() {
+  return std::min(usable_cores(), kMaxThreads);
 }
 
 ExecutionOptions::ExecutionOptions() {
-  execution.threads = all_cores();
+  execution.threads = default_threads();
 }
 
 void ExecutionOptions::add_to(CLI::App& command) {
-  add_integer(command, "--threads", execution.threads, 1, kMaxThreads, "Threads, 1 to 256 (all cores)");
+  add_integer(command, "--threads", execution.threads, 1, kMaxThreads,
+              "Threads, 1 to 256 (as many as usable cores)");
   command
       .add_option_function<std::string>(
           "--target", [this](const std::string& text) { execution.target = parse_target(text); },

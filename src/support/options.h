@@ -66,7 +66,7 @@ struct Shot {
 };
 Shot load_shot(const std::string& name_or_path, const SceneOptions& options, double time);
 
-int all_cores();  // the number of this machine's cores; 1 … kMaxThreads
+int default_threads();  // the number of usable cores; 1 … kMaxThreads
 
 // Options for drawing: threads, SIMD target, tile size.
 struct ExecutionOptions {

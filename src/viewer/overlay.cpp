@@ -244,8 +244,9 @@ class Overlaying {
     to.line(fmt::format("[m] moves along {} axes, speed {:.2g}", state_.along_view ? "camera" : "world",
                         state_.speed));
     to.line(fmt::format("{} {} deg about {:.2f} {:.2f} {:.2f}{}",
-                        state_.spinning ? "[r] rotating," : "rotated", degrees(state_.angle), state_.axis.x,
-                        state_.axis.y, state_.axis.z, state_.frozen ? ", frozen [f]" : ""));
+                        state_.spinning ? "[r] rotating," : "rotated", degrees(state_.angle),
+                        hundredths(state_.axis.x), hundredths(state_.axis.y), hundredths(state_.axis.z),
+                        state_.frozen ? ", frozen [f]" : ""));
     if (state_.labels && session_.vertex_count() > kMostLabels)
       to.line(fmt::format("[t] {} vertices are too many for labels", session_.vertex_count()), kNotOurs);
   }

@@ -85,9 +85,9 @@ Enum next_of_three(Enum value) {
   return static_cast<Enum>((static_cast<int>(value) + 1) % 3);
 }
 
-// 1, 2, 4, … and the number of cores.
+// 1, 2, 4, … and the number of usable cores.
 std::vector<int> thread_counts() {
-  const int cores = tools::all_cores();
+  const int cores = tools::default_threads();
   std::vector<int> counts;
   for (int n = 1; n < cores; n *= 2) counts.push_back(n);
   counts.push_back(cores);

@@ -38,6 +38,7 @@ class World {
 // Moves the camera by a distance in world units, along its own right, up and backward axes (along_view), or
 // along the world's x, y and z axes.
 void move(Camera& camera, glm::vec3 distance, bool along_view);
-// Turns the camera. Radians; the pitch is clamped to straight up and straight down.
+// Turns the camera. Radians; the pitch is clamped to straight up and straight down, where yaw still turns the
+// image.
 void look(Camera& camera, float left, float up);
 }  // namespace edgewise::viewer

@@ -8,6 +8,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "bench/peers/gl_context.h"
 #include "bench/peers/judge.h"
 #include "bench/peers/ratios.h"
 #include "bench/peers/scene.h"
@@ -15,6 +16,7 @@
 #include "core/random.h"
 #include "edgewise/contract.h"
 #include "lab/portable/portable.h"
+#include "message_of.h"
 #include "support.h"
 
 namespace edgewise::bench {
@@ -278,6 +280,49 @@ TEST_P(BuiltPeer, DrawsOurPictures) {
     }
   }
   if (benchmark_peers().empty()) GTEST_SKIP() << "no peer was built";
+}
+
+// Beside NVIDIA's driver, EGL gave its OpenGL when asked for softpipe. The first use was refused, but the
+// context stayed current, and the second use passed.
+class FakeContext final : public GlContext {
+ public:
+  explicit FakeContext(std::string renderer) : renderer_(std::move(renderer)) {}
+  bool is_current() const override { return current_; }
+  bool make_current() override { return current_ = true; }
+  void release() override { current_ = false; }
+  std::string renderer() const override { return renderer_; }
+
+ private:
+  std::string renderer_;
+  bool current_ = false;
+};
+
+TEST(GlContext, IsCheckedAtEachUse) {
+  FakeContext wrong("NVIDIA H200/PCIe/SSE2");
+  for (int use = 1; use <= 2; ++use) {
+    EXPECT_EQ(message_of([&] { use_context(wrong, "softpipe"); }), "EGL gives NVIDIA H200/PCIe/SSE2 instead");
+    EXPECT_FALSE(wrong.is_current()) << use;
+  }
+  FakeContext right("softpipe");
+  for (int use = 1; use <= 2; ++use) EXPECT_NO_THROW(use_context(right, "softpipe"));
+  EXPECT_TRUE(right.is_current());
+}
+
+TEST(Peers, ThatCannotStartAreNamedAndLeftOut) {
+  const PeerInfo works{"works", "", 1, nullptr, [] { return std::string("2.0"); }, nullptr};
+  const PeerInfo broken{"broken",
+                        "",
+                        1,
+                        nullptr,
+                        []() -> std::string { throw std::runtime_error("broken: EGL gives another"); },
+                        nullptr};
+  const StartedPeers some = start_peers(std::vector{broken, works});
+  ASSERT_EQ(some.peers.size(), 1u);
+  EXPECT_EQ(some.peers[0].second, "2.0");
+  EXPECT_EQ(some.left_out, std::vector<std::string>{"broken: EGL gives another"});
+  EXPECT_NO_THROW(some.require_one());
+  const StartedPeers none = start_peers(std::vector{broken});
+  EXPECT_EQ(message_of([&] { none.require_one(); }), "--peers: none starts: broken: EGL gives another");
 }
 
 enum class Ties { in_the_mask, not_in_the_mask };

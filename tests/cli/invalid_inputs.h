@@ -45,7 +45,7 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
     {"edgewise needs grid64 --orbit 2", 2, "'grid64' is a stream of triangles and has no camera"},
     {"edgewise needs $IN/good.obj --frames 2", 2, "does not move; use --orbit"},
     {"edgewise needs cube --orbit 2 --at 0,0,0", 2, "--at, --yaw and --pitch cannot be given"},
-    {"edgewise needs cube --orbit 2 --eye 0,9,0", 2, "straight above or below"},
+    {"edgewise needs cube --orbit 2 --eye 0,0,0", 2, "the camera is at the centre of 'cube'"},
     {"edgewise needs cube --ranges --pictures $DIR/a", 2, "--pictures cannot be given"},
     {"edgewise needs cube cube --pictures $DIR/a", 2, "two scenes have the name 'cube'"},
     {"edgewise needs cube --displacement -1", 2, "--displacement"},

@@ -1,6 +1,7 @@
 // The program's commands on valid input; invalid_inputs.h has the invalid ones.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -67,9 +68,9 @@ TEST(Program, ListNamesAllRegistries) {
 
 TEST(Program, MachineIsDescribedWithoutAHostName) {
   const auto json = nlohmann::json::parse(edgewise_with("machine").out);
-  for (const char* key :
-       {"cpu_model", "cpu_features", "cores", "caches", "memory_gib", "os", "kernel", "compiler", "flags",
-        "build_type", "edgewise_version", "commit", "packages", "simd_targets", "simd_best"})
+  for (const char* key : {"cpu_model", "cpu_features", "cores", "usable_cores", "caches", "memory_gib", "os",
+                          "kernel", "compiler", "flags", "build_type", "edgewise_version", "commit",
+                          "packages", "simd_targets", "simd_best"})
     EXPECT_TRUE(json.contains(key)) << key;
   const std::string name = edgewise_with("machine --name").out;
   EXPECT_EQ(name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-\n"), std::string::npos) << name;
@@ -446,6 +447,43 @@ TEST(Program, NeedsFollowsMotionAndOrbit) {
     EXPECT_TRUE(question.at("answer").is_string()) << question;
     EXPECT_TRUE(question.at("proven") == true || question.at("trials").at("count") > 0) << question;
   }
+}
+
+TEST(Program, NeedsTurnsACameraThatIsStraightAbove) {
+  for (const char* eye : {"0,6,0", "-0,-6,0"}) {
+    const Outcome outcome =
+        edgewise_with("needs cube --size 96x54 --json --orbit 3 --ranges --eye " + std::string(eye));
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(nlohmann::json::parse(outcome.out).at("frames"), 3);
+  }
+}
+
+TEST_F(ProgramRenders, TheSamePictureStraightDownWhateverTheSignOfAZero) {
+  const auto picture = [&](const std::string& camera) {
+    const Outcome outcome =
+        edgewise_with("render cubes --cull none --size 40x40 --eye 0,9,0 " + camera + " -o " + path("a.ppm"));
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return file_content(path("a.ppm"));
+  };
+  const std::string expected = picture("--yaw 0 --pitch -90");
+  for (const char* at : {"0,0,0", "0,0,-0", "-0,0,0", "-0,-0,-0"})
+    EXPECT_TRUE(picture(std::string("--at ") + at) == expected) << at;
+}
+
+TEST_F(ProgramRenders, AnEmptyPictureAndSaysWhy) {
+  const std::pair<const char*, const char*> reasons[] = {
+      {"--eye 0,0,9 --yaw 180", "12 triangles outside the view"},
+      {"--cull both", "12 triangles culled by facing"},
+      {"--eye 90,0,0 --far 100 --at 0,0,0 --size 1x2 --fov 45", "that cover no pixel centre"}};
+  for (const auto& [options, reason] : reasons) {
+    const Outcome outcome = edgewise_with("render cube " + std::string(options) + " -o " + path("a.ppm"));
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_TRUE(outcome.err.starts_with("edgewise: the picture of 'cube' is empty: ")) << outcome.err;
+    EXPECT_NE(outcome.err.find(reason), std::string::npos) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1);
+  }
+  EXPECT_EQ(edgewise_with("render cube -o " + path("a.ppm")).err, "");
+  EXPECT_EQ(edgewise_with("render cube --wireframe -o " + path("a.ppm")).err, "");
 }
 
 TEST(Program, NeedsByRangesAlone) {

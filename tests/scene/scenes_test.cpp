@@ -1,7 +1,9 @@
 // The built-in scenes have their documented properties.
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <map>
 #include <numeric>
@@ -11,6 +13,7 @@
 #include "edgewise/builtin.h"
 #include "edgewise/frontend.h"
 #include "lab/measure.h"
+#include "lab/view_space.h"
 #include "support.h"
 
 namespace edgewise {
@@ -212,6 +215,41 @@ TEST(Camera, LooksAtItsTarget) {
     ASSERT_FALSE(triangles.empty());
     EXPECT_NEAR(triangles[0].x_sub[0], 50 * 256, 40);
     EXPECT_NEAR(triangles[0].y_sub[0], 50 * 256, 40);
+  }
+}
+
+// Of all positions and targets that differ in the signs of their zeros only.
+TEST(Camera, LooksTheSameWayWhateverTheSignsOfZeros) {
+  for (const glm::vec3 direction :
+       {glm::vec3(0, 6, 0), {0, -6, 0}, {0, 0, 6}, {0, 0, -6}, {6, 0, 0}, {-6, 0, 0}}) {
+    Camera first;
+    first.look_at(direction);
+    for (unsigned signs = 0; signs < 64; ++signs) {
+      const auto signed_zero = [&](int bit) { return (signs >> bit & 1) != 0 ? -0.0f : 0.0f; };
+      Camera camera;
+      glm::vec3 target = direction;
+      for (int i = 0; i < 3; ++i) {
+        camera.position[i] = signed_zero(i);
+        if (target[i] == 0.0f) target[i] = signed_zero(3 + i);
+      }
+      camera.look_at(target);
+      EXPECT_EQ(std::bit_cast<std::uint32_t>(camera.yaw), std::bit_cast<std::uint32_t>(first.yaw)) << signs;
+      EXPECT_EQ(std::bit_cast<std::uint32_t>(camera.pitch), std::bit_cast<std::uint32_t>(first.pitch))
+          << signs;
+    }
+  }
+}
+
+TEST(Camera, LooksStraightUpAndDownWithYaw0) {
+  for (const float sign : {-1.0f, 1.0f}) {
+    Camera camera;
+    camera.yaw = 2.0f;
+    camera.position = {1, 2, 3};
+    camera.look_at({1, 2 + 6 * sign, 3});
+    EXPECT_EQ(camera.yaw, 0.0f);
+    EXPECT_EQ(camera.pitch, sign * 1.57079633f);
+    const glm::dvec3 top = glm::transpose(lab::to_camera_frame(camera)) * glm::dvec3(0, 1, 0);
+    EXPECT_NEAR(glm::distance(top, glm::dvec3(0, 0, sign)), 0.0, 1e-6);
   }
 }
 

@@ -490,6 +490,17 @@ class ScriptsTest(unittest.TestCase):
         self.assertNotIn("second-thread", drawn)
 
 
+class MachineTest(unittest.TestCase):
+    """bench_rows.describe_machine(): the cores, and those that the program could use."""
+
+    def test_names_the_usable_cores_of_a_restricted_process(self):
+        sys.path.insert(0, str(SCRIPTS / "reporting"))
+        from bench_rows import describe_machine
+        self.assertTrue(describe_machine(MACHINE).startswith("Test CPU, 2 cores, avx2"))
+        self.assertEqual(describe_machine({**MACHINE, "usable_cores": 2}), describe_machine(MACHINE))
+        self.assertTrue(describe_machine({**MACHINE, "usable_cores": 1}).startswith("Test CPU, 1 usable of 2 cores, avx2"))
+
+
 class NarrowerTest(unittest.TestCase):
     """speedups.narrower_sentence(): whole frames with narrower vectors, against the widest."""
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <set>
 #include <thread>
@@ -340,6 +341,17 @@ TEST(Viewer, TurnsObjectsAboutAnyAxis) {
   EXPECT_NEAR(glm::length(glm::vec3(model[3])), 0.0f, 1e-5f);
   EXPECT_NEAR(glm::determinant(glm::mat3(model)), 1.0f, 1e-5f);
   EXPECT_NE(type(session, "").picture.pixels, home.pixels);
+}
+
+TEST(Viewer, LooksNoFurtherThanStraightUpAndDownWhereYawTurnsThePicture) {
+  for (const float sign : {-1.0f, 1.0f}) {
+    Camera camera;
+    look(camera, 0.5f, sign * 10.0f);
+    EXPECT_EQ(camera.pitch, sign * 1.57079633f);
+    EXPECT_EQ(camera.yaw, 0.5f);
+    const glm::dvec3 top = glm::transpose(lab::to_camera_frame(camera)) * glm::dvec3(0, 1, 0);
+    EXPECT_NEAR(glm::distance(top, double{sign} * glm::dvec3(std::sin(0.5), 0, std::cos(0.5))), 0.0, 1e-6);
+  }
 }
 
 TEST(Viewer, ComparesTwoSides) {

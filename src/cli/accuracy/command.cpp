@@ -33,7 +33,7 @@ int accuracy_command(AccuracyOptions& o) {
   if (!o.family.empty()) plan.family = lab::find_family(o.family);
   plan.speed = !o.no_speed;
   plan.pictures = !o.pictures.empty();
-  plan.threads = all_cores();
+  plan.threads = default_threads();
 
   check_json_file(o.json, o.pictures, plan.scenes);
   if (plan.pictures) check_closeup_folder(o.pictures);
@@ -105,7 +105,8 @@ void add_accuracy(CLI::App& program, Action& action) {
       ->allow_extra_args(false)
       ->delimiter(',')
       ->type_name("NAME");
-  command.add_flag("--peers", o->plan.peers, "Also measure other projects' rasterizers as coverage methods");
+  command.add_flag("--peers", o->plan.peers,
+                   "Also measure other projects' rasterizers that start here (coverage)");
   command.add_flag("--no-speed", o->no_speed, "Count errors only, without timing");
   command.add_flag("--fit", o->plan.fit, "Centre your meshes and scale their longest side to 2");
   command

@@ -8,6 +8,7 @@
 
 #include "bench/peers/peer.h"
 #include "lab/measure.h"
+#include "support/console.h"
 
 namespace edgewise::tools {
 
@@ -82,16 +83,16 @@ lab::CoverageMethod method_of(const bench::PeerInfo& peer, std::string_view vers
 }  // namespace
 
 std::span<const lab::CoverageMethod> peer_methods() {
-  static const std::vector<std::string> versions = [] {
+  static const bench::StartedPeers started = [] {
     bench::require_peers(bench::peers());
-    std::vector<std::string> list;
-    for (const bench::PeerInfo& peer : bench::peers()) list.push_back(peer.version());
-    return list;
+    bench::StartedPeers found = bench::start_peers(bench::peers());
+    found.require_one();
+    for (const std::string& reason : found.left_out) print_error("left out: " + reason);
+    return found;
   }();
   static const std::vector<lab::CoverageMethod> methods = [] {
     std::vector<lab::CoverageMethod> list;
-    for (std::size_t i = 0; i < versions.size(); ++i)
-      list.push_back(method_of(bench::peers()[i], versions[i]));
+    for (const auto& [peer, version] : started.peers) list.push_back(method_of(*peer, version));
     return list;
   }();
   return methods;

@@ -7,7 +7,8 @@
 
 namespace edgewise::tools {
 
-// Throws std::invalid_argument if this build has no peers, and std::runtime_error if one cannot start.
+// Those that start here; the first call names the others on stderr. Throws std::invalid_argument if this
+// build has no peers, and std::runtime_error if none starts.
 std::span<const lab::CoverageMethod> peer_methods();
 
 }  // namespace edgewise::tools

@@ -38,7 +38,7 @@ struct SoakOptions {
   std::optional<std::uint64_t> seed, cases, only_case;
   std::optional<soak::Shard> shard;
   std::optional<double> seconds;
-  int jobs = all_cores();
+  int jobs = default_threads();
   std::string json, resume, out = "edgewise-soak-failures";
   std::vector<std::string> merge;
 };
@@ -236,7 +236,7 @@ void add_soak(CLI::App& program, Action& action) {
   add("--case", "NUMBER", "Draw only this case",
       [o](const std::string& text) { o->only_case = parse_count("--case", text, 0, soak::kMostShards - 1); });
   add_integer(command, "--jobs", o->jobs, 1, kMaxThreads,
-              "Cases drawn concurrently; results don't depend on it (all cores)");
+              "Cases drawn concurrently; results don't depend on it (usable cores)");
   command.add_option("-o,--json", o->json, "Write all results as JSON; - for stdout, instead of the tables")
       ->type_name("FILE");
   command
