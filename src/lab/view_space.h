@@ -10,11 +10,12 @@
 namespace edgewise::lab {
 
 // All instances as one mesh; the camera is at the origin and looks along -z. Each triangle has its own three
-// vertices; triangles keep their order of submission. Throws std::out_of_range for an instance whose mesh the
-// scene lacks.
+// vertices and its face's normal; triangles keep their order of submission and kSameFace. Throws
+// std::out_of_range for an instance whose mesh the scene lacks.
 ClippingScene in_view_space(const Scene& scene, Size size);
 
-// The method's result per triangle: 1 if it faces the camera, else 0. `seen` is a scene in view space.
+// The method's result per triangle: 1 if it faces the camera, else 0. Methods by normals test each face once,
+// the others each triangle. `seen` comes from in_view_space().
 std::vector<std::uint8_t> fronts_of(const FacingMethod& method, const ClippingScene& seen);
 
 glm::vec3 line_of_sight(const Camera& camera);

@@ -24,7 +24,9 @@ void check_source(const std::string& name_or_path);
 
 // Loads a built-in scene by name, or a .obj or .tri file. `fit` centres a mesh scene and scales its longest
 // side to 2 (built-in streams and .tri files ignore it). Throws std::invalid_argument for an unknown name,
-// with the nearest known one, and what read_obj and read_tri throw.
-Source load_source(const std::string& name_or_path, const SceneRequest& request, bool fit);
+// with the nearest known one, and what read_obj and read_tri throw. Prints what read_obj warns of. `recentre`
+// is an option of read_obj, ignored for other scenes; the offset is printed.
+Source load_source(const std::string& name_or_path, const SceneRequest& request, bool fit,
+                   bool recentre = false);
 
 }  // namespace edgewise::tools
