@@ -199,7 +199,7 @@ class Reader {
     if (!unknown_.empty() && !library_failed_)
       warn(first_unknown_,
            "no .mtl file defines material " + in_quotes(*unknown_.begin()) +
-               (unknown_.size() == 1 ? "" : " or " + std::to_string(unknown_.size() - 1) + " others"));
+               (unknown_.size() == 1 ? "" : ", nor " + std::to_string(unknown_.size() - 1) + " more"));
     if (face_lines_.empty()) throw std::invalid_argument("has no faces");
     check_indices();
   }

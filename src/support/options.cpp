@@ -206,8 +206,7 @@ void SceneOptions::add_to(CLI::App& command) {
       ->type_name("MODE");
   command.add_flag("--no-shade", no_shade, "Draw meshes unlit, as streams always are");
   command.add_flag("--fit", fit, "Centre a mesh and scale its longest side to 2");
-  command.add_flag("--recentre", recentre,
-                   "Subtract a point near a mesh file's centre from its positions; prints the point");
+  command.add_flag("--recentre", recentre, "Subtract a mesh file's centre from its positions, and print it");
 
   constexpr const char* kGroup = "Camera (meshes only)";
   add_vector(command, "--eye", eye, "Camera position")->group(kGroup);

@@ -286,7 +286,7 @@ TEST(ObjFile, MissingMaterialsAreWarnings) {
   ASSERT_EQ(missing.size(), 1u);
   EXPECT_TRUE(missing[0].starts_with("line 2: " + none + ": ")) << missing[0];
   EXPECT_EQ(warnings(face),
-            std::vector<std::string>{"line 4: no .mtl file defines material 'a' or 1 others"});
+            std::vector<std::string>{"line 4: no .mtl file defines material 'a', nor 1 more"});
   dir.write("bad.mtl", "newmtl c\nKd 1 x 1\n");
   EXPECT_EQ(warnings("mtllib bad.mtl\n" + face),
             std::vector<std::string>{"line 1: " + bad + ": line 2: 'x' is not a finite number"});

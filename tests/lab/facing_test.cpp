@@ -6,7 +6,9 @@
 #include <cmath>
 #include <map>
 
+#include "core/random.h"
 #include "lab/lab_support.h"
+#include "lab/view_space.h"
 
 namespace edgewise::lab {
 namespace {
@@ -187,6 +189,44 @@ TEST(Facing, OnlyAreasMisjudgeAPolygonWithAConcaveSecondVertex) {
   const FacingScene scene = make_case("notch_second");
   for (const auto& m : facing_methods())
     EXPECT_EQ(judge(m.info.name, scene).misclassified, m.by_normal ? 0u : 1u) << m.info.name;
+}
+
+// Of a scene, methods by normals test each face once, by the normal of the whole. Each quad's first triangle
+// has no area, or it is folded away from the rest.
+TEST(Facing, FacesOfASceneAreTestedOnceByTheirNormal) {
+  Random random(4);
+  Scene scene;
+  Mesh& mesh = scene.meshes.emplace_back();
+  const auto vector = [&](float z) {
+    const float x = random.uniform(-1, 1), y = random.uniform(-1, 1);
+    return glm::vec3(x, y, z + random.uniform(-1, 1));
+  };
+  for (std::uint32_t i = 0; i < 400; ++i) {
+    const glm::vec3 a = vector(-4), c = vector(-4), d = vector(-4), middle = (a + c) * 0.5f;
+    mesh.positions.insert(mesh.positions.end(),
+                          {a, i % 2 == 0 ? middle : middle + 0.3f * (d - middle), c, d});
+    mesh.add_quad({4 * i, 4 * i + 1, 4 * i + 2, 4 * i + 3}, i);
+  }
+  scene.instances.resize(2);
+  scene.instances[1].scale = {-1, 2, 0.5f};
+  scene.camera.position = {0.2f, 0.1f, 0.5f};
+  scene.camera.yaw = 0.1f;
+  const ClippingScene seen = in_view_space(scene, {256, 256});
+  for (const auto& m : facing_methods()) {
+    if (!m.by_normal) continue;
+    const auto fronts = fronts_of(m, seen);
+    const bool by_ray = m.info.name != "normal_z" && m.info.name != "normal_dot_object";
+    for (std::size_t i = 0; i < fronts.size(); i += 2) {
+      ASSERT_EQ(fronts[i], fronts[i + 1]) << m.info.name;
+      if (!by_ray) continue;
+      const glm::vec3* p = &seen.mesh().positions[3 * i];  // a, b, c, and a, c, d
+      const glm::dvec3 first(p[0]), third(p[2]), fourth(p[5]);
+      const double side = glm::dot(glm::cross(fourth - first, third - first), first);
+      if (std::abs(side) > 1e-4) {
+        EXPECT_EQ(fronts[i] != 0, side < 0) << m.info.name << ' ' << i;
+      }
+    }
+  }
 }
 
 }  // namespace

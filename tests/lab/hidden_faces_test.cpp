@@ -99,8 +99,8 @@ TEST(HiddenFaces, AreFoundByTheirNormalsAndNeverTwoSided) {
     EXPECT_EQ(left.flags, (std::vector<std::uint8_t>{0, kSameFace, kTwoSided, kTwoSided | kSameFace,
                                                      kTwoSided, kTwoSided | kSameFace, 0}));
     ASSERT_EQ(left.triangles.size(), 7u);
-    EXPECT_EQ(left.triangles[1], glm::uvec3(0, 2, 3));
-    EXPECT_EQ(left.triangles[2], glm::uvec3(2, 1, 0));
+    EXPECT_EQ(left.triangles[1], glm::uvec3(2, 0, 3));
+    EXPECT_EQ(left.triangles[2], glm::uvec3(0, 1, 2));
     EXPECT_EQ(left.positions, mesh.positions);
     EXPECT_TRUE(left.clusters.empty());
   }
