@@ -10,6 +10,7 @@
 #include "frontend/lanes-inl.h"
 
 #include <algorithm>
+#include <type_traits>
 
 #include "core/kernel_table.h"
 #include "edgewise/contract.h"
@@ -88,20 +89,23 @@ class Padded {
   float padded_[4] = {};
 };
 
-// `vectors` holds the mesh's normals, or if it has none, its positions.
-template <bool kNormals>
-HWY_INLINE VF cosines(const ShadeTask& task, const Padded& vectors, const std::uint32_t (&sources)[kBatch]) {
-  const auto real = [](VI v) HWY_ATTR { return hn::BitCast(DF{}, v); };
-  if constexpr (kNormals) {
-    const Words n = load_words([&](std::size_t lane) { return vectors[sources[lane]]; });
-    const auto lit_by = [&](auto x, auto y, auto z) HWY_ATTR {
-      return lambert(task, Vec3<decltype(x)>{x, y, z});
-    };
-    return in_double(DF{}, lit_by, real(n.word[0]), real(n.word[1]), real(n.word[2]));
-  }
-  const glm::uvec3* triangles = task.mesh.triangles.data();
+HWY_INLINE VF real(VI v) {
+  return hn::BitCast(DF{}, v);
+}
+
+// With the faces' normals, of four words each.
+HWY_INLINE VF cosines(const ShadeTask& task, const Padded&, const float* const (&normals)[kBatch]) {
+  const Words n = load_words([&](std::size_t lane) { return normals[lane]; });
+  const auto of_normal = [&](auto x, auto y, auto z) HWY_ATTR {
+    return lambert(task, Vec3<decltype(x)>{x, y, z});
+  };
+  return in_double(DF{}, of_normal, real(n.word[0]), real(n.word[1]), real(n.word[2]));
+}
+
+HWY_INLINE VF cosines(const ShadeTask& task, const Padded& positions,
+                      const glm::uvec3* const (&corners)[kBatch]) {
   const auto corner = [&](int k) HWY_ATTR {
-    return load_words([&](std::size_t lane) { return vectors[triangles[sources[lane]][k]]; });
+    return load_words([&](std::size_t lane) { return positions[(*corners[lane])[k]]; });
   };
   const Words a = corner(0), b = corner(1), c = corner(2);
   return in_double(
@@ -123,19 +127,25 @@ template <bool kFlagged, bool kNormals>
 void shade_all(const ShadeTask& task, ChunkOutput& out, std::size_t first) {
   const DI d;
   const Padded vectors(kNormals ? task.mesh.normals : task.mesh.positions);
+  using Source = std::conditional_t<kNormals, const float*, const glm::uvec3*>;
   ScreenTriangle* triangles = out.triangles.data();
   for (std::size_t i = first; i < out.count; i += kBatch) {
     const std::size_t count = std::min(kBatch, out.count - i);
-    std::uint32_t sources[kBatch], colours[kBatch];
+    Source sources[kBatch];
+    std::uint32_t colours[kBatch];
     float sides[kBatch];
     for (std::size_t lane = 0; lane < kBatch; ++lane) {
       const ScreenTriangle& seen = triangles[i + std::min(lane, count - 1)];
-      sources[lane] = seen.payload;
-      colours[lane] = task.mesh.colours[seen.payload];
+      const std::size_t source = seen.payload;
       if constexpr (kFlagged) sides[lane] = side_seen(task.mesh, seen.payload, seen);
+      if constexpr (kNormals)
+        sources[lane] = vectors[seen.payload];
+      else
+        sources[lane] = &task.mesh.triangles[source];
+      colours[lane] = task.mesh.colours[source];
     }
     const VI colour = hn::LoadU(d, reinterpret_cast<const std::int32_t*>(colours));
-    VF cosine = cosines<kNormals>(task, vectors, sources);
+    VF cosine = cosines(task, vectors, sources);
     if constexpr (kFlagged) cosine = hn::Mul(cosine, hn::LoadU(DF{}, sides));
     hn::StoreU(lit(colour, cosine), d, reinterpret_cast<std::int32_t*>(colours));
     for (std::size_t lane = 0; lane < count; ++lane) triangles[i + lane].payload = colours[lane];
