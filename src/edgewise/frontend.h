@@ -23,7 +23,7 @@ std::string_view name_of(Cull cull);  // "none", "back", "front", "both"
 enum class Payload {
   colour,  // 0xAABBGGRR
   // Index of the source triangle in submission order. All pieces of a clipped triangle have the same id. The
-  // two triangles of a face of four vertices have different ids (Mesh::face_of).
+  // triangles of a face have different ids.
   id
 };
 
@@ -116,9 +116,8 @@ class Frontend {
   // - a camera, image size or thread count out of range,
   // - an instance whose mesh index the scene lacks,
   // - a mesh without one colour per triangle, or whose flags are neither empty nor one per triangle, or whose
-  //   first triangle has kSecondHalf,
-  // - a vertex index that the mesh lacks, in a triangle whose instance and cluster are in view, or in the
-  //   first half of a face whose second half is in view,
+  //   first triangle has kSameFace, or whose normals are neither empty nor one per triangle,
+  // - a vertex index that the mesh lacks, in a triangle whose instance and cluster are in view,
   // - a mesh whose clusters are not one per kClusterTriangles triangles,
   // - a cluster in view whose vertices the mesh lacks,
   // - a triangle in view that names other vertices than its cluster (not found in all cases),

@@ -1,19 +1,43 @@
-// Wavefront OBJ meshes, read by tinyobjloader. Part of edgewise::files. Any thread may call this.
+// Wavefront OBJ meshes. Part of edgewise::files. Any thread may call this.
 #pragma once
 
 #include "edgewise/cxx20.h"
 
 #include <filesystem>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
 
 #include "edgewise/scene.h"
 
 namespace edgewise {
 
-// A scene of one light grey mesh, with a camera placed by frame_camera. Polygons of any size are
-// triangulated. Negative (relative) indices are resolved. Windings are reversed: the front is
-// counter-clockwise in OBJ and clockwise here. Throws std::runtime_error, with the file's name and the fault,
-// if the file is missing, malformed, without faces or larger than kMaxObjBytes, or if an index is out of
-// range.
-Scene read_obj(const std::filesystem::path& path);
+struct ObjOptions {
+  // Leaves the mesh near the origin: the instance's translation stays 0. For coordinates of a survey, say.
+  bool recentre = false;
+};
+
+struct ObjReport {
+  glm::dvec3 offset{0.0};  // subtracted from all positions of the file; they are rounded to float after that
+  // What a user should know though the file can be drawn, one line each, which starts with the file's name:
+  // materials that are missing, faces that are skipped.
+  std::vector<std::string> warnings;
+};
+
+// A scene of one mesh, with a camera placed by frame_camera.
+// - Polygons of any size are triangulated; their triangles share one normal (face_normal). Faces of one or
+//   two corners are skipped.
+// - Negative (relative) indices are resolved.
+// - Windings are reversed: the front is counter-clockwise in OBJ and clockwise here.
+// - A face has the mean colour of its vertices if all have one (v x y z r g b), or else its material's Kd, or
+//   else light grey.
+// - Positions are read in double. If they are far from the origin, more than 4 times the longest side of the
+//   box around them, the mesh holds them relative to an offset near the box's centre, and the instance's
+//   translation is that offset: so float keeps what the file says. `options` may ask for the offset without
+//   the translation.
+// Throws std::runtime_error, with the file's name and the fault, if the file is missing, malformed, without
+// faces or larger than kMaxObjBytes, or if an index is out of range.
+Scene read_obj(const std::filesystem::path& path, const ObjOptions& options = {},
+               ObjReport* report = nullptr);
 
 }  // namespace edgewise

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -24,8 +25,8 @@ constexpr std::uint32_t rgb(std::uint32_t r, std::uint32_t g, std::uint32_t b) {
 }
 
 // Triangle flags (Mesh::flags).
-inline constexpr std::uint8_t kTwoSided = 1;    // never culled, and lit on the side that the camera sees
-inline constexpr std::uint8_t kSecondHalf = 2;  // forms a face of four vertices with the triangle before it
+inline constexpr std::uint8_t kTwoSided = 1;  // never culled, and lit on the side that the camera sees
+inline constexpr std::uint8_t kSameFace = 2;  // belongs to the same face as the triangle before it
 
 // Cluster i of a mesh: triangles i · kClusterTriangles … (i + 1) · kClusterTriangles - 1. The last cluster
 // may have fewer.
@@ -40,6 +41,10 @@ struct Mesh {
   std::vector<glm::uvec3> triangles;   // indices into positions; the side seen clockwise is the front
   std::vector<std::uint32_t> colours;  // one per triangle
   std::vector<std::uint8_t> flags{};   // one set of flags per triangle; empty if no triangle has any
+  // For meshes with faces of more than three vertices: the face_normal() of each triangle's face, one per
+  // triangle. Empty if each triangle's own plane gives its normal. Renew them when positions change. The
+  // length does not matter; length 0 means no normal, and ambient light only.
+  std::vector<glm::vec3> normals{};
   // For speed only: clusters_of() this mesh, or empty. Renew or clear them when positions or triangles
   // change.
   std::vector<MeshCluster> clusters{};
@@ -47,12 +52,20 @@ struct Mesh {
   bool has_flag(std::size_t triangle, std::uint8_t flag) const {
     return !flags.empty() && (flags[triangle] & flag) != 0;
   }
-  // The index of the first triangle of a triangle's face. Both halves of a face use the colour and the normal
-  // of the first.
-  std::size_t face_of(std::size_t triangle) const { return triangle - has_flag(triangle, kSecondHalf); }
-  // Appends a face of four vertices a, b, c, d as two triangles: a, b, c and then a, c, d.
+  // The normal of a triangle's face: from `normals`, or else of the triangle itself.
+  glm::vec3 normal_of(std::size_t triangle) const;
+  // Appends the missing normals of triangles 0 … end - 1: those of the triangles themselves.
+  void fill_normals(std::size_t end);
+  // Appends a face of four vertices a, b, c, d, which `positions` must hold, as two triangles: a, b, c and
+  // then a, c, d. Fills `normals` for all triangles.
   void add_quad(glm::uvec4 corners, std::uint32_t colour, bool two_sided = false);
 };
+
+// The normal of a face, of length 1, on the side from which its vertices appear clockwise: the direction of
+// its area vector (Newell's method), computed in double and rounded once. A bent face gets a mean normal.
+// Vertices that repeat or lie on a straight side do not change it. Zero if the area vector is zero, as for a
+// face without area or a symmetric bow tie. `vertices` holds at least three.
+glm::vec3 face_normal(std::span<const glm::vec3> vertices);
 
 // The clusters of a mesh, for Mesh::clusters: 32 bytes per 256 triangles. With them the front end drops the
 // clusters that are out of view, and transforms the others in parts that fit the L2 cache. Empty where that

@@ -75,10 +75,6 @@ HWY_INLINE VertexRange index_range(const Mesh& mesh, std::size_t begin, std::siz
 bool assemble(const MeshTask& task, std::size_t begin, std::size_t end, VertexRange allowed,
               ChunkOutput& out) {
   if (!allowed.contains(index_range(task.mesh, begin, end))) return false;
-  // Shading reads the first half of a face, which may lie in another chunk or in a dropped cluster.
-  if (task.mesh.has_flag(begin, kSecondHalf) &&
-      index_range(task.mesh, begin - 1, begin).end > task.mesh.positions.size())
-    return false;
   if (task.mesh.flags.empty())
     assemble_all<false>(task, begin, end, out);
   else

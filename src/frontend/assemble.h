@@ -9,7 +9,7 @@ namespace edgewise {
 
 // Appends the visible pieces of triangles begin … end - 1 to the output, with the triangle's index in the
 // mesh as payload. Returns false and appends nothing if a triangle names a vertex that is not
-// `allowed`, or if the first half of the first triangle's face names one that the mesh lacks.
+// `allowed`.
 using AssembleKernel = bool (*)(const MeshTask& task, std::size_t begin, std::size_t end, VertexRange allowed,
                                 ChunkOutput& out);
 

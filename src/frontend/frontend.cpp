@@ -40,8 +40,11 @@ void check(const Mesh& mesh) {
   if (!mesh.flags.empty() && mesh.flags.size() != mesh.triangles.size())
     throw std::invalid_argument("a mesh has " + std::to_string(mesh.triangles.size()) + " triangles and " +
                                 std::to_string(mesh.flags.size()) + " flags");
-  if (!mesh.flags.empty() && mesh.has_flag(0, kSecondHalf))
-    throw std::invalid_argument("a mesh begins with the second half of a face");
+  if (!mesh.flags.empty() && mesh.has_flag(0, kSameFace))
+    throw std::invalid_argument("a mesh's first triangle has kSameFace");
+  if (!mesh.normals.empty() && mesh.normals.size() != mesh.triangles.size())
+    throw std::invalid_argument("a mesh has " + std::to_string(mesh.triangles.size()) + " triangles and " +
+                                std::to_string(mesh.normals.size()) + " normals");
   if (!mesh.clusters.empty() && mesh.clusters.size() != cluster_count(mesh))
     throw std::invalid_argument("a mesh has " + std::to_string(mesh.clusters.size()) +
                                 " clusters instead of " + std::to_string(cluster_count(mesh)));
@@ -197,8 +200,7 @@ struct Frontend::State {
     else if (options.shade)
       shade(member.light, out, first);
     else
-      std::for_each_n(triangles, count,
-                      [&](ScreenTriangle& t) { t.payload = mesh.colours[mesh.face_of(t.payload)]; });
+      std::for_each_n(triangles, count, [&](ScreenTriangle& t) { t.payload = mesh.colours[t.payload]; });
   }
 
   void assemble_group() {

@@ -1,6 +1,7 @@
 // Lambert's law with an ambient term of 0.15, as in the tutorials. The cofactor matrix transforms normals
 // correctly under any scale, and reverses them, like the winding, if the scale mirrors. In double, because
-// the fourth power of a mesh's size may exceed the range of float.
+// the fourth power of a mesh's size may exceed the range of float. A triangle of a mesh with normals takes
+// its face's.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "frontend/shade.cpp"
 #include <hwy/foreach_target.h>
@@ -9,6 +10,7 @@
 #include "frontend/lanes-inl.h"
 
 #include <algorithm>
+#include <type_traits>
 
 #include "core/kernel_table.h"
 #include "edgewise/contract.h"
@@ -35,17 +37,22 @@ HWY_INLINE Vec3<V> cross(const Vec3<V>& a, const Vec3<V>& b) {
   return {minor(a.y, b.z, b.y, a.z), minor(a.z, b.x, b.z, a.x), minor(a.x, b.y, b.x, a.y)};
 }
 
-// The cosine of the angle between a triangle's normal and the light; NaN if the triangle has no normal.
+// The normal of a triangle, of any length.
 template <class V>
-HWY_INLINE V lambert(const ShadeTask& task, const Vec3<V>& a, const Vec3<V>& b, const Vec3<V>& c) {
-  const hn::DFromV<V> d;
+HWY_INLINE Vec3<V> across(const Vec3<V>& a, const Vec3<V>& b, const Vec3<V>& c) {
   const auto minus = [](const Vec3<V>& p, const Vec3<V>& q) HWY_ATTR {
     return Vec3<V>{hn::Sub(p.x, q.x), hn::Sub(p.y, q.y), hn::Sub(p.z, q.z)};
   };
-  const Vec3<V> across = cross(minus(c, a), minus(b, a));
+  return cross(minus(c, a), minus(b, a));
+}
+
+// The cosine of the angle between a normal in model space and the light; NaN if its length is 0.
+template <class V>
+HWY_INLINE V lambert(const ShadeTask& task, const Vec3<V>& model_normal) {
+  const hn::DFromV<V> d;
   const auto row = [&](int r) HWY_ATTR {
     const auto& m = task.cofactor;
-    return dot(Vec3<V>{hn::Set(d, m[0][r]), hn::Set(d, m[1][r]), hn::Set(d, m[2][r])}, across);
+    return dot(Vec3<V>{hn::Set(d, m[0][r]), hn::Set(d, m[1][r]), hn::Set(d, m[2][r])}, model_normal);
   };
   const Vec3<V> normal{row(0), row(1), row(2)};
   const Vec3<V> light{hn::Set(d, task.to_light.x), hn::Set(d, task.to_light.y), hn::Set(d, task.to_light.z)};
@@ -67,13 +74,14 @@ HWY_INLINE VI lit(VI colour, VF cosine) {
   return hn::Or(hn::Or(red, hn::ShiftLeft<8>(green)), hn::Or(hn::ShiftLeft<16>(blue), alpha));
 }
 
-// The positions of a mesh, readable as four words each. The last one is copied, as no memory follows it.
-class Positions {
+// Positions or normals, at least one, readable as four words each. The last one is copied, as no memory
+// follows it.
+class Padded {
  public:
-  explicit Positions(const Mesh& mesh) : all_(mesh.positions.data()), last_(mesh.positions.size() - 1) {
+  explicit Padded(const std::vector<glm::vec3>& all) : all_(all.data()), last_(all.size() - 1) {
     std::copy_n(&all_[last_].x, 3, padded_);
   }
-  const float* operator[](std::uint32_t vertex) const { return vertex == last_ ? padded_ : &all_[vertex].x; }
+  const float* operator[](std::uint32_t i) const { return i == last_ ? padded_ : &all_[i].x; }
 
  private:
   const glm::vec3* all_;
@@ -81,18 +89,30 @@ class Positions {
   float padded_[4] = {};
 };
 
-HWY_INLINE VF cosines(const ShadeTask& task, const Positions& positions,
+HWY_INLINE VF real(VI v) {
+  return hn::BitCast(DF{}, v);
+}
+
+// With the faces' normals, of four words each.
+HWY_INLINE VF cosines(const ShadeTask& task, const Padded&, const float* const (&normals)[kBatch]) {
+  const Words n = load_words([&](std::size_t lane) { return normals[lane]; });
+  const auto of_normal = [&](auto x, auto y, auto z) HWY_ATTR {
+    return lambert(task, Vec3<decltype(x)>{x, y, z});
+  };
+  return in_double(DF{}, of_normal, real(n.word[0]), real(n.word[1]), real(n.word[2]));
+}
+
+HWY_INLINE VF cosines(const ShadeTask& task, const Padded& positions,
                       const glm::uvec3* const (&corners)[kBatch]) {
   const auto corner = [&](int k) HWY_ATTR {
     return load_words([&](std::size_t lane) { return positions[(*corners[lane])[k]]; });
   };
-  const auto real = [](VI v) HWY_ATTR { return hn::BitCast(DF{}, v); };
   const Words a = corner(0), b = corner(1), c = corner(2);
   return in_double(
       DF{},
       [&](auto ax, auto ay, auto az, auto bx, auto by, auto bz, auto cx, auto cy, auto cz) HWY_ATTR {
         using V = decltype(ax);
-        return lambert(task, Vec3<V>{ax, ay, az}, Vec3<V>{bx, by, bz}, Vec3<V>{cx, cy, cz});
+        return lambert(task, across(Vec3<V>{ax, ay, az}, Vec3<V>{bx, by, bz}, Vec3<V>{cx, cy, cz}));
       },
       real(a.word[0]), real(a.word[1]), real(a.word[2]), real(b.word[0]), real(b.word[1]), real(b.word[2]),
       real(c.word[0]), real(c.word[1]), real(c.word[2]));
@@ -103,28 +123,29 @@ float side_seen(const Mesh& mesh, std::uint32_t source, const ScreenTriangle& se
   return mesh.has_flag(source, kTwoSided) && contract::signed_area(seen) < 0 ? -1.0f : 1.0f;
 }
 
-template <bool kFlagged>
+template <bool kFlagged, bool kNormals>
 void shade_all(const ShadeTask& task, ChunkOutput& out, std::size_t first) {
   const DI d;
-  const Positions positions(task.mesh);
+  const Padded vectors(kNormals ? task.mesh.normals : task.mesh.positions);
+  using Source = std::conditional_t<kNormals, const float*, const glm::uvec3*>;
   ScreenTriangle* triangles = out.triangles.data();
   for (std::size_t i = first; i < out.count; i += kBatch) {
     const std::size_t count = std::min(kBatch, out.count - i);
-    const glm::uvec3* corners[kBatch];
+    Source sources[kBatch];
     std::uint32_t colours[kBatch];
     float sides[kBatch];
     for (std::size_t lane = 0; lane < kBatch; ++lane) {
       const ScreenTriangle& seen = triangles[i + std::min(lane, count - 1)];
-      std::size_t source = seen.payload;
-      if constexpr (kFlagged) {
-        sides[lane] = side_seen(task.mesh, seen.payload, seen);
-        source = task.mesh.face_of(source);
-      }
-      corners[lane] = &task.mesh.triangles[source];
+      const std::size_t source = seen.payload;
+      if constexpr (kFlagged) sides[lane] = side_seen(task.mesh, seen.payload, seen);
+      if constexpr (kNormals)
+        sources[lane] = vectors[seen.payload];
+      else
+        sources[lane] = &task.mesh.triangles[source];
       colours[lane] = task.mesh.colours[source];
     }
     const VI colour = hn::LoadU(d, reinterpret_cast<const std::int32_t*>(colours));
-    VF cosine = cosines(task, positions, corners);
+    VF cosine = cosines(task, vectors, sources);
     if constexpr (kFlagged) cosine = hn::Mul(cosine, hn::LoadU(DF{}, sides));
     hn::StoreU(lit(colour, cosine), d, reinterpret_cast<std::int32_t*>(colours));
     for (std::size_t lane = 0; lane < count; ++lane) triangles[i + lane].payload = colours[lane];
@@ -132,10 +153,11 @@ void shade_all(const ShadeTask& task, ChunkOutput& out, std::size_t first) {
 }
 
 void shade(const ShadeTask& task, ChunkOutput& out, std::size_t first) {
-  if (task.mesh.flags.empty())
-    shade_all<false>(task, out, first);
+  const bool flagged = !task.mesh.flags.empty();
+  if (task.mesh.normals.empty())
+    flagged ? shade_all<true, false>(task, out, first) : shade_all<false, false>(task, out, first);
   else
-    shade_all<true>(task, out, first);
+    flagged ? shade_all<true, true>(task, out, first) : shade_all<false, true>(task, out, first);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -145,12 +167,13 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace edgewise {
 
+glm::dmat3 cofactor_matrix(const glm::dmat4& model) {
+  const glm::dvec3 x(model[0]), y(model[1]), z(model[2]);
+  return {glm::cross(y, z), glm::cross(z, x), glm::cross(x, y)};
+}
+
 ShadeTask::ShadeTask(const Mesh& seen, const glm::dmat4& model, glm::dvec3 towards)
-    : mesh(seen),
-      cofactor(glm::cross(glm::dvec3(model[1]), glm::dvec3(model[2])),
-               glm::cross(glm::dvec3(model[2]), glm::dvec3(model[0])),
-               glm::cross(glm::dvec3(model[0]), glm::dvec3(model[1]))),
-      to_light(glm::normalize(towards)) {}
+    : mesh(seen), cofactor(cofactor_matrix(model)), to_light(glm::normalize(towards)) {}
 
 ShadeKernel shade_kernel(SimdTarget target) {
   return EDGEWISE_KERNEL(shade, target);

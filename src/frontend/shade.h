@@ -10,6 +10,9 @@
 
 namespace edgewise {
 
+// Transforms normals as a model matrix transforms positions. Reverses them, like the winding, if it mirrors.
+glm::dmat3 cofactor_matrix(const glm::dmat4& model);
+
 struct ShadeTask {
   ShadeTask(const Mesh& mesh, const glm::dmat4& model, glm::dvec3 to_light);
 

@@ -11,7 +11,7 @@ namespace {
 
 template <typename T>
 void append(std::vector<T>& to, const std::vector<T>& from, std::size_t begin, std::size_t end) {
-  if (from.empty()) return;  // a mesh without triangle flags
+  if (from.empty()) return;  // a mesh without flags or normals
   const auto at = [&](std::size_t i) { return from.begin() + static_cast<std::ptrdiff_t>(i); };
   to.insert(to.end(), at(begin), at(end));
 }
@@ -20,6 +20,7 @@ void append(Mesh& to, const Mesh& from, std::size_t begin, std::size_t end) {
   append(to.triangles, from.triangles, begin, end);
   append(to.colours, from.colours, begin, end);
   append(to.flags, from.flags, begin, end);
+  append(to.normals, from.normals, begin, end);
 }
 
 // The view direction in the space of an instance's mesh. A matrix M maps a face's normal n to det M · M^-T ·
@@ -38,18 +39,17 @@ HiddenFaces::HiddenFaces(const Scene& scene, const FacingMethod& method) : metho
                                 " needs the camera's position, not only its direction");
   for (const Mesh& mesh : scene.meshes) {
     Faces& faces = faces_.emplace_back();
-    auto& positions = faces.scene.positions;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-      const glm::uvec3 corners = mesh.triangles[i];
-      if (mesh.has_flag(i, kSecondHalf) && i > 0) {
-        positions.push_back(mesh.positions.at(corners.z));
-        ++faces.scene.faces.back().count;
+      if (i > 0 && mesh.has_flag(i, kSameFace)) {
+        ++faces.triangles.back();
         continue;
       }
-      faces.scene.faces.push_back({static_cast<std::uint32_t>(positions.size()), 3});
-      for (int k = 0; k < 3; ++k) positions.push_back(mesh.positions.at(corners[k]));
+      auto& positions = faces.scene.positions;
+      for (int k = 0; k < 3; ++k) positions.push_back(mesh.positions.at(mesh.triangles[i][k]));
+      faces.scene.faces.push_back({static_cast<std::uint32_t>(positions.size() - 3), 3, mesh.normal_of(i)});
+      faces.triangles.push_back(1);
     }
-    faces.front.resize(faces.scene.faces.size());
+    faces.front.resize(faces.triangles.size());
   }
   Scene left = scene;
   left.meshes.clear();
@@ -71,11 +71,12 @@ const Drawable& HiddenFaces::drop(const Scene& scene) {
     method_->classify(faces.scene, faces.front);
 
     Mesh& kept = left.meshes[i];
-    kept.triangles.clear(), kept.colours.clear(), kept.flags.clear(), kept.clusters.clear();
+    kept.triangles.clear(), kept.colours.clear(), kept.flags.clear(), kept.normals.clear();
+    kept.clusters.clear();
     std::size_t begin = 0, end = 0;  // a run of consecutive kept triangles
     for (std::size_t face = 0; face < faces.front.size(); ++face) {
       const std::size_t first = end;
-      end += faces.scene.faces[face].count - 2;
+      end += faces.triangles[face];
       if (faces.front[face] != 0 || mesh.has_flag(first, kTwoSided)) continue;
       append(kept, mesh, begin, first);
       begin = end;

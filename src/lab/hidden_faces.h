@@ -17,7 +17,7 @@ class HiddenFaces {
   HiddenFaces(const Scene& scene, const FacingMethod& method);
 
   // `scene` must be the constructor's, but the camera and the instances may have moved. Tests each face of
-  // each instance once, by its first three vertices, on the calling thread. Keeps two-sided faces, and the
+  // each instance once, on the calling thread. Keeps two-sided faces, and the
   // order of the faces. Instances must have an invertible matrix. Allocates nothing; the result is valid
   // until the next call.
   const Drawable& drop(const Scene& scene);
@@ -26,7 +26,8 @@ class HiddenFaces {
  private:
   // In the mesh's own space: drop() transforms the view direction, not the vertices.
   struct Faces {
-    FacingScene scene;
+    FacingScene scene;                   // a face's positions are those of its first triangle
+    std::vector<std::size_t> triangles;  // of each face
     std::vector<std::uint8_t> front;
   };
   const FacingMethod* method_;

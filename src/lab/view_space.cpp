@@ -3,12 +3,13 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "frontend/shade.h"
+
 namespace edgewise::lab {
 
 namespace {
 
-template <typename Place>
-ClippingScene as_one_mesh(const Scene& scene, Size size, const Place& place) {
+ClippingScene as_one_mesh(const Scene& scene, Size size, const glm::dmat3& turn, glm::dvec3 eye) {
   ClippingScene seen{{}, size};
   seen.scene.meshes.resize(1);
   seen.scene.instances.resize(1);
@@ -17,12 +18,18 @@ ClippingScene as_one_mesh(const Scene& scene, Size size, const Place& place) {
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes.at(instance.mesh);
     const glm::dmat4 model = model_matrix(instance);
-    for (const glm::uvec3 triangle : mesh.triangles) {
+    const glm::dmat3 turn_normal = turn * cofactor_matrix(model);
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+      const glm::uvec3 triangle = mesh.triangles[i];
       const auto first = static_cast<unsigned>(all.positions.size());
-      for (int k = 0; k < 3; ++k)
-        all.positions.emplace_back(
-            place(glm::dmat3(model) * glm::dvec3(mesh.positions.at(triangle[k])), glm::dvec3(model[3])));
+      for (int k = 0; k < 3; ++k) {
+        const glm::dvec3 turned = glm::dmat3(model) * glm::dvec3(mesh.positions.at(triangle[k]));
+        all.positions.emplace_back(turn * (turned + (glm::dvec3(model[3]) - eye)));
+      }
       all.triangles.emplace_back(first, first + 1, first + 2);
+      const glm::dvec3 normal = turn_normal * glm::dvec3(mesh.normal_of(i));
+      all.normals.emplace_back(normal == glm::dvec3(0.0) ? normal : glm::normalize(normal));
+      all.flags.push_back(mesh.has_flag(i, kSameFace) ? kSameFace : 0);
     }
     all.colours.insert(all.colours.end(), mesh.colours.begin(), mesh.colours.end());
   }
@@ -32,14 +39,11 @@ ClippingScene as_one_mesh(const Scene& scene, Size size, const Place& place) {
 }  // namespace
 
 ClippingScene in_world_space(const Scene& scene, Size size) {
-  return as_one_mesh(scene, size, [](glm::dvec3 turned, glm::dvec3 offset) { return turned + offset; });
+  return as_one_mesh(scene, size, glm::dmat3(1.0), glm::dvec3(0.0));
 }
 
 ClippingScene in_view_space(const Scene& scene, Size size) {
-  const glm::dmat3 turn = to_camera_frame(scene.camera);
-  ClippingScene seen = as_one_mesh(scene, size, [&](glm::dvec3 turned, glm::dvec3 offset) {
-    return turn * (turned + (offset - scene.camera.position));
-  });
+  ClippingScene seen = as_one_mesh(scene, size, to_camera_frame(scene.camera), scene.camera.position);
   seen.scene.camera.position = glm::dvec3(0.0);
   seen.scene.camera.yaw = seen.scene.camera.pitch = 0.0f;
   return seen;
@@ -53,9 +57,12 @@ std::vector<std::uint8_t> fronts_of(const FacingMethod& method, const ClippingSc
   scene.view.focal_px = half_height_px / std::tan(seen.scene.camera.fov_y * 0.5f);
   scene.view.size = seen.size;
   scene.positions = seen.mesh().positions;
-  for (std::uint32_t i = 0; i < seen.mesh().triangles.size(); ++i) scene.faces.push_back({3 * i, 3});
+  for (std::uint32_t i = 0; i < seen.mesh().triangles.size(); ++i)
+    scene.faces.push_back({3 * i, 3, seen.mesh().normals[i]});
   std::vector<std::uint8_t> fronts(scene.faces.size());
   method.classify(scene, fronts);
+  for (std::size_t i = 1; method.by_normal && i < fronts.size(); ++i)
+    if (seen.mesh().has_flag(i, kSameFace)) fronts[i] = fronts[i - 1];
   return fronts;
 }
 

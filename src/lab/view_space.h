@@ -9,13 +9,14 @@
 
 namespace edgewise::lab {
 
-// All instances as one mesh. Each triangle has its own three vertices, rounded to float; triangles keep their
-// order of submission. In view space, the camera is at the origin and looks along -z. Both throw
-// std::out_of_range for an instance whose mesh the scene lacks.
+// All instances as one mesh. Each triangle has its own three vertices, rounded to float, and its face's
+// normal; triangles keep their order of submission and kSameFace. In view space, the camera is at the origin
+// and looks along -z. Both throw std::out_of_range for an instance whose mesh the scene lacks.
 ClippingScene in_world_space(const Scene& scene, Size size);
 ClippingScene in_view_space(const Scene& scene, Size size);
 
-// The method's result per triangle: 1 if it faces the camera, else 0. `seen` is a scene in view space.
+// The method's result per triangle: 1 if it faces the camera, else 0. Methods by normals test each face once,
+// the others each triangle. `seen` comes from in_view_space().
 std::vector<std::uint8_t> fronts_of(const FacingMethod& method, const ClippingScene& seen);
 
 glm::vec3 line_of_sight(const Camera& camera);

@@ -1,8 +1,5 @@
-// tinyobjloader reports no errors: it reads a malformed number as 0, drops lines that it cannot use, and
-// accepts any index. So read_geometry() checks each `v` and `f` line, and reports faults with their line
-// number. It passes on only checked positions and vertex indices, in plain notation.
-// This file uses the callback interface of tinyobjloader. The other interface cuts polygons at 255 corners
-// and triangulates them wrongly (see polygon.cpp).
+// Statements that this reader does not know are skipped, as they are common. Everything in those that it
+// knows is checked; faults are reported with their line number.
 #include "edgewise/obj_file.h"
 
 #include <algorithm>
@@ -11,23 +8,17 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
-#include <sstream>
+#include <map>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/input_file.h"
 #include "edgewise/limits.h"
 #include "scene/polygon.h"
-
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wconversion"
-#pragma GCC diagnostic ignored "-Wsign-conversion"
-#pragma GCC diagnostic ignored "-Wshadow"
-#define TINYOBJLOADER_IMPLEMENTATION
-#include <tiny_obj_loader.h>
-#pragma GCC diagnostic pop
 
 namespace edgewise {
 
@@ -35,6 +26,11 @@ namespace {
 
 constexpr std::uint32_t kGrey = rgb(200, 200, 200);
 constexpr std::string_view kBlank = " \t";
+constexpr double kMostFloat = std::numeric_limits<float>::max();
+
+// A box is far from the origin if a coordinate exceeds this multiple of its longest side. Rounding such
+// coordinates to float would cost more than two bits of the mesh's shape.
+constexpr double kFar = 4.0;
 
 std::string at_line(std::size_t line, const std::string& reason) {
   return "line " + std::to_string(line) + ": " + reason;
@@ -49,7 +45,7 @@ std::string_view next_word(std::string_view& line) {
 }
 
 // A word of the file for a message: shortened, and without control characters.
-std::string quoted(std::string_view word) {
+std::string in_quotes(std::string_view word) {
   std::string text(word.substr(0, 32));
   for (char& c : text)
     if (c < ' ' || c > '~') c = '?';
@@ -77,10 +73,10 @@ double parse_number(std::string_view word) {
   return value;
 }
 
-float parse_coordinate(std::string_view word, std::size_t line) {
-  const auto value = static_cast<float>(parse_number(word));
-  if (!std::isfinite(value))
-    throw std::invalid_argument(at_line(line, quoted(word) + " is not a finite coordinate"));
+double parse_finite(std::string_view word, std::size_t line, const char* what) {
+  const double value = parse_number(word);
+  if (!std::isfinite(static_cast<float>(value)))
+    throw std::invalid_argument(at_line(line, in_quotes(word) + " is not a finite " + what));
   return value;
 }
 
@@ -92,159 +88,55 @@ int parse_corner(std::string_view word, std::size_t line) {
   const std::string_view rest = text.substr(static_cast<std::size_t>(end - text.data()));
   if (error != std::errc() || !(rest.empty() || rest[0] == '/') ||
       rest.find_first_not_of("/+-0123456789") != rest.npos || std::count(rest.begin(), rest.end(), '/') > 2)
-    throw std::invalid_argument(at_line(line, quoted(word) + " is not a vertex index"));
+    throw std::invalid_argument(at_line(line, in_quotes(word) + " is not a vertex index"));
   if (index == 0) throw std::invalid_argument(at_line(line, "vertex index 0 (indices start at 1)"));
   return index;
 }
 
-// The file's vertices and faces, with all checks that need only one line.
-struct Geometry {
-  std::string text;                     // one line per vertex or face
-  std::vector<std::size_t> face_lines;  // each face's line number in the file
+std::string_view without_trailing_blanks(std::string_view text) {
+  return text.substr(0, text.find_last_not_of(kBlank) + 1);
+}
 
-  void add(std::string_view line, std::size_t number) {
-    line = line.substr(0, line.find('#'));
-    const std::string_view keyword = next_word(line);
-    if (std::any_of(keyword.begin(), keyword.end(), is_control))
-      throw std::invalid_argument(at_line(number, "control character in " + quoted(keyword)));
-    if (keyword == "v")
-      add_vertex(line, number);
-    else if (keyword == "f")
-      add_face(line, number);
-  }
+// A comment starts at the beginning of a word.
+std::string_view without_comment(std::string_view line) {
+  for (std::size_t at = line.find('#'); at != line.npos; at = line.find('#', at + 1))
+    if (at == 0 || kBlank.find(line[at - 1]) != kBlank.npos) return line.substr(0, at);
+  return line;
+}
 
- private:
-  std::int64_t vertices_ = 0;
-
-  void add_vertex(std::string_view rest, std::size_t line) {
-    text += 'v';
-    ++vertices_;
-    for (int i = 0; i < 3; ++i) {
-      const std::string_view word = next_word(rest);
-      if (word.empty()) throw std::invalid_argument(at_line(line, "a vertex needs three coordinates"));
-      append(parse_coordinate(word, line));
-    }
-    text += '\n';
-  }
-
-  void add_face(std::string_view rest, std::size_t line) {
-    int corners = 0;
-    text += 'f';
-    for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest), ++corners)
-      append(checked(parse_corner(word, line), line));
-    if (corners < 3) throw std::invalid_argument(at_line(line, "a face needs three corners or more"));
-    text += '\n';
-    face_lines.push_back(line);
-  }
-
-  // A negative index counts back from the last vertex before the face. A positive one may name a later
-  // vertex.
-  int checked(int index, std::size_t line) const {
-    if (-std::int64_t{index} > vertices_)
-      throw std::invalid_argument(at_line(line, "a face names vertex " + std::to_string(index) + " of the " +
-                                                    std::to_string(vertices_) + " before it"));
-    return index;
-  }
-
-  template <typename Number>
-  void append(Number number) {
-    std::array<char, 32> digits;
-    const auto result = std::to_chars(digits.data(), digits.data() + digits.size(), number);
-    text.append(1, ' ').append(digits.data(), result.ptr);
-  }
-};
-
-Geometry read_geometry(std::string_view text) {
+// Calls handle(keyword, rest of the line, line number) for each statement of an .obj or .mtl file.
+template <typename Handle>
+void for_each_statement(std::string_view text, Handle&& handle) {
   // This also rejects UTF-16, which has a zero byte in every ASCII character.
   if (text.find('\0') != text.npos) throw std::invalid_argument("is not a text file");
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  while (text.ends_with('\x1A')) text.remove_suffix(1);  // Ctrl-Z, the end mark of DOS
 
-  Geometry geometry;
-  geometry.text.reserve(text.size());
   std::string joined;  // lines that end with a backslash, joined
   for (std::size_t number = 1, first = 1; !text.empty(); ++number) {
     const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
-    std::string_view line = text.substr(0, end);
+    const std::string_view whole = text.substr(0, end);
     text.remove_prefix(end);
     if (!text.empty()) text.remove_prefix(text.starts_with("\r\n") ? 2 : 1);
-    const bool continues = line.ends_with('\\') && line.find('#') == line.npos;
+    std::string_view line = without_comment(whole);
+    const bool commented = line.size() < whole.size();
+    line = without_trailing_blanks(line);
+    const bool continues = line.ends_with('\\') && !commented;
     if (continues) line.remove_suffix(1);
     if (continues || !joined.empty()) line = joined.append(line).append(" ");
     if (continues && !text.empty()) continue;
-    geometry.add(line, first);
+    std::string_view rest = without_trailing_blanks(line);
+    const std::string_view keyword = next_word(rest);
+    if (std::any_of(keyword.begin(), keyword.end(), [](char c) { return c == '#' || is_control(c); }))
+      throw std::invalid_argument(at_line(first, "# or control character in " + in_quotes(keyword)));
+    rest.remove_prefix(std::min(rest.find_first_not_of(kBlank), rest.size()));
+    handle(keyword, rest, first);
     joined.clear();
     first = number + 1;
   }
-  return geometry;
 }
 
-// Filled by tinyobjloader's callbacks.
-struct Builder {
-  std::vector<glm::vec3> positions;
-  std::vector<std::int64_t> corners;      // vertex indices from 0; not yet checked against the vertex count
-  std::vector<std::size_t> face_ends{0};  // face i has corners face_ends[i] … face_ends[i + 1] - 1
-
-  static void vertex(void* self, float x, float y, float z, float) {
-    static_cast<Builder*>(self)->positions.emplace_back(x, y, z);
-  }
-  static void face(void* self, tinyobj::index_t* indices, int count) {
-    auto& builder = *static_cast<Builder*>(self);
-    const auto vertices_so_far = static_cast<std::int64_t>(builder.positions.size());
-    for (int i = 0; i < count; ++i) {
-      const std::int64_t index = indices[i].vertex_index;
-      builder.corners.push_back(index > 0 ? index - 1 : vertices_so_far + index);
-    }
-    builder.face_ends.push_back(builder.corners.size());
-  }
-};
-
-Mesh make_mesh(Builder built, const std::vector<std::size_t>& face_lines) {
-  Mesh mesh;
-  std::vector<std::uint32_t> polygon;
-  std::vector<std::size_t> second_halves;
-  for (std::size_t face = 0; face < face_lines.size(); ++face) {
-    polygon.clear();
-    for (std::size_t i = built.face_ends[face]; i < built.face_ends[face + 1]; ++i) {
-      const std::int64_t corner = built.corners[i];
-      if (corner >= static_cast<std::int64_t>(built.positions.size()))
-        throw std::invalid_argument(at_line(face_lines[face], "a face names vertex " +
-                                                                  std::to_string(corner + 1) + " of " +
-                                                                  std::to_string(built.positions.size())));
-      polygon.push_back(static_cast<std::uint32_t>(corner));
-    }
-    try {
-      const std::size_t before = mesh.triangles.size();
-      triangulate(built.positions, polygon, mesh.triangles);
-      if (polygon.size() == 4 && mesh.triangles.size() == before + 2) second_halves.push_back(before + 1);
-    } catch (const std::invalid_argument& error) {
-      throw std::invalid_argument(at_line(face_lines[face], error.what()));
-    }
-  }
-  for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
-  mesh.positions = std::move(built.positions);
-  mesh.colours.assign(mesh.triangles.size(), kGrey);
-  if (!second_halves.empty()) mesh.flags.resize(mesh.triangles.size());
-  for (const std::size_t triangle : second_halves) mesh.flags[triangle] = kSecondHalf;
-  mesh.clusters = clusters_of(mesh);
-  return mesh;
-}
-
-Mesh parse_obj(std::string_view text) {
-  Geometry geometry = read_geometry(text);
-  if (geometry.face_lines.empty()) throw std::invalid_argument("has no faces");
-
-  tinyobj::callback_t callbacks;
-  callbacks.vertex_cb = Builder::vertex;
-  callbacks.index_cb = Builder::face;
-  Builder built;
-  std::istringstream lines(std::move(geometry.text));
-  tinyobj::LoadObjWithCallback(lines, callbacks, &built);
-  return make_mesh(std::move(built), geometry.face_lines);
-}
-
-}  // namespace
-
-Scene read_obj(const std::filesystem::path& path) {
+std::string read_text(const std::filesystem::path& path) {
   InputFile file = open_input(path);
   if (file.size > kMaxObjBytes)
     throw file_error(
@@ -252,14 +144,238 @@ Scene read_obj(const std::filesystem::path& path) {
   std::string text(file.size, '\0');
   if (!file.stream.read(text.data(), static_cast<std::streamsize>(text.size())))
     throw file_error(path, "cannot be read to its end");
+  return text;
+}
 
-  Scene scene;
+// Channels of 0 to 1; others are clamped.
+std::uint32_t to_rgb(glm::dvec3 colour) {
+  const glm::uvec3 c(glm::round(255.0 * glm::clamp(colour, 0.0, 1.0)));
+  return rgb(c.x, c.y, c.z);
+}
+
+using Materials = std::map<std::string, std::uint32_t, std::less<>>;  // name → Kd
+
+void read_materials(const std::filesystem::path& path, Materials& materials) {
+  const std::string text = read_text(path);
+  std::uint32_t* colour = nullptr;
+  const auto add = [&](std::string_view keyword, std::string_view rest, std::size_t line) {
+    if (keyword == "newmtl") colour = &(materials[std::string(rest)] = kGrey);
+    if (keyword != "Kd" || colour == nullptr || rest.starts_with("spectral") || rest.starts_with("xyz"))
+      return;
+    glm::dvec3 kd(0.0);
+    for (int i = 0; i < 3; ++i) {
+      const std::string_view word = next_word(rest);
+      kd[i] = i > 0 && word.empty() ? kd[0] : parse_finite(word, line, "number");
+    }
+    *colour = to_rgb(kd);
+  };
   try {
-    scene.meshes.push_back(parse_obj(text));
+    for_each_statement(text, add);
   } catch (const std::invalid_argument& error) {
     throw file_error(path, error.what());
   }
+}
+
+// The file's vertices and faces, with all checks that need only one line.
+class Reader {
+ public:
+  Reader(std::filesystem::path folder, std::vector<std::string>& warnings)
+      : folder_(std::move(folder)), warnings_(warnings) {}
+
+  void read(std::string_view text) {
+    for_each_statement(text, [this](std::string_view keyword, std::string_view rest, std::size_t line) {
+      if (keyword == "v")
+        add_vertex(rest, line);
+      else if (keyword == "f")
+        add_face(rest, line);
+      else if (keyword == "usemtl")
+        use_material(rest, line);
+      else if (keyword == "mtllib")
+        add_library(rest, line);
+    });
+    if (skipped_ > 0)
+      warn(first_skipped_, std::to_string(skipped_) + (skipped_ == 1 ? " face" : " faces, from here on,") +
+                               " of fewer than three corners skipped");
+    if (!unknown_.empty() && !library_failed_)
+      warn(first_unknown_,
+           "no .mtl file defines material " + in_quotes(*unknown_.begin()) +
+               (unknown_.size() == 1 ? "" : ", nor " + std::to_string(unknown_.size() - 1) + " more"));
+    if (face_lines_.empty()) throw std::invalid_argument("has no faces");
+    check_indices();
+  }
+
+  // Sets `offset` to what it subtracts from the positions.
+  Mesh make_mesh(bool recentre, glm::dvec3& offset) {
+    offset = choose_offset(recentre);
+    Mesh mesh;
+    mesh.positions.reserve(positions_.size());
+    // A vertex that no face names may lie out of float's range then.
+    for (const glm::dvec3& p : positions_)
+      mesh.positions.emplace_back(glm::clamp(p - offset, -kMostFloat, kMostFloat));
+    std::vector<std::uint32_t> polygon;
+    std::vector<glm::vec3> vertices;
+    for (std::size_t face = 0; face < face_lines_.size(); ++face) {
+      polygon.assign(corners_.begin() + at(face), corners_.begin() + at(face + 1));
+      const std::size_t first = mesh.triangles.size();
+      try {
+        triangulate(mesh.positions, polygon, mesh.triangles);
+      } catch (const std::invalid_argument& error) {
+        throw std::invalid_argument(at_line(face_lines_[face], error.what()));
+      }
+      std::for_each(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(first), mesh.triangles.end(),
+                    [](glm::uvec3& t) { std::swap(t.y, t.z); });
+      mesh.colours.resize(mesh.triangles.size(), colour_of(face, polygon));
+      if (polygon.size() == 3) continue;
+      vertices.clear();
+      for (const std::uint32_t i : polygon) vertices.push_back(mesh.positions[i]);
+      mesh.fill_normals(first);
+      mesh.normals.resize(mesh.triangles.size(), -face_normal(vertices));
+      mesh.flags.resize(first + 1);
+      mesh.flags.resize(mesh.triangles.size(), kSameFace);
+    }
+    if (!mesh.flags.empty()) {
+      mesh.fill_normals(mesh.triangles.size());
+      mesh.flags.resize(mesh.triangles.size());
+    }
+    mesh.clusters = clusters_of(mesh);
+    return mesh;
+  }
+
+ private:
+  std::filesystem::path folder_;
+  std::vector<std::string>& warnings_;
+  std::vector<glm::dvec3> positions_;
+  std::vector<glm::vec3> vertex_colours_;  // NaN: none; shorter than positions_ if the last ones have none
+  std::vector<std::int64_t> corners_;      // vertex indices from 0
+  std::vector<std::size_t> face_ends_{0};  // face i has corners face_ends_[i] … face_ends_[i + 1] - 1
+  std::vector<std::size_t> face_lines_;
+  std::vector<std::uint32_t> face_colours_;  // of the material
+  Materials materials_;
+  std::uint32_t material_ = kGrey;
+  bool library_failed_ = false;
+  std::set<std::string, std::less<>> unknown_;  // materials
+  std::size_t first_unknown_ = 0, skipped_ = 0, first_skipped_ = 0;
+
+  void warn(std::size_t line, const std::string& reason) { warnings_.push_back(at_line(line, reason)); }
+  std::ptrdiff_t at(std::size_t face) const { return static_cast<std::ptrdiff_t>(face_ends_[face]); }
+
+  // x y z, or x y z weight, or x y z red green blue.
+  void add_vertex(std::string_view rest, std::size_t line) {
+    std::array<double, 6> numbers;
+    std::size_t count = 0;
+    for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest), ++count) {
+      const double number = parse_finite(word, line, count < 3 ? "coordinate" : "number");
+      if (count < numbers.size()) numbers[count] = number;
+    }
+    if (count < 3) throw std::invalid_argument(at_line(line, "a vertex needs three coordinates"));
+    if (count >= 6) {
+      vertex_colours_.resize(positions_.size(), glm::vec3(std::numeric_limits<float>::quiet_NaN()));
+      vertex_colours_.emplace_back(numbers[3], numbers[4], numbers[5]);
+    }
+    positions_.emplace_back(numbers[0], numbers[1], numbers[2]);
+  }
+
+  void add_face(std::string_view rest, std::size_t line) {
+    for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest))
+      corners_.push_back(from_zero(parse_corner(word, line), line));
+    const std::size_t corners = corners_.size() - face_ends_.back();
+    if (corners == 0) throw std::invalid_argument(at_line(line, "a face without corners"));
+    if (corners < 3) {
+      if (skipped_++ == 0) first_skipped_ = line;
+      corners_.resize(face_ends_.back());
+      return;
+    }
+    face_ends_.push_back(corners_.size());
+    face_lines_.push_back(line);
+    face_colours_.push_back(material_);
+  }
+
+  // A negative index counts back from the last vertex before the face. A positive one may name a later
+  // vertex.
+  std::int64_t from_zero(std::int64_t index, std::size_t line) const {
+    const auto vertices = static_cast<std::int64_t>(positions_.size());
+    if (-index > vertices)
+      throw std::invalid_argument(at_line(line, "a face names vertex " + std::to_string(index) + " of the " +
+                                                    std::to_string(vertices) + " before it"));
+    return index > 0 ? index - 1 : vertices + index;
+  }
+
+  void use_material(std::string_view name, std::size_t line) {
+    const auto found = materials_.find(name);
+    material_ = found == materials_.end() ? kGrey : found->second;
+    if (found != materials_.end()) return;
+    if (unknown_.empty()) first_unknown_ = line;
+    unknown_.emplace(name);
+  }
+
+  // One name, with blanks in it, or several.
+  void add_library(std::string_view names, std::size_t line) {
+    std::error_code ignored;
+    const bool one = std::filesystem::exists(folder_ / names, ignored);
+    while (!names.empty()) {
+      const std::string_view name = one ? std::exchange(names, {}) : next_word(names);
+      try {
+        read_materials(folder_ / name, materials_);
+      } catch (const std::runtime_error& error) {
+        library_failed_ = true;
+        warn(line, error.what());
+      }
+    }
+  }
+
+  void check_indices() const {
+    const auto vertices = static_cast<std::int64_t>(positions_.size());
+    for (std::size_t face = 0, i = 0; face < face_lines_.size(); ++face)
+      for (; i < face_ends_[face + 1]; ++i)
+        if (corners_[i] >= vertices)
+          throw std::invalid_argument(at_line(
+              face_lines_[face],
+              "a face names vertex " + std::to_string(corners_[i] + 1) + " of " + std::to_string(vertices)));
+  }
+
+  // The centre of the box around all vertices of faces, rounded to a multiple of the largest power of two
+  // that is at most the box's longest side: subtracting it leaves coordinates of about that length.
+  glm::dvec3 choose_offset(bool recentre) const {
+    glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
+    for (const std::int64_t i : corners_) {
+      low = glm::min(low, positions_[static_cast<std::size_t>(i)]);
+      high = glm::max(high, positions_[static_cast<std::size_t>(i)]);
+    }
+    const auto largest = [](glm::dvec3 v) { return std::max({v.x, v.y, v.z}); };
+    const double longest = largest(high - low);
+    if (!recentre && largest(glm::max(glm::abs(low), glm::abs(high))) <= kFar * longest)
+      return glm::dvec3(0.0);
+    const double step = longest > 0.0 ? std::ldexp(1.0, std::ilogb(longest)) : 1.0;
+    return glm::round((low + high) * (0.5 / step)) * step;
+  }
+
+  std::uint32_t colour_of(std::size_t face, const std::vector<std::uint32_t>& polygon) const {
+    glm::dvec3 sum(0.0);
+    for (const std::uint32_t i : polygon) {
+      if (i >= vertex_colours_.size() || std::isnan(vertex_colours_[i].x)) return face_colours_[face];
+      sum += glm::clamp(glm::dvec3(vertex_colours_[i]), 0.0, 1.0);
+    }
+    return to_rgb(sum / static_cast<double>(polygon.size()));
+  }
+};
+
+}  // namespace
+
+Scene read_obj(const std::filesystem::path& path, const ObjOptions& options, ObjReport* report) {
+  ObjReport ignored;
+  ObjReport& out = report == nullptr ? ignored : *report;
+  out = {};
+  Scene scene;
+  try {
+    Reader reader(path.parent_path(), out.warnings);
+    reader.read(read_text(path));
+    scene.meshes.push_back(reader.make_mesh(options.recentre, out.offset));
+  } catch (const std::invalid_argument& error) {
+    throw file_error(path, error.what());
+  }
+  for (std::string& warning : out.warnings) warning = file_error(path, warning).what();
   scene.instances.emplace_back();
+  if (!options.recentre) scene.instances[0].translation = out.offset;
   frame_camera(scene);
   return scene;
 }

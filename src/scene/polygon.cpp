@@ -3,10 +3,6 @@
 // the two neighbouring corners. So a corner that cannot be cut is tested again only after a neighbour is
 // removed. The concave corners are searched in a list sorted along the longer axis: large round polygons take
 // about n log n time.
-//
-// tinyobjloader 2.0.0rc10 has a triangulation, but it decides concavity by a corner's position relative to
-// the origin, splits concave quads along the outer diagonal, and drops the rest of a polygon that it cannot
-// finish.
 #include "scene/polygon.h"
 
 #include <algorithm>
@@ -15,6 +11,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "edgewise/scene.h"
+
 namespace edgewise {
 
 namespace {
@@ -22,23 +20,16 @@ namespace {
 // Corners visited before triangulate() gives up; about two seconds.
 constexpr std::uint64_t kMaxWork = 1'000'000'000;
 
-// Twice the area vector, by Newell's method, which needs no convex corner to start from.
-glm::dvec3 area_vector(std::span<const glm::vec3> positions, std::span<const std::uint32_t> polygon) {
-  glm::dvec3 sum(0.0);
-  const glm::dvec3 origin(positions[polygon[0]]);
-  for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
-    sum += glm::cross(glm::dvec3(positions[polygon[i]]) - origin,
-                      glm::dvec3(positions[polygon[i + 1]]) - origin);
-  return sum;
-}
-
 // Projects the polygon along the axis closest to its normal, and makes it counter-clockwise.
 std::vector<glm::dvec2> flatten(std::span<const glm::vec3> positions,
                                 std::span<const std::uint32_t> polygon) {
-  const glm::dvec3 normal = area_vector(positions, polygon), size = glm::abs(normal);
+  std::vector<glm::vec3> vertices;
+  for (const std::uint32_t i : polygon) vertices.push_back(positions[i]);
+  // Newell's method needs no convex corner to start from.
+  const glm::vec3 normal = -face_normal(vertices), size = glm::abs(normal);
   const int axis = size.x > size.y && size.x > size.z ? 0 : size.y > size.z ? 1 : 2;
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-  const double turn = normal[axis] < 0.0 ? -1.0 : 1.0;
+  const double turn = normal[axis] < 0.0f ? -1.0 : 1.0;
   std::vector<glm::dvec2> points;
   points.reserve(polygon.size());
   for (const std::uint32_t i : polygon) points.emplace_back(positions[i][u], turn * positions[i][v]);

@@ -6,6 +6,8 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <mutex>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -34,6 +36,14 @@ bool stdout_is_whole() {
 void print_error(std::string_view message, std::string_view program) {
   const std::string line = std::string(program) + ": " + printable(message, ' ') + '\n';
   std::fwrite(line.data(), 1, line.size(), stderr);
+}
+
+void print_note(std::string_view message) {
+  static std::mutex mutex;
+  static std::set<std::string> printed;
+  const std::string line = printable(message, ' ') + '\n';
+  const std::lock_guard lock(mutex);
+  if (printed.insert(line).second) std::fwrite(line.data(), 1, line.size(), stderr);
 }
 
 bool moves_cursor(int descriptor) {

@@ -17,6 +17,10 @@ bool stdout_is_whole();
 // Prints "PROGRAM: MESSAGE" on stderr as one line; control characters become blanks.
 void print_error(std::string_view message, std::string_view program = "edgewise");
 
+// Prints a line on stderr, control characters as blanks, unless it was printed before: files may be read
+// several times.
+void print_note(std::string_view message);
+
 // Whether a file descriptor is a terminal with cursor control; TERM=dumb or no TERM means none.
 bool moves_cursor(int descriptor);
 

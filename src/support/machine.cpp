@@ -137,7 +137,7 @@ nlohmann::json packages() {
   const auto list = output_of(
       "dpkg-query -W -f='${Package} ${Version}\\n' libtbb-dev libbenchmark-dev libglm-dev libhwy-dev "
       "libpng-dev "
-      "libcli11-dev nlohmann-json3-dev libfmt-dev libtinyobjloader-dev python3-matplotlib libgl1-mesa-dri; "
+      "libcli11-dev nlohmann-json3-dev libfmt-dev python3-matplotlib libgl1-mesa-dri; "
       "true");
   nlohmann::json versions = nlohmann::json::object();
   std::istringstream lines(list.value_or(""));

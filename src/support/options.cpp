@@ -206,6 +206,7 @@ void SceneOptions::add_to(CLI::App& command) {
       ->type_name("MODE");
   command.add_flag("--no-shade", no_shade, "Draw meshes unlit, as streams always are");
   command.add_flag("--fit", fit, "Centre a mesh and scale its longest side to 2");
+  command.add_flag("--recentre", recentre, "Subtract a mesh file's centre from its positions, and print it");
 
   constexpr const char* kGroup = "Camera (meshes only)";
   add_vector(command, "--eye", eye, "Camera position")->group(kGroup);
@@ -223,9 +224,11 @@ void SceneOptions::add_to(CLI::App& command) {
 Shot load_shot(const std::string& name_or_path, const SceneOptions& options, double time) {
   const Size size = options.size.value_or(kDefaultSize);
   const SceneRequest request{size.width, size.height, static_cast<float>(time), options.scale.value_or(1.0)};
-  Shot shot{load_source(name_or_path, request, options.fit), {}};
+  Shot shot{load_source(name_or_path, request, options.fit, options.recentre), {}};
   Source& source = shot.source;
 
+  if (options.recentre && (source.stream || source.built_in != nullptr))
+    throw std::invalid_argument("--recentre: '" + source.name + "' is not a mesh file");
   if (options.scale && !(source.built_in != nullptr && source.built_in->scalable))
     throw std::invalid_argument("--scale: '" + source.name + "' has a fixed number of triangles");
   shot.frontend.width = size.width;

@@ -54,7 +54,7 @@ struct SceneOptions {
   std::optional<glm::dvec3> eye, at;
   std::optional<double> fov_deg, near_z, far_z, yaw_deg, pitch_deg;
   std::optional<Cull> cull;  // not given: back for meshes, none for streams
-  bool fit = false, no_shade = false;
+  bool fit = false, recentre = false, no_shade = false;
 
   void add_to(CLI::App& command);
 };

@@ -1,5 +1,7 @@
 #include "support/source.h"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <stdexcept>
 #include <system_error>
@@ -8,6 +10,7 @@
 #include "core/input_file.h"
 #include "edgewise/obj_file.h"
 #include "edgewise/tri_file.h"
+#include "support/console.h"
 
 namespace edgewise::tools {
 
@@ -53,12 +56,18 @@ void check_source(const std::string& name_or_path) {
     throw std::invalid_argument(path + ": unknown kind of file; .obj and .tri can be read");
 }
 
-Source load_source(const std::string& name_or_path, const SceneRequest& request, bool fit_mesh) {
+Source load_source(const std::string& name_or_path, const SceneRequest& request, bool fit_mesh,
+                   bool recentre) {
   check_source(name_or_path);
   if (!is_file_path(name_or_path)) return load_built_in(name_or_path, request, fit_mesh);
   const std::string path = input_path(name_or_path);
   if (is_stream_file(path)) return {source_name(path), read_tri(path), true};
-  Scene scene = read_obj(path);
+  ObjReport report;
+  Scene scene = read_obj(path, {.recentre = recentre}, &report);
+  for (const std::string& warning : report.warnings) print_note("warning: " + warning);
+  if (const glm::dvec3 p = report.offset; recentre)
+    print_note(fmt::format("{}: recentred by {},{},{}, which is subtracted from all positions", path,
+                           p.x, p.y, p.z));
   if (fit_mesh) {
     try {
       fit(scene);

@@ -29,7 +29,9 @@ void check_source(const std::string& name_or_path);
 // Loads a built-in scene by name, or a .obj or .tri file, or one of them from standard input ("-"). `fit`
 // centres a mesh scene and scales its longest side to 2 (built-in streams and .tri files ignore it). Throws
 // std::invalid_argument for an unknown name, with the nearest known one, and what read_obj and read_tri
-// throw.
-Source load_source(const std::string& name_or_path, const SceneRequest& request, bool fit);
+// throw. Prints what read_obj warns of. `recentre` is an option of read_obj, ignored for other scenes; the
+// offset is printed.
+Source load_source(const std::string& name_or_path, const SceneRequest& request, bool fit,
+                   bool recentre = false);
 
 }  // namespace edgewise::tools

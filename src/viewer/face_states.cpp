@@ -38,10 +38,12 @@ char letter_of(TriangleState state) {
   }
 }
 
-glm::dvec3 centre_of(const Mesh& mesh, std::size_t triangle, bool quad) {
-  const auto corner = [&](std::size_t t, int k) { return glm::dvec3(mesh.positions[mesh.triangles[t][k]]); };
-  const glm::dvec3 three = corner(triangle, 0) + corner(triangle, 1) + corner(triangle, 2);
-  return quad ? (three + corner(triangle + 1, 2)) / 4.0 : three / 3.0;
+// The mean of the corners of triangles begin … end - 1.
+glm::dvec3 centre_of(const Mesh& mesh, std::size_t begin, std::size_t end) {
+  glm::dvec3 sum(0.0);
+  for (std::size_t t = begin; t < end; ++t)
+    for (int k = 0; k < 3; ++k) sum += glm::dvec3(mesh.positions[mesh.triangles[t][k]]);
+  return sum / static_cast<double>(3 * (end - begin));
 }
 
 }  // namespace
@@ -52,14 +54,13 @@ std::vector<FaceState> face_states(const Scene& scene, std::span<const TriangleS
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
     const Mesh& mesh = scene.meshes.at(scene.instances[i].mesh);
     const glm::dmat4 model = model_matrix(scene.instances[i]);
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t, ++id) {
-      if (mesh.has_flag(t, kSecondHalf)) {
-        faces.back().state = std::max(faces.back().state, states[id]);
-        continue;
-      }
-      const bool quad = t + 1 < mesh.triangles.size() && mesh.has_flag(t + 1, kSecondHalf);
-      const glm::dvec3 centre(model * glm::dvec4(centre_of(mesh, t, quad), 1.0));
-      faces.push_back({i, centre, states[id], mesh.has_flag(t, kTwoSided)});
+    for (std::size_t begin = 0, end = 0; begin < mesh.triangles.size(); begin = end) {
+      TriangleState state = states[id];
+      do {
+        state = std::max(state, states[id++]);
+      } while (++end < mesh.triangles.size() && mesh.has_flag(end, kSameFace));
+      const glm::dvec3 centre(model * glm::dvec4(centre_of(mesh, begin, end), 1.0));
+      faces.push_back({i, centre, state, mesh.has_flag(begin, kTwoSided)});
     }
   }
   return faces;

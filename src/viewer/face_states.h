@@ -19,8 +19,8 @@ struct FaceState {
   bool two_sided;
 };
 
-// The faces of all instances, in the order of their triangles. A face of four vertices gets the later state
-// of its two triangles. `states` holds one state per triangle of the scene.
+// The faces of all instances, in the order of their triangles. A face gets the latest state of its
+// triangles. `states` holds one state per triangle of the scene.
 std::vector<FaceState> face_states(const Scene& scene, std::span<const TriangleState> states);
 
 char letter_of(const FaceState& face);  // capital for a two-sided face

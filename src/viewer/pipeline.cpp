@@ -59,7 +59,7 @@ std::vector<std::uint32_t> colours_of(const Drawable& drawable, bool shade) {
   if (shade) return lit_colours(scene);
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes.at(instance.mesh);
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) colours.push_back(mesh.colours[mesh.face_of(i)]);
+    colours.insert(colours.end(), mesh.colours.begin(), mesh.colours.end());
   }
   return colours;
 }

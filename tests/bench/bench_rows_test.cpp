@@ -170,7 +170,7 @@ TEST(BenchSuite, TimesThreeCullingModes) {
   EXPECT_GT(wrong_px("tiled+frontend/cubes/cull:normal_z/threads:2").value(), 0u);
   const Row& quads = rows.at("naive+frontend/sphere-quads/cull:normal_z/threads:2");
   quads.workload->prepare(true);
-  EXPECT_TRUE(std::get<Scene>(quads.workload->drawable()).meshes[0].has_flag(1, kSecondHalf));
+  EXPECT_TRUE(std::get<Scene>(quads.workload->drawable()).meshes[0].has_flag(1, kSameFace));
 }
 
 TEST(BenchWorkload, FrontEndRunsOnTheTargetOfTheExecution) {

@@ -118,7 +118,7 @@ TEST(Accuracy, WritesTheDocumentedKeys) {
   const json& box = named(scenes, "box_beside_the_axis").at("methods").at(0);
   expect_keys(box, {"disagreements"});
   for (const char* truth : {"snapped", "float"})
-    expect_keys(box.at(truth), {"faces", "misclassified", "by_first_three"});
+    expect_keys(box.at(truth), {"faces", "misclassified", "misled"});
   expect_keys(named(scenes, "in_view").at("methods").at(0).at("score"),
               {"missing", "extra", "wrong_triangle", "wrong_depth", "hairline", "differs_from_ours",
                "not_a_number", "out_of_range"});

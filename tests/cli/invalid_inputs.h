@@ -217,6 +217,7 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
     {"chmod 0 $IN/good.obj; unprivileged edgewise render $IN/good.obj -o $DIR/a.png", 2, "Permission denied"},
     {"ulimit -n 4; program edgewise verify $IN/good.obj --json $DIR/a.json", 2, "Too many open files"},
     {"edgewise render $IN/empty.obj -o $DIR/a.png", 2, "empty.obj: has no faces"},
+    {"edgewise render cube --recentre -o $DIR/a.png", 2, "--recentre: 'cube' is not a mesh file"},
     {"edgewise render $IN/index.obj -o $DIR/a.png", 2, "line 4: a face names vertex 9 of 3"},
     {"edgewise render $IN/tiny.obj --fit -o $DIR/a.png", 2, "tiny.obj: too small"},
     {"edgewise render cube $IN/index.obj -o $DIR/", 2, "index.obj"},

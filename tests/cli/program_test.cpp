@@ -137,6 +137,28 @@ class ProgramRenders : public ::testing::Test {
   TempDir folder_;
 };
 
+// Files are read twice if there are several.
+TEST_F(ProgramRenders, FilesWithWarningsAndPrintsEachOnce) {
+  const std::string a = folder_
+                            .write("a.obj",
+                                   "mtllib none.mtl\nv 5572094.001 0 0\nv 5572094.002 0 0\n"
+                                   "v 5572094.001 0.001 0\nf 1 2 3\nf 1 2\n")
+                            .string();
+  const std::string common = "render " + a + " cube --size 8x8 --no-shade -o " + path("");
+  const Outcome outcome = edgewise_with(common);
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.err, "warning: " + a + ": line 1: " + path("none.mtl") +
+                             ": No such file or directory\nwarning: " + a +
+                             ": line 6: 1 face of fewer than three corners skipped\n");
+  const Outcome recentred =
+      edgewise_with("render " + a + " --recentre --cull none --size 8x8 --no-shade -o " + path("b.ppm"));
+  EXPECT_EQ(recentred.status, 0);
+  EXPECT_TRUE(recentred.err.ends_with(
+      "\n" + a + ": recentred by 5572094.001953125,0.0009765625,0, which is subtracted from all positions\n"))
+      << recentred.err;
+  EXPECT_NE(file_content(path("b.ppm")).find('\xC8'), std::string::npos) << "the triangle is seen";
+}
+
 TEST_F(ProgramRenders, TheSamePictureInEveryFormatAndByEveryBackend) {
   ASSERT_EQ(
       edgewise_with("render cube --size 97x61 -o " + path("a.png") + " --depth " + path("a.pfm")).status, 0);

@@ -1,7 +1,8 @@
-// Four-vertex faces and two-sided faces in the front end.
+// Faces of more than three vertices, and two-sided faces, in the front end.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstring>
 #include <vector>
@@ -96,6 +97,13 @@ TEST(Faces, HaveThePositionsOfTheirTriangles) {
   }
 }
 
+// The lit grey of a plane, by Lambert's law in double.
+std::uint32_t lit_grey(glm::dvec3 normal, const Scene& scene) {
+  const double cosine = glm::dot(glm::normalize(normal), glm::normalize(glm::dvec3(scene.to_light)));
+  const auto grey = static_cast<std::uint32_t>(200.0 * std::max(cosine, 0.15) + 0.5);
+  return rgb(grey, grey, grey);
+}
+
 TEST(Faces, WithFourVerticesHaveOneColourAndTwoIds) {
   const Scene scene = scene_of_quads(false);
   const Mesh& mesh = scene.meshes[0];
@@ -111,11 +119,83 @@ TEST(Faces, WithFourVerticesHaveOneColourAndTwoIds) {
   for (std::size_t i = 0; i < ids.size(); ++i) {
     const std::uint32_t id = ids[i].payload;
     EXPECT_EQ(colours[i].payload, lit[id]);
-    if (!mesh.has_flag(id % mesh.triangles.size(), kSecondHalf)) continue;
+    if (!mesh.has_flag(id % mesh.triangles.size(), kSameFace)) continue;
     EXPECT_EQ(lit[id], lit[id - 1]);
     ++second_halves;
   }
   EXPECT_GT(second_halves, 100u);
+}
+
+// Vertex b lies on the straight side from a to c, or almost, or at a or c. The first triangle, a, b, c, then
+// has no normal or another one than the face.
+TEST(Faces, WithAStraightOrDoubledCornerAreLitByTheirPlane) {
+  Random random(9);
+  const auto vector = [&] {
+    const float x = random.uniform(-1, 1), y = random.uniform(-1, 1);
+    return glm::vec3(x, y, random.uniform(-1, 1));
+  };
+  for (int i = 0; i < 500; ++i) {
+    const glm::vec3 a = vector(), c = vector(), d = vector();
+    const float at = i % 3 == 0 ? 0.0f : i % 3 == 1 ? 1.0f : random.uniform(0, 1);
+    Scene scene;
+    Mesh& mesh = scene.meshes.emplace_back();
+    mesh.positions = {a, a + at * (c - a), c, d};
+    mesh.add_quad({0, 1, 2, 3}, rgb(200, 200, 200));
+    scene.instances.push_back({.scale = {1, i % 2 == 0 ? 2 : -2, 1}, .axis = vector(), .angle = 2});
+    glm::dvec3 p[3];
+    for (int k = 0; k < 3; ++k)
+      p[k] = model_matrix(scene.instances[0]) *
+             glm::vec4(std::array{a, c, d}[static_cast<std::size_t>(k)], 1.0f);
+    const std::uint32_t expected = lit_grey(glm::cross(p[2] - p[0], p[1] - p[0]), scene);
+    for (const std::uint32_t lit : lit_colours(scene)) EXPECT_NEAR(lit & 255, expected & 255, 1) << i;
+  }
+}
+
+TEST(Faces, NormalIsThatOfTheWholePolygon) {
+  const glm::vec3 a(0, 0, 0), b(0, 2, 0), c(2, 2, 0), d(2, 0, 0), front(0, 0, 1), none(0.0f);
+  const auto normal = [](std::vector<glm::vec3> vertices) {
+    const glm::vec3 first = face_normal(vertices);
+    for (std::size_t i = 1; i < vertices.size(); ++i) {
+      std::rotate(vertices.begin(), vertices.begin() + 1, vertices.end());
+      EXPECT_EQ(face_normal(vertices), first) << i;
+    }
+    return first;
+  };
+  EXPECT_EQ(normal({a, b, c, d}), front);
+  EXPECT_EQ(normal({d, c, b, a}), -front);
+  EXPECT_EQ(normal({a, a, b, b, b, c, d}), front) << "doubled corners";
+  EXPECT_EQ(normal({a, {0, 1, 0}, b, {1, 2, 0}, c, {2, 0.5f, 0}, d}), front) << "straight corners";
+  EXPECT_EQ(normal({a, b, {0.25f, 0.25f, 0}, d}), front) << "a reflex corner";
+  EXPECT_EQ(normal({a, b, d, c}), none) << "a bow tie";
+  EXPECT_EQ(normal({a, b, {0, 1, 0}}), none) << "no area";
+  EXPECT_EQ(normal({a * 1e30f, b * 1e30f, c * 1e30f}), front);
+  EXPECT_EQ(normal({a * 1e-40f, b * 1e-40f, c * 1e-40f}), front);
+  const glm::vec3 bent = face_normal(std::vector<glm::vec3>{a, b + front, c, d + front});
+  EXPECT_EQ(bent, front) << "the mean of the halves";
+}
+
+TEST(Faces, WithoutANormalGetAmbientLight) {
+  Scene scene;
+  Mesh& mesh = scene.meshes.emplace_back();
+  mesh.positions = {{-1, -1, -3}, {-1, 1, -3}, {1, -1, -3}, {1, 1, -3}};
+  mesh.add_quad({0, 1, 2, 3}, rgb(200, 200, 200));
+  scene.instances.push_back({});
+  scene.to_light = {0, 0, 1};
+  EXPECT_EQ(lit_colours(scene), std::vector<std::uint32_t>(2, rgb(30, 30, 30)));
+}
+
+// Of any number of triangles, with and without other faces before and after it.
+TEST(Faces, GetMissingNormalsFromTheirTriangles) {
+  Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {0, 1, 0}, {1, 1, 0}, {1, 0, 0}, {0, 0, 1}};
+  mesh.triangles = {{0, 1, 4}};
+  mesh.colours = {1};
+  EXPECT_EQ(mesh.normal_of(0), glm::vec3(-1, 0, 0));
+  mesh.add_quad({0, 1, 2, 3}, 2);
+  mesh.triangles.emplace_back(0, 4, 1);
+  mesh.fill_normals(mesh.triangles.size());
+  EXPECT_EQ(mesh.normals, (std::vector<glm::vec3>{{-1, 0, 0}, {0, 0, 1}, {0, 0, 1}, {1, 0, 0}}));
+  EXPECT_EQ(mesh.flags, (std::vector<std::uint8_t>{0, 0, kSameFace}));
 }
 
 TEST(Faces, WithTwoSidesAreNeverCulled) {
@@ -167,13 +247,16 @@ TEST(Faces, WithTwoSidesAreLitOnTheVisibleSide) {
   }
 }
 
-TEST(Faces, AreRefusedIfTheirFlagsAreInvalid) {
+TEST(Faces, AreRefusedIfTheirFlagsOrNormalsAreInvalid) {
   Scene scene = scene_of_quads(false);
   scene.meshes[0].flags.pop_back();
   EXPECT_NE(message_of([&] { run(scene, kOptions); }), "");
   scene = scene_of_quads(false);
-  scene.meshes[0].flags[0] = kSecondHalf;
-  EXPECT_EQ(message_of([&] { run(scene, kOptions); }), "a mesh begins with the second half of a face");
+  scene.meshes[0].flags[0] = kSameFace;
+  EXPECT_EQ(message_of([&] { run(scene, kOptions); }), "a mesh's first triangle has kSameFace");
+  scene = scene_of_quads(false);
+  scene.meshes[0].normals.pop_back();
+  EXPECT_EQ(message_of([&] { run(scene, kOptions); }), "a mesh has 6600 triangles and 6599 normals");
 }
 
 }  // namespace

@@ -13,6 +13,10 @@ void check(const Scene& scene) {
   for (const Mesh& mesh : scene.meshes) {
     fuzz::require(!mesh.triangles.empty(), "a mesh without triangles");
     fuzz::require(mesh.colours.size() == mesh.triangles.size(), "colours and triangles differ in number");
+    fuzz::require(mesh.flags.size() == mesh.normals.size(), "flags and normals differ in number");
+    for (const glm::vec3& n : mesh.normals)
+      fuzz::require(n == glm::vec3(0.0f) || std::abs(glm::length(n) - 1.0f) < 1e-6f,
+                    "a normal's length is not 1");
     for (const glm::vec3& p : mesh.positions)
       fuzz::require(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z),
                     "a position is not finite");

@@ -13,6 +13,7 @@
 #include "edgewise/frontend.h"
 #include "edgewise/obj_file.h"
 #include "edgewise/tri_file.h"
+#include "frontend/shade.h"
 #include "message_of.h"
 #include "scene/polygon.h"
 #include "temp_dir.h"
@@ -137,26 +138,30 @@ const std::string kCorners = "v 1 2 3\nv 4 5 6\nv 7 8 10\n";
 
 INSTANTIATE_TEST_SUITE_P(
     Files, SameTriangle,
-    testing::Values(GoodObj{"Plain", kCorners + "f 1 2 3"},
-                    GoodObj{"NegativeIndices", kCorners + "f -3 -2 -1\n"},
-                    GoodObj{"NegativeIndicesCountFromTheFace", kCorners + "f -3 -2 -1\nv 9 9 9\n"},
-                    GoodObj{"FaceBeforeItsVertices", "f 1 2 3\n" + kCorners},
-                    GoodObj{"TextureAndNormal", kCorners + "vt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1\n"},
-                    GoodObj{"NormalOnly", kCorners + "f 1//1 2//1 3//1\n"},
-                    GoodObj{"TextureOnly", kCorners + "f 1/1 2/1 3/1\n"},
-                    GoodObj{"WindowsLineEnds", "v 1 2 3\r\nv 4 5 6\r\nv 7 8 10\r\nf 1 2 3\r\n"},
-                    GoodObj{"OldMacLineEnds", "v 1 2 3\rv 4 5 6\rv 7 8 10\rf 1 2 3\r"},
-                    GoodObj{"ByteOrderMark", "\xEF\xBB\xBF" + kCorners + "f 1 2 3\n"},
-                    GoodObj{"NumberFormats", "v +1 2. .3e1\nv 4e0 5.0 60E-1\nv 7 8 1.e1\nf +1 2 3\n"},
-                    GoodObj{"BlanksTabsComments",
-                            "# x\n\n  v\t1  2 3 # y\nv 4 5 6\nv 7 8 10\n\tf 1\t2 3  # z\n"},
-                    GoodObj{"ContinuedLines", "v 1 \\\n2 3\nv 4 5 6\r\nv 7 8 \\\r\n 10\nf 1 2 \\\n\\\n3"},
-                    GoodObj{"ACommentIsNotContinued", "v 1 2 3 # C:\\\n# D:\\\nv 4 5 6\nv 7 8 10\nf 1 2 3\n"},
-                    GoodObj{"WeightsAndColours", "v 1 2 3 1\nv 4 5 6 0.5\nv 7 8 10 1 0 0\nf 1 2 3\n"},
-                    GoodObj{"OtherStatements",
-                            "mtllib none.mtl\no a\ng b c\nusemtl d\ns off\nvp 1\nl 1 2\np 1\nt x "
-                            "99999999999/99999999999/9\n" +
-                                kCorners + "f 1 2 3\ncurv 0 1\n"}),
+    testing::Values(
+        GoodObj{"Plain", kCorners + "f 1 2 3"}, GoodObj{"NegativeIndices", kCorners + "f -3 -2 -1\n"},
+        GoodObj{"NegativeIndicesCountFromTheFace", kCorners + "f -3 -2 -1\nv 9 9 9\n"},
+        GoodObj{"FaceBeforeItsVertices", "f 1 2 3\n" + kCorners},
+        GoodObj{"TextureAndNormal", kCorners + "vt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1\n"},
+        GoodObj{"NormalOnly", kCorners + "f 1//1 2//1 3//1\n"},
+        GoodObj{"TextureOnly", kCorners + "f 1/1 2/1 3/1\n"},
+        GoodObj{"WindowsLineEnds", "v 1 2 3\r\nv 4 5 6\r\nv 7 8 10\r\nf 1 2 3\r\n"},
+        GoodObj{"OldMacLineEnds", "v 1 2 3\rv 4 5 6\rv 7 8 10\rf 1 2 3\r"},
+        GoodObj{"ByteOrderMark", "\xEF\xBB\xBF" + kCorners + "f 1 2 3\n"},
+        GoodObj{"NumberFormats", "v +1 2. .3e1\nv 4e0 5.0 60E-1\nv 7 8 1.e1\nf +1 2 3\n"},
+        GoodObj{"BlanksTabsComments", "# x\n\n  v\t1  2 3 # y\nv 4 5 6\nv 7 8 10\n\tf 1\t2 3  # z\n"},
+        GoodObj{"ContinuedLines", "v 1 \\\n2 3\nv 4 5 6\r\nv 7 8 \\\r\n 10\nf 1 2 \\\n\\\n3"},
+        GoodObj{"BlanksAfterABackslash", "v 1 \\ \n2 3\nv 4 5 6\nv 7 8 \\\t \r\n 10\nf 1 2 \\ \n 3"},
+        GoodObj{"DosEndMark", kCorners + "f 1 2 3\r\n\x1A"},
+        GoodObj{"DosEndMarkInALine", kCorners + "f 1 2 3\x1A\x1A"},
+        GoodObj{"FacesOfFewCorners", kCorners + "f 1 2\nf 1 2 3\nf 3\nf -1 4\n"},
+        GoodObj{"ACommentStartsAtAWord", kCorners + "f 1 2 3 #\nusemtl a#b\ng #\n\t#f 1 2\n"},
+        GoodObj{"ACommentIsNotContinued", "v 1 2 3 # C:\\\n# D:\\\nv 4 5 6\nv 7 8 10\nf 1 2 3\n"},
+        GoodObj{"WeightsAndColours", "v 1 2 3 1\nv 4 5 6 0.5\nv 7 8 10 1 0 0\nf 1 2 3\n"},
+        GoodObj{"OtherStatements",
+                "mtllib none.mtl\no a\ng b c\nusemtl d\ns off\nvp 1\nl 1 2\np 1\nt x "
+                "99999999999/99999999999/9\n" +
+                    kCorners + "f 1 2 3\ncurv 0 1\n"}),
     [](const auto& p) { return std::string(p.param.name); });
 
 // Extreme numbers become the nearest float, or 0 if they are too small.
@@ -204,14 +209,22 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"IndexIsFraction", kCorners + "f 1 2 3.0\n", "line 4: '3.0' is not a vertex index"},
         BadFile{"IndexHasThreeSlashes", kCorners + "f 1 2 3/1/1/1\n",
                 "line 4: '3/1/1/1' is not a vertex index"},
-        BadFile{"VerticalTabAfterKeyword", kCorners + "f\v1 2 3\n", "line 4: control character in 'f?1'"},
+        BadFile{"VerticalTabAfterKeyword", kCorners + "f\v1 2 3\n",
+                "line 4: # or control character in 'f?1'"},
         BadFile{"VerticalTabBetweenCorners", kCorners + "f 1\v2\v3\n",
                 "line 4: '1?2?3' is not a vertex index"},
         BadFile{"FormFeedAmongCorners", kCorners + "f 1 2 \f3\n", "line 4: '?3' is not a vertex index"},
         BadFile{"VerticalTabBetweenCoordinates", "v 1\v2 3 4\n", "line 1: '1?2' is not a finite coordinate"},
         BadFile{"IndexHasTail", kCorners + "f 1 2 3/\x1B[31m\n", "line 4: '3/?[31m' is not a vertex index"},
-        BadFile{"TwoCorners", kCorners + "f 1 2\n", "line 4: a face needs three corners or more"},
-        BadFile{"NoCorners", kCorners + "f\n", "line 4: a face needs three corners or more"},
+        BadFile{"TwoCorners", kCorners + "f 1 2\n", "has no faces"},
+        BadFile{"NoCorners", kCorners + "f\n", "line 4: a face without corners"},
+        BadFile{"MicrosoftsInfinity", "v 1 2 1.#INF\n", "line 1: '1.#INF' is not a finite coordinate"},
+        BadFile{"MicrosoftsNan", "v -1.#IND00 2 3\n", "line 1: '-1.#IND00' is not a finite coordinate"},
+        BadFile{"WeightIsText", "v 1 2 3 1.#QNAN\n", "line 1: '1.#QNAN' is not a finite number"},
+        BadFile{"ColourIsText", "v 1 2 3 1 0 red\n", "line 1: 'red' is not a finite number"},
+        BadFile{"CommentInACorner", kCorners + "f 1 2 3# z\n", "line 4: '3#' is not a vertex index"},
+        BadFile{"CommentInAKeyword", kCorners + "f# 1 2 3\n", "line 4: # or control character in 'f#'"},
+        BadFile{"DosEndMarkInside", kCorners + "\x1A\nf 1 2 3\n", "line 4: # or control character in '?'"},
         BadFile{"TwoCoordinates", "v 1 2\n", "line 1: a vertex needs three coordinates"},
         BadFile{"CoordinateIsText", "v 1 2 x\n", "line 1: 'x' is not a finite coordinate"},
         BadFile{"CoordinateHasTail", "v 1 2 3,5\n", "line 1: '3,5' is not a finite coordinate"},
@@ -222,6 +235,162 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"LineAfterWindowsLineEnds", "v 1 2 3\r\n\r\nv 1 2 \\\r\n x\r\n",
                 "line 3: 'x' is not a finite coordinate"}),
     [](const auto& p) { return std::string(p.param.name); });
+
+// ---- OBJ: what files say of colours, normals and places
+
+struct ReadObj {
+  Scene scene;
+  ObjReport report;
+  const Mesh& mesh() const { return scene.meshes[0]; }
+};
+ReadObj read_with_report(const TempDir& dir, const std::string& text, bool recentre = false) {
+  ReadObj read;
+  read.scene = read_obj(dir.write("a.obj", text), {.recentre = recentre}, &read.report);
+  for (std::string& warning : read.report.warnings) {
+    EXPECT_TRUE(warning.starts_with((dir.path() / "a.obj: ").string())) << warning;
+    warning.erase(0, (dir.path() / "a.obj: ").string().size());
+  }
+  return read;
+}
+
+using Colours = std::vector<std::uint32_t>;
+const std::uint32_t kLightGrey = rgb(200, 200, 200);
+
+TEST(ObjFile, MaterialsGiveColours) {
+  const TempDir dir;
+  dir.write("a.mtl", "# x\nKd 1 1 1\nnewmtl red\nKa 1 1 1\nKd 1.0 0.2 0\nnewmtl two words \n\tKd 0.5\n");
+  dir.write("a name.mtl",
+            "newmtl none\r\nnewmtl odd\r\nKd spectral a.rfl\r\nnewmtl out\r\nKd 7 -1 0 # y\r\n\x1A");
+  const ReadObj read = read_with_report(dir, "mtllib a.mtl\n" + kCorners +
+                                                 "f 1 2 3\nusemtl red\nf 1 2 3\nf 1 2 3 1\nusemtl two words\n"
+                                                 "f 1 2 3\nmtllib a name.mtl\nusemtl none\nf 1 2 3\n"
+                                                 "usemtl odd\nf 1 2 3\nusemtl out\nf 1 2 3\n");
+  const std::uint32_t red = rgb(255, 51, 0);
+  EXPECT_EQ(read.mesh().colours,
+            (Colours{kLightGrey, red, red, red, rgb(128, 128, 128), kLightGrey, kLightGrey, rgb(255, 0, 0)}));
+  EXPECT_EQ(read.report.warnings, std::vector<std::string>{});
+  EXPECT_EQ(read_with_report(dir, "mtllib a.mtl a.mtl\n" + kCorners + "usemtl red\nf 1 2 3\n").mesh().colours,
+            Colours{red});
+}
+
+TEST(ObjFile, MissingMaterialsAreWarnings) {
+  const TempDir dir;
+  const std::string face = kCorners + "usemtl a\nf 1 2 3\nusemtl b\nusemtl a\nf 1 2 3\n";
+  const auto warnings = [&](const std::string& text) {
+    const ReadObj read = read_with_report(dir, text);
+    EXPECT_EQ(read.mesh().colours, (Colours{kLightGrey, kLightGrey}));
+    return read.report.warnings;
+  };
+  const std::string none = (dir.path() / "none.mtl").string(), bad = (dir.path() / "bad.mtl").string();
+  const auto missing = warnings("\nmtllib none.mtl\n" + face);
+  ASSERT_EQ(missing.size(), 1u);
+  EXPECT_TRUE(missing[0].starts_with("line 2: " + none + ": ")) << missing[0];
+  EXPECT_EQ(warnings(face),
+            std::vector<std::string>{"line 4: no .mtl file defines material 'a', nor 1 more"});
+  dir.write("bad.mtl", "newmtl c\nKd 1 x 1\n");
+  EXPECT_EQ(warnings("mtllib bad.mtl\n" + face),
+            std::vector<std::string>{"line 1: " + bad + ": line 2: 'x' is not a finite number"});
+  EXPECT_EQ(read_with_report(dir, kCorners + "f 1 2\nf 1 2 3\nf 3\n").report.warnings,
+            std::vector<std::string>{"line 4: 2 faces, from here on, of fewer than three corners skipped"});
+}
+
+// If all vertices of a face have one. They come before the material's.
+TEST(ObjFile, VerticesGiveColours) {
+  const TempDir dir;
+  dir.write("a.mtl", "newmtl blue\nKd 0 0 1\n");
+  const ReadObj read = read_with_report(
+      dir,
+      "mtllib a.mtl\nv 0 0 0 0.5\nv 0 0 0 1 0 0\nv 1 0 0 1 0.6 0\nv 0 1 0 1 0 3\nv 1 1 0\nf 2 3 4\n"
+      "f 1 3 4\nf 2 3 5\nusemtl blue\nf 2 3 4 4\nf 2 3 5\n");
+  const std::uint32_t mean = rgb(255, 51, 85), four = rgb(255, 38, 128), blue = rgb(0, 0, 255);
+  EXPECT_EQ(read.mesh().colours, (Colours{mean, kLightGrey, kLightGrey, four, four, blue}));
+}
+
+// The quads have a straight corner, the polygons any, and no triangle is larger than a sliver at first.
+TEST(ObjFile, FacesAreLitByTheirPlane) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> number(-1, 1);
+  const auto vector = [&] {
+    const double x = number(random), y = number(random);
+    return glm::dvec3(x, y, number(random));
+  };
+  const TempDir dir;
+  for (int trial = 0; trial < 200; ++trial) {
+    const glm::dvec3 u = glm::normalize(vector()), v = glm::normalize(glm::cross(u, vector()));
+    const glm::dvec3 at = 100.0 * vector();
+    std::vector<glm::dvec2> outline;
+    if (trial % 2 == 0) {
+      outline = {{-1, -1}, {number(random), -1}, {1, -1}, {0, 1}};
+    } else {
+      for (int k = 0; k < 9; ++k)
+        for (int twice = 0; twice < 1 + k % 2; ++twice)
+          outline.emplace_back((1 + 0.5 * (k % 3)) * std::cos(0.7 * k),
+                               (1 + 0.5 * (k % 3)) * std::sin(0.7 * k));
+    }
+    std::ostringstream text;
+    text.precision(17);
+    std::string face = "f";
+    for (std::size_t k = 0; k < outline.size(); ++k) {
+      const glm::dvec3 p = at + outline[k].x * u + outline[k].y * v;
+      text << "v " << p.x << ' ' << p.y << ' ' << p.z << '\n';
+      face += ' ' + std::to_string(k + 1);
+    }
+    const Scene scene = read_obj(dir.write("face.obj", text.str() + face + '\n'));
+    EXPECT_EQ(scene.meshes[0].triangles.size(), outline.size() - 2);
+    const double cosine = glm::dot(glm::cross(u, v), glm::normalize(glm::dvec3(scene.to_light)));
+    for (const std::uint32_t lit : lit_colours(scene))
+      EXPECT_NEAR(lit & 255, 200.0 * std::max(cosine, 0.15), 1) << trial;
+  }
+}
+
+TEST(ObjFile, OnlyPolygonsNeedNormalsAndFlags) {
+  const Mesh plain = read_mesh(kCorners + "f 1 2 3\nf 1 3 2\n");
+  EXPECT_TRUE(plain.normals.empty() && plain.flags.empty());
+  const Mesh mixed =
+      read_mesh("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 3 2 1\nf 1 2 3 4\nf 1 2 3\nf 1 1 2 3 4\nf 2 1 3\n");
+  const glm::vec3 front(0, 0, 1);
+  EXPECT_EQ(mixed.normals,
+            (std::vector<glm::vec3>{-front, front, front, front, front, front, front, -front}));
+  EXPECT_EQ(mixed.flags, (std::vector<std::uint8_t>{0, 0, kSameFace, 0, 0, kSameFace, kSameFace, 0}));
+}
+
+// A square of 3 mm, 5,572 km from the origin, where floats are 0.5 m apart.
+TEST(ObjFile, FarFromTheOriginMillimetresAreKept) {
+  const std::string text =
+      "v 412345.251 0.17 -5572094.503\nv 412345.254 0.17 -5572094.503\nv 412345.254 0.173 -5572094.503\n"
+      "v 412345.251 0.173 -5572094.503\nv 0 0 0\nv 3e38 0 0\nf 1 2 3 4\n";
+  const TempDir dir;
+  for (const bool recentre : {false, true}) {
+    const ReadObj read = read_with_report(dir, text, recentre);
+    const glm::dvec3 offset = read.report.offset;
+    const Mesh& mesh = read.mesh();
+    const glm::dvec3 expected[] = {{412345.251, 0.17, -5572094.503},
+                                   {412345.254, 0.17, -5572094.503},
+                                   {412345.254, 0.173, -5572094.503},
+                                   {412345.251, 0.173, -5572094.503}};
+    for (std::size_t i = 0; i < 4; ++i) {
+      EXPECT_LT(glm::distance(glm::dvec3(mesh.positions[i]) + offset, expected[i]), 1e-8);
+      EXPECT_LT(glm::length(mesh.positions[i]), 0.004f);
+    }
+    EXPECT_TRUE(std::isfinite(mesh.positions[5].x)) << "not the face's";
+    EXPECT_EQ(read.scene.instances[0].translation, recentre ? glm::dvec3(0.0) : offset);
+  }
+}
+
+// The offset is a multiple of a power of two below the box's size.
+TEST(ObjFile, TheOffsetIsRoundAndOnlyForMeshesFarAway) {
+  const auto offset = [dir = TempDir()](const std::string& vertices, bool recentre) {
+    const std::string text = vertices + "f 1 2 3\n";
+    return read_with_report(dir, text, recentre).report.offset;
+  };
+  const std::string near = "v 30 0 0\nv 40 0 0\nv 30 10 0\n", far = "v 31 0 0\nv 41 0 0\nv 31 10 0\n";
+  EXPECT_EQ(offset(near, false), glm::dvec3(0.0));
+  EXPECT_EQ(offset(near, true), glm::dvec3(32, 8, 0));
+  EXPECT_EQ(offset(far, false), glm::dvec3(40, 8, 0));
+  EXPECT_EQ(offset("v 5 5 5\nv 5 5 5\nv 5 5 5\n", false), glm::dvec3(5, 5, 5));
+  EXPECT_EQ(offset("v 0 0 0\nv 0 0 0\nv 0 0 0\n", true), glm::dvec3(0, 0, 0));
+  EXPECT_EQ(offset("v 3.4e38 0 0\nv -3.4e38 0 0\nv 0 0 0\n", true), glm::dvec3(0, 0, 0));
+}
 
 TEST(ObjFile, FoldersAndMissingFilesAreRefused) {
   const TempDir dir;

@@ -32,7 +32,7 @@ std::shared_ptr<Workload> workload_of(const Scene& scene, const lab::FacingMetho
 TEST(HiddenFaces, MatchWindingCullingFromFarAway) {
   Scene scene = std::get<Scene>(find_scene("cube").make({}));
   Mesh quads = scene.meshes[0];
-  for (int i = 0; i < 12; ++i) quads.flags.push_back(i % 2 == 0 ? 0 : kSecondHalf);
+  for (int i = 0; i < 12; ++i) quads.flags.push_back(i % 2 == 0 ? 0 : kSameFace);
   scene.meshes.push_back(std::move(quads));
   scene.instances.clear();
   for (int i = 0; i < 8; ++i) {
@@ -74,14 +74,14 @@ TEST(HiddenFaces, ExceedWindingCullingUnderPerspective) {
   }
 }
 
-TEST(HiddenFaces, AreFoundByTheirFirstThreeVerticesAndNeverTwoSided) {
-  // Each quad is folded along its diagonal, so that the second half lies on the first and faces the other
-  // way.
-  Mesh mesh{{{0, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0.2f, 0.9f, 0}}, {}, {}};
+TEST(HiddenFaces, AreFoundByTheirNormalsAndNeverTwoSided) {
+  // Each quad is folded along its diagonal: its first triangle, the smaller one, faces another way than its
+  // normal.
+  Mesh mesh{{{0, 0, 0}, {0.2f, 0.9f, 0}, {1, 1, 0}, {0, 1, 0}}, {}, {}};
   const auto add = [&](glm::uvec4 corners, std::uint32_t colour, bool two_sided) {
     mesh.add_quad(corners, colour, two_sided);
   };
-  const glm::uvec4 towards(0, 1, 2, 3), away(2, 1, 0, 3);
+  const glm::uvec4 away(0, 1, 2, 3), towards(2, 1, 0, 3);
   add(towards, 1, false);
   add(away, 2, false);
   add(away, 3, true);
@@ -89,17 +89,18 @@ TEST(HiddenFaces, AreFoundByTheirFirstThreeVerticesAndNeverTwoSided) {
   add(away, 5, false);
   mesh.triangles.emplace_back(0, 1, 2), mesh.colours.push_back(6), mesh.flags.push_back(0);
   mesh.triangles.emplace_back(2, 1, 0), mesh.colours.push_back(7), mesh.flags.push_back(0);
+  mesh.fill_normals(mesh.triangles.size());
   mesh.clusters.resize(1);
   const Scene scene{.meshes = {mesh}, .instances = {{}}, .camera = {}};  // seen along -z
   lab::HiddenFaces hidden(scene, normal_z());
   for (int frame = 0; frame < 2; ++frame) {
     const Mesh& left = std::get<Scene>(hidden.drop(scene)).meshes.at(0);
     EXPECT_EQ(left.colours, (std::vector<std::uint32_t>{1, 1, 3, 3, 4, 4, 6}));
-    EXPECT_EQ(left.flags, (std::vector<std::uint8_t>{0, kSecondHalf, kTwoSided, kTwoSided | kSecondHalf,
-                                                     kTwoSided, kTwoSided | kSecondHalf, 0}));
+    EXPECT_EQ(left.flags, (std::vector<std::uint8_t>{0, kSameFace, kTwoSided, kTwoSided | kSameFace,
+                                                     kTwoSided, kTwoSided | kSameFace, 0}));
     ASSERT_EQ(left.triangles.size(), 7u);
-    EXPECT_EQ(left.triangles[1], glm::uvec3(0, 2, 3));
-    EXPECT_EQ(left.triangles[2], glm::uvec3(2, 1, 0));
+    EXPECT_EQ(left.triangles[1], glm::uvec3(2, 0, 3));
+    EXPECT_EQ(left.triangles[2], glm::uvec3(0, 1, 2));
     EXPECT_EQ(left.positions, mesh.positions);
     EXPECT_TRUE(left.clusters.empty());
   }

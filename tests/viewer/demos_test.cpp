@@ -197,7 +197,7 @@ TEST(OutlawTriad, CullsAboutHalfOfTheQuads) {
   const Scene scene = find_demo("outlaw-triad").scene();
   for (const Mesh& mesh : scene.meshes)
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-      ASSERT_EQ(mesh.has_flag(i, kSecondHalf), i % 2 == 1);
+      ASSERT_EQ(mesh.has_flag(i, kSameFace), i % 2 == 1);
   Shown demo("outlaw-triad");
   demo.step();
   EXPECT_EQ(demo.side(0).choice.facing->info.name, "normal_z");

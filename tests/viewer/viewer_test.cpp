@@ -543,7 +543,7 @@ TEST(Viewer, ShowsTheStateOfEachFace) {
   EXPECT_TRUE(says(type(session, "2<normal_dot_eye>", kLarge), "a b - c"));
   EXPECT_TRUE(says(type(session, "<screen_linear>", kLarge), "doesn't report"));
   EXPECT_FALSE(says(type(session, "7", kLarge), "[7]"));
-  scene.meshes[1].flags = {kTwoSided, kTwoSided | kSecondHalf};
+  scene.meshes[1].flags = {kTwoSided, kTwoSided | kSameFace};
   Session two_sided = session_of(scene);
   EXPECT_TRUE(says(type(two_sided, "7", kLarge), "a A - c"));
   EXPECT_FALSE(says(type(two_sided, "v", {12, 1000}), "a A")) << "no room for a letter";

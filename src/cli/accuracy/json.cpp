@@ -40,7 +40,7 @@ json score_json(const lab::VisibilityScore& s) {
 }
 
 json score_json(const lab::FacingScore& s) {
-  json score{{"faces", s.faces}, {"misclassified", s.misclassified}, {"by_first_three", s.by_first_three}};
+  json score{{"faces", s.faces}, {"misclassified", s.misclassified}, {"misled", s.misled}};
   add_rate(score, s.misclassified, s.faces);
   return score;
 }

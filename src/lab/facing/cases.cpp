@@ -12,9 +12,8 @@ namespace edgewise::lab {
 namespace {
 
 void add(FacingScene& scene, std::initializer_list<glm::vec3> polygon) {
-  scene.faces.push_back(
-      {static_cast<std::uint32_t>(scene.positions.size()), static_cast<std::uint32_t>(polygon.size())});
   scene.positions.insert(scene.positions.end(), polygon);
+  scene.add_face(scene.positions.size() - polygon.size());
 }
 
 // The camera at the origin looks along +z. Faces are clockwise from outside.
@@ -64,7 +63,7 @@ constexpr std::array kCases = {
                [] { return polygons(Shape::regular, 500, 5); }},
     FacingCase{"irregular_polygons", "polygons with reflex corners, some at the second vertex",
                [] { return polygons(Shape::irregular, 500, 6); }},
-    FacingCase{"bent_polygons", "polygons that are not planar: three vertices may mislead",
+    FacingCase{"bent_polygons", "polygons that are not planar: normals and three vertices may mislead",
                [] { return polygons(Shape::bent, 500, 7); }},
     FacingCase{"notch_second", "a concave polygon with its notch at vertex 2: vertices 1 to 3 mislead",
                notch_second},
@@ -125,7 +124,6 @@ FacingScene polygons(Shape shape, std::size_t count, std::uint64_t seed) {
     const glm::vec3 centre(random.uniform(-5.0f, 5.0f), centre_y, kDistance);
     const auto [u, v] = random_plane(random);
     const glm::vec3 normal = glm::cross(u, v);
-    scene.faces.push_back({static_cast<std::uint32_t>(scene.positions.size()), corners});
     for (std::uint32_t k = 0; k < corners; ++k) {
       const float astray = shape == Shape::regular ? 0.0f : random.uniform(-0.4f, 0.4f);
       const float radius = shape == Shape::regular ? 1.0f : random.uniform(0.25f, 1.0f);
@@ -133,6 +131,7 @@ FacingScene polygons(Shape shape, std::size_t count, std::uint64_t seed) {
       const float turn = kTurn * (static_cast<float>(k) + astray) / static_cast<float>(corners);
       scene.positions.push_back(centre + radius * (std::cos(turn) * u + std::sin(turn) * v) + lift * normal);
     }
+    scene.add_face(scene.positions.size() - corners);
   }
   return scene;
 }

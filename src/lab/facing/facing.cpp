@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 
+#include "edgewise/scene.h"
 #include "frontend/fixed.h"
 #include "lab/facing/methods/project.h"
 
@@ -138,18 +139,23 @@ using Real3 = glm::tvec3<long double>;
 
 void measure_rays(FaceFacts& facts, std::span<const glm::vec3> v, Real3 object, const FacingView& view) {
   const Real3 a(v[0]), b(v[1]), c(v[2]), eye(view.eye), forward(view.forward);
-  const Real3 normal = glm::cross(c - a, b - a), ray = (a + b + c) / 3.0L - eye;
-  const Real3 sight = view.perspective ? ray : forward;
+  const Real3 ray = (a + b + c) / 3.0L - eye, sight = view.perspective ? ray : forward;
+  Real3 normal(0.0L);
+  for (std::size_t i = 1; i + 1 < v.size(); ++i) normal += glm::cross(Real3(v[i + 1]) - a, Real3(v[i]) - a);
   const long double area = glm::length(normal);
-  const long double height = glm::dot(normal, view.perspective ? a - eye : forward);
-  facts.sine = static_cast<double>(std::abs(height) / (area * glm::length(sight)));
+  long double least = area * glm::length(sight);
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    const long double height = glm::dot(normal, view.perspective ? Real3(v[i]) - eye : forward);
+    facts.normal_lies |= !(facts.floats.front ? height < 0 : height > 0);
+    if (i < 3) least = std::min(least, std::abs(height));
+  }
+  facts.sine = static_cast<double>(least / (area * glm::length(sight)));
   const auto sine_to = [&](Real3 other) {
     return static_cast<double>(glm::length(glm::cross(ray, other)) / (glm::length(ray) * glm::length(other)));
   };
   facts.tilt_sine = sine_to(forward);
   facts.object_sine = sine_to(object - eye);
-  facts.magnification = static_cast<double>(std::max(1.0L, glm::length(c - a) * glm::length(b - a) / area) *
-                                            (1 + glm::length(eye) / glm::length(ray)));
+  facts.magnification = static_cast<double>(1 + glm::length(eye) / glm::length(ray));
 }
 
 void measure_screen(FaceFacts& facts, std::span<const glm::vec3> v, std::span<const Point> p,
@@ -198,6 +204,12 @@ FaceFacts FacingTruth::facts(const Face& face) const {
   return facts;
 }
 
+void FacingScene::add_face(std::size_t first) {
+  const auto vertices = std::span<const glm::vec3>(positions).subspan(first);
+  faces.push_back({static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(vertices.size()),
+                   face_normal(vertices)});
+}
+
 std::vector<FaceFacts> facing_facts(const FacingScene& scene) {
   const FacingTruth truth(scene);
   std::vector<FaceFacts> all;
@@ -213,12 +225,13 @@ FacingScores score(const FacingMethod& method, const FacingScene& scene, std::sp
   for (std::size_t i = 0; i < facts.size(); ++i) {
     if (kept[i] != ours[i]) ++scores.disagreements;
     const auto add = [&](FacingScore& score, const FaceSide& side, bool may_err) {
+      const bool misled = method.by_normal ? facts[i].normal_lies : side.first_three_lie;
       if (!side.covers_sample) return;
       ++score.faces;
       if ((kept[i] != 0) == side.front) return;
       ++score.misclassified;
-      if (side.first_three_lie)
-        ++score.by_first_three;
+      if (misled)
+        ++score.misled;
       else if (!may_err)
         ++scores.broken;
     };

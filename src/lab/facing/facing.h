@@ -24,15 +24,19 @@ struct FacingView {
 };
 
 // A polygon, planar or not. It is a front face if its whole projected area is clockwise on the y-down screen.
-// Methods test its first three vertices only, as the engines do.
+// As in the engines, methods read a stored normal of the face, or the positions of its first three vertices.
 struct Face {
   std::uint32_t first, count;  // into FacingScene::positions; count >= 3
+  glm::vec3 normal;            // face_normal() of its vertices
 };
 
 struct FacingScene {
   FacingView view;
   std::vector<glm::vec3> positions;
   std::vector<Face> faces;
+
+  // Appends a face of the positions from index `first` on.
+  void add_face(std::size_t first);
 };
 
 // A face's exact orientation in one truth.
@@ -47,13 +51,15 @@ struct FaceSide {
 struct FaceFacts {
   FaceSide snapped, floats;
   // All before snapping:
-  double sine;         // of the angle between the face's plane and the ray to its first three vertices' mean
+  bool normal_lies;  // the polygon is bent: by its normal, a vertex is seen from another side than the whole
+  // The least distance of the camera from the planes of the face's normal through its first three vertices,
+  // over the length of the ray to their mean: for a planar face, the sine of the angle between ray and plane.
+  double sine;
   double tilt_sine;    // of the angle between that ray (from the eye, whatever the camera) and forward
   double object_sine;  // of the angle between that ray and the one to the mean of all positions
   double width_px;     // least height of the first three vertices on the screen
-  // The factor by which the dot product of normal and ray magnifies the rounding of a position: the product
-  // of the first two sides over the area they span, at least 1, times 1 + |camera position| / |ray| for
-  // positions relative to another origin than the camera.
+  // The factor by which the dot product of normal and ray magnifies the rounding of a position: 1 + |camera
+  // position| / |ray|.
   double magnification;
   double rounding_px;  // bound on the error of projecting these vertices in float
 };
@@ -72,8 +78,10 @@ struct FacingMethod {
   MethodInfo info;
   // The timed part: front[i] = 1 if face i is kept, else 0. `front` has one entry per face.
   void (*classify)(const FacingScene& scene, std::span<std::uint8_t> front);
-  // The promise: false if the method cannot misjudge the orientation of the first three vertices.
+  // The promise: false if the method cannot misjudge the orientation of its input, which is the normal, or
+  // the first three vertices.
   bool (*may_err)(const FaceFacts& face, const FacingView& view);
+  bool by_normal = false;     // uses the face's normal
   bool by_direction = false;  // uses only `forward` of the view
 };
 
@@ -82,15 +90,15 @@ std::span<const FacingMethod> facing_methods();
 
 // The score against one truth.
 struct FacingScore {
-  std::uint64_t faces = 0;           // faces that cover a sample
-  std::uint64_t misclassified = 0;   // of these
-  std::uint64_t by_first_three = 0;  // of these, faces with first_three_lie, where every method must err
+  std::uint64_t faces = 0;          // faces that cover a sample
+  std::uint64_t misclassified = 0;  // of these
+  std::uint64_t misled = 0;         // of these, faces whose normal or first three vertices lie
 };
 struct FacingScores {
   FacingScore snapped, floats;
   std::uint64_t disagreements = 0;  // with the first method (ours), of all faces
-  // Broken promises, without faces with first_three_lie: misclassified against the float truth though may_err
-  // is false, or by an exact method against the snapped truth.
+  // Broken promises, without misled ones: misclassified against the float truth though may_err is false, or
+  // by an exact method against the snapped truth.
   std::uint64_t broken = 0;
 };
 FacingScores score(const FacingMethod& method, const FacingScene& scene, std::span<const FaceFacts> facts);

@@ -50,10 +50,10 @@ Measured measure_edge_on(double height_px, bool quick) {
       const float w = random.uniform(1.0f, 4.0f);
       scene.positions.emplace_back((sample + along_px * along + across_px * across) * (w / view.focal_px), w);
     };
-    scene.faces.push_back({static_cast<std::uint32_t>(scene.positions.size()), 3});
     add(random.uniform(-60, -20), -0.25f * height);
     add(random.uniform(20, 60), -0.25f * height);
     add(random.uniform(-20, 20), 0.75f * height);
+    scene.add_face(scene.positions.size() - 3);
   }
   return measure_scene(scene);
 }

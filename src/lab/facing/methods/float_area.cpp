@@ -9,8 +9,8 @@ const FacingMethod facing_float_area{
      "wrong only about faces narrower on the screen than the rounding of a projected vertex", false},
     [](const FacingScene& scene, std::span<std::uint8_t> front) {
       const FloatProjector project(scene.view);
-      classify_each(scene, front, [&](glm::vec3 a, glm::vec3 b, glm::vec3 c) {
-        const glm::vec2 p = project(a), q = project(b) - p, r = project(c) - p;
+      classify_each(scene, front, [&](glm::vec3, const glm::vec3* v) {
+        const glm::vec2 p = project(v[0]), q = project(v[1]) - p, r = project(v[2]) - p;
         return q.x * r.y - q.y * r.x > 0.0f;
       });
     },

@@ -10,10 +10,11 @@ const FacingMethod facing_normal_dot_centroid{
      "perspective: wrong only where a face is edge-on up to rounding; orthographic: wrong by the ray's tilt",
      false},
     [](const FacingScene& scene, std::span<std::uint8_t> front) {
-      classify_each(scene, front, [eye = scene.view.eye](glm::vec3 a, glm::vec3 b, glm::vec3 c) {
-        return glm::dot(normal_of(a, b, c), (a + b + c) * (1.0f / 3.0f) - eye) < 0.0f;
+      classify_each(scene, front, [eye = scene.view.eye](glm::vec3 normal, const glm::vec3* v) {
+        return glm::dot(normal, (v[0] + v[1] + v[2]) * (1.0f / 3.0f) - eye) < 0.0f;
       });
     },
-    ray_may_err};
+    ray_may_err,
+    true};
 
 }  // namespace edgewise::lab

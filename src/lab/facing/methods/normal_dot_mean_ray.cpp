@@ -10,11 +10,13 @@ const FacingMethod facing_normal_dot_mean_ray{
      "perspective: wrong only where a face is edge-on up to rounding; orthographic: wrong by the ray's tilt",
      false},
     [](const FacingScene& scene, std::span<std::uint8_t> front) {
-      classify_each(scene, front, [eye = scene.view.eye](glm::vec3 a, glm::vec3 b, glm::vec3 c) {
-        const glm::vec3 rays = glm::normalize(a - eye) + glm::normalize(b - eye) + glm::normalize(c - eye);
-        return glm::dot(normal_of(a, b, c), rays) < 0.0f;
+      classify_each(scene, front, [eye = scene.view.eye](glm::vec3 normal, const glm::vec3* v) {
+        const glm::vec3 rays =
+            glm::normalize(v[0] - eye) + glm::normalize(v[1] - eye) + glm::normalize(v[2] - eye);
+        return glm::dot(normal, rays) < 0.0f;
       });
     },
-    ray_may_err};
+    ray_may_err,
+    true};
 
 }  // namespace edgewise::lab

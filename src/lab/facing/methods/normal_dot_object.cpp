@@ -12,12 +12,12 @@ const FacingMethod facing_normal_dot_object{
       glm::vec3 sum(0.0f);
       for (const auto& p : scene.positions) sum += p;
       const glm::vec3 ray = sum / static_cast<float>(scene.positions.size()) - scene.view.eye;
-      classify_each(scene, front, [ray](glm::vec3 a, glm::vec3 b, glm::vec3 c) {
-        return glm::dot(normal_of(a, b, c), ray) < 0.0f;
-      });
+      classify_each(scene, front,
+                    [ray](glm::vec3 normal, const glm::vec3*) { return glm::dot(normal, ray) < 0.0f; });
     },
     [](const FaceFacts& face, const FacingView& view) {
       return face.sine <= ray_rounding(face) + face.object_sine + (view.perspective ? 0.0 : face.tilt_sine);
-    }};
+    },
+    true};
 
 }  // namespace edgewise::lab

@@ -1,4 +1,4 @@
-// Shared by the facing methods: projection and normals in float, and the loop over faces.
+// Shared by the facing methods: projection in float, and the loop over faces.
 #pragma once
 
 #include <cmath>
@@ -8,12 +8,12 @@
 
 namespace edgewise::lab {
 
-// is_front(a, b, c) tests the first three vertices of a face.
+// is_front(normal, v) tests a face by its normal or by its first three vertices.
 template <typename IsFront>
 void classify_each(const FacingScene& scene, std::span<std::uint8_t> front, IsFront&& is_front) {
   for (std::size_t i = 0; i < scene.faces.size(); ++i) {
-    const glm::vec3* v = scene.positions.data() + scene.faces[i].first;
-    front[i] = is_front(v[0], v[1], v[2]) ? 1 : 0;
+    const Face& face = scene.faces[i];
+    front[i] = is_front(face.normal, scene.positions.data() + face.first) ? 1 : 0;
   }
 }
 
@@ -32,11 +32,6 @@ class FloatProjector {
   FacingView view_;
   glm::vec2 centre_px_;
 };
-
-// The outward normal of a face whose vertices are clockwise from outside.
-inline glm::vec3 normal_of(glm::vec3 a, glm::vec3 b, glm::vec3 c) {
-  return glm::cross(c - a, b - a);
-}
 
 // Rounding can change the sign of the dot product of normal and ray only if FaceFacts::sine is at most this.
 inline double ray_rounding(const FaceFacts& face) {

@@ -12,11 +12,10 @@ const FacingMethod facing_snapped_area{
      true},
     [](const FacingScene& scene, std::span<std::uint8_t> front) {
       const FloatProjector project(scene.view);
-      classify_each(scene, front, [&](glm::vec3 a, glm::vec3 b, glm::vec3 c) {
+      classify_each(scene, front, [&](glm::vec3, const glm::vec3* v) {
         ScreenTriangle t{};
-        const glm::vec3* const vertices[3] = {&a, &b, &c};
         for (int i = 0; i < 3; ++i) {
-          const glm::vec2 p = project(*vertices[i]);
+          const glm::vec2 p = project(v[i]);
           t.x_sub[i] = snap(p.x);
           t.y_sub[i] = snap(p.y);
         }
