@@ -15,6 +15,7 @@
 #include "bench/peers/stage.h"
 #include "core/random.h"
 #include "edgewise/contract.h"
+#include "frontend/view.h"
 #include "lab/portable/portable.h"
 #include "message_of.h"
 #include "support.h"
@@ -91,15 +92,17 @@ TEST(PeerScene, GivesEachTriangleItsOwnLastVertex) {
     for (std::size_t m = 0; m < made.meshes.size(); ++m) {
       const Mesh& mesh = given.meshes[given.instances[m].mesh];
       const PeerMesh& peer = made.meshes[m];
+      const ScreenTransform seen(given.camera, given.instances[m], made.width, made.height);
+      const auto relative = [&](std::uint32_t vertex) { return mesh.positions[vertex] - seen.origin; };
       ASSERT_EQ(peer.indices.size(), 3 * mesh.triangles.size());
       EXPECT_LE(peer.positions.size(), mesh.positions.size() + mesh.triangles.size());
       for (std::size_t i = 0; i < mesh.triangles.size(); ++i, ++id) {
         const auto at = [&](std::size_t k) { return peer.positions[peer.indices[3 * i + k % 3]]; };
         bool turned = false;
         for (std::size_t turn = 0; turn < 3; ++turn)
-          turned |= at(turn) == mesh.positions[mesh.triangles[i][0]] &&
-                    at(turn + 1) == mesh.positions[mesh.triangles[i][1]] &&
-                    at(turn + 2) == mesh.positions[mesh.triangles[i][2]];
+          turned |= at(turn) == relative(mesh.triangles[i][0]) &&
+                    at(turn + 1) == relative(mesh.triangles[i][1]) &&
+                    at(turn + 2) == relative(mesh.triangles[i][2]);
         ASSERT_TRUE(turned) << scene << ' ' << i;
         ASSERT_EQ(peer.payloads[peer.indices[3 * i + 2]], id) << scene << ' ' << i;
       }

@@ -330,6 +330,16 @@ std::vector<float> borders(float w, float side_px) {
   return values;
 }
 
+// outside_of(), with the products by the image's sides rounded to float as in the kernels.
+std::uint32_t flags_in_float(glm::vec3 v, const ViewVolume& view) {
+  std::uint32_t flags = outside_of(as_clip_vertex(v), view);
+  if ((flags & kNotFinite) != 0) return flags;
+  flags &= ~std::uint32_t{kRight | kBottom};
+  if (v.x > static_cast<float>(view.width_px) * v.z) flags |= kRight;
+  if (v.y > static_cast<float>(view.height_px) * v.z) flags |= kBottom;
+  return flags;
+}
+
 TEST(FrontendKernels, VerticesOnPlanesMatchTheScalarFlags) {
   constexpr int kWidth = 640, kHeight = 480;
   const FrontendOptions options{.width = kWidth, .height = kHeight};
@@ -349,7 +359,7 @@ TEST(FrontendKernels, VerticesOnPlanesMatchTheScalarFlags) {
       transform_kernel(target)(job, 0, vertices.size());
       for (std::size_t i = 0; i < vertices.size(); ++i) {
         const glm::vec3 v = transform(job.to_screen, mesh.positions[i]);
-        const std::uint32_t outside = outside_of(as_clip_vertex(v), job.view);
+        const std::uint32_t outside = flags_in_float(v, job.view);
         ASSERT_EQ(vertices[i].outside, outside) << name_of(target) << ", w = " << w << ", " << i;
         if ((outside & (kMustClip | kNotFinite)) != 0) continue;
         const float inverse_w = 1.0f / v.z;

@@ -238,7 +238,7 @@ TEST(Frontend, NeighboursGetTheSameVertexOnAClippedEdge) {
   };
   constexpr ViewVolume kView{100, 100, 0.5, 2.0};
   int cuts = 0;
-  for (int i = 0; i < 4000; ++i) {
+  for (int i = 0; i < 6000; ++i) {
     const auto vertex = [&] {
       const float w = random.uniform(0.1f, 3.0f), reach = 20'000.0f * w;
       return ClipVertex{random.uniform(-reach, reach), random.uniform(-reach, reach), w, w};

@@ -282,6 +282,17 @@ TEST(ClippingSweeps, OnlyClippingDrawsTrianglesAcrossTheNearPlane) {
     EXPECT_EQ(Found(vertex, method).start(), std::nullopt) << method;
 }
 
+TEST(ClippingSweeps, OnlyAMatrixOfFloatsDependsOnWhereTheOriginLies) {
+  const SweepResult origin = swept("origin");
+  const auto start = Found(origin, "matrix_float").start();
+  ASSERT_TRUE(start);
+  EXPECT_GE(*start, 1 << 6);
+  EXPECT_LE(*start, 1 << 14);
+  EXPECT_GT(rate(Found(origin, "matrix_float").at(1 << 27)), 0.5);
+  for (const auto method : {"near_guard", "matrix_relative", "screen_edges"})
+    EXPECT_EQ(Found(origin, method).start(), std::nullopt) << method;
+}
+
 TEST(ClippingSweeps, ATooNearNearPlaneLeavesTooFewDepthSteps) {
   const SweepResult near_plane = swept("near_plane");
   EXPECT_LE(Found(near_plane, "near_guard").start().value(), 1e-4);

@@ -95,6 +95,14 @@ Mesh soup_mesh(Random& random, bool spoil) {
   return mesh;
 }
 
+// Moves camera and instances away from the origin, sometimes.
+void move_away(Random& random, Scene& scene) {
+  if (!one_in(random, 4)) return;
+  const glm::dvec3 by(in_cube(random, magnitude(random, 0, 8)));
+  scene.camera.position += by;
+  for (Instance& instance : scene.instances) instance.translation += by;
+}
+
 Drawable soup(Random& random, int, int) {
   Scene scene;
   scene.meshes.push_back(soup_mesh(random, one_in(random, 4)));
@@ -108,6 +116,7 @@ Drawable soup(Random& random, int, int) {
   }
   const float reach = one_in(random, 2) ? 0.0f : magnitude(random, -3, 4);
   scene.camera = random_camera(random, in_cube(random, reach));
+  move_away(random, scene);
   return scene;
 }
 
@@ -161,6 +170,7 @@ Drawable boxes(Random& random, int, int) {
     instance.angle = one_in(random, 3) ? 0.0f : random.uniform(-4.0f, 4.0f);
     instance.translation = in_cube(random, magnitude(random, -2, 5));
   }
+  move_away(random, scene);
   return scene;
 }
 

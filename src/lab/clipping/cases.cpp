@@ -112,6 +112,19 @@ ClippingScene beyond_the_guard_band() {
   return s;
 }
 
+// w - z is at most near (far - w) / far, less than what floats of w distinguish.
+ClippingScene wall_at_900() {
+  ClippingScene s = view(2e-4f);
+  s.scene.camera.far_z = 1000.0f;
+  s.scene.camera.yaw = 0.3f;
+  for (int row = -8; row < 8; ++row)
+    for (int column = -8; column < 8; ++column) {
+      const float x = 50.0f * static_cast<float>(column), y = 50.0f * static_cast<float>(row);
+      add(s, {{x, y + 50, -900}, {x + 50, y + 50, -900}, {x + 50, y, -900}, {x, y, -900}});
+    }
+  return s;
+}
+
 ClippingScene beyond_far() {
   ClippingScene s = view(0.1f);
   add(s, {{-2.0f, -2.0f, -5.0f}, {2.0f, -2.0f, -5.0f}, {3.0f, 40.0f, -120.0f}});
@@ -134,6 +147,9 @@ constexpr std::array kCases = {
                  [] { return far_slivers(240'000, 100); }},
     ClippingCase{"beyond_the_guard_band", "vertices beyond 16384 px", beyond_the_guard_band},
     ClippingCase{"beyond_far", "a triangle through the far plane", beyond_far},
+    ClippingCase{"far_from_origin", "a floor at (131072, 0, -131072) under a camera there",
+                 [] { return floor_far_from_origin(131'072); }},
+    ClippingCase{"far_over_near", "a wall at 900 between planes at 0.0002 and 1000", wall_at_900},
 };
 
 }  // namespace
@@ -161,6 +177,24 @@ ClippingScene outside_direction(int direction, bool reversed) {
     add(s, {a, b, out});
   else
     add(s, {b, a, out});
+  return s;
+}
+
+ClippingScene floor_far_from_origin(double away) {
+  ClippingScene s = view(1.0f / 1024);
+  s.size = {128, 96};
+  Camera& camera = s.scene.camera;
+  camera.position = {away, 2.0, -away};
+  camera.yaw = 0.54f, camera.pitch = -0.26f, camera.far_z = 1000.0f;
+  constexpr int kTiles = 12;
+  for (int row = -kTiles; row < kTiles; ++row)
+    for (int column = -kTiles; column < kTiles; ++column) {
+      const auto corner = [&](int x, int z) {
+        return glm::vec3(glm::dvec3(away + 16.0 * x, 0.0, 16.0 * z - away));
+      };
+      add(s, {corner(column, row), corner(column, row + 1), corner(column + 1, row + 1),
+              corner(column + 1, row)});
+    }
   return s;
 }
 

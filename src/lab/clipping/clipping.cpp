@@ -15,10 +15,10 @@
   X(near_too_near)                   \
   X(screen_edges)                    \
   X(screen_linear)                   \
-  X(discard_behind)                  \
-  X(none)                            \
   X(matrix_relative)                 \
-  X(matrix_float)
+  X(matrix_float)                    \
+  X(discard_behind)                  \
+  X(none)
 
 namespace edgewise::lab {
 

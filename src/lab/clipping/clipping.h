@@ -77,10 +77,12 @@ inline constexpr double kHairlinePx = 1.0 / 64;
 // this. A method's depth is a float, with steps of 2^-24 near 1, and is rounded four times by half a step:
 // 2^-23 per triangle. Ours is finer.
 inline constexpr double kDepthTie01 = 0x1p-22;
-// How far out both ends of an edge that crosses the screen may lie. Floats round the ends by 2^-24 of that
-// distance, and the edge between them moves as much. Hairline is 2^-6 px, so the bound is 2^18 px if nothing
-// else is rounded.
+// How far out both ends of an edge that crosses the screen may lie, for methods that cut edges in float.
+// Floats round the ends by 2^-24 of that distance, and the edge between them moves as much. Hairline is 2^-6
+// px, so the bound is 2^18 px if nothing else is rounded.
 inline constexpr double kReachPx = 1 << 18;
+// The same for ours, which cuts edges in double. The bound is the largest that is tested.
+inline constexpr double kDoubleReachPx = double{1ULL << 40};
 // A camera rounds a vertex before any clipping: matrix, products, sums, and the scaling to pixels. This
 // allows it 8 ulps.
 inline constexpr double kCameraReachPx = kReachPx / 8;
@@ -118,6 +120,9 @@ inline constexpr int kOutsideDirections = 26;
 ClippingScene outside_direction(int direction, bool reversed);
 // A floor that passes under the camera, with the near plane at this distance, and a wall.
 ClippingScene floor_through_eye(float near_z);
+// A floor of square tiles, and the camera 2 above it, both moved by (away, 0, -away). Floats hold the moved
+// tiles exactly for a power of two up to 2^27.
+ClippingScene floor_far_from_origin(double away);
 
 // Thin triangles across the screen. The ends of both long edges lie this far outside, on opposite sides.
 ClippingScene far_slivers(double reach_px, int count);

@@ -1,4 +1,5 @@
-// Clipping sweeps: the distance of the near plane, and the distance of a vertex from the camera's plane.
+// Clipping sweeps: the distance of the near plane, the distance of a vertex from the camera's plane, and that
+// of camera and scene from the origin.
 #include <cmath>
 
 #include "lab/clipping/clipping.h"
@@ -8,6 +9,7 @@ namespace edgewise::lab {
 
 Sweep make_sweep_near_plane();
 Sweep make_sweep_vertex_w();
+Sweep make_sweep_origin();
 
 namespace {
 
@@ -69,6 +71,17 @@ Sweep make_sweep_vertex_w() {
           0.1,
           decades(1, -6),
           measure_vertex_w};
+}
+
+Sweep make_sweep_origin() {
+  return {"origin",
+          Family::clipping,
+          "a tiled floor under the camera, both far from the origin; near 1/1024",
+          {"distance from the origin", "", true},
+          kWrongPixels,
+          1,
+          powers_of_two(0, 27),
+          [](double away, bool) { return measure_scene(floor_far_from_origin(away)); }};
 }
 
 }  // namespace edgewise::lab

@@ -24,7 +24,8 @@
   X(tilt_orthographic)     \
   X(edge_on)               \
   X(near_plane)            \
-  X(vertex_w)
+  X(vertex_w)              \
+  X(origin)
 
 namespace edgewise::lab {
 

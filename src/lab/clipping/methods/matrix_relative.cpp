@@ -6,7 +6,7 @@ extern const ClippingMethod clipping_matrix_relative;
 const ClippingMethod clipping_matrix_relative{
     {"matrix_relative", "the same, after subtracting the camera from positions in float",
      "\"camera-relative rendering\" of engines with large worlds",
-     "as near_guard where near and far planes cut nothing", false},
+     "as near_guard, up to 2^17 px, where near and far planes cut nothing", false},
     [](const ClippingScene& scene, ClippingFrame& frame) {
       draw_by_matrix(scene, frame, glm::vec3(scene.scene.camera.position));
     },

@@ -6,10 +6,9 @@ namespace edgewise::lab {
 
 extern const ClippingMethod clipping_near_guard;
 const ClippingMethod clipping_near_guard{
-    {"near_guard", "ours: near and far planes and guard band, in homogeneous space", "frontend/clip.h",
-     "differences within 1/64 px, if no edge across the screen has both ends over 2^15 px out (2^18 where "
-     "the camera rounds no vertex); visible triangles right if depths, from 0 to 1, are over 2^-22 apart: "
-     "z^2 / (2^22 near) at a distance z",
+    {"near_guard", "ours: near and far by view distance, guard band; in double", "frontend/clip.h",
+     "differences within 1/64 px, if no edge across the screen has both ends over 2^40 px out; visible "
+     "triangles right if depths, from 0 to 1, are over 2^-22 apart: z^2 / (2^22 near) at a distance z",
      true},
     [](const ClippingScene& scene, ClippingFrame& frame) {
       FrontendOptions options;
@@ -20,6 +19,6 @@ const ClippingMethod clipping_near_guard{
       frame.backend->draw(frame.frontend.run(scene.scene, options), frame.picture.view(), kNoTriangle, {});
     },
     0,
-    kReachPx};
+    kDoubleReachPx};
 
 }  // namespace edgewise::lab
