@@ -62,7 +62,9 @@ double reach_px(const ClipVertex& a, const ClipVertex& b, Size size) {
 }
 
 bool promises(const ClippingMethod& method, const ClippingScene& scene) {
-  if (!method.anywhere && scene.scene.camera.position != glm::dvec3(0.0)) return false;
+  const Camera& camera = scene.scene.camera;
+  if (!method.anywhere && camera.position != glm::dvec3(0.0)) return false;
+  if (camera.far_z > method.far_over_near * camera.near_z) return false;
   const ToClip to_clip(scene);
   const ViewVolume view = view_of(scene);
   Clipper clipper;

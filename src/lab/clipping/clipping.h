@@ -56,7 +56,8 @@ struct ClippingMethod {
   // these two planes.
   std::uint16_t fails_on;
   double reach_px;
-  bool anywhere = true;  // false: the promise holds only for a camera at the origin
+  bool anywhere = true;         // false: the promise holds only for a camera at the origin
+  double far_over_near = 1e30;  // the promise holds up to this ratio
 };
 
 // Ours first.
