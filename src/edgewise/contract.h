@@ -155,6 +155,24 @@ inline std::uint64_t gradient(std::int64_t n, std::int64_t area) {
 // Rule 9, no contraction. Everything is built with -ffp-contract=off (no fused multiply-add), so the front
 // end's floats, and the double estimate above, are the same on every machine.
 
+// Rule 10, positions of a scene's vertices (frontend/view.h). Where the origin lies decides nothing. Let d be
+// the vertex minus `origin`, which is the camera's position in model space rounded to float. Doubles
+// transform what that rounding leaves. With f = height / (2 tan(fov_y / 2)), for an unscaled instance, each
+// row of
+//   x w = f x' + width / 2 w,  y w = f y' + height / 2 w,  w
+// has coefficients of length at most f + width (1 for w), and four terms that are rounded six times in float:
+// d, coefficient, product, three sums. Let D be the vertex' distance from the camera. The first three terms
+// add up to at most sqrt(3) D times that length. So does the fourth, if the camera is at most 2^24 D away
+// from the model's origin. Six roundings of 2^-24 and the division give, for a vertex in view,
+//   |error of x, y| < 2^-19 (f + 2 max(width, height)) D / w px
+// which is under 4 sub-units in 1920 x 1080 px at 45 degrees. A vertex counts as nearer than the near plane,
+// or as beyond another one, by its rounded coordinates, so it may be 2^-19 D off.
+//
+// Triangles that planes cut are transformed and cut in double, from their own vertices. So a new vertex is
+// within 2^-10 px of the exact one, however far away the others are. An old one keeps its rounded position,
+// as in the neighbouring triangles.
+inline constexpr double kPositionError = 0x1p-19;
+
 // Twice the signed area, in sub-units squared. Positive is clockwise on the y-down screen, which is the
 // front.
 constexpr std::int64_t signed_area(const ScreenTriangle& t) {

@@ -7,6 +7,7 @@
 #include "edgewise/contract.h"
 #include "frontend/shade.h"
 #include "image/pictures.h"
+#include "lab/clipping/truth.h"
 #include "lab/coverage/score.h"
 #include "lab/view_space.h"
 #include "support/milliseconds.h"
@@ -319,7 +320,7 @@ Judgement Pipeline::judge(const lab::Choice& choice, const View& view, Truth tru
   // The reference picture comes from a different backend than the judged one.
   const bool is_first = choice.coverage->info.name == backends().front().name;
   const std::string_view by = backends()[is_first ? 1 : 0].name;
-  const VisibleIds expected = [&] {
+  VisibleIds expected = [&] {
     if (choice.our_clipping() && choice.our_facing()) return true_visible_ids(view, triangles, truth, by);
     const lab::Choice exact = lab::our_choice(by);
     if (choice.our_clipping()) return true_visible_ids(view, triangles_of(exact, view, unused_ms), truth, by);
@@ -329,6 +330,11 @@ Judgement Pipeline::judge(const lab::Choice& choice, const View& view, Truth tru
     cull(*exact.facing, view, clipped, unused_ms);
     return true_visible_ids(view, clipped, truth, by);
   }();
+  // That reference starts from our front end, which the exact picture of the scene judges.
+  if (const Scene* scene = view.world.scene()) {
+    const lab::ClippingOracle exact(*scene, size_of(view), view.frontend.cull);
+    lab::correct(expected, size_of(view), exact, view.execution.threads);
+  }
 
   Judgement judgement;
   for (std::size_t i = 0; i < expected.size(); ++i) {

@@ -1,5 +1,6 @@
 // The clipping methods: their promises and their failures, against a truth that needs no clipping.
 #include "lab/clipping/clipping.h"
+#include "lab/clipping/truth.h"
 
 #include <gtest/gtest.h>
 
@@ -48,6 +49,29 @@ TEST(Clipping, EveryMethodKeepsItsPromiseAndTheImpreciseFailSomewhere) {
     EXPECT_EQ(wrong[m.info.name] == 0, m.info.exact) << m.info.name;
     EXPECT_EQ(moved[m.info.name] == 0, m.info.exact) << m.info.name;
   }
+}
+
+TEST(Clipping, APictureIsCorrectedWhereItDiffersBeyondHairline) {
+  const ClippingScene scene = floor_far_from_origin(1 << 20);
+  const ClippingTruth truth = clipping_truth(scene);
+  ClippingFrame frame(scene.size);
+  method("near_guard").draw(scene, frame);
+  std::vector<std::uint32_t> drawn;
+  for (int y = 0; y < scene.size.height; ++y)
+    drawn.insert(drawn.end(), frame.picture.payload_row(y), frame.picture.payload_row(y) + scene.size.width);
+  std::vector<std::uint32_t> corrected = drawn;
+  EXPECT_EQ(correct(corrected, scene.size, *truth.oracle, 2), 0u);
+  EXPECT_EQ(corrected, drawn);
+  // The triangle that covers most pixels is lost.
+  std::map<std::uint32_t, std::uint64_t> pixels;
+  for (const std::uint32_t id : drawn)
+    if (id != kNoTriangle) ++pixels[id];
+  const auto [lost, count] =
+      *std::max_element(pixels.begin(), pixels.end(), [](auto a, auto b) { return a.second < b.second; });
+  std::replace(corrected.begin(), corrected.end(), lost, kNoTriangle);
+  const std::uint64_t replaced = correct(corrected, scene.size, *truth.oracle, 2);
+  EXPECT_LE(replaced, count);
+  EXPECT_GE(replaced, count * 9 / 10);
 }
 
 TEST(Clipping, AFloorUnderTheCameraNeedsClipping) {

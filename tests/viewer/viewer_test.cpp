@@ -11,6 +11,7 @@
 #include "edgewise/image.h"
 #include "edgewise/tri_file.h"
 #include "frontend/shade.h"
+#include "lab/clipping/clipping.h"
 #include "lab/view_space.h"
 #include "message_of.h"
 #include "temp_dir.h"
@@ -189,6 +190,16 @@ TEST(Viewer, ReplacesEachStageAlone) {
   // normal_dot_eye is correct under perspective.
   while (box.side(0).choice.facing->info.name != "normal_dot_eye") type(box, "<backspace>");
   EXPECT_EQ(wrong(box), 0u);
+}
+
+// The reference picture comes from the scene, so it shows what a front end loses.
+TEST(Viewer, JudgesWhatTheFrontEndLoses) {
+  Session far = session_of(lab::floor_far_from_origin(1 << 20).scene, Cull::none);
+  type(far, "");
+  EXPECT_EQ(wrong(far), 0u);
+  EXPECT_GT(far.side(0).judgement->covered, 5000u);
+  while (far.side(0).choice.clipping->info.name != "matrix_float") type(far, "x");
+  EXPECT_GT(wrong(far), 5000u);
 }
 
 TEST(Viewer, CombinesEveryMethodOfEveryStage) {

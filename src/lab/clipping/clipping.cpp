@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 
+#include "core/parallel.h"
 #include "lab/clipping/methods/pipeline.h"
 #include "lab/clipping/truth.h"
 #include "lab/truth.h"
@@ -46,6 +48,16 @@ bool around(int px, int py, Visit&& visit) {
       if (visit(px + 0.5 + dx * reach, py + 0.5 + dy * reach)) return true;
     }
   return false;
+}
+
+bool is_hairline(const ClippingOracle& oracle, int x, int y, std::uint32_t drawn, std::uint32_t truth) {
+  return around(x, y, [&](double x_px, double y_px) { return oracle.shows(drawn, truth, x_px, y_px); });
+}
+
+bool is_depth_tie(const ClippingOracle& oracle, int x, int y, std::uint32_t drawn, std::uint32_t truth) {
+  const auto depth01 = [&](std::uint32_t id) { return oracle.depth01(id, x + 0.5, y + 0.5); };
+  return drawn != kNoTriangle && truth != kNoTriangle && oracle.covers(drawn, x + 0.5, y + 0.5) &&
+         std::abs(depth01(drawn) - depth01(truth)) <= kDepthTie01;
 }
 
 // The distance in px from the image's centre to the nearer end of an edge that may cross the screen, else 0.
@@ -103,8 +115,7 @@ class Scorer {
     if (truth != kNoTriangle) ++score.covered;
     if (drawn == truth) {
       if (drawn != kNoTriangle) add_depth(x, y, drawn, stored01);
-    } else if (around(x, y,
-                      [&](double x_px, double y_px) { return oracle_.shows(drawn, truth, x_px, y_px); })) {
+    } else if (is_hairline(oracle_, x, y, drawn, truth)) {
       ++score.hairline;
     } else if (drawn == kNoTriangle) {
       ++score.missing;
@@ -112,9 +123,7 @@ class Scorer {
       ++score.extra;
     } else {
       ++score.wrong_triangle;
-      const auto depth01 = [&](std::uint32_t id) { return oracle_.depth01(id, x + 0.5, y + 0.5); };
-      if (oracle_.covers(drawn, x + 0.5, y + 0.5) && std::abs(depth01(drawn) - depth01(truth)) <= kDepthTie01)
-        ++score.depth_ties;
+      if (is_depth_tie(oracle_, x, y, drawn, truth)) ++score.depth_ties;
     }
   }
 
@@ -139,6 +148,28 @@ class Scorer {
 };
 
 }  // namespace
+
+std::uint64_t correct(std::span<std::uint32_t> picture, Size size, const ClippingOracle& oracle,
+                      int threads) {
+  std::atomic<std::uint64_t> replaced = 0;
+  const auto correct_one = [&](int x, int y) {
+    std::uint32_t& drawn = picture[static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) +
+                                   static_cast<std::size_t>(x)];
+    const std::uint32_t truth = oracle.visible_at(x + 0.5, y + 0.5);
+    if (drawn == truth || is_hairline(oracle, x, y, drawn, truth) || is_depth_tie(oracle, x, y, drawn, truth))
+      return;
+    drawn = truth;
+    ++replaced;
+  };
+  constexpr int kStep = 8;
+  for (const int step : {kStep, 1}) {
+    parallel_for(threads, (size.height + step - 1) / step, [&](int row) {
+      for (int x = 0; x < size.width; x += step) correct_one(x, row * step);
+    });
+    if (replaced == 0) break;
+  }
+  return replaced;
+}
 
 ClippingScore score(const ClippingMethod& method, const ClippingScene& scene, const ClippingTruth& truth) {
   ClippingFrame frame(scene.size), ours(scene.size);

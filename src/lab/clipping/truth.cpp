@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/finite.h"
 #include "core/parallel.h"
 #include "lab/truth.h"
 #include "lab/view_space.h"
@@ -21,14 +22,30 @@ int sign(const mpq_class& v) {
   return sgn(v);
 }
 
+// Where an instance stands, in the doubles that count as exact.
+struct Placement {
+  Placement(const Scene& scene, Size image, const Instance& instance)
+      : camera(scene.camera),
+        size(image),
+        model(model_matrix(instance)),
+        turn(to_camera_frame(camera)),
+        focal_px(size.height / 2.0 / std::tan(double{camera.fov_y} / 2)) {}
+
+  const Camera& camera;
+  Size size;
+  glm::dmat4 model;
+  glm::dmat3 turn;
+  double focal_px;
+};
+
 }  // namespace
 
 template <typename T>
 class Homogeneous {
  public:
-  Homogeneous(const Scene& scene, Size size, const Instance& instance, std::size_t triangle)
-      : Homogeneous(scene.camera, vertex(scene, size, instance, triangle, 0),
-                    vertex(scene, size, instance, triangle, 1), vertex(scene, size, instance, triangle, 2)) {}
+  Homogeneous(const Placement& at, const Mesh& mesh, std::size_t triangle)
+      : Homogeneous(at.camera, vertex(at, mesh, triangle, 0), vertex(at, mesh, triangle, 1),
+                    vertex(at, mesh, triangle, 2)) {}
   int facing() const { return sign(det_); }
 
   // 1 if the ray through a point of the screen hits the triangle between near and far, -1 if not, 0 if
@@ -76,23 +93,19 @@ class Homogeneous {
         far_(camera.far_z) {}
 
   // A vertex: x and y in pixels times w, and w.
-  static Row vertex(const Scene& scene, Size size, const Instance& instance, std::size_t triangle, int k) {
-    const Mesh& mesh = scene.meshes.at(instance.mesh);
-    const glm::dmat4 model = model_matrix(instance);
-    const glm::dmat3 turn = to_camera_frame(scene.camera);
+  static Row vertex(const Placement& at, const Mesh& mesh, std::size_t triangle, int k) {
     const auto times = [](const auto& m, const Row& v, int row) {
       return T(T(m[0][row]) * v[0] + T(m[1][row]) * v[1] + T(m[2][row]) * v[2]);
     };
     const glm::dvec3 p(mesh.positions.at(mesh.triangles[triangle][k]));
     const Row position{T(p.x), T(p.y), T(p.z)};
     const auto from_camera = [&](int i) {
-      return T(times(model, position, i) + T(T(model[3][i]) - T(scene.camera.position[i])));
+      return T(times(at.model, position, i) + T(T(at.model[3][i]) - T(at.camera.position[i])));
     };
     const Row seen{from_camera(0), from_camera(1), from_camera(2)};
-    const T focal(size.height / 2.0 / std::tan(double{scene.camera.fov_y} / 2));
-    const T w(T(0.0) - times(turn, seen, 2));
-    return {T(focal * times(turn, seen, 0) + T(size.width / 2.0) * w),
-            T(T(size.height / 2.0) * w - focal * times(turn, seen, 1)), w};
+    const T focal(at.focal_px), w(T(0.0) - times(at.turn, seen, 2));
+    return {T(focal * times(at.turn, seen, 0) + T(at.size.width / 2.0) * w),
+            T(T(at.size.height / 2.0) * w - focal * times(at.turn, seen, 1)), w};
   }
   static Row cross(const Row& a, const Row& b) {
     return {T(a[1] * b[2] - a[2] * b[1]), T(a[2] * b[0] - a[0] * b[2]), T(a[0] * b[1] - a[1] * b[0])};
@@ -112,11 +125,17 @@ ClippingOracle::ClippingOracle(const Scene& scene, Size size, Cull cull)
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
     const Instance& instance = scene.instances[i];
     const Mesh& mesh = scene.meshes.at(instance.mesh);
+    const Placement placement(scene, size, instance);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       sources_.emplace_back(i, t);
-      estimates_.emplace_back(scene, size, instance, t);
-      int facing = estimates_.back().facing();
-      if (facing == 0) facing = exact(static_cast<std::uint32_t>(facing_.size())).facing();
+      estimates_.emplace_back(placement, mesh, t);
+      const auto finite = [&](std::uint32_t vertex) { return is_finite(mesh.positions[vertex]); };
+      const glm::uvec3 corners = mesh.triangles[t];
+      int facing = 0;
+      if (finite(corners.x) && finite(corners.y) && finite(corners.z)) {
+        facing = estimates_.back().facing();
+        if (facing == 0) facing = exact(static_cast<std::uint32_t>(facing_.size())).facing();
+      }
       const bool culled =
           cull == Cull::both || (cull == Cull::back && facing < 0) || (cull == Cull::front && facing > 0);
       facing_.push_back(static_cast<std::int8_t>(culled && !mesh.has_flag(t, kTwoSided) ? 0 : facing));
@@ -132,7 +151,8 @@ ClippingOracle::ClippingOracle(const Scene& scene, Size size, Cull cull)
 
 Exact ClippingOracle::exact(std::uint32_t triangle) const {
   const auto [instance, index] = sources_[triangle];
-  return {scene_, size_, scene_.instances[instance], index};
+  const Instance& source = scene_.instances[instance];
+  return {Placement(scene_, size_, source), scene_.meshes[source.mesh], index};
 }
 
 ClippingOracle::~ClippingOracle() = default;

@@ -28,8 +28,9 @@ class Homogeneous;
 // of them, rationals the others. The constructor bins the triangles into tiles, by the same edge functions.
 class ClippingOracle {
  public:
-  // The scene must outlive the oracle. Triangles are numbered in submission order. The camera's rotation and
-  // the instances' matrices are those that doubles hold; from there on, all is exact.
+  // The scene must outlive the oracle. A triangle with a vertex that is not finite draws nothing. Triangles
+  // are numbered in submission order. The camera's rotation and the instances' matrices are those that
+  // doubles hold; from there on, all is exact.
   ClippingOracle(const Scene& scene, Size size, Cull cull);
   ~ClippingOracle();
 
@@ -56,5 +57,11 @@ class ClippingOracle {
   int tiles_x_;
   std::vector<std::vector<std::uint32_t>> in_tile_;
 };
+
+// Puts a picture right: replaces the triangles that the exact picture shows nowhere within kHairlinePx of the
+// sample, ties within kDepthTie01 apart, by the exact ones. `picture` holds a triangle or kNoTriangle per
+// pixel, row by row. Looks at one pixel in 64 first, and at the others only if one of these is wrong. Returns
+// the number of replaced pixels.
+std::uint64_t correct(std::span<std::uint32_t> picture, Size size, const ClippingOracle& oracle, int threads);
 
 }  // namespace edgewise::lab
