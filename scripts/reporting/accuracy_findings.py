@@ -170,6 +170,19 @@ def depth_sentence(accuracy, sweeps):
             f"(`{plain}`).")
 
 
+def origin_sentence(sweeps):
+    """From which distance to the origin on a matrix of floats draws wrong pixels, and ours; empty if not measured."""
+    curves = {curve.method: curve for sweep in sweeps if sweep.name == "origin" for curve in sweep.curves}
+    if not curves.keys() >= {"matrix_float", "near_guard"}:
+        return ""
+
+    def start(method):
+        found = curves[method].starts_to_fail
+        return f"from a distance of {tidy(found)} on" if found else f"at no distance up to {tidy(curves[method].points[-1][0])}"
+    return (f"With camera and scene far from the origin, one 4×4 matrix of floats (`matrix_float`) draws wrong pixels "
+            f"{start('matrix_float')}, ours (`near_guard`) {start('near_guard')}.")
+
+
 def most_errors(sweep, curve):
     worst = max(y for _, y in curve.points)
     return number(worst) + (" %" if sweep.y["name"].endswith("%") else "")

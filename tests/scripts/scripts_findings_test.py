@@ -4,7 +4,7 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts/reporting"))
-from accuracy_findings import ours_fail_sentence, pooled_clause, rates_together, speed_sentence  # noqa: E402
+from accuracy_findings import origin_sentence, ours_fail_sentence, pooled_clause, rates_together, speed_sentence  # noqa: E402
 from accuracy_rows import Accuracy, Cost, Curve, Measured, Method, Scene, Sweep, parse_measured  # noqa: E402
 from bench_rows import Bench, parse_name  # noqa: E402
 from engine import engine_note, engine_table  # noqa: E402
@@ -218,6 +218,16 @@ class OursFailTest(unittest.TestCase):
                       "(misjudged faces); 0 in the others.", text)
         self.assertIn("They err more in `deep` (a summary): `tiled` from 1, up to 7 % misjudged faces.", text)
         self.assertEqual(ours_fail_sentence([], told), "")
+
+    def test_a_matrix_of_floats_fails_far_from_the_origin(self):
+        def origin(ours):
+            curves = tuple(Curve(name, False, ((1, 0.0), (128, 5.0), (1024, 9.0)), (1, 1, 1), fails)
+                           for name, fails in (("near_guard", ours), ("matrix_float", 128)))
+            return [Sweep("origin", "clipping", "", {"unit": ""}, {"name": ""}, curves, (0, 0, 0))]
+        said = "one 4×4 matrix of floats (`matrix_float`) draws wrong pixels from a distance of 128 on, ours (`near_guard`) "
+        self.assertIn(said + "at no distance up to ", origin_sentence(origin(None)))
+        self.assertIn(said + "from a distance of 128 on.", origin_sentence(origin(128)))
+        self.assertEqual(origin_sentence([]), "")
 
 
 if __name__ == "__main__":
