@@ -34,7 +34,8 @@ struct Picture {
 // The reference that pictures are compared with. `contract`: the library's picture. `snapped`: exact depths
 // for snapped positions, so rounded depths count as errors too. `floats`: exact for positions before
 // snapping, so snapping counts too. Clipping methods return snapped positions only: for them the last two are
-// the same.
+// the same. All three start from a front end's triangles. Of a scene they are therefore compared with the
+// exact picture (lab/clipping/truth.h), which replaces them where they differ by more than 1/64 px.
 enum class Truth { contract, snapped, floats };
 inline constexpr Truth kTruths[] = {Truth::contract, Truth::snapped, Truth::floats};
 std::string_view name_of(Truth truth);
