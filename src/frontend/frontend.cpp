@@ -313,22 +313,24 @@ struct Frontend::State {
     start_group();
     reserve_for_clusters(scene);
     const ViewVolume view = view_volume(scene.camera, options.width, options.height);
+    const glm::dmat3 pixels = pixels_of(scene.camera, options.width, options.height);
     const ViewDepth depth(view.near_z, view.far_z);
     std::size_t first_id = 0;
     for (const auto& instance : scene.instances) {
       const Mesh& mesh = mesh_of(scene, instance);
       check(mesh);
+      const glm::dmat4 model = model_matrix(instance);
       const MeshTask task{.options = options,
                           .mesh = mesh,
                           .view = view,
-                          .to_screen = {scene.camera, instance, options.width, options.height},
+                          .to_screen = {pixels, scene.camera.position, model},
                           .depth = depth,
                           .vertices = nullptr,
                           .vertex_range = {0, mesh.positions.size()},
                           .states = options.keep_states ? states.data() + first_id : nullptr};
       ++stats.meshes;
       stats.triangles += mesh.triangles.size();
-      const ShadeTask light(mesh, model_matrix(instance), scene.to_light);
+      const ShadeTask light(mesh, model, scene.to_light);
       mesh.clusters.empty() ? add_whole(task, light, first_id) : add_parts(task, light, first_id);
       first_id += mesh.triangles.size();
     }

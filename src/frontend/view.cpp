@@ -21,15 +21,6 @@ void check(const Camera& camera) {
     throw std::invalid_argument("the camera needs 0 < near < far");
 }
 
-// World directions → x, y in pixels times w, and w. A point has the same, relative to the camera.
-glm::dmat3 pixels_of(const Camera& camera, int width_px, int height_px) {
-  const double half_w = width_px / 2.0, half_h = height_px / 2.0;
-  const double focal_px = half_h / std::tan(double{camera.fov_y} / 2.0);
-  glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), -double{camera.pitch}, glm::dvec3(1, 0, 0));
-  turn = glm::rotate(turn, -double{camera.yaw}, glm::dvec3(0, 1, 0));
-  return glm::dmat3(focal_px, 0, 0, 0, -focal_px, 0, -half_w, -half_h, -1) * glm::dmat3(turn);
-}
-
 // The point that an instance puts at `world`. Any point near it will do: 0 stands for a coordinate that no
 // point has, because the instance is flat, or that exceeds floats.
 glm::vec3 model_point(const glm::dmat4& model, glm::dvec3 world) {
@@ -44,18 +35,27 @@ glm::vec3 model_point(const glm::dmat4& model, glm::dvec3 world) {
 
 }  // namespace
 
+glm::dmat3 pixels_of(const Camera& camera, int width_px, int height_px) {
+  const double half_w = width_px / 2.0, half_h = height_px / 2.0;
+  const double focal_px = half_h / std::tan(double{camera.fov_y} / 2.0);
+  glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), -double{camera.pitch}, glm::dvec3(1, 0, 0));
+  turn = glm::rotate(turn, -double{camera.yaw}, glm::dvec3(0, 1, 0));
+  return glm::dmat3(focal_px, 0, 0, 0, -focal_px, 0, -half_w, -half_h, -1) * glm::dmat3(turn);
+}
+
 ViewVolume view_volume(const Camera& camera, int width_px, int height_px) {
   check(camera);
   return {double(width_px), double(height_px), double{camera.near_z}, double{camera.far_z}};
 }
 
-ScreenTransform::ScreenTransform(const Camera& camera, const Instance& instance, int width_px,
-                                 int height_px) {
-  const glm::dmat4 model = model_matrix(instance);
-  origin = model_point(model, camera.position);
-  const glm::dmat3 pixels = pixels_of(camera, width_px, height_px), axes(model);
+ScreenTransform::ScreenTransform(const Camera& camera, const Instance& instance, int width_px, int height_px)
+    : ScreenTransform(pixels_of(camera, width_px, height_px), camera.position, model_matrix(instance)) {}
+
+ScreenTransform::ScreenTransform(const glm::dmat3& pixels, glm::dvec3 eye, const glm::dmat4& model)
+    : origin(model_point(model, eye)) {
+  const glm::dmat3 axes(model);
   const glm::dvec3 offset =
-      glm::clamp(axes * glm::dvec3(origin) + (glm::dvec3(model[3]) - camera.position), -0x1p200, 0x1p200);
+      glm::clamp(axes * glm::dvec3(origin) + (glm::dvec3(model[3]) - eye), -0x1p200, 0x1p200);
   const glm::dmat3 linear = pixels * axes;
   exact = glm::dmat4x3(linear[0], linear[1], linear[2], pixels * offset);
   // A vertex at such a distance is beyond every far plane, and must not become infinite or NaN.

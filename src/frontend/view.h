@@ -11,9 +11,14 @@ namespace edgewise {
 // The view volume of a camera. Throws std::invalid_argument if a value of the camera is out of range.
 ViewVolume view_volume(const Camera& camera, int width_px, int height_px);
 
+// World directions → x and y in pixels times w, and w. A point has the same, relative to the camera.
+glm::dmat3 pixels_of(const Camera& camera, int width_px, int height_px);
+
 // Model space → pixels times w, and w, the distance along the view direction (rule 10). The camera is
 // subtracted from a vertex before anything else is rounded.
 struct ScreenTransform {
+  // `pixels` is that of a camera at `eye`, `model` an instance's matrix.
+  ScreenTransform(const glm::dmat3& pixels, glm::dvec3 eye, const glm::dmat4& model);
   // Requires a camera that view_volume() accepts.
   ScreenTransform(const Camera& camera, const Instance& instance, int width_px, int height_px);
 
