@@ -194,7 +194,7 @@ TEST(Viewer, ReplacesEachStageAlone) {
 
 // The reference picture comes from the scene, so it shows what a front end loses.
 TEST(Viewer, JudgesWhatTheFrontEndLoses) {
-  Session far = session_of(lab::floor_far_from_origin(1 << 20).scene, Cull::none);
+  Session far = session_of(lab::floor_far_from_origin(1 << 26).scene, Cull::none);
   type(far, "");
   EXPECT_EQ(wrong(far), 0u);
   EXPECT_GT(far.side(0).judgement->covered, 5000u);
