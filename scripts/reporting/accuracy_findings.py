@@ -178,9 +178,15 @@ def origin_sentence(sweeps):
 
     def start(method):
         found = curves[method].starts_to_fail
-        return f"from a distance of {tidy(found)} on" if found else f"at no distance up to {tidy(curves[method].points[-1][0])}"
+        return f"first at a distance of {tidy(found)}" if found else f"at no distance up to {tidy(curves[method].points[-1][0])}"
+    mostly = None
+    for x, wrong in reversed(curves["matrix_float"].points):
+        if wrong < 5e5:
+            break
+        mostly = x
+    half = f", and most pixels wrong from {tidy(mostly)} on" if mostly else ""
     return (f"With camera and scene far from the origin, one 4×4 matrix of floats (`matrix_float`) draws wrong pixels "
-            f"{start('matrix_float')}, ours (`near_guard`) {start('near_guard')}.")
+            f"{start('matrix_float')}{half}; ours (`near_guard`) {start('near_guard')}.")
 
 
 def most_errors(sweep, curve):

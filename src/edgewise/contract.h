@@ -155,10 +155,10 @@ inline std::uint64_t gradient(std::int64_t n, std::int64_t area) {
 // Rule 9, no contraction. Everything is built with -ffp-contract=off (no fused multiply-add), so the front
 // end's floats, and the double estimate above, are the same on every machine.
 
-// Rule 10, positions of a scene's vertices (frontend/view.h). Where the origin lies decides nothing. Let d be
-// the vertex minus `origin`, which is the camera's position in model space rounded to float. Doubles
-// transform what that rounding leaves. With f = height / (2 tan(fov_y / 2)), for an unscaled instance, each
-// row of
+// Rule 10, positions of a scene's vertices (frontend/view.h). The camera is subtracted from a vertex before
+// anything else is rounded. Let d be the vertex minus `origin`, which is the camera's position in model space
+// rounded to float; doubles transform what that rounding leaves. With f = height / (2 tan(fov_y / 2)), for an
+// unscaled instance, each row of
 //   x w = f x' + width / 2 w,  y w = f y' + height / 2 w,  w
 // has coefficients of length at most f + width (1 for w), and four terms that are rounded six times in float:
 // d, coefficient, product, three sums. Let D be the vertex' distance from the camera. The first three terms
@@ -168,9 +168,11 @@ inline std::uint64_t gradient(std::int64_t n, std::int64_t area) {
 // which is under 4 sub-units in 1920 x 1080 px at 45 degrees. A vertex counts as nearer than the near plane,
 // or as beyond another one, by its rounded coordinates, so it may be 2^-19 D off.
 //
-// Triangles that planes cut are transformed and cut in double, from their own vertices. So a new vertex is
-// within 2^-10 px of the exact one, however far away the others are. An old one keeps its rounded position,
-// as in the neighbouring triangles.
+// Triangles that planes cut are transformed and cut in double, from their own vertices. Where w is the new
+// vertex' and D the distance of the farthest corner, the error of x and y is below
+//   2^-10 + 2^-50 (f + width) D / w px
+// where 2^-10 px is a float's rounding at the guard band. A corner that is not cut off keeps its rounded
+// position, as in the neighbouring triangles.
 inline constexpr double kPositionError = 0x1p-19;
 
 // Twice the signed area, in sub-units squared. Positive is clockwise on the y-down screen, which is the

@@ -80,6 +80,8 @@ void clip(const Vertex (&corners)[3], std::uint32_t sides, const Source& source,
     const std::uint32_t outside = is_inside(corners[k]) ? 0 : outside_of(triangle[k], geometry.view);
     planes |= outside, common &= outside;
   }
+  // A new vertex on a near plane close to the camera may lie beyond the guard band, wherever its edge ends.
+  if ((planes & kNear) != 0) planes |= kGuard;
   Clipper clipper;
   const auto polygon = clipper.clip(triangle, static_cast<std::uint16_t>(planes), geometry.view);
   if (common != 0 || polygon.size() < 3) {

@@ -22,13 +22,13 @@ void check(const Camera& camera) {
 }
 
 // The point that an instance puts at `world`. Any point near it will do: 0 stands for a coordinate that no
-// point has, because the instance is flat, or that exceeds floats.
+// point has, because the instance is flat, or that is so large that a float minus it may overflow.
 glm::vec3 model_point(const glm::dmat4& model, glm::dvec3 world) {
   glm::vec3 point(0.0f);
   for (int i = 0; i < 3; ++i) {
     const glm::dvec3 axis(model[i]);  // the axes are orthogonal
     const double at = glm::dot(axis, world - glm::dvec3(model[3])) / glm::dot(axis, axis);
-    if (std::abs(at) < 0x1p126) point[i] = static_cast<float>(at);
+    if (std::abs(at) < 0x1p103) point[i] = static_cast<float>(at);
   }
   return point;
 }
@@ -58,7 +58,7 @@ ScreenTransform::ScreenTransform(const glm::dmat3& pixels, glm::dvec3 eye, const
       glm::clamp(axes * glm::dvec3(origin) + (glm::dvec3(model[3]) - eye), -0x1p200, 0x1p200);
   const glm::dmat3 linear = pixels * axes;
   exact = glm::dmat4x3(linear[0], linear[1], linear[2], pixels * offset);
-  // A vertex at such a distance is beyond every far plane, and must not become infinite or NaN.
+  // A vertex at such a distance is beyond usual far planes, and must not become infinite or NaN.
   constexpr double kLargest = 0x1p125;
   for (int i = 0; i < 4; ++i) rounded[i] = glm::vec3(glm::clamp(exact[i], -kLargest, kLargest));
 }

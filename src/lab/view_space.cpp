@@ -29,7 +29,7 @@ ClippingScene as_one_mesh(const Scene& scene, Size size, const glm::dmat3& turn,
       all.triangles.emplace_back(first, first + 1, first + 2);
       const glm::dvec3 normal = turn_normal * glm::dvec3(mesh.normal_of(i));
       all.normals.emplace_back(normal == glm::dvec3(0.0) ? normal : glm::normalize(normal));
-      all.flags.push_back(mesh.has_flag(i, kSameFace) ? kSameFace : 0);
+      all.flags.push_back(mesh.flags.empty() ? std::uint8_t{0} : mesh.flags[i]);
     }
     all.colours.insert(all.colours.end(), mesh.colours.begin(), mesh.colours.end());
   }

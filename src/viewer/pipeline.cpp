@@ -330,10 +330,11 @@ Judgement Pipeline::judge(const lab::Choice& choice, const View& view, Truth tru
     cull(*exact.facing, view, clipped, unused_ms);
     return true_visible_ids(view, clipped, truth, by);
   }();
-  // That reference starts from our front end, which the exact picture of the scene judges.
+  // That reference starts from our front end, which the exact picture of the same vertices judges.
   if (const Scene* scene = view.world.scene()) {
-    const lab::ClippingOracle exact(*scene, size_of(view), view.frontend.cull);
-    lab::correct(expected, size_of(view), exact, view.execution.threads);
+    const Scene seen = choice.our_clipping() ? *scene : lab::in_world_space(*scene, size_of(view)).scene;
+    lab::correct(expected, size_of(view), lab::ClippingOracle(seen, size_of(view), view.frontend.cull),
+                 view.execution.threads);
   }
 
   Judgement judgement;

@@ -537,5 +537,53 @@ TEST_F(ProgramRenders, ScenesThatVerifyReportsAsJson) {
   EXPECT_FALSE(std::filesystem::exists(path("out")));
 }
 
+// The OBJ files of tests/cli/cases, on which pictures were wrong or empty.
+std::string case_file(const std::string& name) {
+  return EDGEWISE_SOURCE_DIR "/tests/cli/cases/" + name + ".obj";
+}
+
+// The same floor near the origin and far from it; floats hold its vertices exactly.
+TEST(Program, DrawsAFloorTheSameWhereverTheOriginLies) {
+  const TempDir folder;
+  for (const char* const yaw : {"30", "31", "32", "33"}) {
+    const auto drawn = [&](const std::string& name, const std::string& eye) {
+      const std::string file = (folder.path() / (name + ".ppm")).string();
+      const Outcome run = edgewise_with("render " + case_file(name) + " --size 320x200 --cull none --eye " + eye +
+                                        " --yaw " + yaw +
+                                        " --pitch -15 --fov 60 --near 0.001 --far 1000 --payload hits -o " + file);
+      EXPECT_EQ(run.status, 0) << run.err;
+      EXPECT_NE(run.out.find("once 4445"), std::string::npos) << run.out;
+      return read_image(file);
+    };
+    const Image near = drawn("ground_0", "0,2,0");
+    EXPECT_EQ(near.pixels, drawn("ground_10000", "10000,2,-20000").pixels) << yaw;
+    EXPECT_EQ(near.pixels, drawn("ground_100000", "100000,2,-200000").pixels) << yaw;
+  }
+}
+
+TEST(Program, DrawsEveryTriangleOfSurveyCoordinates) {
+  const TempDir folder;
+  for (const char* const how : {"", " --fit", " --recentre"}) {
+    const Outcome run = edgewise_with("render " + case_file("stairs_utm") + " --cull none --size 400x300 -o " +
+                                      (folder.path() / "a.png").string() + how);
+    EXPECT_NE(run.out.find("80 triangles, 80 drawn"), std::string::npos) << run.out << run.err;
+  }
+}
+
+// The corners are 10^8 away, the camera 1 above the plane: its horizon is where the far plane cuts it.
+TEST(Program, DrawsAPlaneWhoseCornersAreFarAway) {
+  const TempDir folder;
+  const std::string file = (folder.path() / "a.ppm").string();
+  const Outcome run = edgewise_with("render " + case_file("plane_1e8") +
+                                    " --cull none --eye 0.37,1,0.21 --yaw 31 --pitch -20 --fov 75 --near 0.001"
+                                    " --far 1e5 --size 320x200 --no-shade -o " + file);
+  ASSERT_EQ(run.status, 0) << run.err;
+  const Image image = read_image(file);
+  const double focal = 100 / std::tan(75 * 3.14159265358979 / 360);
+  const int horizon = static_cast<int>(std::ceil(100 - focal * std::tan(20 * 3.14159265358979 / 180) - 0.5));
+  for (int y = 0; y < image.height; ++y)
+    EXPECT_EQ(image.pixels[static_cast<std::size_t>(y * image.width + 160)] != 0xFF000000u, y >= horizon) << y;
+}
+
 }  // namespace
 }  // namespace edgewise

@@ -286,9 +286,9 @@ TEST(ClippingSweeps, OnlyAMatrixOfFloatsDependsOnWhereTheOriginLies) {
   const SweepResult origin = swept("origin");
   const auto start = Found(origin, "matrix_float").start();
   ASSERT_TRUE(start);
-  EXPECT_GE(*start, 1 << 6);
-  EXPECT_LE(*start, 1 << 14);
-  EXPECT_GT(rate(Found(origin, "matrix_float").at(1 << 27)), 0.5);
+  EXPECT_GE(*start, 50);
+  EXPECT_LE(*start, 20'000);
+  EXPECT_GT(rate(Found(origin, "matrix_float").at(1e8)), 0.5);
   for (const auto method : {"near_guard", "matrix_relative", "screen_edges"})
     EXPECT_EQ(Found(origin, method).start(), std::nullopt) << method;
 }

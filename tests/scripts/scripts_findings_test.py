@@ -220,13 +220,14 @@ class OursFailTest(unittest.TestCase):
         self.assertEqual(ours_fail_sentence([], told), "")
 
     def test_a_matrix_of_floats_fails_far_from_the_origin(self):
-        def origin(ours):
-            curves = tuple(Curve(name, False, ((1, 0.0), (128, 5.0), (1024, 9.0)), (1, 1, 1), fails)
+        def origin(ours, worst):
+            curves = tuple(Curve(name, False, ((1, 0.0), (128, 6e5), (256, 0.0), (1024, worst)), (1,) * 4, fails)
                            for name, fails in (("near_guard", ours), ("matrix_float", 128)))
-            return [Sweep("origin", "clipping", "", {"unit": ""}, {"name": ""}, curves, (0, 0, 0))]
-        said = "one 4×4 matrix of floats (`matrix_float`) draws wrong pixels from a distance of 128 on, ours (`near_guard`) "
-        self.assertIn(said + "at no distance up to ", origin_sentence(origin(None)))
-        self.assertIn(said + "from a distance of 128 on.", origin_sentence(origin(128)))
+            return [Sweep("origin", "clipping", "", {"unit": ""}, {"name": ""}, curves, (0,) * 4)]
+        said = "(`matrix_float`) draws wrong pixels first at a distance of 128"
+        self.assertIn(f"{said}; ours (`near_guard`) at no distance up to ", origin_sentence(origin(None, 9.0)))
+        self.assertRegex(origin_sentence(origin(128, 9e5)),
+                         r"128, and most pixels wrong from 1\.02k on; ours .* first at a distance of 128\.")
         self.assertEqual(origin_sentence([]), "")
 
 

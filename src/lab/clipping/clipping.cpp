@@ -152,22 +152,18 @@ class Scorer {
 std::uint64_t correct(std::span<std::uint32_t> picture, Size size, const ClippingOracle& oracle,
                       int threads) {
   std::atomic<std::uint64_t> replaced = 0;
-  const auto correct_one = [&](int x, int y) {
-    std::uint32_t& drawn = picture[static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) +
-                                   static_cast<std::size_t>(x)];
-    const std::uint32_t truth = oracle.visible_at(x + 0.5, y + 0.5);
-    if (drawn == truth || is_hairline(oracle, x, y, drawn, truth) || is_depth_tie(oracle, x, y, drawn, truth))
-      return;
-    drawn = truth;
-    ++replaced;
-  };
-  constexpr int kStep = 8;
-  for (const int step : {kStep, 1}) {
-    parallel_for(threads, (size.height + step - 1) / step, [&](int row) {
-      for (int x = 0; x < size.width; x += step) correct_one(x, row * step);
-    });
-    if (replaced == 0) break;
-  }
+  const auto width = static_cast<std::size_t>(size.width);
+  parallel_for(threads, size.height, [&](int y) {
+    for (int x = 0; x < size.width; ++x) {
+      std::uint32_t& drawn = picture[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)];
+      const std::uint32_t truth = oracle.visible_at(x + 0.5, y + 0.5);
+      if (drawn == truth || is_hairline(oracle, x, y, drawn, truth) ||
+          is_depth_tie(oracle, x, y, drawn, truth))
+        continue;
+      drawn = truth;
+      ++replaced;
+    }
+  });
   return replaced;
 }
 

@@ -122,7 +122,7 @@ ClippingScene outside_direction(int direction, bool reversed);
 // A floor that passes under the camera, with the near plane at this distance, and a wall.
 ClippingScene floor_through_eye(float near_z);
 // A floor of square tiles, and the camera 2 above it, both moved by (away, 0, -away). Floats hold the moved
-// tiles exactly for a power of two up to 2^27.
+// tiles exactly for multiples of 16 up to 2^27, and whole numbers up to 2^23.
 ClippingScene floor_far_from_origin(double away);
 
 // Thin triangles across the screen. The ends of both long edges lie this far outside, on opposite sides.

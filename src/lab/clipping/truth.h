@@ -60,8 +60,7 @@ class ClippingOracle {
 
 // Puts a picture right: replaces the triangles that the exact picture shows nowhere within kHairlinePx of the
 // sample, ties within kDepthTie01 apart, by the exact ones. `picture` holds a triangle or kNoTriangle per
-// pixel, row by row. Looks at one pixel in 64 first, and at the others only if one of these is wrong. Returns
-// the number of replaced pixels.
+// pixel, row by row. Returns the number of replaced pixels.
 std::uint64_t correct(std::span<std::uint32_t> picture, Size size, const ClippingOracle& oracle, int threads);
 
 }  // namespace edgewise::lab

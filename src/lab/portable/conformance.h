@@ -13,10 +13,10 @@
 // Vulkan 1.3, 27.9 "Controlling the Viewport" gives the formula, not its precision.
 //
 // Clipping: a vertex where an edge meets the near or far plane is interpolated in floats, with an error of at
-// most kClipError times the largest coordinates of the clipped triangle. A triangle that only touches the
-// plane from inside may be clipped or not. From outside, it covers no sample. The sides of the picture cut no
-// triangle: rasterizers have a guard band around it. Triangles that reach beyond the guard band are not
-// modelled.
+// most kClipError times the largest coordinates of the clipped triangle, which were rounded to float before.
+// A triangle that only touches the plane from inside may be clipped or not. From outside, it covers no
+// sample. The sides of the picture cut no triangle: rasterizers have a guard band around it. Triangles that
+// reach beyond the guard band are not modelled.
 //
 // Depth: vertex depths err by at most kVertexDepthError. Planes are evaluated in floats, from one corner of
 // the image, for the rounded positions. Depths are rounded to the format. The buffer is cleared to 1, and a

@@ -80,7 +80,7 @@ Sweep make_sweep_origin() {
           {"distance from the origin", "", true},
           kWrongPixels,
           1,
-          powers_of_two(0, 27),
+          decades(0, 8),
           [](double away, bool) { return measure_scene(floor_far_from_origin(away)); }};
 }
 

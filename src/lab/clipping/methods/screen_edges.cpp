@@ -7,9 +7,8 @@ namespace edgewise::lab {
 extern const ClippingMethod clipping_screen_edges;
 const ClippingMethod clipping_screen_edges{
     {"screen_edges", "near and far planes, then the screen's four edges after projection", "p5.js engine",
-     "as near_guard, up to 2^17 px; edges clipped at the screen may move by 1/256 px, which "
-     "changes "
-     "long runs of pixels if they are nearly horizontal",
+     "as near_guard, up to 2^17 px instead of 2^40; edges clipped at the screen may move by 1/256 px, which "
+     "changes long runs of pixels if they are nearly horizontal",
      false},
     [](const ClippingScene& scene, ClippingFrame& frame) {
       const auto between = [](const Projected& a, const Projected& b, float t) {
