@@ -287,6 +287,7 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
     {"cat $IN/cut.ppm | edgewise diff - $IN/small.ppm", 2, "/dev/stdin: truncated"},
     {"cat $IN/good.obj | edgewise diff - $IN/small.ppm", 2, "/dev/stdin: unknown kind of file"},
     {"cat $IN/depth.pfm | edgewise diff - $IN/small.ppm", 2, "cannot be compared"},
+    {"edgewise diff '' $IN/small.ppm", 2, ": unknown kind of file"},
     {"edgewise diff - - <$IN/small.ppm", 2, "only one of A, B and --mask can be standard input"},
     {"cat $IN/small.ppm | edgewise diff - /dev/fd/0", 2, "can be standard input"},
     {"edgewise diff $IN/small.ppm /dev/stdin --mask - <$IN/small.ppm", 2, "can be standard input"},
