@@ -41,7 +41,7 @@ int capture(const CaptureOptions& o) {
   write_tri(file.stream(), lab::to_stream(triangles, shot.frontend.width, shot.frontend.height));
   file.commit();
   print(fmt::format("{} ({}x{}): {}\n  -> {}\n", printable(shot.source.name), shot.frontend.width,
-                    shot.frontend.height, stats_text(frontend.stats()), printable(output)));
+                    shot.frontend.height, stats_text(frontend.stats()), listed({output})));
   return kDone;
 }
 

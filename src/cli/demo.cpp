@@ -16,7 +16,6 @@
 #include "support/json_text.h"
 #include "support/options.h"
 #include "support/output_path.h"
-#include "support/printable.h"
 #include "support/progress.h"
 #include "viewer/demos.h"
 #include "viewer/terminal.h"
@@ -86,7 +85,7 @@ void write_frames(const viewer::Demo& demo, const DemoOptions& o, const OutputPa
     const OutputFile file = paths.file(std::string(demo.name), ++frame);
     write_screen(file, screen, scale);
     progress.erase();
-    print(printable(file.path.string()) + "\n");
+    print(listed({file.path.string()}) + "\n");
     progress.show(static_cast<double>(frame) / o.frames, demo.name);
   };
   viewer::Film film(session, size, cell, seconds / o.frames, [&](viewer::Screen& screen) {

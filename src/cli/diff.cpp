@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "cli/commands.h"
+#include "core/input_file.h"
 #include "edgewise/image.h"
 #include "image/samples.h"
 #include "support/console.h"
@@ -82,6 +83,8 @@ MaskedDifference masked_difference(const DiffOptions& o, T a, T b) {
 
 int diff(DiffOptions o) {
   for (std::string* input : {&o.a, &o.b, &o.mask}) *input = input_path(*input);
+  if ((descriptor_of(o.a) == 0) + (descriptor_of(o.b) == 0) + (descriptor_of(o.mask) == 0) > 1)
+    throw std::invalid_argument("only one of A, B and --mask can be standard input");
   const bool depth = is_depth(o.a);
   if (depth != is_depth(o.b))
     throw std::invalid_argument(
@@ -130,7 +133,7 @@ ignored. An 8-bit sample v equals the 16-bit sample 257 v. If one of the picture
 difference is given of 65535, otherwise of 255. Samples of a PPM with another maximum are scaled to
 255 or 65535 and rounded. With --mask, pixels count as equal where the mask is not black.
 
-A, B and --mask may be standard input: - or /dev/stdin. With -o -, messages go to stderr.
+One of A, B and --mask may be standard input: - or /dev/stdin. With -o -, messages go to stderr.
 
 Exit status: 0 equal, 1 different, 2 cannot be compared.)";
 

@@ -140,7 +140,7 @@ class PortableCommand {
                       printable(shot.source.name), found.width, found.height,
                       100.0 * static_cast<double>(unstable) / static_cast<double>(pixels), unstable, pixels,
                       reasons));
-    if (!files.empty()) print(fmt::format("  -> {}\n", printable(fmt::format("{}", fmt::join(files, ", ")))));
+    if (!files.empty()) print(fmt::format("  -> {}\n", listed(files)));
   }
 
   const PortableOptions& options_;

@@ -86,6 +86,8 @@ class Renderer {
     const bool output_is_depth = options.format == Format::pfm;
     if (output_is_depth && !options.depth.empty())
       throw std::invalid_argument("--format pfm and --depth exclude each other");
+    if (options.format && options.output.empty())
+      throw std::invalid_argument("--format needs --output: --depth always writes PFM");
     if (!options.depth.empty()) depths_ = outputs("--depth", options.depth, OutputKind::depth, {});
     if (!options.output.empty())
       (output_is_depth ? depths_ : images_) =
@@ -212,7 +214,7 @@ class Renderer {
       text += fmt::format("  pixels hit: 0 times {}, once {}, twice {}, 3 times or more {}\n", p.hits[0],
                           p.hits[1], p.hits[2], p.hits[3]);
     return text + fmt::format("  front end {:.2f} ms, draw {:.2f} ms -> {}\n", p.frontend_ms, p.draw_ms,
-                              printable(fmt::format("{}", fmt::join(p.files, ", "))));
+                              listed(p.files));
   }
 
   const RenderOptions& options_;
@@ -241,8 +243,8 @@ If a picture came out empty, a line on standard error says why.
 The printed times are of a single cold run. To measure, use edgewise_bench.
 
 SCENE may be standard input (- or /dev/stdin), as an .obj or .tri file. -o - writes to standard
-output; messages then go to stderr. With --format pfm, -o is the depth file. Several pictures on
-standard output follow each other.)";
+output; messages then go to stderr. With --format pfm, -o is the depth file. --depth always writes
+PFM. Several pictures on standard output follow each other.)";
 
 }  // namespace
 

@@ -26,7 +26,8 @@ constexpr const char* kProgramFooter = R"(Try:
   edgewise COMMAND --help                options and examples
 
 The folder of an output file must exist. An output that names a folder (-o pictures/) is created.
-As the name of a file, - is standard input or output (./- is a file of this name).
+As the name of a file, - is standard input or output (./- is a file of this name). A file that the
+shell redirects to standard input is read from its start.
 
 Exit status: 0 success, 1 a difference was found, 2 bad input or failure, 128 + N stopped by
 signal N (130: Ctrl-C). If a reader such as `head` closes standard output early, that is no error.)";

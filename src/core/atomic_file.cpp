@@ -90,7 +90,9 @@ class Overwriting {
     for (const int signal_number : kEndSignals) sigaddset(&ends, signal_number);
     pthread_sigmask(SIG_BLOCK, &ends, &before_);
     ++overwriting;
-    while (ending) pause();
+    if (!ending) return;
+    --overwriting;  // remove_unfinished_files() waits for none
+    while (true) pause();
   }
   ~Overwriting() {
     --overwriting;
@@ -102,6 +104,12 @@ class Overwriting {
  private:
   sigset_t before_;
 };
+
+// Whether renaming failed, or would fail, for a reason that does not prevent writing to the file itself. A
+// full disk is no such reason: it would leave the older file half overwritten.
+bool only_renaming_fails(int error) {
+  return error == EACCES || error == EPERM || error == EROFS || error == EBUSY || error == EXDEV;
+}
 
 std::runtime_error write_error(const fs::path& path, int error = errno) {
   return file_error(path, error != 0 ? std::string("cannot be written: ") + std::strerror(error)
@@ -172,7 +180,7 @@ AtomicFile::AtomicFile(const fs::path& path) : path_(path) {
     return;
   }
   const int reason = errno;
-  if (exists) {
+  if (exists && only_renaming_fails(reason)) {
     buffer_.attach(memfd_create("edgewise", MFD_CLOEXEC));
     if (buffer_.descriptor() < 0) throw write_error(path_);
     return;
@@ -236,7 +244,7 @@ void AtomicFile::commit() {
       return;
     }
     const int reason = errno;
-    if (access(target_.c_str(), F_OK) != 0) throw write_error(path_, reason);
+    if (!only_renaming_fails(reason) || access(target_.c_str(), F_OK) != 0) throw write_error(path_, reason);
     buffer_.attach(open(temporary_.c_str(), O_RDONLY | O_CLOEXEC));
   }
   overwrite();
@@ -254,9 +262,10 @@ void AtomicFile::overwrite() {
     throw write_error(path_, full);
   }
   lseek(to.descriptor(), 0, SEEK_SET);
-  for (off_t done = 0; done < size;)
-    if (sendfile(to.descriptor(), from, &done, static_cast<std::size_t>(size - done)) <= 0)
-      throw write_error(path_);
+  for (off_t done = 0; done < size;) {
+    const ssize_t sent = sendfile(to.descriptor(), from, &done, static_cast<std::size_t>(size - done));
+    if (sent <= 0) throw write_error(path_, sent < 0 ? errno : 0);
+  }
   if (ftruncate(to.descriptor(), size) != 0 || !to.close()) throw write_error(path_);
 }
 

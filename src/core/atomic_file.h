@@ -32,7 +32,8 @@ class FileBuffer final : public std::streambuf {
 // and names of open descriptors (/dev/stdout) are written directly.
 //
 // An older file that cannot be replaced by renaming (a mount point, a file in an unwritable folder) is
-// overwritten on commit(), after its space was reserved. Signals wait for that.
+// overwritten on commit(), after its space was reserved. Signals wait for that. If the device fails or
+// SIGKILL arrives meanwhile, the file is left partly overwritten.
 class AtomicFile {
  public:
   // Throws std::runtime_error, naming the file and the reason, if the folder cannot be written.

@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cstring>
+#include <future>
 #include <map>
 #include <mutex>
 #include <string_view>
@@ -42,17 +43,21 @@ void copy(int from, int to, const fs::path& path) {
   }
 }
 
-// A file in memory with all that can be read from the descriptor.
+// A file in memory with all that can be read from the descriptor. A failure is kept too: the rest of the
+// input must not pass for the whole.
 fs::path kept(int descriptor, const fs::path& path) {
   static std::mutex mutex;
-  static std::map<int, fs::path> files;
+  static std::map<int, std::shared_future<fs::path>> files;
   const std::lock_guard lock(mutex);
-  fs::path& file = files[descriptor];
-  if (!file.empty()) return file;
-  const int memory = memfd_create("edgewise", MFD_CLOEXEC);
-  if (memory < 0) throw system_error(path);
-  copy(descriptor, memory, path);
-  return file = "/proc/self/fd/" + std::to_string(memory);
+  auto& file = files[descriptor];
+  if (!file.valid())
+    file = std::async(std::launch::deferred, [&] {
+      const int memory = memfd_create("edgewise", MFD_CLOEXEC);
+      if (memory < 0) throw system_error(path);
+      copy(descriptor, memory, path);
+      return fs::path("/proc/self/fd/" + std::to_string(memory));
+    });
+  return file.get();
 }
 
 }  // namespace
@@ -62,7 +67,8 @@ std::runtime_error file_error(const fs::path& path, const std::string& reason) {
 }
 
 std::optional<int> descriptor_of(const fs::path& path) {
-  const std::string name = fs::absolute(path).lexically_normal().string();
+  std::error_code ignored;  // of an empty path
+  const std::string name = fs::absolute(path, ignored).lexically_normal().string();
   constexpr std::array<std::string_view, 3> kStreams{"/dev/stdin", "/dev/stdout", "/dev/stderr"};
   for (std::size_t i = 0; i < kStreams.size(); ++i)
     if (name == kStreams[i]) return static_cast<int>(i);

@@ -23,8 +23,9 @@ struct InputFile {
 };
 
 // Throws file_error() unless the path is a regular file that can be read, or a descriptor_of() a pipe, a
-// socket or a terminal. Those are read to their end once and kept, so that they can be opened again. Other
-// pipes and devices are refused: they may never end, and have no size to check a header's counts against.
+// socket or a terminal. Those are read to their end once and kept, so that they can be opened again. A
+// descriptor of a regular file is read from the file's start, wherever the descriptor stands. Other pipes and
+// devices are refused: they may never end, and have no size to check a header's counts against.
 InputFile open_input(const std::filesystem::path& path);
 
 // Whether the file starts with this text. Throws what open_input throws.

@@ -142,7 +142,7 @@ Samples read_ppm(const fs::path& path) {
   netpbm::Reader reader(path, "P6");
   const netpbm::Size size = reader.size();
   const std::uint64_t largest = reader.integer();
-  if (largest < 1 || largest > 65535) throw file_error(path, "has samples of more than 16 bits, or of none");
+  if (largest < 1 || largest > 65535) throw file_error(path, "the maximum must be 1 to 65535");
   const auto maximum = static_cast<std::uint32_t>(largest);
   Samples image{size.width, size.height, maximum > 255, {}};
   const std::size_t width = image.deep ? 2 : 1;

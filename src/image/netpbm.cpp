@@ -53,8 +53,11 @@ int Reader::next() {
 
 std::string Reader::word() {
   std::string word;
-  do end_ = next();
-  while (is_blank(end_));
+  do {
+    const int before = end_;
+    end_ = next();
+    if (before == '\r' && end_ == '\n') crlf_ = true;
+  } while (is_blank(end_));
   for (; word.size() < kMaxWord && end_ > ' ' && end_ <= '~'; end_ = next())
     word.push_back(static_cast<char>(end_));
   if (word.empty() || !is_blank(end_)) throw file_error(path_, "malformed or truncated header");
@@ -78,8 +81,9 @@ Size Reader::size() {
 void Reader::check_rest(std::uint64_t bytes) {
   std::istream& in = file_.stream;
   std::uint64_t rest = file_.size - static_cast<std::uint64_t>(in.tellg());
-  // The header may end in CR LF, and the samples may begin with the byte LF: their number decides.
-  if (rest == bytes + 1 && end_ == '\r' && in.peek() == '\n') {
+  // LF behind CR ends the header if earlier lines ended in CR LF. Otherwise it may be the first sample, if
+  // their number is right.
+  if (end_ == '\r' && in.peek() == '\n' && (crlf_ || rest != bytes)) {
     in.get();
     --rest;
   }

@@ -51,7 +51,8 @@ class Reader {
 
   const std::filesystem::path& path_;
   InputFile file_;
-  int end_ = 0;  // the character behind the last word
+  int end_ = 0;        // the character behind the last word
+  bool crlf_ = false;  // an earlier line ended in CR LF
 };
 
 }  // namespace edgewise::netpbm

@@ -40,10 +40,10 @@ void print_error(std::string_view message, std::string_view program) {
 
 void print_note(std::string_view message) {
   static std::mutex mutex;
-  static std::set<std::string> printed;
+  static std::set<std::string> earlier;
   const std::string line = printable(message, ' ') + '\n';
   const std::lock_guard lock(mutex);
-  if (printed.insert(line).second) std::fwrite(line.data(), 1, line.size(), stderr);
+  if (earlier.insert(line).second) std::fwrite(line.data(), 1, line.size(), stderr);
 }
 
 bool moves_cursor(int descriptor) {

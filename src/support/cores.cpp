@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <fstream>
-#include <initializer_list>
 #include <limits>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -62,7 +62,8 @@ double cpu_quota(const std::filesystem::path& membership, const std::filesystem:
     if (!controllers.empty() && ("," + controllers + ",").find(",cpu,") == std::string::npos) continue;
     // A container may see its own group as the root, under the path that the host knows.
     const auto path = std::filesystem::path(line.substr(second + 1)).lexically_normal().relative_path();
-    for (const std::string& mount : {controllers, std::string(controllers.empty() ? "" : "cpu")}) {
+    // Version 2 is mounted at the root; version 1 at "cpu,cpuacct", at "cpu", or at both.
+    for (const std::string& mount : std::set<std::string>{controllers, controllers.empty() ? "" : "cpu"}) {
       std::filesystem::path group = root / mount;
       least = std::min(least, quota_of(group));
       for (const auto& part : path) least = std::min(least, quota_of(group /= part));

@@ -18,6 +18,7 @@
 #include "core/input_file.h"
 #include "core/nearest_name.h"
 #include "support/console.h"
+#include "support/printable.h"
 #include "support/source.h"
 
 namespace edgewise::tools {
@@ -68,7 +69,7 @@ void add_format(CLI::App& command, std::optional<Format>& format, const std::vec
             format = static_cast<Format>(std::find(kFormatNames.begin(), kFormatNames.end(), text) -
                                          kFormatNames.begin());
           },
-          fmt::format("Format for - and for folders: {} (png)", fmt::join(names, ", ")))
+          fmt::format("Picture format for - and for folders: {} (png)", fmt::join(names, ", ")))
       ->type_name("FORMAT");
 }
 
@@ -89,6 +90,13 @@ OutputFile output_file(const std::string& option, const std::string& text, Outpu
     throw std::invalid_argument(fmt::format("{} {}: with --format {} the name must end in .{}", option, text,
                                             name_of(*format), name_of(*format)));
   return {path, *named};
+}
+
+std::string listed(const std::vector<std::string>& files) {
+  std::vector<std::string> names;
+  for (const std::string& file : files)
+    names.push_back(descriptor_of(file) == 1 ? "standard output" : printable(file));
+  return fmt::format("{}", fmt::join(names, ", "));
 }
 
 OutputPaths::OutputPaths(const std::string& option, const std::string& pattern, OutputKind kind,

@@ -30,6 +30,9 @@ struct OutputFile {
 OutputFile output_file(const std::string& option, const std::string& text, OutputKind kind,
                        std::optional<Format> format);
 
+// The paths of written outputs, as printed text: "a.png, a.pfm", or "standard output".
+std::string listed(const std::vector<std::string>& files);
+
 struct Output {
   std::string option;
   std::filesystem::path path;

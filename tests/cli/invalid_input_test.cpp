@@ -99,7 +99,7 @@ void write_inputs(const TempDir& folder) {
         le(first) + le(0) + le(0) + le(0x41000000) + le(0) + le(0) + le(0) + le(0x41000000) + le(0) + le(7);
   folder.write("nan.tri", "TRI1" + le(8) + le(8) + le(3) + floats);
   folder.write("text.png", "not a picture");
-  folder.write("cut.json", R"({"format": "edgewise soak", "sequence": 2, "seed": 1})");
+  folder.write("cut.json", R"({"format": "edgewise soak", "sequence": 3, "seed": 1})");
   folder.write("old.json", R"({"format": "edgewise soak", "sequence": 0, "seed": 1})");
   folder.write("cut.png", "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\x09\0\0\0\x09"s);
   folder.write("large.tri", "TRI1" + le(4) + le(4) + le((1 << 30) + 1));

@@ -287,6 +287,10 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
     {"cat $IN/cut.ppm | edgewise diff - $IN/small.ppm", 2, "/dev/stdin: truncated"},
     {"cat $IN/good.obj | edgewise diff - $IN/small.ppm", 2, "/dev/stdin: unknown kind of file"},
     {"cat $IN/depth.pfm | edgewise diff - $IN/small.ppm", 2, "cannot be compared"},
+    {"edgewise diff '' $IN/small.ppm", 2, ": unknown kind of file"},
+    {"edgewise diff - - <$IN/small.ppm", 2, "only one of A, B and --mask can be standard input"},
+    {"cat $IN/small.ppm | edgewise diff - /dev/fd/0", 2, "can be standard input"},
+    {"edgewise diff $IN/small.ppm /dev/stdin --mask - <$IN/small.ppm", 2, "can be standard input"},
     {"cat $IN/cut.json | edgewise soak --merge -", 2, "/dev/stdin: is not a complete record"},
 
     // ---- Two outputs that are one file, and outputs that are inputs
@@ -347,8 +351,13 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
      "mount --bind $IN/b $DIR/older.ppm; \"$EDGEWISE\" render cube --size 640x480 -o $DIR/older.ppm;"
      "status=$?; cat $IN/b >&3; exit $status' 3>$DIR/older",
      2, "older.ppm: cannot be written: No space left on device", "older older.ppm"},
+    {"printf older >$DIR/older.ppm; isolated 'mount -t tmpfs -o nr_inodes=2 none $IN;"
+     "cp $DIR/older.ppm $IN/; \"$EDGEWISE\" render cube -o $IN/older.ppm;"
+     "status=$?; cat $IN/older.ppm >&3; exit $status' 3>$DIR/older",
+     2, "older.ppm: cannot be written: No space left on device", "older older.ppm"},
 
     // ---- Output files that cannot be written
+    {"edgewise render cube --depth - --format ppm", 2, "--format needs --output: --depth always writes PFM"},
     {"edgewise render cube sphere -o $DIR/a.png", 2, "{scene}"},
     {"edgewise render cube cube -o $DIR/", 2, "two pictures would be written to"},
     {"edgewise render grid4 cube --scale 2 -o $DIR/", 2, "--scale"},

@@ -331,6 +331,7 @@ TEST_F(ProgramRenders, ToStandardOutputWithMessagesOnStandardError) {
     const Outcome piped = script_in(folder_, "edgewise " + row.command + " | cat");
     EXPECT_EQ(piped.out, file_content(path(row.file))) << row.command;
     EXPECT_EQ(piped.err.empty(), row.command.starts_with("view")) << row.command << piped.err;
+    EXPECT_EQ(piped.err.find("-> /dev/stdout"), std::string::npos) << piped.err;
     const Outcome appended =
         script_in(folder_, "echo before >out; edgewise " + row.command + " >>out; echo after >>out");
     EXPECT_EQ(file_content(path("out")), "before\n" + file_content(path(row.file)) + "after\n")

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "core/atomic_file.h"
+#include "core/input_file.h"
 #include "edgewise/contract.h"
 #include "edgewise/image.h"
 #include "edgewise/scene.h"
@@ -173,22 +174,27 @@ INSTANTIATE_TEST_SUITE_P(
                 "malformed header: '99999999999999999999' is not a size"},
         BadFile{"PpmEndlessWord", ".ppm", "P6\n" + std::string(100, '1'), "malformed or truncated header"},
         BadFile{"PpmOpenComment", ".ppm", "P6\n# no end", "malformed or truncated header"},
-        BadFile{"Ppm17Bits", ".ppm", "P6\n1 1\n65536\n123456",
-                "has samples of more than 16 bits, or of none"},
+        BadFile{"Ppm17Bits", ".ppm", "P6\n1 1\n65536\n123456", "the maximum must be 1 to 65535"},
         BadFile{"PpmSampleTooLarge", ".ppm", "P6\n1 1\n3\n\1\4\1",
                 "has a sample of 4, more than its maximum of 3"},
         BadFile{"PpmDeepSampleTooLarge", ".ppm", "P6\n1 1\n256\n\1\1\1\1\1\1",
                 "has a sample of 257, more than its maximum of 256"},
         BadFile{"PpmTooLong", ".ppm", "P6\n1 1\n255\n1234", "too long: header promises 3 bytes, 4 follow"},
         BadFile{"PpmCrLfTooLong", ".ppm", "P6\n1 1\n255\r\n1234",
-                "too long: header promises 3 bytes, 5 follow"},
+                "too long: header promises 3 bytes, 4 follow"},
         BadFile{"PpmLfLfTooLong", ".ppm", "P6\n1 1\n255\n\n123",
                 "too long: header promises 3 bytes, 4 follow"},
         BadFile{"PpmCrLfTruncated", ".ppm", "P6\r\n1 1\r\n255\r\n1",
+                "truncated: header promises 3 bytes, 1 follow"},
+        BadFile{"PpmCrLfLacksOneByte", ".ppm", "P6\r\n1 1\r\n255\r\n12",
                 "truncated: header promises 3 bytes, 2 follow"},
+        BadFile{"PpmCrLfCommentLacksOneByte", ".ppm", "P6 # a\r\n1 1 255\r\n12",
+                "truncated: header promises 3 bytes, 2 follow"},
+        BadFile{"PfmCrLfLacksOneByte", ".pfm", "Pf\r\n1 1\r\n-1.0\r\n123",
+                "truncated: header promises 4 bytes, 3 follow"},
         BadFile{"PfmTooLong", ".pfm", "Pf\n1 1\n-1.0\n12345", "too long: header promises 4 bytes, 5 follow"},
         BadFile{"PfmCrLfTooLong", ".pfm", "Pf\r\n1 1\r\n-1.0\r\n12345",
-                "too long: header promises 4 bytes, 6 follow"},
+                "too long: header promises 4 bytes, 5 follow"},
         BadFile{"PpmTruncated", ".ppm", "P6\n16384 16384\n255\n1234",
                 "truncated: header promises 805306368 bytes, 4 follow"},
         BadFile{"PfmColour", ".pfm", "PF\n1 1\n-1.0\n1234", "does not start with Pf"},
@@ -468,6 +474,45 @@ TEST(AtomicFile, IsNotOpenedWhileTheProcessEnds) {
   ASSERT_EQ(waitpid(child, &status, 0), child);
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
   EXPECT_EQ(dir.count(), 0u);
+}
+
+// A thread that is about to overwrite a file while the process ends must not delay the end.
+TEST(AtomicFile, DoesNotOverwriteWhileTheProcessEnds) {
+  const TempDir dir;
+  const fs::path path = dir.write("a", "old");
+  fs::permissions(path, fs::perms(0666));
+  fs::permissions(dir.path(), fs::perms(0555));
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    if (getuid() == 0 && setuid(65534) != 0) _exit(1);
+    AtomicFile file(path);
+    file.stream() << "new";
+    remove_unfinished_files();
+    std::thread([&] { file.commit(); }).detach();
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    alarm(10);
+    remove_unfinished_files();  // as for a second signal
+    _exit(0);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  fs::permissions(dir.path(), fs::perms(0755));
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
+  EXPECT_EQ(file_content(path), "old");
+}
+
+TEST(InputFile, FailsAgainInsteadOfReadingTheRestOfAPipe) {
+  int ends[2];
+  ASSERT_EQ(pipe2(ends, O_NONBLOCK), 0);
+  const std::string path = "/dev/fd/" + std::to_string(ends[0]);
+  const auto message = [&] { return message_of([&] { open_input(path); }); };
+  ASSERT_EQ(write(ends[1], "a", 1), 1);
+  EXPECT_EQ(message(), path + ": Resource temporarily unavailable");
+  ASSERT_EQ(write(ends[1], "b", 1), 1);
+  close(ends[1]);
+  EXPECT_EQ(message(), path + ": Resource temporarily unavailable");
+  close(ends[0]);
 }
 
 TEST(AtomicFile, AFullDiskIsReported) {
