@@ -16,6 +16,8 @@
 #include "cli/accuracy/closeup.h"
 #include "cli/accuracy/speed.h"
 #include "cli/commands.h"
+#include "edgewise/backend.h"
+#include "edgewise/framebuffer.h"
 #include "support/console.h"
 #include "support/json_text.h"
 #include "support/options.h"
@@ -59,7 +61,7 @@ void turn_camera(Camera& camera, glm::dvec3 centre, double radians) {
 struct Ratio {
   double median, low, high;
 
-  // One pipeline timed against itself differs by up to 1 %, so the interval must lie beyond twice that.
+  // One way of drawing timed against itself differs by up to 1 %, so the interval must lie beyond twice that.
   bool settled() const { return low > 1.02 || high < 1.0 / 1.02; }
 };
 Ratio ratio_of(const Speed& a, const Speed& b) {
@@ -71,43 +73,23 @@ Ratio ratio_of(const Speed& a, const Speed& b) {
   return {ratios[ratios.size() / 2], ratios[rank - 1], ratios[ratios.size() - rank]};
 }
 
-struct Timing {
-  double full_ms, smallest_ms;
-  Ratio smallest_speedup;
-  std::optional<Ratio> culling_speedup;
-};
-
-// Times a frame, front end included, on one thread.
-Timing time_pipelines(const lab::Pipeline& smallest, const Shot& shot) {
-  FrontendOptions culled = shot.frontend, all = culled;
-  culled.threads = all.threads = 1;
-  all.cull = Cull::none;
-  const bool culls = culled.cull == Cull::back && std::holds_alternative<Scene>(shot.source.drawable);
+// How much faster a frame is drawn, front end included, on one thread, if back faces are culled; none if they
+// are not, or in a stream.
+std::optional<Ratio> culling_speedup(const Shot& shot) {
   const Drawable& drawable = shot.source.drawable;
-  const lab::VisibilityScene seen = lab::visibility_scene(drawable, culled);
-  const lab::VisibilityScene both = culls ? lab::visibility_scene(drawable, all) : lab::VisibilityScene{};
+  if (shot.frontend.cull != Cull::back || !std::holds_alternative<Scene>(drawable)) return {};
   Frontend frontend;
-  lab::VisibilityFrame frame;
-  const auto timed = [&](const lab::Pipeline& pipeline, const lab::VisibilityScene& scene,
-                         const FrontendOptions& options) {
-    return TimedDraw{0, 1, SimdTarget::scalar, [&frontend, &frame, &drawable, &scene, options, pipeline] {
-                       frontend.run(drawable, options);
-                       lab::draw(pipeline, scene, frame);
-                     }};
+  const auto backend = find_backend("tiled").make();
+  Framebuffer frame(shot.frontend.width, shot.frontend.height);
+  const auto timed = [&](Cull cull) {
+    FrontendOptions options = shot.frontend;
+    options.cull = cull, options.threads = 1;
+    return TimedDraw{0, 1, SimdTarget::best,
+                     [&, options] { draw(drawable, frontend, options, *backend, frame.view(), 0, {}); }};
   };
-  std::vector<TimedDraw> draws{timed(lab::Needs::kFull, seen, culled), timed(smallest, seen, culled)};
-  if (culls) draws.push_back(timed(lab::Needs::kFull, both, all));
-  const auto speeds = time_interleaved(draws, false);
-  Timing result{speeds[0].median_ms, speeds[1].median_ms, ratio_of(speeds[0], speeds[1]), {}};
-  if (culls) result.culling_speedup = ratio_of(speeds[2], speeds[0]);
-  return result;
+  const auto speeds = time_interleaved({timed(Cull::none), timed(Cull::back)}, false);
+  return ratio_of(speeds[0], speeds[1]);
 }
-
-struct Measured {
-  lab::Pipeline smallest;
-  std::uint64_t wrong_px = 0, full_wrong_px = 0;  // in all frames, by the positions before snapping
-  Timing timing{};
-};
 
 // "1.65x faster (1.64 to 1.67)"; slower if the median is below 1.
 std::string faster(const Ratio& ratio) {
@@ -287,7 +269,7 @@ class NeedsCommand {
     lab::Needs needs({options_.displacement, !options_.pictures.empty(), options_.ranges, options_.threads});
     const TimeLeft left;
     Progress progress;
-    const double steps = (options_.ranges ? 1.0 : 2.0) * std::max(options_.frames, options_.orbit);
+    const double steps = std::max(options_.frames, options_.orbit);
     double done = 0.0;
     const auto show = [&] { progress.show(done / steps, left.label(done / steps, first.source.name)); };
     show();
@@ -300,19 +282,11 @@ class NeedsCommand {
       print(options_.json ? json_text(ranges_json(first, needs)) + "\n" : ranges_table(first, needs));
       return;
     }
-    Measured measured{needs.smallest()};
-    for_each_frame(scene, first, [&](const Shot& shot) {
-      const lab::VisibilityScene seen = lab::visibility_scene(shot.source.drawable, shot.frontend);
-      const auto truth = lab::unsnapped_visible_triangles(seen);
-      measured.wrong_px += lab::wrong_px(measured.smallest, seen, truth);
-      measured.full_wrong_px += lab::wrong_px(lab::Needs::kFull, seen, truth);
-      ++done, show();
-    });
-    measured.timing = time_pipelines(measured.smallest, first);
+    const auto culling = culling_speedup(first);
     progress.erase();
     const auto questions = needs.questions();
-    print(options_.json ? json_text(json(first, needs, questions, measured)) + "\n"
-                        : table(first, needs, questions, measured));
+    print(options_.json ? json_text(json(first, needs, questions, culling)) + "\n"
+                        : table(first, needs, questions, culling));
     if (!options_.pictures.empty()) write_pictures(first.source.name, questions);
   }
 
@@ -356,39 +330,21 @@ class NeedsCommand {
   }
 
   static std::string table(const Shot& shot, const lab::Needs& needs,
-                           const std::vector<lab::Question>& questions, const Measured& measured) {
+                           const std::vector<lab::Question>& questions, const std::optional<Ratio>& culling) {
     std::string text = heading(shot, needs);
     for (const lab::Question& question : questions) {
       text += text_of(question);
-      if (question.name == "back faces" && measured.timing.culling_speedup)
-        text += indented("culling them: " + faster(*measured.timing.culling_speedup));
+      if (question.name == "back faces" && culling) text += indented("culling them: " + faster(*culling));
     }
-    const auto result = [](const lab::Pipeline& pipeline, double ms, std::uint64_t wrong) {
-      return fmt::format("{}: {:.3g} ms, {} in all frames", pipeline.describe(), ms,
-                         counted(wrong, "wrong pixel"));
-    };
-    const Timing& timing = measured.timing;
-    text += "  smallest pipeline\n";
-    if (measured.smallest == lab::Needs::kFull)
-      return text +
-             indented("the full one, " + result(lab::Needs::kFull, timing.full_ms, measured.full_wrong_px));
-    text += indented(result(measured.smallest, timing.smallest_ms, measured.wrong_px));
-    text += indented("the full one, " + result(lab::Needs::kFull, timing.full_ms, measured.full_wrong_px));
-    return text + indented("against the full one: " + faster(timing.smallest_speedup));
+    return text;
   }
 
   static nlohmann::json json(const Shot& shot, const lab::Needs& needs,
-                             const std::vector<lab::Question>& questions, const Measured& measured) {
+                             const std::vector<lab::Question>& questions,
+                             const std::optional<Ratio>& culling) {
     nlohmann::json result = json_heading(shot, needs);
     for (const lab::Question& question : questions) result["questions"].push_back(json_of(question));
-    const Timing& timing = measured.timing;
-    result["smallest"] = {{"pipeline", measured.smallest.describe()},
-                          {"ms", timing.smallest_ms},
-                          {"full_ms", timing.full_ms},
-                          {"speedup", json_of(timing.smallest_speedup)},
-                          {"wrong_px", measured.wrong_px},
-                          {"full_wrong_px", measured.full_wrong_px}};
-    if (timing.culling_speedup) result["culling_speedup"] = json_of(*timing.culling_speedup);
+    if (culling) result["culling_speedup"] = json_of(*culling);
     return result;
   }
 
@@ -427,7 +383,9 @@ samples. Both hold for these frames only. Answers don't combine: where two stage
 together, pixels may be wrong.
 
   near, far plane, guard band  what to do with triangles beyond it: nothing, drop them, or clip them
-  back faces                   whether drawing them changes the picture; how much faster culling is
+  back faces                   whether drawing them changes the picture; how much faster culling is:
+                               the median of 21 paired rounds on the first frame, drawn by `tiled`
+                               on one thread, front end included, with a 95 % interval
   facing test                  the methods of the laboratory, the cheapest first
   visibility                   submission order, the painter's algorithm by two sorts, depth buffer
   depth buffer                 1 to 30 bits, then a float, a reversed float, and ours of 31 bits;
@@ -435,10 +393,7 @@ together, pixels may be wrong.
   subpixel bits                the fewest without a crack; the fewest that displace no more pixels
                                than 8 bits do
   float edges                  methods that compute edges in floats, without a crack
-  smallest pipeline            plain scalar code on one thread with these bits and this visibility,
-                               behind our front end; wrong by the positions before snapping. Times
-                               are medians of 21 paired rounds on the first frame, front end
-                               included, with 95 % intervals
+  edge values                  the integers that hold them at 8 subpixel bits
 
 Reversing the depth of an integer format changes nothing; it helps floats.
 Exit status: 0 done, 2 bad input.)";

@@ -30,7 +30,8 @@ struct ObjReport {
 // - Negative (relative) indices are resolved.
 // - Windings are reversed: the front is counter-clockwise in OBJ and clockwise here.
 // - A face has the mean colour of its vertices if all have one (v x y z r g b), or else its material's Kd, or
-//   else light grey.
+//   else light grey. Its .mtl files are regular files, sought in the folder of the OBJ file, or in the
+//   current one if that is read from a descriptor.
 // - Positions are read in double. If they are far from the origin, more than 4 times the longest side of the
 //   box around them, the mesh holds them relative to an offset near the box's centre, and the instance's
 //   translation is that offset: so float keeps what the file says. `options` may ask for the offset without

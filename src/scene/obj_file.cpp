@@ -156,6 +156,7 @@ std::uint32_t to_rgb(glm::dvec3 colour) {
 using Materials = std::map<std::string, std::uint32_t, std::less<>>;  // name → Kd
 
 void read_materials(const std::filesystem::path& path, Materials& materials) {
+  if (descriptor_of(path)) throw file_error(path, "is not a regular file");  // may wait, or be the OBJ itself
   const std::string text = read_text(path);
   std::uint32_t* colour = nullptr;
   const auto add = [&](std::string_view keyword, std::string_view rest, std::size_t line) {
@@ -196,10 +197,7 @@ class Reader {
     if (skipped_ > 0)
       warn(first_skipped_, std::to_string(skipped_) + (skipped_ == 1 ? " face" : " faces, from here on,") +
                                " of fewer than three corners skipped");
-    if (!unknown_.empty() && !library_failed_)
-      warn(first_unknown_,
-           "no .mtl file defines material " + in_quotes(*unknown_.begin()) +
-               (unknown_.size() == 1 ? "" : ", nor " + std::to_string(unknown_.size() - 1) + " more"));
+    find_materials();
     if (face_lines_.empty()) throw std::invalid_argument("has no faces");
     check_indices();
   }
@@ -249,12 +247,18 @@ class Reader {
   std::vector<std::int64_t> corners_;      // vertex indices from 0
   std::vector<std::size_t> face_ends_{0};  // face i has corners face_ends_[i] … face_ends_[i + 1] - 1
   std::vector<std::size_t> face_lines_;
-  std::vector<std::uint32_t> face_colours_;  // of the material
+  std::vector<std::uint32_t> face_materials_;  // numbers
+  struct Use {
+    std::uint32_t number;  // from 1, in the order of first use; 0 stands for no material
+    std::size_t line;      // of the first use
+  };
+  std::map<std::string, Use, std::less<>> used_;
+  std::vector<std::uint32_t> colours_{kGrey};  // by number
+  std::uint32_t material_ = 0;
   Materials materials_;
-  std::uint32_t material_ = kGrey;
+  std::set<std::filesystem::path> libraries_;
   bool library_failed_ = false;
-  std::set<std::string, std::less<>> unknown_;  // materials
-  std::size_t first_unknown_ = 0, skipped_ = 0, first_skipped_ = 0;
+  std::size_t skipped_ = 0, first_skipped_ = 0;
 
   void warn(std::size_t line, const std::string& reason) { warnings_.push_back(at_line(line, reason)); }
   std::ptrdiff_t at(std::size_t face) const { return static_cast<std::ptrdiff_t>(face_ends_[face]); }
@@ -287,7 +291,7 @@ class Reader {
     }
     face_ends_.push_back(corners_.size());
     face_lines_.push_back(line);
-    face_colours_.push_back(material_);
+    face_materials_.push_back(material_);
   }
 
   // A negative index counts back from the last vertex before the face. A positive one may name a later
@@ -301,11 +305,27 @@ class Reader {
   }
 
   void use_material(std::string_view name, std::size_t line) {
-    const auto found = materials_.find(name);
-    material_ = found == materials_.end() ? kGrey : found->second;
-    if (found != materials_.end()) return;
-    if (unknown_.empty()) first_unknown_ = line;
-    unknown_.emplace(name);
+    auto found = used_.find(name);
+    if (found == used_.end())
+      found = used_.emplace(name, Use{static_cast<std::uint32_t>(used_.size() + 1), line}).first;
+    material_ = found->second.number;
+  }
+
+  // A library may follow the use of its materials.
+  void find_materials() {
+    colours_.resize(used_.size() + 1, kGrey);
+    auto first = used_.end();
+    std::size_t unknown = 0;
+    for (auto use = used_.begin(); use != used_.end(); ++use) {
+      const auto found = materials_.find(use->first);
+      if (found != materials_.end())
+        colours_[use->second.number] = found->second;
+      else if (unknown++ == 0 || use->second.number < first->second.number)
+        first = use;
+    }
+    if (unknown > 0 && !library_failed_)
+      warn(first->second.line, "no .mtl file defines material " + in_quotes(first->first) +
+                                   (unknown == 1 ? "" : ", nor " + std::to_string(unknown - 1) + " more"));
   }
 
   // One name, with blanks in it, or several.
@@ -314,6 +334,7 @@ class Reader {
     const bool one = std::filesystem::exists(folder_ / names, ignored);
     while (!names.empty()) {
       const std::string_view name = one ? std::exchange(names, {}) : next_word(names);
+      if (!libraries_.insert((folder_ / name).lexically_normal()).second) continue;
       try {
         read_materials(folder_ / name, materials_);
       } catch (const std::runtime_error& error) {
@@ -352,7 +373,8 @@ class Reader {
   std::uint32_t colour_of(std::size_t face, const std::vector<std::uint32_t>& polygon) const {
     glm::dvec3 sum(0.0);
     for (const std::uint32_t i : polygon) {
-      if (i >= vertex_colours_.size() || std::isnan(vertex_colours_[i].x)) return face_colours_[face];
+      if (i >= vertex_colours_.size() || std::isnan(vertex_colours_[i].x))
+        return colours_[face_materials_[face]];
       sum += glm::clamp(glm::dvec3(vertex_colours_[i]), 0.0, 1.0);
     }
     return to_rgb(sum / static_cast<double>(polygon.size()));
@@ -367,7 +389,7 @@ Scene read_obj(const std::filesystem::path& path, const ObjOptions& options, Obj
   out = {};
   Scene scene;
   try {
-    Reader reader(path.parent_path(), out.warnings);
+    Reader reader(descriptor_of(path) ? std::filesystem::path() : path.parent_path(), out.warnings);
     reader.read(read_text(path));
     scene.meshes.push_back(reader.make_mesh(options.recentre, out.offset));
   } catch (const std::invalid_argument& error) {

@@ -210,7 +210,7 @@ void SceneOptions::add_to(CLI::App& command) {
 
   constexpr const char* kGroup = "Camera (meshes only)";
   add_vector(command, "--eye", eye, "Camera position")->group(kGroup);
-  add_vector(command, "--at", at, "Point that the camera looks at; if straight up or down, yaw is 0")
+  add_vector(command, "--at", at, "Point that the camera looks at; straight up or down sets yaw to 0")
       ->group(kGroup);
   add_number(command, "--yaw", yaw_deg, -3600, 3600, "Camera yaw to the left in degrees; 0 looks along -z")
       ->group(kGroup);

@@ -452,8 +452,9 @@ TEST(Program, NeedsFits80ColumnsAndGivesItsEvidence) {
   std::istringstream lines(outcome.out);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << line;
   for (const char* part : {"proven: the nearest vertex is at ", "seen in 14400 pixels", "not enough: ",
-                           "smallest pipeline", "culling them: ", " wrong pixels in frame 0; at ("})
+                           "edge values at 8 ", "culling them: ", " wrong pixels in frame 0; at ("})
     EXPECT_NE(outcome.out.find(part), std::string::npos) << part;
+  EXPECT_EQ(outcome.out.find("pipeline"), std::string::npos) << "answers don't combine";
 }
 
 TEST(Program, NeedsFollowsMotionAndOrbit) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <limits>
 #include <numbers>
@@ -292,6 +293,44 @@ TEST(ObjFile, MissingMaterialsAreWarnings) {
             std::vector<std::string>{"line 1: " + bad + ": line 2: 'x' is not a finite number"});
   EXPECT_EQ(read_with_report(dir, kCorners + "f 1 2\nf 1 2 3\nf 3\n").report.warnings,
             std::vector<std::string>{"line 4: 2 faces, from here on, of fewer than three corners skipped"});
+}
+
+TEST(ObjFile, ALibraryMayFollowTheUseOfItsMaterials) {
+  const TempDir dir;
+  dir.write("a.mtl", "newmtl red\nKd 1 0 0\n");
+  const ReadObj read = read_with_report(dir, kCorners + "f 1 2 3\nusemtl red\nf 1 2 3\nmtllib a.mtl\n");
+  EXPECT_EQ(read.mesh().colours, (Colours{kLightGrey, rgb(255, 0, 0)}));
+  EXPECT_EQ(read.report.warnings, std::vector<std::string>{});
+  EXPECT_EQ(read_with_report(dir, kCorners + "usemtl b\nusemtl a\nf 1 2 3\n").report.warnings,
+            std::vector<std::string>{"line 4: no .mtl file defines material 'b', nor 1 more"});
+}
+
+TEST(ObjFile, ALibraryIsReadOnce) {
+  const TempDir dir;
+  const ReadObj read = read_with_report(
+      dir, "mtllib none.mtl none.mtl\nmtllib ./none.mtl\n" + kCorners + "mtllib none.mtl\nf 1 2 3\n");
+  ASSERT_EQ(read.report.warnings.size(), 1u);
+  EXPECT_TRUE(read.report.warnings[0].starts_with("line 1: ")) << read.report.warnings[0];
+}
+
+TEST(ObjFile, ALibraryIsNoDescriptor) {
+  const TempDir dir;
+  for (const std::string name : {"/dev/stdin", "/dev/fd/0", "/dev/../proc/self/fd/0"})
+    EXPECT_EQ(read_with_report(dir, "mtllib " + name + "\n" + kCorners + "f 1 2 3\n").report.warnings,
+              std::vector<std::string>{"line 1: " + name + ": is not a regular file"});
+}
+
+TEST(ObjFile, FromADescriptorHasItsLibrariesInTheCurrentFolder) {
+  const TempDir dir;
+  std::FILE* const file =
+      std::fopen(dir.write("a.obj", "mtllib no.mtl\n" + kCorners + "f 1 2 3\n").c_str(), "r");
+  ASSERT_NE(file, nullptr);
+  const std::string path = "/dev/fd/" + std::to_string(fileno(file));
+  ObjReport report;
+  read_obj(path, {}, &report);
+  std::fclose(file);
+  ASSERT_EQ(report.warnings.size(), 1u);
+  EXPECT_TRUE(report.warnings[0].starts_with(path + ": line 1: no.mtl: ")) << report.warnings[0];
 }
 
 // If all vertices of a face have one. They come before the material's.

@@ -54,8 +54,8 @@ TEST(Facing, OursIsTheSignOfTheSnappedAreaOnEveryScene) {
     EXPECT_EQ(s.snapped.misclassified, s.snapped.misled) << c.name;
     std::uint64_t by_snapping = 0;
     for (const FaceFacts& f : facts)
-      by_snapping += f.floats.covers_sample && !f.floats.first_three_lie && !f.snapped.first_three_lie &&
-                     f.floats.front != f.snapped.front;
+      by_snapping += f.floats.covers_sample && !f.floats.first_three_differ &&
+                     !f.snapped.first_three_differ && f.floats.front != f.snapped.front;
     EXPECT_EQ(s.floats.misclassified - s.floats.misled, by_snapping) << c.name;
     turned += by_snapping;
   }
@@ -135,34 +135,34 @@ TEST(Facing, PolygonsAreJudgedByTheirFirstThreeVerticesOrTheirNormal) {
   for (const auto shape : {Shape::regular, Shape::irregular, Shape::bent}) {
     const FacingScene scene = polygons(shape, 2000, 8);
     const auto facts = facing_facts(scene);
-    std::uint64_t lying = 0, quads_lying = 0, normals_lying = 0;
+    std::uint64_t differing = 0, quads_differing = 0, normals_differing = 0;
     for (std::size_t i = 0; i < facts.size(); ++i) {
       if (!facts[i].floats.covers_sample) continue;
-      normals_lying += facts[i].normal_lies;
-      if (!facts[i].floats.first_three_lie) continue;
-      ++lying;
-      quads_lying += scene.faces[i].count == 4;
+      normals_differing += facts[i].normal_differs;
+      if (!facts[i].floats.first_three_differ) continue;
+      ++differing;
+      quads_differing += scene.faces[i].count == 4;
       EXPECT_GT(scene.faces[i].count, 3u);
     }
     if (shape == Shape::regular) {
-      EXPECT_EQ(lying, 0u);
+      EXPECT_EQ(differing, 0u);
     } else {
-      EXPECT_GT(lying, 30u);
-      EXPECT_GT(quads_lying, 0u);
+      EXPECT_GT(differing, 30u);
+      EXPECT_GT(quads_differing, 0u);
     }
     if (shape == Shape::bent)
-      EXPECT_GT(normals_lying, 30u);
+      EXPECT_GT(normals_differing, 30u);
     else
-      EXPECT_LE(normals_lying, 2u);
+      EXPECT_LE(normals_differing, 2u);
     for (const auto& m : facing_methods()) {
       const auto s = score(m, scene, facts);
       EXPECT_EQ(s.broken, 0u) << m.info.name;
       if (m.info.name == "normal_z" || m.info.name == "normal_dot_object") continue;  // they err by the tilt
-      const std::uint64_t misleading = m.by_normal ? normals_lying : lying;
+      const std::uint64_t misleading = m.by_normal ? normals_differing : differing;
       EXPECT_LE(s.floats.misclassified, misleading + 2) << m.info.name;
       EXPECT_LE(s.floats.misled, misleading) << m.info.name;
       if (!m.by_normal) {
-        EXPECT_GE(s.floats.misclassified + 2, lying) << m.info.name;
+        EXPECT_GE(s.floats.misclassified + 2, differing) << m.info.name;
       }
     }
   }
@@ -175,8 +175,8 @@ TEST(Facing, ANonPlanarQuadCanFaceOppositeToItsFirstTriangle) {
   scene.positions = {{-1, 0, 4}, {0, 0.5f, 4}, {1, 0, 4}, {0, 1, 6}};
   scene.add_face(0);
   const auto facts = facing_facts(scene);
-  EXPECT_TRUE(facts[0].floats.first_three_lie);
-  EXPECT_TRUE(facts[0].snapped.first_three_lie);
+  EXPECT_TRUE(facts[0].floats.first_three_differ);
+  EXPECT_TRUE(facts[0].snapped.first_three_differ);
   for (const auto& m : facing_methods()) {
     const auto s = score(m, scene, facts);
     EXPECT_EQ(s.floats.misclassified, m.by_normal ? 0u : 1u) << m.info.name;

@@ -201,7 +201,7 @@ class Installed(unittest.TestCase):
         run("cmake", "--build", build, "--parallel", len(os.sched_getaffinity(0)))
         run("cmake", "--install", build, "--prefix", prefix)
         for name in ("edgewise", "edgewise_files"):
-            self.assertIn(f"Library soname: [lib{name}.so.0.1]",
+            self.assertIn(f"Library soname: [lib{name}.so.0.2]",
                           run("readelf", "-d", next(prefix.rglob(f"lib{name}.so"))))
         self.use_package(prefix, "shared-package")
         self.use_pkg_config(prefix, "shared-pkg-config", static=False)

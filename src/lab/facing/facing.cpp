@@ -146,7 +146,7 @@ void measure_rays(FaceFacts& facts, std::span<const glm::vec3> v, Real3 object, 
   long double least = area * glm::length(sight);
   for (std::size_t i = 0; i < v.size(); ++i) {
     const long double height = glm::dot(normal, view.perspective ? Real3(v[i]) - eye : forward);
-    facts.normal_lies |= !(facts.floats.front ? height < 0 : height > 0);
+    facts.normal_differs |= !(facts.floats.front ? height < 0 : height > 0);
     if (i < 3) least = std::min(least, std::abs(height));
   }
   facts.sine = static_cast<double>(least / (area * glm::length(sight)));
@@ -225,7 +225,7 @@ FacingScores score(const FacingMethod& method, const FacingScene& scene, std::sp
   for (std::size_t i = 0; i < facts.size(); ++i) {
     if (kept[i] != ours[i]) ++scores.disagreements;
     const auto add = [&](FacingScore& score, const FaceSide& side, bool may_err) {
-      const bool misled = method.by_normal ? facts[i].normal_lies : side.first_three_lie;
+      const bool misled = method.by_normal ? facts[i].normal_differs : side.first_three_differ;
       if (!side.covers_sample) return;
       ++score.faces;
       if ((kept[i] != 0) == side.front) return;

@@ -41,17 +41,18 @@ struct FacingScene {
 
 // A face's exact orientation in one truth.
 struct FaceSide {
-  bool covers_sample;    // the projection covers a sample
-  bool front;            // the whole polygon
-  bool first_three_lie;  // the first three vertices have another orientation than the polygon (for
-                         // example at a reflex corner)
+  bool covers_sample;       // the projection covers a sample
+  bool front;               // the whole polygon
+  bool first_three_differ;  // the first three vertices have another orientation than the polygon (for
+                            // example at a reflex corner)
 };
 
 // Exact orientations of a face, and measures of how near it is to edge-on, rounded to double.
 struct FaceFacts {
   FaceSide snapped, floats;
   // All before snapping:
-  bool normal_lies;  // the polygon is bent: by its normal, a vertex is seen from another side than the whole
+  bool normal_differs;  // the polygon is bent: by its normal, a vertex is seen from another side than the
+                        // whole
   // The least distance of the camera from the planes of the face's normal through its first three vertices,
   // over the length of the ray to their mean: for a planar face, the sine of the angle between ray and plane.
   double sine;
@@ -92,7 +93,8 @@ std::span<const FacingMethod> facing_methods();
 struct FacingScore {
   std::uint64_t faces = 0;          // faces that cover a sample
   std::uint64_t misclassified = 0;  // of these
-  std::uint64_t misled = 0;         // of these, faces whose normal or first three vertices lie
+  // Of these, faces whose normal_differs or whose first_three_differ, whichever the method judges by.
+  std::uint64_t misled = 0;
 };
 struct FacingScores {
   FacingScore snapped, floats;

@@ -129,9 +129,4 @@ std::vector<Question> CoverageNeeds::questions() const {
   return {cracks(), displaced(), floats()};
 }
 
-bool CoverageNeeds::enough_subpixel_bits(int bits) const {
-  const Tried& tried = bits_[static_cast<std::size_t>(bits)];
-  return (shared_crossings_ == 0 || tried.cracks.enough()) && tried.wrong <= allowed();
-}
-
 }  // namespace edgewise::lab

@@ -16,8 +16,6 @@ class CoverageNeeds {
   explicit CoverageNeeds(std::optional<double> displacement);
   void add(const StudiedFrame& frame, const CoverageScene& scene, int threads);
   std::vector<Question> questions() const;  // about cracks only if triangles share edges
-  // Whether so many bits leave no crack and displace no more pixels than allowed.
-  bool enough_subpixel_bits(int bits) const;
 
  private:
   // A method of snapping or of float edges.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "edgewise/contract.h"
+
 namespace edgewise::lab {
 
 void Needs::add(const Drawable& drawable, FrontendOptions options) {
@@ -33,38 +35,8 @@ std::vector<Question> Needs::questions() const {
   if (facing_) append(facing_->questions());
   append(visibility_.questions());
   append(coverage_.questions());
-  all.push_back(ranges_.edge_values(smallest().subpixel_bits));
+  all.push_back(ranges_.edge_values(contract::kSubBits));
   return all;
-}
-
-Pipeline Needs::smallest() const {
-  using Order = Pipeline::Order;
-  Pipeline result = kFull;
-  const auto fewest = [](std::span<const int> available, int otherwise, auto&& enough) {
-    const auto found = std::find_if(available.begin(), available.end(), enough);
-    return found == available.end() ? otherwise : *found;
-  };
-  result.subpixel_bits = fewest(kPipelineSubpixelBits, kFull.subpixel_bits,
-                                [&](int bits) { return coverage_.enough_subpixel_bits(bits); });
-  result.edge_bits = ranges_.edge_value_bits(result.subpixel_bits) <= 32 ? 32 : 64;
-  const Question visibility = visibility_.questions().front();
-  const Answer* const cheapest = visibility.cheapest();
-  constexpr Order kOrders[] = {Order::submission, Order::mean, Order::farthest, Order::depth};
-  if (cheapest != nullptr) result.order = kOrders[cheapest - visibility.answers.data()];
-  result.depth_bits =
-      result.order != Order::depth ? 0 : fewest(kPipelineDepthBits, kFull.depth_bits, [&](int bits) {
-        return visibility_.enough_depth_bits(bits);
-      });
-  return result;
-}
-
-std::uint64_t wrong_px(const Pipeline& pipeline, const VisibilityScene& scene,
-                       std::span<const std::uint32_t> truth) {
-  VisibilityFrame frame;
-  draw(pipeline, scene, frame);
-  std::uint64_t wrong = 0;
-  for (std::size_t i = 0; i < frame.visible.size(); ++i) wrong += frame.visible[i] != truth[i];
-  return wrong;
 }
 
 }  // namespace edgewise::lab

@@ -1,6 +1,5 @@
 // What a scene needs: for each stage of a rasterizer the cheapest answer that draws the given frames without
-// an error while all other stages are exact, a witness against cheaper ones, and a plain rasterizer made of
-// these answers. Triangle flags are ignored.
+// an error while all other stages are exact, and a witness against cheaper ones. Triangle flags are ignored.
 #pragma once
 
 #include <optional>
@@ -10,7 +9,6 @@
 #include "lab/needs/clipping.h"
 #include "lab/needs/coverage.h"
 #include "lab/needs/facing.h"
-#include "lab/needs/pipeline.h"
 #include "lab/needs/question.h"
 #include "lab/needs/visibility.h"
 
@@ -35,10 +33,6 @@ class Needs {
   // Those about clipping and facing only for scenes with back faces culled.
   std::vector<Question> questions() const;
 
-  static constexpr Pipeline kFull{8, 64, Pipeline::Order::depth, 30};
-  // Made of the cheapest answers that a Pipeline offers. Where none is enough, it is as the full one.
-  Pipeline smallest() const;
-
  private:
   NeedsOptions options_;
   Ranges ranges_;
@@ -48,10 +42,5 @@ class Needs {
   CoverageNeeds coverage_;
   std::uint64_t frames_ = 0;
 };
-
-// Pixels of a frame at which a pipeline does not show the nearest triangle by the positions before snapping.
-// `truth` is unsnapped_visible_triangles(scene).
-std::uint64_t wrong_px(const Pipeline& pipeline, const VisibilityScene& scene,
-                       std::span<const std::uint32_t> truth);
 
 }  // namespace edgewise::lab

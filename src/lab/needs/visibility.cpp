@@ -44,10 +44,6 @@ VisibilityNeeds::VisibilityNeeds() : method_{"visibility", {}}, bits_{"depth buf
   method_.trial = bits_.trial = "pixel";
 }
 
-bool VisibilityNeeds::enough_depth_bits(int bits) const {
-  return bits_.answers[static_cast<std::size_t>(bits) - 1].enough();
-}
-
 void VisibilityNeeds::add(const StudiedFrame& frame, const VisibilityScene& scene, int threads) {
   const auto right = ids_of(snapped_visible_triangles(scene), scene);
   std::vector<std::pair<Answer*, Draw>> trials;

@@ -12,7 +12,6 @@ class VisibilityNeeds {
   // `scene` holds the triangles of the frame; payloads are ids.
   void add(const StudiedFrame& frame, const VisibilityScene& scene, int threads);
   std::vector<Question> questions() const { return {method_, bits_}; }
-  bool enough_depth_bits(int bits) const;  // 1 … 30
 
  private:
   Question method_, bits_;

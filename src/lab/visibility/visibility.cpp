@@ -206,15 +206,12 @@ std::vector<std::uint32_t> snapped_visible_triangles(const VisibilityScene& scen
   return visible_triangles_of(scene, covered_runs(screen, {scene.width, scene.height}, 1), true);
 }
 
-std::vector<std::uint32_t> unsnapped_visible_triangles(const VisibilityScene& scene) {
+TrueVisibleTriangles true_visible_triangles(const VisibilityScene& scene) {
   std::vector<FloatTriangle> floats;
   for (const VisibilityTriangle& t : scene.triangles)
     floats.push_back({{{t.x_px[0], t.x_px[1], t.x_px[2]}, {t.y_px[0], t.y_px[1], t.y_px[2]}, {}}, 0});
-  return visible_triangles_of(scene, covered_runs(floats, {scene.width, scene.height}, 1), false);
-}
-
-TrueVisibleTriangles true_visible_triangles(const VisibilityScene& scene) {
-  return {snapped_visible_triangles(scene), unsnapped_visible_triangles(scene)};
+  return {snapped_visible_triangles(scene),
+          visible_triangles_of(scene, covered_runs(floats, {scene.width, scene.height}, 1), false)};
 }
 
 VisibilityScores score(const VisibilityMethod& method, const VisibilityScene& scene,

@@ -74,7 +74,6 @@ struct TrueVisibleTriangles {
 };
 TrueVisibleTriangles true_visible_triangles(const VisibilityScene& scene);
 std::vector<std::uint32_t> snapped_visible_triangles(const VisibilityScene& scene);
-std::vector<std::uint32_t> unsnapped_visible_triangles(const VisibilityScene& scene);
 
 // The score against one truth.
 struct VisibilityScore {
