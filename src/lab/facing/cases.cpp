@@ -12,7 +12,7 @@ namespace edgewise::lab {
 namespace {
 
 void add(FacingScene& scene, std::initializer_list<glm::vec3> polygon) {
-  scene.positions.insert(scene.positions.end(), polygon);
+  for (const glm::vec3 position : polygon) scene.positions.push_back(position);
   scene.add_face(scene.positions.size() - polygon.size());
 }
 
