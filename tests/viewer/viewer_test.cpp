@@ -193,20 +193,22 @@ TEST(Viewer, ReplacesEachStageAlone) {
   EXPECT_EQ(wrong(box), 0u);
 }
 
-// The reference picture comes from the scene. Here rounding loses walls close to the camera, whose corners are
-// 2^30 times farther away.
+// The reference picture comes from the scene. Here rounding loses a wall 29 before the camera, whose corners
+// are up to 2^35 away.
 TEST(Viewer, JudgesWhatTheFrontEndLoses) {
   Random random(5);
   std::uint64_t lost = 0;
-  for (int i = 0; i < 40; ++i) {
+  for (int i = 0; i < 400 && lost == 0; ++i) {
     Scene scene;
+    const auto coordinate = [&] { return 8192.0f * (static_cast<float>(random.below(1 << 23)) - 0x1p22f); };
     const auto corner = [&] {
-      const float away = random.uniform(-0x1p30f, 0x1p30f);
-      return glm::vec3(away, random.uniform(-0x1p30f, 0x1p30f), -0.5f * away - 1.0f);
+      const float aside = coordinate();
+      return glm::vec3(aside, coordinate(), -0.5f * aside - 32.0f);
     };
     scene.meshes.push_back({{corner(), corner(), corner()}, {{0, 1, 2}}, {rgb(200, 200, 200)}});
     scene.instances.emplace_back();
     scene.camera.yaw = 0.46364761f;  // atan(1 / 2): the wall faces the camera
+    scene.camera.far_z = 1e5f;
     Session session = session_of(scene, Cull::none);
     type(session, "");
     lost += wrong(session);
