@@ -10,8 +10,8 @@
 namespace edgewise::lab {
 
 // All instances as one mesh. Each triangle has its own three vertices, rounded to float, and its face's
-// normal; triangles keep their order of submission and their flags. In view space, the camera is at the origin
-// and looks along -z. Both throw std::out_of_range for an instance whose mesh the scene lacks.
+// normal; triangles keep their order of submission and their flags. In view space, the camera is at the
+// origin and looks along -z. Both throw std::out_of_range for an instance whose mesh the scene lacks.
 ClippingScene in_world_space(const Scene& scene, Size size);
 ClippingScene in_view_space(const Scene& scene, Size size);
 

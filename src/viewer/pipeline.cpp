@@ -332,7 +332,9 @@ Judgement Pipeline::judge(const lab::Choice& choice, const View& view, Truth tru
   }();
   // That reference starts from our front end, which the exact picture of the same vertices judges.
   if (const Scene* scene = view.world.scene()) {
-    const Scene seen = choice.our_clipping() ? *scene : lab::in_world_space(*scene, size_of(view)).scene;
+    std::optional<Scene> rounded;
+    if (!choice.our_clipping()) rounded = lab::in_world_space(*scene, size_of(view)).scene;
+    const Scene& seen = rounded ? *rounded : *scene;
     lab::correct(expected, size_of(view), lab::ClippingOracle(seen, size_of(view), view.frontend.cull),
                  view.execution.threads);
   }
