@@ -77,7 +77,7 @@ Sweep make_sweep_origin() {
   return {"origin",
           Family::clipping,
           "a tiled floor under the camera, both far from the origin; near 1/1024",
-          {"distance from the origin", "", true},
+          {"distance from origin", "", true},
           kWrongPixels,
           1,
           decades(0, 8),

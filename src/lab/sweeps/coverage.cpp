@@ -156,7 +156,7 @@ Sweep make_sweep_distance() {
   return {"distance",
           Family::coverage,
           "a fine mesh on the 1/256 px grid, far from the origin",
-          {"distance from the origin", "px", true},
+          {"distance from origin", "px", true},
           kErrorsPerCrossing,
           4.5,
           powers_of_two(0, 20),
