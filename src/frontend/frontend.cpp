@@ -314,6 +314,7 @@ struct Frontend::State {
     reserve_for_clusters(scene);
     const ViewVolume view = view_volume(scene.camera, options.width, options.height);
     const glm::dmat3 pixels = pixels_of(scene.camera, options.width, options.height);
+    const glm::dvec3 to_light = glm::normalize(glm::dvec3(scene.to_light));
     const ViewDepth depth(view.near_z, view.far_z);
     std::size_t first_id = 0;
     for (const auto& instance : scene.instances) {
@@ -330,7 +331,7 @@ struct Frontend::State {
                           .states = options.keep_states ? states.data() + first_id : nullptr};
       ++stats.meshes;
       stats.triangles += mesh.triangles.size();
-      const ShadeTask light(mesh, model, scene.to_light);
+      const ShadeTask light{mesh, cofactor_matrix(model), to_light};
       mesh.clusters.empty() ? add_whole(task, light, first_id) : add_parts(task, light, first_id);
       first_id += mesh.triangles.size();
     }

@@ -172,9 +172,6 @@ glm::dmat3 cofactor_matrix(const glm::dmat4& model) {
   return {glm::cross(y, z), glm::cross(z, x), glm::cross(x, y)};
 }
 
-ShadeTask::ShadeTask(const Mesh& seen, const glm::dmat4& model, glm::dvec3 towards)
-    : mesh(seen), cofactor(cofactor_matrix(model)), to_light(glm::normalize(towards)) {}
-
 ShadeKernel shade_kernel(SimdTarget target) {
   return EDGEWISE_KERNEL(shade, target);
 }
@@ -201,12 +198,13 @@ ScreenTriangle wound_as_seen(const Scene& scene, const Mesh& mesh, const glm::dm
 std::vector<std::uint32_t> lit_colours(const Scene& scene) {
   const ShadeKernel kernel = shade_kernel(resolve(SimdTarget::best));
   std::vector<std::uint32_t> colours;
+  const glm::dvec3 to_light = glm::normalize(glm::dvec3(scene.to_light));
   ChunkOutput out;
   out.reserve(false);
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes.at(instance.mesh);
     const glm::dmat4 model = model_matrix(instance);
-    const ShadeTask task(mesh, model, scene.to_light);
+    const ShadeTask task{mesh, cofactor_matrix(model), to_light};
     for (std::size_t begin = 0; begin < mesh.triangles.size(); begin += kChunkTriangles) {
       out.count = std::min(kChunkTriangles, mesh.triangles.size() - begin);
       for (std::size_t i = 0; i < out.count; ++i)

@@ -14,10 +14,8 @@ namespace edgewise {
 glm::dmat3 cofactor_matrix(const glm::dmat4& model);
 
 struct ShadeTask {
-  ShadeTask(const Mesh& mesh, const glm::dmat4& model, glm::dvec3 to_light);
-
   const Mesh& mesh;
-  glm::dmat3 cofactor;
+  glm::dmat3 cofactor;  // of the model matrix
   glm::dvec3 to_light;  // normalised
 };
 

@@ -23,14 +23,13 @@ void check(const Camera& camera) {
 
 // The point that an instance puts at `world`. Any point near it will do: 0 stands for a coordinate that no
 // point has, because the instance is flat, or that is so large that a float minus it may overflow.
-glm::vec3 model_point(const glm::dmat4& model, glm::dvec3 world) {
-  glm::vec3 point(0.0f);
-  for (int i = 0; i < 3; ++i) {
-    const glm::dvec3 axis(model[i]);  // the axes are orthogonal
-    const double at = glm::dot(axis, world - glm::dvec3(model[3])) / glm::dot(axis, axis);
-    if (std::abs(at) < 0x1p103) point[i] = static_cast<float>(at);
-  }
-  return point;
+glm::vec3 model_point(const glm::dmat3& axes, glm::dvec3 world) {
+  const glm::dvec3 along = world * axes;  // the axes are orthogonal
+  const auto coordinate = [&](int i) {
+    const double at = along[i] / glm::dot(axes[i], axes[i]);
+    return std::abs(at) < 0x1p103 ? static_cast<float>(at) : 0.0f;
+  };
+  return {coordinate(0), coordinate(1), coordinate(2)};
 }
 
 }  // namespace
@@ -51,16 +50,18 @@ ViewVolume view_volume(const Camera& camera, int width_px, int height_px) {
 ScreenTransform::ScreenTransform(const Camera& camera, const Instance& instance, int width_px, int height_px)
     : ScreenTransform(pixels_of(camera, width_px, height_px), camera.position, model_matrix(instance)) {}
 
-ScreenTransform::ScreenTransform(const glm::dmat3& pixels, glm::dvec3 eye, const glm::dmat4& model)
-    : origin(model_point(model, eye)) {
+ScreenTransform::ScreenTransform(const glm::dmat3& pixels, glm::dvec3 eye, const glm::dmat4& model) {
   const glm::dmat3 axes(model);
-  const glm::dvec3 offset =
-      glm::clamp(axes * glm::dvec3(origin) + (glm::dvec3(model[3]) - eye), -0x1p200, 0x1p200);
-  const glm::dmat3 linear = pixels * axes;
-  exact = glm::dmat4x3(linear[0], linear[1], linear[2], pixels * offset);
+  const glm::dvec3 towards = eye - glm::dvec3(model[3]);
+  origin = model_point(axes, towards);
   // A vertex at such a distance is beyond usual far planes, and must not become infinite or NaN.
-  constexpr double kLargest = 0x1p125;
-  for (int i = 0; i < 4; ++i) rounded[i] = glm::vec3(glm::clamp(exact[i], -kLargest, kLargest));
+  constexpr double kLargest = 0x1p125, kLargestOffset = 0x1p200;
+  const auto set = [&](int column, glm::dvec3 v) {
+    exact[column] = pixels * v;
+    rounded[column] = glm::clamp(exact[column], -kLargest, kLargest);
+  };
+  for (int i = 0; i < 3; ++i) set(i, axes[i]);
+  set(3, glm::clamp(axes * glm::dvec3(origin) - towards, -kLargestOffset, kLargestOffset));
 }
 
 ClipVertex ScreenTransform::operator()(glm::vec3 position) const {

@@ -55,9 +55,8 @@ void Camera::look_at(glm::dvec3 target) {
 
 glm::dmat4 model_matrix(const Instance& instance) {
   glm::dmat4 m = glm::translate(glm::dmat4(1.0), instance.translation);
-  const glm::dvec3 axis(instance.axis);
-  if (instance.angle != 0.0f && axis != glm::dvec3(0.0))
-    m = glm::rotate(m, static_cast<double>(instance.angle), glm::normalize(axis));
+  if (instance.angle != 0.0f && instance.axis != glm::vec3(0.0f))
+    m = glm::rotate(m, double{instance.angle}, glm::dvec3(instance.axis));
   return glm::scale(m, instance.scale);
 }
 
