@@ -38,15 +38,13 @@ def verdict(before, after):
 
 
 def summary(named):
-    """All steps of the draws together, and the one that gains most; `named` are the draws of each scene."""
-    totals, gains = [], {}
-    for found in filter(None, named.values()):
-        totals.append(found[0][1].median_ms / found[-1][1].median_ms)
+    """The step that gains most; `named` are the draws of each scene."""
+    gains = {}
+    for found in named.values():
         for (_, before), (label, row) in zip(found, found[1:]):
             gains.setdefault(label, []).append(before.median_ms / row.median_ms)
     if not gains:
         return "Ablation"
     best = max(gains, key=lambda label: median(gains[label]))
     name = best.strip("+… ").removeprefix("with ")
-    return (f"All steps on one thread: {speed_up(min(totals))} to {speed_up(max(totals))} faster; {name} gains most, "
-            f"{about(median(gains[best]))} in the median")
+    return f"{name[0].upper()}{name[1:]} gains most, {about(median(gains[best]))} in the median of scenes"

@@ -17,7 +17,6 @@ class Family:
     truths: tuple = ("score",)  # keys of the scores: the main truth first
     kinds: dict = field(default_factory=dict)  # kind of method: prefixes of its methods' names
     beyond: str = ""  # why a rate can exceed 10⁶ per 10⁶
-    counted: str = "covered pixels"  # the trials
 
     def beyond_note(self, rates):
         return f". {self.beyond}" if any(rate > 1e6 for rate in rates) else ""
@@ -33,14 +32,14 @@ FAMILIES = {family.name: family for family in (
            ("float", "snapped"),
            {"floating point": ("float", "double"), "fixed point": ("fixed", "whole"), "scanline DDA": ("dda",),
             "tiled, other numbers": ("engine",), "peers": ("llvmpipe", "softpipe", "lavapipe", "gpu")},
-           "More than 10⁶: one crossing can cost many pixels, most where a triangle fills its bounding box", "edge crossings"),
+           "More than 10⁶: one crossing can cost many pixels, most where a triangle fills its bounding box"),
     Family("visibility", "pixels that show the wrong triangle, per 10⁶ covered", "covered", "ns per covered pixel",
            ("snapped",),  # all methods draw the same snapped triangles, so the other truth adds the same to each
            {"drawing in order": ("painter", "submission"),
             "depth buffer": ("float", "reversed", "unorm")}),
     Family("facing", "misjudged faces per 10⁶ visible ones", "covered", "ns per face",
            ("float", "snapped"),
-           {"signed area": ("float_area",), "normal": ("normal",)}, counted="visible faces"),
+           {"signed area": ("float_area",), "normal": ("normal",)}),
     Family("clipping", "wrong pixels per 10⁶ covered", "covered", "ns per covered pixel",
            beyond="More than 10⁶: pixels drawn where nothing should be count as well"),
 )}
@@ -166,9 +165,20 @@ class Accuracy:
         scenes = self.of(family)
         return [scene for scene in scenes if scene.trials >= LEAST_SHARE * max(s.trials for s in scenes)]
 
-    def main_charts(self, family):
-        """The first timed chart; of coverage two, since the vertices of the first scene already lie on the snapping grid."""
-        return self.timed_charts(family)[:2 if family == "coverage" else 1]
+    def rates(self, family):
+        """{method's name: errors per 10⁶}, the pooled scenes within its range together."""
+        rates = {}
+        for method in self.methods.get(family, ()):
+            found = [(m.rate * scene.trials, scene.trials) for scene in self.pooled(family)
+                     for m in scene.measured if m.method == method and scene.in_range_of(method)]
+            if trials := sum(n for _, n in found):
+                rates[method.name] = sum(errors for errors, _ in found) / trials
+        return rates
+
+    def scenes_with_errors(self, family):
+        """{method's name: the number of scenes in which it errs}"""
+        return {method.name: sum(m.rate > 0 for scene in self.of(family) for m in scene.measured if m.method == method)
+                for method in self.methods[family]}
 
     def timed_charts(self, family):
         """(name of the chart, scene) of each timed scene, the family's main scene first."""

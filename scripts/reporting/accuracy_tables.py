@@ -1,5 +1,4 @@
 """The READMEs' tables of methods, and of the points at which they start to fail."""
-from accuracy_findings import ours_fail_sentence, rates_together, scenes_with_errors
 from accuracy_rows import FAMILIES
 from tables import markdown, number, short
 
@@ -21,12 +20,11 @@ def bold(method):
 
 
 def method_table(accuracy, family):
-    scene = next((scene for _, scene in accuracy.main_charts(family)), None)
+    scene = next((scene for _, scene in accuracy.timed_charts(family)), None)
     header = ["method", "as in", "promise", f"on {scene.name}" if scene else "–", "pooled",
               "scenes with errors"]
     at_main = {m.method.name: m for m in scene.measured} if scene else {}
-    together = rates_together(accuracy, family)
-    erring, scenes = scenes_with_errors(accuracy, family), len(accuracy.of(family))
+    together, erring, scenes = accuracy.rates(family), accuracy.scenes_with_errors(family), len(accuracy.of(family))
     throughput = family == "coverage"  # the scenes of other families do not measure it
     if throughput:
         header.insert(4, "10⁶ triangles/s")
@@ -39,12 +37,7 @@ def method_table(accuracy, family):
 
 
 def method_tables(accuracy):
-    def told(name, family):
-        shown = [*rates_together(accuracy, name).values(),
-                 *(m.rate for _, scene in accuracy.main_charts(name) for m in scene.measured)]
-        return f"**{name.capitalize()}**: {family.errors}" + family.beyond_note(shown)
-
-    return "\n\n".join(f"{told(name, family)}\n\n{method_table(accuracy, name)}"
+    return "\n\n".join(f"**{name.capitalize()}**: {family.errors}\n\n{method_table(accuracy, name)}"
                        for name, family in FAMILIES.items() if accuracy.methods[name])
 
 
@@ -73,28 +66,30 @@ def fails_table(sweeps, methods):
         found = [next((c for c in sweep.curves if c.method == method.name), None) for sweep in sweeps]
         cells = tuple("–" if curve is None else fails_cell(curve) for curve in found)
         lines.setdefault(cells, []).append(bold(method))
-    header = ["method", *(f"{sweep.name.replace('_', ' ')}{', ' if sweep.x['unit'] else ''}{sweep.x['unit']}"
-                          for sweep in sweeps)]
-    return markdown(header, [[", ".join(names), *cells] for cells, names in lines.items()],
+    common = common_errors(sweeps)
+
+    def title(sweep):
+        words = ", ".join(filter(None, (sweep.name.replace("_", " "), sweep.x["unit"])))
+        return words if errors_of(sweep) == common else f"{words} ({errors_of(sweep)})"
+
+    return markdown(["method", *map(title, sweeps)], [[", ".join(names), *cells] for cells, names in lines.items()],
                     "|---" + "|--:" * len(sweeps) + "|")
 
 
-def counted_in(sweeps):
-    """The errors counted: "wrong pixels …; in `pan` superfluous changes …"."""
-    by_name = {}
-    for sweep in sweeps:
-        by_name.setdefault(sweep.y["name"].replace("10^6", "10⁶"), []).append(f"`{sweep.name}`")
-    (common, _), *rest = sorted(by_name.items(), key=lambda item: -len(item[1]))
-    return "; ".join([common, *(f"in {' and '.join(names)} {what}" for what, names in rest)])
+def errors_of(sweep):
+    return sweep.y["name"].replace("10^6", "10⁶")
+
+
+def common_errors(sweeps):
+    """What most of a family's sweeps count."""
+    counted = [errors_of(sweep) for sweep in sweeps]
+    return max(counted, key=counted.count)
 
 
 def fails_tables(sweeps, accuracy):
-    own = ours_fail_sentence(sweeps, accuracy)
-    text = [own] if own else []
+    text = []
     for family in FAMILIES:
         of = [sweep for sweep in sweeps if sweep.family == family and sweep.curves]
-        most = [y for sweep in of for curve in sweep.curves for _, y in curve.points]
         if of:
-            text.append(f"**{family.capitalize()}**: {counted_in(of)}{FAMILIES[family].beyond_note(most)}\n\n"
-                        + fails_table(of, accuracy.methods[family]))
+            text.append(f"**{family.capitalize()}**: {common_errors(of)}\n\n{fails_table(of, accuracy.methods[family])}")
     return "\n\n".join(text)

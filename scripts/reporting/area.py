@@ -48,18 +48,11 @@ def all_crossings(points):
                   for x, y in crossings(points[a], points[b]))
 
 
-def winners(points):
-    """{backend: at how many x it is settled as the fastest}, None where no backend is; `points` as of curves()."""
-    at = {}
-    for backend, found in points.items():
-        for x, row, _ in found:
-            at.setdefault(x, {})[backend] = row
-    won = {}
-    for rows in at.values():
-        settled = [name for name, row in rows.items() if all(order(row, other) < 0 for other in rows.values() if other is not row)]
-        winner = settled[0] if settled and len(rows) > 1 else None
-        won[winner] = won.get(winner, 0) + 1
-    return won
+def wins(points, backend):
+    """(at how many x the backend is settled as the fastest, number of x that all drew); `points` as of curves()."""
+    own, *others = ({x: row for x, row, _ in points[name]} for name in sorted(points, key=lambda name: name != backend))
+    shared = [x for x in own if all(x in rows for rows in others)]
+    return sum(all(order(own[x], rows[x]) < 0 for rows in others) for x in shared), len(shared)
 
 
 def two_digits(px):

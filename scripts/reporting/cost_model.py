@@ -1,5 +1,5 @@
 """The cost model of a frame: an estimate of the time to read triangles, draw blocks and write the frame."""
-from tables import THREADS, milliseconds, number, short
+from tables import THREADS, milliseconds, number
 
 # Scenes of few large triangles, on which the estimate comes near the measured time.
 DETAILED = ("large", "grid64")
@@ -29,18 +29,13 @@ def estimate_columns(bench):
     return [(f"{backend} / estimate", lambda scene, b=backend: over_estimate(bench, b, scene)) for backend in modelled]
 
 
-def cost_model_sentences(bench):
-    """The parts of the estimate for the rows on one thread."""
-    sentences = []
+def cost_model_table(bench):
+    """Header and lines: the parts of the estimate for the rows on one thread."""
+    lines = []
     for backend in bench.backends:
         for scene in DETAILED:
             row = bench.find(f"{backend}/{scene}/threads:1")
-            if not (estimates := estimates_ms(bench, row)):
-                continue
-            c, (won_ms, covered_ms, in_tiles_ms) = bench.costs[row.name], estimates
-            sentences.append(
-                f"`{scene}`, {backend} on one thread: {milliseconds(row)} ms measured, {number(won_ms)} ms estimated "
-                f"({number(c['write_ms'])} to write the frame, {number(c['blocks_ms'])} for the {short(c['won_blocks'])} blocks with "
-                f"a visible triangle, {number(c['read_ms'])} to read the triangles). With all {short(c['covered_blocks'])} covered "
-                f"blocks the estimate is {number(covered_ms)} ms; with the frame stored tile by tile, {number(in_tiles_ms)} ms.")
-    return sentences
+            if estimates := estimates_ms(bench, row):
+                parts = (bench.costs[row.name][part] for part in ("read_ms", "blocks_ms", "write_ms"))
+                lines.append([f"`{scene}`, {backend}", milliseconds(row), *map(number, (*parts, *estimates))])
+    return ["1 thread, ms", "measured", "1. read", "2. blocks", "3. write", "estimate", "all covered blocks", "tile by tile"], lines

@@ -6,6 +6,9 @@ from noise import geometric_mean, ratios
 from tables import number, short
 
 LEAST_CROSSINGS = 10_000  # of shared edges; in smaller scenes a single crossing decides the rate
+# The tutorials' inside tests; and one engine with exact edges and with the first test's float edges.
+INSIDE_TESTS = ("float_lt", "float_le")
+ENGINES = ("engine_exact", "engine_float_lt")
 T_JUNCTIONS = ("t_junction", "t_junction_split")  # cracks of the mesh, not of the method
 
 
@@ -58,16 +61,16 @@ def measured_in(scene, name):
 
 
 def simd_outcome(accuracy, name, other):
-    """Of one method against another, both with SIMD on one thread: the scenes where it is faster, slower, and too close to
-    call, each with its speed-up; None if a scene lacks one of them, or none is timed."""
-    outcome = {-1: {}, 1: {}, 0: {}}
+    """Of one method against another, both with SIMD on one thread: {order: the speed-ups of its scenes}; None if a scene lacks
+    one of them, or none is timed."""
+    found = {-1: [], 1: [], 0: []}
     scenes = timed_scenes(accuracy)
     for scene in scenes:
         a, b = (m and m.simd for m in (measured_in(scene, name), measured_in(scene, other)))
         if not a or not b:
             return None
-        outcome[a.order(b)][scene.name] = b.ns / a.ns
-    return (outcome[-1], outcome[1], outcome[0]) if scenes else None
+        found[a.order(b)].append(b.ns / a.ns)
+    return found if scenes else None
 
 
 def speed_ups(accuracy):

@@ -84,51 +84,7 @@ def steps(quantity, rows):
     return found
 
 
-def runs(found):
-    """Groups neighbouring steps of one kind."""
-    grouped = []
-    for step in found:
-        if grouped and grouped[-1][0].kind == step.kind:
-            grouped[-1].append(step)
-        else:
-            grouped.append([step])
-    return grouped
-
-
-def run_text(quantity, run):
-    low, high = (f"{pick(step.exponent for step in run):.2f}" for pick in (min, max))
-    exponents = low if low == high else f"{low} to {high}"
-    words = f"**{run[0].kind}**" if run[0].kind.endswith("than linear") else run[0].kind
-    return f"{words} from {quantity.label(run[0].start)} to {quantity.label(run[-1].end)} ({exponents})"
-
-
-def growth_sentences(bench):
-    """One sentence per quantity: for each backend the ranges of linear and other growth, with their exponents."""
-    sentences = []
-    for quantity in QUANTITIES:
-        rows = {backend: found for backend, found in quantity.rows(bench).items() if len(found) > 1}
-        if not rows:
-            continue
-        parts = [f"`{backend}` " + ", ".join(run_text(quantity, run) for run in runs(steps(quantity, found)))
-                 for backend, found in rows.items()]
-        sentences.append(f"With {quantity.name} ({quantity.scene(bench)}): " + "; ".join(parts) + ".")
-    return sentences
-
-
 def cache_bytes(machine, level):
     """None if the machine does not report it."""
     match = re.fullmatch(r"(\d+)K", str(machine.get("caches", {}).get(level, "")))
     return int(match.group(1)) * 1024 if match else None
-
-
-def cache_sentence(machine):
-    """The sizes of frames and the numbers of triangle records that fit the caches."""
-    parts = []
-    for level, whose in (("L2", "a core's"), ("L3", "the")):
-        size = cache_bytes(machine, level)
-        if size:
-            side = math.isqrt(size // FRAME_BYTES)
-            parts.append(f"{whose} {level} of {size / 2**20:.3g} MiB holds a frame of {side}² px or the records of "
-                         f"{short(float(f'{size // RECORD_BYTES:.2g}'))} triangles")
-    bytes_each = f"A pixel of the frame takes {FRAME_BYTES} bytes, a triangle's record {RECORD_BYTES}"
-    return f"{bytes_each}: {', '.join(parts)}." if parts else f"{bytes_each}."

@@ -2,7 +2,7 @@
 from bench_rows import describe_machine, read_bench, read_json
 from speedups import mark
 from peers import OURS, pairs
-from tables import THREADS, random_reads_sentence
+from tables import THREADS
 
 
 def others(folder):
@@ -30,9 +30,8 @@ def other_machines(folder, where, layout):
     benches = {one.resolve().name: read_bench(one) for one in (folder, *beside)}
     lines, charts = [], []
     for other in beside:
-        machine, reads = describe_machine(read_json(other / "machine.json")), random_reads_sentence(benches[other.name])
         link = f"{where.rstrip('/').rpartition('/')[0]}/{other.name}".lstrip("/")
-        lines.append(f"- [`{other.name}`]({link}): {machine}. {reads}".rstrip())
+        lines.append(f"- [`{other.name}`]({link}): {describe_machine(read_json(other / 'machine.json'))}.")
         charts += ["", f"![`{other.name}`: ns per covered pixel against triangle area]({link}/charts/area.svg)"]
     header, rows = ratio_table(benches)
     if rows:

@@ -1,5 +1,4 @@
 """What scenes need, and what the tutorials' engines have: needs.json, what `edgewise needs --json` prints."""
-from accuracy_findings import numbered
 from bench_rows import BadInput, read_json
 
 PLANES = ("near plane", "far plane", "guard band")
@@ -74,7 +73,8 @@ def verdict(question, used):
         raise BadInput(f"needs.json: no answer '{used}' to '{question['question']}'")
     if not tried["enough"]:
         witness = tried["witness"]
-        return f"**not enough**: {numbered(witness['wrong_px'], question['error'])} in frame {witness['frame']}"
+        count = witness["wrong_px"]
+        return f"**not enough**: {count:,} {question['error']}{'' if count == 1 else 's'} in frame {witness['frame']}"
     return "enough" if question["answer"] == used else f"more than needed: {titled(question['answer'])}"
 
 

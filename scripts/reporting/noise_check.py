@@ -18,30 +18,22 @@ def in_blocks(pairs, rounds):
 
 
 def read_same(path):
-    """(the command and its rounds, pairs of milliseconds before and after)"""
+    """[(milliseconds before, after)] of each row, and the number of rounds."""
     data = read_json(path)
     try:
         if data["before"] != data["after"]:
             raise BadInput(f"{path}: two different revisions")
-        command = f"`scripts/compare HEAD HEAD --filter '{data['filter']}'`, {data['rounds']} rounds"
-        return command, [(row["before_ms"], row["after_ms"]) for row in data["rows"]]
+        return [(row["before_ms"], row["after_ms"]) for row in data["rows"]], data["rounds"]
     except (KeyError, TypeError) as error:
         raise BadInput(f"{path}: not what 'scripts/compare --json' writes: {type(error).__name__} {error}") from None
 
 
-def noise_check(folder):
-    """False alarms, and how often a planted slowdown is found; empty if not measured. What was not measured on this machine
-    is taken from another one's results."""
-    paths = records(folder, "same*")
-    if not paths:
-        return ""
-    machine = paths[0].parent
-    runs = [read_same(path) for path in paths if path.parent == machine]
-    pairs = [pair for _, found in runs for pair in found]
-    alarms, rows = count(pairs)
-    in_few, few = count(in_blocks(pairs, fewest_rounds()))
-    found = sum(paired_order(before, [PLANTED * ms for ms in after]) > 0 for before, after in pairs)
-    where = "" if machine == folder else f"On `{machine.name}`: "
-    return (f"{where}{'; '.join(command for command, _ in runs)}: false alarms in {alarms} of {rows} rows, and in {in_few} of {few} "
-            f"tests of {fewest_rounds()} rounds each. With {percent(PLANTED - 1)} added to the times of one side, {found} of {rows} rows are found "
-            "slower.")
+def noise_table(folder):
+    """Header and lines: false alarms, and how often a planted slowdown is found, of all machines; no lines if not measured."""
+    lines = []
+    for path in records(folder, "same*"):
+        pairs, rounds = read_same(path)
+        found = sum(paired_order(before, [PLANTED * ms for ms in after]) > 0 for before, after in pairs)
+        alarms = ["{} of {}".format(*count(of)) for of in (pairs, in_blocks(pairs, fewest_rounds()))]
+        lines.append([f"`{path.parent.name}`", str(rounds), *alarms, f"{found} of {len(pairs)}"])
+    return ["machine", "rounds", "false alarms", f"in {fewest_rounds()} rounds each", f"{percent(PLANTED - 1)} slower: found"], lines

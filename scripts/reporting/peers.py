@@ -66,20 +66,12 @@ def peer_table(bench, peer):
     return header, lines
 
 
-def ties_sentence(bench, peer):
-    """Depth ties within tolerance, at which the pictures may differ."""
-    found = [p for (name, _, _), p in pairs(bench).items() if name == peer]
-    most = max(found, key=lambda p: p.peer.counters.get("depth_ties", 0))
-    ties = most.peer.counters.get("depth_ties", 0)
-    return (f"Figures are for {' / '.join(map(str, THREADS))} threads. They are whole frames: front end and backend. The pictures "
-            + (f"agree in all pixels but depth ties within tolerance, at most {ties:,.0f} (`{most.peer.scene}`)." if ties else
-               "agree in all pixels."))
-
-
 def peer_tables(bench, layout):
-    """Every peer's version and table, laid out by `layout`; one line if no peer was timed."""
-    timed = list(dict.fromkeys(peer for peer, _, _ in pairs(bench)))
-    if not timed:
-        return "No other project's rasterizer was timed here; `scripts/run --peers` does."
-    return "\n\n".join(f"{peer} ({bench.context.get(peer, 'unknown version')}):\n\n{layout(*peer_table(bench, peer))}\n\n"
-                       f"{ties_sentence(bench, peer)}" for peer in timed)
+    """Every peer's table, laid out by `layout`, below its version and the depth ties at which the pictures may differ; one line if
+    no peer was timed."""
+    told = []
+    for peer in dict.fromkeys(peer for peer, _, _ in pairs(bench)):
+        ties = max(p.peer.counters.get("depth_ties", 0) for (name, _, _), p in pairs(bench).items() if name == peer)
+        told.append(f"{peer} ({bench.context.get(peer, 'unknown version')}), on {' / '.join(map(str, THREADS))} threads; pictures differ in "
+                    f"at most {ties:,.0f} pixels, all depth ties within tolerance:\n\n{layout(*peer_table(bench, peer))}")
+    return "\n\n".join(told) or "No other project's rasterizer was timed here; `scripts/run --peers` does."

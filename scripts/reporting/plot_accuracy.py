@@ -1,13 +1,13 @@
 """The charts of accuracy: errors against speed, family by family, and the turning cube."""
 import math
 
-from accuracy_findings import compared, fastest, scenes_with_errors, sides
 from accuracy_rows import FAMILIES
 from palette import BAND, FAINT, INK
 from plot_kinds import Kinds
 from plot_labels import Label, label_points
 from plot_style import WIDTH_IN, head_in, headline, plt, save
 from speed_accuracy import CRACKS, SUBTITLES, TRIALS, chart_rows, cost_range, front_line, shade, unsettled
+from speedups import about
 from tables import number, short
 from zero_axis import ZeroAxis
 
@@ -75,36 +75,29 @@ RING = {"marker": "o", "markersize": 12, "markerfacecolor": "none", "markeredgec
 FRONT = {"color": INK, "linewidth": 1.2, "linestyle": (0, (4, 2))}
 
 
-def fewer_errors(scene, ours):
-    """How many methods of others err less than one of ours: "none of 12 others errs less"."""
-    others = [m for m in scene.measured if not m.method.ours]
-    less = sum(m.rate < ours.rate for m in others)
-    if not others:
-        return ""
-    count = "all" if less == len(others) else f"{less or 'none'} of"
-    return f"{count} {len(others)} other methods {'err' if less > 1 else 'errs'} less"
-
-
-def speed_title(scene, machine):
+def speed_title(scene):
     """Of coverage how much faster our fastest is than the fastest other; of all how many other methods err less."""
-    ours, others = sides(scene) or ([], [])
-    if not ours:
+    ours, others = ([m for m in scene.single if m.method.ours == whose] for whose in (True, False))
+    if not ours or not others:
         return f"{scene.name}: {scene.family}"
-    first = fastest(ours)[0]
-    less = fewer_errors(scene, first)
+    first, other = (min(side, key=lambda m: m.costs[1].ns) for side in (ours, others))
+    less = [m.rate < first.rate for m in scene.measured if not m.method.ours]
+    said = f"{first.method.name}: {number(first.rate, 2)} errors per 10⁶"
     if scene.family == "coverage":
-        return f"{compared(first, fastest(others)[0], machine)}; {less}".replace("`", "")
-    return f"{first.method.name} makes {number(first.rate, 2)} errors per 10⁶ on {scene.name}; {less}"
+        settled, ratio = first.costs[1].order(other.costs[1]), other.costs[1].ns / first.costs[1].ns
+        said = (f"{first.method.name} is {about(max(ratio, 1 / ratio))} {'faster' if settled < 0 else 'slower'} than {other.method.name}"
+                if settled else f"{first.method.name} and {other.method.name}: not settled")
+    return f"{said}; {sum(less)} of {len(less)} others err less"
 
 
-def speed_chart(scene, name, machine, folder, caption):
+def speed_chart(scene, name, folder, caption):
     family = FAMILIES[scene.family]
     kinds = Kinds(family)
     subtitle = SUBTITLES[family.name]
     above, below = 0.85 + head_in(subtitle), 1.12
     figure, axes = plt.subplots(figsize=(WIDTH_IN, above + below + (5.0 if family.name == "coverage" else 3.8)))
     height = figure.get_figheight()
-    top = headline(figure, speed_title(scene, machine), subtitle)
+    top = headline(figure, speed_title(scene), subtitle)
     figure.subplots_adjust(left=0.07, right=0.985, bottom=below / height, top=1 - above / height)
     labels, lines, open_question = draw_points(axes, scene, kinds)
     axes.set_ylabel(family.cost)
@@ -130,16 +123,12 @@ def speed_chart(scene, name, machine, folder, caption):
 
 
 def cube_title(rows):
-    """Of ours and of the worst method: the worst frame."""
-    def worst(found):
-        return [found[key][1] for key in ("gaps", "double_hits")]
-
-    ours = [worst(found) for method, found in rows if method.ours]
-    method, found = max(rows, key=lambda row: sum(worst(row[1])))
-    gaps, doubles = worst(found)
-    said = "no gap and no double hit" if not any(map(sum, ours)) else (
-        f"up to {max(gap for gap, _ in ours):,.0f} gaps and {max(double for _, double in ours):,.0f} double hits per frame")
-    return f"Ours: {said}; {method.name}: up to {gaps:,.0f} gaps and {doubles:,.0f} double hits per frame"
+    """The worst frames of ours and of the worst method."""
+    found = [(method, counts["gaps"][1], counts["double_hits"][1]) for method, counts in rows]
+    method, gaps, doubles = max(found, key=lambda row: row[1] + row[2])
+    ours = [(g, d) for m, g, d in found if m.ours] or [(0, 0)]
+    return (f"Ours: {max(g for g, _ in ours):,.0f} gaps, {max(d for _, d in ours):,.0f} double hits; {method.name}: up to {gaps:,.0f} and "
+            f"{doubles:,.0f}")
 
 
 def turning_cube(accuracy, folder, caption):
@@ -174,17 +163,14 @@ def turning_cube(accuracy, folder, caption):
 
 
 def errors_title(accuracy, family):
-    """In how many scenes ours err, and the methods that err in the fewest and in the most."""
-    erring, total = scenes_with_errors(accuracy, family.name), len(accuracy.of(family.name))
-    ours = sorted({erring[m.name] for m in accuracy.methods[family.name] if m.ours})
-    said = [f"ours err in {' to '.join(map(str, ours))} of {total} scenes"] if ours else []
-    others = {m.name: erring[m.name] for m in accuracy.methods[family.name] if not m.ours}
-    for pick in (min, max) if others else ():
-        count = pick(others.values())
-        names = [name for name, scenes in others.items() if scenes == count]
-        who = names[0] if len(names) == 1 else f"{len(names)} other methods"
-        said.append(f"{who} in {count or 'none'}")
-    return f"{family.name.capitalize()}: {', '.join(dict.fromkeys(said))}"
+    """In how many scenes ours and the other methods err."""
+    erring, total = accuracy.scenes_with_errors(family.name), len(accuracy.of(family.name))
+
+    def scenes(ours):
+        counts = [erring[m.name] for m in accuracy.methods[family.name] if m.ours == ours] or [0]
+        return " to ".join(dict.fromkeys(map(str, (min(counts), max(counts)))))
+
+    return f"Ours err in {scenes(True)} of {total} scenes, others in {scenes(False)}"
 
 
 def all_scenes(accuracy, family, folder, caption):
@@ -238,5 +224,5 @@ def draw(accuracy, folder, caption):
         return []
     scenes = [all_scenes(accuracy, family, folder, caption) for family in FAMILIES.values()]
     timed = [found for family in FAMILIES for found in accuracy.timed_charts(family)]
-    charts = [speed_chart(scene, name, accuracy.machine, folder, caption) for name, scene in timed]
+    charts = [speed_chart(scene, name, folder, caption) for name, scene in timed]
     return [name for name in (*charts, *scenes, turning_cube(accuracy, folder, caption)) if name]

@@ -1,7 +1,7 @@
 """The cost of a covered pixel along the triangles' area; other charts of curves share its functions."""
 import math
 
-from area import all_crossings, area_curves, two_digits, winners
+from area import all_crossings, area_curves, two_digits, wins
 from peers import OURS
 from plot_style import INK, WIDTH_IN, Look, headline, log_axis, plt, save, spread_labels
 
@@ -68,15 +68,11 @@ def mark_crossings(axes, points):
 
 
 def title(points, threads):
-    """At how many areas each backend is the fastest."""
-    won = winners(points)
-    total, close = sum(won.values()), won.pop(None, 0)
-    order = sorted(won, key=lambda backend: (backend != OURS, -won[backend]))
-    said = [f"{backend} at {won[backend]}" for backend in order]
-    first, *others = said or ["no backend"]
-    first = first.replace(" at ", " is fastest at ", 1) + (f" of {total} triangle areas" if said else " is settled as the fastest")
-    return "; ".join([f"On {threads} thread{'s' if threads > 1 else ''}, {first}", *others,
-                      *([f"{close} {'are' if close > 1 else 'is'} too close to call"] if close else [])])
+    """At how many areas our backend is the fastest."""
+    if OURS not in points or len(points) < 2:
+        return "Cost of a covered pixel"
+    won, total = wins(points, OURS)
+    return f"On {threads} thread{'s' if threads > 1 else ''}, {OURS} is fastest at {won} of {total} triangle areas"
 
 
 def area(bench, folder, caption):

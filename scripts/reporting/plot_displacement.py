@@ -22,11 +22,6 @@ def displacement(accuracy):
     return rates, len(scenes), trials
 
 
-def strip_title(rates):
-    return (f"{OURS} subpixel bits displace {number(rates[OURS])} pixels per 10⁶ edge crossings; four more bits "
-            f"{number(rates[OURS] / rates[OURS + 4], 2)}× fewer")
-
-
 def strip(accuracy, folder, caption):
     rates, scenes, trials = displacement(accuracy) if accuracy else ({}, 0, 0)
     if rates.keys() != METHODS.keys() or not all(rates.values()):  # a log axis has no 0
@@ -36,7 +31,7 @@ def strip(accuracy, folder, caption):
     above, below = 0.1 + head_in(subtitle), 0.6
     figure, axes = plt.subplots(figsize=(WIDTH_IN, above + below + 1.25))
     height = figure.get_figheight()
-    headline(figure, strip_title(rates), subtitle)
+    headline(figure, f"Rounding to {OURS} subpixel bits displaces {number(rates[OURS])} pixels per 10⁶ crossings", subtitle)
     figure.subplots_adjust(left=0.13, right=0.985, bottom=below / height, top=1 - above / height)
     lines = range(len(rates))
     axes.barh(lines, rates.values(), color=[BLACK if bits == OURS else SKY for bits in rates], height=0.68)

@@ -1,35 +1,36 @@
 """The main chart: cracks against speed, each coverage method in scalar code and with SIMD."""
 from accuracy_rows import FAMILIES
-from frontier import LEAST_CROSSINGS, best, frontier_figures, simd_outcome, timed_scenes
+from frontier import ENGINES, INSIDE_TESTS, LEAST_CROSSINGS, best, frontier_figures, simd_outcome, timed_scenes
 from palette import FAINT, GREEN, INK
 from plot_kinds import Kinds
 from plot_labels import Label, label_points
 from plot_style import WIDTH_IN, head_in, headline, plt, save
-from speedups import kernels, spread
+from speedups import kernels
 from tables import number, short
 from zero_axis import ZeroAxis
 
 NEAR = 1.15  # ratio of speeds below which points at one x share a label
-# Others with a label beside ours and the peers: the fastest of each kind, and those that an argument is about.
-LABELLED = ("dda_16_16", "dda_rounded", "fixed_8", "float_lt", "float_top_left", "engine_float_lt")
+# Others with a label beside ours, the peers, and the title's: those that README names, and the fastest of each kind.
+LABELLED = (*INSIDE_TESTS, *ENGINES, "dda_16_16", "dda_rounded", "fixed_8", "float_top_left")
 INTERVAL = {"linewidth": 3.0, "alpha": 0.3, "solid_capstyle": "butt"}
 WORST = {"linewidth": 0.9, "linestyle": (0, (1.5, 1.5))}
 
 
-def frontier_title(found, accuracy):
-    """Our fastest against the fastest other method with SIMD, scene by scene."""
+def leaders(found):
+    """Our fastest and the fastest other method with SIMD; None if either is missing."""
     simd = {method: ups["simd"].middle for method, (ups, _) in found.items() if "simd" in ups and not method.apart}
     ours, others = ([m for m in simd if m.ours == whose] for whose in (True, False))
-    if not ours or not others:
+    return (max(ours, key=simd.get), max(others, key=simd.get)) if ours and others else None
+
+
+def frontier_title(found, accuracy):
+    """Scene by scene, both with SIMD."""
+    if not (pair := leaders(found)):
         return "Coverage: cracks against speed"
-    first, other = max(ours, key=simd.get), max(others, key=simd.get)
-    won, lost, close = simd_outcome(accuracy, first.name, other.name)
-    cracks = found[first][1].rate
-    said = [f"faster on {len(won)} ({spread(won.values())})"] if won else []
-    said += [f"slower on {len(lost)} ({spread([1 / ratio for ratio in lost.values()])})"] if lost else []
-    said += [f"{len(close)} too close to call"] if close else []
-    return (f"{first.name} leaves {number(cracks, 2) if cracks else 'no'} cracks; against {other.name}, both SIMD: "
-            f"{', '.join(said)} of {len(won) + len(lost) + len(close)} scenes")
+    first, other = pair
+    outcome = simd_outcome(accuracy, first.name, other.name)
+    return (f"{first.name}: {number(found[first][1].rate, 2)} cracks per 10⁶; beats {other.name} in {len(outcome[-1])} of "
+            f"{sum(map(len, outcome.values()))} scenes")
 
 
 def called(method):
@@ -39,13 +40,14 @@ def called(method):
 
 
 def labels_of(found, x_of):
-    """Ours by themselves; others of LABELLED that lie close together at one x share a label, by the faster form."""
+    """Ours by themselves; named others that lie close together at one x share a label, by the faster form."""
     labels, groups = [], []
+    named = {*LABELLED, *(method.name for method in leaders(found) or ())}
     for method, (ups, cracks) in sorted(found.items(), key=lambda item: (item[1][1].rate, best(item[1][0]).middle)):
         x, y = x_of(cracks.rate), best(ups).middle
         if method.ours:
             labels.append(Label(x, y, method.name, bold=True))
-        elif method.name not in LABELLED and not method.peer:
+        elif method.name not in named and not method.peer:
             continue
         elif groups and groups[-1][0] == x and y < NEAR * groups[-1][1][-1][0]:
             groups[-1][1].append((y, called(method)))

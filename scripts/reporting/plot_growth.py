@@ -49,7 +49,7 @@ def title(drawn):
     faster = [f"{backend} with {quantity.name}" for quantity, rows in drawn for backend, found in rows.items()
               if any(step.kind == "more than linear" for step in steps(quantity, found))]
     if faster:
-        return f"Settled growth beyond linear: {', '.join(faster)}"
+        return f"Settled growth beyond linear: {faster[0]}" + (f", and {len(faster) - 1} more" if faster[1:] else "")
     return f"No settled growth beyond linear with {', '.join(quantity.name for quantity, _ in drawn)}"
 
 

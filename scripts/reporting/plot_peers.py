@@ -1,7 +1,7 @@
 """Chart of our backends' speed-up over the peers."""
 from peers import OURS, pairs
 from plot_scenes import gain_chart
-from speedups import kernels, outcome, with_width
+from speedups import by_order, spread, with_width
 from tables import THREADS
 
 
@@ -15,8 +15,8 @@ def against(bench, folder, caption):
             ours = bench.find(compared[scene].ours.name.replace(OURS, backend, 1))
             return (compared[scene].peer, ours) if ours else None
 
-        said = outcome([(p.ours, p.peer) for p in compared.values()], f"scenes against {peer}")
-        title = f"{OURS} with {kernels(bench.context.get('simd_target'))} {said}"
+        won = by_order((p.ours, p.peer) for p in compared.values())[-1]
+        title = f"{OURS} beats {peer} in {len(won)} of {len(compared)} scenes" + (f", {spread(won)}" if won else "")
         gain_chart(bench, folder, caption, f"against-{peer}", list(compared), rows_of, title,
                    f"{bench.context.get(peer, peer)}, against our backends with {with_width(bench.context.get('simd_target'))}; "
                    f"{threads} threads. Whole frames: front end and backend.",

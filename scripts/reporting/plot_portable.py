@@ -14,7 +14,7 @@ def portable(found, folder, caption):
     most = max(scenes, key=lambda scene: share(found[OURS][scene]))
     factor = share(found[min(found)][most]) / share(found[OURS][most])
     figure, axes = plt.subplots(figsize=(WIDTH_IN, 4.6))
-    top = headline(figure, f"{OURS - min(found)} subpixel bits more, and {factor:.0f}× fewer pixels of `{most}` may differ",
+    top = headline(figure, f"{OURS - min(found)} more subpixel bits leave {factor:.0f}× fewer pixels of {most} to differ",
                    "Pixels that two conformant rasterizers may draw differently, in percent of the picture, by the subpixel bits that "
                    f"both have at least.{left_out}")
     figure.subplots_adjust(left=0.09, right=0.86, bottom=0.17, top=top)

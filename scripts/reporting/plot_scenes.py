@@ -3,7 +3,7 @@ from bench_rows import order
 from noise import median, ratio_interval
 from peers import OURS
 from plot_style import FAINT, INK, WIDTH_IN, Look, head_in, headline, log_axis, plt, save
-from speedups import VECTORS, about, kernels, outcome, spread
+from speedups import VECTORS, about, by_order, kernels, spread
 from tables import NORMAL_Z, THREADS, culling_rows, pixels_wrong
 
 INTERVALS = "Light bars: 95 % intervals."
@@ -15,13 +15,15 @@ def room_for(names):
 
 
 def time_title(bench):
-    """On the most threads: our backend against the best of the others on each scene."""
+    """On the most threads: our backend against the fastest of the others on each scene."""
     compared = []
     for scene in bench.scenes:
         rows = {b: row for b in bench.backends if (row := bench.frame(b, scene, max(THREADS)))}
         if OURS in rows and len(rows) > 1:
             compared.append((rows[OURS], min((row for b, row in rows.items() if b != OURS), key=lambda row: row.median_ms)))
-    return f"On {max(THREADS)} threads, {OURS} {outcome(compared, 'scenes')}" if compared else "Time per scene"
+    found = by_order(compared)
+    return (f"{OURS} is the fastest in {len(found[-1])} of {len(compared)} scenes, {len(found[0])} not settled" if compared else
+            "Time per scene")
 
 
 def scene_time(bench, folder, caption):
@@ -56,7 +58,7 @@ def scene_time(bench, folder, caption):
     axes.set_xlabel("ms per frame, clear included")
     height = figure.get_figheight()
     top = headline(figure, time_title(bench), "Whole frames: front end and backend; lower is better. "
-                   f"Hollow: 1 thread, filled: 2. {INTERVALS}")
+                   f"Hollow: 1 thread; filled, and the title: 2. {INTERVALS}")
     look.legend(figure, top - 0.02 / height)
     figure.subplots_adjust(left=room_for(scenes), right=0.975, bottom=0.78 / height, top=top - 0.42 / height)
     save(figure, folder, "scenes", caption)
@@ -128,10 +130,10 @@ def gain_chart(bench, folder, caption, name, groups, rows_of, title, subtitle, l
 
 
 def gains_title(pairs, what):
-    """"A second thread is faster in 40 of 45 cases; 1.9× in the median"."""
+    """"A second thread helps in 40 of 45 cases, 1.9× in median"."""
     faster = sum(order(after, before) < 0 for before, after in pairs)
     middle = median(before.median_ms / after.median_ms for before, after in pairs)
-    return f"{what} faster in {faster} of {len(pairs)} cases, {about(middle)} in the median"
+    return f"{what} helps in {faster} of {len(pairs)} cases, {about(middle)} in median"
 
 
 def threads(bench, folder, caption):
@@ -140,7 +142,7 @@ def threads(bench, folder, caption):
         return (one, two) if one and two else None
 
     timed = [rows for scene in bench.scenes for backend in bench.backends if (rows := rows_of(scene, backend))]
-    title = gains_title(timed, "With a second thread, frames are") if timed else ""
+    title = gains_title(timed, "A second thread") if timed else ""
     return gain_chart(bench, folder, caption, "threads", bench.scenes, rows_of, title,
                       "Time on 1 thread over time on 2, backend alone; 2× is ideal.", "speed-up by the second thread")
 
@@ -153,7 +155,7 @@ def culling(bench, folder, caption):
         return lambda scene, backend: rows.get(scene, {}).get(backend)
 
     timed = [rows for of in by_winding.values() for rows in of.values()]
-    title = gains_title(timed, "With back faces culled, frames are") if timed else ""
+    title = gains_title(timed, "Culling") if timed else ""
     told = "Whole frames of closed meshes, front end included: time with all faces over time with back faces culled"
     if not by_normal:
         return gain_chart(bench, folder, caption, "culling", list(by_winding), rows_in(by_winding), title, f"{told}.",

@@ -36,9 +36,7 @@ def second_thread(bench, folder, caption):
     axes.grid(axis="y", visible=False)
     axes.set_xlabel("lost share of two threads' time")
     height = figure.get_figheight()
-    above, below = (sum(division.order == order for division in found) for order in (1, -1))
-    top = headline(figure, f"A second thread gains {spread([division.speed_up for division in found])}: {above} of {len(found)} scenes "
-                   f"are settled above {TARGET}×, {below} below", subtitle)
+    top = headline(figure, f"A second thread gains {spread([division.speed_up for division in found])}", subtitle)
     handles = [plt.Rectangle((0, 0), 1, 1, color=COLOURS[cause], label=words) for cause, words in LOSSES.items()]
     figure.legend(handles=handles, loc="upper left", bbox_to_anchor=(0.005, top - 0.02 / height), ncol=len(handles), frameon=False,
                   handlelength=1.0, handleheight=1.0, handletextpad=0.4, columnspacing=1.3, fontsize=9.5)

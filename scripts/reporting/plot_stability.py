@@ -94,7 +94,7 @@ def sweep_chart(sweep, methods, folder, caption):
     subtitle = f"{sweep.summary[0].upper()}{sweep.summary[1:]}. From easy on the left to hard on the right."
     figure, axes = plt.subplots(figsize=(WIDTH_IN, 1.25 + head_in(subtitle) + max(3.4, 0.07 * len(groups) + 0.16 * lines)))
     height = figure.get_figheight()
-    title = f"{sweep.name.replace('_', ' ').capitalize()}: {summary(sweep, groups)}"
+    title = f"{sweep.name.replace('_', ' ').capitalize()}: {summary(groups)}"
     top = headline(figure, title, subtitle)
     figure.subplots_adjust(left=0.085, right=0.67, bottom=0.9 / height, top=top - 0.15 / height)
     y_scale = set_axis(axes, sweep)

@@ -33,13 +33,9 @@ def scale_text(x):
 
 
 def title(families):
-    held = [family for family, _, rows in families
-            if all(c.starts_to_fail is None for method, curves in rows if method.ours for c in curves if c)]
-    failing = [family for family, _, _ in families if family not in held]
-    if not failing:
-        return "Ours err no more than rounding to 1/256 px along every sweep"
-    return (f"Ours err no more than rounding to 1/256 px in {' and '.join(held)}; they fail in {' and '.join(failing)}" if held else
-            f"Ours fail in {' and '.join(failing)}")
+    ours = [[c for method, curves in rows if method.ours for c in (curves[i],) if c] for _, of, rows in families for i in range(len(of))]
+    held = sum(all(c.starts_to_fail is None for c in curves) for curves in ours)
+    return f"Ours hold in {held} of {len(ours)} sweeps"
 
 
 def grid(sweeps, accuracy, folder, caption):

@@ -68,7 +68,7 @@ def head_in(subtitle):
 def headline(figure, title, subtitle):
     """Returns the height, in figure fractions, below which the axes may begin. A long title is set in smaller type."""
     height_in, room = figure.get_figheight(), 0.976 * figure.bbox.width
-    text = figure.text(0.012, 1 - 0.12 / height_in, title, fontsize=14, fontweight="bold", va="top")
+    text = figure.text(0.012, 1 - 0.12 / height_in, title, fontsize=14, fontweight="bold", va="top", gid="title")
     width = text.get_window_extent(figure.canvas.get_renderer()).width
     text.set_fontsize(14 * min(1.0, room / width))
     figure.text(0.012, 1 - 0.43 / height_in, wrapped(subtitle, 10), fontsize=10, color=FAINT, va="top")

@@ -27,16 +27,6 @@ def share(entry):
     return entry["unstable"] / entry["pixels"]
 
 
-def sentence(found):
-    def extremes(bits):
-        ordered = sorted(found[bits], key=lambda scene: share(found[bits][scene]))
-        return [f"{percent(share(found[bits][scene]))} (`{scene}`)" for scene in (ordered[0], ordered[-1])]
-
-    (least, most), (_, coarse) = extremes(OURS), extremes(min(found))
-    return (f"Rasterizers with at least {OURS} subpixel bits may differ in {least} to {most} of the pixels of a built-in scene; with "
-            f"at least {min(found)} bits, which Vulkan allows, in up to {coarse}.")
-
-
 def portable_table(found):
     """Header and lines, a line per scene."""
     header = ["scene", f"may differ at {OURS} bits", *(f"{reason}, px" for reason in REASONS), f"at {min(found)} bits"]

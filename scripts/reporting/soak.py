@@ -1,5 +1,4 @@
 """The result of a soak test (`edgewise soak --json`) in a sentence."""
-from accuracy_findings import listed
 from speedups import VECTORS, kernels
 from tables import enumerated
 
@@ -14,7 +13,7 @@ def soak_sentence(soak):
     minutes = soak["seconds"] / 60
     shards = len(soak["shards"])
     drawn = (f"In {minutes:,.0f} minutes{f' of {shards} shards' if shards > 1 else ''}, {soak['cases']:,} random and "
-             f"adversarial pictures were drawn by {listed(soak['backends'])}, each in {targets_of(soak)}, on one and on several threads, with "
+             f"adversarial pictures were drawn by {enumerated([f'`{name}`' for name in soak['backends']])}, each in {targets_of(soak)}, on one and on several threads, with "
              f"random tile sizes, row strides and alignments: {soak['frames']:,} frames of {soak['triangles']:,} triangles "
              f"and {soak['pixels']:,} pixels in all were compared bit for bit, {soak['oracle_frames']:,} of them with the "
              f"oracle, and {soak['frontend_lists']:,} triangle lists of the front end. ")

@@ -25,30 +25,20 @@ def spread(ratios):
     return " to ".join(ends)
 
 
-def outcome(compared, what):
-    """"wins 9 of 15 scenes, 1.1× to 2.6× faster; 6 are too close to call": `compared` has pairs of rows, ours first."""
-    won, lost, close = [], [], []
+def by_order(compared):
+    """{order(): speed-ups} of pairs of rows, ours first."""
+    found = {-1: [], 1: [], 0: []}
     for ours, other in compared:
-        (close, won, lost)[-order(ours, other)].append(other.median_ms / ours.median_ms)
-    text = f"wins {'all ' if len(won) == len(compared) else f'{len(won)} of '}{len(compared)} {what}"
-    if won:
-        text += f", {spread(won)} faster"
-    if lost:
-        text += f"; it loses {len(lost)}, {spread([1 / ratio for ratio in lost])} slower"
-    if close:
-        text += f"; {len(close)} {'is' if len(close) == 1 else 'are'} too close to call"
-    return text
+        found[order(ours, other)].append(other.median_ms / ours.median_ms)
+    return found
 
 
-def narrower_sentence(bench):
-    """How much faster whole frames are with the widest vectors than with narrower ones; empty if these were not timed."""
-    of_target = {}
-    for row in bench.sweep("target"):
-        if row.frontend and (widest := bench.frame(row.backend, row.scene, row.threads)):
-            of_target.setdefault(row.keys["target"], []).append((widest, row))
-    best = kernels(bench.context.get("simd_target"))
-    said = [f"Against {kernels(target)}, {best} {outcome(of_target[target], 'rows')}." for target in reversed(VECTORS) if target in of_target]
-    return f"Whole frames of `tiled` on one and on two threads: {' '.join(said)}" if said else ""
+def outcome(found):
+    """"1.2× to 2.3× faster in 8, not settled in 6 of 14 scenes"; `found` as of by_order()."""
+    said = [f"{spread(found[-1])} faster in {len(found[-1])}"] if found[-1] else []
+    said += [f"{spread([1 / ratio for ratio in found[1]])} slower in {len(found[1])}"] if found[1] else []
+    said += [f"not settled in {len(found[0])}"] if found[0] else []
+    return f"{', '.join(said)} of {sum(map(len, found.values()))} scenes"
 
 
 def speed_up(ratio):

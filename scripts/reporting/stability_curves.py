@@ -93,34 +93,29 @@ def where(curve, sweep):
     return f"at {tidy(curve.starts_to_fail)} {sweep.x['unit']}".rstrip()
 
 
-def summary(sweep, groups):
-    """The sweep's finding: "ours hold; fixed_8_int32 breaks at 182 px; 4 others fail from the start"."""
-    breaking = sorted(((place_of_failure(curve), curve, m.name) for members, curve in groups for m in members
-                       if not m.ours and curve.starts_to_fail not in (None, curve.points[0][0])), key=lambda item: item[0])
-    failing_first = sum(not m.ours for members, curve in groups for m in members if curve.starts_to_fail == curve.points[0][0])
-    own = [curve for members, curve in groups if any(m.ours for m in members)]
-    rounding = max(sweep.by_snapping) > 0
-    hold = "ours err no more than rounding to 1/256 px" if rounding else "ours hold"
-    parts = []
-    if own:
-        failed = [curve for curve in own if curve.starts_to_fail is not None]
-        parts.append(f"ours break {where(min(failed, key=place_of_failure), sweep)}" if failed else hold)
-    if len(breaking) > 2:
-        parts.append(f"{len(breaking)} others break, {breaking[0][2]} first, {where(breaking[0][1], sweep)}")
-    else:
-        parts += [f"{name} breaks {where(curve, sweep)}" for _, curve, name in breaking]
-    if failing_first:
-        one, many = ("errs more", "err more") if rounding else ("fails", "fail")
-        parts.append(f"{failing_first} other{f' {one}' if failing_first == 1 else f's {many}'} from the start")
-    elif not breaking:
-        parts.append("no other method breaks")
-    return "; ".join(parts)
+def summary(groups):
+    """The sweep's finding: "ours hold; fixed_8_int32 breaks at 182"."""
+    own, others = ([(place_of_failure(curve), tidy(curve.starts_to_fail), m.name) for members, curve in groups for m in members
+                    if m.ours == whose and curve.starts_to_fail is not None] for whose in (True, False))
+    breaking = [found for found in others if found[0] > 0]
+    return (f"ours {f'break at {min(own)[1]}' if own else 'hold'}; "
+            + (f"{min(breaking)[2]} breaks at {min(breaking)[1]}" if breaking else f"{len(others)} others fail from the start"))
 
 
 def failing(curve, sweep):
     if curve.starts_to_fail is None:
         return "errs no more than snapping" if max(sweep.by_snapping) > 0 else "holds"
     return f"fails {where(curve, sweep)}"
+
+
+def origin_sentence(sweeps):
+    """README's sentence on the sweep `origin`; empty where its data don't hold it."""
+    curves = {curve.method: curve for sweep in sweeps if sweep.name == "origin" for curve in sweep.curves}
+    one, *holding = (curves.get(name) for name in ("matrix_float", "near_guard", "matrix_relative"))
+    if not one or not one.starts_to_fail or not all(curve and curve.starts_to_fail is None for curve in holding):
+        return ""
+    return (f"Far from the origin, one float 4×4 matrix (`matrix_float`) fails from a distance of {tidy(one.starts_to_fail)}; "
+            f"ours and camera-relative matrices hold up to {tidy(holding[0].points[-1][0])}.")
 
 
 def trials_note(sweep):

@@ -1,6 +1,6 @@
 """Tables of results, as Markdown for the READMEs and as plain text for the terminal."""
 from bench_rows import order
-from speedups import about, mark
+from speedups import about
 
 THREADS = (1, 2)
 NORMAL_Z = "normal_z"  # the Outlaw Triad trainer's facing test
@@ -34,20 +34,13 @@ def milliseconds(row):
     return f"{ms:.3f}" if ms < 1 else f"{ms:.2f}" if ms < 10 else f"{ms:.1f}" if ms < 100 else f"{ms:,.0f}"
 
 
-def random_reads_sentence(bench):
-    """Whether the last-level cache was available while the rows were timed; empty if not measured."""
-    cache, memory = (bench.random_reads.get(where) for where in ("half_last_cache", "memory"))
-    if cache is None or memory is None:
-        return ""
-
-    def ns(row):
-        low, middle, high = (ms * 1e6 / row.counters["reads"] for ms in (row.low_ms, row.median_ms, row.high_ms))
-        return f"{middle:.0f} ns ({low:.0f} to {high:.0f})"
-
-    verdict = ("other processes left it free" if cache.median_ms < 0.3 * memory.median_ms else
-               "other processes filled it, so rows that depend on it are slower than on an idle machine")
-    return (f"Between the rows, a random read took {ns(cache)} in a buffer of half the last-level cache, and {ns(memory)} in a "
-            f"far larger one: {verdict}.")
+def random_reads(bench):
+    """[(where, "140 ns (130 to 168)")]: whether other processes filled the last-level cache; empty if not measured."""
+    rows = [(title, bench.random_reads.get(where)) for where, title in
+            (("half_last_cache", "half the last-level cache"), ("memory", "a far larger buffer"))]
+    return [(title, "{1:.0f} ns ({0:.0f} to {2:.0f})".format(*(ms * 1e6 / row.counters["reads"] for ms in
+                                                              (row.low_ms, row.median_ms, row.high_ms))))
+            for title, row in rows if row]
 
 
 def fastest(bench, scene):
@@ -115,35 +108,14 @@ def pixels_wrong(bench, scene):
     return f"{wrong:,.0f} px wrong"
 
 
-def culling_sentence(bench):
-    """The speed-up of whole frames by culling, by winding, and by the z of normals if timed."""
-    def told(rows):
-        return ", ".join(f"`{backend}` {mark(before.median_ms / after.median_ms, order(before, after))}"
-                         for backend, (before, after) in rows.items())
-
-    by_winding, by_normal = culling_rows(bench, "back"), culling_rows(bench, NORMAL_Z)
-    if not by_winding:
-        return ""
-    sentence = (f"Speed-up of whole frames on {max(THREADS)} threads by culling back faces by their winding: "
-                + "; ".join(f"`{scene}`: {told(rows)}" for scene, rows in by_winding.items()) + ".")
-    if not by_normal:
-        return sentence
-    return (f"{sentence} Culling them before projection, by the z of their normals (`{NORMAL_Z}`): "
-            + "; ".join(f"`{scene}`: {told(rows)}, {pixels_wrong(bench, scene)}" for scene, rows in by_normal.items()) + ".")
-
-
 def differing_pixels(verify):
     return sum(scene["differing_pixels"] + scene.get("written_outside", 0)
                + scene.get("oracle", {}).get("differing_pixels", 0) for scene in verify["scenes"])
 
 
 def verify_sentence(verify):
-    scenes = verify["scenes"]
-    frames = sum(scene["configurations"] for scene in scenes)
-    oracle = sum(scene.get("oracle", {}).get("configurations", 0) for scene in scenes)
+    frames = sum(scene["configurations"] for scene in verify["scenes"])
+    oracle = sum(scene.get("oracle", {}).get("configurations", 0) for scene in verify["scenes"])
     differing = differing_pixels(verify)
-    backends = ", ".join(verify["backends"])
-    return (f"{frames:,} frames of {len(scenes)} scenes were compared bit for bit, in depth and payload, across {backends}, "
-            f"thread counts, tile sizes, SIMD targets and culling modes, and {oracle:,} small ones with a "
-            f"brute-force oracle: "
+    return (f"{frames:,} frames of {len(verify['scenes'])} scenes, and {oracle:,} small ones with an oracle, were compared bit for bit: "
             + ("**no bit differs**." if differing == 0 else f"**{differing:,} pixels differ**."))

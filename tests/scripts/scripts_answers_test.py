@@ -1,16 +1,16 @@
-"""findings.py and accuracy_findings.py: each sentence's figures, condition, and whether it is settled, from data made here."""
+"""answers.py, and the modules whose figures it needs: each figure, its condition, and whether it is settled, from data made here."""
 import sys
 import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts/reporting"))
-from accuracy_findings import origin_sentence, ours_fail_sentence, pooled_clause, rates_together, speed_sentence  # noqa: E402
 from accuracy_rows import Accuracy, Cost, Curve, Measured, Method, Scene, Sweep, parse_measured  # noqa: E402
+from answers import answers  # noqa: E402
 from bench_rows import Bench, parse_name  # noqa: E402
-from engine import engine_note, engine_table  # noqa: E402
-from findings import crack_finding, exactness_finding, findings, peer_finding, speed_finding  # noqa: E402
+from engine import engine_table  # noqa: E402
 from frontier import cracks_of, simd_outcome, speed_ups  # noqa: E402
 from peers import peer_tables  # noqa: E402
+from stability_curves import groups_of, origin_sentence, summary  # noqa: E402
 from tables import markdown  # noqa: E402
 
 NOISE = (0.99, 1.0, 1.01, 0.995, 1.005)
@@ -48,9 +48,9 @@ def turning(*counts):
         (measured(name, False, 0, 1.0).method, {"total_gaps": gaps, "total_double_hits": doubles}) for name, gaps, doubles in counts]}
 
 
-class FindingsTest(unittest.TestCase):
+class AnswersTest(unittest.TestCase):
     def test_the_engine_is_compared_with_its_exact_numbers(self):
-        self.assertEqual((engine_table(bench({})), engine_note(bench({}))), ((["numbers"], []), ""))
+        self.assertEqual(engine_table(bench({})), (["numbers"], []))
         timed = bench({"tiled/large/threads:1": 9.0, "tiled/large/engine:no-masks/threads:1": 9.8, "tiled/large/engine:exact/threads:1": 10.0,
                        "tiled/large/engine:float_lt/threads:1": 8.0, "tiled/large/engine:depth_24/threads:1": 10.01,
                        "tiled/small/engine:float_lt/threads:1": 1.0})  # without the base: left out
@@ -62,12 +62,6 @@ class FindingsTest(unittest.TestCase):
                                  ["`tiled` without coverage masks", "**1.02×** (1.01 to 1.04)"],
                                  ["float edges, `<`", "**1.25×** (1.23 to 1.27); 1,230 px"],
                                  ["exact coverage, depths of 24 bits", "1.00× (0.98 to 1.01)"]])
-        self.assertIn("at most 2 % faster or slower than `tiled` without coverage masks; the difference is settled on `large`.", engine_note(timed))
-        timed.rows["tiled/large/engine:no-masks/threads:1"].times_ms = timed.rows["tiled/large/engine:exact/threads:1"].times_ms
-        self.assertIn("settled on no scene", engine_note(timed))
-        for ms, said in ((9.53, False), (9.4, True)):  # 4.9 % and 6.4 % apart
-            timed.rows["tiled/large/engine:no-masks/threads:1"].times_ms = [ms * noise for noise in NOISE]
-            self.assertEqual("unfair" in engine_note(timed), said, ms)
 
     def test_charts_show_the_simd_form_where_there_is_one(self):
         def timed(simd, threads, ms):
@@ -90,46 +84,30 @@ class FindingsTest(unittest.TestCase):
         self.assertEqual((old.costs[1].ns, old.scalar, old.simd, old.costs[1].rounds), (40.0, None, None, ()))
 
     def test_who_wins_how_often_and_by_how_much(self):
-        text = speed_finding(bench({**scene("a", 2.0, 8.0, 1.0), **scene("b", 3.0, 4.0, 2.0), **scene("c", 1.0, 5.0, 4.0)}))
-        self.assertIn("In whole frames on 2 threads, with AVX-512 in all backends, `tiled` wins 2 of 3 scenes against `scanline`, "
-                      "1.5× to 2.0× faster; it loses 1, 4.0× slower.", text)
-        self.assertIn("`naive`, which tests every pixel of the bounding box, is 2.0× to 8.0× slower than the faster of the two on 3 "
-                      "of 3 scenes.", text)
+        of_speed = answers(bench({**scene("a", 2.0, 8.0, 1.0), **scene("b", 3.0, 4.0, 2.0), **scene("c", 1.0, 5.0, 4.0)}), None)
+        self.assertEqual(of_speed, [
+            ["Parallel or scanline?", "`tiled` 1.5× to 2.0× faster in 2, 4.0× slower in 1 of 3 scenes",
+             "against `scanline`; whole frames, 2 threads, AVX-512 in all backends"],
+            ["Or test the whole bounding box?", "`naive` 2.0× to 8.0× slower in 3 of 3 scenes",
+             "against the faster of the two; whole frames, 2 threads, AVX-512 in all backends"]])
 
     def test_a_faster_median_alone_wins_nothing(self):
         close = {**scene("a", (2.0, 1.0, 3.0, 2.1, 2.2), 8.0, (1.9, 1.1, 3.1, 2.0, 1.8)), **scene("b", 2.0, 8.0, 1.0)}
-        self.assertIn("wins 1 of 2 scenes against `scanline`, 2.0× faster; 1 is too close to call.", speed_finding(bench(close)))
-        self.assertIn("wins all 1 scenes", speed_finding(bench(scene("b", 2.0, 8.0, 1.0))))
-
-    def test_a_scene_that_only_one_of_the_two_drew_does_not_count(self):
-        self.assertEqual(speed_finding(bench({"tiled/a/threads:2": 1.0})), "")
+        self.assertEqual(answers(bench(close), None)[0][1], "`tiled` 2.0× faster in 1, not settled in 1 of 2 scenes")
 
     def test_a_scene_that_is_too_slow_for_naive_counts_for_the_others(self):
-        rows = {**scene("a", 2.0, 8.0, 1.0), **scene("b", 4.0, 8.0, 2.0)}
+        rows = {**scene("a", 2.0, 8.0, 1.0), **scene("b", 4.0, 8.0, 2.0), "tiled/c/threads:2": 1.0}
         del rows["naive+frontend/b/threads:2"]
-        text = speed_finding(bench(rows))
-        self.assertIn("wins all 2 scenes against `scanline`", text)
-        self.assertTrue(text.endswith("on 1 of 1 scenes."))
-        rows.update({f"{backend}/b/threads:2": ms for backend, ms in (("scanline", 3.5), ("naive", 70.0), ("tiled", 1.75))})
-        self.assertTrue(speed_finding(bench(rows)).endswith(" On `b`, where whole frames of `naive` are too slow to repeat, its "
-                                                            "draw alone is 40× slower than the faster of the two."))
+        self.assertEqual([line[1] for line in answers(bench(rows), None)],
+                         ["`tiled` 2.0× faster in 2 of 2 scenes", "`naive` 8.0× slower in 1 of 1 scenes"])
 
-    def test_the_turning_cube_and_the_centred_scene_are_named(self):
-        text = crack_finding(accuracy(measured("tiled", True, 0, 3.0), measured("float_lt", False, 5710, 2.0),
-                                      cube=turning(("tiled", 0, 0), ("float_lt", 3, 0), ("float_le", 1, 9))))
-        self.assertIn("In 3,600 frames of the tutorials' cube `float_lt` leaves 3 gaps, `float_le` leaves 1 gap and draws 9 pixels "
-                      "twice; `tiled` do neither.", text)
-        self.assertIn("Where edges run through pixel centres (`mesh_on_grid`), those tests get 5,710 (`float_lt`) pixels wrong per "
-                      "10⁶ edge crossings, ours 0.", text)
-        ours_err = crack_finding(accuracy(cube=turning(("tiled", 1, 1), ("float_lt", 0, 0))))
-        self.assertIn("`float_lt` errs nowhere; ours err at 2 pixels.", ours_err)
-
-    def test_that_a_float_test_errs_less_before_snapping_is_said_only_if_so(self):
-        right = accuracy(measured("tiled", True, 873, 3.0), measured("float_lt", False, 216, 2.0))
-        self.assertIn("`float_lt` errs less than ours: 216 wrong pixels per 10⁶ edge crossings against 873 (1 scene pooled, ",
-                      exactness_finding(right))
-        wrong = accuracy(measured("tiled", True, 216, 3.0), measured("float_lt", False, 873, 2.0))
-        self.assertNotIn("errs less", exactness_finding(wrong))
+    def test_exactness_and_gaps_have_their_counts(self):
+        told = answers(bench({}), accuracy(measured("tiled", True, 873, 3.0), measured("float_lt", False, 216, 2.0),
+                                           cube=turning(("tiled", 0, 0), ("float_lt", 3, 0), ("float_le", 1, 9), ("fixed_8", 7, 7))))
+        self.assertEqual(told, [
+            ["… in wrong pixels?", "ours 873, `float_lt` 216 wrong per 10⁶ edge crossings", "against the positions before snapping, 1 scenes pooled"],
+            ["Gaps / double hits when the cube turns?", "`float_lt` 3 / 0, `float_le` 1 / 9, ours 0 / 0", "3,600 frames of the tutorials' cube"],
+            ["Where edges meet pixel centres?", "`float_lt` 216, ours 873 wrong pixels per 10⁶ edge crossings", "`mesh_on_grid`"]])
 
     def test_rates_are_pooled_over_large_scenes_within_a_methods_range(self):
         limited = Method("y", "a book", "", False, 181)
@@ -142,30 +120,22 @@ class FindingsTest(unittest.TestCase):
         scenes = (scene_of("large", 30000, 500.0, 10.0, 9e6), scene_of("medium", 10000, 100.0, 50.0, 4.0),
                   scene_of("tiny", 100, 1.0, 1e6, 1e6))
         told = Accuracy({}, False, {"coverage": [m.method for m in scenes[0].measured]}, scenes, None)
-        self.assertEqual(rates_together(told, "coverage"), {"x": 20.0, "y": 4.0})
-        self.assertEqual(pooled_clause(told, "coverage"), "2 scenes pooled, 40k edge crossings, 75 % of them in `large`")
-
-    def test_simd_and_scalar_code_are_told_apart_and_noise_is_named(self):
-        slower = accuracy(measured("tiled", True, 0, 2.1, 0.3), measured("float_lt", False, 9, 2.0, 0.3))
-        self.assertIn("`tiled` with AVX-512 is 1.05× slower than `float_lt` in scalar code (not settled)",
-                      speed_sentence(slower.scenes[0], slower.machine))
+        self.assertEqual(told.rates("coverage"), {"x": 20.0, "y": 4.0})
 
     def test_peers_are_compared_with_one_backend_at_both_widths(self):
         rows = {**scene("a", 2.0, 8.0, 1.0), **scene("b", 1.0, 5.0, 4.0), "ext+frontend/a/threads:2": 8.0, "ext+frontend/b/threads:2": 30.0,
                 "tiled+frontend/m/threads:2": 3.0, "ext+frontend/m/threads:2": 1.5}
-        text = peer_finding(bench(rows, peers="ext", ext="Ext 1, 256 bits"))
-        self.assertIn("**Against ext** (Ext 1, 256 bits): on 2 threads, `tiled` with AVX-512, 512 bits, wins 2 of 3 scenes, in whole "
-                      "frames, 7.5× to 8.0× faster; it loses 1, 2.0× slower.", text)
-        self.assertNotIn("AVX2", text)
+        told = bench(rows, peers="ext", ext="Ext 1, 256 bits")
+        self.assertEqual(answers(told, None)[2:], [["Against ext, with AVX-512, 512 bits?", "`tiled` 7.5× to 8.0× faster in 2, 2.0× slower in 1 of 3 scenes",
+                                                    "Ext 1, 256 bits; whole frames, 2 threads"]])
         narrow = bench({**rows, "tiled+frontend/a/target:avx2/threads:2": 2.0, "m/threads:2": 1.0}, peers="ext", ext="Ext 1, 256 bits")
-        self.assertIn("With AVX2, 256 bits, it wins all 1 scenes, in whole frames, 4.0× faster.", peer_finding(narrow))
+        self.assertEqual(answers(narrow, None)[3][:2], ["Against ext, with AVX2, 256 bits?", "`tiled` 4.0× faster in 1 of 1 scenes"])
         table = peer_tables(narrow, markdown)
         self.assertIn("| speed-up with AVX-512, 512 bits | speed-up with AVX2, 256 bits |", table)
         self.assertIn("| – / 8.0× | – / 4.0× |", table)
-        self.assertEqual(peer_finding(bench(scene("a", 2.0, 8.0, 1.0))), "")
 
-    def test_what_was_not_measured_is_not_found(self):
-        self.assertEqual(findings(bench({}), Accuracy({}, False, {}, (), None)), [])
+    def test_what_was_not_measured_is_not_answered(self):
+        self.assertEqual(answers(bench({}), Accuracy({}, False, {}, (), None)), [])
 
 
 class FrontierTest(unittest.TestCase):
@@ -199,36 +169,36 @@ class FrontierTest(unittest.TestCase):
         tiled = ups[found.methods["coverage"][0]]
         self.assertAlmostEqual(tiled["scalar"].middle, 2 ** (1 / 3))
         self.assertAlmostEqual(tiled["simd"].middle, 4 * 2 ** (1 / 3))
-        won, lost, close = simd_outcome(found, "tiled", "x")
-        self.assertEqual((won, lost, close), ({"a": 4.0}, {"b": 0.5}, {"c": 1.0}))
+        self.assertEqual(simd_outcome(found, "tiled", "x"), {-1: [4.0], 1: [0.5], 0: [1.0]})
 
 
-class OursFailTest(unittest.TestCase):
-    """ours_fail_sentence(): what rounding costs by itself, and what comes on top."""
+class SweepTest(unittest.TestCase):
+    """What is said of sweeps holds for their curves."""
 
-    def sweep(self, name, ours, by_snapping, fails=None):
-        curve = Curve("tiled", True, tuple(enumerate(ours)), (1,) * len(ours), fails)
-        return Sweep(name, "coverage", "a summary", {"unit": ""}, {"name": "misjudged faces, %"}, (curve,), tuple(by_snapping))
-
-    def test_only_equal_curves_count_as_rounding(self):
-        told = accuracy(measured("tiled", True, 0, 1.0))
-        text = ours_fail_sentence([self.sweep("edge", (0.0, 50.94), (0.0, 50.94)), self.sweep("none", (0.0, 0.0), (0.0, 0.0)),
-                                   self.sweep("deep", (0.0, 7.0), (0.0, 0.0), 1.0)], told)
-        self.assertIn("In 2 of 3 sweeps ours err exactly as much as rounding to 1/256 px does by itself: up to 50.9 % in `edge` "
-                      "(misjudged faces); 0 in the others.", text)
-        self.assertIn("They err more in `deep` (a summary): `tiled` from 1, up to 7 % misjudged faces.", text)
-        self.assertEqual(ours_fail_sentence([], told), "")
+    @staticmethod
+    def sweep(**fails):
+        """From {method: where it starts to fail}."""
+        curves = tuple(Curve(name, False, ((1, 0.0), (128, 6.0), (1024, 9.0)), (1,) * 3, at) for name, at in fails.items())
+        return Sweep("origin", "clipping", "", {"unit": ""}, {"name": ""}, curves, (0,) * 3)
 
     def test_a_matrix_of_floats_fails_far_from_the_origin(self):
-        def origin(ours, worst):
-            curves = tuple(Curve(name, False, ((1, 0.0), (128, 6e5), (256, 0.0), (1024, worst)), (1,) * 4, fails)
-                           for name, fails in (("near_guard", ours), ("matrix_float", 128)))
-            return [Sweep("origin", "clipping", "", {"unit": ""}, {"name": ""}, curves, (0,) * 4)]
-        said = "(`matrix_float`) draws wrong pixels first at a distance of 128"
-        self.assertIn(f"{said}; ours (`near_guard`) at no distance up to ", origin_sentence(origin(None, 9.0)))
-        self.assertRegex(origin_sentence(origin(128, 9e5)),
-                         r"128, and most pixels wrong from 1\.02k on; ours .* first at a distance of 128\.")
+        held = self.sweep(near_guard=None, matrix_relative=None, matrix_float=128)
+        self.assertEqual(origin_sentence([held]), "Far from the origin, one float 4×4 matrix (`matrix_float`) fails from a distance of 128; "
+                         "ours and camera-relative matrices hold up to 1.02k.")
+        for other in (self.sweep(near_guard=128, matrix_relative=None, matrix_float=128), self.sweep(matrix_float=128),
+                      self.sweep(near_guard=None, matrix_relative=None, matrix_float=None)):
+            self.assertEqual(origin_sentence([other]), "")
         self.assertEqual(origin_sentence([]), "")
+
+    def test_a_title_names_the_first_method_that_breaks(self):
+        ours = {("clipping", "near_guard"): Method("near_guard", "frontend/clip.h", "", True)}
+
+        def said(**fails):
+            sweep = self.sweep(**fails)
+            return summary(groups_of(sweep, ours))
+
+        self.assertEqual(said(near_guard=None, a=1024, b=128, c=1), "ours hold; b breaks at 128")
+        self.assertEqual(said(near_guard=128, a=1, b=1, c=None), "ours break at 128; 2 others fail from the start")
 
 
 if __name__ == "__main__":

@@ -1,0 +1,66 @@
+"""README's first table: the answers to its questions, each with its condition."""
+from frontier import ENGINES, INSIDE_TESTS, measured_in, simd_outcome
+from peers import OURS, pairs
+from speedups import by_order, kernels, outcome, with_width
+from tables import THREADS, number
+
+HEADER = ["question", "answer", "condition"]
+MOST = 8
+CENTRED_SCENE = "mesh_on_grid"  # its shared edges run through pixel centres
+
+
+def speed_rows(bench):
+    threads = max(THREADS)
+    drawn = [{b: row for b in (OURS, "scanline", "naive") if (row := bench.frame(b, scene, threads))} for scene in bench.scenes]
+    drawn = [rows for rows in drawn if OURS in rows and "scanline" in rows]
+    condition = f"whole frames, {threads} threads, {kernels(bench.context.get('simd_target'))} in all backends"
+    if drawn:
+        yield ["Parallel or scanline?", f"`{OURS}` {outcome(by_order((rows[OURS], rows['scanline']) for rows in drawn))}",
+               f"against `scanline`; {condition}"]
+    boxed = [(rows["naive"], min(rows[OURS], rows["scanline"], key=lambda row: row.median_ms)) for rows in drawn if "naive" in rows]
+    if boxed:
+        yield ["Or test the whole bounding box?", f"`naive` {outcome(by_order(boxed))}",
+               f"against the faster of the two; {condition}"]
+
+
+def exactness_rows(accuracy):
+    exact, loose = ENGINES
+    if found := simd_outcome(accuracy, exact, loose):
+        yield ["What does exactness cost in time?", f"`{exact}` {outcome(found)}",
+               f"against `{loose}`, float edges in the same engine; one thread, {kernels(accuracy.machine.get('simd_best'))}"]
+    rates, plain = accuracy.rates("coverage"), INSIDE_TESTS[0]
+    ours = [rates[m.name] for m in accuracy.methods.get("coverage", ()) if m.ours and m.name in rates]
+    if ours and plain in rates:
+        yield ["… in wrong pixels?", f"ours {number(max(ours))}, `{plain}` {number(rates[plain])} wrong per 10⁶ edge crossings",
+               f"against the positions before snapping, {len(accuracy.pooled('coverage'))} scenes pooled"]
+
+
+def gap_rows(accuracy):
+    turned = [(m, found["total_gaps"], found["total_double_hits"]) for m, found in (accuracy.cube or {"methods": ()})["methods"]]
+    ours = [counts for m, *counts in turned if m.ours]
+    if ours:
+        told = [(f"`{m.name}`", *counts) for m, *counts in turned if m.name in INSIDE_TESTS] + [("ours", *map(sum, zip(*ours)))]
+        yield ["Gaps / double hits when the cube turns?", ", ".join(f"{who} {gaps:,} / {doubles:,}" for who, gaps, doubles in told),
+               f"{accuracy.cube['frames']:,} frames of the tutorials' cube"]
+    scene = next((s for s in accuracy.of("coverage") if s.name == CENTRED_SCENE), None)
+    ours = [m.rate for m in scene.measured if m.method.ours] if scene else []
+    if ours:
+        tests = [f"`{name}` {number(m.rate)}" for name in INSIDE_TESTS if (m := measured_in(scene, name))]
+        yield ["Where edges meet pixel centres?", f"{', '.join([*tests, f'ours {number(max(ours))}'])} wrong pixels per 10⁶ edge crossings",
+               f"`{CENTRED_SCENE}`"]
+
+
+def peer_rows(bench):
+    for target in dict.fromkeys((bench.context.get("simd_target"), "avx2")):
+        found = pairs(bench, None if target == bench.context.get("simd_target") else target)
+        for peer in bench.peers:
+            of = [(p.ours, p.peer) for (name, _, threads), p in found.items() if name == peer and threads == max(THREADS)]
+            if of:
+                yield [f"Against {peer}, with {with_width(target)}?", f"`{OURS}` {outcome(by_order(of))}",
+                       f"{bench.context.get(peer, 'unknown version')}; whole frames, {max(THREADS)} threads"]
+
+
+def answers(bench, accuracy):
+    """Lines for HEADER; none for what was not measured."""
+    told = [*exactness_rows(accuracy), *gap_rows(accuracy)] if accuracy else []
+    return [*speed_rows(bench), *told, *peer_rows(bench)][:MOST]
