@@ -27,7 +27,6 @@ def main():
     import plot_accuracy
     import plot_growth
     import plot_ablation
-    import plot_peers
     import plot_scaling
     import plot_scenes
     import plot_second_thread
@@ -42,7 +41,7 @@ def main():
     drawn += [name for name in (plot_growth.growth(bench, machine, folder, caption),
                                 plot_scaling.scaling(bench, folder, caption),
                                 plot_second_thread.second_thread(bench, folder, caption)) if name]
-    drawn += plot_peers.against(bench, folder, caption)
+    drawn += plot_scenes.against(bench, folder, caption)
     drawn += [*plot_accuracy.draw(accuracy, folder, caption), *plot_stability.draw(sweeps, accuracy, folder, caption)]
     if main_chart := plot_frontier.frontier(accuracy, folder, caption):
         drawn.append(main_chart)

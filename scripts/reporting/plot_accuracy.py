@@ -3,9 +3,8 @@ import math
 
 from accuracy_rows import FAMILIES
 from palette import BAND, FAINT, INK
-from plot_kinds import Kinds
 from plot_labels import Label, label_points
-from plot_style import WIDTH_IN, head_in, headline, plt, save
+from plot_style import WIDTH_IN, Kinds, head_in, headline, plt, save
 from speed_accuracy import CRACKS, SUBTITLES, TRIALS, chart_rows, cost_range, front_line, shade, unsettled
 from speedups import about
 from tables import number, short

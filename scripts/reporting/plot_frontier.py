@@ -2,9 +2,8 @@
 from accuracy_rows import FAMILIES
 from frontier import ENGINES, INSIDE_TESTS, LEAST_CROSSINGS, best, frontier_figures, simd_outcome, timed_scenes
 from palette import FAINT, GREEN, INK
-from plot_kinds import Kinds
 from plot_labels import Label, label_points
-from plot_style import WIDTH_IN, head_in, headline, plt, save
+from plot_style import WIDTH_IN, Kinds, head_in, headline, plt, save
 from speedups import kernels
 from tables import number, short
 from zero_axis import ZeroAxis

@@ -1,9 +1,9 @@
-"""Charts by scene: the time, and the speed-up by threads, SIMD and culling."""
+"""Charts by scene: the time, and the speed-up by threads, SIMD, culling, and over the peers."""
 from bench_rows import order
 from noise import median, ratio_interval
-from peers import OURS
+from peers import OURS, pairs
 from plot_style import FAINT, INK, WIDTH_IN, Look, head_in, headline, log_axis, plt, save
-from speedups import VECTORS, about, by_order, kernels, spread
+from speedups import VECTORS, about, by_order, kernels, spread, with_width
 from tables import NORMAL_Z, THREADS, culling_rows, pixels_wrong
 
 INTERVALS = "Light bars: 95 % intervals."
@@ -211,6 +211,25 @@ def simd(bench, folder, caption):
     figure.subplots_adjust(left=0.06, right=0.985, bottom=0.6 / height, top=top - 0.72 / height, wspace=0.12)
     save(figure, folder, "simd", caption)
     return "simd"
+
+
+def against(bench, folder, caption):
+    found = pairs(bench)
+    threads = max(THREADS)
+    for peer in dict.fromkeys(peer for peer, _, n in found if n == threads):
+        compared = {scene: p for (name, scene, n), p in found.items() if name == peer and n == threads}
+
+        def rows_of(scene, backend, compared=compared):
+            ours = bench.find(compared[scene].ours.name.replace(OURS, backend, 1))
+            return (compared[scene].peer, ours) if ours else None
+
+        won = by_order((p.ours, p.peer) for p in compared.values())[-1]
+        title = f"{OURS} beats {peer} in {len(won)} of {len(compared)} scenes" + (f", {spread(won)}" if won else "")
+        gain_chart(bench, folder, caption, f"against-{peer}", list(compared), rows_of, title,
+                   f"{bench.context.get(peer, peer)}, against our backends with {with_width(bench.context.get('simd_target'))}; "
+                   f"{threads} threads. Whole frames: front end and backend.",
+                   f"speed-up over {peer}")
+        yield f"against-{peer}"
 
 
 CHARTS = (scene_time, threads, simd, culling)

@@ -1,8 +1,7 @@
 """Charts of stability: one per sweep, with one curve per method, from easy on the left to hard on the right."""
 from accuracy_rows import FAMILIES
 from palette import FAINT
-from plot_kinds import Kinds
-from plot_style import WIDTH_IN, dark, head_in, headline, plt, save
+from plot_style import WIDTH_IN, Kinds, dark, head_in, headline, plt, save
 from stability_curves import (axis_of_errors, failing, groups_of, kinds_and_dashes, known_methods, line_count, names_of,
                               place_of_failure, runs_down, summary, tidy, trials_note)
 

@@ -10,7 +10,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.colors import to_hex, to_rgb  # noqa: E402
 from matplotlib.ticker import FuncFormatter, NullFormatter  # noqa: E402
 
-from palette import FAINT, INK, backend_looks  # noqa: E402
+from palette import BACKENDS, FAINT, INK, backend_looks, kind_looks  # noqa: E402
 from tables import short  # noqa: E402
 
 plt.rcParams.update({
@@ -54,6 +54,31 @@ class Look:
                    for b in self.backends]
         figure.legend(handles=[*handles, *extra], loc="upper left", bbox_to_anchor=(0.005, y), ncol=6, frameon=False,
                       handletextpad=0.4, columnspacing=1.6, fontsize=10.5)
+
+
+IN_A_ROW = 7  # of the legend
+
+
+class Kinds:
+    """Colour and marker of the methods of a family."""
+
+    def __init__(self, family):
+        self.family = family
+        self.looks = kind_looks(family)
+
+    def of(self, method):
+        return BACKENDS.get(method.name) or self.looks[self.family.kind(method)]
+
+    def legend(self, figure, y, methods, extra):
+        """Backends and kinds of methods, and below them the other marks."""
+        found = {(method.name if method.name in BACKENDS else self.family.kind(method)): self.of(method) for method in methods}
+        names = {"ours": "ours (bold)", "other": "others", **{name: f"{name} (ours)" for name in BACKENDS}}
+        handles = [plt.Line2D([], [], color=colour, marker=marker, linestyle="", markersize=7, label=names.get(kind, kind))
+                   for kind, (colour, marker) in sorted(found.items(), key=lambda item: item[0] == "other")]
+        rows = [handles[i:i + IN_A_ROW] for i in range(0, len(handles), IN_A_ROW)]
+        for line, row in enumerate((*rows, extra)):
+            figure.legend(handles=row, loc="upper left", bbox_to_anchor=(0.005, y - 0.2 * line / figure.get_figheight()),
+                          ncol=len(row), frameon=False, handletextpad=0.4, columnspacing=1.3, fontsize=9.5)
 
 
 def wrapped(text, type_size, width_in=WIDTH_IN):

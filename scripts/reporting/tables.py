@@ -74,6 +74,22 @@ def scene_table(bench, more=()):
     return header, lines
 
 
+def speed_table(bench):
+    """Header and lines: whole frames of ours and of peers, one line per scene; bold: the settled fastest of ours."""
+    lines = []
+    for scene in bench.scenes:
+        ours = {backend: row for backend in bench.backends if (row := bench.frame(backend, scene, max(THREADS)))}
+
+        def cell(row):
+            best = all(order(row, other) < 0 for other in ours.values() if other is not row)
+            return f"**{milliseconds(row)}**" if best and len(ours) > 1 else milliseconds(row)
+
+        lines.append([scene, scene_facts(bench, scene)[0],
+                      *(cell(ours[backend]) if backend in ours else "–" for backend in bench.backends),
+                      *(milliseconds(bench.frame(peer, scene, max(THREADS))) for peer in bench.peers)])
+    return ["scene", "triangles", *bench.backends, *bench.peers], lines
+
+
 def markdown(header, lines, alignment=None):
     text = ["| " + " | ".join(header) + " |", alignment or "|---|" + "--:|" * (len(header) - 2) + "---|"]
     text += ["| " + " | ".join(line) + " |" for line in lines]
