@@ -110,7 +110,7 @@ class ShellTest(unittest.TestCase):
     def test_unknown_options_fail_before_anything_runs(self):
         self.tool("dpkg-query", DPKG_QUERY)
         for script, near in (("test", "--sanitize"), ("run", "--quick"), ("fuzz", "--keep"), ("prove", "--list"),
-                             ("mutate", "--check"), ("compare", "--least"), ("readme", "--check"), ("summary", "--tables"),
+                             ("mutate", "--json"), ("compare", "--least"), ("readme", "--check"), ("summary", "--tables"),
                              ("publish", "--check")):
             wrong = near[:-1] + "_"
             self.assert_usage_error(self.run_script(script, "--no-install", wrong) if script in ("test", "run", "fuzz")
