@@ -12,35 +12,9 @@ die() {
   exit 2
 }
 
-# unknown ARGUMENT OPTION…: the usage error for an argument that is none of the script's options.
+# unknown ARGUMENT: the usage error for an argument that is none of the script's options.
 unknown() {
-  local hint
-  hint=$(nearest "$@")
-  die "unknown argument '$1'; ${hint:+did you mean $hint? }--help lists all"
-}
-
-# nearest WORD CANDIDATE…: the candidate at the smallest edit distance, if at most a third of WORD's length.
-nearest() {
-  local word=$1 candidate best="" i j cost
-  local -i least=$((${#1} / 3 + 1))
-  shift
-  for candidate in "$@"; do
-    local -a above=() row
-    for ((j = 0; j <= ${#candidate}; ++j)); do above[j]=$j; done
-    for ((i = 1; i <= ${#word}; ++i)); do
-      row=("$i")
-      for ((j = 1; j <= ${#candidate}; ++j)); do
-        cost=${above[j - 1]}
-        [[ ${word:i-1:1} == "${candidate:j-1:1}" ]] || cost=$((cost + 1))
-        ((above[j] + 1 < cost)) && cost=$((above[j] + 1))
-        ((row[j - 1] + 1 < cost)) && cost=$((row[j - 1] + 1))
-        row[j]=$cost
-      done
-      above=("${row[@]}")
-    done
-    if ((above[${#candidate}] < least)); then least=${above[${#candidate}]} best=$candidate; fi
-  done
-  echo "$best"
+  die "unknown argument '$1'; --help lists all"
 }
 
 # step WHAT [SECONDS]: announces a step with its number and the seconds since the start. It also says how long the step
