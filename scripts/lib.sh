@@ -61,10 +61,10 @@ duration() {
   if (($1 < 60)); then echo "$1 s"; else echo "$(($1 / 60)) min $(($1 % 60)) s"; fi
 }
 
-# listed_packages LIST…: the packages in scripts/packages/LIST.txt, one a line.
+# listed_packages LIST…: the packages of these lists in scripts/packages.txt, one per line.
 listed_packages() {
   local list
-  for list in "$@"; do cat "$root/scripts/packages/$list.txt"; done
+  for list in "$@"; do sed -n "s/^$list: //p" "$root/scripts/packages.txt" | tr ' ' '\n'; done
 }
 
 # missing_packages LIST…: those of the packages that are not installed.
@@ -76,7 +76,7 @@ missing_packages() {
   done < <(listed_packages "$@")
 }
 
-# set_up install|list [LIST…]: installs the missing packages of base.txt and of further lists, or only names them.
+# set_up install|list [LIST…]: installs the missing packages of `base` and of further lists, or only names them.
 set_up() {
   local -a lists=(base "${@:2}")
   if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
