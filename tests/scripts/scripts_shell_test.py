@@ -118,6 +118,7 @@ class ShellTest(unittest.TestCase):
         self.assert_usage_error(self.run_script("test", "--quick", "--no-install"), "unknown argument '--quick'; --help")
         self.assert_usage_error(self.run_script("test", "-R", "--no-install"), "-R needs a value")
         self.assert_usage_error(self.run_script("test", "--full", "-R", "a"), "no options of ctest")
+        self.assert_usage_error(self.run_script("test", "--bare", "--no-install"), "--no-install must stand before --bare")
         self.assert_usage_error(self.run_script("fuzz", "eight"), "'eight'")
         self.assert_usage_error(self.run_script("run", "--mesh", str(self.folder)), "not a file")
         self.assert_usage_error(self.run_script("compare", "a"), "no such file, and no revision")
