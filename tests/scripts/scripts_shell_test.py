@@ -109,9 +109,9 @@ class ShellTest(unittest.TestCase):
 
     def test_unknown_options_fail_before_anything_runs(self):
         self.tool("dpkg-query", DPKG_QUERY)
-        for script in ("test", "run", "fuzz"):
+        for script in ("test", "run"):
             self.assert_usage_error(self.run_script(script, "--no-install", "--wrong"), "'--wrong'; --help lists all")
-        for script, near in (("prove", "--list"), ("mutate", "--list"), ("compare", "--least"), ("readme", "--check"),
+        for script, near in (("fuzz", "--keep"), ("prove", "--list"), ("mutate", "--list"), ("compare", "--least"), ("readme", "--check"),
                              ("summary", "--tables"), ("publish", "--check")):
             wrong = near[:-1] + "_"
             self.assert_usage_error(self.run_script(script, wrong), f"'{wrong}'; did you mean {near}?")
@@ -202,7 +202,7 @@ class ShellTest(unittest.TestCase):
             for name, text in (("shard-0", '<testsuites><testsuite><testcase name="a" classname="A"/></testsuite></testsuites>'),
                                ("shard-1", '<testsuites tests="0"></testsuites>'), ("died", "")):
                 (Path(folder) / f"{name}.xml").write_text(text)
-            result = subprocess.run(["python3", SCRIPTS / "checks/test_summary.py", folder], capture_output=True, text=True, check=False)
+            result = subprocess.run(["python3", SCRIPTS / "checks/test_results.py", folder], capture_output=True, text=True, check=False)
         self.assertEqual(result.stdout.splitlines()[-1], "1 passed, 1 failed, 0 skipped")
         self.assertIn("the run ended without results; see above (died)", result.stdout)
 
