@@ -12,35 +12,9 @@ die() {
   exit 2
 }
 
-# unknown ARGUMENT OPTION…: the usage error for an argument that is none of the script's options.
+# unknown ARGUMENT: the usage error for an argument that is none of the script's options.
 unknown() {
-  local hint
-  hint=$(nearest "$@")
-  die "unknown argument '$1'; ${hint:+did you mean $hint? }--help lists all"
-}
-
-# nearest WORD CANDIDATE…: the candidate at the smallest edit distance, if at most a third of WORD's length.
-nearest() {
-  local word=$1 candidate best="" i j cost
-  local -i least=$((${#1} / 3 + 1))
-  shift
-  for candidate in "$@"; do
-    local -a above=() row
-    for ((j = 0; j <= ${#candidate}; ++j)); do above[j]=$j; done
-    for ((i = 1; i <= ${#word}; ++i)); do
-      row=("$i")
-      for ((j = 1; j <= ${#candidate}; ++j)); do
-        cost=${above[j - 1]}
-        [[ ${word:i-1:1} == "${candidate:j-1:1}" ]] || cost=$((cost + 1))
-        ((above[j] + 1 < cost)) && cost=$((above[j] + 1))
-        ((row[j - 1] + 1 < cost)) && cost=$((row[j - 1] + 1))
-        row[j]=$cost
-      done
-      above=("${row[@]}")
-    done
-    if ((above[${#candidate}] < least)); then least=${above[${#candidate}]} best=$candidate; fi
-  done
-  echo "$best"
+  die "unknown argument '$1'; --help lists all"
 }
 
 # step WHAT [SECONDS]: announces a step with its number and the seconds since the start. It also says how long the step
@@ -87,10 +61,10 @@ duration() {
   if (($1 < 60)); then echo "$1 s"; else echo "$(($1 / 60)) min $(($1 % 60)) s"; fi
 }
 
-# listed_packages LIST…: the packages in scripts/packages/LIST.txt, one a line.
+# listed_packages LIST…: the packages of these lists in scripts/packages.txt, one per line.
 listed_packages() {
   local list
-  for list in "$@"; do cat "$root/scripts/packages/$list.txt"; done
+  for list in "$@"; do sed -n "s/^$list: //p" "$root/scripts/packages.txt" | tr ' ' '\n'; done
 }
 
 # missing_packages LIST…: those of the packages that are not installed.
@@ -102,7 +76,7 @@ missing_packages() {
   done < <(listed_packages "$@")
 }
 
-# set_up install|list [LIST…]: installs the missing packages of base.txt and of further lists, or only names them.
+# set_up install|list [LIST…]: installs the missing packages of `base` and of further lists, or only names them.
 set_up() {
   local -a lists=(base "${@:2}")
   if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then

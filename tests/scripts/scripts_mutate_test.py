@@ -1,107 +1,89 @@
-"""The table of mutants, and scripts/checks/mutations.py."""
+"""scripts/mutate: its table, and what it says of small sources with a cmake that makes a test of them."""
+import json
+import os
+import shutil
 import subprocess
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "scripts" / folder) for folder in ("reporting", "checks")]
-from bench_rows import BadInput  # noqa: E402
-from mutations import Mutation, copy_tree, failed_tests, files_of, mutated, read_mutations  # noqa: E402
-
-ENTRY = '[[mutation]]\nname = "{}"\nchange = "m"\nfile = "src/a.cpp"\ntests = "*"\nbefore = "x < y"\nafter = "x <= y"\n'
+SOURCE = "bool less(int x, int y) {\n  return x\n      < y;\n}\nint one = 1;\n"
+TABLE = '[group]\nprogram = "few"\ntests = "*"\nor_equal = ["a.cpp", "x < y", "x <= y"]\n'
+# The test fails if a.cpp has a <=, and the build if it has an error.
+CMAKE = """#!/bin/bash
+[[ $1 == --build ]] || exec mkdir -p "$4"
+source=$2/../tree/src/a.cpp
+! grep -q error "$source" || exit 1
+printf '#!/bin/bash\\n! grep -q "<=" %s\\n' "$source" >"$2/few"
+chmod +x "$2/few"
+"""
 
 
 class MutateTest(unittest.TestCase):
     def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = Path(temporary.name)
-        (self.folder / "src").mkdir()
-        (self.folder / "src/a.cpp").write_text("return x < y;\n")
+        self.root = Path(self.enterContext(tempfile.TemporaryDirectory()))
+        shutil.copytree(ROOT / "scripts", self.root / "scripts", ignore=shutil.ignore_patterns("__pycache__"))
+        self.write("src/a.cpp", SOURCE)
+        self.write("tools/cmake", CMAKE)
+        (self.root / "tools/cmake").chmod(0o755)
 
-    def read(self, text):
-        path = self.folder / "table.toml"
+    def write(self, name, text):
+        path = self.root / name
+        path.parent.mkdir(exist_ok=True)
         path.write_text(text)
-        return read_mutations(path)
+
+    def mutate(self, table, *arguments):
+        self.write("tests/mutations.toml", table)
+        result = subprocess.run([self.root / "scripts/mutate", *arguments], capture_output=True, text=True, check=False,
+                                env={**os.environ, "PATH": f"{self.root}/tools:{os.environ['PATH']}"})
+        self.assertEqual((self.root / "src/a.cpp").read_text(), SOURCE)
+        return result
+
+    def assert_refused(self, table, message, *arguments):
+        result = self.mutate(table, *arguments)
+        self.assertEqual((result.returncode, result.stderr), (2, f"mutate: {message}\n"))
 
     def test_every_mutant_of_the_table_applies(self):
-        result = subprocess.run([ROOT / "scripts/mutate", "--check"], capture_output=True, text=True, check=False)
+        result = subprocess.run([ROOT / "scripts/mutate", "--list"], capture_output=True, text=True, check=False)
         self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertLessEqual(len(result.stdout.splitlines()), 60)
+        for part in ("contract.h", "oracle.cpp", "naive.cpp", "tile_", "scanline_", "bins", "mask_", "clip.cpp",
+                     "one_by_one.cpp", "in_order.h", "portable.cpp", "noise.py"):
+            self.assertIn(part, result.stdout)
 
-    def test_the_table_reaches_every_part(self):
-        files = {m.file for m in read_mutations(ROOT / "tests/mutations.toml")}
-        for part in ("contract.h", "naive.cpp", "tile_", "scanline_", "bins", "assemble.cpp", "one_by_one.cpp", "clip.cpp",
-                     "shade.cpp", "oracle.cpp", "mask_coverage", "mask_quadrants", "mask_lists", "tile_masks",
-                     "record_lanes", "chunks.h", "pieces.cpp", "noise.py"):
-            self.assertTrue(any(part in file for file in files), part)
+    def test_a_mutant_is_caught_or_survives(self):
+        result = self.mutate(TABLE, "--json", self.root / "out.json")
+        self.assertEqual((result.returncode, result.stdout.splitlines()[-1]), (0, "1 of 1 mutants caught"), result.stderr)
+        table = TABLE + 'two = ["a.cpp", "one = 1", "one = 2"]\nbroken = ["a.cpp", "bool", "error"]\n'
+        result = self.mutate(table, "--json", self.root / "out.json")
+        self.assertEqual((result.returncode, result.stdout.splitlines()[-1]),
+                         (1, "1 of 3 mutants caught; not caught: two, broken"), result.stderr)
+        self.assertIn("survived        two\n", result.stdout)
+        self.assertIn("does not build  broken\n", result.stdout)
+        self.assertEqual(json.loads((self.root / "out.json").read_text())["not_caught"], ["two", "broken"])
+        result = self.mutate(table, "or_equal")
+        self.assertEqual((result.returncode, result.stdout.splitlines()[-1]), (0, "1 of 1 mutants caught"))
 
-    def test_a_mutant_is_applied_once(self):
-        mutation, = self.read(ENTRY.format("less"))
-        self.assertEqual(mutated(mutation, self.folder), "return x <= y;\n")
+    def test_tests_that_fail_without_a_mutation_are_told(self):
+        self.write("tools/cmake", CMAKE.replace("<=", "<"))
+        self.assert_refused(TABLE, f"without a mutation, few fails; see {self.root}/build/mutations/tests.log")
 
-    def test_text_that_is_gone_or_stands_twice_is_told(self):
-        mutation, = self.read(ENTRY.format("less"))
-        (self.folder / "src/a.cpp").write_text("return x > y;\n")
-        with self.assertRaisesRegex(BadInput, "less: the text to replace occurs 0 times, not once, in src/a.cpp:\nx < y"):
-            mutated(mutation, self.folder)
-        (self.folder / "src/a.cpp").write_text("x < y, x < y;\n")
-        with self.assertRaisesRegex(BadInput, "occurs 2 times"):
-            mutated(mutation, self.folder)
-        (self.folder / "src/a.cpp").unlink()
-        with self.assertRaisesRegex(BadInput, "occurs 0 times"):
-            mutated(mutation, self.folder)
-
-    def test_a_replacement_by_itself_is_told(self):
-        with self.assertRaisesRegex(BadInput, "less changes nothing"):
-            mutated(Mutation("less", "m", "src/a.cpp", "*", "x < y", "x < y"), self.folder)
+    def test_a_mutant_that_no_longer_applies_is_told(self):
+        for code, message in (("x > y", "or_equal: x > y occurs 0 times, not once, in src/a.cpp"),
+                              ("int", "or_equal: int occurs 3 times, not once, in src/a.cpp"),
+                              ("on", "or_equal: on occurs 0 times, not once, in src/a.cpp")):
+            self.assert_refused(TABLE.replace("x < y", code), message)
+        self.assert_refused(TABLE.replace("a.cpp", "b.cpp"), "or_equal: 0 files match b.cpp, not one")
 
     def test_a_bad_table_is_told(self):
-        for text, message in ((ENTRY.format("a") + ENTRY.format("a"), "twice: a"),
-                              (ENTRY.format("a").replace("change", "summary"), "a must have exactly"),
-                              (ENTRY.format("a") + 'sanitizer = "memory"\n', "a: sanitizer must be one of thread"),
-                              ("", "mutation"), ("[[", "Invalid|Expected")):
-            with self.assertRaisesRegex(BadInput, message):
-                self.read(text)
+        for table in ("[[", TABLE.replace("program", "p"), TABLE.replace(', "x <= y"', ""), 'program = "few"\n'):
+            result = self.mutate(table)
+            self.assertEqual((result.returncode, result.stderr.count("\n")), (2, 1), result.stderr)
+            self.assertIn("mutations.toml: ", result.stderr)
 
     def test_an_unknown_name_is_told(self):
-        result = subprocess.run([ROOT / "scripts/mutate", "--only", "nobody"], capture_output=True, text=True, check=False)
-        self.assertEqual((result.returncode, result.stderr),
-                         (2, "mutate: there is no mutant nobody; --list prints them\n"))
-
-    def test_the_copy_follows_the_tree_and_keeps_what_is_the_same(self):
-        tree = self.folder / "copy"
-        (self.folder / "README.md").write_text("one")
-        (self.folder / "elsewhere").write_text("no part of the tree")
-        copy_tree(self.folder, tree)
-        self.assertEqual({str(f) for f in files_of(tree)}, {"README.md", "src/a.cpp"})
-        before = (tree / "README.md").stat().st_mtime_ns
-        (self.folder / "src/a.cpp").unlink()
-        (self.folder / "src/b.cpp").write_text("b")
-        copy_tree(self.folder, tree)
-        self.assertEqual({str(f) for f in files_of(tree)}, {"README.md", "src/b.cpp"})
-        self.assertEqual((tree / "README.md").stat().st_mtime_ns, before)
-
-    def test_failed_tests_are_read_from_what_googletest_says(self):
-        said = ("[ RUN      ] A.One\n[       OK ] A.One (0 ms)\n[ RUN      ] A.Two/x\nno\n"
-                "[  FAILED  ] A.Two/x, where GetParam() = \"x\" (3 ms)\n[  FAILED  ] 1 test, listed below:\n"
-                "[  FAILED  ] A.Two/x, where GetParam() = \"x\"\n")
-        self.assertEqual(failed_tests(said), ["A.Two/x"])
-        self.assertEqual(failed_tests("[  FAILED  ] A.Three (3 ms)\n"), ["A.Three"])
-        self.assertEqual(failed_tests("[ RUN      ] A.One\n[       OK ] A.One (0 ms)\n[ RUN      ] A.Four\n"), ["A.Four"])
-        self.assertEqual(failed_tests(""), [])
-
-    def test_failed_tests_are_read_from_what_unittest_says(self):
-        said = ("..F.E\n======\nFAIL: test_one (__main__.NoiseTest.test_one)\n------\nAssertionError\n"
-                "======\nERROR: test_two (__main__.NoiseTest.test_two)\n------\nFAILED (failures=1, errors=1)\n")
-        self.assertEqual(failed_tests(said), ["test_one", "test_two"])
-
-    def test_a_mutant_of_a_script_needs_no_build(self):
-        mutation, = self.read(ENTRY.format("less"))
-        self.assertFalse(mutation.in_script)
-        mutation, = self.read(ENTRY.format("less").replace("a.cpp", "a.py"))
-        self.assertTrue(mutation.in_script)
+        self.assert_refused(TABLE, "there is no mutant nobody; --list prints them", "nobody")
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""checks/collect_tests.py and reporting/verification_summary.py, on results made here."""
+"""checks/test_results.py and reporting/verification_summary.py, on results made here."""
 import json
 import subprocess
 import sys
@@ -47,19 +47,19 @@ class CollectTest(unittest.TestCase):
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
             for i, shard in enumerate(SHARDS):
-                (folder / f"{i}.xml").write_text(f"<testsuites>{''.join(shard)}</testsuites>")
+                (folder / f"tests-{i}.xml").write_text(f"<testsuites>{''.join(shard)}</testsuites>")
             cases = "".join(f'<testcase status="{status}"><skipped message="SKIP_RETURN_CODE=77"/></testcase>'
                             for status in CTEST)
             (folder / "thread.xml").write_text(f"<testsuite>{cases}</testsuite>")
-            run = subprocess.run([sys.executable, SCRIPTS / "checks/collect_tests.py", "--gtest", folder / "0.xml", folder / "1.xml",
-                                  "--sanitized", folder / "thread.xml"], stdout=subprocess.PIPE, check=True)
+            (folder / "address.xml").write_text("")  # not run yet
+            run = subprocess.run([sys.executable, SCRIPTS / "checks/test_results.py", folder, "--json"], stdout=subprocess.PIPE,
+                                 check=True)
             self.assertEqual(json.loads(run.stdout), TOTALS)
 
     def test_says_what_is_no_result(self):
         with tempfile.TemporaryDirectory() as name:
-            path = Path(name) / "thread.xml"
-            path.write_text("<a/>")
-            run = subprocess.run([sys.executable, SCRIPTS / "checks/collect_tests.py", "--sanitized", path], stderr=subprocess.PIPE, text=True,
+            (Path(name) / "thread.xml").write_text("<a/>")
+            run = subprocess.run([sys.executable, SCRIPTS / "checks/test_results.py", name, "--json"], stderr=subprocess.PIPE, text=True,
                                  check=False)
             self.assertEqual(run.returncode, 2)
             self.assertEqual(len(run.stderr.splitlines()), 1, run.stderr)

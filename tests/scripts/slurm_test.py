@@ -236,7 +236,7 @@ if __name__ == "__main__":
                                                                  text=True).stdout:
         missing.append("GNU parallel")
     if missing:
-        print(f"skipped: {', '.join(missing)} not installed (scripts/packages/cluster.txt; scripts/test --cluster)")
+        print(f"skipped: {', '.join(missing)} not installed (scripts/packages.txt: cluster; scripts/test --cluster)")
         sys.exit(SKIPPED)
     for number in (signal.SIGALRM, signal.SIGTERM):
         signal.signal(number, signal.default_int_handler)

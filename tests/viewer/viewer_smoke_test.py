@@ -295,6 +295,6 @@ if __name__ == "__main__":
                                         capture_output=True, text=True).stderr:
         missing.append("SDL2, when this was built,")
     if missing:
-        print(f"skipped: {', '.join(missing)} not installed (scripts/packages/viewer.txt, test.txt)")
+        print(f"skipped: {', '.join(missing)} not installed (scripts/packages.txt: viewer, test)")
         sys.exit(SKIPPED)
     unittest.main()
