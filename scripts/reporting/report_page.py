@@ -28,8 +28,6 @@ SECTIONS = {
     "portable": ("Portable pixels", ("portable",)),
     "ablation": ("Ablation", ("ablation",)),
     "peers": ("Peers", ("against-*",)),
-    "second-thread": ("The second thread", ("second-thread",)),
-    "scaling": ("More cores, an estimate", ("scaling",)),
     "others": ("Other charts", ("*",)),
 }
 

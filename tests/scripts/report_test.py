@@ -15,7 +15,7 @@ import scripts_test  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
 VOID = {"meta", "img", "input"}
-CHARTS = ("accuracy-coverage", "area", "ablation", "stability-nearer", "scenes", "against-ext", "scaling", "added")
+CHARTS = ("accuracy-coverage", "area", "ablation", "stability-nearer", "scenes", "against-ext", "added")
 SVG = """<?xml version="1.0"?>
 <svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" width="40" height="20">
  <metadata>removed</metadata>
@@ -137,7 +137,7 @@ class ReportTest(unittest.TestCase):
             if row["name"] == "slow/cube/threads:2":
                 row["triangles"] = 13.0
         page = self.made(self.write("results", bench), "--compare", self.write("slower", other))
-        names = {row["name"] for row in bench["benchmarks"] if "cores:" not in row["name"]}
+        names = {row["name"] for row in bench["benchmarks"]}
         self.assertEqual(names - {cells[0] for cells in page.cells}, set())
         self.assertEqual(page.row("tiled/cube/threads:1"), ["tiled/cube/threads:1", "cube", "1", "2.1", "5", "4.1", "2.0× faster"])
         self.assertEqual(page.row("slow/cube/threads:1")[-1], "no significant difference")
