@@ -54,9 +54,7 @@ std::optional<Flags> parse_flags(int argc, char** argv) {
   std::string format;
   parser.add_option("--benchmark_out", flags.out, "Write the results to this file, complete or not at all")
       ->type_name("FILE");
-  parser
-      .add_option("--model_out", flags.model_out,
-                  "Write to this file: cost model, estimates for more cores, what two threads lose")
+  parser.add_option("--model_out", flags.model_out, "Write the cost model's estimates to this file")
       ->type_name("FILE");
   parser.add_option("--benchmark_out_format", format, "json only")->check(CLI::IsMember({"json"}));
   parser.footer(

@@ -7,11 +7,10 @@
 #include <chrono>
 #include <cmath>
 #include <iostream>
-#include <limits>
+#include <nlohmann/json.hpp>
 #include <span>
 
 #include "bench/flags.h"
-#include "bench/models/model.h"
 #include "bench/peers/ratios.h"
 #include "bench/reporter.h"
 #include "bench/workloads/memory.h"
@@ -20,6 +19,7 @@
 #include "core/atomic_file.h"
 #include "core/parallel.h"
 #include "support/console.h"
+#include "support/json_text.h"
 #include "support/machine.h"
 #include "support/options.h"
 #include "support/output_path.h"
@@ -41,12 +41,10 @@ struct Effort {
   int repetitions;
   int ablation_repetitions;  // replaces `repetitions` for ablation rows and close ones: their differences are
                              // often below the noise
-  int rounds;           // replaces `repetitions` for rows that --model_out divides between two threads: each
-                        // repetition adds a round
-  double repetition_s;  // minimum duration of a repetition
+  double repetition_s;       // minimum duration of a repetition
   double slow_repetition_s;  // rows with longer iterations have fewer repetitions, but at least `repetitions`
 };
-constexpr Effort kFull{5, 9, 24, 0.012, 0.07}, kQuick{5, 5, 5, 0.01, 0.1};
+constexpr Effort kFull{5, 9, 0.012, 0.07}, kQuick{5, 5, 0.01, 0.1};
 
 // Memory is measured once per scene and backend.
 bool needs_peak(const Row& row) {
@@ -91,20 +89,6 @@ std::optional<std::vector<Row>> select(std::vector<Row> suite) {
   return rows;
 }
 
-// Whether a frame is slow, and slower than another backend's. Such frames get no estimate for more cores.
-bool is_slow_and_not_fastest(const Row& row, const std::vector<Row>& rows) {
-  constexpr double kSlow_s = 0.03;
-  double own_s = 0.0, best_s = std::numeric_limits<double>::infinity();
-  for (const Row& other : rows) {
-    if (other.workload != row.workload || other.timed != Timed::frame || other.peer != nullptr ||
-        other.execution.threads != 1 || !is_plain(other))
-      continue;
-    best_s = std::min(best_s, other.once_s);
-    if (other.backend == row.backend) own_s = other.once_s;
-  }
-  return own_s > std::max(kSlow_s, best_s);
-}
-
 // A peer that was built cannot start on a machine without its driver.
 void leave_out_missing_peers(std::vector<Row>& rows, bool need_peers) {
   if (std::none_of(rows.begin(), rows.end(), [](const Row& row) { return row.peer != nullptr; })) return;
@@ -121,7 +105,7 @@ void leave_out_missing_peers(std::vector<Row>& rows, bool need_peers) {
 
 // Whether the previous row is the same backend's draw without the front end, and was already too slow.
 bool is_too_slow_alone(std::span<const Row> rows, std::size_t i) {
-  if (i == 0 || rows[i].timed != Timed::frame || rows[i].cores > 0) return false;
+  if (i == 0 || rows[i].timed != Timed::frame) return false;
   const Row &row = rows[i], &alone = rows[i - 1];
   return alone.timed == Timed::raster && alone.workload == row.workload && alone.backend == row.backend &&
          alone.execution.threads == row.execution.threads && alone.once_s > kTooSlowToRepeat_s;
@@ -138,9 +122,7 @@ void compare_all(std::vector<Row>& rows, Stage& stage, bool whole_suite) {
       return row.workload.get() == &workload && (row.timed != Timed::raster || row.numbers);
     };
     workload.prepare(std::any_of(rows.begin(), rows.end(), needs_scene));
-    if (rows[i].cores > 0 && is_slow_and_not_fastest(rows[i], rows))
-      rows[i].once_s = std::numeric_limits<double>::infinity();
-    else if (whole_suite && is_too_slow_alone(rows, i))
+    if (whole_suite && is_too_slow_alone(rows, i))
       rows[i].once_s = rows[i - 1].once_s;
     else
       stage.compare(rows[i]);
@@ -149,18 +131,11 @@ void compare_all(std::vector<Row>& rows, Stage& stage, bool whole_suite) {
   }
 }
 
-// Throws std::invalid_argument if only estimates were selected.
-void leave_out_estimates(std::vector<Row>& rows) {
-  std::erase_if(rows, [](const Row& row) { return row.cores > 0; });
-  if (rows.empty())
-    throw std::invalid_argument("these rows are estimates, not timed: --model_out=FILE writes them");
-}
-
 // If the draw takes seconds, the front end's milliseconds are lost in the noise.
 void leave_out_slow_frames(std::vector<Row>& rows) {
   std::erase_if(rows, [&](const Row& row) {
     const bool slow = row.timed == Timed::frame && row.once_s > kTooSlowToRepeat_s;
-    if (slow && row.cores <= 1) std::cerr << "Left out as too slow: " << row.name << '\n';
+    if (slow) std::cerr << "Left out as too slow: " << row.name << '\n';
     return slow;
   });
 }
@@ -189,7 +164,6 @@ void time_row(benchmark::State& state, Row& row, Stage& stage) {
       }
       stage.work(row);
     }
-    stage.add_round(row);  // here, so that the rounds are spread over the whole run
   }
   const Workload& workload = *row.workload;
   auto& counters = state.counters;
@@ -216,7 +190,6 @@ void register_rows(std::vector<Row>& rows, Stage& stage, const Flags& flags, too
   };
   const auto calls = std::make_shared<Calls>();
   for (Row& row : rows) {
-    if (row.cores > 0) continue;  // estimated, not timed
     auto* registered = benchmark::RegisterBenchmark(
         row.name.c_str(), [&row, &stage, &progress, calls](benchmark::State& state) {
           progress.show(std::min(1.0, static_cast<double>(calls->made++) / calls->expected),
@@ -235,9 +208,7 @@ void register_rows(std::vector<Row>& rows, Stage& stage, const Flags& flags, too
     if (flags.own_iterations || known)
       registered->Iterations(known ? 1
                                    : std::max<std::int64_t>(1, std::llround(effort.repetition_s / once_s)));
-    const int most = row.wants_second_thread && !flags.model_out.empty() ? effort.rounds
-                     : row.step || row.close                             ? effort.ablation_repetitions
-                                                                         : effort.repetitions;
+    const int most = row.step || row.close ? effort.ablation_repetitions : effort.repetitions;
     const int repetitions =
         known ? 1 : std::clamp(static_cast<int>(most * effort.slow_repetition_s / once_s), least, most);
     if (flags.own_repetitions || known) registered->Repetitions(repetitions);
@@ -283,6 +254,22 @@ void add_context(const Flags& flags) {
   benchmark::AddCustomContext("peers", names_of(benchmark_peers()));
 }
 
+// The cost model's parts, one line per row.
+std::string model_json(std::span<const Row> rows) {
+  constexpr double kMs = 1e3;
+  std::string lines;
+  for (const Row& row : rows) {
+    if (!row.cost || !row.error.empty()) continue;
+    const auto& [blocks, read_s, blocks_s, write_s, tiles_s] = *row.cost;
+    const nlohmann::ordered_json parts{
+        {"name", row.name},         {"covered_blocks", blocks.covered}, {"won_blocks", blocks.won},
+        {"read_ms", read_s * kMs},  {"blocks_ms", blocks_s * kMs},      {"write_ms", write_s * kMs},
+        {"tiles_ms", tiles_s * kMs}};
+    lines += (lines.empty() ? "\n" : ",\n") + tools::json_text(parts);
+  }
+  return "{\n\"costs\": [" + lines + "\n]\n}\n";
+}
+
 int run(int argc, char** argv) {
   const auto parsed = parse_flags(argc, argv);
   if (!parsed) return 0;
@@ -305,14 +292,12 @@ int run(int argc, char** argv) {
 
   leave_out_missing_peers(rows, flags.need_peers);
   if (rows.empty()) return 2;
-  if (flags.model_out.empty()) leave_out_estimates(rows);
   Stage stage(!flags.model_out.empty());
   compare_all(rows, stage, flags.suite.scenes.empty());
   if (flags.suite.scenes.empty()) leave_out_slow_frames(rows);
   add_context(flags);
   std::vector<std::string> names;
-  for (const auto& row : rows)
-    if (row.cores == 0) names.push_back(row.name);
+  for (const auto& row : rows) names.push_back(row.name);
   for (const auto& row : random_read_rows()) names.emplace_back(row.name);
   Reporter reporter(names);
   {
@@ -326,7 +311,7 @@ int run(int argc, char** argv) {
     out->commit();
   }
   if (model_out) {
-    model_out->stream() << model_json(rows, measured_barrier_s());
+    model_out->stream() << model_json(rows);
     model_out->commit();
   }
   if (flags.readable) std::cout << ratio_table(rows, reporter.median_ms());

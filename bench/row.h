@@ -7,8 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "bench/models/scaling.h"
-#include "bench/models/second_thread.h"
 #include "bench/peers/peer.h"
 #include "bench/workloads/workload.h"
 #include "lab/engine/engine_kernel.h"
@@ -37,26 +35,22 @@ struct Row {
   std::optional<lab::EngineNumbers> numbers;  // if set, the laboratory's engine draws, in place of `backend`
   double repeat_below_s = kTooSlowToRepeat_s;
   double pause_s = 0.0;   // before each frame, not timed
-  int cores = 0;          // if set, the row is estimated for this many cores, not timed
-  FrameWork recorded;     // the tasks of that estimate
   double peak_bytes = 0;  // of a first frame; 0: not measured
   bool wants_cost = false;
-  bool wants_second_thread = false;
-  bool step = false;                       // one step of the ablation
-  bool two_calls = false;                  // a frame by Frontend::run() and Backend::draw()
-  bool close = false;                      // differs little from other rows, so it is timed more often
-  double once_s = 0.0;                     // duration of the compared draw
-  std::optional<FrameCost> cost;           // if wants_cost
-  std::vector<ThreadRound> second_thread;  // if wants_second_thread
-  std::uint64_t depth_ties = 0;            // peers: depth ties within tolerance, px
-  std::optional<std::uint64_t> wrong_px;   // if the row may draw another picture: pixels of another colour
-  std::string error;                       // why the row must not be timed
+  bool step = false;                      // one step of the ablation
+  bool two_calls = false;                 // a frame by Frontend::run() and Backend::draw()
+  bool close = false;                     // differs little from other rows, so it is timed more often
+  double once_s = 0.0;                    // duration of the compared draw
+  std::optional<FrameCost> cost;          // if wants_cost
+  std::uint64_t depth_ties = 0;           // peers: depth ties within tolerance, px
+  std::optional<std::uint64_t> wrong_px;  // if the row may draw another picture: pixels of another colour
+  std::string error;                      // why the row must not be timed
 };
 
 // Whether the row is timed as a user would draw: with all optimizations, on the best SIMD target, without
 // pauses.
 inline bool is_plain(const Row& row) {
-  return !row.step && row.cores == 0 && row.pause_s == 0.0 && row.execution.target == SimdTarget::best &&
+  return !row.step && row.pause_s == 0.0 && row.execution.target == SimdTarget::best &&
          describe(row.ablation).empty();
 }
 

@@ -22,9 +22,6 @@ constexpr int kThreads[] = {1, 2};
 constexpr int kSweepThreads = 2;
 constexpr int kPause_ms = 2;
 
-// Up to more cores than a desktop has, to show where a frame stops scaling.
-constexpr int kScheduledCores[] = {1, 2, 4, 8, 16, 32, 64, 128};
-
 using WorkloadPtr = std::shared_ptr<Workload>;
 
 // A quick run draws a tenth of each scalable scene.
@@ -80,14 +77,12 @@ class Suite {
         rows_.back().wants_cost = rows_.back().close = backend.name == kAblationBackend;
         add(workload, Timed::frame, backend, name, threads);
         rows_.back().close = backend.name == kAblationBackend;
-        rows_.back().wants_second_thread = backend.name == kAblationBackend && threads == 2;
       }
     for (const SimdTarget target : supported_targets())
       if (target != SimdTarget::scalar && target != resolve(SimdTarget::best))
         for (const int threads : kThreads)
           add(workload, Timed::frame, find_backend(kAblationBackend),
               fmt::format("{}/target:{}", name, name_of(target)), threads, target);
-    if (options_.scenes.empty()) add_scheduled(workload, name);
     if (!options_.peers) return;
     for (const auto& peer : benchmark_peers())
       for (const int threads : kThreads) add_peer(workload, peer, name, threads);
@@ -231,14 +226,6 @@ class Suite {
     row.execution.threads = threads;
     row.execution.target = target;
     rows_.push_back(std::move(row));
-  }
-
-  void add_scheduled(const WorkloadPtr& workload, const std::string& name) {
-    for (const auto& backend : backends())
-      for (const int cores : kScheduledCores) {
-        add(workload, Timed::frame, backend, fmt::format("{}/cores:{}", name, cores), 1);
-        rows_.back().cores = rows_.back().execution.threads = cores;
-      }
   }
 
   void add_peer(const WorkloadPtr& workload, const PeerInfo& peer, const std::string& scene, int threads) {

@@ -29,8 +29,6 @@ BlockCounts count_blocks(std::span<const ScreenTriangle> triangles, int width, i
 struct FrameCost {
   BlockCounts blocks;
   double read_s = 0, blocks_s = 0, write_s = 0, tiles_s = 0;
-  double total_s() const { return read_s + blocks_s + write_s; }
-  double in_tiles_s() const { return read_s + blocks_s + tiles_s; }
 };
 
 // Measures block and write times once per thread count and frame size, and keeps them for later frames.

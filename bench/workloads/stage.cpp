@@ -60,21 +60,10 @@ double Stage::timed_work_s(const Row& row) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-double Stage::recorded_work_s(Row& row) {
-  FrameRecorder recorder;
-  {
-    const ObserveParallel scope(recorder);
-    work(row);
-  }
-  const FrameWork frame = recorder.finish();
-  row.recorded.take_minima(frame);
-  return frame.work_s();
-}
-
 void Stage::compare_ours(Row& row) {
   // The frame still holds the previous row's picture, which may be the same.
   if (row.timed != Timed::frontend) lab::poison(frame(row));
-  row.once_s = row.cores > 0 ? recorded_work_s(row) : timed_work_s(row);
+  row.once_s = timed_work_s(row);
   if (row.timed == Timed::frontend) {
     const auto expected = row.workload->triangles();
     const auto actual = row.workload->run(frontend_, row.execution);
@@ -100,28 +89,12 @@ void Stage::compare(Row& row) {
   } else {
     compare_ours(row);
   }
-  if (row.cores > 0) {
-    for (const double limit_s : {row.repeat_below_s, 0.02})
-      if (row.once_s < limit_s) row.once_s = recorded_work_s(row);
-    return;
-  }
   // The first draw also allocates memory. Later draws time the row, and short rows are drawn more often.
   for (const double limit_s : {row.repeat_below_s, 0.1, 0.1})
     if (row.once_s < limit_s) row.once_s = std::min(row.once_s, timed_work_s(row));
   if (row.wants_cost && estimates_)
     row.cost = cost_model_.estimate(row.workload->triangles(), row.workload->blocks(), frame(row),
                                     row.execution.threads);
-}
-
-void Stage::add_round(Row& row) {
-  constexpr double kShort_s = 0.02, kTooLong_s = 0.5;
-  if (!row.wants_second_thread || !estimates_ || row.once_s > kTooLong_s) return;
-  Row on_one = row;
-  on_one.execution.threads = 1;
-  // Alternating orders, so that drift of the machine favours neither.
-  const bool two_first = row.second_thread.size() % 2 == 0;
-  row.second_thread.push_back(
-      time_round([&](int threads) { work(threads == 1 ? on_one : row); }, row.once_s < kShort_s, two_first));
 }
 
 }  // namespace edgewise::bench

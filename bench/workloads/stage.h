@@ -16,9 +16,9 @@ class Stage {
   // `estimates`: whether rows get the cost model's estimates, which take longer than a draw.
   explicit Stage(bool estimates = true) : estimates_(estimates) {}
 
-  // Draws the row and compares every bit with the reference. Sets once_s, `error` if a bit differs, the cost
-  // model's estimate if the row has wants_cost and this stage estimates, and the recorded tasks if it has
-  // `cores`. Requires a prepared workload.
+  // Draws the row and compares every bit with the reference. Sets once_s, `error` if a bit differs, and
+  // the cost model's estimate if the row has wants_cost and this stage estimates. Requires a prepared
+  // workload.
   void compare(Row& row);
 
   // Drops the memory of the engine and of the backend without coverage masks, with which it is compared, so
@@ -29,15 +29,11 @@ class Stage {
   // Performs the row's timed work once.
   void work(const Row& row);
 
-  // Adds a round to second_thread if the row has wants_second_thread and this stage estimates.
-  void add_round(Row& row);
-
  private:
   void compare_ours(Row& row);
   Backend& backend(const Row& row);
   Framebuffer& frame(const Row& row);
   double timed_work_s(const Row& row);
-  double recorded_work_s(Row& row);
 
   // With and without coverage masks.
   std::map<std::pair<const BackendInfo*, bool>, std::unique_ptr<Backend>> backends_;

@@ -27,7 +27,6 @@ class Row:
     times_ms: list = field(default_factory=list)
     counters: dict = field(default_factory=dict)
     error: str = ""
-    label: str = ""
 
     @property
     def median_ms(self):
@@ -69,9 +68,7 @@ class Bench:
     context: dict
     rows: dict  # by name
     random_reads: dict = field(default_factory=dict)  # rows that measure the machine, by what is read
-    scheduled: dict = field(default_factory=dict)  # by name: estimates for more cores, not timed
     costs: dict = field(default_factory=dict)  # by the name of the timed row: the parts of the cost model
-    second_thread: dict = field(default_factory=dict)  # by the name of the row on two threads: times of each round, in ms
 
     @property
     def backends(self):
@@ -92,8 +89,8 @@ class Bench:
         return self.find(f"{who}+frontend/{scene}/threads:{threads}")
 
     def sweep(self, key):
-        """The rows that have this key: timed ones, or estimates for `cores`."""
-        return [r for r in (*self.rows.values(), *self.scheduled.values()) if key in r.keys and r.times_ms]
+        """The timed rows that have this key."""
+        return [r for r in self.rows.values() if key in r.keys and r.times_ms]
 
     @property
     def scenes(self):
@@ -127,27 +124,11 @@ def source_of(path, data):
 
 COSTS = ("covered_blocks", "won_blocks", "read_ms", "blocks_ms", "write_ms", "tiles_ms")
 
-ROUNDS = ("one_ms", "two_ms", "serial_ms", "start_ms", "between_ms", "turn_ms", "end_ms")
 
-
-def read_rounds(entry):
-    rounds = {key: [float(ms) for ms in entry[key]] for key in ROUNDS}
-    if len({len(times) for times in rounds.values()}) != 1 or not rounds["one_ms"]:
-        raise ValueError(f"rounds of {entry['name']}")
-    return rounds
-
-
-def read_model(path):
+def read_costs(path):
     data = read_json(path)
     try:
-        scheduled = {}
-        for entry in data["scheduled"]:
-            row = scheduled[entry["name"]] = parse_name(entry["name"])
-            row.times_ms, row.label = [float(entry["estimate_ms"])], entry["longest"]
-            row.counters = {key: float(entry[key]) for key in ("work_ms", "path_ms", "longest_ms", "barrier_ms")}
-        costs = {entry["name"]: {key: float(entry[key]) for key in COSTS} for entry in data["costs"]}
-        # Older results lack the list.
-        return scheduled, costs, {entry["name"]: read_rounds(entry) for entry in data.get("second_thread", ())}
+        return {entry["name"]: {key: float(entry[key]) for key in COSTS} for entry in data["costs"]}
     except (KeyError, TypeError, ValueError, AttributeError) as error:
         raise BadInput(f"{path}: not what 'edgewise_bench --model_out' writes: {type(error).__name__} {error}") from None
 
@@ -170,14 +151,13 @@ def read_bench(folder_or_file):
                 row.error = entry.get("error_message", "error")
                 continue
             row.times_ms.append(entry["real_time"] * MS[entry["time_unit"]])
-            row.label = entry.get("label", "")
             row.counters = {key: value for key, value in entry.items() if isinstance(value, float)}
     except (KeyError, TypeError, AttributeError) as error:
         raise BadInput(f"{path}: not a Google Benchmark result: {error}") from None
     reads = {row.scene: rows.pop(name) for name, row in list(rows.items()) if row.backend == "random_read"}
     model = path.parent / "model.json"
-    models = read_model(model) if path.name == "bench.json" and model.exists() else ({}, {}, {})
-    return Bench(data.get("context", {}), rows, reads, *models)
+    costs = read_costs(model) if path.name == "bench.json" and model.exists() else {}
+    return Bench(data.get("context", {}), rows, reads, costs)
 
 
 def describe_machine(machine):

@@ -15,9 +15,6 @@ OTHER = ("#8c959f", "X")
 # Whether a step of the ablation made the backend faster; see ablation.verdict().
 VERDICTS = {"gain": BLACK, "loss": "#b3261e", "neither": "#8c959f"}
 
-# What two threads lose of their time; see second_thread.LOSSES.
-LOSSES = {"slower": "#8c959f", "serial": VERMILION, "start": "#F0E442", "between": "#424a53", "turn": PURPLE, "end": SKY}
-
 
 def backend_looks(backends):
     """{backend: (colour, marker)}"""

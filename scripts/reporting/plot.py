@@ -27,9 +27,7 @@ def main():
     import plot_accuracy
     import plot_growth
     import plot_ablation
-    import plot_scaling
     import plot_scenes
-    import plot_second_thread
     import plot_stability
     import plot_stability_grid
     import plot_area
@@ -38,9 +36,8 @@ def main():
     import plot_portable
     charts = (*plot_area.CHARTS, *plot_scenes.CHARTS, *plot_ablation.CHARTS)
     drawn = [name for chart in charts if (name := chart(bench, folder, caption))]
-    drawn += [name for name in (plot_growth.growth(bench, machine, folder, caption),
-                                plot_scaling.scaling(bench, folder, caption),
-                                plot_second_thread.second_thread(bench, folder, caption)) if name]
+    if growth := plot_growth.growth(bench, machine, folder, caption):
+        drawn.append(growth)
     drawn += plot_scenes.against(bench, folder, caption)
     drawn += [*plot_accuracy.draw(accuracy, folder, caption), *plot_stability.draw(sweeps, accuracy, folder, caption)]
     if main_chart := plot_frontier.frontier(accuracy, folder, caption):

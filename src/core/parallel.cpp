@@ -7,6 +7,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <map>
+#include <memory>
 #include <mutex>
 
 #ifdef EDGEWISE_TELL_TSAN
@@ -14,9 +15,6 @@
 #endif
 
 namespace edgewise::detail {
-
-constinit thread_local ParallelObserver* parallel_observer = nullptr;
-constinit thread_local Timing timing;
 
 namespace {
 
@@ -62,7 +60,9 @@ class Section {
 #endif
 };
 
-void run(int threads, int count, void (*call)(void*, int), void* context) {
+}  // namespace
+
+void parallel_for(int threads, int count, void (*call)(void*, int), void* context) {
   Section section;
   arena_for(threads).execute([&] {
     tbb::parallel_for(
@@ -74,47 +74,6 @@ void run(int threads, int count, void (*call)(void*, int), void* context) {
         },
         tbb::simple_partitioner{});
   });
-}
-
-class TimedSection {
- public:
-  explicit TimedSection(ParallelTimer& timer) : timer_(timer) { timer_.section_begins(); }
-  ~TimedSection() { timer_.section_ends(); }
-
- private:
-  ParallelTimer& timer_;
-};
-
-// A thread that waits for a section inside its task may begin another task of the outer section. The timer
-// takes that for a part of the first task.
-class TimedTask {
- public:
-  explicit TimedTask(ParallelTimer& timer) : before_(timing) {
-    if (before_.thread >= 0) return;
-    timing = {&timer, tbb::this_task_arena::current_thread_index()};
-    timer.task_begins(timing.thread);
-  }
-  ~TimedTask() {
-    if (before_.thread >= 0) return;
-    timing.timer->task_ends(timing.thread);
-    timing = before_;
-  }
-
- private:
-  Timing before_;
-};
-
-}  // namespace
-
-void parallel_for(int threads, int count, void (*call)(void*, int), void* context) {
-  if (timing.timer == nullptr || timing.thread >= 0) return run(threads, count, call, context);
-  auto timed = [&, timer = timing.timer](int i) {
-    const TimedTask task(*timer);
-    call(context, i);
-  };
-  const TimedSection section(*timing.timer);
-  run(
-      threads, count, [](void* task, int i) { (*static_cast<decltype(timed)*>(task))(i); }, &timed);
 }
 
 }  // namespace edgewise::detail

@@ -50,7 +50,6 @@ class InOrder {
         turn.store(static_cast<std::uint32_t>(chunk + 1), std::memory_order_release);
         turn.notify_all();
         place(out, at);
-        piece_done();
       }
     });
   }
@@ -68,8 +67,6 @@ class InOrder {
   // Spins for about 20 us before it sleeps: a chunk takes less time, and waking a thread takes more.
   static void wait_until(const std::atomic<std::uint32_t>& turn, std::uint32_t chunk) {
     const auto has_come = [&] { return turn.load(std::memory_order_acquire) == chunk; };
-    if (has_come()) return;
-    const TimeWait timed;
     constexpr int kSpins = 2000;
     for (int i = 0; i < kSpins; ++i) {
       if (has_come()) return;

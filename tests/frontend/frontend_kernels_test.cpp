@@ -10,7 +10,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/parallel.h"
 #include "core/random.h"
 #include "edgewise/builtin.h"
 #include "edgewise/contract.h"
@@ -285,31 +284,6 @@ TEST(FrontendKernels, ManyMeshesGiveTheSameAsEachAlone) {
   const auto together = run(scene, options);
   expect_same_triangles(expected, together.triangles, "together");
   EXPECT_EQ(std::memcmp(&sum, &together.stats, sizeof sum), 0);
-}
-
-TEST(FrontendKernels, SmallMeshesShareTheThreads) {
-  struct Counter final : ParallelObserver {
-    void section_begins(const CallSite&) override { most = std::max(most, tasks), tasks = 0; }
-    void task_ends() override { ++tasks; }
-    void section_ends() override { most = std::max(most, tasks), ++sections; }
-    int tasks = 0, most = 0, sections = 0;
-  } counter;
-  Scene scene = scene_of_many_meshes();
-  scene.instances.resize(500);
-  std::erase_if(scene.instances,
-                [&](const Instance& i) { return scene.meshes[i.mesh].triangles.size() > 40; });
-  Mesh small = scene.meshes[0];
-  small.positions.resize(3, glm::vec3(0.0f));
-  small.triangles.assign(2, {0, 1, 2});
-  small.colours.assign(2, 0);
-  for (Mesh& mesh : scene.meshes) mesh = small;
-  while (2 * scene.instances.size() <= kWorthThreads) scene.instances.push_back(scene.instances.front());
-  {
-    const ObserveParallel scope(counter);
-    run(scene, {.width = 300, .height = 200, .threads = 4});
-  }
-  EXPECT_EQ(counter.sections, 2) << "all vertices, then all triangles";
-  EXPECT_GE(counter.most, 4);
 }
 
 TEST(FrontendKernels, RandomScenesReachEveryCase) {

@@ -2,11 +2,14 @@
 // stores write the same bits (kAblations).
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
+#include <chrono>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "core/llc.h"
-#include "core/parallel.h"
 #include "lab/measure.h"
 #include "raster/tiled/tile_kernel.h"
 #include "raster/tiles.h"
@@ -60,40 +63,58 @@ TEST(TileStore, IsTheCallersChoiceIfItMakesOne) {
   EXPECT_LT(drawn, 16) << "empty tiles do not reach the kernel";
 }
 
-class TaskCounter final : public ParallelObserver {
- public:
-  int tasks = 0;
-  void section_begins(const CallSite&) override { tasks = 0; }
-  void task_ends() override { ++tasks; }
-  void section_ends() override {}
-};
-
-// Counts the calls of the kernel and the tasks of the last section.
 TEST(TileTasks, FollowTheSwitches) {
   const int side = 16 * contract::kMaxTile;
   const ScreenTriangle corner{{0, 9000, 0}, {0, 0, 9000}, {9, 9, 9}, 5};
   Framebuffer frame(side, side);
-  static int drawn;
+  static std::atomic<int> drawn;
   const TileKernel count = [](const TileTask&) { ++drawn; };
   const auto draw_with = [&](const Ablation& ablation, int height = 16 * contract::kMaxTile) {
     drawn = 0;
-    TaskCounter counter;
     TileScratch scratch;
     StoredTriangles stored({&corner, 1});
     FrameView view = frame.view();
     view.height = height;
-    const ObserveParallel observed(counter);
     draw_in_tiles(stored, view, 0, {2, 64, resolve(SimdTarget::best)}, ablation, 64, scratch,
                   Bins::Small::as_indices, count);
-    return counter.tasks;
+    return scratch.list.tasks().size();
   };
   const int tiles_with_triangles = 1;
-  EXPECT_EQ(draw_with({}), tiles_with_triangles + 16) << "and one for the empty tiles of each row";
+  EXPECT_EQ(draw_with({}), tiles_with_triangles + 16u) << "and one for the empty tiles of each row";
   EXPECT_EQ(drawn, tiles_with_triangles);
-  EXPECT_EQ(draw_with({.empty_rows = false}), 16 * 16 / 4) << "four tiles per task";
+  EXPECT_EQ(draw_with({.empty_rows = false}), 16u * 16);
   EXPECT_EQ(drawn, 16 * 16);
-  EXPECT_EQ(draw_with({.empty_rows = false, .several_tiles_per_task = false}), 16 * 16);
-  EXPECT_EQ(draw_with({}, 64), tiles_with_triangles + 8) << "a single row's empty tiles, by 8 px of height";
+  EXPECT_EQ(draw_with({}, 64), tiles_with_triangles + 8u) << "a single row's empty tiles, by 8 px of height";
+}
+
+TEST(TileTasks, AreTakenOneByOneIfTheyAreFew) {
+  EXPECT_EQ(tasks_at_once(256, 2), 4);
+  EXPECT_EQ(tasks_at_once(64, 2), 2);
+  EXPECT_EQ(tasks_at_once(63, 2), 1);
+  EXPECT_EQ(tasks_at_once(1, 64), 1);
+}
+
+// The first tile waits for the second, which another thread draws only if tiles are taken one by one. The
+// number of tiles is no multiple of four.
+TEST(TileTasks, DrawEachTileOnceInFoursOrOneByOne) {
+  constexpr int kColumns = 15, kRows = 9;
+  Framebuffer frame(kColumns * contract::kMaxTile, kRows * contract::kMaxTile);
+  for (const bool several : {true, false}) {
+    std::vector<std::atomic<int>> drawn(kColumns * kRows);
+    bool met = false;
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(several ? 20 : 10'000);
+    const auto draw_tile = [&](const TileTask& task) {
+      while (task.cell == 0 && !met && std::chrono::steady_clock::now() < deadline) met = drawn[1] > 0;
+      ++drawn[static_cast<std::size_t>(task.cell)];
+    };
+    TileScratch scratch;
+    StoredTriangles none(std::span<const ScreenTriangle>{});
+    draw_in_tiles(none, frame.view(), 0, {2, 64, resolve(SimdTarget::best)},
+                  {.empty_rows = false, .several_tiles_per_task = several}, 64, scratch,
+                  Bins::Small::as_indices, draw_tile);
+    EXPECT_TRUE(std::ranges::all_of(drawn, [](const auto& n) { return n == 1; }));
+    EXPECT_EQ(met, !several);
+  }
 }
 
 // Empty tiles at the right and lower end, beside and between tiles with triangles, by either store.

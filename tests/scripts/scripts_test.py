@@ -44,10 +44,6 @@ def bench(slow=(10.0, 10.2, 10.1, 10.05, 10.15), tiled=(2.0, 2.1, 2.2, 2.05, 2.1
         for threads in (1, 2):
             rows += entries(f"{backend}+frontend/cube/threads:{threads}", [t / threads for t in times], peak_bytes=20e6)
             rows += entries(f"{backend}/cube/tiny:256x256/threads:{threads}", [t * 2e-3 for t in times])
-        for cores in (1, 2, 4):
-            rows += entries(f"{backend}+frontend/cube/cores:{cores}/threads:{cores}", [times[0] / min(cores, 3)],
-                            label="the longest task of build in bins.cpp", work_ms=times[0], path_ms=times[0] / 3,
-                            longest_ms=times[0] / 6, barrier_ms=2e-3)
         for mode, factor in (("none", 2), ("back", 1)):
             rows += entries(f"{backend}+frontend/cube/cull:{mode}/threads:2", [t * factor for t in times])
         if backend == "tiled":
@@ -61,29 +57,14 @@ def bench(slow=(10.0, 10.2, 10.1, 10.05, 10.15), tiled=(2.0, 2.1, 2.2, 2.05, 2.1
     return {"context": {"backends": "slow tiled", "machine": "test"}, "benchmarks": rows}
 
 
-# Of 4.4 ms that two threads have, 4.0 are useful, and 0.07 are lost to slower tasks.
-ROUNDS = {"one_ms": 4.0, "two_ms": 2.2, "serial_ms": 0.22, "start_ms": 0.044, "between_ms": 0.022, "turn_ms": 0.0, "end_ms": 0.044}
-
-
-def rounds(name, **changed):
-    """An element of model.json's second_thread: nine equal rounds."""
-    return {"name": name, **{key: [ms] * 9 for key, ms in {**ROUNDS, **changed}.items()}}
-
-
 def timed_and_model(data):
     """bench.json and model.json from rows that hold the estimates as well."""
     rows = data["benchmarks"]
-    scheduled = {row["name"]: row for row in rows if "/cores:" in row["name"]}
     costs = {row["name"]: row for row in rows if "floor_ms" in row}
-    model = {"scheduled": [{"name": name, "cores": 1, "estimate_ms": row["real_time"], "longest": row["label"],
-                            **{key: row[key] for key in ("work_ms", "path_ms", "longest_ms", "barrier_ms")}}
-                           for name, row in scheduled.items()],
-             "costs": [{"name": name, "covered_blocks": row["covered_blocks"], "won_blocks": row["won_blocks"],
+    model = {"costs": [{"name": name, "covered_blocks": row["covered_blocks"], "won_blocks": row["won_blocks"],
                         **{f"{part}_ms": row[f"floor_{part}_ms"] for part in ("read", "blocks", "write", "tiles")}}
-                       for name, row in costs.items()],
-             "second_thread": [rounds("tiled+frontend/cube/threads:2"), rounds("tiled+frontend/knot/threads:2", two_ms=2.08),
-                               rounds("tiled+frontend/short/threads:2", one_ms=1.9, two_ms=1.0)]}
-    timed = [{key: value for key, value in row.items() if key not in FLOOR} for row in rows if row["name"] not in scheduled]
+                       for name, row in costs.items()]}
+    timed = [{key: value for key, value in row.items() if key not in FLOOR} for row in rows]
     return {**data, "benchmarks": timed}, model
 
 
@@ -436,7 +417,7 @@ class ScriptsTest(unittest.TestCase):
         self.assertEqual(first.returncode, 0, first.stderr)
         self.assertEqual(second.returncode, 0, second.stderr)
         drawn = sorted(p.name for p in (self.results / "charts").iterdir())
-        charts = ["area", "culling", "growth", "ablation", "scaling", "scenes", "second-thread", "simd", "threads", "portable",
+        charts = ["area", "culling", "growth", "ablation", "scenes", "simd", "threads", "portable",
                   "stability-grid", "stability-nearer", "turning-cube",
                   *(f"{kind}-{family}" for kind in ("accuracy", "errors")
                     for family in ("coverage", "visibility", "facing", "clipping"))]
@@ -447,18 +428,6 @@ class ScriptsTest(unittest.TestCase):
         for chart in (*(self.results / "charts").iterdir(), *ROOT.glob("results/*/charts/*.svg")):
             [title] = re.findall(r'<g id="title">\s*<!-- (.*?) -->', chart.read_text())
             self.assertLessEqual(len(title.split()), 12, title)
-
-    def test_results_without_rounds_have_no_chart_of_the_second_thread(self):
-        model = json.loads((self.results / "model.json").read_text())
-        del model["second_thread"]
-        (self.results / "model.json").write_text(json.dumps(model))
-        result = run("plot", self.results)
-        if "apt-get install python3-matplotlib" in result.stderr:
-            self.skipTest("no matplotlib")
-        self.assertEqual(result.returncode, 0, result.stderr)
-        drawn = {path.stem for path in (self.results / "charts").iterdir()}
-        self.assertIn("scaling", drawn)
-        self.assertNotIn("second-thread", drawn)
 
 
 class MachineTest(unittest.TestCase):

@@ -1,0 +1,43 @@
+#include "core/parallel.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+namespace edgewise {
+namespace {
+
+TEST(ParallelFor, CallsEachIndexOnce) {
+  for (const int threads : {1, 2, 64})
+    for (const int count : {0, 1, 2, 1000}) {
+      std::vector<std::atomic<int>> calls(static_cast<std::size_t>(count));
+      parallel_for(threads, count, [&](int i) { ++calls[static_cast<std::size_t>(i)]; });
+      EXPECT_TRUE(std::ranges::all_of(calls, [](const auto& n) { return n == 1; })) << count;
+    }
+}
+
+// The tasks wait for each other. The deadline turns a hang into a failure.
+TEST(ParallelFor, RunsTasksAtTheSameTimeAndRethrows) {
+  std::atomic<int> arrived{0};
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  const auto meet = [&](int i) {
+    ++arrived;
+    while (arrived < 2 && std::chrono::steady_clock::now() < deadline) std::this_thread::yield();
+    if (arrived == 2 && i == 1) throw std::runtime_error("met");
+  };
+  EXPECT_THROW(parallel_for(2, 2, meet), std::runtime_error);
+}
+
+TEST(ParallelFor, MayBeNested) {
+  std::atomic<int> calls{0};
+  parallel_for(2, 2, [&](int) { parallel_for(2, 50, [&](int) { ++calls; }); });
+  EXPECT_EQ(calls, 100);
+}
+
+}  // namespace
+}  // namespace edgewise
