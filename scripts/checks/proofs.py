@@ -1,4 +1,4 @@
-"""Reads the claims of src/raster/proofs/*.smt2 and asks a solver; contract.smt2 there describes the layout of the files.
+"""Reads the claims of tests/proofs/*.smt2 and asks a solver; contract.smt2 there describes the layout of the files.
 
 Each section runs after the definitions and its file's introduction, in a process of its own, so that a time-out ends
 no other section.

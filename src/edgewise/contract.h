@@ -5,7 +5,7 @@
 // step, tile, vectorise or thread in any order and still write the same bits. Floats end in the front end. A
 // backend may use floats only where it shows that rounding cannot change a decision.
 //
-// The z3 solver proves the claims about all inputs: raster/proofs, run by scripts/prove.
+// The z3 solver proves the claims about all inputs: tests/proofs, run by scripts/prove.
 //
 // Sources: fill rule, snapping and sample positions follow the D3D11.3 functional specification, section 3.4
 // (rasterization rules); edge functions are those of Pineda, "A Parallel Algorithm for Polygon

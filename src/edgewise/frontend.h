@@ -91,8 +91,8 @@ class TriangleSource;  // internal
 
 // A front end keeps its memory between frames and allocates only in the first frame of a kind. It keeps
 // - 16 bytes per vertex of the largest mesh, or for small meshes 0.5 MB, or 0.8 MB per 8 threads,
-// - of meshes with clusters, less than 400 bytes per cluster of each instance, and 1 byte per vertex of the
-//   largest mesh or group,
+// - of meshes with clusters, less than 400 bytes per cluster of each instance, 1 byte per vertex of the
+//   largest mesh or group, and address space for 16 bytes per vertex of the largest mesh,
 // - up to 4 MB for many small meshes,
 // - 40 bytes per visible triangle (and address space for as many per submitted one), unless draw() makes a
 //   stream's triangles while the backend bins them,

@@ -37,7 +37,7 @@ HWY_INLINE bool assemble_vector(const MeshTask& task, std::size_t first, ChunkOu
   cull_and_append<kFlagged>({{a.word[0], b.word[0], c.word[0]},
                              {a.word[1], b.word[1], c.word[1]},
                              {a.word[2], b.word[2], c.word[2]},
-                             counting_from(first)},
+                             counting_from(task.first_id + first)},
                             outside, task.options.cull, out, task.mesh.flags.data() + (kFlagged ? first : 0));
   return true;
 }

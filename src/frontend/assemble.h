@@ -7,9 +7,9 @@
 
 namespace edgewise {
 
-// Appends the visible pieces of triangles begin … end - 1 to the output, with the triangle's index in the
-// mesh as payload. Returns false and appends nothing if a triangle names a vertex that is not
-// `allowed`.
+// Appends the visible pieces of triangles begin … end - 1 to the output, with ids as payloads: task.first_id
+// plus the triangle's index in the mesh. Returns false and appends nothing if a triangle names a vertex that
+// is not `allowed`.
 using AssembleKernel = bool (*)(const MeshTask& task, std::size_t begin, std::size_t end, VertexRange allowed,
                                 ChunkOutput& out);
 

@@ -116,7 +116,6 @@ struct GroupMember {
   MeshTask task;
   ShadeTask light;
   std::size_t first_vertex;  // in State::vertices, of the mesh or part
-  std::uint32_t first_id;    // of the mesh
   // Sides beyond which all finite vertices lie. 0 for a part, which is in view.
   std::uint32_t common;
 
@@ -137,6 +136,10 @@ struct Frontend::State {
   ClusterPart part;
   Chunks vertex_chunks, triangle_chunks;
   std::size_t group_vertices = 0;  // room for them, in `vertices`
+  // Tasks index vertices as the mesh does, but only a part's are there. So the first `unused` records, as
+  // many as the largest mesh with clusters has vertices, are never touched: a task's pointer to what would be
+  // vertex 0 stays inside the buffer.
+  std::size_t unused = 0;
   Buffer<Vertex> vertices;
 
   InOrder order;
@@ -165,13 +168,10 @@ struct Frontend::State {
 
   void transform_group() {
     const TransformKernel transform = transform_kernel(options.target);
-    vertices.reserve(group_vertices);
-    // Tasks index vertices as the mesh does, but only the part's are there.
-    for (GroupMember& member : group) {
-      const auto first = reinterpret_cast<std::uintptr_t>(vertices.data() + member.first_vertex);
+    vertices.reserve(unused + group_vertices);
+    for (GroupMember& member : group)
       member.task.vertices =
-          reinterpret_cast<Vertex*>(first - member.task.vertex_range.first * sizeof(Vertex));
-    }
+          vertices.data() + (unused + member.first_vertex - member.task.vertex_range.first);
     parallel_for(workers_for(vertex_chunks.total(), options.threads), static_cast<int>(vertex_chunks.size()),
                  [&](int chunk) {
                    for (const MeshRun& run : vertex_chunks[static_cast<std::size_t>(chunk)]) {
@@ -189,18 +189,14 @@ struct Frontend::State {
     if (options.keep_unsnapped) std::copy_n(out.unsnapped.data(), out.count, unsnapped.data() + at);
   }
 
-  // Replaces the payload of the output's triangles from `first` on, which is the index in the mesh, by the
-  // payload that the options select.
-  void finish_payload(const GroupMember& member, std::size_t first, ChunkOutput& out, ShadeKernel shade) {
-    ScreenTriangle* triangles = out.triangles.data() + first;
-    const std::size_t count = out.count - first;
+  // Replaces the ids of the output's triangles from `first` on, which are indices in the mesh, by colours.
+  void set_colours(const GroupMember& member, std::size_t first, ChunkOutput& out, ShadeKernel shade) {
+    if (options.shade) return shade(member.light, out, first);
     const Mesh& mesh = member.task.mesh;
-    if (options.payload == Payload::id)
-      std::for_each_n(triangles, count, [&](ScreenTriangle& t) { t.payload += member.first_id; });
-    else if (options.shade)
-      shade(member.light, out, first);
-    else
-      std::for_each_n(triangles, count, [&](ScreenTriangle& t) { t.payload = mesh.colours[t.payload]; });
+    std::for_each_n(out.triangles.data() + first, out.count - first, [&](ScreenTriangle& t) {
+      const std::uint32_t index = t.payload;
+      t.payload = mesh.colours[index];
+    });
   }
 
   void assemble_group() {
@@ -217,10 +213,10 @@ struct Frontend::State {
         const GroupMember& member = group[run.member];
         const std::size_t first = out.count;
         if (member.out_of_sight()) continue;
-        if (assemble(member.task, run.begin, run.end, run.allowed, out))
-          finish_payload(member, first, out, shade);
-        else
+        if (!assemble(member.task, run.begin, run.end, run.allowed, out))
           all_exist = false;
+        else if (options.payload == Payload::colour)
+          set_colours(member, first, out, shade);
       }
     };
     order.for_each_chunk(triangle_chunks.size(), triangle_chunks.total(), make,
@@ -252,22 +248,21 @@ struct Frontend::State {
   }
 
   // Returns the new member's index. Its vertices and triangles must then be added to the chunks.
-  std::size_t add_member(const MeshTask& task, const ShadeTask& light, std::size_t first_id,
-                         std::uint32_t common) {
+  std::size_t add_member(const MeshTask& task, const ShadeTask& light, std::uint32_t common) {
     if (group_vertices + task.vertex_range.size() > max_vertices() || group.size() == kMaxMembers)
       run_group();
-    group.push_back({task, light, group_vertices, static_cast<std::uint32_t>(first_id), common});
+    group.push_back({task, light, group_vertices, common});
     group_vertices += task.vertex_range.size();
     return group.size() - 1;
   }
 
-  void add_whole(const MeshTask& task, const ShadeTask& light, std::size_t first_id) {
-    const std::size_t member = add_member(task, light, first_id, kInvisible | kNotFinite);
+  void add_whole(const MeshTask& task, const ShadeTask& light) {
+    const std::size_t member = add_member(task, light, kInvisible | kNotFinite);
     vertex_chunks.add(member, 0, task.mesh.positions.size());
     triangle_chunks.add(member, 0, task.mesh.triangles.size(), task.vertex_range);
   }
 
-  void add_parts(MeshTask task, const ShadeTask& light, std::size_t first_id) {
+  void add_parts(MeshTask task, const ShadeTask& light) {
     const Mesh& mesh = task.mesh;
     const ViewSides sides(task.to_screen, task.view);
     const auto drop_if_outside = [&](std::size_t cluster) {
@@ -281,7 +276,7 @@ struct Frontend::State {
     while (part.take(drop_if_outside)) {
       in_view = true;
       task.vertex_range = part.range();
-      const std::size_t member = add_member(task, light, first_id, 0);
+      const std::size_t member = add_member(task, light, 0);
       part.for_each_vertex_run(
           [&](std::size_t first, std::size_t count) { vertex_chunks.add(member, first, count); });
       part.for_each_triangle_run([&](std::size_t first, std::size_t count, VertexRange range) {
@@ -295,15 +290,17 @@ struct Frontend::State {
   // of vertices lies between two runs of a part.
   void reserve_for_clusters(const Scene& scene) {
     std::size_t clusters = 0, triangles = 0, most_vertices = max_vertices();
+    unused = 0;
     for (const Instance& instance : scene.instances) {
       const Mesh& mesh = mesh_of(scene, instance);
       clusters += mesh.clusters.size();
       triangles += mesh.triangles.size();
       most_vertices = std::max(most_vertices, mesh.positions.size());
+      if (!mesh.clusters.empty()) unused = std::max(unused, mesh.positions.size());
     }
     if (clusters == 0) return;
     const std::size_t members = std::min(clusters + scene.instances.size(), kMaxMembers);
-    vertices.reserve(most_vertices);
+    vertices.reserve(unused + most_vertices);
     group.reserve(members);
     vertex_chunks.reserve(most_vertices, members + most_vertices / (2 * ClusterPart::kBlock));
     triangle_chunks.reserve(triangles, clusters + members);
@@ -316,24 +313,26 @@ struct Frontend::State {
     const glm::dmat3 pixels = pixels_of(scene.camera, options.width, options.height);
     const glm::dvec3 to_light = glm::normalize(glm::dvec3(scene.to_light));
     const ViewDepth depth(view.near_z, view.far_z);
-    std::size_t first_id = 0;
+    std::size_t first_triangle = 0;  // in submission order, of the instance
     for (const auto& instance : scene.instances) {
       const Mesh& mesh = mesh_of(scene, instance);
       check(mesh);
       const glm::dmat4 model = model_matrix(instance);
-      const MeshTask task{.options = options,
-                          .mesh = mesh,
-                          .view = view,
-                          .to_screen = {pixels, scene.camera.position, model},
-                          .depth = depth,
-                          .vertices = nullptr,
-                          .vertex_range = {0, mesh.positions.size()},
-                          .states = options.keep_states ? states.data() + first_id : nullptr};
+      const MeshTask task{
+          .options = options,
+          .mesh = mesh,
+          .view = view,
+          .to_screen = {pixels, scene.camera.position, model},
+          .depth = depth,
+          .vertices = nullptr,
+          .vertex_range = {0, mesh.positions.size()},
+          .first_id = options.payload == Payload::id ? static_cast<std::uint32_t>(first_triangle) : 0,
+          .states = options.keep_states ? states.data() + first_triangle : nullptr};
       ++stats.meshes;
       stats.triangles += mesh.triangles.size();
       const ShadeTask light{mesh, cofactor_matrix(model), to_light};
-      mesh.clusters.empty() ? add_whole(task, light, first_id) : add_parts(task, light, first_id);
-      first_id += mesh.triangles.size();
+      mesh.clusters.empty() ? add_whole(task, light) : add_parts(task, light);
+      first_triangle += mesh.triangles.size();
     }
     run_group();
   }

@@ -188,7 +188,7 @@ void add_one(const MeshTask& task, std::size_t triangle, ChunkOutput& out) {
   const Cull cull = task.mesh.has_flag(triangle, kTwoSided) ? Cull::none : task.options.cull;
   add_and_record_state(task, triangle, out, [&] {
     add({task.vertices[t.x], task.vertices[t.y], task.vertices[t.z]},
-        {static_cast<std::uint32_t>(triangle), cull}, task.options, out,
+        {task.first_id + static_cast<std::uint32_t>(triangle), cull}, task.options, out,
         MeshGeometry{.task = task, .triangle = t});
   });
 }

@@ -10,7 +10,8 @@
 namespace edgewise {
 
 // Appends the visible pieces of a triangle to the output and counts them in its statistics. A mesh triangle's
-// payload is its index in the mesh; a stream triangle's is the one that the options select.
+// payload is its id, task.first_id plus its index in the mesh; a stream triangle's is the one that the
+// options select.
 void add_one(const MeshTask& task, std::size_t triangle, ChunkOutput& out);
 void add_one(const StreamTask& task, std::size_t triangle, ChunkOutput& out);
 

@@ -119,8 +119,8 @@ HWY_INLINE VF cosines(const ShadeTask& task, const Padded& positions,
 }
 
 // -1 for a two-sided triangle seen from behind, else 1.
-float side_seen(const Mesh& mesh, std::uint32_t source, const ScreenTriangle& seen) {
-  return mesh.has_flag(source, kTwoSided) && contract::signed_area(seen) < 0 ? -1.0f : 1.0f;
+float side_seen(const Mesh& mesh, std::uint32_t index, const ScreenTriangle& seen) {
+  return mesh.has_flag(index, kTwoSided) && contract::signed_area(seen) < 0 ? -1.0f : 1.0f;
 }
 
 template <bool kFlagged, bool kNormals>
@@ -136,13 +136,13 @@ void shade_all(const ShadeTask& task, ChunkOutput& out, std::size_t first) {
     float sides[kBatch];
     for (std::size_t lane = 0; lane < kBatch; ++lane) {
       const ScreenTriangle& seen = triangles[i + std::min(lane, count - 1)];
-      const std::size_t source = seen.payload;
-      if constexpr (kFlagged) sides[lane] = side_seen(task.mesh, seen.payload, seen);
+      const std::uint32_t index = seen.payload;
+      if constexpr (kFlagged) sides[lane] = side_seen(task.mesh, index, seen);
       if constexpr (kNormals)
-        sources[lane] = vectors[seen.payload];
+        sources[lane] = vectors[index];
       else
-        sources[lane] = &task.mesh.triangles[source];
-      colours[lane] = task.mesh.colours[source];
+        sources[lane] = &task.mesh.triangles[index];
+      colours[lane] = task.mesh.colours[index];
     }
     const VI colour = hn::LoadU(d, reinterpret_cast<const std::int32_t*>(colours));
     VF cosine = cosines(task, vectors, sources);

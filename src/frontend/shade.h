@@ -19,8 +19,7 @@ struct ShadeTask {
   glm::dvec3 to_light;  // normalised
 };
 
-// Replaces the payload of the output's triangles from `first` on, which is the index in the mesh, by the lit
-// colour.
+// Replaces the ids of the output's triangles from `first` on, which are indices in the mesh, by lit colours.
 using ShadeKernel = void (*)(const ShadeTask& task, ChunkOutput& out, std::size_t first);
 
 // `target` must be resolved.

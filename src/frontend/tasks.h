@@ -23,6 +23,7 @@ struct MeshTask {
   ViewDepth depth;                  // w → contract units
   Vertex* vertices;                 // by the mesh's indices
   VertexRange vertex_range{};       // of those in `vertices`
+  std::uint32_t first_id = 0;       // of the mesh's triangles; 0 where colours will replace ids
   TriangleState* states = nullptr;  // one per triangle, to be written; null: not needed
 
   // True if add_one() must handle every triangle.

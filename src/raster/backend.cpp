@@ -2,17 +2,12 @@
 
 #include <stdexcept>
 #include <string>
-#include <variant>
 
-#include "core/triangle_source.h"
 #include "edgewise/contract.h"
-#include "edgewise/frontend.h"
+#include "raster/checks.h"
 
 namespace edgewise {
 
-namespace {
-
-// `execution` with a resolved target. Throws std::invalid_argument.
 Execution checked(const FrameView& frame, const Execution& execution) {
   const auto in_range = [](int side) { return side >= 1 && side <= contract::kMaxImageSide; };
   if (!in_range(frame.width) || !in_range(frame.height) || frame.stride < frame.width || !frame.depth ||
@@ -37,8 +32,6 @@ void throw_if_of_another_size(const char* what, int width, int height, const Fra
                                 size(frame.width, frame.height));
 }
 
-}  // namespace
-
 void Backend::draw(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
                    const Execution& execution) {
   const Execution resolved = checked(frame, execution);
@@ -52,23 +45,6 @@ void Backend::draw(const ScreenTriangles& triangles, FrameView frame, std::uint3
                    const Execution& execution) {
   throw_if_of_another_size("triangles made", triangles.width(), triangles.height(), frame);
   draw(std::span(triangles), frame, background, execution);
-}
-
-void draw(const Drawable& drawable, Frontend& frontend, const FrontendOptions& options, Backend& backend,
-          FrameView frame, std::uint32_t background, const Execution& execution) {
-  throw_if_of_another_size("a drawable with options", options.width, options.height, frame);
-  const Execution resolved = checked(frame, execution);
-  if (TriangleSource* const source = frontend.start_source(drawable, options, resolved.threads)) {
-    struct End {  // also if drawing throws
-      Frontend& frontend;
-      ~End() { frontend.end_source(); }
-    };
-    const End end{frontend};
-    if (backend.draw_source(*source, frame, background, resolved)) return;
-  }
-  FrontendOptions in_two_calls = options;
-  if (std::holds_alternative<TriangleStream>(drawable)) in_two_calls.threads = resolved.threads;
-  backend.draw(frontend.run(drawable, in_two_calls), frame, background, resolved);
 }
 
 }  // namespace edgewise

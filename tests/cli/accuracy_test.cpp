@@ -14,7 +14,7 @@
 #include "cli/accuracy/scenes.h"
 #include "edgewise/builtin.h"
 #include "edgewise/contract.h"
-#include "lab/coverage/cases.h"
+#include "lab/coverage/coverage.h"
 #include "lab/coverage_support.h"
 #include "run_program.h"
 #include "temp_dir.h"

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "core/nearest_name.h"
-#include "lab/coverage/cases.h"
 #include "lab/coverage/coverage.h"
 #include "lab/coverage/score.h"
 #include "lab/engine/engine.h"

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "edgewise/builtin.h"
-#include "lab/coverage/methods/fixed_edges.h"
+#include "lab/coverage/fixed_edges.h"
 #include "message_of.h"
 #include "support.h"
 

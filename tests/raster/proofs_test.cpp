@@ -1,4 +1,4 @@
-// Compares the proofs' definitions (src/raster/proofs/contract.smt2) with the functions of contract.h: for
+// Compares the proofs' definitions (tests/proofs/contract.smt2) with the functions of contract.h: for
 // many arguments, the solver must find the code's values.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -53,7 +53,7 @@ class Equations {
   // Asks the solver whether one of the equations is wrong.
   std::string solve() const {
     const TempDir folder;
-    const std::string definitions = EDGEWISE_SOURCE_DIR "/src/raster/proofs/contract.smt2";
+    const std::string definitions = EDGEWISE_SOURCE_DIR "/tests/proofs/contract.smt2";
     const auto script = folder.write(
         "equations.smt2", file_content(definitions) + "(assert (or" + wrong_ + "))\n(check-sat)\n");
     return run_program("z3", "-T:60 '" + script.string() + "'").out;

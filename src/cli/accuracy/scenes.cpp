@@ -6,7 +6,7 @@
 
 #include "core/nearest_name.h"
 #include "core/random.h"
-#include "lab/coverage/cases.h"
+#include "lab/coverage/coverage.h"
 #include "support/options.h"
 
 namespace edgewise::tools {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cli/accuracy/accuracy.h"
-#include "lab/coverage/scene.h"
+#include "lab/coverage/coverage.h"
 
 namespace edgewise::tools {
 

@@ -1,37 +1,16 @@
-// The registry of clipping methods, and the score. A method is a file in methods/ that defines clipping_NAME,
-// and a line here.
+// The score of a clipping method.
 #include "lab/clipping/clipping.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 
 #include "core/parallel.h"
-#include "lab/clipping/methods/pipeline.h"
+#include "lab/clipping/pipeline.h"
 #include "lab/clipping/truth.h"
 #include "lab/truth.h"
 
-#define EDGEWISE_CLIPPING_METHODS(X) \
-  X(near_guard)                      \
-  X(near_too_near)                   \
-  X(screen_edges)                    \
-  X(screen_linear)                   \
-  X(matrix_relative)                 \
-  X(matrix_float)                    \
-  X(discard_behind)                  \
-  X(none)
-
 namespace edgewise::lab {
-
-#define EDGEWISE_DECLARE(name) extern const ClippingMethod clipping_##name;
-EDGEWISE_CLIPPING_METHODS(EDGEWISE_DECLARE)
-
-std::span<const ClippingMethod> clipping_methods() {
-#define EDGEWISE_ENTRY(name) clipping_##name,
-  static const std::array list{EDGEWISE_CLIPPING_METHODS(EDGEWISE_ENTRY)};
-  return list;
-}
 
 ClippingFrame::ClippingFrame(Size size)
     : picture(size.width, size.height), backend(backends().front().make()) {}

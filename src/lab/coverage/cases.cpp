@@ -1,4 +1,4 @@
-#include "lab/coverage/cases.h"
+#include "lab/coverage/coverage.h"
 
 #include <algorithm>
 #include <array>

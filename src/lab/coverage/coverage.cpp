@@ -1,10 +1,11 @@
-// The registry of coverage methods. A method is a file that defines make_coverage_NAME(): either in methods/,
-// with a line here, or anywhere else, listed in the CMake variable EDGEWISE_COVERAGE_METHODS.
+// The registry of coverage methods: the backends, the table in methods.cpp, and the files that the CMake
+// variable EDGEWISE_COVERAGE_METHODS lists, each of which defines make_coverage_NAME().
 #include "lab/coverage/coverage.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <stdexcept>
 
 #include "core/nearest_name.h"
@@ -15,29 +16,10 @@
 #define EDGEWISE_MORE_COVERAGE_METHODS(X)
 #endif
 
-#define EDGEWISE_COVERAGE_METHODS(X) \
-  X(float_le)                        \
-  X(float_lt)                        \
-  X(float_top_left)                  \
-  X(float_snapped)                   \
-  X(float_incremental)               \
-  X(double_top_left)                 \
-  X(whole_pixel)                     \
-  X(fixed_4)                         \
-  X(fixed_4_int32)                   \
-  X(fixed_8)                         \
-  X(fixed_8_int32)                   \
-  X(fixed_12)                        \
-  X(fixed_16)                        \
-  X(dda_float)                       \
-  X(dda_16_16)                       \
-  X(dda_rounded)                     \
-  EDGEWISE_MORE_COVERAGE_METHODS(X)
-
 namespace edgewise::lab {
 
 #define EDGEWISE_DECLARE(name) CoverageMethod make_coverage_##name();
-EDGEWISE_COVERAGE_METHODS(EDGEWISE_DECLARE)
+EDGEWISE_MORE_COVERAGE_METHODS(EDGEWISE_DECLARE)
 
 namespace {
 
@@ -92,8 +74,9 @@ std::span<const CoverageMethod> drawing_methods() {
   static const std::vector<CoverageMethod> list = [] {
     std::vector<CoverageMethod> methods;
     for (const auto& backend : backends()) methods.push_back(make_from(backend, true));
+    std::ranges::move(coverage_table(), std::back_inserter(methods));
 #define EDGEWISE_ENTRY(name) methods.push_back(make_coverage_##name());
-    EDGEWISE_COVERAGE_METHODS(EDGEWISE_ENTRY)
+    EDGEWISE_MORE_COVERAGE_METHODS(EDGEWISE_ENTRY)
     methods.push_back(make_from(wireframe(), false));
     return methods;
   }();
@@ -171,6 +154,27 @@ std::vector<FloatTriangle> unsnapped(std::span<const ScreenTriangle> triangles,
   result.reserve(at.size());
   for (std::size_t i = 0; i < at.size(); ++i) result.push_back({at[i], triangles[i].payload});
   return result;
+}
+
+CoverageScene coverage_scene(const Drawable& drawable, FrontendOptions options) {
+  const Cull cull = options.cull;
+  options.cull = Cull::none;
+  options.keep_unsnapped = true;
+  Frontend frontend;
+  const auto screen = frontend.run(drawable, options);
+  CoverageScene scene{{options.width, options.height},
+                      unsnapped(screen, frontend.unsnapped()),
+                      {screen.begin(), screen.end()}};
+  if (cull == Cull::none) return scene;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < screen.size(); ++i) {
+    if (!keeps(cull, FloatTruth(scene.floats[i].at).facing())) continue;
+    scene.floats[kept] = scene.floats[i];
+    scene.snapped[kept++] = scene.snapped[i];
+  }
+  scene.floats.resize(kept);
+  scene.snapped.resize(kept);
+  return scene;
 }
 
 }  // namespace edgewise::lab

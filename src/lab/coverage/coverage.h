@@ -86,7 +86,9 @@ struct CoverageMethod {
   std::function<std::function<void()>(const CoverageInput&, Window, const Execution&)> load = {};
 };
 
-// The backends first.
+// The methods of methods.cpp.
+std::vector<CoverageMethod> coverage_table();
+// The backends first, then coverage_table().
 std::span<const CoverageMethod> coverage_methods();
 // Whether two draws of a method gave the same payloads and the same depths, bit for bit.
 bool same_picture(const CoverageMethod& method, const Canvas& a, const Canvas& b);
@@ -107,5 +109,34 @@ std::vector<ScreenTriangle> snapped(std::span<const FloatTriangle> triangles);
 // keep_unsnapped.
 std::vector<FloatTriangle> unsnapped(std::span<const ScreenTriangle> triangles,
                                      std::span<const UnsnappedTriangle> at);
+
+// A picture's triangles as coverage methods take them.
+struct CoverageScene {
+  Size size;
+  std::vector<FloatTriangle> floats;
+  std::vector<ScreenTriangle> snapped;
+
+  CoverageInput input() const { return {floats, snapped}; }
+  Window window() const { return {size.width, size.height}; }
+};
+
+// The front end's triangles before and after snapping. Culls by the exact sign of a triangle's area before
+// snapping, so that all methods get the same triangles.
+CoverageScene coverage_scene(const Drawable& drawable, FrontendOptions options);
+
+// Small scenes on which coverage methods fail, as unsnapped screen triangles.
+struct CoverageCase {
+  std::string_view name;
+  std::string_view summary;  // one line
+  Size size;
+  std::vector<FloatTriangle> (*make)();
+};
+
+std::span<const CoverageCase> coverage_cases();
+// Throws std::invalid_argument for an unknown name; the message suggests the nearest known one.
+const CoverageCase& find_coverage_case(std::string_view name);
+
+// Converts a stream's triangles without a front end: nothing is clipped, culled or snapped.
+std::vector<FloatTriangle> float_triangles(const TriangleStream& stream);
 
 }  // namespace edgewise::lab

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "edgewise/contract.h"
+#include "lab/coverage/float_edges.h"
 #include "lab/coverage/group_runs.h"
-#include "lab/coverage/methods/float_edges.h"
 #include "lab/engine/engine_kernel.h"
 #include "raster/ablation.h"
 #include "raster/tiles.h"

@@ -1,36 +1,15 @@
-// The registry of facing methods, the exact facts, and the score. A method is a file in methods/ that defines
-// facing_NAME, and a line here.
+// The exact facts about faces, and the score of a facing method.
 #include "lab/facing/facing.h"
 
 #include <gmpxx.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "edgewise/scene.h"
 #include "frontend/fixed.h"
-#include "lab/facing/methods/project.h"
-
-#define EDGEWISE_FACING_METHODS(X) \
-  X(snapped_area)                  \
-  X(float_area)                    \
-  X(normal_dot_eye)                \
-  X(normal_dot_centroid)           \
-  X(normal_dot_mean_ray)           \
-  X(normal_dot_object)             \
-  X(normal_z)
 
 namespace edgewise::lab {
-
-#define EDGEWISE_DECLARE(name) extern const FacingMethod facing_##name;
-EDGEWISE_FACING_METHODS(EDGEWISE_DECLARE)
-
-std::span<const FacingMethod> facing_methods() {
-#define EDGEWISE_ENTRY(name) facing_##name,
-  static const std::array list{EDGEWISE_FACING_METHODS(EDGEWISE_ENTRY)};
-  return list;
-}
 
 namespace {
 

@@ -23,6 +23,23 @@ struct FacingView {
   Size size{256, 256};
 };
 
+// The projection in float, as methods and the snapped truth use it.
+class FloatProjector {
+ public:
+  explicit FloatProjector(const FacingView& view)
+      : view_(view),
+        centre_px_(static_cast<float>(view.size.width) * 0.5f, static_cast<float>(view.size.height) * 0.5f) {}
+  glm::vec2 operator()(glm::vec3 p) const {
+    const glm::vec3 ray = p - view_.eye;
+    const float scale = view_.perspective ? view_.focal_px / glm::dot(view_.forward, ray) : view_.focal_px;
+    return centre_px_ + scale * glm::vec2(glm::dot(view_.right, ray), glm::dot(view_.down, ray));
+  }
+
+ private:
+  FacingView view_;
+  glm::vec2 centre_px_;
+};
+
 // A polygon, planar or not. It is a front face if its whole projected area is clockwise on the y-down screen.
 // As in the engines, methods read a stored normal of the face, or the positions of its first three vertices.
 struct Face {
@@ -86,7 +103,7 @@ struct FacingMethod {
   bool by_direction = false;  // uses only `forward` of the view
 };
 
-// Ours first.
+// Ours first. The table is in methods.cpp.
 std::span<const FacingMethod> facing_methods();
 
 // The score against one truth.

@@ -1,10 +1,10 @@
-#include "lab/needs/clipping.h"
+#include "lab/needs/needs.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "lab/clipping/methods/pipeline.h"
+#include "lab/clipping/pipeline.h"
 #include "lab/view_space.h"
 
 namespace edgewise::lab {

@@ -1,4 +1,4 @@
-#include "lab/needs/coverage.h"
+#include "lab/needs/needs.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/parallel.h"
-#include "lab/coverage/methods/fixed_edges.h"
+#include "lab/coverage/fixed_edges.h"
 #include "lab/coverage/score.h"
 
 namespace edgewise::lab {

@@ -1,4 +1,4 @@
-#include "lab/needs/facing.h"
+#include "lab/needs/needs.h"
 
 #include <algorithm>
 

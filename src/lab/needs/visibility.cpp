@@ -1,11 +1,11 @@
-#include "lab/needs/visibility.h"
+#include "lab/needs/needs.h"
 
 #include <array>
 #include <utility>
 
 #include "core/parallel.h"
 #include "lab/choice.h"
-#include "lab/visibility/methods/depth_buffer.h"
+#include "lab/visibility/depth_buffer.h"
 
 namespace edgewise::lab {
 

@@ -7,10 +7,6 @@
 
 namespace edgewise::lab {
 
-Sweep make_sweep_near_plane();
-Sweep make_sweep_vertex_w();
-Sweep make_sweep_origin();
-
 namespace {
 
 constexpr Size kSize{128, 96};
@@ -51,37 +47,31 @@ Measured measure_vertex_w(double w, bool) {
 
 }  // namespace
 
-Sweep make_sweep_near_plane() {
-  return {"near_plane",
-          Family::clipping,
-          "a floor under the camera, through a wall at 10: depths get too coarse",
-          {"near plane's distance", "", true},
-          kWrongPixels,
-          0.2,
-          decades(1, -6),
-          measure_near_plane};
-}
-
-Sweep make_sweep_vertex_w() {
-  return {"vertex_w",
-          Family::clipping,
-          "a floor and a wall with a vertex near the camera's plane; near 0.1",
-          {"w of the vertex", "", true},
-          kWrongPixels,
-          0.1,
-          decades(1, -6),
-          measure_vertex_w};
-}
-
-Sweep make_sweep_origin() {
-  return {"origin",
-          Family::clipping,
-          "a tiled floor under the camera, both far from the origin; near 1/1024",
-          {"distance from origin", "", true},
-          kWrongPixels,
-          1,
-          decades(0, 8),
-          [](double away, bool) { return measure_scene(floor_far_from_origin(away)); }};
+std::vector<Sweep> clipping_sweeps() {
+  return {{"near_plane",
+           Family::clipping,
+           "a floor under the camera, through a wall at 10: depths get too coarse",
+           {"near plane's distance", "", true},
+           kWrongPixels,
+           0.2,
+           decades(1, -6),
+           measure_near_plane},
+          {"vertex_w",
+           Family::clipping,
+           "a floor and a wall with a vertex near the camera's plane; near 0.1",
+           {"w of the vertex", "", true},
+           kWrongPixels,
+           0.1,
+           decades(1, -6),
+           measure_vertex_w},
+          {"origin",
+           Family::clipping,
+           "a tiled floor under the camera, both far from the origin; near 1/1024",
+           {"distance from origin", "", true},
+           kWrongPixels,
+           1,
+           decades(0, 8),
+           [](double away, bool) { return measure_scene(floor_far_from_origin(away)); }}};
 }
 
 }  // namespace edgewise::lab

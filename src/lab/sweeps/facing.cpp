@@ -9,10 +9,6 @@
 
 namespace edgewise::lab {
 
-Sweep make_sweep_tilt_perspective();
-Sweep make_sweep_tilt_orthographic();
-Sweep make_sweep_edge_on();
-
 namespace {
 
 constexpr YAxis kMisjudged{"misjudged faces, %", false, 100};
@@ -66,37 +62,31 @@ std::vector<double> tilts() {
 
 }  // namespace
 
-Sweep make_sweep_tilt_perspective() {
-  return {"tilt_perspective",
-          Family::facing,
-          "faces of random directions off the axis, under perspective",
-          {"tilt of the ray to the faces", "degrees", false},
-          kMisjudged,
-          10,
-          tilts(),
-          [](double degrees, bool quick) { return measure_tilt(degrees, true, quick); }};
-}
-
-Sweep make_sweep_tilt_orthographic() {
-  return {"tilt_orthographic",
-          Family::facing,
-          "the same under an orthographic camera",
-          {"tilt of the ray to the faces", "degrees", false},
-          kMisjudged,
-          6,
-          tilts(),
-          [](double degrees, bool quick) { return measure_tilt(degrees, false, quick); }};
-}
-
-Sweep make_sweep_edge_on() {
-  return {"edge_on",
-          Family::facing,
-          "triangles that are nearly edge-on and still cover a sample",
-          {"height on the screen", "px", true},
-          kMisjudged,
-          11,
-          powers_of_two(3, -20),
-          measure_edge_on};
+std::vector<Sweep> facing_sweeps() {
+  return {{"tilt_perspective",
+           Family::facing,
+           "faces of random directions off the axis, under perspective",
+           {"tilt of the ray to the faces", "degrees", false},
+           kMisjudged,
+           10,
+           tilts(),
+           [](double degrees, bool quick) { return measure_tilt(degrees, true, quick); }},
+          {"tilt_orthographic",
+           Family::facing,
+           "the same under an orthographic camera",
+           {"tilt of the ray to the faces", "degrees", false},
+           kMisjudged,
+           6,
+           tilts(),
+           [](double degrees, bool quick) { return measure_tilt(degrees, false, quick); }},
+          {"edge_on",
+           Family::facing,
+           "triangles that are nearly edge-on and still cover a sample",
+           {"height on the screen", "px", true},
+           kMisjudged,
+           11,
+           powers_of_two(3, -20),
+           measure_edge_on}};
 }
 
 }  // namespace edgewise::lab

@@ -1,36 +1,15 @@
-// The registry of sweeps. A sweep is a function make_sweep_NAME() in one of this folder's files, and a line
-// here.
+// The list of sweeps, and what runs them.
 #include "lab/sweeps/sweeps.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <mutex>
 
 #include "core/nearest_name.h"
 #include "core/parallel.h"
 
-#define EDGEWISE_SWEEPS(X) \
-  X(distance)              \
-  X(aspect)                \
-  X(legs)                  \
-  X(height)                \
-  X(pan)                   \
-  X(translation)           \
-  X(separation_at_10)      \
-  X(separation_at_100)     \
-  X(cycle)                 \
-  X(sliver_depth)          \
-  X(tilt_perspective)      \
-  X(tilt_orthographic)     \
-  X(edge_on)               \
-  X(near_plane)            \
-  X(vertex_w)              \
-  X(origin)
-
 namespace edgewise::lab {
-
-#define EDGEWISE_DECLARE(name) Sweep make_sweep_##name();
-EDGEWISE_SWEEPS(EDGEWISE_DECLARE)
 
 Tally& Tally::operator+=(const Tally& other) {
   errors += other.errors;
@@ -39,8 +18,12 @@ Tally& Tally::operator+=(const Tally& other) {
 }
 
 std::span<const Sweep> sweeps() {
-#define EDGEWISE_ENTRY(name) make_sweep_##name(),
-  static const std::vector<Sweep> list{EDGEWISE_SWEEPS(EDGEWISE_ENTRY)};
+  static const std::vector<Sweep> list = [] {
+    std::vector<Sweep> all;
+    for (const auto table : {coverage_sweeps, visibility_sweeps, facing_sweeps, clipping_sweeps})
+      std::ranges::move(table(), std::back_inserter(all));
+    return all;
+  }();
   return list;
 }
 

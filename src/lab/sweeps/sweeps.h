@@ -53,7 +53,12 @@ struct Sweep {
   Measured (*measure)(double position, bool quick);
 };
 
-std::span<const Sweep> sweeps();
+// One table per family, in a file of its name.
+std::vector<Sweep> coverage_sweeps();
+std::vector<Sweep> visibility_sweeps();
+std::vector<Sweep> facing_sweeps();
+std::vector<Sweep> clipping_sweeps();
+std::span<const Sweep> sweeps();  // all of them
 // Throws std::invalid_argument for an unknown name; the message suggests the nearest known one.
 const Sweep& find_sweep(std::string_view name);
 

@@ -7,11 +7,6 @@
 
 namespace edgewise::lab {
 
-Sweep make_sweep_separation_at_10();
-Sweep make_sweep_separation_at_100();
-Sweep make_sweep_cycle();
-Sweep make_sweep_sliver_depth();
-
 namespace {
 
 constexpr YAxis kWrongTriangles{"wrong visible triangles per 10^6 covered pixels", true, 1e6};
@@ -72,48 +67,39 @@ Measured measure_sliver_depth(double aspect, bool) {
 
 }  // namespace
 
-Sweep make_sweep_separation_at_10() {
-  return {"separation_at_10",
-          Family::visibility,
-          "two tilted planes at z = 10, in either order; near 0.1, far 1000",
-          {"separation", "", true},
-          kWrongTriangles,
-          0.1,
-          decades(0, -8),
-          [](double separation, bool) { return measure_separation(10, separation); }};
-}
-
-Sweep make_sweep_separation_at_100() {
-  return {"separation_at_100",
-          Family::visibility,
-          "two tilted planes at z = 100, in either order; near 0.1, far 1000",
-          {"separation", "", true},
-          kWrongTriangles,
-          0.1,
-          decades(1, -7),
-          [](double separation, bool) { return measure_separation(100, separation); }};
-}
-
-Sweep make_sweep_cycle() {
-  return {"cycle",
-          Family::visibility,
-          "bars, each over the end of the previous one; three or more form a cycle",
-          {"bars", "", false},
-          kWrongTriangles,
-          0.1,
-          {1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24},
-          measure_cycle};
-}
-
-Sweep make_sweep_sliver_depth() {
-  return {"sliver_depth",
-          Family::visibility,
-          "slivers: visible triangles, and depths outside the triangle's own range",
-          {"length over width", "", true},
-          {"wrong triangles and depths per 10^6 covered pixels", true, 1e6},
-          0.4,
-          decades(1, 5),
-          measure_sliver_depth};
+std::vector<Sweep> visibility_sweeps() {
+  return {{"separation_at_10",
+           Family::visibility,
+           "two tilted planes at z = 10, in either order; near 0.1, far 1000",
+           {"separation", "", true},
+           kWrongTriangles,
+           0.1,
+           decades(0, -8),
+           [](double separation, bool) { return measure_separation(10, separation); }},
+          {"separation_at_100",
+           Family::visibility,
+           "two tilted planes at z = 100, in either order; near 0.1, far 1000",
+           {"separation", "", true},
+           kWrongTriangles,
+           0.1,
+           decades(1, -7),
+           [](double separation, bool) { return measure_separation(100, separation); }},
+          {"cycle",
+           Family::visibility,
+           "bars, each over the end of the previous one; three or more form a cycle",
+           {"bars", "", false},
+           kWrongTriangles,
+           0.1,
+           {1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24},
+           measure_cycle},
+          {"sliver_depth",
+           Family::visibility,
+           "slivers: visible triangles, and depths outside the triangle's own range",
+           {"length over width", "", true},
+           {"wrong triangles and depths per 10^6 covered pixels", true, 1e6},
+           0.4,
+           decades(1, 5),
+           measure_sliver_depth}};
 }
 
 }  // namespace edgewise::lab

@@ -1,36 +1,15 @@
-// The registry of visibility methods, the exact visible triangles, and the score. A method is a file in
-// methods/ that defines visibility_NAME, and a line here.
+// The exact visible triangles, and the score of a visibility method.
 #include "lab/visibility/visibility.h"
 
 #include <gmpxx.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "edgewise/contract.h"
 #include "lab/truth.h"
 
-#define EDGEWISE_VISIBILITY_METHODS(X) \
-  X(contract31)                        \
-  X(reversed_z)                        \
-  X(float_z)                           \
-  X(unorm24)                           \
-  X(unorm16)                           \
-  X(painter_farthest)                  \
-  X(painter_mean)                      \
-  X(submission_order)
-
 namespace edgewise::lab {
-
-#define EDGEWISE_DECLARE(name) extern const VisibilityMethod visibility_##name;
-EDGEWISE_VISIBILITY_METHODS(EDGEWISE_DECLARE)
-
-std::span<const VisibilityMethod> visibility_methods() {
-#define EDGEWISE_ENTRY(name) visibility_##name,
-  static const std::array list{EDGEWISE_VISIBILITY_METHODS(EDGEWISE_ENTRY)};
-  return list;
-}
 
 namespace {
 

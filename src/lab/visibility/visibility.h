@@ -66,6 +66,7 @@ struct VisibilityMethod {
   bool (*may_occlude)(const VisibilityScene& scene, std::uint32_t drawn, std::uint32_t truth) = nullptr;
 };
 
+// Ours first. The table is in methods.cpp.
 std::span<const VisibilityMethod> visibility_methods();
 
 // The exact visible triangle of each pixel or kNoTriangle, row by row, in both truths.

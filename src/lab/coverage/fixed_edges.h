@@ -13,9 +13,8 @@
 #include <limits>
 #include <type_traits>
 
-#include "lab/coverage/methods/row_spans.h"
 #include "lab/coverage/plot.h"
-#include "lab/coverage/simd/forms.h"
+#include "lab/coverage/row_spans.h"
 
 namespace edgewise::lab {
 
@@ -63,7 +62,7 @@ void test_every_pixel(const FixedEdge<Int> (&e)[3], const PixelRows& box, Plot& 
 // Testing every pixel, at one addition per edge, is faster for boxes up to this width.
 inline constexpr int kNarrowForIntegers_px = 10;
 
-// simd/edges-inl.h has the overload for plots in lanes.
+// edges-inl.h has the overload for plots in lanes.
 template <typename Int, class Plot>
 void fill(const FixedEdge<Int> (&edges)[3], const FixedBox& box, Plot& plot) {
   if (box.pixels.x1 - box.pixels.x0 > kNarrowForIntegers_px && box.holds<Int>())
@@ -127,14 +126,6 @@ struct FixedEdges {
 // farther than a vertex.
 constexpr double snap_reach_px(int snap_bits) {
   return 0.70711 / (1 << snap_bits);
-}
-
-template <int SnapBits>
-CoverageMethod make_fixed_method(const MethodInfo& info) {
-  using Method = FixedEdges<SnapBits, std::int64_t>;
-  return make_coverage_method<Method>(
-      info, {.reach_px = snap_reach_px(SnapBits), .no_gaps = true, .no_double_hits = true},
-      simd_forms<Method>);
 }
 
 }  // namespace edgewise::lab

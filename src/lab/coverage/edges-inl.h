@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <cstring>
 
-#include "lab/coverage/methods/fixed_edges.h"
-#include "lab/coverage/methods/float_incremental.h"
-#include "lab/coverage/simd/lane_plot-inl.h"
+#include "lab/coverage/fixed_edges.h"
+#include "lab/coverage/float_edges.h"
+#include "lab/coverage/lane_plot-inl.h"
 
 // Included once per SIMD target.
 #if defined(EDGEWISE_LAB_EDGES_INL_H) == defined(HWY_TARGET_TOGGLE)

@@ -1,0 +1,28 @@
+// A scene or stream drawn in one call: the only file that knows both front end and backends.
+#include <variant>
+
+#include "core/triangle_source.h"
+#include "edgewise/backend.h"
+#include "edgewise/frontend.h"
+#include "raster/checks.h"
+
+namespace edgewise {
+
+void draw(const Drawable& drawable, Frontend& frontend, const FrontendOptions& options, Backend& backend,
+          FrameView frame, std::uint32_t background, const Execution& execution) {
+  throw_if_of_another_size("a drawable with options", options.width, options.height, frame);
+  const Execution resolved = checked(frame, execution);
+  if (TriangleSource* const source = frontend.start_source(drawable, options, resolved.threads)) {
+    struct End {  // also if drawing throws
+      Frontend& frontend;
+      ~End() { frontend.end_source(); }
+    };
+    const End end{frontend};
+    if (backend.draw_source(*source, frame, background, resolved)) return;
+  }
+  FrontendOptions in_two_calls = options;
+  if (std::holds_alternative<TriangleStream>(drawable)) in_two_calls.threads = resolved.threads;
+  backend.draw(frontend.run(drawable, in_two_calls), frame, background, resolved);
+}
+
+}  // namespace edgewise

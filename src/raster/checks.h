@@ -1,0 +1,14 @@
+// Checks of a draw's arguments.
+#pragma once
+
+#include "edgewise/backend.h"
+
+namespace edgewise {
+
+// `execution` with a resolved target. Throws std::invalid_argument.
+Execution checked(const FrameView& frame, const Execution& execution);
+
+// Throws std::invalid_argument if `what`, made for a frame of width x height px, is to be drawn into another.
+void throw_if_of_another_size(const char* what, int width, int height, const FrameView& frame);
+
+}  // namespace edgewise
