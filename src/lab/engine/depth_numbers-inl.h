@@ -35,7 +35,7 @@ struct DepthOfBits : ContractDepth {
 };
 
 // A plane in floats through vertices with depths from 0 to 1, as in GradientPlane<float>
-// (lab/visibility/methods/depth_buffer.h). The bits of floats >= 0 are ordered as their values are.
+// (lab/visibility/depth_buffer.h). The bits of floats >= 0 are ordered as their values are.
 struct FloatDepth : FloatLanes {
   static HWY_INLINE V stored(Vector z) { return hn::BitCast(D{}, hn::Max(z, hn::Zero(Floats{}))); }
   static std::int32_t stored(float z) {
