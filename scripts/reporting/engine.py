@@ -1,16 +1,12 @@
-"""The SIMD engine of `tiled` with other numbers in its edge functions and depths: what exactness costs, all else equal."""
+"""The SIMD engine of `tiled` with other numbers in its edge functions: what exactness costs, all else equal."""
 from bench_rows import order
 from noise import ratio_interval
-from tables import milliseconds, number, percent
+from tables import milliseconds, number
 
 BASE = "exact"
-NO_MASKS = "no-masks"
-TOLERANCE = 0.05  # up to this difference from the backend, the engine compares numbers and not programs
 WITH_MASKS = "with-masks"  # the backend's own row
-RUNS = {WITH_MASKS: "`tiled` with coverage masks", NO_MASKS: "`tiled` without coverage masks",
-        "float_lt": "float edges, `<`", "float_top_left": "float edges, top-left rule",
-        "depth_float": "exact coverage, depth planes in floats", "depth_24": "exact coverage, depths of 24 bits",
-        "depth_16": "exact coverage, depths of 16 bits"}
+RUNS = {WITH_MASKS: "`tiled` with coverage masks", "int64": "64-bit integers", "double": "doubles", "float": "floats",
+        "float_rebased": "floats, relative to the tile", "int32": "32-bit integers that wrap"}
 
 
 def by_scene(bench):
@@ -44,16 +40,3 @@ def engine_table(bench):
             lines.append([title, *(against(rows[BASE], rows.get(run)) for rows in scenes.values())])
     return ["numbers", *(f"`{scene}`" for scene in scenes)], lines if scenes else []
 
-
-def engine_note(bench):
-    """Whether the engine is the backend's equal, without which the table would compare two programs."""
-    pairs = {scene: (rows[BASE], rows[NO_MASKS]) for scene, rows in by_scene(bench).items() if NO_MASKS in rows}
-    if not pairs:
-        return ""
-    apart = {scene: round(abs(exact.median_ms / backend.median_ms - 1), 2) for scene, (exact, backend) in pairs.items()}
-    furthest = max(apart.values())
-    settled = [scene for scene, pair in pairs.items() if order(*pair)]
-    unfair = [f"`{scene}`" for scene in settled if apart[scene] > TOLERANCE]
-    fair = f" More than {percent(TOLERANCE)} makes the comparison unfair: {', '.join(unfair)}." if unfair else ""
-    return (f"With exact numbers the engine draws the bits of `tiled`. It is at most {percent(furthest)} faster or slower than `tiled` without "
-            f"coverage masks; the difference is settled on {', '.join(f'`{scene}`' for scene in settled) or 'no scene'}.{fair}")

@@ -10,8 +10,8 @@ from tables import THREADS, number
 TUTORIAL_TESTS = ("float_lt", "float_le")
 CENTRED_SCENE = "mesh_on_grid"
 # The same engine with exact edges and with the tutorials' float edges.
-ENGINES = ("engine_exact", "engine_float_lt")
-NARROW_ENGINE = "engine_fixed_8_int32"
+ENGINES = ("engine_exact", "engine_float")
+NARROW_ENGINE = "engine_int32"
 
 
 def speed_finding(bench):

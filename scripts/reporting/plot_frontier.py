@@ -11,7 +11,7 @@ from zero_axis import ZeroAxis
 
 NEAR = 1.15  # ratio of speeds below which points at one x share a label
 # Others with a label beside ours and the peers: the fastest of each kind, and those that an argument is about.
-LABELLED = ("dda_16_16", "dda_rounded", "fixed_8", "float_lt", "float_top_left", "engine_float_lt")
+LABELLED = ("dda_16_16", "dda_rounded", "fixed_8", "float_lt", "float_top_left", "engine_float")
 INTERVAL = {"linewidth": 3.0, "alpha": 0.3, "solid_capstyle": "butt"}
 WORST = {"linewidth": 0.9, "linestyle": (0, (1.5, 1.5))}
 

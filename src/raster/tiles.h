@@ -38,13 +38,13 @@ constexpr TileStore tile_store_for(TileContent content, std::size_t triangles, i
   return fits_llc && cached ? TileStore::cached : TileStore::streaming;
 }
 
-// Returns false if Bins::build() does; then nothing is drawn. `margin`: CellGrid::margin.
+// Returns false if Bins::build() does; then nothing is drawn.
 template <typename DrawTile>
 bool draw_in_tiles(TriangleSource& triangles, FrameView frame, std::uint32_t background,
                    const Execution& execution, const Ablation& ablation, int tile_size, TileScratch& scratch,
-                   Bins::Small small, DrawTile&& draw_tile, std::int32_t margin = 0) {
+                   Bins::Small small, DrawTile&& draw_tile) {
   const int size_log2 = std::countr_zero(static_cast<unsigned>(tile_size));
-  const CellGrid grid{frame.width, frame.height, size_log2, size_log2, margin};
+  const CellGrid grid{frame.width, frame.height, size_log2, size_log2};
   const SimdTarget binning = ablation.vector_setup ? execution.target : SimdTarget::scalar;
   Bins& bins = scratch.bins;
   TileList& list = scratch.list;
