@@ -9,7 +9,7 @@
 
 #include "bench/peers/peer.h"
 #include "bench/workloads/workload.h"
-#include "lab/engine/engine_kernel.h"
+#include "lab/engine/engine.h"
 #include "raster/ablation.h"
 
 namespace edgewise::bench {

@@ -107,7 +107,6 @@ class Suite {
     for (const EngineRun& run : engine_runs()) {
       add(workload, Timed::raster, find_backend(kAblationBackend),
           fmt::format("{}/engine:{}", scene, run.name), 1);
-      rows_.back().ablation = run.ablation;
       rows_.back().numbers = run.numbers;
       rows_.back().close = true;
     }

@@ -6,13 +6,12 @@ namespace edgewise::bench {
 
 std::vector<EngineRun> engine_runs() {
   using lab::EngineNumbers;
-  return {{"no-masks", std::nullopt, {.coverage_masks = false}},
-          {"exact", EngineNumbers::exact},
-          {"float_lt", EngineNumbers::float_lt},
-          {"float_top_left", EngineNumbers::float_top_left},
-          {"depth_float", EngineNumbers::depth_float},
-          {"depth_24", EngineNumbers::depth_24},
-          {"depth_16", EngineNumbers::depth_16}};
+  return {{"exact", EngineNumbers::exact},
+          {"int64", EngineNumbers::int64},
+          {"double", EngineNumbers::float64},
+          {"float", EngineNumbers::float32},
+          {"float_rebased", EngineNumbers::float32_rebased},
+          {"int32", EngineNumbers::int32}};
 }
 
 bool in_engine_runs(std::string_view scene) {

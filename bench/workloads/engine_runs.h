@@ -1,23 +1,19 @@
-// What exactness costs in the backend `tiled`: its engine with other numbers in the edge functions or depths.
+// What exactness costs in the backend `tiled`: its engine with other arithmetic in the edge functions.
 #pragma once
 
-#include <optional>
 #include <string_view>
 #include <vector>
 
-#include "lab/engine/engine_kernel.h"
-#include "raster/ablation.h"
+#include "lab/engine/engine.h"
 
 namespace edgewise::bench {
 
 struct EngineRun {
-  std::string_view name;                      // in row names, after "engine:"
-  std::optional<lab::EngineNumbers> numbers;  // none: the backend itself
-  Ablation ablation{};
+  std::string_view name;  // in row names, after "engine:"
+  lab::EngineNumbers numbers;
 };
 
-// Each on one thread and without coverage masks, which only the exact numbers allow. The first is the backend
-// with its masks switched off, the second must equal it.
+// Each on one thread. The first is the backend without coverage masks, which only the exact numbers allow.
 std::vector<EngineRun> engine_runs();
 
 // Whether the engine runs on a scene: streams of few and of many triangles, with and without overdraw.

@@ -23,15 +23,14 @@ std::uint64_t pixels_of_another_colour(const Framebuffer& a, const Framebuffer& 
 }  // namespace
 
 Backend& Stage::backend(const Row& row) {
-  auto& made = backends_[{row.backend, row.ablation.coverage_masks}];
+  auto& made = backends_[row.backend];
   if (!made) made = row.backend->make();
   return *made;
 }
 
 bool Stage::renew_memory(const Row& row) {
-  if (!row.numbers && row.ablation.coverage_masks) return false;
+  if (!row.numbers) return false;
   scratch_ = TileScratch();
-  backends_.erase({row.backend, false});
   return true;
 }
 
@@ -48,8 +47,7 @@ void Stage::work(const Row& row) {
   auto triangles = workload.triangles();
   if (row.timed != Timed::raster) triangles = workload.run(frontend_, row.execution);
   if (row.numbers)
-    lab::draw_engine(*row.numbers, {workload.unsnapped(), triangles}, {workload.width(), workload.height()},
-                     frame(row).view(), kBackground, row.execution, scratch_);
+    lab::draw_engine(*row.numbers, triangles, frame(row).view(), kBackground, row.execution, scratch_);
   else if (row.timed != Timed::frontend)
     draw(backend(row), triangles, frame(row).view(), kBackground, {row.execution, row.ablation});
 }

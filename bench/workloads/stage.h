@@ -21,9 +21,8 @@ class Stage {
   // workload.
   void compare(Row& row);
 
-  // Drops the memory of the engine and of the backend without coverage masks, with which it is compared, so
-  // that both get the same addresses. Others can change a row's time by 10 %. Returns whether the row needs a
-  // warm-up.
+  // Drops the engine's memory, so that it gets the same addresses with all numbers. Others can change a row's
+  // time by 10 %. Returns whether the row needs a warm-up.
   bool renew_memory(const Row& row);
 
   // Performs the row's timed work once.
@@ -35,8 +34,7 @@ class Stage {
   Framebuffer& frame(const Row& row);
   double timed_work_s(const Row& row);
 
-  // With and without coverage masks.
-  std::map<std::pair<const BackendInfo*, bool>, std::unique_ptr<Backend>> backends_;
+  std::map<const BackendInfo*, std::unique_ptr<Backend>> backends_;
   // One per size, kept to the end: interleaved repetitions use all of them again, and a fresh frame's page
   // faults would count in a row's time.
   std::map<std::pair<int, int>, Framebuffer> frames_;

@@ -1,6 +1,5 @@
 #include "bench/workloads/workload.h"
 
-#include "lab/coverage/coverage.h"
 #include "lab/measure.h"
 
 namespace edgewise::bench {
@@ -55,17 +54,6 @@ void Workload::prepare(bool keep_scene) {
   covered_px_ = lab::covered_pixels(triangles_, width_, height_);
   if (!keep_scene) source_.reset(), hidden_.reset();
   prepared_ = true;
-}
-
-std::span<const lab::FloatTriangle> Workload::unsnapped() {
-  if (unsnapped_.empty()) {
-    FrontendOptions options = frontend_options({});
-    options.keep_unsnapped = true;
-    Frontend frontend;
-    const auto screen = frontend.run(source_->drawable, options);
-    unsnapped_ = lab::unsnapped(screen, frontend.unsnapped());
-  }
-  return unsnapped_;
 }
 
 const BlockCounts& Workload::blocks() {

@@ -13,7 +13,6 @@
 #include "edgewise/backend.h"
 #include "edgewise/frontend.h"
 #include "lab/hidden_faces.h"
-#include "lab/method.h"
 #include "raster/ablation.h"
 #include "support/source.h"
 
@@ -39,9 +38,6 @@ class Workload {
 
   // Counted by the first call.
   const BlockCounts& blocks();
-
-  // triangles() before they were snapped. Made by the first call, which requires prepare(true).
-  std::span<const lab::FloatTriangle> unsnapped();
 
   // With `facing`: the pixels of its reference that differ from the exact picture (culled by `mesh_cull`).
   std::optional<std::uint64_t> wrong_px() const { return wrong_px_; }
@@ -73,7 +69,6 @@ class Workload {
   std::optional<lab::HiddenFaces> hidden_;
   bool stream_ = false, prepared_ = false;
   std::vector<ScreenTriangle> triangles_;
-  std::vector<lab::FloatTriangle> unsnapped_;
   std::uint64_t submitted_ = 0, covered_px_ = 0;
   std::optional<std::uint64_t> wrong_px_;
   std::optional<BlockCounts> blocks_;

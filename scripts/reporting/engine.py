@@ -1,15 +1,12 @@
-"""The SIMD engine of `tiled` with other numbers in its edge functions and depths: what exactness costs, all else equal."""
+"""The SIMD engine of `tiled` with other numbers in its edge functions: what exactness costs, all else equal."""
 from bench_rows import order
 from noise import ratio_interval
 from tables import milliseconds, number
 
 BASE = "exact"
-NO_MASKS = "no-masks"
 WITH_MASKS = "with-masks"  # the backend's own row
-RUNS = {WITH_MASKS: "`tiled` with coverage masks", NO_MASKS: "`tiled` without coverage masks",
-        "float_lt": "float edges, `<`", "float_top_left": "float edges, top-left rule",
-        "depth_float": "exact coverage, depth planes in floats", "depth_24": "exact coverage, depths of 24 bits",
-        "depth_16": "exact coverage, depths of 16 bits"}
+RUNS = {WITH_MASKS: "`tiled` with coverage masks", "int64": "64-bit integers", "double": "doubles", "float": "floats",
+        "float_rebased": "floats, relative to the tile", "int32": "32-bit integers that wrap"}
 
 
 def by_scene(bench):

@@ -8,7 +8,7 @@ from tables import number, short
 LEAST_CROSSINGS = 10_000  # of shared edges; in smaller scenes a single crossing decides the rate
 # The tutorials' inside tests; and one engine with exact edges and with the first test's float edges.
 INSIDE_TESTS = ("float_lt", "float_le")
-ENGINES = ("engine_exact", "engine_float_lt")
+ENGINES = ("engine_exact", "engine_float")
 T_JUNCTIONS = ("t_junction", "t_junction_split")  # cracks of the mesh, not of the method
 
 

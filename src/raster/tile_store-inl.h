@@ -66,8 +66,8 @@ HWY_INLINE void write_to(const FramePlane& to, Write&& write) {
 
 // Calls draw(block) for each of the tile's index blocks. Records are scattered in memory, so each block's are
 // prefetched while the previous one is drawn.
-template <class Task, typename Draw>
-HWY_INLINE void draw_index_blocks(const Task& task, Draw&& draw) {
+template <typename Draw>
+HWY_INLINE void draw_index_blocks(const TileTask& task, Draw&& draw) {
   Bins::IndexBlock prefetched{};
   task.bins->for_each_index_block(task.cell, [&](const Bins::IndexBlock& block) {
     if (task.ablation.prefetch) task.prefetch(block.indices);

@@ -12,17 +12,6 @@
 
 namespace edgewise {
 
-// Always inline: GCC 12 takes a function that only prefetches for one without effect, and drops calls of it.
-template <typename Record>
-[[gnu::always_inline]] inline void prefetch_records(const Record* records,
-                                                    std::span<const std::uint32_t> indices) {
-  for (const std::uint32_t index : indices) {
-    const auto* record = reinterpret_cast<const char*>(records + index);
-    __builtin_prefetch(record);
-    __builtin_prefetch(record + sizeof(Record) - 1);
-  }
-}
-
 struct TileTask {
   const ScreenTriangle* triangles;
   const Bins* bins;
@@ -34,8 +23,13 @@ struct TileTask {
   Ablation ablation;  // tile_store is resolved
 
   int size() const { return 1 << size_log2; }  // px
+  // Always inline: GCC 12 takes a function that only prefetches for one without effect, and drops its calls.
   [[gnu::always_inline]] void prefetch(std::span<const std::uint32_t> indices) const {
-    prefetch_records(triangles, indices);
+    for (const std::uint32_t index : indices) {
+      const auto* triangle = reinterpret_cast<const char*>(triangles + index);
+      __builtin_prefetch(triangle);
+      __builtin_prefetch(triangle + sizeof(ScreenTriangle) - 1);
+    }
   }
   // The part inside the frame, px.
   int width() const { return std::min(size(), frame.width - x0); }

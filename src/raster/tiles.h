@@ -44,13 +44,13 @@ constexpr int tasks_at_once(int tasks, int threads) {
   return std::clamp(tasks / (16 * threads), 1, 4);
 }
 
-// Returns false if Bins::build() does; then nothing is drawn. `margin`: CellGrid::margin.
+// Returns false if Bins::build() does; then nothing is drawn.
 template <typename DrawTile>
 bool draw_in_tiles(TriangleSource& triangles, FrameView frame, std::uint32_t background,
                    const Execution& execution, const Ablation& ablation, int tile_size, TileScratch& scratch,
-                   Bins::Small small, DrawTile&& draw_tile, std::int32_t margin = 0) {
+                   Bins::Small small, DrawTile&& draw_tile) {
   const int size_log2 = std::countr_zero(static_cast<unsigned>(tile_size));
-  const CellGrid grid{frame.width, frame.height, size_log2, size_log2, margin};
+  const CellGrid grid{frame.width, frame.height, size_log2, size_log2};
   const SimdTarget binning = ablation.vector_setup ? execution.target : SimdTarget::scalar;
   Bins& bins = scratch.bins;
   TileList& list = scratch.list;

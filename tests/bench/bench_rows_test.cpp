@@ -129,7 +129,6 @@ std::map<std::string, Row> quick_rows(int width, int height) {
   return rows;
 }
 
-// Float edges skip the samples on shared edges, 16 bits merge depths; the rest must draw every bit.
 TEST(BenchSuite, TimesTheEngineWithOtherNumbers) {
   std::map<std::string, Row> rows = quick_rows(480, 270);
   Stage stage;
@@ -141,12 +140,14 @@ TEST(BenchSuite, TimesTheEngineWithOtherNumbers) {
     return row.wrong_px;
   };
   for (const std::string scene : {"large", "medium", "small", "grid64"}) {
-    for (const std::string run : {"no-masks", "exact"}) EXPECT_FALSE(wrong_px(scene, run).has_value());
-    for (const std::string run : {"float_top_left", "depth_float", "depth_24"})
+    EXPECT_FALSE(wrong_px(scene, "exact").has_value());
+    for (const std::string run : {"int64", "double"})
+      EXPECT_EQ(wrong_px(scene, run), 0u) << scene << ' ' << run;
+    for (const std::string run : {"float", "float_rebased"})
       EXPECT_LT(wrong_px(scene, run).value(), 480u * 270 / 100) << scene << ' ' << run;
   }
-  EXPECT_GT(wrong_px("small", "float_lt").value(), 0u);
-  EXPECT_GT(wrong_px("small", "depth_16").value(), 0u);
+  EXPECT_GT(wrong_px("small", "float").value(), 0u);
+  EXPECT_GT(wrong_px("large", "int32").value(), 0u);
 }
 
 TEST(BenchSuite, TimesThreeCullingModes) {

@@ -1,42 +1,22 @@
 #include "lab/engine/engine.h"
 
 #include <algorithm>
-#include <stdexcept>
 #include <vector>
 
 #include "edgewise/contract.h"
-#include "lab/coverage/float_edges.h"
 #include "lab/coverage/group_runs.h"
-#include "lab/engine/engine_kernel.h"
 #include "raster/ablation.h"
 #include "raster/tiles.h"
 
 namespace edgewise::lab {
 
-namespace {
-
-EngineKernel engine_kernel(EngineNumbers numbers, SimdTarget target) {
-  for (const auto kernel_in_file : {fixed_engine_kernel, real_engine_kernel})
-    if (const EngineKernel kernel = kernel_in_file(numbers, target); kernel.draw_tile != nullptr)
-      return kernel;
-  throw std::invalid_argument("not numbers of the engine");
-}
-
-}  // namespace
-
-void draw_engine(EngineNumbers numbers, const CoverageInput& input, Window window, FrameView frame,
+void draw_engine(EngineNumbers numbers, std::span<const ScreenTriangle> triangles, FrameView frame,
                  std::uint32_t background, const Execution& execution, TileScratch& scratch) {
   Execution resolved = execution;
   resolved.target = resolve(execution.target);
-  const EngineKernel kernel = engine_kernel(numbers, resolved.target);
-  StoredTriangles triangles(input.snapped);
-  draw_in_tiles(
-      triangles, frame, background, resolved, {.coverage_masks = false}, resolved.tile_size, scratch,
-      Bins::Small::as_indices,
-      [&](const TileTask& task) {
-        kernel.draw_tile({task, input.floats.data(), window.x0, window.y0, kernel.reads_floats});
-      },
-      kernel.margin);
+  StoredTriangles stored(triangles);
+  draw_in_tiles(stored, frame, background, resolved, {.coverage_masks = false}, resolved.tile_size, scratch,
+                Bins::Small::as_indices, engine_kernel(numbers, resolved.target));
 }
 
 namespace {
@@ -53,19 +33,15 @@ ScreenTriangle with_wider_box(const ScreenTriangle& t) {
 
 void engine_runs(EngineNumbers numbers, const CoverageInput& input, Window window, std::vector<Run>& runs) {
   std::vector<ScreenTriangle> triangles = shifted(input.snapped, window), boxes;
-  // At one depth no plane is steep: float coverage outside the snapped triangle then keeps its depth.
+  // At one depth no plane is steep: wrong pixels beside the triangle then keep its depth.
   for (ScreenTriangle& t : triangles) t.z[0] = t.z[1] = t.z[2] = contract::kDepthHead;
   for (const ScreenTriangle& t : triangles) boxes.push_back(with_wider_box(t));
   TileScratch scratch;
-  std::vector<ScreenTriangle> snapped;
-  std::vector<FloatTriangle> floats;
+  std::vector<ScreenTriangle> drawn;
   group_runs(boxes, window, runs, [&](std::span<const std::uint32_t> group, Framebuffer& frame) {
-    snapped.clear(), floats.clear();
-    for (const std::uint32_t i : group) {
-      snapped.push_back(triangles[i]);
-      floats.push_back(input.floats[i]);
-    }
-    draw_engine(numbers, {floats, snapped}, window, frame.view(), kNoTriangle, {}, scratch);
+    drawn.clear();
+    for (const std::uint32_t i : group) drawn.push_back(triangles[i]);
+    draw_engine(numbers, drawn, frame.view(), kNoTriangle, {}, scratch);
   });
 }
 
@@ -74,8 +50,7 @@ CoverageMethod make(EngineNumbers numbers, const MethodInfo& info, const Coverag
           .promise = promise,
           .draw =
               [numbers](const CoverageInput& input, Canvas& canvas, const Execution& execution) {
-                draw_engine(numbers, input, canvas.window(), canvas.frame.view(), 0, execution,
-                            canvas.scratch);
+                draw_engine(numbers, input.snapped, canvas.frame.view(), 0, execution, canvas.scratch);
               },
           .runs = [numbers](const CoverageInput& input, Window window,
                             std::vector<Run>& runs) { engine_runs(numbers, input, window, runs); },
@@ -86,58 +61,36 @@ CoverageMethod make(EngineNumbers numbers, const MethodInfo& info, const Coverag
 }
 
 constexpr std::string_view kSource = "the SIMD engine of src/raster/tiled";
+constexpr std::string_view kExact = "exact coverage of the positions snapped to 1/256 px";
 // Snapping errs by half a unit on each axis: sqrt(2) / 512.
 constexpr double kSnap_px = 0.00277;
-// E is the difference of two sums that round as those of kFloatReachPx, and is then stepped.
-constexpr double kFloat_px = 4 * kFloatReachPx;
-constexpr std::string_view kFloatPromise = "wrong only within 0.0112 px of an edge's line";
+constexpr CoveragePromise kSnapping{.reach_px = kSnap_px, .no_gaps = true, .no_double_hits = true};
+// Each of the two sums (other_numbers-inl.h) errs by at most 2 * 2^-24 times the edge's length times 4096
+// sqrt(2) px. What is rounded later, inside a tile, adds less than a tenth. In all that is 0.0015 px off the
+// snapped edge's line.
+constexpr CoveragePromise kFloat{.reach_px = 0.0015 + kSnap_px};
+constexpr std::string_view kFloatPromise = "wrong only within 0.0043 px of an edge's line";
 
 }  // namespace
 
 std::span<const CoverageMethod> engine_methods() {
   static const std::vector<CoverageMethod> methods{
       make(EngineNumbers::exact,
-           {"engine_exact", "the SIMD engine with the contract's numbers", kSource,
-            "exact coverage of the positions snapped to 1/256 px", true},
-           {.reach_px = kSnap_px, .no_gaps = true, .no_double_hits = true}),
-      make(EngineNumbers::float_lt,
-           {"engine_float_lt", "the SIMD engine with float edges; samples on an edge are outside", kSource,
-            kFloatPromise, false},
-           {.reach_px = kFloat_px}),
-      make(EngineNumbers::float_le,
-           {"engine_float_le", "the SIMD engine with float edges; samples on an edge are inside", kSource,
-            kFloatPromise, false},
-           {.reach_px = kFloat_px}),
-      make(EngineNumbers::float_top_left,
-           {"engine_float_top_left", "the SIMD engine with float edges and the top-left rule", kSource,
-            kFloatPromise, false},
-           {.reach_px = kFloat_px}),
-      make(EngineNumbers::float_rebased,
+           {"engine_exact", "the SIMD engine with the contract's numbers", kSource, kExact, true}, kSnapping),
+      make(EngineNumbers::int64,
+           {"engine_int64", "the SIMD engine with 64-bit integer edges", kSource, kExact, true}, kSnapping),
+      make(EngineNumbers::float64,
+           {"engine_double", "the SIMD engine with double edges", kSource, kExact, true}, kSnapping),
+      make(EngineNumbers::float32,
+           {"engine_float", "the SIMD engine with float edges", kSource, kFloatPromise, false}, kFloat),
+      make(EngineNumbers::float32_rebased,
            {"engine_float_rebased", "the SIMD engine with float edges relative to the tile's corner", kSource,
             kFloatPromise, false},
-           {.reach_px = kFloat_px}),
-      make(EngineNumbers::float_snapped,
-           {"engine_float_snapped", "the SIMD engine with float edges of the snapped vertices", kSource,
-            "wrong only within 0.014 px of an edge's line", false},
-           {.reach_px = kFloat_px + kSnap_px}),
-      make(EngineNumbers::fixed_4_int32,
-           {"engine_fixed_4_int32", "the SIMD engine with vertices at 1/16 px and 32-bit edges that wrap",
-            kSource,
-            "wrong by snapping alone for triangles of at most 2893 px; any pixel of the box's blocks beyond",
-            false},
-           {.reach_px = 0.05, .max_side_px = 2893, .no_gaps = true, .no_double_hits = true}),
-      make(EngineNumbers::fixed_8_int32,
-           {"engine_fixed_8_int32", "the SIMD engine with vertices at 1/256 px and 32-bit edges that wrap",
-            kSource, "exact for triangles of at most 178 px; any pixel of the box's blocks beyond", false},
-           {.reach_px = kSnap_px, .max_side_px = 178, .no_gaps = true, .no_double_hits = true}),
-      make(EngineNumbers::fixed_8_int64,
-           {"engine_fixed_8_int64", "the SIMD engine with 64-bit integer edges", kSource,
-            "exact coverage of the positions snapped to 1/256 px", true},
-           {.reach_px = kSnap_px, .no_gaps = true, .no_double_hits = true}),
-      make(EngineNumbers::double_top_left,
-           {"engine_double", "the SIMD engine with double edges and the top-left rule", kSource,
-            "wrong only within 0.003 px of an edge's line; exact for vertices on the 1/256 px grid", false},
-           {.reach_px = kSnap_px, .no_gaps = true, .no_double_hits = true, .if_on_grid = true})};
+           kFloat),
+      make(EngineNumbers::int32,
+           {"engine_int32", "the SIMD engine with 32-bit integer edges that wrap", kSource,
+            "exact for triangles of at most 178 px; any pixel of the box's blocks beyond", false},
+           {.reach_px = kSnap_px, .max_side_px = 178, .no_gaps = true, .no_double_hits = true})};
   return methods;
 }
 

@@ -1,19 +1,33 @@
-// The backend `tiled` as a laboratory: the same binning, tiles, blocks, coarse rejection, depth and threads,
-// with other numbers in the edge functions. It answers what exact coverage costs, and what inexact coverage
-// gets wrong, with all else equal.
+// The backend `tiled` as a laboratory: the same snapped vertices, binning, tiles, coarse rejection, depths
+// and threads, with other arithmetic in the edge functions. It answers what exact coverage costs, and what
+// inexact coverage gets wrong, with all else equal.
 #pragma once
 
+#include <cstdint>
 #include <span>
-#include <string_view>
 
+#include "edgewise/backend.h"
 #include "lab/coverage/coverage.h"
-#include "lab/engine/engine_kernel.h"
+#include "raster/tile_list.h"
+#include "raster/tile_task.h"
 
 namespace edgewise::lab {
 
-// Draws a frame. input.snapped is relative to the window's corner, input.floats is not. `scratch` is kept
-// between frames. For exact numbers this is the backend `tiled` without coverage masks.
-void draw_engine(EngineNumbers numbers, const CoverageInput& input, Window window, FrameView frame,
+enum class EngineNumbers {
+  exact,  // the contract's: int32, relative to the tile
+  int64,
+  float64,
+  float32,
+  float32_rebased,  // relative to the tile
+  int32             // wraps where edge values exceed 32 bits
+};
+
+// The tile kernel with these numbers. `target` must be resolved.
+TileKernel engine_kernel(EngineNumbers numbers, SimdTarget target);
+
+// Draws a frame. `scratch` is kept between frames. For exact numbers this is the backend `tiled` without
+// coverage masks.
+void draw_engine(EngineNumbers numbers, std::span<const ScreenTriangle> triangles, FrameView frame,
                  std::uint32_t background, const Execution& execution, TileScratch& scratch);
 
 // The engine with each kind of numbers, the contract's first. Apart from coverage_methods(), because sweeps

@@ -67,8 +67,7 @@ inline void Bins::Chunk::bin(const ScreenTriangle& triangle, std::uint32_t index
   for (int i = 0; i < 3; ++i) {
     const Edge edge = make_edge(oriented, i);
     row_value[i] = edge.at(column0 * cell_w + (edge.a > 0 ? cell_w - 1 : 0),
-                           row0 * cell_h + (edge.b > 0 ? cell_h - 1 : 0)) +
-                   std::int64_t{grid.margin} * (std::abs(edge.a) + std::abs(edge.b));
+                           row0 * cell_h + (edge.b > 0 ? cell_h - 1 : 0));
     step_x[i] = std::int64_t{edge.a} * kSub * cell_w;
     step_y[i] = std::int64_t{edge.b} * kSub * cell_h;
   }

@@ -27,10 +27,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 // An edge rejects a cell if its value is negative in the whole part of the box in that cell. Floats suffice.
 // A cell that is kept needlessly does no harm, since the tile kernel tests again. No candidate is rejected:
 // factors are exact (rule 3), and where p + q >= 0, p >= -q also holds for the rounded p and q.
-//
-// With a margin m, the box is wider by m, and an edge value may be as low as -m (|a| + |b|).
-template <bool kMargin>
-HWY_NOINLINE V candidates_of_four(const RecordLanes& t, V centre_x, V centre_y, std::int32_t margin) {
+// Static, so that callers know which registers it keeps.
+static HWY_NOINLINE V candidates_of_four(const RecordLanes& t, V centre_x, V centre_y) {
   const D d;
   const hn::RebindToFloat<D> df;
   using F = hn::Vec<decltype(df)>;
@@ -38,13 +36,8 @@ HWY_NOINLINE V candidates_of_four(const RecordLanes& t, V centre_x, V centre_y, 
   const auto relative = [&](V v, V centre) { return hn::ConvertTo(df, hn::Sub(v, centre)); };
   F x[3], y[3];
   for (int i = 0; i < 3; ++i) x[i] = relative(t.x[i], centre_x), y[i] = relative(t.y[i], centre_y);
-  F left = relative(least(t.x), centre_x), right = relative(most(t.x), centre_x);
-  F top = relative(least(t.y), centre_y), bottom = relative(most(t.y), centre_y);
-  const F m = set(static_cast<float>(margin));
-  if constexpr (kMargin) {
-    left = hn::Sub(left, m), right = hn::Add(right, m);
-    top = hn::Sub(top, m), bottom = hn::Add(bottom, m);
-  }
+  const F left = relative(least(t.x), centre_x), right = relative(most(t.x), centre_x);
+  const F top = relative(least(t.y), centre_y), bottom = relative(most(t.y), centre_y);
   const F area = hn::Sub(hn::Mul(hn::Sub(x[1], x[0]), hn::Sub(y[2], y[0])),
                          hn::Mul(hn::Sub(y[1], y[0]), hn::Sub(x[2], x[0])));
   const F flip = hn::And(area, hn::SignBit(df));
@@ -59,8 +52,7 @@ HWY_NOINLINE V candidates_of_four(const RecordLanes& t, V centre_x, V centre_y, 
     const F down[2] = {hn::Mul(b, hn::Sub(hn::IfThenElse(rises_y, set(-half), top), y[i])),
                        hn::Mul(b, hn::Sub(hn::IfThenElse(rises_y, bottom, set(half)), y[i]))};
     for (int cell = 0; cell < 4; ++cell) {
-      F value = hn::Add(across[cell % 2], down[cell / 2]);
-      if constexpr (kMargin) value = hn::Add(value, hn::Mul(m, hn::Add(hn::Abs(a), hn::Abs(b))));
+      const F value = hn::Add(across[cell % 2], down[cell / 2]);
       largest[cell] = i == 0 ? value : hn::Min(largest[cell], value);
     }
   }
@@ -75,7 +67,6 @@ HWY_NOINLINE V candidates_of_four(const RecordLanes& t, V centre_x, V centre_y, 
 }
 
 // Lanes with an empty box store unspecified values.
-template <bool kMargin = false>
 HWY_INLINE void store_cell_boxes(const RecordLanes& t, const BoxLanes& box, const CellGrid& grid, int at,
                                  CellBoxes& out) {
   const D d;
@@ -98,8 +89,7 @@ HWY_INLINE void store_cell_boxes(const RecordLanes& t, const BoxLanes& box, cons
     const auto end = [&](V cell, int log2) {
       return hn::ShiftLeft<kSubBits>(hn::ShiftLeftSame(hn::Add(cell, one), log2));
     };
-    const V in_four = candidates_of_four<kMargin>(t, end(column0, grid.cell_w_log2),
-                                                  end(row0, grid.cell_h_log2), grid.margin);
+    const V in_four = candidates_of_four(t, end(column0, grid.cell_w_log2), end(row0, grid.cell_h_log2));
     candidates = hn::IfThenElse(four, in_four, candidates);
   }
   const auto large = hn::Gt(hn::Or(columns, rows), one);

@@ -18,7 +18,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 std::uint64_t cell_boxes(const ScreenTriangle* triangles, const CellGrid& grid, bool, CellBoxes& out) {
   std::uint64_t filled = 0;
   for (int i = 0; i < kBoxesAtOnce; ++i) {
-    const auto box = widened_pixel_box(triangles[i], grid.width, grid.height, grid.margin);
+    const auto box = contract::pixel_box(triangles[i], grid.width, grid.height);
     if (box.empty()) continue;
     filled |= std::uint64_t{1} << i;
     out.set(static_cast<std::size_t>(i), box, grid);
@@ -28,22 +28,16 @@ std::uint64_t cell_boxes(const ScreenTriangle* triangles, const CellGrid& grid, 
 
 #else
 
-template <bool kMargin>
-std::uint64_t cell_boxes_of(const ScreenTriangle* triangles, const CellGrid& grid, bool prefetch,
-                            CellBoxes& out) {
+std::uint64_t cell_boxes(const ScreenTriangle* triangles, const CellGrid& grid, bool prefetch,
+                         CellBoxes& out) {
   std::uint64_t filled = 0;
   for (int i = 0; i < kBoxesAtOnce; i += kLanes) {
     const RecordLanes t(triangles + i, prefetch);
-    const BoxLanes box(t, grid.width, grid.height, kMargin ? grid.margin : 0);
-    store_cell_boxes<kMargin>(t, box, grid, i, out);
+    const BoxLanes box(t, grid.width, grid.height);
+    store_cell_boxes(t, box, grid, i, out);
     filled |= std::uint64_t{mask_bits(box.filled)} << i;
   }
   return filled;
-}
-std::uint64_t cell_boxes(const ScreenTriangle* triangles, const CellGrid& grid, bool prefetch,
-                         CellBoxes& out) {
-  return grid.margin == 0 ? cell_boxes_of<false>(triangles, grid, prefetch, out)
-                          : cell_boxes_of<true>(triangles, grid, prefetch, out);
 }
 
 #endif

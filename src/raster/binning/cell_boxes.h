@@ -15,23 +15,10 @@ namespace edgewise {
 struct CellGrid {
   int width, height;             // px, the image
   int cell_w_log2, cell_h_log2;  // px
-  // Sub-units. Cells up to this far from a triangle, on each axis, also list it: for coverage from other than
-  // the snapped positions (lab/engine). Must be 0 with masks.
-  std::int32_t margin = 0;
   int columns() const { return (width + (1 << cell_w_log2) - 1) >> cell_w_log2; }
   int rows() const { return (height + (1 << cell_h_log2) - 1) >> cell_h_log2; }
   int cells() const { return columns() * rows(); }
 };
-
-// contract::pixel_box(), widened by `margin` sub-units.
-constexpr contract::PixelBox widened_pixel_box(const ScreenTriangle& t, int width, int height,
-                                               std::int32_t margin) {
-  if (margin == 0) return contract::pixel_box(t, width, height);
-  const auto [min_x, max_x] = std::minmax({t.x_sub[0], t.x_sub[1], t.x_sub[2]});
-  const auto [min_y, max_y] = std::minmax({t.y_sub[0], t.y_sub[1], t.y_sub[2]});
-  const std::int32_t x0 = min_x - margin, x1 = max_x + margin, y0 = min_y - margin, y1 = max_y + margin;
-  return contract::pixel_box({{x0, x1, x1}, {y0, y1, y1}, {}, 0}, width, height);
-}
 
 struct CellBox {
   std::uint16_t column0, row0, column1, row1;  // inclusive

@@ -96,23 +96,23 @@ HWY_INLINE V least(const V (&v)[3]) {
 HWY_INLINE V most(const V (&v)[3]) {
   return hn::Max(hn::Max(v[0], v[1]), v[2]);
 }
-// The first sample at or after a coordinate plus `margin`.
-HWY_INLINE V first_sample(V c, std::int32_t margin) {
-  return hn::ShiftRight<kSubBits>(hn::Add(c, hn::Set(D{}, kHalf - 1 + margin)));
+// The first sample at or after a coordinate.
+HWY_INLINE V first_sample(V c) {
+  return hn::ShiftRight<kSubBits>(hn::Add(c, hn::Set(D{}, kHalf - 1)));
 }
 
-// contract::pixel_box() for a vector of triangles, widened by `margin` sub-units.
+// contract::pixel_box() for a vector of triangles.
 struct BoxLanes {
   V x0, y0, x1, y1;
   hn::Mask<D> filled;
 
-  HWY_INLINE BoxLanes(const RecordLanes& t, int width, int height, std::int32_t margin = 0) {
+  HWY_INLINE BoxLanes(const RecordLanes& t, int width, int height) {
     const D d;
     const V zero = hn::Zero(d);
-    x0 = hn::Max(first_sample(least(t.x), -margin), zero);
-    x1 = hn::Min(first_sample(most(t.x), margin), hn::Set(d, width));
-    y0 = hn::Max(first_sample(least(t.y), -margin), zero);
-    y1 = hn::Min(first_sample(most(t.y), margin), hn::Set(d, height));
+    x0 = hn::Max(first_sample(least(t.x)), zero);
+    x1 = hn::Min(first_sample(most(t.x)), hn::Set(d, width));
+    y0 = hn::Max(first_sample(least(t.y)), zero);
+    y1 = hn::Min(first_sample(most(t.y)), hn::Set(d, height));
     filled = hn::And(hn::Lt(x0, x1), hn::Lt(y0, y1));
   }
 };

@@ -81,12 +81,11 @@ struct TriangleLanes {
   V32 x[3], y[3], z[3], payload;
 };
 // Loads the triangles with these indices, one per lane of V64. Loads whole records and transposes them, which
-// is faster than gathers. `Record`: ten 32-bit fields in the order of ScreenTriangle.
-template <class Record>
-HWY_INLINE TriangleLanes load(const Record* triangles, const std::uint32_t* index) {
+// is faster than gathers.
+HWY_INLINE TriangleLanes load(const ScreenTriangle* triangles, const std::uint32_t* index) {
   const D64 d;
   V64 pair[5];  // of 32-bit fields, in their order
-  static_assert(sizeof(Record) == sizeof(std::int64_t) * 5);
+  static_assert(sizeof(ScreenTriangle) == sizeof(std::int64_t) * 5);
   const auto from = [&](int i, int first_pair) {
     return reinterpret_cast<const std::int64_t*>(triangles + index[i]) + first_pair;
   };
@@ -129,19 +128,16 @@ HWY_INLINE TriangleLanes load(const Record* triangles, const std::uint32_t* inde
           upper(pair[4])};
 }
 
-// contract::pixel_box() along one axis, widened by kMargin sub-units, relative to `origin` and clipped to
-// [0, end).
+// contract::pixel_box() along one axis, relative to `origin` and clipped to [0, end).
 struct Range {
   V32 begin, end;
 };
-template <std::int32_t kMargin = 0>
 HWY_INLINE Range sample_range(const V32 (&c)[3], std::int32_t origin, std::int32_t end) {
-  const auto first_sample = [&](V32 v, std::int32_t margin) {
-    return hn::Sub(hn::ShiftRight<contract::kSubBits>(hn::Add(v, set32(contract::kHalf - 1 + margin))),
-                   set32(origin));
+  const auto first_sample = [&](V32 v) {
+    return hn::Sub(hn::ShiftRight<contract::kSubBits>(hn::Add(v, set32(contract::kHalf - 1))), set32(origin));
   };
-  return {hn::Max(first_sample(hn::Min(hn::Min(c[0], c[1]), c[2]), -kMargin), set32(0)),
-          hn::Min(first_sample(hn::Max(hn::Max(c[0], c[1]), c[2]), kMargin), set32(end))};
+  return {hn::Max(first_sample(hn::Min(hn::Min(c[0], c[1]), c[2])), set32(0)),
+          hn::Min(first_sample(hn::Max(hn::Max(c[0], c[1]), c[2])), set32(end))};
 }
 
 }  // namespace HWY_NAMESPACE

@@ -1,4 +1,4 @@
-// Linear functions of the pixel position, for the policies of the tile kernel.
+// Linear functions of the pixel position: the tile kernel's edge functions and depths.
 #include <hwy/highway.h>
 
 #include <cstdint>

@@ -1,7 +1,5 @@
-// The numbers of edge functions: a policy on which the tile kernel is a template.
-//
-// The library has one policy, ContractNumbers. The laboratory has others (lab/engine), to measure what the
-// choice costs. A policy names the policy of its depths (tile_depth-inl.h). Boxes are the same for all.
+// The numbers of edge functions, on which the tile kernel is a template: the contract's. The laboratory has
+// others (lab/engine), to measure what exactness costs.
 //
 // The contract's edge values are sums of 32 x 32 -> 64 bit products (triangle_lanes-inl.h).
 #include <hwy/highway.h>
@@ -10,10 +8,11 @@
 #include <cstdint>
 
 #include "edgewise/contract.h"
+#include "raster/simd/depth_lanes-inl.h"
 #include "raster/simd/lanes-inl.h"
 #include "raster/simd/triangle_lanes-inl.h"
 #include "raster/tile_task.h"
-#include "raster/tiled/tile_depth-inl.h"
+#include "raster/tiled/tile_linear-inl.h"
 
 // Included once per SIMD target.
 #if defined(EDGEWISE_TILE_NUMBERS_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -80,27 +79,18 @@ struct EdgeInBoxLanes {
 #endif
 
 // The contract's edge functions, shifted (rule 5) in wrapping int32. A pixel is inside where all three are
-// >= 0. A policy for other numbers has the same members.
+// >= 0. Other numbers have the same members.
 struct ContractNumbers : Int32Lanes {
-  using Task = TileTask;
-  using Depth = ContractDepth;
-  using Edge = Linear<std::int32_t>;
-  static constexpr std::int32_t kMargin = 0;  // sub-units; the box of snapped positions is widened by it
-  struct Rule {};                             // of the samples on edges; here it is part of the edge values
-
-  static Rule rule(const Edge (&)[3], int) { return {}; }
-  // The sign bit is set where a sample is outside an edge.
-  static HWY_INLINE V outside(V e0, V e1, V e2, const Rule&) { return hn::Or(hn::Or(e0, e1), e2); }
-  // The sign bit is set where a value is negative. It may ignore the rule: a block is then kept needlessly.
-  static HWY_INLINE V negative(V e0, V e1, V e2) { return hn::Or(hn::Or(e0, e1), e2); }
+  // The sign bit is set where a value is negative.
+  static HWY_INLINE V outside(V e0, V e1, V e2) { return hn::Or(hn::Or(e0, e1), e2); }
   // Whether a value's span over a block, in square pixels, exceeds twice the triangle's area.
   static HWY_INLINE bool spans_more(Value span, std::int32_t twice_area_px) {
     return span >> kSubBits > twice_area_px;
   }
 
   // Returns false if an edge rejects the box.
-  static bool set_up_one(const TileTask& task, std::uint32_t, const Oriented& t, const BlockBox& box,
-                         Edge (&out)[3], int k) {
+  static bool set_up_one(const TileTask& task, const Oriented& t, const BlockBox& box,
+                         Linear<Value> (&out)[3], int k) {
     for (int i = 0; i < 3; ++i) {
       const EdgeInBox e(task, t, box, i);
       if (e.rejects) return false;
@@ -115,8 +105,8 @@ struct ContractNumbers : Int32Lanes {
     HalfLinear edge[3];
   };
   // The sign bit of a lane is set if an edge rejects the box.
-  static HWY_INLINE V64 set_up_half(const TileTask& task, const std::uint32_t*, const TriangleLanes& t,
-                                    const Area& area, const BlockBoxLanes& box, HalfEdges& out) {
+  static HWY_INLINE V64 set_up_half(const TileTask& task, const TriangleLanes& t, const Area& area,
+                                    const BlockBoxLanes& box, HalfEdges& out) {
     V64 rejected = hn::Zero(D64{});
     for (int i = 0; i < 3; ++i) {
       const EdgeInBoxLanes e(task, t, area, box, i);
@@ -129,7 +119,7 @@ struct ContractNumbers : Int32Lanes {
   }
   // Bit i of the result is 0 if an edge rejects the box of lane i and set_up_half() did not report it.
   static HWY_INLINE std::uint32_t store_edges(const TileTask&, const HalfEdges& left, const HalfEdges& right,
-                                              Edge (&out)[3], int k) {
+                                              Linear<Value> (&out)[3], int k) {
     for (int i = 0; i < 3; ++i) store_linear(left.edge[i], right.edge[i], out[i], k);
     return ~0u;
   }

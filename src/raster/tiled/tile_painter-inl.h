@@ -32,7 +32,7 @@ using namespace contract;
 template <class Numbers>
 class TilePainter {
  public:
-  TilePainter(const typename Numbers::Task& task, Tile& tile)
+  TilePainter(const TileTask& task, Tile& tile)
       : task_(task), tile_(tile), small_(tile), masks_(*task.bins, task.cell) {}
 
   HWY_NOINLINE void draw_index_block(const Bins::IndexBlock& block) {
@@ -57,8 +57,7 @@ class TilePainter {
         small_.draw();
         // Thin triangles fill no block, so they occlude none.
         occludes_ = occludes_ || (task_.ablation.hierarchical_depth && may_fill_blocks(batch_, k));
-        if (occludes_ && tile_.hiz.occludes(Numbers::Depth::stored(batch_.nearest.least[k])))
-            [[unlikely]]  // in most scenes
+        if (occludes_ && tile_.hiz.occludes(batch_.nearest.least[k])) [[unlikely]]  // in most scenes
           continue;
         occludes_ ? find_candidates<true>(k, width, *next) : find_candidates<false>(k, width, *next);
         draw_waiting();
@@ -88,7 +87,7 @@ class TilePainter {
         : find_candidates_by_rows<Numbers, kHierarchicalDepth, kAll>(tile_, batch_, k, out);
   }
 
-  const typename Numbers::Task& task_;
+  const TileTask& task_;
   Tile& tile_;
   Batch<Numbers> batch_;
   SmallTriangles<Numbers> small_;
@@ -98,7 +97,7 @@ class TilePainter {
 };
 
 template <class Numbers>
-void draw_tile_in(const typename Numbers::Task& task) {
+void draw_tile_in(const TileTask& task) {
   const int size = task.size();
   Tile tile;
   const auto clear = [&](std::int32_t* plane, std::uint32_t value) {

@@ -61,16 +61,14 @@ struct Row {
 // the zmax of the blocks that it covers.
 template <class Numbers, bool kHierarchicalDepth, std::size_t kParts>
 HWY_NOINLINE void find_candidates_by_rows(Tile& tile, const Batch<Numbers>& batch, int k, Candidates& out) {
-  using Depth = typename Numbers::Depth;
   const D d;
   const V minus_one = hn::Set(d, -1);
   const auto largest = [&](const auto& edge) {
     return Row<Numbers, kParts>(edge.x + k, edge.y + k, edge.most + k);
   };
   Row<Numbers, kParts> edge[3] = {largest(batch.edge[0]), largest(batch.edge[1]), largest(batch.edge[2])};
-  const typename Numbers::Rule rule = Numbers::rule(batch.edge, k);
-  Row<Depth, kParts> depth(batch.depth.x + k, batch.depth.y + k, batch.depth.most + k);
-  Row<Depth, kParts> nearest(batch.nearest.x + k, batch.nearest.y + k, batch.nearest.first + k);
+  Row<Int32Lanes, kParts> depth(batch.depth.x + k, batch.depth.y + k, batch.depth.most + k);
+  Row<Int32Lanes, kParts> nearest(batch.nearest.x + k, batch.nearest.y + k, batch.nearest.first + k);
 
   const V last_column = hn::Set(d, batch.bx1[k] - batch.bx0[k]);
   V before_end[kParts], offset[kParts];  // before_end < 0 behind the box's last column
@@ -82,18 +80,18 @@ HWY_NOINLINE void find_candidates_by_rows(Tile& tile, const Batch<Numbers>& batc
   List list{out.offset};
   for (int row = batch.by0[k]; row <= batch.by1[k]; ++row) {
     for (std::size_t p = 0; p < kParts; ++p) {
-      const V most = hn::Or(Numbers::negative(edge[0].v[p], edge[1].v[p], edge[2].v[p]), before_end[p]);
+      const V most = hn::Or(Numbers::outside(edge[0].v[p], edge[1].v[p], edge[2].v[p]), before_end[p]);
       auto candidate = hn::Gt(most, minus_one);
       if constexpr (kHierarchicalDepth) {
         // In a block that the triangle covers, no pixel stays farther than the triangle's farthest depth.
         const auto low = [&](int i) {
           return Numbers::subtract(edge[i].v[p], Numbers::set(batch.edge[i].span[k]));
         };
-        const V least = hn::Or(Numbers::outside(low(0), low(1), low(2), rule), before_end[p]);
-        const V old_zmax = hn::LoadU(d, hiz + lane_of(p)), own_zmax = Depth::stored(depth.v[p]);
+        const V least = hn::Or(Numbers::outside(low(0), low(1), low(2)), before_end[p]);
+        const V old_zmax = hn::LoadU(d, hiz + lane_of(p)), own_zmax = depth.v[p];
         const auto inside = hn::Gt(least, minus_one);
         hn::StoreU(hn::IfThenElse(inside, hn::Min(old_zmax, own_zmax), old_zmax), d, hiz + lane_of(p));
-        candidate = hn::And(candidate, hn::Lt(Depth::stored(nearest.v[p]), old_zmax));
+        candidate = hn::And(candidate, hn::Lt(nearest.v[p], old_zmax));
       }
       list.append(offset[p], candidate);
       offset[p] = hn::Add(offset[p], hn::Set(d, kMaxBlocks));

@@ -1,6 +1,6 @@
 // Sets triangles up for one tile, a vector of triangles at a time.
 //
-// A policy sets up the edges (tile_numbers-inl.h), and its own policy the depths (tile_depth-inl.h).
+// `Numbers` set up the edges (tile_numbers-inl.h); tile_depth-inl.h sets up the depths.
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -13,6 +13,7 @@
 #include "raster/simd/lanes-inl.h"
 #include "raster/simd/triangle_lanes-inl.h"
 #include "raster/tile_task.h"
+#include "raster/tiled/tile_depth-inl.h"
 #include "raster/tiled/tile_numbers-inl.h"
 
 // Included once per SIMD target.
@@ -32,9 +33,9 @@ using namespace contract;
 // A batch of triangles, set up for one tile.
 template <class Numbers>
 struct alignas(64) Batch {
-  typename Numbers::Edge edge[3];
-  Linear<typename Numbers::Depth::Value> depth;
-  NearestDepth<typename Numbers::Depth::Value> nearest;
+  Linear<typename Numbers::Value> edge[3];
+  Linear<std::int32_t> depth;
+  NearestDepth nearest;
   std::int32_t payload[kBatch];
   std::int32_t twice_area_px[kBatch];
   std::int32_t bx0[kBatch], by0[kBatch], bx1[kBatch], by1[kBatch];  // the box in blocks, inclusive
@@ -42,10 +43,10 @@ struct alignas(64) Batch {
 
 // Scalar set-up of one triangle. Returns false if it covers no pixel of the tile.
 template <class Numbers>
-bool set_up_one(const typename Numbers::Task& task, std::uint32_t index, Batch<Numbers>& out, int k) {
+bool set_up_one(const TileTask& task, std::uint32_t index, Batch<Numbers>& out, int k) {
   const ScreenTriangle& triangle = task.triangles[index];
   const int size = task.size();
-  const PixelBox box = widened_pixel_box(triangle, task.frame.width, task.frame.height, Numbers::kMargin);
+  const PixelBox box = pixel_box(triangle, task.frame.width, task.frame.height);
   const int x0 = std::max(box.x0 - task.x0, 0), x1 = std::min(box.x1 - task.x0, size);
   const int y0 = std::max(box.y0 - task.y0, 0), y1 = std::min(box.y1 - task.y0, size);
   if (x0 >= x1 || y0 >= y1) return false;
@@ -56,8 +57,8 @@ bool set_up_one(const typename Numbers::Task& task, std::uint32_t index, Batch<N
 
   const int left = bx0 * kBlockSide, top = by0 * kBlockSide;
   const BlockBox blocks{left, top, (bx1 - bx0 + 1) * kBlockSide - 1, (by1 - by0 + 1) * kBlockSide - 1};
-  if (!Numbers::set_up_one(task, index, t, blocks, out.edge, k)) return false;
-  Numbers::Depth::set_up_one(task, t, left, top, bx1 - bx0, by1 - by0, out, k);
+  if (!Numbers::set_up_one(task, t, blocks, out.edge, k)) return false;
+  set_up_one_depth(task, t, left, top, bx1 - bx0, by1 - by0, out, k);
   out.payload[k] = wrap(triangle.payload);
   out.twice_area_px[k] = static_cast<std::int32_t>(t.area >> 2 * kSubBits);
   out.bx0[k] = bx0, out.by0[k] = by0, out.bx1[k] = bx1, out.by1[k] = by1;
@@ -69,21 +70,20 @@ bool set_up_one(const typename Numbers::Task& task, std::uint32_t index, Batch<N
 template <class Numbers>
 struct HalfBatch {
   typename Numbers::HalfEdges edges;
-  typename Numbers::Depth::Half depth;
+  HalfDepth depth;
   V32 payload, twice_area_px, bx0, by0, bx1, by1;
   std::uint32_t alive, exact;  // one bit per triangle: not rejected; depth is valid
 };
 
 // set_up_one() for half a vector of triangles. Lanes whose bit in `exact` is 0 have no valid depth.
 template <class Numbers>
-HWY_INLINE void set_up_half(const typename Numbers::Task& task, const std::uint32_t* indices,
-                            HalfBatch<Numbers>& out) {
+HWY_INLINE void set_up_half(const TileTask& task, const std::uint32_t* indices, HalfBatch<Numbers>& out) {
   const D64 d;
   const TriangleLanes t = load(task.triangles, indices);
   const auto& [x, y, z, payload] = t;
 
-  const auto [x0, x1] = sample_range<Numbers::kMargin>(x, task.x0, task.width());
-  const auto [y0, y1] = sample_range<Numbers::kMargin>(y, task.y0, task.height());
+  const auto [x0, x1] = sample_range(x, task.x0, task.width());
+  const auto [y0, y1] = sample_range(y, task.y0, task.height());
   const auto filled = hn::And(hn::Lt(x0, x1), hn::Lt(y0, y1));
   static_assert(kBlockSide == 1 << 2);
   const V32 one = set32(1);
@@ -100,9 +100,9 @@ HWY_INLINE void set_up_half(const typename Numbers::Task& task, const std::uint3
   V64 dead = hn::Or(hn::ShiftLeft<32>(as64(hn::VecFromMask(D32{}, hn::Not(filled)))),
                     hn::VecFromMask(d, hn::Eq(area.value, zero)));
   const BlockBoxLanes blocks{left, top, last(bx0, bx1), last(by0, by1)};
-  dead = hn::Or(dead, Numbers::set_up_half(task, indices, t, area, blocks, out.edges));
+  dead = hn::Or(dead, Numbers::set_up_half(task, t, area, blocks, out.edges));
 
-  out.exact = Numbers::Depth::set_up_half(task, t, area, left, top, out.depth);
+  out.exact = set_up_half_depth(task, t, area, left, top, out.depth);
   out.payload = payload, out.twice_area_px = lower(shift_right<2 * kSubBits>(area.value));
   out.bx0 = bx0, out.by0 = by0, out.bx1 = bx1, out.by1 = by1;
   out.alive = mask_bits(hn::Not(hn::Lt(dead, zero)));
@@ -111,8 +111,8 @@ HWY_INLINE void set_up_half(const typename Numbers::Task& task, const std::uint3
 // Sets up triangles[indices[i]] for i = k … k + kLanes - 1. Bit i - k of the result is set if the triangle is
 // not rejected. From `count` on, indices are padding but must be valid; a half vector of padding is skipped.
 template <class Numbers>
-HWY_INLINE std::uint32_t set_up_vector(const typename Numbers::Task& task, const std::uint32_t* indices,
-                                       int count, Batch<Numbers>& out, int k) {
+HWY_INLINE std::uint32_t set_up_vector(const TileTask& task, const std::uint32_t* indices, int count,
+                                       Batch<Numbers>& out, int k) {
   constexpr int kInHalf = kLanes / 2;
   HalfBatch<Numbers> left, right;
   set_up_half(task, indices + k, left);
@@ -131,7 +131,7 @@ HWY_INLINE std::uint32_t set_up_vector(const typename Numbers::Task& task, const
   store_both(left.twice_area_px, right.twice_area_px, out.twice_area_px);
   const V bx0 = store_both(left.bx0, right.bx0, out.bx0), bx1 = store_both(left.bx1, right.bx1, out.bx1);
   const V by0 = store_both(left.by0, right.by0, out.by0), by1 = store_both(left.by1, right.by1, out.by1);
-  Numbers::Depth::store_planes(left.depth, right.depth, hn::Sub(bx1, bx0), hn::Sub(by1, by0), out, k);
+  store_depth(left.depth, right.depth, hn::Sub(bx1, bx0), hn::Sub(by1, by0), out, k);
 
   const std::uint32_t alive = (left.alive | right.alive << kInHalf) & kept;
   const std::uint32_t exact = left.exact | right.exact << kInHalf;
@@ -146,8 +146,7 @@ HWY_INLINE std::uint32_t set_up_vector(const typename Numbers::Task& task, const
 
 // Sets up triangles[indices[i]] for all i. Bit i of the result is set if the triangle is not rejected.
 template <class Numbers>
-std::uint32_t set_up(const typename Numbers::Task& task, std::span<const std::uint32_t> indices,
-                     Batch<Numbers>& out) {
+std::uint32_t set_up(const TileTask& task, std::span<const std::uint32_t> indices, Batch<Numbers>& out) {
   std::uint32_t alive = 0;
   const int count = static_cast<int>(indices.size());
   if (HWY_TARGET == HWY_SCALAR || !task.ablation.vector_setup) {

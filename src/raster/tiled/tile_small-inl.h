@@ -36,8 +36,6 @@ alignas(64) constexpr auto kSquareEntries = [] {
 // for a branch predictor, but a loop over a list is not.
 template <class Numbers>
 class SmallTriangles {
-  using Depth = typename Numbers::Depth;
-
  public:
   static constexpr int kSide = 4;  // blocks
   explicit SmallTriangles(Tile& tile) : tile_(tile) {}
@@ -51,7 +49,7 @@ class SmallTriangles {
       return over_block<Numbers>(batch.edge[i].x + k, batch.edge[i].y + k);
     };
     const Values16<Numbers> edge_in[3] = {in_block(0), in_block(1), in_block(2)};
-    const auto depth_in = over_block<Depth>(batch.depth.x + k, batch.depth.y + k);
+    const auto depth_in = over_block<Int32Lanes>(batch.depth.x + k, batch.depth.y + k);
     const V entry = hn::Set(d, (batch.by0[k] * kMaxBlocks + batch.bx0[k]) << 16 | slot);
     for (int p = 0; p < kVectors; ++p) {
       const int lane = p * kLanes;
@@ -67,8 +65,8 @@ class SmallTriangles {
         return Numbers::add(at, Numbers::set(batch.edge[i].rise[k]));
       };
       const typename Numbers::Vector most_values[3] = {most_of(0), most_of(1), most_of(2)};
-      const V most = Numbers::negative(most_values[0], most_values[1], most_values[2]);
-      store_values(Depth{}, depth_in.v[p], batch.depth.first[k], depth_);
+      const V most = Numbers::outside(most_values[0], most_values[1], most_values[2]);
+      store_values(Int32Lanes{}, depth_in.v[p], batch.depth.first[k], depth_);
       const auto beside =
           hn::Or(hn::Gt(hn::Load(d, kLaneX + lane), bx), hn::Gt(hn::Load(d, kLaneY + lane), by));
       const auto candidate = hn::Not(hn::Or(beside, hn::Lt(most, hn::Zero(d))));
@@ -76,7 +74,6 @@ class SmallTriangles {
       list_.append(entries, candidate);
     }
     payload_[slot / kBlockPixels] = batch.payload[k];
-    rule_[slot / kBlockPixels] = Numbers::rule(batch.edge, k);
   }
 
   HWY_INLINE void draw() {
@@ -91,8 +88,8 @@ class SmallTriangles {
         };
         const auto edge = [&](int i) { return value(Numbers{}, edge_[i]); };
         write_whole(tile_, block * kBlockPixels + p * kLanes,
-                    inside(Numbers::outside(edge(0), edge(1), edge(2), rule_[slot])),
-                    Depth::stored(value(Depth{}, depth_)), hn::Set(d, payload_[slot]));
+                    inside(Numbers::outside(edge(0), edge(1), edge(2))), value(Int32Lanes{}, depth_),
+                    hn::Set(d, payload_[slot]));
       }
     }
     used_ = list_.length = 0;
@@ -107,8 +104,7 @@ class SmallTriangles {
     Value at_block[kSlots * kBlocksAtOnce], in_block[kSlots * kBlockPixels];
   };
   SlotValues<typename Numbers::Value> edge_[3];
-  SlotValues<typename Depth::Value> depth_;
-  typename Numbers::Rule rule_[kSlots];
+  SlotValues<std::int32_t> depth_;
   std::int32_t payload_[kSlots];
   // the block in the tile << 16 | slot * 16 + the block's index in the square
   std::int32_t candidates_[(kSlots + 1) * kBlocksAtOnce];
