@@ -25,10 +25,6 @@ ClippingScore judge(std::string_view name, const ClippingScene& scene) {
   return score(method(name), scene, clipping_truth(scene));
 }
 
-TEST(Clipping, EveryFileOfTheFolderIsRegistered) {
-  expect_folder_registered("clipping/methods", clipping_methods());
-}
-
 TEST(Clipping, EveryMethodKeepsItsPromiseAndTheImpreciseFailSomewhere) {
   std::map<std::string_view, std::uint64_t> wrong, moved;
   for (const auto& c : clipping_cases()) {

@@ -23,10 +23,6 @@ FacingScore judge(std::string_view name, const FacingScene& scene) {
   return score(method(name), scene, facing_facts(scene)).floats;
 }
 
-TEST(Facing, EveryFileOfTheFolderIsRegistered) {
-  expect_folder_registered("facing/methods", facing_methods());
-}
-
 TEST(Facing, EveryMethodKeepsItsPromiseAndFailsOnFloatInputSomewhere) {
   std::map<std::string_view, std::uint64_t> wrong;
   for (const auto& c : facing_cases()) {

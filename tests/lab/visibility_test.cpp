@@ -41,10 +41,6 @@ std::vector<ScreenTriangle> screen_of(const VisibilityScene& scene) {
   return triangles;
 }
 
-TEST(Visibility, EveryFileOfTheFolderIsRegistered) {
-  expect_folder_registered("visibility/methods", visibility_methods());
-}
-
 TEST(Visibility, EveryMethodKeepsItsPromiseAndFailsSomewhere) {
   std::map<std::string_view, std::uint64_t> wrong;
   for (const auto& c : visibility_cases()) {
