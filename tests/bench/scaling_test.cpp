@@ -132,7 +132,7 @@ class Counter final : public ParallelObserver {
 class ObservedBackend : public ::testing::TestWithParam<std::string_view> {};
 
 TEST_P(ObservedBackend, DrawsTheSameBitsAndSplitsItsWork) {
-  const auto triangles = testing::adversarial("tiny", 20'000, 200, 150, 3);
+  const auto triangles = testing::adversarial("cloud", 20'000, 200, 150, 3);
   const auto backend = testing::find_drawer(GetParam()).make();
   Framebuffer expected(200, 150), actual(200, 150);
   backend->draw(triangles, expected.view(), 0, {});
