@@ -1,4 +1,4 @@
-// Shared by tests: adversarial triangles, executions, comparison of frames.
+// Shared by tests: executions, comparison of frames.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,6 +12,7 @@
 
 #include "core/random.h"
 #include "edgewise/contract.h"
+#include "lab/hard_triangles.h"
 #include "lab/measure.h"
 #include "raster/ablation.h"
 
@@ -32,62 +33,8 @@ inline constexpr bool kRacesOnly = true;
 inline constexpr bool kRacesOnly = false;
 #endif
 
-// Families of triangles that are hard to rasterize.
-inline constexpr std::string_view kFamilies[] = {"lattice",     "pixel-centres", "subpixel",   "slivers",
-                                                 "huge",        "guardband",     "tiny",       "degenerate",
-                                                 "equal-depth", "steep",         "few-pixels", "mixed-sizes"};
-
-inline std::vector<ScreenTriangle> adversarial(std::string_view family, int count, int width, int height,
-                                               std::uint64_t seed) {
-  using namespace contract;
-  Random random(seed);
-  const auto between = [&](std::int64_t low, std::int64_t high) {
-    return static_cast<std::int32_t>(
-        low + static_cast<std::int64_t>(random.below(static_cast<std::uint64_t>(high - low + 1))));
-  };
-  const auto depth = [&] {
-    return kDepthHead + static_cast<std::uint32_t>(random.below(kDepthRange + 1ull));
-  };
-  std::vector<ScreenTriangle> triangles(static_cast<std::size_t>(count));
-  std::uint32_t id = 0;
-  for (auto& t : triangles) {
-    const std::int32_t cx = between(0, width * kSub), cy = between(0, height * kSub);
-    for (int i = 0; i < 3; ++i) {
-      std::int32_t x = between(-10 * kSub, (width + 10) * kSub),
-                   y = between(-10 * kSub, (height + 10) * kSub);
-      std::uint32_t z = depth();
-      if (family == "lattice") x = x / kSub * kSub, y = y / kSub * kSub;
-      if (family == "pixel-centres") x = sample_sub(x / kSub), y = sample_sub(y / kSub);
-      if (family == "slivers" && i > 0) {
-        x = i == 1 ? x : t.x_sub[1] + between(-3, 3);
-        y = i == 1 ? y : t.y_sub[1] + between(-3, 3);
-      }
-      if (family == "huge") x = between(-kGuardSub, kGuardSub), y = between(-kGuardSub, kGuardSub);
-      if (family == "guardband") x = between(0, 1) ? kGuardSub : -kGuardSub, y = between(0, 2) == 0 ? y : x;
-      if (family == "tiny") x = cx + between(-300, 300), y = cy + between(-300, 300);
-      if (family == "degenerate" && i == 2) {
-        const int copy = between(0, 2);  // a point, a repeated vertex, or three collinear vertices
-        x = copy == 2 ? 2 * t.x_sub[1] - t.x_sub[0] : t.x_sub[copy];
-        y = copy == 2 ? 2 * t.y_sub[1] - t.y_sub[0] : t.y_sub[copy];
-      }
-      if (family == "equal-depth") z = kDepthHead + 1000;
-      if (family == "few-pixels") x = cx + between(-1100, 1100), y = cy + between(-1100, 1100);
-      if (family == "mixed-sizes") {  // equal depths, so that submission order decides
-        const std::int32_t reach = id % 3 == 0 ? 40 * kSub : 4 * kSub;
-        x = cx + between(-reach, reach), y = cy + between(-reach, reach), z = kDepthHead + 1000;
-      }
-      if (family == "steep") {
-        x = cx + between(-400, 400), y = cy + between(-400, 400);
-        z = between(0, 1) ? kDepthHead : kDepthHead + kDepthRange;
-      }
-      t.x_sub[i] = std::clamp(x, -kGuardSub, kGuardSub);
-      t.y_sub[i] = std::clamp(y, -kGuardSub, kGuardSub);
-      t.z[i] = z;
-    }
-    t.payload = id++;
-  }
-  return triangles;
-}
+using lab::adversarial;
+inline const auto kFamilies = lab::triangle_families();
 
 // Every SIMD target with one thread, all tile sizes, and optimizations left out; several thread counts with
 // the best target.

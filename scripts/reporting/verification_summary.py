@@ -3,8 +3,8 @@ import argparse
 from pathlib import Path
 
 from bench_rows import main_guard, read_json, records, source_of
-from soak import targets_of
-from tables import markdown, plain, short
+from speedups import kernels
+from tables import enumerated, markdown, plain, short
 
 HEADER = ["method", "extent", "found"]
 SANITIZERS = {"address": "Tests again at the usual size, with the address and undefined-behaviour sanitizers",
@@ -77,12 +77,13 @@ def brief_fuzz_lines(data):
            none_or(sum(len(target["crashes"]) for target in targets), "crash", "crashes")]
 
 
-def soak_lines(data):
-    yield ["Soak test", f"{short(data['cases'])} random pictures in {targets_of(data)}, {short(data['pixels'])} pixels compared",
+def random_lines(data):
+    targets = enumerated([kernels(target) for target in data["simd_targets"]])
+    yield ["Random pictures", f"{short(data['cases'])} pictures in {targets}, {short(data['pixels'])} pixels compared",
            none_or(data["differences"], "difference")]
 
 
-LINES = {"tests": test_lines, "prove": prove_lines, "mutate": mutate_lines, "fuzz": fuzz_lines, "soak": soak_lines}
+LINES = {"tests": test_lines, "prove": prove_lines, "mutate": mutate_lines, "fuzz": fuzz_lines, "random": random_lines}
 BRIEF_LINES = {**LINES, "tests": brief_test_lines, "fuzz": brief_fuzz_lines}
 
 
@@ -91,8 +92,8 @@ def verification_table(folder, all_lines=LINES):
     lines = []
     for name, lines_of in all_lines.items():
         paths = records(folder, name)
-        # Of soak tests all: each machine runs its own SIMD targets.
-        for path in paths if name == "soak" else paths[:1]:
+        # Of random pictures all: each machine runs its own SIMD targets.
+        for path in paths if name == "random" else paths[:1]:
             data = read_json(path)
             where = f" ({source_of(path, data)})" if path.parent != folder else ""
             lines += [[method, extent + where, found] for method, extent, found in lines_of(data)]

@@ -19,7 +19,6 @@ using Action = std::function<int()>;  // returns the exit status
 void add_list(CLI::App& program, Action& action);
 void add_render(CLI::App& program, Action& action);
 void add_verify(CLI::App& program, Action& action);
-void add_soak(CLI::App& program, Action& action);
 void add_accuracy(CLI::App& program, Action& action);
 void add_stability(CLI::App& program, Action& action);
 void add_diff(CLI::App& program, Action& action);

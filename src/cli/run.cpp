@@ -72,7 +72,6 @@ Action parse(int argc, char** argv, viewer::ShowWindow show_window) {
   add_list(program, action);
   add_render(program, action);
   add_verify(program, action);
-  add_soak(program, action);
   add_accuracy(program, action);
   add_stability(program, action);
   add_diff(program, action);

@@ -47,7 +47,7 @@ inline ClusterTriangles triangles_of(const Mesh& mesh, std::size_t cluster) {
 
 // The clusters of a mesh of any size, all of whose vertices must exist.
 std::vector<MeshCluster> make_clusters(const Mesh& mesh);
-// Sets the clusters of every mesh of a scene, whatever its size. For the soak test and fuzzing.
+// Sets the clusters of every mesh of a scene, whatever its size. For `verify --random` and fuzzing.
 void make_clusters(Drawable& drawable);
 
 // The six sides of the view, in a mesh's model space.

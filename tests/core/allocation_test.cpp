@@ -77,7 +77,7 @@ TEST_P(Allocations, OfABackendHappenInTheFirstFrameOnly) {
   const auto backend = testing::find_drawer(GetParam()).make();
   Framebuffer frame(kWidth, kHeight);
   for (const int threads : {1, 2, 8})
-    for (const auto& [family, count] : {std::pair{"tiny", 9'000}, {"subpixel", 200}}) {
+    for (const auto& [family, count] : {std::pair{"cloud", 9'000}, {"uniform", 200}}) {
       const auto triangles = testing::adversarial(family, count, kWidth, kHeight, 7);
       const auto draw = [&] {
         backend->draw(triangles, frame.view(), testing::kBackground, {.threads = threads});

@@ -1,84 +1,14 @@
-// Draws any bytes as triangles, in any frame layout and configuration: all backends write the same bits, and
-// none outside the frame. The bytes select how each vertex is made, so that vertices on samples, shared
-// vertices, far vertices and equal depths are as likely as any others.
+// Draws hard triangles, made from any bytes instead of random numbers, in any frame layout and configuration:
+// all backends write the same bits, and none outside the frame.
 #include <algorithm>
 #include <vector>
 
-#include "edgewise/contract.h"
 #include "fuzz.h"
+#include "lab/hard_triangles.h"
 
 using namespace edgewise;
-using namespace edgewise::contract;
 
 namespace {
-
-struct Vertex {
-  std::int32_t x, y;  // 1/256 px
-  std::uint32_t z;
-};
-
-std::int32_t into_guard_band(std::int64_t sub) {
-  return static_cast<std::int32_t>(std::clamp<std::int64_t>(sub, -kGuardSub, kGuardSub));
-}
-
-Vertex place(fuzz::Bytes& bytes, int way, const std::vector<Vertex>& before) {
-  const auto pair = [&](auto sub) {
-    const std::int32_t x = sub(), y = sub();
-    return Vertex{x, y, 0};
-  };
-  switch (way) {
-    case 0:  // anywhere
-      return pair([&] { return into_guard_band(bytes.take<std::int32_t>()); });
-    case 1:  // within 128 px
-      return pair([&] { return std::int32_t{bytes.take<std::int16_t>()}; });
-    case 2:  // on a sample
-      return pair([&] { return sample_sub(bytes.take<std::int8_t>()); });
-    case 3:  // on a pixel's corner
-      return pair([&] { return bytes.take<std::int8_t>() * kSub; });
-    case 4:  // at the guard band
-      return pair([&] {
-        const std::int32_t inwards = bytes.take<std::uint8_t>();
-        return inwards % 2 == 0 ? kGuardSub - inwards / 2 : inwards / 2 - kGuardSub;
-      });
-    default:  // at, or near, an earlier vertex
-      if (before.empty()) return {};
-      const Vertex& old = before[bytes.take<std::uint8_t>() % before.size()];
-      if (way == 5) return old;
-      return {into_guard_band(std::int64_t{old.x} + bytes.take<std::int8_t>()),
-              into_guard_band(std::int64_t{old.y} + bytes.take<std::int8_t>()), old.z};
-  }
-}
-
-std::uint32_t depth(fuzz::Bytes& bytes, int way, std::uint32_t before) {
-  switch (way) {
-    case 0:
-      return kDepthHead + bytes.take<std::uint32_t>() % (kDepthRange + 1);
-    case 1:
-      return kDepthHead + (bytes.take<std::uint8_t>() % 2) * kDepthRange;
-    case 2:
-      return kDepthHead + kDepthRange / 2 + bytes.take<std::uint8_t>();
-    default:
-      return before;
-  }
-}
-
-std::vector<ScreenTriangle> take_triangles(fuzz::Bytes& bytes) {
-  std::vector<ScreenTriangle> triangles;
-  std::vector<Vertex> vertices;
-  std::uint32_t z = kDepthHead;
-  while (!bytes.empty()) {
-    ScreenTriangle t{};
-    for (int i = 0; i < 3; ++i) {
-      const int way = bytes.below(32);
-      Vertex v = place(bytes, std::min(way % 8, 6), vertices);
-      v.z = z = depth(bytes, way / 8, z);
-      vertices.push_back(v);
-      t.x_sub[i] = v.x, t.y_sub[i] = v.y, t.z[i] = v.z;
-    }
-    triangles.push_back(t);
-  }
-  return triangles;
-}
 
 // Repeats the triangles within a work budget: some code paths of the backends need many triangles.
 void repeat(std::vector<ScreenTriangle>& triangles, int times, int pixels) {
@@ -104,7 +34,17 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (ablation > 0) how.ablation = kAblations[static_cast<std::size_t>(ablation - 1)];
   const int times = 1 << bytes.below(12);
 
-  std::vector<ScreenTriangle> triangles = take_triangles(bytes);
+  const auto families = lab::triangle_families();
+  const auto family = families[static_cast<std::size_t>(bytes.below(static_cast<int>(families.size())))];
+  const int count = 1 + bytes.below(200);
+  auto triangles = lab::adversarial(family, count, placement.width, placement.height,
+                                    [&](std::uint64_t end) -> std::uint64_t {
+                                      const bool fits_8 = end <= 1u << 8, fits_16 = end <= 1u << 16;
+                                      return (fits_8    ? bytes.take<std::uint8_t>()
+                                              : fits_16 ? bytes.take<std::uint16_t>()
+                                                        : bytes.take<std::uint32_t>()) %
+                                             end;
+                                    });
   repeat(triangles, times, placement.width * placement.height);
   for (std::uint32_t id = 0; ScreenTriangle & t : triangles) t.payload = id++;
   fuzz::check_backends(triangles, placement, how);

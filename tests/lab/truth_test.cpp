@@ -109,7 +109,7 @@ TEST(CoveredRuns, HoldThePixelsThatTheTruthsCover) {
 }
 
 TEST(CoveredRuns, HoldThePixelsOfManyTrianglesInOrder) {
-  const auto triangles = adversarial("tiny", 5'000, 60, 60, 1);
+  const auto triangles = adversarial("cloud", 5'000, 60, 60, 1);
   expect_runs_of<SnappedTruth>(std::span(triangles), {60, 60}, "more than one chunk");
 }
 
@@ -222,7 +222,7 @@ TEST(VisibleTriangles, AreTheNearestByRationals) {
         std::span<const FloatTriangle>(floats), window,
         [](const FloatTriangle& t) { return FloatTruth(t.at); }, family);
   }
-  for (const auto family : {"subpixel", "equal-depth", "slivers", "steep"}) {
+  for (const auto family : {"uniform", "ties", "slivers", "steep"}) {
     const auto snapped = adversarial(family, 30, 24, 40, 15);
     expect_visible_triangles(
         std::span<const ScreenTriangle>(snapped), window,

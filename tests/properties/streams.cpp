@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -108,79 +107,16 @@ rc::Seq<TriangleStream> simpler_streams(const TriangleStream& stream) {
       rc::seq::map(rc::shrink::eachElement(stream.triangles, simpler_triangles), with_triangles));
 }
 
-// Triangles around a hub, each sharing an edge with the next, the last with the first.
-std::vector<ScreenTriangle> fan(Random& random, int width, int height) {
-  const std::int32_t reach = between(random, 0, 2) == 0 ? 3 : between(random, 64, 60 * kSub);
-  const std::int32_t x = between(random, 0, width * kSub), y = between(random, 0, height * kSub);
-  std::vector<glm::vec2> spokes(static_cast<std::size_t>(between(random, 3, 9)));
-  for (glm::vec2& spoke : spokes) spoke = random.direction();
-  const auto turn = [](glm::vec2 d) {  // grows with the angle; no trigonometry, see Random::direction()
-    const float along = d.x / (std::abs(d.x) + std::abs(d.y));
-    return d.y < 0.0f ? along : 2.0f - along;
-  };
-  std::sort(spokes.begin(), spokes.end(), [&](glm::vec2 a, glm::vec2 b) { return turn(a) < turn(b); });
-  const auto rim = [&](std::size_t i) {
-    return glm::ivec2(x, y) + glm::ivec2(glm::round(spokes[i % spokes.size()] * static_cast<float>(reach)));
-  };
-  const auto depth = contract::kDepthHead + static_cast<std::uint32_t>(random.below(contract::kDepthRange));
-  std::vector<ScreenTriangle> triangles;
-  for (std::size_t i = 0; i < spokes.size(); ++i) {
-    const glm::ivec2 a = rim(i), b = rim(i + 1);
-    triangles.push_back({{x, a.x, b.x}, {y, a.y, b.y}, {depth, contract::kDepthHead, depth}, 0});
-  }
-  return triangles;
-}
-
-// A copy of some triangle, its vertices perhaps in another order.
-StreamTriangle duplicate(Random& random, const std::vector<StreamTriangle>& triangles) {
-  StreamTriangle copy = triangles[random.below(triangles.size())];
-  std::rotate(copy.vertex, copy.vertex + random.below(3), copy.vertex + 3);
-  if (random.below(2) == 0) std::swap(copy.vertex[0], copy.vertex[1]);
-  return copy;
-}
-
-// Adds cases that the families rarely contain: an edge along an axis, vertices moved by a sub-unit, or all
-// vertices at samples or very near.
-void vary(Random& random, ScreenTriangle& t) {
-  const auto change = [&](auto&& coordinate) {
-    for (auto* sub : {t.x_sub, t.y_sub})
-      for (int i = 0; i < 3; ++i)
-        sub[i] = std::clamp(coordinate(sub[i]), -contract::kGuardSub, contract::kGuardSub);
-  };
-  switch (random.below(6)) {
-    case 0:
-      t.y_sub[1] = t.y_sub[0];
-      break;
-    case 1:
-      t.x_sub[1] = t.x_sub[0];
-      break;
-    case 2:
-      change([&](std::int32_t sub) { return sub + between(random, -1, 1); });
-      break;
-    case 3:
-      change([&](std::int32_t sub) { return contract::sample_sub(sub / kSub) + between(random, -2, 2); });
-      break;
-    default:
-      break;
-  }
-}
-
 TriangleStream make_grid_stream(Random& random, int size) {
   const int width = between(random, 1, 130), height = between(random, 1, 130);
   std::vector<ScreenTriangle> triangles;
-  const auto append = [&](const std::vector<ScreenTriangle>& more) {
-    triangles.insert(triangles.end(), more.begin(), more.end());
-  };
   for (int part = between(random, 1, 3); part > 0; --part) {
-    const auto family = kFamilies[random.below(std::size(kFamilies))];
-    auto hard = adversarial(family, between(random, 1, 1 + size / 12), width, height, random.next());
-    for (ScreenTriangle& t : hard) vary(random, t);
-    append(hard);
-    if (random.below(4) == 0) append(fan(random, width, height));
+    const auto family = kFamilies[random.below(kFamilies.size())];
+    const int count = between(random, 1, 2 + size / 8);
+    const auto more = adversarial(family, count, width, height, random.next());
+    triangles.insert(triangles.end(), more.begin(), more.end());
   }
   TriangleStream stream = lab::to_stream(triangles, width, height);
-  for (int more = between(random, 0, 3); more > 0; --more)
-    stream.triangles.push_back(duplicate(random, stream.triangles));
   for (StreamTriangle& t : stream.triangles) t.colour = static_cast<std::uint32_t>(random.next());
   return stream;
 }

@@ -73,16 +73,16 @@ TEST(Contract, DepthStaysWithinItsStatedErrorForEveryFamily) {
     int samples = 0;
     for (const auto& t : testing::adversarial(family, 150, kSize, kSize, 7))
       expect_depth_error_bounded(t, kSize, &samples);
-    EXPECT_TRUE(samples > 0 || family == "degenerate") << family;
+    EXPECT_GT(samples, 0) << family;
   }
 }
 
 TEST(Contract, DepthStaysWithinItsStatedErrorFarFromTheOrigin) {
   Random random(3);
   int samples = 0;
-  for (auto t : testing::adversarial("steep", 3000, 64, 64, 8)) {
-    const auto far_x = static_cast<std::int32_t>(random.below(16300)) * kSub,
-               far_y = static_cast<std::int32_t>(random.below(16300)) * kSub;
+  for (auto t : testing::adversarial("steep", 3000, 64, 64, 10)) {
+    const auto far_x = static_cast<std::int32_t>(random.below(16200)) * kSub,
+               far_y = static_cast<std::int32_t>(random.below(16200)) * kSub;
     for (int i = 0; i < 3; ++i) t.x_sub[i] += far_x, t.y_sub[i] += far_y;
     expect_depth_error_bounded(t, kMaxImageSide, &samples);
   }

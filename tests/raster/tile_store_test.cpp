@@ -37,7 +37,7 @@ TEST(TileStore, IsCachedOnlyInFramesThatFitHalfTheCache) {
 
 TEST(TileStore, IsTheCallersChoiceIfItMakesOne) {
   const int side = 4 * contract::kMaxTile;
-  const auto triangles = testing::adversarial("mixed-sizes", 400, side / 2 - 1, side, 5);
+  const auto triangles = testing::adversarial("cloud", 400, side / 2 - 1, side, 5);
   Framebuffer frame(side, side);
   static std::atomic<int> streamed, drawn;
   const TileKernel count = [](const TileTask& task) {

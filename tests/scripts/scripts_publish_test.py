@@ -52,12 +52,12 @@ class PublishTest(unittest.TestCase):
         return {str(path.relative_to(self.published)) for path in self.published.rglob("*") if path.is_file()}
 
     def test_readmes_decide_which_pictures_are_copied(self):
-        self.write(self.published / "soak.json", "{}")
+        self.write(self.published / "random.json", "{}")
         self.write(self.published / "charts/threads.svg", "old")
         self.write(self.published / "charts/area.svg", "old")
         result = self.publish(self.run)
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertEqual(self.files(), {"soak.json", "bench.json", "machine.json", "verify.json", "accuracy.json",
+        self.assertEqual(self.files(), {"random.json", "bench.json", "machine.json", "verify.json", "accuracy.json",
                                         "pictures/torus-knot.png", "charts/area.svg", "errors/crack.png"})
         self.assertEqual((self.published / "charts/area.svg").read_text(), "new charts/area.svg")
         self.assertIn("results/mine/: 4 JSON files, and 3 charts and pictures", result.stdout)

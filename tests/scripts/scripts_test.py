@@ -327,21 +327,6 @@ class ScriptsTest(unittest.TestCase):
         self.assertEqual(result.returncode, 2)
         self.assertIn("Missing packages: libegl-dev\n", result.stderr)
 
-    def test_soak_is_told_with_its_bound_or_its_differences(self):
-        readme = self.folder / "README.md"
-        soak = {"backends": ["slow", "tiled"], "seconds": 1320.0, "shards": [{"shard": 0, "of": 1, "cases": 6000}],
-                "cases": 6000, "frames": 150000, "triangles": 5, "pixels": 3 * 10**9, "oracle_frames": 7,
-                "frontend_lists": 8, "differences": 0, "by": {"backend_simd_target": {"tiled, sse4": {}, "slow, scalar": {}}},
-                "bounds_95": {"per_case": 3 / 6000, "per_frame": 3 / 150000, "per_pixel": 1e-9}}
-        for record, said in ((soak, "**No bit differs.** With 95 % confidence fewer than one picture in 2,000"),
-                             (soak, "one frame in 50,000, and one pixel in 1.0e+09"), (soak, "In 22 minutes, 6,000"),
-                             (soak, "`slow` and `tiled`, each in scalar code and SSE4, on one"),
-                             ({**soak, "differences": 4, "bounds_95": None}, "**4 differ**")):
-            (self.folder / "results/soak.json").write_text(json.dumps(record))
-            readme.write_text("<!-- results: results -->\n<!-- generated:soak -->\n<!-- /generated -->\n")
-            self.assertEqual(run("readme", "--file", readme).returncode, 0)
-            self.assertIn(said, readme.read_text())
-
     def test_laboratory_fills_the_readme_and_the_summary(self):
         self.add_laboratory()
         readme = self.folder / "README.md"

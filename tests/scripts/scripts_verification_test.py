@@ -1,4 +1,4 @@
-"""checks/test_results.py and reporting/verification_summary.py, on results made here."""
+"""checks/test_results.py, reporting/verification_summary.py and reporting/shards.py, on results made here."""
 import json
 import subprocess
 import sys
@@ -22,7 +22,7 @@ SHARDS = [[gtest_case("Properties", "A", cases=40, comparisons=400), gtest_case(
           [gtest_case("CoverageProperties", "C", "<failure/>", cases=2),
            gtest_case("CoverageProperties", "D", "<skipped/>", "skipped"), gtest_case("ConformanceDepth", "F", cases=5),
            gtest_case("Table/InvalidInput", "G/0"), gtest_case("Table/InvalidInput", "G/1"),
-           gtest_case("Soak", "H", cases=1000)]]
+           gtest_case("VerifyRandom", "H", cases=1000)]]
 CTEST = ["run"] * 3 + ["fail", "disabled"] + ["notrun"] * 2
 
 
@@ -88,18 +88,18 @@ class VerificationTest(unittest.TestCase):
         self.assertEqual(self.table(), ([], "None of this was run for these results."))
 
     def test_what_ran_on_another_machine_names_it(self):
-        soak = {"cases": 6000, "pixels": 2 * 10**9, "differences": 0, "by": {"backend_simd_target": {"tiled, sse4": {}}}}
+        shard = {"cases": 6000, "pixels": 2 * 10**9, "differences": 0, "simd_targets": ["scalar", "sse4"]}
         with tempfile.TemporaryDirectory() as name:
             here, there = Path(name, "results/here"), Path(name, "results/there")
-            wrong = {**soak, "differences": 1, "machines": [{"commit": "abc"}]}
-            for folder, found in ((here, {"soak": soak}), (there, {"soak": wrong, "mutate": GOOD["mutate"]})):
+            wrong = {**shard, "differences": 1, "commit": "abc"}
+            for folder, found in ((here, {"random": shard}), (there, {"random": wrong, "mutate": GOOD["mutate"]})):
                 folder.mkdir(parents=True)
                 for key, data in found.items():
                     (folder / f"{key}.json").write_text(json.dumps(data))
             self.assertEqual([line[1:] for line in verification_table(here)[1]], [
                 ["25 mutants, one at a time (`there`)", "all caught"],
-                ["6k random pictures in SSE4, 2G pixels compared", "no difference"],
-                ["6k random pictures in SSE4, 2G pixels compared (`there`, commit abc)", "**1 difference**"]])
+                ["6k pictures in scalar code and SSE4, 2G pixels compared", "no difference"],
+                ["6k pictures in scalar code and SSE4, 2G pixels compared (`there`, commit abc)", "**1 difference**"]])
 
     def test_what_failed_is_bold(self):
         bad = {"tests": TOTALS, "prove": {"claims": 9, "proven": 8, "premises_hold": 6, "refuted": 7},
@@ -110,6 +110,33 @@ class VerificationTest(unittest.TestCase):
             "**8 of 9 proven**; **6 of 9 premises satisfiable**; **7 of 9 false variants refuted**",
             "**24 of 25 caught**",
             "**2 crashes**"])
+
+
+class ShardsTest(unittest.TestCase):
+    def added(self, *lines):
+        with tempfile.TemporaryDirectory() as name:
+            paths = [Path(name, f"{i}.json") for i in range(len(lines))]
+            for path, line in zip(paths, lines):
+                path.write_text(json.dumps(line))
+            return subprocess.run([sys.executable, SCRIPTS / "reporting/shards.py", *paths], capture_output=True, text=True, check=False)
+
+    def line(self, shard, targets=("scalar", "sse4"), **others):
+        counts = dict.fromkeys(("cases", "frames", "triangles", "pixels", "oracle_frames", "frontend_lists"), 2)
+        return {"seed": 7, "shard": shard, "commit": "abc", "cpu_model": "X", "simd_targets": targets, "backends": ["naive"],
+                "seconds": 1.5, "differences": 1, "findings": [shard], **counts, **others}
+
+    def test_shards_add_up(self):
+        result = self.added(self.line("0/3"), self.line("2/3", targets=("scalar", "avx2")))
+        total = json.loads(result.stdout)
+        self.assertEqual(total, {**self.line(["0/3", "2/3"]), "cpu_model": ["X", "X"], "simd_targets": ["scalar", "sse4", "avx2"], "seconds": 3.0,
+                                 "differences": 2, "findings": ["0/3", "2/3"],
+                                 **dict.fromkeys(("cases", "frames", "triangles", "pixels", "oracle_frames", "frontend_lists"), 4)})
+
+    def test_shards_that_share_pictures_or_come_from_other_programs_are_refused(self):
+        first = self.line("0/3")
+        for other in (self.line("0/3"), self.line("1/4"), self.line("1/3", seed=8), self.line("1/3", commit="def"), {"cases": 1}):
+            result = self.added(first, other)
+            self.assertEqual((result.returncode, result.stdout, len(result.stderr.splitlines())), (2, "", 1), result.stderr)
 
 
 if __name__ == "__main__":

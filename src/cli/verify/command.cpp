@@ -1,21 +1,26 @@
-// `edgewise verify`: compares all backends.
+// `edgewise verify`: compares all backends, on scenes or on random pictures.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "cli/commands.h"
+#include "cli/verify/random.h"
 #include "cli/verify/report.h"
 #include "cli/verify/verify.h"
 #include "core/atomic_file.h"
 #include "support/console.h"
 #include "support/json_text.h"
+#include "support/machine.h"
 #include "support/output_path.h"
 #include "support/progress.h"
+#include "support/stop_request.h"
 
 namespace edgewise::tools {
 
@@ -24,7 +29,55 @@ namespace {
 struct VerifyOptions {
   VerifyPlan plan;
   std::string json, out = "edgewise-verify-failures";
+  bool random = false;
+  randomized::Plan random_plan;
 };
+
+randomized::Shard parse_shard(std::string_view text) {
+  const auto slash = text.find('/');
+  if (slash == std::string_view::npos)
+    throw std::invalid_argument(fmt::format("--shard: '{}' is not I/N, with I from 0 to N - 1", text));
+  const auto of = parse_count("--shard", text.substr(slash + 1), 1, randomized::kMostShards);
+  return {parse_count("--shard", text.substr(0, slash), 0, of - 1), of};
+}
+
+int verify_random_command(VerifyOptions& o) {
+  randomized::Plan& plan = o.random_plan;
+  const StopRequest request;
+  plan.backends.assign(backends().begin(), backends().end());
+  plan.failure_folder = o.out;
+  check_json_file(o.json, o.out, {});
+  const bool json_on_stdout = o.json == "-";
+  std::optional<AtomicFile> file;  // opened first, so that an unwritable path fails before hours of work
+  if (!o.json.empty() && !json_on_stdout) file.emplace(o.json);
+
+  const nlohmann::json machine = machine_description();  // now: the source tree may change meanwhile
+  Progress progress;
+  const TimeLeft left;
+  const auto show = [&](const std::string& text) {
+    progress.erase();
+    if (json_on_stdout) return;
+    print(text);
+    std::fflush(stdout);
+  };
+  plan.stop = [&] { return request.signal() != 0; };
+  plan.on_finding = show;
+  plan.on_progress = [&](const randomized::Report& now) {
+    const double fraction = now.seconds / plan.seconds;  // 0 without a limit
+    progress.show(fraction,
+                  left.label(fraction, fmt::format("{} cases, {} differ", now.cases, now.differences)));
+  };
+  const randomized::Report report = randomized::run(plan);
+  show(summary(report, plan));
+  const std::string line = json_text(to_json(report, plan, machine)) + '\n';
+  if (json_on_stdout) print(line);
+  if (file) {
+    file->stream() << line;
+    file->commit();
+  }
+  if (report.differences != 0) return kDiffers;
+  return request.signal() == 0 ? kDone : 128 + request.signal();
+}
 
 int verify_command(VerifyOptions& o) {
   VerifyPlan& plan = o.plan;
@@ -70,6 +123,8 @@ constexpr const char* kVerifyFooter = R"(Examples:
   edgewise verify --full                       at 1920x1080, all triangles (long)
   edgewise verify bunny.obj capture.tri --fit  your own files
   edgewise verify --json verify.json
+  edgewise verify --random --for 1h --seed 7 --shard 3/64 --json 3.json
+  edgewise verify --random --seed 7 --case 123456              reproduce one picture
 
 Verify draws every scene with every backend in every culling mode: on 1, 2 and 3 threads, on each
 SIMD target of this machine, with other tile sizes on the best target, and with optimizations
@@ -82,7 +137,18 @@ are at most 7.5 million.
 
 Columns: triangles submitted; triangles emitted by the front end, over all culling modes; frames
 compared; pixels that differ; pixels that differ from the oracle.
-On a difference, verify writes pictures and a .tri file that reproduces it, and exits with 1.)";
+On a difference, verify writes pictures and a .tri file that reproduces it, and exits with 1.
+
+With --random it draws random and adversarial pictures instead, until the time limit or Ctrl-C:
+lists of triangles, and scenes around the camera that go through the front end. Each is drawn on
+one thread and on several, with random tile sizes, strides, alignments and optimizations switched
+off. The front end is compared with its own code for single triangles. Of a difference, verify
+writes a .tri file with as few triangles as possible. --json writes one line, and
+scripts/reporting/shards.py adds lines up.
+
+A picture depends on the seed and its number alone. Case k of shard I/N is number I + k N, so shards
+are disjoint. A shard draws one picture at a time: run one per core. Stopped by signal N, verify
+writes its results and exits with 128 + N; the same signal again ends it at once.)";
 
 }  // namespace
 
@@ -98,8 +164,32 @@ void add_verify(CLI::App& program, Action& action) {
       ->type_name("FILE");
   command.add_option("--out", o->out, "Folder for pictures of differences (edgewise-verify-failures)")
       ->type_name("DIR");
+  CLI::Option* const random =
+      command.add_flag("--random", o->random, "Random and adversarial pictures instead of scenes");
+  for (const char* of_scenes : {"SCENE", "--full", "--size", "--fit"})
+    random->excludes(command.get_option(of_scenes));
+  randomized::Plan& plan = o->random_plan;
+  const auto add = [&](const char* name, const char* type, const char* help, auto parse) {
+    return command.add_option_function<std::string>(name, parse, help)->type_name(type)->needs(random);
+  };
+  add("--seed", "S", "Seed of the sequence of cases (1)",
+      [&plan](const std::string& text) { plan.seed = parse_count("--seed", text, 0, ~std::uint64_t{0}); });
+  CLI::Option* const seconds =
+      add("--for", "DURATION", "Time limit: 90s, 20m or 2h (until Ctrl-C)",
+          [&plan](const std::string& text) { plan.seconds = parse_duration("--for", text); });
+  CLI::Option* const shard = add("--shard", "I/N", "Draw every N-th case, starting at number I (0/1: all)",
+                                 [&plan](const std::string& text) { plan.shard = parse_shard(text); });
+  add("--case", "NUMBER", "Draw only this case",
+      [&plan](const std::string& text) {
+        const auto number = parse_count("--case", text, 0, randomized::kMostShards - 1);
+        plan.shard = {number, number + 1};
+        plan.cases = 1;
+      })
+      ->excludes(seconds)
+      ->excludes(shard);
   command.footer(kVerifyFooter);
-  command.callback([o, &action] { action = [o] { return verify_command(*o); }; });
+  command.callback(
+      [o, &action] { action = [o] { return o->random ? verify_random_command(*o) : verify_command(*o); }; });
 }
 
 }  // namespace edgewise::tools

@@ -16,9 +16,10 @@ std::string_view name_of_payload(Payload payload) {
 }
 
 std::string explain(const Mismatch& m) {
-  std::string text = fmt::format("  {} ({}{}) differs from {} in {} of {}x{} pixels, cull {}, payload {}\n",
-                                 m.backend, describe(m.how), m.whole_frame ? ", whole frame" : "", m.judge,
-                                 m.pixels, m.width, m.height, name_of(m.cull), name_of_payload(m.payload));
+  std::string text =
+      fmt::format("  {} ({}{}) differs from {} in {} of {}x{} pixels, cull {}, payload {}\n", m.backend,
+                  tools::describe(m.how), m.whole_frame ? ", whole frame" : "", m.judge, m.pixels, m.width,
+                  m.height, name_of(m.cull), name_of_payload(m.payload));
   if (m.outside != 0) text += fmt::format("    words written beside the image: {}\n", m.outside);
   if (!m.values.empty())
     text += fmt::format("    the first is x {}, y {}, where depth and payload are\n", m.x, m.y);

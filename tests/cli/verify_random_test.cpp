@@ -1,0 +1,393 @@
+// `edgewise verify --random`: cases depend only on seed and number, shards add up, and deliberately wrong
+// backends are found.
+#include "cli/verify/random.h"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <regex>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "cli/verify/random_cases.h"
+#include "edgewise/contract.h"
+#include "edgewise/tri_file.h"
+#include "lab/hard_triangles.h"
+#include "lab/measure.h"
+#include "message_of.h"
+#include "raster/ablation.h"
+#include "run_program.h"
+#include "support/options.h"
+#include "temp_dir.h"
+#include "wrong_backend.h"
+
+namespace edgewise::randomized {
+namespace {
+
+using testing::run_program;
+
+// FNV-1a hash of the content of a case.
+class Fingerprint {
+ public:
+  explicit Fingerprint(const Case& c) {
+    add(c.number), add(c.width), add(c.height), add(c.background), add(c.threads), add(c.draws_seed);
+    add(c.triangles);
+    if (!c.drawable) return;
+    if (const auto* stream = std::get_if<TriangleStream>(&*c.drawable)) {
+      add(stream->triangles);
+      return;
+    }
+    const Scene& scene = std::get<Scene>(*c.drawable);
+    for (const Mesh& mesh : scene.meshes) add(mesh.positions), add(mesh.triangles), add(mesh.colours);
+    for (const Instance& i : scene.instances) add(i.scale), add(i.axis), add(i.angle), add(i.translation);
+    const Camera& camera = scene.camera;
+    add(camera.position), add(camera.yaw), add(camera.pitch), add(camera.fov_y), add(camera.near_z);
+  }
+  std::uint64_t value() const { return hash_; }
+
+ private:
+  template <typename T>
+  void add(const std::vector<T>& list) {
+    for (const T& element : list) add(element);
+  }
+  template <typename T>
+  void add(const T& value) {
+    const auto* bytes = reinterpret_cast<const unsigned char*>(&value);
+    for (std::size_t i = 0; i < sizeof(T); ++i) hash_ = (hash_ ^ bytes[i]) * 0x100000001B3u;
+  }
+  std::uint64_t hash_ = 0xCBF29CE484222325u;
+};
+
+TEST(RandomCases, DependOnSeedAndNumberAlone) {
+  std::set<std::uint64_t> seen;
+  std::uint64_t all = 0;
+  for (std::uint64_t number = 0; number < 300; ++number) {
+    const auto here = Fingerprint(make_case(1, number)).value();
+    EXPECT_EQ(here, Fingerprint(make_case(1, number)).value());
+    EXPECT_TRUE(seen.insert(here).second) << number;
+    EXPECT_TRUE(seen.insert(Fingerprint(make_case(2, number)).value()).second) << number;
+    all = all * 31 + here;
+  }
+  EXPECT_EQ(all, 2200510551480097419u) << "not the same on every machine and with every compiler, or changed";
+}
+
+TEST(RandomCases, KeepTheContractAndIncludeEachFamily) {
+  std::map<std::string_view, std::uint64_t> cases, drawn;
+  std::set<int> threads;
+  bool wide = false, single = false, several_chunks = false;
+  for (std::uint64_t number = 0; number < 1500; ++number) {
+    const Case c = make_case(3, number);
+    ++cases[c.family];
+    threads.insert(c.threads);
+    wide |= std::max(c.width, c.height) > 1024;
+    single |= c.width == 1 || c.height == 1;
+    several_chunks |= c.triangles.size() > 2 * 2048;
+    ASSERT_EQ(c.triangles.empty(), c.drawable.has_value());
+    for (const ScreenTriangle& t : c.triangles) {
+      for (int i = 0; i < 3; ++i) {
+        ASSERT_LE(std::abs(t.x_sub[i]), contract::kGuardSub);
+        ASSERT_LE(std::abs(t.y_sub[i]), contract::kGuardSub);
+        ASSERT_GE(t.z[i], contract::kDepthHead);
+        ASSERT_LE(t.z[i], contract::kDepthHead + contract::kDepthRange);
+      }
+      drawn[c.family] += lab::covered_pixels(std::span(&t, 1), c.width, c.height) != 0 ? 1u : 0u;
+    }
+    if (c.drawable) drawn[c.family] += Frontend().run(*c.drawable, c.frontend).size();
+  }
+  EXPECT_EQ(cases.size(), lab::triangle_families().size() + scene_families().size());
+  for (const auto& [family, count] : cases) {
+    EXPECT_GT(count, 40u) << family;
+    EXPECT_GT(drawn[family], count) << family;
+  }
+  EXPECT_GE(threads.size(), 4u);
+  EXPECT_TRUE(wide);
+  EXPECT_TRUE(single);
+  EXPECT_TRUE(several_chunks);
+}
+
+TEST(RandomCases, UnknownFamiliesAreRejected) {
+  EXPECT_NE(message_of([] { lab::adversarial("round", 1, 8, 8, 1); }).find("round"), std::string::npos);
+}
+
+Plan plan_of(std::uint64_t seed, std::uint64_t cases) {
+  Plan plan;
+  plan.backends.assign(backends().begin(), backends().end());
+  plan.seed = seed;
+  plan.cases = cases;
+  return plan;
+}
+
+template <typename Wrong>
+Plan plan_with(std::uint64_t seed, std::uint64_t cases) {
+  Plan plan = plan_of(seed, cases);
+  plan.backends = {backends()[0], testing::wrong_backend<Wrong>()};
+  return plan;
+}
+
+TEST(VerifyRandom, FindsNoDifferenceAndShardsAddUp) {
+  const Report whole = run(plan_of(5, 60));
+  EXPECT_EQ(whole.differences, 0u) << whole.findings.at(0);
+  EXPECT_EQ(whole.cases, 60u);
+  EXPECT_GT(whole.oracle_frames, 0u);
+  EXPECT_GT(whole.frontend_lists, 0u);
+  EXPECT_GE(whole.frames, 60 * backends().size() * supported_targets().size() * 2);
+  Report sum;
+  for (std::uint64_t index = 0; index < 3; ++index) {
+    Plan plan = plan_of(5, 20);
+    plan.shard = {index, 3};
+    const Report part = run(plan);
+    sum.frames += part.frames, sum.triangles += part.triangles, sum.pixels += part.pixels;
+    sum.oracle_frames += part.oracle_frames, sum.frontend_lists += part.frontend_lists;
+  }
+  EXPECT_EQ(sum.frames, whole.frames);
+  EXPECT_EQ(sum.triangles, whole.triangles);
+  EXPECT_EQ(sum.pixels, whole.pixels);
+  EXPECT_EQ(sum.oracle_frames, whole.oracle_frames);
+  EXPECT_EQ(sum.frontend_lists, whole.frontend_lists);
+}
+
+TEST(VerifyRandom, StopsOnRequestAndAtTheTimeLimit) {
+  Plan plan = plan_of(1, 1'000'000);
+  plan.seconds = 0.05;
+  const Report late = run(plan);
+  EXPECT_LT(late.cases, 1'000'000u);
+  EXPECT_GE(late.seconds, 0.05);
+  int asked = 0;
+  plan = plan_of(1, 1'000'000);
+  plan.stop = [&] { return ++asked > 10; };
+  EXPECT_EQ(run(plan).cases, 10u);
+}
+
+// Wrong only at pixel (0, 0), only on several threads, and only if a triangle covers it.
+class WrongInTheCorner : public Backend {
+  void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
+                    const Execution& execution) override {
+    right_->draw(triangles, frame, background, execution);
+    if (execution.threads > 1 && frame.depth[0] != contract::kDepthClear) frame.depth[0] ^= 1;
+  }
+  std::unique_ptr<Backend> right_ = backends()[0].make();
+};
+
+class WritesBehindTheLastRow : public Backend {
+  void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
+                    const Execution& execution) override {
+    right_->draw(triangles, frame, background, execution);
+    if (frame.stride > frame.width) frame.depth[frame.height * frame.stride - 1] = 0;
+  }
+  std::unique_ptr<Backend> right_ = backends()[0].make();
+};
+
+// Wrong in every frame, and used as the reference: only the oracle can find it.
+class WrongReference : public Backend {
+  void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
+                    const Execution& execution) override {
+    std::vector<ScreenTriangle> moved(triangles.begin(), triangles.end());
+    for (ScreenTriangle& t : moved)
+      for (std::int32_t& x : t.x_sub) x = std::max(x - 1, -contract::kGuardSub);
+    right_->draw(moved, frame, background, execution);
+  }
+  std::unique_ptr<Backend> right_ = backends()[0].make();
+};
+
+class WrongWhenStepped : public AblatableBackend {
+  void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
+                    const Execution& execution) override {
+    right_->draw(triangles, frame, background, execution);
+    if (ablation.stepped) frame.depth[0] ^= 1;
+  }
+  std::unique_ptr<Backend> right_ = backends()[0].make();
+};
+
+class Throws : public Backend {
+  void draw_checked(std::span<const ScreenTriangle>, FrameView, std::uint32_t, const Execution&) override {
+    throw std::length_error("too much");
+  }
+};
+
+// The .tri file that a finding names; empty if it names none.
+std::string file_of(const std::string& finding) {
+  std::smatch found;
+  return std::regex_search(finding, found, std::regex("triangles show it: (.*)\n")) ? found[1].str() : "";
+}
+
+TEST(RandomFindings, NameThePixelAndTheFewestTriangles) {
+  const TempDir folder;
+  Plan plan = plan_with<WrongInTheCorner>(8, 40);
+  plan.failure_folder = folder.path() / "failures";
+  std::vector<std::string> shown;
+  plan.on_finding = [&](const std::string& finding) { shown.push_back(finding); };
+  const Report report = run(plan);
+  ASSERT_FALSE(report.findings.empty());
+  EXPECT_EQ(shown, report.findings);
+  EXPECT_LE(report.findings.size(), kMostFindings);
+  EXPECT_GE(report.differences, report.findings.size());
+  const std::regex pattern(
+      "case (\\d+) \\(\\S+\\): wrong \\([2-8] threads, \\S+, tile \\d+.*\\) differs from scanline in 1 of "
+      "\\d+x\\d+ "
+      "pixels, the first at x 0, y 0: depth 0x(\\w{8}), payload 0x(\\w{8}) instead of 0x(\\w{8}), 0x\\3\n"
+      "  1 of its triangles show it: .*\n"
+      "  reproduce: edgewise verify --random --seed 8 --case \\1\n");
+  for (const std::string& finding : report.findings) {
+    std::smatch found;
+    ASSERT_TRUE(std::regex_match(finding, found, pattern)) << finding;
+    EXPECT_EQ(std::stoul(found[2], nullptr, 16) ^ std::stoul(found[4], nullptr, 16), 1u);
+    EXPECT_EQ(read_tri(file_of(finding)).triangles.size(), 1u);
+    // The program lacks the wrong backend, so the file and the command must run and find nothing.
+    EXPECT_EQ(run_program(EDGEWISE_PROGRAM, "verify '" + file_of(finding) + "'").status, 0);
+    EXPECT_EQ(run_program(EDGEWISE_PROGRAM, "verify --random --seed 8 --case " + found[1].str()).status, 0);
+  }
+}
+
+TEST(RandomFindings, AreNotReducedAfterARequestToStop) {
+  const TempDir folder;
+  Plan plan = plan_with<WrongInTheCorner>(8, 1);
+  plan.failure_folder = folder.path();
+  int asked = 0;
+  const auto triangles_left = [&](std::uint64_t number) -> std::size_t {
+    plan.shard = {number, number + 1};
+    asked = 0;
+    const Report report = run(plan);
+    return report.findings.empty() ? 0 : read_tri(file_of(report.findings[0])).triangles.size();
+  };
+  plan.stop = [&] { return ++asked > 1; };  // once the case has begun
+  std::uint64_t number = 0;
+  while (triangles_left(number) < 2) ASSERT_LT(++number, 100u);
+  plan.stop = [] { return false; };
+  EXPECT_EQ(triangles_left(number), 1u);
+}
+
+// Runs the plan and requires that some finding contains the text.
+std::string finding_with(const Plan& plan, const std::string& text) {
+  const Report report = run(plan);
+  const auto found = std::ranges::find_if(
+      report.findings, [&](const std::string& finding) { return finding.find(text) != std::string::npos; });
+  if (found != report.findings.end()) return *found;
+  ADD_FAILURE() << report.differences << " differences, none with " << text;
+  return {};
+}
+
+TEST(RandomFindings, IncludeEveryKindOfMistake) {
+  finding_with(plan_with<WritesBehindTheLastRow>(9, 6), "in 0 of ");
+  finding_with(plan_with<WritesBehindTheLastRow>(9, 6), "; 1 words written beside the image");
+  finding_with(plan_with<WrongWhenStepped>(13, 40), ", stepped)");
+  Plan plan = plan_of(10, 40);
+  plan.backends = {testing::wrong_backend<WrongReference>()};
+  finding_with(plan, "wrong (1 thread, scalar, tile 64) differs from oracle");
+}
+
+TEST(RandomFindings, IncludeAWrongFrontEnd) {
+  const TempDir folder;
+  Plan plan = plan_of(11, 60);
+  plan.frontend = [](Frontend& frontend, const Drawable& drawable, const FrontendOptions& options) {
+    const std::span<const ScreenTriangle> all = frontend.run(drawable, options);
+    return options.threads > 1 && !all.empty() ? all.first(all.size() - 1) : all;
+  };
+  plan.failure_folder = folder.path() / "failures";
+  const std::string finding = finding_with(plan, "(stream): front end (");
+  EXPECT_EQ(read_tri(file_of(finding)).triangles.size(), 1u) << finding;
+}
+
+TEST(RandomFindings, IncludeAWrongWholeFrame) {
+  const TempDir folder;
+  Plan plan = plan_with<testing::IgnoresSources>(14, 120);
+  plan.failure_folder = folder.path() / "failures";
+  const std::string finding = finding_with(plan, ", whole frame) differs from scanline");
+  EXPECT_EQ(read_tri(file_of(finding)).triangles.size(), 1u) << finding;
+}
+
+TEST(RandomFindings, AreKeptIfNoFileCanBeWritten) {
+  Plan plan = plan_with<WritesBehindTheLastRow>(9, 6);
+  plan.failure_folder = "/dev/null/failures";
+  finding_with(plan, "  no file: ");
+}
+
+TEST(RandomFindings, AnExceptionNamesTheCase) {
+  const std::string said = message_of([] { run(plan_with<Throws>(12, 4)); });
+  EXPECT_TRUE(said.starts_with("seed 12, case 0 (")) << said;
+  EXPECT_TRUE(said.ends_with("): too much")) << said;
+}
+
+TEST(GuardedFrame, CountsWordsWrittenOutsideThePicture) {
+  for (const lab::GuardedFrame::Layout layout : {lab::GuardedFrame::Layout{0, 0}, {3, 5}, {40, 15}}) {
+    lab::GuardedFrame frame(5, 4, layout);
+    const FrameView view = frame.view();
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(view.depth) / 4 % 16, static_cast<unsigned>(layout.offset));
+    for (int y = 0; y < 4; ++y) std::fill_n(view.depth + y * view.stride, 5, 1u);
+    EXPECT_EQ(frame.written_outside(), 0u);
+    view.depth[-1] = 0;
+    view.payload[3 * view.stride + 5] = 0;
+    EXPECT_EQ(frame.written_outside(), 2u);
+    if (layout.padding > 0) view.payload[5] = 0;
+    EXPECT_EQ(frame.written_outside(), layout.padding > 0 ? 3u : 2u);
+    EXPECT_EQ(frame.copy().depth_row(3)[4], 1u);
+  }
+}
+
+TEST(VerifyRandomOptions, DurationsHaveUnits) {
+  EXPECT_EQ(tools::parse_duration("--for", "90s"), 90.0);
+  EXPECT_EQ(tools::parse_duration("--for", "20m"), 1200.0);
+  EXPECT_EQ(tools::parse_duration("--for", "1.5h"), 5400.0);
+}
+
+TEST(VerifyRandomProgram, WritesALineOnStdout) {
+  const auto outcome = run_program(EDGEWISE_PROGRAM, "verify --random --seed 7 --case 123456 --json -");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(std::ranges::count(outcome.out, '\n'), 1);
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json.at("cases"), 1);
+  EXPECT_EQ(json.at("seed"), 7);
+  EXPECT_EQ(json.at("shard"), "123456/123457");
+  EXPECT_EQ(json.at("differences"), 0);
+}
+
+TEST(VerifyRandomProgram, RunsTheDocumentedLinesOfEachShard) {
+  const std::string readme = file_content(EDGEWISE_SOURCE_DIR "/scripts/README.md");
+  const std::regex line("build/edgewise (verify --random [^'\n]*--shard )(\\S+)/(\\d+ --for )1h --json ");
+  int lines = 0;
+  for (std::sregex_iterator at(readme.begin(), readme.end(), line), end; at != end; ++at, ++lines) {
+    const auto outcome =
+        run_program(EDGEWISE_PROGRAM, (*at)[1].str() + "3/" + (*at)[3].str() + "0.1s --json -");
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(nlohmann::json::parse(outcome.out).at("shard"), "3/" + (*at)[3].str().substr(0, 2));
+  }
+  EXPECT_EQ(lines, 2) << "Slurm and GNU parallel";
+}
+
+TEST(VerifyRandomProgram, WritesWhatItCountedOnCtrlC) {
+  for (const int signal_number : {SIGINT, SIGTERM}) {
+    const TempDir folder;
+    const std::string file = (folder.path() / "a.json").string();
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+      for (const int n : {SIGINT, SIGTERM}) signal(n, SIG_DFL);
+      if (freopen("/dev/null", "w", stdout) != nullptr)
+        execl(EDGEWISE_PROGRAM, "edgewise", "verify", "--random", "--json", file.c_str(), nullptr);
+      _exit(99);
+    }
+    // The temporary file appears before the first case.
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (folder.count() == 0 && std::chrono::steady_clock::now() < deadline)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    std::this_thread::sleep_for(std::chrono::milliseconds(700));
+    kill(child, signal_number);
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 128 + signal_number);
+    EXPECT_EQ(folder.count(), 1u);
+    EXPECT_GT(nlohmann::json::parse(file_content(file)).at("cases"), 0);
+  }
+}
+
+}  // namespace
+}  // namespace edgewise::randomized
