@@ -76,9 +76,9 @@ missing_packages() {
   done < <(listed_packages "$@")
 }
 
-# set_up install|list [LIST…]: installs the missing packages of `base` and of further lists, or only names them.
+# set_up install|list LIST…: installs the missing packages of the lists, or only names them.
 set_up() {
-  local -a lists=(base "${@:2}")
+  local -a lists=("${@:2}")
   if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
     echo "No apt-get here. These Debian packages, or their like, must be installed:"
     echo "  $(listed_packages "${lists[@]}" | paste -sd' ')"

@@ -151,7 +151,6 @@ class Scene:
 @dataclass(frozen=True)
 class Accuracy:
     machine: dict
-    quick: bool
     methods: dict  # by family, in the registry's order
     scenes: tuple
     cube: dict | None  # {"frames", "methods": [(Method, {"gaps": (median, worst) per frame, "double_hits": …,
@@ -259,7 +258,7 @@ def parse_accuracy(data):
                             int(scene.get("shared_crossings", 0)), float(scene.get("largest_side_px", 0.0))))
     by_family = {name: [method for (family, _), method in methods.items() if family == name and not method.apart]
                  for name in FAMILIES}
-    return Accuracy(data["machine"], bool(data["quick"]), by_family, tuple(scenes), parse_cube(data, methods))
+    return Accuracy(data["machine"], by_family, tuple(scenes), parse_cube(data, methods))
 
 
 def parse_curve(entry):

@@ -1,7 +1,7 @@
 """README's first table: the answers to its questions, each with its condition."""
 from frontier import ENGINES, INSIDE_TESTS, measured_in, simd_outcome
 from peers import OURS, pairs
-from speedups import by_order, kernels, outcome, with_width
+from speedups import by_order, kernels, outcome
 from tables import THREADS, number
 
 HEADER = ["question", "answer", "condition"]
@@ -13,14 +13,14 @@ def speed_rows(bench):
     threads = max(THREADS)
     drawn = [{b: row for b in (OURS, "scanline", "naive") if (row := bench.frame(b, scene, threads))} for scene in bench.scenes]
     drawn = [rows for rows in drawn if OURS in rows and "scanline" in rows]
-    condition = f"whole frames, {threads} threads, {kernels(bench.context.get('simd_target'))} in all backends"
+    condition = f"whole frames, {threads} threads, {kernels(bench.context.get('simd_target'))}"
     if drawn:
         yield ["Parallel or scanline?", f"`{OURS}` {outcome(by_order((rows[OURS], rows['scanline']) for rows in drawn))}",
                f"against `scanline`; {condition}"]
     boxed = [(rows["naive"], min(rows[OURS], rows["scanline"], key=lambda row: row.median_ms)) for rows in drawn if "naive" in rows]
     if boxed:
         yield ["Or test the whole bounding box?", f"`naive` {outcome(by_order(boxed))}",
-               f"against the faster of the two; {condition}"]
+               f"against the faster of the two; {condition}, but `naive` in scalar code"]
 
 
 def exactness_rows(accuracy):
@@ -31,7 +31,7 @@ def exactness_rows(accuracy):
     rates, plain = accuracy.rates("coverage"), INSIDE_TESTS[0]
     ours = [rates[m.name] for m in accuracy.methods.get("coverage", ()) if m.ours and m.name in rates]
     if ours and plain in rates:
-        yield ["… in wrong pixels?", f"ours {number(max(ours))}, `{plain}` {number(rates[plain])} wrong per 10⁶ edge crossings",
+        yield ["What does exactness cost in wrong pixels?", f"ours {number(max(ours))}, `{plain}` {number(rates[plain])} wrong per 10⁶ edge crossings",
                f"against the positions before snapping, {len(accuracy.pooled('coverage'))} scenes pooled"]
 
 
@@ -41,13 +41,13 @@ def gap_rows(accuracy):
     if ours:
         told = [(f"`{m.name}`", *counts) for m, *counts in turned if m.name in INSIDE_TESTS] + [("ours", *map(sum, zip(*ours)))]
         yield ["Gaps / double hits when the cube turns?", ", ".join(f"{who} {gaps:,} / {doubles:,}" for who, gaps, doubles in told),
-               f"{accuracy.cube['frames']:,} frames of the tutorials' cube"]
+               f"{accuracy.cube['frames']:,} frames of the tutorials' cube; `float_le` takes samples on an edge as inside, `float_lt` does not"]
     scene = next((s for s in accuracy.of("coverage") if s.name == CENTRED_SCENE), None)
     ours = [m.rate for m in scene.measured if m.method.ours] if scene else []
     if ours:
         tests = [f"`{name}` {number(m.rate)}" for name in INSIDE_TESTS if (m := measured_in(scene, name))]
         yield ["Where edges meet pixel centres?", f"{', '.join([*tests, f'ours {number(max(ours))}'])} wrong pixels per 10⁶ edge crossings",
-               f"`{CENTRED_SCENE}`"]
+               f"`{CENTRED_SCENE}`, whose vertices lie on the 1/256 px grid"]
 
 
 def peer_rows(bench):
@@ -56,8 +56,8 @@ def peer_rows(bench):
         for peer in bench.peers:
             of = [(p.ours, p.peer) for (name, _, threads), p in found.items() if name == peer and threads == max(THREADS)]
             if of:
-                yield [f"Against {peer}, with {with_width(target)}?", f"`{OURS}` {outcome(by_order(of))}",
-                       f"{bench.context.get(peer, 'unknown version')}; whole frames, {max(THREADS)} threads"]
+                yield [f"Against {peer}, ours with {kernels(target)}?", f"`{OURS}` {outcome(by_order(of))}",
+                       f"{peer} is {bench.context.get(peer, 'of unknown version')}; whole frames, {max(THREADS)} threads"]
 
 
 def answers(bench, accuracy):

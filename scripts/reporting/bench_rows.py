@@ -118,7 +118,7 @@ def records(folder, name):
 
 def source_of(path, data):
     """The machine of a record in results/, and the commit if it holds one."""
-    commit = data.get("commit") or data.get("before") or next((one.get("commit") for one in data.get("machines", ())), None)
+    commit = data.get("commit")
     return f"`{path.parent.name}`" + (f", commit {commit}" if commit else "")
 
 

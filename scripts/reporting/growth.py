@@ -37,7 +37,7 @@ class Quantity:
         """Describes the drawn scene."""
         row = bench.sweep(self.key)[0]
         if self.key == "size":
-            return f"`{row.scene}` in square images"
+            return f"{row.scene} in square images"
         covered = sum(row.counters["covered_px"] for row in bench.sweep(self.key))
         area = covered / sum(row.counters["triangles"] for row in bench.sweep(self.key))
         return (f"triangles of about {short(float(f'{area:.1g}'))} px in an image of {row.counters['width']:.0f} × "

@@ -36,4 +36,4 @@ def noise_table(folder):
         found = sum(paired_order(before, [PLANTED * ms for ms in after]) > 0 for before, after in pairs)
         alarms = ["{} of {}".format(*count(of)) for of in (pairs, in_blocks(pairs, fewest_rounds()))]
         lines.append([f"`{path.parent.name}`", str(rounds), *alarms, f"{found} of {len(pairs)}"])
-    return ["machine", "rounds", "false alarms", f"in {fewest_rounds()} rounds each", f"{percent(PLANTED - 1)} slower: found"], lines
+    return ["machine", "rounds", "false alarms", f"false alarms in blocks of {fewest_rounds()} rounds", f"{percent(PLANTED - 1)} slowdowns found"], lines

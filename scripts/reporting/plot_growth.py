@@ -74,7 +74,7 @@ def growth(bench, machine, folder, caption):
         draw_curves(above, points, look)
         draw_steps(below, quantity, rows, look)
         label_x(below, quantity, rows)
-        above.set_title(textwrap.fill(quantity.scene(bench).replace("`", ""), 34), fontsize=9, color=INK)
+        above.set_title(textwrap.fill(quantity.scene(bench), 34), fontsize=9, color=INK)
         below.set_xlabel({"count": "triangles", "size": "image, pixels", "overdraw": "overdraw"}[quantity.key])
         mark_caches(above, quantity, machine, False)
         mark_caches(below, quantity, machine, True)

@@ -1,4 +1,6 @@
 """The cost of two threads in a small draw, and the peak memory."""
+from bench_rows import order
+from speedups import mark
 from tables import number
 
 SMALL = {"256 × 256": "cube/tiny:256x256", "1920 × 1080": "cube"}
@@ -12,8 +14,8 @@ def small_draws_table(bench):
             rows = [bench.find(f"{backend}/{work}/threads:{threads}") for threads in (1, 2)]
             if all(rows):
                 one_us, two_us = (1e3 * row.median_ms for row in rows)
-                lines.append([size, f"`{backend}`", number(one_us), number(two_us), number(one_us / 2)])
-    return ["size", "backend", "1 thread, µs", "2 threads, µs", "ideal, µs"], lines
+                lines.append([size, f"`{backend}`", number(one_us), number(two_us), mark(one_us / two_us, order(*rows))])
+    return ["size", "backend", "1 thread, µs", "2 threads, µs", "speed-up"], lines
 
 
 def memory_sentence(bench):

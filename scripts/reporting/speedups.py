@@ -38,7 +38,8 @@ def outcome(found):
     said = [f"{spread(found[-1])} faster in {len(found[-1])}"] if found[-1] else []
     said += [f"{spread([1 / ratio for ratio in found[1]])} slower in {len(found[1])}"] if found[1] else []
     said += [f"not settled in {len(found[0])}"] if found[0] else []
-    return f"{', '.join(said)} of {sum(map(len, found.values()))} scenes"
+    scenes = sum(map(len, found.values()))
+    return f"{', '.join(said)} of {scenes} {'scene' if scenes == 1 else 'scenes'}"
 
 
 def speed_up(ratio):

@@ -99,7 +99,7 @@ def summary(groups):
                     if m.ours == whose and curve.starts_to_fail is not None] for whose in (True, False))
     breaking = [found for found in others if found[0] > 0]
     return (f"ours {f'break at {min(own)[1]}' if own else 'hold'}; "
-            + (f"{min(breaking)[2]} breaks at {min(breaking)[1]}" if breaking else f"{len(others)} others fail from the start"))
+            + (f"{min(breaking)[2]} breaks at {min(breaking)[1]}" if breaking else f"{len(others)} others fail at once"))
 
 
 def failing(curve, sweep):

@@ -1,14 +1,15 @@
 """answers.py, and the modules whose figures it needs: each figure, its condition, and whether it is settled, from data made here."""
+import re
 import sys
 import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts/reporting"))
-from accuracy_rows import Accuracy, Cost, Curve, Measured, Method, Scene, Sweep, parse_measured  # noqa: E402
+from accuracy_rows import Accuracy, Cost, Curve, Measured, Method, Scene, Sweep, parse_measured, read_accuracy  # noqa: E402
 from answers import answers  # noqa: E402
 from bench_rows import Bench, parse_name  # noqa: E402
 from engine import engine_table  # noqa: E402
-from frontier import cracks_of, simd_outcome, speed_ups  # noqa: E402
+from frontier import ENGINES, INSIDE_TESTS, cracks_of, simd_outcome, speed_ups  # noqa: E402
 from peers import peer_tables  # noqa: E402
 from stability_curves import groups_of, origin_sentence, summary  # noqa: E402
 from tables import markdown  # noqa: E402
@@ -39,7 +40,7 @@ def measured(name, exact, rate, ns, spread=0.0):
 def accuracy(*methods, cube=None, more=()):
     scenes = (Scene("mesh_on_grid", "coverage", "", 1000, methods), *more)
     registry = {"coverage": [m.method for m in methods]}
-    return Accuracy({"simd_best": "avx512"}, False, registry, scenes, cube)
+    return Accuracy({"simd_best": "avx512"}, registry, scenes, cube)
 
 
 def turning(*counts):
@@ -86,9 +87,9 @@ class AnswersTest(unittest.TestCase):
         of_speed = answers(bench({**scene("a", 2.0, 8.0, 1.0), **scene("b", 3.0, 4.0, 2.0), **scene("c", 1.0, 5.0, 4.0)}), None)
         self.assertEqual(of_speed, [
             ["Parallel or scanline?", "`tiled` 1.5× to 2.0× faster in 2, 4.0× slower in 1 of 3 scenes",
-             "against `scanline`; whole frames, 2 threads, AVX-512 in all backends"],
+             "against `scanline`; whole frames, 2 threads, AVX-512"],
             ["Or test the whole bounding box?", "`naive` 2.0× to 8.0× slower in 3 of 3 scenes",
-             "against the faster of the two; whole frames, 2 threads, AVX-512 in all backends"]])
+             "against the faster of the two; whole frames, 2 threads, AVX-512, but `naive` in scalar code"]])
 
     def test_a_faster_median_alone_wins_nothing(self):
         close = {**scene("a", (2.0, 1.0, 3.0, 2.1, 2.2), 8.0, (1.9, 1.1, 3.1, 2.0, 1.8)), **scene("b", 2.0, 8.0, 1.0)}
@@ -98,15 +99,17 @@ class AnswersTest(unittest.TestCase):
         rows = {**scene("a", 2.0, 8.0, 1.0), **scene("b", 4.0, 8.0, 2.0), "tiled/c/threads:2": 1.0}
         del rows["naive+frontend/b/threads:2"]
         self.assertEqual([line[1] for line in answers(bench(rows), None)],
-                         ["`tiled` 2.0× faster in 2 of 2 scenes", "`naive` 8.0× slower in 1 of 1 scenes"])
+                         ["`tiled` 2.0× faster in 2 of 2 scenes", "`naive` 8.0× slower in 1 of 1 scene"])
 
     def test_exactness_and_gaps_have_their_counts(self):
         told = answers(bench({}), accuracy(measured("tiled", True, 873, 3.0), measured("float_lt", False, 216, 2.0),
                                            cube=turning(("tiled", 0, 0), ("float_lt", 3, 0), ("float_le", 1, 9), ("fixed_8", 7, 7))))
         self.assertEqual(told, [
-            ["… in wrong pixels?", "ours 873, `float_lt` 216 wrong per 10⁶ edge crossings", "against the positions before snapping, 1 scenes pooled"],
-            ["Gaps / double hits when the cube turns?", "`float_lt` 3 / 0, `float_le` 1 / 9, ours 0 / 0", "3,600 frames of the tutorials' cube"],
-            ["Where edges meet pixel centres?", "`float_lt` 216, ours 873 wrong pixels per 10⁶ edge crossings", "`mesh_on_grid`"]])
+            ["What does exactness cost in wrong pixels?", "ours 873, `float_lt` 216 wrong per 10⁶ edge crossings", "against the positions before snapping, 1 scenes pooled"],
+            ["Gaps / double hits when the cube turns?", "`float_lt` 3 / 0, `float_le` 1 / 9, ours 0 / 0",
+             "3,600 frames of the tutorials' cube; `float_le` takes samples on an edge as inside, `float_lt` does not"],
+            ["Where edges meet pixel centres?", "`float_lt` 216, ours 873 wrong pixels per 10⁶ edge crossings",
+             "`mesh_on_grid`, whose vertices lie on the 1/256 px grid"]])
 
     def test_rates_are_pooled_over_large_scenes_within_a_methods_range(self):
         limited = Method("y", "a book", "", False, 181)
@@ -118,23 +121,29 @@ class AnswersTest(unittest.TestCase):
 
         scenes = (scene_of("large", 30000, 500.0, 10.0, 9e6), scene_of("medium", 10000, 100.0, 50.0, 4.0),
                   scene_of("tiny", 100, 1.0, 1e6, 1e6))
-        told = Accuracy({}, False, {"coverage": [m.method for m in scenes[0].measured]}, scenes, None)
+        told = Accuracy({}, {"coverage": [m.method for m in scenes[0].measured]}, scenes, None)
         self.assertEqual(told.rates("coverage"), {"x": 20.0, "y": 4.0})
 
     def test_peers_are_compared_with_one_backend_at_both_widths(self):
         rows = {**scene("a", 2.0, 8.0, 1.0), **scene("b", 1.0, 5.0, 4.0), "ext+frontend/a/threads:2": 8.0, "ext+frontend/b/threads:2": 30.0,
                 "tiled+frontend/m/threads:2": 3.0, "ext+frontend/m/threads:2": 1.5}
         told = bench(rows, peers="ext", ext="Ext 1, 256 bits")
-        self.assertEqual(answers(told, None)[2:], [["Against ext, with AVX-512, 512 bits?", "`tiled` 7.5× to 8.0× faster in 2, 2.0× slower in 1 of 3 scenes",
-                                                    "Ext 1, 256 bits; whole frames, 2 threads"]])
+        self.assertEqual(answers(told, None)[2:], [["Against ext, ours with AVX-512?", "`tiled` 7.5× to 8.0× faster in 2, 2.0× slower in 1 of 3 scenes",
+                                                    "ext is Ext 1, 256 bits; whole frames, 2 threads"]])
         narrow = bench({**rows, "tiled+frontend/a/target:avx2/threads:2": 2.0, "m/threads:2": 1.0}, peers="ext", ext="Ext 1, 256 bits")
-        self.assertEqual(answers(narrow, None)[3][:2], ["Against ext, with AVX2, 256 bits?", "`tiled` 4.0× faster in 1 of 1 scenes"])
+        self.assertEqual(answers(narrow, None)[3][:2], ["Against ext, ours with AVX2?", "`tiled` 4.0× faster in 1 of 1 scene"])
         table = peer_tables(narrow, markdown)
         self.assertIn("| speed-up with AVX-512, 512 bits | speed-up with AVX2, 256 bits |", table)
         self.assertIn("| – / 8.0× | – / 4.0× |", table)
 
+    def test_the_methods_that_answers_name_are_measured(self):
+        results = Path(__file__).resolve().parents[2] / "results"
+        named = re.search("<!-- results: results/(.*) -->", (results.parent / "README.md").read_text())[1]
+        names = {method.name for method in read_accuracy(results / named).methods["coverage"]}
+        self.assertEqual({*ENGINES, *INSIDE_TESTS} - names, set())
+
     def test_what_was_not_measured_is_not_answered(self):
-        self.assertEqual(answers(bench({}), Accuracy({}, False, {}, (), None)), [])
+        self.assertEqual(answers(bench({}), Accuracy({}, {}, (), None)), [])
 
 
 class FrontierTest(unittest.TestCase):
@@ -151,7 +160,7 @@ class FrontierTest(unittest.TestCase):
     def accuracy(self, **scenes):
         """From the methods of each scene; every scene has 10⁵ crossings of shared edges and triangles of 200 px."""
         made = tuple(Scene(name, "coverage", "", 10 ** 6, methods, (), 10 ** 5, 200.0) for name, methods in scenes.items())
-        return Accuracy({"simd_best": "avx512"}, False, {"coverage": [m.method for m in made[0].measured]}, made, None)
+        return Accuracy({"simd_best": "avx512"}, {"coverage": [m.method for m in made[0].measured]}, made, None)
 
     def test_cracks_are_pooled_without_t_junctions_and_overflow(self):
         found = self.accuracy(a=(self.timed("x", 1.0, 3), self.timed("y", 1.0, 9, 181)), b=(self.timed("x", 1.0, 1),),
@@ -197,7 +206,7 @@ class SweepTest(unittest.TestCase):
             return summary(groups_of(sweep, ours))
 
         self.assertEqual(said(near_guard=None, a=1024, b=128, c=1), "ours hold; b breaks at 128")
-        self.assertEqual(said(near_guard=128, a=1, b=1, c=None), "ours break at 128; 2 others fail from the start")
+        self.assertEqual(said(near_guard=128, a=1, b=1, c=None), "ours break at 128; 2 others fail at once")
 
 
 if __name__ == "__main__":

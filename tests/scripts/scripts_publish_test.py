@@ -83,12 +83,12 @@ class PublishTest(unittest.TestCase):
         self.git("add", "results")
         result = self.publish("--check")
         self.assertEqual((result.returncode, result.stdout), (0, ""), result.stderr)
-        self.write(self.published / "report.html", "")
+        self.write(self.published / "page.html", "")
         self.git("add", "results")
         self.git("rm", "--quiet", "--cached", "results/mine/errors/crack.png")
         result = self.publish("--check")
         self.assertEqual((result.returncode, result.stdout.splitlines()),
-                         (1, ["results/mine/report.html: no README shows it",
+                         (1, ["results/mine/page.html: no README shows it",
                               "results/mine/errors/crack.png: a README shows it, but it is not committed"]))
 
 
