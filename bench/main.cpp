@@ -119,7 +119,7 @@ void compare_all(std::vector<Row>& rows, Stage& stage, bool whole_suite) {
     progress.show(static_cast<double>(i) / static_cast<double>(rows.size()), "comparing " + rows[i].name);
     Workload& workload = *rows[i].workload;
     const auto needs_scene = [&](const Row& row) {
-      return row.workload.get() == &workload && (row.timed != Timed::raster || row.numbers);
+      return row.workload.get() == &workload && row.timed != Timed::raster;
     };
     workload.prepare(std::any_of(rows.begin(), rows.end(), needs_scene));
     if (whole_suite && is_too_slow_alone(rows, i))

@@ -5,7 +5,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "bench/peers/peer.h"
 #include "bench/workloads/workload.h"

@@ -298,7 +298,7 @@ struct Frontend::State {
       most_vertices = std::max(most_vertices, mesh.positions.size());
       if (!mesh.clusters.empty()) unused = std::max(unused, mesh.positions.size());
     }
-    // Whole cache lines.
+    // A block of vertices stays aligned to cache lines.
     unused = (unused + ClusterPart::kBlock - 1) / ClusterPart::kBlock * ClusterPart::kBlock;
     if (clusters == 0) return;
     const std::size_t members = std::min(clusters + scene.instances.size(), kMaxMembers);

@@ -49,7 +49,7 @@ TEST(VectorState, BackendsLeaveUpperHalvesUnused) {
     GTEST_SKIP() << "this processor does not report the use of vector registers exactly";
   constexpr int kWidth = 200, kHeight = 150;  // several tiles of every size
   const auto everywhere = testing::adversarial("uniform", 200, kWidth, kHeight, 1);
-  const auto in_a_corner = testing::adversarial("cloud", 5, 8, 8, 1);
+  const auto in_a_corner = testing::adversarial("cloud", 5, 8, 8, 18);
   for (const BackendInfo& info : backends())
     for (const SimdTarget target : supported_targets())
       for (const auto& triangles : {everywhere, in_a_corner, std::vector<ScreenTriangle>{}}) {

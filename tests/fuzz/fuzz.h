@@ -29,7 +29,6 @@ inline void require(bool holds, const std::string& what) {
 class Bytes {
  public:
   Bytes(const std::uint8_t* data, std::size_t size) : rest_(data, size) {}
-  bool empty() const { return rest_.empty(); }
 
   template <typename Number>
   Number take() {

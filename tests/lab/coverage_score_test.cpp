@@ -149,7 +149,7 @@ TEST(Differences, AreHitsOfOnlyOneList) {
 }
 
 TEST(DisjointGroups, HoldTrianglesWithoutCommonPixels) {
-  const auto triangles = adversarial("cloud", 400, 80, 60, 2);
+  const auto triangles = adversarial("cloud", 400, 80, 60, 15);
   std::set<std::uint32_t> seen;
   for (const auto& group : disjoint_groups(triangles, 80, 60)) {
     std::vector<int> used(80 * 60, 0);

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "lab/coverage_support.h"
 #include "lab/engine/engine.h"

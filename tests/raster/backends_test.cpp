@@ -7,6 +7,7 @@
 #include "edgewise/builtin.h"
 #include "edgewise/frontend.h"
 #include "every_backend.h"
+#include "lab/measure.h"
 #include "message_of.h"
 
 namespace edgewise {
@@ -36,7 +37,7 @@ TEST_P(EveryBackend, MatchesTheOracleAtEverySize) {
                                       {129, 33},
                                       {200, 130}})
     for (const auto family : {"uniform", "huge", "cloud"})
-      expect_oracle(adversarial(family, 40, width, height, 11), width, height,
+      expect_oracle(adversarial(family, 40, width, height, 15), width, height,
                     std::to_string(width) + "x" + std::to_string(height));
 }
 
@@ -54,7 +55,8 @@ TEST_P(EveryBackend, MatchesTheOracleForManyChunks) {
 
 TEST_P(EveryBackend, KeepsNothingOfThePreviousFrame) {
   const int width = 150, height = 90;
-  const auto small = adversarial("cloud", 40, width, height, 1);
+  const auto small = adversarial("cloud", 40, width, height, 15);
+  ASSERT_GT(lab::covered_pixels(small, width, height), 40u);
   const auto large = adversarial("uniform", 160, width, height, 2);
   const auto joined = [](std::vector<ScreenTriangle> first, const std::vector<ScreenTriangle>& then) {
     first.insert(first.end(), then.begin(), then.end());

@@ -65,8 +65,7 @@ std::vector<CoverageMethod> coverage_table() {
            false},
           {.reach_px = kFloatReachPx, .no_double_hits = true, .if_on_grid = true}),
       // The right tie rule on rounded values. Two neighbours evaluate their shared edge from different ends,
-      // so
-      // their rounding errors may differ.
+      // so their rounding errors may differ.
       method<FloatTopLeft>(
           {"float_top_left", "float edge functions with the top-left rule, vertices not snapped",
            "Scratchapixel, \"Rasterization: a Practical Implementation\"",

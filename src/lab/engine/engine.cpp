@@ -21,14 +21,14 @@ void draw_engine(EngineNumbers numbers, std::span<const ScreenTriangle> triangle
 
 namespace {
 
-constexpr int kBeside_px = 4;  // whole blocks are tested, so wrong pixels may lie beside the box
+// Whole blocks of 4 x 4 px are tested, so wrong pixels may lie beside the box.
+constexpr std::int32_t kBeside = 4 * contract::kSub;
 
-// A triangle with the same bounding box, widened by kBeside_px.
+// A triangle with the same bounding box, widened by kBeside.
 ScreenTriangle with_wider_box(const ScreenTriangle& t) {
   const auto [min_x, max_x] = std::minmax({t.x_sub[0], t.x_sub[1], t.x_sub[2]});
   const auto [min_y, max_y] = std::minmax({t.y_sub[0], t.y_sub[1], t.y_sub[2]});
-  constexpr std::int32_t kMargin = kBeside_px * contract::kSub;
-  return {{min_x - kMargin, max_x + kMargin, max_x}, {min_y - kMargin, max_y + kMargin, max_y}, {}, 0};
+  return {{min_x - kBeside, max_x + kBeside, max_x}, {min_y - kBeside, max_y + kBeside, max_y}, {}, 0};
 }
 
 void engine_runs(EngineNumbers numbers, const CoverageInput& input, Window window, std::vector<Run>& runs) {

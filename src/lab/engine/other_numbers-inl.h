@@ -195,7 +195,7 @@ struct OtherNumbers : Lanes {
     }
     return hn::Zero(D64{});
   }
-  static HWY_INLINE std::uint32_t store_edges(const TileTask&, const HalfEdges& left, const HalfEdges& right,
+  static HWY_INLINE std::uint32_t store_edges(const HalfEdges& left, const HalfEdges& right,
                                               Linear<Value> (&out)[3], int k) {
     std::uint32_t rejected = 0;
     for (int i = 0; i < 3; ++i)

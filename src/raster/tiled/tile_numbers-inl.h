@@ -1,5 +1,5 @@
-// The numbers of edge functions, on which the tile kernel is a template: the contract's. The laboratory has
-// others (lab/engine), to measure what exactness costs.
+// The tile kernel is a template on the arithmetic of edge functions. This is the contract's; lab/engine has
+// others, to measure what exactness costs.
 //
 // The contract's edge values are sums of 32 x 32 -> 64 bit products (triangle_lanes-inl.h).
 #include <hwy/highway.h>
@@ -118,7 +118,7 @@ struct ContractNumbers : Int32Lanes {
     return rejected;
   }
   // Bit i of the result is 0 if an edge rejects the box of lane i and set_up_half() did not report it.
-  static HWY_INLINE std::uint32_t store_edges(const TileTask&, const HalfEdges& left, const HalfEdges& right,
+  static HWY_INLINE std::uint32_t store_edges(const HalfEdges& left, const HalfEdges& right,
                                               Linear<Value> (&out)[3], int k) {
     for (int i = 0; i < 3; ++i) store_linear(left.edge[i], right.edge[i], out[i], k);
     return ~0u;

@@ -121,7 +121,7 @@ HWY_INLINE std::uint32_t set_up_vector(const TileTask& task, const std::uint32_t
   else
     right = left, right.alive = 0;
 
-  const std::uint32_t kept = Numbers::store_edges(task, left.edges, right.edges, out.edge, k);
+  const std::uint32_t kept = Numbers::store_edges(left.edges, right.edges, out.edge, k);
   const auto store_both = [&](V32 l, V32 r, std::int32_t* list) {
     const V v = both(l, r);
     hn::Store(v, D{}, list + k);
