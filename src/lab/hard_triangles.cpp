@@ -189,7 +189,8 @@ void grid(ListMaker& m) {
       Point p = m.near(
           m.at(std::int64_t{m.width_sub()} * column / columns, std::int64_t{m.height_sub()} * row / rows),
           jitter);
-      if (on_samples) p.x = sample_sub(p.x >> kSubBits), p.y = sample_sub(p.y >> kSubBits);
+      if (on_samples)
+        for (std::int32_t* sub : {&p.x, &p.y}) *sub = into_guard_band(sample_sub(*sub >> kSubBits));
       points.push_back(p);
     }
   for (int row = 0; row < rows; ++row)
@@ -334,7 +335,7 @@ void vertices(ListMaker& m) {
 
 struct TriangleFamily {
   std::string_view name;
-  void (*add)(ListMaker& maker);  // some triangles, until the list is full at the latest
+  void (*add)(ListMaker& maker);  // adds at least one triangle; take() drops those beyond the count
 };
 
 constexpr std::array kFamilies = {

@@ -28,18 +28,24 @@ Progress::~Progress() {
   erase();
 }
 
-void Progress::show(double fraction, std::string_view label) {
+void Progress::show(std::optional<double> fraction, std::string_view label) {
   if (!terminal_) return;
-  const int percent = static_cast<int>(100.0 * std::clamp(fraction, 0.0, 1.0));
-  if (percent == shown_percent_) return;
+  const int percent = fraction ? static_cast<int>(100.0 * std::clamp(*fraction, 0.0, 1.0)) : -1;
+  const auto now = std::chrono::steady_clock::now();
+  if (percent == shown_percent_ && now - shown_at_ < std::chrono::seconds(1)) return;
   shown_percent_ = percent;
+  shown_at_ = now;
   // Leave the last column free: some terminals wrap when it is filled.
   const int room = terminal_width(STDERR_FILENO) - 1;
-  const int bar = std::clamp(room - kColumnsBesideBar, 0, kBarWidth);
-  const auto label_room = static_cast<std::size_t>(std::max(0, room - kColumnsBesideBar - bar));
-  const auto filled = static_cast<std::size_t>(percent * bar / 100);
-  const std::string line = fmt::format("{}[{:<{}}] {:3}% {}", kErase, std::string(filled, '#'), bar, percent,
-                                       printable_within(label, label_room));
+  std::string line(kErase);
+  int label_room = room;
+  if (fraction) {
+    const int bar = std::clamp(room - kColumnsBesideBar, 0, kBarWidth);
+    const auto filled = static_cast<std::size_t>(percent * bar / 100);
+    line += fmt::format("[{:<{}}] {:3}% ", std::string(filled, '#'), bar, percent);
+    label_room -= kColumnsBesideBar + bar;
+  }
+  line += printable_within(label, static_cast<std::size_t>(std::max(0, label_room)));
   on_screen = 1;
   std::fwrite(line.data(), 1, line.size(), stderr);
   std::fflush(stderr);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -14,12 +15,14 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  void show(double fraction, std::string_view label);
+  // Redraws when the percentage changes, or after a second. No fraction: the label alone.
+  void show(std::optional<double> fraction, std::string_view label);
   void erase();  // call it before printing a line
 
  private:
   bool terminal_;
   int shown_percent_ = -1;
+  std::chrono::steady_clock::time_point shown_at_;
 };
 
 // Estimates the remaining time from the time spent.

@@ -35,6 +35,12 @@ namespace {
 
 using testing::run_program;
 
+Report run(const Plan& plan) {
+  Report report;
+  run(plan, report);
+  return report;
+}
+
 // FNV-1a hash of the content of a case.
 class Fingerprint {
  public:
@@ -42,15 +48,18 @@ class Fingerprint {
     add(c.number), add(c.width), add(c.height), add(c.background), add(c.threads), add(c.draws_seed);
     add(c.triangles);
     if (!c.drawable) return;
+    add(c.frontend.cull), add(c.frontend.shade), add(c.frontend.payload);
     if (const auto* stream = std::get_if<TriangleStream>(&*c.drawable)) {
       add(stream->triangles);
       return;
     }
     const Scene& scene = std::get<Scene>(*c.drawable);
-    for (const Mesh& mesh : scene.meshes) add(mesh.positions), add(mesh.triangles), add(mesh.colours);
+    for (const Mesh& mesh : scene.meshes)
+      add(mesh.positions), add(mesh.triangles), add(mesh.colours), add(mesh.flags);
     for (const Instance& i : scene.instances) add(i.scale), add(i.axis), add(i.angle), add(i.translation);
     const Camera& camera = scene.camera;
-    add(camera.position), add(camera.yaw), add(camera.pitch), add(camera.fov_y), add(camera.near_z);
+    add(camera.position), add(camera.yaw), add(camera.pitch), add(camera.fov_y), add(camera.near_z),
+        add(camera.far_z);
   }
   std::uint64_t value() const { return hash_; }
 
@@ -77,7 +86,8 @@ TEST(RandomCases, DependOnSeedAndNumberAlone) {
     EXPECT_TRUE(seen.insert(Fingerprint(make_case(2, number)).value()).second) << number;
     all = all * 31 + here;
   }
-  EXPECT_EQ(all, 2200510551480097419u) << "not the same on every machine and with every compiler, or changed";
+  EXPECT_EQ(all, 13564159140772275951u)
+      << "not the same on every machine and with every compiler, or changed";
 }
 
 TEST(RandomCases, KeepTheContractAndIncludeEachFamily) {
@@ -112,6 +122,17 @@ TEST(RandomCases, KeepTheContractAndIncludeEachFamily) {
   EXPECT_TRUE(wide);
   EXPECT_TRUE(single);
   EXPECT_TRUE(several_chunks);
+}
+
+TEST(RandomCases, KeepTheGuardBandAtEverySize) {
+  for (const std::string_view family : lab::triangle_families())
+    for (std::uint64_t seed = 0; seed < 200; ++seed) {
+      const int width = seed % 2 == 0 ? contract::kMaxImageSide : 1 + static_cast<int>(seed);
+      for (const ScreenTriangle& t : lab::adversarial(family, 300, width, contract::kMaxImageSide, seed))
+        for (const auto* coordinates : {t.x_sub, t.y_sub})
+          for (int i = 0; i < 3; ++i)
+            ASSERT_LE(std::abs(coordinates[i]), contract::kGuardSub) << family << ", seed " << seed;
+    }
 }
 
 TEST(RandomCases, UnknownFamiliesAreRejected) {
@@ -247,7 +268,7 @@ TEST(RandomFindings, NameThePixelAndTheFewestTriangles) {
   }
 }
 
-TEST(RandomFindings, AreNotReducedAfterARequestToStop) {
+TEST(RandomFindings, AreNotReducedAfterARequestToStopOrTheTimeLimit) {
   const TempDir folder;
   Plan plan = plan_with<WrongInTheCorner>(8, 1);
   plan.failure_folder = folder.path();
@@ -263,6 +284,8 @@ TEST(RandomFindings, AreNotReducedAfterARequestToStop) {
   while (triangles_left(number) < 2) ASSERT_LT(++number, 100u);
   plan.stop = [] { return false; };
   EXPECT_EQ(triangles_left(number), 1u);
+  plan.seconds = 1e-9;
+  EXPECT_GE(triangles_left(number), 2u);
 }
 
 // Runs the plan and requires that some finding contains the text.
@@ -311,7 +334,10 @@ TEST(RandomFindings, AreKeptIfNoFileCanBeWritten) {
 }
 
 TEST(RandomFindings, AnExceptionNamesTheCase) {
-  const std::string said = message_of([] { run(plan_with<Throws>(12, 4)); });
+  Report report;
+  const std::string said = message_of([&] { run(plan_with<Throws>(12, 4), report); });
+  EXPECT_EQ(report.findings, std::vector{said});
+  EXPECT_GT(report.frames, 0u);
   EXPECT_TRUE(said.starts_with("seed 12, case 0 (")) << said;
   EXPECT_TRUE(said.ends_with("): too much")) << said;
 }
@@ -347,6 +373,14 @@ TEST(VerifyRandomProgram, WritesALineOnStdout) {
   EXPECT_EQ(json.at("seed"), 7);
   EXPECT_EQ(json.at("shard"), "123456/123457");
   EXPECT_EQ(json.at("differences"), 0);
+}
+
+TEST(VerifyRandomProgram, AcceptsTheCasesOfTheMostShards) {
+  const std::string largest = std::to_string(kMostShards);
+  for (const std::string& chosen : {"--for 0.1s --shard 0/" + largest,
+                                    "--for 0.1s --shard " + std::to_string(kMostShards - 1) + '/' + largest,
+                                    std::string("--case 18446744073709551614")})
+    EXPECT_EQ(run_program(EDGEWISE_PROGRAM, "verify --random " + chosen).status, 0) << chosen;
 }
 
 TEST(VerifyRandomProgram, RunsTheDocumentedLinesOfEachShard) {

@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
+#include <exception>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -56,25 +58,35 @@ int verify_random_command(VerifyOptions& o) {
   const TimeLeft left;
   const auto show = [&](const std::string& text) {
     progress.erase();
-    if (json_on_stdout) return;
-    print(text);
+    if (json_on_stdout)
+      std::fputs(text.c_str(), stderr);
+    else
+      print(text);
     std::fflush(stdout);
   };
   plan.stop = [&] { return request.signal() != 0; };
   plan.on_finding = show;
   plan.on_progress = [&](const randomized::Report& now) {
     const double fraction = now.seconds / plan.seconds;  // 0 without a limit
-    progress.show(fraction,
+    progress.show(std::isfinite(plan.seconds) ? std::optional(fraction) : std::nullopt,
                   left.label(fraction, fmt::format("{} cases, {} differ", now.cases, now.differences)));
   };
-  const randomized::Report report = randomized::run(plan);
-  show(summary(report, plan));
+  randomized::Report report;
+  std::exception_ptr error;
+  try {
+    randomized::run(plan, report);
+  } catch (...) {
+    error = std::current_exception();  // write the results until there first
+  }
+  if (!json_on_stdout) show(summary(report, plan));
+  progress.erase();
   const std::string line = json_text(to_json(report, plan, machine)) + '\n';
   if (json_on_stdout) print(line);
   if (file) {
     file->stream() << line;
     file->commit();
   }
+  if (error) std::rethrow_exception(error);
   if (report.differences != 0) return kDiffers;
   return request.signal() == 0 ? kDone : 128 + request.signal();
 }
@@ -124,7 +136,7 @@ constexpr const char* kVerifyFooter = R"(Examples:
   edgewise verify bunny.obj capture.tri --fit  your own files
   edgewise verify --json verify.json
   edgewise verify --random --for 1h --seed 7 --shard 3/64 --json 3.json
-  edgewise verify --random --seed 7 --case 123456              reproduce one picture
+  edgewise verify --random --seed 7 --case 123456              reproduce one case
 
 Verify draws every scene with every backend in every culling mode: on 1, 2 and 3 threads, on each
 SIMD target of this machine, with other tile sizes on the best target, and with optimizations
@@ -139,16 +151,18 @@ Columns: triangles submitted; triangles emitted by the front end, over all culli
 compared; pixels that differ; pixels that differ from the oracle.
 On a difference, verify writes pictures and a .tri file that reproduces it, and exits with 1.
 
-With --random it draws random and adversarial pictures instead, until the time limit or Ctrl-C:
-lists of triangles, and scenes around the camera that go through the front end. Each is drawn on
-one thread and on several, with random tile sizes, strides, alignments and optimizations switched
-off. The front end is compared with its own code for single triangles. Of a difference, verify
-writes a .tri file with as few triangles as possible. --json writes one line, and
-scripts/reporting/shards.py adds lines up.
+With --random it draws random and adversarial cases instead, until the time limit or Ctrl-C: lists
+of triangles, and scenes around the camera that go through the front end. Each case is drawn on one
+thread and on several, with random tile sizes, strides, alignments and optimizations switched off.
+The front end is compared with its own code for single triangles. Verify describes a case's first
+difference of each backend, of the front end and from the oracle, up to 20 differences in all. For
+each it writes a .tri file with as few triangles as possible, unless only a scene shows it. --json
+writes one line, and scripts/reporting/shards.py adds lines up.
 
-A picture depends on the seed and its number alone. Case k of shard I/N is number I + k N, so shards
-are disjoint. A shard draws one picture at a time: run one per core. Stopped by signal N, verify
-writes its results and exits with 128 + N; the same signal again ends it at once.)";
+A case depends on the seed and its number alone. Case k of shard I/N is number I + k N, so shards
+are disjoint. A shard draws one case at a time: run one per core. On a signal, verify writes its
+results and stops; the same signal again ends it at once. Exit status: 1 if anything differs;
+otherwise 0, or 128 + N if stopped by signal N.)";
 
 }  // namespace
 
@@ -162,10 +176,10 @@ void add_verify(CLI::App& program, Action& action) {
   command.add_flag("--fit", o->plan.fit, "Centre meshes and scale their longest side to 2");
   command.add_option("--json", o->json, "Also write all results as JSON; - for stdout, instead of the table")
       ->type_name("FILE");
-  command.add_option("--out", o->out, "Folder for pictures of differences (edgewise-verify-failures)")
+  command.add_option("--out", o->out, "Folder for files that show differences (edgewise-verify-failures)")
       ->type_name("DIR");
   CLI::Option* const random =
-      command.add_flag("--random", o->random, "Random and adversarial pictures instead of scenes");
+      command.add_flag("--random", o->random, "Random and adversarial cases instead of scenes");
   for (const char* of_scenes : {"SCENE", "--full", "--size", "--fit"})
     random->excludes(command.get_option(of_scenes));
   randomized::Plan& plan = o->random_plan;
@@ -181,7 +195,7 @@ void add_verify(CLI::App& program, Action& action) {
                                  [&plan](const std::string& text) { plan.shard = parse_shard(text); });
   add("--case", "NUMBER", "Draw only this case",
       [&plan](const std::string& text) {
-        const auto number = parse_count("--case", text, 0, randomized::kMostShards - 1);
+        const auto number = parse_count("--case", text, 0, ~std::uint64_t{0} - 1);
         plan.shard = {number, number + 1};
         plan.cases = 1;
       })

@@ -310,23 +310,27 @@ std::string with_commas(std::uint64_t n) {
 
 }  // namespace
 
-Report run(const Plan& plan) {
-  Report report;
-  Checker checker(plan, report);
+void run(const Plan& plan, Report& report) {
   const auto start = std::chrono::steady_clock::now();
+  const auto seconds = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  Plan until_deadline = plan;
+  until_deadline.stop = [&] { return plan.stop() || seconds() >= plan.seconds; };
+  Checker checker(until_deadline, report);
   while (report.cases < plan.cases && report.seconds < plan.seconds && !plan.stop()) {
     const Case c = make_case(plan.seed, plan.shard.index + report.cases * plan.shard.of);
     try {
       checker.check(c);
     } catch (const std::exception& error) {
-      throw std::runtime_error(
+      report.findings.push_back(
           fmt::format("seed {}, case {} ({}): {}", plan.seed, c.number, c.family, tools::reason_of(error)));
+      throw std::runtime_error(report.findings.back());
     }
     ++report.cases;
-    report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    report.seconds = seconds();
     plan.on_progress(report);
   }
-  return report;
 }
 
 std::string summary(const Report& r, const Plan& plan) {

@@ -1,4 +1,4 @@
-// `edgewise verify --random`: draws random and adversarial pictures on every SIMD target, on one thread and
+// `edgewise verify --random`: draws random and adversarial cases on every SIMD target, on one thread and
 // on several, and compares them bit for bit.
 #pragma once
 
@@ -20,7 +20,7 @@ namespace edgewise::randomized {
 struct Shard {
   std::uint64_t index = 0, of = 1;
 };
-inline constexpr std::uint64_t kMostShards = std::uint64_t{1} << 40;
+inline constexpr std::uint64_t kMostShards = 1 << 20;  // so that case numbers fit 64 bits
 
 struct Report {
   std::uint64_t cases = 0;
@@ -31,7 +31,7 @@ struct Report {
   std::uint64_t frontend_lists = 0;  // of triangles, made by the front end, and compared
   std::uint64_t differences = 0;     // frames and lists that differ
   double seconds = 0.0;
-  std::vector<std::string> findings;  // the first kMostFindings differences in words
+  std::vector<std::string> findings;  // the first kMostFindings differences, and the exception, in words
 };
 inline constexpr std::size_t kMostFindings = 20;
 
@@ -46,7 +46,7 @@ struct Plan {
   std::uint64_t seed = 1;
   Shard shard;
   std::uint64_t cases = std::numeric_limits<std::uint64_t>::max();  // the most
-  double seconds = std::numeric_limits<double>::infinity();         // no case begins later than this
+  double seconds = std::numeric_limits<double>::infinity();         // no case or reduction step begins later
   std::filesystem::path failure_folder;  // for .tri files, created when needed; empty: none
   // Called before each case, and during the search for the fewest triangles that show a difference.
   std::function<bool()> stop = [] { return false; };
@@ -54,8 +54,8 @@ struct Plan {
   std::function<void(const Report&)> on_progress = [](const Report&) {};
 };
 
-// Throws what a backend throws, with the case's number.
-Report run(const Plan& plan);
+// Throws std::runtime_error that names the case. `report` then holds the results until there.
+void run(const Plan& plan, Report& report);
 
 // "Seed 7, shard 3/64: 1,234 cases …"
 std::string summary(const Report& report, const Plan& plan);

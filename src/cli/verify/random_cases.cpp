@@ -37,7 +37,7 @@ std::pair<int, int> random_size(Random& random) {
   return random.below(2) == 0 ? std::pair{along, across} : std::pair{across, along};
 }
 
-// Drops triangles once the pixels of all bounding boxes exceed a picture's time budget.
+// Drops triangles once the pixels of all bounding boxes exceed a case's time budget.
 void cut_to_budget(std::vector<ScreenTriangle>& triangles, int width, int height) {
   constexpr std::int64_t kBudget = 1'000'000;  // px
   std::int64_t cost = 0;

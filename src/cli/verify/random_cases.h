@@ -1,4 +1,4 @@
-// The pictures of `edgewise verify --random`. Each depends on the seed and its number alone, so any machine
+// The cases of `edgewise verify --random`. Each depends on the seed and its number alone, so any machine
 // can draw any part of the sequence.
 #pragma once
 
