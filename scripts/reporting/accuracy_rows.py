@@ -27,11 +27,12 @@ class Family:
         return next((kind for kind, starts in self.kinds.items() if method.name.startswith(starts)), "other")
 
 
+PEERS = ("llvmpipe", "softpipe", "lavapipe", "gpu")
 FAMILIES = {family.name: family for family in (
     Family("coverage", "wrong pixels per 10⁶ edge crossings", "crossings", "ns per covered pixel",
            ("float", "snapped"),
            {"floating point": ("float", "double"), "fixed point": ("fixed", "whole"), "scanline DDA": ("dda",),
-            "tiled, other numbers": ("engine",), "peers": ("llvmpipe", "softpipe", "lavapipe", "gpu")},
+            "tiled, other numbers": ("engine",), "peers": PEERS},
            "More than 10⁶: one crossing can cost many pixels, most where a triangle fills its bounding box"),
     Family("visibility", "pixels that show the wrong triangle, per 10⁶ covered", "covered", "ns per covered pixel",
            ("snapped",),  # all methods draw the same snapped triangles, so the other truth adds the same to each
@@ -68,7 +69,7 @@ class Method:
     @property
     def peer(self):
         """Another project's rasterizer; the source is its version."""
-        return self.source.startswith("Mesa ")
+        return self.name.startswith(PEERS)
 
     @property
     def apart(self):

@@ -139,7 +139,7 @@ class AnswersTest(unittest.TestCase):
     def test_the_methods_that_answers_name_are_measured(self):
         results = Path(__file__).resolve().parents[2] / "results"
         named = re.search("<!-- results: results/(.*) -->", (results.parent / "README.md").read_text())[1]
-        names = {method.name for method in read_accuracy(results / named).methods["coverage"]}
+        names = {m.method.name for scene in read_accuracy(results / named).of("coverage") for m in (*scene.measured, *scene.apart)}
         self.assertEqual({*ENGINES, *INSIDE_TESTS} - names, set())
 
     def test_what_was_not_measured_is_not_answered(self):
