@@ -550,9 +550,9 @@ TEST(Program, DrawsAFloorTheSameWhereverTheOriginLies) {
   for (const char* const yaw : {"30", "31", "32", "33"}) {
     const auto drawn = [&](const std::string& name, const std::string& eye) {
       const std::string file = (folder.path() / (name + ".ppm")).string();
-      const Outcome run = edgewise_with("render " + case_file(name) + " --size 320x200 --cull none --eye " + eye +
-                                        " --yaw " + yaw +
-                                        " --pitch -15 --fov 60 --near 0.001 --far 1000 --payload hits -o " + file);
+      const Outcome run =
+          edgewise_with("render " + case_file(name) + " --size 320x200 --cull none --eye " + eye + " --yaw " +
+                        yaw + " --pitch -15 --fov 60 --near 0.001 --far 1000 --payload hits -o " + file);
       EXPECT_EQ(run.status, 0) << run.err;
       EXPECT_NE(run.out.find("once 4445"), std::string::npos) << run.out;
       return read_image(file);
@@ -566,8 +566,9 @@ TEST(Program, DrawsAFloorTheSameWhereverTheOriginLies) {
 TEST(Program, DrawsEveryTriangleOfSurveyCoordinates) {
   const TempDir folder;
   for (const char* const how : {"", " --fit", " --recentre"}) {
-    const Outcome run = edgewise_with("render " + case_file("stairs_utm") + " --cull none --size 400x300 -o " +
-                                      (folder.path() / "a.png").string() + how);
+    const Outcome run =
+        edgewise_with("render " + case_file("stairs_utm") + " --cull none --size 400x300 -o " +
+                      (folder.path() / "a.png").string() + how);
     EXPECT_NE(run.out.find("80 triangles, 80 drawn"), std::string::npos) << run.out << run.err;
   }
 }
@@ -576,15 +577,18 @@ TEST(Program, DrawsEveryTriangleOfSurveyCoordinates) {
 TEST(Program, DrawsAPlaneWhoseCornersAreFarAway) {
   const TempDir folder;
   const std::string file = (folder.path() / "a.ppm").string();
-  const Outcome run = edgewise_with("render " + case_file("plane_1e8") +
-                                    " --cull none --eye 0.37,1,0.21 --yaw 31 --pitch -20 --fov 75 --near 0.001"
-                                    " --far 1e5 --size 320x200 --no-shade -o " + file);
+  const Outcome run =
+      edgewise_with("render " + case_file("plane_1e8") +
+                    " --cull none --eye 0.37,1,0.21 --yaw 31 --pitch -20 --fov 75 --near 0.001"
+                    " --far 1e5 --size 320x200 --no-shade -o " +
+                    file);
   ASSERT_EQ(run.status, 0) << run.err;
   const Image image = read_image(file);
   const double focal = 100 / std::tan(75 * 3.14159265358979 / 360);
   const int horizon = static_cast<int>(std::ceil(100 - focal * std::tan(20 * 3.14159265358979 / 180) - 0.5));
   for (int y = 0; y < image.height; ++y)
-    EXPECT_EQ(image.pixels[static_cast<std::size_t>(y * image.width + 160)] != 0xFF000000u, y >= horizon) << y;
+    EXPECT_EQ(image.pixels[static_cast<std::size_t>(y * image.width + 160)] != 0xFF000000u, y >= horizon)
+        << y;
 }
 
 }  // namespace
