@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "cli/accuracy/accuracy.h"
 #include "cli/accuracy/report.h"
 #include "cli/commands.h"
-#include "core/atomic_file.h"
 #include "support/console.h"
+#include "support/json_output.h"
 #include "support/json_text.h"
 #include "support/options.h"
 #include "support/output_path.h"
@@ -37,9 +36,7 @@ int accuracy_command(AccuracyOptions& o) {
 
   check_json_file(o.json, o.pictures, plan.scenes);
   if (plan.pictures) check_closeup_folder(o.pictures);
-  const bool json_on_stdout = o.json == "-";
-  std::optional<AtomicFile> file;  // opened first: minutes of work must not end in "cannot be written"
-  if (!o.json.empty() && !json_on_stdout) file.emplace(o.json);
+  JsonOutput json(o.json);
 
   Progress progress;
   TimeLeft left;
@@ -51,15 +48,8 @@ int accuracy_command(AccuracyOptions& o) {
 
   // At the end, so that Ctrl-C during minutes of work leaves no partial output.
   if (plan.pictures) write_closeups(o.pictures, report.closeups);
-  if (!json_on_stdout) print(accuracy_tables(report));
-  if (json_on_stdout || file) {
-    const std::string text = json_text(accuracy_json(report, plan), 2) + '\n';
-    if (json_on_stdout) print(text);
-    if (file) {
-      file->stream() << text;
-      file->commit();
-    }
-  }
+  if (!json.on_stdout()) print(accuracy_tables(report));
+  if (json.wanted()) json.write(json_text(accuracy_json(report, plan), 2) + '\n');
   if (report.ok()) return kDone;
   print_error("a method broke a promise that must hold on every scene; the JSON output names it");
   return kDiffers;

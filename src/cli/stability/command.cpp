@@ -2,14 +2,13 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/commands.h"
 #include "cli/stability/report.h"
-#include "core/atomic_file.h"
 #include "support/console.h"
+#include "support/json_output.h"
 #include "support/json_text.h"
 #include "support/options.h"
 #include "support/progress.h"
@@ -39,9 +38,7 @@ int stability_command(const StabilityOptions& o) {
     print(list_of_sweeps());
     return kDone;
   }
-  const bool json_on_stdout = o.json == "-";
-  std::optional<AtomicFile> file;  // opened first: minutes of work must not end in "cannot be written"
-  if (!o.json.empty() && !json_on_stdout) file.emplace(o.json);
+  JsonOutput json(o.json);
 
   double all = 0.0, done = 0.0;
   for (const lab::Sweep* sweep : sweeps) all += sweep->cost;
@@ -53,21 +50,14 @@ int stability_command(const StabilityOptions& o) {
       done += sweep->cost / static_cast<double>(sweep->positions.size());
       progress.show(done / all, left.label(done / all, sweep->name));
     }));
-    if (json_on_stdout) continue;
+    if (json.on_stdout()) continue;
     progress.erase();
     print(stability_table(results.back()) + (sweep == sweeps.back() ? "" : "\n"));
     std::fflush(stdout);
   }
   progress.erase();
 
-  if (json_on_stdout || file) {
-    const std::string text = json_text(stability_json(results, o.quick), 2) + '\n';
-    if (json_on_stdout) print(text);
-    if (file) {
-      file->stream() << text;
-      file->commit();
-    }
-  }
+  if (json.wanted()) json.write(json_text(stability_json(results, o.quick), 2) + '\n');
   return kDone;
 }
 

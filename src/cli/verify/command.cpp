@@ -16,8 +16,8 @@
 #include "cli/verify/random.h"
 #include "cli/verify/report.h"
 #include "cli/verify/verify.h"
-#include "core/atomic_file.h"
 #include "support/console.h"
+#include "support/json_output.h"
 #include "support/json_text.h"
 #include "support/machine.h"
 #include "support/output_path.h"
@@ -49,16 +49,14 @@ int verify_random_command(VerifyOptions& o) {
   plan.backends.assign(backends().begin(), backends().end());
   plan.failure_folder = o.out;
   check_json_file(o.json, o.out, {});
-  const bool json_on_stdout = o.json == "-";
-  std::optional<AtomicFile> file;  // opened first, so that an unwritable path fails before hours of work
-  if (!o.json.empty() && !json_on_stdout) file.emplace(o.json);
+  JsonOutput json(o.json);
 
   const nlohmann::json machine = machine_description();  // now: the source tree may change meanwhile
   Progress progress;
   const TimeLeft left;
   const auto show = [&](const std::string& text) {
     progress.erase();
-    if (json_on_stdout)
+    if (json.on_stdout())
       std::fputs(text.c_str(), stderr);
     else
       print(text);
@@ -78,14 +76,9 @@ int verify_random_command(VerifyOptions& o) {
   } catch (...) {
     error = std::current_exception();  // write the results until there first
   }
-  if (!json_on_stdout) show(summary(report, plan));
   progress.erase();
-  const std::string line = json_text(to_json(report, plan, machine)) + '\n';
-  if (json_on_stdout) print(line);
-  if (file) {
-    file->stream() << line;
-    file->commit();
-  }
+  if (!json.on_stdout()) print(summary(report, plan));
+  if (json.wanted()) json.write(json_text(to_json(report, plan, machine)) + '\n');
   if (error) std::rethrow_exception(error);
   if (report.differences != 0) return kDiffers;
   return request.signal() == 0 ? kDone : 128 + request.signal();
@@ -100,15 +93,13 @@ int verify_command(VerifyOptions& o) {
   plan.failure_folder = o.out;
 
   check_json_file(o.json, o.out, plan.scenes);
-  const bool json_on_stdout = o.json == "-";
-  std::optional<AtomicFile> file;  // opened first, so that an unwritable path fails before minutes of work
-  if (!o.json.empty() && !json_on_stdout) file.emplace(o.json);
+  JsonOutput json(o.json);
 
   Progress progress;
   plan.on_progress = [&](double fraction, std::string_view scene) { progress.show(fraction, scene); };
   const VerifyTable table(terminal_width());
   const auto show = [&](const std::string& text) {
-    if (json_on_stdout) return;
+    if (json.on_stdout()) return;
     progress.erase();
     print(text);
     std::fflush(stdout);
@@ -119,14 +110,7 @@ int verify_command(VerifyOptions& o) {
   });
   show(summary(report, plan));
 
-  if (json_on_stdout || file) {
-    const std::string text = json_text(report_json(report, plan), 2) + '\n';
-    if (json_on_stdout) print(text);
-    if (file) {
-      file->stream() << text;
-      file->commit();
-    }
-  }
+  if (json.wanted()) json.write(json_text(report_json(report, plan), 2) + '\n');
   return report.ok() ? kDone : kDiffers;
 }
 
