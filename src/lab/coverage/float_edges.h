@@ -42,10 +42,12 @@ inline PixelRows real_box(const UnsnappedTriangle& t, Window w) {
           std::min(floor_int(max_x - 0.5f) + 1, w.x1()), std::min(floor_int(max_y - 0.5f) + 1, w.y1())};
 }
 
-// Calls body(edges), with two vertices swapped for counter-clockwise triangles. Does not call it for a
-// triangle without area.
+// Calls body(edges, box), with two vertices swapped for counter-clockwise triangles. Does not call it for a
+// triangle without area or outside the window.
 template <typename Real, class Threshold, class Body>
-void with_edges(const UnsnappedTriangle& t, Body&& body) {
+void with_edges(const UnsnappedTriangle& t, Window window, Body&& body) {
+  const PixelRows box = real_box(t, window);
+  if (box.x0 >= box.x1 || box.y0 >= box.y1) return;
   Real x[3], y[3];
   for (int i = 0; i < 3; ++i) x[i] = Real{t.x_px[i]}, y[i] = Real{t.y_px[i]};
   const Real area = (x[1] - x[0]) * (y[2] - y[0]) - (y[1] - y[0]) * (x[2] - x[0]);
@@ -57,7 +59,7 @@ void with_edges(const UnsnappedTriangle& t, Body&& body) {
     const Real a = y[i] - y[j], b = x[j] - x[i];
     edges[i] = {a, b, x[i], y[i], Threshold::template of<Real>(a, b)};
   }
-  body(edges);
+  body(edges, box);
 }
 
 // "&" rather than "&&": one branch to mispredict, not three.
@@ -87,9 +89,7 @@ template <typename Real, class Threshold>
 struct RealEdges {
   template <class Plot>
   static void cover(const UnsnappedTriangle& t, Window window, Plot& plot) {
-    const PixelRows box = real_box(t, window);
-    if (box.x0 >= box.x1 || box.y0 >= box.y1) return;
-    with_edges<Real, Threshold>(t, [&](const RealEdge<Real>(&edges)[3]) {
+    with_edges<Real, Threshold>(t, window, [&](const RealEdge<Real>(&edges)[3], const PixelRows& box) {
       plot.begin();
       fill(edges, box, plot);
     });
@@ -174,9 +174,7 @@ void fill_by_steps(const RealEdge<float> (&edges)[3], const PixelRows& box, Plot
 struct FloatIncremental {
   template <class Plot>
   static void cover(const UnsnappedTriangle& t, Window window, Plot& plot) {
-    const PixelRows box = real_box(t, window);
-    if (box.x0 >= box.x1 || box.y0 >= box.y1) return;
-    with_edges<float, TopLeft>(t, [&](const RealEdge<float>(&edges)[3]) {
+    with_edges<float, TopLeft>(t, window, [&](const RealEdge<float>(&edges)[3], const PixelRows& box) {
       plot.begin();
       fill_by_steps(edges, box, plot);
     });

@@ -60,13 +60,9 @@ struct FloatLanes {
     return hn::Mul(hn::ConvertTo(Floats{}, count), hn::Set(Floats{}, step));
   }
   static HWY_INLINE Vector four_times(Vector v) { return hn::Mul(v, hn::Set(Floats{}, 4.0f)); }
-  static HWY_INLINE V sign_bits(Vector e0, Vector e1, Vector e2) {
+  static HWY_INLINE V outside(Vector e0, Vector e1, Vector e2) {
     return hn::BitCast(D{}, hn::Or(hn::Or(e0, e1), e2));
   }
-};
-
-struct WrappingLanes : Int32Lanes {
-  static HWY_INLINE V sign_bits(V e0, V e1, V e2) { return hn::Or(hn::Or(e0, e1), e2); }
 };
 
 constexpr int kWideParts = HWY_TARGET == HWY_SCALAR ? 1 : 2;
@@ -107,7 +103,7 @@ struct WideLanes {
         return hn::Mul(v.part[i], hn::Set(Part{}, T{4}));
     });
   }
-  static HWY_INLINE V sign_bits(const Vector& e0, const Vector& e1, const Vector& e2) {
+  static HWY_INLINE V outside(const Vector& e0, const Vector& e1, const Vector& e2) {
     const auto any = [&](int i) { return hn::Or(hn::Or(e0.part[i], e1.part[i]), e2.part[i]); };
 #if HWY_TARGET == HWY_SCALAR
     return hn::Set(D{}, hn::GetLane(hn::BitCast(hn::CappedTag<std::int64_t, 1>{}, any(0))) < 0 ? -1 : 0);
@@ -141,9 +137,6 @@ struct OtherNumbers : Lanes {
   static constexpr int kInputs = 8;
   static constexpr std::int32_t origin(int tile_px) { return kRebased ? tile_px * contract::kSub : 0; }
 
-  static HWY_INLINE V outside(const Vector& e0, const Vector& e1, const Vector& e2) {
-    return Lanes::sign_bits(e0, e1, e2);
-  }
   static HWY_INLINE bool spans_more(Value span, std::int32_t twice_area_px) {
     // The area was rounded down.
     return static_cast<double>(span) >= (twice_area_px + 1.0) * (contract::kSub * contract::kSub);

@@ -97,6 +97,8 @@ struct Int32Lanes {
   static HWY_INLINE V subtract(V a, V b) { return hn::Sub(a, b); }
   static HWY_INLINE V times(V count, Value step) { return hn::Mul(count, hn::Set(D{}, step)); }
   static HWY_INLINE V four_times(V v) { return hn::ShiftLeft<2>(v); }
+  // The sign bit is set where a value is negative.
+  static HWY_INLINE V outside(V e0, V e1, V e2) { return hn::Or(hn::Or(e0, e1), e2); }
 };
 
 }  // namespace HWY_NAMESPACE

@@ -81,8 +81,6 @@ struct EdgeInBoxLanes {
 // The contract's edge functions, shifted (rule 5) in wrapping int32. A pixel is inside where all three are
 // >= 0. Other numbers have the same members.
 struct ContractNumbers : Int32Lanes {
-  // The sign bit is set where a value is negative.
-  static HWY_INLINE V outside(V e0, V e1, V e2) { return hn::Or(hn::Or(e0, e1), e2); }
   // Whether a value's span over a block, in square pixels, exceeds twice the triangle's area.
   static HWY_INLINE bool spans_more(Value span, std::int32_t twice_area_px) {
     return span >> kSubBits > twice_area_px;
