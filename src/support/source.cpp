@@ -66,8 +66,8 @@ Source load_source(const std::string& name_or_path, const SceneRequest& request,
   Scene scene = read_obj(path, {.recentre = recentre}, &report);
   for (const std::string& warning : report.warnings) print_note("warning: " + warning);
   if (const glm::dvec3 p = report.offset; recentre)
-    print_note(fmt::format("{}: recentred by {},{},{}, which is subtracted from all positions", path,
-                           p.x, p.y, p.z));
+    print_note(fmt::format("{}: recentred by {},{},{}, which is subtracted from all positions", path, p.x,
+                           p.y, p.z));
   if (fit_mesh) {
     try {
       fit(scene);
