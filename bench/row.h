@@ -50,7 +50,7 @@ struct Row {
 // pauses.
 inline bool is_plain(const Row& row) {
   return !row.step && row.pause_s == 0.0 && row.execution.target == SimdTarget::best &&
-         describe(row.ablation).empty();
+         row.ablation == Ablation{};
 }
 
 }  // namespace edgewise::bench

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,7 +18,8 @@ class EveryBackend : public ::testing::TestWithParam<std::string_view> {
  protected:
   const BackendInfo& info_ = find_drawer(GetParam());
   const bool fills_ = &info_ != &wireframe();
-  std::unique_ptr<Backend> backend_ = info_.make();
+  AblatedBackends backends_;
+  Backend* const backend_ = &backends_.get(info_, {});
 
   Framebuffer oracle(std::span<const ScreenTriangle> triangles, int width, int height) const {
     Framebuffer expected(width, height);
@@ -30,11 +30,11 @@ class EveryBackend : public ::testing::TestWithParam<std::string_view> {
                      const std::string& what) {
     const Framebuffer expected = oracle(triangles, width, height);
     Framebuffer actual(width, height);
-    for (const auto& execution : executions()) {
+    for (const auto& how : executions()) {
       lab::poison(
           actual);  // otherwise pixels that a draw omits would still be correct from the previous draw
-      draw(*backend_, triangles, actual.view(), kBackground, execution);
-      expect_same(expected, actual, what + ", " + describe(execution));
+      backends_.get(info_, how.ablation).draw(triangles, actual.view(), kBackground, how.execution);
+      expect_same(expected, actual, what + ", " + describe(how));
     }
   }
 };

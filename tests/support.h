@@ -14,7 +14,6 @@
 #include "edgewise/contract.h"
 #include "lab/hard_triangles.h"
 #include "lab/measure.h"
-#include "raster/ablation.h"
 
 namespace edgewise::testing {
 
@@ -38,15 +37,15 @@ inline const auto kFamilies = lab::triangle_families();
 
 // Every SIMD target with one thread, all tile sizes, and optimizations left out; several thread counts with
 // the best target.
-inline std::vector<AblatedExecution> executions() {
-  std::vector<AblatedExecution> list;
+inline std::vector<lab::AblatedExecution> executions() {
+  std::vector<lab::AblatedExecution> list;
   for (const int threads : {2, 3, 8}) list.push_back({{threads, 64, SimdTarget::best}});
   if (kRacesOnly) return list;
   for (const auto target : supported_targets()) list.push_back({{1, 64, target}});
   for (const auto target : supported_targets())
     for (const int tile : {16, 32}) list.push_back({{2, tile, target}});
   for (const auto target : supported_targets())
-    for (const auto& ablation : kAblations) list.push_back({{1, 64, target}, ablation});
+    for (const auto& ablation : lab::kAblations) list.push_back({{1, 64, target}, ablation});
   return list;
 }
 
@@ -55,7 +54,7 @@ inline std::string describe(const Execution& e) {
          std::string(name_of(e.target));
 }
 
-inline std::string describe(const AblatedExecution& how) {
+inline std::string describe(const lab::AblatedExecution& how) {
   const std::string left_out = edgewise::describe(how.ablation);
   return describe(how.execution) + (left_out.empty() ? "" : ", " + left_out);
 }

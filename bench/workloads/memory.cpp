@@ -33,7 +33,7 @@ std::optional<double> peak_bytes(const Row& row) {
   {
     Frontend frontend;
     Framebuffer frame(workload.width(), workload.height());
-    workload.draw(frontend, *row.backend->make(), frame.view(), {row.execution, row.ablation});
+    workload.draw(frontend, *make(*row.backend, row.ablation), frame.view(), row.execution);
   }
   const auto peak = status_bytes("VmHWM:");
   constexpr double kTolerance = 1 << 20;  // bytes: other threads' allocations, and Linux's coarse counters

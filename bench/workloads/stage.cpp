@@ -22,12 +22,6 @@ std::uint64_t pixels_of_another_colour(const Framebuffer& a, const Framebuffer& 
 
 }  // namespace
 
-Backend& Stage::backend(const Row& row) {
-  auto& made = backends_[row.backend];
-  if (!made) made = row.backend->make();
-  return *made;
-}
-
 bool Stage::renew_memory(const Row& row) {
   if (!row.numbers) return false;
   scratch_ = TileScratch();
@@ -43,13 +37,14 @@ void Stage::work(const Row& row) {
   if (row.peer != nullptr) return peers_.work(row);
   Workload& workload = *row.workload;
   if (row.timed == Timed::frame && !row.numbers && !row.two_calls)
-    return workload.draw(frontend_, backend(row), frame(row).view(), {row.execution, row.ablation});
+    return workload.draw(frontend_, backends_.get(*row.backend, row.ablation), frame(row).view(),
+                         row.execution);
   auto triangles = workload.triangles();
   if (row.timed != Timed::raster) triangles = workload.run(frontend_, row.execution);
   if (row.numbers)
     lab::draw_engine(*row.numbers, triangles, frame(row).view(), kBackground, row.execution, scratch_);
   else if (row.timed != Timed::frontend)
-    draw(backend(row), triangles, frame(row).view(), kBackground, {row.execution, row.ablation});
+    backends_.get(*row.backend, row.ablation).draw(triangles, frame(row).view(), kBackground, row.execution);
 }
 
 double Stage::timed_work_s(const Row& row) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <map>
-#include <memory>
 #include <utility>
 
 #include "bench/peers/stage.h"
@@ -30,11 +29,10 @@ class Stage {
 
  private:
   void compare_ours(Row& row);
-  Backend& backend(const Row& row);
   Framebuffer& frame(const Row& row);
   double timed_work_s(const Row& row);
 
-  std::map<const BackendInfo*, std::unique_ptr<Backend>> backends_;
+  AblatedBackends backends_;
   // One per size, kept to the end: interleaved repetitions use all of them again, and a fresh frame's page
   // faults would count in a row's time.
   std::map<std::pair<int, int>, Framebuffer> frames_;

@@ -26,12 +26,12 @@ std::span<const ScreenTriangle> Workload::run(Frontend& frontend, const Executio
   return frontend.run(hidden_->drop(std::get<Scene>(source_->drawable)), options);
 }
 
-void Workload::draw(Frontend& frontend, Backend& backend, FrameView frame, const AblatedExecution& how) {
+void Workload::draw(Frontend& frontend, Backend& backend, FrameView frame, const Execution& execution) {
   if (hidden_)
-    edgewise::draw(backend, run(frontend, how.execution), frame, kBackground, how);
+    backend.draw(run(frontend, execution), frame, kBackground, execution);
   else
-    edgewise::draw(source_->drawable, frontend, frontend_options(how.execution), backend, frame, kBackground,
-                   how);
+    edgewise::draw(source_->drawable, frontend, frontend_options(execution), backend, frame, kBackground,
+                   execution);
 }
 
 void Workload::drop_hidden(Frontend& frontend) {

@@ -13,7 +13,6 @@
 #include "edgewise/backend.h"
 #include "edgewise/frontend.h"
 #include "lab/hidden_faces.h"
-#include "raster/ablation.h"
 #include "support/source.h"
 
 namespace edgewise::bench {
@@ -46,7 +45,7 @@ class Workload {
   std::span<const ScreenTriangle> run(Frontend& frontend, const Execution& execution);
 
   // The timed work of a frame row. Requires prepare(true).
-  void draw(Frontend& frontend, Backend& backend, FrameView frame, const AblatedExecution& how);
+  void draw(Frontend& frontend, Backend& backend, FrameView frame, const Execution& execution);
 
   // With the execution's threads and SIMD target.
   FrontendOptions frontend_options(const Execution& execution) const;

@@ -1,6 +1,7 @@
-// Counts about frames: differences, hits, covered pixels.
+// Comparing backends: how to draw, differences of frames, hits, covered pixels.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -9,8 +10,27 @@
 #include "edgewise/backend.h"
 #include "edgewise/contract.h"
 #include "lab/guarded_frame.h"
+#include "raster/ablation.h"
 
 namespace edgewise::lab {
+
+struct AblatedExecution {
+  Execution execution{};
+  Ablation ablation{};
+};
+
+// The switches that are compared: each optimization left out, both tile stores, all left out, and the stepped
+// naive backend.
+constexpr std::array<Ablation, 10> kAblations{{{.vector_setup = false},
+                                               {.prefetch = false},
+                                               {.coverage_masks = false},
+                                               {.hierarchical_depth = false},
+                                               {.tile_store = TileStore::cached},
+                                               {.tile_store = TileStore::streaming},
+                                               {.empty_rows = false},
+                                               {.several_tiles_per_task = false},
+                                               {false, false, false, false, TileStore::cached, false, false},
+                                               {.stepped = true}}};
 
 // Fills both planes with values that no backend draws. Call it before a draw that is checked: pixels that the
 // backend does not write then differ from every correct picture.

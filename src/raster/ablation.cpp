@@ -2,24 +2,6 @@
 
 namespace edgewise {
 
-namespace {
-
-// Switches a backend for one frame, even if drawing throws.
-class Switched {
- public:
-  Switched(Backend& backend, const Ablation& ablation) : backend_(dynamic_cast<AblatableBackend*>(&backend)) {
-    if (backend_ != nullptr) backend_->ablation = ablation;
-  }
-  ~Switched() {
-    if (backend_ != nullptr) backend_->ablation = {};
-  }
-
- private:
-  AblatableBackend* backend_;
-};
-
-}  // namespace
-
 std::string describe(const Ablation& ablation) {
   std::string text;
   const auto add = [&](bool differs, const char* what) {
@@ -37,16 +19,11 @@ std::string describe(const Ablation& ablation) {
   return text;
 }
 
-void draw(Backend& backend, std::span<const ScreenTriangle> triangles, FrameView frame,
-          std::uint32_t background, const AblatedExecution& how) {
-  const Switched switched(backend, how.ablation);
-  backend.draw(triangles, frame, background, how.execution);
-}
-
-void draw(const Drawable& drawable, Frontend& frontend, const FrontendOptions& options, Backend& backend,
-          FrameView frame, std::uint32_t background, const AblatedExecution& how) {
-  const Switched switched(backend, how.ablation);
-  draw(drawable, frontend, options, backend, frame, background, how.execution);
+std::unique_ptr<Backend> make(const BackendInfo& info, const Ablation& ablation) {
+  if (info.name == "tiled") return make_tiled(ablation);
+  if (info.name == "scanline") return make_scanline(ablation);
+  if (info.name == "naive") return make_naive(ablation);
+  return info.make();
 }
 
 }  // namespace edgewise

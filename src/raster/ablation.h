@@ -2,10 +2,12 @@
 // path. No switch changes a bit of the picture. Internal: not installed.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <span>
+#include <compare>
+#include <map>
+#include <memory>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "edgewise/backend.h"
 
@@ -31,40 +33,31 @@ struct Ablation {
   bool empty_rows = true;
   bool several_tiles_per_task = true;  // tiled, scanline: oneTBB gets up to four tiles at once
   bool stepped = false;  // naive: edges and depth are stepped along rows, not evaluated at each pixel
+
+  auto operator<=>(const Ablation&) const = default;
 };
 
 // The switches that differ from the default, as "no prefetch, …"; empty if none does.
 std::string describe(const Ablation& ablation);
 
-// The variants that tests compare: each optimization left out, both tile stores, all left out, and the
-// stepped naive backend.
-constexpr std::array<Ablation, 10> kAblations{{{.vector_setup = false},
-                                               {.prefetch = false},
-                                               {.coverage_masks = false},
-                                               {.hierarchical_depth = false},
-                                               {.tile_store = TileStore::cached},
-                                               {.tile_store = TileStore::streaming},
-                                               {.empty_rows = false},
-                                               {.several_tiles_per_task = false},
-                                               {false, false, false, false, TileStore::cached, false, false},
-                                               {.stepped = true}}};
+std::unique_ptr<Backend> make_tiled(const Ablation& ablation);
+std::unique_ptr<Backend> make_scanline(const Ablation& ablation);
+std::unique_ptr<Backend> make_naive(const Ablation& ablation);
 
-// A backend that has such switches.
-class AblatableBackend : public Backend {
+// The backend with these switches, or as usual if it has none.
+std::unique_ptr<Backend> make(const BackendInfo& info, const Ablation& ablation);
+
+// Backend objects by name and switches. Each is made when it is first used, and keeps its memory.
+class AblatedBackends {
  public:
-  Ablation ablation;
-};
+  Backend& get(const BackendInfo& info, const Ablation& ablation) {
+    auto& backend = made_[{info.name, ablation}];
+    if (!backend) backend = make(info, ablation);
+    return *backend;
+  }
 
-struct AblatedExecution {
-  Execution execution{};
-  Ablation ablation{};
+ private:
+  std::map<std::pair<std::string_view, Ablation>, std::unique_ptr<Backend>> made_;
 };
-
-// Backend::draw() and draw(drawable, …) with optimizations switched off. A backend without switches draws as
-// usual.
-void draw(Backend& backend, std::span<const ScreenTriangle> triangles, FrameView frame,
-          std::uint32_t background, const AblatedExecution& how);
-void draw(const Drawable& drawable, Frontend& frontend, const FrontendOptions& options, Backend& backend,
-          FrameView frame, std::uint32_t background, const AblatedExecution& how);
 
 }  // namespace edgewise

@@ -47,13 +47,18 @@ void draw_triangle(const ScreenTriangle& triangle, RowRange rows, FrameView fram
   }
 }
 
-class Naive final : public AblatableBackend {
+class Naive final : public Backend {
+ public:
+  explicit Naive(const Ablation& ablation) : stepped_(ablation.stepped) {}
+
+ private:
   void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
                     const Execution& execution) override {
-    const auto draw = ablation.stepped ? draw_triangle<true> : draw_triangle<false>;
+    const auto draw = stepped_ ? draw_triangle<true> : draw_triangle<false>;
     draw_in_bands(triangles, frame, background, execution, bins_,
                   [&](const ScreenTriangle& t, RowRange rows) { draw(t, rows, frame); });
   }
+  const bool stepped_;
   Bins bins_;
 };
 
@@ -61,8 +66,11 @@ class Naive final : public AblatableBackend {
 
 extern const std::string_view summary_naive;
 const std::string_view summary_naive = "tests every pixel of the bounding box";
+std::unique_ptr<Backend> make_naive(const Ablation& ablation) {
+  return std::make_unique<Naive>(ablation);
+}
 std::unique_ptr<Backend> make_naive() {
-  return std::make_unique<Naive>();
+  return make_naive(Ablation{});
 }
 
 }  // namespace edgewise

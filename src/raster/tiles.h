@@ -86,7 +86,15 @@ bool draw_in_tiles(TriangleSource& triangles, FrameView frame, std::uint32_t bac
 }
 
 // A backend that draws tile by tile overrides draw_source().
-class TileBackend : public AblatableBackend {
+class TileBackend : public Backend {
+ public:
+  explicit TileBackend(const Ablation& ablation) : ablation_(ablation) {}
+
+ protected:
+  const Ablation ablation_;
+  TileScratch scratch_;
+
+ private:
   bool draw_source(TriangleSource& triangles, FrameView frame, std::uint32_t background,
                    const Execution& execution) override = 0;
   void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,

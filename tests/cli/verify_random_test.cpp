@@ -24,7 +24,6 @@
 #include "lab/hard_triangles.h"
 #include "lab/measure.h"
 #include "message_of.h"
-#include "raster/ablation.h"
 #include "run_program.h"
 #include "support/options.h"
 #include "temp_dir.h"
@@ -219,15 +218,6 @@ class WrongReference : public Backend {
   std::unique_ptr<Backend> right_ = backends()[0].make();
 };
 
-class WrongWhenStepped : public AblatableBackend {
-  void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
-                    const Execution& execution) override {
-    right_->draw(triangles, frame, background, execution);
-    if (ablation.stepped) frame.depth[0] ^= 1;
-  }
-  std::unique_ptr<Backend> right_ = backends()[0].make();
-};
-
 class Throws : public Backend {
   void draw_checked(std::span<const ScreenTriangle>, FrameView, std::uint32_t, const Execution&) override {
     throw std::length_error("too much");
@@ -301,7 +291,6 @@ std::string finding_with(const Plan& plan, const std::string& text) {
 TEST(RandomFindings, IncludeEveryKindOfMistake) {
   finding_with(plan_with<WritesBehindTheLastRow>(9, 6), "in 0 of ");
   finding_with(plan_with<WritesBehindTheLastRow>(9, 6), "; 1 words written beside the image");
-  finding_with(plan_with<WrongWhenStepped>(13, 40), ", stepped)");
   Plan plan = plan_of(10, 40);
   plan.backends = {testing::wrong_backend<WrongReference>()};
   finding_with(plan, "wrong (1 thread, scalar, tile 64) differs from oracle");

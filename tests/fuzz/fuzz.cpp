@@ -39,7 +39,7 @@ namespace {
 
 constexpr std::uint32_t kBackground = 0xABCD1234, kCanary = 0xDEADBEEF;
 
-std::string describe(const BackendInfo& backend, const AblatedExecution& how) {
+std::string describe(const BackendInfo& backend, const lab::AblatedExecution& how) {
   const Execution& e = how.execution;
   return std::string(backend.name) + ", " + std::string(name_of(e.target)) + ", " +
          std::to_string(e.threads) + " threads, tile " + std::to_string(e.tile_size) + ", " +
@@ -86,15 +86,16 @@ Framebuffer reference(std::span<const ScreenTriangle> triangles, int width, int 
   return frame;
 }
 
-// Calls draw(backend, frame, how) for every backend and SIMD target, and requires the expected picture.
+// Calls draw(backend, frame, execution) for every backend and SIMD target, and requires the expected picture.
 template <typename Draw>
-void check_pictures(const Framebuffer& expected, const Placement& p, AblatedExecution how,
+void check_pictures(const Framebuffer& expected, const Placement& p, lab::AblatedExecution how,
                     const std::string& what, const Draw& draw) {
   for (const BackendInfo& info : backends())
     for (const SimdTarget target : supported_targets()) {
       how.execution.target = target;
       Plane depth(p), payload(p);
-      draw(*info.make(), FrameView{depth.data(), payload.data(), p.width, p.height, depth.stride()}, how);
+      draw(*make(info, how.ablation),
+           FrameView{depth.data(), payload.data(), p.width, p.height, depth.stride()}, how.execution);
       const std::string where = what + describe(info, how);
       depth.check([&](int x, int y) { return expected.depth_row(y)[x]; }, where + ", depth");
       payload.check([&](int x, int y) { return expected.payload_row(y)[x]; }, where + ", payload");
@@ -102,14 +103,15 @@ void check_pictures(const Framebuffer& expected, const Placement& p, AblatedExec
 }
 
 auto draw_triangles(std::span<const ScreenTriangle> triangles) {
-  return [triangles](Backend& backend, const FrameView& frame, const AblatedExecution& how) {
-    draw(backend, triangles, frame, kBackground, how);
+  return [triangles](Backend& backend, const FrameView& frame, const Execution& execution) {
+    backend.draw(triangles, frame, kBackground, execution);
   };
 }
 
 }  // namespace
 
-void check_backends(std::span<const ScreenTriangle> triangles, const Placement& p, AblatedExecution how) {
+void check_backends(std::span<const ScreenTriangle> triangles, const Placement& p,
+                    lab::AblatedExecution how) {
   check_pictures(reference(triangles, p.width, p.height), p, how, "", draw_triangles(triangles));
 }
 
@@ -173,9 +175,9 @@ void check_frontend(const Drawable& drawable, int width, int height) {
     const Framebuffer picture = reference(*expected, options.width, options.height);
     check_pictures(picture, placement, {}, "", draw_triangles(*expected));
     check_pictures(picture, placement, {}, "whole frame, ",
-                   [&](Backend& backend, const FrameView& frame, const AblatedExecution& how) {
-                     options.target = how.execution.target;
-                     draw(in_clusters, vectors, options, backend, frame, kBackground, how);
+                   [&](Backend& backend, const FrameView& frame, const Execution& execution) {
+                     options.target = execution.target;
+                     draw(in_clusters, vectors, options, backend, frame, kBackground, execution);
                    });
   }
 }

@@ -39,14 +39,14 @@ class CoverageProperties : public ::testing::Test {
   const std::vector<Painter> painters_ = painters(backends());
 
   static Hits hits(const Painter& painter, std::span<const ScreenTriangle> triangles,
-                   const TriangleStream& stream, const AblatedExecution& way) {
-    return lab::count_hits(*painter.backend, triangles, stream.width, stream.height, way.execution);
+                   const TriangleStream& stream, const lab::AblatedExecution& way) {
+    return lab::count_hits(painter.with({}), triangles, stream.width, stream.height, way.execution);
   }
 
   template <typename Judge>
   void for_each_way(Judge&& judge) const {
     for (const Painter& painter : painters_)
-      for (const AblatedExecution& way : two_executions())
+      for (const lab::AblatedExecution& way : two_executions())
         judge(painter, way, std::string(painter.name) + ", " + describe(way));
   }
 };
@@ -57,7 +57,7 @@ TEST_F(CoverageProperties, EveryPointOfATessellatedPlaneIsCoveredOnce) {
     const auto triangles = snapped(stream, Payload::id);
     const Hits once(static_cast<std::size_t>(stream.width * stream.height), 1);
     verdict.compare(hits_text(once, covered_counts(triangles, stream), stream.width), "the exact truth");
-    for_each_way([&](const Painter& painter, const AblatedExecution& way, const std::string& what) {
+    for_each_way([&](const Painter& painter, const lab::AblatedExecution& way, const std::string& what) {
       verdict.compare(hits_text(once, hits(painter, triangles, stream, way), stream.width), what);
     });
     return verdict;
@@ -90,7 +90,7 @@ TEST_F(CoverageProperties, SplittingASharedEdgeInBothNeighboursKeepsHitCounts) {
       const TriangleStream before{stream.width, stream.height, {whole}},
           after{stream.width, stream.height, cut(whole, edge, tenths)};
       if (after.triangles.empty()) return;
-      for_each_way([&](const Painter& painter, const AblatedExecution& way, const std::string& what) {
+      for_each_way([&](const Painter& painter, const lab::AblatedExecution& way, const std::string& what) {
         const Hits expected = hits(painter, snapped(before, Payload::id), stream, way);
         verdict.compare(
             hits_text(expected, hits(painter, snapped(after, Payload::id), stream, way), stream.width), what);
@@ -114,7 +114,7 @@ TEST_F(CoverageProperties, MovingByWholePixelsKeepsHitCounts) {
       const auto both = before_and_after(stream, move);
       const TriangleStream &before = both.first, &after = both.second;
       verdict.replay = {before, after};
-      for_each_way([&](const Painter& painter, const AblatedExecution& way, const std::string& what) {
+      for_each_way([&](const Painter& painter, const lab::AblatedExecution& way, const std::string& what) {
         const Hits moved = hits(painter, snapped(after, Payload::id), after, way);
         verdict.compare(hits_text(hits(painter, snapped(before, Payload::id), before, way),
                                   moved_back(moved, after.width, move), stream.width),
@@ -177,7 +177,7 @@ TEST_F(CoverageProperties, MirroringChangesSamplesOnEdgesOnly) {
       for (glm::vec3& v : t.vertex) v.x = static_cast<float>(stream.width) - v.x;
     Verdict verdict{.replay = {original, mirrored}};
     const auto triangles = snapped(original, Payload::id), changed = snapped(mirrored, Payload::id);
-    for_each_way([&](const Painter& painter, const AblatedExecution& way, const std::string& what) {
+    for_each_way([&](const Painter& painter, const lab::AblatedExecution& way, const std::string& what) {
       Hits back = hits(painter, changed, stream, way);
       for (auto row = back.begin(); row != back.end(); row += stream.width)
         std::reverse(row, row + stream.width);
@@ -202,7 +202,7 @@ TEST_F(CoverageProperties, ClippingAtTheGuardBandChangesSamplesNearEdgesOnly) {
     const auto exact = covered_counts(whole, stream);
     const auto clipped = covered_counts(pieces, stream);
     verdict.compare(difference.add(exact, clipped, stream.width, whole, kReachSub), "clipped");
-    for_each_way([&](const Painter& painter, const AblatedExecution& way, const std::string& what) {
+    for_each_way([&](const Painter& painter, const lab::AblatedExecution& way, const std::string& what) {
       verdict.compare(hits_text(clipped, hits(painter, pieces, stream, way), stream.width), what);
     });
     return verdict;

@@ -65,8 +65,8 @@ ScreenTriangle triangle_of(const Lattice& lattice, std::uint64_t number, std::ui
 }
 
 // Every target, the other tile sizes, and stepped values.
-std::vector<AblatedExecution> all_targets() {
-  std::vector<AblatedExecution> ways;
+std::vector<lab::AblatedExecution> all_targets() {
+  std::vector<lab::AblatedExecution> ways;
   for (const SimdTarget target : supported_targets()) ways.push_back({{1, 64, target}});
   ways.push_back({{1, 16, SimdTarget::best}});
   ways.push_back({{2, 32, SimdTarget::best}, {.vector_setup = false}});
@@ -89,7 +89,7 @@ Counterexample narrowed(const std::vector<ScreenTriangle>& batch, const Framebuf
 
 // Stops at the first difference. Counts the triangles drawn, over all backends and executions.
 SearchResult draw_all(const Lattice& lattice, const std::vector<Painter>& painters,
-                      const std::vector<AblatedExecution>& ways) {
+                      const std::vector<lab::AblatedExecution>& ways) {
   SearchResult result;
   Framebuffer expected(kSidePx, kSidePx), actual(kSidePx, kSidePx);
   std::vector<ScreenTriangle> batch;
@@ -100,9 +100,9 @@ SearchResult draw_all(const Lattice& lattice, const std::vector<Painter>& painte
     result.cases += batch.size();
     lab::draw_oracle(batch, expected, kBackground);
     for (const Painter& painter : painters)
-      for (const AblatedExecution& way : ways) {
+      for (const lab::AblatedExecution& way : ways) {
         lab::poison(actual);
-        draw(*painter.backend, batch, actual.view(), kBackground, way);
+        painter.with(way.ablation).draw(batch, actual.view(), kBackground, way.execution);
         result.comparisons += batch.size();
         const auto difference = lab::compare(expected, actual);
         if (difference.pixels == 0) continue;
@@ -137,7 +137,7 @@ TEST(EveryTriangle, ComparisonFindsAWrongBackend) {
   for (const BackendInfo& wrong : {mistaken<Mistake::samples_on_all_edges_are_inside>(),
                                    mistaken<Mistake::one_lane_is_a_unit_deeper>()}) {
     const SearchResult result =
-        draw_all(steps("halves_of_2_px", 2, 2), painters(std::span(&wrong, 1)), {AblatedExecution{}});
+        draw_all(steps("halves_of_2_px", 2, 2), painters(std::span(&wrong, 1)), {lab::AblatedExecution{}});
     ASSERT_TRUE(result.found.has_value());
     EXPECT_EQ(result.found->verdict.replay.at(0).triangles.size(), 1u);
   }

@@ -30,7 +30,7 @@ class WrongBackend : public ::testing::TestWithParam<Variant> {};
 
 TEST_P(WrongBackend, IsFoundAndReducedToASmallStreamThatReproducesIt) {
   const auto wrong = painters(std::span(&GetParam().wrong, 1));
-  const SearchResult result = search(grid_streams(), 300, like_the_oracles(wrong, {AblatedExecution{}}));
+  const SearchResult result = search(grid_streams(), 300, like_the_oracles(wrong, {lab::AblatedExecution{}}));
   ASSERT_TRUE(result.found.has_value());
   ASSERT_EQ(result.found->verdict.replay.size(), 1u);
   const TriangleStream& smallest = result.found->verdict.replay.front();

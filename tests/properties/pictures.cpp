@@ -29,35 +29,35 @@ std::vector<ScreenTriangle> snapped(const TriangleStream& stream, Payload payloa
 
 std::vector<Painter> painters(std::span<const BackendInfo> infos) {
   std::vector<Painter> all;
-  for (const BackendInfo& info : infos) all.push_back({info.name, info.make()});
+  for (const BackendInfo& info : infos) all.push_back({info.name, info});
   return all;
 }
 
-std::span<const AblatedExecution> two_executions() {
-  static const AblatedExecution list[] = {{{1, 64, SimdTarget::scalar}}, {{1, 64, SimdTarget::best}}};
+std::span<const lab::AblatedExecution> two_executions() {
+  static const lab::AblatedExecution list[] = {{{1, 64, SimdTarget::scalar}}, {{1, 64, SimdTarget::best}}};
   return list;
 }
 
 Framebuffer drawn(const Painter& painter, std::span<const ScreenTriangle> triangles, int width, int height,
-                  const AblatedExecution& execution) {
+                  const lab::AblatedExecution& how) {
   Framebuffer frame(width, height);
   lab::poison(frame);
-  draw(*painter.backend, triangles, frame.view(), kBackground, execution);
+  painter.with(how.ablation).draw(triangles, frame.view(), kBackground, how.execution);
   return frame;
 }
 
 void compare_pictures(Verdict& verdict, const Framebuffer& expected, std::span<const Painter> painters,
-                      std::span<const ScreenTriangle> triangles, std::span<const AblatedExecution> ways,
+                      std::span<const ScreenTriangle> triangles, std::span<const lab::AblatedExecution> ways,
                       const std::string& what) {
   for (const Painter& painter : painters)
-    for (const AblatedExecution& way : ways) {
+    for (const lab::AblatedExecution& way : ways) {
       const Framebuffer frame = drawn(painter, triangles, expected.width(), expected.height(), way);
       verdict.compare(difference_text(expected, frame),
                       what + ", " + std::string(painter.name) + ", " + describe(way));
     }
 }
 
-Property like_the_oracles(const std::vector<Painter>& painters, std::vector<AblatedExecution> ways) {
+Property like_the_oracles(const std::vector<Painter>& painters, std::vector<lab::AblatedExecution> ways) {
   return [&painters, ways = std::move(ways)](const TriangleStream& stream) {
     Verdict verdict{.replay = {stream}};
     Framebuffer expected(stream.width, stream.height);

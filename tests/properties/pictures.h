@@ -10,8 +10,8 @@
 
 #include "edgewise/frontend.h"
 #include "edgewise/scene.h"
+#include "lab/measure.h"
 #include "properties/property.h"
-#include "raster/ablation.h"
 
 namespace edgewise::testing {
 
@@ -25,23 +25,26 @@ std::vector<ScreenTriangle> snapped(const TriangleStream& stream, Payload payloa
 // A backend that keeps its memory from one case to the next.
 struct Painter {
   std::string_view name;
-  std::unique_ptr<Backend> backend;
+  BackendInfo info;
+  std::unique_ptr<AblatedBackends> made = std::make_unique<AblatedBackends>();
+
+  Backend& with(const Ablation& ablation) const { return made->get(info, ablation); }
 };
 std::vector<Painter> painters(std::span<const BackendInfo> infos);
 
 // On one thread: the scalar target, and the best SIMD target.
-std::span<const AblatedExecution> two_executions();
+std::span<const lab::AblatedExecution> two_executions();
 
 Framebuffer drawn(const Painter& painter, std::span<const ScreenTriangle> triangles, int width, int height,
-                  const AblatedExecution& execution);
+                  const lab::AblatedExecution& how);
 
 // Compares each painter's picture in each execution with `expected`.
 void compare_pictures(Verdict& verdict, const Framebuffer& expected, std::span<const Painter> painters,
-                      std::span<const ScreenTriangle> triangles, std::span<const AblatedExecution> ways,
+                      std::span<const ScreenTriangle> triangles, std::span<const lab::AblatedExecution> ways,
                       const std::string& what);
 
 // Every painter draws the oracle's picture, with ids and with colours, in every execution. `painters` must
 // outlive the property.
-Property like_the_oracles(const std::vector<Painter>& painters, std::vector<AblatedExecution> ways);
+Property like_the_oracles(const std::vector<Painter>& painters, std::vector<lab::AblatedExecution> ways);
 
 }  // namespace edgewise::testing

@@ -125,7 +125,7 @@ TEST_F(Properties, EqualDepthsKeepTheFirstTriangleOfEachPixel) {
     const auto triangles = snapped(flat, Payload::id);
     std::vector<lab::SnappedTruth> truths(triangles.begin(), triangles.end());
     for (const Painter& painter : painters_)
-      for (const AblatedExecution& way : two_executions()) {
+      for (const lab::AblatedExecution& way : two_executions()) {
         const Framebuffer frame = drawn(painter, triangles, flat.width, flat.height, way);
         int wrong = 0;
         for (int y = 0; y < flat.height; ++y)
@@ -150,7 +150,7 @@ TEST_F(Properties, MovingByMultiplesOf64PixelsChangesNothing) {  // the cell of 
       verdict.replay = {before, after};
       const auto triangles = snapped(before, Payload::id), moved = snapped(after, Payload::id);
       for (const Painter& painter : painters_)
-        for (const AblatedExecution& way : two_executions())
+        for (const lab::AblatedExecution& way : two_executions())
           verdict.compare(
               difference_text(drawn(painter, triangles, before.width, before.height, way),
                               moved_back(drawn(painter, moved, after.width, after.height, way), move)),
@@ -183,7 +183,7 @@ TEST_F(Properties, MovingByWholePixelsKeepsSamplesAndBoundsTheDepthChange) {
       const auto triangles = snapped(before, Payload::id), moved = snapped(after, Payload::id);
       for (const Painter& painter : painters_)
         for (std::size_t i = 0; i < triangles.size(); ++i) {
-          const AblatedExecution& way = two_executions().back();
+          const lab::AblatedExecution& way = two_executions().back();
           const auto here = drawn(painter, std::span(&triangles[i], 1), before.width, before.height, way);
           const auto there = drawn(painter, std::span(&moved[i], 1), after.width, after.height, way);
           verdict.compare(difference_beyond_rounding(here, moved_back(there, move)),

@@ -66,11 +66,11 @@ TEST_P(EveryBackend, KeepsNothingOfThePreviousFrame) {
   const std::vector<ScreenTriangle> frames[] = {joined(small, large), joined(large, small), large, small};
   std::vector<Framebuffer> expected;
   for (const auto& triangles : frames) expected.push_back(oracle(triangles, width, height));
-  for (const auto& execution : testing::executions())
+  for (const auto& how : testing::executions())
     for (const std::size_t i : {0u, 1u, 2u, 3u, 1u, 0u, 3u, 2u, 0u}) {
       Framebuffer actual(width, height);
-      draw(*backend_, frames[i], actual.view(), kBackground, execution);
-      testing::expect_same(expected[i], actual, std::to_string(i) + ", " + testing::describe(execution));
+      backends_.get(info_, how.ablation).draw(frames[i], actual.view(), kBackground, how.execution);
+      testing::expect_same(expected[i], actual, std::to_string(i) + ", " + testing::describe(how));
     }
 }
 
@@ -109,9 +109,9 @@ TEST_P(EveryBackend, TiesKeepTheEarlierTriangle) {
   second.payload = 2;
   const ScreenTriangle both[] = {first, second};
   Framebuffer frame(32, 32);
-  for (const auto& execution : testing::executions()) {
-    draw(*backend_, both, frame.view(), 0, execution);
-    EXPECT_EQ(frame.payload_row(0)[3], 1u) << testing::describe(execution);
+  for (const auto& how : testing::executions()) {
+    backends_.get(info_, how.ablation).draw(both, frame.view(), 0, how.execution);
+    EXPECT_EQ(frame.payload_row(0)[3], 1u) << testing::describe(how);
   }
 }
 
@@ -188,20 +188,21 @@ TEST_P(EveryBackend, WritesEveryPixelOfTheFrameAndNoOther) {
   // Odd strides and starts rule out aligned stores; multiples of four may allow them.
   for (const auto& [stride, offset] :
        {std::pair{kWidth, 0}, {kWidth + 2, 1}, {kWidth + 5, 0}, {kWidth + 5, 3}}) {
-    for (const auto& execution : testing::executions()) {
+    for (const auto& how : testing::executions()) {
       const auto size = static_cast<std::size_t>(stride * (kHeight + 2) + 8);
       std::vector<std::uint32_t> depth(size, kCanary), payload(size, kCanary);
       const std::ptrdiff_t start = stride + offset;
-      draw(*backend_, triangles, {depth.data() + start, payload.data() + start, kWidth, kHeight, stride},
-           kBackground, execution);
+      backends_.get(info_, how.ablation)
+          .draw(triangles, {depth.data() + start, payload.data() + start, kWidth, kHeight, stride},
+                kBackground, how.execution);
       for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(size); ++i) {
         const std::ptrdiff_t x = (i - start) % stride, y = (i - start) / stride;
         const bool in_frame = i >= start && x < kWidth && y < kHeight;
         const auto at = static_cast<std::size_t>(i);
         ASSERT_EQ(depth[at], in_frame ? expected.depth_row(static_cast<int>(y))[x] : kCanary)
-            << testing::describe(execution);
+            << testing::describe(how);
         ASSERT_EQ(payload[at], in_frame ? expected.payload_row(static_cast<int>(y))[x] : kCanary)
-            << testing::describe(execution);
+            << testing::describe(how);
       }
     }
   }

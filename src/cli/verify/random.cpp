@@ -51,7 +51,7 @@ enum class Output { frame, whole_frame, frontend_list };
 struct Probe {
   Output output;
   std::size_t backend = 0;  // index
-  AblatedExecution how;
+  lab::AblatedExecution how;
   lab::GuardedFrame::Layout layout = {};
   bool by_oracle = false;
 };
@@ -67,9 +67,7 @@ std::vector<ScreenTriangle> replayed(const Case& c) {
 // Reuses its buffers between cases.
 class Checker {
  public:
-  Checker(const Plan& plan, Report& report) : plan_(plan), report_(report) {
-    for (const BackendInfo& info : plan.backends) backends_.push_back(info.make());
-  }
+  Checker(const Plan& plan, Report& report) : plan_(plan), report_(report) {}
 
   void check(const Case& c) {
     explained_.clear();
@@ -86,11 +84,12 @@ class Checker {
     // For streams only, draw(drawable, …) takes another path than Backend::draw(). Scenes repeat the front
     // end.
     const bool is_stream = c.drawable && std::holds_alternative<TriangleStream>(*c.drawable);
-    for (std::size_t b = 0; b < backends_.size(); ++b)
+    for (std::size_t b = 0; b < plan_.backends.size(); ++b)
       for (const SimdTarget target : supported_targets())
         for (const int threads : {1, c.threads}) {
           Probe probe{Output::frame, b, {{threads, kTiles[random.below(kTiles.size())], target}}};
-          if (random.below(2) == 0) probe.how.ablation = kAblations[random.below(kAblations.size())];
+          if (random.below(2) == 0)
+            probe.how.ablation = lab::kAblations[random.below(lab::kAblations.size())];
           probe.layout = random_layout(random, c.width);
           if (c.drawable && random.below(is_stream ? 2 : 16) == 0) probe.output = Output::whole_frame;
           check_frame(c, probe, triangles, expected);
@@ -155,14 +154,14 @@ class Checker {
   std::string frame_difference(const Case& c, const Probe& probe, std::span<const ScreenTriangle> triangles,
                                const Framebuffer& expected) {
     lab::GuardedFrame frame(c.width, c.height, probe.layout);
-    Backend& backend = *backends_[probe.backend];
+    Backend& backend = backends_.get(plan_.backends[probe.backend], probe.how.ablation);
     if (probe.output == Output::whole_frame) {
       FrontendOptions options = c.frontend;
       options.threads = probe.how.execution.threads;
       options.target = probe.how.execution.target;
-      draw(*c.drawable, candidate_, options, backend, frame.view(), c.background, probe.how);
+      draw(*c.drawable, candidate_, options, backend, frame.view(), c.background, probe.how.execution);
     } else {
-      draw(backend, triangles, frame.view(), c.background, probe.how);
+      backend.draw(triangles, frame.view(), c.background, probe.how.execution);
     }
     const lab::FrameDifference found = lab::compare(expected, frame);
     if (!found.any()) return {};
@@ -180,7 +179,7 @@ class Checker {
   Framebuffer reference_frame(const Case& c, std::span<const ScreenTriangle> triangles) {
     Framebuffer frame(c.width, c.height);
     lab::poison(frame);
-    backends_[0]->draw(triangles, frame.view(), c.background, kReferenceExecution);
+    backends_.get(plan_.backends[0], {}).draw(triangles, frame.view(), c.background, kReferenceExecution);
     return frame;
   }
 
@@ -295,7 +294,7 @@ class Checker {
 
   const Plan& plan_;
   Report& report_;
-  std::vector<std::unique_ptr<Backend>> backends_;
+  AblatedBackends backends_;
   Frontend plain_, candidate_;
   std::vector<ScreenTriangle> expected_list_;
   std::vector<std::string> explained_;

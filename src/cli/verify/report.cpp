@@ -83,7 +83,7 @@ nlohmann::json scene_json(const SceneVerdict& v) {
 
 }  // namespace
 
-std::string describe(const AblatedExecution& how) {
+std::string describe(const lab::AblatedExecution& how) {
   const Execution& e = how.execution;
   const std::string left_out = edgewise::describe(how.ablation);
   return fmt::format("{} thread{}, {}, tile {}{}{}", e.threads, e.threads == 1 ? "" : "s",

@@ -20,7 +20,7 @@ class VerifyTable {
 };
 
 // "2 threads, avx2, tile 64, no prefetch"
-std::string describe(const AblatedExecution& how);
+std::string describe(const lab::AblatedExecution& how);
 
 // The differences of a scene in detail; empty if there are none.
 std::string explain(const SceneVerdict& verdict);

@@ -8,7 +8,6 @@
 #include "cli/verify/pictures.h"
 #include "cli/verify/scenes.h"
 #include "image/pictures.h"
-#include "lab/measure.h"
 #include "lab/oracle.h"
 
 namespace edgewise::tools {
@@ -25,7 +24,7 @@ struct Judgement {
 
 // How a frame is drawn. A whole frame is drawn by draw(drawable, …), which includes the front end.
 struct Configuration {
-  AblatedExecution how;
+  lab::AblatedExecution how;
   bool whole_frame = false;
 };
 
@@ -44,7 +43,7 @@ std::vector<Configuration> configurations(const VerifyPlan& plan) {
     for (const SimdTarget target : supported_targets()) all.push_back({{{threads, 64, target}}});
     for (const int tile : {16, 32}) all.push_back({{{threads, tile, resolve(SimdTarget::best)}}});
   }
-  for (const Ablation& ablation : kAblations)
+  for (const Ablation& ablation : lab::kAblations)
     all.push_back({{{plan.threads.front(), 64, resolve(SimdTarget::best)}, ablation}});
   return all;
 }
@@ -152,15 +151,18 @@ class SceneCheck {
 
   void draw(const Judgement& j, std::size_t backend, const Configuration& configuration) {
     candidate_->poison();
-    const AblatedExecution& how = configuration.how;
+    const lab::AblatedExecution& how = configuration.how;
+    std::unique_ptr<Backend> ablated;  // not kept, since its memory grows with the scene
+    if (how.ablation != Ablation{}) ablated = make(plan_.backends[backend], how.ablation);
+    Backend& drawer = ablated ? *ablated : *backends_[backend];
     const std::uint32_t background = background_of(j.shot.frontend.payload);
     if (configuration.whole_frame) {
       FrontendOptions frontend = j.shot.frontend;
       frontend.target = how.execution.target;
-      edgewise::draw(j.shot.source.drawable, whole_frames_, frontend, *backends_[backend], candidate_->view(),
-                     background, how);
+      edgewise::draw(j.shot.source.drawable, whole_frames_, frontend, drawer, candidate_->view(), background,
+                     how.execution);
     } else {
-      edgewise::draw(*backends_[backend], j.triangles, candidate_->view(), background, how);
+      drawer.draw(j.triangles, candidate_->view(), background, how.execution);
     }
   }
 

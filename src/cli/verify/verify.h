@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "edgewise/frontend.h"
-#include "raster/ablation.h"
+#include "lab/measure.h"
 #include "support/options.h"
 
 namespace edgewise::tools {
@@ -40,7 +40,7 @@ struct Mismatch {
   int width, height;
   std::string judge;  // the reference's name, or "oracle"
   std::string backend;
-  AblatedExecution how;
+  lab::AblatedExecution how;
   bool whole_frame;       // drawn by draw(drawable, …), not from the judge's triangles
   std::uint64_t pixels;   // that differ
   std::uint64_t outside;  // words written outside the image

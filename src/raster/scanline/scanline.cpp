@@ -11,12 +11,12 @@ namespace edgewise {
 namespace {
 
 class Scanline final : public TileBackend {
+  using TileBackend::TileBackend;
   bool draw_source(TriangleSource& triangles, FrameView frame, std::uint32_t background,
                    const Execution& execution) override {
-    return draw_in_tiles(triangles, frame, background, execution, ablation, contract::kMaxTile, scratch_,
+    return draw_in_tiles(triangles, frame, background, execution, ablation_, contract::kMaxTile, scratch_,
                          Bins::Small::as_indices, scanline_kernel(execution.target));
   }
-  TileScratch scratch_;
 };
 
 }  // namespace
@@ -24,8 +24,11 @@ class Scanline final : public TileBackend {
 extern const std::string_view summary_scanline;
 const std::string_view summary_scanline =
     "walks the edges row by row and fills the spans between them; the reference";
+std::unique_ptr<Backend> make_scanline(const Ablation& ablation) {
+  return std::make_unique<Scanline>(ablation);
+}
 std::unique_ptr<Backend> make_scanline() {
-  return std::make_unique<Scanline>();
+  return make_scanline(Ablation{});
 }
 
 }  // namespace edgewise

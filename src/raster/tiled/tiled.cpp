@@ -9,13 +9,13 @@ namespace edgewise {
 namespace {
 
 class Tiled final : public TileBackend {
+  using TileBackend::TileBackend;
   bool draw_source(TriangleSource& triangles, FrameView frame, std::uint32_t background,
                    const Execution& execution) override {
-    return draw_in_tiles(triangles, frame, background, execution, ablation, execution.tile_size, scratch_,
-                         ablation.coverage_masks ? Bins::Small::as_masks : Bins::Small::as_indices,
+    return draw_in_tiles(triangles, frame, background, execution, ablation_, execution.tile_size, scratch_,
+                         ablation_.coverage_masks ? Bins::Small::as_masks : Bins::Small::as_indices,
                          tile_kernel(execution.target));
   }
-  TileScratch scratch_;
 };
 
 }  // namespace
@@ -23,8 +23,11 @@ class Tiled final : public TileBackend {
 extern const std::string_view summary_tiled;
 const std::string_view summary_tiled =
     "SIMD edge functions over tiles, tiles on threads, every pixel independent";
+std::unique_ptr<Backend> make_tiled(const Ablation& ablation) {
+  return std::make_unique<Tiled>(ablation);
+}
 std::unique_ptr<Backend> make_tiled() {
-  return std::make_unique<Tiled>();
+  return make_tiled(Ablation{});
 }
 
 }  // namespace edgewise
