@@ -189,12 +189,12 @@ struct Frontend::State {
     if (options.keep_unsnapped) std::copy_n(out.unsnapped.data(), out.count, unsnapped.data() + at);
   }
 
-  // Replaces the ids of the output's triangles from `first` on, which are indices in the mesh, by colours.
+  // Replaces ids by colours in the output's triangles from `first` on.
   void set_colours(const GroupMember& member, std::size_t first, ChunkOutput& out, ShadeKernel shade) {
     if (options.shade) return shade(member.light, out, first);
     const Mesh& mesh = member.task.mesh;
     std::for_each_n(out.triangles.data() + first, out.count - first, [&](ScreenTriangle& t) {
-      const std::uint32_t index = t.payload;
+      const std::uint32_t index = t.payload - member.task.first_id;
       t.payload = mesh.colours[index];
     });
   }
@@ -320,19 +320,18 @@ struct Frontend::State {
       const Mesh& mesh = mesh_of(scene, instance);
       check(mesh);
       const glm::dmat4 model = model_matrix(instance);
-      const MeshTask task{
-          .options = options,
-          .mesh = mesh,
-          .view = view,
-          .to_screen = {pixels, scene.camera.position, model},
-          .depth = depth,
-          .vertices = nullptr,
-          .vertex_range = {0, mesh.positions.size()},
-          .first_id = options.payload == Payload::id ? static_cast<std::uint32_t>(first_triangle) : 0,
-          .states = options.keep_states ? states.data() + first_triangle : nullptr};
+      const MeshTask task{.options = options,
+                          .mesh = mesh,
+                          .view = view,
+                          .to_screen = {pixels, scene.camera.position, model},
+                          .depth = depth,
+                          .vertices = nullptr,
+                          .vertex_range = {0, mesh.positions.size()},
+                          .first_id = static_cast<std::uint32_t>(first_triangle),
+                          .states = options.keep_states ? states.data() + first_triangle : nullptr};
       ++stats.meshes;
       stats.triangles += mesh.triangles.size();
-      const ShadeTask light{mesh, cofactor_matrix(model), to_light};
+      const ShadeTask light{mesh, cofactor_matrix(model), to_light, task.first_id};
       mesh.clusters.empty() ? add_whole(task, light) : add_parts(task, light);
       first_triangle += mesh.triangles.size();
     }

@@ -136,7 +136,7 @@ void shade_all(const ShadeTask& task, ChunkOutput& out, std::size_t first) {
     float sides[kBatch];
     for (std::size_t lane = 0; lane < kBatch; ++lane) {
       const ScreenTriangle& seen = triangles[i + std::min(lane, count - 1)];
-      const std::uint32_t index = seen.payload;
+      const std::uint32_t index = seen.payload - task.first_id;
       if constexpr (kFlagged) sides[lane] = side_seen(task.mesh, index, seen);
       if constexpr (kNormals)
         sources[lane] = vectors[index];
@@ -204,7 +204,7 @@ std::vector<std::uint32_t> lit_colours(const Scene& scene) {
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes.at(instance.mesh);
     const glm::dmat4 model = model_matrix(instance);
-    const ShadeTask task{mesh, cofactor_matrix(model), to_light};
+    const ShadeTask task{mesh, cofactor_matrix(model), to_light, 0};
     for (std::size_t begin = 0; begin < mesh.triangles.size(); begin += kChunkTriangles) {
       out.count = std::min(kChunkTriangles, mesh.triangles.size() - begin);
       for (std::size_t i = 0; i < out.count; ++i)

@@ -15,11 +15,12 @@ glm::dmat3 cofactor_matrix(const glm::dmat4& model);
 
 struct ShadeTask {
   const Mesh& mesh;
-  glm::dmat3 cofactor;  // of the model matrix
-  glm::dvec3 to_light;  // normalised
+  glm::dmat3 cofactor;     // of the model matrix
+  glm::dvec3 to_light;     // normalised
+  std::uint32_t first_id;  // of the mesh's triangles
 };
 
-// Replaces the ids of the output's triangles from `first` on, which are indices in the mesh, by lit colours.
+// Replaces ids by lit colours in the output's triangles from `first` on.
 using ShadeKernel = void (*)(const ShadeTask& task, ChunkOutput& out, std::size_t first);
 
 // `target` must be resolved.

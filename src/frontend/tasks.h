@@ -23,7 +23,7 @@ struct MeshTask {
   ViewDepth depth;                  // w → contract units
   Vertex* vertices;                 // by the mesh's indices
   VertexRange vertex_range{};       // of those in `vertices`
-  std::uint32_t first_id = 0;       // of the mesh's triangles; 0 where colours will replace ids
+  std::uint32_t first_id = 0;       // of the mesh's triangles
   TriangleState* states = nullptr;  // one per triangle, to be written; null: not needed
 
   // True if add_one() must handle every triangle.
@@ -49,8 +49,10 @@ inline int workers_for(std::size_t count, int threads) {
   return count < kWorthThreads ? 1 : threads;
 }
 
-// A chunk's visible triangles. Each worker has one and reuses it for all its chunks. The alignment keeps two
-// workers' outputs out of the same pair of cache lines, which processors fetch together.
+// A chunk's visible triangles. Assembly writes ids as the payloads of a mesh's triangles. For
+// Payload::colour, colours then replace the ids. Each worker has one output and reuses it for all its chunks.
+// The alignment keeps two workers' outputs out of the same pair of cache lines, which processors fetch
+// together.
 struct alignas(128) ChunkOutput {
   // A triangle clipped by six planes has at most nine vertices, so it becomes at most seven triangles. The
   // last vector is stored whole.
