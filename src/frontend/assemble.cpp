@@ -48,8 +48,8 @@ void assemble_all(const MeshTask& task, std::size_t begin, std::size_t end, Chun
     for (std::size_t i = from; i < to; ++i) add_one(task, i, out);
   };
   std::size_t i = begin;
-  for (; i + kBatch <= end; i += kBatch)
-    if (!assemble_vector<kFlagged>(task, i, out)) one_by_one(i, i + kBatch);
+  for (; i + kLanes <= end; i += kLanes)
+    if (!assemble_vector<kFlagged>(task, i, out)) one_by_one(i, i + kLanes);
   one_by_one(i, end);
 }
 
@@ -60,14 +60,14 @@ HWY_INLINE VertexRange index_range(const Mesh& mesh, std::size_t begin, std::siz
   const std::size_t count = 3 * (end - begin);
   auto least = hn::Set(d, index[0]), most = least;
   std::size_t i = 0;
-  for (; i + kBatch <= count; i += kBatch) {
+  for (; i + kLanes <= count; i += kLanes) {
     const auto indices = hn::LoadU(d, index + i);
     least = hn::Min(least, indices), most = hn::Max(most, indices);
   }
-  std::uint32_t leasts[kBatch], mosts[kBatch];
+  std::uint32_t leasts[kLanes], mosts[kLanes];
   hn::StoreU(least, d, leasts), hn::StoreU(most, d, mosts);
-  std::uint32_t first = *std::min_element(leasts, leasts + kBatch),
-                last = *std::max_element(mosts, mosts + kBatch);
+  std::uint32_t first = *std::min_element(leasts, leasts + kLanes),
+                last = *std::max_element(mosts, mosts + kLanes);
   for (; i < count; ++i) first = std::min(first, index[i]), last = std::max(last, index[i]);
   return {first, std::size_t{last} + 1};
 }

@@ -12,35 +12,35 @@
 
 namespace edgewise {
 
-// Vertices or triangles begin … end - 1 of a group's member.
-struct MeshRun {
-  std::size_t member, begin, end;
+// Vertices or triangles begin … end - 1 of a part, which has this index in its group.
+struct PartRange {
+  std::size_t part, begin, end;
   VertexRange allowed;  // of triangles: vertices that they may name
 };
 
 class Chunks {
  public:
   void clear() {
-    runs_.clear();
+    ranges_.clear();
     ends_.clear();
     total_ = room_ = 0;
   }
-  // Makes room for `count` elements from up to `runs` calls of add().
-  void reserve(std::size_t count, std::size_t runs) {
+  // Makes room for `count` elements from up to `ranges` calls of add().
+  void reserve(std::size_t count, std::size_t ranges) {
     const std::size_t chunks = count / kChunkTriangles + 1;
-    runs_.reserve(runs + chunks);
+    ranges_.reserve(ranges + chunks);
     ends_.reserve(chunks);
   }
   // Appends `count` elements from index `first` on.
-  void add(std::size_t member, std::size_t first, std::size_t count, VertexRange allowed = {}) {
+  void add(std::size_t part, std::size_t first, std::size_t count, VertexRange allowed = {}) {
     const std::size_t last = first + count;
     for (std::size_t begin = first, end; begin < last; begin = end) {
       if (room_ == 0) {
-        ends_.push_back(runs_.size());
+        ends_.push_back(ranges_.size());
         room_ = kChunkTriangles;
       }
       end = std::min(last, begin + room_);
-      runs_.push_back({member, begin, end, allowed});
+      ranges_.push_back({part, begin, end, allowed});
       ++ends_.back();
       room_ -= end - begin;
     }
@@ -48,15 +48,15 @@ class Chunks {
   }
 
   std::size_t size() const { return ends_.size(); }  // chunks
-  std::span<const MeshRun> operator[](std::size_t chunk) const {
+  std::span<const PartRange> operator[](std::size_t chunk) const {
     const std::size_t first = chunk == 0 ? 0 : ends_[chunk - 1];
-    return {runs_.data() + first, ends_[chunk] - first};
+    return {ranges_.data() + first, ends_[chunk] - first};
   }
   std::size_t total() const { return total_; }  // elements
 
  private:
-  std::vector<MeshRun> runs_;
-  std::vector<std::size_t> ends_;     // the end of each chunk in runs_
+  std::vector<PartRange> ranges_;
+  std::vector<std::size_t> ends_;     // the end of each chunk in ranges_
   std::size_t total_ = 0, room_ = 0;  // elements: in all chunks; that still fit the last chunk
 };
 

@@ -53,8 +53,8 @@ HWY_INLINE void cull_and_append(const TriangleVectors& t, MI outside, Cull cull,
   const MI keep = hn::AndNot(outside, faces);
   const MI zero = hn::AndNot(outside, hn::Eq(sign, hn::Zero(d)));
   const std::size_t kept = hn::CountTrue(d, keep), flat = hn::CountTrue(d, zero);
-  const std::size_t pieces = kBatch - hn::CountTrue(d, outside);
-  out.stats.outside += kBatch - pieces;
+  const std::size_t pieces = kLanes - hn::CountTrue(d, outside);
+  out.stats.outside += kLanes - pieces;
   out.stats.pieces += pieces;
   out.stats.zero_area += flat;
   out.stats.culled += pieces - flat - kept;
@@ -66,10 +66,10 @@ HWY_INLINE void cull_and_append(const TriangleVectors& t, MI outside, Cull cull,
   std::uint8_t bits[8];
   hn::StoreMaskBits(d, keep, bits);
   std::uint32_t kept_lanes = 0;
-  std::memcpy(&kept_lanes, bits, (kBatch + 7) / 8);
-  ScreenTriangle* place[kBatch];
+  std::memcpy(&kept_lanes, bits, (kLanes + 7) / 8);
+  ScreenTriangle* place[kLanes];
   ScreenTriangle* next = out.triangles.data() + out.count;
-  for (std::size_t lane = 0; lane < kBatch; ++lane) {
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
     place[lane] = next;
     next += kept_lanes >> lane & 1;
   }

@@ -3,8 +3,8 @@
 // - triangles: assemble.cpp for meshes, stream.cpp for streams; one_by_one.cpp and clip.cpp for special cases
 // - colours: shade.cpp
 // - output in submission order: in_order.h
-// A mesh with clusters is cut into parts (mesh_clusters.h). Parts and whole meshes are processed in groups,
-// and each group is cut into chunks (chunks.h).
+// A mesh with clusters is cut into parts (mesh_clusters.h); others are one part. Consecutive parts form a
+// group, which is cut into chunks (chunks.h).
 #include "edgewise/frontend.h"
 
 #include <algorithm>
@@ -111,12 +111,12 @@ FrontendStats& FrontendStats::operator+=(const FrontendStats& o) {
   return *this;
 }
 
-// An instance's mesh, or a part of it.
-struct GroupMember {
+// Of an instance: clusters of its mesh, or all of it.
+struct MeshPart {
   MeshTask task;
   ShadeTask light;
-  std::size_t first_vertex;  // in State::vertices, of the mesh or part
-  // Sides beyond which all finite vertices lie. 0 for a part, which is in view.
+  std::size_t first_vertex;  // in State::vertices
+  // Sides beyond which all finite vertices lie. 0 for clusters, which are in view.
   std::uint32_t common;
 
   // True if all of it lies beyond one side of the view. False without a finite vertex.
@@ -124,16 +124,16 @@ struct GroupMember {
 };
 
 struct Frontend::State {
-  // A group holds consecutive members: most are too small to be worth several threads alone.
-  static constexpr std::size_t kMaxMembers = kWorthThreads;
+  // A group holds consecutive parts: most are too small to be worth several threads alone.
+  static constexpr std::size_t kMaxParts = kWorthThreads;
   // More threads get larger groups, since they meet at each group's end. All vertices of a group must fit the
   // caches.
   std::size_t max_vertices() const {
     const auto eights = static_cast<std::size_t>(options.threads / 8);
     return std::max(4 * kWorthThreads, eights * ClusterPart::kMaxVertices);
   }
-  std::vector<GroupMember> group;
-  ClusterPart part;
+  std::vector<MeshPart> group;
+  ClusterPart cluster_part;
   Chunks vertex_chunks, triangle_chunks;
   std::size_t group_vertices = 0;  // room for them, in `vertices`
   // Tasks index vertices as the mesh does, but only a part's are there. So the first `unused` records, as
@@ -169,14 +169,13 @@ struct Frontend::State {
   void transform_group() {
     const TransformKernel transform = transform_kernel(options.target);
     vertices.reserve(unused + group_vertices);
-    for (GroupMember& member : group)
-      member.task.vertices =
-          vertices.data() + (unused + member.first_vertex - member.task.vertex_range.first);
+    for (MeshPart& part : group)
+      part.task.vertices = vertices.data() + (unused + part.first_vertex - part.task.vertex_range.first);
     parallel_for(workers_for(vertex_chunks.total(), options.threads), static_cast<int>(vertex_chunks.size()),
                  [&](int chunk) {
-                   for (const MeshRun& run : vertex_chunks[static_cast<std::size_t>(chunk)]) {
-                     GroupMember& member = group[run.member];
-                     std::atomic_ref(member.common) &= transform(member.task, run.begin, run.end);
+                   for (const PartRange& range : vertex_chunks[static_cast<std::size_t>(chunk)]) {
+                     MeshPart& part = group[range.part];
+                     std::atomic_ref(part.common) &= transform(part.task, range.begin, range.end);
                    }
                  });
   }
@@ -190,40 +189,40 @@ struct Frontend::State {
   }
 
   // Replaces ids by colours in the output's triangles from `first` on.
-  void set_colours(const GroupMember& member, std::size_t first, ChunkOutput& out, ShadeKernel shade) {
-    if (options.shade) return shade(member.light, out, first);
-    const Mesh& mesh = member.task.mesh;
+  void set_colours(const MeshPart& part, std::size_t first, ChunkOutput& out, ShadeKernel shade) {
+    if (options.shade) return shade(part.light, out, first);
+    const Mesh& mesh = part.task.mesh;
     std::for_each_n(out.triangles.data() + first, out.count - first, [&](ScreenTriangle& t) {
-      const std::uint32_t index = t.payload - member.task.first_id;
+      const std::uint32_t index = t.payload - part.task.first_id;
       t.payload = mesh.colours[index];
     });
   }
 
   void assemble_group() {
-    for (const GroupMember& member : group) {
-      if (!member.out_of_sight()) continue;
+    for (const MeshPart& part : group) {
+      if (!part.out_of_sight()) continue;
       ++stats.meshes_culled;
-      drop(member.task, 0, member.task.mesh.triangles.size());
+      drop(part.task, 0, part.task.mesh.triangles.size());
     }
     const AssembleKernel assemble = assemble_kernel(options.target);
     const ShadeKernel shade = shade_kernel(options.target);
     std::atomic<bool> all_exist{true};
     const auto make = [&](std::size_t chunk, ChunkOutput& out) {
-      for (const MeshRun& run : triangle_chunks[chunk]) {
-        const GroupMember& member = group[run.member];
+      for (const PartRange& range : triangle_chunks[chunk]) {
+        const MeshPart& part = group[range.part];
         const std::size_t first = out.count;
-        if (member.out_of_sight()) continue;
-        if (!assemble(member.task, run.begin, run.end, run.allowed, out))
+        if (part.out_of_sight()) continue;
+        if (!assemble(part.task, range.begin, range.end, range.allowed, out))
           all_exist = false;
         else if (options.payload == Payload::colour)
-          set_colours(member, first, out, shade);
+          set_colours(part, first, out, shade);
       }
     };
     order.for_each_chunk(triangle_chunks.size(), triangle_chunks.total(), make,
                          [&](const ChunkOutput& out, std::size_t at) { place(out, at); });
     if (all_exist) return;
-    for (const GroupMember& member : group)
-      if (!member.out_of_sight()) throw_if_vertex_missing(member.task.mesh);
+    for (const MeshPart& part : group)
+      if (!part.out_of_sight()) throw_if_vertex_missing(part.task.mesh);
     throw std::invalid_argument("a mesh's clusters were made for other triangles");
   }
 
@@ -247,19 +246,18 @@ struct Frontend::State {
     start_group();
   }
 
-  // Returns the new member's index. Its vertices and triangles must then be added to the chunks.
-  std::size_t add_member(const MeshTask& task, const ShadeTask& light, std::uint32_t common) {
-    if (group_vertices + task.vertex_range.size() > max_vertices() || group.size() == kMaxMembers)
-      run_group();
+  // Returns the new part's index. Its vertices and triangles must then be added to the chunks.
+  std::size_t add_part(const MeshTask& task, const ShadeTask& light, std::uint32_t common) {
+    if (group_vertices + task.vertex_range.size() > max_vertices() || group.size() == kMaxParts) run_group();
     group.push_back({task, light, group_vertices, common});
     group_vertices += task.vertex_range.size();
     return group.size() - 1;
   }
 
   void add_whole(const MeshTask& task, const ShadeTask& light) {
-    const std::size_t member = add_member(task, light, kInvisible | kNotFinite);
-    vertex_chunks.add(member, 0, task.mesh.positions.size());
-    triangle_chunks.add(member, 0, task.mesh.triangles.size(), task.vertex_range);
+    const std::size_t part = add_part(task, light, kInvisible | kNotFinite);
+    vertex_chunks.add(part, 0, task.mesh.positions.size());
+    triangle_chunks.add(part, 0, task.mesh.triangles.size(), task.vertex_range);
   }
 
   void add_parts(MeshTask task, const ShadeTask& light) {
@@ -271,23 +269,23 @@ struct Frontend::State {
       drop(task, outside.first, outside.count);
       return true;
     };
-    part.start(mesh, mesh.clusters);
+    cluster_part.start(mesh, mesh.clusters);
     bool in_view = false;
-    while (part.take(drop_if_outside)) {
+    while (cluster_part.take(drop_if_outside)) {
       in_view = true;
-      task.vertex_range = part.range();
-      const std::size_t member = add_member(task, light, 0);
-      part.for_each_vertex_run(
-          [&](std::size_t first, std::size_t count) { vertex_chunks.add(member, first, count); });
-      part.for_each_triangle_run([&](std::size_t first, std::size_t count, VertexRange range) {
-        triangle_chunks.add(member, first, count, range);
+      task.vertex_range = cluster_part.range();
+      const std::size_t part = add_part(task, light, 0);
+      cluster_part.for_each_vertex_range(
+          [&](std::size_t first, std::size_t count) { vertex_chunks.add(part, first, count); });
+      cluster_part.for_each_triangle_range([&](std::size_t first, std::size_t count, VertexRange range) {
+        triangle_chunks.add(part, first, count, range);
       });
     }
     stats.meshes_culled += !in_view;
   }
 
-  // Makes room for any view of the scene, so that a camera that turns allocates nothing. At least one block
-  // of vertices lies between two runs of a part.
+  // Makes room for any view of the scene, so that a camera that turns allocates nothing. At least one granule
+  // of vertices lies between two ranges of a part.
   void reserve_for_clusters(const Scene& scene) {
     std::size_t clusters = 0, triangles = 0, most_vertices = max_vertices();
     unused = 0;
@@ -298,14 +296,14 @@ struct Frontend::State {
       most_vertices = std::max(most_vertices, mesh.positions.size());
       if (!mesh.clusters.empty()) unused = std::max(unused, mesh.positions.size());
     }
-    // A block of vertices stays aligned to cache lines.
-    unused = (unused + ClusterPart::kBlock - 1) / ClusterPart::kBlock * ClusterPart::kBlock;
+    // A granule of vertices stays aligned to cache lines.
+    unused = (unused + ClusterPart::kGranule - 1) / ClusterPart::kGranule * ClusterPart::kGranule;
     if (clusters == 0) return;
-    const std::size_t members = std::min(clusters + scene.instances.size(), kMaxMembers);
+    const std::size_t parts = std::min(clusters + scene.instances.size(), kMaxParts);
     vertices.reserve(unused + most_vertices);
-    group.reserve(members);
-    vertex_chunks.reserve(most_vertices, members + most_vertices / (2 * ClusterPart::kBlock));
-    triangle_chunks.reserve(triangles, clusters + members);
+    group.reserve(parts);
+    vertex_chunks.reserve(most_vertices, parts + most_vertices / (2 * ClusterPart::kGranule));
+    triangle_chunks.reserve(triangles, clusters + parts);
   }
 
   void run_scene(const Scene& scene) {

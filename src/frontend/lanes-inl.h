@@ -25,7 +25,7 @@ using DF = hn::Rebind<float, DI>;
 using VI = hn::Vec<DI>;
 using VF = hn::Vec<DF>;
 // Triangles or vertices that are processed together.
-constexpr std::size_t kBatch = hn::MaxLanes(DI{});
+constexpr std::size_t kLanes = hn::MaxLanes(DI{});
 
 // first, first + 1, … raster/simd/lanes-inl.h says why this is not Iota(first).
 HWY_INLINE VI counting_from(std::size_t first) {

@@ -55,7 +55,7 @@ std::vector<MeshCluster> clusters_of(const Mesh& mesh) {
   part.start(mesh, clusters);
   std::size_t transformed = 0;
   while (part.take([](std::size_t) { return false; })) {
-    part.for_each_vertex_run([&](std::size_t, std::size_t run) { transformed += run; });
+    part.for_each_vertex_range([&](std::size_t, std::size_t count) { transformed += count; });
     if (transformed > 2 * vertices) return {};
   }
   return clusters;
@@ -101,13 +101,14 @@ VertexRange ClusterPart::checked_vertices(std::size_t cluster) const {
 }
 
 void ClusterPart::mark_vertices() {
-  blocks_.assign((range_.size() + kBlock - 1) / kBlock, 0);
-  const auto block_of = [&](std::size_t vertex) { return (vertex - range_.first) / kBlock; };
+  granules_.assign((range_.size() + kGranule - 1) / kGranule, 0);
+  const auto granule_of = [&](std::size_t vertex) { return (vertex - range_.first) / kGranule; };
   for (const std::size_t cluster : clusters_) {
     const VertexRange range = vertices_of(all_[cluster]);
     if (range.size() <= kMaxVertices) {
-      std::fill(blocks_.begin() + static_cast<std::ptrdiff_t>(block_of(range.first)),
-                blocks_.begin() + static_cast<std::ptrdiff_t>(block_of(range.end - 1)) + 1, std::uint8_t{1});
+      std::fill(granules_.begin() + static_cast<std::ptrdiff_t>(granule_of(range.first)),
+                granules_.begin() + static_cast<std::ptrdiff_t>(granule_of(range.end - 1)) + 1,
+                std::uint8_t{1});
       continue;
     }
     // The cluster spans two distant ranges of vertices, or it names vertices in random order.
@@ -115,7 +116,7 @@ void ClusterPart::mark_vertices() {
     for (std::size_t i = 0; i < triangles.count; ++i)
       for (int k = 0; k < 3; ++k) {
         const std::size_t vertex = mesh_->triangles[triangles.first + i][k];
-        if (range.contains({vertex, vertex + 1})) blocks_[block_of(vertex)] = 1;  // else assemble() fails
+        if (range.contains({vertex, vertex + 1})) granules_[granule_of(vertex)] = 1;  // else assemble() fails
       }
   }
 }

@@ -72,7 +72,7 @@ class ClusterPart {
  public:
   // A part has at most this many vertices, unless a single cluster has more.
   static constexpr std::size_t kMaxVertices = kL2Bytes / 4 * 3 / sizeof(Vertex);
-  static constexpr std::size_t kBlock = 64;  // vertices, which are marked block by block
+  static constexpr std::size_t kGranule = 64;  // vertices, which are marked together
 
   // Takes parts of this mesh from now on. Both must outlive the parts.
   void start(const Mesh& mesh, std::span<const MeshCluster> clusters) {
@@ -80,7 +80,7 @@ class ClusterPart {
     all_ = clusters;
     next_ = 0;
     clusters_.reserve(clusters.size());
-    blocks_.reserve(mesh.positions.size() / kBlock + 1);
+    granules_.reserve(mesh.positions.size() / kGranule + 1);
   }
   // Replaces the contents by the next clusters for which is_excluded(index) is false. Calls it once for each
   // excluded cluster, and at most twice for any other. Returns false if no cluster is left. Throws
@@ -101,11 +101,11 @@ class ClusterPart {
     return true;
   }
   VertexRange range() const { return range_; }  // of all its vertices
-  // Calls visit(first, count, range) for runs of its triangles, in order. All vertices of the range are
+  // Calls visit(first, count, range) for ranges of its triangles, in order. All vertices of the range are
   // marked, except for a cluster of more than kMaxVertices. That is a part of its own, and only the vertices
   // that its triangles name are marked.
   template <typename Visit>
-  void for_each_triangle_run(Visit&& visit) const {
+  void for_each_triangle_range(Visit&& visit) const {
     for (std::size_t i = 0; i < clusters_.size();) {
       const std::size_t begin = i;
       VertexRange range = vertices_of(all_[clusters_[i]]);
@@ -119,15 +119,15 @@ class ClusterPart {
       visit(first, last.first + last.count - first, range);
     }
   }
-  // Calls visit(first, count) for runs of marked vertices, in order: those that triangles may name.
+  // Calls visit(first, count) for ranges of marked vertices, in order: those that triangles may name.
   template <typename Visit>
-  void for_each_vertex_run(Visit&& visit) const {
-    for (std::size_t begin = 0, end; begin < blocks_.size(); begin = end + 1) {
+  void for_each_vertex_range(Visit&& visit) const {
+    for (std::size_t begin = 0, end; begin < granules_.size(); begin = end + 1) {
       end = begin;
-      while (end < blocks_.size() && blocks_[end] != 0) ++end;
+      while (end < granules_.size() && granules_[end] != 0) ++end;
       if (end == begin) continue;
-      const std::size_t first = range_.first + begin * kBlock;
-      visit(first, std::min(range_.first + end * kBlock, range_.end) - first);
+      const std::size_t first = range_.first + begin * kGranule;
+      visit(first, std::min(range_.first + end * kGranule, range_.end) - first);
     }
   }
 
@@ -140,7 +140,7 @@ class ClusterPart {
   std::size_t next_ = 0;  // of all_
   std::vector<std::size_t> clusters_;
   VertexRange range_{};
-  std::vector<std::uint8_t> blocks_;  // nonzero: the vertices of this block of range_ are marked
+  std::vector<std::uint8_t> granules_;  // nonzero: the vertices of this granule of range_ are marked
 };
 
 }  // namespace edgewise

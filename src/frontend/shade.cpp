@@ -94,7 +94,7 @@ HWY_INLINE VF real(VI v) {
 }
 
 // With the faces' normals, of four words each.
-HWY_INLINE VF cosines(const ShadeTask& task, const Padded&, const float* const (&normals)[kBatch]) {
+HWY_INLINE VF cosines(const ShadeTask& task, const Padded&, const float* const (&normals)[kLanes]) {
   const Words n = load_words([&](std::size_t lane) { return normals[lane]; });
   const auto of_normal = [&](auto x, auto y, auto z) HWY_ATTR {
     return lambert(task, Vec3<decltype(x)>{x, y, z});
@@ -103,7 +103,7 @@ HWY_INLINE VF cosines(const ShadeTask& task, const Padded&, const float* const (
 }
 
 HWY_INLINE VF cosines(const ShadeTask& task, const Padded& positions,
-                      const glm::uvec3* const (&corners)[kBatch]) {
+                      const glm::uvec3* const (&corners)[kLanes]) {
   const auto corner = [&](int k) HWY_ATTR {
     return load_words([&](std::size_t lane) { return positions[(*corners[lane])[k]]; });
   };
@@ -129,12 +129,12 @@ void shade_all(const ShadeTask& task, ChunkOutput& out, std::size_t first) {
   const Padded vectors(kNormals ? task.mesh.normals : task.mesh.positions);
   using Source = std::conditional_t<kNormals, const float*, const glm::uvec3*>;
   ScreenTriangle* triangles = out.triangles.data();
-  for (std::size_t i = first; i < out.count; i += kBatch) {
-    const std::size_t count = std::min(kBatch, out.count - i);
-    Source sources[kBatch];
-    std::uint32_t colours[kBatch];
-    float sides[kBatch];
-    for (std::size_t lane = 0; lane < kBatch; ++lane) {
+  for (std::size_t i = first; i < out.count; i += kLanes) {
+    const std::size_t count = std::min(kLanes, out.count - i);
+    Source sources[kLanes];
+    std::uint32_t colours[kLanes];
+    float sides[kLanes];
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
       const ScreenTriangle& seen = triangles[i + std::min(lane, count - 1)];
       const std::uint32_t index = seen.payload - task.first_id;
       if constexpr (kFlagged) sides[lane] = side_seen(task.mesh, index, seen);

@@ -23,9 +23,9 @@ namespace HWY_NAMESPACE {
 // The hardware prefetcher falls behind at 40 bytes per triangle. This prefetch doubles the speed.
 HWY_INLINE void prefetch(const TriangleStream& stream, std::size_t first) {
   constexpr std::size_t kAhead = 96, kCacheLine = 64;
-  const std::size_t target = std::min(first + kAhead, stream.triangles.size() - kBatch);
+  const std::size_t target = std::min(first + kAhead, stream.triangles.size() - kLanes);
   const auto* bytes = reinterpret_cast<const char*>(&stream.triangles[target]);
-  for (std::size_t i = 0; i < kBatch * sizeof(StreamTriangle); i += kCacheLine) hwy::Prefetch(bytes + i);
+  for (std::size_t i = 0; i < kLanes * sizeof(StreamTriangle); i += kCacheLine) hwy::Prefetch(bytes + i);
 }
 
 struct StreamVectors {
@@ -87,8 +87,8 @@ void stream(const StreamTask& task, std::size_t begin, std::size_t end, ChunkOut
     for (std::size_t i = from; i < to; ++i) add_one(task, i, out);
   };
   std::size_t i = begin;
-  for (; i + kBatch <= end; i += kBatch)
-    if (!stream_vector(task, i, out)) one_by_one(i, i + kBatch);
+  for (; i + kLanes <= end; i += kLanes)
+    if (!stream_vector(task, i, out)) one_by_one(i, i + kLanes);
   one_by_one(i, end);
 }
 

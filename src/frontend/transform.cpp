@@ -82,16 +82,16 @@ std::uint32_t transform_vertices(const MeshTask& task, std::size_t begin, std::s
   const glm::vec3* positions = task.mesh.positions.data();
   VI common = hn::Set(d, -1);
   std::size_t i = begin;
-  for (; i + kBatch <= end; i += kBatch)
+  for (; i + kLanes <= end; i += kLanes)
     common = hn::And(common, transform_vector(task, &positions[i].x, task.vertices + i));
   if (i < end) {
-    glm::vec3 padded[kBatch];
-    Vertex vertices[kBatch];
-    for (std::size_t lane = 0; lane < kBatch; ++lane) padded[lane] = positions[std::min(i + lane, end - 1)];
+    glm::vec3 padded[kLanes];
+    Vertex vertices[kLanes];
+    for (std::size_t lane = 0; lane < kLanes; ++lane) padded[lane] = positions[std::min(i + lane, end - 1)];
     common = hn::And(common, transform_vector(task, &padded[0].x, vertices));
     std::copy_n(vertices, end - i, task.vertices + i);
   }
-  std::int32_t lanes[kBatch];
+  std::int32_t lanes[kLanes];
   hn::StoreU(common, d, lanes);
   for (const std::int32_t lane : lanes) lanes[0] &= lane;
   return static_cast<std::uint32_t>(lanes[0]);

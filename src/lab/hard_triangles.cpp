@@ -262,7 +262,7 @@ void mixed(ListMaker& m) {
 }
 
 // Points, doubled vertices, three collinear vertices, some of them moved by one sub-unit to get an area.
-// Triangles with area are mixed in: in a SIMD batch, a degenerate one must not displace them.
+// Triangles with area are mixed in: in a vector, a degenerate one must not displace them.
 void degenerate(ListMaker& m) {
   while (!m.full()) {
     const Point a = m.over_image(5 * kSub);

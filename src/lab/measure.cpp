@@ -53,17 +53,17 @@ FrameDifference compare(const Framebuffer& expected, const GuardedFrame& found) 
   return result;
 }
 
-std::vector<std::vector<std::uint32_t>> disjoint_groups(std::span<const ScreenTriangle> triangles, int width,
-                                                        int height, int margin_px) {
-  // Each triangle goes to the first group that is free in its whole box. A pixel's bits say which groups of a
-  // pass use it; triangles that find no free group wait for the next pass.
-  constexpr std::size_t kGroupsPerPass = 64;
+std::vector<std::vector<std::uint32_t>> disjoint_sets(std::span<const ScreenTriangle> triangles, int width,
+                                                      int height, int margin_px) {
+  // Each triangle goes to the first set that is free in its whole box. A pixel's bits say which sets of a
+  // pass use it; triangles that find no free set wait for the next pass.
+  constexpr std::size_t kSetsPerPass = 64;
   constexpr std::uint64_t kAll = ~std::uint64_t{0};
   std::vector<std::uint64_t> used;
-  std::vector<std::vector<std::uint32_t>> groups;
+  std::vector<std::vector<std::uint32_t>> sets;
   std::vector<std::uint32_t> pending(triangles.size()), later;
   std::iota(pending.begin(), pending.end(), 0u);
-  for (std::size_t first = 0; !pending.empty(); first += kGroupsPerPass) {
+  for (std::size_t first = 0; !pending.empty(); first += kSetsPerPass) {
     used.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0);
     later.clear();
     for (const std::uint32_t i : pending) {
@@ -82,12 +82,12 @@ std::vector<std::vector<std::uint32_t>> disjoint_groups(std::span<const ScreenTr
       const auto slot = static_cast<std::size_t>(std::countr_one(taken));
       for (int y = box.y0; y < box.y1; ++y)
         for (auto p = row_at(y) + box.x0; p != row_at(y) + box.x1; ++p) *p |= std::uint64_t{1} << slot;
-      if (groups.size() <= first + slot) groups.resize(first + slot + 1);
-      groups[first + slot].push_back(i);
+      if (sets.size() <= first + slot) sets.resize(first + slot + 1);
+      sets[first + slot].push_back(i);
     }
     pending.swap(later);
   }
-  return groups;
+  return sets;
 }
 
 std::vector<std::uint32_t> count_hits(Backend& backend, std::span<const ScreenTriangle> triangles, int width,
@@ -95,14 +95,14 @@ std::vector<std::uint32_t> count_hits(Backend& backend, std::span<const ScreenTr
                                       const std::function<void(double)>& on_progress) {
   std::vector<std::uint32_t> hits(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0);
   Framebuffer frame(width, height);
-  std::vector<ScreenTriangle> members;
-  const auto groups = disjoint_groups(triangles, width, height);
+  std::vector<ScreenTriangle> drawn;
+  const auto sets = disjoint_sets(triangles, width, height);
   std::size_t done = 0;
-  for (const auto& group : groups) {
-    if (on_progress) on_progress(static_cast<double>(done++) / static_cast<double>(groups.size()));
-    members.clear();
-    for (const std::uint32_t i : group) members.push_back(triangles[i]);
-    backend.draw(members, frame.view(), 0, execution);
+  for (const auto& set : sets) {
+    if (on_progress) on_progress(static_cast<double>(done++) / static_cast<double>(sets.size()));
+    drawn.clear();
+    for (const std::uint32_t i : set) drawn.push_back(triangles[i]);
+    backend.draw(drawn, frame.view(), 0, execution);
     for (int y = 0; y < height; ++y) {
       const std::uint32_t* depth = frame.depth_row(y);
       std::uint32_t* row = &hits[static_cast<std::size_t>(y) * static_cast<std::size_t>(width)];

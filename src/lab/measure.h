@@ -47,13 +47,13 @@ struct FrameDifference {
 FrameDifference compare(const Framebuffer& a, const Framebuffer& b);
 FrameDifference compare(const Framebuffer& expected, const GuardedFrame& found);
 
-// Partitions triangles into groups whose bounding boxes, widened by a margin, are disjoint, so that no
-// triangle of a group occludes another one. Returns indices; triangles whose box holds no pixel are left out.
-// Meshes need few groups, scenes of deep overlap many.
-std::vector<std::vector<std::uint32_t>> disjoint_groups(std::span<const ScreenTriangle> triangles, int width,
-                                                        int height, int margin_px = 0);
+// Partitions triangles into sets whose bounding boxes, widened by a margin, are disjoint, so that no
+// triangle of a set occludes another one. Returns indices; triangles whose box holds no pixel are left out.
+// Meshes need few sets, scenes of deep overlap many.
+std::vector<std::vector<std::uint32_t>> disjoint_sets(std::span<const ScreenTriangle> triangles, int width,
+                                                      int height, int margin_px = 0);
 
-// How many triangles a backend draws at each pixel, row by row. Draws a whole frame per disjoint group, so
+// How many triangles a backend draws at each pixel, row by row. Draws a whole frame per disjoint set, so
 // deep overlap is slow; `on_progress` receives the fraction done.
 std::vector<std::uint32_t> count_hits(Backend& backend, std::span<const ScreenTriangle> triangles, int width,
                                       int height, const Execution& execution,

@@ -115,7 +115,7 @@ Box box_of(const Truth& truth, Window window) {
 
 // Calls emit(y, x0, x1) for each covered run, from the top down.
 template <typename Truth, typename Emit>
-void for_each_index_block(const Truth& truth, Window window, Emit&& emit) {
+void for_each_run(const Truth& truth, Window window, Emit&& emit) {
   if (truth.facing() == 0) return;
   const Box box = box_of(truth, window);
   for (int y = box.y0; y < box.y1; ++y) {
@@ -148,21 +148,21 @@ bool reaches_rows(const FloatTriangle& t, Window rows) {
 template <typename Triangle>
 std::vector<Run> all_runs(std::span<const Triangle> triangles, Window window, int threads) {
   constexpr std::size_t kTrianglesPerTask = 1024;
-  const std::size_t chunks = (triangles.size() + kTrianglesPerTask - 1) / kTrianglesPerTask;
-  std::vector<std::vector<Run>> parts(chunks);
-  parallel_for(threads, static_cast<int>(chunks), [&](int chunk) {
-    const auto c = static_cast<std::size_t>(chunk);
-    for (std::size_t i = c * kTrianglesPerTask; i < std::min(triangles.size(), (c + 1) * kTrianglesPerTask);
+  const std::size_t tasks = (triangles.size() + kTrianglesPerTask - 1) / kTrianglesPerTask;
+  std::vector<std::vector<Run>> runs_of(tasks);
+  parallel_for(threads, static_cast<int>(tasks), [&](int task) {
+    const auto t = static_cast<std::size_t>(task);
+    for (std::size_t i = t * kTrianglesPerTask; i < std::min(triangles.size(), (t + 1) * kTrianglesPerTask);
          ++i)
-      for_each_index_block(truth_of(triangles[i]), window, [&](int y, int begin, int end) {
-        parts[c].push_back({static_cast<std::uint32_t>(i), y, begin, end});
+      for_each_run(truth_of(triangles[i]), window, [&](int y, int begin, int end) {
+        runs_of[t].push_back({static_cast<std::uint32_t>(i), y, begin, end});
       });
   });
   std::size_t count = 0;
-  for (const auto& part : parts) count += part.size();
+  for (const auto& some : runs_of) count += some.size();
   std::vector<Run> runs;
   runs.reserve(count);
-  for (const auto& part : parts) runs.insert(runs.end(), part.begin(), part.end());
+  for (const auto& some : runs_of) runs.insert(runs.end(), some.begin(), some.end());
   return runs;
 }
 
@@ -194,7 +194,7 @@ class VisibleTriangleFinder {
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
       if (!reaches_rows(triangles_[i], band)) continue;
       const auto truth = truth_of(triangles_[i]);
-      for_each_index_block(truth, band, [&](int y, int begin, int end) {
+      for_each_run(truth, band, [&](int y, int begin, int end) {
         for (int x = begin; x < end; ++x) {
           const auto in_band = static_cast<std::size_t>(y - band.y0) * static_cast<std::size_t>(band.width) +
                                static_cast<std::size_t>(x - band.x0);

@@ -41,8 +41,8 @@ void draw_in_bands(std::span<const ScreenTriangle> triangles, FrameView frame, s
   parallel_for(execution.threads, grid.rows(), [&](int band) {
     const RowRange rows{band << kBandRowsLog2, std::min((band + 1) << kBandRowsLog2, frame.height)};
     clear_rows(frame, rows, background);
-    bins.for_each_index_block(band, [&](const Bins::IndexBlock& block) {
-      for (const std::uint32_t index : block.indices) draw(triangles[index], rows);
+    bins.for_each_segment(band, [&](const Bins::Segment& segment) {
+      for (const std::uint32_t index : segment.indices) draw(triangles[index], rows);
     });
   });
 }

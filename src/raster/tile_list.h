@@ -29,10 +29,10 @@ class TileList {
   // `empty_rows`: Ablation::empty_rows.
   void build(const Bins& bins, const CellGrid& grid, int threads, bool empty_rows) {
     const int columns = grid.columns(), rows = grid.rows(), side = 1 << grid.cell_h_log2;
-    const int parts = std::clamp(4 * threads / rows, 1, side / kLeastRows);
+    const int strips = std::clamp(4 * threads / rows, 1, side / kLeastRows);
     tasks_.clear(), empty_.clear(), row_begin_.clear();
     // For any frame of this size, so that later ones allocate nothing.
-    tasks_.reserve(static_cast<std::size_t>((columns + parts) * rows));
+    tasks_.reserve(static_cast<std::size_t>((columns + strips) * rows));
     empty_.reserve(static_cast<std::size_t>((columns + 1) / 2 * rows));
     row_begin_.reserve(static_cast<std::size_t>(rows) + 1);
     for (int row = 0, cell = 0; row < rows; ++row) {
@@ -50,8 +50,8 @@ class TileList {
         after_empty = is_empty;
       }
       if (empty_.size() == row_begin_.back()) continue;
-      for (int y = y0; y < y1; y += side / parts)
-        tasks_.push_back({kEmptyTiles, row, y, std::min(y + side / parts, y1)});
+      for (int y = y0; y < y1; y += side / strips)
+        tasks_.push_back({kEmptyTiles, row, y, std::min(y + side / strips, y1)});
     }
     row_begin_.push_back(empty_.size());
   }

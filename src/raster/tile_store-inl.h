@@ -64,15 +64,15 @@ HWY_INLINE void write_to(const FramePlane& to, Write&& write) {
   }
 }
 
-// Calls draw(block) for each of the tile's index blocks. Records are scattered in memory, so each block's are
+// Calls draw(segment) for each of the tile's segments. Records are scattered in memory, so each segment's are
 // prefetched while the previous one is drawn.
 template <typename Draw>
-HWY_INLINE void draw_index_blocks(const TileTask& task, Draw&& draw) {
-  Bins::IndexBlock prefetched{};
-  task.bins->for_each_index_block(task.cell, [&](const Bins::IndexBlock& block) {
-    if (task.ablation.prefetch) task.prefetch(block.indices);
+HWY_INLINE void draw_segments(const TileTask& task, Draw&& draw) {
+  Bins::Segment prefetched{};
+  task.bins->for_each_segment(task.cell, [&](const Bins::Segment& segment) {
+    if (task.ablation.prefetch) task.prefetch(segment.indices);
     if (!prefetched.indices.empty()) draw(prefetched);
-    prefetched = block;
+    prefetched = segment;
   });
   if (!prefetched.indices.empty()) draw(prefetched);
 }

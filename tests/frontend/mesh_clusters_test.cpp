@@ -121,7 +121,7 @@ TEST(MeshClusters, TransformFewMoreVerticesThanTheMeshHas) {
     part.start(mesh, mesh.clusters);
     std::size_t parts = 0, transformed = 0;
     for (; part.take([](std::size_t) { return false; }); ++parts)
-      part.for_each_vertex_run([&](std::size_t, std::size_t count) { transformed += count; });
+      part.for_each_vertex_range([&](std::size_t, std::size_t count) { transformed += count; });
     EXPECT_GT(parts, 1u);
     EXPECT_LT(transformed, mesh.positions.size() + mesh.positions.size() / 50);
   }

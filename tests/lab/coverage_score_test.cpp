@@ -151,9 +151,9 @@ TEST(Differences, AreHitsOfOnlyOneList) {
 TEST(DisjointGroups, HoldTrianglesWithoutCommonPixels) {
   const auto triangles = adversarial("cloud", 400, 80, 60, 15);
   std::set<std::uint32_t> seen;
-  for (const auto& group : disjoint_groups(triangles, 80, 60)) {
+  for (const auto& set : disjoint_sets(triangles, 80, 60)) {
     std::vector<int> used(80 * 60, 0);
-    for (const std::uint32_t i : group) {
+    for (const std::uint32_t i : set) {
       EXPECT_TRUE(seen.insert(i).second);
       const auto box = contract::pixel_box(triangles[i], 80, 60);
       for (int y = box.y0; y < box.y1; ++y)
@@ -171,10 +171,10 @@ TEST(DisjointGroups, AreAsFewAsTheDeepestOverlapOfBoxes) {
   };
   std::vector<ScreenTriangle> triangles(200, square_at(0));
   for (int i = 1; i < 200; ++i) triangles.push_back(square_at(9 * i));
-  EXPECT_EQ(disjoint_groups(triangles, 2000, 8).size(), 200u);
+  EXPECT_EQ(disjoint_sets(triangles, 2000, 8).size(), 200u);
   const std::span<const ScreenTriangle> row = std::span(triangles).last(199);
-  EXPECT_EQ(disjoint_groups(row, 2000, 8).size(), 1u);
-  EXPECT_EQ(disjoint_groups(row, 2000, 8, 1).size(), 2u)
+  EXPECT_EQ(disjoint_sets(row, 2000, 8).size(), 1u);
+  EXPECT_EQ(disjoint_sets(row, 2000, 8, 1).size(), 2u)
       << "one pixel apart, with a margin of one on each side";
 }
 

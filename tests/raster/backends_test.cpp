@@ -41,16 +41,16 @@ TEST_P(EveryBackend, MatchesTheOracleAtEverySize) {
                     std::to_string(width) + "x" + std::to_string(height));
 }
 
-TEST_P(EveryBackend, MatchesTheOracleForManyChunks) {
-  // More than one bin chunk and index block, in a small image because the oracle is slow.
+TEST_P(EveryBackend, MatchesTheOracleForManySlices) {
+  // More than one slice and segment, in a small image because the oracle is slow.
   auto triangles = adversarial("cloud", 12'000, 40, 40, 3);
   const auto big = adversarial("uniform", 20, 40, 40, 4);
   triangles.insert(triangles.begin() + 6'000, big.begin(), big.end());
-  expect_oracle(triangles, 40, 40, "many chunks");
-  // If all depths are equal, the order of the chunks decides.
+  expect_oracle(triangles, 40, 40, "many slices");
+  // If all depths are equal, the order of the slices decides.
   auto at_one_depth = adversarial("uniform", 3'000, 40, 40, 5);
   for (ScreenTriangle& t : at_one_depth) std::fill_n(t.z, 3, kDepthHead + 1000);
-  expect_oracle(at_one_depth, 40, 40, "many chunks at one depth");
+  expect_oracle(at_one_depth, 40, 40, "many slices at one depth");
 }
 
 TEST_P(EveryBackend, KeepsNothingOfThePreviousFrame) {
@@ -115,7 +115,7 @@ TEST_P(EveryBackend, TiesKeepTheEarlierTriangle) {
   }
 }
 
-// Small and large triangles may be in different lists, whose blocks fill up at different triangles.
+// Small and large triangles may be in different lists, whose segments fill up at different triangles.
 TEST_P(EveryBackend, TiesKeepTheEarlierOfASmallAndALargeTriangle) {
   const auto right_angled = [](int at_px, int side_px, std::uint32_t z, std::uint32_t payload) {
     const std::int32_t begin = at_px * kSub, end = (at_px + side_px) * kSub;

@@ -31,9 +31,9 @@ class BinsOnTarget : public ::testing::TestWithParam<SimdTarget> {
     bins_.build(triangles, grid, 2, GetParam(), Bins::Small::as_indices, true);
     std::vector<std::vector<std::uint32_t>> out(static_cast<std::size_t>(grid.cells()));
     for (int cell = 0; cell < grid.cells(); ++cell)
-      bins_.for_each_index_block(cell, [&](const Bins::IndexBlock& block) {
+      bins_.for_each_segment(cell, [&](const Bins::Segment& segment) {
         auto& list = out[static_cast<std::size_t>(cell)];
-        list.insert(list.end(), block.indices.begin(), block.indices.end());
+        list.insert(list.end(), segment.indices.begin(), segment.indices.end());
       });
     return out;
   }
@@ -91,7 +91,7 @@ TEST(Bins, KeepASourcesTrianglesUpToAnEighthMoreThanItsInputs) {
   for (const int threads : {1, 2}) {
     EXPECT_TRUE(fits(9, threads));
     std::size_t kept = 0;
-    bins.for_each_index_block(0, [&](const Bins::IndexBlock& block) { kept += block.indices.size(); });
+    bins.for_each_segment(0, [&](const Bins::Segment& segment) { kept += segment.indices.size(); });
     EXPECT_EQ(kept, 112'500u);
     EXPECT_FALSE(fits(10, threads));
   }

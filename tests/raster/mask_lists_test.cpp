@@ -63,8 +63,8 @@ TEST_P(MaskListsOfSize, KeepOrderWhenMemoryGrows) {
   }
 }
 
-// Blocks of 256 bytes hold 7 masks, blocks of 4096 bytes 127. Each slab is twice as large as the one before,
-// so the fifth begins after 15 times the expected number.
+// Segments of 256 bytes hold 7 masks, segments of 4096 bytes 127. Each slab is twice as large as the one
+// before, so the fifth begins after 15 times the expected number.
 INSTANTIATE_TEST_SUITE_P(Sizes, MaskListsOfSize,
                          testing::Values(Size{1, 1, 1}, Size{3, 1, 7}, Size{3, 1, 5000}, Size{510, 1, 3000},
                                          Size{1, 4000, 20000}, Size{2, 4000, 90000}));

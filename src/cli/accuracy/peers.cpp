@@ -49,9 +49,9 @@ void append_runs(const bench::PeerInfo& peer, const CoverageInput& input, Window
                  std::vector<lab::Run>& runs) {
   constexpr int kMargin_px = 1;
   std::vector<lab::FloatTriangle> members;
-  for (const auto& group : lab::disjoint_groups(input.snapped, window.width, window.height, kMargin_px)) {
+  for (const auto& set : lab::disjoint_sets(input.snapped, window.width, window.height, kMargin_px)) {
     members.clear();
-    for (const std::uint32_t i : group) members.push_back({input.floats[i].at, i});
+    for (const std::uint32_t i : set) members.push_back({input.floats[i].at, i});
     const auto loaded = peer.load(peer_scene(members, window, lab::kNoTriangle), 1);
     loaded->draw();
     const auto ids = loaded->read();

@@ -67,7 +67,7 @@ Case make_case(std::uint64_t seed, std::uint64_t number) {
   const auto kind = random.below(lists.size() + scenes.size());
   if (kind < lists.size()) {
     c.family = lists[kind];
-    // Several chunks of the tiled backend, sometimes.
+    // Several chunks, sometimes.
     const auto count = random.below(100) == 0 ? 8000 + random.below(12'000) : 1 + random.below(300);
     c.triangles = lab::adversarial(c.family, static_cast<int>(count), c.width, c.height, random.next());
     cut_to_budget(c.triangles, c.width, c.height);

@@ -26,11 +26,11 @@ namespace {
 void backend_runs(Backend& backend, std::span<const ScreenTriangle> snapped, Window window,
                   std::vector<Run>& runs) {
   const std::vector<ScreenTriangle> triangles = shifted(snapped, window);
-  std::vector<ScreenTriangle> members;
-  group_runs(triangles, window, runs, [&](std::span<const std::uint32_t> group, Framebuffer& frame) {
-    members.clear();
-    for (const std::uint32_t i : group) members.push_back(triangles[i]);
-    backend.draw(members, frame.view(), kNoTriangle, {});
+  std::vector<ScreenTriangle> drawn;
+  group_runs(triangles, window, runs, [&](std::span<const std::uint32_t> set, Framebuffer& frame) {
+    drawn.clear();
+    for (const std::uint32_t i : set) drawn.push_back(triangles[i]);
+    backend.draw(drawn, frame.view(), kNoTriangle, {});
   });
 }
 

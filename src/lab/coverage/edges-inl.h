@@ -36,49 +36,49 @@ class RealLanes {
 
   HWY_INLINE void rows_from(int y) {
     for (int i = 0; i < 3; ++i)
-      for (int part = 0; part < kParts; ++part)
-        hn::Store(hn::Mul(hn::Set(D{}, edges_[i].b), hn::Sub(samples(y, part), hn::Set(D{}, edges_[i].y))),
-                  D{}, down_[i] + part * kPerPart);
+      for (int half = 0; half < kHalves; ++half)
+        hn::Store(hn::Mul(hn::Set(D{}, edges_[i].b), hn::Sub(samples(y, half), hn::Set(D{}, edges_[i].y))),
+                  D{}, down_[i] + half * kPerHalf);
   }
   HWY_INLINE void columns_from(int x) {
     for (int i = 0; i < 3; ++i)
-      for (int part = 0; part < kParts; ++part)
-        across_[i][part] =
-            hn::Mul(hn::Set(D{}, edges_[i].a), hn::Sub(samples(x, part), hn::Set(D{}, edges_[i].x)));
+      for (int half = 0; half < kHalves; ++half)
+        across_[i][half] =
+            hn::Mul(hn::Set(D{}, edges_[i].a), hn::Sub(samples(x, half), hn::Set(D{}, edges_[i].x)));
   }
   HWY_INLINE Lanes accepted(int row) const {
-    const auto part_of = [&](int part) HWY_ATTR {
+    const auto half_of = [&](int half) HWY_ATTR {
       const auto by = [&](int i) HWY_ATTR {
-        return hn::Gt(hn::Add(across_[i][part], hn::Set(D{}, down_[i][row])),
+        return hn::Gt(hn::Add(across_[i][half], hn::Set(D{}, down_[i][row])),
                       hn::Set(D{}, edges_[i].threshold));
       };
       return hn::And(hn::And(by(0), by(1)), by(2));
     };
-    if constexpr (kParts == 1) {
-      return part_of(0);
+    if constexpr (kHalves == 1) {
+      return half_of(0);
     } else {
       std::uint8_t low[8] = {}, high[8] = {}, both[8] = {};
-      hn::StoreMaskBits(D{}, part_of(0), low);
-      hn::StoreMaskBits(D{}, part_of(1), high);
-      const std::uint32_t bits = low[0] | std::uint32_t{high[0]} << kPerPart;
+      hn::StoreMaskBits(D{}, half_of(0), low);
+      hn::StoreMaskBits(D{}, half_of(1), high);
+      const std::uint32_t bits = low[0] | std::uint32_t{high[0]} << kPerHalf;
       std::memcpy(both, &bits, sizeof bits);
       return hn::LoadMaskBits(DF{}, both);
     }
   }
 
  private:
-  static constexpr int kParts = sizeof(Real) / sizeof(float), kPerPart = kLanes / kParts;
-  using D = hn::CappedTag<Real, kPerPart>;
+  static constexpr int kHalves = sizeof(Real) / sizeof(float), kPerHalf = kLanes / kHalves;
+  using D = hn::CappedTag<Real, kPerHalf>;
   using V = hn::Vec<D>;
 
-  // The coordinates of the samples of a part.
-  static HWY_INLINE V samples(int first, int part) {
-    const V numbers = hn::Add(hn::Iota(D{}, 0), hn::Set(D{}, static_cast<Real>(first + part * kPerPart)));
+  // The coordinates of the samples of a half.
+  static HWY_INLINE V samples(int first, int half) {
+    const V numbers = hn::Add(hn::Iota(D{}, 0), hn::Set(D{}, static_cast<Real>(first + half * kPerHalf)));
     return hn::Add(numbers, hn::Set(D{}, Real{0.5f}));
   }
 
   const RealEdge<Real> (&edges_)[3];
-  V across_[3][kParts];
+  V across_[3][kHalves];
   HWY_ALIGN Real down_[3][kLanes];
 };
 

@@ -38,9 +38,9 @@ void engine_runs(EngineNumbers numbers, const CoverageInput& input, Window windo
   for (const ScreenTriangle& t : triangles) boxes.push_back(with_wider_box(t));
   TileScratch scratch;
   std::vector<ScreenTriangle> drawn;
-  group_runs(boxes, window, runs, [&](std::span<const std::uint32_t> group, Framebuffer& frame) {
+  group_runs(boxes, window, runs, [&](std::span<const std::uint32_t> set, Framebuffer& frame) {
     drawn.clear();
-    for (const std::uint32_t i : group) drawn.push_back(triangles[i]);
+    for (const std::uint32_t i : set) drawn.push_back(triangles[i]);
     draw_engine(numbers, drawn, frame.view(), kNoTriangle, {}, scratch);
   });
 }

@@ -65,46 +65,46 @@ struct FloatLanes {
   }
 };
 
-constexpr int kWideParts = HWY_TARGET == HWY_SCALAR ? 1 : 2;
-constexpr int kWidePart = kLanes / kWideParts;  // lanes
+constexpr int kHalves = HWY_TARGET == HWY_SCALAR ? 1 : 2;
+constexpr int kHalfLanes = kLanes / kHalves;  // lanes
 
 // Vectors of kLanes 64-bit numbers: two vectors of the target, one for the scalar target.
 template <typename T>
 struct WideLanes {
   using Value = T;
-  using Part = hn::CappedTag<T, kWidePart>;
+  using Half = hn::CappedTag<T, kHalfLanes>;
   struct Vector {
-    hn::Vec<Part> part[kWideParts];
+    hn::Vec<Half> half[kHalves];
   };
   static HWY_INLINE Vector set(Value v) {
-    return each([&](int) { return hn::Set(Part{}, v); });
+    return each([&](int) { return hn::Set(Half{}, v); });
   }
   static HWY_INLINE Vector load(const Value* at) {
-    return each([&](int i) { return hn::Load(Part{}, at + i * kWidePart); });
+    return each([&](int i) { return hn::Load(Half{}, at + i * kHalfLanes); });
   }
   static HWY_INLINE void store(const Vector& v, Value* at) {
-    for (int i = 0; i < kWideParts; ++i) hn::Store(v.part[i], Part{}, at + i * kWidePart);
+    for (int i = 0; i < kHalves; ++i) hn::Store(v.half[i], Half{}, at + i * kHalfLanes);
   }
   static HWY_INLINE Vector add(const Vector& a, const Vector& b) {
-    return each([&](int i) { return hn::Add(a.part[i], b.part[i]); });
+    return each([&](int i) { return hn::Add(a.half[i], b.half[i]); });
   }
   static HWY_INLINE Vector subtract(const Vector& a, const Vector& b) {
-    return each([&](int i) { return hn::Sub(a.part[i], b.part[i]); });
+    return each([&](int i) { return hn::Sub(a.half[i], b.half[i]); });
   }
   static HWY_INLINE Vector times(V count, Value step) {
     if constexpr (std::is_integral_v<T>) count = hn::ShiftLeft<contract::kSubBits>(count);
-    return each([&](int i) { return product_of(Part{}, widened(count, i), hn::Set(Part{}, step)); });
+    return each([&](int i) { return product_of(Half{}, widened(count, i), hn::Set(Half{}, step)); });
   }
   static HWY_INLINE Vector four_times(const Vector& v) {
     return each([&](int i) {
       if constexpr (std::is_integral_v<T>)
-        return hn::ShiftLeft<2>(v.part[i]);
+        return hn::ShiftLeft<2>(v.half[i]);
       else
-        return hn::Mul(v.part[i], hn::Set(Part{}, T{4}));
+        return hn::Mul(v.half[i], hn::Set(Half{}, T{4}));
     });
   }
   static HWY_INLINE V outside(const Vector& e0, const Vector& e1, const Vector& e2) {
-    const auto any = [&](int i) { return hn::Or(hn::Or(e0.part[i], e1.part[i]), e2.part[i]); };
+    const auto any = [&](int i) { return hn::Or(hn::Or(e0.half[i], e1.half[i]), e2.half[i]); };
 #if HWY_TARGET == HWY_SCALAR
     return hn::Set(D{}, hn::GetLane(hn::BitCast(hn::CappedTag<std::int64_t, 1>{}, any(0))) < 0 ? -1 : 0);
 #else
@@ -116,15 +116,15 @@ struct WideLanes {
   template <class Make>
   static HWY_INLINE Vector each(Make&& make) {
     Vector v;
-    for (int i = 0; i < kWideParts; ++i) v.part[i] = make(i);
+    for (int i = 0; i < kHalves; ++i) v.half[i] = make(i);
     return v;
   }
-  static HWY_INLINE hn::Vec<Part> widened(V v, int i) {
+  static HWY_INLINE hn::Vec<Half> widened(V v, int i) {
 #if HWY_TARGET == HWY_SCALAR
     (void)i;
-    return hn::PromoteTo(Part{}, v);
+    return hn::PromoteTo(Half{}, v);
 #else
-    return hn::PromoteTo(Part{}, i == 0 ? hn::LowerHalf(v) : hn::UpperHalf(hn::Half<D>{}, v));
+    return hn::PromoteTo(Half{}, i == 0 ? hn::LowerHalf(v) : hn::UpperHalf(hn::Half<D>{}, v));
 #endif
   }
 };
@@ -204,8 +204,8 @@ struct OtherNumbers : Lanes {
         }
         rejected |= mask_bits(hn::RebindMask(D{}, set_up_edge(df, in, out[i], k)));
       } else {
-        rejected |= store_half(left.edge[i], out[i], k) | store_half(right.edge[i], out[i], k + kWidePart)
-                                                              << kWidePart;
+        rejected |= store_half(left.edge[i], out[i], k) | store_half(right.edge[i], out[i], k + kHalfLanes)
+                                                              << kHalfLanes;
       }
     return ~rejected;
   }

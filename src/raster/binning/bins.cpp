@@ -12,34 +12,34 @@ namespace edgewise {
 
 using namespace contract;
 
-void Bins::Chunk::reset(std::size_t cells) {
+void Bins::Slice::reset(std::size_t cells) {
   first.assign(cells, kNone);
   cursor.assign(cells, kNone);
   used = 0;
 }
 
-std::uint32_t Bins::Chunk::begin_block(std::size_t cell, std::uint32_t end_of_last) {
-  if (used > kNone - kSlotsPerBlock)
+std::uint32_t Bins::Slice::begin_segment(std::size_t cell, std::uint32_t end_of_last) {
+  if (used > kNone - kSlotsPerSegment)
     throw std::length_error("too many triangles over too many tiles for one frame");
-  const std::uint32_t block = used;
-  used += kSlotsPerBlock;
+  const std::uint32_t segment = used;
+  used += kSlotsPerSegment;
   if (slots.size() < used) slots.resize(std::max<std::size_t>(used, slots.size() * 2));
-  (end_of_last == kNone ? first[cell] : slots[end_of_last]) = block;
-  return block;
+  (end_of_last == kNone ? first[cell] : slots[end_of_last]) = segment;
+  return segment;
 }
 
-inline void Bins::Chunk::push(std::size_t cell, std::uint32_t index, bool is_candidate) {
+inline void Bins::Slice::push(std::size_t cell, std::uint32_t index, bool is_candidate) {
   std::uint32_t slot = cursor[cell];
-  // The block is full, or there is none yet: kNone has the same low bits.
-  if (slot % kSlotsPerBlock == kIndicesPerBlock) [[unlikely]] {
+  // The segment is full, or there is none yet: kNone has the same low bits.
+  if (slot % kSlotsPerSegment == kIndicesPerSegment) [[unlikely]] {
     if (!is_candidate) return;
-    slot = begin_block(cell, slot);
+    slot = begin_segment(cell, slot);
   }
   slots[slot] = index;
   cursor[cell] = slot + is_candidate;
 }
 
-inline void Bins::Chunk::bin(const ScreenTriangle& triangle, std::uint32_t index, const CellBox& box,
+inline void Bins::Slice::bin(const ScreenTriangle& triangle, std::uint32_t index, const CellBox& box,
                              int candidate_cells, const CellGrid& grid) {
   if (candidate_cells == 0) return bin_in_many(triangle, index, box, grid);
   const auto columns = static_cast<std::size_t>(grid.columns());
@@ -51,7 +51,7 @@ inline void Bins::Chunk::bin(const ScreenTriangle& triangle, std::uint32_t index
   push(lower + box.column1, index, candidate_cells & 0b1000);
 }
 
-[[gnu::noinline]] void Bins::Chunk::bin_in_many(const ScreenTriangle& triangle, std::uint32_t index,
+[[gnu::noinline]] void Bins::Slice::bin_in_many(const ScreenTriangle& triangle, std::uint32_t index,
                                                 const CellBox& box, const CellGrid& grid) {
   const int column0 = box.column0, column1 = box.column1, row0 = box.row0, row1 = box.row1;
   const int columns = grid.columns();
@@ -83,7 +83,7 @@ inline void Bins::Chunk::bin(const ScreenTriangle& triangle, std::uint32_t index
 namespace {
 
 // Replaces the masks of triangles that need more than two by cell boxes, so that they are binned as indices.
-[[gnu::noinline]] void demote_to_boxes(SortedTriangles& sorted, const ScreenTriangle* batch,
+[[gnu::noinline]] void demote_to_boxes(SortedTriangles& sorted, const ScreenTriangle* packet,
                                        const CellGrid& grid) {
   std::size_t n = 0, kept = 0;
   for (std::uint64_t left = sorted.masked; left != 0; left &= left - 1, ++n) {
@@ -91,7 +91,7 @@ namespace {
       const auto k = static_cast<std::size_t>(std::countr_zero(left));
       sorted.masked ^= left & -left;
       sorted.boxed |= left & -left;
-      sorted.boxes.set(k, pixel_box(batch[k], grid.width, grid.height), grid);
+      sorted.boxes.set(k, pixel_box(packet[k], grid.width, grid.height), grid);
     } else {
       sorted.quadrants[kept] = sorted.quadrants[n];
       for (std::size_t w = 0; w < SortedTriangles::kQuadrants; ++w)
@@ -101,47 +101,47 @@ namespace {
   }
 }
 
-// Calls sort(batch, index of its first triangle) for batches of kBoxesAtOnce triangles. Triangles without
-// area fill up the last batch.
+// Calls sort(packet, index of its first triangle) for packets of kPacket triangles. Triangles without
+// area fill up the last packet.
 template <typename Sort>
-void for_each_batch(std::span<const ScreenTriangle> triangles, Sort&& sort) {
-  const std::size_t whole = triangles.size() / kBoxesAtOnce * kBoxesAtOnce;
-  for (std::size_t i = 0; i < whole; i += kBoxesAtOnce) sort(triangles.data() + i, i);
+void for_each_packet(std::span<const ScreenTriangle> triangles, Sort&& sort) {
+  const std::size_t whole = triangles.size() / kPacket * kPacket;
+  for (std::size_t i = 0; i < whole; i += kPacket) sort(triangles.data() + i, i);
   if (whole == triangles.size()) return;
-  ScreenTriangle rest[kBoxesAtOnce] = {};
+  ScreenTriangle rest[kPacket] = {};
   std::copy(triangles.begin() + static_cast<std::ptrdiff_t>(whole), triangles.end(), rest);
   sort(rest, whole);
 }
 
 }  // namespace
 
-// Bins the triangles of a batch whose bit in `boxed` is set, as indices. `begin`: index of the batch's first,
-// ignored if triangles are kept.
-void Bins::Chunk::bin_boxed(const ScreenTriangle* batch, std::uint64_t boxed, const CellBoxes& boxes,
+// Bins the triangles of a packet whose bit in `boxed` is set, as indices. `begin`: index of the packet's
+// first, ignored if triangles are kept.
+void Bins::Slice::bin_boxed(const ScreenTriangle* packet, std::uint64_t boxed, const CellBoxes& boxes,
                             std::size_t begin, const CellGrid& grid) {
   for (std::uint64_t left = boxed; left != 0; left &= left - 1) {
     const auto k = static_cast<std::size_t>(std::countr_zero(left));
     std::size_t index = begin + k;
     if (kept != nullptr) {
-      kept[next_kept] = batch[k];
+      kept[next_kept] = packet[k];
       index = next_kept++;
     }
-    bin(batch[k], static_cast<std::uint32_t>(index), boxes.box[k], boxes.candidate_cells[k], grid);
+    bin(packet[k], static_cast<std::uint32_t>(index), boxes.box[k], boxes.candidate_cells[k], grid);
   }
 }
 
 // `begin`: index of the first triangle, ignored if triangles are kept.
-void Bins::Chunk::bin_as_indices(std::span<const ScreenTriangle> triangles, std::size_t begin,
+void Bins::Slice::bin_as_indices(std::span<const ScreenTriangle> triangles, std::size_t begin,
                                  const CellGrid& grid, bool prefetch, CellBoxKernel find_boxes) {
   CellBoxes boxes;
-  for_each_batch(triangles, [&](const ScreenTriangle* batch, std::size_t at) {
-    bin_boxed(batch, find_boxes(batch, grid, prefetch, boxes), boxes, begin + at, grid);
+  for_each_packet(triangles, [&](const ScreenTriangle* packet, std::size_t at) {
+    bin_boxed(packet, find_boxes(packet, grid, prefetch, boxes), boxes, begin + at, grid);
   });
 }
 
-// Appends the masks of masked triangles n … end - 1 of a batch. One loop goes over the quadrants of eight
+// Appends the masks of masked triangles n … end - 1 of a packet. One loop goes over the quadrants of eight
 // triangles: a loop per triangle would be mispredicted, because the number of quadrants varies.
-void Bins::Chunk::append(const SortedTriangles& sorted, std::size_t n, std::size_t end) {
+void Bins::Slice::append(const SortedTriangles& sorted, std::size_t n, std::size_t end) {
   for (; n < end; n += 8)
     for (std::uint32_t left = sorted.quadrants_of_eight(n, end); left != 0; left &= left - 1) {
       const auto bit = static_cast<std::size_t>(std::countr_zero(left));
@@ -154,90 +154,90 @@ void Bins::Chunk::append(const SortedTriangles& sorted, std::size_t n, std::size
 
 // `max_mask_bytes`: once masks take more, triangles that need more than two masks are binned as indices,
 // which are slower to draw but take less memory.
-void Bins::Chunk::bin_with_masks(std::span<const ScreenTriangle> triangles, std::size_t begin,
+void Bins::Slice::bin_with_masks(std::span<const ScreenTriangle> triangles, std::size_t begin,
                                  const CellGrid& grid, bool prefetch, MaskFinder find_masks,
                                  std::size_t max_mask_bytes) {
   SortedTriangles sorted;
-  for_each_batch(triangles, [&](const ScreenTriangle* batch, std::size_t at) {
-    find_masks(batch, grid, prefetch, sorted);
+  for_each_packet(triangles, [&](const ScreenTriangle* packet, std::size_t at) {
+    find_masks(packet, grid, prefetch, sorted);
     // Scenes of large triangles skip the merge.
-    if (sorted.masked == 0) return bin_boxed(batch, sorted.boxed, sorted.boxes, begin + at, grid);
+    if (sorted.masked == 0) return bin_boxed(packet, sorted.boxed, sorted.boxes, begin + at, grid);
     if (masks.used_bytes() > max_mask_bytes) [[unlikely]]
-      demote_to_boxes(sorted, batch, grid);
-    // Groups of consecutive masked and boxed triangles, in turn, to keep the order of submission.
+      demote_to_boxes(sorted, packet, grid);
+    // Consecutive masked and consecutive boxed triangles, in turn, to keep the order of submission.
     std::size_t n = 0;
     const auto below_lowest = [](std::uint64_t bits) { return (bits & -bits) - 1; };  // all, if none is set
     for (std::uint64_t boxed = sorted.boxed, masked = sorted.masked; (boxed | masked) != 0;) {
-      const std::uint64_t masked_group = masked & below_lowest(boxed);
-      const std::size_t end = n + static_cast<std::size_t>(std::popcount(masked_group));
+      const std::uint64_t next_masked = masked & below_lowest(boxed);
+      const std::size_t end = n + static_cast<std::size_t>(std::popcount(next_masked));
       append(sorted, n, end);
       n = end;
-      masked ^= masked_group;
-      const std::uint64_t boxed_group = boxed & below_lowest(masked);
-      bin_boxed(batch, boxed_group, sorted.boxes, begin + at, grid);
-      boxed ^= boxed_group;
+      masked ^= next_masked;
+      const std::uint64_t next_boxed = boxed & below_lowest(masked);
+      bin_boxed(packet, next_boxed, sorted.boxes, begin + at, grid);
+      boxed ^= next_boxed;
     }
   });
 }
 
 bool Bins::build(TriangleSource& source, const CellGrid& grid, int threads, SimdTarget target, Small small,
                  bool prefetch) {
-  // Triangles per chunk: a thousand large ones are worth two threads, but short lists leave SIMD lanes of the
+  // Triangles per slice: a thousand large ones are worth two threads, but short lists leave SIMD lanes of the
   // tile kernel empty.
-  constexpr std::size_t kMinChunk = 500;
-  // List heads of all chunks: 128 MB, or 384 MB with masks.
+  constexpr std::size_t kMinSlice = 500;
+  // List heads of all slices: 128 MB, or 384 MB with masks.
   constexpr std::size_t kMaxHeads = std::size_t{1} << 24;
   // Together with triangles and frame, less than 100 bytes per small triangle and 16 per pixel.
   constexpr std::size_t kMaskBytesPerTriangle = 40, kMaskBytesPerPixel = 8;
   const auto cells = static_cast<std::size_t>(grid.cells());
-  // At most one chunk per thread: each further list of a cell costs a lookup and a partly filled block.
+  // At most one slice per thread: each further list of a cell costs a lookup and a partly filled segment.
   const auto most = static_cast<std::size_t>(threads);
   const std::size_t pixels = static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height);
   const std::size_t affordable = std::max<std::size_t>(1, kMaxHeads / cells);
-  used_chunks_ = std::clamp<std::size_t>(source.size() / kMinChunk, 1, std::min(most, affordable));
-  if (chunks_.size() < used_chunks_) chunks_.resize(used_chunks_);
+  used_slices_ = std::clamp<std::size_t>(source.size() / kMinSlice, 1, std::min(most, affordable));
+  if (slices_.size() < used_slices_) slices_.resize(used_slices_);
 
   const CellBoxKernel find_boxes = cell_box_kernel(target);
   const MaskFinder find_masks = small == Small::as_masks ? mask_finder(target) : nullptr;
   const ScreenTriangle* const stored = source.stored();
   if (find_masks != nullptr || stored == nullptr)
-    partition_.cut_by_work(source, grid.width, grid.height, find_masks != nullptr, used_chunks_);
+    partition_.cut_by_work(source, grid.width, grid.height, find_masks != nullptr, used_slices_);
   else
-    partition_.cut_equally(source.size(), used_chunks_);
-  // Index in kept_ of the first triangle of a chunk. Clipping may add an eighth to a chunk's triangles, and
+    partition_.cut_equally(source.size(), used_slices_);
+  // Index in kept_ of the first triangle of a slice. Clipping may add an eighth to a slice's triangles, and
   // 2048.
-  const auto kept_at = [](std::size_t chunk, std::size_t input) {
-    return input + input / 8 + chunk * TriangleSource::kInputsAtOnce;
+  const auto kept_at = [](std::size_t slice, std::size_t input) {
+    return input + input / 8 + slice * TriangleSource::kInputsAtOnce;
   };
-  if (stored == nullptr) kept_.reserve(kept_at(used_chunks_, source.size()));
+  if (stored == nullptr) kept_.reserve(kept_at(used_slices_, source.size()));
   triangles_ = stored != nullptr ? stored : kept_.data();
   prefetch &= stored != nullptr;  // made triangles are still cached
   std::atomic<bool> all_fit{true};
-  parallel_for(threads, static_cast<int>(used_chunks_), [&](int i) {
+  parallel_for(threads, static_cast<int>(used_slices_), [&](int i) {
     const auto c = static_cast<std::size_t>(i);
     const std::size_t begin = partition_.bounds()[c], end = partition_.bounds()[c + 1];
-    Chunk& chunk = chunks_[c];
-    chunk.reset(cells);
-    chunk.kept = stored != nullptr ? nullptr : kept_.data();
-    chunk.next_kept = kept_at(c, begin);
-    if (find_masks != nullptr) chunk.masks.reset(cells, end - begin);
+    Slice& slice = slices_[c];
+    slice.reset(cells);
+    slice.kept = stored != nullptr ? nullptr : kept_.data();
+    slice.next_kept = kept_at(c, begin);
+    if (find_masks != nullptr) slice.masks.reset(cells, end - begin);
     const std::size_t max_mask_bytes =
-        (end - begin) * kMaskBytesPerTriangle + pixels * kMaskBytesPerPixel / used_chunks_;
+        (end - begin) * kMaskBytesPerTriangle + pixels * kMaskBytesPerPixel / used_slices_;
     for (std::size_t at = begin; at < end; at += TriangleSource::kInputsAtOnce) {
       const auto triangles = source.make(i, at, std::min(end, at + TriangleSource::kInputsAtOnce));
-      if (chunk.kept != nullptr && chunk.next_kept + triangles.size() > kept_at(c + 1, end)) {
+      if (slice.kept != nullptr && slice.next_kept + triangles.size() > kept_at(c + 1, end)) {
         all_fit = false;
         return;
       }
       if (find_masks != nullptr)
-        chunk.bin_with_masks(triangles, at, grid, prefetch, find_masks, max_mask_bytes);
+        slice.bin_with_masks(triangles, at, grid, prefetch, find_masks, max_mask_bytes);
       else
-        chunk.bin_as_indices(triangles, at, grid, prefetch, find_boxes);
+        slice.bin_as_indices(triangles, at, grid, prefetch, find_boxes);
     }
   });
   has_masks_ = find_masks != nullptr &&
-               std::any_of(chunks_.begin(), chunks_.begin() + static_cast<std::ptrdiff_t>(used_chunks_),
-                           [](const Chunk& chunk) { return chunk.masks.any(); });
+               std::any_of(slices_.begin(), slices_.begin() + static_cast<std::ptrdiff_t>(used_slices_),
+                           [](const Slice& slice) { return slice.masks.any(); });
   return all_fit;
 }
 

@@ -1,13 +1,13 @@
 // Binning: lists for every cell of the image the triangles that may cover a pixel of it, in submission order.
 //
-// The triangles are cut into chunks (work_partition.h). Chunks are binned in parallel, each into its own
-// lists. A cell's triangles are its lists of chunks 0, 1, 2 …, which is the order of submission (rule 7), no
-// matter which thread binned which chunk.
+// The triangles are cut into slices (work_partition.h). Chunks are binned in parallel, each into its own
+// lists. A cell's triangles are its lists of slices 0, 1, 2 …, which is the order of submission (rule 7), no
+// matter which thread binned which slice.
 //
-// If a source makes the triangles while they are binned (triangle_source.h), a chunk keeps only those that it
+// If a source makes the triangles while they are binned (triangle_source.h), a slice keeps only those that it
 // lists as indices.
 //
-// A list holds indices of triangles, in chained blocks of two cache lines that are reused from frame to
+// A list holds indices of triangles, in chained segments of two cache lines that are reused from frame to
 // frame. Small triangles may become coverage masks instead (mask_finder.cpp), stored by value in lists of
 // their own (mask_lists.h). Each mask stores its rank among its cell's indices.
 #pragma once
@@ -33,9 +33,9 @@ class Bins {
 
   // Replaces the previous contents. A triangle without a sample in its bounding box is dropped; one without
   // area may be listed in up to four cells. as_masks needs cells that are tiles, and makes no masks on the
-  // scalar target. `prefetch`: prefetch triangles that lie in memory. Throws std::length_error when a chunk's
+  // scalar target. `prefetch`: prefetch triangles that lie in memory. Throws std::length_error when a slice's
   // lists exceed 2^32 entries. Returns false, with incomplete
-  // contents, if a chunk's room for made triangles might not suffice.
+  // contents, if a slice's room for made triangles might not suffice.
   [[nodiscard]] bool build(TriangleSource& source, const CellGrid& grid, int threads, SimdTarget target,
                            Small small, bool prefetch);
   // The same for triangles that lie in memory, which need not be kept.
@@ -47,44 +47,44 @@ class Bins {
 
   bool empty(int cell) const {
     const auto c = static_cast<std::size_t>(cell);
-    for (std::size_t i = 0; i < used_chunks_; ++i)
-      if (chunks_[i].first[c] != kNone || (has_masks_ && !chunks_[i].masks.empty(c))) return false;
+    for (std::size_t i = 0; i < used_slices_; ++i)
+      if (slices_[i].first[c] != kNone || (has_masks_ && !slices_[i].masks.empty(c))) return false;
     return true;
   }
 
-  // True if each chunk lists at most kIndicesPerBlock triangles for the cell, and has no masks there.
+  // True if each slice lists at most kIndicesPerSegment triangles for the cell, and has no masks there.
   bool few(int cell) const {
     const auto c = static_cast<std::size_t>(cell);
-    for (const Chunk& chunk : std::span(chunks_).first(used_chunks_)) {
-      const bool one_block = chunk.first[c] == kNone || chunk.cursor[c] - chunk.first[c] < kSlotsPerBlock;
-      if (!one_block || (has_masks_ && !chunk.masks.empty(c))) return false;
+    for (const Slice& slice : std::span(slices_).first(used_slices_)) {
+      const bool one_segment = slice.first[c] == kNone || slice.cursor[c] - slice.first[c] < kSlotsPerSegment;
+      if (!one_segment || (has_masks_ && !slice.masks.empty(c))) return false;
     }
     return true;
   }
 
-  // Consecutive indices of a cell: one block of a list. `first_slot`: the slot of the first in the chunk.
-  struct IndexBlock {
+  // Consecutive indices of a cell: one segment of a list. `first_slot`: the slot of the first in the slice.
+  struct Segment {
     std::span<const std::uint32_t> indices;
-    std::size_t chunk;
+    std::size_t slice;
     std::uint32_t first_slot;
   };
 
-  // Calls visit(block) for the index blocks of a cell, in submission order.
+  // Calls visit(segment) for the segments of a cell, in submission order.
   template <typename Visit>
-  void for_each_index_block(int cell, Visit&& visit) const {
+  void for_each_segment(int cell, Visit&& visit) const {
     const auto c = static_cast<std::size_t>(cell);
-    for (std::size_t i = 0; i < used_chunks_; ++i) {
-      const Chunk& chunk = chunks_[i];
-      for (std::uint32_t slot = chunk.first[c]; slot != kNone;) {
-        const std::uint32_t block_end = slot + kIndicesPerBlock;
-        const bool last = chunk.cursor[c] <= block_end && chunk.cursor[c] > slot;
-        const std::uint32_t end = last ? chunk.cursor[c] : block_end;
-        if (!last) {  // the next block may lie anywhere: prefetch it
-          const std::uint32_t* const next = &chunk.slots[chunk.slots[block_end]];
-          __builtin_prefetch(next), __builtin_prefetch(next + kIndicesPerBlock);
+    for (std::size_t i = 0; i < used_slices_; ++i) {
+      const Slice& slice = slices_[i];
+      for (std::uint32_t slot = slice.first[c]; slot != kNone;) {
+        const std::uint32_t segment_end = slot + kIndicesPerSegment;
+        const bool last = slice.cursor[c] <= segment_end && slice.cursor[c] > slot;
+        const std::uint32_t end = last ? slice.cursor[c] : segment_end;
+        if (!last) {  // the next segment may lie anywhere: prefetch it
+          const std::uint32_t* const next = &slice.slots[slice.slots[segment_end]];
+          __builtin_prefetch(next), __builtin_prefetch(next + kIndicesPerSegment);
         }
-        visit(IndexBlock{{&chunk.slots[slot], end - slot}, i, slot});
-        slot = last ? kNone : chunk.slots[block_end];
+        visit(Segment{{&slice.slots[slot], end - slot}, i, slot});
+        slot = last ? kNone : slice.slots[segment_end];
       }
     }
   }
@@ -95,24 +95,24 @@ class Bins {
    public:
     MaskReader(const Bins& bins, int cell) : bins_(bins), cell_(static_cast<std::size_t>(cell)) {
       if (!bins_.has_masks_) return;
-      for (std::size_t i = 0; i < bins_.used_chunks_; ++i) bins_.chunks_[i].masks.prefetch_first(cell_);
-      reader_ = {bins_.chunks_[0].masks, cell_};
+      for (std::size_t i = 0; i < bins_.used_slices_; ++i) bins_.slices_[i].masks.prefetch_first(cell_);
+      reader_ = {bins_.slices_[0].masks, cell_};
     }
-    // Draws the remaining masks that precede triangle `index` of an index block.
+    // Draws the remaining masks that precede triangle `index` of a segment.
     template <typename Draw>
-    void draw_before(const IndexBlock& block, std::size_t index, Draw&& draw) {
-      advance_to(block.chunk, block.first_slot + static_cast<std::uint32_t>(index) + 1, draw);
+    void draw_before(const Segment& segment, std::size_t index, Draw&& draw) {
+      advance_to(segment.slice, segment.first_slot + static_cast<std::uint32_t>(index) + 1, draw);
     }
     template <typename Draw>
     void draw_rest(Draw&& draw) {
-      advance_to(bins_.used_chunks_ - 1, kNone, draw);
+      advance_to(bins_.used_slices_ - 1, kNone, draw);
     }
 
    private:
     template <typename Draw>
-    void advance_to(std::size_t chunk, std::uint32_t rank, Draw&& draw) {
+    void advance_to(std::size_t slice, std::uint32_t rank, Draw&& draw) {
       if (!bins_.has_masks_) return;
-      for (; chunk_ != chunk; reader_ = {bins_.chunks_[++chunk_].masks, cell_}) draw_up_to_rank(kNone, draw);
+      for (; slice_ != slice; reader_ = {bins_.slices_[++slice_].masks, cell_}) draw_up_to_rank(kNone, draw);
       draw_up_to_rank(rank, draw);
     }
     template <typename Draw>
@@ -123,35 +123,36 @@ class Bins {
     }
 
     const Bins& bins_;
-    std::size_t cell_, chunk_ = 0;
+    std::size_t cell_, slice_ = 0;
     MaskLists::Reader reader_;
   };
 
  private:
   static constexpr std::uint32_t kNone = 0xFFFFFFFF;
-  static constexpr std::uint32_t kSlotsPerBlock = 32;                    // a power of two
-  static constexpr std::uint32_t kIndicesPerBlock = kSlotsPerBlock - 1;  // the last slot links to the next
+  static constexpr std::uint32_t kSlotsPerSegment = 32;  // a power of two
+  static constexpr std::uint32_t kIndicesPerSegment =
+      kSlotsPerSegment - 1;  // the last slot links to the next
 
-  // Different threads write to chunks. The alignment keeps them in different pairs of cache lines, which
+  // Different threads write to slices. The alignment keeps them in different pairs of cache lines, which
   // processors fetch together (false sharing).
-  struct alignas(128) Chunk {
-    std::vector<std::uint32_t> slots;          // blocks of kSlotsPerBlock
-    std::vector<std::uint32_t> first, cursor;  // for each cell: slot of its first block, next slot to write
+  struct alignas(128) Slice {
+    std::vector<std::uint32_t> slots;          // segments of kSlotsPerSegment
+    std::vector<std::uint32_t> first, cursor;  // for each cell: slot of its first segment, next slot to write
     std::uint32_t used = 0;                    // slots in use
     MaskLists masks;
     ScreenTriangle* kept = nullptr;  // where triangles that are binned as indices are kept; null: nowhere
     std::size_t next_kept = 0;       // index there
 
     void reset(std::size_t cells);
-    // Appends a block to a cell's list. `end_of_last`: the link slot of its last block, or kNone.
-    std::uint32_t begin_block(std::size_t cell, std::uint32_t end_of_last);
+    // Appends a segment to a cell's list. `end_of_last`: the link slot of its last segment, or kNone.
+    std::uint32_t begin_segment(std::size_t cell, std::uint32_t end_of_last);
     // Appends the index if it is a candidate, without a branch that would be mispredicted.
     void push(std::size_t cell, std::uint32_t index, bool is_candidate);
     void bin(const ScreenTriangle& triangle, std::uint32_t index, const CellBox& box, int candidate_cells,
              const CellGrid& grid);
     void bin_in_many(const ScreenTriangle& triangle, std::uint32_t index, const CellBox& box,
                      const CellGrid& grid);
-    void bin_boxed(const ScreenTriangle* batch, std::uint64_t boxed, const CellBoxes& boxes,
+    void bin_boxed(const ScreenTriangle* packet, std::uint64_t boxed, const CellBoxes& boxes,
                    std::size_t begin, const CellGrid& grid);
     void append(const SortedTriangles& sorted, std::size_t n, std::size_t end);
     void bin_as_indices(std::span<const ScreenTriangle> triangles, std::size_t begin, const CellGrid& grid,
@@ -160,11 +161,11 @@ class Bins {
                         bool prefetch, MaskFinder find_masks, std::size_t max_mask_bytes);
   };
 
-  std::vector<Chunk> chunks_;
+  std::vector<Slice> slices_;
   Buffer<ScreenTriangle> kept_;
   const ScreenTriangle* triangles_ = nullptr;
   WorkPartition partition_;
-  std::size_t used_chunks_ = 0;
+  std::size_t used_slices_ = 0;
   bool has_masks_ = false;
 };
 

@@ -17,7 +17,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 std::uint64_t cell_boxes(const ScreenTriangle* triangles, const CellGrid& grid, bool, CellBoxes& out) {
   std::uint64_t filled = 0;
-  for (int i = 0; i < kBoxesAtOnce; ++i) {
+  for (int i = 0; i < kPacket; ++i) {
     const auto box = contract::pixel_box(triangles[i], grid.width, grid.height);
     if (box.empty()) continue;
     filled |= std::uint64_t{1} << i;
@@ -31,7 +31,7 @@ std::uint64_t cell_boxes(const ScreenTriangle* triangles, const CellGrid& grid, 
 std::uint64_t cell_boxes(const ScreenTriangle* triangles, const CellGrid& grid, bool prefetch,
                          CellBoxes& out) {
   std::uint64_t filled = 0;
-  for (int i = 0; i < kBoxesAtOnce; i += kLanes) {
+  for (int i = 0; i < kPacket; i += kLanes) {
     const RecordLanes t(triangles + i, prefetch);
     const BoxLanes box(t, grid.width, grid.height);
     store_cell_boxes(t, box, grid, i, out);

@@ -24,13 +24,13 @@ struct CellBox {
   std::uint16_t column0, row0, column1, row1;  // inclusive
 };
 
-inline constexpr int kBoxesAtOnce = 64;
+inline constexpr int kPacket = 64;
 
 struct CellBoxes {
-  CellBox box[kBoxesAtOnce];
+  CellBox box[kPacket];
   // For a box of at most 2 x 2 cells, the cells of which the triangle may cover a pixel: bit column + 2 row.
   // 0 for larger boxes.
-  alignas(64) std::int32_t candidate_cells[kBoxesAtOnce];
+  alignas(64) std::int32_t candidate_cells[kPacket];
 
   // Sets the box of triangle i. All its cells become candidates.
   void set(std::size_t i, const contract::PixelBox& px, const CellGrid& grid) {
@@ -44,7 +44,7 @@ struct CellBoxes {
   }
 };
 
-// Writes the boxes of kBoxesAtOnce triangles. Bit i of the result is set if the box of triangle i holds a
+// Writes the boxes of kPacket triangles. Bit i of the result is set if the box of triangle i holds a
 // sample; the other boxes are unspecified. `prefetch`: prefetch the triangles that follow in memory.
 using CellBoxKernel = std::uint64_t (*)(const ScreenTriangle* triangles, const CellGrid& grid, bool prefetch,
                                         CellBoxes& out);

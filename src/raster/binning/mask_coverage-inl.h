@@ -30,9 +30,9 @@ constexpr std::int32_t kMaxSmallExtent = 1 << 12;  // sub-units: a small triangl
 
 // Small triangles that cover a sample, in submission order. Whole vectors may be stored past the last.
 struct Covering {
-  static constexpr int kCapacity = kBoxesAtOnce + 16;
+  static constexpr int kCapacity = kPacket + 16;
   int count = 0;
-  alignas(64) std::int32_t index[kCapacity];              // of the triangle in its batch
+  alignas(64) std::int32_t index[kCapacity];              // of the triangle in its packet
   alignas(64) std::int32_t x0[kCapacity], y0[kCapacity];  // first pixel of the box
   alignas(64) std::int32_t rows[2][kCapacity];  // as in CoverageMask, but from the box's first pixel on
   alignas(64) std::int32_t payload[kCapacity];
@@ -128,7 +128,7 @@ class Crossings {
 };
 
 // Appends the triangles of a vector that are small and cover a sample. Bit i of the result is set if triangle
-// i does. `index`: of the first, in the batch.
+// i does. `index`: of the first, in the packet.
 HWY_INLINE std::uint32_t append_covering(const RecordLanes& t, const BoxLanes& box, hn::Mask<D> small,
                                          int index, Covering& out) {
   const D d;

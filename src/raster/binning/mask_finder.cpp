@@ -34,7 +34,7 @@ void find_masks(const ScreenTriangle*, const CellGrid&, bool, SortedTriangles&) 
 void find_masks(const ScreenTriangle* triangles, const CellGrid& grid, bool prefetch, SortedTriangles& out) {
   Covering covering;
   out.boxed = out.masked = 0;
-  for (int i = 0; i < kBoxesAtOnce; i += kLanes) {
+  for (int i = 0; i < kPacket; i += kLanes) {
     const RecordLanes t(triangles + i, prefetch);
     const BoxLanes box(t, grid.width, grid.height);
     const auto small = is_small(t, box);

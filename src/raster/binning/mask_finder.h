@@ -12,7 +12,7 @@
 
 namespace edgewise {
 
-// A batch of up to kBoxesAtOnce triangles, sorted. Bit i of `boxed` and `masked` belongs to triangle i.
+// A packet of up to kPacket triangles, sorted. Bit i of `boxed` and `masked` belongs to triangle i.
 struct SortedTriangles {
   std::uint64_t boxed;   // triangles with a cell box
   std::uint64_t masked;  // small triangles that cover a sample
@@ -20,7 +20,7 @@ struct SortedTriangles {
 
   // Bits of quadrants[n]: the masks of the n-th masked triangle, at the upper left, upper right, lower left
   // and lower right of its box.
-  static constexpr int kQuadrants = 4, kCapacity = kBoxesAtOnce;
+  static constexpr int kQuadrants = 4, kCapacity = kPacket;
   std::uint8_t quadrants[kCapacity + 7];  // 4 bits each; read eight at a time
   // Halves of a CoverageMask. The last field of the second half is the cell instead of the rank.
   struct alignas(16) Half {
@@ -41,7 +41,7 @@ struct SortedTriangles {
   }
 };
 
-// `triangles`: kBoxesAtOnce of them. `prefetch`: prefetch the triangles that follow in memory.
+// `triangles`: kPacket of them. `prefetch`: prefetch the triangles that follow in memory.
 using MaskFinder = void (*)(const ScreenTriangle* triangles, const CellGrid& grid, bool prefetch,
                             SortedTriangles& out);
 

@@ -25,22 +25,22 @@ std::uint32_t work(const ScreenTriangle& triangle, int width, int height, bool m
 
 }  // namespace
 
-void WorkPartition::cut_equally(std::size_t count, std::size_t parts) {
-  bounds_.resize(parts + 1);
-  for (std::size_t i = 0; i <= parts; ++i) bounds_[i] = count * i / parts;
+void WorkPartition::cut_equally(std::size_t count, std::size_t slices) {
+  bounds_.resize(slices + 1);
+  for (std::size_t i = 0; i <= slices; ++i) bounds_[i] = count * i / slices;
 }
 
 void WorkPartition::cut_by_work(TriangleSource& source, int width, int height, bool masks,
-                                std::size_t parts) {
-  cut_equally(source.size(), parts);
-  // Evaluating the samples takes about 10 us per part, or 50 us if triangles are made, one part after the
-  // other. From kMinPerPart inputs per part, times the number of parts, that is at most 1 % of the time to
-  // bin a part, or 3 % of the time to make and bin it. Parts of triangles in random order differ by less than
-  // 1 / kTolerance of their work in nearly all draws of kSamples per part.
-  constexpr std::size_t kMinPerPart = 100'000, kSamples = 512, kTolerance = 10;
-  if (parts < 2 || source.size() / parts < kMinPerPart * parts) return;
+                                std::size_t slices) {
+  cut_equally(source.size(), slices);
+  // Evaluating the samples takes about 10 us per slice, or 50 us if triangles are made, one slice after the
+  // other. From kMinPerSlice inputs per slice, times the number of slices, that is at most 1 % of the time to
+  // bin a slice, or 3 % of the time to make and bin it. Slices of triangles in random order differ by less
+  // than 1 / kTolerance of their work in nearly all draws of kSamples per slice.
+  constexpr std::size_t kMinPerSlice = 100'000, kSamples = 512, kTolerance = 10;
+  if (slices < 2 || source.size() / slices < kMinPerSlice * slices) return;
 
-  const std::size_t count = parts * kSamples;
+  const std::size_t count = slices * kSamples;
   const auto sample_index = [&](std::size_t sample) { return source.size() * sample / count; };
   work_.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -53,13 +53,13 @@ void WorkPartition::cut_by_work(TriangleSource& source, int width, int height, b
   };
   const std::size_t total = sum(0, count);
   std::size_t most = 0;
-  for (std::size_t i = 0; i < parts; ++i) most = std::max(most, sum(i * kSamples, kSamples));
-  if (most * parts <= total + total / kTolerance) return;
+  for (std::size_t i = 0; i < slices; ++i) most = std::max(most, sum(i * kSamples, kSamples));
+  if (most * slices <= total + total / kTolerance) return;
 
   std::size_t before = 0;
-  for (std::size_t i = 0, part = 1; i < count; ++i) {
+  for (std::size_t i = 0, slice = 1; i < count; ++i) {
     before += work_[i];
-    for (; part < parts && before * parts >= total * part; ++part) bounds_[part] = sample_index(i + 1);
+    for (; slice < slices && before * slices >= total * slice; ++slice) bounds_[slice] = sample_index(i + 1);
   }
 }
 

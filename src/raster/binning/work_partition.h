@@ -1,4 +1,4 @@
-// Cuts the inputs of a triangle source into parts that take about the same time to make and bin, one per
+// Cuts the inputs of a triangle source into slices that take about the same time to make and bin, one per
 // thread.
 #pragma once
 
@@ -13,12 +13,12 @@ namespace edgewise {
 
 class WorkPartition {
  public:
-  // Cuts `count` inputs into parts of equal length. Part i is [bounds()[i], bounds()[i + 1]).
-  void cut_equally(std::size_t count, std::size_t parts);
+  // Cuts `count` inputs into slices of equal length. Slice i is [bounds()[i], bounds()[i + 1]).
+  void cut_equally(std::size_t count, std::size_t slices);
   // Cuts by the estimated work of making and binning the triangles of a sample of the inputs. Falls back to
   // equal lengths where these are balanced, or where there are too few inputs for sampling to pay.
   // `width`, `height`: of the image, px. `masks`: small triangles become coverage masks.
-  void cut_by_work(TriangleSource& source, int width, int height, bool masks, std::size_t parts);
+  void cut_by_work(TriangleSource& source, int width, int height, bool masks, std::size_t slices);
   std::span<const std::size_t> bounds() const { return bounds_; }
 
  private:

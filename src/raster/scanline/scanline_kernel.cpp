@@ -32,9 +32,9 @@ namespace {
 // Draws triangles into a tile, in the order of its calls.
 #if HWY_TARGET == HWY_SCALAR
 
-class TilePainter {
+class SpanPainter {
  public:
-  explicit TilePainter(const TileTask& task) : task_(task) {
+  explicit SpanPainter(const TileTask& task) : task_(task) {
     std::fill_n(depth_, kMaxTile * kMaxTile, static_cast<std::int32_t>(kDepthClear));
   }
   void draw(std::span<const std::uint32_t> indices) {
@@ -50,9 +50,9 @@ class TilePainter {
 
 #else
 
-class TilePainter {
+class SpanPainter {
  public:
-  explicit TilePainter(const TileTask& task) : task_(task) {
+  explicit SpanPainter(const TileTask& task) : task_(task) {
     std::fill_n(tile_.depth, std::size(tile_.depth), static_cast<std::int32_t>(kDepthClear));
     tile_.hiz.clear(task.width(), task.height());
   }
@@ -98,8 +98,8 @@ void write_rows(const FramePlane& to, const Pixels& pixels) {
 }  // namespace
 
 void draw_tile_in_spans(const TileTask& task) {
-  TilePainter painter(task);
-  draw_index_blocks(task, [&](const Bins::IndexBlock& block) { painter.draw(block.indices); });
+  SpanPainter painter(task);
+  draw_segments(task, [&](const Bins::Segment& segment) { painter.draw(segment.indices); });
   write_tile(task, painter.depth(), painter.payload(),
              [](const FramePlane& to, const auto& pixels) { write_rows(to, pixels); });
   clear_upper_halves();

@@ -48,16 +48,16 @@ alignas(64) constexpr auto kPairTables = [] {
 // Loads kPairs records. field[f]: pair f of each record.
 HWY_INLINE void load_pairs(const std::int64_t* from, hn::Vec<Pairs> (&field)[kFields]) {
   const Pairs d;
-  hn::Vec<Pairs> part[kFields];
-  for (int p = 0; p < kFields; ++p) part[p] = hn::LoadU(d, from + p * kPairs);
+  hn::Vec<Pairs> loaded[kFields];
+  for (int p = 0; p < kFields; ++p) loaded[p] = hn::LoadU(d, from + p * kPairs);
   const auto remainder = hn::LoadU(d, kPairTables.remainder);
   hn::Mask<Pairs> is[kFields];
   for (int r = 0; r < kFields; ++r) is[r] = hn::Eq(remainder, hn::Set(d, r));
   for (int f = 0; f < kFields; ++f) {
-    auto v = part[0];
+    auto v = loaded[0];
     for (int p = 1; p < kFields; ++p) {
       const int r = ((f - p * kPairs) % kFields + kFields) % kFields;
-      if (r < kPairs) v = hn::IfThenElse(is[r], part[p], v);
+      if (r < kPairs) v = hn::IfThenElse(is[r], loaded[p], v);
     }
     field[f] = hn::TableLookupLanes(v, hn::SetTableIndices(d, kPairTables.lane[f]));
   }

@@ -149,7 +149,7 @@ struct InVectors {
 // lines together, and lines of several rows often compete for the same cache sets.
 template <typename Pixels>
 void write_blocks(const FramePlane& to, const Pixels& pixels) {
-  const auto part_of_row = [](int x, int y) {
+  const auto at_pixel = [](int x, int y) {
     return y / kBlockSide * kMaxBlocks * kBlockPixels + y % kBlockSide * kBlockSide + x * kBlockSide;
   };
   const InVectors in_vectors(to.width, to.height);
@@ -161,7 +161,7 @@ void write_blocks(const FramePlane& to, const Pixels& pixels) {
       V lower[kWhole];
       for (int i = 0; i < count; ++i) {
         V upper;
-        two_rows_of_blocks(pixels, part_of_row(i * kLanes, y), upper, lower[i]);
+        two_rows_of_blocks(pixels, at_pixel(i * kLanes, y), upper, lower[i]);
         store(upper, upper_row + i * kLanes);
       }
       for (int i = 0; i < count; ++i) store(lower[i], lower_row + i * kLanes);
@@ -172,7 +172,7 @@ void write_blocks(const FramePlane& to, const Pixels& pixels) {
 #endif
   for (int y = 0; y < to.height; ++y)
     for (int x = y < in_vectors.height ? in_vectors.width : 0; x < to.width; x += kBlockSide)
-      std::memcpy(to.row(y) + x, pixels.buffer + part_of_row(x, y),
+      std::memcpy(to.row(y) + x, pixels.buffer + at_pixel(x, y),
                   sizeof(std::int32_t) * static_cast<std::size_t>(std::min(kBlockSide, to.width - x)));
 }
 

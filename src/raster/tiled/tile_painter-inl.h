@@ -35,7 +35,7 @@ class TilePainter {
   TilePainter(const TileTask& task, Tile& tile)
       : task_(task), tile_(tile), small_(tile), masks_(*task.bins, task.cell) {}
 
-  HWY_NOINLINE void draw_index_block(const Bins::IndexBlock& block) {
+  HWY_NOINLINE void draw_segment(const Bins::Segment& segment) {
     Candidates* next = candidates_;
     const Candidates* waiting = nullptr;
     const auto draw_waiting = [&] {
@@ -46,9 +46,9 @@ class TilePainter {
       draw_waiting();
       return draw(masks, last);
     };
-    for (std::uint32_t left = set_up(task_, block.indices, batch_); left != 0; left &= left - 1) {
+    for (std::uint32_t left = set_up(task_, segment.indices, batch_); left != 0; left &= left - 1) {
       const int k = std::countr_zero(left);
-      masks_.draw_before(block, static_cast<std::size_t>(k), draw_leading);
+      masks_.draw_before(segment, static_cast<std::size_t>(k), draw_leading);
       const int width = batch_.bx1[k] - batch_.bx0[k] + 1, height = batch_.by1[k] - batch_.by0[k] + 1;
       if (std::max(width, height) <= SmallTriangles<Numbers>::kSide) {
         draw_waiting();
@@ -110,7 +110,7 @@ void draw_tile_in(const TileTask& task) {
   tile.hiz.clear(task.width(), task.height());
 
   TilePainter<Numbers> painter(task, tile);
-  draw_index_blocks(task, [&](const Bins::IndexBlock& block) { painter.draw_index_block(block); });
+  draw_segments(task, [&](const Bins::Segment& segment) { painter.draw_segment(segment); });
   painter.draw_rest();
   write_tile(task, tile.depth(), tile.payload(),
              [](const FramePlane& to, const auto& pixels) { write_blocks(to, pixels); });

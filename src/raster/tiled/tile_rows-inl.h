@@ -28,8 +28,8 @@ alignas(64) constexpr std::int32_t kIota[kBlocksAtOnce] = {0, 1, 2,  3,  4,  5, 
                                                            8, 9, 10, 11, 12, 13, 14, 15};
 alignas(64) constexpr std::int32_t kBlockX[kBlocksAtOnce] = {0,  4,  8,  12, 16, 20, 24, 28,  // px
                                                              32, 36, 40, 44, 48, 52, 56, 60};
-HWY_INLINE std::size_t lane_of(std::size_t part) {
-  return part * static_cast<std::size_t>(kLanes);
+HWY_INLINE std::size_t lane_of(std::size_t p) {
+  return p * static_cast<std::size_t>(kLanes);
 }
 
 // Whether triangle k may cover a whole block: inside a triangle an edge value lies between 0 and twice the
@@ -42,44 +42,44 @@ HWY_INLINE bool may_fill_blocks(const Batch<Numbers>& batch, int k) {
   return has_room(batch.edge[0]) && has_room(batch.edge[1]) && has_room(batch.edge[2]);
 }
 
-// A linear function of the pixel position, at the first pixels of a row of blocks, in kParts vectors.
-template <class Lanes, std::size_t kParts>
+// A linear function of the pixel position, at the first pixels of a row of blocks, in kWidth vectors.
+template <class Lanes, std::size_t kWidth>
 struct Row {
   using Value = typename Lanes::Value;
-  typename Lanes::Vector v[kParts], step;
+  typename Lanes::Vector v[kWidth], step;
   HWY_INLINE Row(const Value* x, const Value* y, const Value* first) {
-    for (std::size_t p = 0; p < kParts; ++p)
+    for (std::size_t p = 0; p < kWidth; ++p)
       v[p] = Lanes::add(Lanes::set(*first), Lanes::times(hn::Load(D{}, kBlockX + lane_of(p)), *x));
     step = Lanes::times(hn::Set(D{}, kBlockSide), *y);
   }
   HWY_INLINE void next() {
-    for (auto& part : v) part = Lanes::add(part, step);
+    for (auto& value : v) value = Lanes::add(value, step);
   }
 };
 
-// Lists the candidate blocks of triangle k, whose box is at most kParts vectors of blocks wide, and lowers
+// Lists the candidate blocks of triangle k, whose box is at most kWidth vectors of blocks wide, and lowers
 // the zmax of the blocks that it covers.
-template <class Numbers, bool kHierarchicalDepth, std::size_t kParts>
+template <class Numbers, bool kHierarchicalDepth, std::size_t kWidth>
 HWY_NOINLINE void find_candidates_by_rows(Tile& tile, const Batch<Numbers>& batch, int k, Candidates& out) {
   const D d;
   const V minus_one = hn::Set(d, -1);
   const auto largest = [&](const auto& edge) {
-    return Row<Numbers, kParts>(edge.x + k, edge.y + k, edge.most + k);
+    return Row<Numbers, kWidth>(edge.x + k, edge.y + k, edge.most + k);
   };
-  Row<Numbers, kParts> edge[3] = {largest(batch.edge[0]), largest(batch.edge[1]), largest(batch.edge[2])};
-  Row<Int32Lanes, kParts> depth(batch.depth.x + k, batch.depth.y + k, batch.depth.most + k);
-  Row<Int32Lanes, kParts> nearest(batch.nearest.x + k, batch.nearest.y + k, batch.nearest.first + k);
+  Row<Numbers, kWidth> edge[3] = {largest(batch.edge[0]), largest(batch.edge[1]), largest(batch.edge[2])};
+  Row<Int32Lanes, kWidth> depth(batch.depth.x + k, batch.depth.y + k, batch.depth.most + k);
+  Row<Int32Lanes, kWidth> nearest(batch.nearest.x + k, batch.nearest.y + k, batch.nearest.first + k);
 
   const V last_column = hn::Set(d, batch.bx1[k] - batch.bx0[k]);
-  V before_end[kParts], offset[kParts];  // before_end < 0 behind the box's last column
-  for (std::size_t p = 0; p < kParts; ++p) {
+  V before_end[kWidth], offset[kWidth];  // before_end < 0 behind the box's last column
+  for (std::size_t p = 0; p < kWidth; ++p) {
     offset[p] = hn::Load(d, kIota + lane_of(p));
     before_end[p] = hn::Sub(last_column, offset[p]);
   }
   std::int32_t* hiz = tile.hiz.at(batch.bx0[k], batch.by0[k]);
   List list{out.offset};
   for (int row = batch.by0[k]; row <= batch.by1[k]; ++row) {
-    for (std::size_t p = 0; p < kParts; ++p) {
+    for (std::size_t p = 0; p < kWidth; ++p) {
       const V most = hn::Or(Numbers::outside(edge[0].v[p], edge[1].v[p], edge[2].v[p]), before_end[p]);
       auto candidate = hn::Gt(most, minus_one);
       if constexpr (kHierarchicalDepth) {
