@@ -16,7 +16,7 @@
 #include "edgewise/contract.h"
 #include "edgewise/image.h"
 #include "edgewise/scene.h"
-#include "image/samples.h"
+#include "image/format.h"
 #include "message_of.h"
 #include "temp_dir.h"
 

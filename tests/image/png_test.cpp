@@ -9,7 +9,7 @@
 
 #include "edgewise/image.h"
 #include "edgewise/scene.h"
-#include "image/samples.h"
+#include "image/format.h"
 #include "message_of.h"
 #include "temp_dir.h"
 

@@ -21,8 +21,8 @@
 #include "support/json_text.h"
 #include "support/machine.h"
 #include "support/output_path.h"
+#include "support/process.h"
 #include "support/progress.h"
-#include "support/stop_request.h"
 
 namespace edgewise::tools {
 
