@@ -29,7 +29,7 @@ namespace edgewise::tools {
 
 namespace {
 
-constexpr int kMostTimedFrames = 1'000'000, kMostPictures = 100'000;
+constexpr int kMostPictures = 100'000;
 
 // Throws std::invalid_argument if this program was built without window support.
 void check_windows(viewer::ShowWindow show_window) {
@@ -60,7 +60,6 @@ struct ViewOptions {
   std::optional<glm::vec3> axis;
   std::optional<Format> format;
   bool terminal = false;
-  int frames = 0;
 };
 
 // `first` is the shot that view() has already loaded; it is used once, unless the size has changed meanwhile.
@@ -84,21 +83,6 @@ viewer::Session make_session(const ViewOptions& o, Shot first) {
   return viewer::Session(std::move(start));
 }
 
-// "600 frames: median 3.10 ms, …".
-std::string summary(viewer::FrameTimes times) {
-  std::vector<double>& ms = times.milliseconds;
-  if (ms.empty()) return "no frames";
-  std::sort(ms.begin(), ms.end());
-  const auto frames = static_cast<double>(ms.size());
-  const auto percentile = [&](double p) { return ms[static_cast<std::size_t>(p * (frames - 1))]; };
-  constexpr double kFrameAt60Hz_ms = 1000.0 / 60;
-  const auto late = std::count_if(ms.begin(), ms.end(), [](double t) { return t > kFrameAt60Hz_ms; });
-  return fmt::format(
-      "{} frames: median {:.2f} ms, 95th percentile {:.2f}, 99th {:.2f}, worst {:.2f}; {} took longer than "
-      "1/60 s; CPU {:.2f} ms per frame",
-      ms.size(), percentile(0.5), percentile(0.95), percentile(0.99), ms.back(), late, times.cpu_ms / frames);
-}
-
 int view(const ViewOptions& o, viewer::ShowWindow show_window) {
   const auto strokes = viewer::parse_keys(o.keys);
   std::optional<OutputFile> output;
@@ -106,10 +90,8 @@ int view(const ViewOptions& o, viewer::ShowWindow show_window) {
     output = output_file("--output", o.output, OutputKind::picture, o.format);
     check_files({{"--output", output->path}}, {o.scene});
   }
-  if (o.terminal && (!o.output.empty() || o.frames > 0))
-    throw std::invalid_argument("--terminal cannot be combined with --output or --frames");
-  if (!o.output.empty() && o.frames > 0)
-    throw std::invalid_argument("--output and --frames exclude each other");
+  if (o.terminal && !o.output.empty())
+    throw std::invalid_argument("--terminal and --output cannot be combined");
   if (!o.terminal && o.output.empty()) check_windows(show_window);
   // Before a window opens, so that an invalid scene is reported first.
   Shot shot = load_shot(o.scene, o.options, o.options.time.value_or(0.0));
@@ -125,9 +107,7 @@ int view(const ViewOptions& o, viewer::ShowWindow show_window) {
   } else if (o.terminal) {
     viewer::show_in_terminal(session);
   } else {
-    const auto times = show_window(session, {"edgewise: " + printable(o.scene), size, o.frames});
-    if (o.frames > 0)
-      print(fmt::format("{} {}x{}, {}\n", printable(o.scene), size.width, size.height, summary(times)));
+    show_window(session, {"edgewise: " + printable(o.scene), size});
   }
   print_saved(session);
   return kDone;
@@ -140,7 +120,6 @@ std::string view_footer() {
   edgewise view bunny.obj --fit --terminal             half-block characters, for example over ssh
   edgewise view cube --coverage float_lt --keys ve     beside the exact picture, wrong pixels tinted
   edgewise view cube --keys "bbbe<enter>" -o seen.png  the picture after these keys, no window
-  edgewise view torus-knot --keys r --frames 600       frame times while the knot rotates
 
 --keys takes characters and, in angle brackets, other keys (<tab>), methods to select (<float_lt>)
 and seconds to wait (<1.5>). For example: "v<tab><float_lt><1.5>".
@@ -293,11 +272,9 @@ void add_view(CLI::App& program, Action& action, viewer::ShowWindow show_window)
                    "Show it in this terminal (needs true colour) instead of a window");
   const auto add_stage = [&](const char* option, const char* help, const auto& find,
                              auto lab::Choice::*stage) {
-    command
-        .add_option_function<std::string>(
-            option, [o, find, stage](const std::string& name) { o->choice.*stage = &find(name); }, help)
-        ->type_name("NAME")
-        ->group("Initial methods");
+    add_parsed(command, option, "NAME", help, [o, find, stage](const std::string& name) {
+      o->choice.*stage = &find(name);
+    })->group("Initial methods");
   };
   add_stage("--coverage", "Backend or coverage method (tiled)", lab::find_drawing_method,
             &lab::Choice::coverage);
@@ -305,23 +282,17 @@ void add_view(CLI::App& program, Action& action, viewer::ShowWindow show_window)
   add_stage("--visibility", "Visibility method (contract31)", lab::find_visibility_method,
             &lab::Choice::visibility);
   add_stage("--facing", "Facing test (snapped_area)", lab::find_facing_method, &lab::Choice::facing);
-  command
-      .add_option_function<std::string>(
-          "--axis",
-          [o](const std::string& text) {
-            const glm::dvec3 axis = parse_vector("--axis", text), size = glm::abs(axis);
-            o->axis = axis / std::max({size.x, size.y, size.z, 1.0});
-          },
-          "Rotation axis of the objects (the first object's)")
-      ->type_name("X,Y,Z");
+  add_parsed(command, "--axis", "X,Y,Z", "Rotation axis of the objects (the first object's)",
+             [o](const std::string& text) {
+               const glm::dvec3 axis = parse_vector("--axis", text), size = glm::abs(axis);
+               o->axis = axis / std::max({size.x, size.y, size.z, 1.0});
+             });
   command.add_option("--keys", o->keys, "Keys to press at the start")->type_name("KEYS");
   command
       .add_option("-o,--output", o->output,
                   "Write the resulting picture (.png, .ppm, or -) and open no window")
       ->type_name("FILE");
   add_format(command, o->format, {Format::png, Format::ppm});
-  add_integer(command, "--frames", o->frames, 1, kMostTimedFrames,
-              "Draw N frames without a frame-rate limit, print their times and quit");
   command.add_option("--save-to", o->folder, "Folder for files saved with p (.)")->type_name("DIR");
   o->options.add_to(command);
   o->execution.add_to(command);
