@@ -11,7 +11,7 @@
 #include "bench/workloads/engine_runs.h"
 #include "bench/workloads/growth.h"
 #include "lab/choice.h"
-#include "scene/cells.h"
+#include "scene/polygon.h"
 #include "support/printable.h"
 
 namespace edgewise::bench {

@@ -1,4 +1,4 @@
-// The subcommands, one file each. Each function declares a subcommand's options. When the command line names
+// The subcommands. Each function declares a subcommand's options. When the command line names
 // the subcommand, parsing sets `action`.
 #pragma once
 

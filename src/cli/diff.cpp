@@ -12,7 +12,7 @@
 #include "cli/commands.h"
 #include "core/input_file.h"
 #include "edgewise/image.h"
-#include "image/samples.h"
+#include "image/format.h"
 #include "support/console.h"
 #include "support/json_text.h"
 #include "support/output_path.h"

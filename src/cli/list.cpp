@@ -1,4 +1,5 @@
-// `edgewise list`: lists scenes, backends, SIMD targets and culling modes.
+// `edgewise list` lists scenes, backends, SIMD targets and culling modes. `edgewise machine` describes the
+// machine and the build, as every result file does.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -12,6 +13,7 @@
 #include "edgewise/frontend.h"
 #include "support/console.h"
 #include "support/json_text.h"
+#include "support/machine.h"
 
 namespace edgewise::tools {
 
@@ -77,6 +79,19 @@ void add_list(CLI::App& program, Action& action) {
   command.callback([in_json, &action] {
     action = [in_json] {
       print(*in_json ? json_text(as_json(), 2) + "\n" : as_text());
+      return kDone;
+    };
+  });
+}
+
+void add_machine(CLI::App& program, Action& action) {
+  CLI::App& command =
+      *program.add_subcommand("machine", "Describe this machine and build as JSON, as result files do");
+  const auto name_only = std::make_shared<bool>(false);
+  command.add_flag("--name", *name_only, "Print only the name of this machine's folder below results/");
+  command.callback([name_only, &action] {
+    action = [name_only] {
+      print((*name_only ? machine_name() : json_text(machine_description(), 2)) + "\n");
       return kDone;
     };
   });

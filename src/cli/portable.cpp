@@ -180,18 +180,12 @@ void add_portable(CLI::App& program, Action& action) {
   command.add_option("--picture", o->picture, "Reference picture, named like the mask")->type_name("FILE");
   add_format(command, o->format, {Format::png, Format::ppm});
   command.add_flag("--ids", o->ids, "The reference picture shows triangle ids, as `render --payload id`");
-  command
-      .add_option_function<std::string>(
-          "--bits", [o](const std::string& text) { o->model.subpixel_bits = fewest_bits(text); },
-          "Subpixel bits of the rasterizers, as 8 or 4-8; the fewest decide (8)")
-      ->type_name("N");
+  add_parsed(command, "--bits", "N", "Subpixel bits of the rasterizers, as 8 or 4-8; the fewest decide (8)",
+             [o](const std::string& text) { o->model.subpixel_bits = fewest_bits(text); });
   add_integer(command, "--ulps", o->model.transform_ulps, 0, 1000,
               "Error of the viewport transform, in units in the last place (2)");
-  command
-      .add_option_function<std::string>(
-          "--depth", [o](const std::string& text) { o->model.depth = lab::find_depth_format(text); },
-          "Depth format: d16_unorm, d24_unorm or d32_sfloat (d24_unorm)")
-      ->type_name("FORMAT");
+  add_parsed(command, "--depth", "FORMAT", "Depth format: d16_unorm, d24_unorm or d32_sfloat (d24_unorm)",
+             [o](const std::string& text) { o->model.depth = lab::find_depth_format(text); });
   o->scene.add_to(command);
   o->execution.add_to(command);
   command.add_flag("--json", o->json, "Print one JSON object per scene, one per line");

@@ -261,11 +261,8 @@ void add_render(CLI::App& program, Action& action) {
   add_format(command, o->format, {Format::png, Format::ppm, Format::pfm});
   command.add_option("--backend", o->backend, "Backend of `edgewise list` (tiled)")->type_name("NAME");
   command.add_flag("--wireframe", o->wireframe, "Draw only the edges of triangles, one pixel wide");
-  command
-      .add_option_function<std::string>(
-          "--payload", [o](const std::string& text) { o->pixel_kind = parse_pixel_kind(text); },
-          "Pixel values: colour, id or hits (colour)")
-      ->type_name("KIND");
+  add_parsed(command, "--payload", "KIND", "Pixel values: colour, id or hits (colour)",
+             [o](const std::string& text) { o->pixel_kind = parse_pixel_kind(text); });
   o->scene.add_to(command);
   o->execution.add_to(command);
   add_integer(command, "--frames", o->frames, 1, kMaxFrames,

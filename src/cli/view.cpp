@@ -1,22 +1,27 @@
-// `edgewise view`: shows a scene in a window or a terminal, or writes the picture after some keys.
+// `edgewise view` shows a scene in a window or a terminal, or writes the picture after some keys. `edgewise
+// demo` shows the tutorials as text, as pictures, as animations, or in the viewer.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "cli/commands.h"
-#include "cli/show.h"
 #include "edgewise/contract.h"
 #include "edgewise/image.h"
 #include "support/console.h"
+#include "support/json_text.h"
 #include "support/options.h"
+#include "support/output_path.h"
 #include "support/printable.h"
+#include "support/progress.h"
+#include "viewer/demos.h"
 #include "viewer/session.h"
-#include "viewer/terminal.h"
 #include "viewer/typing.h"
 #include "viewer/window.h"
 
@@ -24,7 +29,28 @@ namespace edgewise::tools {
 
 namespace {
 
-constexpr int kMostFrames = 1'000'000;
+constexpr int kMostPictures = 100'000;
+
+// Throws std::invalid_argument if this program was built without window support.
+void check_windows(viewer::ShowWindow show_window) {
+  if (show_window == nullptr)
+    throw std::invalid_argument(
+        "this program was built without SDL2 and cannot open a window: use --terminal, or install "
+        "libsdl2-dev and rebuild");
+}
+
+// Paints the texts into a drawn screen and writes it as a picture.
+void write_screen(const OutputFile& file, viewer::Screen& screen, int font_scale) {
+  viewer::paint(screen, font_scale);
+  write_image(file.path, screen.picture, file.format);
+}
+
+// Prints the names of the files that the session has saved.
+void print_saved(viewer::Session& session) {
+  for (const std::string& path : session.take_saved()) print(printable(path) + "\n");
+}
+
+// ---- view
 
 struct ViewOptions {
   std::string scene = "cube", keys, output, folder = ".";
@@ -34,7 +60,6 @@ struct ViewOptions {
   std::optional<glm::vec3> axis;
   std::optional<Format> format;
   bool terminal = false;
-  int frames = 0;
 };
 
 // `first` is the shot that view() has already loaded; it is used once, unless the size has changed meanwhile.
@@ -65,41 +90,36 @@ int view(const ViewOptions& o, viewer::ShowWindow show_window) {
     output = output_file("--output", o.output, OutputKind::picture, o.format);
     check_files({{"--output", output->path}}, {o.scene});
   }
-  if (o.terminal && (!o.output.empty() || o.frames > 0))
-    throw std::invalid_argument("--terminal cannot be combined with --output or --frames");
-  if (!o.output.empty() && o.frames > 0)
-    throw std::invalid_argument("--output and --frames exclude each other");
+  if (o.terminal && !o.output.empty())
+    throw std::invalid_argument("--terminal and --output cannot be combined");
   if (!o.terminal && o.output.empty()) check_windows(show_window);
   // Before a window opens, so that an invalid scene is reported first.
   Shot shot = load_shot(o.scene, o.options, o.options.time.value_or(0.0));
   const Size size{shot.frontend.width, shot.frontend.height};
+  const int scale = viewer::font_scale(size.height);
   viewer::Session session = make_session(o, std::move(shot));
-  if (!o.terminal || !strokes.empty())
-    viewer::type(session, strokes, size, viewer::font_cell(viewer::font_scale(size.height)));
+  if (!o.terminal || !strokes.empty()) viewer::type(session, strokes, size, viewer::font_cell(scale));
   if (output) {
     std::vector<Output> files{{"--output", output->path}};
     for (const std::string& saved : session.saved()) files.push_back({"the key p", saved});
     check_files(files, {});
-    write_picture(*output, session, size);
+    write_screen(*output, session.draw(size, viewer::font_cell(scale)), scale);
   } else if (o.terminal) {
     viewer::show_in_terminal(session);
   } else {
-    const auto times = show_window(session, {"edgewise: " + printable(o.scene), size, o.frames});
-    if (o.frames > 0)
-      print(fmt::format("{} {}x{}, {}\n", printable(o.scene), size.width, size.height, summary(times)));
+    show_window(session, {"edgewise: " + printable(o.scene), size});
   }
   print_saved(session);
   return kDone;
 }
 
-std::string footer() {
+std::string view_footer() {
   std::string text = R"(Examples:
   edgewise view                                        the tutorials' cube; h shows the keys
   edgewise view terrain --size 1920x1080
   edgewise view bunny.obj --fit --terminal             half-block characters, for example over ssh
   edgewise view cube --coverage float_lt --keys ve     beside the exact picture, wrong pixels tinted
   edgewise view cube --keys "bbbe<enter>" -o seen.png  the picture after these keys, no window
-  edgewise view torus-knot --keys r --frames 600       frame times while the knot rotates
 
 --keys takes characters and, in angle brackets, other keys (<tab>), methods to select (<float_lt>)
 and seconds to wait (<1.5>). For example: "v<tab><float_lt><1.5>".
@@ -113,6 +133,135 @@ Keys:
   return text;
 }
 
+// ---- demo
+
+struct DemoOptions {
+  std::vector<std::string> names;
+  std::optional<std::string> output;
+  std::optional<Format> format;
+  int frames = 1;
+  bool view = false, terminal = false, json = false;
+  std::optional<Size> size;
+  ExecutionOptions execution;
+};
+
+// The demos with these names; all if there are none.
+nlohmann::json as_json(const std::vector<std::string>& names) {
+  auto list = nlohmann::json::array();
+  for (const viewer::Demo& demo : viewer::demos()) {
+    if (!names.empty() && std::find(names.begin(), names.end(), demo.name) == names.end()) continue;
+    auto steps = nlohmann::json::array();
+    for (const viewer::Step& step : demo.steps)
+      steps.push_back({{"keys", step.keys}, {"notice", step.notice}});
+    list.push_back(
+        {{"name", demo.name}, {"tutorial", demo.tutorial}, {"summary", demo.summary}, {"steps", steps}});
+  }
+  return list;
+}
+
+std::string list_of_all() {
+  std::string text;
+  for (const viewer::Demo& demo : viewer::demos())
+    text += fmt::format("{:<20} {}\n", demo.name, demo.summary);
+  return text;
+}
+
+std::string steps_of(const viewer::Demo& demo) {
+  std::string text = fmt::format("{}: {}\n", demo.tutorial, demo.summary);
+  for (const viewer::Step& step : demo.steps) text += fmt::format("\n{}\n    {}\n", step.notice, step.keys);
+  return text;
+}
+
+viewer::Session session_of(const viewer::Demo& demo, const DemoOptions& o, bool reproducible) {
+  viewer::Start start = viewer::start_of(demo);
+  start.execution = o.execution.execution;
+  start.reproducible = reproducible;
+  return viewer::Session(std::move(start));
+}
+
+// Plays all steps and writes `o.frames` pictures at equal time intervals. The last one shows the final state.
+void write_frames(const viewer::Demo& demo, const DemoOptions& o, const OutputPaths& paths,
+                  Progress& progress) {
+  const Size size = o.size.value_or(viewer::kDemoSize);
+  viewer::Session session = session_of(demo, o, true);
+  double seconds = 0;
+  for (const viewer::Step& step : demo.steps) seconds += viewer::seconds_of(viewer::parse_keys(step.keys));
+  int frame = 0;
+  const int scale = viewer::font_scale(size.height);
+  const viewer::Cell cell = viewer::font_cell(scale);
+  const auto write_next = [&](viewer::Screen& screen) {
+    const OutputFile file = paths.file(std::string(demo.name), ++frame);
+    write_screen(file, screen, scale);
+    progress.erase();
+    print(listed({file.path.string()}) + "\n");
+    progress.show(static_cast<double>(frame) / o.frames, demo.name);
+  };
+  viewer::Film film(session, size, cell, seconds / o.frames, [&](viewer::Screen& screen) {
+    if (frame + 1 < o.frames) write_next(screen);
+  });
+  for (const viewer::Step& step : demo.steps) {
+    session.say(step.notice);
+    film.type(viewer::parse_keys(step.keys));
+  }
+  write_next(session.draw(size, cell));
+}
+
+int write_all(const DemoOptions& o) {
+  const OutputPaths paths("--output", *o.output, OutputKind::picture, o.names, o.frames, o.format);
+  std::vector<Output> files;
+  paths.append_to(files);
+  check_files(files, {});
+  paths.make_folder();
+  Progress progress;
+  for (const std::string& name : o.names) write_frames(viewer::find_demo(name), o, paths, progress);
+  return kDone;
+}
+
+int show(const viewer::Demo& demo, const DemoOptions& o, viewer::ShowWindow show_window) {
+  if (!o.terminal) check_windows(show_window);
+  const Size size = o.size.value_or(viewer::kDemoSize);
+  viewer::Session session = session_of(demo, o, false);
+  viewer::type(session, viewer::parse_keys("5"), size, viewer::font_cell(viewer::font_scale(size.height)));
+  if (o.terminal) {
+    viewer::show_in_terminal(session);
+  } else {
+    show_window(session, {fmt::format("edgewise: {}", demo.name), size});
+  }
+  print_saved(session);
+  return kDone;
+}
+
+int demonstrate(const DemoOptions& o, viewer::ShowWindow show_window) {
+  for (const std::string& name : o.names) viewer::find_demo(name);
+  const bool alive = o.view || o.terminal;
+  if (alive && o.output) throw std::invalid_argument("--view and --output exclude each other");
+  if (o.frames > 1 && !o.output) throw std::invalid_argument("--frames needs --output");
+  if (o.names.empty()) {
+    if (alive || o.output) throw std::invalid_argument("no TUTORIAL is named; `edgewise demo` lists them");
+    print(o.json ? json_text(as_json({}), 2) + "\n" : list_of_all());
+    return kDone;
+  }
+  if (o.output) return write_all(o);
+  if (alive && o.names.size() > 1) throw std::invalid_argument("--view shows one TUTORIAL");
+  if (alive) return show(viewer::find_demo(o.names.front()), o, show_window);
+  if (o.json)
+    print(json_text(as_json(o.names), 2) + "\n");
+  else
+    for (const std::string& name : o.names) print(steps_of(viewer::find_demo(name)));
+  return kDone;
+}
+
+constexpr const char* kDemoFooter = R"(Examples:
+  edgewise demo                                      list all tutorials
+  edgewise demo p5js-clipping                        list its steps, with explanations and keys
+  edgewise demo p5js-clipping --view                 show it in a window; 5: next step, h: all keys
+  edgewise demo p5js-clipping --view --terminal      show it in half-block characters, as over ssh
+  edgewise demo p5js-clipping -o clipping.png        picture of the last step
+  edgewise demo p5js-clipping -o film/ --frames 120  all steps (p5js-clipping-0001.png, ...)
+
+Pictures are identical on every machine. To encode an animation as a film, run for example
+  ffmpeg -framerate 20 -i film/p5js-clipping-%04d.png clipping.webm)";
+
 }  // namespace
 
 void add_view(CLI::App& program, Action& action, viewer::ShowWindow show_window) {
@@ -123,11 +272,9 @@ void add_view(CLI::App& program, Action& action, viewer::ShowWindow show_window)
                    "Show it in this terminal (needs true colour) instead of a window");
   const auto add_stage = [&](const char* option, const char* help, const auto& find,
                              auto lab::Choice::*stage) {
-    command
-        .add_option_function<std::string>(
-            option, [o, find, stage](const std::string& name) { o->choice.*stage = &find(name); }, help)
-        ->type_name("NAME")
-        ->group("Initial methods");
+    add_parsed(command, option, "NAME", help, [o, find, stage](const std::string& name) {
+      o->choice.*stage = &find(name);
+    })->group("Initial methods");
   };
   add_stage("--coverage", "Backend or coverage method (tiled)", lab::find_drawing_method,
             &lab::Choice::coverage);
@@ -135,29 +282,44 @@ void add_view(CLI::App& program, Action& action, viewer::ShowWindow show_window)
   add_stage("--visibility", "Visibility method (contract31)", lab::find_visibility_method,
             &lab::Choice::visibility);
   add_stage("--facing", "Facing test (snapped_area)", lab::find_facing_method, &lab::Choice::facing);
-  command
-      .add_option_function<std::string>(
-          "--axis",
-          [o](const std::string& text) {
-            const glm::dvec3 axis = parse_vector("--axis", text), size = glm::abs(axis);
-            o->axis = axis / std::max({size.x, size.y, size.z, 1.0});
-          },
-          "Rotation axis of the objects (the first object's)")
-      ->type_name("X,Y,Z");
+  add_parsed(command, "--axis", "X,Y,Z", "Rotation axis of the objects (the first object's)",
+             [o](const std::string& text) {
+               const glm::dvec3 axis = parse_vector("--axis", text), size = glm::abs(axis);
+               o->axis = axis / std::max({size.x, size.y, size.z, 1.0});
+             });
   command.add_option("--keys", o->keys, "Keys to press at the start")->type_name("KEYS");
   command
       .add_option("-o,--output", o->output,
                   "Write the resulting picture (.png, .ppm, or -) and open no window")
       ->type_name("FILE");
   add_format(command, o->format, {Format::png, Format::ppm});
-  add_integer(command, "--frames", o->frames, 1, kMostFrames,
-              "Draw N frames without a frame-rate limit, print their times and quit");
   command.add_option("--save-to", o->folder, "Folder for files saved with p (.)")->type_name("DIR");
   o->options.add_to(command);
   o->execution.add_to(command);
-  command.footer(footer());
+  command.footer(view_footer());
   command.callback(
       [o, &action, show_window] { action = [o, show_window] { return view(*o, show_window); }; });
+}
+
+void add_demo(CLI::App& program, Action& action, viewer::ShowWindow show_window) {
+  CLI::App& command = *program.add_subcommand("demo", "Show the tutorials that Edgewise grew from");
+  const auto o = std::make_shared<DemoOptions>();
+  command.add_option("TUTORIAL", o->names, "Tutorials that `edgewise demo` lists; only one with --view");
+  command
+      .add_option("-o,--output", o->output,
+                  "Picture (.png, .ppm), folder (may be new), name with {scene}, or -")
+      ->type_name("FILE");
+  add_format(command, o->format, {Format::png, Format::ppm});
+  add_integer(command, "--frames", o->frames, 1, kMostPictures,
+              "Number of pictures, spread over all steps (1)");
+  command.add_flag("--view", o->view, "Show it in a window");
+  command.add_flag("--terminal", o->terminal, "Show it in this terminal (needs true colour)");
+  command.add_flag("--json", o->json, "Print all tutorials and their steps as JSON");
+  add_size(command, o->size, "Size of the window or pictures (960x540)");
+  o->execution.add_to(command);
+  command.footer(kDemoFooter);
+  command.callback(
+      [o, &action, show_window] { action = [o, show_window] { return demonstrate(*o, show_window); }; });
 }
 
 }  // namespace edgewise::tools

@@ -8,7 +8,7 @@
 #include "edgewise/contract.h"
 #include "edgewise/image.h"
 #include "edgewise/scene.h"
-#include "image/samples.h"
+#include "image/format.h"
 
 namespace edgewise {
 

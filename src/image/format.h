@@ -1,8 +1,11 @@
-// The formats of pictures and depth files.
+// The formats of pictures and depth files, and the samples of pictures, for comparisons.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "edgewise/image.h"
 
@@ -18,5 +21,22 @@ std::optional<Format> format_of_input(const std::filesystem::path& path);
 
 // Writes a PNG or a PPM, whatever the name.
 void write_image(const std::filesystem::path& path, const Image& image, Format format);
+
+// R, G and B as stored: no colour conversion (gAMA, iCCP, sRGB, cHRM), and alpha is ignored. Colours come
+// from the palette. Grey is R = G = B. An 8-bit sample v is 257 v, so that it equals the 16-bit sample of the
+// same value.
+struct Samples {
+  using Pixel = std::array<std::uint16_t, 3>;
+  int width = 0, height = 0;  // px
+  bool deep = false;          // more than 8 bits in the file
+  std::vector<Pixel> pixels;  // row by row, top first
+};
+
+// Reads a PNG or a PPM. Throws what read_image throws.
+Samples read_samples(const std::filesystem::path& path);
+
+// As difference() of images. The largest difference is of 65535 if one of the pictures is deep, otherwise of
+// 255.
+Difference difference(const Samples& a, const Samples& b);
 
 }  // namespace edgewise

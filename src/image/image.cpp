@@ -19,7 +19,6 @@
 #include "edgewise/scene.h"
 #include "image/format.h"
 #include "image/netpbm.h"
-#include "image/samples.h"
 
 namespace edgewise {
 

@@ -11,8 +11,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "edgewise/scene.h"
-
 namespace edgewise {
 
 namespace {
@@ -148,6 +146,18 @@ void triangulate(std::span<const glm::vec3> positions, std::span<const std::uint
     emit(0, 1, 2);
   else
     EarClipper(flatten(positions, polygon)).run(emit);
+}
+
+void join_cells(Scene& scene) {
+  for (Mesh& mesh : scene.meshes) {
+    Mesh quads{mesh.positions, {}, {}};
+    for (std::size_t i = 0; i + 1 < mesh.triangles.size(); i += 2) {
+      const glm::uvec3 upper = mesh.triangles[i], lower = mesh.triangles[i + 1];
+      quads.add_quad({upper.x, upper.y, lower.y, upper.z}, mesh.colours[i]);
+    }
+    quads.clusters = clusters_of(quads);
+    mesh = std::move(quads);
+  }
 }
 
 }  // namespace edgewise

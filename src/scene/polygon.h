@@ -1,10 +1,12 @@
-// Triangulates polygons in space.
+// Polygons in space: into triangles, and from pairs of them.
 #pragma once
 
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
 #include <vector>
+
+#include "edgewise/scene.h"
 
 namespace edgewise {
 
@@ -14,5 +16,10 @@ namespace edgewise {
 // Throws std::invalid_argument if the polygon has so many concave corners that it would take minutes.
 void triangulate(std::span<const glm::vec3> positions, std::span<const std::uint32_t> polygon,
                  std::vector<glm::uvec3>& triangles);
+
+// Joins triangles 0 and 1, 2 and 3, … of every mesh into faces with the colour of the first triangle. Each
+// pair must be the halves p, q, s and q, r, s of a cell p, q, r, s, as in the built-in sphere and torus knot.
+// The meshes must have no triangle flags.
+void join_cells(Scene& scene);
 
 }  // namespace edgewise

@@ -60,10 +60,8 @@ SimdTarget parse_target(std::string_view text) {
 
 CLI::Option* add_vector(CLI::App& command, const std::string& name, std::optional<glm::dvec3>& value,
                         const std::string& help) {
-  return command
-      .add_option_function<std::string>(
-          name, [&value, name](const std::string& text) { value = parse_vector(name, text); }, help)
-      ->type_name("X,Y,Z");
+  return add_parsed(command, name, "X,Y,Z", help,
+                    [&value, name](const std::string& text) { value = parse_vector(name, text); });
 }
 
 bool moves_camera(const SceneOptions& o) {
@@ -164,31 +162,28 @@ glm::dvec3 parse_vector(std::string_view option, std::string_view text) {
   return v;
 }
 
+CLI::Option* add_parsed(CLI::App& command, const std::string& name, const char* type, const std::string& help,
+                        std::function<void(const std::string&)> parse) {
+  return command.add_option_function<std::string>(name, std::move(parse), help)->type_name(type);
+}
+
 CLI::Option* add_number(CLI::App& command, const std::string& name, std::optional<double>& value, double min,
                         double max, const std::string& help) {
-  return command
-      .add_option_function<std::string>(
-          name,
-          [&value, name, min, max](const std::string& text) { value = parse_number(name, text, min, max); },
-          help)
-      ->type_name("NUMBER");
+  return add_parsed(command, name, "NUMBER", help, [&value, name, min, max](const std::string& text) {
+    value = parse_number(name, text, min, max);
+  });
 }
 
 CLI::Option* add_integer(CLI::App& command, const std::string& name, int& value, int min, int max,
                          const std::string& help) {
-  return command
-      .add_option_function<std::string>(
-          name,
-          [&value, name, min, max](const std::string& text) { value = parse_integer(name, text, min, max); },
-          help)
-      ->type_name("N");
+  return add_parsed(command, name, "N", help, [&value, name, min, max](const std::string& text) {
+    value = parse_integer(name, text, min, max);
+  });
 }
 
 CLI::Option* add_size(CLI::App& command, std::optional<Size>& size, const std::string& help) {
-  return command
-      .add_option_function<std::string>(
-          "--size", [&size](const std::string& text) { size = parse_size("--size", text); }, help)
-      ->type_name("WxH");
+  return add_parsed(command, "--size", "WxH", help,
+                    [&size](const std::string& text) { size = parse_size("--size", text); });
 }
 
 void SceneOptions::add_to(CLI::App& command) {
@@ -196,14 +191,10 @@ void SceneOptions::add_to(CLI::App& command) {
   add_number(command, "--time", time, -kLongestTime, kLongestTime, "Time of animated scenes in seconds (0)");
   add_number(command, "--scale", scale, kSmallest, kLargestScale,
              "Factor on the triangle count of knots and built-in streams (1)");
-  command
-      .add_option_function<std::string>(
-          "--cull",
-          [this](const std::string& text) {
-            if (text != "auto") cull = parse_cull(text);
-          },
-          "Faces to cull: none, back, front, both (back; streams: none)")
-      ->type_name("MODE");
+  add_parsed(command, "--cull", "MODE", "Faces to cull: none, back, front, both (back; streams: none)",
+             [this](const std::string& text) {
+               if (text != "auto") cull = parse_cull(text);
+             });
   command.add_flag("--no-shade", no_shade, "Draw meshes unlit, as streams always are");
   command.add_flag("--fit", fit, "Centre a mesh and scale its longest side to 2");
   command.add_flag("--recentre", recentre, "Subtract a mesh file's centre from its positions, and print it");
@@ -259,21 +250,14 @@ ExecutionOptions::ExecutionOptions() {
 void ExecutionOptions::add_to(CLI::App& command) {
   add_integer(command, "--threads", execution.threads, 1, kMaxThreads,
               "Threads, 1 to 256 (as many as usable cores)");
-  command
-      .add_option_function<std::string>(
-          "--target", [this](const std::string& text) { execution.target = parse_target(text); },
-          "SIMD target: scalar, sse4, avx2, avx512 or best (best)")
-      ->type_name("SIMD");
-  command
-      .add_option_function<std::string>(
-          "--tile",
-          [this](const std::string& text) {
-            const auto tile = parsed<int>(text);
-            if (tile != 16 && tile != 32 && tile != 64) reject("--tile", text, "16, 32 or 64");
-            execution.tile_size = *tile;
-          },
-          "Tile size in pixels of the tiled backend: 16, 32 or 64 (64)")
-      ->type_name("PX");
+  add_parsed(command, "--target", "SIMD", "SIMD target: scalar, sse4, avx2, avx512 or best (best)",
+             [this](const std::string& text) { execution.target = parse_target(text); });
+  add_parsed(command, "--tile", "PX", "Tile size in pixels of the tiled backend: 16, 32 or 64 (64)",
+             [this](const std::string& text) {
+               const auto tile = parsed<int>(text);
+               if (tile != 16 && tile != 32 && tile != 64) reject("--tile", text, "16, 32 or 64");
+               execution.tile_size = *tile;
+             });
 }
 
 }  // namespace edgewise::tools

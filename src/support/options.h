@@ -3,7 +3,7 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
+#include <functional>
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
@@ -41,6 +41,9 @@ std::uint64_t parse_count(std::string_view option, std::string_view text, std::u
 double parse_duration(std::string_view option, std::string_view text);  // "90s", "20m", "2h" → s
 glm::dvec3 parse_vector(std::string_view option, std::string_view text);
 
+// Adds an option whose text `parse` takes.
+CLI::Option* add_parsed(CLI::App& command, const std::string& name, const char* type, const std::string& help,
+                        std::function<void(const std::string&)> parse);
 CLI::Option* add_number(CLI::App& command, const std::string& name, std::optional<double>& value, double min,
                         double max, const std::string& help);
 CLI::Option* add_integer(CLI::App& command, const std::string& name, int& value, int min, int max,

@@ -7,7 +7,7 @@
 
 #include "core/nearest_name.h"
 #include "edgewise/builtin.h"
-#include "scene/cells.h"
+#include "scene/polygon.h"
 
 namespace edgewise::viewer {
 

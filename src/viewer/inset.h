@@ -1,10 +1,11 @@
-// Drawing over a picture: tinted errors, the magnifier, the axes, labels in the scene.
+// Drawing over a picture: tinted errors, outlines, the magnifier, the axes, labels in the scene.
 #pragma once
 
 #include <span>
 #include <string>
 #include <vector>
 
+#include "edgewise/backend.h"
 #include "edgewise/image.h"
 #include "edgewise/scene.h"
 #include "lab/error_marks.h"
@@ -20,6 +21,15 @@ struct Pixel {
 
 // Paints the marked pixels in the colours of their marks.
 void tint(Image& image, std::span<const lab::Mark> marks);
+
+// Of a triangle drawn whole, and of the pieces into which clipping cut it.
+inline constexpr std::uint32_t kOneOutline = rgb(0, 0, 0), kPiecesOutline = rgb(255, 255, 255);
+
+// Draws the edges of triangles over a picture of them. A triangle's payload is the index of its source
+// triangle plus one; `visible` holds the source visible at each pixel. An edge is drawn only where its source
+// is visible at the pixel or next to it. kPiecesOutline marks sources of several pieces.
+void add_outlines(std::span<const ScreenTriangle> triangles, std::span<const std::uint32_t> visible,
+                  Backend& wireframe, FrameView scratch, const Execution& execution, Image& image);
 
 // Draws the magnifier, a framed enlargement of the pixels around `focus`, into the lower right corner.
 void magnify(Image& image, Pixel focus);

@@ -11,7 +11,7 @@
 #include "lab/coverage/score.h"
 #include "lab/view_space.h"
 #include "support/milliseconds.h"
-#include "viewer/outlines.h"
+#include "viewer/inset.h"
 
 namespace edgewise::viewer {
 

@@ -1,6 +1,4 @@
 // The SDL window: passes events to the session and shows its pictures.
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
@@ -79,15 +77,6 @@ std::optional<Key> key_of(const SDL_Keysym& pressed) {
   return std::nullopt;
 }
 
-double cpu_ms() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  const auto ms = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_usec) / 1e3;
-  };
-  return ms(usage.ru_utime) + ms(usage.ru_stime);
-}
-
 class Window {
  public:
   explicit Window(const WindowOptions& o)
@@ -147,30 +136,21 @@ bool handle(const SDL_Event& event, Session& session) {
 
 }  // namespace
 
-FrameTimes show_sdl_window(Session& session, const WindowOptions& options) {
+void show_sdl_window(Session& session, const WindowOptions& options) {
   const Sdl started;
   Window window(options);
-  FrameTimes times;
-  const double cpu_before = cpu_ms();
-  const bool unlimited = options.frames > 0;  // no frame-rate limit
   Clock::time_point last = Clock::now();
   for (bool open = true; open;) {
-    if (!unlimited && session.still()) sdl().WaitEventTimeout(nullptr, kIdle_ms);
+    if (session.still()) sdl().WaitEventTimeout(nullptr, kIdle_ms);
     const Clock::time_point now = Clock::now();
     const double passed = std::chrono::duration<double>(now - last).count();
     last = now;
     for (SDL_Event event; open && sdl().PollEvent(&event) != 0;) open = handle(event, session);
     session.advance(std::min(passed, kLongestStep_s));
     window.show(session);
-    if (unlimited) {
-      times.milliseconds.push_back(std::chrono::duration<double, std::milli>(Clock::now() - now).count());
-      open = open && times.milliseconds.size() < static_cast<std::size_t>(options.frames);
-    } else if (const auto left = kFrame - (Clock::now() - now); left.count() > 0) {
+    if (const auto left = kFrame - (Clock::now() - now); left.count() > 0)
       sdl().Delay(static_cast<Uint32>(std::chrono::duration_cast<std::chrono::milliseconds>(left).count()));
-    }
   }
-  times.cpu_ms = cpu_ms() - cpu_before;
-  return times;
 }
 
 }  // namespace edgewise::viewer

@@ -1,6 +1,4 @@
 // Terminal input and output; the session does everything else.
-#include "viewer/terminal.h"
-
 #include <poll.h>
 #include <sys/ioctl.h>
 #include <termios.h>
@@ -15,8 +13,9 @@
 #include "edgewise/contract.h"
 #include "support/console.h"
 #include "support/process.h"
-#include "viewer/terminal_input.h"
-#include "viewer/terminal_picture.h"
+#include "viewer/session.h"
+#include "viewer/terminal_io.h"
+#include "viewer/window.h"
 
 namespace edgewise::viewer {
 

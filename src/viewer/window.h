@@ -1,10 +1,9 @@
-// The viewer in a window.
+// The viewer in a window, or in a terminal.
 #pragma once
 
 #include <string>
 
 #include "support/options.h"
-#include "viewer/frame_times.h"
 
 namespace edgewise::viewer {
 
@@ -13,14 +12,18 @@ class Session;
 struct WindowOptions {
   std::string title;
   tools::Size size;
-  int frames = 0;  // to draw without a frame-rate limit before quitting; 0: run until the user quits
 };
 
-// Returns when the session is done or the window is closed, with the frame times if options.frames > 0.
-// Throws std::runtime_error if no window can be opened.
-using ShowWindow = FrameTimes (*)(Session& session, const WindowOptions& options);
+// Returns when the session is done or the window is closed. Throws std::runtime_error if no window can be
+// opened.
+using ShowWindow = void (*)(Session& session, const WindowOptions& options);
 
 // Defined in sdl_window.cpp, which is built only into the program, and only if SDL was found.
-FrameTimes show_sdl_window(Session& session, const WindowOptions& options);
+void show_sdl_window(Session& session, const WindowOptions& options);
+
+// In half-block characters, for example over ssh. Returns when the session is done. Throws std::runtime_error
+// if standard input and output are not a terminal with cursor control. Restores the terminal's screen and
+// mode, also after a signal.
+void show_in_terminal(Session& session);
 
 }  // namespace edgewise::viewer

@@ -8,6 +8,17 @@
 
 namespace edgewise::testing {
 
+// Draws the right picture, and then calls kSpoil(frame, background, execution).
+template <auto kSpoil>
+class Spoiled : public Backend {
+  void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
+                    const Execution& execution) override {
+    right_->draw(triangles, frame, background, execution);
+    kSpoil(frame, background, execution);
+  }
+  std::unique_ptr<Backend> right_ = backends()[0].make();
+};
+
 // Wrong only if it draws from a source: it draws nothing.
 class IgnoresSources : public Backend {
   void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,

@@ -1,7 +1,5 @@
-// Culling: every mode with every winding, for triangle lists, strips and fans, and for one tiny triangle per
-// pixel with alternating windings. Strips and fans are given as lists; in a strip every second triangle is
-// reversed, so that all have one facing. Exact areas decide which triangles remain, winding numbers what they
-// cover.
+// Culling: every mode with every winding, for triangle lists, and for one tiny triangle per pixel with
+// alternating windings. Exact areas decide which triangles remain, winding numbers what they cover.
 #include <array>
 #include <glm/glm.hpp>
 
@@ -45,14 +43,6 @@ class ConformanceCulling : public Conformance {
   }
 };
 
-std::vector<glm::vec3> zigzag(Random& random) {
-  std::vector<glm::vec3> v;
-  for (int i = 0; i < 12; ++i)
-    v.emplace_back(3.0f + 5.0f * static_cast<float>(i) + random.uniform(-2.0f, 2.0f),
-                   (i % 2 == 0 ? 12.0f : 50.0f) + random.uniform(-8.0f, 8.0f), 0.5f);
-  return v;
-}
-
 TEST_F(ConformanceCulling, ListsKeepTheFacesThatTheModeSelects) {
   Random random(1);
   for (int trial = 0; trial < 4; ++trial) {
@@ -63,36 +53,6 @@ TEST_F(ConformanceCulling, ListsKeepTheFacesThatTheModeSelects) {
       if (i % 3 == 2) triangles.emplace_back(i - 2, i - 1, i);
     }
     expect_culled_both_ways(v, triangles, "list");
-  }
-}
-
-TEST_F(ConformanceCulling, StripsKeepTheFacesThatTheModeSelects) {
-  Random random(2);
-  for (int trial = 0; trial < 4; ++trial) {
-    const auto v = zigzag(random);
-    std::vector<glm::uvec3> strip;
-    for (unsigned i = 0; i + 2 < v.size(); ++i)
-      strip.emplace_back(i % 2 == 0 ? glm::uvec3(i, i + 1, i + 2) : glm::uvec3(i + 1, i, i + 2));
-    const auto stream = stream_of(v, strip);
-    for (const StreamTriangle& t : stream.triangles)
-      ASSERT_EQ(area(snapped(t.vertex)) > 0, area(snapped(stream.triangles[0].vertex)) > 0);
-    expect_culled_both_ways(v, strip, "strip");
-  }
-}
-
-TEST_F(ConformanceCulling, FansKeepTheFacesThatTheModeSelects) {
-  Random random(3);
-  for (int trial = 0; trial < 4; ++trial) {
-    std::vector<glm::vec3> v{{random.uniform(20.0f, 44.0f), random.uniform(20.0f, 44.0f), 0.5f}};
-    std::vector<glm::uvec3> fan;
-    for (unsigned i = 0; i < 14; ++i) {
-      const double angle = 0.4 * i;
-      const float radius = random.uniform(10.0f, 40.0f);
-      v.emplace_back(v[0].x + radius * static_cast<float>(std::cos(angle)),
-                     v[0].y + radius * static_cast<float>(std::sin(angle)), 0.5f);
-      if (i > 0) fan.emplace_back(0, i, i + 1);
-    }
-    expect_culled_both_ways(v, fan, "fan");
   }
 }
 

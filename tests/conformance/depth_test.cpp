@@ -1,13 +1,9 @@
 // Depth at the near and far planes: triangles on the planes are drawn, triangles beyond them are not, and
 // triangles between them have the depths of their exact plane.
-#include <gmpxx.h>
-
 #include <cmath>
 #include <glm/glm.hpp>
 
 #include "conformance/pipeline.h"
-#include "core/random.h"
-#include "lab/truth.h"
 
 namespace edgewise::conformance {
 namespace {
@@ -37,23 +33,6 @@ TEST_F(ConformanceDepth, WallsOnThePlanesHaveTheEndsOfTheDepthRange) {
   expect_wall(wall(0.0f), kDepthHead, "on the near plane");
   expect_wall(wall(-0.0f), kDepthHead, "on the near plane, minus zero");
   expect_wall(wall(1.0f), kDepthHead + kDepthRange, "on the far plane");
-}
-
-TEST_F(ConformanceDepth, WallsBetweenThePlanesHaveTheCorrectlyRoundedDepth) {
-  Random random(31);
-  for (int trial = 0; trial < 300; ++trial) {
-    const float z = trial == 0   ? std::nextafter(0.0f, 1.0f)
-                    : trial == 1 ? std::nextafter(1.0f, 0.0f)
-                    : trial == 2 ? 0.5f
-                                 : random.uniform(0.0f, 1.0f);
-    // Rounds half to even, in exact arithmetic.
-    mpq_class units(z);
-    units *= kDepthRange;
-    const mpz_class whole = units.get_num() / units.get_den();
-    const mpq_class rest = units - whole;
-    const bool up = rest > mpq_class(1, 2) || (rest == mpq_class(1, 2) && whole % 2 != 0);
-    expect_wall(wall(z), kDepthHead + static_cast<std::uint32_t>(whole.get_ui()) + up, std::to_string(z));
-  }
 }
 
 TEST_F(ConformanceDepth, WallsBeyondThePlanesDrawNothing) {
@@ -118,40 +97,6 @@ TEST_F(ConformanceDepth, ASlopeThroughBothPlanesIsDrawnBetweenThem) {
           }
       });
     }
-}
-
-// Drawn depths stay within the contract's error of the exact plane through the input positions, and within
-// the depth range, up to its ends.
-TEST_F(ConformanceDepth, SteepTrianglesKeepTheContractsDepthError) {
-  Random random(32);
-  for (int trial = 0; trial < 150 && !HasFailure(); ++trial) {
-    std::vector<glm::vec3> v;
-    for (int k = 0; k < 3; ++k)
-      v.emplace_back(std::round(random.uniform(-20.0f, 84.0f) * 256) / 256,
-                     std::round(random.uniform(-20.0f, 84.0f) * 256) / 256,
-                     static_cast<float>(random.below(2)));
-    ScreenTriangle t{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      t.x_sub[k] = static_cast<std::int32_t>(snapped(v[k]).x);
-      t.y_sub[k] = static_cast<std::int32_t>(snapped(v[k]).y);
-      t.z[k] = kDepthHead + (v[k].z > 0 ? kDepthRange : 0);
-    }
-    const lab::SnappedTruth truth(t);
-    std::vector<double> expected;  // negative where nothing is drawn
-    for (int y = 0; y < 64; ++y)
-      for (int x = 0; x < 64; ++x) expected.push_back(truth.covers(x, y) ? truth.depth(x, y).get_d() : -1);
-    with_each("trial " + std::to_string(trial), [&](Pipeline& pipeline) {
-      const Framebuffer& frame = pipeline.draw(stream_of(v, {{0, 1, 2}}), {});
-      auto exact = expected.begin();
-      for (int y = 0; y < 64; ++y)
-        for (int x = 0; x < 64; ++x, ++exact) {
-          ASSERT_EQ(frame.payload_row(y)[x] != kNoTriangle, *exact >= 0);
-          if (*exact < 0) continue;
-          ASSERT_LT(std::abs(frame.depth_row(y)[x] - *exact), contract::kDepthError);
-          ASSERT_LT(frame.depth_row(y)[x], contract::kDepthClear);
-        }
-    });
-  }
 }
 
 }  // namespace

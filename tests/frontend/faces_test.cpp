@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstring>
 #include <vector>
@@ -97,13 +96,6 @@ TEST(Faces, HaveThePositionsOfTheirTriangles) {
   }
 }
 
-// The lit grey of a plane, by Lambert's law in double.
-std::uint32_t lit_grey(glm::dvec3 normal, const Scene& scene) {
-  const double cosine = glm::dot(glm::normalize(normal), glm::normalize(glm::dvec3(scene.to_light)));
-  const auto grey = static_cast<std::uint32_t>(200.0 * std::max(cosine, 0.15) + 0.5);
-  return rgb(grey, grey, grey);
-}
-
 TEST(Faces, WithFourVerticesHaveOneColourAndTwoIds) {
   const Scene scene = scene_of_quads(false);
   const Mesh& mesh = scene.meshes[0];
@@ -124,31 +116,6 @@ TEST(Faces, WithFourVerticesHaveOneColourAndTwoIds) {
     ++second_halves;
   }
   EXPECT_GT(second_halves, 100u);
-}
-
-// Vertex b lies on the straight side from a to c, or almost, or at a or c. The first triangle, a, b, c, then
-// has no normal or another one than the face.
-TEST(Faces, WithAStraightOrDoubledCornerAreLitByTheirPlane) {
-  Random random(9);
-  const auto vector = [&] {
-    const float x = random.uniform(-1, 1), y = random.uniform(-1, 1);
-    return glm::vec3(x, y, random.uniform(-1, 1));
-  };
-  for (int i = 0; i < 500; ++i) {
-    const glm::vec3 a = vector(), c = vector(), d = vector();
-    const float at = i % 3 == 0 ? 0.0f : i % 3 == 1 ? 1.0f : random.uniform(0, 1);
-    Scene scene;
-    Mesh& mesh = scene.meshes.emplace_back();
-    mesh.positions = {a, a + at * (c - a), c, d};
-    mesh.add_quad({0, 1, 2, 3}, rgb(200, 200, 200));
-    scene.instances.push_back({.scale = {1, i % 2 == 0 ? 2 : -2, 1}, .axis = vector(), .angle = 2});
-    glm::dvec3 p[3];
-    for (int k = 0; k < 3; ++k)
-      p[k] = model_matrix(scene.instances[0]) *
-             glm::vec4(std::array{a, c, d}[static_cast<std::size_t>(k)], 1.0f);
-    const std::uint32_t expected = lit_grey(glm::cross(p[2] - p[0], p[1] - p[0]), scene);
-    for (const std::uint32_t lit : lit_colours(scene)) EXPECT_NEAR(lit & 255, expected & 255, 1) << i;
-  }
 }
 
 TEST(Faces, NormalIsThatOfTheWholePolygon) {

@@ -3,14 +3,18 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "edgewise/builtin.h"
 #include "frontend/clip.h"
 #include "frontend/fixed.h"
+#include "frontend/pieces.h"
 #include "lab/measure.h"
 #include "support.h"
 
@@ -51,9 +55,6 @@ Result run(const Drawable& drawable,
   const auto span = frontend.run(drawable, options);
   return {{span.begin(), span.end()}, frontend.stats()};
 }
-FrontendOptions with_cull(Cull cull) {
-  return {.width = 100, .height = 100, .cull = cull};
-}
 
 void expect_consistent(const FrontendStats& s) {
   EXPECT_EQ(s.pieces, s.culled + s.zero_area + s.emitted);
@@ -89,27 +90,6 @@ TEST(QuantizeDepth, SpansTheContractsRange) {
             contract::kDepthHead + static_cast<std::uint32_t>(std::nearbyint(contract::kDepthRange * 0.5)));
 }
 
-TEST(Frontend, CullsByTheWindingOnTheScreen) {
-  EXPECT_EQ(run(loose(kFront), with_cull(Cull::back)).stats.emitted, 1u);
-  EXPECT_EQ(run(loose(kFront), with_cull(Cull::front)).stats.culled, 1u);
-  EXPECT_EQ(run(loose(kBack), with_cull(Cull::back)).stats.culled, 1u);
-  EXPECT_EQ(run(loose(kBack), with_cull(Cull::front)).stats.emitted, 1u);
-  for (const auto& side : {kFront, kBack}) {
-    EXPECT_EQ(run(loose(side), with_cull(Cull::none)).stats.emitted, 1u);
-    EXPECT_EQ(run(loose(side), with_cull(Cull::both)).stats.emitted, 0u);
-  }
-}
-
-TEST(Frontend, ProjectsToTheExpectedPixels) {
-  const auto result = run(loose(kFront));
-  ASSERT_EQ(result.triangles.size(), 1u);
-  const ScreenTriangle& t = result.triangles[0];
-  // At distance 3 under 90 degrees, 1 unit is a third of half the image.
-  EXPECT_NEAR(t.x_sub[0], (50.0 - 50.0 / 3.0) * 256, 1);
-  EXPECT_NEAR(t.y_sub[0], (50.0 + 50.0 / 3.0) * 256, 1);
-  EXPECT_NEAR(t.y_sub[1], (50.0 - 50.0 / 3.0) * 256, 1);
-}
-
 TEST(Frontend, DropsNanAndInfiniteVerticesAndCountsThem) {
   for (const float bad : {kNan, kInf, -kInf})
     for (int vertex = 0; vertex < 3; ++vertex)
@@ -135,14 +115,6 @@ TEST(Frontend, ClipsAtTheNearPlaneBeforeProjection) {
     for (int i = 0; i < 3; ++i) EXPECT_GE(t.y_sub[i], 50 * 256) << "the floor stays below the horizon";
   expect_consistent(result.stats);
   EXPECT_EQ(run(loose({{-1, -1, 5}, {1, -1, 5}, {0, 1, 5}})).stats.emitted, 0u) << "wholly behind";
-}
-
-TEST(Frontend, ClipsAtTheFarPlane) {
-  Scene scene = loose({{-1, -1, -5}, {1, -1, -5}, {0, 0, -500}});
-  const auto result = run(scene);
-  EXPECT_EQ(result.stats.clipped_far, 1u);
-  for (const auto& t : result.triangles)
-    for (const auto z : t.z) EXPECT_LE(z, contract::kDepthHead + contract::kDepthRange);
 }
 
 TEST(Frontend, EveryTriangleStaysWithinTheContract) {
@@ -176,36 +148,6 @@ TEST(Frontend, AcceptsHugeFiniteCoordinates) {
     const TriangleStream stream{100, 100, {{{{-huge, 0, 0.5f}, {huge, -huge, 0.5f}, {0, huge, 0.5f}}, 7}}};
     for (const auto& t : run(stream).triangles)
       for (int i = 0; i < 3; ++i) ASSERT_LE(std::abs(t.x_sub[i]), contract::kGuardSub);
-  }
-}
-
-// A floor of many triangles below and behind the camera, which crosses the near plane and all side planes.
-TEST(Frontend, AClippedFloorIsWatertight) {
-  Random random(9);
-  constexpr int kSide = 12;
-  Mesh mesh;
-  for (int j = 0; j <= kSide; ++j)
-    for (int i = 0; i <= kSide; ++i)
-      mesh.positions.emplace_back((static_cast<float>(i) - 6 + random.uniform(-0.2f, 0.2f)) * 3000.0f, -0.4f,
-                                  (static_cast<float>(j) - 6 + random.uniform(-0.2f, 0.2f)) * 3000.0f);
-  for (unsigned j = 0; j < kSide; ++j)
-    for (unsigned i = 0; i < kSide; ++i) {
-      const unsigned v = j * (kSide + 1) + i, below = v + kSide + 1;
-      mesh.triangles.emplace_back(v, v + 1, below);
-      mesh.triangles.emplace_back(v + 1, below + 1, below);
-    }
-  mesh.colours.assign(mesh.triangles.size(), 1);
-  Scene scene;
-  scene.meshes.push_back(mesh);
-  scene.instances.push_back({});
-  scene.camera.pitch = -1.0f;
-  scene.camera.far_z = 1e6f;
-  for (int step = 0; step < 12; ++step) {
-    scene.camera.yaw = static_cast<float>(step) * 0.53f;
-    const auto result = run(scene, {.width = 160, .height = 120, .cull = Cull::none});
-    EXPECT_GT(result.stats.clipped_near + result.stats.clipped_guard, 0u);
-    const auto hits = lab::count_hits(*find_backend("scanline").make(), result.triangles, 160, 120, {});
-    EXPECT_EQ(std::count(hits.begin(), hits.end(), 1u), 160 * 120) << "yaw step " << step;
   }
 }
 
@@ -321,37 +263,6 @@ TEST(Frontend, DrawsATriangleNearTheLargestFloats) {
   EXPECT_EQ(lab::covered_pixels(result.triangles, 100, 100), 100u * 100u);
 }
 
-TEST(Frontend, ShadingFollowsRotationAndMirroring) {
-  Scene scene = loose(kFront);
-  scene.instances[0].scale = {-1, 1, 1};  // mirroring reverses the winding and thereby the lit side
-  const auto result = run(scene);
-  EXPECT_EQ(result.triangles.at(0).payload & 255, 30u);
-  EXPECT_LT(contract::signed_area(result.triangles.at(0)), 0);
-}
-
-TEST(Frontend, MirroringTurnsAClosedMeshInsideOut) {
-  auto scene = std::get<Scene>(find_scene("cube").make({}));
-  const Mesh& cube = scene.meshes.at(0);
-  FrontendOptions options{.width = 100, .height = 100, .cull = Cull::back, .payload = Payload::id};
-  for (const glm::vec3 scale :
-       {glm::vec3(1, 1, 1), {-1, 1, 1}, {1, -1, 1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, -1}}) {
-    scene.instances.at(0).scale = scale;
-    const glm::dmat4 model = model_matrix(scene.instances[0]);
-    const auto seen = run(scene, options).triangles;
-    EXPECT_GE(seen.size(), 2u);
-    for (const ScreenTriangle& t : seen) {
-      glm::dvec3 at[3];
-      for (int k = 0; k < 3; ++k)
-        at[k] = glm::dvec3(model * glm::dvec4(cube.positions[cube.triangles.at(t.payload)[k]], 1.0));
-      const glm::dvec3 normal = glm::cross(at[1] - at[0], at[2] - at[0]);
-      const double centre_side = glm::dot(normal, glm::dvec3(model[3]) - at[0]);
-      const double camera_side = glm::dot(normal, scene.camera.position - at[0]);
-      const bool outside = centre_side * camera_side < 0.0;
-      EXPECT_EQ(outside, scale.x * scale.y * scale.z > 0.0f) << "triangle " << t.payload;
-    }
-  }
-}
-
 TEST(Frontend, ShadesScaledInstancesLikeScaledMeshes) {
   Random random(23);
   for (int i = 0; i < 200; ++i) {
@@ -368,24 +279,6 @@ TEST(Frontend, ShadesScaledInstancesLikeScaledMeshes) {
     scene.to_light = stretched.to_light = {0.3f, 0.5f, 0.8f};
     const auto red = [](const Scene& s) { return static_cast<double>(run(s).triangles.at(0).payload & 255); };
     ASSERT_NEAR(red(scene), red(stretched), 1) << "triangle " << i;
-  }
-}
-
-TEST(Frontend, GivesTheSameTrianglesOnEveryThreadCount) {
-  for (const auto name : {"terrain", "torus-knot", "micro"}) {
-    const SceneInfo& info = find_scene(name);
-    const Drawable drawable = info.make({.width = 300, .height = 200, .scale = 0.05});
-    FrontendOptions options{.width = 300, .height = 200, .cull = Cull::none, .shade = !info.stream};
-    const auto one = run(drawable, options);
-    for (const int threads : {2, 5}) {
-      options.threads = threads;
-      const auto many = run(drawable, options);
-      ASSERT_EQ(one.triangles.size(), many.triangles.size());
-      EXPECT_EQ(std::memcmp(one.triangles.data(), many.triangles.data(),
-                            one.triangles.size() * sizeof(ScreenTriangle)),
-                0);
-      EXPECT_EQ(std::memcmp(&one.stats, &many.stats, sizeof one.stats), 0);
-    }
   }
 }
 
@@ -429,6 +322,77 @@ TEST(Frontend, RefusesInvalidInput) {
   expect_refused([](Scene& s, FrontendOptions&) { s.instances[0].mesh = 1; });
   expect_refused([](Scene& s, FrontendOptions&) { s.meshes[0].triangles[0].z = 3; });
   expect_refused([](Scene& s, FrontendOptions&) { s.meshes[0].colours.clear(); });
+}
+
+// ---- Clipped polygons are split into triangles of one winding if such a split exists.
+
+using Polygon = std::vector<Vertex>;
+
+Polygon polygon_of(std::initializer_list<std::pair<int, int>> positions) {
+  Polygon polygon;
+  for (const auto& [x, y] : positions) polygon.push_back({x, y, 0, 0});
+  return polygon;
+}
+
+std::int64_t area(const Vertex& a, const Vertex& b, const Vertex& c) {
+  return std::int64_t{b.x_sub - a.x_sub} * (c.y_sub - a.y_sub) -
+         std::int64_t{b.y_sub - a.y_sub} * (c.x_sub - a.x_sub);
+}
+
+struct Areas {
+  std::int64_t sum = 0;
+  bool positive = false, negative = false;
+};
+Areas areas(const Polygon& polygon, const Pieces& pieces) {
+  Areas all;
+  for (std::size_t i = 0; i < pieces.count; ++i) {
+    const auto [a, b, c] = pieces.corners[i];
+    const std::int64_t one = area(polygon.at(a), polygon.at(b), polygon.at(c));
+    all.sum += one;
+    all.positive |= one > 0;
+    all.negative |= one < 0;
+  }
+  return all;
+}
+
+TEST(Pieces, AConvexPolygonBecomesAFan) {
+  const Polygon hexagon = polygon_of({{0, 0}, {20, -10}, {40, 0}, {40, 20}, {20, 30}, {0, 20}});
+  const Pieces pieces = split(hexagon);
+  ASSERT_EQ(pieces.count, 4u);
+  for (std::uint8_t i = 0; i < 4; ++i)
+    EXPECT_EQ(pieces.corners[i], (std::array<std::uint8_t, 3>{0, std::uint8_t(i + 1), std::uint8_t(i + 2)}));
+}
+
+TEST(Pieces, PiecesOfAConcavePolygonKeepItsWinding) {
+  // Vertex 1 of each is concave, so a fan from vertex 0 has a triangle of the opposite winding.
+  for (const Polygon& forward :
+       {polygon_of({{0, 0}, {50, 1}, {100, 0}, {50, 90}}),
+        polygon_of({{0, 0}, {1, 1}, {100, 0}, {100, 90}, {0, 90}}),
+        polygon_of({{0, 0}, {30, 1}, {100, 0}, {99, 40}, {100, 90}, {50, 89}, {0, 90}, {1, 50}, {2, 49}})}) {
+    const Polygon backward(forward.rbegin(), forward.rend());
+    for (Polygon polygon : {forward, backward})
+      for (std::size_t turn = 0; turn < polygon.size(); ++turn) {
+        const Areas fan = areas(polygon, [&] {
+          Pieces pieces;
+          for (std::uint8_t i = 2; i < polygon.size(); ++i)
+            pieces.corners[pieces.count++] = {0, std::uint8_t(i - 1), i};
+          return pieces;
+        }());
+        const Pieces pieces = split(polygon);
+        EXPECT_EQ(pieces.count, polygon.size() - 2);
+        const Areas found = areas(polygon, pieces);
+        EXPECT_EQ(found.sum, fan.sum);
+        EXPECT_FALSE(found.positive && found.negative) << "turn " << turn;
+        std::rotate(polygon.begin(), polygon.begin() + 1, polygon.end());
+      }
+  }
+}
+
+TEST(Pieces, ASelfCrossingPolygonKeepsItsArea) {
+  const Polygon bow = polygon_of({{0, 0}, {100, 10}, {100, 0}, {0, 9}});
+  const Pieces pieces = split(bow);
+  ASSERT_EQ(pieces.count, 2u);
+  EXPECT_EQ(areas(bow, pieces).sum, area(bow[0], bow[1], bow[2]) + area(bow[0], bow[2], bow[3]));
 }
 
 }  // namespace

@@ -127,50 +127,9 @@ TEST(MeshClusters, TransformFewMoreVerticesThanTheMeshHas) {
   }
 }
 
-std::vector<ScreenTriangle> output(const Scene& scene, Payload payload, int threads) {
-  Frontend frontend;
-  const auto triangles = frontend.run(scene, {.width = 320,
-                                              .height = 200,
-                                              .cull = Cull::none,
-                                              .shade = false,
-                                              .payload = payload,
-                                              .threads = threads});
-  EXPECT_EQ(frontend.stats().whole_mesh == 0, scene.meshes[0].clusters.empty());
-  EXPECT_EQ(frontend.stats().triangles, scene.meshes[0].triangles.size());
-  return {triangles.begin(), triangles.end()};
-}
-
+// Among other instances, mirrored and not; with shading, culling, a vertex that is not finite, ids and
+// states.
 TEST(MeshClusters, GiveTheTrianglesOfTheWholeMesh) {
-  for (const Scene& scene : {grid(), two_grids()})
-    for (const float yaw : {0.0f, 2.0f}) {
-      Scene in_clusters = scene;
-      in_clusters.camera.yaw = yaw;
-      Scene whole = in_clusters;
-      whole.meshes[0].clusters.clear();
-      for (const Payload payload : {Payload::colour, Payload::id}) {
-        const auto expected = output(whole, payload, 1);
-        ASSERT_GT(expected.size(), 1000u);
-        for (const int threads : {1, 2, 5, 16}) {
-          const auto given = output(in_clusters, payload, threads);
-          ASSERT_EQ(given.size(), expected.size());
-          EXPECT_EQ(std::memcmp(given.data(), expected.data(), expected.size() * sizeof expected[0]), 0);
-        }
-      }
-    }
-}
-
-TEST(MeshClusters, AreInfiniteAroundAVertexThatIsNotFinite) {
-  Mesh mesh = grid().meshes[0];
-  mesh.positions[1].z = std::numeric_limits<float>::quiet_NaN();
-  const std::vector<MeshCluster> clusters = make_clusters(mesh);
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  EXPECT_EQ(clusters.front().low, glm::vec3(-kInfinity));
-  EXPECT_EQ(clusters.front().high, glm::vec3(kInfinity));
-  EXPECT_LT(clusters.back().high.x, kInfinity);
-}
-
-// Among other instances, mirrored and not; with shading, culling, a vertex that is not finite, and states.
-TEST(MeshClusters, GiveTheTrianglesOfScenesOfManyInstances) {
   Scene scene = two_grids();
   scene.meshes[0].positions[kSide * 100 + 140].y = std::numeric_limits<float>::infinity();
   scene.meshes[0].clusters = clusters_of(scene.meshes[0]);
@@ -185,7 +144,8 @@ TEST(MeshClusters, GiveTheTrianglesOfScenesOfManyInstances) {
         const FrontendOptions options{.width = 320,
                                       .height = 200,
                                       .cull = cull,
-                                      .threads = 3,
+                                      .payload = keep ? Payload::id : Payload::colour,
+                                      .threads = keep ? 3 : 16,
                                       .keep_unsnapped = keep,
                                       .keep_states = keep,
                                       .target = target};

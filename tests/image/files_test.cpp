@@ -437,31 +437,6 @@ TEST(ObjFile, FoldersAndMissingFilesAreRefused) {
   EXPECT_NE(message_of([&] { read_obj(dir.path() / "none.obj"); }).find("No such file"), std::string::npos);
 }
 
-// By the front end's statistics, no triangle is outside the view or clipped.
-TEST(ObjFile, TheCameraSeesTheWholeMeshFromItsFront) {
-  for (const char* position : {"0 0 0", "500 -20 3", "-0.001 0 0"}) {
-    std::istringstream words(position);
-    double x = 0, y = 0, z = 0;
-    words >> x >> y >> z;
-    const double side = x < 0 ? 1e-4 : 10;
-    std::ostringstream text;
-    for (int i = 0; i < 8; ++i)
-      text << "v " << x + side * (i & 1) << ' ' << y + side * (i >> 1 & 1) << ' ' << z + side * (i >> 2)
-           << '\n';
-    text << "f 5 6 8 7\nf 2 1 3 4\nf 6 2 4 8\nf 1 5 7 3\nf 7 8 4 3\nf 1 2 6 5\n";
-    const TempDir dir;
-    FrontendOptions options;
-    options.width = options.height = 500;
-    Frontend frontend;
-    frontend.run(read_obj(dir.write("box.obj", text.str())), options);
-    const FrontendStats& stats = frontend.stats();
-    EXPECT_EQ(stats.triangles, 12u) << position;
-    EXPECT_EQ(stats.whole_mesh + stats.outside + stats.not_in_front, 0u) << position;
-    EXPECT_EQ(stats.clipped_near + stats.clipped_far + stats.clipped_guard, 0u) << position;
-    EXPECT_EQ(stats.emitted, 6u) << position << ": the front, right and upper faces";
-  }
-}
-
 // ---- Polygons
 
 using Polygon = std::vector<glm::dvec2>;

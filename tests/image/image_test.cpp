@@ -16,7 +16,7 @@
 #include "edgewise/contract.h"
 #include "edgewise/image.h"
 #include "edgewise/scene.h"
-#include "image/samples.h"
+#include "image/format.h"
 #include "message_of.h"
 #include "temp_dir.h"
 
@@ -80,39 +80,6 @@ TEST_P(ImageFormat, WrongPixelCountOrSizeIsNotWritten) {
 
 INSTANTIATE_TEST_SUITE_P(Formats, ImageFormat, testing::Values(".png", ".ppm", ".PNG"),
                          [](const auto& p) { return "Format" + std::to_string(p.index); });
-
-TEST(Png, APaletteBecomesRgb) {
-  // 2x1 pixels with the second and the first colour of a palette of two; made with Python's zlib.
-  const char content[] =
-      "\x89\x50\x4e\x47\x0d\x0a\x1a\x0a\x00\x00\x00\x0d\x49\x48\x44\x52\x00\x00\x00\x02\x00\x00\x00\x01"
-      "\x08\x03\x00\x00\x00\xc3\xfc\x8f\xb8\x00\x00\x00\x06\x50\x4c\x54\x45\x0a\x14\x1e\xc8\x64\x00\xbf"
-      "\x77\xe2\x1c\x00\x00\x00\x0b\x49\x44\x41\x54\x78\x9c\x63\x60\x64\x00\x00\x00\x05\x00\x02\xd1\x66"
-      "\x33\x78\x00\x00\x00\x00\x49\x45\x4e\x44\xae\x42\x60\x82";
-  const TempDir dir;
-  const Image image = read_image(dir.write("palette.png", std::string(content, sizeof content - 1)));
-  EXPECT_EQ(image.pixels, (std::vector<std::uint32_t>{rgb(200, 100, 0), rgb(10, 20, 30)}));
-}
-
-TEST(Png, AbsurdSizeIsRefusedBeforeMemoryIsTaken) {
-  const TempDir dir;
-  const fs::path path = dir.path() / "a.png";
-  write_image(path, test_image(1, 1));
-  std::string content = file_content(path);
-  // The header chunk: width at 16, height at 20, its checksum at 29.
-  content.replace(16, 8, std::string("\x00\x0F\x00\x00\x00\x0F\x00\x00", 8));
-  const std::uint32_t checksum = [&] {
-    std::uint32_t crc = 0xFFFFFFFFu;
-    for (std::size_t i = 12; i < 29; ++i) {
-      crc ^= static_cast<unsigned char>(content[i]);
-      for (int bit = 0; bit < 8; ++bit) crc = crc >> 1 ^ (crc & 1 ? 0xEDB88320u : 0);
-    }
-    return ~crc;
-  }();
-  for (std::size_t i = 0; i < 4; ++i) content[29 + i] = static_cast<char>(checksum >> (24 - 8 * i));
-  const fs::path huge = dir.write("huge.png", content);
-  EXPECT_EQ(message_of([&] { read_image(huge); }),
-            huge.string() + ": image size 983040x983040 is outside 1 to 16384");
-}
 
 TEST(Ppm, HeaderMayHaveCommentsAndFewerLevels) {
   const TempDir dir;
@@ -513,20 +480,6 @@ TEST(InputFile, FailsAgainInsteadOfReadingTheRestOfAPipe) {
   close(ends[1]);
   EXPECT_EQ(message(), path + ": Resource temporarily unavailable");
   close(ends[0]);
-}
-
-TEST(AtomicFile, AFullDiskIsReported) {
-  EXPECT_EQ(message_of([] {
-              write_pfm("/dev/full", {1, 1, {0.0f}});
-            }),
-            "/dev/full: cannot be written: No space left on device");
-  // Through a link, and with enough data to fail during writing instead of at closing.
-  const TempDir dir;
-  fs::create_symlink("/dev/full", dir.path() / "a.pfm");
-  EXPECT_EQ(message_of([&] {
-              write_pfm(dir.path() / "a.pfm", {600, 600, std::vector<float>(360000)});
-            }),
-            (dir.path() / "a.pfm").string() + ": cannot be written: No space left on device");
 }
 
 class Signalled : public testing::TestWithParam<int> {};

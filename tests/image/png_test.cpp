@@ -9,7 +9,7 @@
 
 #include "edgewise/image.h"
 #include "edgewise/scene.h"
-#include "image/samples.h"
+#include "image/format.h"
 #include "message_of.h"
 #include "temp_dir.h"
 
@@ -188,6 +188,13 @@ TEST(PngSamples, Of8BitsEqualTheSameValuesOf16) {
   EXPECT_EQ(difference(a, samples_of({256, 1, 8, kGrey, eight, ""})).largest, 1.0);
 }
 
+TEST(Png, AbsurdSizeIsRefusedBeforeMemoryIsTaken) {
+  const TempDir dir;
+  const auto path = dir.write("huge.png", Png{983040, 983040, 8, kRgb, kEight, ""}.file());
+  EXPECT_EQ(message_of([&] { read_image(path); }),
+            path.string() + ": image size 983040x983040 is outside 1 to 16384");
+}
+
 TEST(Png, DamageIsRefusedWithTheReason) {
   const std::string whole = Png{3, 1, 8, kRgb, kEight, ""}.file();
   const TempDir dir;
@@ -196,7 +203,6 @@ TEST(Png, DamageIsRefusedWithTheReason) {
     damaged[i] ^= 0x20;
     const auto path = dir.write("a.png", damaged);
     const std::string message = message_of([&] { read_image(path); });
-
     EXPECT_TRUE(message.starts_with(path.string() + ": ")) << i << message;
   }
 }

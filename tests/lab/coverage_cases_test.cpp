@@ -1,13 +1,18 @@
-// The small coverage scenes show the failures for which they were made.
+// The small coverage scenes show the failures for which they were made, in coverage and in visible triangles.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
+#include "edgewise/contract.h"
+#include "lab/coverage/visible.h"
 #include "lab/coverage_support.h"
 
 namespace edgewise::lab {
 namespace {
 
 using testing::against_floats;
-using testing::against_grid;
+using testing::find_coverage_method;
 using testing::Picture;
 using testing::picture_of;
 
@@ -55,24 +60,6 @@ TEST(CoverageCases, TallSliversShowDrift) {
   EXPECT_GT(against_floats("dda_rounded", slivers).double_hits, 1000u);
 }
 
-TEST(CoverageCases, LegsOf182PixelsWrap32Bits) {
-  EXPECT_EQ(against_grid("fixed_8_int32", picture_of("legs_181")).errors(), 0u);
-  const Picture& legs = picture_of("legs_182");
-  EXPECT_EQ(against_grid("fixed_8_int32", legs).missing, legs.by_grid.covered);
-}
-
-// Scores only a few rows at the top, where the triangles are widest, since the pictures are large.
-TEST(CoverageCases, LegsOf2897PixelsWrap32BitsWithFourSubpixelBits) {
-  const auto legs = [](float px) {
-    return std::vector<FloatTriangle>{{{{0, px, 0}, {0, 0, px}, {0.5f, 0.5f, 0.5f}}, 1}};
-  };
-  const Window rows{2900, 8};
-  const Picture holds(legs(2896), rows), wraps(legs(2897), rows);
-  EXPECT_EQ(against_grid("fixed_4_int32", holds).errors(), 0u);
-  EXPECT_EQ(against_grid("fixed_4_int32", wraps).missing, wraps.by_grid.covered);
-  EXPECT_EQ(against_grid("fixed_4", wraps).errors(), 0u);
-}
-
 TEST(CoverageCases, AllBackendsLeaveTheSameGapsAtATJunction) {
   const Picture &cracked = picture_of("t_junction"), &split = picture_of("t_junction_split");
   for (const auto& backend : backends()) {
@@ -93,6 +80,72 @@ TEST(CoverageCases, DoublesMisjudgeAnEdgeNextToItsSamples) {
   const Picture& tie = picture_of("double_tie");
   EXPECT_EQ(against_floats("double_top_left", tie).missing, 64u);
   EXPECT_EQ(against_floats("double_top_left", tie).extra, 64u);
+}
+
+// ---- Visible triangles and depths, checked by hand, by brute force, and by rule 6
+
+VisibleTriangleScore visible_triangles_of(std::string_view method, const Picture& picture) {
+  return VisibleTriangleJudge(picture.input, {picture.window.width, picture.window.height}, 2)
+      .score(find_coverage_method(method));
+}
+
+TEST(CoverageVisibleTriangles, TieRulesDecideTheDiagonalOfTheDrtkQuad) {
+  const Picture& quad = picture_of("drtk_quad");
+  EXPECT_EQ(visible_triangles_of("float_lt", quad).wrong_floats, 6u) << "the diagonal is not drawn";
+  EXPECT_EQ(visible_triangles_of("float_le", quad).wrong_floats, 6u)
+      << "the first triangle draws the diagonal, which belongs to the second";
+  EXPECT_EQ(visible_triangles_of("float_top_left", quad), VisibleTriangleScore{});
+}
+
+TEST(CoverageVisibleTriangles, OfBackendsAreExactAndDepthsSatisfyRuleSix) {
+  for (const CoverageCase& c : coverage_cases()) {
+    const Picture& picture = picture_of(c.name);
+    const VisibleTriangleJudge judge(picture.input, c.size, 2);
+    for (const auto& backend : backends()) {
+      const VisibleTriangleScore score = judge.score(find_coverage_method(backend.name));
+      EXPECT_EQ(score.wrong_snapped, 0u) << backend.name << " in " << c.name;
+      EXPECT_LT(score.max_ulp, contract::kDepthError) << backend.name << " in " << c.name;
+      EXPECT_LE(score.rms_ulp, score.max_ulp) << backend.name << " in " << c.name;
+    }
+  }
+}
+
+// Intersecting triangles: if two depths differ by less than the error of rule 6, the wrong triangle may be
+// visible.
+TEST(CoverageVisibleTriangles, OfBackendsErrOnlyWithinTheDepthErrorOfRuleSix) {
+  for (const auto family : testing::kFamilies) {
+    const auto grid = testing::adversarial(family, 150, 120, 90, 8);
+    const Picture picture(testing::as_floats(grid), {120, 90});
+    for (const auto& backend : backends())
+      EXPECT_EQ(visible_triangles_of(backend.name, picture).unexplained, 0u)
+          << backend.name << " in " << family;
+  }
+}
+
+TEST(CoverageVisibleTriangles, DepthErrorsInUlpMatchBruteForce) {
+  const Picture picture({{{{3.3f, 60.1f, 20.7f}, {2.9f, 13.2f, 58.8f}, {0.1f, 0.7f, 0.45f}}, 1}}, {64, 64});
+  const CoverageMethod& method = find_coverage_method("float_top_left");
+  Canvas canvas(64, 64);
+  method.draw(picture.input, canvas, {});
+  const FloatTruth truth(picture.floats[0].at);
+  double most = 0.0, squares = 0.0;
+  int count = 0;
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 64; ++x) {
+      if (!truth.covers(x, y)) continue;
+      const double exact = truth.depth(x, y).get_d();
+      const auto nearest = static_cast<float>(exact);
+      const double drawn = double{canvas.depth[static_cast<std::size_t>(y * canvas.frame.stride() + x)]};
+      const double ulp = double{std::nextafter(nearest, 1.0f)} - double{nearest};
+      most = std::max(most, std::abs(drawn - exact) / ulp);
+      squares += (drawn - exact) * (drawn - exact) / (ulp * ulp);
+      ++count;
+    }
+  const VisibleTriangleScore score = visible_triangles_of("float_top_left", picture);
+  EXPECT_GT(most, 0.5);
+  EXPECT_NEAR(score.max_ulp, most, 1e-6);
+  EXPECT_NEAR(score.rms_ulp, std::sqrt(squares / count), 1e-6);
+  EXPECT_EQ(score.wrong_floats, 0u);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Checks every coverage method against its promise.
+// Checks every coverage method against its promise, and its SIMD forms against its scalar one.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -26,10 +26,9 @@ float side_px(const UnsnappedTriangle& t) {
   return std::max(high_x - low_x, high_y - low_y);
 }
 
-std::vector<std::string_view> method_names() {
+std::vector<std::string_view> names_of(std::span<const CoverageMethod> methods) {
   std::vector<std::string_view> names;
-  for (const auto& method : coverage_methods()) names.push_back(method.info.name);
-  for (const auto& method : engine_methods()) names.push_back(method.info.name);
+  for (const CoverageMethod& method : methods) names.push_back(method.info.name);
   return names;
 }
 
@@ -181,8 +180,77 @@ TEST_P(EveryCoverageMethod, IsDescribed) {
     EXPECT_FALSE(text.empty());
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, EveryCoverageMethod, ::testing::ValuesIn(method_names()),
+INSTANTIATE_TEST_SUITE_P(Registry, EveryCoverageMethod, ::testing::ValuesIn(names_of(coverage_methods())),
                          [](const auto& param) { return testing::test_name(param); });
+INSTANTIATE_TEST_SUITE_P(Engine, EveryCoverageMethod, ::testing::ValuesIn(names_of(engine_methods())),
+                         [](const auto& param) { return testing::test_name(param); });
+
+// ---- The same pixels and depths with every SIMD target
+
+class EveryCoverageForm : public ::testing::TestWithParam<std::string_view> {
+ protected:
+  const CoverageMethod& method_ = find_coverage_method(GetParam());
+
+  void expect_same(const std::vector<FloatTriangle>& floats, Size size, const std::string& what) {
+    const std::vector<ScreenTriangle> grid =
+        method_.contract_depth ? snapped(floats) : std::vector<ScreenTriangle>{};
+    const CoverageInput input{floats, grid};
+    Canvas plain(size.width, size.height), lanes(size.width, size.height);
+    method_.draw(input, plain, {.target = SimdTarget::scalar});
+    for (const SimdTarget target : supported_targets()) {
+      method_.draw(input, lanes, {.target = target});
+      EXPECT_TRUE(same_picture(method_, plain, lanes)) << what << ", " << name_of(target);
+    }
+  }
+};
+
+std::string text_of(Size size) {
+  return " in " + std::to_string(size.width) + "x" + std::to_string(size.height);
+}
+
+// Widths below, at and above a vector's, and images narrower than one.
+constexpr Size kSizes[] = {{1, 1}, {5, 40}, {16, 16}, {17, 9}, {90, 70}, {301, 200}};
+
+TEST_P(EveryCoverageForm, DrawsHardTriangles) {
+  for (const Size size : kSizes)
+    for (const auto family : testing::kFloatFamilies)
+      expect_same(hard_floats(family, 150, {size.width, size.height}, 11), size,
+                  std::string(family) + text_of(size));
+}
+
+TEST_P(EveryCoverageForm, DrawsMeshesOfSmallAndLargeCells) {
+  constexpr Size kSize{700, 300};
+  for (const double cell_px : {3.0, 12.0, 33.0, 150.0, 600.0})
+    expect_same(float_triangles(jittered_grid({.width = kSize.width, .height = kSize.height}, cell_px, 5)),
+                kSize, std::to_string(cell_px) + " px");
+}
+
+// Boxes far larger than the image, in which the edge values of 32-bit methods wrap.
+TEST_P(EveryCoverageForm, DrawsTrianglesThatReachFarOutOfTheImage) {
+  constexpr Size kSize{640, 90};
+  Random random(17);
+  for (const float reach : {200.0f, 3000.0f, 15000.0f}) {
+    std::vector<FloatTriangle> triangles(200);
+    std::uint32_t id = 1;
+    for (auto& [t, payload] : triangles) {
+      payload = id++;
+      for (int i = 0; i < 3; ++i) {
+        t.x_px[i] = random.uniform(-reach, 640.0f + reach);
+        t.y_px[i] = random.uniform(-reach, 90.0f + reach);
+        t.z01[i] = random.uniform(0.0f, 1.0f);
+      }
+    }
+    expect_same(triangles, kSize, std::to_string(reach) + " px outside");
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, EveryCoverageForm, ::testing::ValuesIn(names_of(coverage_methods())),
+                         [](const auto& param) { return testing::test_name(param); });
+
+TEST(CoverageForms, MethodsWithoutSimdFormSayWhy) {
+  for (const CoverageMethod& method : coverage_methods())
+    EXPECT_EQ(method.simd, method.simd_note.empty()) << method.info.name;
+}
 
 TEST(CoverageRegistry, HoldsEveryBackendAndTheTableOnce) {
   std::multiset<std::string_view> names;
@@ -190,16 +258,6 @@ TEST(CoverageRegistry, HoldsEveryBackendAndTheTableOnce) {
   for (const auto& backend : backends()) EXPECT_EQ(names.count(backend.name), 1u) << backend.name;
   for (const auto& method : coverage_table())
     EXPECT_EQ(names.count(method.info.name), 1u) << method.info.name;
-}
-
-TEST(CoverageRegistry, SuggestsTheNearestName) {
-  EXPECT_THROW(find_coverage_case("drtk"), std::invalid_argument);
-  try {
-    find_drawing_method("float_el");
-    FAIL() << "an unknown method was found";
-  } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("did you mean 'float_le'?"), std::string::npos) << error.what();
-  }
 }
 
 TEST(CoverageMethods, Dda1616WrapsPast32767Pixels) {

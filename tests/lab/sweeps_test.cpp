@@ -128,11 +128,6 @@ TEST(SweepRegistry, HoldsEveryFamilyAndNoNameTwice) {
   EXPECT_EQ(families.size(), kFamilies.size());
 }
 
-TEST(SweepRegistry, SuggestsTheNearestName) {
-  EXPECT_NE(message_of([] { find_sweep("leg"); }).find("unknown sweep 'leg'; did you mean 'legs'?"),
-            std::string::npos);
-}
-
 TEST(Sweeps, DoNotDependOnThreads) {
   for (const auto name : {"legs", "cycle", "vertex_w"}) {
     const SweepResult one = swept(name, 1), three = swept(name, 3);
@@ -175,37 +170,12 @@ TEST(CoverageSweeps, LegsOf182PixelsAreTheFirstThatWrap32Bits) {
   EXPECT_EQ(Found(legs, "float_le").start(), 64) << "ties on the diagonal";
 }
 
-TEST(CoverageSweeps, DistanceFromTheOriginBreaksDdas) {
-  const SweepResult distance = swept("distance");
-  const Found dda(distance, "dda_16_16"), floats(distance, "dda_float");
-  EXPECT_LT(rate(dda.at(16384)), 1e-3);
-  EXPECT_GT(rate(dda.at(32768)), 1.0) << "no sample is right beyond 32767 px";
-  EXPECT_GT(rate(floats.at(1 << 20)), 0.05);
-  EXPECT_LT(rate(floats.at(256)), 1e-3);
-  EXPECT_EQ(Found(distance, "fixed_16").start(), std::nullopt);
-}
-
-TEST(CoverageSweeps, DdaDriftsWithTheHeight) {
-  const SweepResult height = swept("height");
-  for (const auto method : {"dda_float", "dda_16_16"})
-    EXPECT_GT(rate(Found(height, method).at(8192)), 10 * rate(Found(height, method).at(256))) << method;
-  EXPECT_EQ(Found(height, "fixed_12").start(), std::nullopt);
-}
-
 TEST(CoverageSweeps, WholePixelVerticesFlickerMoreInSlowPans) {
   const SweepResult pan = swept("pan");
   const Found whole(pan, "whole_pixel");
   EXPECT_EQ(whole.start(), 0.5);
   EXPECT_GT(rate(whole.at(1.0 / 64)), 1.5 * rate(whole.at(0.5)));
   EXPECT_EQ(Found(pan, "float_top_left").start(), std::nullopt);
-}
-
-TEST(CoverageSweeps, AMovingMeshBreaksFloatsWithoutTieRulesAndRoundedDdas) {
-  const SweepResult translation = swept("translation");
-  for (const auto method : {"float_le", "float_lt", "dda_rounded"})
-    EXPECT_EQ(Found(translation, method).start(), 8) << method;
-  for (const auto method : {"whole_pixel", "fixed_4", "fixed_8_int32", "dda_float"})
-    EXPECT_EQ(Found(translation, method).start(), std::nullopt) << method;
 }
 
 TEST(VisibilitySweeps, FewerBitsFailAtLargerSeparations) {
@@ -224,34 +194,6 @@ TEST(VisibilitySweeps, FewerBitsFailAtLargerSeparations) {
   EXPECT_NEAR(Found(separation, "unorm24").start().value(), 0.006, 0.004);
 }
 
-TEST(VisibilitySweeps, NoOrderPaintsACycleOfThreeBars) {
-  const SweepResult cycle = swept("cycle");
-  for (const auto method : {"painter_farthest", "painter_mean", "submission_order"})
-    EXPECT_EQ(Found(cycle, method).start(), 3) << method;
-  for (const auto method : {"contract31", "unorm16"})
-    EXPECT_EQ(Found(cycle, method).start(), std::nullopt) << method;
-}
-
-TEST(VisibilitySweeps, FloatDepthPlanesExceedTheDepthsOfSlivers) {
-  const SweepResult slivers = swept("sliver_depth");
-  EXPECT_EQ(Found(slivers, "contract31").start(), std::nullopt);
-  EXPECT_GE(Found(slivers, "float_z").start().value(), 1000);
-}
-
-TEST(FacingSweeps, NormalZErrsInProportionToTheTiltUnderPerspectiveOnly) {
-  const SweepResult perspective = swept("tilt_perspective"), orthographic = swept("tilt_orthographic");
-  const Found normal_z(perspective, "normal_z"), eye(orthographic, "normal_dot_eye");
-  for (const double tilt : perspective.sweep->positions) {
-    const double expected = tilt / 180;
-    for (const Tally& tally : {normal_z.at(tilt), eye.at(tilt)}) {
-      const double sigma = std::sqrt(expected * (1 - expected) / static_cast<double>(tally.trials));
-      EXPECT_NEAR(rate(tally), expected, 4 * sigma) << tilt;
-    }
-  }
-  EXPECT_EQ(Found(orthographic, "normal_z").start(), std::nullopt);
-  EXPECT_EQ(Found(perspective, "normal_dot_eye").start(), std::nullopt);
-}
-
 TEST(FacingSweeps, SnappingFlipsFacesOneSubUnitThinAndFloatsMuchThinnerOnes) {
   const SweepResult edge_on = swept("edge_on");
   EXPECT_EQ(Found(edge_on, "snapped_area").start(), std::nullopt) << "it errs as snapping does";
@@ -267,14 +209,6 @@ TEST(FacingSweeps, SnappingFlipsFacesOneSubUnitThinAndFloatsMuchThinnerOnes) {
   EXPECT_GT(floats.at(edge_on.sweep->positions.back()).errors, 0u);
 }
 
-TEST(ClippingSweeps, OnlyClippingDrawsTrianglesAcrossTheNearPlane) {
-  const SweepResult vertex = swept("vertex_w");
-  for (const auto method : {"near_too_near", "discard_behind", "none"})
-    EXPECT_EQ(Found(vertex, method).start(), 0.05) << method << ": the first position below 0.1";
-  for (const auto method : {"near_guard", "screen_edges"})
-    EXPECT_EQ(Found(vertex, method).start(), std::nullopt) << method;
-}
-
 TEST(ClippingSweeps, OnlyAMatrixOfFloatsDependsOnWhereTheOriginLies) {
   const SweepResult origin = swept("origin");
   const auto start = Found(origin, "matrix_float").start();
@@ -284,13 +218,6 @@ TEST(ClippingSweeps, OnlyAMatrixOfFloatsDependsOnWhereTheOriginLies) {
   EXPECT_GT(rate(Found(origin, "matrix_float").at(1e8)), 0.5);
   for (const auto method : {"near_guard", "matrix_relative", "screen_edges"})
     EXPECT_EQ(Found(origin, method).start(), std::nullopt) << method;
-}
-
-TEST(ClippingSweeps, ATooNearNearPlaneLeavesTooFewDepthSteps) {
-  const SweepResult near_plane = swept("near_plane");
-  EXPECT_LE(Found(near_plane, "near_guard").start().value(), 1e-4);
-  for (const auto method : {"discard_behind", "none", "near_too_near"})
-    EXPECT_EQ(Found(near_plane, method).start(), 10) << method;
 }
 
 }  // namespace

@@ -167,25 +167,6 @@ TEST(Depth, EstimatesHoldTheExactDepthAndEqualItAtVertices) {
               mpq_class(double{at.z01[i]}));
 }
 
-TEST(Depth, OfTheContractIsWithinItsStatedError) {
-  double worst = 0.0;
-  for (const auto family : testing::kFamilies)
-    for (const auto& t : adversarial(family, 60, 90, 80, 13)) {
-      const SnappedTruth truth(t);
-      if (truth.facing() == 0) continue;
-      const auto plane = contract::make_depth(contract::orient(t));
-      for (int y = 0; y < 80; ++y)
-        for (int x = 0; x < 90; ++x) {
-          if (!truth.covers(x, y)) continue;
-          expect_inside(truth.depth_estimate(x, y), truth.depth(x, y));
-          const mpq_class off = abs(truth.depth(x, y) - mpq_class(plane.at(x, y)));
-          worst = std::max(worst, off.get_d());
-        }
-    }
-  EXPECT_LT(worst, contract::kDepthError);
-  EXPECT_GT(worst, 1.0);
-}
-
 template <typename Triangle, typename TruthOf>
 void expect_visible_triangles(std::span<const Triangle> triangles, Window window, TruthOf&& truth_of,
                               const std::string& what) {
@@ -227,27 +208,6 @@ TEST(VisibleTriangles, AreTheNearestByRationals) {
     expect_visible_triangles(
         std::span<const ScreenTriangle>(snapped), window,
         [](const ScreenTriangle& t) { return SnappedTruth(t); }, family);
-  }
-}
-
-TEST(VisibleTriangles, OfABackendDifferOnlyWhereDepthsAreCloserThanTheContractsError) {
-  const Window window{120, 90};
-  for (const auto family : testing::kFamilies) {
-    const auto triangles = adversarial(family, 80, window.width, window.height, 16);  // payload is the index
-    const VisibleTriangles visible = exact_visible_triangles(std::span(triangles), window, 2);
-    Framebuffer frame(window.width, window.height);
-    find_backend("scanline").make()->draw(triangles, frame.view(), kNoTriangle, {});
-    for (int y = 0; y < window.height; ++y)
-      for (int x = 0; x < window.width; ++x) {
-        const std::uint32_t drawn = frame.payload_row(y)[x];
-        const std::uint32_t visible_id = visible.triangle[static_cast<std::size_t>(y * window.width + x)];
-        if (drawn == visible_id) continue;
-        ASSERT_NE(drawn, kNoTriangle) << family;
-        ASSERT_NE(visible_id, kNoTriangle) << family;
-        const mpq_class behind =
-            SnappedTruth(triangles[drawn]).depth(x, y) - SnappedTruth(triangles[visible_id]).depth(x, y);
-        ASSERT_LT(behind.get_d(), 2.0 * contract::kDepthError) << family;
-      }
   }
 }
 

@@ -241,13 +241,6 @@ TEST(Visibility, OursIsNeverWorseThanAPlainDepthBuffer) {
       expect_never_worse("two planes", two_planes(distance, relative * distance, 0.1, 1000));
 }
 
-TEST(Visibility, TrianglesOfTheFrontEndCanBeJudged) {
-  const auto scene = seen_by_the_front_end("cube", {160, 120});
-  const auto visible = true_visible_triangles(scene);
-  EXPECT_EQ(score(method("contract31"), scene, visible).snapped.wrong_triangle, 0u);
-  EXPECT_GT(score(method("submission_order"), scene, visible).snapped.wrong_triangle, 100u);
-}
-
 // The two truths of lab/truth.h use depths rounded as in rule 6 and to float. This family's truths use the
 // unrounded distances. They may differ only where rounding swaps two depths.
 TEST(Visibility, BothTruthsMatchTheCoverageFamilysUpToDepthRounding) {
@@ -275,55 +268,14 @@ TEST(Visibility, BothTruthsMatchTheCoverageFamilysUpToDepthRounding) {
   }
 }
 
-// All methods draw the snapped triangles. Against the positions before snapping, their errors are therefore
-// those of snapping and their own.
-TEST(Visibility, TheFloatTruthAddsOnlyTheErrorsOfSnapping) {
-  const auto scene = seen_by_the_front_end("torus-knot", {320, 240});
-  const auto visible = true_visible_triangles(scene);
-  std::uint64_t by_snapping = 0;
-  for (std::size_t i = 0; i < visible.floats.size(); ++i)
-    by_snapping += visible.snapped[i] != visible.floats[i];
-  EXPECT_GT(by_snapping, 0u);
-  for (const auto& m : visibility_methods()) {
-    const auto s = score(m, scene, visible);
-    EXPECT_LE(s.floats.wrong_triangle, by_snapping + s.snapped.wrong_triangle) << m.info.name;
-    EXPECT_GE(s.floats.wrong_triangle + s.snapped.wrong_triangle, by_snapping) << m.info.name;
-    // Moving a plane by up to 1/256 px changes depths by far more than a unit of 31 bits.
-    if (m.info.name == "contract31") {
-      EXPECT_GT(s.floats.max_ulp, 10 * s.snapped.max_ulp);
-    }
-  }
-}
-
-// Rule 6: each depth is within kDepthError of the exact plane through the vertices' depths. A wrong triangle
-// can be visible only where the two planes are closer than twice that error.
-TEST(Visibility, OursErrsOnlyBetweenDepthsWithinTwiceTheContractsError) {
-  std::size_t wrong = 0;
+// A wrong triangle can be visible only where two planes are closer than twice the contract's error.
+TEST(Visibility, OursErrsOnlyAtDepthTies) {
   for (const auto& c : visibility_cases()) {
     const VisibilityScene scene = c.make();
     const auto all = score(method("contract31"), scene, true_visible_triangles(scene));
     EXPECT_EQ(all.snapped.wrong_triangle, all.depth_ties) << c.name;
     EXPECT_LE(all.snapped.max_ulp, kOurWorst_ulp) << c.name;
-
-    const auto triangles = screen_of(scene);
-    const VisibleTriangles exact = exact_visible_triangles(triangles, {scene.width, scene.height}, 2);
-    VisibilityFrame frame;
-    method("contract31").draw(scene, frame);
-    for (std::size_t i = 0; i < exact.triangle.size(); ++i) {
-      const std::uint32_t said = frame.visible[i], truth = exact.triangle[i];
-      if (said == truth) continue;
-      ++wrong;
-      ASSERT_NE(said, kNoTriangle) << c.name;
-      ASSERT_NE(truth, kNoTriangle) << c.name;
-      const int x = static_cast<int>(i) % scene.width, y = static_cast<int>(i) / scene.width;
-      ASSERT_TRUE(SnappedTruth(triangles[said]).covers(x, y)) << c.name;
-      const mpq_class apart =
-          SnappedTruth(triangles[said]).depth(x, y) - SnappedTruth(triangles[truth]).depth(x, y);
-      EXPECT_GE(apart, 0) << c.name;
-      EXPECT_LE(apart, 2 * contract::kDepthError) << c.name;
-    }
   }
-  EXPECT_GT(wrong, 0u) << "no scene is hard enough for the bound to matter";
 }
 
 }  // namespace

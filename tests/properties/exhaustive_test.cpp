@@ -10,7 +10,6 @@
 #include "frontend/fixed.h"
 #include "lab/oracle.h"
 #include "lab/to_stream.h"
-#include "properties/false_variants.h"
 #include "properties/pictures.h"
 #include "properties/streams.h"
 #include "support.h"
@@ -132,16 +131,6 @@ std::vector<Lattice> lattices() {
 
 INSTANTIATE_TEST_SUITE_P(Lattices, EveryTriangle, ::testing::ValuesIn(lattices()),
                          [](const auto& lattice) { return lattice.param.name; });
-
-TEST(EveryTriangle, ComparisonFindsAWrongBackend) {
-  for (const BackendInfo& wrong : {mistaken<Mistake::samples_on_all_edges_are_inside>(),
-                                   mistaken<Mistake::one_lane_is_a_unit_deeper>()}) {
-    const SearchResult result =
-        draw_all(steps("halves_of_2_px", 2, 2), painters(std::span(&wrong, 1)), {lab::AblatedExecution{}});
-    ASSERT_TRUE(result.found.has_value());
-    EXPECT_EQ(result.found->verdict.replay.at(0).triangles.size(), 1u);
-  }
-}
 
 }  // namespace
 }  // namespace edgewise::testing

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "lab/to_stream.h"
-#include "properties/generator.h"
 #include "properties/pictures.h"
 #include "support.h"
 

@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "properties/generator.h"
 #include "properties/streams.h"
 
 namespace edgewise::testing {

@@ -1,6 +1,4 @@
 // Compares every backend in the registry, in every configuration, with the brute-force oracle.
-#include <filesystem>
-#include <set>
 #include <stdexcept>
 
 #include "core/triangle_source.h"
@@ -103,18 +101,6 @@ TEST_P(EveryBackend, DrawsOnlyBackgroundWithoutTriangles) {
   expect_oracle({}, 70, 70, "no triangles");
 }
 
-TEST_P(EveryBackend, TiesKeepTheEarlierTriangle) {
-  const ScreenTriangle first{{0, 40 * 256, 3 * 256}, {0, 0, 40 * 256}, {5000, 5000, 5000}, 1};
-  ScreenTriangle second = first;
-  second.payload = 2;
-  const ScreenTriangle both[] = {first, second};
-  Framebuffer frame(32, 32);
-  for (const auto& how : testing::executions()) {
-    backends_.get(info_, how.ablation).draw(both, frame.view(), 0, how.execution);
-    EXPECT_EQ(frame.payload_row(0)[3], 1u) << testing::describe(how);
-  }
-}
-
 // Small and large triangles may be in different lists, whose segments fill up at different triangles.
 TEST_P(EveryBackend, TiesKeepTheEarlierOfASmallAndALargeTriangle) {
   const auto right_angled = [](int at_px, int side_px, std::uint32_t z, std::uint32_t payload) {
@@ -158,26 +144,6 @@ TEST_P(EveryBackend, DrawsManyTrianglesTheSameOnEveryThreadCount) {
   const Framebuffer alone = drawn(1);
   for (const int threads : {2, 3})
     testing::expect_same(alone, drawn(threads), std::to_string(threads) + " threads");
-}
-
-TEST_P(EveryBackend, DoesNotDependOnVertexOrderOrWinding) {
-  for (const auto family : testing::kFamilies) {
-    const auto triangles = adversarial(family, 60, 90, 70, 21);
-    Framebuffer expected(90, 70), actual(90, 70);
-    backend_->draw(triangles, expected.view(), kBackground, {});
-    for (const auto order : {std::array{1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}}) {
-      auto turned = triangles;
-      for (std::size_t i = 0; i < turned.size(); ++i)
-        for (std::size_t k = 0; k < 3; ++k) {
-          const auto from = static_cast<std::size_t>(order[k]);
-          turned[i].x_sub[k] = triangles[i].x_sub[from];
-          turned[i].y_sub[k] = triangles[i].y_sub[from];
-          turned[i].z[k] = triangles[i].z[from];
-        }
-      backend_->draw(turned, actual.view(), kBackground, {});
-      testing::expect_same(expected, actual, std::string(family));
-    }
-  }
 }
 
 TEST_P(EveryBackend, WritesEveryPixelOfTheFrameAndNoOther) {
@@ -333,19 +299,6 @@ TEST_P(EveryBackend, RefusesADrawableForAnotherSizeOrWithInvalidOptions) {
 
 INSTANTIATE_TEST_SUITE_P(Registry, EveryBackend, ::testing::ValuesIn(testing::all_drawers()),
                          [](const auto& param) { return testing::test_name(param); });
-
-TEST(Registry, SuggestsTheNearestName) {
-  try {
-    find_backend("scanlien");
-    FAIL() << "an unknown backend was found";
-  } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("did you mean 'scanline'?"), std::string::npos) << error.what();
-  }
-}
-
-TEST(Registry, HasTheThreeExactBackends) {
-  for (const auto name : {"naive", "tiled", "scanline"}) EXPECT_EQ(find_backend(name).name, name);
-}
 
 }  // namespace
 }  // namespace edgewise

@@ -89,51 +89,5 @@ TEST(Contract, DepthStaysWithinItsStatedErrorFarFromTheOrigin) {
   EXPECT_GT(samples, 1000);
 }
 
-TEST(Contract, FrontIsClockwiseOnTheYDownScreen) {
-  const ScreenTriangle clockwise{{0, 256, 0}, {0, 0, 256}, {200, 200, 200}, 0};
-  EXPECT_GT(signed_area(clockwise), 0);
-}
-
-TEST(Contract, OnlyTopAndLeftEdgesOwnTheirSamples) {
-  // Half of a square whose sides pass through sample points.
-  const std::int32_t low = sample_sub(2), high = sample_sub(6);
-  const ScreenTriangle upper{{low, high, low}, {low, low, high}, {200, 200, 200}, 0};
-  const Oriented t = orient(upper);
-  const auto inside = [&](int x, int y) {
-    return make_edge(t, 0).at(x, y) >= 0 && make_edge(t, 1).at(x, y) >= 0 && make_edge(t, 2).at(x, y) >= 0;
-  };
-  EXPECT_TRUE(inside(2, 2));   // top left corner
-  EXPECT_TRUE(inside(4, 2));   // on the top edge
-  EXPECT_TRUE(inside(2, 4));   // on the left edge
-  EXPECT_FALSE(inside(4, 4));  // on the diagonal, a right edge
-  EXPECT_FALSE(inside(6, 2));
-  EXPECT_FALSE(inside(2, 6));
-}
-
-TEST(Contract, EitherAnEdgeOrItsReverseIsTopLeft) {
-  for (int a = -2; a <= 2; ++a)
-    for (int b = -2; b <= 2; ++b) {
-      if (a == 0 && b == 0) continue;
-      EXPECT_NE(is_top_left(a, b), is_top_left(-a, -b)) << a << ", " << b;
-    }
-  EXPECT_TRUE(is_top_left(0, 1)) << "a top edge runs to the right";
-  EXPECT_TRUE(is_top_left(1, 0)) << "a left edge runs up";
-}
-
-TEST(Contract, PixelBoxHoldsEverySampleThatCanBeCovered) {
-  for (const auto family : testing::kFamilies)
-    for (const auto& triangle : testing::adversarial(family, 60, 40, 30, 5)) {
-      const Oriented t = orient(triangle);
-      if (t.area == 0) continue;
-      const PixelBox box = pixel_box(triangle, 40, 30);
-      for (int y = 0; y < 30; ++y)
-        for (int x = 0; x < 40; ++x) {
-          const bool inside =
-              make_edge(t, 0).at(x, y) >= 0 && make_edge(t, 1).at(x, y) >= 0 && make_edge(t, 2).at(x, y) >= 0;
-          ASSERT_TRUE(!inside || (x >= box.x0 && x < box.x1 && y >= box.y0 && y < box.y1)) << family;
-        }
-    }
-}
-
 }  // namespace
 }  // namespace edgewise

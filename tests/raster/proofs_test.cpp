@@ -152,13 +152,5 @@ TEST(Proofs, DefinitionsMatchTheContractsFunctions) {
   RecordProperty("comparisons", equations.count());
 }
 
-TEST(Proofs, AWrongDefinitionIsFound) {
-  if (!has_solver()) GTEST_SKIP() << "z3 is not installed";
-  Equations equations;
-  equations.add(call("first_sample", 128), int128{0});
-  equations.add(call("first_sample", 129), int128{0});  // one too few
-  EXPECT_EQ(equations.solve(), "sat\n");
-}
-
 }  // namespace
 }  // namespace edgewise::testing

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <set>
 #include <vector>
@@ -141,32 +140,6 @@ TEST_F(Wireframe, DrawsASplitEdgeLikeTheWholeEdge) {
     cut.insert(vertex), uncut.insert(vertex);
     if (signed_area(whole) == 0) continue;
     ASSERT_EQ(cut, uncut) << i;
-  }
-}
-
-// A frame equals the same part of any larger frame.
-TEST_F(Wireframe, DrawsAFrameLikeThePartOfALargerOne) {
-  for (const auto family : testing::kFamilies) {
-    const auto triangles = testing::adversarial(family, 60, kWidth, kHeight, 3);
-    Framebuffer large(kWidth, kHeight);
-    backend_->draw(triangles, large.view(), kNothing, {});
-    for (const auto& [x0, y0, width, height] : {std::array{0, 0, 30, 20}, {17, 9, 40, 50}, {63, 64, 27, 6}}) {
-      auto moved = triangles;
-      bool in_band = true;
-      for (auto& t : moved)
-        for (int k = 0; k < 3; ++k) {
-          t.x_sub[k] -= x0 * kSub, t.y_sub[k] -= y0 * kSub;
-          in_band = in_band && std::max(std::abs(t.x_sub[k]), std::abs(t.y_sub[k])) <= kGuardSub;
-        }
-      if (!in_band) continue;
-      Framebuffer small(width, height);
-      backend_->draw(moved, small.view(), kNothing, {});
-      for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-          ASSERT_EQ(small.depth_row(y)[x], large.depth_row(y + y0)[x + x0]) << family;
-          ASSERT_EQ(small.payload_row(y)[x], large.payload_row(y + y0)[x + x0]) << family;
-        }
-    }
   }
 }
 

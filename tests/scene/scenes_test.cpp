@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <cstring>
 #include <map>
-#include <numeric>
 #include <set>
 #include <stdexcept>
 
@@ -193,16 +192,6 @@ TEST_P(Grids, CoverEveryPixelExactlyOnceByEveryBackend) {
 
 INSTANTIATE_TEST_SUITE_P(BuiltIn, Grids, ::testing::Values("grid4", "grid64"),
                          [](const auto& param) { return testing::test_name(param); });
-
-TEST(Measure, CoveredPixelsIsTheSumOfTheHits) {
-  for (const auto family : testing::kFamilies) {
-    const auto triangles = testing::adversarial(family, 40, 60, 50, 17);
-    const auto hits = lab::count_hits(*find_backend("naive").make(), triangles, 60, 50, {});
-    EXPECT_EQ(lab::covered_pixels(triangles, 60, 50),
-              std::accumulate(hits.begin(), hits.end(), std::uint64_t{0}))
-        << family;
-  }
-}
 
 TEST(Camera, LooksAtItsTarget) {
   for (const glm::vec3 target : {glm::vec3(1, 2, -8), {-4, 0, 3}, {0, 5, 0.01f}, {2, -7, 2}}) {

@@ -10,7 +10,7 @@
 #include "run_program.h"
 #include "temp_dir.h"
 #include "viewer/demos.h"
-#include "viewer/outlines.h"
+#include "viewer/inset.h"
 #include "viewer/viewer_support.h"
 
 namespace edgewise::viewer {

@@ -1,8 +1,7 @@
 // Parsing of terminal input, and output of pictures to a terminal.
 #include <gtest/gtest.h>
 
-#include "viewer/terminal_input.h"
-#include "viewer/terminal_picture.h"
+#include "viewer/terminal_io.h"
 
 namespace edgewise::viewer {
 namespace {

@@ -21,8 +21,8 @@
 #include "support/json_text.h"
 #include "support/machine.h"
 #include "support/output_path.h"
+#include "support/process.h"
 #include "support/progress.h"
-#include "support/stop_request.h"
 
 namespace edgewise::tools {
 
@@ -168,7 +168,7 @@ void add_verify(CLI::App& program, Action& action) {
     random->excludes(command.get_option(of_scenes));
   randomized::Plan& plan = o->random_plan;
   const auto add = [&](const char* name, const char* type, const char* help, auto parse) {
-    return command.add_option_function<std::string>(name, parse, help)->type_name(type)->needs(random);
+    return add_parsed(command, name, type, help, parse)->needs(random);
   };
   add("--seed", "S", "Seed of the sequence of cases (1)",
       [&plan](const std::string& text) { plan.seed = parse_count("--seed", text, 0, ~std::uint64_t{0}); });

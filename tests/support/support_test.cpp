@@ -1,17 +1,25 @@
-// The cores that a process may use: affinity masks and CPU quotas.
-#include "support/cores.h"
-
+// The cores that a process may use, external text on the terminal and in JSON, and uncaught exceptions.
+// invalid_inputs.h tests signals, streams and limits.
 #include <gtest/gtest.h>
 #include <sched.h>
 
 #include <filesystem>
+#include <new>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
+#include <thread>
 
 #include "run_program.h"
+#include "support/cores.h"
+#include "support/json_text.h"
+#include "support/printable.h"
+#include "support/process.h"
 
 namespace edgewise::tools {
 namespace {
+
+// ---- Cores: affinity masks and CPU quotas
 
 using testing::Outcome;
 
@@ -96,6 +104,63 @@ TEST(UsableCores, AreThoseOfTheAffinityMask) {
 TEST(UsableCores, AreSomeOfTheMachines) {
   EXPECT_GE(usable_cores(), 1);
   EXPECT_LE(usable_cores(), machine_cores());
+}
+
+// ---- External text
+
+TEST(Printable, KeepsValidText) {
+  for (const std::string text : {"", "plain ~", "\u00e9\u03c9\u4e2d\U0001F600", "\U0010FFFF"})
+    EXPECT_EQ(printable(text), text);
+}
+
+TEST(Printable, ReplacesControlCharacters) {
+  EXPECT_EQ(printable("a\x1b[31mb\n\r\t\x7f"), "a?[31mb????");
+  EXPECT_EQ(printable("a\u009b31m", ' '), "a 31m");  // a control sequence in one character
+  EXPECT_EQ(printable("a\u202eb\u2066"), "a?b?");    // writing direction
+}
+
+TEST(Printable, ReplacesEachByteThatIsNotUtf8) {
+  EXPECT_EQ(printable("\xff\x80z"), "??z");
+  EXPECT_EQ(printable("\xc3"), "?");                   // incomplete
+  EXPECT_EQ(printable("\xc0\xaf"), "??");              // overlong encoding of '/'
+  EXPECT_EQ(printable("\xe0\x80\xaf"), "???");         // the same
+  EXPECT_EQ(printable("\xed\xa0\x80"), "???");         // a surrogate
+  EXPECT_EQ(printable("\xf4\x90\x80\x80"), "????");    // beyond Unicode
+  EXPECT_EQ(printable("\xe4\xb8z\xe4\xb8"), "??z??");  // incomplete in the middle
+}
+
+TEST(Printable, CutsBetweenCharacters) {
+  EXPECT_EQ(printable_within("abcdef", 6), "abcdef");
+  EXPECT_EQ(printable_within("abcdefg", 6), "abcd..");
+  EXPECT_EQ(printable_within("\u00e9\u00e9\u00e9\u00e9", 4), "\u00e9\u00e9\u00e9\u00e9");
+  EXPECT_EQ(printable_within("\u00e9\u00e9\u00e9\u00e9\u00e9", 4), "\u00e9\u00e9..");
+  EXPECT_EQ(printable_within("\u4e2d\u4e2d\u4e2d", 5), "\u4e2d..");  // two columns each
+  EXPECT_EQ(printable_within("abc", 2), "..");
+  EXPECT_EQ(printable_within("abc", 1), ".");
+  EXPECT_EQ(printable_within("abc", 0), "");
+}
+
+TEST(JsonText, AcceptsAnyBytes) {
+  const nlohmann::json json{{"name", "a\xff"}};
+  EXPECT_EQ(nlohmann::json::parse(json_text(json)).at("name"), "a\xef\xbf\xbd");
+  EXPECT_EQ(json_text(nlohmann::json{{"a", 1}}, 2), "{\n  \"a\": 1\n}");
+}
+
+// ---- Uncaught exceptions
+
+template <typename Error>
+void throw_on_a_thread(const Error& error) {
+  prepare_process("edgewise");
+  std::thread([&] { throw error; }).join();
+}
+
+// oneTBB throws like this if one of its threads cannot start another.
+TEST(ProcessDeathTest, PrintsAnUncaughtExceptionInOneLine) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_EXIT(throw_on_a_thread(std::runtime_error("pthread_create has failed: Resource unavailable")),
+              ::testing::ExitedWithCode(2), "^edgewise: no more threads can be started; use fewer.*\n$");
+  EXPECT_EXIT(throw_on_a_thread(std::bad_alloc()), ::testing::ExitedWithCode(2),
+              "^edgewise: out of memory\n$");
 }
 
 }  // namespace
