@@ -1,12 +1,9 @@
 """The main chart: cracks against speed, each coverage method in scalar code and with SIMD."""
 from accuracy_rows import FAMILIES
 from frontier import ENGINES, INSIDE_TESTS, LEAST_CROSSINGS, best, frontier_figures, simd_outcome, timed_scenes
-from palette import FAINT, GREEN, INK
 from plot_labels import Label, label_points
-from plot_style import WIDTH_IN, Kinds, head_in, headline, plt, save
-from speedups import kernels
-from tables import number, short
-from zero_axis import ZeroAxis
+from plot_style import FAINT, GREEN, INK, WIDTH_IN, Kinds, ZeroAxis, head_in, headline, plt, save
+from tables import kernels, number, short
 
 NEAR = 1.15  # ratio of speeds below which points at one x share a label
 # Others with a label beside ours, the peers, and the title's: those that README names, and the fastest of each kind.
@@ -56,7 +53,7 @@ def labels_of(found, x_of):
                      for x, members in groups]
 
 
-def frontier(accuracy, folder, caption):
+def frontier(accuracy, bench, folder, caption):
     found, base, scenes = frontier_figures(accuracy) if accuracy else ({}, None, 0)
     if not found:
         return None
@@ -66,7 +63,7 @@ def frontier(accuracy, folder, caption):
     subtitle = (f"Further left: fewer cracks; further up: faster on one thread, geometric mean of {scenes} scenes "
                 f"({', '.join(scene.name for scene in timed_scenes(accuracy))}). Cracks are gaps and double hits between neighbours, "
                 f"{most.scenes} scenes and {short(most.crossings)} crossings of shared edges pooled; the dotted line ends at the worst "
-                f"scene. Hollow: scalar code; filled: {kernels(accuracy.machine.get('simd_best'))}, of peers their own vectors.")
+                f"scene. Hollow: scalar code; filled: {kernels(bench.context.get('simd_target'))}, of peers their own vectors.")
     above, below = 0.95 + head_in(subtitle), 1.0
     figure, axes = plt.subplots(figsize=(WIDTH_IN, above + below + 5.0))
     height = figure.get_figheight()
@@ -97,7 +94,7 @@ def frontier(accuracy, folder, caption):
     axes.set_ylabel(f"speed, {base.name} in scalar code = 1×")
     axes.set_xlabel("cracks per 10⁶ crossings of shared edges")
     label_points(axes, labels_of(found, scale.at), lines)
-    extra = [plt.Line2D([], [], color=FAINT, **INTERVAL, label="95 % interval, paired rounds"),
+    extra = [plt.Line2D([], [], color=FAINT, **INTERVAL, label="95 % interval"),
              plt.Line2D([], [], color=FAINT, **WORST, label="worst scene"),
              plt.Line2D([], [], color=INK, marker="o", markerfacecolor="white", linestyle="", markersize=7, label="scalar"),
              plt.Line2D([], [], color=INK, marker="o", linestyle="", markersize=7, label="SIMD")]

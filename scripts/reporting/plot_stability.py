@@ -1,9 +1,98 @@
-"""Charts of stability: one per sweep, with one curve per method, from easy on the left to hard on the right."""
-from accuracy_rows import FAMILIES
-from palette import FAINT
-from plot_style import WIDTH_IN, Kinds, dark, head_in, headline, plt, save
-from stability_curves import (axis_of_errors, failing, groups_of, kinds_and_dashes, known_methods, line_count, names_of,
-                              place_of_failure, runs_down, summary, tidy, trials_note)
+"""Charts of stability: one per sweep, with one curve per method, from easy on the left to hard on the right; and one of all
+sweeps, with a bar for each method, as far as it holds."""
+from accuracy_rows import FAMILIES, Method
+from plot_style import FAINT, INK, WIDTH_IN, Kinds, ZeroAxis, dark, head_in, headline, plt, save
+from tables import short
+
+
+class Plain:
+    """Places on an axis without logarithm."""
+
+    def __init__(self, values):
+        self.low, self.high = min(values), max(values)
+
+    @staticmethod
+    def at(value):
+        return value
+
+
+def groups_of(sweep, methods):
+    """Methods whose curves are the same, as one: (methods, curve), in the registry's order."""
+    groups = {}
+    for curve in sweep.curves:
+        members, _ = groups.setdefault((curve.points, curve.starts_to_fail), ([], curve))
+        members.append(methods.get((sweep.family, curve.method)) or Method(curve.method, "", "", curve.exact))
+    return list(groups.values())
+
+
+# Lengths of dashes and gaps, in widths of the line; given out within a kind of method.
+DASHES = ((), (5, 1.5), (1.5, 1.2), (5, 1.5, 1, 1.5), (8, 2), (3, 1, 1, 1, 1, 1))
+
+
+def kinds_and_dashes(groups, family):
+    """(kind, dash) of each group, so that no two lines look alike."""
+    found, used = [], {}
+    for members, _ in groups:
+        kind = "ours" if any(member.ours for member in members) else family.kind(members[0])
+        found.append((kind, DASHES[used.get(kind, 0) % len(DASHES)]))
+        used[kind] = used.get(kind, 0) + 1
+    return found
+
+
+def wrapped(names, width=30):
+    lines = [""]
+    for name in names:
+        if lines[-1] and len(lines[-1]) + len(name) > width:
+            lines.append("")
+        lines[-1] += name + ", "
+    return "\n".join(line.strip() for line in lines).rstrip(",")
+
+
+def tidy(value):
+    if value == 0 or 1e-3 <= abs(value) < 1000:
+        return f"{value:.3g}"
+    if abs(value) >= 1000:
+        return short(value)
+    digits, power = f"{value:.0e}".split("e")
+    raised = str(int(power)).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+    return ("" if digits == "1" else digits + "·") + "10" + raised
+
+
+def names_of(members):
+    """Ours, then the others."""
+    return wrapped([m.name for m in members if m.ours]), wrapped([m.name for m in members if not m.ours])
+
+
+def line_count(text):
+    return text.count("\n") + 1 if text else 0
+
+
+def place_of_failure(curve):
+    """The index of the first point at which a method fails."""
+    return next((i for i, (x, _) in enumerate(curve.points) if x == curve.starts_to_fail), len(curve.points))
+
+
+def summary(groups):
+    """The sweep's finding: "ours hold; fixed_8_int32 breaks at 182"."""
+    own, others = ([(place_of_failure(curve), tidy(curve.starts_to_fail), m.name) for members, curve in groups for m in members
+                    if m.ours == whose and curve.starts_to_fail is not None] for whose in (True, False))
+    breaking = [found for found in others if found[0] > 0]
+    return (f"ours {f'break at {min(own)[1]}' if own else 'hold'}; "
+            + (f"{min(breaking)[2]} breaks at {min(breaking)[1]}" if breaking else f"{len(others)} others fail at once"))
+
+
+def failing(curve, sweep):
+    if curve.starts_to_fail is None:
+        return "errs no more than snapping" if max(sweep.by_snapping) > 0 else "holds"
+    return f"fails at {tidy(curve.starts_to_fail)} {sweep.x['unit']}".rstrip()
+
+
+def trials_note(sweep):
+    trials = [n for curve in sweep.curves for n in curve.trials if n]
+    if not trials or not sweep.y["log"]:
+        return ""
+    low, high = short(min(trials)), short(max(trials))
+    return f" 0: no error in {low if low == high else f'{low} to {high}'} trials per point; the 95 % upper bound is 3/N."
 
 
 LINE_IN = 0.15  # of a label
@@ -32,7 +121,8 @@ def stacked(wanted, heights, ties):
 def set_axis(axes, sweep):
     """Returns the axis of errors."""
     xs = [x for curve in sweep.curves for x, _ in curve.points]
-    y_scale = axis_of_errors(sweep)
+    ys = [y for curve in sweep.curves for _, y in curve.points]
+    y_scale = ZeroAxis(ys) if sweep.y["log"] else Plain(ys)
     if sweep.y["log"]:
         y_scale.apply_y(axes)
     else:
@@ -41,7 +131,7 @@ def set_axis(axes, sweep):
         axes.set_xscale("log", base=10)
         axes.xaxis.set_major_formatter(lambda value, _: tidy(value))
         axes.minorticks_off()
-    if runs_down(sweep):
+    if xs[0] > xs[len(sweep.curves[0].points) - 1]:  # from easy to hard
         axes.invert_xaxis()
     return y_scale
 
@@ -109,7 +199,88 @@ def sweep_chart(sweep, methods, folder, caption):
     return f"stability-{sweep.name}"
 
 
+OURS, HELD, EMPTY = INK, "#9aa5b1", "#eef1f4"
+ROW_IN, NAME_IN, CELL_IN, GAP_IN, HEAD_IN = 0.2, 1.75, 1.16, 0.06, 0.42
+
+
+def held(curve):
+    """The share of a sweep's places, easy ones first, before the first at which a method fails."""
+    places = [x for x, _ in curve.points]
+    return 1.0 if curve.starts_to_fail is None else places.index(curve.starts_to_fail) / len(places)
+
+
+def verdict(curve):
+    if curve.starts_to_fail is None:
+        return "holds"
+    return tidy(curve.starts_to_fail) if held(curve) else "fails"
+
+
+def rows_of(sweeps, methods):
+    """[(method, its curve in each sweep or None)]"""
+    return [(method, [next((c for c in sweep.curves if c.method == method.name), None) for sweep in sweeps])
+            for method in methods]
+
+
+def scale_text(x):
+    """The name and unit of a sweep's places, or the unit alone if a cell has no room for both."""
+    whole = ", ".join(filter(None, (x["name"], x["unit"])))
+    return whole if len(whole) < 24 else x["unit"]
+
+
+def title(families):
+    ours = [[c for method, curves in rows if method.ours for c in (curves[i],) if c] for _, of, rows in families for i in range(len(of))]
+    held = sum(all(c.starts_to_fail is None for c in curves) for curves in ours)
+    return f"Ours hold in {held} of {len(ours)} sweeps"
+
+
+def grid(sweeps, accuracy, folder, caption):
+    families = [(family, of, rows_of(of, accuracy.methods[family])) for family in FAMILIES
+                if (of := [sweep for sweep in sweeps if sweep.family == family and sweep.curves])]
+    if not families:
+        return None
+    height = 1.0 + sum(HEAD_IN + ROW_IN * len(rows) + 0.12 for _, _, rows in families) + 0.2
+    columns = max(len(of) for _, of, _ in families)
+    width = NAME_IN + columns * (CELL_IN + GAP_IN) + 0.1
+    figure = plt.figure(figsize=(width, height))
+    axes = figure.add_axes((0, 0, 1, 1))
+    axes.set(xlim=(0, width), ylim=(height, 0))
+    axes.axis("off")
+    headline(figure, title(families),
+             "A bar reaches as far as a method errs no more than rounding to 1/256 px does; the figure is the first place at "
+             "which it fails. Each sweep runs from easy to hard. Bold names and dark bars: ours.")
+    y = 1.0
+    for family, of, rows in families:
+        axes.text(0.08, y + 0.26, family.capitalize(), fontsize=10.5, fontweight="bold", va="bottom")
+        for i, sweep in enumerate(of):
+            x = NAME_IN + i * (CELL_IN + GAP_IN)
+            axes.text(x, y + 0.14, sweep.name.replace("_", " "), fontsize=8.3, va="bottom")
+            axes.text(x, y + 0.27, scale_text(sweep.x), fontsize=6.5,
+                      color=FAINT, va="bottom")
+        y += HEAD_IN - 0.08
+        for method, curves in rows:
+            axes.text(0.08, y + ROW_IN / 2, method.name, fontsize=8.6, va="center",
+                      fontweight="bold" if method.ours else "normal")
+            for i, curve in enumerate(curves):
+                if curve is None:
+                    continue
+                x = NAME_IN + i * (CELL_IN + GAP_IN)
+                axes.add_patch(plt.Rectangle((x, y + 0.02), CELL_IN, ROW_IN - 0.04, color=EMPTY, linewidth=0))
+                axes.add_patch(plt.Rectangle((x, y + 0.02), CELL_IN * held(curve), ROW_IN - 0.04, linewidth=0,
+                                             color=OURS if method.ours else HELD))
+                if curve.starts_to_fail is not None:
+                    inside = held(curve) > 0.55
+                    axes.text(x + CELL_IN * held(curve) + (-0.03 if inside else 0.03), y + ROW_IN / 2, verdict(curve),
+                              fontsize=7.2, va="center", ha="right" if inside else "left",
+                              color="white" if inside and method.ours else INK)
+            y += ROW_IN
+        y += 0.12
+    save(figure, folder, "stability-grid", caption)
+    return "stability-grid"
+
+
 def draw(sweeps, accuracy, folder, caption):
-    """The names of the charts drawn."""
-    methods = known_methods(accuracy)
-    return [name for sweep in sweeps if (name := sweep_chart(sweep, methods, folder, caption))]
+    """The names of the charts drawn, or None."""
+    if accuracy is None:
+        return []
+    methods = {(family, m.name): m for family, found in accuracy.methods.items() for m in found}
+    return [*(sweep_chart(sweep, methods, folder, caption) for sweep in sweeps), grid(sweeps, accuracy, folder, caption)]

@@ -1,10 +1,9 @@
 """The verification summary: one table of the methods that `scripts/test --full` ran, their extent and their findings."""
-import argparse
 from pathlib import Path
 
-from bench_rows import main_guard, read_json, records, source_of
-from speedups import kernels
-from tables import enumerated, markdown, plain, short
+from bench_rows import records, source_of
+from program import Parser, main_guard, read_json
+from tables import enumerated, kernels, markdown, plain, short
 
 HEADER = ["method", "extent", "found"]
 SANITIZERS = {"address": "Tests again at the usual size, with the address and undefined-behaviour sanitizers",
@@ -87,6 +86,19 @@ LINES = {"tests": test_lines, "prove": prove_lines, "mutate": mutate_lines, "fuz
 BRIEF_LINES = {**LINES, "tests": brief_test_lines, "fuzz": brief_fuzz_lines}
 
 
+def differing_pixels(verify):
+    return sum(scene["differing_pixels"] + scene.get("written_outside", 0)
+               + scene.get("oracle", {}).get("differing_pixels", 0) for scene in verify["scenes"])
+
+
+def verify_sentence(verify):
+    frames = sum(scene["configurations"] for scene in verify["scenes"])
+    oracle = sum(scene.get("oracle", {}).get("configurations", 0) for scene in verify["scenes"])
+    differing = differing_pixels(verify)
+    return (f"{frames:,} frames of {len(verify['scenes'])} scenes, and {oracle:,} small ones with an oracle, were compared bit for bit: "
+            + ("**no bit differs**." if differing == 0 else f"**{differing:,} pixels differ**."))
+
+
 def verification_table(folder, all_lines=LINES):
     """Header and lines; no lines if nothing was run. What was not run on this machine is taken from another one's results."""
     lines = []
@@ -106,7 +118,7 @@ def verification_markdown(folder, all_lines=LINES):
 
 
 def main():
-    parser = argparse.ArgumentParser(prog="verification_summary", description=__doc__)
+    parser = Parser(prog="verification_summary", description=__doc__)
     parser.add_argument("folder", type=Path, help="results/MACHINE")
     print(plain(*verification_table(parser.parse_args().folder)))
     return 0
