@@ -1,6 +1,5 @@
 """Chart of cost against triangles, pixels and overdraw, with the exponents from step to step below."""
 import math
-import re
 import textwrap
 from dataclasses import dataclass, replace
 
@@ -10,7 +9,6 @@ from plot_style import BAND, FAINT, INK, WIDTH_IN, Look, head_in, headline, plt,
 from tables import short
 
 LINEAR = 0.1  # exponents within this distance of 1 are called linear
-FRAME_BYTES, RECORD_BYTES = 8, 40  # per pixel, per triangle
 
 
 def pixels(row):
@@ -23,7 +21,6 @@ class Quantity:
     key: str
     name: str
     x_of: object  # of a row
-    item_bytes: int  # memory per item that each frame passes over once; 0: none
 
     def rows(self, bench):
         """The rows of each backend, by growing x."""
@@ -47,9 +44,9 @@ class Quantity:
                 f"{row.counters['height']:.0f}")
 
 
-QUANTITIES = (Quantity("count", "triangles", lambda row: int(row.keys["count"]), RECORD_BYTES),
-              Quantity("size", "pixels", pixels, FRAME_BYTES),
-              Quantity("overdraw", "overdraw", lambda row: float(row.keys["overdraw"]), 0))
+QUANTITIES = (Quantity("count", "triangles", lambda row: int(row.keys["count"])),
+              Quantity("size", "pixels", pixels),
+              Quantity("overdraw", "overdraw", lambda row: float(row.keys["overdraw"])))
 
 
 @dataclass(frozen=True)
@@ -87,26 +84,6 @@ def steps(quantity, rows):
     return found
 
 
-def cache_bytes(machine, level):
-    """None if the machine does not report it."""
-    match = re.fullmatch(r"(\d+)K", str(machine.get("caches", {}).get(level, "")))
-    return int(match.group(1)) * 1024 if match else None
-
-
-def mark_caches(axes, quantity, machine, named):
-    """The x at which the memory that each frame passes over fills a cache."""
-    low, high = axes.get_xlim()
-    for level in ("L2", "L3"):
-        size = cache_bytes(machine, level)
-        if not size or not quantity.item_bytes or not low < size / quantity.item_bytes < high:
-            continue
-        x = size / quantity.item_bytes
-        axes.axvline(x, color=FAINT, linewidth=1.0, linestyle=(0, (2, 2)), zorder=1)
-        if named:
-            axes.annotate(f"fills {level}", (x, 0), xycoords=("data", "axes fraction"), xytext=(-3, 4),
-                          textcoords="offset points", rotation=90, ha="right", va="bottom", fontsize=8, color=FAINT)
-
-
 def draw_steps(axes, quantity, rows, look):
     axes.axhspan(1 - LINEAR, 1 + LINEAR, color=BAND, zorder=0, linewidth=0)
     axes.axhline(1, color=FAINT, linewidth=1.0, zorder=1)
@@ -138,7 +115,7 @@ def title(drawn):
     return f"No settled growth beyond linear with {', '.join(quantity.name for quantity, _ in drawn)}"
 
 
-def growth(bench, machine, folder, caption):
+def growth(bench, folder, caption):
     look = Look(bench.backends)
     drawn = [(quantity, rows) for quantity in QUANTITIES if (rows := {
         backend: found for backend, found in quantity.rows(bench).items() if len(found) > 1})]
@@ -147,7 +124,7 @@ def growth(bench, machine, folder, caption):
     threads = next(iter(drawn[0][1].values()))[0].threads
     subtitle = (f"Backend alone, clear included, {threads} threads. Top: ms per frame, lower is better; bands are 95 % "
                 "intervals. Bottom: the exponent from point to point, 1 is linear and 0 no growth; light bars are 95 % "
-                "intervals. Dotted: triangle records or the frame fill a cache.")
+                "intervals.")
     figure, panels = plt.subplots(2, len(drawn), squeeze=False, sharex="col", figsize=(WIDTH_IN, 5.9 + head_in(subtitle)),
                                   height_ratios=(3, 2))
     height = figure.get_figheight()
@@ -161,8 +138,6 @@ def growth(bench, machine, folder, caption):
         label_x(below, quantity, rows)
         above.set_title(textwrap.fill(quantity.scene(bench), 34), fontsize=9, color=INK)
         below.set_xlabel({"count": "triangles", "size": "image, pixels", "overdraw": "overdraw"}[quantity.key])
-        mark_caches(above, quantity, machine, False)
-        mark_caches(below, quantity, machine, True)
         above.tick_params(axis="x", which="both", length=0)
     panels[0][0].set_ylabel("ms")
     panels[1][0].set_ylabel("exponent")

@@ -59,9 +59,6 @@ class Look:
     def colour(self, backend):
         return self.looks[backend][0]
 
-    def text_colour(self, backend):
-        return dark(self.colour(backend))
-
     def marker(self, backend):
         return self.looks[backend][1]
 
@@ -152,26 +149,6 @@ class ZeroAxis:
         axes.set_yticks(*self.ticks("0"))
         axes.set_ylim(self.start, self.limit)
         axes.axhspan(self.start, self.end, color=BAND, zorder=0, linewidth=0)
-
-
-def spread_labels(positions, gap):
-    """Moves label positions (any unit) apart to at least `gap`, keeping their order and their middle."""
-    order = sorted(range(len(positions)), key=lambda i: positions[i])
-    placed = [positions[i] for i in order]
-    for _ in range(100):
-        moved = False
-        for i in range(len(placed) - 1):
-            lack = gap - (placed[i + 1] - placed[i])
-            if lack > 1e-9:
-                placed[i] -= lack / 2
-                placed[i + 1] += lack / 2
-                moved = True
-        if not moved:
-            break
-    result = [0.0] * len(positions)
-    for i, index in enumerate(order):
-        result[index] = placed[i]
-    return result
 
 
 def save(figure, folder, name, caption):

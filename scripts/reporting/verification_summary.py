@@ -86,17 +86,14 @@ LINES = {"tests": test_lines, "prove": prove_lines, "mutate": mutate_lines, "fuz
 BRIEF_LINES = {**LINES, "tests": brief_test_lines, "fuzz": brief_fuzz_lines}
 
 
-def differing_pixels(verify):
-    return sum(scene["differing_pixels"] + scene.get("written_outside", 0)
-               + scene.get("oracle", {}).get("differing_pixels", 0) for scene in verify["scenes"])
-
-
-def verify_sentence(verify):
-    frames = sum(scene["configurations"] for scene in verify["scenes"])
-    oracle = sum(scene.get("oracle", {}).get("configurations", 0) for scene in verify["scenes"])
-    differing = differing_pixels(verify)
-    return (f"{frames:,} frames of {len(verify['scenes'])} scenes, and {oracle:,} small ones with an oracle, were compared bit for bit: "
-            + ("**no bit differs**." if differing == 0 else f"**{differing:,} pixels differ**."))
+def verify_sentence(verify, where=""):
+    """`where`: of pixels that differ."""
+    scenes = verify["scenes"]
+    frames = sum(scene["configurations"] for scene in scenes)
+    oracles = [scene.get("oracle", {}) for scene in scenes]
+    differing = sum(of.get("differing_pixels", 0) + of.get("written_outside", 0) for of in (*scenes, *oracles))
+    return (f"{frames:,} frames of {len(scenes)} scenes, and {sum(of.get('configurations', 0) for of in oracles):,} small ones with an "
+            f"oracle, were compared bit for bit: {f'**{differing:,} pixels differ**{where}' if differing else '**no bit differs**'}.")
 
 
 def verification_table(folder, all_lines=LINES):
