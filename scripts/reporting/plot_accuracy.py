@@ -4,8 +4,9 @@ import math
 
 from accuracy_rows import FAMILIES
 from bench_rows import order
-from plot_labels import Label, label_points
-from plot_style import BAND, BLACK, FAINT, INK, SKY, WIDTH_IN, Kinds, ZeroAxis, dark, head_in, headline, plt, save
+from plot_labels import Label, label_points, shared_labels
+from plot_style import (BAND, BLACK, FAINT, INK, SKY, WHISKER, WIDTH_IN, Kinds, ZeroAxis, dark, head_in, headline, plt, round_ticks,
+                        save)
 from tables import about, number, short
 
 
@@ -21,39 +22,17 @@ def front_line(points, right, top):
     return [*line, (right, line[-1][1])]
 
 
-def cost_axis(axes, measured):
-    """A log axis with round numbers. Returns its upper end."""
-    costs = [end for m in measured for cost in m.costs.values() for end in cost.interval]
-    low, high = min(costs) / 1.3, max(costs) * 1.3
-    steps = (1, 2, 5) if high / low > 12 else (1, 1.5, 2, 3, 4, 5, 7)
-    ticks = [step * 10.0 ** k for k in range(math.floor(math.log10(low)), math.ceil(math.log10(high))) for step in steps]
-    axes.set_yscale("log")
-    axes.set_yticks([tick for tick in ticks if low <= tick <= high])
-    axes.set_yticks([], minor=True)
-    axes.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
-    axes.set_ylim(low, high)
-    return high
-
-
-def shared_labels(measured, scale):
-    """One label for methods of others with the same errors and nearly the same time, the slowest first."""
-    groups = []
-    for m in sorted((m for m in measured if 1 in m.costs and not m.method.ours), key=lambda m: (m.rate, -m.costs[1].ns)):
-        if groups and groups[-1][-1].rate == m.rate and groups[-1][-1].costs[1].ns < NEAR * m.costs[1].ns:
-            groups[-1].append(m)
-        else:
-            groups.append([m])
-    return [Label(scale.at(group[0].rate), group[len(group) // 2].costs[1].ns, "\n".join(m.method.name for m in group))
-            for group in groups]
-
-
 def draw_points(axes, scene, kinds):
     """Returns labels for label_points(), and the lines that they are to keep off."""
     measured = [m for m in scene.measured if m.costs]
     scale = ZeroAxis([m.rate for m in measured])
     bounds = [m.bound for m in measured if m.bound is not None]
     scale.apply_x(axes, f"0\n(<{float(f'{max(bounds):.2g}'):g})" if bounds else "0")
-    top = cost_axis(axes, measured)
+    costs = [end for m in measured for cost in m.costs.values() for end in cost.interval]
+    bottom, top = min(costs) / 1.3, max(costs) * 1.3
+    axes.set_yscale("log")
+    axes.set_ylim(bottom, top)
+    round_ticks(axes.yaxis, bottom, top, lambda value, _: f"{value:g}")
     singles = [(scale.at(m.rate), m.costs[1].ns) for m in measured if 1 in m.costs]
     lines = [front_line(singles, scale.limit, top)] if singles else []
     for line in lines:
@@ -73,11 +52,11 @@ def draw_points(axes, scene, kinds):
                 labels.append(Label(x, cost.ns, f"{m.method.name}, {threads} threads", FAINT, 8))
             elif m.method.ours:
                 labels.append(Label(x, cost.ns, m.method.name, bold=True))
-    return [*labels, *shared_labels(measured, scale)], lines
+    others = [(scale.at(m.rate), m.costs[1].ns, m.method.name) for m in measured if 1 in m.costs and not m.method.ours]
+    return [*labels, *shared_labels(others, NEAR)], lines
 
 
 NEAR = 1.12  # ratio of times below which marks touch
-WHISKER = {"linewidth": 3.0, "alpha": 0.3, "solid_capstyle": "butt"}
 FRONT = {"color": INK, "linewidth": 1.2, "linestyle": (0, (4, 2))}
 
 

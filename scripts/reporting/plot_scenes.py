@@ -2,7 +2,7 @@
 from bench_rows import order, speed_up_interval
 from bench_tables import OURS, THREADS
 from noise import median
-from plot_style import FAINT, INK, WIDTH_IN, Look, head_in, headline, log_axis, plt, save
+from plot_style import FAINT, INK, WIDTH_IN, Look, head_in, headline, log_axis, plt, round_ticks, save
 from tables import VECTORS, about, by_order, kernels, spread
 
 NORMAL_Z = "normal_z"  # the Outlaw Triad trainer's facing test
@@ -65,14 +65,8 @@ def scene_time(bench, folder, caption):
     return "scenes"
 
 
-def ratio_axis(axis, low, high):
-    """A log axis of speed-ups with round numbers from low to high. Its limits must be set already."""
-    steps = (1, 1.5, 2, 3, 5, 7) if high / low < 12 else (1, 2, 5)
-    factors = [step * 10.0 ** k for k in (0, 1, 2) for step in steps]
-    ticks = [*(1 / factor for factor in reversed(factors[1:])), *factors]
-    axis.set_ticks([tick for tick in ticks if low <= tick <= high])
-    axis.set_ticks([], minor=True)
-    axis.set_major_formatter(lambda value, _: f"{value:g}×" if value >= 1 else f"{1 / value:.3g}×\nslower")
+def speed_up_text(value, _):
+    return f"{value:g}×" if value >= 1 else f"{1 / value:.3g}×\nslower"
 
 
 def dots(axes, look, gains, hollow):
@@ -102,7 +96,7 @@ def dots(axes, look, gains, hollow):
     axes.set_xscale("log")
     low, high = min(ends) / 1.04, max(ends) * 1.04
     axes.set_xlim(low, high)
-    ratio_axis(axes.xaxis, low, high)
+    round_ticks(axes.xaxis, low, high, speed_up_text, ratios=True)
 
 
 def gain_chart(bench, folder, caption, name, what, subtitle, gains, hollow=None, notes=None):
@@ -190,7 +184,7 @@ def simd(bench, folder, caption):
         axes.set_yscale("log")
     low, high = min(ends) / 1.04, max(ends) * 1.04
     panels[0][0].set_ylim(low, high)
-    ratio_axis(panels[0][0].yaxis, low, high)
+    round_ticks(panels[0][0].yaxis, low, high, speed_up_text, ratios=True)
     height = figure.get_figheight()
     title = (f"With {kernels(targets[-1])}, {OURS} is {spread(widest)} faster than with {kernels(targets[0])}" if widest else
              f"Speed-up by {kernels(targets[-1])} over {kernels(targets[0])}")

@@ -1,19 +1,10 @@
 """Charts of stability: one per sweep, with one curve per method, from easy on the left to hard on the right; and one of all
 sweeps, with a bar for each method, as far as it holds."""
+import textwrap
+
 from accuracy_rows import FAMILIES, Method
 from plot_style import FAINT, INK, WIDTH_IN, Kinds, ZeroAxis, dark, head_in, headline, plt, save
 from tables import short
-
-
-class Plain:
-    """Places on an axis without logarithm."""
-
-    def __init__(self, values):
-        self.low, self.high = min(values), max(values)
-
-    @staticmethod
-    def at(value):
-        return value
 
 
 def groups_of(sweep, methods):
@@ -39,15 +30,6 @@ def kinds_and_dashes(groups, family):
     return found
 
 
-def wrapped(names, width=30):
-    lines = [""]
-    for name in names:
-        if lines[-1] and len(lines[-1]) + len(name) > width:
-            lines.append("")
-        lines[-1] += name + ", "
-    return "\n".join(line.strip() for line in lines).rstrip(",")
-
-
 def tidy(value):
     if value == 0 or 1e-3 <= abs(value) < 1000:
         return f"{value:.3g}"
@@ -60,7 +42,7 @@ def tidy(value):
 
 def names_of(members):
     """Ours, then the others."""
-    return wrapped([m.name for m in members if m.ours]), wrapped([m.name for m in members if not m.ours])
+    return [textwrap.fill(", ".join(m.name for m in members if m.ours == ours), 31) for ours in (True, False)]
 
 
 def line_count(text):
@@ -119,48 +101,48 @@ def stacked(wanted, heights, ties):
 
 
 def set_axis(axes, sweep):
-    """Returns the axis of errors."""
+    """Returns the function from a number of errors to its place."""
     xs = [x for curve in sweep.curves for x, _ in curve.points]
     ys = [y for curve in sweep.curves for _, y in curve.points]
-    y_scale = ZeroAxis(ys) if sweep.y["log"] else Plain(ys)
+    scale = ZeroAxis(ys)
     if sweep.y["log"]:
-        y_scale.apply_y(axes)
+        scale.apply_y(axes)
     else:
-        axes.set_ylim(min(0.0, y_scale.low), max(y_scale.high, 1e-9) * 1.05)
+        axes.set_ylim(0, max(*ys, 1e-9) * 1.05)
     if sweep.x["log"] and min(xs) > 0:
         axes.set_xscale("log", base=10)
         axes.xaxis.set_major_formatter(lambda value, _: tidy(value))
         axes.minorticks_off()
     if xs[0] > xs[len(sweep.curves[0].points) - 1]:  # from easy to hard
         axes.invert_xaxis()
-    return y_scale
+    return scale.at if sweep.y["log"] else float
 
 
-def draw_curves(axes, groups, kinds, y_scale):
+def draw_curves(axes, groups, kinds, place_of):
     """Returns (colour, style) of each group."""
     looks = []
     for (members, curve), (kind, dash) in zip(groups, kinds_and_dashes(groups, kinds.family)):
         colour, marker = kinds.looks[kind]
         style = (0, dash) if dash else "-"
         looks.append((colour, style))
-        xs, ys = [x for x, _ in curve.points], [y_scale.at(y) for _, y in curve.points]
+        xs, ys = [x for x, _ in curve.points], [place_of(y) for _, y in curve.points]
         ours = any(member.ours for member in members)
         axes.plot(xs, ys, color=colour, linestyle=style, linewidth=2.6 if ours else 1.5, zorder=4 if ours else 3)
         if curve.starts_to_fail is not None:
             y = next((y for x, y in curve.points if x == curve.starts_to_fail), 0.0)
-            axes.plot([curve.starts_to_fail], [y_scale.at(y)], marker=marker, markersize=8, color="white",
+            axes.plot([curve.starts_to_fail], [place_of(y)], marker=marker, markersize=8, color="white",
                       markeredgecolor=colour, markeredgewidth=1.8, linestyle="", zorder=5)
     return looks
 
 
-def label_curves(axes, groups, looks, y_scale, sweep):
+def label_curves(axes, groups, looks, place_of, sweep):
     """Names at the ends of the curves, each with a sample of its line."""
     low, high = axes.get_ylim()
     height_in = axes.figure.get_figheight() * axes.get_position().height
     texts = [(*names_of(members), failing(curve, sweep)) for members, curve in groups]
     heights = [(0.07 + LINE_IN * sum(map(line_count, text))) / height_in for text in texts]
     ties = [-place_of_failure(curve) for _, curve in groups]  # the first to fail at the top
-    wanted = [(y_scale.at(curve.points[-1][1]) - low) / (high - low) for _, curve in groups]
+    wanted = [(place_of(curve.points[-1][1]) - low) / (high - low) for _, curve in groups]
     lows = stacked(wanted, heights, ties)
     for text, height, bottom, end, (colour, style) in zip(texts, heights, lows, wanted, looks):
         y = bottom + height / 2
@@ -186,10 +168,10 @@ def sweep_chart(sweep, methods, folder, caption):
     title = f"{sweep.name.replace('_', ' ').capitalize()}: {summary(groups)}"
     top = headline(figure, title, subtitle)
     figure.subplots_adjust(left=0.085, right=0.67, bottom=0.9 / height, top=top - 0.15 / height)
-    y_scale = set_axis(axes, sweep)
-    looks = draw_curves(axes, groups, kinds, y_scale)
+    place_of = set_axis(axes, sweep)
+    looks = draw_curves(axes, groups, kinds, place_of)
     axes.margins(x=0.02)
-    label_curves(axes, groups, looks, y_scale, sweep)
+    label_curves(axes, groups, looks, place_of, sweep)
     unit = f", {sweep.x['unit']}" if sweep.x["unit"] else ""
     axes.set_xlabel(f"{sweep.x['name']}{unit}")
     axes.set_ylabel(sweep.y["name"].replace("10^6", "10⁶"))

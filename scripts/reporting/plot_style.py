@@ -113,6 +113,21 @@ def headline(figure, title, subtitle):
     return 1 - head_in(subtitle) / height_in
 
 
+# An interval, as a light bar.
+WHISKER = {"linewidth": 3.0, "alpha": 0.3, "solid_capstyle": "butt"}
+
+
+def round_ticks(axis, low, high, text, ratios=False):
+    """Few round numbers on a log axis whose limits are set already; of `ratios` below 1 the reciprocal is round."""
+    steps = (1, 1.5, 2, 3, 5, 7) if high / low < 12 else (1, 2, 5)
+    ticks = {step * 10.0 ** k for k in range(-4, 5) for step in steps}
+    if ratios:
+        ticks = {end for tick in ticks if tick >= 1 for end in (tick, 1 / tick)}
+    axis.set_ticks(sorted(tick for tick in ticks if low <= tick <= high))
+    axis.set_ticks([], minor=True)
+    axis.set_major_formatter(text)
+
+
 def log_axis(axis):
     axis.set_major_formatter(FuncFormatter(short))
     axis.set_minor_formatter(NullFormatter())
