@@ -121,32 +121,22 @@ set_up() {
   exit 2
 }
 
-# build TARGETS…: an incremental build in $build.
+# build TARGETS…: an incremental build in $build. A terminal gets the build's own progress; elsewhere only warnings and errors
+# pass.
 build() {
   local -a configure=(-S "$root" -B "$build" "-DCMAKE_BUILD_TYPE=$build_type" "${build_flags[@]}")
   if [[ ! -f $build/CMakeCache.txt ]] && command -v ninja >/dev/null; then configure+=(-G Ninja); fi
   if [[ -n ${CI:-} ]]; then configure+=(-DEDGEWISE_WERROR=ON); fi
   cmake "${configure[@]}" >/dev/null || die "CMake could not configure the build; see above"
   local start=$SECONDS
-  cmake --build "$build" --parallel "$(nproc)" --target "$@" 2>&1 | build_output || die "the build failed; see above"
-  echo "Built in $(duration $((SECONDS - start)))"
-}
-
-# Filters what Ninja or Make prints: warnings and errors pass. A terminal shows progress in one line that is rewritten;
-# elsewhere, progress is dropped.
-build_output() {
-  local line width=0 clear=''
+  local progress='^\[ *[0-9]+(%|/[0-9]+)\]|^(ninja: no work to do|(Consolidate compiler generated|Scanning) dependencies of target)'
+  local -a compile=(cmake --build "$build" --parallel "$(nproc)" --target "$@")
   if [[ -t 1 && ${TERM:-dumb} != dumb ]]; then
-    width=$(tput cols) clear=$'\r\e[K'
+    "${compile[@]}" || die "the build failed; see above"
+  else
+    "${compile[@]}" 2>&1 | { grep -vE --line-buffered "$progress" || true; } || die "the build failed; see above"
   fi
-  while IFS= read -r line || [[ -n $line ]]; do
-    if [[ $line =~ ^\[\ *[0-9]+(%|/[0-9]+)\] ]]; then
-      if ((width)); then printf '%s%s' "$clear" "${line:0:width-1}"; fi
-    elif [[ ! $line =~ ^(ninja: no work to do|(Consolidate compiler generated|Scanning) dependencies of target) ]]; then
-      printf '%s%s\n' "$clear" "$line"
-    fi
-  done
-  printf '%s' "$clear"
+  echo "Built in $(duration $((SECONDS - start)))"
 }
 
 # python_with MODULE…: the first interpreter that has the modules. The python3 on the PATH may be one that Debian's

@@ -8,7 +8,7 @@ import subprocess
 import time
 from dataclasses import dataclass, replace
 
-from bench_rows import BadInput
+from program import BadInput
 
 DEFINITIONS = "contract.smt2"
 EXPECTED = {"claim": "unsat", "premises": "sat", "weakened": "sat"}

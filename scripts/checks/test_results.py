@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "reporting"))
-from bench_rows import BadInput, main_guard  # noqa: E402
+from program import BadInput, main_guard  # noqa: E402
 
 WIDTH = 100
 FAILURES_LISTED = 20

@@ -1,10 +1,10 @@
-"""Reads accuracy.json and stability.json of a results folder, written by `edgewise accuracy` and `edgewise stability`."""
+"""Reads the accuracy and stability of methods: facts/accuracy.json and stability.json, a machine's peers.json, and the times of
+methods among the rows of its bench.json."""
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import NamedTuple
 
-import noise
-from bench_rows import BadInput, read_json
+from bench_rows import LABORATORY, Row, facts_of
+from program import parsed
 
 
 @dataclass(frozen=True)
@@ -13,7 +13,9 @@ class Family:
     name: str
     errors: str  # the errors counted, with their unit
     trials: str  # the key of a scene's number of trials
+    trial: str  # what is tried
     cost: str
+    reading: str  # how to read a chart of the family
     truths: tuple = ("score",)  # keys of the scores: the main truth first
     kinds: dict = field(default_factory=dict)  # kind of method: prefixes of its methods' names
     beyond: str = ""  # why a rate can exceed 10⁶ per 10⁶
@@ -29,19 +31,23 @@ class Family:
 
 PEERS = ("llvmpipe", "softpipe", "lavapipe", "gpu")
 FAMILIES = {family.name: family for family in (
-    Family("coverage", "wrong pixels per 10⁶ edge crossings", "crossings", "ns per covered pixel",
-           ("float", "snapped"),
+    Family("coverage", "wrong pixels per 10⁶ edge crossings", "crossings", "edge crossings", "ns per covered pixel",
+           "Errors are counted against the exact picture of the unsnapped positions. Filled: none given the snapped positions. All "
+           "but naive use SIMD; the title is about one thread.", ("float", "snapped"),
            {"floating point": ("float", "double"), "fixed point": ("fixed", "whole"), "scanline DDA": ("dda",),
             "tiled, other numbers": ("engine",), "peers": PEERS},
            "More than 10⁶: one crossing can cost many pixels, most where a triangle fills its bounding box"),
-    Family("visibility", "pixels that show the wrong triangle, per 10⁶ covered", "covered", "ns per covered pixel",
-           ("snapped",),  # all methods draw the same snapped triangles, so the other truth adds the same to each
+    Family("visibility", "pixels that show the wrong triangle, per 10⁶ covered", "covered", "covered pixels", "ns per covered pixel",
+           "The visible triangle of a pixel is judged by exact planes on the snapped positions. All methods share the same exact "
+           "coverage.", ("snapped",),  # all methods draw the same snapped triangles, so the other truth adds the same to each
            {"drawing in order": ("painter", "submission"),
             "depth buffer": ("float", "reversed", "unorm")}),
-    Family("facing", "misjudged faces per 10⁶ visible ones", "covered", "ns per face",
-           ("float", "snapped"),
+    Family("facing", "misjudged faces per 10⁶ visible ones", "covered", "visible faces", "ns per face",
+           "Front faces are judged by the exact sign of the projected area before any snapping. Filled: no misjudged face given the "
+           "snapped positions.", ("float", "snapped"),
            {"signed area": ("float_area",), "normal": ("normal",)}),
-    Family("clipping", "wrong pixels per 10⁶ covered", "covered", "ns per covered pixel",
+    Family("clipping", "wrong pixels per 10⁶ covered", "covered", "covered pixels", "ns per covered pixel",
+           "Pixels are judged by rays that need no clipping; differences within 1/64 px of an edge do not count.",
            beyond="More than 10⁶: pixels drawn where nothing should be count as well"),
 )}
 
@@ -82,23 +88,24 @@ class Method:
 
 
 class Cost(NamedTuple):
-    """The median of a scene's rounds, in which all methods take turns."""
-    ns: float
-    low: float  # fastest and slowest round
-    high: float
-    mtri: float  # 10⁶ triangles per second, median
-    repetitions: int
-    rounds: tuple = ()  # ns of each repetition, in order; repetition i of all forms and methods ran in one round
+    """The times of a method on a scene."""
+    row: Row
+    items: int  # covered pixels, or faces
+    triangles: int
+
+    @property
+    def ns(self):
+        """Median, per item."""
+        return 1e6 * self.row.median_ms / self.items
 
     @property
     def interval(self):
-        return noise.interval(self.rounds) if self.rounds else (self.low, self.high)
+        return tuple(1e6 * ms / self.items for ms in self.row.interval_ms)
 
-    def order(self, other):
-        """-1 where this is faster, 1 where it is slower, 0 where the two are too close to call."""
-        if self.rounds and len(self.rounds) == len(other.rounds):
-            return noise.paired_order(other.rounds, self.rounds)
-        return noise.order_of_ranges((self.low, self.high, self.repetitions), (other.low, other.high, other.repetitions))
+    @property
+    def mtri(self):
+        """10⁶ triangles per second, median."""
+        return 1e-3 * self.triangles / self.row.median_ms
 
 
 @dataclass(frozen=True)
@@ -108,10 +115,9 @@ class Measured:
     rate: float  # errors per 10⁶
     bound: float | None  # 95 % upper bound per 10⁶, only where no error was seen
     snapped_rate: float | None  # the same against the snapped truth; coverage and facing only
-    costs: dict  # by threads: the SIMD form if there is one; empty where the scene is not timed
     gaps: int | None = None  # pixels; coverage only
     cracks: int | None = None  # gaps and double hits, pixels; coverage only
-    forms: dict = field(default_factory=dict)  # costs by (SIMD target, threads); empty in old results
+    forms: dict = field(default_factory=dict)  # costs by (SIMD target, threads); empty where the scene is not timed
 
     @property
     def scalar(self):
@@ -122,6 +128,13 @@ class Measured:
     def simd(self):
         """The cost of the SIMD form on one thread, or None."""
         return next((cost for (target, threads), cost in self.forms.items() if target != SCALAR and threads == 1), None)
+
+    @property
+    def costs(self):
+        """By threads: the SIMD form if there is one."""
+        targets = {target for target, _ in self.forms}
+        shown = next(iter(targets - {SCALAR} or targets), None)
+        return {threads: cost for (target, threads), cost in self.forms.items() if target == shown}
 
 
 @dataclass(frozen=True)
@@ -140,10 +153,6 @@ class Scene:
         return method.limit_px is None or self.largest_side_px <= method.limit_px
 
     @property
-    def timed(self):
-        return any(m.costs for m in self.measured)
-
-    @property
     def single(self):
         """The measurements on one thread."""
         return [m for m in self.measured if 1 in m.costs]
@@ -151,7 +160,6 @@ class Scene:
 
 @dataclass(frozen=True)
 class Accuracy:
-    machine: dict
     methods: dict  # by family, in the registry's order
     scenes: tuple
     cube: dict | None  # {"frames", "methods": [(Method, {"gaps": (median, worst) per frame, "double_hits": …,
@@ -180,10 +188,9 @@ class Accuracy:
         return {method.name: sum(m.rate > 0 for scene in self.of(family) for m in scene.measured if m.method == method)
                 for method in self.methods[family]}
 
-    def timed_charts(self, family):
-        """(name of the chart, scene) of each timed scene, the family's main scene first."""
-        timed = [scene for scene in self.of(family) if scene.timed]
-        return [(f"accuracy-{family}" + ("" if scene is timed[0] else f"-{scene.name}"), scene) for scene in timed]
+    def main_scene(self, family):
+        """The first timed one, which charts and tables of the family show; None if none is timed."""
+        return next((scene for scene in self.of(family) if scene.single), None)
 
 
 @dataclass(frozen=True)
@@ -206,29 +213,14 @@ class Sweep:
     by_snapping: tuple  # at each point: the errors of rounding to 1/256 px alone
 
 
-def parse_cost(speed, key):
-    ns, ms = float(speed[key]), speed["ms"]
-    median = float(ms["median"])
-    low, high = (ns * float(ms[end]) / median for end in ("min", "max"))
-    return Cost(ns, low, high, float(speed["mtri_per_s"]), int(ms["repetitions"]),
-                tuple(ns * float(one) / median for one in speed.get("rounds_ms", ())))
-
-
-def parse_measured(entry, family, method):
+def parse_measured(entry, family, method, forms):
     scores = [entry[truth] for truth in FAMILIES[family].truths]
-    cost = "ns_per_face" if family == "facing" else "ns_per_covered_pixel"
-    forms = {(speed.get("simd"), int(speed["threads"])): parse_cost(speed, cost) for speed in entry.get("speed") or ()
-             if cost in speed}
-    targets = {target for target, _ in forms}
-    shown = next(iter(targets - {SCALAR} or targets), None)
-    costs = {threads: cost for (target, threads), cost in forms.items() if target == shown}
     bound = scores[0].get("bound_per_million")
     coverage = family == "coverage"
     return Measured(method, float(scores[0]["errors_per_million"]), None if bound is None else float(bound),
-                    float(scores[1]["errors_per_million"]) if len(scores) > 1 else None, costs,
+                    float(scores[1]["errors_per_million"]) if len(scores) > 1 else None,
                     int(scores[0]["gaps"]) if coverage else None,
-                    int(scores[0]["gaps"]) + int(scores[0]["double_hits"]) if coverage else None,
-                    {} if None in targets else forms)
+                    int(scores[0]["gaps"]) + int(scores[0]["double_hits"]) if coverage else None, forms)
 
 
 def parse_cube(data, methods):
@@ -246,20 +238,43 @@ def parse_cube(data, methods):
     return {"frames": int(cube["frames"]), "methods": rows}
 
 
-def parse_accuracy(data):
+def times_of(bench):
+    """{(family, scene, method): {(SIMD target, threads): row}}"""
+    found = {}
+    for row in bench.sweep("method") if bench else ():
+        if row.backend == LABORATORY:
+            keys = row.keys
+            found.setdefault((keys["family"], row.scene, keys["method"]), {})[keys["simd"], row.threads] = row
+    return found
+
+
+def parse_accuracy(data, bench=None):
+    times = times_of(bench)
     methods = {(m["family"], m["name"]): Method(m["name"], m["source"], m["promise"], bool(m["exact"]), m.get("max_side_px"),
                                                    m.get("simd_note", ""), bool(m.get("engine")))
                for m in data["methods"]}
     scenes = []
     for scene in data["scenes"]:
         family = FAMILIES[scene["family"]]
-        measured = [parse_measured(entry, family.name, methods[family.name, entry["name"]]) for entry in scene["methods"]]
+        triangles = int(scene["triangles"])
+        items = triangles if family.name == "facing" else int(scene["covered"])
+        measured = [parse_measured(entry, family.name, methods[family.name, entry["name"]],
+                                   {form: Cost(row, items, triangles) for form, row in
+                                    times.get((family.name, scene["name"], entry["name"]), {}).items()})
+                    for entry in scene["methods"]]
         scenes.append(Scene(scene["name"], family.name, scene["summary"], int(scene[family.trials]),
                             tuple(m for m in measured if not m.method.apart), tuple(m for m in measured if m.method.apart),
                             int(scene.get("shared_crossings", 0)), float(scene.get("largest_side_px", 0.0))))
     by_family = {name: [method for (family, _), method in methods.items() if family == name and not method.apart]
                  for name in FAMILIES}
-    return Accuracy(data["machine"], by_family, tuple(scenes), parse_cube(data, methods))
+    return Accuracy(by_family, tuple(scenes), parse_cube(data, methods))
+
+
+def with_peers(data, peers):
+    """The methods and measurements of peers added to those of facts, scene by scene."""
+    found = {(scene["family"], scene["name"]): scene["methods"] for scene in peers["scenes"]}
+    scenes = [{**scene, "methods": [*scene["methods"], *found.get((scene["family"], scene["name"]), ())]} for scene in data["scenes"]]
+    return {**data, "methods": [*data["methods"], *peers["methods"]], "scenes": scenes}
 
 
 def parse_curve(entry):
@@ -278,21 +293,18 @@ def parse_stability(data):
                  for sweep in data["sweeps"])
 
 
-def parsed(path, parse, what):
-    data = read_json(path)
-    try:
-        return parse(data)
-    except (KeyError, TypeError, ValueError, AttributeError) as error:
-        raise BadInput(f"{path}: not {what}: {type(error).__name__} {error}") from None
-
-
-def read_accuracy(folder):
-    """None if accuracy was not measured."""
-    path = Path(folder) / "accuracy.json"
-    return parsed(path, parse_accuracy, "what 'edgewise accuracy' writes") if path.exists() else None
+def read_accuracy(folder, bench):
+    """The facts beside a machine's folder, with its peers and the times of its benchmark; None if accuracy was not measured."""
+    path, peers = facts_of(folder) / "accuracy.json", folder / "peers.json"
+    if not path.exists():
+        return None
+    found, data = parsed(path, lambda data: (parse_accuracy(data, bench), data), "edgewise accuracy")
+    if peers.exists():
+        found = parsed(peers, lambda more: parse_accuracy(with_peers(data, more), bench), "edgewise accuracy --peers")
+    return found
 
 
 def read_stability(folder):
     """No sweeps if stability was not tested."""
-    path = Path(folder) / "stability.json"
-    return parsed(path, parse_stability, "what 'edgewise stability' writes") if path.exists() else ()
+    path = facts_of(folder) / "stability.json"
+    return parsed(path, parse_stability, "edgewise stability") if path.exists() else ()

@@ -1,8 +1,7 @@
 """README's first table: the answers to its questions, each with its condition."""
 from frontier import ENGINES, INSIDE_TESTS, measured_in, simd_outcome
-from peers import OURS, pairs
-from speedups import by_order, kernels, outcome
-from tables import THREADS, number
+from bench_tables import OURS, THREADS, pairs
+from tables import by_order, kernels, number, outcome
 
 HEADER = ["question", "answer", "condition"]
 MOST = 8
@@ -23,11 +22,11 @@ def speed_rows(bench):
                f"against the faster of the two; {condition}, but `naive` in scalar code"]
 
 
-def exactness_rows(accuracy):
+def exactness_rows(accuracy, target):
     exact, loose = ENGINES
     if found := simd_outcome(accuracy, exact, loose):
         yield ["What does exactness cost in time?", f"`{exact}` {outcome(found)}",
-               f"against `{loose}`, float edges in the same engine; one thread, {kernels(accuracy.machine.get('simd_best'))}"]
+               f"against `{loose}`, float edges in the same engine; one thread, {kernels(target)}"]
     rates, plain = accuracy.rates("coverage"), INSIDE_TESTS[0]
     ours = [rates[m.name] for m in accuracy.methods.get("coverage", ()) if m.ours and m.name in rates]
     if ours and plain in rates:
@@ -54,7 +53,7 @@ def peer_rows(bench):
     for target in dict.fromkeys((bench.context.get("simd_target"), "avx2")):
         found = pairs(bench, None if target == bench.context.get("simd_target") else target)
         for peer in bench.peers:
-            of = [(p.ours, p.peer) for (name, _, threads), p in found.items() if name == peer and threads == max(THREADS)]
+            of = [(ours, row) for (name, _, threads), (row, ours) in found.items() if name == peer and threads == max(THREADS)]
             if of:
                 yield [f"Against {peer}, ours with {kernels(target)}?", f"`{OURS}` {outcome(by_order(of))}",
                        f"{peer} is {bench.context.get(peer, 'of unknown version')}; whole frames, {max(THREADS)} threads"]
@@ -62,5 +61,5 @@ def peer_rows(bench):
 
 def answers(bench, accuracy):
     """Lines for HEADER; none for what was not measured."""
-    told = [*exactness_rows(accuracy), *gap_rows(accuracy)] if accuracy else []
+    told = [*exactness_rows(accuracy, bench.context.get("simd_target")), *gap_rows(accuracy)] if accuracy else []
     return [*speed_rows(bench), *told, *peer_rows(bench)][:MOST]

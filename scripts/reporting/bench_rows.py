@@ -1,20 +1,17 @@
-"""Reads the files of a run in results/MACHINE: bench.json (Google Benchmark's format), model.json, machine.json, verify.json.
+"""Reads the files of a run: in results/MACHINE bench.json (Google Benchmark's format), model.json and machine.json.
 
-A row's name is DRAWER/scene/key:value…/threads:N. DRAWER is a backend, a peer (another project's rasterizer),
-"frontend" or BACKEND+frontend. Rows random_read/WHERE measure the machine and draw nothing.
+A row's name is DRAWER/scene/key:value…/threads:N. DRAWER is a backend, a peer (another project's rasterizer), "frontend",
+BACKEND+frontend, or "lab" for a method of the laboratory. Rows random_read/WHERE measure the machine and draw nothing.
 """
-import json
-import sys
+import os
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import noise
+from program import BadInput, parsed, read_json
 
 MS = {"ns": 1e-6, "us": 1e-3, "ms": 1.0, "s": 1e3}
-
-
-class BadInput(Exception):
-    """One line for the user."""
+LABORATORY = "lab"
 
 
 @dataclass
@@ -27,6 +24,7 @@ class Row:
     times_ms: list = field(default_factory=list)
     counters: dict = field(default_factory=dict)
     error: str = ""
+    rounds: bool = False  # its repetition i ran in the same round as repetition i of the run's other rows
 
     @property
     def median_ms(self):
@@ -49,9 +47,24 @@ class Row:
         return int(self.keys.get("threads", "1"))
 
 
+def paired(a, b):
+    """Whether each repetition of one row has a partner of the other, in the same round."""
+    return a is b or a.rounds and b.rounds and len(a.times_ms) == len(b.times_ms)
+
+
 def order(a, b):
     """-1 where row a is faster than b, 1 where it is slower, 0 where their repetitions are too close to call."""
-    return noise.order(a.times_ms, b.times_ms)
+    return noise.paired_order(b.times_ms, a.times_ms) if paired(a, b) else noise.order(a.times_ms, b.times_ms)
+
+
+def speed_up_interval(before, after):
+    """The interval of the speed-up from one row to another."""
+    return noise.ratio_interval(after.times_ms, before.times_ms, paired(before, after))
+
+
+def mean_speed_up(pairs):
+    """The geometric mean of the speed-ups, and its interval; `pairs` are (row before, row after)."""
+    return noise.geometric_mean([(after.times_ms, before.times_ms, paired(before, after)) for before, after in pairs])
 
 
 def parse_name(name):
@@ -73,7 +86,7 @@ class Bench:
     @property
     def backends(self):
         named = self.context.get("backends", "").split()
-        return named or list(dict.fromkeys(r.backend for r in self.rows.values() if r.backend))
+        return named or list(dict.fromkeys(r.backend for r in self.rows.values() if r.backend not in ("", LABORATORY)))
 
     @property
     def peers(self):
@@ -99,14 +112,9 @@ class Bench:
         return list(dict.fromkeys(plain))
 
 
-def read_json(path):
-    try:
-        with open(path, encoding="utf-8") as file:
-            return json.load(file)
-    except OSError as error:
-        raise BadInput(f"{path}: {error.strerror}") from None
-    except ValueError as error:
-        raise BadInput(f"{path}: not JSON: {error}") from None
+def facts_of(folder):
+    """The folder of the facts beside a machine's folder."""
+    return Path(os.path.normpath(Path(folder, "../facts")))
 
 
 def records(folder, name):
@@ -125,12 +133,8 @@ def source_of(path, data):
 COSTS = ("covered_blocks", "won_blocks", "read_ms", "blocks_ms", "write_ms", "tiles_ms")
 
 
-def read_costs(path):
-    data = read_json(path)
-    try:
-        return {entry["name"]: {key: float(entry[key]) for key in COSTS} for entry in data["costs"]}
-    except (KeyError, TypeError, ValueError, AttributeError) as error:
-        raise BadInput(f"{path}: not what 'edgewise_bench --model_out' writes: {type(error).__name__} {error}") from None
+def parse_costs(data):
+    return {entry["name"]: {key: float(entry[key]) for key in COSTS} for entry in data["costs"]}
 
 
 def read_bench(folder_or_file):
@@ -140,13 +144,14 @@ def read_bench(folder_or_file):
     data = read_json(path)
     if not isinstance(data, dict) or not isinstance(data.get("benchmarks"), list):
         raise BadInput(f"{path}: not a Google Benchmark result")
-    rows = {}
+    rows, context = {}, data.get("context", {})
     try:
         for entry in data["benchmarks"]:
             if entry.get("run_type") == "aggregate":
                 continue
             name = entry.get("run_name", entry["name"])
             row = rows.setdefault(name, parse_name(name))
+            row.rounds = context.get("interleaving") == "rounds"
             if entry.get("error_occurred"):
                 row.error = entry.get("error_message", "error")
                 continue
@@ -156,8 +161,8 @@ def read_bench(folder_or_file):
         raise BadInput(f"{path}: not a Google Benchmark result: {error}") from None
     reads = {row.scene: rows.pop(name) for name, row in list(rows.items()) if row.backend == "random_read"}
     model = path.parent / "model.json"
-    costs = read_costs(model) if path.name == "bench.json" and model.exists() else {}
-    return Bench(data.get("context", {}), rows, reads, costs)
+    costs = parsed(model, parse_costs, "edgewise_bench --model_out") if path.name == "bench.json" and model.exists() else {}
+    return Bench(context, rows, reads, costs)
 
 
 def describe_machine(machine):
@@ -169,14 +174,3 @@ def describe_machine(machine):
             f"{machine.get('simd_best', 'unknown SIMD')}, {machine.get('memory_gib', '?')} GiB; "
             f"{machine.get('os', 'unknown system')}; {machine.get('compiler', 'unknown compiler')}, "
             f"{machine.get('build_type', 'unknown build')}; commit {machine.get('commit', 'unknown')}")
-
-
-def main_guard(main):
-    """Runs main(); bad input becomes one line and exit status 2."""
-    try:
-        sys.exit(main())
-    except BadInput as error:
-        print(f"{Path(sys.argv[0]).stem}: {error}", file=sys.stderr)
-        sys.exit(2)
-    except BrokenPipeError:
-        sys.exit(141)

@@ -1,4 +1,5 @@
-"""Builds the benchmark of two revisions, times both by turns, and judges each row by its paired rounds."""
+"""Compares rows of two results; or builds the benchmark of two revisions, times both by turns, and judges each row by its paired
+rounds. Checks that judge on one revision against itself."""
 import os
 import re
 import shutil
@@ -13,9 +14,9 @@ from itertools import count
 from pathlib import Path
 
 import noise
-from bench_rows import BadInput, read_bench
-from compare_rows import other_work
-from json_file import write_json
+from bench_rows import read_bench, records
+from program import BadInput, parsed, write_json
+from tables import percent
 
 ROOT = Path(__file__).resolve().parents[2]
 BUILDS = ROOT / "build" / "compare"
@@ -25,6 +26,28 @@ WORKING_TREE = "."
 # time. Start-up takes about a second, so they cost little.
 REPETITIONS, MIN_TIME_S = 5, 0.01
 LINES_OF_A_FAILURE = 20
+
+
+def judge(before, after, least):
+    """The ratio of medians, and the verdict. Both rows need enough repetitions, and changes below `least` don't count."""
+    ratio = after.median_ms / before.median_ms
+    if abs(ratio - 1) >= least:
+        if settled := noise.order(after.times_ms, before.times_ms):
+            return ratio, "slower" if settled > 0 else "faster"
+        if not noise.enough(len(before.times_ms), len(after.times_ms)):
+            return ratio, "too few repetitions"
+    return ratio, "no significant difference"
+
+
+def spread(row):
+    """Half the 95 % interval, in per cent of the median."""
+    low, high = row.interval_ms
+    return 50 * (high - low) / row.median_ms
+
+
+def other_work(before, after):
+    keys = ("triangles", "covered_px", "width", "height")
+    return any(before.counters.get(k) != after.counters.get(k) for k in keys)
 
 
 @dataclass(frozen=True)
@@ -266,3 +289,34 @@ def interruptible(compare):
     except KeyboardInterrupt:
         print("compare: interrupted: no result", file=sys.stderr)
         return 130
+
+
+PLANTED = 1.02
+
+
+def differing(pairs):
+    """(pairs that differ, pairs)"""
+    found = [noise.paired_order(before, after) for before, after in pairs]
+    return sum(map(bool, found)), len(found)
+
+
+def in_blocks(pairs, rounds):
+    return [(before[i:i + rounds], after[i:i + rounds]) for before, after in pairs for i in range(0, len(before) - rounds + 1, rounds)]
+
+
+def parse_same(data):
+    """[(milliseconds before, after)] of each row, and the number of rounds."""
+    if data["before"] != data["after"]:
+        raise ValueError("two different revisions")
+    return [(row["before_ms"], row["after_ms"]) for row in data["rows"]], data["rounds"]
+
+
+def noise_table(folder):
+    """Header and lines from same.json, written by `scripts/compare REV REV --json`: false alarms, and how often a planted slowdown is found, of all machines; no lines if not measured."""
+    lines = []
+    for path in records(folder, "same*"):
+        pairs, rounds = parsed(path, parse_same, "scripts/compare --json")
+        found = sum(noise.paired_order(before, [PLANTED * ms for ms in after]) > 0 for before, after in pairs)
+        alarms = ["{} of {}".format(*differing(of)) for of in (pairs, in_blocks(pairs, noise.fewest_rounds()))]
+        lines.append([f"`{path.parent.name}`", str(rounds), *alarms, f"{found} of {len(pairs)}"])
+    return ["machine", "rounds", "false alarms", f"false alarms in blocks of {noise.fewest_rounds()} rounds", f"{percent(PLANTED - 1)} slowdowns found"], lines

@@ -2,8 +2,8 @@
 import math
 from typing import NamedTuple
 
-from noise import geometric_mean, ratios
-from tables import number, short
+from bench_rows import mean_speed_up
+from tables import by_order, number, short
 
 LEAST_CROSSINGS = 10_000  # of shared edges; in smaller scenes a single crossing decides the rate
 # The tutorials' inside tests; and one engine with exact edges and with the first test's float edges.
@@ -22,7 +22,7 @@ class Cracks(NamedTuple):
 
 
 class SpeedUp(NamedTuple):
-    """Over the reference, the geometric mean of the scenes' medians, with its interval."""
+    """Over the reference, the geometric mean of the scenes, with its interval."""
     middle: float
     low: float
     high: float
@@ -61,33 +61,27 @@ def measured_in(scene, name):
 
 
 def simd_outcome(accuracy, name, other):
-    """Of one method against another, both with SIMD on one thread: {order: the speed-ups of its scenes}; None if a scene lacks
-    one of them, or none is timed."""
-    found = {-1: [], 1: [], 0: []}
-    scenes = timed_scenes(accuracy)
-    for scene in scenes:
-        a, b = (m and m.simd for m in (measured_in(scene, name), measured_in(scene, other)))
-        if not a or not b:
-            return None
-        found[a.order(b)].append(b.ns / a.ns)
-    return found if scenes else None
+    """Of one method against another, both with SIMD on one thread: by_order() of the scenes; None if a scene lacks one of them, or
+    none is timed."""
+    compared = [[m and m.simd for m in (measured_in(scene, name), measured_in(scene, other))] for scene in timed_scenes(accuracy)]
+    return by_order((a.row, b.row) for a, b in compared) if compared and all(map(all, compared)) else None
 
 
 def speed_ups(accuracy):
-    """({method: {"scalar": SpeedUp, "simd": SpeedUp}}, the reference, number of scenes). Round i of all methods is a pair."""
+    """({method: {"scalar": SpeedUp, "simd": SpeedUp}}, the reference, number of scenes)."""
     base, scenes = reference(accuracy), timed_scenes(accuracy)
     if base is None:
         return {}, None, 0
     groups = {}
     for scene in scenes:
-        base_rounds = next(m.scalar.rounds for m in scene.measured if m.method == base)
+        base_row = measured_in(scene, base.name).scalar.row
         for m in (*scene.measured, *scene.apart):
             # A peer has one form, with vectors of its own.
             peer = (("scalar" if m.method.source.endswith("scalar") else "simd", m.scalar),)
             for form, cost in peer if m.method.peer else (("scalar", m.scalar), ("simd", m.simd)):
                 if cost:
-                    groups.setdefault(m.method, {}).setdefault(form, []).append(ratios(cost.rounds, base_rounds))
-    return ({method: {form: SpeedUp(*geometric_mean(of)) for form, of in forms.items() if len(of) == len(scenes)}
+                    groups.setdefault(m.method, {}).setdefault(form, []).append((base_row, cost.row))
+    return ({method: {form: SpeedUp(*mean_speed_up(of)) for form, of in forms.items() if len(of) == len(scenes)}
              for method, forms in groups.items()}, base, len(scenes))
 
 

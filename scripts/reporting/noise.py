@@ -1,10 +1,11 @@
 """The one rule for noise: whether two timings differ, and the interval of a figure.
 
-`order` judges unpaired repetitions, such as two rows of one Google Benchmark run whose repetitions are interleaved. It is
+`order` judges unpaired repetitions, such as two rows of one Google Benchmark run whose repetitions were shuffled. It is
 the exact rank-sum test (Mann and Whitney, "On a test of whether one of two random variables is stochastically larger than
-the other", 1947). `paired_order` judges rounds in which both sides ran next to each other. It is the exact signed-rank test
-(Wilcoxon, "Individual comparisons by ranking methods", 1945) on the logarithms of the rounds' ratios. Both count ties
-against the claim.
+the other", 1947). `paired_order` judges rounds in which each side ran once. It is the exact signed-rank test (Wilcoxon,
+"Individual comparisons by ranking methods", 1945) on the logarithms of the rounds' ratios. Both count ties against the
+claim. Shuffled repetitions are no rounds: if their i-th ones were paired, a drift of 20 % over the run would be taken for a
+difference in one case of five.
 
 Guarantee: if neither side is faster, a test claims a difference in at most LEVEL of all cases. `order` needs repetitions
 that are exchangeable, `paired_order` rounds that are independent of one another. Neither needs a normal distribution.
@@ -66,20 +67,11 @@ def enough(n, m):
     return most_pairs_lost(n, m) >= 0
 
 
-def order_of_ranges(a, b):
-    """As order() below, where only (fastest, slowest, repetitions) of each side are known: ranges that overlap settle nothing."""
-    (a_low, a_high, n), (b_low, b_high, m) = a, b
-    if n + m < 3:  # one repetition each
-        return 0
-    gap = 1.0 if enough(n, m) else GAP
-    return (b_high * gap < a_low) - (a_high * gap < b_low)
-
-
 def order(a, b):
     """-1 if the times `a` are shorter than `b`, 1 if longer, 0 if too close to call."""
     n, m = len(a), len(b)
     if not enough(n, m):
-        return order_of_ranges(*((min(times), max(times), len(times)) for times in (a, b)))
+        return 0 if n + m < 3 else (max(b) * GAP < min(a)) - (max(a) * GAP < min(b))
     won = sum(x < y for x in a for y in b)
     lost = sum(x > y for x in a for y in b)
     most = most_pairs_lost(n, m)
@@ -124,32 +116,49 @@ def resampled(values, generator):
     return median(generator.choices(values, k=len(values)))
 
 
-@cache
-def bootstrap(*samples):
-    """The interval of the median of one sample (a tuple), or of the ratio of the second's median to the first's."""
-    generator = random.Random(1)  # the same result each time
-    figures = ([resampled(sample, generator) for _ in range(RESAMPLES)] for sample in samples)
-    first = next(figures)
-    return middle_of([b / a for a, b in zip(first, *figures)] if len(samples) > 1 else first)
+def median_ratio(before, after, are_rounds):
+    """The median of the rounds' ratios, or the ratio of unpaired repetitions' medians."""
+    return median(ratios(before, after)) if are_rounds else median(after) / median(before)
 
 
-def geometric_mean(groups):
-    """The geometric mean of the groups' medians, and its bootstrap interval. The groups are those of the scenes: the mean of
-    a quotient is the quotient of the means, which does not hold for medians of scenes."""
-    def mean(medians):
-        return math.exp(sum(map(math.log, medians)) / len(groups))
+def resampled_ratio(before, after, are_rounds, generator):
+    if are_rounds:
+        return resampled(ratios(before, after), generator)
+    return resampled(after, generator) / resampled(before, generator)
 
+
+def bootstrap(resample):
+    """The interval of a figure that `resample` draws from a generator of random numbers: the same each time."""
     generator = random.Random(1)
-    found = [mean([resampled(group, generator) for group in groups]) for _ in range(RESAMPLES)]
-    return mean([median(group) for group in groups]), *middle_of(found)
+    return middle_of([resample(generator) for _ in range(RESAMPLES)])
+
+
+@cache
+def interval_of(values):
+    return bootstrap(lambda generator: resampled(values, generator))
 
 
 def interval(values):
     """The bootstrap interval of the median; with up to five repetitions, from the fastest to the slowest. Of the ratios of
     paired rounds it is the interval of their median."""
-    return bootstrap(tuple(values))
+    return interval_of(tuple(values))
 
 
-def ratio_interval(before, after):
-    """The bootstrap interval of the ratio of medians, after over before, of unpaired repetitions."""
-    return bootstrap(tuple(before), tuple(after))
+@cache
+def interval_of_ratio(before, after, are_rounds):
+    return bootstrap(lambda generator: resampled_ratio(before, after, are_rounds, generator))
+
+
+def ratio_interval(before, after, are_rounds=False):
+    """The bootstrap interval of median_ratio()."""
+    return interval_of_ratio(tuple(before), tuple(after), are_rounds)
+
+
+def geometric_mean(compared):
+    """The geometric mean of median_ratio() of each (before, after, are_rounds), and its bootstrap interval. Each is a scene:
+    the mean of a quotient is the quotient of the means, which does not hold for medians of scenes."""
+    def mean(found):
+        return math.exp(sum(map(math.log, found)) / len(compared))
+
+    return (mean([median_ratio(*one) for one in compared]),
+            *bootstrap(lambda generator: mean([resampled_ratio(*one, generator) for one in compared])))

@@ -1,59 +1,47 @@
-"""The charts of accuracy: errors against speed, family by family, and the turning cube."""
+"""The charts of accuracy: errors against speed and errors by scene, family by family; the turning cube; and the pixels that
+rounding vertices displaces."""
 import math
 
 from accuracy_rows import FAMILIES
-from palette import BAND, FAINT, INK
-from plot_labels import Label, label_points
-from plot_style import WIDTH_IN, Kinds, head_in, headline, plt, save
-from speed_accuracy import CRACKS, SUBTITLES, TRIALS, chart_rows, cost_range, front_line, shade, unsettled
-from speedups import about
-from tables import number, short
-from zero_axis import ZeroAxis
+from bench_rows import order
+from plot_labels import Label, label_points, shared_labels
+from plot_style import (BAND, BLACK, FAINT, INK, SKY, WHISKER, WIDTH_IN, Kinds, ZeroAxis, dark, head_in, headline, plt, round_ticks,
+                        save)
+from tables import about, number, short
 
 
-def cost_axis(axes, measured):
-    """A log axis with round numbers. Returns its upper end."""
-    low, high = cost_range(measured)
-    steps = (1, 2, 5) if high / low > 12 else (1, 1.5, 2, 3, 4, 5, 7)
-    ticks = [step * 10.0 ** k for k in range(math.floor(math.log10(low)), math.ceil(math.log10(high))) for step in steps]
-    axes.set_yscale("log")
-    axes.set_yticks([tick for tick in ticks if low <= tick <= high])
-    axes.set_yticks([], minor=True)
-    axes.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
-    axes.set_ylim(low, high)
-    return high
-
-
-def shared_labels(measured, scale):
-    """One label for methods of others with the same errors and nearly the same time, the slowest first."""
-    groups = []
-    for m in sorted((m for m in measured if 1 in m.costs and not m.method.ours), key=lambda m: (m.rate, -m.costs[1].ns)):
-        if groups and groups[-1][-1].rate == m.rate and groups[-1][-1].costs[1].ns < NEAR * m.costs[1].ns:
-            groups[-1].append(m)
-        else:
-            groups.append([m])
-    return [Label(scale.at(group[0].rate), group[len(group) // 2].costs[1].ns, "\n".join(m.method.name for m in group))
-            for group in groups]
+def front_line(points, right, top):
+    """A step line along the points (x, y) that no other beats in both coordinates, from the top edge to the right one."""
+    best = []
+    for x, y in sorted(points):
+        if not best or y < best[-1][1]:
+            best.append((x, y))
+    line = [(best[0][0], top), best[0]]
+    for x, y in best[1:]:
+        line += [(x, line[-1][1]), (x, y)]
+    return [*line, (right, line[-1][1])]
 
 
 def draw_points(axes, scene, kinds):
-    """Returns labels for label_points(), the lines that they are to keep off, and whether a point is unsettled."""
+    """Returns labels for label_points(), and the lines that they are to keep off."""
     measured = [m for m in scene.measured if m.costs]
     scale = ZeroAxis([m.rate for m in measured])
     bounds = [m.bound for m in measured if m.bound is not None]
     scale.apply_x(axes, f"0\n(<{float(f'{max(bounds):.2g}'):g})" if bounds else "0")
-    top = cost_axis(axes, measured)
+    costs = [end for m in measured for cost in m.costs.values() for end in cost.interval]
+    bottom, top = min(costs) / 1.3, max(costs) * 1.3
+    axes.set_yscale("log")
+    axes.set_ylim(bottom, top)
+    round_ticks(axes.yaxis, bottom, top, lambda value, _: f"{value:g}")
     singles = [(scale.at(m.rate), m.costs[1].ns) for m in measured if 1 in m.costs]
     lines = [front_line(singles, scale.limit, top)] if singles else []
     for line in lines:
         axes.plot(*zip(*line), **FRONT, zorder=1.5)
-    labels, open_question = [], unsettled(scene.single)
+    labels = []
     for m in measured:
         x, (colour, marker) = scale.at(m.rate), kinds.of(m.method)
         by_threads = sorted(m.costs.items())
         axes.plot([x] * len(by_threads), [cost.ns for _, cost in by_threads], color=colour, linewidth=1.0, zorder=2)
-        if m in open_question:
-            axes.plot([x], [m.costs[1].ns], **RING, zorder=2.8)
         for threads, cost in by_threads:
             lines.append([(x, end) for end in cost.interval])
             axes.plot(*zip(*lines[-1]), color=colour, **WHISKER, zorder=1.8)
@@ -64,13 +52,11 @@ def draw_points(axes, scene, kinds):
                 labels.append(Label(x, cost.ns, f"{m.method.name}, {threads} threads", FAINT, 8))
             elif m.method.ours:
                 labels.append(Label(x, cost.ns, m.method.name, bold=True))
-    return [*labels, *shared_labels(measured, scale)], lines, bool(open_question)
+    others = [(scale.at(m.rate), m.costs[1].ns, m.method.name) for m in measured if 1 in m.costs and not m.method.ours]
+    return [*labels, *shared_labels(others, NEAR)], lines
 
 
 NEAR = 1.12  # ratio of times below which marks touch
-WHISKER = {"linewidth": 3.0, "alpha": 0.3, "solid_capstyle": "butt"}
-RING = {"marker": "o", "markersize": 12, "markerfacecolor": "none", "markeredgecolor": INK, "markeredgewidth": 0.9,
-        "linestyle": ""}
 FRONT = {"color": INK, "linewidth": 1.2, "linestyle": (0, (4, 2))}
 
 
@@ -83,31 +69,28 @@ def speed_title(scene):
     less = [m.rate < first.rate for m in scene.measured if not m.method.ours]
     said = f"{first.method.name}: {number(first.rate, 2)} errors per 10⁶"
     if scene.family == "coverage":
-        settled, ratio = first.costs[1].order(other.costs[1]), other.costs[1].ns / first.costs[1].ns
+        settled, ratio = order(first.costs[1].row, other.costs[1].row), other.costs[1].ns / first.costs[1].ns
         said = (f"{first.method.name} is {about(max(ratio, 1 / ratio))} {'faster' if settled < 0 else 'slower'} than {other.method.name}"
                 if settled else f"{first.method.name} and {other.method.name}: not settled")
     return f"{said}; {sum(less)} of {len(less)} others err less"
 
 
-def speed_chart(scene, name, folder, caption):
+def speed_chart(scene, folder, caption):
     family = FAMILIES[scene.family]
     kinds = Kinds(family)
-    subtitle = SUBTITLES[family.name]
+    subtitle = f"Further left: fewer errors; further down: faster. {family.reading}"
     above, below = 0.85 + head_in(subtitle), 1.12
     figure, axes = plt.subplots(figsize=(WIDTH_IN, above + below + (5.0 if family.name == "coverage" else 3.8)))
     height = figure.get_figheight()
     top = headline(figure, speed_title(scene), subtitle)
     figure.subplots_adjust(left=0.07, right=0.985, bottom=below / height, top=1 - above / height)
-    labels, lines, open_question = draw_points(axes, scene, kinds)
+    labels, lines = draw_points(axes, scene, kinds)
     axes.set_ylabel(family.cost)
     axes.set_xlabel(family.errors)
-    axes.set_title(f"{scene.name}: {scene.summary}; {short(scene.trials)} {TRIALS[family.name]}", fontsize=10)
+    axes.set_title(f"{scene.name}: {scene.summary}; {short(scene.trials)} {family.trial}", fontsize=10)
     label_points(axes, labels, lines)
-    whisker = "95 % interval" if all(c.rounds for m in scene.measured for c in m.costs.values()) else "fastest to slowest"
     extra = [plt.Line2D([], [], **FRONT, label="best on one thread"),
-             plt.Line2D([], [], color=FAINT, **WHISKER, label=whisker)]
-    if open_question:
-        extra.append(plt.Line2D([], [], **RING, label="ringed: not settled"))
+             plt.Line2D([], [], color=FAINT, **WHISKER, label="95 % interval")]
     if any(m.snapped_rate for m in scene.measured):
         extra.append(plt.Line2D([], [], color=FAINT, marker="o", markerfacecolor="white", markeredgewidth=1.4,
                                 linestyle="", markersize=7, label="hollow: errs given the snapped positions"))
@@ -117,8 +100,8 @@ def speed_chart(scene, name, folder, caption):
         notes.append("Thin lines join the thread counts of a method.")
     if beyond := family.beyond_note(m.rate for m in scene.measured):
         notes.append(f"{beyond[2:]}.")
-    save(figure, folder, name, " ".join(notes) + "\n" + caption)
-    return name
+    save(figure, folder, f"accuracy-{family.name}", " ".join(notes) + "\n" + caption)
+    return f"accuracy-{family.name}"
 
 
 def cube_title(rows):
@@ -161,6 +144,32 @@ def turning_cube(accuracy, folder, caption):
     return "turning-cube"
 
 
+def cell_text(rate):
+    return "0" if rate == 0 else "<1" if rate < 1 else short(float(f"{rate:.2g}"))
+
+
+def shade(rate):
+    """From 0 for no errors to 1."""
+    return min(1.0, math.log10(1 + rate) / 6)
+
+
+CRACKS = {"t_junction": "its gaps, in pixels", "t_junction_split": "its gaps once split"}
+
+
+def chart_rows(scenes):
+    """(label, text of each method, rate of each method) of each row. A T-junction has a second row with its gaps, since its
+    rate does not show that splitting the edge closes the crack."""
+    rows = []
+    for scene in scenes:
+        rates = {m.method.name: m.rate for m in scene.measured}
+        rows.append((scene.name, {name: cell_text(rate) for name, rate in rates.items()}, rates))
+        if scene.name in CRACKS and all(m.gaps is not None for m in scene.measured):
+            gaps = {m.method.name: m.gaps for m in scene.measured}
+            rows.append((CRACKS[scene.name], {name: short(count) for name, count in gaps.items()},
+                         {m.method.name: 1e6 * m.gaps / scene.trials for m in scene.measured}))
+    return rows
+
+
 def errors_title(accuracy, family):
     """In how many scenes ours and the other methods err."""
     erring, total = accuracy.scenes_with_errors(family.name), len(accuracy.of(family.name))
@@ -179,7 +188,7 @@ def all_scenes(accuracy, family, folder, caption):
         return None
     slanted = len(methods) > 8 or max(len(method.name) for method in methods) > 14  # or they run into one another
     note = family.beyond_note(rate for _, _, rates in scenes for rate in rates.values())
-    subtitle = (f"{family.errors[0].upper()}{family.errors[1:]}, scene by scene; n is the number of {TRIALS[family.name]}. "
+    subtitle = (f"{family.errors[0].upper()}{family.errors[1:]}, scene by scene; n is the number of {family.trial}. "
                 "Bold: ours." + (" Italics: pixels of the crack." if any(label in CRACKS.values() for label, _, _ in scenes) else ""))
     above = head_in(subtitle) + (0.95 if slanted else 0.5)
     figure, axes = plt.subplots(figsize=(WIDTH_IN, above + (0.55 if note else 0.4) + 0.27 * len(scenes)))
@@ -217,11 +226,53 @@ def all_scenes(accuracy, family, folder, caption):
     return f"errors-{family.name}"
 
 
+# Exact coverage of vertices rounded to so many bits: all that differs from the unsnapped truth is displaced.
+ROUNDED = {0: "whole_pixel", 4: "fixed_4", 8: "fixed_8", 12: "fixed_12", 16: "fixed_16"}
+OUR_BITS = 8
+
+
+def displacement(accuracy):
+    """({bits: wrong pixels per 10⁶ edge crossings}, number of scenes, number of crossings)."""
+    scenes = accuracy.pooled("coverage")
+    trials = sum(scene.trials for scene in scenes)
+    rates = {}
+    for bits, name in ROUNDED.items():
+        errors = [m.rate * scene.trials for scene in scenes for m in scene.measured if m.method.name == name]
+        if trials and len(errors) == len(scenes):
+            rates[bits] = sum(errors) / trials
+    return rates, len(scenes), trials
+
+
+def displacement_strip(accuracy, folder, caption):
+    rates, scenes, trials = displacement(accuracy)
+    if rates.keys() != ROUNDED.keys() or not all(rates.values()):  # a log axis has no 0
+        return None
+    subtitle = (f"Pixels that change because vertices are rounded, per 10⁶ edge crossings; {scenes} scenes, {short(trials)} "
+                "crossings.")
+    above, below = 0.1 + head_in(subtitle), 0.6
+    figure, axes = plt.subplots(figsize=(WIDTH_IN, above + below + 1.25))
+    height = figure.get_figheight()
+    headline(figure, f"Rounding to {OUR_BITS} subpixel bits displaces {number(rates[OUR_BITS])} pixels per 10⁶ crossings", subtitle)
+    figure.subplots_adjust(left=0.13, right=0.985, bottom=below / height, top=1 - above / height)
+    lines = range(len(rates))
+    axes.barh(lines, rates.values(), color=[BLACK if bits == OUR_BITS else SKY for bits in rates], height=0.68)
+    axes.set_xscale("log")
+    axes.set_xlim(10 ** math.floor(math.log10(min(rates.values()))), max(rates.values()) * 2.5)
+    axes.xaxis.set_major_formatter(lambda value, _: short(value))
+    axes.set_yticks(lines, [f"{bits} bits" + (" (ours)" if bits == OUR_BITS else "") for bits in rates])
+    axes.tick_params(axis="y", length=0)
+    axes.invert_yaxis()
+    axes.grid(axis="y", visible=False)
+    for line, (bits, rate) in zip(lines, rates.items()):
+        axes.text(rate * 1.06, line, number(rate), va="center", fontsize=9.5, color=dark(BLACK if bits == OUR_BITS else FAINT))
+    save(figure, folder, "displacement", caption)
+    return "displacement"
+
+
 def draw(accuracy, folder, caption):
-    """The names of the charts drawn."""
+    """The names of the charts drawn, or None."""
     if accuracy is None:
         return []
     scenes = [all_scenes(accuracy, family, folder, caption) for family in FAMILIES.values()]
-    timed = [found for family in FAMILIES for found in accuracy.timed_charts(family)]
-    charts = [speed_chart(scene, name, folder, caption) for name, scene in timed]
-    return [name for name in (*charts, *scenes, turning_cube(accuracy, folder, caption)) if name]
+    charts = [speed_chart(scene, folder, caption) for family in FAMILIES if (scene := accuracy.main_scene(family))]
+    return [*charts, *scenes, turning_cube(accuracy, folder, caption), displacement_strip(accuracy, folder, caption)]

@@ -1,17 +1,13 @@
 """The main chart: cracks against speed, each coverage method in scalar code and with SIMD."""
 from accuracy_rows import FAMILIES
 from frontier import ENGINES, INSIDE_TESTS, LEAST_CROSSINGS, best, frontier_figures, simd_outcome, timed_scenes
-from palette import FAINT, GREEN, INK
-from plot_labels import Label, label_points
-from plot_style import WIDTH_IN, Kinds, head_in, headline, plt, save
-from speedups import kernels
-from tables import number, short
-from zero_axis import ZeroAxis
+from plot_labels import Label, label_points, shared_labels
+from plot_style import FAINT, GREEN, INK, WHISKER, WIDTH_IN, Kinds, ZeroAxis, head_in, headline, plt, round_ticks, save
+from tables import kernels, number, short
 
 NEAR = 1.15  # ratio of speeds below which points at one x share a label
 # Others with a label beside ours, the peers, and the title's: those that README names, and the fastest of each kind.
 LABELLED = (*INSIDE_TESTS, *ENGINES, "dda_16_16", "dda_rounded", "fixed_8", "float_top_left")
-INTERVAL = {"linewidth": 3.0, "alpha": 0.3, "solid_capstyle": "butt"}
 WORST = {"linewidth": 0.9, "linestyle": (0, (1.5, 1.5))}
 
 
@@ -40,23 +36,14 @@ def called(method):
 
 def labels_of(found, x_of):
     """Ours by themselves; named others that lie close together at one x share a label, by the faster form."""
-    labels, groups = [], []
     named = {*LABELLED, *(method.name for method in leaders(found) or ())}
-    for method, (ups, cracks) in sorted(found.items(), key=lambda item: (item[1][1].rate, best(item[1][0]).middle)):
-        x, y = x_of(cracks.rate), best(ups).middle
-        if method.ours:
-            labels.append(Label(x, y, method.name, bold=True))
-        elif method.name not in named and not method.peer:
-            continue
-        elif groups and groups[-1][0] == x and y < NEAR * groups[-1][1][-1][0]:
-            groups[-1][1].append((y, called(method)))
-        else:
-            groups.append((x, [(y, called(method))]))
-    return labels + [Label(x, members[len(members) // 2][0], "\n".join(name for _, name in reversed(members)))
-                     for x, members in groups]
+    places = {method: (x_of(cracks.rate), best(ups).middle) for method, (ups, cracks) in found.items()}
+    return [*(Label(*place, method.name, bold=True) for method, place in places.items() if method.ours),
+            *shared_labels([(*place, called(method)) for method, place in places.items()
+                            if not method.ours and (method.peer or method.name in named)], NEAR)]
 
 
-def frontier(accuracy, folder, caption):
+def frontier(accuracy, bench, folder, caption):
     found, base, scenes = frontier_figures(accuracy) if accuracy else ({}, None, 0)
     if not found:
         return None
@@ -66,19 +53,18 @@ def frontier(accuracy, folder, caption):
     subtitle = (f"Further left: fewer cracks; further up: faster on one thread, geometric mean of {scenes} scenes "
                 f"({', '.join(scene.name for scene in timed_scenes(accuracy))}). Cracks are gaps and double hits between neighbours, "
                 f"{most.scenes} scenes and {short(most.crossings)} crossings of shared edges pooled; the dotted line ends at the worst "
-                f"scene. Hollow: scalar code; filled: {kernels(accuracy.machine.get('simd_best'))}, of peers their own vectors.")
+                f"scene. Hollow: scalar code; filled: {kernels(bench.context.get('simd_target'))}, of peers their own vectors.")
     above, below = 0.95 + head_in(subtitle), 1.0
     figure, axes = plt.subplots(figsize=(WIDTH_IN, above + below + 5.0))
     height = figure.get_figheight()
     top = headline(figure, frontier_title(found, accuracy), subtitle)
-    figure.subplots_adjust(left=0.07, right=0.985, bottom=below / height, top=1 - above / height)
+    figure.subplots_adjust(left=0.085, right=0.985, bottom=below / height, top=1 - above / height)
     scale.apply_x(axes, "0")
     axes.set_yscale("log")
     speeds = [edge for forms, _ in found.values() for up in forms.values() for edge in (up.low, up.high)]
-    axes.set_ylim(min(speeds) / 1.25, max(speeds) * 1.35)
-    ticks = [tick for tick in (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50) if min(speeds) / 1.25 <= tick <= max(speeds) * 1.35]
-    axes.set_yticks(ticks, [f"{tick:g}×" for tick in ticks])
-    axes.set_yticks([], minor=True)
+    bottom, limit = min(speeds) / 1.25, max(speeds) * 1.35
+    axes.set_ylim(bottom, limit)
+    round_ticks(axes.yaxis, bottom, limit, lambda value, _: f"{value:g}×")
     axes.axhline(1, color=FAINT, linewidth=0.8, zorder=1)
     lines = []
     for method, (forms, cracks) in found.items():
@@ -89,7 +75,7 @@ def frontier(accuracy, folder, caption):
             axes.plot(*zip(*lines[-1]), color=colour, **WORST, zorder=1.6)
         for form, up in forms.items():
             lines.append([(x, up.low), (x, up.high)])
-            axes.plot(*zip(*lines[-1]), color=colour, **INTERVAL, zorder=1.8)
+            axes.plot(*zip(*lines[-1]), color=colour, **WHISKER, zorder=1.8)
             face, edge = (colour, "white") if form == "simd" else ("white", colour)
             axes.plot([x], [up.middle], marker=marker, linestyle="", zorder=3, markersize=7, markerfacecolor=face,
                       markeredgecolor=edge, markeredgewidth=0.8 if form == "simd" else 1.5)
@@ -97,7 +83,7 @@ def frontier(accuracy, folder, caption):
     axes.set_ylabel(f"speed, {base.name} in scalar code = 1×")
     axes.set_xlabel("cracks per 10⁶ crossings of shared edges")
     label_points(axes, labels_of(found, scale.at), lines)
-    extra = [plt.Line2D([], [], color=FAINT, **INTERVAL, label="95 % interval, paired rounds"),
+    extra = [plt.Line2D([], [], color=FAINT, **WHISKER, label="95 % interval"),
              plt.Line2D([], [], color=FAINT, **WORST, label="worst scene"),
              plt.Line2D([], [], color=INK, marker="o", markerfacecolor="white", linestyle="", markersize=7, label="scalar"),
              plt.Line2D([], [], color=INK, marker="o", linestyle="", markersize=7, label="SIMD")]

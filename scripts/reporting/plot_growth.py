@@ -1,25 +1,87 @@
 """Chart of cost against triangles, pixels and overdraw, with the exponents from step to step below."""
 import math
 import textwrap
+from dataclasses import dataclass, replace
 
-from growth import LINEAR, QUANTITIES, cache_bytes, steps
-from palette import BAND
-from plot_style import FAINT, INK, WIDTH_IN, Look, head_in, headline, plt, save
+from bench_rows import order, speed_up_interval
 from plot_area import draw_curves
+from plot_style import BAND, FAINT, INK, WIDTH_IN, Look, head_in, headline, plt, save
+from tables import short
+
+LINEAR = 0.1  # exponents within this distance of 1 are called linear
 
 
-def mark_caches(axes, quantity, machine, named):
-    """The x at which the memory that each frame passes over fills a cache."""
-    low, high = axes.get_xlim()
-    for level in ("L2", "L3"):
-        size = cache_bytes(machine, level)
-        if not size or not quantity.item_bytes or not low < size / quantity.item_bytes < high:
-            continue
-        x = size / quantity.item_bytes
-        axes.axvline(x, color=FAINT, linewidth=1.0, linestyle=(0, (2, 2)), zorder=1)
-        if named:
-            axes.annotate(f"fills {level}", (x, 0), xycoords=("data", "axes fraction"), xytext=(-3, 4),
-                          textcoords="offset points", rotation=90, ha="right", va="bottom", fontsize=8, color=FAINT)
+def pixels(row):
+    width, height = row.keys["size"].split("x")
+    return int(width) * int(height)
+
+
+@dataclass(frozen=True)
+class Quantity:
+    key: str
+    name: str
+    x_of: object  # of a row
+
+    def rows(self, bench):
+        """The rows of each backend, by growing x."""
+        found = {backend: [] for backend in bench.backends}
+        for row in bench.sweep(self.key):
+            if row.backend in found and not row.frontend:
+                found[row.backend].append(row)
+        return {backend: sorted(rows, key=self.x_of) for backend, rows in found.items() if rows}
+
+    def label(self, x):
+        return f"{math.isqrt(int(x))}²" if self.key == "size" else short(x)
+
+    def scene(self, bench):
+        """Describes the drawn scene."""
+        row = bench.sweep(self.key)[0]
+        if self.key == "size":
+            return f"{row.scene} in square images"
+        covered = sum(row.counters["covered_px"] for row in bench.sweep(self.key))
+        area = covered / sum(row.counters["triangles"] for row in bench.sweep(self.key))
+        return (f"triangles of about {short(float(f'{area:.1g}'))} px in an image of {row.counters['width']:.0f} × "
+                f"{row.counters['height']:.0f}")
+
+
+QUANTITIES = (Quantity("count", "triangles", lambda row: int(row.keys["count"])),
+              Quantity("size", "pixels", pixels),
+              Quantity("overdraw", "overdraw", lambda row: float(row.keys["overdraw"])))
+
+
+@dataclass(frozen=True)
+class Step:
+    """From one row to the next: time grows like x to the power of `exponent`, which has the interval low to high."""
+    start: float
+    end: float
+    exponent: float
+    low: float
+    high: float
+    kind: str
+
+
+def kind_of(exponent, growth, before, after):
+    """`growth`: of x. Whether a time that grows with another power would be longer or shorter than that of `after`."""
+    def against(power):
+        return order(replace(before, times_ms=[ms * growth ** power for ms in before.times_ms]), after)
+
+    if abs(exponent - 1) <= LINEAR:
+        return "linear"
+    return "less than linear" if against(1 - LINEAR) > 0 else "more than linear" if against(1 + LINEAR) < 0 else "not settled"
+
+
+def steps(quantity, rows):
+    found = []
+    for before, after in zip(rows, rows[1:]):
+        start, end = quantity.x_of(before), quantity.x_of(after)
+
+        def exponent(ratio):
+            return math.log(ratio) / math.log(end / start)
+
+        middle = exponent(after.median_ms / before.median_ms)
+        low, high = map(exponent, speed_up_interval(after, before))
+        found.append(Step(start, end, middle, low, high, kind_of(middle, end / start, before, after)))
+    return found
 
 
 def draw_steps(axes, quantity, rows, look):
@@ -53,7 +115,7 @@ def title(drawn):
     return f"No settled growth beyond linear with {', '.join(quantity.name for quantity, _ in drawn)}"
 
 
-def growth(bench, machine, folder, caption):
+def growth(bench, folder, caption):
     look = Look(bench.backends)
     drawn = [(quantity, rows) for quantity in QUANTITIES if (rows := {
         backend: found for backend, found in quantity.rows(bench).items() if len(found) > 1})]
@@ -62,7 +124,7 @@ def growth(bench, machine, folder, caption):
     threads = next(iter(drawn[0][1].values()))[0].threads
     subtitle = (f"Backend alone, clear included, {threads} threads. Top: ms per frame, lower is better; bands are 95 % "
                 "intervals. Bottom: the exponent from point to point, 1 is linear and 0 no growth; light bars are 95 % "
-                "intervals. Dotted: triangle records or the frame fill a cache.")
+                "intervals.")
     figure, panels = plt.subplots(2, len(drawn), squeeze=False, sharex="col", figsize=(WIDTH_IN, 5.9 + head_in(subtitle)),
                                   height_ratios=(3, 2))
     height = figure.get_figheight()
@@ -76,8 +138,6 @@ def growth(bench, machine, folder, caption):
         label_x(below, quantity, rows)
         above.set_title(textwrap.fill(quantity.scene(bench), 34), fontsize=9, color=INK)
         below.set_xlabel({"count": "triangles", "size": "image, pixels", "overdraw": "overdraw"}[quantity.key])
-        mark_caches(above, quantity, machine, False)
-        mark_caches(below, quantity, machine, True)
         above.tick_params(axis="x", which="both", length=0)
     panels[0][0].set_ylabel("ms")
     panels[1][0].set_ylabel("exponent")

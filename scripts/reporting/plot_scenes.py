@@ -1,11 +1,11 @@
-"""Charts by scene: the time, and the speed-up by threads, SIMD, culling, and over the peers."""
-from bench_rows import order
-from noise import median, ratio_interval
-from peers import OURS, pairs
-from plot_style import FAINT, INK, WIDTH_IN, Look, head_in, headline, log_axis, plt, save
-from speedups import VECTORS, about, by_order, kernels, spread, with_width
-from tables import NORMAL_Z, THREADS, culling_rows, pixels_wrong
+"""Charts by scene: the time, and the speed-up by threads, SIMD and culling."""
+from bench_rows import order, speed_up_interval
+from bench_tables import OURS, THREADS
+from noise import median
+from plot_style import FAINT, INK, WIDTH_IN, Look, head_in, headline, log_axis, plt, round_ticks, save
+from tables import VECTORS, about, by_order, kernels, spread
 
+NORMAL_Z = "normal_z"  # the Outlaw Triad trainer's facing test
 INTERVALS = "Light bars: 95 % intervals."
 
 
@@ -65,105 +65,89 @@ def scene_time(bench, folder, caption):
     return "scenes"
 
 
-def ratio_axis(axis, low, high):
-    """A log axis of speed-ups with round numbers from low to high. Its limits must be set already."""
-    steps = (1, 1.5, 2, 3, 5, 7) if high / low < 12 else (1, 2, 5)
-    factors = [step * 10.0 ** k for k in (0, 1, 2) for step in steps]
-    ticks = [*(1 / factor for factor in reversed(factors[1:])), *factors]
-    axis.set_ticks([tick for tick in ticks if low <= tick <= high])
-    axis.set_ticks([], minor=True)
-    axis.set_major_formatter(lambda value, _: f"{value:g}×" if value >= 1 else f"{1 / value:.3g}×\nslower")
+def speed_up_text(value, _):
+    return f"{value:g}×" if value >= 1 else f"{1 / value:.3g}×\nslower"
 
 
-def ends_of(before, after):
-    """The interval of a speed-up."""
-    return ratio_interval(after.times_ms, before.times_ms)
-
-
-def dots(axes, look, groups, rows_of, hollow_of=None):
-    """A dot per backend for each group, in lines from top to bottom; below each the hollow one of hollow_of, if given.
-    Both give (row before, row after) or None."""
-    marks = [(rows_of, True), *([(hollow_of, False)] if hollow_of else [])]
-    step = (0.6 if len(marks) == 1 else 0.76) / max(1, len(look.backends) * len(marks))
+def dots(axes, look, gains, hollow):
+    """A dot per backend for each scene, in lines from top to bottom; below each the hollow one. `gains` and `hollow`:
+    {scene: {backend: (row before, row after)}}"""
+    sides = [(gains, True), *([(hollow, False)] if hollow else [])]
+    step = (0.6 if len(sides) == 1 else 0.76) / max(1, len(look.backends) * len(sides))
     ends = [1.0]
-    for line, group in enumerate(groups):
+    for line, scene in enumerate(gains):
         if line % 2:
             axes.axhspan(line - 0.5, line + 0.5, color="#f6f8fa", zorder=0)
-        each = [(backend, *mark) for backend in look.backends for mark in marks]
-        for place, (backend, found, filled) in enumerate(each):
-            if not (rows := found(group, backend)):
+        each = [(backend, *side) for backend in look.backends for side in sides]
+        for place, (backend, of, filled) in enumerate(each):
+            if not (rows := of.get(scene, {}).get(backend)):
                 continue
             y = line + (place - (len(each) - 1) / 2) * step
             colour = look.colour(backend)
-            ends += ends_of(*rows)
+            ends += speed_up_interval(*rows)
             axes.plot(ends[-2:], [y, y], color=colour, linewidth=5, alpha=0.25, solid_capstyle="butt")
             axes.plot([rows[0].median_ms / rows[1].median_ms], [y], marker=look.marker(backend), color=colour, markersize=6.5,
                       markerfacecolor=colour if filled else "white", markeredgewidth=1.0 if filled else 1.5)
     axes.axvline(1, color=FAINT, linewidth=1.0)
-    axes.set_yticks(range(len(groups)), groups)
+    axes.set_yticks(range(len(gains)), gains)
     axes.tick_params(axis="y", length=0)
-    axes.set_ylim(len(groups) - 0.5, -0.5)
+    axes.set_ylim(len(gains) - 0.5, -0.5)
     axes.grid(axis="y", visible=False)
     axes.set_xscale("log")
     low, high = min(ends) / 1.04, max(ends) * 1.04
     axes.set_xlim(low, high)
-    ratio_axis(axes.xaxis, low, high)
+    round_ticks(axes.xaxis, low, high, speed_up_text, ratios=True)
 
 
-def gain_chart(bench, folder, caption, name, groups, rows_of, title, subtitle, label, hollow_of=None, notes=None):
-    """`notes`: the text on the right of a group."""
-    if not any(rows_of(group, backend) for group in groups for backend in bench.backends):
+def gain_chart(bench, folder, caption, name, what, subtitle, gains, hollow=None, notes=None):
+    """`gains` and `hollow` as of dots(). `notes`: the text on the right of a scene. The title: "A second thread helps in 40 of 45
+    cases, 1.9× in median"."""
+    compared = [rows for of in gains.values() for rows in of.values()]
+    if not compared:
         return None
+    faster = sum(order(after, before) < 0 for before, after in compared)
+    middle = median(before.median_ms / after.median_ms for before, after in compared)
     look = Look(bench.backends)
-    figure, axes = plt.subplots(figsize=(WIDTH_IN, 1.8 + head_in(subtitle) + (0.85 if hollow_of else 0.4) * len(groups)))
-    dots(axes, look, groups, rows_of, hollow_of)
-    for line, group in enumerate(groups if notes else ()):
-        axes.text(1.012, line, notes[group], transform=axes.get_yaxis_transform(), fontsize=9, color=FAINT, va="center")
-    axes.set_xlabel(label)
+    figure, axes = plt.subplots(figsize=(WIDTH_IN, 1.8 + head_in(subtitle) + (0.85 if hollow else 0.4) * len(gains)))
+    dots(axes, look, gains, hollow)
+    for line, scene in enumerate(gains):
+        axes.text(1.012, line, (notes or {}).get(scene, ""), transform=axes.get_yaxis_transform(), fontsize=9, color=FAINT, va="center")
+    axes.set_xlabel(f"speed-up by {what[0].lower()}{what[1:]}")
     height = figure.get_figheight()
-    top = headline(figure, title, subtitle)
+    top = headline(figure, f"{what} helps in {faster} of {len(compared)} cases, {about(middle)} in median", subtitle)
     look.legend(figure, top - 0.02 / height)
-    figure.subplots_adjust(left=room_for(groups), right=0.86 if notes else 0.975, bottom=0.95 / height,
-                           top=top - 0.42 / height)
+    figure.subplots_adjust(left=room_for(gains), right=0.86 if notes else 0.975, bottom=0.95 / height, top=top - 0.42 / height)
     save(figure, folder, name, f"{INTERVALS}\n{caption}")
     return name
 
 
-def gains_title(pairs, what):
-    """"A second thread helps in 40 of 45 cases, 1.9× in median"."""
-    faster = sum(order(after, before) < 0 for before, after in pairs)
-    middle = median(before.median_ms / after.median_ms for before, after in pairs)
-    return f"{what} helps in {faster} of {len(pairs)} cases, {about(middle)} in median"
-
-
 def threads(bench, folder, caption):
-    def rows_of(scene, backend):
-        one, two = (bench.find(f"{backend}/{scene}/threads:{n}") for n in (1, 2))
-        return (one, two) if one and two else None
+    rows = {scene: {backend: [bench.find(f"{backend}/{scene}/threads:{n}") for n in (1, 2)] for backend in bench.backends}
+            for scene in bench.scenes}
+    gains = {scene: {backend: found for backend, found in of.items() if all(found)} for scene, of in rows.items()}
+    return gain_chart(bench, folder, caption, "threads", "A second thread",
+                      "Time on 1 thread over time on 2, backend alone; 2× is ideal.", gains)
 
-    timed = [rows for scene in bench.scenes for backend in bench.backends if (rows := rows_of(scene, backend))]
-    title = gains_title(timed, "A second thread") if timed else ""
-    return gain_chart(bench, folder, caption, "threads", bench.scenes, rows_of, title,
-                      "Time on 1 thread over time on 2, backend alone; 2× is ideal.", "speed-up by the second thread")
+
+def culling_rows(bench, mode):
+    """{scene: {backend: (row of a whole frame with all its faces, row in this culling mode)}}"""
+    rows = {(row.scene, row.backend, row.keys["cull"]): row for row in bench.sweep("cull")}
+    found = {}
+    for (scene, backend, kept), all_faces in rows.items():
+        if kept == "none" and (culled := rows.get((scene, backend, mode))):
+            found.setdefault(scene, {})[backend] = all_faces, culled
+    return found
 
 
 def culling(bench, folder, caption):
     """Filled: by the winding on the screen; hollow: by the z of normals, if timed."""
-    by_winding, by_normal = culling_rows(bench, "back"), culling_rows(bench, NORMAL_Z)
-
-    def rows_in(rows):
-        return lambda scene, backend: rows.get(scene, {}).get(backend)
-
-    timed = [rows for of in by_winding.values() for rows in of.values()]
-    title = gains_title(timed, "Culling") if timed else ""
-    told = "Whole frames of closed meshes, front end included: time with all faces over time with back faces culled"
-    if not by_normal:
-        return gain_chart(bench, folder, caption, "culling", list(by_winding), rows_in(by_winding), title, f"{told}.",
-                          "speed-up by culling")
-    notes = {scene: pixels_wrong(bench, scene) if scene in by_normal else "" for scene in by_winding}
-    return gain_chart(bench, folder, caption, "culling", list(by_winding), rows_in(by_winding), title,
-                      f"{told}. Filled: by the winding on the screen. Hollow: by the z of normals before projection "
-                      f"({NORMAL_Z}), with the pixels it gets wrong.", "speed-up by culling", rows_in(by_normal), notes)
+    by_normal = culling_rows(bench, NORMAL_Z)
+    told = "Whole frames of closed meshes, front end included: time with all faces over time with back faces culled."
+    if by_normal:
+        told += (" Filled: by the winding on the screen. Hollow: by the z of normals before projection "
+                 f"({NORMAL_Z}), with the pixels it gets wrong.")
+    notes = {scene: f"{next(iter(of.values()))[1].counters['wrong_px']:,.0f} px wrong" for scene, of in by_normal.items()}
+    return gain_chart(bench, folder, caption, "culling", "Culling", told, culling_rows(bench, "back"), by_normal, notes)
 
 
 def simd(bench, folder, caption):
@@ -187,7 +171,7 @@ def simd(bench, folder, caption):
                 continue
             colour = look.colour(backend)
             for place, row in timed[1:]:
-                ends += ends_of(first, row)
+                ends += speed_up_interval(first, row)
                 axes.plot([place, place], ends[-2:], color=colour, linewidth=5, alpha=0.25, solid_capstyle="butt")
             axes.plot([place for place, _ in timed], [first.median_ms / row.median_ms for _, row in timed], color=colour,
                       marker=look.marker(backend), markeredgecolor="white", markeredgewidth=0.6)
@@ -200,7 +184,7 @@ def simd(bench, folder, caption):
         axes.set_yscale("log")
     low, high = min(ends) / 1.04, max(ends) * 1.04
     panels[0][0].set_ylim(low, high)
-    ratio_axis(panels[0][0].yaxis, low, high)
+    round_ticks(panels[0][0].yaxis, low, high, speed_up_text, ratios=True)
     height = figure.get_figheight()
     title = (f"With {kernels(targets[-1])}, {OURS} is {spread(widest)} faster than with {kernels(targets[0])}" if widest else
              f"Speed-up by {kernels(targets[-1])} over {kernels(targets[0])}")
@@ -211,25 +195,6 @@ def simd(bench, folder, caption):
     figure.subplots_adjust(left=0.06, right=0.985, bottom=0.6 / height, top=top - 0.72 / height, wspace=0.12)
     save(figure, folder, "simd", caption)
     return "simd"
-
-
-def against(bench, folder, caption):
-    found = pairs(bench)
-    threads = max(THREADS)
-    for peer in dict.fromkeys(peer for peer, _, n in found if n == threads):
-        compared = {scene: p for (name, scene, n), p in found.items() if name == peer and n == threads}
-
-        def rows_of(scene, backend, compared=compared):
-            ours = bench.find(compared[scene].ours.name.replace(OURS, backend, 1))
-            return (compared[scene].peer, ours) if ours else None
-
-        won = by_order((p.ours, p.peer) for p in compared.values())[-1]
-        title = f"{OURS} beats {peer} in {len(won)} of {len(compared)} scenes" + (f", {spread(won)}" if won else "")
-        gain_chart(bench, folder, caption, f"against-{peer}", list(compared), rows_of, title,
-                   f"{bench.context.get(peer, peer)}, against our backends with {with_width(bench.context.get('simd_target'))}; "
-                   f"{threads} threads. Whole frames: front end and backend.",
-                   f"speed-up over {peer}")
-        yield f"against-{peer}"
 
 
 CHARTS = (scene_time, threads, simd, culling)

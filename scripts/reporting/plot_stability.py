@@ -1,9 +1,80 @@
-"""Charts of stability: one per sweep, with one curve per method, from easy on the left to hard on the right."""
-from accuracy_rows import FAMILIES
-from palette import FAINT
-from plot_style import WIDTH_IN, Kinds, dark, head_in, headline, plt, save
-from stability_curves import (axis_of_errors, failing, groups_of, kinds_and_dashes, known_methods, line_count, names_of,
-                              place_of_failure, runs_down, summary, tidy, trials_note)
+"""Charts of stability: one per sweep, with one curve per method, from easy on the left to hard on the right; and one of all
+sweeps, with a bar for each method, as far as it holds."""
+import textwrap
+
+from accuracy_rows import FAMILIES, Method
+from plot_style import FAINT, INK, WIDTH_IN, Kinds, ZeroAxis, dark, head_in, headline, plt, save
+from tables import short
+
+
+def groups_of(sweep, methods):
+    """Methods whose curves are the same, as one: (methods, curve), in the registry's order."""
+    groups = {}
+    for curve in sweep.curves:
+        members, _ = groups.setdefault((curve.points, curve.starts_to_fail), ([], curve))
+        members.append(methods.get((sweep.family, curve.method)) or Method(curve.method, "", "", curve.exact))
+    return list(groups.values())
+
+
+# Lengths of dashes and gaps, in widths of the line; given out within a kind of method.
+DASHES = ((), (5, 1.5), (1.5, 1.2), (5, 1.5, 1, 1.5), (8, 2), (3, 1, 1, 1, 1, 1))
+
+
+def kinds_and_dashes(groups, family):
+    """(kind, dash) of each group, so that no two lines look alike."""
+    found, used = [], {}
+    for members, _ in groups:
+        kind = "ours" if any(member.ours for member in members) else family.kind(members[0])
+        found.append((kind, DASHES[used.get(kind, 0) % len(DASHES)]))
+        used[kind] = used.get(kind, 0) + 1
+    return found
+
+
+def tidy(value):
+    if value == 0 or 1e-3 <= abs(value) < 1000:
+        return f"{value:.3g}"
+    if abs(value) >= 1000:
+        return short(value)
+    digits, power = f"{value:.0e}".split("e")
+    raised = str(int(power)).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+    return ("" if digits == "1" else digits + "·") + "10" + raised
+
+
+def names_of(members):
+    """Ours, then the others."""
+    return [textwrap.fill(", ".join(m.name for m in members if m.ours == ours), 31) for ours in (True, False)]
+
+
+def line_count(text):
+    return text.count("\n") + 1 if text else 0
+
+
+def place_of_failure(curve):
+    """The index of the first point at which a method fails."""
+    return next((i for i, (x, _) in enumerate(curve.points) if x == curve.starts_to_fail), len(curve.points))
+
+
+def summary(groups):
+    """The sweep's finding: "ours hold; fixed_8_int32 breaks at 182"."""
+    own, others = ([(place_of_failure(curve), tidy(curve.starts_to_fail), m.name) for members, curve in groups for m in members
+                    if m.ours == whose and curve.starts_to_fail is not None] for whose in (True, False))
+    breaking = [found for found in others if found[0] > 0]
+    return (f"ours {f'break at {min(own)[1]}' if own else 'hold'}; "
+            + (f"{min(breaking)[2]} breaks at {min(breaking)[1]}" if breaking else f"{len(others)} others fail at once"))
+
+
+def failing(curve, sweep):
+    if curve.starts_to_fail is None:
+        return "errs no more than snapping" if max(sweep.by_snapping) > 0 else "holds"
+    return f"fails at {tidy(curve.starts_to_fail)} {sweep.x['unit']}".rstrip()
+
+
+def trials_note(sweep):
+    trials = [n for curve in sweep.curves for n in curve.trials if n]
+    if not trials or not sweep.y["log"]:
+        return ""
+    low, high = short(min(trials)), short(max(trials))
+    return f" 0: no error in {low if low == high else f'{low} to {high}'} trials per point; the 95 % upper bound is 3/N."
 
 
 LINE_IN = 0.15  # of a label
@@ -30,47 +101,48 @@ def stacked(wanted, heights, ties):
 
 
 def set_axis(axes, sweep):
-    """Returns the axis of errors."""
+    """Returns the function from a number of errors to its place."""
     xs = [x for curve in sweep.curves for x, _ in curve.points]
-    y_scale = axis_of_errors(sweep)
+    ys = [y for curve in sweep.curves for _, y in curve.points]
+    scale = ZeroAxis(ys)
     if sweep.y["log"]:
-        y_scale.apply_y(axes)
+        scale.apply_y(axes)
     else:
-        axes.set_ylim(min(0.0, y_scale.low), max(y_scale.high, 1e-9) * 1.05)
+        axes.set_ylim(0, max(*ys, 1e-9) * 1.05)
     if sweep.x["log"] and min(xs) > 0:
         axes.set_xscale("log", base=10)
         axes.xaxis.set_major_formatter(lambda value, _: tidy(value))
         axes.minorticks_off()
-    if runs_down(sweep):
+    if xs[0] > xs[len(sweep.curves[0].points) - 1]:  # from easy to hard
         axes.invert_xaxis()
-    return y_scale
+    return scale.at if sweep.y["log"] else float
 
 
-def draw_curves(axes, groups, kinds, y_scale):
+def draw_curves(axes, groups, kinds, place_of):
     """Returns (colour, style) of each group."""
     looks = []
     for (members, curve), (kind, dash) in zip(groups, kinds_and_dashes(groups, kinds.family)):
         colour, marker = kinds.looks[kind]
         style = (0, dash) if dash else "-"
         looks.append((colour, style))
-        xs, ys = [x for x, _ in curve.points], [y_scale.at(y) for _, y in curve.points]
+        xs, ys = [x for x, _ in curve.points], [place_of(y) for _, y in curve.points]
         ours = any(member.ours for member in members)
         axes.plot(xs, ys, color=colour, linestyle=style, linewidth=2.6 if ours else 1.5, zorder=4 if ours else 3)
         if curve.starts_to_fail is not None:
             y = next((y for x, y in curve.points if x == curve.starts_to_fail), 0.0)
-            axes.plot([curve.starts_to_fail], [y_scale.at(y)], marker=marker, markersize=8, color="white",
+            axes.plot([curve.starts_to_fail], [place_of(y)], marker=marker, markersize=8, color="white",
                       markeredgecolor=colour, markeredgewidth=1.8, linestyle="", zorder=5)
     return looks
 
 
-def label_curves(axes, groups, looks, y_scale, sweep):
+def label_curves(axes, groups, looks, place_of, sweep):
     """Names at the ends of the curves, each with a sample of its line."""
     low, high = axes.get_ylim()
     height_in = axes.figure.get_figheight() * axes.get_position().height
     texts = [(*names_of(members), failing(curve, sweep)) for members, curve in groups]
     heights = [(0.07 + LINE_IN * sum(map(line_count, text))) / height_in for text in texts]
     ties = [-place_of_failure(curve) for _, curve in groups]  # the first to fail at the top
-    wanted = [(y_scale.at(curve.points[-1][1]) - low) / (high - low) for _, curve in groups]
+    wanted = [(place_of(curve.points[-1][1]) - low) / (high - low) for _, curve in groups]
     lows = stacked(wanted, heights, ties)
     for text, height, bottom, end, (colour, style) in zip(texts, heights, lows, wanted, looks):
         y = bottom + height / 2
@@ -96,10 +168,10 @@ def sweep_chart(sweep, methods, folder, caption):
     title = f"{sweep.name.replace('_', ' ').capitalize()}: {summary(groups)}"
     top = headline(figure, title, subtitle)
     figure.subplots_adjust(left=0.085, right=0.67, bottom=0.9 / height, top=top - 0.15 / height)
-    y_scale = set_axis(axes, sweep)
-    looks = draw_curves(axes, groups, kinds, y_scale)
+    place_of = set_axis(axes, sweep)
+    looks = draw_curves(axes, groups, kinds, place_of)
     axes.margins(x=0.02)
-    label_curves(axes, groups, looks, y_scale, sweep)
+    label_curves(axes, groups, looks, place_of, sweep)
     unit = f", {sweep.x['unit']}" if sweep.x["unit"] else ""
     axes.set_xlabel(f"{sweep.x['name']}{unit}")
     axes.set_ylabel(sweep.y["name"].replace("10^6", "10⁶"))
@@ -109,7 +181,88 @@ def sweep_chart(sweep, methods, folder, caption):
     return f"stability-{sweep.name}"
 
 
+OURS, HELD, EMPTY = INK, "#9aa5b1", "#eef1f4"
+ROW_IN, NAME_IN, CELL_IN, GAP_IN, HEAD_IN = 0.2, 1.75, 1.16, 0.06, 0.42
+
+
+def held(curve):
+    """The share of a sweep's places, easy ones first, before the first at which a method fails."""
+    places = [x for x, _ in curve.points]
+    return 1.0 if curve.starts_to_fail is None else places.index(curve.starts_to_fail) / len(places)
+
+
+def verdict(curve):
+    if curve.starts_to_fail is None:
+        return "holds"
+    return tidy(curve.starts_to_fail) if held(curve) else "fails"
+
+
+def rows_of(sweeps, methods):
+    """[(method, its curve in each sweep or None)]"""
+    return [(method, [next((c for c in sweep.curves if c.method == method.name), None) for sweep in sweeps])
+            for method in methods]
+
+
+def scale_text(x):
+    """The name and unit of a sweep's places, or the unit alone if a cell has no room for both."""
+    whole = ", ".join(filter(None, (x["name"], x["unit"])))
+    return whole if len(whole) < 24 else x["unit"]
+
+
+def title(families):
+    ours = [[c for method, curves in rows if method.ours for c in (curves[i],) if c] for _, of, rows in families for i in range(len(of))]
+    held = sum(all(c.starts_to_fail is None for c in curves) for curves in ours)
+    return f"Ours hold in {held} of {len(ours)} sweeps"
+
+
+def grid(sweeps, accuracy, folder, caption):
+    families = [(family, of, rows_of(of, accuracy.methods[family])) for family in FAMILIES
+                if (of := [sweep for sweep in sweeps if sweep.family == family and sweep.curves])]
+    if not families:
+        return None
+    height = 1.0 + sum(HEAD_IN + ROW_IN * len(rows) + 0.12 for _, _, rows in families) + 0.2
+    columns = max(len(of) for _, of, _ in families)
+    width = NAME_IN + columns * (CELL_IN + GAP_IN) + 0.1
+    figure = plt.figure(figsize=(width, height))
+    axes = figure.add_axes((0, 0, 1, 1))
+    axes.set(xlim=(0, width), ylim=(height, 0))
+    axes.axis("off")
+    headline(figure, title(families),
+             "A bar reaches as far as a method errs no more than rounding to 1/256 px does; the figure is the first place at "
+             "which it fails. Each sweep runs from easy to hard. Bold names and dark bars: ours.")
+    y = 1.0
+    for family, of, rows in families:
+        axes.text(0.08, y + 0.26, family.capitalize(), fontsize=10.5, fontweight="bold", va="bottom")
+        for i, sweep in enumerate(of):
+            x = NAME_IN + i * (CELL_IN + GAP_IN)
+            axes.text(x, y + 0.14, sweep.name.replace("_", " "), fontsize=8.3, va="bottom")
+            axes.text(x, y + 0.27, scale_text(sweep.x), fontsize=6.5,
+                      color=FAINT, va="bottom")
+        y += HEAD_IN - 0.08
+        for method, curves in rows:
+            axes.text(0.08, y + ROW_IN / 2, method.name, fontsize=8.6, va="center",
+                      fontweight="bold" if method.ours else "normal")
+            for i, curve in enumerate(curves):
+                if curve is None:
+                    continue
+                x = NAME_IN + i * (CELL_IN + GAP_IN)
+                axes.add_patch(plt.Rectangle((x, y + 0.02), CELL_IN, ROW_IN - 0.04, color=EMPTY, linewidth=0))
+                axes.add_patch(plt.Rectangle((x, y + 0.02), CELL_IN * held(curve), ROW_IN - 0.04, linewidth=0,
+                                             color=OURS if method.ours else HELD))
+                if curve.starts_to_fail is not None:
+                    inside = held(curve) > 0.55
+                    axes.text(x + CELL_IN * held(curve) + (-0.03 if inside else 0.03), y + ROW_IN / 2, verdict(curve),
+                              fontsize=7.2, va="center", ha="right" if inside else "left",
+                              color="white" if inside and method.ours else INK)
+            y += ROW_IN
+        y += 0.12
+    save(figure, folder, "stability-grid", caption)
+    return "stability-grid"
+
+
 def draw(sweeps, accuracy, folder, caption):
-    """The names of the charts drawn."""
-    methods = known_methods(accuracy)
-    return [name for sweep in sweeps if (name := sweep_chart(sweep, methods, folder, caption))]
+    """The names of the charts drawn, or None."""
+    if accuracy is None:
+        return []
+    methods = {(family, m.name): m for family, found in accuracy.methods.items() for m in found}
+    return [*(sweep_chart(sweep, methods, folder, caption) for sweep in sweeps), grid(sweeps, accuracy, folder, caption)]

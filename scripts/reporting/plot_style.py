@@ -1,5 +1,6 @@
-"""The common look of all charts: light, colour-blind safe, one colour per backend, the same bytes for the same data."""
+"""The common look of all charts: light, colour-blind safe, one meaning for a colour, the same bytes for the same data."""
 import colorsys
+import math
 import textwrap
 from pathlib import Path
 
@@ -10,8 +11,22 @@ import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.colors import to_hex, to_rgb  # noqa: E402
 from matplotlib.ticker import FuncFormatter, NullFormatter  # noqa: E402
 
-from palette import BACKENDS, FAINT, INK, backend_looks, kind_looks  # noqa: E402
 from tables import short  # noqa: E402
+
+# Okabe and Ito, "Color Universal Design", 2008.
+BLUE, ORANGE, GREEN, VERMILION, PURPLE, SKY = "#0072B2", "#E69F00", "#009E73", "#D55E00", "#CC79A7", "#56B4E9"
+BLACK, INK, FAINT = "#000000", "#24292f", "#6e7781"
+BAND = "#f0f2f4"  # behind a special part of an axis
+
+BACKENDS = {"scanline": (BLUE, "o"), "naive": (ORANGE, "s"), "tiled": (GREEN, "^")}
+ADDED = (("#7f5539", "D"), ("#8a8f00", "v"), ("#5c4d9a", "P"), ("#6b705c", "X"))  # for backends that a user adds
+
+OURS = (BLACK, "o")  # a method of the library that is no backend, or several that share a curve
+KINDS = ((VERMILION, "D"), (SKY, "v"), (PURPLE, "P"), ("#8b1e3f", "*"), ("#6b705c", "X"))
+OTHER = ("#8c959f", "X")
+
+# Whether a step of the ablation made the backend faster; see plot_ablation.verdict().
+VERDICTS = {"gain": BLACK, "loss": "#b3261e", "neither": "#8c959f"}
 
 plt.rcParams.update({
     "figure.facecolor": "white", "axes.facecolor": "white", "savefig.facecolor": "white",
@@ -38,13 +53,11 @@ class Look:
 
     def __init__(self, backends):
         self.backends = backends
-        self.looks = backend_looks(backends)
+        added = [backend for backend in backends if backend not in BACKENDS]
+        self.looks = {backend: BACKENDS.get(backend) or ADDED[added.index(backend) % len(ADDED)] for backend in backends}
 
     def colour(self, backend):
         return self.looks[backend][0]
-
-    def text_colour(self, backend):
-        return dark(self.colour(backend))
 
     def marker(self, backend):
         return self.looks[backend][1]
@@ -64,7 +77,7 @@ class Kinds:
 
     def __init__(self, family):
         self.family = family
-        self.looks = kind_looks(family)
+        self.looks = {"ours": OURS, "other": OTHER, **dict(zip(family.kinds, KINDS))}
 
     def of(self, method):
         return BACKENDS.get(method.name) or self.looks[self.family.kind(method)]
@@ -100,29 +113,57 @@ def headline(figure, title, subtitle):
     return 1 - head_in(subtitle) / height_in
 
 
+# An interval, as a light bar.
+WHISKER = {"linewidth": 3.0, "alpha": 0.3, "solid_capstyle": "butt"}
+
+
+def round_ticks(axis, low, high, text, ratios=False):
+    """Few round numbers on a log axis whose limits are set already; of `ratios` below 1 the reciprocal is round."""
+    steps = (1, 1.5, 2, 3, 5, 7) if high / low < 12 else (1, 2, 5)
+    ticks = {step * 10.0 ** k for k in range(-4, 5) for step in steps}
+    if ratios:
+        ticks = {end for tick in ticks if tick >= 1 for end in (tick, 1 / tick)}
+    axis.set_ticks(sorted(tick for tick in ticks if low <= tick <= high))
+    axis.set_ticks([], minor=True)
+    axis.set_major_formatter(text)
+
+
 def log_axis(axis):
     axis.set_major_formatter(FuncFormatter(short))
     axis.set_minor_formatter(NullFormatter())
 
 
-def spread_labels(positions, gap):
-    """Moves label positions (any unit) apart to at least `gap`, keeping their order and their middle."""
-    order = sorted(range(len(positions)), key=lambda i: positions[i])
-    placed = [positions[i] for i in order]
-    for _ in range(100):
-        moved = False
-        for i in range(len(placed) - 1):
-            lack = gap - (placed[i + 1] - placed[i])
-            if lack > 1e-9:
-                placed[i] -= lack / 2
-                placed[i + 1] += lack / 2
-                moved = True
-        if not moved:
-            break
-    result = [0.0] * len(positions)
-    for i, index in enumerate(order):
-        result[index] = placed[i]
-    return result
+class ZeroAxis:
+    """Positions, in decades, of values ≥ 0 on a log axis that begins with a band for 0."""
+
+    def __init__(self, values, band=0.18):
+        """`band`: the width of the band, as a part of the log axis."""
+        seen = [math.log10(v) for v in values if v > 0] or [0.0, 1.0]
+        self.low, self.high = math.floor(min(seen)), max(seen)
+        self.high = max(self.high, self.low + 1)
+        decades = self.high - self.low
+        self.end = self.low - 0.035 * decades  # of the band
+        self.start = self.end - band * decades
+        self.zero = (self.start + self.end) / 2
+        self.limit = self.high + 0.04 * decades
+
+    def at(self, value):
+        return math.log10(value) if value > 0 else self.zero
+
+    def ticks(self, zero):
+        step = max(1, math.ceil((self.high - self.low) / 8))
+        places = list(range(self.low, math.floor(self.high + 1e-9) + 1, step))
+        return [self.zero, *places], [zero, *(short(10.0 ** k) for k in places)]
+
+    def apply_x(self, axes, zero="0"):
+        axes.set_xticks(*self.ticks(zero))
+        axes.set_xlim(self.start, self.limit)
+        axes.axvspan(self.start, self.end, color=BAND, zorder=0, linewidth=0)
+
+    def apply_y(self, axes):
+        axes.set_yticks(*self.ticks("0"))
+        axes.set_ylim(self.start, self.limit)
+        axes.axhspan(self.start, self.end, color=BAND, zorder=0, linewidth=0)
 
 
 def save(figure, folder, name, caption):

@@ -3,7 +3,7 @@ import json
 import sys
 from pathlib import Path
 
-from bench_rows import BadInput, main_guard, read_json
+from program import BadInput, main_guard, read_json
 
 ADDED = ("cases", "frames", "triangles", "pixels", "oracle_frames", "frontend_lists", "differences", "seconds", "findings")
 

@@ -1,9 +1,8 @@
-"""Tables of results, as Markdown for the READMEs and as plain text for the terminal."""
+"""Figures, comparisons and tables as text: Markdown for the READMEs, plain text for the terminal."""
 from bench_rows import order
-from speedups import about
 
-THREADS = (1, 2)
-NORMAL_Z = "normal_z"  # the Outlaw Triad trainer's facing test
+# Of each SIMD target: its name in sentences, and the width of its vectors in bits.
+VECTORS = {"sse4": ("SSE4", 128), "avx2": ("AVX2", 256), "avx512": ("AVX-512", 512)}
 
 
 def short(value, _=None):
@@ -34,60 +33,51 @@ def milliseconds(row):
     return f"{ms:.3f}" if ms < 1 else f"{ms:.2f}" if ms < 10 else f"{ms:.1f}" if ms < 100 else f"{ms:,.0f}"
 
 
-def random_reads(bench):
-    """[(where, "140 ns (130 to 168)")]: whether other processes filled the last-level cache; empty if not measured."""
-    rows = [(title, bench.random_reads.get(where)) for where, title in
-            (("half_last_cache", "half the last-level cache"), ("memory", "a far larger buffer"))]
-    return [(title, "{1:.0f} ns ({0:.0f} to {2:.0f})".format(*(ms * 1e6 / row.counters["reads"] for ms in
-                                                              (row.low_ms, row.median_ms, row.high_ms))))
-            for title, row in rows if row]
+def kernels(target):
+    """"AVX-512", or "scalar code"."""
+    return VECTORS[target][0] if target in VECTORS else "scalar code" if target == "scalar" else target or "unknown SIMD"
 
 
-def fastest(bench, scene):
-    """The fastest backend on the most threads, with its speed-up over the next; several if the order is not settled."""
-    rows = [row for b in bench.backends if (row := bench.find(f"{b}/{scene}/threads:{max(THREADS)}"))]
-    if len(rows) < 2:
-        return "–"
-    first, *others = sorted(rows, key=lambda row: row.median_ms)
-    close = [row.backend for row in others if order(first, row) == 0]
-    return " or ".join([first.backend, *close]) if close else \
-        f"{first.backend}, {about(others[0].median_ms / first.median_ms)}"
+def with_width(target):
+    """"AVX-512, 512 bits"."""
+    return f"{kernels(target)}, {VECTORS[target][1]} bits" if target in VECTORS else kernels(target)
 
 
-def scene_facts(bench, scene):
-    """Triangles submitted, and overdraw."""
-    front = bench.find(f"frontend/{scene}/threads:1")
-    raster = next((row for b in bench.backends if (row := bench.find(f"{b}/{scene}/threads:1"))), None)
-    triangles = f"{front.counters['triangles']:,.0f}" if front else "–"
-    overdraw = f"{raster.counters['overdraw']:.2f}" if raster else "–"
-    return triangles, overdraw
+def about(ratio):
+    """With two digits, as many as the noise allows."""
+    return f"{ratio:.2f}×" if ratio < 1.095 else f"{ratio:.1f}×" if ratio < 9.95 else f"{float(f'{ratio:.2g}'):,.0f}×"
 
 
-def scene_table(bench, more=()):
-    """Header and lines: a line per scene, with a backend's ms on 1 and on 2 threads in one cell. `more` are columns before
-    the last: (title, scene → cell)."""
-    header = ["scene", "triangles", "overdraw", *(f"{b}, ms" for b in bench.backends), *(title for title, _ in more), "fastest"]
-    lines = []
-    for scene in bench.scenes:
-        times = [" / ".join(milliseconds(bench.find(f"{b}/{scene}/threads:{n}")) for n in THREADS) for b in bench.backends]
-        lines.append([scene, *scene_facts(bench, scene), *times, *(cell(scene) for _, cell in more), fastest(bench, scene)])
-    return header, lines
+def spread(ratios):
+    ends = list(dict.fromkeys(map(about, (min(ratios), max(ratios)))))
+    return " to ".join(ends)
 
 
-def speed_table(bench):
-    """Header and lines: whole frames of ours and of peers, one line per scene; bold: the settled fastest of ours."""
-    lines = []
-    for scene in bench.scenes:
-        ours = {backend: row for backend in bench.backends if (row := bench.frame(backend, scene, max(THREADS)))}
+def by_order(compared):
+    """{order(): speed-ups} of pairs of rows, ours first."""
+    found = {-1: [], 1: [], 0: []}
+    for ours, other in compared:
+        found[order(ours, other)].append(other.median_ms / ours.median_ms)
+    return found
 
-        def cell(row):
-            best = all(order(row, other) < 0 for other in ours.values() if other is not row)
-            return f"**{milliseconds(row)}**" if best and len(ours) > 1 else milliseconds(row)
 
-        lines.append([scene, scene_facts(bench, scene)[0],
-                      *(cell(ours[backend]) if backend in ours else "–" for backend in bench.backends),
-                      *(milliseconds(bench.frame(peer, scene, max(THREADS))) for peer in bench.peers)])
-    return ["scene", "triangles", *bench.backends, *bench.peers], lines
+def outcome(found):
+    """"1.2× to 2.3× faster in 8, not settled in 6 of 14 scenes"; `found` as of by_order()."""
+    said = [f"{spread(found[-1])} faster in {len(found[-1])}"] if found[-1] else []
+    said += [f"{spread([1 / ratio for ratio in found[1]])} slower in {len(found[1])}"] if found[1] else []
+    said += [f"not settled in {len(found[0])}"] if found[0] else []
+    scenes = sum(map(len, found.values()))
+    return f"{', '.join(said)} of {scenes} {'scene' if scenes == 1 else 'scenes'}"
+
+
+def speed_up(ratio):
+    """A speed-up in a table, "2.6× slower" if below 1."""
+    return about(ratio) if ratio >= 1 else f"{about(1 / ratio)} slower"
+
+
+def gain(before, after):
+    """The speed-up from one row to another, and whether it is settled."""
+    return speed_up(before.median_ms / after.median_ms) + ("" if order(before, after) else " (not settled)")
 
 
 def markdown(header, lines, alignment=None):
@@ -105,33 +95,3 @@ def plain(header, lines):
                          for i, (cell, w) in enumerate(zip(line, widths))).rstrip()
 
     return "\n".join(map(aligned, [header, *lines]))
-
-
-def culling_rows(bench, mode):
-    """{scene: {backend: (row of a whole frame with all its faces, row in this culling mode)}}"""
-    rows = {(row.scene, row.backend, row.keys["cull"]): row for row in bench.sweep("cull")}
-    found = {}
-    for (scene, backend, kept), all_faces in rows.items():
-        if kept == "none" and (culled := rows.get((scene, backend, mode))):
-            found.setdefault(scene, {})[backend] = all_faces, culled
-    return found
-
-
-def pixels_wrong(bench, scene):
-    """The number of wrong pixels after the test of normals."""
-    wrong = next(row.counters["wrong_px"] for row in bench.sweep("cull")
-                 if row.scene == scene and row.keys["cull"] == NORMAL_Z)
-    return f"{wrong:,.0f} px wrong"
-
-
-def differing_pixels(verify):
-    return sum(scene["differing_pixels"] + scene.get("written_outside", 0)
-               + scene.get("oracle", {}).get("differing_pixels", 0) for scene in verify["scenes"])
-
-
-def verify_sentence(verify):
-    frames = sum(scene["configurations"] for scene in verify["scenes"])
-    oracle = sum(scene.get("oracle", {}).get("configurations", 0) for scene in verify["scenes"])
-    differing = differing_pixels(verify)
-    return (f"{frames:,} frames of {len(verify['scenes'])} scenes, and {oracle:,} small ones with an oracle, were compared bit for bit: "
-            + ("**no bit differs**." if differing == 0 else f"**{differing:,} pixels differ**."))

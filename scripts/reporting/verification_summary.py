@@ -1,10 +1,9 @@
 """The verification summary: one table of the methods that `scripts/test --full` ran, their extent and their findings."""
-import argparse
 from pathlib import Path
 
-from bench_rows import main_guard, read_json, records, source_of
-from speedups import kernels
-from tables import enumerated, markdown, plain, short
+from bench_rows import records, source_of
+from program import Parser, main_guard, read_json
+from tables import enumerated, kernels, markdown, plain, short
 
 HEADER = ["method", "extent", "found"]
 SANITIZERS = {"address": "Tests again at the usual size, with the address and undefined-behaviour sanitizers",
@@ -87,6 +86,16 @@ LINES = {"tests": test_lines, "prove": prove_lines, "mutate": mutate_lines, "fuz
 BRIEF_LINES = {**LINES, "tests": brief_test_lines, "fuzz": brief_fuzz_lines}
 
 
+def verify_sentence(verify, where=""):
+    """`where`: of pixels that differ."""
+    scenes = verify["scenes"]
+    frames = sum(scene["configurations"] for scene in scenes)
+    oracles = [scene.get("oracle", {}) for scene in scenes]
+    differing = sum(of.get("differing_pixels", 0) + of.get("written_outside", 0) for of in (*scenes, *oracles))
+    return (f"{frames:,} frames of {len(scenes)} scenes, and {sum(of.get('configurations', 0) for of in oracles):,} small ones with an "
+            f"oracle, were compared bit for bit: {f'**{differing:,} pixels differ**{where}' if differing else '**no bit differs**'}.")
+
+
 def verification_table(folder, all_lines=LINES):
     """Header and lines; no lines if nothing was run. What was not run on this machine is taken from another one's results."""
     lines = []
@@ -106,7 +115,7 @@ def verification_markdown(folder, all_lines=LINES):
 
 
 def main():
-    parser = argparse.ArgumentParser(prog="verification_summary", description=__doc__)
+    parser = Parser(prog="verification_summary", description=__doc__)
     parser.add_argument("folder", type=Path, help="results/MACHINE")
     print(plain(*verification_table(parser.parse_args().folder)))
     return 0

@@ -1,17 +1,20 @@
-"""answers.py, and the modules whose figures it needs: each figure, its condition, and whether it is settled, from data made here."""
+"""answers.py, and the modules whose figures it needs: each figure, its condition, and whether it is settled; and what scenes need:
+from data made here."""
+import json
 import re
 import sys
+import tempfile
 import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts/reporting"))
-from accuracy_rows import Accuracy, Cost, Curve, Measured, Method, Scene, Sweep, parse_measured, read_accuracy  # noqa: E402
+from accuracy_rows import Accuracy, Cost, Measured, Method, Scene, parse_accuracy, read_accuracy  # noqa: E402
 from answers import answers  # noqa: E402
-from bench_rows import Bench, parse_name  # noqa: E402
-from engine import engine_table  # noqa: E402
+from bench_rows import Bench, Row, parse_name  # noqa: E402
+from bench_tables import engine_table, peer_tables  # noqa: E402
+from facts_tables import needs_table, read_needs, tutorials_table  # noqa: E402
 from frontier import ENGINES, INSIDE_TESTS, cracks_of, simd_outcome, speed_ups  # noqa: E402
-from peers import peer_tables  # noqa: E402
-from stability_curves import groups_of, origin_sentence, summary  # noqa: E402
+from program import BadInput  # noqa: E402
 from tables import markdown  # noqa: E402
 
 NOISE = (0.99, 1.0, 1.01, 0.995, 1.005)
@@ -31,22 +34,18 @@ def scene(name, scanline, naive, tiled):
             for backend, ms in (("scanline", scanline), ("naive", naive), ("tiled", tiled))}
 
 
-def measured(name, exact, rate, ns, spread=0.0):
-    ours = name == "tiled"
-    return Measured(Method(name, "src/raster" if ours else "a book", "", exact), rate, None, rate,
-                    {1: Cost(ns, ns - spread, ns + spread, 1.0, 11)}, 0)
+def measured(name, exact, rate):
+    return Measured(Method(name, "src/raster" if name == "tiled" else "a book", "", exact), rate, None, rate, 0)
 
 
-def accuracy(*methods, cube=None, more=()):
-    scenes = (Scene("mesh_on_grid", "coverage", "", 1000, methods), *more)
-    registry = {"coverage": [m.method for m in methods]}
-    return Accuracy({"simd_best": "avx512"}, registry, scenes, cube)
+def accuracy(*methods, cube=None):
+    return Accuracy({"coverage": [m.method for m in methods]}, (Scene("mesh_on_grid", "coverage", "", 1000, methods),), cube)
 
 
 def turning(*counts):
     """From (name, gaps, double hits)."""
     return {"frames": 3600, "methods": [
-        (measured(name, False, 0, 1.0).method, {"total_gaps": gaps, "total_double_hits": doubles}) for name, gaps, doubles in counts]}
+        (measured(name, False, 0).method, {"total_gaps": gaps, "total_double_hits": doubles}) for name, gaps, doubles in counts]}
 
 
 class AnswersTest(unittest.TestCase):
@@ -63,25 +62,21 @@ class AnswersTest(unittest.TestCase):
                                  ["64-bit integers", "1.00× (0.98 to 1.01)"],
                                  ["floats", "**1.25×** (1.23 to 1.27); 1,230 px"]])
 
-    def test_charts_show_the_simd_form_where_there_is_one(self):
-        def timed(simd, threads, ms):
-            return {**({"simd": simd, "rounds_ms": [1.5 * ms, ms, 0.5 * ms]} if simd else {}), "threads": threads,
-                    "ns_per_covered_pixel": 10.0 * ms, "mtri_per_s": 1.0, "ms": {"median": ms, "min": ms, "max": ms, "repetitions": 3}}
-
-        def read(source, *speed):
-            score = {"errors_per_million": 0.0, "gaps": 0, "double_hits": 0}
-            return parse_measured({"float": score, "snapped": score, "speed": list(speed)}, "coverage",
-                                  Method("m", source, "", True))
-
-        forms = timed("scalar", 1, 4.0), timed("scalar", 2, 3.0), timed("avx512", 1, 2.0), timed("avx512", 2, 1.0)
-        ours, other = read("src/raster", *forms), read("a book", *forms)
-        self.assertEqual({threads: cost.ns for threads, cost in ours.costs.items()}, {1: 20.0, 2: 10.0})
-        self.assertEqual({threads: cost.ns for threads, cost in other.costs.items()}, {1: 20.0, 2: 10.0})
-        self.assertEqual((ours.scalar.ns, ours.simd.ns, ours.simd.rounds), (40.0, 20.0, (30.0, 20.0, 10.0)))
-
-        naive, old = read("src/raster", timed("scalar", 1, 4.0)), read("src/raster", timed(None, 1, 4.0))
-        self.assertEqual((naive.costs[1].ns, naive.scalar.ns, naive.simd), (40.0, 40.0, None))
-        self.assertEqual((old.costs[1].ns, old.scalar, old.simd, old.costs[1].rounds), (40.0, None, None, ()))
+    def test_methods_have_the_times_of_their_rows(self):
+        score = {"errors_per_million": 0.0, "gaps": 0, "double_hits": 0}
+        data = {"methods": [{"family": "coverage", "name": name, "source": "", "promise": "", "exact": True} for name in ("m", "naive", "untimed")],
+                "scenes": [{"name": "s", "family": "coverage", "summary": "", "covered": 500, "triangles": 20, "crossings": 9,
+                            "methods": [{"name": name, "float": score, "snapped": score} for name in ("m", "naive", "untimed")]}]}
+        rows = {"lab/s/family:coverage/method:m/simd:scalar/threads:1": 4.0, "lab/s/family:coverage/method:m/simd:scalar/threads:2": 3.0,
+                "lab/s/family:coverage/method:m/simd:avx512/threads:1": 2.0, "lab/s/family:coverage/method:m/simd:avx512/threads:2": 1.0,
+                "lab/s/family:coverage/method:naive/simd:scalar/threads:1": 4.0, "lab/t/family:coverage/method:naive/simd:scalar/threads:2": 1.0}
+        timed = bench(rows)
+        self.assertEqual(timed.scenes, [])
+        both, naive, untimed = parse_accuracy(data, timed).scenes[0].measured
+        self.assertEqual({threads: cost.ns for threads, cost in both.costs.items()}, {1: 4000.0, 2: 2000.0}, "the SIMD form")
+        self.assertEqual((both.scalar.ns, both.simd.ns, both.simd.interval, both.simd.mtri), (8000.0, 4000.0, (3960.0, 4040.0), 0.01))
+        self.assertEqual((naive.costs[1].ns, naive.scalar.ns, naive.simd), (8000.0, 8000.0, None))
+        self.assertEqual((untimed.costs, untimed.scalar), ({}, None))
 
     def test_who_wins_how_often_and_by_how_much(self):
         of_speed = answers(bench({**scene("a", 2.0, 8.0, 1.0), **scene("b", 3.0, 4.0, 2.0), **scene("c", 1.0, 5.0, 4.0)}), None)
@@ -102,7 +97,7 @@ class AnswersTest(unittest.TestCase):
                          ["`tiled` 2.0× faster in 2 of 2 scenes", "`naive` 8.0× slower in 1 of 1 scene"])
 
     def test_exactness_and_gaps_have_their_counts(self):
-        told = answers(bench({}), accuracy(measured("tiled", True, 873, 3.0), measured("float_lt", False, 216, 2.0),
+        told = answers(bench({}), accuracy(measured("tiled", True, 873), measured("float_lt", False, 216),
                                            cube=turning(("tiled", 0, 0), ("float_lt", 3, 0), ("float_le", 1, 9), ("fixed_8", 7, 7))))
         self.assertEqual(told, [
             ["What does exactness cost in wrong pixels?", "ours 873, `float_lt` 216 wrong per 10⁶ edge crossings", "against the positions before snapping, 1 scenes pooled"],
@@ -116,12 +111,12 @@ class AnswersTest(unittest.TestCase):
 
         def scene_of(name, trials, side_px, *rates):
             methods = (Method("x", "a book", "", False), limited)
-            return Scene(name, "coverage", "", trials, tuple(Measured(method, rate, None, rate, {}) for method, rate in
+            return Scene(name, "coverage", "", trials, tuple(Measured(method, rate, None, rate) for method, rate in
                                                              zip(methods, rates)), largest_side_px=side_px)
 
         scenes = (scene_of("large", 30000, 500.0, 10.0, 9e6), scene_of("medium", 10000, 100.0, 50.0, 4.0),
                   scene_of("tiny", 100, 1.0, 1e6, 1e6))
-        told = Accuracy({}, {"coverage": [m.method for m in scenes[0].measured]}, scenes, None)
+        told = Accuracy({"coverage": [m.method for m in scenes[0].measured]}, scenes, None)
         self.assertEqual(told.rates("coverage"), {"x": 20.0, "y": 4.0})
 
     def test_peers_are_compared_with_one_backend_at_both_widths(self):
@@ -139,28 +134,29 @@ class AnswersTest(unittest.TestCase):
     def test_the_methods_that_answers_name_are_measured(self):
         results = Path(__file__).resolve().parents[2] / "results"
         named = re.search("<!-- results: results/(.*) -->", (results.parent / "README.md").read_text())[1]
-        names = {m.method.name for scene in read_accuracy(results / named).of("coverage") for m in (*scene.measured, *scene.apart)}
+        names = {m.method.name for scene in read_accuracy(results / named, None).of("coverage") for m in (*scene.measured, *scene.apart)}
         self.assertEqual({*ENGINES, *INSIDE_TESTS} - names, set())
 
     def test_what_was_not_measured_is_not_answered(self):
-        self.assertEqual(answers(bench({}), Accuracy({}, {}, (), None)), [])
+        self.assertEqual(answers(bench({}), Accuracy({}, (), None)), [])
 
 
 class FrontierTest(unittest.TestCase):
-    """frontier.py: cracks and speed of methods that take turns in each round."""
+    """frontier.py: cracks and speed of methods."""
 
     ROUNDS = (0.98, 1.0, 1.01, 0.99, 1.02, 1.0, 1.0, 0.995, 1.005)
 
     def timed(self, name, ns, cracks=0, most_px=4096):
-        method = Method(name, "src/raster" if name == "tiled" else "a book", "", True, most_px)
-        costs = {("avx512", 1): Cost(ns, ns, ns, 1.0, 9, tuple(ns * noise for noise in self.ROUNDS)),
-                 ("scalar", 1): Cost(4 * ns, ns, ns, 1.0, 9, tuple(4 * ns * noise for noise in self.ROUNDS))}
-        return Measured(method, 0, None, 0, {}, 0, cracks, costs)
+        def cost(factor):
+            return Cost(Row("", "", False, "", {}, [factor * ns * noise for noise in self.ROUNDS]), 10 ** 6, 1)
+
+        return Measured(Method(name, "src/raster" if name == "tiled" else "a book", "", True, most_px), 0, None, 0, 0, cracks,
+                        {("avx512", 1): cost(1), ("scalar", 1): cost(4)})
 
     def accuracy(self, **scenes):
         """From the methods of each scene; every scene has 10⁵ crossings of shared edges and triangles of 200 px."""
         made = tuple(Scene(name, "coverage", "", 10 ** 6, methods, (), 10 ** 5, 200.0) for name, methods in scenes.items())
-        return Accuracy({"simd_best": "avx512"}, {"coverage": [m.method for m in made[0].measured]}, made, None)
+        return Accuracy({"coverage": [m.method for m in made[0].measured]}, made, None)
 
     def test_cracks_are_pooled_without_t_junctions_and_overflow(self):
         found = self.accuracy(a=(self.timed("x", 1.0, 3), self.timed("y", 1.0, 9, 181)), b=(self.timed("x", 1.0, 1),),
@@ -180,33 +176,79 @@ class FrontierTest(unittest.TestCase):
         self.assertEqual(simd_outcome(found, "tiled", "x"), {-1: [4.0], 1: [0.5], 0: [1.0]})
 
 
-class SweepTest(unittest.TestCase):
-    """What is said of sweeps holds for their curves."""
+def question(name, *answers, cheapest):
+    """Answers before the cheapest are not enough."""
+    at = answers.index(cheapest)
+    return {"question": name, "answer": cheapest, "proven": False, "error": "wrong pixel", "answers": [
+        {"answer": a, "enough": i >= at, **({} if i >= at else {"witness": {"wrong_px": 1 + i, "frame": 7}})}
+        for i, a in enumerate(answers)]}
 
-    @staticmethod
-    def sweep(**fails):
-        """From {method: where it starts to fail}."""
-        curves = tuple(Curve(name, False, ((1, 0.0), (128, 6.0), (1024, 9.0)), (1,) * 3, at) for name, at in fails.items())
-        return Sweep("origin", "clipping", "", {"unit": ""}, {"name": ""}, curves, (0,) * 3)
 
-    def test_a_matrix_of_floats_fails_far_from_the_origin(self):
-        held = self.sweep(near_guard=None, matrix_relative=None, matrix_float=128)
-        self.assertEqual(origin_sentence([held]), "Far from the origin, one float 4×4 matrix (`matrix_float`) fails from a distance of 128; "
-                         "ours and camera-relative matrices hold up to 1.02k.")
-        for other in (self.sweep(near_guard=128, matrix_relative=None, matrix_float=128), self.sweep(matrix_float=128),
-                      self.sweep(near_guard=None, matrix_relative=None, matrix_float=None)):
-            self.assertEqual(origin_sentence([other]), "")
-        self.assertEqual(origin_sentence([]), "")
+def entry(scene, near="nothing", facing="normal_z", visibility="submission_order"):
+    return {"scene": scene, "frames": 3,
+            "questions": [
+                question("near plane", "nothing", "drop whole triangles", "clip", cheapest=near),
+                question("far plane", "nothing", "clip", cheapest="nothing"),
+                question("guard band", "nothing", "clip", cheapest="nothing"),
+                question("facing test", "normal_z", "normal_dot_eye", "snapped_area", cheapest=facing),
+                question("visibility", "submission_order", "painter_mean", "depth buffer", cheapest=visibility),
+                question("depth buffer", "1 bit", "2 bits", cheapest="2 bits"),
+                question("subpixel bits without a crack", "0 bits", "1 bit", cheapest="1 bit"),
+                question("subpixel bits, no worse than 8 bits", "8 bits", cheapest="8 bits"),
+                question("edge values at 8 subpixel bits", "32-bit integers", cheapest="32-bit integers"),
+                question("float edges without a crack", "float_lt", "float_le", cheapest="float_le")]}
 
-    def test_a_title_names_the_first_method_that_breaks(self):
-        ours = {("clipping", "near_guard"): Method("near_guard", "frontend/clip.h", "", True)}
 
-        def said(**fails):
-            sweep = self.sweep(**fails)
-            return summary(groups_of(sweep, ours))
+class NeedsTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
+        (self.folder / "facts").mkdir()
 
-        self.assertEqual(said(near_guard=None, a=1024, b=128, c=1), "ours hold; b breaks at 128")
-        self.assertEqual(said(near_guard=128, a=1, b=1, c=None), "ours break at 128; 2 others fail at once")
+    def read(self, *entries):
+        (self.folder / "facts/needs.json").write_text(json.dumps(entries))
+        return read_needs(self.folder / "mine")
+
+    def test_nothing_is_said_of_nothing(self):
+        self.assertEqual(read_needs(self.folder), {})
+        self.assertEqual(tutorials_table({})[1], [])
+
+    def test_what_is_not_a_result_is_refused(self):
+        for text in ('[{"scene": "cube"}]', '[3]', '{"scene": 1}'):
+            (self.folder / "facts/needs.json").write_text(text)
+            with self.assertRaises(BadInput):
+                read_needs(self.folder / "mine")
+
+    def test_each_stage_has_its_cheapest_answers(self):
+        stream = {**entry("grid"), "questions": [question("visibility", "submission_order", cheapest="submission_order")]}
+        header, lines = needs_table(self.read(entry("cube"), entry("terrain", near="clip", visibility="depth buffer"), stream))
+        self.assertIn("all other stages exact", header[1])
+        cube = "cube (3 frames)"
+        both = f"{cube}, terrain (3 frames)"
+        self.assertEqual(dict(lines), {
+            "clipping": f"nothing: {cube}; clip at the near plane: terrain (3 frames)", "facing test": f"`normal_z`: {both}",
+            "visibility": f"`submission_order`: {cube}, grid (3 frames); depth buffer: terrain (3 frames)", "depth": f"2 bits: {both}",
+            "no crack": f"1 bit: {both}", "no worse than 8 bits": f"8 bits: {both}", "edge values": f"32-bit integers: {both}"})
+
+    def test_no_line_holds_answers_of_two_stages(self):
+        """Read as a pipeline, `normal_z` and `submission_order` draw the cube wrong, although each alone is enough."""
+        for line in needs_table(self.read(entry("cube")))[1]:
+            self.assertLess(sum(answer in " ".join(line) for answer in ("normal_z", "submission_order")), 2)
+
+    def test_tutorials_have_more_than_needed_or_less(self):
+        _, lines = tutorials_table(self.read(entry("cube"), entry("cubes", near="clip", facing="normal_dot_eye",
+                                                                 visibility="depth buffer")))
+        said = {(engine, stage): verdicts for engine, stage, _, *verdicts in lines}
+        self.assertEqual(said["p5.js engine", "near plane"], ["more than needed: nothing", "enough"])
+        self.assertEqual(said["p5.js engine", "visibility"],
+                         ["more than needed: `submission_order`", "**not enough**: 2 wrong pixels in frame 7"])
+        self.assertEqual(said["Outlaw Triad trainer", "facing test"], ["enough", "**not enough**: 1 wrong pixel in frame 7"])
+        self.assertEqual(said["Outlaw Triad trainer", "near plane"], ["enough", "**not enough**: 1 wrong pixel in frame 7"])
+
+    def test_an_answer_that_no_longer_exists_is_refused(self):
+        found = self.read(entry("cube"))
+        found["cube"][1]["visibility"]["answers"].clear()
+        with self.assertRaises(BadInput):
+            tutorials_table(found)
 
 
 if __name__ == "__main__":

@@ -10,7 +10,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "scripts" / folder) for folder in ("reporting", "checks")]
-from bench_rows import BadInput  # noqa: E402
+from program import BadInput  # noqa: E402
 from proofs import check_constants, constant_of, read_sections  # noqa: E402
 
 PROVE = ROOT / "scripts/prove"

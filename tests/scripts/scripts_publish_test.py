@@ -14,7 +14,7 @@ README = """<!-- results: results/mine -->
 <!-- generated:picture -->
 <!-- /generated -->
 """
-FAR_README = """[A chart](../../results/mine/charts/area.svg), <img src="../../results/mine/errors/crack.png" width="400">,
+FAR_README = """[A chart](../../results/mine/charts/area.svg), <img src="../../results/facts/errors/crack.png" width="400">,
 and one of another folder: ![](../charts/threads.svg)
 """
 
@@ -26,13 +26,13 @@ class PublishTest(unittest.TestCase):
         self.root = Path(temporary.name)
         shutil.copytree(scripts_test.SCRIPTS, self.root / "scripts")
         (self.root / "scripts/README.md").unlink(missing_ok=True)
-        self.run, self.published = self.root / "build/results/mine", self.root / "results/mine"
-        for name in ("pictures/torus-knot.png", "pictures/cube.png", "charts/area.svg", "charts/threads.svg",
-                     "errors/crack.png"):
-            self.write(self.run / name, f"new {name}")
-        for name, data in (("bench", scripts_test.timed_and_model(scripts_test.bench())[0]), ("machine", scripts_test.MACHINE),
-                           ("verify", scripts_test.VERIFY), ("accuracy", scripts_test.accuracy())):
-            self.write(self.run / f"{name}.json", json.dumps(data))
+        self.run, self.results = self.root / "build/results/mine", self.root / "results"
+        for name in ("facts/pictures/torus-knot.png", "facts/pictures/cube.png", "mine/charts/area.svg", "mine/charts/threads.svg",
+                     "facts/errors/crack.png"):
+            self.write(self.run.parent / name, f"new {name}")
+        for name, data in (("mine/bench", scripts_test.timed_and_model(scripts_test.bench())[0]), ("mine/machine", scripts_test.MACHINE),
+                           ("mine/verify", scripts_test.VERIFY), ("facts/accuracy", scripts_test.accuracy())):
+            self.write(self.run.parent / f"{name}.json", json.dumps(data))
         self.write(self.root / "README.md", README)
         self.write(self.root / "src/lab/README.md", FAR_README)
         self.git("init", "--quiet")
@@ -49,31 +49,30 @@ class PublishTest(unittest.TestCase):
         return subprocess.run([self.root / "scripts/publish", *arguments], capture_output=True, text=True, check=False)
 
     def files(self):
-        return {str(path.relative_to(self.published)) for path in self.published.rglob("*") if path.is_file()}
+        return {str(path.relative_to(self.results)) for path in self.results.rglob("*") if path.is_file()}
 
     def test_readmes_decide_which_pictures_are_copied(self):
-        self.write(self.published / "random.json", "{}")
-        self.write(self.published / "charts/threads.svg", "old")
-        self.write(self.published / "charts/area.svg", "old")
+        for name, text in (("random.json", "{}"), ("charts/threads.svg", "old"), ("charts/area.svg", "old")):
+            self.write(self.results / "mine" / name, text)
         result = self.publish(self.run)
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertEqual(self.files(), {"random.json", "bench.json", "machine.json", "verify.json", "accuracy.json",
-                                        "pictures/torus-knot.png", "charts/area.svg", "errors/crack.png"})
-        self.assertEqual((self.published / "charts/area.svg").read_text(), "new charts/area.svg")
-        self.assertIn("results/mine/: 4 JSON files, and 3 charts and pictures", result.stdout)
+        self.assertEqual(self.files(), {"mine/random.json", "mine/bench.json", "mine/machine.json", "mine/verify.json", "facts/accuracy.json",
+                                        "facts/pictures/torus-knot.png", "mine/charts/area.svg", "facts/errors/crack.png"})
+        self.assertEqual((self.results / "mine/charts/area.svg").read_text(), "new mine/charts/area.svg")
+        self.assertIn("results/mine/ and results/facts/: 4 JSON files, and 3 charts and pictures", result.stdout)
 
     def test_a_picture_that_was_not_drawn_removes_nothing(self):
-        self.write(self.published / "charts/area.svg", "old")
-        (self.run / "errors/crack.png").unlink()
+        self.write(self.results / "mine/charts/area.svg", "old")
+        (self.run.parent / "facts/errors/crack.png").unlink()
         result = self.publish(self.run)
         self.assertEqual((result.returncode, result.stderr),
-                         (2, "publish: results/mine/errors/crack.png: a README shows it, but the run did not draw it\n"))
-        self.assertEqual((self.published / "charts/area.svg").read_text(), "old")
+                         (2, "publish: results/facts/errors/crack.png: a README shows it, but the run did not draw it\n"))
+        self.assertEqual((self.results / "mine/charts/area.svg").read_text(), "old")
 
     def test_a_folder_that_is_no_run_is_refused(self):
         self.assertEqual(self.publish(self.run).returncode, 0)
         before = self.files()
-        for folder in (self.root / "nowhere", self.published):
+        for folder in (self.root / "nowhere", self.results / "mine", self.run.parent / "facts"):
             result = self.publish(folder)
             self.assertEqual((result.returncode, len(result.stderr.splitlines())), (2, 1), result.stderr)
         self.assertEqual(self.files(), before)
@@ -83,13 +82,13 @@ class PublishTest(unittest.TestCase):
         self.git("add", "results")
         result = self.publish("--check")
         self.assertEqual((result.returncode, result.stdout), (0, ""), result.stderr)
-        self.write(self.published / "page.html", "")
+        self.write(self.results / "mine/page.html", "")
         self.git("add", "results")
-        self.git("rm", "--quiet", "--cached", "results/mine/errors/crack.png")
+        self.git("rm", "--quiet", "--cached", "results/facts/errors/crack.png")
         result = self.publish("--check")
         self.assertEqual((result.returncode, result.stdout.splitlines()),
                          (1, ["results/mine/page.html: no README shows it",
-                              "results/mine/errors/crack.png: a README shows it, but it is not committed"]))
+                              "results/facts/errors/crack.png: a README shows it, but it is not committed"]))
 
 
 class CommittedResults(unittest.TestCase):

@@ -11,7 +11,6 @@ sys.path.insert(0, str(SCRIPTS / "reporting"))
 from verification_summary import verification_markdown, verification_table  # noqa: E402
 
 
-
 def gtest_case(suite, name, inside="", result="completed", **properties):
     noted = "".join(f'<property name="{key}" value="{value}"/>' for key, value in properties.items())
     return f'<testcase classname="{suite}" name="{name}" result="{result}"><properties>{noted}</properties>{inside}</testcase>'

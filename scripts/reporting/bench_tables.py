@@ -1,0 +1,264 @@
+"""The tables of a machine's benchmark."""
+from bench_rows import describe_machine, order, read_bench, speed_up_interval
+from program import read_json
+from tables import about, gain, milliseconds, number, speed_up, with_width
+
+THREADS = (1, 2)
+OURS = "tiled"  # the backend that represents ours
+
+
+def random_reads(bench):
+    """[(where, "140 ns (130 to 168)")]: whether other processes filled the last-level cache; empty if not measured."""
+    rows = [(title, bench.random_reads.get(where)) for where, title in
+            (("half_last_cache", "half the last-level cache"), ("memory", "a far larger buffer"))]
+    return [(title, "{1:.0f} ns ({0:.0f} to {2:.0f})".format(*(ms * 1e6 / row.counters["reads"] for ms in
+                                                              (row.low_ms, row.median_ms, row.high_ms))))
+            for title, row in rows if row]
+
+
+def fastest(bench, scene):
+    """The fastest backend on the most threads, with its speed-up over the next; several if the order is not settled."""
+    rows = [row for b in bench.backends if (row := bench.find(f"{b}/{scene}/threads:{max(THREADS)}"))]
+    if len(rows) < 2:
+        return "–"
+    first, *others = sorted(rows, key=lambda row: row.median_ms)
+    close = [row.backend for row in others if order(first, row) == 0]
+    return " or ".join([first.backend, *close]) if close else \
+        f"{first.backend}, {about(others[0].median_ms / first.median_ms)}"
+
+
+def scene_facts(bench, scene):
+    """Triangles submitted, and overdraw."""
+    front = bench.find(f"frontend/{scene}/threads:1")
+    raster = next((row for b in bench.backends if (row := bench.find(f"{b}/{scene}/threads:1"))), None)
+    triangles = f"{front.counters['triangles']:,.0f}" if front else "–"
+    overdraw = f"{raster.counters['overdraw']:.2f}" if raster else "–"
+    return triangles, overdraw
+
+
+def scene_table(bench):
+    """Header and lines: a line per scene, with a backend's ms on 1 and on 2 threads in one cell."""
+    modelled = list(dict.fromkeys(row.backend for row in bench.rows.values() if estimates_ms(bench, row)))
+    header = ["scene", "triangles", "overdraw", *(f"{b}, ms" for b in bench.backends), *(f"{b} / estimate" for b in modelled), "fastest"]
+    lines = []
+    for scene in bench.scenes:
+        times = [" / ".join(milliseconds(bench.find(f"{b}/{scene}/threads:{n}")) for n in THREADS) for b in bench.backends]
+        lines.append([scene, *scene_facts(bench, scene), *times, *(over_estimate(bench, b, scene) for b in modelled), fastest(bench, scene)])
+    return header, lines
+
+
+def speed_table(bench):
+    """Header and lines: whole frames of ours and of peers, one line per scene; bold: the settled fastest of ours."""
+    lines = []
+    for scene in bench.scenes:
+        ours = {backend: row for backend in bench.backends if (row := bench.frame(backend, scene, max(THREADS)))}
+
+        def cell(row):
+            best = all(order(row, other) < 0 for other in ours.values() if other is not row)
+            return f"**{milliseconds(row)}**" if best and len(ours) > 1 else milliseconds(row)
+
+        lines.append([scene, scene_facts(bench, scene)[0],
+                      *(cell(ours[backend]) if backend in ours else "–" for backend in bench.backends),
+                      *(milliseconds(bench.frame(peer, scene, max(THREADS))) for peer in bench.peers)])
+    return ["scene", "triangles", *bench.backends, *bench.peers], lines
+
+
+def pairs(bench, target=None):
+    """{(peer, scene, threads): (the peer's row, ours)} of whole frames, ours with the kernels of `target` or the widest."""
+    keys = f"/target:{target}" if target else ""
+    found = {(peer, scene, n): (bench.frame(peer, scene, n), bench.frame(OURS, scene + keys, n))
+             for peer in bench.peers for scene in bench.scenes for n in THREADS}
+    return {key: rows for key, rows in found.items() if all(rows)}
+
+
+def peer_table(bench, peer):
+    """Header and lines: one line per scene that the peer drew; a cell has a figure for each number of threads."""
+    widest, narrow = pairs(bench), pairs(bench, "avx2")
+    compared = [(bench.context.get("simd_target"), widest), *([("avx2", narrow)] if any(key[2] == max(THREADS) for key in narrow) else [])]
+    header = ["scene", f"{peer}, ms", f"{OURS}, ms", *(f"speed-up with {with_width(target)}" for target, _ in compared)]
+
+    lines = []
+    for scene in bench.scenes:
+        timed = [widest.get((peer, scene, n), (None, None)) for n in THREADS]
+        if any(map(all, timed)):
+            cells = [map(milliseconds, side) for side in zip(*timed)]
+            cells += [[gain(*rows) if (rows := found.get((peer, scene, n))) else "–" for n in THREADS] for _, found in compared]
+            lines.append([scene, *map(" / ".join, cells)])
+    return header, lines
+
+
+def peer_tables(bench, layout):
+    """Every peer's table, laid out by `layout`, below its version and the depth ties at which the pictures may differ; one line if
+    no peer was timed."""
+    told = []
+    for peer in dict.fromkeys(peer for peer, _, _ in pairs(bench)):
+        ties = max(row.counters.get("depth_ties", 0) for (name, _, _), (row, _) in pairs(bench).items() if name == peer)
+        told.append(f"{peer} ({bench.context.get(peer, 'unknown version')}), on {' / '.join(map(str, THREADS))} threads; pictures differ in "
+                    f"at most {ties:,.0f} pixels, all depth ties within tolerance:\n\n{layout(*peer_table(bench, peer))}")
+    return "\n\n".join(told) or "No other project's rasterizer was timed here; `scripts/run --peers` does."
+
+
+# Scenes of few large triangles, on which the estimate comes near the measured time.
+DETAILED = ("large", "grid64")
+
+
+def estimates_ms(bench, row):
+    """Three estimates: drawing only the blocks in which a triangle is visible, drawing all covered blocks, and the first
+    with the frame stored tile by tile from a buffer. None if the row has no model."""
+    c = bench.costs.get(row.name) if row else None
+    if not c:
+        return None
+    covered = c["blocks_ms"] * c["covered_blocks"] / c["won_blocks"] if c["won_blocks"] else 0.0
+    return (c["read_ms"] + c["blocks_ms"] + c["write_ms"], c["read_ms"] + covered + c["write_ms"],
+            c["read_ms"] + c["blocks_ms"] + c["tiles_ms"])
+
+
+def over_estimate(bench, backend, scene):
+    """A backend's time over the estimate for tile stores, for each thread count."""
+    rows = [row for n in THREADS if (row := bench.find(f"{backend}/{scene}/threads:{n}"))]
+    found = [row.median_ms / estimates[2] for row in rows if (estimates := estimates_ms(bench, row))]
+    return " / ".join(f"{ratio:.2f}" for ratio in found) or "–"
+
+
+def cost_model_table(bench):
+    """Header and lines: the parts of the estimate for the rows on one thread."""
+    lines = []
+    for backend in bench.backends:
+        for scene in DETAILED:
+            row = bench.find(f"{backend}/{scene}/threads:1")
+            if estimates := estimates_ms(bench, row):
+                parts = (bench.costs[row.name][part] for part in ("read_ms", "blocks_ms", "write_ms"))
+                lines.append([f"`{scene}`, {backend}", milliseconds(row), *map(number, (*parts, *estimates))])
+    return ["1 thread, ms", "measured", "1. read", "2. blocks", "3. write", "estimate", "all covered blocks", "tile by tile"], lines
+
+
+# The SIMD engine of `tiled` with other numbers in its edge functions: what exactness costs, all else equal.
+BASE = "exact"
+WITH_MASKS = "with-masks"  # the backend's own row
+RUNS = {WITH_MASKS: "`tiled` with coverage masks", "int64": "64-bit integers", "double": "doubles", "float": "floats",
+        "float_rebased": "floats, relative to the tile", "int32": "32-bit integers that wrap"}
+
+
+def engine_rows(bench):
+    """Of each scene with the base: the rows by run."""
+    found = {}
+    for row in bench.sweep("engine"):
+        found.setdefault(row.scene, {})[row.keys["engine"]] = row
+    for scene, rows in found.items():
+        own = bench.find(f"{next(iter(rows.values())).backend}/{scene}/threads:1")
+        if own:
+            rows[WITH_MASKS] = own
+    return {scene: rows for scene, rows in found.items() if BASE in rows}
+
+
+def against_base(base, row):
+    """The speed relative to the base, bold if it is settled, its interval, and how many pixels are wrong."""
+    if row is None:
+        return "–"
+    low, high = (f"{end:.2f}" for end in speed_up_interval(base, row))
+    ratio = f"{base.median_ms / row.median_ms:.2f}×"
+    wrong = row.counters.get("wrong_px")
+    return (f"**{ratio}**" if order(row, base) else ratio) + f" ({low} to {high})" + (f"; {number(wrong)} px" if wrong is not None else "")
+
+
+def engine_table(bench):
+    """Header and lines; no lines if no such row was timed."""
+    scenes = engine_rows(bench)
+    lines = [["exact, the base", *(f"{milliseconds(rows[BASE])} ms" for rows in scenes.values())]]
+    for run, title in RUNS.items():
+        if any(run in rows for rows in scenes.values()):
+            lines.append([title, *(against_base(rows[BASE], rows.get(run)) for rows in scenes.values())])
+    return ["numbers", *(f"`{scene}`" for scene in scenes)], lines if scenes else []
+
+
+# The cost of two threads in a small draw.
+SMALL = {"256 × 256": "cube/tiny:256x256", "1920 × 1080": "cube"}
+
+
+def small_draws_table(bench):
+    """Header and lines; no lines if no such row was timed."""
+    lines = []
+    for size, work in SMALL.items():
+        for backend in bench.backends:
+            rows = [bench.find(f"{backend}/{work}/threads:{threads}") for threads in (1, 2)]
+            if all(rows):
+                lines.append([size, f"`{backend}`", *(number(1e3 * row.median_ms) for row in rows), gain(*rows)])
+    return ["size", "backend", "1 thread, µs", "2 threads, µs", "speed-up"], lines
+
+
+def memory_sentence(bench):
+    """The peak memory of front end, frame and backend, in the first frame; empty if not measured."""
+    rows = [row for row in bench.rows.values() if "peak_bytes" in row.counters and set(row.keys) == {"threads"}]
+    if not rows:
+        return ""
+
+    def pixels(row):
+        return row.counters["width"] * row.counters["height"]
+
+    def share(row):
+        return row.counters["peak_bytes"] / (100 * row.counters["triangles"] + 16 * pixels(row))
+
+    fewest = min(rows, key=lambda row: (row.counters["triangles"], -row.counters["peak_bytes"]))
+    most = max(rows, key=lambda row: (row.counters["triangles"], row.counters["peak_bytes"]))
+    a_pixel = fewest.counters["peak_bytes"] / pixels(fewest)
+    a_triangle = (most.counters["peak_bytes"] - a_pixel * pixels(most)) / most.counters["triangles"]
+    worst = max(rows, key=share)
+    return (f"The first frame takes {a_pixel:.1f} bytes per pixel plus {a_triangle:.0f} per triangle, at most {share(worst):.0%} of what "
+            f"`edgewise/backend.h` allows (`{worst.backend}` on `{worst.scene}`).")
+
+
+def store_cells(rule, streaming):
+    """The two times; behind the second, the speed-up of streaming over the rule."""
+    ms = milliseconds(streaming)
+    if rule and streaming:
+        settled = order(rule, streaming) != 0
+        ms += f" ({speed_up(rule.median_ms / streaming.median_ms)})" if settled else " (not settled)"
+    return [milliseconds(rule), ms]
+
+
+def tile_stores_table(bench):
+    """Header and lines; no lines if the rows were not timed."""
+    def find(row, keys):
+        return bench.frame(row.backend, row.scene + keys, row.threads)
+
+    streaming = "/stores:streaming"
+    paused = [row for row in bench.sweep("pause") if "stores" not in row.keys]
+    lines = [[row.scene, str(row.threads), *store_cells(find(row, ""), find(row, streaming)),
+              *store_cells(row, find(row, f"/pause:{row.keys['pause']}{streaming}"))] for row in paused]
+    after = f"after {paused[0].keys['pause'].replace('ms', ' ms')}" if paused else "after a pause"
+    return ["scene", "threads", "back to back: rule, ms", "streaming, ms", f"{after}: rule, ms", "streaming, ms"], lines
+
+
+def other_folders(folder):
+    """Results folders beside this one that have benchmark rows."""
+    return [other for other in sorted(folder.resolve().parent.iterdir())
+            if other != folder.resolve() and (other / "bench.json").exists() and (other / "machine.json").exists()]
+
+
+def peers_by_machine(benches):
+    """Header and lines: our backend's speed-up over each peer, on the most threads. `benches`: by the machine's name."""
+    found = [pairs(bench) for bench in benches.values()]
+    keys = dict.fromkeys((peer, scene) for ratios in found for peer, scene, _ in ratios)
+    cells = [[ratios.get((peer, scene, max(THREADS))) for ratios in found] for peer, scene in keys]
+    return (["scene", *(f"`{name}`" for name in benches)],
+            [[f"{scene}, {peer}", *(gain(*rows) if rows else "–" for rows in row)]
+             for (peer, scene), row in zip(keys, cells)])
+
+
+def other_machines(folder, where, layout):
+    """A line and a chart for each other machine, and the peers' ratios on all machines, laid out by `layout` (see
+    markdown()); `where` is `folder` as README.md names it."""
+    beside = other_folders(folder)
+    if not beside:
+        return "No other machine's results lie beside these."
+    benches = {one.resolve().name: read_bench(one) for one in (folder, *beside)}
+    lines, charts = [], []
+    for other in beside:
+        link = f"{where.rstrip('/').rpartition('/')[0]}/{other.name}".lstrip("/")
+        lines.append(f"- [`{other.name}`]({link}): {describe_machine(read_json(other / 'machine.json'))}.")
+        charts += ["", f"![`{other.name}`: ns per covered pixel against triangle area]({link}/charts/area.svg)"]
+    header, rows = peers_by_machine(benches)
+    if rows:
+        lines += ["", f"Speed-up of `{OURS}` over its peers, on {max(THREADS)} threads with the widest SIMD of each machine:", "",
+                  layout(header, rows, "|---|" + "--:|" * (len(header) - 1))]
+    return "\n".join([*lines, *charts])

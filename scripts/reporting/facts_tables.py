@@ -1,0 +1,166 @@
+"""The tables of facts: methods and their errors, pixels that are not portable, and what scenes need."""
+from accuracy_rows import FAMILIES
+from bench_rows import facts_of
+from program import BadInput, parsed
+from tables import markdown, number, percent
+
+
+def rate_text(measured):
+    """A rate in a table, with the bound 3/N if no error was seen."""
+    if measured.rate == 0 and measured.bound is not None:
+        return f"0 (<{number(measured.bound)})"
+    return number(measured.rate)
+
+
+def mtri_text(measured):
+    """On one thread."""
+    return number(measured.costs[1].mtri) if measured and 1 in measured.costs else "–"
+
+
+def bold(method):
+    return f"**{method.name}**" if method.ours else method.name
+
+
+def method_table(accuracy, family):
+    scene = accuracy.main_scene(family)
+    header = ["method", "as in", "promise", f"on {scene.name}" if scene else "–", "pooled",
+              "scenes with errors"]
+    at_main = {m.method.name: m for m in scene.measured} if scene else {}
+    together, erring, scenes = accuracy.rates(family), accuracy.scenes_with_errors(family), len(accuracy.of(family))
+    throughput = family == "coverage"  # the scenes of other families do not measure it
+    if throughput:
+        header.insert(4, "10⁶ triangles/s")
+    lines = [[bold(method), method.source, method.promise,
+              rate_text(at_main[method.name]) if method.name in at_main else "–",
+              *([mtri_text(at_main.get(method.name))] if throughput else []),
+              number(together[method.name]) if method.name in together else "–", f"{erring[method.name]} of {scenes}"]
+             for method in accuracy.methods[family]]
+    return markdown(header, lines, "|---|---|---|--:" + "|--:" * (len(header) - 4) + "|")
+
+
+def method_tables(accuracy):
+    return "\n\n".join(f"**{name.capitalize()}**: {family.errors}\n\n{method_table(accuracy, name)}"
+                       for name, family in FAMILIES.items() if accuracy.methods[name])
+
+
+# Pixels that conformant rasterizers may draw differently.
+OUR_BITS = 8
+REASONS = ("edge", "tie", "clip", "depth")
+
+
+def parse_portable(data):
+    """{subpixel bits: {scene: entry}}"""
+    found = {}
+    for entry in data:
+        if not (0 <= entry["unstable"] <= entry["pixels"] and {*REASONS} <= {*entry["reasons"]}):
+            raise ValueError(f"scene {entry['scene']}")
+        found.setdefault(int(entry["subpixel_bits"]), {})[entry["scene"]] = entry
+    if len({frozenset(scenes) for scenes in found.values()}) > 1:
+        raise ValueError("not the same scenes for all subpixel bits")
+    return found
+
+
+def read_portable(folder):
+    """Empty if not measured."""
+    path = facts_of(folder) / "portable.json"
+    return parsed(path, parse_portable, "edgewise portable") if path.exists() else {}
+
+
+def portable_table(found):
+    """Header and lines, a line per scene."""
+    less = sorted(found.keys() - {OUR_BITS}, reverse=True)
+    header = ["scene", f"may differ at {OUR_BITS} bits", *(f"{reason}, px" for reason in REASONS), *(f"at {bits} bits" for bits in less)]
+
+    def share(bits, scene):
+        return percent(found[bits][scene]["unstable"] / found[bits][scene]["pixels"])
+
+    return header, [[scene, share(OUR_BITS, scene), *(f"{entry['reasons'][reason]:,}" for reason in REASONS),
+                     *(share(bits, scene) for bits in less)] for scene, entry in found.get(OUR_BITS, {}).items()]
+
+
+# What scenes need, and what the tutorials' engines have.
+PLANES = ("near plane", "far plane", "guard band")
+FACING, VISIBILITY, DEPTH, FLOATS = "facing test", "visibility", "depth buffer", "float edges without a crack"
+NO_CRACK, AS_TRUE = "subpixel bits without a crack", "subpixel bits, no worse than 8 bits"
+EDGE_VALUES = "edge values"
+STAGES = {"facing test": FACING, "visibility": VISIBILITY, "depth": DEPTH, "no crack": NO_CRACK, "no worse than 8 bits": AS_TRUE,
+          "edge values": EDGE_VALUES}
+
+# The tutorials' engines by stage: the question, and their answer.
+TUTORIALS = (("Pico-8 software renderer", FLOATS, "float_le"), ("Pico-8 software renderer", VISIBILITY, "submission_order"),
+             ("p5.js engine", "near plane", "clip"), ("p5.js engine", VISIBILITY, "painter_mean"),
+             ("REALbasic engine", FACING, "normal_dot_eye"), ("Outlaw Triad trainer", FACING, "normal_z"),
+             ("Outlaw Triad trainer", "near plane", "nothing"))
+TUTORIAL_SCENES = ("cube", "cubes")
+METHODS = ("submission_order", "painter_", "float_", "reversed_z", "contract31", "normal_", "snapped_area", "double_")
+
+
+def parse_needs(data):
+    """{scene: (entry, {question: its entry})}"""
+    found = {}
+    for entry in data:
+        questions = {question["question"]: question for question in entry["questions"]}
+        if not entry["frames"] > 0:
+            raise ValueError(f"scene {entry['scene']}")
+        found[entry["scene"]] = (entry, questions)
+    return found
+
+
+def read_needs(folder):
+    """Empty if not measured."""
+    path = facts_of(folder) / "needs.json"
+    return parsed(path, parse_needs, "edgewise needs") if path.exists() else {}
+
+
+def titled(answer):
+    return f"`{answer}`" if answer.startswith(METHODS) else answer
+
+
+def answer(questions, start):
+    """The cheapest answer to the question that begins so; a dash if it was not asked."""
+    question = next((q for name, q in questions.items() if name.startswith(start)), None)
+    return "–" if question is None else titled(question["answer"] or "none is enough")
+
+
+def clipping(questions):
+    if PLANES[0] not in questions:
+        return "–"
+    needed = [f"{questions[plane]['answer']} at the {plane}" for plane in PLANES if questions[plane]["answer"] != "nothing"]
+    return ", ".join(needed) or "nothing"
+
+
+def needs_table(found):
+    """Header and lines, a line per stage: a line per scene would read as a pipeline, and answers don't combine."""
+    stages = {"clipping": clipping, **{title: lambda questions, start=start: answer(questions, start) for title, start in STAGES.items()}}
+    lines = []
+    for stage, of in stages.items():
+        scenes = {}
+        for scene, (entry, questions) in found.items():
+            frames = f" ({entry['frames']} frames)" if entry["frames"] > 1 else ""
+            scenes.setdefault(of(questions), []).append(scene + frames)
+        scenes.pop("–", None)
+        lines.append([stage, "; ".join(f"{said}: {', '.join(names)}" for said, names in scenes.items())])
+    return ["stage", "its cheapest sufficient answer, all other stages exact"], lines
+
+
+def verdict(question, used):
+    """Whether a tutorial's answer is enough, and whether a cheaper one would be."""
+    if question is None:
+        return "–"
+    tried = next((a for a in question["answers"] if a["answer"] == used), None)
+    if tried is None:
+        raise BadInput(f"needs.json: no answer '{used}' to '{question['question']}'")
+    if not tried["enough"]:
+        witness = tried["witness"]
+        count = witness["wrong_px"]
+        return f"**not enough**: {count:,} {question['error']}{'' if count == 1 else 's'} in frame {witness['frame']}"
+    return "enough" if question["answer"] == used else f"more than needed: {titled(question['answer'])}"
+
+
+def tutorials_table(found):
+    """Header and lines: what each tutorial's engine could have left out of these scenes, and what it lacks."""
+    scenes = [scene for scene in TUTORIAL_SCENES if scene in found]
+    header = ["engine", "stage", "its answer, all other stages exact", *(f"`{scene}`" for scene in scenes)]
+    lines = [[engine, stage, titled(used), *(verdict(found[scene][1].get(stage), used) for scene in scenes)]
+             for engine, stage, used in TUTORIALS]
+    return header, lines if scenes else []

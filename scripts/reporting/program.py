@@ -1,0 +1,79 @@
+"""What all scripts share: bad input, command lines, JSON files, and the project's READMEs."""
+import argparse
+import difflib
+import json
+import re
+import sys
+from pathlib import Path
+
+
+class BadInput(Exception):
+    """One line for the user."""
+
+
+def main_guard(main):
+    """Runs main(); bad input becomes one line and exit status 2."""
+    try:
+        sys.exit(main())
+    except BadInput as error:
+        print(f"{Path(sys.argv[0]).stem}: {error}", file=sys.stderr)
+        sys.exit(2)
+    except BrokenPipeError:
+        sys.exit(141)
+
+
+class Parser(argparse.ArgumentParser):
+    """Reports a wrong command line in one line with exit status 2, and suggests the nearest option."""
+
+    def __init__(self, **settings):
+        super().__init__(allow_abbrev=False, **settings)
+
+    def parse_args(self, args=None, namespace=None):
+        args = sys.argv[1:] if args is None else args
+        for arg in args:
+            name = arg.partition("=")[0]
+            if re.match(r"--?[A-Za-z]", name) and name not in self._option_string_actions:
+                near = difflib.get_close_matches(name, self._option_string_actions, 1)
+                self.error(f"unknown argument '{arg}'" + (f"; did you mean {near[0]}?" if near else ""))
+        return super().parse_args(args, namespace)
+
+    def error(self, message):
+        print(f"{self.prog}: {message}{'' if message.endswith('?') else ';'} --help lists all", file=sys.stderr)
+        sys.exit(2)
+
+
+def read_json(path):
+    try:
+        with open(path, encoding="utf-8") as file:
+            return json.load(file)
+    except OSError as error:
+        raise BadInput(f"{path}: {error.strerror}") from None
+    except ValueError as error:
+        raise BadInput(f"{path}: not JSON: {error}") from None
+
+
+def parsed(path, parse, writer):
+    """parse() of the file's JSON, which `writer` writes."""
+    data = read_json(path)
+    try:
+        return parse(data)
+    except (KeyError, TypeError, ValueError, AttributeError) as error:
+        raise BadInput(f"{path}: not what '{writer}' writes: {type(error).__name__} {error}") from None
+
+
+def write_json(path, data):
+    """Replaces the file in one step."""
+    part = path.with_name(path.name + ".part")
+    try:
+        part.write_text(json.dumps(data, indent=1) + "\n", encoding="utf-8")
+        part.replace(path)
+    except OSError as error:
+        part.unlink(missing_ok=True)
+        raise BadInput(f"cannot write {path}: {error.strerror}") from error
+
+
+def readmes(first):
+    """`first`, the README of the root, then those of its folders, except builds and packages."""
+    root = first.parent
+    return [first, *(page for page in sorted(root.glob("*/**/README.md"))
+                     if not any(part.startswith(("build", ".")) for part in page.relative_to(root).parts))]
