@@ -1,5 +1,5 @@
 // Clipped polygons are split into triangles of one winding if such a split exists.
-#include "frontend/pieces.h"
+#include "frontend/clip.h"
 
 #include <gtest/gtest.h>
 
