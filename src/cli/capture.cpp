@@ -9,7 +9,7 @@
 #include "cli/commands.h"
 #include "cli/describe.h"
 #include "core/atomic_file.h"
-#include "core/file_extension.h"
+#include "core/input_file.h"
 #include "edgewise/tri_file.h"
 #include "lab/to_stream.h"
 #include "support/console.h"

@@ -3,7 +3,9 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
@@ -107,6 +109,13 @@ bool starts_with(const fs::path& path, std::string_view text) {
   std::string start(text.size(), '\0');
   return open_input(path).stream.read(start.data(), static_cast<std::streamsize>(start.size())) &&
          start == text;
+}
+
+std::string extension_of(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
 }
 
 }  // namespace edgewise

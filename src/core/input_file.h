@@ -31,4 +31,7 @@ InputFile open_input(const std::filesystem::path& path);
 // Whether the file starts with this text. Throws what open_input throws.
 bool starts_with(const std::filesystem::path& path, std::string_view text);
 
+// A file name's extension, with its dot and in lower case: ".obj" for "a/BUNNY.OBJ"; empty if there is none.
+std::string extension_of(const std::filesystem::path& path);
+
 }  // namespace edgewise

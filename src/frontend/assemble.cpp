@@ -12,8 +12,7 @@
 #include <algorithm>
 
 #include "core/kernel_table.h"
-#include "frontend/assemble.h"
-#include "frontend/one_by_one.h"
+#include "frontend/tasks.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace edgewise {

@@ -80,4 +80,103 @@ std::span<const ClipVertex> Clipper::clip(const ClipVertex (&triangle)[3], std::
   return {from_.data(), count};
 }
 
+namespace {
+
+constexpr std::size_t kMax = Clipper::kMaxVertices;
+
+// The split uses only signed areas, which are exact. However a polygon is split, the signed coverages of the
+// triangles add up to its winding number at every sample. So if no triangle is negative and the polygon winds
+// once, each of its samples lies in exactly one triangle.
+class Splitter {
+ public:
+  explicit Splitter(std::span<const Vertex> polygon) : polygon_(polygon) {}
+
+  // Splits the polygon into a fan about its first vertex. False if the fan has triangles of both windings.
+  bool fan() {
+    for (std::size_t i = 2; i < polygon_.size(); ++i) add(0, i - 1, i);
+    return one_winding();
+  }
+
+  // Splits the polygon into triangles of one winding. False if there is no such split. A dynamic program over
+  // sub-polygons: the vertices from `first` to `last`, closed by the edge between these two. A triangle on
+  // this edge leaves two smaller sub-polygons (Klincsek, "Minimal triangulations of polygonal domains",
+  // 1980).
+  bool split(bool positive) {
+    pieces_.count = 0;
+    const std::size_t last = polygon_.size() - 1;
+    for (std::size_t width = 2; width <= last; ++width)
+      for (std::size_t first = 0; first + width <= last; ++first)
+        apex_[first][first + width] = find_apex(first, first + width, positive);
+    if (apex_[0][last] == 0) return false;
+    collect(0, last);
+    return true;
+  }
+
+  Pieces take() const { return pieces_; }
+
+  // Twice the signed area of a triangle; without arguments, that of the polygon.
+  std::int64_t area(std::size_t a, std::size_t b, std::size_t c) const {
+    const auto x = [&](std::size_t i) { return std::int64_t{polygon_[i].x_sub}; };
+    const auto y = [&](std::size_t i) { return std::int64_t{polygon_[i].y_sub}; };
+    return (x(b) - x(a)) * (y(c) - y(a)) - (y(b) - y(a)) * (x(c) - x(a));
+  }
+  std::int64_t area() const {
+    std::int64_t sum = 0;
+    for (std::size_t i = 2; i < polygon_.size(); ++i) sum += area(0, i - 1, i);
+    return sum;
+  }
+
+ private:
+  // The third vertex of a triangle on the edge from `first` to `last` that has the right winding and leaves
+  // sub-polygons that can be split; 0 if there is none.
+  std::uint8_t find_apex(std::size_t first, std::size_t last, bool positive) const {
+    const auto possible = [&](std::size_t from, std::size_t to) {
+      return to - from == 1 || apex_[from][to] != 0;
+    };
+    for (std::size_t apex = first + 1; apex < last; ++apex) {
+      const std::int64_t a = area(first, apex, last);
+      if ((positive ? a >= 0 : a <= 0) && possible(first, apex) && possible(apex, last))
+        return static_cast<std::uint8_t>(apex);
+    }
+    return 0;
+  }
+
+  void collect(std::size_t first, std::size_t last) {
+    if (last - first == 1) return;
+    const std::size_t apex = apex_[first][last];
+    add(first, apex, last);
+    collect(first, apex);
+    collect(apex, last);
+  }
+
+  void add(std::size_t a, std::size_t b, std::size_t c) {
+    pieces_.corners[pieces_.count++] = {static_cast<std::uint8_t>(a), static_cast<std::uint8_t>(b),
+                                        static_cast<std::uint8_t>(c)};
+  }
+
+  bool one_winding() const {
+    bool positive = false, negative = false;
+    for (std::size_t i = 0; i < pieces_.count; ++i) {
+      const auto& c = pieces_.corners[i];
+      const std::int64_t a = area(c[0], c[1], c[2]);
+      positive |= a > 0;
+      negative |= a < 0;
+    }
+    return !(positive && negative);
+  }
+
+  std::span<const Vertex> polygon_;
+  Pieces pieces_;
+  std::uint8_t apex_[kMax][kMax] = {};
+};
+
+}  // namespace
+
+Pieces split(std::span<const Vertex> polygon) {
+  Splitter splitter(polygon);
+  if (splitter.fan()) return splitter.take();
+  const Pieces fan = splitter.take();
+  return splitter.split(splitter.area() > 0) ? splitter.take() : fan;
+}
+
 }  // namespace edgewise

@@ -1,9 +1,13 @@
-// Clipping in homogeneous space (Sutherland and Hodgman, "Reentrant polygon clipping", 1974).
+// Vertices, and clipping in homogeneous space (Sutherland and Hodgman, "Reentrant polygon clipping", 1974).
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <span>
+
+#include "frontend/fixed.h"
 
 namespace edgewise {
 
@@ -57,5 +61,48 @@ class Clipper {
  private:
   std::array<ClipVertex, kMaxVertices> from_, to_;
 };
+
+// A transformed vertex: projected and snapped, with the sides of the view that it lies beyond. It has 16
+// bytes, so triangle assembly loads it with one instruction.
+struct Vertex {
+  std::int32_t x_sub, y_sub;  // sub-units; x_sub, y_sub and z are valid only if the vertex needs no clipping
+  std::uint32_t z;            // contract units
+  std::uint32_t outside;      // flags of Outside
+};
+static_assert(sizeof(Vertex) == 16);
+
+inline float x_px(const ClipVertex& v) {
+  return static_cast<float>(v.x / v.w);
+}
+inline float y_px(const ClipVertex& v) {
+  return static_cast<float>(v.y / v.w);
+}
+
+// True if the division is safe: w > 0, and it cannot give NaN.
+inline bool can_project(const ClipVertex& v) {
+  return v.w > 0.0 && std::isfinite(x_px(v)) && std::isfinite(y_px(v));
+}
+
+// True if x_sub, y_sub and z are valid.
+inline bool is_inside(const Vertex& v) {
+  return (v.outside & (kMustClip | kNotFinite)) == 0;
+}
+
+struct Pieces {
+  std::array<std::array<std::uint8_t, 3>, Clipper::kMaxVertices - 2> corners;  // indices into the polygon
+  std::size_t count = 0;                                                       // the number of vertices - 2
+};
+
+// Splits a polygon of 3 … Clipper::kMaxVertices snapped vertices into triangles of one winding, which
+// together cover each sample of the polygon once. The split is a fan about the first vertex if that has one
+// winding.
+//
+// Snapping can bend a convex polygon slightly inwards, where a clipped edge lies close to a vertex or to
+// another clipped edge. A fan may then contain a thin piece of the other winding. Its samples would be drawn
+// twice. And culling, which tests each piece, would keep this piece of a triangle that faces the wrong way.
+//
+// Two edges within a few 1/256 px of each other may cross after snapping. Then no such split exists, and the
+// result is the fan: it loses no sample, but may draw some twice.
+Pieces split(std::span<const Vertex> polygon);
 
 }  // namespace edgewise

@@ -2,7 +2,7 @@
 // - vertices: transform.cpp
 // - triangles: assemble.cpp for meshes, stream.cpp for streams; one_by_one.cpp and clip.cpp for special cases
 // - colours: shade.cpp
-// - output in submission order: in_order.h
+// - output in submission order: chunks.h
 // A mesh with clusters is cut into parts (mesh_clusters.h); others are one part. Consecutive parts form a
 // group, which is cut into chunks (chunks.h).
 #include "edgewise/frontend.h"
@@ -17,13 +17,11 @@
 #include "core/parallel.h"
 #include "edgewise/contract.h"
 #include "edgewise/limits.h"
-#include "frontend/assemble.h"
 #include "frontend/chunks.h"
-#include "frontend/in_order.h"
 #include "frontend/mesh_clusters.h"
 #include "frontend/shade.h"
-#include "frontend/stream.h"
 #include "frontend/stream_source.h"
+#include "frontend/tasks.h"
 #include "frontend/transform.h"
 #include "frontend/view.h"
 

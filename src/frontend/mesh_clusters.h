@@ -13,7 +13,7 @@
 
 #include "core/llc.h"
 #include "edgewise/scene.h"
-#include "frontend/vertex.h"
+#include "frontend/clip.h"
 #include "frontend/view.h"
 
 namespace edgewise {

@@ -1,10 +1,10 @@
-#include "frontend/one_by_one.h"
+#include "frontend/tasks.h"
 
 #include <algorithm>
 #include <array>
 
 #include "edgewise/contract.h"
-#include "frontend/pieces.h"
+#include "frontend/clip.h"
 #include "frontend/transform.h"
 
 namespace edgewise {

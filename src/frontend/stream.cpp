@@ -13,8 +13,7 @@
 #include <algorithm>
 
 #include "core/kernel_table.h"
-#include "frontend/one_by_one.h"
-#include "frontend/stream.h"
+#include "frontend/tasks.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace edgewise {

@@ -5,8 +5,8 @@
 #include <span>
 
 #include "core/triangle_source.h"
-#include "frontend/in_order.h"
-#include "frontend/stream.h"
+#include "frontend/chunks.h"
+#include "frontend/tasks.h"
 
 namespace edgewise {
 

@@ -1,5 +1,5 @@
-// The input and output of the front end's steps: a task, which is the same for all chunks of a mesh or
-// stream, and the output of one chunk.
+// The front end's steps: their input, which is the same for all chunks of a mesh or stream, the output of one
+// chunk, and the kernels that make triangles.
 #pragma once
 
 #include <algorithm>
@@ -9,8 +9,9 @@
 
 #include "core/buffer.h"
 #include "edgewise/frontend.h"
+#include "edgewise/simd_target.h"
+#include "frontend/clip.h"
 #include "frontend/mesh_clusters.h"
-#include "frontend/vertex.h"
 #include "frontend/view.h"
 
 namespace edgewise {
@@ -69,5 +70,33 @@ struct alignas(128) ChunkOutput {
   std::size_t count = 0;
   FrontendStats stats;  // the sum over all its chunks of the frame
 };
+
+// Appends the visible pieces of triangles begin … end - 1 to the output, with ids as payloads: task.first_id
+// plus the triangle's index in the mesh. Returns false and appends nothing if a triangle names a vertex that
+// is not `allowed`.
+using AssembleKernel = bool (*)(const MeshTask& task, std::size_t begin, std::size_t end, VertexRange allowed,
+                                ChunkOutput& out);
+
+// `target` must be resolved.
+AssembleKernel assemble_kernel(SimdTarget target);
+
+// Appends the visible pieces of triangles begin … end - 1 to the output, with the payload that the options
+// select.
+using StreamKernel = void (*)(const StreamTask& task, std::size_t begin, std::size_t end, ChunkOutput& out);
+
+// `target` must be resolved.
+StreamKernel stream_kernel(SimdTarget target);
+
+// one_by_one.cpp handles a single triangle in any condition. The kernels process the common case in vectors
+// and call add_one() for the rest:
+// - all triangles of a vector in which one needs clipping or is not finite,
+// - the last triangles of a chunk, too few for a vector,
+// - every triangle with keep_unsnapped or keep_states.
+//
+// Appends the visible pieces of a triangle to the output and counts them in its statistics. A mesh triangle's
+// payload is its id, task.first_id plus its index in the mesh; a stream triangle's is the one that the
+// options select.
+void add_one(const MeshTask& task, std::size_t triangle, ChunkOutput& out);
+void add_one(const StreamTask& task, std::size_t triangle, ChunkOutput& out);
 
 }  // namespace edgewise

@@ -13,7 +13,6 @@
 #include <string>
 
 #include "core/atomic_file.h"
-#include "core/file_extension.h"
 #include "core/input_file.h"
 #include "edgewise/contract.h"
 #include "edgewise/scene.h"

@@ -1,9 +1,11 @@
 // What the methods of all families have in common. They are methods in real use, ours among them.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <string_view>
+#include <vector>
 
 #include "edgewise/frontend.h"
 
@@ -43,5 +45,15 @@ struct Hit {
 constexpr double rate_bound(std::uint64_t trials) {
   return trials == 0 ? std::numeric_limits<double>::infinity() : 3.0 / static_cast<double>(trials);
 }
+
+// The four families of methods that the laboratory compares.
+enum class Family { coverage, visibility, facing, clipping };
+inline constexpr std::array kFamilies{Family::coverage, Family::visibility, Family::facing, Family::clipping};
+
+std::string_view name_of(Family family);
+// Throws std::invalid_argument for an unknown name; the message suggests the nearest known one.
+Family find_family(std::string_view name);
+// In the order of the family's registry.
+std::vector<MethodInfo> methods_of(Family family);
 
 }  // namespace edgewise::lab

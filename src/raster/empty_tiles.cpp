@@ -7,7 +7,7 @@
 
 #include "core/kernel_table.h"
 #include "edgewise/contract.h"
-#include "raster/empty_tiles.h"
+#include "raster/tile_list.h"
 #include "raster/tile_store-inl.h"
 
 HWY_BEFORE_NAMESPACE();

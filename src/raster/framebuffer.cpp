@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/pages.h"
+#include "core/buffer.h"
 #include "edgewise/contract.h"
 
 namespace edgewise {

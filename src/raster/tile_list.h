@@ -5,9 +5,12 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
+#include "edgewise/framebuffer.h"
+#include "edgewise/simd_target.h"
 #include "raster/binning/bins.h"
 
 namespace edgewise {
@@ -74,5 +77,21 @@ struct TileScratch {
   Bins bins;
   TileList list;
 };
+
+// Fills tiles without triangles. All those of a row are filled together, pixel row by pixel row: long
+// consecutive stores use the memory's bandwidth better than the short rows of one tile after the other.
+struct EmptyTiles {
+  std::span<const TileSpan> tiles;  // of one row
+  int y0, y1;                       // the pixel rows y0 … y1 - 1
+  int size_log2;                    // px, of a tile
+  FrameView frame;
+  std::uint32_t background;
+  bool streaming;  // requested
+};
+
+using EmptyTilesKernel = void (*)(const EmptyTiles&);
+
+// `target` must be resolved.
+EmptyTilesKernel empty_tiles_kernel(SimdTarget target);
 
 }  // namespace edgewise

@@ -38,4 +38,10 @@ struct TileTask {
 
 using TileKernel = void (*)(const TileTask&);
 
+// The kernels that draw one tile, in a buffer sized for the L1 cache: tiled/tile_kernel.cpp and
+// scanline/scanline_kernel.cpp. `target` must be resolved. scanline_kernel() needs tiles of
+// contract::kMaxTile px.
+TileKernel tile_kernel(SimdTarget target);
+TileKernel scanline_kernel(SimdTarget target);
+
 }  // namespace edgewise

@@ -14,7 +14,6 @@
 #include "edgewise/backend.h"
 #include "raster/ablation.h"
 #include "raster/binning/bins.h"
-#include "raster/empty_tiles.h"
 #include "raster/tile_list.h"
 #include "raster/tile_task.h"
 

@@ -14,7 +14,6 @@
 #include <utility>
 
 #include "core/atomic_file.h"
-#include "core/file_extension.h"
 #include "core/input_file.h"
 #include "core/nearest_name.h"
 #include "support/console.h"

@@ -6,7 +6,6 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "core/file_extension.h"
 #include "core/input_file.h"
 #include "edgewise/obj_file.h"
 #include "edgewise/tri_file.h"

@@ -28,14 +28,12 @@ HWY_AFTER_NAMESPACE();
 #include <type_traits>
 #include <vector>
 
-#include "frontend/assemble.h"
 #include "frontend/shade.h"
-#include "frontend/stream.h"
+#include "frontend/tasks.h"
 #include "frontend/transform.h"
 #include "raster/binning/cell_boxes.h"
 #include "raster/binning/mask_finder.h"
-#include "raster/scanline/scanline_kernel.h"
-#include "raster/tiled/tile_kernel.h"
+#include "raster/tile_task.h"
 
 namespace edgewise {
 namespace {

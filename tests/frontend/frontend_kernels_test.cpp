@@ -16,7 +16,6 @@
 #include "edgewise/frontend.h"
 #include "edgewise/limits.h"
 #include "frontend/fixed.h"
-#include "frontend/stream.h"
 #include "frontend/tasks.h"
 #include "frontend/transform.h"
 #include "message_of.h"

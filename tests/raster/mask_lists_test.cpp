@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "raster/binning/coverage_mask.h"
 #include "raster/binning/mask_finder.h"
 #include "raster/binning/mask_lists.h"
 

@@ -11,7 +11,7 @@
 
 #include "core/llc.h"
 #include "lab/measure.h"
-#include "raster/tiled/tile_kernel.h"
+#include "raster/tile_task.h"
 #include "raster/tiles.h"
 #include "support.h"
 

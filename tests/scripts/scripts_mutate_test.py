@@ -49,7 +49,7 @@ class MutateTest(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertLessEqual(len(result.stdout.splitlines()), 60)
         for part in ("contract.h", "oracle.cpp", "naive.cpp", "tile_", "scanline_", "bins", "mask_", "clip.cpp",
-                     "one_by_one.cpp", "in_order.h", "portable.cpp", "noise.py"):
+                     "one_by_one.cpp", "chunks.h", "portable.cpp", "noise.py"):
             self.assertIn(part, result.stdout)
 
     def test_a_mutant_is_caught_or_survives(self):

@@ -15,7 +15,7 @@
 #include "lab/coverage/score.h"
 #include "lab/coverage/visible.h"
 #include "lab/facing/facing.h"
-#include "lab/family.h"
+#include "lab/method.h"
 #include "lab/visibility/visibility.h"
 
 namespace edgewise::tools {

@@ -8,7 +8,7 @@
 #include "core/kernel_table.h"
 #include "lab/engine/engine.h"
 #include "lab/engine/other_numbers-inl.h"
-#include "raster/tiled/tile_kernel.h"
+#include "raster/tile_task.h"
 #include "raster/tiled/tile_painter-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "lab/family.h"
+#include "lab/method.h"
 
 namespace edgewise::lab {
 

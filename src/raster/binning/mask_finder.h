@@ -8,7 +8,7 @@
 #include <span>
 
 #include "raster/binning/cell_boxes.h"
-#include "raster/binning/coverage_mask.h"
+#include "raster/binning/mask_lists.h"
 
 namespace edgewise {
 

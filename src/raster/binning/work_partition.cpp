@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "edgewise/contract.h"
-#include "raster/binning/coverage_mask.h"
+#include "raster/binning/mask_lists.h"
 
 namespace edgewise {
 

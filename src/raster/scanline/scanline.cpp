@@ -3,7 +3,7 @@
 // and fill a triangle's pixels.
 #include "edgewise/contract.h"
 #include "raster/ablation.h"
-#include "raster/scanline/scanline_kernel.h"
+#include "raster/tile_task.h"
 #include "raster/tiles.h"
 
 namespace edgewise {

@@ -17,9 +17,9 @@
 
 #include "core/kernel_table.h"
 #include "edgewise/contract.h"
-#include "raster/scanline/scanline_kernel.h"
 #include "raster/scanline/scanline_list-inl.h"
 #include "raster/scanline/scanline_walk.h"
+#include "raster/tile_task.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace edgewise {

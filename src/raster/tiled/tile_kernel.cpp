@@ -23,7 +23,7 @@
 #include <hwy/highway.h>
 
 #include "core/kernel_table.h"
-#include "raster/tiled/tile_kernel.h"
+#include "raster/tile_task.h"
 #include "raster/tiled/tile_painter-inl.h"
 
 HWY_BEFORE_NAMESPACE();

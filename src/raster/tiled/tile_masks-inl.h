@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "raster/binning/coverage_mask.h"
+#include "raster/binning/mask_lists.h"
 #include "raster/tiled/tile_blocks-inl.h"
 
 // Included once per SIMD target.

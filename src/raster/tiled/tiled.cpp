@@ -1,7 +1,7 @@
 // The backend `tiled`: bins triangles to square tiles (bins.cpp) and draws tiles in parallel, each in a
 // buffer of its own, by SIMD edge functions (tile_kernel.cpp).
 #include "raster/ablation.h"
-#include "raster/tiled/tile_kernel.h"
+#include "raster/tile_task.h"
 #include "raster/tiles.h"
 
 namespace edgewise {

@@ -1,4 +1,4 @@
-#include "lab/family.h"
+#include "lab/method.h"
 
 #include <stdexcept>
 
