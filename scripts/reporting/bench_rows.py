@@ -144,14 +144,13 @@ def read_bench(folder_or_file):
     data = read_json(path)
     if not isinstance(data, dict) or not isinstance(data.get("benchmarks"), list):
         raise BadInput(f"{path}: not a Google Benchmark result")
-    rows, context = {}, data.get("context", {})
+    rows = {}
     try:
         for entry in data["benchmarks"]:
             if entry.get("run_type") == "aggregate":
                 continue
             name = entry.get("run_name", entry["name"])
             row = rows.setdefault(name, parse_name(name))
-            row.rounds = context.get("interleaving") == "rounds"
             if entry.get("error_occurred"):
                 row.error = entry.get("error_message", "error")
                 continue
@@ -159,10 +158,14 @@ def read_bench(folder_or_file):
             row.counters = {key: value for key, value in entry.items() if isinstance(value, float)}
     except (KeyError, TypeError, AttributeError) as error:
         raise BadInput(f"{path}: not a Google Benchmark result: {error}") from None
+    # In a run of rounds each row has one repetition per round, or is drawn once. Older runs shuffled all repetitions.
+    repetitions = {len(row.times_ms) for row in rows.values()} - {0, 1}
+    for row in rows.values():
+        row.rounds = len(repetitions) == 1
     reads = {row.scene: rows.pop(name) for name, row in list(rows.items()) if row.backend == "random_read"}
     model = path.parent / "model.json"
     costs = parsed(model, parse_costs, "edgewise_bench --model_out") if path.name == "bench.json" and model.exists() else {}
-    return Bench(context, rows, reads, costs)
+    return Bench(data.get("context", {}), rows, reads, costs)
 
 
 def describe_machine(machine):
