@@ -57,13 +57,18 @@ def order(a, b):
     return noise.paired_order(b.times_ms, a.times_ms) if paired(a, b) else noise.order(a.times_ms, b.times_ms)
 
 
-def speed_up_interval(before, after):
-    """The interval of the speed-up from one row to another."""
+def gained(before, after):
+    """The speed-up from one row to another."""
+    return noise.median_ratio(after.times_ms, before.times_ms, paired(before, after))
+
+
+def gained_interval(before, after):
+    """The interval of gained()."""
     return noise.ratio_interval(after.times_ms, before.times_ms, paired(before, after))
 
 
-def mean_speed_up(pairs):
-    """The geometric mean of the speed-ups, and its interval; `pairs` are (row before, row after)."""
+def mean_gained(pairs):
+    """The geometric mean of gained(), and its interval; `pairs` are (row before, row after)."""
     return noise.geometric_mean([(after.times_ms, before.times_ms, paired(before, after)) for before, after in pairs])
 
 
