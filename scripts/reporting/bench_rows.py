@@ -31,14 +31,6 @@ class Row:
         return noise.median(self.times_ms)
 
     @property
-    def low_ms(self):
-        return min(self.times_ms)
-
-    @property
-    def high_ms(self):
-        return max(self.times_ms)
-
-    @property
     def interval_ms(self):
         return noise.interval(self.times_ms)
 

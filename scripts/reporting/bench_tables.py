@@ -12,7 +12,7 @@ def random_reads(bench):
     rows = [(title, bench.random_reads.get(where)) for where, title in
             (("half_last_cache", "half the last-level cache"), ("memory", "a far larger buffer"))]
     return [(title, "{1:.0f} ns ({0:.0f} to {2:.0f})".format(*(ms * 1e6 / row.counters["reads"] for ms in
-                                                              (row.low_ms, row.median_ms, row.high_ms))))
+                                                              (min(row.times_ms), row.median_ms, max(row.times_ms)))))
             for title, row in rows if row]
 
 
@@ -187,10 +187,10 @@ def small_draws_table(bench):
 
 
 def memory_sentence(bench):
-    """The peak memory of front end, frame and backend, in the first frame; empty if not measured."""
+    """The peak memory of front end, frame and backend, in the first frame."""
     rows = [row for row in bench.rows.values() if "peak_bytes" in row.counters and set(row.keys) == {"threads"}]
     if not rows:
-        return ""
+        return "Memory was not measured."
 
     def pixels(row):
         return row.counters["width"] * row.counters["height"]

@@ -205,8 +205,8 @@ def time_rounds(folders, pattern, rounds, limit_s):
                 row = rows.setdefault(name, Row(None, None, [], []))
                 row.before, row.after = (side[name] for side in sides)
                 if not row.error:
-                    row.before_ms.append(row.before.low_ms)
-                    row.after_ms.append(row.after.low_ms)
+                    row.before_ms.append(min(row.before.times_ms))
+                    row.after_ms.append(min(row.after.times_ms))
     finally:
         show("")
 
