@@ -31,14 +31,6 @@ class Row:
         return noise.median(self.times_ms)
 
     @property
-    def low_ms(self):
-        return min(self.times_ms)
-
-    @property
-    def high_ms(self):
-        return max(self.times_ms)
-
-    @property
     def interval_ms(self):
         return noise.interval(self.times_ms)
 
@@ -57,13 +49,18 @@ def order(a, b):
     return noise.paired_order(b.times_ms, a.times_ms) if paired(a, b) else noise.order(a.times_ms, b.times_ms)
 
 
-def speed_up_interval(before, after):
-    """The interval of the speed-up from one row to another."""
+def gained(before, after):
+    """The speed-up from one row to another."""
+    return noise.median_ratio(after.times_ms, before.times_ms, paired(before, after))
+
+
+def gained_interval(before, after):
+    """The interval of gained()."""
     return noise.ratio_interval(after.times_ms, before.times_ms, paired(before, after))
 
 
-def mean_speed_up(pairs):
-    """The geometric mean of the speed-ups, and its interval; `pairs` are (row before, row after)."""
+def mean_gained(pairs):
+    """The geometric mean of gained(), and its interval; `pairs` are (row before, row after)."""
     return noise.geometric_mean([(after.times_ms, before.times_ms, paired(before, after)) for before, after in pairs])
 
 
@@ -144,14 +141,13 @@ def read_bench(folder_or_file):
     data = read_json(path)
     if not isinstance(data, dict) or not isinstance(data.get("benchmarks"), list):
         raise BadInput(f"{path}: not a Google Benchmark result")
-    rows, context = {}, data.get("context", {})
+    rows = {}
     try:
         for entry in data["benchmarks"]:
             if entry.get("run_type") == "aggregate":
                 continue
             name = entry.get("run_name", entry["name"])
             row = rows.setdefault(name, parse_name(name))
-            row.rounds = context.get("interleaving") == "rounds"
             if entry.get("error_occurred"):
                 row.error = entry.get("error_message", "error")
                 continue
@@ -159,10 +155,14 @@ def read_bench(folder_or_file):
             row.counters = {key: value for key, value in entry.items() if isinstance(value, float)}
     except (KeyError, TypeError, AttributeError) as error:
         raise BadInput(f"{path}: not a Google Benchmark result: {error}") from None
+    # In a run of rounds each row has one repetition per round, or is drawn once. Older runs shuffled all repetitions.
+    repetitions = {len(row.times_ms) for row in rows.values()} - {0, 1}
+    for row in rows.values():
+        row.rounds = len(repetitions) == 1
     reads = {row.scene: rows.pop(name) for name, row in list(rows.items()) if row.backend == "random_read"}
     model = path.parent / "model.json"
     costs = parsed(model, parse_costs, "edgewise_bench --model_out") if path.name == "bench.json" and model.exists() else {}
-    return Bench(context, rows, reads, costs)
+    return Bench(data.get("context", {}), rows, reads, costs)
 
 
 def describe_machine(machine):

@@ -1,5 +1,5 @@
 """The tables of a machine's benchmark."""
-from bench_rows import describe_machine, order, read_bench, speed_up_interval
+from bench_rows import describe_machine, gained, gained_interval, order, read_bench
 from program import read_json
 from tables import about, gain, milliseconds, number, speed_up, with_width
 
@@ -12,7 +12,7 @@ def random_reads(bench):
     rows = [(title, bench.random_reads.get(where)) for where, title in
             (("half_last_cache", "half the last-level cache"), ("memory", "a far larger buffer"))]
     return [(title, "{1:.0f} ns ({0:.0f} to {2:.0f})".format(*(ms * 1e6 / row.counters["reads"] for ms in
-                                                              (row.low_ms, row.median_ms, row.high_ms))))
+                                                              (min(row.times_ms), row.median_ms, max(row.times_ms)))))
             for title, row in rows if row]
 
 
@@ -24,7 +24,7 @@ def fastest(bench, scene):
     first, *others = sorted(rows, key=lambda row: row.median_ms)
     close = [row.backend for row in others if order(first, row) == 0]
     return " or ".join([first.backend, *close]) if close else \
-        f"{first.backend}, {about(others[0].median_ms / first.median_ms)}"
+        f"{first.backend}, {about(gained(others[0], first))}"
 
 
 def scene_facts(bench, scene):
@@ -155,8 +155,8 @@ def against_base(base, row):
     """The speed relative to the base, bold if it is settled, its interval, and how many pixels are wrong."""
     if row is None:
         return "–"
-    low, high = (f"{end:.2f}" for end in speed_up_interval(base, row))
-    ratio = f"{base.median_ms / row.median_ms:.2f}×"
+    low, high = (f"{end:.2f}" for end in gained_interval(base, row))
+    ratio = f"{gained(base, row):.2f}×"
     wrong = row.counters.get("wrong_px")
     return (f"**{ratio}**" if order(row, base) else ratio) + f" ({low} to {high})" + (f"; {number(wrong)} px" if wrong is not None else "")
 
@@ -187,10 +187,10 @@ def small_draws_table(bench):
 
 
 def memory_sentence(bench):
-    """The peak memory of front end, frame and backend, in the first frame; empty if not measured."""
+    """The peak memory of front end, frame and backend, in the first frame."""
     rows = [row for row in bench.rows.values() if "peak_bytes" in row.counters and set(row.keys) == {"threads"}]
     if not rows:
-        return ""
+        return "Memory was not measured."
 
     def pixels(row):
         return row.counters["width"] * row.counters["height"]
@@ -212,7 +212,7 @@ def store_cells(rule, streaming):
     ms = milliseconds(streaming)
     if rule and streaming:
         settled = order(rule, streaming) != 0
-        ms += f" ({speed_up(rule.median_ms / streaming.median_ms)})" if settled else " (not settled)"
+        ms += f" ({speed_up(gained(rule, streaming))})" if settled else " (not settled)"
     return [milliseconds(rule), ms]
 
 

@@ -28,23 +28,6 @@ REPETITIONS, MIN_TIME_S = 5, 0.01
 LINES_OF_A_FAILURE = 20
 
 
-def judge(before, after, least):
-    """The ratio of medians, and the verdict. Both rows need enough repetitions, and changes below `least` don't count."""
-    ratio = after.median_ms / before.median_ms
-    if abs(ratio - 1) >= least:
-        if settled := noise.order(after.times_ms, before.times_ms):
-            return ratio, "slower" if settled > 0 else "faster"
-        if not noise.enough(len(before.times_ms), len(after.times_ms)):
-            return ratio, "too few repetitions"
-    return ratio, "no significant difference"
-
-
-def spread(row):
-    """Half the 95 % interval, in per cent of the median."""
-    low, high = row.interval_ms
-    return 50 * (high - low) / row.median_ms
-
-
 def other_work(before, after):
     keys = ("triangles", "covered_px", "width", "height")
     return any(before.counters.get(k) != after.counters.get(k) for k in keys)
@@ -160,25 +143,38 @@ def timed(folder, pattern):
     return read_bench(out).rows
 
 
+FASTER, SLOWER, SAME, FEW = "faster", "slower", "no significant difference", "too few repetitions"
+
+
 @dataclass
 class Row:
-    """One row of both sides: the last round's rows for their counters, and the times of all rounds."""
+    """One row of both sides, with their times. Of rounds, the last round's rows hold the counters."""
     before: object
     after: object
     before_ms: list
     after_ms: list
+    rounds: bool = True  # else the two were timed at different times
+    least: float = 0.0  # smaller changes don't count
 
     @property
     def error(self):
         return self.before.error or self.after.error
 
     @property
-    def ratios(self):
-        return noise.ratios(self.before_ms, self.after_ms)
+    def ratio(self):
+        return noise.median_ratio(self.before_ms, self.after_ms, self.rounds)
+
+    @property
+    def interval(self):
+        return noise.ratio_interval(self.before_ms, self.after_ms, self.rounds)
 
     @property
     def verdict(self):
-        return {-1: "faster", 0: "no significant difference", 1: "slower"}[noise.paired_order(self.before_ms, self.after_ms)]
+        if abs(self.ratio - 1) < self.least:
+            return SAME
+        order = noise.paired_order(self.before_ms, self.after_ms) if self.rounds else noise.order(self.after_ms, self.before_ms)
+        few = not self.rounds and not noise.enough(len(self.before_ms), len(self.after_ms))
+        return {-1: FASTER, 0: FEW if few else SAME, 1: SLOWER}[order]
 
 
 def show(text):
@@ -209,16 +205,16 @@ def time_rounds(folders, pattern, rounds, limit_s):
                 row = rows.setdefault(name, Row(None, None, [], []))
                 row.before, row.after = (side[name] for side in sides)
                 if not row.error:
-                    row.before_ms.append(row.before.low_ms)
-                    row.after_ms.append(row.after.low_ms)
+                    row.before_ms.append(min(row.before.times_ms))
+                    row.after_ms.append(min(row.after.times_ms))
     finally:
         show("")
 
 
 def line(name, row, width):
-    low, high = noise.interval(row.ratios)
+    low, high = row.interval
     return (f"  {name:<{width}} {noise.median(row.before_ms):>9.3f} → {noise.median(row.after_ms):>9.3f} ms "
-            f"{noise.median(row.ratios):>7.3f}  ({low:.3f} to {high:.3f})")
+            f"{row.ratio:>7.3f}  ({low:.3f} to {high:.3f})")
 
 
 def print_names(title, found):
@@ -226,24 +222,21 @@ def print_names(title, found):
         print(f"\n{title}", *(f"  {name}" for name in found), sep="\n")
 
 
-def print_rows(rows, rounds):
-    groups = {verdict: {name: row for name, row in rows.items() if row.verdict == verdict}
-              for verdict in ("slower", "faster", "no significant difference")}
-    print(f"\n{rounds} rounds, before and after by turns; {len(rows)} rows: "
-          + ", ".join(f"{len(group)} {verdict}" for verdict, group in groups.items()))
-    print(f"Columns: medians of the rounds, median of the rounds' ratios (after / before), its {noise.CONFIDENCE:.0%} interval")
+def print_rows(rows, medians_of, verdicts=(SLOWER, FASTER, FEW, SAME)):
+    groups = {verdict: {name: row for name, row in rows.items() if row.verdict == verdict} for verdict in (SLOWER, FASTER, FEW, SAME)}
+    print(f"{len(rows)} rows: " + ", ".join(f"{len(group)} {verdict}" for verdict, group in groups.items() if group or verdict != FEW))
+    print(f"Columns: medians of the {medians_of}, ratio (after / before), its {noise.CONFIDENCE:.0%} interval")
     width = max(map(len, rows), default=0)
-    for verdict, group in groups.items():
-        if group:
-            print(f"\n{verdict.capitalize()}",
-                  *(line(name, row, width) for name, row in sorted(group.items(), key=lambda item: -noise.median(item[1].ratios))),
-                  sep="\n")
+    for verdict in verdicts:
+        if group := groups[verdict]:
+            print(f"\n{verdict.capitalize()}", *(line(name, row, width) for name, row in
+                                                sorted(group.items(), key=lambda item: -item[1].ratio)), sep="\n")
 
 
 def record(before, after, pattern, rounds, rows):
     def one(name, row):
-        low, high = noise.interval(row.ratios)
-        return {"name": name, "verdict": row.verdict, "ratio": noise.median(row.ratios), "low": low, "high": high,
+        low, high = row.interval
+        return {"name": name, "verdict": row.verdict, "ratio": row.ratio, "low": low, "high": high,
                 "before_ms": row.before_ms, "after_ms": row.after_ms}
 
     return {"before": before.title, "after": after.title, "filter": pattern, "rounds": rounds, "level": noise.LEVEL,
@@ -261,21 +254,28 @@ def compare_revisions(before, after, pattern, rounds, minutes, out):
         if not shared:
             raise BadInput(f"no row of both revisions matches '{pattern}'")
         rows = time_rounds(folders, pattern, rounds, 60 * minutes)
-    failed = [f"{name}: {row.error}" for name, row in rows.items() if row.error]
-    different = [name for name, row in rows.items() if not row.error and other_work(row.before, row.after)]
-    judged = {name: row for name, row in rows.items() if not row.error and name not in different}
-    done = max((len(row.before_ms) for row in rows.values()), default=0)
-    if any(len(row.before_ms) < done for row in judged.values()):
-        raise BadInput("some rounds failed, others did not: the programs draw different pixels from time to time")
     print(f"Before: {before.title}\nAfter:  {after.title}")
-    print_rows(judged, done)
-    print_names("Not compared: other triangles, pixels or size", different)
-    print_names("Not compared: error", failed)
-    print_names("Only before", [name for name in listed[0] if name not in listed[1]])
-    print_names("Only after", [name for name in listed[1] if name not in listed[0]])
+    done, judged = print_compared(rows, listed)
     if out:
         write_json(out, record(before, after, pattern, done, judged))
     return 0
+
+
+def print_compared(rows, listed, verdicts=(SLOWER, FASTER, FEW, SAME)):
+    """Prints rows and `listed` names of both sides. Returns the number of rounds and the judged rows."""
+    failed = [f"{name}: {row.error}" for name, row in rows.items() if row.error]
+    different = [name for name, row in rows.items() if not row.error and other_work(row.before, row.after)]
+    judged = {name: row for name, row in rows.items() if not row.error and name not in different}
+    done = max((len(row.before_ms) for row in rows.values() if row.rounds), default=0)
+    if any(row.rounds and len(row.before_ms) < done for row in judged.values()):
+        raise BadInput("some rounds failed, others did not: the programs draw different pixels from time to time")
+    print(f"\n{done} rounds, before and after by turns; " if done else "", end="")
+    print_rows(judged, "rounds" if done else "repetitions", verdicts)
+    print_names("Not compared: other triangles, pixels or size", different)
+    print_names("Not compared: error", failed)
+    for side, other, title in ((0, 1, "Only before"), (1, 0, "Only after")):
+        print_names(title, [name for name in listed[side] if name not in listed[other]])
+    return done, judged
 
 
 def interruptible(compare):

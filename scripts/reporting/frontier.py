@@ -2,7 +2,7 @@
 import math
 from typing import NamedTuple
 
-from bench_rows import mean_speed_up
+from bench_rows import mean_gained
 from tables import by_order, number, short
 
 LEAST_CROSSINGS = 10_000  # of shared edges; in smaller scenes a single crossing decides the rate
@@ -81,7 +81,7 @@ def speed_ups(accuracy):
             for form, cost in peer if m.method.peer else (("scalar", m.scalar), ("simd", m.simd)):
                 if cost:
                     groups.setdefault(m.method, {}).setdefault(form, []).append((base_row, cost.row))
-    return ({method: {form: SpeedUp(*mean_speed_up(of)) for form, of in forms.items() if len(of) == len(scenes)}
+    return ({method: {form: SpeedUp(*mean_gained(of)) for form, of in forms.items() if len(of) == len(scenes)}
              for method, forms in groups.items()}, base, len(scenes))
 
 

@@ -2,7 +2,7 @@
 import math
 from itertools import takewhile
 
-from bench_rows import order
+from bench_rows import gained, order
 from bench_tables import estimates_ms
 from noise import median
 from plot_style import FAINT, INK, VERDICTS, WIDTH_IN, head_in, headline, log_axis, plt, save
@@ -31,7 +31,7 @@ def parts(bench, scene):
 
 def said(before, row):
     """The speed-up over the step before; of the first step its time."""
-    return speed_up(before.median_ms / row.median_ms) if before else f"{milliseconds(row)} ms"
+    return speed_up(gained(before, row)) if before else f"{milliseconds(row)} ms"
 
 
 def verdict(before, after):
@@ -44,7 +44,7 @@ def summary(named):
     gains = {}
     for found in named.values():
         for (_, before), (label, row) in zip(found, found[1:]):
-            gains.setdefault(label, []).append(before.median_ms / row.median_ms)
+            gains.setdefault(label, []).append(gained(before, row))
     if not gains:
         return "Ablation"
     best = max(gains, key=lambda label: median(gains[label]))

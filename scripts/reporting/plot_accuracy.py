@@ -3,7 +3,7 @@ rounding vertices displaces."""
 import math
 
 from accuracy_rows import FAMILIES
-from bench_rows import order
+from bench_rows import gained, order
 from plot_labels import Label, label_points, shared_labels
 from plot_style import (BAND, BLACK, FAINT, INK, SKY, WHISKER, WIDTH_IN, Kinds, ZeroAxis, dark, head_in, headline, plt, round_ticks,
                         save)
@@ -69,7 +69,7 @@ def speed_title(scene):
     less = [m.rate < first.rate for m in scene.measured if not m.method.ours]
     said = f"{first.method.name}: {number(first.rate, 2)} errors per 10⁶"
     if scene.family == "coverage":
-        settled, ratio = order(first.costs[1].row, other.costs[1].row), other.costs[1].ns / first.costs[1].ns
+        settled, ratio = order(first.costs[1].row, other.costs[1].row), gained(other.costs[1].row, first.costs[1].row)
         said = (f"{first.method.name} is {about(max(ratio, 1 / ratio))} {'faster' if settled < 0 else 'slower'} than {other.method.name}"
                 if settled else f"{first.method.name} and {other.method.name}: not settled")
     return f"{said}; {sum(less)} of {len(less)} others err less"

@@ -3,7 +3,7 @@ import math
 import textwrap
 from dataclasses import dataclass, replace
 
-from bench_rows import order, speed_up_interval
+from bench_rows import gained, gained_interval, order
 from plot_area import draw_curves
 from plot_style import BAND, FAINT, INK, WIDTH_IN, Look, head_in, headline, plt, save
 from tables import short
@@ -78,8 +78,8 @@ def steps(quantity, rows):
         def exponent(ratio):
             return math.log(ratio) / math.log(end / start)
 
-        middle = exponent(after.median_ms / before.median_ms)
-        low, high = map(exponent, speed_up_interval(after, before))
+        middle = exponent(gained(after, before))
+        low, high = map(exponent, gained_interval(after, before))
         found.append(Step(start, end, middle, low, high, kind_of(middle, end / start, before, after)))
     return found
 

@@ -1,5 +1,5 @@
 """Charts by scene: the time, and the speed-up by threads, SIMD and culling."""
-from bench_rows import order, speed_up_interval
+from bench_rows import gained, gained_interval, order
 from bench_tables import OURS, THREADS
 from noise import median
 from plot_style import FAINT, INK, WIDTH_IN, Look, head_in, headline, log_axis, plt, round_ticks, save
@@ -84,9 +84,9 @@ def dots(axes, look, gains, hollow):
                 continue
             y = line + (place - (len(each) - 1) / 2) * step
             colour = look.colour(backend)
-            ends += speed_up_interval(*rows)
+            ends += gained_interval(*rows)
             axes.plot(ends[-2:], [y, y], color=colour, linewidth=5, alpha=0.25, solid_capstyle="butt")
-            axes.plot([rows[0].median_ms / rows[1].median_ms], [y], marker=look.marker(backend), color=colour, markersize=6.5,
+            axes.plot([gained(*rows)], [y], marker=look.marker(backend), color=colour, markersize=6.5,
                       markerfacecolor=colour if filled else "white", markeredgewidth=1.0 if filled else 1.5)
     axes.axvline(1, color=FAINT, linewidth=1.0)
     axes.set_yticks(range(len(gains)), gains)
@@ -106,7 +106,7 @@ def gain_chart(bench, folder, caption, name, what, subtitle, gains, hollow=None,
     if not compared:
         return None
     faster = sum(order(after, before) < 0 for before, after in compared)
-    middle = median(before.median_ms / after.median_ms for before, after in compared)
+    middle = median(gained(*rows) for rows in compared)
     look = Look(bench.backends)
     figure, axes = plt.subplots(figsize=(WIDTH_IN, 1.8 + head_in(subtitle) + (0.85 if hollow else 0.4) * len(gains)))
     dots(axes, look, gains, hollow)
@@ -171,12 +171,12 @@ def simd(bench, folder, caption):
                 continue
             colour = look.colour(backend)
             for place, row in timed[1:]:
-                ends += speed_up_interval(first, row)
+                ends += gained_interval(first, row)
                 axes.plot([place, place], ends[-2:], color=colour, linewidth=5, alpha=0.25, solid_capstyle="butt")
-            axes.plot([place for place, _ in timed], [first.median_ms / row.median_ms for _, row in timed], color=colour,
+            axes.plot([place for place, _ in timed], [gained(first, row) for _, row in timed], color=colour,
                       marker=look.marker(backend), markeredgecolor="white", markeredgewidth=0.6)
             if backend == OURS:
-                widest.append(first.median_ms / timed[-1][1].median_ms)
+                widest.append(gained(first, timed[-1][1]))
         axes.axhline(1, color=FAINT, linewidth=1.0, zorder=1)
         axes.set_xticks(range(len(targets)), targets, fontsize=8)
         axes.set_xlim(-0.15, len(targets) - 0.85)

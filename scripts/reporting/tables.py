@@ -1,5 +1,5 @@
 """Figures, comparisons and tables as text: Markdown for the READMEs, plain text for the terminal."""
-from bench_rows import order
+from bench_rows import gained, order
 
 # Of each SIMD target: its name in sentences, and the width of its vectors in bits.
 VECTORS = {"sse4": ("SSE4", 128), "avx2": ("AVX2", 256), "avx512": ("AVX-512", 512)}
@@ -57,7 +57,7 @@ def by_order(compared):
     """{order(): speed-ups} of pairs of rows, ours first."""
     found = {-1: [], 1: [], 0: []}
     for ours, other in compared:
-        found[order(ours, other)].append(other.median_ms / ours.median_ms)
+        found[order(ours, other)].append(gained(other, ours))
     return found
 
 
@@ -77,7 +77,7 @@ def speed_up(ratio):
 
 def gain(before, after):
     """The speed-up from one row to another, and whether it is settled."""
-    return speed_up(before.median_ms / after.median_ms) + ("" if order(before, after) else " (not settled)")
+    return speed_up(gained(before, after)) + ("" if order(before, after) else " (not settled)")
 
 
 def markdown(header, lines, alignment=None):

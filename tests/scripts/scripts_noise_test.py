@@ -116,11 +116,20 @@ class PairedTest(unittest.TestCase):
 
         fast, slow = rows(True)
         self.assertEqual((bench_rows.order(fast, slow), bench_rows.order(slow, fast)), (-1, 1))
-        self.assertTrue(all(abs(end - 1.01) < 1e-9 for end in bench_rows.speed_up_interval(slow, fast)))
+        self.assertTrue(all(abs(end - 1.01) < 1e-9 for end in bench_rows.gained_interval(slow, fast)))
+        self.assertAlmostEqual(bench_rows.gained(slow, fast), 1.01)
         slow.times_ms.pop()
         self.assertEqual(bench_rows.order(fast, slow), 0, "rows with different numbers of repetitions")
         self.assertEqual(bench_rows.order(*rows(False)), 0, "shuffled repetitions")
-        self.assertLess(bench_rows.speed_up_interval(*rows(False))[0], 0.9)
+        self.assertLess(bench_rows.gained_interval(*rows(False))[0], 0.9)
+
+    def test_rows_of_a_run_are_rounds_if_all_were_repeated_alike(self):
+        for counts, rounds in (((9, 9, 1), True), ((9, 5, 1), False)):
+            entries = [{"name": f"tiled/{i}/threads:1", "real_time": 1.0, "time_unit": "ms"} for i, n in enumerate(counts) for _ in range(n)]
+            with tempfile.TemporaryDirectory() as folder:
+                path = Path(folder) / "run.json"
+                path.write_text(json.dumps({"benchmarks": entries}))
+                self.assertEqual({row.rounds for row in read_bench(path).rows.values()}, {rounds}, counts)
 
     def test_shuffled_repetitions_must_not_be_paired(self):
         """A drift of the machine that both rows share: the rank-sum test is right, pairs would not be."""
