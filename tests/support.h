@@ -1,10 +1,11 @@
-// Shared by tests: executions, comparison of frames.
+// Shared by tests: executions, the front end's output, comparison of frames.
 #pragma once
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdlib>
+#include <cstring>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,6 +13,7 @@
 
 #include "core/random.h"
 #include "edgewise/contract.h"
+#include "edgewise/frontend.h"
 #include "lab/hard_triangles.h"
 #include "lab/measure.h"
 
@@ -47,6 +49,28 @@ inline std::vector<lab::AblatedExecution> executions() {
   for (const auto target : supported_targets())
     for (const auto& ablation : lab::kAblations) list.push_back({{1, 64, target}, ablation});
   return list;
+}
+
+inline std::int32_t between(Random& random, std::int32_t low, std::int32_t high) {
+  return low + static_cast<std::int32_t>(random.below(static_cast<std::uint64_t>(high - low + 1)));
+}
+
+// What a front end emits, copied.
+struct Emitted {
+  std::vector<ScreenTriangle> triangles;
+  FrontendStats stats;
+};
+inline Emitted run(const Drawable& drawable, const FrontendOptions& options) {
+  Frontend frontend;
+  const auto span = frontend.run(drawable, options);
+  return {{span.begin(), span.end()}, frontend.stats()};
+}
+
+inline void expect_same_triangles(std::span<const ScreenTriangle> a, std::span<const ScreenTriangle> b,
+                                  const std::string& what) {
+  ASSERT_EQ(a.size(), b.size()) << what;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    ASSERT_EQ(std::memcmp(&a[i], &b[i], sizeof a[i]), 0) << what << ", triangle " << i;
 }
 
 inline std::string describe(const Execution& e) {

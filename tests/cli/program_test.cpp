@@ -247,16 +247,6 @@ TEST_F(ProgramRenders, AStreamCroppedNotScaled) {
   EXPECT_EQ(part.pixels[31 + 64 * 32] & 0xFFFFFFu, 0u);
 }
 
-TEST_F(ProgramRenders, FilesWithUpperCaseExtensions) {
-  ASSERT_EQ(
-      edgewise_with("render cube --size 40x30 -o " + path("a.PNG") + " --depth " + path("a.PFM")).status, 0);
-  EXPECT_EQ(edgewise_with("diff " + path("a.PNG") + " " + path("a.PNG")).status, 0);
-  EXPECT_EQ(edgewise_with("diff " + path("a.PFM") + " " + path("a.PFM")).status, 0);
-  ASSERT_EQ(edgewise_with("capture cube --size 40x30 -o " + path("a.TRI")).status, 0);
-  const auto json = nlohmann::json::parse(edgewise_with("verify --json - " + path("a.TRI")).out);
-  EXPECT_EQ(json.at("scenes")[0].at("width"), 40);
-}
-
 TEST_F(ProgramRenders, FilesOfAnyNameAndPrintsNoControlCharacters) {
   const std::string name = path("x\x1b[31m\xff\xc3\xa9.tri");
   ASSERT_EQ(edgewise_with("capture grid4 --size 40x30 -o " + path("a.tri")).status, 0);

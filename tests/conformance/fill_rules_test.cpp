@@ -98,29 +98,6 @@ class ConformanceDegenerate : public Conformance {
   }
 };
 
-TEST_F(ConformanceDegenerate, PointsDrawNothing) {
-  std::vector<glm::vec3> v;
-  for (const glm::vec2 p : {glm::vec2(0, 0), {31.5f, 31.5f}, {31, 31}, {63.99f, 0.01f}, {-5, 20}, {90, 70}})
-    for (int k = 0; k < 3; ++k) v.emplace_back(p, 0.25f * static_cast<float>(k));
-  expect_flat(v, "points");
-}
-
-TEST_F(ConformanceDegenerate, LinesDrawNothing) {
-  std::vector<glm::vec3> v;
-  const auto add = [&](glm::vec2 a, glm::vec2 b) {
-    v.insert(v.end(), {glm::vec3(a, 0), glm::vec3(b, 1), glm::vec3(a, 1)});  // there and back
-    v.insert(v.end(),
-             {glm::vec3(a, 0), glm::vec3(0.5f * (a + b), 0.1f), glm::vec3(b, 1)});         // through a middle
-    v.insert(v.end(), {glm::vec3(a, 0), glm::vec3(b, 0.1f), glm::vec3(2.0f * b - a, 1)});  // and beyond
-  };
-  add({0.5f, 10.5f}, {60.5f, 10.5f});  // along a row of samples
-  add({7.5f, 0.5f}, {7.5f, 64.5f});
-  add({0.5f, 0.5f}, {48.5f, 48.5f});
-  add({-100, 3}, {200, 61});
-  add({-16000, -8000}, {16000, 8000});
-  expect_flat(v, "lines");
-}
-
 // Triangles with area in float, whose vertices are collinear or equal after rounding to 1/256 px.
 TEST_F(ConformanceDegenerate, TrianglesThatSnappingFlattensDrawNothing) {
   Random random(5);

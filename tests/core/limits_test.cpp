@@ -68,26 +68,6 @@ TEST(LimitsDeathTest, EveryBackendRefusesTooManyTriangles) {
     });
 }
 
-TEST(LimitsDeathTest, NoImageIsLargerThanTheGuardBand) {
-  expect_refused([] { Framebuffer(contract::kMaxImageSide + 1, contract::kMaxImageSide); });
-  expect_refused([] { Framebuffer(1'000'000, 1'000'000); });
-}
-
-// At the limits, drawing succeeds.
-TEST(Limits, TheLargestSidesAndTheMostThreadsAreDrawn) {
-  const TriangleStream stream{
-      1, 1, {{{{-20'000, -20'000, 0.5f}, {60'000, -20'000, 0.5f}, {0, 60'000, 0.5f}}, 7}}};
-  for (const auto& [width, height] : {std::pair{contract::kMaxImageSide, 2}, {2, contract::kMaxImageSide}})
-    for (const BackendInfo& info : backends()) {
-      Frontend frontend;
-      Framebuffer frame(width, height);
-      const auto triangles = frontend.run(stream, {.width = width, .height = height, .threads = kMaxThreads});
-      info.make()->draw(triangles, frame.view(), 0, {.threads = kMaxThreads});
-      EXPECT_EQ(frame.payload_row(0)[0], 7u) << info.name;
-      EXPECT_EQ(frame.payload_row(height - 1)[0], 7u) << info.name;
-    }
-}
-
 // Both sides at the limit: a frame of 2 GiB.
 TEST(Limits, TheLargestImageIsDrawn) {
   if (!testing::full_size()) GTEST_SKIP() << "takes 2 GiB; scripts/test --full draws it";

@@ -11,9 +11,13 @@
 #include "edgewise/frontend.h"
 #include "frontend/shade.h"
 #include "message_of.h"
+#include "support.h"
 
 namespace edgewise {
 namespace {
+
+using testing::expect_same_triangles;
+using testing::run;
 
 // Quads and triangles, some two-sided, all around the camera, so that many are clipped.
 Scene scene_of_quads(bool two_sided) {
@@ -42,21 +46,7 @@ Scene scene_of_quads(bool two_sided) {
   return scene;
 }
 
-struct Result {
-  std::vector<ScreenTriangle> triangles;
-  FrontendStats stats;
-};
-Result run(const Scene& scene, FrontendOptions options) {
-  Frontend frontend;
-  const auto span = frontend.run(scene, options);
-  return {{span.begin(), span.end()}, frontend.stats()};
-}
-
 constexpr FrontendOptions kOptions{.width = 320, .height = 200};
-
-bool same(const std::vector<ScreenTriangle>& a, const std::vector<ScreenTriangle>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(ScreenTriangle)) == 0;
-}
 
 TEST(Faces, AreTheSameOnEveryTargetAndThreadCount) {
   const Scene scene = scene_of_quads(true);
@@ -74,8 +64,7 @@ TEST(Faces, AreTheSameOnEveryTargetAndThreadCount) {
         for (const int threads : {1, 3}) {
           options.target = target;
           options.threads = threads;
-          EXPECT_TRUE(same(run(scene, options).triangles, expected))
-              << name_of(target) << ", " << threads << " threads, cull " << name_of(cull);
+          expect_same_triangles(run(scene, options).triangles, expected, std::string(name_of(target)));
         }
     }
 }
@@ -88,7 +77,7 @@ TEST(Faces, HaveThePositionsOfTheirTriangles) {
   for (const Cull cull : cull_modes()) {
     FrontendOptions options = kOptions;
     options.cull = cull;
-    const Result quads = run(scene, options), halves = run(plain, options);
+    const auto quads = run(scene, options), halves = run(plain, options);
     ASSERT_EQ(quads.triangles.size(), halves.triangles.size());
     for (std::size_t i = 0; i < quads.triangles.size(); ++i)
       ASSERT_EQ(std::memcmp(&quads.triangles[i], &halves.triangles[i], offsetof(ScreenTriangle, payload)), 0);
@@ -182,8 +171,8 @@ TEST(Faces, WithTwoSidesAreNeverCulled) {
       return !is_two_sided(t) && (cull == Cull::both || (cull == Cull::front) == front);
     });
     options.cull = cull;
-    const Result found = run(scene, options);
-    EXPECT_TRUE(same(found.triangles, expected)) << name_of(cull);
+    const auto found = run(scene, options);
+    expect_same_triangles(found.triangles, expected, std::string(name_of(cull)));
     EXPECT_EQ(found.stats.culled, all.size() - expected.size());
   }
 }

@@ -24,6 +24,9 @@
 namespace edgewise {
 namespace {
 
+using testing::expect_same_triangles;
+using testing::run;
+
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInf = std::numeric_limits<float>::infinity();
 
@@ -80,23 +83,6 @@ TriangleStream random_triangles() {
     stream.triangles.push_back(t);
   }
   return stream;
-}
-
-struct Result {
-  std::vector<ScreenTriangle> triangles;
-  FrontendStats stats;
-};
-Result run(const Drawable& drawable, const FrontendOptions& options) {
-  Frontend frontend;
-  const auto span = frontend.run(drawable, options);
-  return {{span.begin(), span.end()}, frontend.stats()};
-}
-
-void expect_same_triangles(const std::vector<ScreenTriangle>& a, const std::vector<ScreenTriangle>& b,
-                           const std::string& what) {
-  ASSERT_EQ(a.size(), b.size()) << what;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    ASSERT_EQ(std::memcmp(&a[i], &b[i], sizeof a[i]), 0) << what << ", triangle " << i;
 }
 
 // keep_unsnapped makes the front end process one triangle at a time, and keep triangles without area.
@@ -396,16 +382,6 @@ TEST(FrontendKernels, GrowsForPiecesOfClippedTriangles) {
     EXPECT_EQ(frontend.stats().clipped_near, kCount);
     for (std::size_t i = 0; i < found.size(); ++i) ASSERT_EQ(found[i].payload, i / 2);
   }
-}
-
-TEST(FrontendKernels, LaterFramesReuseTheSameMemory) {
-  Frontend frontend;
-  FrontendOptions options{.width = 300, .height = 200, .threads = 2};
-  const Scene scene = random_scene(false);
-  const auto* first = frontend.run(scene, options).data();
-  options.cull = Cull::none;
-  EXPECT_EQ(frontend.run(scene, options).data(), first);
-  EXPECT_EQ(frontend.run(random_triangles(), options).data(), first);
 }
 
 TEST(FrontendKernels, NamesTheTriangleWhoseVertexIsMissing) {

@@ -45,15 +45,9 @@ Scene loose(const std::vector<glm::vec3>& positions) {
 const std::vector<glm::vec3> kFront = {{-1, -1, -3}, {-1, 1, -3}, {1, -1, -3}};
 const std::vector<glm::vec3> kBack = {{-1, -1, -3}, {1, -1, -3}, {-1, 1, -3}};
 
-struct Result {
-  std::vector<ScreenTriangle> triangles;
-  FrontendStats stats;
-};
-Result run(const Drawable& drawable,
-           FrontendOptions options = {.width = 100, .height = 100, .cull = Cull::none}) {
-  Frontend frontend;
-  const auto span = frontend.run(drawable, options);
-  return {{span.begin(), span.end()}, frontend.stats()};
+testing::Emitted run(const Drawable& drawable,
+                     const FrontendOptions& options = {.width = 100, .height = 100, .cull = Cull::none}) {
+  return testing::run(drawable, options);
 }
 
 void expect_consistent(const FrontendStats& s) {

@@ -117,7 +117,8 @@ TEST(Positions, OfNewVerticesHardlyDependOnTheCornersDistance) {
   EXPECT_GT(vertices, 2000);
 }
 
-// plane that floats, which decide, may place it in view, and doubles just outside.
+// One of the shared corners is so close to the near plane that floats, which decide, may place it in view,
+// and doubles just outside.
 TEST(Positions, ClippedTrianglesKeepTheCornersTheyShare) {
   Random random(63);
   Frontend frontend;

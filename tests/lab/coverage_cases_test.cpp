@@ -25,13 +25,6 @@ TEST(CoverageCases, TheDrtkQuadShowsTheTieRules) {
   EXPECT_EQ(against_floats("float_top_left", quad).errors(), 0u);
 }
 
-TEST(CoverageCases, TheDiagonalOfALatticeSquareConsistsOfTies) {
-  const Picture& square = picture_of("lattice_square");
-  EXPECT_EQ(against_floats("float_le", square).double_hits, 64u);
-  EXPECT_EQ(against_floats("float_lt", square).gaps, 64u);
-  EXPECT_EQ(against_floats("float_top_left", square).errors(), 0u);
-}
-
 TEST(CoverageCases, FloatsOpenGapsInAFan) {
   const Picture& fan = picture_of("fan");
   for (const auto method : {"float_top_left", "float_snapped", "float_incremental"}) {

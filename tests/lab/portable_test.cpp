@@ -164,42 +164,6 @@ struct FloatPlane {
   float zx = 0, zy = 0, z = 0;
 };
 
-TEST(Portable, TheErrorOfAFloatPlaneIsBounded) {
-  std::mt19937 random(5);
-  const auto uniform = [&](double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random);
-  };
-  double largest = 0.0;  // error over bound
-  for (int i = 0; i < 20'000; ++i) {
-    const double reach = std::exp(uniform(0.0, 9.0));
-    UnsnappedTriangle t{};
-    for (int k = 0; k < 3; ++k) {
-      t.x_px[k] = static_cast<float>(uniform(-reach, reach) + uniform(0, kWidth));
-      t.y_px[k] = static_cast<float>(uniform(-reach, reach) + uniform(0, kHeight));
-      t.z01[k] = static_cast<float>(uniform(0.0, 1.0));
-    }
-    const auto sides = [](const float(&v)[3]) {
-      return std::abs(double{v[1]} - double{v[0]}) + std::abs(double{v[2]} - double{v[0]});
-    };
-    const auto extent = [](const float(&v)[3], double least) {
-      return std::max({least, std::abs(double{v[0]}), std::abs(double{v[1]}), std::abs(double{v[2]})});
-    };
-    const FloatTruth truth(t);
-    const double area =
-        std::abs((double{t.x_px[1]} - double{t.x_px[0]}) * (double{t.y_px[2]} - double{t.y_px[0]}) -
-                 (double{t.x_px[2]} - double{t.x_px[0]}) * (double{t.y_px[1]} - double{t.y_px[0]}));
-    const double bound = float_plane_error(1.0, 1.0, sides(t.x_px), sides(t.y_px), area,
-                                           extent(t.x_px, kWidth), extent(t.y_px, kHeight));
-    const FloatPlane plane(t);
-    for (const int x : {0, kWidth - 1})
-      for (const int y : {0, kHeight - 1})
-        if (truth.covers(x, y))
-          largest = std::max(largest, std::abs(double{plane.at(x, y)} - truth.depth(x, y).get_d()) / bound);
-  }
-  EXPECT_LE(largest, 1.0);
-  EXPECT_GE(largest, 0.02) << "a bound so loose that it says nothing";
-}
-
 // One rasterizer that the model allows: it moves each vertex by less than a step in any direction and each
 // depth by less than the error of a float z / w, evaluates depth planes in floats, rounds to the format, and
 // clears to 1.

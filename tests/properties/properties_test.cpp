@@ -102,7 +102,7 @@ TriangleStream on_grid(const TriangleStream& stream) {
 TEST_F(Properties, VerticesOffTheGridAreSnappedHalfToEven) {
   Frontend frontend;
   check(float_streams(), 2'000, [&](const TriangleStream& stream) {
-    Verdict verdict{.replay = {stream, on_grid(stream)}, .replay_by_pictures = true};
+    Verdict verdict{.replay = {stream, on_grid(stream)}};
     FrontendOptions options{stream.width, stream.height, Cull::none, false, Payload::id};
     const auto triangles = snapped(stream, Payload::id);
     Framebuffer expected(stream.width, stream.height);
@@ -124,7 +124,7 @@ TEST_F(Properties, RotatingOrReversingTheVertexOrderChangesNothing) {
   constexpr std::array<std::array<int, 3>, 5> kOrders{
       {{1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
   check(grid_streams(), 1'500, [&](const TriangleStream& stream) {
-    Verdict verdict{.replay = {stream}, .replay_by_pictures = true};
+    Verdict verdict{.replay = {stream}};
     for (std::size_t order = 0; order <= kOrders.size(); ++order) {
       TriangleStream changed = stream;
       for (std::size_t i = 0; i < changed.triangles.size(); ++i)  // finally, each triangle differently
@@ -151,7 +151,7 @@ TEST_F(Properties, TrianglesWithoutAreaChangeNothing) {
       more.triangles.push_back({{b, c, b}, 2});
       more.triangles.push_back({{c, c, c}, 3});
     }
-    Verdict verdict{.replay = {stream, more}, .replay_by_pictures = true};
+    Verdict verdict{.replay = {stream, more}};
     const auto triangles = snapped(stream, Payload::colour);
     auto without = triangles;
     std::erase_if(without, [](const ScreenTriangle& t) { return contract::signed_area(t) == 0; });
@@ -166,7 +166,7 @@ TEST_F(Properties, DepthTiesKeepTheEarlierTriangle) {
   check(grid_streams(), 2'000, [&](const TriangleStream& stream) {
     TriangleStream twice = stream;
     for (const StreamTriangle& t : stream.triangles) twice.triangles.push_back(reordered(t, {2, 1, 0}));
-    Verdict verdict{.replay = {stream, twice}, .replay_by_pictures = true};
+    Verdict verdict{.replay = {stream, twice}};
     compare_with_own(verdict, snapped(stream, Payload::id), snapped(twice, Payload::id), stream,
                      "followed by a copy");
     return verdict;

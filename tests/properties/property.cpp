@@ -33,14 +33,6 @@ std::filesystem::path write(const TriangleStream& stream, const std::filesystem:
   return path;
 }
 
-// A shell command that runs the program.
-std::string command(const std::string& options, const std::vector<std::string>& files) {
-  std::string text = "'" EDGEWISE_PROGRAM "' ";
-  text += options;
-  for (const std::string& file : files) text.append(" '").append(file).append("'");
-  return text;
-}
-
 }  // namespace
 
 Counterexample smallest(const rc::Shrinkable<TriangleStream>& stream, const Property& property) {
@@ -65,34 +57,24 @@ SearchResult search(const rc::Gen<TriangleStream>& streams, int cases, const Pro
 std::string report(const Counterexample& found, const std::filesystem::path& folder,
                    const std::string& name) {
   const Verdict& verdict = found.verdict;
-  std::vector<std::string> files;
-  std::string counts;
+  std::string files, counts;
   for (const TriangleStream& stream : verdict.replay) {
-    const std::string number = files.empty() ? std::string() : '-' + std::to_string(files.size() + 1);
+    const std::string number = files.empty() ? "" : '-' + std::to_string(&stream - verdict.replay.data() + 1);
     if (!files.empty()) counts += " and ";
     counts += std::to_string(stream.triangles.size());
-    files.push_back(write(stream, std::filesystem::absolute(folder) / (name + number + ".tri")).string());
-  }
-  std::string commands = command("verify", files);
-  if (verdict.replay_by_pictures) {
-    const std::vector<std::string> pictures{files.front() + ".png", files.back() + ".png"};
-    commands += " && " + command("render -o", {pictures.front(), files.front()});
-    commands += " && " + command("render -o", {pictures.back(), files.back()});
-    commands += " && " + command("diff", pictures);
+    files +=
+        " '" + write(stream, std::filesystem::absolute(folder) / (name + number + ".tri")).string() + "'";
   }
   return verdict.wrong + "\nSmallest case, after " + std::to_string(found.shrinks) + " shrinks: " + counts +
-         " triangle(s). To see it again:\n  " + commands + "\n";
-}
-
-std::filesystem::path failure_folder() {
-  return std::filesystem::path(EDGEWISE_PROGRAM).parent_path() / "property-failures";
+         " triangle(s). To see it again:\n  '" EDGEWISE_PROGRAM "' verify" + files + "\n";
 }
 
 void fail(const Counterexample& found) {
   const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
   std::string name = std::string(test->test_suite_name()) + "." + test->name();
   std::replace(name.begin(), name.end(), '/', '-');  // of parameterised tests
-  ADD_FAILURE() << report(found, failure_folder(), name);
+  ADD_FAILURE() << report(found, std::filesystem::path(EDGEWISE_PROGRAM).parent_path() / "property-failures",
+                          name);
 }
 
 void check(const rc::Gen<TriangleStream>& streams, int cases, const Property& property) {

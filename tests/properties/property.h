@@ -20,8 +20,7 @@ struct Verdict {
   std::uint64_t comparisons = 0;  // of pictures, or of planes of counts
   std::string wrong = {};         // the first difference; empty if the property holds
   std::vector<TriangleStream>
-      replay;                       // the streams to draw to see it: this one, and what it was compared with
-  bool replay_by_pictures = false;  // each may match the oracle, but the first two should look the same
+      replay;  // the streams to draw to see it: this one, and what it was compared with
 
   // Counts a comparison; `difference` is empty if it found none.
   void compare(const std::string& difference, const std::string& what) {
@@ -52,10 +51,8 @@ SearchResult search(const rc::Gen<TriangleStream>& streams, int cases, const Pro
 // files, and the command that reproduces it.
 std::string report(const Counterexample& found, const std::filesystem::path& folder, const std::string& name);
 
-// The folder for the files of failed properties: property-failures, beside the program.
-std::filesystem::path failure_folder();
-
-// Fails the current test with a report. Its files are named after the test.
+// Fails the current test with a report. Its files are named after the test, in property-failures beside the
+// program.
 void fail(const Counterexample& found);
 
 // Searches, and fails if there is a counterexample. `cases` is the default number; the full size tries

@@ -5,15 +5,10 @@
 
 #include <cstdint>
 
-#include "core/random.h"
-#include "edgewise/contract.h"
 #include "edgewise/scene.h"
+#include "support.h"
 
 namespace edgewise::testing {
-
-inline std::int32_t between(Random& random, std::int32_t low, std::int32_t high) {
-  return low + static_cast<std::int32_t>(random.below(static_cast<std::uint64_t>(high - low + 1)));
-}
 
 inline float pixels(std::int32_t sub) {
   return static_cast<float>(sub) / contract::kSub;

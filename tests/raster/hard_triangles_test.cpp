@@ -9,6 +9,7 @@ namespace edgewise {
 namespace {
 
 using namespace contract;
+using testing::between;
 using testing::EveryBackend;
 
 // a^-1 mod m, for coprime a and m.
@@ -149,14 +150,11 @@ TEST_P(EveryBackend, DrawsSteepTrianglesWhoseDepthPlanesWrap) {
   // layer. In the bounding box their planes exceed 32 bits many times over.
   constexpr int kWidth = 64, kHeight = 64;
   Random random(17);
-  const auto between = [&](int low, int high) {
-    return low + static_cast<std::int32_t>(random.below(static_cast<std::uint64_t>(high - low + 1)));
-  };
   const ScreenTriangle layer = right_triangle(at_depth(kDepthRange / 2), 1);
   for (int i = 0; i < 200; ++i) {
-    const std::int32_t x = between(0, 4 * kSub), y = between(0, 63 * kSub);
-    const ScreenTriangle thin{{x, between(57 * kSub, 63 * kSub), x + between(-500, 500)},
-                              {y, between(0, 63 * kSub), y + between(100, 1000)},
+    const std::int32_t x = between(random, 0, 4 * kSub), y = between(random, 0, 63 * kSub);
+    const ScreenTriangle thin{{x, between(random, 57 * kSub, 63 * kSub), x + between(random, -500, 500)},
+                              {y, between(random, 0, 63 * kSub), y + between(random, 100, 1000)},
                               {kDepthHead, kDepthHead, kDepthHead + kDepthRange},
                               2};
     expect_oracle(std::array{layer, thin}, kWidth, kHeight, std::to_string(i));
@@ -168,13 +166,11 @@ TEST_P(EveryBackend, AnchorsDepthAtTheTopmostThenLeftmostVertex) {
   // depths.
   constexpr int kWidth = 70, kHeight = 5;
   Random random(13);
-  const auto between = [&](std::int32_t low, std::int32_t high) {
-    return low + static_cast<std::int32_t>(random.below(static_cast<std::uint64_t>(high - low + 1)));
-  };
   for (std::uint32_t id = 0; id < 100; ++id) {
-    const std::int32_t top = between(-kGuardSub, -kGuardSub / 2), far = between(kGuardSub / 2, kGuardSub);
-    ScreenTriangle t{{-far, far, between(-far, far)},
-                     {top, id % 2 == 0 ? top : top + between(0, 1000), kGuardSub},
+    const std::int32_t top = between(random, -kGuardSub, -kGuardSub / 2),
+                       far = between(random, kGuardSub / 2, kGuardSub);
+    ScreenTriangle t{{-far, far, between(random, -far, far)},
+                     {top, id % 2 == 0 ? top : top + between(random, 0, 1000), kGuardSub},
                      {},
                      id};
     for (auto& z : t.z) z = kDepthHead + static_cast<std::uint32_t>(random.below(kDepthRange + 1ull));
@@ -188,13 +184,11 @@ TEST_P(EveryBackend, DrawsEdgesThatAreAlmostHorizontal) {
   Random random(5);
   std::vector<ScreenTriangle> triangles;
   for (std::uint32_t id = 0; id < 400; ++id) {
-    const auto between = [&](std::int32_t low, std::int32_t high) {
-      return low + static_cast<std::int32_t>(random.below(static_cast<std::uint64_t>(high - low + 1)));
-    };
-    const std::int32_t x = between(-2000, 2000), y = between(0, 70 * kSub), dy = between(1, 600);
-    const std::int32_t dx = std::min(between(4090, 4102) * dy, kGuardSub);
-    triangles.push_back({{x, x + dx, between(0, 100 * kSub)},
-                         {y, y + (id % 2 == 0 ? dy : -dy), y + between(-900, 900)},
+    const std::int32_t x = between(random, -2000, 2000), y = between(random, 0, 70 * kSub),
+                       dy = between(random, 1, 600);
+    const std::int32_t dx = std::min(between(random, 4090, 4102) * dy, kGuardSub);
+    triangles.push_back({{x, x + dx, between(random, 0, 100 * kSub)},
+                         {y, y + (id % 2 == 0 ? dy : -dy), y + between(random, -900, 900)},
                          {kDepthHead + id * 1000, kDepthHead + 90'000, kDepthHead + 400'000 - id * 1000},
                          id});
     if (id % 3 == 0)

@@ -40,9 +40,7 @@ class Wireframe : public ::testing::Test {
   }
   Pixels drawn(const ScreenTriangle& triangle) { return drawn({&triangle, 1}); }
 
-  std::int32_t between(std::int32_t low, std::int32_t high) {
-    return low + static_cast<std::int32_t>(random_.below(static_cast<std::uint64_t>(high - low + 1)));
-  }
+  std::int32_t between(std::int32_t low, std::int32_t high) { return testing::between(random_, low, high); }
   std::uint32_t depth() { return kDepthHead + static_cast<std::uint32_t>(random_.below(kDepthRange + 1ull)); }
 
   Random random_{17};

@@ -1,6 +1,7 @@
 // Parsing of terminal input, and output of pictures to a terminal.
 #include <gtest/gtest.h>
 
+#include "edgewise/scene.h"
 #include "viewer/terminal_io.h"
 
 namespace edgewise::viewer {
