@@ -68,6 +68,7 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
      "unknown option '--benchmark_fliter'; did you mean '--benchmark_filter'"},
     {"bench --hlep", 2, "unknown option '--hlep'; did you mean '--help'"},
     {"bench --peers --no-peers", 2, "--no-peers"},
+    {"bench --methods", 2, "--scene"},
     {"bench --scene cube --add-scene $IN/good.obj", 2, "--add-scene"},
 
     // ---- Unknown names, with the nearest known one
@@ -407,7 +408,7 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
     {"ulimit -f 64; edgewise capture sphere -o $DIR/a.tri", 2, "a.tri: cannot be written: File too large"},
     {"ulimit -f 1; edgewise verify cube --size 65x33 --json $DIR/a.json", 2,
      "a.json: cannot be written: File too large"},
-    {"ulimit -f 1; edgewise accuracy drtk_quad --no-speed --json $DIR/a.json", 2,
+    {"ulimit -f 1; edgewise accuracy drtk_quad --json $DIR/a.json", 2,
      "a.json: cannot be written: File too large"},
     {"ulimit -f 1; edgewise stability cycle --quick --json $DIR/a.json", 2,
      "a.json: cannot be written: File too large"},
@@ -476,8 +477,8 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
     {"stopped QUIT bench --benchmark_out=$DIR/a.json", 131, ""},
     {"stopped KILL bench --benchmark_out=$DIR/a.json", 137, "", "partial"},
     // Pictures are written one by one: complete ones may be left.
-    {"stopped INT edgewise accuracy edge_on t_junction --no-speed --pictures $DIR/errors", 130, "", "errors"},
-    {"stopped KILL edgewise accuracy edge_on t_junction --no-speed --pictures $DIR/errors", 137, "",
+    {"stopped INT edgewise accuracy edge_on t_junction --pictures $DIR/errors", 130, "", "errors"},
+    {"stopped KILL edgewise accuracy edge_on t_junction --pictures $DIR/errors", 137, "",
      "errors"},
     {"stopped INT edgewise render torus-knot --size 5000x5000 -o $DIR/a.png", 130, ""},
     {"stopped KILL edgewise render torus-knot --size 5000x5000 -o $DIR/a.png", 137, "", "partial"},

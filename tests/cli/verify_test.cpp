@@ -8,8 +8,8 @@
 #include <fstream>
 #include <iterator>
 #include <memory>
+#include <nlohmann/json.hpp>
 
-#include "cli/verify/report.h"
 #include "edgewise/contract.h"
 #include "edgewise/image.h"
 #include "edgewise/tri_file.h"

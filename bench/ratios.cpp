@@ -1,4 +1,4 @@
-#include "bench/peers/ratios.h"
+#include "bench/ratios.h"
 
 #include <fmt/format.h>
 
