@@ -11,7 +11,6 @@
 #include <span>
 
 #include "bench/flags.h"
-#include "bench/ratios.h"
 #include "bench/reporter.h"
 #include "bench/workloads/memory.h"
 #include "bench/workloads/random_reads.h"

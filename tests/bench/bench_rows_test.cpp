@@ -246,7 +246,8 @@ TEST(BenchMethods, AreNotTimedWhereAFormDrawsOtherPixels) {
                                   .promise = {},
                                   .draw = [](const auto&, lab::Canvas& canvas, const Execution& how) {
                                     canvas.depth[0] = static_cast<float>(how.threads);
-                                  }};
+                                  },
+                                  .runs = {}};
   const auto scene =
       std::make_shared<MethodScene>(lab::LabScene{lab::Family::coverage, "empty", "", true, true, 0.0, [] {
                                                     return lab::CoverageScene{{8, 8}, {}, {}};

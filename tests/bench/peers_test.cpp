@@ -9,7 +9,6 @@
 #include <map>
 #include <stdexcept>
 
-#include "bench/ratios.h"
 #include "bench/workloads/peers.h"
 #include "core/random.h"
 #include "edgewise/contract.h"
