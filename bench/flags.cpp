@@ -32,7 +32,8 @@ constexpr const char* kGoogleBenchmarkOptions[] = {"--benchmark_color",
 std::optional<Flags> parse_flags(int argc, char** argv) {
   Flags flags;
   std::optional<tools::Size> size;
-  CLI::App parser{"Compare the pictures of all backends, then time them and the front end", "edgewise_bench"};
+  CLI::App parser{"Compare all pictures, then time the backends, the front end and the laboratory's methods",
+                  "edgewise_bench"};
   parser.allow_extras();
   parser
       .add_option("--scene", flags.suite.scenes,
@@ -44,9 +45,12 @@ std::optional<Flags> parse_flags(int argc, char** argv) {
       ->excludes("--scene")
       ->type_name("FILE");
   parser.add_flag("--fit", flags.suite.fit, "Centre a mesh from a file and scale its longest side to 2");
+  parser.add_flag("--methods", flags.suite.methods, "Also time the laboratory's methods on --scene")
+      ->needs("--scene");
   bool no_peers = false;
-  auto* peers_flag = parser.add_flag("--peers", flags.need_peers,
-                                     "Fail if no other project's rasterizer starts (default: skip)");
+  auto* peers_flag = parser.add_flag("--peers", flags.suite.all_peers,
+                                     "Time other projects' rasterizers beside the methods, too; fail if "
+                                     "none starts");
   parser.add_flag("--no-peers", no_peers, "Leave out other projects' rasterizers")->excludes(peers_flag);
   parser.add_flag("--quick", flags.suite.quick,
                   "Fewer rows and repetitions; fewer triangles in knots and streams");
@@ -78,16 +82,22 @@ std::optional<Flags> parse_flags(int argc, char** argv) {
     flags.suite.size_asked = true;
   }
   flags.suite.peers = !no_peers;
-  if (flags.need_peers) bench::require_peers(bench::benchmark_peers());
+  if (flags.suite.quick) flags.repetitions = 5;
   flags.benchmark = parser.remaining();
   flags.known = tools::option_names(parser);
   flags.known.insert(flags.known.end(), std::begin(kGoogleBenchmarkOptions),
                      std::end(kGoogleBenchmarkOptions));
   for (const auto& flag : flags.benchmark) {
-    if (flag.starts_with("--benchmark_repetitions")) flags.own_repetitions = false;
     if (flag.starts_with("--benchmark_min_time")) flags.own_iterations = false;
     if (flag.starts_with("--benchmark_format")) flags.readable = flag.ends_with("=console");
   }
+  constexpr std::string_view kRepetitions = "--benchmark_repetitions=";
+  std::erase_if(flags.benchmark, [&](const std::string& flag) {
+    if (!flag.starts_with(kRepetitions)) return false;
+    flags.repetitions =
+        tools::parse_integer("--benchmark_repetitions", flag.substr(kRepetitions.size()), 1, 1'000'000);
+    return true;
+  });
   return flags;
 }
 

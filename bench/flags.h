@@ -15,13 +15,12 @@ struct Flags {
   std::string model_out;               // --model_out
   std::vector<std::string> benchmark;  // the remaining options, for Google Benchmark
   std::vector<std::string> known;      // the names of all options, Google Benchmark's included
-  // Whether our numbers of repetitions and iterations hold, not the user's.
-  bool own_repetitions = true, own_iterations = true;
-  bool need_peers = false;
-  bool readable = true;  // standard output is a table for people, not JSON or CSV
+  int repetitions = 9;                 // of each row; --quick has 5
+  bool own_iterations = true;          // our numbers of iterations hold, not the user's
+  bool readable = true;                // standard output is a table for people, not JSON or CSV
 };
 
-// None after --help. Throws CLI11's exceptions, and std::invalid_argument for --peers if no peer was built.
+// None after --help. Throws CLI11's exceptions.
 std::optional<Flags> parse_flags(int argc, char** argv);
 
 }  // namespace edgewise::bench

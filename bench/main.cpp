@@ -11,7 +11,6 @@
 #include <span>
 
 #include "bench/flags.h"
-#include "bench/peers/ratios.h"
 #include "bench/reporter.h"
 #include "bench/workloads/memory.h"
 #include "bench/workloads/random_reads.h"
@@ -32,24 +31,14 @@ constexpr const char* kProgram = "edgewise_bench";
 
 namespace {
 
-// The time budget of a row. Noise comes in bursts, so many short repetitions measure better than a few long
-// ones.
-struct Effort {
-  // The minimum for all but ablation rows of the backend alone: the rank-sum test of
-  // scripts/reporting/noise.py needs five on both sides. Those rows may have fewer, since their steps are far
-  // above the noise.
-  int repetitions;
-  int ablation_repetitions;  // replaces `repetitions` for ablation rows and close ones: their differences are
-                             // often below the noise
-  double repetition_s;       // minimum duration of a repetition
-  double slow_repetition_s;  // rows with longer iterations have fewer repetitions, but at least `repetitions`
-};
-constexpr Effort kFull{5, 9, 0.012, 0.07}, kQuick{5, 5, 0.01, 0.1};
+// The least duration of a repetition. Noise comes in bursts, so many short repetitions measure better than a
+// few long ones.
+constexpr double kRepetition_s = 0.012;
 
 // Memory is measured once per scene and backend.
 bool needs_peak(const Row& row) {
   return row.timed == Timed::frame && row.backend != nullptr && is_plain(row) && row.execution.threads == 2 &&
-         row.once_s < row.repeat_below_s;
+         row.once_s < kTooSlowForFrames_s;
 }
 
 // Passes Google Benchmark our defaults first, so that the user's flags override them.
@@ -91,8 +80,9 @@ std::optional<std::vector<Row>> select(std::vector<Row> suite) {
 
 // A peer that was built cannot start on a machine without its driver.
 void leave_out_missing_peers(std::vector<Row>& rows, bool need_peers) {
-  if (std::none_of(rows.begin(), rows.end(), [](const Row& row) { return row.peer != nullptr; })) return;
-  const StartedPeers started = start_peers(benchmark_peers());
+  const bool some = std::any_of(rows.begin(), rows.end(), [](const Row& row) { return row.peer != nullptr; });
+  if (!some && !need_peers) return;
+  const lab::StartedPeers started = lab::start_peers(need_peers ? lab::peers() : lab::benchmark_peers());
   if (need_peers) started.require_one();
   for (const auto& [peer, version] : started.peers)
     benchmark::AddCustomContext(std::string(peer->name), version);
@@ -108,7 +98,7 @@ bool is_too_slow_alone(std::span<const Row> rows, std::size_t i) {
   if (i == 0 || rows[i].timed != Timed::frame) return false;
   const Row &row = rows[i], &alone = rows[i - 1];
   return alone.timed == Timed::raster && alone.workload == row.workload && alone.backend == row.backend &&
-         alone.execution.threads == row.execution.threads && alone.once_s > kTooSlowToRepeat_s;
+         alone.execution.threads == row.execution.threads && alone.once_s > kTooSlowForFrames_s;
 }
 
 // Goes workload by workload, so that only one reference picture is in memory at a time. In the whole suite,
@@ -117,6 +107,10 @@ void compare_all(std::vector<Row>& rows, Stage& stage, bool whole_suite) {
   tools::Progress progress;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     progress.show(static_cast<double>(i) / static_cast<double>(rows.size()), "comparing " + rows[i].name);
+    if (rows[i].method) {
+      stage.compare(rows[i]);
+      continue;
+    }
     Workload& workload = *rows[i].workload;
     const auto needs_scene = [&](const Row& row) {
       return row.workload.get() == &workload && row.timed != Timed::raster;
@@ -134,7 +128,7 @@ void compare_all(std::vector<Row>& rows, Stage& stage, bool whole_suite) {
 // If the draw takes seconds, the front end's milliseconds are lost in the noise.
 void leave_out_slow_frames(std::vector<Row>& rows) {
   std::erase_if(rows, [&](const Row& row) {
-    const bool slow = row.timed == Timed::frame && row.once_s > kTooSlowToRepeat_s;
+    const bool slow = row.timed == Timed::frame && row.once_s > kTooSlowForFrames_s;
     if (slow) std::cerr << "Left out as too slow: " << row.name << '\n';
     return slow;
   });
@@ -149,13 +143,18 @@ void pause_before(const Row& row) {
   });
 }
 
+// Rows that are not repeated: wrong ones, and those that the comparison has already timed.
+bool is_known(const Row& row) {
+  return !row.error.empty() || row.once_s > kTooSlowToRepeat_s;
+}
+
 void time_row(benchmark::State& state, Row& row, Stage& stage) {
   if (!row.error.empty()) return state.SkipWithError(row.error.c_str());
-  if (row.once_s > row.repeat_below_s) {
+  if (is_known(row)) {
     for (auto _ : state) state.SetIterationTime(row.once_s);
   } else {
     // The caches hold another row's data. A long draw needs no warm-up.
-    if (stage.renew_memory(row) || row.once_s < kFull.repetition_s) stage.work(row);
+    if (stage.renew_memory(row) || row.once_s < kRepetition_s) stage.work(row);
     for (auto _ : state) {
       if (row.pause_s > 0.0) {
         state.PauseTiming();
@@ -165,8 +164,16 @@ void time_row(benchmark::State& state, Row& row, Stage& stage) {
       stage.work(row);
     }
   }
-  const Workload& workload = *row.workload;
   auto& counters = state.counters;
+  if (row.peer != nullptr) state.SetLabel(row.peer->version());
+  if (row.method) {
+    const MethodScene& scene = *row.method->scene;
+    counters["width"] = scene.size().width;
+    counters["height"] = scene.size().height;
+    counters["triangles"] = static_cast<double>(scene.triangles());
+    return;
+  }
+  const Workload& workload = *row.workload;
   counters["width"] = workload.width();
   counters["height"] = workload.height();
   counters["triangles"] =
@@ -178,58 +185,67 @@ void time_row(benchmark::State& state, Row& row, Stage& stage) {
   const auto covered_px = static_cast<double>(workload.covered_px());
   counters["covered_px"] = covered_px;
   counters["overdraw"] = covered_px / (static_cast<double>(workload.width()) * workload.height());
-  if (row.peer == nullptr) return;
-  counters["depth_ties"] = static_cast<double>(row.depth_ties);
-  state.SetLabel(row.peer->version());
+  if (row.peer != nullptr) counters["depth_ties"] = static_cast<double>(row.depth_ties);
 }
 
-void register_rows(std::vector<Row>& rows, Stage& stage, const Flags& flags, tools::Progress& progress) {
-  const Effort effort = flags.suite.quick ? kQuick : kFull;
-  struct Calls {
-    int made = 0, expected = 0;
-  };
-  const auto calls = std::make_shared<Calls>();
+void register_rows(std::vector<Row>& rows, Stage& stage, const Flags& flags, int repetition,
+                   tools::Progress& progress) {
+  const auto made = std::make_shared<double>(0.0);
   for (Row& row : rows) {
-    auto* registered = benchmark::RegisterBenchmark(
-        row.name.c_str(), [&row, &stage, &progress, calls](benchmark::State& state) {
-          progress.show(std::min(1.0, static_cast<double>(calls->made++) / calls->expected),
-                        "timing " + row.name);
+    const bool known = is_known(row);
+    if (known && repetition > 0) continue;
+    auto* registered =
+        benchmark::RegisterBenchmark(row.name.c_str(), [&, made, repetition](benchmark::State& state) {
+          const double fraction = std::min(1.0, (*made)++ / static_cast<double>(rows.size()));
+          progress.show((repetition + fraction) / flags.repetitions, "timing " + row.name);
           time_row(state, row, stage);
         });
     registered->Unit(benchmark::kMillisecond);
-    // The comparison has already timed a slow row.
-    const bool known = row.once_s > row.repeat_below_s;
     if (known)
       registered->UseManualTime();
     else
       registered->UseRealTime();
-    const double once_s = std::max(row.once_s, 1e-6);
-    const int least = row.step && row.timed == Timed::raster ? 1 : effort.repetitions;
     if (flags.own_iterations || known)
-      registered->Iterations(known ? 1
-                                   : std::max<std::int64_t>(1, std::llround(effort.repetition_s / once_s)));
-    const int most = row.step || row.close ? effort.ablation_repetitions : effort.repetitions;
-    const int repetitions =
-        known ? 1 : std::clamp(static_cast<int>(most * effort.slow_repetition_s / once_s), least, most);
-    if (flags.own_repetitions || known) registered->Repetitions(repetitions);
-    calls->expected += repetitions;
+      registered->Iterations(
+          known ? 1 : static_cast<std::int64_t>(std::ceil(kRepetition_s / std::max(row.once_s, 1e-6))));
   }
 }
 
+struct RandomReadRow {
+  ReadRow row;
+  std::shared_ptr<RandomReads> reads;
+};
+
 // Registered whatever the filter: they show how fast the machine's caches were while the rows were timed.
-void register_random_reads(const Flags& flags) {
+void register_random_reads(std::span<const RandomReadRow> rows) {
   constexpr std::size_t kReads = 10'000;
   constexpr int kIterations = 5;
-  for (const ReadRow& row : random_read_rows()) {
-    auto* registered = benchmark::RegisterBenchmark(
-        row.name.data(), [reads = std::make_shared<RandomReads>(row.bytes), row](benchmark::State& state) {
+  for (const auto& [row, reads] : rows)
+    benchmark::RegisterBenchmark(
+        row.name.data(),
+        [reads = reads, row = row](benchmark::State& state) {
           if (row.fits_cache) benchmark::DoNotOptimize(reads->advance(reads->lines()));  // refills the cache
           for (auto _ : state) benchmark::DoNotOptimize(reads->advance(kReads));
           state.counters["reads"] = kReads;
           state.counters["bytes"] = static_cast<double>(row.bytes);
-        });
-    registered->Unit(benchmark::kMillisecond)->UseRealTime()->Iterations(kIterations);
-    if (flags.own_repetitions) registered->Repetitions(flags.suite.quick ? 5 : 20);
+        })
+        ->Unit(benchmark::kMillisecond)
+        ->UseRealTime()
+        ->Iterations(kIterations);
+}
+
+// In each repetition all rows are timed once, in random order: repetition i of one row and of another form a
+// pair.
+void time_all(std::vector<Row>& rows, Stage& stage, const Flags& flags, Reporter& reporter) {
+  tools::Progress progress;
+  std::vector<RandomReadRow> reads;
+  for (const ReadRow& row : random_read_rows())
+    reads.push_back({row, std::make_shared<RandomReads>(row.bytes)});
+  for (int repetition = 0; repetition < flags.repetitions; ++repetition) {
+    benchmark::ClearRegisteredBenchmarks();
+    register_rows(rows, stage, flags, repetition, progress);
+    register_random_reads(reads);
+    benchmark::RunSpecifiedBenchmarks(&reporter, ".");
   }
 }
 
@@ -251,7 +267,7 @@ void add_context(const Flags& flags) {
                                        : flags.suite.scenes.empty() ? "full"
                                                                     : "scenes");
   benchmark::AddCustomContext("backends", names_of(backends()));
-  benchmark::AddCustomContext("peers", names_of(benchmark_peers()));
+  benchmark::AddCustomContext("peers", names_of(lab::benchmark_peers()));
 }
 
 // The cost model's parts, one line per row.
@@ -290,7 +306,7 @@ int run(int argc, char** argv) {
   if (selected->empty()) return 0;
   std::vector<Row>& rows = *selected;
 
-  leave_out_missing_peers(rows, flags.need_peers);
+  leave_out_missing_peers(rows, flags.suite.all_peers);
   if (rows.empty()) return 2;
   Stage stage(!flags.model_out.empty());
   compare_all(rows, stage, flags.suite.scenes.empty());
@@ -300,12 +316,8 @@ int run(int argc, char** argv) {
   for (const auto& row : rows) names.push_back(row.name);
   for (const auto& row : random_read_rows()) names.emplace_back(row.name);
   Reporter reporter(names);
-  {
-    tools::Progress progress;
-    register_rows(rows, stage, flags, progress);
-    register_random_reads(flags);
-    benchmark::RunSpecifiedBenchmarks(&reporter, ".");
-  }
+  time_all(rows, stage, flags, reporter);
+  reporter.finish();
   if (out) {
     out->stream() << reporter.json();
     out->commit();

@@ -4,16 +4,13 @@
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "support/json_text.h"
 
 namespace edgewise::bench {
 
 namespace {
-
-bool is_median(const benchmark::BenchmarkReporter::Run& run) {
-  return run.aggregate_name == "median";
-}
 
 void derive_rates(benchmark::BenchmarkReporter::Run& run) {
   const double s = run.GetAdjustedRealTime() / benchmark::GetTimeUnitMultiplier(run.time_unit);
@@ -29,6 +26,28 @@ void derive_rates(benchmark::BenchmarkReporter::Run& run) {
   counters["ns_per_covered_px"] = s * 1e9 / covered_px;
 }
 
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return (values[(values.size() - 1) / 2] + values[values.size() / 2]) / 2.0;
+}
+
+// As Google Benchmark aggregates repetitions.
+benchmark::BenchmarkReporter::Run median_of(const std::vector<benchmark::BenchmarkReporter::Run>& runs) {
+  std::vector<double> real_s, cpu_s;
+  for (const auto& run : runs) {
+    real_s.push_back(run.real_accumulated_time / static_cast<double>(run.iterations));
+    cpu_s.push_back(run.cpu_accumulated_time / static_cast<double>(run.iterations));
+  }
+  auto result = runs.front();
+  result.run_type = benchmark::BenchmarkReporter::Run::RT_Aggregate;
+  result.aggregate_name = "median";
+  result.iterations = static_cast<benchmark::IterationCount>(runs.size());
+  result.real_accumulated_time = median(real_s) * static_cast<double>(runs.size());
+  result.cpu_accumulated_time = median(cpu_s) * static_cast<double>(runs.size());
+  derive_rates(result);
+  return result;
+}
+
 }  // namespace
 
 Reporter::Reporter(std::vector<std::string> names_in_order)
@@ -37,6 +56,7 @@ Reporter::Reporter(std::vector<std::string> names_in_order)
 }
 
 bool Reporter::ReportContext(const Context& context) {
+  if (std::exchange(has_context_, true)) return true;
   Context plain = context;
   plain.name_field_width = 10;
   for (const auto& name : names_) plain.name_field_width = std::max(plain.name_field_width, name.size());
@@ -48,21 +68,24 @@ bool Reporter::ReportContext(const Context& context) {
 
 void Reporter::ReportRuns(const std::vector<Run>& runs) {
   for (Run run : runs) {
-    // Charts and tables show the median. The file's repetitions give mean and deviation.
-    if (run.run_type == Run::RT_Aggregate && !is_median(run)) continue;
     run.run_name = {run.run_name.function_name, "", "", "", "", "", "", ""};
     if (!run.error_occurred) derive_rates(run);
-    runs_[run.run_name.function_name].push_back(std::move(run));
+    auto& earlier = runs_[run.run_name.function_name];
+    run.repetition_index = static_cast<std::int64_t>(earlier.size());
+    earlier.push_back(std::move(run));
   }
 }
 
-void Reporter::Finalize() {
+void Reporter::finish() {
   std::vector<Run> shown;  // reported in one call: CSV's columns are the counters of the first call
   for (const auto& name : names_) {
-    const auto& runs = runs_[name];
-    std::copy_if(runs.begin(), runs.end(), std::back_inserter(shown), is_median);
-    if (std::none_of(runs.begin(), runs.end(), is_median) && !runs.empty()) shown.push_back(runs.front());
-    if (!runs.empty()) json_.ReportRuns(runs);
+    auto& runs = runs_[name];
+    if (runs.empty()) continue;
+    for (Run& run : runs) run.repetitions = static_cast<std::int64_t>(runs.size());
+    shown.push_back(runs.size() == 1 ? runs.front() : median_of(runs));
+    std::vector<Run> all = runs;
+    if (runs.size() > 1) all.push_back(shown.back());
+    json_.ReportRuns(all);
   }
   if (!shown.empty()) console_->ReportRuns(shown);
   console_->Finalize();
@@ -72,13 +95,9 @@ void Reporter::Finalize() {
 std::map<std::string, double> Reporter::median_ms() const {
   std::map<std::string, double> medians;
   for (const auto& [name, runs] : runs_) {
-    std::vector<double> times_ms;
-    for (const Run& run : runs)
-      if (run.run_type == Run::RT_Iteration && !run.error_occurred)
-        times_ms.push_back(run.GetAdjustedRealTime() * 1e3 / benchmark::GetTimeUnitMultiplier(run.time_unit));
-    if (times_ms.empty()) continue;
-    std::sort(times_ms.begin(), times_ms.end());
-    medians[name] = (times_ms[(times_ms.size() - 1) / 2] + times_ms[times_ms.size() / 2]) / 2.0;
+    if (runs.empty() || runs.front().error_occurred) continue;
+    const Run run = runs.size() == 1 ? runs.front() : median_of(runs);
+    medians[name] = run.GetAdjustedRealTime() * 1e3 / benchmark::GetTimeUnitMultiplier(run.time_unit);
   }
   return medians;
 }

@@ -1,5 +1,5 @@
-// Google Benchmark's own console and JSON output, with plain row names in the suite's order (repetitions are
-// interleaved), rates derived from the times, and without the host name.
+// Google Benchmark's own console and JSON output of several runs, each of which is one repetition: with plain
+// row names in the suite's order, medians, rates derived from the times, and without the host name.
 #pragma once
 
 #include <benchmark/benchmark.h>
@@ -17,16 +17,18 @@ class Reporter final : public benchmark::BenchmarkReporter {
 
   bool ReportContext(const Context& context) override;
   void ReportRuns(const std::vector<Run>& runs) override;
-  void Finalize() override;
+  // After the last run: prints.
+  void finish();
 
-  // After Finalize(): the timed rows' medians by row name.
+  // After finish(): the timed rows' medians by row name.
   std::map<std::string, double> median_ms() const;
-  // After Finalize(): the JSON, one line per row.
+  // After finish(): the JSON, one line per row.
   std::string json() const;
 
  private:
   std::vector<std::string> names_;
   std::map<std::string, std::vector<Run>> runs_;
+  bool has_context_ = false;
   benchmark::BenchmarkReporter* console_;
   benchmark::JSONReporter json_;
   std::ostringstream json_text_;

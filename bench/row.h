@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "bench/peers/peer.h"
+#include "bench/workloads/methods.h"
 #include "bench/workloads/workload.h"
 #include "lab/engine/engine.h"
 #include "raster/ablation.h"
@@ -20,25 +20,26 @@ enum class Timed {
 };
 
 // Rows that take longer are drawn once: the draw that is compared is also the one that is timed.
-inline constexpr double kTooSlowToRepeat_s = 1.5;
+inline constexpr double kTooSlowToRepeat_s = 0.3;
+// Frames whose backend alone takes longer are left out of the suite.
+inline constexpr double kTooSlowForFrames_s = 1.5;
 
 struct Row {
-  // WHO/what/key:value…/threads:N, where WHO is BACKEND, frontend, BACKEND+frontend, or a peer's name
+  // WHO/what/key:value…/threads:N, where WHO is BACKEND, frontend, BACKEND+frontend, a peer's name, or lab
   std::string name;
-  std::shared_ptr<Workload> workload;
+  std::shared_ptr<Workload> workload;  // null for methods
+  std::optional<MethodDraw> method;    // of the laboratory, a peer's included
   Timed timed = Timed::raster;
-  const BackendInfo* backend = nullptr;  // null for front end rows and peers
-  const PeerInfo* peer = nullptr;
+  const BackendInfo* backend = nullptr;  // null for front end rows, peers and methods
+  const lab::PeerInfo* peer = nullptr;
   Execution execution;
   Ablation ablation{};
   std::optional<lab::EngineNumbers> numbers;  // if set, the laboratory's engine draws, in place of `backend`
-  double repeat_below_s = kTooSlowToRepeat_s;
-  double pause_s = 0.0;   // before each frame, not timed
-  double peak_bytes = 0;  // of a first frame; 0: not measured
+  double pause_s = 0.0;                       // before each frame, not timed
+  double peak_bytes = 0;                      // of a first frame; 0: not measured
   bool wants_cost = false;
   bool step = false;                      // one step of the ablation
   bool two_calls = false;                 // a frame by Frontend::run() and Backend::draw()
-  bool close = false;                     // differs little from other rows, so it is timed more often
   double once_s = 0.0;                    // duration of the compared draw
   std::optional<FrameCost> cost;          // if wants_cost
   std::uint64_t depth_ties = 0;           // peers: depth ties within tolerance, px

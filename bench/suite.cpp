@@ -8,7 +8,6 @@
 #include <stdexcept>
 
 #include "bench/workloads/ablation.h"
-#include "bench/workloads/engine_runs.h"
 #include "bench/workloads/growth.h"
 #include "lab/choice.h"
 #include "scene/polygon.h"
@@ -74,9 +73,8 @@ class Suite {
     for (const auto& backend : backends())
       for (const int threads : kThreads) {
         add(workload, Timed::raster, backend, name, threads);
-        rows_.back().wants_cost = rows_.back().close = backend.name == kAblationBackend;
+        rows_.back().wants_cost = backend.name == kAblationBackend;
         add(workload, Timed::frame, backend, name, threads);
-        rows_.back().close = backend.name == kAblationBackend;
       }
     for (const SimdTarget target : supported_targets())
       if (target != SimdTarget::scalar && target != resolve(SimdTarget::best))
@@ -84,7 +82,7 @@ class Suite {
           add(workload, Timed::frame, find_backend(kAblationBackend),
               fmt::format("{}/target:{}", name, name_of(target)), threads, target);
     if (!options_.peers) return;
-    for (const auto& peer : benchmark_peers())
+    for (const auto& peer : lab::benchmark_peers())
       for (const int threads : kThreads) add_peer(workload, peer, name, threads);
   }
 
@@ -102,13 +100,24 @@ class Suite {
     }
   }
 
+  // What exactness costs in the backend `tiled`: its engine with other arithmetic in the edge functions, on
+  // streams of few and of many triangles, with and without overdraw. The first run is the backend without
+  // coverage masks, which only the exact numbers allow.
   void add_engine_runs(const WorkloadPtr& workload, const std::string& scene) {
-    if (!in_engine_runs(scene)) return;
-    for (const EngineRun& run : engine_runs()) {
-      add(workload, Timed::raster, find_backend(kAblationBackend),
-          fmt::format("{}/engine:{}", scene, run.name), 1);
-      rows_.back().numbers = run.numbers;
-      rows_.back().close = true;
+    constexpr std::string_view kScenes[] = {"large", "medium", "small", "grid64"};
+    if (std::find(std::begin(kScenes), std::end(kScenes), scene) == std::end(kScenes)) return;
+    using lab::EngineNumbers;
+    constexpr std::pair<std::string_view, EngineNumbers> kRuns[] = {
+        {"exact", EngineNumbers::exact},
+        {"int64", EngineNumbers::int64},
+        {"double", EngineNumbers::float64},
+        {"float", EngineNumbers::float32},
+        {"float_rebased", EngineNumbers::float32_rebased},
+        {"int32", EngineNumbers::int32}};
+    for (const auto& [name, numbers] : kRuns) {
+      add(workload, Timed::raster, find_backend(kAblationBackend), fmt::format("{}/engine:{}", scene, name),
+          1);
+      rows_.back().numbers = numbers;
     }
   }
 
@@ -122,7 +131,6 @@ class Suite {
       if (streaming) what += "/stores:streaming";
       add(workload, Timed::frame, find_backend(kAblationBackend), what, threads);
       rows_.back().pause_s = 1e-3 * pause_ms;
-      rows_.back().close = true;
       if (streaming) rows_.back().ablation.tile_store = TileStore::streaming;
     };
     for (const int threads : kThreads) {
@@ -145,13 +153,9 @@ class Suite {
     }
   }
 
-  // In the last steps one draw of some backends takes a second, so one draw suffices.
   void add_growth() {
     for (const auto& [what, workload] : growth_steps(options_.width, options_.height, options_.quick))
-      for (const auto& backend : backends()) {
-        add(workload, Timed::raster, backend, what, kSweepThreads);
-        rows_.back().repeat_below_s = 0.6;
-      }
+      for (const auto& backend : backends()) add(workload, Timed::raster, backend, what, kSweepThreads);
   }
 
   // So little work that starting a thread is visible.
@@ -192,6 +196,20 @@ class Suite {
     }
   }
 
+  void add_methods(const lab::LabScene& scene) {
+    const auto peers = options_.all_peers ? lab::peers() : std::span<const lab::PeerInfo>();
+    for (MethodDraw& draw : method_draws(scene, peers)) {
+      Row row;
+      row.name =
+          fmt::format("lab/{}/family:{}/method:{}/simd:{}/threads:{}", scene.name, name_of(scene.family),
+                      draw.name(), name_of(draw.execution.target), draw.execution.threads);
+      if (const auto* peer = std::get_if<const lab::PeerInfo*>(&draw.method)) row.peer = *peer;
+      row.execution = draw.execution;
+      row.method = std::move(draw);
+      rows_.push_back(std::move(row));
+    }
+  }
+
   WorkloadPtr make_workload(std::function<tools::Source()> load) const {
     return std::make_shared<Workload>(options_.width, options_.height, Cull::back, std::move(load));
   }
@@ -227,7 +245,8 @@ class Suite {
     rows_.push_back(std::move(row));
   }
 
-  void add_peer(const WorkloadPtr& workload, const PeerInfo& peer, const std::string& scene, int threads) {
+  void add_peer(const WorkloadPtr& workload, const lab::PeerInfo& peer, const std::string& scene,
+                int threads) {
     Row row;
     row.name = fmt::format("{}+frontend/{}/threads:{}", peer.name, scene, threads);
     row.workload = workload;
@@ -265,10 +284,15 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
           fmt::format("--scene {} and --scene {} would both be named '{}'", other->second, scene, name));
     const auto* stream = std::get_if<TriangleStream>(&source.drawable);
     const bool own_size = stream && !options.size_asked;
-    suite.add_scene(std::make_shared<Workload>(own_size ? stream->width : options.width,
-                                               own_size ? stream->height : options.height, Cull::back,
-                                               [source] { return source; }),
-                    name);
+    const lab::Size size{own_size ? stream->width : options.width,
+                         own_size ? stream->height : options.height};
+    suite.add_scene(
+        std::make_shared<Workload>(size.width, size.height, Cull::back, [source] { return source; }), name);
+    if (options.methods)
+      for (const lab::LabScene& own : lab::own_scenes(name, stream != nullptr, [source, size] {
+             return lab::SizedDrawable{source.drawable, size};
+           }))
+        suite.add_methods(own);
   };
   for (const auto& scene : options.scenes) add_named(scene);
   if (!options.scenes.empty()) return suite.take();
@@ -288,6 +312,8 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
   suite.add_tiny();
   suite.add_cull_sweep();
   suite.add_target_sweep();
+  for (const lab::LabScene& scene : lab::lab_scenes(options.quick))
+    if (scene.timed) suite.add_methods(scene);
   return suite.take();
 }
 

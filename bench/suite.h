@@ -1,4 +1,5 @@
-// The list of benchmark rows: scenes × backends × threads, and the sweeps. Nothing is loaded or drawn here.
+// The list of benchmark rows: scenes × backends × threads, the sweeps, and the laboratory's methods. Nothing
+// is loaded or drawn here.
 #pragma once
 
 #include <string>
@@ -15,7 +16,9 @@ struct SuiteOptions {
   std::vector<std::string> scenes;       // names or files; empty: the whole suite
   std::vector<std::string> more_scenes;  // beside the whole suite
   bool fit = false;                      // for meshes in `scenes` and `more_scenes`
-  bool peers = true;                     // if built
+  bool methods = false;                  // of the laboratory, on `scenes`; the whole suite has them anyway
+  bool peers = true;                     // those in the suite, if built
+  bool all_peers = false;                // beside the methods, too
 };
 
 // Throws as load_source does for an invalid name or file, and std::invalid_argument for two sources whose

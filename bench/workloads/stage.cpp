@@ -34,6 +34,7 @@ Framebuffer& Stage::frame(const Row& row) {
 }
 
 void Stage::work(const Row& row) {
+  if (row.method) return methods_.at(row.name)();
   if (row.peer != nullptr) return peers_.work(row);
   Workload& workload = *row.workload;
   if (row.timed == Timed::frame && !row.numbers && !row.two_calls)
@@ -76,14 +77,17 @@ void Stage::compare_ours(Row& row) {
 }
 
 void Stage::compare(Row& row) {
-  if (row.peer != nullptr) {
+  if (row.method) {
+    methods_[row.name] = row.method->prepare(row.error);
+    row.once_s = timed_work_s(row);
+  } else if (row.peer != nullptr) {
     peers_.compare(row);
     row.once_s = timed_work_s(row);
   } else {
     compare_ours(row);
   }
   // The first draw also allocates memory. Later draws time the row, and short rows are drawn more often.
-  for (const double limit_s : {row.repeat_below_s, 0.1, 0.1})
+  for (const double limit_s : {kTooSlowForFrames_s, 0.1, 0.1})
     if (row.once_s < limit_s) row.once_s = std::min(row.once_s, timed_work_s(row));
   if (row.wants_cost && estimates_)
     row.cost = cost_model_.estimate(row.workload->triangles(), row.workload->blocks(), frame(row),

@@ -1,11 +1,13 @@
 // Compares and times rows. Owns the frames and backends that rows share.
 #pragma once
 
+#include <functional>
 #include <map>
+#include <string>
 #include <utility>
 
-#include "bench/peers/stage.h"
 #include "bench/row.h"
+#include "bench/workloads/peers.h"
 #include "raster/tile_list.h"
 
 namespace edgewise::bench {
@@ -17,7 +19,7 @@ class Stage {
 
   // Draws the row and compares every bit with the reference. Sets once_s, `error` if a bit differs, and
   // the cost model's estimate if the row has wants_cost and this stage estimates. Requires a prepared
-  // workload.
+  // workload, if the row has one.
   void compare(Row& row);
 
   // Drops the engine's memory, so that it gets the same addresses with all numbers. Others can change a row's
@@ -39,6 +41,7 @@ class Stage {
   Frontend frontend_;
   TileScratch scratch_;  // of the engine
   PeerStage peers_;
+  std::map<std::string, std::function<void()>> methods_;  // by row name
   CostModel cost_model_;
   bool estimates_;
 };

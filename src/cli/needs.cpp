@@ -6,7 +6,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -14,10 +13,7 @@
 #include <stdexcept>
 
 #include "cli/accuracy/closeup.h"
-#include "cli/accuracy/speed.h"
 #include "cli/commands.h"
-#include "edgewise/backend.h"
-#include "edgewise/framebuffer.h"
 #include "support/console.h"
 #include "support/json_text.h"
 #include "support/options.h"
@@ -29,7 +25,7 @@ namespace edgewise::tools {
 namespace {
 
 constexpr double kFramesPerSecond = 60.0;
-constexpr int kMostFrames = 100'000;
+constexpr int kMostStudiedFrames = 100'000;
 constexpr int kRangeBits[] = {4, 8, 16};
 
 struct NeedsCommandOptions {
@@ -54,51 +50,6 @@ void turn_camera(Camera& camera, glm::dvec3 centre, double radians) {
   camera.position = centre + glm::dvec3(c * from.x + s * from.z, from.y, c * from.z - s * from.x);
   camera.look_at(centre);
   if (from.x == 0.0 && from.z == 0.0) camera.yaw = static_cast<float>(radians);
-}
-
-// The median of the paired rounds' ratios a / b, and an interval that holds the true one with at least 95 %
-// probability: ranks of the sorted ratios, by the normal approximation of the sign test.
-struct Ratio {
-  double median, low, high;
-
-  // One way of drawing timed against itself differs by up to 1 %, so the interval must lie beyond twice that.
-  bool settled() const { return low > 1.02 || high < 1.0 / 1.02; }
-};
-Ratio ratio_of(const Speed& a, const Speed& b) {
-  std::vector<double> ratios;
-  for (std::size_t i = 0; i < a.rounds_ms.size(); ++i) ratios.push_back(a.rounds_ms[i] / b.rounds_ms[i]);
-  std::sort(ratios.begin(), ratios.end());
-  const double n = static_cast<double>(ratios.size());
-  const auto rank = static_cast<std::size_t>(std::max(1.0, 0.5 * n - 0.98 * std::sqrt(n)));
-  return {ratios[ratios.size() / 2], ratios[rank - 1], ratios[ratios.size() - rank]};
-}
-
-// How much faster a frame is drawn, front end included, on one thread, if back faces are culled; none if they
-// are not, or in a stream.
-std::optional<Ratio> culling_speedup(const Shot& shot) {
-  const Drawable& drawable = shot.source.drawable;
-  if (shot.frontend.cull != Cull::back || !std::holds_alternative<Scene>(drawable)) return {};
-  Frontend frontend;
-  const auto backend = find_backend("tiled").make();
-  Framebuffer frame(shot.frontend.width, shot.frontend.height);
-  const auto timed = [&](Cull cull) {
-    FrontendOptions options = shot.frontend;
-    options.cull = cull, options.threads = 1;
-    return TimedDraw{0, 1, SimdTarget::best,
-                     [&, options] { draw(drawable, frontend, options, *backend, frame.view(), 0, {}); }};
-  };
-  const auto speeds = time_interleaved({timed(Cull::none), timed(Cull::back)}, false);
-  return ratio_of(speeds[0], speeds[1]);
-}
-
-// "1.65x faster (1.64 to 1.67)"; slower if the median is below 1.
-std::string faster(const Ratio& ratio) {
-  if (!ratio.settled())
-    return fmt::format("no significant difference ({:.2f} to {:.2f})", ratio.low, ratio.high);
-  if (ratio.median < 1.0)
-    return fmt::format("{:.2f}x slower ({:.2f} to {:.2f})", 1.0 / ratio.median, 1.0 / ratio.high,
-                       1.0 / ratio.low);
-  return fmt::format("{:.2f}x faster ({:.2f} to {:.2f})", ratio.median, ratio.low, ratio.high);
 }
 
 std::string counted(std::uint64_t count, std::string_view noun) {
@@ -170,10 +121,6 @@ std::string text_of(const lab::Question& question) {
   const lab::Answer* const next = next_cheaper(question);
   if (next != nullptr) text += indented("not enough: " + describe(*next, question.error));
   return text;
-}
-
-nlohmann::json json_of(const Ratio& ratio) {
-  return {{"median", ratio.median}, {"low", ratio.low}, {"high", ratio.high}, {"settled", ratio.settled()}};
 }
 
 nlohmann::json json_of(const lab::Question& question) {
@@ -282,11 +229,9 @@ class NeedsCommand {
       print(options_.json ? json_text(ranges_json(first, needs)) + "\n" : ranges_table(first, needs));
       return;
     }
-    const auto culling = culling_speedup(first);
     progress.erase();
     const auto questions = needs.questions();
-    print(options_.json ? json_text(json(first, needs, questions, culling)) + "\n"
-                        : table(first, needs, questions, culling));
+    print(options_.json ? json_text(json(first, needs, questions)) + "\n" : table(first, needs, questions));
     if (!options_.pictures.empty()) write_pictures(first.source.name, questions);
   }
 
@@ -330,21 +275,16 @@ class NeedsCommand {
   }
 
   static std::string table(const Shot& shot, const lab::Needs& needs,
-                           const std::vector<lab::Question>& questions, const std::optional<Ratio>& culling) {
+                           const std::vector<lab::Question>& questions) {
     std::string text = heading(shot, needs);
-    for (const lab::Question& question : questions) {
-      text += text_of(question);
-      if (question.name == "back faces" && culling) text += indented("culling them: " + faster(*culling));
-    }
+    for (const lab::Question& question : questions) text += text_of(question);
     return text;
   }
 
   static nlohmann::json json(const Shot& shot, const lab::Needs& needs,
-                             const std::vector<lab::Question>& questions,
-                             const std::optional<Ratio>& culling) {
+                             const std::vector<lab::Question>& questions) {
     nlohmann::json result = json_heading(shot, needs);
     for (const lab::Question& question : questions) result["questions"].push_back(json_of(question));
-    if (culling) result["culling_speedup"] = json_of(*culling);
     return result;
   }
 
@@ -383,9 +323,7 @@ samples. Both hold for these frames only. Answers don't combine: where two stage
 together, pixels may be wrong.
 
   near, far plane, guard band  what to do with triangles beyond it: nothing, drop them, or clip them
-  back faces                   whether drawing them changes the picture; how much faster culling is:
-                               the median of 21 paired rounds on the first frame, drawn by `tiled`
-                               on one thread, front end included, with a 95 % interval
+  back faces                   whether drawing them changes the picture
   facing test                  the methods of the laboratory, the cheapest first
   visibility                   submission order, the painter's algorithm by two sorts, depth buffer
   depth buffer                 1 to 30 bits, then a float, a reversed float, and ours of 31 bits;
@@ -404,9 +342,9 @@ void add_needs(CLI::App& program, Action& action) {
   CLI::App& command = *program.add_subcommand("needs", "Find the cheapest sufficient method for each stage");
   const auto o = std::make_shared<NeedsCommandOptions>();
   command.add_option("SCENE", o->scenes, "Scenes of `edgewise list`, or .obj or .tri files")->required();
-  add_integer(command, "--frames", o->frames, 1, kMostFrames,
+  add_integer(command, "--frames", o->frames, 1, kMostStudiedFrames,
               "Frames of a built-in scene's motion, 60 per second (1)");
-  add_integer(command, "--orbit", o->orbit, 1, kMostFrames,
+  add_integer(command, "--orbit", o->orbit, 1, kMostStudiedFrames,
               "Frames of a camera that circles the scene, or spins straight above it");
   add_number(command, "--displacement", o->displacement, 0, 1e6,
              "Pixels per 10^6 edge crossings that rounding may move (as with 8 bits)");

@@ -15,6 +15,7 @@
 #include "bench/workloads/random_reads.h"
 #include "bench/workloads/stage.h"
 #include "edgewise/contract.h"
+#include "lab/engine/engine.h"
 #include "message_of.h"
 #include "run_program.h"
 #include "temp_dir.h"
@@ -82,7 +83,7 @@ TEST(BenchSuite, RowNamesCanBeSplitIntoTheirParts) {
   const auto narrower = std::count_if(targets.begin(), targets.end(), [](SimdTarget target) {
     return target != SimdTarget::scalar && target != resolve(SimdTarget::best);
   });
-  EXPECT_EQ(names.size(), 2 + 4 * backends().size() + 2 * benchmark_peers().size() +
+  EXPECT_EQ(names.size(), 2 + 4 * backends().size() + 2 * lab::benchmark_peers().size() +
                               2 * static_cast<std::size_t>(narrower));
 }
 
@@ -181,6 +182,99 @@ TEST(BenchWorkload, FrontEndRunsOnTheTargetOfTheExecution) {
   const FrontendOptions options = workload.frontend_options({3, 64, SimdTarget::scalar});
   EXPECT_EQ(options.target, SimdTarget::scalar);
   EXPECT_EQ(options.threads, 3);
+}
+
+std::map<std::string, Row> method_rows(const SuiteOptions& options) {
+  std::map<std::string, Row> rows;
+  for (Row& row : make_suite(options))
+    if (row.method) rows.emplace(row.name, std::move(row));
+  return rows;
+}
+
+// Scalar and SIMD, on one thread and on two, where a method has these.
+TEST(BenchMethods, AreTimedInEachForm) {
+  const TempDir folder;
+  SuiteOptions options = only({folder.write("mine.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").string()});
+  EXPECT_TRUE(method_rows(options).empty());
+  options.methods = true;
+  std::set<std::string> expected, found;
+  const std::string best(name_of(resolve(SimdTarget::best)));
+  const auto add = [&](const std::string& of, std::string_view method, const std::string& simd, int threads) {
+    expected.insert("lab/mine/family:" + of + "/method:" + std::string(method) + "/simd:" + simd +
+                    "/threads:" + std::to_string(threads));
+  };
+  for (const auto& methods : {lab::coverage_methods(), lab::engine_methods()})
+    for (const lab::CoverageMethod& method : methods) {
+      if (method.engine) add("coverage", method.info.name, best, 1);
+      if (method.engine) continue;
+      for (const std::string& simd : {std::string("scalar"), method.simd ? best : "scalar"})
+        for (int threads = 1; threads <= (method.threaded ? 2 : 1); ++threads)
+          add("coverage", method.info.name, simd, threads);
+    }
+  for (const lab::VisibilityMethod& method : lab::visibility_methods())
+    add("visibility", method.info.name, "scalar", 1);
+  Stage stage;
+  for (auto& [name, row] : method_rows(options)) {
+    found.insert(name);
+    stage.compare(row);
+    EXPECT_EQ(row.error, "") << name;
+    EXPECT_GT(row.once_s, 0.0) << name;
+  }
+  EXPECT_EQ(found, expected);
+}
+
+TEST(BenchMethods, AreTimedOnScenesOfEachFamily) {
+  std::map<std::string, int> count;
+  SuiteOptions options;
+  for (const bool quick : {false, true}) {
+    options.quick = quick;
+    for (const auto& [name, row] : method_rows(options)) {
+      const lab::LabScene& scene = row.method->scene->info();
+      ++count[std::string(name_of(scene.family)) + " " + scene.name];
+    }
+  }
+  EXPECT_EQ(count.size(), 8u);
+  EXPECT_EQ(count["coverage mesh_on_grid"], count["coverage torus-knot"]);
+  EXPECT_EQ(2 * count["coverage mesh"], count["coverage torus-knot"]) << "not in a quick run";
+  EXPECT_EQ(count["visibility deep_soup"], 2 * static_cast<int>(lab::visibility_methods().size()));
+  EXPECT_EQ(count["facing edge_on_faces"], 2 * static_cast<int>(lab::facing_methods().size()));
+  EXPECT_EQ(count["clipping around_the_eye"], 2 * static_cast<int>(lab::clipping_methods().size()));
+}
+
+TEST(BenchMethods, AreNotTimedWhereAFormDrawsOtherPixels) {
+  const lab::CoverageMethod wrong{.info = {"wrong", "", "", "", false},
+                                  .promise = {},
+                                  .draw = [](const auto&, lab::Canvas& canvas, const Execution& how) {
+                                    canvas.depth[0] = static_cast<float>(how.threads);
+                                  },
+                                  .runs = {}};
+  const auto scene =
+      std::make_shared<MethodScene>(lab::LabScene{lab::Family::coverage, "empty", "", true, true, 0.0, [] {
+                                                    return lab::CoverageScene{{8, 8}, {}, {}};
+                                                  }});
+  const auto error = [&](int threads) {
+    Row row;
+    row.method = MethodDraw{scene, &wrong, {.threads = threads, .target = SimdTarget::scalar}};
+    Stage().compare(row);
+    return row.error;
+  };
+  EXPECT_EQ(error(1), "");
+  EXPECT_EQ(error(2), "draws other pixels than its scalar form on one thread");
+}
+
+TEST(BenchProgram, RepeatsAllRowsEquallyOften) {
+  const TempDir folder;
+  const std::string out = (folder.path() / "bench.json").string();
+  const auto outcome = testing::run_program(
+      EDGEWISE_BENCH, "--no-peers --quick --benchmark_out=" + out +
+                          " '--benchmark_filter=^(tiled/cube|lab/edge_on_faces/.*normal_z.*)/threads:1$'");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  std::map<std::string, int> times;
+  const auto json = nlohmann::json::parse(file_content(out));
+  for (const auto& entry : json["benchmarks"])
+    if (entry["run_type"] == "iteration") ++times[entry["name"]];
+  EXPECT_EQ(times.size(), 4u) << "with two rows of random reads";
+  for (const auto& [name, count] : times) EXPECT_EQ(count, 5) << name;
 }
 
 TEST(BenchAblation, AddsOneOptimizationPerStep) {

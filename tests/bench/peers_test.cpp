@@ -9,14 +9,11 @@
 #include <map>
 #include <stdexcept>
 
-#include "bench/peers/gl_context.h"
-#include "bench/peers/judge.h"
-#include "bench/peers/ratios.h"
-#include "bench/peers/scene.h"
-#include "bench/peers/stage.h"
+#include "bench/workloads/peers.h"
 #include "core/random.h"
 #include "edgewise/contract.h"
 #include "frontend/view.h"
+#include "lab/peers/gl_context.h"
 #include "lab/portable/portable.h"
 #include "message_of.h"
 #include "support.h"
@@ -25,6 +22,8 @@ namespace edgewise::bench {
 namespace {
 
 using contract::kSub;
+using lab::benchmark_peers, lab::GlContext, lab::kHalfViewport_px, lab::peers, lab::start_peers,
+    lab::StartedPeers, lab::use_context;
 
 ScreenTriangle half_square(std::uint32_t z, std::uint32_t id) {
   return {{0, 64 * kSub, 0}, {0, 0, 64 * kSub}, {z, z, z}, id};
@@ -331,6 +330,8 @@ TEST(Peers, ThatCannotStartAreNamedAndLeftOut) {
   EXPECT_NO_THROW(some.require_one());
   const StartedPeers none = start_peers(std::vector{broken});
   EXPECT_EQ(message_of([&] { none.require_one(); }), "--peers: none starts: broken: EGL gives another");
+  EXPECT_NE(message_of([&] { start_peers({}).require_one(); }).find("--peers: there is none"),
+            std::string::npos);
 }
 
 enum class Ties { in_the_mask, not_in_the_mask };

@@ -21,9 +21,7 @@ constexpr std::uint32_t kVermilion = rgb(213, 94, 0), kBlue = rgb(0, 114, 178);
 TEST(AccuracyPictures, ShowEachErrorInItsColour) {
   const TempDir folder;
   const std::string pictures = (folder.path() / "errors").string();
-  ASSERT_EQ(
-      testing::run_program(EDGEWISE_PROGRAM, "accuracy drtk_quad --no-speed --pictures " + pictures).status,
-      0);
+  ASSERT_EQ(testing::run_program(EDGEWISE_PROGRAM, "accuracy drtk_quad --pictures " + pictures).status, 0);
   const auto pixels_of_colour = [&](const char* method, std::uint32_t colour) {
     const Image image = read_image(pictures + "/coverage-drtk_quad-" + method + ".png");
     return std::count_if(image.pixels.begin(), image.pixels.end(),

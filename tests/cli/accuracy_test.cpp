@@ -5,17 +5,14 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "bench/peers/peer.h"
 #include "cli/accuracy/accuracy.h"
-#include "cli/accuracy/report.h"
-#include "cli/accuracy/scenes.h"
 #include "edgewise/builtin.h"
 #include "edgewise/contract.h"
 #include "lab/coverage/coverage.h"
 #include "lab/coverage_support.h"
+#include "lab/peers/peer.h"
 #include "run_program.h"
 #include "temp_dir.h"
 
@@ -44,7 +41,7 @@ void expect_keys(const json& object, std::initializer_list<const char*> keys) {
 }
 
 TEST(Accuracy, CountsTheDrtkQuadAndTheLatticeSquareAsPredicted) {
-  const json report = json_of("drtk_quad lattice_square --no-speed");
+  const json report = json_of("drtk_quad lattice_square");
   const auto count = [&](const char* scene, const char* method, const char* what) {
     return named(named(report.at("scenes"), scene).at("methods"), method).at("float").at(what).get<int>();
   };
@@ -62,7 +59,7 @@ TEST(Accuracy, JudgesQuadsAndKnotsOnlyWhenNamed) {
     AccuracyPlan plan;
     plan.scenes = std::move(named);
     const auto scenes = scenes_of(plan).scenes;
-    return std::count_if(scenes.begin(), scenes.end(), [](const AccuracyScene& scene) {
+    return std::count_if(scenes.begin(), scenes.end(), [](const lab::LabScene& scene) {
       return scene.name == "quads" || scene.name == "knots";
     });
   };
@@ -72,9 +69,8 @@ TEST(Accuracy, JudgesQuadsAndKnotsOnlyWhenNamed) {
 
 TEST(Accuracy, WritesTheDocumentedKeys) {
   const json report = json_of("drtk_quad bars_in_a_cycle box_beside_the_axis in_view turning-cube --quick");
-  expect_keys(report, {"machine", "quick", "methods", "scenes", "turning_cube"});
+  expect_keys(report, {"quick", "methods", "scenes", "turning_cube"});
   EXPECT_EQ(report.at("quick"), true);
-  EXPECT_TRUE(report.at("machine").contains("cpu_model"));
   std::set<std::string> families;
   for (const json& method : report.at("methods")) {
     expect_keys(method, {"family", "name", "summary", "source", "promise", "exact"});
@@ -139,7 +135,7 @@ TEST(Accuracy, TheZNormalTestAloneMisjudgesTheBox) {
 
 TEST(Accuracy, ExactMethodsScoreZeroAgainstTheSnappedTruth) {
   const json report = json_of(
-      "cube cubes grid64 drtk_quad t_junction double_tie turning-cube --quick --no-speed "
+      "cube cubes grid64 drtk_quad t_junction double_tie turning-cube --quick "
       "--family coverage");
   std::set<std::string> exact;
   for (const json& method : report.at("methods"))
@@ -174,66 +170,27 @@ TEST(Accuracy, ExactMethodsScoreZeroAgainstTheSnappedTruth) {
   }
 }
 
-TEST(Accuracy, TimesBothFormsOfEachMethod) {
+TEST(Accuracy, MeasuresPeersInPlaceOfTheMethods) {
   const TempDir folder;
   const std::string path = (folder.path() / "mine.tri").string();
   ASSERT_EQ(testing::run_program(EDGEWISE_PROGRAM, "capture cube --size 64x48 -o " + path).status, 0);
-  const json report = json_of(path + " --quick");
-  const json& scene = named(report.at("scenes"), "mine");
-  EXPECT_EQ(scene.at("width"), 64);
-  for (const json& entry : report.at("methods")) {
-    if (entry.at("family") != "coverage") continue;
-    const std::string name = entry.at("name");
-    const json& speed = named(scene.at("methods"), name).at("speed");
-    const lab::CoverageMethod& method = testing::find_coverage_method(name);
-    EXPECT_EQ(entry.contains("simd_note"), !method.simd) << name;
-    std::set<std::pair<std::string, int>> expected, found;
-    if (!method.engine)
-      for (const SimdTarget target :
-           {SimdTarget::scalar, method.simd ? SimdTarget::best : SimdTarget::scalar})
-        for (int threads = 1; threads <= (method.threaded ? 2 : 1); ++threads)
-          expected.emplace(name_of(resolve(target)), threads);
-    else
-      expected.emplace(name_of(resolve(SimdTarget::best)), 1);
-    for (const json& one : speed) found.emplace(one.at("simd"), one.at("threads"));
-    EXPECT_EQ(found, expected) << name;
-    EXPECT_EQ(speed.size(), expected.size()) << name;
-    for (const json& one : speed) {
-      EXPECT_GT(one.at("ns_per_covered_pixel"), 0);
-      EXPECT_GT(one.at("mtri_per_s"), 0);
-      EXPECT_LE(one.at("ms").at("min"), one.at("ms").at("median"));
-      EXPECT_LE(one.at("ms").at("median"), one.at("ms").at("max"));
-      EXPECT_GT(one.at("ms").at("repetitions"), 1);
-      EXPECT_EQ(one.at("rounds_ms").size(), one.at("ms").at("repetitions").get<std::size_t>());
-    }
-  }
-}
-
-TEST(Accuracy, MeasuresPeersLikeOtherMethods) {
-  const TempDir folder;
-  const std::string path = (folder.path() / "mine.tri").string();
-  ASSERT_EQ(testing::run_program(EDGEWISE_PROGRAM, "capture cube --size 64x48 -o " + path).status, 0);
-  std::string names = "fixed_8";
-  const bench::StartedPeers started = bench::start_peers(bench::peers());
-  for (const auto& [peer, version] : started.peers) names += "," + std::string(peer->name);
-  const Outcome outcome = accuracy(path + " --peers --quick --method " + names + " --json -");
-  if (bench::peers().empty()) {
-    EXPECT_EQ(outcome.status, 2);
-    EXPECT_NE(outcome.err.find("--peers: there is none"), std::string::npos) << outcome.err;
-    return;
-  }
+  const lab::StartedPeers started = lab::start_peers(lab::peers());
+  const Outcome outcome = accuracy(path + " turning-cube --peers --quick --json -");
   if (started.peers.empty()) {
     EXPECT_EQ(outcome.status, 2);
-    EXPECT_NE(outcome.err.find("--peers: none starts: "), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find(lab::peers().empty() ? "--peers: there is none" : "--peers: none starts: "),
+              std::string::npos)
+        << outcome.err;
     return;
   }
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   for (const std::string& reason : started.left_out)
     EXPECT_NE(outcome.err.find("left out: " + reason), std::string::npos) << outcome.err;
   const json report = json::parse(outcome.out);
+  EXPECT_FALSE(report.contains("turning_cube"));
   const json& methods = report.at("scenes").at(0).at("methods");
-  const json& ours = named(methods, "fixed_8");
-  ASSERT_EQ(methods.size(), 1 + started.peers.size());
+  const json ours = json_of(path + " --quick --method fixed_8").at("scenes").at(0).at("methods").at(0);
+  ASSERT_EQ(methods.size(), started.peers.size());
   for (const auto& [peer, version] : started.peers) {
     const json& info = named(report.at("methods"), peer->name);
     EXPECT_EQ(info.at("source"), version);
@@ -244,9 +201,8 @@ TEST(Accuracy, MeasuresPeersLikeOtherMethods) {
     EXPECT_LE(theirs.at("snapped").at("errors"), 10) << peer->name;
     EXPECT_LE(theirs.at("snapped").at("wrong_pixels"), 10) << peer->name;
     EXPECT_LE(theirs.at("depth").at("max_ulp"), 1000) << peer->name;
-    EXPECT_EQ(theirs.at("speed").size(), static_cast<std::size_t>(peer->most_threads)) << peer->name;
   }
-  for (const bench::PeerInfo& exact : bench::benchmark_peers())
+  for (const lab::PeerInfo& exact : lab::benchmark_peers())
     for (const auto& [peer, version] : started.peers)
       if (peer->name == exact.name) {
         EXPECT_EQ(named(methods, peer->name).at("snapped").at("errors"), 0);
@@ -260,19 +216,18 @@ TEST(Accuracy, KnowsPeersOnlyWithTheirFlag) {
 }
 
 TEST(Accuracy, RunsOnlyTheRequestedMethodsAndFamily) {
-  const json report = json_of("cube --quick --no-speed --method float_le,painter_mean --method float_lt");
+  const json report = json_of("cube --quick --method float_le,painter_mean --method float_lt");
   ASSERT_EQ(report.at("methods").size(), 3u);
   ASSERT_EQ(report.at("scenes").size(), 2u);
   EXPECT_EQ(report.at("scenes")[0].at("methods").size(), 2u);
   EXPECT_EQ(report.at("scenes")[1].at("methods").at(0).at("name"), "painter_mean");
-  EXPECT_EQ(json_of("cube --quick --no-speed --family visibility").at("scenes").size(), 1u);
+  EXPECT_EQ(json_of("cube --quick --family visibility").at("scenes").size(), 1u);
 }
 
 TEST(Accuracy, TablesFitEightyColumns) {
   AccuracyPlan plan;
   plan.scenes = {"cube", "legs_182", "planes_1e-5_apart", "edge_on", "floor_behind_eye", "turning-cube"};
   plan.quick = true;
-  plan.speed = false;
   std::string text = accuracy_tables(measure_accuracy(plan));
   EXPECT_NE(text.find("0 (<"), std::string::npos);
   while (!text.empty()) {

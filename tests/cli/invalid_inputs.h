@@ -68,6 +68,7 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
      "unknown option '--benchmark_fliter'; did you mean '--benchmark_filter'"},
     {"bench --hlep", 2, "unknown option '--hlep'; did you mean '--help'"},
     {"bench --peers --no-peers", 2, "--no-peers"},
+    {"bench --methods", 2, "--scene"},
     {"bench --scene cube --add-scene $IN/good.obj", 2, "--add-scene"},
 
     // ---- Unknown names, with the nearest known one
@@ -411,7 +412,7 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
     {"stopped INT bench --benchmark_out=$DIR/a.json", 130, ""},
     {"stopped KILL bench --benchmark_out=$DIR/a.json", 137, "", "partial"},
     // Pictures are written one by one: complete ones may be left.
-    {"stopped INT edgewise accuracy edge_on t_junction --no-speed --pictures $DIR/errors", 130, "", "errors"},
+    {"stopped INT edgewise accuracy edge_on t_junction --pictures $DIR/errors", 130, "", "errors"},
     {"stopped INT edgewise render torus-knot --size 5000x5000 -o $DIR/a.png", 130, ""},
     {"stopped INT edgewise capture micro --scale 2 -o $DIR/a.tri", 130, ""},
     {"printf older >$DIR/older.json; stopped KILL edgewise verify --full --json $DIR/older.json", 137, "",

@@ -6,8 +6,9 @@
 
 #include <fstream>
 #include <memory>
+#include <nlohmann/json.hpp>
 
-#include "cli/verify/report.h"
+#include "edgewise/contract.h"
 #include "edgewise/image.h"
 #include "edgewise/tri_file.h"
 #include "temp_dir.h"

@@ -1,6 +1,6 @@
 // Runs the program on other processors in an emulator (qemu-user): without AVX, and without AVX-512. An
-// unsupported instruction outside the dispatched kernels ends the program. The pictures must be the same
-// files.
+// unsupported instruction outside the dispatched kernels ends the program. The pictures and the facts must be
+// the same files.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -48,6 +48,17 @@ TEST_P(EmulatedCpu, SelectsItsKernelsAndDrawsTheSameBits) {
   const Outcome verify =
       emulate("verify torus-knot grid4 --size 70x67 --out '" + folder.path().string() + "/none'");
   EXPECT_EQ(verify.status, 0) << verify.out << verify.err;
+}
+
+TEST_P(EmulatedCpu, FindsTheSameFactsAsThisMachine) {
+  for (const char* arguments :
+       {"accuracy drtk_quad bars_in_a_cycle edge_on in_view --json -", "stability cycle --quick --json -",
+        "needs cubes --size 160x90 --json", "portable cubes --size 160x90 --json"}) {
+    const Outcome here = run_program(EDGEWISE_PROGRAM, arguments),
+                  there = emulate(EDGEWISE_PROGRAM, arguments);
+    ASSERT_EQ(there.status, 0) << there.err;
+    EXPECT_EQ(here.out, there.out) << arguments;
+  }
 }
 
 TEST_P(EmulatedCpu, WritesTheSameFilesAsThisMachine) {

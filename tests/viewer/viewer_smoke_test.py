@@ -171,7 +171,7 @@ class Window(Viewer):
         subprocess.run([EDGEWISE, "render", stream, "-o", again], check=True, stdout=subprocess.DEVNULL)
         self.assertEqual(subprocess.run([EDGEWISE, "diff", again, stream.with_suffix(".png")],
                                         stdout=subprocess.DEVNULL).returncode, 0)
-        for judge in (["verify"], ["accuracy", "--no-speed"]):
+        for judge in (["verify"], ["accuracy"]):
             self.assertEqual(subprocess.run([EDGEWISE, *judge, stream], stdout=subprocess.DEVNULL).returncode, 0)
 
         self.xdo("key", "q")

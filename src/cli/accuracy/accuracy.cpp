@@ -1,13 +1,14 @@
 #include "cli/accuracy/accuracy.h"
 
 #include <algorithm>
-#include <chrono>
 #include <stdexcept>
 
-#include "cli/accuracy/peers.h"
 #include "cli/accuracy/score.h"
 #include "core/nearest_name.h"
 #include "lab/engine/engine.h"
+#include "lab/peers/peer.h"
+#include "support/console.h"
+#include "support/options.h"
 
 namespace edgewise::tools {
 
@@ -33,6 +34,42 @@ void check_method_names(const AccuracyPlan& plan) {
       throw std::invalid_argument(unknown_name("method", name, known));
 }
 
+// Those that start here; the first call names the others on stderr.
+const std::vector<lab::CoverageMethod>& started_peers() {
+  static const lab::StartedPeers started = [] {
+    lab::StartedPeers found = lab::start_peers(lab::peers());
+    found.require_one();
+    for (const std::string& reason : found.left_out) print_error("left out: " + reason);
+    return found;
+  }();
+  static const std::vector<lab::CoverageMethod> methods = lab::peer_methods(started);
+  return methods;
+}
+
+// False for two scenes made for speed. knots repeats torus-knot. Half the edges of quads pass through pixel
+// centres, so quads would dominate every rate summed over all scenes.
+bool is_judged_by_default(const lab::LabScene& scene) {
+  return scene.name != "quads" && scene.name != "knots";
+}
+
+std::vector<lab::LabScene> scenes_of_file(const std::string& path, bool fit) {
+  check_source(path);
+  return lab::own_scenes(source_name(path), is_stream_file(path), [path, fit] {
+    SceneOptions options;
+    options.fit = fit;
+    Shot shot = load_shot(path, options, 0.0);
+    return lab::SizedDrawable{std::move(shot.source.drawable), {shot.frontend.width, shot.frontend.height}};
+  });
+}
+
+[[noreturn]] void reject(const std::string& name, const std::vector<lab::LabScene>& known) {
+  std::vector<std::string_view> names;
+  for (const lab::LabScene& scene : known)
+    if (std::find(names.begin(), names.end(), scene.name) == names.end()) names.push_back(scene.name);
+  names.push_back(kTurningCube);
+  throw std::invalid_argument(unknown_name("scene", name, names));
+}
+
 // Whether a method broke a promise that holds on every scene: for exact coverage methods, no error against
 // the snapped reference.
 bool broke_promise(const MethodResult& method) {
@@ -56,27 +93,24 @@ class Run {
     methods_ = methods_of(plan);
     chosen_ = scenes_of(plan);
     std::erase_if(chosen_.scenes,
-                  [&](const AccuracyScene& scene) { return methods_.count(scene.family) == 0; });
+                  [&](const lab::LabScene& scene) { return methods_.count(scene.family) == 0; });
     // Its frames are drawn on several threads, which a peer cannot do.
     in_cube_ = methods_;
-    std::erase_if(in_cube_.coverage,
-                  [](const lab::CoverageMethod* method) { return method->load != nullptr; });
+    std::erase_if(in_cube_.coverage, [](const lab::CoverageMethod* method) { return method->one_thread; });
     chosen_.turning_cube = chosen_.turning_cube && !in_cube_.coverage.empty();
     if (chosen_.scenes.empty() && !chosen_.turning_cube)
       throw std::invalid_argument("nothing to do: no selected method belongs to a selected scene's family");
-    for (const AccuracyScene& scene : chosen_.scenes) total_s_ += scene.cost_s;
+    for (const lab::LabScene& scene : chosen_.scenes) total_s_ += scene.cost_s;
     if (chosen_.turning_cube) total_s_ += kCube_s;
   }
 
   AccuracyReport go() {
     AccuracyReport report;
-    for (const AccuracyScene& scene : chosen_.scenes) {
-      const auto start = std::chrono::steady_clock::now();
-      const Bench bench{plan_, methods_, scene, progress(scene.name, scene.cost_s), report.closeups};
-      bench.progress(0.0);
-      SceneResult result{scene.family, scene.name, scene.summary, scene.smallest, 0, 0, 0, 0, 0, 0, 0, {}, 0};
-      std::visit([&](const auto& made) { judge(made, bench, result); }, scene.make());
-      result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    for (const lab::LabScene& scene : chosen_.scenes) {
+      const Judging judging{plan_, methods_, scene, progress(scene.name, scene.cost_s), report.closeups};
+      judging.progress(0.0);
+      SceneResult result{scene.family, scene.name, scene.summary, scene.smallest, 0, 0, 0, 0, 0, 0, 0, {}};
+      std::visit([&](const auto& made) { judge(made, judging, result); }, scene.make());
       report.scenes.push_back(std::move(result));
       done_s_ += scene.cost_s;
     }
@@ -123,12 +157,45 @@ const lab::CoverageMethod& ChosenMethods::find_coverage(std::string_view name) c
 
 ChosenMethods methods_of(const AccuracyPlan& plan) {
   ChosenMethods chosen;
+  if (plan.peers) {
+    choose(plan, Family::coverage, started_peers(), chosen.coverage);
+    return chosen;
+  }
   choose(plan, Family::coverage, lab::coverage_methods(), chosen.coverage);
   choose(plan, Family::coverage, lab::engine_methods(), chosen.coverage);
-  if (plan.peers) choose(plan, Family::coverage, peer_methods(), chosen.coverage);
   choose(plan, Family::visibility, lab::visibility_methods(), chosen.visibility);
   choose(plan, Family::facing, lab::facing_methods(), chosen.facing);
   choose(plan, Family::clipping, lab::clipping_methods(), chosen.clipping);
+  return chosen;
+}
+
+AccuracyScenes scenes_of(const AccuracyPlan& plan) {
+  const std::vector<lab::LabScene> known = lab::lab_scenes(plan.quick);
+  AccuracyScenes chosen;
+  chosen.turning_cube = plan.scenes.empty();
+  if (plan.scenes.empty())
+    std::copy_if(known.begin(), known.end(), std::back_inserter(chosen.scenes), is_judged_by_default);
+  std::vector<std::string> seen;
+  for (const std::string& name : plan.scenes) {
+    if (std::find(seen.begin(), seen.end(), name) != seen.end()) continue;
+    seen.push_back(name);
+    std::vector<lab::LabScene> found;
+    if (name == kTurningCube)
+      chosen.turning_cube = true;
+    else if (is_file_path(name))
+      found = scenes_of_file(name, plan.fit);
+    else
+      std::copy_if(known.begin(), known.end(), std::back_inserter(found),
+                   [&](const lab::LabScene& scene) { return scene.name == name; });
+    if (found.empty() && name != kTurningCube) reject(name, known);
+    chosen.scenes.insert(chosen.scenes.end(), found.begin(), found.end());
+  }
+  if (plan.family) {
+    std::erase_if(chosen.scenes, [&](const lab::LabScene& scene) { return scene.family != *plan.family; });
+    chosen.turning_cube = chosen.turning_cube && plan.family == Family::coverage;
+  }
+  std::stable_sort(chosen.scenes.begin(), chosen.scenes.end(),
+                   [](const auto& a, const auto& b) { return a.family < b.family; });
   return chosen;
 }
 

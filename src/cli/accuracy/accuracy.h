@@ -1,9 +1,9 @@
-// Counts the errors of every method of every family on every scene against exact references, and times
-// methods.
+// Counts the errors of every method of every family on every scene against exact references.
 #pragma once
 
 #include <cstdint>
 #include <functional>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,12 +11,9 @@
 #include <vector>
 
 #include "cli/accuracy/closeup.h"
-#include "lab/clipping/clipping.h"
 #include "lab/coverage/score.h"
 #include "lab/coverage/visible.h"
-#include "lab/facing/facing.h"
-#include "lab/method.h"
-#include "lab/visibility/visibility.h"
+#include "lab/scenes.h"
 
 namespace edgewise::tools {
 
@@ -26,12 +23,11 @@ struct AccuracyPlan {
   std::vector<std::string> scenes;   // names or paths; none: the built-in default scenes
   std::vector<std::string> methods;  // none: all
   std::optional<Family> family;      // none: all
-  bool quick = false;                // small sizes, few frames and repetitions
+  bool quick = false;                // small sizes, few frames
   bool fit = false;                  // see load_source
-  bool speed = true;                 // whether to time methods (on scenes with `timed`)
   bool pictures = false;             // whether to keep close-ups of errors
-  bool peers = false;                // whether to measure the rasterizers of other projects, too
-  int threads = 1;                   // for judging only; timed draws set their own
+  bool peers = false;                // the rasterizers of other projects, in place of the methods
+  int threads = 1;                   // results don't depend on it
   std::function<void(double, std::string_view)> on_progress;  // fraction done, scene
 };
 
@@ -41,24 +37,16 @@ struct CoverageScores {
 };
 using Score = std::variant<CoverageScores, lab::VisibilityScores, lab::FacingScores, lab::ClippingScore>;
 
-struct Speed {
-  int threads;
-  SimdTarget target;  // scalar for methods of one form
-  double median_ms, min_ms, max_ms;
-  std::vector<double> rounds_ms;  // of each repetition, in order
-};
-
 struct MethodResult {
   std::string name;
   bool exact;
   Score score;
-  std::vector<Speed> speed;  // empty unless the scene is timed
 };
 
 struct SceneResult {
   Family family;
   std::string name, summary;
-  bool smallest;  // see AccuracyScene
+  bool smallest;  // see LabScene
   int width, height;
   std::uint64_t triangles = 0;  // facing: polygons
   // Coverage: (triangle, pixel) pairs; visibility and clipping: pixels; facing: faces that cover a sample.
@@ -69,7 +57,6 @@ struct SceneResult {
   std::uint64_t shared_crossings = 0;  // coverage only: of edges that triangles share
   float largest_side_px = 0;           // coverage only: of the triangles' bounding boxes
   std::vector<MethodResult> methods;
-  double seconds = 0;
 
   // The denominator of error rates.
   std::uint64_t trials() const { return family == Family::coverage ? crossings : covered; }
@@ -102,5 +89,20 @@ struct AccuracyReport {
 // Before any work, throws std::invalid_argument for unknown names or an empty selection, and what
 // check_source throws; later, what load_source throws.
 AccuracyReport measure_accuracy(const AccuracyPlan& plan);
+
+// At most 80 columns. A table sums all scenes of a family, small test scenes apart. Where no error was
+// observed, it prints the 95 % upper bound of the rate.
+std::string accuracy_tables(const AccuracyReport& report);
+
+nlohmann::json accuracy_json(const AccuracyReport& report, const AccuracyPlan& plan);
+
+inline constexpr std::string_view kTurningCube = "turning-cube";
+
+// The scenes that the plan names, family by family, and whether it includes the rotating cube.
+struct AccuracyScenes {
+  std::vector<lab::LabScene> scenes;
+  bool turning_cube = false;
+};
+AccuracyScenes scenes_of(const AccuracyPlan& plan);
 
 }  // namespace edgewise::tools

@@ -1,14 +1,12 @@
-// `edgewise accuracy`: counts each method's errors and times it.
+// `edgewise accuracy`: counts each method's errors.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <chrono>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "cli/accuracy/accuracy.h"
-#include "cli/accuracy/report.h"
 #include "cli/commands.h"
 #include "support/console.h"
 #include "support/json_output.h"
@@ -24,15 +22,12 @@ namespace {
 struct AccuracyOptions {
   AccuracyPlan plan;
   std::string json, pictures, family;
-  bool no_speed = false;
 };
 
 int accuracy_command(AccuracyOptions& o) {
   AccuracyPlan& plan = o.plan;
   if (!o.family.empty()) plan.family = lab::find_family(o.family);
-  plan.speed = !o.no_speed;
   plan.pictures = !o.pictures.empty();
-  plan.threads = default_threads();
 
   check_json_file(o.json, o.pictures, plan.scenes);
   if (plan.pictures) check_closeup_folder(o.pictures);
@@ -76,6 +71,7 @@ SCENE is a scene of `edgewise list`, a small test scene (the tables name them), 
 .obj or .tri file. Large streams are judged in part, always the same part, and a smaller one with
 --quick. The JSON gives the number of triangles. Meshes are judged in coverage and visibility,
 streams in coverage only. Facing and clipping use their own scenes.
+`edgewise_bench --scene SCENE --methods` times the methods.
 
 Pictures are named FAMILY-SCENE-METHOD.png. Their colours:
   vermilion  nothing drawn where a triangle must be (coverage: a gap, a crack between neighbours)
@@ -86,24 +82,26 @@ Pictures are named FAMILY-SCENE-METHOD.png. Their colours:
 }  // namespace
 
 void add_accuracy(CLI::App& program, Action& action) {
-  CLI::App& command = *program.add_subcommand("accuracy", "Count each method's errors, and time it");
+  CLI::App& command = *program.add_subcommand("accuracy", "Count each method's errors");
   const auto o = std::make_shared<AccuracyOptions>();
   command.add_option("SCENE", o->plan.scenes, "Scenes or files, see below (all scenes but quads and knots)");
-  command.add_flag("--quick", o->plan.quick, "Smaller scenes, fewer frames and repetitions");
+  command.add_flag("--quick", o->plan.quick, "Smaller scenes, fewer frames");
   command.add_option("--family", o->family, "Only one family of methods")->type_name("NAME");
   command.add_option("--method", o->plan.methods, "Only this method (repeatable)")
       ->allow_extra_args(false)
       ->delimiter(',')
       ->type_name("NAME");
   command.add_flag("--peers", o->plan.peers,
-                   "Also measure other projects' rasterizers that start here (coverage)");
-  command.add_flag("--no-speed", o->no_speed, "Count errors only, without timing");
+                   "Measure other projects' rasterizers that start here (coverage) in place of the methods");
   command.add_flag("--fit", o->plan.fit, "Centre your meshes and scale their longest side to 2");
   command
       .add_option("--json", o->json, "Also write all results as JSON; - for stdout, instead of the tables")
       ->type_name("FILE");
   command.add_option("--pictures", o->pictures, "Folder for pictures of errors on the small scenes")
       ->type_name("DIR");
+  o->plan.threads = default_threads();
+  add_integer(command, "--threads", o->plan.threads, 1, kMaxThreads,
+              "Threads; results don't depend on it (usable cores)");
   command.footer(kAccuracyFooter);
   command.callback([o, &action] { action = [o] { return accuracy_command(*o); }; });
 }

@@ -9,12 +9,13 @@ namespace edgewise::tools {
 
 namespace {
 
-constexpr int kFrames = 3600, kQuickFrames = 120, kFramesPerSecond = 60;
+constexpr lab::Size kTurningCubeSize{640, 360};
+constexpr int kFrames = 3600, kQuickFrames = 120, kCubeFramesPerSecond = 60;
 constexpr int kFramesPerTask = 20;
 
 lab::CoverageScene cube_at(int frame) {
   const SceneRequest request{kTurningCubeSize.width, kTurningCubeSize.height,
-                             static_cast<float>(frame) / static_cast<float>(kFramesPerSecond)};
+                             static_cast<float>(frame) / static_cast<float>(kCubeFramesPerSecond)};
   return lab::coverage_scene(find_scene("cube").make(request),
                              {kTurningCubeSize.width, kTurningCubeSize.height, Cull::back, false});
 }

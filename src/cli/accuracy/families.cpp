@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include "cli/accuracy/score.h"
-#include "cli/accuracy/speed.h"
 #include "core/parallel.h"
 
 namespace edgewise::tools {
@@ -11,40 +10,29 @@ namespace {
 
 // Calls score_one(method) for all methods, on several threads, and reports progress.
 template <typename Method, typename ScoreOne>
-void score_all(const std::vector<const Method*>& methods, const Bench& bench, SceneResult& result,
+void score_all(const std::vector<const Method*>& methods, const Judging& judging, SceneResult& result,
                ScoreOne&& score_one) {
   result.methods.resize(methods.size());
   std::mutex mutex;
   std::size_t done = 0;
-  parallel_for(bench.plan.threads, static_cast<int>(methods.size()), [&](int n) {
+  parallel_for(judging.plan.threads, static_cast<int>(methods.size()), [&](int n) {
     const auto i = static_cast<std::size_t>(n);
     const lab::MethodInfo& info = methods[i]->info;
-    result.methods[i] = {std::string(info.name), info.exact, score_one(*methods[i]), {}};
+    result.methods[i] = {std::string(info.name), info.exact, score_one(*methods[i])};
     const std::lock_guard lock(mutex);
-    bench.progress(static_cast<double>(++done) / static_cast<double>(methods.size() + 1));
+    judging.progress(static_cast<double>(++done) / static_cast<double>(methods.size() + 1));
   });
-}
-
-template <typename Method, typename Draw>
-void time_all(const std::vector<const Method*>& methods, const Bench& bench, SceneResult& result,
-              Draw&& draw) {
-  if (!bench.scene.timed) return;
-  std::vector<TimedDraw> draws;
-  for (std::size_t i = 0; i < methods.size(); ++i)
-    draws.push_back({i, 1, SimdTarget::scalar, [&draw, method = methods[i]] { draw(*method); }});
-  const auto speeds = time_interleaved(draws, bench.plan.quick);
-  for (std::size_t i = 0; i < draws.size(); ++i) result.methods[i].speed.push_back(speeds[i]);
 }
 
 // Adds a close-up for each method for which wrong(score) holds.
 template <typename Method, typename Wrong, typename Picture>
-void picture_all(const std::vector<const Method*>& methods, const Bench& bench, const SceneResult& result,
+void picture_all(const std::vector<const Method*>& methods, const Judging& judging, const SceneResult& result,
                  Wrong&& wrong, Picture&& picture) {
-  if (!bench.plan.pictures || !bench.scene.smallest) return;
+  if (!judging.plan.pictures || !judging.scene.smallest) return;
   for (std::size_t i = 0; i < methods.size(); ++i)
     if (wrong(result.methods[i].score))
-      bench.closeups.push_back(closeup(closeup_name(result.family, bench.scene.name, methods[i]->info.name),
-                                       picture(*methods[i])));
+      judging.closeups.push_back(closeup(
+          closeup_name(result.family, judging.scene.name, methods[i]->info.name), picture(*methods[i])));
 }
 
 std::uint64_t pixels_of(lab::Size size) {
@@ -58,38 +46,37 @@ std::uint64_t covered_pixels(const std::vector<std::uint32_t>& visible) {
 }
 
 // Computes the exact facts of all faces, on several threads.
-std::vector<lab::FaceFacts> facts_of(const lab::FacingScene& scene, const Bench& bench) {
+std::vector<lab::FaceFacts> facts_of(const lab::FacingScene& scene, const Judging& judging) {
   constexpr std::size_t kFacesPerTask = 2000;
   const std::size_t tasks = (scene.faces.size() + kFacesPerTask - 1) / kFacesPerTask;
   const lab::FacingTruth truth(scene);
   std::vector<lab::FaceFacts> all(scene.faces.size());
   std::mutex mutex;
   std::size_t done = 0;
-  parallel_for(bench.plan.threads, static_cast<int>(tasks), [&](int n) {
+  parallel_for(judging.plan.threads, static_cast<int>(tasks), [&](int n) {
     const auto first = static_cast<std::size_t>(n) * kFacesPerTask;
     for (std::size_t i = first; i < std::min(first + kFacesPerTask, all.size()); ++i)
       all[i] = truth.facts(scene.faces[i]);
     const std::lock_guard lock(mutex);
-    bench.progress(0.9 * static_cast<double>(++done) / static_cast<double>(tasks));
+    judging.progress(0.9 * static_cast<double>(++done) / static_cast<double>(tasks));
   });
   return all;
 }
 
 }  // namespace
 
-void judge(const lab::VisibilityScene& scene, const Bench& bench, SceneResult& result) {
-  const auto& methods = bench.methods.visibility;
+void judge(const lab::VisibilityScene& scene, const Judging& judging, SceneResult& result) {
+  const auto& methods = judging.methods.visibility;
   const auto truth = lab::true_visible_triangles(scene);
   result.width = scene.width;
   result.height = scene.height;
   result.triangles = scene.triangles.size();
   result.covered = covered_pixels(truth.snapped);
-  score_all(methods, bench, result,
+  score_all(methods, judging, result,
             [&](const lab::VisibilityMethod& method) { return lab::score(method, scene, truth); });
   lab::VisibilityFrame frame;
-  time_all(methods, bench, result, [&](const lab::VisibilityMethod& method) { method.draw(scene, frame); });
   picture_all(
-      methods, bench, result,
+      methods, judging, result,
       [](const Score& score) { return std::get<lab::VisibilityScores>(score).snapped.wrong_triangle != 0; },
       [&](const lab::VisibilityMethod& method) {
         method.draw(scene, frame);
@@ -105,22 +92,21 @@ void judge(const lab::VisibilityScene& scene, const Bench& bench, SceneResult& r
       });
 }
 
-void judge(const lab::FacingScene& scene, const Bench& bench, SceneResult& result) {
-  const auto& methods = bench.methods.facing;
-  const auto facts = facts_of(scene, bench);
+void judge(const lab::FacingScene& scene, const Judging& judging, SceneResult& result) {
+  const auto& methods = judging.methods.facing;
+  const auto facts = facts_of(scene, judging);
   result.width = scene.view.size.width;
   result.height = scene.view.size.height;
   result.triangles = scene.faces.size();
   result.covered = static_cast<std::uint64_t>(std::count_if(
       facts.begin(), facts.end(), [](const lab::FaceFacts& f) { return f.floats.covers_sample; }));
-  score_all(methods, bench, result,
+  score_all(methods, judging, result,
             [&](const lab::FacingMethod& method) { return lab::score(method, scene, facts); });
   std::vector<std::uint8_t> front(scene.faces.size());
-  time_all(methods, bench, result, [&](const lab::FacingMethod& method) { method.classify(scene, front); });
   constexpr std::size_t kMostPictured = 20;  // more faces would occlude one another
   if (scene.faces.size() > kMostPictured) return;
   picture_all(
-      methods, bench, result,
+      methods, judging, result,
       [](const Score& score) { return std::get<lab::FacingScores>(score).floats.misclassified != 0; },
       [&](const lab::FacingMethod& method) {
         method.classify(scene, front);
@@ -128,20 +114,19 @@ void judge(const lab::FacingScene& scene, const Bench& bench, SceneResult& resul
       });
 }
 
-void judge(const lab::ClippingScene& scene, const Bench& bench, SceneResult& result) {
-  const auto& methods = bench.methods.clipping;
-  const auto truth = lab::clipping_truth(scene, bench.plan.threads);
+void judge(const lab::ClippingScene& scene, const Judging& judging, SceneResult& result) {
+  const auto& methods = judging.methods.clipping;
+  const auto truth = lab::clipping_truth(scene, judging.plan.threads);
   result.width = scene.size.width;
   result.height = scene.size.height;
   result.triangles = scene.mesh().triangles.size();
   result.covered = covered_pixels(truth.visible);
-  bench.progress(0.5);
-  score_all(methods, bench, result,
+  judging.progress(0.5);
+  score_all(methods, judging, result,
             [&](const lab::ClippingMethod& method) { return lab::score(method, scene, truth); });
   lab::ClippingFrame frame(scene.size);
-  time_all(methods, bench, result, [&](const lab::ClippingMethod& method) { method.draw(scene, frame); });
   picture_all(
-      methods, bench, result,
+      methods, judging, result,
       [](const Score& score) {  // the picture doesn't show wrong depths
         const auto& s = std::get<lab::ClippingScore>(score);
         return s.missing + s.extra + s.wrong_triangle != 0;

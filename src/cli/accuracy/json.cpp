@@ -1,23 +1,21 @@
-#include <cmath>
+#include <nlohmann/json.hpp>
 
-#include "cli/accuracy/report.h"
 #include "cli/accuracy/score.h"
-#include "support/machine.h"
 
 namespace edgewise::tools {
 
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 
 // Writes the 95 % upper bound of the rate only if no error was observed.
-void add_rate(json& score, std::uint64_t errors, std::uint64_t trials) {
+void add_rate(Json& score, std::uint64_t errors, std::uint64_t trials) {
   score["errors_per_million"] = lab::per_million(errors, trials);
   if (errors == 0 && trials != 0) score["bound_per_million"] = 1e6 * lab::rate_bound(trials);
 }
 
-json score_json(const lab::CoverageScore& s, std::uint64_t crossings) {
-  json score{{"missing", s.missing},
+Json score_json(const lab::CoverageScore& s, std::uint64_t crossings) {
+  Json score{{"missing", s.missing},
              {"extra", s.extra},
              {"gaps", s.gaps},
              {"double_hits", s.double_hits},
@@ -29,8 +27,8 @@ json score_json(const lab::CoverageScore& s, std::uint64_t crossings) {
   return score;
 }
 
-json score_json(const lab::VisibilityScore& s) {
-  json score{{"covered", s.covered},
+Json score_json(const lab::VisibilityScore& s) {
+  Json score{{"covered", s.covered},
              {"wrong_triangle", s.wrong_triangle},
              {"out_of_range", s.out_of_range},
              {"max_ulp", s.max_ulp},
@@ -39,19 +37,19 @@ json score_json(const lab::VisibilityScore& s) {
   return score;
 }
 
-json score_json(const lab::FacingScore& s) {
-  json score{{"faces", s.faces}, {"misclassified", s.misclassified}, {"misled", s.misled}};
+Json score_json(const lab::FacingScore& s) {
+  Json score{{"faces", s.faces}, {"misclassified", s.misclassified}, {"misled", s.misled}};
   add_rate(score, s.misclassified, s.faces);
   return score;
 }
 
 struct AddScore {
-  json& method;
+  Json& method;
   const SceneResult& scene;
   const ChosenMethods& methods;
 
   // Every pixel of the image is a trial, because background pixels may be wrong too.
-  void add_wrong_pixels(json& score, std::uint64_t wrong) const {
+  void add_wrong_pixels(Json& score, std::uint64_t wrong) const {
     score["wrong_pixels"] = wrong;
     const auto pixels = static_cast<std::uint64_t>(scene.width) * static_cast<std::uint64_t>(scene.height);
     if (wrong == 0) score["wrong_pixels_bound_per_million"] = 1e6 * lab::rate_bound(pixels);
@@ -79,7 +77,7 @@ struct AddScore {
     method["broken"] = s.broken;
   }
   void operator()(const lab::ClippingScore& s) const {
-    json& score = method["score"] = {{"missing", s.missing},
+    Json& score = method["score"] = {{"missing", s.missing},
                                      {"extra", s.extra},
                                      {"wrong_triangle", s.wrong_triangle},
                                      {"depth_ties", s.depth_ties},
@@ -94,27 +92,10 @@ struct AddScore {
   }
 };
 
-json speed_json(const Speed& speed, const SceneResult& scene) {
-  const bool facing = scene.family == Family::facing;
-  const auto count = static_cast<double>(facing ? scene.triangles : scene.covered);
-  json result{{"threads", speed.threads},
-              {"simd", name_of(speed.target)},
-              {"ms",
-               {{"median", speed.median_ms},
-                {"min", speed.min_ms},
-                {"max", speed.max_ms},
-                {"repetitions", speed.rounds_ms.size()}}},
-              {"rounds_ms", speed.rounds_ms},
-              {"mtri_per_s", static_cast<double>(scene.triangles) / speed.median_ms / 1e3}};
-  if (count > 0) result[facing ? "ns_per_face" : "ns_per_covered_pixel"] = 1e6 * speed.median_ms / count;
-  return result;
-}
-
-json scene_json(const SceneResult& scene, const ChosenMethods& methods) {
-  json result{{"name", scene.name},       {"family", name_of(scene.family)}, {"summary", scene.summary},
+Json scene_json(const SceneResult& scene, const ChosenMethods& methods) {
+  Json result{{"name", scene.name},       {"family", name_of(scene.family)}, {"summary", scene.summary},
               {"width", scene.width},     {"height", scene.height},          {"triangles", scene.triangles},
-              {"covered", scene.covered}, {"smallest", scene.smallest},      {"seconds", scene.seconds},
-              {"methods", json::array()}};
+              {"covered", scene.covered}, {"smallest", scene.smallest},      {"methods", Json::array()}};
   if (scene.family == Family::coverage) {
     result["crossings"] = scene.crossings;
     result["shared_crossings"] = scene.shared_crossings;
@@ -122,31 +103,30 @@ json scene_json(const SceneResult& scene, const ChosenMethods& methods) {
   }
   if (scene.family == Family::facing) result["faces"] = scene.triangles;
   for (const MethodResult& method : scene.methods) {
-    json& entry = result["methods"].emplace_back(json{{"name", method.name}});
+    Json& entry = result["methods"].emplace_back(Json{{"name", method.name}});
     std::visit(AddScore{entry, scene, methods}, method.score);
-    for (const Speed& speed : method.speed) entry["speed"].push_back(speed_json(speed, scene));
   }
   return result;
 }
 
-json per_frame_json(const PerFrame& counts, int frames) {
-  json result{{"median", counts.median}, {"worst", counts.worst}, {"total", counts.total}};
+Json per_frame_json(const PerFrame& counts, int frames) {
+  Json result{{"median", counts.median}, {"worst", counts.worst}, {"total", counts.total}};
   if (counts.total == 0) result["bound_per_frame"] = lab::rate_bound(static_cast<std::uint64_t>(frames));
   return result;
 }
 
-json counts_json(const CubeCounts& counts, int frames) {
+Json counts_json(const CubeCounts& counts, int frames) {
   return {{"gaps", per_frame_json(counts.gaps, frames)},
           {"double_hits", per_frame_json(counts.double_hits, frames)},
           {"missing", per_frame_json(counts.missing, frames)},
           {"extra", per_frame_json(counts.extra, frames)}};
 }
 
-json cube_json(const CubeResult& cube) {
-  json result{
-      {"frames", cube.frames}, {"width", cube.width}, {"height", cube.height}, {"methods", json::array()}};
+Json cube_json(const CubeResult& cube) {
+  Json result{
+      {"frames", cube.frames}, {"width", cube.width}, {"height", cube.height}, {"methods", Json::array()}};
   for (const CubeMethodResult& method : cube.methods) {
-    json& entry = result["methods"].emplace_back(counts_json(method.floats, cube.frames));
+    Json& entry = result["methods"].emplace_back(counts_json(method.floats, cube.frames));
     entry["name"] = method.name;
     entry["snapped"] = counts_json(method.snapped, cube.frames);
   }
@@ -155,15 +135,12 @@ json cube_json(const CubeResult& cube) {
 
 }  // namespace
 
-json accuracy_json(const AccuracyReport& report, const AccuracyPlan& plan) {
-  json result{{"machine", machine_description()},
-              {"quick", plan.quick},
-              {"ok", report.ok()},
-              {"methods", json::array()},
-              {"scenes", json::array()}};
+Json accuracy_json(const AccuracyReport& report, const AccuracyPlan& plan) {
+  Json result{
+      {"quick", plan.quick}, {"ok", report.ok()}, {"methods", Json::array()}, {"scenes", Json::array()}};
   const ChosenMethods methods = methods_of(plan);
   for (const auto& [family, info] : methods.all()) {
-    json& method = result["methods"].emplace_back(json{{"family", name_of(family)},
+    Json& method = result["methods"].emplace_back(Json{{"family", name_of(family)},
                                                        {"name", info->name},
                                                        {"summary", info->summary},
                                                        {"source", info->source},

@@ -4,7 +4,7 @@
 #include <functional>
 #include <mutex>
 
-#include "cli/accuracy/scenes.h"
+#include "cli/accuracy/accuracy.h"
 
 namespace edgewise::tools {
 
@@ -23,19 +23,19 @@ ChosenMethods methods_of(const AccuracyPlan& plan);
 
 // The inputs of judge() and its sinks for progress and close-ups. `progress` is called from several threads,
 // but never concurrently.
-struct Bench {
+struct Judging {
   const AccuracyPlan& plan;
   const ChosenMethods& methods;
-  const AccuracyScene& scene;
+  const lab::LabScene& scene;
   std::function<void(double)> progress;  // fraction of the scene
   std::vector<Closeup>& closeups;
 };
 
-// Fill in all of `result` except what identifies the scene (family, name, summary, smallest) and its seconds.
-void judge(const lab::CoverageScene& scene, const Bench& bench, SceneResult& result);
-void judge(const lab::VisibilityScene& scene, const Bench& bench, SceneResult& result);
-void judge(const lab::FacingScene& scene, const Bench& bench, SceneResult& result);
-void judge(const lab::ClippingScene& scene, const Bench& bench, SceneResult& result);
+// Fill in all of `result` except what identifies the scene (family, name, summary, smallest).
+void judge(const lab::CoverageScene& scene, const Judging& judging, SceneResult& result);
+void judge(const lab::VisibilityScene& scene, const Judging& judging, SceneResult& result);
+void judge(const lab::FacingScene& scene, const Judging& judging, SceneResult& result);
+void judge(const lab::ClippingScene& scene, const Judging& judging, SceneResult& result);
 
 CubeResult judge_turning_cube(const AccuracyPlan& plan, const ChosenMethods& methods,
                               const std::function<void(double)>& progress, std::vector<Closeup>& closeups);

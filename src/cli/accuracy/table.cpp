@@ -1,10 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
-#include "cli/accuracy/report.h"
+#include "cli/accuracy/accuracy.h"
 
 namespace edgewise::tools {
 
@@ -33,11 +31,8 @@ class FamilyTable {
       if (scene.family != family || scene.smallest != smallest) continue;
       scenes_.push_back(&scene);
       trials_ += scene.trials();
-      const bool timed = !scene.methods.empty() && !scene.methods.front().speed.empty();
-      if (timed && timed_ == nullptr) timed_ = &scene;
     }
   }
-  bool timed() const { return timed_ != nullptr; }
   bool empty() const { return scenes_.empty(); }
   std::uint64_t trials() const { return trials_; }
   std::size_t methods() const { return scenes_.front()->methods.size(); }
@@ -93,33 +88,20 @@ class FamilyTable {
     return found == scenes_.end() ? nullptr : *found;
   }
   std::size_t scenes() const { return scenes_.size(); }
-  // The last column: the time of the fastest form on one thread on the first timed scene, or without one, the
-  // scene with the highest error rate.
-  std::string last(std::size_t method) const {
-    if (timed_ == nullptr) return most_wrong_on(method);
-    const bool facing = timed_->family == Family::facing;
-    const auto count = static_cast<double>(facing ? timed_->triangles : timed_->covered);
-    double least_ms = std::numeric_limits<double>::infinity();
-    for (const Speed& speed : timed_->methods[method].speed)
-      if (speed.threads == 1) least_ms = std::min(least_ms, speed.median_ms);
-    return count > 0 ? digits(1e6 * least_ms / count) : "-";
-  }
   std::string title(std::string_view what, std::string_view trials) const {
     const SceneResult& first = *scenes_.front();
-    std::string text =
-        fmt::format("\n{}: {}, {} {} in {} {}scene{}\n", name_of(first.family), what, trials_, trials,
-                    scenes_.size(), first.smallest ? "small " : "", scenes_.size() == 1 ? "" : "s");
-    if (timed_ != nullptr)
-      text +=
-          fmt::format("ns: scene {} at {}x{}, one thread{}\n", timed_->name, timed_->width, timed_->height,
-                      first.family == Family::coverage
-                          ? fmt::format(", faster of scalar and {}", name_of(resolve(SimdTarget::best)))
-                          : "");
-    return text;
+    return fmt::format("\n{}: {}, {} {} in {} {}scene{}\n", name_of(first.family), what, trials_, trials,
+                       scenes_.size(), first.smallest ? "small " : "", scenes_.size() == 1 ? "" : "s");
   }
-  // The last column's title.
-  std::string last_title(std::string_view ns) const {
-    return std::string(timed_ != nullptr ? ns : "most wrong on");
+  // The scene with the highest error rate.
+  std::string most_wrong_on(std::size_t method) const {
+    const SceneResult* worst = nullptr;
+    double most = 0.0;
+    for (const SceneResult* scene : scenes_) {
+      const double rate = lab::per_million(errors(scene->methods[method].score), scene->trials());
+      if (rate > most) most = rate, worst = scene;
+    }
+    return worst == nullptr ? "-" : worst->name;
   }
 
  private:
@@ -132,25 +114,16 @@ class FamilyTable {
     };
     return std::visit(Visit{}, score);
   }
-  std::string most_wrong_on(std::size_t method) const {
-    const SceneResult* worst = nullptr;
-    double most = 0.0;
-    for (const SceneResult* scene : scenes_) {
-      const double rate = lab::per_million(errors(scene->methods[method].score), scene->trials());
-      if (rate > most) most = rate, worst = scene;
-    }
-    return worst == nullptr ? "-" : worst->name;
-  }
-
   std::vector<const SceneResult*> scenes_;
-  const SceneResult* timed_ = nullptr;
   std::uint64_t trials_ = 0;
 };
 
-// The last column is as wide as its longest entry.
+constexpr std::string_view kMostWrongOn = "most wrong on";
+
+// Of the last column, " most wrong on".
 std::size_t last_width(const FamilyTable& t) {
-  std::size_t widest = t.timed() ? 7 : t.last_title("").size();
-  for (std::size_t i = 0; i < t.methods(); ++i) widest = std::max(widest, t.last(i).size());
+  std::size_t widest = kMostWrongOn.size();
+  for (std::size_t i = 0; i < t.methods(); ++i) widest = std::max(widest, t.most_wrong_on(i).size());
   return widest + 1;
 }
 
@@ -183,15 +156,14 @@ std::string visible_triangle_table(const FamilyTable& t) {
 std::string coverage_table(const FamilyTable& t) {
   std::string text = t.title("errors per 10^6 edge crossings", "crossings");
   text += fmt::format("{:<17}{:>29}{:>28}\n", "", "snapped reference", "float reference");
-  constexpr const char* kLine = "{:<17}{:>11}{:>9}{:>9}{:>11}{:>8}{:>9}{}\n";
-  text += fmt::format(kLine, "method", "errors", "gaps", "doubles", "errors", "gaps", "doubles",
-                      t.timed() ? " ns/px" : "");
+  constexpr const char* kLine = "{:<17}{:>11}{:>9}{:>9}{:>11}{:>8}{:>9}\n";
+  text += fmt::format(kLine, "method", "errors", "gaps", "doubles", "errors", "gaps", "doubles");
   for (std::size_t i = 0; i < t.methods(); ++i) {
     const auto snapped = t.coverage(i, &CoverageScores::snapped),
                floats = t.coverage(i, &CoverageScores::floats);
-    text += fmt::format(kLine, t.name(i), rate(snapped.errors(), t.trials()), snapped.gaps,
-                        snapped.double_hits, rate(floats.errors(), t.trials()), floats.gaps,
-                        floats.double_hits, t.timed() ? fmt::format("{:>6}", t.last(i)) : "");
+    text +=
+        fmt::format(kLine, t.name(i), rate(snapped.errors(), t.trials()), snapped.gaps, snapped.double_hits,
+                    rate(floats.errors(), t.trials()), floats.gaps, floats.double_hits);
   }
   return text + visible_triangle_table(t);
 }
@@ -201,13 +173,13 @@ std::string visibility_table(const FamilyTable& t) {
   std::string text = t.title("wrong triangles per 10^6 pixels", "pixels");
   text += fmt::format("{:<17}{:>25}{:>19}\n", "", "snapped reference", "float reference");
   constexpr const char* kLine = "{:<17}{:>10}{:>7}{:>8}{:>11}{:>8}{:>{}}\n";
-  text += fmt::format(kLine, "method", "per 10^6", "beyond", "ulp", "per 10^6", "ulp", t.last_title("ns/px"),
+  text += fmt::format(kLine, "method", "per 10^6", "beyond", "ulp", "per 10^6", "ulp", kMostWrongOn,
                       last_width(t));
   for (std::size_t i = 0; i < t.methods(); ++i) {
     const auto snapped = t.visibility(i, &S::snapped), floats = t.visibility(i, &S::floats);
     text += fmt::format(kLine, t.name(i), rate(snapped.wrong_triangle, snapped.covered), snapped.out_of_range,
                         digits(snapped.max_ulp), rate(floats.wrong_triangle, floats.covered),
-                        digits(floats.max_ulp), t.last(i), last_width(t));
+                        digits(floats.max_ulp), t.most_wrong_on(i), last_width(t));
   }
   return text + "beyond: pixels whose depth is outside the depth range of their triangle\n";
 }
@@ -217,13 +189,12 @@ std::string facing_table(const FamilyTable& t) {
   std::string text = t.title("misjudged per 10^6 faces that cover a sample", "faces");
   text += fmt::format("{:<20}{:>20}{:>20}\n", "", "snapped reference", "float reference");
   constexpr const char* kLine = "{:<20}{:>13}{:>7}{:>13}{:>7}{:>{}}\n";
-  text += fmt::format(kLine, "method", "per 10^6", "faces", "per 10^6", "faces", t.last_title("ns/face"),
-                      last_width(t));
+  text += fmt::format(kLine, "method", "per 10^6", "faces", "per 10^6", "faces", kMostWrongOn, last_width(t));
   for (std::size_t i = 0; i < t.methods(); ++i) {
     const auto snapped = t.facing(i, &S::snapped), floats = t.facing(i, &S::floats);
-    text +=
-        fmt::format(kLine, t.name(i), rate(snapped.misclassified, snapped.faces), snapped.misclassified,
-                    rate(floats.misclassified, floats.faces), floats.misclassified, t.last(i), last_width(t));
+    text += fmt::format(kLine, t.name(i), rate(snapped.misclassified, snapped.faces), snapped.misclassified,
+                        rate(floats.misclassified, floats.faces), floats.misclassified, t.most_wrong_on(i),
+                        last_width(t));
   }
   return text;
 }
@@ -233,13 +204,13 @@ std::string clipping_table(const FamilyTable& t) {
   std::string text = t.title("wrong per 10^6 pixels", "pixels");
   constexpr const char* kLine = "{:<15}{:>9}{:>8}{:>7}{:>7}{:>7}{:>5}{:>4}{:>{}}\n";
   text += fmt::format(kLine, "method", "per 10^6", "missing", "extra", "tri", "depth", "hair", "NaN",
-                      t.last_title("ns/px"), last_width(t));
+                      kMostWrongOn, last_width(t));
   for (std::size_t i = 0; i < t.methods(); ++i) {
     const std::uint64_t missing = t.sum(i, &S::missing), extra = t.sum(i, &S::extra),
                         triangle = t.sum(i, &S::wrong_triangle), depth = t.sum(i, &S::wrong_depth);
     text += fmt::format(kLine, t.name(i), rate(missing + extra + triangle + depth, t.trials()), missing,
-                        extra, triangle, depth, t.sum(i, &S::hairline), t.sum(i, &S::not_a_number), t.last(i),
-                        last_width(t));
+                        extra, triangle, depth, t.sum(i, &S::hairline), t.sum(i, &S::not_a_number),
+                        t.most_wrong_on(i), last_width(t));
   }
   return text + "tri: wrong visible triangle; hair: right within 1/64 px of the sample\n";
 }

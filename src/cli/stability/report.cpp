@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "support/machine.h"
-
 namespace edgewise::tools {
 
 namespace {
@@ -122,8 +120,7 @@ nlohmann::json sweep_json(const SweepResult& result) {
 }
 
 nlohmann::json stability_json(std::span<const SweepResult> results, bool quick) {
-  nlohmann::json json{
-      {"machine", machine_description()}, {"quick", quick}, {"sweeps", nlohmann::json::array()}};
+  nlohmann::json json{{"quick", quick}, {"sweeps", nlohmann::json::array()}};
   for (const SweepResult& result : results) json["sweeps"].push_back(sweep_json(result));
   return json;
 }

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <exception>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -14,7 +15,6 @@
 
 #include "cli/commands.h"
 #include "cli/verify/random.h"
-#include "cli/verify/report.h"
 #include "cli/verify/verify.h"
 #include "support/console.h"
 #include "support/json_output.h"

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "cli/verify/random_cases.h"
-#include "cli/verify/report.h"
+#include "cli/verify/verify.h"
 #include "core/atomic_file.h"
 #include "core/random.h"
 #include "edgewise/contract.h"

@@ -1,8 +1,9 @@
-#include "cli/verify/report.h"
+#include "cli/verify/verify.h"
 
 #include <fmt/format.h>
 
-#include "support/machine.h"
+#include <nlohmann/json.hpp>
+
 #include "support/printable.h"
 
 namespace edgewise::tools {
@@ -73,7 +74,6 @@ nlohmann::json scene_json(const SceneVerdict& v) {
                         {"height", v.oracle_height},
                         {"configurations", v.oracle_configurations},
                         {"differing_pixels", v.oracle_differences}}},
-                      {"seconds", v.seconds},
                       {"ok", v.ok()}};
   for (const HitCount& h : v.hits) json["pixels_not_hit_once"][h.backend] = h.not_once;
   json["mismatches"] = nlohmann::json::array();
@@ -140,9 +140,10 @@ std::string summary(const VerifyReport& report, const VerifyPlan& plan) {
 }
 
 nlohmann::json report_json(const VerifyReport& report, const VerifyPlan& plan) {
-  nlohmann::json json{{"machine", machine_description()}, {"full", plan.full}, {"ok", report.ok()}};
+  nlohmann::json json{{"full", plan.full}, {"ok", report.ok()}};
   for (const BackendInfo& backend : plan.backends) json["backends"].push_back(backend.name);
   json["threads"] = plan.threads;
+  for (const SimdTarget target : supported_targets()) json["simd_targets"].push_back(name_of(target));
   json["scenes"] = nlohmann::json::array();
   for (const SceneVerdict& verdict : report.scenes) json["scenes"].push_back(scene_json(verdict));
   return json;

@@ -1,4 +1,4 @@
-#include "cli/verify/scenes.h"
+#include "cli/verify/verify.h"
 
 #include <algorithm>
 #include <cmath>

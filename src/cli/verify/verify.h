@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -84,5 +85,36 @@ struct VerifyReport {
 
 // Checks all scenes of the plan in order; calls `on_scene` after each.
 VerifyReport verify(const VerifyPlan& plan, const std::function<void(const SceneVerdict&)>& on_scene);
+
+// One line per scene. Below 80 columns, leaves out size, emitted and seconds; 60 columns suffice.
+class VerifyTable {
+ public:
+  explicit VerifyTable(int terminal_columns) : wide_(terminal_columns >= 80) {}
+  std::string header() const;
+  std::string line(const SceneVerdict& verdict) const;
+
+ private:
+  bool wide_;
+};
+
+// "2 threads, avx2, tile 64, no prefetch"
+std::string describe(const lab::AblatedExecution& how);
+
+// The differences of a scene in detail; empty if there are none.
+std::string explain(const SceneVerdict& verdict);
+
+// The number of comparisons and the result.
+std::string summary(const VerifyReport& report, const VerifyPlan& plan);
+
+nlohmann::json report_json(const VerifyReport& report, const VerifyPlan& plan);
+
+// The scene at the plan's size, scaled down, so that many configurations can be compared in little time.
+Shot shot_for_comparison(const VerifyPlan& plan, const std::string& name);
+
+// The scene scaled down for the oracle: pixels times triangles stay within its budget.
+Shot shot_for_oracle(const VerifyPlan& plan, const std::string& name);
+
+// Whether the scene is watertight over the whole image, so that each pixel is covered exactly once.
+bool covers_each_pixel_once(const Source& source);
 
 }  // namespace edgewise::tools

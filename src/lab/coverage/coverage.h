@@ -81,9 +81,7 @@ struct CoverageMethod {
   std::string_view simd_note = {};
   // The SIMD engine with one kind of numbers: timed with SIMD only, and left out of the turning cube.
   bool engine = false;
-  // Only for rasterizers that keep scenes loaded: loads one, and returns the timed part of its draw. All
-  // functions of such a method must run on one thread, since an OpenGL context belongs to a thread.
-  std::function<std::function<void()>(const CoverageInput&, Window, const Execution&)> load = {};
+  bool one_thread = false;  // all functions must run on one thread: an OpenGL context belongs to a thread
 };
 
 // The methods of methods.cpp.

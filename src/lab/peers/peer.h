@@ -1,5 +1,5 @@
-// Peers are other projects' rasterizers, which draw the benchmark's scenes in the same run as our backends. A
-// peer loads a scene before the clock starts, and then draws it repeatedly.
+// Peers are other projects' rasterizers. A peer loads a scene once, and then draws it repeatedly, so that a
+// timed draw loads nothing.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,11 @@
 #include <utility>
 #include <vector>
 
-namespace edgewise::bench {
+#include "lab/truth.h"
+
+namespace edgewise::lab {
+
+struct CoverageMethod;
 
 // One mesh for a peer's vertex buffers. A triangle's payload is that of its last vertex.
 struct PeerMesh {
@@ -60,19 +64,23 @@ struct PeerInfo {
 };
 
 // The peers: those of this build's OpenGL drivers, and those that Vulkan finds here. The second call has only
-// those with rows in the benchmark, and opens no driver.
+// those with rows in the benchmark's suite, and opens no driver.
 std::span<const PeerInfo> peers();
 std::span<const PeerInfo> benchmark_peers();
-// Throws std::invalid_argument if the list is empty.
-void require_peers(std::span<const PeerInfo> peers);
 
 struct StartedPeers {
   std::vector<std::pair<const PeerInfo*, std::string>> peers;  // with their versions
   std::vector<std::string> left_out;                           // why each of the others cannot start
 
-  // Throws std::runtime_error, which says why, if no peer starts.
+  // If no peer starts, throws std::runtime_error, which says why; std::invalid_argument if none was built.
   void require_one() const;
 };
 StartedPeers start_peers(std::span<const PeerInfo> peers);
 
-}  // namespace edgewise::bench
+// Positions before snapping, so that a peer's own snapping decides.
+PeerScene peer_scene(std::span<const FloatTriangle> triangles, Window window, std::uint32_t background);
+
+// One method per peer; `started` must outlive them.
+std::vector<CoverageMethod> peer_methods(const StartedPeers& started);
+
+}  // namespace edgewise::lab

@@ -1,4 +1,4 @@
-#include "bench/peers/egl.h"
+#include "lab/peers/egl.h"
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -11,9 +11,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "bench/peers/gl_context.h"
+#include "lab/peers/gl_context.h"
 
-namespace edgewise::bench {
+namespace edgewise::lab {
 
 namespace {
 
@@ -124,4 +124,4 @@ std::string mesa_version(MesaDriver driver) {
   return fmt::format("{}, {}", opengl.substr(mesa), renderer.substr(llvm, renderer.rfind(')') - llvm));
 }
 
-}  // namespace edgewise::bench
+}  // namespace edgewise::lab

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace edgewise::bench {
+namespace edgewise::lab {
 
 enum class MesaDriver { llvmpipe, softpipe };
 std::string_view name_of(MesaDriver driver);
@@ -17,4 +17,4 @@ void use_mesa(MesaDriver driver, int threads);
 // does.
 std::string mesa_version(MesaDriver driver);
 
-}  // namespace edgewise::bench
+}  // namespace edgewise::lab

@@ -10,10 +10,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "bench/peers/egl.h"
-#include "bench/peers/peer.h"
+#include "lab/peers/egl.h"
+#include "lab/peers/peer.h"
 
-namespace edgewise::bench {
+namespace edgewise::lab {
 
 namespace {
 
@@ -231,4 +231,4 @@ PeerInfo softpipe() {
   return mesa_peer<MesaDriver::softpipe, 1>("Mesa's reference driver of OpenGL, in plain C");
 }
 
-}  // namespace edgewise::bench
+}  // namespace edgewise::lab

@@ -1,10 +1,10 @@
-#include "bench/peers/peer.h"
+#include "lab/peers/peer.h"
 
 #include <optional>
 #include <stdexcept>
 #include <vector>
 
-namespace edgewise::bench {
+namespace edgewise::lab {
 
 #ifdef EDGEWISE_PEER_MESA
 PeerInfo llvmpipe();
@@ -46,14 +46,11 @@ std::span<const PeerInfo> benchmark_peers() {
   return timed;
 }
 
-void require_peers(std::span<const PeerInfo> peers) {
-  if (peers.empty())
-    throw std::invalid_argument(
-        "--peers: there is none, since OpenGL or EGL was not found (scripts/run --peers installs them)");
-}
-
 void StartedPeers::require_one() const {
   if (!peers.empty()) return;
+  if (left_out.empty())
+    throw std::invalid_argument(
+        "--peers: there is none, since OpenGL or EGL was not found (scripts/run --peers installs them)");
   std::string why;
   for (const std::string& reason : left_out) why += (why.empty() ? "" : "; ") + reason;
   throw std::runtime_error("--peers: none starts: " + why);
@@ -69,4 +66,4 @@ StartedPeers start_peers(std::span<const PeerInfo> peers) {
   return started;
 }
 
-}  // namespace edgewise::bench
+}  // namespace edgewise::lab

@@ -13,9 +13,9 @@
 #include <stdexcept>
 #include <vulkan/vulkan_raii.hpp>
 
-#include "bench/peers/peer.h"
+#include "lab/peers/peer.h"
 
-namespace edgewise::bench {
+namespace edgewise::lab {
 
 namespace {
 
@@ -333,4 +333,4 @@ std::optional<PeerInfo> vulkan_gpu() {
   return peer_if_found<Driver::gpu>("gpu", "the first GPU that Vulkan offers; times include waiting for it");
 }
 
-}  // namespace edgewise::bench
+}  // namespace edgewise::lab

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace edgewise::bench {
+namespace edgewise::lab {
 
 class GlContext {
  public:
@@ -28,4 +28,4 @@ inline void use_context(GlContext& context, std::string_view driver) {
   }
 }
 
-}  // namespace edgewise::bench
+}  // namespace edgewise::lab

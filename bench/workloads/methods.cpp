@@ -1,0 +1,126 @@
+#include "bench/workloads/methods.h"
+
+#include "lab/engine/engine.h"
+
+namespace edgewise::bench {
+
+namespace {
+
+constexpr Execution kPlainest{.threads = 1, .target = SimdTarget::scalar};
+
+std::vector<Execution> forms_of(const lab::CoverageMethod& method) {
+  const SimdTarget best = resolve(SimdTarget::best);
+  if (method.engine) return {{.threads = 1, .target = best}};
+  std::vector<SimdTarget> targets{SimdTarget::scalar};
+  if (method.simd && best != SimdTarget::scalar) targets.push_back(best);
+  std::vector<Execution> list;
+  for (const SimdTarget target : targets)
+    for (int threads = 1; threads <= (method.threaded ? 2 : 1); ++threads)
+      list.push_back({.threads = threads, .target = target});
+  return list;
+}
+
+template <typename... Cases>
+struct Overloaded : Cases... {
+  using Cases::operator()...;
+};
+
+}  // namespace
+
+void MethodScene::load() {
+  if (scene_) return;
+  scene_ = info_.make();
+  if (info_.family == lab::Family::coverage) canvas.emplace(size().width, size().height);
+  if (info_.family == lab::Family::clipping) clipped.emplace(size());
+  front.resize(triangles());
+}
+
+lab::Size MethodScene::size() const {
+  return std::visit(
+      Overloaded{[](const lab::VisibilityScene& s) {
+                   return lab::Size{s.width, s.height};
+                 },
+                 [](const lab::FacingScene& s) { return s.view.size; }, [](const auto& s) { return s.size; }},
+      *scene_);
+}
+
+std::size_t MethodScene::triangles() const {
+  return std::visit(Overloaded{[](const lab::CoverageScene& s) { return s.floats.size(); },
+                               [](const lab::VisibilityScene& s) { return s.triangles.size(); },
+                               [](const lab::FacingScene& s) { return s.faces.size(); },
+                               [](const lab::ClippingScene& s) { return s.mesh().triangles.size(); }},
+                    *scene_);
+}
+
+std::string_view MethodDraw::name() const {
+  return std::visit(Overloaded{[](const lab::PeerInfo* peer) { return peer->name; },
+                               [](const auto* of) { return of->info.name; }},
+                    method);
+}
+
+std::function<void()> MethodDraw::prepare(std::string& error) const {
+  scene->load();
+  MethodScene& at = *scene;
+  const lab::AnyScene& any = at.scene();
+  const auto coverage = [&](const lab::CoverageMethod* of) -> std::function<void()> {
+    const auto draw = [&at, of](const Execution& how) {
+      of->draw(std::get<lab::CoverageScene>(at.scene()).input(), *at.canvas, how);
+    };
+    if (execution.threads != kPlainest.threads || execution.target != kPlainest.target) {
+      lab::Canvas plain(at.size().width, at.size().height);
+      of->draw(std::get<lab::CoverageScene>(any).input(), plain, kPlainest);
+      draw(execution);
+      if (!lab::same_picture(*of, plain, *at.canvas))
+        error = "draws other pixels than its scalar form on one thread";
+    }
+    return [draw, how = execution] { draw(how); };
+  };
+  const auto peer = [&](const lab::PeerInfo* of) -> std::function<void()> {
+    const auto& s = std::get<lab::CoverageScene>(any);
+    return [loaded = std::shared_ptr(of->load(peer_scene(s.floats, s.window(), 0), execution.threads))] {
+      loaded->draw();
+    };
+  };
+  return std::visit(
+      Overloaded{coverage, peer,
+                 [&](const lab::VisibilityMethod* of) -> std::function<void()> {
+                   return [&at, of] { of->draw(std::get<lab::VisibilityScene>(at.scene()), at.visible); };
+                 },
+                 [&](const lab::FacingMethod* of) -> std::function<void()> {
+                   return [&at, of] { of->classify(std::get<lab::FacingScene>(at.scene()), at.front); };
+                 },
+                 [&](const lab::ClippingMethod* of) -> std::function<void()> {
+                   return [&at, of] { of->draw(std::get<lab::ClippingScene>(at.scene()), *at.clipped); };
+                 }},
+      method);
+}
+
+std::vector<MethodDraw> method_draws(lab::LabScene info, std::span<const lab::PeerInfo> peers) {
+  const auto scene = std::make_shared<MethodScene>(std::move(info));
+  std::vector<MethodDraw> draws;
+  const auto add_all = [&](const auto& methods) {
+    for (const auto& method : methods) draws.push_back({scene, &method, kPlainest});
+  };
+  switch (scene->info().family) {
+    case lab::Family::coverage:
+      for (const auto& methods : {lab::coverage_methods(), lab::engine_methods()})
+        for (const lab::CoverageMethod& method : methods)
+          for (const Execution& form : forms_of(method)) draws.push_back({scene, &method, form});
+      for (const lab::PeerInfo& peer : peers)
+        for (int threads = 1; threads <= peer.most_threads; ++threads)
+          draws.push_back({scene, &peer, {.threads = threads, .target = SimdTarget::scalar}});
+      break;
+    case lab::Family::visibility:
+      add_all(lab::visibility_methods());
+      break;
+    case lab::Family::facing:
+      add_all(lab::facing_methods());
+      break;
+    case lab::Family::clipping:
+      add_all(lab::clipping_methods());
+      break;
+  }
+  return draws;
+}
+
+}  // namespace edgewise::bench

@@ -1,0 +1,279 @@
+#include "bench/workloads/peers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
+
+#include "bench/workloads/ablation.h"
+#include "edgewise/contract.h"
+#include "frontend/view.h"
+#include "lab/portable/conformance.h"
+
+namespace edgewise::bench {
+
+namespace {
+
+constexpr std::uint32_t kNoId = 0xFFFFFFFFu;
+
+// Gives each triangle a last (provoking) vertex that no other triangle has as its last, to carry its payload.
+// It takes the first of the triangle's three that is not taken (rotation keeps the winding), or a copy if all
+// are. Vertices are numbered in the order in which triangles first use them, which is good for caches.
+class ProvokingVertices {
+ public:
+  explicit ProvokingVertices(const Mesh& mesh)
+      : mesh_(mesh), taken_(mesh.positions.size(), 0), number_(taken_.size(), kNoId) {}
+
+  PeerMesh assign(std::span<const std::uint32_t> payloads) {
+    for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+      const glm::uvec3 t = mesh_.triangles[i];
+      int last = 0;
+      while (last < 3 && taken_[t[last]]) ++last;
+      const bool copy = last == 3;
+      if (copy) last = 2;
+      for (const int k : {(last + 1) % 3, (last + 2) % 3}) out_.indices.push_back(number(t[k]));
+      out_.indices.push_back(copy ? add(t[last]) : number(t[last]));
+      taken_[t[last]] = 1;
+      out_.payloads[out_.indices.back()] = payloads[i];
+    }
+    return std::move(out_);
+  }
+
+ private:
+  std::uint32_t add(std::uint32_t vertex) {
+    out_.positions.push_back(mesh_.positions[vertex]);
+    out_.payloads.push_back(0);
+    return static_cast<std::uint32_t>(out_.positions.size() - 1);
+  }
+  std::uint32_t number(std::uint32_t vertex) {
+    if (number_[vertex] == kNoId) number_[vertex] = add(vertex);
+    return number_[vertex];
+  }
+
+  const Mesh& mesh_;
+  std::vector<char> taken_;
+  std::vector<std::uint32_t> number_;
+  PeerMesh out_;
+};
+
+// The colour or id of each submitted triangle. Triangles that the front end drops have colour 0, since peers
+// must not draw them either.
+std::vector<std::uint32_t> payloads_of(const Workload& workload, PeerPayload payload) {
+  std::vector<std::uint32_t> payloads(workload.submitted(), 0);
+  if (payload == PeerPayload::id) {
+    std::iota(payloads.begin(), payloads.end(), 0u);
+    return payloads;
+  }
+  const auto ids = triangles_by_id(workload);
+  for (std::size_t i = 0; i < ids.size(); ++i) payloads[ids[i].payload] = workload.triangles()[i].payload;
+  return payloads;
+}
+
+std::vector<PeerMesh> scene_meshes(const Scene& scene, const Workload& workload,
+                                   std::span<const std::uint32_t> payloads) {
+  const double near_z = scene.camera.near_z, far_z = scene.camera.far_z;
+  const auto depth_scale = static_cast<float>(far_z / (far_z - near_z));
+  std::vector<PeerMesh> meshes;
+  for (const auto& instance : scene.instances) {
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    meshes.push_back(ProvokingVertices(mesh).assign(payloads.first(mesh.triangles.size())));
+    const ScreenTransform transform(scene.camera, instance, workload.width(), workload.height());
+    PeerMesh& peers = meshes.back();
+    for (glm::vec3& position : peers.positions) position -= transform.origin;
+    for (int i = 0; i < 4; ++i) {
+      const glm::vec3 v = transform.rounded[i];
+      peers.to_screen[i] = {v.x, v.y, depth_scale * v.z, v.z};
+    }
+    peers.to_screen[3].z -= depth_scale * scene.camera.near_z;
+    payloads = payloads.subspan(mesh.triangles.size());
+  }
+  return meshes;
+}
+
+// Positions are rounded as the front end does: peers may compute depth planes from positions before rounding,
+// and those of slivers would differ.
+PeerMesh stream_mesh(const TriangleStream& stream, std::span<const std::uint32_t> payloads) {
+  PeerMesh mesh;
+  const auto rounded = [](float px) { return std::nearbyint(px * contract::kSub) / contract::kSub; };
+  for (std::size_t i = 0; i < stream.triangles.size(); ++i)
+    for (const glm::vec3 vertex : stream.triangles[i].vertex) {
+      mesh.positions.emplace_back(rounded(vertex.x), rounded(vertex.y), vertex.z);
+      mesh.payloads.push_back(payloads[i]);
+    }
+  return mesh;
+}
+
+}  // namespace
+
+PeerScene peer_scene(const Workload& workload, PeerPayload payload) {
+  PeerScene result;
+  result.width = workload.width();
+  result.height = workload.height();
+  result.background = payload == PeerPayload::id ? kNoTriangle : kBackground;
+  result.cull_back = workload.frontend_options({}).cull == Cull::back;
+  const auto payloads = payloads_of(workload, payload);
+  if (const auto* scene = std::get_if<Scene>(&workload.drawable()))
+    result.meshes = scene_meshes(*scene, workload, payloads);
+  else
+    result.meshes.push_back(stream_mesh(std::get<TriangleStream>(workload.drawable()), payloads));
+  return result;
+}
+
+std::vector<ScreenTriangle> triangles_by_id(const Workload& workload) {
+  FrontendOptions options = workload.frontend_options({});
+  options.payload = Payload::id;
+  Frontend frontend;
+  const auto triangles = frontend.run(workload.drawable(), options);
+  return {triangles.begin(), triangles.end()};
+}
+
+namespace {
+
+using namespace contract;
+
+bool covers(const Oriented& t, int x, int y) {
+  return t.area > 0 && make_edge(t, 0).at(x, y) >= 0 && make_edge(t, 1).at(x, y) >= 0 &&
+         make_edge(t, 2).at(x, y) >= 0;
+}
+
+class Judge {
+ public:
+  Judge(const Framebuffer& ours, std::span<const ScreenTriangle> triangles)
+      : ours_(ours), triangles_(triangles) {}
+
+  bool is_depth_tie(std::uint32_t our_id, std::uint32_t their_id, int x, int y) const {
+    const ScreenTriangle *mine = find(our_id, x, y), *other = find(their_id, x, y);
+    if (mine == nullptr || other == nullptr) return false;
+    const double gap = double{1} * make_depth(orient(*other)).at(x, y) - ours_.depth_row(y)[x];
+    return gap <= 2.0 * kDepthError + float_plane_error(*mine, ours_.width(), ours_.height()) +
+                      float_plane_error(*other, ours_.width(), ours_.height());
+  }
+
+ private:
+  // The piece of triangle `id` that covers the pixel, or null.
+  const ScreenTriangle* find(std::uint32_t id, int x, int y) const {
+    const auto [begin, end] =
+        std::equal_range(triangles_.begin(), triangles_.end(), ScreenTriangle{{}, {}, {}, id},
+                         [](const auto& a, const auto& b) { return a.payload < b.payload; });
+    const auto found = std::find_if(begin, end, [&](const auto& t) { return covers(orient(t), x, y); });
+    return found == end ? nullptr : &*found;
+  }
+
+  const Framebuffer& ours_;
+  std::span<const ScreenTriangle> triangles_;
+};
+
+}  // namespace
+
+double float_plane_error(const ScreenTriangle& t, int width, int height) {
+  const Oriented o = orient(t);
+  const auto [low, high] = std::minmax({o.z[0], o.z[1], o.z[2]});
+  const auto length_px = [](const std::int32_t(&v)[3]) {
+    return static_cast<double>(std::abs(v[1] - v[0]) + std::abs(v[2] - v[0])) / kSub;
+  };
+  return lab::float_plane_error(static_cast<double>(high), static_cast<double>(high - low), length_px(o.x),
+                                length_px(o.y), static_cast<double>(o.area) / (kSub * kSub), width, height);
+}
+
+PeerJudgement judge(const Framebuffer& ours, std::span<const std::uint32_t> theirs,
+                    std::span<const ScreenTriangle> triangles) {
+  const Judge judge(ours, triangles);
+  PeerJudgement result;
+  for (int y = 0; y < ours.height(); ++y) {
+    const auto row = theirs.subspan(static_cast<std::size_t>(y) * static_cast<std::size_t>(ours.width()));
+    for (int x = 0; x < ours.width(); ++x) {
+      const std::uint32_t mine = ours.payload_row(y)[x], other = row[static_cast<std::size_t>(x)];
+      result.drawn += mine != kNoTriangle || other != kNoTriangle;
+      if (mine == other) continue;
+      if (mine == kNoTriangle || other == kNoTriangle) {
+        ++result.coverage;
+      } else if (judge.is_depth_tie(mine, other, x, y)) {
+        ++result.depth_ties;
+        continue;
+      } else {
+        ++result.other_triangles;
+      }
+      if (result.first_x < 0) result.first_x = x, result.first_y = y;
+    }
+  }
+  return result;
+}
+
+namespace {
+
+// The pixels that show the same triangle in both pictures, but another colour.
+std::uint64_t differing_colours(const Framebuffer& ids, std::span<const std::uint32_t> their_ids,
+                                const Framebuffer& colours, std::span<const std::uint32_t> their_colours) {
+  std::uint64_t count = 0;
+  std::size_t i = 0;
+  for (int y = 0; y < ids.height(); ++y)
+    for (int x = 0; x < ids.width(); ++x, ++i)
+      count += ids.payload_row(y)[x] == their_ids[i] && colours.payload_row(y)[x] != their_colours[i];
+  return count;
+}
+
+}  // namespace
+
+void PeerStage::compare(Row& row) {
+  const Workload& workload = *row.workload;
+  const auto load = [&](PeerPayload payload) {
+    auto frame = row.peer->load(peer_scene(workload, payload), row.execution.threads);
+    frame->draw();
+    return frame;
+  };
+
+  const auto triangles = triangles_by_id(workload);
+  Framebuffer ours(workload.width(), workload.height());
+  backends().front().make()->draw(triangles, ours.view(), kNoTriangle, {});
+  const auto their_ids = load(PeerPayload::id)->read();
+  auto& loaded = loaded_[row.name] = load(PeerPayload::colour);
+
+  const PeerJudgement judgement = judge(ours, their_ids, triangles);
+  row.depth_ties = judgement.depth_ties;
+  if (judgement.wrong() != 0)
+    row.error = fmt::format(
+        "{} pixels are drawn in only one of the two pictures, {} show another triangle, the first at ({}, "
+        "{})",
+        judgement.coverage, judgement.other_triangles, judgement.first_x, judgement.first_y);
+  else if (const auto count = differing_colours(ours, their_ids, row.workload->reference(), loaded->read());
+           count != 0)
+    row.error = fmt::format("{} pixels have other colours", count);
+}
+
+namespace {
+
+// Whether our row does the peer row's work on as many threads, with the default switches.
+bool is_comparable(const Row& ours, const Row& peer) {
+  return ours.backend != nullptr && ours.backend->name == kAblationBackend && is_plain(ours) &&
+         ours.workload == peer.workload && ours.timed == peer.timed &&
+         ours.execution.threads == peer.execution.threads;
+}
+
+// Our speed relative to the peer's: "7.50× faster" or "2.00× slower".
+std::string speed_ratio(double peer_ms, double ours_ms) {
+  return ours_ms <= peer_ms ? fmt::format("{:>6.2f}× faster", peer_ms / ours_ms)
+                            : fmt::format("{:>6.2f}× slower", ours_ms / peer_ms);
+}
+
+}  // namespace
+
+std::string ratio_table(const std::vector<Row>& rows, const std::map<std::string, double>& median_ms) {
+  std::string lines;
+  for (const Row& row : rows) {
+    if (row.peer == nullptr || !median_ms.contains(row.name)) continue;
+    const auto ours = std::find_if(rows.begin(), rows.end(), [&](const Row& other) {
+      return is_comparable(other, row) && median_ms.contains(other.name);
+    });
+    if (ours == rows.end()) continue;
+    const double peer_ms = median_ms.at(row.name), ours_ms = median_ms.at(ours->name);
+    lines += fmt::format("{:<44} {:>10.3f} ms  {:<44} {:>10.3f} ms  {}\n", row.name, peer_ms, ours->name,
+                         ours_ms, speed_ratio(peer_ms, ours_ms));
+  }
+  return lines.empty()
+             ? lines
+             : fmt::format("\nSpeed of {} relative to each peer, by medians:\n", kAblationBackend) + lines;
+}
+
+}  // namespace edgewise::bench

@@ -1,0 +1,71 @@
+// Peers (other projects' rasterizers) in the benchmark's suite: converts a workload to a peer's scene,
+// compares the peer's picture with ours, times the peer, and gives our speed relative to it.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bench/row.h"
+#include "lab/truth.h"
+
+namespace edgewise::bench {
+
+using lab::kNoTriangle, lab::PeerFrame, lab::PeerInfo, lab::PeerMesh, lab::PeerScene;
+
+enum class PeerPayload {
+  colour,  // over kBackground, as our backends draw
+  id       // over kNoTriangle, the ids of triangles_by_id()
+};
+
+// The scene's meshes with their matrices, which the peer transforms, culls and clips, or a stream's
+// triangles. The stream's positions are rounded to 1/256 px.
+PeerScene peer_scene(const Workload& workload, PeerPayload payload);
+
+// The front end's triangles with ids as payloads. An id numbers the submitted triangles; the pieces of a
+// clipped triangle share its id.
+std::vector<ScreenTriangle> triangles_by_id(const Workload& workload);
+
+// How a peer's picture differs from ours. Both are drawn with triangle ids as payloads, over kNoTriangle.
+struct PeerJudgement {
+  // Numbers of pixels.
+  std::uint64_t drawn = 0;            // in at least one of the pictures
+  std::uint64_t coverage = 0;         // in exactly one
+  std::uint64_t depth_ties = 0;       // another triangle, which covers the pixel at a depth within tolerance
+  std::uint64_t other_triangles = 0;  // another triangle, not within tolerance
+  int first_x = -1, first_y = -1;     // the first pixel in `coverage` or `other_triangles`
+
+  std::uint64_t wrong() const { return coverage + other_triangles; }
+};
+
+// The bound on a peer's depth error for a triangle, in contract depth units. The peer evaluates
+// z = a + x dz/dx + y dz/dy in floats of 24-bit significand. A thin triangle's gradients, and with them the
+// rounding errors of the products, grow with the square of its length over its area.
+double float_plane_error(const ScreenTriangle& triangle, int width, int height);
+
+// `ours` was drawn from `triangles`, which are sorted by payload. `theirs` has the same size, row by row.
+PeerJudgement judge(const Framebuffer& ours, std::span<const std::uint32_t> theirs,
+                    std::span<const ScreenTriangle> triangles);
+
+class PeerStage {
+ public:
+  // Draws the row's scene twice, with triangle ids and with colours. Sets the row's depth_ties, and its error
+  // if the coverage differs, or a visible triangle beyond a depth tie within tolerance, or a colour. Keeps
+  // the scene loaded in the peer. Requires a prepared workload.
+  void compare(Row& row);
+
+  // Draws one frame of a row that compare() has loaded.
+  void work(const Row& row) { loaded_.at(row.name)->draw(); }
+
+ private:
+  std::map<std::string, std::unique_ptr<PeerFrame>> loaded_;  // by row name
+};
+
+// One line per peer row with a timed row of kAblationBackend of the same work and thread count; empty if
+// there is none. `median_ms` is by row name.
+std::string ratio_table(const std::vector<Row>& rows, const std::map<std::string, double>& median_ms);
+
+}  // namespace edgewise::bench

@@ -1,0 +1,40 @@
+// The scenes on which the laboratory's methods are judged and timed. Each is built only when it is used.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "lab/clipping/clipping.h"
+#include "lab/coverage/coverage.h"
+#include "lab/facing/facing.h"
+#include "lab/method.h"
+#include "lab/visibility/visibility.h"
+
+namespace edgewise::lab {
+
+using AnyScene = std::variant<CoverageScene, VisibilityScene, FacingScene, ClippingScene>;
+
+struct LabScene {
+  Family family;
+  std::string name, summary;
+  bool timed;     // by the benchmark's suite
+  bool smallest;  // a small scene that shows a single failure; only these get close-ups
+  double cost_s;  // estimate for the progress bar
+  std::function<AnyScene()> make;
+};
+
+// Family by family. `quick`: smaller scenes, and fewer of them are timed.
+std::vector<LabScene> lab_scenes(bool quick);
+
+// A mesh or stream, and the size of its picture.
+struct SizedDrawable {
+  Drawable drawable;
+  Size size;
+};
+// The user's own scene: one for coverage, and for a mesh one for visibility.
+std::vector<LabScene> own_scenes(const std::string& name, bool stream, std::function<SizedDrawable()> load);
+
+}  // namespace edgewise::lab
