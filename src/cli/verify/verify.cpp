@@ -97,47 +97,6 @@ PixelValue value_at(const Frame& frame, std::string_view drawn_by, int x, int y)
   return {std::string(drawn_by), frame.depth_row(y)[x], frame.payload_row(y)[x]};
 }
 
-// Evidence of a difference: pictures, and a stream that reproduces it.
-struct FailureFrames {
-  std::span<const ScreenTriangle> triangles;
-  const Framebuffer& expected;
-  const Framebuffer& found;
-};
-
-// About the width of a screen: enlarged pixels are visible and the picture fits.
-int enlargement(int width, int height) {
-  constexpr int kLargestSide_px = 2048, kLargestFactor = 8;
-  return std::clamp(kLargestSide_px / std::max(width, height), 1, kLargestFactor);
-}
-
-// Writes FOLDER/SCENE-CULL-BACKEND-vs-JUDGE: expected, found and difference (enlarged) as .png, and the
-// triangles as .tri. Lists the files, or the reason why one was not written, in the mismatch. Does nothing if
-// the folder name is empty.
-void write_failure(const std::filesystem::path& folder, const std::string& scene, Mismatch& mismatch,
-                   const FailureFrames& frames) try {
-  if (folder.empty()) return;
-  std::filesystem::create_directories(folder);
-  const auto path_for = [&](const char* suffix) {
-    return folder / fmt::format("{}-{}-{}-vs-{}{}", scene, name_of(mismatch.cull), mismatch.backend,
-                                mismatch.judge, suffix);
-  };
-  const auto write = [&](const char* suffix, const Image& image) {
-    write_image(path_for(suffix), image);
-    mismatch.files.push_back(path_for(suffix).string());
-  };
-  write("-expected.png", picture_of(frames.expected, mismatch.payload));
-  write("-found.png", picture_of(frames.found, mismatch.payload));
-  write("-difference.png", enlarge(picture_of_difference(frames.expected, frames.found, mismatch.payload),
-                                   enlargement(mismatch.width, mismatch.height)));
-  AtomicFile file(path_for(".tri"));
-  write_tri(file.stream(), lab::to_stream(frames.triangles, mismatch.width, mismatch.height));
-  file.commit();
-  mismatch.files.push_back(path_for(".tri").string());
-} catch (const std::exception& error) {
-  // Report the mismatch even if its pictures cannot be written.
-  mismatch.file_error = error.what();
-}
-
 class SceneCheck {
  public:
   SceneCheck(const VerifyPlan& plan, const std::string& name, const std::function<void(double)>& progress)
