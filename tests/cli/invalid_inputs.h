@@ -406,7 +406,7 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
     {"ulimit -f 64; edgewise render cube --size 640x480 --depth $DIR/a.pfm", 2,
      "a.pfm: cannot be written: File too large"},
     {"ulimit -f 64; edgewise capture sphere -o $DIR/a.tri", 2, "a.tri: cannot be written: File too large"},
-    {"ulimit -f 1; edgewise verify cube --size 65x33 --json $DIR/a.json", 2,
+    {"ulimit -f 1; edgewise verify cube cubes sphere --size 65x33 --json $DIR/a.json", 2,
      "a.json: cannot be written: File too large"},
     {"ulimit -f 1; edgewise accuracy drtk_quad --json $DIR/a.json", 2,
      "a.json: cannot be written: File too large"},
@@ -478,8 +478,7 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
     {"stopped KILL bench --benchmark_out=$DIR/a.json", 137, "", "partial"},
     // Pictures are written one by one: complete ones may be left.
     {"stopped INT edgewise accuracy edge_on t_junction --pictures $DIR/errors", 130, "", "errors"},
-    {"stopped KILL edgewise accuracy edge_on t_junction --pictures $DIR/errors", 137, "",
-     "errors"},
+    {"stopped KILL edgewise accuracy edge_on t_junction --pictures $DIR/errors", 137, "", "errors"},
     {"stopped INT edgewise render torus-knot --size 5000x5000 -o $DIR/a.png", 130, ""},
     {"stopped KILL edgewise render torus-knot --size 5000x5000 -o $DIR/a.png", 137, "", "partial"},
     {"stopped INT edgewise capture micro --scale 2 -o $DIR/a.tri", 130, ""},
