@@ -353,7 +353,7 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
     {"ulimit -f 4; edgewise render torus-knot -o $DIR/a.png", 2, "a.png: cannot be written: File too large"},
     {"ulimit -f 64; edgewise render cube --size 640x480 -o $DIR/a.ppm", 2,
      "a.ppm: cannot be written: File too large"},
-    {"ulimit -f 1; edgewise verify cube --size 65x33 --json $DIR/a.json", 2,
+    {"ulimit -f 1; edgewise verify cube cubes sphere --size 65x33 --json $DIR/a.json", 2,
      "a.json: cannot be written: File too large"},
     {"ulimit -f 1; bench $SHORT --benchmark_out=$DIR/a", 2, "a: cannot be written: File too large"},
     {"ulimit -f 1; edgewise machine >$IN/machine.json", 2, "cannot write to standard output"},

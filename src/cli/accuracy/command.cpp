@@ -92,7 +92,7 @@ void add_accuracy(CLI::App& program, Action& action) {
       ->delimiter(',')
       ->type_name("NAME");
   command.add_flag("--peers", o->plan.peers,
-                   "Measure other projects' rasterizers that start here (coverage) in place of the methods");
+                   "Measure only other projects' rasterizers that start here (coverage)");
   command.add_flag("--fit", o->plan.fit, "Centre your meshes and scale their longest side to 2");
   command
       .add_option("--json", o->json, "Also write all results as JSON; - for stdout, instead of the tables")
