@@ -211,10 +211,7 @@ void register_rows(std::vector<Row>& rows, Stage& stage, const Flags& flags, int
   }
 }
 
-struct RandomReadRow {
-  ReadRow row;
-  std::shared_ptr<RandomReads> reads;
-};
+using RandomReadRow = std::pair<ReadRow, std::shared_ptr<RandomReads>>;
 
 // Registered whatever the filter: they show how fast the machine's caches were while the rows were timed.
 void register_random_reads(std::span<const RandomReadRow> rows) {
@@ -240,7 +237,7 @@ void time_all(std::vector<Row>& rows, Stage& stage, const Flags& flags, Reporter
   tools::Progress progress;
   std::vector<RandomReadRow> reads;
   for (const ReadRow& row : random_read_rows())
-    reads.push_back({row, std::make_shared<RandomReads>(row.bytes)});
+    reads.emplace_back(row, std::make_shared<RandomReads>(row.bytes));
   for (int repetition = 0; repetition < flags.repetitions; ++repetition) {
     benchmark::ClearRegisteredBenchmarks();
     register_rows(rows, stage, flags, repetition, progress);

@@ -82,24 +82,17 @@ void Reporter::finish() {
     auto& runs = runs_[name];
     if (runs.empty()) continue;
     for (Run& run : runs) run.repetitions = static_cast<std::int64_t>(runs.size());
-    shown.push_back(runs.size() == 1 ? runs.front() : median_of(runs));
+    const Run& median = shown.emplace_back(runs.size() == 1 ? runs.front() : median_of(runs));
+    if (!median.error_occurred)
+      median_ms_[name] =
+          median.GetAdjustedRealTime() * 1e3 / benchmark::GetTimeUnitMultiplier(median.time_unit);
     std::vector<Run> all = runs;
-    if (runs.size() > 1) all.push_back(shown.back());
+    if (runs.size() > 1) all.push_back(median);
     json_.ReportRuns(all);
   }
   if (!shown.empty()) console_->ReportRuns(shown);
   console_->Finalize();
   json_.Finalize();
-}
-
-std::map<std::string, double> Reporter::median_ms() const {
-  std::map<std::string, double> medians;
-  for (const auto& [name, runs] : runs_) {
-    if (runs.empty() || runs.front().error_occurred) continue;
-    const Run run = runs.size() == 1 ? runs.front() : median_of(runs);
-    medians[name] = run.GetAdjustedRealTime() * 1e3 / benchmark::GetTimeUnitMultiplier(run.time_unit);
-  }
-  return medians;
 }
 
 std::string Reporter::json() const {

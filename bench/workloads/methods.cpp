@@ -24,6 +24,8 @@ template <typename... Cases>
 struct Overloaded : Cases... {
   using Cases::operator()...;
 };
+template <typename... Cases>
+Overloaded(Cases...) -> Overloaded<Cases...>;  // clang 14 needs it
 
 }  // namespace
 
@@ -61,22 +63,19 @@ std::string_view MethodDraw::name() const {
 std::function<void()> MethodDraw::prepare(std::string& error) const {
   scene->load();
   MethodScene& at = *scene;
-  const lab::AnyScene& any = at.scene();
   const auto coverage = [&](const lab::CoverageMethod* of) -> std::function<void()> {
-    const auto draw = [&at, of](const Execution& how) {
-      of->draw(std::get<lab::CoverageScene>(at.scene()).input(), *at.canvas, how);
-    };
+    const lab::CoverageInput input = std::get<lab::CoverageScene>(at.scene()).input();
     if (execution.threads != kPlainest.threads || execution.target != kPlainest.target) {
-      lab::Canvas plain(at.size().width, at.size().height);
-      of->draw(std::get<lab::CoverageScene>(any).input(), plain, kPlainest);
-      draw(execution);
-      if (!lab::same_picture(*of, plain, *at.canvas))
+      lab::Canvas plain(at.size().width, at.size().height), other(at.size().width, at.size().height);
+      of->draw(input, plain, kPlainest);
+      of->draw(input, other, execution);
+      if (!lab::same_picture(*of, plain, other))
         error = "draws other pixels than its scalar form on one thread";
     }
-    return [draw, how = execution] { draw(how); };
+    return [&at, of, input, how = execution] { of->draw(input, *at.canvas, how); };
   };
   const auto peer = [&](const lab::PeerInfo* of) -> std::function<void()> {
-    const auto& s = std::get<lab::CoverageScene>(any);
+    const auto& s = std::get<lab::CoverageScene>(at.scene());
     return [loaded = std::shared_ptr(of->load(peer_scene(s.floats, s.window(), 0), execution.threads))] {
       loaded->draw();
     };

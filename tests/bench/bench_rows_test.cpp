@@ -244,9 +244,10 @@ TEST(BenchMethods, AreTimedOnScenesOfEachFamily) {
 TEST(BenchMethods, AreNotTimedWhereAFormDrawsOtherPixels) {
   const lab::CoverageMethod wrong{.info = {"wrong", "", "", "", false},
                                   .promise = {},
-                                  .draw = [](const auto&, lab::Canvas& canvas, const Execution& how) {
-                                    canvas.depth[0] = static_cast<float>(how.threads);
-                                  },
+                                  .draw =
+                                      [](const auto&, lab::Canvas& canvas, const Execution& how) {
+                                        if (how.threads == 1) canvas.depth[0] = 1.0f;  // else nothing
+                                      },
                                   .runs = {}};
   const auto scene =
       std::make_shared<MethodScene>(lab::LabScene{lab::Family::coverage, "empty", "", true, true, 0.0, [] {

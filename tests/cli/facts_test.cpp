@@ -45,6 +45,7 @@ TEST(Facts, OfSmallScenesAreThoseOfTheResults) {
     if (scene.smallest) arguments += " " + scene.name;
   const json all = json::parse(facts(arguments)), expected = committed("accuracy");
   EXPECT_EQ(all.at("methods").dump(), expected.at("methods").dump());
+  for (const auto& [key, value] : all.items()) EXPECT_TRUE(expected.contains(key)) << key;
   for (const json& scene : all.at("scenes"))
     EXPECT_EQ(scene.dump(), entry(expected.at("scenes"), scene, {"family", "name"}).dump());
 }
