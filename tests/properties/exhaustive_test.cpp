@@ -73,17 +73,17 @@ std::vector<lab::AblatedExecution> all_targets() {
   return ways;
 }
 
-// Reduces a batch that is drawn wrong to the triangles at the first wrong pixel if these alone are drawn
-// wrong too; otherwise keeps the whole batch.
-Counterexample narrowed(const std::vector<ScreenTriangle>& batch, const Framebuffer& wrong, int x, int y,
+// Reduces triangles that are drawn wrong to those at the first wrong pixel if these alone are drawn wrong
+// too; otherwise keeps all.
+Counterexample narrowed(const std::vector<ScreenTriangle>& triangles, const Framebuffer& wrong, int x, int y,
                         const Property& property) {
   std::vector<ScreenTriangle> suspects;
   const auto at_pixel = static_cast<std::uint32_t>(y / kCellPx * kCellsASide + x / kCellPx);
   for (const std::uint32_t cell : {at_pixel, wrong.payload_row(y)[x]})
-    if (cell < batch.size()) suspects.push_back(batch[cell]);
+    if (cell < triangles.size()) suspects.push_back(triangles[cell]);
   const TriangleStream few = lab::to_stream(suspects, kSidePx, kSidePx);
   if (!property(few).wrong.empty()) return smallest(shrinkable(few), property);
-  return {property(lab::to_stream(batch, kSidePx, kSidePx)), 0};
+  return {property(lab::to_stream(triangles, kSidePx, kSidePx)), 0};
 }
 
 // Stops at the first difference. Counts the triangles drawn, over all backends and executions.
@@ -91,21 +91,21 @@ SearchResult draw_all(const Lattice& lattice, const std::vector<Painter>& painte
                       const std::vector<lab::AblatedExecution>& ways) {
   SearchResult result;
   Framebuffer expected(kSidePx, kSidePx), actual(kSidePx, kSidePx);
-  std::vector<ScreenTriangle> batch;
-  for (std::uint64_t first = 0; first < lattice.triangles(); first += batch.size()) {
-    batch.clear();
+  std::vector<ScreenTriangle> triangles;
+  for (std::uint64_t first = 0; first < lattice.triangles(); first += triangles.size()) {
+    triangles.clear();
     for (std::uint64_t i = first; i < std::min(first + kCells, lattice.triangles()); ++i)
-      batch.push_back(triangle_of(lattice, i, static_cast<std::uint32_t>(i - first)));
-    result.cases += batch.size();
-    lab::draw_oracle(batch, expected, kBackground);
+      triangles.push_back(triangle_of(lattice, i, static_cast<std::uint32_t>(i - first)));
+    result.cases += triangles.size();
+    lab::draw_oracle(triangles, expected, kBackground);
     for (const Painter& painter : painters)
       for (const lab::AblatedExecution& way : ways) {
         lab::poison(actual);
-        painter.with(way.ablation).draw(batch, actual.view(), kBackground, way.execution);
-        result.comparisons += batch.size();
+        painter.with(way.ablation).draw(triangles, actual.view(), kBackground, way.execution);
+        result.comparisons += triangles.size();
         const auto difference = lab::compare(expected, actual);
         if (difference.pixels == 0) continue;
-        result.found = narrowed(batch, actual, difference.first_x, difference.first_y,
+        result.found = narrowed(triangles, actual, difference.first_x, difference.first_y,
                                 like_the_oracles(painters, {way}));
         return result;
       }

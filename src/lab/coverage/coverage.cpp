@@ -10,7 +10,7 @@
 
 #include "core/nearest_name.h"
 #include "frontend/fixed.h"
-#include "lab/coverage/group_runs.h"
+#include "lab/coverage/draw_in_sets.h"
 
 #ifndef EDGEWISE_MORE_COVERAGE_METHODS
 #define EDGEWISE_MORE_COVERAGE_METHODS(X)
@@ -27,7 +27,7 @@ void backend_runs(Backend& backend, std::span<const ScreenTriangle> snapped, Win
                   std::vector<Run>& runs) {
   const std::vector<ScreenTriangle> triangles = shifted(snapped, window);
   std::vector<ScreenTriangle> drawn;
-  group_runs(triangles, window, runs, [&](std::span<const std::uint32_t> set, Framebuffer& frame) {
+  draw_in_sets(triangles, window, runs, [&](std::span<const std::uint32_t> set, Framebuffer& frame) {
     drawn.clear();
     for (const std::uint32_t i : set) drawn.push_back(triangles[i]);
     backend.draw(drawn, frame.view(), kNoTriangle, {});

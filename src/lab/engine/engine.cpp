@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "edgewise/contract.h"
-#include "lab/coverage/group_runs.h"
+#include "lab/coverage/draw_in_sets.h"
 #include "raster/ablation.h"
 #include "raster/tiles.h"
 
@@ -38,7 +38,7 @@ void engine_runs(EngineNumbers numbers, const CoverageInput& input, Window windo
   for (const ScreenTriangle& t : triangles) boxes.push_back(with_wider_box(t));
   TileScratch scratch;
   std::vector<ScreenTriangle> drawn;
-  group_runs(boxes, window, runs, [&](std::span<const std::uint32_t> set, Framebuffer& frame) {
+  draw_in_sets(boxes, window, runs, [&](std::span<const std::uint32_t> set, Framebuffer& frame) {
     drawn.clear();
     for (const std::uint32_t i : set) drawn.push_back(triangles[i]);
     draw_engine(numbers, drawn, frame.view(), kNoTriangle, {}, scratch);

@@ -1,6 +1,6 @@
 // Binning: lists for every cell of the image the triangles that may cover a pixel of it, in submission order.
 //
-// The triangles are cut into slices (work_partition.h). Chunks are binned in parallel, each into its own
+// The triangles are cut into slices (work_partition.h). Slices are binned in parallel, each into its own
 // lists. A cell's triangles are its lists of slices 0, 1, 2 …, which is the order of submission (rule 7), no
 // matter which thread binned which slice.
 //
@@ -33,9 +33,9 @@ class Bins {
 
   // Replaces the previous contents. A triangle without a sample in its bounding box is dropped; one without
   // area may be listed in up to four cells. as_masks needs cells that are tiles, and makes no masks on the
-  // scalar target. `prefetch`: prefetch triangles that lie in memory. Throws std::length_error when a slice's
-  // lists exceed 2^32 entries. Returns false, with incomplete
-  // contents, if a slice's room for made triangles might not suffice.
+  // scalar target. `prefetch`: prefetch triangles that lie in memory.
+  // Throws std::length_error if a slice's lists exceed 2^32 entries. Returns false, with incomplete contents,
+  // if a slice's room for made triangles might not suffice.
   [[nodiscard]] bool build(TriangleSource& source, const CellGrid& grid, int threads, SimdTarget target,
                            Small small, bool prefetch);
   // The same for triangles that lie in memory, which need not be kept.

@@ -20,7 +20,7 @@ std::vector<ScreenTriangle> shifted(std::span<const ScreenTriangle> triangles, W
 // kNoTriangle, each with its index as payload and inside its box. Only the boxes of `boxes` count; they are
 // relative to the window's corner.
 template <typename Draw>
-void group_runs(std::span<const ScreenTriangle> boxes, Window window, std::vector<Run>& runs, Draw&& draw) {
+void draw_in_sets(std::span<const ScreenTriangle> boxes, Window window, std::vector<Run>& runs, Draw&& draw) {
   Framebuffer frame(window.width, window.height);
   for (const auto& set : disjoint_sets(boxes, window.width, window.height)) {
     draw(std::span(set), frame);
