@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -20,17 +21,10 @@ namespace edgewise::tools {
 namespace {
 
 std::string_view summary_of(Cull cull) {
-  switch (cull) {
-    case Cull::none:
-      return "draws all faces";
-    case Cull::back:
-      return "culls back faces (counter-clockwise on the screen)";
-    case Cull::front:
-      return "culls front faces (clockwise on the screen)";
-    case Cull::both:
-      return "culls all faces";
-  }
-  return {};
+  constexpr std::array<std::string_view, 4> kSummaries{
+      "draws all faces", "culls back faces (counter-clockwise on the screen)",
+      "culls front faces (clockwise on the screen)", "culls all faces"};
+  return kSummaries[static_cast<std::size_t>(cull)];
 }
 
 nlohmann::json as_json() {

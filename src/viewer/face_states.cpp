@@ -10,32 +10,21 @@ namespace edgewise::viewer {
 namespace {
 
 struct Kind {
+  TriangleState state;
   char letter;
   std::string_view name;
 };
-// All rare states share the kind "not drawable".
-constexpr std::array kKinds{Kind{'a', "active"},
-                            Kind{'c', "clipped"},
-                            Kind{'b', "culled by facing"},
-                            Kind{'o', "outside"},
-                            Kind{'-', "culled with their object or part"},
-                            Kind{'x', "not drawable"}};
+// The last kind stands for all rare states.
+constexpr std::array kKinds{Kind{TriangleState::active, 'a', "active"},
+                            Kind{TriangleState::clipped, 'c', "clipped"},
+                            Kind{TriangleState::culled, 'b', "culled by facing"},
+                            Kind{TriangleState::outside, 'o', "outside"},
+                            Kind{TriangleState::outside_with_mesh, '-', "culled with their object or part"},
+                            Kind{TriangleState::not_finite, 'x', "not drawable"}};
 
 char letter_of(TriangleState state) {
-  switch (state) {
-    case TriangleState::active:
-      return 'a';
-    case TriangleState::clipped:
-      return 'c';
-    case TriangleState::culled:
-      return 'b';
-    case TriangleState::outside:
-      return 'o';
-    case TriangleState::outside_with_mesh:
-      return '-';
-    default:
-      return 'x';
-  }
+  const auto kind = std::ranges::find(kKinds, state, &Kind::state);
+  return kind == kKinds.end() ? kKinds.back().letter : kind->letter;
 }
 
 // The mean of the corners of triangles begin … end - 1.
@@ -82,7 +71,7 @@ std::string letters_of(std::span<const FaceState> faces) {
 
 std::string summary_of(std::span<const FaceState> faces) {
   std::string text;
-  for (const auto& [letter, name] : kKinds) {
+  for (const auto& [state, letter, name] : kKinds) {
     const auto count = std::count_if(faces.begin(), faces.end(), [letter = letter](const FaceState& face) {
       return letter_of(face.state) == letter;
     });

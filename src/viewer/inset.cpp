@@ -185,14 +185,8 @@ void add_label(Projected at, const Panel& panel, std::string words, std::uint32_
 }
 
 std::uint32_t colour_of(TriangleState state) {
-  switch (state) {
-    case TriangleState::active:
-      return rgb(255, 255, 255);
-    case TriangleState::clipped:
-      return rgb(255, 210, 60);
-    default:
-      return rgb(150, 170, 190);
-  }
+  if (state == TriangleState::active) return rgb(255, 255, 255);
+  return state == TriangleState::clipped ? rgb(255, 210, 60) : rgb(150, 170, 190);
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ constexpr Key key_of(char c) {
 }
 
 enum class Command : std::uint8_t {
-  // Act while the key is held:
+  // Act while the key is held; the first six move, in the order of Session::move():
   forwards,
   backwards,
   step_left,

@@ -1,7 +1,7 @@
 #include "viewer/pipeline.h"
 
 #include <algorithm>
-#include <stdexcept>
+#include <array>
 #include <utility>
 
 #include "edgewise/contract.h"
@@ -91,15 +91,8 @@ std::vector<std::uint32_t> visible_ids_in(const Framebuffer& frame) {
 }  // namespace
 
 std::string_view name_of(Truth truth) {
-  switch (truth) {
-    case Truth::contract:
-      return "contract";
-    case Truth::snapped:
-      return "snapped";
-    case Truth::floats:
-      return "floats";
-  }
-  throw std::invalid_argument("not a truth");
+  constexpr std::array<std::string_view, 3> kNames{"contract", "snapped", "floats"};
+  return kNames[static_cast<std::size_t>(truth)];
 }
 
 Backend& Pipeline::backend(std::string_view name) {

@@ -159,23 +159,11 @@ void Session::move(Command command, float seconds) {
   // Speed grows with the square root of the scene's size.
   const float distance = state_.speed * std::sqrt(world_->radius()) * seconds,
               turn = kLookPerSecond * seconds;
+  constexpr glm::vec3 kDirections[] = {{0, 0, -1}, {0, 0, 1}, {-1, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}};
   Camera& camera = world_->camera();
-  const auto go = [&](float x, float y, float z) {
-    viewer::move(camera, distance * glm::vec3(x, y, z), state_.along_view);
-  };
+  if (command <= Command::sink)
+    return viewer::move(camera, distance * kDirections[static_cast<int>(command)], state_.along_view);
   switch (command) {
-    case Command::forwards:
-      return go(0, 0, -1);
-    case Command::backwards:
-      return go(0, 0, 1);
-    case Command::step_left:
-      return go(-1, 0, 0);
-    case Command::step_right:
-      return go(1, 0, 0);
-    case Command::rise:
-      return go(0, 1, 0);
-    case Command::sink:
-      return go(0, -1, 0);
     case Command::look_up:
       return look(camera, 0, turn);
     case Command::look_down:
@@ -198,10 +186,17 @@ void Session::move(Command command, float seconds) {
 void Session::act(Command command) {
   state_.message.clear();
   if (changes_picture(command)) ++state_.version;
+  constexpr std::pair<Command, bool State::*> kToggles[] = {
+      {Command::axes, &State::along_view},  {Command::spin, &State::spinning},
+      {Command::freeze, &State::frozen},    {Command::magnifier, &State::magnifier},
+      {Command::labels, &State::labels},    {Command::face_states, &State::face_states},
+      {Command::outlines, &State::outlines}};
+  for (const auto& [toggle, flag] : kToggles)
+    if (command == toggle) {
+      state_.*flag = !(state_.*flag);
+      return;
+    }
   switch (command) {
-    case Command::axes:
-      state_.along_view = !state_.along_view;
-      break;
     case Command::slower:
       state_.speed = std::max(state_.speed / kSpeedStep, kSlowest);
       break;
@@ -214,14 +209,8 @@ void Session::act(Command command) {
       state_.angle = 0.0f;
       world_->turn(state_.axis, state_.angle);
       break;
-    case Command::spin:
-      state_.spinning = !state_.spinning;
-      break;
     case Command::axis_of_sight:
       if (world_ && !state_.stream) state_.axis = lab::line_of_sight(world_->camera());
-      break;
-    case Command::freeze:
-      state_.frozen = !state_.frozen;
       break;
     case Command::switch_back:
       if (last_switch_) switch_by(*last_switch_, -1);
@@ -232,9 +221,6 @@ void Session::act(Command command) {
     case Command::truth:
       state_.truth = next_of_three(state_.truth);
       for (Side& side : sides_) side.judgement.reset();
-      break;
-    case Command::magnifier:
-      state_.magnifier = !state_.magnifier;
       break;
     case Command::next_error:
       show_next_error();
@@ -249,15 +235,6 @@ void Session::act(Command command) {
         state_.message = "there is one side only; [v] shows two";
       else
         state_.active = 1 - state_.active;
-      break;
-    case Command::labels:
-      state_.labels = !state_.labels;
-      break;
-    case Command::face_states:
-      state_.face_states = !state_.face_states;
-      break;
-    case Command::outlines:
-      state_.outlines = !state_.outlines;
       break;
     case Command::overlay:
       state_.overlay = next_of_three(state_.shown_overlay);

@@ -15,18 +15,9 @@ constexpr char kEscape = '\x1b';
 constexpr std::size_t kLongestSequence = 32;
 
 std::optional<Key> cursor_key(char final) {
-  switch (final) {
-    case 'A':
-      return Key::up;
-    case 'B':
-      return Key::down;
-    case 'C':
-      return Key::right;
-    case 'D':
-      return Key::left;
-    default:
-      return std::nullopt;
-  }
+  constexpr Key kKeys[] = {Key::up, Key::down, Key::right, Key::left};
+  if (final < 'A' || final > 'D') return std::nullopt;
+  return kKeys[final - 'A'];
 }
 
 // "<button;column;row", counted from 1.

@@ -170,14 +170,6 @@ TEST(CoverageSweeps, LegsOf182PixelsAreTheFirstThatWrap32Bits) {
   EXPECT_EQ(Found(legs, "float_le").start(), 64) << "ties on the diagonal";
 }
 
-TEST(CoverageSweeps, WholePixelVerticesFlickerMoreInSlowPans) {
-  const SweepResult pan = swept("pan");
-  const Found whole(pan, "whole_pixel");
-  EXPECT_EQ(whole.start(), 0.5);
-  EXPECT_GT(rate(whole.at(1.0 / 64)), 1.5 * rate(whole.at(0.5)));
-  EXPECT_EQ(Found(pan, "float_top_left").start(), std::nullopt);
-}
-
 TEST(VisibilitySweeps, FewerBitsFailAtLargerSeparations) {
   for (const auto name : {"separation_at_10", "separation_at_100"}) {
     const SweepResult separation = swept(name);

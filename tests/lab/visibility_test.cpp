@@ -143,15 +143,6 @@ TEST(Visibility, DepthFormatsSeparatePlanesAsTheFormulaPredicts) {
   }
 }
 
-// Half of the picture is submitted back to front, half front to back, so that no method is favoured.
-TEST(Visibility, TwoPlanesFavourNoSubmissionOrder) {
-  for (const double separation : {1.0, 1e-5}) {
-    const VisibilityScene scene = two_planes(100, separation, 0.1, 1000);
-    const auto s = judge("submission_order", scene);
-    EXPECT_EQ(2 * s.wrong_triangle, s.covered) << separation;
-  }
-}
-
 TEST(Visibility, FloatPlanesExceedASliversDepthAndOursDoesNot) {
   const VisibilityScene scene = make_case("slivers");
   EXPECT_EQ(judge("contract31", scene).out_of_range, 0u);

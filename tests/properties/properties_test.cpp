@@ -162,17 +162,6 @@ TEST_F(Properties, TrianglesWithoutAreaChangeNothing) {
   });
 }
 
-TEST_F(Properties, DepthTiesKeepTheEarlierTriangle) {
-  check(grid_streams(), 2'000, [&](const TriangleStream& stream) {
-    TriangleStream twice = stream;
-    for (const StreamTriangle& t : stream.triangles) twice.triangles.push_back(reordered(t, {2, 1, 0}));
-    Verdict verdict{.replay = {stream, twice}};
-    compare_with_own(verdict, snapped(stream, Payload::id), snapped(twice, Payload::id), stream,
-                     "followed by a copy");
-    return verdict;
-  });
-}
-
 TEST_F(Properties, MovingByMultiplesOf64PixelsChangesNothing) {  // the cell of depth, rule 6
   check(grid_streams(), 1'000, [&](const TriangleStream& stream) {
     Verdict verdict{.replay = {}};

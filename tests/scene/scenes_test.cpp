@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <cstring>
 #include <map>
-#include <set>
 #include <stdexcept>
 
 #include "edgewise/builtin.h"
@@ -89,17 +88,6 @@ TEST(Scenes, EveryNameMakesTheSameSceneTwice) {
     ASSERT_EQ(first.size(), second.size()) << info.name;
     EXPECT_EQ(std::memcmp(first.data(), second.data(), first.size_bytes()), 0) << info.name;
   }
-}
-
-TEST(Scenes, CubeHasTwelveColouredTrianglesAndRotates) {
-  const auto scene = std::get<Scene>(find_scene("cube").make({}));
-  ASSERT_EQ(scene.meshes.size(), 1u);
-  EXPECT_EQ(scene.meshes[0].positions.size(), 8u);
-  EXPECT_EQ(scene.meshes[0].triangles.size(), 12u);
-  EXPECT_EQ(std::set<std::uint32_t>(scene.meshes[0].colours.begin(), scene.meshes[0].colours.end()).size(),
-            12u);
-  EXPECT_NE(std::get<Scene>(find_scene("cube").make({.time = 1.0f})).instances[0].angle,
-            scene.instances[0].angle);
 }
 
 // The signed volume is positive if triangles are counter-clockwise from outside. Ours are clockwise.

@@ -29,7 +29,6 @@ class Shown {
     for (std::size_t i = 0; i < steps; ++i) viewer::type(*session_, parse_keys("5"), kDemoSize, kTestCell);
     return session_->draw(kDemoSize, kTestCell);
   }
-  const Screen& last() { return step(demo_.steps.size()); }
   const Screen& type(std::string_view keys) { return viewer::type(*session_, keys, kDemoSize); }
   const Side& side(std::size_t i) const { return session_->side(i); }
   const State& state() const { return session_->state(); }
