@@ -52,14 +52,14 @@ double samples_between(double a, double b) {
   return std::abs(std::floor(a + 0.5) - std::floor(b + 0.5));
 }
 
-using Point = std::pair<float, float>;
+using Position = std::pair<float, float>;
 
-Point vertex(const UnsnappedTriangle& t, int i) {
+Position vertex(const UnsnappedTriangle& t, int i) {
   return {t.x_px[i], t.y_px[i]};
 }
 
 // The larger of the numbers of sample rows and sample columns that the segment crosses inside the window.
-double crossings_of(Point from, Point to, Window w) {
+double crossings_of(Position from, Position to, Window w) {
   const double x = double{from.first}, y = double{from.second}, dx = double{to.first} - x,
                dy = double{to.second} - y;
   // The part inside the window (Liang and Barsky, 1984), as parameters of x + t dx, y + t dy.
@@ -141,7 +141,7 @@ std::uint64_t edge_crossings(std::span<const FloatTriangle> triangles, Window wi
 }
 
 std::uint64_t shared_edge_crossings(std::span<const FloatTriangle> triangles, Window window) {
-  using ScreenEdge = std::pair<Point, Point>;
+  using ScreenEdge = std::pair<Position, Position>;
   std::vector<ScreenEdge> edges;
   edges.reserve(3 * triangles.size());
   for (const auto& [t, payload] : triangles)
