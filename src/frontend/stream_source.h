@@ -21,7 +21,7 @@ class StreamSource final : public TriangleSource {
     kernel_(task_, begin, end, out);
     return {out.triangles.data(), out.count};
   }
-  std::span<const ScreenTriangle> sample(std::size_t input) override {
+  std::span<const ScreenTriangle> probe(std::size_t input) override {
     const FrontendStats before = order_.output(0).stats;
     const auto triangles = make(0, input, input + 1);
     order_.output(0).stats = before;

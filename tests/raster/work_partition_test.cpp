@@ -58,7 +58,7 @@ TEST(WorkPartition, HasLongerPartsOfInputsWithoutTriangles) {
    public:
     std::size_t size() const override { return 2 * half; }
     std::span<const ScreenTriangle> make(int, std::size_t, std::size_t) override { return {}; }
-    std::span<const ScreenTriangle> sample(std::size_t input) override {
+    std::span<const ScreenTriangle> probe(std::size_t input) override {
       return {&triangle, input < half ? 0u : 1u};
     }
     ScreenTriangle triangle = of_side(9);

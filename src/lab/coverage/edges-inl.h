@@ -46,7 +46,7 @@ class RealLanes {
         across_[i][half] =
             hn::Mul(hn::Set(D{}, edges_[i].a), hn::Sub(samples(x, half), hn::Set(D{}, edges_[i].x)));
   }
-  HWY_INLINE Lanes accepted(int row) const {
+  HWY_INLINE LaneMask accepted(int row) const {
     const auto half_of = [&](int half) HWY_ATTR {
       const auto by = [&](int i) HWY_ATTR {
         return hn::Gt(hn::Add(across_[i][half], hn::Set(D{}, down_[i][row])),
@@ -104,7 +104,7 @@ class IntLanes {
     const VI columns = counting_from(x - box_.x0);
     for (int i = 0; i < 3; ++i) value_[i] = hn::Add(all(row_[i]), hn::Mul(all(step_x_[i]), columns));
   }
-  HWY_INLINE Lanes accepted(int) {
+  HWY_INLINE LaneMask accepted(int) {
     const VI outside = hn::Or(hn::Or(value_[0], value_[1]), value_[2]);  // negative if one of them is
     for (int i = 0; i < 3; ++i) value_[i] = hn::Add(value_[i], all(step_y_[i]));
     return hn::RebindMask(DF{}, hn::Gt(outside, hn::Set(DI{}, -1)));
@@ -128,7 +128,7 @@ HWY_INLINE void test_in_lanes(Edges edges, const PixelRows& box, const LanePlot&
     for (int x = vector_at(box.x0); x < box.x1; x += kLanes) {
       edges.columns_from(x);
       const VF column_depths = plot.column_depths(x);
-      const Lanes in_box = lanes_between(x, box.x0, box.x1);
+      const LaneMask in_box = lanes_between(x, box.x0, box.x1);
       for (int row = 0; row < rows; ++row)
         plot.draw(y + row, x, depths[row], column_depths, hn::And(in_box, edges.accepted(row)));
     }

@@ -27,7 +27,7 @@ using DI = hn::RebindToSigned<DF>;
 using DU = hn::RebindToUnsigned<DF>;
 using VF = hn::Vec<DF>;
 using VI = hn::Vec<DI>;
-using Lanes = hn::Mask<DF>;
+using LaneMask = hn::Mask<DF>;
 constexpr int kLanes = static_cast<int>(hn::MaxLanes(DF{}));
 
 // The first pixel of the vector with column x. Vectors lie inside a row's memory, as its stride is a multiple
@@ -39,7 +39,7 @@ HWY_INLINE VI counting_from(int first) {
   return hn::Add(hn::Iota(DI{}, 0), hn::Set(DI{}, first));
 }
 // The lanes of the vector at x that lie in columns x0 … x1 - 1.
-HWY_INLINE Lanes lanes_between(int x, int x0, int x1) {
+HWY_INLINE LaneMask lanes_between(int x, int x0, int x1) {
   const VI column = counting_from(x);
   return hn::RebindMask(DF{},
                         hn::And(hn::Gt(column, hn::Set(DI{}, x0 - 1)), hn::Lt(column, hn::Set(DI{}, x1))));
@@ -60,10 +60,10 @@ class LanePlot : public DepthPlot {
   }
 
   // Draws the pixels of `lanes` in row y, of the vector at x.
-  HWY_INLINE void draw(int y, int x, float row_depth, VF column_depths, Lanes lanes) const {
+  HWY_INLINE void draw(int y, int x, float row_depth, VF column_depths, LaneMask lanes) const {
     const std::ptrdiff_t at = y * stride_ + x;
     const VF z = hn::Add(hn::Set(DF{}, row_depth), column_depths), old_z = hn::Load(DF{}, depth_ + at);
-    const Lanes nearer = hn::And(lanes, hn::Lt(z, old_z));
+    const LaneMask nearer = hn::And(lanes, hn::Lt(z, old_z));
     hn::Store(hn::IfThenElse(nearer, z, old_z), DF{}, depth_ + at);
     const auto colours = hn::Set(DU{}, triangle_.payload);
     const auto shown = hn::RebindMask(DU{}, nearer);

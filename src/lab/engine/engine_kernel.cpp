@@ -18,7 +18,7 @@ namespace HWY_NAMESPACE {
 TileKernel engine_tile(lab::EngineNumbers numbers) {
   switch (numbers) {
     case lab::EngineNumbers::int32:
-      return draw_tile_in<OtherNumbers<Int32Lanes>>;
+      return draw_tile_in<OtherNumbers<Int32Arithmetic>>;
     case lab::EngineNumbers::int64:
       return draw_tile_in<OtherNumbers<WideLanes<std::int64_t>>>;
     case lab::EngineNumbers::float64:

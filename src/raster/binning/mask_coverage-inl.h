@@ -34,7 +34,7 @@ struct Covering {
   int count = 0;
   alignas(64) std::int32_t index[kCapacity];              // of the triangle in its packet
   alignas(64) std::int32_t x0[kCapacity], y0[kCapacity];  // first pixel of the box
-  alignas(64) std::int32_t rows[2][kCapacity];  // as in CoverageMask, but from the box's first pixel on
+  alignas(64) std::int32_t covered[2][kCapacity];  // as in CoverageMask, but from the box's first pixel on
   alignas(64) std::int32_t payload[kCapacity];
   // depth_lanes-inl.h
   alignas(64) std::int32_t dx1[kCapacity], dx2[kCapacity], dy1[kCapacity], dy2[kCapacity], dz1[kCapacity],
@@ -190,7 +190,7 @@ HWY_INLINE std::uint32_t append_covering(const RecordLanes& t, const BoxLanes& b
   const auto keep = [&](V v, std::int32_t* list) { hn::StoreU(select(v), d, list + at); };
   keep(counting_from(index), out.index);
   keep(box.x0, out.x0), keep(box.y0, out.y0);
-  keep(inside[0], out.rows[0]), keep(inside[1], out.rows[1]);
+  keep(inside[0], out.covered[0]), keep(inside[1], out.covered[1]);
   keep(t.payload, out.payload);
   keep(dx1, out.dx1), keep(dx2, out.dx2), keep(dy1, out.dy1), keep(dy2, out.dy2);
   keep(minus(t.z[1], t.z[0]), out.dz1), keep(minus(t.z[2], t.z[0]), out.dz2);

@@ -22,8 +22,8 @@ inline constexpr int kMaskSide = 8;  // px
 // The pixels that a small triangle covers in 8 x 8 px of one tile and one depth cell, aligned to 4 px. Found
 // during binning.
 struct alignas(16) CoverageMask {
-  std::uint32_t rows[2];  // covered pixels: bit 8 y + x, for the upper and the lower four rows
-  std::uint32_t block;    // position of the first pixel in the tile: 16 y + x, in blocks of 4 x 4 px
+  std::uint32_t covered[2];  // pixels: bit 8 y + x, for the upper and the lower four rows
+  std::uint32_t block;       // position of the first pixel in the tile: 16 y + x, in blocks of 4 x 4 px
   std::uint32_t payload;
   std::uint32_t z, zx, zy;  // depth (rule 6) at the first pixel, and steps per pixel
   // Order among its cell's indices (bins.h): drawn before the index in slot s if rank <= s + 1, else after.

@@ -110,7 +110,7 @@ inline void cut_into_quadrants(const CellGrid& grid, const Covering& from, const
     const U row_shift = bits(hn::ShiftLeft<3>(hn::And(y0, hn::Set(d, 3))));
     const U back = hn::Set(du, 24) - row_shift;
     const auto two_words = hn::Eq(hn::Sub(down.second_block, down.block), hn::Set(d, 2));
-    const U upper = bits(read(from.rows[0])), lower_rows = bits(read(from.rows[1]));
+    const U upper = bits(read(from.covered[0])), lower_rows = bits(read(from.covered[1]));
     U rows[SortedTriangles::kQuadrants][2];
     for (int right = 0; right < 2; ++right) {
       const auto moved = [&](U v) {

@@ -33,33 +33,33 @@ void WorkPartition::cut_equally(std::size_t count, std::size_t slices) {
 void WorkPartition::cut_by_work(TriangleSource& source, int width, int height, bool masks,
                                 std::size_t slices) {
   cut_equally(source.size(), slices);
-  // Evaluating the samples takes about 10 us per slice, or 50 us if triangles are made, one slice after the
+  // Evaluating the probes takes about 10 us per slice, or 50 us if triangles are made, one slice after the
   // other. From kMinPerSlice inputs per slice, times the number of slices, that is at most 1 % of the time to
   // bin a slice, or 3 % of the time to make and bin it. Slices of triangles in random order differ by less
-  // than 1 / kTolerance of their work in nearly all draws of kSamples per slice.
-  constexpr std::size_t kMinPerSlice = 100'000, kSamples = 512, kTolerance = 10;
+  // than 1 / kTolerance of their work in nearly all draws of kProbes per slice.
+  constexpr std::size_t kMinPerSlice = 100'000, kProbes = 512, kTolerance = 10;
   if (slices < 2 || source.size() / slices < kMinPerSlice * slices) return;
 
-  const std::size_t count = slices * kSamples;
-  const auto sample_index = [&](std::size_t sample) { return source.size() * sample / count; };
+  const std::size_t count = slices * kProbes;
+  const auto probe_index = [&](std::size_t probe) { return source.size() * probe / count; };
   work_.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     work_[i] = kWorkPerInput;
-    for (const ScreenTriangle& t : source.sample(sample_index(i))) work_[i] += work(t, width, height, masks);
+    for (const ScreenTriangle& t : source.probe(probe_index(i))) work_[i] += work(t, width, height, masks);
   }
-  const auto sum = [&](std::size_t first, std::size_t samples) {
+  const auto sum = [&](std::size_t first, std::size_t probes) {
     const auto begin = work_.begin() + static_cast<std::ptrdiff_t>(first);
-    return std::accumulate(begin, begin + static_cast<std::ptrdiff_t>(samples), std::size_t{0});
+    return std::accumulate(begin, begin + static_cast<std::ptrdiff_t>(probes), std::size_t{0});
   };
   const std::size_t total = sum(0, count);
   std::size_t most = 0;
-  for (std::size_t i = 0; i < slices; ++i) most = std::max(most, sum(i * kSamples, kSamples));
+  for (std::size_t i = 0; i < slices; ++i) most = std::max(most, sum(i * kProbes, kProbes));
   if (most * slices <= total + total / kTolerance) return;
 
   std::size_t before = 0;
   for (std::size_t i = 0, slice = 1; i < count; ++i) {
     before += work_[i];
-    for (; slice < slices && before * slices >= total * slice; ++slice) bounds_[slice] = sample_index(i + 1);
+    for (; slice < slices && before * slices >= total * slice; ++slice) bounds_[slice] = probe_index(i + 1);
   }
 }
 

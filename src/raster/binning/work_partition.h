@@ -15,15 +15,15 @@ class WorkPartition {
  public:
   // Cuts `count` inputs into slices of equal length. Slice i is [bounds()[i], bounds()[i + 1]).
   void cut_equally(std::size_t count, std::size_t slices);
-  // Cuts by the estimated work of making and binning the triangles of a sample of the inputs. Falls back to
-  // equal lengths where these are balanced, or where there are too few inputs for sampling to pay.
+  // Cuts by the estimated work of making and binning the triangles of some probed inputs. Falls back to
+  // equal lengths where these are balanced, or where there are too few inputs for probes to pay.
   // `width`, `height`: of the image, px. `masks`: small triangles become coverage masks.
   void cut_by_work(TriangleSource& source, int width, int height, bool masks, std::size_t slices);
   std::span<const std::size_t> bounds() const { return bounds_; }
 
  private:
   std::vector<std::size_t> bounds_;
-  std::vector<std::uint32_t> work_;  // estimated work of the sampled inputs
+  std::vector<std::uint32_t> work_;  // estimated work of the probed inputs
 };
 
 }  // namespace edgewise

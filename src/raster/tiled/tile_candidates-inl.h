@@ -37,7 +37,7 @@ HWY_NOINLINE void draw_candidates(Tile& tile, const Batch<Numbers>& batch, const
   const auto in_block = [&](const auto& edge) { return over_block<Numbers>(edge.x + k, edge.y + k); };
   const Values16<Numbers> edge_in[3] = {in_block(batch.edge[0]), in_block(batch.edge[1]),
                                         in_block(batch.edge[2])};
-  const auto depth_in = over_block<Int32Lanes>(batch.depth.x + k, batch.depth.y + k);
+  const auto depth_in = over_block<Int32Arithmetic>(batch.depth.x + k, batch.depth.y + k);
   const V payload = hn::Set(d, batch.payload[k]);
   const int first_block = batch.by0[k] * kMaxBlocks + batch.bx0[k];
   for (int begin = 0; begin < length; begin += kLanes) {
@@ -54,7 +54,7 @@ HWY_NOINLINE void draw_candidates(Tile& tile, const Batch<Numbers>& batch, const
                   at);
     };
     for (int i = 0; i < 3; ++i) store_first(Numbers{}, batch.edge[i], edge_at[i]);
-    store_first(Int32Lanes{}, batch.depth, depth_at);
+    store_first(Int32Arithmetic{}, batch.depth, depth_at);
     const int count = std::min(kLanes, length - begin);
     for (int n = 0; n < count; ++n) {
       const int block = first_block + candidates.offset[begin + n];

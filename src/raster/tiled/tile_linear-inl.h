@@ -87,7 +87,7 @@ HWY_INLINE void store_linear(const HalfLinear& left, const HalfLinear& right, Li
 #endif
 
 // Vectors of kLanes values of a linear function, in wrapping int32.
-struct Int32Lanes {
+struct Int32Arithmetic {
   using Value = std::int32_t;
   using Vector = V;
   static HWY_INLINE V set(Value v) { return hn::Set(D{}, v); }

@@ -21,7 +21,7 @@ namespace edgewise {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// The bit of each pixel of a block in CoverageMask::rows, for a mask's left and right blocks.
+// The bit of each pixel of a block in CoverageMask::covered, for a mask's left and right blocks.
 alignas(64) constexpr auto kMaskBits = [] {
   struct {
     std::int32_t left[kBlockPixels], right[kBlockPixels];
@@ -49,7 +49,7 @@ HWY_NOINLINE inline std::size_t draw_masks(Tile& tile, std::span<const CoverageM
     const V zx = hn::Set(d, wrap(mask.zx)), zy = hn::Set(d, wrap(mask.zy));
     const V z0 = hn::Set(d, wrap(mask.z)), payload = hn::Set(d, wrap(mask.payload));
     const V right = hn::ShiftLeft<2>(zx), down = hn::ShiftLeft<2>(zy);
-    const V rows[2] = {hn::Set(d, wrap(mask.rows[0])), hn::Set(d, wrap(mask.rows[1]))};
+    const V rows[2] = {hn::Set(d, wrap(mask.covered[0])), hn::Set(d, wrap(mask.covered[1]))};
     for (int p = 0; p < kBlockPixels; p += kLanes) {
       const V left_bits = hn::Load(d, kMaskBits.left + p), right_bits = hn::Load(d, kMaskBits.right + p);
       V z = hn::Add(z0, hn::Add(hn::Mul(hn::Load(d, kLaneX + p), zx), hn::Mul(hn::Load(d, kLaneY + p), zy)));

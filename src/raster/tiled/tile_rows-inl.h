@@ -67,8 +67,8 @@ HWY_NOINLINE void find_candidates_by_rows(Tile& tile, const Batch<Numbers>& batc
     return Row<Numbers, kWidth>(edge.x + k, edge.y + k, edge.most + k);
   };
   Row<Numbers, kWidth> edge[3] = {largest(batch.edge[0]), largest(batch.edge[1]), largest(batch.edge[2])};
-  Row<Int32Lanes, kWidth> depth(batch.depth.x + k, batch.depth.y + k, batch.depth.most + k);
-  Row<Int32Lanes, kWidth> nearest(batch.nearest.x + k, batch.nearest.y + k, batch.nearest.first + k);
+  Row<Int32Arithmetic, kWidth> depth(batch.depth.x + k, batch.depth.y + k, batch.depth.most + k);
+  Row<Int32Arithmetic, kWidth> nearest(batch.nearest.x + k, batch.nearest.y + k, batch.nearest.first + k);
 
   const V last_column = hn::Set(d, batch.bx1[k] - batch.bx0[k]);
   V before_end[kWidth], offset[kWidth];  // before_end < 0 behind the box's last column

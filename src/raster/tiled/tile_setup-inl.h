@@ -72,10 +72,10 @@ struct HalfBatch {
   typename Numbers::HalfEdges edges;
   HalfDepth depth;
   V32 payload, twice_area_px, bx0, by0, bx1, by1;
-  std::uint32_t alive, exact;  // one bit per triangle: not rejected; depth is valid
+  std::uint32_t alive, has_depth;  // one bit per triangle: not rejected; depth is valid
 };
 
-// set_up_one() for half a vector of triangles. Lanes whose bit in `exact` is 0 have no valid depth.
+// set_up_one() for half a vector of triangles. Lanes whose bit in `has_depth` is 0 have no valid depth.
 template <class Numbers>
 HWY_INLINE void set_up_half(const TileTask& task, const std::uint32_t* indices, HalfBatch<Numbers>& out) {
   const D64 d;
@@ -102,7 +102,7 @@ HWY_INLINE void set_up_half(const TileTask& task, const std::uint32_t* indices, 
   const BlockBoxLanes blocks{left, top, last(bx0, bx1), last(by0, by1)};
   dead = hn::Or(dead, Numbers::set_up_half(task, t, area, blocks, out.edges));
 
-  out.exact = set_up_half_depth(task, t, area, left, top, out.depth);
+  out.has_depth = set_up_half_depth(task, t, area, left, top, out.depth);
   out.payload = payload, out.twice_area_px = lower(shift_right<2 * kSubBits>(area.value));
   out.bx0 = bx0, out.by0 = by0, out.bx1 = bx1, out.by1 = by1;
   out.alive = mask_bits(hn::Not(hn::Lt(dead, zero)));
@@ -134,8 +134,8 @@ HWY_INLINE std::uint32_t set_up_vector(const TileTask& task, const std::uint32_t
   store_depth(left.depth, right.depth, hn::Sub(bx1, bx0), hn::Sub(by1, by0), out, k);
 
   const std::uint32_t alive = (left.alive | right.alive << kInHalf) & kept;
-  const std::uint32_t exact = left.exact | right.exact << kInHalf;
-  for (std::uint32_t left_over = alive & ~exact; left_over != 0; left_over &= left_over - 1) {
+  const std::uint32_t has_depth = left.has_depth | right.has_depth << kInHalf;
+  for (std::uint32_t left_over = alive & ~has_depth; left_over != 0; left_over &= left_over - 1) {
     const int lane = std::countr_zero(left_over);
     set_up_one(task, indices[k + lane], out, k + lane);
   }

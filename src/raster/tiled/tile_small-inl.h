@@ -49,7 +49,7 @@ class SmallTriangles {
       return over_block<Numbers>(batch.edge[i].x + k, batch.edge[i].y + k);
     };
     const Values16<Numbers> edge_in[3] = {in_block(0), in_block(1), in_block(2)};
-    const auto depth_in = over_block<Int32Lanes>(batch.depth.x + k, batch.depth.y + k);
+    const auto depth_in = over_block<Int32Arithmetic>(batch.depth.x + k, batch.depth.y + k);
     const V entry = hn::Set(d, (batch.by0[k] * kMaxBlocks + batch.bx0[k]) << 16 | slot);
     for (int p = 0; p < kVectors; ++p) {
       const int lane = p * kLanes;
@@ -66,7 +66,7 @@ class SmallTriangles {
       };
       const typename Numbers::Vector most_values[3] = {most_of(0), most_of(1), most_of(2)};
       const V most = Numbers::outside(most_values[0], most_values[1], most_values[2]);
-      store_values(Int32Lanes{}, depth_in.v[p], batch.depth.first[k], depth_);
+      store_values(Int32Arithmetic{}, depth_in.v[p], batch.depth.first[k], depth_);
       const auto beside =
           hn::Or(hn::Gt(hn::Load(d, kLaneX + lane), bx), hn::Gt(hn::Load(d, kLaneY + lane), by));
       const auto candidate = hn::Not(hn::Or(beside, hn::Lt(most, hn::Zero(d))));
@@ -88,7 +88,7 @@ class SmallTriangles {
         };
         const auto edge = [&](int i) { return value(Numbers{}, edge_[i]); };
         write_whole(tile_, block * kBlockPixels + p * kLanes,
-                    inside(Numbers::outside(edge(0), edge(1), edge(2))), value(Int32Lanes{}, depth_),
+                    inside(Numbers::outside(edge(0), edge(1), edge(2))), value(Int32Arithmetic{}, depth_),
                     hn::Set(d, payload_[slot]));
       }
     }
