@@ -15,7 +15,6 @@ namespace {
 constexpr const char* kGoogleBenchmarkOptions[] = {"--benchmark_color",
                                                    "--benchmark_context",
                                                    "--benchmark_counters_tabular",
-                                                   "--benchmark_display_aggregates_only",
                                                    "--benchmark_enable_random_interleaving",
                                                    "--benchmark_filter",
                                                    "--benchmark_format",
@@ -24,7 +23,6 @@ constexpr const char* kGoogleBenchmarkOptions[] = {"--benchmark_color",
                                                    "--benchmark_min_warmup_time",
                                                    "--benchmark_perf_counters",
                                                    "--benchmark_repetitions",
-                                                   "--benchmark_report_aggregates_only",
                                                    "--benchmark_time_unit"};
 
 }  // namespace
@@ -86,10 +84,8 @@ std::optional<Flags> parse_flags(int argc, char** argv) {
   flags.known = tools::option_names(parser);
   flags.known.insert(flags.known.end(), std::begin(kGoogleBenchmarkOptions),
                      std::end(kGoogleBenchmarkOptions));
-  for (const auto& flag : flags.benchmark) {
+  for (const auto& flag : flags.benchmark)
     if (flag.starts_with("--benchmark_min_time")) flags.own_iterations = false;
-    if (flag.starts_with("--benchmark_format")) flags.readable = flag.ends_with("=console");
-  }
   constexpr std::string_view kRepetitions = "--benchmark_repetitions=";
   std::erase_if(flags.benchmark, [&](const std::string& flag) {
     if (!flag.starts_with(kRepetitions)) return false;

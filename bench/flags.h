@@ -17,7 +17,6 @@ struct Flags {
   std::vector<std::string> known;      // the names of all options, Google Benchmark's included
   int repetitions = 9;                 // of each row; --quick has 5
   bool own_iterations = true;          // our numbers of iterations hold, not the user's
-  bool readable = true;                // standard output is a table for people, not JSON or CSV
 };
 
 // None after --help. Throws CLI11's exceptions.

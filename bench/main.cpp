@@ -88,8 +88,9 @@ void leave_out_missing_peers(std::vector<Row>& rows, bool need_peers) {
     benchmark::AddCustomContext(std::string(peer->name), version);
   for (const std::string& reason : started.left_out) std::cerr << "Left out: " << reason << '\n';
   std::erase_if(rows, [&](const Row& row) {
-    return row.peer != nullptr &&
-           std::ranges::none_of(started.peers, [&](const auto& of) { return of.first == row.peer; });
+    return row.peer != nullptr && std::ranges::none_of(started.peers, [&](const auto& of) {
+             return of.first->name == row.peer->name;
+           });
   });
 }
 
@@ -265,6 +266,7 @@ void add_context(const Flags& flags) {
                                                                     : "scenes");
   benchmark::AddCustomContext("backends", names_of(backends()));
   benchmark::AddCustomContext("peers", names_of(lab::benchmark_peers()));
+  benchmark::AddCustomContext("rounds", std::to_string(flags.repetitions));
 }
 
 // The cost model's parts, one line per row.
@@ -323,7 +325,6 @@ int run(int argc, char** argv) {
     model_out->stream() << model_json(rows);
     model_out->commit();
   }
-  if (flags.readable) std::cout << ratio_table(rows, reporter.median_ms());
   return std::any_of(rows.begin(), rows.end(), [](const Row& row) { return !row.error.empty(); }) ? 1 : 0;
 }
 

@@ -82,13 +82,9 @@ void Reporter::finish() {
     auto& runs = runs_[name];
     if (runs.empty()) continue;
     for (Run& run : runs) run.repetitions = static_cast<std::int64_t>(runs.size());
-    const Run& median = shown.emplace_back(runs.size() == 1 ? runs.front() : median_of(runs));
-    if (!median.error_occurred)
-      median_ms_[name] =
-          median.GetAdjustedRealTime() * 1e3 / benchmark::GetTimeUnitMultiplier(median.time_unit);
-    std::vector<Run> all = runs;
-    if (runs.size() > 1) all.push_back(median);
-    json_.ReportRuns(all);
+    shown.push_back(runs.size() == 1 ? runs.front() : median_of(runs));
+    if (runs.size() > 1) runs.push_back(shown.back());
+    json_.ReportRuns(runs);
   }
   if (!shown.empty()) console_->ReportRuns(shown);
   console_->Finalize();

@@ -20,15 +20,12 @@ class Reporter final : public benchmark::BenchmarkReporter {
   // After the last run: prints.
   void finish();
 
-  // After finish(): the timed rows' medians by row name.
-  const std::map<std::string, double>& median_ms() const { return median_ms_; }
   // After finish(): the JSON, one line per row.
   std::string json() const;
 
  private:
   std::vector<std::string> names_;
   std::map<std::string, std::vector<Run>> runs_;
-  std::map<std::string, double> median_ms_;
   bool has_context_ = false;
   benchmark::BenchmarkReporter* console_;
   benchmark::JSONReporter json_;

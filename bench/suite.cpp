@@ -101,20 +101,20 @@ class Suite {
   }
 
   // What exactness costs in the backend `tiled`: its engine with other arithmetic in the edge functions, on
-  // streams of few and of many triangles, with and without overdraw. The first run is the backend without
+  // streams of few and of many triangles, with and without overdraw. The first row is the backend without
   // coverage masks, which only the exact numbers allow.
   void add_engine_runs(const WorkloadPtr& workload, const std::string& scene) {
     constexpr std::string_view kScenes[] = {"large", "medium", "small", "grid64"};
     if (std::find(std::begin(kScenes), std::end(kScenes), scene) == std::end(kScenes)) return;
     using lab::EngineNumbers;
-    constexpr std::pair<std::string_view, EngineNumbers> kRuns[] = {
+    constexpr std::pair<std::string_view, EngineNumbers> kNumbers[] = {
         {"exact", EngineNumbers::exact},
         {"int64", EngineNumbers::int64},
         {"double", EngineNumbers::float64},
         {"float", EngineNumbers::float32},
         {"float_rebased", EngineNumbers::float32_rebased},
         {"int32", EngineNumbers::int32}};
-    for (const auto& [name, numbers] : kRuns) {
+    for (const auto& [name, numbers] : kNumbers) {
       add(workload, Timed::raster, find_backend(kAblationBackend), fmt::format("{}/engine:{}", scene, name),
           1);
       rows_.back().numbers = numbers;

@@ -18,7 +18,7 @@ class EveryBackend : public ::testing::TestWithParam<std::string_view> {
  protected:
   const BackendInfo& info_ = find_drawer(GetParam());
   const bool fills_ = &info_ != &wireframe();
-  AblatedBackends backends_;
+  lab::AblatedBackends backends_;
   Backend* const backend_ = &backends_.get(info_, {});
 
   Framebuffer oracle(std::span<const ScreenTriangle> triangles, int width, int height) const {

@@ -1,5 +1,5 @@
 // Peers (other projects' rasterizers) in the benchmark's suite: converts a workload to a peer's scene,
-// compares the peer's picture with ours, times the peer, and gives our speed relative to it.
+// compares the peer's picture with ours, and times the peer.
 #pragma once
 
 #include <cstdint>
@@ -63,9 +63,5 @@ class PeerStage {
  private:
   std::map<std::string, std::unique_ptr<PeerFrame>> loaded_;  // by row name
 };
-
-// One line per peer row with a timed row of kAblationBackend of the same work and thread count; empty if
-// there is none. `median_ms` is by row name.
-std::string ratio_table(const std::vector<Row>& rows, const std::map<std::string, double>& median_ms);
 
 }  // namespace edgewise::bench

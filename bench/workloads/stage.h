@@ -8,6 +8,7 @@
 
 #include "bench/row.h"
 #include "bench/workloads/peers.h"
+#include "lab/measure.h"
 #include "raster/tile_list.h"
 
 namespace edgewise::bench {
@@ -34,7 +35,7 @@ class Stage {
   Framebuffer& frame(const Row& row);
   double timed_work_s(const Row& row);
 
-  AblatedBackends backends_;
+  lab::AblatedBackends backends_;
   // One per size, kept to the end: interleaved repetitions use all of them again, and a fresh frame's page
   // faults would count in a row's time.
   std::map<std::pair<int, int>, Framebuffer> frames_;

@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from bench_rows import LABORATORY, Row, facts_of
-from program import parsed
+from program import parsed, read_json
 
 
 @dataclass(frozen=True)
@@ -260,7 +260,8 @@ def parse_accuracy(data, bench=None):
         items = triangles if family.name == "facing" else int(scene["covered"])
         measured = [parse_measured(entry, family.name, methods[family.name, entry["name"]],
                                    {form: Cost(row, items, triangles) for form, row in
-                                    times.get((family.name, scene["name"], entry["name"]), {}).items()})
+                                    times.get((family.name, scene["name"], entry["name"]), {}).items()
+                                    if row.counters["triangles"] == triangles})  # else timed on a scene of another size
                     for entry in scene["methods"]]
         scenes.append(Scene(scene["name"], family.name, scene["summary"], int(scene[family.trials]),
                             tuple(m for m in measured if not m.method.apart), tuple(m for m in measured if m.method.apart),
@@ -298,10 +299,10 @@ def read_accuracy(folder, bench):
     path, peers = facts_of(folder) / "accuracy.json", folder / "peers.json"
     if not path.exists():
         return None
-    found, data = parsed(path, lambda data: (parse_accuracy(data, bench), data), "edgewise accuracy")
+    data = read_json(path)
     if peers.exists():
-        found = parsed(peers, lambda more: parse_accuracy(with_peers(data, more), bench), "edgewise accuracy --peers")
-    return found
+        data = parsed(peers, lambda more: with_peers(data, more), "edgewise accuracy --peers")
+    return parsed(path, lambda _: parse_accuracy(data, bench), "edgewise accuracy")
 
 
 def read_stability(folder):

@@ -155,14 +155,13 @@ def read_bench(folder_or_file):
             row.counters = {key: value for key, value in entry.items() if isinstance(value, float)}
     except (KeyError, TypeError, AttributeError) as error:
         raise BadInput(f"{path}: not a Google Benchmark result: {error}") from None
-    # In a run of rounds each row has one repetition per round, or is drawn once. Older runs shuffled all repetitions.
-    repetitions = {len(row.times_ms) for row in rows.values()} - {0, 1}
+    context = data.get("context", {})
     for row in rows.values():
-        row.rounds = len(repetitions) == 1
+        row.rounds = len(row.times_ms) == int(context.get("rounds", 0))  # older runs shuffled all repetitions
     reads = {row.scene: rows.pop(name) for name, row in list(rows.items()) if row.backend == "random_read"}
     model = path.parent / "model.json"
     costs = parsed(model, parse_costs, "edgewise_bench --model_out") if path.name == "bench.json" and model.exists() else {}
-    return Bench(data.get("context", {}), rows, reads, costs)
+    return Bench(context, rows, reads, costs)
 
 
 def describe_machine(machine):

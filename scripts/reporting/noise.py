@@ -1,11 +1,9 @@
 """The one rule for noise: whether two timings differ, and the interval of a figure.
 
-`order` judges unpaired repetitions, such as two rows of one Google Benchmark run whose repetitions were shuffled. It is
-the exact rank-sum test (Mann and Whitney, "On a test of whether one of two random variables is stochastically larger than
-the other", 1947). `paired_order` judges rounds in which each side ran once. It is the exact signed-rank test (Wilcoxon,
-"Individual comparisons by ranking methods", 1945) on the logarithms of the rounds' ratios. Both count ties against the
-claim. Shuffled repetitions are no rounds: if their i-th ones were paired, a drift of 20 % over the run would be taken for a
-difference in one case of five.
+`order` judges unpaired repetitions, such as the rows of two runs. It is the exact rank-sum test (Mann and Whitney, "On a
+test of whether one of two random variables is stochastically larger than the other", 1947). `paired_order` judges rounds in
+which each side ran once. It is the exact signed-rank test (Wilcoxon, "Individual comparisons by ranking methods", 1945) on
+the logarithms of the rounds' ratios. Both count ties against the claim.
 
 Guarantee: if neither side is faster, a test claims a difference in at most LEVEL of all cases. `order` needs repetitions
 that are exchangeable, `paired_order` rounds that are independent of one another. Neither needs a normal distribution.

@@ -313,7 +313,7 @@ constexpr const char* kNeedsFooter = R"(Examples:
   edgewise needs bunny.obj --fit --orbit 36
   edgewise needs capture.tri --pictures errors
   edgewise needs terrain --displacement 100 --json
-  edgewise needs bunny.obj --fit --ranges                 (milliseconds)
+  edgewise needs bunny.obj --fit --ranges
 
 For each stage of a rasterizer: the cheapest method that draws all these frames right while all
 other stages are exact, and the first pixel at which the next cheaper one fails. Triangles are

@@ -4,7 +4,11 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <map>
+#include <memory>
 #include <span>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "edgewise/backend.h"
@@ -31,6 +35,19 @@ constexpr std::array<Ablation, 10> kAblations{{{.vector_setup = false},
                                                {.several_tiles_per_task = false},
                                                {false, false, false, false, TileStore::cached, false, false},
                                                {.stepped = true}}};
+
+// Backend objects by name and switches. Each is made when it is first used, and keeps its memory.
+class AblatedBackends {
+ public:
+  Backend& get(const BackendInfo& info, const Ablation& ablation) {
+    auto& backend = made_[{info.name, ablation}];
+    if (!backend) backend = make(info, ablation);
+    return *backend;
+  }
+
+ private:
+  std::map<std::pair<std::string_view, Ablation>, std::unique_ptr<Backend>> made_;
+};
 
 // Fills both planes with values that no backend draws. Call it before a draw that is checked: pixels that the
 // backend does not write then differ from every correct picture.

@@ -3,11 +3,8 @@
 #pragma once
 
 #include <compare>
-#include <map>
 #include <memory>
 #include <string>
-#include <string_view>
-#include <utility>
 
 #include "edgewise/backend.h"
 
@@ -46,18 +43,5 @@ std::unique_ptr<Backend> make_naive(const Ablation& ablation);
 
 // The backend with these switches, or as usual if it has none.
 std::unique_ptr<Backend> make(const BackendInfo& info, const Ablation& ablation);
-
-// Backend objects by name and switches. Each is made when it is first used, and keeps its memory.
-class AblatedBackends {
- public:
-  Backend& get(const BackendInfo& info, const Ablation& ablation) {
-    auto& backend = made_[{info.name, ablation}];
-    if (!backend) backend = make(info, ablation);
-    return *backend;
-  }
-
- private:
-  std::map<std::pair<std::string_view, Ablation>, std::unique_ptr<Backend>> made_;
-};
 
 }  // namespace edgewise

@@ -206,38 +206,6 @@ TEST(PeerStage, AcceptsACorrectPictureAndRejectsAWrongOne) {
       << bad.error;
 }
 
-TEST(Ratios, ComparePeersWithTheDefaultBackend) {
-  const auto workload = std::make_shared<Workload>(8, 8, Cull::back, [] { return tools::Source{}; });
-  const PeerInfo peer = mirror(false);
-  std::vector<Row> rows{row_of(peer, workload, 1)};
-  std::map<std::string, double> median_ms{{rows[0].name, 30.0}};
-  EXPECT_EQ(ratio_table(rows, median_ms), "");
-  const auto add = [&](const char* name, std::string_view backend, int threads, SimdTarget target,
-                       double ms) {
-    Row row;
-    row.name = name;
-    row.workload = workload;
-    row.timed = Timed::frame;
-    row.backend = &find_backend(backend);
-    row.execution.threads = threads;
-    row.execution.target = target;
-    rows.push_back(row);
-    median_ms[name] = ms;
-  };
-  add("other", "scanline", 1, SimdTarget::best, 3.0);
-  add("threaded", "tiled", 2, SimdTarget::best, 1.0);
-  add("narrow", "tiled", 1, SimdTarget::scalar, 2.0);
-  EXPECT_EQ(ratio_table(rows, median_ms), "");
-  add("ours", "tiled", 1, SimdTarget::best, 4.0);
-  const std::string table = ratio_table(rows, median_ms);
-  EXPECT_NE(table.find("ours "), std::string::npos) << table;
-  EXPECT_NE(table.find(" 7.50× faster\n"), std::string::npos) << table;
-  median_ms["ours"] = 60.0;
-  const std::string slower = ratio_table(rows, median_ms);
-  EXPECT_NE(slower.find(" 2.00× slower\n"), std::string::npos) << slower;
-  EXPECT_EQ(slower.find("faster"), std::string::npos) << slower;
-}
-
 // The benchmark's peers draw our pictures, of hard triangle families and of whole scenes.
 class BuiltPeer : public ::testing::TestWithParam<std::string> {};
 

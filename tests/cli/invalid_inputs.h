@@ -383,7 +383,6 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
     {"{ bench $SHORT --benchmark_out=$DIR/a.json; echo $? >$IN/status; } | true; exit $(cat $IN/status)", 0,
      "", "a.json"},
     {"bench $SHORT --benchmark_format=csv", 0, ""},
-    {"bench $SHORT --benchmark_report_aggregates_only=true", 0, ""},
 
     // ---- Too little memory, too few threads
     {"ulimit -v 400000; edgewise render cube --threads 1 --size 16384x16384 -o $DIR/a.png", 2,

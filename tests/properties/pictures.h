@@ -26,7 +26,7 @@ std::vector<ScreenTriangle> snapped(const TriangleStream& stream, Payload payloa
 struct Painter {
   std::string_view name;
   BackendInfo info;
-  std::unique_ptr<AblatedBackends> made = std::make_unique<AblatedBackends>();
+  std::unique_ptr<lab::AblatedBackends> made = std::make_unique<lab::AblatedBackends>();
 
   Backend& with(const Ablation& ablation) const { return made->get(info, ablation); }
 };

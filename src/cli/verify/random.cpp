@@ -294,7 +294,7 @@ class Checker {
 
   const Plan& plan_;
   Report& report_;
-  AblatedBackends backends_;
+  lab::AblatedBackends backends_;
   Frontend plain_, candidate_;
   std::vector<ScreenTriangle> expected_list_;
   std::vector<std::string> explained_;

@@ -94,8 +94,8 @@ std::string VerifyTable::header() const {
   if (!wide_)
     return fmt::format("{:<{}} {:>9} {:>7} {:>7} {:>7} {}\n", "scene", kNameWidth, "triangles", "compared",
                        "differ", "oracle", "verdict");
-  return fmt::format("{:<{}} {:>9} {:>9} {:>9} {:>8} {:>6} {:>6} {:>5} {}\n", "scene", kNameWidth, "size",
-                     "triangles", "emitted", "compared", "differ", "oracle", "s", "verdict");
+  return fmt::format("{:<{}} {:>9} {:>9} {:>9} {:>8} {:>6} {:>6} {}\n", "scene", kNameWidth, "size",
+                     "triangles", "emitted", "compared", "differ", "oracle", "verdict");
 }
 
 std::string VerifyTable::line(const SceneVerdict& v) const {
@@ -104,10 +104,9 @@ std::string VerifyTable::line(const SceneVerdict& v) const {
     return fmt::format("{:<{}} {:>9} {:>8} {:>7} {:>7} {}\n", printable_within(v.scene, kNameWidth),
                        kNameWidth, v.triangles, v.configurations, v.differing_pixels, v.oracle_differences,
                        verdict);
-  return fmt::format("{:<{}} {:>9} {:>9} {:>9} {:>8} {:>6} {:>6} {:>5.1f} {}\n",
-                     printable_within(v.scene, kNameWidth), kNameWidth,
-                     fmt::format("{}x{}", v.width, v.height), v.triangles, v.emitted, v.configurations,
-                     v.differing_pixels, v.oracle_differences, v.seconds, verdict);
+  return fmt::format("{:<{}} {:>9} {:>9} {:>9} {:>8} {:>6} {:>6} {}\n", printable_within(v.scene, kNameWidth),
+                     kNameWidth, fmt::format("{}x{}", v.width, v.height), v.triangles, v.emitted,
+                     v.configurations, v.differing_pixels, v.oracle_differences, verdict);
 }
 
 std::string explain(const SceneVerdict& verdict) {

@@ -69,7 +69,6 @@ struct SceneVerdict {
   std::uint64_t oracle_configurations = 0, oracle_differences = 0;
   std::vector<HitCount> hits;        // built-in grids only
   std::vector<Mismatch> mismatches;  // the first per backend and judge
-  double seconds = 0;
 
   bool ok() const;
 };
@@ -86,7 +85,7 @@ struct VerifyReport {
 // Checks all scenes of the plan in order; calls `on_scene` after each.
 VerifyReport verify(const VerifyPlan& plan, const std::function<void(const SceneVerdict&)>& on_scene);
 
-// One line per scene. Below 80 columns, leaves out size, emitted and seconds; 60 columns suffice.
+// One line per scene. Below 80 columns, leaves out size and emitted; 60 columns suffice.
 class VerifyTable {
  public:
   explicit VerifyTable(int terminal_columns) : wide_(terminal_columns >= 80) {}

@@ -19,9 +19,9 @@
 
 namespace edgewise::lab {
 
-// One picture's triangles in two forms: unsnapped for the methods of this family, which snap them if they
-// need to, and snapped for the backends. Coordinates are finite and below 2^22 px; snapped ones, relative to
-// the window's corner, lie in the guard band (rule 3).
+// One picture's triangles before and after snapping: unsnapped for the methods of this family, which snap
+// them if they need to, and snapped for the backends. Coordinates are finite and below 2^22 px; snapped ones,
+// relative to the window's corner, lie in the guard band (rule 3).
 struct CoverageInput {
   std::span<const FloatTriangle> floats;
   std::span<const ScreenTriangle> snapped;

@@ -137,9 +137,9 @@ struct OtherNumbers : Lanes {
   static constexpr int kInputs = 8;
   static constexpr std::int32_t origin(int tile_px) { return kRebased ? tile_px * contract::kSub : 0; }
 
-  static HWY_INLINE bool spans_more(Value span, std::int32_t twice_area_px) {
+  static HWY_INLINE bool spans_more(Value range, std::int32_t twice_area_px) {
     // The area was rounded down.
-    return static_cast<double>(span) >= (twice_area_px + 1.0) * (contract::kSub * contract::kSub);
+    return static_cast<double>(range) >= (twice_area_px + 1.0) * (contract::kSub * contract::kSub);
   }
 
   static bool set_up_one(const TileTask& task, const contract::Oriented& t, const BlockBox& box,
@@ -212,16 +212,16 @@ struct OtherNumbers : Lanes {
 #endif
 
  private:
-  // That of rule 4. In floats it is more than is lost by rounding `first` and values up to a block's span, so
-  // that a sample exactly on the edge stays outside.
+  // That of rule 4. In floats it is more than is lost by rounding `first` and values up to a block's range,
+  // so that a sample exactly on the edge stays outside.
   template <class DF>
-  static HWY_INLINE hn::Vec<DF> bias_of(DF df, hn::Vec<DF> first, hn::Vec<DF> span) {
+  static HWY_INLINE hn::Vec<DF> bias_of(DF df, hn::Vec<DF> first, hn::Vec<DF> range) {
     const auto one = hn::Set(df, Value{1});
     if constexpr (std::is_integral_v<Value>)
       return one;
     else
       return hn::Max(
-          one, hn::Mul(hn::Add(hn::Abs(first), span), hn::Set(df, std::numeric_limits<Value>::epsilon())));
+          one, hn::Mul(hn::Add(hn::Abs(first), range), hn::Set(df, std::numeric_limits<Value>::epsilon())));
   }
 
 #if HWY_TARGET != HWY_SCALAR
@@ -257,9 +257,9 @@ struct OtherNumbers : Lanes {
     const auto up_x = hn::Max(a, zero), up_y = hn::Max(b, zero);
     const auto down_x = hn::Min(a, zero), down_y = hn::Min(b, zero);
     const auto rise = over_block(hn::Add(up_x, up_y)), fall = over_block(hn::Add(down_x, down_y));
-    const auto span = hn::Sub(rise, fall);
+    const auto range = hn::Sub(rise, fall);
     const auto unbiased = hn::Sub(weighted(a, b, sample_x, sample_y), weighted(a, b, x, y));
-    const auto first = hn::Sub(unbiased, hn::IfThenZeroElse(top_left, bias_of(df, unbiased, span)));
+    const auto first = hn::Sub(unbiased, hn::IfThenZeroElse(top_left, bias_of(df, unbiased, range)));
     const auto most = hn::Add(first, in_px(weighted(up_x, up_y, last_x, last_y)));
     const auto least = hn::Add(first, in_px(weighted(down_x, down_y, last_x, last_y)));
     const auto crossed = hn::Lt(least, zero);
@@ -273,7 +273,7 @@ struct OtherNumbers : Lanes {
     };
     hn::StoreU(kept(step(a)), df, out.x + k), hn::StoreU(kept(step(b)), df, out.y + k);
     hn::StoreU(kept(first), df, out.first + k), hn::StoreU(kept(hn::Add(first, rise)), df, out.most + k);
-    hn::StoreU(kept(rise), df, out.rise + k), hn::StoreU(kept(span), df, out.span + k);
+    hn::StoreU(kept(rise), df, out.rise + k), hn::StoreU(kept(range), df, out.range + k);
     return hn::Lt(most, zero);
   }
 };

@@ -68,7 +68,7 @@ struct Context final : GlContext {
 };
 
 Context open(MesaDriver driver, int threads) {
-  // Overrides the user's settings, since the rows' names promise these.
+  // Overrides the user's settings, since the rows' names say so.
   setenv("GALLIUM_DRIVER", std::string(name_of(driver)).c_str(), 1);
   setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
   setenv("MESA_SHADER_CACHE_DISABLE", "1", 1);

@@ -46,7 +46,7 @@ void set_up_one_depth(const TileTask& task, const Oriented& t, int left, int top
   out.nearest.x[k] = flat ? zx : 0;
   out.nearest.y[k] = flat ? zy : 0;
   const auto bits = [](std::int32_t v) { return static_cast<std::uint32_t>(v); };
-  out.nearest.first[k] = flat ? wrap(bits(z) + bits(out.depth.rise[k]) - bits(out.depth.span[k]))
+  out.nearest.first[k] = flat ? wrap(bits(z) + bits(out.depth.rise[k]) - bits(out.depth.range[k]))
                               : static_cast<std::int32_t>(nearest);
   const auto falls = [&](std::int32_t step, int count) {
     return bits(std::min(step, 0)) * static_cast<std::uint32_t>(kBlockSide * count);

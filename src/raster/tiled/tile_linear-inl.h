@@ -35,7 +35,7 @@ struct Linear {
   Value first[kBatch];         // at the first pixel of block (bx0, by0)
   Value most[kBatch];          // the largest value in that block: first + rise
   Value rise[kBatch];          // the largest value in a block less that at its first pixel
-  Value span[kBatch];          // the largest value in a block less the smallest
+  Value range[kBatch];         // the largest value in a block less the smallest
 };
 
 // A triangle's box in a tile, extended to whole blocks, so that an edge that accepts it accepts every lane
@@ -51,7 +51,7 @@ inline void set_linear(Linear<std::int32_t>& f, int k, std::int32_t x, std::int3
   const std::uint32_t rise = (kBlockSide - 1) * (up(x) + up(y)),
                       fall = (kBlockSide - 1) * (down(x) + down(y));
   f.x[k] = x, f.y[k] = y, f.first[k] = first, f.most[k] = wrap(static_cast<std::uint32_t>(first) + rise);
-  f.rise[k] = wrap(rise), f.span[k] = wrap(rise + fall);
+  f.rise[k] = wrap(rise), f.range[k] = wrap(rise + fall);
 }
 
 #if HWY_TARGET != HWY_SCALAR
@@ -81,7 +81,7 @@ HWY_INLINE void store_linear(const HalfLinear& left, const HalfLinear& right, Li
   const V rise = thrice(hn::Add(hn::Max(x, hn::Zero(d)), hn::Max(y, hn::Zero(d))));
   hn::Store(x, d, f.x + k), hn::Store(y, d, f.y + k), hn::Store(first, d, f.first + k);
   hn::Store(rise, d, f.rise + k), hn::Store(hn::Add(first, rise), d, f.most + k);
-  hn::Store(thrice(hn::Add(hn::Abs(x), hn::Abs(y))), d, f.span + k);
+  hn::Store(thrice(hn::Add(hn::Abs(x), hn::Abs(y))), d, f.range + k);
 }
 
 #endif

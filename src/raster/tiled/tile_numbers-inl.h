@@ -81,9 +81,9 @@ struct EdgeInBoxLanes {
 // The contract's edge functions, shifted (rule 5) in wrapping int32. A pixel is inside where all three are
 // >= 0. Other numbers have the same members.
 struct ContractNumbers : Int32Arithmetic {
-  // Whether a value's span over a block, in square pixels, exceeds twice the triangle's area.
-  static HWY_INLINE bool spans_more(Value span, std::int32_t twice_area_px) {
-    return span >> kSubBits > twice_area_px;
+  // Whether a value's range over a block, in square pixels, exceeds twice the triangle's area.
+  static HWY_INLINE bool spans_more(Value range, std::int32_t twice_area_px) {
+    return range >> kSubBits > twice_area_px;
   }
 
   // Returns false if an edge rejects the box.

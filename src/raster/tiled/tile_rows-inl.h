@@ -33,11 +33,11 @@ HWY_INLINE std::size_t lane_of(std::size_t p) {
 }
 
 // Whether triangle k may cover a whole block: inside a triangle an edge value lies between 0 and twice the
-// area, so its span over the block must not exceed that (claim may_fill_blocks in proofs/tile_reject.smt2).
+// area, so its range over the block must not exceed that (claim may_fill_blocks in proofs/tile_reject.smt2).
 template <class Numbers>
 HWY_INLINE bool may_fill_blocks(const Batch<Numbers>& batch, int k) {
   const auto has_room = [&](const auto& edge) {
-    return !Numbers::spans_more(edge.span[k], batch.twice_area_px[k]);
+    return !Numbers::spans_more(edge.range[k], batch.twice_area_px[k]);
   };
   return has_room(batch.edge[0]) && has_room(batch.edge[1]) && has_room(batch.edge[2]);
 }
@@ -85,7 +85,7 @@ HWY_NOINLINE void find_candidates_by_rows(Tile& tile, const Batch<Numbers>& batc
       if constexpr (kHierarchicalDepth) {
         // In a block that the triangle covers, no pixel stays farther than the triangle's farthest depth.
         const auto low = [&](int i) {
-          return Numbers::subtract(edge[i].v[p], Numbers::set(batch.edge[i].span[k]));
+          return Numbers::subtract(edge[i].v[p], Numbers::set(batch.edge[i].range[k]));
         };
         const V least = hn::Or(Numbers::outside(low(0), low(1), low(2)), before_end[p]);
         const V old_zmax = hn::LoadU(d, hiz + lane_of(p)), own_zmax = depth.v[p];
