@@ -35,11 +35,16 @@ Row row_of(const BackendInfo& backend, const std::shared_ptr<Workload>& workload
   return row;
 }
 
-TEST(BenchStage, FindsABackendThatDrawsNothing) {
-  const auto workload = std::make_shared<Workload>(96, 64, Cull::back, [] {
+std::shared_ptr<Workload> cube() {
+  auto workload = std::make_shared<Workload>(96, 64, Cull::back, [] {
     return tools::load_source("cube", {96, 64, 0.0f, 1.0}, false);
   });
   workload->prepare(false);
+  return workload;
+}
+
+TEST(BenchStage, FindsABackendThatDrawsNothing) {
+  const auto workload = cube();
   const BackendInfo lazy{"lazy", "draws nothing",
                          [] { return std::unique_ptr<Backend>(std::make_unique<DrawsNothing>()); }};
   Stage stage;
@@ -88,10 +93,7 @@ TEST(BenchSuite, RowNamesCanBeSplitIntoTheirParts) {
 }
 
 TEST(BenchStage, ComparesWireframesWithWireframes) {
-  const auto workload = std::make_shared<Workload>(96, 64, Cull::back, [] {
-    return tools::load_source("cube", {96, 64, 0.0f, 1.0}, false);
-  });
-  workload->prepare(false);
+  const auto workload = cube();
   Stage stage;
   for (const BackendInfo& backend : backends()) {
     Row row = row_of(backend, workload);
@@ -175,11 +177,7 @@ TEST(BenchSuite, TimesThreeCullingModes) {
 }
 
 TEST(BenchWorkload, FrontEndRunsOnTheTargetOfTheExecution) {
-  Workload workload(96, 64, Cull::back, [] {
-    return tools::load_source("cube", {96, 64, 0.0f, 1.0}, false);
-  });
-  workload.prepare(true);
-  const FrontendOptions options = workload.frontend_options({3, 64, SimdTarget::scalar});
+  const FrontendOptions options = cube()->frontend_options({3, 64, SimdTarget::scalar});
   EXPECT_EQ(options.target, SimdTarget::scalar);
   EXPECT_EQ(options.threads, 3);
 }
@@ -263,15 +261,21 @@ TEST(BenchMethods, AreNotTimedWhereAFormDrawsOtherPixels) {
   EXPECT_EQ(error(2), "draws other pixels than its scalar form on one thread");
 }
 
-TEST(BenchProgram, RepeatsAllRowsEquallyOften) {
+// The JSON that the benchmark writes to the file that `option` names.
+nlohmann::json written(const std::string& option, const std::string& arguments) {
   const TempDir folder;
-  const std::string out = (folder.path() / "bench.json").string();
-  const auto outcome = testing::run_program(
-      EDGEWISE_BENCH, "--no-peers --quick --benchmark_out=" + out +
-                          " '--benchmark_filter=^(tiled/cube|lab/edge_on_faces/.*normal_z.*)/threads:1$'");
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::string out = (folder.path() / "out.json").string();
+  const auto outcome =
+      testing::run_program(EDGEWISE_BENCH, "--no-peers --" + option + "=" + out + " " + arguments);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  return nlohmann::json::parse(file_content(out));
+}
+
+TEST(BenchProgram, RepeatsAllRowsEquallyOften) {
   std::map<std::string, int> times;
-  const auto json = nlohmann::json::parse(file_content(out));
+  const auto json =
+      written("benchmark_out",
+              "--quick '--benchmark_filter=^(tiled/cube|lab/edge_on_faces/.*normal_z.*)/threads:1$'");
   for (const auto& entry : json["benchmarks"])
     if (entry["run_type"] == "iteration") ++times[entry["name"]];
   EXPECT_EQ(times.size(), 4u) << "with two rows of random reads";
@@ -349,17 +353,12 @@ TEST(BenchSuite, TimesTileStoresBackToBackAndAfterPauses) {
 }
 
 TEST(BenchProgram, PausesAreMadeButNotTimed) {
-  const TempDir folder;
-  const std::string out = (folder.path() / "bench.json").string();
   const auto begin = std::chrono::steady_clock::now();
-  const auto outcome = testing::run_program(EDGEWISE_BENCH,
-                                            "--no-peers --quick --size 64x64 --benchmark_min_time=0.003 "
-                                            "--benchmark_repetitions=5 --benchmark_out=" +
-                                                out + " --benchmark_filter=/cube/pause:2ms/threads:2");
+  const auto json = written("benchmark_out",
+                            "--quick --size 64x64 --benchmark_min_time=0.003 --benchmark_repetitions=5 "
+                            "--benchmark_filter=/cube/pause:2ms/threads:2");
   const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - begin;
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
   double frames = 0.0, fastest_ms = 1e9;
-  const auto json = nlohmann::json::parse(file_content(out));
   for (const auto& entry : json["benchmarks"]) {
     if (!entry["name"].get<std::string>().starts_with("tiled") || entry["run_type"] != "iteration") continue;
     frames += entry["iterations"].get<double>();
@@ -432,10 +431,7 @@ TEST(RandomReads, ReadAllLinesBeforeOneIsReadAgain) {
 }
 
 TEST(BenchStage, EstimatesTheCostOnlyIfRequested) {
-  const auto workload = std::make_shared<Workload>(96, 64, Cull::back, [] {
-    return tools::load_source("cube", {96, 64, 0.0f, 1.0}, false);
-  });
-  workload->prepare(false);
+  const auto workload = cube();
   Stage stage;
   Row with = row_of(backends()[0], workload), without = with;
   with.wants_cost = true;
@@ -450,15 +446,9 @@ TEST(BenchStage, EstimatesTheCostOnlyIfRequested) {
 }
 
 TEST(BenchProgram, WritesTheCostModelsPartsOfTheRowsThatHaveThem) {
-  const TempDir folder;
-  const std::string out = (folder.path() / "model.json").string();
-  const auto outcome = testing::run_program(EDGEWISE_BENCH,
-                                            "--no-peers --scene=cube --size 64x64 --benchmark_min_time=0.001 "
-                                            "--benchmark_repetitions=1 --benchmark_filter=d/cube/threads:1 "
-                                            "--model_out=" +
-                                                out);
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  const auto costs = nlohmann::json::parse(file_content(out))["costs"];
+  const auto costs = written("model_out",
+                             "--scene=cube --size 64x64 --benchmark_min_time=0.001 "
+                             "--benchmark_repetitions=1 --benchmark_filter=d/cube/threads:1")["costs"];
   ASSERT_EQ(costs.size(), 1u) << "of tiled, not of the front end";
   EXPECT_EQ(costs[0]["name"], "tiled/cube/threads:1");
   EXPECT_GT(costs[0]["won_blocks"], 0);

@@ -164,23 +164,15 @@ class Mirror final : public PeerFrame {
   bool is_wrong_;
 };
 
-PeerInfo mirror(bool is_wrong) {
-  if (is_wrong)
-    return {"mirror",
-            "our backend",
-            2,
-            [] { return 8; },
-            [] { return std::string("1"); },
-            [](const PeerScene& scene, int) {
-              return std::unique_ptr<PeerFrame>(std::make_unique<Mirror>(scene, true));
-            }};
+template <bool is_wrong>
+PeerInfo mirror() {
   return {"mirror",
           "our backend",
           2,
           [] { return 8; },
           [] { return std::string("1"); },
           [](const PeerScene& scene, int) {
-            return std::unique_ptr<PeerFrame>(std::make_unique<Mirror>(scene, false));
+            return std::unique_ptr<PeerFrame>(std::make_unique<Mirror>(scene, is_wrong));
           }};
 }
 
@@ -196,7 +188,7 @@ Row row_of(const PeerInfo& peer, const std::shared_ptr<Workload>& workload, int 
 
 TEST(PeerStage, AcceptsACorrectPictureAndRejectsAWrongOne) {
   const auto workload = workload_of("medium");
-  const PeerInfo right = mirror(false), wrong = mirror(true);
+  const PeerInfo right = mirror<false>(), wrong = mirror<true>();
   PeerStage stage;
   Row good = row_of(right, workload, 1), bad = row_of(wrong, workload, 2);
   stage.compare(good);

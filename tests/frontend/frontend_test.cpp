@@ -14,7 +14,6 @@
 #include "edgewise/builtin.h"
 #include "frontend/clip.h"
 #include "frontend/fixed.h"
-#include "frontend/clip.h"
 #include "lab/measure.h"
 #include "support.h"
 

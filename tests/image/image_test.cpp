@@ -35,15 +35,17 @@ Image test_image(int width, int height) {
 
 // ---- Pictures
 
-class ImageFormat : public testing::TestWithParam<const char*> {};
+class ImageFormat : public testing::TestWithParam<const char*> {
+ protected:
+  const TempDir dir_;
+  const fs::path path_ = dir_.path() / (std::string("a") + GetParam());
+};
 
 TEST_P(ImageFormat, RoundTripKeepsEveryPixel) {
-  const TempDir dir;
   for (const auto& [width, height] : {std::pair(1, 1), {3, 5}, {257, 2}, {1, 16384}}) {
     const Image image = test_image(width, height);
-    const fs::path path = dir.path() / (std::string("a") + GetParam());
-    write_image(path, image);
-    const Image back = read_image(path);
+    write_image(path_, image);
+    const Image back = read_image(path_);
     EXPECT_EQ(back.width, width);
     EXPECT_EQ(back.height, height);
     EXPECT_EQ(back.pixels, image.pixels);
@@ -51,31 +53,25 @@ TEST_P(ImageFormat, RoundTripKeepsEveryPixel) {
 }
 
 TEST_P(ImageFormat, AlphaIsIgnored) {
-  const TempDir dir;
-  const fs::path path = dir.path() / (std::string("a") + GetParam());
-  write_image(path, {2, 1, {0x00030201u, 0x80060504u}});
-  EXPECT_EQ(read_image(path).pixels, (std::vector<std::uint32_t>{0xFF030201u, 0xFF060504u}));
+  write_image(path_, {2, 1, {0x00030201u, 0x80060504u}});
+  EXPECT_EQ(read_image(path_).pixels, (std::vector<std::uint32_t>{0xFF030201u, 0xFF060504u}));
 }
 
 TEST_P(ImageFormat, EveryTruncationIsRefused) {
-  const TempDir dir;
-  const fs::path path = dir.path() / (std::string("a") + GetParam());
-  write_image(path, test_image(5, 4));
-  const std::string whole = file_content(path);
+  write_image(path_, test_image(5, 4));
+  const std::string whole = file_content(path_);
   for (std::size_t size = 0; size < whole.size(); ++size) {
-    const fs::path cut = dir.write("cut" + path.extension().string(), whole.substr(0, size));
+    const fs::path cut = dir_.write("cut" + path_.extension().string(), whole.substr(0, size));
     EXPECT_NE(message_of([&] { read_image(cut); }).find(cut.string() + ": "), std::string::npos) << size;
   }
 }
 
 TEST_P(ImageFormat, WrongPixelCountOrSizeIsNotWritten) {
-  const TempDir dir;
-  const fs::path path = dir.path() / (std::string("a") + GetParam());
-  EXPECT_THROW(write_image(path, {2, 2, {1, 2, 3}}), std::runtime_error);
-  EXPECT_THROW(write_image(path, {0, 0, {}}), std::runtime_error);
-  EXPECT_THROW(write_image(path, {-1, -1, {1}}), std::runtime_error);
-  EXPECT_THROW(write_image(path, test_image(16385, 1)), std::runtime_error);
-  EXPECT_EQ(dir.count(), 0u);
+  EXPECT_THROW(write_image(path_, {2, 2, {1, 2, 3}}), std::runtime_error);
+  EXPECT_THROW(write_image(path_, {0, 0, {}}), std::runtime_error);
+  EXPECT_THROW(write_image(path_, {-1, -1, {1}}), std::runtime_error);
+  EXPECT_THROW(write_image(path_, test_image(16385, 1)), std::runtime_error);
+  EXPECT_EQ(dir_.count(), 0u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, ImageFormat, testing::Values(".png", ".ppm", ".PNG"),

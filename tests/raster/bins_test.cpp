@@ -74,7 +74,7 @@ class Equal final : public TriangleSource {
   std::span<const ScreenTriangle> make(int, std::size_t begin, std::size_t end) override {
     return std::span(made_).first(end * of_eight_ / 8 - begin * of_eight_ / 8);
   }
-  std::span<const ScreenTriangle> sample(std::size_t) override { return std::span(made_).first(1); }
+  std::span<const ScreenTriangle> probe(std::size_t) override { return std::span(made_).first(1); }
 
  private:
   std::size_t inputs_, of_eight_;

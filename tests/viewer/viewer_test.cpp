@@ -33,10 +33,12 @@ Image rendered(std::string_view scene, Cull cull, tools::Size size = kTestSize,
   return to_image(frame);
 }
 
-// A quad of two triangles, clockwise as given.
-void add_quad(Scene& scene, glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d, std::uint32_t colour) {
-  scene.meshes.push_back({{a, b, c, d}, {{0, 1, 2}, {0, 2, 3}}, {colour, colour}});
-  scene.instances.push_back({.mesh = scene.meshes.size() - 1});
+// A quad, clockwise as given.
+void add_quad(Scene& scene, glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d,
+              std::uint32_t colour = rgb(200, 200, 200)) {
+  scene.instances.push_back({.mesh = scene.meshes.size()});
+  scene.meshes.push_back({{a, b, c, d}, {}, {}});
+  scene.meshes.back().add_quad({0, 1, 2, 3}, colour);
 }
 
 // Two squares; the nearer one is submitted first.
@@ -51,9 +53,7 @@ Scene near_then_far() {
 // A floor that passes below the camera.
 Scene floor_below_the_camera() {
   Scene scene;
-  add_quad(scene, {-9, -1, 9}, {9, -1, 9}, {9, -1, -9}, {-9, -1, -9}, rgb(200, 200, 200));
-  std::swap(scene.meshes[0].triangles[0].y, scene.meshes[0].triangles[0].z);
-  std::swap(scene.meshes[0].triangles[1].y, scene.meshes[0].triangles[1].z);
+  add_quad(scene, {-9, -1, -9}, {9, -1, -9}, {9, -1, 9}, {-9, -1, 9});
   return scene;
 }
 
@@ -404,6 +404,13 @@ TEST(Viewer, WrapsNoticesAtBlanks) {
   EXPECT_GT(lines, 2);
 }
 
+// Saves in `folder`.
+Session session_into(const std::filesystem::path& folder, std::string_view scene) {
+  Start start = start_with(find_scene(scene).make({}), Cull::back);
+  start.folder = folder;
+  return Session(std::move(start));
+}
+
 TEST(Film, WritesFramesAtEqualIntervals) {
   Session session = session_of("cube");
   const auto strokes = parse_keys("r<1>");
@@ -424,9 +431,7 @@ TEST(Viewer, SavedStreamsRenderTheSamePictureAndReplaceNoFile) {
   const TempDir folder;
   folder.write("test-0001.png", "older");
   folder.write("test-0002.tri", "older");
-  Start start = start_with(find_scene("cubes").make({}), Cull::back);
-  start.folder = folder.path();
-  Session session(std::move(start));
+  Session session = session_into(folder.path(), "cubes");
   type(session, std::string(kNoOverlay) + "w<left>p");
   const auto saved = session.take_saved();
   ASSERT_EQ(saved,
@@ -441,9 +446,7 @@ TEST(Viewer, SavedStreamsRenderTheSamePictureAndReplaceNoFile) {
 }
 
 TEST(Viewer, ReportsAFailedSave) {
-  Start start = start_with(find_scene("cube").make({}), Cull::back);
-  start.folder = "/proc/none";
-  Session session(std::move(start));
+  Session session = session_into("/proc/none", "cube");
   EXPECT_TRUE(says(type(session, "p"), "not saved"));
   EXPECT_TRUE(session.take_saved().empty());
 }
@@ -462,16 +465,10 @@ TEST(Viewer, LabelsVerticesAndAxes) {
 TEST(Viewer, ShowsTheStateOfEachFace) {
   constexpr tools::Size kLarge{640, 480};
   Scene scene;
-  const auto add = [&](glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d) {
-    Mesh mesh{{a, b, c, d}, {}, {}};
-    mesh.add_quad({0, 1, 2, 3}, rgb(200, 200, 200));
-    scene.instances.push_back({.mesh = scene.meshes.size()});
-    scene.meshes.push_back(std::move(mesh));
-  };
-  add({-1, 1, -4}, {1, 1, -4}, {1, 0, -4}, {-1, 0, -4});
-  add({1, 1, -5}, {-1, 1, -5}, {-1, 0, -5}, {1, 0, -5});
-  add({-1, 1, 4}, {1, 1, 4}, {1, 0, 4}, {-1, 0, 4});
-  add({-9, -1, -9}, {9, -1, -9}, {9, -1, 9}, {-9, -1, 9});
+  add_quad(scene, {-1, 1, -4}, {1, 1, -4}, {1, 0, -4}, {-1, 0, -4});
+  add_quad(scene, {1, 1, -5}, {-1, 1, -5}, {-1, 0, -5}, {1, 0, -5});
+  add_quad(scene, {-1, 1, 4}, {1, 1, 4}, {1, 0, 4}, {-1, 0, 4});
+  add_quad(scene, {-9, -1, -9}, {9, -1, -9}, {9, -1, 9}, {-9, -1, 9});
   Session session = session_of(scene);
   EXPECT_FALSE(says(session.draw(kLarge, kTestCell), "active"));
   EXPECT_TRUE(says(type(session, "7", kLarge), "a b - c"));
@@ -520,9 +517,7 @@ TEST(Viewer, FitsAnySize) {
   const TempDir folder;
   for (const tools::Size size : {tools::Size{1, 1}, tools::Size{2, 3}, tools::Size{33, 9},
                                  tools::Size{320, 200}, tools::Size{700, 20}, tools::Size{20, 700}}) {
-    Start start = start_with(find_scene("cube").make({}), Cull::back);
-    start.folder = folder.path();
-    Session session(std::move(start));
+    Session session = session_into(folder.path(), "cube");
     for (const char* keys : {"egt", "v", "<tab>bbb", "v<enter>", "ohp"}) {
       const Screen& screen = type(session, keys, size);
       ASSERT_EQ(screen.picture.pixels.size(), static_cast<std::size_t>(size.width * size.height));
