@@ -38,7 +38,7 @@ constexpr double kRepetition_s = 0.012;
 // Memory is measured once per scene and backend.
 bool needs_peak(const Row& row) {
   return row.timed == Timed::frame && row.backend != nullptr && is_plain(row) && row.execution.threads == 2 &&
-         row.once_s < kTooSlowForFrames_s;
+         row.once_s < kTooSlowToDrawTwice_s;
 }
 
 // Passes Google Benchmark our defaults first, so that the user's flags override them.
@@ -99,7 +99,7 @@ bool is_too_slow_alone(std::span<const Row> rows, std::size_t i) {
   if (i == 0 || rows[i].timed != Timed::frame) return false;
   const Row &row = rows[i], &alone = rows[i - 1];
   return alone.timed == Timed::raster && alone.workload == row.workload && alone.backend == row.backend &&
-         alone.execution.threads == row.execution.threads && alone.once_s > kTooSlowForFrames_s;
+         alone.execution.threads == row.execution.threads && alone.once_s > kTooSlowToDrawTwice_s;
 }
 
 // Goes workload by workload, so that only one reference picture is in memory at a time. In the whole suite,
@@ -129,7 +129,7 @@ void compare_all(std::vector<Row>& rows, Stage& stage, bool whole_suite) {
 // If the draw takes seconds, the front end's milliseconds are lost in the noise.
 void leave_out_slow_frames(std::vector<Row>& rows) {
   std::erase_if(rows, [&](const Row& row) {
-    const bool slow = row.timed == Timed::frame && row.once_s > kTooSlowForFrames_s;
+    const bool slow = row.timed == Timed::frame && row.once_s > kTooSlowToDrawTwice_s;
     if (slow) std::cerr << "Left out as too slow: " << row.name << '\n';
     return slow;
   });

@@ -19,10 +19,10 @@ enum class Timed {
   frame      // both
 };
 
-// Rows that take longer are drawn once: the draw that is compared is also the one that is timed.
+// Rows that take longer are not repeated: the comparison times them, by the faster of two draws.
 inline constexpr double kTooSlowToRepeat_s = 0.3;
-// Frames whose backend alone takes longer are left out of the suite.
-inline constexpr double kTooSlowForFrames_s = 1.5;
+// Rows that take longer are drawn once. Frames whose backend alone takes longer are left out of the suite.
+inline constexpr double kTooSlowToDrawTwice_s = 1.5;
 
 struct Row {
   // WHO/what/key:value…/threads:N, where WHO is BACKEND, frontend, BACKEND+frontend, a peer's name, or lab
