@@ -98,7 +98,9 @@ std::string Reporter::json() const {
   context["executable"] = std::filesystem::path(context.value("executable", "")).filename().string();
   std::string text = "{\n\"context\": " + tools::json_text(context, 2) + ",\n\"benchmarks\": [";
   const char* separator = "\n";
-  for (const auto& row : result["benchmarks"]) {
+  for (auto& row : result["benchmarks"]) {
+    for (const char* key : {"family_index", "per_family_instance_index"})
+      row.erase(key);  // count registrations
     text += separator + tools::json_text(row);
     separator = ",\n";
   }
