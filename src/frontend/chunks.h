@@ -1,11 +1,11 @@
 // The cut into chunks, and their processing on threads.
 #pragma once
 
+#include <hwy/cache_control.h>
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <hwy/cache_control.h>
 #include <span>
 #include <vector>
 

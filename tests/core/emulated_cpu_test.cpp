@@ -54,8 +54,7 @@ TEST_P(EmulatedCpu, FindsTheSameFactsAsThisMachine) {
   for (const char* arguments :
        {"accuracy drtk_quad bars_in_a_cycle edge_on in_view --json -", "stability cycle --quick --json -",
         "needs cubes --size 160x90 --json", "portable cubes --size 160x90 --json"}) {
-    const Outcome here = run_program(EDGEWISE_PROGRAM, arguments),
-                  there = emulate(arguments);
+    const Outcome here = run_program(EDGEWISE_PROGRAM, arguments), there = emulate(arguments);
     ASSERT_EQ(there.status, 0) << there.err;
     EXPECT_EQ(here.out, there.out) << arguments;
   }
