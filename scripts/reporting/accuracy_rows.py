@@ -1,10 +1,11 @@
 """Reads the accuracy and stability of methods: facts/accuracy.json and stability.json, a machine's peers.json, and the times of
 methods among the rows of its bench.json."""
 from dataclasses import dataclass, field
+from functools import partial
 from typing import NamedTuple
 
 from bench_rows import LABORATORY, Row, facts_of
-from program import parsed, read_json
+from program import parsed
 
 
 @dataclass(frozen=True)
@@ -299,10 +300,13 @@ def read_accuracy(folder, bench):
     path, peers = facts_of(folder) / "accuracy.json", folder / "peers.json"
     if not path.exists():
         return None
-    data = read_json(path)
-    if peers.exists():
-        data = parsed(peers, lambda more: with_peers(data, more), "edgewise accuracy --peers")
-    return parsed(path, lambda _: parse_accuracy(data, bench), "edgewise accuracy")
+
+    def parse(data):
+        if peers.exists():
+            data = parsed(peers, partial(with_peers, data), "edgewise accuracy --peers")
+        return parse_accuracy(data, bench)
+
+    return parsed(path, parse, "edgewise accuracy")
 
 
 def read_stability(folder):
