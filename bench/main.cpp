@@ -87,11 +87,10 @@ void leave_out_missing_peers(std::vector<Row>& rows, bool need_peers) {
   for (const auto& [peer, version] : started.peers)
     benchmark::AddCustomContext(std::string(peer->name), version);
   for (const std::string& reason : started.left_out) std::cerr << "Left out: " << reason << '\n';
-  std::erase_if(rows, [&](const Row& row) {
-    return row.peer != nullptr && std::ranges::none_of(started.peers, [&](const auto& of) {
-             return of.first->name == row.peer->name;
-           });
-  });
+  for (Row& row : rows)
+    for (const auto& [peer, version] : started.peers)
+      if (row.peer != nullptr && row.peer->name == peer->name) row.peer_version = version;
+  std::erase_if(rows, [](const Row& row) { return row.peer != nullptr && row.peer_version.empty(); });
 }
 
 // Whether the previous row is the same backend's draw without the front end, and was already too slow.
@@ -166,7 +165,7 @@ void time_row(benchmark::State& state, Row& row, Stage& stage) {
     }
   }
   auto& counters = state.counters;
-  if (row.peer != nullptr) state.SetLabel(row.peer->version());
+  if (row.peer != nullptr) state.SetLabel(row.peer_version);
   if (row.method) {
     const MethodScene& scene = *row.method->scene;
     counters["width"] = scene.size().width;

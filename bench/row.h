@@ -32,6 +32,7 @@ struct Row {
   Timed timed = Timed::raster;
   const BackendInfo* backend = nullptr;  // null for front end rows, peers and methods
   const lab::PeerInfo* peer = nullptr;
+  std::string peer_version;  // empty: it did not start
   Execution execution;
   Ablation ablation{};
   std::optional<lab::EngineNumbers> numbers;  // if set, the laboratory's engine draws, in place of `backend`
