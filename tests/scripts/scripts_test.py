@@ -11,6 +11,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPTS = ROOT / "scripts"
+sys.path.insert(0, str(SCRIPTS / "reporting"))
 MACHINE = {"cpu_model": "Test CPU", "cores": 2, "simd_best": "avx2", "memory_gib": 4, "os": "Test OS",
            "compiler": "GCC 1", "build_type": "Release", "commit": "abc", "caches": {"L2": "1024K", "L3": "32768K"}}
 VERIFY = {"backends": ["slow", "tiled"],
@@ -402,7 +403,6 @@ class MachineTest(unittest.TestCase):
     """bench_rows.describe_machine(): the cores, and those that the program could use."""
 
     def test_names_the_usable_cores_of_a_restricted_process(self):
-        sys.path.insert(0, str(SCRIPTS / "reporting"))
         from bench_rows import describe_machine
         self.assertTrue(describe_machine(MACHINE).startswith("Test CPU, 2 cores, avx2"))
         self.assertEqual(describe_machine({**MACHINE, "usable_cores": 2}), describe_machine(MACHINE))
@@ -413,7 +413,6 @@ class TileStoresTest(unittest.TestCase):
     """bench_tables.tile_stores_table(): frames back to back and after pauses, each beside streaming stores for all tiles."""
 
     def test_compares_stores_back_to_back_and_after_pauses(self):
-        sys.path.insert(0, str(SCRIPTS / "reporting"))
         from bench_rows import Bench, parse_name
         from bench_tables import tile_stores_table
         rows = {}
@@ -433,7 +432,6 @@ class EngineTest(unittest.TestCase):
     """accuracy_rows.parse_accuracy(): methods that the charts leave out."""
 
     def test_the_engine_with_other_numbers_is_no_method_of_the_charts(self):
-        sys.path.insert(0, str(SCRIPTS / "reporting"))
         from accuracy_rows import parse_accuracy
 
         plain, with_engine = accuracy(), accuracy()
@@ -460,10 +458,6 @@ class EngineTest(unittest.TestCase):
 @unittest.skipIf(importlib.util.find_spec("matplotlib") is None, "no matplotlib")
 class ChartsTest(unittest.TestCase):
     """What the charts compute."""
-
-    @classmethod
-    def setUpClass(cls):
-        sys.path.insert(0, str(SCRIPTS / "reporting"))
 
     def test_ablation_steps_stand_between_the_suites_own_rows(self):
         from bench_rows import Bench, parse_name
