@@ -35,9 +35,9 @@ struct Row {
   std::string peer_version;  // empty: it did not start
   Execution execution;
   Ablation ablation{};
-  std::optional<lab::EngineNumbers> numbers;  // if set, the laboratory's engine draws, in place of `backend`
-  double pause_s = 0.0;                       // before each frame, not timed
-  double peak_bytes = 0;                      // of a first frame; 0: not measured
+  std::optional<lab::EngineArithmetic> arithmetic;  // if set, the laboratory's engine draws, not `backend`
+  double pause_s = 0.0;                             // before each frame, not timed
+  double peak_bytes = 0;                            // of a first frame; 0: not measured
   bool wants_cost = false;
   bool step = false;                      // one step of the ablation
   bool two_calls = false;                 // a frame by Frontend::run() and Backend::draw()

@@ -102,22 +102,22 @@ class Suite {
 
   // What exactness costs in the backend `tiled`: its engine with other arithmetic in the edge functions, on
   // streams of few and of many triangles, with and without overdraw. The first row is the backend without
-  // coverage masks, which only the exact numbers allow.
+  // coverage masks, which only the exact arithmetic allows.
   void add_engine_runs(const WorkloadPtr& workload, const std::string& scene) {
     constexpr std::string_view kScenes[] = {"large", "medium", "small", "grid64"};
     if (std::find(std::begin(kScenes), std::end(kScenes), scene) == std::end(kScenes)) return;
-    using lab::EngineNumbers;
-    constexpr std::pair<std::string_view, EngineNumbers> kNumbers[] = {
-        {"exact", EngineNumbers::exact},
-        {"int64", EngineNumbers::int64},
-        {"double", EngineNumbers::float64},
-        {"float", EngineNumbers::float32},
-        {"float_rebased", EngineNumbers::float32_rebased},
-        {"int32", EngineNumbers::int32}};
-    for (const auto& [name, numbers] : kNumbers) {
+    using lab::EngineArithmetic;
+    constexpr std::pair<std::string_view, EngineArithmetic> kArithmetics[] = {
+        {"exact", EngineArithmetic::exact},
+        {"int64", EngineArithmetic::int64},
+        {"double", EngineArithmetic::float64},
+        {"float", EngineArithmetic::float32},
+        {"float_rebased", EngineArithmetic::float32_rebased},
+        {"int32", EngineArithmetic::int32}};
+    for (const auto& [name, arithmetic] : kArithmetics) {
       add(workload, Timed::raster, find_backend(kAblationBackend), fmt::format("{}/engine:{}", scene, name),
           1);
-      rows_.back().numbers = numbers;
+      rows_.back().arithmetic = arithmetic;
     }
   }
 

@@ -23,7 +23,7 @@ std::uint64_t pixels_of_another_colour(const Framebuffer& a, const Framebuffer& 
 }  // namespace
 
 bool Stage::renew_memory(const Row& row) {
-  if (!row.numbers) return false;
+  if (!row.arithmetic) return false;
   scratch_ = TileScratch();
   return true;
 }
@@ -37,13 +37,13 @@ void Stage::work(const Row& row) {
   if (row.method) return methods_.at(row.name)();
   if (row.peer != nullptr) return peers_.work(row);
   Workload& workload = *row.workload;
-  if (row.timed == Timed::frame && !row.numbers && !row.two_calls)
+  if (row.timed == Timed::frame && !row.arithmetic && !row.two_calls)
     return workload.draw(frontend_, backends_.get(*row.backend, row.ablation), frame(row).view(),
                          row.execution);
   auto triangles = workload.triangles();
   if (row.timed != Timed::raster) triangles = workload.run(frontend_, row.execution);
-  if (row.numbers)
-    lab::draw_engine(*row.numbers, triangles, frame(row).view(), kBackground, row.execution, scratch_);
+  if (row.arithmetic)
+    lab::draw_engine(*row.arithmetic, triangles, frame(row).view(), kBackground, row.execution, scratch_);
   else if (row.timed != Timed::frontend)
     backends_.get(*row.backend, row.ablation).draw(triangles, frame(row).view(), kBackground, row.execution);
 }
@@ -65,7 +65,7 @@ void Stage::compare_ours(Row& row) {
         std::memcmp(actual.data(), expected.data(), expected.size_bytes()) != 0)
       row.error = fmt::format("emits other triangles than on 1 thread ({} instead of {})", actual.size(),
                               expected.size());
-  } else if (row.numbers.value_or(lab::EngineNumbers::exact) != lab::EngineNumbers::exact) {
+  } else if (row.arithmetic.value_or(lab::EngineArithmetic::exact) != lab::EngineArithmetic::exact) {
     row.wrong_px = pixels_of_another_colour(row.workload->reference(), frame(row));
   } else {
     const auto difference = lab::compare(row.workload->reference(), frame(row));

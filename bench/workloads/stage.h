@@ -23,8 +23,8 @@ class Stage {
   // workload, if the row has one.
   void compare(Row& row);
 
-  // Drops the engine's memory, so that it gets the same addresses with all numbers. Others can change a row's
-  // time by 10 %. Returns whether the row needs a warm-up.
+  // Drops the engine's memory, so that it gets the same addresses with every arithmetic. Others can change a
+  // row's time by 10 %. Returns whether the row needs a warm-up.
   bool renew_memory(const Row& row);
 
   // Performs the row's timed work once.

@@ -15,11 +15,11 @@ using testing::hard_floats;
 
 constexpr std::uint32_t kBackground = 0xC0FFEE;
 constexpr Window kWindow{203, 131};
-constexpr EngineNumbers kNumbers[] = {EngineNumbers::exact,   EngineNumbers::int64,
-                                      EngineNumbers::float64, EngineNumbers::float32,
-                                      EngineNumbers::int32,   EngineNumbers::float32_rebased};
+constexpr EngineArithmetic kArithmetics[] = {EngineArithmetic::exact,   EngineArithmetic::int64,
+                                             EngineArithmetic::float64, EngineArithmetic::float32,
+                                             EngineArithmetic::int32,   EngineArithmetic::float32_rebased};
 
-Framebuffer engine_picture(EngineNumbers numbers, std::span<const ScreenTriangle> triangles,
+Framebuffer engine_picture(EngineArithmetic numbers, std::span<const ScreenTriangle> triangles,
                            const Execution& execution) {
   Framebuffer frame(kWindow.width, kWindow.height);
   TileScratch scratch;
@@ -28,13 +28,13 @@ Framebuffer engine_picture(EngineNumbers numbers, std::span<const ScreenTriangle
 }
 
 // Triangles for which the numbers hold every edge value exactly.
-std::vector<ScreenTriangle> exact_for(EngineNumbers numbers, std::vector<ScreenTriangle> triangles) {
-  if (numbers == EngineNumbers::float32 || numbers == EngineNumbers::float32_rebased)
+std::vector<ScreenTriangle> exact_for(EngineArithmetic numbers, std::vector<ScreenTriangle> triangles) {
+  if (numbers == EngineArithmetic::float32 || numbers == EngineArithmetic::float32_rebased)
     for (ScreenTriangle& t : triangles)
       for (int i = 0; i < 3; ++i)
         for (std::int32_t* v : {&t.x_sub[i], &t.y_sub[i]})
           *v = std::clamp(*v, -256 * contract::kSub, 256 * contract::kSub) / 64 * 64;
-  if (numbers == EngineNumbers::int32)
+  if (numbers == EngineArithmetic::int32)
     std::erase_if(triangles, [&](const ScreenTriangle& t) {
       const auto side = [](const std::int32_t(&v)[3]) {
         return std::max({v[0], v[1], v[2]}) - std::min({v[0], v[1], v[2]});
@@ -46,7 +46,7 @@ std::vector<ScreenTriangle> exact_for(EngineNumbers numbers, std::vector<ScreenT
 
 TEST(Engine, DrawsTiledsPictureWhereItsNumbersHold) {
   const auto tiled = find_backend("tiled").make();
-  for (const auto numbers : kNumbers)
+  for (const auto numbers : kArithmetics)
     for (const auto family : testing::kFamilies) {
       const auto triangles = exact_for(numbers, adversarial(family, 300, kWindow.width, kWindow.height, 17));
       Framebuffer expected(kWindow.width, kWindow.height);
@@ -63,7 +63,7 @@ TEST(Engine, DrawsTiledsPictureWhereItsNumbersHold) {
 }
 
 TEST(Engine, DrawsTheSamePictureOnEveryTargetAndNumberOfThreads) {
-  for (const auto numbers : kNumbers)
+  for (const auto numbers : kArithmetics)
     for (const auto family : testing::kFloatFamilies) {
       const auto grid = snapped(hard_floats(family, 300, kWindow, 23));
       const auto draw = [&](const Execution& execution) { return engine_picture(numbers, grid, execution); };

@@ -1,4 +1,4 @@
-; Acceptance and rejection of cells, tiles and blocks (bins.cpp, tile_numbers-inl.h, tile_rows-inl.h, hiz-inl.h): none
+; Acceptance and rejection of cells, tiles and blocks (bins.cpp, tile_arithmetic-inl.h, tile_rows-inl.h, hiz-inl.h): none
 ; with a covered pixel is rejected, none with a pixel outside is accepted. Theories: nonlinear real arithmetic; linear
 ; integer arithmetic for shifted values.
 ;

@@ -10,13 +10,13 @@
 
 namespace edgewise::lab {
 
-void draw_engine(EngineNumbers numbers, std::span<const ScreenTriangle> triangles, FrameView frame,
+void draw_engine(EngineArithmetic arithmetic, std::span<const ScreenTriangle> triangles, FrameView frame,
                  std::uint32_t background, const Execution& execution, TileScratch& scratch) {
   Execution resolved = execution;
   resolved.target = resolve(execution.target);
   StoredTriangles stored(triangles);
   draw_in_tiles(stored, frame, background, resolved, {.coverage_masks = false}, resolved.tile_size, scratch,
-                Bins::Small::as_indices, engine_kernel(numbers, resolved.target));
+                Bins::Small::as_indices, engine_kernel(arithmetic, resolved.target));
 }
 
 namespace {
@@ -31,7 +31,8 @@ ScreenTriangle with_wider_box(const ScreenTriangle& t) {
   return {{min_x - kBeside, max_x + kBeside, max_x}, {min_y - kBeside, max_y + kBeside, max_y}, {}, 0};
 }
 
-void engine_runs(EngineNumbers numbers, const CoverageInput& input, Window window, std::vector<Run>& runs) {
+void engine_runs(EngineArithmetic arithmetic, const CoverageInput& input, Window window,
+                 std::vector<Run>& runs) {
   std::vector<ScreenTriangle> triangles = shifted(input.snapped, window), boxes;
   // At one depth no plane is steep: wrong pixels beside the triangle then keep its depth.
   for (ScreenTriangle& t : triangles) t.z[0] = t.z[1] = t.z[2] = contract::kDepthHead;
@@ -41,19 +42,19 @@ void engine_runs(EngineNumbers numbers, const CoverageInput& input, Window windo
   draw_in_sets(boxes, window, runs, [&](std::span<const std::uint32_t> set, Framebuffer& frame) {
     drawn.clear();
     for (const std::uint32_t i : set) drawn.push_back(triangles[i]);
-    draw_engine(numbers, drawn, frame.view(), kNoTriangle, {}, scratch);
+    draw_engine(arithmetic, drawn, frame.view(), kNoTriangle, {}, scratch);
   });
 }
 
-CoverageMethod make(EngineNumbers numbers, const MethodInfo& info, const CoveragePromise& promise) {
+CoverageMethod make(EngineArithmetic arithmetic, const MethodInfo& info, const CoveragePromise& promise) {
   return {.info = info,
           .promise = promise,
           .draw =
-              [numbers](const CoverageInput& input, Canvas& canvas, const Execution& execution) {
-                draw_engine(numbers, input.snapped, canvas.frame.view(), 0, execution, canvas.scratch);
+              [arithmetic](const CoverageInput& input, Canvas& canvas, const Execution& execution) {
+                draw_engine(arithmetic, input.snapped, canvas.frame.view(), 0, execution, canvas.scratch);
               },
-          .runs = [numbers](const CoverageInput& input, Window window,
-                            std::vector<Run>& runs) { engine_runs(numbers, input, window, runs); },
+          .runs = [arithmetic](const CoverageInput& input, Window window,
+                               std::vector<Run>& runs) { engine_runs(arithmetic, input, window, runs); },
           .threaded = true,
           .contract_depth = true,
           .simd = true,
@@ -65,7 +66,7 @@ constexpr std::string_view kExact = "exact coverage of the positions snapped to 
 // Snapping errs by half a unit on each axis: sqrt(2) / 512.
 constexpr double kSnap_px = 0.00277;
 constexpr CoveragePromise kSnapping{.reach_px = kSnap_px, .no_gaps = true, .no_double_hits = true};
-// Each of the two sums (other_numbers-inl.h) errs by at most 2 * 2^-24 times the edge's length times 4096
+// Each of the two sums (other_arithmetic-inl.h) errs by at most 2 * 2^-24 times the edge's length times 4096
 // sqrt(2) px. What is rounded later, inside a tile, adds less than a tenth. In all that is 0.0015 px off the
 // snapped edge's line.
 constexpr CoveragePromise kFloat{.reach_px = 0.0015 + kSnap_px};
@@ -75,19 +76,19 @@ constexpr std::string_view kFloatPromise = "wrong only within 0.0043 px of an ed
 
 std::span<const CoverageMethod> engine_methods() {
   static const std::vector<CoverageMethod> methods{
-      make(EngineNumbers::exact,
+      make(EngineArithmetic::exact,
            {"engine_exact", "the SIMD engine with the contract's numbers", kSource, kExact, true}, kSnapping),
-      make(EngineNumbers::int64,
+      make(EngineArithmetic::int64,
            {"engine_int64", "the SIMD engine with 64-bit integer edges", kSource, kExact, true}, kSnapping),
-      make(EngineNumbers::float64,
+      make(EngineArithmetic::float64,
            {"engine_double", "the SIMD engine with double edges", kSource, kExact, true}, kSnapping),
-      make(EngineNumbers::float32,
+      make(EngineArithmetic::float32,
            {"engine_float", "the SIMD engine with float edges", kSource, kFloatPromise, false}, kFloat),
-      make(EngineNumbers::float32_rebased,
+      make(EngineArithmetic::float32_rebased,
            {"engine_float_rebased", "the SIMD engine with float edges relative to the tile's corner", kSource,
             kFloatPromise, false},
            kFloat),
-      make(EngineNumbers::int32,
+      make(EngineArithmetic::int32,
            {"engine_int32", "the SIMD engine with 32-bit integer edges that wrap", kSource,
             "exact for triangles of at most 178 px; any pixel of the box's blocks beyond", false},
            {.reach_px = kSnap_px, .max_side_px = 178, .no_gaps = true, .no_double_hits = true})};

@@ -13,7 +13,7 @@
 
 namespace edgewise::lab {
 
-enum class EngineNumbers {
+enum class EngineArithmetic {
   exact,  // the contract's: int32, relative to the tile
   int64,
   float64,
@@ -22,16 +22,16 @@ enum class EngineNumbers {
   int32             // wraps where edge values exceed 32 bits
 };
 
-// The tile kernel with these numbers. `target` must be resolved.
-TileKernel engine_kernel(EngineNumbers numbers, SimdTarget target);
+// The tile kernel in this arithmetic. `target` must be resolved.
+TileKernel engine_kernel(EngineArithmetic arithmetic, SimdTarget target);
 
-// Draws a frame. `scratch` is kept between frames. For exact numbers this is the backend `tiled` without
+// Draws a frame. `scratch` is kept between frames. In exact arithmetic this is the backend `tiled` without
 // coverage masks.
-void draw_engine(EngineNumbers numbers, std::span<const ScreenTriangle> triangles, FrameView frame,
+void draw_engine(EngineArithmetic arithmetic, std::span<const ScreenTriangle> triangles, FrameView frame,
                  std::uint32_t background, const Execution& execution, TileScratch& scratch);
 
-// The engine with each kind of numbers, the contract's first. Apart from coverage_methods(), because sweeps
-// and the viewer leave them out.
+// The engine with each kind of arithmetic, the contract's first. Apart from coverage_methods(), because
+// sweeps and the viewer leave them out.
 std::span<const CoverageMethod> engine_methods();
 
 }  // namespace edgewise::lab

@@ -7,7 +7,7 @@
 
 #include "core/kernel_table.h"
 #include "lab/engine/engine.h"
-#include "lab/engine/other_numbers-inl.h"
+#include "lab/engine/other_arithmetic-inl.h"
 #include "raster/tile_task.h"
 #include "raster/tiled/tile_painter-inl.h"
 
@@ -15,20 +15,20 @@ HWY_BEFORE_NAMESPACE();
 namespace edgewise {
 namespace HWY_NAMESPACE {
 
-TileKernel engine_tile(lab::EngineNumbers numbers) {
-  switch (numbers) {
-    case lab::EngineNumbers::int32:
-      return draw_tile_in<OtherNumbers<Int32Arithmetic>>;
-    case lab::EngineNumbers::int64:
-      return draw_tile_in<OtherNumbers<WideLanes<std::int64_t>>>;
-    case lab::EngineNumbers::float64:
-      return draw_tile_in<OtherNumbers<WideLanes<double>>>;
-    case lab::EngineNumbers::float32:
-      return draw_tile_in<OtherNumbers<FloatLanes>>;
-    case lab::EngineNumbers::float32_rebased:
-      return draw_tile_in<OtherNumbers<FloatLanes, true>>;
+TileKernel engine_tile(lab::EngineArithmetic arithmetic) {
+  switch (arithmetic) {
+    case lab::EngineArithmetic::int32:
+      return draw_tile_in<OtherArithmetic<Int32Arithmetic>>;
+    case lab::EngineArithmetic::int64:
+      return draw_tile_in<OtherArithmetic<WideLanes<std::int64_t>>>;
+    case lab::EngineArithmetic::float64:
+      return draw_tile_in<OtherArithmetic<WideLanes<double>>>;
+    case lab::EngineArithmetic::float32:
+      return draw_tile_in<OtherArithmetic<FloatLanes>>;
+    case lab::EngineArithmetic::float32_rebased:
+      return draw_tile_in<OtherArithmetic<FloatLanes, true>>;
     default:
-      throw std::invalid_argument("not other numbers of the engine");
+      throw std::invalid_argument("not another arithmetic of the engine");
   }
 }
 
@@ -39,9 +39,9 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace edgewise {
 
-TileKernel lab::engine_kernel(EngineNumbers numbers, SimdTarget target) {
-  return numbers == EngineNumbers::exact ? tile_kernel(target)
-                                         : EDGEWISE_KERNEL(engine_tile, target)(numbers);
+TileKernel lab::engine_kernel(EngineArithmetic arithmetic, SimdTarget target) {
+  return arithmetic == EngineArithmetic::exact ? tile_kernel(target)
+                                               : EDGEWISE_KERNEL(engine_tile, target)(arithmetic);
 }
 
 }  // namespace edgewise

@@ -29,14 +29,14 @@ struct Candidates {
   int length, k;
 };
 
-template <class Numbers>
-HWY_NOINLINE void draw_candidates(Tile& tile, const Batch<Numbers>& batch, const Candidates& candidates) {
+template <class Arithmetic>
+HWY_NOINLINE void draw_candidates(Tile& tile, const Batch<Arithmetic>& batch, const Candidates& candidates) {
   const int length = candidates.length, k = candidates.k;
   if (length == 0) return;
   const D d;
-  const auto in_block = [&](const auto& edge) { return over_block<Numbers>(edge.x + k, edge.y + k); };
-  const Values16<Numbers> edge_in[3] = {in_block(batch.edge[0]), in_block(batch.edge[1]),
-                                        in_block(batch.edge[2])};
+  const auto in_block = [&](const auto& edge) { return over_block<Arithmetic>(edge.x + k, edge.y + k); };
+  const Values16<Arithmetic> edge_in[3] = {in_block(batch.edge[0]), in_block(batch.edge[1]),
+                                           in_block(batch.edge[2])};
   const auto depth_in = over_block<Int32Arithmetic>(batch.depth.x + k, batch.depth.y + k);
   const V payload = hn::Set(d, batch.payload[k]);
   const int first_block = batch.by0[k] * kMaxBlocks + batch.bx0[k];
@@ -47,24 +47,25 @@ HWY_NOINLINE void draw_candidates(Tile& tile, const Batch<Numbers>& batch, const
     static_assert(kBlockSide == 1 << 2 && kMaxBlocks == 1 << 4);
     const V x = hn::ShiftLeft<2>(hn::And(offset, hn::Set(d, kMaxBlocks - 1)));
     const V y = hn::ShiftLeft<2>(hn::ShiftRight<4>(offset));
-    alignas(64) typename Numbers::Value edge_at[3][kLanes];
+    alignas(64) typename Arithmetic::Value edge_at[3][kLanes];
     alignas(64) std::int32_t depth_at[kLanes];
     const auto store_first = [&](auto lanes, const auto& f, auto* at) {
       lanes.store(lanes.add(lanes.set(f.first[k]), lanes.add(lanes.times(x, f.x[k]), lanes.times(y, f.y[k]))),
                   at);
     };
-    for (int i = 0; i < 3; ++i) store_first(Numbers{}, batch.edge[i], edge_at[i]);
+    for (int i = 0; i < 3; ++i) store_first(Arithmetic{}, batch.edge[i], edge_at[i]);
     store_first(Int32Arithmetic{}, batch.depth, depth_at);
     const int count = std::min(kLanes, length - begin);
     for (int n = 0; n < count; ++n) {
       const int block = first_block + candidates.offset[begin + n];
-      const typename Numbers::Vector edge[3] = {Numbers::set(edge_at[0][n]), Numbers::set(edge_at[1][n]),
-                                                Numbers::set(edge_at[2][n])};
+      const typename Arithmetic::Vector edge[3] = {
+          Arithmetic::set(edge_at[0][n]), Arithmetic::set(edge_at[1][n]), Arithmetic::set(edge_at[2][n])};
       const V depth = hn::Set(d, depth_at[n]);
       for (int p = 0; p < kVectors; ++p) {
-        const auto value = [&](int i) { return Numbers::add(edge[i], edge_in[i].v[p]); };
-        write(tile, block * kBlockPixels + p * kLanes, inside(Numbers::outside(value(0), value(1), value(2))),
-              hn::Add(depth, depth_in.v[p]), payload);
+        const auto value = [&](int i) { return Arithmetic::add(edge[i], edge_in[i].v[p]); };
+        write(tile, block * kBlockPixels + p * kLanes,
+              inside(Arithmetic::outside(value(0), value(1), value(2))), hn::Add(depth, depth_in.v[p]),
+              payload);
       }
     }
   }

@@ -29,7 +29,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using namespace contract;
 
 // Draws a tile's triangles and coverage masks, in submission order.
-template <class Numbers>
+template <class Arithmetic>
 class TilePainter {
  public:
   TilePainter(const TileTask& task, Tile& tile)
@@ -50,7 +50,7 @@ class TilePainter {
       const int k = std::countr_zero(left);
       masks_.draw_before(segment, static_cast<std::size_t>(k), draw_leading);
       const int width = batch_.bx1[k] - batch_.bx0[k] + 1, height = batch_.by1[k] - batch_.by0[k] + 1;
-      if (std::max(width, height) <= SmallTriangles<Numbers>::kSide) {
+      if (std::max(width, height) <= SmallTriangles<Arithmetic>::kSide) {
         draw_waiting();
         small_.add(batch_, k);
       } else {
@@ -83,20 +83,20 @@ class TilePainter {
   HWY_INLINE void find_candidates(int k, int width, Candidates& out) {
     constexpr std::size_t kAll = kVectors, kHalf = std::max(kVectors / 2, 1);
     width <= kMaxBlocks / 2
-        ? find_candidates_by_rows<Numbers, kHierarchicalDepth, kHalf>(tile_, batch_, k, out)
-        : find_candidates_by_rows<Numbers, kHierarchicalDepth, kAll>(tile_, batch_, k, out);
+        ? find_candidates_by_rows<Arithmetic, kHierarchicalDepth, kHalf>(tile_, batch_, k, out)
+        : find_candidates_by_rows<Arithmetic, kHierarchicalDepth, kAll>(tile_, batch_, k, out);
   }
 
   const TileTask& task_;
   Tile& tile_;
-  Batch<Numbers> batch_;
-  SmallTriangles<Numbers> small_;
+  Batch<Arithmetic> batch_;
+  SmallTriangles<Arithmetic> small_;
   Candidates candidates_[2];  // one is filled while the other waits
   Bins::MaskReader masks_;
   bool occludes_ = false;
 };
 
-template <class Numbers>
+template <class Arithmetic>
 void draw_tile_in(const TileTask& task) {
   const int size = task.size();
   Tile tile;
@@ -109,7 +109,7 @@ void draw_tile_in(const TileTask& task) {
   if (!InVectors(task.width(), task.height()).all) clear(tile.payload(), task.background);
   tile.hiz.clear(task.width(), task.height());
 
-  TilePainter<Numbers> painter(task, tile);
+  TilePainter<Arithmetic> painter(task, tile);
   draw_segments(task, [&](const Bins::Segment& segment) { painter.draw_segment(segment); });
   painter.draw_rest();
   write_tile(task, tile.depth(), tile.payload(),

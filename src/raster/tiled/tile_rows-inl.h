@@ -34,10 +34,10 @@ HWY_INLINE std::size_t lane_of(std::size_t p) {
 
 // Whether triangle k may cover a whole block: inside a triangle an edge value lies between 0 and twice the
 // area, so its range over the block must not exceed that (claim may_fill_blocks in proofs/tile_reject.smt2).
-template <class Numbers>
-HWY_INLINE bool may_fill_blocks(const Batch<Numbers>& batch, int k) {
+template <class Arithmetic>
+HWY_INLINE bool may_fill_blocks(const Batch<Arithmetic>& batch, int k) {
   const auto has_room = [&](const auto& edge) {
-    return !Numbers::spans_more(edge.range[k], batch.twice_area_px[k]);
+    return !Arithmetic::spans_more(edge.range[k], batch.twice_area_px[k]);
   };
   return has_room(batch.edge[0]) && has_room(batch.edge[1]) && has_room(batch.edge[2]);
 }
@@ -59,14 +59,15 @@ struct Row {
 
 // Lists the candidate blocks of triangle k, whose box is at most kWidth vectors of blocks wide, and lowers
 // the zmax of the blocks that it covers.
-template <class Numbers, bool kHierarchicalDepth, std::size_t kWidth>
-HWY_NOINLINE void find_candidates_by_rows(Tile& tile, const Batch<Numbers>& batch, int k, Candidates& out) {
+template <class Arithmetic, bool kHierarchicalDepth, std::size_t kWidth>
+HWY_NOINLINE void find_candidates_by_rows(Tile& tile, const Batch<Arithmetic>& batch, int k,
+                                          Candidates& out) {
   const D d;
   const V minus_one = hn::Set(d, -1);
   const auto largest = [&](const auto& edge) {
-    return Row<Numbers, kWidth>(edge.x + k, edge.y + k, edge.most + k);
+    return Row<Arithmetic, kWidth>(edge.x + k, edge.y + k, edge.most + k);
   };
-  Row<Numbers, kWidth> edge[3] = {largest(batch.edge[0]), largest(batch.edge[1]), largest(batch.edge[2])};
+  Row<Arithmetic, kWidth> edge[3] = {largest(batch.edge[0]), largest(batch.edge[1]), largest(batch.edge[2])};
   Row<Int32Arithmetic, kWidth> depth(batch.depth.x + k, batch.depth.y + k, batch.depth.most + k);
   Row<Int32Arithmetic, kWidth> nearest(batch.nearest.x + k, batch.nearest.y + k, batch.nearest.first + k);
 
@@ -80,14 +81,14 @@ HWY_NOINLINE void find_candidates_by_rows(Tile& tile, const Batch<Numbers>& batc
   List list{out.offset};
   for (int row = batch.by0[k]; row <= batch.by1[k]; ++row) {
     for (std::size_t p = 0; p < kWidth; ++p) {
-      const V most = hn::Or(Numbers::outside(edge[0].v[p], edge[1].v[p], edge[2].v[p]), before_end[p]);
+      const V most = hn::Or(Arithmetic::outside(edge[0].v[p], edge[1].v[p], edge[2].v[p]), before_end[p]);
       auto candidate = hn::Gt(most, minus_one);
       if constexpr (kHierarchicalDepth) {
         // In a block that the triangle covers, no pixel stays farther than the triangle's farthest depth.
         const auto low = [&](int i) {
-          return Numbers::subtract(edge[i].v[p], Numbers::set(batch.edge[i].range[k]));
+          return Arithmetic::subtract(edge[i].v[p], Arithmetic::set(batch.edge[i].range[k]));
         };
-        const V least = hn::Or(Numbers::outside(low(0), low(1), low(2)), before_end[p]);
+        const V least = hn::Or(Arithmetic::outside(low(0), low(1), low(2)), before_end[p]);
         const V old_zmax = hn::LoadU(d, hiz + lane_of(p)), own_zmax = depth.v[p];
         const auto inside = hn::Gt(least, minus_one);
         hn::StoreU(hn::IfThenElse(inside, hn::Min(old_zmax, own_zmax), old_zmax), d, hiz + lane_of(p));

@@ -1,6 +1,6 @@
 // Sets triangles up for one tile, a vector of triangles at a time.
 //
-// `Numbers` set up the edges (tile_numbers-inl.h); tile_depth-inl.h sets up the depths.
+// `Arithmetic` sets up the edges (tile_arithmetic-inl.h); tile_depth-inl.h sets up the depths.
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -13,8 +13,8 @@
 #include "raster/simd/lanes-inl.h"
 #include "raster/simd/triangle_lanes-inl.h"
 #include "raster/tile_task.h"
+#include "raster/tiled/tile_arithmetic-inl.h"
 #include "raster/tiled/tile_depth-inl.h"
-#include "raster/tiled/tile_numbers-inl.h"
 
 // Included once per SIMD target.
 #if defined(EDGEWISE_TILE_SETUP_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -31,9 +31,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 using namespace contract;
 
 // A batch of triangles, set up for one tile.
-template <class Numbers>
+template <class Arithmetic>
 struct alignas(64) Batch {
-  Linear<typename Numbers::Value> edge[3];
+  Linear<typename Arithmetic::Value> edge[3];
   Linear<std::int32_t> depth;
   NearestDepth nearest;
   std::int32_t payload[kBatch];
@@ -42,8 +42,8 @@ struct alignas(64) Batch {
 };
 
 // Scalar set-up of one triangle. Returns false if it covers no pixel of the tile.
-template <class Numbers>
-bool set_up_one(const TileTask& task, std::uint32_t index, Batch<Numbers>& out, int k) {
+template <class Arithmetic>
+bool set_up_one(const TileTask& task, std::uint32_t index, Batch<Arithmetic>& out, int k) {
   const ScreenTriangle& triangle = task.triangles[index];
   const int size = task.size();
   const PixelBox box = pixel_box(triangle, task.frame.width, task.frame.height);
@@ -57,7 +57,7 @@ bool set_up_one(const TileTask& task, std::uint32_t index, Batch<Numbers>& out, 
 
   const int left = bx0 * kBlockSide, top = by0 * kBlockSide;
   const BlockBox blocks{left, top, (bx1 - bx0 + 1) * kBlockSide - 1, (by1 - by0 + 1) * kBlockSide - 1};
-  if (!Numbers::set_up_one(task, t, blocks, out.edge, k)) return false;
+  if (!Arithmetic::set_up_one(task, t, blocks, out.edge, k)) return false;
   set_up_one_depth(task, t, left, top, bx1 - bx0, by1 - by0, out, k);
   out.payload[k] = wrap(triangle.payload);
   out.twice_area_px[k] = static_cast<std::int32_t>(t.area >> 2 * kSubBits);
@@ -67,17 +67,17 @@ bool set_up_one(const TileTask& task, std::uint32_t index, Batch<Numbers>& out, 
 
 #if HWY_TARGET != HWY_SCALAR
 
-template <class Numbers>
+template <class Arithmetic>
 struct HalfBatch {
-  typename Numbers::HalfEdges edges;
+  typename Arithmetic::HalfEdges edges;
   HalfDepth depth;
   V32 payload, twice_area_px, bx0, by0, bx1, by1;
   std::uint32_t alive, has_depth;  // one bit per triangle: not rejected; depth is valid
 };
 
 // set_up_one() for half a vector of triangles. Lanes whose bit in `has_depth` is 0 have no valid depth.
-template <class Numbers>
-HWY_INLINE void set_up_half(const TileTask& task, const std::uint32_t* indices, HalfBatch<Numbers>& out) {
+template <class Arithmetic>
+HWY_INLINE void set_up_half(const TileTask& task, const std::uint32_t* indices, HalfBatch<Arithmetic>& out) {
   const D64 d;
   const TriangleLanes t = load(task.triangles, indices);
   const auto& [x, y, z, payload] = t;
@@ -100,7 +100,7 @@ HWY_INLINE void set_up_half(const TileTask& task, const std::uint32_t* indices, 
   V64 dead = hn::Or(hn::ShiftLeft<32>(as64(hn::VecFromMask(D32{}, hn::Not(filled)))),
                     hn::VecFromMask(d, hn::Eq(area.value, zero)));
   const BlockBoxLanes blocks{left, top, last(bx0, bx1), last(by0, by1)};
-  dead = hn::Or(dead, Numbers::set_up_half(task, t, area, blocks, out.edges));
+  dead = hn::Or(dead, Arithmetic::set_up_half(task, t, area, blocks, out.edges));
 
   out.has_depth = set_up_half_depth(task, t, area, left, top, out.depth);
   out.payload = payload, out.twice_area_px = lower(shift_right<2 * kSubBits>(area.value));
@@ -110,18 +110,18 @@ HWY_INLINE void set_up_half(const TileTask& task, const std::uint32_t* indices, 
 
 // Sets up triangles[indices[i]] for i = k … k + kLanes - 1. Bit i - k of the result is set if the triangle is
 // not rejected. From `count` on, indices are padding but must be valid; a half vector of padding is skipped.
-template <class Numbers>
+template <class Arithmetic>
 HWY_INLINE std::uint32_t set_up_vector(const TileTask& task, const std::uint32_t* indices, int count,
-                                       Batch<Numbers>& out, int k) {
+                                       Batch<Arithmetic>& out, int k) {
   constexpr int kInHalf = kLanes / 2;
-  HalfBatch<Numbers> left, right;
+  HalfBatch<Arithmetic> left, right;
   set_up_half(task, indices + k, left);
   if (k + kInHalf < count)
     set_up_half(task, indices + k + kInHalf, right);
   else
     right = left, right.alive = 0;
 
-  const std::uint32_t kept = Numbers::store_edges(left.edges, right.edges, out.edge, k);
+  const std::uint32_t kept = Arithmetic::store_edges(left.edges, right.edges, out.edge, k);
   const auto store_both = [&](V32 l, V32 r, std::int32_t* list) {
     const V v = both(l, r);
     hn::Store(v, D{}, list + k);
@@ -145,8 +145,8 @@ HWY_INLINE std::uint32_t set_up_vector(const TileTask& task, const std::uint32_t
 #endif
 
 // Sets up triangles[indices[i]] for all i. Bit i of the result is set if the triangle is not rejected.
-template <class Numbers>
-std::uint32_t set_up(const TileTask& task, std::span<const std::uint32_t> indices, Batch<Numbers>& out) {
+template <class Arithmetic>
+std::uint32_t set_up(const TileTask& task, std::span<const std::uint32_t> indices, Batch<Arithmetic>& out) {
   std::uint32_t alive = 0;
   const int count = static_cast<int>(indices.size());
   if (HWY_TARGET == HWY_SCALAR || !task.ablation.vector_setup) {

@@ -34,21 +34,21 @@ alignas(64) constexpr auto kSquareEntries = [] {
 // Triangles whose boxes are at most 4 x 4 blocks. All blocks of a triangle are tested at once, one lane per
 // block. The candidate blocks of many triangles go into one list: the number per triangle is hard to predict
 // for a branch predictor, but a loop over a list is not.
-template <class Numbers>
+template <class Arithmetic>
 class SmallTriangles {
  public:
   static constexpr int kSide = 4;  // blocks
   explicit SmallTriangles(Tile& tile) : tile_(tile) {}
 
-  HWY_INLINE void add(const Batch<Numbers>& batch, int k) {
+  HWY_INLINE void add(const Batch<Arithmetic>& batch, int k) {
     const D d;
     if (used_ == kSlots) draw();
     const int slot = used_++ * kBlockPixels;
     const V bx = hn::Set(d, batch.bx1[k] - batch.bx0[k]), by = hn::Set(d, batch.by1[k] - batch.by0[k]);
     const auto in_block = [&](int i) {
-      return over_block<Numbers>(batch.edge[i].x + k, batch.edge[i].y + k);
+      return over_block<Arithmetic>(batch.edge[i].x + k, batch.edge[i].y + k);
     };
-    const Values16<Numbers> edge_in[3] = {in_block(0), in_block(1), in_block(2)};
+    const Values16<Arithmetic> edge_in[3] = {in_block(0), in_block(1), in_block(2)};
     const auto depth_in = over_block<Int32Arithmetic>(batch.depth.x + k, batch.depth.y + k);
     const V entry = hn::Set(d, (batch.by0[k] * kMaxBlocks + batch.bx0[k]) << 16 | slot);
     for (int p = 0; p < kVectors; ++p) {
@@ -61,11 +61,11 @@ class SmallTriangles {
         return at;
       };
       const auto most_of = [&](int i) {
-        const auto at = store_values(Numbers{}, edge_in[i].v[p], batch.edge[i].first[k], edge_[i]);
-        return Numbers::add(at, Numbers::set(batch.edge[i].rise[k]));
+        const auto at = store_values(Arithmetic{}, edge_in[i].v[p], batch.edge[i].first[k], edge_[i]);
+        return Arithmetic::add(at, Arithmetic::set(batch.edge[i].rise[k]));
       };
-      const typename Numbers::Vector most_values[3] = {most_of(0), most_of(1), most_of(2)};
-      const V most = Numbers::outside(most_values[0], most_values[1], most_values[2]);
+      const typename Arithmetic::Vector most_values[3] = {most_of(0), most_of(1), most_of(2)};
+      const V most = Arithmetic::outside(most_values[0], most_values[1], most_values[2]);
       store_values(Int32Arithmetic{}, depth_in.v[p], batch.depth.first[k], depth_);
       const auto beside =
           hn::Or(hn::Gt(hn::Load(d, kLaneX + lane), bx), hn::Gt(hn::Load(d, kLaneY + lane), by));
@@ -86,9 +86,9 @@ class SmallTriangles {
           return lanes.add(lanes.set(values.at_block[value_index]),
                            lanes.load(values.in_block + slot * kBlockPixels + p * kLanes));
         };
-        const auto edge = [&](int i) { return value(Numbers{}, edge_[i]); };
+        const auto edge = [&](int i) { return value(Arithmetic{}, edge_[i]); };
         write_whole(tile_, block * kBlockPixels + p * kLanes,
-                    inside(Numbers::outside(edge(0), edge(1), edge(2))), value(Int32Arithmetic{}, depth_),
+                    inside(Arithmetic::outside(edge(0), edge(1), edge(2))), value(Int32Arithmetic{}, depth_),
                     hn::Set(d, payload_[slot]));
       }
     }
@@ -103,7 +103,7 @@ class SmallTriangles {
   struct alignas(64) SlotValues {
     Value at_block[kSlots * kBlocksAtOnce], in_block[kSlots * kBlockPixels];
   };
-  SlotValues<typename Numbers::Value> edge_[3];
+  SlotValues<typename Arithmetic::Value> edge_[3];
   SlotValues<std::int32_t> depth_;
   std::int32_t payload_[kSlots];
   // the block in the tile << 16 | slot * 16 + the block's index in the square

@@ -19,7 +19,7 @@
 
 #include "edgewise/contract.h"
 #include "raster/simd/lanes-inl.h"
-#include "raster/tiled/tile_numbers-inl.h"
+#include "raster/tiled/tile_arithmetic-inl.h"
 
 // Included once per SIMD target.
 #if defined(EDGEWISE_OTHER_NUMBERS_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -130,7 +130,7 @@ struct WideLanes {
 };
 
 template <class Lanes, bool kRebased = false>
-struct OtherNumbers : Lanes {
+struct OtherArithmetic : Lanes {
   using typename Lanes::Value;
   using typename Lanes::Vector;
   // Of an edge: a, b, p.x, p.y, the box's first sample, and its last pixel from its first.

@@ -15,11 +15,11 @@
 #include "raster/tiled/tile_linear-inl.h"
 
 // Included once per SIMD target.
-#if defined(EDGEWISE_TILE_NUMBERS_INL_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef EDGEWISE_TILE_NUMBERS_INL_H
-#undef EDGEWISE_TILE_NUMBERS_INL_H
+#if defined(EDGEWISE_TILE_ARITHMETIC_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef EDGEWISE_TILE_ARITHMETIC_INL_H
+#undef EDGEWISE_TILE_ARITHMETIC_INL_H
 #else
-#define EDGEWISE_TILE_NUMBERS_INL_H
+#define EDGEWISE_TILE_ARITHMETIC_INL_H
 #endif
 
 HWY_BEFORE_NAMESPACE();
@@ -79,7 +79,7 @@ struct EdgeInBoxLanes {
 #endif
 
 // The contract's edge functions, shifted (rule 5) in wrapping int32. A pixel is inside where all three are
-// >= 0. Other numbers have the same members.
+// >= 0. Other arithmetics have the same members.
 struct ContractNumbers : Int32Arithmetic {
   // Whether a value's range over a block, in square pixels, exceeds twice the triangle's area.
   static HWY_INLINE bool spans_more(Value range, std::int32_t twice_area_px) {
