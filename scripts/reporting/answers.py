@@ -1,5 +1,5 @@
 """README's first table: the answers to its questions, each with its condition."""
-from frontier import ENGINES, INSIDE_TESTS, measured_in, simd_outcome
+from frontier import EXACT, INSIDE_TESTS, PRICED, measured_in, simd_outcome
 from bench_tables import OURS, THREADS, pairs
 from tables import by_order, kernels, number, outcome
 
@@ -23,15 +23,10 @@ def speed_rows(bench):
 
 
 def exactness_rows(accuracy, target):
-    exact, loose = ENGINES
-    if found := simd_outcome(accuracy, exact, loose):
-        yield ["What does exactness cost in time?", f"`{exact}` {outcome(found)}",
-               f"against `{loose}`, float edges in the same engine; one thread, {kernels(target)}"]
-    rates, plain = accuracy.rates("coverage"), INSIDE_TESTS[0]
-    ours = [rates[m.name] for m in accuracy.methods.get("coverage", ()) if m.ours and m.name in rates]
-    if ours and plain in rates:
-        yield ["What does exactness cost in wrong pixels?", f"ours {number(max(ours))}, `{plain}` {number(rates[plain])} wrong per 10⁶ edge crossings",
-               f"against the positions before snapping, {len(accuracy.pooled('coverage'))} scenes pooled"]
+    found = {name: simd_outcome(accuracy, name, EXACT) for name in PRICED if name != EXACT}
+    if all(found.values()):
+        yield ["What does exactness cost?", "; ".join(f"`{name}` {outcome(by)}" for name, by in found.items()),
+               f"against `{EXACT}`, exact after snapping, the same loop; one thread, {kernels(target)}"]
 
 
 def gap_rows(accuracy):

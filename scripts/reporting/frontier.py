@@ -3,12 +3,11 @@ import math
 from typing import NamedTuple
 
 from bench_rows import mean_gained
-from tables import by_order, number, short
+from tables import by_order, number
 
 LEAST_CROSSINGS = 10_000  # of shared edges; in smaller scenes a single crossing decides the rate
-# The tutorials' inside tests; and one engine with exact edges and with the first test's float edges.
+# The tutorials' inside tests.
 INSIDE_TESTS = ("float_lt", "float_le")
-ENGINES = ("engine_exact", "engine_float")
 T_JUNCTIONS = ("t_junction", "t_junction_split")  # cracks of the mesh, not of the method
 
 
@@ -97,14 +96,22 @@ def frontier_figures(accuracy):
             base, scenes)
 
 
+def said(up):
+    return f"{up.middle:.2g}× ({up.low:.2g} to {up.high:.2g})"
+
+
+def wrong_of(accuracy, method):
+    """Pixels per 10⁶ edge crossings that differ from the exact picture of the caller's positions; None if not counted."""
+    rates = [(m.rate * scene.trials, scene.trials) for scene in accuracy.pooled("coverage")
+             for m in (*scene.measured, *scene.apart) if m.method == method and scene.in_range_of(method)]
+    return sum(errors for errors, _ in rates) / sum(trials for _, trials in rates) if rates else None
+
+
 def frontier_table(accuracy):
-    """Header and lines: every method's cracks and its two speed-ups with their intervals, the fastest first."""
+    """Header and lines: watertight methods first, then the fastest first, with their speed-ups and intervals."""
     found, base, _ = frontier_figures(accuracy)
     if not found:
         return [], []
-
-    def said(up):
-        return f"{up.middle:.2g}× ({up.low:.2g} to {up.high:.2g})"
 
     def title(method):
         return f"`{method.name}`" + (f", up to {method.limit_px:.0f} px" if method.limit_px else "")
@@ -112,9 +119,33 @@ def frontier_table(accuracy):
     def form(forms, name, otherwise):
         return said(forms[name]) if name in forms else otherwise
 
-    header = ["method", "cracks per 10⁶ crossings", "worst scene", "crossings", f"scalar, `{base.name}` = 1×", "SIMD"]
-    lines = [[title(method), number(cracks.rate, 2),
-              f"{number(cracks.worst, 2)} (`{cracks.worst_scene}`)" if cracks.worst else "–",
-              short(cracks.crossings), form(forms, "scalar", "–"), form(forms, "simd", "–" if method.peer else method.simd_note or "–")]
-             for method, (forms, cracks) in sorted(found.items(), key=lambda item: -best(item[1][0]).middle)]
+    header = ["method", "cracks per 10⁶ crossings", "worst scene", "wrong pixels per 10⁶", f"scalar, `{base.name}` = 1×", "SIMD"]
+    lines = [[title(method), number(cracks.rate, 2) if cracks.rate else "**0**",
+              f"{number(cracks.worst, 2)} (`{cracks.worst_scene}`)" if cracks.worst else "–", number(wrong_of(accuracy, method)),
+              form(forms, "scalar", "–"), form(forms, "simd", "–" if method.peer else method.simd_note or "–")]
+             for method, (forms, cracks) in sorted(found.items(), key=lambda item: (item[1][1].rate > 0, -best(item[1][0]).middle))]
     return header, lines
+
+
+# One loop with three kinds of numbers: rounded, exact on snapped vertices, and finer than any vertex.
+PRICED = ("float_top_left", "fixed_8", "double_top_left")
+EXACT = PRICED[1]
+
+
+def price_table(accuracy):
+    """What exactness costs: the three ways to evaluate edges, with SIMD, beside the exact one."""
+    found, _, _ = frontier_figures(accuracy)
+    named = {method.name: (method, cracks) for method, (forms, cracks) in found.items() if "simd" in forms}
+    if not all(name in named for name in PRICED):
+        return [], []
+    lines = []
+    for name in PRICED:
+        method, cracks = named[name]
+        outcome = simd_outcome(accuracy, name, EXACT) if name != EXACT else None
+        gained_by, *interval = mean_gained([(measured_in(scene, EXACT).simd.row, measured_in(scene, name).simd.row)
+                                            for scene in timed_scenes(accuracy)])
+        speed = (f"{number(gained_by, 3)}× ({number(interval[0], 3)} to {number(interval[1], 3)}); settled in "
+                 f"{len(outcome[-1]) + len(outcome[1])} of {sum(map(len, outcome.values()))} scenes" if outcome else "1×")
+        lines.append([f"`{name}`", speed, number(cracks.rate, 2) if cracks.rate else f"0 (<{number(3e6 / cracks.crossings, 2)})",
+                      number(wrong_of(accuracy, method)), method.promise])
+    return ["edges", "speed", "cracks", "wrong pixels", "guarantee"], lines

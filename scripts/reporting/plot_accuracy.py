@@ -1,12 +1,10 @@
-"""The charts of accuracy: errors against speed and errors by scene, family by family; the turning cube; and the pixels that
-rounding vertices displaces."""
+"""The charts of accuracy: errors against speed and errors by scene, family by family; and the turning cube."""
 import math
 
 from accuracy_rows import FAMILIES
 from bench_rows import gained, order
 from plot_labels import Label, label_points, shared_labels
-from plot_style import (BAND, BLACK, FAINT, INK, SKY, WHISKER, WIDTH_IN, Kinds, ZeroAxis, dark, head_in, headline, plt, round_ticks,
-                        save)
+from plot_style import BAND, FAINT, INK, WHISKER, WIDTH_IN, Kinds, ZeroAxis, head_in, headline, plt, round_ticks, save
 from tables import about, number, short
 
 
@@ -226,53 +224,10 @@ def all_scenes(accuracy, family, folder, caption):
     return f"errors-{family.name}"
 
 
-# Exact coverage of vertices rounded to so many bits: all that differs from the unsnapped truth is displaced.
-ROUNDED = {0: "whole_pixel", 4: "fixed_4", 8: "fixed_8", 12: "fixed_12", 16: "fixed_16"}
-OUR_BITS = 8
-
-
-def displacement(accuracy):
-    """({bits: wrong pixels per 10⁶ edge crossings}, number of scenes, number of crossings)."""
-    scenes = accuracy.pooled("coverage")
-    trials = sum(scene.trials for scene in scenes)
-    rates = {}
-    for bits, name in ROUNDED.items():
-        errors = [m.rate * scene.trials for scene in scenes for m in scene.measured if m.method.name == name]
-        if trials and len(errors) == len(scenes):
-            rates[bits] = sum(errors) / trials
-    return rates, len(scenes), trials
-
-
-def displacement_strip(accuracy, folder, caption):
-    rates, scenes, trials = displacement(accuracy)
-    if rates.keys() != ROUNDED.keys() or not all(rates.values()):  # a log axis has no 0
-        return None
-    subtitle = (f"Pixels that change because vertices are rounded, per 10⁶ edge crossings; {scenes} scenes, {short(trials)} "
-                "crossings.")
-    above, below = 0.1 + head_in(subtitle), 0.6
-    figure, axes = plt.subplots(figsize=(WIDTH_IN, above + below + 1.25))
-    height = figure.get_figheight()
-    headline(figure, f"Rounding to {OUR_BITS} subpixel bits displaces {number(rates[OUR_BITS])} pixels per 10⁶ crossings", subtitle)
-    figure.subplots_adjust(left=0.13, right=0.985, bottom=below / height, top=1 - above / height)
-    lines = range(len(rates))
-    axes.barh(lines, rates.values(), color=[BLACK if bits == OUR_BITS else SKY for bits in rates], height=0.68)
-    axes.set_xscale("log")
-    axes.set_xlim(10 ** math.floor(math.log10(min(rates.values()))), max(rates.values()) * 2.5)
-    axes.xaxis.set_major_formatter(lambda value, _: short(value))
-    axes.set_yticks(lines, [f"{bits} bits" + (" (ours)" if bits == OUR_BITS else "") for bits in rates])
-    axes.tick_params(axis="y", length=0)
-    axes.invert_yaxis()
-    axes.grid(axis="y", visible=False)
-    for line, (bits, rate) in zip(lines, rates.items()):
-        axes.text(rate * 1.06, line, number(rate), va="center", fontsize=9.5, color=dark(BLACK if bits == OUR_BITS else FAINT))
-    save(figure, folder, "displacement", caption)
-    return "displacement"
-
-
 def draw(accuracy, folder, caption):
     """The names of the charts drawn, or None."""
     if accuracy is None:
         return []
     scenes = [all_scenes(accuracy, family, folder, caption) for family in FAMILIES.values()]
     charts = [speed_chart(scene, folder, caption) for family in FAMILIES if (scene := accuracy.main_scene(family))]
-    return [*charts, *scenes, turning_cube(accuracy, folder, caption), displacement_strip(accuracy, folder, caption)]
+    return [*charts, *scenes, turning_cube(accuracy, folder, caption)]

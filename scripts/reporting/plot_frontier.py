@@ -1,95 +1,112 @@
-"""The main chart: cracks against speed, each coverage method in scalar code and with SIMD."""
+"""The main chart: wrong pixels against speed of each coverage method, in scalar code and with SIMD."""
 from accuracy_rows import FAMILIES
-from frontier import ENGINES, INSIDE_TESTS, LEAST_CROSSINGS, best, frontier_figures, simd_outcome, timed_scenes
-from plot_labels import Label, label_points, shared_labels
-from plot_style import FAINT, GREEN, INK, WHISKER, WIDTH_IN, Kinds, ZeroAxis, head_in, headline, plt, round_ticks, save
+from frontier import LEAST_CROSSINGS, PRICED, frontier_figures, timed_scenes, wrong_of
+from plot_labels import Label, label_points
+from plot_style import FAINT, INK, WHISKER, WIDTH_IN, Kinds, ZeroAxis, head_in, headline, plt, round_ticks, save
 from tables import kernels, number, short
 
-NEAR = 1.15  # ratio of speeds below which points at one x share a label
-# Others with a label beside ours, the peers, and the title's: those that README names, and the fastest of each kind.
-LABELLED = (*INSIDE_TESTS, *ENGINES, "dda_16_16", "dda_rounded", "fixed_8", "float_top_left")
-WORST = {"linewidth": 0.9, "linestyle": (0, (1.5, 1.5))}
+# Methods that differ in the number of subpixel bits alone, joined to a curve.
+CURVES = {"64-bit fixed point": {0: "whole_pixel", 4: "fixed_4", 8: "fixed_8", 12: "fixed_12", 16: "fixed_16"},
+          "32-bit": {4: "fixed_4_int32", 8: "fixed_8_int32"}}
+BITS = {name: bits for curve in CURVES.values() for bits, name in curve.items()}
+LABELLED = ("float_lt", "dda_16_16", "llvmpipe", *PRICED)
+MOST_LABELS = 8
+FRONT = {"color": INK, "linewidth": 1.2, "linestyle": (0, (4, 2)), "zorder": 1.5}
 
 
-def leaders(found):
-    """Our fastest and the fastest other method with SIMD; None if either is missing."""
-    simd = {method: ups["simd"].middle for method, (ups, _) in found.items() if "simd" in ups and not method.apart}
-    ours, others = ([m for m in simd if m.ours == whose] for whose in (True, False))
-    return (max(ours, key=simd.get), max(others, key=simd.get)) if ours and others else None
+def points_of(found, accuracy, form):
+    """{method: (wrong pixels per 10⁶ crossings, SpeedUp, whether no crack was seen)}"""
+    return {method: (wrong_of(accuracy, method), forms[form], cracks.rate == 0) for method, (forms, cracks) in found.items() if form in forms}
 
 
-def frontier_title(found, accuracy):
-    """Scene by scene, both with SIMD."""
-    if not (pair := leaders(found)):
-        return "Coverage: cracks against speed"
-    first, other = pair
-    outcome = simd_outcome(accuracy, first.name, other.name)
-    return (f"{first.name}: {number(found[first][1].rate, 2)} cracks per 10⁶; beats {other.name} in {len(outcome[-1])} of "
-            f"{sum(map(len, outcome.values()))} scenes")
+def best_of(points):
+    """The methods that no other beats in both errors and speed, those with the fewest errors first."""
+    front = []
+    for method, (wrong, up, _) in sorted(points.items(), key=lambda item: (item[1][0], -item[1][1].middle)):
+        if not front or up.middle > points[front[-1]][1].middle:
+            front.append(method)
+    return front
 
 
-def called(method):
-    """Of a peer with its vector width: "llvmpipe, 256 bits"."""
-    width = method.source.rpartition(", ")[2] if method.peer else ""
-    return f"{method.name}, {width}" if width.endswith("bits") else method.name
+def frontier_title(points):
+    """The fastest watertight method, and the fastest of those that err least."""
+    watertight = [method for method, (*_, tight) in points.items() if tight]
+    front = best_of(points)
+    if not watertight:
+        return "Coverage: wrong pixels against speed"
+    fastest = max(watertight, key=lambda method: points[method][1].middle)
+    return (f"Fastest watertight: {fastest.name}; fewest wrong pixels: {front[0].name}, "
+            f"{number(points[front[0]][1].middle / points[fastest][1].middle, 2)}× its speed")
 
 
-def labels_of(found, x_of):
-    """Ours by themselves; named others that lie close together at one x share a label, by the faster form."""
-    named = {*LABELLED, *(method.name for method in leaders(found) or ())}
-    places = {method: (x_of(cracks.rate), best(ups).middle) for method, (ups, cracks) in found.items()}
-    return [*(Label(*place, method.name, bold=True) for method, place in places.items() if method.ours),
-            *shared_labels([(*place, called(method)) for method, place in places.items()
-                            if not method.ours and (method.peer or method.name in named)], NEAR)]
+def labels_of(points, x_of):
+    """At most MOST_LABELS: ours and the front's first, then others that README names. Curves are labelled at their 8 bits."""
+    curve_of = {curve[8]: name for name, curve in CURVES.items()}
+    front = best_of(points)
+    order = [*(m for m in points if m.ours), *front, *(m for m in points if m.name in (*curve_of, *LABELLED))]
+    chosen = list(dict.fromkeys(order))[:MOST_LABELS]
+    return [Label(x_of(points[m][0]), points[m][1].middle, curve_of.get(m.name, m.name), bold=m.ours) for m in chosen]
+
+
+def draw_panel(axes, points, scale, kinds):
+    """Returns the lines that labels keep off."""
+    lines = []
+    for curve in CURVES.values():
+        of = {method.name: method for method in points}
+        line = [(scale.at(points[of[name]][0]), points[of[name]][1].middle) for name in curve.values() if name in of]
+        axes.plot(*zip(*line), color=FAINT, linewidth=1.2, zorder=1.6) if len(line) > 1 else None
+        lines.append(line)
+    front = [(scale.at(points[m][0]), points[m][1].middle) for m in best_of(points)]
+    steps = [corner for (x, y), (next_x, _) in zip(front, [*front[1:], (scale.limit, 0)]) for corner in ((x, y), (next_x, y))]
+    axes.plot(*zip(*steps), **FRONT)
+    lines.append(steps)
+    for method, (wrong, up, tight) in points.items():
+        x, (colour, marker) = scale.at(wrong), kinds.of(method)
+        lines.append([(x, up.low), (x, up.high)])
+        axes.plot(*zip(*lines[-1]), color=colour, **WHISKER, zorder=1.8)
+        axes.plot([x], [up.middle], marker=marker, linestyle="", zorder=3, markersize=7, markerfacecolor=colour if tight else "white",
+                  markeredgecolor="white" if tight else colour, markeredgewidth=0.8 if tight else 1.5)
+        if method.name in BITS:
+            axes.annotate(str(BITS[method.name]), (x, up.middle), xytext=(0, -11), textcoords="offset points", ha="center", fontsize=7.5,
+                          color=FAINT)
+    return lines
 
 
 def frontier(accuracy, bench, folder, caption):
     found, base, scenes = frontier_figures(accuracy) if accuracy else ({}, None, 0)
-    if not found:
+    panels = {form: points for form in ("scalar", "simd") if (points := points_of(found, accuracy, form))}
+    if len(panels) < 2:
         return None
     kinds = Kinds(FAMILIES["coverage"])
-    scale = ZeroAxis([rate for _, cracks in found.values() for rate in (cracks.rate, cracks.worst)], band=0.4)
     most = max(found.values(), key=lambda item: item[1].crossings)[1]
-    subtitle = (f"Further left: fewer cracks; further up: faster on one thread, geometric mean of {scenes} scenes "
-                f"({', '.join(scene.name for scene in timed_scenes(accuracy))}). Cracks are gaps and double hits between neighbours, "
-                f"{most.scenes} scenes and {short(most.crossings)} crossings of shared edges pooled; the dotted line ends at the worst "
-                f"scene. Hollow: scalar code; filled: {kernels(bench.context.get('simd_target'))}, of peers their own vectors.")
-    above, below = 0.95 + head_in(subtitle), 1.0
-    figure, axes = plt.subplots(figsize=(WIDTH_IN, above + below + 5.0))
+    subtitle = (f"Further left: fewer pixels that differ from the exact picture of the caller's positions; further up: faster on one thread, "
+                f"geometric mean of {scenes} scenes ({', '.join(scene.name for scene in timed_scenes(accuracy))}). Filled: no crack seen in "
+                f"{short(most.crossings)} crossings of shared edges; hollow: cracks. Grey numbers: subpixel bits.")
+    above, below = 1.2 + head_in(subtitle), 1.0
+    figure, axes_of = plt.subplots(1, 2, sharey=True, figsize=(WIDTH_IN, above + below + 4.4))
     height = figure.get_figheight()
-    top = headline(figure, frontier_title(found, accuracy), subtitle)
-    figure.subplots_adjust(left=0.085, right=0.985, bottom=below / height, top=1 - above / height)
-    scale.apply_x(axes, "0")
-    axes.set_yscale("log")
-    speeds = [edge for forms, _ in found.values() for up in forms.values() for edge in (up.low, up.high)]
+    top = headline(figure, frontier_title(panels["simd"]), subtitle)
+    figure.subplots_adjust(left=0.075, right=0.985, bottom=below / height, top=1 - above / height, wspace=0.05)
+    scale = ZeroAxis([wrong for points in panels.values() for wrong, _, _ in points.values()], band=0.2)
+    speeds = [edge for points in panels.values() for _, up, _ in points.values() for edge in (up.low, up.high)]
     bottom, limit = min(speeds) / 1.25, max(speeds) * 1.35
-    axes.set_ylim(bottom, limit)
-    round_ticks(axes.yaxis, bottom, limit, lambda value, _: f"{value:g}×")
-    axes.axhline(1, color=FAINT, linewidth=0.8, zorder=1)
-    lines = []
-    for method, (forms, cracks) in found.items():
-        x, (colour, marker) = scale.at(cracks.rate), kinds.of(method)
-        axes.plot([x] * len(forms), [up.middle for up in forms.values()], color=colour, linewidth=1.0, zorder=2)
-        if cracks.worst > cracks.rate:
-            lines.append([(x, best(forms).middle), (scale.at(cracks.worst), best(forms).middle)])
-            axes.plot(*zip(*lines[-1]), color=colour, **WORST, zorder=1.6)
-        for form, up in forms.items():
-            lines.append([(x, up.low), (x, up.high)])
-            axes.plot(*zip(*lines[-1]), color=colour, **WHISKER, zorder=1.8)
-            face, edge = (colour, "white") if form == "simd" else ("white", colour)
-            axes.plot([x], [up.middle], marker=marker, linestyle="", zorder=3, markersize=7, markerfacecolor=face,
-                      markeredgecolor=edge, markeredgewidth=0.8 if form == "simd" else 1.5)
-    axes.text(scale.start, max(speeds) * 1.3, " fast and watertight", color=GREEN, fontsize=9.5, va="top", fontweight="bold")
-    axes.set_ylabel(f"speed, {base.name} in scalar code = 1×")
-    axes.set_xlabel("cracks per 10⁶ crossings of shared edges")
-    label_points(axes, labels_of(found, scale.at), lines)
-    extra = [plt.Line2D([], [], color=FAINT, **WHISKER, label="95 % interval"),
-             plt.Line2D([], [], color=FAINT, **WORST, label="worst scene"),
-             plt.Line2D([], [], color=INK, marker="o", markerfacecolor="white", linestyle="", markersize=7, label="scalar"),
-             plt.Line2D([], [], color=INK, marker="o", linestyle="", markersize=7, label="SIMD")]
+    for axes, (form, points) in zip(axes_of, panels.items()):
+        scale.apply_x(axes, "0")
+        axes.set_yscale("log")
+        axes.set_ylim(bottom, limit)
+        round_ticks(axes.yaxis, bottom, limit, lambda value, _: f"{value:g}×")
+        axes.set_title("scalar code" if form == "scalar" else f"{kernels(bench.context.get('simd_target'))}, and peers with their own vectors",
+                       fontsize=10)
+        axes.set_xlabel("wrong pixels per 10⁶ edge crossings")
+        label_points(axes, labels_of(points, scale.at), draw_panel(axes, points, scale, kinds))
+    axes_of[0].set_ylabel(f"speed, {base.name} in scalar code = 1×")
+    extra = [plt.Line2D([], [], **FRONT, label="fewest errors at a speed (Pareto front)"),
+             plt.Line2D([], [], color=FAINT, **WHISKER, label="95 % interval"),
+             plt.Line2D([], [], color=INK, marker="o", linestyle="", markersize=7, label="no crack seen"),
+             plt.Line2D([], [], color=INK, marker="o", markerfacecolor="white", linestyle="", markersize=7, label="cracks")]
     kinds.legend(figure, top, list(found), extra)
     bound = max((3e6 / cracks.crossings for _, cracks in found.values() if cracks.rate == 0), default=3e6 / most.crossings)
     peers = [f"{method.name}: {method.source}." for method in found if method.peer]
-    save(figure, folder, "frontier", f"{' '.join([*peers, ''])}0: no crack seen; the 95 % upper bound is at most "
-         f"{number(bound, 2)} per 10⁶. Left out: T-junctions, scenes with fewer than {short(LEAST_CROSSINGS)} crossings, and for 32-bit methods scenes beyond their range.\n{caption}")
+    save(figure, folder, "frontier", f"{' '.join([*peers, ''])}No crack seen: the 95 % upper bound is at most {number(bound, 2)} per 10⁶. "
+         f"Left out: scenes with fewer than {short(LEAST_CROSSINGS)} crossings, and for 32-bit methods scenes beyond their range.\n{caption}")
     return "frontier"

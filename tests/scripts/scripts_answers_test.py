@@ -13,7 +13,7 @@ from answers import answers  # noqa: E402
 from bench_rows import Bench, Row, parse_name  # noqa: E402
 from bench_tables import engine_table, peer_tables  # noqa: E402
 from facts_tables import needs_table, read_needs, tutorials_table  # noqa: E402
-from frontier import ENGINES, INSIDE_TESTS, cracks_of, simd_outcome, speed_ups  # noqa: E402
+from frontier import EXACT, INSIDE_TESTS, PRICED, cracks_of, price_table, simd_outcome, speed_ups  # noqa: E402
 from program import BadInput  # noqa: E402
 from tables import markdown  # noqa: E402
 
@@ -99,11 +99,10 @@ class AnswersTest(unittest.TestCase):
         self.assertEqual([line[1] for line in answers(bench(rows), None)],
                          ["`tiled` 2.0× faster in 2 of 2 scenes", "`naive` 8.0× slower in 1 of 1 scene"])
 
-    def test_exactness_and_gaps_have_their_counts(self):
+    def test_gaps_have_their_counts(self):
         told = answers(bench({}), accuracy(measured("tiled", True, 873), measured("float_lt", False, 216),
                                            cube=turning(("tiled", 0, 0), ("float_lt", 3, 0), ("float_le", 1, 9), ("fixed_8", 7, 7))))
         self.assertEqual(told, [
-            ["What does exactness cost in wrong pixels?", "ours 873, `float_lt` 216 wrong per 10⁶ edge crossings", "against the positions before snapping, 1 scenes pooled"],
             ["Gaps / double hits when the cube turns?", "`float_lt` 3 / 0, `float_le` 1 / 9, ours 0 / 0",
              "3,600 frames of the tutorials' cube; `float_le` takes samples on an edge as inside, `float_lt` does not"],
             ["Where edges meet pixel centres?", "`float_lt` 216, ours 873 wrong pixels per 10⁶ edge crossings",
@@ -138,7 +137,7 @@ class AnswersTest(unittest.TestCase):
         results = Path(__file__).resolve().parents[2] / "results"
         named = re.search("<!-- results: results/(.*) -->", (results.parent / "README.md").read_text())[1]
         names = {m.method.name for scene in read_accuracy(results / named, None).of("coverage") for m in (*scene.measured, *scene.apart)}
-        self.assertEqual({*ENGINES, *INSIDE_TESTS} - names, set())
+        self.assertEqual({*PRICED, *INSIDE_TESTS} - names, set())
 
     def test_what_was_not_measured_is_not_answered(self):
         self.assertEqual(answers(bench({}), Accuracy({}, (), None)), [])
@@ -177,6 +176,16 @@ class FrontierTest(unittest.TestCase):
         self.assertAlmostEqual(tiled["scalar"].middle, 2 ** (1 / 3))
         self.assertAlmostEqual(tiled["simd"].middle, 4 * 2 ** (1 / 3))
         self.assertEqual(simd_outcome(found, "tiled", "x"), {-1: [4.0], 1: [0.5], 0: [1.0]})
+
+    def test_the_price_list_compares_with_the_exact_edges(self):
+        loose, finer = (name for name in PRICED if name != EXACT)
+        found = self.accuracy(a=(self.timed(loose, 1.0, 3), self.timed(EXACT, 2.0), self.timed(finer, 4.0)))
+        self.assertEqual([line[:3] for line in price_table(found)[1]],
+                         [[f"`{loose}`", "2× (1.98 to 2.02); settled in 1 of 1 scenes", "30"], [f"`{EXACT}`", "1×", "0 (<30)"],
+                          [f"`{finer}`", "0.5× (0.495 to 0.505); settled in 1 of 1 scenes", "0 (<30)"]])
+        self.assertEqual(answers(bench({}), found)[0][:2], ["What does exactness cost?",
+                         f"`{loose}` 2.0× faster in 1 of 1 scene; `{finer}` 2.0× slower in 1 of 1 scene"])
+        self.assertEqual(price_table(self.accuracy(a=(self.timed(EXACT, 2.0),))), ([], []))
 
 
 def question(name, *answers, cheapest):
