@@ -35,8 +35,8 @@ namespace {
 // few long ones.
 constexpr double kRepetition_s = 0.012;
 
-// Memory is measured once per scene and backend.
-bool needs_peak(const Row& row) {
+// A backend's whole frames: the first one's memory and duration, and how long the slowest take.
+bool keeps_frames(const Row& row) {
   return row.timed == Timed::frame && row.backend != nullptr && is_plain(row) && row.execution.threads == 2 &&
          row.once_s < kTooSlowToDrawTwice_s;
 }
@@ -120,7 +120,10 @@ void compare_all(std::vector<Row>& rows, Stage& stage, bool whole_suite) {
       rows[i].once_s = rows[i - 1].once_s;
     else
       stage.compare(rows[i]);
-    if (needs_peak(rows[i])) rows[i].peak_bytes = peak_bytes(rows[i]).value_or(0.0);
+    if (keeps_frames(rows[i])) {
+      rows[i].keeps_frames = true;
+      rows[i].first_frame = draw_first_frame(rows[i]);
+    }
     if (i + 1 == rows.size() || rows[i + 1].workload != rows[i].workload) workload.drop_reference();
   }
 }
@@ -148,6 +151,14 @@ bool is_known(const Row& row) {
   return !row.error.empty() || row.once_s > kTooSlowToRepeat_s;
 }
 
+// The smallest value that at least `share` of all values do not exceed.
+double percentile(std::vector<double> values, double share) {
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(std::ceil(share * static_cast<double>(values.size()))) - 1;
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
 void time_row(benchmark::State& state, Row& row, Stage& stage) {
   if (!row.error.empty()) return state.SkipWithError(row.error.c_str());
   if (is_known(row)) {
@@ -161,7 +172,11 @@ void time_row(benchmark::State& state, Row& row, Stage& stage) {
         pause_before(row);
         state.ResumeTiming();
       }
+      const auto begin = std::chrono::steady_clock::now();
       stage.work(row);
+      if (row.keeps_frames)
+        row.frames_s.push_back(
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
     }
   }
   auto& counters = state.counters;
@@ -178,7 +193,14 @@ void time_row(benchmark::State& state, Row& row, Stage& stage) {
   counters["height"] = workload.height();
   counters["triangles"] =
       static_cast<double>(row.timed == Timed::raster ? workload.triangles().size() : workload.submitted());
-  if (row.peak_bytes > 0.0) counters["peak_bytes"] = row.peak_bytes;
+  if (row.first_frame) {
+    counters["first_ms"] = row.first_frame->s * 1e3;
+    if (row.first_frame->peak_bytes) counters["peak_bytes"] = *row.first_frame->peak_bytes;
+  }
+  if (!row.frames_s.empty()) {
+    counters["frames"] = static_cast<double>(row.frames_s.size());
+    counters["p99_ms"] = percentile(row.frames_s, 0.99) * 1e3;
+  }
   if (const auto wrong_px = row.wrong_px ? row.wrong_px : workload.wrong_px())
     counters["wrong_px"] = static_cast<double>(*wrong_px);
   if (row.timed == Timed::frontend) return;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "bench/workloads/methods.h"
 #include "bench/workloads/workload.h"
@@ -24,6 +25,13 @@ inline constexpr double kTooSlowToRepeat_s = 0.3;
 // Rows that take longer are drawn once. Frames whose backend alone takes longer are left out of the suite.
 inline constexpr double kTooSlowToDrawTwice_s = 1.5;
 
+// Of a frame drawn by newly made objects.
+struct FirstFrame {
+  std::optional<double>
+      peak_bytes;  // growth of the process's resident memory; none if /proc lacks the figures
+  double s;
+};
+
 struct Row {
   // WHO/what/key:value…/threads:N, where WHO is BACKEND, frontend, BACKEND+frontend, a peer's name, or lab
   std::string name;
@@ -37,7 +45,9 @@ struct Row {
   Ablation ablation{};
   std::optional<lab::EngineArithmetic> arithmetic;  // if set, the laboratory's engine draws, not `backend`
   double pause_s = 0.0;                             // before each frame, not timed
-  double peak_bytes = 0;                            // of a first frame; 0: not measured
+  std::optional<FirstFrame> first_frame;            // if measured
+  bool keeps_frames = false;                        // whether the duration of each frame is kept
+  std::vector<double> frames_s;                     // if keeps_frames: of all repetitions
   bool wants_cost = false;
   bool step = false;                      // one step of the ablation
   bool two_calls = false;                 // a frame by Frontend::run() and Backend::draw()

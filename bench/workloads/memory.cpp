@@ -2,7 +2,9 @@
 
 #include <malloc.h>
 
+#include <chrono>
 #include <fstream>
+#include <optional>
 #include <string>
 
 namespace edgewise::bench {
@@ -25,20 +27,24 @@ void reset_peak() {
 
 }  // namespace
 
-std::optional<double> peak_bytes(const Row& row) {
+FirstFrame draw_first_frame(const Row& row) {
   malloc_trim(0);  // otherwise the frame would use freed memory that is still resident, and appear free
   reset_peak();
   const auto before = status_bytes("VmRSS:"), peak_before = status_bytes("VmHWM:");
   Workload& workload = *row.workload;
+  const auto begin = std::chrono::steady_clock::now();
+  FirstFrame first{};
   {
     Frontend frontend;
     Framebuffer frame(workload.width(), workload.height());
     workload.draw(frontend, *make(*row.backend, row.ablation), frame.view(), row.execution);
+    first.s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
   const auto peak = status_bytes("VmHWM:");
   constexpr double kTolerance = 1 << 20;  // bytes: other threads' allocations, and Linux's coarse counters
-  if (!before || !peak_before || !peak || *peak_before > *before + kTolerance) return std::nullopt;
-  return *peak - *before;
+  if (before && peak_before && peak && *peak_before <= *before + kTolerance)
+    first.peak_bytes = *peak - *before;
+  return first;
 }
 
 }  // namespace edgewise::bench

@@ -63,6 +63,24 @@ def speed_table(bench):
     return ["scene", "triangles", *bench.backends, *bench.peers], lines
 
 
+def tails_table(bench):
+    """Header and lines: how long whole frames of ours take at the median, in the slowest of a hundred, and at first."""
+    names = [backend for backend in bench.backends if any(row.backend == backend for row in tailed(bench))]
+    lines = [[scene, *(cell for backend in names for cell in tail_cells(bench.frame(backend, scene, max(THREADS))))]
+             for scene in bench.scenes if any(row.scene == scene for row in tailed(bench))]
+    return ["scene", *(f"{backend}, {what}" for backend in names for what in ("median / p99, ms", "first, ms"))], lines
+
+
+def tailed(bench):
+    return [row for row in bench.sweep("threads") if "p99_ms" in row.counters]
+
+
+def tail_cells(row):
+    if row is None or "p99_ms" not in row.counters:
+        return "–", "–"
+    return f"{milliseconds(row)} / {number(row.counters['p99_ms'])}", number(row.counters["first_ms"])
+
+
 def pairs(bench, target=None):
     """{(peer, scene, threads): (the peer's row, ours)} of whole frames, ours with the kernels of `target` or the widest."""
     keys = f"/target:{target}" if target else ""

@@ -428,6 +428,24 @@ class TileStoresTest(unittest.TestCase):
         self.assertEqual(tile_stores_table(Bench({}, {}))[1], [])
 
 
+class TailsTest(unittest.TestCase):
+    """bench_tables.tails_table(): the slowest and the first of whole frames."""
+
+    def test_shows_the_rows_whose_frames_were_kept(self):
+        from bench_rows import Bench, parse_name
+        from bench_tables import tails_table
+        rows = {name: parse_name(name) for name in ("tiled+frontend/cube/threads:2", "scanline+frontend/cube/threads:2",
+                                                    "tiled+frontend/knot/threads:2", "scanline+frontend/knot/threads:2")}
+        for row in rows.values():
+            row.times_ms = [2.0]
+        for name in ("tiled+frontend/cube/threads:2", "scanline+frontend/cube/threads:2", "tiled+frontend/knot/threads:2"):
+            rows[name].counters = {"p99_ms": 3.14159, "first_ms": 12.0}
+        header, lines = tails_table(Bench({"backends": "scanline tiled"}, rows))
+        self.assertEqual(header[1:3], ["scanline, median / p99, ms", "scanline, first, ms"])
+        self.assertEqual(lines, [["cube", "2.00 / 3.14", "12", "2.00 / 3.14", "12"], ["knot", "–", "–", "2.00 / 3.14", "12"]])
+        self.assertEqual(tails_table(Bench({}, {}))[1], [])
+
+
 class EngineTest(unittest.TestCase):
     """accuracy_rows.parse_accuracy(): methods that the charts leave out."""
 
