@@ -1,25 +1,31 @@
 """README's first table: the answers to its questions, each with its condition."""
+from factors import gains, said
 from frontier import EXACT, INSIDE_TESTS, PRICED, measured_in, simd_outcome
 from bench_tables import OURS, THREADS, pairs
 from tables import by_order, kernels, number, outcome
 
 HEADER = ["question", "answer", "condition"]
 MOST = 8
+PARALLEL = "Parallel or scanline?"
 CENTRED_SCENE = "mesh_on_grid"  # its shared edges run through pixel centres
 
 
-def speed_rows(bench):
+def factor_rows(bench):
+    with_simd = {gain.factor: " (".join(said(gain)) + ")" for gain in gains(bench) if gain.simd}
+    told = [f"{factor} {with_simd[factor]}" for factor in ("tiles over bands", "edges over spans") if factor in with_simd]
+    if told:
+        yield [PARALLEL, f"speed-up of {', '.join(told)}", f"median and range of all scenes, all else equal; whole frames, "
+               f"{max(THREADS)} threads, {kernels(bench.context.get('simd_target'))}; [all factors](#speed)"]
+
+
+def box_rows(bench):
     threads = max(THREADS)
-    drawn = [{b: row for b in (OURS, "scanline", "naive") if (row := bench.frame(b, scene, threads))} for scene in bench.scenes]
-    drawn = [rows for rows in drawn if OURS in rows and "scanline" in rows]
-    condition = f"whole frames, {threads} threads, {kernels(bench.context.get('simd_target'))}"
-    if drawn:
-        yield ["Parallel or scanline?", f"`{OURS}` {outcome(by_order((rows[OURS], rows['scanline']) for rows in drawn))}",
-               f"against `scanline`; {condition}"]
-    boxed = [(rows["naive"], min(rows[OURS], rows["scanline"], key=lambda row: row.median_ms)) for rows in drawn if "naive" in rows]
+    drawn = [{b: row for b in bench.backends if (row := bench.frame(b, scene, threads))} for scene in bench.scenes]
+    boxed = [(rows.pop("naive"), min(rows.values(), key=lambda row: row.median_ms)) for rows in drawn if "naive" in rows and len(rows) > 1]
     if boxed:
         yield ["Or test the whole bounding box?", f"`naive` {outcome(by_order(boxed))}",
-               f"against the faster of the two; {condition}, but `naive` in scalar code"]
+               f"against the fastest other backend; whole frames, {threads} threads, {kernels(bench.context.get('simd_target'))}, but "
+               "`naive` in scalar code"]
 
 
 def exactness_rows(accuracy, target):
@@ -57,4 +63,4 @@ def peer_rows(bench):
 def answers(bench, accuracy):
     """Lines for HEADER; none for what was not measured."""
     told = [*exactness_rows(accuracy, bench.context.get("simd_target")), *gap_rows(accuracy)] if accuracy else []
-    return [*speed_rows(bench), *told, *peer_rows(bench)][:MOST]
+    return [*factor_rows(bench), *box_rows(bench), *told, *peer_rows(bench)][:MOST]

@@ -1,7 +1,8 @@
 """Reads the files of a run: in results/MACHINE bench.json (Google Benchmark's format), model.json and machine.json.
 
 A row's name is DRAWER/scene/key:value…/threads:N. DRAWER is a backend, a peer (another project's rasterizer), "frontend",
-BACKEND+frontend, or "lab" for a method of the laboratory. Rows random_read/WHERE measure the machine and draw nothing.
+BACKEND+frontend, "cell" for a whole frame of factors.py, or "lab" for a method of the laboratory. Rows random_read/WHERE
+measure the machine and draw nothing.
 """
 import os
 from dataclasses import dataclass, field
@@ -83,7 +84,7 @@ class Bench:
     @property
     def backends(self):
         named = self.context.get("backends", "").split()
-        return named or list(dict.fromkeys(r.backend for r in self.rows.values() if r.backend not in ("", LABORATORY)))
+        return named or list(dict.fromkeys(r.backend for r in self.rows.values() if r.backend not in ("", "cell", LABORATORY)))
 
     @property
     def peers(self):
@@ -156,8 +157,9 @@ def read_bench(folder_or_file):
     except (KeyError, TypeError, AttributeError) as error:
         raise BadInput(f"{path}: not a Google Benchmark result: {error}") from None
     context = data.get("context", {})
+    rounds = int(context.get("rounds", 0))  # of most rows; older runs shuffled all repetitions
     for row in rows.values():
-        row.rounds = len(row.times_ms) == int(context.get("rounds", 0))  # older runs shuffled all repetitions
+        row.rounds = 0 < rounds <= len(row.times_ms)
     reads = {row.scene: rows.pop(name) for name, row in list(rows.items()) if row.backend == "random_read"}
     model = path.parent / "model.json"
     costs = parsed(model, parse_costs, "edgewise_bench --model_out") if path.name == "bench.json" and model.exists() else {}

@@ -1,8 +1,12 @@
 """The tables of a machine's benchmark."""
+from itertools import combinations
+
+import noise
 from bench_rows import describe_machine, gained, gained_interval, order, read_bench
 from program import read_json
-from tables import about, gain, milliseconds, number, speed_up, with_width
+from tables import about, gain, milliseconds, number, percent, speed_up, with_width
 
+NOT_TIMED = "These results hold none of the rows for this."
 THREADS = (1, 2)
 OURS = "tiled"  # the backend that represents ours
 
@@ -223,6 +227,20 @@ def memory_sentence(bench):
     worst = max(rows, key=share)
     return (f"The first frame takes {a_pixel:.1f} bytes per pixel plus {a_triangle:.0f} per triangle, at most {share(worst):.0%} of what "
             f"`edgewise/backend.h` allows (`{worst.backend}` on `{worst.scene}`).")
+
+
+TRUE_RATIO, WANTED_POWER = 1.2, 0.95
+
+
+def power_sentence(bench):
+    """How often the suite's rounds settle a difference between whole frames, simulated with their noise."""
+    frames = [[row for b in bench.backends if (row := bench.frame(b, scene, n)) and row.rounds] for scene in bench.scenes for n in THREADS]
+    compared = [(a.times_ms, b.times_ms) for rows in frames for a, b in combinations(rows, 2)]
+    if not compared:
+        return NOT_TIMED
+    rounds = int(bench.context["rounds"])
+    return (f"{rounds} rounds settle a true {TRUE_RATIO}× between two whole frames in {percent(noise.power(compared, TRUE_RATIO, rounds))} of cases, "
+            f"{noise.rounds_for(compared, TRUE_RATIO, WANTED_POWER)} rounds in {percent(WANTED_POWER)}, simulated with their noise.")
 
 
 def store_cells(rule, streaming):

@@ -1,6 +1,7 @@
 """Compares rows of two results; or builds the benchmark of two revisions, times both by turns, and judges each row by its paired
 rounds. Checks that judge on one revision against itself."""
 import os
+import random
 import re
 import shutil
 import signal
@@ -16,15 +17,20 @@ from pathlib import Path
 import noise
 from bench_rows import read_bench, records
 from program import BadInput, parsed, write_json
-from tables import percent
+from tables import number, percent
 
 ROOT = Path(__file__).resolve().parents[2]
 BUILDS = ROOT / "build" / "compare"
 PROGRAM = "edgewise_bench"
 WORKING_TREE = "."
-# In each round, a row's time is the fastest of REPETITIONS, each of at least MIN_TIME_S: other load on the machine only adds
-# time. Start-up takes about a second, so they cost little.
+# In each round, a row's time is the median of REPETITIONS, each of at least MIN_TIME_S. Start-up takes about a second, so they
+# cost little.
 REPETITIONS, MIN_TIME_S = 5, 0.01
+# A revision also moves code that it does not change, and that alone can make a row faster or slower. Each side is therefore linked
+# anew for each round, behind a random number of bytes, and started with an environment of random size. (Curtsinger and Berger,
+# "Stabilizer: Statistically Sound Performance Evaluation", 2013)
+ROUNDS = 16
+PAGE = 4096
 LINES_OF_A_FAILURE = 20
 
 
@@ -41,6 +47,10 @@ class Revision:
     @property
     def folder(self):
         return BUILDS / (self.commit[:12] or "working-tree")
+
+    @property
+    def build(self):
+        return self.folder / "build"
 
 
 def git(*arguments):
@@ -93,54 +103,76 @@ def extract(of):
     return of.folder
 
 
+def pad(folder, size):
+    """Makes the object that the benchmark in this folder links first, so that it moves all other code."""
+    (folder / "padding.cpp").write_text(f'asm(".skip {size}");\n', encoding="utf-8")
+    run(["c++", "-c", folder / "padding.cpp", "-o", folder / "padding.o"], "the compiler")
+
+
+def link(of, padding):
+    """Builds the revision's benchmark with all of its code moved by so many bytes."""
+    pad(of.build, padding)
+    (of.build / PROGRAM).unlink(missing_ok=True)
+    run(["cmake", "--build", of.build, "--parallel", str(len(os.sched_getaffinity(0))), "--target", PROGRAM], f"the build of {of.title}")
+
+
 def build(of):
-    """The path of the revision's benchmark."""
-    source, folder = extract(of) if of.commit else ROOT, of.folder / "build"
+    source = extract(of) if of.commit else ROOT
     print(f"Building {of.title}", flush=True)
-    configure = ["cmake", "-S", source, "-B", folder, "-DCMAKE_BUILD_TYPE=Release"]
-    if not (folder / "CMakeCache.txt").is_file():
+    configure = ["cmake", "-S", source, "-B", of.build, "-DCMAKE_BUILD_TYPE=Release", f'-DCMAKE_EXE_LINKER_FLAGS="{of.build}/padding.o"']
+    if not (of.build / "CMakeCache.txt").is_file():
         configure += ["-G", "Ninja"] if shutil.which("ninja") else []
+    of.build.mkdir(parents=True, exist_ok=True)
+    pad(of.build, 1)  # CMake links its own checks with it
     run(configure, f"the configuration of {of.title}")
-    run(["cmake", "--build", folder, "--parallel", str(len(os.sched_getaffinity(0))), "--target", PROGRAM], f"the build of {of.title}")
-    return folder / PROGRAM
+    link(of, 1)
 
 
 @contextmanager
-def copies(programs):
-    """Copies that no build changes, with paths of one length, removed in the end."""
-    BUILDS.mkdir(parents=True, exist_ok=True)
+def copies(revisions, rounds):
+    """Of each side a folder with a program for each round, with paths of one length, which no build changes; removed in the end."""
     with tempfile.TemporaryDirectory(prefix="rounds-", dir=BUILDS) as folder:
-        paths = [Path(folder) / side for side in "ab"]
-        for program, path in zip(programs, paths):
-            path.mkdir()
-            shutil.copy(program, path / PROGRAM)
-        yield paths
+        sides = [Path(folder) / side for side in "ab"]
+        for of, side in zip(revisions, sides):
+            for i in range(rounds):
+                show(f"linking {side.name}, {i + 1} of {rounds}")
+                link(of, random.randint(1, PAGE))
+                program(side, i).parent.mkdir(parents=True)
+                shutil.copy(of.build / PROGRAM, program(side, i))
+        show("")
+        yield sides
 
 
-def started(folder, *flags):
-    """Runs the program of this folder there. Both sides have the same arguments, since their length can move the stack."""
-    done, output, errors = finished([f"./{PROGRAM}", *flags], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+def program(side, i):
+    return side / f"{i:04}" / PROGRAM
+
+
+def started(side, i, *flags):
+    """Runs a program of this side in its folder. Both sides have the same arguments, since their length can move the stack."""
+    environment = {**os.environ, "EDGEWISE_PADDING": "x" * random.randrange(PAGE)}
+    done, output, errors = finished([f"./{program(side, i).relative_to(side)}", *flags], cwd=side, env=environment, stdout=subprocess.PIPE,
+                                    stderr=subprocess.PIPE)
     if done.returncode not in (0, 1):  # 1: a row drew other pixels
         raise BadInput(f"{PROGRAM} ended with {done.returncode}: {(errors.strip().splitlines() or ['no message'])[-1]}")
     return output
 
 
-def names(folder, pattern):
+def names(side, pattern):
     """The rows that match. Programs differ in how they report that none does."""
     try:
-        listed = started(folder, "--benchmark_list_tests=true", f"--benchmark_filter={pattern}")
+        listed = started(side, 0, "--benchmark_list_tests=true", f"--benchmark_filter={pattern}")
     except BadInput:
         return []
     return [name for line in listed.splitlines() if re.fullmatch(r"\S+/\S+", name := line.strip())]
 
 
-def timed(folder, pattern):
-    """The benchmark's rows, from one start of the program."""
-    out = folder / "round.json"
+def timed(side, i, pattern):
+    """The benchmark's results, from one start of a program."""
+    out = side / "round.json"
     out.unlink(missing_ok=True)
-    started(folder, f"--benchmark_filter={pattern}", f"--benchmark_repetitions={REPETITIONS}",
+    started(side, i, f"--benchmark_filter={pattern}", f"--benchmark_repetitions={REPETITIONS}",
             f"--benchmark_min_time={MIN_TIME_S}", f"--benchmark_out={out.name}", "--benchmark_out_format=json")
-    return read_bench(out).rows
+    return read_bench(out)
 
 
 FASTER, SLOWER, SAME, FEW = "faster", "slower", "no significant difference", "too few repetitions"
@@ -148,17 +180,26 @@ FASTER, SLOWER, SAME, FEW = "faster", "slower", "no significant difference", "to
 
 @dataclass
 class Row:
-    """One row of both sides, with their times. Of rounds, the last round's rows hold the counters."""
+    """One row of both sides, with the times of its repetitions, round by round. The last round's rows hold the counters."""
     before: object
     after: object
-    before_ms: list
-    after_ms: list
-    rounds: bool = True  # else the two were timed at different times
+    before_times: list
+    after_times: list
+    rounds: bool = True  # else the two were timed at different times, with one repetition a round
     least: float = 0.0  # smaller changes don't count
+    verdict: str = SAME
 
     @property
     def error(self):
         return self.before.error or self.after.error
+
+    @property
+    def before_ms(self):
+        return [noise.median(times) for times in self.before_times]
+
+    @property
+    def after_ms(self):
+        return [noise.median(times) for times in self.after_times]
 
     @property
     def ratio(self):
@@ -169,12 +210,28 @@ class Row:
         return noise.ratio_interval(self.before_ms, self.after_ms, self.rounds)
 
     @property
-    def verdict(self):
+    def p95(self):
+        """Of the repetitions: milliseconds before, after."""
+        return [noise.p95(sum(times, [])) for times in (self.before_times, self.after_times)]
+
+    def claim(self, factor=1.0):
+        """noise.claim() that the times after, multiplied by `factor`, differ."""
+        after_ms = [factor * ms for ms in self.after_ms]
+        return noise.paired_claim(self.before_ms, after_ms) if self.rounds else noise.claim(after_ms, self.before_ms)
+
+    def told(self, order):
         if abs(self.ratio - 1) < self.least:
             return SAME
-        order = noise.paired_order(self.before_ms, self.after_ms) if self.rounds else noise.order(self.after_ms, self.before_ms)
         few = not self.rounds and not noise.enough(len(self.before_ms), len(self.after_ms))
         return {-1: FASTER, 0: FEW if few else SAME, 1: SLOWER}[order]
+
+
+def judge(rows):
+    """Sets the verdicts. Rows of rounds are judged as a family. Two results have too many rows with too few repetitions for that."""
+    claims = [row.claim() for row in rows]
+    together = all(row.rounds for row in rows)
+    for row, order in zip(rows, noise.family(claims) if together else [noise.settled(*claim) for claim in claims]):
+        row.verdict = row.told(order)
 
 
 def show(text):
@@ -183,38 +240,43 @@ def show(text):
         print(f"\r\033[K{text}", end="", file=sys.stderr, flush=True)
 
 
-def time_rounds(folders, pattern, rounds, limit_s):
-    """{name: Row} after `rounds`, or after as many as fit into `limit_s` where `rounds` is None."""
-    rows, start = {}, time.monotonic()
+def time_rounds(sides, pattern, fewest, rounds, limit_s):
+    """{name: Row} after `rounds`; where it is None, after as many as fit into `limit_s`: the first ROUNDS, and these again. Also the
+    machine's name."""
+    rows, start, programs = {}, time.monotonic(), rounds or ROUNDS
     try:
         for done in count():
             spent = time.monotonic() - start
             fit = done * limit_s / spent if done else 0
-            if rounds is None and done == 1 and fit < noise.fewest_rounds():
-                raise BadInput(f"one round takes {spent:.0f} s, and {noise.fewest_rounds()} are the fewest that settle a row: "
-                               f"--minutes {noise.fewest_rounds() * spent / 60 + 1:.0f} or fewer rows are needed")
+            if rounds is None and done == 1 and fit < fewest:
+                raise BadInput(f"one round takes {spent:.0f} s, and {fewest} are the fewest that settle so many rows: "
+                               f"--minutes {fewest * spent / 60 + 1:.0f} or fewer rows are needed")
             if done == rounds or rounds is None and done and done + 1 > fit:
-                return rows
+                return rows, results[0].context.get("machine", "")
             show(f"round {done + 1}{f' of {rounds}' if rounds else ''}, {spent:.0f} s"
                  f"{'' if rounds else f' of {limit_s:.0f}'}")
             # Before, after, after, before: a steady drift of the machine favours neither side.
-            sides = [None, None]
+            results = [None, None]
             for side in (0, 1) if done % 2 == 0 else (1, 0):
-                sides[side] = timed(folders[side], pattern)
-            for name in (name for name in sides[0] if name in sides[1]):
+                results[side] = timed(sides[side], done % programs, pattern)
+            found = [result.rows for result in results]
+            for name in (name for name in found[0] if name in found[1]):
                 row = rows.setdefault(name, Row(None, None, [], []))
-                row.before, row.after = (side[name] for side in sides)
+                row.before, row.after = (of[name] for of in found)
                 if not row.error:
-                    row.before_ms.append(min(row.before.times_ms))
-                    row.after_ms.append(min(row.after.times_ms))
+                    for times, new in ((row.before_times, row.before), (row.after_times, row.after)):
+                        if done < programs:
+                            times.append([])
+                        times[done % programs] += new.times_ms
     finally:
         show("")
 
 
 def line(name, row, width):
     low, high = row.interval
-    return (f"  {name:<{width}} {noise.median(row.before_ms):>9.3f} → {noise.median(row.after_ms):>9.3f} ms "
-            f"{row.ratio:>7.3f}  ({low:.3f} to {high:.3f})")
+    before, after = row.p95
+    return (f"  {name:<{width}} {noise.median(row.before_ms):>8.3f} → {noise.median(row.after_ms):>8.3f} ms "
+            f"{row.ratio:>6.3f}  ({low:.3f} to {high:.3f})  {after / before:>5.2f}")
 
 
 def print_names(title, found):
@@ -225,7 +287,7 @@ def print_names(title, found):
 def print_rows(rows, medians_of, verdicts=(SLOWER, FASTER, FEW, SAME)):
     groups = {verdict: {name: row for name, row in rows.items() if row.verdict == verdict} for verdict in (SLOWER, FASTER, FEW, SAME)}
     print(f"{len(rows)} rows: " + ", ".join(f"{len(group)} {verdict}" for verdict, group in groups.items() if group or verdict != FEW))
-    print(f"Columns: medians of the {medians_of}, ratio (after / before), its {noise.CONFIDENCE:.0%} interval")
+    print(f"Columns: medians of the {medians_of}, ratio (after / before), its {noise.CONFIDENCE:.0%} interval, ratio of the p95")
     width = max(map(len, rows), default=0)
     for verdict in verdicts:
         if group := groups[verdict]:
@@ -237,9 +299,9 @@ def record(before, after, pattern, rounds, rows):
     def one(name, row):
         low, high = row.interval
         return {"name": name, "verdict": row.verdict, "ratio": row.ratio, "low": low, "high": high,
-                "before_ms": row.before_ms, "after_ms": row.after_ms}
+                "before_ms": row.before_ms, "after_ms": row.after_ms, "p95_ms": row.p95}
 
-    return {"before": before.title, "after": after.title, "filter": pattern, "rounds": rounds, "level": noise.LEVEL,
+    return {"before": before.title, "after": after.title, "filter": pattern, "rounds": rounds, "layouts": True, "level": noise.LEVEL,
             "confidence": noise.CONFIDENCE, "rows": [one(*item) for item in rows.items()]}
 
 
@@ -247,14 +309,20 @@ def compare_revisions(before, after, pattern, rounds, minutes, out):
     """Prints the verdicts; `rounds` or None, `out`: a path for JSON or None."""
     if out and not out.resolve().parent.is_dir():
         raise BadInput(f"cannot write {out}: there is no such folder")
-    programs = {of: build(of) for of in dict.fromkeys((before, after))}
-    with copies([programs[before], programs[after]]) as folders:
-        listed = [names(folder, pattern) for folder in folders]
+    for of in dict.fromkeys((before, after)):
+        build(of)
+    with copies((before, after), rounds or ROUNDS) as sides:
+        listed = [names(side, pattern) for side in sides]
         shared = [name for name in listed[0] if name in listed[1]]
         if not shared:
             raise BadInput(f"no row of both revisions matches '{pattern}'")
-        rows = time_rounds(folders, pattern, rounds, 60 * minutes)
+        fewest = noise.fewest_rounds(noise.LEVEL / len(shared))
+        if rounds is not None and rounds < fewest:
+            raise BadInput(f"{rounds} rounds settle nothing; {fewest} are the fewest for {len(shared)} rows")
+        rows, machine = time_rounds(sides, pattern, fewest, rounds, 60 * minutes)
     print(f"Before: {before.title}\nAfter:  {after.title}")
+    if before != after:
+        print(same_revision(machine))
     done, judged = print_compared(rows, listed)
     if out:
         write_json(out, record(before, after, pattern, done, judged))
@@ -266,11 +334,18 @@ def print_compared(rows, listed, verdicts=(SLOWER, FASTER, FEW, SAME)):
     failed = [f"{name}: {row.error}" for name, row in rows.items() if row.error]
     different = [name for name, row in rows.items() if not row.error and other_work(row.before, row.after)]
     judged = {name: row for name, row in rows.items() if not row.error and name not in different}
-    done = max((len(row.before_ms) for row in rows.values() if row.rounds), default=0)
-    if any(row.rounds and len(row.before_ms) < done for row in judged.values()):
+    judge(judged.values())
+    done = max((len(row.before_times) for row in rows.values() if row.rounds), default=0)
+    repetitions = [sum(map(len, row.before_times)) for row in judged.values() if row.rounds]
+    if len(set(repetitions)) > 1:
         raise BadInput("some rounds failed, others did not: the programs draw different pixels from time to time")
     print(f"\n{done} rounds, before and after by turns; " if done else "", end="")
     print_rows(judged, "rounds" if done else "repetitions", verdicts)
+    if judged and done:
+        print(f"\nThe chance that any of these changes is false: at most {percent(noise.LEVEL)}.\n"
+              f"Of {len(judged)} planted slowdowns of {percent(PLANTED - 1)}, {planted(judged.values())} would be found.")
+    elif judged:
+        print(f"\nIf nothing changed, at most {number(noise.LEVEL * len(judged), 2)} rows in {len(judged)} would be told as changed.")
     print_names("Not compared: other triangles, pixels or size", different)
     print_names("Not compared: error", failed)
     for side, other, title in ((0, 1, "Only before"), (1, 0, "Only after")):
@@ -294,29 +369,46 @@ def interruptible(compare):
 PLANTED = 1.02
 
 
-def differing(pairs):
-    """(pairs that differ, pairs)"""
-    found = [noise.paired_order(before, after) for before, after in pairs]
-    return sum(map(bool, found)), len(found)
+def planted(rows):
+    """In how many rows the slowdown would be found if they had no other."""
+    return noise.family([row.claim(PLANTED / row.ratio) for row in rows]).count(1)
 
 
-def in_blocks(pairs, rounds):
-    return [(before[i:i + rounds], after[i:i + rounds]) for before, after in pairs for i in range(0, len(before) - rounds + 1, rounds)]
+def differing(pairs, judge_all):
+    """"1 of 60": pairs that differ."""
+    orders = judge_all([noise.paired_claim(*pair) for pair in pairs])
+    return f"{sum(map(abs, orders))} of {len(pairs)}"
+
+
+def alone(claims):
+    return [noise.settled(*claim) for claim in claims]
 
 
 def parse_same(data):
-    """[(milliseconds before, after)] of each row, and the number of rounds."""
+    """[(milliseconds before, after)] of each row, the number of rounds, and whether each round had another layout of the code."""
     if data["before"] != data["after"]:
         raise ValueError("two different revisions")
-    return [(row["before_ms"], row["after_ms"]) for row in data["rows"]], data["rounds"]
+    return [(row["before_ms"], row["after_ms"]) for row in data["rows"]], data["rounds"], data.get("layouts", False)
+
+
+def same_revision(machine):
+    """How often the same revision twice differed on this machine."""
+    records = sorted((ROOT / "results" / machine).glob("same*.json")) if machine else []
+    told = [differing(parsed(path, parse_same, "scripts/compare --json")[0], noise.family) for path in records]
+    return f"The same revision twice on this machine: {', '.join(told)} rows changed" if told else \
+        "The same revision twice was not timed on this machine:\n  scripts/compare HEAD HEAD --json results/MACHINE/same.json"
 
 
 def noise_table(folder):
-    """Header and lines from same.json, written by `scripts/compare REV REV --json`: false alarms, and how often a planted slowdown is found, of all machines; no lines if not measured."""
+    """Header and lines from same.json, written by `scripts/compare REV REV --json`: false alarms, and how often a planted slowdown is
+    found, on all machines, this one first; no lines if not measured."""
     lines = []
     for path in records(folder, "same*"):
-        pairs, rounds = parsed(path, parse_same, "scripts/compare --json")
-        found = sum(noise.paired_order(before, [PLANTED * ms for ms in after]) > 0 for before, after in pairs)
-        alarms = ["{} of {}".format(*differing(of)) for of in (pairs, in_blocks(pairs, noise.fewest_rounds()))]
-        lines.append([f"`{path.parent.name}`", str(rounds), *alarms, f"{found} of {len(pairs)}"])
-    return ["machine", "rounds", "false alarms", f"false alarms in blocks of {noise.fewest_rounds()} rounds", f"{percent(PLANTED - 1)} slowdowns found"], lines
+        pairs, rounds, layouts = parsed(path, parse_same, "scripts/compare --json")
+        slower = [(before, [PLANTED / noise.median_ratio(before, after, True) * ms for ms in after]) for before, after in pairs]
+        lines.append([f"`{path.parent.name}`", "yes" if layouts else "no", str(rounds), differing(pairs, alone), differing(pairs, noise.family),
+                      differing(slower, noise.family)])
+    if lines and not list(folder.glob("same*.json")):
+        lines.insert(0, [f"`{folder.name}`", *["–"] * 5])
+    return ["machine", "new layout each round", "rounds", "false alarms, each row alone", "false alarms, as a family",
+            f"{percent(PLANTED - 1)} slowdowns found"], lines

@@ -6,7 +6,8 @@ which each side ran once. It is the exact signed-rank test (Wilcoxon, "Individua
 the logarithms of the rounds' ratios. Both count ties against the claim.
 
 Guarantee: if neither side is faster, a test claims a difference in at most LEVEL of all cases. `order` needs repetitions
-that are exchangeable, `paired_order` rounds that are independent of one another. Neither needs a normal distribution.
+that are exchangeable, `paired_order` rounds that are independent of one another. Neither needs a normal distribution. `family`
+gives the same guarantee for several claims together.
 
 Some pairs are too small for the rank-sum test to reach LEVEL, for example three repetitions against three. They count as
 different only across a gap of GAP: the slowest repetition of one side, times GAP, is below the fastest of the other. No
@@ -16,7 +17,9 @@ against the repetitions in results/.
 import math
 import random
 import statistics
+from bisect import bisect_left
 from functools import cache
+from itertools import accumulate, count
 
 LEVEL = 0.01  # of false alarms
 CONFIDENCE = 0.95  # of intervals
@@ -24,56 +27,61 @@ GAP = 2.0
 # The machine drifts between runs at different times, so smaller changes of a median are not reported.
 DRIFT = 0.03
 RESAMPLES = 2000
+DRAWS = 100  # of each pair, for the power of the test
 
 median = statistics.median
 
 
-def most_against(counts):
-    """The largest value of a statistic that still rejects equality, two-sided, at LEVEL; -1 if none does. `counts`: the
-    number of equally probable cases with each value."""
-    total, cases = sum(counts), 0
-    for value, count in enumerate(counts):
-        cases += count
-        if 2 * cases / total > LEVEL:
-            return value - 1
-    raise ValueError("a distribution is complete at 1, above LEVEL")
+def chances(counts):
+    """Two-sided p-value of each value of a statistic; `counts`: the number of equally probable cases with each value."""
+    total = sum(counts)
+    return [min(1.0, 2 * cases / total) for cases in accumulate(counts)]
 
 
 @cache
-def most_pairs_lost(n, m):
-    """Of the n·m pairs of repetitions, one of each side, the most that the faster side may fail to win."""
+def chances_of_pairs(n, m):
+    """The p-value by how many of the n·m pairs of repetitions, one of each side, the faster side fails to win."""
     counts = [1] + [0] * (n * m)  # by generating functions: the product of (1 - q^(m+i)) / (1 - q^i) for i up to n
     for i in range(1, n + 1):
         for lost in range(n * m, m + i - 1, -1):
             counts[lost] -= counts[lost - m - i]
         for lost in range(i, n * m + 1):
             counts[lost] += counts[lost - i]
-    return most_against(counts)
+    return chances(counts)
 
 
 @cache
-def most_ranks_lost(rounds):
-    """The largest sum of the ranks of the rounds that contradict the claim."""
+def chances_of_ranks(rounds):
+    """The p-value by the sum of the ranks of the rounds that contradict the claim."""
     counts = [1]
     for rank in range(1, rounds + 1):
         counts = [a + b for a, b in zip(counts + [0] * rank, [0] * rank + counts)]
-    return most_against(counts)
+    return chances(counts)
 
 
 def enough(n, m):
     """Whether the rank-sum test can settle so many repetitions."""
-    return most_pairs_lost(n, m) >= 0
+    return chances_of_pairs(n, m)[0] <= LEVEL
+
+
+def claim(a, b):
+    """(-1 if the times `a` are shorter than `b`, 1 if longer; the p-value of that claim)"""
+    n, m = len(a), len(b)
+    if not enough(n, m):
+        gap = 0 if n + m < 3 else (max(b) * GAP < min(a)) - (max(a) * GAP < min(b))
+        return gap, 0.0 if gap else 1.0
+    won = sum(x < y for x in a for y in b)
+    lost = sum(x > y for x in a for y in b)
+    return (-1 if won > lost else 1), chances_of_pairs(n, m)[n * m - max(won, lost)]
 
 
 def order(a, b):
     """-1 if the times `a` are shorter than `b`, 1 if longer, 0 if too close to call."""
-    n, m = len(a), len(b)
-    if not enough(n, m):
-        return 0 if n + m < 3 else (max(b) * GAP < min(a)) - (max(a) * GAP < min(b))
-    won = sum(x < y for x in a for y in b)
-    lost = sum(x > y for x in a for y in b)
-    most = most_pairs_lost(n, m)
-    return (n * m - lost <= most) - (n * m - won <= most)
+    return settled(*claim(a, b))
+
+
+def settled(sign, p):
+    return sign if p <= LEVEL else 0
 
 
 def ratios(before, after):
@@ -81,26 +89,65 @@ def ratios(before, after):
     return [b / a for a, b in zip(before, after, strict=True)]
 
 
-def paired_order(before, after):
-    """-1 if `after` is the shorter of two lists of times of the same rounds, 1 if the longer, 0 if too close to call. Fewer
-    rounds than the signed-rank test needs are judged as repetitions."""
+def paired_claim(before, after):
+    """claim() that `after` is the shorter of two lists of times of the same rounds, or the longer. Fewer rounds than the
+    signed-rank test needs are judged as repetitions."""
     if len(before) < fewest_rounds():
-        return order(after, before)
+        return claim(after, before)
     logs = [math.log(ratio) for ratio in ratios(before, after)]
-    most = most_ranks_lost(len(logs))
 
-    def holds(sign):
-        """Whether the rounds support that sign * log > 0. Of equal distances from 0, contradictions have the higher ranks."""
+    def against(sign):
+        """The ranks of the rounds that contradict sign * log > 0. Of equal distances from 0, they have the higher ranks."""
         ranked = sorted((sign * log for log in logs), key=lambda log: (abs(log), log <= 0))
-        return sum(rank for rank, log in enumerate(ranked, 1) if log <= 0) <= most
+        return sum(rank for rank, log in enumerate(ranked, 1) if log <= 0)
 
-    return holds(1) - holds(-1)
+    lost, sign = min((against(1), 1), (against(-1), -1))
+    return sign, chances_of_ranks(len(logs))[lost]
+
+
+def paired_order(before, after):
+    """-1 if `after` is the shorter, 1 if the longer, 0 if too close to call."""
+    return settled(*paired_claim(before, after))
 
 
 @cache
-def fewest_rounds():
+def fewest_rounds(level=LEVEL):
     """The fewest rounds that can settle a pair."""
-    return next(rounds for rounds in range(1, 100) if most_ranks_lost(rounds) >= 0)
+    return next(rounds for rounds in count(1) if chances_of_ranks(rounds)[0] <= level)
+
+
+def family(claims):
+    """The orders of claims that are made together: the chance that any of them is false is at most LEVEL. (Holm, "A simple
+    sequentially rejective multiple test procedure", 1979)"""
+    orders = [0] * len(claims)
+    for rank, i in enumerate(sorted(range(len(claims)), key=lambda i: claims[i][1])):
+        sign, p = claims[i]
+        if p > LEVEL / (len(claims) - rank):
+            break
+        orders[i] = sign
+    return orders
+
+
+def power(pairs, ratio, rounds):
+    """How often so many rounds settle that one side is slower by `ratio`. The noise is that of `pairs` of times of the same
+    rounds: each is simulated DRAWS times, by rounds drawn from its own."""
+    generator, found = random.Random(1), 0
+    for before, after in pairs:
+        own = ratios(before, after)
+        level = ratio / median(own)
+        found += sum(paired_order([1.0] * rounds, [level * noise for noise in generator.choices(own, k=rounds)]) > 0 for _ in range(DRAWS))
+    return found / (DRAWS * len(pairs))
+
+
+def rounds_for(pairs, ratio, wanted):
+    """The fewest rounds with so much power()."""
+    rounds = range(fewest_rounds(), 100)
+    return rounds[bisect_left(rounds, wanted, key=lambda count: power(pairs, ratio, count))]
+
+
+def p95(values):
+    """The 95th percentile: the least value that 95 % of them do not exceed."""
+    return sorted(values)[math.ceil(0.95 * len(values)) - 1]
 
 
 def middle_of(figures):

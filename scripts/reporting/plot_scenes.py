@@ -1,68 +1,12 @@
-"""Charts by scene: the time, and the speed-up by threads, SIMD and culling."""
+"""Charts by scene: the speed-up by SIMD and by culling."""
 from bench_rows import gained, gained_interval, order
-from bench_tables import OURS, THREADS
+from bench_tables import OURS
 from noise import median
-from plot_style import FAINT, INK, WIDTH_IN, Look, head_in, headline, log_axis, plt, round_ticks, save
-from tables import VECTORS, about, by_order, kernels, spread
+from plot_style import FAINT, INK, WIDTH_IN, Look, head_in, headline, plt, round_ticks, save
+from tables import VECTORS, about, kernels, spread
 
 NORMAL_Z = "normal_z"  # the Outlaw Triad trainer's facing test
 INTERVALS = "Light bars: 95 % intervals."
-
-
-def room_for(names):
-    """Left margin, in figure fractions, for the names of lines."""
-    return 0.1 + 0.0085 * max(0, max(map(len, names)) - 10)
-
-
-def time_title(bench):
-    """On the most threads: our backend against the fastest of the others on each scene."""
-    compared = []
-    for scene in bench.scenes:
-        rows = {b: row for b in bench.backends if (row := bench.frame(b, scene, max(THREADS)))}
-        if OURS in rows and len(rows) > 1:
-            compared.append((rows[OURS], min((row for b, row in rows.items() if b != OURS), key=lambda row: row.median_ms)))
-    found = by_order(compared)
-    return (f"{OURS} is the fastest in {len(found[-1])} of {len(compared)} scenes, {len(found[0])} not settled" if compared else
-            "Time per scene")
-
-
-def scene_time(bench, folder, caption):
-    """One line per scene, one place per backend: hollow 1 thread, filled 2."""
-    look = Look(bench.backends)
-    scenes = bench.scenes
-    if not scenes:
-        return None
-    figure, axes = plt.subplots(figsize=(WIDTH_IN, 1.6 + 0.52 * len(scenes)))
-    step = 0.72 / max(1, len(bench.backends))
-    for line, scene in enumerate(scenes):
-        if line % 2:
-            axes.axhspan(line - 0.5, line + 0.5, color="#f6f8fa", zorder=0)
-        for place, backend in enumerate(bench.backends):
-            y = line + (place - (len(bench.backends) - 1) / 2) * step
-            rows = [row for threads in (1, 2) if (row := bench.frame(backend, scene, threads))]
-            axes.plot([row.median_ms for row in rows], [y] * len(rows), color=look.colour(backend), linewidth=1.6)
-            for row in rows:
-                axes.plot(row.interval_ms, [y, y], color=look.colour(backend), linewidth=5, alpha=0.2,
-                          solid_capstyle="butt")
-                filled = row.threads > 1
-                axes.plot([row.median_ms], [y], marker=look.marker(backend), markersize=6.5, linestyle="",
-                          color=look.colour(backend), markerfacecolor=look.colour(backend) if filled else "white",
-                          markeredgewidth=1.5)
-    axes.set_xscale("log")
-    axes.margins(x=0.02)
-    log_axis(axes.xaxis)
-    axes.set_yticks(range(len(scenes)), scenes)
-    axes.tick_params(axis="y", length=0)
-    axes.set_ylim(len(scenes) - 0.5, -0.5)
-    axes.grid(axis="y", visible=False)
-    axes.set_xlabel("ms per frame, clear included")
-    height = figure.get_figheight()
-    top = headline(figure, time_title(bench), "Whole frames: front end and backend; lower is better. "
-                   f"Hollow: 1 thread; filled, and the title: 2. {INTERVALS}")
-    look.legend(figure, top - 0.02 / height)
-    figure.subplots_adjust(left=room_for(scenes), right=0.975, bottom=0.78 / height, top=top - 0.42 / height)
-    save(figure, folder, "scenes", caption)
-    return "scenes"
 
 
 def speed_up_text(value, _):
@@ -99,36 +43,6 @@ def dots(axes, look, gains, hollow):
     round_ticks(axes.xaxis, low, high, speed_up_text, ratios=True)
 
 
-def gain_chart(bench, folder, caption, name, what, subtitle, gains, hollow=None, notes=None):
-    """`gains` and `hollow` as of dots(). `notes`: the text on the right of a scene. The title: "A second thread helps in 40 of 45
-    cases, 1.9× in median"."""
-    compared = [rows for of in gains.values() for rows in of.values()]
-    if not compared:
-        return None
-    faster = sum(order(after, before) < 0 for before, after in compared)
-    middle = median(gained(*rows) for rows in compared)
-    look = Look(bench.backends)
-    figure, axes = plt.subplots(figsize=(WIDTH_IN, 1.8 + head_in(subtitle) + (0.85 if hollow else 0.4) * len(gains)))
-    dots(axes, look, gains, hollow)
-    for line, scene in enumerate(gains):
-        axes.text(1.012, line, (notes or {}).get(scene, ""), transform=axes.get_yaxis_transform(), fontsize=9, color=FAINT, va="center")
-    axes.set_xlabel(f"speed-up by {what[0].lower()}{what[1:]}")
-    height = figure.get_figheight()
-    top = headline(figure, f"{what} helps in {faster} of {len(compared)} cases, {about(middle)} in median", subtitle)
-    look.legend(figure, top - 0.02 / height)
-    figure.subplots_adjust(left=room_for(gains), right=0.86 if notes else 0.975, bottom=0.95 / height, top=top - 0.42 / height)
-    save(figure, folder, name, f"{INTERVALS}\n{caption}")
-    return name
-
-
-def threads(bench, folder, caption):
-    rows = {scene: {backend: [bench.find(f"{backend}/{scene}/threads:{n}") for n in (1, 2)] for backend in bench.backends}
-            for scene in bench.scenes}
-    gains = {scene: {backend: found for backend, found in of.items() if all(found)} for scene, of in rows.items()}
-    return gain_chart(bench, folder, caption, "threads", "A second thread",
-                      "Time on 1 thread over time on 2, backend alone; 2× is ideal.", gains)
-
-
 def culling_rows(bench, mode):
     """{scene: {backend: (row of a whole frame with all its faces, row in this culling mode)}}"""
     rows = {(row.scene, row.backend, row.keys["cull"]): row for row in bench.sweep("cull")}
@@ -141,13 +55,31 @@ def culling_rows(bench, mode):
 
 def culling(bench, folder, caption):
     """Filled: by the winding on the screen; hollow: by the z of normals, if timed."""
-    by_normal = culling_rows(bench, NORMAL_Z)
-    told = "Whole frames of closed meshes, front end included: time with all faces over time with back faces culled."
+    gains, by_normal = culling_rows(bench, "back"), culling_rows(bench, NORMAL_Z)
+    compared = [rows for of in gains.values() for rows in of.values()]
+    if not compared:
+        return None
+    subtitle = "Whole frames of closed meshes, front end included: time with all faces over time with back faces culled."
     if by_normal:
-        told += (" Filled: by the winding on the screen. Hollow: by the z of normals before projection "
-                 f"({NORMAL_Z}), with the pixels it gets wrong.")
-    notes = {scene: f"{next(iter(of.values()))[1].counters['wrong_px']:,.0f} px wrong" for scene, of in by_normal.items()}
-    return gain_chart(bench, folder, caption, "culling", "Culling", told, culling_rows(bench, "back"), by_normal, notes)
+        subtitle += (" Filled: by the winding on the screen. Hollow: by the z of normals before projection "
+                     f"({NORMAL_Z}), with the pixels it gets wrong.")
+    look = Look(bench.backends)
+    figure, axes = plt.subplots(figsize=(WIDTH_IN, 1.8 + head_in(subtitle) + (0.85 if by_normal else 0.4) * len(gains)))
+    dots(axes, look, gains, by_normal)
+    for line, scene in enumerate(gains):
+        if scene in by_normal:
+            wrong = next(iter(by_normal[scene].values()))[1].counters["wrong_px"]
+            axes.text(1.012, line, f"{wrong:,.0f} px wrong", transform=axes.get_yaxis_transform(), fontsize=9, color=FAINT, va="center")
+    axes.set_xlabel("speed-up by culling")
+    faster = sum(order(after, before) < 0 for before, after in compared)
+    height = figure.get_figheight()
+    top = headline(figure, f"Culling helps in {faster} of {len(compared)} cases, {about(median(gained(*rows) for rows in compared))} in median",
+                   subtitle)
+    look.legend(figure, top - 0.02 / height)
+    margin = 0.1 + 0.0085 * max(0, max(map(len, gains)) - 10)  # for the names of scenes
+    figure.subplots_adjust(left=margin, right=0.86 if by_normal else 0.975, bottom=0.95 / height, top=top - 0.42 / height)
+    save(figure, folder, "culling", f"{INTERVALS}\n{caption}")
+    return "culling"
 
 
 def simd(bench, folder, caption):
@@ -197,4 +129,4 @@ def simd(bench, folder, caption):
     return "simd"
 
 
-CHARTS = (scene_time, threads, simd, culling)
+CHARTS = (simd, culling)

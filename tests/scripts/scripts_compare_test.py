@@ -10,13 +10,16 @@ import unittest
 from pathlib import Path
 
 SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
-# Copies the sources' benchmark into the build.
+# "Builds" the sources' benchmark by copying it.
 CMAKE = """#!/bin/bash
 if [[ $1 == --build ]]; then
-  [[ ! -f $2/fails ]] || { echo 'a.cpp:1: error: no'; exit 1; }
+  [[ -f $2/compiled ]] || { echo 'a.cpp:1: error: no'; exit 1; }
+  { cat "$2/compiled"; echo "# $(cat "$2/padding.cpp")"; } >"$2/edgewise_bench"
+  chmod +x "$2/edgewise_bench"
 else
-  mkdir -p "$4" && touch "$4/CMakeCache.txt" && rm -f "$4/fails" && cp "$2"/{edgewise_bench,rows.json} "$4" 2>/dev/null ||
-    touch "$4/fails"
+  [[ $* == *EXE_LINKER_FLAGS=*$4/padding.o* && -f $4/padding.o ]] || exit 1
+  touch "$4/CMakeCache.txt" && rm -f "$4/compiled"
+  if [[ -f $2/rows.json ]]; then cp "$2/edgewise_bench" "$4/compiled"; fi
 fi
 """
 # Times are those of rows.json, times noise that drifts. The file of a round's number is shared by both sides.
@@ -33,6 +36,8 @@ if "--benchmark_list_tests" in flags:
 calls = Path(os.environ["CALLS"])
 with calls.open("a") as file:
     file.write(Path.cwd().name)
+with Path(os.environ["CALLS"] + "-layouts").open("a") as file:
+    print(Path(sys.argv[0]).read_text().splitlines()[-1], len(os.environ["EDGEWISE_PADDING"]), file=file)
 if os.environ.get("HANGS"):
     import time
     time.sleep(60)
@@ -58,8 +63,9 @@ class CompareTest(unittest.TestCase):
         self.root, tools, self.calls = (self.folder / name for name in ("root", "tools", "calls"))
         tools.mkdir()
         shutil.copytree(SCRIPTS, self.root / "scripts", ignore=shutil.ignore_patterns("__pycache__"))
-        (tools / "cmake").write_text(CMAKE)
-        (tools / "cmake").chmod(0o755)
+        for name, text in (("cmake", CMAKE), ("c++", '#!/bin/bash\ntouch "${@: -1}"\n')):
+            (tools / name).write_text(text)
+            (tools / name).chmod(0o755)
         (self.root / ".gitignore").write_text("/build/\n*.pyc\n")
         self.environment = {**os.environ, "PATH": f"{tools}:{os.environ['PATH']}", "CALLS": str(self.calls)}
         self.git("init", "-q")
@@ -99,12 +105,16 @@ class CompareTest(unittest.TestCase):
         result = self.compare("HEAD", "--filter", "tiled", "--rounds", 20, "--json", out)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("20 rounds, before and after by turns; 3 rows: 1 slower, 1 faster, 1 no significant difference", result.stdout)
+        self.assertIn("Of 3 planted slowdowns of 2 %, 3 would be found.", result.stdout)
+        self.assertIn("The same revision twice was not timed on this machine", result.stdout)
         slower, rest = result.stdout.split("\nSlower\n")[1].split("\nFaster\n")
         faster, same = rest.split("\nNo significant difference\n")
         for text, name in ((slower, "tiled/a/"), (faster, "tiled/b/"), (same, "tiled/c/")):
             self.assertIn(name, text.splitlines()[0])
         self.assertLessEqual(max(map(len, result.stdout.splitlines())), 100)
         self.assertEqual(self.calls.read_text(), "abba" * 10)
+        code, environment = (set(column) for column in zip(*(line.split(";") for line in Path(f"{self.calls}-layouts").read_text().splitlines())))
+        self.assertGreater(min(len(code), len(environment)), 30, "both sides of each round are laid out anew")
         told = json.loads(out.read_text())
         a = told["rows"][0]
         self.assertEqual((a["name"], a["verdict"], len(a["before_ms"]), told["rounds"]), ("tiled/a/threads:1", "slower", 20, 20))
@@ -112,16 +122,16 @@ class CompareTest(unittest.TestCase):
         self.nothing_left()
 
     def test_a_revision_is_compared_with_itself(self):
-        result = self.compare(self.first[:9], "HEAD", "--rounds", 8)
+        result = self.compare(self.first[:9], "HEAD", "--rounds", 9)
         self.assertEqual(result.returncode, 2, "the default rows are not there")
-        result = self.compare(self.first[:9], "HEAD", "--rounds", 8, "--filter", "tiled/[ab]")
+        result = self.compare(self.first[:9], "HEAD", "--rounds", 9, "--filter", "tiled/[ab]")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("2 rows: 0 slower, 0 faster, 2 no significant difference", result.stdout)
         self.assertEqual(result.stdout.count("Building "), 1)
 
     def test_rows_that_cannot_be_compared_are_listed(self):
         self.commit({"tiled/a/threads:1": row(1.0, 3.0), "tiled/b/threads:1": row(2.0, wrong=True), "tiled/d/threads:1": row(1.0)})
-        result = self.compare(self.first, "HEAD", "--filter", "tiled", "--rounds", 8)
+        result = self.compare(self.first, "HEAD", "--filter", "tiled", "--rounds", 9)
         self.assertEqual(result.returncode, 0, result.stderr)
         for words in ("0 rows: 0 slower", "other triangles, pixels or size\n  tiled/a/threads:1", "error\n  tiled/b/threads:1: other pixels",
                       "Only before\n  tiled/c/threads:1", "Only after\n  tiled/d/threads:1"):
@@ -132,14 +142,14 @@ class CompareTest(unittest.TestCase):
         result = self.compare("HEAD", "--filter", "tiled", "--minutes", 0.1)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertLess(time.monotonic() - start, 12)
-        self.assertGreaterEqual(len(self.calls.read_text()), 16)
-        self.fails(self.compare("HEAD", "--filter", "tiled", "--minutes", 0.0001), "8 are the fewest that settle a row", "--minutes")
+        self.assertGreaterEqual(len(self.calls.read_text()), 20)
+        self.fails(self.compare("HEAD", "--filter", "tiled", "--minutes", 0.0001), "10 are the fewest that settle so many rows", "--minutes")
 
     def test_bad_input_is_told(self):
         self.fails(self.compare("nosuch"), "nosuch: no such file, and no revision")
         self.fails(self.compare("HEAD", "--option=x"), "unknown argument")
         self.fails(self.compare("HEAD", "--filter", "nothing", "--rounds", 8), "no row of both revisions matches 'nothing'")
-        self.fails(self.compare("HEAD", "--rounds", 7), "7 rounds settle no row")
+        self.fails(self.compare("HEAD", "--filter", "tiled", "--rounds", 9), "9 rounds settle nothing; 10 are the fewest for 3 rows")
         self.fails(self.compare("HEAD", "--json", self.folder / "no/out.json"), "no such folder")
         self.git("rm", "-q", "rows.json")
         self.git("commit", "-q", "-m", "broken")
@@ -151,7 +161,7 @@ class CompareTest(unittest.TestCase):
         out = self.folder / "out.json"
         for end in (signal.SIGINT, signal.SIGTERM):
             self.calls.unlink(missing_ok=True)
-            command = [self.root / "scripts/compare", "HEAD", "--filter", "tiled", "--rounds", "8", "--json", out]
+            command = [self.root / "scripts/compare", "HEAD", "--filter", "tiled", "--rounds", "10", "--json", out]
             with subprocess.Popen(command, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True,
                                   env={**self.environment, "HANGS": "1"}) as process:
                 limit = time.monotonic() + 30

@@ -143,6 +143,46 @@ class PairedTest(unittest.TestCase):
         self.assertGreater(claims[noise.paired_order], 0.1 * cases)
 
 
+class FamilyTest(unittest.TestCase):
+    def test_a_claim_needs_more_the_more_others_are_made(self):
+        self.assertEqual(noise.family([(1, 0.009), (-1, 0.5)]), [0, 0], "above half of the level")
+        self.assertEqual(noise.family([(1, 0.009), (-1, 0.004)]), [1, -1], "the second needs the whole level")
+        self.assertEqual(noise.family([(1, 0.002), (1, 0.009), (-1, 0.006)]), [1, 0, 0], "none after the first that fails")
+        self.assertEqual(noise.family([]), [])
+        self.assertEqual([noise.fewest_rounds(noise.LEVEL / rows) for rows in (1, 2, 8)], [8, 9, 11])
+
+    def test_any_false_claim_is_rare_among_many(self):
+        generator, cases = random.Random(6), 300
+
+        def claims():
+            return [noise.paired_claim(*([noisy(generator) for _ in range(16)] for _ in "ab")) for _ in range(20)]
+
+        families = [claims() for _ in range(cases)]
+        self.assertLessEqual(sum(any(noise.family(of)) for of in families), 0.02 * cases)
+        self.assertGreater(sum(any(p <= noise.LEVEL for _, p in of) for of in families), 0.1 * cases, "each judged alone")
+
+
+class PowerTest(unittest.TestCase):
+    def test_power_is_that_of_simulated_runs(self):
+        generator = random.Random(7)
+
+        def runs(count, rounds, ratio):
+            return [([noisy(generator) for _ in range(rounds)], [ratio * noisy(generator) for _ in range(rounds)]) for _ in range(count)]
+
+        told = noise.power(runs(20, 200, 3.0), 1.02, 12)  # whatever the pairs' own ratio
+        found = sum(noise.paired_order(*run) > 0 for run in runs(1000, 12, 1.02)) / 1000
+        self.assertAlmostEqual(told, found, delta=0.06)
+        self.assertTrue(0.2 < found < 0.9, found)
+
+    def test_more_rounds_settle_more(self):
+        generator = random.Random(8)
+        pairs = [([noisy(generator) for _ in range(9)], [noisy(generator) for _ in range(9)]) for _ in range(10)]
+        needed = noise.rounds_for(pairs, 1.02, 0.9)
+        self.assertLess(noise.power(pairs, 1.02, needed - 1), 0.9)
+        self.assertGreaterEqual(noise.power(pairs, 1.02, needed), 0.9)
+        self.assertLess(noise.rounds_for(pairs, 1.2, 0.9), needed)
+
+
 class IntervalTest(unittest.TestCase):
     def test_it_holds_the_median_of_most_samples(self):
         generator = random.Random(3)
@@ -153,6 +193,9 @@ class IntervalTest(unittest.TestCase):
                 held += low <= 1.0 <= high
             self.assertGreater(held, least * 300)
             self.assertLess(held, 0.995 * 300)
+
+    def test_tails_are_kept(self):
+        self.assertEqual([noise.p95(range(1, count + 1)) for count in (1, 20, 100)], [1, 19, 95])
 
     def test_it_is_the_same_each_time_and_narrows(self):
         values = [1.0 + i * i / 100 for i in range(9)]
@@ -188,8 +231,8 @@ class NoiseCheckTest(unittest.TestCase):
 
         rows = [row(even, even[::-1]), row(steady, steady[::-1]), row(steady, [1.1 * ms for ms in steady])]
         run = {"before": "a", "after": "a", "filter": "x", "rounds": 16}
-        lines = self.check({**run, "rows": rows}, {**run, "rows": rows[1:]})
-        self.assertEqual([line[1:] for line in lines], [["16", "1 of 3", "2 of 6", "3 of 3"], ["16", "1 of 2", "2 of 4", "2 of 2"]])
+        lines = self.check({**run, "rows": rows}, {**run, "rows": rows[1:], "layouts": True})
+        self.assertEqual([line[1:] for line in lines], [["no", "16", "1 of 3", "1 of 3", "3 of 3"], ["yes", "16", "1 of 2", "1 of 2", "2 of 2"]])
 
     def test_other_files_are_refused(self):
         self.assertEqual(noise_table(Path("/none"))[1], [])

@@ -1,0 +1,127 @@
+"""What each factor of a rasterizer gains: pairs of the benchmark's cells, whole frames, that differ in one factor only.
+
+Cells are the rows cell/SCENE/traversal:bands|tiles/fill:spans|edges/simd:TARGET[/with:hiz[+masks]]/threads:N.
+"""
+from typing import NamedTuple
+
+from bench_rows import gained, order
+from noise import LEVEL, median
+from tables import about, kernels, number
+
+SCALAR = "scalar"
+HIZ, MASKS = "hiz", "hiz+masks"
+
+
+class Cell(NamedTuple):
+    scene: str
+    traversal: str
+    fill: str
+    simd: bool
+    extra: str  # "", HIZ or MASKS
+    threads: int
+
+
+def cells(bench):
+    """{Cell: row}"""
+    return {Cell(row.scene, row.keys["traversal"], row.keys["fill"], row.keys["simd"] != SCALAR, row.keys.get("with", ""),
+                 row.threads): row for row in bench.sweep("traversal")}
+
+
+def most_threads(found):
+    return max((cell.threads for cell in found), default=1)
+
+
+def factors(threads):
+    """{title: (field of a cell, level before, level after)}"""
+    return {"tiles over bands": ("traversal", "bands", "tiles"), "edges over spans": ("fill", "spans", "edges"),
+            "SIMD over scalar": ("simd", False, True), "HiZ": ("extra", "", HIZ), "masks, with HiZ": ("extra", HIZ, MASKS),
+            f"{threads} threads over 1": ("threads", 1, threads)}
+
+
+class Gain(NamedTuple):
+    """The speed-ups by a factor in cells with or without SIMD, all else equal."""
+    factor: str
+    simd: bool
+    median: float
+    least: tuple  # (speed-up, scene)
+    most: tuple
+    faster: int
+    slower: int
+    open: int
+
+    @property
+    def pairs(self):
+        return self.faster + self.slower + self.open
+
+
+def gains(bench):
+    """A Gain of each factor on the most threads, in all scenes and at all levels of the other factors: with SIMD, then in scalar
+    code."""
+    found = cells(bench)
+    threads = most_threads(found)
+    for simd in (True, False):
+        for title, (field, before, after) in factors(threads).items():
+            pairs = [(cell.scene, found[plain], row) for cell, row in found.items()
+                     if (cell.simd, cell.threads, getattr(cell, field)) == (simd, threads, after) and before != after
+                     and (plain := cell._replace(**{field: before})) in found]
+            if pairs:
+                speed_ups = [(gained(plain, row), scene) for scene, plain, row in pairs]
+                orders = [order(row, plain) for _, plain, row in pairs]
+                yield Gain(title, simd, median(ratio for ratio, _ in speed_ups), min(speed_ups), max(speed_ups),
+                           *map(orders.count, (-1, 1, 0)))
+
+
+def said(gain):
+    """Its median and its range: "1.1×", "0.59× in cubes to 2.9× in micro"."""
+    return about(gain.median), " to ".join(f"{about(ratio)} in {scene}" for ratio, scene in (gain.least, gain.most))
+
+
+def factor_table(bench):
+    """Header and lines; no lines if no cell was timed."""
+    with_simd = kernels(bench.context.get("simd_target"))
+    return (["factor", "code", "median", "range", "won/lost/open"],
+            [[gain.factor, with_simd if gain.simd else SCALAR, *said(gain), f"{gain.faster}/{gain.slower}/{gain.open}"]
+             for gain in gains(bench)])
+
+
+def conditions(bench):
+    """What the lines of the table are, and how many of their verdicts may be false."""
+    pairs = sum(gain.pairs for gain in gains(bench))
+    return (f"Pairs of whole frames on {most_threads(cells(bench))} threads that differ in one factor only; of {pairs} verdicts, at most "
+            f"{number(LEVEL * pairs, 2)} false ones are expected.")
+
+
+class Duel(NamedTuple):
+    """The fastest cell with bands against the fastest with tiles, in one scene."""
+    scene: str
+    triangle_px: float
+    overdraw: float
+    bands: tuple  # (Cell, row)
+    tiles: tuple
+    plain_tiles: object  # the row of the fastest tiles without HiZ
+
+    @property
+    def order(self):
+        """-1 if bands are faster, 1 if tiles, 0 if not settled."""
+        return order(self.bands[1], self.tiles[1])
+
+    @property
+    def winner(self):
+        return min(self.bands, self.tiles, key=lambda side: side[1].median_ms)[0]
+
+
+def duels(bench, simd):
+    """On the most threads, in the suite's order."""
+    found = cells(bench)
+    threads = most_threads(found)
+
+    def fastest(scene, traversal, extras=("", HIZ, MASKS)):
+        """(Cell, row), or None."""
+        return min(((cell, row) for cell, row in found.items() if cell.scene == scene and cell.traversal == traversal and cell.extra in extras
+                    and (cell.simd, cell.threads) == (simd, threads)), key=lambda pair: pair[1].median_ms, default=None)
+
+    for scene in dict.fromkeys(cell.scene for cell in found):
+        bands, tiles, plain = fastest(scene, "bands"), fastest(scene, "tiles"), fastest(scene, "tiles", ("",))
+        if bands and tiles and plain:
+            seen = bands[1].counters
+            yield Duel(scene, seen["covered_px"] / seen["triangles"], seen["overdraw"], bands, tiles, plain[1])

@@ -1,0 +1,98 @@
+"""README's second chart: which way of drawing wins, by the size of triangles and by overdraw."""
+from bench_rows import gained, gained_interval
+from factors import cells, duels, most_threads
+from plot_labels import Label, label_points
+from plot_style import BACKENDS, FAINT, INK, WIDTH_IN, dark, head_in, headline, log_axis, plt, round_ticks, save
+from tables import enumerated, kernels
+
+PANELS = {"<1": (0, 1), "1–4": (1, 4), ">4": (4, float("inf"))}  # overdraw
+LOOKS = {"bands": BACKENDS["scanline"], "tiles": BACKENDS["tiled"]}
+EXTRAS = {"": "", "hiz": " + HiZ", "hiz+masks": " + HiZ + masks"}
+
+
+def in_panel(found, panel):
+    low, high = PANELS[panel]
+    return [duel for duel in found if low <= duel.overdraw < high]
+
+
+def counted(found):
+    """Scenes that each side wins, where it is settled."""
+    return {side: sum(duel.order == order for duel in found) for side, order in (("bands", -1), ("tiles", 1))}
+
+
+def winner(found):
+    """The side that wins more than half of the scenes, None if neither does."""
+    return next((side for side, wins in counted(found).items() if 2 * wins > len(found)), None)
+
+
+def title(found):
+    """Who wins most scenes, by overdraw."""
+    sides = {panel: winner(of) for panel in PANELS if (of := in_panel(found, panel))}
+    won = {side: enumerated([panel for panel, of in sides.items() if of == side]) for side in sides.values() if side}
+    if len(won) == 2:
+        (first, its), (second, others) = won.items()
+        return f"{first.capitalize()} win most scenes at overdraw {its}, {second} at {others}"
+    if set(sides.values()) == set(won):
+        return f"{next(iter(won)).capitalize()} win most scenes at every overdraw"
+    wins = counted(found)
+    return f"Bands win {wins['bands']} of {len(found)} scenes, tiles {wins['tiles']}, the others are open"
+
+
+def panel(axes, found, low, high):
+    axes.axhspan(1, high, color=LOOKS["bands"][0], alpha=0.06, linewidth=0)
+    axes.axhspan(low, 1, color=LOOKS["tiles"][0], alpha=0.06, linewidth=0)
+    axes.axhline(1, color=FAINT, linewidth=1.0)
+    labels, lines = [], []
+    for duel in found:
+        x, bands, tiles = duel.triangle_px, duel.bands[1], duel.tiles[1]
+        won = duel.winner
+        colour, marker = LOOKS[won.traversal]
+        lines += [[(x, end) for end in gained_interval(tiles, bands)], [(x, gained(tiles, bands)), (x, gained(duel.plain_tiles, bands))]]
+        axes.plot(*zip(*lines[-2]), color=colour, linewidth=5, alpha=0.25, solid_capstyle="butt")
+        axes.plot(*zip(*lines[-1]), color=FAINT, linewidth=0.8, linestyle=":")
+        axes.plot(*lines[-1][1], marker="_", color=FAINT, markersize=9, markeredgewidth=1.5)
+        axes.plot(*lines[-1][0], marker=marker, color=colour, markersize=7.5, markeredgewidth=1.5,
+                  markerfacecolor=colour if duel.order else "white")
+        labels.append(Label(*lines[-1][0], f"{duel.scene}\n{won.fill}{EXTRAS[won.extra]}", dark(colour), 8))
+    return labels, lines
+
+
+def ends_of(found):
+    return [end for duel in found for end in (*gained_interval(duel.tiles[1], duel.bands[1]), gained(duel.plain_tiles, duel.bands[1]))]
+
+
+def factors(bench, folder, caption):
+    target = kernels(bench.context.get("simd_target"))
+    rows = {code: found for code, simd in ((target, True), ("scalar code", False)) if (found := list(duels(bench, simd)))}
+    if not rows:
+        return None
+    subtitle = (f"A marker is a scene, whole frames on {most_threads(cells(bench))} threads: the fastest with bands against the fastest with tiles. "
+                "Up: bands are faster; down: tiles. Label: the scene, and how the winner fills. Hollow: not settled. Light bars: 95 % "
+                "intervals. Tick: tiles without HiZ and masks.")
+    above, below, each = 0.5 + head_in(subtitle), 0.75, 3.2
+    figure, grid = plt.subplots(len(rows), len(PANELS), sharex=True, sharey="row", squeeze=False,
+                                figsize=(WIDTH_IN, above + below + each * len(rows)))
+    height = figure.get_figheight()
+    headline(figure, title(next(iter(rows.values()))), subtitle)
+    figure.subplots_adjust(left=0.085, right=0.985, bottom=below / height, top=1 - above / height, wspace=0.06, hspace=0.16)
+    made = []
+    for line, (code, found) in zip(grid, rows.items()):
+        low, high = min(1, *ends_of(found)) / 1.35, max(1, *ends_of(found)) * 1.35
+        sizes = [duel.triangle_px for duel in found]
+        line[0].set_yscale("log")
+        line[0].set_ylim(low, high)
+        round_ticks(line[0].yaxis, low, high, lambda value, _: f"{max(value, 1 / value):.3g}×", ratios=True)
+        line[0].set_ylabel(f"{code}\n← tiles faster    bands faster →")
+        for axes, name in zip(line, PANELS):
+            axes.set_xscale("log")
+            axes.set_xlim(min(sizes) / 2, max(sizes) * 2)
+            made.append((axes, *panel(axes, in_panel(found, name), low, high)))
+    for axes, name in zip(grid[0], PANELS):
+        axes.set_title(f"overdraw {name}", color=INK)
+    for axes in grid[-1]:
+        log_axis(axes.xaxis)
+        axes.set_xlabel("covered pixels per triangle", fontsize=9.5)
+    for axes, labels, lines in made:
+        label_points(axes, labels, lines)
+    save(figure, folder, "factors", caption)
+    return "factors"
