@@ -80,11 +80,11 @@ def portable_table(found):
 
 # What scenes need, and what the tutorials' engines have.
 PLANES = ("near plane", "far plane", "guard band")
-FACING, VISIBILITY, DEPTH, FLOATS = "facing test", "visibility", "depth buffer", "float edges without a crack"
-NO_CRACK, AS_TRUE = "subpixel bits without a crack", "subpixel bits, no worse than 8 bits"
-EDGE_VALUES = "edge values"
-STAGES = {"facing test": FACING, "visibility": VISIBILITY, "depth": DEPTH, "no crack": NO_CRACK, "no worse than 8 bits": AS_TRUE,
-          "edge values": EDGE_VALUES}
+FACING, VISIBILITY, DEPTH, BITS = "facing test", "visibility", "depth buffer", "subpixel bits"
+FLOATS = "float edges without a crack"
+# Questions about edges and float depths, all else exact: the title of their line, and how the question begins.
+EDGES = {"no crack": "subpixel bits without a crack", "no worse than 8 bits": "subpixel bits, no worse than 8 bits",
+         "float depth": "float depth buffer", "edge values": "edge values"}
 
 # The tutorials' engines by stage: the question, and their answer.
 TUTORIALS = (("Pico-8 software renderer", FLOATS, "float_le"), ("Pico-8 software renderer", VISIBILITY, "submission_order"),
@@ -96,13 +96,13 @@ METHODS = ("submission_order", "painter_", "float_", "reversed_z", "contract31",
 
 
 def parse_needs(data):
-    """{scene: (entry, {question: its entry})}"""
+    """{scene: (entry, {question: its entry}, {stage of the least precise pipeline: its level})}"""
     found = {}
     for entry in data:
-        questions = {question["question"]: question for question in entry["questions"]}
+        questions = {question["question"]: question for question in entry["alone"] + entry["edges"]}
         if not entry["frames"] > 0:
             raise ValueError(f"scene {entry['scene']}")
-        found[entry["scene"]] = (entry, questions)
+        found[entry["scene"]] = (entry, questions, {stage["question"]: stage["answer"] for stage in entry["pipeline"]["stages"]})
     return found
 
 
@@ -116,35 +116,50 @@ def titled(answer):
     return f"`{answer}`" if answer.startswith(METHODS) else answer
 
 
-def answer(questions, start):
-    """The cheapest answer to the question that begins so; a dash if it was not asked."""
-    question = next((q for name, q in questions.items() if name.startswith(start)), None)
-    return "–" if question is None else titled(question["answer"] or "none is enough")
+def named(scene, entry):
+    return scene + (f" ({entry['frames']} frames)" if entry["frames"] > 1 else "")
 
 
-def clipping(questions):
-    if PLANES[0] not in questions:
-        return "–"
-    needed = [f"{questions[plane]['answer']} at the {plane}" for plane in PLANES if questions[plane]["answer"] != "nothing"]
-    return ", ".join(needed) or "nothing"
+def clipping(levels):
+    needed = [f"{levels[plane]} at the {plane}" for plane in PLANES if levels.get(plane, "nothing") != "nothing"]
+    return ", ".join(needed) or ("nothing" if PLANES[0] in levels else "–")
 
 
-def needs_table(found):
-    """Header and lines, a line per stage: a line per scene would read as a pipeline, and answers don't combine."""
-    stages = {"clipping": clipping, **{title: lambda questions, start=start: answer(questions, start) for title, start in STAGES.items()}}
+def others(entry, levels):
+    """What other orders of weakening lead to, as far as it differs."""
+    def differing(other):
+        parts = [f"{other[plane]} at the {plane}" for plane in PLANES if other.get(plane) != levels.get(plane)]
+        parts += [titled(other[stage]) for stage in (FACING, VISIBILITY)
+                  if other.get(stage) != levels.get(stage) and not (stage == VISIBILITY and DEPTH in other)]
+        parts += [f"{DEPTH} of {other[DEPTH]}"] if other.get(DEPTH) != levels.get(DEPTH) and DEPTH in other else []
+        return ", ".join(parts + ([f"{other[BITS]} of positions"] if other[BITS] != levels[BITS] else []))
+
+    return "; ".join(map(differing, entry["pipeline"]["others"])) or "–"
+
+
+def pipelines_table(found):
+    """Header and lines, a line per scene: its pipeline was drawn as a whole."""
+    return (["scene", "clipping", FACING, VISIBILITY, "depth", BITS, "or, weakened in another order"],
+            [[named(scene, entry), clipping(levels),
+              *(titled(levels[stage]) if stage in levels else "–" for stage in (FACING, VISIBILITY, DEPTH)),
+              levels.get(BITS, "–").split()[0], others(entry, levels)] for scene, (entry, _, levels) in found.items()])
+
+
+def edges_table(found):
+    """Header and lines, a line per question."""
     lines = []
-    for stage, of in stages.items():
+    for title, start in EDGES.items():
         scenes = {}
-        for scene, (entry, questions) in found.items():
-            frames = f" ({entry['frames']} frames)" if entry["frames"] > 1 else ""
-            scenes.setdefault(of(questions), []).append(scene + frames)
-        scenes.pop("–", None)
-        lines.append([stage, "; ".join(f"{said}: {', '.join(names)}" for said, names in scenes.items())])
-    return ["stage", "its cheapest sufficient answer, all other stages exact"], lines
+        for scene, (entry, questions, _) in found.items():
+            question = next((q for name, q in questions.items() if name.startswith(start)), None)
+            if question is not None:
+                scenes.setdefault(titled(question["answer"] or "none is enough"), []).append(named(scene, entry))
+        lines.append([title, "; ".join(f"{said}: {', '.join(names)}" for said, names in scenes.items())])
+    return ["edges and float depths", "the least precise that is enough, all else exact"], lines
 
 
 def verdict(question, used):
-    """Whether a tutorial's answer is enough, and whether a cheaper one would be."""
+    """Whether a tutorial's answer is enough, and whether a less precise one would be."""
     if question is None:
         return "–"
     tried = next((a for a in question["answers"] if a["answer"] == used), None)
@@ -154,7 +169,9 @@ def verdict(question, used):
         witness = tried["witness"]
         count = witness["wrong_px"]
         return f"**not enough**: {count:,} {question['error']}{'' if count == 1 else 's'} in frame {witness['frame']}"
-    return "enough" if question["answer"] == used else f"more than needed: {titled(question['answer'])}"
+    names = [a["answer"] for a in question["answers"]]
+    more = question["answer"] is not None and names.index(question["answer"]) < names.index(used)
+    return f"more than needed: {titled(question['answer'])}" if more else "enough"
 
 
 def tutorials_table(found):

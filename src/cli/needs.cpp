@@ -1,4 +1,4 @@
-// `edgewise needs`: the cheapest answer at each stage of a rasterizer that still draws a scene right.
+// `edgewise needs`: the least precise pipeline that still draws a scene right.
 #include "lab/needs/needs.h"
 
 #include <fmt/format.h>
@@ -101,25 +101,46 @@ std::string indented(const std::string& text) {
 }
 
 std::string line(std::string_view question, std::string_view answer) {
-  return fmt::format("  {:<35} {}\n", question, answer);
+  return answer.empty() ? fmt::format("  {}\n", question) : fmt::format("  {:<35} {}\n", question, answer);
 }
 
-// The most expensive answer that is cheaper than the cheapest sufficient one; null if there is none.
-const lab::Answer* next_cheaper(const lab::Question& question) {
-  const lab::Answer* const cheapest = question.cheapest();
-  if (cheapest == nullptr) return &question.answers.back();
-  return cheapest == question.answers.data() ? nullptr : cheapest - 1;
+// The next less precise answer; null if there is none.
+const lab::Answer* next_weaker(const lab::Question& question) {
+  const lab::Answer* const needed = question.needed();
+  if (needed == nullptr) return &question.answers.back();
+  return needed == question.answers.data() ? nullptr : needed - 1;
 }
 
-std::string text_of(const lab::Question& question) {
-  const lab::Answer* const cheapest = question.cheapest();
-  std::string text = line(question.name, cheapest == nullptr ? "none is enough" : cheapest->name);
+std::string text_of(const lab::Question& question, bool with_trials = true) {
+  const lab::Answer* const needed = question.needed();
+  std::string text = line(question.name, needed == nullptr ? "none is enough" : needed->name);
   if (!question.proof.empty())
     text += indented("proven: " + question.proof);
-  else if (cheapest != nullptr)
+  else if (needed != nullptr && with_trials)
     text += indented("seen in " + counted(question.trials, question.trial));
-  const lab::Answer* const next = next_cheaper(question);
+  const lab::Answer* const next = next_weaker(question);
   if (next != nullptr) text += indented("not enough: " + describe(*next, question.error));
+  return text;
+}
+
+std::string text_of(const lab::LeastPrecise& least) {
+  const lab::Question& last = least.stages.back();
+  std::string text = "least precise pipeline, all frames right";
+  if (last.needed() != nullptr) text += ": seen in " + counted(last.trials, last.trial);
+  text += "\n";
+  for (const lab::Question& stage : least.stages) text += text_of(stage, false);
+  if (!least.others.empty()) text += line("or, weakened in other orders", "");
+  for (const auto& other : least.others) {
+    std::vector<std::string> levels;
+    for (const lab::Question& stage : least.stages)
+      if (const auto at = other.find(stage.name); at != other.end() && at->second != stage.needed()->name)
+        levels.push_back(stage.name + " " + at->second);
+    for (const auto& [stage, level] : other)
+      if (std::none_of(least.stages.begin(), least.stages.end(),
+                       [&](const lab::Question& q) { return q.name == stage; }))
+        levels.push_back(stage + " " + level);
+    text += indented(fmt::format("{}", fmt::join(levels, ", ")));
+  }
   return text;
 }
 
@@ -128,7 +149,7 @@ nlohmann::json json_of(const lab::Question& question) {
                       {"answer", nullptr},
                       {"proven", !question.proof.empty()},
                       {"error", question.error}};
-  if (question.cheapest() != nullptr) json["answer"] = question.cheapest()->name;
+  if (question.needed() != nullptr) json["answer"] = question.needed()->name;
   if (question.proof.empty())
     json["trials"] = {{"count", question.trials}, {"of", question.trial}};
   else
@@ -229,10 +250,15 @@ class NeedsCommand {
       print(options_.json ? json_text(ranges_json(first, needs)) + "\n" : ranges_table(first, needs));
       return;
     }
+    progress.show(std::nullopt, first.source.name + ", whole pipelines");
+    const lab::LeastPrecise least = needs.least_precise();
     progress.erase();
-    const auto questions = needs.questions();
-    print(options_.json ? json_text(json(first, needs, questions)) + "\n" : table(first, needs, questions));
-    if (!options_.pictures.empty()) write_pictures(first.source.name, questions);
+    print(options_.json ? json_text(json(first, needs, least)) + "\n" : table(first, needs, least));
+    if (!options_.pictures.empty()) {
+      auto questions = least.stages;
+      std::ranges::move(needs.edges(), std::back_inserter(questions));
+      write_pictures(first.source.name, questions);
+    }
   }
 
   static std::string heading(const Shot& shot, const lab::Needs& needs) {
@@ -274,17 +300,24 @@ class NeedsCommand {
             {"frames", needs.frames()}};
   }
 
-  static std::string table(const Shot& shot, const lab::Needs& needs,
-                           const std::vector<lab::Question>& questions) {
-    std::string text = heading(shot, needs);
-    for (const lab::Question& question : questions) text += text_of(question);
+  static std::string table(const Shot& shot, const lab::Needs& needs, const lab::LeastPrecise& least) {
+    std::string text = heading(shot, needs) + text_of(least);
+    if (!shot.source.stream)
+      text += line("right pictures against the scene",
+                   counted(needs.unlike_scene(), "pixel") + " off by over 1/64 px");
+    text += "edges and floats, all else exact\n" + text_of(needs.stages().back());
+    for (const lab::Question& question : needs.edges()) text += text_of(question);
     return text;
   }
 
-  static nlohmann::json json(const Shot& shot, const lab::Needs& needs,
-                             const std::vector<lab::Question>& questions) {
+  static nlohmann::json json(const Shot& shot, const lab::Needs& needs, const lab::LeastPrecise& least) {
     nlohmann::json result = json_heading(shot, needs);
-    for (const lab::Question& question : questions) result["questions"].push_back(json_of(question));
+    for (const lab::Question& stage : least.stages) result["pipeline"]["stages"].push_back(json_of(stage));
+    if (!shot.source.stream) result["pipeline"]["unlike_scene_px"] = needs.unlike_scene();
+    result["pipeline"]["orders"] = least.orders;
+    result["pipeline"]["others"] = least.others;
+    for (const lab::Question& question : needs.stages()) result["alone"].push_back(json_of(question));
+    for (const lab::Question& question : needs.edges()) result["edges"].push_back(json_of(question));
     return result;
   }
 
@@ -292,7 +325,7 @@ class NeedsCommand {
   void write_pictures(const std::string& scene, const std::vector<lab::Question>& questions) const {
     std::vector<Closeup> closeups;
     for (const lab::Question& question : questions) {
-      const lab::Answer* const shown = next_cheaper(question);
+      const lab::Answer* const shown = next_weaker(question);
       if (shown == nullptr || shown->picture.marks.empty()) continue;
       std::string name = scene + "-" + question.name + "-" + shown->name;
       std::replace_if(
@@ -315,31 +348,38 @@ constexpr const char* kNeedsFooter = R"(Examples:
   edgewise needs terrain --displacement 100 --json
   edgewise needs bunny.obj --fit --ranges
 
-For each stage of a rasterizer: the cheapest method that draws all these frames right while all
-other stages are exact, and the first pixel at which the next cheaper one fails. Triangles are
-numbered in submission order, from 0. "proven" follows from the ranges of the vertices. "seen" was
-compared with the exact result in so many pixels, or crossings of edges with rows and columns of
-samples. Both hold for these frames only. Answers don't combine: where two stages are weakened
-together, pixels may be wrong.
+Prints the least precise pipeline that draws all these frames right. It was drawn as a whole: stages
+that are enough alone may draw wrong pixels together. Right is the exact picture of the vertices
+snapped to 1/256 px; how far that is off the scene's own vertices is counted, too. Starting from the exact pipeline, stages are weakened level by level, in the order
+visibility, depth, facing, planes, bits, while all frames stay right, also with any two stages more
+precise. Other orders are tried, too. Each stage has a witness: the first wrong pixel of the same
+pipeline with the next weaker level. Less precise is not faster: the benchmark measures that.
+Triangles are numbered in submission order, from 0. "proven" follows from the ranges of the vertices.
+"seen" was compared in so many pixels, or crossings of edges with rows and columns of samples. Both
+hold for these frames only.
 
   near, far plane, guard band  what to do with triangles beyond it: nothing, drop them, or clip them
-  back faces                   whether drawing them changes the picture
-  facing test                  the methods of the laboratory, the cheapest first
+  facing test                  none, by three normals, by the area in floats, by the snapped area
   visibility                   submission order, the painter's algorithm by two sorts, depth buffer
-  depth buffer                 1 to 30 bits, then a float, a reversed float, and ours of 31 bits;
-                               cleared to the largest value, and only nearer pixels pass
-  subpixel bits                the fewest without a crack; the fewest that displace no more pixels
-                               than 8 bits do
+  depth buffer                 1 to 30 bits, then ours of 31 bits; cleared to the largest value, and
+                               only nearer pixels pass
+  subpixel bits                0 to 8 bits, of the snapped vertices
+
+Then, while all else is exact:
+
+  float depth buffer           a float, a reversed float; reversing an integer changes nothing
+  subpixel bits                from where on no number of bits leaves a crack; and displaces more
+                               pixels than 8 bits do
   float edges                  methods that compute edges in floats, without a crack
   edge values                  the integers that hold them at 8 subpixel bits
 
-Reversing the depth of an integer format changes nothing; it helps floats.
 Exit status: 0 done, 2 bad input.)";
 
 }  // namespace
 
 void add_needs(CLI::App& program, Action& action) {
-  CLI::App& command = *program.add_subcommand("needs", "Find the cheapest sufficient method for each stage");
+  CLI::App& command =
+      *program.add_subcommand("needs", "Find the least precise pipeline that draws a scene right");
   const auto o = std::make_shared<NeedsCommandOptions>();
   command.add_option("SCENE", o->scenes, "Scenes of `edgewise list`, or .obj or .tri files")->required();
   add_integer(command, "--frames", o->frames, 1, kMostStudiedFrames,

@@ -13,7 +13,7 @@ namespace edgewise::lab {
 
 namespace {
 
-constexpr int kTile = 16;  // px
+constexpr int kTile = 4;  // px
 
 int sign(const Ball& v) {
   return v.sign();
@@ -42,6 +42,8 @@ struct Placement {
 
 template <typename T>
 class Homogeneous {
+  using Row = std::array<T, 3>;
+
  public:
   Homogeneous(const Placement& at, const Mesh& mesh, std::size_t triangle)
       : Homogeneous(at.camera, vertex(at, mesh, triangle, 0), vertex(at, mesh, triangle, 1),
@@ -53,38 +55,41 @@ class Homogeneous {
   // is det / w, and w > 0 needs no test of its own.
   int hit(double x_px, double y_px, int front) const {
     int all = 1;
-    for (const T& v : conditions(x_px, y_px)) {
+    T sum(0.0);
+    for (const Row& e : edge_) {
+      const T v = at(e, x_px, y_px);
       all = std::min(all, sign(v) * front);
-      if (all < 0) break;
+      if (all < 0) return all;
+      sum = T(sum + v);
     }
-    return all;
+    return std::min({all, sign(T(det_ - near_ * sum)) * front, sign(T(far_ * sum - det_)) * front});
   }
   // Whether one of the conditions fails at all corners of a box. All are linear on the screen, so it then
   // fails in the whole box.
   bool misses(const Box& box, int front) const {
-    std::array<bool, 5> fails;
-    fails.fill(true);
-    for (const double x : {box.x0, box.x1})
-      for (const double y : {box.y0, box.y1}) {
-        const auto values = conditions(x, y);
-        for (std::size_t i = 0; i < values.size(); ++i) fails[i] = fails[i] && sign(values[i]) * front < 0;
-      }
-    return std::find(fails.begin(), fails.end(), true) != fails.end();
+    const auto fails = [&](auto&& condition) {
+      return sign(condition(box.x0, box.y0)) * front < 0 && sign(condition(box.x1, box.y0)) * front < 0 &&
+             sign(condition(box.x0, box.y1)) * front < 0 && sign(condition(box.x1, box.y1)) * front < 0;
+    };
+    const auto sum = [&](double x, double y) {
+      return T(at(edge_[0], x, y) + at(edge_[1], x, y) + at(edge_[2], x, y));
+    };
+    return fails([&](double x, double y) { return at(edge_[0], x, y); }) ||
+           fails([&](double x, double y) { return at(edge_[1], x, y); }) ||
+           fails([&](double x, double y) { return at(edge_[2], x, y); }) ||
+           fails([&](double x, double y) { return T(det_ - near_ * sum(x, y)); }) ||
+           fails([&](double x, double y) { return T(far_ * sum(x, y) - det_); });
   }
   // 1 / w of the triangle's plane.
   T nearness(double x_px, double y_px) const {
     T sum(0.0);
-    for (const auto& e : edge_) sum = sum + T(e[0] * T(x_px)) + T(e[1] * T(y_px)) + e[2];
+    for (const Row& e : edge_) sum = sum + T(e[0] * T(x_px)) + T(e[1] * T(y_px)) + e[2];
     return T(sum / det_);
   }
 
  private:
-  using Row = std::array<T, 3>;
-  // Values that must not have the sign opposite to the triangle's orientation.
-  std::array<T, 5> conditions(double x_px, double y_px) const {
-    const auto edge = [&](const Row& e) { return T(T(e[0] * T(x_px)) + T(e[1] * T(y_px)) + e[2]); };
-    const T a = edge(edge_[0]), b = edge(edge_[1]), c = edge(edge_[2]), sum = T(a + b + c);
-    return {a, b, c, T(det_ - near_ * sum), T(far_ * sum - det_)};
+  static T at(const Row& e, double x_px, double y_px) {
+    return T(T(e[0] * T(x_px)) + T(e[1] * T(y_px)) + e[2]);
   }
   Homogeneous(const Camera& camera, const Row& a, const Row& b, const Row& c)
       : edge_{cross(b, c), cross(c, a), cross(a, b)},

@@ -1,58 +1,18 @@
-// What a scene needs: for each stage of a rasterizer the cheapest answer that draws the given frames without
-// an error while all other stages are exact, and a witness against cheaper ones. Triangle flags are ignored.
+// What a scene needs: the least precise pipeline that draws the given frames right, what each of its stages
+// needs alone, and what its edges need. Each answer has a witness against the next weaker one. Edges ignore
+// triangle flags.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "lab/coverage/coverage.h"
+#include "lab/needs/pipeline.h"
 #include "lab/needs/question.h"
 #include "lab/needs/ranges.h"
-#include "lab/visibility/visibility.h"
 
 namespace edgewise::lab {
-
-// What a scene needs at the planes of the view volume: nothing, dropping whole triangles, or clipping.
-class ClippingNeeds {
- public:
-  ClippingNeeds();
-  // Draws pictures only where the ranges of the vertices leave a doubt. The frame must hold a scene.
-  void add(const StudiedFrame& frame, const std::array<Reach, kViewPlanes>& reach);
-  std::vector<Question> questions(const Ranges& ranges) const;
-
- private:
-  std::array<Question, kViewPlanes> questions_;
-};
-
-// Whether back faces may be drawn, and which facing test is enough to drop them.
-class FacingNeeds {
- public:
-  FacingNeeds();
-  // Frames must hold scenes whose back faces are culled.
-  void add(const StudiedFrame& frame);
-  std::vector<Question> questions() const { return {back_faces_, test_}; }
-
- private:
-  Question back_faces_, test_;
-};
-
-// Whether drawing in order is enough or a depth buffer is needed, and with how many bits.
-class VisibilityNeeds {
- public:
-  VisibilityNeeds();
-  // `scene` holds the triangles of the frame; payloads are ids.
-  void add(const StudiedFrame& frame, const VisibilityScene& scene, int threads);
-  std::vector<Question> questions() const { return {method_, bits_}; }
-
- private:
-  Question method_, bits_;
-};
-
-// The triangles that the front end makes of a frame with these options. Streams have no camera. The result's
-// planes are then at 1 and 2, and its distances 1 / (1 - z / 2), which give each vertex its depth z again.
-VisibilityScene visibility_scene(const Drawable& drawable, FrontendOptions options);
 
 // How many subpixel bits a picture's edges need, and whether float edges are enough.
 class CoverageNeeds {
@@ -95,15 +55,17 @@ class Needs {
 
   std::uint64_t frames() const { return frames_; }
   const Ranges& ranges() const { return ranges_; }
-  // Those about clipping and facing only for scenes with back faces culled.
-  std::vector<Question> questions() const;
+  LeastPrecise least_precise() const { return pipelines_.least_precise(ranges_, options_.threads); }
+  std::uint64_t unlike_scene() const { return pipelines_.unlike_scene(); }
+  // Each stage alone, the others being exact: planes only for scenes, facing only if back faces are culled.
+  std::vector<Question> stages() const { return pipelines_.alone(ranges_); }
+  // What edges need: their values, and no cracks.
+  std::vector<Question> edges() const;
 
  private:
   NeedsOptions options_;
   Ranges ranges_;
-  std::optional<ClippingNeeds> clipping_;
-  std::optional<FacingNeeds> facing_;
-  VisibilityNeeds visibility_;
+  PipelineNeeds pipelines_;
   CoverageNeeds coverage_;
   std::uint64_t frames_ = 0;
 };

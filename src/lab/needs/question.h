@@ -3,11 +3,9 @@
 
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
-#include "edgewise/framebuffer.h"
 #include "edgewise/scene.h"
 #include "lab/error_marks.h"
 #include "lab/method.h"
@@ -45,26 +43,18 @@ struct Answer {
 
 struct Question {
   std::string name;
-  std::vector<Answer> answers;  // from the cheapest on
-  // Why the cheapest answer is enough. Empty `proof`: it was seen to be, in so many trials of all frames.
+  std::vector<Answer> answers;  // from the least precise on
+  // Why the needed answer is enough. Empty `proof`: it was seen to be, in so many trials of all frames.
   std::string proof = {};
   std::uint64_t trials = 0;
   std::string trial = {};             // "pixel"
   std::string error = "wrong pixel";  // what Answer::wrong_px counts
 
-  const Answer* cheapest() const;  // null: none is enough
+  // The first answer from which all are enough; null if the last one is not.
+  const Answer* needed() const;
 };
 
 // "1 bit", "8 subpixel bits".
 std::string bits_name(int bits, std::string_view kind = {});
-
-// Adds a witness to `answer` if the pictures of ids, row by row, differ. The answer must have none.
-void compare_pictures(std::span<const std::uint32_t> right, std::span<const std::uint32_t> drawn,
-                      const StudiedFrame& frame, Answer& answer);
-
-// A frame's payloads, row by row without padding.
-std::vector<std::uint32_t> payloads_of(const Framebuffer& frame);
-// The exact picture of ids that `tiled` draws, or kNoTriangle.
-std::vector<std::uint32_t> picture_of_ids(std::span<const ScreenTriangle> triangles, Size size);
 
 }  // namespace edgewise::lab

@@ -1,0 +1,91 @@
+// Whole pipelines, from scene to picture. A picture is right if each pixel shows the triangle that is visible
+// by the positions snapped to 8 bits and the exact planes through the given distances.
+#pragma once
+
+#include <array>
+#include <map>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "frontend/clip.h"
+#include "lab/needs/question.h"
+#include "lab/needs/ranges.h"
+#include "lab/visibility/visibility.h"
+
+namespace edgewise::lab {
+
+// The first three are those of ViewPlane.
+enum Stage : std::size_t { kNearPlane, kFarPlane, kGuardBand, kFacing, kVisibility, kDepth, kSubpixel };
+inline constexpr std::size_t kStages = kSubpixel + 1;
+// A level per stage: 0 is the least precise. The exact pipeline, that of the library, has the highest ones.
+using Pipeline = std::array<int, kStages>;
+
+// From the exact pipeline on, stages are weakened in turn as far as they go, each by one level at a time. A
+// step is taken if all frames stay right, and also with any two stages at more precise levels.
+struct LeastPrecise {
+  // By stage: the level, those above, and the next weaker one with its witness against that pipeline.
+  std::vector<Question> stages;
+  int orders = 0;                                          // of stages, all tried
+  std::vector<std::map<std::string, std::string>> others;  // other orders' results: level by stage
+};
+
+class PipelineNeeds {
+ public:
+  // Draws the frame with each level of each stage while all other stages are exact, and keeps what other
+  // pipelines need to draw it. All frames must be of one size and kind.
+  void add(const StudiedFrame& frame, const std::array<Reach, kViewPlanes>& reach, int threads);
+  // Each stage alone, the others being exact; and float depth buffers.
+  std::vector<Question> alone(const Ranges& ranges) const;
+  // Right pictures start from the front end's triangles. This judges them: in how many pixels of all frames
+  // they differ by more than 1/64 px and depth ties from the scene's own vertices (lab/clipping/truth.h).
+  // Snapping may turn slivers over.
+  std::uint64_t unlike_scene() const { return unlike_scene_; }
+  // Pictures are kept as asked for by the frames.
+  LeastPrecise least_precise(const Ranges& ranges, int threads) const;
+
+ private:
+  // A triangle that reaches beyond a plane of the view, as the vertex stage makes it.
+  struct Reaching {
+    std::uint32_t id;
+    std::uint16_t any, all;  // flags of Outside
+    ClipVertex vertices[3];
+  };
+  struct Frame {
+    std::uint64_t index;
+    Size size;
+    Cull cull;
+    bool keep_pictures;
+    VisibilityScene all;             // the front end's triangles, clipped but not culled; payloads are ids
+    std::vector<Reaching> reaching;  // by ascending id
+    std::vector<std::uint8_t>
+        fronts;  // by id: bit l if facing level l, by normals, keeps it; bit 0 if two-sided
+    std::vector<std::pair<std::uint32_t, std::size_t>> right;  // runs of the true picture: id, end
+  };
+  // The memory of a draw. The next one with the same triangles does not assemble them again.
+  struct Drawn {
+    std::pair<const Frame*, Pipeline> of{};
+    VisibilityScene scene;
+    VisibilityFrame frame;
+  };
+  class Search;
+
+  void start(const StudiedFrame& frame);
+  static void add_scene(const StudiedFrame& frame, Frame& kept);
+  static void assemble(const Frame& frame, const Pipeline& pipeline, VisibilityScene& scene);
+  // The picture of ids.
+  static std::span<const std::uint32_t> draw(const Frame& frame, const Pipeline& pipeline, Drawn& drawn);
+  static bool is_right(const Frame& frame, const Pipeline& pipeline, Drawn& drawn);
+  static void compare(const Frame& frame, const Pipeline& pipeline, Answer& answer);
+  std::string proof(Stage stage, const Ranges& ranges, bool drop) const;
+
+  std::vector<Stage> stages_;
+  Pipeline exact_{};
+  std::array<Question, kStages> alone_;
+  Question float_depth_;
+  std::uint64_t unlike_scene_ = 0;
+  std::vector<Frame> frames_;
+};
+
+}  // namespace edgewise::lab
