@@ -49,8 +49,7 @@ std::optional<Flags> parse_flags(int argc, char** argv) {
   auto* peers_flag = parser.add_flag("--peers", flags.suite.all_peers,
                                      "Time all other rasterizers beside the methods; fail if none starts");
   parser.add_flag("--no-peers", no_peers, "Leave out other projects' rasterizers")->excludes(peers_flag);
-  parser.add_flag("--quick", flags.suite.quick,
-                  "Fewer rows and repetitions; fewer triangles in knots and streams");
+  parser.add_flag("--quick", flags.suite.quick, "Fewer scenes and rows, and a time limit for further rounds");
   tools::add_size(parser, size, "Image size (1920x1080; a .tri file has its own)");
   std::string format;
   parser.add_option("--benchmark_out", flags.out, "Write the results to this file, complete or not at all")
@@ -79,7 +78,6 @@ std::optional<Flags> parse_flags(int argc, char** argv) {
     flags.suite.size_asked = true;
   }
   flags.suite.peers = !no_peers;
-  if (flags.suite.quick) flags.repetitions = 5;
   flags.benchmark = parser.remaining();
   flags.known = tools::option_names(parser);
   flags.known.insert(flags.known.end(), std::begin(kGoogleBenchmarkOptions),

@@ -15,7 +15,7 @@ struct Flags {
   std::string model_out;               // --model_out
   std::vector<std::string> benchmark;  // the remaining options, for Google Benchmark
   std::vector<std::string> known;      // the names of all options, Google Benchmark's included
-  int repetitions = 9;                 // of each row; --quick has 5
+  std::optional<int> repetitions;      // of each row, if the user asked
   bool own_iterations = true;          // our numbers of iterations hold, not the user's
 };
 

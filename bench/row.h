@@ -58,6 +58,11 @@ struct Row {
   std::string error;                      // why the row must not be timed
 };
 
+// One of the frames that differ in one factor at a time.
+inline bool is_cell(const Row& row) {
+  return row.name.starts_with("cell/");
+}
+
 // Whether the row is timed as a user would draw: with all optimizations, on the best SIMD target, without
 // pauses.
 inline bool is_plain(const Row& row) {

@@ -23,12 +23,11 @@ constexpr int kPause_ms = 2;
 
 using WorkloadPtr = std::shared_ptr<Workload>;
 
-// A quick run draws a tenth of each scalable scene.
 SceneRequest request(const SuiteOptions& options, int width, int height) {
   SceneRequest r;
   r.width = width;
   r.height = height;
-  r.scale = options.quick ? 0.1 : 1.0;
+  r.scale = options.scale;
   return r;
 }
 
@@ -141,10 +140,7 @@ class Suite {
   }
 
   void add_area_sweep() {
-    const std::vector<double> areas_px =
-        options_.quick ? std::vector<double>{1, 10, 100, 1e3, 1e4, 1e5, 1e6}
-                       : std::vector<double>{1, 3, 10, 30, 100, 300, 1e3, 3e3, 1e4, 3e4, 1e5, 3e5, 1e6};
-    for (const double area_px : areas_px) {
+    for (const double area_px : {1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1e3, 3e3, 1e4, 3e4, 1e5, 3e5, 1e6}) {
       const auto workload =
           make_workload([options = options_, area_px] { return area_source(options, area_px); });
       for (const auto& backend : backends())
@@ -154,7 +150,7 @@ class Suite {
   }
 
   void add_growth() {
-    for (const auto& [what, workload] : growth_steps(options_.width, options_.height, options_.quick))
+    for (const auto& [what, workload] : growth_steps(options_.width, options_.height))
       for (const auto& backend : backends()) add(workload, Timed::raster, backend, what, kSweepThreads);
   }
 
@@ -271,6 +267,19 @@ class Suite {
 
 }  // namespace
 
+bool in_quick_run(const Row& row) {
+  constexpr std::string_view kScenes[] = {"cubes", "torus-knot", "large", "medium", "small"};
+  if (row.method) return true;
+  const std::string_view name = row.name;
+  const std::size_t begin = name.find('/') + 1, end = name.find('/', begin);
+  const std::string_view scene = name.substr(begin, end - begin);
+  const bool built_in = std::any_of(builtin_scenes().begin(), builtin_scenes().end(),
+                                    [&](const SceneInfo& info) { return info.name == scene; });
+  const bool plain = name.substr(end).starts_with("/threads:");
+  return (is_cell(row) || plain) && scene.find(':') == std::string_view::npos &&
+         (!built_in || std::find(std::begin(kScenes), std::end(kScenes), scene) != std::end(kScenes));
+}
+
 std::vector<Row> make_suite(const SuiteOptions& options) {
   Suite suite(options);
   std::map<std::string, std::string> taken;  // name in rows, source
@@ -314,7 +323,9 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
   suite.add_target_sweep();
   for (const lab::LabScene& scene : lab::lab_scenes(options.quick))
     if (scene.timed) suite.add_methods(scene);
-  return suite.take();
+  std::vector<Row> rows = suite.take();
+  if (options.quick) std::erase_if(rows, [](const Row& row) { return !in_quick_run(row); });
+  return rows;
 }
 
 }  // namespace edgewise::bench

@@ -10,7 +10,8 @@
 namespace edgewise::bench {
 
 struct SuiteOptions {
-  bool quick = false;
+  bool quick = false;                    // see in_quick_run()
+  double scale = 1.0;                    // of the scenes that can be scaled
   int width = 1920, height = 1080;       // px
   bool size_asked = false;               // otherwise a .tri file is drawn at its own size
   std::vector<std::string> scenes;       // names or files; empty: the whole suite
@@ -20,6 +21,9 @@ struct SuiteOptions {
   bool peers = true;                     // those in the suite, if built
   bool all_peers = false;                // beside the methods, too
 };
+
+// Whether a quick run times this row. Nothing else decides what it leaves out.
+bool in_quick_run(const Row& row);
 
 // Throws as load_source does for an invalid name or file, and std::invalid_argument for two sources whose
 // rows would have the same names.

@@ -50,14 +50,14 @@ tools::Source random_source(int width, int height, std::size_t count, double are
   return {"random", random_stream(request, count, area_px, 0.0, 1), true};
 }
 
-std::vector<GrowthStep> growth_steps(int width, int height, bool quick) {
+std::vector<GrowthStep> growth_steps(int width, int height) {
   std::vector<GrowthStep> steps;
-  for (std::size_t count = 100; count <= (quick ? 100'000u : 10'000'000u); count *= 10)
+  for (std::size_t count = 100; count <= 10'000'000; count *= 10)
     steps.push_back({fmt::format("count:{}", count), random_triangles(width, height, count, kCountArea_px)});
-  for (int side = 256; side <= (quick ? 2048 : contract::kMaxImageSide); side *= 2)
+  for (int side = 256; side <= contract::kMaxImageSide; side *= 2)
     if (two_frames_fit(static_cast<std::uint64_t>(side)))
       steps.push_back({fmt::format("{}/size:{}x{}", kSizeScene, side, side), scene_of_side(side)});
-  for (double overdraw = 0.25; overdraw <= (quick ? 16.0 : 256.0); overdraw *= 4) {
+  for (double overdraw = 0.25; overdraw <= 256.0; overdraw *= 4) {
     const double count = overdraw * width * height / kOverdrawArea_px;
     steps.push_back(
         {fmt::format("overdraw:{:g}", overdraw),

@@ -17,9 +17,9 @@ struct GrowthStep {
 };
 
 // Three sweeps: the number of triangles of one size in one image; the pixels of an image of one scene; and
-// the overdraw by large triangles. `quick` leaves out the largest steps. Image sizes are also left out if two
-// frames (the row's and its reference) would fill more than half of the machine's memory.
-std::vector<GrowthStep> growth_steps(int width, int height, bool quick);
+// the overdraw by large triangles. Image sizes are left out if two frames (the row's and its reference) would
+// fill more than half of the machine's memory.
+std::vector<GrowthStep> growth_steps(int width, int height);
 
 // `count` triangles of `area_px` at random positions and depths.
 tools::Source random_source(int width, int height, std::size_t count, double area_px);

@@ -28,11 +28,12 @@ def winner(found):
 def title(found):
     """Who wins most scenes, by overdraw."""
     sides = {panel: winner(of) for panel in PANELS if (of := in_panel(found, panel))}
-    won = {side: enumerated([panel for panel, of in sides.items() if of == side]) for side in sides.values() if side}
-    if len(won) == 2:
-        (first, its), (second, others) = won.items()
+    won = {side: enumerated([panel for panel, of in sides.items() if of == side]) for side in (*sides.values(), None)}
+    open_at = won.pop(None)
+    if len(won) == 2 or won and open_at:
+        (first, its), (second, others) = (*won.items(), ("neither", open_at))[:2]
         return f"{first.capitalize()} win most scenes at overdraw {its}, {second} at {others}"
-    if set(sides.values()) == set(won):
+    if won:
         return f"{next(iter(won)).capitalize()} win most scenes at every overdraw"
     wins = counted(found)
     return f"Bands win {wins['bands']} of {len(found)} scenes, tiles {wins['tiles']}, the others are open"
@@ -42,7 +43,7 @@ def panel(axes, found, low, high):
     axes.axhspan(1, high, color=LOOKS["bands"][0], alpha=0.06, linewidth=0)
     axes.axhspan(low, 1, color=LOOKS["tiles"][0], alpha=0.06, linewidth=0)
     axes.axhline(1, color=FAINT, linewidth=1.0)
-    labels, lines = [], []
+    labels, lines = [], [[(end, 1) for end in axes.get_xlim()]]
     for duel in found:
         x, bands, tiles = duel.triangle_px, duel.bands[1], duel.tiles[1]
         won = duel.winner

@@ -122,18 +122,33 @@ TEST(BenchSuite, TimesWholeFramesOfOursWithEachNarrowerTarget) {
       }
 }
 
-// The rows of a quick suite, by name.
-std::map<std::string, Row> quick_rows(int width, int height) {
+// The suite's rows by name, with a tenth of the triangles of each scalable scene.
+std::map<std::string, Row> small_rows(int width, int height) {
   SuiteOptions options;
-  options.quick = true;
+  options.scale = 0.1;
   options.width = width, options.height = height;
   std::map<std::string, Row> rows;
   for (Row& row : make_suite(options)) rows.emplace(row.name, std::move(row));
   return rows;
 }
 
+TEST(BenchSuite, TimesFiveScenesAndMethodsInAQuickRun) {
+  SuiteOptions options;
+  options.quick = true;
+  const TempDir folder;
+  options.more_scenes = {folder.write("mine.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").string()};
+  std::set<std::string> scenes;
+  for (const Row& row : make_suite(options)) {
+    if (row.method) continue;
+    EXPECT_TRUE(is_cell(row) || std::count(row.name.begin(), row.name.end(), '/') == 2) << row.name;
+    scenes.insert(row.name.substr(row.name.find('/') + 1, row.name.rfind('/') - row.name.find('/') - 1));
+  }
+  std::erase_if(scenes, [](const std::string& scene) { return scene.find('/') != std::string::npos; });
+  EXPECT_EQ(scenes, (std::set<std::string>{"cubes", "large", "medium", "mine", "small", "torus-knot"}));
+}
+
 TEST(BenchSuite, TimesTheEngineWithOtherNumbers) {
-  std::map<std::string, Row> rows = quick_rows(480, 270);
+  std::map<std::string, Row> rows = small_rows(480, 270);
   Stage stage;
   const auto wrong_px = [&](const std::string& scene, const std::string& run) {
     Row& row = rows.at("tiled/" + scene + "/engine:" + run + "/threads:1");
@@ -154,7 +169,7 @@ TEST(BenchSuite, TimesTheEngineWithOtherNumbers) {
 }
 
 TEST(BenchSuite, TimesThreeCullingModes) {
-  std::map<std::string, Row> rows = quick_rows(160, 90);
+  std::map<std::string, Row> rows = small_rows(160, 90);
   Stage stage;
   for (const std::string scene : {"cube", "cubes", "sphere", "sphere-quads", "torus-knot"})
     for (const std::string mode : {"none", "back", "normal_z"})
@@ -273,13 +288,12 @@ nlohmann::json written(const std::string& option, const std::string& arguments) 
 
 TEST(BenchProgram, RepeatsAllRowsEquallyOften) {
   std::map<std::string, int> times;
-  const auto json =
-      written("benchmark_out",
-              "--quick '--benchmark_filter=^(tiled/cube|lab/edge_on_faces/.*normal_z.*)/threads:1$'");
+  const auto json = written("benchmark_out",
+                            "'--benchmark_filter=^(tiled/cube|lab/edge_on_faces/.*normal_z.*)/threads:1$'");
   for (const auto& entry : json["benchmarks"])
     if (entry["run_type"] == "iteration") ++times[entry["name"]];
   EXPECT_EQ(times.size(), 4u) << "with two rows of random reads";
-  for (const auto& [name, count] : times) EXPECT_EQ(count, 5) << name;
+  for (const auto& [name, count] : times) EXPECT_EQ(count, 9) << name;
 }
 
 TEST(BenchAblation, AddsOneOptimizationPerStep) {
@@ -327,7 +341,7 @@ TEST(BenchAblation, ReusesItsFirstAndLastRows) {
 }
 
 TEST(BenchAblation, DrawsTwoCallsWithoutClusters) {
-  std::map<std::string, Row> rows = quick_rows(480, 270);
+  std::map<std::string, Row> rows = small_rows(480, 270);
   Stage stage;
   for (const std::string step : {"/step:two-calls/threads:1", "/threads:1"}) {
     Row& row = rows.at("tiled+frontend/terrain" + step);
@@ -340,7 +354,7 @@ TEST(BenchAblation, DrawsTwoCallsWithoutClusters) {
 }
 
 TEST(BenchSuite, TimesTileStoresBackToBackAndAfterPauses) {
-  const std::map<std::string, Row> rows = quick_rows(160, 90);
+  const std::map<std::string, Row> rows = small_rows(160, 90);
   for (const std::string scene : {"cube", "sphere", "grid64", "large"})
     for (const std::string pause : {"", "/pause:2ms"})
       for (const std::string stores : {"", "/stores:streaming"})
@@ -355,7 +369,7 @@ TEST(BenchSuite, TimesTileStoresBackToBackAndAfterPauses) {
 TEST(BenchProgram, PausesAreMadeButNotTimed) {
   const auto begin = std::chrono::steady_clock::now();
   const auto json = written("benchmark_out",
-                            "--quick --size 64x64 --benchmark_min_time=0.003 --benchmark_repetitions=5 "
+                            "--size 64x64 --benchmark_min_time=0.003 --benchmark_repetitions=5 "
                             "--benchmark_filter=/cube/pause:2ms/threads:2");
   const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - begin;
   double frames = 0.0, fastest_ms = 1e9;

@@ -559,6 +559,7 @@ class ChartsTest(unittest.TestCase):
         self.assertEqual(duel(1, *tiles).winner.traversal, "tiles")
         for said, found in (("Bands win most scenes at overdraw <1, tiles at 1–4 and >4", [(0.9, *bands), (1.0, *tiles), (4.0, *tiles)]),
                             ("Bands win most scenes at overdraw 1–4, tiles at >4", [(5.0, *tiles), (1.0, *bands), (0.5, *even)]),
+                            ("Tiles win most scenes at overdraw 1–4 and >4, neither at <1", [(5.0, *tiles), (1.0, *tiles), (0.5, *even)]),
                             ("Tiles win most scenes at every overdraw", [(0.5, *tiles), (2.0, *tiles), (2.0, *tiles), (2.0, *bands)]),
                             ("Bands win 1 of 3 scenes, tiles 1, the others are open", [(2.0, *bands), (2.0, *tiles), (0.2, *even)])):
             self.assertEqual(title([duel(*one) for one in found]), said)
