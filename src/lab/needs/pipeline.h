@@ -4,7 +4,6 @@
 
 #include <array>
 #include <map>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -74,10 +73,10 @@ class PipelineNeeds {
   void start(const StudiedFrame& frame);
   static void add_scene(const StudiedFrame& frame, Frame& kept);
   static void assemble(const Frame& frame, const Pipeline& pipeline, VisibilityScene& scene);
-  // The picture of ids.
-  static std::span<const std::uint32_t> draw(const Frame& frame, const Pipeline& pipeline, Drawn& drawn);
+  static void draw(const Frame& frame, const Pipeline& pipeline, Drawn& drawn);
   static bool is_right(const Frame& frame, const Pipeline& pipeline, Drawn& drawn);
-  static void compare(const Frame& frame, const Pipeline& pipeline, Answer& answer);
+  // Adds a witness if the picture is wrong. The answer must have none.
+  static void compare(const Frame& frame, const Pipeline& pipeline, Answer& answer, Drawn& memory);
   std::string proof(Stage stage, const Ranges& ranges, bool drop) const;
 
   std::vector<Stage> stages_;
