@@ -345,8 +345,9 @@ std::vector<Question> PipelineNeeds::alone(const Ranges& ranges) const {
 // Judges pipelines on all frames, each once.
 class PipelineNeeds::Search {
  public:
-  Search(const PipelineNeeds& needs, const Pipeline& start, int threads)
-      : needs_(needs), start_(start), memory_(static_cast<std::size_t>(threads)) {}
+  Search(const PipelineNeeds& needs, const Pipeline& start, int threads,
+         const std::function<void(std::size_t)>& judged)
+      : needs_(needs), start_(start), judged_(judged), memory_(static_cast<std::size_t>(threads)) {}
 
   // The first frame that is wrong; null if none is.
   const Frame* first_wrong(const Pipeline& pipeline) {
@@ -414,21 +415,24 @@ class PipelineNeeds::Search {
       }
     });
     for (std::size_t i = 0; i < unknown.size(); ++i) wrong_[unknown[i]] = first[i];
+    judged_(wrong_.size());
   }
 
   const PipelineNeeds& needs_;
   Pipeline start_;
+  const std::function<void(std::size_t)>& judged_;
   std::vector<Drawn> memory_;
   std::map<Pipeline, std::size_t> wrong_;  // the first wrong frame; their number if none is
 };
 
-LeastPrecise PipelineNeeds::least_precise(const Ranges& ranges, int threads) const {
+LeastPrecise PipelineNeeds::least_precise(const Ranges& ranges, int threads,
+                                          const std::function<void(std::size_t)>& judged) const {
   Pipeline start = exact_;
   for (std::size_t i = 0; i < kViewPlanes; ++i) {
     const Reach& reach = ranges.reach(static_cast<ViewPlane>(i));
     start[i] = reach.beyond == 0 ? kNothing : reach.crossing == 0 ? kDrop : kClip;
   }
-  Search search(*this, start, threads);
+  Search search(*this, start, threads, judged);
   LeastPrecise result;
   if (const Frame* frame = search.first_wrong(start)) {
     result.stages = {{"pipeline", {{"the exact one"}}}};

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <map>
 #include <string>
 #include <utility>
@@ -41,8 +42,9 @@ class PipelineNeeds {
   // they differ by more than 1/64 px and depth ties from the scene's own vertices (lab/clipping/truth.h).
   // Snapping may turn slivers over.
   std::uint64_t unlike_scene() const { return unlike_scene_; }
-  // Pictures are kept as asked for by the frames.
-  LeastPrecise least_precise(const Ranges& ranges, int threads) const;
+  // Pictures are kept as asked for by the frames. `judged` gets the number of pipelines judged so far.
+  LeastPrecise least_precise(const Ranges& ranges, int threads,
+                             const std::function<void(std::size_t)>& judged) const;
 
  private:
   // A triangle that reaches beyond a plane of the view, as the vertex stage makes it.
