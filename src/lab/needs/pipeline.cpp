@@ -192,15 +192,19 @@ void PipelineNeeds::add_scene(const StudiedFrame& frame, Frame& kept) {
   }
 }
 
+bool PipelineNeeds::is_two_sided(const Frame& frame, const VisibilityTriangle& t) {
+  return !frame.fronts.empty() && (frame.fronts[t.screen.payload] & 1u) != 0;
+}
+
 void PipelineNeeds::assemble(const Frame& frame, const Pipeline& pipeline, VisibilityScene& scene) {
   scene = {frame.all.width, frame.all.height, frame.all.near_z, frame.all.far_z, {}, {}};
   const auto is_kept = [&](const VisibilityTriangle& t) {
     const std::int64_t area = contract::signed_area(t.screen);
     const int sign = (area > 0) - (area < 0), level = pipeline[kFacing];
-    const unsigned fronts = frame.fronts.empty() ? 0u : frame.fronts[t.screen.payload];
-    if ((fronts & 1u) != 0) return true;
+    if (is_two_sided(frame, t)) return true;
     if (frame.cull != Cull::back || level == kSnappedArea) return keeps(frame.cull, sign);
-    return level == kNoTest || (level == kFloatArea ? area_px(t) > 0.0 : (fronts >> level & 1u) != 0);
+    return level == kNoTest ||
+           (level == kFloatArea ? area_px(t) > 0.0 : (frame.fronts[t.screen.payload] >> level & 1u) != 0);
   };
   const auto add = [&](VisibilityTriangle t) {
     if (const int bits = pipeline[kSubpixel]; bits < contract::kSubBits)
@@ -288,9 +292,13 @@ void PipelineNeeds::add(const StudiedFrame& studied, const std::array<Reach, kVi
   const auto* scene = std::get_if<Scene>(&studied.drawable);
   if (scene != nullptr) add_scene(studied, frame);
 
-  VisibilityScene exact;
-  assemble(frame, exact_, exact);
-  auto right = ids_of(snapped_visible_triangles(exact), exact);
+  // By the truths' own arithmetic; faces are for painters only.
+  VisibilityScene seen = frame.all;
+  seen.faces.clear();
+  std::erase_if(seen.triangles, [&](const VisibilityTriangle& t) {
+    return !is_two_sided(frame, t) && !keeps(frame.cull, SnappedTruth(t.screen).facing());
+  });
+  auto right = ids_of(snapped_visible_triangles(seen), seen);
   if (scene != nullptr) {
     std::vector<std::uint32_t> corrected = right;
     unlike_scene_ += correct(corrected, frame.size, ClippingOracle(*scene, frame.size, frame.cull), threads);

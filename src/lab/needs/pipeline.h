@@ -74,6 +74,7 @@ class PipelineNeeds {
 
   void start(const StudiedFrame& frame);
   static void add_scene(const StudiedFrame& frame, Frame& kept);
+  static bool is_two_sided(const Frame& frame, const VisibilityTriangle& t);
   static void assemble(const Frame& frame, const Pipeline& pipeline, VisibilityScene& scene);
   static void draw(const Frame& frame, const Pipeline& pipeline, Drawn& drawn);
   static bool is_right(const Frame& frame, const Pipeline& pipeline, Drawn& drawn);
