@@ -250,8 +250,9 @@ class NeedsCommand {
       print(options_.json ? json_text(ranges_json(first, needs)) + "\n" : ranges_table(first, needs));
       return;
     }
-    progress.show(std::nullopt, first.source.name + ", whole pipelines");
-    const lab::LeastPrecise least = needs.least_precise();
+    const lab::LeastPrecise least = needs.least_precise([&](std::size_t judged) {
+      progress.show(std::nullopt, fmt::format("{}, whole pipelines judged: {}", first.source.name, judged));
+    });
     progress.erase();
     print(options_.json ? json_text(json(first, needs, least)) + "\n" : table(first, needs, least));
     if (!options_.pictures.empty()) {

@@ -3,6 +3,7 @@
 // triangle flags.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -55,7 +56,10 @@ class Needs {
 
   std::uint64_t frames() const { return frames_; }
   const Ranges& ranges() const { return ranges_; }
-  LeastPrecise least_precise() const { return pipelines_.least_precise(ranges_, options_.threads); }
+  // `judged` gets the number of pipelines judged so far.
+  LeastPrecise least_precise(const std::function<void(std::size_t)>& judged = [](std::size_t) {}) const {
+    return pipelines_.least_precise(ranges_, options_.threads, judged);
+  }
   std::uint64_t unlike_scene() const { return pipelines_.unlike_scene(); }
   // Each stage alone, the others being exact: planes only for scenes, facing only if back faces are culled.
   std::vector<Question> stages() const { return pipelines_.alone(ranges_); }

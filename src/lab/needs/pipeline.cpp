@@ -77,10 +77,22 @@ double area_px(const VisibilityTriangle& t) {
   return double{qx * ry - qy * rx};
 }
 
+std::uint32_t id_of(std::uint32_t visible, const VisibilityScene& scene) {
+  return visible == kNoTriangle ? kNoTriangle : scene.triangles[visible].screen.payload;
+}
 std::vector<std::uint32_t> ids_of(std::vector<std::uint32_t> visible, const VisibilityScene& scene) {
-  for (std::uint32_t& id : visible)
-    if (id != kNoTriangle) id = scene.triangles[id].screen.payload;
+  for (std::uint32_t& triangle : visible) triangle = id_of(triangle, scene);
   return visible;
+}
+
+// Calls body(i, drawn) for each i below `count`, with one Drawn per thread.
+template <typename Drawn, typename Body>
+void for_each_task(std::vector<Drawn>& memory, std::size_t count, Body&& body) {
+  std::atomic<std::size_t> next = 0;
+  const int threads = static_cast<int>(memory.size());
+  parallel_for(threads, threads, [&](int thread) {
+    for (std::size_t i; (i = next++) < count;) body(i, memory[static_cast<std::size_t>(thread)]);
+  });
 }
 
 // The triangles that the front end makes of a frame, not culled. Streams have no camera. The result's planes
@@ -180,15 +192,19 @@ void PipelineNeeds::add_scene(const StudiedFrame& frame, Frame& kept) {
   }
 }
 
+bool PipelineNeeds::is_two_sided(const Frame& frame, const VisibilityTriangle& t) {
+  return !frame.fronts.empty() && (frame.fronts[t.screen.payload] & 1u) != 0;
+}
+
 void PipelineNeeds::assemble(const Frame& frame, const Pipeline& pipeline, VisibilityScene& scene) {
   scene = {frame.all.width, frame.all.height, frame.all.near_z, frame.all.far_z, {}, {}};
   const auto is_kept = [&](const VisibilityTriangle& t) {
     const std::int64_t area = contract::signed_area(t.screen);
     const int sign = (area > 0) - (area < 0), level = pipeline[kFacing];
-    const unsigned fronts = frame.fronts.empty() ? 0u : frame.fronts[t.screen.payload];
-    if ((fronts & 1u) != 0) return true;
+    if (is_two_sided(frame, t)) return true;
     if (frame.cull != Cull::back || level == kSnappedArea) return keeps(frame.cull, sign);
-    return level == kNoTest || (level == kFloatArea ? area_px(t) > 0.0 : (fronts >> level & 1u) != 0);
+    return level == kNoTest ||
+           (level == kFloatArea ? area_px(t) > 0.0 : (frame.fronts[t.screen.payload] >> level & 1u) != 0);
   };
   const auto add = [&](VisibilityTriangle t) {
     if (const int bits = pipeline[kSubpixel]; bits < contract::kSubBits)
@@ -224,31 +240,32 @@ void PipelineNeeds::assemble(const Frame& frame, const Pipeline& pipeline, Visib
   for (; next != end; ++next) add(*next);
 }
 
-std::span<const std::uint32_t> PipelineNeeds::draw(const Frame& frame, const Pipeline& pipeline,
-                                                   Drawn& drawn) {
+void PipelineNeeds::draw(const Frame& frame, const Pipeline& pipeline, Drawn& drawn) {
   std::pair key(&frame, pipeline);
   key.second[kVisibility] = key.second[kDepth] = 0;
   if (std::exchange(drawn.of, key) != key) assemble(frame, pipeline, drawn.scene);
   draw_of(pipeline)(drawn.scene, drawn.frame);
-  drawn.frame.visible = ids_of(std::move(drawn.frame.visible), drawn.scene);
-  return drawn.frame.visible;
 }
 
 bool PipelineNeeds::is_right(const Frame& frame, const Pipeline& pipeline, Drawn& drawn) {
-  const auto picture = draw(frame, pipeline, drawn);
-  std::size_t begin = 0;
+  draw(frame, pipeline, drawn);
+  auto pixel = drawn.frame.visible.begin();
   return std::all_of(frame.right.begin(), frame.right.end(), [&](const auto& run) {
-    const auto pixels = picture.subspan(begin, run.second - begin);
-    begin = run.second;
-    return std::all_of(pixels.begin(), pixels.end(), [&](std::uint32_t id) { return id == run.first; });
+    const auto end = drawn.frame.visible.begin() + static_cast<std::ptrdiff_t>(run.second);
+    while (pixel != end) {
+      const std::uint32_t triangle = *pixel;
+      if (id_of(triangle, drawn.scene) != run.first) return false;
+      pixel = std::find_if(pixel, end, [&](std::uint32_t other) { return other != triangle; });
+    }
+    return true;
   });
 }
 
-void PipelineNeeds::compare(const Frame& frame, const Pipeline& pipeline, Answer& answer) {
+void PipelineNeeds::compare(const Frame& frame, const Pipeline& pipeline, Answer& answer, Drawn& memory) {
+  if (is_right(frame, pipeline, memory)) return;
+  const auto drawn = ids_of(memory.frame.visible, memory.scene);
   std::vector<std::uint32_t> right;
   for (const auto& [id, end] : frame.right) right.resize(end, id);
-  Drawn memory;
-  const auto drawn = draw(frame, pipeline, memory);
   const auto ids = [](std::uint32_t id) {
     return id == kNoTriangle ? std::vector<std::uint32_t>{} : std::vector{id};
   };
@@ -275,9 +292,13 @@ void PipelineNeeds::add(const StudiedFrame& studied, const std::array<Reach, kVi
   const auto* scene = std::get_if<Scene>(&studied.drawable);
   if (scene != nullptr) add_scene(studied, frame);
 
-  VisibilityScene exact;
-  assemble(frame, exact_, exact);
-  auto right = ids_of(snapped_visible_triangles(exact), exact);
+  // By the truths' own arithmetic; faces are for painters only.
+  VisibilityScene seen = frame.all;
+  seen.faces.clear();
+  std::erase_if(seen.triangles, [&](const VisibilityTriangle& t) {
+    return !is_two_sided(frame, t) && !keeps(frame.cull, SnappedTruth(t.screen).facing());
+  });
+  auto right = ids_of(snapped_visible_triangles(seen), seen);
   if (scene != nullptr) {
     std::vector<std::uint32_t> corrected = right;
     unlike_scene_ += correct(corrected, frame.size, ClippingOracle(*scene, frame.size, frame.cull), threads);
@@ -302,9 +323,10 @@ void PipelineNeeds::add(const StudiedFrame& studied, const std::array<Reach, kVi
     ++level;
     if (answer.enough()) trials.emplace_back(&answer, exact_).second[kDepth] = level;
   }
-  parallel_for(threads, static_cast<int>(trials.size()), [&](int i) {
-    const auto& [answer, pipeline] = trials[static_cast<std::size_t>(i)];
-    compare(frame, pipeline, *answer);
+  std::vector<Drawn> memory(static_cast<std::size_t>(threads));
+  for_each_task(memory, trials.size(), [&](std::size_t i, Drawn& drawn) {
+    const auto& [answer, pipeline] = trials[i];
+    compare(frame, pipeline, *answer, drawn);
   });
 }
 
@@ -331,8 +353,9 @@ std::vector<Question> PipelineNeeds::alone(const Ranges& ranges) const {
 // Judges pipelines on all frames, each once.
 class PipelineNeeds::Search {
  public:
-  Search(const PipelineNeeds& needs, const Pipeline& start, int threads)
-      : needs_(needs), start_(start), threads_(threads), memory_(static_cast<std::size_t>(threads)) {}
+  Search(const PipelineNeeds& needs, const Pipeline& start, int threads,
+         const std::function<void(std::size_t)>& judged)
+      : needs_(needs), start_(start), judged_(judged), memory_(static_cast<std::size_t>(threads)) {}
 
   // The first frame that is wrong; null if none is.
   const Frame* first_wrong(const Pipeline& pipeline) {
@@ -392,38 +415,37 @@ class PipelineNeeds::Search {
                  [&](const Pipeline& p) { return !wrong_.contains(p); });
     std::vector<std::atomic<std::size_t>> first(unknown.size());
     for (auto& frame : first) frame = frames;
-    std::atomic<std::size_t> next = 0;
-    parallel_for(threads_, threads_, [&](int worker) {
-      Drawn& drawn = memory_[static_cast<std::size_t>(worker)];
-      for (std::size_t task; (task = next++) < unknown.size() * frames;) {
-        const std::size_t i = task / frames, frame = task % frames;
-        if (frame > first[i] || is_right(needs_.frames_[frame], unknown[i], drawn)) continue;
-        std::size_t before = first[i];
-        while (frame < before && !first[i].compare_exchange_weak(before, frame)) {
-        }
+    for_each_task(memory_, unknown.size() * frames, [&](std::size_t task, Drawn& drawn) {
+      const std::size_t i = task / frames, frame = task % frames;
+      if (frame > first[i] || is_right(needs_.frames_[frame], unknown[i], drawn)) return;
+      std::size_t before = first[i];
+      while (frame < before && !first[i].compare_exchange_weak(before, frame)) {
       }
     });
     for (std::size_t i = 0; i < unknown.size(); ++i) wrong_[unknown[i]] = first[i];
+    judged_(wrong_.size());
   }
 
   const PipelineNeeds& needs_;
   Pipeline start_;
-  int threads_;
+  const std::function<void(std::size_t)>& judged_;
   std::vector<Drawn> memory_;
   std::map<Pipeline, std::size_t> wrong_;  // the first wrong frame; their number if none is
 };
 
-LeastPrecise PipelineNeeds::least_precise(const Ranges& ranges, int threads) const {
+LeastPrecise PipelineNeeds::least_precise(const Ranges& ranges, int threads,
+                                          const std::function<void(std::size_t)>& judged) const {
   Pipeline start = exact_;
   for (std::size_t i = 0; i < kViewPlanes; ++i) {
     const Reach& reach = ranges.reach(static_cast<ViewPlane>(i));
     start[i] = reach.beyond == 0 ? kNothing : reach.crossing == 0 ? kDrop : kClip;
   }
-  Search search(*this, start, threads);
+  Search search(*this, start, threads, judged);
   LeastPrecise result;
   if (const Frame* frame = search.first_wrong(start)) {
     result.stages = {{"pipeline", {{"the exact one"}}}};
-    compare(*frame, start, result.stages.front().answers.front());
+    Drawn memory;
+    compare(*frame, start, result.stages.front().answers.front(), memory);
     return result;
   }
 
@@ -460,7 +482,8 @@ LeastPrecise PipelineNeeds::least_precise(const Ranges& ranges, int threads) con
       for (const Stage other : stages_)
         if (wrong[other] != weaker[other])
           answer.name += fmt::format(", {} {}", alone_[other].name, level_of(wrong, other));
-      compare(*search.first_wrong(wrong), wrong, answer);
+      Drawn memory;
+      compare(*search.first_wrong(wrong), wrong, answer, memory);
     }
     for (int level = least[stage]; level <= exact_[stage]; ++level)
       question.answers.push_back({alone_[stage].answers[static_cast<std::size_t>(level)].name});

@@ -3,8 +3,8 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <map>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -42,8 +42,9 @@ class PipelineNeeds {
   // they differ by more than 1/64 px and depth ties from the scene's own vertices (lab/clipping/truth.h).
   // Snapping may turn slivers over.
   std::uint64_t unlike_scene() const { return unlike_scene_; }
-  // Pictures are kept as asked for by the frames.
-  LeastPrecise least_precise(const Ranges& ranges, int threads) const;
+  // Pictures are kept as asked for by the frames. `judged` gets the number of pipelines judged so far.
+  LeastPrecise least_precise(const Ranges& ranges, int threads,
+                             const std::function<void(std::size_t)>& judged) const;
 
  private:
   // A triangle that reaches beyond a plane of the view, as the vertex stage makes it.
@@ -73,11 +74,12 @@ class PipelineNeeds {
 
   void start(const StudiedFrame& frame);
   static void add_scene(const StudiedFrame& frame, Frame& kept);
+  static bool is_two_sided(const Frame& frame, const VisibilityTriangle& t);
   static void assemble(const Frame& frame, const Pipeline& pipeline, VisibilityScene& scene);
-  // The picture of ids.
-  static std::span<const std::uint32_t> draw(const Frame& frame, const Pipeline& pipeline, Drawn& drawn);
+  static void draw(const Frame& frame, const Pipeline& pipeline, Drawn& drawn);
   static bool is_right(const Frame& frame, const Pipeline& pipeline, Drawn& drawn);
-  static void compare(const Frame& frame, const Pipeline& pipeline, Answer& answer);
+  // Adds a witness if the picture is wrong. The answer must have none.
+  static void compare(const Frame& frame, const Pipeline& pipeline, Answer& answer, Drawn& memory);
   std::string proof(Stage stage, const Ranges& ranges, bool drop) const;
 
   std::vector<Stage> stages_;
