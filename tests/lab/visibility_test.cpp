@@ -232,18 +232,6 @@ TEST(Visibility, OursIsNeverWorseThanAPlainDepthBuffer) {
       expect_never_worse("two planes", two_planes(distance, relative * distance, 0.1, 1000));
 }
 
-// Its steps get smaller towards depth 0, ours are equal.
-TEST(Visibility, ReversedZIsFinerThanOursFarAwayAndCoarserNearTheCamera) {
-  const auto wrong = [](std::string_view name, double distance) {
-    std::uint64_t sum = 0;
-    for (const double relative : {1e-5, 3e-6, 1e-6, 3e-7, 1e-7, 3e-8})
-      sum += judge(name, two_planes(distance, relative * distance, 0.1, 1000)).wrong_triangle;
-    return sum;
-  };
-  EXPECT_LT(wrong("contract31", 1.0), wrong("reversed_z", 1.0));
-  EXPECT_GT(wrong("contract31", 500.0), wrong("reversed_z", 500.0));
-}
-
 // The two truths of lab/truth.h use depths rounded as in rule 6 and to float. This family's truths use the
 // unrounded distances. They may differ only where rounding swaps two depths.
 TEST(Visibility, BothTruthsMatchTheCoverageFamilysUpToDepthRounding) {
