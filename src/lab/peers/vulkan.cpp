@@ -90,7 +90,9 @@ vk::raii::PhysicalDevice find_device(Driver driver, int threads) try {
   int nth = 0;
   for (auto& device : vk::raii::PhysicalDevices(instance()))
     if (is_of(device, driver) && draws_our_frames(device) && ++nth == threads) return std::move(device);
-  throw std::runtime_error("Vulkan offers no such device that draws our frames");
+  throw std::runtime_error(
+      fmt::format("Vulkan offers no such device{}",
+                  driver == Driver::swiftshader ? " (scripts/run --peers unpacks one)" : ""));
 } catch (const std::runtime_error& error) {
   throw std::runtime_error(fmt::format("{}: {}", name_of(driver), error.what()));
 }
