@@ -165,8 +165,8 @@ compares triangles, not colours: where two triangles of one colour meet, picture
 The mask is black where all must agree. Its other colours name the reason:
   orange  edge   rounding decides whether a triangle covers the sample
   yellow  tie    the same, and the sample lies exactly on the edge
-  purple  clip   the same, of a triangle that the near or far plane cuts; and every sample of one that
-                 reaches beyond the guard band, where some rasterizers drop samples
+  purple  clip   the same, of a triangle that the near or far plane cuts; and all samples of a
+                 triangle that reaches beyond the guard band, where rasterizers may clip
   blue    depth  rounding decides which of two triangles is nearer
 
 Exit status: 0 done, 2 bad input.)";
@@ -189,7 +189,7 @@ void add_portable(CLI::App& program, Action& action) {
   add_integer(command, "--ulps", o->model.transform_ulps, 0, 1000,
               "Error of the viewport transform, in units in the last place (2)");
   add_integer(command, "--guard-band", o->model.guard_band_px, 0, 1 << 20,
-              "Pixels beyond each side of the picture that the rasterizers draw without clipping (3000)");
+              "How far beyond the picture triangles may reach, in pixels, see below (3000)");
   add_parsed(command, "--depth", "FORMAT", "Depth format: d16_unorm, d24_unorm or d32_sfloat (d24_unorm)",
              [o](const std::string& text) { o->model.depth = lab::find_depth_format(text); });
   o->scene.add_to(command);
