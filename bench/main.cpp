@@ -184,11 +184,9 @@ void time_row(benchmark::State& state, Row& row, Stage& stage) {
         pause_before(row);
         state.ResumeTiming();
       }
-      const auto begin = std::chrono::steady_clock::now();
-      stage.work(row);
-      if (row.keeps_frames)
-        row.frames_s.push_back(
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+      const double frame_s = stage.timed_work_s(row);
+      if (row.device_clock) state.SetIterationTime(frame_s);
+      if (row.keeps_frames) row.frames_s.push_back(frame_s);
     }
   }
   auto& counters = state.counters;
@@ -233,7 +231,7 @@ void register_rows(std::vector<Row>& rows, Stage& stage, const Flags& flags, int
           time_row(state, row, stage);
         });
     registered->Unit(benchmark::kMillisecond);
-    if (known)
+    if (known || row.device_clock)
       registered->UseManualTime();
     else
       registered->UseRealTime();
@@ -288,14 +286,13 @@ void time_all(std::vector<Row>& rows, Stage& stage, const Flags& flags, Reporter
   }
 }
 
-template <typename Info>
-std::string names_of(std::span<const Info> infos) {
-  std::vector<std::string_view> names;
-  for (const Info& info : infos) names.push_back(info.name);
-  return fmt::format("{}", fmt::join(names, " "));
-}
-
-void add_context(const Flags& flags) {
+void add_context(const Flags& flags, std::span<const Row> rows) {
+  std::vector<std::string_view> names, peers;  // peers: with whole frames
+  for (const BackendInfo& backend : backends()) names.push_back(backend.name);
+  for (const Row& row : rows)
+    if (row.peer != nullptr && row.workload &&
+        std::find(peers.begin(), peers.end(), row.peer->name) == peers.end())
+      peers.push_back(row.peer->name);
   const auto machine = tools::machine_description();
   benchmark::AddCustomContext("machine", tools::machine_name());
   for (const char* key : {"build_type", "commit"})
@@ -305,8 +302,8 @@ void add_context(const Flags& flags) {
   benchmark::AddCustomContext("suite", flags.suite.quick            ? "quick"
                                        : flags.suite.scenes.empty() ? "full"
                                                                     : "scenes");
-  benchmark::AddCustomContext("backends", names_of(backends()));
-  benchmark::AddCustomContext("peers", names_of(lab::benchmark_peers()));
+  benchmark::AddCustomContext("backends", fmt::format("{}", fmt::join(names, " ")));
+  benchmark::AddCustomContext("peers", fmt::format("{}", fmt::join(peers, " ")));
   benchmark::AddCustomContext("rounds", std::to_string(flags.repetitions.value_or(kRounds)));
 }
 
@@ -351,7 +348,7 @@ int run(int argc, char** argv) {
   Stage stage(!flags.model_out.empty());
   compare_all(rows, stage, flags.suite.scenes.empty());
   if (flags.suite.scenes.empty()) leave_out_slow_frames(rows);
-  add_context(flags);
+  add_context(flags, rows);
   std::vector<std::string> names;
   for (const auto& row : rows) names.push_back(row.name);
   for (const auto& row : random_read_rows()) names.emplace_back(row.name);

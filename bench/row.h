@@ -40,7 +40,8 @@ struct Row {
   Timed timed = Timed::raster;
   const BackendInfo* backend = nullptr;  // null for front end rows, peers and methods
   const lab::PeerInfo* peer = nullptr;
-  std::string peer_version;  // empty: it did not start
+  std::string peer_version;   // empty: it did not start
+  bool device_clock = false;  // a peer's frame by its device's clock
   Execution execution;
   Ablation ablation{};
   std::optional<lab::EngineArithmetic> arithmetic;  // if set, the laboratory's engine draws, not `backend`
@@ -49,13 +50,14 @@ struct Row {
   bool keeps_frames = false;                        // whether the duration of each frame is kept
   std::vector<double> frames_s;                     // if keeps_frames: of all repetitions
   bool wants_cost = false;
-  bool step = false;                      // one step of the ablation
-  bool two_calls = false;                 // a frame by Frontend::run() and Backend::draw()
-  double once_s = 0.0;                    // duration of the compared draw
-  std::optional<FrameCost> cost;          // if wants_cost
-  std::uint64_t depth_ties = 0;           // peers: depth ties within tolerance, px
-  std::optional<std::uint64_t> wrong_px;  // if the row may draw another picture: pixels of another colour
-  std::string error;                      // why the row must not be timed
+  bool step = false;              // one step of the ablation
+  bool two_calls = false;         // a frame by Frontend::run() and Backend::draw()
+  double once_s = 0.0;            // duration of the compared draw
+  std::optional<FrameCost> cost;  // if wants_cost
+  std::uint64_t depth_ties = 0;   // peers: depth ties within tolerance, px
+  // If the row may draw another picture: pixels of another colour; peers: that show another triangle.
+  std::optional<std::uint64_t> wrong_px;
+  std::string error;  // why the row must not be timed
 };
 
 // One of the frames that differ in one factor at a time.

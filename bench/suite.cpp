@@ -81,8 +81,12 @@ class Suite {
           add(workload, Timed::frame, find_backend(kAblationBackend),
               fmt::format("{}/target:{}", name, name_of(target)), threads, target);
     if (!options_.peers) return;
-    for (const auto& peer : lab::benchmark_peers())
-      for (const int threads : kThreads) add_peer(workload, peer, name, threads);
+    for (const auto& peer : lab::benchmark_peers()) {
+      for (int threads = 1; threads <= peer.most_threads; ++threads) add_peer(workload, peer, name, threads);
+      if (!peer.own_clock) continue;
+      add_peer(workload, peer, name + "/clock:device", 1);
+      rows_.back().device_clock = true;
+    }
   }
 
   // Directly after the scene's own rows, its first and last step, so that they share one reference picture.

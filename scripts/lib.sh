@@ -121,6 +121,28 @@ set_up() {
   exit 2
 }
 
+# unpack_swiftshader: SwiftShader from Chromium's package, which is not installed, since it needs half a desktop. Two
+# copies, since a process has one pool of threads per copy. Without a package server, SwiftShader is left out.
+unpack_swiftshader() {
+  local folder=$root/build/swiftshader partial=$root/build/swiftshader.$$ file=vk_swiftshader_icd.json
+  [[ ! -f $folder/2/$file ]] && command -v apt-get >/dev/null || return 0
+  echo "Unpacking: SwiftShader from chromium-common"
+  mkdir -p "$partial/1"
+  # shellcheck disable=SC2016 # dpkg-deb's own variables
+  if (
+    cd "$partial" && { apt-get download -qq chromium-common || { apt-get update -qq && apt-get download -qq chromium-common; }; } &&
+      dpkg-deb --fsys-tarfile chromium-common_*.deb |
+      tar -x -C 1 --strip-components=4 ./usr/lib/chromium/libvk_swiftshader.so "./usr/lib/chromium/$file" &&
+      dpkg-deb -W --showformat='${Package} ${Version}' chromium-common_*.deb >package && rm chromium-common_*.deb && cp -R 1 2
+  ) 2>"$partial/log"; then
+    rm "$partial/log"
+    mv -T "$partial" "$folder"
+  else
+    echo "Left out: swiftshader: chromium-common could not be unpacked: $(tail -n 1 "$partial/log")" >&2
+    rm -r "$partial"
+  fi
+}
+
 # build TARGETS…: an incremental build in $build. A terminal gets the build's own progress; elsewhere only warnings and errors
 # pass.
 build() {

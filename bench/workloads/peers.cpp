@@ -10,7 +10,7 @@
 #include "bench/workloads/ablation.h"
 #include "edgewise/contract.h"
 #include "frontend/view.h"
-#include "lab/portable/conformance.h"
+#include "lab/portable/portable.h"
 
 namespace edgewise::bench {
 
@@ -214,7 +214,31 @@ std::uint64_t differing_colours(const Framebuffer& ids, std::span<const std::uin
   return count;
 }
 
+Framebuffer picture_of_ids(const Workload& workload, std::span<const ScreenTriangle> triangles) {
+  Framebuffer frame(workload.width(), workload.height());
+  backends().front().make()->draw(triangles, frame.view(), kNoTriangle, {});
+  return frame;
+}
+
 }  // namespace
+
+PortableJudgement judge_portable(const Workload& workload, std::span<const std::uint32_t> theirs,
+                                 int subpixel_bits) {
+  const Framebuffer ours = picture_of_ids(workload, triangles_by_id(workload));
+  const auto mask = lab::portable_pixels(
+      lab::portable_triangles(workload.drawable(), workload.frontend_options({})), ours.width(),
+      ours.height(), {.subpixel_bits = subpixel_bits, .depth = lab::find_depth_format("d32_sfloat")}, 2);
+  PortableJudgement result;
+  std::size_t i = 0;
+  for (int y = 0; y < ours.height(); ++y)
+    for (int x = 0; x < ours.width(); ++x, ++i) {
+      if (theirs[i] == ours.payload_row(y)[x]) continue;
+      ++result.different;
+      result.wrong += mask.reasons[i] == lab::Unstable::no;
+      result.tie += mask.reasons[i] == lab::Unstable::tie;
+    }
+  return result;
+}
 
 void PeerStage::compare(Row& row) {
   const Workload& workload = *row.workload;
@@ -225,20 +249,27 @@ void PeerStage::compare(Row& row) {
   };
 
   const auto triangles = triangles_by_id(workload);
-  Framebuffer ours(workload.width(), workload.height());
-  backends().front().make()->draw(triangles, ours.view(), kNoTriangle, {});
+  const Framebuffer ours = picture_of_ids(workload, triangles);
   const auto their_ids = load(PeerPayload::id)->read();
   auto& loaded = loaded_[row.name] = load(PeerPayload::colour);
 
-  const PeerJudgement judgement = judge(ours, their_ids, triangles);
-  row.depth_ties = judgement.depth_ties;
-  if (judgement.wrong() != 0)
-    row.error = fmt::format(
-        "{} pixels are drawn in only one of the two pictures, {} show another triangle, the first at ({}, "
-        "{})",
-        judgement.coverage, judgement.other_triangles, judgement.first_x, judgement.first_y);
-  else if (const auto count = differing_colours(ours, their_ids, row.workload->reference(), loaded->read());
-           count != 0)
+  if (row.peer->exact) {
+    const PeerJudgement judgement = judge(ours, their_ids, triangles);
+    row.depth_ties = judgement.depth_ties;
+    if (judgement.wrong() != 0)
+      row.error = fmt::format(
+          "{} pixels are drawn in only one of the two pictures, {} show another triangle, the first at ({}, "
+          "{})",
+          judgement.coverage, judgement.other_triangles, judgement.first_x, judgement.first_y);
+  } else {
+    const PortableJudgement judgement = judge_portable(workload, their_ids, row.peer->subpixel_bits());
+    row.wrong_px = judgement.different;
+    if (judgement.wrong != 0)
+      row.error = fmt::format("{} pixels show another triangle although they are portable", judgement.wrong);
+  }
+  if (!row.error.empty()) return;
+  if (const auto count = differing_colours(ours, their_ids, row.workload->reference(), loaded->read());
+      count != 0)
     row.error = fmt::format("{} pixels have other colours", count);
 }
 

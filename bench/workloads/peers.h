@@ -50,15 +50,28 @@ double float_plane_error(const ScreenTriangle& triangle, int width, int height);
 PeerJudgement judge(const Framebuffer& ours, std::span<const std::uint32_t> theirs,
                     std::span<const ScreenTriangle> triangles);
 
+// The pixels in which a picture of triangle ids differs from ours, and those of them that `portable` says are
+// the same in every picture of a rasterizer with so many subpixel bits and a float depth buffer.
+struct PortableJudgement {
+  std::uint64_t different = 0, wrong = 0, tie = 0;  // tie: those in the mask for a tie alone
+};
+PortableJudgement judge_portable(const Workload& workload, std::span<const std::uint32_t> theirs,
+                                 int subpixel_bits);
+
 class PeerStage {
  public:
-  // Draws the row's scene twice, with triangle ids and with colours. Sets the row's depth_ties, and its error
-  // if the coverage differs, or a visible triangle beyond a depth tie within tolerance, or a colour. Keeps
-  // the scene loaded in the peer. Requires a prepared workload.
+  // Draws the row's scene twice, with triangle ids and with colours. Keeps the scene loaded in the peer.
+  // Requires a prepared workload. The row has an error if a triangle that both show has another colour, and
+  // - if the peer is exact: if the coverage differs, or a visible triangle beyond a depth tie within
+  // tolerance; sets
+  //   depth_ties;
+  // - else: if a portable pixel differs; sets wrong_px.
   void compare(Row& row);
 
   // Draws one frame of a row that compare() has loaded.
   void work(const Row& row) { loaded_.at(row.name)->draw(); }
+  // The duration of the last frame by the clock of the peer's device.
+  double device_s(const Row& row) const { return loaded_.at(row.name)->device_s().value(); }
 
  private:
   std::map<std::string, std::unique_ptr<PeerFrame>> loaded_;  // by row name

@@ -51,7 +51,8 @@ void Stage::work(const Row& row) {
 double Stage::timed_work_s(const Row& row) {
   const auto begin = std::chrono::steady_clock::now();
   work(row);
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return row.device_clock ? peers_.device_s(row)
+                          : std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
 void Stage::compare_ours(Row& row) {

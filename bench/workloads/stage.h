@@ -29,11 +29,12 @@ class Stage {
 
   // Performs the row's timed work once.
   void work(const Row& row);
+  // The same, and its duration, by the device's clock if the row has it.
+  double timed_work_s(const Row& row);
 
  private:
   void compare_ours(Row& row);
   Framebuffer& frame(const Row& row);
-  double timed_work_s(const Row& row);
 
   lab::AblatedBackends backends_;
   // One per size, kept to the end: interleaved repetitions use all of them again, and a fresh frame's page

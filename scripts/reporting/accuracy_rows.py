@@ -30,7 +30,7 @@ class Family:
         return next((kind for kind, starts in self.kinds.items() if method.name.startswith(starts)), "other")
 
 
-PEERS = ("llvmpipe", "softpipe", "lavapipe", "gpu")
+PEERS = ("llvmpipe", "softpipe", "lavapipe", "swiftshader", "gpu")
 FAMILIES = {family.name: family for family in (
     Family("coverage", "wrong pixels per 10⁶ edge crossings", "crossings", "edge crossings", "ns per covered pixel",
            "Errors are counted against the exact picture of the unsnapped positions. Filled: none given the snapped positions. All "

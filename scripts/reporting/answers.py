@@ -1,7 +1,7 @@
 """README's first table: the answers to its questions, each with its condition."""
 from factors import gains, said
 from frontier import EXACT, INSIDE_TESTS, PRICED, measured_in, simd_outcome
-from bench_tables import OURS, THREADS, pairs
+from bench_tables import OURS, THREADS, compared_targets, timed_peers
 from tables import by_order, kernels, number, outcome
 
 HEADER = ["question", "answer", "condition"]
@@ -51,13 +51,12 @@ def gap_rows(accuracy):
 
 
 def peer_rows(bench):
-    for target in dict.fromkeys((bench.context.get("simd_target"), "avx2")):
-        found = pairs(bench, None if target == bench.context.get("simd_target") else target)
-        for peer in bench.peers:
-            of = [(ours, row) for (name, _, threads), (row, ours) in found.items() if name == peer and threads == max(THREADS)]
-            if of:
-                yield [f"Against {peer}, ours with {kernels(target)}?", f"`{OURS}` {outcome(by_order(of))}",
-                       f"{peer} is {bench.context.get(peer, 'of unknown version')}; whole frames, {max(THREADS)} threads"]
+    for peer in timed_peers(bench):
+        target, found = compared_targets(bench, peer)[-1]
+        said = [outcome(by_order(of)) + f" on {threads} thread{'' if threads == 1 else 's'}" for threads in THREADS
+                if (of := [(ours, row) for (_, n), (row, ours) in found.items() if n == threads])]
+        yield [f"Against {peer}?", f"`{OURS}` {'; '.join(said)}",
+               f"{peer} is {bench.context.get(peer, 'of unknown version')}; whole frames, ours with {kernels(target)}"]
 
 
 def answers(bench, accuracy):

@@ -4,11 +4,12 @@ from itertools import combinations
 import noise
 from bench_rows import describe_machine, gained, gained_interval, order, read_bench
 from program import read_json
-from tables import about, gain, milliseconds, number, percent, speed_up, with_width
+from tables import VECTORS, about, gain, milliseconds, number, percent, speed_up, with_width
 
 NOT_TIMED = "These results hold none of the rows for this."
 THREADS = (1, 2)
 OURS = "tiled"  # the backend that represents ours
+GPU = "gpu"  # the peer that has no number of threads
 
 
 def random_reads(bench):
@@ -63,7 +64,7 @@ def speed_table(bench):
 
         lines.append([scene, scene_facts(bench, scene)[0],
                       *(cell(ours[backend]) if backend in ours else "–" for backend in bench.backends),
-                      *(milliseconds(bench.frame(peer, scene, max(THREADS))) for peer in bench.peers)])
+                      *(milliseconds(peer_frame(bench, peer, scene, max(THREADS))) for peer in bench.peers)])
     return ["scene", "triangles", *bench.backends, *bench.peers], lines
 
 
@@ -85,38 +86,59 @@ def tail_cells(row):
     return f"{milliseconds(row)} / {number(row.counters['p99_ms'])}", number(row.counters["first_ms"])
 
 
-def pairs(bench, target=None):
-    """{(peer, scene, threads): (the peer's row, ours)} of whole frames, ours with the kernels of `target` or the widest."""
+def peer_frame(bench, peer, scene, threads):
+    """A peer's whole frame. A GPU's has one row, which is compared with ours on any number of threads."""
+    return bench.frame(peer, scene, 1 if peer == GPU else threads)
+
+
+def pairs(bench, peer, target=None):
+    """{(scene, threads): (the peer's row, ours)} of whole frames, ours with the kernels of `target` or the widest."""
     keys = f"/target:{target}" if target else ""
-    found = {(peer, scene, n): (bench.frame(peer, scene, n), bench.frame(OURS, scene + keys, n))
-             for peer in bench.peers for scene in bench.scenes for n in THREADS}
+    found = {(scene, n): (peer_frame(bench, peer, scene, n), bench.frame(OURS, scene + keys, n)) for scene in bench.scenes for n in THREADS}
     return {key: rows for key, rows in found.items() if all(rows)}
+
+
+def timed_peers(bench):
+    return [peer for peer in bench.peers if pairs(bench, peer)]
+
+
+def compared_targets(bench, peer):
+    """[(SIMD target of ours, its pairs())]: the widest, and the one with vectors of the peer's width."""
+    widest, version = bench.context.get("simd_target"), bench.context.get(peer, "")
+    same = [(target, pairs(bench, peer, target)) for target, (_, bits) in VECTORS.items()
+            if target != widest and version.endswith(f", {bits} bits")]
+    return [(widest, pairs(bench, peer)), *((target, found) for target, found in same if found)]
 
 
 def peer_table(bench, peer):
     """Header and lines: one line per scene that the peer drew; a cell has a figure for each number of threads."""
-    widest, narrow = pairs(bench), pairs(bench, "avx2")
-    compared = [(bench.context.get("simd_target"), widest), *([("avx2", narrow)] if any(key[2] == max(THREADS) for key in narrow) else [])]
+    compared = compared_targets(bench, peer)
+    widest = compared[0][1]
     header = ["scene", f"{peer}, ms", f"{OURS}, ms", *(f"speed-up with {with_width(target)}" for target, _ in compared)]
+    if peer == GPU:
+        header.insert(2, "by its own clock, ms")
 
     lines = []
     for scene in bench.scenes:
-        timed = [widest.get((peer, scene, n), (None, None)) for n in THREADS]
+        timed = [widest.get((scene, n), (None, None)) for n in THREADS]
         if any(map(all, timed)):
-            cells = [map(milliseconds, side) for side in zip(*timed)]
-            cells += [[gain(*rows) if (rows := found.get((peer, scene, n))) else "–" for n in THREADS] for _, found in compared]
+            theirs, ours = ([milliseconds(row) for row in side] for side in zip(*timed))
+            cells = [theirs, ours] if peer != GPU else [theirs[:1], [milliseconds(bench.frame(peer, f"{scene}/clock:device", 1))], ours]
+            cells += [[gain(*rows) if (rows := found.get((scene, n))) else "–" for n in THREADS] for _, found in compared]
             lines.append([scene, *map(" / ".join, cells)])
     return header, lines
 
 
 def peer_tables(bench, layout):
-    """Every peer's table, laid out by `layout`, below its version and the depth ties at which the pictures may differ; one line if
-    no peer was timed."""
+    """Every peer's table, laid out by `layout`, below its version and in how many pixels the pictures differ; one line if no peer was
+    timed."""
     told = []
-    for peer in dict.fromkeys(peer for peer, _, _ in pairs(bench)):
-        ties = max(row.counters.get("depth_ties", 0) for (name, _, _), (row, _) in pairs(bench).items() if name == peer)
+    for peer in timed_peers(bench):
+        rows = [row for row, _ in pairs(bench, peer).values()]
+        most, why = max((row.counters.get(counter, 0), why) for row in rows for counter, why in
+                        (("depth_ties", "depth ties within tolerance"), ("wrong_px", "not portable")))
         told.append(f"{peer} ({bench.context.get(peer, 'unknown version')}), on {' / '.join(map(str, THREADS))} threads; pictures differ in "
-                    f"at most {ties:,.0f} pixels, all depth ties within tolerance:\n\n{layout(*peer_table(bench, peer))}")
+                    f"at most {most:,.0f} pixels, all {why}:\n\n{layout(*peer_table(bench, peer))}")
     return "\n\n".join(told) or "No other project's rasterizer was timed here; `scripts/run --peers` does."
 
 
@@ -273,9 +295,9 @@ def other_folders(folder):
 
 def peers_by_machine(benches):
     """Header and lines: our backend's speed-up over each peer, on the most threads. `benches`: by the machine's name."""
-    found = [pairs(bench) for bench in benches.values()]
-    keys = dict.fromkeys((peer, scene) for ratios in found for peer, scene, _ in ratios)
-    cells = [[ratios.get((peer, scene, max(THREADS))) for ratios in found] for peer, scene in keys]
+    found = [{(peer, *key): rows for peer in bench.peers for key, rows in pairs(bench, peer).items()} for bench in benches.values()]
+    keys = dict.fromkeys((peer, scene) for rows in found for peer, scene, _ in rows)
+    cells = [[rows.get((peer, scene, max(THREADS))) for rows in found] for peer, scene in keys]
     return (["scene", *(f"`{name}`" for name in benches)],
             [[f"{scene}, {peer}", *(gain(*rows) if rows else "–" for rows in row)]
              for (peer, scene), row in zip(keys, cells)])

@@ -121,6 +121,7 @@ class PortableCommand {
                           {"height", found.height},
                           {"subpixel_bits", options_.model.subpixel_bits},
                           {"transform_ulps", options_.model.transform_ulps},
+                          {"guard_band_px", options_.model.guard_band_px},
                           {"depth", options_.model.depth.name},
                           {"pixels", pixels},
                           {"unstable", unstable},
@@ -159,10 +160,13 @@ are rounded, and so are depths. Outside the mask all of them show the same trian
 rounding. The mask is conservative: some of its pixels are the same everywhere, too. It
 compares triangles, not colours: where two triangles of one colour meet, pictures may be equal.
 
+--depth d32_sfloat also holds for reversed Z: a float depth buffer that is cleared to 0.
+
 The mask is black where all must agree. Its other colours name the reason:
   orange  edge   rounding decides whether a triangle covers the sample
   yellow  tie    the same, and the sample lies exactly on the edge
-  purple  clip   the same, of a triangle that the view volume cuts
+  purple  clip   the same, of a triangle that the near or far plane cuts; and all samples of a
+                 triangle that reaches beyond the guard band, where rasterizers may clip
   blue    depth  rounding decides which of two triangles is nearer
 
 Exit status: 0 done, 2 bad input.)";
@@ -184,6 +188,8 @@ void add_portable(CLI::App& program, Action& action) {
              [o](const std::string& text) { o->model.subpixel_bits = fewest_bits(text); });
   add_integer(command, "--ulps", o->model.transform_ulps, 0, 1000,
               "Error of the viewport transform, in units in the last place (2)");
+  add_integer(command, "--guard-band", o->model.guard_band_px, 0, 1 << 20,
+              "How far beyond the picture triangles may reach, in pixels, see below (3000)");
   add_parsed(command, "--depth", "FORMAT", "Depth format: d16_unorm, d24_unorm or d32_sfloat (d24_unorm)",
              [o](const std::string& text) { o->model.depth = lab::find_depth_format(text); });
   o->scene.add_to(command);

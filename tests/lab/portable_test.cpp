@@ -66,6 +66,16 @@ TEST(Portable, FindsSamplesThatAnEdgeMayReach) {
   EXPECT_EQ(count(judged(cut), Unstable::no), 1u * kHeight * kWidth) << "both sides show triangle 0";
 }
 
+TEST(Portable, PromisesNoSampleOfATriangleBeyondTheGuardBand) {
+  const auto clipped_px = [](float reach_px, float wall_z) {
+    const PortableTriangle far = triangle({1.5f, 40.5f, -reach_px}, {0, 20, 0}, 0.5f, 0);
+    return count(judged({far, wall(wall_z, 1)}, {.guard_band_px = 1000}), Unstable::clip);
+  };
+  EXPECT_EQ(clipped_px(1000, 0.75f), 0u);
+  EXPECT_GT(clipped_px(1001, 0.75f), 100u);
+  EXPECT_EQ(clipped_px(1001, 0.25f), 0u) << "occluded";
+}
+
 TEST(Portable, FindsDepthsThatRoundingMayReverse) {
   const auto near_gap = [](double gap, const Conformance& model) {
     return count(judged({wall(0.5f, 0), wall(static_cast<float>(0.5 + gap), 1)}, model), Unstable::depth);
@@ -166,7 +176,7 @@ struct FloatPlane {
 
 // One rasterizer that the model allows: it moves each vertex by less than a step in any direction and each
 // depth by less than the error of a float z / w, evaluates depth planes in floats, rounds to the format, and
-// clears to 1.
+// clears to 1. Of float depth buffers, every second one is reversed.
 std::vector<std::uint32_t> drawn_by_a_witness(const std::vector<PortableTriangle>& triangles, double step_px,
                                               const DepthFormat& format, std::uint32_t seed) {
   std::mt19937 random(seed);
@@ -177,6 +187,7 @@ std::vector<std::uint32_t> drawn_by_a_witness(const std::vector<PortableTriangle
     return static_cast<float>(double{value} +
                               largest * (std::abs(share) > 0.5 ? std::copysign(0.999, share) : share));
   };
+  const bool reversed = format.name == "d32_sfloat" && seed % 2 == 1;
   std::vector<FloatTriangle> floats;
   for (const PortableTriangle& t : triangles) {
     FloatTriangle f{t.at, t.id};
@@ -184,16 +195,17 @@ std::vector<std::uint32_t> drawn_by_a_witness(const std::vector<PortableTriangle
       f.at.x_px[i] = moved(t.at.x_px[i], step_px);
       f.at.y_px[i] = moved(t.at.y_px[i], step_px);
       f.at.z01[i] = moved(t.at.z01[i], 0x1p-24);
+      if (reversed) f.at.z01[i] = 1.0f - f.at.z01[i];
     }
     floats.push_back(f);
   }
-  std::vector<double> depth(std::size_t{kWidth} * kHeight, 1.0);
+  std::vector<double> depth(std::size_t{kWidth} * kHeight, reversed ? 0.0 : 1.0);
   std::vector<std::uint32_t> visible(depth.size(), kNoTriangle);
   for (const Run& run : covered_runs(floats, {kWidth, kHeight}, 1)) {
     const FloatPlane plane(floats[run.triangle].at);
     for (int x = run.x0; x < run.x1; ++x) {
-      const double z =
-          std::round(std::clamp(double{plane.at(x, run.y)}, 0.0, 1.0) / format.step) * format.step;
+      const double clamped = std::clamp(double{plane.at(x, run.y)}, 0.0, 1.0);
+      const double z = reversed ? -clamped : std::round(clamped / format.step) * format.step;
       const auto pixel = static_cast<std::size_t>(run.y) * kWidth + static_cast<std::size_t>(x);
       if (z < depth[pixel]) depth[pixel] = z, visible[pixel] = floats[run.triangle].payload;
     }

@@ -11,7 +11,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts/reporting"
 from accuracy_rows import Accuracy, Cost, Measured, Method, Scene, parse_accuracy, read_accuracy  # noqa: E402
 from answers import answers  # noqa: E402
 from bench_rows import Bench, Row, parse_name  # noqa: E402
-from bench_tables import engine_table, peer_tables  # noqa: E402
+from bench_tables import engine_table, peer_tables, speed_table  # noqa: E402
 from facts_tables import edges_table, pipelines_table, read_needs, tutorials_table  # noqa: E402
 from frontier import EXACT, INSIDE_TESTS, PRICED, cracks_of, price_table, simd_outcome, speed_ups  # noqa: E402
 from program import BadInput  # noqa: E402
@@ -130,13 +130,23 @@ class AnswersTest(unittest.TestCase):
         rows = {**scene("a", 2.0, 8.0, 1.0), **scene("b", 1.0, 5.0, 4.0), "ext+frontend/a/threads:2": 8.0, "ext+frontend/b/threads:2": 30.0,
                 "tiled+frontend/m/threads:2": 3.0, "ext+frontend/m/threads:2": 1.5}
         told = bench(rows, peers="ext", ext="Ext 1, 256 bits")
-        self.assertEqual(answers(told, None)[1:], [["Against ext, ours with AVX-512?", "`tiled` 7.5× to 8.0× faster in 2, 2.0× slower in 1 of 3 scenes",
-                                                    "ext is Ext 1, 256 bits; whole frames, 2 threads"]])
-        narrow = bench({**rows, "tiled+frontend/a/target:avx2/threads:2": 2.0, "m/threads:2": 1.0}, peers="ext", ext="Ext 1, 256 bits")
-        self.assertEqual(answers(narrow, None)[2][:2], ["Against ext, ours with AVX2?", "`tiled` 4.0× faster in 1 of 1 scene"])
+        self.assertEqual(answers(told, None)[1:], [["Against ext?", "`tiled` 7.5× to 8.0× faster in 2, 2.0× slower in 1 of 3 scenes on 2 threads",
+                                                    "ext is Ext 1, 256 bits; whole frames, ours with AVX-512"]])
+        narrow = bench({**rows, "tiled+frontend/a/target:avx2/threads:2": 2.0, "tiled+frontend/a/target:avx2/threads:1": 3.0, "m/threads:2": 1.0,
+                        "ext+frontend/a/threads:1": 9.0}, peers="ext", ext="Ext 1, 256 bits")
+        self.assertEqual(answers(narrow, None)[1][1:],
+                         ["`tiled` 3.0× faster in 1 of 1 scene on 1 thread; 4.0× faster in 1 of 1 scene on 2 threads",
+                          "ext is Ext 1, 256 bits; whole frames, ours with AVX2"])
         table = peer_tables(narrow, markdown)
         self.assertIn("| speed-up with AVX-512, 512 bits | speed-up with AVX2, 256 bits |", table)
-        self.assertIn("| – / 8.0× | – / 4.0× |", table)
+        self.assertIn("| – / 8.0× | 3.0× / 4.0× |", table)
+
+    def test_a_gpu_has_one_row_a_scene_and_its_own_clock(self):
+        told = bench({**scene("a", 3.0, 8.0, 2.0), "tiled+frontend/a/threads:1": 4.0, "gpu+frontend/a/threads:1": 1.0,
+                      "gpu+frontend/a/clock:device/threads:1": 0.5}, peers="gpu", gpu="a GPU")
+        self.assertIn("| a | 1.00 | 0.500 | 4.00 / 2.00 | 4.0× slower / 2.0× slower |", peer_tables(told, markdown))
+        self.assertIn("2.0× slower in 1 of 1 scene on 2 threads", answers(told, None)[-1][1])
+        self.assertEqual(speed_table(told)[1][0][-1], "1.00")
 
     def test_the_methods_that_answers_name_are_measured(self):
         results = Path(__file__).resolve().parents[2] / "results"

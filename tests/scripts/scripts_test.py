@@ -300,6 +300,12 @@ class ScriptsTest(unittest.TestCase):
         self.assertIn("| cube | 16.8 / 8.40 | 2.10 / 1.05 | 8.0× / 8.0× |", text)
         self.assertIn("| knot | 12.0 / 6.00 | 3.00 / 1.50 | 4.0× / 4.0× |", text)
         self.assertRegex(run("summary", "--tables", self.results).stdout, r"cube .* 8\.0× / 8\.0×\n")
+        coarse = bench_with_peer()
+        for entry in coarse["benchmarks"]:
+            if "depth_ties" in entry:
+                entry["wrong_px"] = 9 * entry.pop("depth_ties")
+        (self.results / "bench.json").write_text(json.dumps(coarse))
+        self.assertIn("pictures differ in at most 63 pixels, all not portable:", self.filled("peers"))
 
     def test_what_the_test_of_normals_gains_is_drawn_beside_culling(self):
         drawn = []
@@ -325,6 +331,31 @@ class ScriptsTest(unittest.TestCase):
         result = missing("peers")
         self.assertEqual(result.returncode, 2)
         self.assertIn("Missing packages: libegl-dev\n", result.stderr)
+
+    def test_swiftshader_is_unpacked_or_left_out(self):
+        package, tools = self.folder / "package", self.folder / "tools"
+        for made in (package / "DEBIAN", package / "usr/lib/chromium", tools):
+            made.mkdir(parents=True)
+        (package / "DEBIAN/control").write_text("Package: chromium-common\nVersion: 7\nArchitecture: all\nMaintainer: me\nDescription: x\n")
+        for name in ("libvk_swiftshader.so", "vk_swiftshader_icd.json", "chromium"):
+            (package / "usr/lib/chromium" / name).write_text(name)
+
+        def unpacked(body):
+            (tools / "apt-get").write_text(f"#!/bin/bash\n{body}\n")
+            (tools / "apt-get").chmod(0o755)
+            return subprocess.run(["bash", "-euo", "pipefail", "-c", f". {SCRIPTS}/lib.sh; root={self.folder}; unpack_swiftshader; echo on"],
+                                  text=True, check=False, capture_output=True, env={**os.environ, "PATH": f"{tools}:{os.environ['PATH']}"})
+
+        failed = unpacked("echo E: no server >&2; exit 100")
+        self.assertEqual((failed.returncode, failed.stdout.splitlines()[-1]), (0, "on"))
+        self.assertEqual(failed.stderr, "Left out: swiftshader: chromium-common could not be unpacked: E: no server\n")
+        self.assertEqual(list((self.folder / "build").iterdir()), [])
+        self.assertEqual(unpacked(f"dpkg-deb -b {package} chromium-common_7.deb >/dev/null").stderr, "")
+        folder = self.folder / "build/swiftshader"
+        self.assertEqual((folder / "package").read_text(), "chromium-common 7")
+        for copy in (folder / "1", folder / "2"):
+            self.assertEqual({file.name for file in copy.iterdir()}, {"libvk_swiftshader.so", "vk_swiftshader_icd.json"})
+        self.assertEqual(unpacked("exit 1").stdout, "on\n")
 
     def test_laboratory_fills_the_readme_and_the_summary(self):
         self.add_facts()

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "lab/peers/gl_context.h"
+#include "lab/peers/peer.h"
 
 namespace edgewise::lab {
 
@@ -117,7 +118,7 @@ void use_mesa(MesaDriver driver, int threads) {
 std::string mesa_version(MesaDriver driver) {
   use_mesa(driver, 1);
   // "4.5 (Core Profile) Mesa 22.3.6"; "llvmpipe (LLVM 15.0.6, 256 bits)" or "softpipe"
-  const std::string opengl = text_of(GL_VERSION), renderer = text_of(GL_RENDERER);
+  const std::string opengl = with_year(text_of(GL_VERSION)), renderer = text_of(GL_RENDERER);
   const auto mesa = opengl.find("Mesa"), llvm = renderer.find("LLVM");
   if (mesa == std::string::npos) return opengl;
   if (llvm == std::string::npos) return opengl.substr(mesa) + ", scalar";

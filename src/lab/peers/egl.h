@@ -13,7 +13,8 @@ std::string_view name_of(MesaDriver driver);
 // threads, or softpipe's for 1. Throws std::runtime_error if EGL or the driver is missing.
 void use_mesa(MesaDriver driver, int threads);
 
-// The version of Mesa, and how the driver computes: "Mesa 22.3.6, LLVM 15.0.6, 256 bits". Throws as use_mesa
+// The version of Mesa, and how the driver computes: "Mesa 22.3.6 (branch of 2022), LLVM
+// 15.0.6, 256 bits". Throws as use_mesa
 // does.
 std::string mesa_version(MesaDriver driver);
 

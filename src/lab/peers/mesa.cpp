@@ -204,20 +204,23 @@ class Frame final : public PeerFrame {
 
 template <MesaDriver driver, int most_threads>
 PeerInfo mesa_peer(std::string_view summary) {
-  return {name_of(driver),
-          summary,
-          most_threads,
-          [] {
-            use_mesa(driver, 1);
-            GLint bits = 0;
-            glGetIntegerv(GL_SUBPIXEL_BITS, &bits);
-            return int{bits};
-          },
-          [] {
-            for (int threads = most_threads; threads > 1; --threads) use_mesa(driver, threads);
-            return mesa_version(driver);
-          },
-          [](const PeerScene& scene, int threads) -> std::unique_ptr<PeerFrame> {
+  return {.name = name_of(driver),
+          .summary = summary,
+          .most_threads = most_threads,
+          .exact = driver == MesaDriver::llvmpipe,
+          .subpixel_bits =
+              [] {
+                use_mesa(driver, 1);
+                GLint bits = 0;
+                glGetIntegerv(GL_SUBPIXEL_BITS, &bits);
+                return int{bits};
+              },
+          .version =
+              [] {
+                for (int threads = most_threads; threads > 1; --threads) use_mesa(driver, threads);
+                return mesa_version(driver);
+              },
+          .load = [](const PeerScene& scene, int threads) -> std::unique_ptr<PeerFrame> {
             return std::make_unique<Frame>(driver, scene, threads);
           }};
 }

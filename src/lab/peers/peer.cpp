@@ -1,6 +1,6 @@
 #include "lab/peers/peer.h"
 
-#include <optional>
+#include <regex>
 #include <stdexcept>
 #include <vector>
 
@@ -11,13 +11,13 @@ PeerInfo llvmpipe();
 PeerInfo softpipe();
 #endif
 #ifdef EDGEWISE_PEER_VULKAN
-std::optional<PeerInfo> lavapipe(), vulkan_gpu();  // if found
+PeerInfo lavapipe(), swiftshader(), vulkan_gpu();
 #endif
 
-glm::mat4 to_clip(const glm::mat4& to_screen) {
+glm::mat4 to_clip(const glm::mat4& to_screen, float half_viewport_px) {
   glm::mat4 result = to_screen;
   for (int column = 0; column < 4; ++column)
-    for (const int row : {0, 1}) result[column][row] /= kHalfViewport_px;
+    for (const int row : {0, 1}) result[column][row] /= half_viewport_px;
   return result;
 }
 
@@ -29,8 +29,7 @@ std::span<const PeerInfo> peers() {
     list.push_back(softpipe());
 #endif
 #ifdef EDGEWISE_PEER_VULKAN
-    for (const auto& found : {lavapipe(), vulkan_gpu()})
-      if (found) list.push_back(*found);
+    for (const PeerInfo& peer : {lavapipe(), swiftshader(), vulkan_gpu()}) list.push_back(peer);
 #endif
     return list;
   }();
@@ -38,11 +37,13 @@ std::span<const PeerInfo> peers() {
 }
 
 std::span<const PeerInfo> benchmark_peers() {
-  static const std::vector<PeerInfo> timed{
-#ifdef EDGEWISE_PEER_MESA
-      llvmpipe()  // softpipe is far slower, and lavapipe has llvmpipe's rasterizer
-#endif
-  };
+  static const std::vector<PeerInfo> timed = [] {
+    std::vector<PeerInfo> list(peers().begin(), peers().end());
+    // softpipe is far slower than llvmpipe, and lavapipe has llvmpipe's rasterizer.
+    std::erase_if(list,
+                  [](const PeerInfo& peer) { return peer.name == "softpipe" || peer.name == "lavapipe"; });
+    return list;
+  }();
   return timed;
 }
 
@@ -50,7 +51,8 @@ void StartedPeers::require_one() const {
   if (!peers.empty()) return;
   if (left_out.empty())
     throw std::invalid_argument(
-        "--peers: there is none, since OpenGL or EGL was not found (scripts/run --peers installs them)");
+        "--peers: there is none, since neither OpenGL with EGL nor Vulkan was found (scripts/run --peers "
+        "installs them)");
   std::string why;
   for (const std::string& reason : left_out) why += (why.empty() ? "" : "; ") + reason;
   throw std::runtime_error("--peers: none starts: " + why);
@@ -64,6 +66,10 @@ StartedPeers start_peers(std::span<const PeerInfo> peers) {
       started.left_out.emplace_back(error.what());
     }
   return started;
+}
+
+std::string with_year(const std::string& version) {
+  return std::regex_replace(version, std::regex(R"(Mesa (\d\d)\.\d+\.\d+)"), "$& (branch of 20$1)");
 }
 
 }  // namespace edgewise::lab

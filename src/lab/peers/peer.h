@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -33,12 +34,12 @@ struct PeerScene {
   std::vector<PeerMesh> meshes;
 };
 
-// Every peer's viewport: a square whose side is a power of two, centred on the image's top left corner. Clip
+// A peer's viewport: a square whose side is a power of two, centred on the image's top left corner. Clip
 // coordinates are therefore our own, scaled exactly, and the drivers' screen positions are the same floats as
 // our front end's. The viewport reaches far beyond the image, so that only the near and far planes clip. Most
-// drivers allow no larger one.
+// drivers allow no larger one, and some only a smaller one.
 inline constexpr int kHalfViewport_px = 8192;
-glm::mat4 to_clip(const glm::mat4& to_screen);
+glm::mat4 to_clip(const glm::mat4& to_screen, float half_viewport_px = kHalfViewport_px);
 
 // A scene that a peer has loaded.
 class PeerFrame {
@@ -50,21 +51,26 @@ class PeerFrame {
   virtual std::vector<std::uint32_t> read() = 0;
   // Its depths in [0, 1], in the same order.
   virtual std::vector<float> read_depths() = 0;
+  // The duration of the last draw() by the device's own clock; none if it has none.
+  virtual std::optional<double> device_s() const { return {}; }
 };
 
 struct PeerInfo {
-  std::string_view name;     // in row names; differs from every backend's
-  std::string_view summary;  // one line
-  int most_threads;
+  std::string_view name;          // in row names; differs from every backend's
+  std::string_view summary = {};  // one line
+  int most_threads = 1;
+  bool exact =
+      false;  // its picture is ours but for depth ties; others may differ in pixels that are not portable
+  bool own_clock = false;  // device_s() is timed beside the wall clock
   // All three throw std::runtime_error if the peer cannot start. version() tries every number of threads.
-  int (*subpixel_bits)();  // the fewest bits to which it rounds positions
-  std::string (*version)();
+  int (*subpixel_bits)() = nullptr;  // the fewest bits to which it rounds positions
+  std::string (*version)() = nullptr;
   // `threads` is at most most_threads.
-  std::unique_ptr<PeerFrame> (*load)(const PeerScene& scene, int threads);
+  std::unique_ptr<PeerFrame> (*load)(const PeerScene& scene, int threads) = nullptr;
 };
 
-// The peers: those of this build's OpenGL drivers, and those that Vulkan finds here. The second call has only
-// those with rows in the benchmark's suite, and opens no driver.
+// The peers of this build, which may not start here. The second call has only those with rows in the
+// benchmark's suite.
 std::span<const PeerInfo> peers();
 std::span<const PeerInfo> benchmark_peers();
 
@@ -79,6 +85,10 @@ StartedPeers start_peers(std::span<const PeerInfo> peers);
 
 // Positions before snapping, so that a peer's own snapping decides.
 PeerScene peer_scene(std::span<const FloatTriangle> triangles, Window window, std::uint32_t background);
+
+// Beside each version of Mesa the year of its branch: "Mesa 22.3.6 (branch of 2022)". Mesa numbers its
+// versions YEAR.BRANCH.PATCH (https://docs.mesa3d.org/releasing.html).
+std::string with_year(const std::string& version);
 
 // One method per peer; `started` must outlive them.
 std::vector<CoverageMethod> peer_methods(const StartedPeers& started);

@@ -1,14 +1,17 @@
-// Draws the meshes of mesa.cpp through Vulkan 1.3, with Mesa's lavapipe and with the first GPU. lavapipe has
-// llvmpipe's rasterizer behind other clipping and other shaders. draw() waits for the device, and vertices
-// lie in memory that the processor sees, so these peers have no rows in the benchmark.
+// Draws the meshes of mesa.cpp through Vulkan 1.3, on each of a list of devices. Vertices lie in the device's
+// memory. draw() waits for the device, whose own clock times the drawing alone.
 #include <fmt/format.h>
+#include <sched.h>
 #include <stdlib.h>
 
 #include <vulkan.frag.h>  // made from the shaders beside this file
 #include <vulkan.vert.h>
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstring>
+#include <fstream>
+#include <map>
 #include <optional>
 #include <stdexcept>
 #include <vulkan/vulkan_raii.hpp>
@@ -19,7 +22,11 @@ namespace edgewise::lab {
 
 namespace {
 
-enum class Driver { lavapipe, gpu };
+enum class Driver { lavapipe, swiftshader, gpu };
+constexpr std::string_view kNames[] = {"lavapipe", "swiftshader", "gpu"};
+constexpr std::string_view name_of(Driver driver) {
+  return kNames[static_cast<std::size_t>(driver)];
+}
 
 constexpr auto kColour = vk::Format::eR32Uint, kDepth = vk::Format::eD32Sfloat;
 
@@ -28,44 +35,86 @@ const vk::raii::Instance& instance() {
   static const auto& context = *new vk::raii::Context;
   static const auto& made = *new auto([] {
     setenv("LP_NUM_THREADS", "0", 1);  // lavapipe draws in its queue's thread alone
+    constexpr const char* kSwiftShader =
+        EDGEWISE_SWIFTSHADER "/1/vk_swiftshader_icd.json:" EDGEWISE_SWIFTSHADER "/2/vk_swiftshader_icd.json";
+    setenv("VK_ADD_DRIVER_FILES", kSwiftShader, 0);
     const vk::ApplicationInfo application("edgewise", 1, nullptr, 0, VK_API_VERSION_1_3);
     return vk::raii::Instance(context, vk::InstanceCreateInfo({}, &application));
   }());
   return made;
 }
 
+// That of a queue that draws and has a clock.
 std::optional<std::uint32_t> graphics_family(const vk::raii::PhysicalDevice& physical) {
   const auto families = physical.getQueueFamilyProperties();
   for (std::uint32_t i = 0; i < families.size(); ++i)
-    if (families[i].queueFlags & vk::QueueFlagBits::eGraphics) return i;
+    if ((families[i].queueFlags & vk::QueueFlagBits::eGraphics) && families[i].timestampValidBits != 0)
+      return i;
   return {};
 }
 
-// Whether it is the driver, and can draw our frames.
-bool fits(const vk::raii::PhysicalDevice& physical, Driver driver) {
+bool is_of(const vk::raii::PhysicalDevice& physical, Driver driver) {
+  const auto about =
+      physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
+  const auto id = about.get<vk::PhysicalDeviceDriverProperties>().driverID;
+  if (driver == Driver::lavapipe) return id == vk::DriverId::eMesaLlvmpipe;
+  if (driver == Driver::swiftshader) return id == vk::DriverId::eGoogleSwiftshader;
+  const auto& properties = about.get<vk::PhysicalDeviceProperties2>().properties;
+  if (const char* named = getenv("EDGEWISE_GPU"))
+    return std::string_view(properties.deviceName).find(named) != std::string_view::npos;
+  return properties.deviceType == vk::PhysicalDeviceType::eDiscreteGpu ||
+         properties.deviceType == vk::PhysicalDeviceType::eIntegratedGpu ||
+         properties.deviceType == vk::PhysicalDeviceType::eVirtualGpu;
+}
+
+bool draws_our_frames(const vk::raii::PhysicalDevice& physical) {
   const auto properties = physical.getProperties();
-  if (properties.apiVersion < VK_API_VERSION_1_3 || !graphics_family(physical)) return false;
-  const auto id = physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>()
-                      .get<vk::PhysicalDeviceDriverProperties>()
-                      .driverID;
-  const bool is_gpu = properties.deviceType == vk::PhysicalDeviceType::eDiscreteGpu ||
-                      properties.deviceType == vk::PhysicalDeviceType::eIntegratedGpu ||
-                      properties.deviceType == vk::PhysicalDeviceType::eVirtualGpu;
-  if (driver == Driver::gpu ? !is_gpu : id != vk::DriverId::eMesaLlvmpipe) return false;
-  const auto& side = properties.limits.maxViewportDimensions;
   const auto usable = [&](vk::Format format, vk::FormatFeatureFlagBits use) {
     return bool{physical.getFormatProperties(format).optimalTilingFeatures & use};
   };
-  return std::min(side[0], side[1]) >= 2 * kHalfViewport_px &&
+  return properties.apiVersion >= VK_API_VERSION_1_3 && graphics_family(physical) &&
          usable(kColour, vk::FormatFeatureFlagBits::eColorAttachment) &&
          usable(kDepth, vk::FormatFeatureFlagBits::eDepthStencilAttachment);
 }
 
-std::optional<vk::raii::PhysicalDevice> find_device(Driver driver) {
-  for (auto& device : vk::raii::PhysicalDevices(instance()))
-    if (fits(device, driver)) return std::move(device);
-  return {};
+// That of SwiftShader is 4096 px.
+float half_viewport_px(const vk::raii::PhysicalDevice& physical) {
+  const auto side = physical.getProperties().limits.maxViewportDimensions;
+  return static_cast<float>(
+      std::min<std::uint32_t>(kHalfViewport_px, std::bit_floor(std::min(side[0], side[1])) / 2));
 }
+
+// SwiftShader's library has one pool of threads, and scripts/run unpacks two copies of it: the n-th device
+// draws on n threads. Throws std::runtime_error if there is no such device.
+vk::raii::PhysicalDevice find_device(Driver driver, int threads) try {
+  int nth = 0;
+  for (auto& device : vk::raii::PhysicalDevices(instance()))
+    if (is_of(device, driver) && draws_our_frames(device) && ++nth == threads) return std::move(device);
+  throw std::runtime_error(
+      fmt::format("Vulkan offers no such device{}",
+                  driver == Driver::swiftshader ? " (scripts/run --peers unpacks one)" : ""));
+} catch (const std::runtime_error& error) {
+  throw std::runtime_error(fmt::format("{}: {}", name_of(driver), error.what()));
+}
+
+// While it lives, the calling thread and those that it starts run on so many cores. SwiftShader has no
+// setting for that.
+class OnCores {
+ public:
+  explicit OnCores(int count) {
+    sched_getaffinity(0, sizeof before_, &before_);
+    cpu_set_t some = before_;
+    for (std::size_t cpu = 0; cpu < CPU_SETSIZE; ++cpu)
+      if (CPU_ISSET(cpu, &some) && count-- <= 0) CPU_CLR(cpu, &some);
+    sched_setaffinity(0, sizeof some, &some);
+  }
+  ~OnCores() { sched_setaffinity(0, sizeof before_, &before_); }
+  OnCores(const OnCores&) = delete;
+  OnCores& operator=(const OnCores&) = delete;
+
+ private:
+  cpu_set_t before_;
+};
 
 vk::raii::Device make_device(const vk::raii::PhysicalDevice& physical, std::uint32_t family) {
   const float priority = 1.0f;
@@ -75,7 +124,8 @@ vk::raii::Device make_device(const vk::raii::PhysicalDevice& physical, std::uint
   return {physical, vk::DeviceCreateInfo({}, queue, {}, {}, nullptr, &features)};
 }
 
-vk::raii::Pipeline make_pipeline(const vk::raii::Device& device, const vk::raii::PipelineLayout& layout) {
+vk::raii::Pipeline make_pipeline(const vk::raii::Device& device, const vk::raii::PipelineLayout& layout,
+                                 float half_viewport_px) {
   const vk::raii::ShaderModule vertex(device, vk::ShaderModuleCreateInfo({}, kVulkan_vert));
   const vk::raii::ShaderModule fragment(device, vk::ShaderModuleCreateInfo({}, kVulkan_frag));
   const std::array stages{
@@ -87,8 +137,8 @@ vk::raii::Pipeline make_pipeline(const vk::raii::Device& device, const vk::raii:
                               vk::VertexInputAttributeDescription(1, 1, vk::Format::eR32Uint)};
   const vk::PipelineVertexInputStateCreateInfo input({}, bindings, attributes);
   const vk::PipelineInputAssemblyStateCreateInfo assembly({}, vk::PrimitiveTopology::eTriangleList);
-  const vk::Viewport viewport(-kHalfViewport_px, -kHalfViewport_px, 2 * kHalfViewport_px,
-                              2 * kHalfViewport_px, 0, 1);
+  const vk::Viewport viewport(-half_viewport_px, -half_viewport_px, 2 * half_viewport_px,
+                              2 * half_viewport_px, 0, 1);
   vk::PipelineViewportStateCreateInfo viewports({}, 1, &viewport, 1);
   vk::PipelineRasterizationStateCreateInfo raster;
   raster.frontFace = vk::FrontFace::eClockwise;  // Vulkan's y points down, as ours
@@ -112,6 +162,9 @@ struct Buffer {
   vk::raii::DeviceMemory memory;
 };
 
+constexpr auto kHostMemory =
+    vk::MemoryPropertyFlagBits::eHostVisible | vk::MemoryPropertyFlagBits::eHostCoherent;
+
 struct Image {
   vk::raii::Image image;
   vk::raii::DeviceMemory memory;
@@ -121,32 +174,57 @@ struct Image {
 // A device, and what its frames share.
 class Device {
  public:
-  explicit Device(Driver driver) : physical_(find_device(driver).value()) {}
+  Device(Driver driver, int threads) : physical_(find_device(driver, threads)) {}
 
   int subpixel_bits() const {
     return static_cast<int>(physical_.getProperties().limits.subPixelPrecisionBits);
   }
   std::string version() const {
     const auto about =
-        physical_.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
+        physical_.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties,
+                                 vk::PhysicalDeviceSubgroupProperties>();
+    const auto& properties = about.get<vk::PhysicalDeviceProperties2>().properties;
     const auto& driver = about.get<vk::PhysicalDeviceDriverProperties>();
-    return fmt::format("{}, {} {}", about.get<vk::PhysicalDeviceProperties2>().properties.deviceName.data(),
-                       driver.driverName.data(), driver.driverInfo.data());
+    std::string text = fmt::format("{}, {} {}", properties.deviceName.data(), driver.driverName.data(),
+                                   with_year(driver.driverInfo.data()));
+    if (driver.driverID == vk::DriverId::eGoogleSwiftshader) {  // of another version, it tells the same
+      std::string package;
+      if (std::getline(std::ifstream(EDGEWISE_SWIFTSHADER "/package"), package))
+        text = "SwiftShader of " + package;
+    }
+    if (properties.deviceType == vk::PhysicalDeviceType::eCpu)
+      text += fmt::format(", {} bits", 32 * about.get<vk::PhysicalDeviceSubgroupProperties>().subgroupSize);
+    return text;
   }
   const vk::raii::PipelineLayout& layout() const { return layout_; }
   const vk::raii::Pipeline& pipeline() const { return pipeline_; }
 
-  Buffer buffer(std::size_t bytes, vk::BufferUsageFlags use, const void* data = nullptr) const {
+  Buffer buffer(std::size_t bytes, vk::BufferUsageFlags use, vk::MemoryPropertyFlags where) const {
     // Vulkan rejects empty buffers, and a scene may have no triangle in view.
     vk::raii::Buffer made(device_, vk::BufferCreateInfo({}, std::max<std::size_t>(bytes, 4), use));
-    auto memory = allocate(made.getMemoryRequirements(), vk::MemoryPropertyFlagBits::eHostVisible |
-                                                             vk::MemoryPropertyFlagBits::eHostCoherent);
+    auto memory = allocate(made.getMemoryRequirements(), where);
     made.bindMemory(*memory, 0);
-    if (data != nullptr && bytes != 0) {
-      std::memcpy(memory.mapMemory(0, bytes), data, bytes);
-      memory.unmapMemory();
-    }
     return {std::move(made), std::move(memory)};
+  }
+  // In the device's memory.
+  template <typename T>
+  Buffer filled_buffer(const std::vector<T>& data, vk::BufferUsageFlags use) const {
+    const std::size_t bytes = data.size() * sizeof(T);
+    Buffer made =
+        buffer(bytes, use | vk::BufferUsageFlagBits::eTransferDst, vk::MemoryPropertyFlagBits::eDeviceLocal);
+    if (bytes == 0) return made;
+    const Buffer staging = buffer(bytes, vk::BufferUsageFlagBits::eTransferSrc, kHostMemory);
+    std::memcpy(staging.memory.mapMemory(0, bytes), data.data(), bytes);
+    staging.memory.unmapMemory();
+    const auto copying = commands();
+    copying.begin(vk::CommandBufferBeginInfo());
+    copying.copyBuffer(*staging.buffer, *made.buffer, vk::BufferCopy(0, 0, bytes));
+    copying.pipelineBarrier(
+        vk::PipelineStageFlagBits::eTransfer, vk::PipelineStageFlagBits::eVertexInput, {},
+        vk::MemoryBarrier(vk::AccessFlagBits::eTransferWrite, vk::AccessFlagBits::eMemoryRead), {}, {});
+    copying.end();
+    run(copying);
+    return made;
   }
 
   Image image(vk::Extent2D size, vk::Format format, vk::ImageUsageFlags use,
@@ -172,6 +250,12 @@ class Device {
     queue_.waitIdle();
   }
 
+  vk::raii::QueryPool clock() const {
+    return {device_, vk::QueryPoolCreateInfo({}, vk::QueryType::eTimestamp, 2)};
+  }
+  float half_viewport_px() const { return half_viewport_px_; }
+  double tick_s() const { return 1e-9 * double{physical_.getProperties().limits.timestampPeriod}; }
+
  private:
   vk::raii::DeviceMemory allocate(const vk::MemoryRequirements& needs, vk::MemoryPropertyFlags wanted) const {
     const auto memory = physical_.getMemoryProperties();
@@ -186,15 +270,19 @@ class Device {
   vk::raii::Device device_ = make_device(physical_, family_);
   vk::raii::Queue queue_{device_, family_, 0};
   vk::raii::CommandPool pool_{device_, vk::CommandPoolCreateInfo({}, family_)};
+  float half_viewport_px_ = lab::half_viewport_px(physical_);
   vk::PushConstantRange matrix_{vk::ShaderStageFlagBits::eVertex, 0, sizeof(glm::mat4)};
   vk::raii::PipelineLayout layout_{device_, vk::PipelineLayoutCreateInfo({}, {}, matrix_)};
-  vk::raii::Pipeline pipeline_ = make_pipeline(device_, layout_);
+  vk::raii::Pipeline pipeline_ = make_pipeline(device_, layout_, half_viewport_px_);
 };
 
-template <Driver driver>
-const Device& device() {
-  static const auto& made = *new Device(driver);
-  return made;
+const Device& device(Driver driver, int threads) {
+  static auto& made = *new std::map<std::pair<Driver, int>, Device>;
+  const auto found = made.find({driver, threads});
+  if (found != made.end()) return found->second;
+  std::optional<OnCores> on_cores;
+  if (driver == Driver::swiftshader) on_cores.emplace(threads);
+  return made.try_emplace({driver, threads}, driver, threads).first->second;
 }
 
 struct LoadedMesh {
@@ -211,13 +299,10 @@ LoadedMesh load_mesh(const Device& device, const PeerMesh& mesh) {
     const std::size_t from = i - i % 3 + (i + 2) % 3;
     indices.push_back(mesh.indices.empty() ? static_cast<std::uint32_t>(from) : mesh.indices[from]);
   }
-  const auto buffer_of = [&](const auto& list, vk::BufferUsageFlags use) {
-    return device.buffer(list.size() * sizeof(list[0]), use, list.data());
-  };
-  return {buffer_of(mesh.positions, vk::BufferUsageFlagBits::eVertexBuffer),
-          buffer_of(mesh.payloads, vk::BufferUsageFlagBits::eVertexBuffer),
-          buffer_of(indices, vk::BufferUsageFlagBits::eIndexBuffer), static_cast<std::uint32_t>(count),
-          to_clip(mesh.to_screen)};
+  return {device.filled_buffer(mesh.positions, vk::BufferUsageFlagBits::eVertexBuffer),
+          device.filled_buffer(mesh.payloads, vk::BufferUsageFlagBits::eVertexBuffer),
+          device.filled_buffer(indices, vk::BufferUsageFlagBits::eIndexBuffer),
+          static_cast<std::uint32_t>(count), to_clip(mesh.to_screen, device.half_viewport_px())};
 }
 
 class VulkanFrame final : public PeerFrame {
@@ -229,12 +314,19 @@ class VulkanFrame final : public PeerFrame {
                               vk::ImageAspectFlagBits::eColor)),
         depths_(device.image(size_, kDepth, vk::ImageUsageFlagBits::eDepthStencilAttachment,
                              vk::ImageAspectFlagBits::eDepth)),
-        drawing_(device.commands()) {
+        drawing_(device.commands()),
+        clock_(device.clock()) {
     for (const PeerMesh& mesh : scene.meshes) meshes_.push_back(load_mesh(device, mesh));
     record(scene);
   }
 
   void draw() override { device_.run(drawing_); }
+  std::optional<double> device_s() const override {
+    const auto [result, ticks] =
+        clock_.getResults<std::uint64_t>(0, 2, 2 * sizeof(std::uint64_t), sizeof(std::uint64_t),
+                                         vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
+    return static_cast<double>(ticks[1] - ticks[0]) * device_.tick_s();
+  }
   std::vector<std::uint32_t> read() override {
     return pixels<std::uint32_t>(*colours_.image, vk::ImageAspectFlagBits::eColor);
   }
@@ -248,6 +340,8 @@ class VulkanFrame final : public PeerFrame {
     using Access = vk::AccessFlagBits;
     using Stage = vk::PipelineStageFlagBits;
     drawing_.begin(vk::CommandBufferBeginInfo());
+    drawing_.resetQueryPool(*clock_, 0, 2);
+    drawing_.writeTimestamp(Stage::eTopOfPipe, *clock_, 0);
     const auto to_attachment = [](vk::Image image, Aspect aspect, Access access) {
       return vk::ImageMemoryBarrier({}, access, vk::ImageLayout::eUndefined, vk::ImageLayout::eGeneral,
                                     VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, image,
@@ -275,6 +369,7 @@ class VulkanFrame final : public PeerFrame {
       drawing_.drawIndexed(mesh.count, 1, 0, 0, 0);
     }
     drawing_.endRendering();
+    drawing_.writeTimestamp(Stage::eBottomOfPipe, *clock_, 1);
     drawing_.end();
   }
 
@@ -284,7 +379,7 @@ class VulkanFrame final : public PeerFrame {
     using Stage = vk::PipelineStageFlagBits;
     std::vector<T> list(std::size_t{size_.width} * size_.height);
     const std::size_t bytes = list.size() * sizeof(T);
-    const Buffer copy = device_.buffer(bytes, vk::BufferUsageFlagBits::eTransferDst);
+    const Buffer copy = device_.buffer(bytes, vk::BufferUsageFlagBits::eTransferDst, kHostMemory);
     const auto copying = device_.commands();
     copying.begin(vk::CommandBufferBeginInfo());
     copying.pipelineBarrier(Stage::eAllGraphics, Stage::eTransfer, {},
@@ -305,32 +400,37 @@ class VulkanFrame final : public PeerFrame {
   Image colours_, depths_;
   std::vector<LoadedMesh> meshes_;
   vk::raii::CommandBuffer drawing_;
+  vk::raii::QueryPool clock_;  // at the begin and at the end of the last frame
 };
 
-template <Driver driver>
-std::optional<PeerInfo> peer_if_found(std::string_view name, std::string_view summary) try {
-  if (!find_device(driver)) return {};
-  return PeerInfo{name,
-                  summary,
-                  1,
-                  [] { return device<driver>().subpixel_bits(); },
-                  [] { return device<driver>().version(); },
-                  [](const PeerScene& scene, int) -> std::unique_ptr<PeerFrame> {
-                    return std::make_unique<VulkanFrame>(device<driver>(), scene);
-                  }};
-} catch (const std::runtime_error&) {
-  return {};  // no loader, or no driver
+template <Driver driver, int most_threads>
+PeerInfo vulkan_peer(std::string_view summary) {
+  return {.name = name_of(driver),
+          .summary = summary,
+          .most_threads = most_threads,
+          .own_clock = driver == Driver::gpu,
+          .subpixel_bits = [] { return device(driver, 1).subpixel_bits(); },
+          .version =
+              [] {
+                for (int threads = most_threads; threads > 1; --threads) device(driver, threads);
+                return device(driver, 1).version();
+              },
+          .load = [](const PeerScene& scene, int threads) -> std::unique_ptr<PeerFrame> {
+            return std::make_unique<VulkanFrame>(device(driver, threads), scene);
+          }};
 }
 
 }  // namespace
 
-std::optional<PeerInfo> lavapipe() {
-  return peer_if_found<Driver::lavapipe>("lavapipe",
-                                         "Mesa's Vulkan for processors, with llvmpipe's rasterizer");
+PeerInfo lavapipe() {
+  return vulkan_peer<Driver::lavapipe, 1>("Mesa's Vulkan for processors, with llvmpipe's rasterizer");
 }
-
-std::optional<PeerInfo> vulkan_gpu() {
-  return peer_if_found<Driver::gpu>("gpu", "the first GPU that Vulkan offers; times include waiting for it");
+PeerInfo swiftshader() {
+  return vulkan_peer<Driver::swiftshader, 2>(
+      "Chromium's Vulkan for processors, SIMD code generated at run time");
+}
+PeerInfo vulkan_gpu() {
+  return vulkan_peer<Driver::gpu, 1>("the first GPU that Vulkan offers, or the one that EDGEWISE_GPU names");
 }
 
 }  // namespace edgewise::lab

@@ -15,12 +15,14 @@
 // Clipping: a vertex where an edge meets the near or far plane is interpolated in floats, with an error of at
 // most kClipError times the largest coordinates of the clipped triangle, which were rounded to float before.
 // A triangle that only touches the plane from inside may be clipped or not. From outside, it covers no
-// sample. The sides of the picture cut no triangle: rasterizers have a guard band around it. Triangles that
-// reach beyond the guard band are not modelled.
+// sample. The sides of the picture cut no triangle: rasterizers have a guard band around it. Of a triangle
+// that reaches beyond the guard band, a rasterizer may leave out any sample: llvmpipe of Mesa 22.3 drops some
+// that reach 3040 px beyond the left and the top side.
 //
 // Depth: vertex depths err by at most kVertexDepthError. Planes are evaluated in floats, from one corner of
 // the image, for the rounded positions. Depths are rounded to the format. The buffer is cleared to 1, and a
-// fragment passes if it is nearer than the depth that is stored.
+// fragment passes if it is nearer than the depth that is stored. A reversed buffer of floats, cleared to 0,
+// has no larger steps than d32_sfloat.
 #pragma once
 
 #include <cstdint>
@@ -41,8 +43,9 @@ std::span<const DepthFormat> depth_formats();
 const DepthFormat& find_depth_format(std::string_view name);
 
 struct Conformance {
-  int subpixel_bits = 8;   // 1 … 16
-  int transform_ulps = 2;  // 0 … 1000
+  int subpixel_bits = 8;     // 1 … 16
+  int transform_ulps = 2;    // 0 … 1000
+  int guard_band_px = 3000;  // beyond each side of the picture; 0 … 2^20
   DepthFormat depth = find_depth_format("d24_unorm");
 };
 

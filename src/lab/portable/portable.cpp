@@ -40,10 +40,11 @@ double ulp_of(double magnitude) {
 class Bounds {
  public:
   Bounds(const PortableTriangle& t, int width, int height, const Conformance& model)
-      : id(t.id), drawn_(t.drawn), clipped_(t.clipped) {
+      : id(t.id), drawn_(t.drawn) {
     double reach_x = width, reach_y = height;
     for (int i = 0; i < 3; ++i) {
       x_[i] = double{t.at.x_px[i]}, y_[i] = double{t.at.y_px[i]}, z_[i] = double{t.at.z01[i]};
+      beyond_ |= std::max({-x_[i], x_[i] - width, -y_[i], y_[i] - height}) > model.guard_band_px;
       reach_x = std::max(reach_x, std::abs(x_[i])), reach_y = std::max(reach_y, std::abs(y_[i]));
     }
     r_ = std::ldexp(1.0, -model.subpixel_bits) + model.transform_ulps * ulp_of(std::max(reach_x, reach_y)) +
@@ -56,6 +57,7 @@ class Bounds {
       reach_[i] = r_ * (std::abs(dx_[i]) + std::abs(dy_[i]));
     }
     set_depth(reach_x + r_, reach_y + r_, model.depth.step + kVertexDepthError + t.depth_error);
+    clipped_ = t.clipped || beyond_;
   }
 
   // Whether every choice drops the triangle: it faces away in all of them.
@@ -86,7 +88,7 @@ class Bounds {
     bool possible, sure, tie;
   };
   Cover at(int px, int row) const {
-    Cover cover{true, drawn_, false};
+    Cover cover{true, drawn_ && !beyond_, false};
     for (int i = 0; i < 3; ++i) {
       const double e = dx_[i] * (row + 0.5 - y_[i]) - dy_[i] * (px + 0.5 - x_[i]);
       cover.possible &= e >= -reach_[i] && e <= area_ + reach_[i];
@@ -129,7 +131,7 @@ class Bounds {
     depth_error_ = own + plane + r_ * (std::abs(zx_) + std::abs(zy_));
   }
 
-  bool drawn_, clipped_;
+  bool drawn_, clipped_, beyond_ = false;
   double r_, area_;
   double x_[3], y_[3], z_[3], dx_[3], dy_[3], reach_[3];
   double zx_ = 0.0, zy_ = 0.0, depth_error_, least_z_, most_z_;
@@ -183,6 +185,8 @@ void check(std::span<const PortableTriangle> triangles, int width, int height, c
     throw std::invalid_argument("subpixel bits must be 1 to 16");
   if (model.transform_ulps < 0 || model.transform_ulps > 1000)
     throw std::invalid_argument("units in the last place must be 0 to 1000");
+  if (model.guard_band_px < 0 || model.guard_band_px > kMostPx)
+    throw std::invalid_argument("the guard band must be 0 to 2^20 px");
   for (const PortableTriangle& t : triangles)
     for (int i = 0; i < 3; ++i)
       if (!(std::abs(double{t.at.x_px[i]}) <= kMostPx && std::abs(double{t.at.y_px[i]}) <= kMostPx))

@@ -17,7 +17,8 @@ enum class Unstable : std::uint8_t {
   depth,  // two triangles cover the pixel in every case, but rounding decides which one is nearer
   edge,   // an edge passes so closely that rounding decides whether its triangle covers the sample
   tie,    // as `edge`, with the sample exactly on it
-  clip    // as `edge`, of a triangle that the near or far plane cuts or touches
+  clip    // as `edge`, of a triangle that the near or far plane cuts or touches; or any sample of one that
+          // reaches beyond the guard band
 };
 inline constexpr int kUnstableKinds = 5;
 std::string_view name_of(Unstable reason);  // "portable", "depth", "edge", "tie", "clip"
