@@ -349,15 +349,18 @@ constexpr const char* kNeedsFooter = R"(Examples:
   edgewise needs terrain --displacement 100 --json
   edgewise needs bunny.obj --fit --ranges
 
-Prints the least precise pipeline that draws all these frames right. It was drawn as a whole: stages
-that are enough alone may draw wrong pixels together. Right is the exact picture of the vertices
-snapped to 1/256 px; how far that is off the scene's own vertices is counted, too. Starting from the exact pipeline, stages are weakened level by level, in the order
-visibility, depth, facing, planes, bits, while all frames stay right, also with any two stages more
-precise. Other orders are tried, too. Each stage has a witness: the first wrong pixel of the same
-pipeline with the next weaker level. Less precise is not faster: the benchmark measures that.
-Triangles are numbered in submission order, from 0. "proven" follows from the ranges of the vertices.
-"seen" was compared in so many pixels, or crossings of edges with rows and columns of samples. Both
-hold for these frames only.
+Prints the least precise pipeline that draws all these frames right, drawn as a whole: stages that
+are enough alone may draw wrong pixels together. Right is the exact picture of the vertices snapped
+to 1/256 px. Its pixels that are off the scene's own vertices by over 1/64 px are counted, too.
+
+The exact pipeline is weakened level by level, in the order visibility, depth, facing, planes, bits,
+while all frames stay right, also with any two stages more precise. Other orders are tried, too.
+Each stage has a witness: the first wrong pixel of this pipeline with its next weaker level.
+Less precise is not faster: only the benchmark measures that.
+
+Triangles are numbered in submission order, from 0. "proven" follows from the ranges of the
+vertices. "seen" was compared in so many pixels, or crossings of edges with rows and columns of
+samples. Both hold for these frames only.
 
   near, far plane, guard band  what to do with triangles beyond it: nothing, drop them, or clip them
   facing test                  none, by three normals, by the area in floats, by the snapped area
@@ -369,8 +372,8 @@ hold for these frames only.
 Then, while all else is exact:
 
   float depth buffer           a float, a reversed float; reversing an integer changes nothing
-  subpixel bits                from where on no number of bits leaves a crack; and displaces more
-                               pixels than 8 bits do
+  subpixel bits                so many that no larger number leaves a crack; so many that none
+                               displaces more pixels than 8 bits do
   float edges                  methods that compute edges in floats, without a crack
   edge values                  the integers that hold them at 8 subpixel bits
 

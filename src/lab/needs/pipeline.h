@@ -58,10 +58,9 @@ class PipelineNeeds {
     Size size;
     Cull cull;
     bool keep_pictures;
-    VisibilityScene all;             // the front end's triangles, clipped but not culled; payloads are ids
-    std::vector<Reaching> reaching;  // by ascending id
-    std::vector<std::uint8_t>
-        fronts;  // by id: bit l if facing level l, by normals, keeps it; bit 0 if two-sided
+    VisibilityScene all;               // the front end's triangles, clipped but not culled; payloads are ids
+    std::vector<Reaching> reaching;    // by ascending id
+    std::vector<std::uint8_t> fronts;  // by id: bit 0 if two-sided, bit l if facing level l keeps it
     std::vector<std::pair<std::uint32_t, std::size_t>> right;  // runs of the true picture: id, end
   };
   // The memory of a draw. The next one with the same triangles does not assemble them again.
