@@ -106,8 +106,13 @@ class Duel(NamedTuple):
         return order(self.bands[1], self.tiles[1])
 
     @property
+    def ratio(self):
+        """The speed-up of bands over tiles."""
+        return gained(self.tiles[1], self.bands[1])
+
+    @property
     def winner(self):
-        return min(self.bands, self.tiles, key=lambda side: side[1].median_ms)[0]
+        return (self.bands if self.ratio > 1 else self.tiles)[0]
 
 
 def duels(bench, simd):

@@ -48,7 +48,7 @@ def panel(axes, found, low, high):
         x, bands, tiles = duel.triangle_px, duel.bands[1], duel.tiles[1]
         won = duel.winner
         colour, marker = LOOKS[won.traversal]
-        lines += [[(x, end) for end in gained_interval(tiles, bands)], [(x, gained(tiles, bands)), (x, gained(duel.plain_tiles, bands))]]
+        lines += [[(x, end) for end in gained_interval(tiles, bands)], [(x, duel.ratio), (x, gained(duel.plain_tiles, bands))]]
         axes.plot(*zip(*lines[-2]), color=colour, linewidth=5, alpha=0.25, solid_capstyle="butt")
         axes.plot(*zip(*lines[-1]), color=FAINT, linewidth=0.8, linestyle=":")
         axes.plot(*lines[-1][1], marker="_", color=FAINT, markersize=9, markeredgewidth=1.5)
