@@ -25,7 +25,8 @@ inline constexpr double kTooSlowToRepeat_s = 0.3;
 inline constexpr double kTooSlowToDrawTwice_s = 1.5;
 
 struct Row {
-  // WHO/what/key:value…/threads:N, where WHO is BACKEND, frontend, BACKEND+frontend, a peer's name, or lab
+  // WHO/what/key:value…/threads:N, where WHO is BACKEND, frontend, BACKEND+frontend, a peer's name, cell, or
+  // lab
   std::string name;
   std::shared_ptr<Workload> workload;  // null for methods
   std::optional<MethodDraw> method;    // of the laboratory, a peer's included
@@ -39,7 +40,7 @@ struct Row {
   double pause_s = 0.0;                             // before each frame, not timed
   double peak_bytes = 0;                            // of a first frame; 0: not measured
   bool wants_cost = false;
-  bool step = false;                      // one step of the ablation
+  bool variant = false;                   // a step of the ablation or a cell: not what users draw
   bool two_calls = false;                 // a frame by Frontend::run() and Backend::draw()
   double once_s = 0.0;                    // duration of the compared draw
   std::optional<FrameCost> cost;          // if wants_cost
@@ -51,7 +52,7 @@ struct Row {
 // Whether the row is timed as a user would draw: with all optimizations, on the best SIMD target, without
 // pauses.
 inline bool is_plain(const Row& row) {
-  return !row.step && row.pause_s == 0.0 && row.execution.target == SimdTarget::best &&
+  return !row.variant && row.pause_s == 0.0 && row.execution.target == SimdTarget::best &&
          row.ablation == Ablation{};
 }
 

@@ -1,6 +1,6 @@
 // The tutorials' rasterizer: tests for every pixel of the bounding box whether it is inside. Three edge
 // functions (rule 4) and the depth plane (rule 6) are evaluated at each pixel, or, with Ablation::stepped,
-// stepped along a row.
+// stepped along a row. On one thread the whole image is one band.
 #include "raster/ablation.h"
 #include "raster/bands.h"
 
@@ -55,8 +55,19 @@ class Naive final : public Backend {
   void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
                     const Execution& execution) override {
     const auto draw = stepped_ ? draw_triangle<true> : draw_triangle<false>;
-    draw_in_bands(triangles, frame, background, execution, bins_,
-                  [&](const ScreenTriangle& t, RowRange rows) { draw(t, rows, frame); });
+    if (execution.threads == 1) {
+      const RowRange all{0, frame.height};
+      clear_rows(frame, all, background);
+      for (const ScreenTriangle& triangle : triangles) draw(triangle, all, frame);
+      return;
+    }
+    StoredTriangles stored(triangles);
+    draw_in_bands(stored, frame, execution, bins_, [&](int band, RowRange rows) {
+      clear_rows(frame, rows, background);
+      bins_.for_each_segment(band, [&](const Bins::Segment& segment) {
+        for (const std::uint32_t index : segment.indices) draw(triangles[index], rows, frame);
+      });
+    });
   }
   const bool stepped_;
   Bins bins_;

@@ -15,9 +15,11 @@
 #include "bench/workloads/random_reads.h"
 #include "bench/workloads/stage.h"
 #include "edgewise/contract.h"
+#include "lab/cells/cells.h"
 #include "lab/engine/engine.h"
 #include "message_of.h"
 #include "run_program.h"
+#include "support/options.h"
 #include "temp_dir.h"
 
 namespace edgewise::bench {
@@ -89,7 +91,8 @@ TEST(BenchSuite, RowNamesCanBeSplitIntoTheirParts) {
     return target != SimdTarget::scalar && target != resolve(SimdTarget::best);
   });
   EXPECT_EQ(names.size(), 2 + 4 * backends().size() + 2 * lab::benchmark_peers().size() +
-                              2 * static_cast<std::size_t>(narrower));
+                              2 * static_cast<std::size_t>(narrower) +
+                              lab::cells().size() * (tools::default_threads() > 1 ? 2 : 1));
 }
 
 TEST(BenchStage, ComparesWireframesWithWireframes) {
@@ -151,6 +154,25 @@ TEST(BenchSuite, TimesTheEngineWithOtherNumbers) {
   }
   EXPECT_GT(wrong_px("small", "float").value(), 0u);
   EXPECT_GT(wrong_px("large", "int32").value(), 0u);
+}
+
+// All cells of five scenes.
+TEST(BenchSuite, TimesCellsThatDrawTheReference) {
+  std::map<std::string, Row> rows = quick_rows(160, 90);
+  Stage stage;
+  for (const SceneInfo& scene : builtin_scenes())
+    for (const lab::Cell& cell : lab::cells())
+      for (const int threads : {1, tools::default_threads()}) {
+        const auto row = rows.find("cell/" + std::string(scene.name) + "/" + factors(cell) +
+                                   "/threads:" + std::to_string(threads));
+        const std::set<std::string_view> timed{"cubes", "torus-knot", "large", "medium", "small"};
+        ASSERT_EQ(row != rows.end(), timed.contains(scene.name)) << scene.name << ", " << factors(cell);
+        if (row == rows.end()) continue;
+        EXPECT_FALSE(is_plain(row->second)) << row->first;
+        row->second.workload->prepare(true);
+        stage.compare(row->second);
+        EXPECT_EQ(row->second.error, "") << row->first;
+      }
 }
 
 TEST(BenchSuite, TimesThreeCullingModes) {
