@@ -5,7 +5,7 @@
 
 namespace edgewise::lab {
 
-// `target` must be resolved. With vectors, triangles up to 16 px wide are drawn as in `scanline`.
+// `target` must be resolved. With vectors, narrow triangles are drawn as in `scanline`.
 BandKernel band_edges_kernel(SimdTarget target);
 
 }  // namespace edgewise::lab

@@ -1,9 +1,37 @@
 // The backend `scanline`, the reference: walks a triangle's edges row by row and fills the spans between them
-// in the frame itself, band by band (scanline_band-inl.h).
+// in the frame itself, band by band.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "raster/scanline/scanline.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "core/kernel_table.h"
 #include "raster/ablation.h"
 #include "raster/bands.h"
+#include "raster/scanline/scanline_band-inl.h"
 
+HWY_BEFORE_NAMESPACE();
 namespace edgewise {
+namespace HWY_NAMESPACE {
+
+void draw_band(const BandTask& task) {
+  const auto wide = [&](const ScreenTriangle& triangle, const PixelBox& box) {
+    draw_spans(task, triangle, box);
+  };
+  task.vector_test ? draw_band_by<true>(task, wide) : draw_band_by<false>(task, wide);
+  clear_upper_halves();
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace edgewise
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace edgewise {
+
+BandKernel scanline_kernel(SimdTarget target) {
+  return EDGEWISE_KERNEL(draw_band, target);
+}
 
 extern const std::string_view summary_scanline;
 const std::string_view summary_scanline =
@@ -16,3 +44,4 @@ std::unique_ptr<Backend> make_scanline() {
 }
 
 }  // namespace edgewise
+#endif

@@ -1,8 +1,8 @@
-// Draws the triangles of one band (scanline_kernel.cpp).
+// Draws the triangles of one band.
 //
-// Most triangles go to a function draw_large(triangle, box): draw_spans() here. With vectors, those up to 16
-// px wide can be tested by edge functions instead. Their spans would fill a vector or two, so mispredicted
-// branches and scalar set-up would cost more than drawing. They are set up one triangle per lane.
+// Wide triangles go to a function draw_wide(triangle, box): draw_spans() here. With vectors, narrow ones can
+// be tested by edge functions instead. Each of their spans would fill only a few vectors, so mispredicted
+// branches and scalar set-up would take longer than drawing. They are set up one triangle per lane.
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -114,7 +114,7 @@ inline void draw_spans(const BandTask& task, const ScreenTriangle& triangle, con
 
 #if HWY_TARGET != HWY_SCALAR
 
-constexpr int kNarrow = 16;  // px
+constexpr int kNarrow = kDepthCell;  // px: a box overlaps at most two cells
 
 // A batch of triangles whose boxes in the band are at most kNarrow px wide.
 struct alignas(64) NarrowBatch {
@@ -138,8 +138,8 @@ struct BatchBits {
 };
 
 // Edge functions in int32, as in rule 5, but shifted values may exceed 2^30 outside tiles. They are clamped:
-// over the box and its vectors, 48 px wide and 32 px high, a value changes by less than 80 * 2^23 < 2^30. So
-// a clamped value keeps its sign, and does not overflow.
+// up to 78 px to the side and 32 down, a value changes by at most 110 * 2^23 < 2^30. So a clamped value keeps
+// its sign, and does not overflow.
 HWY_INLINE V64 clamped_shift(V64 value) {
   const D64 d;
   const V64 limit = hn::Set(d, std::int64_t{1} << 30), shifted = hn::ShiftRight<kSubBits>(value);
@@ -242,8 +242,8 @@ HWY_INLINE void draw_narrow(const BandTask& task, const NarrowBatch& batch, int 
 #endif
 
 // Draws a band's triangles in submission order.
-template <bool kVectorTest, typename DrawLarge>
-HWY_INLINE void draw_band_by(const BandTask& task, DrawLarge&& draw_large) {
+template <bool kVectorTest, typename DrawWide>
+HWY_INLINE void draw_band_by(const BandTask& task, DrawWide&& draw_wide) {
   const ScreenTriangle* const triangles = task.bins.triangles();
   task.bins.for_each_segment_ahead(task.band, true, [&](const Bins::Segment& segment) {
 #if HWY_TARGET != HWY_SCALAR
@@ -255,8 +255,8 @@ HWY_INLINE void draw_band_by(const BandTask& task, DrawLarge&& draw_large) {
         if (bits.narrow >> k & 1)
           draw_narrow(task, batch, k);
         else
-          draw_large(triangles[segment.indices[static_cast<std::size_t>(k)]],
-                     PixelBox{batch.x0[k], batch.y0[k], batch.x1[k], batch.y1[k]});
+          draw_wide(triangles[segment.indices[static_cast<std::size_t>(k)]],
+                    PixelBox{batch.x0[k], batch.y0[k], batch.x1[k], batch.y1[k]});
       }
       return;
     }
@@ -264,7 +264,7 @@ HWY_INLINE void draw_band_by(const BandTask& task, DrawLarge&& draw_large) {
     for (const std::uint32_t index : segment.indices) {
       PixelBox box = pixel_box(triangles[index], task.frame.width, task.rows.end);
       box.y0 = std::max(box.y0, task.rows.begin);
-      if (!box.empty()) draw_large(triangles[index], box);
+      if (!box.empty()) draw_wide(triangles[index], box);
     }
   });
 }
