@@ -7,6 +7,7 @@
 
 #include "core/kernel_table.h"
 #include "lab/cells/band_edges.h"
+#include "raster/box_test.h"
 #include "raster/scanline/scanline_band-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -14,6 +15,14 @@ namespace edgewise {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace contract;
+
+#if HWY_TARGET == HWY_SCALAR
+
+inline void draw_edges(const BandTask& task, const ScreenTriangle& triangle, const PixelBox&) {
+  draw_by_box_test<true>(triangle, task.rows, task.frame);
+}
+
+#else
 
 // Tests all pixels of the box, a vector at a time.
 inline void draw_edges(const BandTask& task, const ScreenTriangle& triangle, const PixelBox& box) {
@@ -51,6 +60,8 @@ inline void draw_edges(const BandTask& task, const ScreenTriangle& triangle, con
     }
   }
 }
+
+#endif
 
 void draw_band_in_edges(const BandTask& task) {
   draw_band_by<true>(
