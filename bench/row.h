@@ -33,7 +33,8 @@ struct FirstFrame {
 };
 
 struct Row {
-  // WHO/what/key:value…/threads:N, where WHO is BACKEND, frontend, BACKEND+frontend, a peer's name, or lab
+  // WHO/what/key:value…/threads:N, where WHO is BACKEND, frontend, BACKEND+frontend, a peer's name, cell, or
+  // lab
   std::string name;
   std::shared_ptr<Workload> workload;  // null for methods
   std::optional<MethodDraw> method;    // of the laboratory, a peer's included
@@ -50,7 +51,7 @@ struct Row {
   bool keeps_frames = false;                        // whether the duration of each frame is kept
   std::vector<double> frames_s;                     // if keeps_frames: of all repetitions
   bool wants_cost = false;
-  bool step = false;              // one step of the ablation
+  bool variant = false;           // a step of the ablation or a cell: not what users draw
   bool two_calls = false;         // a frame by Frontend::run() and Backend::draw()
   double once_s = 0.0;            // duration of the compared draw
   std::optional<FrameCost> cost;  // if wants_cost
@@ -68,7 +69,7 @@ inline bool is_cell(const Row& row) {
 // Whether the row is timed as a user would draw: with all optimizations, on the best SIMD target, without
 // pauses.
 inline bool is_plain(const Row& row) {
-  return !row.step && row.pause_s == 0.0 && row.execution.target == SimdTarget::best &&
+  return !row.variant && row.pause_s == 0.0 && row.execution.target == SimdTarget::best &&
          row.ablation == Ablation{};
 }
 

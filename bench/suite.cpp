@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <stdexcept>
 
 #include "bench/workloads/ablation.h"
 #include "bench/workloads/growth.h"
+#include "lab/cells/cells.h"
 #include "lab/choice.h"
 #include "scene/polygon.h"
+#include "support/options.h"
 #include "support/printable.h"
 
 namespace edgewise::bench {
@@ -89,6 +92,17 @@ class Suite {
     }
   }
 
+  // Frames that differ in one factor at a time, on one thread and on all.
+  void add_cells(const WorkloadPtr& workload, const std::string& scene) {
+    const std::set<int> thread_counts{1, tools::default_threads()};
+    for (const lab::Cell& cell : lab::cells())
+      for (const int threads : thread_counts) {
+        add(workload, Timed::frame, cell.backend, scene, threads, cell.target);
+        rows_.back().name = fmt::format("cell/{}/{}/threads:{}", scene, factors(cell), threads);
+        rows_.back().variant = true;
+      }
+  }
+
   // Directly after the scene's own rows, its first and last step, so that they share one reference picture.
   void add_ablation(const WorkloadPtr& workload, const std::string& scene) {
     if (!in_ablation(scene)) return;
@@ -99,7 +113,7 @@ class Suite {
           fmt::format("{}/step:{}", scene, step.name), step.threads, step.target);
       rows_.back().ablation = step.ablation;
       rows_.back().two_calls = step.two_calls;
-      rows_.back().step = true;
+      rows_.back().variant = true;
     }
   }
 
@@ -299,8 +313,10 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
     const bool own_size = stream && !options.size_asked;
     const lab::Size size{own_size ? stream->width : options.width,
                          own_size ? stream->height : options.height};
-    suite.add_scene(
-        std::make_shared<Workload>(size.width, size.height, Cull::back, [source] { return source; }), name);
+    const auto workload =
+        std::make_shared<Workload>(size.width, size.height, Cull::back, [source] { return source; });
+    suite.add_scene(workload, name);
+    suite.add_cells(workload, name);
     if (options.methods)
       for (const lab::LabScene& own : lab::own_scenes(name, stream != nullptr, [source, size] {
              return lab::SizedDrawable{source.drawable, size};
@@ -315,6 +331,7 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
     taken.emplace(name, name);
     const auto workload = suite.scene_workload(name, options.width, options.height);
     suite.add_scene(workload, name);
+    suite.add_cells(workload, name);
     suite.add_ablation(workload, name);
     suite.add_engine_runs(workload, name);
     suite.add_tile_stores(workload, name);

@@ -25,7 +25,7 @@ struct AblatedExecution {
 
 // The switches that are compared: each optimization left out, both tile stores, all left out, and the stepped
 // naive backend.
-constexpr std::array<Ablation, 10> kAblations{{{.vector_setup = false},
+constexpr std::array<Ablation, 11> kAblations{{{.vector_setup = false},
                                                {.prefetch = false},
                                                {.coverage_masks = false},
                                                {.hierarchical_depth = false},
@@ -33,6 +33,7 @@ constexpr std::array<Ablation, 10> kAblations{{{.vector_setup = false},
                                                {.tile_store = TileStore::streaming},
                                                {.empty_rows = false},
                                                {.several_tiles_per_task = false},
+                                               {.vector_test = false},
                                                {false, false, false, false, TileStore::cached, false, false},
                                                {.stepped = true}}};
 

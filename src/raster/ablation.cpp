@@ -15,6 +15,7 @@ std::string describe(const Ablation& ablation) {
   add(ablation.tile_store == TileStore::streaming, "streaming stores");
   add(!ablation.empty_rows, "no rows of empty tiles");
   add(!ablation.several_tiles_per_task, "one tile per task");
+  add(!ablation.vector_test, "no vector test");
   add(ablation.stepped, "stepped");
   return text;
 }

@@ -20,15 +20,16 @@ enum class TileStore {
 };
 
 struct Ablation {
-  bool vector_setup = true;        // tiled, scanline: boxes and triangles are set up in vectors
-  bool prefetch = true;            // tiled, scanline: triangle records are prefetched; lists always are
+  bool vector_setup = true;        // tiled: boxes and triangles are set up in vectors
+  bool prefetch = true;            // tiled: triangle records are prefetched; lists always are
   bool coverage_masks = true;      // tiled: binning resolves small triangles to masks; needs vector_setup
   bool hierarchical_depth = true;  // tiled: triangles behind all that a block or tile shows are rejected
-  TileStore tile_store = TileStore::automatic;  // tiled, scanline
-  // tiled, scanline: all empty tiles of a row are filled together. Else each is drawn like a tile with few
+  TileStore tile_store = TileStore::automatic;  // tiled
+  // tiled: all empty tiles of a row are filled together. Else each is drawn like a tile with few
   // triangles: in a buffer, and with that tile's store.
   bool empty_rows = true;
-  bool several_tiles_per_task = true;  // tiled, scanline: oneTBB gets up to four tiles at once
+  bool several_tiles_per_task = true;  // tiled: oneTBB gets up to four tiles at once
+  bool vector_test = true;             // scanline: narrow triangles are tested by edge functions
   bool stepped = false;  // naive: edges and depth are stepped along rows, not evaluated at each pixel
 
   auto operator<=>(const Ablation&) const = default;

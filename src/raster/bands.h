@@ -1,14 +1,15 @@
-// Drawing in horizontal bands, for a backend without tiles. On one thread, the whole image is one band. On
-// several threads, triangles are binned to bands, which are drawn in parallel.
+// Drawing in horizontal bands, for backends without tiles: a band's rows are drawn in the frame itself.
 #pragma once
 
 #include <algorithm>
-#include <span>
 
 #include "core/parallel.h"
+#include "core/triangle_source.h"
 #include "edgewise/backend.h"
 #include "edgewise/contract.h"
+#include "raster/ablation.h"
 #include "raster/binning/bins.h"
+#include "raster/tile_list.h"
 
 namespace edgewise {
 
@@ -23,28 +24,69 @@ inline void clear_rows(FrameView frame, RowRange rows, std::uint32_t background)
   }
 }
 
-// Clears the frame. Calls draw(triangle, rows) for every band and every triangle that may cover a sample in
-// it, in submission order.
+// So few that a band of 1920 px, of 480 KB, stays in L2 from its clear to its last triangle. A depth cell's
+// height is a multiple of it, so a band lies in one row of depth cells (rule 6).
+inline constexpr int kBandRowsLog2 = 5;
+static_assert(contract::kDepthCell % (1 << kBandRowsLog2) == 0);
+
+// Bins triangles to bands, and calls draw(band, rows) for each band, in parallel. Band i's triangles are
+// those of cell i in `bins`. Returns false if Bins::build() does; then nothing is drawn.
 template <typename Draw>
-void draw_in_bands(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
-                   const Execution& execution, Bins& bins, Draw&& draw) {
-  if (execution.threads == 1) {
-    const RowRange all{0, frame.height};
-    clear_rows(frame, all, background);
-    for (const auto& triangle : triangles) draw(triangle, all);
-    return;
-  }
-  constexpr int kBandRowsLog2 = 5, kWholeWidthLog2 = 14;
+bool draw_in_bands(TriangleSource& triangles, FrameView frame, const Execution& execution, Bins& bins,
+                   Draw&& draw) {
+  constexpr int kWholeWidthLog2 = 14;
   static_assert(1 << kWholeWidthLog2 == contract::kMaxImageSide);
   const CellGrid grid{frame.width, frame.height, kWholeWidthLog2, kBandRowsLog2};
-  bins.build(triangles, grid, execution.threads, execution.target, Bins::Small::as_indices, true);
+  if (!bins.build(triangles, grid, execution.threads, execution.target, Bins::Small::as_indices, true))
+    return false;
   parallel_for(execution.threads, grid.rows(), [&](int band) {
-    const RowRange rows{band << kBandRowsLog2, std::min((band + 1) << kBandRowsLog2, frame.height)};
-    clear_rows(frame, rows, background);
-    bins.for_each_segment(band, [&](const Bins::Segment& segment) {
-      for (const std::uint32_t index : segment.indices) draw(triangles[index], rows);
-    });
+    draw(band, RowRange{band << kBandRowsLog2, std::min((band + 1) << kBandRowsLog2, frame.height)});
   });
+  return true;
 }
+
+// The task of drawing the triangles of a band whose rows are clear.
+struct BandTask {
+  const Bins& bins;
+  int band;
+  RowRange rows;
+  FrameView frame;
+  bool vector_test;  // Ablation::vector_test
+};
+using BandKernel = void (*)(const BandTask&);
+
+// `target` must be resolved.
+BandKernel scanline_kernel(SimdTarget target);
+
+// A backend whose kernels draw one band.
+class BandBackend : public Backend {
+ public:
+  BandBackend(BandKernel (*kernel_for)(SimdTarget), const Ablation& ablation)
+      : kernel_for_(kernel_for), ablation_(ablation) {}
+
+ private:
+  bool draw_source(TriangleSource& triangles, FrameView frame, std::uint32_t background,
+                   const Execution& execution) final {
+    // Each vector of pixels lies in the frame, which must be as wide as the longest vector.
+    constexpr int kLongestVector = 16;
+    const BandKernel kernel =
+        kernel_for_(frame.width < kLongestVector ? SimdTarget::scalar : execution.target);
+    const EmptyTilesKernel clear = empty_tiles_kernel(execution.target);
+    return draw_in_bands(triangles, frame, execution, bins_, [&](int band, RowRange rows) {
+      constexpr TileSpan kWholeWidth{0, contract::kMaxImageSide};
+      clear({{&kWholeWidth, 1}, rows.begin, rows.end, 0, frame, background, false});
+      kernel({bins_, band, rows, frame, ablation_.vector_test});
+    });
+  }
+  void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
+                    const Execution& execution) final {
+    StoredTriangles stored(triangles);
+    draw_source(stored, frame, background, execution);  // always true: stored triangles are not copied
+  }
+
+  BandKernel (*const kernel_for_)(SimdTarget);
+  const Ablation ablation_;
+  Bins bins_;
+};
 
 }  // namespace edgewise

@@ -1,5 +1,5 @@
-// Shared by the tile kernels: prefetches triangles, and copies a finished tile to the frame by cached or
-// streaming stores (raster/ablation.h).
+// Shared by the tile kernels: copies a finished tile to the frame by cached or streaming stores
+// (raster/ablation.h).
 #include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
@@ -64,19 +64,6 @@ HWY_INLINE void write_to(const FramePlane& to, Write&& write) {
   }
 }
 
-// Calls draw(segment) for each of the tile's segments. Records are scattered in memory, so each segment's are
-// prefetched while the previous one is drawn.
-template <typename Draw>
-HWY_INLINE void draw_segments(const TileTask& task, Draw&& draw) {
-  Bins::Segment prefetched{};
-  task.bins->for_each_segment(task.cell, [&](const Bins::Segment& segment) {
-    if (task.ablation.prefetch) task.prefetch(segment.indices);
-    if (!prefetched.indices.empty()) draw(prefetched);
-    prefetched = segment;
-  });
-  if (!prefetched.indices.empty()) draw(prefetched);
-}
-
 // Vectors of pixels from a tile's buffers, from the i-th pixel on, as they are stored to the frame.
 struct Depths {
   const std::int32_t* buffer;
@@ -105,14 +92,6 @@ HWY_INLINE void write_tile(const TileTask& task, const std::int32_t* depth, cons
   write(FramePlane(task, task.frame.payload),
         Payloads{payload, depth, static_cast<std::int32_t>(task.background)});
   hwy::FlushStream();
-}
-
-// Some kernels end without this instruction (GCC 12). The caller's SSE code would then merge into registers
-// whose upper halves are in use, and run at half speed until the next context switch.
-HWY_INLINE void clear_upper_halves() {
-#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2  // the better the target, the lower its number
-  _mm256_zeroupper();
-#endif
 }
 
 }  // namespace HWY_NAMESPACE

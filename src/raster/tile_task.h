@@ -23,14 +23,6 @@ struct TileTask {
   Ablation ablation;  // tile_store is resolved
 
   int size() const { return 1 << size_log2; }  // px
-  // Always inline: GCC 12 takes a function that only prefetches for one without effect, and drops its calls.
-  [[gnu::always_inline]] void prefetch(std::span<const std::uint32_t> indices) const {
-    for (const std::uint32_t index : indices) {
-      const auto* triangle = reinterpret_cast<const char*>(triangles + index);
-      __builtin_prefetch(triangle);
-      __builtin_prefetch(triangle + sizeof(ScreenTriangle) - 1);
-    }
-  }
   // The part inside the frame, px.
   int width() const { return std::min(size(), frame.width - x0); }
   int height() const { return std::min(size(), frame.height - y0); }
@@ -38,10 +30,8 @@ struct TileTask {
 
 using TileKernel = void (*)(const TileTask&);
 
-// The kernels that draw one tile, in a buffer sized for the L1 cache: tiled/tile_kernel.cpp and
-// scanline/scanline_kernel.cpp. `target` must be resolved. scanline_kernel() needs tiles of
-// contract::kMaxTile px.
+// The kernel that draws one tile, in a buffer sized for the L1 cache (tiled/tile_kernel.cpp). `target` must
+// be resolved.
 TileKernel tile_kernel(SimdTarget target);
-TileKernel scanline_kernel(SimdTarget target);
 
 }  // namespace edgewise

@@ -15,9 +15,11 @@
 #include "bench/workloads/random_reads.h"
 #include "bench/workloads/stage.h"
 #include "edgewise/contract.h"
+#include "lab/cells/cells.h"
 #include "lab/engine/engine.h"
 #include "message_of.h"
 #include "run_program.h"
+#include "support/options.h"
 #include "temp_dir.h"
 
 namespace edgewise::bench {
@@ -90,7 +92,8 @@ TEST(BenchSuite, RowNamesCanBeSplitIntoTheirParts) {
   });
   int of_peers = 0;
   for (const lab::PeerInfo& peer : lab::benchmark_peers()) of_peers += peer.most_threads + peer.own_clock;
-  EXPECT_EQ(names.size(), 2 + 4 * backends().size() + static_cast<std::size_t>(of_peers + 2 * narrower));
+  EXPECT_EQ(names.size(), 2 + 4 * backends().size() + static_cast<std::size_t>(of_peers + 2 * narrower) +
+                              lab::cells().size() * (tools::default_threads() > 1 ? 2 : 1));
 }
 
 TEST(BenchStage, ComparesWireframesWithWireframes) {
@@ -167,6 +170,22 @@ TEST(BenchSuite, TimesTheEngineWithOtherNumbers) {
   }
   EXPECT_GT(wrong_px("small", "float").value(), 0u);
   EXPECT_GT(wrong_px("large", "int32").value(), 0u);
+}
+
+TEST(BenchSuite, TimesCellsThatDrawTheReference) {
+  std::map<std::string, Row> rows = small_rows(160, 90);
+  Stage stage;
+  for (const SceneInfo& scene : builtin_scenes())
+    for (const lab::Cell& cell : lab::cells())
+      for (const int threads : {1, tools::default_threads()}) {
+        const auto row = rows.find("cell/" + std::string(scene.name) + "/" + factors(cell) +
+                                   "/threads:" + std::to_string(threads));
+        ASSERT_NE(row, rows.end()) << scene.name << ", " << factors(cell);
+        EXPECT_FALSE(is_plain(row->second)) << row->first;
+        row->second.workload->prepare(true);
+        stage.compare(row->second);
+        EXPECT_EQ(row->second.error, "") << row->first;
+      }
 }
 
 TEST(BenchSuite, TimesThreeCullingModes) {

@@ -31,6 +31,7 @@ HWY_AFTER_NAMESPACE();
 #include "frontend/shade.h"
 #include "frontend/tasks.h"
 #include "frontend/transform.h"
+#include "raster/bands.h"
 #include "raster/binning/cell_boxes.h"
 #include "raster/binning/mask_finder.h"
 #include "raster/tile_task.h"

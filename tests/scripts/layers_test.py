@@ -31,7 +31,7 @@ ROOMS_BELOW = {  # inside src/raster: rooms and headers
     "simd": [],
     "binning": ["simd"],
     "tiled": ["simd", "binning", *TILES],
-    "scanline": ["simd", "binning", *TILES],
+    "scanline": ["simd", "bands.h", "ablation.h"],
 }
 
 

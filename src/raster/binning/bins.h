@@ -89,6 +89,19 @@ class Bins {
     }
   }
 
+  // The same. Records are scattered in memory, so with `prefetch` each segment's are prefetched while the
+  // previous segment is visited.
+  template <typename Visit>
+  void for_each_segment_ahead(int cell, bool prefetch, Visit&& visit) const {
+    Segment before{};
+    for_each_segment(cell, [&](const Segment& segment) {
+      if (prefetch) prefetch_records(segment.indices);
+      if (!before.indices.empty()) visit(before);
+      before = segment;
+    });
+    if (!before.indices.empty()) visit(before);
+  }
+
   // Reads the masks of a cell in submission order. The callback draw(masks, rank) draws the leading masks
   // whose rank is at most `rank`, and returns their number.
   class MaskReader {
@@ -132,6 +145,15 @@ class Bins {
   static constexpr std::uint32_t kSlotsPerSegment = 32;  // a power of two
   static constexpr std::uint32_t kIndicesPerSegment =
       kSlotsPerSegment - 1;  // the last slot links to the next
+
+  // Always inline: GCC 12 takes a function that only prefetches for one without effect, and drops its calls.
+  [[gnu::always_inline]] void prefetch_records(std::span<const std::uint32_t> indices) const {
+    for (const std::uint32_t index : indices) {
+      const auto* triangle = reinterpret_cast<const char*>(triangles_ + index);
+      __builtin_prefetch(triangle);
+      __builtin_prefetch(triangle + sizeof(ScreenTriangle) - 1);
+    }
+  }
 
   // Different threads write to slices. The alignment keeps them in different pairs of cache lines, which
   // processors fetch together (false sharing).

@@ -1,34 +1,47 @@
 // The backend `scanline`, the reference: walks a triangle's edges row by row and fills the spans between them
-// (scanline_kernel.cpp). It shares binning and threads with `tiled`, so the two differ only in how they find
-// and fill a triangle's pixels.
-#include "edgewise/contract.h"
-#include "raster/ablation.h"
-#include "raster/tile_task.h"
-#include "raster/tiles.h"
+// in the frame itself, band by band.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "raster/scanline/scanline.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
 
+#include "core/kernel_table.h"
+#include "raster/ablation.h"
+#include "raster/bands.h"
+#include "raster/scanline/scanline_band-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace edgewise {
+namespace HWY_NAMESPACE {
+
+void draw_band(const BandTask& task) {
+  const auto wide = [&](const ScreenTriangle& triangle, const PixelBox& box) {
+    draw_spans(task, triangle, box);
+  };
+  task.vector_test ? draw_band_by<true>(task, wide) : draw_band_by<false>(task, wide);
+  clear_upper_halves();
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace edgewise
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace edgewise {
 
-namespace {
-
-class Scanline final : public TileBackend {
-  using TileBackend::TileBackend;
-  bool draw_source(TriangleSource& triangles, FrameView frame, std::uint32_t background,
-                   const Execution& execution) override {
-    return draw_in_tiles(triangles, frame, background, execution, ablation_, contract::kMaxTile, scratch_,
-                         Bins::Small::as_indices, scanline_kernel(execution.target));
-  }
-};
-
-}  // namespace
+BandKernel scanline_kernel(SimdTarget target) {
+  return EDGEWISE_KERNEL(draw_band, target);
+}
 
 extern const std::string_view summary_scanline;
 const std::string_view summary_scanline =
     "walks the edges row by row and fills the spans between them; the reference";
 std::unique_ptr<Backend> make_scanline(const Ablation& ablation) {
-  return std::make_unique<Scanline>(ablation);
+  return std::make_unique<BandBackend>(scanline_kernel, ablation);
 }
 std::unique_ptr<Backend> make_scanline() {
   return make_scanline(Ablation{});
 }
 
 }  // namespace edgewise
+#endif

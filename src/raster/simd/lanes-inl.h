@@ -36,6 +36,14 @@ HWY_INLINE std::uint32_t mask_bits(hn::Mask<D> mask) {
   return bits;
 }
 
+// Some kernels end without this instruction (GCC 12). The caller's SSE code would then merge into registers
+// whose upper halves are in use, and run at half speed until the next context switch.
+HWY_INLINE void clear_upper_halves() {
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2  // the better the target, the lower its number
+  _mm256_zeroupper();
+#endif
+}
+
 #if HWY_TARGET == HWY_SSE4 || HWY_TARGET == HWY_AVX2
 // For each mask, the indices of its selected lanes, followed by 0s. Compress() of Highway 1.0.3 has the same
 // table, but GCC copies it to the stack at every call.

@@ -6,6 +6,7 @@
 // 2. Where the long spans of a vector of rows overlap, they form a rectangle, which is drawn at once in
 //    blocks. A block stores zmax and rejects occluded triangles as a whole (HiZ, hiz-inl.h). A triangle that
 //    is occluded in all blocks is not cut into spans. Blocks cut by a side of the frame occlude nothing.
+// 3. Small triangles may arrive as coverage masks (raster/binning/mask_finder.cpp).
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -13,16 +14,17 @@
 #include <cstdint>
 
 #include "edgewise/contract.h"
-#include "raster/scanline/scanline_rows-inl.h"
+#include "lab/tiled_spans/tiled_spans_rows-inl.h"
+#include "raster/binning/mask_lists.h"
 #include "raster/simd/hiz-inl.h"
 #include "raster/tile_store-inl.h"
 
 // Included once per SIMD target.
-#if defined(EDGEWISE_SCANLINE_LIST_INL_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef EDGEWISE_SCANLINE_LIST_INL_H
-#undef EDGEWISE_SCANLINE_LIST_INL_H
+#if defined(EDGEWISE_TILED_SPANS_LIST_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef EDGEWISE_TILED_SPANS_LIST_INL_H
+#undef EDGEWISE_TILED_SPANS_LIST_INL_H
 #else
-#define EDGEWISE_SCANLINE_LIST_INL_H
+#define EDGEWISE_TILED_SPANS_LIST_INL_H
 #endif
 
 #if HWY_TARGET != HWY_SCALAR
@@ -36,8 +38,10 @@ using namespace contract;
 constexpr int kSpanBlockWidth = 16;  // px; blocks have kRows rows
 
 struct SpanTile {
-  alignas(64) std::int32_t depth[kMaxTile * kMaxTile];  // row by row
-  alignas(64) std::int32_t payload[kMaxTile * kMaxTile];
+  // Behind each plane lie pixels that a mask at its end reads and writes back.
+  static constexpr int kPixels = (kMaxTile + kMaskSide) * kMaxTile;
+  alignas(64) std::int32_t depth[kPixels];  // row by row
+  alignas(64) std::int32_t payload[kPixels];
   HiZ<kMaxTile / kSpanBlockWidth, kMaxTile / kRows> hiz;
 };
 
@@ -47,11 +51,11 @@ constexpr std::int32_t wrapped_product(std::int32_t a, std::int32_t b) {
 
 class SpanList {
  public:
-  explicit SpanList(SpanTile& tile) : tile_(tile) {}
+  SpanList(SpanTile& tile, bool hierarchical_depth) : tile_(tile), occludes_(hierarchical_depth) {}
 
   HWY_INLINE void add(const SpanBatch& batch, int k) {
     const bool wide = batch.x1[k] - batch.x0[k] > kNarrow;
-    if (wide && tile_.hiz.occludes(batch.nearest[k])) return;
+    if (wide && occludes_ && tile_.hiz.occludes(batch.nearest[k])) return;
     if (length_ > kCapacity - kMostSpans) draw();
     const D d;
     const V zx = hn::Set(d, batch.depth.x[k]);
@@ -134,7 +138,8 @@ class SpanList {
     const D d;
     const std::int32_t zx = batch.depth.x[k], zy = batch.depth.y[k];
     std::int32_t& hiz = *tile_.hiz.at(x / kSpanBlockWidth, y / kRows);
-    if (z + std::min(0, zx * (kSpanBlockWidth - 1)) + std::min(0, zy * (kRows - 1)) >= hiz) return;
+    if (occludes_ && z + std::min(0, zx * (kSpanBlockWidth - 1)) + std::min(0, zy * (kRows - 1)) >= hiz)
+      return;
     V far = hn::Zero(d);
     const V payload = hn::Set(d, batch.payload[k]);
     for (int p = 0; p < kSpanBlockWidth; p += kLanes) {
@@ -170,6 +175,7 @@ class SpanList {
   }
 
   SpanTile& tile_;
+  const bool occludes_;
   int length_ = 0;
   // Two pairs per span. The first describes the aligned vector of pixels in which the span begins: its
   // position in the tile | triangle of the batch << 16, and the depth at its first pixel. The second is the
@@ -179,6 +185,34 @@ class SpanList {
   alignas(64) std::int32_t in_vector_[SpanBatch::kSize * kLanes], step_[SpanBatch::kSize * kLanes];
   std::int32_t payload_[SpanBatch::kSize];
 };
+
+// Draws masks up to the first with a rank above `last`, and returns their number.
+HWY_NOINLINE inline std::size_t draw_masks(SpanTile& tile, std::span<const CoverageMask> masks,
+                                           std::uint32_t last) {
+  const hn::CappedTag<std::int32_t, kMaskSide> d;
+  constexpr int kColumns = static_cast<int>(hn::MaxLanes(d)), kBlocks = kMaxTile / 4;
+  const auto set = [&](std::uint32_t v) { return hn::Set(d, static_cast<std::int32_t>(v)); };
+  std::size_t n = 0;
+  for (; n != masks.size() && masks[n].rank <= last; ++n) {
+    const CoverageMask& mask = masks[n];
+    const std::uint32_t first = (mask.block / kBlocks * kMaxTile + mask.block % kBlocks) * 4;
+    for (int column = 0; column < kMaskSide; column += kColumns) {
+      const auto px = hn::Iota(d, column), bit = hn::Shl(hn::Set(d, 1), px);
+      auto z = hn::Add(set(mask.z), hn::Mul(px, set(mask.zx)));
+      std::int32_t* depth = tile.depth + first + column;
+      std::int32_t* payload = tile.payload + first + column;
+      for (int y = 0; y < kMaskSide; ++y, depth += kMaxTile, payload += kMaxTile) {
+        const auto covered = hn::TestBit(set(mask.covered[y / 4] >> (y % 4 * kMaskSide)), bit);
+        const auto old_z = hn::LoadU(d, depth);
+        const auto wins = hn::And(covered, hn::Lt(z, old_z));
+        hn::StoreU(hn::IfThenElse(wins, z, old_z), d, depth);
+        hn::StoreU(hn::IfThenElse(wins, set(mask.payload), hn::LoadU(d, payload)), d, payload);
+        z = hn::Add(z, set(mask.zy));
+      }
+    }
+  }
+  return n;
+}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace edgewise

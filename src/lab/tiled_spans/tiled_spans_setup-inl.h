@@ -17,8 +17,8 @@
 //   2^18 + 2^17 px.
 // - Start, steps and the at most 2^15 px from vertex to tile sum up to less than 2^20 px = 2^63 units.
 // An edge that moves 2^12 px per row or more, but is not horizontal, crosses at most 8 rows. Its triangle is
-// walked by integers with a remainder (scanline_walk.h). So is a triangle whose depth gradient is too large
-// for doubles. proofs/spans.smt2 proves these claims.
+// walked by integers with a remainder (raster/scanline/edge_walk.h). So is a triangle whose depth gradient is
+// too large for doubles. proofs/spans.smt2 proves these claims.
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -32,11 +32,11 @@
 #include "raster/tile_task.h"
 
 // Included once per SIMD target.
-#if defined(EDGEWISE_SCANLINE_SETUP_INL_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef EDGEWISE_SCANLINE_SETUP_INL_H
-#undef EDGEWISE_SCANLINE_SETUP_INL_H
+#if defined(EDGEWISE_TILED_SPANS_SETUP_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef EDGEWISE_TILED_SPANS_SETUP_INL_H
+#undef EDGEWISE_TILED_SPANS_SETUP_INL_H
 #else
-#define EDGEWISE_SCANLINE_SETUP_INL_H
+#define EDGEWISE_TILED_SPANS_SETUP_INL_H
 #endif
 
 HWY_BEFORE_NAMESPACE();

@@ -6,14 +6,14 @@
 #include <cstdint>
 
 #include "edgewise/contract.h"
-#include "raster/scanline/scanline_setup-inl.h"
+#include "lab/tiled_spans/tiled_spans_setup-inl.h"
 
 // Included once per SIMD target.
-#if defined(EDGEWISE_SCANLINE_ROWS_INL_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef EDGEWISE_SCANLINE_ROWS_INL_H
-#undef EDGEWISE_SCANLINE_ROWS_INL_H
+#if defined(EDGEWISE_TILED_SPANS_ROWS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef EDGEWISE_TILED_SPANS_ROWS_INL_H
+#undef EDGEWISE_TILED_SPANS_ROWS_INL_H
 #else
-#define EDGEWISE_SCANLINE_ROWS_INL_H
+#define EDGEWISE_TILED_SPANS_ROWS_INL_H
 #endif
 
 #if HWY_TARGET != HWY_SCALAR

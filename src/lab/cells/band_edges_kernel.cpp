@@ -1,0 +1,84 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "lab/cells/band_edges_kernel.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include <algorithm>
+
+#include "core/kernel_table.h"
+#include "lab/cells/band_edges.h"
+#include "raster/box_test.h"
+#include "raster/scanline/scanline_band-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace edgewise {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+using namespace contract;
+
+#if HWY_TARGET == HWY_SCALAR
+
+inline void draw_edges(const BandTask& task, const ScreenTriangle& triangle, const PixelBox&) {
+  draw_by_box_test<true>(triangle, task.rows, task.frame);
+}
+
+#else
+
+// Tests all pixels of the box, a vector at a time.
+inline void draw_edges(const BandTask& task, const ScreenTriangle& triangle, const PixelBox& box) {
+  const D d;
+  const Oriented t = orient(triangle);
+  if (t.area == 0) return;
+  const BandDepth plane(make_depth(t), box);
+  const V lane = hn::Iota(d, 0), z_in_vector = hn::Mul(lane, set(plane.zx)), colour = set(triangle.payload);
+  const Edge edge[3] = {make_edge(t, 0), make_edge(t, 1), make_edge(t, 2)};
+  V in_vector[3];
+  for (int i = 0; i < 3; ++i) in_vector[i] = hn::Mul(lane, hn::Set(d, edge[i].a));
+  // A shifted value (rule 5) fits int32 once it is clamped. Over a vector it changes by less than 2^27, so
+  // its sign stays.
+  const auto in_int32 = [](std::int64_t value) {
+    constexpr std::int64_t kLimit = 1 << 30;
+    return static_cast<std::int32_t>(std::clamp(value >> kSubBits, -kLimit, kLimit));
+  };
+  const int first = box.x0 & -kLanes;
+  for (int y = box.y0; y < box.y1; ++y) {
+    const FrameRow row(task.frame, y);
+    std::int64_t value[3] = {edge[0].at(first, y), edge[1].at(first, y), edge[2].at(first, y)};
+    for (int x = first; x < box.x1; x += kLanes) {
+      const int at = vector_at(x, task.frame.width), moved = at - x;
+      V outside = hn::Zero(d);
+      for (int i = 0; i < 3; ++i) {
+        const std::int64_t step = std::int64_t{edge[i].a} * kSub;
+        outside = hn::Or(outside, hn::Add(in_vector[i], hn::Set(d, in_int32(value[i] + moved * step))));
+        value[i] += kLanes * step;
+      }
+      const auto from_cell = static_cast<std::uint32_t>(at - (x & -kDepthCell));
+      const V z = hn::Add(set(plane.in_cell(x, y) + from_cell * plane.zx), z_in_vector);
+      // A moved vector may begin in the previous depth cell, whose pixels are drawn already.
+      const auto inside = hn::And(hn::Gt(outside, hn::Set(d, -1)), hn::Gt(lane, hn::Set(d, -1 - moved)));
+      write(row.depth + at, row.payload + at, inside, z, colour);
+    }
+  }
+}
+
+#endif
+
+void draw_band_in_edges(const BandTask& task) {
+  draw_band_by<true>(
+      task, [&](const ScreenTriangle& triangle, const PixelBox& box) { draw_edges(task, triangle, box); });
+  clear_upper_halves();
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace edgewise
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace edgewise {
+
+BandKernel lab::band_edges_kernel(SimdTarget target) {
+  return EDGEWISE_KERNEL(draw_band_in_edges, target);
+}
+
+}  // namespace edgewise
+#endif
