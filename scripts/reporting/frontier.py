@@ -2,6 +2,7 @@
 import math
 from typing import NamedTuple
 
+from accuracy_rows import Pooled, pooled
 from bench_rows import mean_gained
 from tables import by_order, number, short
 
@@ -9,16 +10,21 @@ LEAST_CROSSINGS = 10_000  # of shared edges; in smaller scenes a single crossing
 # The tutorials' inside tests; and one engine with exact edges and with the first test's float edges.
 INSIDE_TESTS = ("float_lt", "float_le")
 ENGINES = ("engine_exact", "engine_float")
-T_JUNCTIONS = ("t_junction", "t_junction_split")  # cracks of the mesh, not of the method
 
 
-class Cracks(NamedTuple):
-    """Gaps and double hits per 10⁶ crossings of shared edges."""
-    rate: float  # all scenes pooled
+class CrackRates(NamedTuple):
+    """Cracks per 10⁶ crossings of shared edges."""
+    pooled: Pooled
     worst: float  # of one scene
     worst_scene: str
     crossings: int
     scenes: int
+    t_junctions: int  # samples, in all scenes within the method's range
+    folds: int
+
+    @property
+    def rate(self):
+        return self.pooled.rate
 
 
 class SpeedUp(NamedTuple):
@@ -30,15 +36,17 @@ class SpeedUp(NamedTuple):
 
 def cracks_of(accuracy, method):
     """None if no scene shows it."""
-    found = [(m.cracks, scene) for scene in accuracy.of("coverage") for m in (*scene.measured, *scene.apart)
-             if m.method == method and scene.name not in T_JUNCTIONS and scene.shared_crossings >= LEAST_CROSSINGS
-             and scene.in_range_of(method)]
+    measured = [(m.cracks, scene) for scene in accuracy.of("coverage") for m in (*scene.measured, *scene.apart)
+                if m.method == method and m.cracks and scene.in_range_of(method)]
+    found = [(cracks.at_shared_edges, scene) for cracks, scene in measured if scene.shared_crossings >= LEAST_CROSSINGS]
     if not found:
         return None
     crossings = sum(scene.shared_crossings for _, scene in found)
     worst, worst_scene = max(((1e6 * cracks / scene.shared_crossings, scene.name) for cracks, scene in found),
                              key=lambda pair: pair[0])
-    return Cracks(1e6 * sum(cracks for cracks, _ in found) / crossings, worst, worst_scene, crossings, len(found))
+    rate = pooled([(cracks, scene.shared_crossings, scene.name) for cracks, scene in found], 1e6)
+    return CrackRates(rate, worst, worst_scene, crossings, len(found), *(sum(getattr(cracks, count) for cracks, _ in measured)
+                                                                         for count in ("t_junctions", "folds")))
 
 
 def timed_scenes(accuracy):
@@ -91,7 +99,7 @@ def best(forms):
 
 
 def frontier_figures(accuracy):
-    """({method: (its speed_ups(), Cracks)}, the reference, number of scenes) of the methods with both figures."""
+    """({method: (its speed_ups(), CrackRates)}, the reference, number of scenes) of the methods with both figures."""
     ups, base, scenes = speed_ups(accuracy)
     return ({method: (forms, cracks) for method, forms in ups.items() if forms and (cracks := cracks_of(accuracy, method))},
             base, scenes)
@@ -112,9 +120,10 @@ def frontier_table(accuracy):
     def form(forms, name, otherwise):
         return said(forms[name]) if name in forms else otherwise
 
-    header = ["method", "cracks per 10⁶ crossings", "worst scene", "crossings", f"scalar, `{base.name}` = 1×", "SIMD"]
+    header = ["method", "cracks per 10⁶ crossings", "without the scene of most", "worst scene", "crossings", "at T-junctions", "folds", f"scalar, `{base.name}` = 1×", "SIMD"]
     lines = [[title(method), number(cracks.rate, 2),
+              f"{number(cracks.pooled.without, 2)} (`{cracks.pooled.mostly_on}`)" if cracks.pooled.mostly_on else "–",
               f"{number(cracks.worst, 2)} (`{cracks.worst_scene}`)" if cracks.worst else "–",
-              short(cracks.crossings), form(forms, "scalar", "–"), form(forms, "simd", "–" if method.peer else method.simd_note or "–")]
+              short(cracks.crossings), f"{cracks.t_junctions:,}", f"{cracks.folds:,}", form(forms, "scalar", "–"), form(forms, "simd", "–" if method.peer else method.simd_note or "–")]
              for method, (forms, cracks) in sorted(found.items(), key=lambda item: -best(item[1][0]).middle)]
     return header, lines

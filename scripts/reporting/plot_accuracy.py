@@ -4,6 +4,7 @@ import math
 
 from accuracy_rows import FAMILIES
 from bench_rows import gained, order
+from facts_tables import pooled_text
 from plot_labels import Label, label_points, shared_labels
 from plot_style import (BAND, BLACK, FAINT, INK, SKY, WHISKER, WIDTH_IN, Kinds, ZeroAxis, dark, head_in, headline, plt, round_ticks,
                         save)
@@ -139,7 +140,7 @@ def turning_cube(accuracy, folder, caption):
     top = headline(figure, cube_title(rows), f"{accuracy.cube['frames']:,} frames of the tutorials' cube, judged by exact "
                    "arithmetic on the positions before any snapping. Filled: the median frame; hollow: the worst frame.")
     figure.subplots_adjust(left=0.15, right=0.985, bottom=0.9 / height, top=top - 0.35 / height, wspace=0.06)
-    note = "A gap is a crack between neighbours; pixels lost at a moved outline do not count."
+    note = "Cracks at edges that two triangles share; pixels lost at a moved outline do not count."
     save(figure, folder, "turning-cube", f"{note}\n{caption}")
     return "turning-cube"
 
@@ -153,20 +154,20 @@ def shade(rate):
     return min(1.0, math.log10(1 + rate) / 6)
 
 
-CRACKS = {"t_junction": "its gaps, in pixels", "t_junction_split": "its gaps once split"}
+CRACKS = {"t_junction": "its crack, in pixels", "t_junction_split": "its crack once split"}
 
 
 def chart_rows(scenes):
-    """(label, text of each method, rate of each method) of each row. A T-junction has a second row with its gaps, since its
+    """(label, text of each method, rate of each method) of each row. A T-junction has a second row with its crack, since its
     rate does not show that splitting the edge closes the crack."""
     rows = []
     for scene in scenes:
         rates = {m.method.name: m.rate for m in scene.measured}
         rows.append((scene.name, {name: cell_text(rate) for name, rate in rates.items()}, rates))
-        if scene.name in CRACKS and all(m.gaps is not None for m in scene.measured):
-            gaps = {m.method.name: m.gaps for m in scene.measured}
-            rows.append((CRACKS[scene.name], {name: short(count) for name, count in gaps.items()},
-                         {m.method.name: 1e6 * m.gaps / scene.trials for m in scene.measured}))
+        if scene.name in CRACKS and all(m.cracks for m in scene.measured):
+            cracks = {m.method.name: m.cracks.t_junctions for m in scene.measured}
+            rows.append((CRACKS[scene.name], {name: short(count) for name, count in cracks.items()},
+                         {name: 1e6 * count / scene.trials for name, count in cracks.items()}))
     return rows
 
 
@@ -232,39 +233,36 @@ OUR_BITS = 8
 
 
 def displacement(accuracy):
-    """({bits: wrong pixels per 10⁶ edge crossings}, number of scenes, number of crossings)."""
-    scenes = accuracy.pooled("coverage")
-    trials = sum(scene.trials for scene in scenes)
-    rates = {}
-    for bits, name in ROUNDED.items():
-        errors = [m.rate * scene.trials for scene in scenes for m in scene.measured if m.method.name == name]
-        if trials and len(errors) == len(scenes):
-            rates[bits] = sum(errors) / trials
-    return rates, len(scenes), trials
+    """({bits: Pooled wrong pixels per 10⁶ edge crossings}, number of scenes, number of crossings)."""
+    scenes, rates = accuracy.pooled("coverage"), accuracy.rates("coverage")
+    return ({bits: rates[name] for bits, name in ROUNDED.items() if name in rates}, len(scenes),
+            sum(scene.trials for scene in scenes))
 
 
 def displacement_strip(accuracy, folder, caption):
     rates, scenes, trials = displacement(accuracy)
-    if rates.keys() != ROUNDED.keys() or not all(rates.values()):  # a log axis has no 0
+    if rates.keys() != ROUNDED.keys() or not all(pooled.rate for pooled in rates.values()):  # a log axis has no 0
         return None
     subtitle = (f"Pixels that change because vertices are rounded, per 10⁶ edge crossings; {scenes} scenes, {short(trials)} "
                 "crossings.")
     above, below = 0.1 + head_in(subtitle), 0.6
     figure, axes = plt.subplots(figsize=(WIDTH_IN, above + below + 1.25))
     height = figure.get_figheight()
-    headline(figure, f"Rounding to {OUR_BITS} subpixel bits displaces {number(rates[OUR_BITS])} pixels per 10⁶ crossings", subtitle)
+    headline(figure, f"Rounding to {OUR_BITS} subpixel bits displaces {number(rates[OUR_BITS].rate)} pixels per 10⁶ crossings", subtitle)
     figure.subplots_adjust(left=0.13, right=0.985, bottom=below / height, top=1 - above / height)
     lines = range(len(rates))
-    axes.barh(lines, rates.values(), color=[BLACK if bits == OUR_BITS else SKY for bits in rates], height=0.68)
+    axes.barh(lines, [pooled.rate for pooled in rates.values()], color=[BLACK if bits == OUR_BITS else SKY for bits in rates], height=0.68)
     axes.set_xscale("log")
-    axes.set_xlim(10 ** math.floor(math.log10(min(rates.values()))), max(rates.values()) * 2.5)
+    least, most = (edge(pooled.rate for pooled in rates.values()) for edge in (min, max))
+    room = 30 if any(pooled.mostly_on for pooled in rates.values()) else 2.5  # for the labels
+    axes.set_xlim(10 ** math.floor(math.log10(least)), most * room)
     axes.xaxis.set_major_formatter(lambda value, _: short(value))
     axes.set_yticks(lines, [f"{bits} bits" + (" (ours)" if bits == OUR_BITS else "") for bits in rates])
     axes.tick_params(axis="y", length=0)
     axes.invert_yaxis()
     axes.grid(axis="y", visible=False)
-    for line, (bits, rate) in zip(lines, rates.items()):
-        axes.text(rate * 1.06, line, number(rate), va="center", fontsize=9.5, color=dark(BLACK if bits == OUR_BITS else FAINT))
+    for line, (bits, pooled) in zip(lines, rates.items()):
+        axes.text(pooled.rate * 1.06, line, pooled_text(pooled), va="center", fontsize=9.5, color=dark(BLACK if bits == OUR_BITS else FAINT))
     save(figure, folder, "displacement", caption)
     return "displacement"
 

@@ -43,6 +43,15 @@ def labels_of(found, x_of):
                             if not method.ours and (method.peer or method.name in named)], NEAR)]
 
 
+def without_dominant(found):
+    """For each scene that has over half of the cracks of some methods, a sentence with their rates without it."""
+    scenes = {}
+    for method, (_, cracks) in found.items():
+        if cracks.pooled.mostly_on and method.name in LABELLED:
+            scenes.setdefault(cracks.pooled.mostly_on, []).append(f"{method.name} {number(cracks.pooled.without, 2)}")
+    return " ".join(f"Over half on {scene}; without it: {', '.join(rates)}." for scene, rates in scenes.items())
+
+
 def frontier(accuracy, bench, folder, caption):
     found, base, scenes = frontier_figures(accuracy) if accuracy else ({}, None, 0)
     if not found:
@@ -51,8 +60,8 @@ def frontier(accuracy, bench, folder, caption):
     scale = ZeroAxis([rate for _, cracks in found.values() for rate in (cracks.rate, cracks.worst)], band=0.4)
     most = max(found.values(), key=lambda item: item[1].crossings)[1]
     subtitle = (f"Further left: fewer cracks; further up: faster on one thread, geometric mean of {scenes} scenes "
-                f"({', '.join(scene.name for scene in timed_scenes(accuracy))}). Cracks are gaps and double hits between neighbours, "
-                f"{most.scenes} scenes and {short(most.crossings)} crossings of shared edges pooled; the dotted line ends at the worst "
+                f"({', '.join(scene.name for scene in timed_scenes(accuracy))}). A crack is a sample at an edge that two triangles share, "
+                f"which neither draws, or both; {most.scenes} scenes and {short(most.crossings)} crossings of shared edges pooled; the dotted line ends at the worst "
                 f"scene. Hollow: scalar code; filled: {kernels(bench.context.get('simd_target'))}, of peers their own vectors.")
     above, below = 0.95 + head_in(subtitle), 1.0
     figure, axes = plt.subplots(figsize=(WIDTH_IN, above + below + 5.0))
@@ -90,6 +99,6 @@ def frontier(accuracy, bench, folder, caption):
     kinds.legend(figure, top, list(found), extra)
     bound = max((3e6 / cracks.crossings for _, cracks in found.values() if cracks.rate == 0), default=3e6 / most.crossings)
     peers = [f"{method.name}: {method.source}." for method in found if method.peer]
-    save(figure, folder, "frontier", f"{' '.join([*peers, ''])}0: no crack seen; the 95 % upper bound is at most "
-         f"{number(bound, 2)} per 10⁶. Left out: T-junctions, scenes with fewer than {short(LEAST_CROSSINGS)} crossings, and for 32-bit methods scenes beyond their range.\n{caption}")
+    save(figure, folder, "frontier", f"{' '.join([*peers, without_dominant(found), ''])}0: no crack seen; the 95 % upper bound is at most "
+         f"{number(bound, 2)} per 10⁶. Left out: scenes with fewer than {short(LEAST_CROSSINGS)} crossings, and for 32-bit methods scenes beyond their range.\n{caption}")
     return "frontier"
