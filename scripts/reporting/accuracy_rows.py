@@ -109,6 +109,34 @@ class Cost(NamedTuple):
         return 1e-3 * self.triangles / self.row.median_ms
 
 
+class Cracks(NamedTuple):
+    """Samples where triangles meet: at edges that two share, drawn by neither or by both; at T-junctions; and folds."""
+    gaps: int
+    double_hits: int
+    t_junctions: int
+    folds: int
+
+    @property
+    def at_shared_edges(self):
+        return self.gaps + self.double_hits
+
+
+class Pooled(NamedTuple):
+    """A rate per 10⁶ over several scenes; and over half of its errors are in one, that scene and the rate without it."""
+    rate: float
+    mostly_on: str | None = None
+    without: float | None = None
+
+
+def pooled(found, scale=1.0):
+    """Of [(errors, trials, scene's name)]; `scale` makes their quotient a rate per 10⁶."""
+    errors, trials = (sum(one[i] for one in found) for i in (0, 1))
+    for most, tried, name in found:
+        if 2 * most > errors and trials > tried:
+            return Pooled(scale * errors / trials, name, scale * (errors - most) / (trials - tried))
+    return Pooled(scale * errors / trials)
+
+
 @dataclass(frozen=True)
 class Measured:
     """One method on one scene."""
@@ -116,9 +144,9 @@ class Measured:
     rate: float  # errors per 10⁶
     bound: float | None  # 95 % upper bound per 10⁶, only where no error was seen
     snapped_rate: float | None  # the same against the snapped truth; coverage and facing only
-    gaps: int | None = None  # pixels; coverage only
-    cracks: int | None = None  # gaps and double hits, pixels; coverage only
+    cracks: Cracks | None = None  # coverage only; None in older measurements of peers
     forms: dict = field(default_factory=dict)  # costs by (SIMD target, threads); empty where the scene is not timed
+    seen: tuple | None = None  # coverage only: pixels with the wrong visible triangle, and those where something shows through
 
     @property
     def scalar(self):
@@ -164,7 +192,8 @@ class Accuracy:
     methods: dict  # by family, in the registry's order
     scenes: tuple
     cube: dict | None  # {"frames", "methods": [(Method, {"gaps": (median, worst) per frame, "double_hits": …,
-    # "total_gaps": over all frames, "total_double_hits", "snapped": the same against the snapped truth})]}
+    # "total_gaps": over all frames, "total_double_hits"})]}
+    flicker: dict = field(default_factory=dict)  # {moving scene: {method's name: superfluous changes per 10⁶ true ones}}
 
     def of(self, family):
         return [scene for scene in self.scenes if scene.family == family]
@@ -174,14 +203,14 @@ class Accuracy:
         scenes = self.of(family)
         return [scene for scene in scenes if scene.trials >= LEAST_SHARE * max(s.trials for s in scenes)]
 
-    def rates(self, family):
-        """{method's name: errors per 10⁶}, the pooled scenes within its range together."""
+    def rates(self, family, without=None):
+        """{method's name: Pooled errors per 10⁶}, the pooled scenes within its range together, `without` one of that name."""
         rates = {}
         for method in self.methods.get(family, ()):
-            found = [(m.rate * scene.trials, scene.trials) for scene in self.pooled(family)
-                     for m in scene.measured if m.method == method and scene.in_range_of(method)]
-            if trials := sum(n for _, n in found):
-                rates[method.name] = sum(errors for errors, _ in found) / trials
+            found = [(m.rate * scene.trials, scene.trials, scene.name) for scene in self.pooled(family)
+                     for m in scene.measured if m.method == method and scene.in_range_of(method) and scene.name != without]
+            if any(trials for _, trials, _ in found):
+                rates[method.name] = pooled(found)
         return rates
 
     def scenes_with_errors(self, family):
@@ -217,11 +246,10 @@ class Sweep:
 def parse_measured(entry, family, method, forms):
     scores = [entry[truth] for truth in FAMILIES[family].truths]
     bound = scores[0].get("bound_per_million")
-    coverage = family == "coverage"
+    cracks = Cracks(**{key: int(count) for key, count in entry["cracks"].items()}) if "cracks" in entry else None
+    seen = tuple(int(scores[0][key]) for key in ("wrong_pixels", "wrong_surface_pixels")) if cracks else None
     return Measured(method, float(scores[0]["errors_per_million"]), None if bound is None else float(bound),
-                    float(scores[1]["errors_per_million"]) if len(scores) > 1 else None,
-                    int(scores[0]["gaps"]) if coverage else None,
-                    int(scores[0]["gaps"]) + int(scores[0]["double_hits"]) if coverage else None, forms)
+                    float(scores[1]["errors_per_million"]) if len(scores) > 1 else None, cracks, forms, seen)
 
 
 def parse_cube(data, methods):
@@ -234,8 +262,8 @@ def parse_cube(data, methods):
         return {**{key: (float(entry[key]["median"]), float(entry[key]["worst"])) for key in counts},
                 **{f"total_{key}": int(entry[key]["total"]) for key in counts}}
 
-    rows = [(methods["coverage", entry["name"]], {**worst_of(entry), "snapped": worst_of(entry["snapped"])})
-            for entry in cube["methods"] if not methods["coverage", entry["name"]].apart]
+    rows = [(methods["coverage", entry["name"]], worst_of(entry)) for entry in cube["methods"]
+            if not methods["coverage", entry["name"]].apart]
     return {"frames": int(cube["frames"]), "methods": rows}
 
 
@@ -269,7 +297,9 @@ def parse_accuracy(data, bench=None):
                             int(scene.get("shared_crossings", 0)), float(scene.get("largest_side_px", 0.0))))
     by_family = {name: [method for (family, _), method in methods.items() if family == name and not method.apart]
                  for name in FAMILIES}
-    return Accuracy(by_family, tuple(scenes), parse_cube(data, methods))
+    flicker = {motion["name"]: {entry["name"]: 1e6 * entry["superfluous"] / motion["changes"] for entry in motion["methods"]}
+               for motion in data.get("motions", ())}
+    return Accuracy(by_family, tuple(scenes), parse_cube(data, methods), flicker)
 
 
 def with_peers(data, peers):

@@ -17,6 +17,11 @@ def mtri_text(measured):
     return number(measured.costs[1].mtri) if measured and 1 in measured.costs else "–"
 
 
+def pooled_text(rate):
+    """A pooled rate; and if over half of its errors are in one scene, the rate without it."""
+    return number(rate.rate) + (f"; {number(rate.without)} without {rate.mostly_on}" if rate.mostly_on else "")
+
+
 def bold(method):
     return f"**{method.name}**" if method.ours else method.name
 
@@ -33,7 +38,7 @@ def method_table(accuracy, family):
     lines = [[bold(method), method.source, method.promise,
               rate_text(at_main[method.name]) if method.name in at_main else "–",
               *([mtri_text(at_main.get(method.name))] if throughput else []),
-              number(together[method.name]) if method.name in together else "–", f"{erring[method.name]} of {scenes}"]
+              pooled_text(together[method.name]) if method.name in together else "–", f"{erring[method.name]} of {scenes}"]
              for method in accuracy.methods[family]]
     return markdown(header, lines, "|---|---|---|--:" + "|--:" * (len(header) - 4) + "|")
 
@@ -41,6 +46,27 @@ def method_table(accuracy, family):
 def method_tables(accuracy):
     return "\n\n".join(f"**{name.capitalize()}**: {family.errors}\n\n{method_table(accuracy, name)}"
                        for name, family in FAMILIES.items() if accuracy.methods[name])
+
+
+def seen_table(accuracy):
+    """Header and lines: the pixels of each coverage method that a viewer sees to be wrong, still and in motion."""
+    scenes = accuracy.pooled("coverage")
+    lines = []
+    for method in accuracy.methods["coverage"]:
+        seen = [(m.seen, scene.name) for scene in scenes for m in scene.measured
+                if m.method == method and m.seen and scene.in_range_of(method)]
+        if not seen:
+            continue
+        lines.append([bold(method), *(total_text([(counts[i], scene) for counts, scene in seen]) for i in (0, 1)),
+                      *(number(rates[method.name]) if method.name in rates else "–" for rates in accuracy.flicker.values())])
+    return ["method", "wrong pixels", "showing through", *(f"flicker, `{name}`" for name in accuracy.flicker)], lines
+
+
+def total_text(counts):
+    """The sum of [(count, scene's name)]; and if over half of it is in one scene, the rest."""
+    total = sum(count for count, _ in counts)
+    most, scene = max(counts)
+    return f"{total:,}" + (f"; {total - most:,} without {scene}" if 2 * most > total and len(counts) > 1 else "")
 
 
 # Pixels that conformant rasterizers may draw differently.

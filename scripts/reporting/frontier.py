@@ -2,22 +2,29 @@
 import math
 from typing import NamedTuple
 
+from accuracy_rows import Pooled, pooled
 from bench_rows import mean_gained
+from facts_tables import pooled_text
 from tables import by_order, number
 
 LEAST_CROSSINGS = 10_000  # of shared edges; in smaller scenes a single crossing decides the rate
 # The tutorials' inside tests.
 INSIDE_TESTS = ("float_lt", "float_le")
-T_JUNCTIONS = ("t_junction", "t_junction_split")  # cracks of the mesh, not of the method
 
 
-class Cracks(NamedTuple):
-    """Gaps and double hits per 10⁶ crossings of shared edges."""
-    rate: float  # all scenes pooled
+class CrackRates(NamedTuple):
+    """Cracks per 10⁶ crossings of shared edges."""
+    pooled: Pooled
     worst: float  # of one scene
     worst_scene: str
     crossings: int
     scenes: int
+    t_junctions: int  # samples, in all scenes within the method's range
+    folds: int
+
+    @property
+    def rate(self):
+        return self.pooled.rate
 
 
 class SpeedUp(NamedTuple):
@@ -29,15 +36,17 @@ class SpeedUp(NamedTuple):
 
 def cracks_of(accuracy, method):
     """None if no scene shows it."""
-    found = [(m.cracks, scene) for scene in accuracy.of("coverage") for m in (*scene.measured, *scene.apart)
-             if m.method == method and scene.name not in T_JUNCTIONS and scene.shared_crossings >= LEAST_CROSSINGS
-             and scene.in_range_of(method)]
+    measured = [(m.cracks, scene) for scene in accuracy.of("coverage") for m in (*scene.measured, *scene.apart)
+                if m.method == method and m.cracks and scene.in_range_of(method)]
+    found = [(cracks.at_shared_edges, scene) for cracks, scene in measured if scene.shared_crossings >= LEAST_CROSSINGS]
     if not found:
         return None
     crossings = sum(scene.shared_crossings for _, scene in found)
     worst, worst_scene = max(((1e6 * cracks / scene.shared_crossings, scene.name) for cracks, scene in found),
                              key=lambda pair: pair[0])
-    return Cracks(1e6 * sum(cracks for cracks, _ in found) / crossings, worst, worst_scene, crossings, len(found))
+    rate = pooled([(cracks, scene.shared_crossings, scene.name) for cracks, scene in found], 1e6)
+    return CrackRates(rate, worst, worst_scene, crossings, len(found), *(sum(getattr(cracks, count) for cracks, _ in measured)
+                                                                         for count in ("t_junctions", "folds")))
 
 
 def timed_scenes(accuracy):
@@ -90,7 +99,7 @@ def best(forms):
 
 
 def frontier_figures(accuracy):
-    """({method: (its speed_ups(), Cracks)}, the reference, number of scenes) of the methods with both figures."""
+    """({method: (its speed_ups(), CrackRates)}, the reference, number of scenes) of the methods with both figures."""
     ups, base, scenes = speed_ups(accuracy)
     return ({method: (forms, cracks) for method, forms in ups.items() if forms and (cracks := cracks_of(accuracy, method))},
             base, scenes)
@@ -101,10 +110,10 @@ def said(up):
 
 
 def wrong_of(accuracy, method):
-    """Pixels per 10⁶ edge crossings that differ from the exact picture of the caller's positions; None if not counted."""
-    rates = [(m.rate * scene.trials, scene.trials) for scene in accuracy.pooled("coverage")
+    """Pooled pixels per 10⁶ edge crossings that differ from the exact picture of the caller's positions; None if not counted."""
+    found = [(m.rate * scene.trials, scene.trials, scene.name) for scene in accuracy.pooled("coverage")
              for m in (*scene.measured, *scene.apart) if m.method == method and scene.in_range_of(method)]
-    return sum(errors for errors, _ in rates) / sum(trials for _, trials in rates) if rates else None
+    return pooled(found) if found else None
 
 
 def frontier_table(accuracy):
@@ -119,10 +128,9 @@ def frontier_table(accuracy):
     def form(forms, name, otherwise):
         return said(forms[name]) if name in forms else otherwise
 
-    header = ["method", "cracks per 10⁶ crossings", "worst scene", "wrong pixels per 10⁶", f"scalar, `{base.name}` = 1×", "SIMD"]
-    lines = [[title(method), number(cracks.rate, 2) if cracks.rate else "**0**",
-              f"{number(cracks.worst, 2)} (`{cracks.worst_scene}`)" if cracks.worst else "–", number(wrong_of(accuracy, method)),
-              form(forms, "scalar", "–"), form(forms, "simd", "–" if method.peer else method.simd_note or "–")]
+    header = ["method", "cracks per 10⁶ crossings", "at T-junctions", "folds", "wrong pixels per 10⁶", f"scalar, `{base.name}` = 1×", "SIMD"]
+    lines = [[title(method), pooled_text(cracks.pooled) if cracks.rate else "**0**", f"{cracks.t_junctions:,}", f"{cracks.folds:,}",
+              pooled_text(wrong_of(accuracy, method)), form(forms, "scalar", "–"), form(forms, "simd", "–" if method.peer else method.simd_note or "–")]
              for method, (forms, cracks) in sorted(found.items(), key=lambda item: (item[1][1].rate > 0, -best(item[1][0]).middle))]
     return header, lines
 
@@ -146,6 +154,6 @@ def price_table(accuracy):
                                             for scene in timed_scenes(accuracy)])
         speed = (f"{number(gained_by, 3)}× ({number(interval[0], 3)} to {number(interval[1], 3)}); settled in "
                  f"{len(outcome[-1]) + len(outcome[1])} of {sum(map(len, outcome.values()))} scenes" if outcome else "1×")
-        lines.append([f"`{name}`", speed, number(cracks.rate, 2) if cracks.rate else f"0 (<{number(3e6 / cracks.crossings, 2)})",
-                      number(wrong_of(accuracy, method)), method.promise])
+        lines.append([f"`{name}`", speed, pooled_text(cracks.pooled) if cracks.rate else f"0 (<{number(3e6 / cracks.crossings, 2)})",
+                      pooled_text(wrong_of(accuracy, method)), method.promise])
     return ["edges", "speed", "cracks", "wrong pixels", "guarantee"], lines

@@ -137,7 +137,7 @@ def turning_cube(accuracy, folder, caption):
     top = headline(figure, cube_title(rows), f"{accuracy.cube['frames']:,} frames of the tutorials' cube, judged by exact "
                    "arithmetic on the positions before any snapping. Filled: the median frame; hollow: the worst frame.")
     figure.subplots_adjust(left=0.15, right=0.985, bottom=0.9 / height, top=top - 0.35 / height, wspace=0.06)
-    note = "A gap is a crack between neighbours; pixels lost at a moved outline do not count."
+    note = "Cracks at edges that two triangles share; pixels lost at a moved outline do not count."
     save(figure, folder, "turning-cube", f"{note}\n{caption}")
     return "turning-cube"
 
@@ -151,20 +151,20 @@ def shade(rate):
     return min(1.0, math.log10(1 + rate) / 6)
 
 
-CRACKS = {"t_junction": "its gaps, in pixels", "t_junction_split": "its gaps once split"}
+CRACKS = {"t_junction": "its crack, in pixels", "t_junction_split": "its crack once split"}
 
 
 def chart_rows(scenes):
-    """(label, text of each method, rate of each method) of each row. A T-junction has a second row with its gaps, since its
+    """(label, text of each method, rate of each method) of each row. A T-junction has a second row with its crack, since its
     rate does not show that splitting the edge closes the crack."""
     rows = []
     for scene in scenes:
         rates = {m.method.name: m.rate for m in scene.measured}
         rows.append((scene.name, {name: cell_text(rate) for name, rate in rates.items()}, rates))
-        if scene.name in CRACKS and all(m.gaps is not None for m in scene.measured):
-            gaps = {m.method.name: m.gaps for m in scene.measured}
-            rows.append((CRACKS[scene.name], {name: short(count) for name, count in gaps.items()},
-                         {m.method.name: 1e6 * m.gaps / scene.trials for m in scene.measured}))
+        if scene.name in CRACKS and all(m.cracks for m in scene.measured):
+            cracks = {m.method.name: m.cracks.t_junctions for m in scene.measured}
+            rows.append((CRACKS[scene.name], {name: short(count) for name, count in cracks.items()},
+                         {name: 1e6 * count / scene.trials for name, count in cracks.items()}))
     return rows
 
 

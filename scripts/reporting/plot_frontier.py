@@ -16,7 +16,7 @@ FRONT = {"color": INK, "linewidth": 1.2, "linestyle": (0, (4, 2)), "zorder": 1.5
 
 def points_of(found, accuracy, form):
     """{method: (wrong pixels per 10⁶ crossings, SpeedUp, whether no crack was seen)}"""
-    return {method: (wrong_of(accuracy, method), forms[form], cracks.rate == 0) for method, (forms, cracks) in found.items() if form in forms}
+    return {method: (wrong_of(accuracy, method).rate, forms[form], cracks.rate == 0) for method, (forms, cracks) in found.items() if form in forms}
 
 
 def best_of(points):
@@ -30,7 +30,7 @@ def best_of(points):
 
 def frontier_title(points):
     """The fastest watertight method, and the fastest of those that err least."""
-    watertight = [method for method, (*_, tight) in points.items() if tight]
+    watertight = [method for method, (*_, tight) in points.items() if tight and not method.engine]
     front = best_of(points)
     if not watertight:
         return "Coverage: wrong pixels against speed"
@@ -72,6 +72,16 @@ def draw_panel(axes, points, scale, kinds):
     return lines
 
 
+def without_dominant(found, accuracy):
+    """For each scene that has over half of the wrong pixels of labelled methods, a sentence with their rates without it."""
+    scenes = {}
+    for method in found:
+        wrong = wrong_of(accuracy, method)
+        if wrong.mostly_on and method.name in LABELLED:
+            scenes.setdefault(wrong.mostly_on, []).append(f"{method.name} {number(wrong.without, 2)}")
+    return " ".join(f"Over half on {scene}; without it: {', '.join(rates)}." for scene, rates in scenes.items())
+
+
 def frontier(accuracy, bench, folder, caption):
     found, base, scenes = frontier_figures(accuracy) if accuracy else ({}, None, 0)
     panels = {form: points for form in ("scalar", "simd") if (points := points_of(found, accuracy, form))}
@@ -107,6 +117,6 @@ def frontier(accuracy, bench, folder, caption):
     kinds.legend(figure, top, list(found), extra)
     bound = max((3e6 / cracks.crossings for _, cracks in found.values() if cracks.rate == 0), default=3e6 / most.crossings)
     peers = [f"{method.name}: {method.source}." for method in found if method.peer]
-    save(figure, folder, "frontier", f"{' '.join([*peers, ''])}No crack seen: the 95 % upper bound is at most {number(bound, 2)} per 10⁶. "
+    save(figure, folder, "frontier", f"{' '.join([*peers, without_dominant(found, accuracy), ''])}No crack seen: the 95 % upper bound is at most {number(bound, 2)} per 10⁶. "
          f"Left out: scenes with fewer than {short(LEAST_CROSSINGS)} crossings, and for 32-bit methods scenes beyond their range.\n{caption}")
     return "frontier"

@@ -54,35 +54,35 @@ std::uint32_t colour_of(Mark mark) {
   return kMarkColours[static_cast<std::size_t>(mark)];
 }
 
-MarkedPicture mark_coverage(const CoverageTruth& truth, std::vector<Run> runs,
-                            std::span<const FloatTriangle> triangles, double reach_px) {
+MarkedPicture mark_coverage(const CoverageTruth& truth, const DrawnRuns& drawn, const Cracks& cracks,
+                            std::span<const FloatTriangle> triangles) {
   const Window w = truth.window;
   MarkedPicture picture{w,
                         std::vector<std::uint32_t>(pixels_of(w), kNoTriangle),
                         std::vector<Mark>(pixels_of(w), Mark::none),
                         {}};
-  const auto row_at = [&](const Run& run) {
-    return static_cast<std::size_t>(run.y - w.y0) * static_cast<std::size_t>(w.width);
+  const auto pixel_at = [&](int x, int y) {
+    return static_cast<std::size_t>(y - w.y0) * static_cast<std::size_t>(w.width) +
+           static_cast<std::size_t>(x - w.x0);
   };
   const auto each_pixel = [&](const Run& run, auto&& visit) {
-    if (run.y < w.y0 || run.y >= w.y1()) return;
-    for (int x = std::max(run.x0, w.x0); x < std::min(run.x1, w.x1()); ++x)
-      visit(row_at(run) + static_cast<std::size_t>(x - w.x0));
+    for (int x = run.x0; x < run.x1; ++x) visit(pixel_at(x, run.y));
   };
   for (const Run& run : truth.runs)
     each_pixel(run, [&](std::size_t pixel) { picture.visible[pixel] = run.triangle; });
 
-  const auto hits = hits_of(runs, w);
-  std::sort(runs.begin(), runs.end());
-  for_each_difference(truth.runs, runs, [&](const Run& run, bool missing) {
+  for_each_difference(truth.runs, drawn.runs, [&](const Run& run, bool missing) {
     each_pixel(run, [&](std::size_t pixel) {
       Mark& mark = picture.marks[pixel];
       if (missing || mark == Mark::none) mark = missing ? Mark::missing : Mark::extra;
     });
   });
-  for (const std::size_t i : gaps(truth, hits, triangles, reach_px)) picture.marks[i] = Mark::gap;
-  for (std::size_t i = 0; i < hits.size(); ++i)
-    if (truth.hits[i] <= 1 && hits[i] >= 2) picture.marks[i] = Mark::twice;
+  for (const auto& [samples, mark] : {std::pair(&cracks.folds, Mark::twice),
+                                      {&cracks.double_hits, Mark::twice},
+                                      {&cracks.t_double_hits, Mark::twice},
+                                      {&cracks.gaps, Mark::gap},
+                                      {&cracks.t_gaps, Mark::gap}})
+    for (const Sample& sample : *samples) picture.marks[pixel_at(sample.x, sample.y)] = mark;
   add_edges(triangles, picture.lines);
   return picture;
 }

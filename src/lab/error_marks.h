@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "lab/coverage/score.h"
+#include "lab/coverage/cracks.h"
 #include "lab/facing/facing.h"
 
 namespace edgewise::lab {
@@ -14,8 +14,8 @@ namespace edgewise::lab {
 // vision (Okabe and Ito, "Color universal design", 2008).
 enum class Mark : std::uint8_t {
   none,
-  gap,      // vermilion: coverage: nothing is drawn between neighbours; visibility: nothing, not a triangle
-  twice,    // blue: coverage: drawn twice instead of once; visibility: the wrong triangle is visible
+  gap,      // vermilion: coverage: a crack where triangles meet; visibility: nothing, not a triangle
+  twice,    // blue: coverage: drawn twice where triangles meet; visibility: the wrong triangle is visible
   missing,  // yellow: a triangle lacks a pixel, on the outline or where another triangle is drawn; or a wrong
             // depth
   extra,    // purple: drawn outside the triangle, or where nothing must be drawn
@@ -35,8 +35,8 @@ struct MarkedPicture {
   std::vector<Mark> marks;
   std::vector<Line> lines;
 };
-MarkedPicture mark_coverage(const CoverageTruth& truth, std::vector<Run> runs,
-                            std::span<const FloatTriangle> triangles, double reach_px);
+MarkedPicture mark_coverage(const CoverageTruth& truth, const DrawnRuns& drawn, const Cracks& cracks,
+                            std::span<const FloatTriangle> triangles);
 MarkedPicture mark_visible_triangles(std::span<const std::uint32_t> truth,
                                      std::span<const std::uint32_t> drawn, Window window);
 // Shows the front faces, and marks the pixels of faces that a facing test kept or dropped by mistake.

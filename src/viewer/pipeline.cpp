@@ -341,20 +341,15 @@ Judgement Pipeline::judge(const lab::Choice& choice, const View& view, Truth tru
   if (choice.our_coverage()) return judgement;
 
   const lab::CoverageInput input{triangles.floats, triangles.snapped};
-  const lab::CoverageTruth covered =
-      truth == Truth::floats ? lab::float_coverage(input, window_of(view), view.execution.threads)
-                             : lab::snapped_coverage(input, window_of(view), view.execution.threads);
-  std::vector<lab::Run> runs;
-  choice.coverage->runs(input, window_of(view), runs);
-  const auto marked =
-      lab::mark_coverage(covered, std::move(runs), triangles.floats, lab::gap_reach_px(*choice.coverage));
-  judgement.gaps = judgement.double_hits = 0;
-  for (std::size_t i = 0; i < marked.marks.size(); ++i) {
-    if (marked.marks[i] == lab::Mark::gap) ++*judgement.gaps;
-    if (marked.marks[i] == lab::Mark::twice) ++*judgement.double_hits;
+  const lab::CoverageTruth covered = lab::float_coverage(input, window_of(view), view.execution.threads);
+  const lab::DrawnRuns runs(*choice.coverage, input, window_of(view));
+  const lab::Cracks cracks =
+      lab::CrackJudge(triangles.floats, covered).find(runs, choice.coverage->promise.snap_bits);
+  judgement.gaps = cracks.gaps.size(), judgement.double_hits = cracks.double_hits.size();
+  const auto marked = lab::mark_coverage(covered, runs, cracks, triangles.floats);
+  for (std::size_t i = 0; i < marked.marks.size(); ++i)
     if (marked.marks[i] == lab::Mark::gap || marked.marks[i] == lab::Mark::twice)
       judgement.marks[i] = marked.marks[i];
-  }
   return judgement;
 }
 

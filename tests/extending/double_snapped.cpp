@@ -47,7 +47,7 @@ CoverageMethod make_coverage_double_snapped() {
        .source = "tests/extending",
        .promise = "wrong only within 0.0111 px of an edge; watertight",
        .exact = false},
-      {.reach_px = std::sqrt(0.5) / 64.0, .no_gaps = true, .no_double_hits = true});
+      {.reach_px = std::sqrt(0.5) / 64.0, .no_gaps = true, .no_double_hits = true, .snap_bits = 6});
 }
 
 }  // namespace edgewise::lab

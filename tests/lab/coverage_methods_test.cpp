@@ -15,6 +15,7 @@ namespace {
 
 using testing::adversarial;
 using testing::against_floats;
+using testing::drawn_by;
 using testing::find_coverage_method;
 using testing::hard_floats;
 using testing::Picture;
@@ -40,7 +41,7 @@ class EveryCoverageMethod : public ::testing::TestWithParam<std::string_view> {
     const auto too_large = static_cast<float>(method_.promise.max_side_px);
     std::erase_if(triangles, [&](const FloatTriangle& t) { return side_px(t.at) > too_large; });
     const Picture picture(std::move(triangles), window);
-    const CoverageScore score = score_coverage(picture.by_floats, method_, picture.input);
+    const CoverageScore score = score_coverage(picture.by_floats, drawn_by(method_, picture), picture.floats);
     EXPECT_LE(score.worst_px, method_.promise.reach_px) << what;
     EXPECT_EQ(score.out_of_bounds, 0u) << what;
   }
@@ -74,7 +75,8 @@ TEST_P(EveryCoverageMethod, KeepsToTheBoxOfTrianglesTooLargeForIt) {
   for (const int x : {0, side / 2, side - 300})
     for (const int y : {0, side / 2, side - 200}) {
       const Picture picture(triangles, {300, 200, x, y});
-      const CoverageScore score = score_coverage(picture.by_floats, method_, picture.input);
+      const CoverageScore score =
+          score_coverage(picture.by_floats, drawn_by(method_, picture), picture.floats);
       EXPECT_EQ(score.out_of_box, 0u) << x << ", " << y;
       extra += score.extra;
     }
@@ -91,11 +93,11 @@ TEST_P(EveryCoverageMethod, LeavesNoGapOrDoubleHitInAMeshIfItPromisesThat) {
       auto mesh = float_triangles(jittered_grid({.width = 501, .height = 302}, cell_px, 31));
       if (on_grid) mesh = testing::as_floats(snapped(mesh));
       const Picture picture(std::move(mesh), {501, 302});
-      ASSERT_TRUE(std::all_of(picture.by_floats.hits.begin(), picture.by_floats.hits.end(),
-                              [](std::uint32_t hits) { return hits == 1; }));
-      const CoverageScore score = score_coverage(picture.by_floats, method_, picture.input);
-      EXPECT_TRUE(score.gaps == 0 || !promise.no_gaps) << cell_px << " px, on grid: " << on_grid;
-      EXPECT_TRUE(score.double_hits == 0 || !promise.no_double_hits)
+      ASSERT_TRUE(std::ranges::all_of(hits_of(picture.by_floats.runs, picture.window),
+                                      [](std::uint32_t hits) { return hits == 1; }));
+      const Cracks cracks = testing::cracks_of(method_, picture);
+      EXPECT_TRUE(cracks.gaps.empty() || !promise.no_gaps) << cell_px << " px, on grid: " << on_grid;
+      EXPECT_TRUE(cracks.double_hits.empty() || !promise.no_double_hits)
           << cell_px << " px, on grid: " << on_grid;
     }
 }
@@ -104,10 +106,9 @@ TEST_P(EveryCoverageMethod, DiffersFromTheTruthSomewhereUnlessItIsExact) {
   std::uint64_t off_grid_truth = 0, off_float_truth = 0;
   for (const auto& c : coverage_cases()) {
     const Picture& picture = picture_of(c.name);
-    std::vector<lab::Run> runs;
-    method_.runs(picture.input, picture.window, runs);
-    off_grid_truth += score_coverage(picture.by_grid, runs, picture.floats, 0.0).errors();
-    off_float_truth += score_coverage(picture.by_floats, runs, picture.floats, 0.0).errors();
+    const DrawnRuns drawn = drawn_by(method_, picture);
+    off_grid_truth += score_coverage(picture.by_grid, drawn, picture.floats).errors();
+    off_float_truth += score_coverage(picture.by_floats, drawn, picture.floats).errors();
   }
   EXPECT_EQ(off_grid_truth == 0, method_.info.exact);
   EXPECT_GT(off_float_truth, 0u);
@@ -117,13 +118,12 @@ TEST_P(EveryCoverageMethod, ErrsBySnappingAloneIfItIsExact) {
   if (!method_.info.exact) return;
   const auto expect_exact = [&](const Picture& picture, std::string_view what) {
     CoverageScore perfect{.triangles = picture.floats.size(), .covered = picture.by_grid.covered};
-    const double reach = method_.promise.reach_px;
-    std::vector<lab::Run> runs;
-    method_.runs(picture.input, picture.window, runs);
-    EXPECT_EQ(score_coverage(picture.by_grid, runs, picture.floats, reach), perfect) << what;
-    EXPECT_EQ(score_coverage(picture.by_floats, runs, picture.floats, reach),
-              score_coverage(picture.by_floats, picture.by_grid.runs, picture.floats, reach))
+    const DrawnRuns drawn = drawn_by(method_, picture);
+    EXPECT_EQ(score_coverage(picture.by_grid, drawn, picture.floats), perfect) << what;
+    EXPECT_EQ(score_coverage(picture.by_floats, drawn, picture.floats),
+              score_coverage(picture.by_floats, {picture.by_grid.runs, picture.window}, picture.floats))
         << what;
+    EXPECT_EQ(testing::cracks_of(method_, picture).at_shared_edges(), 0u) << what;
   };
   for (const auto& c : coverage_cases()) expect_exact(picture_of(c.name), c.name);
   for (const auto family : testing::kFamilies)
@@ -170,8 +170,8 @@ TEST_P(EveryCoverageMethod, DrawsTheSameFarFromTheOriginIfNothingIsRounded) {
     return list;
   };
   const Picture near(square(0, 0), {16, 16}), far(square(30000, 20000), {16, 16, 30000, 20000});
-  const CoverageScore score = score_coverage(near.by_grid, method_, near.input);
-  EXPECT_EQ(score_coverage(far.by_grid, method_, far.input), score);
+  const CoverageScore score = score_coverage(near.by_grid, drawn_by(method_, near), near.floats);
+  EXPECT_EQ(score_coverage(far.by_grid, drawn_by(method_, far), far.floats), score);
   EXPECT_EQ(far.by_grid.covered, 64u);
 }
 

@@ -18,8 +18,8 @@ class Score : public ::testing::Test {
   const Picture picture_{{{{{11.0f, 17.1f, 11.0f}, {21.0f, 21.0f, 27.1f}, {0, 0, 0}}, 1},
                           {{{11.0f, 11.0f, 12.1f}, {23.0f, 24.0f, 23.0f}, {0, 0, 0}}, 2}},
                          {5, 5, 10, 20}};
-  CoverageScore score(std::vector<lab::Run> runs, double reach_px = 0.1) {
-    return score_coverage(picture_.by_floats, std::move(runs), picture_.floats, reach_px);
+  CoverageScore score(std::vector<lab::Run> runs) {
+    return score_coverage(picture_.by_floats, {std::move(runs), picture_.window}, picture_.floats);
   }
 };
 
@@ -32,17 +32,11 @@ TEST_F(Score, CountsEachKindOfErrorSeparately) {
 
   auto runs = truth;
   EXPECT_EQ(score(runs).missing, 1u);
-  EXPECT_EQ(score(runs).gaps, 0u) << "the other triangle draws the pixel";
   runs[0].x1 = 13;
   EXPECT_EQ(score(runs).missing, 3u);
-  EXPECT_EQ(score(runs).gaps, 2u);
-  EXPECT_EQ(score(runs, 0.6).gaps, 0u) << "half a pixel from the outline, which may move by more";
-  EXPECT_EQ(score(runs, 0.6).missing, 3u);
   runs.push_back({1, 21, 13, 15});
-  EXPECT_EQ(score(runs).gaps, 0u) << "the wrong triangle, but drawn";
   EXPECT_EQ(score(runs).extra, 2u);
   runs.push_back({0, 22, 11, 12});  // drawn twice for one triangle
-  EXPECT_EQ(score(runs).double_hits, 1u);
   EXPECT_EQ(score(runs).extra, 2u);
   runs.push_back({0, 20, 10, 12});
   EXPECT_EQ(score(runs).extra, 4u);
@@ -54,59 +48,6 @@ TEST_F(Score, CountsEachKindOfErrorSeparately) {
   EXPECT_EQ(score(runs).out_of_bounds, 7u);
   EXPECT_EQ(score(runs).extra, 5u);
   EXPECT_NEAR(score(runs).worst_px, 14.5 - 12.1, 1e-5);
-}
-
-// Two triangles that share an edge, and one in front of them that shares no vertex with them.
-TEST(DoubleHits, AreBetweenNeighboursOrWithinOneTriangle) {
-  const Picture picture{{{{{1, 7, 7}, {1, 1, 7}, {0, 0, 0}}, 1},
-                         {{{1, 7, 1}, {1, 7, 7}, {0, 0, 0}}, 2},
-                         {{{3, 9, 3}, {8, 8, 9}, {0, 0, 0}}, 3}},
-                        {10, 10}};
-  const auto double_hits = [&](const lab::Run& also) {
-    auto runs = picture.by_floats.runs;
-    runs.push_back(also);
-    return score_coverage(picture.by_floats, std::move(runs), picture.floats, 0.1).double_hits;
-  };
-  ASSERT_EQ(picture.by_floats.hits[6 * 10 + 2], 1u);
-  EXPECT_EQ(double_hits({0, 6, 2, 4}), 2u) << "the first triangle in the second";
-  EXPECT_EQ(double_hits({1, 6, 2, 4}), 2u) << "the second triangle again";
-  EXPECT_EQ(double_hits({2, 6, 2, 4}), 0u) << "no neighbour";
-}
-
-// A square whose corners and diagonal lie on samples. Pixels that "<" rejects on the diagonal are a gap,
-// those on the outline are not.
-TEST(Gaps, LieBetweenNeighboursAndNotOnTheOutline) {
-  const Picture square{{{{{1.5f, 5.5f, 5.5f}, {1.5f, 1.5f, 5.5f}, {0, 0, 0}}, 1},
-                        {{{1.5f, 5.5f, 1.5f}, {1.5f, 5.5f, 5.5f}, {0, 0, 0}}, 2}},
-                       {8, 8}};
-  ASSERT_EQ(square.by_floats.covered, 16u);
-  const CoverageScore rejects_all = testing::against_floats("float_lt", square);
-  EXPECT_EQ(rejects_all.gaps, 3u);
-  EXPECT_EQ(rejects_all.missing, 3u + 7u) << "the diagonal, the top edge and the left one";
-  EXPECT_EQ(testing::against_floats("float_top_left", square).errors(), 0u);
-}
-
-// The right edge lies less than half a sub-unit to the right of a column of samples. Snapping moves it onto
-// them.
-TEST(Gaps, DoNotIncludeOutlinePixelsThatSnappingUncovers) {
-  const float right = 4.5f + 1.0f / 1024;
-  const Picture square{
-      {{{{1, right, right}, {1, 1, 5}, {0, 0, 0}}, 1}, {{{1, right, 1}, {1, 5, 5}, {0, 0, 0}}, 2}}, {8, 8}};
-  for (const CoverageMethod& method : coverage_methods()) {
-    if (!method.info.exact) continue;
-    const CoverageScore score = score_coverage(square.by_floats, method, square.input);
-    EXPECT_EQ(score.missing, 4u) << method.info.name;
-    EXPECT_EQ(score.gaps, 0u) << method.info.name;
-  }
-}
-
-TEST(Crossings, OfSharedEdgesCountOncePerEdge) {
-  const FloatTriangle one{{{0, 30, 30}, {0, 10, 0}, {}}, 1}, two{{{0, 30, 0}, {0, 10, 9}, {}}, 2},
-      moved{{{0, 30, 0}, {1, 10, 9}, {}}, 3};
-  EXPECT_EQ(shared_edge_crossings(std::vector{one, two}, {100, 50}), 30u);
-  EXPECT_EQ(shared_edge_crossings(std::vector{one, two, two}, {100, 50}), 30u + 30u + 9u);
-  EXPECT_EQ(shared_edge_crossings(std::vector{one, moved}, {100, 50}), 0u);
-  EXPECT_EQ(largest_side_px(std::vector{one, two}), 30.0f);
 }
 
 TEST(Crossings, AreTheLargerOfSampleRowsAndColumns) {

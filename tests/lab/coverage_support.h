@@ -12,7 +12,7 @@
 
 #include "core/nearest_name.h"
 #include "lab/coverage/coverage.h"
-#include "lab/coverage/score.h"
+#include "lab/coverage/cracks.h"
 #include "lab/engine/engine.h"
 #include "support.h"
 
@@ -97,7 +97,8 @@ struct Picture {
         input{floats, grid},
         window(w),
         by_grid(lab::snapped_coverage(input, w, 2)),
-        by_floats(lab::float_coverage(input, w, 2)) {}
+        by_floats(lab::float_coverage(input, w, 2)),
+        cracks(floats, by_floats) {}
   Picture(const Picture&) = delete;
 
   std::vector<lab::FloatTriangle> floats;
@@ -105,6 +106,7 @@ struct Picture {
   lab::CoverageInput input;
   lab::Window window;
   lab::CoverageTruth by_grid, by_floats;
+  lab::CrackJudge cracks;
 };
 
 inline const Picture& picture_of(std::string_view name) {
@@ -117,11 +119,22 @@ inline const Picture& picture_of(std::string_view name) {
   return *slot;
 }
 
+inline lab::DrawnRuns drawn_by(const lab::CoverageMethod& method, const Picture& picture) {
+  return {method, picture.input, picture.window};
+}
 inline lab::CoverageScore against_grid(std::string_view method, const Picture& picture) {
-  return lab::score_coverage(picture.by_grid, find_coverage_method(method), picture.input);
+  return lab::score_coverage(picture.by_grid, drawn_by(find_coverage_method(method), picture),
+                             picture.floats);
 }
 inline lab::CoverageScore against_floats(std::string_view method, const Picture& picture) {
-  return lab::score_coverage(picture.by_floats, find_coverage_method(method), picture.input);
+  return lab::score_coverage(picture.by_floats, drawn_by(find_coverage_method(method), picture),
+                             picture.floats);
+}
+inline lab::Cracks cracks_of(const lab::CoverageMethod& method, const Picture& picture) {
+  return picture.cracks.find(drawn_by(method, picture), method.promise.snap_bits);
+}
+inline lab::Cracks cracks_of(std::string_view method, const Picture& picture) {
+  return cracks_of(find_coverage_method(method), picture);
 }
 
 }  // namespace edgewise::testing

@@ -8,12 +8,12 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts/reporting"))
-from accuracy_rows import Accuracy, Cost, Measured, Method, Scene, parse_accuracy, read_accuracy  # noqa: E402
+from accuracy_rows import Accuracy, Cost, Cracks, Measured, Method, Pooled, Scene, parse_accuracy, read_accuracy  # noqa: E402
 from answers import answers  # noqa: E402
 from bench_rows import Bench, Row, parse_name  # noqa: E402
 from bench_tables import engine_table, peer_tables, speed_table  # noqa: E402
-from facts_tables import edges_table, pipelines_table, read_needs, tutorials_table  # noqa: E402
-from frontier import EXACT, INSIDE_TESTS, PRICED, cracks_of, price_table, simd_outcome, speed_ups  # noqa: E402
+from facts_tables import edges_table, pipelines_table, pooled_text, read_needs, tutorials_table  # noqa: E402
+from frontier import EXACT, INSIDE_TESTS, PRICED, cracks_of, price_table, simd_outcome, speed_ups, wrong_of  # noqa: E402
 from program import BadInput  # noqa: E402
 from tables import markdown  # noqa: E402
 
@@ -35,7 +35,7 @@ def scene(name, scanline, naive, tiled):
 
 
 def measured(name, exact, rate):
-    return Measured(Method(name, "src/raster" if name == "tiled" else "a book", "", exact), rate, None, rate, 0)
+    return Measured(Method(name, "src/raster" if name == "tiled" else "a book", "", exact), rate, None, rate)
 
 
 def accuracy(*methods, cube=None):
@@ -63,7 +63,7 @@ class AnswersTest(unittest.TestCase):
                                  ["floats", "**1.25×** (1.23 to 1.27); 1,230 px"]])
 
     def test_methods_have_the_times_of_their_rows(self):
-        score = {"errors_per_million": 0.0, "gaps": 0, "double_hits": 0}
+        score = {"errors_per_million": 0.0}
         data = {"methods": [{"family": "coverage", "name": name, "source": "", "promise": "", "exact": True} for name in ("m", "naive", "untimed")],
                 "scenes": [{"name": "s", "family": "coverage", "summary": "", "covered": 500, "triangles": 20, "crossings": 9,
                             "methods": [{"name": name, "float": score, "snapped": score} for name in ("m", "naive", "untimed")]}]}
@@ -113,6 +113,13 @@ class AnswersTest(unittest.TestCase):
             ["Where edges meet pixel centres?", "`float_lt` 216, ours 873 wrong pixels per 10⁶ edge crossings",
              "`mesh_on_grid`, whose vertices lie on the 1/256 px grid"]])
 
+    def test_a_scene_that_has_over_half_of_the_errors_is_named(self):
+        ours, plain = measured("tiled", True, 800), measured("float_lt", False, 6000)
+        scenes = (Scene("mesh_on_grid", "coverage", "", 1000, (measured("tiled", True, 0), plain)),
+                  Scene("grid4", "coverage", "", 3000, (ours, measured("float_lt", False, 2))))
+        told = Accuracy({"coverage": [ours.method, plain.method]}, scenes, None)
+        self.assertEqual([pooled_text(wrong_of(told, m.method)) for m in (ours, plain)], ["600", "1,500; 2 without mesh_on_grid"])
+
     def test_rates_are_pooled_over_large_scenes_within_a_methods_range(self):
         limited = Method("y", "a book", "", False, 181)
 
@@ -124,7 +131,8 @@ class AnswersTest(unittest.TestCase):
         scenes = (scene_of("large", 30000, 500.0, 10.0, 9e6), scene_of("medium", 10000, 100.0, 50.0, 4.0),
                   scene_of("tiny", 100, 1.0, 1e6, 1e6))
         told = Accuracy({"coverage": [m.method for m in scenes[0].measured]}, scenes, None)
-        self.assertEqual(told.rates("coverage"), {"x": 20.0, "y": 4.0})
+        self.assertEqual(told.rates("coverage"), {"x": Pooled(20.0, "medium", 10.0), "y": Pooled(4.0)})
+        self.assertEqual(told.rates("coverage", without="medium"), {"x": Pooled(10.0)})
 
     def test_peers_are_compared_with_one_backend_at_both_widths(self):
         rows = {**scene("a", 2.0, 8.0, 1.0), **scene("b", 1.0, 5.0, 4.0), "ext+frontend/a/threads:2": 8.0, "ext+frontend/b/threads:2": 30.0,
@@ -167,7 +175,7 @@ class FrontierTest(unittest.TestCase):
         def cost(factor):
             return Cost(Row("", "", False, "", {}, [factor * ns * noise for noise in self.ROUNDS]), 10 ** 6, 1)
 
-        return Measured(Method(name, "src/raster" if name == "tiled" else "a book", "", True, most_px), 0, None, 0, 0, cracks,
+        return Measured(Method(name, "src/raster" if name == "tiled" else "a book", "", True, most_px), 0, None, 0, Cracks(cracks, 0, 7, 2),
                         {("avx512", 1): cost(1), ("scalar", 1): cost(4)})
 
     def accuracy(self, **scenes):
@@ -175,11 +183,11 @@ class FrontierTest(unittest.TestCase):
         made = tuple(Scene(name, "coverage", "", 10 ** 6, methods, (), 10 ** 5, 200.0) for name, methods in scenes.items())
         return Accuracy({"coverage": [m.method for m in made[0].measured]}, made, None)
 
-    def test_cracks_are_pooled_without_t_junctions_and_overflow(self):
-        found = self.accuracy(a=(self.timed("x", 1.0, 3), self.timed("y", 1.0, 9, 181)), b=(self.timed("x", 1.0, 1),),
-                              t_junction=(self.timed("x", 1.0, 99),))
-        pooled = cracks_of(found, found.methods["coverage"][0])
-        self.assertEqual((pooled.rate, pooled.worst, pooled.worst_scene, pooled.crossings), (20.0, 30.0, "a", 2 * 10 ** 5))
+    def test_cracks_are_pooled_without_overflow_and_without_the_scene_that_has_most(self):
+        found = self.accuracy(a=(self.timed("x", 1.0, 3), self.timed("y", 1.0, 9, 181)), b=(self.timed("x", 1.0, 1),))
+        rates = cracks_of(found, found.methods["coverage"][0])
+        self.assertEqual((rates.pooled, rates.worst, rates.worst_scene, rates.crossings, rates.t_junctions, rates.folds),
+                         (Pooled(20.0, "a", 10.0), 30.0, "a", 2 * 10 ** 5, 14, 4))
         self.assertIsNone(cracks_of(found, found.methods["coverage"][1]))
 
     def test_speed_is_the_geometric_mean_of_scenes_and_outcomes_are_by_scene(self):

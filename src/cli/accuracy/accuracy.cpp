@@ -101,7 +101,7 @@ class Run {
     if (chosen_.scenes.empty() && !chosen_.turning_cube)
       throw std::invalid_argument("nothing to do: no selected method belongs to a selected scene's family");
     for (const lab::LabScene& scene : chosen_.scenes) total_s_ += scene.cost_s;
-    if (chosen_.turning_cube) total_s_ += kCube_s;
+    if (chosen_.turning_cube) total_s_ += kCube_s + kMotions_s;
   }
 
   AccuracyReport go() {
@@ -114,9 +114,12 @@ class Run {
       report.scenes.push_back(std::move(result));
       done_s_ += scene.cost_s;
     }
-    if (chosen_.turning_cube)
+    if (chosen_.turning_cube) {
       report.turning_cube =
           judge_turning_cube(plan_, in_cube_, progress(std::string(kTurningCube), kCube_s), report.closeups);
+      done_s_ += kCube_s;
+      report.motions = judge_motions(plan_, in_cube_, progress("motion", kMotions_s));
+    }
     return report;
   }
 
@@ -128,7 +131,7 @@ class Run {
   }
 
   const AccuracyPlan& plan_;
-  const double kCube_s = plan_.quick ? 1.5 : 45.0;
+  const double kCube_s = plan_.quick ? 1.5 : 45.0, kMotions_s = plan_.quick ? 2.0 : 8.0;
   ChosenMethods methods_, in_cube_;
   AccuracyScenes chosen_;
   double done_s_ = 0.0, total_s_ = 0.0;

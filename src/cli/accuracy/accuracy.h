@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "cli/accuracy/closeup.h"
-#include "lab/coverage/score.h"
+#include "lab/coverage/cracks.h"
 #include "lab/coverage/visible.h"
 #include "lab/scenes.h"
 
@@ -31,8 +31,25 @@ struct AccuracyPlan {
   std::function<void(double, std::string_view)> on_progress;  // fraction done, scene
 };
 
+// The numbers of samples in lab::Cracks.
+struct CrackCounts {
+  CrackCounts() = default;
+  explicit CrackCounts(const lab::Cracks& cracks)
+      : gaps(cracks.gaps.size()),
+        double_hits(cracks.double_hits.size()),
+        t_junctions(cracks.at_t_junctions()),
+        folds(cracks.folds.size()) {}
+  CrackCounts& operator+=(const CrackCounts& other) {
+    gaps += other.gaps, double_hits += other.double_hits;
+    t_junctions += other.t_junctions, folds += other.folds;
+    return *this;
+  }
+  std::uint64_t gaps = 0, double_hits = 0, t_junctions = 0, folds = 0;
+};
+
 struct CoverageScores {
   lab::CoverageScore snapped, floats;  // against each reference: positions after and before snapping
+  CrackCounts cracks;
   lab::VisibleTriangleScore visible;
 };
 using Score = std::variant<CoverageScores, lab::VisibilityScores, lab::FacingScores, lab::ClippingScore>;
@@ -66,22 +83,32 @@ struct PerFrame {
   std::uint64_t median = 0, worst = 0, total = 0;
 };
 struct CubeCounts {
-  PerFrame gaps, double_hits, missing, extra;
+  PerFrame missing, extra;
 };
 struct CubeMethodResult {
   std::string name;
   bool exact;
   CubeCounts snapped, floats;  // against each reference
+  PerFrame gaps, double_hits;
 };
 struct CubeResult {
   int frames, width, height;
   std::vector<CubeMethodResult> methods;
 };
 
+// See lab::Changes.
+struct MotionResult {
+  std::string name;
+  int frames, width, height;
+  std::uint64_t changes;  // of pixels, by the exact reference before snapping
+  std::vector<std::pair<std::string, std::uint64_t>> superfluous;  // of each method
+};
+
 struct AccuracyReport {
   std::vector<SceneResult> scenes;
   std::optional<CubeResult> turning_cube;
-  std::vector<Closeup> closeups;  // empty unless the plan has `pictures`
+  std::vector<MotionResult> motions;  // with the turning cube
+  std::vector<Closeup> closeups;      // empty unless the plan has `pictures`
 
   bool ok() const;  // whether every method kept the promises that hold on every scene
 };

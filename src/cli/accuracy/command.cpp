@@ -64,8 +64,12 @@ another winding than the whole face.
 
 Errors are counted per 10^6 crossings of an edge with a row or column of samples, per 10^6 pixels,
 or per 10^6 faces. If no error was observed, the number in parentheses is the 95 % upper bound of
-the rate. A gap is a missing pixel inside the union of the triangles, farther from the outline than
-the method's promise lets an edge move, or than 0.71 px if that is less.
+the rate. Where one scene has more than half of a method's errors, the rate without it follows.
+
+Cracks are samples at an edge that two triangles share, drawn by neither (gap) or by both (double
+hit), whatever lies behind. They are judged by exact coverage of the positions that the method
+uses, rounded as it rounds them. Cracks at T-junctions, and folds, where rounding lets neighbours
+overlap (it turned a triangle over), are counted apart.
 
 SCENE is a scene of `edgewise list`, a small test scene (the tables name them), turning-cube, or an
 .obj or .tri file. Large streams are judged in part, always the same part, and a smaller one with
@@ -74,7 +78,7 @@ streams in coverage only. Facing and clipping use their own scenes.
 `edgewise_bench --scene SCENE --methods` times the methods.
 
 Pictures are named FAMILY-SCENE-METHOD.png. Their colours:
-  vermilion  nothing drawn where a triangle must be (coverage: a gap, a crack between neighbours)
+  vermilion  nothing drawn where a triangle must be (coverage: a crack where triangles meet)
   blue       drawn twice, or by the wrong triangle
   yellow     missing from a triangle, but covered by another one or on the outline
   purple     drawn where no triangle must be)";

@@ -16,7 +16,8 @@ void judge(const lab::CoverageScene& scene, const Judging& judging, SceneResult&
   result.triangles = scene.floats.size();
   result.covered = snapped.covered;
   result.crossings = lab::edge_crossings(scene.floats, scene.window());
-  result.shared_crossings = lab::shared_edge_crossings(scene.floats, scene.window());
+  const lab::CrackJudge crack_judge(scene.floats, floats);
+  result.shared_crossings = crack_judge.surface().crossings(scene.window());
   result.largest_side_px = lab::largest_side_px(scene.floats);
 
   result.methods.resize(methods.size());
@@ -26,15 +27,15 @@ void judge(const lab::CoverageScene& scene, const Judging& judging, SceneResult&
   const lab::VisibleTriangleJudge visible(input, scene.size, judging.plan.threads);
   const auto judge_one = [&](std::size_t i) {
     const lab::CoverageMethod& method = *methods[i];
-    std::vector<lab::Run> runs;
-    method.runs(input, scene.window(), runs);
-    CoverageScores scores{lab::score_coverage(snapped, runs, scene.floats, lab::gap_reach_px(method)),
-                          lab::score_coverage(floats, runs, scene.floats, lab::gap_reach_px(method)),
+    const lab::DrawnRuns drawn(method, input, scene.window());
+    const lab::Cracks cracks = crack_judge.find(drawn, method.promise.snap_bits);
+    CoverageScores scores{lab::score_coverage(snapped, drawn, scene.floats),
+                          lab::score_coverage(floats, drawn, scene.floats), CrackCounts(cracks),
                           visible.score(method)};
     result.methods[i] = {std::string(method.info.name), method.info.exact, scores};
     if (judging.plan.pictures && judging.scene.smallest && scores.floats.errors() != 0)
       closeups[i] = closeup(closeup_name(Family::coverage, judging.scene.name, method.info.name),
-                            mark_coverage(floats, std::move(runs), scene.floats, lab::gap_reach_px(method)));
+                            mark_coverage(floats, drawn, cracks, scene.floats));
     const std::lock_guard lock(mutex);
     judging.progress(static_cast<double>(++done) / static_cast<double>(methods.size() + 1));
   };

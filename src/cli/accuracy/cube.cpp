@@ -1,4 +1,4 @@
-// Counts gaps and double hits in each frame of the tutorials' rotating cube.
+// Counts cracks and wrong pixels in each frame of the tutorials' rotating cube.
 #include <algorithm>
 
 #include "cli/accuracy/score.h"
@@ -33,27 +33,28 @@ PerFrame per_frame(std::vector<std::uint64_t> counts) {
 
 using Scores = std::vector<CoverageScores>;  // one per frame
 
-CubeCounts summary(const Scores& scores, lab::CoverageScore CoverageScores::*truth) {
-  const auto of = [&](std::uint64_t lab::CoverageScore::*count) {
-    std::vector<std::uint64_t> counts;
-    for (const CoverageScores& score : scores) counts.push_back(score.*truth.*count);
-    return per_frame(std::move(counts));
-  };
-  return {of(&lab::CoverageScore::gaps), of(&lab::CoverageScore::double_hits),
-          of(&lab::CoverageScore::missing), of(&lab::CoverageScore::extra)};
+template <typename Part, typename Counts>
+PerFrame summary(const Scores& scores, Part CoverageScores::*part, std::uint64_t Counts::*count) {
+  std::vector<std::uint64_t> counts;
+  for (const CoverageScores& score : scores) counts.push_back(score.*part.*count);
+  return per_frame(std::move(counts));
+}
+CubeCounts wrong(const Scores& scores, lab::CoverageScore CoverageScores::*truth) {
+  return {summary(scores, truth, &lab::CoverageScore::missing),
+          summary(scores, truth, &lab::CoverageScore::extra)};
 }
 
-// The frame with the most gaps and double hits.
+// The frame with the most cracks.
 Closeup worst_frame(const lab::CoverageMethod& method, const Scores& scores) {
   const auto worst = std::max_element(scores.begin(), scores.end(), [](const auto& a, const auto& b) {
-    return a.floats.gaps + a.floats.double_hits < b.floats.gaps + b.floats.double_hits;
+    return a.cracks.gaps + a.cracks.double_hits < b.cracks.gaps + b.cracks.double_hits;
   });
   const lab::CoverageScene scene = cube_at(static_cast<int>(worst - scores.begin()));
   const auto truth = lab::float_coverage(scene.input(), scene.window(), 1);
-  std::vector<lab::Run> runs;
-  method.runs(scene.input(), scene.window(), runs);
+  const lab::DrawnRuns drawn(method, scene.input(), scene.window());
+  const lab::Cracks cracks = lab::CrackJudge(scene.floats, truth).find(drawn, method.promise.snap_bits);
   return closeup(closeup_name(Family::coverage, kTurningCube, method.info.name),
-                 mark_coverage(truth, std::move(runs), scene.floats, lab::gap_reach_px(method)));
+                 mark_coverage(truth, drawn, cracks, scene.floats));
 }
 
 }  // namespace
@@ -71,13 +72,13 @@ CubeResult judge_turning_cube(const AccuracyPlan& plan, const ChosenMethods& met
       const lab::CoverageScene scene = cube_at(frame);
       const auto snapped = lab::snapped_coverage(scene.input(), scene.window(), 1),
                  floats = lab::float_coverage(scene.input(), scene.window(), 1);
+      const lab::CrackJudge cracks(scene.floats, floats);
       for (std::size_t i = 0; i < judged.size(); ++i) {
-        const lab::CoverageMethod& method = *judged[i];
-        std::vector<lab::Run> runs;
-        method.runs(scene.input(), scene.window(), runs);
+        const lab::DrawnRuns drawn(*judged[i], scene.input(), scene.window());
         scores[i][static_cast<std::size_t>(frame)] = {
-            lab::score_coverage(snapped, runs, scene.floats, lab::gap_reach_px(method)),
-            lab::score_coverage(floats, std::move(runs), scene.floats, lab::gap_reach_px(method)),
+            lab::score_coverage(snapped, drawn, scene.floats),
+            lab::score_coverage(floats, drawn, scene.floats),
+            CrackCounts(cracks.find(drawn, judged[i]->promise.snap_bits)),
             {}};
       }
     }
@@ -90,9 +91,11 @@ CubeResult judge_turning_cube(const AccuracyPlan& plan, const ChosenMethods& met
   for (std::size_t i = 0; i < judged.size(); ++i) {
     const lab::CoverageMethod& method = *judged[i];
     result.methods.push_back({std::string(method.info.name), method.info.exact,
-                              summary(scores[i], &CoverageScores::snapped),
-                              summary(scores[i], &CoverageScores::floats)});
-    const CubeCounts& counts = result.methods.back().floats;
+                              wrong(scores[i], &CoverageScores::snapped),
+                              wrong(scores[i], &CoverageScores::floats),
+                              summary(scores[i], &CoverageScores::cracks, &CrackCounts::gaps),
+                              summary(scores[i], &CoverageScores::cracks, &CrackCounts::double_hits)});
+    const CubeMethodResult& counts = result.methods.back();
     if (plan.pictures && counts.gaps.total + counts.double_hits.total != 0)
       add_unless_known(worst_frame(method, scores[i]), closeups, first_closeup);
   }

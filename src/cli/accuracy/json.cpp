@@ -15,14 +15,8 @@ void add_rate(Json& score, std::uint64_t errors, std::uint64_t trials) {
 }
 
 Json score_json(const lab::CoverageScore& s, std::uint64_t crossings) {
-  Json score{{"missing", s.missing},
-             {"extra", s.extra},
-             {"gaps", s.gaps},
-             {"double_hits", s.double_hits},
-             {"out_of_bounds", s.out_of_bounds},
-             {"out_of_box", s.out_of_box},
-             {"worst_px", s.worst_px},
-             {"errors", s.errors()}};
+  Json score{{"missing", s.missing},       {"extra", s.extra},       {"out_of_bounds", s.out_of_bounds},
+             {"out_of_box", s.out_of_box}, {"worst_px", s.worst_px}, {"errors", s.errors()}};
   add_rate(score, s.errors(), crossings);
   return score;
 }
@@ -57,8 +51,13 @@ struct AddScore {
   void operator()(const CoverageScores& s) const {
     method["snapped"] = score_json(s.snapped, scene.crossings);
     method["float"] = score_json(s.floats, scene.crossings);
+    method["cracks"] = {{"gaps", s.cracks.gaps},
+                        {"double_hits", s.cracks.double_hits},
+                        {"t_junctions", s.cracks.t_junctions},
+                        {"folds", s.cracks.folds}};
     add_wrong_pixels(method["snapped"], s.visible.wrong_snapped);
     add_wrong_pixels(method["float"], s.visible.wrong_floats);
+    method["float"]["wrong_surface_pixels"] = s.visible.wrong_surface;
     const lab::CoverageMethod& scored = methods.find_coverage(method["name"].get<std::string>());
     if (scored.contract_depth && scored.info.exact)
       method["snapped"]["unexplained_pixels"] = s.visible.unexplained;
@@ -116,10 +115,16 @@ Json per_frame_json(const PerFrame& counts, int frames) {
 }
 
 Json counts_json(const CubeCounts& counts, int frames) {
-  return {{"gaps", per_frame_json(counts.gaps, frames)},
-          {"double_hits", per_frame_json(counts.double_hits, frames)},
-          {"missing", per_frame_json(counts.missing, frames)},
+  return {{"missing", per_frame_json(counts.missing, frames)},
           {"extra", per_frame_json(counts.extra, frames)}};
+}
+
+Json motion_json(const MotionResult& motion) {
+  Json result{{"name", motion.name},     {"frames", motion.frames},   {"width", motion.width},
+              {"height", motion.height}, {"changes", motion.changes}, {"methods", Json::array()}};
+  for (const auto& [name, superfluous] : motion.superfluous)
+    result["methods"].push_back({{"name", name}, {"superfluous", superfluous}});
+  return result;
 }
 
 Json cube_json(const CubeResult& cube) {
@@ -128,6 +133,8 @@ Json cube_json(const CubeResult& cube) {
   for (const CubeMethodResult& method : cube.methods) {
     Json& entry = result["methods"].emplace_back(counts_json(method.floats, cube.frames));
     entry["name"] = method.name;
+    entry["gaps"] = per_frame_json(method.gaps, cube.frames);
+    entry["double_hits"] = per_frame_json(method.double_hits, cube.frames);
     entry["snapped"] = counts_json(method.snapped, cube.frames);
   }
   return result;
@@ -154,6 +161,7 @@ Json accuracy_json(const AccuracyReport& report, const AccuracyPlan& plan) {
   }
   for (const SceneResult& scene : report.scenes) result["scenes"].push_back(scene_json(scene, methods));
   if (report.turning_cube) result["turning_cube"] = cube_json(*report.turning_cube);
+  for (const MotionResult& motion : report.motions) result["motions"].push_back(motion_json(motion));
   return result;
 }
 

@@ -40,6 +40,9 @@ void judge(const lab::ClippingScene& scene, const Judging& judging, SceneResult&
 CubeResult judge_turning_cube(const AccuracyPlan& plan, const ChosenMethods& methods,
                               const std::function<void(double)>& progress, std::vector<Closeup>& closeups);
 
+std::vector<MotionResult> judge_motions(const AccuracyPlan& plan, const ChosenMethods& methods,
+                                        const std::function<void(double)>& progress);
+
 // "coverage-drtk_quad-float_le"
 std::string closeup_name(Family family, std::string_view scene, std::string_view method);
 

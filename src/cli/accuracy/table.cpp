@@ -69,8 +69,13 @@ class FamilyTable {
     for (const SceneResult* scene : scenes_) {
       const lab::CoverageScore& s = std::get<CoverageScores>(scene->methods[method].score).*truth;
       total.missing += s.missing, total.extra += s.extra;
-      total.gaps += s.gaps, total.double_hits += s.double_hits;
     }
+    return total;
+  }
+  CrackCounts cracks(std::size_t method) const {
+    CrackCounts total;
+    for (const SceneResult* scene : scenes_)
+      total += std::get<CoverageScores>(scene->methods[method].score).cracks;
     return total;
   }
   lab::VisibleTriangleScore visible(std::size_t method) const {
@@ -78,14 +83,10 @@ class FamilyTable {
     for (const SceneResult* scene : scenes_) {
       const lab::VisibleTriangleScore& s = std::get<CoverageScores>(scene->methods[method].score).visible;
       worst.wrong_snapped += s.wrong_snapped, worst.wrong_floats += s.wrong_floats;
+      worst.wrong_surface += s.wrong_surface;
       worst.max_ulp = std::max(worst.max_ulp, s.max_ulp), worst.rms_ulp = std::max(worst.rms_ulp, s.rms_ulp);
     }
     return worst;
-  }
-  const SceneResult* scene(std::string_view name) const {
-    const auto found =
-        std::find_if(scenes_.begin(), scenes_.end(), [&](const SceneResult* s) { return s->name == name; });
-    return found == scenes_.end() ? nullptr : *found;
   }
   std::size_t scenes() const { return scenes_.size(); }
   std::string title(std::string_view what, std::string_view trials) const {
@@ -102,6 +103,25 @@ class FamilyTable {
       if (rate > most) most = rate, worst = scene;
     }
     return worst == nullptr ? "-" : worst->name;
+  }
+  // For each scene that has more than half of the errors of some methods: their rates without it.
+  std::string without_dominant() const {
+    std::string text;
+    for (const SceneResult* scene : scenes_) {
+      std::string line;
+      for (std::size_t i = 0; i < methods(); ++i) {
+        std::uint64_t all = 0;
+        for (const SceneResult* other : scenes_) all += errors(other->methods[i].score);
+        const std::uint64_t here = errors(scene->methods[i].score);
+        if (scenes_.size() == 1 || 2 * here <= all) continue;
+        const std::string item = fmt::format("{} {}", name(i), rate(all - here, trials_ - scene->trials()));
+        line += line.empty() ? fmt::format("over half on {}; without it:", scene->name) : ",";
+        const std::size_t column = line.size() - (line.rfind('\n') + 1);
+        line += (column + item.size() > 78 ? "\n  " : " ") + item;
+      }
+      if (!line.empty()) text += line + '\n';
+    }
+    return text;
   }
 
  private:
@@ -127,45 +147,37 @@ std::size_t last_width(const FamilyTable& t) {
   return widest + 1;
 }
 
-// Pixels with the wrong visible triangle, and depth errors. If both T-junction scenes were judged, also their
-// gaps without and with the split edge.
+// Pixels with the wrong visible triangle, and depth errors.
 std::string visible_triangle_table(const FamilyTable& t) {
-  const SceneResult *junction = t.scene("t_junction"), *split = t.scene("t_junction_split");
-  const bool cracks = junction != nullptr && split != nullptr;
   std::string text = fmt::format(
       "\ncoverage: pixels with the wrong visible triangle, and depth errors, in {} scene{}\n"
       "depth ulp: 2^-31 of the depth range for backends, a float's ulp for others\n",
       t.scenes(), t.scenes() == 1 ? "" : "s");
-  constexpr const char *kLine = "{:<17}{:>10}{:>10}{:>12}{:>9}", *kCracks = "{:>12}{:>8}";
-  const auto add = [&](const std::string& line, const auto& of_junction, const auto& of_split) {
-    text += line + (cracks ? fmt::format(kCracks, of_junction, of_split) : "") + '\n';
-  };
-  add(fmt::format(kLine, "", "wrong", "wrong", "depth: max", "RMS"), "T-junction:", "split:");
-  add(fmt::format(kLine, "method", "snapped", "float", "ulp", "ulp"), "gaps", "gaps");
-  const auto gaps = [&](const SceneResult* scene, std::size_t method) {
-    return scene == nullptr ? 0 : std::get<CoverageScores>(scene->methods[method].score).floats.gaps;
-  };
+  constexpr const char* kLine = "{:<21}{:>9}{:>9}{:>10}{:>12}{:>9}\n";
+  text += fmt::format(kLine, "", "wrong", "wrong", "of those", "depth: max", "RMS");
+  text += fmt::format(kLine, "method", "snapped", "float", "through", "ulp", "ulp");
   for (std::size_t i = 0; i < t.methods(); ++i) {
     const lab::VisibleTriangleScore s = t.visible(i);
-    add(fmt::format(kLine, t.name(i), s.wrong_snapped, s.wrong_floats, digits(s.max_ulp), digits(s.rms_ulp)),
-        gaps(junction, i), gaps(split, i));
+    text += fmt::format(kLine, t.name(i), s.wrong_snapped, s.wrong_floats, s.wrong_surface, digits(s.max_ulp),
+                        digits(s.rms_ulp));
   }
-  return text;
+  return text + "through: showing neither the right triangle nor one that touches it\n";
 }
 
 std::string coverage_table(const FamilyTable& t) {
   std::string text = t.title("errors per 10^6 edge crossings", "crossings");
-  text += fmt::format("{:<17}{:>29}{:>28}\n", "", "snapped reference", "float reference");
-  constexpr const char* kLine = "{:<17}{:>11}{:>9}{:>9}{:>11}{:>8}{:>9}\n";
-  text += fmt::format(kLine, "method", "errors", "gaps", "doubles", "errors", "gaps", "doubles");
+  constexpr const char* kLine = "{:<21}{:>11}{:>11}{:>9}{:>9}{:>10}{:>8}\n";
+  text += fmt::format(kLine, "", "snapped", "float", "cracks:", "double", "at T-", "");
+  text += fmt::format(kLine, "method", "reference", "reference", "gaps", "hits", "junctions", "folds");
   for (std::size_t i = 0; i < t.methods(); ++i) {
     const auto snapped = t.coverage(i, &CoverageScores::snapped),
                floats = t.coverage(i, &CoverageScores::floats);
+    const CrackCounts cracks = t.cracks(i);
     text +=
-        fmt::format(kLine, t.name(i), rate(snapped.errors(), t.trials()), snapped.gaps, snapped.double_hits,
-                    rate(floats.errors(), t.trials()), floats.gaps, floats.double_hits);
+        fmt::format(kLine, t.name(i), rate(snapped.errors(), t.trials()), rate(floats.errors(), t.trials()),
+                    cracks.gaps, cracks.double_hits, cracks.t_junctions, cracks.folds);
   }
-  return text + visible_triangle_table(t);
+  return text + t.without_dominant() + visible_triangle_table(t);
 }
 
 std::string visibility_table(const FamilyTable& t) {
@@ -181,7 +193,8 @@ std::string visibility_table(const FamilyTable& t) {
                         digits(snapped.max_ulp), rate(floats.wrong_triangle, floats.covered),
                         digits(floats.max_ulp), t.most_wrong_on(i), last_width(t));
   }
-  return text + "beyond: pixels whose depth is outside the depth range of their triangle\n";
+  return text + t.without_dominant() +
+         "beyond: pixels whose depth is outside the depth range of their triangle\n";
 }
 
 std::string facing_table(const FamilyTable& t) {
@@ -196,7 +209,7 @@ std::string facing_table(const FamilyTable& t) {
                         rate(floats.misclassified, floats.faces), floats.misclassified, t.most_wrong_on(i),
                         last_width(t));
   }
-  return text;
+  return text + t.without_dominant();
 }
 
 std::string clipping_table(const FamilyTable& t) {
@@ -212,10 +225,11 @@ std::string clipping_table(const FamilyTable& t) {
                         extra, triangle, depth, t.sum(i, &S::hairline), t.sum(i, &S::not_a_number),
                         t.most_wrong_on(i), last_width(t));
   }
-  return text + "tri: wrong visible triangle; hair: right within 1/64 px of the sample\n";
+  return text + t.without_dominant() +
+         "tri: wrong visible triangle; hair: right within 1/64 px of the sample\n";
 }
 
-// Gaps and double hits against the float reference; the last column sums all errors against the snapped one.
+// Cracks; the last column sums all errors against the snapped reference.
 std::string cube_table(const CubeResult& cube) {
   std::string text = fmt::format("\nrotating cube: wrong pixels per frame, {} frames of {}x{}\n", cube.frames,
                                  cube.width, cube.height);
@@ -223,11 +237,24 @@ std::string cube_table(const CubeResult& cube) {
   constexpr const char* kLine = "{:<17}{:>8}{:>7}{:>10}{:>10}{:>7}{:>10}{:>11}\n";
   text += fmt::format(kLine, "method", "median", "worst", "total", "median", "worst", "total", "total");
   for (const CubeMethodResult& m : cube.methods)
-    text += fmt::format(kLine, m.name, m.floats.gaps.median, m.floats.gaps.worst, m.floats.gaps.total,
-                        m.floats.double_hits.median, m.floats.double_hits.worst, m.floats.double_hits.total,
+    text += fmt::format(kLine, m.name, m.gaps.median, m.gaps.worst, m.gaps.total, m.double_hits.median,
+                        m.double_hits.worst, m.double_hits.total,
                         m.snapped.missing.total + m.snapped.extra.total);
   return text + fmt::format("total 0: occurs in fewer than {} of all frames, with 95 % confidence\n",
                             digits(lab::rate_bound(static_cast<std::uint64_t>(cube.frames))));
+}
+
+std::string motion_table(const std::vector<MotionResult>& motions) {
+  std::string text =
+      fmt::format("\nmotion: superfluous changes of pixels per 10^6 true ones, {} frames\n{:<21}",
+                  motions.front().frames, "method");
+  for (const MotionResult& motion : motions) text += fmt::format("{:>14}", motion.name);
+  for (std::size_t i = 0; i < motions.front().superfluous.size(); ++i) {
+    text += fmt::format("\n{:<21}", motions.front().superfluous[i].first);
+    for (const MotionResult& motion : motions)
+      text += fmt::format("{:>14}", rate(motion.superfluous[i].second, motion.changes));
+  }
+  return text + '\n';
 }
 
 }  // namespace
@@ -240,7 +267,7 @@ std::string accuracy_tables(const AccuracyReport& report) {
     for (const bool smallest : {false, true})
       if (const FamilyTable table(report, family, smallest); !table.empty())
         text += kTables[static_cast<std::size_t>(family)](table);
-  if (report.turning_cube) text += cube_table(*report.turning_cube);
+  if (report.turning_cube) text += cube_table(*report.turning_cube) + motion_table(report.motions);
   return text.substr(text.starts_with('\n') ? 1 : 0);
 }
 

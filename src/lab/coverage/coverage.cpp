@@ -44,7 +44,7 @@ CoverageMethod make_from(const BackendInfo& backend, bool fills) {
   constexpr double kSnap = 0.00277;                  // half a sub-unit on both axes: sqrt(2) / 512
   return {{backend.name, backend.summary, "src/raster", "exact coverage of the positions snapped to 1/256 px",
            true},
-          {.reach_px = kSnap, .no_gaps = true, .no_double_hits = true},
+          {.reach_px = kSnap, .no_gaps = true, .no_double_hits = true, .snap_bits = contract::kSubBits},
           [&backend](const CoverageInput& input, Canvas& canvas, const Execution& execution) {
             canvas.backend(backend).draw(input.snapped, canvas.frame.view(), 0, execution);
           },

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <new>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -62,7 +63,10 @@ struct CoveragePromise {
   // neither slivers nor flipped by snapping:
   bool no_gaps = false, no_double_hits = false;
   bool if_on_grid = false;  // the two above hold only if all vertices lie on the 1/256 px grid
+  // The subpixel bits to which it rounds vertices, half to even; none: it uses them as they are.
+  std::optional<int> snap_bits = {};
 };
+inline constexpr int kMostSnapBits = 16;
 
 struct CoverageMethod {
   MethodInfo info;

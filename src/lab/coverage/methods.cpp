@@ -38,7 +38,8 @@ CoverageMethod method(const MethodInfo& info, const CoveragePromise& promise) {
 }
 
 constexpr CoveragePromise watertight(int snap_bits) {
-  return {.reach_px = snap_reach_px(snap_bits), .no_gaps = true, .no_double_hits = true};
+  return {
+      .reach_px = snap_reach_px(snap_bits), .no_gaps = true, .no_double_hits = true, .snap_bits = snap_bits};
 }
 // While the triangle's box has at most max_side_px per side, its area in square units is below 2^31, and no
 // value at a sample in the box is larger: none wraps. With one px more it is above.
@@ -76,7 +77,7 @@ std::vector<CoverageMethod> coverage_table() {
       method<FloatSnapped>(
           {"float_snapped", "float edge functions with the top-left rule, vertices snapped to 1/256 px",
            "Scratchapixel's, after Direct3D's snapping", "wrong only within 0.0056 px of an edge", false},
-          {.reach_px = 0.00277 + kFloatReachPx}),
+          {.reach_px = 0.00277 + kFloatReachPx, .snap_bits = 8}),
       // A step errs by 2^-24 of the value, which is the edge's length times the distance from its line. Over
       // 4096 rows and 4096 columns to a pixel on the line, these distances sum to at most
       // 4096^2 sqrt(1 / 4 + 9 / 4) px.
@@ -138,7 +139,7 @@ std::vector<CoverageMethod> coverage_table() {
       method<Dda1616>({"dda_16_16", "scanline, x of an edge accumulated in 16.16 fixed point",
                        "Byggmastar, \"Fast affine texture mapping II\", 1997",
                        "wrong only within 0.063 px of an edge; no gaps; wraps past 32767 px", false},
-                      {.reach_px = 0.063, .no_gaps = true}),
+                      {.reach_px = 0.063, .no_gaps = true, .snap_bits = 16}),
       // Vertices move by at most 0.71 px, the + 1 moves an edge by less than a row, and x is truncated to a
       // pixel.
       method<DdaRounded>(

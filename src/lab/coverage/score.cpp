@@ -14,8 +14,7 @@ std::uint64_t length(const Run& run) {
 }
 
 CoverageTruth truth_from(std::vector<Run> runs, Window window) {
-  CoverageTruth truth{window, std::move(runs), {}, 0};
-  truth.hits = hits_of(truth.runs, window);
+  CoverageTruth truth{window, std::move(runs), 0};
   for (const Run& run : truth.runs) truth.covered += length(run);
   return truth;
 }
@@ -52,16 +51,20 @@ double samples_between(double a, double b) {
   return std::abs(std::floor(a + 0.5) - std::floor(b + 0.5));
 }
 
-using Position = std::pair<float, float>;
+}  // namespace
 
-Position vertex(const UnsnappedTriangle& t, int i) {
-  return {t.x_px[i], t.y_px[i]};
+CoverageTruth snapped_coverage(const CoverageInput& input, Window window, int threads) {
+  return truth_from(covered_runs(input.snapped, window, threads), window);
 }
 
-// The larger of the numbers of sample rows and sample columns that the segment crosses inside the window.
-double crossings_of(Position from, Position to, Window w) {
-  const double x = double{from.first}, y = double{from.second}, dx = double{to.first} - x,
-               dy = double{to.second} - y;
+CoverageTruth float_coverage(const CoverageInput& input, Window window, int threads) {
+  return truth_from(covered_runs(input.floats, window, threads), window);
+}
+
+double crossings_of(const UnsnappedTriangle& t, int edge, Window w) {
+  const int end_of_edge = (edge + 1) % 3;
+  const double x = double{t.x_px[edge]}, y = double{t.y_px[edge]}, dx = double{t.x_px[end_of_edge]} - x,
+               dy = double{t.y_px[end_of_edge]} - y;
   // The part inside the window (Liang and Barsky, 1984), as parameters of x + t dx, y + t dy.
   double begin = 0.0, end = 1.0;
   const auto clip = [&](double start, double step, double low, double high) {
@@ -80,82 +83,10 @@ double crossings_of(Position from, Position to, Window w) {
                   samples_between(y + begin * dy, y + end * dy));
 }
 
-bool share_a_vertex(const UnsnappedTriangle& a, const UnsnappedTriangle& b) {
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      if (vertex(a, i) == vertex(b, j)) return true;
-  return false;
-}
-
-// Counts pixels that at most one triangle covers in truth, but that are in the runs of two neighbours, or
-// twice in those of one triangle. Each triangle is compared with the last kRemembered ones at its pixel, so
-// that the cost stays linear where overflow lets hundreds of triangles cover a pixel.
-std::uint64_t count_double_hits(const CoverageTruth& truth, std::span<const std::uint32_t> hits,
-                                std::span<const Run> runs, std::span<const FloatTriangle> triangles) {
-  constexpr std::uint32_t kRemembered = 8, kNone = std::numeric_limits<std::uint32_t>::max();
-  struct Suspect {
-    std::uint32_t triangles[kRemembered], seen = 0;
-    bool twice = false;
-  };
-  std::vector<Suspect> suspects;
-  std::vector<std::uint32_t> suspect_of(hits.size(), kNone);
-  for (std::size_t i = 0; i < hits.size(); ++i)
-    if (hits[i] >= 2 && truth.hits[i] <= 1) {
-      suspect_of[i] = static_cast<std::uint32_t>(suspects.size());
-      suspects.emplace_back();
-    }
-  if (suspects.empty()) return 0;  // of most methods, the runs need no look
-  std::uint64_t count = 0;
-  const Window w = truth.window;
-  for (const Run& run : runs) {
-    const std::uint32_t* const row =
-        &suspect_of[static_cast<std::size_t>(run.y - w.y0) * static_cast<std::size_t>(w.width)];
-    for (int x = run.x0; x < run.x1; ++x) {
-      if (row[x - w.x0] == kNone) continue;
-      Suspect& suspect = suspects[row[x - w.x0]];
-      if (suspect.twice) continue;
-      for (std::uint32_t i = 0; i < std::min(suspect.seen, kRemembered) && !suspect.twice; ++i)
-        suspect.twice = share_a_vertex(triangles[suspect.triangles[i]].at, triangles[run.triangle].at);
-      count += suspect.twice;
-      suspect.triangles[suspect.seen++ % kRemembered] = run.triangle;
-    }
-  }
-  return count;
-}
-
-}  // namespace
-
-CoverageTruth snapped_coverage(const CoverageInput& input, Window window, int threads) {
-  return truth_from(covered_runs(input.snapped, window, threads), window);
-}
-
-CoverageTruth float_coverage(const CoverageInput& input, Window window, int threads) {
-  return truth_from(covered_runs(input.floats, window, threads), window);
-}
-
 std::uint64_t edge_crossings(std::span<const FloatTriangle> triangles, Window window) {
   double crossings = 0.0;
   for (const auto& [t, payload] : triangles)
-    for (int i = 0; i < 3; ++i) crossings += crossings_of(vertex(t, i), vertex(t, (i + 1) % 3), window);
-  return static_cast<std::uint64_t>(crossings);
-}
-
-std::uint64_t shared_edge_crossings(std::span<const FloatTriangle> triangles, Window window) {
-  using ScreenEdge = std::pair<Position, Position>;
-  std::vector<ScreenEdge> edges;
-  edges.reserve(3 * triangles.size());
-  for (const auto& [t, payload] : triangles)
-    for (int i = 0; i < 3; ++i) {
-      const auto [a, b] = std::minmax({vertex(t, i), vertex(t, (i + 1) % 3)});  // by value
-      edges.emplace_back(a, b);
-    }
-  std::sort(edges.begin(), edges.end());
-  double crossings = 0.0;
-  for (auto edge = edges.begin(); edge != edges.end();) {
-    const auto next = std::upper_bound(edge, edges.end(), *edge);
-    if (next - edge > 1) crossings += crossings_of(edge->first, edge->second, window);
-    edge = next;
-  }
+    for (int i = 0; i < 3; ++i) crossings += crossings_of(t, i, window);
   return static_cast<std::uint64_t>(crossings);
 }
 
@@ -227,15 +158,25 @@ double ErrorDistance::at(int px, int py) const {
   return std::max({nearest, low_x_ - sx, sx - high_x_, low_y_ - sy, sy - high_y_});
 }
 
-CoverageScore score_coverage(const CoverageTruth& truth, std::vector<Run> runs,
-                             std::span<const FloatTriangle> triangles, double reach_px) {
-  CoverageScore score{.triangles = triangles.size(), .covered = truth.covered};
-  score.out_of_bounds = cut(runs, truth.window);
-  const auto hits = hits_of(runs, truth.window);
-  score.gaps = gaps(truth, hits, triangles, reach_px).size();
-  score.double_hits = count_double_hits(truth, hits, runs, triangles);
-  if (!std::is_sorted(runs.begin(), runs.end())) std::sort(runs.begin(), runs.end());
-  for_each_difference(truth.runs, joined(std::move(runs)), [&](const Run& run, bool missing) {
+DrawnRuns::DrawnRuns(std::vector<Run> drawn, Window window) : out_of_bounds(cut(drawn, window)) {
+  if (!std::is_sorted(drawn.begin(), drawn.end())) std::sort(drawn.begin(), drawn.end());
+  runs = joined(std::move(drawn));
+}
+
+DrawnRuns::DrawnRuns(const CoverageMethod& method, const CoverageInput& input, Window window)
+    : DrawnRuns(
+          [&] {
+            std::vector<Run> drawn;
+            method.runs(input, window, drawn);
+            return drawn;
+          }(),
+          window) {}
+
+CoverageScore score_coverage(const CoverageTruth& truth, const DrawnRuns& drawn,
+                             std::span<const FloatTriangle> triangles) {
+  CoverageScore score{
+      .triangles = triangles.size(), .covered = truth.covered, .out_of_bounds = drawn.out_of_bounds};
+  for_each_difference(truth.runs, drawn.runs, [&](const Run& run, bool missing) {
     (missing ? score.missing : score.extra) += length(run);
     const ErrorDistance distance(triangles[run.triangle].at);
     for (int x = run.x0; x < run.x1; ++x) {
@@ -244,13 +185,6 @@ CoverageScore score_coverage(const CoverageTruth& truth, std::vector<Run> runs,
     }
   });
   return score;
-}
-
-CoverageScore score_coverage(const CoverageTruth& truth, const CoverageMethod& method,
-                             const CoverageInput& input) {
-  std::vector<Run> runs;
-  method.runs(input, truth.window, runs);
-  return score_coverage(truth, std::move(runs), input.floats, gap_reach_px(method));
 }
 
 }  // namespace edgewise::lab

@@ -14,9 +14,8 @@ namespace edgewise::lab {
 // A truth's pixels of one picture, computed once for all methods.
 struct CoverageTruth {
   Window window;
-  std::vector<Run> runs;            // sorted
-  std::vector<std::uint32_t> hits;  // how many triangles cover each pixel, row by row
-  std::uint64_t covered = 0;        // their sum
+  std::vector<Run> runs;      // sorted
+  std::uint64_t covered = 0;  // their pixels
 };
 CoverageTruth snapped_coverage(const CoverageInput& input, Window window, int threads);
 CoverageTruth float_coverage(const CoverageInput& input, Window window, int threads);
@@ -25,31 +24,33 @@ CoverageTruth float_coverage(const CoverageInput& input, Window window, int thre
 // the edge crosses inside the window. Error rates are per 10^6 crossings, since a long edge has more chances
 // to be wrong.
 std::uint64_t edge_crossings(std::span<const FloatTriangle> triangles, Window window);
-// The same for edges that at least two triangles share: bit-identical end points. Each such edge counts once.
-std::uint64_t shared_edge_crossings(std::span<const FloatTriangle> triangles, Window window);
+// Of one edge.
+double crossings_of(const UnsnappedTriangle& triangle, int edge, Window window);
 // The largest side of the triangles' bounding boxes, for comparison with CoveragePromise::max_side_px.
 float largest_side_px(std::span<const FloatTriangle> triangles);
+
+// The pixels that a method draws in a window.
+struct DrawnRuns {
+  // `drawn` may be in any order; a pixel drawn twice for one triangle is one pair.
+  DrawnRuns(std::vector<Run> drawn, Window window);
+  DrawnRuns(const CoverageMethod& method, const CoverageInput& input, Window window);
+
+  std::vector<Run> runs;            // sorted, each (triangle, pixel) pair once
+  std::uint64_t out_of_bounds = 0;  // pixels drawn outside the window
+};
 
 struct CoverageScore {
   std::uint64_t triangles = 0, covered = 0;  // covered: (triangle, pixel) pairs, in truth
   std::uint64_t missing = 0, extra = 0;      // pairs only in the truth; pairs only of the method
-  std::uint64_t gaps = 0;                    // cracks between neighbours; see gaps()
-  // Pixels that at most one triangle covers in truth, drawn by two neighbours (triangles with a bit-identical
-  // vertex) or twice by one triangle. Where an outline moved over another object, no edge was drawn twice.
-  std::uint64_t double_hits = 0;
-  std::uint64_t out_of_bounds = 0;  // pixels drawn outside the window; not counted as extra
-  std::uint64_t out_of_box = 0;     // extra pairs whose pixel does not touch the triangle's bounding box
-  double worst_px = 0.0;            // largest ErrorDistance::at() of a wrong pair
+  std::uint64_t out_of_bounds = 0;           // not counted as extra
+  std::uint64_t out_of_box = 0;  // extra pairs whose pixel does not touch the triangle's bounding box
+  double worst_px = 0.0;         // largest ErrorDistance::at() of a wrong pair
 
   std::uint64_t errors() const { return missing + extra; }
   bool operator==(const CoverageScore&) const = default;
 };
-// `runs` may be in any order; a pixel drawn twice for one triangle is one pair, but two hits. `reach_px`: see
-// gaps().
-CoverageScore score_coverage(const CoverageTruth& truth, std::vector<Run> runs,
-                             std::span<const FloatTriangle> triangles, double reach_px);
-CoverageScore score_coverage(const CoverageTruth& truth, const CoverageMethod& method,
-                             const CoverageInput& input);
+CoverageScore score_coverage(const CoverageTruth& truth, const DrawnRuns& drawn,
+                             std::span<const FloatTriangle> triangles);
 
 constexpr double per_million(std::uint64_t count, std::uint64_t crossings) {
   return crossings == 0 ? 0.0 : 1e6 * static_cast<double>(count) / static_cast<double>(crossings);
@@ -59,21 +60,6 @@ constexpr double per_million(std::uint64_t count, std::uint64_t crossings) {
 // must be sorted.
 void for_each_difference(std::span<const Run> truth, std::span<const Run> drawn,
                          const std::function<void(const Run&, bool missing)>& on_run);
-
-// A gap is a pixel that exactly one triangle covers in truth, that is not drawn, and whose sample lies inside
-// the union of the triangles by more than `reach_px`, by which the method may move an edge. A pixel lost
-// where an outline moved is therefore missing, but no gap. Watertight methods leave no gaps between
-// neighbours that share vertices. Returns indices into `hits`.
-std::vector<std::size_t> gaps(const CoverageTruth& truth, std::span<const std::uint32_t> hits,
-                              std::span<const FloatTriangle> triangles, double reach_px);
-
-// Reported gaps use at most the reach of rounding to whole pixels, so that a method with a loose promise
-// cannot hide cracks. Smaller promises are used as they are: such methods lose no other pixels that near the
-// outline, and the cracks of the smallest scenes extend to it.
-inline constexpr double kMostReach_px = 0.71;  // above sqrt(1/2)
-inline double gap_reach_px(const CoverageMethod& method) {
-  return std::min(method.promise.reach_px, kMostReach_px);
-}
 
 // Hits at each pixel of the window, row by row. Pixels outside the window are ignored.
 std::vector<std::uint32_t> hits_of(std::span<const Run> runs, Window window);

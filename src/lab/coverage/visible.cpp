@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "edgewise/contract.h"
+#include "lab/coverage/cracks.h"
 
 namespace edgewise::lab {
 
@@ -30,10 +31,15 @@ void each_pixel(Size size, Visit&& visit) {
     for (int x = 0; x < size.width; ++x) visit(x, y, pixel++);
 }
 
-std::uint64_t wrong_pixels(const Canvas& canvas, const VisibleTriangles& truth) {
+// Returns their number. Calls on_wrong(drawn, expected) for each, with payloads.
+template <typename OnWrong>
+std::uint64_t wrong_pixels(const Canvas& canvas, const VisibleTriangles& truth, OnWrong&& on_wrong) {
   std::uint64_t wrong = 0;
   each_pixel({truth.window.width, truth.window.height}, [&](int x, int y, std::size_t pixel) {
-    wrong += canvas.frame.payload_row(y)[x] != shown(truth.triangle[pixel]);
+    const std::uint32_t drawn = canvas.frame.payload_row(y)[x], expected = shown(truth.triangle[pixel]);
+    if (drawn == expected) return;
+    ++wrong;
+    on_wrong(drawn, expected);
   });
   return wrong;
 }
@@ -75,8 +81,11 @@ VisibleTriangleJudge::VisibleTriangleJudge(const CoverageInput& input, Size size
 VisibleTriangleScore VisibleTriangleJudge::score(const CoverageMethod& method) const {
   Canvas canvas(size_.width, size_.height);
   method.draw({floats_, snapped_}, canvas, {});
-  VisibleTriangleScore score{.wrong_snapped = wrong_pixels(canvas, by_grid_),
-                             .wrong_floats = wrong_pixels(canvas, by_floats_)};
+  VisibleTriangleScore score{.wrong_snapped = wrong_pixels(canvas, by_grid_, [](auto, auto) {})};
+  score.wrong_floats = wrong_pixels(canvas, by_floats_, [&](std::uint32_t drawn, std::uint32_t expected) {
+    score.wrong_surface += drawn == kBackground || expected == kBackground ||
+                           !touch(floats_[drawn - 1].at, floats_[expected - 1].at);
+  });
   if (method.contract_depth) {
     add_depth_errors(score, canvas, by_grid_, [&](int x, int y, double exact) {
       return std::abs(static_cast<double>(canvas.frame.depth_row(y)[x]) - exact);

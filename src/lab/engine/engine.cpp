@@ -65,11 +65,12 @@ constexpr std::string_view kSource = "the SIMD engine of src/raster/tiled";
 constexpr std::string_view kExact = "exact coverage of the positions snapped to 1/256 px";
 // Snapping errs by half a unit on each axis: sqrt(2) / 512.
 constexpr double kSnap_px = 0.00277;
-constexpr CoveragePromise kSnapping{.reach_px = kSnap_px, .no_gaps = true, .no_double_hits = true};
+constexpr CoveragePromise kSnapping{
+    .reach_px = kSnap_px, .no_gaps = true, .no_double_hits = true, .snap_bits = 8};
 // Each of the two sums (other_arithmetic-inl.h) errs by at most 2 * 2^-24 times the edge's length times 4096
 // sqrt(2) px. What is rounded later, inside a tile, adds less than a tenth. In all that is 0.0015 px off the
 // snapped edge's line.
-constexpr CoveragePromise kFloat{.reach_px = 0.0015 + kSnap_px};
+constexpr CoveragePromise kFloat{.reach_px = 0.0015 + kSnap_px, .snap_bits = 8};
 constexpr std::string_view kFloatPromise = "wrong only within 0.0043 px of an edge's line";
 
 }  // namespace
@@ -91,7 +92,11 @@ std::span<const CoverageMethod> engine_methods() {
       make(EngineArithmetic::int32,
            {"engine_int32", "the SIMD engine with 32-bit integer edges that wrap", kSource,
             "exact for triangles of at most 178 px; any pixel of the box's blocks beyond", false},
-           {.reach_px = kSnap_px, .max_side_px = 178, .no_gaps = true, .no_double_hits = true})};
+           {.reach_px = kSnap_px,
+            .max_side_px = 178,
+            .no_gaps = true,
+            .no_double_hits = true,
+            .snap_bits = 8})};
   return methods;
 }
 

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "core/parallel.h"
+#include "lab/coverage/cracks.h"
 #include "lab/coverage/fixed_edges.h"
-#include "lab/coverage/score.h"
 
 namespace edgewise::lab {
 
@@ -67,30 +67,29 @@ void CoverageNeeds::add(const StudiedFrame& frame, const CoverageScene& scene, i
   const Window window = scene.window();
   const CoverageTruth truth = float_coverage(scene.input(), window, threads);
   crossings_ += edge_crossings(scene.floats, window);
-  shared_crossings_ += shared_edge_crossings(scene.floats, window);
+  const CrackJudge judge(scene.floats, truth);
+  shared_crossings_ += judge.surface().crossings(window);
   const int fixed = static_cast<int>(bits_.size());
   parallel_for(threads, fixed + static_cast<int>(floats_.size()), [&](int i) {
     const auto n = static_cast<std::size_t>(i < fixed ? i : i - fixed);
     Tried& tried = i < fixed ? bits_[n] : floats_[n];
     std::vector<Run> runs;
-    double reach_px;
-    if (i < fixed) {
-      reach_px = std::min(snap_reach_px(i), kMostReach_px);
+    if (i < fixed)
       kRecord[n](scene.floats, window, runs);
-    } else {
-      const CoverageMethod& method = find_drawing_method(tried.cracks.name);
-      method.runs(scene.input(), window, runs);
-      reach_px = gap_reach_px(method);
-    }
-    const CoverageScore score = score_coverage(truth, runs, scene.floats, reach_px);
+    else
+      find_drawing_method(tried.cracks.name).runs(scene.input(), window, runs);
+    const DrawnRuns drawn(std::move(runs), window);
+    const CoverageScore score = score_coverage(truth, drawn, scene.floats);
+    const Cracks cracks = judge.find(drawn, i < fixed ? std::optional(i) : std::nullopt);
     tried.wrong += score.errors();
-    const std::uint64_t cracked = score.gaps + score.double_hits;
+    const std::uint64_t cracked = cracks.at_shared_edges() + cracks.at_t_junctions() + cracks.folds.size();
     const bool new_crack = cracked != 0 && tried.cracks.enough(),
                new_error = score.errors() != 0 && tried.displaced.enough();
     if (!new_crack && !new_error) return;
-    const MarkedPicture marked = mark_coverage(truth, runs, scene.floats, reach_px);
-    if (new_crack) add_witness(marked, kCracks, frame, scene, truth, runs, cracked, tried.cracks);
-    if (new_error) add_witness(marked, kAny, frame, scene, truth, runs, score.errors(), tried.displaced);
+    const MarkedPicture marked = mark_coverage(truth, drawn, cracks, scene.floats);
+    if (new_crack) add_witness(marked, kCracks, frame, scene, truth, drawn.runs, cracked, tried.cracks);
+    if (new_error)
+      add_witness(marked, kAny, frame, scene, truth, drawn.runs, score.errors(), tried.displaced);
   });
 }
 

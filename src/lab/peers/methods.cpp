@@ -59,7 +59,7 @@ std::vector<CoverageMethod> peer_methods(const StartedPeers& started) {
     const double snap_px = std::sqrt(2.0) / 2 / (1 << peer->subpixel_bits());  // half a unit on both axes
     list.push_back(
         {.info = {peer->name, peer->summary, version, "none; errors are measured only", false},
-         .promise = {.reach_px = snap_px},
+         .promise = {.reach_px = snap_px, .snap_bits = peer->subpixel_bits()},
          .draw = [peer = peer](const CoverageInput& input, Canvas& canvas,
                                const Execution& how) { draw_all(*peer, input, canvas, how); },
          .runs = [peer = peer](const CoverageInput& input, Window window,

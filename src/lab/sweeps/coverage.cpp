@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/random.h"
+#include "lab/coverage/changes.h"
 #include "lab/coverage/score.h"
 #include "lab/sweeps/sweeps.h"
 #include "scene/streams.h"
@@ -23,8 +24,8 @@ void add_picture(Measured& sums, const std::vector<FloatTriangle>& triangles, Wi
   const std::uint64_t crossings = edge_crossings(triangles, window);
   const auto methods = coverage_methods();
   for (std::size_t i = 0; i < methods.size(); ++i)
-    sums.methods[i] += {score_coverage(truth, methods[i], input).errors(), crossings};
-  sums.by_snapping += score_coverage(truth, covered_runs(grid, window, 1), triangles, 0.0).errors();
+    sums.methods[i] += {score_coverage(truth, {methods[i], input, window}, triangles).errors(), crossings};
+  sums.by_snapping += score_coverage(truth, {covered_runs(grid, window, 1), window}, triangles).errors();
 }
 
 // The nearest multiple of 1 / steps_per_px px. For vertices on the grid of 1/256 px both truths agree, so
@@ -176,31 +177,6 @@ Picture picture_of(std::span<const Run> runs, Window window) {
   }
   return picture;
 }
-
-// Counts how often each pixel changes from one frame to the next.
-class Changes {
- public:
-  void add(Picture picture) {
-    if (last_.empty()) count_.assign(picture.size(), 0);
-    for (std::size_t i = 0; i < last_.size(); ++i) count_[i] += picture[i] != last_[i];
-    last_ = std::move(picture);
-  }
-  std::uint64_t sum() const {
-    std::uint64_t sum = 0;
-    for (const std::uint32_t count : count_) sum += count;
-    return sum;
-  }
-  std::uint64_t beyond(const Changes& truth) const {
-    std::uint64_t sum = 0;
-    for (std::size_t i = 0; i < count_.size(); ++i)
-      sum += count_[i] > truth.count_[i] ? count_[i] - truth.count_[i] : 0;
-    return sum;
-  }
-
- private:
-  Picture last_;
-  std::vector<std::uint32_t> count_;
-};
 
 Measured measure_pan(double speed_px, bool quick) {
   const auto methods = coverage_methods();

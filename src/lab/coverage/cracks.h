@@ -1,0 +1,107 @@
+// Cracks: samples at an edge that two triangles of one surface share, which neither of them draws, or both.
+// They are counted at the edge, whatever lies behind it or in front.
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "lab/coverage/score.h"
+
+namespace edgewise::lab {
+
+// Whether two triangles share a vertex: x, y and depth, bit for bit.
+bool touch(const UnsnappedTriangle& a, const UnsnappedTriangle& b);
+
+// Which triangles of a picture adjoin. Two triangles share an edge if they lie on opposite sides of it and
+// both have its two vertices: x, y and depth, bit for bit. If an edge has more than two triangles, the k-th
+// on one side shares it with the k-th on the other, in submission order.
+//
+// At a T-junction a vertex lies on an edge, so the triangles on both sides adjoin without sharing it:
+// unshared edges that run along one another within 2^-10 px, in opposite directions, and whose depths agree
+// within 2^-20 of the range.
+class Surface {
+ public:
+  explicit Surface(std::span<const FloatTriangle> triangles);
+
+  // The triangle on the other side of a shared edge; kNoTriangle if the edge is not shared.
+  std::uint32_t across(std::uint32_t triangle, int edge) const {
+    return across_[3 * triangle + edge_of(edge)];
+  }
+  bool has_t_junctions() const { return !t_junctions_.empty(); }
+  // The triangles along the other side of an edge at T-junctions, as the second of each pair.
+  std::span<const std::pair<std::uint32_t, std::uint32_t>> along(std::uint32_t triangle, int edge) const;
+  std::span<const FloatTriangle> triangles() const { return triangles_; }
+  // The edge nearest to a sample; at a tie one that is not shared.
+  int nearest_edge(std::uint32_t triangle, int px, int py) const;
+
+  // Whether two triangles share a vertex and do not overlap: there each lies outside the other's angle.
+  bool side_by_side(std::uint32_t a, std::uint32_t b) const;
+
+  // The sum over all shared edges: the larger of the numbers of sample rows and sample columns that the edge
+  // crosses inside the window.
+  std::uint64_t crossings(Window window) const;
+
+ private:
+  static std::size_t edge_of(int edge) { return static_cast<std::size_t>(edge); }
+  void find_shared_edges();
+  void find_t_junctions();
+
+  std::span<const FloatTriangle> triangles_;
+  std::vector<std::int8_t> facing_;
+  std::vector<std::uint32_t> across_;  // three per triangle
+  // (3 triangle + edge, triangle along it), sorted
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> t_junctions_;
+};
+
+struct Sample {
+  std::int32_t y, x;  // pixel
+  auto operator<=>(const Sample&) const = default;
+};
+
+// Each list has a sample once per triangle that covers it.
+struct Cracks {
+  // A sample that a triangle covers, by exact coverage of the positions that the method itself uses.
+  std::vector<Sample> gaps;         // drawn by no triangle of the surface that reaches it
+  std::vector<Sample> double_hits;  // drawn by the triangle and by another one that shares an edge with it
+  // The same at T-junctions, by exact coverage of the positions before snapping: snapping moves the vertex
+  // off the edge, in every method that snaps.
+  std::vector<Sample> t_gaps, t_double_hits;
+  // Pixels of two triangles that share a vertex and overlap only after rounding: it turned one of them over,
+  // or moved an outline across the other. Exact methods draw both.
+  std::vector<Sample> folds;
+
+  std::uint64_t at_shared_edges() const { return gaps.size() + double_hits.size(); }
+  std::uint64_t at_t_junctions() const { return t_gaps.size() + t_double_hits.size(); }
+};
+
+// Holds a picture's surface, and the exact coverage of its positions rounded to any number of subpixel bits.
+// All functions may be called from several threads.
+class CrackJudge {
+ public:
+  // `floats` is the float truth of the triangles; both must outlive this object.
+  CrackJudge(std::span<const FloatTriangle> triangles, const CoverageTruth& floats);
+
+  const Surface& surface() const { return surface_; }
+  // `snap_bits` as in CoveragePromise.
+  Cracks find(const DrawnRuns& drawn, std::optional<int> snap_bits) const;
+
+ private:
+  struct Rounded {
+    std::once_flag once;
+    std::vector<Run> runs;
+    std::vector<Sample> folds;
+  };
+  const Rounded& rounded(int bits) const;
+
+  Surface surface_;
+  const CoverageTruth& floats_;
+  mutable std::array<Rounded, kMostSnapBits + 1> rounded_;
+};
+
+}  // namespace edgewise::lab
