@@ -139,10 +139,10 @@ class CompareTest(unittest.TestCase):
 
     def test_a_time_limit_ends_the_rounds(self):
         start = time.monotonic()
-        result = self.compare("HEAD", "--filter", "tiled", "--minutes", 0.1)
+        result = self.compare("HEAD", "--filter", "tiled/a", "--minutes", 0.2)
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertLess(time.monotonic() - start, 12)
-        self.assertGreaterEqual(len(self.calls.read_text()), 20)
+        self.assertLess(time.monotonic() - start, 40)
+        self.assertGreaterEqual(len(self.calls.read_text()), 16)
         self.fails(self.compare("HEAD", "--filter", "tiled", "--minutes", 0.0001), "10 are the fewest that settle so many rows", "--minutes")
 
     def test_bad_input_is_told(self):
