@@ -189,7 +189,7 @@ void add_portable(CLI::App& program, Action& action) {
   add_integer(command, "--ulps", o->model.transform_ulps, 0, 1000,
               "Error of the viewport transform, in units in the last place (2)");
   add_integer(command, "--guard-band", o->model.guard_band_px, 0, 1 << 20,
-              "How far triangles may reach beyond the picture, in px, see below (3000)");
+              "How far triangles may reach beyond the picture, in px (3000)");
   add_parsed(command, "--depth", "FORMAT", "Depth format: d16_unorm, d24_unorm or d32_sfloat (d24_unorm)",
              [o](const std::string& text) { o->model.depth = lab::find_depth_format(text); });
   o->scene.add_to(command);

@@ -118,7 +118,7 @@ class AnswersTest(unittest.TestCase):
         scenes = (Scene("mesh_on_grid", "coverage", "", 1000, (measured("tiled", True, 0), plain)),
                   Scene("grid4", "coverage", "", 3000, (ours, measured("float_lt", False, 2))))
         told = Accuracy({"coverage": [ours.method, plain.method]}, scenes, None)
-        self.assertEqual([pooled_text(wrong_of(told, m.method)) for m in (ours, plain)], ["600", "1,500; 2 without mesh_on_grid"])
+        self.assertEqual([pooled_text(wrong_of(told, m.method)) for m in (ours, plain)], ["600; 0 without grid4", "1,500; 2 without mesh_on_grid"])
 
     def test_rates_are_pooled_over_large_scenes_within_a_methods_range(self):
         limited = Method("y", "a book", "", False, 181)
