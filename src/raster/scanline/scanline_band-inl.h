@@ -30,7 +30,7 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace contract;
 
-// A row of the frame, as signed integers: they compare faster, and no depth needs 32 bits.
+// A row of the frame, as signed integers: vectors compare these faster, and depths have 31 bits.
 struct FrameRow {
   std::int32_t *depth, *payload;
   FrameRow(FrameView frame, int y)
@@ -125,8 +125,8 @@ struct alignas(64) NarrowBatch {
     std::int32_t x[kSize], y[kSize];  // steps per pixel
   } edge[3];
   struct Depth {
-    std::int32_t left[kSize],
-        right[kSize];  // in the box's first row, at the first pixel of its first and last cell
+    // In the box's first row, at the first pixel of the cell in which the box begins, and in which it ends.
+    std::int32_t left[kSize], right[kSize];
     std::int32_t x[kSize], y[kSize];
   } depth;
   std::int32_t payload[kSize];
