@@ -120,10 +120,12 @@ def frontier_table(accuracy):
     def form(forms, name, otherwise):
         return said(forms[name]) if name in forms else otherwise
 
-    header = ["method", "cracks per 10⁶ crossings", "without the scene of most", "worst scene", "crossings", "at T-junctions", "folds", f"scalar, `{base.name}` = 1×", "SIMD"]
+    header = ["method", "cracks per 10⁶ crossings", "without the scene of most", "worst scene", "crossings", "at T-junctions", "folds",
+              f"scalar, `{base.name}` = 1×", "SIMD"]
     lines = [[title(method), number(cracks.rate, 2),
               f"{number(cracks.pooled.without, 2)} (`{cracks.pooled.mostly_on}`)" if cracks.pooled.mostly_on else "–",
               f"{number(cracks.worst, 2)} (`{cracks.worst_scene}`)" if cracks.worst else "–",
-              short(cracks.crossings), f"{cracks.t_junctions:,}", f"{cracks.folds:,}", form(forms, "scalar", "–"), form(forms, "simd", "–" if method.peer else method.simd_note or "–")]
+              short(cracks.crossings), f"{cracks.t_junctions:,}", f"{cracks.folds:,}", form(forms, "scalar", "–"),
+              form(forms, "simd", "–" if method.peer else method.simd_note or "–")]
              for method, (forms, cracks) in sorted(found.items(), key=lambda item: -best(item[1][0]).middle)]
     return header, lines

@@ -262,7 +262,8 @@ def displacement_strip(accuracy, folder, caption):
     axes.invert_yaxis()
     axes.grid(axis="y", visible=False)
     for line, (bits, pooled) in zip(lines, rates.items()):
-        axes.text(pooled.rate * 1.06, line, pooled_text(pooled), va="center", fontsize=9.5, color=dark(BLACK if bits == OUR_BITS else FAINT))
+        axes.text(pooled.rate * 1.06, line, pooled_text(pooled), va="center", fontsize=9.5,
+                  color=dark(BLACK if bits == OUR_BITS else FAINT))
     save(figure, folder, "displacement", caption)
     return "displacement"
 

@@ -61,8 +61,8 @@ def frontier(accuracy, bench, folder, caption):
     most = max(found.values(), key=lambda item: item[1].crossings)[1]
     subtitle = (f"Further left: fewer cracks; further up: faster on one thread, geometric mean of {scenes} scenes "
                 f"({', '.join(scene.name for scene in timed_scenes(accuracy))}). A crack is a sample at an edge that two triangles share, "
-                f"which neither draws, or both; {most.scenes} scenes and {short(most.crossings)} crossings of shared edges pooled; the dotted line ends at the worst "
-                f"scene. Hollow: scalar code; filled: {kernels(bench.context.get('simd_target'))}, of peers their own vectors.")
+                f"which neither draws, or both; {most.scenes} scenes and {short(most.crossings)} crossings of shared edges pooled; "
+                f"the dotted line ends at the worst scene. Hollow: scalar code; filled: {kernels(bench.context.get('simd_target'))}, of peers their own vectors.")
     above, below = 0.95 + head_in(subtitle), 1.0
     figure, axes = plt.subplots(figsize=(WIDTH_IN, above + below + 5.0))
     height = figure.get_figheight()
