@@ -240,7 +240,6 @@ class Sweep:
     x: dict
     y: dict
     curves: tuple
-    by_snapping: tuple  # at each point: the errors of rounding to 1/256 px alone
 
 
 def parse_measured(entry, family, method, forms):
@@ -320,8 +319,7 @@ def parse_stability(data):
     axes = ("name", "log")
     return tuple(Sweep(sweep["name"], FAMILIES[sweep["family"]].name, sweep["summary"],
                        {"unit": sweep["x"].get("unit", ""), **{key: sweep["x"][key] for key in axes}},
-                       {key: sweep["y"][key] for key in axes}, tuple(map(parse_curve, sweep["curves"])),
-                       tuple(float(y) for _, y in sweep["by_snapping"]))
+                       {key: sweep["y"][key] for key in (*axes, "tolerance")}, tuple(map(parse_curve, sweep["curves"])))
                  for sweep in data["sweeps"])
 
 

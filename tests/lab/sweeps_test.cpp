@@ -96,12 +96,13 @@ TEST_P(EverySweep, HasACurveForEveryMethodAndOneThatFails) {
 
   const auto methods = methods_of(sweep.family);
   bool some_fail = false;
+  const Found reference(result, sweep.family == Family::coverage ? "fixed_8" : methods.front().name);
   for (std::size_t i = 0; i < methods.size(); ++i) {
     some_fail = some_fail || result.starts_to_fail(i);
     if (sweep.family != Family::coverage || !methods[i].exact) continue;
     for (std::size_t position = 0; position < sweep.positions.size(); ++position)
-      EXPECT_EQ(result.at[position].methods[i].errors, result.at[position].by_snapping)
-          << methods[i].name << " differs from the snapped truth at " << sweep.positions[position];
+      EXPECT_EQ(result.at[position].methods[i], reference.at(sweep.positions[position]))
+          << methods[i].name << " errs otherwise than by snapping at " << sweep.positions[position];
   }
   EXPECT_TRUE(some_fail);
 
@@ -131,18 +132,16 @@ TEST(SweepRegistry, HoldsEveryFamilyAndNoNameTwice) {
 TEST(Sweeps, DoNotDependOnThreads) {
   for (const auto name : {"legs", "cycle", "vertex_w"}) {
     const SweepResult one = swept(name, 1), three = swept(name, 3);
-    for (std::size_t position = 0; position < one.at.size(); ++position) {
+    for (std::size_t position = 0; position < one.at.size(); ++position)
       EXPECT_EQ(one.at[position].methods, three.at[position].methods) << name;
-      EXPECT_EQ(one.at[position].by_snapping, three.at[position].by_snapping) << name;
-    }
   }
 }
 
-TEST(Sweeps, StartToFailWhereErrorsExceedThoseOfSnapping) {
+TEST(Sweeps, StartToFailWhereErrorsExceedTheTolerance) {
   Sweep sweep{};
   sweep.positions = {8, 4, 2};
+  sweep.y = {"wrong faces, %", false, 100, 5};
   SweepResult result{&sweep, std::vector<Measured>(3, Measured(3))};
-  for (Measured& measured : result.at) measured.by_snapping = 5;
   result.at[1].methods[1] = {6, 100};
   result.at[2].methods[1] = {9, 100};
   for (Measured& measured : result.at) measured.methods[2] = {5, 100};
@@ -170,6 +169,12 @@ TEST(CoverageSweeps, LegsOf182PixelsAreTheFirstThatWrap32Bits) {
   EXPECT_EQ(Found(legs, "float_le").start(), 64) << "ties on the diagonal";
 }
 
+TEST(CoverageSweeps, SnappingFailsOffItsGridOnly) {
+  EXPECT_EQ(Found(swept("height"), "tiled").start(), std::nullopt);
+  for (const auto name : {"height_off_grid", "pan"}) EXPECT_TRUE(Found(swept(name), "tiled").start()) << name;
+  EXPECT_EQ(Found(swept("translation_off_grid"), "tiled").start(), std::nullopt) << "it stays watertight";
+}
+
 TEST(VisibilitySweeps, FewerBitsFailAtLargerSeparations) {
   for (const auto name : {"separation_at_10", "separation_at_100"}) {
     const SweepResult separation = swept(name);
@@ -191,11 +196,7 @@ TEST(VisibilitySweeps, FewerBitsFailAtLargerSeparations) {
 
 TEST(FacingSweeps, SnappingFlipsFacesOneSubUnitThinAndFloatsMuchThinnerOnes) {
   const SweepResult edge_on = swept("edge_on");
-  EXPECT_EQ(Found(edge_on, "snapped_area").start(), std::nullopt) << "it errs as snapping does";
-  const auto& at = edge_on.at;
-  const auto first = std::find_if(at.begin(), at.end(), [](const Measured& m) { return m.by_snapping > 0; });
-  ASSERT_NE(first, at.end());
-  const double snapped = edge_on.sweep->positions[static_cast<std::size_t>(first - at.begin())];
+  const double snapped = Found(edge_on, "snapped_area").start().value();
   EXPECT_LE(snapped, 1.0 / 128);
   EXPECT_GE(snapped, 1.0 / 1024);
   const Found floats(edge_on, "float_area");

@@ -67,12 +67,12 @@ constexpr const char* kStabilityFooter = R"(Examples:
   edgewise stability legs separation_at_100
 
 A sweep varies one parameter of a scene from easy to hard. At each value it counts the errors of
-every method of a family against an exact reference for the given positions.
+every method of a family against an exact reference for the positions that the caller gave. Sweeps
+of coverage have vertices on our grid of 1/256 px, or, as NAME_off_grid, anywhere.
 
 Columns: the first value where the method fails, and its error there; its largest error, and the
-value where it occurs; the number of values where it fails. A method fails where it makes any error.
-If the reference uses positions before snapping to 1/256 px, a method fails where it makes more
-errors than snapping alone causes.
+value where it occurs; the number of values where it fails. A method fails where it errs in more
+than 1 of 10,000 trials; where a mesh must stay watertight, in any.
 If no error was observed at any value, the number after "<" is the 95 % upper bound of the rate at
 each value: 3 divided by the smallest number of trials at a value.)";
 

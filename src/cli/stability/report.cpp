@@ -71,12 +71,7 @@ std::string stability_table(const SweepResult& result) {
   text += fmt::format("  {}\n  {} to {}{}{}; {}\n", sweep.summary, value_text(sweep.positions.front()),
                       value_text(sweep.positions.back()), sweep.x.unit.empty() ? "" : " ", sweep.x.unit,
                       sweep.y.name);
-  double snapping = 0.0;
-  for (const Measured& measured : result.at)
-    snapping = std::max(snapping, result.y({measured.by_snapping, measured.methods.front().trials}));
-  if (snapping > 0.0)
-    text += fmt::format("  snapping to 1/256 px alone causes up to {:.4g}; only more counts as failing\n",
-                        snapping);
+  text += fmt::format("  fails: more than {:.4g}\n", sweep.y.tolerance);
   text += fmt::format(kRow, "method", "starts to fail", "error there", "max error", "at", "failing");
   const auto methods = methods_of(sweep.family);
   for (std::size_t i = 0; i < methods.size(); ++i) text += row(methods[i].name, {result, i});
@@ -86,7 +81,7 @@ std::string stability_table(const SweepResult& result) {
 std::string list_of_sweeps() {
   std::string text;
   for (const lab::Sweep& sweep : lab::sweeps())
-    text += fmt::format("{:<18} {:<11} {}\n", sweep.name, name_of(sweep.family), sweep.x.name);
+    text += fmt::format("{:<20} {:<10} {}\n", sweep.name, name_of(sweep.family), sweep.x.name);
   return text;
 }
 
@@ -96,15 +91,9 @@ nlohmann::json sweep_json(const SweepResult& result) {
                       {"family", name_of(sweep.family)},
                       {"summary", sweep.summary},
                       {"x", {{"name", sweep.x.name}, {"unit", sweep.x.unit}, {"log", sweep.x.log}}},
-                      {"y", {{"name", sweep.y.name}, {"log", sweep.y.log}}},
-                      {"curves", nlohmann::json::array()},
-                      {"by_snapping", nlohmann::json::array()}};
+                      {"y", {{"name", sweep.y.name}, {"log", sweep.y.log}, {"tolerance", sweep.y.tolerance}}},
+                      {"curves", nlohmann::json::array()}};
   const std::size_t positions = result.at.size();
-  for (std::size_t position = 0; position < positions; ++position) {
-    const Measured& measured = result.at[position];
-    json["by_snapping"].push_back(
-        {sweep.positions[position], result.y({measured.by_snapping, measured.methods.front().trials})});
-  }
   const auto methods = methods_of(sweep.family);
   for (std::size_t i = 0; i < methods.size(); ++i) {
     nlohmann::json curve{{"method", methods[i].name}, {"exact", methods[i].exact}};

@@ -11,10 +11,8 @@ namespace edgewise::lab {
 
 namespace {
 
-constexpr YAxis kMisjudged{"misjudged faces, %", false, 100};
+constexpr YAxis kMisjudged{"misjudged faces, %", false, 100, 100 * kTolerance};
 
-// The first method computes the exact orientation of the snapped positions, so all its errors come from
-// snapping.
 Measured measure_scene(const FacingScene& scene) {
   const auto methods = facing_methods();
   const auto facts = facing_facts(scene);
@@ -23,7 +21,6 @@ Measured measure_scene(const FacingScene& scene) {
     const FacingScore s = score(methods[i], scene, facts).floats;
     result.methods[i] = {s.misclassified, s.faces};
   }
-  result.by_snapping = result.methods.front().errors;
   return result;
 }
 

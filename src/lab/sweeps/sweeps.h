@@ -25,9 +25,6 @@ struct Measured {
   explicit Measured(std::size_t method_count) : methods(method_count) {}
 
   std::vector<Tally> methods;  // in the order of the family's registry
-  // The errors of exact methods on positions rounded to 1/256 px, if the truth uses the unrounded ones. A
-  // method fails where it makes more errors than these.
-  std::uint64_t by_snapping = 0;
 };
 
 struct XAxis {
@@ -37,8 +34,10 @@ struct XAxis {
 struct YAxis {
   std::string_view name;
   bool log;
-  double scale;  // y = scale * errors / trials
+  double scale;      // y = scale * errors / trials
+  double tolerance;  // a method fails where y is larger
 };
+inline constexpr double kTolerance = 1e-4;  // errors per trial, unless none is tolerable
 
 struct Sweep {
   std::string_view name;
@@ -66,10 +65,10 @@ struct SweepResult {
   const Sweep* sweep;
   std::vector<Measured> at;  // one per position
 
-  // The first position where a method makes more errors than snapping alone; nullopt if there is none.
+  // The first position where a method fails; nullopt if there is none.
   std::optional<double> starts_to_fail(std::size_t method) const;
   bool fails(std::size_t method, std::size_t position) const {
-    return at[position].methods[method].errors > at[position].by_snapping;
+    return y(at[position].methods[method]) > sweep->y.tolerance;
   }
   double y(const Tally& tally) const;
 };

@@ -9,7 +9,8 @@ namespace edgewise::lab {
 
 namespace {
 
-constexpr YAxis kWrongTriangles{"wrong visible triangles per 10^6 covered pixels", true, 1e6};
+constexpr YAxis kWrongTriangles{"wrong visible triangles per 10^6 covered pixels", true, 1e6,
+                                1e6 * kTolerance};
 
 template <typename Errors>
 Measured measure_scene(const VisibilityScene& scene, Errors&& errors) {
@@ -96,7 +97,7 @@ std::vector<Sweep> visibility_sweeps() {
            Family::visibility,
            "slivers: visible triangles, and depths outside the triangle's own range",
            {"length over width", "", true},
-           {"wrong triangles and depths per 10^6 covered pixels", true, 1e6},
+           {"wrong triangles and depths per 10^6 covered pixels", true, 1e6, 1e6 * kTolerance},
            0.4,
            decades(1, 5),
            measure_sliver_depth}};
