@@ -163,6 +163,9 @@ int rounds_of(const Row& row, const Flags& flags) {
   return flags.repetitions.value_or(is_cell(row) && row.once_s <= kTooSlowToRepeat_s ? kCellRounds : kRounds);
 }
 
+// With fewer, the 99th percentile would be the slowest of all.
+constexpr std::size_t kFramesForP99 = 100;
+
 // The smallest value that at least `share` of all values do not exceed.
 double percentile(std::vector<double> values, double share) {
   const auto at =
@@ -207,10 +210,7 @@ void time_row(benchmark::State& state, Row& row, Stage& stage) {
     counters["first_ms"] = row.first_frame->s * 1e3;
     if (row.first_frame->peak_bytes) counters["peak_bytes"] = *row.first_frame->peak_bytes;
   }
-  if (!row.frames_s.empty()) {
-    counters["frames"] = static_cast<double>(row.frames_s.size());
-    counters["p99_ms"] = percentile(row.frames_s, 0.99) * 1e3;
-  }
+  if (row.frames_s.size() >= kFramesForP99) counters["p99_ms"] = percentile(row.frames_s, 0.99) * 1e3;
   if (const auto wrong_px = row.wrong_px ? row.wrong_px : workload.wrong_px())
     counters["wrong_px"] = static_cast<double>(*wrong_px);
   if (row.timed == Timed::frontend) return;

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <string_view>
 #include <utility>
 
 #include "support/json_text.h"
@@ -44,7 +46,6 @@ benchmark::BenchmarkReporter::Run median_of(const std::vector<benchmark::Benchma
   result.iterations = static_cast<benchmark::IterationCount>(runs.size());
   result.real_accumulated_time = median(real_s) * static_cast<double>(runs.size());
   result.cpu_accumulated_time = median(cpu_s) * static_cast<double>(runs.size());
-  derive_rates(result);
   return result;
 }
 
@@ -69,7 +70,6 @@ bool Reporter::ReportContext(const Context& context) {
 void Reporter::ReportRuns(const std::vector<Run>& runs) {
   for (Run run : runs) {
     run.run_name = {run.run_name.function_name, "", "", "", "", "", "", ""};
-    if (!run.error_occurred) derive_rates(run);
     auto& earlier = runs_[run.run_name.function_name];
     run.repetition_index = static_cast<std::int64_t>(earlier.size());
     earlier.push_back(std::move(run));
@@ -84,6 +84,7 @@ void Reporter::finish() {
     for (Run& run : runs) run.repetitions = static_cast<std::int64_t>(runs.size());
     shown.push_back(runs.size() == 1 ? runs.front() : median_of(runs));
     if (runs.size() > 1) runs.push_back(shown.back());
+    if (!shown.back().error_occurred) derive_rates(shown.back());
     json_.ReportRuns(runs);
   }
   if (!shown.empty()) console_->ReportRuns(shown);
@@ -92,15 +93,26 @@ void Reporter::finish() {
 }
 
 std::string Reporter::json() const {
+  static const std::set<std::string_view> kOfEachRepetition{"name",      "run_type", "iterations",
+                                                            "real_time", "cpu_time", "time_unit"};
   auto result = nlohmann::ordered_json::parse(json_text_.str());
   auto& context = result["context"];
   context.erase("host_name");
   context["executable"] = std::filesystem::path(context.value("executable", "")).filename().string();
   std::string text = "{\n\"context\": " + tools::json_text(context, 2) + ",\n\"benchmarks\": [";
   const char* separator = "\n";
+  nlohmann::ordered_json first;
   for (auto& row : result["benchmarks"]) {
-    for (const char* key : {"family_index", "per_family_instance_index"})
-      row.erase(key);  // count registrations
+    for (const char* key :
+         {"family_index", "per_family_instance_index", "run_name", "repetitions", "threads"})  // not ours
+      row.erase(key);
+    // A name's later repetitions hold only the counters that differ from the first's.
+    if (first.is_null() || first["name"] != row["name"]) {
+      first = row;
+    } else {
+      for (const auto& [key, value] : first.items())
+        if (!kOfEachRepetition.contains(key) && row.contains(key) && row[key] == value) row.erase(key);
+    }
     text += separator + tools::json_text(row);
     separator = ",\n";
   }

@@ -203,12 +203,12 @@ class Accuracy:
         scenes = self.of(family)
         return [scene for scene in scenes if scene.trials >= LEAST_SHARE * max(s.trials for s in scenes)]
 
-    def rates(self, family, without=None):
-        """{method's name: Pooled errors per 10⁶}, the pooled scenes within its range together, `without` one of that name."""
+    def rates(self, family):
+        """{method's name: Pooled errors per 10⁶}, the pooled scenes within its range together."""
         rates = {}
         for method in self.methods.get(family, ()):
             found = [(m.rate * scene.trials, scene.trials, scene.name) for scene in self.pooled(family)
-                     for m in scene.measured if m.method == method and scene.in_range_of(method) and scene.name != without]
+                     for m in scene.measured if m.method == method and scene.in_range_of(method)]
             if any(trials for _, trials, _ in found):
                 rates[method.name] = pooled(found)
         return rates

@@ -1,5 +1,5 @@
 """README's first table: the answers to its questions, each with its condition."""
-from factors import gains, said
+from factors import cells, gains, most_threads, said
 from frontier import EXACT, INSIDE_TESTS, PRICED, measured_in, simd_outcome
 from bench_tables import OURS, THREADS, compared_targets, timed_peers
 from tables import by_order, kernels, number, outcome
@@ -15,7 +15,7 @@ def factor_rows(bench):
     told = [f"{factor} {with_simd[factor]}" for factor in ("tiles over bands", "edges over spans") if factor in with_simd]
     if told:
         yield [PARALLEL, f"speed-up of {', '.join(told)}", f"median and range of all scenes, all else equal; whole frames, "
-               f"{max(THREADS)} threads, {kernels(bench.context.get('simd_target'))}; [all factors](#speed)"]
+               f"{most_threads(cells(bench))} threads, {kernels(bench.context.get('simd_target'))}; [all factors](#speed)"]
 
 
 def box_rows(bench):

@@ -153,7 +153,7 @@ def read_bench(folder_or_file):
                 row.error = entry.get("error_message", "error")
                 continue
             row.times_ms.append(entry["real_time"] * MS[entry["time_unit"]])
-            row.counters = {key: value for key, value in entry.items() if isinstance(value, float)}
+            row.counters |= {key: value for key, value in entry.items() if isinstance(value, float)}  # later rows say what differs
     except (KeyError, TypeError, AttributeError) as error:
         raise BadInput(f"{path}: not a Google Benchmark result: {error}") from None
     context = data.get("context", {})

@@ -1,8 +1,7 @@
 """The tables of a machine's benchmark."""
-from itertools import combinations
-
 import noise
 from bench_rows import describe_machine, gained, gained_interval, order, read_bench
+from factors import duels
 from program import read_json
 from tables import VECTORS, about, gain, milliseconds, number, percent, speed_up, with_width
 
@@ -255,14 +254,15 @@ TRUE_RATIO, WANTED_POWER = 1.2, 0.95
 
 
 def power_sentence(bench):
-    """How often the suite's rounds settle a difference between whole frames, simulated with their noise."""
-    frames = [[row for b in bench.backends if (row := bench.frame(b, scene, n)) and row.rounds] for scene in bench.scenes for n in THREADS]
-    compared = [(a.times_ms, b.times_ms) for rows in frames for a, b in combinations(rows, 2)]
+    """How often the rounds of cells settle a difference between bands and tiles, simulated with their noise."""
+    sides = [(duel.bands[1].times_ms, duel.tiles[1].times_ms) for simd in (True, False) for duel in duels(bench, simd)]
+    rounds = max((len(times) for times, _ in sides), default=0)
+    compared = [pair for pair in sides if [len(times) for times in pair] == [rounds] * 2]
     if not compared:
         return NOT_TIMED
-    rounds = int(bench.context["rounds"])
-    return (f"{rounds} rounds settle a true {TRUE_RATIO}× between two whole frames in {percent(noise.power(compared, TRUE_RATIO, rounds))} of cases, "
-            f"{noise.rounds_for(compared, TRUE_RATIO, WANTED_POWER)} rounds in {percent(WANTED_POWER)}, simulated with their noise.")
+    needed = noise.rounds_for(compared, TRUE_RATIO, WANTED_POWER) or f"more than {noise.MOST_ROUNDS}"
+    return (f"{rounds} rounds settle a true {TRUE_RATIO}× between two cells in {percent(noise.power(compared, TRUE_RATIO, rounds))} of cases, "
+            f"{needed} rounds in {percent(WANTED_POWER)}, simulated with their noise.")
 
 
 def store_cells(rule, streaming):

@@ -317,8 +317,8 @@ def compare_revisions(before, after, pattern, rounds, minutes, out):
         if not shared:
             raise BadInput(f"no row of both revisions matches '{pattern}'")
         fewest = noise.fewest_rounds(noise.LEVEL / len(shared))
-        if rounds is not None and rounds < fewest:
-            raise BadInput(f"{rounds} rounds settle nothing; {fewest} are the fewest for {len(shared)} rows")
+        if (rounds or ROUNDS) < fewest:
+            raise BadInput(f"{rounds or ROUNDS} rounds settle nothing; {fewest} are the fewest for {len(shared)} rows")
         rows, machine = time_rounds(sides, pattern, fewest, rounds, 60 * minutes)
     print(f"Before: {before.title}\nAfter:  {after.title}")
     if before != after:

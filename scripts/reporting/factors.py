@@ -1,4 +1,4 @@
-"""What each factor of a rasterizer gains: pairs of the benchmark's cells, whole frames, that differ in one factor only.
+"""What each factor of a rasterizer gains: pairs of the benchmark's cells, whole frames, that differ in one factor.
 
 Cells are the rows cell/SCENE/traversal:bands|tiles/fill:spans|edges/simd:TARGET[/with:hiz[+masks]]/threads:N.
 """
@@ -84,11 +84,11 @@ def factor_table(bench):
              for gain in gains(bench)])
 
 
-def conditions(bench):
-    """What the lines of the table are, and how many of their verdicts may be false."""
-    pairs = sum(gain.pairs for gain in gains(bench))
-    return (f"Pairs of whole frames on {most_threads(cells(bench))} threads that differ in one factor only; of {pairs} verdicts, at most "
-            f"{number(LEVEL * pairs, 2)} false ones are expected.")
+def conditions(bench, codes=(True, False)):
+    """What the table's lines with SIMD, or without, are, and how many of their verdicts may be false."""
+    pairs = sum(gain.pairs for gain in gains(bench) if gain.simd in codes)
+    return (f"Pairs of whole frames on {most_threads(cells(bench))} threads that differ in one factor, as Edgewise implements it; of "
+            f"{pairs} verdicts, at most {number(LEVEL * pairs, 2)} false ones are expected.")
 
 
 class Duel(NamedTuple):
@@ -99,11 +99,15 @@ class Duel(NamedTuple):
     bands: tuple  # (Cell, row)
     tiles: tuple
     plain_tiles: object  # the row of the fastest tiles without HiZ
+    all_bands: tuple  # rows
+    all_tiles: tuple
 
     @property
     def order(self):
-        """-1 if bands are faster, 1 if tiles, 0 if not settled."""
-        return order(self.bands[1], self.tiles[1])
+        """-1 if the fastest bands are faster than all tiles, 1 if the fastest tiles are than all bands, 0 if neither is settled."""
+        if all(order(self.bands[1], row) < 0 for row in self.all_tiles):
+            return -1
+        return int(all(order(self.tiles[1], row) < 0 for row in self.all_bands))
 
     @property
     def ratio(self):
@@ -120,13 +124,15 @@ def duels(bench, simd):
     found = cells(bench)
     threads = most_threads(found)
 
-    def fastest(scene, traversal, extras=("", HIZ, MASKS)):
-        """(Cell, row), or None."""
-        return min(((cell, row) for cell, row in found.items() if cell.scene == scene and cell.traversal == traversal and cell.extra in extras
-                    and (cell.simd, cell.threads) == (simd, threads)), key=lambda pair: pair[1].median_ms, default=None)
+    def median_ms(pair):
+        return pair[1].median_ms
 
     for scene in dict.fromkeys(cell.scene for cell in found):
-        bands, tiles, plain = fastest(scene, "bands"), fastest(scene, "tiles"), fastest(scene, "tiles", ("",))
-        if bands and tiles and plain:
-            seen = bands[1].counters
-            yield Duel(scene, seen["covered_px"] / seen["triangles"], seen["overdraw"], bands, tiles, plain[1])
+        bands, tiles = ([(cell, row) for cell, row in found.items() if (cell.scene, cell.simd, cell.threads, cell.traversal) ==
+                         (scene, simd, threads, traversal)] for traversal in ("bands", "tiles"))
+        plain = [pair for pair in tiles if not pair[0].extra]
+        if bands and plain:
+            first = min(bands, key=median_ms)
+            seen = first[1].counters
+            yield Duel(scene, seen["covered_px"] / seen["triangles"], seen["overdraw"], first, min(tiles, key=median_ms),
+                       min(plain, key=median_ms)[1], *(tuple(row for _, row in side) for side in (bands, tiles)))

@@ -4,8 +4,9 @@ from typing import NamedTuple
 
 from accuracy_rows import Pooled, pooled
 from bench_rows import mean_gained
+from bench_tables import GPU
 from facts_tables import pooled_text
-from tables import by_order, number
+from tables import by_order, number, speed_up
 
 LEAST_CROSSINGS = 10_000  # of shared edges; in smaller scenes a single crossing decides the rate
 # The tutorials' inside tests.
@@ -15,10 +16,7 @@ INSIDE_TESTS = ("float_lt", "float_le")
 class CrackRates(NamedTuple):
     """Cracks per 10⁶ crossings of shared edges."""
     pooled: Pooled
-    worst: float  # of one scene
-    worst_scene: str
     crossings: int
-    scenes: int
     t_junctions: int  # samples, in all scenes within the method's range
     folds: int
 
@@ -42,11 +40,8 @@ def cracks_of(accuracy, method):
     if not found:
         return None
     crossings = sum(scene.shared_crossings for _, scene in found)
-    worst, worst_scene = max(((1e6 * cracks / scene.shared_crossings, scene.name) for cracks, scene in found),
-                             key=lambda pair: pair[0])
     rate = pooled([(cracks, scene.shared_crossings, scene.name) for cracks, scene in found], 1e6)
-    return CrackRates(rate, worst, worst_scene, crossings, len(found), *(sum(getattr(cracks, count) for cracks, _ in measured)
-                                                                         for count in ("t_junctions", "folds")))
+    return CrackRates(rate, crossings, *(sum(getattr(cracks, count) for cracks, _ in measured) for count in ("t_junctions", "folds")))
 
 
 def timed_scenes(accuracy):
@@ -99,10 +94,11 @@ def best(forms):
 
 
 def frontier_figures(accuracy):
-    """({method: (its speed_ups(), CrackRates)}, the reference, number of scenes) of the methods with both figures."""
+    """({method: (its speed_ups(), CrackRates)}, the reference, number of scenes) of the methods with all figures. A GPU is not
+    among them: its times are not those of one thread."""
     ups, base, scenes = speed_ups(accuracy)
-    return ({method: (forms, cracks) for method, forms in ups.items() if forms and (cracks := cracks_of(accuracy, method))},
-            base, scenes)
+    return ({method: (forms, cracks) for method, forms in ups.items()
+             if forms and method.name != GPU and (cracks := cracks_of(accuracy, method)) and wrong_of(accuracy, method)}, base, scenes)
 
 
 def said(up):
@@ -152,8 +148,8 @@ def price_table(accuracy):
         outcome = simd_outcome(accuracy, name, EXACT) if name != EXACT else None
         gained_by, *interval = mean_gained([(measured_in(scene, EXACT).simd.row, measured_in(scene, name).simd.row)
                                             for scene in timed_scenes(accuracy)])
-        speed = (f"{number(gained_by, 3)}× ({number(interval[0], 3)} to {number(interval[1], 3)}); settled in "
-                 f"{len(outcome[-1]) + len(outcome[1])} of {sum(map(len, outcome.values()))} scenes" if outcome else "1×")
+        speed = (f"{speed_up(gained_by)} ({' to '.join(map(speed_up, interval))}); settled in {len(outcome[-1]) + len(outcome[1])} of "
+                 f"{sum(map(len, outcome.values()))} scenes" if outcome else "1×")
         lines.append([f"`{name}`", speed, pooled_text(cracks.pooled) if cracks.rate else f"0 (<{number(3e6 / cracks.crossings, 2)})",
                       pooled_text(wrong_of(accuracy, method)), method.promise])
     return ["edges", "speed", "cracks", "wrong pixels", "guarantee"], lines

@@ -28,6 +28,7 @@ GAP = 2.0
 DRIFT = 0.03
 RESAMPLES = 2000
 DRAWS = 100  # of each pair, for the power of the test
+MOST_ROUNDS = 99
 
 median = statistics.median
 
@@ -140,9 +141,10 @@ def power(pairs, ratio, rounds):
 
 
 def rounds_for(pairs, ratio, wanted):
-    """The fewest rounds with so much power()."""
-    rounds = range(fewest_rounds(), 100)
-    return rounds[bisect_left(rounds, wanted, key=lambda count: power(pairs, ratio, count))]
+    """The fewest rounds with so much power(), None if MOST_ROUNDS have less."""
+    rounds = range(fewest_rounds(), MOST_ROUNDS + 1)
+    at = bisect_left(rounds, wanted, key=lambda count: power(pairs, ratio, count))
+    return rounds[at] if at < len(rounds) else None
 
 
 def p95(values):

@@ -25,18 +25,18 @@ def winner(found):
     return next((side for side, wins in counted(found).items() if 2 * wins > len(found)), None)
 
 
-def title(found):
+def title(found, code):
     """Who wins most scenes, by overdraw."""
     sides = {panel: winner(of) for panel in PANELS if (of := in_panel(found, panel))}
     won = {side: enumerated([panel for panel, of in sides.items() if of == side]) for side in (*sides.values(), None)}
     open_at = won.pop(None)
     if len(won) == 2 or won and open_at:
         (first, its), (second, others) = (*won.items(), ("neither", open_at))[:2]
-        return f"{first.capitalize()} win most scenes at overdraw {its}, {second} at {others}"
-    if won:
-        return f"{next(iter(won)).capitalize()} win most scenes at every overdraw"
+        return f"{code}: {first} win most at overdraw {its}, {second} at {others}"
+    if won and len(sides) == len(PANELS):
+        return f"{code}: {next(iter(won))} win most at every overdraw"
     wins = counted(found)
-    return f"Bands win {wins['bands']} of {len(found)} scenes, tiles {wins['tiles']}, the others are open"
+    return f"{code}: bands win {wins['bands']} of {len(found)} scenes, tiles {wins['tiles']}, others are open"
 
 
 def panel(axes, found, low, high):
@@ -68,13 +68,13 @@ def factors(bench, folder, caption):
     if not rows:
         return None
     subtitle = (f"A marker is a scene, whole frames on {most_threads(cells(bench))} threads: the fastest with bands against the fastest with tiles. "
-                "Up: bands are faster; down: tiles. Label: the scene, and how the winner fills. Hollow: not settled. Light bars: 95 % "
+                "Up: bands are faster; down: tiles. Label: the scene, and how the winner fills. Filled: settled against all of the other side. Light bars: 95 % "
                 "intervals. Tick: tiles without HiZ and masks.")
     above, below, each = 0.5 + head_in(subtitle), 0.75, 3.2
     figure, grid = plt.subplots(len(rows), len(PANELS), sharex=True, sharey="row", squeeze=False,
                                 figsize=(WIDTH_IN, above + below + each * len(rows)))
     height = figure.get_figheight()
-    headline(figure, title(next(iter(rows.values()))), subtitle)
+    headline(figure, title(*next((found, code) for code, found in rows.items())), subtitle)
     figure.subplots_adjust(left=0.085, right=0.985, bottom=below / height, top=1 - above / height, wspace=0.06, hspace=0.16)
     made = []
     for line, (code, found) in zip(grid, rows.items()):

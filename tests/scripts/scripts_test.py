@@ -586,17 +586,17 @@ class ChartsTest(unittest.TestCase):
         def duel(overdraw, bands, tiles):
             sides = [(Cell("s", side, "spans", True, "", 2), self.row(*[ms * noise for noise in (0.99, 1, 1.01, 1, 1)]))
                      for side, ms in (("bands", bands), ("tiles", tiles))]
-            return Duel("s", 9.0, overdraw, *sides, sides[1][1])
+            return Duel("s", 9.0, overdraw, *sides, sides[1][1], *((row,) for _, row in sides))
 
         bands, tiles, even = (1.0, 2.0), (2.0, 1.0), (1.0, 1.0)
         self.assertEqual([duel(1, *side).order for side in (bands, tiles, even)], [-1, 1, 0])
         self.assertEqual(duel(1, *tiles).winner.traversal, "tiles")
-        for said, found in (("Bands win most scenes at overdraw <1, tiles at 1–4 and >4", [(0.9, *bands), (1.0, *tiles), (4.0, *tiles)]),
-                            ("Bands win most scenes at overdraw 1–4, tiles at >4", [(5.0, *tiles), (1.0, *bands), (0.5, *even)]),
-                            ("Tiles win most scenes at overdraw 1–4 and >4, neither at <1", [(5.0, *tiles), (1.0, *tiles), (0.5, *even)]),
-                            ("Tiles win most scenes at every overdraw", [(0.5, *tiles), (2.0, *tiles), (2.0, *tiles), (2.0, *bands)]),
-                            ("Bands win 1 of 3 scenes, tiles 1, the others are open", [(2.0, *bands), (2.0, *tiles), (0.2, *even)])):
-            self.assertEqual(title([duel(*one) for one in found]), said)
+        for said, found in (("C: bands win most at overdraw <1, tiles at 1–4 and >4", [(0.9, *bands), (1.0, *tiles), (4.0, *tiles)]),
+                            ("C: bands win most at overdraw 1–4, tiles at >4", [(5.0, *tiles), (1.0, *bands), (0.5, *even)]),
+                            ("C: tiles win most at overdraw 1–4 and >4, neither at <1", [(5.0, *tiles), (1.0, *tiles), (0.5, *even)]),
+                            ("C: tiles win most at every overdraw", [(0.5, *tiles), (2.0, *tiles), (2.0, *tiles), (2.0, *bands), (5.0, *tiles)]),
+                            ("C: bands win 1 of 3 scenes, tiles 1, others are open", [(2.0, *bands), (2.0, *tiles), (0.2, *even)])):
+            self.assertEqual(title([duel(*one) for one in found], "C"), said)
             self.assertLessEqual(len(said.split()), 12)
 
     def test_straight_lines_cross_where_they_should(self):

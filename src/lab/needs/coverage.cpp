@@ -99,8 +99,8 @@ std::uint64_t CoverageNeeds::allowed() const {
 }
 
 Question CoverageNeeds::cracks() const {
-  Question question{"subpixel bits without a crack", {},     {}, shared_crossings_,
-                    "shared-edge crossing",          "crack"};
+  Question question{
+      "subpixel bits without a crack or fold", {}, {}, shared_crossings_, "shared-edge crossing", "crack"};
   for (const Tried& tried : bits_) question.answers.push_back(tried.cracks);
   return question;
 }

@@ -44,11 +44,11 @@ const vk::raii::Instance& instance() {
   return made;
 }
 
-// That of a queue that draws and has a clock.
+// A queue that draws and whose clock does not wrap within a frame.
 std::optional<std::uint32_t> graphics_family(const vk::raii::PhysicalDevice& physical) {
   const auto families = physical.getQueueFamilyProperties();
   for (std::uint32_t i = 0; i < families.size(); ++i)
-    if ((families[i].queueFlags & vk::QueueFlagBits::eGraphics) && families[i].timestampValidBits != 0)
+    if ((families[i].queueFlags & vk::QueueFlagBits::eGraphics) && families[i].timestampValidBits == 64)
       return i;
   return {};
 }
