@@ -270,7 +270,7 @@ class NeedsTest(unittest.TestCase):
     def test_edges_have_a_line_per_question(self):
         self.assertEqual(dict(edges_table(self.read(entry("cube"), entry("sphere")))[1]), {
             title: f"{said}: cube (3 frames), sphere (3 frames)" for title, said in
-            {"no crack": "1 bit", "no worse than 8 bits": "8 bits", "float depth": "`float_z`", "edge values": "32-bit integers"}.items()})
+            {"no crack or fold": "1 bit", "no worse than 8 bits": "8 bits", "float depth": "`float_z`", "edge values": "32-bit integers"}.items()})
 
     def test_tutorials_have_more_than_needed_or_less(self):
         _, lines = tutorials_table(self.read(entry("cube"), entry("cubes", near="clip", facing="normal_dot_eye",

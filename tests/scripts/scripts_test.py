@@ -423,7 +423,7 @@ class ScriptsTest(unittest.TestCase):
         for line in ("| tiles over bands | AVX2 | 1.00× | 0.50× in cube to 1.5× in large | 2/2/0 |", "| edges over spans | AVX2 | 0.67× | 0.67× in cube to 0.67× in large | 0/6/0 |",
                      "| SIMD over scalar | AVX2 | 4.0× | 4.0× in cube to 4.0× in large | 8/0/0 |", "| HiZ | AVX2 | 2.0× | 2.0× in cube to 2.0× in large | 4/0/0 |",
                      "| masks, with HiZ | AVX2 | 0.83× | 0.83× in cube to 0.83× in large | 0/2/0 |", "| 2 threads over 1 | AVX2 | 2.0× |",
-                     "| tiles over bands | scalar | 1.00× |", "2 threads that differ in one factor only; of 54 verdicts, at most 0.54 false ones are expected.",
+                     "| tiles over bands | scalar | 1.00× |", "2 threads that differ in one factor, as Edgewise implements it; of 54 verdicts, at most 0.54 false ones are expected.",
                      "](results/charts/factors.svg)"):
             self.assertIn(line, text)
         self.write("old", {**bench(), "benchmarks": entries("tiled/cube/threads:1", [1.0])})
