@@ -2,8 +2,8 @@
 from accuracy_rows import FAMILIES
 from frontier import LEAST_CROSSINGS, PRICED, frontier_figures, timed_scenes, wrong_of
 from plot_labels import Label, label_points
-from plot_style import FAINT, INK, WHISKER, WIDTH_IN, Kinds, ZeroAxis, head_in, headline, plt, round_ticks, save
-from tables import kernels, number, short
+from plot_style import FAINT, INK, WHISKER, WIDTH_IN, Kinds, ZeroAxis, foot_in, head_in, headline, plt, round_ticks, save
+from tables import about, kernels, number, short
 
 # Methods that differ in the number of subpixel bits alone, joined to a curve.
 CURVES = {"64-bit fixed point": {0: "whole_pixel", 4: "fixed_4", 8: "fixed_8", 12: "fixed_12", 16: "fixed_16"},
@@ -36,13 +36,13 @@ def frontier_title(points):
         return "Coverage: wrong pixels against speed"
     fastest = max(watertight, key=lambda method: points[method][1].middle)
     return (f"Fastest watertight: {fastest.name}; fewest wrong pixels: {front[0].name}, "
-            f"{number(points[front[0]][1].middle / points[fastest][1].middle, 2)}× its speed")
+            f"{about(points[fastest][1].middle / points[front[0]][1].middle)} slower")
 
 
 def labels_of(points, x_of):
     """At most MOST_LABELS: ours and the front's first, then others that README names. Curves are labelled at their 8 bits."""
     curve_of = {curve[8]: name for name, curve in CURVES.items()}
-    front = best_of(points)
+    front = [m for m in best_of(points) if not m.engine]
     order = [*(m for m in points if m.ours), *front, *(m for m in points if m.name in (*curve_of, *LABELLED))]
     chosen = list(dict.fromkeys(order))[:MOST_LABELS]
     return [Label(x_of(points[m][0]), points[m][1].middle, curve_of.get(m.name, m.name), bold=m.ours) for m in chosen]
@@ -92,7 +92,11 @@ def frontier(accuracy, bench, folder, caption):
     subtitle = (f"Further left: fewer pixels that differ from the exact picture of the caller's positions; further up: faster on one thread, "
                 f"geometric mean of {scenes} scenes ({', '.join(scene.name for scene in timed_scenes(accuracy))}). Filled: no crack seen in "
                 f"{short(most.crossings)} crossings of shared edges; hollow: cracks. Grey numbers: subpixel bits.")
-    above, below = 1.2 + head_in(subtitle), 1.0
+    bound = max((3e6 / cracks.crossings for _, cracks in found.values() if cracks.rate == 0), default=3e6 / most.crossings)
+    peers = [f"{method.name}: {method.source}." for method in found if method.peer]
+    notes = (f"{' '.join([*peers, without_dominant(found, accuracy), ''])}No crack seen: the 95 % upper bound is at most {number(bound, 2)} per 10⁶. "
+             f"Left out: scenes with fewer than {short(LEAST_CROSSINGS)} crossings, and for 32-bit methods scenes beyond their range.\n{caption}")
+    above, below = 1.2 + head_in(subtitle), foot_in(notes)
     figure, axes_of = plt.subplots(1, 2, sharey=True, figsize=(WIDTH_IN, above + below + 4.4))
     height = figure.get_figheight()
     top = headline(figure, frontier_title(panels["simd"]), subtitle)
@@ -115,8 +119,5 @@ def frontier(accuracy, bench, folder, caption):
              plt.Line2D([], [], color=INK, marker="o", linestyle="", markersize=7, label="no crack seen"),
              plt.Line2D([], [], color=INK, marker="o", markerfacecolor="white", linestyle="", markersize=7, label="cracks")]
     kinds.legend(figure, top, list(found), extra)
-    bound = max((3e6 / cracks.crossings for _, cracks in found.values() if cracks.rate == 0), default=3e6 / most.crossings)
-    peers = [f"{method.name}: {method.source}." for method in found if method.peer]
-    save(figure, folder, "frontier", f"{' '.join([*peers, without_dominant(found, accuracy), ''])}No crack seen: the 95 % upper bound is at most {number(bound, 2)} per 10⁶. "
-         f"Left out: scenes with fewer than {short(LEAST_CROSSINGS)} crossings, and for 32-bit methods scenes beyond their range.\n{caption}")
+    save(figure, folder, "frontier", notes)
     return "frontier"

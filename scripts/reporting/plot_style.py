@@ -95,7 +95,7 @@ class Kinds:
 
 
 def wrapped(text, type_size, width_in=WIDTH_IN):
-    return textwrap.fill(text, int(133 * width_in / type_size))
+    return textwrap.fill(text, int(128 * width_in / type_size))
 
 
 def head_in(subtitle):
@@ -166,8 +166,17 @@ class ZeroAxis:
         axes.axhspan(self.start, self.end, color=BAND, zorder=0, linewidth=0)
 
 
+def caption_lines(caption):
+    return "\n".join(wrapped(line, 7.5) for line in caption.split("\n"))
+
+
+def foot_in(caption):
+    """The height of an axis' label and a caption, in inches."""
+    return 0.75 + 0.13 * caption_lines(caption).count("\n")
+
+
 def save(figure, folder, name, caption):
-    lines = "\n".join(wrapped(line, 7.5) for line in caption.split("\n"))
+    lines = caption_lines(caption)
     figure.text(0.012, 0.07 / figure.get_figheight(), lines, fontsize=7.5, color=FAINT, va="bottom")
     partial = Path(folder) / f".{name}.partial.svg"
     figure.savefig(partial, dpi=130, metadata={"Date": None})
