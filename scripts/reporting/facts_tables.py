@@ -109,7 +109,7 @@ PLANES = ("near plane", "far plane", "guard band")
 FACING, VISIBILITY, DEPTH, BITS = "facing test", "visibility", "depth buffer", "subpixel bits"
 FLOATS = "float edges without a crack"
 # Questions about edges and float depths, all else exact: the title of their line, and how the question begins.
-EDGES = {"no crack or fold": "subpixel bits without a crack or fold", "no worse than 8 bits": "subpixel bits, no worse than 8 bits",
+EDGES = {"no crack or fold": "subpixel bits: no crack, no fold", "no worse than 8 bits": "subpixel bits, no worse than 8 bits",
          "float depth": "float depth buffer", "edge values": "edge values"}
 
 # The tutorials' engines by stage: the question, and their answer.

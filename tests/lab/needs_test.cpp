@@ -465,7 +465,7 @@ TEST(Needs, CountsWhereSnappingItselfIsOffTheScene) {
 TEST(Needs, CountsFoldsAsCracks) {
   const Needs needs = studied(stream_of({triangle({0, 7, 0.5}, {24, 7.8, 0.5}, {12, 16, 0.5}),
                                          triangle({0, 7, 0.5}, {24, 7.8, 0.5}, {18, 7.55, 0.5})}));
-  const Question question = question_of(needs, "subpixel bits without a crack or fold");
+  const Question question = question_of(needs, "subpixel bits: no crack, no fold");
   ASSERT_FALSE(question.answers[0].enough());
   const Witness& w = *question.answers[0].witness;
   EXPECT_EQ(w.right, std::vector<std::uint32_t>{0});

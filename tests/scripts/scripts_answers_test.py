@@ -230,7 +230,7 @@ def entry(scene, near="nothing", facing="normal_z", visibility="submission_order
                          "orders": 6, "others": list(others)},
             "alone": [*planes, question("facing test", *tests, needed=facing), *rest,
                       question("float depth buffer", "float_z", "reversed_z", needed="float_z")],
-            "edges": [question("subpixel bits without a crack or fold", "0 bits", "1 bit", needed="1 bit"),
+            "edges": [question("subpixel bits: no crack, no fold", "0 bits", "1 bit", needed="1 bit"),
                       question("subpixel bits, no worse than 8 bits", "8 bits", needed="8 bits"),
                       question("float edges without a crack", "float_lt", "float_le", "double_top_left", needed="double_top_left"),
                       question("edge values at 8 subpixel bits", "32-bit integers", needed="32-bit integers")]}

@@ -100,7 +100,7 @@ std::uint64_t CoverageNeeds::allowed() const {
 
 Question CoverageNeeds::cracks() const {
   Question question{
-      "subpixel bits without a crack or fold", {}, {}, shared_crossings_, "shared-edge crossing", "crack"};
+      "subpixel bits: no crack, no fold", {}, {}, shared_crossings_, "shared-edge crossing", "crack"};
   for (const Tried& tried : bits_) question.answers.push_back(tried.cracks);
   return question;
 }
