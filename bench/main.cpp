@@ -37,7 +37,7 @@ namespace {
 constexpr double kRepetition_s = 0.012;
 
 // The rounds that time a row. So many of cells settle a true 1.2x in 95 % of runs, as scripts/README.md
-// shows. The number is fixed: whoever stops once a pair is settled finds more differences than there are.
+// shows. The number is fixed: stopping as soon as a pair is settled would find differences that do not exist.
 constexpr int kRounds = 9, kCellRounds = 36;
 // A quick run begins no further round of cells after this time.
 constexpr double kQuickRounds_s = 180.0;

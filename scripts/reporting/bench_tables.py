@@ -248,7 +248,7 @@ def memory_sentence(bench):
     a_triangle = (most.counters["peak_bytes"] - a_pixel * pixels(most)) / most.counters["triangles"]
     worst = max(rows, key=share)
     return (f"The first frame takes {a_pixel:.1f} bytes per pixel plus {a_triangle:.0f} per triangle, at most {share(worst):.0%} of what "
-            f"`edgewise/backend.h` allows (`{worst.backend}` on `{worst.scene}`).")
+            f"`edgewise/backend.h` allows small triangles (`{worst.backend}` on `{worst.scene}`); large ones may take more.")
 
 
 TRUE_RATIO, WANTED_POWER = 1.2, 0.95
