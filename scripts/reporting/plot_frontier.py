@@ -7,7 +7,9 @@ from tables import about, kernels, number, short
 
 # Methods that differ in the number of subpixel bits alone, joined to a curve.
 CURVES = {"64-bit fixed point": {0: "whole_pixel", 4: "fixed_4", 8: "fixed_8", 12: "fixed_12", 16: "fixed_16"},
-          "32-bit": {4: "fixed_4_int32", 8: "fixed_8_int32"}}
+          "32-bit": {4: "fixed_4_int32", 8: "fixed_8_int32"}, "tiled": {8: "engine_exact", 12: "engine_int64"}}
+# The tile kernel's 64-bit edges count in 1/4096 px, but its vertices in 1/256 px. Its point has the wrong pixels of exact 12 bits.
+TWELVE_BITS = {"engine_int64": "fixed_12"}
 BITS = {name: bits for curve in CURVES.values() for bits, name in curve.items()}
 LABELLED = ("float_lt", "dda_16_16", "llvmpipe", *PRICED)
 MOST_LABELS = 8
@@ -16,7 +18,9 @@ FRONT = {"color": INK, "linewidth": 1.2, "linestyle": (0, (4, 2)), "zorder": 1.5
 
 def points_of(found, accuracy, form):
     """{method: (wrong pixels per 10⁶ crossings, SpeedUp, whether no crack was seen)}"""
-    return {method: (wrong_of(accuracy, method).rate, forms[form], cracks.rate == 0) for method, (forms, cracks) in found.items() if form in forms}
+    of = {method.name: method for method in found}
+    return {method: (wrong_of(accuracy, of.get(TWELVE_BITS.get(method.name), method)).rate, forms[form], cracks.rate == 0)
+            for method, (forms, cracks) in found.items() if form in forms}
 
 
 def best_of(points):
@@ -41,8 +45,8 @@ def frontier_title(points):
 
 def labels_of(points, x_of):
     """At most MOST_LABELS: ours and the front's first, then others that README names. Curves are labelled at their 8 bits."""
-    curve_of = {curve[8]: name for name, curve in CURVES.items()}
-    front = [m for m in best_of(points) if not m.engine]
+    curve_of = {**{curve[8]: name for name, curve in CURVES.items()}, **dict.fromkeys(TWELVE_BITS, "tiled, 12 bits")}
+    front = [m for m in best_of(points) if not m.engine or m.name in TWELVE_BITS]
     order = [*(m for m in points if m.ours), *front, *(m for m in points if m.name in (*curve_of, *LABELLED))]
     chosen = list(dict.fromkeys(order))[:MOST_LABELS]
     return [Label(x_of(points[m][0]), points[m][1].middle, curve_of.get(m.name, m.name), bold=m.ours) for m in chosen]
@@ -62,8 +66,8 @@ def draw_panel(axes, points, scale, kinds):
     lines.append(steps)
     for method, (wrong, up, tight) in points.items():
         x, (colour, marker) = scale.at(wrong), kinds.of(method)
-        lines.append([(x, up.low), (x, up.high)])
-        axes.plot(*zip(*lines[-1]), color=colour, **WHISKER, zorder=1.8)
+        lines += [[(x, up.low), (x, up.high)], [(x, up.middle)]]
+        axes.plot([x, x], [up.low, up.high], color=colour, **WHISKER, zorder=1.8)
         axes.plot([x], [up.middle], marker=marker, linestyle="", zorder=3, markersize=7, markerfacecolor=colour if tight else "white",
                   markeredgecolor="white" if tight else colour, markeredgewidth=0.8 if tight else 1.5)
         if method.name in BITS:
@@ -94,13 +98,15 @@ def frontier(accuracy, bench, folder, caption):
                 f"{short(most.crossings)} crossings of shared edges; hollow: cracks. Grey numbers: subpixel bits.")
     bound = max((3e6 / cracks.crossings for _, cracks in found.values() if cracks.rate == 0), default=3e6 / most.crossings)
     peers = [f"{method.name}: {method.source}." for method in found if method.peer]
-    notes = (f"{' '.join([*peers, without_dominant(found, accuracy), ''])}No crack seen: the 95 % upper bound is at most {number(bound, 2)} per 10⁶. "
+    twelve = "".join(f"Tiled, 12 bits: the wrong pixels of {pixels} at the speed of {speed}, whose edges count in 1/4096 px. "
+                     for speed, pixels in TWELVE_BITS.items())
+    notes = (f"{twelve}{' '.join([*peers, without_dominant(found, accuracy), ''])}No crack seen: the 95 % upper bound is at most {number(bound, 2)} per 10⁶. "
              f"Left out: scenes with fewer than {short(LEAST_CROSSINGS)} crossings, and for 32-bit methods scenes beyond their range.\n{caption}")
     above, below = 1.2 + head_in(subtitle), foot_in(notes)
     figure, axes_of = plt.subplots(1, 2, sharey=True, figsize=(WIDTH_IN, above + below + 4.4))
     height = figure.get_figheight()
     top = headline(figure, frontier_title(panels["simd"]), subtitle)
-    figure.subplots_adjust(left=0.075, right=0.985, bottom=below / height, top=1 - above / height, wspace=0.05)
+    figure.subplots_adjust(left=0.085, right=0.985, bottom=below / height, top=1 - above / height, wspace=0.05)
     scale = ZeroAxis([wrong for points in panels.values() for wrong, _, _ in points.values()], band=0.2)
     speeds = [edge for points in panels.values() for _, up, _ in points.values() for edge in (up.low, up.high)]
     bottom, limit = min(speeds) / 1.25, max(speeds) * 1.35

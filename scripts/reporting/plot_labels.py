@@ -67,8 +67,8 @@ def cost_of(distance, box, end, at, bounds, points, line_points, others):
             + 40 * sum(math.dist(p, q) < 5 for p in points if p != at for q in leader))
 
 
-def place(points, sizes, bounds, line_points):
-    """A (box, end of the leader) for each point; all in typographic points."""
+def place(points, sizes, bounds, line_points, markers=()):
+    """A (box, end of the leader) for each point, off the other points and markers; all in typographic points."""
     placed = [None] * len(points)
     neighbours = [sum(math.dist(p, q) < 60 for q in points) for p in points]
     order = sorted(range(len(points)), key=lambda i: (-neighbours[i], points[i]))
@@ -77,7 +77,7 @@ def place(points, sizes, bounds, line_points):
             others = [(box, along(points[j], end)) for j, spot in enumerate(placed) if spot and j != i
                       for box, end in [spot]]
             placed[i] = min(candidates(points[i], sizes[i]),
-                            key=lambda c: cost_of(*c, points[i], bounds, points, line_points, others))[1:]
+                            key=lambda c: cost_of(*c, points[i], bounds, [*points, *markers], line_points, others))[1:]
     return placed
 
 
@@ -93,7 +93,7 @@ def shared_labels(points, near):
 
 
 def label_points(axes, labels, lines=()):
-    """lines: lists of (x, y) that labels keep off. The axes must have their final place and limits."""
+    """lines: lists of (x, y) that labels keep off; one of a single point is a marker. The axes must have their final place and limits."""
     figure = axes.figure
     scale = 72 / figure.dpi
 
@@ -113,7 +113,8 @@ def label_points(axes, labels, lines=()):
         sizes.append((box.width * scale, box.height * scale))
     points = [in_points(label.x, label.y) for label in labels]
     line_points = [p for line in lines for a, b in zip(line, line[1:]) for p in along(in_points(*a), in_points(*b), 6)]
-    for text, at, (box, end) in zip(texts, points, place(points, sizes, bounds, line_points)):
+    markers = [in_points(*line[0]) for line in lines if len(line) == 1]
+    for text, at, (box, end) in zip(texts, points, place(points, sizes, bounds, line_points, markers)):
         text.set_position((box.left - at[0], box.bottom - at[1]))
         if math.dist(at, end) > 11:
             pull = 5 / math.dist(at, end)  # off the marker

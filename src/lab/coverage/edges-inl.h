@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
 
 #include "lab/coverage/fixed_edges.h"
 #include "lab/coverage/float_edges.h"
@@ -57,12 +56,9 @@ class RealLanes {
     if constexpr (kHalves == 1) {
       return half_of(0);
     } else {
-      std::uint8_t low[8] = {}, high[8] = {}, both[8] = {};
-      hn::StoreMaskBits(D{}, half_of(0), low);
-      hn::StoreMaskBits(D{}, half_of(1), high);
-      const std::uint32_t bits = low[0] | std::uint32_t{high[0]} << kPerHalf;
-      std::memcpy(both, &bits, sizeof bits);
-      return hn::LoadMaskBits(DF{}, both);
+      const auto lanes_of = [&](int half)
+                                HWY_ATTR { return hn::BitCast(DI{}, hn::VecFromMask(D{}, half_of(half))); };
+      return hn::RebindMask(DF{}, hn::MaskFromVec(hn::ConcatEven(DI{}, lanes_of(1), lanes_of(0))));
     }
   }
 

@@ -5,8 +5,9 @@
 // using 2D homogeneous coordinates", 1997), or the tile's corner. Orientation, boxes and depths are the
 // contract's.
 //
-// int64 and double hold every value exactly: by rule 3, sums of products stay below 2^50. int32 wraps. In
-// float, a, b and coordinates are exact; products and sums are rounded.
+// int64 and double hold every value exactly: by rule 3, sums of products stay below 2^50. int64 counts in
+// 1/4096 px, so that it costs what 12 subpixel bits would; then sums stay below 2^58. int32 wraps. In float,
+// a, b and coordinates are exact; products and sums are rounded.
 //
 // No E is -0, so the sign bit of a float tells whether it is negative. A sum is -0 only if both terms are.
 // a s.x and b s.y are not both -0, since no sample has a coordinate 0 and a or b is not 0.
@@ -33,6 +34,10 @@ HWY_BEFORE_NAMESPACE();
 namespace edgewise {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
+
+// Bits below those of a sub-unit.
+template <typename T>
+constexpr int kFinerBits = std::is_same_v<T, std::int64_t> ? 12 - contract::kSubBits : 0;
 
 // a b, for 64-bit integers only if a and b fit 32 bits: few targets multiply more at once.
 template <class DF>
@@ -92,7 +97,7 @@ struct WideLanes {
     return each([&](int i) { return hn::Sub(a.half[i], b.half[i]); });
   }
   static HWY_INLINE Vector times(V count, Value step) {
-    if constexpr (std::is_integral_v<T>) count = hn::ShiftLeft<contract::kSubBits>(count);
+    if constexpr (std::is_integral_v<T>) count = hn::ShiftLeft<contract::kSubBits + kFinerBits<T>>(count);
     return each([&](int i) { return product_of(Half{}, widened(count, i), hn::Set(Half{}, step)); });
   }
   static HWY_INLINE Vector four_times(const Vector& v) {
@@ -139,7 +144,8 @@ struct OtherArithmetic : Lanes {
 
   static HWY_INLINE bool spans_more(Value range, std::int32_t twice_area_px) {
     // The area was rounded down.
-    return static_cast<double>(range) >= (twice_area_px + 1.0) * (contract::kSub * contract::kSub);
+    return static_cast<double>(range) >=
+           (twice_area_px + 1.0) * (1 << 2 * (contract::kSubBits + kFinerBits<Value>));
   }
 
   static bool set_up_one(const TileTask& task, const contract::Oriented& t, const BlockBox& box,
@@ -241,13 +247,20 @@ struct OtherArithmetic : Lanes {
   template <class DF>
   static HWY_INLINE hn::Mask<DF> set_up_edge(DF df, const hn::Vec<DF> (&in)[kInputs], Linear<Value>& out,
                                              int k) {
-    const auto& [a, b, x, y, sample_x, sample_y, last_x, last_y] = in;
+    const auto finer = [&](int i) {
+      if constexpr (kFinerBits<Value> == 0)
+        return in[i];
+      else
+        return hn::ShiftLeft<kFinerBits<Value>>(in[i]);
+    };
+    const auto a = finer(0), b = finer(1), x = finer(2), y = finer(3), sample_x = finer(4),
+               sample_y = finer(5), last_x = in[6], last_y = in[7];
     const auto weighted = [&](auto p, auto q, auto x_of, auto y_of) {
       return hn::Add(product_of(df, p, x_of), product_of(df, q, y_of));
     };
     const auto in_px = [&](auto v) {
       if constexpr (std::is_integral_v<Value>)
-        return hn::ShiftLeft<contract::kSubBits>(v);
+        return hn::ShiftLeft<contract::kSubBits + kFinerBits<Value>>(v);
       else
         return hn::Mul(v, hn::Set(df, Value{contract::kSub}));
     };
@@ -264,7 +277,7 @@ struct OtherArithmetic : Lanes {
     const auto least = hn::Add(first, in_px(weighted(down_x, down_y, last_x, last_y)));
     const auto crossed = hn::Lt(least, zero);
     const auto kept = [&](auto v) { return hn::IfThenElseZero(crossed, v); };
-    // Steps of 64-bit integers fit 32 bits: times() counts sub-units.
+    // Steps of 64-bit integers fit 32 bits: times() counts their units.
     const auto step = [&](auto v) {
       if constexpr (std::is_same_v<Value, std::int64_t>)
         return v;
