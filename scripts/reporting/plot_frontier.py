@@ -1,6 +1,6 @@
 """The main chart: wrong pixels against speed of each coverage method, in scalar code and with SIMD."""
 from accuracy_rows import FAMILIES
-from frontier import LEAST_CROSSINGS, PRICED, frontier_figures, timed_scenes, wrong_of
+from frontier import LEAST_CROSSINGS, PRICED, TWELVE_BITS, frontier_figures, points_of, timed_scenes, wrong_of
 from plot_labels import Label, label_points
 from plot_style import FAINT, INK, WHISKER, WIDTH_IN, Kinds, ZeroAxis, foot_in, head_in, headline, plt, round_ticks, save
 from tables import about, kernels, number, short
@@ -8,19 +8,10 @@ from tables import about, kernels, number, short
 # Methods that differ in the number of subpixel bits alone, joined to a curve.
 CURVES = {"64-bit fixed point": {0: "whole_pixel", 4: "fixed_4", 8: "fixed_8", 12: "fixed_12", 16: "fixed_16"},
           "32-bit": {4: "fixed_4_int32", 8: "fixed_8_int32"}, "tiled": {8: "engine_exact", 12: "engine_int64"}}
-# The tile kernel's 64-bit edges count in 1/4096 px, but its vertices in 1/256 px. Its point has the wrong pixels of exact 12 bits.
-TWELVE_BITS = {"engine_int64": "fixed_12"}
 BITS = {name: bits for curve in CURVES.values() for bits, name in curve.items()}
 LABELLED = ("float_lt", "dda_16_16", "llvmpipe", *PRICED)
 MOST_LABELS = 8
 FRONT = {"color": INK, "linewidth": 1.2, "linestyle": (0, (4, 2)), "zorder": 1.5}
-
-
-def points_of(found, accuracy, form):
-    """{method: (wrong pixels per 10⁶ crossings, SpeedUp, whether no crack was seen)}"""
-    of = {method.name: method for method in found}
-    return {method: (wrong_of(accuracy, of.get(TWELVE_BITS.get(method.name), method)).rate, forms[form], cracks.rate == 0)
-            for method, (forms, cracks) in found.items() if form in forms}
 
 
 def best_of(points):

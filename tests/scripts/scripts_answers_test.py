@@ -5,6 +5,7 @@ import re
 import sys
 import tempfile
 import unittest
+from dataclasses import replace
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts/reporting"))
@@ -13,7 +14,7 @@ from answers import answers  # noqa: E402
 from bench_rows import Bench, Row, parse_name  # noqa: E402
 from bench_tables import engine_table, peer_tables, speed_table  # noqa: E402
 from facts_tables import edges_table, pipelines_table, pooled_text, read_needs, tutorials_table  # noqa: E402
-from frontier import EXACT, INSIDE_TESTS, PRICED, cracks_of, price_table, simd_outcome, speed_ups, wrong_of  # noqa: E402
+from frontier import EXACT, INSIDE_TESTS, PRICED, TWELVE_BITS, cracks_of, frontier_figures, points_of, price_table, simd_outcome, speed_ups, wrong_of  # noqa: E402
 from program import BadInput  # noqa: E402
 from tables import markdown  # noqa: E402
 
@@ -59,7 +60,7 @@ class AnswersTest(unittest.TestCase):
         self.assertEqual(header, ["numbers", "`large`"])
         self.assertEqual(lines, [["exact, the base", "10.0 ms"],
                                  ["`tiled` with coverage masks", "**1.11×** (1.09 to 1.13)"],
-                                 ["64-bit integers", "1.00× (0.98 to 1.01)"],
+                                 ["64-bit integers, for 12 subpixel bits", "1.00× (0.98 to 1.01)"],
                                  ["floats", "**1.25×** (1.23 to 1.27); 1,230 px"]])
 
     def test_methods_have_the_times_of_their_rows(self):
@@ -198,6 +199,12 @@ class FrontierTest(unittest.TestCase):
         self.assertAlmostEqual(tiled["scalar"].middle, 2 ** (1 / 3))
         self.assertAlmostEqual(tiled["simd"].middle, 4 * 2 ** (1 / 3))
         self.assertEqual(simd_outcome(found, "tiled", "x"), {-1: [4.0], 1: [0.5], 0: [1.0]})
+
+    def test_a_point_of_twelve_bits_joins_the_speed_of_one_method_and_the_pixels_of_another(self):
+        (timed, drawn), = TWELVE_BITS.items()
+        found = self.accuracy(a=(self.timed(timed, 1.0), replace(self.timed(drawn, 2.0), rate=5.0)))
+        points = {method.name: (wrong, up.middle) for method, (wrong, up, _) in points_of(frontier_figures(found)[0], found, "simd").items()}
+        self.assertEqual(points, {timed: (5.0, 4.0), drawn: (5.0, 2.0)})
 
     def test_the_price_list_compares_with_the_exact_edges(self):
         loose, finer = (name for name in PRICED if name != EXACT)
