@@ -1,6 +1,6 @@
 """README's first table: the answers to its questions, each with its condition."""
 from factors import cells, gains, most_threads, said
-from frontier import EXACT, INSIDE_TESTS, PRICED, measured_in, simd_outcome
+from frontier import EXACT, INSIDE_TESTS, PRICED, measured_in, simd_gain
 from bench_tables import OURS, THREADS, compared_targets, timed_peers
 from tables import by_order, kernels, number, outcome
 
@@ -29,10 +29,10 @@ def box_rows(bench):
 
 
 def exactness_rows(accuracy, target):
-    found = {name: simd_outcome(accuracy, name, EXACT) for name in PRICED if name != EXACT}
+    found = {name: simd_gain(accuracy, name, EXACT) for name in PRICED if name != EXACT}
     if all(found.values()):
-        yield ["What does exactness cost?", "; ".join(f"`{name}` {outcome(by)}" for name, by in found.items()),
-               f"against `{EXACT}`, exact after snapping, the same loop; one thread, {kernels(target)}"]
+        yield ["What does exactness cost?", "speed-up by " + "; by ".join(f"`{name}` {gain}" for name, gain in found.items()),
+               f"over `{EXACT}`, exact after snapping, the same loop; geometric mean and range of scenes; one thread, {kernels(target)}"]
 
 
 def gap_rows(accuracy):

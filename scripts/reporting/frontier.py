@@ -3,10 +3,10 @@ import math
 from typing import NamedTuple
 
 from accuracy_rows import Pooled, pooled
-from bench_rows import mean_gained
+from bench_rows import gained, mean_gained
 from bench_tables import GPU
 from facts_tables import pooled_text
-from tables import by_order, number, speed_up
+from tables import about, number
 
 LEAST_CROSSINGS = 10_000  # of shared edges; in smaller scenes a single crossing decides the rate
 # The tutorials' inside tests.
@@ -63,11 +63,16 @@ def measured_in(scene, name):
     return next((m for m in (*scene.measured, *scene.apart) if m.method.name == name), None)
 
 
-def simd_outcome(accuracy, name, other):
-    """Of one method against another, both with SIMD on one thread: by_order() of the scenes; None if a scene lacks one of them, or
-    none is timed."""
-    compared = [[m and m.simd for m in (measured_in(scene, name), measured_in(scene, other))] for scene in timed_scenes(accuracy)]
-    return by_order((a.row, b.row) for a, b in compared) if compared and all(map(all, compared)) else None
+def simd_gain(accuracy, name, other):
+    """Of one method over another, both with SIMD on one thread: "1.2× (0.9× in a to 1.5× in b)", the geometric mean of the timed scenes
+    and the range; None if a scene lacks one of them, or none is timed."""
+    found = {scene.name: [m and m.simd for m in (measured_in(scene, other), measured_in(scene, name))] for scene in timed_scenes(accuracy)}
+    if not found or not all(map(all, found.values())):
+        return None
+    rows = {scene: (slower.row, faster.row) for scene, (slower, faster) in found.items()}
+    by_gain = sorted(rows, key=lambda scene: gained(*rows[scene]))
+    ends = " to ".join(f"{about(gained(*rows[scene]))} in {scene}" for scene in (by_gain[0], by_gain[-1]))
+    return f"{about(mean_gained(rows.values())[0])} ({ends})"
 
 
 def speed_ups(accuracy):
@@ -156,11 +161,7 @@ def price_table(accuracy):
     lines = []
     for name in PRICED:
         method, cracks = named[name]
-        outcome = simd_outcome(accuracy, name, EXACT) if name != EXACT else None
-        gained_by, *interval = mean_gained([(measured_in(scene, EXACT).simd.row, measured_in(scene, name).simd.row)
-                                            for scene in timed_scenes(accuracy)])
-        speed = (f"{speed_up(gained_by)} ({' to '.join(map(speed_up, interval))}); settled in {len(outcome[-1]) + len(outcome[1])} of "
-                 f"{sum(map(len, outcome.values()))} scenes" if outcome else "1×")
+        speed = simd_gain(accuracy, name, EXACT) if name != EXACT else "1×"
         lines.append([f"`{name}`", speed, pooled_text(cracks.pooled) if cracks.rate else f"0 (<{number(3e6 / cracks.crossings, 2)})",
                       pooled_text(wrong_of(accuracy, method)), method.promise])
     return ["edges", "speed", "cracks", "wrong pixels", "guarantee"], lines

@@ -14,7 +14,7 @@ from answers import answers  # noqa: E402
 from bench_rows import Bench, Row, parse_name  # noqa: E402
 from bench_tables import engine_table, peer_tables, speed_table  # noqa: E402
 from facts_tables import edges_table, pipelines_table, pooled_text, read_needs, tutorials_table  # noqa: E402
-from frontier import EXACT, INSIDE_TESTS, PRICED, TWELVE_BITS, cracks_of, frontier_figures, points_of, price_table, simd_outcome, speed_ups, wrong_of  # noqa: E402
+from frontier import EXACT, INSIDE_TESTS, PRICED, TWELVE_BITS, cracks_of, frontier_figures, points_of, price_table, simd_gain, speed_ups, wrong_of  # noqa: E402
 from program import BadInput  # noqa: E402
 from tables import markdown  # noqa: E402
 
@@ -198,7 +198,7 @@ class FrontierTest(unittest.TestCase):
         tiled = ups[found.methods["coverage"][0]]
         self.assertAlmostEqual(tiled["scalar"].middle, 2 ** (1 / 3))
         self.assertAlmostEqual(tiled["simd"].middle, 4 * 2 ** (1 / 3))
-        self.assertEqual(simd_outcome(found, "tiled", "x"), {-1: [4.0], 1: [0.5], 0: [1.0]})
+        self.assertEqual(simd_gain(found, "tiled", "x"), "1.3× (0.50× in b to 4.0× in a)")
 
     def test_a_point_of_twelve_bits_joins_the_speed_of_one_method_and_the_pixels_of_another(self):
         (timed, drawn), = TWELVE_BITS.items()
@@ -210,10 +210,10 @@ class FrontierTest(unittest.TestCase):
         loose, finer = (name for name in PRICED if name != EXACT)
         found = self.accuracy(a=(self.timed(loose, 1.0, 3), self.timed(EXACT, 2.0), self.timed(finer, 4.0)))
         self.assertEqual([line[:3] for line in price_table(found)[1]],
-                         [[f"`{loose}`", "2.0× (2.0× to 2.0×); settled in 1 of 1 scenes", "30"], [f"`{EXACT}`", "1×", "0 (<30)"],
-                          [f"`{finer}`", "2.0× slower (2.0× slower to 2.0× slower); settled in 1 of 1 scenes", "0 (<30)"]])
+                         [[f"`{loose}`", "2.0× (2.0× in a to 2.0× in a)", "30"], [f"`{EXACT}`", "1×", "0 (<30)"],
+                          [f"`{finer}`", "0.50× (0.50× in a to 0.50× in a)", "0 (<30)"]])
         self.assertEqual(answers(bench({}), found)[0][:2], ["What does exactness cost?",
-                         f"`{loose}` 2.0× faster in 1 of 1 scene; `{finer}` 2.0× slower in 1 of 1 scene"])
+                         f"speed-up by `{loose}` 2.0× (2.0× in a to 2.0× in a); by `{finer}` 0.50× (0.50× in a to 0.50× in a)"])
         self.assertEqual(price_table(self.accuracy(a=(self.timed(EXACT, 2.0),))), ([], []))
 
 
