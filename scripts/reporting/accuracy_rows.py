@@ -32,7 +32,7 @@ class Family:
 
 PEERS = ("llvmpipe", "softpipe", "lavapipe", "swiftshader", "gpu")
 FAMILIES = {family.name: family for family in (
-    Family("coverage", "wrong pixels per 10⁶ edge crossings", "crossings", "edge crossings", "ns per covered pixel",
+    Family("coverage", "wrong samples of single triangles, hidden ones included, per 10⁶ edge crossings", "crossings", "edge crossings", "ns per covered pixel",
            "Errors are counted against the exact picture of the unsnapped positions. Filled: none given the snapped positions. All "
            "but naive use SIMD; the title is about one thread.", ("float", "snapped"),
            {"floating point": ("float", "double"), "fixed point": ("fixed", "whole"), "scanline DDA": ("dda",),

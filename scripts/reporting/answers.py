@@ -43,11 +43,11 @@ def gap_rows(accuracy):
         yield ["Gaps / double hits when the cube turns?", ", ".join(f"{who} {gaps:,} / {doubles:,}" for who, gaps, doubles in told),
                f"{accuracy.cube['frames']:,} frames of the tutorials' cube; `float_le` takes samples on an edge as inside, `float_lt` does not"]
     scene = next((s for s in accuracy.of("coverage") if s.name == CENTRED_SCENE), None)
-    ours = [m.rate for m in scene.measured if m.method.ours] if scene else []
+    ours = [m.seen[0] for m in scene.measured if m.method.ours and m.seen] if scene else []
     if ours:
-        tests = [f"`{name}` {number(m.rate)}" for name in INSIDE_TESTS if (m := measured_in(scene, name))]
-        yield ["Where edges meet pixel centres?", f"{', '.join([*tests, f'ours {number(max(ours))}'])} wrong pixels per 10⁶ edge crossings",
-               f"`{CENTRED_SCENE}`, whose vertices lie on the 1/256 px grid"]
+        tests = [f"`{name}` {m.seen[0]:,}" for name in INSIDE_TESTS if (m := measured_in(scene, name)) and m.seen]
+        yield ["Where edges meet pixel centres?", f"{', '.join([*tests, f'ours {max(ours):,}'])} wrong pixels",
+               f"`{CENTRED_SCENE}`, whose vertices lie on the 1/256 px grid; {number(scene.trials)} crossings of edges with rows or columns of centres"]
 
 
 def peer_rows(bench):

@@ -112,9 +112,9 @@ def said(up):
 
 def wrong_of(accuracy, method):
     """Pooled pixels per 10⁶ edge crossings that differ from the exact picture of the caller's positions; None if not counted."""
-    found = [(m.rate * scene.trials, scene.trials, scene.name) for scene in accuracy.pooled("coverage")
-             for m in (*scene.measured, *scene.apart) if m.method == method and scene.in_range_of(method)]
-    return pooled(found) if found else None
+    found = [(m.seen[0], scene.trials, scene.name) for scene in accuracy.pooled("coverage")
+             for m in (*scene.measured, *scene.apart) if m.method == method and m.seen and scene.in_range_of(method)]
+    return pooled(found, 1e6) if found else None
 
 
 # The tile kernel's 64-bit edges count in 1/4096 px, but its vertices in 1/256 px. Its point has the wrong pixels of exact 12 bits.

@@ -36,7 +36,7 @@ def scene(name, scanline, naive, tiled):
 
 
 def measured(name, exact, rate):
-    return Measured(Method(name, "src/raster" if name == "tiled" else "a book", "", exact), rate, None, rate)
+    return Measured(Method(name, "src/raster" if name == "tiled" else "a book", "", exact), rate, None, rate, seen=(rate, 0))
 
 
 def accuracy(*methods, cube=None):
@@ -111,15 +111,15 @@ class AnswersTest(unittest.TestCase):
         self.assertEqual(told, [
             ["Gaps / double hits when the cube turns?", "`float_lt` 3 / 0, `float_le` 1 / 9, ours 0 / 0",
              "3,600 frames of the tutorials' cube; `float_le` takes samples on an edge as inside, `float_lt` does not"],
-            ["Where edges meet pixel centres?", "`float_lt` 216, ours 873 wrong pixels per 10⁶ edge crossings",
-             "`mesh_on_grid`, whose vertices lie on the 1/256 px grid"]])
+            ["Where edges meet pixel centres?", "`float_lt` 216, ours 873 wrong pixels",
+             "`mesh_on_grid`, whose vertices lie on the 1/256 px grid; 1,000 crossings of edges with rows or columns of centres"]])
 
     def test_a_scene_that_has_over_half_of_the_errors_is_named(self):
         ours, plain = measured("tiled", True, 800), measured("float_lt", False, 6000)
         scenes = (Scene("mesh_on_grid", "coverage", "", 1000, (measured("tiled", True, 0), plain)),
                   Scene("grid4", "coverage", "", 3000, (ours, measured("float_lt", False, 2))))
         told = Accuracy({"coverage": [ours.method, plain.method]}, scenes, None)
-        self.assertEqual([pooled_text(wrong_of(told, m.method)) for m in (ours, plain)], ["600; 0 without grid4", "1,500; 2 without mesh_on_grid"])
+        self.assertEqual([pooled_text(wrong_of(told, m.method)) for m in (ours, plain)], ["200,000; 0 without grid4", "1,500,000; 667 without mesh_on_grid"])
 
     def test_rates_are_pooled_over_large_scenes_within_a_methods_range(self):
         limited = Method("y", "a book", "", False, 181)
@@ -176,7 +176,7 @@ class FrontierTest(unittest.TestCase):
             return Cost(Row("", "", False, "", {}, [factor * ns * noise for noise in self.ROUNDS]), 10 ** 6, 1)
 
         return Measured(Method(name, "src/raster" if name == "tiled" else "a book", "", True, most_px), 0, None, 0, Cracks(cracks, 0, 7, 2),
-                        {("avx512", 1): cost(1), ("scalar", 1): cost(4)})
+                        {("avx512", 1): cost(1), ("scalar", 1): cost(4)}, (0, 0))
 
     def accuracy(self, **scenes):
         """From the methods of each scene; every scene has 10⁵ crossings of shared edges and triangles of 200 px."""
@@ -202,7 +202,7 @@ class FrontierTest(unittest.TestCase):
 
     def test_a_point_of_twelve_bits_joins_the_speed_of_one_method_and_the_pixels_of_another(self):
         (timed, drawn), = TWELVE_BITS.items()
-        found = self.accuracy(a=(self.timed(timed, 1.0), replace(self.timed(drawn, 2.0), rate=5.0)))
+        found = self.accuracy(a=(self.timed(timed, 1.0), replace(self.timed(drawn, 2.0), seen=(5, 0))))
         points = {method.name: (wrong, up.middle) for method, (wrong, up, _) in points_of(frontier_figures(found)[0], found, "simd").items()}
         self.assertEqual(points, {timed: (5.0, 4.0), drawn: (5.0, 2.0)})
 
