@@ -2,10 +2,12 @@
 // repetitions, so that a burst of other load on the machine does not hit one row alone.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
+#include <linux/perf_event.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -13,6 +15,7 @@
 
 #include "bench/flags.h"
 #include "bench/reporter.h"
+#include "bench/workloads/events.h"
 #include "bench/workloads/memory.h"
 #include "bench/workloads/random_reads.h"
 #include "bench/workloads/stage.h"
@@ -23,6 +26,7 @@
 #include "support/machine.h"
 #include "support/options.h"
 #include "support/output_path.h"
+#include "support/printable.h"
 #include "support/process.h"
 #include "support/progress.h"
 
@@ -36,10 +40,10 @@ namespace {
 // few long ones.
 constexpr double kRepetition_s = 0.012;
 
-// The rounds that time a row. So many of cells settle a true 1.2x in 95 % of runs, as scripts/README.md
+// The rounds that time a row. So many as cells have settle a true 1.2x in 95 % of runs, as scripts/README.md
 // shows. The number is fixed: stopping as soon as a pair is settled would find differences that do not exist.
-constexpr int kRounds = 9, kCellRounds = 36;
-// A quick run begins no further round of cells after this time.
+constexpr int kRounds = 9, kManyRounds = 36;
+// A quick run begins no round beyond kRounds after this time.
 constexpr double kQuickRounds_s = 180.0;
 
 // A backend's whole frames: the first one's memory and duration, and how long the slowest take.
@@ -160,7 +164,7 @@ bool is_known(const Row& row) {
 
 int rounds_of(const Row& row, const Flags& flags) {
   if (is_known(row)) return 1;
-  return flags.repetitions.value_or(is_cell(row) && row.once_s <= kTooSlowToRepeat_s ? kCellRounds : kRounds);
+  return flags.repetitions.value_or(row.once_s < row.many_rounds_up_to_s ? kManyRounds : kRounds);
 }
 
 // With fewer, the 99th percentile would be the slowest of all.
@@ -174,6 +178,27 @@ double percentile(std::vector<double> values, double share) {
   return *at;
 }
 
+struct FrameEvent {
+  std::string name;
+  EventCounter counter;
+};
+
+// Opened by the thread that draws.
+std::span<const FrameEvent> frame_events() {
+  static const FrameEvent kEvents[] = {{"instructions", {PERF_TYPE_HARDWARE, PERF_COUNT_HW_INSTRUCTIONS}},
+                                       {"cache_misses", {PERF_TYPE_HARDWARE, PERF_COUNT_HW_CACHE_MISSES}}};
+  return kEvents;
+}
+
+// Other threads' events are not counted.
+bool counts_events(const Row& row) {
+  return row.timed == Timed::frame && row.backend != nullptr && is_plain(row) && row.execution.threads == 1;
+}
+
+void add_events(Row& row, double sign) {
+  for (const auto& [name, counter] : frame_events()) row.events[name] += sign * counter.count();
+}
+
 void time_row(benchmark::State& state, Row& row, Stage& stage) {
   if (!row.error.empty()) return state.SkipWithError(row.error.c_str());
   if (is_known(row)) {
@@ -181,6 +206,7 @@ void time_row(benchmark::State& state, Row& row, Stage& stage) {
   } else {
     // The caches hold another row's data. A long draw needs no warm-up.
     if (stage.renew_memory(row) || row.once_s < kRepetition_s) stage.work(row);
+    if (counts_events(row)) add_events(row, -1.0);
     for (auto _ : state) {
       if (row.pause_s > 0.0) {
         state.PauseTiming();
@@ -190,6 +216,10 @@ void time_row(benchmark::State& state, Row& row, Stage& stage) {
       const double frame_s = stage.timed_work_s(row);
       if (row.device_clock) state.SetIterationTime(frame_s);
       if (row.keeps_frames) row.frames_s.push_back(frame_s);
+    }
+    if (counts_events(row)) {
+      add_events(row, 1.0);
+      row.counted_frames += static_cast<double>(state.iterations());
     }
   }
   auto& counters = state.counters;
@@ -211,6 +241,8 @@ void time_row(benchmark::State& state, Row& row, Stage& stage) {
     if (row.first_frame->peak_bytes) counters["peak_bytes"] = *row.first_frame->peak_bytes;
   }
   if (row.frames_s.size() >= kFramesForP99) counters["p99_ms"] = percentile(row.frames_s, 0.99) * 1e3;
+  for (const auto& [name, events] : row.events)
+    if (!std::isnan(events)) counters[name] = events / row.counted_frames;
   if (const auto wrong_px = row.wrong_px ? row.wrong_px : workload.wrong_px())
     counters["wrong_px"] = static_cast<double>(*wrong_px);
   if (row.timed == Timed::frontend) return;
@@ -286,7 +318,15 @@ void time_all(std::vector<Row>& rows, Stage& stage, const Flags& flags, Reporter
   }
 }
 
-void add_context(const Flags& flags, std::span<const Row> rows) {
+// The file's name and size, by which people recognize it.
+std::string describe_file(const std::string& path) {
+  std::error_code error;
+  const auto bytes = std::filesystem::file_size(path, error);
+  const std::string name = tools::printable(std::filesystem::path(path).filename().string());
+  return error ? name : fmt::format("{}, {} kB", name, bytes / 1000);
+}
+
+void add_context(const Flags& flags, std::span<const Row> rows, std::span<const std::string> inputs) {
   std::vector<std::string_view> names, peers;  // peers: with whole frames
   for (const BackendInfo& backend : backends()) names.push_back(backend.name);
   for (const Row& row : rows)
@@ -305,6 +345,12 @@ void add_context(const Flags& flags, std::span<const Row> rows) {
   benchmark::AddCustomContext("backends", fmt::format("{}", fmt::join(names, " ")));
   benchmark::AddCustomContext("peers", fmt::format("{}", fmt::join(peers, " ")));
   benchmark::AddCustomContext("rounds", std::to_string(flags.repetitions.value_or(kRounds)));
+  for (const std::string& scene : inputs)
+    if (tools::is_file_path(scene))
+      benchmark::AddCustomContext("file " + name_in_rows(scene), describe_file(tools::input_path(scene)));
+  const std::string& error = frame_events().front().counter.error();
+  benchmark::AddCustomContext("perf_event",
+                              error.empty() ? "available" : fmt::format("not available ({})", error));
 }
 
 // The cost model's parts, one line per row.
@@ -348,7 +394,7 @@ int run(int argc, char** argv) {
   Stage stage(!flags.model_out.empty());
   compare_all(rows, stage, flags.suite.scenes.empty());
   if (flags.suite.scenes.empty()) leave_out_slow_frames(rows);
-  add_context(flags, rows);
+  add_context(flags, rows, inputs);
   std::vector<std::string> names;
   for (const auto& row : rows) names.push_back(row.name);
   for (const auto& row : random_read_rows()) names.emplace_back(row.name);

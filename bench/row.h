@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -50,12 +51,15 @@ struct Row {
   std::optional<FirstFrame> first_frame;            // if measured
   bool keeps_frames = false;                        // whether the duration of each frame is kept
   std::vector<double> frames_s;                     // if keeps_frames: of all repetitions
+  std::map<std::string, double> events;             // of counted_frames frames, by the counter's name
+  double counted_frames = 0.0;
   bool wants_cost = false;
-  bool variant = false;           // a step of the ablation or a cell: not what users draw
-  bool two_calls = false;         // a frame by Frontend::run() and Backend::draw()
-  double once_s = 0.0;            // duration of the compared draw
-  std::optional<FrameCost> cost;  // if wants_cost
-  std::uint64_t depth_ties = 0;   // peers: depth ties within tolerance, px
+  bool variant = false;              // a step of the ablation or a cell: not what users draw
+  bool two_calls = false;            // a frame by Frontend::run() and Backend::draw()
+  double many_rounds_up_to_s = 0.0;  // a shorter draw is repeated more often than other rows are
+  double once_s = 0.0;               // duration of the compared draw
+  std::optional<FrameCost> cost;     // if wants_cost
+  std::uint64_t depth_ties = 0;      // peers: depth ties within tolerance, px
   // If the row may draw another picture: pixels of another colour; peers: that show another triangle.
   std::optional<std::uint64_t> wrong_px;
   std::string error;  // why the row must not be timed

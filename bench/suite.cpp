@@ -23,6 +23,10 @@ namespace {
 constexpr int kThreads[] = {1, 2};
 constexpr int kSweepThreads = 2;
 constexpr int kPause_ms = 2;
+// The backends whose whole frames are compared by resolution, and how long a frame may take to be repeated as
+// often as cells are.
+constexpr std::string_view kByResolution[] = {"scanline", "tiled"};
+constexpr double kShortFrame_s = 0.05;
 
 using WorkloadPtr = std::shared_ptr<Workload>;
 
@@ -51,13 +55,6 @@ tools::Source area_source(const SuiteOptions& options, double area_px) {
                        at_least_a_few(static_cast<double>(count) * kTargetArea_px / covered_px), area_px);
 }
 
-// A source's name in row names, where ':' and '/' are separators. No source name has a '/'.
-std::string name_in_rows(const tools::Source& source) {
-  std::string name = tools::printable(source.name);
-  std::replace(name.begin(), name.end(), ':', '_');
-  return name;
-}
-
 constexpr const char* kSphereQuadsName = "sphere-quads";
 
 tools::Source sphere_quads(const SceneRequest& request) {
@@ -76,7 +73,7 @@ class Suite {
       for (const int threads : kThreads) {
         add(workload, Timed::raster, backend, name, threads);
         rows_.back().wants_cost = backend.name == kAblationBackend;
-        add(workload, Timed::frame, backend, name, threads);
+        add_frame(workload, backend, name, threads);
       }
     for (const SimdTarget target : supported_targets())
       if (target != SimdTarget::scalar && target != resolve(SimdTarget::best))
@@ -92,6 +89,18 @@ class Suite {
     }
   }
 
+  // Beside the scene's own rows. `workload_at` makes the scene's workload of a width and height.
+  void add_sizes(const std::string& scene, const std::function<WorkloadPtr(int, int)>& workload_at) {
+    if (options_.size_asked) return;
+    for (const auto& [width, height] : {std::pair{1280, 720}, {3840, 2160}}) {
+      const WorkloadPtr workload = workload_at(width, height);
+      for (const std::string_view backend : kByResolution)
+        for (const int threads : kThreads)
+          add_frame(workload, find_backend(backend), fmt::format("{}/size:{}x{}", scene, width, height),
+                    threads);
+    }
+  }
+
   // Frames that differ in one factor at a time, on one thread and on all.
   void add_cells(const WorkloadPtr& workload, const std::string& scene) {
     const std::set<int> thread_counts{1, tools::default_threads()};
@@ -100,6 +109,7 @@ class Suite {
         add(workload, Timed::frame, cell.backend, scene, threads, cell.target);
         rows_.back().name = fmt::format("cell/{}/{}/threads:{}", scene, factors(cell), threads);
         rows_.back().variant = true;
+        rows_.back().many_rounds_up_to_s = kTooSlowToRepeat_s;
       }
   }
 
@@ -259,6 +269,15 @@ class Suite {
     rows_.push_back(std::move(row));
   }
 
+  // As a user would draw it.
+  void add_frame(const WorkloadPtr& workload, const BackendInfo& backend, const std::string& what,
+                 int threads) {
+    add(workload, Timed::frame, backend, what, threads);
+    if (std::find(std::begin(kByResolution), std::end(kByResolution), backend.name) !=
+        std::end(kByResolution))
+      rows_.back().many_rounds_up_to_s = kShortFrame_s;
+  }
+
   void add_peer(const WorkloadPtr& workload, const lab::PeerInfo& peer, const std::string& scene,
                 int threads) {
     Row row;
@@ -285,6 +304,12 @@ class Suite {
 
 }  // namespace
 
+std::string name_in_rows(const std::string& name_or_path) {
+  std::string name = tools::printable(tools::source_name(name_or_path));
+  std::replace(name.begin(), name.end(), ':', '_');
+  return name;
+}
+
 bool in_quick_run(const Row& row) {
   constexpr std::string_view kScenes[] = {"cubes", "torus-knot", "large", "medium", "small"};
   if (row.method) return true;
@@ -305,7 +330,7 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
     // Load now, so that an invalid file fails before anything is timed.
     const tools::Source source =
         tools::load_source(scene, request(options, options.width, options.height), options.fit);
-    const std::string name = name_in_rows(source);
+    const std::string name = name_in_rows(scene);
     if (const auto [other, is_new] = taken.emplace(name, scene); !is_new)
       throw std::invalid_argument(
           fmt::format("--scene {} and --scene {} would both be named '{}'", other->second, scene, name));
@@ -317,6 +342,10 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
         std::make_shared<Workload>(size.width, size.height, Cull::back, [source] { return source; });
     suite.add_scene(workload, name);
     suite.add_cells(workload, name);
+    if (!stream)
+      suite.add_sizes(name, [&source](int width, int height) {
+        return std::make_shared<Workload>(width, height, Cull::back, [source] { return source; });
+      });
     if (options.methods)
       for (const lab::LabScene& own : lab::own_scenes(name, stream != nullptr, [source, size] {
              return lab::SizedDrawable{source.drawable, size};
@@ -335,6 +364,8 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
     suite.add_ablation(workload, name);
     suite.add_engine_runs(workload, name);
     suite.add_tile_stores(workload, name);
+    if (!scene.stream)
+      suite.add_sizes(name, [&](int width, int height) { return suite.scene_workload(name, width, height); });
   }
   for (const auto& scene : options.more_scenes) add_named(scene);
   suite.add_area_sweep();

@@ -22,6 +22,9 @@ struct SuiteOptions {
   bool all_peers = false;                // beside the methods, too
 };
 
+// A scene's name in row names, where ':' and '/' are separators: see tools::source_name().
+std::string name_in_rows(const std::string& name_or_path);
+
 // Whether a quick run times this row. Nothing else decides what it leaves out.
 bool in_quick_run(const Row& row);
 

@@ -40,29 +40,33 @@ class Row:
         return int(self.keys.get("threads", "1"))
 
 
-def paired(a, b):
-    """Whether each repetition of one row has a partner of the other, in the same round."""
-    return a is b or a.rounds and b.rounds and len(a.times_ms) == len(b.times_ms)
+def compared(a, b):
+    """The times of both rows, and whether they are pairs: those of the rounds that timed both."""
+    if a is b or a.rounds and b.rounds:
+        rounds = min(len(a.times_ms), len(b.times_ms))
+        return a.times_ms[:rounds], b.times_ms[:rounds], True
+    return a.times_ms, b.times_ms, False
 
 
 def order(a, b):
     """-1 where row a is faster than b, 1 where it is slower, 0 where their repetitions are too close to call."""
-    return noise.paired_order(b.times_ms, a.times_ms) if paired(a, b) else noise.order(a.times_ms, b.times_ms)
+    of_a, of_b, paired = compared(a, b)
+    return noise.paired_order(of_b, of_a) if paired else noise.order(of_a, of_b)
 
 
 def gained(before, after):
     """The speed-up from one row to another."""
-    return noise.median_ratio(after.times_ms, before.times_ms, paired(before, after))
+    return noise.median_ratio(*compared(after, before))
 
 
 def gained_interval(before, after):
     """The interval of gained()."""
-    return noise.ratio_interval(after.times_ms, before.times_ms, paired(before, after))
+    return noise.ratio_interval(*compared(after, before))
 
 
 def mean_gained(pairs):
     """The geometric mean of gained(), and its interval; `pairs` are (row before, row after)."""
-    return noise.geometric_mean([(after.times_ms, before.times_ms, paired(before, after)) for before, after in pairs])
+    return noise.geometric_mean([compared(after, before) for before, after in pairs])
 
 
 def parse_name(name):
