@@ -295,13 +295,13 @@ TRUE_RATIO, WANTED_POWER = 1.2, 0.95
 
 def power_sentence(bench):
     """How often the rounds of cells settle a difference between bands and tiles, simulated with their noise."""
-    sides = [(duel.bands[1].times_ms, duel.tiles[1].times_ms) for simd in (True, False) for duel in duels(bench, simd)]
+    sides = [[row.times_ms for row in duel.fastest] for simd in (True, False) for duel in duels(bench, simd)]
     rounds = max((len(times) for times, _ in sides), default=0)
     compared = [pair for pair in sides if [len(times) for times in pair] == [rounds] * 2]
     if not compared:
         return NOT_TIMED
     needed = noise.rounds_for(compared, TRUE_RATIO, WANTED_POWER) or f"more than {noise.MOST_ROUNDS}"
-    return (f"{rounds} rounds settle a true {TRUE_RATIO}× between two cells in {percent(noise.power(compared, TRUE_RATIO, rounds))} of cases, "
+    return (f"{rounds} rounds settle a true {TRUE_RATIO}× between bands and tiles in {percent(noise.power(compared, TRUE_RATIO, rounds))} of cases, "
             f"{needed} rounds in {percent(WANTED_POWER)}, simulated with their noise.")
 
 

@@ -2,6 +2,7 @@
 
 Cells are the rows cell/SCENE/traversal:bands|tiles/fill:spans|edges/simd:TARGET[/with:hiz[+masks]]/threads:N.
 """
+from itertools import product
 from typing import NamedTuple
 
 from bench_rows import gained, order
@@ -10,6 +11,10 @@ from tables import about, kernels, number
 
 SCALAR = "scalar"
 HIZ, MASKS = "hiz", "hiz+masks"
+TRAVERSALS, FILLS = ("bands", "tiles"), ("spans", "edges")
+BY_SIMD = "SIMD over scalar"
+# What scalar code is, beside the table.
+SCALAR_CODE = "Scalar: the compiler vectorizes the depth test of spans, on x86-64 with SSE2. Tiles with edges run the vector kernel with one lane."
 
 
 class Cell(NamedTuple):
@@ -31,15 +36,28 @@ def most_threads(found):
     return max((cell.threads for cell in found), default=1)
 
 
-def factors(threads):
-    """{title: (field of a cell, level before, level after)}"""
-    return {"tiles over bands": ("traversal", "bands", "tiles"), "edges over spans": ("fill", "spans", "edges"),
-            "SIMD over scalar": ("simd", False, True), "HiZ": ("extra", "", HIZ), "masks, with HiZ": ("extra", HIZ, MASKS),
-            f"{threads} threads over 1": ("threads", 1, threads)}
+def chosen(found, **levels):
+    """{Cell: row} of the cells with these levels; unless `levels` say otherwise, on the most threads, and without HiZ and masks."""
+    levels = {"threads": most_threads(found), "extra": "", **levels}
+    return {cell: row for cell, row in found.items() if all(getattr(cell, field) == level for field, level in levels.items())}
+
+
+def factors(simd, threads):
+    """(title, field of a cell, level before, level after, levels of other factors, on which the gain depends)"""
+    for fill in FILLS:
+        yield f"tiles over bands, with {fill}", "traversal", *TRAVERSALS, {"fill": fill}
+    for traversal in TRAVERSALS:
+        yield f"edges over spans, in {traversal}", "fill", *FILLS, {"traversal": traversal}
+    if simd:
+        for traversal, fill in product(TRAVERSALS, FILLS):
+            yield f"{BY_SIMD}, {fill} in {traversal}", "simd", False, True, {"traversal": traversal, "fill": fill}
+        yield "HiZ", "extra", "", HIZ, {}
+        yield "masks, with HiZ", "extra", HIZ, MASKS, {}
+    yield f"{threads} threads over 1", "threads", 1, threads, {}
 
 
 class Gain(NamedTuple):
-    """The speed-ups by a factor in cells with or without SIMD, all else equal."""
+    """The speed-ups by a factor in cells with or without SIMD: each is of two cells of a scene that differ in nothing else."""
     factor: str
     simd: bool
     median: float
@@ -53,86 +71,88 @@ class Gain(NamedTuple):
     def pairs(self):
         return self.faster + self.slower + self.open
 
+    @property
+    def counts(self):
+        return f"{self.faster}/{self.slower}/{self.open}"
+
 
 def gains(bench):
-    """A Gain of each factor on the most threads, in all scenes and at all levels of the other factors: with SIMD, then in scalar
-    code."""
+    """A Gain of each factor on the most threads, in all scenes: with SIMD, then in scalar code."""
     found = cells(bench)
-    threads = most_threads(found)
     for simd in (True, False):
-        for title, (field, before, after) in factors(threads).items():
-            pairs = [(cell.scene, found[plain], row) for cell, row in found.items()
-                     if (cell.simd, cell.threads, getattr(cell, field)) == (simd, threads, after) and before != after
-                     and (plain := cell._replace(**{field: before})) in found]
+        for title, field, before, after, levels in factors(simd, most_threads(found)):
+            pairs = [(cell.scene, found[other], row) for cell, row in chosen(found, **{"simd": simd, **levels, field: after}).items()
+                     if before != after and (other := cell._replace(**{field: before})) in found]
             if pairs:
-                speed_ups = [(gained(plain, row), scene) for scene, plain, row in pairs]
-                orders = [order(row, plain) for _, plain, row in pairs]
+                speed_ups = [(gained(other, row), scene) for scene, other, row in pairs]
+                orders = [order(row, other) for _, other, row in pairs]
                 yield Gain(title, simd, median(ratio for ratio, _ in speed_ups), min(speed_ups), max(speed_ups),
                            *map(orders.count, (-1, 1, 0)))
 
 
-def said(gain):
-    """Its median and its range: "1.1×", "0.59× in cubes to 2.9× in micro"."""
-    return about(gain.median), " to ".join(f"{about(ratio)} in {scene}" for ratio, scene in (gain.least, gain.most))
-
-
 def factor_table(bench):
     """Header and lines; no lines if no cell was timed."""
-    with_simd = kernels(bench.context.get("simd_target"))
-    return (["factor", "code", "median", "range", "won/lost/open"],
-            [[gain.factor, with_simd if gain.simd else SCALAR, *said(gain), f"{gain.faster}/{gain.slower}/{gain.open}"]
-             for gain in gains(bench)])
+    found = {(gain.factor, gain.simd): gain for gain in gains(bench)}
+
+    def told(gain):
+        if not gain:
+            return ["–", "–"]
+        ends = " to ".join(f"{about(ratio)} in {scene}" for ratio, scene in (gain.least, gain.most))
+        return [f"{about(gain.median)} ({ends})", gain.counts]
+
+    return (["factor", kernels(bench.context.get("simd_target")), "won/lost/open", SCALAR, "won/lost/open"],
+            [[factor, *(cell for simd in (True, False) for cell in told(found.get((factor, simd))))]
+             for factor in dict.fromkeys(factor for factor, _ in found)])
 
 
-def conditions(bench, codes=(True, False)):
-    """What the table's lines with SIMD, or without, are, and how many of their verdicts may be false."""
-    pairs = sum(gain.pairs for gain in gains(bench) if gain.simd in codes)
-    return (f"Pairs of whole frames on {most_threads(cells(bench))} threads that differ in one factor, as Edgewise implements it; of "
+def conditions(bench, shown):
+    """What these Gains are, and how many of their verdicts may be false."""
+    pairs = sum(gain.pairs for gain in shown)
+    return (f"Pairs of whole frames on {most_threads(cells(bench))} threads that differ in one factor, as implemented here; of "
             f"{pairs} verdicts, at most {number(LEVEL * pairs, 2)} false ones are expected.")
 
 
 class Duel(NamedTuple):
-    """The fastest cell with bands against the fastest with tiles, in one scene."""
+    """Bands against tiles in one scene, without HiZ and masks."""
     scene: str
     triangle_px: float
     overdraw: float
-    bands: tuple  # (Cell, row)
-    tiles: tuple
-    plain_tiles: object  # the row of the fastest tiles without HiZ
-    all_bands: tuple  # rows
-    all_tiles: tuple
+    bands: dict  # {fill, or the backend `scanline`: row}, the fastest first
+    tiles: dict
+
+    @property
+    def fastest(self):
+        """The rows of both sides."""
+        return next(iter(self.bands.values())), next(iter(self.tiles.values()))
 
     @property
     def order(self):
         """-1 if the fastest bands are faster than all tiles, 1 if the fastest tiles are than all bands, 0 if neither is settled."""
-        if all(order(self.bands[1], row) < 0 for row in self.all_tiles):
+        bands, tiles = self.fastest
+        if all(order(bands, row) < 0 for row in self.tiles.values()):
             return -1
-        return int(all(order(self.tiles[1], row) < 0 for row in self.all_bands))
+        return int(all(order(tiles, row) < 0 for row in self.bands.values()))
 
     @property
     def ratio(self):
         """The speed-up of bands over tiles."""
-        return gained(self.tiles[1], self.bands[1])
+        return gained(*reversed(self.fastest))
 
     @property
     def winner(self):
-        return (self.bands if self.ratio > 1 else self.tiles)[0]
+        """("bands" or "tiles", what draws them)"""
+        return ("bands", next(iter(self.bands))) if self.ratio > 1 else ("tiles", next(iter(self.tiles)))
 
 
 def duels(bench, simd):
-    """On the most threads, in the suite's order."""
+    """On the most threads, in the suite's order. `scanline` is bands with SIMD, of both fills."""
     found = cells(bench)
-    threads = most_threads(found)
-
-    def median_ms(pair):
-        return pair[1].median_ms
-
     for scene in dict.fromkeys(cell.scene for cell in found):
-        bands, tiles = ([(cell, row) for cell, row in found.items() if (cell.scene, cell.simd, cell.threads, cell.traversal) ==
-                         (scene, simd, threads, traversal)] for traversal in ("bands", "tiles"))
-        plain = [pair for pair in tiles if not pair[0].extra]
-        if bands and plain:
-            first = min(bands, key=median_ms)
-            seen = first[1].counters
-            yield Duel(scene, seen["covered_px"] / seen["triangles"], seen["overdraw"], first, min(tiles, key=median_ms),
-                       min(plain, key=median_ms)[1], *(tuple(row for _, row in side) for side in (bands, tiles)))
+        bands, tiles = ({cell.fill: row for cell, row in chosen(found, scene=scene, simd=simd, traversal=traversal).items()}
+                        for traversal in TRAVERSALS)
+        if bands and tiles:
+            seen = next(iter(bands.values())).counters
+            if simd and (shipped := bench.frame("scanline", scene, most_threads(found))):
+                bands["scanline"] = shipped
+            yield Duel(scene, seen["covered_px"] / seen["triangles"], seen["overdraw"],
+                       *(dict(sorted(side.items(), key=lambda pair: pair[1].median_ms)) for side in (bands, tiles)))

@@ -1,13 +1,12 @@
 """README's second chart: which way of drawing wins, by the size of triangles and by overdraw."""
-from bench_rows import gained, gained_interval
-from factors import cells, duels, most_threads
+from bench_rows import gained_interval
+from factors import SCALAR, cells, duels, most_threads
 from plot_labels import Label, label_points
 from plot_style import BACKENDS, FAINT, INK, WIDTH_IN, dark, head_in, headline, log_axis, plt, round_ticks, save
 from tables import enumerated, kernels
 
-PANELS = {"<1": (0, 1), "1–4": (1, 4), ">4": (4, float("inf"))}  # overdraw
+PANELS = {"<1": (0, 1), "1–4": (1, 4), "≥4": (4, float("inf"))}  # overdraw
 LOOKS = {"bands": BACKENDS["scanline"], "tiles": BACKENDS["tiled"]}
-EXTRAS = {"": "", "hiz": " + HiZ", "hiz+masks": " + HiZ + masks"}
 
 
 def in_panel(found, panel):
@@ -45,32 +44,29 @@ def panel(axes, found, low, high):
     axes.axhline(1, color=FAINT, linewidth=1.0)
     labels, lines = [], [[(end, 1) for end in axes.get_xlim()]]
     for duel in found:
-        x, bands, tiles = duel.triangle_px, duel.bands[1], duel.tiles[1]
-        won = duel.winner
-        colour, marker = LOOKS[won.traversal]
-        lines += [[(x, end) for end in gained_interval(tiles, bands)], [(x, duel.ratio), (x, gained(duel.plain_tiles, bands))]]
-        axes.plot(*zip(*lines[-2]), color=colour, linewidth=5, alpha=0.25, solid_capstyle="butt")
-        axes.plot(*zip(*lines[-1]), color=FAINT, linewidth=0.8, linestyle=":")
-        axes.plot(*lines[-1][1], marker="_", color=FAINT, markersize=9, markeredgewidth=1.5)
-        axes.plot(*lines[-1][0], marker=marker, color=colour, markersize=7.5, markeredgewidth=1.5,
-                  markerfacecolor=colour if duel.order else "white")
-        labels.append(Label(*lines[-1][0], f"{duel.scene}\n{won.fill}{EXTRAS[won.extra]}", dark(colour), 8))
+        side, drawn_by = duel.winner
+        colour, marker = LOOKS[side]
+        at = duel.triangle_px, duel.ratio
+        lines.append([(at[0], end) for end in interval(duel)])
+        axes.plot(*zip(*lines[-1]), color=colour, linewidth=5, alpha=0.25, solid_capstyle="butt")
+        axes.plot(*at, marker=marker, color=colour, markersize=7.5, markeredgewidth=1.5, markerfacecolor=colour if duel.order else "white")
+        labels.append(Label(*at, f"{duel.scene}\n{drawn_by}", dark(colour), 8))
     return labels, lines
 
 
-def ends_of(found):
-    return [end for duel in found for end in (*gained_interval(duel.tiles[1], duel.bands[1]), gained(duel.plain_tiles, duel.bands[1]))]
+def interval(duel):
+    return gained_interval(*reversed(duel.fastest))
 
 
 def factors(bench, folder, caption):
     target = kernels(bench.context.get("simd_target"))
-    rows = {code: found for code, simd in ((target, True), ("scalar code", False)) if (found := list(duels(bench, simd)))}
+    rows = {code: found for code, simd in ((target, True), (f"{SCALAR}; spans vectorized by the compiler", False)) if (found := list(duels(bench, simd)))}
     if not rows:
         return None
-    subtitle = (f"A marker is a scene, whole frames on {most_threads(cells(bench))} threads: the fastest with bands against the fastest with tiles. "
-                "Up: bands are faster; down: tiles. Label: the scene, and how the winner fills. Filled: settled against all of the other side. Light bars: 95 % "
-                "intervals. Tick: tiles without HiZ and masks.")
-    above, below, each = 0.5 + head_in(subtitle), 0.75, 3.2
+    subtitle = (f"A marker is a scene, whole frames on {most_threads(cells(bench))} threads: the fastest with bands (cells and, with SIMD, scanline) "
+                "against the fastest with tiles, all without HiZ and masks. Up: bands are faster; down: tiles. Label: the scene, and what wins. "
+                "Filled: settled against all of the other side. Light bars: 95 % intervals.")
+    above, below, each = 0.5 + head_in(subtitle), 0.9, 3.2
     figure, grid = plt.subplots(len(rows), len(PANELS), sharex=True, sharey="row", squeeze=False,
                                 figsize=(WIDTH_IN, above + below + each * len(rows)))
     height = figure.get_figheight()
@@ -78,7 +74,8 @@ def factors(bench, folder, caption):
     figure.subplots_adjust(left=0.085, right=0.985, bottom=below / height, top=1 - above / height, wspace=0.06, hspace=0.16)
     made = []
     for line, (code, found) in zip(grid, rows.items()):
-        low, high = min(1, *ends_of(found)) / 1.35, max(1, *ends_of(found)) * 1.35
+        ends = [end for duel in found for end in interval(duel)]
+        low, high = min(1, *ends) / 1.35, max(1, *ends) * 1.5
         sizes = [duel.triangle_px for duel in found]
         line[0].set_yscale("log")
         line[0].set_ylim(low, high)
@@ -86,13 +83,13 @@ def factors(bench, folder, caption):
         line[0].set_ylabel(f"{code}\n← tiles faster    bands faster →")
         for axes, name in zip(line, PANELS):
             axes.set_xscale("log")
-            axes.set_xlim(min(sizes) / 2, max(sizes) * 2)
+            axes.set_xlim(min(sizes) / 2, max(sizes) * 10)
             made.append((axes, *panel(axes, in_panel(found, name), low, high)))
     for axes, name in zip(grid[0], PANELS):
         axes.set_title(f"overdraw {name}", color=INK)
     for axes in grid[-1]:
         log_axis(axes.xaxis)
-        axes.set_xlabel("covered pixels per triangle", fontsize=9.5)
+        axes.set_xlabel("covered pixels per triangle,\nculled ones included", fontsize=9.5)
     for axes, labels, lines in made:
         label_points(axes, labels, lines)
     save(figure, folder, "factors", caption)
