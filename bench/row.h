@@ -10,7 +10,7 @@
 #include "bench/workloads/methods.h"
 #include "bench/workloads/workload.h"
 #include "lab/engine/engine.h"
-#include "raster/ablation.h"
+#include "raster/tile_options.h"
 
 namespace edgewise::bench {
 
@@ -44,15 +44,13 @@ struct Row {
   std::string peer_version;   // empty: it did not start
   bool device_clock = false;  // a peer's frame by its device's clock
   Execution execution;
-  Ablation ablation{};
+  TileOptions tiles{};
   std::optional<lab::EngineArithmetic> arithmetic;  // if set, the laboratory's engine draws, not `backend`
   double pause_s = 0.0;                             // before each frame, not timed
   std::optional<FirstFrame> first_frame;            // if measured
   bool keeps_frames = false;                        // whether the duration of each frame is kept
   std::vector<double> frames_s;                     // if keeps_frames: of all repetitions
   bool wants_cost = false;
-  bool variant = false;           // a step of the ablation or a cell: not what users draw
-  bool two_calls = false;         // a frame by Frontend::run() and Backend::draw()
   double once_s = 0.0;            // duration of the compared draw
   std::optional<FrameCost> cost;  // if wants_cost
   std::uint64_t depth_ties = 0;   // peers: depth ties within tolerance, px
@@ -69,8 +67,8 @@ inline bool is_cell(const Row& row) {
 // Whether the row is timed as a user would draw: with all optimizations, on the best SIMD target, without
 // pauses.
 inline bool is_plain(const Row& row) {
-  return !row.variant && row.pause_s == 0.0 && row.execution.target == SimdTarget::best &&
-         row.ablation == Ablation{};
+  return !is_cell(row) && row.pause_s == 0.0 && row.execution.target == SimdTarget::best &&
+         row.tiles == TileOptions{};
 }
 
 }  // namespace edgewise::bench
