@@ -11,7 +11,7 @@
 #include "bench/workloads/methods.h"
 #include "bench/workloads/workload.h"
 #include "lab/engine/engine.h"
-#include "raster/ablation.h"
+#include "raster/tile_options.h"
 
 namespace edgewise::bench {
 
@@ -45,7 +45,7 @@ struct Row {
   std::string peer_version;   // empty: it did not start
   bool device_clock = false;  // a peer's frame by its device's clock
   Execution execution;
-  Ablation ablation{};
+  TileOptions tiles{};
   std::optional<lab::EngineArithmetic> arithmetic;  // if set, the laboratory's engine draws, not `backend`
   double pause_s = 0.0;                             // before each frame, not timed
   std::optional<FirstFrame> first_frame;            // if measured
@@ -54,8 +54,6 @@ struct Row {
   std::map<std::string, double> events;             // of counted_frames frames, by the counter's name
   double counted_frames = 0.0;
   bool wants_cost = false;
-  bool variant = false;              // a step of the ablation or a cell: not what users draw
-  bool two_calls = false;            // a frame by Frontend::run() and Backend::draw()
   double many_rounds_up_to_s = 0.0;  // a shorter draw is repeated more often than other rows are
   double once_s = 0.0;               // duration of the compared draw
   std::optional<FrameCost> cost;     // if wants_cost
@@ -73,8 +71,8 @@ inline bool is_cell(const Row& row) {
 // Whether the row is timed as a user would draw: with all optimizations, on the best SIMD target, without
 // pauses.
 inline bool is_plain(const Row& row) {
-  return !row.variant && row.pause_s == 0.0 && row.execution.target == SimdTarget::best &&
-         row.ablation == Ablation{};
+  return !is_cell(row) && row.pause_s == 0.0 && row.execution.target == SimdTarget::best &&
+         row.tiles == TileOptions{};
 }
 
 }  // namespace edgewise::bench

@@ -8,8 +8,6 @@
 #include <set>
 #include <stdexcept>
 
-#include "bench/workloads/ablation.h"
-#include "bench/workloads/growth.h"
 #include "lab/cells/cells.h"
 #include "lab/choice.h"
 #include "scene/polygon.h"
@@ -21,7 +19,7 @@ namespace edgewise::bench {
 namespace {
 
 constexpr int kThreads[] = {1, 2};
-constexpr int kSweepThreads = 2;
+constexpr int kCullThreads = 2;
 constexpr int kPause_ms = 2;
 // The backends whose whole frames are compared by resolution, and how long a frame may take to be repeated as
 // often as cells are.
@@ -38,6 +36,12 @@ SceneRequest request(const SuiteOptions& options, int width, int height) {
   return r;
 }
 
+// `count` triangles of `area_px` at random positions and depths.
+tools::Source random_source(const SuiteOptions& options, std::size_t count, double area_px) {
+  return {"random", random_stream({.width = options.width, .height = options.height}, count, area_px, 0.0, 1),
+          true};
+}
+
 // Large triangles lose much of their area at the image's borders, so the count is corrected by the coverage
 // of a first attempt.
 tools::Source area_source(const SuiteOptions& options, double area_px) {
@@ -46,13 +50,13 @@ tools::Source area_source(const SuiteOptions& options, double area_px) {
     return static_cast<std::size_t>(std::max(4.0, std::round(count)));
   };
   const std::size_t count = at_least_a_few(kTargetArea_px / area_px);
-  if (area_px < 1e3) return random_source(options.width, options.height, count, area_px);
+  if (area_px < 1e3) return random_source(options, count, area_px);
   Workload attempt(options.width, options.height, Cull::none,
-                   [&] { return random_source(options.width, options.height, count, area_px); });
+                   [&] { return random_source(options, count, area_px); });
   attempt.prepare(false);
   const double covered_px = std::max(1.0, static_cast<double>(attempt.covered_px()));
-  return random_source(options.width, options.height,
-                       at_least_a_few(static_cast<double>(count) * kTargetArea_px / covered_px), area_px);
+  return random_source(options, at_least_a_few(static_cast<double>(count) * kTargetArea_px / covered_px),
+                       area_px);
 }
 
 constexpr const char* kSphereQuadsName = "sphere-quads";
@@ -72,13 +76,13 @@ class Suite {
     for (const auto& backend : backends())
       for (const int threads : kThreads) {
         add(workload, Timed::raster, backend, name, threads);
-        rows_.back().wants_cost = backend.name == kAblationBackend;
+        rows_.back().wants_cost = backend.name == "tiled";
         add_frame(workload, backend, name, threads);
       }
     for (const SimdTarget target : supported_targets())
       if (target != SimdTarget::scalar && target != resolve(SimdTarget::best))
         for (const int threads : kThreads)
-          add(workload, Timed::frame, find_backend(kAblationBackend),
+          add(workload, Timed::frame, find_backend("tiled"),
               fmt::format("{}/target:{}", name, name_of(target)), threads, target);
     if (!options_.peers) return;
     for (const auto& peer : lab::benchmark_peers()) {
@@ -108,23 +112,8 @@ class Suite {
       for (const int threads : thread_counts) {
         add(workload, Timed::frame, cell.backend, scene, threads, cell.target);
         rows_.back().name = fmt::format("cell/{}/{}/threads:{}", scene, factors(cell), threads);
-        rows_.back().variant = true;
         rows_.back().many_rounds_up_to_s = kTooSlowToRepeat_s;
       }
-  }
-
-  // Directly after the scene's own rows, its first and last step, so that they share one reference picture.
-  void add_ablation(const WorkloadPtr& workload, const std::string& scene) {
-    if (!in_ablation(scene)) return;
-    for (const AblationStep& step : ablation_steps()) {
-      const bool without_clusters = step.two_calls && !find_scene(scene).stream;
-      add(without_clusters ? scene_without_clusters(scene) : workload,
-          step.whole_frame ? Timed::frame : Timed::raster, find_backend(step.backend),
-          fmt::format("{}/step:{}", scene, step.name), step.threads, step.target);
-      rows_.back().ablation = step.ablation;
-      rows_.back().two_calls = step.two_calls;
-      rows_.back().variant = true;
-    }
   }
 
   // What exactness costs in the backend `tiled`: its engine with other arithmetic in the edge functions, on
@@ -142,8 +131,7 @@ class Suite {
         {"float_rebased", EngineArithmetic::float32_rebased},
         {"int32", EngineArithmetic::int32}};
     for (const auto& [name, arithmetic] : kArithmetics) {
-      add(workload, Timed::raster, find_backend(kAblationBackend), fmt::format("{}/engine:{}", scene, name),
-          1);
+      add(workload, Timed::raster, find_backend("tiled"), fmt::format("{}/engine:{}", scene, name), 1);
       rows_.back().arithmetic = arithmetic;
     }
   }
@@ -156,9 +144,9 @@ class Suite {
       std::string what = scene;
       if (pause_ms > 0) what += fmt::format("/pause:{}ms", pause_ms);
       if (streaming) what += "/stores:streaming";
-      add(workload, Timed::frame, find_backend(kAblationBackend), what, threads);
+      add(workload, Timed::frame, find_backend("tiled"), what, threads);
       rows_.back().pause_s = 1e-3 * pause_ms;
-      if (streaming) rows_.back().ablation.tile_store = TileStore::streaming;
+      if (streaming) rows_.back().tiles.tile_store = TileStore::streaming;
     };
     for (const int threads : kThreads) {
       add_stores(threads, 0, true);
@@ -175,11 +163,6 @@ class Suite {
         for (const int threads : kThreads)
           add(workload, Timed::raster, backend, fmt::format("area:{:.0f}", area_px), threads);
     }
-  }
-
-  void add_growth() {
-    for (const auto& [what, workload] : growth_steps(options_.width, options_.height))
-      for (const auto& backend : backends()) add(workload, Timed::raster, backend, what, kSweepThreads);
   }
 
   // So little work that starting a thread is visible.
@@ -202,21 +185,10 @@ class Suite {
       const auto add_mode = [&](Cull cull, std::string_view name, const lab::FacingMethod* facing = nullptr) {
         const auto workload = std::make_shared<Workload>(options_.width, options_.height, cull, load, facing);
         for (const auto& backend : backends())
-          add(workload, Timed::frame, backend, fmt::format("{}/cull:{}", scene, name), kSweepThreads);
+          add(workload, Timed::frame, backend, fmt::format("{}/cull:{}", scene, name), kCullThreads);
       };
       for (const Cull cull : {Cull::none, Cull::back}) add_mode(cull, name_of(cull));
       add_mode(Cull::back, trainers.info.name, &trainers);
-    }
-  }
-
-  // One thread, so that nothing but the target changes.
-  void add_target_sweep() {
-    for (const std::string scene : {"torus-knot", "large", "medium", "grid4"}) {
-      const auto workload = scene_workload(scene, options_.width, options_.height);
-      for (const auto& backend : backends())
-        for (const SimdTarget target : supported_targets())
-          add(workload, Timed::raster, backend, fmt::format("{}/target:{}", scene, name_of(target)), 1,
-              target);
     }
   }
 
@@ -242,15 +214,6 @@ class Suite {
     const SceneRequest wanted = request(options_, width, height);
     return std::make_shared<Workload>(width, height, Cull::back,
                                       [scene, wanted] { return tools::load_source(scene, wanted, false); });
-  }
-
-  WorkloadPtr scene_without_clusters(const std::string& scene) const {
-    const SceneRequest wanted = request(options_, options_.width, options_.height);
-    return make_workload([scene, wanted] {
-      tools::Source source = tools::load_source(scene, wanted, false);
-      for (Mesh& mesh : std::get<Scene>(source.drawable).meshes) mesh.clusters.clear();
-      return source;
-    });
   }
 
   std::vector<Row> take() { return std::move(rows_); }
@@ -361,7 +324,6 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
     const auto workload = suite.scene_workload(name, options.width, options.height);
     suite.add_scene(workload, name);
     suite.add_cells(workload, name);
-    suite.add_ablation(workload, name);
     suite.add_engine_runs(workload, name);
     suite.add_tile_stores(workload, name);
     if (!scene.stream)
@@ -369,10 +331,8 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
   }
   for (const auto& scene : options.more_scenes) add_named(scene);
   suite.add_area_sweep();
-  suite.add_growth();
   suite.add_tiny();
   suite.add_cull_sweep();
-  suite.add_target_sweep();
   for (const lab::LabScene& scene : lab::lab_scenes(options.quick))
     if (scene.timed) suite.add_methods(scene);
   std::vector<Row> rows = suite.take();

@@ -37,17 +37,17 @@ inline constexpr bool kRacesOnly = false;
 using lab::adversarial;
 inline const auto kFamilies = lab::triangle_families();
 
-// Every SIMD target with one thread, all tile sizes, and optimizations left out; several thread counts with
+// Every SIMD target with one thread, all tile sizes, and all options of tiles; several thread counts with
 // the best target.
-inline std::vector<lab::AblatedExecution> executions() {
-  std::vector<lab::AblatedExecution> list;
+inline std::vector<lab::DrawOptions> executions() {
+  std::vector<lab::DrawOptions> list;
   for (const int threads : {2, 3, 8}) list.push_back({{threads, 64, SimdTarget::best}});
   if (kRacesOnly) return list;
   for (const auto target : supported_targets()) list.push_back({{1, 64, target}});
   for (const auto target : supported_targets())
     for (const int tile : {16, 32}) list.push_back({{2, tile, target}});
   for (const auto target : supported_targets())
-    for (const auto& ablation : lab::kAblations) list.push_back({{1, 64, target}, ablation});
+    for (const auto& tiles : lab::kTileOptions) list.push_back({{1, 64, target}, tiles});
   return list;
 }
 
@@ -78,9 +78,9 @@ inline std::string describe(const Execution& e) {
          std::string(name_of(e.target));
 }
 
-inline std::string describe(const lab::AblatedExecution& how) {
-  const std::string left_out = edgewise::describe(how.ablation);
-  return describe(how.execution) + (left_out.empty() ? "" : ", " + left_out);
+inline std::string describe(const lab::DrawOptions& how) {
+  const std::string tiles = lab::describe(how.tiles);
+  return describe(how.execution) + (tiles.empty() ? "" : ", " + tiles);
 }
 
 // Empty if the frames are equal.

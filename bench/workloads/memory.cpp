@@ -7,6 +7,8 @@
 #include <optional>
 #include <string>
 
+#include "lab/measure.h"
+
 namespace edgewise::bench {
 
 namespace {
@@ -37,7 +39,7 @@ FirstFrame draw_first_frame(const Row& row) {
   {
     Frontend frontend;
     Framebuffer frame(workload.width(), workload.height());
-    workload.draw(frontend, *make(*row.backend, row.ablation), frame.view(), row.execution);
+    workload.draw(frontend, *lab::make(*row.backend, row.tiles), frame.view(), row.execution);
     first.s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
   const auto peak = status_bytes("VmHWM:");

@@ -7,7 +7,6 @@
 #include <cstdlib>
 #include <numeric>
 
-#include "bench/workloads/ablation.h"
 #include "edgewise/contract.h"
 #include "frontend/view.h"
 #include "lab/portable/portable.h"

@@ -37,15 +37,14 @@ void Stage::work(const Row& row) {
   if (row.method) return methods_.at(row.name)();
   if (row.peer != nullptr) return peers_.work(row);
   Workload& workload = *row.workload;
-  if (row.timed == Timed::frame && !row.arithmetic && !row.two_calls)
-    return workload.draw(frontend_, backends_.get(*row.backend, row.ablation), frame(row).view(),
-                         row.execution);
+  if (row.timed == Timed::frame && !row.arithmetic)
+    return workload.draw(frontend_, backends_.get(*row.backend, row.tiles), frame(row).view(), row.execution);
   auto triangles = workload.triangles();
   if (row.timed != Timed::raster) triangles = workload.run(frontend_, row.execution);
   if (row.arithmetic)
     lab::draw_engine(*row.arithmetic, triangles, frame(row).view(), kBackground, row.execution, scratch_);
   else if (row.timed != Timed::frontend)
-    backends_.get(*row.backend, row.ablation).draw(triangles, frame(row).view(), kBackground, row.execution);
+    backends_.get(*row.backend, row.tiles).draw(triangles, frame(row).view(), kBackground, row.execution);
 }
 
 double Stage::timed_work_s(const Row& row) {

@@ -36,7 +36,7 @@ class Stage {
   void compare_ours(Row& row);
   Framebuffer& frame(const Row& row);
 
-  lab::AblatedBackends backends_;
+  lab::BackendCache backends_;
   // One per size, kept to the end: interleaved repetitions use all of them again, and a fresh frame's page
   // faults would count in a row's time.
   std::map<std::pair<int, int>, Framebuffer> frames_;

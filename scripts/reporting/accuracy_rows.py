@@ -16,7 +16,7 @@ class Family:
     trials: str  # the key of a scene's number of trials
     trial: str  # what is tried
     cost: str
-    reading: str  # how to read a chart of the family
+    reading: str  # how to read the chart of errors against speed; empty: plot_frontier.py draws it
     truths: tuple = ("score",)  # keys of the scores: the main truth first
     kinds: dict = field(default_factory=dict)  # kind of method: prefixes of its methods' names
     beyond: str = ""  # why a rate can exceed 10⁶ per 10⁶
@@ -33,8 +33,7 @@ class Family:
 PEERS = ("llvmpipe", "softpipe", "lavapipe", "swiftshader", "gpu")
 FAMILIES = {family.name: family for family in (
     Family("coverage", "wrong samples of single triangles, hidden ones included, per 10⁶ edge crossings", "crossings", "edge crossings", "ns per covered pixel",
-           "Errors are counted against the exact picture of the unsnapped positions. Filled: none given the snapped positions. All "
-           "but naive use SIMD; the title is about one thread.", ("float", "snapped"),
+           "", ("float", "snapped"),
            {"floating point": ("float", "double"), "fixed point": ("fixed", "whole"), "scanline DDA": ("dda",),
             "tiled, other numbers": ("engine",), "peers": PEERS},
            "More than 10⁶: one crossing can cost many pixels, most where a triangle fills its bounding box"),

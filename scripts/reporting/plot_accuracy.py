@@ -2,10 +2,9 @@
 import math
 
 from accuracy_rows import FAMILIES
-from bench_rows import gained, order
 from plot_labels import Label, label_points, shared_labels
 from plot_style import BAND, FAINT, INK, WHISKER, WIDTH_IN, Kinds, ZeroAxis, head_in, headline, plt, round_ticks, save
-from tables import about, number, short
+from tables import number, short
 
 
 def front_line(points, right, top):
@@ -22,35 +21,28 @@ def front_line(points, right, top):
 
 def draw_points(axes, scene, kinds):
     """Returns labels for label_points(), and the lines that they are to keep off."""
-    measured = [m for m in scene.measured if m.costs]
-    scale = ZeroAxis([m.rate for m in measured])
-    bounds = [m.bound for m in measured if m.bound is not None]
+    scale = ZeroAxis([m.rate for m in scene.single])
+    bounds = [m.bound for m in scene.single if m.bound is not None]
     scale.apply_x(axes, f"0\n(<{float(f'{max(bounds):.2g}'):g})" if bounds else "0")
-    costs = [end for m in measured for cost in m.costs.values() for end in cost.interval]
+    costs = [end for m in scene.single for end in m.costs[1].interval]
     bottom, top = min(costs) / 1.3, max(costs) * 1.3
     axes.set_yscale("log")
     axes.set_ylim(bottom, top)
     round_ticks(axes.yaxis, bottom, top, lambda value, _: f"{value:g}")
-    singles = [(scale.at(m.rate), m.costs[1].ns) for m in measured if 1 in m.costs]
-    lines = [front_line(singles, scale.limit, top)] if singles else []
-    for line in lines:
-        axes.plot(*zip(*line), **FRONT, zorder=1.5)
-    labels = []
-    for m in measured:
-        x, (colour, marker) = scale.at(m.rate), kinds.of(m.method)
-        by_threads = sorted(m.costs.items())
-        axes.plot([x] * len(by_threads), [cost.ns for _, cost in by_threads], color=colour, linewidth=1.0, zorder=2)
-        for threads, cost in by_threads:
-            lines.append([(x, end) for end in cost.interval])
-            axes.plot(*zip(*lines[-1]), color=colour, **WHISKER, zorder=1.8)
-            face, edge = ("white", colour) if m.snapped_rate else (colour, "white")
-            axes.plot([x], [cost.ns], marker=marker, linestyle="", zorder=3, markersize=7 if threads == 1 else 5,
-                      markerfacecolor=face, markeredgecolor=edge, markeredgewidth=1.5 if m.snapped_rate else 0.8)
-            if threads > 1:
-                labels.append(Label(x, cost.ns, f"{m.method.name}, {threads} threads", FAINT, 8))
-            elif m.method.ours:
-                labels.append(Label(x, cost.ns, m.method.name, bold=True))
-    others = [(scale.at(m.rate), m.costs[1].ns, m.method.name) for m in measured if 1 in m.costs and not m.method.ours]
+    lines = [front_line([(scale.at(m.rate), m.costs[1].ns) for m in scene.single], scale.limit, top)]
+    axes.plot(*zip(*lines[0]), **FRONT, zorder=1.5)
+    labels, others = [], []
+    for m in scene.single:
+        x, y, (colour, marker) = scale.at(m.rate), m.costs[1].ns, kinds.of(m.method)
+        lines.append([(x, end) for end in m.costs[1].interval])
+        axes.plot(*zip(*lines[-1]), color=colour, **WHISKER, zorder=1.8)
+        face, edge = ("white", colour) if m.snapped_rate else (colour, "white")
+        axes.plot([x], [y], marker=marker, linestyle="", zorder=3, markersize=7, markerfacecolor=face, markeredgecolor=edge,
+                  markeredgewidth=1.5 if m.snapped_rate else 0.8)
+        if m.method.ours:
+            labels.append(Label(x, y, m.method.name, bold=True))
+        else:
+            others.append((x, y, m.method.name))
     return [*labels, *shared_labels(others, NEAR)], lines
 
 
@@ -59,18 +51,13 @@ FRONT = {"color": INK, "linewidth": 1.2, "linestyle": (0, (4, 2))}
 
 
 def speed_title(scene):
-    """Of coverage how much faster our fastest is than the fastest other; of all how many other methods err less."""
+    """How many other methods err less than our fastest."""
     ours, others = ([m for m in scene.single if m.method.ours == whose] for whose in (True, False))
     if not ours or not others:
         return f"{scene.name}: {scene.family}"
-    first, other = (min(side, key=lambda m: m.costs[1].ns) for side in (ours, others))
-    less = [m.rate < first.rate for m in scene.measured if not m.method.ours]
-    said = f"{first.method.name}: {number(first.rate, 2)} errors per 10⁶"
-    if scene.family == "coverage":
-        settled, ratio = order(first.costs[1].row, other.costs[1].row), gained(other.costs[1].row, first.costs[1].row)
-        said = (f"{first.method.name} is {about(max(ratio, 1 / ratio))} {'faster' if settled < 0 else 'slower'} than {other.method.name}"
-                if settled else f"{first.method.name} and {other.method.name}: not settled")
-    return f"{said}; {sum(less)} of {len(less)} others err less"
+    first = min(ours, key=lambda m: m.costs[1].ns)
+    less = sum(m.rate < first.rate for m in others)
+    return f"{first.method.name}: {number(first.rate, 2)} errors per 10⁶; {less} of {len(others)} others err less"
 
 
 def speed_chart(scene, folder, caption):
@@ -78,7 +65,7 @@ def speed_chart(scene, folder, caption):
     kinds = Kinds(family)
     subtitle = f"Further left: fewer errors; further down: faster. {family.reading}"
     above, below = 0.85 + head_in(subtitle), 1.12
-    figure, axes = plt.subplots(figsize=(WIDTH_IN, above + below + (5.0 if family.name == "coverage" else 3.8)))
+    figure, axes = plt.subplots(figsize=(WIDTH_IN, above + below + 3.8))
     height = figure.get_figheight()
     top = headline(figure, speed_title(scene), subtitle)
     figure.subplots_adjust(left=0.07, right=0.985, bottom=below / height, top=1 - above / height)
@@ -94,8 +81,6 @@ def speed_chart(scene, folder, caption):
                                 linestyle="", markersize=7, label="hollow: errs given the snapped positions"))
     kinds.legend(figure, top, [m.method for m in scene.measured], extra)
     notes = ["0: no error seen; in brackets the 95 % upper bound, 3/N."]
-    if any(len(m.costs) > 1 for m in scene.measured):
-        notes.append("Thin lines join the thread counts of a method.")
     if beyond := family.beyond_note(m.rate for m in scene.measured):
         notes.append(f"{beyond[2:]}.")
     save(figure, folder, f"accuracy-{family.name}", " ".join(notes) + "\n" + caption)
@@ -229,5 +214,6 @@ def draw(accuracy, folder, caption):
     if accuracy is None:
         return []
     scenes = [all_scenes(accuracy, family, folder, caption) for family in FAMILIES.values()]
-    charts = [speed_chart(scene, folder, caption) for family in FAMILIES if (scene := accuracy.main_scene(family))]
+    charts = [speed_chart(scene, folder, caption) for family in FAMILIES.values()
+              if family.reading and (scene := accuracy.main_scene(family.name))]
     return [*charts, *scenes, turning_cube(accuracy, folder, caption)]

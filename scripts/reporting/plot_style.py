@@ -25,9 +25,6 @@ OURS = (BLACK, "o")  # a method of the library that is no backend, or several th
 KINDS = ((VERMILION, "D"), (SKY, "v"), (PURPLE, "P"), ("#8b1e3f", "*"), ("#6b705c", "X"))
 OTHER = ("#8c959f", "X")
 
-# Whether a step of the ablation made the backend faster; see plot_ablation.verdict().
-VERDICTS = {"gain": BLACK, "loss": "#b3261e", "neither": "#8c959f"}
-
 plt.rcParams.update({
     "figure.facecolor": "white", "axes.facecolor": "white", "savefig.facecolor": "white",
     "font.family": "DejaVu Sans", "font.size": 10.5, "text.color": INK, "axes.labelcolor": INK,

@@ -36,6 +36,22 @@ FrameDifference difference_of(const Framebuffer& a, const Frame& b) {
 
 }  // namespace
 
+std::string describe(const TileOptions& options) {
+  std::string text;
+  const auto add = [&](bool differs, const char* what) {
+    if (differs) text += (text.empty() ? "" : ", ") + std::string(what);
+  };
+  add(!options.coverage_masks, "no coverage masks");
+  add(!options.hierarchical_depth, "no hierarchical depth");
+  add(options.tile_store == TileStore::cached, "cached stores");
+  add(options.tile_store == TileStore::streaming, "streaming stores");
+  return text;
+}
+
+std::unique_ptr<Backend> make(const BackendInfo& info, const TileOptions& options) {
+  return info.name == "tiled" ? make_tiled(options) : info.make();
+}
+
 void poison(Framebuffer& frame) {
   const FrameView view = frame.view();
   const auto words = static_cast<std::size_t>(view.stride) * static_cast<std::size_t>(view.height);

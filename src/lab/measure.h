@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -14,40 +15,38 @@
 #include "edgewise/backend.h"
 #include "edgewise/contract.h"
 #include "lab/guarded_frame.h"
-#include "raster/ablation.h"
+#include "raster/tile_options.h"
 
 namespace edgewise::lab {
 
-struct AblatedExecution {
+struct DrawOptions {
   Execution execution{};
-  Ablation ablation{};
+  TileOptions tiles{};  // for `tiled`
 };
 
-// The switches that are compared: each optimization left out, both tile stores, all left out, and the stepped
-// naive backend.
-constexpr std::array<Ablation, 11> kAblations{{{.vector_setup = false},
-                                               {.prefetch = false},
-                                               {.coverage_masks = false},
-                                               {.hierarchical_depth = false},
-                                               {.tile_store = TileStore::cached},
-                                               {.tile_store = TileStore::streaming},
-                                               {.empty_rows = false},
-                                               {.several_tiles_per_task = false},
-                                               {.vector_test = false},
-                                               {false, false, false, false, TileStore::cached, false, false},
-                                               {.stepped = true}}};
+// The options that are compared: each optimization left out, and both tile stores.
+constexpr std::array<TileOptions, 4> kTileOptions{{{.coverage_masks = false},
+                                                   {.hierarchical_depth = false},
+                                                   {.tile_store = TileStore::cached},
+                                                   {.tile_store = TileStore::streaming}}};
 
-// Backend objects by name and switches. Each is made when it is first used, and keeps its memory.
-class AblatedBackends {
+// The options that differ from the default, as "no coverage masks, …"; empty if none does.
+std::string describe(const TileOptions& options);
+
+// The backend with these options, or as usual if it has none.
+std::unique_ptr<Backend> make(const BackendInfo& info, const TileOptions& options);
+
+// Backend objects by name and options. Each is made when it is first used, and keeps its memory.
+class BackendCache {
  public:
-  Backend& get(const BackendInfo& info, const Ablation& ablation) {
-    auto& backend = made_[{info.name, ablation}];
-    if (!backend) backend = make(info, ablation);
+  Backend& get(const BackendInfo& info, const TileOptions& options) {
+    auto& backend = made_[{info.name, options}];
+    if (!backend) backend = make(info, options);
     return *backend;
   }
 
  private:
-  std::map<std::pair<std::string_view, Ablation>, std::unique_ptr<Backend>> made_;
+  std::map<std::pair<std::string_view, TileOptions>, std::unique_ptr<Backend>> made_;
 };
 
 // Fills both planes with values that no backend draws. Call it before a draw that is checked: pixels that the

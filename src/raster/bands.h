@@ -7,7 +7,6 @@
 #include "core/triangle_source.h"
 #include "edgewise/backend.h"
 #include "edgewise/contract.h"
-#include "raster/ablation.h"
 #include "raster/binning/bins.h"
 #include "raster/tile_list.h"
 
@@ -37,7 +36,7 @@ bool draw_in_bands(TriangleSource& triangles, FrameView frame, const Execution& 
   constexpr int kWholeWidthLog2 = 14;
   static_assert(1 << kWholeWidthLog2 == contract::kMaxImageSide);
   const CellGrid grid{frame.width, frame.height, kWholeWidthLog2, kBandRowsLog2};
-  if (!bins.build(triangles, grid, execution.threads, execution.target, Bins::Small::as_indices, true))
+  if (!bins.build(triangles, grid, execution.threads, execution.target, Bins::Small::as_indices))
     return false;
   parallel_for(execution.threads, grid.rows(), [&](int band) {
     draw(band, RowRange{band << kBandRowsLog2, std::min((band + 1) << kBandRowsLog2, frame.height)});
@@ -51,7 +50,6 @@ struct BandTask {
   int band;
   RowRange rows;
   FrameView frame;
-  bool vector_test;  // Ablation::vector_test
 };
 using BandKernel = void (*)(const BandTask&);
 
@@ -61,8 +59,7 @@ BandKernel scanline_kernel(SimdTarget target);
 // A backend whose kernels draw one band.
 class BandBackend : public Backend {
  public:
-  BandBackend(BandKernel (*kernel_for)(SimdTarget), const Ablation& ablation)
-      : kernel_for_(kernel_for), ablation_(ablation) {}
+  explicit BandBackend(BandKernel (*kernel_for)(SimdTarget)) : kernel_for_(kernel_for) {}
 
  private:
   bool draw_source(TriangleSource& triangles, FrameView frame, std::uint32_t background,
@@ -76,7 +73,7 @@ class BandBackend : public Backend {
       // Clears with the target's vectors: a span of tiles of one pixel, as wide as any image.
       constexpr TileSpan kWholeWidth{0, contract::kMaxImageSide};
       clear({{&kWholeWidth, 1}, rows.begin, rows.end, 0, frame, background, false});
-      kernel({bins_, band, rows, frame, ablation_.vector_test});
+      kernel({bins_, band, rows, frame});
     });
   }
   void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
@@ -86,7 +83,6 @@ class BandBackend : public Backend {
   }
 
   BandKernel (*const kernel_for_)(SimdTarget);
-  const Ablation ablation_;
   Bins bins_;
 };
 

@@ -1,36 +1,55 @@
-// The tutorials' rasterizer: tests for every pixel of the bounding box whether it is inside (box_test.h). On
-// one thread the whole image is one band.
-#include "raster/ablation.h"
+// The tutorials' rasterizer: tests for every pixel of the bounding box whether it is inside. On one thread
+// the whole image is one band.
+#include <algorithm>
+#include <cstdint>
+
+#include "edgewise/contract.h"
 #include "raster/bands.h"
-#include "raster/box_test.h"
 
 namespace edgewise {
 
 namespace {
 
-class Naive final : public Backend {
- public:
-  explicit Naive(const Ablation& ablation) : stepped_(ablation.stepped) {}
+using namespace contract;
 
- private:
+// Draws the part in `rows`. Three edge functions (rule 4) and the depth plane (rule 6) are evaluated at each
+// pixel.
+void draw_by_box_test(const ScreenTriangle& triangle, RowRange rows, FrameView frame) {
+  const PixelBox box = pixel_box(triangle, frame.width, frame.height);
+  const Oriented oriented = orient(triangle);
+  if (box.empty() || oriented.area == 0) return;
+  const Edge edge[3] = {make_edge(oriented, 0), make_edge(oriented, 1), make_edge(oriented, 2)};
+  const DepthPlane plane = make_depth(oriented);
+  for (int y = std::max(box.y0, rows.begin); y < std::min(box.y1, rows.end); ++y) {
+    std::uint32_t* depth = frame.depth + y * frame.stride;
+    std::uint32_t* payload = frame.payload + y * frame.stride;
+    for (int x = box.x0; x < box.x1; ++x) {
+      if (edge[0].at(x, y) < 0 || edge[1].at(x, y) < 0 || edge[2].at(x, y) < 0) continue;
+      const std::uint32_t z = plane.at(x, y);
+      if (z >= depth[x]) continue;
+      depth[x] = z;
+      payload[x] = triangle.payload;
+    }
+  }
+}
+
+class Naive final : public Backend {
   void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,
                     const Execution& execution) override {
-    const auto draw = stepped_ ? draw_by_box_test<true> : draw_by_box_test<false>;
     if (execution.threads == 1) {
       const RowRange all{0, frame.height};
       clear_rows(frame, all, background);
-      for (const ScreenTriangle& triangle : triangles) draw(triangle, all, frame);
+      for (const ScreenTriangle& triangle : triangles) draw_by_box_test(triangle, all, frame);
       return;
     }
     StoredTriangles stored(triangles);
     draw_in_bands(stored, frame, execution, bins_, [&](int band, RowRange rows) {
       clear_rows(frame, rows, background);
       bins_.for_each_segment(band, [&](const Bins::Segment& segment) {
-        for (const std::uint32_t index : segment.indices) draw(triangles[index], rows, frame);
+        for (const std::uint32_t index : segment.indices) draw_by_box_test(triangles[index], rows, frame);
       });
     });
   }
-  const bool stepped_;
   Bins bins_;
 };
 
@@ -38,11 +57,8 @@ class Naive final : public Backend {
 
 extern const std::string_view summary_naive;
 const std::string_view summary_naive = "tests every pixel of the bounding box";
-std::unique_ptr<Backend> make_naive(const Ablation& ablation) {
-  return std::make_unique<Naive>(ablation);
-}
 std::unique_ptr<Backend> make_naive() {
-  return make_naive(Ablation{});
+  return std::make_unique<Naive>();
 }
 
 }  // namespace edgewise

@@ -1,6 +1,5 @@
 // The tasks of drawing a frame in tiles. A row of tiles has a task for each tile with triangles, and then
-// one, or several on many threads, for all its empty tiles. oneTBB gets up to four of these tasks at once
-// (Ablation::several_tiles_per_task).
+// one, or several on many threads, for all its empty tiles. oneTBB gets up to four of these tasks at once.
 #pragma once
 
 #include <algorithm>
@@ -29,8 +28,7 @@ class TileList {
   };
   static constexpr int kEmptyTiles = -1;
 
-  // `empty_rows`: Ablation::empty_rows.
-  void build(const Bins& bins, const CellGrid& grid, int threads, bool empty_rows) {
+  void build(const Bins& bins, const CellGrid& grid, int threads) {
     const int columns = grid.columns(), rows = grid.rows(), side = 1 << grid.cell_h_log2;
     const int strips = std::clamp(4 * threads / rows, 1, side / kLeastRows);
     tasks_.clear(), empty_.clear(), row_begin_.clear();
@@ -43,7 +41,7 @@ class TileList {
       row_begin_.push_back(empty_.size());
       bool after_empty = false;
       for (int column = 0; column < columns; ++column, ++cell) {
-        const bool is_empty = empty_rows && bins.empty(cell);
+        const bool is_empty = bins.empty(cell);
         if (!is_empty)
           tasks_.push_back({cell, row, y0, y1});
         else if (after_empty)

@@ -1,5 +1,5 @@
 // Shared by the tile kernels: copies a finished tile to the frame by cached or streaming stores
-// (raster/ablation.h).
+// (raster/tile_options.h).
 #include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
@@ -42,7 +42,7 @@ struct FramePlane {
         stride(task.frame.stride),
         width(task.width()),
         height(task.height()),
-        streaming(task.ablation.tile_store == TileStore::streaming && may_stream(plane, stride)),
+        streaming(task.streaming && may_stream(plane, stride)),
         ahead(task.x0 + 2 * task.size() <= task.frame.width ? task.size() : 0) {}
 
   HWY_INLINE std::int32_t* row(int y) const { return at + y * stride; }

@@ -7,7 +7,6 @@
 
 #include "edgewise/framebuffer.h"
 #include "edgewise/simd_target.h"
-#include "raster/ablation.h"
 #include "raster/binning/bins.h"
 
 namespace edgewise {
@@ -20,7 +19,8 @@ struct TileTask {
   int size_log2;  // px; at most 6
   FrameView frame;
   std::uint32_t background;
-  Ablation ablation;  // tile_store is resolved
+  bool hierarchical_depth;  // TileOptions::hierarchical_depth
+  bool streaming;           // requested
 
   int size() const { return 1 << size_log2; }  // px
   // The part inside the frame, px.

@@ -12,9 +12,9 @@
 #include "core/parallel.h"
 #include "core/triangle_source.h"
 #include "edgewise/backend.h"
-#include "raster/ablation.h"
 #include "raster/binning/bins.h"
 #include "raster/tile_list.h"
+#include "raster/tile_options.h"
 #include "raster/tile_task.h"
 
 namespace edgewise {
@@ -46,38 +46,39 @@ constexpr int tasks_at_once(int tasks, int threads) {
 // Returns false if Bins::build() does; then nothing is drawn.
 template <typename DrawTile>
 bool draw_in_tiles(TriangleSource& triangles, FrameView frame, std::uint32_t background,
-                   const Execution& execution, const Ablation& ablation, int tile_size, TileScratch& scratch,
-                   Bins::Small small, DrawTile&& draw_tile) {
-  const int size_log2 = std::countr_zero(static_cast<unsigned>(tile_size));
+                   const Execution& execution, const TileOptions& options, TileScratch& scratch,
+                   DrawTile&& draw_tile) {
+  const int size_log2 = std::countr_zero(static_cast<unsigned>(execution.tile_size));
   const CellGrid grid{frame.width, frame.height, size_log2, size_log2};
-  const SimdTarget binning = ablation.vector_setup ? execution.target : SimdTarget::scalar;
   Bins& bins = scratch.bins;
   TileList& list = scratch.list;
-  if (!bins.build(triangles, grid, execution.threads, binning, small, ablation.prefetch)) return false;
+  const Bins::Small small = options.coverage_masks ? Bins::Small::as_masks : Bins::Small::as_indices;
+  if (!bins.build(triangles, grid, execution.threads, execution.target, small)) return false;
   const auto pixels = static_cast<std::size_t>(frame.stride) * static_cast<std::size_t>(frame.height);
   const std::size_t frame_bytes = pixels * (sizeof(*frame.depth) + sizeof(*frame.payload));
-  const auto store_for = [&](TileContent content) {
-    return ablation.tile_store != TileStore::automatic
-               ? ablation.tile_store
-               : tile_store_for(content, triangles.size(), execution.threads, frame_bytes, llc_bytes());
+  const auto streamed = [&](TileContent content) {
+    const TileStore store =
+        options.tile_store != TileStore::automatic
+            ? options.tile_store
+            : tile_store_for(content, triangles.size(), execution.threads, frame_bytes, llc_bytes());
+    return store == TileStore::streaming;
   };
-  const bool streaming = store_for(TileContent::nothing) == TileStore::streaming;
-  const TileStore few = store_for(TileContent::few), many = store_for(TileContent::many);
+  const bool stream_empty = streamed(TileContent::nothing), stream_few = streamed(TileContent::few),
+             stream_many = streamed(TileContent::many);
   const EmptyTilesKernel fill = empty_tiles_kernel(execution.target);
   const int columns = grid.columns();
-  list.build(bins, grid, execution.threads, ablation.empty_rows);
+  list.build(bins, grid, execution.threads);
   const std::span<const TileList::Task> tasks = list.tasks();
   const auto do_task = [&](int i) {
     const TileList::Task& task = tasks[static_cast<std::size_t>(i)];
     if (task.cell == TileList::kEmptyTiles)
-      return fill({list.empty_tiles(task.row), task.y0, task.y1, size_log2, frame, background, streaming});
-    Ablation resolved = ablation;
-    resolved.tile_store = few != many && bins.few(task.cell) ? few : many;
+      return fill({list.empty_tiles(task.row), task.y0, task.y1, size_log2, frame, background, stream_empty});
+    const bool streaming = stream_few != stream_many && bins.few(task.cell) ? stream_few : stream_many;
     draw_tile(TileTask{bins.triangles(), &bins, task.cell, task.cell % columns << size_log2, task.y0,
-                       size_log2, frame, background, resolved});
+                       size_log2, frame, background, options.hierarchical_depth, streaming});
   };
   const int count = static_cast<int>(tasks.size());
-  const int at_once = ablation.several_tiles_per_task ? tasks_at_once(count, execution.threads) : 1;
+  const int at_once = tasks_at_once(count, execution.threads);
   parallel_for(execution.threads, (count + at_once - 1) / at_once, [&](int i) {
     for (int k = i * at_once; k < std::min(count, (i + 1) * at_once); ++k) do_task(k);
   });
@@ -87,10 +88,10 @@ bool draw_in_tiles(TriangleSource& triangles, FrameView frame, std::uint32_t bac
 // A backend that draws tile by tile overrides draw_source().
 class TileBackend : public Backend {
  public:
-  explicit TileBackend(const Ablation& ablation) : ablation_(ablation) {}
+  explicit TileBackend(const TileOptions& options) : options_(options) {}
 
  protected:
-  const Ablation ablation_;
+  const TileOptions options_;
   TileScratch scratch_;
 
  private:

@@ -16,7 +16,6 @@
 
 #include "bench/models/cost_model.h"
 #include "bench/suite.h"
-#include "bench/workloads/ablation.h"
 #include "bench/workloads/events.h"
 #include "bench/workloads/random_reads.h"
 #include "bench/workloads/stage.h"
@@ -388,63 +387,6 @@ TEST(BenchEvents, SayWhyTheyCannotBeCounted) {
   EXPECT_TRUE(std::isnan(unknown.count()));
 }
 
-TEST(BenchAblation, AddsOneOptimizationPerStep) {
-  const auto steps = ablation_steps();
-  const auto count = supported_targets().size();
-  const std::size_t of_draws = count + 5, last = of_draws - 1;
-  ASSERT_EQ(steps.size(), 1 + of_draws + 2);
-  EXPECT_EQ(steps[0].backend, "naive");
-  EXPECT_TRUE(steps[0].ablation.stepped);
-  for (std::size_t i = 0; i < of_draws; ++i) {
-    const AblationStep& step = steps[i + 1];
-    EXPECT_EQ(step.backend, "tiled");
-    EXPECT_FALSE(step.whole_frame);
-    EXPECT_EQ(step.threads, 1);
-    EXPECT_EQ(step.target, i < count ? supported_targets()[i] : SimdTarget::best);
-    EXPECT_EQ(step.ablation.vector_setup, i >= count);
-    EXPECT_EQ(step.ablation.prefetch, i >= count + 1);
-    EXPECT_EQ(step.ablation.coverage_masks, i >= count + 2);
-    EXPECT_EQ(step.ablation.hierarchical_depth, i >= count + 3);
-    EXPECT_EQ(step.ablation.tile_store, i < last ? TileStore::cached : TileStore::automatic);
-    EXPECT_FALSE(step.ablation.empty_rows);
-  }
-  const AblationStep &two_calls = steps[of_draws + 1], &one_tile = steps[of_draws + 2];
-  EXPECT_TRUE(two_calls.whole_frame && two_calls.two_calls && two_calls.threads == 1);
-  EXPECT_TRUE(one_tile.whole_frame && !one_tile.two_calls && one_tile.threads == 2);
-  EXPECT_EQ(describe(two_calls.ablation), "");
-  EXPECT_EQ(describe(one_tile.ablation), "one tile per task");
-}
-
-TEST(BenchAblation, ReusesItsFirstAndLastRows) {
-  std::set<std::string> names;
-  std::size_t estimates = 0;
-  for (const Row& row : make_suite({})) {
-    names.insert(row.name);
-    estimates += row.wants_cost;
-  }
-  for (const SceneInfo& scene : builtin_scenes())
-    for (const AblationStep& step : ablation_steps())
-      EXPECT_EQ(names.count(std::string(step.backend) + (step.whole_frame ? "+frontend/" : "/") +
-                            std::string(scene.name) + "/step:" + step.name +
-                            "/threads:" + std::to_string(step.threads)),
-                in_ablation(scene.name) ? 1u : 0u);
-  EXPECT_TRUE(names.count("naive/large/threads:1") && names.count("tiled+frontend/large/threads:2"));
-  EXPECT_EQ(estimates, 2 * builtin_scenes().size());
-}
-
-TEST(BenchAblation, DrawsTwoCallsWithoutClusters) {
-  std::map<std::string, Row> rows = small_rows(480, 270);
-  Stage stage;
-  for (const std::string step : {"/step:two-calls/threads:1", "/threads:1"}) {
-    Row& row = rows.at("tiled+frontend/terrain" + step);
-    row.workload->prepare(true);
-    stage.compare(row);
-    EXPECT_EQ(row.error, "") << row.name;
-    EXPECT_EQ(std::get<Scene>(row.workload->drawable()).meshes[0].clusters.empty(), row.two_calls);
-  }
-  EXPECT_TRUE(rows.at("tiled+frontend/small/step:two-calls/threads:1").two_calls);
-}
-
 TEST(BenchSuite, TimesTileStoresBackToBackAndAfterPauses) {
   const std::map<std::string, Row> rows = small_rows(160, 90);
   for (const std::string scene : {"cube", "sphere", "grid64", "large"})
@@ -453,7 +395,7 @@ TEST(BenchSuite, TimesTileStoresBackToBackAndAfterPauses) {
         for (const std::string threads : {"/threads:1", "/threads:2"}) {
           const Row& row = rows.at("tiled+frontend/" + scene + pause + stores + threads);
           EXPECT_EQ(row.pause_s, pause.empty() ? 0.0 : 2e-3) << row.name;
-          EXPECT_EQ(describe(row.ablation), stores.empty() ? "" : "streaming stores") << row.name;
+          EXPECT_EQ(lab::describe(row.tiles), stores.empty() ? "" : "streaming stores") << row.name;
           EXPECT_EQ(is_plain(row), (pause + stores).empty()) << row.name;
         }
 }

@@ -39,11 +39,11 @@ namespace {
 
 constexpr std::uint32_t kBackground = 0xABCD1234, kCanary = 0xDEADBEEF;
 
-std::string describe(const BackendInfo& backend, const lab::AblatedExecution& how) {
+std::string describe(const BackendInfo& backend, const lab::DrawOptions& how) {
   const Execution& e = how.execution;
   return std::string(backend.name) + ", " + std::string(name_of(e.target)) + ", " +
          std::to_string(e.threads) + " threads, tile " + std::to_string(e.tile_size) + ", " +
-         edgewise::describe(how.ablation);
+         lab::describe(how.tiles);
 }
 
 // A plane of pixels in an allocation of exactly its size, so that a sanitizer detects accesses outside it.
@@ -88,13 +88,13 @@ Framebuffer reference(std::span<const ScreenTriangle> triangles, int width, int 
 
 // Calls draw(backend, frame, execution) for every backend and SIMD target, and requires the expected picture.
 template <typename Draw>
-void check_pictures(const Framebuffer& expected, const Placement& p, lab::AblatedExecution how,
+void check_pictures(const Framebuffer& expected, const Placement& p, lab::DrawOptions how,
                     const std::string& what, const Draw& draw) {
   for (const BackendInfo& info : backends())
     for (const SimdTarget target : supported_targets()) {
       how.execution.target = target;
       Plane depth(p), payload(p);
-      draw(*make(info, how.ablation),
+      draw(*lab::make(info, how.tiles),
            FrameView{depth.data(), payload.data(), p.width, p.height, depth.stride()}, how.execution);
       const std::string where = what + describe(info, how);
       depth.check([&](int x, int y) { return expected.depth_row(y)[x]; }, where + ", depth");
@@ -110,8 +110,7 @@ auto draw_triangles(std::span<const ScreenTriangle> triangles) {
 
 }  // namespace
 
-void check_backends(std::span<const ScreenTriangle> triangles, const Placement& p,
-                    lab::AblatedExecution how) {
+void check_backends(std::span<const ScreenTriangle> triangles, const Placement& p, lab::DrawOptions how) {
   check_pictures(reference(triangles, p.width, p.height), p, how, "", draw_triangles(triangles));
 }
 

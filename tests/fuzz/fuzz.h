@@ -69,7 +69,7 @@ struct Placement {
 // Checks that every backend and SIMD target draws the same picture (the oracle's for small inputs) and writes
 // nothing outside the frame. `how.execution.target` is ignored.
 void check_backends(std::span<const ScreenTriangle> triangles, const Placement& placement,
-                    lab::AblatedExecution how);
+                    lab::DrawOptions how);
 
 // Checks that the front end emits the same triangles with every SIMD target, in the contract's ranges, and
 // draws them with the backends, also in one call with the front end. Image sides are limited to 64 px. The

@@ -27,11 +27,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::Bytes bytes(data, size);
   const fuzz::Placement placement{1 + bytes.below(140), 1 + bytes.below(80), bytes.below(20),
                                   bytes.below(20)};
-  lab::AblatedExecution how;
+  lab::DrawOptions how;
   how.execution.threads = std::max(1, bytes.below(8) - 4);  // mostly 1, which is faster here
   how.execution.tile_size = 16 << bytes.below(3);
-  const int ablation = bytes.below(static_cast<int>(lab::kAblations.size()) + 1);
-  if (ablation > 0) how.ablation = lab::kAblations[static_cast<std::size_t>(ablation - 1)];
+  const int tiles = bytes.below(static_cast<int>(lab::kTileOptions.size()) + 1);
+  if (tiles > 0) how.tiles = lab::kTileOptions[static_cast<std::size_t>(tiles - 1)];
   const int times = 1 << bytes.below(12);
 
   const auto families = lab::triangle_families();

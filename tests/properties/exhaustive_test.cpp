@@ -63,13 +63,12 @@ ScreenTriangle triangle_of(const Lattice& lattice, std::uint64_t number, std::ui
   return t;
 }
 
-// Every target, the other tile sizes, and stepped values.
-std::vector<lab::AblatedExecution> all_targets() {
-  std::vector<lab::AblatedExecution> ways;
+// Every target, and the other tile sizes.
+std::vector<lab::DrawOptions> all_targets() {
+  std::vector<lab::DrawOptions> ways;
   for (const SimdTarget target : supported_targets()) ways.push_back({{1, 64, target}});
   ways.push_back({{1, 16, SimdTarget::best}});
-  ways.push_back({{2, 32, SimdTarget::best}, {.vector_setup = false}});
-  ways.push_back({{1, 64, SimdTarget::best}, {.stepped = true}});
+  ways.push_back({{2, 32, SimdTarget::best}});
   return ways;
 }
 
@@ -88,7 +87,7 @@ Counterexample narrowed(const std::vector<ScreenTriangle>& triangles, const Fram
 
 // Stops at the first difference. Counts the triangles drawn, over all backends and executions.
 SearchResult draw_all(const Lattice& lattice, const std::vector<Painter>& painters,
-                      const std::vector<lab::AblatedExecution>& ways) {
+                      const std::vector<lab::DrawOptions>& ways) {
   SearchResult result;
   Framebuffer expected(kSidePx, kSidePx), actual(kSidePx, kSidePx);
   std::vector<ScreenTriangle> triangles;
@@ -99,9 +98,9 @@ SearchResult draw_all(const Lattice& lattice, const std::vector<Painter>& painte
     result.cases += triangles.size();
     lab::draw_oracle(triangles, expected, kBackground);
     for (const Painter& painter : painters)
-      for (const lab::AblatedExecution& way : ways) {
+      for (const lab::DrawOptions& way : ways) {
         lab::poison(actual);
-        painter.with(way.ablation).draw(triangles, actual.view(), kBackground, way.execution);
+        painter.with(way.tiles).draw(triangles, actual.view(), kBackground, way.execution);
         result.comparisons += triangles.size();
         const auto difference = lab::compare(expected, actual);
         if (difference.pixels == 0) continue;

@@ -72,8 +72,7 @@ TEST(WrongBackend, IsFoundAndReducedToASmallStreamThatReproducesIt) {
   for (const Variant& variant : variants) {
     SCOPED_TRACE(&variant - variants);
     const auto wrong = painters(std::span(&variant.wrong, 1));
-    const SearchResult result =
-        search(grid_streams(), 300, like_the_oracles(wrong, {lab::AblatedExecution{}}));
+    const SearchResult result = search(grid_streams(), 300, like_the_oracles(wrong, {lab::DrawOptions{}}));
     ASSERT_TRUE(result.found.has_value());
     const TriangleStream& smallest = result.found->verdict.replay.at(0);
     EXPECT_EQ(smallest.triangles.size(), variant.triangles);

@@ -33,31 +33,31 @@ std::vector<Painter> painters(std::span<const BackendInfo> infos) {
   return all;
 }
 
-std::span<const lab::AblatedExecution> two_executions() {
-  static const lab::AblatedExecution list[] = {{{1, 64, SimdTarget::scalar}}, {{1, 64, SimdTarget::best}}};
+std::span<const lab::DrawOptions> two_executions() {
+  static const lab::DrawOptions list[] = {{{1, 64, SimdTarget::scalar}}, {{1, 64, SimdTarget::best}}};
   return list;
 }
 
 Framebuffer drawn(const Painter& painter, std::span<const ScreenTriangle> triangles, int width, int height,
-                  const lab::AblatedExecution& how) {
+                  const lab::DrawOptions& how) {
   Framebuffer frame(width, height);
   lab::poison(frame);
-  painter.with(how.ablation).draw(triangles, frame.view(), kBackground, how.execution);
+  painter.with(how.tiles).draw(triangles, frame.view(), kBackground, how.execution);
   return frame;
 }
 
 void compare_pictures(Verdict& verdict, const Framebuffer& expected, std::span<const Painter> painters,
-                      std::span<const ScreenTriangle> triangles, std::span<const lab::AblatedExecution> ways,
+                      std::span<const ScreenTriangle> triangles, std::span<const lab::DrawOptions> ways,
                       const std::string& what) {
   for (const Painter& painter : painters)
-    for (const lab::AblatedExecution& way : ways) {
+    for (const lab::DrawOptions& way : ways) {
       const Framebuffer frame = drawn(painter, triangles, expected.width(), expected.height(), way);
       verdict.compare(difference_text(expected, frame),
                       what + ", " + std::string(painter.name) + ", " + describe(way));
     }
 }
 
-Property like_the_oracles(const std::vector<Painter>& painters, std::vector<lab::AblatedExecution> ways) {
+Property like_the_oracles(const std::vector<Painter>& painters, std::vector<lab::DrawOptions> ways) {
   return [&painters, ways = std::move(ways)](const TriangleStream& stream) {
     Verdict verdict{.replay = {stream}};
     Framebuffer expected(stream.width, stream.height);

@@ -26,25 +26,25 @@ std::vector<ScreenTriangle> snapped(const TriangleStream& stream, Payload payloa
 struct Painter {
   std::string_view name;
   BackendInfo info;
-  std::unique_ptr<lab::AblatedBackends> made = std::make_unique<lab::AblatedBackends>();
+  std::unique_ptr<lab::BackendCache> made = std::make_unique<lab::BackendCache>();
 
-  Backend& with(const Ablation& ablation) const { return made->get(info, ablation); }
+  Backend& with(const TileOptions& options) const { return made->get(info, options); }
 };
 std::vector<Painter> painters(std::span<const BackendInfo> infos);
 
 // On one thread: the scalar target, and the best SIMD target.
-std::span<const lab::AblatedExecution> two_executions();
+std::span<const lab::DrawOptions> two_executions();
 
 Framebuffer drawn(const Painter& painter, std::span<const ScreenTriangle> triangles, int width, int height,
-                  const lab::AblatedExecution& how);
+                  const lab::DrawOptions& how);
 
 // Compares each painter's picture in each execution with `expected`.
 void compare_pictures(Verdict& verdict, const Framebuffer& expected, std::span<const Painter> painters,
-                      std::span<const ScreenTriangle> triangles, std::span<const lab::AblatedExecution> ways,
+                      std::span<const ScreenTriangle> triangles, std::span<const lab::DrawOptions> ways,
                       const std::string& what);
 
 // Every painter draws the oracle's picture, with ids and with colours, in every execution. `painters` must
 // outlive the property.
-Property like_the_oracles(const std::vector<Painter>& painters, std::vector<lab::AblatedExecution> ways);
+Property like_the_oracles(const std::vector<Painter>& painters, std::vector<lab::DrawOptions> ways);
 
 }  // namespace edgewise::testing

@@ -170,7 +170,7 @@ TEST_F(Properties, MovingByMultiplesOf64PixelsChangesNothing) {  // the cell of 
       verdict.replay = {before, after};
       const auto triangles = snapped(before, Payload::id), moved = snapped(after, Payload::id);
       for (const Painter& painter : painters_)
-        for (const lab::AblatedExecution& way : two_executions())
+        for (const lab::DrawOptions& way : two_executions())
           verdict.compare(
               difference_text(drawn(painter, triangles, before.width, before.height, way),
                               moved_back(drawn(painter, moved, after.width, after.height, way), move)),
@@ -207,14 +207,14 @@ class CoverageProperties : public ::testing::Test {
   const std::vector<Painter> painters_ = painters(backends());
 
   static Hits hits(const Painter& painter, std::span<const ScreenTriangle> triangles,
-                   const TriangleStream& stream, const lab::AblatedExecution& way) {
+                   const TriangleStream& stream, const lab::DrawOptions& way) {
     return lab::count_hits(painter.with({}), triangles, stream.width, stream.height, way.execution);
   }
 
   template <typename Judge>
   void for_each_way(Judge&& judge) const {
     for (const Painter& painter : painters_)
-      for (const lab::AblatedExecution& way : two_executions())
+      for (const lab::DrawOptions& way : two_executions())
         judge(painter, way, std::string(painter.name) + ", " + describe(way));
   }
 };
@@ -225,7 +225,7 @@ TEST_F(CoverageProperties, EveryPointOfATessellatedPlaneIsCoveredOnce) {
     const auto triangles = snapped(stream, Payload::id);
     const Hits once(static_cast<std::size_t>(stream.width * stream.height), 1);
     verdict.compare(hits_text(once, covered_counts(triangles, stream), stream.width), "the exact truth");
-    for_each_way([&](const Painter& painter, const lab::AblatedExecution& way, const std::string& what) {
+    for_each_way([&](const Painter& painter, const lab::DrawOptions& way, const std::string& what) {
       verdict.compare(hits_text(once, hits(painter, triangles, stream, way), stream.width), what);
     });
     return verdict;
@@ -258,7 +258,7 @@ TEST_F(CoverageProperties, SplittingASharedEdgeInBothNeighboursKeepsHitCounts) {
       const TriangleStream before{stream.width, stream.height, {whole}},
           after{stream.width, stream.height, cut(whole, edge, tenths)};
       if (after.triangles.empty()) return;
-      for_each_way([&](const Painter& painter, const lab::AblatedExecution& way, const std::string& what) {
+      for_each_way([&](const Painter& painter, const lab::DrawOptions& way, const std::string& what) {
         const Hits expected = hits(painter, snapped(before, Payload::id), stream, way);
         verdict.compare(
             hits_text(expected, hits(painter, snapped(after, Payload::id), stream, way), stream.width), what);
@@ -282,7 +282,7 @@ TEST_F(CoverageProperties, MovingByWholePixelsKeepsHitCounts) {
       const auto both = before_and_after(stream, move);
       const TriangleStream &before = both.first, &after = both.second;
       verdict.replay = {before, after};
-      for_each_way([&](const Painter& painter, const lab::AblatedExecution& way, const std::string& what) {
+      for_each_way([&](const Painter& painter, const lab::DrawOptions& way, const std::string& what) {
         const Hits moved = hits(painter, snapped(after, Payload::id), after, way);
         verdict.compare(hits_text(hits(painter, snapped(before, Payload::id), before, way),
                                   moved_back(moved, after.width, move), stream.width),
@@ -327,7 +327,7 @@ TEST_F(CoverageProperties, ClippingAtTheGuardBandChangesSamplesNearEdgesOnly) {
       const int x = static_cast<int>(i) % stream.width, y = static_cast<int>(i) / stream.width;
       verdict.compare(near_an_edge(whole, x, y, kReachSub) ? "" : "differs away from all edges", "clipped");
     }
-    for_each_way([&](const Painter& painter, const lab::AblatedExecution& way, const std::string& what) {
+    for_each_way([&](const Painter& painter, const lab::DrawOptions& way, const std::string& what) {
       verdict.compare(hits_text(clipped, hits(painter, pieces, stream, way), stream.width), what);
     });
     return verdict;

@@ -67,7 +67,7 @@ TEST_P(EveryBackend, KeepsNothingOfThePreviousFrame) {
   for (const auto& how : testing::executions())
     for (const std::size_t i : {0u, 1u, 2u, 3u, 1u, 0u, 3u, 2u, 0u}) {
       Framebuffer actual(width, height);
-      backends_.get(info_, how.ablation).draw(frames[i], actual.view(), kBackground, how.execution);
+      backends_.get(info_, how.tiles).draw(frames[i], actual.view(), kBackground, how.execution);
       testing::expect_same(expected[i], actual, std::to_string(i) + ", " + testing::describe(how));
     }
 }
@@ -158,7 +158,7 @@ TEST_P(EveryBackend, WritesEveryPixelOfTheFrameAndNoOther) {
       const auto size = static_cast<std::size_t>(stride * (kHeight + 2) + 8);
       std::vector<std::uint32_t> depth(size, kCanary), payload(size, kCanary);
       const std::ptrdiff_t start = stride + offset;
-      backends_.get(info_, how.ablation)
+      backends_.get(info_, how.tiles)
           .draw(triangles, {depth.data() + start, payload.data() + start, kWidth, kHeight, stride},
                 kBackground, how.execution);
       for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(size); ++i) {

@@ -28,7 +28,7 @@ class BinsOnTarget : public ::testing::TestWithParam<SimdTarget> {
   // The lists of all cells.
   std::vector<std::vector<std::uint32_t>> lists(std::span<const ScreenTriangle> triangles,
                                                 const CellGrid& grid) {
-    bins_.build(triangles, grid, 2, GetParam(), Bins::Small::as_indices, true);
+    bins_.build(triangles, grid, 2, GetParam(), Bins::Small::as_indices);
     std::vector<std::vector<std::uint32_t>> out(static_cast<std::size_t>(grid.cells()));
     for (int cell = 0; cell < grid.cells(); ++cell)
       bins_.for_each_segment(cell, [&](const Bins::Segment& segment) {
@@ -54,7 +54,7 @@ TEST(Bins, CountATileAsFewUpToOneBlockOfIndices) {
   const auto is_few = [&](int count, std::int32_t size_px, Bins::Small small) {
     const std::vector<ScreenTriangle> triangles(static_cast<std::size_t>(count),
                                                 triangle(0, 0, size_px * kSub, 0, 0, size_px * kSub));
-    bins.build(triangles, grid, 1, resolve(SimdTarget::best), small, true);
+    bins.build(triangles, grid, 1, resolve(SimdTarget::best), small);
     return bins.few(0);
   };
   EXPECT_TRUE(is_few(31, 40, Bins::Small::as_masks));
@@ -85,8 +85,7 @@ TEST(Bins, KeepASourcesTrianglesUpToAnEighthMoreThanItsInputs) {
   Bins bins;
   const auto fits = [&](std::size_t of_eight, int threads) {
     Equal source(100'000, of_eight);
-    return bins.build(source, {64, 64, 6, 6}, threads, resolve(SimdTarget::best), Bins::Small::as_masks,
-                      true);
+    return bins.build(source, {64, 64, 6, 6}, threads, resolve(SimdTarget::best), Bins::Small::as_masks);
   };
   for (const int threads : {1, 2}) {
     EXPECT_TRUE(fits(9, threads));

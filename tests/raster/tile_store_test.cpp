@@ -1,5 +1,5 @@
 // Selection of the stores that copy a tile to the frame. Every backend test checks that cached and streaming
-// stores write the same bits (kAblations).
+// stores write the same bits (lab::kTileOptions).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -41,15 +41,15 @@ TEST(TileStore, IsTheCallersChoiceIfItMakesOne) {
   Framebuffer frame(side, side);
   static std::atomic<int> streamed, drawn;
   const TileKernel count = [](const TileTask& task) {
-    streamed += task.ablation.tile_store == TileStore::streaming;
+    streamed += task.streaming;
     ++drawn;
   };
   const auto tiles_streamed = [&](TileStore store, int threads, std::size_t count_triangles = 400) {
     streamed = drawn = 0;
     TileScratch scratch;
     StoredTriangles first{std::span(triangles).first(count_triangles)};
-    draw_in_tiles(first, frame.view(), 0, {threads, 64, resolve(SimdTarget::best)}, {.tile_store = store}, 64,
-                  scratch, Bins::Small::as_indices, count);
+    draw_in_tiles(first, frame.view(), 0, {threads, 64, resolve(SimdTarget::best)},
+                  {.coverage_masks = false, .tile_store = store}, scratch, count);
     return streamed.load();
   };
   EXPECT_EQ(tiles_streamed(TileStore::cached, 1), 0);
@@ -63,28 +63,25 @@ TEST(TileStore, IsTheCallersChoiceIfItMakesOne) {
   EXPECT_LT(drawn, 16) << "empty tiles do not reach the kernel";
 }
 
-TEST(TileTasks, FollowTheSwitches) {
+TEST(TileTasks, FillTheEmptyTilesOfARowTogether) {
   const int side = 16 * contract::kMaxTile;
   const ScreenTriangle corner{{0, 9000, 0}, {0, 0, 9000}, {9, 9, 9}, 5};
   Framebuffer frame(side, side);
   static std::atomic<int> drawn;
   const TileKernel count = [](const TileTask&) { ++drawn; };
-  const auto draw_with = [&](const Ablation& ablation, int height = 16 * contract::kMaxTile) {
+  const auto tasks = [&](int height) {
     drawn = 0;
     TileScratch scratch;
     StoredTriangles stored({&corner, 1});
     FrameView view = frame.view();
     view.height = height;
-    draw_in_tiles(stored, view, 0, {2, 64, resolve(SimdTarget::best)}, ablation, 64, scratch,
-                  Bins::Small::as_indices, count);
+    draw_in_tiles(stored, view, 0, {2, 64, resolve(SimdTarget::best)}, {}, scratch, count);
     return scratch.list.tasks().size();
   };
   const int tiles_with_triangles = 1;
-  EXPECT_EQ(draw_with({}), tiles_with_triangles + 16u) << "and one for the empty tiles of each row";
+  EXPECT_EQ(tasks(side), tiles_with_triangles + 16u) << "and one for the empty tiles of each row";
   EXPECT_EQ(drawn, tiles_with_triangles);
-  EXPECT_EQ(draw_with({.empty_rows = false}), 16u * 16);
-  EXPECT_EQ(drawn, 16 * 16);
-  EXPECT_EQ(draw_with({}, 64), tiles_with_triangles + 8u) << "a single row's empty tiles, by 8 px of height";
+  EXPECT_EQ(tasks(64), tiles_with_triangles + 8u) << "a single row's empty tiles, by 8 px of height";
 }
 
 TEST(TileTasks, AreTakenOneByOneIfTheyAreFew) {
@@ -94,27 +91,25 @@ TEST(TileTasks, AreTakenOneByOneIfTheyAreFew) {
   EXPECT_EQ(tasks_at_once(1, 64), 1);
 }
 
-// The first tile waits for the second, which another thread draws only if tiles are taken one by one. The
-// number of tiles is no multiple of four.
-TEST(TileTasks, DrawEachTileOnceInFoursOrOneByOne) {
-  constexpr int kColumns = 15, kRows = 9;
+// The first tile waits for the second in vain, because the same thread draws it next. The number of tiles is
+// no multiple of four.
+TEST(TileTasks, DrawEachTileOnceInFours) {
+  constexpr int kColumns = 15, kRows = 9, kLeg = 2000 * contract::kSub;
+  const ScreenTriangle all_over{{0, kLeg, 0}, {0, 0, kLeg}, {9, 9, 9}, 5};
   Framebuffer frame(kColumns * contract::kMaxTile, kRows * contract::kMaxTile);
-  for (const bool several : {true, false}) {
-    std::vector<std::atomic<int>> drawn(kColumns * kRows);
-    bool met = false;
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(several ? 20 : 10'000);
-    const auto draw_tile = [&](const TileTask& task) {
-      while (task.cell == 0 && !met && std::chrono::steady_clock::now() < deadline) met = drawn[1] > 0;
-      ++drawn[static_cast<std::size_t>(task.cell)];
-    };
-    TileScratch scratch;
-    StoredTriangles none(std::span<const ScreenTriangle>{});
-    draw_in_tiles(none, frame.view(), 0, {2, 64, resolve(SimdTarget::best)},
-                  {.empty_rows = false, .several_tiles_per_task = several}, 64, scratch,
-                  Bins::Small::as_indices, draw_tile);
-    EXPECT_TRUE(std::ranges::all_of(drawn, [](const auto& n) { return n == 1; }));
-    EXPECT_EQ(met, !several);
-  }
+  std::vector<std::atomic<int>> drawn(kColumns * kRows);
+  bool met = false;
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(20);
+  TileScratch scratch;
+  StoredTriangles stored({&all_over, 1});
+  draw_in_tiles(stored, frame.view(), 0, {2, 64, resolve(SimdTarget::best)}, {}, scratch,
+                [&](const TileTask& task) {
+                  while (task.cell == 0 && !met && std::chrono::steady_clock::now() < deadline)
+                    met = drawn[1] > 0;
+                  ++drawn[static_cast<std::size_t>(task.cell)];
+                });
+  EXPECT_TRUE(std::ranges::all_of(drawn, [](const auto& n) { return n == 1; }));
+  EXPECT_FALSE(met);
 }
 
 // Empty tiles at the right and lower end, beside and between tiles with triangles, by either store.
@@ -131,8 +126,8 @@ TEST(TileStore, FillsEveryEmptyTile) {
       lab::poison(frame);
       TileScratch scratch;
       StoredTriangles stored(triangles);
-      draw_in_tiles(stored, frame.view(), 42, {2, 64, resolve(SimdTarget::best)}, {.tile_store = store}, 64,
-                    scratch, Bins::Small::as_indices, tile_kernel(resolve(SimdTarget::best)));
+      draw_in_tiles(stored, frame.view(), 42, {2, 64, resolve(SimdTarget::best)}, {.tile_store = store},
+                    scratch, tile_kernel(resolve(SimdTarget::best)));
       testing::expect_same(expected, frame, std::to_string(width) + " px wide");
     }
 }

@@ -26,12 +26,12 @@ PUBLIC_BELOW = {  # what the public headers of a room include
     "scene": [], "frontend": ["edgewise/scene.h"], "image": ["edgewise/framebuffer.h"],
     "raster": ["edgewise/scene.h"],  # declares src/draw.cpp's draw()
 }
-TILES = ["ablation.h", "tile_list.h", "tile_store-inl.h", "tile_task.h", "tiles.h"]  # shared by the rooms that draw tiles
+TILES = ["tile_list.h", "tile_options.h", "tile_store-inl.h", "tile_task.h", "tiles.h"]  # shared by the rooms that draw tiles
 ROOMS_BELOW = {  # inside src/raster: rooms and headers
     "simd": [],
     "binning": ["simd"],
     "tiled": ["simd", "binning", *TILES],
-    "scanline": ["simd", "bands.h", "ablation.h"],
+    "scanline": ["simd", "bands.h"],
 }
 
 

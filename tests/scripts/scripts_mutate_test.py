@@ -48,7 +48,7 @@ class MutateTest(unittest.TestCase):
         result = subprocess.run([ROOT / "scripts/mutate", "--list"], capture_output=True, text=True, check=False)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertLessEqual(len(result.stdout.splitlines()), 60)
-        for part in ("contract.h", "oracle.cpp", "box_test.h", "tile_", "edge_walk.h", "scanline_band", "tiled_spans", "bins", "mask_", "clip.cpp",
+        for part in ("contract.h", "oracle.cpp", "naive.cpp", "tile_", "edge_walk.h", "scanline_band", "tiled_spans", "bins", "mask_", "clip.cpp",
                      "one_by_one.cpp", "chunks.h", "portable.cpp", "noise.py"):
             self.assertIn(part, result.stdout)
 

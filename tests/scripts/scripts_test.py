@@ -65,10 +65,6 @@ def bench(slow=(10.0, 10.2, 10.1, 10.05, 10.15), tiled=(2.0, 2.1, 2.2, 2.05, 2.1
             rows += entries(f"{backend}/cube/threads:{threads}", [t / threads for t in times], **floor)
             for area, factor in ((1, 0.1 if backend == "slow" else 1), (100, 1), (10000, 1)):
                 rows += entries(f"{backend}/area:{area}/threads:{threads}", [t * factor for t in times])
-        rows += entries(f"{backend}/cube/size:256x256/threads:2", times)
-        rows += entries(f"{backend}/cube/size:512x512/threads:2", [4 * t for t in times])
-        for count, factor in ((100, 1), (1000, 1), (10000, 10)):
-            rows += entries(f"{backend}/count:{count}/threads:2", [t * factor for t in times])
         for threads in (1, 2):
             rows += entries(f"{backend}+frontend/cube/threads:{threads}", [t / threads for t in times], peak_bytes=20e6)
             rows += entries(f"{backend}/cube/tiny:256x256/threads:{threads}", [t * 2e-3 for t in times])
@@ -78,10 +74,6 @@ def bench(slow=(10.0, 10.2, 10.1, 10.05, 10.15), tiled=(2.0, 2.1, 2.2, 2.05, 2.1
             rows += entries("naive/cube/threads:1", [9 * t for t in times])
             for keys, factor in (("/stores:streaming", 2), ("/pause:2ms", 3), ("/pause:2ms/stores:streaming", 1.5)):
                 rows += entries(f"tiled+frontend/cube{keys}/threads:2", [t * factor for t in times])
-            for step, factor in (("tiles", 4), ("avx2", 2)):
-                rows += entries(f"tiled/cube/step:{step}/threads:1", [t * factor for t in times])
-        for target, factor in (("scalar", 4), ("avx2", 1)):
-            rows += entries(f"{backend}/cube/target:{target}/threads:1", [t * factor for t in times])
     return {"context": {"backends": "slow tiled", "machine": "test", "rounds": "5", "simd_target": "avx2"}, "benchmarks": rows + cells() + methods()}
 
 
@@ -433,7 +425,7 @@ class ScriptsTest(unittest.TestCase):
         self.assertIn("<!-- generated:factors -->\n<!-- /generated -->", self.filled("factors", results="old"))
 
     def test_small_draws_and_memory_fill_the_readme(self):
-        text = self.filled("growth", "tile_stores", "small_draws", "memory")
+        text = self.filled("tile_stores", "small_draws", "memory")
         self.assertIn("| cube | 2 | ", text)
         self.assertIn("| after 2 ms: rule, ms | streaming, ms |\n|---|--:|", text)
         self.assertIn("| 256 × 256 | `slow` | 20.2 | 20.2 | 1.00× (not settled) |\n", text)
@@ -450,9 +442,8 @@ class ScriptsTest(unittest.TestCase):
         plotted(self, self.results)
         plotted(self, self.results, "--out", self.folder / "again")
         drawn = sorted(p.name for p in (self.results / "charts").iterdir())
-        charts = ["area", "culling", "growth", "ablation", "factors", "simd", "stability-grid", "stability-nearer", "turning-cube",
-                  *(f"{kind}-{family}" for kind in ("accuracy", "errors")
-                    for family in ("coverage", "visibility", "facing", "clipping"))]
+        charts = ["area", "culling", "factors", "stability-grid", "stability-nearer", "turning-cube",
+                  "errors-coverage", *(f"{kind}-{family}" for kind in ("accuracy", "errors") for family in ("visibility", "facing", "clipping"))]
         self.assertEqual(drawn, sorted(f"{c}.svg" for c in charts))
         for name in drawn:
             self.assertEqual((self.results / "charts" / name).read_bytes(), (self.folder / "again" / name).read_bytes())
@@ -575,44 +566,10 @@ class EngineTest(unittest.TestCase):
 class ChartsTest(unittest.TestCase):
     """What the charts compute."""
 
-    def test_ablation_steps_stand_between_the_suites_own_rows(self):
-        from bench_rows import Bench, parse_name
-        from plot_ablation import parts
-        rows = {}
-        for name, times in (("naive/cube/threads:1", [9.0]), ("tiled/cube/threads:1", [2.0]), ("tiled/cube/threads:2", [1.0]),
-                            ("naive/cube/step:stepped/threads:1", [8.5]),
-                            ("tiled/cube/step:tiles/threads:1", [8.0]), ("tiled/knot/step:tiles/threads:1", [5.0]),
-                            ("tiled/cube/step:avx2/threads:1", [4.0]), ("tiled/cube/step:tile-store/threads:1", [3.0]),
-                            ("tiled+frontend/cube/threads:1", [6.0]), ("tiled+frontend/cube/threads:2", [3.0]),
-                            ("tiled+frontend/cube/step:two-calls/threads:1", [7.0]),
-                            ("tiled+frontend/cube/step:one-tile-per-task/threads:2", [3.5])):
-            rows[name] = parse_name(name)
-            rows[name].times_ms = times
-        draws, frames = ([(label, row.median_ms) for label, row in part] for part in parts(Bench({}, rows), "cube"))
-        self.assertEqual([ms for _, ms in draws], [9.0, 8.5, 8.0, 4.0, 3.0, 2.0])
-        self.assertEqual([label for label, _ in draws][-2:], ["+ choice of tile store", "+ rows of empty tiles"])
-        self.assertEqual(frames, [("whole frame, 1 thread", 7.0), ("+ fusion, clusters", 6.0), ("+ second thread", 3.5),
-                                  ("+ several tiles per task", 3.0)])
-
-        del rows["tiled+frontend/cube/step:one-tile-per-task/threads:2"]
-        self.assertEqual([label for label, _ in parts(Bench({}, rows), "cube")[1]], ["whole frame, 1 thread", "+ fusion, clusters"])
-        del rows["tiled+frontend/cube/step:two-calls/threads:1"]
-        self.assertEqual(parts(Bench({}, rows), "cube")[1], [])
-
     @staticmethod
     def row(*times_ms, **keys):
         from bench_rows import Row
         return Row("", "", False, "", keys, list(times_ms))
-
-    def test_a_verdict_claims_only_what_repetitions_settle(self):
-        from plot_ablation import verdict
-        row = self.row
-        slow, fast = row(40.0, 41.0, 42.0, 43.0, 44.0), row(35.0, 36.0, 37.0, 38.0, 39.0)
-        self.assertEqual([verdict(slow, fast), verdict(fast, slow)], ["gain", "loss"])
-        between = row(30.0, 31.0, 32.0, 33.0, 40.5)  # 24 of 25 pairs
-        self.assertEqual([verdict(slow, between), verdict(between, slow)], ["neither", "neither"])
-        seldom = row(40.0, 41.0, 42.0, 43.0)  # large steps only
-        self.assertEqual([verdict(seldom, fast), verdict(seldom, row(19.0))], ["neither", "gain"])
 
     def curve(self, *repetitions):
         return [(10.0 ** i, self.row(*times), 1.0) for i, times in enumerate(repetitions)]
@@ -662,17 +619,6 @@ class ChartsTest(unittest.TestCase):
         level = self.curve(*[[8.5, 10.0, 11.5, 8.5, 11.5]] * 3)
         self.assertEqual(list(crossings(noisy, level)), [])
         self.assertEqual(list(crossings(self.curve([9.0], [1.0]), self.curve([3.0], [3.0]))), [])
-
-    def test_growth_is_claimed_only_where_repetitions_settle_it(self):
-        from plot_growth import QUANTITIES, steps
-
-        def kinds(*repetitions):
-            return [step.kind for step in steps(QUANTITIES[0], [self.row(*times, count=str(10 ** i)) for i, times in enumerate(repetitions)])]
-
-        self.assertEqual(kinds([1.0] * 5, [2.0] * 5, [4.0] * 5, [40.0] * 5), ["less than linear", "less than linear", "linear"])
-        self.assertEqual(kinds([1.0] * 5, [20.0] * 5), ["more than linear"])
-        self.assertEqual(kinds([1.0, 1.0, 3.0, 1.0, 3.0], [8.0, 20.0, 30.0, 8.0, 30.0]), ["not settled"])
-        self.assertEqual(kinds([1.0], [20.0]), ["not settled"], "one draw decides nothing")
 
     def test_a_sweeps_title_names_the_first_method_that_breaks(self):
         from accuracy_rows import Curve, Method, Sweep

@@ -51,7 +51,7 @@ enum class Output { frame, whole_frame, frontend_list };
 struct Probe {
   Output output;
   std::size_t backend = 0;  // index
-  lab::AblatedExecution how;
+  lab::DrawOptions how;
   lab::GuardedFrame::Layout layout = {};
   bool by_oracle = false;
 };
@@ -89,7 +89,7 @@ class Checker {
         for (const int threads : {1, c.threads}) {
           Probe probe{Output::frame, b, {{threads, kTiles[random.below(kTiles.size())], target}}};
           if (random.below(2) == 0)
-            probe.how.ablation = lab::kAblations[random.below(lab::kAblations.size())];
+            probe.how.tiles = lab::kTileOptions[random.below(lab::kTileOptions.size())];
           probe.layout = random_layout(random, c.width);
           if (c.drawable && random.below(is_stream ? 2 : 16) == 0) probe.output = Output::whole_frame;
           check_frame(c, probe, triangles, expected);
@@ -154,7 +154,7 @@ class Checker {
   std::string frame_difference(const Case& c, const Probe& probe, std::span<const ScreenTriangle> triangles,
                                const Framebuffer& expected) {
     lab::GuardedFrame frame(c.width, c.height, probe.layout);
-    Backend& backend = backends_.get(plan_.backends[probe.backend], probe.how.ablation);
+    Backend& backend = backends_.get(plan_.backends[probe.backend], probe.how.tiles);
     if (probe.output == Output::whole_frame) {
       FrontendOptions options = c.frontend;
       options.threads = probe.how.execution.threads;
@@ -294,7 +294,7 @@ class Checker {
 
   const Plan& plan_;
   Report& report_;
-  lab::AblatedBackends backends_;
+  lab::BackendCache backends_;
   Frontend plain_, candidate_;
   std::vector<ScreenTriangle> expected_list_;
   std::vector<std::string> explained_;

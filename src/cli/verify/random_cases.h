@@ -27,7 +27,7 @@ struct Case {
 
   bool large_oracle_budget = false;  // the oracle may take longer in this case
   std::uint64_t draws_seed = 0;      // for choices that depend on the machine's SIMD targets: tile sizes,
-                                     // strides, ablations
+                                     // strides, tile options
 };
 
 Case make_case(std::uint64_t seed, std::uint64_t number);

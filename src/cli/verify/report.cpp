@@ -44,7 +44,7 @@ nlohmann::json mismatch_json(const Mismatch& m) {
                       {"threads", m.how.execution.threads},
                       {"tile_size", m.how.execution.tile_size},
                       {"simd_target", name_of(resolve(m.how.execution.target))},
-                      {"ablation", edgewise::describe(m.how.ablation)},
+                      {"tile_options", lab::describe(m.how.tiles)},
                       {"whole_frame", m.whole_frame},
                       {"cull", name_of(m.cull)},
                       {"payload", name_of_payload(m.payload)},
@@ -83,11 +83,11 @@ nlohmann::json scene_json(const SceneVerdict& v) {
 
 }  // namespace
 
-std::string describe(const lab::AblatedExecution& how) {
+std::string describe(const lab::DrawOptions& how) {
   const Execution& e = how.execution;
-  const std::string left_out = edgewise::describe(how.ablation);
+  const std::string tiles = lab::describe(how.tiles);
   return fmt::format("{} thread{}, {}, tile {}{}{}", e.threads, e.threads == 1 ? "" : "s",
-                     name_of(resolve(e.target)), e.tile_size, left_out.empty() ? "" : ", ", left_out);
+                     name_of(resolve(e.target)), e.tile_size, tiles.empty() ? "" : ", ", tiles);
 }
 
 std::string VerifyTable::header() const {

@@ -67,7 +67,7 @@ struct Judgement {
 
 // How a frame is drawn. A whole frame is drawn by draw(drawable, …), which includes the front end.
 struct Configuration {
-  lab::AblatedExecution how;
+  lab::DrawOptions how;
   bool whole_frame = false;
 };
 
@@ -75,8 +75,8 @@ struct Configuration {
 constexpr Execution kSmallestTiles{3, 16, SimdTarget::best};
 constexpr Execution kReferenceExecution{1, 64, SimdTarget::scalar};
 
-// Other tile sizes run on the best target, other targets with the usual tile, and optimizations are left out
-// on one thread count: the full product would mostly repeat itself, since only tiled backends use tile size
+// Other tile sizes run on the best target, other targets with the usual tile, and other options of tiles on
+// one thread count: the full product would mostly repeat itself, since only tiled backends use tile size
 // and target. Whole frames run on every target, since draw(drawable, …) takes another path for streams.
 std::vector<Configuration> configurations(const VerifyPlan& plan) {
   std::vector<Configuration> all;
@@ -86,8 +86,8 @@ std::vector<Configuration> configurations(const VerifyPlan& plan) {
     for (const SimdTarget target : supported_targets()) all.push_back({{{threads, 64, target}}});
     for (const int tile : {16, 32}) all.push_back({{{threads, tile, resolve(SimdTarget::best)}}});
   }
-  for (const Ablation& ablation : lab::kAblations)
-    all.push_back({{{plan.threads.front(), 64, resolve(SimdTarget::best)}, ablation}});
+  for (const TileOptions& tiles : lab::kTileOptions)
+    all.push_back({{{plan.threads.front(), 64, resolve(SimdTarget::best)}, tiles}});
   return all;
 }
 
@@ -192,10 +192,10 @@ class SceneCheck {
 
   void draw(const Judgement& j, std::size_t backend, const Configuration& configuration) {
     candidate_->poison();
-    const lab::AblatedExecution& how = configuration.how;
-    std::unique_ptr<Backend> ablated;  // not kept, since its memory grows with the scene
-    if (how.ablation != Ablation{}) ablated = make(plan_.backends[backend], how.ablation);
-    Backend& drawer = ablated ? *ablated : *backends_[backend];
+    const lab::DrawOptions& how = configuration.how;
+    std::unique_ptr<Backend> made;  // not kept, since its memory grows with the scene
+    if (how.tiles != TileOptions{}) made = lab::make(plan_.backends[backend], how.tiles);
+    Backend& drawer = made ? *made : *backends_[backend];
     const std::uint32_t background = background_of(j.shot.frontend.payload);
     if (configuration.whole_frame) {
       FrontendOptions frontend = j.shot.frontend;

@@ -41,7 +41,7 @@ struct Mismatch {
   int width, height;
   std::string judge;  // the reference's name, or "oracle"
   std::string backend;
-  lab::AblatedExecution how;
+  lab::DrawOptions how;
   bool whole_frame;       // drawn by draw(drawable, …), not from the judge's triangles
   std::uint64_t pixels;   // that differ
   std::uint64_t outside;  // words written outside the image
@@ -96,8 +96,8 @@ class VerifyTable {
   bool wide_;
 };
 
-// "2 threads, avx2, tile 64, no prefetch"
-std::string describe(const lab::AblatedExecution& how);
+// "2 threads, avx2, tile 64, no coverage masks"
+std::string describe(const lab::DrawOptions& how);
 
 // The differences of a scene in detail; empty if there are none.
 std::string explain(const SceneVerdict& verdict);

@@ -2,17 +2,22 @@
 
 #include <vector>
 
-#include "lab/cells/band_edges.h"
+#include "lab/cells/band_kernels.h"
 #include "lab/tiled_spans/tiled_spans.h"
-#include "raster/ablation.h"
 #include "raster/bands.h"
+#include "raster/tile_options.h"
 
 namespace edgewise::lab {
 
 namespace {
-constexpr Ablation kTilesOnly{.coverage_masks = false, .hierarchical_depth = false},
+constexpr TileOptions kTilesOnly{.coverage_masks = false, .hierarchical_depth = false},
     kHiZ{.coverage_masks = false};
+
+template <BandKernel (*kKernel)(SimdTarget)>
+std::unique_ptr<Backend> make_bands() {
+  return std::make_unique<BandBackend>(kKernel);
 }
+}  // namespace
 
 std::span<const Cell> cells() {
   static const std::vector<Cell> list = [] {
@@ -21,17 +26,14 @@ std::span<const Cell> cells() {
       std::unique_ptr<Backend> (*make)();
     };
     constexpr Drawer kDrawers[] = {
-        {"bands_spans", "bands", "spans", "", [] { return make_scanline({.vector_test = false}); }},
-        {"bands_edges", "bands", "edges", "",
-         []() -> std::unique_ptr<Backend> {
-           return std::make_unique<BandBackend>(band_edges_kernel, Ablation{});
-         }},
+        {"bands_spans", "bands", "spans", "", make_bands<band_spans_kernel>},
+        {"bands_edges", "bands", "edges", "", make_bands<band_edges_kernel>},
         {"tiles_spans", "tiles", "spans", "", [] { return make_tiled_spans(kTilesOnly); }},
         {"tiles_edges", "tiles", "edges", "", [] { return make_tiled(kTilesOnly); }},
         {"tiles_spans_hiz", "tiles", "spans", "hiz", [] { return make_tiled_spans(kHiZ); }},
         {"tiles_edges_hiz", "tiles", "edges", "hiz", [] { return make_tiled(kHiZ); }},
         {"tiles_spans_hiz_masks", "tiles", "spans", "hiz+masks", [] { return make_tiled_spans({}); }},
-        {"tiles_edges_hiz_masks", "tiles", "edges", "hiz+masks", [] { return make_tiled(Ablation{}); }}};
+        {"tiles_edges_hiz_masks", "tiles", "edges", "hiz+masks", [] { return make_tiled({}); }}};
     std::vector<Cell> all;
     for (const Drawer& d : kDrawers)
       for (const SimdTarget target : {SimdTarget::scalar, SimdTarget::best})

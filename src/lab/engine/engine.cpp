@@ -5,7 +5,6 @@
 
 #include "edgewise/contract.h"
 #include "lab/coverage/draw_in_sets.h"
-#include "raster/ablation.h"
 #include "raster/tiles.h"
 
 namespace edgewise::lab {
@@ -15,8 +14,8 @@ void draw_engine(EngineArithmetic arithmetic, std::span<const ScreenTriangle> tr
   Execution resolved = execution;
   resolved.target = resolve(execution.target);
   StoredTriangles stored(triangles);
-  draw_in_tiles(stored, frame, background, resolved, {.coverage_masks = false}, resolved.tile_size, scratch,
-                Bins::Small::as_indices, engine_kernel(arithmetic, resolved.target));
+  draw_in_tiles(stored, frame, background, resolved, {.coverage_masks = false}, scratch,
+                engine_kernel(arithmetic, resolved.target));
 }
 
 namespace {

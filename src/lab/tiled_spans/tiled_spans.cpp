@@ -11,16 +11,16 @@ class TiledSpans final : public TileBackend {
   using TileBackend::TileBackend;
   bool draw_source(TriangleSource& triangles, FrameView frame, std::uint32_t background,
                    const Execution& execution) override {
-    return draw_in_tiles(triangles, frame, background, execution, ablation_, contract::kMaxTile, scratch_,
-                         ablation_.coverage_masks ? Bins::Small::as_masks : Bins::Small::as_indices,
+    return draw_in_tiles(triangles, frame, background,
+                         {execution.threads, contract::kMaxTile, execution.target}, options_, scratch_,
                          tiled_spans_kernel(execution.target));
   }
 };
 
 }  // namespace
 
-std::unique_ptr<Backend> make_tiled_spans(const Ablation& ablation) {
-  return std::make_unique<TiledSpans>(ablation);
+std::unique_ptr<Backend> make_tiled_spans(const TileOptions& options) {
+  return std::make_unique<TiledSpans>(options);
 }
 
 }  // namespace edgewise::lab

@@ -1,11 +1,11 @@
-// The tile renderer of `tiled` with spans in place of edge functions: the same binning, tiles, threads and
-// tile stores, with hierarchical depth and coverage masks as switches.
+// The tile renderer of `tiled` with spans in place of edge functions: the same binning, tiles, threads, tile
+// stores and options.
 #pragma once
 
 #include <memory>
 
 #include "edgewise/backend.h"
-#include "raster/ablation.h"
+#include "raster/tile_options.h"
 #include "raster/tile_task.h"
 
 namespace edgewise::lab {
@@ -13,7 +13,6 @@ namespace edgewise::lab {
 // The kernel that draws a tile of contract::kMaxTile px. `target` must be resolved.
 TileKernel tiled_spans_kernel(SimdTarget target);
 
-// Switches are those of `tiled`.
-std::unique_ptr<Backend> make_tiled_spans(const Ablation& ablation);
+std::unique_ptr<Backend> make_tiled_spans(const TileOptions& options);
 
 }  // namespace edgewise::lab

@@ -73,7 +73,7 @@ class SpanPainter {
 class SpanPainter {
  public:
   explicit SpanPainter(const TileTask& task)
-      : task_(task), list_(tile_, task.ablation.hierarchical_depth), masks_(*task.bins, task.cell) {
+      : task_(task), list_(tile_, task.hierarchical_depth), masks_(*task.bins, task.cell) {
     std::fill_n(tile_.depth, std::size(tile_.depth), static_cast<std::int32_t>(kDepthClear));
     tile_.hiz.clear(task.width(), task.height());
   }
@@ -131,8 +131,7 @@ void write_rows(const FramePlane& to, const Pixels& pixels) {
 
 void draw_tile_in_spans(const TileTask& task) {
   SpanPainter painter(task);
-  task.bins->for_each_segment_ahead(task.cell, task.ablation.prefetch,
-                                    [&](const Bins::Segment& segment) { painter.draw(segment); });
+  task.bins->for_each_segment_ahead(task.cell, [&](const Bins::Segment& segment) { painter.draw(segment); });
   painter.draw_rest();
   write_tile(task, painter.depth(), painter.payload(),
              [](const FramePlane& to, const auto& pixels) { write_rows(to, pixels); });

@@ -180,8 +180,7 @@ void Bins::Slice::bin_with_masks(std::span<const ScreenTriangle> triangles, std:
   });
 }
 
-bool Bins::build(TriangleSource& source, const CellGrid& grid, int threads, SimdTarget target, Small small,
-                 bool prefetch) {
+bool Bins::build(TriangleSource& source, const CellGrid& grid, int threads, SimdTarget target, Small small) {
   // Triangles per slice: a thousand large ones are worth two threads, but short lists leave SIMD lanes of the
   // tile kernel empty.
   constexpr std::size_t kMinSlice = 500;
@@ -211,7 +210,7 @@ bool Bins::build(TriangleSource& source, const CellGrid& grid, int threads, Simd
   };
   if (stored == nullptr) kept_.reserve(kept_at(used_slices_, source.size()));
   triangles_ = stored != nullptr ? stored : kept_.data();
-  prefetch &= stored != nullptr;  // made triangles are still cached
+  const bool prefetch = stored != nullptr;  // made triangles are still cached
   std::atomic<bool> all_fit{true};
   parallel_for(threads, static_cast<int>(used_slices_), [&](int i) {
     const auto c = static_cast<std::size_t>(i);
@@ -242,9 +241,9 @@ bool Bins::build(TriangleSource& source, const CellGrid& grid, int threads, Simd
 }
 
 void Bins::build(std::span<const ScreenTriangle> triangles, const CellGrid& grid, int threads,
-                 SimdTarget target, Small small, bool prefetch) {
+                 SimdTarget target, Small small) {
   StoredTriangles stored(triangles);
-  (void)build(stored, grid, threads, target, small, prefetch);
+  (void)build(stored, grid, threads, target, small);
 }
 
 }  // namespace edgewise

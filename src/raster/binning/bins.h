@@ -33,14 +33,14 @@ class Bins {
 
   // Replaces the previous contents. A triangle without a sample in its bounding box is dropped; one without
   // area may be listed in up to four cells. as_masks needs cells that are tiles, and makes no masks on the
-  // scalar target. `prefetch`: prefetch triangles that lie in memory.
+  // scalar target.
   // Throws std::length_error if a slice's lists exceed 2^32 entries. Returns false, with incomplete contents,
   // if a slice's room for made triangles might not suffice.
   [[nodiscard]] bool build(TriangleSource& source, const CellGrid& grid, int threads, SimdTarget target,
-                           Small small, bool prefetch);
+                           Small small);
   // The same for triangles that lie in memory, which need not be kept.
   void build(std::span<const ScreenTriangle> triangles, const CellGrid& grid, int threads, SimdTarget target,
-             Small small, bool prefetch);
+             Small small);
 
   // Indices refer to these triangles: the stored ones of the source, or those that were kept of it.
   const ScreenTriangle* triangles() const { return triangles_; }
@@ -89,13 +89,13 @@ class Bins {
     }
   }
 
-  // The same. Records are scattered in memory, so with `prefetch` each segment's are prefetched while the
-  // previous segment is visited.
+  // The same. Records are scattered in memory, so each segment's are prefetched while the previous segment is
+  // visited.
   template <typename Visit>
-  void for_each_segment_ahead(int cell, bool prefetch, Visit&& visit) const {
+  void for_each_segment_ahead(int cell, Visit&& visit) const {
     Segment before{};
     for_each_segment(cell, [&](const Segment& segment) {
-      if (prefetch) prefetch_records(segment.indices);
+      prefetch_records(segment.indices);
       if (!before.indices.empty()) visit(before);
       before = segment;
     });

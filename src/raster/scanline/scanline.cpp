@@ -6,7 +6,6 @@
 #include <hwy/highway.h>
 
 #include "core/kernel_table.h"
-#include "raster/ablation.h"
 #include "raster/bands.h"
 #include "raster/scanline/scanline_band-inl.h"
 
@@ -15,10 +14,8 @@ namespace edgewise {
 namespace HWY_NAMESPACE {
 
 void draw_band(const BandTask& task) {
-  const auto wide = [&](const ScreenTriangle& triangle, const PixelBox& box) {
-    draw_spans(task, triangle, box);
-  };
-  task.vector_test ? draw_band_by<true>(task, wide) : draw_band_by<false>(task, wide);
+  draw_band_by<true>(
+      task, [&](const ScreenTriangle& triangle, const PixelBox& box) { draw_spans(task, triangle, box); });
   clear_upper_halves();
 }
 
@@ -36,11 +33,8 @@ BandKernel scanline_kernel(SimdTarget target) {
 extern const std::string_view summary_scanline;
 const std::string_view summary_scanline =
     "walks the edges row by row and fills the spans between them; the reference";
-std::unique_ptr<Backend> make_scanline(const Ablation& ablation) {
-  return std::make_unique<BandBackend>(scanline_kernel, ablation);
-}
 std::unique_ptr<Backend> make_scanline() {
-  return make_scanline(Ablation{});
+  return std::make_unique<BandBackend>(scanline_kernel);
 }
 
 }  // namespace edgewise

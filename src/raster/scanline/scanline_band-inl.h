@@ -245,7 +245,7 @@ HWY_INLINE void draw_narrow(const BandTask& task, const NarrowBatch& batch, int 
 template <bool kVectorTest, typename DrawWide>
 HWY_INLINE void draw_band_by(const BandTask& task, DrawWide&& draw_wide) {
   const ScreenTriangle* const triangles = task.bins.triangles();
-  task.bins.for_each_segment_ahead(task.band, true, [&](const Bins::Segment& segment) {
+  task.bins.for_each_segment_ahead(task.band, [&](const Bins::Segment& segment) {
 #if HWY_TARGET != HWY_SCALAR
     if constexpr (kVectorTest) {
       NarrowBatch batch;

@@ -56,7 +56,7 @@ class TilePainter {
       } else {
         small_.draw();
         // Thin triangles fill no block, so they occlude none.
-        occludes_ = occludes_ || (task_.ablation.hierarchical_depth && may_fill_blocks(batch_, k));
+        occludes_ = occludes_ || (task_.hierarchical_depth && may_fill_blocks(batch_, k));
         if (occludes_ && tile_.hiz.occludes(batch_.nearest.least[k])) [[unlikely]]  // in most scenes
           continue;
         occludes_ ? find_candidates<true>(k, width, *next) : find_candidates<false>(k, width, *next);
@@ -110,7 +110,7 @@ void draw_tile_in(const TileTask& task) {
   tile.hiz.clear(task.width(), task.height());
 
   TilePainter<Arithmetic> painter(task, tile);
-  task.bins->for_each_segment_ahead(task.cell, task.ablation.prefetch,
+  task.bins->for_each_segment_ahead(task.cell,
                                     [&](const Bins::Segment& segment) { painter.draw_segment(segment); });
   painter.draw_rest();
   write_tile(task, tile.depth(), tile.payload(),

@@ -149,12 +149,10 @@ template <class Arithmetic>
 std::uint32_t set_up(const TileTask& task, std::span<const std::uint32_t> indices, Batch<Arithmetic>& out) {
   std::uint32_t alive = 0;
   const int count = static_cast<int>(indices.size());
-  if (HWY_TARGET == HWY_SCALAR || !task.ablation.vector_setup) {
-    for (int k = 0; k < count; ++k)
-      alive |= std::uint32_t{set_up_one(task, indices[static_cast<std::size_t>(k)], out, k)} << k;
-    return alive;
-  }
-#if HWY_TARGET != HWY_SCALAR
+#if HWY_TARGET == HWY_SCALAR
+  for (int k = 0; k < count; ++k)
+    alive |= std::uint32_t{set_up_one(task, indices[static_cast<std::size_t>(k)], out, k)} << k;
+#else
   std::uint32_t padded[kBatch];
   for (int k = 0; k < kBatch; ++k) padded[k] = indices[static_cast<std::size_t>(std::min(k, count - 1))];
   for (int k = 0; k < count; k += kLanes) alive |= set_up_vector(task, padded, count, out, k) << k;

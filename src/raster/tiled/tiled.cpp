@@ -1,6 +1,6 @@
 // The backend `tiled`: bins triangles to square tiles (bins.cpp) and draws tiles in parallel, each in a
 // buffer of its own, by SIMD edge functions (tile_kernel.cpp).
-#include "raster/ablation.h"
+#include "raster/tile_options.h"
 #include "raster/tile_task.h"
 #include "raster/tiles.h"
 
@@ -12,8 +12,7 @@ class Tiled final : public TileBackend {
   using TileBackend::TileBackend;
   bool draw_source(TriangleSource& triangles, FrameView frame, std::uint32_t background,
                    const Execution& execution) override {
-    return draw_in_tiles(triangles, frame, background, execution, ablation_, execution.tile_size, scratch_,
-                         ablation_.coverage_masks ? Bins::Small::as_masks : Bins::Small::as_indices,
+    return draw_in_tiles(triangles, frame, background, execution, options_, scratch_,
                          tile_kernel(execution.target));
   }
 };
@@ -23,11 +22,11 @@ class Tiled final : public TileBackend {
 extern const std::string_view summary_tiled;
 const std::string_view summary_tiled =
     "SIMD edge functions over tiles, tiles on threads, every pixel independent";
-std::unique_ptr<Backend> make_tiled(const Ablation& ablation) {
-  return std::make_unique<Tiled>(ablation);
+std::unique_ptr<Backend> make_tiled(const TileOptions& options) {
+  return std::make_unique<Tiled>(options);
 }
 std::unique_ptr<Backend> make_tiled() {
-  return make_tiled(Ablation{});
+  return make_tiled(TileOptions{});
 }
 
 }  // namespace edgewise

@@ -1,12 +1,10 @@
-"""Charts by scene: the speed-up by SIMD and by culling."""
+"""Chart of the speed-up by culling, scene by scene."""
 from bench_rows import gained, gained_interval, order
-from bench_tables import OURS
 from noise import median
-from plot_style import FAINT, INK, WIDTH_IN, Look, head_in, headline, plt, round_ticks, save
-from tables import VECTORS, about, kernels, spread
+from plot_style import FAINT, WIDTH_IN, Look, head_in, headline, plt, round_ticks, save
+from tables import about
 
 NORMAL_Z = "normal_z"  # the Outlaw Triad trainer's facing test
-INTERVALS = "Light bars: 95 % intervals."
 
 
 def speed_up_text(value, _):
@@ -78,55 +76,5 @@ def culling(bench, folder, caption):
     look.legend(figure, top - 0.02 / height)
     margin = 0.1 + 0.0085 * max(0, max(map(len, gains)) - 10)  # for the names of scenes
     figure.subplots_adjust(left=margin, right=0.86 if by_normal else 0.975, bottom=0.95 / height, top=top - 0.42 / height)
-    save(figure, folder, "culling", f"{INTERVALS}\n{caption}")
+    save(figure, folder, "culling", f"Light bars: 95 % intervals.\n{caption}")
     return "culling"
-
-
-def simd(bench, folder, caption):
-    """Small multiples: the speed-up over scalar code, target by target."""
-    look = Look(bench.backends)
-    rows = [row for row in bench.sweep("target") if row.threads == 1 and not row.frontend]
-    timed_targets = {row.keys["target"] for row in rows}
-    targets = [target for target in ("scalar", *VECTORS) if target in timed_targets]
-    by_key = {(row.scene, row.backend, row.keys["target"]): row for row in rows}
-    scenes = [scene for scene in dict.fromkeys(row.scene for row in rows)
-              if any((scene, backend, targets[0]) in by_key for backend in bench.backends)]
-    if not scenes or len(targets) < 2:
-        return None
-    figure, panels = plt.subplots(1, len(scenes), sharey=True, squeeze=False, figsize=(WIDTH_IN, 4.6))
-    ends, widest = [1.0], []
-    for axes, scene in zip(panels[0], scenes):
-        for backend in bench.backends:
-            first = by_key.get((scene, backend, targets[0]))
-            timed = [(place, row) for place, target in enumerate(targets) if (row := by_key.get((scene, backend, target)))]
-            if not first:
-                continue
-            colour = look.colour(backend)
-            for place, row in timed[1:]:
-                ends += gained_interval(first, row)
-                axes.plot([place, place], ends[-2:], color=colour, linewidth=5, alpha=0.25, solid_capstyle="butt")
-            axes.plot([place for place, _ in timed], [gained(first, row) for _, row in timed], color=colour,
-                      marker=look.marker(backend), markeredgecolor="white", markeredgewidth=0.6)
-            if backend == OURS:
-                widest.append(gained(first, timed[-1][1]))
-        axes.axhline(1, color=FAINT, linewidth=1.0, zorder=1)
-        axes.set_xticks(range(len(targets)), targets, fontsize=8)
-        axes.set_xlim(-0.15, len(targets) - 0.85)
-        axes.set_title(scene, color=INK)
-        axes.set_yscale("log")
-    low, high = min(ends) / 1.04, max(ends) * 1.04
-    panels[0][0].set_ylim(low, high)
-    round_ticks(panels[0][0].yaxis, low, high, speed_up_text, ratios=True)
-    height = figure.get_figheight()
-    title = (f"With {kernels(targets[-1])}, {OURS} is {spread(widest)} faster than with {kernels(targets[0])}" if widest else
-             f"Speed-up by {kernels(targets[-1])} over {kernels(targets[0])}")
-    top = headline(figure, title,
-                   f"Time with {kernels(targets[0])} over time with each target, backend alone, 1 thread; higher is better. "
-                   f"{INTERVALS}")
-    look.legend(figure, top - 0.02 / height)
-    figure.subplots_adjust(left=0.06, right=0.985, bottom=0.6 / height, top=top - 0.72 / height, wspace=0.12)
-    save(figure, folder, "simd", caption)
-    return "simd"
-
-
-CHARTS = (simd, culling)

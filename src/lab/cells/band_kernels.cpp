@@ -1,13 +1,12 @@
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "lab/cells/band_edges_kernel.cpp"
+#define HWY_TARGET_INCLUDE "lab/cells/band_kernels.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
 #include <algorithm>
 
 #include "core/kernel_table.h"
-#include "lab/cells/band_edges.h"
-#include "raster/box_test.h"
+#include "lab/cells/band_kernels.h"
 #include "raster/scanline/scanline_band-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -18,8 +17,27 @@ using namespace contract;
 
 #if HWY_TARGET == HWY_SCALAR
 
-inline void draw_edges(const BandTask& task, const ScreenTriangle& triangle, const PixelBox&) {
-  draw_by_box_test<true>(triangle, task.rows, task.frame);
+// Steps edges and depth along the rows of the box.
+inline void draw_edges(const BandTask& task, const ScreenTriangle& triangle, const PixelBox& box) {
+  const Oriented t = orient(triangle);
+  if (t.area == 0) return;
+  const Edge edge[3] = {make_edge(t, 0), make_edge(t, 1), make_edge(t, 2)};
+  const DepthPlane plane = make_depth(t);
+  const auto step = [&](int i) { return std::int64_t{edge[i].a} * kSub; };
+  for (int y = box.y0; y < box.y1; ++y) {
+    std::uint32_t* const depth = task.frame.depth + y * task.frame.stride;
+    std::uint32_t* const payload = task.frame.payload + y * task.frame.stride;
+    // Depth is re-based in each cell (rule 6).
+    for (int x = box.x0, end; x < box.x1; x = end) {
+      end = std::min(box.x1, (x / kDepthCell + 1) * kDepthCell);
+      std::int64_t e0 = edge[0].at(x, y), e1 = edge[1].at(x, y), e2 = edge[2].at(x, y);
+      std::uint32_t z = plane.at(x, y);
+      for (; x < end; ++x) {
+        if (e0 >= 0 && e1 >= 0 && e2 >= 0 && z < depth[x]) depth[x] = z, payload[x] = triangle.payload;
+        e0 += step(0), e1 += step(1), e2 += step(2), z += plane.zx;
+      }
+    }
+  }
 }
 
 #else
@@ -63,6 +81,12 @@ inline void draw_edges(const BandTask& task, const ScreenTriangle& triangle, con
 
 #endif
 
+void draw_band_in_spans(const BandTask& task) {
+  draw_band_by<false>(
+      task, [&](const ScreenTriangle& triangle, const PixelBox& box) { draw_spans(task, triangle, box); });
+  clear_upper_halves();
+}
+
 void draw_band_in_edges(const BandTask& task) {
   draw_band_by<true>(
       task, [&](const ScreenTriangle& triangle, const PixelBox& box) { draw_edges(task, triangle, box); });
@@ -76,6 +100,9 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace edgewise {
 
+BandKernel lab::band_spans_kernel(SimdTarget target) {
+  return EDGEWISE_KERNEL(draw_band_in_spans, target);
+}
 BandKernel lab::band_edges_kernel(SimdTarget target) {
   return EDGEWISE_KERNEL(draw_band_in_edges, target);
 }

@@ -1,0 +1,31 @@
+// What the backend `tiled` can leave out or choose, for measurements and tests. No option changes a bit of
+// the picture. Internal: not installed.
+#pragma once
+
+#include <compare>
+#include <memory>
+
+#include "edgewise/backend.h"
+
+namespace edgewise {
+
+// How finished tiles are copied to the frame. Streaming (non-temporal) stores save reading the frame's old
+// content and leave the caches to the triangles; a frame that stays in the last-level cache is written faster
+// by cached stores.
+enum class TileStore {
+  cached,
+  streaming,
+  automatic  // tile_store_for() in raster/tiles.h
+};
+
+struct TileOptions {
+  bool coverage_masks = true;      // binning resolves small triangles to masks
+  bool hierarchical_depth = true;  // triangles behind all that a block or tile shows are rejected
+  TileStore tile_store = TileStore::automatic;
+
+  auto operator<=>(const TileOptions&) const = default;
+};
+
+std::unique_ptr<Backend> make_tiled(const TileOptions& options);
+
+}  // namespace edgewise
