@@ -1,6 +1,6 @@
 """README's first table: the answers to its questions, each with its condition."""
 from factors import cells, gains, most_threads, said
-from frontier import EXACT, INSIDE_TESTS, PRICED, measured_in, simd_outcome
+from frontier import EXACT, INSIDE_TESTS, PRICED, simd_outcome
 from bench_tables import OURS, THREADS, compared_targets, timed_peers
 from tables import by_order, kernels, number, outcome
 
@@ -45,7 +45,7 @@ def gap_rows(accuracy):
     scene = next((s for s in accuracy.of("coverage") if s.name == CENTRED_SCENE), None)
     ours = [m.rate for m in scene.measured if m.method.ours] if scene else []
     if ours:
-        tests = [f"`{name}` {number(m.rate)}" for name in INSIDE_TESTS if (m := measured_in(scene, name))]
+        tests = [f"`{name}` {number(m.rate)}" for name in INSIDE_TESTS if (m := scene.of(name))]
         yield ["Where edges meet pixel centres?", f"{', '.join([*tests, f'ours {number(max(ours))}'])} wrong pixels per 10⁶ edge crossings",
                f"`{CENTRED_SCENE}`, whose vertices lie on the 1/256 px grid"]
 

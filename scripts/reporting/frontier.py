@@ -34,8 +34,8 @@ class SpeedUp(NamedTuple):
 
 def cracks_of(accuracy, method):
     """None if no scene shows it."""
-    measured = [(m.cracks, scene) for scene in accuracy.of("coverage") for m in (*scene.measured, *scene.apart)
-                if m.method == method and m.cracks and scene.in_range_of(method)]
+    measured = [(m.cracks, scene) for scene in accuracy.of("coverage")
+                if scene.in_range_of(method) and (m := scene.of(method.name)) and m.cracks]
     found = [(cracks.at_shared_edges, scene) for cracks, scene in measured if scene.shared_crossings >= LEAST_CROSSINGS]
     if not found:
         return None
@@ -59,14 +59,10 @@ def reference(accuracy):
     return min(products, key=products.get) if products else None
 
 
-def measured_in(scene, name):
-    return next((m for m in (*scene.measured, *scene.apart) if m.method.name == name), None)
-
-
 def simd_outcome(accuracy, name, other):
     """Of one method against another, both with SIMD on one thread: by_order() of the scenes; None if a scene lacks one of them, or
     none is timed."""
-    compared = [[m and m.simd for m in (measured_in(scene, name), measured_in(scene, other))] for scene in timed_scenes(accuracy)]
+    compared = [[m and m.simd for m in map(scene.of, (name, other))] for scene in timed_scenes(accuracy)]
     return by_order((a.row, b.row) for a, b in compared) if compared and all(map(all, compared)) else None
 
 
@@ -77,7 +73,7 @@ def speed_ups(accuracy):
         return {}, None, 0
     groups = {}
     for scene in scenes:
-        base_row = measured_in(scene, base.name).scalar.row
+        base_row = scene.of(base.name).scalar.row
         for m in (*scene.measured, *scene.apart):
             # A peer has one form, with vectors of its own.
             peer = (("scalar" if m.method.source.endswith("scalar") else "simd", m.scalar),)
@@ -98,18 +94,11 @@ def frontier_figures(accuracy):
     among them: its times are not those of one thread."""
     ups, base, scenes = speed_ups(accuracy)
     return ({method: (forms, cracks) for method, forms in ups.items()
-             if forms and method.name != GPU and (cracks := cracks_of(accuracy, method)) and wrong_of(accuracy, method)}, base, scenes)
+             if forms and method.name != GPU and (cracks := cracks_of(accuracy, method)) and accuracy.rate("coverage", method)}, base, scenes)
 
 
 def said(up):
     return f"{up.middle:.2g}× ({up.low:.2g} to {up.high:.2g})"
-
-
-def wrong_of(accuracy, method):
-    """Pooled pixels per 10⁶ edge crossings that differ from the exact picture of the caller's positions; None if not counted."""
-    found = [(m.rate * scene.trials, scene.trials, scene.name) for scene in accuracy.pooled("coverage")
-             for m in (*scene.measured, *scene.apart) if m.method == method and scene.in_range_of(method)]
-    return pooled(found) if found else None
 
 
 def frontier_table(accuracy):
@@ -126,7 +115,7 @@ def frontier_table(accuracy):
 
     header = ["method", "cracks per 10⁶ crossings", "at T-junctions", "folds", "wrong pixels per 10⁶", f"scalar, `{base.name}` = 1×", "SIMD"]
     lines = [[title(method), pooled_text(cracks.pooled) if cracks.rate else "**0**", f"{cracks.t_junctions:,}", f"{cracks.folds:,}",
-              pooled_text(wrong_of(accuracy, method)), form(forms, "scalar", "–"), form(forms, "simd", "–" if method.peer else method.simd_note or "–")]
+              pooled_text(accuracy.rate("coverage", method)), form(forms, "scalar", "–"), form(forms, "simd", "–" if method.peer else method.simd_note or "–")]
              for method, (forms, cracks) in sorted(found.items(), key=lambda item: (item[1][1].rate > 0, -best(item[1][0]).middle))]
     return header, lines
 
@@ -146,10 +135,10 @@ def price_table(accuracy):
     for name in PRICED:
         method, cracks = named[name]
         outcome = simd_outcome(accuracy, name, EXACT) if name != EXACT else None
-        gained_by, *interval = mean_gained([(measured_in(scene, EXACT).simd.row, measured_in(scene, name).simd.row)
+        gained_by, *interval = mean_gained([(scene.of(EXACT).simd.row, scene.of(name).simd.row)
                                             for scene in timed_scenes(accuracy)])
         speed = (f"{speed_up(gained_by)} ({' to '.join(map(speed_up, interval))}); settled in {len(outcome[-1]) + len(outcome[1])} of "
                  f"{sum(map(len, outcome.values()))} scenes" if outcome else "1×")
         lines.append([f"`{name}`", speed, pooled_text(cracks.pooled) if cracks.rate else f"0 (<{number(3e6 / cracks.crossings, 2)})",
-                      pooled_text(wrong_of(accuracy, method)), method.promise])
+                      pooled_text(accuracy.rate("coverage", method)), method.promise])
     return ["edges", "speed", "cracks", "wrong pixels", "guarantee"], lines

@@ -1,6 +1,6 @@
 """The main chart: wrong pixels against speed of each coverage method, in scalar code and with SIMD."""
 from accuracy_rows import FAMILIES
-from frontier import LEAST_CROSSINGS, PRICED, frontier_figures, timed_scenes, wrong_of
+from frontier import LEAST_CROSSINGS, PRICED, frontier_figures, timed_scenes
 from plot_labels import Label, label_points
 from plot_style import FAINT, INK, WHISKER, WIDTH_IN, Kinds, ZeroAxis, foot_in, head_in, headline, plt, round_ticks, save
 from tables import about, kernels, number, short
@@ -16,7 +16,7 @@ FRONT = {"color": INK, "linewidth": 1.2, "linestyle": (0, (4, 2)), "zorder": 1.5
 
 def points_of(found, accuracy, form):
     """{method: (wrong pixels per 10⁶ crossings, SpeedUp, whether no crack was seen)}"""
-    return {method: (wrong_of(accuracy, method).rate, forms[form], cracks.rate == 0) for method, (forms, cracks) in found.items() if form in forms}
+    return {method: (accuracy.rate("coverage", method).rate, forms[form], cracks.rate == 0) for method, (forms, cracks) in found.items() if form in forms}
 
 
 def best_of(points):
@@ -76,7 +76,7 @@ def without_dominant(found, accuracy):
     """For each scene that has over half of the wrong pixels of labelled methods, a sentence with their rates without it."""
     scenes = {}
     for method in found:
-        wrong = wrong_of(accuracy, method)
+        wrong = accuracy.rate("coverage", method)
         if wrong.mostly_on and method.name in LABELLED:
             scenes.setdefault(wrong.mostly_on, []).append(f"{method.name} {number(wrong.without, 2)}")
     return " ".join(f"Over half on {scene}; without it: {', '.join(rates)}." for scene, rates in scenes.items())
