@@ -22,15 +22,11 @@ unknown() {
 step_number=0
 step_name=
 step() {
-  local seconds name last=
+  local last=
   end_step
   step_number=$((step_number + 1))
   step_name="$(basename "$0"): $1" step_start=$SECONDS step_file=$build/step-seconds
-  if [[ -f $step_file ]]; then
-    while read -r seconds name; do
-      if [[ $name == "$step_name" ]]; then last=$seconds; fi
-    done <"$step_file"
-  fi
+  if [[ -f $step_file ]]; then last=$(awk -F'\t' -v name="$step_name" '$2 == name { print $1 }' "$step_file"); fi
   if [[ -n $last ]]; then
     last=" (took $(duration "$last") last time)"
   elif [[ -n ${2:-} ]]; then
@@ -41,15 +37,11 @@ step() {
 
 # Notes how long the step took. Call it before a subshell that has steps of its own, and after the last step.
 end_step() {
-  local seconds name
   if [[ -n $step_name && -d ${step_file%/*} ]]; then
+    touch "$step_file"
     {
-      if [[ -f $step_file ]]; then
-        while read -r seconds name; do
-          if [[ $name != "$step_name" ]]; then echo "$seconds $name"; fi
-        done <"$step_file"
-      fi
-      echo "$((SECONDS - step_start)) $step_name"
+      awk -F'\t' -v name="$step_name" '$2 != name' "$step_file"
+      printf '%d\t%s\n' "$((SECONDS - step_start))" "$step_name"
     } >"$step_file.part"
     mv "$step_file.part" "$step_file"
   fi

@@ -180,6 +180,10 @@ class Scene:
         """Beyond its range a method's integers overflow, which is another fault than the one that is counted."""
         return method.limit_px is None or self.largest_side_px <= method.limit_px
 
+    def of(self, method):
+        """The measurement of the method with this name, or None."""
+        return next((m for m in (*self.measured, *self.apart) if m.method.name == method), None)
+
     @property
     def single(self):
         """The measurements on one thread."""
@@ -202,15 +206,11 @@ class Accuracy:
         scenes = self.of(family)
         return [scene for scene in scenes if scene.trials >= LEAST_SHARE * max(s.trials for s in scenes)]
 
-    def rates(self, family):
-        """{method's name: Pooled errors per 10⁶}, the pooled scenes within its range together."""
-        rates = {}
-        for method in self.methods.get(family, ()):
-            found = [(m.rate * scene.trials, scene.trials, scene.name) for scene in self.pooled(family)
-                     for m in scene.measured if m.method == method and scene.in_range_of(method)]
-            if any(trials for _, trials, _ in found):
-                rates[method.name] = pooled(found)
-        return rates
+    def rate(self, family, method):
+        """Pooled errors per 10⁶, of the pooled scenes within the method's range; None if it was not measured there."""
+        found = [(m.rate * scene.trials, scene.trials, scene.name) for scene in self.pooled(family)
+                 if scene.in_range_of(method) and (m := scene.of(method.name))]
+        return pooled(found) if any(trials for _, trials, _ in found) else None
 
     def scenes_with_errors(self, family):
         """{method's name: the number of scenes in which it errs}"""

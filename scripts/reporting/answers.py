@@ -1,6 +1,6 @@
 """README's first table: the answers to its questions, each with its condition."""
 from factors import cells, chosen, gains, most_threads
-from frontier import EXACT, INSIDE_TESTS, PRICED, measured_in, simd_gain
+from frontier import EXACT, INSIDE_TESTS, PRICED, simd_gain
 from bench_tables import OURS, THREADS, compared_targets, timed_peers
 from tables import about, by_order, kernels, number, outcome
 
@@ -57,7 +57,7 @@ def gap_rows(accuracy):
     scene = next((s for s in accuracy.of("coverage") if s.name == CENTRED_SCENE), None)
     ours = [m.seen[0] for m in scene.measured if m.method.ours and m.seen] if scene else []
     if ours:
-        tests = [f"`{name}` {m.seen[0]:,}" for name in INSIDE_TESTS if (m := measured_in(scene, name)) and m.seen]
+        tests = [f"`{name}` {m.seen[0]:,}" for name in INSIDE_TESTS if (m := scene.of(name)) and m.seen]
         yield ["Where edges meet pixel centres?", f"{', '.join([*tests, f'ours {max(ours):,}'])} wrong pixels",
                f"`{CENTRED_SCENE}`, whose vertices lie on the 1/256 px grid; {number(scene.trials)} crossings of edges with rows or columns of centres"]
 

@@ -175,62 +175,57 @@ def timed(side, i, pattern):
     return read_bench(out)
 
 
-FASTER, SLOWER, SAME, FEW = "faster", "slower", "no significant difference", "too few repetitions"
+VERDICTS = SLOWER, FASTER, FEW, SAME = "slower", "faster", "too few repetitions", "no significant difference"
 
 
 @dataclass
 class Row:
-    """One row of both sides, with the times of its repetitions, round by round. The last round's rows hold the counters."""
-    before: object
-    after: object
-    before_times: list
-    after_times: list
+    sides: list  # the rows before and after, with their counters; of rounds the last
+    times: tuple  # of each side, the times of its repetitions, round by round
     rounds: bool = True  # else the two were timed at different times, with one repetition a round
     least: float = 0.0  # smaller changes don't count
     verdict: str = SAME
 
     @property
     def error(self):
-        return self.before.error or self.after.error
+        return self.sides[0].error or self.sides[1].error
 
     @property
-    def before_ms(self):
-        return [noise.median(times) for times in self.before_times]
-
-    @property
-    def after_ms(self):
-        return [noise.median(times) for times in self.after_times]
+    def ms(self):
+        """Of each side, the medians of the rounds."""
+        return [[noise.median(times) for times in side] for side in self.times]
 
     @property
     def ratio(self):
-        return noise.median_ratio(self.before_ms, self.after_ms, self.rounds)
+        return noise.median_ratio(*self.ms, self.rounds)
 
     @property
     def interval(self):
-        return noise.ratio_interval(self.before_ms, self.after_ms, self.rounds)
+        return noise.ratio_interval(*self.ms, self.rounds)
 
     @property
     def p95(self):
         """Of the repetitions: milliseconds before, after."""
-        return [noise.p95(sum(times, [])) for times in (self.before_times, self.after_times)]
+        return [noise.p95(sum(side, [])) for side in self.times]
 
     def claim(self, factor=1.0):
         """noise.claim() that the times after, multiplied by `factor`, differ."""
-        after_ms = [factor * ms for ms in self.after_ms]
-        return noise.paired_claim(self.before_ms, after_ms) if self.rounds else noise.claim(after_ms, self.before_ms)
+        before_ms, after_ms = self.ms
+        after_ms = [factor * ms for ms in after_ms]
+        return noise.paired_claim(before_ms, after_ms) if self.rounds else noise.claim(after_ms, before_ms)
 
     def told(self, order):
         if abs(self.ratio - 1) < self.least:
             return SAME
-        few = not self.rounds and not noise.enough(len(self.before_ms), len(self.after_ms))
+        few = not self.rounds and not noise.enough(*map(len, self.times))
         return {-1: FASTER, 0: FEW if few else SAME, 1: SLOWER}[order]
 
 
 def judge(rows):
     """Sets the verdicts. Rows of rounds are judged as a family. Two results have too many rows with too few repetitions for that."""
     claims = [row.claim() for row in rows]
-    together = all(row.rounds for row in rows)
-    for row, order in zip(rows, noise.family(claims) if together else [noise.settled(*claim) for claim in claims]):
+    judge_all = noise.family if all(row.rounds for row in rows) else noise.alone
+    for row, order in zip(rows, judge_all(claims)):
         row.verdict = row.told(order)
 
 
@@ -259,12 +254,11 @@ def time_rounds(sides, pattern, fewest, rounds, limit_s):
             results = [None, None]
             for side in (0, 1) if done % 2 == 0 else (1, 0):
                 results[side] = timed(sides[side], done % programs, pattern)
-            found = [result.rows for result in results]
-            for name in (name for name in found[0] if name in found[1]):
-                row = rows.setdefault(name, Row(None, None, [], []))
-                row.before, row.after = (of[name] for of in found)
+            for name in (name for name in results[0].rows if name in results[1].rows):
+                row = rows.setdefault(name, Row([], ([], [])))
+                row.sides = [result.rows[name] for result in results]
                 if not row.error:
-                    for times, new in ((row.before_times, row.before), (row.after_times, row.after)):
+                    for times, new in zip(row.times, row.sides):
                         if done < programs:
                             times.append([])
                         times[done % programs] += new.times_ms
@@ -274,8 +268,9 @@ def time_rounds(sides, pattern, fewest, rounds, limit_s):
 
 def line(name, row, width):
     low, high = row.interval
+    before_ms, after_ms = map(noise.median, row.ms)
     before, after = row.p95
-    return (f"  {name:<{width}} {noise.median(row.before_ms):>8.3f} → {noise.median(row.after_ms):>8.3f} ms "
+    return (f"  {name:<{width}} {before_ms:>8.3f} → {after_ms:>8.3f} ms "
             f"{row.ratio:>6.3f}  ({low:.3f} to {high:.3f})  {after / before:>5.2f}")
 
 
@@ -284,8 +279,8 @@ def print_names(title, found):
         print(f"\n{title}", *(f"  {name}" for name in found), sep="\n")
 
 
-def print_rows(rows, medians_of, verdicts=(SLOWER, FASTER, FEW, SAME)):
-    groups = {verdict: {name: row for name, row in rows.items() if row.verdict == verdict} for verdict in (SLOWER, FASTER, FEW, SAME)}
+def print_rows(rows, medians_of, verdicts):
+    groups = {verdict: {name: row for name, row in rows.items() if row.verdict == verdict} for verdict in VERDICTS}
     print(f"{len(rows)} rows: " + ", ".join(f"{len(group)} {verdict}" for verdict, group in groups.items() if group or verdict != FEW))
     print(f"Columns: medians of the {medians_of}, ratio (after / before), its {noise.CONFIDENCE:.0%} interval, ratio of the p95")
     width = max(map(len, rows), default=0)
@@ -297,9 +292,9 @@ def print_rows(rows, medians_of, verdicts=(SLOWER, FASTER, FEW, SAME)):
 
 def record(before, after, pattern, rounds, rows):
     def one(name, row):
-        low, high = row.interval
+        (low, high), (before_ms, after_ms) = row.interval, row.ms
         return {"name": name, "verdict": row.verdict, "ratio": row.ratio, "low": low, "high": high,
-                "before_ms": row.before_ms, "after_ms": row.after_ms, "p95_ms": row.p95}
+                "before_ms": before_ms, "after_ms": after_ms, "p95_ms": row.p95}
 
     return {"before": before.title, "after": after.title, "filter": pattern, "rounds": rounds, "layouts": True, "level": noise.LEVEL,
             "confidence": noise.CONFIDENCE, "rows": [one(*item) for item in rows.items()]}
@@ -329,14 +324,14 @@ def compare_revisions(before, after, pattern, rounds, minutes, out):
     return 0
 
 
-def print_compared(rows, listed, verdicts=(SLOWER, FASTER, FEW, SAME)):
+def print_compared(rows, listed, verdicts=VERDICTS):
     """Prints rows and `listed` names of both sides. Returns the number of rounds and the judged rows."""
     failed = [f"{name}: {row.error}" for name, row in rows.items() if row.error]
-    different = [name for name, row in rows.items() if not row.error and other_work(row.before, row.after)]
+    different = [name for name, row in rows.items() if not row.error and other_work(*row.sides)]
     judged = {name: row for name, row in rows.items() if not row.error and name not in different}
     judge(judged.values())
-    done = max((len(row.before_times) for row in rows.values() if row.rounds), default=0)
-    repetitions = [sum(map(len, row.before_times)) for row in judged.values() if row.rounds]
+    done = max((len(row.times[0]) for row in rows.values() if row.rounds), default=0)
+    repetitions = [sum(map(len, row.times[0])) for row in judged.values() if row.rounds]
     if len(set(repetitions)) > 1:
         raise BadInput("some rounds failed, others did not: the programs draw different pixels from time to time")
     print(f"\n{done} rounds, before and after by turns; " if done else "", end="")
@@ -355,10 +350,7 @@ def print_compared(rows, listed, verdicts=(SLOWER, FASTER, FEW, SAME)):
 
 def interruptible(compare):
     """Runs compare(); Ctrl-C and SIGTERM end it without a result."""
-    def end(*_):
-        raise KeyboardInterrupt
-
-    signal.signal(signal.SIGTERM, end)
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         return compare()
     except KeyboardInterrupt:
@@ -378,10 +370,6 @@ def differing(pairs, judge_all):
     """"1 of 60": pairs that differ."""
     orders = judge_all([noise.paired_claim(*pair) for pair in pairs])
     return f"{sum(map(abs, orders))} of {len(pairs)}"
-
-
-def alone(claims):
-    return [noise.settled(*claim) for claim in claims]
 
 
 def parse_same(data):
@@ -406,7 +394,7 @@ def noise_table(folder):
     for path in records(folder, "same*"):
         pairs, rounds, layouts = parsed(path, parse_same, "scripts/compare --json")
         slower = [(before, [PLANTED / noise.median_ratio(before, after, True) * ms for ms in after]) for before, after in pairs]
-        lines.append([f"`{path.parent.name}`", "yes" if layouts else "no", str(rounds), differing(pairs, alone), differing(pairs, noise.family),
+        lines.append([f"`{path.parent.name}`", "yes" if layouts else "no", str(rounds), differing(pairs, noise.alone), differing(pairs, noise.family),
                       differing(slower, noise.family)])
     if lines and not list(folder.glob("same*.json")):
         lines.insert(0, [f"`{folder.name}`", *["–"] * 5])

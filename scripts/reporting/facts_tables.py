@@ -30,16 +30,16 @@ def method_table(accuracy, family):
     scene = accuracy.main_scene(family)
     header = ["method", "as in", "promise", f"on {scene.name}" if scene else "–", "pooled",
               "scenes with errors"]
-    at_main = {m.method.name: m for m in scene.measured} if scene else {}
-    together, erring, scenes = accuracy.rates(family), accuracy.scenes_with_errors(family), len(accuracy.of(family))
+    erring, scenes = accuracy.scenes_with_errors(family), len(accuracy.of(family))
     throughput = family == "coverage"  # the scenes of other families do not measure it
     if throughput:
         header.insert(4, "10⁶ triangles/s")
-    lines = [[bold(method), method.source, method.promise,
-              rate_text(at_main[method.name]) if method.name in at_main else "–",
-              *([mtri_text(at_main.get(method.name))] if throughput else []),
-              pooled_text(together[method.name]) if method.name in together else "–", f"{erring[method.name]} of {scenes}"]
-             for method in accuracy.methods[family]]
+    lines = []
+    for method in accuracy.methods[family]:
+        measured, rate = scene and scene.of(method.name), accuracy.rate(family, method)
+        lines.append([bold(method), method.source, method.promise, rate_text(measured) if measured else "–",
+                      *([mtri_text(measured)] if throughput else []), pooled_text(rate) if rate else "–",
+                      f"{erring[method.name]} of {scenes}"])
     return markdown(header, lines, "|---|---|---|--:" + "|--:" * (len(header) - 4) + "|")
 
 

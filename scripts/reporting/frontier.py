@@ -34,8 +34,8 @@ class SpeedUp(NamedTuple):
 
 def cracks_of(accuracy, method):
     """None if no scene shows it."""
-    measured = [(m.cracks, scene) for scene in accuracy.of("coverage") for m in (*scene.measured, *scene.apart)
-                if m.method == method and m.cracks and scene.in_range_of(method)]
+    measured = [(m.cracks, scene) for scene in accuracy.of("coverage")
+                if scene.in_range_of(method) and (m := scene.of(method.name)) and m.cracks]
     found = [(cracks.at_shared_edges, scene) for cracks, scene in measured if scene.shared_crossings >= LEAST_CROSSINGS]
     if not found:
         return None
@@ -59,14 +59,10 @@ def reference(accuracy):
     return min(products, key=products.get) if products else None
 
 
-def measured_in(scene, name):
-    return next((m for m in (*scene.measured, *scene.apart) if m.method.name == name), None)
-
-
 def simd_gain(accuracy, name, other):
     """Of one method over another, both with SIMD on one thread: "1.2× (0.9× in a to 1.5× in b)", the geometric mean of the timed scenes
     and the range; None if a scene lacks one of them, or none is timed."""
-    found = {scene.name: [m and m.simd for m in (measured_in(scene, other), measured_in(scene, name))] for scene in timed_scenes(accuracy)}
+    found = {scene.name: [m and m.simd for m in map(scene.of, (other, name))] for scene in timed_scenes(accuracy)}
     if not found or not all(map(all, found.values())):
         return None
     rows = {scene: (slower.row, faster.row) for scene, (slower, faster) in found.items()}
@@ -82,7 +78,7 @@ def speed_ups(accuracy):
         return {}, None, 0
     groups = {}
     for scene in scenes:
-        base_row = measured_in(scene, base.name).scalar.row
+        base_row = scene.of(base.name).scalar.row
         for m in (*scene.measured, *scene.apart):
             # A peer has one form, with vectors of its own.
             peer = (("scalar" if m.method.source.endswith("scalar") else "simd", m.scalar),)
@@ -103,7 +99,7 @@ def frontier_figures(accuracy):
     among them: its times are not those of one thread."""
     ups, base, scenes = speed_ups(accuracy)
     return ({method: (forms, cracks) for method, forms in ups.items()
-             if forms and method.name != GPU and (cracks := cracks_of(accuracy, method)) and wrong_of(accuracy, method)}, base, scenes)
+             if forms and method.name != GPU and (cracks := cracks_of(accuracy, method)) and accuracy.rate("coverage", method)}, base, scenes)
 
 
 def said(up):

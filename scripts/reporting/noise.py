@@ -85,6 +85,11 @@ def settled(sign, p):
     return sign if p <= LEVEL else 0
 
 
+def alone(claims):
+    """The orders of claims, each for itself."""
+    return [settled(*claim) for claim in claims]
+
+
 def ratios(before, after):
     """Of each round: the time after over the time before."""
     return [b / a for a, b in zip(before, after, strict=True)]

@@ -71,7 +71,7 @@ def without_dominant(found, accuracy):
     """For each scene that has over half of the wrong pixels of labelled methods, a sentence with their rates without it."""
     scenes = {}
     for method in found:
-        wrong = wrong_of(accuracy, method)
+        wrong = accuracy.rate("coverage", method)
         if wrong.mostly_on and method.name in LABELLED:
             scenes.setdefault(wrong.mostly_on, []).append(f"{method.name} {number(wrong.without, 2)}")
     return " ".join(f"Over half on {scene}; without it: {', '.join(rates)}." for scene, rates in scenes.items())

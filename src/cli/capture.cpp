@@ -57,16 +57,13 @@ in the lowest byte.)";
 
 }  // namespace
 
-void add_capture(CLI::App& program, Action& action) {
-  CLI::App& command = *program.add_subcommand("capture", "Write a scene's screen triangles as a .tri stream");
+Action add_capture(CLI::App& command) {
   const auto o = std::make_shared<CaptureOptions>();
   command.add_option("SCENE", o->scene, "A scene of `edgewise list`, or an .obj or .tri file")->required();
-  command.add_option("-o,--output", o->output, "Stream file, .tri; - for stdout")
-      ->required()
-      ->type_name("FILE");
+  add_text(command, "-o,--output", "FILE", o->output, "Stream file, .tri; - for stdout")->required();
   o->options.add_to(command);
   command.footer(kCaptureFooter);
-  command.callback([o, &action] { action = [o] { return capture(*o); }; });
+  return [o] { return capture(*o); };
 }
 
 }  // namespace edgewise::tools

@@ -1,5 +1,4 @@
-// The subcommands. Each function declares a subcommand's options. When the command line names
-// the subcommand, parsing sets `action`.
+// The subcommands. Each function adds a subcommand's options, and returns what to do once they are parsed.
 #pragma once
 
 #include <functional>
@@ -16,17 +15,17 @@ inline constexpr int kDone = 0, kDiffers = 1, kFailed = 2;  // exit statuses
 
 using Action = std::function<int()>;  // returns the exit status
 
-void add_list(CLI::App& program, Action& action);
-void add_render(CLI::App& program, Action& action);
-void add_verify(CLI::App& program, Action& action);
-void add_accuracy(CLI::App& program, Action& action);
-void add_stability(CLI::App& program, Action& action);
-void add_diff(CLI::App& program, Action& action);
-void add_needs(CLI::App& program, Action& action);
-void add_portable(CLI::App& program, Action& action);
-void add_capture(CLI::App& program, Action& action);
-void add_view(CLI::App& program, Action& action, viewer::ShowWindow show_window);
-void add_demo(CLI::App& program, Action& action, viewer::ShowWindow show_window);
-void add_machine(CLI::App& program, Action& action);
+Action add_list(CLI::App& command);
+Action add_render(CLI::App& command);
+Action add_verify(CLI::App& command);
+Action add_accuracy(CLI::App& command);
+Action add_stability(CLI::App& command);
+Action add_diff(CLI::App& command);
+Action add_needs(CLI::App& command);
+Action add_portable(CLI::App& command);
+Action add_capture(CLI::App& command);
+Action add_view(CLI::App& command, viewer::ShowWindow show_window);
+Action add_demo(CLI::App& command, viewer::ShowWindow show_window);
+Action add_machine(CLI::App& command);
 
 }  // namespace edgewise::tools

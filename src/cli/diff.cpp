@@ -139,19 +139,16 @@ Exit status: 0 equal, 1 different, 2 cannot be compared.)";
 
 }  // namespace
 
-void add_diff(CLI::App& program, Action& action) {
-  CLI::App& command = *program.add_subcommand("diff", "Compare two pictures, or two depth files");
+Action add_diff(CLI::App& command) {
   const auto o = std::make_shared<DiffOptions>();
   command.add_option("A", o->a, "Picture (.png, .ppm) or depth file (.pfm)")->required();
   command.add_option("B", o->b, "Another file of the same kind and size")->required();
-  command.add_option("-o,--output", o->output, "Picture of the difference (.png, .ppm; - for stdout)")
-      ->type_name("FILE");
-  command.add_option("--mask", o->mask, "Picture that is not black where A and B may differ")
-      ->type_name("FILE");
+  add_text(command, "-o,--output", "FILE", o->output, "Picture of the difference (.png, .ppm; - for stdout)");
+  add_text(command, "--mask", "FILE", o->mask, "Picture that is not black where A and B may differ");
   add_format(command, o->format, {Format::png, Format::ppm});
   command.add_flag("--json", o->json, "Print JSON");
   command.footer(kDiffFooter);
-  command.callback([o, &action] { action = [o] { return diff(*o); }; });
+  return [o] { return diff(*o); };
 }
 
 }  // namespace edgewise::tools

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <array>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -21,7 +20,7 @@ namespace edgewise::tools {
 namespace {
 
 std::string_view summary_of(Cull cull) {
-  constexpr std::array<std::string_view, 4> kSummaries{
+  constexpr std::string_view kSummaries[] = {
       "draws all faces", "culls back faces (counter-clockwise on the screen)",
       "culls front faces (clockwise on the screen)", "culls all faces"};
   return kSummaries[static_cast<std::size_t>(cull)];
@@ -44,12 +43,12 @@ std::string as_text() {
   const auto line = [](std::string_view name, std::string_view summary) {
     return summary.empty() ? fmt::format("  {}\n", name) : fmt::format("  {:<12} {}\n", name, summary);
   };
-  std::string text = "Scenes:\n";
-  for (const SceneInfo& scene : builtin_scenes())
-    if (!scene.stream) text += line(scene.name, scene.summary);
-  text += "Scenes that are streams of screen triangles:\n";
-  for (const SceneInfo& scene : builtin_scenes())
-    if (scene.stream) text += line(scene.name, scene.summary);
+  std::string text;
+  for (const bool streams : {false, true}) {
+    text += streams ? "Scenes that are streams of screen triangles:\n" : "Scenes:\n";
+    for (const SceneInfo& scene : builtin_scenes())
+      if (scene.stream == streams) text += line(scene.name, scene.summary);
+  }
   text += "Files that can replace a scene name:\n" + line("*.obj", "Wavefront meshes");
   text += line("*.tri", "triangle streams, written by edgewise capture");
   text += line("-", "standard input, with either of them");
@@ -65,30 +64,22 @@ std::string as_text() {
 
 }  // namespace
 
-void add_list(CLI::App& program, Action& action) {
-  CLI::App& command =
-      *program.add_subcommand("list", "List all scenes, backends, SIMD targets and culling modes");
+Action add_list(CLI::App& command) {
   const auto in_json = std::make_shared<bool>(false);
   command.add_flag("--json", *in_json, "Print JSON");
-  command.callback([in_json, &action] {
-    action = [in_json] {
-      print(*in_json ? json_text(as_json(), 2) + "\n" : as_text());
-      return kDone;
-    };
-  });
+  return [in_json] {
+    print(*in_json ? json_text(as_json(), 2) + "\n" : as_text());
+    return kDone;
+  };
 }
 
-void add_machine(CLI::App& program, Action& action) {
-  CLI::App& command =
-      *program.add_subcommand("machine", "Describe this machine and build as JSON, as result files do");
+Action add_machine(CLI::App& command) {
   const auto name_only = std::make_shared<bool>(false);
   command.add_flag("--name", *name_only, "Print only the name of this machine's folder below results/");
-  command.callback([name_only, &action] {
-    action = [name_only] {
-      print((*name_only ? machine_name() : json_text(machine_description(), 2)) + "\n");
-      return kDone;
-    };
-  });
+  return [name_only] {
+    print((*name_only ? machine_name() : json_text(machine_description(), 2)) + "\n");
+    return kDone;
+  };
 }
 
 }  // namespace edgewise::tools

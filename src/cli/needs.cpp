@@ -381,9 +381,7 @@ Exit status: 0 done, 2 bad input.)";
 
 }  // namespace
 
-void add_needs(CLI::App& program, Action& action) {
-  CLI::App& command =
-      *program.add_subcommand("needs", "Find the least precise pipeline that draws a scene right");
+Action add_needs(CLI::App& command) {
   const auto o = std::make_shared<NeedsCommandOptions>();
   command.add_option("SCENE", o->scenes, "Scenes of `edgewise list`, or .obj or .tri files")->required();
   add_integer(command, "--frames", o->frames, 1, kMostStudiedFrames,
@@ -399,12 +397,10 @@ void add_needs(CLI::App& program, Action& action) {
   command.add_flag("--ranges", o->ranges, "Print only what vertex ranges prove, without drawing");
   command.add_flag("--json", o->json, "Print one JSON object per scene, one per line");
   command.footer(kNeedsFooter);
-  command.callback([o, &action] {
-    action = [o] {
-      NeedsCommand(*o).run();
-      return kDone;
-    };
-  });
+  return [o] {
+    NeedsCommand(*o).run();
+    return kDone;
+  };
 }
 
 }  // namespace edgewise::tools

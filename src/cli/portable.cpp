@@ -173,15 +173,12 @@ Exit status: 0 done, 2 bad input.)";
 
 }  // namespace
 
-void add_portable(CLI::App& program, Action& action) {
-  CLI::App& command =
-      *program.add_subcommand("portable", "Find the pixels that conformant rasterizers may draw differently");
+Action add_portable(CLI::App& command) {
   const auto o = std::make_shared<PortableOptions>();
   command.add_option("SCENE", o->scenes, "Scenes of `edgewise list`, or .obj or .tri files")->required();
-  command
-      .add_option("-o,--output", o->mask, "Mask (.png, .ppm), folder (may be new), name with {scene}, or -")
-      ->type_name("FILE");
-  command.add_option("--picture", o->picture, "Reference picture, named like the mask")->type_name("FILE");
+  add_text(command, "-o,--output", "FILE", o->mask,
+           "Mask (.png, .ppm), folder (may be new), name with {scene}, or -");
+  add_text(command, "--picture", "FILE", o->picture, "Reference picture, named like the mask");
   add_format(command, o->format, {Format::png, Format::ppm});
   command.add_flag("--ids", o->ids, "The reference picture shows triangle ids, as `render --payload id`");
   add_parsed(command, "--bits", "N", "Subpixel bits of the rasterizers, as 8 or 4-8; the fewest decide (8)",
@@ -196,12 +193,10 @@ void add_portable(CLI::App& program, Action& action) {
   o->execution.add_to(command);
   command.add_flag("--json", o->json, "Print one JSON object per scene, one per line");
   command.footer(kPortableFooter);
-  command.callback([o, &action] {
-    action = [o] {
-      PortableCommand(*o).run();
-      return kDone;
-    };
-  });
+  return [o] {
+    PortableCommand(*o).run();
+    return kDone;
+  };
 }
 
 }  // namespace edgewise::tools

@@ -58,10 +58,9 @@ struct Picture {
 };
 
 PixelKind parse_pixel_kind(const std::string& text) {
-  constexpr std::array<std::string_view, 3> kNames{"colour", "id", "hits"};
-  const auto found = std::find(kNames.begin(), kNames.end(), text);
-  if (found == kNames.end()) throw std::invalid_argument(unknown_name("payload", text, kNames));
-  return static_cast<PixelKind>(found - kNames.begin());
+  static constexpr std::string_view kNames[] = {"colour", "id", "hits"};
+  const auto& found = find_named("payload", text, std::span<const std::string_view>(kNames), std::identity());
+  return static_cast<PixelKind>(&found - kNames);
 }
 
 // Renders pictures in sequence and reuses its buffers.
@@ -248,18 +247,15 @@ PFM. Several pictures on standard output follow each other.)";
 
 }  // namespace
 
-void add_render(CLI::App& program, Action& action) {
-  CLI::App& command = *program.add_subcommand("render", "Draw scenes into pictures and depth files");
+Action add_render(CLI::App& command) {
   const auto o = std::make_shared<RenderOptions>();
   command.add_option("SCENE", o->scenes, "Scenes of `edgewise list`, or .obj or .tri files")->required();
-  command
-      .add_option("-o,--output", o->output,
-                  "Picture (.png, .ppm), folder (may be new), name with {scene}, or -")
-      ->type_name("FILE");
-  command.add_option("--depth", o->depth, "Depth file (.pfm, floats), folder, name with {scene}, or -")
-      ->type_name("FILE");
+  add_text(command, "-o,--output", "FILE", o->output,
+           "Picture (.png, .ppm), folder (may be new), name with {scene}, or -");
+  add_text(command, "--depth", "FILE", o->depth,
+           "Depth file (.pfm, floats), folder, name with {scene}, or -");
   add_format(command, o->format, {Format::png, Format::ppm, Format::pfm});
-  command.add_option("--backend", o->backend, "Backend of `edgewise list` (tiled)")->type_name("NAME");
+  add_text(command, "--backend", "NAME", o->backend, "Backend of `edgewise list` (tiled)");
   command.add_flag("--wireframe", o->wireframe, "Draw only the edges of triangles, one pixel wide");
   add_parsed(command, "--payload", "KIND", "Pixel values: colour, id or hits (colour)",
              [o](const std::string& text) { o->pixel_kind = parse_pixel_kind(text); });
@@ -270,12 +266,10 @@ void add_render(CLI::App& program, Action& action) {
   add_number(command, "--fps", o->fps, 0.001, kMaxFps, "Frames per second of the animation (30)");
   command.add_flag("--json", o->json, "Print one JSON object per picture, one per line");
   command.footer(kRenderFooter);
-  command.callback([o, &action] {
-    action = [o] {
-      Renderer(*o).run();
-      return kDone;
-    };
-  });
+  return [o] {
+    Renderer(*o).run();
+    return kDone;
+  };
 }
 
 }  // namespace edgewise::tools

@@ -69,18 +69,22 @@ Action parse(int argc, char** argv, viewer::ShowWindow show_window) {
   program.require_subcommand(1);
   program.footer(kProgramFooter);
   Action action;
-  add_list(program, action);
-  add_render(program, action);
-  add_verify(program, action);
-  add_accuracy(program, action);
-  add_stability(program, action);
-  add_diff(program, action);
-  add_portable(program, action);
-  add_needs(program, action);
-  add_capture(program, action);
-  add_view(program, action, show_window);
-  add_demo(program, action, show_window);
-  add_machine(program, action);
+  const auto add = [&](const char* name, const char* summary, const auto& add_options, auto... window) {
+    CLI::App& command = *program.add_subcommand(name, summary);
+    command.callback([&action, chosen = add_options(command, window...)] { action = chosen; });
+  };
+  add("list", "List all scenes, backends, SIMD targets and culling modes", add_list);
+  add("render", "Draw scenes into pictures and depth files", add_render);
+  add("verify", "Check that all backends write the same bits", add_verify);
+  add("accuracy", "Count each method's errors", add_accuracy);
+  add("stability", "Find where each method starts to fail", add_stability);
+  add("diff", "Compare two pictures, or two depth files", add_diff);
+  add("portable", "Find the pixels that conformant rasterizers may draw differently", add_portable);
+  add("needs", "Find the least precise pipeline that draws a scene right", add_needs);
+  add("capture", "Write a scene's screen triangles as a .tri stream", add_capture);
+  add("view", "Explore a scene: move, switch methods, see errors", add_view, show_window);
+  add("demo", "Show the tutorials that Edgewise grew from", add_demo, show_window);
+  add("machine", "Describe this machine and build as JSON, as result files do", add_machine);
   if (argc < 2) throw std::invalid_argument("no command given; try edgewise --help");
   check_first_word(program, argv[1]);
 

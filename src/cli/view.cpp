@@ -264,8 +264,7 @@ Pictures are identical on every machine. To encode an animation as a film, run f
 
 }  // namespace
 
-void add_view(CLI::App& program, Action& action, viewer::ShowWindow show_window) {
-  CLI::App& command = *program.add_subcommand("view", "Explore a scene: move, switch methods, see errors");
+Action add_view(CLI::App& command, viewer::ShowWindow show_window) {
   const auto o = std::make_shared<ViewOptions>();
   command.add_option("SCENE", o->scene, "A scene of `edgewise list`, or an .obj or .tri file (cube)");
   command.add_flag("--terminal", o->terminal,
@@ -287,22 +286,18 @@ void add_view(CLI::App& program, Action& action, viewer::ShowWindow show_window)
                const glm::dvec3 axis = parse_vector("--axis", text), size = glm::abs(axis);
                o->axis = axis / std::max({size.x, size.y, size.z, 1.0});
              });
-  command.add_option("--keys", o->keys, "Keys to press at the start")->type_name("KEYS");
-  command
-      .add_option("-o,--output", o->output,
-                  "Write the resulting picture (.png, .ppm, or -) and open no window")
-      ->type_name("FILE");
+  add_text(command, "--keys", "KEYS", o->keys, "Keys to press at the start");
+  add_text(command, "-o,--output", "FILE", o->output,
+           "Write the resulting picture (.png, .ppm, or -) and open no window");
   add_format(command, o->format, {Format::png, Format::ppm});
-  command.add_option("--save-to", o->folder, "Folder for files saved with p (.)")->type_name("DIR");
+  add_text(command, "--save-to", "DIR", o->folder, "Folder for files saved with p (.)");
   o->options.add_to(command);
   o->execution.add_to(command);
   command.footer(view_footer());
-  command.callback(
-      [o, &action, show_window] { action = [o, show_window] { return view(*o, show_window); }; });
+  return [o, show_window] { return view(*o, show_window); };
 }
 
-void add_demo(CLI::App& program, Action& action, viewer::ShowWindow show_window) {
-  CLI::App& command = *program.add_subcommand("demo", "Show the tutorials that Edgewise grew from");
+Action add_demo(CLI::App& command, viewer::ShowWindow show_window) {
   const auto o = std::make_shared<DemoOptions>();
   command.add_option("TUTORIAL", o->names, "Tutorials that `edgewise demo` lists; only one with --view");
   command
@@ -318,8 +313,7 @@ void add_demo(CLI::App& program, Action& action, viewer::ShowWindow show_window)
   add_size(command, o->size, "Size of the window or pictures (960x540)");
   o->execution.add_to(command);
   command.footer(kDemoFooter);
-  command.callback(
-      [o, &action, show_window] { action = [o, show_window] { return demonstrate(*o, show_window); }; });
+  return [o, show_window] { return demonstrate(*o, show_window); };
 }
 
 }  // namespace edgewise::tools

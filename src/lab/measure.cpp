@@ -128,6 +128,14 @@ std::vector<std::uint32_t> count_hits(Backend& backend, std::span<const ScreenTr
   return hits;
 }
 
+std::vector<std::uint32_t> payloads_of(const Framebuffer& frame) {
+  std::vector<std::uint32_t> payloads;
+  payloads.reserve(static_cast<std::size_t>(frame.width()) * static_cast<std::size_t>(frame.height()));
+  for (int y = 0; y < frame.height(); ++y)
+    payloads.insert(payloads.end(), frame.payload_row(y), frame.payload_row(y) + frame.width());
+  return payloads;
+}
+
 std::uint64_t covered_pixels(std::span<const ScreenTriangle> triangles, int width, int height) {
   std::uint64_t covered = 0;
   for (const auto& triangle : triangles)

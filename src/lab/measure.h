@@ -76,6 +76,9 @@ std::vector<std::uint32_t> count_hits(Backend& backend, std::span<const ScreenTr
                                       int height, const Execution& execution,
                                       const std::function<void(double)>& on_progress = {});
 
+// The payloads of a frame, row by row.
+std::vector<std::uint32_t> payloads_of(const Framebuffer& frame);
+
 // The number of (triangle, covered pixel) pairs: the sum of the hit counts. Uses one exact division per row
 // and edge. Divided by the image's pixels this is the overdraw.
 std::uint64_t covered_pixels(std::span<const ScreenTriangle> triangles, int width, int height);

@@ -29,9 +29,8 @@ std::string_view name_of(Family family) {
 }
 
 Family find_family(std::string_view name) {
-  for (const Family family : kFamilies)
-    if (name_of(family) == name) return family;
-  throw std::invalid_argument(unknown_name("family", name, kNames));
+  return find_named("family", name, std::span<const Family>(kFamilies),
+                    [](Family family) { return name_of(family); });
 }
 
 std::vector<MethodInfo> methods_of(Family family) {

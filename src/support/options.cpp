@@ -38,24 +38,11 @@ std::optional<T> parsed(std::string_view text) {
   throw std::invalid_argument(fmt::format("{}: '{}' is not {}", option, text, expected));
 }
 
-Cull parse_cull(std::string_view text) {
-  std::vector<std::string_view> known;
-  for (const Cull cull : cull_modes()) {
-    if (name_of(cull) == text) return cull;
-    known.push_back(name_of(cull));
-  }
-  known.push_back("auto");
-  throw std::invalid_argument(unknown_name("culling mode", text, known));
-}
-
 SimdTarget parse_target(std::string_view text) {
-  std::vector<std::string_view> known;
-  for (const SimdTarget target :
-       {SimdTarget::scalar, SimdTarget::sse4, SimdTarget::avx2, SimdTarget::avx512, SimdTarget::best}) {
-    if (name_of(target) == text) return resolve(target);
-    known.push_back(name_of(target));
-  }
-  throw std::invalid_argument(unknown_name("SIMD target", text, known));
+  constexpr SimdTarget kTargets[] = {SimdTarget::scalar, SimdTarget::sse4, SimdTarget::avx2,
+                                     SimdTarget::avx512, SimdTarget::best};
+  return resolve(find_named("SIMD target", text, std::span<const SimdTarget>(kTargets),
+                            [](SimdTarget target) { return name_of(target); }));
 }
 
 CLI::Option* add_vector(CLI::App& command, const std::string& name, std::optional<glm::dvec3>& value,
@@ -167,6 +154,11 @@ CLI::Option* add_parsed(CLI::App& command, const std::string& name, const char* 
   return command.add_option_function<std::string>(name, std::move(parse), help)->type_name(type);
 }
 
+CLI::Option* add_text(CLI::App& command, const std::string& name, const char* type, std::string& value,
+                      const std::string& help) {
+  return command.add_option(name, value, help)->type_name(type);
+}
+
 CLI::Option* add_number(CLI::App& command, const std::string& name, std::optional<double>& value, double min,
                         double max, const std::string& help) {
   return add_parsed(command, name, "NUMBER", help, [&value, name, min, max](const std::string& text) {
@@ -193,7 +185,7 @@ void SceneOptions::add_to(CLI::App& command) {
              "Factor on the triangle count of knots and built-in streams (1)");
   add_parsed(command, "--cull", "MODE", "Faces to cull: none, back, front, both (back; streams: none)",
              [this](const std::string& text) {
-               if (text != "auto") cull = parse_cull(text);
+               cull = find_named("culling mode", text, cull_modes(), [](Cull mode) { return name_of(mode); });
              });
   command.add_flag("--no-shade", no_shade, "Draw meshes unlit, as streams always are");
   command.add_flag("--fit", fit, "Centre a mesh and scale its longest side to 2");

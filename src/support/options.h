@@ -44,6 +44,8 @@ glm::dvec3 parse_vector(std::string_view option, std::string_view text);
 // Adds an option whose text `parse` takes.
 CLI::Option* add_parsed(CLI::App& command, const std::string& name, const char* type, const std::string& help,
                         std::function<void(const std::string&)> parse);
+CLI::Option* add_text(CLI::App& command, const std::string& name, const char* type, std::string& value,
+                      const std::string& help);
 CLI::Option* add_number(CLI::App& command, const std::string& name, std::optional<double>& value, double min,
                         double max, const std::string& help);
 CLI::Option* add_integer(CLI::App& command, const std::string& name, int& value, int min, int max,

@@ -62,11 +62,8 @@ void add_format(CLI::App& command, std::optional<Format>& format, const std::vec
   command
       .add_option_function<std::string>(
           "--format",
-          [&format, names](const std::string& text) {
-            if (std::find(names.begin(), names.end(), text) == names.end())
-              throw std::invalid_argument(unknown_name("format", text, names));
-            format = static_cast<Format>(std::find(kFormatNames.begin(), kFormatNames.end(), text) -
-                                         kFormatNames.begin());
+          [&format, choices](const std::string& text) {
+            format = find_named("format", text, std::span(choices), [](Format one) { return name_of(one); });
           },
           fmt::format("Picture format for - and for folders: {} (png)", fmt::join(names, ", ")))
       ->type_name("FORMAT");

@@ -9,6 +9,7 @@
 #include "image/pictures.h"
 #include "lab/clipping/truth.h"
 #include "lab/coverage/score.h"
+#include "lab/measure.h"
 #include "lab/view_space.h"
 #include "support/milliseconds.h"
 #include "viewer/inset.h"
@@ -80,10 +81,7 @@ std::vector<bool> two_sided_faces(const Drawable& drawable) {
 
 // Payloads minus one: triangle indices; the background's 0 becomes lab::kNoTriangle.
 std::vector<std::uint32_t> visible_ids_in(const Framebuffer& frame) {
-  std::vector<std::uint32_t> ids;
-  ids.reserve(static_cast<std::size_t>(frame.width()) * static_cast<std::size_t>(frame.height()));
-  for (int y = 0; y < frame.height(); ++y)
-    ids.insert(ids.end(), frame.payload_row(y), frame.payload_row(y) + frame.width());
+  std::vector<std::uint32_t> ids = lab::payloads_of(frame);
   for (std::uint32_t& id : ids) --id;
   return ids;
 }

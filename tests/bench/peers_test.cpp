@@ -24,7 +24,7 @@ namespace edgewise::bench {
 namespace {
 
 using contract::kSub;
-using lab::benchmark_peers, lab::GlContext, lab::peers, lab::start_peers, lab::StartedPeers, lab::use_context;
+using lab::benchmark_peers, lab::peers, lab::start_peers, lab::StartedPeers, lab::use_context;
 
 ScreenTriangle half_square(std::uint32_t z, std::uint32_t id) {
   return {{0, 64 * kSub, 0}, {0, 0, 64 * kSub}, {z, z, z}, id};
@@ -259,26 +259,23 @@ TEST_P(BuiltPeer, DrawsOurPictures) {
 
 // Beside NVIDIA's driver, EGL gave its OpenGL when asked for softpipe. The first use was refused, but the
 // context stayed current, and the second use passed.
-class FakeContext final : public GlContext {
- public:
-  explicit FakeContext(std::string renderer) : renderer_(std::move(renderer)) {}
-  bool is_current() const override { return current_; }
-  bool make_current() override { return current_ = true; }
-  void release() override { current_ = false; }
-  std::string renderer() const override { return renderer_; }
+struct FakeContext {
+  std::string name;
+  bool current = false;
 
- private:
-  std::string renderer_;
-  bool current_ = false;
+  bool is_current() const { return current; }
+  bool make_current() { return current = true; }
+  void release() { current = false; }
+  std::string renderer() const { return name; }
 };
 
 TEST(GlContext, IsCheckedAtEachUse) {
-  FakeContext wrong("NVIDIA H200/PCIe/SSE2");
+  FakeContext wrong{"NVIDIA H200/PCIe/SSE2"};
   for (int use = 1; use <= 2; ++use) {
     EXPECT_EQ(message_of([&] { use_context(wrong, "softpipe"); }), "EGL gives NVIDIA H200/PCIe/SSE2 instead");
     EXPECT_FALSE(wrong.is_current()) << use;
   }
-  FakeContext right("softpipe");
+  FakeContext right{"softpipe"};
   for (int use = 1; use <= 2; ++use) EXPECT_NO_THROW(use_context(right, "softpipe"));
   EXPECT_TRUE(right.is_current());
 }

@@ -68,13 +68,6 @@ TEST(Accuracy, JudgesQuadsAndKnotsOnlyWhenNamed) {
 TEST(Accuracy, DescribesMethodsAndScenes) {
   const json report = json_of("drtk_quad in_view turning-cube --quick");
   EXPECT_EQ(report.at("quick"), true);
-  std::set<std::string> families;
-  for (const json& method : report.at("methods")) {
-    for (const char* key : {"name", "summary", "source", "promise", "exact"})
-      EXPECT_TRUE(method.contains(key)) << key << " in " << method;
-    families.insert(method.at("family"));
-  }
-  EXPECT_EQ(families, (std::set<std::string>{"coverage", "visibility", "facing", "clipping"}));
   EXPECT_EQ(named(report.at("methods"), "fixed_8_int32").at("max_side_px"), 181);
   EXPECT_EQ(named(report.at("methods"), "fixed_8_int32").at("engine"), false);
   EXPECT_EQ(named(report.at("methods"), "engine_exact").at("engine"), true);
@@ -180,20 +173,10 @@ TEST(Accuracy, MeasuresPeersInPlaceOfTheMethods) {
     const json& theirs = named(methods, peer->name);
     for (const auto& [key, value] : ours.items())
       EXPECT_TRUE(theirs.contains(key)) << peer->name << ' ' << key;
-    EXPECT_LE(theirs.at("snapped").at("errors"), 10) << peer->name;
+    EXPECT_LE(theirs.at("snapped").at("errors"), peer->exact ? 0 : 10) << peer->name;
     EXPECT_LE(theirs.at("snapped").at("wrong_pixels"), 10) << peer->name;
     EXPECT_LE(theirs.at("depth").at("max_ulp"), 1000) << peer->name;
   }
-  for (const auto& [peer, version] : started.peers)
-    if (peer->exact) {
-      EXPECT_EQ(named(methods, peer->name).at("snapped").at("errors"), 0);
-    }
-}
-
-TEST(Accuracy, KnowsPeersOnlyWithTheirFlag) {
-  const Outcome outcome = accuracy("drtk_quad --method llvmpipe");
-  EXPECT_EQ(outcome.status, 2);
-  EXPECT_NE(outcome.err.find("unknown method 'llvmpipe'"), std::string::npos) << outcome.err;
 }
 
 TEST(Accuracy, RunsOnlyTheRequestedMethodsAndFamily) {

@@ -1,7 +1,9 @@
 // The program's commands on valid input; invalid_inputs.h has the invalid ones.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -271,43 +273,29 @@ Outcome script_in(const TempDir& folder, const std::string& script) {
 }
 
 TEST_F(ProgramRenders, ToStandardOutputWithMessagesOnStandardError) {
-  const std::string scene = "cube --size 60x40";
-  ASSERT_EQ(script_in(folder_, "edgewise render " + scene +
-                                   " -o a.png --depth a.pfm\n"
-                                   "edgewise portable " +
-                                   scene +
-                                   " -o mask.png\n"
-                                   "edgewise capture " +
-                                   scene +
-                                   " -o a.tri\n"
-                                   "edgewise diff a.png mask.png -o difference.png\n"
-                                   "edgewise view " +
-                                   scene +
-                                   " -o view.png\n"
-                                   "edgewise demo outlaw-triad -o demo.png\n")
+  const std::string scene = "scene='cube --size 60x40'\n";
+  ASSERT_EQ(script_in(folder_, scene + "edgewise render $scene -o a.png --depth a.pfm\n"
+                                       "edgewise portable $scene -o mask.png\n"
+                                       "edgewise capture $scene -o a.tri\n"
+                                       "edgewise diff a.png mask.png -o difference.png\n"
+                                       "edgewise view $scene -o view.png\n"
+                                       "edgewise demo outlaw-triad -o demo.png\n")
                 .status,
             0);
-  struct Row {
-    std::string command, file;
-  };
-  for (const Row& row : std::vector<Row>{{"render " + scene + " -o -", "a.png"},
-                                         {"render " + scene + " -o - --format png --json", "a.png"},
-                                         {"render " + scene + " -o /dev/stdout", "a.png"},
-                                         {"render " + scene + " -o - --format pfm", "a.pfm"},
-                                         {"render " + scene + " --depth -", "a.pfm"},
-                                         {"portable " + scene + " -o -", "mask.png"},
-                                         {"capture " + scene + " -o -", "a.tri"},
-                                         {"diff a.png mask.png -o -", "difference.png"},
-                                         {"view " + scene + " -o -", "view.png"},
-                                         {"demo outlaw-triad -o -", "demo.png"}}) {
-    const Outcome piped = script_in(folder_, "edgewise " + row.command + " | cat");
-    EXPECT_EQ(piped.out, file_content(path(row.file))) << row.command;
-    EXPECT_EQ(piped.err.empty(), row.command.starts_with("view")) << row.command << piped.err;
+  const std::pair<std::string, std::string> rows[] = {
+      {"render $scene -o -", "a.png"},           {"render $scene -o - --format png --json", "a.png"},
+      {"render $scene -o /dev/stdout", "a.png"}, {"render $scene -o - --format pfm", "a.pfm"},
+      {"render $scene --depth -", "a.pfm"},      {"portable $scene -o -", "mask.png"},
+      {"capture $scene -o -", "a.tri"},          {"diff a.png mask.png -o -", "difference.png"},
+      {"view $scene -o -", "view.png"},          {"demo outlaw-triad -o -", "demo.png"}};
+  for (const auto& [command, file] : rows) {
+    const Outcome piped = script_in(folder_, scene + "edgewise " + command + " | cat");
+    EXPECT_EQ(piped.out, file_content(path(file))) << command;
+    EXPECT_EQ(piped.err.empty(), command.starts_with("view")) << command << piped.err;
     EXPECT_EQ(piped.err.find("-> /dev/stdout"), std::string::npos) << piped.err;
     const Outcome appended =
-        script_in(folder_, "echo before >out; edgewise " + row.command + " >>out; echo after >>out");
-    EXPECT_EQ(file_content(path("out")), "before\n" + file_content(path(row.file)) + "after\n")
-        << row.command;
+        script_in(folder_, scene + "echo before >out; edgewise " + command + " >>out; echo after >>out");
+    EXPECT_EQ(file_content(path("out")), "before\n" + file_content(path(file)) + "after\n") << command;
   }
 }
 
@@ -506,46 +494,61 @@ TEST_F(ProgramRenders, ScenesThatVerifyReportsAsJson) {
   EXPECT_FALSE(std::filesystem::exists(path("out")));
 }
 
-// The OBJ files of tests/cli/cases, on which pictures were wrong or empty.
-std::string case_file(const std::string& name) {
-  return EDGEWISE_SOURCE_DIR "/tests/cli/cases/" + name + ".obj";
+// A floor of 20 x 20 squares around (x, 0, -2 x). Floats hold its vertices exactly.
+std::string floor_at(int x) {
+  std::string obj;
+  for (int i = 0; i <= 20; ++i)
+    for (int k = 0; k <= 20; ++k) obj += fmt::format("v {} 0 {}\n", x - 50 + 5 * i, -2 * x - 50 + 5 * k);
+  for (int i = 0; i < 20; ++i)
+    for (int k = 0; k < 20; ++k) {
+      const int corner = 21 * i + k + 1;
+      obj += fmt::format("f {} {} {} {}\n", corner, corner + 1, corner + 22, corner + 21);
+    }
+  return obj;
 }
 
-// The same floor near the origin and far from it; floats hold its vertices exactly.
-TEST(Program, DrawsAFloorTheSameWhereverTheOriginLies) {
-  const TempDir folder;
+TEST_F(ProgramRenders, AFloorTheSameWhereverTheOriginLies) {
   for (const char* const yaw : {"30", "31", "32", "33"}) {
-    const auto drawn = [&](const std::string& name, const std::string& eye) {
-      const std::string file = (folder.path() / (name + ".ppm")).string();
+    const auto drawn = [&](int x) {
+      const std::string eye = fmt::format("{},2,{}", x, -2 * x), file = path("a.ppm");
       const Outcome run =
-          edgewise_with("render " + case_file(name) + " --size 320x200 --cull none --eye " + eye + " --yaw " +
-                        yaw + " --pitch -15 --fov 60 --near 0.001 --far 1000 --payload hits -o " + file);
+          edgewise_with("render " + folder_.write("floor.obj", floor_at(x)).string() +
+                        " --size 320x200 --cull none --eye " + eye + " --yaw " + yaw +
+                        " --pitch -15 --fov 60 --near 0.001 --far 1000 --payload hits -o " + file);
       EXPECT_EQ(run.status, 0) << run.err;
       EXPECT_NE(run.out.find("once 4445"), std::string::npos) << run.out;
-      return read_image(file);
+      return read_image(file).pixels;
     };
-    const Image near = drawn("ground_0", "0,2,0");
-    EXPECT_EQ(near.pixels, drawn("ground_10000", "10000,2,-20000").pixels) << yaw;
-    EXPECT_EQ(near.pixels, drawn("ground_100000", "100000,2,-200000").pixels) << yaw;
+    const auto near = drawn(0);
+    EXPECT_EQ(near, drawn(10'000)) << yaw;
+    EXPECT_EQ(near, drawn(100'000)) << yaw;
   }
 }
 
-TEST(Program, DrawsEveryTriangleOfSurveyCoordinates) {
-  const TempDir folder;
+TEST_F(ProgramRenders, EveryTriangleOfSurveyCoordinates) {
+  std::string stairs;  // of 20 steps
+  for (int step = 0; step < 20; ++step) {
+    const double x = 412345.25 + 0.29 * step, y = 0.17 * step;
+    for (const double z : {-5572094.5, -5572095.7})
+      stairs += fmt::format("v {0:.3f} {1:.3f} {2}\nv {0:.3f} {3:.3f} {2}\nv {4:.3f} {3:.3f} {2}\n", x, y, z,
+                            y + 0.17, x + 0.29);
+    stairs += "f -5 -4 -1 -2\nf -6 -5 -2 -3\n";  // the tread and the riser
+  }
+  const std::string file = folder_.write("stairs.obj", stairs).string();
   for (const char* const how : {"", " --fit", " --recentre"}) {
     const Outcome run =
-        edgewise_with("render " + case_file("stairs_utm") + " --cull none --size 400x300 -o " +
-                      (folder.path() / "a.png").string() + how);
+        edgewise_with("render " + file + " --cull none --size 400x300 -o " + path("a.png") + how);
     EXPECT_NE(run.out.find("80 triangles, 80 drawn"), std::string::npos) << run.out << run.err;
   }
 }
 
 // The corners are 10^8 away, the camera 1 above the plane: its horizon is where the far plane cuts it.
-TEST(Program, DrawsAPlaneWhoseCornersAreFarAway) {
-  const TempDir folder;
-  const std::string file = (folder.path() / "a.ppm").string();
+TEST_F(ProgramRenders, APlaneWhoseCornersAreFarAway) {
+  const auto plane = folder_.write(
+      "plane.obj", "v -1e8 0 -1e8\nv 1e8 0 -1e8\nv 1e8 0 1e8\nv -1e8 0 1e8\nf 1 4 3\nf 1 3 2\n");
+  const std::string file = path("a.ppm");
   const Outcome run =
-      edgewise_with("render " + case_file("plane_1e8") +
+      edgewise_with("render " + plane.string() +
                     " --cull none --eye 0.37,1,0.21 --yaw 31 --pitch -20 --fov 75 --near 0.001"
                     " --far 1e5 --size 320x200 --no-shade -o " +
                     file);

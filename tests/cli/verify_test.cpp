@@ -95,9 +95,9 @@ TEST(Verify, FindsOneBitAndShowsIt) {
   const Mismatch& mismatch = verdict.mismatches[0];
   EXPECT_EQ(mismatch.backend, "wrong");
   EXPECT_EQ(mismatch.judge, backends()[0].name);
-  EXPECT_EQ(mismatch.pixels, 1u);
-  EXPECT_EQ(mismatch.x, kWrongX);
-  EXPECT_EQ(mismatch.y, kWrongY);
+  EXPECT_EQ(mismatch.found.pixels, 1u);
+  EXPECT_EQ(mismatch.found.first_x, kWrongX);
+  EXPECT_EQ(mismatch.found.first_y, kWrongY);
   ASSERT_EQ(mismatch.values.size(), 2 + plan.backends.size());
   EXPECT_EQ(mismatch.values[1].depth, mismatch.values[0].depth ^ 1);
   EXPECT_EQ(mismatch.values[1].payload, mismatch.values[0].payload);
@@ -127,8 +127,8 @@ TEST(Verify, FindsAMissingBackground) {
 TEST(Verify, FindsAnErrorInASingleConfiguration) {
   const VerifyReport report = verify_quietly(small_plan({"cube"}, testing::wrong_backend<WrongOnThreads>()));
   ASSERT_FALSE(report.ok());
-  EXPECT_EQ(report.scenes[0].mismatches[0].how.execution.threads, 3);
-  EXPECT_EQ(report.scenes[0].mismatches[0].payload, Payload::id);
+  EXPECT_EQ(report.scenes[0].mismatches[0].drawn.how.execution.threads, 3);
+  EXPECT_EQ(report.scenes[0].mismatches[0].frontend.payload, Payload::id);
 }
 
 TEST(Verify, FindsAnErrorInWholeFramesAlone) {
@@ -137,7 +137,7 @@ TEST(Verify, FindsAnErrorInWholeFramesAlone) {
   const SceneVerdict& verdict = report.scenes.at(0);
   EXPECT_GT(verdict.differing_pixels, 0u);
   ASSERT_EQ(verdict.mismatches.size(), 1u);
-  EXPECT_TRUE(verdict.mismatches[0].whole_frame);
+  EXPECT_TRUE(verdict.mismatches[0].drawn.whole_frame);
   EXPECT_NE(explain(verdict).find(", whole frame) differs from"), std::string::npos) << explain(verdict);
 }
 
@@ -148,7 +148,7 @@ TEST(Verify, FindsWritesOutsideTheImage) {
   const SceneVerdict& verdict = report.scenes[0];
   EXPECT_EQ(verdict.differing_pixels, 0u);
   EXPECT_EQ(verdict.written_outside, verdict.configurations / 2 + verdict.oracle_configurations / 2);
-  EXPECT_EQ(verdict.mismatches.at(0).outside, 1u);
+  EXPECT_EQ(verdict.mismatches.at(0).found.outside, 1u);
   const std::string text = explain(verdict);
   EXPECT_NE(text.find("words written beside the image: 1"), std::string::npos) << text;
 }

@@ -10,6 +10,7 @@
 
 #include "lab/coverage/score.h"
 #include "lab/lab_support.h"
+#include "lab/measure.h"
 #include "lab/truth.h"
 
 namespace edgewise::lab {
@@ -52,9 +53,7 @@ TEST(Clipping, APictureIsCorrectedWhereItDiffersBeyondHairline) {
   const ClippingTruth truth = clipping_truth(scene);
   ClippingFrame frame(scene.size);
   method("near_guard").draw(scene, frame);
-  std::vector<std::uint32_t> drawn;
-  for (int y = 0; y < scene.size.height; ++y)
-    drawn.insert(drawn.end(), frame.picture.payload_row(y), frame.picture.payload_row(y) + scene.size.width);
+  const std::vector<std::uint32_t> drawn = payloads_of(frame.picture);
   std::vector<std::uint32_t> corrected = drawn;
   EXPECT_EQ(correct(corrected, scene.size, *truth.oracle, 2), 0u);
   EXPECT_EQ(corrected, drawn);

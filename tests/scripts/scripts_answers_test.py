@@ -3,16 +3,16 @@ from data made here."""
 import json
 import re
 import sys
-import tempfile
 import unittest
 from dataclasses import replace
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts/reporting"))
+from support import ROOT, SCRIPTS, FolderTest
+
+sys.path.insert(0, str(SCRIPTS / "reporting"))
 from accuracy_rows import Accuracy, Cost, Cracks, Measured, Method, Pooled, Scene, parse_accuracy, read_accuracy  # noqa: E402
 from answers import answers  # noqa: E402
 from bench_rows import Bench, Row, parse_name  # noqa: E402
-from bench_tables import engine_table, peer_tables, speed_table  # noqa: E402
+from bench_tables import engine_table, peer_tables, speed_table, tails_table, tile_stores_table  # noqa: E402
 from facts_tables import edges_table, pipelines_table, pooled_text, read_needs, tutorials_table  # noqa: E402
 from frontier import EXACT, INSIDE_TESTS, PRICED, TWELVE_BITS, cracks_of, frontier_figures, points_of, price_table, simd_gain, speed_ups, wrong_of  # noqa: E402
 from program import BadInput  # noqa: E402
@@ -62,6 +62,27 @@ class AnswersTest(unittest.TestCase):
                                  ["`tiled` with coverage masks", "**1.11×** (1.09 to 1.13)"],
                                  ["64-bit integers, for 12 subpixel bits", "1.00× (0.98 to 1.01)"],
                                  ["floats", "**1.25×** (1.23 to 1.27); 1,230 px"]])
+
+    def test_tile_stores_are_compared_back_to_back_and_after_pauses(self):
+        times = {f"tiled+frontend/cube{keys}/threads:2": ms for keys, ms in
+                 (("", 1.0), ("/stores:streaming", 2.0), ("/pause:2ms", 3.0), ("/pause:2ms/stores:streaming", 3.0))}
+        header, lines = tile_stores_table(bench(times))
+        self.assertEqual(header, ["scene", "threads", "back to back: rule, ms", "streaming, ms", "after 2 ms: rule, ms", "streaming, ms"])
+        self.assertEqual(lines, [["cube", "2", "1.00", "2.00 (2.0× slower)", "3.00", "3.00 (not settled)"]])
+        del times["tiled+frontend/cube/pause:2ms/stores:streaming/threads:2"]
+        self.assertEqual(tile_stores_table(bench(times))[1], [["cube", "2", "1.00", "2.00 (2.0× slower)", "3.00", "–"]])
+        self.assertEqual(tile_stores_table(bench({}))[1], [])
+
+    def test_tails_are_those_of_rows_whose_frames_were_kept(self):
+        names = [f"{backend}+frontend/{scene}/threads:2" for scene in ("cube", "knot") for backend in ("tiled", "scanline")]
+        timed = bench(dict.fromkeys(names, 2.0), backends="scanline tiled")
+        for name in names[:3]:
+            timed.rows[name].counters = {"p99_ms": 3.14159, "first_ms": 12.0}
+        del timed.rows["tiled+frontend/knot/threads:2"].counters["p99_ms"]
+        header, lines = tails_table(timed)
+        self.assertEqual(header[1:3], ["scanline, median / p99, ms", "scanline, first, ms"])
+        self.assertEqual(lines, [["cube", "2.00 / 3.14", "12", "2.00 / 3.14", "12"], ["knot", "–", "–", "2.00 / –", "12"]])
+        self.assertEqual(tails_table(bench({}))[1], [])
 
     def test_methods_have_the_times_of_their_rows(self):
         score = {"errors_per_million": 0.0}
@@ -145,7 +166,7 @@ class AnswersTest(unittest.TestCase):
         scenes = (scene_of("large", 30000, 500.0, 10.0, 9e6), scene_of("medium", 10000, 100.0, 50.0, 4.0),
                   scene_of("tiny", 100, 1.0, 1e6, 1e6))
         told = Accuracy({"coverage": [m.method for m in scenes[0].measured]}, scenes, None)
-        self.assertEqual(told.rates("coverage"), {"x": Pooled(20.0, "medium", 10.0), "y": Pooled(4.0)})
+        self.assertEqual([told.rate("coverage", method) for method in told.methods["coverage"]], [Pooled(20.0, "medium", 10.0), Pooled(4.0)])
 
     def test_peers_are_compared_with_one_backend_at_both_widths(self):
         rows = {**scene("a", 2.0, 8.0, 1.0), **scene("b", 1.0, 5.0, 4.0), "ext+frontend/a/threads:2": 8.0, "ext+frontend/b/threads:2": 30.0,
@@ -170,9 +191,8 @@ class AnswersTest(unittest.TestCase):
         self.assertEqual(speed_table(told)[1][0][-1], "1.00")
 
     def test_the_methods_that_answers_name_are_measured(self):
-        results = Path(__file__).resolve().parents[2] / "results"
-        named = re.search("<!-- results: results/(.*) -->", (results.parent / "README.md").read_text())[1]
-        names = {m.method.name for scene in read_accuracy(results / named, None).of("coverage") for m in (*scene.measured, *scene.apart)}
+        named = re.search("<!-- results: (.*) -->", (ROOT / "README.md").read_text())[1]
+        names = {m.method.name for scene in read_accuracy(ROOT / named, None).of("coverage") for m in (*scene.measured, *scene.apart)}
         self.assertEqual({*PRICED, *INSIDE_TESTS} - names, set())
 
     def test_what_was_not_measured_is_not_answered(self):
@@ -256,13 +276,9 @@ def entry(scene, near="nothing", facing="normal_z", visibility="submission_order
                       question("edge values at 8 subpixel bits", "32-bit integers", needed="32-bit integers")]}
 
 
-class NeedsTest(unittest.TestCase):
-    def setUp(self):
-        self.folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
-        (self.folder / "facts").mkdir()
-
+class NeedsTest(FolderTest):
     def read(self, *entries):
-        (self.folder / "facts/needs.json").write_text(json.dumps(entries))
+        self.file("facts/needs.json", json.dumps(entries))
         return read_needs(self.folder / "mine")
 
     def test_nothing_is_said_of_nothing(self):
@@ -270,10 +286,9 @@ class NeedsTest(unittest.TestCase):
         self.assertEqual(tutorials_table({})[1], [])
 
     def test_what_is_not_a_result_is_refused(self):
-        for text in ('[{"scene": "cube"}]', '[3]', '{"scene": 1}'):
-            (self.folder / "facts/needs.json").write_text(text)
+        for entry in ({"scene": "cube"}, 3, "scene"):
             with self.assertRaises(BadInput):
-                read_needs(self.folder / "mine")
+                self.read(entry)
 
     def test_a_line_is_a_pipeline_that_was_drawn_as_a_whole(self):
         other = {**dict.fromkeys(("near plane", "far plane", "guard band"), "nothing"), "facing test": "normal_z", "visibility": "depth buffer", "depth buffer": "6 bits",

@@ -4,12 +4,12 @@ import os
 import shutil
 import signal
 import subprocess
-import tempfile
 import time
 import unittest
 from pathlib import Path
 
-SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
+from support import SCRIPTS, FolderTest
+
 # "Builds" the sources' benchmark by copying it.
 CMAKE = """#!/bin/bash
 if [[ $1 == --build ]]; then
@@ -57,17 +57,15 @@ def row(ms, triangles=2.0, **more):
     return {"ms": ms, "triangles": triangles, **more}
 
 
-class CompareTest(unittest.TestCase):
+class CompareTest(FolderTest):
     def setUp(self):
-        self.folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
-        self.root, tools, self.calls = (self.folder / name for name in ("root", "tools", "calls"))
-        tools.mkdir()
+        super().setUp()
+        self.root, self.calls = self.folder / "root", self.folder / "calls"
+        self.environment["CALLS"] = str(self.calls)
         shutil.copytree(SCRIPTS, self.root / "scripts", ignore=shutil.ignore_patterns("__pycache__"))
-        for name, text in (("cmake", CMAKE), ("c++", '#!/bin/bash\ntouch "${@: -1}"\n')):
-            (tools / name).write_text(text)
-            (tools / name).chmod(0o755)
-        (self.root / ".gitignore").write_text("/build/\n*.pyc\n")
-        self.environment = {**os.environ, "PATH": f"{tools}:{os.environ['PATH']}", "CALLS": str(self.calls)}
+        self.tool("cmake", CMAKE)
+        self.tool("c++", '#!/bin/bash\ntouch "${@: -1}"\n')
+        self.file("root/.gitignore", "/build/\n*.pyc\n")
         self.git("init", "-q")
         self.first = self.commit({"tiled/a/threads:1": row(1.0), "tiled/b/threads:1": row(2.0), "tiled/c/threads:1": row(3.0)})
 
@@ -75,20 +73,18 @@ class CompareTest(unittest.TestCase):
         return subprocess.run(["git", "-C", self.root, "-c", "user.name=t", "-c", "user.email=t@t", *arguments], check=True,
                               capture_output=True, text=True).stdout.strip()
 
-    def write(self, rows):
-        (self.root / "edgewise_bench").write_text(BENCH % json.dumps(rows))
-        (self.root / "edgewise_bench").chmod(0o755)
-        (self.root / "rows.json").write_text(json.dumps(rows))
+    def change(self, rows):
+        self.file("root/edgewise_bench", BENCH % json.dumps(rows)).chmod(0o755)
+        self.file("root/rows.json", json.dumps(rows))
 
     def commit(self, rows):
-        self.write(rows)
+        self.change(rows)
         self.git("add", "-A")
         self.git("commit", "-q", "-m", "rows")
         return self.git("rev-parse", "HEAD")
 
     def compare(self, *arguments, **environment):
-        return subprocess.run([self.root / "scripts/compare", *map(str, arguments)], capture_output=True, text=True, check=False,
-                              env={**self.environment, **environment})
+        return self.with_tools(self.root / "scripts/compare", *arguments, **environment)
 
     def fails(self, result, *words):
         self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
@@ -100,7 +96,7 @@ class CompareTest(unittest.TestCase):
         self.assertEqual([path.name for path in (self.root / "build/compare").glob("*-*") if path.name != "working-tree"], [])
 
     def test_two_per_cent_are_found_in_the_working_tree(self):
-        self.write({"tiled/a/threads:1": row(1.02), "tiled/b/threads:1": row(1.9), "tiled/c/threads:1": row(3.0)})
+        self.change({"tiled/a/threads:1": row(1.02), "tiled/b/threads:1": row(1.9), "tiled/c/threads:1": row(3.0)})
         out = self.folder / "out.json"
         result = self.compare("HEAD", "--filter", "tiled", "--rounds", 20, "--json", out)
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -163,7 +159,7 @@ class CompareTest(unittest.TestCase):
             self.calls.unlink(missing_ok=True)
             command = [self.root / "scripts/compare", "HEAD", "--filter", "tiled", "--rounds", "10", "--json", out]
             with subprocess.Popen(command, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True,
-                                  env={**self.environment, "HANGS": "1"}) as process:
+                                  env={**os.environ, **self.environment, "HANGS": "1"}) as process:
                 limit = time.monotonic() + 30
                 while not self.calls.exists() and time.monotonic() < limit:
                     time.sleep(0.05)
@@ -175,5 +171,4 @@ class CompareTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    os.environ["PYTHONDONTWRITEBYTECODE"] = "1"
     unittest.main()

@@ -1,13 +1,10 @@
 """scripts/mutate: its table, and what it says of small sources with a cmake that makes a test of them."""
 import json
-import os
 import shutil
-import subprocess
-import tempfile
 import unittest
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
+from support import SCRIPTS, FolderTest, run
+
 SOURCE = "bool less(int x, int y) {\n  return x\n      < y;\n}\nint one = 1;\n"
 TABLE = '[group]\nprogram = "few"\ntests = "*"\nor_equal = ["a.cpp", "x < y", "x <= y"]\n'
 # The test fails if a.cpp has a <=, and the build if it has an error.
@@ -20,24 +17,17 @@ chmod +x "$2/few"
 """
 
 
-class MutateTest(unittest.TestCase):
+class MutateTest(FolderTest):
     def setUp(self):
-        self.root = Path(self.enterContext(tempfile.TemporaryDirectory()))
-        shutil.copytree(ROOT / "scripts", self.root / "scripts", ignore=shutil.ignore_patterns("__pycache__"))
-        self.write("src/a.cpp", SOURCE)
-        self.write("tools/cmake", CMAKE)
-        (self.root / "tools/cmake").chmod(0o755)
-
-    def write(self, name, text):
-        path = self.root / name
-        path.parent.mkdir(exist_ok=True)
-        path.write_text(text)
+        super().setUp()
+        shutil.copytree(SCRIPTS, self.folder / "scripts", ignore=shutil.ignore_patterns("__pycache__"))
+        self.file("src/a.cpp", SOURCE)
+        self.tool("cmake", CMAKE)
 
     def mutate(self, table, *arguments):
-        self.write("tests/mutations.toml", table)
-        result = subprocess.run([self.root / "scripts/mutate", *arguments], capture_output=True, text=True, check=False,
-                                env={**os.environ, "PATH": f"{self.root}/tools:{os.environ['PATH']}"})
-        self.assertEqual((self.root / "src/a.cpp").read_text(), SOURCE)
+        self.file("tests/mutations.toml", table)
+        result = self.with_tools(self.folder / "scripts/mutate", *arguments)
+        self.assertEqual((self.folder / "src/a.cpp").read_text(), SOURCE)
         return result
 
     def assert_refused(self, table, message, *arguments):
@@ -45,7 +35,7 @@ class MutateTest(unittest.TestCase):
         self.assertEqual((result.returncode, result.stderr), (2, f"mutate: {message}\n"))
 
     def test_every_mutant_of_the_table_applies(self):
-        result = subprocess.run([ROOT / "scripts/mutate", "--list"], capture_output=True, text=True, check=False)
+        result = run(SCRIPTS / "mutate", "--list")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertLessEqual(len(result.stdout.splitlines()), 60)
         for part in ("contract.h", "oracle.cpp", "naive.cpp", "tile_", "edge_walk.h", "scanline_band", "tiled_spans", "bins", "mask_", "clip.cpp",
@@ -53,21 +43,21 @@ class MutateTest(unittest.TestCase):
             self.assertIn(part, result.stdout)
 
     def test_a_mutant_is_caught_or_survives(self):
-        result = self.mutate(TABLE, "--json", self.root / "out.json")
+        result = self.mutate(TABLE, "--json", self.folder / "out.json")
         self.assertEqual((result.returncode, result.stdout.splitlines()[-1]), (0, "1 of 1 mutants caught"), result.stderr)
         table = TABLE + 'two = ["a.cpp", "one = 1", "one = 2"]\nbroken = ["a.cpp", "bool", "error"]\n'
-        result = self.mutate(table, "--json", self.root / "out.json")
+        result = self.mutate(table, "--json", self.folder / "out.json")
         self.assertEqual((result.returncode, result.stdout.splitlines()[-1]),
                          (1, "1 of 3 mutants caught; not caught: two, broken"), result.stderr)
         self.assertIn("survived        two\n", result.stdout)
         self.assertIn("does not build  broken\n", result.stdout)
-        self.assertEqual(json.loads((self.root / "out.json").read_text())["not_caught"], ["two", "broken"])
+        self.assertEqual(json.loads((self.folder / "out.json").read_text())["not_caught"], ["two", "broken"])
         result = self.mutate(table, "or_equal")
         self.assertEqual((result.returncode, result.stdout.splitlines()[-1]), (0, "1 of 1 mutants caught"))
 
     def test_tests_that_fail_without_a_mutation_are_told(self):
-        self.write("tools/cmake", CMAKE.replace("<=", "<"))
-        self.assert_refused(TABLE, f"without a mutation, few fails; see {self.root}/build/mutations/tests.log")
+        self.tool("cmake", CMAKE.replace("<=", "<"))
+        self.assert_refused(TABLE, f"without a mutation, few fails; see {self.folder}/build/mutations/tests.log")
 
     def test_a_mutant_that_no_longer_applies_is_told(self):
         for code, message in (("x > y", "or_equal: x > y occurs 0 times, not once, in src/a.cpp"),

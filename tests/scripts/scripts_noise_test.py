@@ -2,13 +2,12 @@
 import json
 import random
 import sys
-import tempfile
 import unittest
 from itertools import combinations, product
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "scripts/reporting"))
+from support import ROOT, SCRIPTS, FolderTest
+
+sys.path.insert(0, str(SCRIPTS / "reporting"))
 import noise  # noqa: E402
 import bench_rows  # noqa: E402
 from bench_rows import Row, read_bench  # noqa: E402
@@ -70,7 +69,7 @@ class UnpairedTest(unittest.TestCase):
             self.assertLessEqual(sum(map(abs, claims)), noise.LEVEL * len(claims), sizes)
 
 
-class PairedTest(unittest.TestCase):
+class PairedTest(FolderTest):
     def test_equal_sides_differ_in_at_most_one_case_of_a_hundred(self):
         for rounds in (8, 11):  # with each choice of signs, once
             claims = [noise.paired_order([1.0] * rounds, [1.01 ** (sign * rank) for rank, sign in enumerate(signs, 1)])
@@ -127,10 +126,8 @@ class PairedTest(unittest.TestCase):
     def test_rows_that_were_repeated_in_each_round_are_paired(self):
         entries = [{"name": f"tiled/{n}/threads:1", "real_time": 1.0, "time_unit": "ms"} for n in (9, 1) for _ in range(n)]
         for context, rounds in (({"rounds": "9"}, [True, False]), ({}, [False, False])):
-            with tempfile.TemporaryDirectory() as folder:
-                path = Path(folder) / "run.json"
-                path.write_text(json.dumps({"context": context, "benchmarks": entries}))
-                self.assertEqual([row.rounds for row in read_bench(path).rows.values()], rounds)
+            path = self.file("run.json", json.dumps({"context": context, "benchmarks": entries}))
+            self.assertEqual([row.rounds for row in read_bench(path).rows.values()], rounds)
 
     def test_shuffled_repetitions_must_not_be_paired(self):
         """A drift of the machine that both rows share: the rank-sum test is right, pairs would not be."""
@@ -217,12 +214,11 @@ class IntervalTest(unittest.TestCase):
         self.assertTrue(all(abs(figure - 8 ** 0.5) < 1e-9 for figure in noise.geometric_mean(same)))
 
 
-class NoiseCheckTest(unittest.TestCase):
+class NoiseCheckTest(FolderTest):
     def check(self, *runs):
-        with tempfile.TemporaryDirectory() as folder:
-            for i, data in enumerate(runs):
-                (Path(folder) / f"same-{i}.json").write_text(json.dumps(data))
-            return noise_table(Path(folder))[1]
+        for i, data in enumerate(runs):
+            self.file(f"same-{i}.json", json.dumps(data))
+        return noise_table(self.folder)[1]
 
     def test_false_alarms_and_found_slowdowns_are_counted(self):
         even, steady = [1.0, 1.01] * 8, [1.0, 1.001] * 8
@@ -236,7 +232,7 @@ class NoiseCheckTest(unittest.TestCase):
         self.assertEqual([line[1:] for line in lines], [["no", "16", "1 of 3", "1 of 3", "3 of 3"], ["yes", "16", "1 of 2", "1 of 2", "2 of 2"]])
 
     def test_other_files_are_refused(self):
-        self.assertEqual(noise_table(Path("/none"))[1], [])
+        self.assertEqual(self.check(), [])
         with self.assertRaisesRegex(BadInput, "two different revisions"):
             self.check({"before": "a", "after": "b", "rows": []})
         with self.assertRaisesRegex(BadInput, "compare --json"):

@@ -1,46 +1,37 @@
 """scripts/prove and scripts/checks/proofs.py, on claims made here."""
 import json
-import os
 import shutil
-import subprocess
 import sys
-import tempfile
 import unittest
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "scripts" / folder) for folder in ("reporting", "checks")]
+from support import ROOT, SCRIPTS, FolderTest, run
+
+sys.path[:0] = [str(SCRIPTS / folder) for folder in ("reporting", "checks")]
 from program import BadInput  # noqa: E402
 from proofs import check_constants, constant_of, read_sections  # noqa: E402
 
-PROVE = ROOT / "scripts/prove"
 DEFINITIONS = "(define-const kSub Int 256) ; = kSub of src/edgewise/contract.h\n"
 CLAIM = ";; claim even: Twice a number\n;;   is even.\n(assert (not (= (mod (* 2 v) 2) 0)))\n"
 WEAKENED = ";; weakened even: So is thrice.\n(assert (not (= (mod (* 3 v) 2) 0)))\n"
 INTRODUCTION = "; Numbers.\n(declare-const v Int)\n"
 
 
-class ProveTest(unittest.TestCase):
+class ClaimsTest(FolderTest):
     def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = Path(temporary.name)
-        self.write(CLAIM + WEAKENED)
+        super().setUp()
+        self.claim(CLAIM + WEAKENED)
 
-    def write(self, claims, definitions=DEFINITIONS):
-        (self.folder / "contract.smt2").write_text(definitions)
-        (self.folder / "numbers.smt2").write_text(INTRODUCTION + claims)
+    def claim(self, claims, definitions=DEFINITIONS):
+        self.file("contract.smt2", definitions)
+        self.file("numbers.smt2", INTRODUCTION + claims)
 
     def run_prove(self, *arguments, **environment):
-        return subprocess.run([PROVE, "--folder", self.folder, *map(str, arguments)], capture_output=True, text=True,
-                              check=False, env={**os.environ, **environment})
+        return run(SCRIPTS / "prove", "--folder", self.folder, *arguments, **environment)
 
-    def needs_solver(self):
-        if not shutil.which("z3"):
-            self.skipTest("z3 is not installed")
 
+@unittest.skipUnless(shutil.which("z3"), "z3 is not installed")
+class SolverTest(ClaimsTest):
     def test_proves_a_claim_and_refutes_its_weakened_form(self):
-        self.needs_solver()
         result = self.run_prove("--json", self.folder / "out.json")
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
         written = json.loads((self.folder / "out.json").read_text())
@@ -51,24 +42,19 @@ class ProveTest(unittest.TestCase):
         self.assertEqual(claim["weakened"]["result"], "refuted")
         self.assertEqual(list(claim["weakened"]["counterexample"]), ["v"])
 
-    def test_a_false_claim_fails(self):
-        self.needs_solver()
-        self.write(CLAIM.replace("(* 2 v)", "(* 5 v)") + WEAKENED)
-        result = self.run_prove()
-        self.assertEqual(result.returncode, 1)
-        self.assertIn("FALSE", result.stdout)
-
-    def test_a_weakened_form_that_holds_fails(self):
-        self.needs_solver()
-        self.write(CLAIM + WEAKENED.replace("(* 3 v)", "(* 4 v)"))
-        result = self.run_prove()
-        self.assertEqual(result.returncode, 1)
-        self.assertIn("HOLDS", result.stdout)
+    def test_what_is_not_proven_fails(self):
+        hard = ("(declare-const x Int) (declare-const y Int) (declare-const z Int)\n"
+                "(assert (and (> x 2) (> y 2) (> z 2) (= (+ (* x x x x x) (* y y y y y)) (* z z z z z))))\n")
+        for claims, said in ((CLAIM.replace("(* 2 v)", "(* 5 v)") + WEAKENED, "FALSE"), (CLAIM + WEAKENED.replace("(* 3 v)", "(* 4 v)"), "HOLDS"),
+                             (CLAIM[:CLAIM.index("(assert")] + hard + WEAKENED, "UNDECIDED")):
+            self.claim(claims)
+            result = self.run_prove("--time-limit", 1)
+            self.assertEqual(result.returncode, 1)
+            self.assertIn(said, result.stdout)
 
     def test_a_claim_of_what_cannot_be_fails(self):
-        self.needs_solver()
         impossible = "(assert (and (< v 0) (> v 0)))\n(assert (not"
-        self.write(CLAIM.replace("(assert (not", impossible) + WEAKENED)
+        self.claim(CLAIM.replace("(assert (not", impossible) + WEAKENED)
         result = self.run_prove("--json", self.folder / "out.json")
         self.assertEqual(result.returncode, 1)
         self.assertIn("EMPTY", result.stdout)
@@ -77,30 +63,21 @@ class ProveTest(unittest.TestCase):
         self.assertFalse(written["list"][0]["premises_hold"])
 
     def test_a_claim_that_asserts_nothing_is_refused(self):
-        self.needs_solver()
-        self.write(CLAIM[:CLAIM.index("(assert")] + WEAKENED)
+        self.claim(CLAIM[:CLAIM.index("(assert")] + WEAKENED)
         result = self.run_prove()
         self.assertEqual((result.returncode, result.stderr),
                          (2, "prove: numbers.smt2: claim even asserts nothing\n"))
 
-    def test_no_answer_in_time_is_no_proof(self):
-        self.needs_solver()
-        hard = ("(declare-const x Int) (declare-const y Int) (declare-const z Int)\n"
-                "(assert (and (> x 2) (> y 2) (> z 2) (= (+ (* x x x x x) (* y y y y y)) (* z z z z z))))\n")
-        self.write(CLAIM[:CLAIM.index("(assert")] + hard + WEAKENED)
-        result = self.run_prove("--time-limit", 1)
-        self.assertEqual(result.returncode, 1)
-        self.assertIn("UNDECIDED", result.stdout)
-
     def test_a_mistake_in_a_file_is_told(self):
-        self.needs_solver()
-        self.write(CLAIM.replace("mod", "mood") + WEAKENED)
+        self.claim(CLAIM.replace("mod", "mood") + WEAKENED)
         result = self.run_prove()
         self.assertEqual(result.returncode, 2)
         self.assertIn("numbers.smt2: claim even: the solver says (error", result.stderr)
 
+
+class ProveTest(ClaimsTest):
     def test_without_a_solver_it_says_so(self):
-        tools = self.folder / "bin"
+        tools = self.folder / "tools"
         tools.mkdir()
         (tools / "python3").symlink_to(sys.executable)
         result = self.run_prove(PATH=str(tools))
@@ -108,22 +85,22 @@ class ProveTest(unittest.TestCase):
         self.assertIn("z3 is not installed", result.stderr)
 
     def test_a_claim_without_a_weakened_form_is_refused(self):
-        self.write(CLAIM)
+        self.claim(CLAIM)
         with self.assertRaisesRegex(BadInput, "claim even has no deliberately false variant"):
             read_sections(self.folder)
-        self.write(WEAKENED)
+        self.claim(WEAKENED)
         with self.assertRaisesRegex(BadInput, "even has a false variant, but no claim"):
             read_sections(self.folder)
-        self.write(CLAIM + CLAIM + WEAKENED)
+        self.claim(CLAIM + CLAIM + WEAKENED)
         with self.assertRaisesRegex(BadInput, "even occurs twice"):
             read_sections(self.folder)
 
     def test_a_constant_that_drifts_from_its_source_is_refused(self):
         self.assertEqual(check_constants(self.folder, ROOT), 1)
-        self.write(CLAIM + WEAKENED, DEFINITIONS.replace("256", "255"))
+        self.claim(CLAIM + WEAKENED, DEFINITIONS.replace("256", "255"))
         with self.assertRaisesRegex(BadInput, "kSub is 255 in the proofs, but kSub of src/edgewise/contract.h is 256"):
             check_constants(self.folder, ROOT)
-        self.write(CLAIM + WEAKENED, DEFINITIONS.replace("contract.h", "gone.h"))
+        self.claim(CLAIM + WEAKENED, DEFINITIONS.replace("contract.h", "gone.h"))
         with self.assertRaisesRegex(BadInput, "not there"):
             check_constants(self.folder, ROOT)
 

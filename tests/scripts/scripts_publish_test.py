@@ -1,15 +1,11 @@
 """scripts/publish: what it copies to results/, and what results/ of this repository holds."""
 import json
-import os
 import shutil
-import subprocess
-import tempfile
 import unittest
-from pathlib import Path
 
 import scripts_test
+from support import ROOT, SCRIPTS, FolderTest, run
 
-ROOT = Path(__file__).resolve().parents[2]
 README = """<!-- results: results/mine -->
 <!-- generated:picture -->
 <!-- /generated -->
@@ -19,42 +15,35 @@ and one of another folder: ![](../charts/threads.svg)
 """
 
 
-class PublishTest(unittest.TestCase):
+class PublishTest(FolderTest):
     def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.root = Path(temporary.name)
-        shutil.copytree(scripts_test.SCRIPTS, self.root / "scripts")
-        (self.root / "scripts/README.md").unlink(missing_ok=True)
-        self.run, self.results = self.root / "build/results/mine", self.root / "results"
+        super().setUp()
+        shutil.copytree(SCRIPTS, self.folder / "scripts", ignore=shutil.ignore_patterns("README.md"))
+        self.mine, self.results = self.folder / "build/results/mine", self.folder / "results"
         for name in ("facts/pictures/torus-knot.png", "facts/pictures/cube.png", "mine/charts/area.svg", "mine/charts/threads.svg",
                      "facts/errors/crack.png"):
-            self.write(self.run.parent / name, f"new {name}")
+            self.file(self.mine.parent / name, f"new {name}")
         for name, data in (("mine/bench", scripts_test.timed_and_model(scripts_test.bench())[0]), ("mine/machine", scripts_test.MACHINE),
                            ("mine/verify", scripts_test.VERIFY), ("facts/accuracy", scripts_test.accuracy())):
-            self.write(self.run.parent / f"{name}.json", json.dumps(data))
-        self.write(self.root / "README.md", README)
-        self.write(self.root / "src/lab/README.md", FAR_README)
+            self.file(self.mine.parent / f"{name}.json", json.dumps(data))
+        self.file("README.md", README)
+        self.file("src/lab/README.md", FAR_README)
         self.git("init", "--quiet")
         self.git("add", "README.md", "src")
 
-    def write(self, path, text):
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text)
-
     def git(self, *words):
-        subprocess.run(["git", "-C", self.root, *words], check=True)
+        self.assertEqual(run("git", "-C", self.folder, *words).returncode, 0)
 
     def publish(self, *arguments):
-        return subprocess.run([self.root / "scripts/publish", *arguments], capture_output=True, text=True, check=False)
+        return run(self.folder / "scripts/publish", *arguments)
 
     def files(self):
         return {str(path.relative_to(self.results)) for path in self.results.rglob("*") if path.is_file()}
 
     def test_readmes_decide_which_pictures_are_copied(self):
         for name, text in (("random.json", "{}"), ("charts/threads.svg", "old"), ("charts/area.svg", "old")):
-            self.write(self.results / "mine" / name, text)
-        result = self.publish(self.run)
+            self.file(self.results / "mine" / name, text)
+        result = self.publish(self.mine)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(self.files(), {"mine/random.json", "mine/bench.json", "mine/machine.json", "mine/verify.json", "facts/accuracy.json",
                                         "facts/pictures/torus-knot.png", "mine/charts/area.svg", "facts/errors/crack.png"})
@@ -62,27 +51,27 @@ class PublishTest(unittest.TestCase):
         self.assertIn("results/mine/ and results/facts/: 4 JSON files, and 3 charts and pictures", result.stdout)
 
     def test_a_picture_that_was_not_drawn_removes_nothing(self):
-        self.write(self.results / "mine/charts/area.svg", "old")
-        (self.run.parent / "facts/errors/crack.png").unlink()
-        result = self.publish(self.run)
+        self.file(self.results / "mine/charts/area.svg", "old")
+        (self.mine.parent / "facts/errors/crack.png").unlink()
+        result = self.publish(self.mine)
         self.assertEqual((result.returncode, result.stderr),
                          (2, "publish: results/facts/errors/crack.png: a README shows it, but the run did not draw it\n"))
         self.assertEqual((self.results / "mine/charts/area.svg").read_text(), "old")
 
     def test_a_folder_that_is_no_run_is_refused(self):
-        self.assertEqual(self.publish(self.run).returncode, 0)
+        self.assertEqual(self.publish(self.mine).returncode, 0)
         before = self.files()
-        for folder in (self.root / "nowhere", self.results / "mine", self.run.parent / "facts"):
+        for folder in (self.folder / "nowhere", self.results / "mine", self.mine.parent / "facts"):
             result = self.publish(folder)
             self.assertEqual((result.returncode, len(result.stderr.splitlines())), (2, 1), result.stderr)
         self.assertEqual(self.files(), before)
 
     def test_check_lists_what_is_superfluous_and_what_is_missing(self):
-        self.assertEqual(self.publish(self.run).returncode, 0)
+        self.assertEqual(self.publish(self.mine).returncode, 0)
         self.git("add", "results")
         result = self.publish("--check")
         self.assertEqual((result.returncode, result.stdout), (0, ""), result.stderr)
-        self.write(self.results / "mine/page.html", "")
+        self.file(self.results / "mine/page.html", "")
         self.git("add", "results")
         self.git("rm", "--quiet", "--cached", "results/facts/errors/crack.png")
         result = self.publish("--check")
@@ -93,17 +82,16 @@ class PublishTest(unittest.TestCase):
 
 class CommittedResults(unittest.TestCase):
     def test_only_what_readmes_show_is_committed_and_little_of_it(self):
-        top = subprocess.run(["git", "-C", ROOT, "rev-parse", "--show-toplevel"], capture_output=True, text=True, check=False)
+        top = run("git", "-C", ROOT, "rev-parse", "--show-toplevel")
         if top.stdout.strip() != str(ROOT):
             self.skipTest("not a git checkout")
-        result = scripts_test.run("publish", "--check")
+        result = run(SCRIPTS / "publish", "--check")
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
-        listed = subprocess.run(["git", "-C", ROOT, "ls-files", "results"], capture_output=True, text=True, check=True)
-        files = listed.stdout.splitlines()
+        files = run("git", "-C", ROOT, "ls-files", "results").stdout.splitlines()
+        self.assertIn("results/README.md", files)
         self.assertLess(len(files), 150)
         self.assertLess(sum((ROOT / file).stat().st_size for file in files), 15e6)
 
 
 if __name__ == "__main__":
-    os.environ["PYTHONDONTWRITEBYTECODE"] = "1"
     unittest.main()

@@ -2,13 +2,9 @@
 apt-get."""
 import os
 import shutil
-import subprocess
-import tempfile
 import unittest
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-SCRIPTS = ROOT / "scripts"
+from support import SCRIPTS, FolderTest
 
 APT_OFFLINE = """#!/bin/bash
 echo "W: Failed to fetch http://deb.debian.org/debian/dists/bookworm/InRelease  Temporary failure resolving 'deb.debian.org'" >&2
@@ -59,40 +55,24 @@ GTEST_CASES = """<testsuites tests="2"><testsuite name="L">
 z3 is not installed]]></skipped></testcase></testsuite></testsuites>"""
 
 
-class ShellTest(unittest.TestCase):
+class ShellTest(FolderTest):
     def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = Path(temporary.name)
-        self.tools, self.root, self.calls = (self.folder / name for name in ("tools", "root", "calls"))
-        self.tools.mkdir()
+        super().setUp()
+        self.root, self.calls = self.folder / "root", self.folder / "calls"
         shutil.copytree(SCRIPTS, self.root / "scripts")
         self.tool("sudo", SUDO)
         self.tool("cmake", CMAKE)
         self.tool("ctest", CTEST)
         self.tool("dpkg-query", ALL_INSTALLED)
         self.tool("apt-get", '#!/bin/bash\necho "apt-get $*" >>"$CALLS"\nexit 9\n')
-        self.environment = {**os.environ, "PATH": f"{self.tools}:{os.environ['PATH']}", "CALLS": str(self.calls),
-                            "CTEST_XML": "", "GTEST_XML": str(self.write("gtest.xml", GTEST_CASES))}
+        self.environment |= {"CALLS": str(self.calls), "CTEST_XML": "", "GTEST_XML": str(self.file("gtest.xml", GTEST_CASES))}
 
-    def write(self, name, text):
-        path = self.folder / name
-        path.write_text(text)
-        return path
-
-    def tool(self, name, text):
-        path = self.tools / name
-        path.write_text(text)
-        path.chmod(0o755)
-
-    def run_script(self, *command, **environment):
-        return subprocess.run([self.root / "scripts" / command[0], *command[1:]], capture_output=True, text=True,
-                              check=False, env={**self.environment, **environment})
+    def run_script(self, name, *arguments, **environment):
+        return self.with_tools(self.root / "scripts" / name, *arguments, **environment)
 
     def library(self, commands, **environment):
         """lib.sh, then these."""
-        return subprocess.run(["bash", "-c", f"set -euo pipefail; . {self.root}/scripts/lib.sh; {commands}"], text=True,
-                              capture_output=True, check=False, env={**self.environment, **environment})
+        return self.with_tools("bash", "-c", f"set -euo pipefail; . {self.root}/scripts/lib.sh; {commands}", **environment)
 
     def assert_usage_error(self, result, words):
         self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
@@ -107,7 +87,7 @@ class ShellTest(unittest.TestCase):
         for script in ("test", "run"):
             self.assert_usage_error(self.run_script(script, "--no-install", "--wrong"), "'--wrong'; --help lists all")
         for script, near in (("fuzz", "--keep"), ("prove", "--list"), ("mutate", "--list"), ("compare", "--least"), ("readme", "--check"),
-                             ("summary", "--tables"), ("publish", "--check")):
+                             ("summary", "--tables"), ("publish", "--check"), ("plot", "--out")):
             wrong = near[:-1] + "_"
             self.assert_usage_error(self.run_script(script, wrong), f"'{wrong}'; did you mean {near}?")
         self.assert_usage_error(self.run_script("test", "--quick", "--no-install"), "unknown argument '--quick'; --help")
@@ -118,10 +98,6 @@ class ShellTest(unittest.TestCase):
         self.assert_usage_error(self.run_script("run", "--mesh", str(self.folder)), "not a file")
         self.assert_usage_error(self.run_script("compare", "a"), "no such file, and no revision")
 
-    def test_plot_names_the_nearest_option(self):
-        result = self.run_script("plot", "--oot")
-        self.assert_usage_error(result, "did you mean --out?")
-
     def test_no_install_holds_wherever_it_stands(self):
         self.tool("dpkg-query", DPKG_QUERY)
         for arguments in (("-R", "x", "--no-install"), ("--no-install", "-R", "x")):
@@ -129,6 +105,34 @@ class ShellTest(unittest.TestCase):
             self.assertEqual(result.returncode, 2)
             self.assertIn("Missing packages: ninja-build\n", result.stderr)
             self.assertFalse(self.calls.exists(), "something ran")
+
+    def test_missing_packages_of_a_further_list_are_named(self):
+        self.tool("dpkg-query", DPKG_QUERY.replace("ninja-build", "libegl-dev"))
+        self.assertEqual(self.library("set_up list").returncode, 0)
+        result = self.library("set_up list peers")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("Missing packages: libegl-dev\n", result.stderr)
+
+    def test_swiftshader_is_unpacked_or_left_out(self):
+        package, names = self.folder / "package", {"libvk_swiftshader.so", "vk_swiftshader_icd.json"}
+        self.file("package/DEBIAN/control", "Package: chromium-common\nVersion: 7\nArchitecture: all\nMaintainer: me\nDescription: x\n")
+        for name in (*names, "chromium"):
+            self.file(f"package/usr/lib/chromium/{name}", name)
+
+        def unpacked(body):
+            self.tool("apt-get", f"#!/bin/bash\n{body}\n")
+            return self.library("unpack_swiftshader; echo on")
+
+        failed = unpacked("echo E: no server >&2; exit 100")
+        self.assertEqual((failed.returncode, failed.stdout.splitlines()[-1]), (0, "on"))
+        self.assertEqual(failed.stderr, "Left out: swiftshader: chromium-common could not be unpacked: E: no server\n")
+        self.assertEqual(list((self.root / "build").iterdir()), [])
+        self.assertEqual(unpacked(f"dpkg-deb -b {package} chromium-common_7.deb >/dev/null").stderr, "")
+        folder = self.root / "build/swiftshader"
+        self.assertEqual((folder / "package").read_text(), "chromium-common 7")
+        for copy in (folder / "1", folder / "2"):
+            self.assertEqual({file.name for file in copy.iterdir()}, names)
+        self.assertEqual(unpacked("exit 1").stdout, "on\n")
 
     def test_without_a_network_the_first_line_says_so(self):
         self.tool("dpkg-query", DPKG_QUERY)
@@ -160,18 +164,9 @@ class ShellTest(unittest.TestCase):
         self.assertIn("the build failed; see above", result.stderr)
 
     def run_tests(self, cases, *arguments, **environment):
-        result = self.run_script("test", *arguments, CTEST_XML=str(self.write("ctest.xml", CTEST_CASES % cases)),
+        result = self.run_script("test", *arguments, CTEST_XML=str(self.file("ctest.xml", CTEST_CASES % cases)),
                                  **environment)
         return result, result.stdout.splitlines()
-
-    def test_a_run_that_wrote_nothing_failed_and_a_shard_without_tests_did_not(self):
-        with tempfile.TemporaryDirectory() as folder:
-            for name, text in (("shard-0", '<testsuites><testsuite><testcase name="a" classname="A"/></testsuite></testsuites>'),
-                               ("shard-1", '<testsuites tests="0"></testsuites>'), ("died", "")):
-                (Path(folder) / f"{name}.xml").write_text(text)
-            result = subprocess.run(["python3", SCRIPTS / "checks/test_results.py", folder], capture_output=True, text=True, check=False)
-        self.assertEqual(result.stdout.splitlines()[-1], "1 passed, 1 failed, 0 skipped")
-        self.assertIn("the run ended without results; see above (died)", result.stdout)
 
     def test_the_verdict_counts_all_runs_and_tells_why_tests_are_skipped(self):
         shards = len(os.sched_getaffinity(0))
@@ -203,5 +198,4 @@ class ShellTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    os.environ["PYTHONDONTWRITEBYTECODE"] = "1"
     unittest.main()

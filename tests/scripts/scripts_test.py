@@ -1,17 +1,14 @@
 """The scripts that read results, on a tiny result made here."""
 import importlib.util
 import json
-import os
 import re
-import subprocess
 import sys
-import tempfile
 import unittest
 from itertools import product
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-SCRIPTS = ROOT / "scripts"
+import support
+from support import ROOT, SCRIPTS, FolderTest
+
 sys.path.insert(0, str(SCRIPTS / "reporting"))
 MACHINE = {"cpu_model": "Test CPU", "cores": 2, "simd_best": "avx2", "memory_gib": 4, "os": "Test OS",
            "compiler": "GCC 1", "build_type": "Release", "commit": "abc", "caches": {"L2": "1024K", "L3": "32768K"}}
@@ -155,39 +152,34 @@ def portable():
             for bits in range(4, 9) for scene, unstable in (("cube", 10), ("knot", 1234))]
 
 
-def run(script, *arguments, environment=None):
-    return subprocess.run([SCRIPTS / script, *map(str, arguments)], capture_output=True, text=True, check=False,
-                          env={**os.environ, **(environment or {})})
+def run(script, *arguments):
+    return support.run(SCRIPTS / script, *arguments)
 
 
 def plotted(test, *arguments):
     """Runs scripts/plot by an interpreter that has matplotlib."""
     for python in ("python3", "/usr/bin/python3"):
-        if subprocess.run([python, "-c", "import matplotlib"], capture_output=True, check=False).returncode == 0:
-            result = subprocess.run([python, SCRIPTS / "plot", *arguments], capture_output=True, text=True, check=False)
+        if support.run(python, "-c", "import matplotlib").returncode == 0:
+            result = support.run(python, SCRIPTS / "plot", *arguments)
             return test.assertEqual(result.returncode, 0, result.stderr)
     return test.skipTest("no matplotlib")
 
 
-class ScriptsTest(unittest.TestCase):
+class ScriptsTest(FolderTest):
     def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = Path(temporary.name)
+        super().setUp()
         self.results, self.facts = self.write("results", bench()), self.folder / "facts"
 
     def write(self, name, benchmark):
-        folder = self.folder / name
-        folder.mkdir()
+        """The folder of such results, which replace others."""
         timed, model = timed_and_model(benchmark)
         for file, data in (("bench", timed), ("model", model), ("machine", MACHINE), ("verify", VERIFY)):
-            (folder / f"{file}.json").write_text(json.dumps(data))
-        return folder
+            self.file(f"{name}/{file}.json", json.dumps(data))
+        return self.folder / name
 
     def add_facts(self, laboratory=None):
-        self.facts.mkdir(exist_ok=True)
         for name, data in (("accuracy", laboratory or accuracy()), ("stability", stability()), ("portable", portable())):
-            (self.facts / f"{name}.json").write_text(json.dumps(data))
+            self.file(f"facts/{name}.json", json.dumps(data))
 
     def filled(self, *names, results="results"):
         """The README with these blocks, after scripts/readme."""
@@ -225,8 +217,7 @@ class ScriptsTest(unittest.TestCase):
         self.assertIn("tiled/cube/threads:1", result.stdout.split("other triangles")[1])
 
     def test_bad_input_gets_one_line(self):
-        broken = self.folder / "broken.json"
-        broken.write_text("{")
+        broken = self.file("broken.json", "{")
         self.fails(run("compare", self.results, self.folder / "none"), "none", "No such file")
         self.fails(run("compare", self.results, broken), "broken.json", "not JSON")
         broken.write_text('{"benchmarks": [{"name": "x"}]}')
@@ -235,10 +226,9 @@ class ScriptsTest(unittest.TestCase):
 
     def test_readme_shows_the_tutorials(self):
         demo = {"name": "turn", "tutorial": "A trainer", "summary": "it turns"}
-        self.facts.mkdir()
-        (self.facts / "demos.json").write_text(json.dumps([demo]))
+        file = self.file("facts/demos.json", json.dumps([demo]))
         self.assertIn("**A trainer**, `edgewise demo turn --view`: it turns\n\n![it turns](facts/pictures/demo-turn.png)\n", self.filled("demos"))
-        (self.facts / "demos.json").unlink()
+        file.unlink()
         self.fails(run("readme", "--file", self.folder / "README.md"), "demos.json", "No such file")
 
     def test_readme_is_filled_then_up_to_date_then_stale(self):
@@ -263,18 +253,15 @@ class ScriptsTest(unittest.TestCase):
         benchmark = bench()
         for where, times in (("half_last_cache", (0.14, 1.6, 0.15)), ("memory", (1.8, 1.7, 1.9))):
             benchmark["benchmarks"] += entries(f"random_read/{where}", times, reads=10e3)
-        (self.results / "bench.json").write_text(json.dumps(timed_and_model(benchmark)[0]))
+        self.write("results", benchmark)
         self.assertIn("| half the last-level cache | 15 ns (14 to 160) |\n| a far larger buffer | 180 ns (170 to 190) |\n",
                       self.filled("random_reads"))
         self.assertNotIn("random_read/", run("compare", "--all", self.results, self.results).stdout)
 
     def test_readme_compares_machines_by_how_long_peers_take(self):
-        mine, other, empty = (self.results / name for name in ("mine", "other", "empty"))
-        for folder, slow in ((mine, bench_with_peer()), (other, bench())):
-            folder.mkdir()
-            (folder / "machine.json").write_text(json.dumps(MACHINE))
-            (folder / "bench.json").write_text(json.dumps(timed_and_model(slow)[0]))
-        empty.mkdir()
+        self.write("results/mine", bench_with_peer())
+        other = self.write("results/other", bench())
+        (self.results / "empty").mkdir()
         text = self.filled("other_machines", results="results/mine")
         self.assertIn("- [`other`](results/other): Test CPU, 2 cores, avx2, 4 GiB;", text)
         self.assertIn("triangle area](results/other/charts/area.svg)\n", text)
@@ -289,7 +276,7 @@ class ScriptsTest(unittest.TestCase):
         text = self.filled("peers")
         self.assertIn("scripts/run --peers", text)
         self.assertNotIn("ext", text)
-        (self.results / "bench.json").write_text(json.dumps(bench_with_peer()))
+        self.write("results", bench_with_peer())
         text = self.filled("peers")
         self.assertIn("ext (Ext 1.2), on 1 / 2 threads; pictures differ in at most 7 pixels, all depth ties within tolerance:", text)
         self.assertIn("| cube | 16.8 / 8.40 | 2.10 / 1.05 | 8.0× / 8.0× |", text)
@@ -299,58 +286,17 @@ class ScriptsTest(unittest.TestCase):
         for entry in coarse["benchmarks"]:
             if "depth_ties" in entry:
                 entry["wrong_px"] = 9 * entry.pop("depth_ties")
-        (self.results / "bench.json").write_text(json.dumps(coarse))
+        self.write("results", coarse)
         self.assertIn("pictures differ in at most 63 pixels, all not portable:", self.filled("peers"))
 
     def test_what_the_test_of_normals_gains_is_drawn_beside_culling(self):
         drawn = []
         for data in (bench(), bench_with_normals()):
-            (self.results / "bench.json").write_text(json.dumps(data))
-            plotted(self, self.results)
+            plotted(self, self.write("results", data))
             drawn.append((self.results / "charts/culling.svg").read_text())
         # Texts are paths; matplotlib keeps them as comments.
         self.assertNotIn("wrong", drawn[0])
         self.assertIn("<!-- 1,234 px wrong -->", drawn[1])
-
-    def test_missing_packages_of_a_further_list_are_named(self):
-        tools = self.folder / "tools"
-        tools.mkdir()
-        for tool, body in (("apt-get", "exit 9"), ("dpkg-query", '[[ ${*: -1} != libegl-dev ]] && echo -n installed; exit 0')):
-            (tools / tool).write_text(f"#!/bin/bash\n{body}\n")
-            (tools / tool).chmod(0o755)
-        def missing(*lists):
-            return subprocess.run(["bash", "-c", f". {SCRIPTS}/lib.sh; set_up list {' '.join(lists)}"], text=True, check=False,
-                                  capture_output=True, env={**os.environ, "PATH": f"{tools}:{os.environ['PATH']}"})
-
-        self.assertEqual(missing().returncode, 0)
-        result = missing("peers")
-        self.assertEqual(result.returncode, 2)
-        self.assertIn("Missing packages: libegl-dev\n", result.stderr)
-
-    def test_swiftshader_is_unpacked_or_left_out(self):
-        package, tools = self.folder / "package", self.folder / "tools"
-        for made in (package / "DEBIAN", package / "usr/lib/chromium", tools):
-            made.mkdir(parents=True)
-        (package / "DEBIAN/control").write_text("Package: chromium-common\nVersion: 7\nArchitecture: all\nMaintainer: me\nDescription: x\n")
-        for name in ("libvk_swiftshader.so", "vk_swiftshader_icd.json", "chromium"):
-            (package / "usr/lib/chromium" / name).write_text(name)
-
-        def unpacked(body):
-            (tools / "apt-get").write_text(f"#!/bin/bash\n{body}\n")
-            (tools / "apt-get").chmod(0o755)
-            return subprocess.run(["bash", "-euo", "pipefail", "-c", f". {SCRIPTS}/lib.sh; root={self.folder}; unpack_swiftshader; echo on"],
-                                  text=True, check=False, capture_output=True, env={**os.environ, "PATH": f"{tools}:{os.environ['PATH']}"})
-
-        failed = unpacked("echo E: no server >&2; exit 100")
-        self.assertEqual((failed.returncode, failed.stdout.splitlines()[-1]), (0, "on"))
-        self.assertEqual(failed.stderr, "Left out: swiftshader: chromium-common could not be unpacked: E: no server\n")
-        self.assertEqual(list((self.folder / "build").iterdir()), [])
-        self.assertEqual(unpacked(f"dpkg-deb -b {package} chromium-common_7.deb >/dev/null").stderr, "")
-        folder = self.folder / "build/swiftshader"
-        self.assertEqual((folder / "package").read_text(), "chromium-common 7")
-        for copy in (folder / "1", folder / "2"):
-            self.assertEqual({file.name for file in copy.iterdir()}, {"libvk_swiftshader.so", "vk_swiftshader_icd.json"})
-        self.assertEqual(unpacked("exit 1").stdout, "on\n")
 
     def test_laboratory_fills_the_readme_and_the_summary(self):
         self.add_facts()
@@ -463,42 +409,8 @@ class MachineTest(unittest.TestCase):
         self.assertTrue(describe_machine({**MACHINE, "usable_cores": 1}).startswith("Test CPU, 1 usable of 2 cores, avx2"))
 
 
-class TileStoresTest(unittest.TestCase):
-    """bench_tables.tile_stores_table(): frames back to back and after pauses, each beside streaming stores for all tiles."""
-
-    def test_compares_stores_back_to_back_and_after_pauses(self):
-        from bench_rows import Bench, parse_name
-        from bench_tables import tile_stores_table
-        rows = {}
-        for keys, ms in (("", 1.0), ("/stores:streaming", 2.0), ("/pause:2ms", 3.0), ("/pause:2ms/stores:streaming", 3.0)):
-            row = parse_name(f"tiled+frontend/cube{keys}/threads:2")
-            row.times_ms = [ms + 1e-3 * i for i in range(5)]
-            rows[row.name] = row
-        header, lines = tile_stores_table(Bench({}, rows))
-        self.assertEqual(header, ["scene", "threads", "back to back: rule, ms", "streaming, ms", "after 2 ms: rule, ms", "streaming, ms"])
-        self.assertEqual(lines, [["cube", "2", "1.00", "2.00 (2.0× slower)", "3.00", "3.00 (not settled)"]])
-        del rows["tiled+frontend/cube/pause:2ms/stores:streaming/threads:2"]
-        self.assertEqual(tile_stores_table(Bench({}, rows))[1], [["cube", "2", "1.00", "2.00 (2.0× slower)", "3.00", "–"]])
-        self.assertEqual(tile_stores_table(Bench({}, {}))[1], [])
-
-
-class TailsTest(unittest.TestCase):
-    """bench_tables.tails_table(): the slowest and the first of whole frames."""
-
-    def test_shows_the_rows_whose_frames_were_kept(self):
-        from bench_rows import Bench, parse_name
-        from bench_tables import tails_table
-        rows = {name: parse_name(name) for name in ("tiled+frontend/cube/threads:2", "scanline+frontend/cube/threads:2",
-                                                    "tiled+frontend/knot/threads:2", "scanline+frontend/knot/threads:2")}
-        for row in rows.values():
-            row.times_ms = [2.0]
-        for name in ("tiled+frontend/cube/threads:2", "scanline+frontend/cube/threads:2", "tiled+frontend/knot/threads:2"):
-            rows[name].counters = {"p99_ms": 3.14159, "first_ms": 12.0}
-        del rows["tiled+frontend/knot/threads:2"].counters["p99_ms"]
-        header, lines = tails_table(Bench({"backends": "scanline tiled"}, rows))
-        self.assertEqual(header[1:3], ["scanline, median / p99, ms", "scanline, first, ms"])
-        self.assertEqual(lines, [["cube", "2.00 / 3.14", "12", "2.00 / 3.14", "12"], ["knot", "–", "–", "2.00 / –", "12"]])
-        self.assertEqual(tails_table(Bench({}, {}))[1], [])
+class EventsTest(unittest.TestCase):
+    """bench_tables.tails_table(): counters of instructions."""
 
     def test_shows_events_where_they_were_counted(self):
         from bench_rows import Bench, parse_name
@@ -644,5 +556,4 @@ class ChartsTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    os.environ["PYTHONDONTWRITEBYTECODE"] = "1"
     unittest.main()

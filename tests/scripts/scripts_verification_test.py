@@ -1,12 +1,10 @@
 """checks/test_results.py, reporting/verification_summary.py and reporting/shards.py, on results made here."""
 import json
-import subprocess
 import sys
-import tempfile
 import unittest
-from pathlib import Path
 
-SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
+from support import SCRIPTS, FolderTest, run
+
 sys.path.insert(0, str(SCRIPTS / "reporting"))
 from verification_summary import verification_markdown, verification_table  # noqa: E402
 
@@ -41,83 +39,76 @@ GOOD = {"tests": {"all": totals(500), "families": {"lattices": totals(5, cases=2
         "fuzz": {"cpu_hours": 4.0, "targets": [{"what": "any bytes", "executions": 12_345, "lines_reached": 90, "lines": 100, "crashes": []}]}}
 
 
-class CollectTest(unittest.TestCase):
+class CollectTest(FolderTest):
+    def collected(self, *options):
+        return run(sys.executable, SCRIPTS / "checks/test_results.py", self.folder, *options)
+
     def test_adds_up_shards_and_sanitizers(self):
-        with tempfile.TemporaryDirectory() as name:
-            folder = Path(name)
-            for i, shard in enumerate(SHARDS):
-                (folder / f"tests-{i}.xml").write_text(f"<testsuites>{''.join(shard)}</testsuites>")
-            cases = "".join(f'<testcase status="{status}"><skipped message="SKIP_RETURN_CODE=77"/></testcase>'
-                            for status in CTEST)
-            (folder / "thread.xml").write_text(f"<testsuite>{cases}</testsuite>")
-            (folder / "address.xml").write_text("")  # not run yet
-            run = subprocess.run([sys.executable, SCRIPTS / "checks/test_results.py", folder, "--json"], stdout=subprocess.PIPE,
-                                 check=True)
-            self.assertEqual(json.loads(run.stdout), TOTALS)
+        for i, shard in enumerate(SHARDS):
+            self.file(f"tests-{i}.xml", f"<testsuites>{''.join(shard)}</testsuites>")
+        cases = "".join(f'<testcase status="{status}"><skipped message="SKIP_RETURN_CODE=77"/></testcase>' for status in CTEST)
+        self.file("thread.xml", f"<testsuite>{cases}</testsuite>")
+        self.file("address.xml", "")  # not run yet
+        self.assertEqual(json.loads(self.collected("--json").stdout), TOTALS)
 
     def test_says_what_is_no_result(self):
-        with tempfile.TemporaryDirectory() as name:
-            (Path(name) / "thread.xml").write_text("<a/>")
-            run = subprocess.run([sys.executable, SCRIPTS / "checks/test_results.py", name, "--json"], stderr=subprocess.PIPE, text=True,
-                                 check=False)
-            self.assertEqual(run.returncode, 2)
-            self.assertEqual(len(run.stderr.splitlines()), 1, run.stderr)
+        self.file("thread.xml", "<a/>")
+        result = self.collected("--json")
+        self.assertEqual((result.returncode, len(result.stderr.splitlines())), (2, 1), result.stderr)
+
+    def test_a_run_that_wrote_nothing_failed_and_a_shard_without_tests_did_not(self):
+        for name, text in (("shard-0", '<testsuites><testsuite><testcase name="a" classname="A"/></testsuite></testsuites>'),
+                           ("shard-1", '<testsuites tests="0"></testsuites>'), ("died", "")):
+            self.file(f"{name}.xml", text)
+        result = self.collected()
+        self.assertEqual(result.stdout.splitlines()[-1], "1 passed, 1 failed, 0 skipped")
+        self.assertIn("the run ended without results; see above (died)", result.stdout)
 
 
-class VerificationTest(unittest.TestCase):
-    def table(self, **results):
-        with tempfile.TemporaryDirectory() as name:
-            for key, data in results.items():
-                (Path(name) / f"{key}.json").write_text(json.dumps(data))
-            return verification_table(Path(name))[1], verification_markdown(Path(name))
+class VerificationTest(FolderTest):
+    def table(self, machine, **results):
+        folder = self.folder / "results" / machine
+        for key, data in results.items():
+            self.file(folder / f"{key}.json", json.dumps(data))
+        return verification_table(folder)[1]
 
     def test_each_result_has_its_line(self):
-        lines, text = self.table(**GOOD)
-        self.assertEqual([line[1:] for line in lines], [
+        self.assertEqual([line[1:] for line in self.table("here", **GOOD)], [
             ["500 tests", "no failure"],
             ["5 tests, 2M triangles", "no failure"],
             ["499 tests, 2 of them skipped", "no failure"],
             ["9 claims, each with a deliberately false variant", "all proven; all premises satisfiable; all false variants refuted"],
             ["25 mutants, one at a time", "all caught"],
             ["12.3k executions", "no crash"]])
-        self.assertNotIn("**", text)
 
     def test_what_was_not_run_is_left_out(self):
-        self.assertEqual(len(self.table(mutate=GOOD["mutate"])[0]), 1)
-        self.assertEqual(self.table(), ([], "None of this was run for these results."))
+        self.assertEqual(self.table("here"), [])
+        self.assertEqual(verification_markdown(self.folder), "None of this was run for these results.")
+        self.assertEqual(len(self.table("here", mutate=GOOD["mutate"])), 1)
 
     def test_what_ran_on_another_machine_names_it(self):
         shard = {"cases": 6000, "pixels": 2 * 10**9, "differences": 0, "simd_targets": ["scalar", "sse4"]}
-        with tempfile.TemporaryDirectory() as name:
-            here, there = Path(name, "results/here"), Path(name, "results/there")
-            wrong = {**shard, "differences": 1, "commit": "abc"}
-            for folder, found in ((here, {"random": shard}), (there, {"random": wrong, "mutate": GOOD["mutate"]})):
-                folder.mkdir(parents=True)
-                for key, data in found.items():
-                    (folder / f"{key}.json").write_text(json.dumps(data))
-            self.assertEqual([line[1:] for line in verification_table(here)[1]], [
-                ["25 mutants, one at a time (`there`)", "all caught"],
-                ["6k pictures in scalar code and SSE4, 2G pixels compared", "no difference"],
-                ["6k pictures in scalar code and SSE4, 2G pixels compared (`there`, commit abc)", "**1 difference**"]])
+        self.table("there", random={**shard, "differences": 1, "commit": "abc"}, mutate=GOOD["mutate"])
+        self.assertEqual([line[1:] for line in self.table("here", random=shard)], [
+            ["25 mutants, one at a time (`there`)", "all caught"],
+            ["6k pictures in scalar code and SSE4, 2G pixels compared", "no difference"],
+            ["6k pictures in scalar code and SSE4, 2G pixels compared (`there`, commit abc)", "**1 difference**"]])
 
     def test_what_failed_is_bold(self):
         bad = {"tests": TOTALS, "prove": {"claims": 9, "proven": 8, "premises_hold": 6, "refuted": 7},
                "mutate": {"mutations": 25, "caught": 24},
                "fuzz": {"targets": [{**GOOD["fuzz"]["targets"][0], "crashes": ["a", "b"]}]}}
-        self.assertEqual([line[2] for line in self.table(**bad)[0]], [
+        self.assertEqual([line[2] for line in self.table("here", **bad)], [
             "**1 failure**", "**1 failure**", "no failure", "no failure", "no failure", "**1 failure**",
             "**8 of 9 proven**; **6 of 9 premises satisfiable**; **7 of 9 false variants refuted**",
             "**24 of 25 caught**",
             "**2 crashes**"])
 
 
-class ShardsTest(unittest.TestCase):
+class ShardsTest(FolderTest):
     def added(self, *lines):
-        with tempfile.TemporaryDirectory() as name:
-            paths = [Path(name, f"{i}.json") for i in range(len(lines))]
-            for path, line in zip(paths, lines):
-                path.write_text(json.dumps(line))
-            return subprocess.run([sys.executable, SCRIPTS / "reporting/shards.py", *paths], capture_output=True, text=True, check=False)
+        paths = [self.file(f"{i}.json", json.dumps(line)) for i, line in enumerate(lines)]
+        return run(sys.executable, SCRIPTS / "reporting/shards.py", *paths)
 
     def line(self, shard, targets=("scalar", "sse4"), **others):
         counts = dict.fromkeys(("cases", "frames", "triangles", "pixels", "oracle_frames", "frontend_lists"), 2)

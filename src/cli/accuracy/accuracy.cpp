@@ -30,8 +30,7 @@ void check_method_names(const AccuracyPlan& plan) {
   std::vector<std::string_view> known;
   for (const auto& [family, info] : methods_of(everything).all()) known.push_back(info->name);
   for (const std::string& name : plan.methods)
-    if (std::find(known.begin(), known.end(), name) == known.end())
-      throw std::invalid_argument(unknown_name("method", name, known));
+    find_named("method", name, std::span<const std::string_view>(known), std::identity());
 }
 
 // Those that start here; the first call names the others on stderr.

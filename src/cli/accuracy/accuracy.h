@@ -39,11 +39,6 @@ struct CrackCounts {
         double_hits(cracks.double_hits.size()),
         t_junctions(cracks.at_t_junctions()),
         folds(cracks.folds.size()) {}
-  CrackCounts& operator+=(const CrackCounts& other) {
-    gaps += other.gaps, double_hits += other.double_hits;
-    t_junctions += other.t_junctions, folds += other.folds;
-    return *this;
-  }
   std::uint64_t gaps = 0, double_hits = 0, t_junctions = 0, folds = 0;
 };
 

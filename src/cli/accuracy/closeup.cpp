@@ -15,10 +15,7 @@ namespace {
 // The largest part of the picture that a close-up shows, in px. Default: pixels stay large enough to see.
 // Fine: for triangles smaller than pixels. Large: nearly all pixels are wrong, so only a large part can be
 // recognized.
-struct Extent {
-  int width, height;
-};
-constexpr Extent kDefaultExtent{96, 72}, kFineExtent{24, 18}, kLargeExtent{240, 240};
+constexpr lab::Size kDefaultExtent{96, 72}, kFineExtent{24, 18}, kLargeExtent{240, 240};
 constexpr int kLargestUncropped = 130;  // px; pictures up to this size are shown whole
 constexpr int kPictureSide = 960, kLargestPixel = 64;
 constexpr std::uint32_t kBackground = rgb(255, 255, 255), kLineColour = rgb(20, 20, 20),
@@ -51,7 +48,7 @@ class MarkCount {
 };
 
 // The part of at most this size with the most marks, centred on their bounding box.
-lab::Window most_wrong(const lab::Window& all, MarkCount& count, Extent most_px) {
+lab::Window most_wrong(const lab::Window& all, MarkCount& count, lab::Size most_px) {
   lab::Window part{std::min(all.width, most_px.width), std::min(all.height, most_px.height)};
   int most = -1;
   for (int y = 0; y + part.height <= all.height; ++y)

@@ -21,12 +21,11 @@ namespace {
 
 struct AccuracyOptions {
   AccuracyPlan plan;
-  std::string json, pictures, family;
+  std::string json, pictures;
 };
 
 int accuracy_command(AccuracyOptions& o) {
   AccuracyPlan& plan = o.plan;
-  if (!o.family.empty()) plan.family = lab::find_family(o.family);
   plan.pictures = !o.pictures.empty();
 
   check_json_file(o.json, o.pictures, plan.scenes);
@@ -85,12 +84,12 @@ Pictures are named FAMILY-SCENE-METHOD.png. Their colours:
 
 }  // namespace
 
-void add_accuracy(CLI::App& program, Action& action) {
-  CLI::App& command = *program.add_subcommand("accuracy", "Count each method's errors");
+Action add_accuracy(CLI::App& command) {
   const auto o = std::make_shared<AccuracyOptions>();
   command.add_option("SCENE", o->plan.scenes, "Scenes or files, see below (all scenes but quads and knots)");
   command.add_flag("--quick", o->plan.quick, "Smaller scenes, fewer frames");
-  command.add_option("--family", o->family, "Only one family of methods")->type_name("NAME");
+  add_parsed(command, "--family", "NAME", "Only one family of methods",
+             [o](const std::string& text) { o->plan.family = lab::find_family(text); });
   command.add_option("--method", o->plan.methods, "Only this method (repeatable)")
       ->allow_extra_args(false)
       ->delimiter(',')
@@ -98,16 +97,14 @@ void add_accuracy(CLI::App& program, Action& action) {
   command.add_flag("--peers", o->plan.peers,
                    "Measure only other projects' rasterizers that start here (coverage)");
   command.add_flag("--fit", o->plan.fit, "Centre your meshes and scale their longest side to 2");
-  command
-      .add_option("--json", o->json, "Also write all results as JSON; - for stdout, instead of the tables")
-      ->type_name("FILE");
-  command.add_option("--pictures", o->pictures, "Folder for pictures of errors on the small scenes")
-      ->type_name("DIR");
+  add_text(command, "--json", "FILE", o->json,
+           "Also write all results as JSON; - for stdout, instead of the tables");
+  add_text(command, "--pictures", "DIR", o->pictures, "Folder for pictures of errors on the small scenes");
   o->plan.threads = default_threads();
   add_integer(command, "--threads", o->plan.threads, 1, kMaxThreads,
               "Threads; results don't depend on it (usable cores)");
   command.footer(kAccuracyFooter);
-  command.callback([o, &action] { action = [o] { return accuracy_command(*o); }; });
+  return [o] { return accuracy_command(*o); };
 }
 
 }  // namespace edgewise::tools

@@ -3,6 +3,7 @@
 
 #include "cli/accuracy/score.h"
 #include "core/parallel.h"
+#include "lab/measure.h"
 
 namespace edgewise::tools {
 
@@ -33,10 +34,6 @@ void picture_all(const std::vector<const Method*>& methods, const Judging& judgi
     if (wrong(result.methods[i].score))
       judging.closeups.push_back(closeup(
           closeup_name(result.family, judging.scene.name, methods[i]->info.name), picture(*methods[i])));
-}
-
-std::uint64_t pixels_of(lab::Size size) {
-  return static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height);
 }
 
 // Pixels that show a triangle.
@@ -133,12 +130,8 @@ void judge(const lab::ClippingScene& scene, const Judging& judging, SceneResult&
       },
       [&](const lab::ClippingMethod& method) {
         method.draw(scene, frame);
-        std::vector<std::uint32_t> drawn;
-        drawn.reserve(pixels_of(scene.size));
-        for (int y = 0; y < scene.size.height; ++y)
-          drawn.insert(drawn.end(), frame.picture.payload_row(y),
-                       frame.picture.payload_row(y) + scene.size.width);
-        return lab::mark_visible_triangles(truth.visible, drawn, {scene.size.width, scene.size.height});
+        return lab::mark_visible_triangles(truth.visible, lab::payloads_of(frame.picture),
+                                           {scene.size.width, scene.size.height});
       });
 }
 

@@ -1,41 +1,121 @@
-// Counts the superfluous changes of pixels while a scene turns or the camera pans.
+// Moving pictures: counts cracks and wrong pixels in each frame of the tutorials' rotating cube, and the
+// superfluous changes of pixels while a scene turns or the camera pans.
+#include <algorithm>
+
 #include "cli/accuracy/score.h"
 #include "core/parallel.h"
 #include "edgewise/builtin.h"
 #include "lab/coverage/changes.h"
+#include "lab/measure.h"
 
 namespace edgewise::tools {
 
 namespace {
 
-constexpr lab::Size kMotionSize{640, 360};
-constexpr int kMotionFrames = 24, kQuickMotionFrames = 6, kMotionFramesPerSecond = 60;
+constexpr lab::Size kSize{640, 360};
+constexpr int kFramesPerSecond = 60;
+constexpr int kCubeFrames = 3600, kQuickCubeFrames = 120, kCubeFramesPerTask = 20;
+constexpr int kMotionFrames = 24, kQuickMotionFrames = 6;
 constexpr std::string_view kMovingScenes[] = {"torus-knot", "terrain"};
 
-// Payloads are ids of source triangles, from 1.
-lab::CoverageScene scene_at(std::string_view name, int frame) {
-  const SceneRequest request{kMotionSize.width, kMotionSize.height,
-                             static_cast<float>(frame) / static_cast<float>(kMotionFramesPerSecond)};
-  lab::CoverageScene scene =
-      lab::coverage_scene(find_scene(name).make(request),
-                          {.width = kMotionSize.width, .height = kMotionSize.height, .payload = Payload::id});
-  for (std::size_t i = 0; i < scene.floats.size(); ++i) ++scene.floats[i].payload, ++scene.snapped[i].payload;
-  return scene;
+lab::CoverageScene scene_at(std::string_view name, int frame, FrontendOptions options = {}) {
+  options.width = kSize.width;
+  options.height = kSize.height;
+  const float seconds = static_cast<float>(frame) / static_cast<float>(kFramesPerSecond);
+  return lab::coverage_scene(find_scene(name).make({kSize.width, kSize.height, seconds}), options);
 }
 
-std::vector<std::uint32_t> picture_of(const Framebuffer& frame) {
-  std::vector<std::uint32_t> picture;
-  for (int y = 0; y < frame.height(); ++y)
-    picture.insert(picture.end(), frame.payload_row(y), frame.payload_row(y) + frame.width());
-  return picture;
+// All but our engine with other numbers.
+std::vector<const lab::CoverageMethod*> judged_methods(const ChosenMethods& methods) {
+  std::vector<const lab::CoverageMethod*> judged = methods.coverage;
+  std::erase_if(judged, [](const auto* method) { return method->engine; });
+  return judged;
+}
+
+// The median of an even number of frames is the upper of the middle two.
+PerFrame per_frame(std::vector<std::uint64_t> counts) {
+  PerFrame result;
+  for (const std::uint64_t n : counts) result.total += n;
+  const auto middle = counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 2);
+  std::nth_element(counts.begin(), middle, counts.end());
+  result.median = *middle;
+  result.worst = *std::max_element(counts.begin(), counts.end());
+  return result;
+}
+
+using Scores = std::vector<CoverageScores>;  // one per frame
+
+template <typename Part, typename Counts>
+PerFrame summary(const Scores& scores, Part CoverageScores::*part, std::uint64_t Counts::*count) {
+  std::vector<std::uint64_t> counts;
+  for (const CoverageScores& score : scores) counts.push_back(score.*part.*count);
+  return per_frame(std::move(counts));
+}
+CubeCounts wrong(const Scores& scores, lab::CoverageScore CoverageScores::*truth) {
+  return {summary(scores, truth, &lab::CoverageScore::missing),
+          summary(scores, truth, &lab::CoverageScore::extra)};
+}
+
+// The frame with the most cracks.
+Closeup worst_frame(const lab::CoverageMethod& method, const Scores& scores) {
+  const auto worst = std::max_element(scores.begin(), scores.end(), [](const auto& a, const auto& b) {
+    return a.cracks.gaps + a.cracks.double_hits < b.cracks.gaps + b.cracks.double_hits;
+  });
+  const lab::CoverageScene scene = scene_at("cube", static_cast<int>(worst - scores.begin()));
+  const auto truth = lab::float_coverage(scene.input(), scene.window(), 1);
+  const lab::DrawnRuns drawn(method, scene.input(), scene.window());
+  const lab::Cracks cracks = lab::CrackJudge(scene.floats, truth).find(drawn, method.promise.snap_bits);
+  return closeup(closeup_name(Family::coverage, kTurningCube, method.info.name),
+                 mark_coverage(truth, drawn, cracks, scene.floats));
 }
 
 }  // namespace
 
+CubeResult judge_turning_cube(const AccuracyPlan& plan, const ChosenMethods& methods,
+                              const std::function<void(double)>& progress, std::vector<Closeup>& closeups) {
+  const auto judged = judged_methods(methods);
+  const int frames = plan.quick ? kQuickCubeFrames : kCubeFrames;
+  std::vector<Scores> scores(judged.size(), Scores(static_cast<std::size_t>(frames)));
+  std::mutex mutex;
+  int done = 0;
+  parallel_for(plan.threads, frames / kCubeFramesPerTask, [&](int task) {
+    for (int frame = task * kCubeFramesPerTask; frame < (task + 1) * kCubeFramesPerTask; ++frame) {
+      const lab::CoverageScene scene = scene_at("cube", frame);
+      const auto snapped = lab::snapped_coverage(scene.input(), scene.window(), 1),
+                 floats = lab::float_coverage(scene.input(), scene.window(), 1);
+      const lab::CrackJudge cracks(scene.floats, floats);
+      for (std::size_t i = 0; i < judged.size(); ++i) {
+        const lab::DrawnRuns drawn(*judged[i], scene.input(), scene.window());
+        scores[i][static_cast<std::size_t>(frame)] = {
+            lab::score_coverage(snapped, drawn, scene.floats),
+            lab::score_coverage(floats, drawn, scene.floats),
+            CrackCounts(cracks.find(drawn, judged[i]->promise.snap_bits)),
+            {}};
+      }
+    }
+    const std::lock_guard lock(mutex);
+    progress(static_cast<double>(done += kCubeFramesPerTask) / frames);
+  });
+
+  const std::size_t first_closeup = closeups.size();
+  CubeResult result{frames, kSize.width, kSize.height, {}};
+  for (std::size_t i = 0; i < judged.size(); ++i) {
+    const lab::CoverageMethod& method = *judged[i];
+    result.methods.push_back({std::string(method.info.name), method.info.exact,
+                              wrong(scores[i], &CoverageScores::snapped),
+                              wrong(scores[i], &CoverageScores::floats),
+                              summary(scores[i], &CoverageScores::cracks, &CrackCounts::gaps),
+                              summary(scores[i], &CoverageScores::cracks, &CrackCounts::double_hits)});
+    const CubeMethodResult& counts = result.methods.back();
+    if (plan.pictures && counts.gaps.total + counts.double_hits.total != 0)
+      add_unless_known(worst_frame(method, scores[i]), closeups, first_closeup);
+  }
+  return result;
+}
+
 std::vector<MotionResult> judge_motions(const AccuracyPlan& plan, const ChosenMethods& methods,
                                         const std::function<void(double)>& progress) {
-  std::vector<const lab::CoverageMethod*> judged = methods.coverage;
-  std::erase_if(judged, [](const auto* method) { return method->engine; });
+  const auto judged = judged_methods(methods);
   const int frames = plan.quick ? kQuickMotionFrames : kMotionFrames;
   std::vector<MotionResult> results;
   for (const std::string_view name : kMovingScenes) {
@@ -43,9 +123,11 @@ std::vector<MotionResult> judge_motions(const AccuracyPlan& plan, const ChosenMe
     std::vector<lab::Changes> changes(judged.size());
     std::vector<std::unique_ptr<lab::Canvas>> canvases;
     for (std::size_t i = 0; i < judged.size(); ++i)
-      canvases.push_back(std::make_unique<lab::Canvas>(kMotionSize.width, kMotionSize.height));
+      canvases.push_back(std::make_unique<lab::Canvas>(kSize.width, kSize.height));
     for (int frame = 0; frame < frames; ++frame) {
-      const lab::CoverageScene scene = scene_at(name, frame);
+      lab::CoverageScene scene = scene_at(name, frame, {.payload = Payload::id});
+      for (std::size_t i = 0; i < scene.floats.size(); ++i)  // ids from 1; 0 is the background
+        ++scene.floats[i].payload, ++scene.snapped[i].payload;
       auto visible =
           lab::exact_visible_triangles(std::span(scene.floats), scene.window(), plan.threads).triangle;
       for (std::uint32_t& id : visible) id = id == lab::kNoTriangle ? 0 : scene.floats[id].payload;
@@ -53,13 +135,13 @@ std::vector<MotionResult> judge_motions(const AccuracyPlan& plan, const ChosenMe
       parallel_for(plan.threads, static_cast<int>(judged.size()), [&](int n) {
         const auto i = static_cast<std::size_t>(n);
         judged[i]->draw(scene.input(), *canvases[i], {});
-        changes[i].add(picture_of(canvases[i]->frame));
+        changes[i].add(lab::payloads_of(canvases[i]->frame));
       });
       progress((static_cast<double>(results.size()) + static_cast<double>(frame + 1) / frames) /
                static_cast<double>(std::size(kMovingScenes)));
     }
     MotionResult& result = results.emplace_back(
-        MotionResult{std::string(name), frames, kMotionSize.width, kMotionSize.height, truth.sum(), {}});
+        MotionResult{std::string(name), frames, kSize.width, kSize.height, truth.sum(), {}});
     for (std::size_t i = 0; i < judged.size(); ++i)
       result.superfluous.emplace_back(judged[i]->info.name, changes[i].beyond(truth));
   }

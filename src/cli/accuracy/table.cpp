@@ -38,55 +38,21 @@ class FamilyTable {
   std::size_t methods() const { return scenes_.front()->methods.size(); }
   const std::string& name(std::size_t method) const { return scenes_.front()->methods[method].name; }
 
-  template <typename S>
-  std::uint64_t sum(std::size_t method, std::uint64_t S::*count) const {
+  // The sum over all scenes of a count of the method's scores, to which these members lead.
+  template <typename Scores, typename Part, typename... Path>
+  std::uint64_t sum(std::size_t method, Part Scores::*part, Path... path) const {
     std::uint64_t total = 0;
-    for (const SceneResult* scene : scenes_) total += std::get<S>(scene->methods[method].score).*count;
-    return total;
-  }
-  // Sums over all scenes, against one reference.
-  lab::VisibilityScore visibility(std::size_t method,
-                                  lab::VisibilityScore lab::VisibilityScores::*truth) const {
-    lab::VisibilityScore total;
-    for (const SceneResult* scene : scenes_) {
-      const lab::VisibilityScore& s = std::get<lab::VisibilityScores>(scene->methods[method].score).*truth;
-      total.covered += s.covered, total.wrong_triangle += s.wrong_triangle,
-          total.out_of_range += s.out_of_range;
-      total.max_ulp = std::max(total.max_ulp, s.max_ulp);
-    }
-    return total;
-  }
-  lab::FacingScore facing(std::size_t method, lab::FacingScore lab::FacingScores::*truth) const {
-    lab::FacingScore total;
-    for (const SceneResult* scene : scenes_) {
-      const lab::FacingScore& s = std::get<lab::FacingScores>(scene->methods[method].score).*truth;
-      total.faces += s.faces, total.misclassified += s.misclassified;
-    }
-    return total;
-  }
-  lab::CoverageScore coverage(std::size_t method, lab::CoverageScore CoverageScores::*truth) const {
-    lab::CoverageScore total;
-    for (const SceneResult* scene : scenes_) {
-      const lab::CoverageScore& s = std::get<CoverageScores>(scene->methods[method].score).*truth;
-      total.missing += s.missing, total.extra += s.extra;
-    }
-    return total;
-  }
-  CrackCounts cracks(std::size_t method) const {
-    CrackCounts total;
     for (const SceneResult* scene : scenes_)
-      total += std::get<CoverageScores>(scene->methods[method].score).cracks;
+      total += at(std::get<Scores>(scene->methods[method].score), part, path...);
     return total;
   }
-  lab::VisibleTriangleScore visible(std::size_t method) const {
-    lab::VisibleTriangleScore worst;
-    for (const SceneResult* scene : scenes_) {
-      const lab::VisibleTriangleScore& s = std::get<CoverageScores>(scene->methods[method].score).visible;
-      worst.wrong_snapped += s.wrong_snapped, worst.wrong_floats += s.wrong_floats;
-      worst.wrong_surface += s.wrong_surface;
-      worst.max_ulp = std::max(worst.max_ulp, s.max_ulp), worst.rms_ulp = std::max(worst.rms_ulp, s.rms_ulp);
-    }
-    return worst;
+  // The largest such figure.
+  template <typename Scores, typename Part, typename... Path>
+  double most(std::size_t method, Part Scores::*part, Path... path) const {
+    double most = 0.0;
+    for (const SceneResult* scene : scenes_)
+      most = std::max(most, at(std::get<Scores>(scene->methods[method].score), part, path...));
+    return most;
   }
   std::size_t scenes() const { return scenes_.size(); }
   std::string title(std::string_view what, std::string_view trials) const {
@@ -125,6 +91,14 @@ class FamilyTable {
   }
 
  private:
+  template <typename T>
+  static T at(const T& value) {
+    return value;
+  }
+  template <typename T, typename Part, typename... Path>
+  static auto at(const T& value, Part T::*part, Path... path) {
+    return at(value.*part, path...);
+  }
   static std::uint64_t errors(const Score& score) {
     struct Visit {
       std::uint64_t operator()(const CoverageScores& s) const { return s.floats.errors(); }
@@ -157,9 +131,11 @@ std::string visible_triangle_table(const FamilyTable& t) {
   text += fmt::format(kLine, "", "wrong", "wrong", "of those", "depth: max", "RMS");
   text += fmt::format(kLine, "method", "snapped", "float", "through", "ulp", "ulp");
   for (std::size_t i = 0; i < t.methods(); ++i) {
-    const lab::VisibleTriangleScore s = t.visible(i);
-    text += fmt::format(kLine, t.name(i), s.wrong_snapped, s.wrong_floats, s.wrong_surface, digits(s.max_ulp),
-                        digits(s.rms_ulp));
+    const auto sum = [&](auto count) { return t.sum(i, &CoverageScores::visible, count); };
+    const auto most = [&](auto figure) { return digits(t.most(i, &CoverageScores::visible, figure)); };
+    using S = lab::VisibleTriangleScore;
+    text += fmt::format(kLine, t.name(i), sum(&S::wrong_snapped), sum(&S::wrong_floats),
+                        sum(&S::wrong_surface), most(&S::max_ulp), most(&S::rms_ulp));
   }
   return text + "through: showing neither the right triangle nor one that touches it\n";
 }
@@ -170,28 +146,35 @@ std::string coverage_table(const FamilyTable& t) {
   text += fmt::format(kLine, "", "snapped", "float", "cracks:", "double", "at T-", "");
   text += fmt::format(kLine, "method", "reference", "reference", "gaps", "hits", "junctions", "folds");
   for (std::size_t i = 0; i < t.methods(); ++i) {
-    const auto snapped = t.coverage(i, &CoverageScores::snapped),
-               floats = t.coverage(i, &CoverageScores::floats);
-    const CrackCounts cracks = t.cracks(i);
+    const auto errors = [&](lab::CoverageScore CoverageScores::*truth) {
+      using S = lab::CoverageScore;
+      return rate(t.sum(i, truth, &S::missing) + t.sum(i, truth, &S::extra), t.trials());
+    };
+    const auto cracks = [&](auto count) { return t.sum(i, &CoverageScores::cracks, count); };
+    using C = CrackCounts;
     text +=
-        fmt::format(kLine, t.name(i), rate(snapped.errors(), t.trials()), rate(floats.errors(), t.trials()),
-                    cracks.gaps, cracks.double_hits, cracks.t_junctions, cracks.folds);
+        fmt::format(kLine, t.name(i), errors(&CoverageScores::snapped), errors(&CoverageScores::floats),
+                    cracks(&C::gaps), cracks(&C::double_hits), cracks(&C::t_junctions), cracks(&C::folds));
   }
   return text + t.without_dominant() + visible_triangle_table(t);
 }
 
 std::string visibility_table(const FamilyTable& t) {
   using S = lab::VisibilityScores;
+  using One = lab::VisibilityScore;
   std::string text = t.title("wrong triangles per 10^6 pixels", "pixels");
   text += fmt::format("{:<17}{:>25}{:>19}\n", "", "snapped reference", "float reference");
   constexpr const char* kLine = "{:<17}{:>10}{:>7}{:>8}{:>11}{:>8}{:>{}}\n";
   text += fmt::format(kLine, "method", "per 10^6", "beyond", "ulp", "per 10^6", "ulp", kMostWrongOn,
                       last_width(t));
   for (std::size_t i = 0; i < t.methods(); ++i) {
-    const auto snapped = t.visibility(i, &S::snapped), floats = t.visibility(i, &S::floats);
-    text += fmt::format(kLine, t.name(i), rate(snapped.wrong_triangle, snapped.covered), snapped.out_of_range,
-                        digits(snapped.max_ulp), rate(floats.wrong_triangle, floats.covered),
-                        digits(floats.max_ulp), t.most_wrong_on(i), last_width(t));
+    const auto wrong = [&](One S::*truth) {
+      return rate(t.sum(i, truth, &One::wrong_triangle), t.sum(i, truth, &One::covered));
+    };
+    const auto ulp = [&](One S::*truth) { return digits(t.most(i, truth, &One::max_ulp)); };
+    text +=
+        fmt::format(kLine, t.name(i), wrong(&S::snapped), t.sum(i, &S::snapped, &One::out_of_range),
+                    ulp(&S::snapped), wrong(&S::floats), ulp(&S::floats), t.most_wrong_on(i), last_width(t));
   }
   return text + t.without_dominant() +
          "beyond: pixels whose depth is outside the depth range of their triangle\n";
@@ -199,15 +182,16 @@ std::string visibility_table(const FamilyTable& t) {
 
 std::string facing_table(const FamilyTable& t) {
   using S = lab::FacingScores;
+  using One = lab::FacingScore;
   std::string text = t.title("misjudged per 10^6 faces that cover a sample", "faces");
   text += fmt::format("{:<20}{:>20}{:>20}\n", "", "snapped reference", "float reference");
   constexpr const char* kLine = "{:<20}{:>13}{:>7}{:>13}{:>7}{:>{}}\n";
   text += fmt::format(kLine, "method", "per 10^6", "faces", "per 10^6", "faces", kMostWrongOn, last_width(t));
   for (std::size_t i = 0; i < t.methods(); ++i) {
-    const auto snapped = t.facing(i, &S::snapped), floats = t.facing(i, &S::floats);
-    text += fmt::format(kLine, t.name(i), rate(snapped.misclassified, snapped.faces), snapped.misclassified,
-                        rate(floats.misclassified, floats.faces), floats.misclassified, t.most_wrong_on(i),
-                        last_width(t));
+    const auto wrong = [&](One S::*truth) { return t.sum(i, truth, &One::misclassified); };
+    const auto share = [&](One S::*truth) { return rate(wrong(truth), t.sum(i, truth, &One::faces)); };
+    text += fmt::format(kLine, t.name(i), share(&S::snapped), wrong(&S::snapped), share(&S::floats),
+                        wrong(&S::floats), t.most_wrong_on(i), last_width(t));
   }
   return text + t.without_dominant();
 }

@@ -78,18 +78,16 @@ each value: 3 divided by the smallest number of trials at a value.)";
 
 }  // namespace
 
-void add_stability(CLI::App& program, Action& action) {
-  CLI::App& command = *program.add_subcommand("stability", "Find where each method starts to fail");
+Action add_stability(CLI::App& command) {
   const auto o = std::make_shared<StabilityOptions>();
   command.add_option("SWEEP", o->sweeps, "Sweeps from --list (all)");
   command.add_flag("--quick", o->quick, "Fewer trials per value");
   command.add_flag("--list", o->list, "List all sweeps");
-  command
-      .add_option("--json", o->json, "Also write all results as JSON; - for stdout, instead of the tables")
-      ->type_name("FILE");
+  add_text(command, "--json", "FILE", o->json,
+           "Also write all results as JSON; - for stdout, instead of the tables");
   add_integer(command, "--threads", o->threads, 1, kMaxThreads, "Threads; results don't depend on it (2)");
   command.footer(kStabilityFooter);
-  command.callback([o, &action] { action = [o] { return stability_command(*o); }; });
+  return [o] { return stability_command(*o); };
 }
 
 }  // namespace edgewise::tools

@@ -150,18 +150,17 @@ otherwise 0, or 128 + N if stopped by signal N.)";
 
 }  // namespace
 
-void add_verify(CLI::App& program, Action& action) {
-  CLI::App& command = *program.add_subcommand("verify", "Check that all backends write the same bits");
+Action add_verify(CLI::App& command) {
   const auto o = std::make_shared<VerifyOptions>();
   command.add_option("SCENE", o->plan.scenes,
                      "Scenes of `edgewise list`, or .obj or .tri files (all built-in)");
   command.add_flag("--full", o->plan.full, "1920x1080, and streams with all their triangles");
   add_size(command, o->plan.size, "Image size (509x283; for .tri files their own)");
   command.add_flag("--fit", o->plan.fit, "Centre meshes and scale their longest side to 2");
-  command.add_option("--json", o->json, "Also write all results as JSON; - for stdout, instead of the table")
-      ->type_name("FILE");
-  command.add_option("--out", o->out, "Folder for files that show differences (edgewise-verify-failures)")
-      ->type_name("DIR");
+  add_text(command, "--json", "FILE", o->json,
+           "Also write all results as JSON; - for stdout, instead of the table");
+  add_text(command, "--out", "DIR", o->out,
+           "Folder for files that show differences (edgewise-verify-failures)");
   CLI::Option* const random =
       command.add_flag("--random", o->random, "Random and adversarial cases instead of scenes");
   for (const char* of_scenes : {"SCENE", "--full", "--size", "--fit"})
@@ -186,8 +185,7 @@ void add_verify(CLI::App& program, Action& action) {
       ->excludes(seconds)
       ->excludes(shard);
   command.footer(kVerifyFooter);
-  command.callback(
-      [o, &action] { action = [o] { return o->random ? verify_random_command(*o) : verify_command(*o); }; });
+  return [o] { return o->random ? verify_random_command(*o) : verify_command(*o); };
 }
 
 }  // namespace edgewise::tools

@@ -10,20 +10,19 @@ namespace edgewise::tools {
 
 namespace {
 
-constexpr std::size_t kNameWidth = 12;
-
 std::string_view name_of_payload(Payload payload) {
   return payload == Payload::colour ? "colour" : "id";
 }
 
 std::string explain(const Mismatch& m) {
-  std::string text =
-      fmt::format("  {} ({}{}) differs from {} in {} of {}x{} pixels, cull {}, payload {}\n", m.backend,
-                  tools::describe(m.how), m.whole_frame ? ", whole frame" : "", m.judge, m.pixels, m.width,
-                  m.height, name_of(m.cull), name_of_payload(m.payload));
-  if (m.outside != 0) text += fmt::format("    words written beside the image: {}\n", m.outside);
+  std::string text = fmt::format(
+      "  {} ({}{}) differs from {} in {} of {}x{} pixels, cull {}, payload {}\n", m.backend,
+      tools::describe(m.drawn.how), m.drawn.whole_frame ? ", whole frame" : "", m.judge, m.found.pixels,
+      m.frontend.width, m.frontend.height, name_of(m.frontend.cull), name_of_payload(m.frontend.payload));
+  if (m.found.outside != 0) text += fmt::format("    words written beside the image: {}\n", m.found.outside);
   if (!m.values.empty())
-    text += fmt::format("    the first is x {}, y {}, where depth and payload are\n", m.x, m.y);
+    text += fmt::format("    the first is x {}, y {}, where depth and payload are\n", m.found.first_x,
+                        m.found.first_y);
   for (const PixelValue& v : m.values)
     text += fmt::format("      {:<24} {:#010x} {:#010x}\n", v.drawn_by, v.depth, v.payload);
   for (const std::string& file : m.files) text += fmt::format("    {}\n", printable(file));
@@ -41,18 +40,18 @@ std::string names_of(const VerifyPlan& plan) {
 nlohmann::json mismatch_json(const Mismatch& m) {
   nlohmann::json json{{"judge", m.judge},
                       {"backend", m.backend},
-                      {"threads", m.how.execution.threads},
-                      {"tile_size", m.how.execution.tile_size},
-                      {"simd_target", name_of(resolve(m.how.execution.target))},
-                      {"tile_options", lab::describe(m.how.tiles)},
-                      {"whole_frame", m.whole_frame},
-                      {"cull", name_of(m.cull)},
-                      {"payload", name_of_payload(m.payload)},
-                      {"width", m.width},
-                      {"height", m.height},
-                      {"pixels", m.pixels},
-                      {"written_outside", m.outside},
-                      {"first", {m.x, m.y}},
+                      {"threads", m.drawn.how.execution.threads},
+                      {"tile_size", m.drawn.how.execution.tile_size},
+                      {"simd_target", name_of(resolve(m.drawn.how.execution.target))},
+                      {"tile_options", lab::describe(m.drawn.how.tiles)},
+                      {"whole_frame", m.drawn.whole_frame},
+                      {"cull", name_of(m.frontend.cull)},
+                      {"payload", name_of_payload(m.frontend.payload)},
+                      {"width", m.frontend.width},
+                      {"height", m.frontend.height},
+                      {"pixels", m.found.pixels},
+                      {"written_outside", m.found.outside},
+                      {"first", {m.found.first_x, m.found.first_y}},
                       {"files", m.files},
                       {"values", nlohmann::json::array()}};
   for (const PixelValue& v : m.values)
@@ -90,23 +89,22 @@ std::string describe(const lab::DrawOptions& how) {
                      name_of(resolve(e.target)), e.tile_size, tiles.empty() ? "" : ", ", tiles);
 }
 
+constexpr const char *kWide = "{:<12} {:>9} {:>9} {:>9} {:>8} {:>6} {:>6} {}\n",
+                     *kNarrow = "{:<12} {:>9} {:>8} {:>7} {:>7} {}\n";
+
 std::string VerifyTable::header() const {
-  if (!wide_)
-    return fmt::format("{:<{}} {:>9} {:>7} {:>7} {:>7} {}\n", "scene", kNameWidth, "triangles", "compared",
-                       "differ", "oracle", "verdict");
-  return fmt::format("{:<{}} {:>9} {:>9} {:>9} {:>8} {:>6} {:>6} {}\n", "scene", kNameWidth, "size",
-                     "triangles", "emitted", "compared", "differ", "oracle", "verdict");
+  return wide_ ? fmt::format(kWide, "scene", "size", "triangles", "emitted", "compared", "differ", "oracle",
+                             "verdict")
+               : fmt::format(kNarrow, "scene", "triangles", "compared", "differ", "oracle", "verdict");
 }
 
 std::string VerifyTable::line(const SceneVerdict& v) const {
+  const std::string name = printable_within(v.scene, 12), size = fmt::format("{}x{}", v.width, v.height);
   const char* verdict = v.ok() ? "ok" : "DIFFERS";
-  if (!wide_)
-    return fmt::format("{:<{}} {:>9} {:>8} {:>7} {:>7} {}\n", printable_within(v.scene, kNameWidth),
-                       kNameWidth, v.triangles, v.configurations, v.differing_pixels, v.oracle_differences,
-                       verdict);
-  return fmt::format("{:<{}} {:>9} {:>9} {:>9} {:>8} {:>6} {:>6} {}\n", printable_within(v.scene, kNameWidth),
-                     kNameWidth, fmt::format("{}x{}", v.width, v.height), v.triangles, v.emitted,
-                     v.configurations, v.differing_pixels, v.oracle_differences, verdict);
+  return wide_ ? fmt::format(kWide, name, size, v.triangles, v.emitted, v.configurations, v.differing_pixels,
+                             v.oracle_differences, verdict)
+               : fmt::format(kNarrow, name, v.triangles, v.configurations, v.differing_pixels,
+                             v.oracle_differences, verdict);
 }
 
 std::string explain(const SceneVerdict& verdict) {

@@ -23,33 +23,29 @@ int enlargement(int width, int height) {
   return std::clamp(kLargestSide_px / std::max(width, height), 1, kLargestFactor);
 }
 
-struct FailureFrames {
-  std::span<const ScreenTriangle> triangles;
-  const Framebuffer& expected;
-  const Framebuffer& found;
-};
-
 // Writes FOLDER/SCENE-CULL-BACKEND-vs-JUDGE: expected, found and difference (enlarged) as .png, and the
 // triangles as .tri. Lists the files, or the reason why one was not written, in the mismatch. Does nothing if
 // the folder name is empty.
 void write_failure(const std::filesystem::path& folder, const std::string& scene, Mismatch& mismatch,
-                   const FailureFrames& frames) try {
+                   std::span<const ScreenTriangle> triangles, const Framebuffer& expected,
+                   const Framebuffer& found) try {
+  const FrontendOptions& frontend = mismatch.frontend;
   if (folder.empty()) return;
   std::filesystem::create_directories(folder);
   const auto path_for = [&](const char* suffix) {
-    return folder / fmt::format("{}-{}-{}-vs-{}{}", scene, name_of(mismatch.cull), mismatch.backend,
+    return folder / fmt::format("{}-{}-{}-vs-{}{}", scene, name_of(frontend.cull), mismatch.backend,
                                 mismatch.judge, suffix);
   };
   const auto write = [&](const char* suffix, const Image& image) {
     write_image(path_for(suffix), image);
     mismatch.files.push_back(path_for(suffix).string());
   };
-  write("-expected.png", picture_of(frames.expected, mismatch.payload));
-  write("-found.png", picture_of(frames.found, mismatch.payload));
-  write("-difference.png", enlarge(picture_of_difference(frames.expected, frames.found, mismatch.payload),
-                                   enlargement(mismatch.width, mismatch.height)));
+  write("-expected.png", picture_of(expected, frontend.payload));
+  write("-found.png", picture_of(found, frontend.payload));
+  write("-difference.png", enlarge(picture_of_difference(expected, found, frontend.payload),
+                                   enlargement(frontend.width, frontend.height)));
   AtomicFile file(path_for(".tri"));
-  write_tri(file.stream(), lab::to_stream(frames.triangles, mismatch.width, mismatch.height));
+  write_tri(file.stream(), lab::to_stream(triangles, frontend.width, frontend.height));
   file.commit();
   mismatch.files.push_back(path_for(".tri").string());
 } catch (const std::exception& error) {
@@ -63,12 +59,6 @@ struct Judgement {
   const Shot& shot;
   std::span<const ScreenTriangle> triangles;
   const Framebuffer& expected;
-};
-
-// How a frame is drawn. A whole frame is drawn by draw(drawable, …), which includes the front end.
-struct Configuration {
-  lab::DrawOptions how;
-  bool whole_frame = false;
 };
 
 // Small tiles, several threads and the widest vectors: the most boundaries between tiles, threads and lanes.
@@ -211,24 +201,9 @@ class SceneCheck {
             const lab::FrameDifference& found) {
     const int x = found.first_x, y = found.first_y;
     const std::string_view name = plan_.backends[backend].name;
-    const FrontendOptions& frontend = j.shot.frontend;
-    Mismatch mismatch{frontend.cull,
-                      frontend.payload,
-                      frontend.width,
-                      frontend.height,
-                      std::string(j.judge),
-                      std::string(name),
-                      configuration.how,
-                      configuration.whole_frame,
-                      found.pixels,
-                      found.outside,
-                      x,
-                      y,
-                      {},
-                      {},
-                      {}};
-    write_failure(plan_.failure_folder, verdict_.scene, mismatch,
-                  {j.triangles, j.expected, candidate_->copy()});
+    Mismatch mismatch{j.shot.frontend, std::string(j.judge), std::string(name), configuration, found};
+    write_failure(plan_.failure_folder, verdict_.scene, mismatch, j.triangles, j.expected,
+                  candidate_->copy());
     if (found.pixels != 0) {
       mismatch.values = {value_at(j.expected, j.judge, x, y),
                          value_at(*candidate_, std::string(name) + " (so configured)", x, y)};
@@ -268,20 +243,15 @@ bool VerifyReport::ok() const {
   return std::all_of(scenes.begin(), scenes.end(), [](const SceneVerdict& scene) { return scene.ok(); });
 }
 
-SceneVerdict verify_scene(const VerifyPlan& plan, const std::string& name,
-                          const std::function<void(double)>& progress) {
-  return SceneCheck(plan, name, progress).run();
-}
-
 VerifyReport verify(const VerifyPlan& plan, const std::function<void(const SceneVerdict&)>& on_scene) {
   VerifyReport report;
   for (const std::string& name : plan.scenes) {
-    const auto progress = [&](double scene_fraction) {
+    const std::function<void(double)> progress = [&](double scene_fraction) {
       const auto done = static_cast<double>(report.scenes.size()) + scene_fraction;
       if (plan.on_progress)
         plan.on_progress(done / static_cast<double>(plan.scenes.size()), source_name(name));
     };
-    report.scenes.push_back(verify_scene(plan, name, progress));
+    report.scenes.push_back(SceneCheck(plan, name, progress).run());
     if (on_scene) on_scene(report.scenes.back());
   }
   return report;

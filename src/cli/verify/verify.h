@@ -34,22 +34,23 @@ struct PixelValue {
   std::uint32_t depth, payload;
 };
 
+// How a frame is drawn. A whole frame is drawn by draw(drawable, …), which includes the front end.
+struct Configuration {
+  lab::DrawOptions how;
+  bool whole_frame = false;
+};
+
 // A configuration whose frame differs from the expected one.
 struct Mismatch {
-  Cull cull;
-  Payload payload;
-  int width, height;
+  FrontendOptions frontend;
   std::string judge;  // the reference's name, or "oracle"
   std::string backend;
-  lab::DrawOptions how;
-  bool whole_frame;       // drawn by draw(drawable, …), not from the judge's triangles
-  std::uint64_t pixels;   // that differ
-  std::uint64_t outside;  // words written outside the image
-  int x, y;               // the first pixel that differs, or -1
-  std::vector<PixelValue>
-      values;  // at that pixel: the judge's, this configuration's, then each backend's on one thread
-  std::vector<std::string> files;
-  std::string file_error;  // why `files` is incomplete
+  Configuration drawn;
+  lab::FrameDifference found;
+  // At the first pixel that differs: the judge's, this configuration's, then each backend's on one thread.
+  std::vector<PixelValue> values = {};
+  std::vector<std::string> files = {};
+  std::string file_error = {};  // why `files` is incomplete
 };
 
 struct HitCount {
@@ -73,16 +74,12 @@ struct SceneVerdict {
   bool ok() const;
 };
 
-// Checks one scene. Calls `progress` with the fraction done. Throws as load_source does.
-SceneVerdict verify_scene(const VerifyPlan& plan, const std::string& name,
-                          const std::function<void(double)>& progress);
-
 struct VerifyReport {
   std::vector<SceneVerdict> scenes;
   bool ok() const;
 };
 
-// Checks all scenes of the plan in order; calls `on_scene` after each.
+// Checks all scenes of the plan in order; calls `on_scene` after each. Throws as load_source does.
 VerifyReport verify(const VerifyPlan& plan, const std::function<void(const SceneVerdict&)>& on_scene);
 
 // One line per scene. Below 80 columns, leaves out size and emitted; 60 columns suffice.

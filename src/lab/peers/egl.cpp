@@ -56,16 +56,16 @@ std::string text_of(GLenum what) {
   return text == nullptr ? "no OpenGL" : text;
 }
 
-struct Context final : GlContext {
+struct Context {
   EGLDisplay display = EGL_NO_DISPLAY;
   EGLContext context = EGL_NO_CONTEXT;
 
-  bool is_current() const override { return eglGetCurrentContext() == context; }
-  bool make_current() override {
+  bool is_current() const { return eglGetCurrentContext() == context; }
+  bool make_current() {  // whether that worked
     return eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context) == EGL_TRUE;
   }
-  void release() override { eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT); }
-  std::string renderer() const override { return text_of(GL_RENDERER); }
+  void release() { eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT); }
+  std::string renderer() const { return text_of(GL_RENDERER); }
 };
 
 Context open(MesaDriver driver, int threads) {

@@ -1,5 +1,7 @@
 #include "lab/peers/peer.h"
 
+#include <fmt/format.h>
+
 #include <regex>
 #include <stdexcept>
 #include <vector>
@@ -53,9 +55,7 @@ void StartedPeers::require_one() const {
     throw std::invalid_argument(
         "--peers: there is none, since neither OpenGL with EGL nor Vulkan was found (scripts/run --peers "
         "installs them)");
-  std::string why;
-  for (const std::string& reason : left_out) why += (why.empty() ? "" : "; ") + reason;
-  throw std::runtime_error("--peers: none starts: " + why);
+  throw std::runtime_error(fmt::format("--peers: none starts: {}", fmt::join(left_out, "; ")));
 }
 
 StartedPeers start_peers(std::span<const PeerInfo> peers) {

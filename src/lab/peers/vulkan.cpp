@@ -62,19 +62,15 @@ bool is_of(const vk::raii::PhysicalDevice& physical, Driver driver) {
   const auto& properties = about.get<vk::PhysicalDeviceProperties2>().properties;
   if (const char* named = getenv("EDGEWISE_GPU"))
     return std::string_view(properties.deviceName).find(named) != std::string_view::npos;
-  return properties.deviceType == vk::PhysicalDeviceType::eDiscreteGpu ||
-         properties.deviceType == vk::PhysicalDeviceType::eIntegratedGpu ||
-         properties.deviceType == vk::PhysicalDeviceType::eVirtualGpu;
+  return properties.deviceType != vk::PhysicalDeviceType::eCpu &&
+         properties.deviceType != vk::PhysicalDeviceType::eOther;
 }
 
+// Every device of Vulkan draws into kColour.
 bool draws_our_frames(const vk::raii::PhysicalDevice& physical) {
-  const auto properties = physical.getProperties();
-  const auto usable = [&](vk::Format format, vk::FormatFeatureFlagBits use) {
-    return bool{physical.getFormatProperties(format).optimalTilingFeatures & use};
-  };
-  return properties.apiVersion >= VK_API_VERSION_1_3 && graphics_family(physical) &&
-         usable(kColour, vk::FormatFeatureFlagBits::eColorAttachment) &&
-         usable(kDepth, vk::FormatFeatureFlagBits::eDepthStencilAttachment);
+  return physical.getProperties().apiVersion >= VK_API_VERSION_1_3 && graphics_family(physical) &&
+         physical.getFormatProperties(kDepth).optimalTilingFeatures &
+             vk::FormatFeatureFlagBits::eDepthStencilAttachment;
 }
 
 // That of SwiftShader is 4096 px.
@@ -166,6 +162,7 @@ constexpr auto kHostMemory =
     vk::MemoryPropertyFlagBits::eHostVisible | vk::MemoryPropertyFlagBits::eHostCoherent;
 
 struct Image {
+  vk::ImageAspectFlags aspect;
   vk::raii::Image image;
   vk::raii::DeviceMemory memory;
   vk::raii::ImageView view;
@@ -237,7 +234,7 @@ class Device {
     made.bindMemory(*memory, 0);
     vk::raii::ImageView view(device_, vk::ImageViewCreateInfo({}, *made, vk::ImageViewType::e2D, format, {},
                                                               {aspect, 0, 1, 0, 1}));
-    return {std::move(made), std::move(memory), std::move(view)};
+    return {aspect, std::move(made), std::move(memory), std::move(view)};
   }
 
   vk::raii::CommandBuffer commands() const {
@@ -327,30 +324,25 @@ class VulkanFrame final : public PeerFrame {
                                          vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
     return static_cast<double>(ticks[1] - ticks[0]) * device_.tick_s();
   }
-  std::vector<std::uint32_t> read() override {
-    return pixels<std::uint32_t>(*colours_.image, vk::ImageAspectFlagBits::eColor);
-  }
-  std::vector<float> read_depths() override {
-    return pixels<float>(*depths_.image, vk::ImageAspectFlagBits::eDepth);
-  }
+  std::vector<std::uint32_t> read() override { return pixels<std::uint32_t>(colours_); }
+  std::vector<float> read_depths() override { return pixels<float>(depths_); }
 
  private:
   void record(const PeerScene& scene) {
-    using Aspect = vk::ImageAspectFlagBits;
     using Access = vk::AccessFlagBits;
     using Stage = vk::PipelineStageFlagBits;
     drawing_.begin(vk::CommandBufferBeginInfo());
     drawing_.resetQueryPool(*clock_, 0, 2);
     drawing_.writeTimestamp(Stage::eTopOfPipe, *clock_, 0);
-    const auto to_attachment = [](vk::Image image, Aspect aspect, Access access) {
+    const auto to_attachment = [](const Image& image, Access access) {
       return vk::ImageMemoryBarrier({}, access, vk::ImageLayout::eUndefined, vk::ImageLayout::eGeneral,
-                                    VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, image,
-                                    {aspect, 0, 1, 0, 1});
+                                    VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, *image.image,
+                                    {image.aspect, 0, 1, 0, 1});
     };
-    drawing_.pipelineBarrier(
-        Stage::eTopOfPipe, Stage::eColorAttachmentOutput | Stage::eEarlyFragmentTests, {}, {}, {},
-        {to_attachment(*colours_.image, Aspect::eColor, Access::eColorAttachmentWrite),
-         to_attachment(*depths_.image, Aspect::eDepth, Access::eDepthStencilAttachmentWrite)});
+    drawing_.pipelineBarrier(Stage::eTopOfPipe, Stage::eColorAttachmentOutput | Stage::eEarlyFragmentTests,
+                             {}, {}, {},
+                             {to_attachment(colours_, Access::eColorAttachmentWrite),
+                              to_attachment(depths_, Access::eDepthStencilAttachmentWrite)});
     const vk::Rect2D all({0, 0}, size_);
     const auto attachment = [](const Image& image, vk::ClearValue clear) {
       return vk::RenderingAttachmentInfo(*image.view, vk::ImageLayout::eGeneral, {}, {}, {},
@@ -374,7 +366,7 @@ class VulkanFrame final : public PeerFrame {
   }
 
   template <typename T>
-  std::vector<T> pixels(vk::Image image, vk::ImageAspectFlags aspect) const {
+  std::vector<T> pixels(const Image& image) const {
     using Access = vk::AccessFlagBits;
     using Stage = vk::PipelineStageFlagBits;
     std::vector<T> list(std::size_t{size_.width} * size_.height);
@@ -384,8 +376,9 @@ class VulkanFrame final : public PeerFrame {
     copying.begin(vk::CommandBufferBeginInfo());
     copying.pipelineBarrier(Stage::eAllGraphics, Stage::eTransfer, {},
                             vk::MemoryBarrier(Access::eMemoryWrite, Access::eTransferRead), {}, {});
-    copying.copyImageToBuffer(image, vk::ImageLayout::eGeneral, *copy.buffer,
-                              vk::BufferImageCopy(0, 0, 0, {aspect, 0, 0, 1}, {}, vk::Extent3D(size_, 1)));
+    copying.copyImageToBuffer(
+        *image.image, vk::ImageLayout::eGeneral, *copy.buffer,
+        vk::BufferImageCopy(0, 0, 0, {image.aspect, 0, 0, 1}, {}, vk::Extent3D(size_, 1)));
     copying.pipelineBarrier(Stage::eTransfer, Stage::eHost, {},
                             vk::MemoryBarrier(Access::eTransferWrite, Access::eHostRead), {}, {});
     copying.end();
