@@ -199,13 +199,8 @@ void time_row(benchmark::State& state, Row& row, Stage& stage) {
     counters["width"] = scene.size().width;
     counters["height"] = scene.size().height;
     counters["triangles"] = static_cast<double>(scene.triangles());
-    return;
   }
-  if (row.pipeline) {
-    counters["width"] = row.pipeline->scene->request.width;
-    counters["height"] = row.pipeline->scene->request.height;
-    return;
-  }
+  if (!row.workload) return;
   const Workload& workload = *row.workload;
   counters["width"] = workload.width();
   counters["height"] = workload.height();

@@ -6,7 +6,6 @@
 #include <atomic>
 #include <numeric>
 #include <set>
-#include <tuple>
 
 #include "core/parallel.h"
 #include "lab/clipping/truth.h"
@@ -19,9 +18,9 @@ namespace {
 constexpr Stage kOrder[] = {kVisibility, kDepth, kFacing, kNearPlane, kFarPlane, kGuardBand, kSubpixel};
 constexpr int kMostOrders = 120;
 
-// Calls body(i, drawn) for each i below `count`, with one Drawn per thread.
-template <typename Drawn, typename Body>
-void for_each_task(std::vector<Drawn>& memory, std::size_t count, Body&& body) {
+// Calls body(i, memory) for each i below `count`, with one memory per thread.
+template <typename Body>
+void for_each_task(std::vector<PipelineMemory>& memory, std::size_t count, Body&& body) {
   std::atomic<std::size_t> next = 0;
   const int threads = static_cast<int>(memory.size());
   parallel_for(threads, threads, [&](int thread) {
@@ -41,21 +40,16 @@ void PipelineNeeds::start(const StudiedFrame& frame) {
   float_depth_ = float_depths();
 }
 
-void PipelineNeeds::draw(const Frame& frame, const Pipeline& pipeline, Drawn& drawn) {
-  const std::pair key(&frame, assembly_of(pipeline));
-  if (std::exchange(drawn.of, key) != key) frame.drawn.assemble(pipeline, drawn.memory);
-  PipelineFrame::show(pipeline, drawn.memory);
-}
-
-bool PipelineNeeds::is_right(const Frame& frame, const Pipeline& pipeline, Drawn& drawn) {
-  draw(frame, pipeline, drawn);
-  const auto& [triangles, visible] = std::tie(drawn.memory.scene.triangles, drawn.memory.frame.visible);
+bool PipelineNeeds::is_right(const Frame& frame, const Pipeline& pipeline, PipelineMemory& memory) {
+  frame.frame.draw(pipeline, memory);
+  const std::vector<std::uint32_t>& visible = memory.frame.visible;
   auto pixel = visible.begin();
   return std::all_of(frame.right.begin(), frame.right.end(), [&](const auto& run) {
     const auto end = visible.begin() + static_cast<std::ptrdiff_t>(run.second);
     while (pixel != end) {
       const std::uint32_t triangle = *pixel;
-      if ((triangle == kNoTriangle ? kNoTriangle : triangles[triangle].screen.payload) != run.first)
+      if ((triangle == kNoTriangle ? kNoTriangle : memory.scene.triangles[triangle].screen.payload) !=
+          run.first)
         return false;
       pixel = std::find_if(pixel, end, [&](std::uint32_t other) { return other != triangle; });
     }
@@ -63,10 +57,11 @@ bool PipelineNeeds::is_right(const Frame& frame, const Pipeline& pipeline, Drawn
   });
 }
 
-void PipelineNeeds::compare(const Frame& frame, const Pipeline& pipeline, Answer& answer, Drawn& memory) {
+void PipelineNeeds::compare(const Frame& frame, const Pipeline& pipeline, Answer& answer,
+                            PipelineMemory& memory) {
   if (is_right(frame, pipeline, memory)) return;
-  const auto drawn = memory.memory.picture();
-  const Size size = frame.drawn.size();
+  const auto drawn = memory.picture();
+  const Size size = frame.frame.size();
   std::vector<std::uint32_t> right;
   for (const auto& [id, end] : frame.right) right.resize(end, id);
   const auto ids = [](std::uint32_t id) {
@@ -86,7 +81,7 @@ void PipelineNeeds::add(const StudiedFrame& studied, const std::array<Reach, kVi
   if (frames_.empty()) start(studied);
   Frame& frame = frames_.emplace_back(
       Frame{studied.index, studied.keep_pictures, PipelineFrame(studied.drawable, studied.options), {}});
-  const std::vector<std::uint32_t> right = frame.drawn.right();
+  const std::vector<std::uint32_t> right = frame.frame.right();
   if (const auto* scene = std::get_if<Scene>(&studied.drawable)) {
     std::vector<std::uint32_t> corrected = right;
     unlike_scene_ += correct(corrected, studied.size(),
@@ -112,10 +107,10 @@ void PipelineNeeds::add(const StudiedFrame& studied, const std::array<Reach, kVi
     ++level;
     if (answer.enough()) trials.emplace_back(&answer, exact_).second[kDepth] = level;
   }
-  std::vector<Drawn> memory(static_cast<std::size_t>(threads));
-  for_each_task(memory, trials.size(), [&](std::size_t i, Drawn& drawn) {
+  std::vector<PipelineMemory> memory(static_cast<std::size_t>(threads));
+  for_each_task(memory, trials.size(), [&](std::size_t i, PipelineMemory& own) {
     const auto& [answer, pipeline] = trials[i];
-    compare(frame, pipeline, *answer, drawn);
+    compare(frame, pipeline, *answer, own);
   });
 }
 
@@ -204,9 +199,9 @@ class PipelineNeeds::Search {
                  [&](const Pipeline& p) { return !wrong_.contains(p); });
     std::vector<std::atomic<std::size_t>> first(unknown.size());
     for (auto& frame : first) frame = frames;
-    for_each_task(memory_, unknown.size() * frames, [&](std::size_t task, Drawn& drawn) {
+    for_each_task(memory_, unknown.size() * frames, [&](std::size_t task, PipelineMemory& memory) {
       const std::size_t i = task / frames, frame = task % frames;
-      if (frame > first[i] || is_right(needs_.frames_[frame], unknown[i], drawn)) return;
+      if (frame > first[i] || is_right(needs_.frames_[frame], unknown[i], memory)) return;
       std::size_t before = first[i];
       while (frame < before && !first[i].compare_exchange_weak(before, frame)) {
       }
@@ -218,7 +213,7 @@ class PipelineNeeds::Search {
   const PipelineNeeds& needs_;
   Pipeline start_;
   const std::function<void(std::size_t)>& judged_;
-  std::vector<Drawn> memory_;
+  std::vector<PipelineMemory> memory_;
   std::map<Pipeline, std::size_t> wrong_;  // the first wrong frame; their number if none is
 };
 
@@ -233,7 +228,7 @@ LeastPrecise PipelineNeeds::least_precise(const Ranges& ranges, int threads,
   LeastPrecise result;
   if (const Frame* frame = search.first_wrong(start)) {
     result.stages = {{"pipeline", {{"the exact one"}}}};
-    Drawn memory;
+    PipelineMemory memory;
     compare(*frame, start, result.stages.front().answers.front(), memory);
     return result;
   }
@@ -271,7 +266,7 @@ LeastPrecise PipelineNeeds::least_precise(const Ranges& ranges, int threads,
       for (const Stage other : stages_)
         if (wrong[other] != weaker[other])
           answer.name += fmt::format(", {} {}", alone_[other].name, level_of(wrong, other));
-      Drawn memory;
+      PipelineMemory memory;
       compare(*search.first_wrong(wrong), wrong, answer, memory);
     }
     for (int level = least[stage]; level <= exact_[stage]; ++level)

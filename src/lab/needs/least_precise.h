@@ -42,21 +42,15 @@ class PipelineNeeds {
   struct Frame {
     std::uint64_t index;
     bool keep_pictures;
-    PipelineFrame drawn;
+    PipelineFrame frame;
     std::vector<std::pair<std::uint32_t, std::size_t>> right;  // runs of the right picture: id, end
-  };
-  // The memory of a draw. The next one with the same triangles does not assemble them again.
-  struct Drawn {
-    std::pair<const Frame*, Pipeline> of{};
-    PipelineMemory memory;
   };
   class Search;
 
   void start(const StudiedFrame& frame);
-  static void draw(const Frame& frame, const Pipeline& pipeline, Drawn& drawn);
-  static bool is_right(const Frame& frame, const Pipeline& pipeline, Drawn& drawn);
+  static bool is_right(const Frame& frame, const Pipeline& pipeline, PipelineMemory& memory);
   // Adds a witness if the picture is wrong. The answer must have none.
-  static void compare(const Frame& frame, const Pipeline& pipeline, Answer& answer, Drawn& memory);
+  static void compare(const Frame& frame, const Pipeline& pipeline, Answer& answer, PipelineMemory& memory);
   std::string proof(Stage stage, const Ranges& ranges, bool drop) const;
 
   std::vector<Stage> stages_;

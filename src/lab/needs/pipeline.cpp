@@ -84,11 +84,6 @@ double area_px(const VisibilityTriangle& t) {
   return double{qx * ry - qy * rx};
 }
 
-struct TriangleSide {
-  std::uint32_t id;
-  bool two_sided;
-};
-
 // Makes the triangles of a frame that a pipeline shows.
 class Assembly {
  public:
@@ -144,7 +139,7 @@ class Assembly {
           front = glm::dot(mesh.normals[i], ray + scale * mesh.positions[t.x]) < 0.0f;
         const bool two_sided = mesh.has_flag(i, kTwoSided);
         if (!front && !two_sided) continue;
-        add_triangle(memory_.vertices[t.x], memory_.vertices[t.y], memory_.vertices[t.z], {id, two_sided},
+        add_triangle(memory_.vertices[t.x], memory_.vertices[t.y], memory_.vertices[t.z], id, two_sided,
                      [&](int k) { return to_screen(mesh.positions[t[k]]); });
       }
     }
@@ -159,7 +154,7 @@ class Assembly {
         corner[k] = project(v[k].x, v[k].y, v[k].z);
         corner[k].snapped.outside |= outside_of(clip_vertex(k), view_);
       }
-      add_triangle(corner[0], corner[1], corner[2], {id, false}, clip_vertex);
+      add_triangle(corner[0], corner[1], corner[2], id, false, clip_vertex);
     }
   }
 
@@ -182,7 +177,7 @@ class Assembly {
 
   template <typename ClipVertexOf>
   void add_triangle(const ProjectedVertex& a, const ProjectedVertex& b, const ProjectedVertex& c,
-                    TriangleSide of, ClipVertexOf&& clip_vertex) {
+                    std::uint32_t id, bool two_sided, ClipVertexOf&& clip_vertex) {
     const std::uint32_t any = a.snapped.outside | b.snapped.outside | c.snapped.outside;
     std::uint32_t all = a.snapped.outside & b.snapped.outside & c.snapped.outside & kInvisible;
     if ((any & kNotFinite) != 0) return;
@@ -194,7 +189,7 @@ class Assembly {
       clipped &= kPlanes[i] == kNear ? 0 : ~kPlanes[i];
     }
     if (all != 0) return;
-    if ((any & clipped) == 0) return emit(a, b, c, of);
+    if ((any & clipped) == 0) return emit(a, b, c, id, two_sided);
 
     // As the library clips: a corner that is inside keeps its snapped position.
     const ProjectedVertex* const corners[] = {&a, &b, &c};
@@ -220,21 +215,22 @@ class Assembly {
     const Pieces pieces = split({snapped.data(), polygon.size()});
     for (std::size_t i = 0; i < pieces.count; ++i) {
       const auto [p, q, r] = pieces.corners[i];
-      emit(projected[p], projected[q], projected[r], of);
+      emit(projected[p], projected[q], projected[r], id, two_sided);
     }
   }
 
-  void emit(const ProjectedVertex& a, const ProjectedVertex& b, const ProjectedVertex& c, TriangleSide of) {
+  void emit(const ProjectedVertex& a, const ProjectedVertex& b, const ProjectedVertex& c, std::uint32_t id,
+            bool two_sided) {
     if (((a.snapped.outside | b.snapped.outside | c.snapped.outside) & kNowhere) != 0) return;
     const VisibilityTriangle t{{{a.snapped.x_sub, b.snapped.x_sub, c.snapped.x_sub},
                                 {a.snapped.y_sub, b.snapped.y_sub, c.snapped.y_sub},
                                 {a.snapped.z, b.snapped.z, c.snapped.z},
-                                of.id},
+                                id},
                                {a.x_px, b.x_px, c.x_px},
                                {a.y_px, b.y_px, c.y_px},
                                {a.view_z, b.view_z, c.view_z}};
     if (contract::pixel_box(t.screen, scene_.width, scene_.height).empty()) return;
-    if (!of.two_sided && !is_kept(t)) return;
+    if (!two_sided && !is_kept(t)) return;
     scene_.faces.push_back({static_cast<std::uint32_t>(scene_.triangles.size()), 1});
     scene_.triangles.push_back(t);
   }
@@ -327,12 +323,6 @@ Pipeline pipeline_of(const std::map<std::string, std::string>& levels) {
   return pipeline;
 }
 
-Pipeline assembly_of(Pipeline pipeline) {
-  pipeline[kVisibility] = static_cast<int>(depths_of(pipeline));
-  pipeline[kDepth] = 0;
-  return pipeline;
-}
-
 std::vector<std::uint32_t> PipelineMemory::picture() const {
   std::vector<std::uint32_t> ids = frame.visible;
   for (std::uint32_t& id : ids)
@@ -357,7 +347,7 @@ PipelineFrame::PipelineFrame(const Drawable& drawable, const FrontendOptions& op
   centre_ = sum / static_cast<double>(vertices);
 }
 
-void PipelineFrame::assemble(const Pipeline& pipeline, PipelineMemory& memory) const {
+void PipelineFrame::draw(const Pipeline& pipeline, PipelineMemory& memory) const {
   const auto* const scene = std::get_if<Scene>(&drawable_);
   const ViewVolume view = scene != nullptr ? view_volume(scene->camera, size_.width, size_.height)
                                            : ViewVolume{double(size_.width), double(size_.height), 0.0, 1.0};
@@ -366,9 +356,6 @@ void PipelineFrame::assemble(const Pipeline& pipeline, PipelineMemory& memory) c
     assembly.add(*scene, centre_);
   else
     assembly.add(std::get<TriangleStream>(drawable_));
-}
-
-void PipelineFrame::show(const Pipeline& pipeline, PipelineMemory& memory) {
   draw_of(pipeline)(memory.scene, memory.frame);
 }
 

@@ -33,8 +33,6 @@ Pipeline exact_pipeline();
 // By the names of stages and levels; a stage without one is exact. Throws std::invalid_argument for a level
 // that does not exist.
 Pipeline pipeline_of(const std::map<std::string, std::string>& levels);
-// Pipelines for which this is equal assemble the same triangles.
-Pipeline assembly_of(Pipeline pipeline);
 
 struct ProjectedVertex {
   float x_px, y_px;
@@ -60,13 +58,7 @@ class PipelineFrame {
   PipelineFrame(const Drawable& drawable, const FrontendOptions& options);
   Size size() const { return size_; }
 
-  void draw(const Pipeline& pipeline, PipelineMemory& memory) const {
-    assemble(pipeline, memory);
-    show(pipeline, memory);
-  }
-  // The steps of draw(): from vertices to triangles, and to pixels.
-  void assemble(const Pipeline& pipeline, PipelineMemory& memory) const;
-  static void show(const Pipeline& pipeline, PipelineMemory& memory);
+  void draw(const Pipeline& pipeline, PipelineMemory& memory) const;
 
   // The picture that is right, as PipelineMemory::picture(): each pixel shows the triangle that is visible by
   // the positions snapped to 8 bits and the exact planes through the given distances. By the truths' own
