@@ -50,6 +50,12 @@ std::optional<Flags> parse_flags(int argc, char** argv) {
                                      "Time all other rasterizers beside the methods; fail if none starts");
   parser.add_flag("--no-peers", no_peers, "Leave out other projects' rasterizers")->excludes(peers_flag);
   parser.add_flag("--quick", flags.suite.quick, "Fewer scenes and rows, and a time limit for further rounds");
+  parser
+      .add_option("--needs", flags.suite.needs,
+                  "Also time the pipelines in this file, such as results/facts/needs.json")
+      ->excludes("--scene")
+      ->excludes("--quick")
+      ->type_name("FILE");
   tools::add_size(parser, size, "Image size (1920x1080; a .tri file has its own)");
   std::string format;
   parser.add_option("--benchmark_out", flags.out, "Write the results to this file, complete or not at all")

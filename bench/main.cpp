@@ -118,7 +118,7 @@ void compare_all(std::vector<Row>& rows, Stage& stage, bool whole_suite) {
   tools::Progress progress;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     progress.show(static_cast<double>(i) / static_cast<double>(rows.size()), "comparing " + rows[i].name);
-    if (rows[i].method) {
+    if (!rows[i].workload) {
       stage.compare(rows[i]);
       continue;
     }
@@ -229,8 +229,8 @@ void time_row(benchmark::State& state, Row& row, Stage& stage) {
     counters["width"] = scene.size().width;
     counters["height"] = scene.size().height;
     counters["triangles"] = static_cast<double>(scene.triangles());
-    return;
   }
+  if (!row.workload) return;
   const Workload& workload = *row.workload;
   counters["width"] = workload.width();
   counters["height"] = workload.height();
@@ -379,6 +379,7 @@ int run(int argc, char** argv) {
   if (!flags.model_out.empty()) files.push_back({"--model_out", flags.model_out});
   std::vector<std::string> inputs = flags.suite.scenes;
   inputs.insert(inputs.end(), flags.suite.more_scenes.begin(), flags.suite.more_scenes.end());
+  if (!flags.suite.needs.empty()) inputs.push_back(flags.suite.needs);
   tools::check_files(files, inputs);
   std::optional<AtomicFile> out;
   if (!flags.out.empty()) out.emplace(flags.out);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bench/workloads/methods.h"
+#include "bench/workloads/pipelines.h"
 #include "bench/workloads/workload.h"
 #include "lab/engine/engine.h"
 #include "raster/tile_options.h"
@@ -34,13 +35,14 @@ struct FirstFrame {
 };
 
 struct Row {
-  // WHO/what/key:value…/threads:N, where WHO is BACKEND, frontend, BACKEND+frontend, a peer's name, cell, or
-  // lab
+  // WHO/what/key:value…/threads:N, where WHO is BACKEND, frontend, BACKEND+frontend, a peer's name, cell, lab
+  // or needs
   std::string name;
-  std::shared_ptr<Workload> workload;  // null for methods
-  std::optional<MethodDraw> method;    // of the laboratory, a peer's included
+  std::shared_ptr<Workload> workload;    // null for methods and pipelines
+  std::optional<MethodDraw> method;      // of the laboratory, a peer's included
+  std::optional<PipelineDraw> pipeline;  // of the laboratory
   Timed timed = Timed::raster;
-  const BackendInfo* backend = nullptr;  // null for front end rows, peers and methods
+  const BackendInfo* backend = nullptr;  // null for front end rows, peers, methods and pipelines
   const lab::PeerInfo* peer = nullptr;
   std::string peer_version;   // empty: it did not start
   bool device_clock = false;  // a peer's frame by its device's clock

@@ -206,6 +206,19 @@ class Suite {
     }
   }
 
+  // From the vertices to the picture.
+  void add_pipelines(const std::string& file) {
+    for (const auto& scene : read_pipelines(file))
+      for (const auto& [name, pipeline] :
+           {std::pair{"least", scene->least}, {"exact", lab::exact_pipeline()}}) {
+        Row row;
+        row.name = fmt::format("needs/{}/pipeline:{}/threads:1", scene->name, name);
+        row.execution = {.threads = 1, .target = SimdTarget::scalar};
+        row.pipeline = PipelineDraw{scene, pipeline};
+        rows_.push_back(std::move(row));
+      }
+  }
+
   WorkloadPtr make_workload(std::function<tools::Source()> load) const {
     return std::make_shared<Workload>(options_.width, options_.height, Cull::back, std::move(load));
   }
@@ -335,6 +348,7 @@ std::vector<Row> make_suite(const SuiteOptions& options) {
   suite.add_cull_sweep();
   for (const lab::LabScene& scene : lab::lab_scenes(options.quick))
     if (scene.timed) suite.add_methods(scene);
+  if (!options.needs.empty()) suite.add_pipelines(options.needs);
   std::vector<Row> rows = suite.take();
   if (options.quick) std::erase_if(rows, [](const Row& row) { return !in_quick_run(row); });
   return rows;

@@ -17,6 +17,7 @@ struct SuiteOptions {
   std::vector<std::string> scenes;       // names or files; empty: the whole suite
   std::vector<std::string> more_scenes;  // beside the whole suite
   bool fit = false;                      // for meshes in `scenes` and `more_scenes`
+  std::string needs;                     // a file whose pipelines are timed beside the exact one; empty: none
   bool methods = false;                  // of the laboratory, on `scenes`; the whole suite has them anyway
   bool peers = true;                     // those in the suite, if built
   bool all_peers = false;                // beside the methods, too

@@ -34,7 +34,7 @@ Framebuffer& Stage::frame(const Row& row) {
 }
 
 void Stage::work(const Row& row) {
-  if (row.method) return methods_.at(row.name)();
+  if (!row.workload) return draws_.at(row.name)();
   if (row.peer != nullptr) return peers_.work(row);
   Workload& workload = *row.workload;
   if (row.timed == Timed::frame && !row.arithmetic)
@@ -77,8 +77,8 @@ void Stage::compare_ours(Row& row) {
 }
 
 void Stage::compare(Row& row) {
-  if (row.method) {
-    methods_[row.name] = row.method->prepare(row.error);
+  if (!row.workload) {
+    draws_[row.name] = row.method ? row.method->prepare(row.error) : row.pipeline->prepare(row.error);
     row.once_s = timed_work_s(row);
   } else if (row.peer != nullptr) {
     peers_.compare(row);

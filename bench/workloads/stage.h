@@ -43,7 +43,7 @@ class Stage {
   Frontend frontend_;
   TileScratch scratch_;  // of the engine
   PeerStage peers_;
-  std::map<std::string, std::function<void()>> methods_;  // by row name
+  std::map<std::string, std::function<void()>> draws_;  // of methods and pipelines, by row name
   CostModel cost_model_;
   bool estimates_;
 };

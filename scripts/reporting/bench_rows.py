@@ -1,8 +1,8 @@
 """Reads the files of a run: in results/MACHINE bench.json (Google Benchmark's format), model.json and machine.json.
 
 A row's name is DRAWER/scene/key:value…/threads:N. DRAWER is a backend, a peer (another project's rasterizer), "frontend",
-BACKEND+frontend, "cell" for a whole frame of factors.py, or "lab" for a method of the laboratory. Rows random_read/WHERE
-measure the machine and draw nothing.
+BACKEND+frontend, "cell" for a whole frame of factors.py, "lab" for a method of the laboratory, or "needs" for a pipeline
+of it. Rows random_read/WHERE measure the machine and draw nothing.
 """
 import os
 from dataclasses import dataclass, field

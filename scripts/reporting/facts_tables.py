@@ -2,7 +2,7 @@
 from accuracy_rows import FAMILIES
 from bench_rows import facts_of
 from program import BadInput, parsed
-from tables import markdown, number, percent
+from tables import gain, markdown, number, percent
 
 
 def rate_text(measured):
@@ -163,12 +163,17 @@ def others(entry, levels):
     return "; ".join(map(differing, entry["pipeline"]["others"])) or "–"
 
 
-def pipelines_table(found):
-    """Header and lines, a line per scene: its pipeline was drawn as a whole."""
-    return (["scene", "clipping", FACING, VISIBILITY, "depth", BITS, "or, weakened in another order"],
+def over_exact(bench, scene):
+    rows = [bench.find(f"needs/{scene}/pipeline:{which}/threads:1") for which in ("exact", "least")]
+    return gain(*rows) if all(rows) else "–"
+
+
+def pipelines_table(found, bench):
+    """Header and lines, a line per scene: its pipeline was drawn and timed as a whole."""
+    return (["scene", "clipping", FACING, VISIBILITY, "depth", BITS, "speed-up over exact", "or, weakened in another order"],
             [[named(scene, entry), clipping(levels),
               *(titled(levels[stage]) if stage in levels else "–" for stage in (FACING, VISIBILITY, DEPTH)),
-              levels.get(BITS, "–").split()[0], others(entry, levels)] for scene, (entry, _, levels) in found.items()])
+              levels.get(BITS, "–").split()[0], over_exact(bench, scene), others(entry, levels)] for scene, (entry, _, levels) in found.items()])
 
 
 def edges_table(found):

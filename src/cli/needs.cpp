@@ -282,7 +282,7 @@ class NeedsCommand {
     return text;
   }
 
-  static nlohmann::json ranges_json(const Shot& shot, const lab::Needs& needs) {
+  nlohmann::json ranges_json(const Shot& shot, const lab::Needs& needs) const {
     nlohmann::json result = json_heading(shot, needs);
     for (int i = 0; !shot.source.stream && i < lab::kViewPlanes; ++i) {
       const auto plane = static_cast<lab::ViewPlane>(i);
@@ -294,10 +294,11 @@ class NeedsCommand {
     return result;
   }
 
-  static nlohmann::json json_heading(const Shot& shot, const lab::Needs& needs) {
+  nlohmann::json json_heading(const Shot& shot, const lab::Needs& needs) const {
     return {{"scene", shot.source.name},
             {"width", shot.frontend.width},
             {"height", shot.frontend.height},
+            {"scale", options_.scene.scale.value_or(1.0)},
             {"frames", needs.frames()}};
   }
 
@@ -311,7 +312,7 @@ class NeedsCommand {
     return text;
   }
 
-  static nlohmann::json json(const Shot& shot, const lab::Needs& needs, const lab::LeastPrecise& least) {
+  nlohmann::json json(const Shot& shot, const lab::Needs& needs, const lab::LeastPrecise& least) const {
     nlohmann::json result = json_heading(shot, needs);
     for (const lab::Question& stage : least.stages) result["pipeline"]["stages"].push_back(json_of(stage));
     if (!shot.source.stream) result["pipeline"]["unlike_scene_px"] = needs.unlike_scene();

@@ -23,14 +23,6 @@ void append(Mesh& to, const Mesh& from, std::size_t begin, std::size_t end) {
   append(to.normals, from.normals, begin, end);
 }
 
-// The view direction in the space of an instance's mesh. A matrix M maps a face's normal n to det M · M^-T ·
-// n, so its product with the line of sight d is n · (det M · M^-1 · d), also if M scales or mirrors.
-glm::vec3 sight_of(const Instance& instance, const Camera& camera) {
-  const glm::dmat3 model(model_matrix(instance));
-  const glm::dvec3 sight(line_of_sight(camera));
-  return glm::vec3(glm::normalize(glm::determinant(model) * (glm::inverse(model) * sight)));
-}
-
 }  // namespace
 
 HiddenFaces::HiddenFaces(const Scene& scene, const FacingMethod& method) : method_(&method) {
@@ -67,7 +59,7 @@ const Drawable& HiddenFaces::drop(const Scene& scene) {
     left.instances[i] = instance;
     left.instances[i].mesh = i;
     Faces& faces = faces_[instance.mesh];
-    faces.scene.view.forward = sight_of(instance, scene.camera);
+    faces.scene.view.forward = in_mesh_space(instance, line_of_sight(scene.camera));
     method_->classify(faces.scene, faces.front);
 
     Mesh& kept = left.meshes[i];

@@ -76,4 +76,10 @@ glm::vec3 line_of_sight(const Camera& camera) {
   return glm::vec3(glm::transpose(to_camera_frame(camera)) * glm::dvec3(0, 0, -1));
 }
 
+// A matrix M maps a face's normal n to det M · M^-T · n, so its product with d is n · (det M · M^-1 · d).
+glm::vec3 in_mesh_space(const Instance& instance, glm::dvec3 direction) {
+  const glm::dmat3 model(model_matrix(instance));
+  return glm::vec3(glm::normalize(glm::determinant(model) * (glm::inverse(model) * direction)));
+}
+
 }  // namespace edgewise::lab

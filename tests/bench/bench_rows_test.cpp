@@ -325,6 +325,23 @@ TEST(BenchMethods, AreNotTimedWhereAFormDrawsOtherPixels) {
   EXPECT_EQ(error(2), "draws other pixels than its scalar form on one thread");
 }
 
+TEST(BenchPipelines, AreTimedInPairsIfTheyAreRight) {
+  const TempDir folder;
+  SuiteOptions options;
+  options.needs = folder
+                      .write("needs.json", R"([{"scene": "cubes", "width": 96, "height": 54, "scale": 1,
+      "pipeline": {"stages": [{"question": "visibility", "answer": "painter_mean"}]}}])")
+                      .string();
+  Stage stage;
+  std::map<std::string, std::string> errors;
+  for (Row& row : make_suite(options))
+    if (row.pipeline) stage.compare(row), errors[row.name] = row.error;
+  ASSERT_EQ(errors.size(), 2u);
+  EXPECT_EQ(errors.at("needs/cubes/pipeline:exact/threads:1"), "");
+  EXPECT_NE(errors.at("needs/cubes/pipeline:least/threads:1").find("pixels differ from the exact picture"),
+            std::string::npos);
+}
+
 // The JSON that the benchmark writes to the file that `option` names.
 nlohmann::json written(const std::string& option, const std::string& arguments) {
   const TempDir folder;

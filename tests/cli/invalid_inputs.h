@@ -69,6 +69,8 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
     {"bench --hlep", 2, "unknown option '--hlep'; did you mean '--help'"},
     {"bench --peers --no-peers", 2, "--no-peers"},
     {"bench --methods", 2, "--scene"},
+    {"bench --quick --needs $IN/good.obj", 2, "--quick"},
+    {"bench --needs $IN/good.obj", 2, "good.obj: not a list of what `edgewise needs --json` prints"},
     {"bench --scene cube --add-scene $IN/good.obj", 2, "--add-scene"},
 
     // ---- Unknown names, with the nearest known one

@@ -12,6 +12,7 @@
 #include "edgewise/builtin.h"
 #include "edgewise/contract.h"
 #include "lab/choice.h"
+#include "lab/clipping/clipping.h"
 #include "lab/coverage/fixed_edges.h"
 #include "lab/view_space.h"
 #include "lab/visibility/depth_buffer.h"
@@ -355,16 +356,39 @@ std::vector<std::uint32_t> picture_of(const Levels& levels, const Scene& scene, 
   return frame.visible;
 }
 
-std::vector<std::uint32_t> library_picture(const Scene& scene, Size size) {
+std::vector<std::uint32_t> library_picture(const Drawable& drawable, Size size) {
   Frontend frontend;
   Framebuffer frame(size.width, size.height);
   find_backend("tiled").make()->draw(
-      frontend.run(scene, {.width = size.width, .height = size.height, .payload = Payload::id}), frame.view(),
-      kNoTriangle, {});
+      frontend.run(drawable, {.width = size.width, .height = size.height, .payload = Payload::id}),
+      frame.view(), kNoTriangle, {});
   std::vector<std::uint32_t> ids;
   for (int y = 0; y < size.height; ++y)
     ids.insert(ids.end(), frame.payload_row(y), frame.payload_row(y) + size.width);
   return ids;
+}
+
+// What each pipeline of the benchmark's rows computes anew: clipping on all sides, and facing by normals also
+// if an instance mirrors.
+TEST(Needs, PipelinesDrawTheLibrarysPictureFromTheVerticesOn) {
+  const Size size{96, 54};
+  PipelineMemory memory;
+  const auto check = [&](const Drawable& drawable, const Levels& levels = {}) {
+    const PipelineFrame frame(drawable, {.width = size.width, .height = size.height});
+    frame.draw(pipeline_of(levels), memory);
+    EXPECT_EQ(memory.picture(), library_picture(drawable, size));
+    EXPECT_EQ(memory.picture(), frame.right());
+  };
+  for (int direction = 0; direction < kOutsideDirections; ++direction)
+    for (const bool reversed : {false, true}) check(outside_direction(direction, reversed).scene);
+  check(floor_through_eye(0.1f).scene);
+  check(find_scene("terrain").make({size.width, size.height}), {{"facing test", "normal_dot_object"}});
+  check(TriangleStream{
+      size.width, size.height, {triangle({-1e5, -20, 0.4}, {40, -10, -0.5}, {1e5, 80, 0.9}), wall(0.3f)}});
+  Scene mirrored = std::get<Scene>(find_scene("sphere").make({size.width, size.height}));
+  mirrored.instances.front().scale = {-1.0, 0.5, 2.0};
+  for (const char* test : {"normal_dot_eye", "snapped_area"})
+    check(mirrored, {{"facing test", test}, {"visibility", "painter_mean"}});
 }
 
 // Drawn again from the front end on: the printed pipeline, those of other orders, and the printed one with

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "lab/coverage/coverage.h"
-#include "lab/needs/pipeline.h"
+#include "lab/needs/least_precise.h"
 #include "lab/needs/question.h"
 #include "lab/needs/ranges.h"
 

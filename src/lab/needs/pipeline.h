@@ -1,17 +1,17 @@
-// Whole pipelines, from scene to picture. A picture is right if each pixel shows the triangle that is visible
-// by the positions snapped to 8 bits and the exact planes through the given distances.
+// Whole pipelines, from the vertices of a frame to the visible triangle of each pixel. All run in the same
+// scalar code on one thread, which is a reference, not optimized.
 #pragma once
 
 #include <array>
-#include <functional>
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
 #include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "frontend/clip.h"
 #include "lab/needs/question.h"
-#include "lab/needs/ranges.h"
 #include "lab/visibility/visibility.h"
 
 namespace edgewise::lab {
@@ -22,71 +22,54 @@ inline constexpr std::size_t kStages = kSubpixel + 1;
 // A level per stage: 0 is the least precise. The exact pipeline, that of the library, has the highest ones.
 using Pipeline = std::array<int, kStages>;
 
-// From the exact pipeline on, stages are weakened in turn as far as they go, each by one level at a time. A
-// step is taken if all frames stay right, and also with any two stages at more precise levels.
-struct LeastPrecise {
-  // By stage: the level, those above, and the next weaker one with its witness against that pipeline.
-  std::vector<Question> stages;
-  int orders = 0;                                          // of stages, all tried
-  std::vector<std::map<std::string, std::string>> others;  // other orders' results: level by stage
+enum PlaneLevel { kNothing, kDrop, kClip };
+inline constexpr int kDepthBuffer = 3;  // the level of kVisibility
+
+// The stage's name, and its levels as answers.
+Question levels_of(Stage stage);
+// Float depth buffers: the levels of kDepth above the exact one.
+Question float_depths();
+Pipeline exact_pipeline();
+// By the names of stages and levels; a stage without one is exact. Throws std::invalid_argument for a level
+// that does not exist.
+Pipeline pipeline_of(const std::map<std::string, std::string>& levels);
+
+struct ProjectedVertex {
+  float x_px, y_px;
+  double view_z;
+  Vertex snapped;  // to the pipeline's bits
 };
 
-class PipelineNeeds {
+// The memory of a draw, for the next one.
+struct PipelineMemory {
+  std::vector<ProjectedVertex> vertices;
+  Clipper clipper;
+  VisibilityScene scene{};  // the assembled triangles; payloads are ids
+  VisibilityFrame frame;
+
+  // The id that each pixel shows, or kNoTriangle, row by row.
+  std::vector<std::uint32_t> picture() const;
+};
+
+// A frame that pipelines draw. Of what they need, it prepares the normals of faces and the mean of all
+// vertices.
+class PipelineFrame {
  public:
-  // Draws the frame with each level of each stage while all other stages are exact, and keeps what other
-  // pipelines need to draw it. All frames must be of one size and kind.
-  void add(const StudiedFrame& frame, const std::array<Reach, kViewPlanes>& reach, int threads);
-  // Each stage alone, the others being exact; and float depth buffers.
-  std::vector<Question> alone(const Ranges& ranges) const;
-  // Right pictures start from the front end's triangles. This judges them: in how many pixels of all frames
-  // they differ by more than 1/64 px and depth ties from the scene's own vertices (lab/clipping/truth.h).
-  // Snapping may turn slivers over.
-  std::uint64_t unlike_scene() const { return unlike_scene_; }
-  // Pictures are kept as asked for by the frames. `judged` gets the number of pipelines judged so far.
-  LeastPrecise least_precise(const Ranges& ranges, int threads,
-                             const std::function<void(std::size_t)>& judged) const;
+  PipelineFrame(const Drawable& drawable, const FrontendOptions& options);
+  Size size() const { return size_; }
+
+  void draw(const Pipeline& pipeline, PipelineMemory& memory) const;
+
+  // The picture that is right, as PipelineMemory::picture(): each pixel shows the triangle that is visible by
+  // the positions snapped to 8 bits and the exact planes through the given distances. By the truths' own
+  // arithmetic, from the library's front end on. Throws what Frontend::run() throws.
+  std::vector<std::uint32_t> right() const;
 
  private:
-  // A triangle that reaches beyond a plane of the view, as the vertex stage makes it.
-  struct Reaching {
-    std::uint32_t id;
-    std::uint16_t any, all;  // flags of Outside
-    ClipVertex vertices[3];
-  };
-  struct Frame {
-    std::uint64_t index;
-    Size size;
-    Cull cull;
-    bool keep_pictures;
-    VisibilityScene all;               // the front end's triangles, clipped but not culled; payloads are ids
-    std::vector<Reaching> reaching;    // by ascending id
-    std::vector<std::uint8_t> fronts;  // by id: bit 0 if two-sided, bit l if facing level l keeps it
-    std::vector<std::pair<std::uint32_t, std::size_t>> right;  // runs of the true picture: id, end
-  };
-  // The memory of a draw. The next one with the same triangles does not assemble them again.
-  struct Drawn {
-    std::pair<const Frame*, Pipeline> of{};
-    VisibilityScene scene;
-    VisibilityFrame frame;
-  };
-  class Search;
-
-  void start(const StudiedFrame& frame);
-  static void add_scene(const StudiedFrame& frame, Frame& kept);
-  static bool is_two_sided(const Frame& frame, const VisibilityTriangle& t);
-  static void assemble(const Frame& frame, const Pipeline& pipeline, VisibilityScene& scene);
-  static void draw(const Frame& frame, const Pipeline& pipeline, Drawn& drawn);
-  static bool is_right(const Frame& frame, const Pipeline& pipeline, Drawn& drawn);
-  // Adds a witness if the picture is wrong. The answer must have none.
-  static void compare(const Frame& frame, const Pipeline& pipeline, Answer& answer, Drawn& memory);
-  std::string proof(Stage stage, const Ranges& ranges, bool drop) const;
-
-  std::vector<Stage> stages_;
-  Pipeline exact_{};
-  std::array<Question, kStages> alone_;
-  Question float_depth_;
-  std::uint64_t unlike_scene_ = 0;
-  std::vector<Frame> frames_;
+  Drawable drawable_;
+  Size size_;
+  Cull cull_;
+  glm::dvec3 centre_{0.0};  // the mean of all triangles' vertices
 };
 
 }  // namespace edgewise::lab

@@ -1,0 +1,59 @@
+#include "bench/workloads/pipelines.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <stdexcept>
+
+#include "core/input_file.h"
+
+namespace edgewise::bench {
+
+std::vector<std::shared_ptr<PipelineScene>> read_pipelines(const std::string& file) {
+  InputFile input = open_input(file);
+  std::vector<std::shared_ptr<PipelineScene>> scenes;
+  std::set<std::string> names;
+  try {
+    for (const auto& entry : nlohmann::json::parse(input.stream)) {
+      std::map<std::string, std::string> levels;
+      for (const auto& stage : entry.at("pipeline").at("stages"))
+        levels.emplace(stage.at("question").get<std::string>(), stage.at("answer").get<std::string>());
+      const SceneRequest request{entry.at("width").get<int>(), entry.at("height").get<int>(), 0.0f,
+                                 entry.at("scale").get<double>()};
+      const auto name = entry.at("scene").get<std::string>();
+      find_scene(name);
+      if (!names.insert(name).second) throw std::invalid_argument("two entries for '" + name + "'");
+      scenes.push_back(std::make_shared<PipelineScene>());
+      scenes.back()->name = name, scenes.back()->request = request;
+      scenes.back()->least = lab::pipeline_of(levels);
+    }
+  } catch (const nlohmann::json::exception& error) {
+    throw file_error(file,
+                     fmt::format("not a list of what `edgewise needs --json` prints: {}", error.what()));
+  } catch (const std::invalid_argument& error) {
+    throw file_error(file, error.what());
+  }
+  return scenes;
+}
+
+std::function<void()> PipelineDraw::prepare(std::string& error) const {
+  PipelineScene& at = *scene;
+  if (!at.frame) {
+    const SceneInfo& info = find_scene(at.name);
+    const Drawable drawable = info.make(at.request);
+    at.frame.emplace(drawable, FrontendOptions{.width = at.request.width,
+                                               .height = at.request.height,
+                                               .cull = info.stream ? Cull::none : Cull::back});
+    at.right = at.frame->right();
+  }
+  at.frame->draw(pipeline, at.memory);
+  const auto drawn = at.memory.picture();
+  std::size_t wrong = 0;
+  for (std::size_t i = 0; i < drawn.size(); ++i) wrong += drawn[i] != at.right[i] ? 1u : 0u;
+  if (wrong != 0) error = fmt::format("{} pixels differ from the exact picture", wrong);
+  return [&at, pipeline = pipeline] { at.frame->draw(pipeline, at.memory); };
+}
+
+}  // namespace edgewise::bench
