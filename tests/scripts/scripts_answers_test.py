@@ -299,11 +299,11 @@ class NeedsTest(FolderTest):
                        "needs/terrain/pipeline:least/threads:1": 4.02, "needs/terrain/pipeline:exact/threads:1": 4.0})
         header, lines = pipelines_table(self.read(entry("cube", others=[other]), entry("terrain", near="clip"), stream), timed)
         self.assertEqual([len(line) for line in lines], [len(header)] * 3)
-        self.assertEqual(lines, [["cube (3 frames)", "nothing", "`normal_dot_eye`", "`submission_order`", "–", "8", "2.0×",
+        self.assertEqual(lines, [["cube (3 frames)", "nothing", "`normal_dot_eye`", "`submission_order`", "–", "2.0×",
                                   "`normal_z`, depth buffer of 6 bits"],
-                                 ["terrain (3 frames)", "clip at the near plane", "`normal_dot_eye`", "`submission_order`", "–", "8",
+                                 ["terrain (3 frames)", "clip at the near plane", "`normal_dot_eye`", "`submission_order`", "–",
                                   "1.00× slower (not settled)", "–"],
-                                 ["grid (3 frames)", "–", "–", "`submission_order`", "–", "–", "–", "–"]])
+                                 ["grid (3 frames)", "–", "–", "`submission_order`", "–", "–", "–"]])
 
     def test_edges_have_a_line_per_question(self):
         self.assertEqual(dict(edges_table(self.read(entry("cube"), entry("sphere")))[1]), {
