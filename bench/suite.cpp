@@ -25,6 +25,8 @@ constexpr int kPause_ms = 2;
 // often as cells are.
 constexpr std::string_view kByResolution[] = {"scanline", "tiled"};
 constexpr double kShortFrame_s = 0.05;
+// The methods that show what exactness costs are repeated as often as cells are.
+constexpr std::string_view kPriced[] = {"float_top_left", "fixed_8", "double_top_left"};
 
 using WorkloadPtr = std::shared_ptr<Workload>;
 
@@ -201,6 +203,8 @@ class Suite {
                       draw.name(), name_of(draw.execution.target), draw.execution.threads);
       if (const auto* peer = std::get_if<const lab::PeerInfo*>(&draw.method)) row.peer = *peer;
       row.execution = draw.execution;
+      if (std::find(std::begin(kPriced), std::end(kPriced), draw.name()) != std::end(kPriced))
+        row.many_rounds_up_to_s = kTooSlowToRepeat_s;
       row.method = std::move(draw);
       rows_.push_back(std::move(row));
     }

@@ -189,6 +189,7 @@ class Device {
       if (std::getline(std::ifstream(EDGEWISE_SWIFTSHADER "/package"), package))
         text = "SwiftShader of " + package;
     }
+    text += fmt::format(", {} subpixel bits", subpixel_bits());
     if (properties.deviceType == vk::PhysicalDeviceType::eCpu)
       text += fmt::format(", {} bits", 32 * about.get<vk::PhysicalDeviceSubgroupProperties>().subgroupSize);
     return text;
