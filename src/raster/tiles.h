@@ -63,14 +63,14 @@ bool draw_in_tiles(TriangleSource& triangles, FrameView frame, std::uint32_t bac
   };
   const bool streaming = store_for(TileContent::nothing) == TileStore::streaming;
   const TileStore few = store_for(TileContent::few), many = store_for(TileContent::many);
-  const EmptyTilesKernel fill = empty_tiles_kernel(execution.target);
+  const ClearKernel clear = clear_kernel(execution.target);
   const int columns = grid.columns();
   list.build(bins, grid, execution.threads, ablation.empty_rows);
   const std::span<const TileList::Task> tasks = list.tasks();
   const auto do_task = [&](int i) {
     const TileList::Task& task = tasks[static_cast<std::size_t>(i)];
     if (task.cell == TileList::kEmptyTiles)
-      return fill({list.empty_tiles(task.row), task.y0, task.y1, size_log2, frame, background, streaming});
+      return clear({list.empty_tiles(task.row), task.y0, task.y1, size_log2, frame, background, streaming});
     Ablation resolved = ablation;
     resolved.tile_store = few != many && bins.few(task.cell) ? few : many;
     draw_tile(TileTask{bins.triangles(), &bins, task.cell, task.cell % columns << size_log2, task.y0,

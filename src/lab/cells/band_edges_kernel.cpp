@@ -74,11 +74,5 @@ void draw_band_in_edges(const BandTask& task) {
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace edgewise {
-
-BandKernel lab::band_edges_kernel(SimdTarget target) {
-  return EDGEWISE_KERNEL(draw_band_in_edges, target);
-}
-
-}  // namespace edgewise
+EDGEWISE_DEFINE_KERNEL(BandKernel, lab::band_edges_kernel, draw_band_in_edges)
 #endif
