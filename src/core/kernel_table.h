@@ -17,3 +17,12 @@
    : (target) == ::edgewise::SimdTarget::avx2 ? HWY_CHOOSE_AVX2(function) \
    : (target) == ::edgewise::SimdTarget::sse4 ? HWY_CHOOSE_SSE4(function) \
                                               : &N_SCALAR::function)
+
+// Defines the function `name`, which returns the kernel for a resolved target. Use where HWY_ONCE is set,
+// outside of namespaces.
+#define EDGEWISE_DEFINE_KERNEL(Kernel, name, function) \
+  namespace edgewise {                                 \
+  Kernel name(SimdTarget target) {                     \
+    return EDGEWISE_KERNEL(function, target);          \
+  }                                                    \
+  }

@@ -86,11 +86,5 @@ bool assemble(const MeshTask& task, std::size_t begin, std::size_t end, VertexRa
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace edgewise {
-
-AssembleKernel assemble_kernel(SimdTarget target) {
-  return EDGEWISE_KERNEL(assemble, target);
-}
-
-}  // namespace edgewise
+EDGEWISE_DEFINE_KERNEL(AssembleKernel, assemble_kernel, assemble)
 #endif

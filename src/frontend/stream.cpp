@@ -96,11 +96,5 @@ void stream(const StreamTask& task, std::size_t begin, std::size_t end, ChunkOut
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace edgewise {
-
-StreamKernel stream_kernel(SimdTarget target) {
-  return EDGEWISE_KERNEL(stream, target);
-}
-
-}  // namespace edgewise
+EDGEWISE_DEFINE_KERNEL(StreamKernel, stream_kernel, stream)
 #endif

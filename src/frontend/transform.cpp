@@ -102,11 +102,5 @@ std::uint32_t transform_vertices(const MeshTask& task, std::size_t begin, std::s
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace edgewise {
-
-TransformKernel transform_kernel(SimdTarget target) {
-  return EDGEWISE_KERNEL(transform_vertices, target);
-}
-
-}  // namespace edgewise
+EDGEWISE_DEFINE_KERNEL(TransformKernel, transform_kernel, transform_vertices)
 #endif

@@ -68,9 +68,9 @@ class BandBackend : public Backend {
     constexpr int kLongestVector = 16;
     const BandKernel kernel =
         kernel_for_(frame.width < kLongestVector ? SimdTarget::scalar : execution.target);
-    const EmptyTilesKernel clear = empty_tiles_kernel(execution.target);
+    const ClearKernel clear = clear_kernel(execution.target);
     return draw_in_bands(triangles, frame, execution, bins_, [&](int band, RowRange rows) {
-      // Clears with the target's vectors: a span of tiles of one pixel, as wide as any image.
+      // A span of tiles of one pixel, as wide as any image.
       constexpr TileSpan kWholeWidth{0, contract::kMaxImageSide};
       clear({{&kWholeWidth, 1}, rows.begin, rows.end, 0, frame, background, false});
       kernel({bins_, band, rows, frame});

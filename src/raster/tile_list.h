@@ -22,7 +22,7 @@ struct TileSpan {
 class TileList {
  public:
   struct Task {
-    int cell;    // in the bins; kEmptyTiles: fill the pixel rows y0 … y1 - 1 of a row's empty tiles
+    int cell;    // in the bins; kEmptyTiles: clear the pixel rows y0 … y1 - 1 of a row's empty tiles
     int row;     // of tiles
     int y0, y1;  // px
   };
@@ -76,9 +76,9 @@ struct TileScratch {
   TileList list;
 };
 
-// Fills tiles without triangles. All those of a row are filled together, pixel row by pixel row: long
-// consecutive stores use the memory's bandwidth better than the short rows of one tile after the other.
-struct EmptyTiles {
+// Clears tiles without triangles, or a band. All those of a row are cleared together, pixel row by pixel row:
+// long consecutive stores use the memory's bandwidth better than the short rows of one tile after the other.
+struct ClearTask {
   std::span<const TileSpan> tiles;  // of one row
   int y0, y1;                       // the pixel rows y0 … y1 - 1
   int size_log2;                    // px, of a tile
@@ -87,9 +87,9 @@ struct EmptyTiles {
   bool streaming;  // requested
 };
 
-using EmptyTilesKernel = void (*)(const EmptyTiles&);
+using ClearKernel = void (*)(const ClearTask&);
 
 // `target` must be resolved.
-EmptyTilesKernel empty_tiles_kernel(SimdTarget target);
+ClearKernel clear_kernel(SimdTarget target);
 
 }  // namespace edgewise

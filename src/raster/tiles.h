@@ -65,14 +65,15 @@ bool draw_in_tiles(TriangleSource& triangles, FrameView frame, std::uint32_t bac
   };
   const bool stream_empty = streamed(TileContent::nothing), stream_few = streamed(TileContent::few),
              stream_many = streamed(TileContent::many);
-  const EmptyTilesKernel fill = empty_tiles_kernel(execution.target);
+  const ClearKernel clear = clear_kernel(execution.target);
   const int columns = grid.columns();
   list.build(bins, grid, execution.threads);
   const std::span<const TileList::Task> tasks = list.tasks();
   const auto do_task = [&](int i) {
     const TileList::Task& task = tasks[static_cast<std::size_t>(i)];
     if (task.cell == TileList::kEmptyTiles)
-      return fill({list.empty_tiles(task.row), task.y0, task.y1, size_log2, frame, background, stream_empty});
+      return clear(
+          {list.empty_tiles(task.row), task.y0, task.y1, size_log2, frame, background, stream_empty});
     const bool streaming = stream_few != stream_many && bins.few(task.cell) ? stream_few : stream_many;
     draw_tile(TileTask{bins.triangles(), &bins, task.cell, task.cell % columns << size_log2, task.y0,
                        size_log2, frame, background, options.hierarchical_depth, streaming});

@@ -98,14 +98,6 @@ void draw_band_in_edges(const BandTask& task) {
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace edgewise {
-
-BandKernel lab::band_spans_kernel(SimdTarget target) {
-  return EDGEWISE_KERNEL(draw_band_in_spans, target);
-}
-BandKernel lab::band_edges_kernel(SimdTarget target) {
-  return EDGEWISE_KERNEL(draw_band_in_edges, target);
-}
-
-}  // namespace edgewise
+EDGEWISE_DEFINE_KERNEL(BandKernel, lab::band_spans_kernel, draw_band_in_spans)
+EDGEWISE_DEFINE_KERNEL(BandKernel, lab::band_edges_kernel, draw_band_in_edges)
 #endif

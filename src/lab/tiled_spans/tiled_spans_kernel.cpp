@@ -78,11 +78,11 @@ class SpanPainter {
     tile_.hiz.clear(task.width(), task.height());
   }
   void draw(const Bins::Segment& segment) {
-    const TriangleBits accepted = set_up(task_, segment.indices, batch_);
-    for (std::uint32_t left = accepted.all; left != 0; left &= left - 1) {
+    const BatchBits accepted = set_up(task_, segment.indices, batch_);
+    for (std::uint32_t left = accepted.drawn; left != 0; left &= left - 1) {
       const auto k = static_cast<std::size_t>(std::countr_zero(left));
       masks_.draw_before(segment, k, draw_masks_);
-      if (accepted.integer_walk >> k & 1) {
+      if (accepted.scalar >> k & 1) {
         list_.draw();
         walk_triangle(task_, task_.triangles[segment.indices[k]], tile_.depth, tile_.payload);
       } else {
@@ -143,11 +143,5 @@ void draw_tile_in_spans(const TileTask& task) {
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace edgewise {
-
-TileKernel lab::tiled_spans_kernel(SimdTarget target) {
-  return EDGEWISE_KERNEL(draw_tile_in_spans, target);
-}
-
-}  // namespace edgewise
+EDGEWISE_DEFINE_KERNEL(TileKernel, lab::tiled_spans_kernel, draw_tile_in_spans)
 #endif

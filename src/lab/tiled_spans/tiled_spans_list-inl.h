@@ -182,8 +182,8 @@ class SpanList {
   // span's first pixel in that vector, and its length, px.
   alignas(64) std::int32_t position_and_depth_[2 * (kCapacity + kRows)], extent_[2 * (kCapacity + kRows)];
   // Per triangle of the batch: depths of a vector relative to its first pixel; step from vector to vector.
-  alignas(64) std::int32_t in_vector_[SpanBatch::kSize * kLanes], step_[SpanBatch::kSize * kLanes];
-  std::int32_t payload_[SpanBatch::kSize];
+  alignas(64) std::int32_t in_vector_[kBatch * kLanes], step_[kBatch * kLanes];
+  std::int32_t payload_[kBatch];
 };
 
 // Draws masks up to the first with a rank above `last`, and returns their number.

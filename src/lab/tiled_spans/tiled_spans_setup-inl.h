@@ -21,8 +21,6 @@
 // too large for doubles. proofs/spans.smt2 proves these claims.
 #include <hwy/highway.h>
 
-#include <algorithm>
-#include <bit>
 #include <cstdint>
 #include <span>
 
@@ -96,28 +94,22 @@ HWY_INLINE LineLanes line_lanes(V32 px, V32 py, V32 qx, V32 qy, V32 flip, V32 fi
 
 // A batch of triangles, set up for one tile. Rows and pixels are relative to the tile.
 struct alignas(64) SpanBatch {
-  static constexpr int kSize = 32;
   struct Line {
-    std::int64_t at[kSize], step[kSize];
-    std::int32_t is_left[kSize], is_right[kSize];
+    std::int64_t at[kBatch], step[kBatch];
+    std::int32_t is_left[kBatch], is_right[kBatch];
   } line[3];
   struct Depth {
-    std::int32_t first[kSize];  // at the first pixel of the first row
-    std::int32_t x[kSize], y[kSize];
+    std::int32_t first[kBatch];  // at the first pixel of the first row
+    std::int32_t x[kBatch], y[kBatch];
   } depth;
-  std::int32_t nearest[kSize];  // lower bound of the depth of the triangle's pixels
-  std::int32_t payload[kSize];
-  std::int32_t x0[kSize], x1[kSize], y0[kSize], y1[kSize];  // the box
-};
-
-struct TriangleBits {
-  std::uint32_t all;           // one bit per triangle: not rejected
-  std::uint32_t integer_walk;  // and walked by integers
+  std::int32_t nearest[kBatch];  // lower bound of the depth of the triangle's pixels
+  std::int32_t payload[kBatch];
+  std::int32_t x0[kBatch], x1[kBatch], y0[kBatch], y1[kBatch];  // the box
 };
 
 // Sets up a vector of triangles, from triangles[indices[k]] on, as entries k … of the batch.
-HWY_INLINE TriangleBits set_up_vector(const TileTask& task, const std::uint32_t* indices, SpanBatch& out,
-                                      int k) {
+HWY_INLINE BatchBits set_up_vector(const TileTask& task, const std::uint32_t* indices, SpanBatch& out,
+                                   int k) {
   const D64 d;
   const V64 zero = hn::Zero(d);
   const TriangleLanes t = load(task.triangles, indices + k);
@@ -156,20 +148,10 @@ HWY_INLINE TriangleBits set_up_vector(const TileTask& task, const std::uint32_t*
   return {mask_bits(accepted), mask_bits(hn::And(integer_walk, accepted))};
 }
 
-// Sets up triangles[indices[i]] for all i.
-inline TriangleBits set_up(const TileTask& task, std::span<const std::uint32_t> indices, SpanBatch& out) {
-  const int count = static_cast<int>(indices.size());
-  std::uint32_t padded[SpanBatch::kSize];
-  for (int k = 0; k < SpanBatch::kSize; ++k)
-    padded[k] = indices[static_cast<std::size_t>(std::min(k, count - 1))];
-  TriangleBits accepted{0, 0};
-  for (int k = 0; k < count; k += static_cast<int>(hn::MaxLanes(D64{}))) {
-    const TriangleBits some = set_up_vector(task, padded, out, k);
-    accepted.all |= some.all << k;
-    accepted.integer_walk |= some.integer_walk << k;
-  }
-  accepted.all &= static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1);
-  return accepted;
+// Sets up triangles[indices[i]] for all i. Triangles with a scalar set-up are walked by integers.
+inline BatchBits set_up(const TileTask& task, std::span<const std::uint32_t> indices, SpanBatch& out) {
+  return set_up_batch(
+      indices, [&](const std::uint32_t* padded, int k) { return set_up_vector(task, padded, out, k); });
 }
 
 #endif

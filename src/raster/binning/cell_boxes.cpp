@@ -47,11 +47,5 @@ std::uint64_t cell_boxes(const ScreenTriangle* triangles, const CellGrid& grid, 
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace edgewise {
-
-CellBoxKernel cell_box_kernel(SimdTarget target) {
-  return EDGEWISE_KERNEL(cell_boxes, target);
-}
-
-}  // namespace edgewise
+EDGEWISE_DEFINE_KERNEL(CellBoxKernel, cell_box_kernel, cell_boxes)
 #endif

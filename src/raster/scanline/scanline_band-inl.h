@@ -118,23 +118,17 @@ constexpr int kNarrow = kDepthCell;  // px: a box overlaps at most two cells
 
 // A batch of triangles whose boxes in the band are at most kNarrow px wide.
 struct alignas(64) NarrowBatch {
-  static constexpr int kSize = 32;
-  std::int32_t x0[kSize], x1[kSize], y0[kSize], y1[kSize];  // the box
+  std::int32_t x0[kBatch], x1[kBatch], y0[kBatch], y1[kBatch];  // the box
   struct Edge {
-    std::int32_t first[kSize];        // at the box's first pixel
-    std::int32_t x[kSize], y[kSize];  // steps per pixel
+    std::int32_t first[kBatch];         // at the box's first pixel
+    std::int32_t x[kBatch], y[kBatch];  // steps per pixel
   } edge[3];
   struct Depth {
     // In the box's first row, at the first pixel of the cell in which the box begins, and in which it ends.
-    std::int32_t left[kSize], right[kSize];
-    std::int32_t x[kSize], y[kSize];
+    std::int32_t left[kBatch], right[kBatch];
+    std::int32_t x[kBatch], y[kBatch];
   } depth;
-  std::int32_t payload[kSize];
-};
-
-struct BatchBits {
-  std::uint32_t drawn;   // one bit per triangle: its box is not empty
-  std::uint32_t narrow;  // and it is in the batch
+  std::int32_t payload[kBatch];
 };
 
 // Edge functions in int32, as in rule 5, but shifted values may exceed 2^30 outside tiles. They are clamped:
@@ -187,23 +181,8 @@ HWY_INLINE BatchBits set_up_vector(const BandTask& task, const std::uint32_t* in
   };
   const std::uint32_t filled = bits(hn::And(hn::Lt(x0, x1), hn::Lt(y0, y1)));
   const std::uint32_t drawn = filled & mask_bits(hn::Gt(area.value, hn::Zero(d)));
-  return {drawn, drawn & mask_bits(depth.exact) & bits(hn::Lt(hn::Sub(x1, x0), set32(kNarrow + 1)))};
-}
-
-// Sets up triangles[indices[i]] for all i.
-inline BatchBits set_up(const BandTask& task, std::span<const std::uint32_t> indices, NarrowBatch& out) {
-  const int count = static_cast<int>(indices.size());
-  std::uint32_t padded[NarrowBatch::kSize];
-  for (int k = 0; k < NarrowBatch::kSize; ++k)
-    padded[k] = indices[static_cast<std::size_t>(std::min(k, count - 1))];
-  BatchBits all{0, 0};
-  for (int k = 0; k < count; k += static_cast<int>(hn::MaxLanes(D64{}))) {
-    const BatchBits some = set_up_vector(task, padded, out, k);
-    all.drawn |= some.drawn << k;
-    all.narrow |= some.narrow << k;
-  }
-  all.drawn &= static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1);
-  return all;
+  const std::uint32_t narrow = mask_bits(depth.exact) & bits(hn::Lt(hn::Sub(x1, x0), set32(kNarrow + 1)));
+  return {drawn, drawn & ~narrow};
 }
 
 // Draws triangle k of a batch, column by column of vectors. A box that two depth cells share has two parts.
@@ -249,14 +228,16 @@ HWY_INLINE void draw_band_by(const BandTask& task, DrawWide&& draw_wide) {
 #if HWY_TARGET != HWY_SCALAR
     if constexpr (kVectorTest) {
       NarrowBatch batch;
-      const BatchBits bits = set_up(task, segment.indices, batch);
+      const BatchBits bits = set_up_batch(segment.indices, [&](const std::uint32_t* padded, int k) {
+        return set_up_vector(task, padded, batch, k);
+      });
       for (std::uint32_t left = bits.drawn; left != 0; left &= left - 1) {
         const int k = std::countr_zero(left);
-        if (bits.narrow >> k & 1)
-          draw_narrow(task, batch, k);
-        else
+        if (bits.scalar >> k & 1)
           draw_wide(triangles[segment.indices[static_cast<std::size_t>(k)]],
                     PixelBox{batch.x0[k], batch.y0[k], batch.x1[k], batch.y1[k]});
+        else
+          draw_narrow(task, batch, k);
       }
       return;
     }

@@ -21,6 +21,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<std::int32_t, 16>;
 using V = hn::Vec<D>;
 constexpr int kLanes = static_cast<int>(hn::MaxLanes(D{}));
+constexpr int kBatch = 32;  // triangles of a segment that a kernel sets up together, at most
 
 // first, first + 1 … Not Iota(first): Highway 1.0.3 builds it in memory lane by lane, and the vector load
 // waits for all of these stores.

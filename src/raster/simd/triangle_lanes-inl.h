@@ -2,10 +2,13 @@
 // lower half, so that one instruction multiplies two of them to a 64-bit product.
 #include <hwy/highway.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <span>
 
 #include "edgewise/contract.h"
 #include "edgewise/screen_triangle.h"
+#include "raster/simd/lanes-inl.h"
 
 // Included once per SIMD target.
 #if defined(EDGEWISE_TRIANGLE_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -138,6 +141,28 @@ HWY_INLINE Range sample_range(const V32 (&c)[3], std::int32_t origin, std::int32
   };
   return {hn::Max(first_sample(hn::Min(hn::Min(c[0], c[1]), c[2])), set32(0)),
           hn::Min(first_sample(hn::Max(hn::Max(c[0], c[1]), c[2])), set32(end))};
+}
+
+// One bit per triangle of a batch.
+struct BatchBits {
+  std::uint32_t drawn;   // not rejected
+  std::uint32_t scalar;  // and drawn with a scalar set-up of its own
+};
+// Calls set_up(padded, k) for a batch's vectors of triangles, from triangle k on, and collects the returned
+// bits. `padded` holds the indices, and then copies of the last one.
+template <int kAtOnce = static_cast<int>(hn::MaxLanes(D64{})), typename SetUp>
+HWY_INLINE BatchBits set_up_batch(std::span<const std::uint32_t> indices, SetUp&& set_up) {
+  const int count = static_cast<int>(indices.size());
+  std::uint32_t padded[kBatch];
+  for (int k = 0; k < kBatch; ++k) padded[k] = indices[static_cast<std::size_t>(std::min(k, count - 1))];
+  BatchBits all{0, 0};
+  for (int k = 0; k < count; k += kAtOnce) {
+    const BatchBits some = set_up(padded, k);
+    all.drawn |= some.drawn << k;
+    all.scalar |= some.scalar << k;
+  }
+  all.drawn &= static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1);
+  return all;
 }
 
 }  // namespace HWY_NAMESPACE

@@ -39,11 +39,5 @@ void draw_tile(const TileTask& task) {
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace edgewise {
-
-TileKernel tile_kernel(SimdTarget target) {
-  return EDGEWISE_KERNEL(draw_tile, target);
-}
-
-}  // namespace edgewise
+EDGEWISE_DEFINE_KERNEL(TileKernel, tile_kernel, draw_tile)
 #endif

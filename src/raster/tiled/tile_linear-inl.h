@@ -26,8 +26,6 @@ constexpr std::int32_t wrap(std::uint32_t v) {
   return static_cast<std::int32_t>(v);
 }
 
-constexpr int kBatch = 32;  // triangles
-
 // Linear functions of the pixel position, one per triangle of a batch.
 template <typename Value>
 struct Linear {

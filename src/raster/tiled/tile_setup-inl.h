@@ -147,18 +147,18 @@ HWY_INLINE std::uint32_t set_up_vector(const TileTask& task, const std::uint32_t
 // Sets up triangles[indices[i]] for all i. Bit i of the result is set if the triangle is not rejected.
 template <class Arithmetic>
 std::uint32_t set_up(const TileTask& task, std::span<const std::uint32_t> indices, Batch<Arithmetic>& out) {
-  std::uint32_t alive = 0;
   const int count = static_cast<int>(indices.size());
 #if HWY_TARGET == HWY_SCALAR
+  std::uint32_t alive = 0;
   for (int k = 0; k < count; ++k)
     alive |= std::uint32_t{set_up_one(task, indices[static_cast<std::size_t>(k)], out, k)} << k;
-#else
-  std::uint32_t padded[kBatch];
-  for (int k = 0; k < kBatch; ++k) padded[k] = indices[static_cast<std::size_t>(std::min(k, count - 1))];
-  for (int k = 0; k < count; k += kLanes) alive |= set_up_vector(task, padded, count, out, k) << k;
-  alive &= static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1);
-#endif
   return alive;
+#else
+  const auto set_up_some = [&](const std::uint32_t* padded, int k) {
+    return BatchBits{set_up_vector(task, padded, count, out, k), 0};
+  };
+  return set_up_batch<kLanes>(indices, set_up_some).drawn;
+#endif
 }
 
 }  // namespace HWY_NAMESPACE

@@ -1,5 +1,5 @@
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "raster/empty_tiles.cpp"
+#define HWY_TARGET_INCLUDE "raster/clear_tiles.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -17,7 +17,7 @@ namespace HWY_NAMESPACE {
 // Calls store(v, at, ahead) for each vector. The next pixel row, which no hardware prefetcher expects, lies
 // `ahead` px further.
 template <typename Store>
-void fill_plane(const EmptyTiles& task, std::uint32_t* plane, std::uint32_t value, Store&& store) {
+void fill_plane(const ClearTask& task, std::uint32_t* plane, std::uint32_t value, Store&& store) {
   const V v = hn::Set(D{}, static_cast<std::int32_t>(value));
   for (int y = task.y0; y < task.y1; ++y)
     for (const TileSpan& tiles : task.tiles) {
@@ -30,7 +30,7 @@ void fill_plane(const EmptyTiles& task, std::uint32_t* plane, std::uint32_t valu
     }
 }
 
-void fill_empty_tiles(const EmptyTiles& task) {
+void clear_tiles(const ClearTask& task) {
   const auto cached = [](V v, std::int32_t* at, std::ptrdiff_t ahead) {
     if (kLanes > 1) __builtin_prefetch(at + ahead, 1);  // pixel by pixel, it would cost more than it saves
     hn::StoreU(v, D{}, at);
@@ -53,11 +53,5 @@ void fill_empty_tiles(const EmptyTiles& task) {
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace edgewise {
-
-EmptyTilesKernel empty_tiles_kernel(SimdTarget target) {
-  return EDGEWISE_KERNEL(fill_empty_tiles, target);
-}
-
-}  // namespace edgewise
+EDGEWISE_DEFINE_KERNEL(ClearKernel, clear_kernel, clear_tiles)
 #endif
