@@ -1,10 +1,11 @@
 """Charts of stability: one per sweep, with one curve per method, from easy on the left to hard on the right; and one of all
 sweeps, with a bar for each method, as far as it holds."""
+import math
 import textwrap
 
 from accuracy_rows import FAMILIES, Method
 from plot_style import FAINT, INK, WIDTH_IN, Kinds, ZeroAxis, dark, head_in, headline, plt, save
-from tables import short
+from tables import enumerated, short
 
 
 def groups_of(sweep, methods):
@@ -30,14 +31,21 @@ def kinds_and_dashes(groups, family):
     return found
 
 
+def raised(base, power):
+    return base + str(int(power)).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+
+
 def tidy(value):
-    if value == 0 or 1e-3 <= abs(value) < 1000:
+    """Rounds no place of a sweep: 2⁻¹⁰ is not 10⁻³, and 1,024 is not 1.02k."""
+    mantissa, power = math.frexp(value)
+    if mantissa == 0.5 and value < 0.5:
+        return raised("2", power - 1)
+    if value == 0 or 1e-3 <= value < 1000:
         return f"{value:.3g}"
-    if abs(value) >= 1000:
-        return short(value)
+    if value >= 1000:
+        return f"{value:,.0f}" if value % 100 else short(value)
     digits, power = f"{value:.0e}".split("e")
-    raised = str(int(power)).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
-    return ("" if digits == "1" else digits + "·") + "10" + raised
+    return ("" if digits == "1" else digits + "·") + raised("10", power)
 
 
 def names_of(members):
@@ -169,22 +177,20 @@ def sweep_chart(sweep, methods, folder, caption):
     top = headline(figure, title, subtitle)
     figure.subplots_adjust(left=0.085, right=0.67, bottom=0.9 / height, top=top - 0.15 / height)
     place_of = set_axis(axes, sweep)
-    if sweep.y["tolerance"]:
-        axes.axhline(place_of(sweep.y["tolerance"]), color=FAINT, linewidth=0.9, linestyle=(0, (4, 3)), zorder=1)
+    axes.axhline(place_of(sweep.y["tolerance"]), color=FAINT, linewidth=0.9, linestyle=(0, (4, 3)), zorder=1)
     looks = draw_curves(axes, groups, kinds, place_of)
     axes.margins(x=0.02)
     label_curves(axes, groups, looks, place_of, sweep)
     unit = f", {sweep.x['unit']}" if sweep.x["unit"] else ""
     axes.set_xlabel(f"{sweep.x['name']}{unit}")
     axes.set_ylabel(sweep.y["name"].replace("10^6", "10⁶"))
-    limit = f", above {tidy(sweep.y['tolerance'])}" if sweep.y["tolerance"] else ""
-    note = f"Bold: ours. Hollow marks: the method starts to fail{limit}.{trials_note(sweep)}"
+    note = f"Bold: ours. Hollow marks: the method starts to fail, above {tidy(sweep.y['tolerance'])}.{trials_note(sweep)}"
     save(figure, folder, f"stability-{sweep.name}", f"{note}\n{caption}")
     return f"stability-{sweep.name}"
 
 
 OURS, HELD, EMPTY = INK, "#9aa5b1", "#eef1f4"
-ROW_IN, NAME_IN, CELL_IN, GAP_IN, HEAD_IN = 0.2, 1.75, 1.16, 0.06, 0.62
+ROW_IN, NAME_IN, GAP_IN, HEAD_IN = 0.2, 1.75, 0.06, 0.62
 
 
 def held(curve):
@@ -209,7 +215,7 @@ OFF_GRID = "_off_grid"
 
 
 def blocks_of(sweeps):
-    """[(title, family, sweeps)]: those of coverage with vertices on our grid, and off it."""
+    """[(name, family, sweeps)]: those of coverage with vertices on our grid, and off it."""
     found = []
     for family in FAMILIES:
         of = [sweep for sweep in sweeps if sweep.family == family and sweep.curves]
@@ -228,10 +234,20 @@ def scale_text(x):
     return whole if len(whole) < 24 else x["unit"]
 
 
-def title(blocks):
-    ours = [[c for method, curves in rows if method.ours for c in (curves[i],) if c] for _, of, rows in blocks for i in range(len(of))]
-    held = sum(all(c.starts_to_fail is None for c in curves) for curves in ours)
-    return f"Ours hold in {held} of {len(ours)} sweeps"
+def finding(name, sweeps, methods):
+    """"Facing: ours and float_area hold in 2/3 sweeps". Ours are one, and hold where all of them do."""
+    holding = [{curve.method for curve in sweep.curves if curve.starts_to_fail is None} for sweep in sweeps]
+    members = {}
+    for method in methods:
+        members.setdefault("ours" if method.ours else method.name, set()).add(method.name)
+    held = {who: sum(of <= holds for holds in holding) for who, of in members.items()}
+    most = max(held.values())
+    best = [who for who, count in held.items() if count == most]
+    ours, verb = "ours" in best, "holds" if len(best) == 1 and best != ["ours"] else "hold"
+    if len(best) > 3:
+        best = ["ours", f"{len(best) - 1} others"] if ours else [f"{len(best)} methods"]
+    return (f"{name}: {enumerated(best)} {verb} in {most}/{len(sweeps)} sweeps"
+            + ("" if ours else f", ours in {held['ours']}/{len(sweeps)}"))
 
 
 def grid(sweeps, accuracy, folder, caption):
@@ -239,24 +255,22 @@ def grid(sweeps, accuracy, folder, caption):
     if not blocks:
         return None
     height = 1.0 + sum(HEAD_IN + ROW_IN * len(rows) + 0.12 for _, _, rows in blocks) + 0.2
-    columns = max(len(of) for _, of, _ in blocks)
-    width = NAME_IN + columns * (CELL_IN + GAP_IN) + 0.1
-    figure = plt.figure(figsize=(width, height))
+    cell_in = (WIDTH_IN - NAME_IN - 0.1) / max(len(of) for _, of, _ in blocks) - GAP_IN
+    figure = plt.figure(figsize=(WIDTH_IN, height))
     axes = figure.add_axes((0, 0, 1, 1))
-    axes.set(xlim=(0, width), ylim=(height, 0))
+    axes.set(xlim=(0, WIDTH_IN), ylim=(height, 0))
     axes.axis("off")
-    headline(figure, title(blocks),
-             "A bar reaches as far as a method errs in at most 1 of 10⁴ trials against the positions that the caller gave; in "
-             "translation, where meshes must stay watertight, in none. The figure is the first place at which it fails. Each sweep "
-             "runs from easy to hard. Bold names and dark bars: ours.")
+    first = blocks[0][1][0].family
+    headline(figure, finding(first.capitalize(), [sweep for sweep in sweeps if sweep.family == first], accuracy.methods[first]),
+             "A bar reaches as far as a method errs in at most 1 of 10⁴ trials against the positions that the caller gave. The figure "
+             "is the first place at which it fails. Each sweep runs from easy to hard. Bold names and dark bars: ours.")
     y = 1.0
     for block, of, rows in blocks:
-        axes.text(0.08, y + 0.18, block, fontsize=10.5, fontweight="bold", va="bottom")
+        axes.text(0.08, y + 0.18, finding(block, of, [method for method, _ in rows]), fontsize=10.5, fontweight="bold", va="bottom")
         for i, sweep in enumerate(of):
-            x = NAME_IN + i * (CELL_IN + GAP_IN)
+            x = NAME_IN + i * (cell_in + GAP_IN)
             axes.text(x, y + 0.34, sweep.name.removesuffix(OFF_GRID).replace("_", " "), fontsize=8.3, va="bottom")
-            axes.text(x, y + 0.47, scale_text(sweep.x), fontsize=6.5,
-                      color=FAINT, va="bottom")
+            axes.text(x, y + 0.47, scale_text(sweep.x), fontsize=6.5, color=FAINT, va="bottom")
         y += HEAD_IN - 0.08
         for method, curves in rows:
             axes.text(0.08, y + ROW_IN / 2, method.name, fontsize=8.6, va="center",
@@ -264,13 +278,13 @@ def grid(sweeps, accuracy, folder, caption):
             for i, curve in enumerate(curves):
                 if curve is None:
                     continue
-                x = NAME_IN + i * (CELL_IN + GAP_IN)
-                axes.add_patch(plt.Rectangle((x, y + 0.02), CELL_IN, ROW_IN - 0.04, color=EMPTY, linewidth=0))
-                axes.add_patch(plt.Rectangle((x, y + 0.02), CELL_IN * held(curve), ROW_IN - 0.04, linewidth=0,
+                x = NAME_IN + i * (cell_in + GAP_IN)
+                axes.add_patch(plt.Rectangle((x, y + 0.02), cell_in, ROW_IN - 0.04, color=EMPTY, linewidth=0))
+                axes.add_patch(plt.Rectangle((x, y + 0.02), cell_in * held(curve), ROW_IN - 0.04, linewidth=0,
                                              color=OURS if method.ours else HELD))
                 if curve.starts_to_fail is not None:
                     inside = held(curve) > 0.55
-                    axes.text(x + CELL_IN * held(curve) + (-0.03 if inside else 0.03), y + ROW_IN / 2, verdict(curve),
+                    axes.text(x + cell_in * held(curve) + (-0.03 if inside else 0.03), y + ROW_IN / 2, verdict(curve),
                               fontsize=7.2, va="center", ha="right" if inside else "left",
                               color="white" if inside and method.ours else INK)
             y += ROW_IN

@@ -544,6 +544,25 @@ class ChartsTest(unittest.TestCase):
         self.assertEqual(said(near_guard=None, a=1024, b=128, c=1), "ours hold; b breaks at 128")
         self.assertEqual(said(near_guard=128, a=1, b=1, c=None), "ours break at 128; 2 others fail at once")
 
+    def test_the_grid_says_who_holds_in_most_sweeps(self):
+        from accuracy_rows import Curve, Method, Sweep
+        from plot_stability import finding
+        methods = [Method(name, source, "", False) for name, source in
+                   (("tiled", "src/"), ("naive", "src/"), ("a", ""), ("b", ""), ("c", ""))]
+
+        def said(*failing):
+            curves = [tuple(Curve(m.name, False, (), (), 1.0 if m.name in fails else None) for m in methods) for fails in failing]
+            return finding("All", [Sweep("x", "coverage", "", {}, {}, of) for of in curves], methods)
+
+        self.assertEqual(said("bc", "bc"), "All: ours and a hold in 2/2 sweeps")
+        self.assertEqual(said(("naive", "b", "c"), "b"), "All: a holds in 2/2 sweeps, ours in 1/2")
+        self.assertEqual(said(()), "All: ours and 3 others hold in 1/1 sweeps")
+
+    def test_charts_round_no_place_of_a_sweep(self):
+        from plot_stability import tidy
+        self.assertEqual([tidy(x) for x in (2.0 ** -10, 1e-3, 2e-5, 0.5, 0.3, 182, 1024, 2897, 50000, 0)],
+                         ["2⁻¹⁰", "0.001", "2·10⁻⁵", "0.5", "0.3", "182", "1,024", "2,897", "50k", "0"])
+
     def test_dense_labels_stand_apart(self):
         from plot_labels import Box, place
         points = [(200.0 + 6 * (i % 3), 150.0 + 5 * (i // 3)) for i in range(9)] + [(398.0, 1.0)]

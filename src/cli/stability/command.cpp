@@ -72,7 +72,7 @@ of coverage have vertices on our grid of 1/256 px, or, as NAME_off_grid, anywher
 
 Columns: the first value where the method fails, and its error there; its largest error, and the
 value where it occurs; the number of values where it fails. A method fails where it errs in more
-than 1 of 10,000 trials; where a mesh must stay watertight, in any.
+than 1 of 10,000 trials.
 If no error was observed at any value, the number after "<" is the 95 % upper bound of the rate at
 each value: 3 divided by the smallest number of trials at a value.)";
 

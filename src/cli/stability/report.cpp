@@ -71,7 +71,7 @@ std::string stability_table(const SweepResult& result) {
   text += fmt::format("  {}\n  {} to {}{}{}; {}\n", sweep.summary, value_text(sweep.positions.front()),
                       value_text(sweep.positions.back()), sweep.x.unit.empty() ? "" : " ", sweep.x.unit,
                       sweep.y.name);
-  text += fmt::format("  fails: more than {:.4g}\n", sweep.y.tolerance);
+  text += fmt::format("  fails: more than {:.4g}\n", sweep.y.tolerance());
   text += fmt::format(kRow, "method", "starts to fail", "error there", "max error", "at", "failing");
   const auto methods = methods_of(sweep.family);
   for (std::size_t i = 0; i < methods.size(); ++i) text += row(methods[i].name, {result, i});
@@ -87,12 +87,13 @@ std::string list_of_sweeps() {
 
 nlohmann::json sweep_json(const SweepResult& result) {
   const lab::Sweep& sweep = *result.sweep;
-  nlohmann::json json{{"name", sweep.name},
-                      {"family", name_of(sweep.family)},
-                      {"summary", sweep.summary},
-                      {"x", {{"name", sweep.x.name}, {"unit", sweep.x.unit}, {"log", sweep.x.log}}},
-                      {"y", {{"name", sweep.y.name}, {"log", sweep.y.log}, {"tolerance", sweep.y.tolerance}}},
-                      {"curves", nlohmann::json::array()}};
+  nlohmann::json json{
+      {"name", sweep.name},
+      {"family", name_of(sweep.family)},
+      {"summary", sweep.summary},
+      {"x", {{"name", sweep.x.name}, {"unit", sweep.x.unit}, {"log", sweep.x.log}}},
+      {"y", {{"name", sweep.y.name}, {"log", sweep.y.log}, {"tolerance", sweep.y.tolerance()}}},
+      {"curves", nlohmann::json::array()}};
   const std::size_t positions = result.at.size();
   const auto methods = methods_of(sweep.family);
   for (std::size_t i = 0; i < methods.size(); ++i) {

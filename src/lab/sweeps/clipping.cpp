@@ -10,7 +10,7 @@ namespace edgewise::lab {
 namespace {
 
 constexpr Size kSize{128, 96};
-constexpr YAxis kWrongPixels{"wrong pixels per 10^6 covered ones", true, 1e6, 1e6 * kTolerance};
+constexpr YAxis kWrongPixels{"wrong pixels per 10^6 covered ones", true, 1e6};
 
 Measured measure_scene(const ClippingScene& scene) {
   const auto methods = clipping_methods();

@@ -11,7 +11,7 @@ namespace edgewise::lab {
 
 namespace {
 
-constexpr YAxis kMisjudged{"misjudged faces, %", false, 100, 100 * kTolerance};
+constexpr YAxis kMisjudged{"misjudged faces, %", false, 100};
 
 Measured measure_scene(const FacingScene& scene) {
   const auto methods = facing_methods();

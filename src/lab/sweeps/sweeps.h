@@ -34,10 +34,11 @@ struct XAxis {
 struct YAxis {
   std::string_view name;
   bool log;
-  double scale;      // y = scale * errors / trials
-  double tolerance;  // a method fails where y is larger
+  double scale;  // y = scale * errors / trials
+
+  // The same for all sweeps: a method fails where it errs in more than 1 of 10^4 trials.
+  double tolerance() const { return scale * 1e-4; }
 };
-inline constexpr double kTolerance = 1e-4;  // errors per trial, unless none is tolerable
 
 struct Sweep {
   std::string_view name;
@@ -68,7 +69,7 @@ struct SweepResult {
   // The first position where a method fails; nullopt if there is none.
   std::optional<double> starts_to_fail(std::size_t method) const;
   bool fails(std::size_t method, std::size_t position) const {
-    return y(at[position].methods[method]) > sweep->y.tolerance;
+    return y(at[position].methods[method]) > sweep->y.tolerance();
   }
   double y(const Tally& tally) const;
 };

@@ -9,8 +9,7 @@ namespace edgewise::lab {
 
 namespace {
 
-constexpr YAxis kWrongTriangles{"wrong visible triangles per 10^6 covered pixels", true, 1e6,
-                                1e6 * kTolerance};
+constexpr YAxis kWrongTriangles{"wrong visible triangles per 10^6 covered pixels", true, 1e6};
 
 template <typename Errors>
 Measured measure_scene(const VisibilityScene& scene, Errors&& errors) {
@@ -97,7 +96,7 @@ std::vector<Sweep> visibility_sweeps() {
            Family::visibility,
            "slivers: visible triangles, and depths outside the triangle's own range",
            {"length over width", "", true},
-           {"wrong triangles and depths per 10^6 covered pixels", true, 1e6, 1e6 * kTolerance},
+           {"wrong triangles and depths per 10^6 covered pixels", true, 1e6},
            0.4,
            decades(1, 5),
            measure_sliver_depth}};
