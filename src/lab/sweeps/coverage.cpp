@@ -15,7 +15,7 @@ namespace edgewise::lab {
 
 namespace {
 
-constexpr YAxis kErrorsPerCrossing{"wrong pixels per 10^6 edge crossings", true, 1e6};
+constexpr YAxis kErrorsPerCrossing{"wrong samples per 10^6 edge crossings", true, 1e6};
 
 // Adds each method's errors in a picture, against the float truth.
 void add_picture(Measured& sums, const std::vector<FloatTriangle>& triangles, Window window) {
