@@ -38,13 +38,15 @@ struct CrackCounts {
       : gaps(cracks.gaps.size()),
         double_hits(cracks.double_hits.size()),
         t_junctions(cracks.at_t_junctions()),
-        folds(cracks.folds.size()) {}
+        folds(cracks.folds_known ? std::optional(cracks.folds.size()) : std::nullopt) {}
   CrackCounts& operator+=(const CrackCounts& other) {
     gaps += other.gaps, double_hits += other.double_hits;
-    t_junctions += other.t_junctions, folds += other.folds;
+    t_junctions += other.t_junctions;
+    folds = folds && other.folds ? std::optional(*folds + *other.folds) : std::nullopt;
     return *this;
   }
-  std::uint64_t gaps = 0, double_hits = 0, t_junctions = 0, folds = 0;
+  std::uint64_t gaps = 0, double_hits = 0, t_junctions = 0;
+  std::optional<std::uint64_t> folds = 0;  // none: not known
 };
 
 struct CoverageScores {

@@ -173,9 +173,9 @@ std::string coverage_table(const FamilyTable& t) {
     const auto snapped = t.coverage(i, &CoverageScores::snapped),
                floats = t.coverage(i, &CoverageScores::floats);
     const CrackCounts cracks = t.cracks(i);
-    text +=
-        fmt::format(kLine, t.name(i), rate(snapped.errors(), t.trials()), rate(floats.errors(), t.trials()),
-                    cracks.gaps, cracks.double_hits, cracks.t_junctions, cracks.folds);
+    text += fmt::format(kLine, t.name(i), rate(snapped.errors(), t.trials()),
+                        rate(floats.errors(), t.trials()), cracks.gaps, cracks.double_hits,
+                        cracks.t_junctions, cracks.folds ? std::to_string(*cracks.folds) : "-");
   }
   return text + t.without_dominant() + visible_triangle_table(t);
 }
