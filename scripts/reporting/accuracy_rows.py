@@ -113,7 +113,7 @@ class Cracks(NamedTuple):
     gaps: int
     double_hits: int
     t_junctions: int
-    folds: int
+    folds: int | None = None  # if it is known how the method rounds
 
     @property
     def at_shared_edges(self):

@@ -17,8 +17,8 @@ class CrackRates(NamedTuple):
     """Cracks per 10⁶ crossings of shared edges."""
     pooled: Pooled
     crossings: int
-    t_junctions: int  # samples, in all scenes within the method's range
-    folds: int
+    t_junctions: int | None  # samples, in all scenes within the method's range; None if no method errs at T-junctions in any of these
+    folds: int | None  # None if it is not known how the method rounds
 
     @property
     def rate(self):
@@ -41,7 +41,10 @@ def cracks_of(accuracy, method):
         return None
     crossings = sum(scene.shared_crossings for _, scene in found)
     rate = pooled([(cracks, scene.shared_crossings, scene.name) for cracks, scene in found], 1e6)
-    return CrackRates(rate, crossings, *(sum(getattr(cracks, count) for cracks, _ in measured) for count in ("t_junctions", "folds")))
+    at_junctions = [cracks.t_junctions for cracks, scene in measured
+                    if any(m.cracks and m.cracks.t_junctions for m in (*scene.measured, *scene.apart))]
+    folds = [cracks.folds for cracks, _ in measured]
+    return CrackRates(rate, crossings, sum(at_junctions) if at_junctions else None, None if None in folds else sum(folds))
 
 
 def timed_scenes(accuracy):
@@ -136,8 +139,11 @@ def frontier_table(accuracy):
     def form(forms, name, otherwise):
         return said(forms[name]) if name in forms else otherwise
 
+    def count(samples):
+        return "–" if samples is None else f"{samples:,}"
+
     header = ["method", "cracks per 10⁶ crossings", "at T-junctions", "folds", "wrong pixels per 10⁶", f"scalar, `{base.name}` = 1×", "SIMD"]
-    lines = [[title(method), pooled_text(cracks.pooled) if cracks.rate else "**0**", f"{cracks.t_junctions:,}", f"{cracks.folds:,}",
+    lines = [[title(method), pooled_text(cracks.pooled) if cracks.rate else "**0**", count(cracks.t_junctions), count(cracks.folds),
               pooled_text(wrong_of(accuracy, method)), form(forms, "scalar", "–"), form(forms, "simd", "–" if method.peer else method.simd_note or "–")]
              for method, (forms, cracks) in sorted(found.items(), key=lambda item: (item[1][1].rate > 0, -best(item[1][0]).middle))]
     return header, lines

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "lab/coverage_support.h"
 #include "lab/error_marks.h"
@@ -107,6 +108,80 @@ TEST(Cracks, OfCoincidentSurfacesCountInEach) {
   EXPECT_EQ(cracks_of("float_lt", Picture(layers, kWindow)).gaps.size(), 48u);
   EXPECT_EQ(cracks_of("float_lt", Picture({quad(0.5f)[0], quad(0.7f)[1]}, kWindow)).gaps.size(), 0u)
       << "other depths: no common vertex";
+}
+
+// The second triangle's copy of the corner (56, 56), moved by one ulp: apart from the first triangle or over
+// it.
+struct MovedCopy {
+  float (UnsnappedTriangle::*axis)[3];
+  bool up, overlaps;
+};
+constexpr MovedCopy kMovedCopies[] = {
+    {&UnsnappedTriangle::x_px, false, false}, {&UnsnappedTriangle::x_px, true, true},
+    {&UnsnappedTriangle::y_px, true, false},  {&UnsnappedTriangle::y_px, false, true},
+    {&UnsnappedTriangle::z01, true, false},   {&UnsnappedTriangle::z01, false, false},
+};
+std::vector<FloatTriangle> with_copy(const MovedCopy& copy) {
+  auto list = quad();
+  float& at = (list[1].at.*copy.axis)[1];
+  at = std::nextafter(at, copy.up ? std::numeric_limits<float>::infinity() : 0.0f);
+  return list;
+}
+
+TEST(Cracks, AreTheSameWhereCopiesOfAVertexDifferInTheLastBit) {
+  for (const MovedCopy& copy : kMovedCopies)
+    for (const bool reversed : {false, true}) {
+      auto list = with_copy(copy);
+      if (reversed) std::ranges::reverse(list);
+      const Picture picture(list, kWindow);
+      EXPECT_EQ(picture.cracks.surface().crossings(kWindow), Surface(quad()).crossings(kWindow));
+      EXPECT_TRUE(touch(list[0].at, list[1].at));
+      for (const char* snapping : {"tiled", "fixed_4", "fixed_8"})
+        EXPECT_EQ(cracks_of(snapping, picture).at_shared_edges(), 0u) << snapping;
+      const Cracks exact = cracks_of("double_top_left", picture);
+      EXPECT_EQ(exact.double_hits.size(), copy.overlaps ? 48u : 0u) << "exact edges that overlap";
+      EXPECT_EQ(exact.gaps.size(), 0u);
+      if (copy.overlaps) continue;
+      EXPECT_EQ(cracks_of("float_lt", picture).gaps.size(), 48u);
+      EXPECT_EQ(cracks_of("float_lt", picture).double_hits.size(), 0u);
+    }
+}
+
+// Each triangle around the hub has its own copy of it.
+TEST(Cracks, AtAVertexWithManyCopiesAreThoseOfOneVertex) {
+  const auto fan = [](float step, bool reversed) {
+    constexpr float kRim[][2] = {{32, 2}, {60, 14}, {58, 50}, {30, 62}, {3, 48}, {5, 11}};
+    std::vector<FloatTriangle> list;
+    for (int i = 0; i < 6; ++i) {
+      const float *from = kRim[i], *to = kRim[(i + 1) % 6];
+      list.push_back(triangle(32, 32, from[0], from[1], to[0], to[1]));
+      list.back().at.z01[0] += static_cast<float>(i * 5 % 6) * step;
+    }
+    if (reversed) std::ranges::reverse(list);
+    return list;
+  };
+  const Picture one(fan(0, false), kWindow);
+  for (const bool reversed : {false, true}) {
+    const Picture copies(fan(0x1p-23f, reversed), kWindow);
+    EXPECT_TRUE(copies.cracks.surface().moved() && !one.cracks.surface().moved());
+    EXPECT_EQ(cracks_of("float_lt", copies).gaps.size(), cracks_of("float_lt", one).gaps.size());
+    EXPECT_EQ(cracks_of("float_le", copies).double_hits.size(), 7u);
+  }
+}
+
+TEST(Cracks, AreNoneBetweenSurfacesNearOneAnother) {
+  for (const MovedCopy& copy : kMovedCopies) {
+    auto list = quad();
+    const bool depth = copy.axis == &UnsnappedTriangle::z01;
+    for (int i = 0; i < 3; ++i)
+      (list[1].at.*copy.axis)[i] += (copy.up ? 1 : -1) * (depth ? 0x1p-19f : 0x1p-9f);
+    const Picture picture(list, kWindow);
+    EXPECT_EQ(picture.cracks.surface().crossings(kWindow), 0u);
+    for (const char* method : {"float_lt", "float_le", "tiled", "double_top_left"})
+      EXPECT_EQ(cracks_of(method, picture).at_shared_edges() + cracks_of(method, picture).at_t_junctions(),
+                0u)
+          << method;
+  }
 }
 
 // The corners of the square lie on samples. Those that "<" rejects on the outline are no gaps.

@@ -223,6 +223,13 @@ class FrontierTest(unittest.TestCase):
                          (Pooled(20.0, "a", 10.0), 2 * 10 ** 5, 14, 4))
         self.assertIsNone(cracks_of(found, found.methods["coverage"][1]))
 
+    def test_what_no_scene_in_range_shows_is_absent(self):
+        limited = self.timed("y", 1.0, 0, 181)
+        small = Scene("b", "coverage", "", 10 ** 6, (replace(limited, cracks=Cracks(0, 0, 0)),), (), 10 ** 5, 100.0)
+        found = self.accuracy(a=(self.timed("x", 1.0), limited))
+        rates = cracks_of(replace(found, scenes=(*found.scenes, small)), limited.method)
+        self.assertEqual((rates.t_junctions, rates.folds), (None, None))
+
     def test_speed_is_the_geometric_mean_of_scenes_and_outcomes_are_by_scene(self):
         found = self.accuracy(a=(self.timed("tiled", 1.0), self.timed("x", 4.0)), b=(self.timed("tiled", 2.0), self.timed("x", 1.0)),
                               c=(self.timed("tiled", 1.0), self.timed("x", 1.0)))

@@ -38,8 +38,9 @@ struct CrackCounts {
       : gaps(cracks.gaps.size()),
         double_hits(cracks.double_hits.size()),
         t_junctions(cracks.at_t_junctions()),
-        folds(cracks.folds.size()) {}
-  std::uint64_t gaps = 0, double_hits = 0, t_junctions = 0, folds = 0;
+        folds(cracks.folds_known ? std::optional(cracks.folds.size()) : std::nullopt) {}
+  std::uint64_t gaps = 0, double_hits = 0, t_junctions = 0;
+  std::optional<std::uint64_t> folds = 0;  // none: not known
 };
 
 struct CoverageScores {

@@ -53,8 +53,8 @@ struct AddScore {
     method["float"] = score_json(s.floats, scene.crossings);
     method["cracks"] = {{"gaps", s.cracks.gaps},
                         {"double_hits", s.cracks.double_hits},
-                        {"t_junctions", s.cracks.t_junctions},
-                        {"folds", s.cracks.folds}};
+                        {"t_junctions", s.cracks.t_junctions}};
+    if (s.cracks.folds) method["cracks"]["folds"] = *s.cracks.folds;
     add_wrong_pixels(method["snapped"], s.visible.wrong_snapped);
     add_wrong_pixels(method["float"], s.visible.wrong_floats);
     method["float"]["wrong_surface_pixels"] = s.visible.wrong_surface;

@@ -54,6 +54,16 @@ class FamilyTable {
       most = std::max(most, at(std::get<Scores>(scene->methods[method].score), part, path...));
     return most;
   }
+  // None if those of a scene are not known.
+  std::optional<std::uint64_t> folds(std::size_t method) const {
+    std::uint64_t total = 0;
+    for (const SceneResult* scene : scenes_) {
+      const auto& folds = std::get<CoverageScores>(scene->methods[method].score).cracks.folds;
+      if (!folds) return std::nullopt;
+      total += *folds;
+    }
+    return total;
+  }
   std::size_t scenes() const { return scenes_.size(); }
   std::string title(std::string_view what, std::string_view trials) const {
     const SceneResult& first = *scenes_.front();
@@ -152,9 +162,10 @@ std::string coverage_table(const FamilyTable& t) {
     };
     const auto cracks = [&](auto count) { return t.sum(i, &CoverageScores::cracks, count); };
     using C = CrackCounts;
-    text +=
-        fmt::format(kLine, t.name(i), errors(&CoverageScores::snapped), errors(&CoverageScores::floats),
-                    cracks(&C::gaps), cracks(&C::double_hits), cracks(&C::t_junctions), cracks(&C::folds));
+    const auto folds = t.folds(i);
+    text += fmt::format(kLine, t.name(i), errors(&CoverageScores::snapped), errors(&CoverageScores::floats),
+                        cracks(&C::gaps), cracks(&C::double_hits), cracks(&C::t_junctions),
+                        folds ? std::to_string(*folds) : "-");
   }
   return text + t.without_dominant() + visible_triangle_table(t);
 }

@@ -67,6 +67,9 @@ struct CoveragePromise {
   std::optional<int> snap_bits = {};
 };
 inline constexpr int kMostSnapBits = 16;
+// It rounds in a way that is not known. Its folds cannot be counted, and its cracks are judged by the
+// positions as they are.
+inline constexpr int kUnknownSnap = -1;
 
 struct CoverageMethod {
   MethodInfo info;

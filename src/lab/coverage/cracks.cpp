@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <tuple>
 
 namespace edgewise::lab {
 
 namespace {
 
-constexpr double kOnEdge_px = 0x1p-10, kSameDepth = 0x1p-20;
+constexpr double kOnEdge_px = 0x1p-10, kSameDepth = 0x1p-20;  // described in cracks.h
 
 struct Corner {
   float x, y, z;
@@ -17,6 +18,13 @@ struct Corner {
 
 Corner corner(const UnsnappedTriangle& t, int i) {
   return {t.x_px[i % 3], t.y_px[i % 3], t.z01[i % 3]};
+}
+
+// Whether two corners are copies of one vertex.
+bool same(const Corner& a, const Corner& b) {
+  return std::abs(double{a.x} - double{b.x}) <= kOnEdge_px &&
+         std::abs(double{a.y} - double{b.y}) <= kOnEdge_px &&
+         std::abs(double{a.z} - double{b.z}) <= kSameDepth;
 }
 
 // An edge of a triangle, in the direction that is clockwise on the screen.
@@ -54,9 +62,13 @@ std::vector<Side> sides_of(std::span<const FloatTriangle> triangles, std::span<c
   return sides;
 }
 
+bool opposite(const Side& one, const Side& other) {
+  return one.dx() * other.dx() + one.dy() * other.dy() < 0;
+}
+
 // Whether `one` has an end strictly inside `other`, and both run along one another there.
 bool runs_along(const Side& one, const Side& other) {
-  if (one.dx() * other.dx() + one.dy() * other.dy() >= 0) return false;
+  if (!opposite(one, other)) return false;
   for (const bool first : {true, false}) {
     const Corner &end = first ? one.from : one.to, &rest = first ? one.to : one.from;
     const double at = other.along(end);
@@ -115,17 +127,6 @@ std::vector<Sample> folds_of(const Surface& surface, std::span<const Run> before
   std::sort(folds.begin(), folds.end());
   folds.erase(std::unique(folds.begin(), folds.end()), folds.end());
   return folds;
-}
-
-// Rounding a float to a coarser grid gives a float.
-std::vector<FloatTriangle> rounded_to(std::span<const FloatTriangle> triangles, int bits) {
-  std::vector<FloatTriangle> list(triangles.begin(), triangles.end());
-  const auto round = [&](float& px) {
-    px = static_cast<float>(std::ldexp(std::nearbyint(std::ldexp(double{px}, bits)), -bits));
-  };
-  for (FloatTriangle& t : list)
-    for (int i = 0; i < 3; ++i) round(t.at.x_px[i]), round(t.at.y_px[i]);
-  return list;
 }
 
 // Compares what is drawn with a truth, at the edges where triangles meet. across(triangle, edge, visit) calls
@@ -195,23 +196,34 @@ class Seams {
 
 }  // namespace
 
+std::vector<FloatTriangle> rounded_to(std::span<const FloatTriangle> triangles, int subpixel_bits) {
+  std::vector<FloatTriangle> list(triangles.begin(), triangles.end());
+  const auto round = [&](float& px) {
+    px =
+        static_cast<float>(std::ldexp(std::nearbyint(std::ldexp(double{px}, subpixel_bits)), -subpixel_bits));
+  };
+  for (FloatTriangle& t : list)
+    for (int i = 0; i < 3; ++i) round(t.at.x_px[i]), round(t.at.y_px[i]);
+  return list;
+}
+
 bool touch(const UnsnappedTriangle& a, const UnsnappedTriangle& b) {
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
-      if (corner(a, i) == corner(b, j)) return true;
+      if (same(corner(a, i), corner(b, j))) return true;
   return false;
 }
 
-Surface::Surface(std::span<const FloatTriangle> triangles)
-    : triangles_(triangles), across_(3 * triangles.size(), kNoTriangle) {
-  facing_.reserve(triangles.size());
-  for (const FloatTriangle& t : triangles)
-    facing_.push_back(static_cast<std::int8_t>(FloatTruth(t.at).facing()));
-  find_shared_edges();
-  find_t_junctions();
+Surface::Surface(std::span<const FloatTriangle> triangles) : triangles_(triangles) {
+  do find_shared_edges();
+  while (!find_t_junctions());
 }
 
 void Surface::find_shared_edges() {
+  across_.assign(3 * triangles_.size(), kNoTriangle);
+  facing_.clear();
+  for (const FloatTriangle& t : triangles_)
+    facing_.push_back(static_cast<std::int8_t>(FloatTruth(t.at).facing()));
   std::vector<Side> sides = sides_of(triangles_, facing_);
   const auto ends = [](const Side& s) { return std::minmax(s.from, s.to); };  // by reference to the side
   std::sort(sides.begin(), sides.end(), [&](const Side& a, const Side& b) {
@@ -227,8 +239,17 @@ void Surface::find_shared_edges() {
   }
 }
 
-// Looks up the ends of unshared edges in the rows and columns that each unshared edge crosses.
-void Surface::find_t_junctions() {
+// Looks up the ends of unshared edges in the rows and columns that each unshared edge crosses. Returns false,
+// having moved the copies of vertices together, if two of these edges have the same ends.
+bool Surface::find_t_junctions() {
+  t_junctions_.clear();
+  std::map<Corner, Corner> copies;  // the least copy of a vertex
+  const auto add_copy = [&](const Corner& a, const Corner& b) {
+    if (a == b) return;
+    const auto& [least, copy] = std::minmax(a, b);
+    Corner& known = copies.try_emplace(copy, least).first->second;
+    known = std::min(known, least);
+  };
   std::vector<Side> sides = sides_of(triangles_, facing_);
   std::erase_if(sides, [&](const Side& s) { return across_[s.edge] != kNoTriangle; });
   struct End {
@@ -259,14 +280,30 @@ void Surface::find_t_junctions() {
                                        [&](const End&e, const auto&at) { return place(e) < at; });
            end != ends.end() && place(*end) <= std::pair(row, right + kOnEdge_px); ++end) {
         const Side& other = sides[end->side];
-        if (other.edge / 3 == side.edge / 3 || !runs_along(other, side)) continue;
+        if (other.edge / 3 == side.edge / 3) continue;
+        if (opposite(side, other) && same(side.from, other.to) && same(side.to, other.from))
+          add_copy(side.from, other.to), add_copy(side.to, other.from);
+        if (!runs_along(other, side)) continue;
         t_junctions_.emplace_back(side.edge, other.edge / 3);
         t_junctions_.emplace_back(other.edge, side.edge / 3);
       }
     }
   }
+  if (!copies.empty()) {
+    for (auto& [copy, least] : copies)  // from the least on, so that no chain is left
+      if (const auto lesser = copies.find(least); lesser != copies.end()) least = lesser->second;
+    if (moved_.empty()) moved_.assign(triangles_.begin(), triangles_.end());
+    for (FloatTriangle& t : moved_)
+      for (int i = 0; i < 3; ++i)
+        if (const auto found = copies.find(corner(t.at, i)); found != copies.end())
+          std::tie(t.at.x_px[i], t.at.y_px[i], t.at.z01[i]) =
+              std::tie(found->second.x, found->second.y, found->second.z);
+    triangles_ = moved_;
+    return false;
+  }
   std::sort(t_junctions_.begin(), t_junctions_.end());
   t_junctions_.erase(std::unique(t_junctions_.begin(), t_junctions_.end()), t_junctions_.end());
+  return true;
 }
 
 std::span<const std::pair<std::uint32_t, std::uint32_t>> Surface::along(std::uint32_t triangle,
@@ -329,39 +366,44 @@ std::uint64_t Surface::crossings(Window window) const {
 }
 
 CrackJudge::CrackJudge(std::span<const FloatTriangle> triangles, const CoverageTruth& floats)
-    : surface_(triangles), floats_(floats) {}
+    : surface_(triangles), window_(floats.window), runs_(floats.runs) {
+  if (!surface_.moved()) return;
+  moved_runs_ = covered_runs(surface_.triangles(), window_, 1);
+  runs_ = moved_runs_;
+}
 
 const CrackJudge::Rounded& CrackJudge::rounded(int bits) const {
   Rounded& found = rounded_[static_cast<std::size_t>(bits)];
   std::call_once(found.once, [&] {
     const std::vector<FloatTriangle> list = rounded_to(surface_.triangles(), bits);
     constexpr int kSnappedBits = 8;  // which the truth in integers holds
-    found.runs = bits <= kSnappedBits ? covered_runs(snapped(list), floats_.window, 1)
-                                      : covered_runs(list, floats_.window, 1);
-    found.folds = folds_of(surface_, floats_.runs, found.runs);
+    found.runs =
+        bits <= kSnappedBits ? covered_runs(snapped(list), window_, 1) : covered_runs(list, window_, 1);
+    found.folds = folds_of(surface_, runs_, found.runs);
   });
   return found;
 }
 
 Cracks CrackJudge::find(const DrawnRuns& drawn, std::optional<int> snap_bits) const {
   Cracks cracks;
-  const std::vector<Run>* own = &floats_.runs;
-  if (snap_bits) {
+  std::span<const Run> own = runs_;
+  if (snap_bits == kUnknownSnap) {
+    cracks.folds_known = false;
+  } else if (snap_bits) {
     const Rounded& found = rounded(*snap_bits);
-    own = &found.runs;
+    own = found.runs;
     cracks.folds = found.folds;
   }
-  const Seams shared(surface_, *own, drawn.runs, [&](std::uint32_t triangle, int edge, auto&& visit) {
+  const Seams shared(surface_, own, drawn.runs, [&](std::uint32_t triangle, int edge, auto&& visit) {
     const std::uint32_t other = surface_.across(triangle, edge);
     return other != kNoTriangle && visit(other);
   });
   cracks.gaps = shared.gaps(), cracks.double_hits = shared.double_hits();
   if (!surface_.has_t_junctions()) return cracks;
-  const Seams junctions(surface_, floats_.runs, drawn.runs,
-                        [&](std::uint32_t triangle, int edge, auto&& visit) {
-                          return std::ranges::any_of(surface_.along(triangle, edge),
-                                                     [&](const auto& pair) { return visit(pair.second); });
-                        });
+  const Seams junctions(surface_, runs_, drawn.runs, [&](std::uint32_t triangle, int edge, auto&& visit) {
+    return std::ranges::any_of(surface_.along(triangle, edge),
+                               [&](const auto& pair) { return visit(pair.second); });
+  });
   cracks.t_gaps = junctions.gaps(), cracks.t_double_hits = junctions.double_hits();
   return cracks;
 }

@@ -1,5 +1,12 @@
 // Cracks: samples at an edge that two triangles of one surface share, which neither of them draws, or both.
 // They are counted at the edge, whatever lies behind it or in front.
+//
+// Two corners are copies of one vertex if their x and y agree within 2^-10 px each, a quarter of our snapping
+// grid, and their depths within 2^-20 of the range. Where the copies at a shared edge differ, exact
+// arithmetic alone would allow a hole or an overlap there, which is seen like any other. The truth therefore
+// moves them together before anything is rounded: to the least by x, then y, then depth, in any order of
+// triangles. It then covers each sample at the edge once, and a sample that neither triangle draws is a gap,
+// and one that both draw a double hit, whether rounding or the copies' difference causes it.
 #pragma once
 
 #include <array>
@@ -15,12 +22,12 @@
 
 namespace edgewise::lab {
 
-// Whether two triangles share a vertex: x, y and depth, bit for bit.
+// Whether two triangles have copies of one vertex.
 bool touch(const UnsnappedTriangle& a, const UnsnappedTriangle& b);
 
 // Which triangles of a picture adjoin. Two triangles share an edge if they lie on opposite sides of it and
-// both have its two vertices: x, y and depth, bit for bit. If an edge has more than two triangles, the k-th
-// on one side shares it with the k-th on the other, in submission order.
+// both have copies of its two vertices. If an edge has more than two triangles, the k-th on one side shares
+// it with the k-th on the other, in submission order. Equal copies come before others.
 //
 // At a T-junction a vertex lies on an edge, so the triangles on both sides adjoin without sharing it:
 // unshared edges that run along one another within 2^-10 px, in opposite directions, and whose depths agree
@@ -28,6 +35,7 @@ bool touch(const UnsnappedTriangle& a, const UnsnappedTriangle& b);
 class Surface {
  public:
   explicit Surface(std::span<const FloatTriangle> triangles);
+  Surface(const Surface&) = delete;
 
   // The triangle on the other side of a shared edge; kNoTriangle if the edge is not shared.
   std::uint32_t across(std::uint32_t triangle, int edge) const {
@@ -36,7 +44,9 @@ class Surface {
   bool has_t_junctions() const { return !t_junctions_.empty(); }
   // The triangles along the other side of an edge at T-junctions, as the second of each pair.
   std::span<const std::pair<std::uint32_t, std::uint32_t>> along(std::uint32_t triangle, int edge) const;
+  // With the copies at shared edges moved together, if that moved any.
   std::span<const FloatTriangle> triangles() const { return triangles_; }
+  bool moved() const { return !moved_.empty(); }
   // The edge nearest to a sample; at a tie one that is not shared.
   int nearest_edge(std::uint32_t triangle, int px, int py) const;
 
@@ -50,9 +60,10 @@ class Surface {
  private:
   static std::size_t edge_of(int edge) { return static_cast<std::size_t>(edge); }
   void find_shared_edges();
-  void find_t_junctions();
+  bool find_t_junctions();
 
   std::span<const FloatTriangle> triangles_;
+  std::vector<FloatTriangle> moved_;  // empty if all copies are equal
   std::vector<std::int8_t> facing_;
   std::vector<std::uint32_t> across_;  // three per triangle
   // (3 triangle + edge, triangle along it), sorted
@@ -75,10 +86,14 @@ struct Cracks {
   // Pixels of two triangles that share a vertex and overlap only after rounding: it turned one of them over,
   // or moved an outline across the other. Exact methods draw both.
   std::vector<Sample> folds;
+  bool folds_known = true;
 
   std::uint64_t at_shared_edges() const { return gaps.size() + double_hits.size(); }
   std::uint64_t at_t_junctions() const { return t_gaps.size() + t_double_hits.size(); }
 };
+
+// Rounds half to even. Rounding a float to a coarser grid gives a float.
+std::vector<FloatTriangle> rounded_to(std::span<const FloatTriangle> triangles, int subpixel_bits);
 
 // Holds a picture's surface, and the exact coverage of its positions rounded to any number of subpixel bits.
 // All functions may be called from several threads.
@@ -88,7 +103,7 @@ class CrackJudge {
   CrackJudge(std::span<const FloatTriangle> triangles, const CoverageTruth& floats);
 
   const Surface& surface() const { return surface_; }
-  // `snap_bits` as in CoveragePromise.
+  // `snap_bits` as in CoveragePromise, or kUnknownSnap.
   Cracks find(const DrawnRuns& drawn, std::optional<int> snap_bits) const;
 
  private:
@@ -100,7 +115,9 @@ class CrackJudge {
   const Rounded& rounded(int bits) const;
 
   Surface surface_;
-  const CoverageTruth& floats_;
+  Window window_;
+  std::vector<Run> moved_runs_;  // empty if no copy was moved
+  std::span<const Run> runs_;    // the truth before rounding
   mutable std::array<Rounded, kMostSnapBits + 1> rounded_;
 };
 

@@ -15,7 +15,7 @@ struct VisibleTriangleScore {
   // truth.
   std::uint64_t wrong_snapped = 0, wrong_floats = 0;
   // Pixels of wrong_floats where something shows through: neither triangle of the two is a neighbour of the
-  // other, which shares a vertex with it (x, y and depth, bit for bit), or only one of both is none.
+  // other, which shares a vertex with it (see touch()), or only one of both is none.
   std::uint64_t wrong_surface = 0;
   // For exact methods that write contract depths: wrong_snapped pixels that the depth error of rule 6 does
   // not explain. The drawn triangle does not cover them, or lies farther behind the visible one than both

@@ -2,8 +2,10 @@
 #include <cmath>
 
 #include "lab/coverage/coverage.h"
+#include "lab/coverage/cracks.h"
 #include "lab/measure.h"
 #include "lab/peers/peer.h"
+#include "scene/streams.h"
 
 namespace edgewise::lab {
 
@@ -40,6 +42,19 @@ void append_peer_runs(const PeerInfo& peer, const CoverageInput& input, Window w
   }
 }
 
+// Whether it covers a mesh exactly as if positions were rounded to the bits that it reports. A driver may
+// report fewer bits than it keeps.
+bool rounds_as_reported(const PeerInfo& peer) {
+  constexpr Window window{480, 270};  // large enough that 8 bits and more bits differ
+  const auto triangles =
+      float_triangles(jittered_grid({.width = window.width, .height = window.height}, 12.0, 7));
+  const auto grid = snapped(triangles);
+  std::vector<Run> drawn;
+  append_peer_runs(peer, {triangles, grid}, window, drawn);
+  return std::ranges::equal(DrawnRuns(std::move(drawn), window).runs,
+                            covered_runs(rounded_to(triangles, peer.subpixel_bits()), window, 1));
+}
+
 }  // namespace
 
 PeerScene peer_scene(std::span<const FloatTriangle> triangles, Window window, std::uint32_t background) {
@@ -59,7 +74,8 @@ std::vector<CoverageMethod> peer_methods(const StartedPeers& started) {
     const double snap_px = std::sqrt(2.0) / 2 / (1 << peer->subpixel_bits());  // half a unit on both axes
     list.push_back(
         {.info = {peer->name, peer->summary, version, "none; errors are measured only", false},
-         .promise = {.reach_px = snap_px, .snap_bits = peer->subpixel_bits()},
+         .promise = {.reach_px = snap_px,
+                     .snap_bits = rounds_as_reported(*peer) ? peer->subpixel_bits() : kUnknownSnap},
          .draw = [peer = peer](const CoverageInput& input, Canvas& canvas,
                                const Execution& how) { draw_all(*peer, input, canvas, how); },
          .runs = [peer = peer](const CoverageInput& input, Window window,
