@@ -40,8 +40,8 @@ namespace {
 // few long ones.
 constexpr double kRepetition_s = 0.012;
 
-// The rounds that time a row. So many as cells have settle a true 1.2x in 95 % of runs, as scripts/README.md
-// shows. The number is fixed: stopping as soon as a pair is settled would find differences that do not exist.
+// The rounds that time a row. kManyRounds settle a true 1.2x in 95 % of runs, as scripts/README.md shows. The
+// number is fixed: stopping as soon as a pair is settled would find differences that do not exist.
 constexpr int kRounds = 9, kManyRounds = 36;
 // A quick run begins no round beyond kRounds after this time.
 constexpr double kQuickRounds_s = 180.0;
@@ -379,8 +379,9 @@ int run(int argc, char** argv) {
   if (!flags.model_out.empty()) files.push_back({"--model_out", flags.model_out});
   std::vector<std::string> inputs = flags.suite.scenes;
   inputs.insert(inputs.end(), flags.suite.more_scenes.begin(), flags.suite.more_scenes.end());
-  if (!flags.suite.needs.empty()) inputs.push_back(flags.suite.needs);
-  tools::check_files(files, inputs);
+  std::vector<std::string> read = inputs;
+  if (!flags.suite.needs.empty()) read.push_back(flags.suite.needs);
+  tools::check_files(files, read);
   std::optional<AtomicFile> out;
   if (!flags.out.empty()) out.emplace(flags.out);
   std::optional<AtomicFile> model_out;

@@ -40,7 +40,7 @@ end_step() {
   if [[ -n $step_name && -d ${step_file%/*} ]]; then
     touch "$step_file"
     {
-      awk -F'\t' -v name="$step_name" '$2 != name' "$step_file"
+      awk -F'\t' -v name="$step_name" 'NF == 2 && $2 != name' "$step_file"
       printf '%d\t%s\n' "$((SECONDS - step_start))" "$step_name"
     } >"$step_file.part"
     mv "$step_file.part" "$step_file"

@@ -1,6 +1,7 @@
 // The least precise pipeline of a scene beside the exact one, as rows.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>

@@ -15,11 +15,11 @@ def factor_rows(bench):
     for gain in gains(bench):
         factor, _, level = gain.factor.partition(", ")
         if gain.simd and factor in ("tiles over bands", "edges over spans"):
-            by_factor.setdefault(factor, []).append(f"{about(gain.median)} {level}")
+            by_factor.setdefault(factor, []).append(f"{about(gain.median)} {level} ({gain.counts})")
     if by_factor:
         yield [PARALLEL, "speed-up of " + "; of ".join(f"{factor} {', '.join(of)}" for factor, of in by_factor.items()),
-               f"medians of scenes, as implemented here; whole frames, {most_threads(cells(bench))} threads, "
-               f"{kernels(bench.context.get('simd_target'))}; [ranges, and scalar code](#speed)"]
+               f"medians of scenes (won/lost/open) of [cells](#speed) without HiZ and masks, as implemented here; whole frames, {most_threads(cells(bench))} threads, "
+               f"{kernels(bench.context.get('simd_target'))}"]
 
 
 def box_rows(bench):
@@ -44,7 +44,7 @@ def exactness_rows(accuracy, target):
     found = {name: simd_gain(accuracy, name, EXACT) for name in PRICED if name != EXACT}
     if all(found.values()):
         yield ["What does exactness cost?", "speed-up by " + "; by ".join(f"`{name}` {gain}" for name, gain in found.items()),
-               f"over `{EXACT}`, exact after snapping, the same loop; geometric mean and range of scenes; one thread, {kernels(target)}"]
+               f"over `{EXACT}`, exact after snapping, the same loop; geometric mean, range and won/lost/open of scenes; one thread, {kernels(target)}"]
 
 
 def gap_rows(accuracy):

@@ -170,10 +170,10 @@ def over_exact(bench, scene):
 
 def pipelines_table(found, bench):
     """Header and lines, a line per scene: its pipeline was drawn and timed as a whole."""
-    return (["scene", "clipping", FACING, VISIBILITY, "depth", "speed-up over exact", "or, weakened in another order"],
+    return (["scene", "clipping", FACING, VISIBILITY, "depth", f"{BITS}, at most 8", "speed-up over exact", "or, weakened in another order"],
             [[named(scene, entry), clipping(levels),
               *(titled(levels[stage]) if stage in levels else "–" for stage in (FACING, VISIBILITY, DEPTH)),
-              over_exact(bench, scene), others(entry, levels)] for scene, (entry, _, levels) in found.items()])
+              levels.get(BITS, "–").split()[0], over_exact(bench, scene), others(entry, levels)] for scene, (entry, _, levels) in found.items()])
 
 
 def edges_table(found):

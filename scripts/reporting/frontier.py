@@ -6,11 +6,11 @@ from accuracy_rows import Pooled, pooled
 from bench_rows import gained, mean_gained
 from bench_tables import GPU
 from facts_tables import pooled_text
-from tables import about, number
+from tables import about, by_order, number
 
 LEAST_CROSSINGS = 10_000  # of shared edges; in smaller scenes a single crossing decides the rate
-# The tutorials' inside tests.
-INSIDE_TESTS = ("float_lt", "float_le")
+# The tutorials' inside tests, and their remedies.
+INSIDE_TESTS = ("float_lt", "float_le", "float_top_left", "double_top_left")
 
 
 class CrackRates(NamedTuple):
@@ -63,15 +63,16 @@ def reference(accuracy):
 
 
 def simd_gain(accuracy, name, other):
-    """Of one method over another, both with SIMD on one thread: "1.2× (0.9× in a to 1.5× in b)", the geometric mean of the timed scenes
-    and the range; None if a scene lacks one of them, or none is timed."""
+    """Of one method over another, both with SIMD on one thread: "1.2× (0.9× in a to 1.5× in b; 1/1/0)", the geometric mean of the timed
+    scenes, the range, and in how many it is settled faster, slower, and not; None if a scene lacks one of them, or none is timed."""
     found = {scene.name: [m and m.simd for m in map(scene.of, (other, name))] for scene in timed_scenes(accuracy)}
     if not found or not all(map(all, found.values())):
         return None
     rows = {scene: (slower.row, faster.row) for scene, (slower, faster) in found.items()}
     by_gain = sorted(rows, key=lambda scene: gained(*rows[scene]))
     ends = " to ".join(f"{about(gained(*rows[scene]))} in {scene}" for scene in (by_gain[0], by_gain[-1]))
-    return f"{about(mean_gained(rows.values())[0])} ({ends})"
+    settled = by_order((faster, slower) for slower, faster in rows.values())
+    return f"{about(mean_gained(rows.values())[0])} ({ends}; {'/'.join(str(len(settled[order])) for order in (-1, 1, 0))})"
 
 
 def speed_ups(accuracy):
@@ -102,7 +103,7 @@ def frontier_figures(accuracy):
     among them: its times are not those of one thread."""
     ups, base, scenes = speed_ups(accuracy)
     return ({method: (forms, cracks) for method, forms in ups.items()
-             if forms and method.name != GPU and (cracks := cracks_of(accuracy, method)) and accuracy.rate("coverage", method)}, base, scenes)
+             if forms and method.name != GPU and (cracks := cracks_of(accuracy, method)) and wrong_of(accuracy, method)}, base, scenes)
 
 
 def said(up):
@@ -123,8 +124,9 @@ TWELVE_BITS = {"engine_int64": "fixed_12"}
 def points_of(found, accuracy, form):
     """{method: (wrong pixels per 10⁶ crossings, SpeedUp, whether no crack was seen)}"""
     of = {method.name: method for method in found}
-    return {method: (wrong_of(accuracy, of.get(TWELVE_BITS.get(method.name), method)).rate, forms[form], cracks.rate == 0)
-            for method, (forms, cracks) in found.items() if form in forms}
+    drawn = {method: of.get(TWELVE_BITS.get(method.name, method.name)) for method in found}
+    return {method: (wrong_of(accuracy, drawn[method]).rate, forms[form], cracks.rate == 0)
+            for method, (forms, cracks) in found.items() if form in forms and drawn[method]}
 
 
 def frontier_table(accuracy):

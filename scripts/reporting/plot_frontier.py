@@ -7,7 +7,7 @@ from tables import kernels, number, short
 
 # Methods that differ in the number of subpixel bits alone, joined to a curve.
 CURVES = {"64-bit fixed point": {0: "whole_pixel", 4: "fixed_4", 8: "fixed_8", 12: "fixed_12", 16: "fixed_16"},
-          "tiled": {8: "engine_exact", 12: "engine_int64"}}
+          "32-bit": {4: "fixed_4_int32", 8: "fixed_8_int32"}, "tiled": {8: "engine_exact", 12: "engine_int64"}}
 BITS = {name: bits for curve in CURVES.values() for bits, name in curve.items()}
 LABELLED = ("float_lt", "dda_16_16", "llvmpipe", *PRICED)
 MOST_LABELS = 8
@@ -36,9 +36,9 @@ def frontier_title(points, code):
 
 def labels_of(points, x_of):
     """At most MOST_LABELS: ours and the front's first, then others that README names. Curves are labelled at their 8 bits."""
-    curve_of = {**{curve[8]: name for name, curve in CURVES.items()}, **dict.fromkeys(TWELVE_BITS, "tiled, 12 bits")}
+    curve_of = {**dict.fromkeys(TWELVE_BITS, "tiled, 12 bits"), **{curve[8]: name for name, curve in CURVES.items() if name != "tiled"}}
     front = [m for m in best_of(points) if not m.engine or m.name in TWELVE_BITS]
-    order = [*(m for m in points if m.ours), *front, *(m for m in points if m.name in (*curve_of, *LABELLED))]
+    order = [*(m for m in points if m.ours), *front, *sorted((m for m in points if m.name in (*curve_of, *LABELLED)), key=lambda m: m.name not in curve_of)]
     chosen = list(dict.fromkeys(order))[:MOST_LABELS]
     return [Label(x_of(points[m][0]), points[m][1].middle, curve_of.get(m.name, m.name), bold=m.ours) for m in chosen]
 
@@ -71,7 +71,7 @@ def without_dominant(found, accuracy):
     """For each scene that has over half of the wrong pixels of labelled methods, a sentence with their rates without it."""
     scenes = {}
     for method in found:
-        wrong = accuracy.rate("coverage", method)
+        wrong = wrong_of(accuracy, method)
         if wrong.mostly_on and method.name in LABELLED:
             scenes.setdefault(wrong.mostly_on, []).append(f"{method.name} {number(wrong.without, 2)}")
     return " ".join(f"Over half on {scene}; without it: {', '.join(rates)}." for scene, rates in scenes.items())
@@ -90,8 +90,9 @@ def frontier(accuracy, bench, folder, caption):
                 f"vertices that are snapped already.")
     bound = max((3e6 / cracks.crossings for _, cracks in found.values() if cracks.rate == 0), default=3e6 / most.crossings)
     peers = [f"{method.name}: {method.source}." for method in found if method.peer]
+    shown = {method.name for method in panels["simd"]}
     twelve = "".join(f"Tiled, 12 bits: the wrong pixels of {pixels} at the speed of {speed}, whose edges count in 1/4096 px. "
-                     for speed, pixels in TWELVE_BITS.items())
+                     for speed, pixels in TWELVE_BITS.items() if speed in shown)
     notes = (f"{twelve}{' '.join([*peers, without_dominant(found, accuracy), ''])}No crack seen: the 95 % upper bound is at most {number(bound, 2)} per 10⁶. "
              f"Left out: scenes with fewer than {short(LEAST_CROSSINGS)} crossings, and for 32-bit methods scenes beyond their range.\n{caption}")
     above, below = 1.2 + head_in(subtitle), foot_in(notes)

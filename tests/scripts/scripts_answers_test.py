@@ -109,8 +109,10 @@ class AnswersTest(unittest.TestCase):
                 for fill, slower in (("spans", 1), ("edges", 2 if traversal == "tiles" else 0.5)) for simd in ("scalar", "avx512")
                 for extra, gain in (("", 1), *((("/with:hiz", 0.1),) if (traversal, simd) == ("tiles", "avx512") else ()))}
         self.assertEqual(answers(bench(rows), None)[0],
-                         ["Parallel or scanline?", "speed-up of tiles over bands 2.0× with spans, 0.50× with edges; of edges over spans 2.0× in bands, "
-                          "0.50× in tiles", "medians of scenes, as implemented here; whole frames, 2 threads, AVX-512; [ranges, and scalar code](#speed)"])
+                         ["Parallel or scanline?", "speed-up of tiles over bands 2.0× with spans (3/0/0), 0.50× with edges (0/2/1); "
+                          "of edges over spans 2.0× in bands (3/0/0), 0.50× in tiles (0/3/0)",
+                          "medians of scenes (won/lost/open) of [cells](#speed) without HiZ and masks, as implemented here; whole frames, "
+                          "2 threads, AVX-512"])
 
     @staticmethod
     def boxed(name, naive, simd, others):
@@ -238,11 +240,12 @@ class FrontierTest(unittest.TestCase):
         tiled = ups[found.methods["coverage"][0]]
         self.assertAlmostEqual(tiled["scalar"].middle, 2 ** (1 / 3))
         self.assertAlmostEqual(tiled["simd"].middle, 4 * 2 ** (1 / 3))
-        self.assertEqual(simd_gain(found, "tiled", "x"), "1.3× (0.50× in b to 4.0× in a)")
+        self.assertEqual(simd_gain(found, "tiled", "x"), "1.3× (0.50× in b to 4.0× in a; 1/1/1)")
 
     def test_a_point_of_twelve_bits_joins_the_speed_of_one_method_and_the_pixels_of_another(self):
         (timed, drawn), = TWELVE_BITS.items()
         found = self.accuracy(a=(self.timed(timed, 1.0), replace(self.timed(drawn, 2.0), seen=(5, 0))))
+        self.assertEqual(wrong_of(found, found.methods["coverage"][1]).rate, 5.0)  # pixels: its rate of samples is 0
         points = {method.name: (wrong, up.middle) for method, (wrong, up, _) in points_of(frontier_figures(found)[0], found, "simd").items()}
         self.assertEqual(points, {timed: (5.0, 4.0), drawn: (5.0, 2.0)})
 
@@ -250,10 +253,10 @@ class FrontierTest(unittest.TestCase):
         loose, finer = (name for name in PRICED if name != EXACT)
         found = self.accuracy(a=(self.timed(loose, 1.0, 3), self.timed(EXACT, 2.0), self.timed(finer, 4.0)))
         self.assertEqual([line[:3] for line in price_table(found)[1]],
-                         [[f"`{loose}`", "2.0× (2.0× in a to 2.0× in a)", "30"], [f"`{EXACT}`", "1×", "0 (<30)"],
-                          [f"`{finer}`", "0.50× (0.50× in a to 0.50× in a)", "0 (<30)"]])
+                         [[f"`{loose}`", "2.0× (2.0× in a to 2.0× in a; 1/0/0)", "30"], [f"`{EXACT}`", "1×", "0 (<30)"],
+                          [f"`{finer}`", "0.50× (0.50× in a to 0.50× in a; 0/1/0)", "0 (<30)"]])
         self.assertEqual(answers(bench({}), found)[0][:2], ["What does exactness cost?",
-                         f"speed-up by `{loose}` 2.0× (2.0× in a to 2.0× in a); by `{finer}` 0.50× (0.50× in a to 0.50× in a)"])
+                         f"speed-up by `{loose}` 2.0× (2.0× in a to 2.0× in a; 1/0/0); by `{finer}` 0.50× (0.50× in a to 0.50× in a; 0/1/0)"])
         self.assertEqual(price_table(self.accuracy(a=(self.timed(EXACT, 2.0),))), ([], []))
 
 
@@ -289,7 +292,7 @@ class NeedsTest(FolderTest):
         return read_needs(self.folder / "mine")
 
     def test_nothing_is_said_of_nothing(self):
-        self.assertEqual(read_needs(self.folder), {})
+        self.assertEqual(read_needs(self.folder / "empty/mine"), {})
         self.assertEqual(tutorials_table({})[1], [])
 
     def test_what_is_not_a_result_is_refused(self):
@@ -306,11 +309,11 @@ class NeedsTest(FolderTest):
                        "needs/terrain/pipeline:least/threads:1": 4.02, "needs/terrain/pipeline:exact/threads:1": 4.0})
         header, lines = pipelines_table(self.read(entry("cube", others=[other]), entry("terrain", near="clip"), stream), timed)
         self.assertEqual([len(line) for line in lines], [len(header)] * 3)
-        self.assertEqual(lines, [["cube (3 frames)", "nothing", "`normal_dot_eye`", "`submission_order`", "–", "2.0×",
+        self.assertEqual(lines, [["cube (3 frames)", "nothing", "`normal_dot_eye`", "`submission_order`", "–", "8", "2.0×",
                                   "`normal_z`, depth buffer of 6 bits"],
-                                 ["terrain (3 frames)", "clip at the near plane", "`normal_dot_eye`", "`submission_order`", "–",
+                                 ["terrain (3 frames)", "clip at the near plane", "`normal_dot_eye`", "`submission_order`", "–", "8",
                                   "1.00× slower (not settled)", "–"],
-                                 ["grid (3 frames)", "–", "–", "`submission_order`", "–", "–", "–"]])
+                                 ["grid (3 frames)", "–", "–", "`submission_order`", "–", "–", "–", "–"]])
 
     def test_edges_have_a_line_per_question(self):
         self.assertEqual(dict(edges_table(self.read(entry("cube"), entry("sphere")))[1]), {
