@@ -8,8 +8,11 @@
 #include <stdexcept>
 
 #include "core/input_file.h"
+#include "edgewise/contract.h"
 
 namespace edgewise::bench {
+
+constexpr double kLargestScale = 1e3;  // as of --scale
 
 std::vector<std::shared_ptr<PipelineScene>> read_pipelines(const std::string& file) {
   InputFile input = open_input(file);
@@ -24,6 +27,10 @@ std::vector<std::shared_ptr<PipelineScene>> read_pipelines(const std::string& fi
                                  entry.at("scale").get<double>()};
       const auto name = entry.at("scene").get<std::string>();
       find_scene(name);
+      const auto in_range = [](int side) { return side >= 1 && side <= contract::kMaxImageSide; };
+      if (!in_range(request.width) || !in_range(request.height) ||
+          !(request.scale > 0.0 && request.scale <= kLargestScale))
+        throw std::invalid_argument("'" + name + "' has a size or scale that is out of range");
       if (!names.insert(name).second) throw std::invalid_argument("two entries for '" + name + "'");
       scenes.push_back(std::make_shared<PipelineScene>());
       scenes.back()->name = name, scenes.back()->request = request;

@@ -24,11 +24,9 @@ void draw_band(const BandTask& task) {
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace edgewise {
+EDGEWISE_DEFINE_KERNEL(BandKernel, scanline_kernel, draw_band)
 
-BandKernel scanline_kernel(SimdTarget target) {
-  return EDGEWISE_KERNEL(draw_band, target);
-}
+namespace edgewise {
 
 extern const std::string_view summary_scanline;
 const std::string_view summary_scanline =
