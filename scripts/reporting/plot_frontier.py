@@ -83,18 +83,19 @@ def frontier(accuracy, bench, folder, caption):
     if len(panels) < 2:
         return None
     kinds = Kinds(FAMILIES["coverage"])
-    most = max(found.values(), key=lambda item: item[1].crossings)[1]
+    counts = sorted(cracks.crossings for _, cracks in found.values())
+    crossings = " to ".join(dict.fromkeys(map(short, (counts[0], counts[-1]))))
     subtitle = (f"Further left: fewer pixels that differ from the exact picture of the caller's positions; further up: faster on one thread, "
                 f"geometric mean of {scenes} scenes ({', '.join(scene.name for scene in timed_scenes(accuracy))}). Filled: no crack seen in "
-                f"{short(most.crossings)} crossings of shared edges; hollow: cracks. Grey numbers: subpixel bits. Ours and other numbers get "
+                f"{crossings} crossings of shared edges; hollow: cracks. Grey numbers: subpixel bits. Ours and other numbers get "
                 f"vertices that are snapped already.")
-    bound = max((3e6 / cracks.crossings for _, cracks in found.values() if cracks.rate == 0), default=3e6 / most.crossings)
+    bound = max((3e6 / cracks.crossings for _, cracks in found.values() if cracks.rate == 0), default=3e6 / counts[-1])
     peers = [f"{method.name}: {method.source}." for method in found if method.peer]
     shown = {method.name for method in panels["simd"]}
     twelve = "".join(f"Tiled, 12 bits: the wrong pixels of {pixels} at the speed of {speed}, whose edges count in 1/4096 px. "
                      for speed, pixels in TWELVE_BITS.items() if speed in shown)
     notes = (f"{twelve}{' '.join([*peers, without_dominant(found, accuracy), ''])}No crack seen: the 95 % upper bound is at most {number(bound, 2)} per 10⁶. "
-             f"Left out: scenes with fewer than {short(LEAST_CROSSINGS)} crossings, and for 32-bit methods scenes beyond their range.\n{caption}")
+             f"Left out: from cracks, scenes with fewer than {short(LEAST_CROSSINGS)} crossings of shared edges; from wrong pixels, scenes with under 1 % of the largest scene's crossings; for 32-bit methods, scenes beyond their range.\n{caption}")
     above, below = 1.2 + head_in(subtitle), foot_in(notes)
     figure, axes_of = plt.subplots(1, 2, sharey=True, figsize=(WIDTH_IN, above + below + 4.4))
     height = figure.get_figheight()
