@@ -9,10 +9,9 @@
 
 #include "core/input_file.h"
 #include "edgewise/contract.h"
+#include "support/options.h"
 
 namespace edgewise::bench {
-
-constexpr double kLargestScale = 1e3;  // as of --scale
 
 std::vector<std::shared_ptr<PipelineScene>> read_pipelines(const std::string& file) {
   InputFile input = open_input(file);
@@ -29,7 +28,7 @@ std::vector<std::shared_ptr<PipelineScene>> read_pipelines(const std::string& fi
       find_scene(name);
       const auto in_range = [](int side) { return side >= 1 && side <= contract::kMaxImageSide; };
       if (!in_range(request.width) || !in_range(request.height) ||
-          !(request.scale > 0.0 && request.scale <= kLargestScale))
+          !(request.scale > 0.0 && request.scale <= tools::kLargestScale))
         throw std::invalid_argument("'" + name + "' has a size or scale that is out of range");
       if (!names.insert(name).second) throw std::invalid_argument("two entries for '" + name + "'");
       scenes.push_back(std::make_shared<PipelineScene>());

@@ -28,9 +28,8 @@ def frontier_title(points, code):
     watertight = {method.name: up for method, (_, up, tight) in points.items() if tight and not method.engine}
     if not watertight:
         return "Coverage: wrong pixels against speed"
-    most = max(up.middle for up in watertight.values())
-    low = next(up.low for up in watertight.values() if up.middle == most)
-    fastest = sorted((name for name, up in watertight.items() if up.high >= low), key=lambda name: -watertight[name].middle)
+    order = sorted(watertight, key=lambda name: -watertight[name].middle)
+    fastest = [name for name in order if watertight[name].high >= watertight[order[0]].low]
     return f"{code}: fastest without a crack: {' and '.join(fastest)}; fewest wrong pixels: {best_of(points)[0].name}"
 
 

@@ -22,8 +22,7 @@ namespace {
 
 constexpr double kMostDistance = 1e30;  // world units; bound of the near and far planes
 constexpr double kLongestTime = 1e6;    // s, 11 days
-constexpr double kLargestScale = 1e3;
-constexpr double kSmallest = 1e-6;  // what "more than zero" means on the command line
+constexpr double kSmallest = 1e-6;      // what "more than zero" means on the command line
 
 // The number that the whole text is; none if it isn't one.
 template <typename T>

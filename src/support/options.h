@@ -25,6 +25,7 @@ struct Size {
   int width, height;  // px
 };
 inline constexpr Size kDefaultSize{1280, 720};
+inline constexpr double kLargestScale = 1e3;  // of --scale
 
 // The names of all options of a command, with dashes.
 std::vector<std::string> option_names(const CLI::App& command);

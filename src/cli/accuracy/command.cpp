@@ -68,8 +68,9 @@ the rate. Where one scene has more than half of a method's errors, the rate with
 Cracks are samples at an edge that two triangles share, drawn by neither (gap) or by both (double
 hit), whatever lies behind. They share it if their vertices agree within 2^-10 px and 2^-20 of the
 depth range. Cracks are judged by exact coverage of the positions that the method uses, rounded as
-it rounds them, after unequal copies of a vertex are moved together. Cracks at T-junctions, and folds, where rounding lets neighbours overlap (it turned
-a triangle over), are counted apart; "-": it is not known how the peer rounds.
+it rounds them, after unequal copies of a vertex are moved together. Cracks at T-junctions, and
+folds, where rounding lets neighbours overlap (it turned a triangle over), are counted apart; "-":
+it is not known how the peer rounds.
 
 SCENE is a scene of `edgewise list`, a small test scene (the tables name them), turning-cube, or an
 .obj or .tri file. Large streams are judged in part, always the same part, and a smaller one with

@@ -84,13 +84,11 @@ inline void draw_edges(const BandTask& task, const ScreenTriangle& triangle, con
 void draw_band_in_spans(const BandTask& task) {
   draw_band_by<false>(
       task, [&](const ScreenTriangle& triangle, const PixelBox& box) { draw_spans(task, triangle, box); });
-  clear_upper_halves();
 }
 
 void draw_band_in_edges(const BandTask& task) {
   draw_band_by<true>(
       task, [&](const ScreenTriangle& triangle, const PixelBox& box) { draw_edges(task, triangle, box); });
-  clear_upper_halves();
 }
 
 }  // namespace HWY_NAMESPACE

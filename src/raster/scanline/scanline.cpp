@@ -16,7 +16,6 @@ namespace HWY_NAMESPACE {
 void draw_band(const BandTask& task) {
   draw_band_by<true>(
       task, [&](const ScreenTriangle& triangle, const PixelBox& box) { draw_spans(task, triangle, box); });
-  clear_upper_halves();
 }
 
 }  // namespace HWY_NAMESPACE

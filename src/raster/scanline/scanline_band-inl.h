@@ -248,6 +248,7 @@ HWY_INLINE void draw_band_by(const BandTask& task, DrawWide&& draw_wide) {
       if (!box.empty()) draw_wide(triangles[index], box);
     }
   });
+  clear_upper_halves();
 }
 
 }  // namespace HWY_NAMESPACE
