@@ -20,8 +20,12 @@ std::vector<std::shared_ptr<PipelineScene>> read_pipelines(const std::string& fi
   try {
     for (const auto& entry : nlohmann::json::parse(input.stream)) {
       std::map<std::string, std::string> levels;
+      bool right = true;  // null: not even the exact pipeline is enough
       for (const auto& stage : entry.at("pipeline").at("stages"))
-        levels.emplace(stage.at("question").get<std::string>(), stage.at("answer").get<std::string>());
+        if (const auto& answer = stage.at("answer"); answer.is_null())
+          right = false;
+        else
+          levels.emplace(stage.at("question").get<std::string>(), answer.get<std::string>());
       const SceneRequest request{entry.at("width").get<int>(), entry.at("height").get<int>(), 0.0f,
                                  entry.at("scale").get<double>()};
       const auto name = entry.at("scene").get<std::string>();
@@ -31,6 +35,7 @@ std::vector<std::shared_ptr<PipelineScene>> read_pipelines(const std::string& fi
           !(request.scale > 0.0 && request.scale <= tools::kLargestScale))
         throw std::invalid_argument("'" + name + "' has a size or scale that is out of range");
       if (!names.insert(name).second) throw std::invalid_argument("two entries for '" + name + "'");
+      if (!right) continue;
       scenes.push_back(std::make_shared<PipelineScene>());
       scenes.back()->name = name, scenes.back()->request = request;
       scenes.back()->least = lab::pipeline_of(levels);

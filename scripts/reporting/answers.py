@@ -18,7 +18,7 @@ def factor_rows(bench):
             by_factor.setdefault(factor, []).append(f"{about(gain.median)} {level} ({gain.counts})")
     if by_factor:
         yield [PARALLEL, "speed-up of " + "; of ".join(f"{factor} {', '.join(of)}" for factor, of in by_factor.items()),
-               f"medians of scenes (won/lost/open) of [cells](#speed) without HiZ and masks, as implemented here (bands with spans set triangles up one by one); whole frames, {most_threads(cells(bench))} threads, "
+               f"medians of scenes (won/lost/open) of [cells](#speed) without HiZ and masks, as implemented here; whole frames, {most_threads(cells(bench))} threads, "
                f"{kernels(bench.context.get('simd_target'))}"]
 
 
@@ -39,7 +39,7 @@ def box_rows(bench):
         told += [f"{name} {outcome(by_order(boxed))}"] if boxed else []
     if told:
         yield ["Or test the whole bounding box?", "; ".join(told),
-               f"`naive`, scalar after its front end and binning, against the fastest other scalar cell; the {target} box test (bands, edges) "
+               f"`naive`, scalar, against the fastest other scalar cell; the {target} box test (bands, edges) "
                f"against the fastest other {target} cell; [cells](#speed) without HiZ and masks; whole frames, {threads} threads"
                + (f"; left out, too slow to repeat: {', '.join(left_out)}" if left_out else "")]
 

@@ -15,8 +15,7 @@ TRAVERSALS, FILLS = ("bands", "tiles"), ("spans", "edges")
 BY_SIMD = "SIMD over scalar"
 # What scalar code is, beside the table.
 SCALAR_CODE = ("Scalar: the compiler vectorizes the depth test of spans, on x86-64 with SSE2. Tiles with edges run the vector kernel with one lane. "
-               "SIMD includes front end and binning; there, bands with spans set triangles up one by one, other cells in vectors. Pairs with a "
-               "cell over 1.5 s are left out.")
+               "SIMD includes front end and binning. Pairs with a cell over 1.5 s are left out.")
 
 
 class Cell(NamedTuple):

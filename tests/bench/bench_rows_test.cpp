@@ -325,12 +325,14 @@ TEST(BenchMethods, AreNotTimedWhereAFormDrawsOtherPixels) {
   EXPECT_EQ(error(2), "draws other pixels than its scalar form on one thread");
 }
 
-TEST(BenchPipelines, AreTimedInPairsIfTheyAreRight) {
+TEST(BenchPipelines, AreTimedInPairsWhereOneIsRight) {
   const TempDir folder;
   SuiteOptions options;
   options.needs = folder
                       .write("needs.json", R"([{"scene": "cubes", "width": 96, "height": 54, "scale": 1,
-      "pipeline": {"stages": [{"question": "visibility", "answer": "painter_mean"}]}}])")
+      "pipeline": {"stages": [{"question": "visibility", "answer": "painter_mean"}]}},
+      {"scene": "cube", "width": 96, "height": 54, "scale": 1,
+      "pipeline": {"stages": [{"question": "pipeline", "answer": null}]}}])")
                       .string();
   Stage stage;
   std::map<std::string, std::string> errors;

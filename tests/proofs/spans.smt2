@@ -63,6 +63,16 @@
 (assert (and (>= vertex (- 32768.0)) (> start 294912.0) (> way (- (* 64.0 4096.0)))))
 (assert (not (and (> (+ vertex start way) 64.0) (> (+ vertex (minr start 393216.0) way) 64.0))))
 
+;; claim far_starts_in_bands: Such a line stays right of a band of 2^14 px for 31 rows.
+(declare-const vertex Real) (declare-const start Real) (declare-const way Real)
+(assert (and (>= vertex (- 32768.0)) (> start 294912.0) (> way (- (* 31.0 4096.0)))))
+(assert (not (and (> (+ vertex start way) 16384.0) (> (+ vertex (minr start 393216.0) way) 16384.0))))
+
+;; weakened far_starts_in_bands: It stays right of the band for 63 rows.
+(declare-const vertex Real) (declare-const start Real) (declare-const way Real)
+(assert (and (>= vertex (- 32768.0)) (> start 294912.0) (> way (- (* 63.0 4096.0)))))
+(assert (not (and (> (+ vertex start way) 16384.0) (> (+ vertex (minr start 393216.0) way) 16384.0))))
+
 ;; claim sums_fit: The sum of start, steps, the distance from vertex to tile and the 1 px for rounding is less than
 ;;   2^63 units.
 (declare-const vertex Real) (declare-const start Real) (declare-const way Real)

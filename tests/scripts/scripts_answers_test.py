@@ -111,8 +111,7 @@ class AnswersTest(unittest.TestCase):
         self.assertEqual(answers(bench(rows), None)[0],
                          ["Parallel or scanline?", "speed-up of tiles over bands 2.0× with spans (3/0/0), 0.50× with edges (0/2/1); "
                           "of edges over spans 2.0× in bands (3/0/0), 0.50× in tiles (0/3/0)",
-                          "medians of scenes (won/lost/open) of [cells](#speed) without HiZ and masks, as implemented here (bands with spans set triangles "
-                          "up one by one); whole frames, 2 threads, AVX-512"])
+                          "medians of scenes (won/lost/open) of [cells](#speed) without HiZ and masks, as implemented here; whole frames, 2 threads, AVX-512"])
 
     @staticmethod
     def boxed(name, naive, simd, others):
@@ -129,7 +128,7 @@ class AnswersTest(unittest.TestCase):
     def test_box_tests_are_compared_with_cells_of_the_same_code(self):
         self.assertEqual(self.box_answer(("a", 8.0, 3.0, 1.0), ("b", 4.0, 1.0, 2.0)), [
             "`naive` 2.0× to 4.0× slower in 2 of 2 scenes; with AVX-512 2.0× faster in 1, 3.0× slower in 1 of 2 scenes",
-            "`naive`, scalar after its front end and binning, against the fastest other scalar cell; the AVX-512 box test (bands, edges) "
+            "`naive`, scalar, against the fastest other scalar cell; the AVX-512 box test (bands, edges) "
             "against the fastest other AVX-512 cell; [cells](#speed) without HiZ and masks; whole frames, 2 threads"])
 
     def test_a_faster_median_alone_wins_nothing(self):
@@ -262,8 +261,8 @@ class FrontierTest(unittest.TestCase):
 
 
 def question(name, *answers, needed):
-    """Answers before the needed one are not enough."""
-    at = answers.index(needed)
+    """Answers before the needed one are not enough; None: none is."""
+    at = answers.index(needed) if needed else len(answers)
     return {"question": name, "answer": needed, "proven": False, "error": "wrong pixel", "answers": [
         {"answer": a, "enough": i >= at, **({} if i >= at else {"witness": {"wrong_px": 1 + i, "frame": 7}})}
         for i, a in enumerate(answers)]}
@@ -308,13 +307,15 @@ class NeedsTest(FolderTest):
                                                 "orders": 1, "others": []}}
         timed = bench({"needs/cube/pipeline:least/threads:1": 2.0, "needs/cube/pipeline:exact/threads:1": 4.0,
                        "needs/terrain/pipeline:least/threads:1": 4.02, "needs/terrain/pipeline:exact/threads:1": 4.0})
-        header, lines = pipelines_table(self.read(entry("cube", others=[other]), entry("terrain", near="clip"), stream), timed)
-        self.assertEqual([len(line) for line in lines], [len(header)] * 3)
+        wrong = {**entry("cubes"), "pipeline": {"stages": [question("pipeline", "the exact one", needed=None)], "orders": 0, "others": []}}
+        header, lines = pipelines_table(self.read(entry("cube", others=[other]), entry("terrain", near="clip"), stream, wrong), timed)
+        self.assertEqual([len(line) for line in lines], [len(header)] * 4)
         self.assertEqual(lines, [["cube (3 frames)", "nothing", "`normal_dot_eye`", "`submission_order`", "–", "8", "2.0×",
                                   "`normal_z`, depth buffer of 6 bits"],
                                  ["terrain (3 frames)", "clip at the near plane", "`normal_dot_eye`", "`submission_order`", "–", "8",
                                   "1.00× slower (not settled)", "–"],
-                                 ["grid (3 frames)", "–", "–", "`submission_order`", "–", "–", "–", "–"]])
+                                 ["grid (3 frames)", "–", "–", "`submission_order`", "–", "–", "–", "–"],
+                                 ["cubes (3 frames)", "–", "–", "–", "–", "–", "–", "none is enough: the exact one draws 1 wrong px in frame 7"]])
 
     def test_edges_have_a_line_per_question(self):
         self.assertEqual(dict(edges_table(self.read(entry("cube"), entry("sphere")))[1]), {
@@ -330,6 +331,12 @@ class NeedsTest(FolderTest):
                          ["more than needed: `submission_order`", "**not enough**: 2 wrong pixels in frame 7"])
         self.assertEqual(said["Outlaw Triad trainer", "facing test"], ["enough", "**not enough**: 1 wrong pixel in frame 7"])
         self.assertEqual(said["Outlaw Triad trainer", "near plane"], ["enough", "**not enough**: 1 wrong pixel in frame 7"])
+
+    def test_stages_of_a_wrong_exact_pipeline_are_compared_with_it(self):
+        wrong = {**entry("cubes"), "alone": [question("near plane", "nothing", "clip", needed=None)]}
+        said = {engine: verdict for engine, stage, _, verdict in tutorials_table(self.read(wrong))[1] if stage == "near plane"}
+        self.assertEqual(said, {"Outlaw Triad trainer": "**not enough**: 1 wrong pixel in frame 7",
+                                "p5.js engine": "as wrong as the exact one: 2 wrong pixels in frame 7"})
 
     def test_an_answer_before_the_needed_one_may_be_enough(self):
         found = self.read(entry("cube"))

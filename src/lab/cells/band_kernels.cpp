@@ -7,6 +7,7 @@
 
 #include "core/kernel_table.h"
 #include "lab/cells/band_kernels.h"
+#include "lab/tiled_spans/tiled_spans_setup-inl.h"
 #include "raster/scanline/scanline_band-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -14,6 +15,8 @@ namespace edgewise {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace contract;
+
+struct LineBatch;
 
 #if HWY_TARGET == HWY_SCALAR
 
@@ -79,15 +82,63 @@ inline void draw_edges(const BandTask& task, const ScreenTriangle& triangle, con
   }
 }
 
+// A batch of triangles, set up for the spans of a band.
+struct alignas(64) LineBatch {
+  BatchLine line[3];
+  std::int64_t gx[kBatch], gy[kBatch], origin[kBatch];  // the DepthPlane
+  std::int32_t zx[kBatch], zy[kBatch];
+  std::int32_t payload[kBatch];
+  std::int32_t x0[kBatch], x1[kBatch], y0[kBatch], y1[kBatch];  // the box
+};
+
+// Sets up a vector of triangles, from triangles[indices[k]] on, as entries k … of the batch.
+HWY_INLINE BatchBits set_up_vector(const BandTask& task, const std::uint32_t* indices, LineBatch& out,
+                                   int k) {
+  const D64 d;
+  const TriangleLanes t = load(task.bins.triangles(), indices + k);
+  const BoxLanes box = box_lanes(task, t);
+  const Area area = area_of(t);
+  const V32 first_sample = hn::Add(hn::ShiftLeft<kSubBits>(box.y0), set32(kHalf));
+  const auto flat = store_lines(t, area, 0, first_sample, out.line, k);
+  const DepthLanes depth = depth_lanes(t, area, 0, 0);
+  hn::Store(depth.gx, d, out.gx + k), hn::Store(depth.gy, d, out.gy + k);
+  hn::Store(depth.start, d, out.origin + k);
+  store(depth.x, out.zx + k), store(depth.y, out.zy + k), store(t.payload, out.payload + k);
+  const std::uint32_t drawn = store_box(box, area, out, k);
+  return {drawn, drawn & mask_bits(hn::Or(flat, hn::Not(depth.exact)))};
+}
+
+// Draws triangle k of a batch.
+HWY_INLINE void draw(const BandTask& task, const LineBatch& batch, int k) {
+  const PixelBox box{batch.x0[k], batch.y0[k], batch.x1[k], batch.y1[k]};
+  const auto bits = [k](const auto& lanes) { return static_cast<std::uint64_t>(lanes[k]); };
+  const DepthPlane plane{bits(batch.gx), bits(batch.gy), bits(batch.origin),
+                         static_cast<std::uint32_t>(batch.zx[k]), static_cast<std::uint32_t>(batch.zy[k])};
+  fill_spans(task, BandDepth(plane, box), static_cast<std::uint32_t>(batch.payload[k]), [&](auto&& span) {
+    std::int64_t at[3];
+    for (int i = 0; i < 3; ++i) at[i] = batch.line[i].at[k];
+    for (int y = box.y0; y < box.y1; ++y) {
+      int begin = box.x0, end = box.x1;
+      for (int i = 0; i < 3; ++i) {
+        const auto pixel = static_cast<int>(at[i] >> kUnitBits);
+        if (batch.line[i].is_left[k]) begin = std::max(begin, pixel);
+        if (batch.line[i].is_right[k]) end = std::min(end, pixel);
+        at[i] += batch.line[i].step[k];
+      }
+      span(y, begin, end);
+    }
+  });
+}
+
 #endif
 
 void draw_band_in_spans(const BandTask& task) {
-  draw_band_by<false>(
+  draw_band_by<LineBatch>(
       task, [&](const ScreenTriangle& triangle, const PixelBox& box) { draw_spans(task, triangle, box); });
 }
 
 void draw_band_in_edges(const BandTask& task) {
-  draw_band_by<true>(
+  draw_band_by<NarrowBatch>(
       task, [&](const ScreenTriangle& triangle, const PixelBox& box) { draw_edges(task, triangle, box); });
 }
 

@@ -18,7 +18,8 @@
 // - Start, steps and the at most 2^15 px from vertex to tile sum up to less than 2^20 px = 2^63 units.
 // An edge that moves 2^12 px per row or more, but is not horizontal, crosses at most 8 rows. Its triangle is
 // walked by integers with a remainder (raster/scanline/edge_walk.h). So is a triangle whose depth gradient is
-// too large for doubles. proofs/spans.smt2 proves these claims.
+// too large for doubles. proofs/spans.smt2 proves these claims, for a tile and for a band of 32 rows
+// (lab/cells).
 #include <hwy/highway.h>
 
 #include <cstdint>
@@ -92,12 +93,33 @@ HWY_INLINE LineLanes line_lanes(V32 px, V32 py, V32 qx, V32 qy, V32 flip, V32 fi
           hn::RebindMask(d, hn::Ge(hn::Abs(step), hn::Set(df, kMaxStep)))};
 }
 
+// A line of each triangle of a batch (LineLanes).
+struct BatchLine {
+  std::int64_t at[kBatch], step[kBatch];
+  std::int32_t is_left[kBatch], is_right[kBatch];
+};
+// Stores the lines of a vector of triangles as entries k … of `out`, relative to pixel column `left`. Returns
+// where one is too flat.
+HWY_INLINE hn::Mask<D64> store_lines(const TriangleLanes& t, const Area& area, int left, V32 first_sample,
+                                     BatchLine (&out)[3], int k) {
+  const D64 d;
+  auto flat = hn::FirstN(d, 0);
+  for (int i = 0; i < 3; ++i) {
+    const int j = i == 2 ? 0 : i + 1;
+    const V32 origin = set32(left * kSub);
+    const LineLanes line = line_lanes(hn::Sub(t.x[i], origin), t.y[i], hn::Sub(t.x[j], origin), t.y[j],
+                                      lower(area.flip), first_sample);
+    hn::Store(line.at, d, out[i].at + k);
+    hn::Store(line.step, d, out[i].step + k);
+    store(line.is_left, out[i].is_left + k), store(line.is_right, out[i].is_right + k);
+    flat = hn::Or(flat, line.flat);
+  }
+  return flat;
+}
+
 // A batch of triangles, set up for one tile. Rows and pixels are relative to the tile.
 struct alignas(64) SpanBatch {
-  struct Line {
-    std::int64_t at[kBatch], step[kBatch];
-    std::int32_t is_left[kBatch], is_right[kBatch];
-  } line[3];
+  BatchLine line[3];
   struct Depth {
     std::int32_t first[kBatch];  // at the first pixel of the first row
     std::int32_t x[kBatch], y[kBatch];
@@ -120,17 +142,7 @@ HWY_INLINE BatchBits set_up_vector(const TileTask& task, const std::uint32_t* in
   const auto accepted = hn::And(hn::Gt(area.value, zero), hn::Lt(hn::ShiftLeft<32>(as64(filled)), zero));
 
   const V32 first_sample = hn::Add(hn::ShiftLeft<kSubBits>(y0), set32(sample_sub(task.y0)));
-  auto integer_walk = hn::FirstN(d, 0);
-  for (int i = 0; i < 3; ++i) {
-    const int j = i == 2 ? 0 : i + 1;
-    const V32 left = set32(task.x0 * kSub);
-    const LineLanes line = line_lanes(hn::Sub(t.x[i], left), t.y[i], hn::Sub(t.x[j], left), t.y[j],
-                                      lower(area.flip), first_sample);
-    hn::Store(line.at, d, out.line[i].at + k);
-    hn::Store(line.step, d, out.line[i].step + k);
-    store(line.is_left, out.line[i].is_left + k), store(line.is_right, out.line[i].is_right + k);
-    integer_walk = hn::Or(integer_walk, line.flat);
-  }
+  const auto flat = store_lines(t, area, task.x0, first_sample, out.line, k);
   const DepthLanes depth = depth_lanes(t, area, task.x0, task.y0);
   const V32 first = hn::Add(depth.base(), hn::Mul(depth.y, y0));
   store(first, out.depth.first + k);
@@ -144,7 +156,7 @@ HWY_INLINE BatchBits set_up_vector(const TileTask& task, const std::uint32_t* in
   store(t.payload, out.payload + k);
   store(x0, out.x0 + k), store(x1, out.x1 + k);
   store(y0, out.y0 + k), store(y1, out.y1 + k);
-  integer_walk = hn::Or(integer_walk, hn::Not(depth.exact));
+  const auto integer_walk = hn::Or(flat, hn::Not(depth.exact));
   return {mask_bits(accepted), mask_bits(hn::And(integer_walk, accepted))};
 }
 

@@ -14,7 +14,7 @@ namespace edgewise {
 namespace HWY_NAMESPACE {
 
 void draw_band(const BandTask& task) {
-  draw_band_by<true>(
+  draw_band_by<NarrowBatch>(
       task, [&](const ScreenTriangle& triangle, const PixelBox& box) { draw_spans(task, triangle, box); });
 }
 

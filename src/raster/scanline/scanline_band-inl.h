@@ -1,8 +1,8 @@
 // Draws the triangles of one band.
 //
-// Wide triangles go to a function draw_wide(triangle, box): draw_spans() here. With vectors, narrow ones can
-// be tested by edge functions instead. Each of their spans would fill only a few vectors, so mispredicted
-// branches and scalar set-up would take longer than drawing. They are set up one triangle per lane.
+// Wide triangles are drawn by their spans. With vectors, narrow ones are tested by edge functions instead.
+// Each of their spans would fill only a few vectors, so mispredicted branches and scalar set-up would take
+// longer than drawing. They are set up one triangle per lane.
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -82,24 +82,22 @@ HWY_INLINE V set(std::uint32_t v) {
   return hn::Set(D{}, static_cast<std::int32_t>(v));
 }
 
-// Draws a triangle by its spans.
-inline void draw_spans(const BandTask& task, const ScreenTriangle& triangle, const PixelBox& box) {
-  const Oriented t = orient(triangle);
-  if (t.area == 0) return;
-  const BandDepth z(make_depth(t), box);
+// Fills the spans for which for_each(span) calls span(y, begin, end).
+template <typename ForEach>
+HWY_INLINE void fill_spans(const BandTask& task, const BandDepth& z, std::uint32_t payload,
+                           ForEach&& for_each) {
 #if HWY_TARGET == HWY_SCALAR
-  for_each_span(t, box, [&](int y, int begin, int end) {
+  for_each([&](int y, int begin, int end) {
     const FrameRow row(task.frame, y);
     for (int x = begin, next; x < end; x = next) {
       const int cell = x & -kDepthCell;
       next = std::min(end, cell + kDepthCell);
-      fill_span(row.depth + cell, row.payload + cell, x - cell, next - cell, z.in_cell(x, y), z.zx,
-                triangle.payload);
+      fill_span(row.depth + cell, row.payload + cell, x - cell, next - cell, z.in_cell(x, y), z.zx, payload);
     }
   });
 #else
-  const V lane = hn::Iota(D{}, 0), z_in_vector = hn::Mul(lane, set(z.zx)), colour = set(triangle.payload);
-  for_each_span(t, box, [&](int y, int begin, int end) {
+  const V lane = hn::Iota(D{}, 0), z_in_vector = hn::Mul(lane, set(z.zx)), colour = set(payload);
+  for_each([&](int y, int begin, int end) {
     const FrameRow row(task.frame, y);
     for (int x = begin & -kLanes; x < end; x += kLanes) {
       const int at = vector_at(x, task.frame.width), from_cell = at - (x & -kDepthCell);
@@ -111,6 +109,16 @@ inline void draw_spans(const BandTask& task, const ScreenTriangle& triangle, con
   });
 #endif
 }
+
+// Draws a triangle by its spans.
+inline void draw_spans(const BandTask& task, const ScreenTriangle& triangle, const PixelBox& box) {
+  const Oriented t = orient(triangle);
+  if (t.area == 0) return;
+  fill_spans(task, BandDepth(make_depth(t), box), triangle.payload,
+             [&](auto&& span) { for_each_span(t, box, span); });
+}
+
+struct NarrowBatch;
 
 #if HWY_TARGET != HWY_SCALAR
 
@@ -140,6 +148,30 @@ HWY_INLINE V64 clamped_shift(V64 value) {
   return hn::Min(hn::Max(shifted, hn::Neg(limit)), limit);
 }
 
+// The boxes of a vector of triangles in a band.
+struct BoxLanes {
+  V32 x0, x1, y0, y1;
+};
+HWY_INLINE BoxLanes box_lanes(const BandTask& task, const TriangleLanes& t) {
+  const auto [x0, x1] = sample_range(t.x, 0, task.frame.width);
+  const auto [y0, y1] = sample_range(t.y, task.rows.begin, task.rows.end - task.rows.begin);
+  const V32 top = set32(task.rows.begin);
+  return {x0, x1, hn::Add(y0, top), hn::Add(y1, top)};
+}
+// The bits of a mask of 32-bit lanes, of which the lower one of each pair counts.
+HWY_INLINE std::uint32_t lower_bits(hn::Mask<D32> mask) {
+  const D64 d;
+  return mask_bits(hn::Lt(hn::ShiftLeft<32>(as64(hn::VecFromMask(D32{}, mask))), hn::Zero(d)));
+}
+// Stores the boxes as entries k … of a batch. Returns the bits of triangles that are drawn.
+template <typename Batch>
+HWY_INLINE std::uint32_t store_box(const BoxLanes& box, const Area& area, Batch& out, int k) {
+  store(box.x0, out.x0 + k), store(box.x1, out.x1 + k);
+  store(box.y0, out.y0 + k), store(box.y1, out.y1 + k);
+  return lower_bits(hn::And(hn::Lt(box.x0, box.x1), hn::Lt(box.y0, box.y1))) &
+         mask_bits(hn::Gt(area.value, hn::Zero(D64{})));
+}
+
 // Sets up a vector of triangles, from triangles[indices[k]] on, as entries k … of the batch.
 HWY_INLINE BatchBits set_up_vector(const BandTask& task, const std::uint32_t* indices, NarrowBatch& out,
                                    int k) {
@@ -147,9 +179,8 @@ HWY_INLINE BatchBits set_up_vector(const BandTask& task, const std::uint32_t* in
   const D32 d32;
   const V32 zero = hn::Zero(d32);
   const TriangleLanes t = load(task.bins.triangles(), indices + k);
-  const auto [x0, x1] = sample_range(t.x, 0, task.frame.width);
-  const auto [from_top, to_top] = sample_range(t.y, task.rows.begin, task.rows.end - task.rows.begin);
-  const V32 top = set32(task.rows.begin), y0 = hn::Add(from_top, top), y1 = hn::Add(to_top, top);
+  const BoxLanes box = box_lanes(task, t);
+  const auto [x0, x1, y0, y1] = box;
   const Area area = area_of(t);
   const V32 flip = lower(area.flip);
   const V32 sample_x = hn::Add(hn::ShiftLeft<kSubBits>(x0), set32(kHalf)),
@@ -173,20 +204,14 @@ HWY_INLINE BatchBits set_up_vector(const BandTask& task, const std::uint32_t* in
   store(in_cell(x0), out.depth.left + k), store(in_cell(hn::Sub(x1, set32(1))), out.depth.right + k);
   store(depth.x, out.depth.x + k), store(depth.y, out.depth.y + k);
   store(t.payload, out.payload + k);
-  store(x0, out.x0 + k), store(x1, out.x1 + k);
-  store(y0, out.y0 + k), store(y1, out.y1 + k);
-  // A mask of 32-bit lanes, of which the lower one of each pair counts.
-  const auto bits = [&](hn::Mask<D32> mask) {
-    return mask_bits(hn::Lt(hn::ShiftLeft<32>(as64(hn::VecFromMask(d32, mask))), hn::Zero(d)));
-  };
-  const std::uint32_t filled = bits(hn::And(hn::Lt(x0, x1), hn::Lt(y0, y1)));
-  const std::uint32_t drawn = filled & mask_bits(hn::Gt(area.value, hn::Zero(d)));
-  const std::uint32_t narrow = mask_bits(depth.exact) & bits(hn::Lt(hn::Sub(x1, x0), set32(kNarrow + 1)));
+  const std::uint32_t drawn = store_box(box, area, out, k);
+  const std::uint32_t narrow =
+      mask_bits(depth.exact) & lower_bits(hn::Lt(hn::Sub(x1, x0), set32(kNarrow + 1)));
   return {drawn, drawn & ~narrow};
 }
 
 // Draws triangle k of a batch, column by column of vectors. A box that two depth cells share has two parts.
-HWY_INLINE void draw_narrow(const BandTask& task, const NarrowBatch& batch, int k) {
+HWY_INLINE void draw(const BandTask& task, const NarrowBatch& batch, int k) {
   const D d;
   const V lane = hn::Iota(d, 0), colour = hn::Set(d, batch.payload[k]);
   const V zx = hn::Set(d, batch.depth.x[k]), zy = hn::Set(d, batch.depth.y[k]);
@@ -220,33 +245,32 @@ HWY_INLINE void draw_narrow(const BandTask& task, const NarrowBatch& batch, int 
 
 #endif
 
-// Draws a band's triangles in submission order.
-template <bool kVectorTest, typename DrawWide>
-HWY_INLINE void draw_band_by(const BandTask& task, DrawWide&& draw_wide) {
+// Draws a band's triangles in submission order: with vectors, those that fit a Batch by draw(task, batch, k),
+// the others by draw_one(triangle, box).
+template <typename Batch, typename DrawOne>
+HWY_INLINE void draw_band_by(const BandTask& task, DrawOne&& draw_one) {
   const ScreenTriangle* const triangles = task.bins.triangles();
   task.bins.for_each_segment_ahead(task.band, [&](const Bins::Segment& segment) {
-#if HWY_TARGET != HWY_SCALAR
-    if constexpr (kVectorTest) {
-      NarrowBatch batch;
-      const BatchBits bits = set_up_batch(segment.indices, [&](const std::uint32_t* padded, int k) {
-        return set_up_vector(task, padded, batch, k);
-      });
-      for (std::uint32_t left = bits.drawn; left != 0; left &= left - 1) {
-        const int k = std::countr_zero(left);
-        if (bits.scalar >> k & 1)
-          draw_wide(triangles[segment.indices[static_cast<std::size_t>(k)]],
-                    PixelBox{batch.x0[k], batch.y0[k], batch.x1[k], batch.y1[k]});
-        else
-          draw_narrow(task, batch, k);
-      }
-      return;
-    }
-#endif
+#if HWY_TARGET == HWY_SCALAR
     for (const std::uint32_t index : segment.indices) {
       PixelBox box = pixel_box(triangles[index], task.frame.width, task.rows.end);
       box.y0 = std::max(box.y0, task.rows.begin);
-      if (!box.empty()) draw_wide(triangles[index], box);
+      if (!box.empty()) draw_one(triangles[index], box);
     }
+#else
+    Batch batch;
+    const BatchBits bits = set_up_batch(segment.indices, [&](const std::uint32_t* padded, int k) {
+      return set_up_vector(task, padded, batch, k);
+    });
+    for (std::uint32_t left = bits.drawn; left != 0; left &= left - 1) {
+      const int k = std::countr_zero(left);
+      if (bits.scalar >> k & 1)
+        draw_one(triangles[segment.indices[static_cast<std::size_t>(k)]],
+                 PixelBox{batch.x0[k], batch.y0[k], batch.x1[k], batch.y1[k]});
+      else
+        draw(task, batch, k);
+    }
+#endif
   });
   clear_upper_halves();
 }
