@@ -13,9 +13,8 @@ CENTRED_SCENE = "mesh_on_grid"  # its shared edges run through pixel centres
 def factor_rows(bench):
     by_factor = {}
     for gain in gains(bench):
-        factor, _, level = gain.factor.partition(", ")
-        if gain.simd and factor in ("tiles over bands", "edges over spans"):
-            by_factor.setdefault(factor, []).append(f"{about(gain.median)} {level} ({gain.counts})")
+        if gain.simd and gain.field in ("traversal", "fill"):
+            by_factor.setdefault(gain.factor, []).append(f"{about(gain.median)} {gain.where} ({gain.counts})")
     if by_factor:
         yield [PARALLEL, "speed-up of " + "; of ".join(f"{factor} {', '.join(of)}" for factor, of in by_factor.items()),
                f"medians of scenes (won/lost/open) of [cells](#speed) without HiZ and masks, as implemented here; whole frames, {most_threads(cells(bench))} threads, "

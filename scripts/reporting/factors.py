@@ -12,7 +12,6 @@ from tables import about, kernels, number
 SCALAR = "scalar"
 HIZ, MASKS = "hiz", "hiz+masks"
 TRAVERSALS, FILLS = ("bands", "tiles"), ("spans", "edges")
-BY_SIMD = "SIMD over scalar"
 # What scalar code is, beside the table.
 SCALAR_CODE = ("Scalar: the compiler vectorizes the depth test of spans, on x86-64 with SSE2. Tiles with edges run the vector kernel with one lane. "
                "SIMD includes front end and binning. Pairs with a cell over 1.5 s are left out.")
@@ -44,22 +43,24 @@ def chosen(found, **levels):
 
 
 def factors(simd, threads):
-    """(title, field of a cell, level before, level after, levels of other factors, on which the gain depends)"""
+    """(factor, where, field of a cell, level before, level after, levels of other factors: where)"""
     for fill in FILLS:
-        yield f"tiles over bands, with {fill}", "traversal", *TRAVERSALS, {"fill": fill}
+        yield "tiles over bands", f"with {fill}", "traversal", *TRAVERSALS, {"fill": fill}
     for traversal in TRAVERSALS:
-        yield f"edges over spans, in {traversal}", "fill", *FILLS, {"traversal": traversal}
+        yield "edges over spans", f"in {traversal}", "fill", *FILLS, {"traversal": traversal}
     if simd:
         for traversal, fill in product(TRAVERSALS, FILLS):
-            yield f"{BY_SIMD}, {fill} in {traversal}", "simd", False, True, {"traversal": traversal, "fill": fill}
-        yield "HiZ", "extra", "", HIZ, {}
-        yield "masks, with HiZ", "extra", HIZ, MASKS, {}
-    yield f"{threads} threads over 1", "threads", 1, threads, {}
+            yield "SIMD over scalar", f"{fill} in {traversal}", "simd", False, True, {"traversal": traversal, "fill": fill}
+        yield "HiZ", "", "extra", "", HIZ, {}
+        yield "masks", "with HiZ", "extra", HIZ, MASKS, {}
+    yield f"{threads} threads over 1", "", "threads", 1, threads, {}
 
 
 class Gain(NamedTuple):
     """The speed-ups by a factor in cells with or without SIMD: each is of two cells of a scene that differ in nothing else."""
     factor: str
+    where: str  # "": everywhere
+    field: str  # of a cell
     simd: bool
     median: float
     least: tuple  # (speed-up, scene)
@@ -67,6 +68,10 @@ class Gain(NamedTuple):
     faster: int
     slower: int
     open: int
+
+    @property
+    def title(self):
+        return ", ".join(filter(None, (self.factor, self.where)))
 
     @property
     def pairs(self):
@@ -81,19 +86,19 @@ def gains(bench):
     """A Gain of each factor on the most threads, in all scenes: with SIMD, then in scalar code."""
     found = cells(bench)
     for simd in (True, False):
-        for title, field, before, after, levels in factors(simd, most_threads(found)):
+        for factor, where, field, before, after, levels in factors(simd, most_threads(found)):
             pairs = [(cell.scene, found[other], row) for cell, row in chosen(found, **{"simd": simd, **levels, field: after}).items()
                      if before != after and (other := cell._replace(**{field: before})) in found]
             if pairs:
                 speed_ups = [(gained(other, row), scene) for scene, other, row in pairs]
                 orders = [order(row, other) for _, other, row in pairs]
-                yield Gain(title, simd, median(ratio for ratio, _ in speed_ups), min(speed_ups), max(speed_ups),
+                yield Gain(factor, where, field, simd, median(ratio for ratio, _ in speed_ups), min(speed_ups), max(speed_ups),
                            *map(orders.count, (-1, 1, 0)))
 
 
 def factor_table(bench):
     """Header and lines; no lines if no cell was timed."""
-    found = {(gain.factor, gain.simd): gain for gain in gains(bench)}
+    found = {(gain.title, gain.simd): gain for gain in gains(bench)}
 
     def told(gain):
         if not gain:
@@ -102,8 +107,8 @@ def factor_table(bench):
         return [f"{about(gain.median)} ({ends})", gain.counts]
 
     return (["factor", kernels(bench.context.get("simd_target")), "won/lost/open", SCALAR, "won/lost/open"],
-            [[factor, *(cell for simd in (True, False) for cell in told(found.get((factor, simd))))]
-             for factor in dict.fromkeys(factor for factor, _ in found)])
+            [[title, *(cell for simd in (True, False) for cell in told(found.get((title, simd))))]
+             for title in dict.fromkeys(title for title, _ in found)])
 
 
 def conditions(bench, shown):
