@@ -195,7 +195,7 @@ class Accuracy:
     methods: dict  # by family, in the registry's order
     scenes: tuple
     cube: dict | None  # {"frames", "methods": [(Method, {"gaps": (median, worst) per frame, "double_hits": …,
-    # "total_gaps": over all frames, "total_double_hits"})]}
+    # "total_gaps": over all frames, "total_double_hits", "total_wrong": samples})]}
     flicker: dict = field(default_factory=dict)  # {moving scene: {method's name: superfluous changes per 10⁶ true ones}}
 
     def of(self, family):
@@ -258,7 +258,8 @@ def parse_cube(data, methods):
     def worst_of(entry):
         counts = ("gaps", "double_hits")
         return {**{key: (float(entry[key]["median"]), float(entry[key]["worst"])) for key in counts},
-                **{f"total_{key}": int(entry[key]["total"]) for key in counts}}
+                **{f"total_{key}": int(entry[key]["total"]) for key in counts},
+                "total_wrong": sum(int(entry[key]["total"]) for key in ("extra", "missing"))}
 
     rows = [(methods["coverage", entry["name"]], worst_of(entry)) for entry in cube["methods"]
             if not methods["coverage", entry["name"]].apart]

@@ -1,24 +1,26 @@
 """README's first table: the answers to its questions, each with its condition."""
-from factors import cells, chosen, gains, most_threads
-from frontier import EXACT, INSIDE_TESTS, PRICED, simd_gain
+from factors import SCALAR, cells, chosen, gains, most_threads
+from frontier import EXACT, INSIDE_TESTS, PRICED, simd_gain, wrong_of
 from bench_tables import OURS, THREADS, compared_targets, timed_peers
 from tables import about, by_order, kernels, number, outcome
 
 HEADER = ["question", "answer", "condition"]
 MOST = 8
 PARALLEL = "Parallel or scanline?"
-CENTRED_SCENE = "mesh_on_grid"  # its shared edges run through pixel centres
+ON_AND_OFF_GRID = ("mesh_on_grid", "mesh")
 
 
 def factor_rows(bench):
-    by_factor = {}
+    target, by_code = kernels(bench.context.get("simd_target")), {}
     for gain in gains(bench):
-        if gain.simd and gain.field in ("traversal", "fill"):
-            by_factor.setdefault(gain.factor, []).append(f"{about(gain.median)} {gain.where} ({gain.counts})")
-    if by_factor:
-        yield [PARALLEL, "speed-up of " + "; of ".join(f"{factor} {', '.join(of)}" for factor, of in by_factor.items()),
-               f"medians of scenes (won/lost/open) of [cells](#speed) without HiZ and masks, as implemented here; whole frames, {most_threads(cells(bench))} threads, "
-               f"{kernels(bench.context.get('simd_target'))}"]
+        if gain.field in ("traversal", "fill"):
+            of = by_code.setdefault(target if gain.simd else SCALAR, {})
+            of.setdefault(gain.factor, []).append(f"{about(gain.median)} {gain.where} ({gain.counts})")
+    if by_code:
+        told = (f"{code}: " + "; ".join(f"{factor} {', '.join(said)}" for factor, said in of.items()) for code, of in by_code.items())
+        yield [PARALLEL, "speed-up with " + ". With ".join(told),
+               "medians of scenes (won/lost/open) of [cells](#speed) without HiZ and masks, as implemented here; the size of triangles decides, "
+               f"too: [chart](#speed); whole frames, {most_threads(cells(bench))} threads"]
 
 
 def box_rows(bench):
@@ -46,23 +48,32 @@ def box_rows(bench):
 def exactness_rows(accuracy, target):
     found = {name: simd_gain(accuracy, name, EXACT) for name in PRICED if name != EXACT}
     if all(found.values()):
-        yield ["What does exactness cost?", "speed-up by " + "; by ".join(f"`{name}` {gain}" for name, gain in found.items()),
-               f"over `{EXACT}`, exact after snapping; with snapping and set-up; geometric mean, range and won/lost/open of scenes; one thread, {kernels(target)}"]
+        of = {method.name: method for method in accuracy.methods["coverage"]}
+        wrong = ", ".join(f"`{name}` {number(wrong_of(accuracy, of[name]).rate, 2)}" for name in PRICED)
+        kernel = simd_gain(accuracy, "engine_float", "engine_exact")
+        yield ["What does exactness cost?", "speed-up by " + "; by ".join(f"`{name}` {gain}" for name, gain in found.items())
+               + (f"; in `{OURS}`'s kernel, by floats {kernel}" if kernel else "") + f". Wrong pixels per 10⁶ crossings: {wrong}",
+               f"over `{EXACT}`, exact after snapping, in a loop with snapping and set-up; geometric mean, range and won/lost/open of scenes; one thread, {kernels(target)}"]
 
 
 def gap_rows(accuracy):
-    turned = [(m, found["total_gaps"], found["total_double_hits"]) for m, found in (accuracy.cube or {"methods": ()})["methods"]]
+    counts = ("total_gaps", "total_double_hits", "total_wrong")
+    turned = [(m, *map(found.get, counts)) for m, found in (accuracy.cube or {"methods": ()})["methods"]]
     ours = [counts for m, *counts in turned if m.ours]
     if ours:
-        told = [(f"`{m.name}`", *counts) for m, *counts in turned if m.name in INSIDE_TESTS] + [("ours", *map(sum, zip(*ours)))]
-        yield ["Gaps / double hits when the cube turns?", ", ".join(f"{who} {gaps:,} / {doubles:,}" for who, gaps, doubles in told),
-               f"{accuracy.cube['frames']:,} frames of the tutorials' cube; `float_le` takes samples on an edge as inside, `float_lt` does not"]
-    scene = next((s for s in accuracy.of("coverage") if s.name == CENTRED_SCENE), None)
-    ours = [m.seen[0] for m in scene.measured if m.method.ours and m.seen] if scene else []
-    if ours:
-        tests = [f"`{name}` {m.seen[0]:,}" for name in INSIDE_TESTS if (m := scene.of(name)) and m.seen]
-        yield ["Where edges meet pixel centres?", f"{', '.join([*tests, f'ours {max(ours):,}'])} wrong pixels",
-               f"`{CENTRED_SCENE}`, whose vertices lie on the 1/256 px grid; {number(scene.trials)} crossings of edges with rows or columns of centres"]
+        told = [(f"`{m.name}`", *counts) for m, *counts in turned if m.name in INSIDE_TESTS] + [("ours", *map(max, zip(*ours)))]
+        yield ["Gaps / double hits / wrong samples when the cube turns?", ", ".join(f"{who} {' / '.join(f'{n:,}' for n in of)}" for who, *of in told),
+               f"{accuracy.cube['frames']:,} frames of the tutorials' cube; wrong against the caller's positions, which ours snap to 1/256 px; "
+               "`float_le` takes samples on an edge as inside, `float_lt` does not"]
+    told = []
+    for scene in (s for s in accuracy.of("coverage") if s.name in ON_AND_OFF_GRID):
+        ours = [m.seen for m in scene.measured if m.method.ours and m.seen]
+        of = [(f"`{name}`", m.seen) for name in INSIDE_TESTS if (m := scene.of(name)) and m.seen] + [("ours", max(ours))] if ours else []
+        wrong = [f"{who} {px:,} / {holes:,}" for who, (px, holes) in of if px]
+        told += [f"`{scene.name}`: " + ", ".join(wrong + (["all others 0"] if len(wrong) < len(of) else []))] if of else []
+    if told:
+        yield ["Wrong pixels / of these holes where edges meet pixel centres?", "; ".join(told),
+               "vertices of `mesh_on_grid` lie on the 1/256 px grid and its edges on centres, those of `mesh` do not; a hole shows another surface"]
 
 
 def peer_rows(bench):
@@ -71,7 +82,7 @@ def peer_rows(bench):
         said = [outcome(by_order(of)) + f" on {threads} thread{'' if threads == 1 else 's'}" for threads in THREADS
                 if (of := [(ours, row) for (_, n), (row, ours) in found.items() if n == threads])]
         yield [f"Against {peer}?", f"`{OURS}` {'; '.join(said)}",
-               f"{peer} is {bench.context.get(peer, 'of unknown version')}; whole frames, ours with {kernels(target)}; frames over 0.3 s are timed once"]
+               f"{peer} is {bench.context.get(peer, 'of unknown version')}; whole frames, ours with {kernels(target)}; of two draws of a frame over 0.3 s the faster counts, and only a ratio over 2 is settled"]
 
 
 def answers(bench, accuracy):

@@ -11,10 +11,13 @@ from tables import about, kernels, number
 
 SCALAR = "scalar"
 HIZ, MASKS = "hiz", "hiz+masks"
+ELSEWHERE = "elsewhere"
+DEEP, SMALL_PX = 4, 10  # where HiZ and masks can act: overdraw; covered pixels per triangle
 TRAVERSALS, FILLS = ("bands", "tiles"), ("spans", "edges")
 # What scalar code is, beside the table.
-SCALAR_CODE = ("Scalar: the compiler vectorizes the depth test of spans, on x86-64 with SSE2. Tiles with edges run the vector kernel with one lane. "
-               "SIMD includes front end and binning. Pairs with a cell over 1.5 s are left out.")
+SCALAR_CODE = ("Scalar: the compiler vectorizes the depth test of spans, on x86-64 with SSE2; tiles with edges run the vector kernel with one lane, which is "
+               "not the best scalar code. Tiles with edges reject blocks first, bands with edges test whole boxes. SIMD includes front end and binning. "
+               "Pairs with a cell over 1.5 s are left out.")
 
 
 class Cell(NamedTuple):
@@ -42,24 +45,35 @@ def chosen(found, **levels):
     return {cell: row for cell, row in found.items() if all(getattr(cell, field) == level for field, level in levels.items())}
 
 
+def everywhere(_):
+    return True
+
+
+def triangle_px(row):
+    """Covered pixels per triangle, culled ones included."""
+    return row.counters["covered_px"] / row.counters["triangles"]
+
+
 def factors(simd, threads):
-    """(factor, where, field of a cell, level before, level after, levels of other factors: where)"""
+    """(factor, where, field of a cell, level before, level after, levels of other factors: where, whether a row's scene is meant)"""
     for fill in FILLS:
-        yield "tiles over bands", f"with {fill}", "traversal", *TRAVERSALS, {"fill": fill}
+        yield "tiles over bands", f"with {fill}", "traversal", *TRAVERSALS, {"fill": fill}, everywhere
     for traversal in TRAVERSALS:
-        yield "edges over spans", f"in {traversal}", "fill", *FILLS, {"traversal": traversal}
+        yield "edges over spans", f"in {traversal}", "fill", *FILLS, {"traversal": traversal}, everywhere
     if simd:
         for traversal, fill in product(TRAVERSALS, FILLS):
-            yield "SIMD over scalar", f"{fill} in {traversal}", "simd", False, True, {"traversal": traversal, "fill": fill}
-        yield "HiZ", "", "extra", "", HIZ, {}
-        yield "masks", "with HiZ", "extra", HIZ, MASKS, {}
-    yield f"{threads} threads over 1", "", "threads", 1, threads, {}
+            yield "SIMD over scalar", f"{fill} in {traversal}", "simd", False, True, {"traversal": traversal, "fill": fill}, everywhere
+        for where, deep in ((f"overdraw ≥{DEEP}", True), (ELSEWHERE, False)):
+            yield "HiZ", where, "extra", "", HIZ, {}, lambda row, deep=deep: (row.counters["overdraw"] >= DEEP) == deep
+        for where, small in ((f"triangles ≤{SMALL_PX} px", True), (ELSEWHERE, False)):
+            yield "masks, with HiZ", where, "extra", HIZ, MASKS, {}, lambda row, small=small: (triangle_px(row) <= SMALL_PX) == small
+    yield f"{threads} threads over 1", "all cells", "threads", 1, threads, {}, everywhere
 
 
 class Gain(NamedTuple):
     """The speed-ups by a factor in cells with or without SIMD: each is of two cells of a scene that differ in nothing else."""
     factor: str
-    where: str  # "": everywhere
+    where: str
     field: str  # of a cell
     simd: bool
     median: float
@@ -71,7 +85,7 @@ class Gain(NamedTuple):
 
     @property
     def title(self):
-        return ", ".join(filter(None, (self.factor, self.where)))
+        return f"{self.factor}, {self.where}"
 
     @property
     def pairs(self):
@@ -86,9 +100,9 @@ def gains(bench):
     """A Gain of each factor on the most threads, in all scenes: with SIMD, then in scalar code."""
     found = cells(bench)
     for simd in (True, False):
-        for factor, where, field, before, after, levels in factors(simd, most_threads(found)):
+        for factor, where, field, before, after, levels, meant in factors(simd, most_threads(found)):
             pairs = [(cell.scene, found[other], row) for cell, row in chosen(found, **{"simd": simd, **levels, field: after}).items()
-                     if before != after and (other := cell._replace(**{field: before})) in found]
+                     if before != after and meant(row) and (other := cell._replace(**{field: before})) in found]
             if pairs:
                 speed_ups = [(gained(other, row), scene) for scene, other, row in pairs]
                 orders = [order(row, other) for _, other, row in pairs]
@@ -119,11 +133,11 @@ def conditions(bench, shown):
 
 
 class Duel(NamedTuple):
-    """Bands against tiles in one scene, without HiZ and masks."""
+    """Bands against tiles in one scene: cells without HiZ and masks and, with SIMD, the backends `scanline` and `tiled`."""
     scene: str
     triangle_px: float
     overdraw: float
-    bands: dict  # {fill, or the backend `scanline`: row}, the fastest first
+    bands: dict  # {fill or backend: row}, the fastest first
     tiles: dict
 
     @property
@@ -151,14 +165,15 @@ class Duel(NamedTuple):
 
 
 def duels(bench, simd):
-    """On the most threads, in the suite's order. `scanline` is bands with SIMD, of both fills."""
+    """On the most threads, in the suite's order."""
     found = cells(bench)
     for scene in dict.fromkeys(cell.scene for cell in found):
         bands, tiles = ({cell.fill: row for cell, row in chosen(found, scene=scene, simd=simd, traversal=traversal).items()}
                         for traversal in TRAVERSALS)
         if bands and tiles:
-            seen = next(iter(bands.values())).counters
-            if simd and (shipped := bench.frame("scanline", scene, most_threads(found))):
-                bands["scanline"] = shipped
-            yield Duel(scene, seen["covered_px"] / seen["triangles"], seen["overdraw"],
+            seen = next(iter(bands.values()))
+            for side, backend in ((bands, "scanline"), (tiles, "tiled")) if simd else ():
+                if shipped := bench.frame(backend, scene, most_threads(found)):
+                    side[backend] = shipped
+            yield Duel(scene, triangle_px(seen), seen.counters["overdraw"],
                        *(dict(sorted(side.items(), key=lambda pair: pair[1].median_ms)) for side in (bands, tiles)))

@@ -107,13 +107,12 @@ def portable_table(found):
 # What scenes need, and what the tutorials' engines have.
 PLANES = ("near plane", "far plane", "guard band")
 FACING, VISIBILITY, DEPTH, BITS = "facing test", "visibility", "depth buffer", "subpixel bits"
-FLOATS = "float edges without a crack"
 # Questions about edges and float depths, all else exact: the title of their line, and how the question begins.
 EDGES = {"no crack or fold": "subpixel bits: no crack, no fold", "no worse than 8 bits": "subpixel bits, no worse than 8 bits",
          "float depth": "float depth buffer", "edge values": "edge values"}
 
 # The tutorials' engines by stage: the question, and their answer.
-TUTORIALS = (("Pico-8 software renderer", FLOATS, "float_le"), ("Pico-8 software renderer", VISIBILITY, "submission_order"),
+TUTORIALS = (("Pico-8 software renderer", VISIBILITY, "submission_order"),
              ("p5.js engine", "near plane", "clip"), ("p5.js engine", VISIBILITY, "painter_mean"),
              ("REALbasic engine", FACING, "normal_dot_eye"), ("Outlaw Triad trainer", FACING, "normal_z"),
              ("Outlaw Triad trainer", "near plane", "nothing"))

@@ -3,7 +3,7 @@ from bench_rows import gained_interval
 from factors import SCALAR, cells, duels, most_threads
 from plot_labels import Label, label_points
 from plot_style import BACKENDS, FAINT, INK, WIDTH_IN, dark, head_in, headline, log_axis, plt, round_ticks, save
-from tables import enumerated, kernels
+from tables import kernels
 
 PANELS = {"<1": (0, 1), "1–4": (1, 4), "≥4": (4, float("inf"))}  # overdraw
 LOOKS = {"bands": BACKENDS["scanline"], "tiles": BACKENDS["tiled"]}
@@ -14,28 +14,13 @@ def in_panel(found, panel):
     return [duel for duel in found if low <= duel.overdraw < high]
 
 
-def counted(found):
-    """Scenes that each side wins, where it is settled."""
-    return {side: sum(duel.order == order for duel in found) for side, order in (("bands", -1), ("tiles", 1))}
-
-
-def winner(found):
-    """The side that wins more than half of the scenes, None if neither does."""
-    return next((side for side, wins in counted(found).items() if 2 * wins > len(found)), None)
-
-
 def title(found, code):
-    """Who wins most scenes, by overdraw."""
-    sides = {panel: winner(of) for panel in PANELS if (of := in_panel(found, panel))}
-    won = {side: enumerated([panel for panel, of in sides.items() if of == side]) for side in (*sides.values(), None)}
-    open_at = won.pop(None)
-    if len(won) == 2 or won and open_at:
-        (first, its), (second, others) = (*won.items(), ("neither", open_at))[:2]
-        return f"{code}: {first} win most at overdraw {its}, {second} at {others}"
-    if won and len(sides) == len(PANELS):
-        return f"{code}: {next(iter(won))} win most at every overdraw"
-    wins = counted(found)
-    return f"{code}: bands win {wins['bands']} of {len(found)} scenes, tiles {wins['tiles']}, others are open"
+    """How many scenes bands win, lose and leave open, by overdraw."""
+    def told(of):
+        orders = [duel.order for duel in of]
+        return "/".join(str(orders.count(order)) for order in (-1, 1, 0))
+
+    return f"{code}: bands won/lost/open by overdraw: " + ", ".join(f"{panel} {told(of)}" for panel in PANELS if (of := in_panel(found, panel)))
 
 
 def panel(axes, found, low, high):
@@ -63,8 +48,8 @@ def factors(bench, folder, caption):
     rows = {code: found for code, simd in ((target, True), (f"{SCALAR}; spans vectorized by the compiler", False)) if (found := list(duels(bench, simd)))}
     if not rows:
         return None
-    subtitle = (f"A marker is a scene, whole frames on {most_threads(cells(bench))} threads: the fastest with bands (cells and, with SIMD, scanline) "
-                "against the fastest with tiles, all without HiZ and masks. Up: bands are faster; down: tiles. Label: the scene, and what wins. "
+    subtitle = (f"A marker is a scene, whole frames on {most_threads(cells(bench))} threads: the fastest with bands against the fastest with tiles, of cells "
+                "without HiZ and masks and, with SIMD, the backends scanline and tiled. Up: bands are faster; down: tiles. Label: the scene, and what wins. "
                 "Filled: settled against all of the other side. Light bars: 95 % intervals.")
     above, below, each = 0.5 + head_in(subtitle), 0.9, 3.2
     figure, grid = plt.subplots(len(rows), len(PANELS), sharex=True, sharey="row", squeeze=False,

@@ -270,7 +270,8 @@ def grid(sweeps, accuracy, folder, caption):
         for i, sweep in enumerate(of):
             x = NAME_IN + i * (cell_in + GAP_IN)
             axes.text(x, y + 0.34, sweep.name.removesuffix(OFF_GRID).replace("_", " "), fontsize=8.3, va="bottom")
-            axes.text(x, y + 0.47, scale_text(sweep.x), fontsize=6.5, color=FAINT, va="bottom")
+            ends = " to ".join(tidy(sweep.curves[0].points[end][0]) for end in (0, -1))
+            axes.text(x, y + 0.47, f"{scale_text(sweep.x)}: {ends}", fontsize=6.5, color=FAINT, va="bottom")
         y += HEAD_IN - 0.08
         for method, curves in rows:
             axes.text(0.08, y + ROW_IN / 2, method.name, fontsize=8.6, va="center",
