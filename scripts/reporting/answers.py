@@ -1,5 +1,5 @@
 """README's first table: the answers to its questions, each with its condition."""
-from factors import SCALAR, cells, chosen, gains, most_threads
+from factors import cells, chosen, gains, most_threads
 from frontier import EXACT, INSIDE_TESTS, PRICED, simd_gain, wrong_of
 from bench_tables import OURS, THREADS, compared_targets, timed_peers
 from tables import about, by_order, kernels, number, outcome
@@ -14,11 +14,11 @@ def factor_rows(bench):
     target, by_code = kernels(bench.context.get("simd_target")), {}
     for gain in gains(bench):
         if gain.field in ("traversal", "fill"):
-            of = by_code.setdefault(target if gain.simd else SCALAR, {})
+            of = by_code.setdefault(f"with {target}" if gain.simd else "in scalar code", {})
             of.setdefault(gain.factor, []).append(f"{about(gain.median)} {gain.where} ({gain.counts})")
     if by_code:
         told = (f"{code}: " + "; ".join(f"{factor} {', '.join(said)}" for factor, said in of.items()) for code, of in by_code.items())
-        yield [PARALLEL, "speed-up with " + ". With ".join(told),
+        yield [PARALLEL, "speed-up " + ". ".join(told),
                "medians of scenes (won/lost/open) of [cells](#speed) without HiZ and masks, as implemented here; the size of triangles decides, "
                f"too: [chart](#speed); whole frames, {most_threads(cells(bench))} threads"]
 

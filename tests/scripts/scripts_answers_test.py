@@ -112,7 +112,7 @@ class AnswersTest(unittest.TestCase):
         self.assertEqual(answers(bench(rows), None)[0],
                          ["Parallel or scanline?",
                           "speed-up with AVX-512: tiles over bands 2.0× with spans (3/0/0), 0.50× with edges (0/2/1); edges over spans 2.0× in bands (3/0/0), "
-                          "0.50× in tiles (0/3/0). With scalar: tiles over bands 2.0× with spans (3/0/0), 0.50× with edges (0/2/1); edges over spans "
+                          "0.50× in tiles (0/3/0). in scalar code: tiles over bands 2.0× with spans (3/0/0), 0.50× with edges (0/2/1); edges over spans "
                           "2.0× in bands (3/0/0), 0.50× in tiles (0/3/0)",
                           "medians of scenes (won/lost/open) of [cells](#speed) without HiZ and masks, as implemented here; the size of triangles "
                           "decides, too: [chart](#speed); whole frames, 2 threads"])
