@@ -14,6 +14,7 @@
 
 #include "cli/accuracy/closeup.h"
 #include "cli/commands.h"
+#include "core/trigonometry.h"
 #include "support/console.h"
 #include "support/json_text.h"
 #include "support/options.h"
@@ -46,7 +47,7 @@ glm::dvec3 centre_of(const Scene& scene) {
 // that axis turns by yaw.
 void turn_camera(Camera& camera, glm::dvec3 centre, double radians) {
   const glm::dvec3 from = camera.position - centre;
-  const double c = std::cos(radians), s = std::sin(radians);
+  const double c = cosine(radians), s = sine(radians);
   camera.position = centre + glm::dvec3(c * from.x + s * from.z, from.y, c * from.z - s * from.x);
   camera.look_at(centre);
   if (from.x == 0.0 && from.z == 0.0) camera.yaw = static_cast<float>(radians);

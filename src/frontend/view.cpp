@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
 #include <stdexcept>
 
 #include "core/finite.h"
+#include "core/trigonometry.h"
 
 namespace edgewise {
 
@@ -34,12 +34,14 @@ glm::vec3 model_point(const glm::dmat3& axes, glm::dvec3 world) {
 
 }  // namespace
 
+glm::dmat3 to_camera_frame(const Camera& camera) {
+  return rotation({1, 0, 0}, -double{camera.pitch}) * rotation({0, 1, 0}, -double{camera.yaw});
+}
+
 glm::dmat3 pixels_of(const Camera& camera, int width_px, int height_px) {
   const double half_w = width_px / 2.0, half_h = height_px / 2.0;
-  const double focal_px = half_h / std::tan(double{camera.fov_y} / 2.0);
-  glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), -double{camera.pitch}, glm::dvec3(1, 0, 0));
-  turn = glm::rotate(turn, -double{camera.yaw}, glm::dvec3(0, 1, 0));
-  return glm::dmat3(focal_px, 0, 0, 0, -focal_px, 0, -half_w, -half_h, -1) * glm::dmat3(turn);
+  const double focal_px = half_h / tangent(double{camera.fov_y} / 2.0);
+  return glm::dmat3(focal_px, 0, 0, 0, -focal_px, 0, -half_w, -half_h, -1) * to_camera_frame(camera);
 }
 
 ViewVolume view_volume(const Camera& camera, int width_px, int height_px) {

@@ -11,6 +11,9 @@ namespace edgewise {
 // The view volume of a camera. Throws std::invalid_argument if a value of the camera is out of range.
 ViewVolume view_volume(const Camera& camera, int width_px, int height_px);
 
+// Rotates world-space vectors into view space.
+glm::dmat3 to_camera_frame(const Camera& camera);
+
 // World directions → x and y in pixels times w, and w. A point has the same, relative to the camera.
 glm::dmat3 pixels_of(const Camera& camera, int width_px, int height_px);
 

@@ -1,9 +1,8 @@
 #include "lab/view_space.h"
 
-#include <cmath>
-#include <glm/gtc/matrix_transform.hpp>
-
+#include "core/trigonometry.h"
 #include "frontend/shade.h"
+#include "frontend/view.h"
 
 namespace edgewise::lab {
 
@@ -54,7 +53,7 @@ std::vector<std::uint8_t> fronts_of(const FacingMethod& method, const ClippingSc
   FacingScene scene;
   scene.view.down = {0.0f, -1.0f, 0.0f};
   scene.view.forward = {0.0f, 0.0f, -1.0f};
-  scene.view.focal_px = half_height_px / std::tan(seen.scene.camera.fov_y * 0.5f);
+  scene.view.focal_px = half_height_px / tangent(seen.scene.camera.fov_y * 0.5f);
   scene.view.size = seen.size;
   scene.positions = seen.mesh().positions;
   for (std::uint32_t i = 0; i < seen.mesh().triangles.size(); ++i)
@@ -64,12 +63,6 @@ std::vector<std::uint8_t> fronts_of(const FacingMethod& method, const ClippingSc
   for (std::size_t i = 1; method.by_normal && i < fronts.size(); ++i)
     if (seen.mesh().has_flag(i, kSameFace)) fronts[i] = fronts[i - 1];
   return fronts;
-}
-
-glm::dmat3 to_camera_frame(const Camera& camera) {
-  glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), -double{camera.pitch}, glm::dvec3(1, 0, 0));
-  turn = glm::rotate(turn, -double{camera.yaw}, glm::dvec3(0, 1, 0));
-  return glm::dmat3(turn);
 }
 
 glm::vec3 line_of_sight(const Camera& camera) {

@@ -23,7 +23,5 @@ glm::vec3 line_of_sight(const Camera& camera);
 // The direction in the space of an instance's mesh: its product with a normal there has the sign that the
 // world-space ones have, also if the instance scales or mirrors. The instance must have an invertible matrix.
 glm::vec3 in_mesh_space(const Instance& instance, glm::dvec3 direction);
-// Rotates world-space vectors into view space.
-glm::dmat3 to_camera_frame(const Camera& camera);
 
 }  // namespace edgewise::lab

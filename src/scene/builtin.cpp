@@ -9,6 +9,7 @@
 
 #include "core/nearest_name.h"
 #include "core/random.h"
+#include "core/trigonometry.h"
 #include "scene/streams.h"
 
 #ifndef EDGEWISE_MORE_SCENES
@@ -113,7 +114,7 @@ Drawable sphere(const SceneRequest& request) {
   // Equal angles, not equal lengths, keep the cells similar. The ends are exactly -1 and 1.
   const auto bend = [](float t) {
     const float d = 2.0f * t - 1.0f;
-    return std::abs(d) == 1.0f ? d : std::tan(d * kPi / 4.0f);
+    return std::abs(d) == 1.0f ? d : tangent(d * kPi / 4.0f);
   };
   Scene scene;
   const Mesh cube = cube_mesh();
@@ -139,8 +140,8 @@ Drawable torus_knot(const SceneRequest& request) {
   constexpr float kTube = 0.32f;                   // radius
   // The (2, 3) knot on a torus of radii 1.2 and 0.5.
   const auto curve = [](float t) {
-    const float radius = 1.2f + 0.5f * std::cos(3.0f * t);
-    return glm::vec3(radius * std::cos(2.0f * t), radius * std::sin(2.0f * t), 0.5f * std::sin(3.0f * t));
+    const float radius = 1.2f + 0.5f * cosine(3.0f * t);
+    return glm::vec3(radius * cosine(2.0f * t), radius * sine(2.0f * t), 0.5f * sine(3.0f * t));
   };
   Scene scene;
   scene.meshes.push_back(sheet(
@@ -152,11 +153,10 @@ Drawable torus_knot(const SceneRequest& request) {
         // Vertices on the seam must have the same bits on both sides.
         const float t = u == 1.0f ? 0.0f : u * 2.0f * kPi, angle = v == 1.0f ? 0.0f : v * 2.0f * kPi;
         const glm::vec3 centre = curve(t), tangent = glm::normalize(curve(t + kStep) - curve(t - kStep));
-        const float outward = std::cos(3.0f * t);
-        const glm::vec3 normal(outward * std::cos(2.0f * t), outward * std::sin(2.0f * t),
-                               std::sin(3.0f * t));
+        const float outward = cosine(3.0f * t);
+        const glm::vec3 normal(outward * cosine(2.0f * t), outward * sine(2.0f * t), sine(3.0f * t));
         const glm::vec3 side = glm::normalize(glm::cross(tangent, normal)), up = glm::cross(side, tangent);
-        return centre + kTube * (std::cos(angle) * side - std::sin(angle) * up);
+        return centre + kTube * (cosine(angle) * side - sine(angle) * up);
       },
       [&](float u, float) {
         const float hue = u * 12.0f;

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "core/finite.h"
+#include "core/trigonometry.h"
 #include "edgewise/scene.h"
 
 namespace edgewise {
@@ -48,8 +49,10 @@ void frame_camera(Scene& scene, double aspect) {
   for_each_corner(scene, [&](const glm::dvec3& p) { radius = std::max(radius, glm::distance(centre, p)); });
   if (radius == 0.0) radius = 1.0;
 
-  const double half_fov = std::atan(std::tan(0.5 * double{kFovY}) * std::min(aspect, 1.0));
-  const double distance = kMargin * radius / std::sin(half_fov);
+  // Of half the angle of the narrower side. The sphere touches the side of the view: distance = radius /
+  // sine.
+  const double tan = tangent(0.5 * double{kFovY}) * std::min(aspect, 1.0);
+  const double distance = kMargin * radius * std::sqrt(1.0 + tan * tan) / tan;
   Camera& camera = scene.camera;
   camera.position = centre + distance * glm::normalize(glm::dvec3(0.4, 0.35, 1.0));
   camera.fov_y = kFovY;

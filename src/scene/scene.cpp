@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "core/trigonometry.h"
+
 namespace edgewise {
 
 namespace {
@@ -46,17 +48,17 @@ void Mesh::add_quad(glm::uvec4 corners, std::uint32_t colour, bool two_sided) {
 }
 
 void Camera::look_at(glm::dvec3 target) {
-  // Adding 0 turns -0 into 0: atan2 tells them apart.
-  const glm::dvec3 back = position - target + 0.0;
+  glm::dvec3 back = position - target;
   if (back == glm::dvec3(0.0)) return;
-  yaw = static_cast<float>(std::atan2(back.x, back.z));
-  pitch = static_cast<float>(std::atan2(0.0 - back.y, std::hypot(back.x, back.z)));
+  back /= std::max({std::abs(back.x), std::abs(back.y), std::abs(back.z)});  // so that squares stay in range
+  yaw = static_cast<float>(arctangent(back.x, back.z));
+  pitch = static_cast<float>(arctangent(-back.y, glm::length(glm::dvec2(back.x, back.z))));
 }
 
 glm::dmat4 model_matrix(const Instance& instance) {
   glm::dmat4 m = glm::translate(glm::dmat4(1.0), instance.translation);
   if (instance.angle != 0.0f && instance.axis != glm::vec3(0.0f))
-    m = glm::rotate(m, double{instance.angle}, glm::dvec3(instance.axis));
+    m *= glm::dmat4(rotation(instance.axis, double{instance.angle}));
   return glm::scale(m, instance.scale);
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/nearest_name.h"
+#include "core/trigonometry.h"
 #include "edgewise/builtin.h"
 #include "scene/polygon.h"
 
@@ -71,7 +72,7 @@ Scene ring_of_cubes() {
         2.0f * std::numbers::pi_v<float> * static_cast<float>(i) / static_cast<float>(kCubes);
     scene.instances.push_back({.scale = glm::vec3(0.9f),
                                .angle = 0.3f + around,
-                               .translation = {5.0f * std::sin(around), 0.0f, -5.0f * std::cos(around)}});
+                               .translation = {5.0f * sine(around), 0.0f, -5.0f * cosine(around)}});
   }
   // The slab below the camera reaches through the near plane.
   scene.instances.push_back({.scale = {0.5f, 0.1f, 2.0f}, .translation = {0.0f, -0.6f, 0.0f}});

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <numbers>
 
-#include "lab/view_space.h"
+#include "core/trigonometry.h"
+#include "frontend/view.h"
 
 namespace edgewise::viewer {
 
@@ -14,10 +14,10 @@ namespace {
 
 constexpr double kMostCoordinate = 1e12;  // world units; bound of the camera's coordinates
 
-glm::quat rotation(glm::vec3 axis, float angle) {
+glm::quat quaternion(glm::vec3 axis, float angle) {
   const float length = glm::length(axis);
   if (!(length > 0.0f)) return glm::quat(1.0f, 0.0f, 0.0f, 0.0f);
-  return glm::angleAxis(angle, axis / length);
+  return glm::quat(cosine(0.5f * angle), sine(0.5f * angle) * (axis / length));
 }
 
 }  // namespace
@@ -39,7 +39,7 @@ glm::vec3 World::first_axis() const {
 }
 
 void World::turn(glm::vec3 axis, float angle) {
-  const glm::quat by = rotation(axis, angle);
+  const glm::quat by = quaternion(axis, angle);
   auto& instances = std::get<Scene>(drawable_).instances;
   for (std::size_t i = 0; i < loaded_.size(); ++i) {
     const Instance& from = loaded_[i];
@@ -47,16 +47,16 @@ void World::turn(glm::vec3 axis, float angle) {
       instances[i] = from;  // bit-identical to the loaded scene
       continue;
     }
-    const glm::quat both = by * rotation(from.axis, from.angle);
-    instances[i].axis = glm::axis(both);
-    instances[i].angle = glm::angle(both);
+    const glm::quat both = by * quaternion(from.axis, from.angle);
+    instances[i].axis = {both.x, both.y, both.z};
+    instances[i].angle = static_cast<float>(2 * arctangent(glm::length(instances[i].axis), both.w));
     instances[i].translation = middle_ + glm::dquat(by) * (from.translation - middle_);
   }
 }
 
 void move(Camera& camera, glm::vec3 distance, bool along_view) {
   glm::dvec3 step(distance);
-  if (along_view) step = glm::transpose(lab::to_camera_frame(camera)) * step;
+  if (along_view) step = glm::transpose(to_camera_frame(camera)) * step;
   camera.position = glm::clamp(camera.position + step, -kMostCoordinate, kMostCoordinate);
 }
 

@@ -2,6 +2,7 @@
 #include <array>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "core/trigonometry.h"
 #include "lab/clipping/clipping.h"
 #include "lab/clipping/pipeline.h"
 
@@ -52,9 +53,14 @@ struct AtDistance {
 void draw_by_matrix(const ClippingScene& scene, ClippingFrame& frame, glm::vec3 origin) {
   const Camera& camera = scene.scene.camera;
   const auto width = static_cast<float>(scene.size.width), height = static_cast<float>(scene.size.height);
-  glm::mat4 matrix = glm::perspectiveRH_ZO(camera.fov_y, width / height, camera.near_z, camera.far_z);
-  matrix = glm::rotate(matrix, -camera.pitch, glm::vec3(1, 0, 0));
-  matrix = glm::rotate(matrix, -camera.yaw, glm::vec3(0, 1, 0));
+  const float tan = tangent(camera.fov_y / 2), near_z = camera.near_z, far_z = camera.far_z;
+  glm::mat4 matrix(0.0f);
+  matrix[0].x = 1 / (width / height * tan);
+  matrix[1].y = 1 / tan;
+  matrix[2] = {0, 0, far_z / (near_z - far_z), -1};
+  matrix[3].z = far_z * near_z / (near_z - far_z);
+  matrix *= glm::mat4(rotation({1, 0, 0}, -double{camera.pitch}));
+  matrix *= glm::mat4(rotation({0, 1, 0}, -double{camera.yaw}));
   matrix = glm::translate(matrix, -glm::vec3(camera.position - glm::dvec3(origin)));
   // z is that of clip space here.
   const auto to_clip = [&](glm::vec3 position) {

@@ -6,8 +6,9 @@
 
 #include "core/finite.h"
 #include "core/parallel.h"
+#include "core/trigonometry.h"
+#include "frontend/view.h"
 #include "lab/truth.h"
-#include "lab/view_space.h"
 
 namespace edgewise::lab {
 
@@ -29,7 +30,7 @@ struct Placement {
         size(image),
         model(model_matrix(instance)),
         turn(to_camera_frame(camera)),
-        focal_px(size.height / 2.0 / std::tan(double{camera.fov_y} / 2)) {}
+        focal_px(size.height / 2.0 / tangent(double{camera.fov_y} / 2)) {}
 
   const Camera& camera;
   Size size;

@@ -142,7 +142,7 @@ ErrorDistance::ErrorDistance(const UnsnappedTriangle& t) {
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3;
     const double dx = double{t.x_px[j]} - double{t.x_px[i]}, dy = double{t.y_px[j]} - double{t.y_px[i]};
-    const double length = std::hypot(dx, dy), scale = length > 0.0 ? 1.0 / length : 0.0;
+    const double length = std::sqrt(dx * dx + dy * dy), scale = length > 0.0 ? 1.0 / length : 0.0;
     lines_[i] = {double{t.x_px[i]}, double{t.y_px[i]}, -dy * scale, dx * scale};
   }
   const auto [low_x, high_x] = std::minmax({t.x_px[0], t.x_px[1], t.x_px[2]});

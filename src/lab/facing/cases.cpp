@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/random.h"
+#include "core/trigonometry.h"
 
 namespace edgewise::lab {
 
@@ -95,18 +96,18 @@ FacingScene tilted_faces(double tilt, bool perspective, std::size_t count, std::
   FacingScene scene;
   FacingView& view = scene.view;
   view.perspective = perspective;
-  const auto sine = static_cast<float>(std::sin(tilt)), cosine = static_cast<float>(std::cos(tilt));
+  const auto across = static_cast<float>(sine(tilt)), along = static_cast<float>(cosine(tilt));
   constexpr float kRadius = 1.0f;
   // Keeps the arc at the same place on the screen for every tilt.
-  view.focal_px = perspective ? 128.0f * cosine : 14.0f;
-  const int side = 1 + static_cast<int>(2 * (128 * sine + 64));
+  view.focal_px = perspective ? 128.0f * along : 14.0f;
+  const int side = 1 + static_cast<int>(2 * (128 * across + 64));
   view.size = {side, side};
   Random random(seed);
   for (std::size_t i = 0; i < count; ++i) {
     // A direction within 90 degrees of (1, 0) in the picture.
     glm::vec2 around = random.direction();
     around.x = std::abs(around.x);
-    const glm::vec3 centre = random.uniform(8.0f, 10.0f) * glm::vec3(sine * around, cosine);
+    const glm::vec3 centre = random.uniform(8.0f, 10.0f) * glm::vec3(across * around, along);
     const auto [u, v] = random_plane(random);
     add(scene, {centre + kRadius * u, centre + kRadius * (-0.5f * u + 0.866f * v),
                 centre + kRadius * (-0.5f * u - 0.866f * v)});
@@ -129,7 +130,7 @@ FacingScene polygons(Shape shape, std::size_t count, std::uint64_t seed) {
       const float radius = shape == Shape::regular ? 1.0f : random.uniform(0.25f, 1.0f);
       const float lift = shape == Shape::bent ? random.uniform(-0.5f, 0.5f) : 0.0f;
       const float turn = kTurn * (static_cast<float>(k) + astray) / static_cast<float>(corners);
-      scene.positions.push_back(centre + radius * (std::cos(turn) * u + std::sin(turn) * v) + lift * normal);
+      scene.positions.push_back(centre + radius * (cosine(turn) * u + sine(turn) * v) + lift * normal);
     }
     scene.add_face(scene.positions.size() - corners);
   }

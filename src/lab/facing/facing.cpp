@@ -112,24 +112,23 @@ FaceSide side_of(std::span<const P> polygon, Size size) {
   return {sign(area) != 0 && covers_sample(polygon, size), sign(area) > 0, first_three != sign(area)};
 }
 
-// Orientations are exact. Long double suffices for the measures of how near a face is to edge-on: it rounds
-// to 2^-64, and the methods' bounds are multiples of 2^-24.
-using Real3 = glm::tvec3<long double>;
-
-void measure_rays(FaceFacts& facts, std::span<const glm::vec3> v, Real3 object, const FacingView& view) {
-  const Real3 a(v[0]), b(v[1]), c(v[2]), eye(view.eye), forward(view.forward);
-  const Real3 ray = (a + b + c) / 3.0L - eye, sight = view.perspective ? ray : forward;
-  Real3 normal(0.0L);
-  for (std::size_t i = 1; i + 1 < v.size(); ++i) normal += glm::cross(Real3(v[i + 1]) - a, Real3(v[i]) - a);
-  const long double area = glm::length(normal);
-  long double least = area * glm::length(sight);
+// Orientations are exact. Double suffices for the measures of how near a face is to edge-on: it rounds to
+// 2^-53, and the methods' bounds are multiples of 2^-24.
+void measure_rays(FaceFacts& facts, std::span<const glm::vec3> v, glm::dvec3 object, const FacingView& view) {
+  const glm::dvec3 a(v[0]), b(v[1]), c(v[2]), eye(view.eye), forward(view.forward);
+  const glm::dvec3 ray = (a + b + c) / 3.0 - eye, sight = view.perspective ? ray : forward;
+  glm::dvec3 normal(0.0);
+  for (std::size_t i = 1; i + 1 < v.size(); ++i)
+    normal += glm::cross(glm::dvec3(v[i + 1]) - a, glm::dvec3(v[i]) - a);
+  const double area = glm::length(normal);
+  double least = area * glm::length(sight);
   for (std::size_t i = 0; i < v.size(); ++i) {
-    const long double height = glm::dot(normal, view.perspective ? Real3(v[i]) - eye : forward);
+    const double height = glm::dot(normal, view.perspective ? glm::dvec3(v[i]) - eye : forward);
     facts.normal_differs |= !(facts.floats.front ? height < 0 : height > 0);
     if (i < 3) least = std::min(least, std::abs(height));
   }
   facts.sine = static_cast<double>(least / (area * glm::length(sight)));
-  const auto sine_to = [&](Real3 other) {
+  const auto sine_to = [&](glm::dvec3 other) {
     return static_cast<double>(glm::length(glm::cross(ray, other)) / (glm::length(ray) * glm::length(other)));
   };
   facts.tilt_sine = sine_to(forward);
@@ -142,7 +141,7 @@ void measure_screen(FaceFacts& facts, std::span<const glm::vec3> v, std::span<co
   double longest = 0, reach = 0, extent = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const mpq_class dx = p[i].x - p[(i + 1) % 3].x, dy = p[i].y - p[(i + 1) % 3].y;
-    longest = std::max(longest, std::hypot(dx.get_d(), dy.get_d()));
+    longest = std::max(longest, glm::length(glm::dvec2(dx.get_d(), dy.get_d())));
     const glm::dvec3 ray = glm::dvec3(v[i]) - glm::dvec3(view.eye);
     const double w = view.perspective ? glm::dot(ray, glm::dvec3(view.forward)) : 1.0;
     reach = std::max(reach, glm::length(ray) / w);
@@ -158,9 +157,9 @@ void measure_screen(FaceFacts& facts, std::span<const glm::vec3> v, std::span<co
 
 }  // namespace
 
-FacingTruth::FacingTruth(const FacingScene& scene) : scene_(scene), object_(0.0L) {
+FacingTruth::FacingTruth(const FacingScene& scene) : scene_(scene), object_(0.0) {
   for (const auto& p : scene.positions)
-    object_ += Real3(p) / static_cast<long double>(scene.positions.size());
+    object_ += glm::dvec3(p) / static_cast<double>(scene.positions.size());
 }
 
 FaceFacts FacingTruth::facts(const Face& face) const {

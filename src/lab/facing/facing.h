@@ -88,7 +88,7 @@ class FacingTruth {
 
  private:
   const FacingScene& scene_;
-  glm::tvec3<long double> object_;  // the mean of all positions
+  glm::dvec3 object_;  // the mean of all positions
 };
 std::vector<FaceFacts> facing_facts(const FacingScene& scene);
 

@@ -2,6 +2,7 @@
 // of camera and scene from the origin.
 #include <cmath>
 
+#include "core/trigonometry.h"
 #include "lab/clipping/clipping.h"
 #include "lab/sweeps/sweeps.h"
 
@@ -35,7 +36,7 @@ Measured measure_vertex_w(double w, bool) {
   ClippingScene s{{}, kSize};
   Mesh& mesh = s.scene.meshes.emplace_back();
   s.scene.instances.emplace_back();
-  s.scene.camera.fov_y = 2 * std::atan(0.5f);
+  s.scene.camera.fov_y = static_cast<float>(2 * arctangent(1, 2));
   s.scene.camera.near_z = 0.1f;
   s.scene.camera.far_z = 50.0f;
   const auto z = static_cast<float>(-w);

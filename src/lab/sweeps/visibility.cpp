@@ -1,7 +1,7 @@
 // Visibility sweeps: the distance between two planes, the number of bars in a cycle, the width of slivers.
-#include <cmath>
 #include <numbers>
 
+#include "core/trigonometry.h"
 #include "lab/sweeps/sweeps.h"
 #include "lab/visibility/visibility.h"
 
@@ -35,7 +35,7 @@ VisibilityScene ring_of_bars(int bars) {
   constexpr float kNear = 2, kFar = 4;
   const double step = 2 * std::numbers::pi / std::max(bars, 3);
   Scene scene;
-  scene.camera.fov_y = 2 * std::atan(0.5f);
+  scene.camera.fov_y = static_cast<float>(2 * arctangent(1, 2));
   scene.camera.near_z = 0.5f, scene.camera.far_z = 10.0f;
   Mesh& mesh = scene.meshes.emplace_back();
   scene.instances.emplace_back();
@@ -43,7 +43,7 @@ VisibilityScene ring_of_bars(int bars) {
     // Angles in units of the step from bar to bar. Down the screen is -y.
     const auto add = [&](double angle, float radius, float z) {
       const auto turn = static_cast<float>((bar + angle) * step);
-      mesh.positions.push_back(z * glm::vec3(radius * std::cos(turn), -radius * std::sin(turn), -1.0f));
+      mesh.positions.push_back(z * glm::vec3(radius * cosine(turn), -radius * sine(turn), -1.0f));
     };
     const auto first = static_cast<unsigned>(mesh.positions.size());
     add(-0.1, 0.40f, kNear);

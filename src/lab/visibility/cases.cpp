@@ -8,6 +8,7 @@
 #include <initializer_list>
 #include <numeric>
 
+#include "core/trigonometry.h"
 #include "edgewise/contract.h"
 #include "frontend/fixed.h"
 
@@ -87,7 +88,7 @@ VisibilityScene bars_in_a_cycle() {
   Builder builder(kSize, 0.5, 10);
   const auto at = [](double degrees, double radius, double z) {
     const double angle = degrees * 0.017453292519943295;
-    return glm::dvec3(radius * std::cos(angle) * z, radius * std::sin(angle) * z, z);
+    return glm::dvec3(radius * cosine(angle) * z, radius * sine(angle) * z, z);
   };
   for (const double turn : {0.0, 120.0, 240.0})
     builder.triangle(at(turn - 25, 0.42, 2), at(turn - 10, 0.46, 2), at(turn + 125, 0.48, 4));
@@ -162,7 +163,7 @@ VisibilityScene slivers(double aspect) {
       if (std::gcd(dx, dy) != 1) continue;
       // The left edge runs through samples, so that slivers of any width cover some.
       const int steps = kReach / std::max(std::abs(dx), dy);
-      const double width_sub = std::hypot(dx, dy) * steps * kSub / aspect;
+      const double width_sub = std::sqrt(dx * dx + dy * dy) * steps * kSub / aspect;
       const std::int32_t x = sample_sub(kSide / 2 + steps * dx), y = sample_sub(kSide / 2 + steps * dy);
       const auto third = x + std::max(1, static_cast<std::int32_t>(std::min(width_sub, kGuardSub / 2.0)));
       VisibilityTriangle t{

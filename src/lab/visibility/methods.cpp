@@ -164,7 +164,7 @@ constexpr VisibilityMethod unorm(const MethodInfo& info) {
             draw_depth_buffer<Plane, Word>(scene, frame, frame.*kDepth, Plane::kMax);
           },
           [](const VisibilityFrame& frame, std::size_t pixel) {
-            return static_cast<long double>((frame.*kDepth)[pixel]) / Plane::kMax;
+            return static_cast<double>((frame.*kDepth)[pixel]) / Plane::kMax;
           },
           Plane::ulp01, Plane::bound01};
 }
@@ -189,10 +189,9 @@ const std::array kMethods{
           draw_depth_buffer<ContractPlane, std::uint32_t>(scene, frame, frame.depth32, contract::kDepthClear);
         },
         [](const VisibilityFrame& frame, std::size_t pixel) {
-          return (static_cast<long double>(frame.depth32[pixel]) - contract::kDepthHead) /
-                 contract::kDepthRange;
+          return (static_cast<double>(frame.depth32[pixel]) - contract::kDepthHead) / contract::kDepthRange;
         },
-        [](long double) { return 1.0L / contract::kDepthRange; },
+        [](double) { return 1.0 / contract::kDepthRange; },
         // The error of rule 6, and the largest error of a vertex's depth: inside the triangle the two planes
         // are no farther apart than at a vertex.
         [](const VisibilityTriangle& t, const VisibilityScene& s) {
@@ -211,9 +210,9 @@ const std::array kMethods{
           draw_depth_buffer<ReversedPlane, float>(scene, frame, frame.depth_float, -1.0f);
         },
         [](const VisibilityFrame& frame, std::size_t pixel) {
-          return 1.0L - static_cast<long double>(frame.depth_float[pixel]);
+          return 1.0 - static_cast<double>(frame.depth_float[pixel]);
         },
-        [](long double depth01) { return float_ulp(1.0L - depth01); },
+        [](double depth01) { return float_ulp(1.0 - depth01); },
         [](const VisibilityTriangle& t, const VisibilityScene& s) {
           const double nearest = std::min(std::min(t.view_z[0], t.view_z[1]), t.view_z[2]);
           // far - view_z is rounded before it is scaled, which near the far plane adds an error relative to
@@ -226,7 +225,7 @@ const std::array kMethods{
                        draw_depth_buffer<FloatPlane, float>(scene, frame, frame.depth_float, 2.0f);
                      },
                      [](const VisibilityFrame& frame, std::size_t pixel) {
-                       return static_cast<long double>(frame.depth_float[pixel]);
+                       return static_cast<double>(frame.depth_float[pixel]);
                      },
                      float_ulp,
                      [](const VisibilityTriangle& t, const VisibilityScene&) {

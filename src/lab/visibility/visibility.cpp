@@ -43,9 +43,9 @@ class Plane {
   double x_[3], y_[3], z_[3];
 };
 
-long double depth01_of(long double nearness, const VisibilityScene& s) {
-  const long double near_z = s.near_z, far_z = s.far_z;
-  return far_z / (far_z - near_z) * (1.0L - near_z * nearness);
+double depth01_of(double nearness, const VisibilityScene& s) {
+  const double near_z = s.near_z, far_z = s.far_z;
+  return far_z / (far_z - near_z) * (1.0 - near_z * nearness);
 }
 
 std::size_t pixel_at(const VisibilityScene& scene, int x, int y) {
@@ -86,23 +86,22 @@ class Judge {
     return FloatTruth({{t.x_px[0], t.x_px[1], t.x_px[2]}, {t.y_px[0], t.y_px[1], t.y_px[2]}, {}})
         .covers(x, y);
   }
-  // The background's depth is 1. Accurate to at least 60 bits on snapped positions.
-  long double depth01(std::uint32_t id, int x, int y) const {
-    if (id == kNoTriangle) return 1.0L;
-    return depth01_of(Plane(scene_.triangles[id], snapped_).nearness<long double>(x, y), scene_);
+  // The background's depth is 1. Accurate to about 2^-51 on snapped positions.
+  double depth01(std::uint32_t id, int x, int y) const {
+    if (id == kNoTriangle) return 1.0;
+    return depth01_of(Plane(scene_.triangles[id], snapped_).nearness<double>(x, y), scene_);
   }
   // Returns the error of the stored depth, in depth01.
-  long double add_depth(const VisibilityFrame& frame, std::uint32_t triangle, int x, int y) {
-    const long double truth = depth01(triangle, x, y),
-                      stored = method_.stored01(frame, pixel_at(scene_, x, y));
-    const long double error = std::abs(stored - truth), steps = error / method_.ulp01(truth);
+  double add_depth(const VisibilityFrame& frame, std::uint32_t triangle, int x, int y) {
+    const double truth = depth01(triangle, x, y), stored = method_.stored01(frame, pixel_at(scene_, x, y));
+    const double error = std::abs(stored - truth), steps = error / method_.ulp01(truth);
     max_ = std::max(max_, steps);
     squares_ += steps * steps;
     ++count_;
     const auto& z = scene_.triangles[triangle].view_z;
     const auto [nearest, farthest] = std::minmax({z[0], z[1], z[2]});
-    const long double low = depth01_of(1.0L / nearest, scene_), high = depth01_of(1.0L / farthest, scene_);
-    if (stored < low - 0x1p-16L || stored > high + 0x1p-16L) ++score_.out_of_range;
+    const double low = depth01_of(1.0 / nearest, scene_), high = depth01_of(1.0 / farthest, scene_);
+    if (stored < low - 0x1p-16 || stored > high + 0x1p-16) ++score_.out_of_range;
     return error;
   }
   void add_visible(std::uint32_t drawn, std::uint32_t truth) {
@@ -110,9 +109,8 @@ class Judge {
     if (drawn != truth) ++score_.wrong_triangle;
   }
   VisibilityScore report() {
-    score_.max_ulp = static_cast<double>(max_);
-    if (count_ > 0)
-      score_.rms_ulp = static_cast<double>(std::sqrt(squares_ / static_cast<long double>(count_)));
+    score_.max_ulp = max_;
+    if (count_ > 0) score_.rms_ulp = std::sqrt(squares_ / static_cast<double>(count_));
     return score_;
   }
 
@@ -121,7 +119,7 @@ class Judge {
   const VisibilityScene& scene_;
   bool snapped_;
   VisibilityScore score_;
-  long double max_ = 0, squares_ = 0;
+  double max_ = 0, squares_ = 0;
   std::uint64_t count_ = 0;
 };
 
@@ -164,7 +162,7 @@ class Scorer {
         drawn == kNoTriangle || snapped_.add_depth(frame_, drawn, x, y) <= bound01(drawn);
     if (drawn == truth) return right_depth;
     // A pixel that shows the background has depth 1.
-    const long double apart = std::abs(snapped_.depth01(drawn, x, y) - snapped_.depth01(truth, x, y));
+    const double apart = std::abs(snapped_.depth01(drawn, x, y) - snapped_.depth01(truth, x, y));
     if (apart > bound01(drawn) + bound01(truth)) return false;
     ++scores_.depth_ties;
     return right_depth;

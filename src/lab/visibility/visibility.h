@@ -57,8 +57,8 @@ struct VisibilityMethod {
 
   // For depth buffers, else null: the depth01 that the frame holds at a pixel; the format's step at a depth;
   // and the promise: an upper bound of the error of a triangle's depth01.
-  long double (*stored01)(const VisibilityFrame& frame, std::size_t pixel);
-  long double (*ulp01)(long double depth01);
+  double (*stored01)(const VisibilityFrame& frame, std::size_t pixel);
+  double (*ulp01)(double depth01);
   double (*bound01)(const VisibilityTriangle& triangle, const VisibilityScene& scene);
 
   // For methods without a depth buffer, the promise: whether triangle `drawn` may wrongly occlude `truth`,

@@ -1,0 +1,120 @@
+// The trigonometric functions against MPFR, over the whole range of arguments.
+#include "core/trigonometry.h"
+
+#include <gtest/gtest.h>
+#include <mpfr.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "core/random.h"
+
+namespace edgewise {
+namespace {
+
+constexpr int kRandomArguments = 20'000;
+
+// A number of MPFR with enough bits for an error of a small part of a unit in the last place.
+class Real {
+ public:
+  Real() { mpfr_init2(value_, 128); }
+  explicit Real(double v) : Real() { mpfr_set_d(value_, v, MPFR_RNDN); }
+  Real(const Real&) = delete;
+  Real& operator=(const Real&) = delete;
+  ~Real() { mpfr_clear(value_); }
+  mpfr_ptr get() { return value_; }
+
+ private:
+  mpfr_t value_;
+};
+
+// The error of `v` in units in the last place of the exact result.
+double error_units(double v, Real& exact) {
+  const double rounded = mpfr_get_d(exact.get(), MPFR_RNDN);
+  mpfr_sub_d(exact.get(), exact.get(), v, MPFR_RNDN);
+  const int exponent = std::max(std::ilogb(rounded), std::numeric_limits<double>::min_exponent - 1);
+  return std::abs(mpfr_get_d(exact.get(), MPFR_RNDN)) / std::ldexp(1.0, exponent - 52);
+}
+
+using MpfrFunction = int (*)(mpfr_ptr, mpfr_srcptr, mpfr_rnd_t);
+
+double error_units(double (*ours)(double), MpfrFunction theirs, double angle) {
+  Real given(angle), exact;
+  theirs(exact.get(), given.get(), MPFR_RNDN);
+  return error_units(ours(angle), exact);
+}
+
+// Between 2^low and 2^high, of either sign, with uniform exponents.
+double magnitude(Random& random, int low, int high) {
+  const auto exponent = low + static_cast<int>(random.below(static_cast<std::uint64_t>(high - low)));
+  const double v = std::ldexp(1.0 + static_cast<double>(random.next() >> 11) * 0x1p-53, exponent);
+  return random.below(2) == 0 ? v : -v;
+}
+
+// Of all sizes, more of them where angles usually are, and those next to multiples of pi/4, where the
+// reduced angle is small or jumps.
+std::vector<double> angles() {
+  std::vector<double> all{0.0, std::numeric_limits<double>::denorm_min(), 0x1p-1000,
+                          std::numeric_limits<float>::max(), std::nextafter(0x1p128, 0.0)};
+  Random random(1);
+  for (int i = 0; i < kRandomArguments; ++i) {
+    all.push_back(magnitude(random, -1022, 128));
+    all.push_back(magnitude(random, -6, 6));
+    all.push_back(static_cast<float>(magnitude(random, -6, 127)));
+    Real multiple;
+    mpfr_const_pi(multiple.get(), MPFR_RNDN);
+    mpfr_mul_ui(multiple.get(), multiple.get(), random.next() >> (random.below(54) + 10), MPFR_RNDN);
+    mpfr_div_ui(multiple.get(), multiple.get(), 4, MPFR_RNDN);
+    all.push_back(mpfr_get_d(multiple.get(), MPFR_RNDN));
+  }
+  return all;
+}
+
+double worst(double (*ours)(double), MpfrFunction theirs) {
+  double most = 0.0;
+  for (const double angle : angles()) most = std::max(most, error_units(ours, theirs, angle));
+  return most;
+}
+
+TEST(Trigonometry, SineAndCosineAreWithinTheirBounds) {
+  EXPECT_LE(worst(sine, mpfr_sin), 0.85);
+  EXPECT_LE(worst(cosine, mpfr_cos), 0.85);
+}
+
+TEST(Trigonometry, TangentIsWithinItsBound) {
+  EXPECT_LE(worst(tangent, mpfr_tan), 2.5);
+}
+
+TEST(Trigonometry, ArctangentIsWithinItsBound) {
+  double most = 0.0;
+  Random random(2);
+  const auto add = [&](double y, double x) {
+    Real above(y), beside(x), exact;
+    mpfr_atan2(exact.get(), above.get(), beside.get(), MPFR_RNDN);
+    most = std::max(most, error_units(arctangent(y, x), exact));
+  };
+  for (int i = 0; i < kRandomArguments; ++i) {
+    const double y = magnitude(random, -100, 100);
+    add(y, magnitude(random, -100, 100));
+    add(y, y * magnitude(random, -6, 6));
+    add(y, 0.0);
+    add(0.0, y);
+  }
+  EXPECT_LE(most, 6.0);
+  EXPECT_EQ(arctangent(0.0, 0.0), 0.0);
+}
+
+TEST(Trigonometry, AnglesOutOfRangeGiveNan) {
+  for (const double angle : {0x1p128, -0x1p1000, std::numeric_limits<double>::infinity(),
+                             std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_TRUE(std::isnan(sine(angle))) << angle;
+    EXPECT_TRUE(std::isnan(cosine(angle))) << angle;
+    EXPECT_TRUE(std::isnan(tangent(angle))) << angle;
+  }
+}
+
+}  // namespace
+}  // namespace edgewise
