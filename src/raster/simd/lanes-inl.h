@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include "core/little_endian.h"
+
 // Included once per SIMD target.
 #if defined(EDGEWISE_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef EDGEWISE_LANES_INL_H
@@ -34,7 +36,7 @@ HWY_INLINE std::uint32_t mask_bits(hn::Mask<D> mask) {
   hn::StoreMaskBits(D{}, mask, bytes);
   std::uint32_t bits;
   std::memcpy(&bits, bytes, sizeof bits);
-  return bits;
+  return little_endian(bits);
 }
 
 // Some kernels end without this instruction (GCC 12). The caller's SSE code would then merge into registers
