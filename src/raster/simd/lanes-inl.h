@@ -47,7 +47,7 @@ HWY_INLINE void clear_upper_halves() {
 #endif
 }
 
-#if HWY_TARGET == HWY_SSE4 || HWY_TARGET == HWY_AVX2
+#if HWY_MAX_BYTES == 16 || HWY_TARGET == HWY_AVX2
 // For each mask, the indices of its selected lanes, followed by 0s. Compress() of Highway 1.0.3 has the same
 // table, but GCC copies it to the stack at every call.
 constexpr auto kLanesOfMask = [] {
