@@ -2,7 +2,7 @@
 from bench_rows import gained, order
 
 # Of each SIMD target: its name in sentences, and the width of its vectors in bits.
-VECTORS = {"sse4": ("SSE4", 128), "avx2": ("AVX2", 256), "avx512": ("AVX-512", 512)}
+VECTORS = {"sse4": ("SSE4", 128), "avx2": ("AVX2", 256), "avx512": ("AVX-512", 512), "neon": ("NEON", 128)}
 
 
 def short(value, _=None):

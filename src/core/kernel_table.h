@@ -16,6 +16,7 @@
   ((target) == ::edgewise::SimdTarget::avx512 ? HWY_CHOOSE_AVX3(function) \
    : (target) == ::edgewise::SimdTarget::avx2 ? HWY_CHOOSE_AVX2(function) \
    : (target) == ::edgewise::SimdTarget::sse4 ? HWY_CHOOSE_SSE4(function) \
+   : (target) == ::edgewise::SimdTarget::neon ? HWY_CHOOSE_NEON(function) \
                                               : &N_SCALAR::function)
 
 // Defines the function `name`, which returns the kernel for a resolved target. Use where HWY_ONCE is set,

@@ -10,12 +10,12 @@
 namespace edgewise {
 
 // All targets draw the same bits.
-enum class SimdTarget { scalar, sse4, avx2, avx512, best };
+enum class SimdTarget { scalar, sse4, avx2, avx512, neon, best };
 
 // The targets that are compiled in and that this machine can run, slowest first. `best` means the last one.
 std::span<const SimdTarget> supported_targets();
 
-// "scalar", "sse4", "avx2", "avx512" or "best".
+// "scalar", "sse4", "avx2", "avx512", "neon" or "best".
 std::string_view name_of(SimdTarget target);
 
 // Turns `best` into the last supported target and returns any other unchanged. Throws std::invalid_argument

@@ -11,6 +11,7 @@
 
 #include <cstring>
 
+#include "core/little_endian.h"
 #include "frontend/lanes-inl.h"
 #include "frontend/tasks.h"
 
@@ -67,6 +68,7 @@ HWY_INLINE void cull_and_append(const TriangleVectors& t, MI outside, Cull cull,
   hn::StoreMaskBits(d, keep, bits);
   std::uint32_t kept_lanes = 0;
   std::memcpy(&kept_lanes, bits, (kLanes + 7) / 8);
+  kept_lanes = little_endian(kept_lanes);
   ScreenTriangle* place[kLanes];
   ScreenTriangle* next = out.triangles.data() + out.count;
   for (std::size_t lane = 0; lane < kLanes; ++lane) {

@@ -25,9 +25,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// PngReader swaps the bytes of samples, which a PNG stores big-endian.
-static_assert(std::endian::native == std::endian::little);
-
 struct PngWriter : png_image {
   PngWriter() : png_image{} { version = PNG_IMAGE_VERSION; }
   ~PngWriter() { png_image_free(this); }
@@ -84,7 +81,7 @@ class PngReader {
       png_set_expand_16(png_);
       png_set_gray_to_rgb(png_);
       png_set_strip_alpha(png_);
-      png_set_swap(png_);
+      if constexpr (std::endian::native == std::endian::little) png_set_swap(png_);  // a PNG is big-endian
       const int passes = png_set_interlace_handling(png_);
       png_read_update_info(png_, info_);
       for (int pass = 0; pass < passes; ++pass)

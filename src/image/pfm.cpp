@@ -4,22 +4,17 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
-#include <cstring>
+#include <span>
 #include <string>
 
 #include "core/atomic_file.h"
+#include "core/little_endian.h"
 #include "edgewise/image.h"
 #include "image/netpbm.h"
 
 namespace edgewise {
 
 namespace {
-
-static_assert(std::endian::native == std::endian::little);
-
-float swap_bytes(float value) {
-  return std::bit_cast<float>(__builtin_bswap32(std::bit_cast<std::uint32_t>(value)));
-}
 
 double read_scale(const std::filesystem::path& path, netpbm::Reader& reader) {
   const std::string text = reader.word();
@@ -39,8 +34,8 @@ void write_pfm(const std::filesystem::path& path, const DepthMap& map) {
   file.stream() << "Pf\n" << map.width << ' ' << map.height << "\n-1.0\n";
   const auto row = static_cast<std::size_t>(map.width);
   for (int y = map.height - 1; y >= 0; --y)
-    file.stream().write(reinterpret_cast<const char*>(map.depth01.data() + static_cast<std::size_t>(y) * row),
-                        static_cast<std::streamsize>(row * sizeof(float)));
+    write_words(file.stream(),
+                std::as_bytes(std::span(map.depth01).subspan(static_cast<std::size_t>(y) * row, row)));
   file.commit();
 }
 
@@ -50,7 +45,8 @@ DepthMap read_pfm(const std::filesystem::path& path) {
   const double scale = read_scale(path, reader);
 
   DepthMap map{size.width, size.height, reader.samples<float>(size.pixels())};
-  if (scale > 0.0) std::transform(map.depth01.begin(), map.depth01.end(), map.depth01.begin(), swap_bytes);
+  convert_words(std::as_writable_bytes(std::span(map.depth01)),
+                scale > 0.0 ? std::endian::big : std::endian::little);
   for (int top = 0, bottom = map.height - 1; top < bottom; ++top, --bottom) {
     const auto row = [&](int y) { return map.depth01.begin() + std::ptrdiff_t{y} * map.width; };
     std::swap_ranges(row(top), row(top + 1), row(bottom));

@@ -1,15 +1,17 @@
-// The triangles have the same layout in the file and in memory, so each direction is one bulk copy.
+// The triangles have the same layout in the file and in memory, but for the byte order.
 #include "edgewise/tri_file.h"
 
 #include <array>
 #include <bit>
 #include <cstdint>
 #include <ostream>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
 
 #include "core/input_file.h"
+#include "core/little_endian.h"
 #include "edgewise/contract.h"
 #include "edgewise/limits.h"
 
@@ -17,7 +19,7 @@ namespace edgewise {
 
 namespace {
 
-static_assert(std::endian::native == std::endian::little && std::is_trivially_copyable_v<StreamTriangle>);
+static_assert(std::is_trivially_copyable_v<StreamTriangle>);
 
 constexpr std::uint32_t kMagic = 'T' | 'R' << 8 | 'I' << 16 | '1' << 24;
 using Header = std::array<std::uint32_t, 4>;  // magic, width, height, count
@@ -33,6 +35,7 @@ std::string count_text(std::uint64_t count, const char* noun) {
 Header read_header(const std::filesystem::path& path, InputFile& file) {
   Header header{};
   file.stream.read(reinterpret_cast<char*>(header.data()), sizeof header);
+  convert_words(std::as_writable_bytes(std::span(header)), std::endian::little);
   if (file.stream.gcount() >= 4 && header[0] != kMagic)
     throw file_error(path, "is not a triangle stream (it does not start with TRI1)");
   if (!file.stream)
@@ -66,6 +69,7 @@ TriangleStream read_tri(const std::filesystem::path& path) {
   if (!file.stream.read(reinterpret_cast<char*>(stream.triangles.data()),
                         static_cast<std::streamsize>(promised)))
     throw file_error(path, "cannot be read to its end");
+  convert_words(std::as_writable_bytes(std::span(stream.triangles)), std::endian::little);
   return stream;
 }
 
@@ -78,9 +82,8 @@ void write_tri(std::ostream& out, const TriangleStream& stream) {
     throw std::invalid_argument("a .tri file holds at most " + std::to_string(kMaxTriangles) + " triangles");
 
   const Header header{kMagic, width, height, static_cast<std::uint32_t>(stream.triangles.size())};
-  out.write(reinterpret_cast<const char*>(header.data()), sizeof header);
-  out.write(reinterpret_cast<const char*>(stream.triangles.data()),
-            static_cast<std::streamsize>(stream.triangles.size() * sizeof(StreamTriangle)));
+  write_words(out, std::as_bytes(std::span(header)));
+  write_words(out, std::as_bytes(std::span(stream.triangles)));
 }
 
 }  // namespace edgewise

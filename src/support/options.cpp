@@ -39,7 +39,7 @@ std::optional<T> parsed(std::string_view text) {
 
 SimdTarget parse_target(std::string_view text) {
   constexpr SimdTarget kTargets[] = {SimdTarget::scalar, SimdTarget::sse4, SimdTarget::avx2,
-                                     SimdTarget::avx512, SimdTarget::best};
+                                     SimdTarget::avx512, SimdTarget::neon, SimdTarget::best};
   return resolve(find_named("SIMD target", text, std::span<const SimdTarget>(kTargets),
                             [](SimdTarget target) { return name_of(target); }));
 }
@@ -241,7 +241,7 @@ ExecutionOptions::ExecutionOptions() {
 void ExecutionOptions::add_to(CLI::App& command) {
   add_integer(command, "--threads", execution.threads, 1, kMaxThreads,
               "Threads, 1 to 256 (as many as usable cores)");
-  add_parsed(command, "--target", "SIMD", "SIMD target: scalar, sse4, avx2, avx512 or best (best)",
+  add_parsed(command, "--target", "SIMD", "SIMD target: scalar, sse4, avx2, avx512, neon or best (best)",
              [this](const std::string& text) { execution.target = parse_target(text); });
   add_parsed(command, "--tile", "PX", "Tile size in pixels of the tiled backend: 16, 32 or 64 (64)",
              [this](const std::string& text) {

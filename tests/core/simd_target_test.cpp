@@ -46,8 +46,9 @@ TEST(SimdTargets, AreThoseCompiledAndSupported) {
   } all[] = {{SimdTarget::scalar, HWY_SCALAR},
              {SimdTarget::sse4, HWY_SSE4},
              {SimdTarget::avx2, HWY_AVX2},
-             {SimdTarget::avx512, HWY_AVX3}};
-  const auto available = HWY_TARGETS & (hwy::SupportedTargets() | HWY_SCALAR);
+             {SimdTarget::avx512, HWY_AVX3},
+             {SimdTarget::neon, HWY_NEON}};
+  const auto available = HWY_TARGETS & (hwy::SupportedTargets() | HWY_SCALAR | HWY_NEON);
   std::vector<SimdTarget> expected;
   for (const auto& [target, highway] : all) {
     if ((available & highway) == 0) continue;

@@ -23,8 +23,8 @@ namespace edgewise {
 namespace {
 
 std::string le32(std::uint32_t value) {
-  std::string bytes(4, '\0');
-  std::memcpy(bytes.data(), &value, 4);
+  std::string bytes;
+  for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(value >> shift);
   return bytes;
 }
 

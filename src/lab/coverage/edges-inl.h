@@ -64,7 +64,7 @@ class RealLanes {
 
  private:
   static constexpr int kHalves = sizeof(Real) / sizeof(float), kPerHalf = kLanes / kHalves;
-  using D = hn::CappedTag<Real, kPerHalf>;
+  using D = hn::CappedTag<Real, std::size_t{kPerHalf}>;
   using V = hn::Vec<D>;
 
   // The coordinates of the samples of a half.
@@ -74,7 +74,7 @@ class RealLanes {
   }
 
   const RealEdge<Real> (&edges_)[3];
-  V across_[3][kHalves];
+  V across_[3][std::size_t{kHalves}];
   HWY_ALIGN Real down_[3][kLanes];
 };
 

@@ -1,12 +1,12 @@
 // Sorts triangles for binning: small ones become coverage masks, the others get cell boxes (mask_finder.cpp).
 #pragma once
 
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <span>
 
+#include "core/little_endian.h"
 #include "raster/binning/cell_boxes.h"
 #include "raster/binning/mask_lists.h"
 
@@ -31,9 +31,9 @@ struct SortedTriangles {
   // The quadrants of masked triangles n … n + 7, none from `end` on. Bit 4 i + q is quadrant q of triangle
   // n + i.
   std::uint32_t quadrants_of_eight(std::size_t n, std::size_t end) const {
-    static_assert(std::endian::native == std::endian::little);
     std::uint64_t bits;
     std::memcpy(&bits, quadrants + n, sizeof bits);
+    bits = little_endian(bits);
     if (end - n < 8) bits &= (std::uint64_t{1} << (end - n) * 8) - 1;
     bits = (bits | bits >> 4) & 0x00FF00FF00FF00FF;
     bits = (bits | bits >> 8) & 0x0000FFFF0000FFFF;

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include "core/little_endian.h"
+
 // Included once per SIMD target.
 #if defined(EDGEWISE_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef EDGEWISE_LANES_INL_H
@@ -34,7 +36,7 @@ HWY_INLINE std::uint32_t mask_bits(hn::Mask<D> mask) {
   hn::StoreMaskBits(D{}, mask, bytes);
   std::uint32_t bits;
   std::memcpy(&bits, bytes, sizeof bits);
-  return bits;
+  return little_endian(bits);
 }
 
 // Some kernels end without this instruction (GCC 12). The caller's SSE code would then merge into registers
@@ -45,7 +47,7 @@ HWY_INLINE void clear_upper_halves() {
 #endif
 }
 
-#if HWY_TARGET == HWY_SSE4 || HWY_TARGET == HWY_AVX2
+#if HWY_MAX_BYTES == 16 || HWY_TARGET == HWY_AVX2
 // For each mask, the indices of its selected lanes, followed by 0s. Compress() of Highway 1.0.3 has the same
 // table, but GCC copies it to the stack at every call.
 constexpr auto kLanesOfMask = [] {

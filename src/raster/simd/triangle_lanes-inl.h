@@ -97,7 +97,7 @@ HWY_INLINE TriangleLanes load(const ScreenTriangle* triangles, const std::uint32
   const auto last = [&](int i) {
     return hn::InterleaveUpper(two, hn::LoadU(two, from(i, 3)), hn::LoadU(two, from(i + 1, 3)));
   };
-#if HWY_TARGET == HWY_SSE4
+#if HWY_MAX_BYTES == 16
   for (int p = 0; p < 4; p += 2) {
     const V64 first = hn::LoadU(d, from(0, p)), second = hn::LoadU(d, from(1, p));
     pair[p] = hn::InterleaveLower(d, first, second);

@@ -1,5 +1,6 @@
 // The tile's buffer, and code shared by the ways of drawing into it. The buffer stores blocks of 4 x 4
-// pixels, each as 16 consecutive integers: one AVX-512 vector, two of AVX2, four of SSE4.
+// pixels, each as 16 consecutive integers: one AVX-512 vector, two of AVX2, four of SSE4 or
+// NEON.
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -114,7 +115,7 @@ constexpr int kBlocksAcross = kLanes / kBlockSide;  // blocks whose pixel rows f
 template <typename Pixels>
 HWY_INLINE void two_rows_of_blocks(const Pixels& pixels, int from, V& upper, V& lower) {
   const D d;
-#if HWY_TARGET == HWY_SSE4
+#if HWY_MAX_BYTES == 16
   upper = pixels(d, from);
   lower = pixels(d, from + kBlockSide);
 #elif HWY_TARGET == HWY_AVX2

@@ -4,7 +4,7 @@
 //    fits an L1 cache of 48 KB; with one of 32 KB, part of it lies in L2. The buffer is stored to the frame
 //    once. Only the buffer's depths are cleared: pixels whose depth is still clear get the background.
 // 2. The buffer is stored in blocks of 4 x 4 pixels, 16 consecutive integers: one AVX-512 vector, two of
-//    AVX2, four of SSE4 (tile_blocks-inl.h). 4 x 4 wastes fewer lanes on small triangles than 16 x 1.
+//    AVX2, four of SSE4 or NEON (tile_blocks-inl.h). 4 x 4 wastes fewer lanes on small triangles than 16 x 1.
 // 3. Triangles are set up for the tile, a vector at a time (tile_setup-inl.h, tile_arithmetic-inl.h). An edge
 //    that accepts the triangle's whole box becomes the constant 0; the others are stepped in int32 lanes
 //    (rule 5).

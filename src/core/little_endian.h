@@ -1,0 +1,44 @@
+// Files have little-endian numbers, whatever the machine's byte order.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <ostream>
+#include <span>
+#include <vector>
+
+namespace edgewise {
+
+// From a number whose bytes in memory are in little endian, and back.
+template <std::unsigned_integral T>
+constexpr T little_endian(T number) {
+  static_assert(sizeof(T) == 4 || sizeof(T) == 8);
+  if constexpr (std::endian::native == std::endian::little)
+    return number;
+  else if constexpr (sizeof(T) == 8)
+    return __builtin_bswap64(number);
+  else
+    return __builtin_bswap32(number);
+}
+
+// Converts 32-bit words, integers or floats, from this byte order to the machine's, and back.
+inline void convert_words(std::span<std::byte> words, std::endian order) {
+  if (order == std::endian::native) return;
+  for (auto word = words.begin(); word != words.end(); word += 4) std::reverse(word, word + 4);
+}
+
+// Writes 32-bit words, integers or floats, in little endian.
+inline void write_words(std::ostream& out, std::span<const std::byte> words) {
+  std::vector<std::byte> converted;
+  if constexpr (std::endian::native != std::endian::little) {
+    converted.assign(words.begin(), words.end());
+    convert_words(converted, std::endian::little);
+    words = converted;
+  }
+  out.write(reinterpret_cast<const char*>(words.data()), static_cast<std::streamsize>(words.size()));
+}
+
+}  // namespace edgewise
