@@ -1,10 +1,11 @@
 """The shell scripts' command lines, steps, builds and verdicts, with programs made up here in place of cmake, ctest and
 apt-get."""
+import json
 import os
 import shutil
 import unittest
 
-from support import SCRIPTS, FolderTest
+from support import SCRIPTS, FolderTest, run
 
 APT_OFFLINE = """#!/bin/bash
 echo "W: Failed to fetch http://deb.debian.org/debian/dists/bookworm/InRelease  Temporary failure resolving 'deb.debian.org'" >&2
@@ -93,6 +94,7 @@ class ShellTest(FolderTest):
         self.assert_usage_error(self.run_script("test", "--quick", "--no-install"), "unknown argument '--quick'; --help")
         self.assert_usage_error(self.run_script("test", "-R", "--no-install"), "-R needs a value")
         self.assert_usage_error(self.run_script("test", "--full", "-R", "a"), "no options of ctest")
+        self.assert_usage_error(self.run_script("test", "--everywhere", "-R", "a"), "no options of ctest")
         self.assert_usage_error(self.run_script("test", "--bare", "--no-install"), "--no-install must stand before --bare")
         self.assert_usage_error(self.run_script("fuzz", "eight"), "'eight'")
         self.assert_usage_error(self.run_script("run", "--mesh", str(self.folder)), "not a file")
@@ -162,6 +164,40 @@ class ShellTest(FolderTest):
         self.assertIn("warning", result.stdout)
         self.assertNotIn("Built", result.stdout)
         self.assertIn("the build failed; see above", result.stderr)
+
+    def test_every_platform_is_tested_and_says_what_was_found(self):
+        platforms = '''. scripts/platforms.sh; status=0
+            on_fine() { noted echo one; noted printf 'two\\nthree\\n'; }
+            on_wrong() { noted echo one; noted bash -c 'echo wrong; exit 3'; noted echo never; }
+            on_missing() { false; }
+            everywhere wrong missing fine; exit $status'''
+        result = self.library("cd $root;" + platforms)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        found = [["wrong", "failed", "one|wrong"], ["missing", "failed", "not built; see above"], ["fine", "passed", "one|three"]]
+        written = json.loads((self.root / "build/platforms/results.json").read_text())
+        self.assertEqual([[one["platform"], one["result"], one["found"]] for one in written], found)
+        self.assertRegex(result.stdout, r"wrong\tfailed\t\d\tone\|wrong\n")
+
+    def test_packages_of_another_processor_are_unpacked_once(self):
+        self.file("package/DEBIAN/control", "Package: a\nVersion: 1\nArchitecture: arm64\nMaintainer: me\nDescription: x\n")
+        self.file("package/usr/include/a.h", "")
+        run("dpkg-deb", "-b", self.folder / "package", self.folder / "a.deb")
+        self.tool("apt-get", f'''#!/bin/bash
+echo "$*" >>"$CALLS"
+for a; do [[ $a != Dir::Cache=* ]] || cp {self.folder}/a.deb "${{a#*=}}/archives/"; done''')
+        def unpack(folder):
+            return self.library(f". $root/scripts/platforms.sh; unpack_sysroot $root/build/{folder} arm64")
+        for _ in range(2):
+            result = unpack("packages")
+            self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertTrue((self.root / "build/packages/usr/include/a.h").exists())
+        update, install = self.calls.read_text().splitlines()
+        self.assertIn("APT::Architecture=arm64", update)
+        self.assertRegex(install, f"Dir::State={self.root}/build/packages/apt .* libtbb-dev")
+        self.tool("apt-get", APT_BROKEN)
+        result = unpack("others")
+        self.assertNotEqual(result.returncode, 0)
+        self.assertIn("dpkg was interrupted", result.stderr)
 
     def run_tests(self, cases, *arguments, **environment):
         result = self.run_script("test", *arguments, CTEST_XML=str(self.file("ctest.xml", CTEST_CASES % cases)),

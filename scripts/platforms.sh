@@ -1,0 +1,97 @@
+# The platforms of `scripts/test --everywhere`. Sourced after lib.sh, not run.
+# shellcheck shell=bash disable=SC2034,SC2154 # variables of lib.sh
+
+platforms=$root/build/platforms
+
+# unpack_sysroot FOLDER ARCHITECTURE: the libraries of packages.txt for another processor, unpacked, not installed. apt
+# gets a state of its own for it, so the system's packages and lists do not change.
+unpack_sysroot() {
+  local packages package
+  packages=$(listed_packages base | grep -- '-dev$')
+  [[ $(cat "$1/packages" 2>/dev/null) != "$packages" ]] || return 0
+  echo "Unpacking: packages for $2"
+  rm -rf "$1"
+  mkdir -p "$1"/apt/{lists,archives}/partial
+  : >"$1/apt/status"
+  local -a apt=(apt-get -qq -o "APT::Architecture=$2" -o "APT::Architectures=$2" -o APT::Sandbox::User=root
+    -o "Dir::State=$1/apt" -o "Dir::State::status=$1/apt/status" -o "Dir::Cache=$1/apt")
+  "${apt[@]}" update
+  # shellcheck disable=SC2086 # one word per package
+  "${apt[@]}" install -y --download-only --no-install-recommends $packages >"$1/apt/log"
+  for package in "$1"/apt/archives/*.deb; do dpkg-deb -x "$package" "$1"; done
+  rm -r "$1/apt"
+  echo "$packages" >"$1/packages"
+}
+
+# noted COMMAND…: its last line stands in the platform's result.
+noted() {
+  local status=0
+  "$@" 2>&1 | tee "$found.log" || status=$?
+  tail -n 1 "$found.log" >>"$found"
+  return "$status"
+}
+
+# facts [COMMAND…]: prints some facts, and a file of each kind. COMMAND… starts a program of $build.
+facts() {
+  local arguments
+  for arguments in 'accuracy lattice_square bars_in_a_cycle edge_on vertex_at_eye_plane --json -' 'needs cubes --json' \
+    'portable cube --json' 'render cubes -o -' 'render cubes -o - --format ppm' 'render cubes --depth -' 'capture sphere -o -'; do
+    # shellcheck disable=SC2086 # words
+    "$@" "$build/edgewise" $arguments
+  done
+}
+facts_are_those_of_x86_64() {
+  # Not one by one: as part of a condition, no failure ends a function.
+  facts "$@" >"$found.facts" && cmp "$found.facts" "$platforms/x86_64.facts" &&
+    echo "$(wc -c <"$found.facts") bytes of facts and files are those of x86-64"
+}
+
+on_x86_64() {
+  build edgewise_program edgewise_library_tests
+  noted "$build/edgewise_library_tests" --gtest_brief=1
+  facts >"$platforms/x86_64.facts"
+  # As on a processor without FMA, for which the C library has other functions.
+  GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2 noted facts_are_those_of_x86_64
+}
+
+# program_on PROCESSOR ARCHITECTURE: the library's tests and the program. Optimized less, to be built quickly.
+program_on() {
+  local build=$platforms/$1 build_type=None sysroot=$platforms/$1-packages
+  local -a build_flags=("-DCMAKE_TOOLCHAIN_FILE=$root/tests/platforms/cross.cmake" "-DEDGEWISE_PROCESSOR=$1"
+    "-DEDGEWISE_SYSROOT=$sysroot" -DEDGEWISE_WERROR=ON -DCMAKE_CXX_FLAGS=-O1)
+  local -a run=("qemu-$1" -L "$sysroot")
+  unpack_sysroot "$sysroot" "$2"
+  build edgewise_program edgewise_library_tests
+  # QEMU 7.2 cannot fork while threads run.
+  noted "${run[@]}" "$build/edgewise_library_tests" --gtest_brief=1 '--gtest_filter=-AtomicFile.*WhileTheProcessEnds'
+  noted facts_are_those_of_x86_64 "${run[@]}"
+}
+on_aarch64() { program_on aarch64 arm64; }
+on_s390x() { program_on s390x s390x; }
+
+# everywhere PLATFORM…: tests each, prints a line for each, and writes build/platforms/results.json. Sets `status` to 1 if
+# one fails.
+everywhere() {
+  local platform result
+  mkdir -p "$platforms"
+  : >"$platforms/results"
+  for platform in "$@"; do
+    step "Testing on $platform"
+    found=$platforms/$platform.found result=passed
+    : >"$found"
+    set +e # where a subshell is a condition, a failed command does not end it
+    (set -e; "on_$platform")
+    # shellcheck disable=SC2181
+    (($? == 0)) || result=failed status=1
+    set -e
+    [[ -s $found ]] || echo "not built; see above" >"$found"
+    printf '%s\t%s\t%d\t%s\n' "$platform" "$result" "$((SECONDS - step_start))" "$(paste -sd'|' "$found")" >>"$platforms/results"
+  done
+  end_step
+  echo
+  cat "$platforms/results"
+  python3 -c 'import json, sys
+keys = ("platform", "result", "seconds", "found")
+print(json.dumps([dict(zip(keys, line.rstrip().split("\t"))) for line in sys.stdin], indent=1))' \
+    <"$platforms/results" >"$platforms/results.json"
+}
