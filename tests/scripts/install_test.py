@@ -129,6 +129,11 @@ class Installed(unittest.TestCase):
                 run(compiler, "-std=c++20", *FAST, CONSUMER / "hashes.cpp", "-o", program, *flags)
                 self.assertEqual(run(program, *scenes, env=environment).split(), [line.split()[0] for line in said.splitlines()])
 
+    def test_the_library_calls_no_inline_function_of_glm(self):
+        # The linker would make it call the user's copy of that function, which may round otherwise.
+        for library in self.prefix.rglob("libedgewise*.a"):
+            self.assertNotRegex(run("nm", "--defined-only", library), r" [VW] _ZNK?3glm")
+
     def test_public_headers_are_installed_and_no_others(self):
         headers = {path.name for path in self.prefix.rglob("*.h")}
         self.assertEqual(headers, {path.name for path in (ROOT / "src" / "edgewise").glob("*.h")})
