@@ -1,5 +1,7 @@
 #include "core/parallel.h"
 
+#ifdef EDGEWISE_THREADS
+
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -77,3 +79,11 @@ void parallel_for(int threads, int count, void (*call)(void*, int), void* contex
 }
 
 }  // namespace edgewise::detail
+
+#else
+
+void edgewise::detail::parallel_for(int, int count, void (*call)(void*, int), void* context) {
+  for (int i = 0; i < count; ++i) call(context, i);
+}
+
+#endif

@@ -1,4 +1,4 @@
-// The only interface to oneTBB.
+// The only interface to oneTBB. Without it (EDGEWISE_THREADS=OFF), everything runs on the caller's thread.
 #pragma once
 
 #include <memory>

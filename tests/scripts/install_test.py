@@ -69,9 +69,9 @@ class Installed(unittest.TestCase):
                                  env={**os.environ, **(environment or {})})
         self.assertEqual((missing.returncode, missing.stderr.count("missing.obj")), (1, 1))
 
-    def use_package(self, prefix, name):
+    def use_package(self, prefix, name, *options):
         build = self.folder / name
-        configure(CONSUMER, build, f"-DCMAKE_PREFIX_PATH={prefix}")
+        configure(CONSUMER, build, f"-DCMAKE_PREFIX_PATH={prefix}", *options)
         run("cmake", "--build", build)
         self.use(build)
         rules = build / "build.ninja"
@@ -205,6 +205,17 @@ class Installed(unittest.TestCase):
                           run("readelf", "-d", next(prefix.rglob(f"lib{name}.so"))))
         self.use_package(prefix, "shared-package")
         self.use_pkg_config(prefix, "shared-pkg-config", static=False)
+
+    @unittest.skipUnless(FULL, "compiles the library anew")
+    def test_a_library_without_onetbb(self):
+        build, prefix = self.folder / "serial", self.folder / "serial-prefix"
+        configure(ROOT, build, "-DEDGEWISE_THREADS=OFF", "-DEDGEWISE_LABORATORY=OFF",
+                  "-DCMAKE_DISABLE_FIND_PACKAGE_TBB=ON")
+        run("cmake", "--build", build, "--parallel", len(os.sched_getaffinity(0)))
+        run("cmake", "--install", build, "--prefix", prefix)
+        self.assertNotIn("tbb", next(prefix.rglob("edgewise.pc")).read_text())
+        self.use_package(prefix, "serial-package", "-DCMAKE_DISABLE_FIND_PACKAGE_TBB=ON")
+        self.use_pkg_config(prefix, "serial-pkg-config", static=True)
 
 
 if __name__ == "__main__":
