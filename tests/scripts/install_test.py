@@ -108,6 +108,11 @@ class Installed(unittest.TestCase):
     def test_pkg_config(self):
         self.use_pkg_config(self.prefix, "pkg-config", static=not list(self.prefix.rglob("libedgewise.so")))
 
+    def test_the_library_calls_no_inline_function_of_glm(self):
+        # The linker would make it call the user's copy of that function, which may round otherwise.
+        for library in self.prefix.rglob("libedgewise*.a"):
+            self.assertNotRegex(run("nm", "--defined-only", library), r" [VW] _ZNK?3glm")
+
     def test_public_headers_are_installed_and_no_others(self):
         headers = {path.name for path in self.prefix.rglob("*.h")}
         self.assertEqual(headers, {path.name for path in (ROOT / "src" / "edgewise").glob("*.h")})
