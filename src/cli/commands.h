@@ -17,6 +17,7 @@ using Action = std::function<int()>;  // returns the exit status
 
 Action add_list(CLI::App& command);
 Action add_render(CLI::App& command);
+Action add_hash(CLI::App& command);
 Action add_verify(CLI::App& command);
 Action add_accuracy(CLI::App& command);
 Action add_stability(CLI::App& command);

@@ -29,8 +29,6 @@ namespace edgewise::tools {
 
 namespace {
 
-constexpr int kMaxFrames = 100000;
-constexpr double kMaxFps = 1000;
 enum class PixelKind { colour, id, hits };
 
 struct RenderOptions {
@@ -42,8 +40,7 @@ struct RenderOptions {
   PixelKind pixel_kind = PixelKind::colour;
   std::string output, depth;
   std::optional<Format> format;
-  int frames = 1;
-  std::optional<double> fps;
+  MotionOptions motion;
   bool json = false;
 };
 
@@ -80,7 +77,7 @@ class Renderer {
     }
     const auto outputs = [&](const char* option, const std::string& path, OutputKind kind,
                              std::optional<Format> format) {
-      return OutputPaths(option, path, kind, names, options.frames, format);
+      return OutputPaths(option, path, kind, names, options.motion.frames, format);
     };
     const bool output_is_depth = options.format == Format::pfm;
     if (output_is_depth && !options.depth.empty())
@@ -118,21 +115,17 @@ class Renderer {
   }
 
   void render_frames(const std::string& scene) {
-    std::optional<Shot> shot;
-    for (int frame = 1; frame <= options_.frames; ++frame) {
-      if (options_.frames > 1) show_progress(source_name(scene), frame, 0.0);
-      const double time = options_.scene.time.value_or(0.0) + (frame - 1) / options_.fps.value_or(30.0);
-      // Files are not animated, and reading one per frame would dominate the time.
-      if (!shot || shot->source.built_in != nullptr) shot = load_shot(scene, options_.scene, time);
-      shot->frontend.payload = options_.pixel_kind == PixelKind::id ? Payload::id : Payload::colour;
-      shot->frontend.threads = options_.execution.execution.threads;
-      shot->frontend.target = options_.execution.execution.target;
-      report(render(*shot, time, frame));
-    }
+    options_.motion.for_each_frame(scene, options_.scene, [&](Shot& shot, double time, int frame) {
+      if (options_.motion.frames > 1) show_progress(source_name(scene), frame, 0.0);
+      shot.frontend.payload = options_.pixel_kind == PixelKind::id ? Payload::id : Payload::colour;
+      shot.frontend.threads = options_.execution.execution.threads;
+      shot.frontend.target = options_.execution.execution.target;
+      report(render(shot, time, frame));
+    });
   }
 
   void show_progress(const std::string& scene, int frame, double frame_fraction) {
-    progress_.show((frame - 1 + frame_fraction) / options_.frames, scene);
+    progress_.show((frame - 1 + frame_fraction) / options_.motion.frames, scene);
   }
 
   Picture render(const Shot& shot, double time, int frame) {
@@ -261,9 +254,7 @@ Action add_render(CLI::App& command) {
              [o](const std::string& text) { o->pixel_kind = parse_pixel_kind(text); });
   o->scene.add_to(command);
   o->execution.add_to(command);
-  add_integer(command, "--frames", o->frames, 1, kMaxFrames,
-              "Number of animation frames, from --time on (1)");
-  add_number(command, "--fps", o->fps, 0.001, kMaxFps, "Frames per second of the animation (30)");
+  o->motion.add_to(command);
   command.add_flag("--json", o->json, "Print one JSON object per picture, one per line");
   command.footer(kRenderFooter);
   return [o] {

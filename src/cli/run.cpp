@@ -75,6 +75,7 @@ Action parse(int argc, char** argv, viewer::ShowWindow show_window) {
   };
   add("list", "List all scenes, backends, SIMD targets and culling modes", add_list);
   add("render", "Draw scenes into pictures and depth files", add_render);
+  add("hash", "Print one number per picture that is the same on every machine", add_hash);
   add("verify", "Check that all backends write the same bits", add_verify);
   add("accuracy", "Count each method's errors", add_accuracy);
   add("stability", "Find where each method starts to fail", add_stability);

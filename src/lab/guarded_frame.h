@@ -25,6 +25,7 @@ class GuardedFrame {
   // A copy's planes would not keep the alignment.
   GuardedFrame(const GuardedFrame&) = delete;
   GuardedFrame& operator=(const GuardedFrame&) = delete;
+  GuardedFrame(GuardedFrame&&) = default;
 
   FrameView view();
   int width() const { return width_; }

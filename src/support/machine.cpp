@@ -136,7 +136,7 @@ std::string commit() {
 nlohmann::json packages() {
   const auto list = output_of(
       "dpkg-query -W -f='${Package} ${Version}\\n' libtbb-dev libbenchmark-dev libglm-dev libhwy-dev "
-      "libpng-dev "
+      "libxxhash-dev libpng-dev "
       "libcli11-dev nlohmann-json3-dev libfmt-dev python3-matplotlib libgl1-mesa-dri; "
       "true");
   nlohmann::json versions = nlohmann::json::object();

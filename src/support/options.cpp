@@ -230,6 +230,24 @@ Shot load_shot(const std::string& name_or_path, const SceneOptions& options, dou
   return shot;
 }
 
+void MotionOptions::add_to(CLI::App& command) {
+  constexpr int kMaxFrames = 100000;
+  constexpr double kMaxFps = 1000;
+  add_integer(command, "--frames", frames, 1, kMaxFrames, "Number of animation frames, from --time on (1)");
+  add_number(command, "--fps", fps, 0.001, kMaxFps, "Frames per second of the animation (30)");
+}
+
+void MotionOptions::for_each_frame(const std::string& name_or_path, const SceneOptions& options,
+                                   const std::function<void(Shot&, double, int)>& draw) const {
+  std::optional<Shot> shot;
+  for (int frame = 1; frame <= frames; ++frame) {
+    const double time = options.time.value_or(0.0) + (frame - 1) / fps.value_or(30.0);
+    // Files are not animated, and reading one per frame would dominate the time.
+    if (!shot || shot->source.built_in != nullptr) shot = load_shot(name_or_path, options, time);
+    draw(*shot, time, frame);
+  }
+}
+
 int default_threads() {
   return std::min(usable_cores(), kMaxThreads);
 }

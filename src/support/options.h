@@ -72,6 +72,17 @@ struct Shot {
 };
 Shot load_shot(const std::string& name_or_path, const SceneOptions& options, double time);
 
+// Options for the frames of an animation.
+struct MotionOptions {
+  int frames = 1;
+  std::optional<double> fps;
+
+  void add_to(CLI::App& command);
+  // Calls draw(shot, time in s, frame) for frame 1 … `frames`.
+  void for_each_frame(const std::string& name_or_path, const SceneOptions& options,
+                      const std::function<void(Shot&, double, int)>& draw) const;
+};
+
 int default_threads();  // the number of usable cores; 1 … kMaxThreads
 
 // Options for drawing: threads, SIMD target, tile size.

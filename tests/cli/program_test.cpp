@@ -13,6 +13,7 @@
 
 #include "edgewise/backend.h"
 #include "edgewise/builtin.h"
+#include "edgewise/hash.h"
 #include "edgewise/image.h"
 #include "run_program.h"
 #include "support/machine.h"
@@ -41,8 +42,8 @@ std::vector<std::string> names_of(const Registry& registry) {
 }
 
 TEST(Program, HelpOnEveryCommandFits100Columns) {
-  for (const char* command : {"", "list", "render", "verify", "accuracy", "stability", "diff", "portable",
-                              "needs", "capture", "view", "demo", "machine"}) {
+  for (const char* command : {"", "list", "render", "hash", "verify", "accuracy", "stability", "diff",
+                              "portable", "needs", "capture", "view", "demo", "machine"}) {
     const Outcome outcome = edgewise_with(std::string(command) + " --help");
     EXPECT_EQ(outcome.status, 0) << command;
     EXPECT_NE(outcome.out.find("edgewise"), std::string::npos) << command;
@@ -66,6 +67,36 @@ TEST(Program, ListNamesAllRegistries) {
 
   const std::string text = edgewise_with("list").out;
   for (const auto& name : names_of(builtin_scenes())) EXPECT_NE(text.find(name), std::string::npos) << name;
+}
+
+TEST(Program, HashesAreThoseOfEveryBackendAndAddUp) {
+  const std::string arguments = "hash cube medium --size 90x51 --frames 3 --json --backend ";
+  const Outcome tiled = edgewise_with(arguments + "tiled --threads 3 --tile 16");
+  ASSERT_EQ(tiled.status, 0) << tiled.err;
+  EXPECT_EQ(edgewise_with(arguments + "naive --threads 1 --target scalar").out, tiled.out);
+  const auto json = nlohmann::json::parse(tiled.out);
+  const auto number = [](const nlohmann::json& hash) {
+    return std::stoull(hash.get<std::string>(), nullptr, 16);
+  };
+  std::vector<std::uint64_t> scenes;
+  for (const auto& scene : json.at("scenes")) {
+    std::vector<std::uint64_t> frames;
+    for (const auto& frame : scene.at("frames")) frames.push_back(number(frame));
+    EXPECT_EQ(frames.size(), 3u);
+    EXPECT_EQ(frames.front() == frames.back(), scene.at("scene") == "medium") << "the cube moves";
+    scenes.push_back(hash_of_all(frames));
+    EXPECT_EQ(number(scene.at("hash")), scenes.back());
+  }
+  EXPECT_EQ(number(json.at("hash")), hash_of_all(scenes));
+}
+
+TEST(Program, HashesOfFilesAreThoseOfTheirPictures) {
+  const TempDir folder;
+  const std::string file = (folder.path() / "cube.tri").string();
+  ASSERT_EQ(edgewise_with("capture cube --size 64x48 -o " + file).status, 0);
+  const Outcome outcome = edgewise_with("hash " + file);
+  EXPECT_NE(outcome.out.find("  cube (64x48)\n"), std::string::npos) << outcome.out << outcome.err;
+  EXPECT_EQ(edgewise_with("hash - <" + file).out.substr(0, 16), outcome.out.substr(0, 16));
 }
 
 TEST(Program, MachineIsDescribedWithoutAHostName) {

@@ -13,11 +13,11 @@
 #include <string>
 #include <vector>
 
-#include "cli/verify/random_cases.h"
 #include "edgewise/contract.h"
 #include "edgewise/tri_file.h"
 #include "lab/hard_triangles.h"
 #include "lab/measure.h"
+#include "lab/random_cases.h"
 #include "message_of.h"
 #include "run_program.h"
 #include "support.h"

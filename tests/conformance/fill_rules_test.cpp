@@ -1,7 +1,6 @@
 // Fill rules: rotated quads of two triangles, with hit counts added up. Every pixel of the quad is hit once,
 // for both diagonals, both windings and every first vertex. The quad's outline follows the same rule, so its
 // winding number is the expected count.
-#include <array>
 #include <glm/glm.hpp>
 #include <numbers>
 
@@ -14,17 +13,10 @@ namespace {
 class ConformanceFillRules : public Conformance {
  protected:
   // Checks all ways to split the quad into two triangles.
-  void expect_filled(const std::array<glm::vec3, 4>& quad, const View& view, const std::string& what) {
+  void expect_filled(const Quad& quad, const View& view, const std::string& what) {
     const auto expected = windings(snapped(quad), view.width, view.height);
-    const std::vector<glm::vec3> v(quad.begin(), quad.end());
-    for (const auto& [cut, a, b] : {std::tuple("one diagonal", glm::uvec3(0, 1, 2), glm::uvec3(0, 2, 3)),
-                                    {"the other diagonal", {0, 1, 3}, {1, 2, 3}},
-                                    {"started elsewhere", {2, 0, 1}, {3, 0, 2}},
-                                    {"last one first", {2, 3, 1}, {3, 0, 1}}})
-      expect_hits(stream_of(v, {a, b}), view, expected, what + ", " + cut);
-    // Reverses the first triangle, the second, or both.
-    expect_hits(stream_of(v, {{0, 2, 1}, {0, 2, 3}}), view, expected, what + ", first reversed");
-    expect_hits(stream_of(v, {{0, 2, 1}, {0, 3, 2}}), view, expected, what + ", both reversed");
+    for (const Split& split : kSplits)
+      expect_hits(stream_of(quad, {split.a, split.b}), view, expected, what + ", " + split.name);
     ties_ += ties(snapped(quad[0]), snapped(quad[2]), view.width, view.height) +
              ties(snapped(quad[1]), snapped(quad[3]), view.width, view.height);
   }
@@ -32,26 +24,11 @@ class ConformanceFillRules : public Conformance {
   int ties_ = 0;  // samples exactly on a shared diagonal
 };
 
-std::array<glm::vec3, 4> rotated(glm::dvec2 centre, double half, glm::dvec2 along) {
-  const glm::dvec2 across(-along.y, along.x);
-  const auto corner = [&](double a, double b) {
-    const glm::dvec2 p = centre + half * (a * along + b * across);
-    return glm::vec3(static_cast<float>(p.x), static_cast<float>(p.y), 0.5f);
-  };
-  return {corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)};
-}
-
-// Directions with whole coordinates, so that corners stay on the lattice and the diagonals pass through
-// samples.
 TEST_F(ConformanceFillRules, QuadsOnTheLatticeAreHitOnceAtEveryAngle) {
-  for (const auto& [x, y] :
-       {std::pair{1, 0}, {1, 1}, {2, 1}, {3, 1}, {3, 2}, {3, 4}, {5, 12}, {7, 1}, {1, 9}})
-    for (const double corner : {0.0, 0.5}) {
-      const glm::dvec2 along(x, y);
-      const double half = std::floor(28 / (std::abs(x) + std::abs(y)));
-      expect_filled(rotated(glm::dvec2(32 + corner), half, along), {},
-                    "direction " + std::to_string(x) + ":" + std::to_string(y));
-    }
+  for (const auto& direction : kDirections)
+    for (const double corner : {0.0, 0.5})
+      expect_filled(on_lattice(direction, corner), {},
+                    "direction " + std::to_string(direction.first) + ":" + std::to_string(direction.second));
   EXPECT_GT(ties_, 500) << "too few samples on edges to test the tie rule";
 }
 

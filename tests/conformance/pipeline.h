@@ -19,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "conformance/quads.h"
 #include "edgewise/backend.h"
 #include "edgewise/contract.h"
 #include "edgewise/frontend.h"
@@ -214,14 +215,6 @@ inline std::vector<SubPosition> snapped(std::span<const glm::vec3> polygon) {
   std::vector<SubPosition> all;
   for (const glm::vec3 v : polygon) all.push_back(snapped(v));
   return all;
-}
-
-inline TriangleStream stream_of(const std::vector<glm::vec3>& vertices,
-                                const std::vector<glm::uvec3>& triangles) {
-  TriangleStream stream{64, 64, {}};
-  for (const glm::uvec3 t : triangles)
-    stream.triangles.push_back({{vertices.at(t.x), vertices.at(t.y), vertices.at(t.z)}, 0});
-  return stream;
 }
 
 }  // namespace edgewise::conformance

@@ -18,6 +18,7 @@ ROOT = Path(__file__).resolve().parents[2]
 CONSUMER = ROOT / "tests" / "consumer"
 BUILD = Path(sys.argv.pop(1))
 FULL = "EDGEWISE_FULL" in os.environ
+FAST = "-O3 -march=native -ffast-math -mfma -ffp-contract=fast".split()  # all that lets a compiler round otherwise
 LABORATORY_PACKAGES = ("GTest", "benchmark", "CLI11", "fmt", "nlohmann_json", "rapidcheck", "SDL2", "OpenGL")
 
 
@@ -83,13 +84,18 @@ class Installed(unittest.TestCase):
             self.assertFalse([flag for line in flags for flag in line.split()
                               if flag.startswith(leaked) and flag != "-DNDEBUG"], "a flag leaks")
 
-    def use_pkg_config(self, prefix, name, static):
+    def pkg_config(self, prefix):
+        """The command, and the environment for it and for programs that are built with it."""
+        environment = {"PKG_CONFIG_PATH": str(next(prefix.rglob("edgewise.pc")).parent)}
+        shared = list(prefix.rglob("libedgewise.so"))
+        if shared:
+            environment["LD_LIBRARY_PATH"] = str(shared[0].parent)
+        return ("pkg-config", *(() if shared else ("--static",))), environment
+
+    def use_pkg_config(self, prefix, name):
         build = self.folder / name
         build.mkdir()
-        pkg_config = ("pkg-config", *(("--static",) if static else ()))
-        environment = {"PKG_CONFIG_PATH": str(next(prefix.rglob("edgewise.pc")).parent)}
-        if not static:
-            environment["LD_LIBRARY_PATH"] = str(next(prefix.rglob("libedgewise.so")).parent)
+        pkg_config, environment = self.pkg_config(prefix)
         compiler = cached("CMAKE_CXX_COMPILER")
         version = run(*pkg_config, "--modversion", "edgewise", env=environment)
         self.assertEqual(version, cached("CMAKE_PROJECT_VERSION") + "\n")
@@ -106,7 +112,22 @@ class Installed(unittest.TestCase):
         self.use_package(self.prefix, "package")
 
     def test_pkg_config(self):
-        self.use_pkg_config(self.prefix, "pkg-config", static=not list(self.prefix.rglob("libedgewise.so")))
+        self.use_pkg_config(self.prefix, "pkg-config")
+
+    def test_hashes_do_not_depend_on_the_users_flags(self):
+        mesh = self.folder / "mesh.obj"
+        mesh.write_text("v 0 0 0\nv 1 0 0.3\nv 1 1.1 0\nv 0 1 0.7\nf 1 2 3 4\nf 1 4 2\n")
+        scenes = ("cube", "cubes", "sphere", "torus-knot", mesh)
+        said = run(next(self.prefix.rglob("bin/edgewise")), "hash", *scenes, "--size", "320x160", "--frames", 4, "--fps", 32)
+        pkg_config, environment = self.pkg_config(self.prefix)
+        flags = run(*pkg_config, "--cflags", "--libs", "edgewise-files", env=environment).split()
+        for compiler in ("g++", "clang++-14"):
+            with self.subTest(compiler):
+                if shutil.which(compiler) is None:
+                    self.skipTest(f"{compiler} is missing")
+                program = self.folder / f"hashes-{compiler}"
+                run(compiler, "-std=c++20", *FAST, CONSUMER / "hashes.cpp", "-o", program, *flags)
+                self.assertEqual(run(program, *scenes, env=environment).split(), [line.split()[0] for line in said.splitlines()])
 
     def test_the_library_calls_no_inline_function_of_glm(self):
         # The linker would make it call the user's copy of that function, which may round otherwise.
@@ -209,7 +230,7 @@ class Installed(unittest.TestCase):
             self.assertIn(f"Library soname: [lib{name}.so.0.2]",
                           run("readelf", "-d", next(prefix.rglob(f"lib{name}.so"))))
         self.use_package(prefix, "shared-package")
-        self.use_pkg_config(prefix, "shared-pkg-config", static=False)
+        self.use_pkg_config(prefix, "shared-pkg-config")
 
     @unittest.skipUnless(FULL, "compiles the library anew")
     def test_a_library_without_onetbb(self):

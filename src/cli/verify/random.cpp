@@ -10,7 +10,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "cli/verify/random_cases.h"
 #include "cli/verify/verify.h"
 #include "core/atomic_file.h"
 #include "core/random.h"
@@ -19,6 +18,7 @@
 #include "frontend/mesh_clusters.h"
 #include "lab/measure.h"
 #include "lab/oracle.h"
+#include "lab/random_cases.h"
 #include "lab/to_stream.h"
 #include "support/printable.h"
 #include "support/process.h"

@@ -1,4 +1,4 @@
-#include "cli/verify/random_cases.h"
+#include "lab/random_cases.h"
 
 #include <algorithm>
 #include <array>

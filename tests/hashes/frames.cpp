@@ -1,0 +1,153 @@
+#include "hashes/frames.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <string_view>
+#include <utility>
+
+#include "conformance/quads.h"
+#include "edgewise/builtin.h"
+#include "lab/random_cases.h"
+
+namespace edgewise::hashes {
+
+namespace {
+
+constexpr int kFrames = 48;  // of a group
+constexpr int kCulls = 3;    // a scene at one time is drawn culling nothing, back faces, front faces
+constexpr std::array<std::pair<int, int>, 3> kSizes{{{61, 37}, {127, 71}, {331, 187}}};  // px
+constexpr int kRandomGroups = 160;
+constexpr std::uint64_t kSeed = 47;
+
+struct BuiltIn {
+  std::string_view name;
+  int groups;    // for each size
+  double scale;  // 0: not scalable. A stream does not move: its scale grows, by this much in each step
+};
+constexpr std::array kBuiltIns = {
+    BuiltIn{"cube", 4, 0},       BuiltIn{"cubes", 4, 0},      BuiltIn{"sphere", 2, 0},
+    BuiltIn{"torus-knot", 2, 0}, BuiltIn{"terrain", 1, 0},    BuiltIn{"knots", 1, 0.1},
+    BuiltIn{"large", 1, 0.01},   BuiltIn{"medium", 1, 0.001}, BuiltIn{"small", 1, 0.0005},
+    BuiltIn{"micro", 1, 0.0005}, BuiltIn{"sliver", 1, 0.001}, BuiltIn{"grid4", 1, 0.05},
+    BuiltIn{"grid64", 1, 1},     BuiltIn{"quads", 1, 0.1},
+};
+
+template <typename... Values>
+std::string text(const char* format, Values... values) {
+  char line[200];
+  std::snprintf(line, sizeof line, format, values...);
+  return line;
+}
+
+Frame frame_of(std::shared_ptr<const Drawable> drawable, int width, int height, int i) {
+  Frame frame{.width = width, .height = height, .drawable = std::move(drawable)};
+  frame.frontend.width = width;
+  frame.frontend.height = height;
+  frame.frontend.cull = cull_modes()[static_cast<std::size_t>(i % kCulls)];
+  frame.frontend.shade = std::holds_alternative<Scene>(*frame.drawable);
+  frame.frontend.payload = i / kCulls % 2 == 0 ? Payload::colour : Payload::id;
+  return frame;
+}
+
+// Makes each drawable once, for all culling modes.
+Group group_of(std::string name, int width, int height, std::function<Drawable(int)> make) {
+  return {std::move(name), kFrames, [=, made = std::shared_ptr<const Drawable>(), step = -1](int i) mutable {
+            if (step != i / kCulls) made = std::make_shared<const Drawable>(make(step = i / kCulls));
+            return frame_of(made, width, height, i);
+          }};
+}
+
+SceneRequest request_of(const BuiltIn& scene, int width, int height, int step) {
+  const bool grows = find_scene(scene.name).stream;
+  return {width, height, grows ? 0.0f : 0.625f * static_cast<float>(step),
+          scene.scale == 0 ? 1.0 : scene.scale * (grows ? step + 1 : 1)};
+}
+
+void add_built_in(std::vector<Group>& all, const BuiltIn& scene, int width, int height, int part) {
+  const int first = part * kFrames / kCulls;
+  const auto request = [=](int step) { return request_of(scene, width, height, first + step); };
+  Group group = group_of(text("%s %dx%d %d", scene.name.data(), width, height, part), width, height,
+                         [=](int step) { return find_scene(scene.name).make(request(step)); });
+  group.frame = [=, frame = group.frame](int i) {
+    Frame made = frame(i);
+    const SceneRequest r = request(i / kCulls);
+    made.redraw = text("edgewise render %s --size %dx%d --time %.17g --cull %s%s%s -o FILE",
+                       scene.name.data(), width, height, double{r.time}, name_of(made.frontend.cull).data(),
+                       made.frontend.payload == Payload::id ? " --payload id" : "",
+                       scene.scale == 0 ? "" : text(" --scale %.17g", r.scale).c_str());
+    return made;
+  };
+  all.push_back(std::move(group));
+}
+
+// Far from the origin: until doubles are too coarse to hold the scene.
+void far_away(Scene& scene, int step) {
+  const glm::dvec3 by = std::ldexp(1.0, 3 * step) * glm::dvec3(1.0, -0.75, 0.5);
+  scene.camera.position += by;
+  for (Instance& instance : scene.instances) instance.translation += by;
+}
+
+// A narrow view, until triangles reach beyond the guard band.
+void narrow(Scene& scene, int step) {
+  scene.camera.fov_y = std::ldexp(1.0f, -step);
+}
+
+// The near and the far plane cut the scene.
+void sliced(Scene& scene, int step) {
+  scene.camera.near_z = 2.0f + 0.25f * static_cast<float>(step);
+  scene.camera.far_z = scene.camera.near_z + 0.75f;
+}
+
+Frame random_frame(std::uint64_t number) {
+  randomized::Case c = randomized::make_case(kSeed, number);
+  Frame frame{c.width,
+              c.height,
+              c.background,
+              std::move(c.triangles),
+              nullptr,
+              c.frontend,
+              text("edgewise verify --random --seed %d --case %d", static_cast<int>(kSeed),
+                   static_cast<int>(number))};
+  if (c.drawable) frame.drawable = std::make_shared<const Drawable>(std::move(*c.drawable));
+  return frame;
+}
+
+}  // namespace
+
+std::vector<Group> groups() {
+  std::vector<Group> all;
+  for (const BuiltIn& scene : kBuiltIns)
+    for (const auto& [width, height] : kSizes)
+      for (int part = 0; part < scene.groups; ++part) add_built_in(all, scene, width, height, part);
+
+  const std::array<std::pair<const char*, void (*)(Scene&, int)>, 3> kViews{
+      {{"far", far_away}, {"narrow", narrow}, {"sliced", sliced}}};
+  for (const auto& [view, change] : kViews)
+    for (const std::string name : {"cube", "cubes", "torus-knot"})
+      all.push_back(group_of(view + (" " + name), 127, 71, [=, change = change](int step) {
+        Drawable drawable = find_scene(name).make({.time = 0.25f});
+        change(std::get<Scene>(drawable), step);
+        return drawable;
+      }));
+
+  using namespace conformance;
+  for (const double corner : {0.0, 0.5})
+    all.push_back(
+        {text("fill rules %g", corner), static_cast<int>(kDirections.size() * kSplits.size()), [=](int i) {
+           const auto n = static_cast<std::size_t>(i);
+           const Split& split = kSplits[n % kSplits.size()];
+           const Quad quad = on_lattice(kDirections[n / kSplits.size()], corner);
+           Frame frame =
+               frame_of(std::make_shared<const Drawable>(stream_of(quad, {split.a, split.b})), 64, 64, 0);
+           frame.frontend.payload = Payload::id;
+           return frame;
+         }});
+
+  for (int part = 0; part < kRandomGroups; ++part)
+    all.push_back({text("random %d", part), kFrames,
+                   [=](int i) { return random_frame(static_cast<std::uint64_t>(part * kFrames + i)); }});
+  return all;
+}
+
+}  // namespace edgewise::hashes

@@ -1,0 +1,31 @@
+// The frames whose hashes tests/hashes.json holds. They are the same on every machine.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "edgewise/frontend.h"
+#include "edgewise/screen_triangle.h"
+
+namespace edgewise::hashes {
+
+struct Frame {
+  int width, height;  // px
+  std::uint32_t background = 0xFF000000;
+  std::vector<ScreenTriangle> triangles = {};          // if there is no drawable
+  std::shared_ptr<const Drawable> drawable = nullptr;  // for the front end, with
+  FrontendOptions frontend = {};
+  std::string redraw = {};  // the command that draws it, if there is one
+};
+
+struct Group {
+  std::string name;
+  int frames;
+  std::function<Frame(int)> frame;  // 0 … frames - 1; quick if called in order
+};
+std::vector<Group> groups();
+
+}  // namespace edgewise::hashes
