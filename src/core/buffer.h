@@ -1,10 +1,13 @@
 // Memory with huge pages, and buffers of it.
 #pragma once
 
+#ifdef __linux__
 #include <sys/mman.h>
+#endif
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <new>
 #include <type_traits>
@@ -53,6 +56,7 @@ class Buffer {
   // Capacity for at least `count` records. Growing discards the contents.
   void reserve(std::size_t count) {
     if (count <= capacity_) return;
+    if (count > PTRDIFF_MAX / sizeof(T)) throw std::bad_alloc();
     data_.reset();  // first, so that both are never held at once
     capacity_ = 0;
     const std::size_t bytes = count * sizeof(T);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec2.hpp>
 
@@ -19,8 +20,8 @@ class Random {
     z = (z ^ z >> 27) * 0x94D049BB133111EBu;
     return z ^ z >> 31;
   }
-  // In [0, end). `end` must be much smaller than 2^64, or the result is biased.
-  std::uint64_t below(std::uint64_t end) { return next() % end; }
+  // In [0, end). `end` must be at most 2^32, so that no result is biased and every one fits std::size_t.
+  std::size_t below(std::uint64_t end) { return static_cast<std::size_t>(next() % end); }
   // A multiple of 2^-24 in [low, high).
   float uniform(float low, float high) {
     return low + (high - low) * (static_cast<float>(next() >> 40) * 0x1p-24f);

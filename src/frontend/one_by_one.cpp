@@ -102,9 +102,9 @@ void clip(const Vertex (&corners)[3], std::uint32_t sides, const Source& source,
   };
   const Pieces pieces = split({snapped.data(), polygon.size()});
   for (std::size_t i = 0; i < pieces.count; ++i) {
-    const auto [a, b, c] = pieces.corners[i];
-    emit(snapped[a], snapped[b], snapped[c], source, options, out, [&, a = a, b = b, c = c] {
-      return triangle_of(unsnapped(polygon[a]), unsnapped(polygon[b]), unsnapped(polygon[c]));
+    const auto& at = pieces.corners[i];
+    emit(snapped[at[0]], snapped[at[1]], snapped[at[2]], source, options, out, [&] {
+      return triangle_of(unsnapped(polygon[at[0]]), unsnapped(polygon[at[1]]), unsnapped(polygon[at[2]]));
     });
   }
 }

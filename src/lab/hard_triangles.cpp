@@ -92,7 +92,8 @@ class ListMaker {
     add(a, b, c);
   }
   void shuffle() {
-    for (std::size_t i = list_.size(); i > 1; --i) std::swap(list_[i - 1], list_[numbers_(i)]);
+    for (std::size_t i = list_.size(); i > 1; --i)
+      std::swap(list_[i - 1], list_[static_cast<std::size_t>(numbers_(i))]);
   }
   std::vector<ScreenTriangle> take() {
     list_.resize(count_);

@@ -110,7 +110,7 @@ class Edges {
 
  private:
   void test_and_write(std::int64_t x, std::int64_t y, std::int64_t z, std::uint32_t payload) const {
-    const std::ptrdiff_t at = y * frame_.stride + x;
+    const auto at = static_cast<std::ptrdiff_t>(y * frame_.stride + x);
     const auto depth = static_cast<std::uint32_t>(z);
     if (depth >= frame_.depth[at]) return;
     frame_.depth[at] = depth;

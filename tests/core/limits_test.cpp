@@ -5,10 +5,13 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <cstdint>
 #include <cstdlib>
 #include <functional>
+#include <new>
 #include <stdexcept>
 
+#include "core/buffer.h"
 #include "edgewise/backend.h"
 #include "edgewise/contract.h"
 #include "edgewise/frontend.h"
@@ -66,6 +69,13 @@ TEST(LimitsDeathTest, EveryBackendRefusesTooManyTriangles) {
       Framebuffer frame(8, 8);
       info.make()->draw(std::span(&one, kMaxTriangles + 1), frame.view(), 0, {});
     });
+}
+
+// The size in bytes must not wrap, as the worst case of a capacity may where size_t has 32 bits.
+TEST(Limits, ABufferOfMoreBytesThanCanBeAddressedIsRefused) {
+  Buffer<std::uint64_t> buffer;
+  EXPECT_THROW(buffer.reserve(SIZE_MAX / sizeof(std::uint64_t) + 2), std::bad_alloc);
+  EXPECT_EQ(buffer.capacity(), 0u);
 }
 
 // Both sides at the limit: a frame of 2 GiB.

@@ -19,6 +19,7 @@ BELOW = {
     "src/lab": ["core", "scene", "frontend", "raster"],
     "src/support": ["core", "scene", "image", "edgewise/backend.h", "edgewise/frontend.h"],
     "src/viewer": ["core", "scene", "image", "frontend", "raster", "lab", "support"],
+    "src/web": ["core", "scene", "frontend", "raster", "lab"],
     "bench": ["core", "scene", "image", "frontend", "raster", "lab", "support"],
     "src/cli": ["core", "scene", "image", "frontend", "raster", "lab", "support", "viewer"],
 }

@@ -92,7 +92,8 @@ class RunIndex {
     for (std::size_t i = 0; i < triangles; ++i) first_[i + 1] += first_[i];
   }
   bool has(std::uint32_t triangle, int x, int y) const {
-    const auto begin = runs_.begin() + first_[triangle], end = runs_.begin() + first_[triangle + 1];
+    const auto runs = runs_.subspan(first_[triangle], first_[triangle + 1] - first_[triangle]);
+    const auto begin = runs.begin(), end = runs.end();
     const auto run =
         std::partition_point(begin, end, [&](const Run& r) { return r.y < y || (r.y == y && r.x1 <= x); });
     return run != end && run->y == y && run->x0 <= x;

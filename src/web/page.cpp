@@ -1,0 +1,142 @@
+// The program of the page (page.html): draws a few triangles by the laboratory's coverage methods, and marks
+// wrong pixels and cracks by its exact truth. JavaScript calls the exported functions, and reads and writes
+// their memory.
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "edgewise/builtin.h"
+#include "lab/coverage/cracks.h"
+#include "lab/error_marks.h"
+
+#define EXPORT(name) extern "C" [[clang::export_name(#name)]]
+
+namespace edgewise::lab {
+
+namespace {
+
+// The side of the largest case that is shown, and the least coordinate but 0, for which gmpxx.h is exact.
+constexpr int kLargestSide = 401;
+constexpr float kLeast = 0x1p-8f;
+
+CoverageScene scene;
+bool from_front_end = false;
+
+// What judge() found. All members have 32 bits, the pointers too.
+struct Verdict {
+  std::uint32_t width, height, triangle_count;
+  const FloatTriangle* triangles;
+  const std::uint32_t* visible;  // row by row: 1 + a triangle's index, or 0
+  const Mark* marks;             // row by row
+  std::uint32_t wrong, gaps, double_hits, covered;
+} verdict;
+std::vector<std::uint32_t> visible;
+std::vector<Mark> marks;
+
+std::vector<CoverageCase> cases() {
+  std::vector<CoverageCase> list;
+  for (const CoverageCase& c : coverage_cases()) {
+    if (c.size.width > kLargestSide || c.size.height > kLargestSide) continue;
+    bool exact = true;
+    for (const FloatTriangle& t : c.make())
+      for (int i = 0; i < 3; ++i)
+        for (const float v : {t.at.x_px[i], t.at.y_px[i]}) exact &= v == 0 || v >= kLeast || v <= -kLeast;
+    if (exact) list.push_back(c);
+  }
+  return list;
+}
+
+// Lines of a name, a tab and a text.
+template <typename List, typename Name, typename Text>
+const char* lines(const List& list, Name name, Text text) {
+  static std::string joined;
+  joined.clear();
+  for (const auto& entry : list) {
+    joined += name(entry);
+    joined += '\t';
+    joined += text(entry);
+    joined += '\n';
+  }
+  return joined.c_str();
+}
+
+void open(CoverageScene next, bool with_front_end) {
+  scene = std::move(next);
+  from_front_end = with_front_end;
+  for (std::uint32_t i = 0; i < scene.floats.size(); ++i) {
+    scene.floats[i].payload = i + 1;
+    if (from_front_end) scene.snapped[i].payload = i + 1;
+  }
+}
+
+std::uint32_t count(std::uint64_t n) {
+  return static_cast<std::uint32_t>(n);
+}
+
+}  // namespace
+
+EXPORT(methods) const char* methods() {
+  return lines(
+      coverage_methods(), [](const auto& m) { return m.info.name; },
+      [](const auto& m) { return m.info.summary; });
+}
+
+EXPORT(cases) const char* case_list() {
+  return lines(
+      cases(), [](const auto& c) { return c.name; }, [](const auto& c) { return c.summary; });
+}
+
+EXPORT(open_case) void open_case(int index) {
+  const CoverageCase chosen = cases()[static_cast<std::size_t>(index)];
+  open({chosen.size, chosen.make(), {}}, false);
+}
+
+// The tutorials' cube. While it is not turned, the diagonal of its front face runs through samples, up to the
+// rounding of the front end.
+EXPORT(open_cube) void open_cube(float angle) {
+  Scene cube = std::get<Scene>(find_scene("cube").make({}));
+  cube.instances[0].axis = {0.0f, 1.0f, 0.0f};
+  cube.instances[0].angle = angle;
+  cube.camera = {};
+  cube.camera.position = {0.0f, 0.0f, 3.0f};
+  cube.camera.fov_y = 1.5707964f;  // 90 degrees
+  open(coverage_scene(cube, {.width = 160, .height = 96}), true);
+}
+
+// Makes room for triangles. The caller writes their positions, and calls judge().
+EXPORT(open_triangles) FloatTriangle* open_triangles(int triangles, int width, int height) {
+  open({{width, height}, std::vector<FloatTriangle>(static_cast<std::size_t>(triangles)), {}}, false);
+  return scene.floats.data();
+}
+
+EXPORT(judge) const Verdict* judge(int index) {
+  const CoverageMethod& method = coverage_methods()[static_cast<std::size_t>(index)];
+  if (!from_front_end) scene.snapped = snapped(scene.floats);
+  const CoverageTruth truth = float_coverage(scene.input(), scene.window(), 1);
+  const DrawnRuns drawn(method, scene.input(), scene.window());
+  const Cracks cracks = CrackJudge(scene.floats, truth).find(drawn, method.promise.snap_bits);
+  const CoverageScore score = score_coverage(truth, drawn, scene.floats);
+  marks = mark_coverage(truth, drawn, cracks, scene.floats).marks;
+
+  Canvas canvas(scene.size.width, scene.size.height);
+  method.draw(scene.input(), canvas, {});
+  visible.clear();
+  for (int y = 0; y < scene.size.height; ++y) {
+    const std::uint32_t* const row = canvas.frame.payload_row(y);
+    visible.insert(visible.end(), row, row + scene.size.width);
+  }
+  verdict = {static_cast<std::uint32_t>(scene.size.width),
+             static_cast<std::uint32_t>(scene.size.height),
+             count(scene.floats.size()),
+             scene.floats.data(),
+             visible.data(),
+             marks.data(),
+             count(score.errors()),
+             count(cracks.gaps.size() + cracks.t_gaps.size()),
+             count(cracks.double_hits.size() + cracks.t_double_hits.size()),
+             count(truth.covered)};
+  return &verdict;
+}
+
+}  // namespace edgewise::lab
