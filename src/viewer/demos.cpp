@@ -1,7 +1,6 @@
 #include "viewer/demos.h"
 
 #include <array>
-#include <cmath>
 #include <numbers>
 #include <string>
 

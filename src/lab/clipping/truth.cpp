@@ -1,7 +1,6 @@
 #include "lab/clipping/truth.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include "core/finite.h"

@@ -1,6 +1,5 @@
 // Clipping sweeps: the distance of the near plane, the distance of a vertex from the camera's plane, and that
 // of camera and scene from the origin.
-#include <cmath>
 
 #include "core/trigonometry.h"
 #include "lab/clipping/clipping.h"
