@@ -1,0 +1,15 @@
+# For toolchains of platforms without packages: the library alone, without threads, and of the machine's own headers
+# only those of libraries without code that depends on the processor.
+set(EDGEWISE_THREADS OFF CACHE BOOL "")
+set(EDGEWISE_FILES OFF CACHE BOOL "")
+set(EDGEWISE_LABORATORY OFF CACHE BOOL "")
+set(headers "${CMAKE_BINARY_DIR}/headers")
+foreach(library glm hwy)
+  set(${library}_DIR "${headers}")
+  file(WRITE "${headers}/${library}Config.cmake" "add_library(${library}::${library} INTERFACE IMPORTED)
+target_include_directories(${library}::${library} INTERFACE \"${headers}\")\n")
+endforeach()
+foreach(header glm hwy xxhash.h)
+  file(CREATE_LINK "/usr/include/${header}" "${headers}/${header}" SYMBOLIC)
+endforeach()
+set(XXHASH_INCLUDE "${headers}")
