@@ -70,7 +70,7 @@ program_on() {
   local -a run=("qemu-$1" -L "$sysroot")
   unpack_sysroot "$sysroot" "$2"
   build edgewise_program edgewise_hashes edgewise_library_tests
-  noted "${run[@]}" "$build/edgewise_hashes" "$root/tests/hashes.json"
+  noted "${run[@]}" "$build/edgewise_hashes" "$root/tests/hashes.json" --frames 1000
   # QEMU 7.2 cannot fork while threads run.
   noted "${run[@]}" "$build/edgewise_library_tests" --gtest_brief=1 '--gtest_filter=-AtomicFile.*WhileTheProcessEnds'
   noted facts_are_those_of_x86_64 "${run[@]}"
