@@ -47,27 +47,43 @@ facts_are_those_of_x86_64() {
 }
 
 on_x86_64() {
-  build edgewise_program edgewise_library_tests
+  build edgewise_program edgewise_hashes edgewise_library_tests
+  noted "$build/edgewise_hashes" "$root/tests/hashes.json"
+  # As on a processor without FMA, for which the C library has other functions.
+  GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2 noted "$build/edgewise_hashes" "$root/tests/hashes.json"
   noted "$build/edgewise_library_tests" --gtest_brief=1
   facts >"$platforms/x86_64.facts"
-  # As on a processor without FMA, for which the C library has other functions.
-  GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2 noted facts_are_those_of_x86_64
 }
 
-# program_on PROCESSOR ARCHITECTURE: the library's tests and the program. Optimized less, to be built quickly.
+# library_on PROCESSOR [OPTIONS…]: the hashes of the library alone, which needs no packages.
+library_on() {
+  local build=$platforms/$1-library
+  local -a build_flags=("-DCMAKE_TOOLCHAIN_FILE=$root/tests/platforms/cross.cmake" "-DEDGEWISE_PROCESSOR=$1" -DEDGEWISE_WERROR=ON)
+  build edgewise_hashes
+  noted "qemu-$1" -L "/usr/$1-linux-gnu" "$build/edgewise_hashes" "$root/tests/hashes.json" "${@:2}"
+}
+# program_on PROCESSOR ARCHITECTURE: all that the laboratory's packages are needed for. Optimized less, to be built quickly.
 program_on() {
   local build=$platforms/$1 build_type=None sysroot=$platforms/$1-packages
   local -a build_flags=("-DCMAKE_TOOLCHAIN_FILE=$root/tests/platforms/cross.cmake" "-DEDGEWISE_PROCESSOR=$1"
     "-DEDGEWISE_SYSROOT=$sysroot" -DEDGEWISE_WERROR=ON -DCMAKE_CXX_FLAGS=-O1)
   local -a run=("qemu-$1" -L "$sysroot")
   unpack_sysroot "$sysroot" "$2"
-  build edgewise_program edgewise_library_tests
+  build edgewise_program edgewise_hashes edgewise_library_tests
+  noted "${run[@]}" "$build/edgewise_hashes" "$root/tests/hashes.json" --frames 1000
   # QEMU 7.2 cannot fork while threads run.
   noted "${run[@]}" "$build/edgewise_library_tests" --gtest_brief=1 '--gtest_filter=-AtomicFile.*WhileTheProcessEnds'
   noted facts_are_those_of_x86_64 "${run[@]}"
 }
-on_aarch64() { program_on aarch64 arm64; }
-on_s390x() { program_on s390x s390x; }
+on_aarch64() {
+  library_on aarch64
+  program_on aarch64 arm64
+}
+on_s390x() {
+  library_on s390x
+  program_on s390x s390x
+}
+on_riscv64() { library_on riscv64; }
 
 # everywhere PLATFORM…: tests each, prints a line for each, and writes build/platforms/results.json. Sets `status` to 1 if
 # one fails.

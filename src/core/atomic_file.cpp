@@ -34,9 +34,9 @@ struct Slot {
   char path[PATH_MAX] = {};
 };
 std::array<Slot, 32> slots;
-std::atomic<bool> ending{false};
+std::atomic<int> ending{0};       // 0 or 1; riscv64 has no atomic bytes without a lock
 std::atomic<int> overwriting{0};  // files
-static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
+static_assert(std::atomic<int>::is_always_lock_free);
 
 constexpr std::array kEndSignals{SIGINT, SIGTERM, SIGHUP, SIGQUIT};
 
@@ -127,7 +127,7 @@ fs::path after_links(fs::path path) {
 }
 
 void remove_unfinished_files() {
-  ending = true;
+  ending = 1;
   while (overwriting > 0) poll(nullptr, 0, 1);
   for (Slot& slot : slots)
     if (slot.state.load() == SlotState::live) unlink(slot.path);

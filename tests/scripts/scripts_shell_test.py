@@ -65,6 +65,7 @@ class ShellTest(FolderTest):
         self.tool("cmake", CMAKE)
         self.tool("ctest", CTEST)
         self.tool("dpkg-query", ALL_INSTALLED)
+        self.tool("qemu-aarch64", '#!/bin/bash\necho "qemu-aarch64 $*" >>"$CALLS"\nexit "${QEMU_STATUS:-0}"\n')
         self.tool("apt-get", '#!/bin/bash\necho "apt-get $*" >>"$CALLS"\nexit 9\n')
         self.environment |= {"CALLS": str(self.calls), "CTEST_XML": "", "GTEST_XML": str(self.file("gtest.xml", GTEST_CASES))}
 
@@ -212,6 +213,12 @@ for a; do [[ $a != Dir::Cache=* ]] || cp {self.folder}/a.deb "${{a#*=}}/archives
         self.assertEqual(lines[-1], f"{3 + 2 * shards} passed, 0 failed, {6 + 2 * shards} skipped")
         self.assertEqual(lines[-3:-1], [f"Skipped {3 + 2 * shards}, z3 is not installed: L.Proofs, Proofs.A",
                                         "Skipped 3, tmux not installed: viewer_smoke"])
+        self.assertRegex(self.calls.read_text(), r"\nqemu-aarch64 .*/edgewise_hashes .*/tests/hashes.json --frames 200\n")
+
+    def test_a_wrong_hash_on_another_processor_fails(self):
+        result, lines = self.run_tests("", QEMU_STATUS="1")
+        self.assertEqual(result.returncode, 1)
+        self.assertEqual(lines[-2], "Failed: the run ended without results; see above (aarch64)")
 
     def test_selected_tests_run_once(self):
         result, lines = self.run_tests("", "-R", "A", "-j4")
