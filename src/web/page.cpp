@@ -6,7 +6,9 @@
 #include <string_view>
 #include <vector>
 
+#include "edgewise/backend.h"
 #include "edgewise/builtin.h"
+#include "edgewise/hash.h"
 #include "lab/coverage/cracks.h"
 #include "lab/error_marks.h"
 
@@ -29,7 +31,7 @@ struct Verdict {
   const FloatTriangle* triangles;
   const std::uint32_t* visible;  // row by row: 1 + a triangle's index, or 0
   const Mark* marks;             // row by row
-  std::uint32_t wrong, gaps, double_hits, covered;
+  std::uint32_t wrong, gaps, double_hits, covered, hash_low, hash_high;  // the hash: of the library's picture
 } verdict;
 std::vector<std::uint32_t> visible;
 std::vector<Mark> marks;
@@ -119,6 +121,10 @@ EXPORT(judge) const Verdict* judge(int index) {
   const CoverageScore score = score_coverage(truth, drawn, scene.floats);
   marks = mark_coverage(truth, drawn, cracks, scene.floats).marks;
 
+  Framebuffer picture(scene.size.width, scene.size.height);
+  find_backend("tiled").make()->draw(scene.snapped, picture.view(), 0xFF000000, {});
+  const std::uint64_t hash = hash_of(picture.view());
+
   Canvas canvas(scene.size.width, scene.size.height);
   method.draw(scene.input(), canvas, {});
   visible.clear();
@@ -135,7 +141,9 @@ EXPORT(judge) const Verdict* judge(int index) {
              count(score.errors()),
              count(cracks.gaps.size() + cracks.t_gaps.size()),
              count(cracks.double_hits.size() + cracks.t_double_hits.size()),
-             count(truth.covered)};
+             count(truth.covered),
+             static_cast<std::uint32_t>(hash),
+             static_cast<std::uint32_t>(hash >> 32)};
   return &verdict;
 }
 

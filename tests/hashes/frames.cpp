@@ -125,9 +125,9 @@ std::vector<Group> groups() {
       {{"far", far_away}, {"narrow", narrow}, {"sliced", sliced}}};
   for (const auto& [view, change] : kViews)
     for (const std::string name : {"cube", "cubes", "torus-knot"})
-      all.push_back(group_of(view + (" " + name), 127, 71, [=, change = change](int step) {
+      all.push_back(group_of(view + (" " + name), 127, 71, [=, move = change](int step) {
         Drawable drawable = find_scene(name).make({.time = 0.25f});
-        change(std::get<Scene>(drawable), step);
+        move(std::get<Scene>(drawable), step);
         return drawable;
       }));
 

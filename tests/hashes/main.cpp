@@ -9,8 +9,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <optional>
@@ -55,8 +53,11 @@ Hashes halves(std::uint64_t hash) {
 
 // An object of strings without escapes: group → 8 hexadecimal digits per frame.
 Stored read(const std::string& path) {
-  std::ifstream file(path);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  std::string text;  // not by a file stream, which WASI's C++ library lacks
+  if (std::FILE* const file = std::fopen(path.c_str(), "r")) {
+    for (int c; (c = std::getc(file)) != EOF;) text += static_cast<char>(c);
+    std::fclose(file);
+  }
   std::vector<std::string> strings;
   for (std::size_t begin = text.find('"'); begin != std::string::npos;) {
     const std::size_t end = text.find('"', begin + 1);
@@ -75,17 +76,18 @@ Stored read(const std::string& path) {
 }
 
 void write(const std::string& path, const std::vector<Group>& all, const Stored& stored) {
-  std::ofstream file(path);
+  std::string text = "{\n";
   const auto line = [&](const std::string& name, const char* end) {
-    file << "  \"" << name << "\": \"";
-    for (const std::uint32_t hash : stored.at(name)) file << hex(hash, 8);
-    file << '"' << end;
+    text += "  \"" + name + "\": \"";
+    for (const std::uint32_t hash : stored.at(name)) text += hex(hash, 8);
+    text += std::string("\"") + end;
   };
-  file << "{\n";
   for (const Group& group : all) line(group.name, ",\n");
   line(kAll, "\n}\n");
-  file.close();
-  if (!file) throw std::runtime_error(path + " cannot be written");
+  std::FILE* const file = std::fopen(path.c_str(), "w");
+  const bool put = file != nullptr && std::fputs(text.c_str(), file) >= 0;
+  if (file == nullptr || std::fclose(file) != 0 || !put)
+    throw std::runtime_error(path + " cannot be written");
 }
 
 struct Combination {

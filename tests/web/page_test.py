@@ -3,6 +3,7 @@
 import base64
 import json
 import socket
+import struct
 import subprocess
 import sys
 import time
@@ -126,6 +127,15 @@ class Page(unittest.TestCase):
         self.assertEqual(found["float_lt"]["double_hits"], 0)
         for method in ("fixed_8", "tiled"):
             self.assertEqual({**found[method], "covered": 0}, dict.fromkeys(found[method], 0))
+
+    def test_the_picture_has_the_hash_of_the_native_program(self):
+        corners = ((3.5, 3.5), (24.5, 2.5), (8.5, 18.5)), ((29.5, 16.5), (8.5, 18.5), (24.5, 2.5))
+        stream = FOLDER / "pair.tri"
+        stream.write_bytes(struct.pack("<4s3I", b"TRI1", 32, 20, 2) + b"".join(
+            struct.pack("<9fI", *(value for x, y in triangle for value in (x, y, 0.5)), 1 + i)
+            for i, triangle in enumerate(corners)))
+        native = subprocess.run([ROOT / "build" / "edgewise", "hash", stream], capture_output=True, text=True, check=True)
+        self.assertEqual(self.browser.run("return document.querySelector('#hash').textContent"), native.stdout.split()[0])
 
     def test_arrow_keys_move_the_focused_vertex(self):
         self.browser.run("document.querySelector('#handles circle').focus()")
