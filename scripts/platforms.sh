@@ -84,6 +84,15 @@ on_s390x() {
   program_on s390x s390x
 }
 on_riscv64() { library_on riscv64; }
+on_wasm32() {
+  local vectors
+  for vectors in '' -msimd128; do
+    local build=$platforms/wasm32$vectors
+    local -a build_flags=(--toolchain "$root/tests/platforms/wasm32/toolchain.cmake" "-DCMAKE_CXX_FLAGS=$vectors" -DEDGEWISE_WERROR=ON)
+    build edgewise_hashes
+    noted node --single-threaded --no-warnings "$root/tests/platforms/wasm32/run.mjs" "$build/edgewise_hashes" "$root/tests/hashes.json"
+  done
+}
 
 # everywhere PLATFORM…: tests each, prints a line for each, and writes build/platforms/results.json. Sets `status` to 1 if
 # one fails.

@@ -1,4 +1,5 @@
 """README's first table: the answers to its questions, each with its condition."""
+from facts_tables import pooled_text
 from factors import cells, chosen, gains, most_threads
 from frontier import EXACT, INSIDE_TESTS, PRICED, simd_gain, wrong_of
 from bench_tables import OURS, THREADS, compared_targets, timed_peers
@@ -49,7 +50,7 @@ def exactness_rows(accuracy, target):
     found = {name: simd_gain(accuracy, name, EXACT) for name in PRICED if name != EXACT}
     if all(found.values()):
         of = {method.name: method for method in accuracy.methods["coverage"]}
-        wrong = ", ".join(f"`{name}` {number(wrong_of(accuracy, of[name]).rate, 2)}" for name in PRICED)
+        wrong = ", ".join(f"`{name}` {pooled_text(wrong_of(accuracy, of[name]))}" for name in PRICED)
         kernel = simd_gain(accuracy, "engine_float", "engine_exact")
         yield ["What does exactness cost?", "speed-up by " + "; by ".join(f"`{name}` {gain}" for name, gain in found.items())
                + (f"; in `{OURS}`'s kernel, by floats {kernel}" if kernel else "") + f". Wrong pixels per 10⁶ crossings: {wrong}",
@@ -79,10 +80,12 @@ def gap_rows(accuracy):
 def peer_rows(bench):
     for peer in timed_peers(bench):
         target, found = compared_targets(bench, peer)[-1]
+        left_out = [scene for scene, threads in found if threads == THREADS[-1] and (scene, THREADS[0]) not in found]
         said = [outcome(by_order(of)) + f" on {threads} thread{'' if threads == 1 else 's'}" for threads in THREADS
                 if (of := [(ours, row) for (_, n), (row, ours) in found.items() if n == threads])]
         yield [f"Against {peer}?", f"`{OURS}` {'; '.join(said)}",
-               f"{peer} is {bench.context.get(peer, 'of unknown version')}; whole frames, ours with {kernels(target)}; of two draws of a frame over 0.3 s the faster counts, and only a ratio over 2 is settled"]
+               f"{peer} is {bench.context.get(peer, 'of unknown version')}; whole frames, ours with {kernels(target)}; of two draws of a frame over 0.3 s the faster counts, and only a ratio over 2 is settled"
+               + (f"; left out on {THREADS[0]} thread: {', '.join(left_out)}" if left_out and len(left_out) < len(found) // 2 else "")]
 
 
 def answers(bench, accuracy):

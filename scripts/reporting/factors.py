@@ -132,13 +132,24 @@ def conditions(bench, shown):
             f"{pairs} verdicts, at most {number(LEVEL * pairs, 2)} false ones are expected.")
 
 
+def superlinear(bench):
+    """How many cells gain more by threads than there are threads; "" if none does."""
+    found = cells(bench)
+    threads = most_threads(found)
+    gained_by = [gained(found[one], row) for cell, row in found.items() if threads > 1 and not cell.extra and cell.threads == threads
+                 and (one := cell._replace(threads=1)) in found]
+    above = sum(ratio > threads for ratio in gained_by)
+    return f" {above} of {len(gained_by)} pairs gain over {threads}× by {threads} threads, which is not explained." if above else ""
+
+
 class Duel(NamedTuple):
-    """Bands against tiles in one scene: cells without HiZ and masks and, with SIMD, the backends `scanline` and `tiled`."""
+    """Bands against tiles in one scene, without HiZ and masks."""
     scene: str
     triangle_px: float
     overdraw: float
-    bands: dict  # {fill or backend: row}, the fastest first
+    bands: dict  # {fill: row}, the fastest first
     tiles: dict
+    shipped: object  # the row of the backend `tiled`, with HiZ and masks; None for scalar code
 
     @property
     def fastest(self):
@@ -152,6 +163,11 @@ class Duel(NamedTuple):
         if all(order(bands, row) < 0 for row in self.tiles.values()):
             return -1
         return int(all(order(tiles, row) < 0 for row in self.bands.values()))
+
+    @property
+    def only_shipped(self):
+        """Whether tiles win settled with HiZ and masks alone."""
+        return self.order != 1 and self.shipped is not None and all(order(self.shipped, row) < 0 for row in self.bands.values())
 
     @property
     def ratio(self):
@@ -172,8 +188,6 @@ def duels(bench, simd):
                         for traversal in TRAVERSALS)
         if bands and tiles:
             seen = next(iter(bands.values()))
-            for side, backend in ((bands, "scanline"), (tiles, "tiled")) if simd else ():
-                if shipped := bench.frame(backend, scene, most_threads(found)):
-                    side[backend] = shipped
             yield Duel(scene, triangle_px(seen), seen.counters["overdraw"],
-                       *(dict(sorted(side.items(), key=lambda pair: pair[1].median_ms)) for side in (bands, tiles)))
+                       *(dict(sorted(side.items(), key=lambda pair: pair[1].median_ms)) for side in (bands, tiles)),
+                       bench.frame("tiled", scene, most_threads(found)) if simd else None)

@@ -493,7 +493,7 @@ class ChartsTest(unittest.TestCase):
         from plot_factors import title
 
         def duel(overdraw, bands, tiles):
-            return Duel("s", 9.0, overdraw, *({"spans": self.row(*[ms * noise for noise in (0.99, 1, 1.01, 1, 1)])} for ms in (bands, tiles)))
+            return Duel("s", 9.0, overdraw, *({"spans": self.row(*[ms * noise for noise in (0.99, 1, 1.01, 1, 1)])} for ms in (bands, tiles)), None)
 
         bands, tiles, even = (1.0, 2.0), (2.0, 1.0), (1.0, 1.0)
         self.assertEqual([duel(1, *side).order for side in (bands, tiles, even)], [-1, 1, 0])
@@ -502,18 +502,21 @@ class ChartsTest(unittest.TestCase):
         self.assertEqual(title(found, "C"), "C: bands won/lost/open by overdraw: <1 1/0/1, 1–4 0/1/0, ≥4 1/0/0")
         self.assertEqual(title(found[:1], "C"), "C: bands won/lost/open by overdraw: <1 1/0/0")
 
-    def test_with_simd_the_backends_stand_for_bands_and_tiles(self):
+    def test_tiles_that_win_by_hiz_and_masks_alone_are_told_apart(self):
         from bench_rows import Bench, parse_name
         from factors import duels
-        rows = {name: parse_name(name) for name in ("scanline+frontend/s/threads:2", "tiled+frontend/s/threads:2", *(
-            f"cell/s/traversal:{keys}/threads:2" for simd in ("avx2", "scalar") for keys in (
-                f"bands/fill:edges/simd:{simd}", f"tiles/fill:spans/simd:{simd}", f"tiles/fill:spans/simd:{simd}/with:hiz")))}
-        for ms, row in enumerate(rows.values(), 1):
-            row.times_ms, row.counters = [float(ms)] * 5, {"covered_px": 20.0, "triangles": 4.0, "overdraw": 2.0}
-        [simd], [scalar] = (list(duels(Bench({}, rows), simd)) for simd in (True, False))
-        self.assertEqual([list(side) for side in (simd.bands, simd.tiles, scalar.bands, scalar.tiles)],
-                         [["scanline", "edges"], ["tiled", "spans"], ["edges"], ["spans"]])
-        self.assertEqual((simd.winner, simd.order, simd.triangle_px), (("bands", "scanline"), -1, 5.0))
+
+        def duel(shipped_ms, simd):
+            times = {"tiled+frontend/s/threads:2": shipped_ms, **{f"cell/s/traversal:{keys}/simd:{code}/threads:2": ms for code in ("avx2", "scalar")
+                                                                   for keys, ms in (("bands/fill:edges", 2), ("tiles/fill:spans", 3))}}
+            rows = {name: parse_name(name) for name in times}
+            for name, row in rows.items():
+                row.times_ms, row.counters = [float(times[name])] * 5, {"covered_px": 20.0, "triangles": 4.0, "overdraw": 2.0}
+            [found] = duels(Bench({}, rows), simd)
+            return found
+
+        self.assertEqual([(found.winner, found.order, found.triangle_px, found.only_shipped) for found in (duel(1, True), duel(4, True), duel(1, False))],
+                         [(("bands", "edges"), -1, 5.0, only) for only in (True, False, False)])
 
     def test_straight_lines_cross_where_they_should(self):
         from plot_area import crossings
