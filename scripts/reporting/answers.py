@@ -3,11 +3,11 @@ from facts_tables import pooled_text
 from factors import cells, chosen, gains, most_threads
 from frontier import EXACT, INSIDE_TESTS, PRICED, simd_gain, wrong_of
 from bench_tables import OURS, THREADS, compared_targets, timed_peers
-from tables import about, by_order, kernels, number, outcome
+from tables import about, by_order, enumerated, kernels, outcome
 
 HEADER = ["question", "answer", "condition"]
 MOST = 8
-PARALLEL = "Parallel or scanline?"
+PARALLEL, BOXES = "Parallel or scanline?", "Or test the whole bounding box?"  # of cells
 ON_AND_OFF_GRID = ("mesh_on_grid", "mesh")
 
 
@@ -15,7 +15,7 @@ def factor_rows(bench):
     target, by_code = kernels(bench.context.get("simd_target")), {}
     for gain in gains(bench):
         if gain.field in ("traversal", "fill"):
-            of = by_code.setdefault(f"with {target}" if gain.simd else "in scalar code", {})
+            of = by_code.setdefault(f"with {target}" if gain.simd else "In scalar code", {})
             of.setdefault(gain.factor, []).append(f"{about(gain.median)} {gain.where} ({gain.counts})")
     if by_code:
         told = (f"{code}: " + "; ".join(f"{factor} {', '.join(said)}" for factor, said in of.items()) for code, of in by_code.items())
@@ -25,32 +25,36 @@ def factor_rows(bench):
 
 
 def box_rows(bench):
-    """The backend `naive` and the cell of bands and edges with SIMD: both test whole boxes."""
+    """The cells of bands and edges, which test whole boxes."""
     found, told, left_out = cells(bench), [], {}
     threads, target = most_threads(found), kernels(bench.context.get("simd_target"))
-    for simd, name in ((False, "`naive`"), (True, f"with {target}")):
+    for simd, name in ((False, "in scalar code"), (True, f"with {target}")):
         boxed = []
         for scene in dict.fromkeys(cell.scene for cell in found):
             others = {(cell.traversal, cell.fill): row for cell, row in chosen(found, scene=scene, simd=simd).items()}
-            cell = others.pop(("bands", "edges"), None)
-            tested = cell if simd else bench.frame("naive", scene, threads)
+            tested = others.pop(("bands", "edges"), None)
             if tested and others:
                 boxed.append((tested, min(others.values(), key=lambda row: row.median_ms)))
             else:
                 left_out[scene] = None
         told += [f"{name} {outcome(by_order(boxed))}"] if boxed else []
     if told:
-        yield ["Or test the whole bounding box?", "; ".join(told),
-               f"`naive`, scalar, against the fastest other scalar cell; the {target} box test (bands, edges) "
-               f"against the fastest other {target} cell; [cells](#speed) without HiZ and masks; whole frames, {threads} threads"
+        yield [BOXES, "; ".join(told),
+               f"bands with edges against the fastest other cell; [cells](#speed) without HiZ and masks; whole frames, {threads} threads"
                + (f"; left out, too slow to repeat: {', '.join(left_out)}" if left_out else "")]
+
+
+def rated(pooled):
+    """A rate, and in brackets that without the scene with over half of the errors."""
+    rate, *without = pooled_text(pooled).split("; ")
+    return rate + "".join(f" ({said})" for said in without)
 
 
 def exactness_rows(accuracy, target):
     found = {name: simd_gain(accuracy, name, EXACT) for name in PRICED if name != EXACT}
     if all(found.values()):
         of = {method.name: method for method in accuracy.methods["coverage"]}
-        wrong = ", ".join(f"`{name}` {pooled_text(wrong_of(accuracy, of[name]))}" for name in PRICED)
+        wrong = ", ".join(f"`{name}` {rated(wrong_of(accuracy, of[name]))}" for name in PRICED)
         kernel = simd_gain(accuracy, "engine_float", "engine_exact")
         yield ["What does exactness cost?", "speed-up by " + "; by ".join(f"`{name}` {gain}" for name, gain in found.items())
                + (f"; in `{OURS}`'s kernel, by floats {kernel}" if kernel else "") + f". Wrong pixels per 10⁶ crossings: {wrong}",
@@ -64,17 +68,19 @@ def gap_rows(accuracy):
     if ours:
         told = [(f"`{m.name}`", *counts) for m, *counts in turned if m.name in INSIDE_TESTS] + [("ours", *map(max, zip(*ours)))]
         yield ["Gaps / double hits / wrong samples when the cube turns?", ", ".join(f"{who} {' / '.join(f'{n:,}' for n in of)}" for who, *of in told),
-               f"{accuracy.cube['frames']:,} frames of the tutorials' cube; wrong against the caller's positions, which ours snap to 1/256 px; "
+               f"{accuracy.cube['frames']:,} frames of the tutorials' cube, all added; wrong against the caller's positions, which ours snap to 1/256 px; "
                "`float_le` takes samples on an edge as inside, `float_lt` does not"]
     told = []
     for scene in (s for s in accuracy.of("coverage") if s.name in ON_AND_OFF_GRID):
         ours = [m.seen for m in scene.measured if m.method.ours and m.seen]
         of = [(f"`{name}`", m.seen) for name in INSIDE_TESTS if (m := scene.of(name)) and m.seen] + [("ours", max(ours))] if ours else []
         wrong = [f"{who} {px:,} / {holes:,}" for who, (px, holes) in of if px]
-        told += [f"`{scene.name}`: " + ", ".join(wrong + (["all others 0"] if len(wrong) < len(of) else []))] if of else []
+        right = [who for who, (px, _) in of if not px]
+        told += [f"`{scene.name}`: " + ", ".join(wrong + ([f"0 by {enumerated(right)}"] if right else []))] if of else []
     if told:
         yield ["Wrong pixels / of these holes where edges meet pixel centres?", "; ".join(told),
-               "vertices of `mesh_on_grid` lie on the 1/256 px grid and its edges on centres, those of `mesh` do not; a hole shows another surface"]
+               "two meshes that cover the picture; a quarter of the vertices of `mesh_on_grid` lie on centres, all on the 1/256 px grid, those of `mesh` anywhere; "
+               "a hole shows another surface; [more scenes](results/README.md#accuracy)"]
 
 
 def peer_rows(bench):
@@ -84,7 +90,7 @@ def peer_rows(bench):
         said = [outcome(by_order(of)) + f" on {threads} thread{'' if threads == 1 else 's'}" for threads in THREADS
                 if (of := [(ours, row) for (_, n), (row, ours) in found.items() if n == threads])]
         yield [f"Against {peer}?", f"`{OURS}` {'; '.join(said)}",
-               f"{peer} is {bench.context.get(peer, 'of unknown version')}; whole frames, ours with {kernels(target)}; of two draws of a frame over 0.3 s the faster counts, and only a ratio over 2 is settled"
+               f"{peer} is {bench.context.get(peer, 'of unknown version')}; whole frames, ours with {kernels(target)}, and clusters out of view skipped; of two draws of a frame over 0.3 s the faster counts, and only a ratio over 2 is settled"
                + (f"; left out on {THREADS[0]} thread: {', '.join(left_out)}" if left_out and len(left_out) < len(found) // 2 else "")]
 
 

@@ -67,7 +67,7 @@ def factors(simd, threads):
             yield "HiZ", where, "extra", "", HIZ, {}, lambda row, deep=deep: (row.counters["overdraw"] >= DEEP) == deep
         for where, small in ((f"triangles ≤{SMALL_PX} px", True), (ELSEWHERE, False)):
             yield "masks, with HiZ", where, "extra", HIZ, MASKS, {}, lambda row, small=small: (triangle_px(row) <= SMALL_PX) == small
-    yield f"{threads} threads over 1", "all cells", "threads", 1, threads, {}, everywhere
+    yield f"{threads} threads over 1", "no HiZ or masks", "threads", 1, threads, {}, everywhere
 
 
 class Gain(NamedTuple):
@@ -143,11 +143,11 @@ def superlinear(bench):
 
 
 class Duel(NamedTuple):
-    """Bands against tiles in one scene, without HiZ and masks."""
+    """Bands against tiles in one scene, without HiZ and masks: cells and, with SIMD, the backend `scanline`."""
     scene: str
     triangle_px: float
     overdraw: float
-    bands: dict  # {fill: row}, the fastest first
+    bands: dict  # {fill or "scanline": row}, the fastest first
     tiles: dict
     shipped: object  # the row of the backend `tiled`, with HiZ and masks; None for scalar code
 
@@ -188,6 +188,8 @@ def duels(bench, simd):
                         for traversal in TRAVERSALS)
         if bands and tiles:
             seen = next(iter(bands.values()))
+            if simd and (row := bench.frame("scanline", scene, most_threads(found))):
+                bands["scanline"] = row
             yield Duel(scene, triangle_px(seen), seen.counters["overdraw"],
                        *(dict(sorted(side.items(), key=lambda pair: pair[1].median_ms)) for side in (bands, tiles)),
                        bench.frame("tiled", scene, most_threads(found)) if simd else None)

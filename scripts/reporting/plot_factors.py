@@ -48,8 +48,8 @@ def factors(bench, folder, caption):
     rows = {code: found for code, simd in ((target, True), (f"{SCALAR}; spans vectorized by the compiler", False)) if (found := list(duels(bench, simd)))}
     if not rows:
         return None
-    subtitle = (f"A marker is a scene, whole frames on {most_threads(cells(bench))} threads: the fastest cell with bands against the fastest with tiles, "
-                "without HiZ and masks. Up: bands are faster; down: tiles. Label: the scene, and what wins. "
+    subtitle = (f"A marker is a scene, whole frames on {most_threads(cells(bench))} threads: the fastest cell with bands (with SIMD, also scanline, "
+                "bands with both fills) against the fastest with tiles, without HiZ and masks. Up: bands are faster; down: tiles. Label: the scene, and what wins. "
                 "Filled: settled against all of the other side. Light bars: 95 % intervals.")
     only = [duel.scene for duel in next(iter(rows.values())) if duel.only_shipped]
     subtitle += f" The backend tiled, with HiZ and masks, also beats the bands in {enumerated(only)}." if only else ""

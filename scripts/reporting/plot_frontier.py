@@ -91,6 +91,7 @@ def frontier(accuracy, bench, folder, caption):
                 f"vertices that are snapped already.")
     bound = max((3e6 / cracks.crossings for _, cracks in found.values() if cracks.rate == 0), default=3e6 / counts[-1])
     peers = [f"{method.name}: {method.source}." for method in found if method.peer]
+    peers += ["Peers draw whole frames, from vertices."] if peers else []
     shown = {method.name for method in panels["simd"]}
     twelve = "".join(f"Tiled, 12 bits, not on the front: the wrong pixels of {pixels} at the speed of {speed}, whose edges count in 1/4096 px. "
                      for speed, pixels in TWELVE_BITS.items() if speed in shown)

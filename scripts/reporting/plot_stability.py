@@ -262,8 +262,8 @@ def grid(sweeps, accuracy, folder, caption):
     axes.axis("off")
     first = blocks[0][1][0].family
     headline(figure, finding(first.capitalize(), [sweep for sweep in sweeps if sweep.family == first], accuracy.methods[first]),
-             "A bar reaches as far as a method errs in at most 1 of 10⁴ trials against the positions that the caller gave. The figure "
-             "is the first place at which it fails. Each sweep runs from easy to hard. Bold names and dark bars: ours.")
+             "A bar reaches as far as a method errs in at most 1 of 10⁴ trials against the positions that the caller gave (visibility: the snapped "
+             "ones). The figure is the first place at which it fails. Each sweep runs from easy to hard. Bold names and dark bars: ours.")
     y = 1.0
     for block, of, rows in blocks:
         axes.text(0.08, y + 0.18, finding(block, of, [method for method, _ in rows]), fontsize=10.5, fontweight="bold", va="bottom")

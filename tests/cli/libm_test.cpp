@@ -18,6 +18,7 @@ void expect_same(const std::string& arguments) {
   const auto wrong = testing::run_program(EDGEWISE_PROGRAM, arguments);
   unsetenv("LD_PRELOAD");
   EXPECT_EQ(wrong.status, 0) << wrong.err;
+  EXPECT_EQ(wrong.err.find("cannot be preloaded"), std::string::npos);
   EXPECT_TRUE(wrong.out == right.out) << arguments;
 }
 

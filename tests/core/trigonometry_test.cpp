@@ -33,6 +33,7 @@ class Real {
 
 // The error of `v` in units in the last place of the exact result.
 double error_units(double v, Real& exact) {
+  if (std::isnan(v)) return std::numeric_limits<double>::infinity();
   const double rounded = mpfr_get_d(exact.get(), MPFR_RNDN);
   mpfr_sub_d(exact.get(), exact.get(), v, MPFR_RNDN);
   const int exponent = std::max(std::ilogb(rounded), std::numeric_limits<double>::min_exponent - 1);

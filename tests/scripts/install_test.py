@@ -241,7 +241,7 @@ class Installed(unittest.TestCase):
         run("cmake", "--install", build, "--prefix", prefix)
         self.assertNotIn("tbb", next(prefix.rglob("edgewise.pc")).read_text())
         self.use_package(prefix, "serial-package", "-DCMAKE_DISABLE_FIND_PACKAGE_TBB=ON")
-        self.use_pkg_config(prefix, "serial-pkg-config", static=True)
+        self.use_pkg_config(prefix, "serial-pkg-config")
 
 
 if __name__ == "__main__":

@@ -127,13 +127,13 @@ void measure_rays(FaceFacts& facts, std::span<const glm::vec3> v, glm::dvec3 obj
     facts.normal_differs |= !(facts.floats.front ? height < 0 : height > 0);
     if (i < 3) least = std::min(least, std::abs(height));
   }
-  facts.sine = static_cast<double>(least / (area * glm::length(sight)));
+  facts.sine = least / (area * glm::length(sight));
   const auto sine_to = [&](glm::dvec3 other) {
-    return static_cast<double>(glm::length(glm::cross(ray, other)) / (glm::length(ray) * glm::length(other)));
+    return glm::length(glm::cross(ray, other)) / (glm::length(ray) * glm::length(other));
   };
   facts.tilt_sine = sine_to(forward);
   facts.object_sine = sine_to(object - eye);
-  facts.magnification = static_cast<double>(1 + glm::length(eye) / glm::length(ray));
+  facts.magnification = 1 + glm::length(eye) / glm::length(ray);
 }
 
 void measure_screen(FaceFacts& facts, std::span<const glm::vec3> v, std::span<const Point> p,
