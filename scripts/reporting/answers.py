@@ -58,7 +58,7 @@ def exactness_rows(accuracy, target):
         kernel = simd_gain(accuracy, "engine_float", "engine_exact")
         yield ["What does exactness cost?", "speed-up by " + "; by ".join(f"`{name}` {gain}" for name, gain in found.items())
                + (f"; in `{OURS}`'s kernel, by floats {kernel}" if kernel else "") + f". Wrong pixels per 10⁶ crossings: {wrong}",
-               f"over `{EXACT}`, exact after snapping, in a loop with snapping and set-up; geometric mean, range and won/lost/open of scenes; one thread, {kernels(target)}"]
+               f"over `{EXACT}`, exact after snapping, in a loop with snapping and set-up; geometric mean, range and won/lost/open of scenes; wrong pixels without scenes of few crossings, `double_tie` among them; one thread, {kernels(target)}"]
 
 
 def gap_rows(accuracy):
