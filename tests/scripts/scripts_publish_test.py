@@ -90,7 +90,7 @@ class CommittedResults(unittest.TestCase):
         files = run("git", "-C", ROOT, "ls-files", "results").stdout.splitlines()
         self.assertIn("results/README.md", files)
         self.assertLess(len(files), 150)
-        self.assertLess(sum((ROOT / file).stat().st_size for file in files), 16e6)
+        self.assertLess(sum((ROOT / file).stat().st_size for file in files), 15e6)
 
 
 if __name__ == "__main__":
