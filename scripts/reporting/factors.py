@@ -71,29 +71,26 @@ def factors(simd, threads):
 
 
 class Gain(NamedTuple):
-    """The speed-ups by a factor in cells with or without SIMD: each is of two cells of a scene that differ in nothing else."""
+    """The speed-ups by a factor in cells with or without SIMD: each pair is of two cells of a scene that differ in nothing else."""
     factor: str
     where: str
     field: str  # of a cell
+    after: object  # its level
     simd: bool
-    median: float
-    least: tuple  # (speed-up, scene)
-    most: tuple
-    faster: int
-    slower: int
-    open: int
+    pairs: list  # (speed-up, scene), the smallest first
+    orders: list  # order() of each pair
 
     @property
     def title(self):
         return f"{self.factor}, {self.where}"
 
     @property
-    def pairs(self):
-        return self.faster + self.slower + self.open
+    def median(self):
+        return median(ratio for ratio, _ in self.pairs)
 
     @property
     def counts(self):
-        return f"{self.faster}/{self.slower}/{self.open}"
+        return "/".join(str(self.orders.count(order)) for order in (-1, 1, 0))
 
 
 def gains(bench):
@@ -104,10 +101,8 @@ def gains(bench):
             pairs = [(cell.scene, found[other], row) for cell, row in chosen(found, **{"simd": simd, **levels, field: after}).items()
                      if before != after and meant(row) and (other := cell._replace(**{field: before})) in found]
             if pairs:
-                speed_ups = [(gained(other, row), scene) for scene, other, row in pairs]
-                orders = [order(row, other) for _, other, row in pairs]
-                yield Gain(factor, where, field, simd, median(ratio for ratio, _ in speed_ups), min(speed_ups), max(speed_ups),
-                           *map(orders.count, (-1, 1, 0)))
+                yield Gain(factor, where, field, after, simd, sorted((gained(other, row), scene) for scene, other, row in pairs),
+                           [order(row, other) for _, other, row in pairs])
 
 
 def factor_table(bench):
@@ -117,7 +112,7 @@ def factor_table(bench):
     def told(gain):
         if not gain:
             return ["–", "–"]
-        ends = " to ".join(f"{about(ratio)} in {scene}" for ratio, scene in (gain.least, gain.most))
+        ends = " to ".join(f"{about(ratio)} in {scene}" for ratio, scene in (gain.pairs[0], gain.pairs[-1]))
         return [f"{about(gain.median)} ({ends})", gain.counts]
 
     return (["factor", kernels(bench.context.get("simd_target")), "won/lost/open", SCALAR, "won/lost/open"],
@@ -127,19 +122,16 @@ def factor_table(bench):
 
 def conditions(bench, shown):
     """What these Gains are, and how many of their verdicts may be false."""
-    pairs = sum(gain.pairs for gain in shown)
+    pairs = sum(len(gain.pairs) for gain in shown)
     return (f"Pairs of whole frames on {most_threads(cells(bench))} threads that differ in one factor, as implemented here; of "
             f"{pairs} verdicts, at most {number(LEVEL * pairs, 2)} false ones are expected.")
 
 
-def superlinear(bench):
-    """How many cells gain more by threads than there are threads; "" if none does."""
-    found = cells(bench)
-    threads = most_threads(found)
-    gained_by = [gained(found[one], row) for cell, row in found.items() if threads > 1 and not cell.extra and cell.threads == threads
-                 and (one := cell._replace(threads=1)) in found]
-    above = sum(ratio > threads for ratio in gained_by)
-    return f" {above} of {len(gained_by)} pairs gain over {threads}× by {threads} threads, which is not explained." if above else ""
+def superlinear(shown):
+    """How many pairs of these Gains gain more by threads than there are threads; "" if none does."""
+    by_threads = [(ratio, gain.after) for gain in shown if gain.field == "threads" for ratio, _ in gain.pairs]
+    above = [threads for ratio, threads in by_threads if ratio > threads]
+    return f" {len(above)} of {len(by_threads)} pairs gain over {above[0]}× by {above[0]} threads, which is not explained." if above else ""
 
 
 class Duel(NamedTuple):

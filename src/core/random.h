@@ -20,7 +20,7 @@ class Random {
     z = (z ^ z >> 27) * 0x94D049BB133111EBu;
     return z ^ z >> 31;
   }
-  // In [0, end). `end` must be at most 2^32, so that no result is biased and every one fits std::size_t.
+  // In [0, end). `end` must be at most 2^32: then the bias is below 2^-32, and results fit std::size_t.
   std::size_t below(std::uint64_t end) { return static_cast<std::size_t>(next() % end); }
   // A multiple of 2^-24 in [low, high).
   float uniform(float low, float high) {

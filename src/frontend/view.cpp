@@ -1,6 +1,5 @@
 #include "frontend/view.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>

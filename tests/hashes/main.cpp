@@ -245,9 +245,9 @@ class Check {
       why = "\n  but drawn again, it is right";
     else if (why.empty())
       why =
-          "\n  naive in scalar code draws the same: the numeric contract, the scene or the build differs "
-          "from "
-          "that of the file. To find the pixel, dump the frame here and where the hash is right:\n    "
+          "\n  naive in scalar code draws the same: the numeric contract, the scene or the build "
+          "differs from that of the file. To find the pixel, dump the frame here and where the hash is "
+          "right:\n    "
           "edgewise_hashes " +
           path_ + " --dump '" + name + "'" +
           (frame.redraw.empty() ? "" : "\n  This draws it, too: " + frame.redraw);

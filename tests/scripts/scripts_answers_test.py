@@ -13,7 +13,7 @@ from accuracy_rows import Accuracy, Cost, Cracks, Measured, Method, Pooled, Scen
 from answers import answers  # noqa: E402
 from bench_rows import Bench, Row, parse_name  # noqa: E402
 from bench_tables import engine_table, peer_tables, speed_table, tails_table, tile_stores_table  # noqa: E402
-from factors import superlinear  # noqa: E402
+from factors import gains, superlinear  # noqa: E402
 from facts_tables import edges_table, pipelines_table, pooled_text, read_needs, tutorials_table  # noqa: E402
 from frontier import EXACT, INSIDE_TESTS, PRICED, TWELVE_BITS, cracks_of, frontier_figures, points_of, price_table, simd_gain, speed_ups, wrong_of  # noqa: E402
 from program import BadInput  # noqa: E402
@@ -121,8 +121,8 @@ class AnswersTest(unittest.TestCase):
     def test_gains_that_threads_do_not_explain_are_counted(self):
         rows = {f"cell/{scene}/traversal:bands/fill:spans/simd:scalar/threads:{n}": ms for scene, times in (("a", (9.0, 4.0)), ("b", (9.0, 5.0)))
                 for n, ms in zip((1, 2), times)}
-        self.assertEqual(superlinear(bench(rows)), " 1 of 2 pairs gain over 2× by 2 threads, which is not explained.")
-        self.assertEqual(superlinear(bench({name: ms for name, ms in rows.items() if "/b/" in name})), "")
+        self.assertEqual(superlinear(gains(bench(rows))), " 1 of 2 pairs gain over 2× by 2 threads, which is not explained.")
+        self.assertEqual(superlinear(gains(bench({name: ms for name, ms in rows.items() if "/b/" in name}))), "")
 
     @staticmethod
     def boxed(name, scalar, simd, others):
