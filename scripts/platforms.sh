@@ -46,13 +46,28 @@ facts_are_those_of_x86_64() {
     echo "$(wc -c <"$found.facts") bytes of facts and files are those of x86-64"
 }
 
+# A processor without FMA, for which the C library has other functions.
+without_fma() {
+  GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2 "$@"
+}
 on_x86_64() {
+  local compiler build_type
   build edgewise_program edgewise_hashes edgewise_library_tests
   noted "$build/edgewise_hashes" "$root/tests/hashes.json"
-  # As on a processor without FMA, for which the C library has other functions.
-  GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2 noted "$build/edgewise_hashes" "$root/tests/hashes.json"
+  noted without_fma "$build/edgewise_hashes" "$root/tests/hashes.json"
   noted "$build/edgewise_library_tests" --gtest_brief=1
   facts >"$platforms/x86_64.facts"
+  for compiler in g++ clang++-14; do
+    for build_type in Release Debug; do
+      local build=$platforms/x86_64-$compiler-$build_type
+      local -a build_flags=(-DEDGEWISE_LABORATORY=OFF -DEDGEWISE_FILES=OFF "-DCMAKE_CXX_COMPILER=$compiler" -DEDGEWISE_WERROR=ON)
+      build edgewise_hashes
+      noted "$build/edgewise_hashes" "$root/tests/hashes.json" --frames 2000
+    done
+  done
+}
+on_consumer() {
+  python3 "$root/tests/scripts/install_test.py" "$build" Installed.test_hashes_do_not_depend_on_the_users_flags >"$found"
 }
 
 # library_on PROCESSOR [OPTIONS…]: the hashes of the library alone, which needs no packages.
@@ -94,31 +109,36 @@ on_wasm32() { # kernels are scalar in both, since Highway's vectors there lack d
   done
 }
 
-# everywhere PLATFORM…: tests each, prints a line for each, and writes build/platforms/results.json. Sets `status` to 1 if
-# one fails.
+# on PLATFORM: tests it, and writes what was found.
+on() {
+  local found=$platforms/$1.found result=passed
+  : >"$found"
+  (set -e; "on_$1") >"$platforms/$1.log" 2>&1
+  # shellcheck disable=SC2181 # where a subshell is a condition, a failed command does not end it
+  (($? == 0)) || result=failed
+  [[ -s $found ]] || echo "not built" >"$found"
+  echo "$1: $result, $(duration $((SECONDS - step_start))) after the start of this step; see build/platforms/$1.log"
+  sed "s/^/$1\t$result\t/" "$found" >"$platforms/$1.result"
+}
+
+# everywhere PLATFORM…: tests the first, with which others compare, then these, as many at once as there are cores. Writes
+# results/platforms.json. Sets `status` to 1 if one fails.
 everywhere() {
-  local platform result
+  local platform
   mkdir -p "$platforms"
-  rm -f "$platforms"/*.facts # of an earlier run
-  : >"$platforms/results"
-  for platform in "$@"; do
-    step "Testing on $platform"
-    found=$platforms/$platform.found result=passed
-    : >"$found"
-    set +e # where a subshell is a condition, a failed command does not end it
-    (set -e; "on_$platform")
-    # shellcheck disable=SC2181
-    (($? == 0)) || result=failed status=1
-    set -e
-    [[ -s $found ]] || echo "not built; see above" >"$found"
-    printf '%s\t%s\t%d\t%s\n' "$platform" "$result" "$((SECONDS - step_start))" "$(paste -sd'|' "$found")" >>"$platforms/results"
+  rm -f "$platforms"/*.{facts,result} # of an earlier run
+  set +e
+  step "Testing on $1"
+  on "$1"
+  step "Testing on ${*:2}"
+  for platform in "${@:2}"; do
+    while (($(jobs -rp | wc -l) >= $(nproc))); do wait -n; done
+    on "$platform" &
   done
+  wait
+  set -e
   end_step
-  echo
-  cat "$platforms/results"
-  python3 -c 'import json, sys
-keys = ("platform", "result", "seconds", "found")
-lines = [line.rstrip().split("\t") for line in sys.stdin]
-print(json.dumps([dict(zip(keys, (platform, result, int(seconds), found))) for platform, result, seconds, found in lines], indent=1))' \
-    <"$platforms/results" >"$platforms/results.json"
+  if cut -f 2 "$platforms"/*.result | grep -q failed; then status=1; fi
+  python3 "$root/scripts/reporting/platforms.py" "$platforms"/*.result >"$platforms/results.json"
+  mv "$platforms/results.json" "$root/results/platforms.json"
 }

@@ -82,18 +82,28 @@ def random_lines(data):
            none_or(data["differences"], "difference")]
 
 
-LINES = {"tests": test_lines, "prove": prove_lines, "mutate": mutate_lines, "fuzz": fuzz_lines, "random": random_lines}
-BRIEF_LINES = {**LINES, "tests": brief_test_lines, "fuzz": brief_fuzz_lines}
-
-
-def verify_sentence(verify, where=""):
-    """`where`: of pixels that differ."""
+def compared(verify):
+    """The extent of `edgewise verify`, and how many pixels differ."""
     scenes = verify["scenes"]
     frames = sum(scene["configurations"] for scene in scenes)
     oracles = [scene.get("oracle", {}) for scene in scenes]
     differing = sum(of.get("differing_pixels", 0) + of.get("written_outside", 0) for of in (*scenes, *oracles))
-    return (f"{frames:,} frames of {len(scenes)} scenes, and {sum(of.get('configurations', 0) for of in oracles):,} small ones with an "
-            f"oracle, were compared bit for bit: {f'**{differing:,} pixels differ**{where}' if differing else '**no bit differs**'}.")
+    return f"{frames:,} frames of {how_many(len(scenes), 'scene')}, and {sum(of.get('configurations', 0) for of in oracles):,} small ones with an oracle", differing
+
+
+def verify_lines(data):
+    extent, differing = compared(data)
+    yield ["Backends compared, bit for bit", extent, none_or(differing, "pixel differs", "pixels differ")]
+
+
+def verify_sentence(verify, where=""):
+    """`where`: of pixels that differ."""
+    extent, differing = compared(verify)
+    return f"{extent}, were compared bit for bit: {f'**{differing:,} pixels differ**{where}' if differing else '**no bit differs**'}."
+
+
+LINES = {"tests": test_lines, "prove": prove_lines, "mutate": mutate_lines, "fuzz": fuzz_lines, "random": random_lines}
+BRIEF_LINES = {"verify": verify_lines, **LINES, "tests": brief_test_lines, "fuzz": brief_fuzz_lines}
 
 
 def verification_table(folder, all_lines=LINES):

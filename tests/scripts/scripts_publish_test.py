@@ -7,8 +7,7 @@ import scripts_test
 from support import ROOT, SCRIPTS, FolderTest, run
 
 README = """<!-- results: results/mine -->
-<!-- generated:picture -->
-<!-- /generated -->
+![](results/facts/pictures/torus-knot.png)
 """
 FAR_README = """[A chart](../../results/mine/charts/area.svg), <img src="../../results/facts/errors/crack.png" width="400">,
 and one of another folder: ![](../charts/threads.svg)

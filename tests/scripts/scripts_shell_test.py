@@ -172,12 +172,12 @@ class ShellTest(FolderTest):
             on_wrong() { noted echo one; noted bash -c 'echo wrong; exit 3'; noted echo never; }
             on_missing() { false; }
             everywhere wrong missing fine; exit $status'''
-        result = self.library("cd $root;" + platforms)
+        result = self.library("mkdir $root/results; cd $root;" + platforms)
         self.assertEqual(result.returncode, 1, result.stderr)
-        found = [["wrong", "failed", "one|wrong"], ["missing", "failed", "not built; see above"], ["fine", "passed", "one|three"]]
-        written = json.loads((self.root / "build/platforms/results.json").read_text())
-        self.assertEqual([[one["platform"], one["result"], one["found"]] for one in written], found)
-        self.assertRegex(result.stdout, r"wrong\tfailed\t\d\tone\|wrong\n")
+        found = {"wrong": ("failed", ["one", "wrong"]), "missing": ("failed", ["not built"]), "fine": ("passed", ["one", "three"])}
+        written = json.loads((self.root / "results/platforms.json").read_text())
+        self.assertEqual({name: (one["result"], one["found"]) for name, one in written.items()}, found)
+        self.assertRegex(result.stdout, r"wrong: failed, \d s after the start of this step; see build/platforms/wrong.log\n")
 
     def test_packages_of_another_processor_are_unpacked_once(self):
         self.file("package/DEBIAN/control", "Package: a\nVersion: 1\nArchitecture: arm64\nMaintainer: me\nDescription: x\n")

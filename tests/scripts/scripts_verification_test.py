@@ -1,4 +1,4 @@
-"""checks/test_results.py, reporting/verification_summary.py and reporting/shards.py, on results made here."""
+"""checks/test_results.py, and of reporting/ verification_summary.py, shards.py and platforms.py, on results made here."""
 import json
 import sys
 import unittest
@@ -6,7 +6,8 @@ import unittest
 from support import SCRIPTS, FolderTest, run
 
 sys.path.insert(0, str(SCRIPTS / "reporting"))
-from verification_summary import verification_markdown, verification_table  # noqa: E402
+from platforms import TRIED, platforms_table  # noqa: E402
+from verification_summary import BRIEF_LINES, verification_markdown, verification_table  # noqa: E402
 
 
 def gtest_case(suite, name, inside="", result="completed", **properties):
@@ -81,6 +82,13 @@ class VerificationTest(FolderTest):
             ["25 mutants, one at a time", "all caught"],
             ["12.3k executions", "no crash"]])
 
+    def test_the_brief_table_begins_with_the_comparison_of_backends(self):
+        for differing, found in ((0, "no pixel differs"), (1, "**1 pixel differs**"), (7, "**7 pixels differ**")):
+            scene = {"configurations": 1200, "differing_pixels": differing, "oracle": {"configurations": 30}}
+            self.file("results/here/verify.json", json.dumps({"scenes": [scene]}))
+            line = verification_table(self.folder / "results/here", BRIEF_LINES)[1][0]
+            self.assertEqual(line[1:], ["1,200 frames of 1 scene, and 30 small ones with an oracle", found])
+
     def test_what_was_not_run_is_left_out(self):
         self.assertEqual(self.table("here"), [])
         self.assertEqual(verification_markdown(self.folder), "None of this was run for these results.")
@@ -103,6 +111,18 @@ class VerificationTest(FolderTest):
             "**8 of 9 proven**; **6 of 9 premises satisfiable**; **7 of 9 false variants refuted**",
             "**24 of 25 caught**",
             "**2 crashes**"])
+
+
+class PlatformsTest(FolderTest):
+    def test_findings_are_added_up_and_a_failure_is_told(self):
+        findings = {name: ("passed", ["2000 frames of 3 groups, drawn by 2 combinations: no hash differs", "300 frames drawn: no hash differs"])
+                    for name in TRIED}
+        findings["s390x"] = ("failed", ["20 frames of 3 groups: 1 hash differs", "[  PASSED  ] 1312 tests.", "9 bytes of facts are those of x86-64"])
+        lines = self.file("lines", "".join(f"{name}\t{result}\t{text}\n" for name, (result, texts) in findings.items() for text in texts))
+        result = run(sys.executable, SCRIPTS / "reporting/platforms.py", lines)
+        table = platforms_table(self.file("platforms.json", result.stdout))[1]
+        self.assertEqual([line[0] for line in table], ["x86-64", "consumer", "aarch64", "s390x: **failed**", "riscv64", "wasm32"])
+        self.assertEqual([line[2:] for line in table], [["2,300", "–", "–"]] * 3 + [["–", "1,312", "the same"]] + [["2,300", "–", "–"]] * 2)
 
 
 class ShardsTest(FolderTest):

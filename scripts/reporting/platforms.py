@@ -1,0 +1,45 @@
+"""Joins the findings of `scripts/test --everywhere`, lines of a platform, a result and a finding, to JSON on stdout."""
+import fileinput
+import json
+import re
+
+from program import main_guard, parsed
+
+# By platform, in the order of the table: how it is tried.
+TRIED = {
+    "x86_64": "g++ and clang++, Release and Debug; every SIMD target; with and without FMA in the C library",
+    "consumer": "a program built with `-O3 -march=native -ffast-math -mfma -ffp-contract=fast` that links the library",
+    "aarch64": "QEMU, NEON and scalar code",
+    "s390x": "QEMU, big-endian, scalar code",
+    "riscv64": "QEMU, the library alone, scalar code",
+    "wasm32": "Node, the library alone, with and without SIMD128",
+}
+HEADER = ["platform", "tried by", "pictures whose hash is right", "tests of the library", "facts and files"]
+# Of a finding: the column that it belongs to, and the number that is added up there.
+FOUND = ((2, re.compile(r"^(\d+) frames .*no hash differs")), (3, re.compile(r"PASSED\s*\] (\d+) tests")),
+         (4, re.compile(r"^(\d+) bytes .*are those of x86-64")))
+
+
+def platforms_table(path):
+    found = parsed(path, lambda data: {name: data[name] for name in TRIED}, "scripts/test --everywhere")
+    lines = []
+    for name, tried in TRIED.items():
+        line = [name.replace("x86_64", "x86-64") + ("" if found[name]["result"] == "passed" else ": **failed**"), tried]
+        for _, pattern in FOUND:
+            total = sum(int(match[1]) for text in found[name]["found"] if (match := pattern.search(text)))
+            line.append(f"{total:,}" if total else "–")
+        lines.append([*line[:-1], "the same" if line[-1] != "–" else line[-1]])
+    return HEADER, lines
+
+
+def main():
+    found = {}
+    for line in fileinput.input(encoding="utf-8"):
+        name, result, text = line.rstrip("\n").split("\t")
+        found.setdefault(name, {"result": result, "found": []})["found"].append(text)
+    print(json.dumps(found, indent=1))
+    return 0
+
+
+if __name__ == "__main__":
+    main_guard(main)
