@@ -51,15 +51,15 @@ without_fma() {
   GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2 "$@"
 }
 on_x86_64() {
-  local compiler build_type
+  local compiler kind
   build edgewise_program edgewise_hashes edgewise_library_tests
   noted "$build/edgewise_hashes" "$root/tests/hashes.json"
   noted without_fma "$build/edgewise_hashes" "$root/tests/hashes.json"
   noted "$build/edgewise_library_tests" --gtest_brief=1
   facts >"$platforms/x86_64.facts"
   for compiler in g++ clang++-14; do
-    for build_type in Release Debug; do
-      local build=$platforms/x86_64-$compiler-$build_type
+    for kind in Release Debug; do
+      local build=$platforms/x86_64-$compiler-$kind build_type=$kind
       local -a build_flags=(-DEDGEWISE_LABORATORY=OFF -DEDGEWISE_FILES=OFF "-DCMAKE_CXX_COMPILER=$compiler" -DEDGEWISE_WERROR=ON)
       build edgewise_hashes
       noted "$build/edgewise_hashes" "$root/tests/hashes.json" --frames 2000
