@@ -154,7 +154,9 @@ std::string cpu_model(const std::string& cpuinfo) {
   for (const std::string_view filler : {"(R)", "(TM)", " CPU", " Processor"})
     for (std::size_t at; (at = model.find(filler)) != std::string::npos;) model.erase(at, filler.size());
   const std::string family = value_of(pairs, "cpu family"), number = value_of(pairs, "model");
-  if (model.empty()) return kUnknown;
+  const std::string implementer = value_of(pairs, "CPU implementer"), part = value_of(pairs, "CPU part");
+  if (model.empty())
+    return implementer.empty() ? kUnknown : fmt::format("ARM (implementer {}, part {})", implementer, part);
   return family.empty() || number.empty() ? model
                                           : fmt::format("{} (family {}, model {})", model, family, number);
 }

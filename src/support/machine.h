@@ -12,7 +12,8 @@ namespace edgewise::tools {
 nlohmann::json machine_description();
 
 // The system's model name without "(R)" and the like, with CPUID family and model if known, because virtual
-// machines use one name for many CPUs: "AMD EPYC (family 25, model 17)".
+// machines use one name for many CPUs: "AMD EPYC (family 25, model 17)". ARM processors have numbers only:
+// "ARM (implementer 0x41, part 0xd0c)".
 std::string cpu_model(const std::string& cpuinfo = "/proc/cpuinfo");
 
 // The folder below results/ for this machine, for example "amd-epyc-family-25-model-17-2-cores": CPU model

@@ -157,6 +157,8 @@ TEST(Program, DistinguishesCpusWithTheSameModelName) {
   EXPECT_EQ(model_of("Intel(R) Xeon(R) Processor", "cpu family\t: 6\nmodel\t\t: 207\n"),
             "Intel Xeon (family 6, model 207)");
   EXPECT_EQ(model_of("Some core", ""), "Some core");
+  EXPECT_EQ(model_of("", "CPU implementer\t: 0x41\nCPU part\t: 0xd0c\n"),
+            "ARM (implementer 0x41, part 0xd0c)");
   EXPECT_EQ(tools::cpu_model((folder.path() / "missing").string()), "unknown");
 }
 

@@ -39,7 +39,7 @@ class MutateTest(FolderTest):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertLessEqual(len(result.stdout.splitlines()), 63)
         for part in ("contract.h", "oracle.cpp", "naive.cpp", "tile_", "edge_walk.h", "scanline_band", "tiled_spans", "bins", "mask_", "clip.cpp",
-                     "one_by_one.cpp", "chunks.h", "portable.cpp", "noise.py"):
+                     "one_by_one.cpp", "chunks.h", "trigonometry.cpp", "raster/hash.cpp", "portable.cpp", "noise.py"):
             self.assertIn(part, result.stdout)
 
     def test_a_mutant_is_caught_or_survives(self):
@@ -54,6 +54,12 @@ class MutateTest(FolderTest):
         self.assertEqual(json.loads((self.folder / "out.json").read_text())["not_caught"], ["two", "broken"])
         result = self.mutate(table, "or_equal")
         self.assertEqual((result.returncode, result.stdout.splitlines()[-1]), (0, "1 of 1 mutants caught"))
+
+    def test_hashes_run_on_an_emulated_processor(self):
+        self.tool("cmake", CMAKE.replace("few", "edgewise_hashes"))
+        self.tool("qemu-s390x", '#!/bin/bash\n[[ $5 == --few ]] && exec "$3"\n')
+        result = self.mutate(TABLE.replace("few", "edgewise_hashes").replace("*", "--few"))
+        self.assertEqual((result.returncode, result.stdout.splitlines()[-1]), (0, "1 of 1 mutants caught"), result.stderr)
 
     def test_tests_that_fail_without_a_mutation_are_told(self):
         self.tool("cmake", CMAKE.replace("<=", "<"))

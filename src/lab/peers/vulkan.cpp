@@ -171,7 +171,7 @@ struct Image {
 // A device, and what its frames share.
 class Device {
  public:
-  Device(Driver driver, int threads) : physical_(find_device(driver, threads)) {}
+  explicit Device(vk::raii::PhysicalDevice physical) : physical_(std::move(physical)) {}
 
   int subpixel_bits() const {
     return static_cast<int>(physical_.getProperties().limits.subPixelPrecisionBits);
@@ -275,12 +275,11 @@ class Device {
 };
 
 const Device& device(Driver driver, int threads) {
-  static auto& made = *new std::map<std::pair<Driver, int>, Device>;
-  const auto found = made.find({driver, threads});
-  if (found != made.end()) return found->second;
+  static auto& made = *new std::map<vk::PhysicalDevice, Device>;  // not by driver: EDGEWISE_GPU may change
+  auto physical = find_device(driver, threads);
   std::optional<OnCores> on_cores;
   if (driver == Driver::swiftshader) on_cores.emplace(threads);
-  return made.try_emplace({driver, threads}, driver, threads).first->second;
+  return made.try_emplace(*physical, std::move(physical)).first->second;
 }
 
 struct LoadedMesh {
