@@ -3,8 +3,10 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <iterator>
+#include <sstream>
 #include <stdexcept>
 
+#include "edgewise/limits.h"
 #include "support/options.h"
 
 namespace edgewise::bench {
@@ -56,6 +58,14 @@ std::optional<Flags> parse_flags(int argc, char** argv) {
       ->excludes("--scene")
       ->excludes("--quick")
       ->type_name("FILE");
+  tools::add_parsed(parser, "--threads", "N,N...",
+                    "Numbers of threads of scenes' frames (1, 2, 4 ... and the usable cores)",
+                    [&](const std::string& text) {
+                      flags.suite.threads.clear();
+                      std::istringstream numbers(text);
+                      for (std::string number; std::getline(numbers, number, ',');)
+                        flags.suite.threads.insert(tools::parse_integer("--threads", number, 1, kMaxThreads));
+                    });
   tools::add_size(parser, size, "Image size (1920x1080; a .tri file has its own)");
   std::string format;
   parser.add_option("--benchmark_out", flags.out, "Write the results to this file, complete or not at all")

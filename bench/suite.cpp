@@ -18,7 +18,7 @@ namespace edgewise::bench {
 
 namespace {
 
-constexpr int kThreads[] = {1, 2};
+constexpr int kThreads[] = {1, 2};  // of all rows but a scene's frames, which may have more
 constexpr int kCullThreads = 2;
 constexpr int kPause_ms = 2;
 // The backends whose whole frames are compared by resolution, and how long a frame may take to be repeated as
@@ -74,9 +74,9 @@ class Suite {
   explicit Suite(const SuiteOptions& options) : options_(options) {}
 
   void add_scene(const WorkloadPtr& workload, const std::string& name) {
-    for (const int threads : kThreads) add_frontend(workload, name, threads);
+    for (const int threads : options_.threads) add_frontend(workload, name, threads);
     for (const auto& backend : backends())
-      for (const int threads : kThreads) {
+      for (const int threads : options_.threads) {
         add(workload, Timed::raster, backend, name, threads);
         rows_.back().wants_cost = backend.name == "tiled";
         add_frame(workload, backend, name, threads);
@@ -283,6 +283,12 @@ class Suite {
 };
 
 }  // namespace
+
+std::set<int> default_thread_counts() {
+  std::set<int> counts{1, 2, tools::default_threads()};
+  for (int threads = 4; threads < tools::default_threads(); threads *= 2) counts.insert(threads);
+  return counts;
+}
 
 std::string name_in_rows(const std::string& name_or_path) {
   std::string name = tools::printable(tools::source_name(name_or_path));

@@ -2,6 +2,7 @@
 // is loaded or drawn here.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -9,18 +10,22 @@
 
 namespace edgewise::bench {
 
+// 1, 2, their doubles below the number of usable cores, and that number.
+std::set<int> default_thread_counts();
+
 struct SuiteOptions {
-  bool quick = false;                    // see in_quick_run()
-  double scale = 1.0;                    // of the scenes that can be scaled
-  int width = 1920, height = 1080;       // px
-  bool size_asked = false;               // otherwise a .tri file is drawn at its own size
-  std::vector<std::string> scenes;       // names or files; empty: the whole suite
-  std::vector<std::string> more_scenes;  // beside the whole suite
-  bool fit = false;                      // for meshes in `scenes` and `more_scenes`
-  std::string needs;                     // a file whose pipelines are timed beside the exact one; empty: none
-  bool methods = false;                  // of the laboratory, on `scenes`; the whole suite has them anyway
-  bool peers = true;                     // those in the suite, if built
-  bool all_peers = false;                // beside the methods, too
+  bool quick = false;                               // see in_quick_run()
+  double scale = 1.0;                               // of the scenes that can be scaled
+  int width = 1920, height = 1080;                  // px
+  bool size_asked = false;                          // otherwise a .tri file is drawn at its own size
+  std::vector<std::string> scenes;                  // names or files; empty: the whole suite
+  std::vector<std::string> more_scenes;             // beside the whole suite
+  std::set<int> threads = default_thread_counts();  // of whole frames and their parts
+  bool fit = false;                                 // for meshes in `scenes` and `more_scenes`
+  std::string needs;       // a file whose pipelines are timed beside the exact one; empty: none
+  bool methods = false;    // of the laboratory, on `scenes`; the whole suite has them anyway
+  bool peers = true;       // those in the suite, if built
+  bool all_peers = false;  // beside the methods, too
 };
 
 // A scene's name in row names, where ':' and '/' are separators: see tools::source_name().

@@ -390,7 +390,7 @@ class ScriptsTest(FolderTest):
         plotted(self, self.results)
         plotted(self, self.results, "--out", self.folder / "again")
         drawn = sorted(p.name for p in (self.results / "charts").iterdir())
-        charts = ["area", "culling", "factors", "stability-grid", "stability-nearer", "turning-cube",
+        charts = ["area", "culling", "factors", "stability-grid", "stability-nearer", "threads", "turning-cube",
                   "errors-coverage", *(f"{kind}-{family}" for kind in ("accuracy", "errors") for family in ("visibility", "facing", "clipping"))]
         self.assertEqual(drawn, sorted(f"{c}.svg" for c in charts))
         for name in drawn:
