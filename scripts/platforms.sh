@@ -52,8 +52,9 @@ without_fma() {
 }
 on_x86_64() {
   local compiler kind
-  build edgewise_program edgewise_hashes edgewise_library_tests
+  build edgewise_program edgewise_hashes edgewise_library_tests edgewise_wrong_libm
   noted "$build/edgewise_hashes" "$root/tests/hashes.json"
+  noted env "LD_PRELOAD=$build/libedgewise_wrong_libm.so" "$build/edgewise_hashes" "$root/tests/hashes.json"
   noted without_fma "$build/edgewise_hashes" "$root/tests/hashes.json"
   noted "$build/edgewise_library_tests" --gtest_brief=1
   facts >"$platforms/x86_64.facts"
