@@ -86,7 +86,7 @@ HWY_INLINE V set(std::uint32_t v) {
 template <typename ForEach>
 HWY_INLINE void fill_spans(const BandTask& task, const BandDepth& z, std::uint32_t payload,
                            ForEach&& for_each) {
-#if HWY_TARGET == HWY_SCALAR
+#if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_NEON
   for_each([&](int y, int begin, int end) {
     const FrameRow row(task.frame, y);
     for (int x = begin, next; x < end; x = next) {
