@@ -16,6 +16,7 @@ from bench_tables import engine_table, peer_tables, speed_table, tails_table, ti
 from factors import gains, superlinear  # noqa: E402
 from facts_tables import edges_table, pipelines_table, pooled_text, read_needs, tutorials_table  # noqa: E402
 from frontier import EXACT, INSIDE_TESTS, PRICED, TWELVE_BITS, cracks_of, frontier_figures, points_of, price_table, simd_gain, speed_ups, wrong_of  # noqa: E402
+from instructions import instructions_table, read_counts  # noqa: E402
 from program import BadInput  # noqa: E402
 from tables import markdown  # noqa: E402
 
@@ -299,6 +300,20 @@ def entry(scene, near="nothing", facing="normal_z", visibility="submission_order
                       question("subpixel bits, no worse than 8 bits", "8 bits", needed="8 bits"),
                       question("float edges without a crack", "float_lt", "float_le", "double_top_left", needed="double_top_left"),
                       question("edge values at 8 subpixel bits", "32-bit integers", needed="32-bit integers")]}
+
+
+class InstructionsTest(FolderTest):
+    def table(self, counts):
+        return instructions_table(self.file("instructions.json", json.dumps(counts)))[1]
+
+    def test_the_second_count_of_a_frame_counts_and_a_frame_is_the_sum_of_its_parts(self):
+        counts = read_counts(["9000 cube scalar frontend", "4000 cube scalar frontend", "1000 cube neon frontend", "3000000 cube scalar tiled",
+                              "2000000 cube neon tiled", "9000 cube scalar scanline", "10000 cube neon scanline"])
+        self.assertEqual(self.table(counts), [["cube", "1k, 4.0×", "10k, 0.90×", "2M, 1.5×", "11k, 1.2×", "2M, 1.5×"]])
+
+    def test_what_is_not_a_count_is_refused(self):
+        with self.assertRaises(BadInput):
+            self.table({"cube": {"frontend": {"scalar": 1}}})
 
 
 class NeedsTest(FolderTest):
