@@ -68,6 +68,7 @@ on_x86_64() {
   done
 }
 on_consumer() {
+  build edgewise_bench # it is installed, too
   python3 "$root/tests/scripts/install_test.py" "$build" Installed.test_hashes_do_not_depend_on_the_users_flags >"$found"
 }
 
