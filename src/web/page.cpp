@@ -1,6 +1,7 @@
 // The program of the page (page.html): draws a few triangles by the laboratory's coverage methods, and marks
 // wrong pixels and cracks by its exact truth. JavaScript calls the exported functions, and reads and writes
 // their memory.
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -18,9 +19,12 @@ namespace edgewise::lab {
 
 namespace {
 
-// The side of the largest case that is shown, and the least coordinate but 0, for which gmpxx.h is exact.
-constexpr int kLargestSide = 401;
-constexpr float kLeast = 0x1p-8f;
+constexpr int kLargestSide = 401;  // of the cases that are shown
+
+// Whether gmpxx.h is exact for such a coordinate.
+bool is_exact(float px) {
+  return std::abs(px) < 0x1p12f && std::rint(px * 0x1p32f) == px * 0x1p32f;
+}
 
 CoverageScene scene;
 bool from_front_end = false;
@@ -42,8 +46,7 @@ std::vector<CoverageCase> cases() {
     if (c.size.width > kLargestSide || c.size.height > kLargestSide) continue;
     bool exact = true;
     for (const FloatTriangle& t : c.make())
-      for (int i = 0; i < 3; ++i)
-        for (const float v : {t.at.x_px[i], t.at.y_px[i]}) exact &= v == 0 || v >= kLeast || v <= -kLeast;
+      for (int i = 0; i < 3; ++i) exact &= is_exact(t.at.x_px[i]) && is_exact(t.at.y_px[i]);
     if (exact) list.push_back(c);
   }
   return list;

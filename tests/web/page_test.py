@@ -1,11 +1,15 @@
 #!/usr/bin/env python3
-"""Uses results/page.html in Chromium, as a reader would. usage: page_test.py FOLDER, for screenshots"""
+"""Uses results/page.html in Chromium and Firefox, as a reader would. usage: page_test.py FOLDER, for screenshots"""
 import base64
+import contextlib
 import json
+import os
+import signal
 import socket
 import struct
 import subprocess
 import sys
+import tempfile
 import time
 import unittest
 import urllib.error
@@ -15,64 +19,148 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = ROOT / "results" / "page.html"
 FOLDER = Path(sys.argv.pop(1))
-KEYS = {"right": "\ue014", "tab": "\ue004"}
+WINDOW, PHONE = (1200, 900), (360, 740)  # CSS px
+
+
+def until(found):
+    for _ in range(300):
+        if value := found():
+            return value
+        time.sleep(0.1)
+    raise AssertionError("the browser or the page does not start")
 
 
 class Browser:
-    """A WebDriver session."""
+    """Sends WebDriver's commands to a browser. Its processes end with close(), whether a session started or not."""
 
-    def __init__(self, width, height, *arguments):
+    def __init__(self):
+        self.profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
+        self.process = subprocess.Popen(self.command(), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                                        start_new_session=True, env={**os.environ, "TMPDIR": self.profile.name})
+
+    def close(self):
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(self.process.pid, signal.SIGKILL)
+        self.process.wait()
+        self.profile.cleanup()
+
+    def assert_running(self):
+        assert self.process.poll() is None, f"{self.process.args[0]} ended: {self.process.returncode}"
+
+    def run(self, script, *arguments):
+        return self.send("ExecuteScript", script=script, args=list(arguments))
+
+    def act(self, kind, device, *actions):
+        self.send("PerformActions", actions=[{"type": kind, "id": device, "actions": actions}])
+
+    def open(self):
+        self.send("Navigate", url=PAGE.as_uri())
+        until(lambda: self.run("return document.body.dataset.ready"))
+
+
+class Chromium(Browser):
+    PATHS = {"ExecuteScript": "/execute/sync", "Navigate": "/url", "PerformActions": "/actions"}
+
+    def command(self):
         with socket.socket() as free:
             free.bind(("127.0.0.1", 0))
             port = free.getsockname()[1]
-        self.driver = subprocess.Popen(["chromedriver", f"--port={port}"], stdout=subprocess.DEVNULL)
         self.session = f"http://127.0.0.1:{port}/session"
-        options = {"args": ["--headless=new", "--no-sandbox", f"--window-size={width},{height}", *arguments]}
-        started = self.post("", {"capabilities": {"alwaysMatch": {"goog:chromeOptions": options}}}, attempts=100)
-        self.session += "/" + started["sessionId"]
+        return ["chromedriver", f"--port={port}"]
 
-    def post(self, path, data, attempts=1):
+    def start(self):
+        options = {"args": ["--headless=new", "--no-sandbox", f"--user-data-dir={self.profile.name}/chromium"]}
+        self.session += "/" + until(lambda: self.post("", capabilities={"alwaysMatch": {"goog:chromeOptions": options}}))[
+            "sessionId"]
+
+    def post(self, path, **data):
         request = urllib.request.Request(self.session + path, json.dumps(data).encode(),
                                          {"Content-Type": "application/json"})
-        for attempt in range(attempts):
-            try:
-                with urllib.request.urlopen(request) as answer:
-                    return json.load(answer)["value"]
-            except urllib.error.HTTPError as error:
-                raise AssertionError(error.read().decode()) from error
-            except urllib.error.URLError:  # it has not started yet
-                if attempt + 1 == attempts:
-                    raise
-                time.sleep(0.1)
+        try:
+            with urllib.request.urlopen(request) as answer:
+                return json.load(answer)["value"]
+        except urllib.error.HTTPError as error:
+            raise AssertionError(error.read().decode()) from error
+        except urllib.error.URLError:
+            self.assert_running()
+            return None  # it has not started yet
 
-    def run(self, script, *arguments):
-        return self.post("/execute/sync", {"script": script, "args": list(arguments)})
+    def send(self, command, **data):
+        return self.post(self.PATHS[command], **data)
 
-    def open(self):
-        self.post("/url", {"url": PAGE.as_uri()})
-        for _ in range(100):
-            if self.run("return document.body.dataset.ready"):
-                return
-            time.sleep(0.1)
-        raise AssertionError("the page does not start")
+    def devtools(self, command, **data):
+        return self.post("/goog/cdp/execute", cmd=command, params=data)
+
+    def look(self, dark=False, phone=False):
+        scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
+        self.devtools("Emulation.setEmulatedMedia", features=[scheme])
+        width, height = PHONE if phone else WINDOW
+        self.devtools("Emulation.setDeviceMetricsOverride", width=width, height=height,
+                      deviceScaleFactor=2 if phone else 1, mobile=phone)
 
     def picture(self, name):
-        with urllib.request.urlopen(self.session + "/screenshot") as answer:
-            (FOLDER / name).write_bytes(base64.b64decode(json.load(answer)["value"]))
+        shot = self.devtools("Page.captureScreenshot")["data"]
+        (FOLDER / f"chromium-{name}.png").write_bytes(base64.b64decode(shot))
+
+
+class Firefox(Browser):
+    """By Marionette: lengths and JSON on a socket."""
+
+    def command(self):
+        (Path(self.profile.name) / "user.js").write_text('user_pref("marionette.port", 0);')
+        return ["firefox-esr", "--headless", "--marionette", "--remote-allow-system-access", "--profile",
+                self.profile.name]
+
+    def start(self):
+        file = Path(self.profile.name) / "MarionetteActivePort"
+        port = until(lambda: self.assert_running() or (file.exists() and file.read_text()))
+        self.socket = socket.create_connection(("127.0.0.1", int(port)))
+        self.answers = self.socket.makefile("rb")
+        self.receive()  # its greeting
+        self.send("NewSession")
 
     def close(self):
-        urllib.request.urlopen(urllib.request.Request(self.session, method="DELETE")).close()
-        self.driver.terminate()
-        self.driver.wait()
+        super().close()
+        if hasattr(self, "socket"):
+            self.answers.close()
+            self.socket.close()
+
+    def receive(self):
+        length = b""
+        while (byte := self.answers.read(1)) != b":":
+            length += byte
+        return json.loads(self.answers.read(int(length)))
+
+    def send(self, command, by="WebDriver", **data):
+        message = json.dumps([0, 0, f"{by}:{command}", data]).encode()
+        self.socket.sendall(b"%d:%s" % (len(message), message))
+        _, _, error, answer = self.receive()
+        if error:
+            raise AssertionError(error["message"])
+        return answer.get("value")
+
+    def look(self, dark=False, phone=False):
+        # No window is as narrow as a phone, so the page is enlarged.
+        zoom, (width, height) = (2, PHONE) if phone else (1, WINDOW)
+        self.send("SetWindowRect", width=zoom * width, height=zoom * height)
+        self.send("SetContext", by="Marionette", value="chrome")
+        self.run("Services.prefs.setIntPref('layout.css.prefers-color-scheme.content-override', arguments[0]);"
+                 "gBrowser.selectedBrowser.browsingContext.fullZoom = arguments[1]", 0 if dark else 1, zoom)
+        self.send("SetContext", by="Marionette", value="content")
+
+    def picture(self, name):
+        (FOLDER / f"firefox-{name}.png").write_bytes(base64.b64decode(self.send("TakeScreenshot", full=False)))
 
 
-class Page(unittest.TestCase):
+class Page:
     @classmethod
     def setUpClass(cls):
-        cls.browser = Browser(1200, 900)
+        cls.browser = cls.Browser()
         cls.addClassCleanup(cls.browser.close)
+        cls.browser.start()
 
     def setUp(self):
+        self.browser.look()
         self.browser.open()
 
     def counts(self):
@@ -92,9 +180,8 @@ class Page(unittest.TestCase):
         x, y = self.browser.run("const box = document.querySelectorAll('#handles circle')[arguments[0]]"
                                 ".getBoundingClientRect(); return [box.x + box.width / 2, box.y + box.height / 2]", vertex)
         move = {"type": "pointerMove", "duration": 50, "origin": "viewport"}
-        self.browser.post("/actions", {"actions": [{"type": "pointer", "id": "mouse", "actions": [
-            {**move, "x": round(x), "y": round(y)}, {"type": "pointerDown", "button": 0},
-            {**move, "x": round(x + dx), "y": round(y + dy)}, {"type": "pointerUp", "button": 0}]}]})
+        self.browser.act("pointer", "mouse", {**move, "x": round(x), "y": round(y)}, {"type": "pointerDown", "button": 0},
+                         {**move, "x": round(x + dx), "y": round(y + dy)}, {"type": "pointerUp", "button": 0})
 
     def vertex(self, index):
         return self.browser.run("return document.querySelectorAll('#handles circle')[arguments[0]].ariaLabel", index)
@@ -139,8 +226,7 @@ class Page(unittest.TestCase):
 
     def test_arrow_keys_move_the_focused_vertex(self):
         self.browser.run("document.querySelector('#handles circle').focus()")
-        press = [{"type": kind, "value": KEYS["right"]} for kind in ("keyDown", "keyUp")]
-        self.browser.post("/actions", {"actions": [{"type": "key", "id": "keys", "actions": press}]})
+        self.browser.act("key", "keys", *({"type": kind, "value": "\ue014"} for kind in ("keyDown", "keyUp")))  # right
         self.assertEqual(self.vertex(0), "vertex A, x 4, y 3.5")
 
     def test_the_classic_failures_have_the_errors_of_the_laboratory(self):
@@ -170,15 +256,37 @@ class Page(unittest.TestCase):
         self.choose("float_lt")
         self.assertLess(self.counts()["gaps"], 10)
 
-    def test_phones_and_dark_colours(self):
-        self.browser.picture("light.png")
-        phone = Browser(360, 740, "--force-dark-mode")
-        self.addCleanup(phone.close)
-        phone.open()
-        phone.post("/window/rect", {"width": 360, "height": 740})
-        wide = "return document.documentElement.scrollWidth - document.documentElement.clientWidth"
-        self.assertEqual(phone.run(wide), 0)
-        phone.picture("phone.png")
+    def test_follows_the_readers_colours(self):
+        def brightness():
+            """Of the paper, the ink, and a pixel that no triangle covers: red, green and blue added."""
+            return self.browser.run(r"""
+                const style = getComputedStyle(document.body), sum = (rgb) => rgb.reduce((a, b) => a + Number(b), 0);
+                const pixel = document.querySelector('canvas').getContext('2d').getImageData(5, 5, 1, 1).data;
+                return [...[style.backgroundColor, style.color].map((c) => sum(c.match(/\d+/g))), sum([...pixel].slice(0, 3))];""")
+
+        for dark in (False, True):
+            self.browser.look(dark=dark)  # the open page must follow
+            self.browser.picture("dark" if dark else "light")
+            paper, ink, pixel = brightness()
+            self.assertEqual([paper < 150, ink > 600, pixel < 150], [dark] * 3)
+            self.assertEqual([paper > 600, ink < 150, pixel > 600], [not dark] * 3)
+
+    def test_fits_a_phone(self):
+        self.browser.look(phone=True)
+        self.browser.picture("phone")
+        window, page, stage = self.browser.run(
+            "const { clientWidth, scrollWidth } = document.documentElement;"
+            "return [innerWidth, scrollWidth - clientWidth, document.querySelector('#stage').clientWidth]")
+        self.assertEqual((window, page), (PHONE[0], 0))
+        self.assertGreater(stage, 0.8 * PHONE[0])
+
+
+class InChromium(Page, unittest.TestCase):
+    Browser = Chromium
+
+
+class InFirefox(Page, unittest.TestCase):
+    Browser = Firefox
 
 
 if __name__ == "__main__":
