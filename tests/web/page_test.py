@@ -167,9 +167,13 @@ class Page:
         return self.browser.run("return Object.fromEntries(['gaps', 'double_hits', 'wrong', 'covered'].map("
                                 "id => [id, Number(document.getElementById(id).textContent.replace(',', ''))]))")
 
-    def choose(self, method):
-        self.browser.run("const select = document.querySelector('#method'); select.value = [...select.options].find("
-                         "o => o.text === arguments[0]).value; select.dispatchEvent(new Event('input'))", method)
+    def choose(self, text, of="method"):
+        self.browser.run("const select = document.getElementById(arguments[1]); select.value = [...select.options].find("
+                         "o => o.text === arguments[0]).value; select.dispatchEvent(new Event('input'))", text, of)
+
+    def chosen(self):
+        return self.browser.run("return ['method', 'bits', 'ties'].map(id => document.getElementById(id)"
+                                ".selectedOptions[0].text)")
 
     def show(self, case):
         self.browser.run("[...document.querySelectorAll('#cases button')].find(b => b.textContent === arguments[0])"
@@ -215,14 +219,35 @@ class Page:
         for method in ("fixed_8", "tiled"):
             self.assertEqual({**found[method], "covered": 0}, dict.fromkeys(found[method], 0))
 
-    def test_the_picture_has_the_hash_of_the_native_program(self):
+    def test_subpixel_bits_and_the_tie_rule_choose_a_method(self):
+        self.assertEqual(self.chosen(), ["float_lt", "none", "neither draws"])
+        for choice, of, expected in (("both draw", "ties", ["float_le", "none", "both draw"]),
+                                     ("top-left", "ties", ["float_top_left", "none", "top-left"]),
+                                     ("8", "bits", ["float_snapped", "8", "top-left"]),
+                                     ("16", "bits", ["fixed_16", "16", "top-left"]),
+                                     ("0", "bits", ["whole_pixel", "0", "top-left"]),
+                                     ("neither draws", "ties", ["float_lt", "none", "neither draws"])):
+            self.choose(choice, of)
+            self.assertEqual(self.chosen(), expected)
+        self.choose("tiled")
+        self.assertEqual(self.chosen(), ["tiled", "8", "top-left"])
+
+    def test_the_hash_and_the_needs_are_those_of_the_native_program(self):
         corners = ((3.5, 3.5), (24.5, 2.5), (8.5, 18.5)), ((29.5, 16.5), (8.5, 18.5), (24.5, 2.5))
         stream = FOLDER / "pair.tri"
         stream.write_bytes(struct.pack("<4s3I", b"TRI1", 32, 20, 2) + b"".join(
             struct.pack("<9fI", *(value for x, y in triangle for value in (x, y, 0.5)), 1 + i)
             for i, triangle in enumerate(corners)))
-        native = subprocess.run([ROOT / "build" / "edgewise", "hash", stream], capture_output=True, text=True, check=True)
-        self.assertEqual(self.browser.run("return document.querySelector('#hash').textContent"), native.stdout.split()[0])
+
+        def native(*arguments):
+            return subprocess.run([ROOT / "build" / "edgewise", *arguments, stream], capture_output=True, text=True,
+                                  check=True).stdout
+
+        self.assertEqual(self.browser.run("return document.querySelector('#hash').textContent"), native("hash").split()[0])
+        needs = until(lambda: self.browser.run("return [...document.querySelectorAll('#needs[aria-busy=false] li')].map(item => "
+                                               "[item.childNodes[1].data, item.querySelector('b').textContent])"))
+        expected = json.loads(native("needs", "--json"))["edges"]
+        self.assertEqual(needs, [[need["question"], need["answer"]] for need in expected])
 
     def test_arrow_keys_move_the_focused_vertex(self):
         self.browser.run("document.querySelector('#handles circle').focus()")
