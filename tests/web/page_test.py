@@ -50,8 +50,8 @@ class Browser:
     def run(self, script, *arguments):
         return self.send("ExecuteScript", script=script, args=list(arguments))
 
-    def act(self, kind, device, *actions):
-        self.send("PerformActions", actions=[{"type": kind, "id": device, "actions": actions}])
+    def act(self, kind, device, *actions, **more):
+        self.send("PerformActions", actions=[{"type": kind, "id": device, "actions": actions, **more}])
 
     def open(self):
         self.send("Navigate", url=PAGE.as_uri())
@@ -179,13 +179,14 @@ class Page:
         self.browser.run("[...document.querySelectorAll('#cases button')].find(b => b.textContent === arguments[0])"
                          ".click()", case)
 
-    def drag(self, vertex, dx, dy):
+    def drag(self, vertex, dx, dy, by="mouse"):
         """By pixels of the screen, from the middle of the handle."""
         x, y = self.browser.run("const box = document.querySelectorAll('#handles circle')[arguments[0]]"
                                 ".getBoundingClientRect(); return [box.x + box.width / 2, box.y + box.height / 2]", vertex)
         move = {"type": "pointerMove", "duration": 50, "origin": "viewport"}
-        self.browser.act("pointer", "mouse", {**move, "x": round(x), "y": round(y)}, {"type": "pointerDown", "button": 0},
-                         {**move, "x": round(x + dx), "y": round(y + dy)}, {"type": "pointerUp", "button": 0})
+        self.browser.act("pointer", by, {**move, "x": round(x), "y": round(y)}, {"type": "pointerDown", "button": 0},
+                         {**move, "x": round(x + dx), "y": round(y + dy)}, {"type": "pointerUp", "button": 0},
+                         parameters={"pointerType": by})
 
     def vertex(self, index):
         return self.browser.run("return document.querySelectorAll('#handles circle')[arguments[0]].ariaLabel", index)
@@ -304,6 +305,8 @@ class Page:
             "return [innerWidth, scrollWidth - clientWidth, document.querySelector('#stage').clientWidth]")
         self.assertEqual((window, page), (PHONE[0], 0))
         self.assertGreater(stage, 0.8 * PHONE[0])
+        self.drag(1, 0, 4 * stage / 32, by="touch")
+        self.assertEqual(self.vertex(1), "vertex B, x 24.5, y 6.5")
 
 
 class InChromium(Page, unittest.TestCase):
