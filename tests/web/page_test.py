@@ -70,8 +70,8 @@ class Chromium(Browser):
 
     def start(self):
         options = {"args": ["--headless=new", "--no-sandbox", f"--user-data-dir={self.profile.name}/chromium"]}
-        self.session += "/" + until(lambda: self.post("", capabilities={"alwaysMatch": {"goog:chromeOptions": options}}))[
-            "sessionId"]
+        wanted = {"alwaysMatch": {"goog:chromeOptions": options}}
+        self.session += "/" + until(lambda: self.post("", capabilities=wanted))["sessionId"]
 
     def post(self, path, **data):
         request = urllib.request.Request(self.session + path, json.dumps(data).encode(),
@@ -185,7 +185,8 @@ class Page:
                                 ".getBoundingClientRect(); return [box.x + box.width / 2, box.y + box.height / 2]", vertex)
         move = {"type": "pointerMove", "duration": 50, "origin": "viewport"}
         self.browser.act("pointer", by, {**move, "x": round(x), "y": round(y)}, {"type": "pointerDown", "button": 0},
-                         {**move, "x": round(x + dx), "y": round(y + dy)}, {"type": "pointerUp", "button": 0},
+                         *({**move, "x": round(x + dx * i / 8), "y": round(y + dy * i / 8)} for i in range(1, 9)),
+                         {"type": "pointerUp", "button": 0},
                          parameters={"pointerType": by})
 
     def vertex(self, index):
@@ -244,9 +245,11 @@ class Page:
             return subprocess.run([ROOT / "build" / "edgewise", *arguments, stream], capture_output=True, text=True,
                                   check=True).stdout
 
-        self.assertEqual(self.browser.run("return document.querySelector('#hash').textContent"), native("hash").split()[0])
-        needs = until(lambda: self.browser.run("return [...document.querySelectorAll('#needs[aria-busy=false] li')].map(item => "
-                                               "[item.childNodes[1].data, item.querySelector('b').textContent])"))
+        found = self.browser.run("return document.querySelector('#hash').textContent")
+        self.assertEqual(found, native("hash").split()[0])
+        needs = until(lambda: self.browser.run(
+            "return [...document.querySelectorAll('#needs[aria-busy=false] li')].map(item => "
+            "[item.childNodes[1].data, item.querySelector('b').textContent])"))
         expected = json.loads(native("needs", "--json"))["edges"]
         self.assertEqual(needs, [[need["question"], need["answer"]] for need in expected])
 
@@ -288,7 +291,8 @@ class Page:
             return self.browser.run(r"""
                 const style = getComputedStyle(document.body), sum = (rgb) => rgb.reduce((a, b) => a + Number(b), 0);
                 const pixel = document.querySelector('canvas').getContext('2d').getImageData(5, 5, 1, 1).data;
-                return [...[style.backgroundColor, style.color].map((c) => sum(c.match(/\d+/g))), sum([...pixel].slice(0, 3))];""")
+                return [...[style.backgroundColor, style.color].map((c) => sum(c.match(/\d+/g))),
+                        sum([...pixel].slice(0, 3))];""")
 
         for dark in (False, True):
             self.browser.look(dark=dark)  # the open page must follow
@@ -305,8 +309,9 @@ class Page:
             "return [innerWidth, scrollWidth - clientWidth, document.querySelector('#stage').clientWidth]")
         self.assertEqual((window, page), (PHONE[0], 0))
         self.assertGreater(stage, 0.8 * PHONE[0])
-        self.drag(1, 0, 4 * stage / 32, by="touch")
-        self.assertEqual(self.vertex(1), "vertex B, x 24.5, y 6.5")
+        self.drag(2, 0, -4 * stage / 32, by="touch")
+        self.assertEqual(self.vertex(2), "vertex C, x 8.5, y 14.5")
+        self.assertEqual(self.browser.run("return scrollY"), 0)
 
 
 class InChromium(Page, unittest.TestCase):
