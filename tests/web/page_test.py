@@ -77,7 +77,7 @@ class Chromium(Browser):
         request = urllib.request.Request(self.session + path, json.dumps(data).encode(),
                                          {"Content-Type": "application/json"})
         try:
-            with urllib.request.urlopen(request) as answer:
+            with urllib.request.urlopen(request, timeout=60) as answer:
                 return json.load(answer)["value"]
         except urllib.error.HTTPError as error:
             raise AssertionError(error.read().decode()) from error
@@ -114,7 +114,7 @@ class Firefox(Browser):
     def start(self):
         file = Path(self.profile.name) / "MarionetteActivePort"
         port = until(lambda: self.assert_running() or (file.exists() and file.read_text()))
-        self.socket = socket.create_connection(("127.0.0.1", int(port)))
+        self.socket = socket.create_connection(("127.0.0.1", int(port)), timeout=60)
         self.answers = self.socket.makefile("rb")
         self.receive()  # its greeting
         self.send("NewSession")
@@ -128,6 +128,7 @@ class Firefox(Browser):
     def receive(self):
         length = b""
         while (byte := self.answers.read(1)) != b":":
+            assert byte, "firefox-esr ended"
             length += byte
         return json.loads(self.answers.read(int(length)))
 
