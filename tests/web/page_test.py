@@ -278,7 +278,7 @@ class Page:
     def test_the_cube_tears_while_its_diagonal_runs_through_samples(self):
         self.browser.run("document.querySelector('#cube').click()")
         self.assertGreater(self.counts()["gaps"], 10)  # by float_lt
-        self.browser.picture("cube.png")
+        self.browser.picture("cube")
         self.choose("tiled")
         self.assertEqual(self.counts()["gaps"], 0)
         self.browser.run("const turn = document.querySelector('#turn input'); turn.value = 7;"
