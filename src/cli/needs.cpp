@@ -104,13 +104,6 @@ std::string line(std::string_view question, std::string_view answer) {
   return answer.empty() ? fmt::format("  {}\n", question) : fmt::format("  {:<35} {}\n", question, answer);
 }
 
-// The next less precise answer; null if there is none.
-const lab::Answer* next_weaker(const lab::Question& question) {
-  const lab::Answer* const needed = question.needed();
-  if (needed == nullptr) return &question.answers.back();
-  return needed == question.answers.data() ? nullptr : needed - 1;
-}
-
 std::string text_of(const lab::Question& question, bool with_trials = true) {
   const lab::Answer* const needed = question.needed();
   std::string text = line(question.name, needed == nullptr ? "none is enough" : needed->name);
@@ -118,7 +111,7 @@ std::string text_of(const lab::Question& question, bool with_trials = true) {
     text += indented("proven: " + question.proof);
   else if (needed != nullptr && with_trials)
     text += indented("seen in " + counted(question.trials, question.trial));
-  const lab::Answer* const next = next_weaker(question);
+  const lab::Answer* const next = question.next_weaker();
   if (next != nullptr) text += indented("not enough: " + describe(*next, question.error));
   return text;
 }
@@ -327,7 +320,7 @@ class NeedsCommand {
   void write_pictures(const std::string& scene, const std::vector<lab::Question>& questions) const {
     std::vector<Closeup> closeups;
     for (const lab::Question& question : questions) {
-      const lab::Answer* const shown = next_weaker(question);
+      const lab::Answer* const shown = question.next_weaker();
       if (shown == nullptr || shown->picture.marks.empty()) continue;
       std::string name = scene + "-" + question.name + "-" + shown->name;
       std::replace_if(

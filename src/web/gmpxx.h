@@ -1,6 +1,7 @@
-// Takes the place of GMP, which WebAssembly lacks. A `long double` has 113 bits there, and a coordinate of
-// the page is a multiple of 2^-32 px below 2^12 px. So products of two differences are exact, and so is the
-// sign of their difference.
+// Takes the place of GMP, which WebAssembly lacks, where the sign of a cross product is asked for. A
+// `long double` has 113 bits there. If coordinates are multiples of 2^-32 px below 2^12 px, their differences
+// have 45 bits, so products and the sum of two are exact. The exact depths of lab/truth.h need more bits;
+// they also need the quotient, which is left undefined, so that no program that uses them links.
 #pragma once
 
 #include <compare>
@@ -12,7 +13,7 @@ struct mpq_class {
   friend mpq_class operator+(mpq_class a, mpq_class b) { return a.value + b.value; }
   friend mpq_class operator-(mpq_class a, mpq_class b) { return a.value - b.value; }
   friend mpq_class operator*(mpq_class a, mpq_class b) { return a.value * b.value; }
-  friend mpq_class operator/(mpq_class a, mpq_class b) { return a.value / b.value; }
+  friend mpq_class operator/(mpq_class a, mpq_class b);
   friend auto operator<=>(const mpq_class&, const mpq_class&) = default;
 };
 inline int sgn(mpq_class a) {

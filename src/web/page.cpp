@@ -1,6 +1,9 @@
 // The program of the page (page.html): draws a few triangles by the laboratory's coverage methods, and marks
 // wrong pixels and cracks by its exact truth. JavaScript calls the exported functions, and reads and writes
 // their memory.
+#include <fmt/format.h>
+
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -8,9 +11,11 @@
 
 #include "edgewise/backend.h"
 #include "edgewise/builtin.h"
+#include "edgewise/contract.h"
 #include "edgewise/hash.h"
 #include "lab/coverage/cracks.h"
 #include "lab/error_marks.h"
+#include "lab/needs/needs.h"
 
 #define EXPORT(name) extern "C" [[clang::export_name(#name)]]
 
@@ -18,9 +23,12 @@ namespace edgewise::lab {
 
 namespace {
 
-// The side of the largest case that is shown, and the least coordinate but 0, for which gmpxx.h is exact.
-constexpr int kLargestSide = 401;
-constexpr float kLeast = 0x1p-8f;
+constexpr int kLargestSide = 401;  // of the cases that are shown
+
+// Whether gmpxx.h is exact for such a coordinate.
+bool is_exact(float px) {
+  return std::abs(px) < 0x1p12f && std::rint(px * 0x1p32f) == px * 0x1p32f;
+}
 
 CoverageScene scene;
 bool from_front_end = false;
@@ -42,23 +50,20 @@ std::vector<CoverageCase> cases() {
     if (c.size.width > kLargestSide || c.size.height > kLargestSide) continue;
     bool exact = true;
     for (const FloatTriangle& t : c.make())
-      for (int i = 0; i < 3; ++i)
-        for (const float v : {t.at.x_px[i], t.at.y_px[i]}) exact &= v == 0 || v >= kLeast || v <= -kLeast;
+      for (int i = 0; i < 3; ++i) exact &= is_exact(t.at.x_px[i]) && is_exact(t.at.y_px[i]);
     if (exact) list.push_back(c);
   }
   return list;
 }
 
-// Lines of a name, a tab and a text.
-template <typename List, typename Name, typename Text>
-const char* lines(const List& list, Name name, Text text) {
+// A line per entry, with tabs between its fields.
+template <typename List, typename... Field>
+const char* lines(const List& list, Field... field) {
   static std::string joined;
   joined.clear();
   for (const auto& entry : list) {
-    joined += name(entry);
-    joined += '\t';
-    joined += text(entry);
-    joined += '\n';
+    ((joined += field(entry), joined += '\t'), ...);
+    joined.back() = '\n';
   }
   return joined.c_str();
 }
@@ -72,6 +77,14 @@ void open(CoverageScene next, bool with_front_end) {
   }
 }
 
+std::string why(const Question& question) {
+  const Answer* const weaker = question.next_weaker();
+  if (!question.proof.empty() || weaker == nullptr) return question.proof;
+  return fmt::format("not enough: {}, with {} {}{}, as at ({}, {})", weaker->name, weaker->wrong_px,
+                     question.error, weaker->wrong_px == 1 ? "" : "s", weaker->witness->x_px,
+                     weaker->witness->y_px);
+}
+
 std::uint32_t count(std::uint64_t n) {
   return static_cast<std::uint32_t>(n);
 }
@@ -81,7 +94,8 @@ std::uint32_t count(std::uint64_t n) {
 EXPORT(methods) const char* methods() {
   return lines(
       coverage_methods(), [](const auto& m) { return m.info.name; },
-      [](const auto& m) { return m.info.summary; });
+      [](const auto& m) { return m.info.summary; },
+      [](const auto& m) { return m.promise.snap_bits ? std::to_string(*m.promise.snap_bits) : "none"; });
 }
 
 EXPORT(cases) const char* case_list() {
@@ -145,6 +159,27 @@ EXPORT(judge) const Verdict* judge(int index) {
              static_cast<std::uint32_t>(hash),
              static_cast<std::uint32_t>(hash >> 32)};
   return &verdict;
+}
+
+// What the edges of the shown triangles need: question, answer, reason.
+EXPORT(needs) const char* needs() {
+  TriangleStream stream;
+  for (const auto& [at, payload] : scene.floats) {
+    StreamTriangle& t = stream.triangles.emplace_back();
+    for (int i = 0; i < 3; ++i) t.vertex[i] = {at.x_px[i], at.y_px[i], at.z01[i]};
+  }
+  const Drawable drawable = std::move(stream);
+  const StudiedFrame frame{
+      0, drawable, {.width = scene.size.width, .height = scene.size.height, .cull = Cull::none}, false};
+  CoverageNeeds coverage({});
+  coverage.add(frame, scene, 1);
+  Ranges ranges;
+  ranges.add(frame);
+  std::vector<Question> questions = coverage.questions();
+  questions.push_back(ranges.edge_values(contract::kSubBits));
+  return lines(
+      questions, [](const Question& q) { return q.name; },
+      [](const Question& q) { return q.needed() == nullptr ? "none is enough" : q.needed()->name; }, why);
 }
 
 }  // namespace edgewise::lab

@@ -15,4 +15,5 @@ foreach(header glm hwy xxhash.h)
   endif()
   file(CREATE_LINK "/usr/include/${header}" "${headers}/${header}" SYMBOLIC)
 endforeach()
+file(CREATE_LINK /usr/include/fmt "${headers}/fmt" SYMBOLIC) # for the page
 set(XXHASH_INCLUDE "${headers}")

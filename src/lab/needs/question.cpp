@@ -10,6 +10,12 @@ const Answer* Question::needed() const {
   return failing == answers.rbegin() ? nullptr : &*failing.base();
 }
 
+const Answer* Question::next_weaker() const {
+  const Answer* const first_enough = needed();
+  if (first_enough == nullptr) return &answers.back();
+  return first_enough == answers.data() ? nullptr : first_enough - 1;
+}
+
 std::string bits_name(int bits, std::string_view kind) {
   return std::to_string(bits) + " " + std::string(kind) + (kind.empty() ? "bit" : " bit") +
          (bits == 1 ? "" : "s");

@@ -52,6 +52,8 @@ struct Question {
 
   // The first answer from which all are enough; null if the last one is not.
   const Answer* needed() const;
+  // The most precise answer that is less than needed; null if there is none.
+  const Answer* next_weaker() const;
 };
 
 // "1 bit", "8 subpixel bits".
