@@ -65,6 +65,7 @@ std::optional<Flags> parse_flags(int argc, char** argv) {
                       std::istringstream numbers(text);
                       for (std::string number; std::getline(numbers, number, ',');)
                         flags.suite.threads.insert(tools::parse_integer("--threads", number, 1, kMaxThreads));
+                      if (flags.suite.threads.empty()) throw std::invalid_argument("--threads: no number");
                     });
   tools::add_size(parser, size, "Image size (1920x1080; a .tri file has its own)");
   std::string format;

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,6 +33,8 @@ bool is_exact(float px) {
 
 CoverageScene scene;
 bool from_front_end = false;
+std::optional<CoverageTruth> truth;  // of the scene, and the hash of the library's picture: none until judged
+std::uint64_t hash;
 
 // What judge() found. All members have 32 bits, the pointers too.
 struct Verdict {
@@ -71,6 +74,7 @@ const char* lines(const List& list, Field... field) {
 void open(CoverageScene next, bool with_front_end) {
   scene = std::move(next);
   from_front_end = with_front_end;
+  truth.reset();
   for (std::uint32_t i = 0; i < scene.floats.size(); ++i) {
     scene.floats[i].payload = i + 1;
     if (from_front_end) scene.snapped[i].payload = i + 1;
@@ -128,16 +132,17 @@ EXPORT(open_triangles) FloatTriangle* open_triangles(int triangles, int width, i
 
 EXPORT(judge) const Verdict* judge(int index) {
   const CoverageMethod& method = coverage_methods()[static_cast<std::size_t>(index)];
-  if (!from_front_end) scene.snapped = snapped(scene.floats);
-  const CoverageTruth truth = float_coverage(scene.input(), scene.window(), 1);
+  if (!truth) {
+    if (!from_front_end) scene.snapped = snapped(scene.floats);
+    truth = float_coverage(scene.input(), scene.window(), 1);
+    Framebuffer picture(scene.size.width, scene.size.height);
+    find_backend("tiled").make()->draw(scene.snapped, picture.view(), 0xFF000000, {});
+    hash = hash_of(picture.view());
+  }
   const DrawnRuns drawn(method, scene.input(), scene.window());
-  const Cracks cracks = CrackJudge(scene.floats, truth).find(drawn, method.promise.snap_bits);
-  const CoverageScore score = score_coverage(truth, drawn, scene.floats);
-  marks = mark_coverage(truth, drawn, cracks, scene.floats).marks;
-
-  Framebuffer picture(scene.size.width, scene.size.height);
-  find_backend("tiled").make()->draw(scene.snapped, picture.view(), 0xFF000000, {});
-  const std::uint64_t hash = hash_of(picture.view());
+  const Cracks cracks = CrackJudge(scene.floats, *truth).find(drawn, method.promise.snap_bits);
+  const CoverageScore score = score_coverage(*truth, drawn, scene.floats);
+  marks = mark_coverage(*truth, drawn, cracks, scene.floats).marks;
 
   Canvas canvas(scene.size.width, scene.size.height);
   method.draw(scene.input(), canvas, {});
@@ -155,7 +160,7 @@ EXPORT(judge) const Verdict* judge(int index) {
              count(score.errors()),
              count(cracks.gaps.size() + cracks.t_gaps.size()),
              count(cracks.double_hits.size() + cracks.t_double_hits.size()),
-             count(truth.covered),
+             count(truth->covered),
              static_cast<std::uint32_t>(hash),
              static_cast<std::uint32_t>(hash >> 32)};
   return &verdict;

@@ -122,8 +122,8 @@ struct NarrowBatch;
 
 #if HWY_TARGET != HWY_SCALAR
 
-// px: a box overlaps at most two cells. Of NEON only instructions were counted: no scene takes more by 32
-// than by 64.
+// px: a box overlaps at most two cells. On NEON, 32 needs no more instructions than 64 in any scene (counted,
+// not timed).
 constexpr int kNarrow = HWY_TARGET == HWY_NEON ? 32 : kDepthCell;
 
 // A batch of triangles whose boxes in the band are at most kNarrow px wide.
