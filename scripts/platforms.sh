@@ -23,11 +23,11 @@ unpack_sysroot() {
   echo "$packages" >"$1/packages"
 }
 
-# noted COMMAND…: its last line stands in the platform's result.
+# noted COMMAND…: its last line, or that of the tests that passed, stands in the platform's result.
 noted() {
   local status=0
   "$@" 2>&1 | tee "$found.log" || status=$?
-  tail -n 1 "$found.log" >>"$found"
+  if ! grep -a '^\[  PASSED' "$found.log" >>"$found"; then tail -n 1 "$found.log" >>"$found"; fi
   return "$status"
 }
 
@@ -55,6 +55,7 @@ on_x86_64() {
   build edgewise_program edgewise_hashes edgewise_library_tests edgewise_wrong_libm
   noted "$build/edgewise_hashes" "$root/tests/hashes.json"
   noted env "LD_PRELOAD=$build/libedgewise_wrong_libm.so" "$build/edgewise_hashes" "$root/tests/hashes.json"
+  if grep 'cannot be preloaded' "$found.log"; then return 1; fi
   noted without_fma "$build/edgewise_hashes" "$root/tests/hashes.json"
   noted "$build/edgewise_library_tests" --gtest_brief=1
   facts >"$platforms/x86_64.facts"
@@ -128,8 +129,9 @@ on() {
   (set -e; "on_$1") >"$platforms/$1.log" 2>&1
   # shellcheck disable=SC2181 # where a subshell is a condition, a failed command does not end it
   (($? == 0)) || result=failed
-  [[ -s $found ]] || echo "not built" >"$found"
+  [[ -s $found ]] || echo "nothing found" >"$found"
   echo "$1: $result, $(duration $((SECONDS - step_start))) after the start of this step; see build/platforms/$1.log"
+  [[ $result == passed ]] || tail -n 20 "$platforms/$1.log"
   sed "s/^/$1\t$result\t/" "$found" >"$platforms/$1.result"
 }
 
@@ -140,6 +142,7 @@ everywhere() {
   mkdir -p "$platforms"
   rm -f "$platforms"/*.{facts,result} # of an earlier run
   set +e
+  trap 'trap - TERM; kill 0' INT # jobs in the background don't hear of Ctrl-C
   step "Testing on $1"
   on "$1"
   step "Testing on ${*:2}"
@@ -150,7 +153,7 @@ everywhere() {
   wait
   set -e
   end_step
-  if cut -f 2 "$platforms"/*.result | grep -q failed; then status=1; fi
+  for platform; do grep -qs $'\tpassed\t' "$platforms/$platform.result" || status=1; done
   python3 "$root/scripts/reporting/platforms.py" "$platforms"/*.result >"$platforms/results.json"
   mv "$platforms/results.json" "$root/results/platforms.json"
 }

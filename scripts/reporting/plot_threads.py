@@ -24,7 +24,7 @@ def threads(bench, folder, caption):
         return None
     most = max(max(parts["whole frame"]) for parts in timed.values())
     lines = math.ceil(len(timed) / COLUMNS)
-    subtitle = ("Dashed: as many times as there are threads. A front end of little work runs on one thread. Below a scene's name, the milliseconds on one thread: "
+    subtitle = ("Dashed: the ideal. A front end of little work runs on one thread. Below a scene's name, the milliseconds on one thread: "
                 f"{', '.join(PARTS)}.")
     height = 1.75 * lines + head_in(subtitle) + foot_in(caption) + 0.4
     figure, axes = plt.subplots(lines, COLUMNS, sharex=True, sharey=True, squeeze=False, figsize=(WIDTH_IN, height))
@@ -46,7 +46,7 @@ def threads(bench, folder, caption):
         panel.minorticks_off()
         panel.set_title(f"{scene}\n{' · '.join(number(parts[part][1].median_ms, 2) for part in PARTS if part in parts)} ms", fontsize=9)
     frames = [gained(parts["whole frame"][1], parts["whole frame"][max(parts["whole frame"])]) for parts in timed.values()]
-    top = headline(figure, f"{most} threads draw whole frames {spread(frames)} as fast", subtitle)
+    top = headline(figure, f"{most} threads draw whole frames {spread(frames)} as fast as one", subtitle)
     handles = [plt.Line2D([], [], color=colour, marker=marker, label=part) for part, (_, colour, marker) in PARTS.items()]
     figure.legend(handles=handles, loc="upper left", bbox_to_anchor=(0.005, top), ncol=3, frameon=False, fontsize=10)
     figure.supxlabel("threads", fontsize=10.5, y=(foot_in(caption) - 0.5) / height)

@@ -174,7 +174,7 @@ class ShellTest(FolderTest):
             everywhere wrong missing fine; exit $status'''
         result = self.library("mkdir $root/results; cd $root;" + platforms)
         self.assertEqual(result.returncode, 1, result.stderr)
-        found = {"wrong": ("failed", ["one", "wrong"]), "missing": ("failed", ["not built"]), "fine": ("passed", ["one", "three"])}
+        found = {"wrong": ("failed", ["one", "wrong"]), "missing": ("failed", ["nothing found"]), "fine": ("passed", ["one", "three"])}
         written = json.loads((self.root / "results/platforms.json").read_text())
         self.assertEqual({name: (one["result"], one["found"]) for name, one in written.items()}, found)
         self.assertRegex(result.stdout, r"wrong: failed, \d s after the start of this step; see build/platforms/wrong.log\n")
