@@ -5,7 +5,7 @@ Cells are the rows cell/SCENE/traversal:bands|tiles/fill:spans|edges/simd:TARGET
 from itertools import product
 from typing import NamedTuple
 
-from bench_rows import gained, order
+from bench_rows import gained, gained_interval, order
 from noise import LEVEL, median
 from tables import about, kernels, number
 
@@ -79,6 +79,7 @@ class Gain(NamedTuple):
     simd: bool
     pairs: list  # (speed-up, scene), the smallest first
     orders: list  # order() of each pair
+    least: list  # the lower end of each pair's interval
 
     @property
     def title(self):
@@ -102,7 +103,7 @@ def gains(bench):
                      if before != after and meant(row) and (other := cell._replace(**{field: before})) in found]
             if pairs:
                 yield Gain(factor, where, field, after, simd, sorted((gained(other, row), scene) for scene, other, row in pairs),
-                           [order(row, other) for _, other, row in pairs])
+                           [order(row, other) for _, other, row in pairs], [gained_interval(other, row)[0] for _, other, row in pairs])
 
 
 def factor_table(bench):
@@ -128,10 +129,14 @@ def conditions(bench, shown):
 
 
 def superlinear(shown):
-    """How many pairs of these Gains gain more by threads than there are threads; "" if none does."""
-    by_threads = [(ratio, gain.after) for gain in shown if gain.field == "threads" for ratio, _ in gain.pairs]
-    above = [threads for ratio, threads in by_threads if ratio > threads]
-    return f" {len(above)} of {len(by_threads)} pairs gain over {above[0]}× by {above[0]} threads, which is not explained." if above else ""
+    """How many pairs of these Gains gain more by threads than there are threads, and how many would by chance; "" if none does."""
+    by_threads = [gain for gain in shown if gain.field == "threads"]
+    pairs = sum(len(gain.pairs) for gain in by_threads)
+    above = sum(ratio > gain.after for gain in by_threads for ratio, _ in gain.pairs)
+    surely = sum(least > gain.after for gain in by_threads for least in gain.least)
+    n = by_threads[0].after if by_threads else 0
+    return (f" {above} of {pairs} pairs gain over {n}× by {n} threads, {surely} of them with the whole 95 % interval, as {number(pairs / 40, 1)} "
+            f"would by chance if all gained {n}×.") if above else ""
 
 
 class Duel(NamedTuple):
