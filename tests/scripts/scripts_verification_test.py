@@ -85,9 +85,9 @@ class VerificationTest(FolderTest):
     def test_the_brief_table_begins_with_the_comparison_of_backends(self):
         for differing, found in ((0, "no pixel differs"), (1, "**1 pixel differs**"), (7, "**7 pixels differ**")):
             scene = {"configurations": 1200, "differing_pixels": differing, "oracle": {"configurations": 30}}
-            self.file("results/here/verify.json", json.dumps({"scenes": [scene]}))
+            self.file("results/here/verify.json", json.dumps({"scenes": [scene, {"configurations": 300}]}))
             line = verification_table(self.folder / "results/here", BRIEF_LINES)[1][0]
-            self.assertEqual(line[1:], ["1,200 frames of 1 scene, and 30 small ones with an oracle", found])
+            self.assertEqual(line[1:], ["1,500 frames of 2 scenes, and 30 small ones with an oracle", found])
 
     def test_what_was_not_run_is_left_out(self):
         self.assertEqual(self.table("here"), [])
