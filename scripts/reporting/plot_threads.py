@@ -45,7 +45,7 @@ def threads(bench, folder, caption):
         panel.minorticks_off()
         panel.set_title(f"{scene}\n{' · '.join(number(parts[part][1].median_ms, 2) for part in PARTS if part in parts)} ms", fontsize=9)
     frames = [gained(parts["whole frame"][1], parts["whole frame"][max(parts["whole frame"])]) for parts in timed.values()]
-    top = headline(figure, f"{most} threads draw whole frames {spread(frames)} as fast as one", subtitle)
+    top = headline(figure, f"Speed-up of {OURS}'s whole frames by {most} threads: {spread(frames)}", subtitle)
     handles = [plt.Line2D([], [], color=colour, marker=marker, label=part) for part, (_, colour, marker) in PARTS.items()]
     figure.legend(handles=handles, loc="upper left", bbox_to_anchor=(0.005, top), ncol=3, frameon=False, fontsize=10)
     figure.supxlabel("threads", fontsize=10.5, y=(foot_in(caption) - 0.5) / height)
