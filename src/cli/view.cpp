@@ -289,7 +289,7 @@ Action add_view(CLI::App& command, viewer::ShowWindow show_window) {
              });
   add_text(command, "--keys", "KEYS", o->keys, "Keys to press at the start");
   add_text(command, "-o,--output", "FILE", o->output,
-           "Write the resulting picture (.png, .ppm, or -), without times, and open no window");
+           "Write the picture (.png, .ppm, or -), without times; open no window");
   add_format(command, o->format, {Format::png, Format::ppm});
   add_text(command, "--save-to", "DIR", o->folder, "Folder for files saved with p (.)");
   o->options.add_to(command);
