@@ -20,8 +20,9 @@ def factor_rows(bench):
     if by_code:
         told = (f"{code}: " + "; ".join(f"{factor} {', '.join(said)}" for factor, said in of.items()) for code, of in by_code.items())
         yield [PARALLEL, "speed-up " + ". ".join(told),
-               "medians of scenes (won/lost/open) of [cells](#speed) without HiZ and masks, as implemented here; the size of triangles decides, "
-               f"too: [chart](#speed); whole frames, {most_threads(cells(bench))} threads"]
+               "medians of scenes (won/lost/open) of [cells](#speed) without HiZ and masks, as implemented here (scalar tiles with "
+               "edges: the vector kernel with one lane); the size of triangles decides, too: "
+               f"[chart](#speed); whole frames, {most_threads(cells(bench))} threads"]
 
 
 def box_rows(bench):

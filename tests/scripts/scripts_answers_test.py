@@ -116,8 +116,8 @@ class AnswersTest(unittest.TestCase):
                           "speed-up with AVX-512: tiles over bands 2.0× with spans (3/0/0), 0.50× with edges (0/2/1); edges over spans 2.0× in bands (3/0/0), "
                           "0.50× in tiles (0/3/0). In scalar code: tiles over bands 2.0× with spans (3/0/0), 0.50× with edges (0/2/1); edges over spans "
                           "2.0× in bands (3/0/0), 0.50× in tiles (0/3/0)",
-                          "medians of scenes (won/lost/open) of [cells](#speed) without HiZ and masks, as implemented here; the size of triangles "
-                          "decides, too: [chart](#speed); whole frames, 2 threads"])
+                          "medians of scenes (won/lost/open) of [cells](#speed) without HiZ and masks, as implemented here (scalar tiles with edges: the "
+                          "vector kernel with one lane); the size of triangles decides, too: [chart](#speed); whole frames, 2 threads"])
 
     def test_gains_beyond_the_number_of_threads_are_counted_beside_those_of_chance(self):
         rows = {f"cell/{scene}/traversal:bands/fill:spans/simd:scalar/threads:{n}": ms for scene, times in (("a", (9.0, 4.0)), ("b", (9.0, 5.0)))
