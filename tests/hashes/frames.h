@@ -9,6 +9,7 @@
 
 #include "edgewise/frontend.h"
 #include "edgewise/screen_triangle.h"
+#include "hashes/files.h"
 
 namespace edgewise::hashes {
 
@@ -19,6 +20,7 @@ struct Frame {
   std::shared_ptr<const Drawable> drawable = nullptr;  // for the front end, with
   FrontendOptions frontend = {};
   std::string redraw = {};  // the command that draws it, if there is one
+  FileOf file = nullptr;    // of which the bytes count, too
 };
 
 struct Group {

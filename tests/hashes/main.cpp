@@ -197,6 +197,15 @@ std::string difference(Painter& painter, const Frame& frame, const How& how) {
   return text;
 }
 
+// Of the picture, and of the file's bytes if there is one.
+std::uint64_t hash_of(const Frame& frame, const ConstFrameView& drawn) {
+  std::vector<std::uint64_t> words{edgewise::hash_of(drawn)};
+  if (frame.file == nullptr) return words[0];
+  for (const char byte : frame.file(*frame.drawable, drawn))
+    words.push_back(static_cast<unsigned char>(byte));
+  return hash_of_all(words);
+}
+
 class Check {
  public:
   Check(const std::vector<Group>& all, std::string path) : all_(all), path_(std::move(path)) {}
@@ -235,18 +244,18 @@ class Check {
  private:
   std::uint64_t check(const Frame& frame, const std::string& name, const How& how, std::uint32_t stored) {
     lab::GuardedFrame drawn = painter_.draw(frame, how);
-    const std::uint64_t hash = hash_of(drawn.view());
+    const std::uint64_t hash = hash_of(frame, drawn.view());
     if (hash >> 32 == stored && drawn.written_outside() == 0) return hash;
     if (++wrong_ > kFramesDescribed) return hash;
     std::printf("%s: drawn by %s, the hash begins with %s, not %s", name.c_str(), how.text().c_str(),
                 hex(hash >> 32, 8).c_str(), hex(stored, 8).c_str());
     std::string why = difference(painter_, frame, how);
-    if (why.empty() && hash_of(painter_.draw(frame, kReference).view()) >> 32 == stored)
+    if (why.empty() && hash_of(frame, painter_.draw(frame, kReference).view()) >> 32 == stored)
       why = "\n  but drawn again, it is right";
     else if (why.empty())
       why =
-          "\n  naive in scalar code draws the same: the numeric contract, the scene or the build "
-          "differs from that of the file. To find the pixel, dump the frame here and where the hash is "
+          "\n  naive in scalar code draws the same: the numeric contract, the scene, the file or the "
+          "build differs from that of the file. To find the pixel, dump the frame here and where the hash is "
           "right:\n    "
           "edgewise_hashes " +
           path_ + " --dump '" + name + "'" +
@@ -269,7 +278,8 @@ Stored hashes_of_reference(const std::vector<Group>& all) {
   std::vector<std::uint64_t> hashes;
   for (const Group& group : all)
     for (int i = 0; i < group.frames; ++i) {
-      hashes.push_back(hash_of(painter.draw(group.frame(i), kReference).view()));
+      const Frame frame = group.frame(i);
+      hashes.push_back(hash_of(frame, painter.draw(frame, kReference).view()));
       stored[group.name].push_back(static_cast<std::uint32_t>(hashes.back() >> 32));
     }
   stored[kAll] = halves(hash_of_all(hashes));
