@@ -73,12 +73,14 @@ on_consumer() {
   python3 "$root/tests/scripts/install_test.py" "$build" Installed.test_hashes_do_not_depend_on_the_users_flags >"$found"
 }
 
-# library_on PROCESSOR [OPTIONS…]: the hashes of the library alone, which needs no packages.
+# library_on PROCESSOR [OPTIONS…]: the hashes and the contract of the library alone, which needs no packages.
 library_on() {
   local build=$platforms/$1-library
   local -a build_flags=("-DCMAKE_TOOLCHAIN_FILE=$root/tests/platforms/cross.cmake" "-DEDGEWISE_PROCESSOR=$1" -DEDGEWISE_WERROR=ON)
-  build edgewise_hashes
-  noted "qemu-$1" -L "/usr/$1-linux-gnu" "$build/edgewise_hashes" "$root/tests/hashes.json" "${@:2}"
+  local -a run=("qemu-$1" -L "/usr/$1-linux-gnu")
+  build edgewise_hashes edgewise_contract_tests
+  noted "${run[@]}" "$build/edgewise_hashes" "$root/tests/hashes.json" "${@:2}" &&
+    noted "${run[@]}" "$build/edgewise_contract_tests" --gtest_brief=1
 }
 # program_on PROCESSOR ARCHITECTURE: all that the laboratory's packages are needed for. Optimized less, to be built quickly.
 program_on() {
