@@ -31,6 +31,17 @@ noted() {
   return "$status"
 }
 
+# compare_hashes [OPTIONS…]: on the machine of ${run[@]}. Of the first frame that differs, prints the pixels that do, and
+# their triangles, as they are here and there.
+compare_hashes() {
+  noted "${run[@]}" "$build/edgewise_hashes" "$root/tests/hashes.json" "$@" && return
+  local frame
+  frame=$(sed -n '0,/: drawn by .*/s///p' "$found.log")
+  [[ -z $frame ]] || diff <("$root/build/edgewise_hashes" "$root/tests/hashes.json" --dump "$frame") \
+    <("${run[@]}" "$build/edgewise_hashes" "$root/tests/hashes.json" --dump "$frame") | head -n 20
+  return 1
+}
+
 # facts [COMMAND…]: prints some facts, and a file of each kind. COMMAND… starts a program of $build.
 facts() {
   local arguments
@@ -79,8 +90,7 @@ library_on() {
   local -a build_flags=("-DCMAKE_TOOLCHAIN_FILE=$root/tests/platforms/cross.cmake" "-DEDGEWISE_PROCESSOR=$1" -DEDGEWISE_WERROR=ON)
   local -a run=("qemu-$1" -L "/usr/$1-linux-gnu")
   build edgewise_hashes edgewise_contract_tests
-  noted "${run[@]}" "$build/edgewise_hashes" "$root/tests/hashes.json" "${@:2}" &&
-    noted "${run[@]}" "$build/edgewise_contract_tests" --gtest_brief=1
+  compare_hashes "${@:2}" && noted "${run[@]}" "$build/edgewise_contract_tests" --gtest_brief=1
 }
 # program_on PROCESSOR ARCHITECTURE: all that the laboratory's packages are needed for. Optimized less, to be built quickly.
 program_on() {
@@ -90,7 +100,7 @@ program_on() {
   local -a run=("qemu-$1" -L "$sysroot")
   unpack_sysroot "$sysroot" "$2"
   build edgewise_program edgewise_hashes edgewise_library_tests
-  noted "${run[@]}" "$build/edgewise_hashes" "$root/tests/hashes.json" --frames 1000
+  compare_hashes --frames 1000
   # QEMU 7.2 cannot fork while threads run.
   noted "${run[@]}" "$build/edgewise_library_tests" --gtest_brief=1 '--gtest_filter=-AtomicFile.*WhileTheProcessEnds'
   noted facts_are_those_of_x86_64 "${run[@]}"
@@ -116,11 +126,12 @@ on_s390x() {
 on_riscv64() { library_on riscv64; }
 on_wasm32() { # kernels are scalar in both, since Highway's vectors there lack doubles; SIMD128 is the compiler's
   local vectors
+  local -a run=(node --single-threaded --no-warnings --experimental-wasi-unstable-preview1 "$root/tests/platforms/wasm32/run.mjs")
   for vectors in '' -msimd128; do
     local build=$platforms/wasm32$vectors
     local -a build_flags=(--toolchain "$root/tests/platforms/wasm32/toolchain.cmake" "-DCMAKE_CXX_FLAGS=$vectors" -DEDGEWISE_WERROR=ON)
     build edgewise_hashes
-    noted node --single-threaded --no-warnings --experimental-wasi-unstable-preview1 "$root/tests/platforms/wasm32/run.mjs" "$build/edgewise_hashes" "$root/tests/hashes.json"
+    compare_hashes
   done
 }
 

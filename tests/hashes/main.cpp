@@ -31,7 +31,7 @@ constexpr const char* kUsage = R"(Usage: edgewise_hashes FILE [--frames N | --wr
   --frames N    draw only N frames, spread evenly, each once
   --write       first write FILE anew, with the hashes of `naive` in scalar code on one thread. Only a
                 change of the numeric contract, of a scene or of this list of frames may need it
-  --dump FRAME  instead, print each pixel of a frame, "x y depth payload", to compare two machines
+  --dump FRAME  instead, print each pixel of a frame, its depth, payload and triangle, to compare two machines
 Exit status: 0 all hashes are those of FILE, 1 one is not, 2 bad input.
 )";
 
@@ -162,8 +162,9 @@ class Painter {
 std::string triangle_at(std::span<const ScreenTriangle> triangles, std::uint32_t id, int x, int y,
                         std::uint32_t depth) {
   for (const ScreenTriangle& t : triangles) {
+    if (t.payload != id) continue;
     const contract::Oriented oriented = contract::orient(t);
-    if (t.payload != id || oriented.area == 0 || contract::make_depth(oriented).at(x, y) != depth) continue;
+    if (oriented.area == 0 || contract::make_depth(oriented).at(x, y) != depth) continue;
     std::string text = "triangle " + std::to_string(id) + ":";
     for (int i = 0; i < 3; ++i)
       text += " (" + std::to_string(t.x_sub[i]) + ", " + std::to_string(t.y_sub[i]) + ", " +
@@ -171,6 +172,11 @@ std::string triangle_at(std::span<const ScreenTriangle> triangles, std::uint32_t
     return text + " in 1/256 px and units of depth";
   }
   return depth == contract::kDepthClear ? "no triangle" : "no triangle of this depth";
+}
+
+Frame with_ids(Frame frame) {
+  frame.frontend.payload = Payload::id;  // lists of triangles have ids already
+  return frame;
 }
 
 // The first pixel at which the frame is not that of the reference, both values, and both triangles. Empty if
@@ -185,8 +191,7 @@ std::string difference(Painter& painter, const Frame& frame, const How& how) {
   const int x = found.first_x, y = found.first_y;
   text += "\n  " + std::to_string(found.pixels) + " pixels differ, the first at x " + std::to_string(x) +
           ", y " + std::to_string(y);
-  Frame ids = frame;
-  ids.frontend.payload = Payload::id;  // lists of triangles have ids already
+  const Frame ids = with_ids(frame);
   const auto side = [&](const How& by, std::uint32_t depth, std::uint32_t payload) {
     const std::uint32_t id = painter.draw(ids, by).payload_row(y)[x];
     text += "\n    " + by.text() + ": depth " + hex(depth, 8) + ", payload " + hex(payload, 8) + ", " +
@@ -290,11 +295,18 @@ void dump(const std::vector<Group>& all, std::string_view name) {
   for (const Group& group : all)
     for (int i = 0; i < group.frames; ++i) {
       if (name != group.name + "/" + std::to_string(i)) continue;
-      const lab::GuardedFrame frame = Painter().draw(group.frame(i), kReference);
-      for (int y = 0; y < frame.height(); ++y)
-        for (int x = 0; x < frame.width(); ++x)
-          std::printf("%d %d %s %s\n", x, y, hex(frame.depth_row(y)[x], 8).c_str(),
-                      hex(frame.payload_row(y)[x], 8).c_str());
+      const Frame frame = group.frame(i), ids = with_ids(frame);
+      Painter painter;
+      const lab::GuardedFrame drawn = painter.draw(frame, kReference),
+                              visible = painter.draw(ids, kReference);
+      const auto triangles = painter.triangles(ids, kReference);
+      for (int y = 0; y < frame.height; ++y)
+        for (int x = 0; x < frame.width; ++x) {
+          const std::uint32_t depth = drawn.depth_row(y)[x];
+          std::printf("%d %d: depth %s, payload %s, %s\n", x, y, hex(depth, 8).c_str(),
+                      hex(drawn.payload_row(y)[x], 8).c_str(),
+                      triangle_at(triangles, visible.payload_row(y)[x], x, y, depth).c_str());
+        }
       return;
     }
   throw std::invalid_argument("no frame '" + std::string(name) + "'");

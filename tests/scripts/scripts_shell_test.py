@@ -37,6 +37,11 @@ while (($#)); do
 done
 exit "${CTEST_STATUS:-0}"
 """
+QEMU = """#!/bin/bash
+echo "qemu-aarch64 $*" >>"$CALLS"
+if [[ $* == *--dump* ]]; then echo "0 0: there"; else echo "${QEMU_STATUS:+cube/3: drawn by naive}"; fi
+exit "${QEMU_STATUS:-0}"
+"""
 SKIPPED_OUTPUT = "[ RUN      ] Proofs.A\n/x/a.cpp:3: Skipped\nz3 is not installed\n\n[  SKIPPED ] Proofs.A (0 ms)\n"
 CTEST_CASES = f"""<testsuite name="(empty)" tests="4" failures="0" disabled="0" skipped="2">
 <testcase name="A.Ok" status="run"><system-out/></testcase>
@@ -65,7 +70,7 @@ class ShellTest(FolderTest):
         self.tool("cmake", CMAKE)
         self.tool("ctest", CTEST)
         self.tool("dpkg-query", ALL_INSTALLED)
-        self.tool("qemu-aarch64", '#!/bin/bash\necho "qemu-aarch64 $*" >>"$CALLS"\nexit "${QEMU_STATUS:-0}"\n')
+        self.tool("qemu-aarch64", QEMU)
         self.tool("apt-get", '#!/bin/bash\necho "apt-get $*" >>"$CALLS"\nexit 9\n')
         self.environment |= {"CALLS": str(self.calls), "CTEST_XML": "", "GTEST_XML": str(self.file("gtest.xml", GTEST_CASES))}
 
@@ -216,8 +221,10 @@ for a; do [[ $a != Dir::Cache=* ]] || cp {self.folder}/a.deb "${{a#*=}}/archives
         self.assertRegex(self.calls.read_text(), r"\nqemu-aarch64 .*/edgewise_hashes .*/tests/hashes.json --frames 200\n")
 
     def test_a_wrong_hash_on_another_processor_fails(self):
+        self.file("root/build/edgewise_hashes", '#!/bin/bash\nshift\necho "0 0: here, $*"\n').chmod(0o755)
         result, lines = self.run_tests("", QEMU_STATUS="1")
         self.assertEqual(result.returncode, 1)
+        self.assertIn("\n< 0 0: here, --dump cube/3\n---\n> 0 0: there\n", result.stdout)
         self.assertEqual(lines[-2], "Failed: the run ended without results; see above (aarch64)")
 
     def test_selected_tests_run_once(self):
