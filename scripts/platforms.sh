@@ -124,6 +124,11 @@ on_s390x() {
   program_on s390x s390x
 }
 on_riscv64() { library_on riscv64; }
+page_is_the_stored_one() {
+  cp "$root/results/page.html" "$platforms/"
+  "$root/scripts/page" --no-install && cmp "$platforms/page.html" "$root/results/page.html" &&
+    echo "results/page.html is what scripts/page builds"
+}
 on_wasm32() { # kernels are scalar in both, since Highway's vectors there lack doubles; SIMD128 is the compiler's
   local vectors
   local -a run=(node --single-threaded --no-warnings --experimental-wasi-unstable-preview1 "$root/tests/platforms/wasm32/run.mjs")
@@ -133,6 +138,7 @@ on_wasm32() { # kernels are scalar in both, since Highway's vectors there lack d
     build edgewise_hashes
     compare_hashes
   done
+  noted page_is_the_stored_one
 }
 
 # on PLATFORM: tests it, and writes what was found.

@@ -2,7 +2,8 @@
 // compares their hashes. It needs the library only, and of the machine only that it reads one file.
 //
 // Combinations take turns, frame by frame, so that each draws at least one frame of every group; one frame of
-// every group is drawn by all. If a hash is not the stored one, the frame is compared with that of `naive`.
+// every group, or with --all each, is drawn by all. If a hash is not the stored one, the frame is compared
+// with that of `naive`.
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -26,9 +27,10 @@ namespace edgewise::hashes {
 
 namespace {
 
-constexpr const char* kUsage = R"(Usage: edgewise_hashes FILE [--frames N | --write | --dump FRAME]
+constexpr const char* kUsage = R"(Usage: edgewise_hashes FILE [--frames N | --all | --write | --dump FRAME]
   FILE          tests/hashes.json
   --frames N    draw only N frames, spread evenly, each once
+  --all         draw each frame with every combination, not with one in turn
   --write       first write FILE anew, with the hashes of `naive` in scalar code on one thread. Only a
                 change of the numeric contract, of a scene or of this list of frames may need it
   --dump FRAME  instead, print each pixel of a frame, its depth, payload and triangle, to compare two machines
@@ -213,7 +215,8 @@ std::uint64_t hash_of(const Frame& frame, const ConstFrameView& drawn) {
 
 class Check {
  public:
-  Check(const std::vector<Group>& all, std::string path) : all_(all), path_(std::move(path)) {}
+  Check(const std::vector<Group>& all, std::string path, bool by_all)
+      : all_(all), path_(std::move(path)), by_all_(by_all) {}
 
   // Returns the number of frames drawn.
   std::size_t run(const Stored& stored, std::optional<std::size_t> most) {
@@ -233,7 +236,7 @@ class Check {
         hashes_.push_back(
             check(frame, name, how_of(combinations_[turn % n], i / n + g, frame), found->second[i]));
         ++drawn;
-        if (most || i != g % frames) continue;
+        if (most || !(by_all_ || i == g % frames)) continue;
         for (const Combination& by : combinations_)
           check(frame, name, how_of(by, i + g, frame), found->second[i]);
         drawn += n;
@@ -271,6 +274,7 @@ class Check {
 
   const std::vector<Group>& all_;
   const std::string path_;
+  const bool by_all_;  // not only one frame of each group
   const std::vector<Combination> combinations_ = combinations();
   Painter painter_;
   std::vector<std::uint64_t> hashes_;
@@ -316,9 +320,10 @@ int run(const std::vector<std::string>& arguments) {
   if (arguments.empty() || arguments[0].starts_with('-')) throw std::invalid_argument(kUsage);
   const std::string& path = arguments[0];
   const std::string option = arguments.size() > 1 ? arguments[1] : "";
-  const bool writes = option == "--write", dumps = option == "--dump", brief = option == "--frames";
+  const bool writes = option == "--write", dumps = option == "--dump", brief = option == "--frames",
+             by_all = option == "--all";
   const std::size_t values = dumps || brief ? 1 : 0;
-  if ((!option.empty() && !writes && !dumps && !brief) ||
+  if ((!option.empty() && !writes && !dumps && !brief && !by_all) ||
       arguments.size() != 1 + (option.empty() ? 0 : 1 + values))
     throw std::invalid_argument(kUsage);
   const std::vector<Group> all = groups();
@@ -335,7 +340,7 @@ int run(const std::vector<std::string>& arguments) {
   if (writes) write(path, all, hashes_of_reference(all));
 
   const Stored stored = read(path);
-  Check check(all, path);
+  Check check(all, path, by_all);
   const std::size_t drawn = check.run(stored, most);
   const bool all_right = most || stored.at(kAll) == halves(check.hash());
   std::printf("%zu frames of %zu groups, drawn by %zu combinations of backend, SIMD target and threads: ",
