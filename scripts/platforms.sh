@@ -81,7 +81,7 @@ on_x86_64() {
 }
 on_consumer() {
   build edgewise_bench # it is installed, too
-  python3 "$root/tests/scripts/install_test.py" "$build" Installed.test_hashes_do_not_depend_on_the_users_flags >"$found"
+  EDGEWISE_FULL=1 python3 "$root/tests/scripts/install_test.py" "$build" Installed.test_hashes_do_not_depend_on_the_users_flags >"$found"
 }
 
 # library_on PROCESSOR [OPTIONS…]: the hashes and the contract of the library alone, which needs no packages.
