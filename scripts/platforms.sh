@@ -42,11 +42,14 @@ compare_hashes() {
   return 1
 }
 
-# facts [COMMAND…]: prints some facts, and a file of each kind. COMMAND… starts a program of $build.
+# facts [COMMAND…]: prints facts of small scenes, and a file of each kind. COMMAND… starts a program of $build.
 facts() {
-  local arguments
-  for arguments in 'accuracy lattice_square bars_in_a_cycle edge_on vertex_at_eye_plane --json -' 'needs cubes --json' \
-    'portable cube --json' 'render cubes -o -' 'render cubes -o - --format ppm' 'render cubes --depth -' 'capture sphere -o -'; do
+  local arguments scenes
+  scenes=$(python3 -c 'import json, sys; print(*(s["name"] for s in json.load(sys.stdin)["scenes"] if s["smallest"]))' \
+    <"$root/results/facts/accuracy.json")
+  for arguments in "accuracy $scenes --json -" 'stability legs cycle vertex_w --quick --json -' 'needs cubes --json' \
+    'portable cube --json' 'demo p5js-clipping -o - --format ppm --size 320x180' 'render cubes -o -' \
+    'render cubes -o - --format ppm' 'render cubes --depth -' 'capture sphere -o -'; do
     # shellcheck disable=SC2086 # words
     "$@" "$build/edgewise" $arguments
   done
