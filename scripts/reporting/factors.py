@@ -129,14 +129,15 @@ def conditions(bench, shown):
 
 
 def superlinear(shown):
-    """How many pairs of these Gains gain more by threads than there are threads, and how many would by chance; "" if none does."""
-    by_threads = [gain for gain in shown if gain.field == "threads"]
-    pairs = sum(len(gain.pairs) for gain in by_threads)
-    above = sum(ratio > gain.after for gain in by_threads for ratio, _ in gain.pairs)
-    surely = sum(least > gain.after for gain in by_threads for least in gain.least)
-    n = by_threads[0].after if by_threads else 0
-    return (f" {above} of {pairs} pairs gain over {n}× by {n} threads, {surely} of them with the whole 95 % interval, as {number(pairs / 40, 1)} "
-            f"would by chance if all gained {n}×.") if above else ""
+    """How many pairs of these Gains gain more by threads than there are threads, and how many may by chance; "" if none does."""
+    told = []
+    for gain in shown:
+        above = sum(ratio > gain.after for ratio, _ in gain.pairs) if gain.field == "threads" else 0
+        if above:
+            pairs, surely = len(gain.pairs), sum(least > gain.after for least in gain.least)
+            told.append(f"{'with SIMD' if gain.simd else 'in scalar code'} {above} of {pairs}, {surely} of them with the whole 95 % interval "
+                        f"(by chance at most {number(pairs / 40, 2)})")
+    return f" Pairs that gain more by threads than there are threads: {'; '.join(told)}." if told else ""
 
 
 class Duel(NamedTuple):

@@ -12,10 +12,10 @@ TRIED = {
     "aarch64": "QEMU, NEON and scalar code",
     "s390x": "QEMU, big-endian, scalar code",
     "riscv64": "QEMU, the library alone, scalar code",
-    "wasm32": "Node, the library alone, with and without SIMD128",
+    "wasm32": "Node, the library alone, scalar code, compiled with and without SIMD128",
 }
 HEADER = ["platform", "tried by", "hashes compared, none differs", "tests of the library", "some facts, a file of each kind"]
-# Of each of the last columns: the findings that belong there, and their numbers.
+# The findings of each of the last columns, with their number.
 FOUND = (re.compile(r"^(\d+) frames .*no hash differs"), re.compile(r"PASSED\s*\] (\d+) tests"), re.compile(r"^(\d+) bytes .*are those of x86-64"))
 
 
@@ -23,11 +23,10 @@ def platforms_table(path):
     found = parsed(path, lambda data: {name: data[name] for name in TRIED}, "scripts/test --everywhere")
     lines = []
     for name, tried in TRIED.items():
-        line = [name.replace("x86_64", "x86-64") + ("" if found[name]["result"] == "passed" else ": **failed**"), tried]
-        for pattern in FOUND:
-            total = sum(int(match[1]) for text in found[name]["found"] if (match := pattern.search(text)))
-            line.append(f"{total:,}" if total else "–")
-        lines.append([*line[:-1], "the same" if line[-1] != "–" else line[-1]])
+        hashes, tests, facts = ([f"{int(match[1]):,}" for text in found[name]["found"] if (match := pattern.search(text))] for pattern in FOUND)
+        compared = " + ".join(f"{hashes.count(n)} × {n}" if hashes.count(n) > 1 else n for n in dict.fromkeys(hashes))
+        lines.append([name.replace("x86_64", "x86-64") + ("" if found[name]["result"] == "passed" else ": **failed**"), tried, compared or "–",
+                      " + ".join(tests) or "–", "the same as on x86-64" if facts else "–"])
     return HEADER, lines
 
 

@@ -10,14 +10,13 @@ PARTS = {"front end": ("frontend", ORANGE, "s"), OURS: (OURS, GREEN, "^"), "whol
 COLUMNS = 5
 
 
-def by_threads(bench, who, scene):
-    """{threads: row}"""
-    return {row.threads: row for row in bench.rows.values()
-            if row.times_ms and row.scene == scene and set(row.keys) == {"threads"} and row.name.startswith(f"{who}/")}
-
-
 def threads(bench, folder, caption):
-    timed = {scene: {part: rows for part, (who, *_) in PARTS.items() if len(rows := by_threads(bench, who, scene)) > 1 and 1 in rows}
+    every = sorted({row.threads for row in bench.sweep("threads")})
+
+    def by_threads(who, scene):
+        return {n: row for n in every if (row := bench.find(f"{who}/{scene}/threads:{n}"))}
+
+    timed = {scene: {part: rows for part, (who, *_) in PARTS.items() if len(rows := by_threads(who, scene)) > 1 and 1 in rows}
              for scene in bench.scenes}
     timed = {scene: parts for scene, parts in timed.items() if "whole frame" in parts}
     if not timed:
@@ -34,19 +33,19 @@ def threads(bench, folder, caption):
         panel.plot([1, most], [1, most], color=FAINT, linewidth=1.0, linestyle="--")
         for part, rows in parts.items():
             _, colour, marker = PARTS[part]
-            counts = sorted(rows)
+            counts = list(rows)
             panel.plot(counts, [gained(rows[1], rows[n]) for n in counts], color=colour, marker=marker, linewidth=1.5)
             for n in counts[1:]:
                 panel.plot([n, n], gained_interval(rows[1], rows[n]), color=colour, linewidth=5, alpha=0.25, solid_capstyle="butt")
         panel.set_xscale("log", base=2)
         panel.set_yscale("log", base=2)
-        counts = sorted(parts["whole frame"])
+        counts = list(parts["whole frame"])
         panel.set_xticks(counts, counts)
         panel.set_yticks(counts, [f"{n}×" for n in counts])
         panel.minorticks_off()
         panel.set_title(f"{scene}\n{' · '.join(number(parts[part][1].median_ms, 2) for part in PARTS if part in parts)} ms", fontsize=9)
     frames = [gained(parts["whole frame"][1], parts["whole frame"][max(parts["whole frame"])]) for parts in timed.values()]
-    top = headline(figure, f"{most} threads draw whole frames {spread(frames)} as fast as one", subtitle)
+    top = headline(figure, f"Speed-up of {OURS}'s whole frames by {most} threads: {spread(frames)}", subtitle)
     handles = [plt.Line2D([], [], color=colour, marker=marker, label=part) for part, (_, colour, marker) in PARTS.items()]
     figure.legend(handles=handles, loc="upper left", bbox_to_anchor=(0.005, top), ncol=3, frameon=False, fontsize=10)
     figure.supxlabel("threads", fontsize=10.5, y=(foot_in(caption) - 0.5) / height)

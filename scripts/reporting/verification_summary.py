@@ -88,7 +88,7 @@ def compared(verify):
     frames = sum(scene["configurations"] for scene in scenes)
     oracles = [scene.get("oracle", {}) for scene in scenes]
     differing = sum(of.get("differing_pixels", 0) + of.get("written_outside", 0) for of in (*scenes, *oracles))
-    return f"{frames:,} frames of {how_many(len(scenes), 'scene')}, and {sum(of.get('configurations', 0) for of in oracles):,} small ones with an oracle", differing
+    return f"{frames:,} frames of {len(scenes)} scenes, and {sum(of.get('configurations', 0) for of in oracles):,} small ones with an oracle", differing
 
 
 def verify_lines(data):

@@ -80,6 +80,7 @@ viewer::Session make_session(const ViewOptions& o, Shot first) {
   start.execution = o.execution.execution;
   start.axis = o.axis;
   start.folder = o.folder;
+  start.reproducible = !o.output.empty();
   return viewer::Session(std::move(start));
 }
 
@@ -288,7 +289,7 @@ Action add_view(CLI::App& command, viewer::ShowWindow show_window) {
              });
   add_text(command, "--keys", "KEYS", o->keys, "Keys to press at the start");
   add_text(command, "-o,--output", "FILE", o->output,
-           "Write the resulting picture (.png, .ppm, or -) and open no window");
+           "Write the resulting picture (.png, .ppm, or -), without times, and open no window");
   add_format(command, o->format, {Format::png, Format::ppm});
   add_text(command, "--save-to", "DIR", o->folder, "Folder for files saved with p (.)");
   o->options.add_to(command);

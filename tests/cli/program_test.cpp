@@ -306,12 +306,12 @@ Outcome script_in(const TempDir& folder, const std::string& script) {
 }
 
 TEST_F(ProgramRenders, ToStandardOutputWithMessagesOnStandardError) {
-  const std::string scene = "scene='cube --size 60x40'\n";
+  const std::string scene = "scene='cube --size 60x40'; seen='cubes --size 960x540 --keys ve'\n";
   ASSERT_EQ(script_in(folder_, scene + "edgewise render $scene -o a.png --depth a.pfm\n"
                                        "edgewise portable $scene -o mask.png\n"
                                        "edgewise capture $scene -o a.tri\n"
                                        "edgewise diff a.png mask.png -o difference.png\n"
-                                       "edgewise view $scene -o view.png\n"
+                                       "edgewise view $seen -o view.png\n"
                                        "edgewise demo outlaw-triad -o demo.png\n")
                 .status,
             0);
@@ -320,7 +320,7 @@ TEST_F(ProgramRenders, ToStandardOutputWithMessagesOnStandardError) {
       {"render $scene -o /dev/stdout", "a.png"}, {"render $scene -o - --format pfm", "a.pfm"},
       {"render $scene --depth -", "a.pfm"},      {"portable $scene -o -", "mask.png"},
       {"capture $scene -o -", "a.tri"},          {"diff a.png mask.png -o -", "difference.png"},
-      {"view $scene -o -", "view.png"},          {"demo outlaw-triad -o -", "demo.png"}};
+      {"view $seen -o -", "view.png"},           {"demo outlaw-triad -o -", "demo.png"}};
   for (const auto& [command, file] : rows) {
     const Outcome piped = script_in(folder_, scene + "edgewise " + command + " | cat");
     EXPECT_EQ(piped.out, file_content(path(file))) << command;

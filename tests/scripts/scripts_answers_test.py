@@ -122,8 +122,8 @@ class AnswersTest(unittest.TestCase):
     def test_gains_beyond_the_number_of_threads_are_counted_beside_those_of_chance(self):
         rows = {f"cell/{scene}/traversal:bands/fill:spans/simd:scalar/threads:{n}": ms for scene, times in (("a", (9.0, 4.0)), ("b", (9.0, 5.0)))
                 for n, ms in zip((1, 2), times)}
-        self.assertEqual(superlinear(gains(bench(rows))), " 1 of 2 pairs gain over 2× by 2 threads, 1 of them with the whole 95 % interval, "
-                                                            "as 0.05 would by chance if all gained 2×.")
+        self.assertEqual(superlinear(gains(bench(rows))), " Pairs that gain more by threads than there are threads: in scalar code 1 of 2, "
+                                                            "1 of them with the whole 95 % interval (by chance at most 0.05).")
         self.assertEqual(superlinear(gains(bench({name: ms for name, ms in rows.items() if "/b/" in name}))), "")
 
     @staticmethod
