@@ -2,8 +2,6 @@
 
 #include <memory>
 #include <sstream>
-#include <stdexcept>
-#include <utility>
 #include <variant>
 
 #include "edgewise/tri_file.h"
@@ -14,36 +12,40 @@ namespace edgewise::hashes {
 
 namespace {
 
-template <typename Content, typename Write, typename Read>
-std::string written(const Content& content, Write write, Read read) {
-  std::ostringstream out, again;
+template <typename Content>
+std::string bytes_of(void (*write)(std::ostream&, const Content&), const Content& content) {
+  std::ostringstream out;
   write(out, content);
-  const std::string bytes = out.str();
-  write(again, read(InputFile{std::make_unique<std::istringstream>(bytes), bytes.size()}));
-  if (again.str() != bytes) throw std::runtime_error("a file is not read as it was written");
-  return bytes;
+  return out.str();
+}
+
+InputFile input(const std::string& bytes) {
+  return {std::make_unique<std::istringstream>(bytes), bytes.size()};
+}
+
+Image image_of(const Samples& samples) {
+  Image image{samples.width, samples.height, {}};
+  for (const auto& [r, g, b] : samples.pixels) image.pixels.push_back(rgb(r / 257u, g / 257u, b / 257u));
+  return image;
 }
 
 }  // namespace
 
-std::string tri_of(const Drawable& drawable, const ConstFrameView&) {
-  return written(std::get<TriangleStream>(drawable), write_tri,
-                 [](InputFile file) { return read_tri("a .tri file", std::move(file)); });
-}
-
-std::string ppm_of(const Drawable&, const ConstFrameView& frame) {
-  return written(to_image(frame), write_ppm, [](InputFile file) {
-    const Samples samples = read_ppm("a PPM", std::move(file));
-    Image image{samples.width, samples.height, {}};
-    for (const auto& [r, g, b] : samples.pixels) image.pixels.push_back(rgb(r / 257u, g / 257u, b / 257u));
-    return image;
-  });
-}
-
-std::string pfm_of(const Drawable&, const ConstFrameView& frame) {
-  return written(
-      to_depth_map(frame), [](std::ostream& out, const DepthMap& map) { write_pfm(out, map); },
-      [](InputFile file) { return read_pfm("a PFM", std::move(file)); });
-}
+const FileFormat kTri{[](const Drawable& drawable, const ConstFrameView&) {
+                        return bytes_of(write_tri, std::get<TriangleStream>(drawable));
+                      },
+                      [](const std::string& name, const std::string& bytes) {
+                        return bytes_of(write_tri, read_tri(name, input(bytes)));
+                      }};
+const FileFormat kPpm{
+    [](const Drawable&, const ConstFrameView& frame) { return bytes_of(write_ppm, to_image(frame)); },
+    [](const std::string& name, const std::string& bytes) {
+      return bytes_of(write_ppm, image_of(read_ppm(name, input(bytes))));
+    }};
+const FileFormat kPfm{
+    [](const Drawable&, const ConstFrameView& frame) { return bytes_of(write_pfm, to_depth_map(frame)); },
+    [](const std::string& name, const std::string& bytes) {
+      return bytes_of(write_pfm, read_pfm(name, input(bytes)));
+    }};
 
 }  // namespace edgewise::hashes

@@ -8,11 +8,13 @@
 
 namespace edgewise::hashes {
 
-// The bytes of a file of a frame's stream or picture. Throw if the reader does not give back what was
-// written.
-using FileOf = std::string (*)(const Drawable&, const ConstFrameView&);
-std::string tri_of(const Drawable& drawable, const ConstFrameView&);
-std::string ppm_of(const Drawable&, const ConstFrameView& frame);
-std::string pfm_of(const Drawable&, const ConstFrameView& frame);
+// A format for a frame's stream, or for its picture.
+struct FileFormat {
+  std::string (*written)(const Drawable&, const ConstFrameView&);  // the file's bytes
+  // Reads these bytes and returns what is written then. Throws std::runtime_error with `name` if they are
+  // malformed.
+  std::string (*reread)(const std::string& name, const std::string& bytes);
+};
+extern const FileFormat kTri, kPpm, kPfm;
 
 }  // namespace edgewise::hashes

@@ -81,9 +81,9 @@ Group built_in(const BuiltIn& scene, int width, int height, int part) {
   return group;
 }
 
-Group with_files(const char* format, FileOf file, Group group) {
-  group.name = format + (" " + group.name);
-  group.frame = [=, frame = group.frame](int i) {
+Group with_files(const char* prefix, const FileFormat& format, Group group) {
+  group.name = prefix + (" " + group.name);
+  group.frame = [frame = group.frame, file = &format](int i) {
     Frame made = frame(i);
     made.file = file;
     return made;
@@ -112,15 +112,15 @@ void sliced(Scene& scene, int step) {
 // With every culling mode, and as .tri files.
 Group streams(std::string name, std::vector<TriangleStream> all) {
   const std::size_t modes = cull_modes().size();
-  return with_files("tri", tri_of, {std::move(name), static_cast<int>(all.size() * modes), [=](int i) {
-                                      const auto n = static_cast<std::size_t>(i);
-                                      const TriangleStream& stream = all[n / modes];
-                                      Frame frame = frame_of(std::make_shared<const Drawable>(stream),
-                                                             stream.width, stream.height, 0);
-                                      frame.frontend.cull = cull_modes()[n % modes];
-                                      frame.frontend.payload = Payload::id;
-                                      return frame;
-                                    }});
+  return with_files("tri", kTri, {std::move(name), static_cast<int>(all.size() * modes), [=](int i) {
+                                    const auto n = static_cast<std::size_t>(i);
+                                    const TriangleStream& stream = all[n / modes];
+                                    Frame frame = frame_of(std::make_shared<const Drawable>(stream),
+                                                           stream.width, stream.height, 0);
+                                    frame.frontend.cull = cull_modes()[n % modes];
+                                    frame.frontend.payload = Payload::id;
+                                    return frame;
+                                  }});
 }
 
 void add_conformance_streams(std::vector<Group>& all) {
@@ -198,8 +198,8 @@ std::vector<Group> groups() {
                    [=](int i) { return random_frame(static_cast<std::uint64_t>(part * kFrames + i)); }});
 
   const auto [width, height] = kSizes[0];
-  all.push_back(with_files("ppm", ppm_of, built_in({"cubes", 1, 0}, width, height, 0)));
-  all.push_back(with_files("pfm", pfm_of, built_in({"cubes", 1, 0}, width, height, 0)));
+  all.push_back(with_files("ppm", kPpm, built_in({"cubes", 1, 0}, width, height, 0)));
+  all.push_back(with_files("pfm", kPfm, built_in({"cubes", 1, 0}, width, height, 0)));
   add_conformance_streams(all);
   return all;
 }

@@ -19,8 +19,8 @@ struct Frame {
   std::vector<ScreenTriangle> triangles = {};          // if there is no drawable
   std::shared_ptr<const Drawable> drawable = nullptr;  // for the front end, with
   FrontendOptions frontend = {};
-  std::string redraw = {};  // the command that draws it, if there is one
-  FileOf file = nullptr;    // of which the bytes count, too
+  std::string redraw = {};           // the command that draws it, if there is one
+  const FileFormat* file = nullptr;  // whose bytes are hashed, too
 };
 
 struct Group {
