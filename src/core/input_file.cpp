@@ -12,7 +12,7 @@
 #include <future>
 #include <map>
 #include <mutex>
-#include <sstream>
+#include <streambuf>
 #include <string_view>
 #include <system_error>
 
@@ -53,6 +53,26 @@ const std::string& kept(int descriptor, const fs::path& path) {
   return content.get();
 }
 
+// Reads a string in place, which may have gigabytes.
+class StringStream : private std::streambuf, public std::istream {
+ public:
+  explicit StringStream(const std::string& text) : std::istream(static_cast<std::streambuf*>(this)) {
+    char* const begin = const_cast<char*>(text.data());  // nothing writes there
+    setg(begin, begin, begin + text.size());
+  }
+
+ private:
+  std::streampos seekoff(std::streamoff offset, std::ios::seekdir from, std::ios::openmode) override {
+    if (from != std::ios::beg) offset += (from == std::ios::cur ? gptr() : egptr()) - eback();
+    if (offset < 0 || offset > egptr() - eback()) return -1;
+    setg(eback(), eback() + offset, egptr());
+    return offset;
+  }
+  std::streampos seekpos(std::streampos position, std::ios::openmode mode) override {
+    return seekoff(position, std::ios::beg, mode);
+  }
+};
+
 }  // namespace
 
 std::optional<int> descriptor_of(const fs::path& path) {
@@ -82,7 +102,7 @@ InputFile open_input(const fs::path& path) {
     if (!fs::is_fifo(status) && !fs::is_socket(status) && isatty(*descriptor) == 0)
       throw file_error(path, "is neither a regular file, a pipe nor a terminal");
     const std::string& content = kept(*descriptor, path);
-    return {std::make_unique<std::istringstream>(content), content.size()};
+    return {std::make_unique<StringStream>(content), content.size()};
   }
   errno = 0;
   InputFile opened{std::make_unique<std::ifstream>(path, std::ios::binary), 0};
