@@ -52,11 +52,6 @@ std::string in_quotes(std::string_view word) {
   return "'" + text + (word.size() > 32 ? "...'" : "'");
 }
 
-// std::from_chars does not accept a leading plus.
-std::string_view without_plus(std::string_view word) {
-  return word.starts_with('+') && !word.starts_with("+-") ? word.substr(1) : word;
-}
-
 bool is_control(char c) {
   return static_cast<unsigned char>(c) < ' ' || c == '\x7F';
 }
