@@ -3,7 +3,8 @@
 // multiplications, divisions and square roots, which IEEE 754 rounds in one way only.
 //
 // Angles are in radians, below 2^128 like those of all floats; beyond, the results are NaN. The overloads for
-// float round the double's result once more. -0 counts as 0, whose sine is 0.
+// float round the double's result once more. -0 counts as +0: sine(-0) is +0,
+// unlike libm's.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -4,7 +4,7 @@ usage: install_test.py BUILD
 
 Where the source is built along with the consumer (add_subdirectory, FetchContent), and for a shared library, the whole
 library is compiled anew; that is done under EDGEWISE_FULL, otherwise such builds are only configured.
-Under it, a missing compiler is an error.
+With EDGEWISE_FULL, a missing compiler is an error, too.
 """
 import os
 import re
