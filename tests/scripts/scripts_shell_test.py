@@ -121,6 +121,25 @@ class ShellTest(FolderTest):
         self.assertEqual(result.returncode, 2)
         self.assertIn("Missing packages: libegl-dev\n", result.stderr)
 
+    def test_the_full_test_first_looks_for_all_packages(self):
+        self.tool("dpkg-query", DPKG_QUERY.replace("ninja-build", "chromium-driver"))
+        result = self.run_script("test", "--full", "--no-install")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("Missing packages: chromium-driver\n", result.stderr)
+        self.assertFalse(self.calls.exists(), "something ran")
+
+    def test_a_page_that_would_be_another_fails_its_check(self):
+        self.file("root/src/web/page.html", "<@PROGRAM@>\n")
+        program, page = self.file("root/build/page/edgewise_page", "1"), self.file("root/results/page.html", "")
+        self.assertEqual(self.run_script("page").returncode, 0)
+        built = page.read_text()
+        self.assertRegex(built, "^<H4sI[^>]+>\n$")
+        self.assertEqual(self.run_script("page", "--check").returncode, 0)
+        program.write_text("2")
+        result = self.run_script("page", "--check")
+        self.assertEqual((result.returncode, page.read_text()), (1, built))
+        self.assertIn("of other versions of these packages:\ninstalled", result.stdout)
+
     def test_swiftshader_is_unpacked_or_left_out(self):
         package, names = self.folder / "package", {"libvk_swiftshader.so", "vk_swiftshader_icd.json"}
         self.file("package/DEBIAN/control", "Package: chromium-common\nVersion: 7\nArchitecture: all\nMaintainer: me\nDescription: x\n")
