@@ -31,11 +31,25 @@ noted() {
   return "$status"
 }
 
-# facts [COMMAND…]: prints some facts, and a file of each kind. COMMAND… starts a program of $build.
+# compare_hashes [OPTIONS…]: compares hashes on the platform that ${run[@]} starts. If one differs, draws that frame here
+# and there, and prints the first pixels that differ, with their triangles, or the first bytes of its file.
+compare_hashes() {
+  noted "${run[@]}" "$build/edgewise_hashes" "$root/tests/hashes.json" "$@" && return
+  local frame
+  frame=$(sed -n '0,/: drawn by .*/s///p' "$found.log")
+  [[ -z $frame ]] || diff <("$root/build/edgewise_hashes" "$root/tests/hashes.json" --dump "$frame") \
+    <("${run[@]}" "$build/edgewise_hashes" "$root/tests/hashes.json" --dump "$frame") | head -n 20
+  return 1
+}
+
+# facts [COMMAND…]: prints facts of small scenes, and a file of each kind. COMMAND… starts a program of $build.
 facts() {
-  local arguments
-  for arguments in 'accuracy lattice_square bars_in_a_cycle edge_on vertex_at_eye_plane --json -' 'needs cubes --json' \
-    'portable cube --json' 'render cubes -o -' 'render cubes -o - --format ppm' 'render cubes --depth -' 'capture sphere -o -'; do
+  local arguments scenes
+  scenes=$(python3 -c 'import json, sys; print(*(s["name"] for s in json.load(sys.stdin)["scenes"] if s["smallest"]))' \
+    <"$root/results/facts/accuracy.json")
+  for arguments in "accuracy $scenes --json -" 'stability legs cycle vertex_w --quick --json -' 'needs cubes --json' \
+    'portable cube --json' 'demo p5js-clipping -o - --format ppm --size 320x180' 'render cubes -o -' \
+    'render cubes -o - --format ppm' 'render cubes --depth -' 'capture sphere -o -'; do
     # shellcheck disable=SC2086 # words
     "$@" "$build/edgewise" $arguments
   done
@@ -70,15 +84,20 @@ on_x86_64() {
 }
 on_consumer() {
   build edgewise_bench # it is installed, too
-  python3 "$root/tests/scripts/install_test.py" "$build" Installed.test_hashes_do_not_depend_on_the_users_flags >"$found"
+  EDGEWISE_FULL=1 python3 "$root/tests/scripts/install_test.py" "$build" Installed.test_hashes_do_not_depend_on_the_users_flags >"$found"
 }
 
 # library_on PROCESSOR [OPTIONS…]: the hashes of the library alone, which needs no packages.
 library_on() {
   local build=$platforms/$1-library
   local -a build_flags=("-DCMAKE_TOOLCHAIN_FILE=$root/tests/platforms/cross.cmake" "-DEDGEWISE_PROCESSOR=$1" -DEDGEWISE_WERROR=ON)
+  local -a run=("qemu-$1" -L "/usr/$1-linux-gnu")
   build edgewise_hashes
-  noted "qemu-$1" -L "/usr/$1-linux-gnu" "$build/edgewise_hashes" "$root/tests/hashes.json" "${@:2}"
+  compare_hashes "${@:2}" || return
+  if [[ $1 == riscv64 ]]; then # elsewhere, program_on tests it, too
+    build edgewise_contract_tests
+    noted "${run[@]}" "$build/edgewise_contract_tests" --gtest_brief=1
+  fi
 }
 # program_on PROCESSOR ARCHITECTURE: all that the laboratory's packages are needed for. Optimized less, to be built quickly.
 program_on() {
@@ -88,7 +107,7 @@ program_on() {
   local -a run=("qemu-$1" -L "$sysroot")
   unpack_sysroot "$sysroot" "$2"
   build edgewise_program edgewise_hashes edgewise_library_tests
-  noted "${run[@]}" "$build/edgewise_hashes" "$root/tests/hashes.json" --frames 1000
+  compare_hashes --frames 1000
   # QEMU 7.2 cannot fork while threads run.
   noted "${run[@]}" "$build/edgewise_library_tests" --gtest_brief=1 '--gtest_filter=-AtomicFile.*WhileTheProcessEnds'
   noted facts_are_those_of_x86_64 "${run[@]}"
@@ -114,11 +133,12 @@ on_s390x() {
 on_riscv64() { library_on riscv64; }
 on_wasm32() { # kernels are scalar in both, since Highway's vectors there lack doubles; SIMD128 is the compiler's
   local vectors
+  local -a run=(node --single-threaded --no-warnings --experimental-wasi-unstable-preview1 "$root/tests/platforms/wasm32/run.mjs")
   for vectors in '' -msimd128; do
     local build=$platforms/wasm32$vectors
     local -a build_flags=(--toolchain "$root/tests/platforms/wasm32/toolchain.cmake" "-DCMAKE_CXX_FLAGS=$vectors" -DEDGEWISE_WERROR=ON)
     build edgewise_hashes
-    noted node --single-threaded --no-warnings --experimental-wasi-unstable-preview1 "$root/tests/platforms/wasm32/run.mjs" "$build/edgewise_hashes" "$root/tests/hashes.json"
+    compare_hashes
   done
 }
 

@@ -18,7 +18,7 @@ std::vector<std::shared_ptr<PipelineScene>> read_pipelines(const std::string& fi
   std::vector<std::shared_ptr<PipelineScene>> scenes;
   std::set<std::string> names;
   try {
-    for (const auto& entry : nlohmann::json::parse(input.stream)) {
+    for (const auto& entry : nlohmann::json::parse(*input.stream)) {
       std::map<std::string, std::string> levels;
       bool right = true;  // null: not even the exact pipeline is enough
       for (const auto& stage : entry.at("pipeline").at("stages"))

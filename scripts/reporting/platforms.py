@@ -11,10 +11,10 @@ TRIED = {
     "consumer": "programs built with `-O3 -march=native -ffast-math -ffp-contract=fast` that link the library",
     "aarch64": "QEMU, NEON and scalar code",
     "s390x": "QEMU, big-endian, scalar code",
-    "riscv64": "QEMU, the library alone, scalar code",
+    "riscv64": "QEMU, the library alone, scalar code; the contract's tests only",
     "wasm32": "Node, the library alone, scalar code, compiled with and without SIMD128",
 }
-HEADER = ["platform", "tried by", "hashes compared, none differs", "tests of the library", "some facts, a file of each kind"]
+HEADER = ["platform", "tried by", "hashes compared, none differs", "tests of the library", "facts of small scenes, a file of each kind"]
 # The findings of each of the last columns, with their number.
 FOUND = (re.compile(r"^(\d+) frames .*no hash differs"), re.compile(r"PASSED\s*\] (\d+) tests"), re.compile(r"^(\d+) bytes .*are those of x86-64"))
 

@@ -3,7 +3,8 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
+#include <istream>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -12,14 +13,16 @@
 namespace edgewise {
 
 // "PATH: REASON", the form of all messages about files.
-std::runtime_error file_error(const std::filesystem::path& path, const std::string& reason);
+inline std::runtime_error file_error(const std::filesystem::path& path, const std::string& reason) {
+  return std::runtime_error(path.string() + ": " + reason);
+}
 
 // The open descriptor that a name stands for: 0 for /dev/stdin, 3 for /dev/fd/3 or /proc/self/fd/3.
 std::optional<int> descriptor_of(const std::filesystem::path& path);
 
 struct InputFile {
-  std::ifstream stream;  // binary, at its start
-  std::uint64_t size;    // bytes
+  std::unique_ptr<std::istream> stream;  // binary, at its start
+  std::uint64_t size;                    // bytes
 };
 
 // Throws file_error() unless the path is a regular file that can be read, or a descriptor_of() a pipe, a

@@ -3,7 +3,8 @@
 // multiplications, divisions and square roots, which IEEE 754 rounds in one way only.
 //
 // Angles are in radians, below 2^128 like those of all floats; beyond, the results are NaN. The overloads for
-// float round the double's result once more.
+// float round the double's result once more. -0 counts as +0: sine(-0) is +0,
+// unlike libm's.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -15,8 +16,7 @@ double sine(double angle);
 double cosine(double angle);
 // Within 2.5 units.
 double tangent(double angle);
-// The angle from the x axis to (x, y), from -pi to pi, within 6 units. 0 for (0, 0);
-// -0 counts as 0.
+// The angle from the x axis to (x, y), from -pi to pi, within 6 units. 0 for (0, 0).
 double arctangent(double y, double x);
 
 inline float sine(float angle) {

@@ -4,9 +4,11 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <iosfwd>
 #include <optional>
 #include <vector>
 
+#include "core/input_file.h"
 #include "edgewise/image.h"
 
 namespace edgewise {
@@ -34,6 +36,14 @@ struct Samples {
 
 // Reads a PNG or a PPM. Throws what read_image throws.
 Samples read_samples(const std::filesystem::path& path);
+
+// The formats that need no library and no file; `path` is for messages.
+void write_ppm(std::ostream& out, const Image& image);
+void write_pfm(std::ostream& out, const DepthMap& map);
+Samples read_ppm(const std::filesystem::path& path, InputFile file);
+DepthMap read_pfm(const std::filesystem::path& path, InputFile file);
+
+std::vector<unsigned char> rgb_bytes(const Image& image);
 
 // As difference() of images. The largest difference is of 65535 if one of the pictures is deep, otherwise of
 // 255.

@@ -14,7 +14,6 @@
 
 #include "core/atomic_file.h"
 #include "core/input_file.h"
-#include "edgewise/contract.h"
 #include "edgewise/scene.h"
 #include "image/format.h"
 #include "image/netpbm.h"
@@ -31,17 +30,6 @@ struct PngWriter : png_image {
   PngWriter(const PngWriter&) = delete;
   PngWriter& operator=(const PngWriter&) = delete;
 };
-
-std::vector<unsigned char> rgb_bytes(const Image& image) {
-  std::vector<unsigned char> bytes(image.pixels.size() * 3);
-  unsigned char* out = bytes.data();
-  for (const std::uint32_t pixel : image.pixels) {
-    *out++ = static_cast<unsigned char>(pixel);
-    *out++ = static_cast<unsigned char>(pixel >> 8);
-    *out++ = static_cast<unsigned char>(pixel >> 16);
-  }
-  return bytes;
-}
 
 void write_png(std::ostream& out, const fs::path& path, const Image& image) {
   PngWriter png;
@@ -106,7 +94,7 @@ class PngReader {
   }
   static void ignore(png_structp, png_const_charp) {}
   static void read_bytes(png_structp png, png_bytep bytes, std::size_t count) {
-    auto& stream = static_cast<PngReader*>(png_get_io_ptr(png))->file_.stream;
+    auto& stream = *static_cast<PngReader*>(png_get_io_ptr(png))->file_.stream;
     if (!stream.read(reinterpret_cast<char*>(bytes), static_cast<std::streamsize>(count)))
       png_error(png, "truncated");
   }
@@ -118,64 +106,11 @@ class PngReader {
   png_infop info_ = png_ == nullptr ? nullptr : png_create_info_struct(png_);
 };
 
-void write_ppm(std::ostream& out, const Image& image) {
-  const std::vector<unsigned char> bytes = rgb_bytes(image);
-  out << "P6\n" << image.width << ' ' << image.height << "\n255\n";
-  out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-}
-
-// A sample of `bits` bits, of which the largest value is `maximum`, as 16 bits.
-std::uint16_t scaled(const fs::path& path, std::uint32_t sample, std::uint32_t maximum, int bits) {
-  if (sample > maximum)
-    throw file_error(path, "has a sample of " + std::to_string(sample) + ", more than its maximum of " +
-                               std::to_string(maximum));
-  const std::uint32_t full = bits == 8 ? 255 : 65535;
-  return static_cast<std::uint16_t>((sample * full + maximum / 2) / maximum * (65535 / full));
-}
-
-Samples read_ppm(const fs::path& path) {
-  netpbm::Reader reader(path, "P6");
-  const netpbm::Size size = reader.size();
-  const std::uint64_t largest = reader.integer();
-  if (largest < 1 || largest > 65535) throw file_error(path, "the maximum must be 1 to 65535");
-  const auto maximum = static_cast<std::uint32_t>(largest);
-  Samples image{size.width, size.height, maximum > 255, {}};
-  const std::size_t width = image.deep ? 2 : 1;
-  const auto bytes = reader.samples<unsigned char>(size.pixels() * 3 * width);
-  image.pixels.reserve(size.pixels());
-  const auto channel = [&](std::size_t i) {
-    return image.deep ? scaled(path, bytes[2 * i] * 256u + bytes[2 * i + 1], maximum, 16)
-                      : scaled(path, bytes[i], maximum, 8);
-  };
-  for (std::size_t i = 0; i < 3 * size.pixels(); i += 3)
-    image.pixels.push_back({channel(i), channel(i + 1), channel(i + 2)});
-  return image;
-}
-
 std::runtime_error unknown_format(const fs::path& path) {
   return file_error(path, "is neither a .png nor a .ppm");
 }
 
 }  // namespace
-
-Image to_image(const ConstFrameView& frame) {
-  Image image{frame.width, frame.height, {}};
-  image.pixels.reserve(static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height));
-  for (int y = 0; y < frame.height; ++y) {
-    const std::uint32_t* row = frame.payload + y * frame.stride;
-    image.pixels.insert(image.pixels.end(), row, row + frame.width);
-  }
-  return image;
-}
-
-DepthMap to_depth_map(const ConstFrameView& frame) {
-  DepthMap map{frame.width, frame.height, {}};
-  map.depth01.reserve(static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height));
-  for (int y = 0; y < frame.height; ++y)
-    for (int x = 0; x < frame.width; ++x)
-      map.depth01.push_back(static_cast<float>(contract::depth01(frame.depth[y * frame.stride + x])));
-  return map;
-}
 
 std::optional<Format> format_of(const fs::path& path) {
   const std::string extension = extension_of(path);
@@ -213,10 +148,21 @@ void write_image(const fs::path& path, const Image& image, Format format) {
   file.commit();
 }
 
+void write_pfm(const fs::path& path, const DepthMap& map) {
+  netpbm::check_pixels(path, map.width, map.height, map.depth01.size());
+  AtomicFile file(path);
+  write_pfm(file.stream(), map);
+  file.commit();
+}
+
+DepthMap read_pfm(const fs::path& path) {
+  return read_pfm(path, open_input(path));
+}
+
 Samples read_samples(const fs::path& path) {
   const auto format = format_of_input(path);
   if (format == Format::png) return PngReader(path).read();
-  if (format == Format::ppm) return read_ppm(path);
+  if (format == Format::ppm) return read_ppm(path, open_input(path));
   throw unknown_format(path);
 }
 

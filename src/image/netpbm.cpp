@@ -1,6 +1,7 @@
 #include "image/netpbm.h"
 
 #include <charconv>
+#include <utility>
 
 #include "edgewise/contract.h"
 
@@ -35,19 +36,19 @@ void check_pixels(const std::filesystem::path& path, int width, int height, std:
                                std::to_string(height));
 }
 
-Reader::Reader(const std::filesystem::path& path, std::string_view magic)
-    : path_(path), file_(open_input(path)) {
+Reader::Reader(const std::filesystem::path& path, InputFile file, std::string_view magic)
+    : path_(path), file_(std::move(file)) {
   std::string start(magic.size(), '\0');
-  file_.stream.read(start.data(), static_cast<std::streamsize>(start.size()));
+  file_.stream->read(start.data(), static_cast<std::streamsize>(start.size()));
   if (start == magic) end_ = next();
   if (!is_blank(end_)) throw file_error(path_, "does not start with " + std::string(magic));
 }
 
 // The next character. A comment counts as the line end behind it, even if it begins inside a word.
 int Reader::next() {
-  int c = file_.stream.get();
+  int c = file_.stream->get();
   if (c != '#') return c;
-  while (c != '\n' && c != '\r' && file_.stream) c = file_.stream.get();
+  while (c != '\n' && c != '\r' && *file_.stream) c = file_.stream->get();
   return c;
 }
 
@@ -79,7 +80,7 @@ Size Reader::size() {
 }
 
 void Reader::check_rest(std::uint64_t bytes) {
-  std::istream& in = file_.stream;
+  std::istream& in = *file_.stream;
   std::uint64_t rest = file_.size - static_cast<std::uint64_t>(in.tellg());
   // LF behind CR ends the header if earlier lines ended in CR LF. Otherwise it may be the first sample, if
   // their number is right.
@@ -93,7 +94,7 @@ void Reader::check_rest(std::uint64_t bytes) {
 }
 
 void Reader::read(void* samples, std::size_t bytes) {
-  if (!file_.stream.read(static_cast<char*>(samples), static_cast<std::streamsize>(bytes)))
+  if (!file_.stream->read(static_cast<char*>(samples), static_cast<std::streamsize>(bytes)))
     throw file_error(path_, "cannot be read to its end");
 }
 

@@ -28,7 +28,7 @@ void check_pixels(const std::filesystem::path& path, int width, int height, std:
 // long.
 class Reader {
  public:
-  Reader(const std::filesystem::path& path, std::string_view magic);
+  Reader(const std::filesystem::path& path, InputFile file, std::string_view magic);
 
   std::string word();
   std::uint64_t integer();

@@ -2,14 +2,15 @@
 // first. A negative scale means little endian. The scale's size is a unit of light and is ignored.
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <span>
 #include <string>
+#include <utility>
 
-#include "core/atomic_file.h"
 #include "core/little_endian.h"
-#include "edgewise/image.h"
+#include "core/parse_number.h"
+#include "edgewise/contract.h"
+#include "image/format.h"
 #include "image/netpbm.h"
 
 namespace edgewise {
@@ -18,29 +19,32 @@ namespace {
 
 double read_scale(const std::filesystem::path& path, netpbm::Reader& reader) {
   const std::string text = reader.word();
-  double scale = 0.0;
-  const auto [end, error] =
-      std::from_chars(text.data() + text.starts_with('+'), text.data() + text.size(), scale);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(scale) || scale == 0.0)
+  const double scale = parse_number(text);
+  if (!std::isfinite(scale) || scale == 0.0)
     throw file_error(path, "malformed header: '" + text + "' is not a scale");
   return scale;
 }
 
 }  // namespace
 
-void write_pfm(const std::filesystem::path& path, const DepthMap& map) {
-  netpbm::check_pixels(path, map.width, map.height, map.depth01.size());
-  AtomicFile file(path);
-  file.stream() << "Pf\n" << map.width << ' ' << map.height << "\n-1.0\n";
-  const auto row = static_cast<std::size_t>(map.width);
-  for (int y = map.height - 1; y >= 0; --y)
-    write_words(file.stream(),
-                std::as_bytes(std::span(map.depth01).subspan(static_cast<std::size_t>(y) * row, row)));
-  file.commit();
+DepthMap to_depth_map(const ConstFrameView& frame) {
+  DepthMap map{frame.width, frame.height, {}};
+  map.depth01.reserve(static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height));
+  for (int y = 0; y < frame.height; ++y)
+    for (int x = 0; x < frame.width; ++x)
+      map.depth01.push_back(static_cast<float>(contract::depth01(frame.depth[y * frame.stride + x])));
+  return map;
 }
 
-DepthMap read_pfm(const std::filesystem::path& path) {
-  netpbm::Reader reader(path, "Pf");
+void write_pfm(std::ostream& out, const DepthMap& map) {
+  out << "Pf\n" << map.width << ' ' << map.height << "\n-1.0\n";
+  const auto row = static_cast<std::size_t>(map.width);
+  for (int y = map.height - 1; y >= 0; --y)
+    write_words(out, std::as_bytes(std::span(map.depth01).subspan(static_cast<std::size_t>(y) * row, row)));
+}
+
+DepthMap read_pfm(const std::filesystem::path& path, InputFile file) {
+  netpbm::Reader reader(path, std::move(file), "Pf");
   const netpbm::Size size = reader.size();
   const double scale = read_scale(path, reader);
 

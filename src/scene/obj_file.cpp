@@ -6,7 +6,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <map>
 #include <set>
@@ -17,6 +16,7 @@
 #include <vector>
 
 #include "core/input_file.h"
+#include "core/parse_number.h"
 #include "edgewise/limits.h"
 #include "scene/polygon.h"
 
@@ -52,25 +52,8 @@ std::string in_quotes(std::string_view word) {
   return "'" + text + (word.size() > 32 ? "...'" : "'");
 }
 
-// std::from_chars does not accept a leading plus.
-std::string_view without_plus(std::string_view word) {
-  return word.starts_with('+') && !word.starts_with("+-") ? word.substr(1) : word;
-}
-
 bool is_control(char c) {
   return static_cast<unsigned char>(c) < ' ' || c == '\x7F';
-}
-
-// NaN if the word is not a number.
-double parse_number(std::string_view word) {
-  word = without_plus(word);
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (end != word.data() + word.size() || error == std::errc::invalid_argument)
-    return std::numeric_limits<double>::quiet_NaN();
-  // from_chars does not say whether the value is too small or too large.
-  if (error == std::errc::result_out_of_range) return std::strtod(std::string(word).c_str(), nullptr);
-  return value;
 }
 
 double parse_finite(std::string_view word, std::size_t line, const char* what) {
@@ -142,7 +125,7 @@ std::string read_text(const std::filesystem::path& path) {
     throw file_error(
         path, "has " + std::to_string(file.size) + " bytes, more than " + std::to_string(kMaxObjBytes));
   std::string text(file.size, '\0');
-  if (!file.stream.read(text.data(), static_cast<std::streamsize>(text.size())))
+  if (!file.stream->read(text.data(), static_cast<std::streamsize>(text.size())))
     throw file_error(path, "cannot be read to its end");
   return text;
 }

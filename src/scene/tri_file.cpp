@@ -10,10 +10,10 @@
 #include <string>
 #include <type_traits>
 
-#include "core/input_file.h"
 #include "core/little_endian.h"
 #include "edgewise/contract.h"
 #include "edgewise/limits.h"
+#include "scene/tri_input.h"
 
 namespace edgewise {
 
@@ -34,11 +34,11 @@ std::string count_text(std::uint64_t count, const char* noun) {
 
 Header read_header(const std::filesystem::path& path, InputFile& file) {
   Header header{};
-  file.stream.read(reinterpret_cast<char*>(header.data()), sizeof header);
+  file.stream->read(reinterpret_cast<char*>(header.data()), sizeof header);
   convert_words(std::as_writable_bytes(std::span(header)), std::endian::little);
-  if (file.stream.gcount() >= 4 && header[0] != kMagic)
+  if (file.stream->gcount() >= 4 && header[0] != kMagic)
     throw file_error(path, "is not a triangle stream (it does not start with TRI1)");
-  if (!file.stream)
+  if (!*file.stream)
     throw file_error(path, "truncated: the header has 16 bytes, the file " + std::to_string(file.size));
   if (!is_side(header[1]) || !is_side(header[2]))
     throw file_error(path, "image size " + std::to_string(header[1]) + "x" + std::to_string(header[2]) +
@@ -49,7 +49,10 @@ Header read_header(const std::filesystem::path& path, InputFile& file) {
 }  // namespace
 
 TriangleStream read_tri(const std::filesystem::path& path) {
-  InputFile file = open_input(path);
+  return read_tri(path, open_input(path));
+}
+
+TriangleStream read_tri(const std::filesystem::path& path, InputFile file) {
   const auto [magic, width, height, count] = read_header(path, file);
 
   const std::uint64_t promised = std::uint64_t{count} * sizeof(StreamTriangle);
@@ -66,8 +69,8 @@ TriangleStream read_tri(const std::filesystem::path& path) {
 
   TriangleStream stream{static_cast<int>(width), static_cast<int>(height), {}};
   stream.triangles.resize(count);
-  if (!file.stream.read(reinterpret_cast<char*>(stream.triangles.data()),
-                        static_cast<std::streamsize>(promised)))
+  if (!file.stream->read(reinterpret_cast<char*>(stream.triangles.data()),
+                         static_cast<std::streamsize>(promised)))
     throw file_error(path, "cannot be read to its end");
   convert_words(std::as_writable_bytes(std::span(stream.triangles)), std::endian::little);
   return stream;

@@ -15,28 +15,12 @@
 #include <glm/glm.hpp>
 
 #include "conformance/pipeline.h"
+#include "conformance/streams.h"
 #include "core/random.h"
 #include "lab/clipping/clipping.h"
 
 namespace edgewise::conformance {
 namespace {
-
-constexpr float kGuard = contract::kMaxImageSide;  // px
-
-struct Plane {
-  const char* name;
-  int axis;  // of x, y, depth
-  float at, inward;
-  float distance(glm::vec3 v) const { return (v[axis] - at) * inward; }
-};
-constexpr Plane kPlanes[] = {{"near", 2, 0, 1},        {"far", 2, 1, -1},      {"left", 0, -kGuard, 1},
-                             {"right", 0, kGuard, -1}, {"top", 1, -kGuard, 1}, {"bottom", 1, kGuard, -1}};
-
-using Triangle = std::array<glm::vec3, 3>;
-
-TriangleStream stream_of(const Triangle& t) {
-  return conformance::stream_of({t.begin(), t.end()}, {{0, 1, 2}});
-}
 
 // Pixel coordinates and depth, both multiplied by w, and w.
 using Homogeneous = glm::dvec4;
@@ -150,36 +134,6 @@ class ConformanceClips : public Conformance {
   std::uint64_t judged_ = 0, undecided_ = 0, inside_ = 0;
 };
 
-// A triangle with one or two vertices beyond a plane. The plane cuts its edges where floats and the grid are
-// exact: at 1/2, 3/4 or 7/8 of the edge. No other plane cuts it.
-Triangle exactly_cut(const Plane& plane, int outside, Random& random) {
-  const auto pick = [&](int low, int high) {
-    return static_cast<float>(low +
-                              static_cast<int>(random.below(static_cast<std::uint64_t>(high - low + 1))));
-  };
-  constexpr float kRatios[] = {1, 3, 7};  // distance inside over distance outside
-  const auto ratio = [&](std::uint64_t kinds) { return kRatios[random.below(kinds)]; };
-  const bool depth = plane.axis == 2;
-  // The distance of vertices on the screen from the plane; exactly divisible by all ratios.
-  const float inside = depth ? 21.0f / 32 : 21 * (plane.inward > 0 ? 782.0f : 779.0f);
-  float distance[3];
-  if (outside == 1) {
-    const std::uint64_t largest = random.below(3);
-    const float beyond = inside / kRatios[largest];
-    distance[0] = -beyond, distance[1] = inside, distance[2] = beyond * ratio(largest + 1);
-  } else {
-    distance[0] = inside, distance[1] = -inside / ratio(3), distance[2] = -inside / ratio(3);
-  }
-  Triangle t;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const bool near_screen = depth || distance[k] == inside;
-    const int reach = near_screen ? 40 : 3000;
-    t[k] = {pick(-reach, 64 + reach), pick(-reach, 64 + reach), pick(1, 15) / 16};
-    t[k][plane.axis] = plane.at + plane.inward * distance[k];
-  }
-  return t;
-}
-
 // In rationals. Every corner must lie on the grid.
 std::vector<SubPosition> exact_polygon(const Triangle& t, const Plane& plane) {
   std::vector<SubPosition> polygon;
@@ -231,26 +185,6 @@ INSTANTIATE_TEST_SUITE_P(Planes, ConformanceExactClips, ::testing::ValuesIn(kPla
 int outside_of(const Plane& plane, const Triangle& t) {
   return static_cast<int>(
       std::count_if(t.begin(), t.end(), [&](glm::vec3 v) { return plane.distance(v) < 0; }));
-}
-
-// Each coordinate of each vertex is in view, or up to 100,000 px outside on either side. Two triangles in
-// three contain a point of the image.
-Triangle anywhere(Random& random) {
-  Triangle t;
-  for (glm::vec3& v : t) {
-    for (int axis = 0; axis < 2; ++axis) {
-      const float beyond = 16384 * std::pow(6.1f, random.uniform(0.0f, 1.0f));
-      const float coordinate[] = {random.uniform(-30.0f, 94.0f), -beyond, beyond};
-      v[axis] = coordinate[random.below(3)];
-    }
-    const float depth[] = {random.uniform(0.0f, 1.0f), -random.uniform(0.0f, 2.0f),
-                           1 + random.uniform(0.0f, 2.0f)};
-    v.z = depth[random.below(3)];
-  }
-  if (random.below(3) == 0) return t;
-  const glm::vec3 held(random.uniform(2.0f, 62.0f), random.uniform(2.0f, 62.0f), random.uniform(0.1f, 0.9f));
-  t[2] = 2.0f * held - 0.5f * (t[0] + t[1]);
-  return t;
 }
 
 TEST_F(ConformanceClips, VerticesUpTo100000PixelsAwayAreClippedCorrectly) {

@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 
 #include "conformance/pipeline.h"
+#include "conformance/streams.h"
 #include "core/random.h"
 
 namespace edgewise::conformance {
@@ -35,25 +36,15 @@ class ConformanceCulling : public Conformance {
   }
 
   // Checks the list, and the list with every triangle reversed.
-  void expect_culled_both_ways(const std::vector<glm::vec3>& vertices, std::vector<glm::uvec3> triangles,
-                               const std::string& what) {
-    expect_culled(stream_of(vertices, triangles), {}, what);
-    for (glm::uvec3& t : triangles) std::swap(t.y, t.z);
-    expect_culled(stream_of(vertices, triangles), {}, what + " reversed");
+  void expect_culled_both_ways(const TriangleStream& stream, const std::string& what) {
+    expect_culled(stream, {}, what);
+    expect_culled(reversed(stream), {}, what + " reversed");
   }
 };
 
 TEST_F(ConformanceCulling, ListsKeepTheFacesThatTheModeSelects) {
   Random random(1);
-  for (int trial = 0; trial < 4; ++trial) {
-    std::vector<glm::vec3> v;
-    std::vector<glm::uvec3> triangles;
-    for (unsigned i = 0; i < 60; ++i) {
-      v.emplace_back(random.uniform(-9.0f, 73.0f), random.uniform(-9.0f, 73.0f), 0.5f);
-      if (i % 3 == 2) triangles.emplace_back(i - 2, i - 1, i);
-    }
-    expect_culled_both_ways(v, triangles, "list");
-  }
+  for (int trial = 0; trial < 4; ++trial) expect_culled_both_ways(scattered(random), "list");
 }
 
 // The same through a camera: the front end culls meshes. The snapped positions without culling give the
@@ -89,27 +80,10 @@ TEST_F(ConformanceCulling, MeshesKeepTheFacesThatTheModeSelects) {
   }
 }
 
-// The triangles grow from the smallest that can cover a sample to nearly the size of a pixel.
 TEST_F(ConformanceCulling, TinyTrianglesOfAlternatingWindingsFollowTheMode) {
-  const View view{48, 40};
-  // Sub-units around the sample, clockwise.
-  const glm::ivec2 kShapes[][3] = {{{0, 0}, {1, 0}, {0, 1}},
-                                   {{-1, -1}, {1, 0}, {0, 1}},
-                                   {{0, -3}, {2, 2}, {-3, 1}},
-                                   {{-20, -30}, {41, -7}, {-3, 50}},
-                                   {{-127, -127}, {127, -127}, {-126, 127}}};
-  for (const auto& shape : kShapes) {
-    TriangleStream stream{view.width, view.height, {}};
-    for (int y = 0; y < view.height; ++y)
-      for (int x = 0; x < view.width; ++x) {
-        StreamTriangle t{};
-        for (int k = 0; k < 3; ++k) {
-          const glm::ivec2 p = shape[(x + y) % 2 == 0 ? k : 2 - k];
-          t.vertex[k] = {static_cast<float>(x) + 0.5f + static_cast<float>(p.x) / 256.0f,
-                         static_cast<float>(y) + 0.5f + static_cast<float>(p.y) / 256.0f, 0.5f};
-        }
-        stream.triangles.push_back(t);
-      }
+  for (const TinyShape& shape : kTinyShapes) {
+    const TriangleStream stream = tiny_triangles(shape);
+    const View view{stream.width, stream.height};
     for (const Cull cull : cull_modes()) {
       std::vector<std::uint32_t> visible;
       for (int y = 0; y < view.height; ++y)

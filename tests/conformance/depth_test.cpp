@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 
 #include "conformance/pipeline.h"
+#include "conformance/streams.h"
 
 namespace edgewise::conformance {
 namespace {
@@ -13,10 +14,6 @@ using contract::kDepthRange;
 
 class ConformanceDepth : public Conformance {
  protected:
-  static TriangleStream wall(float z) {
-    return stream_of({{-10, -10, z}, {200, -10, z}, {-10, 200, z}}, {{0, 1, 2}});
-  }
-
   void expect_wall(const Drawable& drawable, std::uint32_t depth, const std::string& what) {
     with_each(what, [&](Pipeline& pipeline) {
       const Framebuffer& frame = pipeline.draw(drawable, {});
@@ -36,9 +33,7 @@ TEST_F(ConformanceDepth, WallsOnThePlanesHaveTheEndsOfTheDepthRange) {
 }
 
 TEST_F(ConformanceDepth, WallsBeyondThePlanesDrawNothing) {
-  for (const float z : {std::nextafter(0.0f, -1.0f), -1e-30f, -0.25f, -1e5f, -3e38f,
-                        std::nextafter(1.0f, 2.0f), 1.5f, 1e5f, 3e38f})
-    expect_nothing(wall(z), {}, std::to_string(z));
+  for (const float z : kBeyondNearAndFar) expect_nothing(wall(z), {}, std::to_string(z));
 }
 
 // With near 1 and far 2 the projection is exact: depth is 2 - 2 / w, times w.
@@ -71,17 +66,10 @@ TEST_F(ConformanceDepth, CameraWallsHaveTheExpectedDepth) {
 // A slope from nearer than the near plane to beyond the far plane, clipped where floats and the grid are
 // exact. The clipped edge runs along a column of samples, which are covered if it is a left edge.
 TEST_F(ConformanceDepth, ASlopeThroughBothPlanesIsDrawnBetweenThem) {
-  for (const float start : {8.5f, 8.0f, 8.25f})
-    for (const bool falls : {false, true}) {
-      // Depth 0 at `start`, 1 at start + 32; the corners lie 32 px beyond.
-      const auto at = [&](float x, float y) {
-        const float z = (x - start) / 32;
-        return glm::vec3(x, y, falls ? 1 - z : z);
-      };
-      const std::vector<glm::vec3> v{at(start - 32, -16), at(start + 64, -16), at(start - 32, 80),
-                                     at(start + 64, 80)};
+  for (const float start : kSlopeStarts)
+    for (const bool falls : {false, true})
       with_each("start " + std::to_string(start) + (falls ? " falling" : ""), [&](Pipeline& pipeline) {
-        const auto stream = stream_of(v, {{0, 1, 2}, {1, 3, 2}});
+        const TriangleStream stream = slope(start, falls);
         const auto hits = pipeline.hits(stream, {});
         const Framebuffer& frame = pipeline.draw(stream, {});
         for (int y = 0; y < 64; ++y)
@@ -96,7 +84,6 @@ TEST_F(ConformanceDepth, ASlopeThroughBothPlanesIsDrawnBetweenThem) {
             ASSERT_LT(std::abs(frame.depth_row(y)[x] - exact), contract::kDepthError) << x << ", " << y;
           }
       });
-    }
 }
 
 }  // namespace

@@ -108,6 +108,44 @@ TEST(Trigonometry, ArctangentIsWithinItsBound) {
   EXPECT_EQ(arctangent(0.0, 0.0), 0.0);
 }
 
+TEST(Trigonometry, FloatsAreTheDoublesRounded) {
+  constexpr double kBound = 0x1p28 + 2.5;  // half a unit of a float's last place, in units of a double's
+  Random random(3);
+  for (int i = 0; i < kRandomArguments; ++i) {
+    const auto angle = static_cast<float>(magnitude(random, -100, 127));
+    EXPECT_LE(error_units([](double a) { return double{sine(static_cast<float>(a))}; }, mpfr_sin, angle),
+              kBound);
+    EXPECT_LE(error_units([](double a) { return double{cosine(static_cast<float>(a))}; }, mpfr_cos, angle),
+              kBound);
+    EXPECT_LE(error_units([](double a) { return double{tangent(static_cast<float>(a))}; }, mpfr_tan, angle),
+              kBound);
+  }
+}
+
+TEST(Trigonometry, MinusZeroCountsAsZero) {
+  for (const double result : {sine(-0.0), tangent(-0.0), arctangent(-0.0, 1.0), arctangent(-0.0, -0.0)})
+    EXPECT_TRUE(result == 0.0 && !std::signbit(result));
+  EXPECT_GT(arctangent(-0.0, -1.0), 3.0);
+}
+
+// Rodrigues' formula.
+TEST(Trigonometry, RotationTurnsVectorsAroundTheAxis) {
+  Random random(4);
+  const auto any = [&] {
+    return glm::dvec3{magnitude(random, -3, 3), magnitude(random, -3, 3), magnitude(random, -3, 3)};
+  };
+  for (int i = 0; i < kRandomArguments; ++i) {
+    const glm::dvec3 axis = any(), unit = glm::normalize(axis), v = any();
+    const double angle = magnitude(random, -6, 6);
+    Real given(angle), s, c;
+    mpfr_sin_cos(s.get(), c.get(), given.get(), MPFR_RNDN);
+    const double sine = mpfr_get_d(s.get(), MPFR_RNDN), cosine = mpfr_get_d(c.get(), MPFR_RNDN);
+    const glm::dvec3 turned =
+        cosine * v + sine * glm::cross(unit, v) + (1.0 - cosine) * glm::dot(unit, v) * unit;
+    EXPECT_LT(glm::distance(rotation(axis, angle) * v, turned), 0x1p-48 * glm::length(v));
+  }
+}
+
 TEST(Trigonometry, AnglesOutOfRangeGiveNan) {
   for (const double angle : {0x1p128, -0x1p1000, std::numeric_limits<double>::infinity(),
                              std::numeric_limits<double>::quiet_NaN()}) {

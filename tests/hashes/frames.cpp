@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "conformance/quads.h"
+#include "conformance/streams.h"
 #include "edgewise/builtin.h"
 #include "lab/random_cases.h"
 
@@ -64,7 +64,7 @@ SceneRequest request_of(const BuiltIn& scene, int width, int height, int step) {
           scene.scale == 0 ? 1.0 : scene.scale * (grows ? step + 1 : 1)};
 }
 
-void add_built_in(std::vector<Group>& all, const BuiltIn& scene, int width, int height, int part) {
+Group built_in(const BuiltIn& scene, int width, int height, int part) {
   const int first = part * kFrames / kCulls;
   const auto request = [=](int step) { return request_of(scene, width, height, first + step); };
   Group group = group_of(text("%s %dx%d %d", scene.name.data(), width, height, part), width, height,
@@ -78,7 +78,17 @@ void add_built_in(std::vector<Group>& all, const BuiltIn& scene, int width, int 
                        scene.scale == 0 ? "" : text(" --scale %.17g", r.scale).c_str());
     return made;
   };
-  all.push_back(std::move(group));
+  return group;
+}
+
+Group with_files(const char* prefix, const FileFormat& format, Group group) {
+  group.name = prefix + (" " + group.name);
+  group.frame = [frame = group.frame, file = &format](int i) {
+    Frame made = frame(i);
+    made.file = file;
+    return made;
+  };
+  return group;
 }
 
 // Far from the origin: until doubles are too coarse to hold the scene.
@@ -97,6 +107,45 @@ void narrow(Scene& scene, int step) {
 void sliced(Scene& scene, int step) {
   scene.camera.near_z = 2.0f + 0.25f * static_cast<float>(step);
   scene.camera.far_z = scene.camera.near_z + 0.75f;
+}
+
+// With every culling mode, and as .tri files.
+Group streams(std::string name, std::vector<TriangleStream> all) {
+  const std::size_t modes = cull_modes().size();
+  return with_files("tri", kTri, {std::move(name), static_cast<int>(all.size() * modes), [=](int i) {
+                                    const auto n = static_cast<std::size_t>(i);
+                                    const TriangleStream& stream = all[n / modes];
+                                    Frame frame = frame_of(std::make_shared<const Drawable>(stream),
+                                                           stream.width, stream.height, 0);
+                                    frame.frontend.cull = cull_modes()[n % modes];
+                                    frame.frontend.payload = Payload::id;
+                                    return frame;
+                                  }});
+}
+
+void add_conformance_streams(std::vector<Group>& all) {
+  using namespace conformance;
+  std::vector<TriangleStream> walls{wall(0.0f), wall(-0.0f), wall(1.0f)}, slopes, lists, tiny, anywhere_at;
+  for (const float z : kBeyondNearAndFar) walls.push_back(wall(z));
+  for (const float start : kSlopeStarts)
+    for (const bool falls : {false, true}) slopes.push_back(slope(start, falls));
+  Random random(kSeed);
+  for (int i = 0; i < 4; ++i) {
+    lists.push_back(scattered(random));
+    lists.push_back(reversed(lists.back()));
+  }
+  for (const TinyShape& shape : kTinyShapes) tiny.push_back(tiny_triangles(shape));
+  for (int i = 0; i < kFrames; ++i) anywhere_at.push_back(stream_of(anywhere(random)));
+  all.push_back(streams("walls", walls));
+  all.push_back(streams("slopes", slopes));
+  all.push_back(streams("lists", lists));
+  all.push_back(streams("tiny triangles", tiny));
+  all.push_back(streams("clipped anywhere", anywhere_at));
+  for (const Plane& plane : kPlanes) {
+    std::vector<TriangleStream> cut;
+    for (int i = 0; i < kFrames / 2; ++i) cut.push_back(stream_of(exactly_cut(plane, 1 + i % 2, random)));
+    all.push_back(streams(text("clipped %s", plane.name), cut));
+  }
 }
 
 Frame random_frame(std::uint64_t number) {
@@ -119,7 +168,7 @@ std::vector<Group> groups() {
   std::vector<Group> all;
   for (const BuiltIn& scene : kBuiltIns)
     for (const auto& [width, height] : kSizes)
-      for (int part = 0; part < scene.groups; ++part) add_built_in(all, scene, width, height, part);
+      for (int part = 0; part < scene.groups; ++part) all.push_back(built_in(scene, width, height, part));
 
   const std::array<std::pair<const char*, void (*)(Scene&, int)>, 3> kViews{
       {{"far", far_away}, {"narrow", narrow}, {"sliced", sliced}}};
@@ -147,6 +196,11 @@ std::vector<Group> groups() {
   for (int part = 0; part < kRandomGroups; ++part)
     all.push_back({text("random %d", part), kFrames,
                    [=](int i) { return random_frame(static_cast<std::uint64_t>(part * kFrames + i)); }});
+
+  const auto [width, height] = kSizes[0];
+  all.push_back(with_files("ppm", kPpm, built_in({"cubes", 1, 0}, width, height, 0)));
+  all.push_back(with_files("pfm", kPfm, built_in({"cubes", 1, 0}, width, height, 0)));
+  add_conformance_streams(all);
   return all;
 }
 

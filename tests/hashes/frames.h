@@ -9,6 +9,7 @@
 
 #include "edgewise/frontend.h"
 #include "edgewise/screen_triangle.h"
+#include "hashes/files.h"
 
 namespace edgewise::hashes {
 
@@ -18,7 +19,8 @@ struct Frame {
   std::vector<ScreenTriangle> triangles = {};          // if there is no drawable
   std::shared_ptr<const Drawable> drawable = nullptr;  // for the front end, with
   FrontendOptions frontend = {};
-  std::string redraw = {};  // the command that draws it, if there is one
+  std::string redraw = {};           // the command that draws it, if there is one
+  const FileFormat* file = nullptr;  // whose bytes are hashed, too
 };
 
 struct Group {

@@ -2,7 +2,8 @@
 // compares their hashes. It needs the library only, and of the machine only that it reads one file.
 //
 // Combinations take turns, frame by frame, so that each draws at least one frame of every group; one frame of
-// every group is drawn by all. If a hash is not the stored one, the frame is compared with that of `naive`.
+// every group, or with --all each, is drawn by all. If a hash is not the stored one, the frame is compared
+// with that of `naive`.
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -26,12 +27,14 @@ namespace edgewise::hashes {
 
 namespace {
 
-constexpr const char* kUsage = R"(Usage: edgewise_hashes FILE [--frames N | --write | --dump FRAME]
+constexpr const char* kUsage = R"(Usage: edgewise_hashes FILE [--frames N | --all | --write | --dump FRAME]
   FILE          tests/hashes.json
   --frames N    draw only N frames, spread evenly, each once
+  --all         draw each frame with every combination, not with one in turn
   --write       first write FILE anew, with the hashes of `naive` in scalar code on one thread. Only a
                 change of the numeric contract, of a scene or of this list of frames may need it
-  --dump FRAME  instead, print each pixel of a frame, "x y depth payload", to compare two machines
+  --dump FRAME  instead, print each pixel of a frame, its depth, payload and triangle, and the bytes of its
+                file if one is hashed, to compare two machines
 Exit status: 0 all hashes are those of FILE, 1 one is not, 2 bad input.
 )";
 
@@ -162,8 +165,9 @@ class Painter {
 std::string triangle_at(std::span<const ScreenTriangle> triangles, std::uint32_t id, int x, int y,
                         std::uint32_t depth) {
   for (const ScreenTriangle& t : triangles) {
+    if (t.payload != id) continue;
     const contract::Oriented oriented = contract::orient(t);
-    if (t.payload != id || oriented.area == 0 || contract::make_depth(oriented).at(x, y) != depth) continue;
+    if (oriented.area == 0 || contract::make_depth(oriented).at(x, y) != depth) continue;
     std::string text = "triangle " + std::to_string(id) + ":";
     for (int i = 0; i < 3; ++i)
       text += " (" + std::to_string(t.x_sub[i]) + ", " + std::to_string(t.y_sub[i]) + ", " +
@@ -171,6 +175,11 @@ std::string triangle_at(std::span<const ScreenTriangle> triangles, std::uint32_t
     return text + " in 1/256 px and units of depth";
   }
   return depth == contract::kDepthClear ? "no triangle" : "no triangle of this depth";
+}
+
+Frame with_ids(Frame frame) {
+  frame.frontend.payload = Payload::id;  // lists of triangles have ids already
+  return frame;
 }
 
 // The first pixel at which the frame is not that of the reference, both values, and both triangles. Empty if
@@ -185,8 +194,7 @@ std::string difference(Painter& painter, const Frame& frame, const How& how) {
   const int x = found.first_x, y = found.first_y;
   text += "\n  " + std::to_string(found.pixels) + " pixels differ, the first at x " + std::to_string(x) +
           ", y " + std::to_string(y);
-  Frame ids = frame;
-  ids.frontend.payload = Payload::id;  // lists of triangles have ids already
+  const Frame ids = with_ids(frame);
   const auto side = [&](const How& by, std::uint32_t depth, std::uint32_t payload) {
     const std::uint32_t id = painter.draw(ids, by).payload_row(y)[x];
     text += "\n    " + by.text() + ": depth " + hex(depth, 8) + ", payload " + hex(payload, 8) + ", " +
@@ -197,9 +205,25 @@ std::string difference(Painter& painter, const Frame& frame, const How& how) {
   return text;
 }
 
+// Of the picture, and of the file's bytes if there is one.
+std::uint64_t hash_of(const Frame& frame, const ConstFrameView& drawn) {
+  std::vector<std::uint64_t> words{edgewise::hash_of(drawn)};
+  if (frame.file == nullptr) return words[0];
+  for (const char byte : frame.file->written(*frame.drawable, drawn))
+    words.push_back(static_cast<unsigned char>(byte));
+  return hash_of_all(words);
+}
+
+bool is_read_as_written(const Frame& frame, const std::string& name, const ConstFrameView& drawn) {
+  if (frame.file == nullptr) return true;
+  const std::string bytes = frame.file->written(*frame.drawable, drawn);
+  return frame.file->reread(name, bytes) == bytes;
+}
+
 class Check {
  public:
-  Check(const std::vector<Group>& all, std::string path) : all_(all), path_(std::move(path)) {}
+  Check(const std::vector<Group>& all, std::string path, bool by_all)
+      : all_(all), path_(std::move(path)), by_all_(by_all) {}
 
   // Returns the number of frames drawn.
   std::size_t run(const Stored& stored, std::optional<std::size_t> most) {
@@ -219,7 +243,7 @@ class Check {
         hashes_.push_back(
             check(frame, name, how_of(combinations_[turn % n], i / n + g, frame), found->second[i]));
         ++drawn;
-        if (most || i != g % frames) continue;
+        if (most || !(by_all_ || i == g % frames)) continue;
         for (const Combination& by : combinations_)
           check(frame, name, how_of(by, i + g, frame), found->second[i]);
         drawn += n;
@@ -235,28 +259,32 @@ class Check {
  private:
   std::uint64_t check(const Frame& frame, const std::string& name, const How& how, std::uint32_t stored) {
     lab::GuardedFrame drawn = painter_.draw(frame, how);
-    const std::uint64_t hash = hash_of(drawn.view());
-    if (hash >> 32 == stored && drawn.written_outside() == 0) return hash;
+    const std::uint64_t hash = hash_of(frame, drawn.view());
+    const bool right = hash >> 32 == stored;
+    const bool reread = !right || is_read_as_written(frame, name, drawn.view());
+    if (right && reread && drawn.written_outside() == 0) return hash;
     if (++wrong_ > kFramesDescribed) return hash;
-    std::printf("%s: drawn by %s, the hash begins with %s, not %s", name.c_str(), how.text().c_str(),
-                hex(hash >> 32, 8).c_str(), hex(stored, 8).c_str());
+    std::printf("%s: drawn by %s, the hash begins with %s, %s", name.c_str(), how.text().c_str(),
+                hex(hash >> 32, 8).c_str(), right ? "which is right" : ("not " + hex(stored, 8)).c_str());
     std::string why = difference(painter_, frame, how);
-    if (why.empty() && hash_of(painter_.draw(frame, kReference).view()) >> 32 == stored)
+    if (!reread)
+      why += "\n  the file, read and written again, has other bytes";
+    else if (why.empty() && hash_of(frame, painter_.draw(frame, kReference).view()) >> 32 == stored)
       why = "\n  but drawn again, it is right";
     else if (why.empty())
       why =
-          "\n  naive in scalar code draws the same: the numeric contract, the scene or the build "
-          "differs from that of the file. To find the pixel, dump the frame here and where the hash is "
-          "right:\n    "
-          "edgewise_hashes " +
-          path_ + " --dump '" + name + "'" +
-          (frame.redraw.empty() ? "" : "\n  This draws it, too: " + frame.redraw);
+          "\n  naive in scalar code gives the same hash. So the contract, the scene, the file format or the "
+          "build differs from the one that wrote " +
+          path_ + ".\n  To find the pixel" + (frame.file == nullptr ? "" : " or the file's byte") +
+          ", dump the frame here and where the hash is right:\n    edgewise_hashes " + path_ + " --dump '" +
+          name + "'" + (frame.redraw.empty() ? "" : "\n  This draws it, too: " + frame.redraw);
     std::printf("%s\n", why.c_str());
     return hash;
   }
 
   const std::vector<Group>& all_;
   const std::string path_;
+  const bool by_all_;  // not only one frame of each group
   const std::vector<Combination> combinations_ = combinations();
   Painter painter_;
   std::vector<std::uint64_t> hashes_;
@@ -269,7 +297,8 @@ Stored hashes_of_reference(const std::vector<Group>& all) {
   std::vector<std::uint64_t> hashes;
   for (const Group& group : all)
     for (int i = 0; i < group.frames; ++i) {
-      hashes.push_back(hash_of(painter.draw(group.frame(i), kReference).view()));
+      const Frame frame = group.frame(i);
+      hashes.push_back(hash_of(frame, painter.draw(frame, kReference).view()));
       stored[group.name].push_back(static_cast<std::uint32_t>(hashes.back() >> 32));
     }
   stored[kAll] = halves(hash_of_all(hashes));
@@ -280,11 +309,25 @@ void dump(const std::vector<Group>& all, std::string_view name) {
   for (const Group& group : all)
     for (int i = 0; i < group.frames; ++i) {
       if (name != group.name + "/" + std::to_string(i)) continue;
-      const lab::GuardedFrame frame = Painter().draw(group.frame(i), kReference);
-      for (int y = 0; y < frame.height(); ++y)
-        for (int x = 0; x < frame.width(); ++x)
-          std::printf("%d %d %s %s\n", x, y, hex(frame.depth_row(y)[x], 8).c_str(),
-                      hex(frame.payload_row(y)[x], 8).c_str());
+      const Frame frame = group.frame(i), ids = with_ids(frame);
+      Painter painter;
+      lab::GuardedFrame drawn = painter.draw(frame, kReference);
+      const lab::GuardedFrame visible = painter.draw(ids, kReference);
+      const auto triangles = painter.triangles(ids, kReference);
+      for (int y = 0; y < frame.height; ++y)
+        for (int x = 0; x < frame.width; ++x) {
+          const std::uint32_t depth = drawn.depth_row(y)[x];
+          std::printf("%d %d: depth %s, payload %s, %s\n", x, y, hex(depth, 8).c_str(),
+                      hex(drawn.payload_row(y)[x], 8).c_str(),
+                      triangle_at(triangles, visible.payload_row(y)[x], x, y, depth).c_str());
+        }
+      if (frame.file == nullptr) return;
+      const std::string bytes = frame.file->written(*frame.drawable, drawn.view());
+      for (std::size_t at = 0; at < bytes.size(); ++at) {
+        if (at % 16 == 0) std::printf("%sfile, byte %zu:", at == 0 ? "" : "\n", at);
+        std::printf(" %s", hex(static_cast<unsigned char>(bytes[at]), 2).c_str());
+      }
+      std::printf("\n");
       return;
     }
   throw std::invalid_argument("no frame '" + std::string(name) + "'");
@@ -294,9 +337,10 @@ int run(const std::vector<std::string>& arguments) {
   if (arguments.empty() || arguments[0].starts_with('-')) throw std::invalid_argument(kUsage);
   const std::string& path = arguments[0];
   const std::string option = arguments.size() > 1 ? arguments[1] : "";
-  const bool writes = option == "--write", dumps = option == "--dump", brief = option == "--frames";
+  const bool writes = option == "--write", dumps = option == "--dump", brief = option == "--frames",
+             by_all = option == "--all";
   const std::size_t values = dumps || brief ? 1 : 0;
-  if ((!option.empty() && !writes && !dumps && !brief) ||
+  if ((!option.empty() && !writes && !dumps && !brief && !by_all) ||
       arguments.size() != 1 + (option.empty() ? 0 : 1 + values))
     throw std::invalid_argument(kUsage);
   const std::vector<Group> all = groups();
@@ -313,7 +357,7 @@ int run(const std::vector<std::string>& arguments) {
   if (writes) write(path, all, hashes_of_reference(all));
 
   const Stored stored = read(path);
-  Check check(all, path);
+  Check check(all, path, by_all);
   const std::size_t drawn = check.run(stored, most);
   const bool all_right = most || stored.at(kAll) == halves(check.hash());
   std::printf("%zu frames of %zu groups, drawn by %zu combinations of backend, SIMD target and threads: ",

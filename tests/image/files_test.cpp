@@ -221,6 +221,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"CoordinateNan", "v 1 nan 2\n", "line 1: 'nan' is not a finite coordinate"},
         BadFile{"CoordinateInfinite", "v 1 -inf 2\n", "line 1: '-inf' is not a finite coordinate"},
         BadFile{"CoordinateOverflows", "v 1 1e39 2\n", "line 1: '1e39' is not a finite coordinate"},
+        BadFile{"CoordinateOverflowsDoubles", "v 1 -1.5e400 2\n",
+                "line 1: '-1.5e400' is not a finite coordinate"},
         BadFile{"LineAfterWindowsLineEnds", "v 1 2 3\r\n\r\nv 1 2 \\\r\n x\r\n",
                 "line 3: 'x' is not a finite coordinate"}),
     [](const auto& p) { return std::string(p.param.name); });

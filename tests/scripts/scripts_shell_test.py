@@ -37,6 +37,11 @@ while (($#)); do
 done
 exit "${CTEST_STATUS:-0}"
 """
+QEMU = """#!/bin/bash
+echo "qemu-aarch64 $*" >>"$CALLS"
+if [[ $* == *--dump* ]]; then echo "0 0: there"; else echo "${QEMU_STATUS:+cube/3: drawn by naive}"; fi
+exit "${QEMU_STATUS:-0}"
+"""
 SKIPPED_OUTPUT = "[ RUN      ] Proofs.A\n/x/a.cpp:3: Skipped\nz3 is not installed\n\n[  SKIPPED ] Proofs.A (0 ms)\n"
 CTEST_CASES = f"""<testsuite name="(empty)" tests="4" failures="0" disabled="0" skipped="2">
 <testcase name="A.Ok" status="run"><system-out/></testcase>
@@ -65,7 +70,7 @@ class ShellTest(FolderTest):
         self.tool("cmake", CMAKE)
         self.tool("ctest", CTEST)
         self.tool("dpkg-query", ALL_INSTALLED)
-        self.tool("qemu-aarch64", '#!/bin/bash\necho "qemu-aarch64 $*" >>"$CALLS"\nexit "${QEMU_STATUS:-0}"\n')
+        self.tool("qemu-aarch64", QEMU)
         self.tool("apt-get", '#!/bin/bash\necho "apt-get $*" >>"$CALLS"\nexit 9\n')
         self.environment |= {"CALLS": str(self.calls), "CTEST_XML": "", "GTEST_XML": str(self.file("gtest.xml", GTEST_CASES))}
 
@@ -115,6 +120,25 @@ class ShellTest(FolderTest):
         result = self.library("set_up list peers")
         self.assertEqual(result.returncode, 2)
         self.assertIn("Missing packages: libegl-dev\n", result.stderr)
+
+    def test_the_full_test_first_looks_for_all_packages(self):
+        self.tool("dpkg-query", DPKG_QUERY.replace("ninja-build", "chromium-driver"))
+        result = self.run_script("test", "--full", "--no-install")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("Missing packages: chromium-driver\n", result.stderr)
+        self.assertFalse(self.calls.exists(), "something ran")
+
+    def test_a_page_that_would_be_another_fails_its_check(self):
+        self.file("root/src/web/page.html", "<@PROGRAM@>\n")
+        program, page = self.file("root/build/page/edgewise_page", "1"), self.file("root/results/page.html", "")
+        self.assertEqual(self.run_script("page").returncode, 0)
+        built = page.read_text()
+        self.assertRegex(built, "^<H4sI[^>]+>\n$")
+        self.assertEqual(self.run_script("page", "--check").returncode, 0)
+        program.write_text("2")
+        result = self.run_script("page", "--check")
+        self.assertEqual((result.returncode, page.read_text()), (1, built))
+        self.assertIn("of other versions of these packages:\ninstalled", result.stdout)
 
     def test_swiftshader_is_unpacked_or_left_out(self):
         package, names = self.folder / "package", {"libvk_swiftshader.so", "vk_swiftshader_icd.json"}
@@ -216,8 +240,10 @@ for a; do [[ $a != Dir::Cache=* ]] || cp {self.folder}/a.deb "${{a#*=}}/archives
         self.assertRegex(self.calls.read_text(), r"\nqemu-aarch64 .*/edgewise_hashes .*/tests/hashes.json --frames 200\n")
 
     def test_a_wrong_hash_on_another_processor_fails(self):
+        self.file("root/build/edgewise_hashes", '#!/bin/bash\nshift\necho "0 0: here, $*"\n').chmod(0o755)
         result, lines = self.run_tests("", QEMU_STATUS="1")
         self.assertEqual(result.returncode, 1)
+        self.assertIn("\n< 0 0: here, --dump cube/3\n---\n> 0 0: there\n", result.stdout)
         self.assertEqual(lines[-2], "Failed: the run ended without results; see above (aarch64)")
 
     def test_selected_tests_run_once(self):
