@@ -205,19 +205,21 @@ std::string difference(Painter& painter, const Frame& frame, const How& how) {
   return text;
 }
 
-// Of the picture, and of the file's bytes if there is one.
-std::uint64_t hash_of(const Frame& frame, const ConstFrameView& drawn) {
+// The bytes of the file; none if only the picture is hashed.
+std::string file_of(const Frame& frame, const ConstFrameView& drawn) {
+  return frame.file == nullptr ? "" : frame.file->written(*frame.drawable, drawn);
+}
+
+std::uint64_t hash_of(const ConstFrameView& drawn, const std::string& file) {
   std::vector<std::uint64_t> words{edgewise::hash_of(drawn)};
-  if (frame.file == nullptr) return words[0];
-  for (const char byte : frame.file->written(*frame.drawable, drawn))
-    words.push_back(static_cast<unsigned char>(byte));
+  if (file.empty()) return words[0];
+  for (const char byte : file) words.push_back(static_cast<unsigned char>(byte));
   return hash_of_all(words);
 }
 
-bool is_read_as_written(const Frame& frame, const std::string& name, const ConstFrameView& drawn) {
-  if (frame.file == nullptr) return true;
-  const std::string bytes = frame.file->written(*frame.drawable, drawn);
-  return frame.file->reread(name, bytes) == bytes;
+std::uint64_t hash_of_reference(Painter& painter, const Frame& frame) {
+  lab::GuardedFrame drawn = painter.draw(frame, kReference);
+  return hash_of(drawn.view(), file_of(frame, drawn.view()));
 }
 
 class Check {
@@ -259,9 +261,10 @@ class Check {
  private:
   std::uint64_t check(const Frame& frame, const std::string& name, const How& how, std::uint32_t stored) {
     lab::GuardedFrame drawn = painter_.draw(frame, how);
-    const std::uint64_t hash = hash_of(frame, drawn.view());
+    const std::string file = file_of(frame, drawn.view());
+    const std::uint64_t hash = hash_of(drawn.view(), file);
     const bool right = hash >> 32 == stored;
-    const bool reread = !right || is_read_as_written(frame, name, drawn.view());
+    const bool reread = !right || file.empty() || frame.file->reread(name, file) == file;
     if (right && reread && drawn.written_outside() == 0) return hash;
     if (++wrong_ > kFramesDescribed) return hash;
     std::printf("%s: drawn by %s, the hash begins with %s, %s", name.c_str(), how.text().c_str(),
@@ -269,7 +272,7 @@ class Check {
     std::string why = difference(painter_, frame, how);
     if (!reread)
       why += "\n  the file, read and written again, has other bytes";
-    else if (why.empty() && hash_of(frame, painter_.draw(frame, kReference).view()) >> 32 == stored)
+    else if (why.empty() && hash_of_reference(painter_, frame) >> 32 == stored)
       why = "\n  but drawn again, it is right";
     else if (why.empty())
       why =
@@ -297,8 +300,7 @@ Stored hashes_of_reference(const std::vector<Group>& all) {
   std::vector<std::uint64_t> hashes;
   for (const Group& group : all)
     for (int i = 0; i < group.frames; ++i) {
-      const Frame frame = group.frame(i);
-      hashes.push_back(hash_of(frame, painter.draw(frame, kReference).view()));
+      hashes.push_back(hash_of_reference(painter, group.frame(i)));
       stored[group.name].push_back(static_cast<std::uint32_t>(hashes.back() >> 32));
     }
   stored[kAll] = halves(hash_of_all(hashes));
@@ -321,13 +323,12 @@ void dump(const std::vector<Group>& all, std::string_view name) {
                       hex(drawn.payload_row(y)[x], 8).c_str(),
                       triangle_at(triangles, visible.payload_row(y)[x], x, y, depth).c_str());
         }
-      if (frame.file == nullptr) return;
-      const std::string bytes = frame.file->written(*frame.drawable, drawn.view());
-      for (std::size_t at = 0; at < bytes.size(); ++at) {
+      const std::string file = file_of(frame, drawn.view());
+      for (std::size_t at = 0; at < file.size(); ++at) {
         if (at % 16 == 0) std::printf("%sfile, byte %zu:", at == 0 ? "" : "\n", at);
-        std::printf(" %s", hex(static_cast<unsigned char>(bytes[at]), 2).c_str());
+        std::printf(" %s", hex(static_cast<unsigned char>(file[at]), 2).c_str());
       }
-      std::printf("\n");
+      if (!file.empty()) std::printf("\n");
       return;
     }
   throw std::invalid_argument("no frame '" + std::string(name) + "'");
