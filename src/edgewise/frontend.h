@@ -90,14 +90,11 @@ struct FrameView;
 class TriangleSource;  // internal
 
 // A front end keeps its memory between frames and allocates only in the first frame of a kind. It keeps
-// - 16 bytes per vertex of the largest mesh, or for small meshes 0.5 MB, or 0.8 MB per 8 threads,
-// - of meshes with clusters, less than 400 bytes per cluster of each instance, 1 byte per vertex of the
-//   largest mesh or group, and address space for 16 bytes per vertex of the largest mesh,
-// - up to 4 MB for many small meshes,
+// - 9 bytes per instance,
 // - 40 bytes per visible triangle (and address space for as many per submitted one), unless draw() makes a
 //   stream's triangles while the backend bins them,
-// - less than 1 MB per thread,
-// - with keep_unsnapped, 36 bytes more per visible triangle and less than 1 MB more per thread,
+// - less than 8 MB per thread,
+// - with keep_unsnapped, 36 bytes more per visible triangle and less than 6 MB more per thread,
 // - with keep_states, 1 byte per submitted triangle.
 // Two threads must not use one object at once.
 class Frontend {
@@ -119,12 +116,10 @@ class Frontend {
   //   first triangle has kSameFace, or whose normals are neither empty nor one per triangle,
   // - a vertex index that the mesh lacks, in a triangle whose instance and cluster are in view,
   // - a mesh whose clusters are not one per kClusterTriangles triangles,
-  // - a cluster in view whose vertices the mesh lacks,
-  // - a triangle in view that names other vertices than its cluster (not found in all cases),
   // - more than kMaxTriangles triangles (before memory is allocated for them),
   // - a SIMD target that this machine cannot run.
-  // The object may be used again after an exception. Boxes of clusters are not checked: if positions have
-  // changed since clusters_of(), triangles may be missing.
+  // The object may be used again after an exception. Boxes of clusters are not checked: if positions or
+  // triangles have changed since clusters_of(), triangles may be missing.
   ScreenTriangles run(const Drawable& drawable, const FrontendOptions& options);
   // Counts of the last call of run(), or of draw().
   const FrontendStats& stats() const;

@@ -32,8 +32,7 @@ inline constexpr std::uint8_t kSameFace = 2;  // belongs to the same face as the
 // may have fewer.
 inline constexpr std::size_t kClusterTriangles = 256;
 struct MeshCluster {
-  glm::vec3 low, high;                     // bounding box in model space; infinite if a vertex is not finite
-  std::uint32_t first_vertex, end_vertex;  // its triangles name vertices first_vertex … end_vertex - 1
+  glm::vec3 low, high;  // bounding box in model space; infinite if a vertex is not finite
 };
 
 struct Mesh {
@@ -67,10 +66,8 @@ struct Mesh {
 // face without area or a symmetric bow tie. `vertices` holds at least three.
 glm::vec3 face_normal(std::span<const glm::vec3> vertices);
 
-// The clusters of a mesh, for Mesh::clusters: 32 bytes per 256 triangles. With them the front end drops the
-// clusters that are out of view, and transforms the others in parts that fit the L2 cache. Empty where that
-// gains nothing: for meshes of fewer than 65,536 triangles whose vertices fit L2, and if triangles name
-// vertices in random order, or a missing one.
+// The clusters of a mesh, for Mesh::clusters: 24 bytes per 256 triangles. With them the front end drops the
+// clusters that are out of view. Empty for meshes of fewer than 65,536 triangles, and if a vertex is missing.
 std::vector<MeshCluster> clusters_of(const Mesh& mesh);
 
 // A mesh placed in the world: scaled, then rotated about an axis through its origin, then translated. A scale

@@ -20,12 +20,14 @@ namespace HWY_NAMESPACE {
 
 // Returns false and appends nothing if add_one() must handle these triangles.
 template <bool kFlagged>
-HWY_INLINE bool assemble_vector(const MeshTask& task, std::size_t first, ChunkOutput& out) {
+HWY_INLINE bool assemble_vector(const MeshTask& task, std::size_t first, const Corners& corners,
+                                std::size_t offset, ChunkOutput& out) {
   if (task.one_by_one()) return false;
   const DI d;
-  const std::uint32_t* index = &task.mesh.triangles[first].x;
+  const std::uint32_t* index = &corners.indices[offset].x;
   const auto corner = [&](std::size_t k) HWY_ATTR {
-    return load_words([&](std::size_t lane) { return task.vertices + index[lane * 3 + k]; });
+    return load_words(
+        [&](std::size_t lane) { return corners.vertices + (index[lane * 3 + k] & corners.mask); });
   };
   const Words a = corner(0), b = corner(1), c = corner(2);
   const VI common = hn::And(a.word[3], hn::And(b.word[3], c.word[3]));
@@ -42,18 +44,23 @@ HWY_INLINE bool assemble_vector(const MeshTask& task, std::size_t first, ChunkOu
 }
 
 template <bool kFlagged>
-void assemble_all(const MeshTask& task, std::size_t begin, std::size_t end, ChunkOutput& out) {
+void assemble_all(const MeshTask& task, std::size_t begin, std::size_t end, const Corners& corners,
+                  ChunkOutput& out) {
   const auto one_by_one = [&](std::size_t from, std::size_t to) {
-    for (std::size_t i = from; i < to; ++i) add_one(task, i, out);
+    for (std::size_t i = from; i < to; ++i) {
+      const auto vertex = [&](int k) {
+        return corners.vertices[corners.indices[i - begin][k] & corners.mask];
+      };
+      add_one(task, i, {vertex(0), vertex(1), vertex(2)}, out);
+    }
   };
   std::size_t i = begin;
   for (; i + kLanes <= end; i += kLanes)
-    if (!assemble_vector<kFlagged>(task, i, out)) one_by_one(i, i + kLanes);
+    if (!assemble_vector<kFlagged>(task, i, corners, i - begin, out)) one_by_one(i, i + kLanes);
   one_by_one(i, end);
 }
 
-// The range of the vertices that triangles begin … end - 1 name, at least one.
-HWY_INLINE VertexRange index_range(const Mesh& mesh, std::size_t begin, std::size_t end) {
+IndexRange index_range(const Mesh& mesh, std::size_t begin, std::size_t end) {
   const hn::RebindToUnsigned<DI> d;
   const std::uint32_t* index = &mesh.triangles[begin].x;
   const std::size_t count = 3 * (end - begin);
@@ -71,14 +78,12 @@ HWY_INLINE VertexRange index_range(const Mesh& mesh, std::size_t begin, std::siz
   return {first, std::size_t{last} + 1};
 }
 
-bool assemble(const MeshTask& task, std::size_t begin, std::size_t end, VertexRange allowed,
+void assemble(const MeshTask& task, std::size_t begin, std::size_t end, const Corners& corners,
               ChunkOutput& out) {
-  if (!allowed.contains(index_range(task.mesh, begin, end))) return false;
   if (task.mesh.flags.empty())
-    assemble_all<false>(task, begin, end, out);
+    assemble_all<false>(task, begin, end, corners, out);
   else
-    assemble_all<true>(task, begin, end, out);
-  return true;
+    assemble_all<true>(task, begin, end, corners, out);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -87,4 +92,5 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 EDGEWISE_DEFINE_KERNEL(AssembleKernel, assemble_kernel, assemble)
+EDGEWISE_DEFINE_KERNEL(IndexRangeKernel, index_range_kernel, index_range)
 #endif

@@ -13,14 +13,11 @@ namespace {
 // Requires that all vertices exist.
 MeshCluster make_cluster(const Mesh& mesh, ClusterTriangles triangles) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  MeshCluster c{glm::vec3(kInfinity), glm::vec3(-kInfinity), ~0u, 0};
+  MeshCluster c{glm::vec3(kInfinity), glm::vec3(-kInfinity)};
   bool all_finite = true;
   for (std::size_t i = 0; i < triangles.count; ++i)
     for (int k = 0; k < 3; ++k) {
-      const std::uint32_t index = mesh.triangles[triangles.first + i][k];
-      const glm::vec3 v = mesh.positions[index];
-      c.first_vertex = std::min(c.first_vertex, index);
-      c.end_vertex = std::max(c.end_vertex, index + 1);
+      const glm::vec3 v = mesh.positions[mesh.triangles[triangles.first + i][k]];
       c.low = glm::min(c.low, v), c.high = glm::max(c.high, v);
       all_finite = all_finite && is_finite(v);
     }
@@ -43,22 +40,11 @@ void make_clusters(Drawable& drawable) {
 
 std::vector<MeshCluster> clusters_of(const Mesh& mesh) {
   constexpr std::size_t kLeastTriangles = 1 << 16;
-  const std::size_t vertices = mesh.positions.size();
-  const auto exists = [&](glm::uvec3 t) { return std::max({t.x, t.y, t.z}) < vertices; };
-  if (mesh.triangles.size() < kLeastTriangles && vertices <= ClusterPart::kMaxVertices) return {};
-  if (!std::all_of(mesh.triangles.begin(), mesh.triangles.end(), exists)) return {};
-  std::vector<MeshCluster> clusters = make_clusters(mesh);
-  // If triangles name vertices in random order, most vertices belong to several parts, and each part
-  // transforms them. Clusters still gain at two transforms per vertex: a second one costs less than fetching
-  // a vertex from memory.
-  ClusterPart part;
-  part.start(mesh, clusters);
-  std::size_t transformed = 0;
-  while (part.take([](std::size_t) { return false; })) {
-    part.for_each_vertex_range([&](std::size_t, std::size_t count) { transformed += count; });
-    if (transformed > 2 * vertices) return {};
-  }
-  return clusters;
+  const auto exists = [&](glm::uvec3 t) { return std::max({t.x, t.y, t.z}) < mesh.positions.size(); };
+  const auto& triangles = mesh.triangles;
+  if (triangles.size() < kLeastTriangles || !std::all_of(triangles.begin(), triangles.end(), exists))
+    return {};
+  return make_clusters(mesh);
 }
 
 ViewSides::ViewSides(const ScreenTransform& to_screen, const ViewVolume& view) : origin_(to_screen.origin) {
@@ -90,35 +76,6 @@ bool ViewSides::exclude(const MeshCluster& box) const {
     if (largest + error < 0 && error > 0x1p-100 && error < 0x1p100) return true;
   }
   return false;
-}
-
-VertexRange ClusterPart::checked_vertices(std::size_t cluster) const {
-  const VertexRange range = vertices_of(all_[cluster]);
-  if (range.first < range.end && range.end <= mesh_->positions.size()) return range;
-  throw std::invalid_argument("cluster " + std::to_string(cluster) + " of a mesh names vertices from " +
-                              std::to_string(range.first) + " to before " + std::to_string(range.end) +
-                              " of " + std::to_string(mesh_->positions.size()));
-}
-
-void ClusterPart::mark_vertices() {
-  granules_.assign((range_.size() + kGranule - 1) / kGranule, 0);
-  const auto granule_of = [&](std::size_t vertex) { return (vertex - range_.first) / kGranule; };
-  for (const std::size_t cluster : clusters_) {
-    const VertexRange range = vertices_of(all_[cluster]);
-    if (range.size() <= kMaxVertices) {
-      std::fill(granules_.begin() + static_cast<std::ptrdiff_t>(granule_of(range.first)),
-                granules_.begin() + static_cast<std::ptrdiff_t>(granule_of(range.end - 1)) + 1,
-                std::uint8_t{1});
-      continue;
-    }
-    // The cluster spans two distant ranges of vertices, or it names vertices in random order.
-    const ClusterTriangles triangles = triangles_of(*mesh_, cluster);
-    for (std::size_t i = 0; i < triangles.count; ++i)
-      for (int k = 0; k < 3; ++k) {
-        const std::size_t vertex = mesh_->triangles[triangles.first + i][k];
-        if (range.contains({vertex, vertex + 1})) granules_[granule_of(vertex)] = 1;  // else assemble() fails
-      }
-  }
 }
 
 }  // namespace edgewise

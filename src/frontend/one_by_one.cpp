@@ -183,13 +183,11 @@ struct StreamGeometry {
 
 }  // namespace
 
-void add_one(const MeshTask& task, std::size_t triangle, ChunkOutput& out) {
-  const glm::uvec3 t = task.mesh.triangles[triangle];
+void add_one(const MeshTask& task, std::size_t triangle, const Vertex (&corners)[3], ChunkOutput& out) {
   const Cull cull = task.mesh.has_flag(triangle, kTwoSided) ? Cull::none : task.options.cull;
   add_and_record_state(task, triangle, out, [&] {
-    add({task.vertices[t.x], task.vertices[t.y], task.vertices[t.z]},
-        {task.first_id + static_cast<std::uint32_t>(triangle), cull}, task.options, out,
-        MeshGeometry{.task = task, .triangle = t});
+    add(corners, {task.first_id + static_cast<std::uint32_t>(triangle), cull}, task.options, out,
+        MeshGeometry{.task = task, .triangle = task.mesh.triangles[triangle]});
   });
 }
 

@@ -200,7 +200,7 @@ std::vector<std::uint32_t> lit_colours(const Scene& scene) {
   std::vector<std::uint32_t> colours;
   const glm::dvec3 to_light = glm::normalize(glm::dvec3(scene.to_light));
   ChunkOutput out;
-  out.reserve(false);
+  out.reserve(kChunkTriangles, false);
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes.at(instance.mesh);
     const glm::dmat4 model = model_matrix(instance);

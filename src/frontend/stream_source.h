@@ -5,7 +5,7 @@
 #include <span>
 
 #include "core/triangle_source.h"
-#include "frontend/chunks.h"
+#include "frontend/in_order.h"
 #include "frontend/tasks.h"
 
 namespace edgewise {

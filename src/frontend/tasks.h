@@ -1,5 +1,5 @@
-// The front end's steps: their input, which is the same for all chunks of a mesh or stream, the output of one
-// chunk, and the kernels that make triangles.
+// The front end's steps: their input, which is the same for all triangles of a mesh or stream, their output,
+// and the kernels that make triangles.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,6 @@
 #include "edgewise/frontend.h"
 #include "edgewise/simd_target.h"
 #include "frontend/clip.h"
-#include "frontend/mesh_clusters.h"
 #include "frontend/view.h"
 
 namespace edgewise {
@@ -22,8 +21,6 @@ struct MeshTask {
   ViewVolume view;
   ScreenTransform to_screen;        // model space → pixels times w, and w
   ViewDepth depth;                  // w → contract units
-  Vertex* vertices;                 // by the mesh's indices
-  VertexRange vertex_range{};       // of those in `vertices`
   std::uint32_t first_id = 0;       // of the mesh's triangles
   TriangleState* states = nullptr;  // one per triangle, to be written; null: not needed
 
@@ -39,43 +36,60 @@ struct StreamTask {
   bool one_by_one() const { return options.keep_unsnapped || states != nullptr; }
 };
 
-// The vertices or triangles of a chunk, whatever the thread count. Small enough that a chunk's output stays
-// in the L2 cache until it is copied.
+// Triangles that are made together: their output stays in the L2 cache until it is shaded, or copied.
 inline constexpr std::size_t kChunkTriangles = 2048;
 
-// Below this many vertices or triangles, waking another thread costs more than it saves.
+// Below this many triangles, waking another thread costs more than it saves.
 inline constexpr std::size_t kWorthThreads = 8192;
 
 inline int workers_for(std::size_t count, int threads) {
   return count < kWorthThreads ? 1 : threads;
 }
 
-// A chunk's visible triangles. Assembly writes ids as the payloads of a mesh's triangles. For
-// Payload::colour, colours then replace the ids. Each worker has one output and reuses it for all its chunks.
-// The alignment keeps two workers' outputs out of the same pair of cache lines, which processors fetch
-// together.
+// Visible triangles of consecutive submitted ones. Assembly writes ids as the payloads of a mesh's triangles.
+// For Payload::colour, colours then replace the ids. The alignment keeps two workers' outputs out of the same
+// pair of cache lines, which processors fetch together.
 struct alignas(128) ChunkOutput {
   // A triangle clipped by six planes has at most nine vertices, so it becomes at most seven triangles. The
   // last vector is stored whole.
-  static constexpr std::size_t kCapacity = kChunkTriangles * 7 + 16;
-  static_assert(kCapacity * std::max(sizeof(ScreenTriangle), sizeof(UnsnappedTriangle)) < 1'000'000);
+  static constexpr std::size_t kChunkRoom = kChunkTriangles * 7 + 16;
 
-  void reserve(bool with_unsnapped) {
-    triangles.reserve(kCapacity);
-    if (with_unsnapped) unsnapped.reserve(kCapacity);
+  // Room for `inputs` triangles, of which few are clipped.
+  void reserve(std::size_t inputs, bool with_unsnapped) {
+    triangles.reserve(inputs + kChunkRoom);
+    if (with_unsnapped) unsnapped.reserve(inputs + kChunkRoom);
   }
+  // True if the output of any kChunkTriangles triangles fits.
+  bool has_room() const { return count + kChunkRoom <= triangles.capacity(); }
 
   Buffer<ScreenTriangle> triangles;
   Buffer<UnsnappedTriangle> unsnapped;  // with keep_unsnapped only
   std::size_t count = 0;
-  FrontendStats stats;  // the sum over all its chunks of the frame
+  FrontendStats stats;  // the sum over all that its worker made into it in the frame
+};
+
+// Indices first … end - 1.
+struct IndexRange {
+  std::size_t first, end;
+};
+
+// The range of the vertices that triangles begin … end - 1 of the mesh name, at least one triangle.
+using IndexRangeKernel = IndexRange (*)(const Mesh& mesh, std::size_t begin, std::size_t end);
+
+// `target` must be resolved.
+IndexRangeKernel index_range_kernel(SimdTarget target);
+
+// The transformed vertices of consecutive triangles: vertex i lies at vertices[i & mask].
+struct Corners {
+  const Vertex* vertices;
+  const glm::uvec3* indices;  // by triangle
+  std::uint32_t mask;
 };
 
 // Appends the visible pieces of triangles begin … end - 1 to the output, with ids as payloads: task.first_id
-// plus the triangle's index in the mesh. Returns false and appends nothing if a triangle names a vertex that
-// is not `allowed`.
-using AssembleKernel = bool (*)(const MeshTask& task, std::size_t begin, std::size_t end, VertexRange allowed,
-                                ChunkOutput& out);
+// plus the triangle's index in the mesh. Corners have index 0 for triangle `begin`.
+using AssembleKernel = void (*)(const MeshTask& task, std::size_t begin, std::size_t end,
+                                const Corners& corners, ChunkOutput& out);
 
 // `target` must be resolved.
 AssembleKernel assemble_kernel(SimdTarget target);
@@ -96,7 +110,7 @@ StreamKernel stream_kernel(SimdTarget target);
 // Appends the visible pieces of a triangle to the output and counts them in its statistics. A mesh triangle's
 // payload is its id, task.first_id plus its index in the mesh; a stream triangle's is the one that the
 // options select.
-void add_one(const MeshTask& task, std::size_t triangle, ChunkOutput& out);
+void add_one(const MeshTask& task, std::size_t triangle, const Vertex (&corners)[3], ChunkOutput& out);
 void add_one(const StreamTask& task, std::size_t triangle, ChunkOutput& out);
 
 }  // namespace edgewise

@@ -77,19 +77,19 @@ HWY_INLINE VI transform_vector(const MeshTask& task, const float* positions, Ver
   return hn::IfThenElse(hn::Eq(outside, hn::Set(di, kNotFinite)), hn::Set(di, -1), outside);
 }
 
-std::uint32_t transform_vertices(const MeshTask& task, std::size_t begin, std::size_t end) {
+std::uint32_t transform_vertices(const MeshTask& task, const glm::vec3* positions, std::size_t count,
+                                 Vertex* out) {
   const DI d;
-  const glm::vec3* positions = task.mesh.positions.data();
   VI common = hn::Set(d, -1);
-  std::size_t i = begin;
-  for (; i + kLanes <= end; i += kLanes)
-    common = hn::And(common, transform_vector(task, &positions[i].x, task.vertices + i));
-  if (i < end) {
+  std::size_t i = 0;
+  for (; i + kLanes <= count; i += kLanes)
+    common = hn::And(common, transform_vector(task, &positions[i].x, out + i));
+  if (i < count) {
     glm::vec3 padded[kLanes];
     Vertex vertices[kLanes];
-    for (std::size_t lane = 0; lane < kLanes; ++lane) padded[lane] = positions[std::min(i + lane, end - 1)];
+    for (std::size_t lane = 0; lane < kLanes; ++lane) padded[lane] = positions[std::min(i + lane, count - 1)];
     common = hn::And(common, transform_vector(task, &padded[0].x, vertices));
-    std::copy_n(vertices, end - i, task.vertices + i);
+    std::copy_n(vertices, count - i, out + i);
   }
   std::int32_t lanes[kLanes];
   hn::StoreU(common, d, lanes);

@@ -23,9 +23,10 @@ inline ClipVertex as_clip_vertex(glm::vec3 transformed) {
   return {v.x, v.y, v.z, v.z};
 }
 
-// Transforms vertices begin … end - 1. Returns the sides (flags of Outside) that all finite vertices lie
-// beyond. The result has kNotFinite if no vertex is finite.
-using TransformKernel = std::uint32_t (*)(const MeshTask& task, std::size_t begin, std::size_t end);
+// Transforms `count` vertices. Returns the sides (flags of Outside) that all finite vertices lie beyond. The
+// result has kNotFinite if no vertex is finite.
+using TransformKernel = std::uint32_t (*)(const MeshTask& task, const glm::vec3* positions, std::size_t count,
+                                          Vertex* out);
 
 // `target` must be resolved.
 TransformKernel transform_kernel(SimdTarget target);

@@ -148,7 +148,7 @@ class DepthRounding {
   DepthRounding() {
     const StreamTriangle triangle{{{0, 0, 0}, {50, 0, 0}, {0, 50, 0}}, 0};
     stream_.triangles.assign(kChunkTriangles, triangle);
-    out_.reserve(false);
+    out_.reserve(kChunkTriangles, false);
     for (const SimdTarget target : supported_targets()) kernels_.push_back(stream_kernel(target));
   }
   void add(float z01) {
@@ -308,14 +308,12 @@ TEST(FrontendKernels, VerticesOnPlanesMatchTheScalarFlags) {
       for (const float y : borders(w, kHeight))
         for (const float z : borders(w, 2.0f)) mesh.positions.emplace_back(x, y, z);
     std::vector<Vertex> vertices(mesh.positions.size());
-    MeshTask job{
-        options,        mesh, {kWidth, kHeight, 0.5, 0.9}, {{}, {}, kWidth, kHeight}, ViewDepth(0.5, 0.9),
-        vertices.data()};
+    MeshTask job{options, mesh, {kWidth, kHeight, 0.5, 0.9}, {{}, {}, kWidth, kHeight}, ViewDepth(0.5, 0.9)};
     job.to_screen.origin = glm::vec3(0.0f);
     job.to_screen.rounded = glm::mat4x3(1.0f);
     job.to_screen.rounded[3] = {0.0f, 0.0f, w};
     for (const SimdTarget target : supported_targets()) {
-      transform_kernel(target)(job, 0, vertices.size());
+      transform_kernel(target)(job, mesh.positions.data(), vertices.size(), vertices.data());
       for (std::size_t i = 0; i < vertices.size(); ++i) {
         const glm::vec3 v = transform(job.to_screen, mesh.positions[i]);
         const std::uint32_t outside = flags_in_float(v, job.view);

@@ -10,14 +10,13 @@
 
 #include "core/random.h"
 #include "edgewise/frontend.h"
-#include "frontend/tasks.h"
 #include "frontend/transform.h"
 #include "frontend/view.h"
 
 namespace edgewise {
 namespace {
 
-constexpr unsigned kSide = 300;  // vertices per side; kSide² are more than ClusterPart::kMaxVertices
+constexpr unsigned kSide = 300;  // vertices per side; kSide² are more than a VertexWindow holds
 
 // A level grid around the camera, row by row, with clusters.
 Scene grid() {
@@ -74,13 +73,10 @@ TEST(MeshClusters, HoldTheirTrianglesVertices) {
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const MeshCluster& cluster = mesh.clusters[i / kClusterTriangles];
     for (int k = 0; k < 3; ++k) {
-      const std::uint32_t vertex = mesh.triangles[i][k];
-      ASSERT_GE(vertex, cluster.first_vertex);
-      ASSERT_LT(vertex, cluster.end_vertex);
-      ASSERT_EQ(glm::clamp(mesh.positions[vertex], cluster.low, cluster.high), mesh.positions[vertex]);
+      const glm::vec3 v = mesh.positions[mesh.triangles[i][k]];
+      ASSERT_EQ(glm::clamp(v, cluster.low, cluster.high), v);
     }
   }
-  EXPECT_LE(mesh.clusters[0].end_vertex - mesh.clusters[0].first_vertex, 2 * kSide);
   EXPECT_LT(mesh.clusters[0].high.x - mesh.clusters[0].low.x, 0.3f * kSide / 2);
 
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -94,37 +90,10 @@ TEST(MeshClusters, AreNoneForMeshesThatGainNothing) {
   mesh.triangles[7].y = kSide * kSide;
   EXPECT_TRUE(clusters_of(mesh).empty()) << "a vertex is missing";
   mesh = grid().meshes[0];
-  mesh.triangles.resize(65'535);
-  EXPECT_FALSE(clusters_of(mesh).empty()) << "many vertices";
-  const auto fewer_vertices = static_cast<std::uint32_t>(ClusterPart::kMaxVertices);
-  for (glm::uvec3& t : mesh.triangles) t = glm::min(t, fewer_vertices - 1);
-  mesh.positions.resize(fewer_vertices);
+  mesh.triangles.resize(65'536);
+  EXPECT_FALSE(clusters_of(mesh).empty());
+  mesh.triangles.pop_back();
   EXPECT_TRUE(clusters_of(mesh).empty()) << "small";
-  mesh.triangles.push_back(mesh.triangles[0]);
-  EXPECT_FALSE(clusters_of(mesh).empty()) << "many triangles";
-  mesh = grid().meshes[0];
-  shuffle(mesh.triangles);
-  EXPECT_TRUE(clusters_of(mesh).empty()) << "in random order";
-  Mesh soup;
-  for (unsigned i = 0; i < 70'000; ++i) soup.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
-  soup.positions.resize(3 * soup.triangles.size());
-  EXPECT_FALSE(clusters_of(soup).empty());
-  shuffle(soup.triangles);
-  EXPECT_TRUE(clusters_of(soup).empty()) << "no shared vertices, in random order";
-}
-
-// Where two grids meet, a cluster names a few vertices of a wide range: no others are transformed for it.
-TEST(MeshClusters, TransformFewMoreVerticesThanTheMeshHas) {
-  for (const Scene& scene : {grid(), two_grids()}) {
-    const Mesh& mesh = scene.meshes[0];
-    ClusterPart part;
-    part.start(mesh, mesh.clusters);
-    std::size_t parts = 0, transformed = 0;
-    for (; part.take([](std::size_t) { return false; }); ++parts)
-      part.for_each_vertex_range([&](std::size_t, std::size_t count) { transformed += count; });
-    EXPECT_GT(parts, 1u);
-    EXPECT_LT(transformed, mesh.positions.size() + mesh.positions.size() / 50);
-  }
 }
 
 // Among other instances, mirrored and not; with shading, culling, a vertex that is not finite, ids and
@@ -180,17 +149,6 @@ TEST(MeshClusters, AreDroppedOutsideTheView) {
   EXPECT_EQ(
       static_cast<std::uint64_t>(std::ranges::count(frontend.states(), TriangleState::outside_with_mesh)),
       stats.whole_mesh);
-  // A mesh out of view, with as many triangles as are kept, fills a group. So that group is dropped while the
-  // clusters' parts are added.
-  scene.meshes.push_back({std::vector<glm::vec3>(4 * kWorthThreads - 1, {0, 0, 500}),
-                          std::vector<glm::uvec3>(stats.triangles - stats.whole_mesh),
-                          {}});
-  scene.meshes[1].colours.resize(scene.meshes[1].triangles.size());
-  scene.instances.insert(scene.instances.begin(), {.mesh = 1});
-  frontend.run(scene, options);
-  EXPECT_EQ(frontend.stats().meshes_culled, 1u);
-  scene.instances.erase(scene.instances.begin());
-
   scene.camera.position.z = -1000.0f;
   frontend.run(scene, options);
   stats = frontend.stats();
@@ -267,22 +225,6 @@ TEST(MeshClusters, OfOtherTrianglesAreRefused) {
     }
   };
   expect_refused("clusters instead of", [](Mesh& mesh) { mesh.clusters.pop_back(); });
-  expect_refused("cluster 200 of a mesh names vertices",
-                 [](Mesh& mesh) { mesh.clusters[200].end_vertex = kSide * kSide + 1; });
-  expect_refused("cluster 200 of a mesh names vertices",
-                 [](Mesh& mesh) { mesh.clusters[200].first_vertex = mesh.clusters[200].end_vertex; });
-  expect_refused("made for other triangles",
-                 [](Mesh& mesh) { mesh.triangles[51'300].y = kSide * kSide - 1; });
-  expect_refused("made for other triangles", [](Mesh& mesh) {  // a vertex between those of two clusters
-    mesh = {};
-    constexpr unsigned kMeet = 100 * kClusterTriangles, kUnused = 1000;
-    for (unsigned i = 0; i < 70'000; ++i)
-      mesh.triangles.push_back(3 * i + (i < kMeet ? 0 : kUnused) + glm::uvec3{0, 1, 2});
-    mesh.positions.assign(3 * mesh.triangles.size() + kUnused, {0, 0, -5});
-    mesh.colours.resize(mesh.triangles.size());
-    mesh.clusters = clusters_of(mesh);
-    mesh.triangles[kMeet].x -= kUnused / 2;
-  });
   expect_refused("names vertex", [](Mesh& mesh) { mesh.triangles[51'300].y = kSide * kSide; });
 }
 

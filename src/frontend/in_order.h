@@ -1,0 +1,139 @@
+// Ranges of triangles that threads make at the same time, and their output in order.
+#pragma once
+
+#include <hwy/cache_control.h>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include "core/parallel.h"
+#include "frontend/tasks.h"
+
+namespace edgewise {
+
+// Workers take ranges in order. When all ranges before a finished one are finished too, it gets its position
+// in the output, and its worker copies it there when it next looks. Until then the worker makes other ranges
+// into other buffers. It waits only if no buffer is free.
+//
+// The lowest unfinished range waits for no other, so there is no deadlock.
+class InOrder {
+ public:
+  // A range has up to `inputs` triangles.
+  void start_frame(int threads, std::size_t inputs, bool with_unsnapped) {
+    total_ = 0;
+    const std::size_t count = static_cast<std::size_t>(threads) * kBuffers;
+    if (slots_.size() < count) slots_ = std::vector<Slot>(count);
+    for (Slot& slot : slots_) {
+      slot.out.reserve(inputs, with_unsnapped);
+      slot.out.stats = {};
+    }
+  }
+
+  // For each range, calls make(worker, range, output, flush), which must fill the empty output. When that is
+  // full, make() calls flush(), which empties it. For each output, place(output, at) is called, where `at` is
+  // the number of triangles before it. No function may throw.
+  template <typename Make, typename Place>
+  void for_each_range(std::size_t ranges, int workers, Make&& make, Place&& place) {
+    std::atomic<std::size_t> next{0};
+    turn_ = 0;
+    finished_.assign(ranges, nullptr);
+    parallel_for(workers, workers, [&](int worker) {
+      const std::span<Slot> mine = slots_of(worker);
+      // Places what has a position until `until` returns a slot, or true.
+      const auto place_until = [&](auto&& until) {
+        for (;;) {
+          const std::uint32_t turn = turn_.load(std::memory_order_acquire);
+          for (Slot& slot : mine) {
+            if (slot.position.load(std::memory_order_acquire) >= kPending) continue;
+            place(slot.out, slot.position);
+            slot.position.store(kFree, std::memory_order_relaxed);
+          }
+          if (const auto result = until(turn)) return result;
+          wait_for_other(turn);
+        }
+      };
+      const auto is_free = [](const Slot& slot) { return slot.position == kFree; };
+      const auto free_slot = [&](std::uint32_t) {
+        const auto slot = std::ranges::find_if(mine, is_free);
+        return slot == mine.end() ? nullptr : &*slot;
+      };
+      for (;;) {
+        Slot& slot = *place_until(free_slot);
+        const std::size_t range = next.fetch_add(1, std::memory_order_relaxed);
+        if (range >= ranges) break;
+        ChunkOutput& out = slot.out;
+        out.count = 0;
+        make(worker, range, out, [&] {
+          place_until([&](std::uint32_t turn) { return turn == range; });
+          place(out, total_);
+          total_ += out.count;
+          out.count = 0;
+        });
+        slot.position.store(kPending, std::memory_order_relaxed);
+        finish(range, slot);
+      }
+      place_until([&](std::uint32_t) { return std::ranges::all_of(mine, is_free); });
+    });
+  }
+
+  // A worker's own, for callers that need no order, or only one worker.
+  ChunkOutput& output(int worker) { return slots_of(worker).front().out; }
+  void add(std::size_t triangles) { total_ += triangles; }
+  std::size_t total() const { return total_; }  // output triangles since start_frame()
+  FrontendStats stats() const {
+    FrontendStats sum;
+    for (const Slot& slot : slots_) sum += slot.out.stats;
+    return sum;
+  }
+
+ private:
+  // One to fill, and two finished ones without position: with one buffer, two threads took 1.2 times as long.
+  static constexpr std::size_t kBuffers = 3;
+  // Instead of a position.
+  static constexpr std::size_t kFree = ~std::size_t{0}, kPending = kFree - 1;
+
+  struct Slot {
+    ChunkOutput out;
+    std::atomic<std::size_t> position{kFree};
+  };
+
+  std::span<Slot> slots_of(int worker) {
+    return std::span(slots_).subspan(static_cast<std::size_t>(worker) * kBuffers, kBuffers);
+  }
+
+  // Gives positions to this range and the finished ones after it, if all before it have theirs.
+  void finish(std::size_t range, Slot& slot) {
+    const std::lock_guard lock(mutex_);
+    finished_[range] = &slot;
+    std::uint32_t turn = turn_;
+    if (turn != range) return;
+    for (; turn < finished_.size() && finished_[turn] != nullptr; ++turn) {
+      const std::size_t at = total_;
+      total_ += finished_[turn]->out.count;
+      finished_[turn]->position.store(at, std::memory_order_release);
+    }
+    turn_.store(turn, std::memory_order_release);
+    turn_.notify_all();
+  }
+
+  // Spins for about 20 us before it sleeps: waking a thread takes more.
+  void wait_for_other(std::uint32_t turn) const {
+    constexpr int kSpins = 2000;
+    for (int i = 0; i < kSpins; ++i) {
+      if (turn_.load(std::memory_order_acquire) != turn) return;
+      hwy::Pause();
+    }
+    turn_.wait(turn, std::memory_order_acquire);
+  }
+
+  std::size_t total_ = 0;
+  std::vector<Slot> slots_;             // kBuffers per worker
+  std::mutex mutex_;                    // of finish()
+  std::atomic<std::uint32_t> turn_{0};  // the ranges before this one have positions
+  std::vector<Slot*> finished_;         // by range; null: unfinished
+};
+
+}  // namespace edgewise

@@ -1,0 +1,164 @@
+#include "frontend/scene_maker.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+namespace edgewise {
+
+namespace {
+
+void check(const Mesh& mesh) {
+  if (mesh.colours.size() != mesh.triangles.size())
+    throw std::invalid_argument("a mesh has " + std::to_string(mesh.triangles.size()) + " triangles and " +
+                                std::to_string(mesh.colours.size()) + " colours");
+  if (!mesh.flags.empty() && mesh.flags.size() != mesh.triangles.size())
+    throw std::invalid_argument("a mesh has " + std::to_string(mesh.triangles.size()) + " triangles and " +
+                                std::to_string(mesh.flags.size()) + " flags");
+  if (!mesh.flags.empty() && mesh.has_flag(0, kSameFace))
+    throw std::invalid_argument("a mesh's first triangle has kSameFace");
+  if (!mesh.normals.empty() && mesh.normals.size() != mesh.triangles.size())
+    throw std::invalid_argument("a mesh has " + std::to_string(mesh.triangles.size()) + " triangles and " +
+                                std::to_string(mesh.normals.size()) + " normals");
+  if (!mesh.clusters.empty() && mesh.clusters.size() != cluster_count(mesh))
+    throw std::invalid_argument("a mesh has " + std::to_string(mesh.clusters.size()) +
+                                " clusters instead of " + std::to_string(cluster_count(mesh)));
+}
+
+void throw_if_vertex_missing(const Mesh& mesh) {
+  const auto largest = [](glm::uvec3 t) { return std::max({t.x, t.y, t.z}); };
+  const auto bad = std::find_if(mesh.triangles.begin(), mesh.triangles.end(),
+                                [&](glm::uvec3 t) { return largest(t) >= mesh.positions.size(); });
+  if (bad == mesh.triangles.end()) return;
+  throw std::invalid_argument("triangle " + std::to_string(bad - mesh.triangles.begin()) + " names vertex " +
+                              std::to_string(largest(*bad)) + " of " + std::to_string(mesh.positions.size()));
+}
+
+}  // namespace
+
+void SceneMaker::start_frame(const Scene& scene, const FrontendOptions& options, TriangleState* states,
+                             int workers) {
+  scene_ = &scene;
+  options_ = options;
+  states_ = states;
+  transform_ = transform_kernel(options.target);
+  index_range_ = index_range_kernel(options.target);
+  assemble_ = assemble_kernel(options.target);
+  shade_ = shade_kernel(options.target);
+  view_ = view_volume(scene.camera, options.width, options.height);
+  pixels_ = pixels_of(scene.camera, options.width, options.height);
+  to_light_ = glm::normalize(glm::dvec3(scene.to_light));
+  vertex_missing_ = false;
+  first_ids_.assign(1, 0);
+  std::size_t most_vertices = 0;
+  for (const Instance& instance : scene.instances) {
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    check(mesh);
+    first_ids_.push_back(first_ids_.back() + mesh.triangles.size());
+    most_vertices = std::max(most_vertices, mesh.positions.size());
+  }
+  sights_.assign(scene.instances.size(), unknown);
+  if (workers_.size() < static_cast<std::size_t>(workers))
+    workers_ = std::vector<Worker>(static_cast<std::size_t>(workers));
+  for (Worker& w : workers_) {
+    w.instance = ~std::size_t{0};
+    w.window.reserve(most_vertices);
+  }
+}
+
+std::size_t SceneMaker::instance_of(std::size_t triangle) const {
+  const auto after = std::upper_bound(first_ids_.begin(), first_ids_.end(), triangle);
+  return static_cast<std::size_t>(after - first_ids_.begin()) - 1;
+}
+
+void SceneMaker::start_instance(Worker& w, std::size_t instance) {
+  const Mesh& mesh = mesh_of(instance);
+  const glm::dmat4 model = model_matrix(scene_->instances[instance]);
+  const std::size_t first = first_ids_[instance];
+  w.instance = instance;
+  w.task.emplace(MeshTask{.options = options_,
+                          .mesh = mesh,
+                          .view = view_,
+                          .to_screen = {pixels_, scene_->camera.position, model},
+                          .depth = {view_.near_z, view_.far_z},
+                          .first_id = static_cast<std::uint32_t>(first),
+                          .states = states_ != nullptr ? states_ + first : nullptr});
+  w.light.emplace(ShadeTask{mesh, cofactor_matrix(model), to_light_, w.task->first_id});
+  w.sides.reset();
+  if (!mesh.clusters.empty()) w.sides.emplace(w.task->to_screen, view_);
+  w.window.start(mesh);
+}
+
+SceneMaker::Sight SceneMaker::find_sight(Worker& w) {
+  const std::atomic_ref sight(sights_[w.instance]);
+  if (const auto known = sight.load(std::memory_order_relaxed); known != unknown)
+    return static_cast<Sight>(known);
+  constexpr std::size_t kGranules = 8;  // at once
+  const std::size_t vertices = w.task->mesh.positions.size(),
+                    granules = (vertices + VertexWindow::kGranule - 1) / VertexWindow::kGranule;
+  std::uint32_t common = kInvisible | kNotFinite;
+  for (std::size_t i = 0; i < granules && (common & kInvisible) != 0; i += kGranules)
+    common &= w.window.fill(*w.task, i, std::min(i + kGranules, granules), transform_);
+  const Sight found = common == 0 || (common & kNotFinite) != 0 ? in_sight : out_of_sight;
+  sight.store(found, std::memory_order_relaxed);
+  return found;
+}
+
+std::size_t SceneMaker::make_some(Worker& w, std::size_t begin, std::size_t end, ChunkOutput& out) {
+  const MeshTask& task = *w.task;
+  const auto drop = [&](std::size_t to) {
+    out.stats.whole_mesh += to - begin;
+    if (task.states != nullptr)
+      std::fill_n(task.states + begin, to - begin, TriangleState::outside_with_mesh);
+    return to;
+  };
+  const auto& clusters = task.mesh.clusters;
+  if (clusters.empty()) {
+    if (find_sight(w) == out_of_sight) return drop(end);
+    end = std::min(end, begin + kChunkTriangles);
+  } else {
+    const auto end_of = [](std::size_t cluster) { return (cluster + 1) * kClusterTriangles; };
+    std::size_t cluster = begin / kClusterTriangles;
+    if (w.sides->exclude(clusters[cluster])) return drop(std::min(end, end_of(cluster)));
+    std::atomic_ref(sights_[w.instance]).store(in_sight, std::memory_order_relaxed);
+    end = std::min(end, begin + kChunkTriangles);
+    while (end_of(cluster) < end && !w.sides->exclude(clusters[cluster + 1])) ++cluster;
+    end = std::min(end, end_of(cluster));
+  }
+  make_visible(w, begin, end, out);
+  return end;
+}
+
+void SceneMaker::make_visible(Worker& w, std::size_t begin, std::size_t end, ChunkOutput& out) {
+  const MeshTask& task = *w.task;
+  const Mesh& mesh = task.mesh;
+  const IndexRange range = index_range_(mesh, begin, end);
+  if (range.end > mesh.positions.size()) {
+    vertex_missing_.store(true, std::memory_order_relaxed);
+    return;
+  }
+  const std::size_t first = out.count;
+  assemble_(task, begin, end, w.window.corners(task, begin, end, range, transform_), out);
+  if (options_.payload == Payload::id) return;
+  if (options_.shade) return shade_(*w.light, out, first);
+  std::for_each_n(out.triangles.data() + first, out.count - first, [&](ScreenTriangle& t) {
+    const std::uint32_t index = t.payload - task.first_id;
+    t.payload = mesh.colours[index];
+  });
+}
+
+void SceneMaker::end_frame(FrontendStats& stats) {
+  stats.meshes += scene_->instances.size();
+  stats.triangles += first_ids_.back();
+  for (std::size_t i = 0; i < sights_.size(); ++i) {
+    const Mesh& mesh = mesh_of(i);
+    if (mesh.triangles.empty()) {  // no range has it
+      start_instance(workers_[0], i);
+      find_sight(workers_[0]);
+    }
+    stats.meshes_culled += sights_[i] != in_sight;
+    if (vertex_missing_ && sights_[i] == in_sight) throw_if_vertex_missing(mesh);
+  }
+}
+
+}  // namespace edgewise
