@@ -139,6 +139,9 @@ struct Frontend::State {
     maker.start_frame(scene, options, options.keep_states ? states.data() : nullptr, workers);
     // Long ranges share few vertices. Short ones keep all workers busy until the end.
     constexpr std::size_t kLeast = 4096, kMost = 32768;
+    static_assert(InOrder::kBuffers * (kMost + ChunkOutput::kChunkRoom) * sizeof(ScreenTriangle) +
+                      VertexWindow::kVertices * sizeof(Vertex) <
+                  7'500'000);  // per thread: frontend.h promises 8 MB
     const std::size_t length = std::clamp(count / (8 * static_cast<std::size_t>(workers)), kLeast, kMost);
     for_each_range(count, length, workers,
                    [&](int worker, std::size_t begin, std::size_t end, ChunkOutput& out, auto&& flush) {

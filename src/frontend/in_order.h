@@ -21,6 +21,8 @@ namespace edgewise {
 // The lowest unfinished range waits for no other, so there is no deadlock.
 class InOrder {
  public:
+  static constexpr std::size_t kBuffers = 3;  // per worker: to fill one while two wait for their positions
+
   // A range has up to `inputs` triangles.
   void start_frame(int threads, std::size_t inputs, bool with_unsnapped) {
     total_ = 0;
@@ -47,8 +49,9 @@ class InOrder {
         for (;;) {
           const std::uint32_t turn = turn_.load(std::memory_order_acquire);
           for (Slot& slot : mine) {
-            if (slot.position.load(std::memory_order_acquire) >= kPending) continue;
-            place(slot.out, slot.position);
+            const std::size_t at = slot.position.load(std::memory_order_relaxed);
+            if (at >= kPending) continue;
+            place(slot.out, at);
             slot.position.store(kFree, std::memory_order_relaxed);
           }
           if (const auto result = until(turn)) return result;
@@ -90,8 +93,6 @@ class InOrder {
   }
 
  private:
-  // One to fill, and two finished ones without position: with one buffer, two threads took 1.2 times as long.
-  static constexpr std::size_t kBuffers = 3;
   // Instead of a position.
   static constexpr std::size_t kFree = ~std::size_t{0}, kPending = kFree - 1;
 
@@ -111,9 +112,8 @@ class InOrder {
     std::uint32_t turn = turn_;
     if (turn != range) return;
     for (; turn < finished_.size() && finished_[turn] != nullptr; ++turn) {
-      const std::size_t at = total_;
+      finished_[turn]->position.store(total_, std::memory_order_relaxed);
       total_ += finished_[turn]->out.count;
-      finished_[turn]->position.store(at, std::memory_order_release);
     }
     turn_.store(turn, std::memory_order_release);
     turn_.notify_all();

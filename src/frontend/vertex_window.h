@@ -21,9 +21,9 @@ class VertexWindow {
   // Room for the vertices of meshes of up to `most_vertices`. Larger meshes may need scattered().
   void reserve(std::size_t most_vertices) {
     vertices_.reserve(std::min(kVertices, (most_vertices + kGranule - 1) / kGranule * kGranule));
-    if (most_vertices > kVertices) in_order_.resize(kChunkTriangles);
-    for (std::size_t i = 0; i < in_order_.size(); ++i)
-      in_order_[i] = static_cast<std::uint32_t>(3 * i) + glm::uvec3{0, 1, 2};
+    if (most_vertices <= kVertices || !in_order_.empty()) return;
+    positions_.reserve(3 * kChunkTriangles);
+    for (std::uint32_t i = 0; i < kChunkTriangles; ++i) in_order_.push_back(3 * i + glm::uvec3{0, 1, 2});
   }
   // Empties the window for another mesh.
   void start(const Mesh& mesh) {
@@ -63,10 +63,10 @@ class VertexWindow {
     return common;
   }
 
-  static constexpr std::size_t kGranule = 64;  // vertices
+  static constexpr std::size_t kGranule = 64;        // vertices
+  static constexpr std::size_t kVertices = 1 << 16;  // of the window
 
  private:
-  static constexpr std::size_t kVertices = 1 << 16;  // 1 MB
   static constexpr std::size_t kSlots = kVertices / kGranule;
 
   bool holds(std::size_t granule) const { return granules_[granule % kSlots] == granule + 1; }

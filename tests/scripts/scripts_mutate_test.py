@@ -39,7 +39,7 @@ class MutateTest(FolderTest):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertLessEqual(len(result.stdout.splitlines()), 63)
         for part in ("contract.h", "oracle.cpp", "naive.cpp", "tile_", "edge_walk.h", "scanline_band", "tiled_spans", "bins", "mask_", "clip.cpp",
-                     "one_by_one.cpp", "chunks.h", "trigonometry.cpp", "core/little_endian.h", "portable.cpp", "noise.py"):
+                     "one_by_one.cpp", "in_order.h", "trigonometry.cpp", "core/little_endian.h", "portable.cpp", "noise.py"):
             self.assertIn(part, result.stdout)
 
     def test_a_mutant_is_caught_or_survives(self):

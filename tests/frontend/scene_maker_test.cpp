@@ -1,0 +1,120 @@
+// Threads make ranges of a scene's triangles, each with vertices of its own.
+#include "frontend/scene_maker.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <numeric>
+#include <thread>
+
+#include "core/random.h"
+#include "edgewise/frontend.h"
+#include "frontend/in_order.h"
+#include "support.h"
+
+namespace edgewise {
+namespace {
+
+// Triangle i names vertices 3 · places[i] … 3 · places[i] + 2, and lies where it would without `places`.
+Scene scene_of(const std::vector<std::uint32_t>& places) {
+  Scene scene;
+  scene.instances.resize(1);
+  Mesh& mesh = scene.meshes.emplace_back();
+  mesh.positions.assign(3 * (std::size_t{*std::ranges::max_element(places)} + 1), {0, 0, 1e9f});
+  Random random(3);
+  for (const std::uint32_t place : places) {
+    const glm::vec3 at(random.uniform(-9, 9), random.uniform(-9, 9), random.uniform(-20, 1));
+    for (std::uint32_t k = 0; k < 3; ++k)
+      mesh.positions[3 * place + k] =
+          at + glm::vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    mesh.triangles.push_back(3 * place + glm::uvec3{0, 1, 2});
+    mesh.colours.push_back(place);
+  }
+  return scene;
+}
+
+// Wherever its vertices lie in memory, a triangle is the same: in order, shuffled within what a worker's
+// window holds or over more, in steps that share a granule's slot, and in two distant sequences by turns.
+TEST(FrontendWindows, HoldTheVerticesThatTrianglesName) {
+  constexpr std::uint32_t kFew = 20'000, kMany = 60'000;
+  Random random(1);
+  const auto places = [&](std::uint32_t count, auto&& place) {
+    std::vector<std::uint32_t> all(count);
+    for (std::uint32_t i = 0; i < count; ++i) all[i] = place(i);
+    return all;
+  };
+  const auto shuffled = [&](std::uint32_t count) {
+    std::vector<std::uint32_t> all = places(count, [](std::uint32_t i) { return i; });
+    for (std::uint32_t i = count; i > 1; --i) std::swap(all[i - 1], all[random.below(i)]);
+    return all;
+  };
+  const std::pair<const char*, std::vector<std::uint32_t>> cases[] = {
+      {"shuffled, few", shuffled(kFew)},
+      {"shuffled, many", shuffled(kMany)},
+      {"steps", places(kMany, [](std::uint32_t i) { return i % 10 * (1 << 16) + i / 10; })},
+      {"near the window's size", places(kMany, [](std::uint32_t i) { return i % 2 * 21'800 + i / 2; })},
+      {"two sequences", places(kMany, [](std::uint32_t i) { return i % 2 * 100'000 + i / 2; })}};
+  for (const auto& [name, of_case] : cases) {
+    const auto count = static_cast<std::uint32_t>(of_case.size());
+    Scene in_order = scene_of(places(count, [](std::uint32_t i) { return i; })), given = scene_of(of_case);
+    for (Scene* scene : {&in_order, &given})
+      scene->instances.push_back({.scale = {-1, 1, 1}, .angle = 1, .translation = {0, 0, -9}});
+    for (const SimdTarget target : supported_targets())
+      for (const int threads : {1, 2, 5}) {
+        const FrontendOptions options{
+            .width = 640, .height = 480, .payload = Payload::id, .threads = threads, .target = target};
+        const auto expected = testing::run(in_order, options), found = testing::run(given, options);
+        EXPECT_GT(found.stats.emitted, count / 8);
+        EXPECT_GT(found.stats.clipped, count / 100);
+        testing::expect_same_triangles(expected.triangles, found.triangles, name);
+      }
+  }
+}
+
+// Each triangle becomes two or more, so that a worker's buffer is full before its range ends.
+TEST(FrontendOrder, HoldsWhenBuffersAreFull) {
+  constexpr std::size_t kCount = 400'000;
+  Scene scene;
+  scene.instances.resize(1);
+  Mesh& mesh = scene.meshes.emplace_back();
+  mesh.positions = {{-1e6f, -1, -5}, {1e6f, -1, -6}, {10, 1e6f, 5}};
+  mesh.triangles.assign(kCount, {0, 1, 2});
+  mesh.colours.assign(kCount, 7);
+  for (const int threads : {1, 2}) {
+    Frontend frontend;
+    const auto found = frontend.run(scene, {.cull = Cull::none, .payload = Payload::id, .threads = threads});
+    const std::size_t pieces = found.size() / kCount;
+    EXPECT_GT(pieces, 1u);
+    ASSERT_EQ(found.size(), pieces * kCount);
+    for (std::size_t i = 0; i < found.size(); ++i) ASSERT_EQ(found[i].payload, i / pieces);
+  }
+}
+
+// Workers that finish later ranges first have to wait with all their buffers full.
+TEST(FrontendOrder, IsThatOfTheRangesWhateverTheirDuration) {
+  constexpr std::size_t kRanges = 60;
+  for (const int workers : {1, 2, 8}) {
+    InOrder order;
+    order.start_frame(workers, 100, false);
+    std::vector<std::uint32_t> placed;
+    placed.resize(kRanges * 100);
+    order.for_each_range(
+        kRanges, workers,
+        [&](int, std::size_t range, ChunkOutput& out, auto&& flush) {
+          if (range % 20 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+          for (std::uint32_t i = 0; i < 100; ++i) {
+            if (range % 7 == 3 && i == 50) flush();
+            out.triangles.data()[out.count++].payload = static_cast<std::uint32_t>(range) * 100 + i;
+          }
+        },
+        [&](const ChunkOutput& out, std::size_t at) {
+          for (std::size_t i = 0; i < out.count; ++i) placed[at + i] = out.triangles.data()[i].payload;
+        });
+    ASSERT_EQ(order.total(), placed.size());
+    for (std::uint32_t i = 0; i < placed.size(); ++i) ASSERT_EQ(placed[i], i) << workers << " workers";
+  }
+}
+
+}  // namespace
+}  // namespace edgewise
