@@ -93,7 +93,7 @@ SceneMaker::Sight SceneMaker::find_sight(Worker& w) {
   const std::atomic_ref sight(sights_[w.instance]);
   if (const auto known = sight.load(std::memory_order_relaxed); known != unknown)
     return static_cast<Sight>(known);
-  constexpr std::size_t kGranules = 8;  // at once
+  constexpr std::size_t kGranules = 4;  // at once
   const std::size_t vertices = w.task->mesh.positions.size(),
                     granules = (vertices + VertexWindow::kGranule - 1) / VertexWindow::kGranule;
   std::uint32_t common = kInvisible | kNotFinite;

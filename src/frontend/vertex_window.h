@@ -12,10 +12,9 @@
 
 namespace edgewise {
 
-// Holds the transformed vertices that triangles named last. Vertices are transformed when a triangle first
-// names them, together with their neighbours, a granule of 64. A granule stays until another one takes its
-// place. Each worker has a window of its own: a vertex that two workers need is transformed twice, which
-// costs less than fetching it from another core's cache.
+// Holds the transformed vertices of the last triangles: all between those that they name, in granules of 256.
+// A granule stays until another one takes its place. Each worker has a window of its own: a vertex that two
+// workers need is transformed twice, which costs less than fetching it from another core's cache.
 class VertexWindow {
  public:
   // Room for the vertices of meshes of up to `most_vertices`. Larger meshes may need scattered().
@@ -35,16 +34,8 @@ class VertexWindow {
                   TransformKernel transform) {
     const std::size_t first = range.first / kGranule, last = (range.end - 1) / kGranule + 1;
     if (last - first > kSlots) return scattered(task, begin, end, transform);
-    const glm::uvec3* triangles = task.mesh.triangles.data();
-    if (range.end - range.first <= 8 * (end - begin))
-      fill(task, first, last, transform);
-    else
-      std::for_each(triangles + begin, triangles + end, [&](glm::uvec3 t) {
-        for (int k = 0; k < 3; ++k)
-          if (const std::size_t granule = t[k] / kGranule; !holds(granule))
-            fill(task, granule, granule + 1, transform);
-      });
-    return {vertices_.data(), triangles + begin, kVertices - 1};
+    fill(task, first, last, transform);
+    return {vertices_.data(), task.mesh.triangles.data() + begin, kVertices - 1};
   }
   // Transforms granules first … last - 1 that the window lacks. Returns the sides that all finite vertices of
   // these lie beyond.
@@ -63,7 +54,7 @@ class VertexWindow {
     return common;
   }
 
-  static constexpr std::size_t kGranule = 64;        // vertices
+  static constexpr std::size_t kGranule = 256;       // vertices
   static constexpr std::size_t kVertices = 1 << 16;  // of the window
 
  private:

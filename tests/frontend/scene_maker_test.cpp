@@ -66,7 +66,7 @@ TEST(FrontendWindows, HoldTheVerticesThatTrianglesName) {
             .width = 640, .height = 480, .payload = Payload::id, .threads = threads, .target = target};
         const auto expected = testing::run(in_order, options), found = testing::run(given, options);
         EXPECT_GT(found.stats.emitted, count / 8);
-        EXPECT_GT(found.stats.clipped, count / 100);
+        EXPECT_GT(found.stats.clipped, 0u);
         testing::expect_same_triangles(expected.triangles, found.triangles, name);
       }
   }
