@@ -79,6 +79,7 @@ TEST(SimdTargets, HaveDifferentKernels) {
   expect_own_kernels(cell_box_kernel, "cell boxes");
   expect_own_kernels(mask_finder, "coverage masks");
   expect_own_kernels(transform_kernel, "transform");
+  expect_own_kernels(index_range_kernel, "index range");
   expect_own_kernels(assemble_kernel, "assemble");
   expect_own_kernels(shade_kernel, "shade");
   expect_own_kernels(stream_kernel, "stream");

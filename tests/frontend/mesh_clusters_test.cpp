@@ -62,11 +62,6 @@ Scene two_grids() {
   return scene;
 }
 
-void shuffle(std::vector<glm::uvec3>& triangles) {
-  Random random(1);
-  for (std::size_t i = triangles.size(); i > 1; --i) std::swap(triangles[i - 1], triangles[random.below(i)]);
-}
-
 TEST(MeshClusters, HoldTheirTrianglesVertices) {
   Mesh mesh = grid().meshes[0];
   ASSERT_EQ(mesh.clusters.size(), (mesh.triangles.size() + kClusterTriangles - 1) / kClusterTriangles);
@@ -176,7 +171,7 @@ TEST(MeshClusters, ExcludeNoVertexThatFloatsFindInView) {
       return outside_of(as_clip_vertex(transform(to_screen, v)), volume) & kInvisible;
     };
     const auto vertex = [&] { return glm::vec3{away + real(-200, 200), real(-200, 200), real(-200, 200)}; };
-    const auto excludes = [&](glm::vec3 v) { return view.exclude({v, v, 0, 1}); };
+    const auto excludes = [&](glm::vec3 v) { return view.exclude({v, v}); };
     glm::vec3 in = vertex(), out = vertex();
     if (outside(in) != 0 || outside(out) == 0) continue;
     const glm::vec3 outwards = out - in;
@@ -202,7 +197,7 @@ TEST(MeshClusters, ExcludeNoBoxThatOverflowsOrIsNotFinite) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   const ScreenTransform to_screen({}, {}, 320, 200);  // looks along -z
   const auto excludes = [](const ScreenTransform& m, glm::vec3 low, glm::vec3 high) {
-    return ViewSides(m, view_volume({}, 320, 200)).exclude({low, high, 0, 1});
+    return ViewSides(m, view_volume({}, 320, 200)).exclude({low, high});
   };
   EXPECT_TRUE(excludes(to_screen, {-1, -1, 5}, {1, 1, 9}));
   EXPECT_FALSE(excludes(to_screen, {-1, -1, -5}, {1, 1, 9})) << "reaches into the view";

@@ -74,7 +74,7 @@ TEST(FrontendWindows, HoldTheVerticesThatTrianglesName) {
 
 // Each triangle becomes two or more, so that a worker's buffer is full before its range ends.
 TEST(FrontendOrder, HoldsWhenBuffersAreFull) {
-  constexpr std::size_t kCount = 400'000;
+  constexpr std::size_t kCount = 130'000;
   Scene scene;
   scene.instances.resize(1);
   Mesh& mesh = scene.meshes.emplace_back();

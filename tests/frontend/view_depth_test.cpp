@@ -99,9 +99,9 @@ TEST(ViewDepth, IsTheSameInEveryKernel) {
     Mesh mesh;
     for (const float distance : w) mesh.positions.emplace_back(distance, 0.0f, 0.0f);
     std::vector<Vertex> vertices(w.size());
-    const MeshTask task{options, mesh, {1, 1, p.near_z, p.far_z}, w_is_x, depth, vertices.data()};
+    const MeshTask task{options, mesh, {1, 1, p.near_z, p.far_z}, w_is_x, depth};
     for (const SimdTarget target : supported_targets()) {
-      transform_kernel(target)(task, 0, w.size());
+      transform_kernel(target)(task, mesh.positions.data(), w.size(), vertices.data());
       for (std::size_t i = 0; i < w.size(); ++i) {
         if (vertices[i].outside != 0) continue;  // 1 / w overflows
         ASSERT_EQ(vertices[i].z, depth.units(double{w[i]})) << name_of(target) << ", w = " << w[i];
