@@ -3,7 +3,7 @@ import noise
 from bench_rows import describe_machine, gained, gained_interval, order, read_bench
 from factors import duels
 from program import read_json
-from tables import VECTORS, about, gain, milliseconds, number, percent, short, speed_up, with_width
+from tables import VECTORS, about, enumerated, gain, milliseconds, number, percent, short, speed_up, with_width
 
 NOT_TIMED = "These results hold none of the rows for this."
 THREADS = (1, 2)
@@ -213,6 +213,14 @@ def cost_model_table(bench):
                 parts = (bench.costs[row.name][part] for part in ("read_ms", "blocks_ms", "write_ms"))
                 lines.append([f"`{scene}`, {backend}", milliseconds(row), *map(number, (*parts, *estimates))])
     return ["1 thread, ms", "measured", "1. read", "2. blocks", "3. write", "estimate", "all covered blocks", "tile by tile"], lines
+
+
+def write_speed_sentence(bench):
+    """The share of the speed of writing a frame that whole frames of ours reach on a mostly empty picture."""
+    scene = "cube"
+    shares = [f"{percent(cost['write_ms'] / frame.median_ms)} ({n} thread{'s' * (n > 1)})" for n in THREADS
+              if (cost := bench.costs.get(f"{OURS}/{scene}/threads:{n}")) and (frame := bench.frame(OURS, scene, n))]
+    return f"On `{scene}`, whole frames of `{OURS}` reach {enumerated(shares)} of the write speed of part 3." if shares else NOT_TIMED
 
 
 # The SIMD engine of `tiled` with other numbers in its edge functions: what exactness costs, all else equal.

@@ -1,38 +1,36 @@
 #include "core/llc.h"
 
-#if defined(__x86_64__) || defined(__i386__)
-#include <cpuid.h>
-#endif
+#include <algorithm>
+#include <cstdio>
 
 namespace edgewise {
 
-namespace {
-
-// sysconf() is no alternative: glibc 2.36 adds up all last-level caches of an AMD socket.
-std::size_t detect_llc_bytes() {
-  constexpr std::size_t kFallback = std::size_t{8} << 20;
-#if defined(__x86_64__) || defined(__i386__)
-  // Intel reports cache parameters at the first leaf, AMD in the same form at the second (CPUID in Intel SDM
-  // volume 2 and AMD APM volume 3). The last entry is the last level.
-  constexpr unsigned kLeaves[] = {4, 0x8000001D};
-  for (const unsigned leaf : kLeaves) {
-    std::size_t last = 0;
-    unsigned a, b, c, d;
-    for (unsigned i = 0; __get_cpuid_count(leaf, i, &a, &b, &c, &d) && (a & 31) != 0; ++i) {
-      const std::size_t ways = (b >> 22) + 1, partitions = ((b >> 12) & 1023) + 1, line = (b & 4095) + 1;
-      last = ways * partitions * line * (std::size_t{c} + 1);
-    }
-    if (last != 0) return last;
+// sysconf() is no alternative: glibc 2.36 adds up all last-level caches of an AMD socket. CPUID neither: some
+// virtual machines hide its cache leaves while Linux knows the sizes.
+std::size_t largest_cache_bytes(const char* folder) {
+  constexpr int kMostCaches = 10;
+  std::size_t largest = 0;
+  for (int i = 0; i < kMostCaches; ++i) {
+    char path[256];
+    std::snprintf(path, sizeof(path), "%s/index%d/size", folder, i);
+    std::FILE* const file = std::fopen(path, "re");
+    if (file == nullptr) continue;  // where Linux does not know this cache's size
+    unsigned kib = 0;
+    char unit = 0;
+    if (std::fscanf(file, "%9u%c", &kib, &unit) == 2 && unit == 'K')
+      largest = std::max(largest, std::size_t{kib} << 10);
+    std::fclose(file);
   }
-#endif
-  return kFallback;
+  return largest;
 }
 
-}  // namespace
-
 std::size_t llc_bytes() {
-  static const std::size_t bytes = detect_llc_bytes();
-  return bytes;
+  constexpr std::size_t kUnknown = std::size_t{8} << 20;
+#if defined(__linux__)
+  static const std::size_t bytes = largest_cache_bytes("/sys/devices/system/cpu/cpu0/cache");
+  if (bytes != 0) return bytes;
+#endif
+  return kUnknown;
 }
 
 }  // namespace edgewise

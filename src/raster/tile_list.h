@@ -30,20 +30,20 @@ class TileList {
 
   void build(const Bins& bins, const CellGrid& grid, int threads) {
     const int columns = grid.columns(), rows = grid.rows(), side = 1 << grid.cell_h_log2;
-    const int strips = std::clamp(4 * threads / rows, 1, side / kLeastRows);
+    const int most_strips = std::clamp(4 * threads / rows, 1, side / kLeastRows);
     tasks_.clear(), empty_.clear(), row_begin_.clear();
     // For any frame of this size, so that later ones allocate nothing.
-    tasks_.reserve(static_cast<std::size_t>((columns + strips) * rows));
+    tasks_.reserve(static_cast<std::size_t>((columns + most_strips) * rows));
     empty_.reserve(static_cast<std::size_t>((columns + 1) / 2 * rows));
     row_begin_.reserve(static_cast<std::size_t>(rows) + 1);
     for (int row = 0, cell = 0; row < rows; ++row) {
-      const int y0 = row * side, y1 = std::min(y0 + side, grid.height);
+      const int y0 = row * side, height = std::min(side, grid.height - y0);
       row_begin_.push_back(empty_.size());
       bool after_empty = false;
       for (int column = 0; column < columns; ++column, ++cell) {
         const bool is_empty = bins.empty(cell);
         if (!is_empty)
-          tasks_.push_back({cell, row, y0, y1});
+          tasks_.push_back({cell, row, y0, y0 + height});
         else if (after_empty)
           ++empty_.back().end;
         else
@@ -51,8 +51,9 @@ class TileList {
         after_empty = is_empty;
       }
       if (empty_.size() == row_begin_.back()) continue;
-      for (int y = y0; y < y1; y += side / strips)
-        tasks_.push_back({kEmptyTiles, row, y, std::min(y + side / strips, y1)});
+      const int strips = std::clamp(height / kLeastRows, 1, most_strips);
+      for (int i = 0; i < strips; ++i)
+        tasks_.push_back({kEmptyTiles, row, y0 + height * i / strips, y0 + height * (i + 1) / strips});
     }
     row_begin_.push_back(empty_.size());
   }
@@ -64,7 +65,7 @@ class TileList {
   }
 
  private:
-  static constexpr int kLeastRows = 8;  // px, of a task that fills empty tiles; a row's last may have fewer
+  static constexpr int kLeastRows = 8;  // px, of a task that fills a part of a row's empty tiles
   std::vector<Task> tasks_;
   std::vector<TileSpan> empty_;
   std::vector<std::size_t> row_begin_;  // index in empty_ of each row's first span; then empty_.size()

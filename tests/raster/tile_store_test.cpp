@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <numeric>
 #include <span>
 #include <string>
 #include <vector>
@@ -82,6 +83,38 @@ TEST(TileTasks, FillTheEmptyTilesOfARowTogether) {
   EXPECT_EQ(tasks(side), tiles_with_triangles + 16u) << "and one for the empty tiles of each row";
   EXPECT_EQ(drawn, tiles_with_triangles);
   EXPECT_EQ(tasks(64), tiles_with_triangles + 8u) << "a single row's empty tiles, by 8 px of height";
+}
+
+// About 4 strips per thread in all; a row has as many as its height and this allow, at least 8 px each.
+TEST(TileTasks, FillEmptyTilesInEvenStrips) {
+  Bins bins;
+  TileList list;
+  for (const int size_log2 : {4, 5, 6})
+    for (int height = 1; height <= 3 << size_log2; ++height)
+      for (int threads = 1; threads <= 24; ++threads) {
+        const CellGrid grid{100, height, size_log2, size_log2};
+        bins.build(std::span<const ScreenTriangle>(), grid, 1, resolve(SimdTarget::best),
+                   Bins::Small::as_indices);
+        list.build(bins, grid, threads);
+        const std::string where = std::to_string(1 << size_log2) + " px, height " + std::to_string(height) +
+                                  ", threads " + std::to_string(threads);
+        int y = 0;
+        std::vector<std::vector<int>> heights(static_cast<std::size_t>(grid.rows()));
+        for (const TileList::Task& task : list.tasks()) {
+          ASSERT_EQ(task.cell, TileList::kEmptyTiles);
+          ASSERT_EQ(task.y0, y) << where;
+          ASSERT_EQ(task.row, y >> size_log2) << where;
+          y = task.y1;
+          heights[static_cast<std::size_t>(task.row)].push_back(task.y1 - task.y0);
+        }
+        ASSERT_EQ(y, height) << where;
+        for (const std::vector<int>& strips : heights) {
+          const auto [least, most] = std::ranges::minmax(strips);
+          const int row_px = std::accumulate(strips.begin(), strips.end(), 0);
+          ASSERT_LE(most - least, 1) << where;
+          ASSERT_EQ(strips.size(), std::max(1, std::min(4 * threads / grid.rows(), row_px / 8))) << where;
+        }
+      }
 }
 
 TEST(TileTasks, AreTakenOneByOneIfTheyAreFew) {
