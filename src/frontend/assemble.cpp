@@ -75,7 +75,7 @@ IndexRange index_range(const Mesh& mesh, std::size_t begin, std::size_t end) {
   std::uint32_t first = *std::min_element(leasts, leasts + kLanes),
                 last = *std::max_element(mosts, mosts + kLanes);
   for (; i < count; ++i) first = std::min(first, index[i]), last = std::max(last, index[i]);
-  return {first, std::size_t{last} + 1};
+  return {first, last};
 }
 
 void assemble(const MeshTask& task, std::size_t begin, std::size_t end, const Corners& corners,

@@ -1,9 +1,8 @@
 // Runs the steps of the front end:
-// - meshes: scene_maker.cpp, which transforms vertices (transform.cpp), assembles triangles (assemble.cpp)
-// and
-//   shades them (shade.cpp)
+// - meshes: scene_maker.cpp. It transforms vertices (transform.cpp), assembles triangles (assemble.cpp) and
+//   shades them (shade.cpp).
 // - streams: stream.cpp
-// - special cases of both: one_by_one.cpp and clip.cpp
+// - special cases of both: one_by_one.cpp, clip.cpp
 // - output in the order of submission: in_order.h
 #include "edgewise/frontend.h"
 
@@ -110,10 +109,18 @@ struct Frontend::State {
     if (options.keep_unsnapped) std::copy_n(out.unsnapped.data(), out.count, unsnapped.data() + at);
   }
 
-  // Calls make(worker, begin, end, output, flush) for ranges of `count` inputs, of up to `length`.
+  // As many as have work.
+  int workers_for(std::size_t count, std::size_t length) const {
+    const auto threads = count < kWorthThreads ? 1 : static_cast<std::size_t>(options.threads);
+    return static_cast<int>(std::clamp((count + length - 1) / length, std::size_t{1}, threads));
+  }
+
+  // Calls make(worker, begin, end, output, flush) for ranges of `length` inputs; if there is one worker, for
+  // all `count` at once.
   template <typename Make>
-  void for_each_range(std::size_t count, std::size_t length, int workers, Make&& make) {
-    order.start_frame(workers, length, options.keep_unsnapped);
+  void for_each_range(std::size_t count, std::size_t length, Make&& make) {
+    const int workers = workers_for(count, length);
+    order.start_frame(workers, workers > 1 ? length : 0, options.keep_unsnapped);
     if (workers > 1)
       return order.for_each_range((count + length - 1) / length, workers,
                                   [&](int worker, std::size_t range, ChunkOutput& out, auto&& flush) {
@@ -121,12 +128,10 @@ struct Frontend::State {
                                          flush);
                                   },
                                   [&](const ChunkOutput& out, std::size_t at) { place(out, at); });
-    // Writes where the frame's output belongs.
+    // Writes where the frame's output belongs. If that is full, run() repeats the frame with more room.
     ChunkOutput& out = order.output(0);
     const auto swap = [&] { std::swap(out.triangles, screen), std::swap(out.unsnapped, unsnapped); };
-    const auto flush = [&] {
-      order.add(out.count), out.count = 0;
-    };  // run() repeats the frame with more room
+    const auto flush = [&] { order.add(out.count), out.count = 0; };
     swap();
     out.count = 0;
     make(0, std::size_t{0}, count, out, flush);
@@ -134,16 +139,22 @@ struct Frontend::State {
     swap();
   }
 
-  void run_scene(const Scene& scene, std::size_t count) {
-    const int workers = workers_for(count, options.threads);
-    maker.start_frame(scene, options, options.keep_states ? states.data() : nullptr, workers);
-    // Long ranges share few vertices. Short ones keep all workers busy until the end.
-    constexpr std::size_t kLeast = 4096, kMost = 32768;
+  // Long ranges share few vertices. Short ones keep all workers busy until the end.
+  std::size_t range_length(std::size_t count) const {
+    constexpr std::size_t kLeast = kChunkTriangles, kMost = 32768;
     static_assert(InOrder::kBuffers * (kMost + ChunkOutput::kChunkRoom) * sizeof(ScreenTriangle) +
-                      VertexWindow::kVertices * sizeof(Vertex) <
-                  7'500'000);  // per thread: frontend.h promises 8 MB
-    const std::size_t length = std::clamp(count / (8 * static_cast<std::size_t>(workers)), kLeast, kMost);
-    for_each_range(count, length, workers,
+                      VertexWindow::kBytes <
+                  8'000'000);  // as frontend.h promises for a thread
+    static_assert(InOrder::kBuffers * (kMost + ChunkOutput::kChunkRoom) * sizeof(UnsnappedTriangle) <
+                  6'000'000);
+    return std::clamp(count / (8 * static_cast<std::size_t>(options.threads)), kLeast, kMost);
+  }
+
+  void run_scene(const Scene& scene, std::size_t count) {
+    const std::size_t length = range_length(count);
+    maker.start_frame(scene, options, options.keep_states ? states.data() : nullptr,
+                      workers_for(count, length));
+    for_each_range(count, length,
                    [&](int worker, std::size_t begin, std::size_t end, ChunkOutput& out, auto&& flush) {
                      maker.make(worker, begin, end, out, flush);
                    });
@@ -155,7 +166,7 @@ struct Frontend::State {
     const StreamTask task{options, stream, options.keep_states ? states.data() : nullptr};
     const std::size_t count = stream.triangles.size();
     stats.triangles = count;
-    for_each_range(count, kChunkTriangles, workers_for(count, options.threads),
+    for_each_range(count, kChunkTriangles,
                    [&](int, std::size_t begin, std::size_t end, ChunkOutput& out, auto&& flush) {
                      for (; begin < end; begin += kChunkTriangles) {
                        if (!out.has_room()) flush();

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <hwy/cache_control.h>
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <mutex>
 #include <span>
 #include <vector>
 
@@ -49,7 +49,7 @@ class InOrder {
         for (;;) {
           const std::uint32_t turn = turn_.load(std::memory_order_acquire);
           for (Slot& slot : mine) {
-            const std::size_t at = slot.position.load(std::memory_order_relaxed);
+            const std::size_t at = slot.position.load(std::memory_order_acquire);
             if (at >= kPending) continue;
             place(slot.out, at);
             slot.position.store(kFree, std::memory_order_relaxed);
@@ -107,16 +107,20 @@ class InOrder {
 
   // Gives positions to this range and the finished ones after it, if all before it have theirs.
   void finish(std::size_t range, Slot& slot) {
-    const std::lock_guard lock(mutex_);
+    while (locked_.test_and_set(std::memory_order_acquire)) hwy::Pause();
     finished_[range] = &slot;
-    std::uint32_t turn = turn_;
-    if (turn != range) return;
-    for (; turn < finished_.size() && finished_[turn] != nullptr; ++turn) {
-      finished_[turn]->position.store(total_, std::memory_order_relaxed);
-      total_ += finished_[turn]->out.count;
+    const bool its_turn = turn_ == range;
+    if (its_turn) {
+      std::uint32_t turn = turn_;
+      for (; turn < finished_.size() && finished_[turn] != nullptr; ++turn) {
+        const std::size_t at = total_;
+        total_ += finished_[turn]->out.count;  // first, since the worker may then reuse the output
+        finished_[turn]->position.store(at, std::memory_order_release);
+      }
+      turn_.store(turn, std::memory_order_release);
     }
-    turn_.store(turn, std::memory_order_release);
-    turn_.notify_all();
+    locked_.clear(std::memory_order_release);
+    if (its_turn) turn_.notify_all();
   }
 
   // Spins for about 20 us before it sleeps: waking a thread takes more.
@@ -131,7 +135,7 @@ class InOrder {
 
   std::size_t total_ = 0;
   std::vector<Slot> slots_;             // kBuffers per worker
-  std::mutex mutex_;                    // of finish()
+  std::atomic_flag locked_;             // by finish(), which takes less time than a mutex
   std::atomic<std::uint32_t> turn_{0};  // the ranges before this one have positions
   std::vector<Slot*> finished_;         // by range; null: unfinished
 };

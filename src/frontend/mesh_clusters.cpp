@@ -1,14 +1,22 @@
 #include "frontend/mesh_clusters.h"
 
+#include <algorithm>
 #include <limits>
-#include <stdexcept>
-#include <string>
 
 #include "core/finite.h"
 
 namespace edgewise {
 
 namespace {
+
+// The first triangle of a cluster, and the number of its triangles.
+struct ClusterTriangles {
+  std::size_t first, count;
+};
+ClusterTriangles triangles_of(const Mesh& mesh, std::size_t cluster) {
+  const std::size_t first = cluster * kClusterTriangles;
+  return {first, std::min(kClusterTriangles, mesh.triangles.size() - first)};
+}
 
 // Requires that all vertices exist.
 MeshCluster make_cluster(const Mesh& mesh, ClusterTriangles triangles) {

@@ -2,7 +2,6 @@
 // view.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -16,15 +15,6 @@ namespace edgewise {
 
 inline std::size_t cluster_count(const Mesh& mesh) {
   return (mesh.triangles.size() + kClusterTriangles - 1) / kClusterTriangles;
-}
-
-// The first triangle of a cluster, and the number of its triangles.
-struct ClusterTriangles {
-  std::size_t first, count;
-};
-inline ClusterTriangles triangles_of(const Mesh& mesh, std::size_t cluster) {
-  const std::size_t first = cluster * kClusterTriangles;
-  return {first, std::min(kClusterTriangles, mesh.triangles.size() - first)};
 }
 
 // The clusters of a mesh of any size, all of whose vertices must exist.

@@ -49,6 +49,7 @@ void SceneMaker::start_frame(const Scene& scene, const FrontendOptions& options,
   pixels_ = pixels_of(scene.camera, options.width, options.height);
   to_light_ = glm::normalize(glm::dvec3(scene.to_light));
   vertex_missing_ = false;
+  first_ids_.reserve(scene.instances.size() + 1);
   first_ids_.assign(1, 0);
   std::size_t most_vertices = 0;
   for (const Instance& instance : scene.instances) {
@@ -120,7 +121,8 @@ std::size_t SceneMaker::make_some(Worker& w, std::size_t begin, std::size_t end,
     const auto end_of = [](std::size_t cluster) { return (cluster + 1) * kClusterTriangles; };
     std::size_t cluster = begin / kClusterTriangles;
     if (w.sides->exclude(clusters[cluster])) return drop(std::min(end, end_of(cluster)));
-    std::atomic_ref(sights_[w.instance]).store(in_sight, std::memory_order_relaxed);
+    const std::atomic_ref sight(sights_[w.instance]);
+    if (sight.load(std::memory_order_relaxed) == unknown) sight.store(in_sight, std::memory_order_relaxed);
     end = std::min(end, begin + kChunkTriangles);
     while (end_of(cluster) < end && !w.sides->exclude(clusters[cluster + 1])) ++cluster;
     end = std::min(end, end_of(cluster));
@@ -133,7 +135,7 @@ void SceneMaker::make_visible(Worker& w, std::size_t begin, std::size_t end, Chu
   const MeshTask& task = *w.task;
   const Mesh& mesh = task.mesh;
   const IndexRange range = index_range_(mesh, begin, end);
-  if (range.end > mesh.positions.size()) {
+  if (range.last >= mesh.positions.size()) {
     vertex_missing_.store(true, std::memory_order_relaxed);
     return;
   }

@@ -1,7 +1,8 @@
-// Makes the screen triangles of a scene on several threads, none of which waits for another: each transforms
-// the vertices that its own triangles name.
+// Makes the screen triangles of a scene on several threads, each of which transforms the vertices that its
+// own triangles name.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -43,8 +44,8 @@ class SceneMaker {
 
  private:
   enum Sight : std::uint8_t {
-    unknown,   // with clusters: out of sight so far
-    in_sight,  // has a vertex that is not beyond the same side as all others, or a cluster in view
+    unknown,   // with clusters: all so far are out of view
+    in_sight,  // not all vertices lie beyond one side, or none is finite, or a cluster is in view
     out_of_sight
   };
 
@@ -59,8 +60,7 @@ class SceneMaker {
   const Mesh& mesh_of(std::size_t instance) const { return scene_->meshes[scene_->instances[instance].mesh]; }
   std::size_t instance_of(std::size_t triangle) const;
   void start_instance(Worker& w, std::size_t instance);
-  // Makes triangles from `begin` on of the worker's mesh, at most kChunkTriangles, and returns where to go
-  // on.
+  // Makes or drops triangles from `begin` on. Returns the first one left.
   std::size_t make_some(Worker& w, std::size_t begin, std::size_t end, ChunkOutput& out);
   void make_visible(Worker& w, std::size_t begin, std::size_t end, ChunkOutput& out);
   // For meshes without clusters. Transforms vertices until it is known.

@@ -36,15 +36,11 @@ struct StreamTask {
   bool one_by_one() const { return options.keep_unsnapped || states != nullptr; }
 };
 
-// Triangles that are made together: their output stays in the L2 cache until it is shaded, or copied.
+// Triangles that are made together: their output stays in the L2 cache until it is shaded, or binned.
 inline constexpr std::size_t kChunkTriangles = 2048;
 
 // Below this many triangles, waking another thread costs more than it saves.
 inline constexpr std::size_t kWorthThreads = 8192;
-
-inline int workers_for(std::size_t count, int threads) {
-  return count < kWorthThreads ? 1 : threads;
-}
 
 // Visible triangles of consecutive submitted ones. Assembly writes ids as the payloads of a mesh's triangles.
 // For Payload::colour, colours then replace the ids. The alignment keeps two workers' outputs out of the same
@@ -57,7 +53,7 @@ struct alignas(128) ChunkOutput {
   // Room for `inputs` triangles, of which few are clipped.
   void reserve(std::size_t inputs, bool with_unsnapped) {
     triangles.reserve(inputs + kChunkRoom);
-    if (with_unsnapped) unsnapped.reserve(inputs + kChunkRoom);
+    if (with_unsnapped) unsnapped.reserve(triangles.capacity());
   }
   // True if the output of any kChunkTriangles triangles fits.
   bool has_room() const { return count + kChunkRoom <= triangles.capacity(); }
@@ -68,12 +64,11 @@ struct alignas(128) ChunkOutput {
   FrontendStats stats;  // the sum over all that its worker made into it in the frame
 };
 
-// Indices first … end - 1.
 struct IndexRange {
-  std::size_t first, end;
+  std::uint32_t first, last;
 };
 
-// The range of the vertices that triangles begin … end - 1 of the mesh name, at least one triangle.
+// The least and the greatest vertex that triangles begin … end - 1 of the mesh name, at least one triangle.
 using IndexRangeKernel = IndexRange (*)(const Mesh& mesh, std::size_t begin, std::size_t end);
 
 // `target` must be resolved.

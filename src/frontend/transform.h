@@ -1,4 +1,4 @@
-// Transforms each vertex once, tests it against the sides of the view, projects and snaps it. See
+// Transforms vertices, tests them against the sides of the view, projects and snaps them. See
 // transform.cpp.
 #pragma once
 

@@ -12,9 +12,10 @@
 
 namespace edgewise {
 
-// Holds the transformed vertices of the last triangles: all between those that they name, in granules of 256.
-// A granule stays until another one takes its place. Each worker has a window of its own: a vertex that two
-// workers need is transformed twice, which costs less than fetching it from another core's cache.
+// Holds transformed vertices: all from the lowest to the highest index that the last triangles name, in
+// granules of 256. A granule stays until another one takes its place. Each worker has a window of its own: a
+// vertex that two workers need is transformed twice, which costs less than fetching it from another core's
+// cache.
 class VertexWindow {
  public:
   // Room for the vertices of meshes of up to `most_vertices`. Larger meshes may need scattered().
@@ -22,6 +23,7 @@ class VertexWindow {
     vertices_.reserve(std::min(kVertices, (most_vertices + kGranule - 1) / kGranule * kGranule));
     if (most_vertices <= kVertices || !in_order_.empty()) return;
     positions_.reserve(3 * kChunkTriangles);
+    in_order_.reserve(kChunkTriangles);
     for (std::uint32_t i = 0; i < kChunkTriangles; ++i) in_order_.push_back(3 * i + glm::uvec3{0, 1, 2});
   }
   // Empties the window for another mesh.
@@ -32,13 +34,12 @@ class VertexWindow {
   // in `range`.
   Corners corners(const MeshTask& task, std::size_t begin, std::size_t end, IndexRange range,
                   TransformKernel transform) {
-    const std::size_t first = range.first / kGranule, last = (range.end - 1) / kGranule + 1;
+    const std::size_t first = range.first / kGranule, last = range.last / kGranule + 1;
     if (last - first > kSlots) return scattered(task, begin, end, transform);
     fill(task, first, last, transform);
     return {vertices_.data(), task.mesh.triangles.data() + begin, kVertices - 1};
   }
-  // Transforms granules first … last - 1 that the window lacks. Returns the sides that all finite vertices of
-  // these lie beyond.
+  // Transforms granules first … last - 1 that the window lacks. Returns what TransformKernel does, of these.
   std::uint32_t fill(const MeshTask& task, std::size_t first, std::size_t last, TransformKernel transform) {
     std::uint32_t common = kInvisible | kNotFinite;
     for (std::size_t begin = first, end; begin < last; begin = end) {
@@ -56,6 +57,8 @@ class VertexWindow {
 
   static constexpr std::size_t kGranule = 256;       // vertices
   static constexpr std::size_t kVertices = 1 << 16;  // of the window
+  static constexpr std::size_t kBytes = kVertices * sizeof(Vertex) + 3 * kChunkTriangles * sizeof(glm::vec3) +
+                                        kChunkTriangles * sizeof(glm::uvec3);
 
  private:
   static constexpr std::size_t kSlots = kVertices / kGranule;

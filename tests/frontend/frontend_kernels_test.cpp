@@ -210,7 +210,7 @@ TEST(FrontendKernels, BuiltInScenesAreTheSameOnEveryTarget) {
   }
 }
 
-// Meshes with sizes around those of vectors, chunks and groups. Some are empty, out of view, without a finite
+// Meshes with sizes around those of vectors, chunks and ranges. Some are empty, out of view, without a finite
 // vertex, or have triangles that must be clipped.
 Scene scene_of_many_meshes() {
   Random random(4);
@@ -364,7 +364,7 @@ TEST(FrontendKernels, StreamsOfAnyLengthKeepTheOrder) {
 
 // Each triangle is clipped into two pieces, which exceed the initial buffer.
 TEST(FrontendKernels, GrowsForPiecesOfClippedTriangles) {
-  constexpr std::size_t kCount = 3 * kChunkTriangles;
+  constexpr std::size_t kCount = 5 * kChunkTriangles;
   Scene scene;
   Mesh& mesh = scene.meshes.emplace_back();
   mesh.positions = {{-1, -1, -5}, {1, -1, -5}, {0, -1, 5}};

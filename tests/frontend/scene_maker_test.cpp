@@ -53,7 +53,7 @@ TEST(FrontendWindows, HoldTheVerticesThatTrianglesName) {
       {"shuffled, few", shuffled(kFew)},
       {"shuffled, many", shuffled(kMany)},
       {"steps", places(kMany, [](std::uint32_t i) { return i % 10 * (1 << 16) + i / 10; })},
-      {"near the window's size", places(kMany, [](std::uint32_t i) { return i % 2 * 21'800 + i / 2; })},
+      {"near the window's size", places(40'000, [](std::uint32_t i) { return i % 2 * 20'800 + i / 2; })},
       {"two sequences", places(kMany, [](std::uint32_t i) { return i % 2 * 100'000 + i / 2; })}};
   for (const auto& [name, of_case] : cases) {
     const auto count = static_cast<std::uint32_t>(of_case.size());
@@ -72,23 +72,29 @@ TEST(FrontendWindows, HoldTheVerticesThatTrianglesName) {
   }
 }
 
-// Each triangle becomes two or more, so that a worker's buffer is full before its range ends.
+// Each triangle becomes five, so that a worker's buffer is full before its range ends; also if an earlier
+// frame had longer ranges.
 TEST(FrontendOrder, HoldsWhenBuffersAreFull) {
-  constexpr std::size_t kCount = 130'000;
-  Scene scene;
-  scene.instances.resize(1);
-  Mesh& mesh = scene.meshes.emplace_back();
-  mesh.positions = {{-1e6f, -1, -5}, {1e6f, -1, -6}, {10, 1e6f, 5}};
-  mesh.triangles.assign(kCount, {0, 1, 2});
-  mesh.colours.assign(kCount, 7);
-  for (const int threads : {1, 2}) {
-    Frontend frontend;
-    const auto found = frontend.run(scene, {.cull = Cull::none, .payload = Payload::id, .threads = threads});
-    const std::size_t pieces = found.size() / kCount;
-    EXPECT_GT(pieces, 1u);
-    ASSERT_EQ(found.size(), pieces * kCount);
-    for (std::size_t i = 0; i < found.size(); ++i) ASSERT_EQ(found[i].payload, i / pieces);
-  }
+  constexpr std::size_t kCount = 65'536, kPieces = 5;
+  Scene longer, scene;
+  longer.instances.resize(1), scene.instances.resize(1);
+  longer.meshes.push_back({{{0, 0, 5}}, std::vector<glm::uvec3>(8 * kCount), {}});
+  longer.meshes[0].colours.resize(8 * kCount);
+  scene.meshes.push_back({{{-368, 1374, -5}, {-1006, -1006, -5}, {1374, -368, -5}},
+                          std::vector<glm::uvec3>(kCount, {0, 1, 2}),
+                          std::vector<std::uint32_t>(kCount)});
+  Frontend frontend;
+  for (const int threads : {1, 2})
+    for (const bool keep : {false, true}) {
+      FrontendOptions options{
+          .width = 100, .height = 100, .cull = Cull::none, .payload = Payload::id, .threads = threads};
+      EXPECT_TRUE(frontend.run(longer, options).empty());
+      options.keep_unsnapped = keep;
+      const auto found = frontend.run(scene, options);
+      ASSERT_EQ(found.size(), kPieces * kCount);
+      for (std::size_t i = 0; i < found.size(); ++i) ASSERT_EQ(found[i].payload, i / kPieces);
+      ASSERT_EQ(frontend.unsnapped().size(), keep ? found.size() : 0);
+    }
 }
 
 // Workers that finish later ranges first have to wait with all their buffers full.
