@@ -44,17 +44,20 @@ bool draw_in_bands(TriangleSource& triangles, FrameView frame, const Execution& 
   return true;
 }
 
-// The task of drawing the triangles of a band whose rows are clear.
+// The task of drawing the triangles of a cell in a part of the frame that is clear: a band, or rows of a
+// tile.
 struct BandTask {
   const Bins& bins;
-  int band;
-  RowRange rows;
+  int cell;
+  contract::PixelBox area;  // at least as wide as a vector; its rows lie in one row of depth cells
   FrameView frame;
 };
 using BandKernel = void (*)(const BandTask&);
 
 // `target` must be resolved.
 BandKernel scanline_kernel(SimdTarget target);
+// Draws all triangles by spans: better where they are few.
+BandKernel span_kernel(SimdTarget target);
 
 // A backend whose kernels draw one band.
 class BandBackend : public Backend {
@@ -73,7 +76,7 @@ class BandBackend : public Backend {
       // A span of tiles of one pixel, as wide as any image.
       constexpr TileSpan kWholeWidth{0, contract::kMaxImageSide};
       clear({{&kWholeWidth, 1}, rows.begin, rows.end, 0, frame, background, false});
-      kernel({bins_, band, rows, frame});
+      kernel({bins_, band, {0, rows.begin, frame.width, rows.end}, frame});
     });
   }
   void draw_checked(std::span<const ScreenTriangle> triangles, FrameView frame, std::uint32_t background,

@@ -1,5 +1,6 @@
 // The tasks of drawing a frame in tiles. A row of tiles has a task for each tile with triangles, and then
-// one, or several on many threads, for all its empty tiles. oneTBB gets up to four of these tasks at once.
+// one, or several on many threads, for all its empty and light tiles, which are cleared together; light tiles
+// are then drawn in the frame itself. oneTBB gets up to four of these tasks at once.
 #pragma once
 
 #include <algorithm>
@@ -22,53 +23,69 @@ struct TileSpan {
 class TileList {
  public:
   struct Task {
-    int cell;    // in the bins; kEmptyTiles: clear the pixel rows y0 … y1 - 1 of a row's empty tiles
+    int cell;    // in the bins; kClearTiles: the pixel rows y0 … y1 - 1 of a row's empty and light tiles
     int row;     // of tiles
     int y0, y1;  // px
   };
-  static constexpr int kEmptyTiles = -1;
+  static constexpr int kClearTiles = -1;
 
-  void build(const Bins& bins, const CellGrid& grid, int threads) {
+  // is_light(cell): whether a tile with triangles is light.
+  template <typename IsLight>
+  void build(const Bins& bins, const CellGrid& grid, int threads, IsLight&& is_light) {
     const int columns = grid.columns(), rows = grid.rows(), side = 1 << grid.cell_h_log2;
     const int most_strips = std::clamp(4 * threads / rows, 1, side / kLeastRows);
-    tasks_.clear(), empty_.clear(), row_begin_.clear();
+    tasks_.clear(), clear_.clear(), row_begin_.clear(), light_.clear(), light_begin_.clear();
     // For any frame of this size, so that later ones allocate nothing.
     tasks_.reserve(static_cast<std::size_t>((columns + most_strips) * rows));
-    empty_.reserve(static_cast<std::size_t>((columns + 1) / 2 * rows));
+    clear_.reserve(static_cast<std::size_t>((columns + 1) / 2 * rows));
+    light_.reserve(static_cast<std::size_t>(columns * rows));
     row_begin_.reserve(static_cast<std::size_t>(rows) + 1);
+    light_begin_.reserve(static_cast<std::size_t>(rows) + 1);
     for (int row = 0, cell = 0; row < rows; ++row) {
       const int y0 = row * side, height = std::min(side, grid.height - y0);
-      row_begin_.push_back(empty_.size());
-      bool after_empty = false;
+      row_begin_.push_back(clear_.size());
+      light_begin_.push_back(light_.size());
+      bool after_cleared = false;
       for (int column = 0; column < columns; ++column, ++cell) {
-        const bool is_empty = bins.empty(cell);
-        if (!is_empty)
+        const bool is_empty = bins.empty(cell), is_cleared = is_empty || is_light(cell);
+        if (!is_cleared)
           tasks_.push_back({cell, row, y0, y0 + height});
-        else if (after_empty)
-          ++empty_.back().end;
+        else if (after_cleared)
+          ++clear_.back().end;
         else
-          empty_.push_back({column, column + 1});
-        after_empty = is_empty;
+          clear_.push_back({column, column + 1});
+        if (is_cleared && !is_empty) light_.push_back(cell);
+        after_cleared = is_cleared;
       }
-      if (empty_.size() == row_begin_.back()) continue;
+      if (clear_.size() == row_begin_.back()) continue;
       const int strips = std::clamp(height / kLeastRows, 1, most_strips);
       for (int i = 0; i < strips; ++i)
-        tasks_.push_back({kEmptyTiles, row, y0 + height * i / strips, y0 + height * (i + 1) / strips});
+        tasks_.push_back({kClearTiles, row, y0 + height * i / strips, y0 + height * (i + 1) / strips});
     }
-    row_begin_.push_back(empty_.size());
+    row_begin_.push_back(clear_.size());
+    light_begin_.push_back(light_.size());
   }
 
   std::span<const Task> tasks() const { return tasks_; }
-  std::span<const TileSpan> empty_tiles(int row) const {
-    const auto r = static_cast<std::size_t>(row);
-    return {empty_.data() + row_begin_[r], row_begin_[r + 1] - row_begin_[r]};
-  }
+  // The empty and the light tiles of a row.
+  std::span<const TileSpan> tiles_to_clear(int row) const { return of_row(clear_, row_begin_, row); }
+  // The cells of the light tiles of a row.
+  std::span<const int> light_tiles(int row) const { return of_row(light_, light_begin_, row); }
 
  private:
-  static constexpr int kLeastRows = 8;  // px, of a task that fills a part of a row's empty tiles
+  template <typename T>
+  static std::span<const T> of_row(const std::vector<T>& all, const std::vector<std::size_t>& begin,
+                                   int row) {
+    const auto r = static_cast<std::size_t>(row);
+    return std::span(all).subspan(begin[r], begin[r + 1] - begin[r]);
+  }
+
+  static constexpr int kLeastRows = 8;  // px, of a task that clears a part of a row's empty and light tiles
   std::vector<Task> tasks_;
-  std::vector<TileSpan> empty_;
-  std::vector<std::size_t> row_begin_;  // index in empty_ of each row's first span; then empty_.size()
+  std::vector<TileSpan> clear_;
+  std::vector<int> light_;
+  // Index in clear_ and in light_ of each row's first; then their sizes.
+  std::vector<std::size_t> row_begin_, light_begin_;
 };
 
 // What drawing in tiles keeps between frames.

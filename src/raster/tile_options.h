@@ -21,6 +21,7 @@ enum class TileStore {
 struct TileOptions {
   bool coverage_masks = true;      // binning resolves small triangles to masks
   bool hierarchical_depth = true;  // triangles behind all that a block or tile shows are rejected
+  bool light_tiles = true;         // tiles with few triangles are drawn in the frame, not in a buffer
   TileStore tile_store = TileStore::automatic;
 
   auto operator<=>(const TileOptions&) const = default;

@@ -12,6 +12,7 @@
 #include "core/parallel.h"
 #include "core/triangle_source.h"
 #include "edgewise/backend.h"
+#include "raster/bands.h"
 #include "raster/binning/bins.h"
 #include "raster/tile_list.h"
 #include "raster/tile_options.h"
@@ -43,11 +44,17 @@ constexpr int tasks_at_once(int tasks, int threads) {
   return std::clamp(tasks / (16 * threads), 1, 4);
 }
 
+// A tile is light if no slice lists more triangles for it. Light tiles are cleared together with the empty
+// ones of their row and drawn in the frame, which is faster than storing a buffer in short rows. More
+// triangles overlap more, and drawing over pixels is slower in the frame than in a buffer in L1.
+inline constexpr std::uint32_t kLightTriangles = 2;
+
+// `draw_light` draws light tiles. If it is null, or tiles with few triangles are streamed, no tile is light.
 // Returns false if Bins::build() does; then nothing is drawn.
 template <typename DrawTile>
 bool draw_in_tiles(TriangleSource& triangles, FrameView frame, std::uint32_t background,
                    const Execution& execution, const TileOptions& options, TileScratch& scratch,
-                   DrawTile&& draw_tile) {
+                   DrawTile&& draw_tile, BandKernel draw_light = nullptr) {
   const int size_log2 = std::countr_zero(static_cast<unsigned>(execution.tile_size));
   const CellGrid grid{frame.width, frame.height, size_log2, size_log2};
   Bins& bins = scratch.bins;
@@ -67,13 +74,22 @@ bool draw_in_tiles(TriangleSource& triangles, FrameView frame, std::uint32_t bac
              stream_many = streamed(TileContent::many);
   const ClearKernel clear = clear_kernel(execution.target);
   const int columns = grid.columns();
-  list.build(bins, grid, execution.threads);
+  const bool any_light = draw_light != nullptr && !stream_few;
+  // A tile that the frame's right side cuts may be narrower than a vector.
+  list.build(bins, grid, execution.threads, [&](int cell) {
+    return any_light && bins.few(cell, kLightTriangles) && ((cell % columns + 1) << size_log2) <= frame.width;
+  });
   const std::span<const TileList::Task> tasks = list.tasks();
   const auto do_task = [&](int i) {
     const TileList::Task& task = tasks[static_cast<std::size_t>(i)];
-    if (task.cell == TileList::kEmptyTiles)
-      return clear(
-          {list.empty_tiles(task.row), task.y0, task.y1, size_log2, frame, background, stream_empty});
+    if (task.cell == TileList::kClearTiles) {
+      clear({list.tiles_to_clear(task.row), task.y0, task.y1, size_log2, frame, background, stream_empty});
+      for (const int cell : list.light_tiles(task.row)) {
+        const int x0 = cell % columns << size_log2;
+        draw_light({bins, cell, {x0, task.y0, x0 + (1 << size_log2), task.y1}, frame});
+      }
+      return;
+    }
     const bool streaming = stream_few != stream_many && bins.few(task.cell) ? stream_few : stream_many;
     draw_tile(TileTask{bins.triangles(), &bins, task.cell, task.cell % columns << size_log2, task.y0,
                        size_log2, frame, background, options.hierarchical_depth, streaming});

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/llc.h"
@@ -95,13 +96,13 @@ TEST(TileTasks, FillEmptyTilesInEvenStrips) {
         const CellGrid grid{100, height, size_log2, size_log2};
         bins.build(std::span<const ScreenTriangle>(), grid, 1, resolve(SimdTarget::best),
                    Bins::Small::as_indices);
-        list.build(bins, grid, threads);
+        list.build(bins, grid, threads, [](int) { return false; });
         const std::string where = std::to_string(1 << size_log2) + " px, height " + std::to_string(height) +
                                   ", threads " + std::to_string(threads);
         int y = 0;
         std::vector<std::vector<int>> heights(static_cast<std::size_t>(grid.rows()));
         for (const TileList::Task& task : list.tasks()) {
-          ASSERT_EQ(task.cell, TileList::kEmptyTiles);
+          ASSERT_EQ(task.cell, TileList::kClearTiles);
           ASSERT_EQ(task.y0, y) << where;
           ASSERT_EQ(task.row, y >> size_log2) << where;
           y = task.y1;
@@ -163,6 +164,74 @@ TEST(TileStore, FillsEveryEmptyTile) {
                     scratch, tile_kernel(resolve(SimdTarget::best)));
       testing::expect_same(expected, frame, std::to_string(width) + " px wide");
     }
+}
+
+// `count` triangles over the tile at (column, row), which differ in depth and cut each other.
+void cover_tile(std::vector<ScreenTriangle>& triangles, int column, int row, int count, int size) {
+  const int side = size * contract::kSub, x = column * side, y = row * side;
+  for (int i = 0; i < count; ++i) {
+    const auto id = static_cast<std::uint32_t>(triangles.size());
+    triangles.push_back({{x + 300 + 90 * i, x + side - 40, x + 70},
+                         {y + 200, y + side / 2 + 50 * i, y + side - 99},
+                         {1000 * (id % 5), 1 << 20, 7000 * (id % 3)},
+                         id + 1});
+  }
+}
+int light_tiles(const TileList& list, int rows) {
+  std::size_t count = 0;
+  for (int row = 0; row < rows; ++row) count += list.light_tiles(row).size();
+  return static_cast<int>(count);
+}
+
+// Light tiles beside empty and other ones, under a triangle across all tiles of two rows, in frames whose
+// right and lower sides cut tiles.
+TEST(LightTiles, AreDrawnLikeOthers) {
+  for (const int size : {16, 32, 64})
+    for (const auto& [width, height] : {std::pair{5 * size, 4 * size}, {5 * size - 3, 4 * size - 5}}) {
+      std::vector<ScreenTriangle> triangles;
+      for (int row = 0; row < 4; ++row)
+        for (int column = 0; column < 5; ++column)
+          cover_tile(triangles, column, row, (column + 2 * row) % 4, size);
+      const int right = 5 * size * contract::kSub, side = size * contract::kSub;
+      triangles.push_back({{0, right, 0}, {side, side, 3 * side}, {0, 5000, 1 << 21}, 99});
+      Framebuffer expected(width, height), frame(width, height);
+      backends().front().make()->draw(triangles, expected.view(), 42, {});
+      for (const SimdTarget target : supported_targets())
+        for (const int threads : {1, 2, 8}) {
+          lab::poison(frame);
+          TileScratch scratch;
+          StoredTriangles stored(triangles);
+          draw_in_tiles(stored, frame.view(), 42, {threads, size, target},
+                        {.coverage_masks = false, .tile_store = TileStore::cached}, scratch,
+                        tile_kernel(target), span_kernel(target));
+          testing::expect_same(expected, frame, testing::describe(Execution{threads, size, target}));
+          EXPECT_GT(light_tiles(scratch.list, 4), 3);
+          EXPECT_TRUE(
+              std::ranges::any_of(scratch.list.tasks(), [](const auto& task) { return task.cell >= 0; }));
+        }
+    }
+}
+
+TEST(LightTiles, AreThoseOfFewTrianglesInCachedFrames) {
+  constexpr int kSize = 64;
+  std::vector<ScreenTriangle> triangles;
+  for (int column = 0; column < 5; ++column) cover_tile(triangles, column, 0, column, kSize);
+  Framebuffer frame(5 * kSize, kSize);
+  const auto light = [&](const TileOptions& options, BandKernel kernel, int width) {
+    TileScratch scratch;
+    StoredTriangles stored(triangles);
+    FrameView view = frame.view();
+    view.width = width;
+    const SimdTarget target = resolve(SimdTarget::best);
+    draw_in_tiles(stored, view, 0, {1, kSize, target}, options, scratch, tile_kernel(target), kernel);
+    return light_tiles(scratch.list, 1);
+  };
+  const BandKernel kernel = span_kernel(resolve(SimdTarget::best));
+  EXPECT_EQ(light({.tile_store = TileStore::cached}, kernel, 5 * kSize), 2)
+      << "one and two triangles, not three and four";
+  EXPECT_EQ(light({.tile_store = TileStore::cached}, kernel, 3 * kSize - 1), 1) << "not a tile that is cut";
+  EXPECT_EQ(light({.tile_store = TileStore::streaming}, kernel, 5 * kSize), 0);
+  EXPECT_EQ(light({.tile_store = TileStore::cached}, nullptr, 5 * kSize), 0);
 }
 
 }  // namespace

@@ -66,7 +66,7 @@ inline void draw_edges(const BandTask& task, const ScreenTriangle& triangle, con
     const FrameRow row(task.frame, y);
     std::int64_t value[3] = {edge[0].at(first, y), edge[1].at(first, y), edge[2].at(first, y)};
     for (int x = first; x < box.x1; x += kLanes) {
-      const int at = vector_at(x, task.frame.width), moved = at - x;
+      const int at = vector_at(x, task.area.x1), moved = at - x;
       V outside = hn::Zero(d);
       for (int i = 0; i < 3; ++i) {
         const std::int64_t step = std::int64_t{edge[i].a} * kSub;

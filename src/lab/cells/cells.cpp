@@ -10,8 +10,8 @@
 namespace edgewise::lab {
 
 namespace {
-constexpr TileOptions kTilesOnly{.coverage_masks = false, .hierarchical_depth = false},
-    kHiZ{.coverage_masks = false};
+constexpr TileOptions kTilesOnly{.coverage_masks = false, .hierarchical_depth = false, .light_tiles = false},
+    kHiZ{.coverage_masks = false, .light_tiles = false};
 
 template <BandKernel (*kKernel)(SimdTarget)>
 std::unique_ptr<Backend> make_bands() {
@@ -33,7 +33,8 @@ std::span<const Cell> cells() {
         {"tiles_spans_hiz", "tiles", "spans", "hiz", [] { return make_tiled_spans(kHiZ); }},
         {"tiles_edges_hiz", "tiles", "edges", "hiz", [] { return make_tiled(kHiZ); }},
         {"tiles_spans_hiz_masks", "tiles", "spans", "hiz+masks", [] { return make_tiled_spans({}); }},
-        {"tiles_edges_hiz_masks", "tiles", "edges", "hiz+masks", [] { return make_tiled({}); }}};
+        {"tiles_edges_hiz_masks", "tiles", "edges", "hiz+masks",
+         [] { return make_tiled({.light_tiles = false}); }}};
     std::vector<Cell> all;
     for (const Drawer& d : kDrawers)
       for (const SimdTarget target : {SimdTarget::scalar, SimdTarget::best})

@@ -52,12 +52,12 @@ class Bins {
     return true;
   }
 
-  // True if each slice lists at most kIndicesPerSegment triangles for the cell, and has no masks there.
-  bool few(int cell) const {
+  // True if each slice lists at most `most` triangles for the cell, and has no masks there.
+  bool few(int cell, std::uint32_t most = kIndicesPerSegment) const {
     const auto c = static_cast<std::size_t>(cell);
     for (const Slice& slice : std::span(slices_).first(used_slices_)) {
-      const bool one_segment = slice.first[c] == kNone || slice.cursor[c] - slice.first[c] < kSlotsPerSegment;
-      if (!one_segment || (has_masks_ && !slice.masks.empty(c))) return false;
+      const bool is_few = slice.first[c] == kNone || slice.cursor[c] - slice.first[c] <= most;
+      if (!is_few || (has_masks_ && !slice.masks.empty(c))) return false;
     }
     return true;
   }

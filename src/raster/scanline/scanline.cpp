@@ -18,12 +18,22 @@ void draw_band(const BandTask& task) {
       task, [&](const ScreenTriangle& triangle, const PixelBox& box) { draw_spans(task, triangle, box); });
 }
 
+void draw_in_spans(const BandTask& task) {
+  task.bins.for_each_segment(task.cell, [&](const Bins::Segment& segment) {
+    for (const std::uint32_t index : segment.indices)
+      draw_in_area(task, task.bins.triangles()[index],
+                   [&](const ScreenTriangle& t, const PixelBox& box) { draw_spans(task, t, box); });
+  });
+  clear_upper_halves();
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace edgewise
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 EDGEWISE_DEFINE_KERNEL(BandKernel, scanline_kernel, draw_band)
+EDGEWISE_DEFINE_KERNEL(BandKernel, span_kernel, draw_in_spans)
 
 namespace edgewise {
 

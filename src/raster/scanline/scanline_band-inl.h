@@ -70,10 +70,10 @@ HWY_INLINE void write(std::int32_t* depth, std::int32_t* payload, hn::Mask<D> co
 #endif
 }
 
-// The vector of pixels that holds pixel x, moved left if it would leave the frame: another thread may be
-// drawing the next row.
-HWY_INLINE int vector_at(int x, int frame_width) {
-  return std::min(x, frame_width - kLanes);
+// The vector of pixels that holds pixel x, moved left if it would leave the area, whose right end is `right`:
+// another thread may be drawing beside it.
+HWY_INLINE int vector_at(int x, int right) {
+  return std::min(x, right - kLanes);
 }
 HWY_INLINE hn::Mask<D> between(int begin, V x, int end) {
   return hn::And(hn::Gt(x, hn::Set(D{}, begin - 1)), hn::Lt(x, hn::Set(D{}, end)));
@@ -97,14 +97,24 @@ HWY_INLINE void fill_spans(const BandTask& task, const BandDepth& z, std::uint32
   });
 #else
   const V lane = hn::Iota(D{}, 0), z_in_vector = hn::Mul(lane, set(z.zx)), colour = set(payload);
+  const V z_step = set(static_cast<std::uint32_t>(kLanes) * z.zx);
+  const auto every = hn::Eq(lane, lane);
   for_each([&](int y, int begin, int end) {
     const FrameRow row(task.frame, y);
-    for (int x = begin & -kLanes; x < end; x += kLanes) {
-      const int at = vector_at(x, task.frame.width), from_cell = at - (x & -kDepthCell);
-      const V z_here =
-          hn::Add(set(z.in_cell(x, y) + static_cast<std::uint32_t>(from_cell) * z.zx), z_in_vector);
-      const auto in_span = between(std::max(begin, x), hn::Add(lane, hn::Set(D{}, at)), end);
-      write(row.depth + at, row.payload + at, in_span, z_here, colour);
+    for (int x = begin & -kLanes; x < end;) {
+      const int cell_end = std::min(end, (x | (kDepthCell - 1)) + 1);
+      V z_here =
+          hn::Add(set(z.in_cell(x, y) + static_cast<std::uint32_t>(x % kDepthCell) * z.zx), z_in_vector);
+      for (; x < cell_end; x += kLanes, z_here = hn::Add(z_here, z_step)) {
+        if (begin <= x && x + kLanes <= end) {
+          write(row.depth + x, row.payload + x, every, z_here, colour);
+          continue;
+        }
+        const int at = vector_at(x, task.area.x1);
+        const auto in_span = between(std::max(begin, x), hn::Add(lane, hn::Set(D{}, at)), end);
+        const V z_at = hn::Add(z_here, set(static_cast<std::uint32_t>(at - x) * z.zx));
+        write(row.depth + at, row.payload + at, in_span, z_at, colour);
+      }
     }
   });
 #endif
@@ -155,10 +165,11 @@ struct BoxLanes {
   V32 x0, x1, y0, y1;
 };
 HWY_INLINE BoxLanes box_lanes(const BandTask& task, const TriangleLanes& t) {
-  const auto [x0, x1] = sample_range(t.x, 0, task.frame.width);
-  const auto [y0, y1] = sample_range(t.y, task.rows.begin, task.rows.end - task.rows.begin);
-  const V32 top = set32(task.rows.begin);
-  return {x0, x1, hn::Add(y0, top), hn::Add(y1, top)};
+  const PixelBox& area = task.area;
+  const auto [x0, x1] = sample_range(t.x, area.x0, area.x1 - area.x0);
+  const auto [y0, y1] = sample_range(t.y, area.y0, area.y1 - area.y0);
+  const V32 left = set32(area.x0), top = set32(area.y0);
+  return {hn::Add(x0, left), hn::Add(x1, left), hn::Add(y0, top), hn::Add(y1, top)};
 }
 // The bits of a mask of 32-bit lanes, of which the lower one of each pair counts.
 HWY_INLINE std::uint32_t lower_bits(hn::Mask<D32> mask) {
@@ -196,7 +207,7 @@ HWY_INLINE BatchBits set_up_vector(const BandTask& task, const std::uint32_t* in
     store(clamped_shift(hn::Sub(value, bias)), out.edge[i].first + k);
     store(a, out.edge[i].x + k), store(b, out.edge[i].y + k);
   }
-  const DepthLanes depth = depth_lanes(t, area, 0, task.rows.begin & -kDepthCell);
+  const DepthLanes depth = depth_lanes(t, area, 0, task.area.y0 & -kDepthCell);
   const V32 rows_down = hn::Mul(depth.y, hn::And(y0, set32(kDepthCell - 1)));
   const auto in_cell = [&](V32 x) {
     const V32 cell_sub = hn::ShiftLeft<kSubBits>(hn::And(x, set32(-kDepthCell)));
@@ -223,7 +234,7 @@ HWY_INLINE void draw(const BandTask& task, const NarrowBatch& batch, int k) {
     end = std::min(x1, cell + kDepthCell);
     const V z_in_cell = hn::Set(d, begin == x0 ? batch.depth.left[k] : batch.depth.right[k]);
     for (int x = begin; x < end; x += kLanes) {
-      const int at = vector_at(x, task.frame.width);
+      const int at = vector_at(x, task.area.x1);
       const V px = hn::Add(lane, hn::Set(d, at)), from_box = hn::Sub(px, hn::Set(d, x0));
       const auto in_part = between(begin, px, end);
       V value[3], step[3];
@@ -247,18 +258,23 @@ HWY_INLINE void draw(const BandTask& task, const NarrowBatch& batch, int k) {
 
 #endif
 
+// Calls draw_one(triangle, box) with the triangle's box in the area, unless it is empty.
+template <typename DrawOne>
+HWY_INLINE void draw_in_area(const BandTask& task, const ScreenTriangle& triangle, DrawOne&& draw_one) {
+  PixelBox box = pixel_box(triangle, task.area.x1, task.area.y1);
+  box.x0 = std::max(box.x0, task.area.x0);
+  box.y0 = std::max(box.y0, task.area.y0);
+  if (!box.empty()) draw_one(triangle, box);
+}
+
 // Draws a band's triangles in submission order: with vectors, those that fit a Batch by draw(task, batch, k),
 // the others by draw_one(triangle, box).
 template <typename Batch, typename DrawOne>
 HWY_INLINE void draw_band_by(const BandTask& task, DrawOne&& draw_one) {
   const ScreenTriangle* const triangles = task.bins.triangles();
-  task.bins.for_each_segment_ahead(task.band, [&](const Bins::Segment& segment) {
+  task.bins.for_each_segment_ahead(task.cell, [&](const Bins::Segment& segment) {
 #if HWY_TARGET == HWY_SCALAR
-    for (const std::uint32_t index : segment.indices) {
-      PixelBox box = pixel_box(triangles[index], task.frame.width, task.rows.end);
-      box.y0 = std::max(box.y0, task.rows.begin);
-      if (!box.empty()) draw_one(triangles[index], box);
-    }
+    for (const std::uint32_t index : segment.indices) draw_in_area(task, triangles[index], draw_one);
 #else
     Batch batch;
     const BatchBits bits = set_up_batch(segment.indices, [&](const std::uint32_t* padded, int k) {

@@ -13,7 +13,8 @@ class Tiled final : public TileBackend {
   bool draw_source(TriangleSource& triangles, FrameView frame, std::uint32_t background,
                    const Execution& execution) override {
     return draw_in_tiles(triangles, frame, background, execution, options_, scratch_,
-                         tile_kernel(execution.target));
+                         tile_kernel(execution.target),
+                         options_.light_tiles ? span_kernel(execution.target) : nullptr);
   }
 };
 
