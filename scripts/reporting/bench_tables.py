@@ -216,17 +216,17 @@ def cost_model_table(bench):
 
 
 def write_speed_sentence(bench):
-    """The share of the speed of writing a frame that whole frames of ours reach on a mostly empty picture."""
+    """How fast whole frames of a mostly empty picture are written, relative to writing the frame only."""
     scene = "cube"
     shares = [f"{percent(cost['write_ms'] / frame.median_ms)} ({n} thread{'s' * (n > 1)})" for n in THREADS
               if (cost := bench.costs.get(f"{OURS}/{scene}/threads:{n}")) and (frame := bench.frame(OURS, scene, n))]
-    return f"On `{scene}`, whole frames of `{OURS}` reach {enumerated(shares)} of the write speed of part 3." if shares else NOT_TIMED
+    return f"`{scene}` is mostly empty: its whole frames in `{OURS}` reach {enumerated(shares)} of the write speed of part 3." if shares else NOT_TIMED
 
 
 # The SIMD engine of `tiled` with other numbers in its edge functions: what exactness costs, all else equal.
 BASE = "exact"
 WITH_MASKS = "with-masks"  # the backend's own row
-RUNS = {WITH_MASKS: "`tiled` with coverage masks", "int64": "64-bit integers, for 12 subpixel bits", "double": "doubles", "float": "floats",
+RUNS = {WITH_MASKS: "`tiled` itself", "int64": "64-bit integers, for 12 subpixel bits", "double": "doubles", "float": "floats",
         "float_rebased": "floats, relative to the tile", "int32": "32-bit integers that wrap"}
 
 

@@ -5,8 +5,8 @@
 
 namespace edgewise {
 
-// sysconf() is no alternative: glibc 2.36 adds up all last-level caches of an AMD socket. CPUID neither: some
-// virtual machines hide its cache leaves while Linux knows the sizes.
+// sysconf() is no alternative: glibc 2.36 adds up all last-level caches of an AMD socket. Nor is CPUID: some
+// virtual machines hide its cache leaves, while Linux knows the sizes.
 std::size_t largest_cache_bytes(const char* folder) {
   constexpr int kMostCaches = 10;
   std::size_t largest = 0;
@@ -28,7 +28,8 @@ std::size_t llc_bytes() {
   constexpr std::size_t kUnknown = std::size_t{8} << 20;
 #if defined(__linux__)
   static const std::size_t bytes = largest_cache_bytes("/sys/devices/system/cpu/cpu0/cache");
-  if (bytes != 0) return bytes;
+  constexpr std::size_t kLeast = std::size_t{1} << 20;  // less is no last level: Linux does not know that one
+  if (bytes >= kLeast) return bytes;
 #endif
   return kUnknown;
 }

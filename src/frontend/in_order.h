@@ -135,7 +135,7 @@ class InOrder {
 
   std::size_t total_ = 0;
   std::vector<Slot> slots_;             // kBuffers per worker
-  std::atomic_flag locked_;             // by finish(), which takes less time than a mutex
+  std::atomic_flag locked_;             // held by finish(), for a few stores; WASI has no std::mutex
   std::atomic<std::uint32_t> turn_{0};  // the ranges before this one have positions
   std::vector<Slot*> finished_;         // by range; null: unfinished
 };

@@ -44,12 +44,16 @@ bool draw_in_bands(TriangleSource& triangles, FrameView frame, const Execution& 
   return true;
 }
 
+inline constexpr int kLongestVector = 16;  // px
+
 // The task of drawing the triangles of a cell in a part of the frame that is clear: a band, or rows of a
 // tile.
 struct BandTask {
   const Bins& bins;
   int cell;
-  contract::PixelBox area;  // at least as wide as a vector; its rows lie in one row of depth cells
+  // Begins at a multiple of kLongestVector, and is at least that wide. Its rows lie in one row of depth
+  // cells.
+  contract::PixelBox area;
   FrameView frame;
 };
 using BandKernel = void (*)(const BandTask&);
@@ -68,7 +72,6 @@ class BandBackend : public Backend {
   bool draw_source(TriangleSource& triangles, FrameView frame, std::uint32_t background,
                    const Execution& execution) final {
     // Each vector of pixels lies in the frame, which must be as wide as the longest vector.
-    constexpr int kLongestVector = 16;
     const BandKernel kernel =
         kernel_for_(frame.width < kLongestVector ? SimdTarget::scalar : execution.target);
     const ClearKernel clear = clear_kernel(execution.target);

@@ -1,6 +1,6 @@
-// The tasks of drawing a frame in tiles. A row of tiles has a task for each tile with triangles, and then
-// one, or several on many threads, for all its empty and light tiles, which are cleared together; light tiles
-// are then drawn in the frame itself. oneTBB gets up to four of these tasks at once.
+// The tasks of drawing a frame in tiles. A row of tiles has a task for each tile drawn in a buffer, and then
+// one, or several on many threads, that clears its empty and light tiles together and draws the light ones in
+// the frame. oneTBB gets up to four of these tasks at once.
 #pragma once
 
 #include <algorithm>
@@ -94,7 +94,7 @@ struct TileScratch {
   TileList list;
 };
 
-// Clears tiles without triangles, or a band. All those of a row are cleared together, pixel row by pixel row:
+// Clears empty and light tiles, or a band. All those of a row are cleared together, pixel row by pixel row:
 // long consecutive stores use the memory's bandwidth better than the short rows of one tile after the other.
 struct ClearTask {
   std::span<const TileSpan> tiles;  // of one row

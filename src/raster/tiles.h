@@ -44,10 +44,12 @@ constexpr int tasks_at_once(int tasks, int threads) {
   return std::clamp(tasks / (16 * threads), 1, 4);
 }
 
-// A tile is light if no slice lists more triangles for it. Light tiles are cleared together with the empty
-// ones of their row and drawn in the frame, which is faster than storing a buffer in short rows. More
-// triangles overlap more, and drawing over pixels is slower in the frame than in a buffer in L1.
+// A tile is light if it has no more triangles than this, no masks, and is not cut by the frame's right side.
+// Light tiles are cleared together with the empty ones of their row and drawn in the frame, which is faster
+// than storing a buffer in short rows. More triangles overlap more, and drawing over pixels is slower in the
+// frame than in a buffer in L1.
 inline constexpr std::uint32_t kLightTriangles = 2;
+static_assert(kLongestVector <= 16);  // px, of the smallest tile
 
 // `draw_light` draws light tiles. If it is null, or tiles with few triangles are streamed, no tile is light.
 // Returns false if Bins::build() does; then nothing is drawn.

@@ -76,6 +76,7 @@ void expect_own_kernels(Kernel (*kernel_of)(SimdTarget), const char* name) {
 TEST(SimdTargets, HaveDifferentKernels) {
   expect_own_kernels(tile_kernel, "tile");
   expect_own_kernels(scanline_kernel, "scanline");
+  expect_own_kernels(span_kernel, "spans");
   expect_own_kernels(cell_box_kernel, "cell boxes");
   expect_own_kernels(mask_finder, "coverage masks");
   expect_own_kernels(transform_kernel, "transform");

@@ -83,18 +83,21 @@ TEST(FrontendOrder, HoldsWhenBuffersAreFull) {
   scene.meshes.push_back({{{-368, 1374, -5}, {-1006, -1006, -5}, {1374, -368, -5}},
                           std::vector<glm::uvec3>(kCount, {0, 1, 2}),
                           std::vector<std::uint32_t>(kCount)});
-  Frontend frontend;
   for (const int threads : {1, 2})
-    for (const bool keep : {false, true}) {
-      FrontendOptions options{
-          .width = 100, .height = 100, .cull = Cull::none, .payload = Payload::id, .threads = threads};
-      EXPECT_TRUE(frontend.run(longer, options).empty());
-      options.keep_unsnapped = keep;
-      const auto found = frontend.run(scene, options);
-      ASSERT_EQ(found.size(), kPieces * kCount);
-      for (std::size_t i = 0; i < found.size(); ++i) ASSERT_EQ(found[i].payload, i / kPieces);
-      ASSERT_EQ(frontend.unsnapped().size(), keep ? found.size() : 0);
-    }
+    for (const bool keep : {false, true})
+      for (const bool after_longer : {false, true}) {
+        Frontend frontend;
+        FrontendOptions options{
+            .width = 100, .height = 100, .cull = Cull::none, .payload = Payload::id, .threads = threads};
+        ASSERT_TRUE(!after_longer || frontend.run(longer, options).empty());
+        options.keep_unsnapped = keep;
+        const auto found = frontend.run(scene, options);
+        ASSERT_EQ(found.size(), kPieces * kCount);
+        for (std::size_t i = 0; i < found.size(); ++i) ASSERT_EQ(found[i].payload, i / kPieces);
+        ASSERT_EQ(frontend.unsnapped().size(), keep ? found.size() : 0);
+        for (std::size_t i = kPieces; i < frontend.unsnapped().size(); ++i)
+          ASSERT_EQ(frontend.unsnapped()[i].x_px[1], frontend.unsnapped()[i % kPieces].x_px[1]);
+      }
 }
 
 // Workers that finish later ranges first have to wait with all their buffers full.

@@ -234,5 +234,26 @@ TEST(LightTiles, AreThoseOfFewTrianglesInCachedFrames) {
   EXPECT_EQ(light({.tile_store = TileStore::cached}, nullptr, 5 * kSize), 0);
 }
 
+// The triangles of a tile count over all slices, and the first submitted one wins a tie.
+TEST(LightTiles, CountTheTrianglesOfAllSlices) {
+  constexpr int kSize = 64, kSide = kSize * contract::kSub;
+  for (const int in_tile : {2, 3}) {
+    std::vector<ScreenTriangle> triangles(2000, {{2 * kSide, 3 * kSide, 2 * kSide}, {0, 0, kSide}, {}, 7});
+    for (int i = 0; i < in_tile; ++i)
+      triangles[static_cast<std::size_t>(i == 0 ? 0 : 1000 + 400 * i)] = {
+          {0, kSide, 0}, {0, 0, kSide}, {5, 5, 5}, static_cast<std::uint32_t>(i)};
+    Framebuffer expected(3 * kSize, kSize), frame(3 * kSize, kSize);
+    backends().front().make()->draw(triangles, expected.view(), 42, {});
+    lab::poison(frame);
+    TileScratch scratch;
+    StoredTriangles stored(triangles);
+    const SimdTarget target = resolve(SimdTarget::best);
+    draw_in_tiles(stored, frame.view(), 42, {2, kSize, target}, {.tile_store = TileStore::cached}, scratch,
+                  tile_kernel(target), span_kernel(target));
+    testing::expect_same(expected, frame, std::to_string(in_tile));
+    EXPECT_EQ(light_tiles(scratch.list, 1), in_tile == 2 ? 1 : 0);
+  }
+}
+
 }  // namespace
 }  // namespace edgewise

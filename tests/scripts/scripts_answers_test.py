@@ -62,7 +62,7 @@ class AnswersTest(unittest.TestCase):
         header, lines = engine_table(timed)
         self.assertEqual(header, ["numbers", "`large`"])
         self.assertEqual(lines, [["exact, the base", "10.0 ms"],
-                                 ["`tiled` with coverage masks", "**1.11×** (1.09 to 1.13)"],
+                                 ["`tiled` itself", "**1.11×** (1.09 to 1.13)"],
                                  ["64-bit integers, for 12 subpixel bits", "1.00× (0.98 to 1.01)"],
                                  ["floats", "**1.25×** (1.23 to 1.27); 1,230 px"]])
 

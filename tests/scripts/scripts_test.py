@@ -250,7 +250,7 @@ class ScriptsTest(FolderTest):
         self.assertIn("| `large`, tiled | 2.10 | 0.1 | 0.4 | 0.9 | 1.4 | 2.6 | 1.8 |\n", self.filled("cost_model"))
 
     def test_the_share_of_the_write_speed_is_told_where_both_were_timed(self):
-        self.assertIn("On `cube`, whole frames of `tiled` reach 43 % (1 thread) and 43 % (2 threads) of the write speed of part 3.\n",
+        self.assertIn("`cube` is mostly empty: its whole frames in `tiled` reach 43 % (1 thread) and 43 % (2 threads) of the write speed of part 3.\n",
                       self.filled("write_speed"))
         self.write("few", {**bench(), "benchmarks": entries("tiled/cube/threads:1", [1.0], **FLOOR)})
         self.assertIn("hold none of the rows", self.filled("write_speed", results="few"))

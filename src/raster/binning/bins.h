@@ -52,12 +52,13 @@ class Bins {
     return true;
   }
 
-  // True if each slice lists at most `most` triangles for the cell, and has no masks there.
+  // True if at most `most` triangles are listed for the cell, and it has no masks.
   bool few(int cell, std::uint32_t most = kIndicesPerSegment) const {
     const auto c = static_cast<std::size_t>(cell);
+    std::uint64_t listed = 0;  // more than `most` where a slice has several segments
     for (const Slice& slice : std::span(slices_).first(used_slices_)) {
-      const bool is_few = slice.first[c] == kNone || slice.cursor[c] - slice.first[c] <= most;
-      if (!is_few || (has_masks_ && !slice.masks.empty(c))) return false;
+      if (slice.first[c] != kNone) listed += slice.cursor[c] - slice.first[c];
+      if (listed > most || (has_masks_ && !slice.masks.empty(c))) return false;
     }
     return true;
   }
