@@ -26,8 +26,7 @@ HWY_INLINE bool assemble_vector(const MeshTask& task, std::size_t first, const C
   const DI d;
   const std::uint32_t* index = &corners.indices[offset].x;
   const auto corner = [&](std::size_t k) HWY_ATTR {
-    return load_words(
-        [&](std::size_t lane) { return corners.vertices + (index[lane * 3 + k] & corners.mask); });
+    return load_words([&](std::size_t lane) { return corners.at(index[lane * 3 + k]); });
   };
   const Words a = corner(0), b = corner(1), c = corner(2);
   const VI common = hn::And(a.word[3], hn::And(b.word[3], c.word[3]));
@@ -48,10 +47,8 @@ void assemble_all(const MeshTask& task, std::size_t begin, std::size_t end, cons
                   ChunkOutput& out) {
   const auto one_by_one = [&](std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; ++i) {
-      const auto vertex = [&](int k) {
-        return corners.vertices[corners.indices[i - begin][k] & corners.mask];
-      };
-      add_one(task, i, {vertex(0), vertex(1), vertex(2)}, out);
+      const glm::uvec3 t = corners.indices[i - begin];
+      add_one(task, i, {*corners.at(t.x), *corners.at(t.y), *corners.at(t.z)}, out);
     }
   };
   std::size_t i = begin;

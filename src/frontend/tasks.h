@@ -74,11 +74,14 @@ using IndexRangeKernel = IndexRange (*)(const Mesh& mesh, std::size_t begin, std
 // `target` must be resolved.
 IndexRangeKernel index_range_kernel(SimdTarget target);
 
-// The transformed vertices of consecutive triangles: vertex i lies at vertices[i & mask].
+// The transformed vertices of consecutive triangles.
 struct Corners {
+  static constexpr std::uint32_t kVertices = 1 << 16;  // at most; a power of two
+
   const Vertex* vertices;
   const glm::uvec3* indices;  // by triangle
-  std::uint32_t mask;
+
+  const Vertex* at(std::uint32_t index) const { return vertices + (index & (kVertices - 1)); }
 };
 
 // Appends the visible pieces of triangles begin … end - 1 to the output, with ids as payloads: task.first_id

@@ -37,7 +37,7 @@ class VertexWindow {
     const std::size_t first = range.first / kGranule, last = range.last / kGranule + 1;
     if (last - first > kSlots) return scattered(task, begin, end, transform);
     fill(task, first, last, transform);
-    return {vertices_.data(), task.mesh.triangles.data() + begin, kVertices - 1};
+    return {vertices_.data(), task.mesh.triangles.data() + begin};
   }
   // Transforms granules first … last - 1 that the window lacks. Returns what TransformKernel does, of these.
   std::uint32_t fill(const MeshTask& task, std::size_t first, std::size_t last, TransformKernel transform) {
@@ -55,8 +55,8 @@ class VertexWindow {
     return common;
   }
 
-  static constexpr std::size_t kGranule = 256;       // vertices
-  static constexpr std::size_t kVertices = 1 << 16;  // of the window
+  static constexpr std::size_t kGranule = 256;                  // vertices
+  static constexpr std::size_t kVertices = Corners::kVertices;  // of the window
   static constexpr std::size_t kBytes = kVertices * sizeof(Vertex) + 3 * kChunkTriangles * sizeof(glm::vec3) +
                                         kChunkTriangles * sizeof(glm::uvec3);
 
@@ -72,7 +72,7 @@ class VertexWindow {
       for (int k = 0; k < 3; ++k) positions_.push_back(task.mesh.positions[task.mesh.triangles[i][k]]);
     std::fill_n(granules_, kSlots, 0u);
     transform(task, positions_.data(), positions_.size(), vertices_.data());
-    return {vertices_.data(), in_order_.data(), kVertices - 1};
+    return {vertices_.data(), in_order_.data()};
   }
 
   Buffer<Vertex> vertices_;           // of granule g: from (g % kSlots) · kGranule on
