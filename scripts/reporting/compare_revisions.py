@@ -255,8 +255,11 @@ def time_rounds(sides, pattern, fewest, rounds, limit_s):
             for side in (0, 1) if done % 2 == 0 else (1, 0):
                 results[side] = timed(sides[side], done % programs, pattern)
             for name in (name for name in results[0].rows if name in results[1].rows):
-                row = rows.setdefault(name, Row([], ([], [])))
-                row.sides = [result.rows[name] for result in results]
+                now = [result.rows[name] for result in results]
+                row = rows.setdefault(name, Row(now, ([], [])))
+                if bool(row.error) != any(side.error for side in now):
+                    raise BadInput(f"{name}: some rounds failed, others did not: the programs draw different pixels from time to time")
+                row.sides = now
                 if not row.error:
                     for times, new in zip(row.times, row.sides):
                         if done < programs:
@@ -331,9 +334,6 @@ def print_compared(rows, listed, verdicts=VERDICTS):
     judged = {name: row for name, row in rows.items() if not row.error and name not in different}
     judge(judged.values())
     done = max((len(row.times[0]) for row in rows.values() if row.rounds), default=0)
-    repetitions = [sum(map(len, row.times[0])) for row in judged.values() if row.rounds]
-    if len(set(repetitions)) > 1:
-        raise BadInput("some rounds failed, others did not: the programs draw different pixels from time to time")
     print(f"\n{done} rounds, before and after by turns; " if done else "", end="")
     print_rows(judged, "rounds" if done else "repetitions", verdicts)
     if judged and done:

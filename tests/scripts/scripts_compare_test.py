@@ -45,10 +45,11 @@ start = calls.stat().st_size
 generator = random.Random(start)
 entries = []
 for name, row in rows.items():
-    for _ in range(3):
+    for _ in range(row.get("repetitions", 3)):
         time = row["ms"] * (1 + start / 100) * generator.uniform(0.995, 1.005)
         entry = {"name": name, "run_name": name, "run_type": "iteration", "real_time": time, "time_unit": "ms", "triangles": row["triangles"]}
-        entries.append({**entry, **({"error_occurred": True, "error_message": "other pixels"} if row.get("wrong") else {})})
+        entries.append({**entry, **({"error_occurred": True, "error_message": "other pixels"}
+                                  if row.get("wrong") or row.get("wrong_once") and start == 1 else {})})
 Path(flags["--benchmark_out"]).write_text(json.dumps({"context": {}, "benchmarks": entries}))
 """
 
@@ -132,6 +133,16 @@ class CompareTest(FolderTest):
         for words in ("0 rows: 0 slower", "other triangles, pixels or size\n  tiled/a/threads:1", "error\n  tiled/b/threads:1: other pixels",
                       "Only before\n  tiled/c/threads:1", "Only after\n  tiled/d/threads:1"):
             self.assertIn(words, result.stdout)
+
+    def test_slow_rows_may_have_fewer_repetitions(self):
+        self.commit({"tiled/a/threads:1": row(1.0, repetitions=1), "tiled/b/threads:1": row(2.0)})
+        result = self.compare(self.first, "HEAD", "--filter", "tiled/[ab]", "--rounds", 9)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("2 rows: 0 slower, 0 faster, 2 no significant difference", result.stdout)
+
+    def test_a_row_that_fails_in_some_rounds_is_an_error(self):
+        self.commit({"tiled/a/threads:1": row(1.0, wrong_once=True), "tiled/b/threads:1": row(2.0)})
+        self.fails(self.compare("HEAD", "HEAD", "--filter", "tiled/[ab]", "--rounds", 9), "different pixels from time to time")
 
     def test_a_time_limit_ends_the_rounds(self):
         start = time.monotonic()
