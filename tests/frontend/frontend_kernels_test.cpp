@@ -369,7 +369,8 @@ TEST(FrontendKernels, VerticesWithZOnPlanesMatchTheScalarFlags) {
         const glm::vec3 v = transform(job.to_screen, mesh.positions[i]);
         const float z = mesh.positions[i].z;
         std::uint32_t outside = flags_in_float(v, {kWidth, kHeight, v.z, v.z});
-        if (outside != kNotFinite) outside |= (z < 0.0f ? kNear : 0) | (z > w ? kFar : 0);
+        if (outside != kNotFinite && z < 0.0f) outside |= kNear;
+        if (outside != kNotFinite && z > w) outside |= kFar;
         const float inverse_w = 1.0f / v.z;
         if ((outside & (kMustClip | kNotFinite)) == 0 && !std::isfinite(inverse_w)) outside |= kNear;
         ASSERT_EQ(vertices[i].outside, outside) << name_of(target) << ", w = " << w << ", " << i;

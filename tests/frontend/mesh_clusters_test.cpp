@@ -181,7 +181,7 @@ TEST(MeshClusters, ExcludeNoVertexThatFloatsFindInView) {
   };
   const FrontendOptions options;
   const Mesh mesh;
-  const TransformKernel transform = transform_kernel(resolve(SimdTarget::best));
+  const TransformKernel kernel = transform_kernel(resolve(SimdTarget::best));
   int sides = 0, excluded = 0, in_view = 0;
   for (int i = 0; i < 100'000; ++i) {
     Camera camera;
@@ -196,7 +196,7 @@ TEST(MeshClusters, ExcludeNoVertexThatFloatsFindInView) {
     const ViewSides view(task.to_screen, seen.volume);
     const auto outside = [&](glm::vec3 v) {
       Vertex vertex;
-      transform(task, &v, 1, &vertex);
+      kernel(task, &v, 1, &vertex);
       return vertex.outside & kInvisible;
     };
     const auto vertex = [&] { return glm::vec3{away + real(-200, 200), real(-200, 200), real(-200, 200)}; };
