@@ -118,13 +118,15 @@ View::View(const CameraMatrices& matrices, int width_px, int height_px)
                    to_world = from_view * glm::inverse(matrices.projection);
   if (!is_finite(to_clip) || !is_finite(to_world))
     throw std::invalid_argument("the camera's matrices have no inverse");
-  // 1 / w of the visible point at (x, y, z) w is the product with (x, y, z, 1). So is the largest one, at a
+  // The product with (x, y, z, 1) is 1 / w of the point at (x, y, z) w. It is linear, so w is smallest at a
   // corner of the view volume.
   const glm::dvec4 inverse_w(to_world[0].w, to_world[1].w, to_world[2].w, to_world[3].w);
   const glm::dvec4 corner(glm::sign(inverse_w.x), glm::sign(inverse_w.y), inverse_w.z > 0.0 ? 1.0 : 0.0, 1.0);
-  const double largest = glm::dot(inverse_w, corner);
-  if (!(largest > 0.0))
+  const double least_w = 1.0 / glm::dot(inverse_w, corner);
+  if (!(least_w > 0.0))
     throw std::invalid_argument("the camera's matrices show nothing: w is never positive");
+  if (!(least_w >= kLeast && least_w <= kLargest))
+    throw std::invalid_argument("the least w that the camera's matrices show is out of the range of float");
 
   const glm::dmat3 to_pixels = viewport(width_px, height_px);
   pixels = to_pixels * glm::dmat3(xyw(to_clip[0]), xyw(to_clip[1]), xyw(to_clip[2]));
@@ -138,16 +140,14 @@ View::View(const CameraMatrices& matrices, int width_px, int height_px)
     const double far_z = a > 1.0 ? -b / (a - 1.0) : std::numeric_limits<double>::infinity();
     volume.far_z = far_z <= kLargest ? far_z : std::numeric_limits<double>::infinity();
     volume.far_w = 0.0;
-    if (!(volume.near_z >= kLeast && volume.near_z <= kLargest))
-      throw std::invalid_argument("the near plane's w is out of the range of float");
     depth.near_z = volume.near_z, depth.scale = contract::kDepthRange * a;
     return;
   }
-  origin = glm::dvec3(to_world * corner) / largest;
-  at_origin = to_pixels * xyw(corner) / largest;
+  origin = glm::dvec3(to_world * corner) * least_w;
+  at_origin = to_pixels * xyw(corner) * least_w;
   has_z = true;
-  z = {to_clip[0].z, to_clip[1].z, to_clip[2].z, corner.z / largest};
-  if (glm::dvec3(inverse_w) == glm::dvec3(0.0)) axis = glm::dvec3(to_world[2]) / largest;
+  z = {to_clip[0].z, to_clip[1].z, to_clip[2].z, corner.z * least_w};
+  if (glm::dvec3(inverse_w) == glm::dvec3(0.0)) axis = glm::dvec3(to_world[2]) * least_w;
 }
 
 ScreenTransform::ScreenTransform(const Camera& camera, const Instance& instance, int width_px, int height_px)

@@ -385,10 +385,10 @@ TEST(Matrices, AreRefusedIfNothingCanBeSeenThroughThem) {
   EXPECT_EQ(refusal({one, -one}), kNothing);
   const std::string reversed = refusal({one, glm::perspectiveRH_ZO(1.0, 1.0, 100.0, 0.1)});
   EXPECT_EQ(reversed, "z / w falls with the distance; see ClipSpace::reversed in camera.h");
-  EXPECT_EQ(refusal({one, perspective_projection(1, 1, 1e-40, 1)}),
-            "the near plane's w is out of the range of float");
-  EXPECT_EQ(refusal({one, perspective_projection(1, 1, 1e39, 1e40)}),
-            "the near plane's w is out of the range of float");
+  const char* const kTooFar = "the least w that the camera's matrices show is out of the range of float";
+  EXPECT_EQ(refusal({one, perspective_projection(1, 1, 1e-40, 1)}), kTooFar);
+  EXPECT_EQ(refusal({one, perspective_projection(1, 1, 1e39, 1e40)}), kTooFar);
+  EXPECT_EQ(refusal({one, glm::dmat4(1e-50)}), kTooFar);
   EXPECT_EQ(refusal({one, perspective_projection(1, 1, 1, 1e40)}), "");
 }
 
