@@ -132,7 +132,7 @@ View::View(const CameraMatrices& matrices, int width_px, int height_px)
   pixels = to_pixels * glm::dmat3(xyw(to_clip[0]), xyw(to_clip[1]), xyw(to_clip[2]));
   if (is_usual_perspective(matrices)) {
     const glm::dmat4& p = matrices.projection;
-    const double a = p[2].z / p[2].w, b = p[3].z;  // z / w = a + b / w
+    const double a = p[2].z / p[2].w, b = p[3].z;  // z / w = a + b / w, so a = far / (far - near)
     if (b > 0.0)
       throw std::invalid_argument("z / w falls with the distance; see ClipSpace::reversed in camera.h");
     origin = glm::dvec3(from_view[3]);
