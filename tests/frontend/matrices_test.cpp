@@ -227,7 +227,7 @@ TEST(Matrices, KeepTheirPrecisionFarFromTheOrigin) {
     expect_nearly_same(near, far, "by the instance");
     near.matrices->projection = projection(10);
     far = near;
-    far.matrices->view = moved_view(away_in_mesh);
+    far.matrices->view = moved_view(glm::dvec3(model_matrix(far.instances[0]) * glm::dvec4(away_in_mesh, 0)));
     for (glm::vec3& p : far.meshes[0].positions) p += glm::vec3(away_in_mesh);
     expect_nearly_same(near, far, "in the mesh", 2, 1024);
   }
