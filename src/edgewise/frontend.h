@@ -110,8 +110,8 @@ class Frontend {
   // at once.
   //
   // Throws std::bad_alloc if memory runs out, and std::invalid_argument for
-  // - a camera, image size or thread count out of range,
-  // - an instance whose mesh index the scene lacks,
+  // - a camera, image size or thread count out of range, or matrices that camera.h excludes,
+  // - an instance whose mesh index the scene lacks, or whose matrix is not finite and affine,
   // - a mesh without one colour per triangle, or whose flags are neither empty nor one per triangle, or whose
   //   first triangle has kSameFace, or whose normals are neither empty nor one per triangle,
   // - a vertex index that the mesh lacks, in a triangle whose instance and cluster are in view,

@@ -8,16 +8,18 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "edgewise/camera.h"
+
 namespace edgewise {
 
-// World space is right-handed: x points right, y up, and z backwards for a camera of yaw 0 and pitch 0, which
-// looks along -z. Colours are 0xAABBGGRR (red in the lowest byte). Angles are in radians, lengths in world
-// units.
+// camera.h defines world space. Colours are 0xAABBGGRR (red in the lowest byte). Angles are in radians,
+// lengths in world units.
 
 // An opaque colour. Each channel must be in 0 … 255, which is not checked.
 constexpr std::uint32_t rgb(std::uint32_t r, std::uint32_t g, std::uint32_t b) {
@@ -70,36 +72,28 @@ glm::vec3 face_normal(std::span<const glm::vec3> vertices);
 // clusters that are out of view. Empty for meshes of fewer than 65,536 triangles, and if a vertex is missing.
 std::vector<MeshCluster> clusters_of(const Mesh& mesh);
 
-// A mesh placed in the world: scaled, then rotated about an axis through its origin, then translated. A scale
-// with one or three negative components mirrors the mesh. Only the winding decides which side is the front,
-// and mirroring reverses it. So Cull::back then shows the inside of a closed mesh, and the light falls on
-// that side too. To draw the outside, use a mesh whose triangles list their vertices in reverse order.
+// A mesh placed in the world: scaled, then rotated about an axis through its origin, then translated; or by
+// any affine matrix instead. A scale with one or three negative components mirrors the mesh, as does a matrix
+// with a negative determinant. Only the winding decides which side is the front, and mirroring reverses it.
+// So Cull::back then shows the inside of a closed mesh, and the light falls on that side too. To draw the
+// outside, use a mesh whose triangles list their vertices in reverse order.
 struct Instance {
   std::size_t mesh = 0;  // index into Scene::meshes
   glm::dvec3 scale{1.0};
   glm::vec3 axis{0.0f, 1.0f, 0.0f};  // any length; length 0 means no rotation
   float angle = 0.0f;                // radians about the axis, counter-clockwise seen from its tip
   glm::dvec3 translation{0.0};
-};
-
-struct Camera {
-  glm::dvec3 position{0.0};
-  float yaw = 0.0f;     // radians about +y; positive turns left
-  float pitch = 0.0f;   // radians; positive looks up. At ±pi/2, yaw still turns the image
-  float fov_y = 1.0f;   // vertical field of view in radians, 0 < fov_y < pi
-  float near_z = 0.1f;  // distances along the view direction, 0 < near_z < far_z
-  float far_z = 100.0f;
-
-  // Turns the camera towards a point. Straight up and straight down, yaw becomes 0: the image's top then
-  // points along +z (up) or -z (down). Does nothing if the point is the camera's own position.
-  void look_at(glm::dvec3 target);
+  // From model space to world space, in place of the four values above. Its elements must be finite, and its
+  // last row 0 0 0 1. It may shear, and it may flatten the mesh.
+  std::optional<glm::dmat4> matrix{};
 };
 
 struct Scene {
   std::vector<Mesh> meshes;
   std::vector<Instance> instances;
   Camera camera;
-  glm::vec3 to_light{0.3f, 0.8f, 0.5f};  // direction towards the light; any length but 0
+  std::optional<CameraMatrices> matrices{};  // in place of `camera`
+  glm::vec3 to_light{0.3f, 0.8f, 0.5f};      // direction towards the light; any length but 0
 };
 
 // One triangle of a stream.
@@ -131,7 +125,7 @@ void fit(Scene& scene);
 
 // Places the camera in front of the bounding box, a little to the right and above, so that an image whose
 // width is `aspect` times its height shows all of it. Sets a vertical field of view of 45 degrees, and near
-// and far planes around the box. Throws what bounds_of() throws.
+// and far planes around the box. Removes the scene's matrices. Throws what bounds_of() throws.
 void frame_camera(Scene& scene, double aspect = 1.0);
 
 // The matrix from an instance's model space to world space.

@@ -19,7 +19,7 @@ double distance(const ClipVertex& v, std::uint16_t plane, const ViewVolume& view
     case kNear:
       return v.z - view.near_z;
     case kFar:
-      return view.far_z - v.z;
+      return view.far_z + view.far_w * v.w - v.z;
     case kGuardLeft:
       return v.x + guard;
     case kGuardRight:

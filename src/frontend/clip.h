@@ -11,17 +11,18 @@
 
 namespace edgewise {
 
-// A vertex in clip space with the viewport already applied: x / w and y / w are pixels. The near and far
-// planes are planes of constant z: a scene's z is w, the distance along the view direction, so that no matrix
-// rounds it twice. A stream's z is its depth, and its w is 1.
+// A vertex in clip space with the viewport already applied: x / w and y / w are pixels. In a scene with a
+// camera or a usual perspective projection, z is w, the distance along the view direction, so that no matrix
+// rounds it twice. With any other matrices, z / w is the depth. A stream's z is its depth, and its w is 1.
 struct ClipVertex {
   double x, y, z, w;
   // 0, 1 or 2: this corner of the triangle, which counts as inside all planes; a new vertex has none.
   int corner = -1;
 };
 
+// The far plane is z = far_z + far_w w.
 struct ViewVolume {
-  double width_px, height_px, near_z, far_z;
+  double width_px, height_px, near_z, far_z, far_w = 0.0;
 };
 
 // The sides of the view that a vertex lies beyond, as flags. Every test is linear in the vertex. So if all

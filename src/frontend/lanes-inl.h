@@ -145,14 +145,15 @@ HWY_INLINE VI snap(VF px) {
   return hn::Sub(hn::BitCast(DI{}, rounded), hn::BitCast(DI{}, magic));
 }
 
-// units(v) in double, rounded half to even, above the head-room.
-template <typename Units>
-HWY_INLINE VI round_depth(Units&& units, VF v) {
-  const auto whole_units = [&](auto wide_v) HWY_ATTR {
-    const auto magic = hn::Set(hn::DFromV<decltype(wide_v)>{}, kRoundDouble);
-    return hn::Sub(hn::Add(units(wide_v), magic), magic);
+// units(v…) in double, rounded half to even, above the head-room.
+template <typename Units, class... V>
+HWY_INLINE VI round_depth(Units&& units, V... v) {
+  const auto whole_units = [&](auto... wide_v) HWY_ATTR {
+    auto exact = units(wide_v...);
+    const auto magic = hn::Set(hn::DFromV<decltype(exact)>{}, kRoundDouble);
+    return hn::Sub(hn::Add(exact, magic), magic);
   };
-  return hn::Add(in_double(DI{}, whole_units, v), hn::Set(DI{}, contract::kDepthHead));
+  return hn::Add(in_double(DI{}, whole_units, v...), hn::Set(DI{}, contract::kDepthHead));
 }
 
 HWY_INLINE VI quantize_depth(VF depth01) {

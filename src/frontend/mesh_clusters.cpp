@@ -68,7 +68,9 @@ ViewSides::ViewSides(const ScreenTransform& to_screen, const ViewVolume& view) :
   const glm::dvec4 nothing(0.0);
   sides_[0] = side(nothing, row(0)), sides_[1] = side(row(0), view.width_px * w);
   sides_[2] = side(nothing, row(1)), sides_[3] = side(row(1), view.height_px * w);
-  sides_[4] = side({0, 0, 0, view.near_z}, w), sides_[5] = side(w, {0, 0, 0, view.far_z});
+  const glm::dvec4 z = to_screen.has_z ? to_screen.z : w;
+  sides_[4] = side({0, 0, 0, view.near_z}, z);
+  sides_[5] = side(z, glm::dvec4(0, 0, 0, view.far_z) + view.far_w * w);
 }
 
 bool ViewSides::exclude(const MeshCluster& box) const {

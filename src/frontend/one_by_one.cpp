@@ -95,10 +95,10 @@ void clip(const Vertex (&corners)[3], std::uint32_t sides, const Source& source,
   }
   std::array<Vertex, Clipper::kMaxVertices> snapped;
   std::transform(polygon.begin(), polygon.end(), snapped.begin(), [&](const ClipVertex& v) {
-    return v.corner >= 0 ? corners[v.corner] : Vertex{snap(x_px(v)), snap(y_px(v)), geometry.depth(v.z), 0};
+    return v.corner >= 0 ? corners[v.corner] : Vertex{snap(x_px(v)), snap(y_px(v)), geometry.depth(v), 0};
   });
   const auto unsnapped = [&](const ClipVertex& v) {
-    return v.corner >= 0 ? geometry.unsnapped(v.corner) : Unsnapped{x_px(v), y_px(v), geometry.depth01(v.z)};
+    return v.corner >= 0 ? geometry.unsnapped(v.corner) : Unsnapped{x_px(v), y_px(v), geometry.depth01(v)};
   };
   const Pieces pieces = split({snapped.data(), polygon.size()});
   for (std::size_t i = 0; i < pieces.count; ++i) {
@@ -148,14 +148,18 @@ struct MeshGeometry {
 
   glm::vec3 position(int k) const { return task.mesh.positions[triangle[k]]; }
   ClipVertex clip_vertex(int k) const { return task.to_screen(position(k)); }
-  std::uint32_t depth(double w) const { return task.depth.units(w); }
-  float depth01(double w) const {
-    return static_cast<float>(task.depth.above_near(w) / contract::kDepthRange);
+  double above_near(const ClipVertex& v) const {
+    return task.to_screen.has_z ? v.z / v.w * contract::kDepthRange : task.depth.above_near(v.w);
+  }
+  std::uint32_t depth(const ClipVertex& v) const { return round_depth(above_near(v)); }
+  float depth01(const ClipVertex& v) const {
+    return static_cast<float>(above_near(v) / contract::kDepthRange);
   }
   Unsnapped unsnapped(int k) const {
     const glm::vec3 v = transform(task.to_screen, position(k));
     const float inverse_w = 1.0f / v.z;
-    return {v.x * inverse_w, v.y * inverse_w, depth01(double{v.z})};
+    return {v.x * inverse_w, v.y * inverse_w,
+            depth01(task.to_screen.has_z ? clip_vertex(k) : as_clip_vertex(v))};
   }
 };
 
@@ -167,8 +171,8 @@ struct StreamGeometry {
     const glm::dvec3 v(triangle.vertex[k]);
     return {v.x, v.y, v.z, 1.0};
   }
-  std::uint32_t depth(double z) const { return quantize_depth(depth01(z)); }
-  float depth01(double z) const { return static_cast<float>(z); }
+  std::uint32_t depth(const ClipVertex& v) const { return quantize_depth(depth01(v)); }
+  float depth01(const ClipVertex& v) const { return static_cast<float>(v.z); }
   Unsnapped unsnapped(int k) const {
     const glm::vec3 v = triangle.vertex[k];
     return {v.x, v.y, v.z};

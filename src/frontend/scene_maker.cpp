@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/finite.h"
+
 namespace edgewise {
 
 namespace {
@@ -23,6 +25,11 @@ void check(const Mesh& mesh) {
   if (!mesh.clusters.empty() && mesh.clusters.size() != cluster_count(mesh))
     throw std::invalid_argument("a mesh has " + std::to_string(mesh.clusters.size()) +
                                 " clusters instead of " + std::to_string(cluster_count(mesh)));
+}
+
+void check(const Instance& instance) {
+  if (instance.matrix && !(is_finite(*instance.matrix) && is_affine(*instance.matrix)))
+    throw std::invalid_argument("an instance's matrix must be finite, and its last row 0 0 0 1");
 }
 
 void throw_if_vertex_missing(const Mesh& mesh) {
@@ -45,8 +52,7 @@ void SceneMaker::start_frame(const Scene& scene, const FrontendOptions& options,
   index_range_ = index_range_kernel(options.target);
   assemble_ = assemble_kernel(options.target);
   shade_ = shade_kernel(options.target);
-  view_ = view_volume(scene.camera, options.width, options.height);
-  pixels_ = pixels_of(scene.camera, options.width, options.height);
+  view_.emplace(scene, options.width, options.height);
   to_light_ = glm::normalize(glm::dvec3(scene.to_light));
   vertex_missing_ = false;
   first_ids_.reserve(scene.instances.size() + 1);
@@ -54,7 +60,7 @@ void SceneMaker::start_frame(const Scene& scene, const FrontendOptions& options,
   std::size_t most_vertices = 0;
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes[instance.mesh];
-    check(mesh);
+    check(mesh), check(instance);
     first_ids_.push_back(first_ids_.back() + mesh.triangles.size());
     most_vertices = std::max(most_vertices, mesh.positions.size());
   }
@@ -79,14 +85,14 @@ void SceneMaker::start_instance(Worker& w, std::size_t instance) {
   w.instance = instance;
   w.task.emplace(MeshTask{.options = options_,
                           .mesh = mesh,
-                          .view = view_,
-                          .to_screen = {pixels_, scene_->camera.position, model},
-                          .depth = {view_.near_z, view_.far_z},
+                          .view = view_->volume,
+                          .to_screen = {*view_, model},
+                          .depth = view_->depth,
                           .first_id = static_cast<std::uint32_t>(first),
                           .states = states_ != nullptr ? states_ + first : nullptr});
   w.light.emplace(ShadeTask{mesh, cofactor_matrix(model), to_light_, w.task->first_id});
   w.sides.reset();
-  if (!mesh.clusters.empty()) w.sides.emplace(w.task->to_screen, view_);
+  if (!mesh.clusters.empty()) w.sides.emplace(w.task->to_screen, view_->volume);
   w.window.start(mesh);
 }
 

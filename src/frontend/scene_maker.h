@@ -69,8 +69,7 @@ class SceneMaker {
   const Scene* scene_ = nullptr;
   FrontendOptions options_;
   TriangleState* states_ = nullptr;
-  ViewVolume view_{};
-  glm::dmat3 pixels_;
+  std::optional<View> view_;
   glm::dvec3 to_light_;
   TransformKernel transform_ = nullptr;
   IndexRangeKernel index_range_ = nullptr;

@@ -180,16 +180,16 @@ namespace {
 
 // A screen triangle with the same winding as a mesh's triangle has when seen by the camera, without area if
 // that one has none.
-ScreenTriangle wound_as_seen(const Scene& scene, const Mesh& mesh, const glm::dmat4& model,
+ScreenTriangle wound_as_seen(const View& view, const Mesh& mesh, const glm::dmat4& model,
                              std::size_t triangle) {
-  glm::dvec3 from_camera[3];
-  for (int k = 0; k < 3; ++k)
-    from_camera[k] =
-        glm::dvec3(model * glm::dvec4(glm::dvec3(mesh.positions[mesh.triangles[triangle][k]]), 1.0)) -
-        scene.camera.position;
+  glm::dvec3 seen[3];  // x and y in pixels times w, and w
+  for (int k = 0; k < 3; ++k) {
+    const glm::dvec3 position(mesh.positions[mesh.triangles[triangle][k]]);
+    seen[k] = view.pixels * (glm::dvec3(model * glm::dvec4(position, 1.0)) - view.origin) + view.at_origin;
+  }
   // Points to the front, which is the clockwise side.
-  const glm::dvec3 normal = glm::cross(from_camera[2] - from_camera[0], from_camera[1] - from_camera[0]);
-  const int tall = glm::dot(normal, from_camera[0]) < 0.0 ? 1 : -1;
+  const glm::dvec3 normal = glm::cross(seen[2] - seen[0], seen[1] - seen[0]);
+  const int tall = glm::dot(normal, seen[0]) < 0.0 ? 1 : -1;
   return {{0, 1, 0}, {0, 0, tall}, {}, static_cast<std::uint32_t>(triangle)};
 }
 
@@ -199,6 +199,7 @@ std::vector<std::uint32_t> lit_colours(const Scene& scene) {
   const ShadeKernel kernel = shade_kernel(resolve(SimdTarget::best));
   std::vector<std::uint32_t> colours;
   const glm::dvec3 to_light = glm::normalize(glm::dvec3(scene.to_light));
+  const View view(scene, 2, 2);  // any size
   ChunkOutput out;
   out.reserve(kChunkTriangles, false);
   for (const Instance& instance : scene.instances) {
@@ -208,7 +209,7 @@ std::vector<std::uint32_t> lit_colours(const Scene& scene) {
     for (std::size_t begin = 0; begin < mesh.triangles.size(); begin += kChunkTriangles) {
       out.count = std::min(kChunkTriangles, mesh.triangles.size() - begin);
       for (std::size_t i = 0; i < out.count; ++i)
-        out.triangles.data()[i] = wound_as_seen(scene, mesh, model, begin + i);
+        out.triangles.data()[i] = wound_as_seen(view, mesh, model, begin + i);
       kernel(task, out, 0);
       for (std::size_t i = 0; i < out.count; ++i) colours.push_back(out.triangles.data()[i].payload);
     }

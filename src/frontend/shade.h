@@ -27,7 +27,8 @@ using ShadeKernel = void (*)(const ShadeTask& task, ChunkOutput& out, std::size_
 ShadeKernel shade_kernel(SimdTarget target);
 
 // The lit colours of a scene's triangles in submission order, including those that the front end would drop.
-// All mesh and vertex indices must exist.
+// All mesh and vertex indices must exist. Throws std::invalid_argument for a camera or matrices that
+// Frontend::run() refuses.
 std::vector<std::uint32_t> lit_colours(const Scene& scene);
 
 }  // namespace edgewise

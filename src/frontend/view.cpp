@@ -1,6 +1,8 @@
 #include "frontend/view.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 
@@ -20,15 +22,46 @@ void check(const Camera& camera) {
     throw std::invalid_argument("the camera needs 0 < near < far");
 }
 
+bool are_orthogonal(const glm::dmat3& axes) {
+  constexpr double kRounding = 0x1p-40;
+  const auto meet = [&](int i, int j) {
+    return std::abs(glm::dot(axes[i], axes[j])) <= kRounding * glm::length(axes[i]) * glm::length(axes[j]);
+  };
+  return meet(0, 1) && meet(1, 2) && meet(2, 0);
+}
+
 // The point that an instance puts at `world`. Any point near it will do: 0 stands for a coordinate that no
 // point has, because the instance is flat, or that is so large that a float minus it may overflow.
 glm::vec3 model_point(const glm::dmat3& axes, glm::dvec3 world) {
-  const glm::dvec3 along = world * axes;  // the axes are orthogonal
-  const auto coordinate = [&](int i) {
-    const double at = along[i] / glm::dot(axes[i], axes[i]);
-    return std::abs(at) < 0x1p103 ? static_cast<float>(at) : 0.0f;
-  };
+  glm::dvec3 at;
+  if (are_orthogonal(axes)) {
+    const glm::dvec3 along = world * axes;
+    for (int i = 0; i < 3; ++i) at[i] = along[i] / glm::dot(axes[i], axes[i]);
+  } else {
+    // Nearly dependent axes would need large coordinates, whose rounding errors do not cancel.
+    constexpr double kLongest = 16.0;
+    at = glm::inverse(axes) * world;
+    for (int i = 0; i < 3; ++i)
+      if (!(std::abs(at[i]) * glm::length(axes[i]) <= kLongest * glm::length(world))) return glm::vec3(0.0f);
+  }
+  const auto coordinate = [&](int i) { return std::abs(at[i]) < 0x1p103 ? static_cast<float>(at[i]) : 0.0f; };
   return {coordinate(0), coordinate(1), coordinate(2)};
+}
+
+// Clip space → x and y in pixels times w, and w.
+glm::dmat3 viewport(int width_px, int height_px) {
+  const double half_w = width_px / 2.0, half_h = height_px / 2.0;
+  return {half_w, 0, 0, 0, -half_h, 0, half_w, half_h, 1};
+}
+
+glm::dvec3 xyw(glm::dvec4 v) {
+  return {v.x, v.y, v.w};
+}
+
+bool is_usual_perspective(const CameraMatrices& m) {
+  const glm::dmat4& p = m.projection;
+  return is_affine(m.view) && xyw(p[3]) == glm::dvec3(0.0) && p[0].z == 0.0 && p[0].w == 0.0 &&
+         p[1].z == 0.0 && p[1].w == 0.0;
 }
 
 }  // namespace
@@ -48,26 +81,103 @@ ViewVolume view_volume(const Camera& camera, int width_px, int height_px) {
   return {double(width_px), double(height_px), double{camera.near_z}, double{camera.far_z}};
 }
 
-ScreenTransform::ScreenTransform(const Camera& camera, const Instance& instance, int width_px, int height_px)
-    : ScreenTransform(pixels_of(camera, width_px, height_px), camera.position, model_matrix(instance)) {}
+const Camera& camera_of(const Scene& scene) {
+  if (scene.matrices) throw std::invalid_argument("this needs a camera, and the scene has matrices");
+  return scene.camera;
+}
 
-ScreenTransform::ScreenTransform(const glm::dmat3& pixels, glm::dvec3 eye, const glm::dmat4& model) {
+bool is_affine(const glm::dmat4& m) {
+  return m[0].w == 0.0 && m[1].w == 0.0 && m[2].w == 0.0 && m[3].w == 1.0;
+}
+
+CameraMatrices matrices_of(const Camera& camera, double aspect) {
+  check(camera);
+  const glm::dmat3 turn = to_camera_frame(camera);
+  glm::dmat4 view(turn);
+  view[3] = glm::dvec4(turn * -camera.position, 1.0);
+  return {view,
+          perspective_projection(double{camera.fov_y}, aspect, double{camera.near_z}, double{camera.far_z})};
+}
+
+View::View(const Camera& camera, int width_px, int height_px)
+    : volume(view_volume(camera, width_px, height_px)),
+      depth(volume.near_z, volume.far_z),
+      pixels(pixels_of(camera, width_px, height_px)),
+      origin(camera.position) {}
+
+View::View(const Scene& scene, int width_px, int height_px)
+    : View(scene.matrices ? View(*scene.matrices, width_px, height_px)
+                          : View(scene.camera, width_px, height_px)) {}
+
+View::View(const CameraMatrices& matrices, int width_px, int height_px)
+    : volume{double(width_px), double(height_px), 0.0, 0.0, 1.0}, depth(0.0, 1.0) {
+  constexpr double kLargest = std::numeric_limits<float>::max(), kLeast = std::numeric_limits<float>::min();
+  if (!is_finite(matrices.view) || !is_finite(matrices.projection))
+    throw std::invalid_argument("the elements of the camera's matrices must be finite");
+  const glm::dmat4 to_clip = matrices.projection * matrices.view, from_view = glm::inverse(matrices.view),
+                   to_world = from_view * glm::inverse(matrices.projection);
+  if (!is_finite(to_clip) || !is_finite(to_world))
+    throw std::invalid_argument("the camera's matrices have no inverse");
+  // The product with (x, y, z, 1) is 1 / w of the point at (x, y, z) w. It is linear, so w is smallest at a
+  // corner of the view volume.
+  const glm::dvec4 inverse_w(to_world[0].w, to_world[1].w, to_world[2].w, to_world[3].w);
+  const glm::dvec4 corner(glm::sign(inverse_w.x), glm::sign(inverse_w.y), inverse_w.z > 0.0 ? 1.0 : 0.0, 1.0);
+  const double least_w = 1.0 / glm::dot(inverse_w, corner);
+  if (!(least_w > 0.0))
+    throw std::invalid_argument("the camera's matrices show nothing: w is never positive");
+  if (!(least_w >= kLeast && least_w <= kLargest))
+    throw std::invalid_argument("the least w that the camera's matrices show is out of the range of float");
+
+  const glm::dmat3 to_pixels = viewport(width_px, height_px);
+  pixels = to_pixels * glm::dmat3(xyw(to_clip[0]), xyw(to_clip[1]), xyw(to_clip[2]));
+  if (is_usual_perspective(matrices)) {
+    const glm::dmat4& p = matrices.projection;
+    const double a = p[2].z / p[2].w, b = p[3].z;  // z / w = a + b / w, so a = far / (far - near)
+    if (b > 0.0)
+      throw std::invalid_argument("z / w falls with the distance; see ClipSpace::reversed in camera.h");
+    origin = glm::dvec3(from_view[3]);
+    volume.near_z = -b / a;
+    const double far_z = a > 1.0 ? -b / (a - 1.0) : std::numeric_limits<double>::infinity();
+    volume.far_z = far_z <= kLargest ? far_z : std::numeric_limits<double>::infinity();
+    volume.far_w = 0.0;
+    depth.near_z = volume.near_z, depth.scale = contract::kDepthRange * a;
+    return;
+  }
+  origin = glm::dvec3(to_world * corner) * least_w;
+  at_origin = to_pixels * xyw(corner) * least_w;
+  has_z = true;
+  z = {to_clip[0].z, to_clip[1].z, to_clip[2].z, corner.z * least_w};
+  if (glm::dvec3(inverse_w) == glm::dvec3(0.0)) axis = glm::dvec3(to_world[2]) * least_w;
+}
+
+ScreenTransform::ScreenTransform(const Camera& camera, const Instance& instance, int width_px, int height_px)
+    : ScreenTransform(View(camera, width_px, height_px), model_matrix(instance)) {}
+
+ScreenTransform::ScreenTransform(const View& view, const glm::dmat4& model) : has_z(view.has_z) {
   const glm::dmat3 axes(model);
-  const glm::dvec3 towards = eye - glm::dvec3(model[3]);
+  // Along the axis, to the point nearest to the instance's origin. NaN if there is no axis.
+  const glm::dvec3 place = glm::dvec3(model[3]) - view.origin;
+  const double at = glm::dot(place, view.axis) / glm::dot(view.axis, view.axis);
+  const glm::dvec3 along = at > 0.0 ? std::min(at, 1.0) * view.axis : glm::dvec3(0.0);
+  const glm::dvec3 towards = view.origin + along - glm::dvec3(model[3]);
   origin = model_point(axes, towards);
   // A vertex at such a distance is beyond usual far planes, and must not become infinite or NaN.
   constexpr double kLargest = 0x1p125, kLargestOffset = 0x1p200;
-  const auto set = [&](int column, glm::dvec3 v) {
-    exact[column] = pixels * v;
-    rounded[column] = glm::clamp(exact[column], -kLargest, kLargest);
-  };
-  for (int i = 0; i < 3; ++i) set(i, axes[i]);
-  set(3, glm::clamp(axes * glm::dvec3(origin) - towards, -kLargestOffset, kLargestOffset));
+  const glm::dvec3 offset = glm::clamp(axes * glm::dvec3(origin) - towards, -kLargestOffset, kLargestOffset);
+  for (int i = 0; i < 3; ++i) exact[i] = view.pixels * axes[i];
+  exact[3] = view.pixels * offset + view.at_origin;
+  for (int i = 0; i < 4; ++i) rounded[i] = glm::clamp(exact[i], -kLargest, kLargest);
+  if (!has_z) return;
+  const glm::dvec3 z_of(view.z);
+  z = glm::dvec4(z_of * axes, glm::dot(z_of, offset + along) + view.z.w);
+  w = glm::dvec4(exact[0].z, exact[1].z, exact[2].z, exact[3].z);
+  z = glm::clamp(z, -kLargestOffset, kLargestOffset), w = glm::clamp(w, -kLargestOffset, kLargestOffset);
 }
 
 ClipVertex ScreenTransform::operator()(glm::vec3 position) const {
-  const glm::dvec3 v = exact * glm::dvec4(glm::dvec3(position) - glm::dvec3(origin), 1.0);
-  return {v.x, v.y, v.z, v.z};
+  const glm::dvec4 p(glm::dvec3(position) - glm::dvec3(origin), 1.0);
+  const glm::dvec3 v = exact * p;
+  return {v.x, v.y, has_z ? glm::dot(z, p) : v.z, v.z};
 }
 
 glm::dmat4 screen_matrix(const Camera& camera, int width_px, int height_px) {

@@ -11,26 +11,56 @@ namespace edgewise {
 // The view volume of a camera. Throws std::invalid_argument if a value of the camera is out of range.
 ViewVolume view_volume(const Camera& camera, int width_px, int height_px);
 
+// The camera of a scene that has no matrices, for code that knows only cameras. Throws std::invalid_argument
+// if it has.
+const Camera& camera_of(const Scene& scene);
+
 // Rotates world-space vectors into view space.
 glm::dmat3 to_camera_frame(const Camera& camera);
 
 // World directions → x and y in pixels times w, and w. A point has the same, relative to the camera.
 glm::dmat3 pixels_of(const Camera& camera, int width_px, int height_px);
 
-// Model space → pixels times w, and w, the distance along the view direction (rule 10). The camera is
-// subtracted from a vertex before anything else is rounded.
+// True if the last row is 0 0 0 1.
+bool is_affine(const glm::dmat4& m);
+
+// What a camera, or the matrices in its place, show in an image of a size.
+struct View {
+  // All throw std::invalid_argument if a value of the camera is out of range, or matrices cannot be used.
+  View(const Camera& camera, int width_px, int height_px);
+  View(const CameraMatrices& matrices, int width_px, int height_px);
+  View(const Scene& scene, int width_px, int height_px);
+
+  ViewVolume volume;
+  ViewDepth depth;  // if z is w
+  // World space → x and y in pixels times w, and w, is pixels · (position - origin) + at_origin.
+  glm::dmat3 pixels;
+  glm::dvec3 origin;
+  glm::dvec3 at_origin{0.0};
+  // If z is not w: its linear part and its value at the origin. Depth is z / w.
+  bool has_z = false;
+  glm::dvec4 z{0.0};
+  // If w is the same everywhere: from the origin, in the middle of the near plane, to the middle of the far
+  // plane. Along this axis, only z changes. Otherwise 0.
+  glm::dvec3 axis{0.0};
+};
+
+// Model space → pixels times w, and w, the distance along the view direction (rule 10). A point in the view,
+// which is the camera's position if z is w, is subtracted from a vertex before anything else is rounded.
 struct ScreenTransform {
-  // `pixels` is that of a camera at `eye`, `model` an instance's matrix.
-  ScreenTransform(const glm::dmat3& pixels, glm::dvec3 eye, const glm::dmat4& model);
-  // Requires a camera that view_volume() accepts.
+  // `model` is an instance's matrix.
+  ScreenTransform(const View& view, const glm::dmat4& model);
   ScreenTransform(const Camera& camera, const Instance& instance, int width_px, int height_px);
 
-  // In double, for the vertices of triangles that must be clipped. z is w.
+  // In double, for the vertices of triangles that must be clipped.
   ClipVertex operator()(glm::vec3 position) const;
 
-  glm::vec3 origin;     // the camera's position in model space, as far as floats represent it
+  glm::vec3 origin;     // that point in model space, as far as floats represent it
   glm::dmat4x3 exact;   // position - origin → x, y, w
   glm::mat4x3 rounded;  // the same, within the range of float
+  // As in View; position - origin → z and w, in double.
+  bool has_z;
+  glm::dvec4 z{0.0}, w{0.0};
 };
 
 // World space → pixels and depth in [0, 1], all times w. In double, for labels and outlines. Throws

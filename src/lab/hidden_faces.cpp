@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "frontend/view.h"
 #include "lab/view_space.h"
 
 namespace edgewise::lab {
@@ -52,7 +53,7 @@ HiddenFaces::HiddenFaces(const Scene& scene, const FacingMethod& method) : metho
 
 const Drawable& HiddenFaces::drop(const Scene& scene) {
   Scene& left = std::get<Scene>(left_);
-  left.camera = scene.camera;
+  left.camera = camera_of(scene);
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
     const Instance& instance = scene.instances[i];
     const Mesh& mesh = scene.meshes[instance.mesh];

@@ -12,7 +12,7 @@ ClippingScene as_one_mesh(const Scene& scene, Size size, const glm::dmat3& turn,
   ClippingScene seen{{}, size};
   seen.scene.meshes.resize(1);
   seen.scene.instances.resize(1);
-  seen.scene.camera = scene.camera;
+  seen.scene.camera = camera_of(scene);
   Mesh& all = seen.scene.meshes.front();
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes.at(instance.mesh);

@@ -53,6 +53,7 @@ void frame_camera(Scene& scene, double aspect) {
   // sine.
   const double tan = tangent(0.5 * double{kFovY}) * std::min(aspect, 1.0);
   const double distance = kMargin * radius * std::sqrt(1.0 + tan * tan) / tan;
+  scene.matrices.reset();
   Camera& camera = scene.camera;
   camera.position = centre + distance * glm::normalize(glm::dvec3(0.4, 0.35, 1.0));
   camera.fov_y = kFovY;
@@ -75,8 +76,15 @@ void fit(Scene& scene) {
     throw std::invalid_argument(
         "too small, too large, or too far from the origin to be scaled to a size of 2");
   for (auto& instance : scene.instances) {
-    instance.scale *= factor;
-    instance.translation = (instance.translation - centre) * factor;
+    if (instance.matrix) {
+      for (int i = 0; i < 4; ++i) {
+        glm::dvec4& column = (*instance.matrix)[i];
+        column = glm::dvec4((glm::dvec3(column) - column.w * centre) * factor, column.w);
+      }
+    } else {
+      instance.scale *= factor;
+      instance.translation = (instance.translation - centre) * factor;
+    }
   }
 }
 

@@ -1,8 +1,6 @@
 #include "edgewise/scene.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "core/trigonometry.h"
@@ -47,15 +45,8 @@ void Mesh::add_quad(glm::uvec4 corners, std::uint32_t colour, bool two_sided) {
   colours.insert(colours.end(), 2, colour);
 }
 
-void Camera::look_at(glm::dvec3 target) {
-  glm::dvec3 back = position - target;
-  if (back == glm::dvec3(0.0)) return;
-  back /= std::max({std::abs(back.x), std::abs(back.y), std::abs(back.z)});  // so that squares stay in range
-  yaw = static_cast<float>(arctangent(back.x, back.z));
-  pitch = static_cast<float>(arctangent(-back.y, glm::length(glm::dvec2(back.x, back.z))));
-}
-
 glm::dmat4 model_matrix(const Instance& instance) {
+  if (instance.matrix) return *instance.matrix;
   glm::dmat4 m = glm::translate(glm::dmat4(1.0), instance.translation);
   if (instance.angle != 0.0f && instance.axis != glm::vec3(0.0f))
     m *= glm::dmat4(rotation(instance.axis, double{instance.angle}));

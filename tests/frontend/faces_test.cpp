@@ -178,13 +178,18 @@ TEST(Faces, WithTwoSidesAreNeverCulled) {
 }
 
 // A square in front of the camera, lit from the camera's side or from behind.
-std::uint32_t colour_of_square(bool two_sided, bool turned, glm::vec3 to_light) {
+Scene scene_of_square(bool two_sided, bool turned, glm::vec3 to_light) {
   Scene scene;
   Mesh& mesh = scene.meshes.emplace_back();
   mesh.positions = {{-1, 1, -3}, {1, 1, -3}, {1, -1, -3}, {-1, -1, -3}};
   mesh.add_quad(turned ? glm::uvec4{0, 3, 2, 1} : glm::uvec4{0, 1, 2, 3}, rgb(200, 200, 200), two_sided);
   scene.instances.push_back({});
   scene.to_light = to_light;
+  return scene;
+}
+
+std::uint32_t colour_of_square(bool two_sided, bool turned, glm::vec3 to_light) {
+  const Scene scene = scene_of_square(two_sided, turned, to_light);
   FrontendOptions options = kOptions;
   options.cull = Cull::none;
   const auto triangles = run(scene, options).triangles;
@@ -201,6 +206,22 @@ TEST(Faces, WithTwoSidesAreLitOnTheVisibleSide) {
     EXPECT_EQ(colour_of_square(true, turned, {0, 0, -1}), dark);
     EXPECT_EQ(colour_of_square(false, turned, {0, 0, 1}), turned ? dark : light);
   }
+}
+
+// By matrices too, mirroring or not, although the view's direction has no position.
+TEST(Faces, WithTwoSidesAreLitOnTheSideThatMatricesShow) {
+  for (const double mirror : {1.0, -1.0})
+    for (const glm::dmat4& projection :
+         {orthographic_projection(-2 * mirror, 2 * mirror, -2, 2, 1, 9), perspective_projection(1, 1, 1, 9)})
+      for (const glm::vec3 to_light : {glm::vec3(0, 0, 1), {0, 0, -1}}) {
+        Scene scene = scene_of_square(true, false, to_light);
+        scene.matrices = CameraMatrices{glm::dmat4(1.0), projection};
+        FrontendOptions options = kOptions;
+        options.cull = Cull::none;
+        const auto triangles = run(scene, options).triangles;
+        ASSERT_EQ(triangles.size(), 2u);
+        EXPECT_EQ(lit_colours(scene), std::vector<std::uint32_t>(2, triangles.front().payload));
+      }
 }
 
 TEST(Faces, AreRefusedIfTheirFlagsOrNormalsAreInvalid) {

@@ -121,6 +121,23 @@ TEST(FrontendKernels, MeshesAreTheSameOnEveryTargetAndThreadCount) {
   expect_all_alike(random_scene(true), {.width = 300, .height = 200, .shade = false});
 }
 
+TEST(FrontendKernels, MeshesSeenByMatricesAreTheSameOnEveryTargetAndThreadCount) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const CameraMatrices camera = matrices_of(random_scene(false).camera, 1.5);
+  glm::dmat4 oblique = camera.projection;
+  oblique[0].z = 0.3, oblique[3].z = -0.5;
+  for (const CameraMatrices& matrices :
+       {CameraMatrices{camera.view, perspective_projection(1, 1.5, 1e-2, kInfinity)},
+        CameraMatrices{camera.view, orthographic_projection(-40, 30, -20, 30, -100, 100)},
+        CameraMatrices{camera.view, oblique},
+        CameraMatrices{glm::dmat4(1.0), camera.projection * camera.view}})
+    for (const bool spoil : {false, true}) {
+      Scene scene = random_scene(spoil);
+      scene.matrices = matrices;
+      expect_all_alike(scene, {.width = 300, .height = 200, .cull = Cull::back});
+    }
+}
+
 TEST(FrontendKernels, StreamsAreTheSameOnEveryTargetAndThreadCount) {
   for (const Cull cull : {Cull::none, Cull::back, Cull::front})
     for (const Payload payload : {Payload::colour, Payload::id})
@@ -322,6 +339,44 @@ TEST(FrontendKernels, VerticesOnPlanesMatchTheScalarFlags) {
         const float inverse_w = 1.0f / v.z;
         const Vertex expected{snap(v.x * inverse_w), snap(v.y * inverse_w), job.depth.units(double{v.z}),
                               outside};
+        ASSERT_EQ(std::memcmp(&vertices[i], &expected, sizeof expected), 0) << name_of(target) << ", " << i;
+      }
+    }
+  }
+}
+
+// The same for a z of its own, which is the position's here.
+TEST(FrontendKernels, VerticesWithZOnPlanesMatchTheScalarFlags) {
+  constexpr int kWidth = 640, kHeight = 480;
+  constexpr ViewVolume kView{kWidth, kHeight, 0.0, 0.0, 1.0};
+  const FrontendOptions options{.width = kWidth, .height = kHeight};
+  for (const float w : {1.0f, 0.7f, 0.0f, -1.0f, 1e-38f, 3e38f}) {
+    Mesh mesh;
+    for (const float x : borders(w, kWidth))
+      for (const float y : borders(w, kHeight))
+        for (const float z : borders(w, 2.0f)) mesh.positions.emplace_back(x, y, z);
+    std::vector<Vertex> vertices(mesh.positions.size());
+    MeshTask job{options, mesh, kView, {{}, {}, kWidth, kHeight}, ViewDepth(0.5, 0.9)};
+    job.to_screen.origin = glm::vec3(0.0f);
+    job.to_screen.rounded = glm::mat4x3(0.0f);
+    job.to_screen.rounded[0].x = job.to_screen.rounded[1].y = 1.0f;
+    job.to_screen.rounded[3].z = w;
+    job.to_screen.has_z = true;
+    job.to_screen.z = {0, 0, 1, 0}, job.to_screen.w = {0, 0, 0, w};
+    for (const SimdTarget target : supported_targets()) {
+      transform_kernel(target)(job, mesh.positions.data(), vertices.size(), vertices.data());
+      for (std::size_t i = 0; i < vertices.size(); ++i) {
+        const glm::vec3 v = transform(job.to_screen, mesh.positions[i]);
+        const float z = mesh.positions[i].z;
+        std::uint32_t outside = flags_in_float(v, {kWidth, kHeight, v.z, v.z});
+        if (outside != kNotFinite && z < 0.0f) outside |= kNear;
+        if (outside != kNotFinite && z > w) outside |= kFar;
+        const float inverse_w = 1.0f / v.z;
+        if ((outside & (kMustClip | kNotFinite)) == 0 && !std::isfinite(inverse_w)) outside |= kNear;
+        ASSERT_EQ(vertices[i].outside, outside) << name_of(target) << ", w = " << w << ", " << i;
+        if ((outside & (kMustClip | kNotFinite)) != 0) continue;
+        const Vertex expected{snap(v.x * inverse_w), snap(v.y * inverse_w),
+                              round_depth(double{z} / double{w} * contract::kDepthRange), outside};
         ASSERT_EQ(std::memcmp(&vertices[i], &expected, sizeof expected), 0) << name_of(target) << ", " << i;
       }
     }

@@ -126,6 +126,27 @@ TEST(MeshClusters, GiveTheTrianglesOfTheWholeMesh) {
       }
 }
 
+TEST(MeshClusters, GiveTheTrianglesOfTheWholeMeshToMatrices) {
+  Scene scene = two_grids();
+  scene.instances = {{}, {.scale = {-1, 2, 0.5f}, .angle = 1}};
+  const glm::dmat4 view = matrices_of(scene.camera, 1.6).view;
+  for (const glm::dmat4& projection :
+       {orthographic_projection(-9, 9, -5, 5, -20, 30), perspective_projection(1, 1.6, 0.5, 1e3)})
+    for (const bool in_one : {false, true}) {
+      scene.matrices =
+          in_one ? CameraMatrices{glm::dmat4(1.0), projection * view} : CameraMatrices{view, projection};
+      Scene whole = scene;
+      whole.meshes[0].clusters.clear();
+      const FrontendOptions options{.width = 320, .height = 200, .cull = Cull::none};
+      Frontend expected, given;
+      const auto e = expected.run(whole, options), g = given.run(scene, options);
+      ASSERT_GT(g.size(), 0u);
+      ASSERT_EQ(e.size(), g.size());
+      EXPECT_EQ(std::memcmp(e.data(), g.data(), e.size_bytes()), 0);
+      EXPECT_GT(given.stats().whole_mesh, 0u);
+    }
+}
+
 TEST(MeshClusters, AreDroppedOutsideTheView) {
   Scene scene = grid();
   Frontend frontend;
@@ -158,17 +179,25 @@ TEST(MeshClusters, ExcludeNoVertexThatFloatsFindInView) {
   const auto real = [&](float low, float high) {
     return low + (high - low) * static_cast<float>(random.below(1 << 20)) * 0x1p-20f;
   };
+  const FrontendOptions options;
+  const Mesh mesh;
+  const TransformKernel kernel = transform_kernel(resolve(SimdTarget::best));
   int sides = 0, excluded = 0, in_view = 0;
   for (int i = 0; i < 100'000; ++i) {
     Camera camera;
     const float away = i % 2 == 0 ? 0.0f : 1e6f;  // from the origin
     camera.position = {away + real(-3, 3), real(-3, 3), real(-3, 3)};
     camera.yaw = real(-3, 3), camera.pitch = real(-1, 1);
-    const ScreenTransform to_screen(camera, {}, 320, 200);
-    const ViewVolume volume = view_volume(camera, 320, 200);
-    const ViewSides view(to_screen, volume);
+    CameraMatrices matrices = matrices_of(camera, 1.6);
+    if (i % 3 == 1) matrices = {glm::dmat4(1.0), matrices.projection * matrices.view};
+    if (i % 3 == 2) matrices.projection = orthographic_projection(-80, 80, -50, 50, -20, 100);
+    const View seen = i % 3 == 0 ? View(camera, 320, 200) : View(matrices, 320, 200);
+    const MeshTask task{options, mesh, seen.volume, {seen, glm::dmat4(1.0)}, seen.depth};
+    const ViewSides view(task.to_screen, seen.volume);
     const auto outside = [&](glm::vec3 v) {
-      return outside_of(as_clip_vertex(transform(to_screen, v)), volume) & kInvisible;
+      Vertex vertex;
+      kernel(task, &v, 1, &vertex);
+      return vertex.outside & kInvisible;
     };
     const auto vertex = [&] { return glm::vec3{away + real(-200, 200), real(-200, 200), real(-200, 200)}; };
     const auto excludes = [&](glm::vec3 v) { return view.exclude({v, v}); };

@@ -11,7 +11,10 @@
 #include "lab/coverage/score.h"
 #include "lab/lab_support.h"
 #include "lab/measure.h"
+#include "lab/portable/portable.h"
 #include "lab/truth.h"
+#include "lab/view_space.h"
+#include "message_of.h"
 
 namespace edgewise::lab {
 namespace {
@@ -223,6 +226,16 @@ TEST(Clipping, TrianglesClippedInEveryDirectionKeepTheirWinding) {
                                   [](auto triangle) { return triangle == kNoTriangle; }));
       }
     }
+}
+
+TEST(Clipping, LikeAllMethodsThatKnowOnlyCamerasRefusesMatrices) {
+  ClippingScene seen = clipping_cases()[0].make();
+  seen.scene.matrices = matrices_of(seen.scene.camera, 1);
+  const Scene& scene = seen.scene;
+  const char* const kMessage = "this needs a camera, and the scene has matrices";
+  EXPECT_EQ(message_of([&] { clipping_truth(seen); }), kMessage);
+  EXPECT_EQ(message_of([&] { in_view_space(scene, {64, 64}); }), kMessage);
+  EXPECT_EQ(message_of([&] { portable_triangles(scene, {64, 64, Cull::none}); }), kMessage);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 # A public header belongs to the room that implements it. Those not named here belong to no room.
-ROOM_OF = {"backend.h": "raster", "builtin.h": "scene", "framebuffer.h": "raster", "frontend.h": "frontend",
+ROOM_OF = {"backend.h": "raster", "builtin.h": "scene", "camera.h": "scene", "framebuffer.h": "raster", "frontend.h": "frontend",
            "hash.h": "raster", "image.h": "image", "obj_file.h": "scene", "scene.h": "scene", "simd_target.h": "core", "tri_file.h": "scene",
            **dict.fromkeys(["contract.h", "cxx20.h", "limits.h", "screen_triangle.h"])}  # of no room
 # A room, or one public header of a room.

@@ -16,13 +16,13 @@
 namespace edgewise::lab {
 
 inline ViewVolume view_of(const ClippingScene& s) {
-  return view_volume(s.scene.camera, s.size.width, s.size.height);
+  return view_volume(camera_of(s.scene), s.size.width, s.size.height);
 }
 
 // World position → pixels times w, and w, in float, relative to the camera.
 class ToClip {
  public:
-  explicit ToClip(const ClippingScene& s) : to_screen_(s.scene.camera, {}, s.size.width, s.size.height) {}
+  explicit ToClip(const ClippingScene& s) : to_screen_(camera_of(s.scene), {}, s.size.width, s.size.height) {}
   ClipVertex operator()(glm::vec3 p) const { return as_clip_vertex(transform(to_screen_, p)); }
 
  private:

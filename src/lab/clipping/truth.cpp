@@ -25,7 +25,7 @@ int sign(const mpq_class& v) {
 // Where an instance stands, in the doubles that count as exact.
 struct Placement {
   Placement(const Scene& scene, Size image, const Instance& instance)
-      : camera(scene.camera),
+      : camera(camera_of(scene)),
         size(image),
         model(model_matrix(instance)),
         turn(to_camera_frame(camera)),

@@ -349,7 +349,7 @@ PipelineFrame::PipelineFrame(const Drawable& drawable, const FrontendOptions& op
 
 void PipelineFrame::draw(const Pipeline& pipeline, PipelineMemory& memory) const {
   const auto* const scene = std::get_if<Scene>(&drawable_);
-  const ViewVolume view = scene != nullptr ? view_volume(scene->camera, size_.width, size_.height)
+  const ViewVolume view = scene != nullptr ? view_volume(camera_of(*scene), size_.width, size_.height)
                                            : ViewVolume{double(size_.width), double(size_.height), 0.0, 1.0};
   Assembly assembly(pipeline, cull_, view, scene == nullptr, memory);
   if (scene != nullptr)

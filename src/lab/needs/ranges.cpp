@@ -64,7 +64,7 @@ std::array<Reach, kViewPlanes> Ranges::add(const StudiedFrame& frame) {
   if (!std::holds_alternative<Scene>(frame.drawable)) return reach;
   const auto& scene = std::get<Scene>(frame.drawable);
   const auto [width, height] = frame.size();
-  const ViewVolume view = view_volume(scene.camera, width, height);
+  const ViewVolume view = view_volume(camera_of(scene), width, height);
   near_z_ = view.near_z, far_z_ = view.far_z;
   std::vector<ClipVertex> vertices;
   for (const Instance& instance : scene.instances) {

@@ -201,7 +201,7 @@ class ClipErrors {
     const auto* scene = std::get_if<Scene>(&drawable);
     if (scene == nullptr) return;
     sources_ = std::make_unique<SourceTriangles>(*scene);
-    camera_ = scene->camera;
+    camera_ = camera_of(*scene);
     width_ = options.width, height_ = options.height;
     least_w_ = double{camera_.near_z};
   }

@@ -51,7 +51,7 @@ class SourceTriangle {
 VisibilityScene visibility_scene(std::span<const ScreenTriangle> triangles,
                                  std::span<const UnsnappedTriangle> unsnapped, const Scene& scene,
                                  Size size) {
-  const double near_z = scene.camera.near_z, far_z = scene.camera.far_z;
+  const double near_z = camera_of(scene).near_z, far_z = scene.camera.far_z;
   VisibilityScene result{size.width, size.height, near_z, far_z, {}, {}};
   result.triangles.reserve(triangles.size());
   SourceTriangles sources(scene);

@@ -1,0 +1,86 @@
+// Cameras: a position and two angles, or any view and projection as matrices, with helpers for the
+// conventions of other programs. Frontend::run() and draw() check them; the helpers check their arguments.
+//
+// World space is right-handed: x points right, y up, and z backwards for a camera of yaw 0 and pitch 0, which
+// looks along -z. Angles are in radians, lengths in world units.
+//
+// Matrices multiply column vectors, clip = projection · view · position, and glm names elements
+// m[column][row]. There is one clip space: x points right, y up, z away from the camera. A point is visible
+// where |x| <= w, |y| <= w and 0 <= z <= w. In an image of `width` x `height` pixels it lies at
+//   x_px = width (x / w + 1) / 2,  y_px = height (1 - y / w) / 2
+// So y_px points down. Pixel (0, 0) is top left, and its centre lies at (0.5, 0.5). The front of a triangle
+// is the side whose vertices appear clockwise in the image. Depth is 0 at the near plane and 1 at the far
+// plane; the smaller depth is nearer.
+#pragma once
+
+#include "edgewise/cxx20.h"
+
+#include <glm/glm.hpp>
+
+namespace edgewise {
+
+struct Camera {
+  glm::dvec3 position{0.0};
+  float yaw = 0.0f;     // radians about +y; positive turns left
+  float pitch = 0.0f;   // radians; positive looks up. At ±pi/2, yaw still turns the image
+  float fov_y = 1.0f;   // vertical field of view in radians, 0 < fov_y < pi
+  float near_z = 0.1f;  // distances along the view direction, 0 < near_z < far_z
+  float far_z = 100.0f;
+
+  // Turns the camera towards a point. Straight up and straight down, yaw becomes 0: the image's top then
+  // points along +z (up) or -z (down). Does nothing if the point is the camera's own position.
+  void look_at(glm::dvec3 target);
+};
+
+// Any view and projection that have an inverse, see at least one point, and are finite. What clips, and what
+// depth means, depends on the projection:
+// - Usual perspective: the view is affine (its last row is 0 0 0 1), and the projection's rows are
+//     x: (·, ·, ·, 0)   y: (·, ·, ·, 0)   z: (0, 0, ·, ·)   w: (0, 0, ·, 0)
+//   w is the distance along the view direction, or a multiple of it, and w clips: near and far are the values
+//   of w where z = 0 and z = w. Far may be infinite. Depth is z / w, computed from w (rule 6 of contract.h).
+//   z / w must grow with w: see ClipSpace::reversed. This is as precise as a Camera.
+// - All others: z clips, and depth is z / w. A perspective projection becomes one of these if it is already
+//   multiplied with the view. Positions stay precise, but far points get coarser depths.
+// Rule 10 says how precise positions and depths are, also far from the world's origin.
+struct CameraMatrices {
+  glm::dmat4 view{1.0};        // world space → view space, in which any direction may be forward
+  glm::dmat4 projection{1.0};  // view space → clip space
+};
+
+// What a camera sees, as matrices. `aspect` is the image's width divided by its height. Throws
+// std::invalid_argument if a value is out of range.
+CameraMatrices matrices_of(const Camera& camera, double aspect);
+
+// A perspective projection from a view space in which x points right, y up, and z backwards (OpenGL, glTF):
+// `fov_y` is the vertical field of view in radians, `aspect` the image's width divided by its height. near_z
+// and far_z are distances along the view direction; far_z may be infinite. Throws std::invalid_argument
+// unless 0 < fov_y < pi, 0 < aspect and 0 < near_z < far_z.
+glm::dmat4 perspective_projection(double fov_y, double aspect, double near_z, double far_z);
+
+// A parallel projection from the same view space. It shows left … right, bottom … top, and distances
+// near_z … far_z along the view direction, which may be negative. Throws std::invalid_argument for a value
+// that is not finite and for an empty range.
+glm::dmat4 orthographic_projection(double left, double right, double bottom, double top, double near_z,
+                                   double far_z);
+
+// Computer vision: the projection of a pinhole camera with intrinsics `k`, whose last row is 0 0 1. In its
+// view space, x points right, y down, and z forward, so its view is the usual world-to-camera matrix. k gives
+// positions in an image of `width` x `height` pixels, in which the centre of the first pixel lies at
+// (first_centre, first_centre): 0 for OpenCV, 0.5 for COLMAP. Distances are those of
+// perspective_projection(). Throws std::invalid_argument for a value out of range.
+glm::dmat4 intrinsics_projection(const glm::dmat3& k, int width, int height, double first_centre,
+                                 double near_z, double far_z);
+
+// How another program's clip space differs from this one.
+struct ClipSpace {
+  bool z_from_minus_w = false;  // visible where -w <= z <= w
+  bool y_down = false;
+  bool reversed = false;  // the near plane is where z is largest
+};
+inline constexpr ClipSpace kOpenGl{.z_from_minus_w = true}, kDirect3d{}, kVulkan{.y_down = true};
+
+// Turns a projection into another program's clip space into one into ours, which shows the same picture.
+// Direct3D's matrices multiply row vectors, so they are transposed, but lie in memory as glm's do.
+glm::dmat4 projection_from(ClipSpace space, const glm::dmat4& projection);
+
+}  // namespace edgewise
