@@ -35,12 +35,11 @@ struct BarycentricsView {
 // call ends.
 //
 // Throws std::bad_alloc if memory runs out, and std::invalid_argument
-// - before it writes anything: for a frame or view that cannot be read or written, for a frame of another
-// size
-//   than the options, for another payload than ids, and where Frontend::run() throws it, for the camera, the
-//   thread count, the SIMD target, mesh indices and flags;
-// - if a pixel has an id that the drawable lacks, or of a triangle that does not cover the pixel, because the
-//   frame shows something else. Then the content of the views is undefined.
+// - for a frame or view that cannot be read or written, for options of another size than the frame or for
+//   another payload than ids; and for a camera, a thread count, a SIMD target, mesh indices or flags that
+//   Frontend::run() throws for. Then nothing has been written.
+// - if a pixel has an id that the drawable lacks, or that of a triangle that does not cover the pixel: the
+//   frame shows something else. Then the content of the planes is undefined.
 void barycentrics(const ConstFrameView& ids, const Drawable& drawable, const FrontendOptions& options,
                   const BarycentricsView& out);
 

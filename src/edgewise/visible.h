@@ -35,15 +35,14 @@ std::vector<std::size_t> first_ids(const Scene& scene);
 std::vector<std::uint32_t> pixels_per_instance(const ConstFrameView& ids, const Scene& scene);
 std::vector<std::uint32_t> pixels_per_mesh(const ConstFrameView& ids, const Scene& scene);
 
-// Whether something in a box may be visible before what a frame shows, seen by the camera that the frame was
-// drawn with. False only if no triangle whose vertices lie in the box could win a pixel, drawn after all
-// others, with positions that rule 10 holds for. Also true, without a look at the frame, for a box that the
-// near plane cuts, or that has a coordinate that is infinite or NaN. False for a box without points (low >
-// high).
+// True if a triangle whose vertices lie in a box could win a pixel of a frame, drawn after what the frame
+// shows, by the same camera. False is certain, for all positions that rule 10 holds for. True is not: the
+// query compares the nearest depth of the box with the pixels in the rectangle around the projected box, and
+// stops at the first one that is farther. It returns true, without a look at the frame, for a box that the
+// near plane cuts and for one with a coordinate that is infinite or NaN, and false for one without points
+// (low > high).
 //
-// Tests the pixels of the rectangle around the projected box against the nearest depth of the box. Stops at
-// the first pixel that is farther. `depth.payload` may be null. Throws std::invalid_argument for a camera
-// that is out of range.
+// `depth.payload` may be null. Throws std::invalid_argument for a camera that is out of range.
 bool visible(const Bounds& box, const Camera& camera, const ConstFrameView& depth);
 
 }  // namespace edgewise

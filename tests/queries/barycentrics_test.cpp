@@ -53,12 +53,12 @@ struct Shown {
   }
   bool has(int x, int y) const { return ids.depth_row(y)[x] != contract::kDepthClear; }
   std::uint32_t id(int x, int y) const { return ids.payload_row(y)[x]; }
-  // Calls visit(x, y, index of the pixel).
+  // Calls visit(x, y, index of the pixel) until a test fails.
   template <typename Visit>
   void for_each_pixel(Visit&& visit) const {
     std::size_t pixel = 0;
     for (int y = 0; y < options.height; ++y)
-      for (int x = 0; x < options.width; ++x) visit(x, y, pixel++);
+      for (int x = 0; x < options.width && !::testing::Test::HasFatalFailure(); ++x) visit(x, y, pixel++);
   }
 
   Drawable drawable;
@@ -239,8 +239,12 @@ class Truth {
   Cull cull_ = Cull::none;
 };
 
+double error_of(float value, const mpq_class& exact) {
+  return mpq_class(abs(mpq_class(value) - exact)).get_d();
+}
+
 struct Counts {
-  int pixels = 0, clipped = 0, uneven = 0;
+  int pixels = 0, clipped = 0, tiny = 0;  // tiny: u is positive but rounds to 0
 };
 
 // Compares every pixel with the truth.
@@ -256,13 +260,12 @@ void expect_rule(const Shown& shown, const std::string& what, Counts& counts) {
     const auto where = [&] { return what + ", " + std::to_string(x) + ", " + std::to_string(y); };
     const auto exact = truth.at(x, y);
     ASSERT_TRUE(exact) << where();
-    ASSERT_LT(abs(mpq_class(u) - exact->u), mpq_class(contract::kBarycentricError)) << where();
-    ASSERT_LT(abs(mpq_class(v) - exact->v), mpq_class(contract::kBarycentricError)) << where();
-    if (std::holds_alternative<Scene>(shown.drawable))
-      ASSERT_LT(abs(mpq_class(distance) - exact->distance), contract::kDistanceError * exact->distance)
-          << where();
-    else
-      ASSERT_NEAR(double{distance}, exact->distance.get_d(), 0x1p-24) << where();
+    ASSERT_LT(error_of(u, exact->u), contract::kBarycentricError) << where();
+    ASSERT_LT(error_of(v, exact->v), contract::kBarycentricError) << where();
+    const bool scene = std::holds_alternative<Scene>(shown.drawable);
+    ASSERT_LT(error_of(distance, exact->distance),
+              contract::kDistanceError * (scene ? exact->distance.get_d() : 1.0))
+        << where();
     ASSERT_GE(u, 0.0f) << where();
     ASSERT_GE(v, 0.0f) << where();
     ASSERT_LE(u + v, 1.0f) << where();
@@ -271,7 +274,7 @@ void expect_rule(const Shown& shown, const std::string& what, Counts& counts) {
     ASSERT_EQ(double{1.0f - (u + v)}, 1.0 - double{u} - double{v}) << where();
     ++counts.pixels;
     counts.clipped += exact->clipped;
-    counts.uneven += exact->u != 0 && abs(exact->u) < 0x1p-24;
+    counts.tiny += exact->u != 0 && u == 0.0f;
   });
 }
 
@@ -336,7 +339,7 @@ TEST(Barycentrics, AreWithinTheContractsErrorAtExtremeDepths) {
     }
   }
   EXPECT_GT(counts.clipped, 9000);
-  EXPECT_GT(counts.uneven, 0);
+  EXPECT_GT(counts.tiny, 0);
 }
 
 TEST(Barycentrics, AreTheSameOnEveryTargetAndThreadCount) {
@@ -352,7 +355,7 @@ TEST(Barycentrics, AreTheSameOnEveryTargetAndThreadCount) {
 
 // More visible triangles than the cache holds, so that some are made again.
 TEST(Barycentrics, ManyTrianglesHaveTheCoordinatesOfEachAlone) {
-  const Shown shown(find_scene("bunny").make({}), {.width = 500, .height = 500});
+  const Shown shown(find_scene("sphere").make({}), {.width = 500, .height = 500});
   const Planes all = shown.planes();
   Counts counts;
   Truth truth(shown);
@@ -360,8 +363,8 @@ TEST(Barycentrics, ManyTrianglesHaveTheCoordinatesOfEachAlone) {
     if (!shown.has(x, y) || pixel % 17 != 0) return;
     const auto exact = truth.at(x, y);
     ASSERT_TRUE(exact);
-    ASSERT_LT(abs(mpq_class(all.uv[2 * pixel]) - exact->u), mpq_class(contract::kBarycentricError));
-    ASSERT_LT(abs(mpq_class(all.uv[2 * pixel + 1]) - exact->v), mpq_class(contract::kBarycentricError));
+    ASSERT_LT(error_of(all.uv[2 * pixel], exact->u), contract::kBarycentricError);
+    ASSERT_LT(error_of(all.uv[2 * pixel + 1], exact->v), contract::kBarycentricError);
     ++counts.pixels;
   });
   EXPECT_GT(visible_triangles(shown.ids).size(), 10'000u);
@@ -408,9 +411,10 @@ TEST(Barycentrics, InterpolatedPositionsProjectToThePixel) {
         const double bound = 0x1p-6 + contract::kPositionError * (focal + 2 * width) * reach / p.z +
                              0x1p-23 * (focal + width) * size / p.z;
         if (bound > 0.1) return;
+        const double z_bound = contract::kPositionError * reach + 0x1p-22 * size;
         ASSERT_NEAR(p.x / p.z, x + 0.5, bound) << family.name << trial;
         ASSERT_NEAR(p.y / p.z, y + 0.5, bound) << family.name << trial;
-        ASSERT_NEAR(double{planes.distance[pixel]}, p.z, bound * p.z) << family.name << trial;
+        ASSERT_NEAR(double{planes.distance[pixel]}, p.z, z_bound + 0x1p-23 * p.z) << family.name << trial;
         ++pixels;
       });
     }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -90,7 +91,7 @@ TEST(Visible, InstancesAndMeshesHaveTheirTrianglesPixels) {
             (std::vector<std::uint32_t>{triangles[0] + triangles[1], 0, triangles[3] + triangles[4],
                                         triangles[5] + triangles[6]}));
   EXPECT_EQ(meshes, (std::vector<std::uint32_t>{instances[2], 0, instances[0] + instances[3]}));
-  for (const std::size_t i : {0, 2, 3}) EXPECT_GT(instances[i], 0u) << i;
+  for (const std::size_t i : {0u, 2u, 3u}) EXPECT_GT(instances[i], 0u) << i;
   EXPECT_EQ(visible_triangles(frame), (std::vector<std::uint32_t>{0, 1, 3, 4, 5, 6}));
 
   EXPECT_EQ(message_of([&] { pixels_per_triangle(frame, 6); }), "a pixel has id 6 of 6 triangles");
@@ -175,7 +176,7 @@ TEST_F(VisibleBox, MayBeSeenWhereItCannotBeProjected) {
 }
 
 TEST_F(VisibleBox, RejectsBadArguments) {
-  const Bounds box{{0, 0, -5}, {1, 1, -4}};
+  const Bounds box{{0, 0, -2}, {0.1, 0.1, -1}};
   const ConstFrameView no_ids{frame_.depth_row(0), nullptr, 200, 200, frame_.stride()};
   EXPECT_TRUE(visible(box, scene_.camera, no_ids));
   EXPECT_EQ(message_of([&] {
@@ -193,9 +194,9 @@ Scene faces_of(const Bounds& box, const Camera& camera) {
   scene.camera = camera;
   Mesh& mesh = scene.meshes.emplace_back();
   for (int i = 0; i < 8; ++i) mesh.positions.emplace_back(i & 1, i >> 1 & 1, i >> 2 & 1);
-  for (const glm::uvec4 f :
-       {glm::uvec4{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}})
-    mesh.add_quad(f, 0);
+  constexpr std::array<glm::uvec4, 6> kFaces{
+      {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}}};
+  for (const glm::uvec4 face : kFaces) mesh.add_quad(face, 0);
   scene.instances.push_back({.scale = box.high - box.low, .translation = box.low});
   return scene;
 }
