@@ -57,12 +57,12 @@ std::vector<std::uint32_t> visible_triangles(const ConstFrameView& ids) {
     if (id / 64 >= seen.size()) seen.resize(id / 64 + 1);
     seen[id / 64] |= std::uint64_t{1} << id % 64;
   });
-  std::vector<std::uint32_t> visible;
+  std::vector<std::uint32_t> triangles;
   for (std::size_t i = 0; i < seen.size(); ++i)
     for (std::uint64_t left = seen[i]; left != 0; left &= left - 1)
-      visible.push_back(static_cast<std::uint32_t>(64 * i) +
-                        static_cast<std::uint32_t>(std::countr_zero(left)));
-  return visible;
+      triangles.push_back(static_cast<std::uint32_t>(64 * i) +
+                          static_cast<std::uint32_t>(std::countr_zero(left)));
+  return triangles;
 }
 
 std::vector<std::uint32_t> pixels_per_triangle(const ConstFrameView& ids, std::size_t triangles) {
