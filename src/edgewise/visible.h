@@ -36,13 +36,13 @@ std::vector<std::uint32_t> pixels_per_instance(const ConstFrameView& ids, const 
 std::vector<std::uint32_t> pixels_per_mesh(const ConstFrameView& ids, const Scene& scene);
 
 // True if a triangle whose vertices lie in a box could win a pixel of a frame, drawn after what the frame
-// shows, by the same camera. False is certain, for all positions that rule 10 holds for. True is not: the
-// query compares the nearest depth of the box with the pixels in the rectangle around the projected box, and
-// stops at the first one that is farther. It returns true, without a look at the frame, for a box that the
-// near plane cuts and for one with a coordinate that is infinite or NaN, and false for one without points
+// shows, seen by the scene's camera. False is certain, for all positions that rule 10 holds for. True is not:
+// the query compares the nearest depth of the box with the pixels in the rectangle around the projected box,
+// and stops at the first one that is farther. It returns true, without a look at the frame, for a box that
+// the near plane cuts and for one with a coordinate that is infinite or NaN, and false for one without points
 // (low > high).
 //
 // `depth.payload` may be null. Throws std::invalid_argument for a camera that is out of range.
-bool visible(const Bounds& box, const Camera& camera, const ConstFrameView& depth);
+bool visible(const Bounds& box, const Scene& scene, const ConstFrameView& depth);
 
 }  // namespace edgewise

@@ -102,8 +102,9 @@ std::vector<std::uint32_t> pixels_per_mesh(const ConstFrameView& ids, const Scen
 
 // The largest errors of rule 10 are convex functions of a point, or quotients of one by w. So in the box,
 // they are largest at a corner, as are x, y and w.
-bool visible(const Bounds& box, const Camera& camera, const ConstFrameView& depth) {
+bool visible(const Bounds& box, const Scene& scene, const ConstFrameView& depth) {
   check(depth, false);
+  const Camera& camera = scene.camera;
   const ViewVolume view = view_volume(camera, depth.width, depth.height);
   if (box.low.x > box.high.x || box.low.y > box.high.y || box.low.z > box.high.z) return false;
   if (!is_finite(box.low) || !is_finite(box.high)) return true;

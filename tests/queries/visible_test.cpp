@@ -137,7 +137,7 @@ class VisibleBox : public ::testing::Test {
     scene_.instances.emplace_back();
     frame_ = ids_of(scene_, 200, 200);
   }
-  bool sees(glm::dvec3 low, glm::dvec3 high) const { return visible({low, high}, scene_.camera, frame_); }
+  bool sees(glm::dvec3 low, glm::dvec3 high) const { return visible({low, high}, scene_, frame_); }
 
   Scene scene_;
   Framebuffer frame_{1, 1};
@@ -178,14 +178,13 @@ TEST_F(VisibleBox, MayBeSeenWhereItCannotBeProjected) {
 TEST_F(VisibleBox, RejectsBadArguments) {
   const Bounds box{{0, 0, -2}, {0.1, 0.1, -1}};
   const ConstFrameView no_ids{frame_.depth_row(0), nullptr, 200, 200, frame_.stride()};
-  EXPECT_TRUE(visible(box, scene_.camera, no_ids));
+  EXPECT_TRUE(visible(box, scene_, no_ids));
   EXPECT_EQ(message_of([&] {
-              visible(box, scene_.camera, {nullptr, nullptr, 200, 200, 200});
+              visible(box, scene_, {nullptr, nullptr, 200, 200, 200});
             }),
             "frame of 200 x 200 px, stride 200, cannot be read");
-  Camera camera;
-  camera.near_z = 0;
-  EXPECT_EQ(message_of([&] { visible(box, camera, frame_); }), "the camera needs 0 < near < far");
+  scene_.camera.near_z = 0;
+  EXPECT_EQ(message_of([&] { visible(box, scene_, frame_); }), "the camera needs 0 < near < far");
 }
 
 // The faces of a box.
@@ -223,7 +222,7 @@ void expect_seen(const Scene& scene, const Bounds& box, int width, int height, c
     const glm::ivec2 pixel = found.second;
     std::uint32_t& depth = frame.view().depth[pixel.y * frame.stride() + pixel.x];
     depth = alone.depth_row(pixel.y)[pixel.x] + 1;
-    ASSERT_TRUE(visible(box, scene.camera, frame)) << what << ", " << end;
+    ASSERT_TRUE(visible(box, scene, frame)) << what << ", " << end;
     depth = 0;
   }
   seen += !ends.empty();
@@ -250,7 +249,7 @@ TEST(Visible, BoxIsSeenWhereverWhatLiesInItWinsAPixel) {
       if (HasFatalFailure()) return;
       Framebuffer nearest(width, height);
       for (int y = 0; y < height; ++y) std::fill_n(nearest.view().depth + y * nearest.stride(), width, 0u);
-      hidden += !visible(box, scene.camera, nearest);
+      hidden += !visible(box, scene, nearest);
     }
     if (family.name == "stream") continue;
     EXPECT_GT(seen, 100) << family.name;
