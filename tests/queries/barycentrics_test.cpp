@@ -338,7 +338,7 @@ TEST(Barycentrics, AreWithinTheContractsErrorAtExtremeDepths) {
                   counts);
     }
   }
-  EXPECT_GT(counts.clipped, 9000);
+  EXPECT_GT(counts.clipped, 3000);
   EXPECT_GT(counts.tiny, 0);
 }
 
@@ -418,7 +418,7 @@ TEST(Barycentrics, InterpolatedPositionsProjectToThePixel) {
         ++pixels;
       });
     }
-    if (family.name != "stream") EXPECT_GT(pixels, 3000) << family.name;
+    EXPECT_TRUE(pixels > 3000 || family.name == "stream") << family.name << ", " << pixels;
   }
 }
 
