@@ -39,7 +39,7 @@ struct Shown {
   Shown(const Drawable& d, const FrontendOptions& o) : drawable(d), options(o), ids(o.width, o.height) {
     options.payload = Payload::id;
     Frontend frontend;
-    draw(drawable, frontend, options, *find_backend("naive").make(), ids.view(), testing::kBackground, {});
+    draw(drawable, frontend, options, *find_backend("naive").make(), ids.view(), 0, {});  // an id too
   }
 
   Planes planes(int threads = 1, SimdTarget target = SimdTarget::best) const {

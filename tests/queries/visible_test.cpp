@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -160,7 +161,7 @@ TEST_F(VisibleBox, IsSeenBeforeAWallAndBesideIt) {
 TEST_F(VisibleBox, IsNotSeenOutOfView) {
   EXPECT_FALSE(sees({5, -1, -5}, {7, 1, -4})) << "to the right";
   EXPECT_FALSE(sees({-1, -1, 4}, {1, 1, 9})) << "behind the camera";
-  EXPECT_FALSE(sees({1, 1, -900}, {2, 2, -200})) << "beyond the far plane";
+  EXPECT_FALSE(sees({84, 1, -210}, {90, 2, -200})) << "beyond the far plane";
   const auto [low, high] = bounds_of(Scene{});
   EXPECT_FALSE(sees(low, high)) << "no box";
 }
@@ -256,6 +257,30 @@ TEST(Visible, BoxIsSeenWhereverWhatLiesInItWinsAPixel) {
     EXPECT_GT(seen, 100) << family.name;
     EXPECT_GT(hidden, 100) << family.name;
   }
+}
+
+// Boxes that face the camera: whole columns and rows of pixels depend on the last bits of a position, and
+// all pixels of the front have the nearest depth.
+TEST(Visible, FacingBoxIsSeenInEachColumnAndAtItsDepth) {
+  Random random(48);
+  int seen = 0;
+  for (int trial = 0; trial < 5000; ++trial) {
+    const auto vector = [&](float low, float high) {
+      const float x = random.uniform(low, high), y = random.uniform(low, high);
+      return glm::dvec3(x, y, random.uniform(low, high));
+    };
+    Camera camera;
+    camera.near_z = std::ldexp(1.0f, -static_cast<int>(random.below(15))), camera.far_z = 5.0f;
+    camera.position = vector(-999, 999);
+    if (trial % 2 == 0)
+      camera.yaw = random.uniform(-0.001f, 0.001f);  // depth errs most where it hardly changes
+    const glm::dvec3 low = camera.position + vector(-0.5f, 0.0f) + glm::dvec3(0, 0, -3),
+                     high = camera.position + vector(0.0f, 0.5f) + glm::dvec3(0, 0, -1.6);
+    const Scene scene = faces_of({low, high}, camera);
+    expect_seen(scene, bounds_of(scene), 40, 30, std::to_string(trial), seen);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(seen, 4900);
 }
 
 }  // namespace
