@@ -162,6 +162,8 @@ class Triangles {
   std::size_t count_ = 0;
 };
 
+constexpr int kColumn = 64;  // px
+
 // The pieces of the triangles that were visible last.
 class Cache {
  public:
@@ -180,7 +182,7 @@ class Cache {
   }
 
  private:
-  static constexpr std::size_t kSlots = 2048, kMostPieces = 4096;
+  static constexpr std::size_t kSlots = 1024, kMostPieces = 2048;
   struct Slot {
     std::uint32_t id = 0;
     std::size_t begin = 0, end = 0;  // the indices of its pieces; end 0: empty
@@ -226,11 +228,12 @@ void barycentrics(const ConstFrameView& ids, const Drawable& drawable, const Fro
   parallel_for(options.threads, parts, [&](int part) {
     constexpr Point kBackground{0.0f, 0.0f, std::numeric_limits<float>::infinity()};
     Cache cache(triangles);
-    for (int y = ids.height * part / parts; y < ids.height * (part + 1) / parts; ++y) {
+    const int y0 = ids.height * part / parts, y1 = ids.height * (part + 1) / parts;
+    const auto write_row = [&](int x0, int x1, int y) {
       const std::uint32_t *depth = ids.depth + y * ids.stride, *id = ids.payload + y * ids.stride;
       std::span<const Piece> pieces;
       std::uint32_t last = 0;  // the id of these pieces, if there are any
-      for (int x = 0; x < ids.width; ++x) {
+      for (int x = x0; x < x1; ++x) {
         std::optional<Point> point = kBackground;
         if (depth[x] != contract::kDepthClear) {
           if (pieces.empty() || id[x] != last) {
@@ -244,7 +247,7 @@ void barycentrics(const ConstFrameView& ids, const Drawable& drawable, const Fro
           for (std::uint64_t old = first_wrong;
                pixel < old && !first_wrong.compare_exchange_weak(old, pixel);) {
           }
-          break;
+          return;
         }
         if (out.uv != nullptr) {
           float* uv = out.uv + y * out.uv_stride + 2 * x;
@@ -252,7 +255,10 @@ void barycentrics(const ConstFrameView& ids, const Drawable& drawable, const Fro
         }
         if (out.distance != nullptr) out.distance[y * out.distance_stride + x] = point->distance;
       }
-    }
+    };
+    // Columns narrow enough that a row's triangles are still in the cache in the next row.
+    for (int x0 = 0; x0 < ids.width; x0 += kColumn)
+      for (int y = y0; y < y1; ++y) write_row(x0, std::min(x0 + kColumn, ids.width), y);
   });
   if (first_wrong == kNone) return;
   const std::uint64_t y = first_wrong / width, x = first_wrong % width;
