@@ -36,8 +36,10 @@ ClipVertex cut(const ClipVertex& inside, const ClipVertex& outside, double insid
                double outside_distance) {
   const double t = inside_distance / (inside_distance - outside_distance);
   const auto between = [&](double from, double to) { return from + t * (to - from); };
-  return {between(inside.x, outside.x), between(inside.y, outside.y), between(inside.z, outside.z),
-          between(inside.w, outside.w)};
+  ClipVertex v{between(inside.x, outside.x), between(inside.y, outside.y), between(inside.z, outside.z),
+               between(inside.w, outside.w)};
+  for (std::size_t k = 0; k < 3; ++k) v.weights[k] = (1.0 - t) * inside.weights[k] + t * outside.weights[k];
+  return v;
 }
 
 }  // namespace

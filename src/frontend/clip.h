@@ -18,6 +18,8 @@ struct ClipVertex {
   double x, y, z, w;
   // 0, 1 or 2: this corner of the triangle, which counts as inside all planes; a new vertex has none.
   int corner = -1;
+  // The weights of the triangle's vertices in this one, which add up to 1. For rule 11 of the contract.
+  std::array<double, 3> weights{};
 };
 
 // The far plane is z = far_z + far_w w.

@@ -20,6 +20,12 @@ UnsnappedTriangle triangle_of(const Unsnapped& a, const Unsnapped& b, const Unsn
   return {{a.x_px, b.x_px, c.x_px}, {a.y_px, b.y_px, c.y_px}, {a.z01, b.z01, c.z01}};
 }
 
+// Vertex k of the source triangle.
+ClipVertex as_source(ClipVertex v, int k) {
+  v.weights[static_cast<std::size_t>(k)] = 1.0;
+  return v;
+}
+
 // True, and counted, if the triangle is not finite or lies beyond one side of the view.
 bool drop(const Vertex& a, const Vertex& b, const Vertex& c, FrontendStats& stats) {
   if ((a.outside | b.outside | c.outside) & kNotFinite) {
@@ -42,10 +48,11 @@ struct Source {
   Cull cull;  // none for a two-sided triangle
 };
 
-// Appends a triangle unless it has no area or is culled. unsnapped() is called only with keep_unsnapped.
-template <typename Unsnapped>
+// Appends a triangle unless it has no area or is culled. `vertices` has unsnapped() and source() of its three
+// vertices.
+template <typename Vertices>
 void emit(const Vertex& a, const Vertex& b, const Vertex& c, const Source& source,
-          const FrontendOptions& options, ChunkOutput& out, Unsnapped&& unsnapped) {
+          const FrontendOptions& options, ChunkOutput& out, const Vertices& vertices) {
   FrontendStats& stats = out.stats;
   ++stats.pieces;
   const ScreenTriangle t{
@@ -57,10 +64,32 @@ void emit(const Vertex& a, const Vertex& b, const Vertex& c, const Source& sourc
     ++stats.culled;
   } else {
     ++stats.emitted;
-    if (options.keep_unsnapped) out.unsnapped.data()[out.count] = unsnapped();
+    if (options.keep_unsnapped)
+      out.unsnapped.data()[out.count] =
+          triangle_of(vertices.unsnapped(0), vertices.unsnapped(1), vertices.unsnapped(2));
+    if (out.sources != nullptr)
+      out.sources->push_back({vertices.source(0), vertices.source(1), vertices.source(2)});
     out.triangles.data()[out.count++] = t;
   }
 }
+
+// The vertices of a piece of a polygon.
+template <typename Geometry>
+struct PieceVertices {
+  const Geometry& geometry;
+  std::span<const ClipVertex> polygon;
+  const std::array<std::uint8_t, 3>& at;
+
+  const ClipVertex& vertex(int i) const { return polygon[at[static_cast<std::size_t>(i)]]; }
+  Unsnapped unsnapped(int i) const {
+    const ClipVertex& v = vertex(i);
+    return v.corner >= 0 ? geometry.unsnapped(v.corner) : Unsnapped{x_px(v), y_px(v), geometry.depth01(v)};
+  }
+  ClipVertex source(int i) const {
+    const ClipVertex& v = vertex(i);
+    return v.corner >= 0 ? geometry.source(v.corner) : v;
+  }
+};
 
 // The three corners of a triangle that must be clipped. A corner that is inside keeps its snapped position,
 // which it has in other triangles too.
@@ -75,7 +104,7 @@ void clip(const Vertex (&corners)[3], std::uint32_t sides, const Source& source,
   ClipVertex triangle[3];
   std::uint32_t planes = 0, common = kInvisible;
   for (int k = 0; k < 3; ++k) {
-    triangle[k] = geometry.clip_vertex(k);
+    triangle[k] = as_source(geometry.clip_vertex(k), k);
     if (is_inside(corners[k])) triangle[k].corner = k;
     const std::uint32_t outside = is_inside(corners[k]) ? 0 : outside_of(triangle[k], geometry.view);
     planes |= outside, common &= outside;
@@ -97,15 +126,11 @@ void clip(const Vertex (&corners)[3], std::uint32_t sides, const Source& source,
   std::transform(polygon.begin(), polygon.end(), snapped.begin(), [&](const ClipVertex& v) {
     return v.corner >= 0 ? corners[v.corner] : Vertex{snap(x_px(v)), snap(y_px(v)), geometry.depth(v), 0};
   });
-  const auto unsnapped = [&](const ClipVertex& v) {
-    return v.corner >= 0 ? geometry.unsnapped(v.corner) : Unsnapped{x_px(v), y_px(v), geometry.depth01(v)};
-  };
   const Pieces pieces = split({snapped.data(), polygon.size()});
   for (std::size_t i = 0; i < pieces.count; ++i) {
     const auto& at = pieces.corners[i];
-    emit(snapped[at[0]], snapped[at[1]], snapped[at[2]], source, options, out, [&] {
-      return triangle_of(unsnapped(polygon[at[0]]), unsnapped(polygon[at[1]]), unsnapped(polygon[at[2]]));
-    });
+    emit(snapped[at[0]], snapped[at[1]], snapped[at[2]], source, options, out,
+         PieceVertices<Geometry>{geometry, polygon, at});
   }
 }
 
@@ -117,8 +142,7 @@ void add(const Vertex (&corners)[3], const Source& source, const FrontendOptions
   if (drop(a, b, c, out.stats)) return;
   const std::uint32_t sides = (a.outside | b.outside | c.outside) & kMustClip;
   if (sides != 0) return clip(corners, sides, source, options, out, geometry);
-  emit(a, b, c, source, options, out,
-       [&] { return triangle_of(geometry.unsnapped(0), geometry.unsnapped(1), geometry.unsnapped(2)); });
+  emit(a, b, c, source, options, out, geometry);
 }
 
 TriangleState state_between(const FrontendStats& before, const FrontendStats& after) {
@@ -161,6 +185,11 @@ struct MeshGeometry {
     return {v.x * inverse_w, v.y * inverse_w,
             depth01(task.to_screen.has_z ? clip_vertex(k) : as_clip_vertex(v))};
   }
+  ClipVertex source(int k) const {
+    ClipVertex v = as_clip_vertex(transform(task.to_screen, position(k)));
+    if (task.to_screen.has_z) v.z = clip_vertex(k).z;
+    return as_source(v, k);
+  }
 };
 
 struct StreamGeometry {
@@ -177,6 +206,7 @@ struct StreamGeometry {
     const glm::vec3 v = triangle.vertex[k];
     return {v.x, v.y, v.z};
   }
+  ClipVertex source(int k) const { return as_source(clip_vertex(k), k); }
   Vertex vertex(int k) const {
     const std::uint32_t outside = outside_of(clip_vertex(k), view);
     const glm::vec3 v = triangle.vertex[k];

@@ -4,8 +4,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/finite.h"
-
 namespace edgewise {
 
 namespace {
@@ -25,11 +23,6 @@ void check(const Mesh& mesh) {
   if (!mesh.clusters.empty() && mesh.clusters.size() != cluster_count(mesh))
     throw std::invalid_argument("a mesh has " + std::to_string(mesh.clusters.size()) +
                                 " clusters instead of " + std::to_string(cluster_count(mesh)));
-}
-
-void check(const Instance& instance) {
-  if (instance.matrix && !(is_finite(*instance.matrix) && is_affine(*instance.matrix)))
-    throw std::invalid_argument("an instance's matrix must be finite, and its last row 0 0 0 1");
 }
 
 void throw_if_vertex_missing(const Mesh& mesh) {

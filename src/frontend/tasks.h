@@ -3,9 +3,11 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <vector>
 
 #include "core/buffer.h"
 #include "edgewise/frontend.h"
@@ -60,6 +62,9 @@ struct alignas(128) ChunkOutput {
 
   Buffer<ScreenTriangle> triangles;
   Buffer<UnsnappedTriangle> unsnapped;  // with keep_unsnapped only
+  // If not null, add_one() appends the vertices of each triangle, for rule 11. A corner has the z and w that
+  // its snapped position was made from.
+  std::vector<std::array<ClipVertex, 3>>* sources = nullptr;
   std::size_t count = 0;
   FrontendStats stats;  // the sum over all that its worker made into it in the frame
 };

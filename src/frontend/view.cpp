@@ -58,6 +58,11 @@ glm::dvec3 xyw(glm::dvec4 v) {
   return {v.x, v.y, v.w};
 }
 
+// True if the last row is 0 0 0 1.
+bool is_affine(const glm::dmat4& m) {
+  return m[0].w == 0.0 && m[1].w == 0.0 && m[2].w == 0.0 && m[3].w == 1.0;
+}
+
 bool is_usual_perspective(const CameraMatrices& m) {
   const glm::dmat4& p = m.projection;
   return is_affine(m.view) && xyw(p[3]) == glm::dvec3(0.0) && p[0].z == 0.0 && p[0].w == 0.0 &&
@@ -86,8 +91,9 @@ const Camera& camera_of(const Scene& scene) {
   return scene.camera;
 }
 
-bool is_affine(const glm::dmat4& m) {
-  return m[0].w == 0.0 && m[1].w == 0.0 && m[2].w == 0.0 && m[3].w == 1.0;
+void check(const Instance& instance) {
+  if (instance.matrix && !(is_finite(*instance.matrix) && is_affine(*instance.matrix)))
+    throw std::invalid_argument("an instance's matrix must be finite, and its last row 0 0 0 1");
 }
 
 CameraMatrices matrices_of(const Camera& camera, double aspect) {

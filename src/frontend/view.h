@@ -21,8 +21,8 @@ glm::dmat3 to_camera_frame(const Camera& camera);
 // World directions → x and y in pixels times w, and w. A point has the same, relative to the camera.
 glm::dmat3 pixels_of(const Camera& camera, int width_px, int height_px);
 
-// True if the last row is 0 0 0 1.
-bool is_affine(const glm::dmat4& m);
+// Throws std::invalid_argument if an instance's matrix is not finite or not affine.
+void check(const Instance& instance);
 
 // What a camera, or the matrices in its place, show in an image of a size.
 struct View {

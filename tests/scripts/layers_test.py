@@ -5,8 +5,9 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 # A public header belongs to the room that implements it. Those not named here belong to no room.
-ROOM_OF = {"backend.h": "raster", "builtin.h": "scene", "camera.h": "scene", "framebuffer.h": "raster", "frontend.h": "frontend",
-           "hash.h": "raster", "image.h": "image", "obj_file.h": "scene", "scene.h": "scene", "simd_target.h": "core", "tri_file.h": "scene",
+ROOM_OF = {"backend.h": "raster", "barycentrics.h": "queries", "builtin.h": "scene", "camera.h": "scene", "framebuffer.h": "raster",
+           "frontend.h": "frontend", "hash.h": "raster", "image.h": "image", "obj_file.h": "scene", "scene.h": "scene",
+           "simd_target.h": "core", "tri_file.h": "scene", "visible.h": "queries",
            **dict.fromkeys(["contract.h", "cxx20.h", "limits.h", "screen_triangle.h"])}  # of no room
 # A room, or one public header of a room.
 BELOW = {
@@ -14,6 +15,7 @@ BELOW = {
     "src/scene": ["core"],
     "src/frontend": ["core", "edgewise/scene.h"],
     "src/raster": ["core"],
+    "src/queries": ["core", "edgewise/scene.h", "frontend", "edgewise/framebuffer.h"],
     "src/image": ["core", "edgewise/scene.h", "edgewise/frontend.h", "edgewise/framebuffer.h"],
     "src/draw.cpp": ["core", "scene", "frontend", "raster"],
     "src/lab": ["core", "scene", "frontend", "raster"],
@@ -25,6 +27,7 @@ BELOW = {
 }
 PUBLIC_BELOW = {  # what the public headers of a room include
     "scene": [], "frontend": ["edgewise/scene.h"], "image": ["edgewise/framebuffer.h"],
+    "queries": ["edgewise/scene.h", "edgewise/frontend.h", "edgewise/framebuffer.h"],
     "raster": ["edgewise/scene.h"],  # declares src/draw.cpp's draw()
 }
 TILES = ["tile_list.h", "tile_options.h", "tile_store-inl.h", "tile_task.h", "tiles.h"]  # shared by the rooms that draw tiles

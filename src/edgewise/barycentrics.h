@@ -1,0 +1,46 @@
+// Barycentric coordinates and distances of a frame's pixels, from which a caller interpolates what it likes:
+// colours, normals, texture coordinates, positions.
+#pragma once
+
+#include "edgewise/cxx20.h"
+
+#include <cstddef>
+
+#include "edgewise/framebuffer.h"
+#include "edgewise/frontend.h"
+#include "edgewise/scene.h"
+
+namespace edgewise {
+
+// What barycentrics() writes, in the caller's memory. Row 0 is the top. Strides count floats from row to row.
+// A plane that is null is not written.
+struct BarycentricsView {
+  float* uv;                  // pixel (x, y): u at uv[y * uv_stride + 2 * x], then v; background: 0, 0
+  std::ptrdiff_t uv_stride;   // at least 2 * width
+  float* distance = nullptr;  // pixel (x, y): at distance[y * distance_stride + x]; background: infinity
+  std::ptrdiff_t distance_stride = 0;  // at least width
+};
+
+// For each pixel, finds the point of the visible triangle that its sample shows. u and v are that point's
+// perspective-correct coordinates (rule 11): with the values a0, a1, a2 of an attribute at the triangle's
+// vertices, in the order of Mesh::triangles or StreamTriangle::vertex, the pixel's value is
+//   (1 - u - v) a0 + u a1 + v a2
+// u and v are multiples of 2^-24 with an error below contract::kBarycentricError. u, v and 1 - u - v, which
+// is exact in float, are >= 0. `distance` is along the camera's view direction in world units, with a
+// relative error below contract::kDistanceError. In a stream, it is the depth in [0, 1].
+//
+// `ids` is a frame of `drawable`, drawn with `options`, where payload is Payload::id. A pixel is background
+// if its depth is contract::kDepthClear; other depths do not count. The result has the same bits on every
+// SIMD target and for every number of threads. Each of options.threads threads keeps less than 1 MB until the
+// call ends.
+//
+// Throws std::bad_alloc if memory runs out, and std::invalid_argument
+// - for a frame or view that cannot be read or written, for options of another size than the frame or for
+//   another payload than ids; and for a camera, a thread count, a SIMD target, mesh indices or flags that
+//   Frontend::run() throws for. Then nothing has been written.
+// - if a pixel has an id that the drawable lacks, or that of a triangle that does not cover the pixel: the
+//   frame shows something else. Then the content of the planes is undefined.
+void barycentrics(const ConstFrameView& ids, const Drawable& drawable, const FrontendOptions& options,
+                  const BarycentricsView& out);
+
+}  // namespace edgewise
