@@ -27,7 +27,8 @@ struct BarycentricsView {
 //   (1 - u - v) a0 + u a1 + v a2
 // u and v are multiples of 2^-24 with an error below contract::kBarycentricError. u, v and 1 - u - v, which
 // is exact in float, are >= 0. `distance` is along the camera's view direction in world units, with a
-// relative error below contract::kDistanceError. In a stream, it is the depth in [0, 1].
+// relative error below contract::kDistanceError; with matrices, it is w. In a stream, and in a parallel
+// projection, where w is the same everywhere, it is the depth in [0, 1].
 //
 // `ids` is a frame of `drawable`, drawn with `options`, where payload is Payload::id. A pixel is background
 // if its depth is contract::kDepthClear; other depths do not count. The result has the same bits on every

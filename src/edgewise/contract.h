@@ -210,10 +210,10 @@ inline constexpr double kPositionError = 0x1p-19;
 // too, so this limit adds no error, and |error of u, v| < 2^-25 + 2^-47. The coordinates are >= 0, their sum
 // is <= 1, and floats hold u + v and 1 - u - v exactly.
 //
-// The distance along the view direction is the sum of weight times z, where z is w in a scene:
-//   (E_0 z_0 / w_0 + E_1 z_1 / w_1 + E_2 z_2 / w_2) / (c_0 + c_1 + c_2)
-// It has 4 + 24 + 1 units, and is rounded to float: its relative error is below 2^-24 + 2^-48. In a stream, z
-// is the depth in [0, 1].
+// The distance along the view direction is the sum of weight times w:
+//   (E_0 + E_1 + E_2) / (c_0 + c_1 + c_2)
+// It has 4 + 24 + 1 units, and is rounded to float: its relative error is below 2^-24 + 2^-48. In a stream,
+// and in a parallel projection, the depth in [0, 1] takes the place of w in the sum.
 inline constexpr double kBarycentricError = 0x1p-24;  // absolute
 inline constexpr double kDistanceError = 0x1p-23;     // relative, of a scene
 

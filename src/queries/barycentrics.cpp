@@ -29,14 +29,15 @@ using Sources = std::vector<std::array<ClipVertex, 3>>;  // the vertices of scre
 
 // A screen triangle, ready for rule 11 at any sample that it covers.
 struct Piece {
-  Piece(const ScreenTriangle& screen, const std::array<ClipVertex, 3>& source) {
+  // w_is_distance: of streams and parallel projections false.
+  Piece(const ScreenTriangle& screen, const std::array<ClipVertex, 3>& source, bool w_is_distance) {
     const contract::Oriented t = contract::orient(screen);
     const std::size_t second = contract::signed_area(screen) >= 0 ? 1 : 2, order[3] = {0, second, 3 - second};
     for (int i = 0; i < 3; ++i) {
       const ClipVertex& v = source[order[i]];
       opposite[i] = contract::make_edge(t, (i + 1) % 3);
       for (std::size_t k = 0; k < 3; ++k) weights_over_w[i][k] = v.weights[k] / v.w;
-      z_over_w[i] = v.z / v.w;
+      z_over_w[i] = w_is_distance ? 1.0 : v.z / v.w / v.w;
     }
   }
 
@@ -89,6 +90,7 @@ class Triangles {
       return;
     }
     view_.emplace(*scene_, options.width, options.height);
+    w_is_distance_ = view_->axis == glm::dvec3(0.0);
     first_ids_ = first_ids(*scene_);
     count_ = first_ids_.back();
     for (const Instance& instance : scene_->instances) {
@@ -116,7 +118,8 @@ class Triangles {
         add_one({all_.options_, *all_.stream_}, id, out_);
       else
         add_mesh_triangle(id);
-      for (std::size_t i = 0; i < out_.count; ++i) pieces.emplace_back(out_.triangles.data()[i], sources_[i]);
+      for (std::size_t i = 0; i < out_.count; ++i)
+        pieces.emplace_back(out_.triangles.data()[i], sources_[i], all_.w_is_distance_);
     }
 
    private:
