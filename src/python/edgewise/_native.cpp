@@ -143,6 +143,25 @@ PYBIND11_MODULE(_native, m) {
     return rows_of(projection_from({z_from_minus_w, y_down, reversed}, matrix_of(projection, "projection")));
   });
 
+  m.attr("DEPTH_HEAD") = contract::kDepthHead;
+  m.attr("DEPTH_RANGE") = contract::kDepthRange;
+  m.def("pixel_hash", [](Words payload, Words depth) {
+    std::optional<Words> payloads = payload;
+    const Frames frames(payloads, depth);
+    if (depth.shape(0) != 1) throw std::invalid_argument("a hash is that of one view");
+    return hash_of(frames[0]);
+  });
+  m.def("visible_triangles", [](Words payload, Words depth) {
+    std::optional<Words> payloads = payload;
+    const Frames frames(payloads, depth);
+    std::vector<Words> views;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(depth.shape(0)); ++i) {
+      const auto ids = visible_triangles(frames[i]);
+      views.emplace_back(static_cast<py::ssize_t>(ids.size()), ids.data());
+    }
+    return views;
+  });
+
   py::class_<DrawnScene>(m, "Scene")
       .def(py::init<>())
       .def_static("read_obj",
