@@ -1,0 +1,295 @@
+// The C interface (edgewise.h). No exception leaves it.
+#include <algorithm>
+#include <cstring>
+#include <exception>
+#include <glm/gtc/type_ptr.hpp>
+#include <memory>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "edgewise/backend.h"
+#include "edgewise/barycentrics.h"
+#include "edgewise/camera.h"
+#include "edgewise/contract.h"
+#include "edgewise/edgewise.h"
+#include "edgewise/frontend.h"
+#include "edgewise/hash.h"
+#include "edgewise/scene.h"
+#include "edgewise/visible.h"
+#include "raster/checks.h"
+
+using namespace edgewise;
+
+struct edgewise_scene {
+  Drawable drawable;
+};
+struct edgewise_renderer {
+  Frontend frontend;
+  std::unique_ptr<Backend> backend;
+};
+
+namespace {
+
+thread_local std::string last_error;
+
+edgewise_status failed(edgewise_status status, const char* text) noexcept {
+  try {
+    last_error = text;
+  } catch (...) {  // no memory for the text
+    last_error.clear();
+  }
+  return status;
+}
+
+// Calls f(), and turns what it throws into a status.
+template <typename F>
+edgewise_status status_of(F&& f) noexcept {
+  try {
+    f();
+    return EDGEWISE_OK;
+  } catch (const std::bad_alloc&) {
+    return failed(EDGEWISE_OUT_OF_MEMORY, "out of memory");
+  } catch (const std::invalid_argument& error) {
+    return failed(EDGEWISE_INVALID_ARGUMENT, error.what());
+  } catch (const std::exception& error) {
+    return failed(EDGEWISE_FAILED, error.what());
+  } catch (...) {
+    return failed(EDGEWISE_FAILED, "unknown error");
+  }
+}
+
+template <typename T>
+T& given(T* pointer, const char* name) {
+  if (pointer == nullptr) throw std::invalid_argument(std::string(name) + " is null");
+  return *pointer;
+}
+
+// The meshes, instances and camera of a handle.
+template <typename Handle>
+auto& meshes_of(Handle* scene) {
+  auto* const found = std::get_if<Scene>(&given(scene, "scene").drawable);
+  if (found == nullptr) throw std::invalid_argument("a stream has neither meshes nor a camera");
+  return *found;
+}
+
+// Copies `count` elements that lie `stride` bytes apart; 0: without gaps.
+template <typename T, typename Source>
+std::vector<T> copied(const Source* first, std::size_t count, std::size_t stride, const char* name) {
+  if (count != 0) given(first, name);
+  if (stride != 0 && stride < sizeof(T))
+    throw std::invalid_argument(std::string(name) + ": a stride of " + std::to_string(stride) + " bytes is below " +
+                                std::to_string(sizeof(T)));
+  std::vector<T> all(count);
+  const auto* const bytes = reinterpret_cast<const char*>(first);
+  const std::size_t step = stride != 0 ? stride : sizeof(T);
+  for (std::size_t i = 0; i < count; ++i) std::memcpy(&all[i], bytes + i * step, sizeof(T));
+  return all;
+}
+
+glm::dmat4 matrix_of(const double* elements) {
+  return glm::make_mat4(&given(elements, "matrix"));
+}
+void store(const glm::dmat4& matrix, double* elements) {
+  std::copy_n(glm::value_ptr(matrix), 16, &given(elements, "projection"));
+}
+
+FrameView view_of(const edgewise_frame& frame) {
+  return {frame.depth, frame.payload, frame.width, frame.height, frame.stride};
+}
+
+FrontendOptions frontend_options(const edgewise_options& options, const edgewise_frame& frame) {
+  constexpr Cull kCull[] = {Cull::none, Cull::back, Cull::front};
+  if (options.cull < EDGEWISE_CULL_NONE || options.cull > EDGEWISE_CULL_FRONT)
+    throw std::invalid_argument("cull is not a value of edgewise_cull");
+  FrontendOptions o;
+  o.width = frame.width, o.height = frame.height;
+  o.cull = kCull[options.cull];
+  o.shade = options.unlit == 0;
+  o.payload = options.ids != 0 ? Payload::id : Payload::colour;
+  o.threads = options.threads;
+  return o;
+}
+
+}  // namespace
+
+int edgewise_abi(void) {
+  return EDGEWISE_ABI;
+}
+
+const char* edgewise_error(void) {
+  return last_error.c_str();
+}
+
+edgewise_scene* edgewise_new_scene(void) {
+  return new (std::nothrow) edgewise_scene{Scene{}};
+}
+
+edgewise_status edgewise_new_stream(const edgewise_stream_triangle* triangles, size_t count, edgewise_scene** stream) {
+  return status_of([&] {
+    static_assert(sizeof(edgewise_stream_triangle) == sizeof(StreamTriangle));
+    edgewise_scene*& out = given(stream, "stream");
+    out = new edgewise_scene{
+        TriangleStream{.triangles = copied<StreamTriangle>(triangles, count, 0, "triangles")}};
+  });
+}
+
+void edgewise_free_scene(edgewise_scene* scene) {
+  delete scene;
+}
+
+edgewise_status edgewise_add_mesh(edgewise_scene* scene, const edgewise_mesh* mesh, size_t* index) {
+  return status_of([&] {
+    auto& meshes = meshes_of(scene).meshes;
+    const edgewise_mesh& m = given(mesh, "mesh");
+    Mesh made{.positions = copied<glm::vec3>(m.positions, m.vertex_count, m.position_stride, "positions"),
+              .triangles = copied<glm::uvec3>(m.triangles, m.triangle_count, m.triangle_stride, "triangles"),
+              .colours = {}};
+    for (std::size_t i = 0; i < made.triangles.size(); ++i)
+      for (int k = 0; k < 3; ++k)
+        if (made.triangles[i][k] >= m.vertex_count)
+          throw std::invalid_argument("triangle " + std::to_string(i) + " names vertex " +
+                                      std::to_string(made.triangles[i][k]) + " of " +
+                                      std::to_string(m.vertex_count));
+    if (m.colours != nullptr)
+      made.colours.assign(m.colours, m.colours + m.triangle_count);
+    else
+      made.colours.assign(m.triangle_count, rgb(200, 200, 200));
+    if (m.two_sided != 0) made.flags.assign(m.triangle_count, kTwoSided);
+    made.clusters = clusters_of(made);
+    meshes.push_back(std::move(made));
+    if (index != nullptr) *index = meshes.size() - 1;
+  });
+}
+
+edgewise_status edgewise_add_instance(edgewise_scene* scene, size_t mesh, const double matrix[16], size_t* index) {
+  return status_of([&] {
+    Scene& s = meshes_of(scene);
+    if (mesh >= s.meshes.size())
+      throw std::invalid_argument("mesh " + std::to_string(mesh) + " of " + std::to_string(s.meshes.size()));
+    Instance instance{.mesh = mesh};
+    if (matrix != nullptr) instance.matrix = matrix_of(matrix);
+    s.instances.push_back(instance);
+    if (index != nullptr) *index = s.instances.size() - 1;
+  });
+}
+
+edgewise_status edgewise_set_instance(edgewise_scene* scene, size_t instance, const double matrix[16]) {
+  return status_of([&] {
+    auto& instances = meshes_of(scene).instances;
+    if (instance >= instances.size())
+      throw std::invalid_argument("instance " + std::to_string(instance) + " of " +
+                                  std::to_string(instances.size()));
+    instances[instance].matrix = matrix_of(matrix);
+  });
+}
+
+edgewise_status edgewise_set_light(edgewise_scene* scene, const double direction[3]) {
+  return status_of([&] { meshes_of(scene).to_light = glm::make_vec3(&given(direction, "direction")); });
+}
+
+edgewise_status edgewise_set_camera(edgewise_scene* scene, const double view[16], const double projection[16]) {
+  return status_of([&] { meshes_of(scene).matrices = {matrix_of(view), matrix_of(projection)}; });
+}
+
+edgewise_status edgewise_frame_scene(edgewise_scene* scene, double aspect) {
+  return status_of([&] { frame_camera(meshes_of(scene), aspect); });
+}
+
+edgewise_status edgewise_perspective(double fov_y, double aspect, double near_z, double far_z, double projection[16]) {
+  return status_of([&] { store(perspective_projection(fov_y, aspect, near_z, far_z), projection); });
+}
+
+edgewise_status edgewise_orthographic(double left, double right, double bottom, double top, double near_z, double far_z,
+                                      double projection[16]) {
+  return status_of([&] { store(orthographic_projection(left, right, bottom, top, near_z, far_z), projection); });
+}
+
+edgewise_status edgewise_intrinsics(const double k[9], int width, int height, double first_centre, double near_z,
+                                    double far_z, double projection[16]) {
+  return status_of([&] {
+    const glm::dmat3 by_rows = glm::make_mat3(&given(k, "k"));
+    store(intrinsics_projection(glm::transpose(by_rows), width, height, first_centre, near_z, far_z), projection);
+  });
+}
+
+edgewise_status edgewise_convert_projection(int z_from_minus_w, int y_down, int reversed, double projection[16]) {
+  return status_of([&] {
+    const ClipSpace space{z_from_minus_w != 0, y_down != 0, reversed != 0};
+    store(projection_from(space, matrix_of(projection)), projection);
+  });
+}
+
+edgewise_status edgewise_new_renderer(const char* backend, edgewise_renderer** renderer) {
+  return status_of([&] {
+    edgewise_renderer*& out = given(renderer, "renderer");
+    auto made = std::make_unique<edgewise_renderer>();
+    made->backend = find_backend(backend != nullptr ? backend : "tiled").make();
+    out = made.release();
+  });
+}
+
+void edgewise_free_renderer(edgewise_renderer* renderer) {
+  delete renderer;
+}
+
+edgewise_options edgewise_default_options(void) {
+  return {.threads = 1, .background = 0xFF000000};
+}
+
+edgewise_status edgewise_draw(edgewise_renderer* renderer, const edgewise_scene* scene, const edgewise_options* options,
+                              edgewise_frame frame) {
+  return status_of([&] {
+    const edgewise_options o = options != nullptr ? *options : edgewise_default_options();
+    RenderPass pass{.background = o.background, .clear = o.keep == 0};
+    const auto& [x, y, width, height] = o.scissor;
+    if (x != 0 || y != 0 || width != 0 || height != 0) pass.scissor = {x, y, width, height};
+    edgewise_renderer& r = given(renderer, "renderer");
+    draw(given(scene, "scene").drawable, r.frontend, frontend_options(o, frame), *r.backend, view_of(frame), pass,
+         {.threads = o.threads});
+  });
+}
+
+edgewise_status edgewise_visible_triangles(edgewise_frame ids, uint32_t* visible, size_t capacity, size_t* count) {
+  return status_of([&] {
+    const auto all = visible_triangles(view_of(ids));
+    given(count, "count") = all.size();
+    const std::size_t fit = std::min(capacity, all.size());
+    if (fit != 0) std::copy_n(all.begin(), fit, &given(visible, "visible"));
+  });
+}
+
+edgewise_status edgewise_pixels_per_triangle(edgewise_frame ids, uint32_t* pixels, size_t triangles) {
+  return status_of([&] {
+    const auto counts = pixels_per_triangle(view_of(ids), triangles);
+    if (triangles != 0) std::copy(counts.begin(), counts.end(), &given(pixels, "pixels"));
+  });
+}
+
+edgewise_status edgewise_box_visible(const edgewise_scene* scene, const double low[3], const double high[3],
+                                     edgewise_frame depth, int* is_visible) {
+  return status_of([&] {
+    const Bounds box{glm::make_vec3(&given(low, "low")), glm::make_vec3(&given(high, "high"))};
+    given(is_visible, "is_visible") = edgewise::visible(box, meshes_of(scene), view_of(depth));
+  });
+}
+
+edgewise_status edgewise_barycentrics(const edgewise_scene* scene, const edgewise_options* options, edgewise_frame ids,
+                                      float* uv, ptrdiff_t uv_stride, float* distance, ptrdiff_t distance_stride) {
+  return status_of([&] {
+    barycentrics(view_of(ids), given(scene, "scene").drawable, frontend_options(given(options, "options"), ids),
+                 {uv, uv_stride, distance, distance_stride});
+  });
+}
+
+double edgewise_depth01(uint32_t depth) {
+  return contract::depth01(depth);
+}
+
+edgewise_status edgewise_hash(edgewise_frame frame, uint64_t* hash) {
+  return status_of([&] {
+    (void)checked(view_of(frame), Execution{});
+    given(hash, "hash") = hash_of(view_of(frame));
+  });
+}
