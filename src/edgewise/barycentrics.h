@@ -1,4 +1,4 @@
-// Barycentric coordinates and distances of a frame's pixels, from which a caller interpolates what it likes:
+// Barycentric coordinates and distances of a frame's pixels, from which a caller can interpolate attributes:
 // colours, normals, texture coordinates, positions.
 #pragma once
 
@@ -35,12 +35,13 @@ struct BarycentricsView {
 // SIMD target and for every number of threads. Each of options.threads threads keeps less than 1 MB until the
 // call ends.
 //
-// Throws std::bad_alloc if memory runs out, and std::invalid_argument
+// Throws std::invalid_argument
 // - for a frame or view that cannot be read or written, for options of another size than the frame or for
-//   another payload than ids; and for a camera, a thread count, a SIMD target, mesh indices or flags that
-//   Frontend::run() throws for. Then nothing has been written.
+//   another payload than ids, for a camera, an instance's mesh index or matrix, a thread count, a SIMD target
+//   or a number of triangles that Frontend::run() throws for, and for flags that are neither empty nor one
+//   per triangle. Then nothing has been written.
 // - if a pixel has an id that the drawable lacks, or that of a triangle that does not cover the pixel: the
-//   frame shows something else. Then the content of the planes is undefined.
+//   frame shows something else. Then the content of the planes is undefined, as it is after std::bad_alloc.
 void barycentrics(const ConstFrameView& ids, const Drawable& drawable, const FrontendOptions& options,
                   const BarycentricsView& out);
 

@@ -195,27 +195,27 @@ inline constexpr double kPositionError = 0x1p-19;
 // triangle. Let E_i be the unbiased edge value (rule 4) opposite vertex i at a sample that the triangle
 // covers: an integer >= 0. Let w_i > 0 be that vertex' w. The vertex' exact weight is
 //   (E_i / w_i) / (E_0 / w_0 + E_1 / w_1 + E_2 / w_2)
-// In a stream, w is 1. In a scene, w is the float by which x and y were divided (rule 10), or in double that
-// of a vertex that has no such float because planes cut its triangle. A new vertex lies at t between two
-// others, where t in [0, 1] is the double by which it was interpolated. So it stands for the two, with
-// weights 1 - t and t, and for vertices of the source triangle in the end. The exact u and v are the weights
-// of the source triangle's second and third vertex: the sums over the vertices of the triangle that covers
-// the sample. Of several pieces of a source triangle that do, the first one counts.
+// In a stream, w is 1. In a scene, a corner that no plane cuts off has the float w by which its x and y were
+// divided (rule 10). A new vertex has a w in double, and lies at t in [0, 1] between two others. So it stands
+// for the two, with weights 1 - t and t, and for vertices of the source triangle in the end. The exact u and
+// v are the weights of the source triangle's second and third vertex: the sums over the vertices of the piece
+// that covers the sample. If several pieces cover it, the first one counts.
 //
 // All terms are positive. So their relative errors only add up, in units of 2^-53:
 //   weight of a new vertex: 1 - t, product, sum, for each of six planes           18
 //   c: quotient by w, product with E, two sums                                    22
 //   u or v = c_1 or c_2 / (c_0 + c_1 + c_2): 22 + 24 + 1                          47
-// u is then rounded to a multiple of 2^-24, half to even. So is v, but it is at most 1 - u. The exact v is
-// too, so this limit adds no error, and |error of u, v| < 2^-25 + 2^-47. The coordinates are >= 0, their sum
-// is <= 1, and floats hold u + v and 1 - u - v exactly.
+// u is then rounded to a multiple of 2^-24, half to even. So is v, but it is at most 1 - u. Since the exact v
+// is at most 1 less the exact u, this limit lowers v by no more than the error of u, and
+//   |error of u, v| < 2^-25 + 2^-47
+// The coordinates are >= 0, their sum is <= 1, and floats hold u + v and 1 - u - v exactly.
 //
 // The distance along the view direction is the sum of weight times w:
 //   (E_0 + E_1 + E_2) / (c_0 + c_1 + c_2)
-// It has 4 + 24 + 1 units, and is rounded to float: its relative error is below 2^-24 + 2^-48. In a stream,
+// Its relative error is at most 4 + 24 + 1 units, and below 2^-24 + 2^-48 as a float. In a stream,
 // and in a parallel projection, the depth in [0, 1] takes the place of w in the sum.
-inline constexpr double kBarycentricError = 0x1p-24;  // absolute
-inline constexpr double kDistanceError = 0x1p-23;     // relative, of a scene
+inline constexpr double kBarycentricError = 0x1p-25 + 0x1p-47;  // absolute
+inline constexpr double kDistanceError = 0x1p-24 + 0x1p-48;     // relative, of distances from 2^-126 on
 
 // Twice the signed area, in sub-units squared. Positive is clockwise on the y-down screen, which is the
 // front.

@@ -18,7 +18,7 @@
 namespace edgewise {
 
 // The visible triangles: each id that a pixel has, once, in ascending order. Needs one bit of memory per id
-// up to the highest one.
+// up to the highest one. Throws std::invalid_argument for an id of kMaxTriangles or more.
 std::vector<std::uint32_t> visible_triangles(const ConstFrameView& ids);
 
 // The number of pixels of each triangle, by id. `triangles` is the number of submitted triangles. Throws
@@ -35,14 +35,15 @@ std::vector<std::size_t> first_ids(const Scene& scene);
 std::vector<std::uint32_t> pixels_per_instance(const ConstFrameView& ids, const Scene& scene);
 std::vector<std::uint32_t> pixels_per_mesh(const ConstFrameView& ids, const Scene& scene);
 
-// True if a triangle whose vertices lie in a box could win a pixel of a frame, drawn after what the frame
-// shows, seen by the scene's camera. False is certain, for all positions that rule 10 holds for. True is not:
-// the query compares the nearest depth of the box with the pixels in the rectangle around the projected box,
-// and stops at the first one that is farther. It returns true, without a look at the frame, for a box that
-// the near plane cuts and for one with a coordinate that is infinite or NaN, and false for one without points
-// (low > high).
+// Whether a triangle whose vertices lie in a box could win a pixel of a frame, drawn after what the frame
+// shows, seen by the scene's camera or matrices. False is certain if the triangle's instance keeps to rule
+// 10: its origin is at most 2^24 times as far from the camera as its vertices are. True is not certain: the
+// function compares the nearest depth of the box with the pixels in the rectangle around the projected box,
+// and stops at the first one that is farther. A box without points (low > high) is not visible. Of the
+// others, one that is not finite, or that the near plane cuts, is visible, whatever the frame shows.
 //
-// `depth.payload` may be null. Throws std::invalid_argument for a camera that is out of range.
+// `depth.payload` may be null. Throws std::invalid_argument for a camera or matrices that Frontend::run()
+// throws for.
 bool visible(const Bounds& box, const Scene& scene, const ConstFrameView& depth);
 
 }  // namespace edgewise

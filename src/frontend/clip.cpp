@@ -32,14 +32,10 @@ double distance(const ClipVertex& v, std::uint16_t plane, const ViewVolume& view
 }
 
 // The point where an edge crosses a plane.
-ClipVertex cut(const ClipVertex& inside, const ClipVertex& outside, double inside_distance,
-               double outside_distance) {
-  const double t = inside_distance / (inside_distance - outside_distance);
+ClipVertex cut(const ClipVertex& inside, const ClipVertex& outside, double t) {
   const auto between = [&](double from, double to) { return from + t * (to - from); };
-  ClipVertex v{between(inside.x, outside.x), between(inside.y, outside.y), between(inside.z, outside.z),
-               between(inside.w, outside.w)};
-  for (std::size_t k = 0; k < 3; ++k) v.weights[k] = (1.0 - t) * inside.weights[k] + t * outside.weights[k];
-  return v;
+  return {between(inside.x, outside.x), between(inside.y, outside.y), between(inside.z, outside.z),
+          between(inside.w, outside.w)};
 }
 
 }  // namespace
@@ -59,8 +55,8 @@ std::uint16_t outside_of(const ClipVertex& v, const ViewVolume& view) {
 
 std::span<const ClipVertex> Clipper::clip(const ClipVertex (&triangle)[3], std::uint16_t planes,
                                           const ViewVolume& view) {
-  std::size_t count = 3;
-  for (std::size_t i = 0; i < 3; ++i) from_[i] = triangle[i];
+  std::size_t count = 3, cuts = 0;
+  for (std::size_t i = 0; i < 3; ++i) from_[i] = triangle[i], from_[i].id = static_cast<int>(i);
   for (const auto plane : {kNear, kFar, kGuardLeft, kGuardRight, kGuardTop, kGuardBottom}) {
     if ((planes & plane) == 0) continue;
     std::size_t kept = 0;
@@ -73,13 +69,26 @@ std::span<const ClipVertex> Clipper::clip(const ClipVertex (&triangle)[3], std::
       const double da = from_plane(a), db = from_plane(b);
       const bool a_inside = da >= 0.0, b_inside = db >= 0.0;
       if (a_inside) to_[kept++] = a;
-      if (a_inside != b_inside) to_[kept++] = a_inside ? cut(a, b, da, db) : cut(b, a, db, da);
+      if (a_inside == b_inside) continue;
+      const double t = a_inside ? da / (da - db) : db / (db - da);
+      ClipVertex& added = to_[kept++] = a_inside ? cut(a, b, t) : cut(b, a, t);
+      added.id = static_cast<int>(3 + cuts);
+      cuts_[cuts++] = a_inside ? Cut{a.id, b.id, t} : Cut{b.id, a.id, t};
     }
     std::swap(from_, to_);
     count = kept;
     if (count == 0) break;
   }
   return {from_.data(), count};
+}
+
+std::array<double, 3> Clipper::weights(int id) const {
+  if (id < 3) return {id == 0 ? 1.0 : 0.0, id == 1 ? 1.0 : 0.0, id == 2 ? 1.0 : 0.0};
+  const Cut& c = cuts_[static_cast<std::size_t>(id - 3)];
+  std::array<double, 3> sum = weights(c.inside);
+  const std::array<double, 3> outside = weights(c.outside);
+  for (std::size_t k = 0; k < 3; ++k) sum[k] = (1.0 - c.t) * sum[k] + c.t * outside[k];
+  return sum;
 }
 
 namespace {

@@ -18,8 +18,7 @@ struct ClipVertex {
   double x, y, z, w;
   // 0, 1 or 2: this corner of the triangle, which counts as inside all planes; a new vertex has none.
   int corner = -1;
-  // The weights of the triangle's vertices in this one, which add up to 1. For rule 11 of the contract.
-  std::array<double, 3> weights{};
+  int id = 0;  // for Clipper::weights()
 };
 
 // The far plane is z = far_z + far_w w.
@@ -60,9 +59,19 @@ class Clipper {
   // bits.
   std::span<const ClipVertex> clip(const ClipVertex (&triangle)[3], std::uint16_t planes,
                                    const ViewVolume& view);
+  // The weights of the triangle's vertices in one of the polygon, which add up to 1 (rule 11).
+  std::array<double, 3> weights(const ClipVertex& v) const { return weights(v.id); }
 
  private:
+  // Vertices 0, 1 and 2 are the triangle's. Vertex 3 + i lies on the edge that cut i names.
+  struct Cut {
+    int inside, outside;
+    double t;  // from the inside vertex to the outside one
+  };
+  std::array<double, 3> weights(int id) const;
+
   std::array<ClipVertex, kMaxVertices> from_, to_;
+  std::array<Cut, 2 * 6> cuts_;  // each plane cuts at most two edges
 };
 
 // A transformed vertex: projected and snapped, with the sides of the view that it lies beyond. It has 16

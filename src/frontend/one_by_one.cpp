@@ -21,9 +21,8 @@ UnsnappedTriangle triangle_of(const Unsnapped& a, const Unsnapped& b, const Unsn
 }
 
 // Vertex k of the source triangle.
-ClipVertex as_source(ClipVertex v, int k) {
-  v.weights[static_cast<std::size_t>(k)] = 1.0;
-  return v;
+SourceVertex as_source(double z, double w, int k) {
+  return {z, w, {k == 0 ? 1.0 : 0.0, k == 1 ? 1.0 : 0.0, k == 2 ? 1.0 : 0.0}};
 }
 
 // True, and counted, if the triangle is not finite or lies beyond one side of the view.
@@ -77,6 +76,7 @@ void emit(const Vertex& a, const Vertex& b, const Vertex& c, const Source& sourc
 template <typename Geometry>
 struct PieceVertices {
   const Geometry& geometry;
+  const Clipper& clipper;
   std::span<const ClipVertex> polygon;
   const std::array<std::uint8_t, 3>& at;
 
@@ -85,9 +85,9 @@ struct PieceVertices {
     const ClipVertex& v = vertex(i);
     return v.corner >= 0 ? geometry.unsnapped(v.corner) : Unsnapped{x_px(v), y_px(v), geometry.depth01(v)};
   }
-  ClipVertex source(int i) const {
+  SourceVertex source(int i) const {
     const ClipVertex& v = vertex(i);
-    return v.corner >= 0 ? geometry.source(v.corner) : v;
+    return v.corner >= 0 ? geometry.source(v.corner) : SourceVertex{v.z, v.w, clipper.weights(v)};
   }
 };
 
@@ -104,7 +104,7 @@ void clip(const Vertex (&corners)[3], std::uint32_t sides, const Source& source,
   ClipVertex triangle[3];
   std::uint32_t planes = 0, common = kInvisible;
   for (int k = 0; k < 3; ++k) {
-    triangle[k] = as_source(geometry.clip_vertex(k), k);
+    triangle[k] = geometry.clip_vertex(k);
     if (is_inside(corners[k])) triangle[k].corner = k;
     const std::uint32_t outside = is_inside(corners[k]) ? 0 : outside_of(triangle[k], geometry.view);
     planes |= outside, common &= outside;
@@ -130,7 +130,7 @@ void clip(const Vertex (&corners)[3], std::uint32_t sides, const Source& source,
   for (std::size_t i = 0; i < pieces.count; ++i) {
     const auto& at = pieces.corners[i];
     emit(snapped[at[0]], snapped[at[1]], snapped[at[2]], source, options, out,
-         PieceVertices<Geometry>{geometry, polygon, at});
+         PieceVertices<Geometry>{geometry, clipper, polygon, at});
   }
 }
 
@@ -185,10 +185,9 @@ struct MeshGeometry {
     return {v.x * inverse_w, v.y * inverse_w,
             depth01(task.to_screen.has_z ? clip_vertex(k) : as_clip_vertex(v))};
   }
-  ClipVertex source(int k) const {
-    ClipVertex v = as_clip_vertex(transform(task.to_screen, position(k)));
-    if (task.to_screen.has_z) v.z = clip_vertex(k).z;
-    return as_source(v, k);
+  SourceVertex source(int k) const {
+    const double w = double{transform(task.to_screen, position(k)).z};
+    return as_source(task.to_screen.has_z ? clip_vertex(k).z : w, w, k);
   }
 };
 
@@ -206,7 +205,7 @@ struct StreamGeometry {
     const glm::vec3 v = triangle.vertex[k];
     return {v.x, v.y, v.z};
   }
-  ClipVertex source(int k) const { return as_source(clip_vertex(k), k); }
+  SourceVertex source(int k) const { return as_source(double{triangle.vertex[k].z}, 1.0, k); }
   Vertex vertex(int k) const {
     const std::uint32_t outside = outside_of(clip_vertex(k), view);
     const glm::vec3 v = triangle.vertex[k];

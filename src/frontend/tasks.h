@@ -44,6 +44,13 @@ inline constexpr std::size_t kChunkTriangles = 2048;
 // Below this many triangles, waking another thread costs more than it saves.
 inline constexpr std::size_t kWorthThreads = 8192;
 
+// For rule 11: the z and w that a vertex' snapped position was made from, and the weights of the source
+// triangle's vertices in it.
+struct SourceVertex {
+  double z, w;
+  std::array<double, 3> weights;
+};
+
 // Visible triangles of consecutive submitted ones. Assembly writes ids as the payloads of a mesh's triangles.
 // For Payload::colour, colours then replace the ids. The alignment keeps two workers' outputs out of the same
 // pair of cache lines, which processors fetch together.
@@ -61,10 +68,8 @@ struct alignas(128) ChunkOutput {
   bool has_room() const { return count + kChunkRoom <= triangles.capacity(); }
 
   Buffer<ScreenTriangle> triangles;
-  Buffer<UnsnappedTriangle> unsnapped;  // with keep_unsnapped only
-  // If not null, add_one() appends the vertices of each triangle, for rule 11. A corner has the z and w that
-  // its snapped position was made from.
-  std::vector<std::array<ClipVertex, 3>>* sources = nullptr;
+  Buffer<UnsnappedTriangle> unsnapped;                          // with keep_unsnapped only
+  std::vector<std::array<SourceVertex, 3>>* sources = nullptr;  // unless null, add_one() appends to it
   std::size_t count = 0;
   FrontendStats stats;  // the sum over all that its worker made into it in the frame
 };

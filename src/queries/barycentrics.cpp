@@ -25,19 +25,19 @@ namespace edgewise {
 
 namespace {
 
-using Sources = std::vector<std::array<ClipVertex, 3>>;  // the vertices of screen triangles (tasks.h)
+using Sources = std::vector<std::array<SourceVertex, 3>>;  // the vertices of screen triangles (tasks.h)
 
 // A screen triangle, ready for rule 11 at any sample that it covers.
 struct Piece {
   // w_is_distance: of streams and parallel projections false.
-  Piece(const ScreenTriangle& screen, const std::array<ClipVertex, 3>& source, bool w_is_distance) {
+  Piece(const ScreenTriangle& screen, const std::array<SourceVertex, 3>& source, bool w_is_distance) {
     const contract::Oriented t = contract::orient(screen);
     const std::size_t second = contract::signed_area(screen) >= 0 ? 1 : 2, order[3] = {0, second, 3 - second};
     for (int i = 0; i < 3; ++i) {
-      const ClipVertex& v = source[order[i]];
+      const SourceVertex& v = source[order[i]];
       opposite[i] = contract::make_edge(t, (i + 1) % 3);
       for (std::size_t k = 0; k < 3; ++k) weights_over_w[i][k] = v.weights[k] / v.w;
-      z_over_w[i] = w_is_distance ? 1.0 : v.z / v.w / v.w;
+      z_over_w[i] = w_is_distance ? 1.0 : std::clamp(v.z / v.w, 0.0, 1.0) / v.w;
     }
   }
 
@@ -93,6 +93,9 @@ class Triangles {
     w_is_distance_ = view_->axis == glm::dvec3(0.0);
     first_ids_ = first_ids(*scene_);
     count_ = first_ids_.back();
+    if (count_ > kMaxTriangles)
+      throw std::invalid_argument(std::to_string(count_) + " triangles are more than " +
+                                  std::to_string(kMaxTriangles));
     for (const Instance& instance : scene_->instances) {
       check(instance);
       const Mesh& mesh = scene_->meshes[instance.mesh];

@@ -9,6 +9,7 @@
 
 #include "core/finite.h"
 #include "edgewise/contract.h"
+#include "edgewise/limits.h"
 #include "frontend/fixed.h"
 #include "frontend/view.h"
 #include "queries/checks.h"
@@ -54,6 +55,7 @@ void for_each_run_of_instance(const ConstFrameView& ids, const Scene& scene, Vis
 std::vector<std::uint32_t> visible_triangles(const ConstFrameView& ids) {
   std::vector<std::uint64_t> seen;  // one bit per id
   for_each_run(ids, [&](std::uint32_t id, std::uint32_t) {
+    throw_if_missing(id, kMaxTriangles);
     if (id / 64 >= seen.size()) seen.resize(id / 64 + 1);
     seen[id / 64] |= std::uint64_t{1} << id % 64;
   });
@@ -66,6 +68,7 @@ std::vector<std::uint32_t> visible_triangles(const ConstFrameView& ids) {
 }
 
 std::vector<std::uint32_t> pixels_per_triangle(const ConstFrameView& ids, std::size_t triangles) {
+  check(ids, true);
   std::vector<std::uint32_t> counts(triangles);
   for_each_run(ids, [&](std::uint32_t id, std::uint32_t pixels) {
     throw_if_missing(id, triangles);
@@ -116,38 +119,39 @@ bool visible(const Bounds& box, const Scene& scene, const ConstFrameView& depth)
   double least_w = kInfinity, least01 = kInfinity;                  // least01: z / w, if z is not w
   double least_past_near = kInfinity, most_past_near = -kInfinity;  // z - near
   double most_before_far = -kInfinity;                              // far - z
-  double reach = 0.0;                                               // distance of the farthest corner
+  double most_off = 0.0;                                            // of all corners; see below
   glm::dvec2 low(kInfinity), high(-kInfinity);                      // px
   for (int i = 0; i < 8; ++i) {
     const glm::dvec3 corner((i & 1) != 0 ? box.high.x : box.low.x, (i & 2) != 0 ? box.high.y : box.low.y,
                             (i & 4) != 0 ? box.high.z : box.low.z);
     const glm::dvec3 offset = corner - view.origin, v = view.pixels * offset + view.at_origin;
-    // The point that is subtracted may lie anywhere on the axis.
-    const double distance = std::max(glm::length(offset), glm::length(offset - view.axis));
+    // How far a vertex may be from where it is drawn. The point that is subtracted may lie anywhere on the
+    // axis. The second term is that of positions in double, as in a box of bounds_of().
+    const double off = kError * std::max(glm::length(offset), glm::length(offset - view.axis)) +
+                       0x1p-50 * (glm::length(corner) + glm::length(view.origin));
     const double w = v.z, z = view.has_z ? glm::dot(view.z, glm::dvec4(offset, 1.0)) : w;
-    const double w_error = kError * (w_length * distance + std::abs(view.at_origin.z)),
-                 z_error = kError * (z_length * distance + std::abs(view.z.w));
+    const double w_error = w_length * off + kError * std::abs(view.at_origin.z),
+                 z_error = z_length * off + kError * std::abs(view.z.w);
     const double past_near = z - view.volume.near_z,
                  before_far = view.volume.far_z + view.volume.far_w * w - z;
     least_w = std::min(least_w, w - w_error);
-    least01 = std::min(least01, (z - kError * (z_length + w_length) * distance) / w);
+    least01 = std::min(least01, (z - (z_length + w_length) * off) / w);
     least_past_near = std::min(least_past_near, past_near - z_error);
     most_past_near = std::max(most_past_near, past_near + z_error);
     most_before_far = std::max(most_before_far, before_far + z_error + view.volume.far_w * w_error);
-    reach = std::max(reach, distance);
+    most_off = std::max(most_off, off);
     low = glm::min(low, glm::dvec2(v) / w), high = glm::max(high, glm::dvec2(v) / w);
   }
-  if (!std::isfinite(reach)) return true;
+  if (!std::isfinite(most_off)) return true;
   if (most_past_near < 0.0 || most_before_far < 0.0) return false;
   if (!(least_past_near >= 0.0 && least_w > 0.0)) return true;
 
-  // No drawn vertex lies farther from its exact position. The last term covers snapping and new vertices.
+  // No vertex is drawn farther away from its exact position than `margin`, whose last term covers snapping
+  // and new vertices.
   const double most_px =
       std::min(std::max({-low.x, -low.y, high.x, high.y, 0.0}), double{contract::kMaxImageSide});
-  const double margin =
-      kError * ((std::max(row_length(0), row_length(1)) + most_px * w_length) * reach / least_w +
-                (view.has_z ? std::max(depth.width, depth.height) : 0)) +
-      0x1p-6;
+  const double margin = (std::max(row_length(0), row_length(1)) + most_px * w_length) * most_off / least_w +
+                        (view.has_z ? kError * std::max(depth.width, depth.height) : 0.0) + 0x1p-6;
   // The pixels whose samples lie in low - margin … high + margin.
   const auto first = [&](double px, int side) {
     return static_cast<int>(std::ceil(std::clamp(px - margin - 0.5, 0.0, double(side))));

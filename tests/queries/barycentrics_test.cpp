@@ -410,7 +410,7 @@ TEST(Barycentrics, InterpolatedPositionsProjectToThePixel) {
         // Snapping and clipping; the positions' rounding; that of u and v.
         const double bound = 0x1p-6 + contract::kPositionError * (focal + 2 * width) * reach / p.z +
                              0x1p-23 * (focal + width) * size / p.z;
-        if (bound > 0.1) return;
+        if (!(p.z > 0) || bound > 0.1) return;
         const double z_bound = contract::kPositionError * reach + 0x1p-22 * size;
         ASSERT_NEAR(p.x / p.z, x + 0.5, bound) << family.name << trial;
         ASSERT_NEAR(p.y / p.z, y + 0.5, bound) << family.name << trial;

@@ -104,9 +104,11 @@ TEST(Visible, InstancesAndMeshesHaveTheirTrianglesPixels) {
 }
 
 TEST(Visible, HoldsTheHighestId) {
-  std::vector<std::uint32_t> depth{5, contract::kDepthClear, 5, 5}, id{1u << 30, 9, 63, 64};
-  EXPECT_EQ(visible_triangles({depth.data(), id.data(), 2, 2, 2}),
-            (std::vector<std::uint32_t>{63, 64, 1u << 30}));
+  std::vector<std::uint32_t> depth{5, contract::kDepthClear, 5, 5}, id{kMaxTriangles - 1, 9, 63, 64};
+  const ConstFrameView frame{depth.data(), id.data(), 2, 2, 2};
+  EXPECT_EQ(visible_triangles(frame), (std::vector<std::uint32_t>{63, 64, kMaxTriangles - 1}));
+  id[0] = kMaxTriangles;
+  EXPECT_THROW(visible_triangles(frame), std::invalid_argument);
 }
 
 TEST(Visible, RejectsFramesThatCannotBeRead) {
@@ -259,8 +261,8 @@ TEST(Visible, BoxIsSeenWhereverWhatLiesInItWinsAPixel) {
   }
 }
 
-// Boxes that face the camera: whole columns and rows of pixels depend on the last bits of a position, and
-// all pixels of the front have the nearest depth.
+// Boxes that face the camera, also far from the origin, and by matrices of both kinds: whole columns and rows
+// of pixels depend on the last bits of a position, and all pixels of the front have the nearest depth.
 TEST(Visible, FacingBoxIsSeenInEachColumnAndAtItsDepth) {
   Random random(48);
   int seen = 0;
@@ -271,12 +273,18 @@ TEST(Visible, FacingBoxIsSeenInEachColumnAndAtItsDepth) {
     };
     Camera camera;
     camera.near_z = std::ldexp(1.0f, -static_cast<int>(random.below(15))), camera.far_z = 5.0f;
-    camera.position = vector(-999, 999);
+    camera.position = vector(-999, 999) * (trial % 3 == 0 ? 1e9 : 1.0);
     if (trial % 2 == 0)
       camera.yaw = random.uniform(-0.001f, 0.001f);  // depth errs most where it hardly changes
     const glm::dvec3 low = camera.position + vector(-0.5f, 0.0f) + glm::dvec3(0, 0, -3),
                      high = camera.position + vector(0.0f, 0.5f) + glm::dvec3(0, 0, -1.6);
-    const Scene scene = faces_of({low, high}, camera);
+    Scene scene = faces_of({low, high}, camera);
+    if (const CameraMatrices m = matrices_of(camera, 40 / 30.0); trial % 5 == 1)
+      scene.matrices = m;
+    else if (trial % 5 == 2)
+      scene.matrices = {glm::dmat4(1.0), m.projection * m.view};
+    else if (trial % 5 == 3)
+      scene.matrices = {m.view, orthographic_projection(-2, 2, -1.5, 1.5, 0.5, 5.0)};
     expect_seen(scene, bounds_of(scene), 40, 30, std::to_string(trial), seen);
     if (HasFatalFailure()) return;
   }
