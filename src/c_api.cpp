@@ -79,8 +79,8 @@ template <typename T, typename Source>
 std::vector<T> copied(const Source* first, std::size_t count, std::size_t stride, const char* name) {
   if (count != 0) given(first, name);
   if (stride != 0 && stride < sizeof(T))
-    throw std::invalid_argument(std::string(name) + ": a stride of " + std::to_string(stride) + " bytes is below " +
-                                std::to_string(sizeof(T)));
+    throw std::invalid_argument(std::string(name) + ": a stride of " + std::to_string(stride) +
+                                " bytes is below " + std::to_string(sizeof(T)));
   std::vector<T> all(count);
   const auto* const bytes = reinterpret_cast<const char*>(first);
   const std::size_t step = stride != 0 ? stride : sizeof(T);
@@ -126,7 +126,8 @@ edgewise_scene* edgewise_new_scene(void) {
   return new (std::nothrow) edgewise_scene{Scene{}};
 }
 
-edgewise_status edgewise_new_stream(const edgewise_stream_triangle* triangles, size_t count, edgewise_scene** stream) {
+edgewise_status edgewise_new_stream(const edgewise_stream_triangle* triangles, size_t count,
+                                    edgewise_scene** stream) {
   return status_of([&] {
     static_assert(sizeof(edgewise_stream_triangle) == sizeof(StreamTriangle));
     edgewise_scene*& out = given(stream, "stream");
@@ -163,7 +164,8 @@ edgewise_status edgewise_add_mesh(edgewise_scene* scene, const edgewise_mesh* me
   });
 }
 
-edgewise_status edgewise_add_instance(edgewise_scene* scene, size_t mesh, const double matrix[16], size_t* index) {
+edgewise_status edgewise_add_instance(edgewise_scene* scene, size_t mesh, const double matrix[16],
+                                      size_t* index) {
   return status_of([&] {
     Scene& s = meshes_of(scene);
     if (mesh >= s.meshes.size())
@@ -189,7 +191,8 @@ edgewise_status edgewise_set_light(edgewise_scene* scene, const double direction
   return status_of([&] { meshes_of(scene).to_light = glm::make_vec3(&given(direction, "direction")); });
 }
 
-edgewise_status edgewise_set_camera(edgewise_scene* scene, const double view[16], const double projection[16]) {
+edgewise_status edgewise_set_camera(edgewise_scene* scene, const double view[16],
+                                    const double projection[16]) {
   return status_of([&] { meshes_of(scene).matrices = {matrix_of(view), matrix_of(projection)}; });
 }
 
@@ -197,24 +200,28 @@ edgewise_status edgewise_frame_scene(edgewise_scene* scene, double aspect) {
   return status_of([&] { frame_camera(meshes_of(scene), aspect); });
 }
 
-edgewise_status edgewise_perspective(double fov_y, double aspect, double near_z, double far_z, double projection[16]) {
+edgewise_status edgewise_perspective(double fov_y, double aspect, double near_z, double far_z,
+                                     double projection[16]) {
   return status_of([&] { store(perspective_projection(fov_y, aspect, near_z, far_z), projection); });
 }
 
-edgewise_status edgewise_orthographic(double left, double right, double bottom, double top, double near_z, double far_z,
-                                      double projection[16]) {
-  return status_of([&] { store(orthographic_projection(left, right, bottom, top, near_z, far_z), projection); });
+edgewise_status edgewise_orthographic(double left, double right, double bottom, double top, double near_z,
+                                      double far_z, double projection[16]) {
+  return status_of(
+      [&] { store(orthographic_projection(left, right, bottom, top, near_z, far_z), projection); });
 }
 
-edgewise_status edgewise_intrinsics(const double k[9], int width, int height, double first_centre, double near_z,
-                                    double far_z, double projection[16]) {
+edgewise_status edgewise_intrinsics(const double k[9], int width, int height, double first_centre,
+                                    double near_z, double far_z, double projection[16]) {
   return status_of([&] {
     const glm::dmat3 by_rows = glm::make_mat3(&given(k, "k"));
-    store(intrinsics_projection(glm::transpose(by_rows), width, height, first_centre, near_z, far_z), projection);
+    store(intrinsics_projection(glm::transpose(by_rows), width, height, first_centre, near_z, far_z),
+          projection);
   });
 }
 
-edgewise_status edgewise_convert_projection(int z_from_minus_w, int y_down, int reversed, double projection[16]) {
+edgewise_status edgewise_convert_projection(int z_from_minus_w, int y_down, int reversed,
+                                            double projection[16]) {
   return status_of([&] {
     const ClipSpace space{z_from_minus_w != 0, y_down != 0, reversed != 0};
     store(projection_from(space, matrix_of(projection)), projection);
@@ -235,23 +242,27 @@ void edgewise_free_renderer(edgewise_renderer* renderer) {
 }
 
 edgewise_options edgewise_default_options(void) {
-  return {.threads = 1, .background = 0xFF000000};
+  edgewise_options options{};
+  options.threads = 1;
+  options.background = 0xFF000000;
+  return options;
 }
 
-edgewise_status edgewise_draw(edgewise_renderer* renderer, const edgewise_scene* scene, const edgewise_options* options,
-                              edgewise_frame frame) {
+edgewise_status edgewise_draw(edgewise_renderer* renderer, const edgewise_scene* scene,
+                              const edgewise_options* options, edgewise_frame frame) {
   return status_of([&] {
     const edgewise_options o = options != nullptr ? *options : edgewise_default_options();
     RenderPass pass{.background = o.background, .clear = o.keep == 0};
     const auto& [x, y, width, height] = o.scissor;
     if (x != 0 || y != 0 || width != 0 || height != 0) pass.scissor = {x, y, width, height};
     edgewise_renderer& r = given(renderer, "renderer");
-    draw(given(scene, "scene").drawable, r.frontend, frontend_options(o, frame), *r.backend, view_of(frame), pass,
-         {.threads = o.threads});
+    draw(given(scene, "scene").drawable, r.frontend, frontend_options(o, frame), *r.backend, view_of(frame),
+         pass, {.threads = o.threads});
   });
 }
 
-edgewise_status edgewise_visible_triangles(edgewise_frame ids, uint32_t* visible, size_t capacity, size_t* count) {
+edgewise_status edgewise_visible_triangles(edgewise_frame ids, uint32_t* visible, size_t capacity,
+                                           size_t* count) {
   return status_of([&] {
     const auto all = visible_triangles(view_of(ids));
     given(count, "count") = all.size();
@@ -275,10 +286,12 @@ edgewise_status edgewise_box_visible(const edgewise_scene* scene, const double l
   });
 }
 
-edgewise_status edgewise_barycentrics(const edgewise_scene* scene, const edgewise_options* options, edgewise_frame ids,
-                                      float* uv, ptrdiff_t uv_stride, float* distance, ptrdiff_t distance_stride) {
+edgewise_status edgewise_barycentrics(const edgewise_scene* scene, const edgewise_options* options,
+                                      edgewise_frame ids, float* uv, ptrdiff_t uv_stride, float* distance,
+                                      ptrdiff_t distance_stride) {
   return status_of([&] {
-    barycentrics(view_of(ids), given(scene, "scene").drawable, frontend_options(given(options, "options"), ids),
+    barycentrics(view_of(ids), given(scene, "scene").drawable,
+                 frontend_options(given(options, "options"), ids),
                  {uv, uv_stride, distance, distance_stride});
   });
 }

@@ -164,7 +164,8 @@ class Triangles {
   FrontendOptions options_;
   const Scene* scene_;
   const TriangleStream* stream_ = nullptr;
-  std::optional<View> view_;            // of a scene
+  std::optional<View> view_;  // of a scene
+  bool w_is_distance_ = false;
   std::vector<std::size_t> first_ids_;  // of the scene's instances
   std::size_t count_ = 0;
 };

@@ -17,10 +17,11 @@ int main() {
   const glm::dmat4 moved(1, 0, .5, 0, .25, 1, 0, 0, 0, 0, 1, 0, .5, .25, -1, 1);
   scene.instances = {Instance{}, Instance{.matrix = moved}};
   const glm::dmat4 view(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -3, 1);
-  scene.matrices = {view, perspective_projection(1.0, double{kWidth} / kHeight, .1, std::numeric_limits<double>::infinity())};
+  scene.matrices = {view, perspective_projection(1.0, double{kWidth} / kHeight, .1,
+                                                 std::numeric_limits<double>::infinity())};
   Frontend frontend;
   Framebuffer frame(kWidth, kHeight);
-  draw(scene, frontend, {.width = kWidth, .height = kHeight, .cull = Cull::none}, *find_backend("tiled").make(),
-       frame.view(), rgb(0, 0, 0), {});
+  draw(scene, frontend, {.width = kWidth, .height = kHeight, .cull = Cull::none},
+       *find_backend("tiled").make(), frame.view(), rgb(0, 0, 0), {});
   std::printf("%016llx\n", static_cast<unsigned long long>(hash_of(frame)));
 }
