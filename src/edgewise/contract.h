@@ -190,9 +190,9 @@ inline constexpr double kPositionError = 0x1p-19;
 //   s_ik: 1 - t, product and sum, for each of six planes           18
 //   c_k: quotient by w, product with E, two sums                   22
 //   u and v: 22, and 24 of the sum of the three, and the quotient  47
-// u is then rounded to a multiple of 2^-24, half to even. v is too, but to 1 - u at most. The exact sum of the
-// two is at most 1, so v is then off by no more than u is: |error of u, v| < 2^-25 + 2^-47. Floats hold u, v,
-// u + v <= 1 and 1 - u - v exactly.
+// u is then rounded to a multiple of 2^-24, half to even. v is too, but to 1 - u at most. The exact sum of
+// the two is at most 1, so v is then off by no more than u is: |error of u, v| < 2^-25 + 2^-47. Floats hold
+// u, v, u + v <= 1 and 1 - u - v exactly.
 //
 // The distance along the view direction, with z_i = w_i in a scene, is
 //   (E_0 z_0 / w_0 + E_1 z_1 / w_1 + E_2 z_2 / w_2) / (c_0 + c_1 + c_2)
