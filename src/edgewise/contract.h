@@ -193,27 +193,28 @@ inline constexpr double kPositionError = 0x1p-19;
 
 // Rule 11, barycentric coordinates (edgewise/barycentrics.h). They are perspective-correct for the snapped
 // triangle. Let E_i be the unbiased edge value (rule 4) opposite vertex i at a sample that the triangle
-// covers: an integer >= 0. Let w_i > 0 be that vertex' w. The vertex' exact weight is
-//   (E_i / w_i) / (E_0 / w_0 + E_1 / w_1 + E_2 / w_2)
-// In a stream, w is 1. In a scene, a corner that no plane cuts off has the float w by which its x and y were
-// divided (rule 10). A new vertex has a w in double, and lies at t in [0, 1] between two others. So it stands
-// for the two, with weights 1 - t and t, and for vertices of the source triangle in the end. The exact u and
-// v are the weights of the source triangle's second and third vertex: the sums over the vertices of the piece
-// that covers the sample. If several pieces cover it, the first one counts.
+// covers: an integer >= 0. Let w_i > 0 be the w of that vertex, and s_ik the weight of the source triangle's
+// vertex k in it. Then the weight of the source triangle's vertex k at the sample is
+//   c_k / (c_0 + c_1 + c_2),  c_k = E_0 s_0k / w_0 + E_1 s_1k / w_1 + E_2 s_2k / w_2
+// which is u for k = 1 and v for k = 2. In a stream, w is 1. In a scene, w is the float by which x and y were
+// divided (rule 10), or a double for a vertex that the clipper placed. A vertex of the source triangle has
+// weight 1 of itself. A new vertex lies at t between two others, where t in [0, 1] is the double by which the
+// clipper interpolates: its weights are those of the two, times 1 - t and t. If several pieces of a source
+// triangle cover the sample, the first one counts.
 //
-// All terms are positive. So their relative errors only add up, in units of 2^-53:
-//   weight of a new vertex: 1 - t, product, sum, for each of six planes           18
-//   c: quotient by w, product with E, two sums                                    22
-//   u or v = c_1 or c_2 / (c_0 + c_1 + c_2): 22 + 24 + 1                          47
-// u is then rounded to a multiple of 2^-24, half to even. So is v, but it is at most 1 - u. Since the exact v
-// is at most 1 less the exact u, this limit lowers v by no more than the error of u, and
-//   |error of u, v| < 2^-25 + 2^-47
-// The coordinates are >= 0, their sum is <= 1, and floats hold u + v and 1 - u - v exactly.
+// All terms are >= 0, so relative errors only add up. In units of 2^-53:
+//   s_ik: 1 - t, product and sum, for each of six planes           18
+//   c_k: quotient by w, product with E, two sums                   22
+//   u and v: 22, and 24 of the sum of the three, and the quotient  47
+// u is then rounded to a multiple of 2^-24, half to even. v is too, but to 1 - u at most. The exact sum of
+// the two is at most 1, so v is then off by no more than u is: |error of u, v| < 2^-25 + 2^-47. Floats hold
+// u, v, u + v <= 1 and 1 - u - v exactly.
 //
-// The distance along the view direction is the sum of weight times w:
+// The distance along the view direction is
 //   (E_0 + E_1 + E_2) / (c_0 + c_1 + c_2)
-// Its relative error is at most 4 + 24 + 1 units, and below 2^-24 + 2^-48 as a float. In a stream,
-// and in a parallel projection, the depth in [0, 1] takes the place of w in the sum.
+// Its relative error is below 4 + 24 + 1 units, and 2^-24 for the rounding to float. In a stream, and in a
+// parallel projection, each E_i is multiplied by the depth of vertex i, which is in [0, 1], and divided by
+// w_i.
 inline constexpr double kBarycentricError = 0x1p-25 + 0x1p-47;  // absolute
 inline constexpr double kDistanceError = 0x1p-24 + 0x1p-48;     // relative, of distances from 2^-126 on
 
