@@ -60,6 +60,7 @@ class Installed(unittest.TestCase):
     def use(self, folder, environment=None):
         """Runs the consumer's programs, which were built in `folder`."""
         run(folder / "frames", env=environment)
+        self.assertEqual(run(folder / "square_c", env=environment), run(folder / "square", env=environment))
         run(folder / "picture", cwd=folder, env=environment)
         self.assertTrue((folder / "pyramid.png").read_bytes().startswith(b"\x89PNG"))
         said = run(folder / "consumer", cwd=folder, env=environment)
@@ -104,10 +105,12 @@ class Installed(unittest.TestCase):
         for package in prefix.rglob("*.pc"):
             self.assertIn("\nLicense: MIT\n", package.read_text())
         for program, source, package in (("consumer", "main", "edgewise-files"), ("picture", "picture", "edgewise-files"),
-                                         ("frames", "frames", "edgewise")):
+                                         ("frames", "frames", "edgewise"), ("square", "square", "edgewise")):
             flags = run(*pkg_config, "--cflags", "--libs", package, env=environment).split()
             self.assertFalse([flag for flag in flags if not re.match("-[ILl]", flag)], "a flag leaks")
             run(compiler, "-std=c++20", CONSUMER / f"{source}.cpp", "-o", build / program, *flags)
+        run("cc", "-std=c11", "-Wall", "-Wextra", "-Wpedantic", "-Werror", *(flag for flag in flags if flag.startswith("-I")), "-c", CONSUMER / "square.c", "-o", build / "square_c.o")
+        run(compiler, build / "square_c.o", "-o", build / "square_c", *flags)
         self.use(build, environment)
 
     def test_a_package_for_cmake(self):
@@ -146,6 +149,8 @@ class Installed(unittest.TestCase):
 
     def test_each_header_says_in_one_line_that_it_needs_cxx20(self):
         for path in self.prefix.rglob("*.h"):
+            if path.name == "edgewise.h":
+                continue  # for C
             user = self.folder / "user.cpp"
             user.write_text(f"#include <edgewise/{path.name}>\nedgewise::Undeclared undeclared;\n")
             done = subprocess.run([cached("CMAKE_CXX_COMPILER"), "-std=c++17", "-fsyntax-only",
