@@ -358,7 +358,7 @@ inline constexpr InvalidInputRow kInvalidInputs[] = {
     {"ulimit -f 1; edgewise verify cube cubes sphere --size 65x33 --json $DIR/a.json", 2,
      "a.json: cannot be written: File too large"},
     {"ulimit -f 1; bench $SHORT --benchmark_out=$DIR/a", 2, "a: cannot be written: File too large"},
-    {"ulimit -f 0; edgewise machine >$IN/machine.json", 2, "cannot write to standard output"},
+    {"ulimit -f 1; edgewise list >$IN/list.txt", 2, "cannot write to standard output"},
     {"printf older >$DIR/older.ppm; ulimit -f 64; edgewise render cube --size 640x480 -o $DIR/older.ppm", 2,
      "File too large", "older.ppm"},
 
