@@ -50,6 +50,7 @@ struct View {
 struct ScreenTransform {
   // `model` is an instance's matrix.
   ScreenTransform(const View& view, const glm::dmat4& model);
+  // Throws as View does.
   ScreenTransform(const Camera& camera, const Instance& instance, int width_px, int height_px);
 
   // In double, for the vertices of triangles that must be clipped.
