@@ -1,5 +1,8 @@
 // The interface that all backends share, and their registry: screen triangles → depth and payload of every
 // pixel. All backends draw the same bits (contract.h).
+//
+// Pixel (0, 0) is top left, its centre lies at (0.5, 0.5), and y points down. The smaller depth is nearer.
+// The front of a triangle is the side whose vertices appear clockwise (camera.h).
 #pragma once
 
 #include "edgewise/cxx20.h"

@@ -1,5 +1,8 @@
 // Barycentric coordinates and distances of a frame's pixels, from which a caller can interpolate attributes:
 // colours, normals, texture coordinates, positions.
+//
+// Pixel (0, 0) is top left, its centre lies at (0.5, 0.5), and y points down. The smaller depth is nearer.
+// The front of a triangle is the side whose vertices appear clockwise (camera.h).
 #pragma once
 
 #include "edgewise/cxx20.h"

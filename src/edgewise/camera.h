@@ -40,7 +40,8 @@ struct Camera {
 //   of w where z = 0 and z = w. Far may be infinite. Depth is z / w, computed from w (rule 6 of contract.h).
 //   z / w must grow with w: see ClipSpace::reversed. This is as precise as a Camera.
 // - All others: z clips, and depth is z / w. A perspective projection becomes one of these if it is already
-//   multiplied with the view. Positions stay precise, but far points get coarser depths.
+//   multiplied with the view. Positions stay precise, but far points get coarser depths. Reversed depth is
+//   not noticed here: projection_from() converts it.
 // Rule 10 says how precise positions and depths are, also far from the world's origin.
 struct CameraMatrices {
   glm::dmat4 view{1.0};        // world space → view space, in which any direction may be forward
@@ -63,7 +64,8 @@ glm::dmat4 perspective_projection(double fov_y, double aspect, double near_z, do
 glm::dmat4 orthographic_projection(double left, double right, double bottom, double top, double near_z,
                                    double far_z);
 
-// Computer vision: the projection of a pinhole camera with intrinsics `k`, whose last row is 0 0 1. In its
+// Computer vision: the projection of a pinhole camera with intrinsics `k`, whose last row is 0 0 1: as
+// for all glm matrices, k[2] is the last column. In its
 // view space, x points right, y down, and z forward, so its view is the usual world-to-camera matrix. k gives
 // positions in an image of `width` x `height` pixels, in which the centre of the first pixel lies at
 // (first_centre, first_centre): 0 for OpenCV, 0.5 for COLMAP. Distances are those of
@@ -79,8 +81,8 @@ struct ClipSpace {
 };
 inline constexpr ClipSpace kOpenGl{.z_from_minus_w = true}, kDirect3d{}, kVulkan{.y_down = true};
 
-// Turns a projection into another program's clip space into one into ours, which shows the same picture.
-// Direct3D's matrices multiply row vectors, so they are transposed, but lie in memory as glm's do.
+// Converts a projection for another clip space to ours; the picture stays the same. Direct3D multiplies row
+// vectors and stores rows: copy its 16 numbers unchanged into a glm matrix.
 glm::dmat4 projection_from(ClipSpace space, const glm::dmat4& projection);
 
 }  // namespace edgewise

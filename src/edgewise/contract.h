@@ -77,9 +77,9 @@ static_assert(std::int64_t{kMaxTile} * 2 * (2 * kGuardSub) <= std::int64_t{1} <<
 // to the ends of this range and rounds half to even. A stream states its depths. A scene's depth follows from
 // the float distance w along the view direction:
 //   depth = far (w - near) / ((far - near) w)                   within 1/2 + 2^-19 units (frontend/fixed.h)
-// Matrices give far / (far - near), which is 1 for an infinite far plane. If they are not a usual perspective
-// (camera.h), depth is z / w (rule 10).
-// Inside a triangle, depth is the plane through its vertices, in fixed point with wrap-around:
+// With matrices, the factor far / (far - near) is read from the projection. It is 1 for an infinite far
+// plane. If they are no usual perspective (camera.h), depth is z / w (rule 10). Inside a triangle, depth is
+// the plane through its vertices, in fixed point with wrap-around:
 //   gx, gy   = floor(2^16 dz/dpx), floor(2^16 dz/dpy)           per pixel step, 16 fraction bits, mod 2^64
 //   middle   = floor(plane at the sample (32, 32) of the pixel's 64 x 64 cell + 1/2)        mod 2^32
 //   z(x, y)  = middle + (x mod 64 - 32) zx + (y mod 64 - 32) zy,  zx = floor(gx / 2^16 + 1/2)    mod 2^32
@@ -180,12 +180,12 @@ inline std::uint64_t gradient(std::int64_t n, std::int64_t area) {
 // - Usual perspective: the camera's position.
 // - Parallel, where w is the same everywhere: the point nearest to the instance's origin on the axis from the
 //   middle of the near plane to that of the far plane. Only z changes along this axis.
-// - Others: the corner of the view volume where w is smallest.
+// - Others: a point of the view volume where w is smallest.
 // Let D be the vertex' distance from o, `side` the larger of width and height, and L, Lz and Lw the lengths
 // of the coefficients of x w or y w, of z, and of w. The fourth term is now at most `side` w larger, so
 //   |error of x, y| < 2^-19 ((L + side Lw) D / w + side) px
-// for a vertex in view of an unscaled instance whose origin is at most 2^24 D away from o. z and w of depths
-// are computed from d in double, so of the roundings above only that of d is left:
+// for a vertex in view of an unscaled instance whose origin is at most 2^24 D away from o. Depth uses z and w
+// computed in double. Only the rounding of d remains:
 //   |error of depth| < 2^-23 (Lz + Lw) D / w, and 1 unit
 // An instance's matrix whose columns are nearly dependent, but not orthogonal, is less precise: o is not
 // subtracted before its products are rounded.

@@ -1,7 +1,8 @@
 /* The C interface. It compiles as C11 and as C++.
  *
  * Conventions
- * - Screen: pixel (0, 0) is top left, y points down, and a pixel's only sample lies at its centre, (+0.5, +0.5).
+ * - Screen: pixel (0, 0) is top left, y points down, and a pixel's only sample lies at its centre, (+0.5,
+ * +0.5).
  * - Clip space, which is projection * view * world: x points right, y up. A vertex is visible where |x| <= w,
  *   |y| <= w and 0 <= z <= w; z = 0 is nearest.
  * - The front of a triangle is the side from which its vertices appear clockwise on the screen.
@@ -39,8 +40,8 @@ typedef enum edgewise_status {
   EDGEWISE_FAILED = 3 /* anything else, such as threads that do not start */
 } edgewise_status;
 
-/* What was wrong with the calling thread's last call that failed; "" if none did. Valid until the thread's next
- * call that fails. */
+/* What was wrong with the calling thread's last call that failed; "" if none did. Valid until the thread's
+ * next call that fails. */
 const char* edgewise_error(void);
 
 /* A scene: meshes, their instances, a camera and a light; or a stream of triangles that are on the screen. */
@@ -52,64 +53,73 @@ edgewise_scene* edgewise_new_scene(void);
 void edgewise_free_scene(edgewise_scene* scene);
 
 typedef struct edgewise_mesh {
-  const float* positions;    /* x, y, z per vertex */
+  const float* positions; /* x, y, z per vertex */
   size_t vertex_count;
   size_t position_stride;    /* bytes from vertex to vertex; 0: 12 */
   const uint32_t* triangles; /* three vertices per triangle */
   size_t triangle_count;
-  size_t triangle_stride;    /* bytes from triangle to triangle; 0: 12 */
-  const uint32_t* colours;   /* one per triangle; null: all are light grey */
-  int two_sided;             /* if not 0, no triangle is culled, and each is lit on the side that is seen */
+  size_t triangle_stride;  /* bytes from triangle to triangle; 0: 12 */
+  const uint32_t* colours; /* one per triangle; null: all are light grey */
+  int two_sided;           /* if not 0, no triangle is culled, and each is lit on the side that is seen */
 } edgewise_mesh;
 
-/* Adds a mesh, which is drawn only by its instances. `index`, unless null, gets its number. Vertices of any value are
- * allowed: triangles with NaN or infinity are not drawn. Fails if a triangle names a vertex that the mesh lacks. */
+/* Adds a mesh, which is drawn only by its instances. `index`, unless null, gets its number. Vertices of any
+ * value are allowed: triangles with NaN or infinity are not drawn. Fails if a triangle names a vertex that
+ * the mesh lacks. */
 edgewise_status edgewise_add_mesh(edgewise_scene* scene, const edgewise_mesh* mesh, size_t* index);
 
-/* Places a mesh in the world by an affine matrix, whose last row is 0 0 0 1. Null: the identity. `index`, unless null,
- * gets the instance's number. */
-edgewise_status edgewise_add_instance(edgewise_scene* scene, size_t mesh, const double matrix[16], size_t* index);
+/* Places a mesh in the world by an affine matrix, whose last row is 0 0 0 1. Null: the identity. `index`,
+ * unless null, gets the instance's number. */
+edgewise_status edgewise_add_instance(edgewise_scene* scene, size_t mesh, const double matrix[16],
+                                      size_t* index);
 /* Moves an instance. */
 edgewise_status edgewise_set_instance(edgewise_scene* scene, size_t instance, const double matrix[16]);
 
 /* The direction towards the light; any length but 0. */
 edgewise_status edgewise_set_light(edgewise_scene* scene, const double direction[3]);
 
-/* The camera by its matrices: clip = projection * view * world. Draws fail for matrices that camera.h excludes, such as
- * singular ones. That header also says what clips and what depth means. */
-edgewise_status edgewise_set_camera(edgewise_scene* scene, const double view[16], const double projection[16]);
-/* Projections for edgewise_set_camera(), as camera.h describes them. Distances are along the view direction. */
+/* The camera by its matrices: clip = projection * view * world. Draws fail for matrices that camera.h
+ * excludes, such as singular ones. That header also says what clips and what depth means. */
+edgewise_status edgewise_set_camera(edgewise_scene* scene, const double view[16],
+                                    const double projection[16]);
+/* Projections for edgewise_set_camera(), as camera.h describes them. Distances are along the view direction.
+ */
 /* x right, y up, looks along -z. fov_y in radians; far_z may be infinite. */
-edgewise_status edgewise_perspective(double fov_y, double aspect, double near_z, double far_z, double projection[16]);
+edgewise_status edgewise_perspective(double fov_y, double aspect, double near_z, double far_z,
+                                     double projection[16]);
 /* The same view space, without perspective. */
-edgewise_status edgewise_orthographic(double left, double right, double bottom, double top, double near_z, double far_z,
-                                      double projection[16]);
-/* Computer vision: x right, y down, looks along z. `k`: the intrinsics, row by row, in pixels of a width x height image in
- * which the first pixel's centre lies at (first_centre, first_centre): 0 for OpenCV, 0.5 for COLMAP. */
-edgewise_status edgewise_intrinsics(const double k[9], int width, int height, double first_centre, double near_z,
-                                    double far_z, double projection[16]);
-/* Turns a projection into another clip space into one into ours, in place. Each flag is 0 or 1: z from -w to w (OpenGL), y
- * down (Vulkan), near where z is largest (reversed depth). */
-edgewise_status edgewise_convert_projection(int z_from_minus_w, int y_down, int reversed, double projection[16]);
+edgewise_status edgewise_orthographic(double left, double right, double bottom, double top, double near_z,
+                                      double far_z, double projection[16]);
+/* Computer vision: x right, y down, looks along z. `k`: the intrinsics, row by row, in pixels of a width x
+ * height image in which the first pixel's centre lies at (first_centre, first_centre): 0 for OpenCV, 0.5 for
+ * COLMAP. */
+edgewise_status edgewise_intrinsics(const double k[9], int width, int height, double first_centre,
+                                    double near_z, double far_z, double projection[16]);
+/* Turns a projection into another clip space into one into ours, in place. Each flag is 0 or 1: z from -w to
+ * w (OpenGL), y down (Vulkan), near where z is largest (reversed depth). */
+edgewise_status edgewise_convert_projection(int z_from_minus_w, int y_down, int reversed,
+                                            double projection[16]);
 /* A camera that sees the whole scene, for images whose width is `aspect` times their height. */
 edgewise_status edgewise_frame_scene(edgewise_scene* scene, double aspect);
 
-/* A stream: triangles that are already on the screen. Its functions are edgewise_draw() and edgewise_free_scene(). */
+/* A stream: triangles that are already on the screen. Its functions are edgewise_draw() and
+ * edgewise_free_scene(). */
 typedef struct edgewise_stream_triangle {
   float vertex[3][3]; /* x and y in pixels, z in 0 ... 1; smaller z is nearer */
   uint32_t colour;
 } edgewise_stream_triangle;
-edgewise_status edgewise_new_stream(const edgewise_stream_triangle* triangles, size_t count, edgewise_scene** stream);
+edgewise_status edgewise_new_stream(const edgewise_stream_triangle* triangles, size_t count,
+                                    edgewise_scene** stream);
 
-/* A renderer keeps its memory between draws: make it once, draw often. `backend`: "tiled", "scanline" or "naive", which
- * draw the same pictures; null: "tiled". */
+/* A renderer keeps its memory between draws: make it once, draw often. `backend`: "tiled", "scanline" or
+ * "naive", which draw the same pictures; null: "tiled". */
 typedef struct edgewise_renderer edgewise_renderer;
 edgewise_status edgewise_new_renderer(const char* backend, edgewise_renderer** renderer);
 /* Null is allowed. */
 void edgewise_free_renderer(edgewise_renderer* renderer);
 
-/* The caller's memory. Row y begins `stride` pixels after row y - 1. Rows that begin on 64-byte boundaries are written
- * fastest. */
+/* The caller's memory. Row y begins `stride` pixels after row y - 1. Rows that begin on 64-byte boundaries
+ * are written fastest. */
 typedef struct edgewise_frame {
   uint32_t* depth;
   uint32_t* payload; /* colours or ids; null: only depth is drawn */
@@ -121,36 +131,40 @@ typedef enum edgewise_cull { EDGEWISE_CULL_NONE, EDGEWISE_CULL_BACK, EDGEWISE_CU
 
 typedef struct edgewise_options {
   edgewise_cull cull;
-  int ids;             /* if not 0, payloads are ids: numbers of triangles, counted through the instances in order */
-  int unlit;           /* if not 0, colours are not multiplied by the light */
-  int threads;         /* 1 ... 256 */
-  int keep;            /* if not 0, draws over what earlier draws left in the frame, as if they were one draw */
+  int ids;     /* if not 0, payloads are ids: numbers of triangles, counted through the instances in order */
+  int unlit;   /* if not 0, colours are not multiplied by the light */
+  int threads; /* 1 ... 256 */
+  int keep;    /* if not 0, draws over what earlier draws left in the frame, as if they were one draw */
   uint32_t background; /* the payload where no triangle is visible; without `keep` only */
-  int scissor[4];      /* x, y, width, height: draws only these pixels, and leaves the others; all 0: the whole frame */
+  int scissor[4]; /* x, y, width, height: draws only these pixels, and leaves the others; all 0: the whole
+                     frame */
 } edgewise_options;
 
 /* No culling, lit colours, one thread, black background. */
 edgewise_options edgewise_default_options(void);
 
 /* Draws a frame. `options` may be null: the default. */
-edgewise_status edgewise_draw(edgewise_renderer* renderer, const edgewise_scene* scene, const edgewise_options* options,
-                              edgewise_frame frame);
+edgewise_status edgewise_draw(edgewise_renderer* renderer, const edgewise_scene* scene,
+                              const edgewise_options* options, edgewise_frame frame);
 
 /* What a frame of ids shows. Background is where depth is that of an empty frame. */
 /* The ids of visible triangles, ascending: writes the first `capacity`, and to `count` how many there are. */
-edgewise_status edgewise_visible_triangles(edgewise_frame ids, uint32_t* visible, size_t capacity, size_t* count);
-/* The number of pixels of each triangle, by id. `triangles`: how many the scene has; a larger id is an error. */
+edgewise_status edgewise_visible_triangles(edgewise_frame ids, uint32_t* visible, size_t capacity,
+                                           size_t* count);
+/* The number of pixels of each triangle, by id. `triangles`: how many the scene has; a larger id is an error.
+ */
 edgewise_status edgewise_pixels_per_triangle(edgewise_frame ids, uint32_t* pixels, size_t triangles);
-/* Whether a box in world space could be seen in front of what the frame shows; 0 is certain, 1 is not. The frame needs no
- * payload. */
+/* Whether a box in world space could be seen in front of what the frame shows; 0 is certain, 1 is not. The
+ * frame needs no payload. */
 edgewise_status edgewise_box_visible(const edgewise_scene* scene, const double low[3], const double high[3],
                                      edgewise_frame depth, int* is_visible);
-/* Perspective-correct barycentric coordinates of the second and third vertex, u and v, by pixel: u, v >= 0, u + v <= 1,
- * errors below 2^-24; 0 on background. `distance`, unless null: along the view direction, with a relative error below
- * 2^-23; infinite on background. Strides are in floats, from row to row. `ids` is a frame that was drawn with the same
- * scene and options, and with ids. */
-edgewise_status edgewise_barycentrics(const edgewise_scene* scene, const edgewise_options* options, edgewise_frame ids,
-                                      float* uv, ptrdiff_t uv_stride, float* distance, ptrdiff_t distance_stride);
+/* Perspective-correct barycentric coordinates of the second and third vertex, u and v, by pixel: u, v >= 0, u
+ * + v <= 1, errors below 2^-24; 0 on background. `distance`, unless null: along the view direction, with a
+ * relative error below 2^-23; infinite on background. Strides are in floats, from row to row. `ids` is a
+ * frame that was drawn with the same scene and options, and with ids. */
+edgewise_status edgewise_barycentrics(const edgewise_scene* scene, const edgewise_options* options,
+                                      edgewise_frame ids, float* uv, ptrdiff_t uv_stride, float* distance,
+                                      ptrdiff_t distance_stride);
 
 /* From 0, which is the near plane, to 1, which is the far plane or the background. */
 double edgewise_depth01(uint32_t depth);

@@ -1,5 +1,8 @@
 // The front end turns a scene into screen triangles: it transforms, culls, clips, projects, snaps and shades.
 // It is the only part that converts floats to fixed point.
+//
+// Pixel (0, 0) is top left, its centre lies at (0.5, 0.5), and y points down. The smaller depth is nearer.
+// The front of a triangle is the side whose vertices appear clockwise (camera.h).
 #pragma once
 
 #include "edgewise/cxx20.h"

@@ -1,5 +1,8 @@
 // Pictures and depth maps: reading, writing and comparing them. Part of edgewise::files. The types are plain
 // values and the functions have no state, so any thread may call them at any time.
+//
+// Pixel (0, 0) is top left, its centre lies at (0.5, 0.5), and y points down. The smaller depth is nearer.
+// The front of a triangle is the side whose vertices appear clockwise (camera.h).
 #pragma once
 
 #include "edgewise/cxx20.h"

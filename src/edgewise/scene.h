@@ -84,7 +84,7 @@ struct Instance {
   float angle = 0.0f;                // radians about the axis, counter-clockwise seen from its tip
   glm::dvec3 translation{0.0};
   // From model space to world space, in place of the four values above. Its elements must be finite, and its
-  // last row 0 0 0 1. It may shear, and it may flatten the mesh.
+  // last row 0 0 0 1: a projective one belongs into the camera's. It may shear, and it may flatten the mesh.
   std::optional<glm::dmat4> matrix{};
 };
 

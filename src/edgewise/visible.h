@@ -4,6 +4,9 @@
 //
 // Those that take a frame throw std::invalid_argument if a plane that they read is null, if a side is outside
 // 1 … contract::kMaxImageSide, or if the stride is below the width.
+//
+// Pixel (0, 0) is top left, its centre lies at (0.5, 0.5), and y points down. The smaller depth is nearer.
+// The front of a triangle is the side whose vertices appear clockwise (camera.h).
 #pragma once
 
 #include "edgewise/cxx20.h"

@@ -24,6 +24,7 @@ struct Offsets {
 
 struct ClipVectors {
   VF x, y, z, w;
+  VF beyond;  // z - w, if z is not w
 };
 
 HWY_INLINE Offsets from_origin(const ScreenTransform& to_screen, const float* positions) {
@@ -52,13 +53,16 @@ HWY_INLINE ClipVectors transform(const ScreenTransform& to_screen, const Offsets
   const VF w = row(2);
   if constexpr (kHasZ) {
     // Clamped, since conversions beyond the range of float differ between targets.
-    const auto clamped_z = [&](auto x, auto y, auto z) HWY_ATTR {
-      const auto limit = hn::Set(hn::DFromV<decltype(x)>{}, double{std::numeric_limits<float>::max()});
-      return hn::Min(hn::Max(row_of_doubles(to_screen.z, x, y, z), hn::Neg(limit)), limit);
+    const auto clamped = [&](const glm::dvec4& r) HWY_ATTR {
+      const auto value = [&](auto x, auto y, auto z) HWY_ATTR {
+        const auto limit = hn::Set(hn::DFromV<decltype(x)>{}, double{std::numeric_limits<float>::max()});
+        return hn::Min(hn::Max(row_of_doubles(r, x, y, z), hn::Neg(limit)), limit);
+      };
+      return in_double(d, value, p.x, p.y, p.z);
     };
-    return {row(0), row(1), in_double(d, clamped_z, p.x, p.y, p.z), w};
+    return {row(0), row(1), clamped(to_screen.z), w, clamped(to_screen.z - to_screen.w)};
   } else {
-    return {row(0), row(1), w, w};
+    return {row(0), row(1), w, w, w};
   }
 }
 
@@ -86,9 +90,11 @@ HWY_INLINE VI outside_of(const ClipVectors& v, const ViewVolume& view) {
   };
   const VF zero = hn::Zero(df);
   const VF guard = hn::Mul(v.w, hn::Set(df, static_cast<float>(contract::kMaxImageSide)));
-  const VF far_z = kHasZ ? v.w : hn::Set(df, static_cast<float>(view.far_z));
+  // Far away, w rounded to float may lie on either side of z.
+  const auto beyond_far =
+      kHasZ ? hn::Gt(v.beyond, zero) : hn::Gt(v.z, hn::Set(df, static_cast<float>(view.far_z)));
   add_side(hn::Lt(v.z, hn::Set(df, static_cast<float>(view.near_z))), kNear);
-  add_side(hn::Gt(v.z, far_z), kFar);
+  add_side(beyond_far, kFar);
   add_side(hn::Lt(v.x, hn::Neg(guard)), kGuardLeft);
   add_side(hn::Gt(v.x, guard), kGuardRight);
   add_side(hn::Lt(v.y, hn::Neg(guard)), kGuardTop);

@@ -69,6 +69,17 @@ bool is_usual_perspective(const CameraMatrices& m) {
          p[1].z == 0.0 && p[1].w == 0.0;
 }
 
+// False if rounding errors decide on the determinant of a projection in which `point`, and not the world's
+// origin, is the origin. Rows and columns are scaled to length 1.
+bool has_inverse(glm::dmat4 to_clip, const glm::dvec3& point) {
+  to_clip[3] = to_clip * glm::dvec4(point, 1.0);
+  for (int i = 0; i < 2; ++i) {
+    for (int column = 0; column < 4; ++column) to_clip[column] /= glm::length(to_clip[column]);
+    to_clip = glm::transpose(to_clip);
+  }
+  return std::abs(glm::determinant(to_clip)) > 0x1p-40;
+}
+
 }  // namespace
 
 glm::dmat3 to_camera_frame(const Camera& camera) {
@@ -122,26 +133,29 @@ View::View(const CameraMatrices& matrices, int width_px, int height_px)
     throw std::invalid_argument("the elements of the camera's matrices must be finite");
   const glm::dmat4 to_clip = matrices.projection * matrices.view, from_view = glm::inverse(matrices.view),
                    to_world = from_view * glm::inverse(matrices.projection);
-  if (!is_finite(to_clip) || !is_finite(to_world))
-    throw std::invalid_argument("the camera's matrices have no inverse");
-  // The product with (x, y, z, 1) is 1 / w of the point at (x, y, z) w. It is linear, so w is smallest at a
-  // corner of the view volume.
+  const char* const kSingular = "the camera's matrices have no inverse";
+  if (!is_finite(to_clip) || !is_finite(to_world)) throw std::invalid_argument(kSingular);
+  // Its product with (x, y, z, 1), a point after the division by w, is 1 / w. It is linear, so w is smallest
+  // at a corner of the view volume.
   const glm::dvec4 inverse_w(to_world[0].w, to_world[1].w, to_world[2].w, to_world[3].w);
   const glm::dvec4 corner(glm::sign(inverse_w.x), glm::sign(inverse_w.y), inverse_w.z > 0.0 ? 1.0 : 0.0, 1.0);
   const double least_w = 1.0 / glm::dot(inverse_w, corner);
   if (!(least_w > 0.0))
     throw std::invalid_argument("the camera's matrices show nothing: w is never positive");
-  if (!(least_w >= kLeast && least_w <= kLargest))
+  const bool is_usual = is_usual_perspective(matrices);
+  // In pixels, w may be 2^14 times as large; and it grows away from the camera.
+  if (!(least_w >= kLeast && least_w <= (is_usual ? kLargest : 0x1p100)))
     throw std::invalid_argument("the least w that the camera's matrices show is out of the range of float");
+  origin = is_usual ? glm::dvec3(from_view[3]) : glm::dvec3(to_world * corner) * least_w;
+  if (!has_inverse(to_clip, origin)) throw std::invalid_argument(kSingular);
 
   const glm::dmat3 to_pixels = viewport(width_px, height_px);
   pixels = to_pixels * glm::dmat3(xyw(to_clip[0]), xyw(to_clip[1]), xyw(to_clip[2]));
-  if (is_usual_perspective(matrices)) {
+  if (is_usual) {
     const glm::dmat4& p = matrices.projection;
     const double a = p[2].z / p[2].w, b = p[3].z;  // z / w = a + b / w, so a = far / (far - near)
     if (b > 0.0)
       throw std::invalid_argument("z / w falls with the distance; see ClipSpace::reversed in camera.h");
-    origin = glm::dvec3(from_view[3]);
     volume.near_z = -b / a;
     const double far_z = a > 1.0 ? -b / (a - 1.0) : std::numeric_limits<double>::infinity();
     volume.far_z = far_z <= kLargest ? far_z : std::numeric_limits<double>::infinity();
@@ -149,7 +163,6 @@ View::View(const CameraMatrices& matrices, int width_px, int height_px)
     depth.near_z = volume.near_z, depth.scale = contract::kDepthRange * a;
     return;
   }
-  origin = glm::dvec3(to_world * corner) * least_w;
   at_origin = to_pixels * xyw(corner) * least_w;
   has_z = true;
   z = {to_clip[0].z, to_clip[1].z, to_clip[2].z, corner.z * least_w};

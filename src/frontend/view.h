@@ -24,7 +24,7 @@ glm::dmat3 pixels_of(const Camera& camera, int width_px, int height_px);
 // Throws std::invalid_argument if an instance's matrix is not finite or not affine.
 void check(const Instance& instance);
 
-// What a camera, or the matrices in its place, show in an image of a size.
+// The transform and the view volume of a camera, or of matrices, for one image size.
 struct View {
   // All throw std::invalid_argument if a value of the camera is out of range, or matrices cannot be used.
   View(const Camera& camera, int width_px, int height_px);

@@ -197,14 +197,40 @@ TEST(Matrices, ReversedDepthChangesNoPixel) {
     if (info.stream) continue;
     Scene scene = std::get<Scene>(info.make({}));
     const CameraMatrices straight = matrices_of(scene.camera, 640.0 / 360);
-    CameraMatrices reversed = straight;
-    for (int i = 0; i < 4; ++i)
-      reversed.projection[i].z = straight.projection[i].w - straight.projection[i].z;
-    reversed.projection = projection_from({.reversed = true}, reversed.projection);
+    const Camera& c = scene.camera;
+    const CameraMatrices reversed{
+        straight.view,  // near and far change places
+        projection_from({.reversed = true}, glm::perspectiveRH_ZO(double{c.fov_y}, 640.0 / 360,
+                                                                  double{c.far_z}, double{c.near_z}))};
     scene.matrices = straight;
     Scene other = scene;
     other.matrices = reversed;
     expect_nearly_same(scene, other, std::string(info.name), 0, 1);
+  }
+}
+
+TEST(Matrices, DropNothingThatIsFarAwayButInFrontOfAnInfiniteFarPlane) {
+  Random random(47);
+  Scene scene;
+  scene.meshes.emplace_back();
+  Mesh& mesh = scene.meshes[0];
+  for (unsigned i = 0; i < 2000; ++i) {
+    const float z = -std::ldexp(random.uniform(1.0f, 2.0f), 23 + static_cast<int>(random.below(4)));
+    for (int k = 0; k < 3; ++k)
+      mesh.positions.emplace_back(z * random.uniform(-0.3f, 0.3f), z * random.uniform(-0.3f, 0.3f), z);
+    mesh.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2), mesh.colours.push_back(0);
+  }
+  scene.instances.emplace_back();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  scene.matrices = {glm::dmat4(1.0), perspective_projection(1.0, 640.0 / 360, 0.1, kInfinity)};
+  Scene product = scene;
+  // No usual perspective: its view is not affine.
+  std::swap(product.matrices->view, product.matrices->projection);
+  for (const SimdTarget target : supported_targets()) {
+    const FrontendOptions options{.width = 640, .height = 360, .cull = Cull::none, .target = target};
+    Frontend usual, general;
+    EXPECT_EQ(general.run(product, options).size(), usual.run(scene, options).size());
+    EXPECT_EQ(general.stats().clipped, 0u);
   }
 }
 
@@ -379,7 +405,16 @@ TEST(Matrices, AreRefusedIfNothingCanBeSeenThroughThem) {
   EXPECT_EQ(refusal({flat, perspective}), kSingular);
   EXPECT_EQ(refusal({one, flat}), kSingular);
   EXPECT_EQ(refusal({glm::dmat4(0.0), perspective}), kSingular);
-  EXPECT_EQ(refusal({one, glm::dmat4(1e-200)}), kSingular) << "its inverse overflows";
+  EXPECT_EQ(refusal({one, glm::dmat4(1e-200)}), kSingular) << "GLM's determinant underflows";
+  Random random(48);
+  for (int trial = 0; trial < 200; ++trial) {  // of rank 3, but for rounding
+    glm::dmat4 view(1.0);
+    for (int i = 0; i < 2; ++i)
+      for (int k = 0; k < 3; ++k) view[i][k] = random.uniform(-1.0f, 1.0f);
+    view[2] = 0.3 * view[0] + 0.7 * view[1];
+    EXPECT_EQ(refusal({view, perspective}).empty(), false);
+    EXPECT_EQ(refusal({view, orthographic_projection(-1, 1, -1, 1, 1, 9)}), kSingular);
+  }
   const char* const kNothing = "the camera's matrices show nothing: w is never positive";
   EXPECT_EQ(refusal({one, -perspective}), kNothing);
   EXPECT_EQ(refusal({one, -one}), kNothing);
