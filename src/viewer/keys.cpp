@@ -87,10 +87,13 @@ std::span<const KeyRow> key_table() {
       {"t", "vertex numbers", {{key_of('t'), Command::labels}}},
       {"7", "state of each face (culled, clipped)", {{key_of('7'), Command::face_states}}},
       {"6", "outlines (white: cut by clipping)", {{key_of('6'), Command::outlines}}},
-      {"o", "overlay: full, short, none", {{key_of('o'), Command::overlay}}},
+      {"o", "panel on, off", {{key_of('o'), Command::panel}}},
       {"p", "save a .png and a .tri file", {{key_of('p'), Command::save}}},
-      {"5", "next step of a demo", {{key_of('5'), Command::next_step}}},
-      {"h", "this help", {{key_of('h'), Command::help}}},
+      {"8 5",
+       "previous, next step of a demo",
+       {{key_of('8'), Command::previous_step}, {key_of('5'), Command::next_step}}},
+      {"h", "help: all keys and methods", {{key_of('h'), Command::help}}},
+      {"/", "search the help", {{key_of('/'), Command::search}}},
       {"q, esc", "quit", {{key_of('q'), Command::quit}, {Key::escape, Command::quit}}},
   };
   return rows;
@@ -101,6 +104,12 @@ std::optional<Command> command_of(Key key) {
     for (const Binding& binding : row.bindings)
       if (binding.key == key) return binding.command;
   return std::nullopt;
+}
+
+double seconds_of(const Stroke& stroke) {
+  constexpr double kHeld_s = 0.1;
+  const double* const wait = std::get_if<double>(&stroke);
+  return wait != nullptr ? *wait : kHeld_s;
 }
 
 std::vector<Stroke> parse_keys(std::string_view text) {

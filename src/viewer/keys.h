@@ -70,9 +70,12 @@ enum class Command : std::uint8_t {
   labels,
   face_states,
   outlines,
-  overlay,
+  // These change nothing that a demo's next step depends on:
+  panel,
+  previous_step,
   next_step,
   help,
+  search,
   save,
   quit,
 };
@@ -101,5 +104,6 @@ struct Named {
 };
 using Stroke = std::variant<Key, double, Named>;
 std::vector<Stroke> parse_keys(std::string_view text);
+double seconds_of(const Stroke& stroke);  // 0.1 s for a key or method, or the time to wait
 
 }  // namespace edgewise::viewer

@@ -1,5 +1,7 @@
 #include "viewer/pipeline.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -12,7 +14,7 @@
 #include "lab/measure.h"
 #include "lab/view_space.h"
 #include "support/milliseconds.h"
-#include "viewer/inset.h"
+#include "viewer/annotations.h"
 
 namespace edgewise::viewer {
 
@@ -91,6 +93,15 @@ std::vector<std::uint32_t> visible_ids_in(const Framebuffer& frame) {
 std::string_view name_of(Truth truth) {
   constexpr std::array<std::string_view, 3> kNames{"contract", "snapped", "floats"};
   return kNames[static_cast<std::size_t>(truth)];
+}
+
+std::string errors_of(const Judgement& judgement) {
+  const auto count = [](std::uint64_t n, const char* what) {
+    return fmt::format(", {} {}{}", n, what, n == 1 ? "" : "s");
+  };
+  std::string text = fmt::format("{} wrong of {} covered pixels", judgement.wrong, judgement.covered);
+  if (judgement.gaps) text += count(*judgement.gaps, "gap") + count(*judgement.double_hits, "double hit");
+  return text;
 }
 
 Backend& Pipeline::backend(std::string_view name) {

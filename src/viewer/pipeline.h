@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -48,6 +49,8 @@ struct Judgement {
   std::optional<std::uint64_t> gaps, double_hits;
   std::vector<lab::Mark> marks;  // row by row
 };
+// "12 wrong of 3456 pixels, 2 gaps, 1 double hit"
+std::string errors_of(const Judgement& judgement);
 
 // Reuses its buffers between frames.
 class Pipeline {

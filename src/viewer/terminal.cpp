@@ -4,6 +4,8 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
@@ -81,8 +83,9 @@ class RawTerminal {
     winsize size{};
     if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0 || size.ws_row == 0)
       size.ws_col = 80, size.ws_row = 24;
+    // The last row shows the status.
     return {std::min<int>(size.ws_col, contract::kMaxImageSide),
-            std::min<int>(size.ws_row * 2, contract::kMaxImageSide)};
+            std::clamp<int>(size.ws_row * 2 - 2, 1, contract::kMaxImageSide)};
   }
 };
 
@@ -96,7 +99,8 @@ class Loop {
       const Clock::time_point now = Clock::now();
       session_.advance(std::chrono::duration<double>(std::min<Clock::duration>(now - last, kIdle)).count());
       last = now;
-      if (!put(picture_.show(session_.draw(terminal_.size_px(), kTerminalCell)))) return;
+      const Screen& screen = session_.draw(terminal_.size_px());
+      if (!put(picture_.show(screen, status_of(session_)))) return;
       const bool busy = !session_.still();
       const auto until = now + (busy ? kFrame : kIdle);
       // Any event ends the pause, because it may change the picture.
@@ -152,6 +156,23 @@ class Loop {
 };
 
 }  // namespace
+
+std::string status_of(const Session& session) {
+  const State& state = session.state();
+  if (!state.message.empty()) return state.message;
+  if (state.help) return "`edgewise view --help` lists all keys";
+  if (state.step > 0)
+    return fmt::format("{}/{} {}", state.step, session.steps().size(), session.steps()[state.step - 1].notice);
+  std::string text;
+  for (std::size_t i = 0; i < session.side_count(); ++i) {
+    const Side& side = session.side(i);
+    text += fmt::format("{}{}{}", text.empty() ? "" : " | ", describe(side.choice),
+                        state.active == i && session.side_count() > 1 ? "*" : "");
+    if (side.judgement && state.errors != Errors::off)
+      text += fmt::format(", {}", errors_of(*side.judgement));
+  }
+  return text + fmt::format(", {:.1f} ms  [h] help", state.frame_ms);
+}
 
 void show_in_terminal(Session& session) {
   Loop(session).run();

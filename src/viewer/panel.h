@@ -1,0 +1,61 @@
+// The panel beside the picture: methods, errors, magnifier, times, a demo's steps, help. Dear ImGui lays it out
+// and handles its input; imgui_paint.h paints it.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "edgewise/image.h"
+#include "support/options.h"
+#include "viewer/session.h"
+
+struct ImGuiContext;
+
+namespace edgewise::viewer {
+
+#ifdef EDGEWISE_IMGUI
+
+class Panel {
+ public:
+  // The font is at least this many times 13 px high, and larger for a high window.
+  explicit Panel(int least_font_scale = 1);
+  ~Panel();
+  Panel(const Panel&) = delete;
+  Panel& operator=(const Panel&) = delete;
+
+  // In px; 0 if the window has no room for a panel beside the picture.
+  int width_px(tools::Size window) const;
+  // Draws the session's picture and the panel. The reference is valid until the next call.
+  const Image& show(Session& session, tools::Size window);
+
+  // Input. Each of these returns whether the input is for the panel; if not, it is for the session.
+  bool press(Key key);
+  bool point(Pixel to, bool held);
+  void release(Key key) { released_.push_back(key); }
+  void scroll(float lines);
+  void type(const char* utf8);
+
+ private:
+  int font_scale(tools::Size window) const;
+  void set_font(int scale);
+
+  class Contents;
+  ImGuiContext* context_;
+  std::unique_ptr<Contents> contents_;
+  int least_font_scale_, font_scale_ = 0;
+  Image font_, image_;
+  int picture_width_px_ = 0;
+  std::vector<Key> released_;  // since the last frame; Dear ImGui sees each press for one frame at least
+  bool mouse_released_ = false, began_in_panel_ = false;
+};
+
+#else  // built without Dear ImGui: the picture alone
+
+struct Panel {
+  static int width_px(tools::Size) { return 0; }
+  static const Image& show(Session& session, tools::Size window) { return session.draw(window).picture; }
+};
+
+#endif
+
+}  // namespace edgewise::viewer
