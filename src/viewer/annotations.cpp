@@ -1,42 +1,17 @@
 #include "viewer/annotations.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
+#include <cstdlib>
+#include <utility>
 
-#include "edgewise/builtin.h"
 #include "edgewise/contract.h"
 #include "edgewise/frontend.h"
 #include "frontend/view.h"
-#include "lab/view_space.h"
 #include "viewer/world.h"
 
 namespace edgewise::viewer {
 
 namespace {
-
-constexpr std::array kAxisColours{rgb(235, 70, 60), rgb(80, 200, 80), rgb(90, 130, 255)};
-
-// Three thin boxes along the axes, seen by a camera with the given one's orientation.
-Scene axes_scene(const Camera& camera) {
-  constexpr float kHalfLength = 0.5f, kHalfWidth = 0.04f;
-  const Drawable cube = find_scene("cube").make({});
-  Scene scene;
-  for (int axis = 0; axis < 3; ++axis) {
-    Mesh box = std::get<Scene>(cube).meshes.front();
-    std::fill(box.colours.begin(), box.colours.end(), kAxisColours[static_cast<std::size_t>(axis)]);
-    scene.meshes.push_back(std::move(box));
-    Instance instance{.mesh = static_cast<std::size_t>(axis), .scale = glm::vec3(kHalfWidth)};
-    instance.scale[axis] = kHalfLength;
-    instance.translation[axis] = kHalfLength;
-    scene.instances.push_back(instance);
-  }
-  scene.camera.yaw = camera.yaw;
-  scene.camera.pitch = camera.pitch;
-  scene.camera.position = -4.0f * lab::line_of_sight(camera);
-  scene.camera.fov_y = 0.65f;
-  return scene;
-}
 
 struct Projected {
   float x_px, y_px;
@@ -129,17 +104,6 @@ std::vector<TriangleOfPixel> triangles_of(std::span<const ScreenTriangle> triang
     return std::pair(!t.covers(), t.covers() ? t.depth01 : 0.0);
   });
   return found;
-}
-
-Image axes_picture(const Camera& camera, int side_px, std::uint32_t background) {
-  FrontendOptions options;
-  options.width = options.height = side_px;
-  options.shade = false;
-  Frontend frontend;
-  Framebuffer frame(side_px, side_px);
-  const Drawable scene = axes_scene(camera);
-  find_backend("scanline").make()->draw(frontend.run(scene, options), frame.view(), background, {});
-  return to_image(frame);
 }
 
 std::size_t vertex_count(const Scene& scene) {

@@ -1,5 +1,5 @@
-// What is added to a picture: tinted errors, outlines, labels in the scene; and the views that the panel shows
-// of it: axes, magnified pixels, the triangles of a pixel.
+// What is added to a picture: tinted errors, outlines, labels in the scene. What the panel shows of a pixel:
+// those around it, and the triangles that reach it.
 #pragma once
 
 #include <array>
@@ -62,9 +62,6 @@ std::vector<TriangleOfPixel> triangles_of(std::span<const ScreenTriangle> triang
 
 // Pastes `from` with its upper left corner at (x, y), clipped to `into`.
 void paste(const Image& from, int x, int y, Image& into);
-
-// The world's axes as the camera sees them: x red, y green, z blue.
-Image axes_picture(const Camera& camera, int side_px, std::uint32_t background);
 
 std::size_t vertex_count(const Scene& scene);    // of all instances
 inline constexpr std::size_t kMostLabels = 300;  // more would be unreadable

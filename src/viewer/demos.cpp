@@ -90,8 +90,10 @@ Scene ring_of_cubes() {
 }
 
 constexpr Step kCulling[] = {
-    {"k<wireframe>r<2>", "Wireframe: the edges of all twelve triangles of the cube are drawn, front and back."},
-    {"2<2>", "[2] culls back faces: the faces left have vertices in clockwise order on the screen (y is down)."},
+    {"k<wireframe>r<2>",
+     "Wireframe: the edges of all twelve triangles of the cube are drawn, front and back."},
+    {"2<2>",
+     "[2] culls back faces: the faces left have vertices in clockwise order on the screen (y is down)."},
     {"21<2>", "[1] culls front faces instead: the far walls are left, seen from inside, as in a diorama."},
     {"<tiled><2>", "[y] fills the triangles: the cube is open towards the camera."},
     {"v<tab>2<wireframe><1>r",

@@ -30,9 +30,9 @@ std::uint32_t blended(std::uint32_t below, std::uint32_t above) {
   if (alpha == kOpaque) return above;
   std::uint32_t both = 0xFF000000u;
   for (int shift = 0; shift < 24; shift += 8)
-    both |= (channel(above, shift) * alpha + channel(below, shift) * (kOpaque - alpha) + kOpaque / 2) /
-                kOpaque
-            << shift;
+    both |=
+        (channel(above, shift) * alpha + channel(below, shift) * (kOpaque - alpha) + kOpaque / 2) / kOpaque
+        << shift;
   return both;
 }
 

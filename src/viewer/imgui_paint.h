@@ -1,5 +1,5 @@
-// Paints what Dear ImGui draws into a picture, with integers and by the fill rule of the contract, so that the
-// same picture comes out on every machine.
+// Paints what Dear ImGui draws into a picture, with integers and by the fill rule of the contract, so that
+// the same picture comes out on every machine.
 #pragma once
 
 #include "edgewise/image.h"

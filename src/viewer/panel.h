@@ -1,5 +1,5 @@
-// The panel beside the picture: methods, errors, magnifier, times, a demo's steps, help. Dear ImGui lays it out
-// and handles its input; imgui_paint.h paints it.
+// The panel beside the picture: methods, errors, magnifier, times, a demo's steps, help. Dear ImGui lays it
+// out and handles its input; imgui_paint.h paints it.
 #pragma once
 
 #include <memory>
@@ -10,6 +10,7 @@
 #include "viewer/session.h"
 
 struct ImGuiContext;
+struct ImGuiIO;
 
 namespace edgewise::viewer {
 
@@ -36,6 +37,7 @@ class Panel {
   void type(const char* utf8);
 
  private:
+  ImGuiIO& current_io();  // makes this panel's context the current one
   int font_scale(tools::Size window) const;
   void set_font(int scale);
 

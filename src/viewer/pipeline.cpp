@@ -96,12 +96,9 @@ std::string_view name_of(Truth truth) {
 }
 
 std::string errors_of(const Judgement& judgement) {
-  const auto count = [](std::uint64_t n, const char* what) {
-    return fmt::format(", {} {}{}", n, what, n == 1 ? "" : "s");
-  };
   std::string text = fmt::format("{} wrong of {} covered pixels", judgement.wrong, judgement.covered);
-  if (judgement.gaps) text += count(*judgement.gaps, "gap") + count(*judgement.double_hits, "double hit");
-  return text;
+  if (!judgement.gaps) return text;
+  return text + fmt::format(", gaps: {}, double hits: {}", *judgement.gaps, *judgement.double_hits);
 }
 
 Backend& Pipeline::backend(std::string_view name) {

@@ -49,7 +49,7 @@ struct Judgement {
   std::optional<std::uint64_t> gaps, double_hits;
   std::vector<lab::Mark> marks;  // row by row
 };
-// "12 wrong of 3456 pixels, 2 gaps, 1 double hit"
+// "12 wrong of 3456 covered pixels, gaps: 2, double hits: 1"
 std::string errors_of(const Judgement& judgement);
 
 // Reuses its buffers between frames.

@@ -27,25 +27,7 @@ constexpr float kSpeedStep = 1.5f, kSlowest = 0.01f, kFastest = 100.0f;
 constexpr double kBudget_ms = 10.0, kDecay = 0.995;
 
 constexpr bool changes_picture(Command command) {
-  switch (command) {
-    case Command::axes:
-    case Command::slower:
-    case Command::faster:
-    case Command::magnifier:
-    case Command::next_error:
-    case Command::other_side:
-    case Command::labels:
-    case Command::panel:
-    case Command::previous_step:  // the keys of steps change the picture themselves
-    case Command::next_step:
-    case Command::help:
-    case Command::search:
-    case Command::save:
-    case Command::quit:
-      return false;
-    default:
-      return true;
-  }
+  return command < Command::axes;
 }
 
 // The entry `step` places after the current one, cyclically.
@@ -200,11 +182,10 @@ void Session::act(Command command) {
   state_.message.clear();
   if (changes_picture(command)) ++state_.version;
   constexpr std::pair<Command, bool State::*> kToggles[] = {
-      {Command::axes, &State::along_view},  {Command::spin, &State::spinning},
-      {Command::freeze, &State::frozen},    {Command::magnifier, &State::magnifier},
-      {Command::labels, &State::labels},    {Command::face_states, &State::face_states},
-      {Command::outlines, &State::outlines}, {Command::panel, &State::panel},
-      {Command::help, &State::help}};
+      {Command::axes, &State::along_view},   {Command::spin, &State::spinning},
+      {Command::freeze, &State::frozen},     {Command::magnifier, &State::magnifier},
+      {Command::labels, &State::labels},     {Command::face_states, &State::face_states},
+      {Command::outlines, &State::outlines}, {Command::panel, &State::panel}};
   for (const auto& [toggle, flag] : kToggles)
     if (command == toggle) {
       state_.*flag = !(state_.*flag);
@@ -251,19 +232,17 @@ void Session::act(Command command) {
         state_.active = 1 - state_.active;
       break;
     case Command::previous_step:
-      if (state_.step < 2)
-        state_.message = start_.steps.empty() ? "only demos have steps" : "this is the first step";
-      else
-        take_step(state_.step - 2);
+      take_step(state_.step - 2);
       break;
     case Command::next_step:
-      if (state_.step == start_.steps.size())
-        state_.message = start_.steps.empty() ? "only demos have steps" : "that was the last step";
-      else
-        take_step(state_.step);
+      take_step(state_.step);
+      break;
+    case Command::help:
+      state_.help = !state_.help;
+      state_.panel |= state_.help;
       break;
     case Command::search:
-      state_.help = true;
+      state_.help = state_.panel = true;
       ++state_.searches;
       break;
     case Command::save:
@@ -338,6 +317,10 @@ void Session::reset_times() {
 // The keys of a step assume the state after the previous one. If that is not the state, all earlier steps are
 // taken again from the start.
 void Session::take_step(std::size_t step) {
+  if (step >= start_.steps.size()) {
+    state_.message = start_.steps.empty() ? "only demos have steps" : "there is no further step";
+    return;
+  }
   std::size_t from = step;
   if (demo_left_ || state_.step != step) {
     Session fresh{Start(start_)};
@@ -526,18 +509,14 @@ void Session::save() {
     while (std::filesystem::exists(path(n, ".png")) || std::filesystem::exists(path(n, ".tri"))) ++n;
     write_image(path(n, ".png"), screen_.picture);
     AtomicFile stream(path(n, ".tri"));
-    write_tri(stream.stream(),
-              lab::to_stream(pipelines_[state_.active].screen_triangles(), side_size_.width, side_size_.height));
+    write_tri(stream.stream(), lab::to_stream(pipelines_[state_.active].screen_triangles(), side_size_.width,
+                                              side_size_.height));
     stream.commit();
     for (const char* extension : {".png", ".tri"}) saved_.push_back(path(n, extension).string());
     state_.message = fmt::format("saved {} and .tri", tools::printable(path(n, ".png").string()));
   } catch (const std::exception& error) {
     state_.message = fmt::format("not saved: {}", tools::printable(error.what()));
   }
-}
-
-std::size_t Session::vertex_count() const {
-  return world_->scene() == nullptr ? 0 : viewer::vertex_count(*world_->scene());
 }
 
 std::vector<std::string> Session::take_saved() {

@@ -78,7 +78,7 @@ struct State {
   std::uint64_t differing = 0;  // pixels, in the difference of both sides
   double frame_ms = 0;          // moving average
   double last_frame_ms = 0;
-  std::uint64_t version = 1;    // of the picture; changes with everything that the picture depends on
+  std::uint64_t version = 1;  // of the picture; changes with everything that the picture depends on
   std::string message;
   std::size_t step = 0;  // of a demo: how many steps were taken
   bool reproducible = false;
@@ -99,7 +99,7 @@ class Session {
   // Types strokes into a session that has been drawn, and draws after each, because some keys depend on the
   // last frame. `pass` calls advance() for a stroke's time; null: once for all of it.
   void type(std::span<const Stroke> strokes, const std::function<void(double)>& pass = nullptr);
-  // Takes a demo's step, counted from 0. Waiting times don't pass: walking, for example, is a jump.
+  // Takes a demo's step, counted from 0, or says that there is none. Walking, for example, is a jump.
   void take_step(std::size_t step);
   // Shows a step as taken, without its keys.
   void show_step(std::size_t step) { state_.step = step + 1; }
@@ -117,8 +117,8 @@ class Session {
   const State& state() const { return state_; }
   const Side& side(std::size_t i) const { return sides_[i]; }
   std::size_t side_count() const { return state_.arrangement == Arrangement::one ? 1 : 2; }
-  const Image& picture() const { return screen_.picture; }      // the last one
-  tools::Size side_size() const { return side_size_; }  // of one side's picture
+  const Image& picture() const { return screen_.picture; }  // the last one
+  tools::Size side_size() const { return side_size_; }      // of one side's picture
   int left_of(std::size_t side) const { return side == 0 ? 0 : screen_.picture.width - side_size_.width; }
   // What the magnifier shows, in one side's picture.
   Pixel focus() const { return focus_.value_or(Pixel{side_size_.width / 2, side_size_.height / 2}); }
@@ -128,7 +128,6 @@ class Session {
   }
   std::span<const Step> steps() const { return start_.steps; }
   const World& world() const { return *world_; }
-  std::size_t vertex_count() const;  // of all objects
   // The names of the files saved since the last take_saved().
   const std::vector<std::string>& saved() const { return saved_; }
   std::vector<std::string> take_saved();

@@ -89,6 +89,20 @@ class RawTerminal {
   }
 };
 
+// One line: the message, or the demo's step, or methods, errors and times.
+std::string status_of(const Session& session) {
+  const State& state = session.state();
+  if (!state.message.empty()) return state.message;
+  if (state.help) return "`edgewise view --help` lists all keys";
+  if (state.step > 0)
+    return fmt::format("{}/{} {}", state.step, session.steps().size(),
+                       session.steps()[state.step - 1].notice);
+  const Side& side = session.side(state.active);
+  const bool counted = side.judgement && state.errors != Errors::off;
+  return fmt::format("{}, {}{:.1f} ms  [h] help", describe(side.choice),
+                     counted ? errors_of(*side.judgement) + ", " : "", state.frame_ms);
+}
+
 class Loop {
  public:
   explicit Loop(Session& session) : session_(session) {}
@@ -156,23 +170,6 @@ class Loop {
 };
 
 }  // namespace
-
-std::string status_of(const Session& session) {
-  const State& state = session.state();
-  if (!state.message.empty()) return state.message;
-  if (state.help) return "`edgewise view --help` lists all keys";
-  if (state.step > 0)
-    return fmt::format("{}/{} {}", state.step, session.steps().size(), session.steps()[state.step - 1].notice);
-  std::string text;
-  for (std::size_t i = 0; i < session.side_count(); ++i) {
-    const Side& side = session.side(i);
-    text += fmt::format("{}{}{}", text.empty() ? "" : " | ", describe(side.choice),
-                        state.active == i && session.side_count() > 1 ? "*" : "");
-    if (side.judgement && state.errors != Errors::off)
-      text += fmt::format(", {}", errors_of(*side.judgement));
-  }
-  return text + fmt::format(", {:.1f} ms  [h] help", state.frame_ms);
-}
 
 void show_in_terminal(Session& session) {
   Loop(session).run();

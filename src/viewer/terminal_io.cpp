@@ -88,12 +88,6 @@ namespace {
 constexpr std::uint32_t kBlack = rgb(0, 0, 0), kStatus = rgb(225, 225, 225);
 constexpr const char* kUpperHalf = "\xe2\x96\x80";
 
-// The mean of two colours, darkened so that text over it stays readable.
-std::uint32_t behind_text(std::uint32_t a, std::uint32_t b) {
-  const std::uint32_t mean = (a & b) + (((a ^ b) >> 1) & 0x7F7F7F7Fu);
-  return kBlack | (mean >> 2 & 0x3F3F3Fu);
-}
-
 void append_colour(std::string& out, int ground, std::uint32_t colour) {
   fmt::format_to(std::back_inserter(out), "\x1b[{};2;{};{};{}m", ground, colour & 255, colour >> 8 & 255,
                  colour >> 16 & 255);
@@ -124,7 +118,7 @@ std::string TerminalPicture::show(const Screen& screen, std::string_view status)
       if (x < 0 || x >= columns) continue;
       Character& c = now[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
                          static_cast<std::size_t>(x)];
-      c = {label.words[i], label.colour, behind_text(pixel(x, 2 * row), pixel(x, 2 * row + 1))};
+      c = {label.words[i], label.colour, kBlack};
     }
   }
   for (std::size_t x = 0; x < static_cast<std::size_t>(columns); ++x) {

@@ -21,9 +21,6 @@ using ShowWindow = void (*)(Session& session, const WindowOptions& options);
 // Defined in sdl_window.cpp, which is built only into the program, and only if SDL and Dear ImGui were found.
 void show_sdl_window(Session& session, const WindowOptions& options);
 
-// One line for a terminal: the session's message, or the demo's step, or methods, errors and times.
-std::string status_of(const Session& session);
-
 // In half-block characters, for example over ssh. Returns when the session is done. Throws std::runtime_error
 // if standard input and output are not a terminal with cursor control. Restores the terminal's screen and
 // mode, also after a signal.

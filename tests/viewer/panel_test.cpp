@@ -19,7 +19,8 @@ constexpr tools::Size kWindow{960, 720};
 // A session with the panel beside it.
 class Shown {
  public:
-  explicit Shown(Session session, tools::Size window = kWindow) : window_(window), session_(std::move(session)) {
+  explicit Shown(Session session, tools::Size window = kWindow)
+      : window_(window), session_(std::move(session)) {
     // Dear ImGui can copy all text that a window shows, even what is scrolled out of view, to its clipboard.
     ImGuiContextHook hook;
     hook.Type = ImGuiContextHookType_NewFramePost;
@@ -194,7 +195,7 @@ TEST(Panel, CountsErrorsByKindBesideTheirColours) {
 
 TEST(Panel, ListsTheTrianglesOfTheMagnifiedPixel) {
   Shown shown(session_of("cubes"));
-  EXPECT_FALSE(shown.says("edges "));
+  EXPECT_FALSE(shown.says("triangles reach it"));
   shown.type("g");
   const tools::Size side = shown.session().side_size();
   shown.point({side.width / 2, side.height / 2}, false);
