@@ -11,20 +11,6 @@
 
 namespace edgewise::viewer {
 
-namespace {
-
-struct Projected {
-  float x_px, y_px;
-  bool in_front;
-};
-Projected project(const glm::dmat4& to_screen, glm::dvec3 world) {
-  const glm::dvec4 p = to_screen * glm::dvec4(world, 1.0);
-  if (!(p.w > 0.0) || !(p.z >= 0.0)) return {0.0f, 0.0f, false};
-  return {static_cast<float>(p.x / p.w), static_cast<float>(p.y / p.w), true};
-}
-
-}  // namespace
-
 void tint(Image& image, std::span<const lab::Mark> marks) {
   for (std::size_t i = 0; i < marks.size(); ++i)
     if (marks[i] != lab::Mark::none) image.pixels[i] = lab::colour_of(marks[i]);
@@ -115,14 +101,13 @@ std::size_t vertex_count(const Scene& scene) {
 
 namespace {
 
-// Adds a label centred on a point, if the point is in front of the camera and on the strip.
-void add_label(Projected at, const Strip& strip, std::string words, std::uint32_t colour,
-               std::vector<Label>& labels) {
-  const bool seen = at.in_front && at.x_px >= 0.0f && at.x_px < static_cast<float>(strip.width) &&
-                    at.y_px >= 0.0f && at.y_px < static_cast<float>(strip.height);
-  if (seen)
-    labels.push_back(
-        {strip.left + static_cast<int>(at.x_px), static_cast<int>(at.y_px), std::move(words), colour});
+// Adds a label centred on a point in the world, if the strip shows it.
+void add_label(const glm::dmat4& to_screen, glm::dvec3 world, const Strip& strip, std::string words,
+               std::uint32_t colour, std::vector<Label>& labels) {
+  const glm::dvec4 p = to_screen * glm::dvec4(world, 1.0);
+  const double x = p.x / p.w, y = p.y / p.w;
+  if (p.w > 0.0 && p.z >= 0.0 && x >= 0.0 && x < strip.width && y >= 0.0 && y < strip.height)
+    labels.push_back({strip.left + static_cast<int>(x), static_cast<int>(y), std::move(words), colour});
 }
 
 std::uint32_t colour_of(TriangleState state) {
@@ -139,7 +124,7 @@ void add_vertex_labels(const Scene& scene, const Strip& strip, std::vector<Label
     const glm::dmat4 to_pixels = to_screen * model_matrix(instance);
     const auto& positions = scene.meshes[instance.mesh].positions;
     for (std::size_t i = 0; i < positions.size(); ++i)
-      add_label(project(to_pixels, positions[i]), strip, std::to_string(i), rgb(255, 255, 255), labels);
+      add_label(to_pixels, positions[i], strip, std::to_string(i), rgb(255, 255, 255), labels);
   }
 }
 
@@ -148,7 +133,7 @@ void add_face_letters(const Camera& camera, std::span<const FaceState> faces, co
   if (faces.size() > kMostLabels) return;
   const glm::dmat4 to_screen = screen_matrix(camera, strip.width, strip.height);
   for (const FaceState& face : faces)
-    add_label(project(to_screen, face.centre), strip, {letter_of(face)}, colour_of(face.state), labels);
+    add_label(to_screen, face.centre, strip, {letter_of(face)}, colour_of(face.state), labels);
 }
 
 }  // namespace edgewise::viewer

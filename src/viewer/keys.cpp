@@ -1,7 +1,5 @@
 #include "viewer/keys.h"
 
-#include <algorithm>
-#include <array>
 #include <charconv>
 #include <stdexcept>
 #include <utility>
@@ -14,21 +12,16 @@ namespace {
 
 constexpr double kLongestWait = 3600;  // s
 
-constexpr std::array<std::pair<std::string_view, Key>, 10> kNames{{{"up", Key::up},
-                                                                   {"down", Key::down},
-                                                                   {"left", Key::left},
-                                                                   {"right", Key::right},
-                                                                   {"shift", Key::shift},
-                                                                   {"tab", Key::tab},
-                                                                   {"space", Key::space},
-                                                                   {"enter", Key::enter},
-                                                                   {"escape", Key::escape},
-                                                                   {"backspace", Key::backspace}}};
+constexpr std::pair<std::string_view, Key> kNames[] = {
+    {"up", Key::up},         {"down", Key::down},
+    {"left", Key::left},     {"right", Key::right},
+    {"shift", Key::shift},   {"tab", Key::tab},
+    {"space", Key::space},   {"enter", Key::enter},
+    {"escape", Key::escape}, {"backspace", Key::backspace}};
 
 Stroke parse_name(std::string_view name) {
-  const auto found =
-      std::find_if(kNames.begin(), kNames.end(), [&](const auto& known) { return known.first == name; });
-  if (found != kNames.end()) return found->second;
+  for (const auto& [known, key] : kNames)
+    if (known == name) return key;
   if (lab::Choice unused; put(name, unused)) return Named{std::string(name)};
   double seconds = 0;
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), seconds);

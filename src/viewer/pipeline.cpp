@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "edgewise/contract.h"
@@ -89,11 +88,6 @@ std::vector<std::uint32_t> visible_ids_in(const Framebuffer& frame) {
 }
 
 }  // namespace
-
-std::string_view name_of(Truth truth) {
-  constexpr std::array<std::string_view, 3> kNames{"contract", "snapped", "floats"};
-  return kNames[static_cast<std::size_t>(truth)];
-}
 
 std::string errors_of(const Judgement& judgement) {
   std::string text = fmt::format("{} wrong of {} covered pixels", judgement.wrong, judgement.covered);

@@ -39,7 +39,6 @@ struct Picture {
 // exact picture (lab/clipping/truth.h), which replaces them where they differ by more than 1/64 px.
 enum class Truth { contract, snapped, floats };
 inline constexpr Truth kTruths[] = {Truth::contract, Truth::snapped, Truth::floats};
-std::string_view name_of(Truth truth);
 
 struct Judgement {
   std::uint64_t covered = 0;  // pixels where the reference shows a triangle

@@ -212,7 +212,7 @@ TEST(Viewer, JudgesAgainstEachTruth) {
     EXPECT_EQ(session.state().truth, truth);
     type(session, "");
     const Judgement& judgement = session.side(0).judgement.value();
-    EXPECT_LE(judgement.wrong, truth == Truth::floats ? 60u : 0u) << name_of(truth);
+    EXPECT_LE(judgement.wrong, truth == Truth::floats ? 60u : 0u);
     EXPECT_GT(judgement.covered, 3000u);
     type(session, "u");
   }
