@@ -30,10 +30,16 @@ float em() {
   return ImGui::GetFontSize();
 }
 
-void text(std::uint32_t colour, std::string_view words) {
+// `wrap`: where lines end; 0: at the end of the window.
+void text(std::uint32_t colour, std::string_view words, float wrap = 0.0f) {
+  std::string shown(words);
+  // Dear ImGui's font lacks this sign.
+  constexpr std::string_view kAtMost = "\u2264";
+  for (std::size_t at; (at = shown.find(kAtMost)) != std::string::npos;)
+    shown.replace(at, kAtMost.size(), "<=");
   ImGui::PushStyleColor(ImGuiCol_Text, colour);
-  ImGui::PushTextWrapPos(0.0f);
-  ImGui::TextUnformatted(words.data(), words.data() + words.size());
+  ImGui::PushTextWrapPos(wrap);
+  ImGui::TextUnformatted(shown.c_str());
   ImGui::PopTextWrapPos();
   ImGui::PopStyleColor();
 }
@@ -49,9 +55,7 @@ void tooltip(std::string_view words) {
   const ImVec2 window = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({window.x - kWidth * em(), window.y}, ImGuiCond_Always, {0.0f, 1.0f});
   ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos((kWidth - 1) * em());
-  ImGui::TextUnformatted(words.data(), words.data() + words.size());
-  ImGui::PopTextWrapPos();
+  text(kPlain, words, (kWidth - 1) * em());
   ImGui::EndTooltip();
 }
 

@@ -328,6 +328,7 @@ void Session::take_step(std::size_t step) {
     fresh.save_next_ = save_next_;
     fresh.done_ = done_;
     fresh.state_.panel = state_.panel;
+    fresh.state_.searches = state_.searches;
     fresh.draw(window_, panel_width_px_);
     *this = std::move(fresh);
     from = 0;
