@@ -405,6 +405,7 @@ Panel::Panel(int least_font_scale)
   ImGuiIO& io = current_io();
   io.IniFilename = io.LogFilename = nullptr;
   io.ConfigInputTextCursorBlink = false;
+  io.BackendFlags = ImGuiBackendFlags_RendererHasVtxOffset;
   io.KeyMap[ImGuiKey_Backspace] = static_cast<int>(Key::backspace);
   io.KeyMap[ImGuiKey_Enter] = static_cast<int>(Key::enter);
   io.KeyMap[ImGuiKey_Escape] = static_cast<int>(Key::escape);
