@@ -18,7 +18,6 @@ namespace edgewise::viewer {
 
 namespace {
 
-constexpr int kFont_px = 13;   // Dear ImGui's font is sharp at this size and its multiples
 constexpr int kWidth = 26;     // of the panel, in heights of the font
 constexpr int kReach = 7;      // of the magnifier, in pixels to each side
 constexpr int kTriangles = 6;  // listed of a pixel
@@ -199,9 +198,9 @@ class Panel::Contents {
     choice("pictures", 'v', {{"one"}, {"side by side"}, {"difference"}},
            static_cast<std::size_t>(state().arrangement));
     if (both()) {
-      button("[tab] change the other side", Key::tab);
+      button("[tab] other side", Key::tab);
       ImGui::SameLine();
-      text(kStrong, state().active == 0 ? "now: left" : "now: right");
+      text(kStrong, state().active == 0 ? "side: left" : "side: right");
     }
     method("coverage", 'b', lab::drawing_methods(), c.coverage, c.our_coverage());
     method("clipping", 'x', lab::clipping_methods(), c.clipping, c.our_clipping());
@@ -209,8 +208,7 @@ class Panel::Contents {
     method("facing", 'n', lab::facing_methods(), c.facing, c.our_facing());
     if (!side.because.empty()) text(kWrong, side.because);
     // Coverage methods other than backends use their own depth test (lab/coverage/coverage.h).
-    if (c.our_visibility() && !c.our_coverage())
-      text(kNotOurs, "depth test: the coverage method's own, in float");
+    if (c.our_visibility() && !c.our_coverage()) text(kNotOurs, "depth test: the coverage method's own");
     toggle("cull front", '1', side.cull_front);
     toggle_beside("cull back", '2', side.cull_back);
     toggle("edges only", 'y', !c.fills());
@@ -290,13 +288,13 @@ class Panel::Contents {
     for (const TriangleOfPixel& t : std::span(of_pixel_).first(listed)) {
       swatch(t.colour);
       if (t.covers())
-        text(kPlain, "{}, depth {:.6f}", t.index, t.depth01);
+        text(kPlain, "#{} depth {:.6f}", t.index, t.depth01);
       else
-        text(kPlain, "{}, not at the sample", t.index);
+        text(kPlain, "#{} misses the sample", t.index);
       text(kFaint, "  edges {} {} {}", t.edges[0], t.edges[1], t.edges[2]);
     }
     if (of_pixel_.size() > listed) text(kPlain, "and {} more", of_pixel_.size() - listed);
-    text(kFaint, "Edge values at the sample, in 1/65536 square pixels; negative: outside.");
+    text(kFaint, "Edge values at the sample, in 1/65536 square pixels. Negative: outside.");
   }
 
   void times() {
@@ -398,10 +396,10 @@ class Panel::Contents {
   std::uint64_t searches_ = 0;  // State::searches of the last frame
 };
 
-Panel::Panel(int least_font_scale)
+Panel::Panel(int least_font_px)
     : context_(ImGui::CreateContext()),
       contents_(std::make_unique<Contents>()),
-      least_font_scale_(least_font_scale) {
+      least_font_px_(least_font_px) {
   ImGuiIO& io = current_io();
   io.IniFilename = io.LogFilename = nullptr;
   io.ConfigInputTextCursorBlink = false;
@@ -422,20 +420,22 @@ ImGuiIO& Panel::current_io() {
   return ImGui::GetIO();
 }
 
-int Panel::font_scale(tools::Size window) const {
-  const int most = window.width / (2 * kWidth * kFont_px);  // the panel takes half of the window at most
-  return std::min(std::max(least_font_scale_, (window.height + 360) / 720), most);
+int Panel::font_px(tools::Size window) const {
+  constexpr int kHigh_px = 900, kFontsPerHeight = 54;
+  const int wanted = window.height < kHigh_px ? least_font_px_ : window.height / kFontsPerHeight;
+  const int px = std::min(std::max(wanted, least_font_px_), window.width / (2 * kWidth));
+  return px < kFont_px ? 0 : px;
 }
 
 int Panel::width_px(tools::Size window) const {
-  return font_scale(window) * kWidth * kFont_px;
+  return font_px(window) * kWidth;
 }
 
-void Panel::set_font(int scale) {
-  if (scale == font_scale_) return;
-  font_scale_ = scale;
+void Panel::set_font(int px) {
+  if (px == font_px_) return;
+  font_px_ = px;
   ImGuiStyle style;
-  style.ScaleAllSizes(static_cast<float>(scale));
+  style.ScaleAllSizes(static_cast<float>(px) / kFont_px);
   style.ScrollbarRounding = style.TabRounding = 0.0f;
   style.WindowBorderSize = 0.0f;
   // Smooth shapes depend on the processor (imgui_paint.cpp), and round ones on the C library's sine.
@@ -446,20 +446,23 @@ void Panel::set_font(int scale) {
   ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
   fonts.Clear();
   ImFontConfig config;
-  config.SizePixels = static_cast<float>(kFont_px * scale);
+  config.SizePixels = static_cast<float>(px);
+  config.OversampleH = 1;
+  config.PixelSnapH = true;
   fonts.AddFontDefault(&config);
   unsigned char* pixels = nullptr;
   fonts.GetTexDataAsRGBA32(&pixels, &font_.width, &font_.height);
   font_.pixels.resize(static_cast<std::size_t>(font_.width) * static_cast<std::size_t>(font_.height));
+  // Few levels hide the last bits, which depend on the compiler of stb_truetype at sizes other than kFont_px.
   for (std::size_t i = 0; i < font_.pixels.size(); ++i)
-    font_.pixels[i] = 0xFFFFFFu | std::uint32_t{pixels[4 * i + 3]} << 24;
+    font_.pixels[i] = 0xFFFFFFu | std::min((pixels[4 * i + 3] + 3u) / 16u * 17u, 255u) << 24;
   fonts.SetTexID(id_of(font_));
 }
 
 const Image& Panel::show(Session& session, tools::Size window) {
   ImGuiIO& io = current_io();
   io.DisplaySize = {static_cast<float>(window.width), static_cast<float>(window.height)};
-  set_font(std::max(font_scale(window), 1));
+  set_font(std::max(font_px(window), kFont_px));
   const int width = width_px(window);
   const Screen& screen = session.draw(window, width);
   contents_->prepare(session);

@@ -18,8 +18,9 @@ namespace edgewise::viewer {
 
 class Panel {
  public:
-  // The font is at least this many times 13 px high, and larger for a high window.
-  explicit Panel(int least_font_scale = 1);
+  static constexpr int kFont_px = 13;  // the height for which Dear ImGui's font is made
+  // The font is larger than asked for in a high window, and smaller where half of the window is too narrow.
+  explicit Panel(int least_font_px = kFont_px);
   ~Panel();
   Panel(const Panel&) = delete;
   Panel& operator=(const Panel&) = delete;
@@ -29,7 +30,7 @@ class Panel {
   // Draws the session's picture and the panel. The reference is valid until the next call.
   const Image& show(Session& session, tools::Size window);
 
-  // Input. Each of these returns whether the input is for the panel; if not, it is for the session.
+  // Input. The first two return whether it is for the panel; if not, it is for the session.
   bool press(Key key);
   bool point(Pixel to, bool held);
   void release(Key key) { released_.push_back(key); }
@@ -37,14 +38,14 @@ class Panel {
   void type(const char* utf8);
 
  private:
-  ImGuiIO& current_io();  // makes this panel's context the current one
-  int font_scale(tools::Size window) const;
-  void set_font(int scale);
+  ImGuiIO& current_io();                  // makes this panel's context the current one
+  int font_px(tools::Size window) const;  // 0: no room
+  void set_font(int px);
 
   class Contents;
   ImGuiContext* context_;
   std::unique_ptr<Contents> contents_;
-  int least_font_scale_, font_scale_ = 0;
+  int least_font_px_, font_px_ = 0;
   Image font_, image_;
   int picture_width_px_ = 0;
   std::vector<Key> released_;  // since the last frame; Dear ImGui sees each press for one frame at least

@@ -89,13 +89,14 @@ class Window {
     sdl().SetWindowMinimumSize(window_.get(), 64, 48);
   }
 
-  // How much larger than usual text must be on the window's display; 1 if that is not known.
-  int text_scale() const {
+  // The height of legible text on the window's display.
+  int font_px() const {
     constexpr float kUsual_dpi = 96.0f;
     float dpi = 0.0f;
     const int display = sdl().GetWindowDisplayIndex(window_.get());
-    if (display < 0 || sdl().GetDisplayDPI(display, &dpi, nullptr, nullptr) != 0) return 1;
-    return std::clamp(static_cast<int>(std::lround(dpi / kUsual_dpi)), 1, 4);
+    if (display < 0 || sdl().GetDisplayDPI(display, &dpi, nullptr, nullptr) != 0) return Panel::kFont_px;
+    return std::clamp(static_cast<int>(std::lround(Panel::kFont_px * dpi / kUsual_dpi)), Panel::kFont_px,
+                      4 * Panel::kFont_px);
   }
 
   void show(Session& session, Panel& panel) {
@@ -165,7 +166,7 @@ bool handle(const SDL_Event& event, Panel& panel, Session& session) {
 void show_sdl_window(Session& session, const WindowOptions& options) {
   const Sdl started;
   Window window(options);
-  Panel panel(window.text_scale());
+  Panel panel(window.font_px());
   Clock::time_point last = Clock::now();
   for (bool open = true; open;) {
     if (session.still()) sdl().WaitEventTimeout(nullptr, kIdle_ms);

@@ -265,10 +265,12 @@ TEST(Panel, OfReproducibleSessionsIsTheSameOnAllTargetsAndThreads) {
 }
 
 TEST(Panel, FontGrowsWithTheWindowAndTheDisplay) {
-  const Panel usual, dense(2);
-  EXPECT_EQ(usual.width_px({1280, 720}), dense.width_px({1920, 720}) / 2);
-  EXPECT_EQ(usual.width_px({3840, 2160}), 3 * usual.width_px({1280, 720}));
-  EXPECT_EQ(dense.width_px({1280, 720}), usual.width_px({1280, 720})) << "half of the window at most";
+  const Panel usual, dense(2 * Panel::kFont_px);
+  EXPECT_EQ(dense.width_px({1920, 720}), 2 * usual.width_px({1280, 720}));
+  EXPECT_GT(usual.width_px({1920, 1080}), usual.width_px({1280, 720}));
+  EXPECT_EQ(usual.width_px({3840, 2160}), 2 * usual.width_px({1920, 1080}));
+  for (const int width : {700, 1000, 1280}) EXPECT_LE(dense.width_px({width, 720}), width / 2);
+  EXPECT_GT(dense.width_px({1280, 720}), usual.width_px({1280, 720}));
   EXPECT_EQ(usual.width_px({600, 400}), 0);
 }
 
