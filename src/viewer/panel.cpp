@@ -266,7 +266,7 @@ class Panel::Contents {
     const std::size_t views = state().arrangement == Arrangement::side_by_side ? 2 : 1;
     constexpr int kAcross = 2 * kReach + 1;
     const float room = (kWidth - 3) * em() / static_cast<float>(views);
-    const float pixel = std::min(std::floor(room / kAcross), em()), all = pixel * kAcross;
+    const float pixel = std::floor(std::min(room / kAcross, 0.8f * em())), all = pixel * kAcross;
     for (std::size_t i = 0; i < views; ++i) {
       const int left = session_->left_of(i);
       zoomed_[i] = around(session_->picture(), left, left + session_->side_size().width, focus, kReach);
