@@ -442,6 +442,7 @@ void Panel::set_font(int px) {
   style.AntiAliasedLines = style.AntiAliasedLinesUseTex = style.AntiAliasedFill = false;
   ImGui::StyleColorsDark(&style);
   style.Colors[ImGuiCol_WindowBg] = ImGui::ColorConvertU32ToFloat4(kBackground);
+  style.Colors[ImGuiCol_PopupBg].w = 1.0f;
   ImGui::GetStyle() = style;
   ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
   fonts.Clear();
@@ -503,7 +504,7 @@ bool Panel::point(Pixel to, bool held) {
   if (!held) began_in_panel_ = to.x >= picture_width_px_;
   mouse_released_ = !held && io.MouseDown[0];
   if (held) io.MouseDown[0] = true;
-  return began_in_panel_ || io.WantCaptureMouse;
+  return began_in_panel_;
 }
 
 void Panel::scroll(float lines) {
