@@ -213,16 +213,6 @@ class Panel::Contents {
     toggle_beside("cull back", '2', side.cull_back);
     toggle("edges only", 'y', !c.fills());
     toggle_beside("lighting", 'k', state().lit && !state().stream);
-    if (state().reproducible) return;
-    const auto targets = supported_targets();
-    const std::vector<int> threads = thread_counts();
-    std::vector<Entry> names, counts;
-    for (const SimdTarget target : targets) names.push_back({std::string(edgewise::name_of(target))});
-    for (const int n : threads) counts.push_back({std::to_string(n)});
-    const auto target = std::find(targets.begin(), targets.end(), state().execution.target);
-    const auto used = std::lower_bound(threads.begin(), threads.end() - 1, state().execution.threads);
-    choice("SIMD target", 'i', names, static_cast<std::size_t>(target - targets.begin()));
-    choice("threads", 'j', counts, static_cast<std::size_t>(used - threads.begin()));
   }
 
   void errors() {
@@ -299,6 +289,15 @@ class Panel::Contents {
 
   void times() {
     if (state().reproducible || !section("Times")) return;
+    const auto targets = supported_targets();
+    const std::vector<int> threads = thread_counts();
+    std::vector<Entry> names, counts;
+    for (const SimdTarget target : targets) names.push_back({std::string(edgewise::name_of(target))});
+    for (const int n : threads) counts.push_back({std::to_string(n)});
+    const auto target = std::find(targets.begin(), targets.end(), state().execution.target);
+    const auto used = std::lower_bound(threads.begin(), threads.end() - 1, state().execution.threads);
+    choice("SIMD target", 'i', names, static_cast<std::size_t>(target - targets.begin()));
+    choice("threads", 'j', counts, static_cast<std::size_t>(used - threads.begin()));
     const float most = *std::max_element(frames_ms_.begin(), frames_ms_.end());
     ImGui::SetNextItemWidth(-FLT_MIN);
     ImGui::PlotLines("##frames", frames_ms_.data(), static_cast<int>(frames_ms_.size()), 0,

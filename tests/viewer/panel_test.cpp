@@ -130,7 +130,7 @@ TEST(Panel, ShowsTheMethodsAndItsDropDownsFollowTheKeys) {
 // The first click may open a drop-down, and the second one then chooses an entry.
 TEST(Panel, ObeysTheMouse) {
   std::set<std::string> changed;
-  for (int y = 4; y < 420; y += 7) {
+  for (int y = 4; y < 560; y += 7) {
     Shown shown(session_of("cubes"));
     auto before = widgets(shown.text());
     shown.click({shown.panel_left() + 200, y});
