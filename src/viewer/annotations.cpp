@@ -81,7 +81,7 @@ std::vector<TriangleOfPixel> triangles_of(std::span<const ScreenTriangle> triang
       // The most that the value grows between the sample and a corner of the pixel.
       const std::int64_t growth =
           std::int64_t{contract::kHalf} * (std::int64_t{std::abs(edge.a)} + std::abs(edge.b));
-      reaches = reaches && value + growth >= 0;
+      reaches = reaches && value + growth > 0;
       of.edges[static_cast<std::size_t>(k)] = value;
     }
     if (reaches) found.push_back(of);

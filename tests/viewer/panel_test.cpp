@@ -213,8 +213,7 @@ TEST(Panel, ListsADemosStepsAndGoesToThem) {
   for (int y = 4; y < kWindow.height / 4; y += 6) {
     Shown shown{Session(start_of(demo))};
     shown.session().take_step(1);
-    if (seen.empty())
-      for (const Step& step : demo.steps) EXPECT_TRUE(shown.says(step.notice));
+    for (const Step& step : demo.steps) EXPECT_TRUE(seen.size() > 1 || shown.says(step.notice));
     shown.click({shown.panel_left() + 20, y});
     seen.insert(shown.session().state().step);
   }

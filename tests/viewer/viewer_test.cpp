@@ -107,7 +107,6 @@ TEST(Viewer, WireframesAreCulledAndLitLikeFaces) {
   EXPECT_EQ(session.side(0).choice.coverage->info.name, "tiled");  // as before the wireframe
   // Painter's methods draw filled triangles only, so the wireframe key changes nothing.
   EXPECT_EQ(type(session, "z").picture.pixels, type(session, "y").picture.pixels);
-  EXPECT_NE(type(session, "y").picture.pixels, filled.pixels);
   EXPECT_NE(session.side(0).because.find("no wireframe"), std::string::npos);
 }
 
