@@ -12,8 +12,7 @@ namespace edgewise::viewer {
 
 namespace {
 
-constexpr int kOpaque = 255;
-
+constexpr std::uint32_t kOpaque = 255;
 std::uint32_t channel(std::uint32_t colour, int shift) {
   return colour >> shift & 255u;
 }

@@ -421,7 +421,7 @@ ImGuiIO& Panel::current_io() {
 
 int Panel::font_px(tools::Size window) const {
   constexpr int kHigh_px = 900, kFontsPerHeight = 54;
-  const int wanted = window.height < kHigh_px ? least_font_px_ : window.height / kFontsPerHeight;
+  const int wanted = window.height < kHigh_px ? 0 : window.height / kFontsPerHeight;
   const int px = std::min(std::max(wanted, least_font_px_), window.width / (2 * kWidth));
   return px < kFont_px ? 0 : px;
 }

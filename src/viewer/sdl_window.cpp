@@ -95,8 +95,7 @@ class Window {
     float dpi = 0.0f;
     const int display = sdl().GetWindowDisplayIndex(window_.get());
     if (display < 0 || sdl().GetDisplayDPI(display, &dpi, nullptr, nullptr) != 0) return Panel::kFont_px;
-    return std::clamp(static_cast<int>(std::lround(Panel::kFont_px * dpi / kUsual_dpi)), Panel::kFont_px,
-                      4 * Panel::kFont_px);
+    return std::max(static_cast<int>(std::lround(Panel::kFont_px * dpi / kUsual_dpi)), Panel::kFont_px);
   }
 
   void show(Session& session, Panel& panel) {
