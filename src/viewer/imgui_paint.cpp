@@ -13,25 +13,22 @@ namespace edgewise::viewer {
 namespace {
 
 constexpr std::uint32_t kOpaque = 255;
-std::uint32_t channel(std::uint32_t colour, int shift) {
-  return colour >> shift & 255u;
-}
-
 std::uint32_t product(std::uint32_t a, std::uint32_t b) {
   std::uint32_t both = 0;
   for (int shift = 0; shift < 32; shift += 8)
-    both |= (channel(a, shift) * channel(b, shift) + kOpaque / 2) / kOpaque << shift;
+    both |= ((a >> shift & kOpaque) * (b >> shift & kOpaque) + kOpaque / 2) / kOpaque << shift;
   return both;
 }
 
 std::uint32_t blended(std::uint32_t below, std::uint32_t above) {
-  const std::uint32_t alpha = channel(above, 24);
+  const std::uint32_t alpha = above >> 24;
   if (alpha == kOpaque) return above;
   std::uint32_t both = 0xFF000000u;
-  for (int shift = 0; shift < 24; shift += 8)
-    both |=
-        (channel(above, shift) * alpha + channel(below, shift) * (kOpaque - alpha) + kOpaque / 2) / kOpaque
-        << shift;
+  for (int shift = 0; shift < 24; shift += 8) {
+    const std::uint32_t sum =
+        (above >> shift & kOpaque) * alpha + (below >> shift & kOpaque) * (kOpaque - alpha);
+    both |= (sum + kOpaque / 2) / kOpaque << shift;
+  }
   return both;
 }
 

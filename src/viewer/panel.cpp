@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 #include <imgui.h>
-#include <imgui_internal.h>  // ImGuiItemFlags_MixedValue
+#include <imgui_internal.h>  // ImGuiItemFlags_MixedValue, ClosePopupToLevel
 
 #include <algorithm>
 #include <array>
@@ -494,7 +494,9 @@ const Image& Panel::show(Session& session, tools::Size window) {
 bool Panel::press(Key key) {
   ImGuiIO& io = current_io();
   io.KeysDown[static_cast<std::size_t>(key)] = true;
-  return io.WantTextInput;
+  const bool closes = key == Key::escape && !context_->OpenPopupStack.empty();
+  if (closes) ImGui::ClosePopupToLevel(0, false);
+  return closes || io.WantTextInput;
 }
 
 bool Panel::point(Pixel to, bool held) {

@@ -143,6 +143,17 @@ TEST(Panel, ObeysTheMouse) {
   EXPECT_TRUE(changed.contains("[j]") || thread_counts().size() == 1);
 }
 
+TEST(Panel, EscapeClosesADropDownBeforeItQuits) {
+  Shown shown(session_of("cubes"));
+  shown.click({shown.panel_left() + 200, 35});
+  EXPECT_TRUE(ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup));
+  shown.press(Key::escape);
+  EXPECT_FALSE(ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup));
+  EXPECT_FALSE(shown.session().done());
+  shown.press(Key::escape);
+  EXPECT_TRUE(shown.session().done());
+}
+
 TEST(Panel, LeavesThePictureItsMouse) {
   Shown shown(session_of("cube"));
   const Camera home = shown.session().world().scene()->camera;

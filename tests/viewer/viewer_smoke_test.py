@@ -192,8 +192,8 @@ class Window(Viewer):
         wait_for(lambda: self.shown() != all_help, "the end of the help")
         home = picture()
         for y in range(10, 300, 10):  # down the panel, until a method or culling changes the picture
-            for down in (0, 45):
-                self.xdo("mousemove", "--window", self.window, "750", str(y + down), "click", "1")
+            for place in (y, y + 45, 590):  # opens a list, chooses from it, or closes it
+                self.xdo("mousemove", "--window", self.window, "750", str(place), "click", "1")
                 time.sleep(0.1)
             if picture() != home:
                 break
@@ -257,6 +257,7 @@ class Terminal(Viewer):
         self.assertIn("cursor 1", subprocess.run([*self.server, "display-message", "-p", "cursor #{cursor_flag}"],
                                                  check=True, capture_output=True, text=True).stdout)
         self.type("clear; echo be''fore", "Enter")
+        wait_for(lambda: "status" not in self.text(), "a clear screen")
 
     def test_keys_sizes_and_ends(self):
         self.start("view cube", "[h] help")
