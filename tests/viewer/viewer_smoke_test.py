@@ -188,8 +188,10 @@ class Window(Viewer):
         all_help = self.expect("/")
         self.xdo("type", "--delay", "50", "quit")  # searches, and does not quit
         wait_for(lambda: self.shown() != all_help, "the search")
-        self.xdo("key", "Escape", "h")
-        wait_for(lambda: self.shown() != all_help, "the end of the help")
+        self.xdo("key", "Escape")  # ends the search
+        help_again = self.expect("h")
+        self.xdo("key", "h")
+        wait_for(lambda: self.shown() != help_again, "the end of the help")
         home = picture()
         for y in range(10, 300, 10):  # down the panel, until a method or culling changes the picture
             for place in (y, y + 45, 590):  # opens a list, chooses from it, or closes it
@@ -259,7 +261,7 @@ class Terminal(Viewer):
         self.type("clear; echo be''fore", "Enter")
         wait_for(lambda: "status" not in self.text(), "a clear screen")
 
-    def test_keys_sizes_and_ends(self):
+    def test_keys_and_ends(self):
         self.start("view cube", "[h] help")
         self.seen("tiled")
         colours = self.text("-e")
@@ -274,10 +276,6 @@ class Terminal(Viewer):
         self.seen("edgewise view --help")
         self.type("h")
         self.seen("[h] help")
-        subprocess.run([*self.server, "resize-window", "-x", "24", "-y", "8"], check=True)
-        self.seen("float_le")
-        subprocess.run([*self.server, "resize-window", "-x", "90", "-y", "30"], check=True)
-        self.seen("gaps: 0")
         self.type("Escape")
         self.expect_all_as_before(0)
         self.start("demo outlaw-triad", "1/4 A quad is kept")
@@ -285,6 +283,15 @@ class Terminal(Viewer):
         self.seen("2/4 [r] rotates")
         self.type("C-c")
         self.expect_all_as_before(130)
+
+    def test_sizes(self):
+        self.start("view cube --keys bb", "gaps: 0")
+        subprocess.run([*self.server, "resize-window", "-x", "24", "-y", "8"], check=True)
+        wait_for(lambda: "float_le" in self.text() and "gaps" not in self.text(), "a narrow screen")
+        subprocess.run([*self.server, "resize-window", "-x", "90", "-y", "30"], check=True)
+        self.seen("gaps: 0")
+        self.type("Escape")
+        self.expect_all_as_before(0)
 
 
 if __name__ == "__main__":
