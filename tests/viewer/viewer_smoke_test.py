@@ -285,7 +285,7 @@ class Terminal(Viewer):
         self.expect_all_as_before(130)
 
     def test_sizes(self):
-        self.start("view cube --keys bb", "gaps: 0")
+        self.start("view cube --coverage float_le", "gaps: 0")
         subprocess.run([*self.server, "resize-window", "-x", "24", "-y", "8"], check=True)
         wait_for(lambda: "float_le" in self.text() and "gaps" not in self.text(), "a narrow screen")
         subprocess.run([*self.server, "resize-window", "-x", "90", "-y", "30"], check=True)
