@@ -22,7 +22,7 @@ std::uint32_t product(std::uint32_t a, std::uint32_t b) {
 
 std::uint32_t blended(std::uint32_t below, std::uint32_t above) {
   const std::uint32_t alpha = above >> 24;
-  if (alpha == kOpaque) return above;
+  if (alpha == 0 || alpha == kOpaque) return alpha == 0 ? below : above;
   std::uint32_t both = 0xFF000000u;
   for (int shift = 0; shift < 24; shift += 8) {
     const std::uint32_t sum =
@@ -64,6 +64,7 @@ void paint_triangle(const ImDrawVert& a, const ImDrawVert& b, const ImDrawVert& 
   contract::PixelBox box = contract::pixel_box(t, image.width, image.height);
   box = {std::max(box.x0, clip.x0), std::max(box.y0, clip.y0), std::min(box.x1, clip.x1),
          std::min(box.y1, clip.y1)};
+  const double per_area = 1.0 / static_cast<double>(o.area);
   // Each edge's value at a pixel is the weight of the corner across from it.
   const contract::Edge edges[] = {contract::make_edge(o, 1), contract::make_edge(o, 2),
                                   contract::make_edge(o, 0)};
@@ -80,7 +81,7 @@ void paint_triangle(const ImDrawVert& a, const ImDrawVert& b, const ImDrawVert& 
       }
       double u = 0, v = 0;
       for (int i = 0; i < 3; ++i) {
-        const double weight = static_cast<double>(w[i]) / static_cast<double>(o.area);
+        const double weight = static_cast<double>(w[i]) * per_area;
         u += weight * static_cast<double>(uv[i].x);
         v += weight * static_cast<double>(uv[i].y);
       }

@@ -97,15 +97,17 @@ class Panel::Contents {
     const ImVec2 window = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({window.x - kWidth * em(), 0.0f});
     ImGui::SetNextWindowSize({kWidth * em(), window.y});
-    ImGui::Begin("panel", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove);
+    ImGui::Begin("panel", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBackground);
     ImGui::BeginChild("contents", {0.0f, -2.5f * ImGui::GetTextLineHeightWithSpacing()});
     if (state().help) {
       help();
     } else {
       steps();
+      if (state().magnifier) magnifier();  // where a low window shows it
       methods();
       errors();
-      magnifier();
+      if (!state().magnifier) magnifier();
       times();
       triangles();
       camera();
@@ -440,7 +442,6 @@ void Panel::set_font(int px) {
   // Smooth shapes depend on the processor (imgui_paint.cpp), and round ones on the C library's sine.
   style.AntiAliasedLines = style.AntiAliasedLinesUseTex = style.AntiAliasedFill = false;
   ImGui::StyleColorsDark(&style);
-  style.Colors[ImGuiCol_WindowBg] = ImGui::ColorConvertU32ToFloat4(kBackground);
   style.Colors[ImGuiCol_PopupBg].w = 1.0f;
   ImGui::GetStyle() = style;
   ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
