@@ -116,8 +116,7 @@ constexpr Step kInsideTest[] = {
 
 constexpr Step kClipping[] = {
     {"<screen_edges><painter_mean><2>",
-     "Triangles are clipped at the near plane and the four screen edges, then painted back to front by mean "
-     "distance."},
+     "Triangles are clipped at the near plane and the screen edges, and painted back to front."},
     {"6<2>", "[6] Outlines: clipping cut the white triangles into several pieces."},
     {"t<1>", "[t] Each vertex shows its number."},
     {"wwwww<1>sssss<1>", "[w] moves forwards, until objects cross the near plane, and [s] back."},
@@ -134,11 +133,8 @@ constexpr Step kBackface[] = {
     {"2<2>",
      "[2] draws back faces too: a second sheet appears, on the left, which faces away from the camera."},
     {"27<2>",
-     "[7] shows a letter at the centre of each face, and one word per object in the panel; capitals are "
-     "two-sided."},
-    {"<left><2>",
-     "Objects out of view are culled whole, those across its border clipped; the sheet faces away, but is "
-     "two-sided."},
+     "[7] shows the state of each face by a letter, a word per object in the panel; capitals: two-sided."},
+    {"<left><2>", "Objects out of view are culled whole; the sheet faces away, but it is two-sided."},
 };
 
 constexpr Step kTriad[] = {
@@ -146,11 +142,9 @@ constexpr Step kTriad[] = {
      "A quad is kept if the z of its normal, rotated with the object, points towards the camera."},
     {"r<2>r", "[r] rotates: about half of the faces of a closed object face away at any time."},
     {"0kv<tab>2<2>",
-     "Left, these faces are dropped before projection, lighting and drawing; right, none are, for the same "
-     "picture."},
+     "Left, these faces are dropped before projection; right, none are, and the picture is the same."},
     {"<wireframe><tab><wireframe>wwwwwwwwwwwwww<1>",
-     "From close by, left: edges of the triangles left, two per quad; right: edges of all, on the far side "
-     "too."},
+     "Left: edges of the triangles that are left, two per quad; right: of all, on the far side too."},
 };
 
 constexpr std::array kDemos{
