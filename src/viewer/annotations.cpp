@@ -50,15 +50,15 @@ void paste(const Image& from, int left, int top, Image& into) {
 
 Image around(const Image& image, int left, int right, Pixel focus, int reach) {
   const int across = 2 * reach + 1;
-  Image part{across, across, std::vector<std::uint32_t>(static_cast<std::size_t>(across * across))};
+  Image part{across, across,
+             std::vector<std::uint32_t>(static_cast<std::size_t>(across * across), rgb(0, 0, 0))};
   for (int y = 0; y < across; ++y)
     for (int x = 0; x < across; ++x) {
       const int u = left + focus.x - reach + x, v = focus.y - reach + y;
-      const bool inside = u >= left && u < right && v >= 0 && v < image.height;
-      part.pixels[static_cast<std::size_t>(y * across + x)] =
-          inside ? image.pixels[static_cast<std::size_t>(v) * static_cast<std::size_t>(image.width) +
-                                static_cast<std::size_t>(u)]
-                 : rgb(0, 0, 0);
+      if (u >= left && u < right && v >= 0 && v < image.height)
+        part.pixels[static_cast<std::size_t>(y * across + x)] |=
+            image.pixels[static_cast<std::size_t>(v) * static_cast<std::size_t>(image.width) +
+                         static_cast<std::size_t>(u)];
     }
   return part;
 }

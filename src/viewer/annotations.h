@@ -46,7 +46,8 @@ inline constexpr std::uint32_t kOneOutline = rgb(0, 0, 0), kPiecesOutline = rgb(
 void add_outlines(std::span<const ScreenTriangle> triangles, std::span<const std::uint32_t> visible,
                   Backend& wireframe, FrameView scratch, const Execution& execution, Image& image);
 
-// The pixels around `focus`, `reach` to each side; black outside the picture's columns left … right - 1.
+// The pixels around `focus`, `reach` to each side; black outside the picture's columns left … right - 1. All
+// have the alpha 255.
 Image around(const Image& image, int left, int right, Pixel focus, int reach);
 
 // A triangle that reaches into a pixel.
